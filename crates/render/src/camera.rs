@@ -1,0 +1,112 @@
+//! The camera: what a view looks through and how its picture is written.
+
+use bevy_color::LinearRgba;
+use bevy_ecs::prelude::Component;
+use bevy_transform::components::Transform;
+use halfway_lighting::{InvalidValue, Problem, Viewer};
+
+/// A perspective camera at its entity's transform, looking along its local −Z with +Y up.
+///
+/// Only the transform's translation and rotation count: eye space has world units whatever the
+/// camera is attached to. A [`Shading`](halfway_lighting::Shading) or
+/// [`Reflectance`](halfway_lighting::Reflectance) component on the camera is the view's default;
+/// an object's own wins for that object.
+#[derive(Component, Clone, Copy, Debug, PartialEq)]
+#[require(Transform)]
+pub struct Camera {
+    /// Vertical field of view in radians, in (0, π). Default 45°.
+    pub fov_y: f32,
+    /// Distance of the near plane in world units, above 0. Default 0.1. There is no far plane.
+    pub near: f32,
+    /// Colour where nothing is drawn, linear RGB; alpha is ignored, the picture is opaque. Default black.
+    pub background: LinearRgba,
+    /// Whether `v` points toward the eye or is constant. Default [`Viewer::Local`].
+    pub viewer: Viewer,
+    /// Coverage samples a pixel. Default one.
+    pub samples: Samples,
+    /// What an 8-bit picture holds. Default [`Encoding::Srgb`].
+    pub encoding: Encoding,
+    /// What becomes of intensities above 1. Default [`Intensity::Clamp`].
+    pub intensity: Intensity,
+}
+
+impl Default for Camera {
+    fn default() -> Self {
+        Self {
+            fov_y: std::f32::consts::FRAC_PI_4,
+            near: 0.1,
+            background: LinearRgba::BLACK,
+            viewer: Viewer::default(),
+            samples: Samples::default(),
+            encoding: Encoding::default(),
+            intensity: Intensity::default(),
+        }
+    }
+}
+
+/// Coverage samples a pixel. Shading is still evaluated once a pixel and triangle.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Samples {
+    /// The pixel's centre decides.
+    #[default]
+    One,
+    /// Four samples, averaged (multisample anti-aliasing).
+    Four,
+}
+
+impl Samples {
+    /// 1 or 4.
+    pub fn count(self) -> u32 {
+        match self {
+            Self::One => 1,
+            Self::Four => 4,
+        }
+    }
+}
+
+/// What the channels of an 8-bit picture hold.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Encoding {
+    /// I encoded with the sRGB curve (IEC 61966-2-1), as displays expect.
+    #[default]
+    Srgb,
+    /// I as it is, the textbook's way: 0.5 is written as 128.
+    Raw,
+}
+
+/// What becomes of intensities above 1.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Intensity {
+    /// min(I, 1) a channel, as each surface is written and before it is blended. Floating-point
+    /// pictures are not clamped.
+    #[default]
+    Clamp,
+}
+
+impl Camera {
+    /// Checks every field against its range.
+    ///
+    /// # Errors
+    /// An [`InvalidValue`] that names the field.
+    pub fn validate(&self) -> Result<(), InvalidValue> {
+        let number = |field: &str, value, expected| InvalidValue {
+            owner: "Camera",
+            field: field.into(),
+            problem: Problem::Number { value, expected },
+        };
+        if !(self.fov_y > 0.0 && self.fov_y < std::f32::consts::PI) {
+            return Err(number("fov_y", self.fov_y, "an angle above 0 and below π radians"));
+        }
+        if !(self.near > 0.0 && self.near.is_finite()) {
+            return Err(number("near", self.near, "a finite distance above 0"));
+        }
+        let LinearRgba { red, green, blue, .. } = self.background;
+        for channel in [red, green, blue] {
+            if !(channel >= 0.0 && channel.is_finite()) {
+                return Err(number("background", channel, "finite channels, 0 and up"));
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,102 @@
+//! Draw and Deliver: the pass is encoded, submitted and presented.
+
+use crate::batch::Batches;
+use crate::camera::Camera;
+use crate::geometry::Geometries;
+use crate::gpu::Gpu;
+use crate::pipeline::{Lists, Pipelines, Stage};
+use crate::report::FrameReport;
+use crate::target::{Attachments, Frame, Target};
+use crate::upload::{Buffers, RECORD_STRIDE};
+use crate::view::View;
+use bevy_ecs::prelude::*;
+
+#[expect(clippy::too_many_arguments, reason = "a system takes each resource as a parameter")]
+pub(crate) fn draw(
+    gpu: Res<Gpu>,
+    view: Res<View>,
+    target: Res<Target>,
+    batches: Res<Batches>,
+    geometries: Res<Geometries>,
+    pipelines: Res<Pipelines>,
+    buffers: Res<Buffers>,
+    mut report: ResMut<FrameReport>,
+) {
+    let (Some(frame), Some(attachments)) = (&target.frame, target.attachments()) else { return };
+    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
+    {
+        let mut pass = begin(&mut encoder, frame, attachments, view.camera.unwrap_or_default());
+        if let Some(instances) = buffers.instances() {
+            pass.set_vertex_buffer(0, instances.slice(..));
+            record(&mut pass, &batches, &geometries, &pipelines, &buffers);
+        }
+    }
+    gpu.queue.submit([encoder.finish()]);
+    report.errors.extend(gpu.take_failure());
+}
+
+fn begin<'a>(
+    encoder: &'a mut wgpu::CommandEncoder,
+    frame: &Frame,
+    attachments: &Attachments,
+    camera: Camera,
+) -> wgpu::RenderPass<'a> {
+    let background = camera.background;
+    let clear = wgpu::Color { r: background.red.into(), g: background.green.into(), b: background.blue.into(), a: 1.0 };
+    let (view, resolve_target, store) = match &attachments.multisampled {
+        Some(samples) => (samples, Some(&frame.view), wgpu::StoreOp::Discard),
+        None => (&frame.view, None, wgpu::StoreOp::Store),
+    };
+    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some("scene"),
+        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+            view,
+            depth_slice: None,
+            resolve_target,
+            ops: wgpu::Operations { load: wgpu::LoadOp::Clear(clear), store },
+        })],
+        // Reversed depth: the far end is 0.
+        depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+            view: &attachments.depth,
+            depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
+            stencil_ops: None,
+        }),
+        ..Default::default()
+    })
+}
+
+fn record(
+    pass: &mut wgpu::RenderPass<'_>,
+    batches: &Batches,
+    geometries: &Geometries,
+    pipelines: &Pipelines,
+    buffers: &Buffers,
+) {
+    let mut last = None;
+    for draw in &batches.draws {
+        let storage = draw.key.lists == Lists::Storage;
+        let (Some(pipeline), Some(geometry), Some(group)) =
+            (pipelines.get(&draw.key), geometries.get(draw.mesh, draw.flat), buffers.bind_group(storage))
+        else {
+            continue;
+        };
+        if last != Some(draw.key) {
+            pass.set_pipeline(pipeline);
+            last = Some(draw.key);
+        }
+        let offsets = [draw.record * RECORD_STRIDE as u32, buffers.list_offsets[draw.lists as usize]];
+        pass.set_bind_group(0, group, &offsets);
+        pass.set_vertex_buffer(1, geometry.positions.slice(..));
+        if draw.key.stage != Stage::Unlit {
+            pass.set_vertex_buffer(2, geometry.attributes.slice(..));
+        }
+        pass.set_index_buffer(geometry.indices.slice(..), geometry.index_format);
+        pass.draw_indexed(0..geometry.index_count, 0, draw.instances.clone());
+    }
+}
+
+pub(crate) fn present(gpu: Res<Gpu>, mut target: ResMut<Target>) {
+    if let Some(surface) = target.frame.take().and_then(|frame| frame.surface) {
+        gpu.queue.present(surface);
+    }
+}

@@ -1,0 +1,91 @@
+//! The adapter, its device and its queue.
+
+use crate::error::RenderError;
+use bevy_ecs::prelude::Resource;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// The open graphics device. Inserted by the window, or opened headless by the first frame.
+#[derive(Resource, Clone)]
+pub struct Gpu {
+    /// The instance the adapter came from; surfaces are made with it.
+    pub instance: wgpu::Instance,
+    /// The adapter that was picked.
+    pub adapter: wgpu::Adapter,
+    /// The logical device.
+    pub device: wgpu::Device,
+    /// The queue all work is submitted to.
+    pub queue: wgpu::Queue,
+    failure: Arc<Mutex<Option<String>>>,
+}
+
+impl Gpu {
+    /// An instance for every backend that was compiled in, or those that the environment variable
+    /// `WGPU_BACKEND` names (`vulkan`, `gl`, `metal`, `dx12`).
+    pub fn instance() -> wgpu::Instance {
+        let descriptor = wgpu::InstanceDescriptor {
+            // Probing OpenGL costs start-up time and prints driver warnings on machines without a
+            // session, so it is asked only where it is wanted by name.
+            backends: wgpu::Backends::PRIMARY,
+            ..wgpu::InstanceDescriptor::new_without_display_handle()
+        };
+        wgpu::Instance::new(descriptor.with_env())
+    }
+
+    /// Opens an adapter that needs no window: a hardware one where there is one, else a software one.
+    ///
+    /// # Errors
+    /// [`RenderError::NoAdapter`] or [`RenderError::NoDevice`], each with what to do about it.
+    pub fn open_headless() -> Result<Self, RenderError> {
+        Self::open(Self::instance(), None)
+    }
+
+    /// Opens an adapter that can present to `surface`, which must come from `instance`.
+    ///
+    /// # Errors
+    /// [`RenderError::NoAdapter`] or [`RenderError::NoDevice`], each with what to do about it.
+    pub fn open_for(instance: wgpu::Instance, surface: &wgpu::Surface<'_>) -> Result<Self, RenderError> {
+        Self::open(instance, Some(surface))
+    }
+
+    fn open(instance: wgpu::Instance, surface: Option<&wgpu::Surface<'_>>) -> Result<Self, RenderError> {
+        let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions {
+            power_preference: wgpu::PowerPreference::from_env().unwrap_or(wgpu::PowerPreference::HighPerformance),
+            compatible_surface: surface,
+            ..Default::default()
+        }))
+        .map_err(|_| RenderError::NoAdapter)?;
+        let wanted = wgpu::Features::FLOAT32_BLENDABLE | wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES;
+        let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
+            label: Some("halfway"),
+            required_features: wanted & adapter.features(),
+            // All the adapter has: large meshes and long light lists may need more than the defaults.
+            required_limits: adapter.limits(),
+            ..Default::default()
+        }))
+        .map_err(|error| RenderError::NoDevice { adapter: adapter.get_info().name, reason: error.to_string() })?;
+        let failure = Arc::new(Mutex::new(None));
+        let seen = Arc::clone(&failure);
+        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
+            log::error!("{error}");
+            seen.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error.to_string());
+        }));
+        Ok(Self { instance, adapter, device, queue, failure })
+    }
+
+    /// The first error the driver reported outside any call, if it has not been taken yet.
+    pub(crate) fn take_failure(&self) -> Option<RenderError> {
+        self.failure.lock().unwrap_or_else(PoisonError::into_inner).take().map(RenderError::Device)
+    }
+
+    /// Whether the adapter draws on the CPU.
+    pub fn is_software(&self) -> bool {
+        self.adapter.get_info().device_type == wgpu::DeviceType::Cpu
+    }
+
+    /// One line for people: the adapter's name, its backend, and whether it is software.
+    pub fn describe(&self) -> String {
+        let info = self.adapter.get_info();
+        let software = if self.is_software() { ", software" } else { "" };
+        format!("{} ({}{software})", info.name, info.backend)
+    }
+}

@@ -1,0 +1,36 @@
+//! How halfway draws: WGSL, pipelines, passes and targets on wgpu.
+//!
+//! [`RenderPlugin`] adds the way of a frame, [`RenderSet`] by [`RenderSet`], to a schedule of any
+//! `bevy_app` App. The target is a texture ([`Headless`]) unless a window brings a surface
+//! ([`SurfaceTarget`]). [`FrameReport`] counts what a frame did and holds what it could not do.
+
+mod batch;
+mod camera;
+mod draw;
+mod error;
+mod geometry;
+mod gpu;
+mod lights;
+mod matrices;
+mod picture;
+mod pipeline;
+mod plugin;
+mod report;
+mod target;
+mod terms;
+mod upload;
+mod view;
+
+pub use camera::{Camera, Encoding, Intensity, Samples};
+pub use error::RenderError;
+pub use gpu::Gpu;
+pub use lights::Lights;
+pub use matrices::{ModelView, NormalMatrix, Visible, normal_matrix};
+pub use picture::{PendingPicture, Picture, render_picture};
+pub use plugin::{RenderPlugin, RenderSet};
+pub use report::FrameReport;
+pub use target::{Headless, Pixels, SurfaceLost, SurfaceTarget};
+pub use terms::{Chosen, Frequency, Terms};
+pub use view::{Projection, View};
+/// The wgpu that the renderer speaks; surfaces are made with it.
+pub use wgpu;

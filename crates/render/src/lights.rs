@@ -1,0 +1,214 @@
+//! Illuminate: the lights in eye space, as the lists that draws shade from.
+
+use crate::error::{RenderError, label};
+use crate::report::FrameReport;
+use crate::terms::TermMask;
+use crate::view::View;
+use bevy_color::LinearRgba;
+use bevy_ecs::prelude::*;
+use bevy_math::{DVec3, Vec3};
+use bevy_transform::components::GlobalTransform;
+use bytemuck::{Pod, Zeroable};
+use halfway_lighting::{
+    Cone, DirectionalLight, GlobalAmbient, InvalidValue, PointLight, SpotLight, light_direction, light_position,
+};
+
+/// A light as the shader reads it; the twin of `Light` in lighting.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub(crate) struct LightRecord {
+    position: [f32; 3],
+    inverse_range: f32,
+    diffuse: [f32; 3],
+    constant: f32,
+    specular: [f32; 3],
+    linear: f32,
+    direction: [f32; 3],
+    quadratic: f32,
+    ambient: [f32; 3],
+    cos_cutoff: f32,
+    exponent: f32,
+    inner_scale: f32,
+    inner_offset: f32,
+    padding: f32,
+}
+
+/// Lights sorted by kind, as one draw shades from them at one frequency.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct LightList {
+    pub(crate) records: Vec<LightRecord>,
+    /// How many directional, point and spot lights, in this order.
+    pub(crate) counts: [u32; 3],
+    /// Whether any record has a specular colour.
+    pub(crate) specular: bool,
+    /// Whether any record attenuates its ambient colour.
+    pub(crate) ambient: bool,
+    /// Whether every record's specular colour is its diffuse colour.
+    pub(crate) shared_colour: bool,
+    /// Whether any record has a range.
+    pub(crate) ranged: bool,
+}
+
+/// The scene's lights. Holds after [`RenderSet::Illuminate`](crate::RenderSet::Illuminate).
+#[derive(Resource, Clone, Debug, Default, PartialEq)]
+pub struct Lights {
+    /// Ga + Σ La of the lights that do not attenuate their ambient.
+    pub(crate) ambient: Vec3,
+    /// One list for each [`TermMask`], by its bits.
+    pub(crate) lists: [LightList; 4],
+}
+
+impl Lights {
+    pub(crate) fn list(&self, mask: TermMask) -> &LightList {
+        &self.lists[mask.index()]
+    }
+}
+
+type LightQuery<'w, 's, L> = Query<'w, 's, (Entity, &'static L, &'static GlobalTransform, Option<&'static Name>)>;
+
+pub(crate) fn gather(
+    directional: LightQuery<DirectionalLight>,
+    points: LightQuery<PointLight>,
+    spots: LightQuery<SpotLight>,
+    ambient: Res<GlobalAmbient>,
+    view: Res<View>,
+    mut lights: ResMut<Lights>,
+    mut report: ResMut<FrameReport>,
+) {
+    let mut gathered = Gathered { view: &view, ambient: Vec3::ZERO, records: [Vec::new(), Vec::new(), Vec::new()] };
+    let errors = &mut report.errors;
+    match ambient.validate() {
+        Ok(()) => gathered.ambient = rgb(ambient.0),
+        Err(source) => errors.push(RenderError::Invalid { entity: "resource".into(), source }),
+    }
+    each(&directional, errors, |light, at| gathered.directional(light, at));
+    each(&points, errors, |light, at| gathered.finite(light, None, at));
+    each(&spots, errors, |spot, at| gathered.spot(spot, at));
+    report.lights = gathered.records.iter().map(|of_kind| of_kind.len() as u32).sum();
+    lights.set_if_neq(gathered.into_lists());
+}
+
+/// Visits lights in spawn order, which fixes the order of sums, and reports those that are invalid.
+fn each<L: Component>(
+    query: &LightQuery<L>,
+    errors: &mut Vec<RenderError>,
+    mut add: impl FnMut(&L, &GlobalTransform) -> Result<(), InvalidValue>,
+) {
+    let mut all: Vec<_> = query.iter().collect();
+    all.sort_unstable_by_key(|(entity, ..)| *entity);
+    for (entity, light, transform, name) in all {
+        if let Err(source) = add(light, transform) {
+            errors.push(RenderError::Invalid { entity: label(entity, name), source });
+        }
+    }
+}
+
+struct Gathered<'a> {
+    view: &'a View,
+    ambient: Vec3,
+    records: [Vec<LightRecord>; 3],
+}
+
+impl Gathered<'_> {
+    fn directional(&mut self, light: &DirectionalLight, transform: &GlobalTransform) -> Result<(), InvalidValue> {
+        light.validate()?;
+        self.ambient += rgb(light.ambient);
+        self.records[0].push(LightRecord {
+            position: (-self.eye_direction(light_direction(transform)?)).to_array(),
+            diffuse: rgb(light.diffuse).to_array(),
+            specular: rgb(light.specular).to_array(),
+            constant: 1.0,
+            ..LightRecord::default()
+        });
+        Ok(())
+    }
+
+    fn spot(&mut self, spot: &SpotLight, transform: &GlobalTransform) -> Result<(), InvalidValue> {
+        spot.validate()?;
+        let cone = (!spot.cone.is_none()).then_some(&spot.cone);
+        self.finite(&spot.light, cone, transform)
+    }
+
+    fn finite(
+        &mut self,
+        light: &PointLight,
+        cone: Option<&Cone>,
+        transform: &GlobalTransform,
+    ) -> Result<(), InvalidValue> {
+        light.validate()?;
+        let position = light_position(transform)?.as_dvec3();
+        let mut record = LightRecord {
+            position: self.view.eye_from_world.transform_point3(position).as_vec3().to_array(),
+            inverse_range: light.range.map_or(0.0, |range| 1.0 / range),
+            diffuse: rgb(light.diffuse).to_array(),
+            specular: rgb(light.specular).to_array(),
+            constant: light.attenuation.constant,
+            linear: light.attenuation.linear,
+            quadratic: light.attenuation.quadratic,
+            ..LightRecord::default()
+        };
+        if let Some(cone) = cone {
+            record.direction = self.eye_direction(light_direction(transform)?).to_array();
+            record.cos_cutoff = f64::from(cone.cutoff).cos() as f32;
+            record.exponent = cone.exponent;
+            (record.inner_scale, record.inner_offset) = inner_fade(cone);
+        }
+        if light.attenuate_ambient {
+            record.ambient = rgb(light.ambient).to_array();
+        } else {
+            self.ambient += rgb(light.ambient);
+        }
+        self.records[if cone.is_some() { 2 } else { 1 }].push(record);
+        Ok(())
+    }
+
+    fn eye_direction(&self, world: Vec3) -> Vec3 {
+        let world: DVec3 = world.as_dvec3();
+        (self.view.eye_from_world.matrix3 * world).normalize_or_zero().as_vec3()
+    }
+
+    fn into_lists(self) -> Lights {
+        let counts = self.records.each_ref().map(|of_kind| of_kind.len() as u32);
+        let records = self.records.concat();
+        let lists = TermMask::ALL.map(|mask| LightList::masked(&records, counts, mask));
+        Lights { ambient: self.ambient, lists }
+    }
+}
+
+impl LightList {
+    /// The list that keeps only the terms of `mask`; a term that is left out has a colour of 0.
+    fn masked(records: &[LightRecord], counts: [u32; 3], mask: TermMask) -> Self {
+        if mask.is_empty() {
+            return Self::default();
+        }
+        let mut list = Self { records: records.to_vec(), counts, shared_colour: true, ..Self::default() };
+        for record in &mut list.records {
+            if !mask.diffuse {
+                record.diffuse = [0.0; 3];
+                record.ambient = [0.0; 3];
+            }
+            if !mask.specular {
+                record.specular = [0.0; 3];
+            }
+            list.specular |= record.specular != [0.0; 3];
+            list.ambient |= record.ambient != [0.0; 3];
+            list.shared_colour &= record.specular == record.diffuse;
+            list.ranged |= record.inverse_range > 0.0;
+        }
+        list
+    }
+}
+
+/// KHR_lights_punctual: s = clamp((cos φ − cos cutoff)/max(cos inner − cos cutoff, 0.001), 0, 1) as
+/// scale and offset of cos φ; 0 and 1 where there is no inner cone.
+fn inner_fade(cone: &Cone) -> (f32, f32) {
+    cone.inner.map_or((0.0, 1.0), |inner| {
+        let cos_cutoff = f64::from(cone.cutoff).cos();
+        let scale = 1.0 / (f64::from(inner).cos() - cos_cutoff).max(1e-3);
+        (scale as f32, (-cos_cutoff * scale) as f32)
+    })
+}
+
+pub(crate) fn rgb(color: LinearRgba) -> Vec3 {
+    Vec3::new(color.red, color.green, color.blue)
+}

@@ -1,0 +1,310 @@
+//! Pipelines: a small key for each, built on first use and counted.
+
+use crate::batch::DrawRecord;
+use crate::gpu::Gpu;
+use crate::lights::LightRecord;
+use crate::target::DEPTH_FORMAT;
+use bevy_ecs::prelude::Resource;
+use std::collections::HashMap;
+use std::fmt;
+
+/// Light lists up to this many lights have their counts compiled into the pipeline, so that the
+/// loops unroll; longer ones share a pipeline that reads the counts.
+const COUNTED_LIGHTS: u32 = 8;
+/// Lists up to this long are read from a uniform buffer, longer ones from a storage buffer.
+pub(crate) const UNIFORM_LIGHTS: usize = 128;
+
+/// Where a draw's terms are shaded; each has its own pair of entry points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Stage {
+    Unlit,
+    Flat,
+    Vertex,
+    Fragment,
+    Mixed,
+}
+
+/// How the light lists reach the shader.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Lists {
+    /// Counts of directional, point and spot lights in the vertex and the fragment list.
+    Counted { vertex: [u8; 3], fragment: [u8; 3] },
+    /// Counts are read from the draw, lights from a uniform buffer.
+    Uniform,
+    /// Counts are read from the draw, lights from a storage buffer.
+    Storage,
+}
+
+impl Lists {
+    pub(crate) fn new(vertex: [u32; 3], fragment: [u32; 3]) -> Self {
+        let total: u32 = vertex.iter().chain(&fragment).sum();
+        if total <= COUNTED_LIGHTS {
+            Self::Counted { vertex: vertex.map(|n| n as u8), fragment: fragment.map(|n| n as u8) }
+        } else if total as usize <= UNIFORM_LIGHTS {
+            Self::Uniform
+        } else {
+            Self::Storage
+        }
+    }
+}
+
+/// All that a pipeline is specialised for. What a draw does not use is not in its shader.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[expect(clippy::struct_excessive_bools, reason = "each is one independent switch of the shader")]
+pub(crate) struct PipelineKey {
+    pub(crate) blend: bool,
+    pub(crate) stage: Stage,
+    pub(crate) lists: Lists,
+    pub(crate) specular: bool,
+    pub(crate) blinn_phong: bool,
+    pub(crate) local_viewer: bool,
+    pub(crate) attenuated_ambient: bool,
+    /// Every light's specular colour is its diffuse colour.
+    pub(crate) shared_colour: bool,
+    /// Some light has a range.
+    pub(crate) ranged: bool,
+    /// The exponent is 2 to this power on both sides.
+    pub(crate) squarings: Option<u8>,
+    pub(crate) geometric_fallback: bool,
+    pub(crate) cull: Cull,
+    /// Front faces wind clockwise: the transform mirrors, or only back faces are shown.
+    pub(crate) clockwise: bool,
+    pub(crate) samples: u32,
+    pub(crate) format: wgpu::TextureFormat,
+}
+
+/// Which faces the rasteriser drops.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Cull {
+    /// The side that is not lit as front.
+    Back,
+    /// Only the first pass of a blended two-sided object, which draws the far side.
+    Front,
+    /// None: both sides are lit.
+    None,
+}
+
+impl fmt::Display for PipelineKey {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let reflectance = if self.blinn_phong { "blinn_phong" } else { "phong" };
+        write!(f, "{:?} {:?} {reflectance} {:?}", self.stage, self.lists, self.cull)?;
+        for (on, name) in [
+            (self.specular, "specular"),
+            (self.local_viewer, "local_viewer"),
+            (self.attenuated_ambient, "attenuated_ambient"),
+            (self.shared_colour, "shared_colour"),
+            (self.ranged, "ranged"),
+            (self.geometric_fallback, "geometric_fallback"),
+            (self.clockwise, "clockwise"),
+            (self.blend, "blend"),
+        ] {
+            if on {
+                write!(f, " {name}")?;
+            }
+        }
+        if let Some(squarings) = self.squarings {
+            write!(f, " squarings={squarings}")?;
+        }
+        write!(f, " {:?} x{}", self.format, self.samples)
+    }
+}
+
+/// The pipelines built so far, with what they share.
+#[derive(Resource)]
+pub(crate) struct Pipelines {
+    uniform: Shader,
+    storage: Shader,
+    built: HashMap<PipelineKey, wgpu::RenderPipeline>,
+}
+
+/// The lighting text with lights in one address space, and the layout that goes with it.
+struct Shader {
+    module: wgpu::ShaderModule,
+    bindings: wgpu::BindGroupLayout,
+    layout: wgpu::PipelineLayout,
+}
+
+/// Bytes of a uniform binding of [`UNIFORM_LIGHTS`] lights.
+pub(crate) const UNIFORM_LIGHT_BYTES: u64 = (UNIFORM_LIGHTS * size_of::<LightRecord>()) as u64;
+
+impl Shader {
+    fn new(gpu: &Gpu, storage: bool) -> Self {
+        let (space, count) =
+            if storage { ("storage, read", String::new()) } else { ("uniform", format!(", {UNIFORM_LIGHTS}")) };
+        let text = concat!(include_str!("shader/mesh.wgsl"), include_str!("shader/lighting.wgsl"))
+            .replace("LIGHT_SPACE", space)
+            .replace(", LIGHT_COUNT", &count);
+        let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some("lighting"),
+            source: wgpu::ShaderSource::Wgsl(text.into()),
+        });
+        let entry = |binding, ty, size| wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
+            ty: wgpu::BindingType::Buffer {
+                ty,
+                has_dynamic_offset: binding > 0,
+                min_binding_size: std::num::NonZeroU64::new(size),
+            },
+            count: None,
+        };
+        let uniform = wgpu::BufferBindingType::Uniform;
+        let lights = if storage {
+            entry(2, wgpu::BufferBindingType::Storage { read_only: true }, size_of::<LightRecord>() as u64)
+        } else {
+            entry(2, uniform, UNIFORM_LIGHT_BYTES)
+        };
+        let bindings = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("draw"),
+            entries: &[entry(0, uniform, 16), entry(1, uniform, size_of::<DrawRecord>() as u64), lights],
+        });
+        let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("draw"),
+            bind_group_layouts: &[Some(&bindings)],
+            ..Default::default()
+        });
+        Self { module, bindings, layout }
+    }
+}
+
+impl Pipelines {
+    pub(crate) fn new(gpu: &Gpu) -> Self {
+        Self { uniform: Shader::new(gpu, false), storage: Shader::new(gpu, true), built: HashMap::new() }
+    }
+
+    pub(crate) fn bindings(&self, storage: bool) -> &wgpu::BindGroupLayout {
+        if storage { &self.storage.bindings } else { &self.uniform.bindings }
+    }
+
+    pub(crate) fn get(&self, key: &PipelineKey) -> Option<&wgpu::RenderPipeline> {
+        self.built.get(key)
+    }
+
+    pub(crate) fn count(&self) -> u32 {
+        self.built.len() as u32
+    }
+
+    /// Builds the pipeline unless it is there.
+    pub(crate) fn ensure(&mut self, gpu: &Gpu, key: PipelineKey) {
+        let shader = if key.lists == Lists::Storage { &self.storage } else { &self.uniform };
+        self.built.entry(key).or_insert_with(|| {
+            log::debug!("building pipeline {key}");
+            build(gpu, shader, key)
+        });
+    }
+}
+
+const INSTANCE: [wgpu::VertexAttribute; 6] = wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32x4, 2 => Float32x4, 3 => Float32x3, 4 => Float32x3, 5 => Float32x3];
+const POSITION: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![6 => Float32x3];
+const NORMAL: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![7 => Float32x3];
+const FACE: [wgpu::VertexAttribute; 2] = wgpu::vertex_attr_array![7 => Float32x3, 8 => Float32x3];
+
+fn build(gpu: &Gpu, shader: &Shader, key: PipelineKey) -> wgpu::RenderPipeline {
+    let constants = constants(key);
+    let compilation_options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
+    let buffer =
+        |attributes, stride, step_mode| Some(wgpu::VertexBufferLayout { array_stride: stride, step_mode, attributes });
+    // Unlit draws need no normal matrix, and a software adapter pays for every attribute it fetches.
+    let instance = if key.stage == Stage::Unlit { &INSTANCE[..3] } else { &INSTANCE[..] };
+    let mut buffers = vec![
+        buffer(instance, crate::batch::INSTANCE_BYTES, wgpu::VertexStepMode::Instance),
+        buffer(&POSITION, 12, wgpu::VertexStepMode::Vertex),
+    ];
+    match key.stage {
+        Stage::Unlit => {}
+        Stage::Flat => buffers.push(buffer(&FACE, 24, wgpu::VertexStepMode::Vertex)),
+        _ => buffers.push(buffer(&NORMAL, 12, wgpu::VertexStepMode::Vertex)),
+    }
+    let (vertex, fragment) = entry_points(key);
+    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some(&key.to_string()),
+        layout: Some(&shader.layout),
+        vertex: wgpu::VertexState {
+            module: &shader.module,
+            entry_point: Some(vertex),
+            compilation_options: compilation_options.clone(),
+            buffers: &buffers,
+        },
+        primitive: wgpu::PrimitiveState {
+            front_face: if key.clockwise { wgpu::FrontFace::Cw } else { wgpu::FrontFace::Ccw },
+            cull_mode: match key.cull {
+                Cull::Back => Some(wgpu::Face::Back),
+                Cull::Front => Some(wgpu::Face::Front),
+                Cull::None => None,
+            },
+            ..Default::default()
+        },
+        depth_stencil: Some(wgpu::DepthStencilState {
+            format: DEPTH_FORMAT,
+            depth_write_enabled: Some(!key.blend),
+            depth_compare: Some(wgpu::CompareFunction::Greater),
+            stencil: wgpu::StencilState::default(),
+            bias: wgpu::DepthBiasState::default(),
+        }),
+        multisample: wgpu::MultisampleState { count: key.samples, ..Default::default() },
+        fragment: Some(wgpu::FragmentState {
+            module: &shader.module,
+            entry_point: Some(fragment),
+            compilation_options,
+            targets: &[Some(wgpu::ColorTargetState {
+                format: key.format,
+                blend: key.blend.then_some(OVER),
+                write_mask: wgpu::ColorWrites::ALL,
+            })],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}
+
+/// opacity·I + (1 − opacity)·what is behind; the picture stays opaque.
+const OVER: wgpu::BlendState = wgpu::BlendState {
+    color: wgpu::BlendComponent {
+        src_factor: wgpu::BlendFactor::SrcAlpha,
+        dst_factor: wgpu::BlendFactor::OneMinusSrcAlpha,
+        operation: wgpu::BlendOperation::Add,
+    },
+    alpha: wgpu::BlendComponent {
+        src_factor: wgpu::BlendFactor::One,
+        dst_factor: wgpu::BlendFactor::OneMinusSrcAlpha,
+        operation: wgpu::BlendOperation::Add,
+    },
+};
+
+fn entry_points(key: PipelineKey) -> (&'static str, &'static str) {
+    match (key.stage, key.cull) {
+        (Stage::Unlit, _) => ("vs_unlit", "fs_unlit"),
+        (Stage::Flat, _) => ("vs_flat", "fs_flat"),
+        (Stage::Vertex, Cull::Back) => ("vs_gouraud", "fs_gouraud"),
+        (Stage::Vertex, _) => ("vs_gouraud_both", "fs_gouraud_both"),
+        (Stage::Fragment, _) => ("vs_phong", "fs_phong"),
+        (Stage::Mixed, _) => ("vs_mixed", "fs_mixed"),
+    }
+}
+
+fn constants(key: PipelineKey) -> Vec<(&'static str, f64)> {
+    let (vertex, fragment, dynamic) = match key.lists {
+        Lists::Counted { vertex, fragment } => (vertex, fragment, false),
+        Lists::Uniform | Lists::Storage => ([0; 3], [0; 3], true),
+    };
+    let flag = |on: bool| f64::from(u8::from(on));
+    vec![
+        ("SPECULAR", flag(key.specular)),
+        ("BLINN_PHONG", flag(key.blinn_phong)),
+        ("LOCAL_VIEWER", flag(key.local_viewer)),
+        ("ATTENUATED_AMBIENT", flag(key.attenuated_ambient)),
+        ("SHARED_COLOUR", flag(key.shared_colour)),
+        ("RANGED", flag(key.ranged)),
+        ("SQUARINGS", key.squarings.map_or(-1.0, f64::from)),
+        ("TWO_SIDED", flag(key.cull != Cull::Back)),
+        ("BLEND", flag(key.blend)),
+        ("GEOMETRIC_FALLBACK", flag(key.geometric_fallback)),
+        ("DYNAMIC_COUNTS", flag(dynamic)),
+        ("VERTEX_DIRECTIONAL", vertex[0].into()),
+        ("VERTEX_POINT", vertex[1].into()),
+        ("VERTEX_SPOT", vertex[2].into()),
+        ("FRAGMENT_DIRECTIONAL", fragment[0].into()),
+        ("FRAGMENT_POINT", fragment[1].into()),
+        ("FRAGMENT_SPOT", fragment[2].into()),
+    ]
+}

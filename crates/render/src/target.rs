@@ -1,0 +1,274 @@
+//! Where pictures go: a texture, or a window's surface.
+
+use crate::camera::{Camera, Encoding, Samples};
+use crate::error::RenderError;
+use crate::gpu::Gpu;
+use crate::report::FrameReport;
+use crate::view::View;
+use bevy_ecs::prelude::*;
+use bevy_math::UVec2;
+
+/// The headless target: pictures of this size, to be read back. The default target.
+#[derive(Resource, Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Headless {
+    /// Width and height in pixels, each at least 1. Default 1280 × 720.
+    pub size: UVec2,
+    /// What a pixel holds. Default [`Pixels::Byte`].
+    pub pixels: Pixels,
+}
+
+impl Default for Headless {
+    fn default() -> Self {
+        Self { size: UVec2::new(1280, 720), pixels: Pixels::default() }
+    }
+}
+
+/// What a pixel of a headless picture holds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Pixels {
+    /// 8 bits a channel, encoded as the camera says.
+    #[default]
+    Byte,
+    /// Linear I in 32-bit floating point, before the intensity policy. An adapter that cannot blend
+    /// or resolve 32-bit floats draws in 16 bits.
+    Float,
+}
+
+/// A window's surface; while this resource is there it is the target instead of [`Headless`].
+#[derive(Resource)]
+pub struct SurfaceTarget {
+    surface: wgpu::Surface<'static>,
+    formats: Vec<wgpu::TextureFormat>,
+    config: wgpu::SurfaceConfiguration,
+    stale: bool,
+    acquired: bool,
+}
+
+impl SurfaceTarget {
+    /// A target of `size` physical pixels on `surface`, presented without tearing.
+    ///
+    /// # Errors
+    /// [`RenderError::Device`] when the adapter cannot present to the surface.
+    pub fn new(gpu: &Gpu, surface: wgpu::Surface<'static>, size: UVec2) -> Result<Self, RenderError> {
+        let capabilities = surface.get_capabilities(&gpu.adapter);
+        let config = surface
+            .get_default_config(&gpu.adapter, size.x.max(1), size.y.max(1))
+            .ok_or_else(|| RenderError::Device(format!("{} cannot present to this window", gpu.describe())))?;
+        Ok(Self { surface, formats: capabilities.formats, config, stale: true, acquired: false })
+    }
+
+    /// Follows the window to `size` physical pixels; a size of 0 (minimised) is ignored.
+    pub fn resize(&mut self, size: UVec2) {
+        if size.x > 0 && size.y > 0 && size != self.size() {
+            (self.config.width, self.config.height) = (size.x, size.y);
+            (self.stale, self.acquired) = (true, false);
+        }
+    }
+
+    /// Replaces a lost surface by a new one of the same window.
+    pub fn replace(&mut self, surface: wgpu::Surface<'static>) {
+        self.surface = surface;
+        (self.stale, self.acquired) = (true, false);
+    }
+
+    /// Whether the newest frame has a picture of the surface to draw into and present. Where it has
+    /// none the frame is skipped without waiting for the display, so whoever asks for frames waits.
+    pub fn acquired(&self) -> bool {
+        self.acquired
+    }
+
+    fn size(&self) -> UVec2 {
+        UVec2::new(self.config.width, self.config.height)
+    }
+
+    /// The surface's format for `encoding`; its first one where it has no such.
+    fn pick_format(&mut self, encoding: Encoding) {
+        let wanted = |format: &&wgpu::TextureFormat| format.is_srgb() == (encoding == Encoding::Srgb);
+        let format = self.formats.iter().find(wanted).or(self.formats.first());
+        if let Some(&format) = format.filter(|&&format| format != self.config.format) {
+            self.config.format = format;
+            self.stale = true;
+        }
+    }
+
+    /// The next picture of the surface; `None` means skip this frame.
+    fn acquire(&mut self, gpu: &Gpu) -> Result<Option<wgpu::SurfaceTexture>, Lost> {
+        use wgpu::CurrentSurfaceTexture as Current;
+        self.acquired = false;
+        if std::mem::take(&mut self.stale) {
+            self.surface.configure(&gpu.device, &self.config);
+        }
+        let texture = match self.surface.get_current_texture() {
+            Current::Success(texture) => Some(texture),
+            Current::Suboptimal(texture) => {
+                self.stale = true;
+                Some(texture)
+            }
+            Current::Outdated => {
+                self.stale = true;
+                None
+            }
+            Current::Lost => return Err(Lost),
+            Current::Timeout | Current::Occluded | Current::Validation => None,
+        };
+        self.acquired = texture.is_some();
+        Ok(texture)
+    }
+}
+
+/// The window's surface is gone: whoever owns the window makes a new one and calls
+/// [`SurfaceTarget::replace`]. Set by the frame that found out.
+#[derive(Resource, Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SurfaceLost;
+
+struct Lost;
+
+/// What the frame draws into.
+#[derive(Resource, Default)]
+pub(crate) struct Target {
+    size: UVec2,
+    attachments: Option<Attachments>,
+    pub(crate) frame: Option<Frame>,
+}
+
+/// The textures of one configuration.
+pub(crate) struct Attachments {
+    made_for: Made,
+    /// The headless picture; a surface brings its own.
+    pub(crate) picture: Option<wgpu::Texture>,
+    pub(crate) multisampled: Option<wgpu::TextureView>,
+    pub(crate) depth: wgpu::TextureView,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+struct Made {
+    size: UVec2,
+    format: wgpu::TextureFormat,
+    samples: Samples,
+    headless: bool,
+}
+
+/// The picture of this frame.
+pub(crate) struct Frame {
+    pub(crate) format: wgpu::TextureFormat,
+    pub(crate) samples: Samples,
+    pub(crate) view: wgpu::TextureView,
+    pub(crate) surface: Option<wgpu::SurfaceTexture>,
+}
+
+pub(crate) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+
+impl Target {
+    pub(crate) fn size(&self) -> UVec2 {
+        self.size
+    }
+
+    pub(crate) fn attachments(&self) -> Option<&Attachments> {
+        self.attachments.as_ref()
+    }
+
+    /// The newest headless picture's texture.
+    pub(crate) fn picture(&self) -> Option<&wgpu::Texture> {
+        self.attachments.as_ref()?.picture.as_ref()
+    }
+}
+
+/// Learns the size before the view needs it.
+pub(crate) fn measure(headless: Res<Headless>, surface: Option<Res<SurfaceTarget>>, mut target: ResMut<Target>) {
+    target.size = surface.map_or(headless.size, |surface| surface.size()).max(UVec2::ONE);
+}
+
+/// Makes the attachments that the camera and the target ask for, and acquires the surface's picture.
+pub(crate) fn prepare(
+    gpu: Res<Gpu>,
+    headless: Res<Headless>,
+    surface: Option<ResMut<SurfaceTarget>>,
+    view: Res<View>,
+    mut target: ResMut<Target>,
+    mut report: ResMut<FrameReport>,
+    mut commands: Commands,
+) {
+    target.frame = None;
+    let camera = view.camera.unwrap_or_default();
+    let limit = gpu.device.limits().max_texture_dimension_2d;
+    if target.size.max_element() > limit {
+        let needed = u64::from(target.size.max_element());
+        report.errors.push(RenderError::TooLarge {
+            what: "the picture's longer side, in pixels,".into(),
+            needed,
+            limit: limit.into(),
+        });
+        return;
+    }
+    let (format, acquired) = match surface {
+        None => (headless_format(&gpu, headless.pixels, &camera), None),
+        Some(mut surface) => {
+            surface.pick_format(camera.encoding);
+            match surface.acquire(&gpu) {
+                Ok(Some(texture)) => (surface.config.format, Some(texture)),
+                Ok(None) => return,
+                Err(Lost) => {
+                    commands.insert_resource(SurfaceLost);
+                    return;
+                }
+            }
+        }
+    };
+    let made_for = Made { size: target.size, format, samples: camera.samples, headless: acquired.is_none() };
+    if target.attachments.as_ref().is_none_or(|attachments| attachments.made_for != made_for) {
+        target.attachments = Some(Attachments::new(&gpu, made_for));
+    }
+    let texture = acquired.as_ref().map(|acquired| &acquired.texture).or(target.picture());
+    let Some(view) = texture.map(|texture| texture.create_view(&wgpu::TextureViewDescriptor::default())) else {
+        return;
+    };
+    target.frame = Some(Frame { format, samples: camera.samples, view, surface: acquired });
+}
+
+fn headless_format(gpu: &Gpu, pixels: Pixels, camera: &Camera) -> wgpu::TextureFormat {
+    match (pixels, camera.encoding) {
+        (Pixels::Byte, Encoding::Srgb) => wgpu::TextureFormat::Rgba8UnormSrgb,
+        (Pixels::Byte, Encoding::Raw) => wgpu::TextureFormat::Rgba8Unorm,
+        (Pixels::Float, _) if draws_f32(gpu, camera.samples) => wgpu::TextureFormat::Rgba32Float,
+        (Pixels::Float, _) => wgpu::TextureFormat::Rgba16Float,
+    }
+}
+
+fn draws_f32(gpu: &Gpu, samples: Samples) -> bool {
+    use wgpu::TextureFormatFeatureFlags as Flags;
+    let needed = match samples {
+        Samples::One => Flags::BLENDABLE,
+        Samples::Four => Flags::BLENDABLE | Flags::MULTISAMPLE_X4 | Flags::MULTISAMPLE_RESOLVE,
+    };
+    let enabled = gpu
+        .device
+        .features()
+        .contains(wgpu::Features::FLOAT32_BLENDABLE | wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES);
+    enabled && gpu.adapter.get_texture_format_features(wgpu::TextureFormat::Rgba32Float).flags.contains(needed)
+}
+
+impl Attachments {
+    fn new(gpu: &Gpu, made_for: Made) -> Self {
+        let Made { size, format, samples, headless } = made_for;
+        let texture = |label, format, sample_count, usage| {
+            gpu.device.create_texture(&wgpu::TextureDescriptor {
+                label: Some(label),
+                size: wgpu::Extent3d { width: size.x, height: size.y, depth_or_array_layers: 1 },
+                mip_level_count: 1,
+                sample_count,
+                dimension: wgpu::TextureDimension::D2,
+                format,
+                usage,
+                view_formats: &[],
+            })
+        };
+        let attachment = wgpu::TextureUsages::RENDER_ATTACHMENT;
+        let view = |texture: wgpu::Texture| texture.create_view(&wgpu::TextureViewDescriptor::default());
+        Self {
+            made_for,
+            picture: headless.then(|| texture("picture", format, 1, attachment | wgpu::TextureUsages::COPY_SRC)),
+            multisampled: (samples == Samples::Four).then(|| view(texture("samples", format, 4, attachment))),
+            depth: view(texture("depth", DEPTH_FORMAT, samples.count(), attachment)),
+        }
+    }
+}

@@ -1,0 +1,93 @@
+//! Choose: at which frequency each object's diffuse and specular terms are shaded.
+
+use crate::matrices::Visible;
+use crate::view::View;
+use bevy_ecs::prelude::*;
+use halfway_lighting::Shading;
+
+/// How often a term is shaded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Frequency {
+    /// Not at all.
+    Never,
+    /// At each vertex, interpolated perspective-correctly.
+    Vertex,
+    /// At each fragment, with the interpolated normal.
+    Fragment,
+}
+
+/// The frequency of each term of an object's lights, in place of its [`Shading`].
+///
+/// Gouraud is `Vertex` for both, Phong `Fragment` for both. The hybrid that keeps highlights sharp
+/// and spares the rest is `Terms { diffuse: Vertex, specular: Fragment }`. Emission and ambient are
+/// always there; an ambient colour that attenuates goes with the diffuse term.
+#[derive(Component, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Terms {
+    /// Frequency of kd·Ld·max(n·l, 0).
+    pub diffuse: Frequency,
+    /// Frequency of ks·Ls·S.
+    pub specular: Frequency,
+}
+
+/// Which terms a light list keeps.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub(crate) struct TermMask {
+    pub(crate) diffuse: bool,
+    pub(crate) specular: bool,
+}
+
+impl TermMask {
+    /// Every mask, at its own index.
+    pub(crate) const ALL: [Self; 4] = [
+        Self { diffuse: false, specular: false },
+        Self { diffuse: true, specular: false },
+        Self { diffuse: false, specular: true },
+        Self { diffuse: true, specular: true },
+    ];
+
+    pub(crate) fn index(self) -> usize {
+        usize::from(self.diffuse) | usize::from(self.specular) << 1
+    }
+
+    pub(crate) fn is_empty(self) -> bool {
+        self == Self::default()
+    }
+}
+
+/// What the frame chose for an object. Holds after [`RenderSet::Choose`](crate::RenderSet::Choose).
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Chosen {
+    /// The terms of the vertex list.
+    pub(crate) vertex: TermMask,
+    /// The terms of the fragment list.
+    pub(crate) fragment: TermMask,
+    /// The vertex list shades one point a triangle: its centroid.
+    pub(crate) flat: bool,
+}
+
+pub(crate) fn choose(
+    mut objects: Query<(&mut Chosen, Option<&Shading>, Option<&Terms>)>,
+    visible: Res<Visible>,
+    view: Res<View>,
+) {
+    for &entity in &visible.0 {
+        let Ok((mut chosen, shading, terms)) = objects.get_mut(entity) else { continue };
+        let wanted =
+            terms.map_or_else(|| of_shading(shading.copied().unwrap_or(view.shading)), |&terms| of_terms(terms));
+        chosen.set_if_neq(wanted);
+    }
+}
+
+fn of_shading(shading: Shading) -> Chosen {
+    let both = TermMask { diffuse: true, specular: true };
+    match shading {
+        Shading::Flat => Chosen { vertex: both, flat: true, ..Chosen::default() },
+        Shading::Gouraud => Chosen { vertex: both, ..Chosen::default() },
+        _ => Chosen { fragment: both, ..Chosen::default() },
+    }
+}
+
+fn of_terms(terms: Terms) -> Chosen {
+    let mask = |frequency| TermMask { diffuse: terms.diffuse == frequency, specular: terms.specular == frequency };
+    Chosen { vertex: mask(Frequency::Vertex), fragment: mask(Frequency::Fragment), flat: false }
+}
