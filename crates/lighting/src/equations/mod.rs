@@ -1,0 +1,43 @@
+//! The equations as pure functions, in `f32` or `f64`.
+//!
+//! ```text
+//! I = ke + ka·Ga + Σ_i  ka·La_i·(att_i·spot_i if the light attenuates its ambient, else 1)
+//!                     + att_i·spot_i·[ kd·Ld_i·max(n·l_i, 0) + ks·Ls_i·S_i ]
+//! ```
+//!
+//! [`shade`] is the whole of it, [`light_contribution`] one summand, [`light_terms`] its three terms; the rest are the
+//! factors. All vectors have unit length unless said, all colours are linear RGB, angles are in radians. What goes in
+//! is made from the components: `Coefficients::from(&material)`, [`PointLight::at`](crate::PointLight::at),
+//! [`SpotLight::at`](crate::SpotLight::at), [`DirectionalLight::along`](crate::DirectionalLight::along),
+//! [`View::in_eye_space`].
+//!
+//! # Edges
+//! | where | what happens |
+//! |---|---|
+//! | 0⁰ (shininess 0 and cosine 0; exponent 0 at the edge of a cone) | 1: [`power`] |
+//! | a cosine that rounding put above 1 | clamped to 1: [`power`] |
+//! | l = −v, no halfway vector | S = 0: [`specular_blinn_phong`] |
+//! | the light at the lit point (d = 0) | l is n; attenuation 1/a, at most [`ATTENUATION_MAX`] |
+//! | a local eye at the lit point | v is n: [`view_vector`] |
+//! | the light behind the surface (n·l ≤ 0) | neither diffuse nor specular |
+//! | distances beyond the number range | the direction is kept, the distance is the largest finite number |
+//! | an inner cone equal to the cutoff | a hard edge, no division by 0: [`spot_factor`] |
+//! | an interpolated normal ≈ 0 | the geometric normal: [`interpolated_normal`] |
+//! | a singular or mirroring matrix | [`normal_matrix`] by cofactors, with the sign of the determinant |
+
+mod falloff;
+mod normal;
+mod reflectance;
+mod scene;
+mod shade;
+pub mod vector;
+
+pub use falloff::{ATTENUATION_MAX, ConeTerms, attenuation, range_window, spot_factor};
+pub use normal::{NORMAL_MIN, normal_matrix, transform_normal};
+pub use reflectance::{
+    HALFWAY_MIN, diffuse_term, face_forward, half_vector, interpolated_normal, power, reflect, side_normal,
+    specular_blinn_phong, specular_exponent, specular_phong, specular_term,
+};
+pub use scene::{Coefficients, Light, Place, Surface, View, rgb};
+pub use shade::{Incidence, Terms, incidence, light_contribution, light_terms, shade, view_vector};
+pub use vector::Real;

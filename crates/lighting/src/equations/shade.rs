@@ -1,0 +1,99 @@
+//! The whole equation, from its parts.
+
+use super::Real;
+use super::falloff::{attenuation, range_window, spot_factor};
+use super::reflectance::{diffuse_term, specular_term};
+use super::scene::{Coefficients, Light, Place, Surface, View};
+use super::vector::{add, dot, mul, neg, scale, toward};
+use crate::Reflectance;
+
+/// A light as it arrives at a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Incidence<T> {
+    /// l, the unit vector from the point toward the light.
+    pub l: [T; 3],
+    /// att·spot: attenuation, range window and cone together; 0 to [`ATTENUATION_MAX`](super::ATTENUATION_MAX).
+    pub weight: T,
+}
+
+/// What one light adds to a point, term by term. Their sum is [`light_contribution`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Terms<T> {
+    /// ka·La, weakened where the light attenuates its ambient.
+    pub ambient: [T; 3],
+    /// att·spot·kd·Ld·max(n·l, 0).
+    pub diffuse: [T; 3],
+    /// att·spot·ks·Ls·S.
+    pub specular: [T; 3],
+}
+
+/// Direction and strength of a light at a point. Where the light is at the point itself l is n.
+pub fn incidence<T: Real>(surface: &Surface<T>, light: &Light<T>) -> Incidence<T> {
+    let (l, att) = match light.place {
+        Place::Directional(l) => (l, T::one()),
+        Place::Point(position) => {
+            let (l, d) = toward(surface.position, position);
+            let window = light.range.map_or(T::one(), |range| range_window(d, range));
+            (l.unwrap_or(surface.normal), attenuation(light.attenuation, d) * window)
+        }
+    };
+    let spot = light.cone.as_ref().map_or(T::one(), |cone| spot_factor(dot(neg(l), cone.direction), cone));
+    Incidence { l, weight: att * spot }
+}
+
+/// v: the unit vector from the surface toward the viewer. Where a local eye is at the surface itself v is n.
+pub fn view_vector<T: Real>(surface: &Surface<T>, view: &View<T>) -> [T; 3] {
+    match *view {
+        View::Local(eye) => toward(surface.position, eye).0.unwrap_or(surface.normal),
+        View::Infinite(v) => v,
+    }
+}
+
+/// The ambient, diffuse and specular term that one light adds at a point.
+pub fn light_terms<T: Real>(
+    surface: &Surface<T>,
+    material: &Coefficients<T>,
+    light: &Light<T>,
+    view: &View<T>,
+    reflectance: Reflectance,
+) -> Terms<T> {
+    let n = surface.normal;
+    let v = view_vector(surface, view);
+    let Incidence { l, weight } = incidence(surface, light);
+    let ambient = if light.attenuate_ambient { weight } else { T::one() };
+    let diffuse = weight * diffuse_term(n, l);
+    let specular = weight * specular_term(reflectance, n, l, v, material.shininess);
+    Terms {
+        ambient: scale(mul(material.ka, light.la), ambient),
+        diffuse: scale(mul(material.kd, light.ld), diffuse),
+        specular: scale(mul(material.ks, light.ls), specular),
+    }
+}
+
+/// What one light adds at a point: the summand of the equation.
+pub fn light_contribution<T: Real>(
+    surface: &Surface<T>,
+    material: &Coefficients<T>,
+    light: &Light<T>,
+    view: &View<T>,
+    reflectance: Reflectance,
+) -> [T; 3] {
+    let Terms { ambient, diffuse, specular } = light_terms(surface, material, light, view, reflectance);
+    add(ambient, add(diffuse, specular))
+}
+
+/// I: the colour of a point under all lights, linear RGB, unclamped.
+///
+/// Never NaN, infinite or negative where the components that the arguments came from pass `validate()`, positions are
+/// finite and `surface.normal` has unit length (in `f32` for up to 10⁸ lights at the largest values).
+pub fn shade<T: Real>(
+    surface: &Surface<T>,
+    material: &Coefficients<T>,
+    lights: &[Light<T>],
+    global_ambient: [T; 3],
+    view: &View<T>,
+    reflectance: Reflectance,
+) -> [T; 3] {
+    let unlit = add(material.ke, mul(material.ka, global_ambient));
+    lights.iter().fold(unlit, |sum, light| add(sum, light_contribution(surface, material, light, view, reflectance)))
+}

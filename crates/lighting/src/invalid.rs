@@ -1,0 +1,131 @@
+//! What is refused, and the message that says so.
+
+use bevy_color::LinearRgba;
+use thiserror::Error;
+
+/// The largest value that a colour channel may have: 10¹².
+///
+/// A reflectance (10¹²) times a light (10¹²) times the largest attenuation (10⁶, see
+/// [`ATTENUATION_MAX`](crate::equations::ATTENUATION_MAX)) is 10³⁰, so that the sum over 10⁸ lights still fits in an
+/// `f32`. Reflectances are normally at most 1.
+pub const CHANNEL_MAX: f32 = 1e12;
+
+/// A value that cannot be used: whose it is, which field, and what is wrong with it.
+///
+/// The message reads `Material.shininess: the value is -1.0; expected a finite number, 0 or more`.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[error("{owner}.{field}: {problem}")]
+pub struct InvalidValue {
+    /// The type that holds the value, e.g. `PointLight`.
+    pub owner: &'static str,
+    /// The path to the value inside that type, e.g. `attenuation.linear`.
+    pub field: String,
+    /// What is wrong, with the value and what was expected.
+    pub problem: Problem,
+}
+
+/// What is wrong with an [`InvalidValue`].
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum Problem {
+    /// A number that is not finite or lies outside its range.
+    #[error("the value is {value:?}; expected {expected}")]
+    Number {
+        /// The value as it was given.
+        value: f32,
+        /// The values that are accepted, in words.
+        expected: &'static str,
+    },
+    /// An attenuation without a single positive constant, which would divide by zero.
+    #[error("constant, linear and quadratic are all 0; at least one must be positive")]
+    NoAttenuation,
+    /// An inner cone that is wider than the cone it lies in.
+    #[error("the inner cone of {inner:?} rad is wider than the cutoff of {cutoff:?} rad; expected 0 to the cutoff")]
+    InnerOutsideCutoff {
+        /// The inner angle in radians.
+        inner: f32,
+        /// The cutoff in radians.
+        cutoff: f32,
+    },
+    /// A direction of length 0, or one that is not finite.
+    #[error("the direction is {value:?}; expected a finite vector that is not 0")]
+    NoDirection {
+        /// The vector as it was given or computed.
+        value: [f32; 3],
+    },
+    /// A position that is not finite.
+    #[error("the position is {value:?}; expected finite coordinates")]
+    NoPosition {
+        /// The position as it was given or computed.
+        value: [f32; 3],
+    },
+    /// A homogeneous position that is neither a point nor a direction.
+    #[error("the homogeneous position is {value:?}; expected finite coordinates, not all 0, with a finite xyz/w")]
+    NotHomogeneous {
+        /// The vector as it was given.
+        value: [f32; 4],
+    },
+}
+
+const NON_NEGATIVE: &str = "a finite number, 0 or more";
+const POSITIVE: &str = "a finite number above 0";
+const UNIT_INTERVAL: &str = "a number from 0 to 1";
+const CHANNEL: &str = "a number from 0 to 1e12";
+
+/// The fields of one value under validation: names the owner and the path in every error.
+#[derive(Clone, Copy)]
+pub(crate) struct Fields {
+    pub(crate) owner: &'static str,
+    /// What stands before a field's name: empty, or the path to an inner struct with its dot.
+    pub(crate) prefix: &'static str,
+}
+
+impl Fields {
+    pub(crate) const fn of(owner: &'static str) -> Self {
+        Self { owner, prefix: "" }
+    }
+
+    pub(crate) const fn inside(self, prefix: &'static str) -> Self {
+        Self { prefix, ..self }
+    }
+
+    pub(crate) fn error(self, field: &str, problem: Problem) -> InvalidValue {
+        InvalidValue { owner: self.owner, field: format!("{}{field}", self.prefix), problem }
+    }
+
+    /// `Err` unless `holds`; NaN fails every comparison and so needs no case of its own.
+    pub(crate) fn number(
+        self,
+        field: &str,
+        value: f32,
+        holds: bool,
+        expected: &'static str,
+    ) -> Result<(), InvalidValue> {
+        if holds { Ok(()) } else { Err(self.error(field, Problem::Number { value, expected })) }
+    }
+
+    pub(crate) fn non_negative(self, field: &str, value: f32) -> Result<(), InvalidValue> {
+        self.number(field, value, value >= 0.0 && value.is_finite(), NON_NEGATIVE)
+    }
+
+    pub(crate) fn positive(self, field: &str, value: f32) -> Result<(), InvalidValue> {
+        self.number(field, value, value > 0.0 && value.is_finite(), POSITIVE)
+    }
+
+    pub(crate) fn unit_interval(self, field: &str, value: f32) -> Result<(), InvalidValue> {
+        self.number(field, value, (0.0..=1.0).contains(&value), UNIT_INTERVAL)
+    }
+
+    pub(crate) fn channels(self, field: &str, rgb: [f32; 3]) -> Result<(), InvalidValue> {
+        for (name, value) in ["red", "green", "blue"].into_iter().zip(rgb) {
+            if !(0.0..=CHANNEL_MAX).contains(&value) {
+                return Err(self.error(&format!("{field}.{name}"), Problem::Number { value, expected: CHANNEL }));
+            }
+        }
+        Ok(())
+    }
+
+    pub(crate) fn color(self, field: &str, color: LinearRgba) -> Result<(), InvalidValue> {
+        self.channels(field, [color.red, color.green, color.blue])
+    }
+}

@@ -1,0 +1,70 @@
+//! How halfway lights: lights, materials and the equations.
+//!
+//! # The equation
+//! ```text
+//! I = ke + ka·Ga + Σ_i  ka·La_i·(att_i·spot_i if the light attenuates its ambient, else 1)
+//!                     + att_i·spot_i·[ kd·Ld_i·max(n·l_i, 0) + ks·Ls_i·S_i ]
+//! ```
+//!
+//! | symbol | meaning | range / unit | here |
+//! |---|---|---|---|
+//! | ke, ka, kd, ks | emission, ambient, diffuse, specular colour of the material | ≥ 0 (reflectances normally ≤ 1) | [`Material`] |
+//! | α, β | shininess of Phong, of Blinn–Phong | ≥ 0; 5–10 plastic, 100–200 metal (Phong) | [`Material::shininess`] |
+//! | Ga | global ambient | ≥ 0 | [`GlobalAmbient`] |
+//! | La, Ld, Ls | a light's ambient, diffuse, specular colour | ≥ 0 | [`PointLight`], [`SpotLight`], [`DirectionalLight`] |
+//! | att | 1/(a + b·d + c·d²), d = distance in world units, at most 10⁶; 1 for a directional light; where a range R is given, times clamp(1 − (d/R)⁴, 0, 1)² | a, b, c ≥ 0, not all 0; R > 0 | [`Attenuation`] |
+//! | spot | max(cos φ, 0)^e if cos φ ≥ cos(cutoff) else 0; φ between −l and the spot direction; an inner cone fades smoothly to the cutoff | cutoff in [0, π/2], or π = no cone; e ≥ 0 | [`Cone`] |
+//! | S (Phong) | max(r·v, 0)^α, r = 2(n·l)n − l | gate: 0 unless n·l > 0 | [`Reflectance::Phong`] |
+//! | S (Blinn–Phong) | max(n·h, 0)^β, h = (l + v)/‖l + v‖ | gate: 0 unless n·l > 0 | [`Reflectance::BlinnPhong`] |
+//! | v | local viewer: toward the eye; infinite viewer: (0, 0, 1) in eye space | | [`Viewer`] |
+//!
+//! All vectors have unit length, all colours are linear RGB (a [`LinearRgba`](bevy_color::LinearRgba) whose alpha is
+//! ignored), angles are in radians. Sources: Phong 1975 and Blinn 1977 for S, OpenGL 2.1 §2.14.1 for the sum, the
+//! falloff and the cone, `KHR_lights_punctual` for range and inner cone. Shading is local: no shadows, no
+//! interreflection.
+//!
+//! # What is here
+//! - Components: the lights, [`Material`] (with [presets](Material::PRESETS)) and [`BackMaterial`], [`Shading`],
+//!   [`Reflectance`], [`Faces`], [`Blend`]; the resource [`GlobalAmbient`]; [`LightingPlugin`]. A light stands where
+//!   its entity's `GlobalTransform` puts it and shines along the local −Z axis. Every value has a `validate()` whose
+//!   [`InvalidValue`] names type, field, value and what was expected.
+//! - [`equations`]: the equation and its parts as pure functions, in `f32` or `f64`, defined at every edge.
+//! - [`matched_shininess`]: the Blinn–Phong exponent for a Phong highlight.
+//! - [`homogeneous`]: light positions as four coordinates.
+//! - [`conversion`]: materials of MTL and glTF files, lights of `KHR_lights_punctual`.
+//!
+//! No GPU, no window, no file is touched.
+//!
+//! # A shaded point
+//! ```
+//! use halfway_lighting::equations::{Coefficients, Surface, View, shade};
+//! use halfway_lighting::{GlobalAmbient, Material, PointLight, Reflectance, Viewer};
+//!
+//! let surface = Surface { position: [0.0, 0.0, -5.0], normal: [0.0, 0.0, 1.0] };
+//! let lights = [PointLight::white().at([1.0, 2.0, 0.0])];
+//! let view = View::in_eye_space(Viewer::Local);
+//! let ambient = GlobalAmbient::default().ga();
+//! let color: [f64; 3] =
+//!     shade(&surface, &Coefficients::from(&Material::BRASS), &lights, ambient, &view, Reflectance::BlinnPhong);
+//! assert!(color[0] > color[1] && color[1] > color[2]);
+//! ```
+
+pub mod conversion;
+pub mod equations;
+pub mod homogeneous;
+mod invalid;
+mod light;
+mod matched;
+mod material;
+mod place;
+mod plugin;
+mod presets;
+mod shading;
+
+pub use invalid::{CHANNEL_MAX, InvalidValue, Problem};
+pub use light::{Attenuation, Cone, DirectionalLight, GlobalAmbient, PointLight, SpotLight};
+pub use matched::matched_shininess;
+pub use material::{BackMaterial, Material};
+pub use place::{light_direction, light_position, rotation_along};
+pub use plugin::LightingPlugin;
+pub use shading::{Blend, Faces, Reflectance, Shading, Viewer};

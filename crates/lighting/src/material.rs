@@ -1,0 +1,98 @@
+//! What a surface does with light.
+
+use bevy_color::LinearRgba;
+use bevy_ecs::component::Component;
+
+use crate::invalid::{Fields, InvalidValue};
+
+/// The classic material: how much of each kind of light a surface gives back.
+///
+/// A plain value; equal materials may share one record on the GPU. Named materials are in [`Material::PRESETS`].
+#[derive(Component, Clone, Copy, Debug, PartialEq)]
+pub struct Material {
+    /// ka: the share of ambient light given back. Linear RGB, 0 to 10¹², normally at most 1; alpha is ignored. Default
+    /// 0.2 grey.
+    pub ambient: LinearRgba,
+    /// kd: the share of light given back equally in all directions. Linear RGB, 0 to 10¹², normally at most 1; alpha is
+    /// ignored. Default 0.8 grey.
+    pub diffuse: LinearRgba,
+    /// ks: the strength of the highlight. Linear RGB, 0 to 10¹², normally at most 1; alpha is ignored. Default black:
+    /// no highlight.
+    pub specular: LinearRgba,
+    /// ke: light of the surface's own, untouched by lights and transforms. Linear RGB, 0 to 10¹²; alpha is ignored.
+    /// Default black.
+    pub emission: LinearRgba,
+    /// The exponent of the highlight, finite, 0 or more: α under Phong reflectance, where 5–10 looks like plastic and
+    /// 100–200 like metal; β under Blinn–Phong, where about four times as much gives a highlight of the same size
+    /// ([`crate::matched_shininess`]). 0 gives a highlight as wide as the lit side. Default 32.
+    pub shininess: f32,
+    /// 0 (clear) to 1 (opaque). Ignored, and the surface opaque, unless the entity has [`crate::Blend`]. Default 1.
+    pub opacity: f32,
+}
+
+impl Material {
+    /// What [`Material::default`] returns, for constants.
+    pub const DEFAULT: Self = Self {
+        ambient: LinearRgba::rgb(0.2, 0.2, 0.2),
+        diffuse: LinearRgba::rgb(0.8, 0.8, 0.8),
+        specular: LinearRgba::BLACK,
+        emission: LinearRgba::BLACK,
+        shininess: 32.0,
+        opacity: 1.0,
+    };
+
+    /// A surface without a highlight: ambient and diffuse are `color`.
+    pub const fn matte(color: LinearRgba) -> Self {
+        Self { ambient: color, diffuse: color, ..Self::DEFAULT }
+    }
+
+    /// A coloured surface with a half-bright white highlight of shininess 32: ambient and diffuse are `color`, specular
+    /// is 0.5 grey, since plastic reflects at its surface without colouring the light.
+    pub const fn plastic(color: LinearRgba) -> Self {
+        Self { specular: LinearRgba::rgb(0.5, 0.5, 0.5), ..Self::matte(color) }
+    }
+
+    /// A surface that shines by itself and takes no light: emission is `color`, all else black.
+    pub const fn emissive(color: LinearRgba) -> Self {
+        Self { emission: color, ..Self::matte(LinearRgba::BLACK) }
+    }
+
+    /// Checks every field.
+    ///
+    /// # Errors
+    /// The first field that is outside the range it documents.
+    pub fn validate(&self) -> Result<(), InvalidValue> {
+        self.validate_as(Fields::of("Material"))
+    }
+
+    fn validate_as(&self, fields: Fields) -> Result<(), InvalidValue> {
+        fields.color("ambient", self.ambient)?;
+        fields.color("diffuse", self.diffuse)?;
+        fields.color("specular", self.specular)?;
+        fields.color("emission", self.emission)?;
+        fields.non_negative("shininess", self.shininess)?;
+        fields.unit_interval("opacity", self.opacity)
+    }
+}
+
+impl Default for Material {
+    fn default() -> Self {
+        Self::DEFAULT
+    }
+}
+
+/// The material of back faces, where they are drawn ([`crate::Faces`]) and differ from the front.
+///
+/// Without it back faces take the entity's [`Material`].
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
+pub struct BackMaterial(pub Material);
+
+impl BackMaterial {
+    /// Checks every field of the material.
+    ///
+    /// # Errors
+    /// The first field that is outside the range it documents.
+    pub fn validate(&self) -> Result<(), InvalidValue> {
+        self.0.validate_as(Fields::of("BackMaterial"))
+    }
+}

@@ -1,0 +1,74 @@
+//! How often a surface is shaded, by which reflectance, and on which side.
+
+use bevy_ecs::component::Component;
+
+/// The shading frequency: where the equation is evaluated.
+///
+/// On an object it wins over the one on the camera.
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Shading {
+    /// One colour a triangle, at its centroid and with its geometric normal turned to the side seen.
+    Flat,
+    /// At each vertex with the vertex normal; colours are interpolated over the triangle, perspective-correctly and
+    /// unclamped.
+    Gouraud,
+    /// At each fragment with the interpolated, renormalised normal.
+    #[default]
+    Phong,
+}
+
+/// The specular term: how a highlight falls off.
+///
+/// On an object it wins over the one on the camera.
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Reflectance {
+    /// Phong 1975: `max(r·v, 0)^α`, r the reflected light direction and α the material's shininess.
+    Phong,
+    /// Blinn 1977: `max(n·h, 0)^β`, h the halfway vector and β the material's shininess.
+    #[default]
+    BlinnPhong,
+    /// Blinn–Phong with β matched to the material's shininess taken as Phong's α ([`crate::matched_shininess`]), so
+    /// that a highlight has about the size it has under [`Reflectance::Phong`].
+    BlinnPhongMatched,
+}
+
+/// Which sides of a surface are drawn. Front faces wind counter-clockwise, also under a mirroring transform.
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Faces {
+    /// Front faces; back faces are culled.
+    #[default]
+    Front,
+    /// Back faces only, lit with the flipped normal and the [`crate::BackMaterial`], if any.
+    Back,
+    /// Both.
+    Both,
+}
+
+impl Faces {
+    /// Whether front faces are drawn.
+    pub const fn shows_front(self) -> bool {
+        matches!(self, Self::Front | Self::Both)
+    }
+
+    /// Whether back faces are drawn.
+    pub const fn shows_back(self) -> bool {
+        matches!(self, Self::Back | Self::Both)
+    }
+}
+
+/// Marks a surface as blended: drawn after the opaque ones, sorted back to front, by its material's opacity.
+///
+/// Without it a surface is opaque whatever its opacity says.
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Blend;
+
+/// Where the viewer is for the highlights.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Viewer {
+    /// v points from the surface to the eye.
+    #[default]
+    Local,
+    /// v is (0, 0, 1) in eye space everywhere: cheaper, and right only for a far or orthographic camera.
+    Infinite,
+}

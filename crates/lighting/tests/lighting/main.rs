@@ -1,0 +1,20 @@
+//! What `halfway_lighting` promises, row by row.
+
+// Equality is meant where it is asserted: constants, exact edges, one path equal to another.
+#![allow(clippy::float_cmp)]
+
+mod components;
+mod conversion;
+mod degenerate;
+mod ecs;
+mod falloff;
+mod homework;
+mod magnitudes;
+mod matched;
+mod normals;
+mod place;
+mod precision;
+mod reflectance;
+mod shade;
+mod support;
+mod vectors;
