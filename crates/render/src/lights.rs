@@ -199,14 +199,12 @@ impl LightList {
     }
 }
 
-/// KHR_lights_punctual: s = clamp((cos φ − cos cutoff)/max(cos inner − cos cutoff, 0.001), 0, 1) as
-/// scale and offset of cos φ; 0 and 1 where there is no inner cone.
+/// The inner cone's fade of KHR_lights_punctual, s = clamp((cos φ − cos cutoff)/(cos inner − cos cutoff), 0, 1), as scale
+/// and offset of cos φ; 0 and 1, which is s = 1, where there is no inner cone or it is as wide as the cutoff.
 fn inner_fade(cone: &Cone) -> (f32, f32) {
-    cone.inner.map_or((0.0, 1.0), |inner| {
-        let cos_cutoff = f64::from(cone.cutoff).cos();
-        let scale = 1.0 / (f64::from(inner).cos() - cos_cutoff).max(1e-3);
-        (scale as f32, (-cos_cutoff * scale) as f32)
-    })
+    let cos_cutoff = f64::from(cone.cutoff).cos();
+    let width = cone.inner.map_or(0.0, |inner| f64::from(inner).cos() - cos_cutoff);
+    if width > 0.0 { ((1.0 / width) as f32, (-cos_cutoff / width) as f32) } else { (0.0, 1.0) }
 }
 
 pub(crate) fn rgb(color: LinearRgba) -> Vec3 {

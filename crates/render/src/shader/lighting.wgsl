@@ -143,10 +143,11 @@ fn add_finite_light(sum: Irradiance, light: Light, cone: bool, p: vec3f, n: vec3
     return add_light(sum, light, l, arriving, n, v, shininess);
 }
 
-// v: toward the eye, or (0, 0, 1) for an infinite viewer.
-fn to_viewer(p: vec3f) -> vec3f {
+// v: toward the eye, or (0, 0, 1) for an infinite viewer. An eye on the surface looks along n.
+fn to_viewer(p: vec3f, n: vec3f) -> vec3f {
     if LOCAL_VIEWER {
-        return -p * inverseSqrt(max(dot(p, p), SMALLEST_NORMAL));
+        let squared = dot(p, p);
+        return select(-p * inverseSqrt(max(squared, SMALLEST_NORMAL)), n, squared < SMALLEST_NORMAL);
     }
     return vec3f(0.0, 0.0, 1.0);
 }

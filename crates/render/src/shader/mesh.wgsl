@@ -69,7 +69,7 @@ fn clip_position(eye: vec3f) -> vec4f {
 }
 
 fn arriving(p: vec3f, n: vec3f, shininess: f32, first: u32, directional: u32, points: u32, spots: u32) -> Irradiance {
-    let v = to_viewer(p);
+    let v = to_viewer(p, n);
     var sum = Irradiance();
     var end = first + directional;
     for (var i = first; i < end; i++) {

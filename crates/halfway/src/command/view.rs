@@ -1,0 +1,25 @@
+//! `halfway view`.
+
+use clap::Args;
+use halfway::prelude::*;
+
+use super::input::Input;
+use super::{Failure, LookArgs};
+
+#[derive(Args, Debug)]
+pub(super) struct ViewArgs {
+    #[command(flatten)]
+    look: LookArgs,
+}
+
+pub(super) fn run(args: &ViewArgs) -> Result<(), Failure> {
+    let input = Input::read(&args.look)?;
+    let mut app = App::new();
+    app.add_plugins(HalfwayPlugins).insert_resource(WindowTitle(input.name.clone()));
+    input.spawn(&mut app)?;
+    match app.run() {
+        AppExit::Success => Ok(()),
+        // What went wrong has been said where it happened.
+        AppExit::Error(code) => Err(Failure::new(code.get(), "the window could not be kept open")),
+    }
+}

@@ -1,0 +1,38 @@
+//! Classic local lighting and shading as plugins for ECS apps.
+//!
+//! Flat, Gouraud and Phong shading with Phong and Blinn–Phong reflectance, for point, spot, directional
+//! and ambient lights, in any `bevy_app` App, on wgpu, in a window or without one:
+//!
+//! ```no_run
+//! use halfway::prelude::*;
+//!
+//! fn main() -> AppExit {
+//!     App::new().add_plugins(HalfwayPlugins).add_systems(Startup, scene).run()
+//! }
+//!
+//! fn scene(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>) {
+//!     commands.spawn((Camera::default(), Transform::from_xyz(0.0, 2.0, 6.0).looking_at(Vec3::ZERO, Vec3::Y)));
+//!     commands.spawn((Mesh3d(meshes.add(Teapot::new(8))), Material::BRASS, Shading::Phong));
+//!     commands.spawn((PointLight::white(), Transform::from_xyz(2.0, 3.0, 2.0)));
+//! }
+//! ```
+//!
+//! The same App draws without a window: [`HalfwayPlugins::headless`] and [`render_picture`](render::render_picture)
+//! for one picture, [`record`] for many. [`scene`] reads scene files. The rooms that this crate opens onto are
+//! [`mesh`], [`lighting`], [`render`] and, with the feature `window`, `window`.
+
+pub mod output;
+pub mod prelude;
+pub mod record;
+pub mod scene;
+
+mod demo;
+mod plugins;
+
+pub use plugins::HalfwayPlugins;
+
+pub use halfway_lighting as lighting;
+pub use halfway_mesh as mesh;
+pub use halfway_render as render;
+#[cfg(feature = "window")]
+pub use halfway_window as window;

@@ -1,0 +1,116 @@
+//! Animated PNG.
+
+use std::fs::File;
+use std::io::BufWriter;
+use std::path::Path;
+
+use halfway_render::{Encoding, Picture};
+
+use super::OutputError;
+use super::encode::to_bytes;
+use super::format::ending;
+use super::partial::Partial;
+use super::picture::{not_empty, png_encoder};
+
+/// How long a frame is shown: `numerator / denominator` seconds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FrameDelay {
+    /// The numerator; 0 is as fast as the viewer can.
+    pub numerator: u16,
+    /// The denominator; 0 stands for 100.
+    pub denominator: u16,
+}
+
+impl FrameDelay {
+    /// So many frames in a second; 0 is taken as 1.
+    pub const fn per_second(frames: u16) -> Self {
+        Self { numerator: 1, denominator: if frames == 0 { 1 } else { frames } }
+    }
+}
+
+impl Default for FrameDelay {
+    /// 30 frames in a second.
+    fn default() -> Self {
+        Self::per_second(30)
+    }
+}
+
+/// Writes an animated PNG of 8 bits a channel, frame by frame. Viewers that do not animate show the first frame.
+///
+/// The file appears when [`finish`](Self::finish) is called; a writer that is dropped before leaves nothing behind.
+pub struct AnimationWriter {
+    // Dropped first, so that the file is closed before it is removed.
+    writer: png::Writer<BufWriter<File>>,
+    partial: Partial,
+    size: (u32, u32),
+    encoding: Encoding,
+    written: u32,
+    frames: u32,
+}
+
+impl AnimationWriter {
+    /// Begins an animation of `frames` frames of `size` pixels (width, height), repeated without end.
+    ///
+    /// # Errors
+    /// The file does not end in `.png` or `.apng`, the size or the number of frames is 0, or the file cannot be made.
+    pub fn create(
+        file: &Path,
+        size: (u32, u32),
+        frames: u32,
+        delay: FrameDelay,
+        encoding: Encoding,
+    ) -> Result<Self, OutputError> {
+        if !matches!(ending(file).as_str(), "png" | "apng") {
+            return Err(OutputError::UnknownEnding { file: file.to_owned(), known: ".png or .apng" });
+        }
+        not_empty(file, size)?;
+        if frames == 0 {
+            return Err(OutputError::FrameCount { file: file.to_owned(), found: 0, expected: 0 });
+        }
+        let (partial, file_writer) = Partial::create(file)?;
+        let mut encoder = png_encoder(file_writer, size.0, size.1, png::BitDepth::Eight, encoding);
+        let writer = encoder
+            .set_animated(frames, 0)
+            .and_then(|()| encoder.set_frame_delay(delay.numerator, delay.denominator))
+            .and_then(|()| encoder.write_header())
+            .map_err(|error| OutputError::png(file, error))?;
+        Ok(Self { writer, partial, size, encoding, written: 0, frames })
+    }
+
+    /// Adds the next frame. One drawn in floating point is clamped and encoded.
+    ///
+    /// # Errors
+    /// The frame has another size than the animation, there are more frames than announced, or it cannot be written.
+    pub fn frame(&mut self, picture: &Picture) -> Result<(), OutputError> {
+        let (found_width, found_height) = picture.dimensions();
+        let (width, height) = self.size;
+        let file = self.partial.file();
+        if (found_width, found_height) != (width, height) {
+            let (file, frame) = (file.to_owned(), self.written);
+            return Err(OutputError::FrameSize { file, frame, found_width, found_height, width, height });
+        }
+        if self.written == self.frames {
+            let (file, found) = (file.to_owned(), self.frames.saturating_add(1));
+            return Err(OutputError::FrameCount { file, found, expected: self.frames });
+        }
+        self.writer
+            .write_image_data(to_bytes(picture, self.encoding).as_raw())
+            .map_err(|error| OutputError::png(file, error))?;
+        self.written += 1;
+        Ok(())
+    }
+
+    /// Ends the animation and puts the file in its place.
+    ///
+    /// # Errors
+    /// Frames are missing, or the file cannot be written.
+    pub fn finish(self) -> Result<(), OutputError> {
+        let Self { writer, partial, written, frames, .. } = self;
+        if written != frames {
+            let file = partial.file().to_owned();
+            return Err(OutputError::FrameCount { file, found: written, expected: frames });
+        }
+        writer.finish().map_err(|error| OutputError::png(partial.file(), error))?;
+        partial.keep()
+    }
+}

@@ -1,0 +1,73 @@
+//! Many frames on one picture.
+
+use halfway_render::{Encoding, Picture};
+use image::imageops::{self, FilterType};
+use image::{Rgba, RgbaImage};
+
+use super::encode::{quantise, to_linear};
+
+/// A grid of frames, each made smaller, row by row from the top left.
+///
+/// Frames are made smaller as light, not as encoded values, so that fine bright lines keep their brightness. Only the
+/// small ones are kept.
+#[derive(Clone, Debug)]
+pub struct ContactSheet {
+    columns: u32,
+    width: u32,
+    encoding: Encoding,
+    cells: Vec<RgbaImage>,
+}
+
+/// The pixels between and around frames, and their colour.
+const GAP: u32 = 4;
+const PAPER: Rgba<u8> = Rgba([24, 24, 24, 255]);
+
+impl ContactSheet {
+    /// A sheet of `columns` frames in a row, each `width` pixels wide and as high as its shape needs. 0 is taken as 1.
+    pub fn new(columns: u32, width: u32, encoding: Encoding) -> Self {
+        Self { columns: columns.max(1), width: width.max(1), encoding, cells: Vec::new() }
+    }
+
+    /// Adds a frame. Frames narrower than the cells keep their size; frames without pixels are left out.
+    pub fn push(&mut self, frame: &Picture) {
+        let (width, height) = frame.dimensions();
+        if width == 0 || height == 0 {
+            return;
+        }
+        let cell_width = self.width.min(width);
+        let cell_height = (u64::from(height) * u64::from(cell_width)).div_ceil(u64::from(width)) as u32;
+        let linear = to_linear(frame, self.encoding);
+        let small = imageops::resize(&linear, cell_width, cell_height, FilterType::Triangle);
+        self.cells.push(RgbaImage::from_fn(cell_width, cell_height, |x, y| {
+            let [r, g, b] = small.get_pixel(x, y).0.map(|i| quantise(i, self.encoding, 255) as u8);
+            Rgba([r, g, b, 255])
+        }));
+    }
+
+    /// How many frames are on the sheet.
+    pub fn len(&self) -> usize {
+        self.cells.len()
+    }
+
+    /// Whether there is no frame on the sheet.
+    pub fn is_empty(&self) -> bool {
+        self.cells.is_empty()
+    }
+
+    /// The sheet as a picture of 8 bits a channel. A sheet without frames is an empty picture, which cannot be written.
+    pub fn picture(&self) -> Picture {
+        let Some(width) = self.cells.iter().map(RgbaImage::width).max() else {
+            return Picture::Byte(RgbaImage::new(0, 0));
+        };
+        let height = self.cells.iter().map(RgbaImage::height).max().unwrap_or(0);
+        let columns = self.columns.min(self.cells.len() as u32);
+        let rows = (self.cells.len() as u32).div_ceil(columns);
+        let mut sheet = RgbaImage::from_pixel(columns * (width + GAP) + GAP, rows * (height + GAP) + GAP, PAPER);
+        for (i, cell) in self.cells.iter().enumerate() {
+            let (row, column) = (i as u32 / columns, i as u32 % columns);
+            let (x, y) = (GAP + column * (width + GAP), GAP + row * (height + GAP));
+            imageops::replace(&mut sheet, cell, i64::from(x), i64::from(y));
+        }
+        Picture::Byte(sheet)
+    }
+}

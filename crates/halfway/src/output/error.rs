@@ -1,0 +1,121 @@
+//! What can go wrong while a picture is written.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+/// A picture that could not be written. Nothing is left where it should have been.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum OutputError {
+    /// The file's ending names no format that is written.
+    #[error("{}: unknown ending; expected a file that ends in {known}", file.display())]
+    UnknownEnding {
+        /// The file.
+        file: PathBuf,
+        /// The endings that are known, in words.
+        known: &'static str,
+    },
+    /// The format does not come with that number of bits.
+    #[error("{}: {bits} bits a channel were asked for; expected {expected}", file.display())]
+    Bits {
+        /// The file.
+        file: PathBuf,
+        /// What was asked for.
+        bits: u32,
+        /// What the format can hold, in words.
+        expected: &'static str,
+    },
+    /// A picture of 8 bits a channel is to be written with more.
+    #[error(
+        "{}: the picture was drawn with 8 bits a channel, which this format would only pretend to refine; \
+         draw it in floating point",
+        file.display()
+    )]
+    TooCoarse {
+        /// The file.
+        file: PathBuf,
+    },
+    /// The picture has no pixels.
+    #[error("{}: the picture is {width} × {height} pixels; expected at least 1 × 1", file.display())]
+    Empty {
+        /// The file.
+        file: PathBuf,
+        /// Its width in pixels.
+        width: u32,
+        /// Its height in pixels.
+        height: u32,
+    },
+    /// A frame of an animation differs in size from the first.
+    #[error(
+        "{}: frame {frame} is {found_width} × {found_height} pixels; expected {width} × {height} as announced",
+        file.display()
+    )]
+    FrameSize {
+        /// The file.
+        file: PathBuf,
+        /// The frame, counted from 0.
+        frame: u32,
+        /// The frame's width in pixels.
+        found_width: u32,
+        /// The frame's height in pixels.
+        found_height: u32,
+        /// The animation's width in pixels.
+        width: u32,
+        /// The animation's height in pixels.
+        height: u32,
+    },
+    /// An animation got more or fewer frames than it was to have.
+    #[error("{}: {found} frames were given; expected {expected} as announced, and at least 1", file.display())]
+    FrameCount {
+        /// The file.
+        file: PathBuf,
+        /// How many frames were given.
+        found: u32,
+        /// How many were announced.
+        expected: u32,
+    },
+    /// There is something at the file's place that is not a file, such as a folder.
+    #[error("{}: is there already, and is not a file", file.display())]
+    NotAFile {
+        /// The file.
+        file: PathBuf,
+    },
+    /// The system did not let it be written.
+    #[error("{}: cannot be written: {source}", file.display())]
+    Io {
+        /// The file.
+        file: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// The encoder failed.
+    #[error("{}: cannot be encoded: {message}", file.display())]
+    Encode {
+        /// The file.
+        file: PathBuf,
+        /// What the encoder said.
+        message: String,
+    },
+}
+
+impl OutputError {
+    pub(super) fn io(file: &Path, source: io::Error) -> Self {
+        Self::Io { file: file.to_owned(), source }
+    }
+
+    pub(super) fn png(file: &Path, error: png::EncodingError) -> Self {
+        match error {
+            png::EncodingError::IoError(source) => Self::io(file, source),
+            other => Self::Encode { file: file.to_owned(), message: other.to_string() },
+        }
+    }
+
+    pub(super) fn image(file: &Path, error: image::ImageError) -> Self {
+        match error {
+            image::ImageError::IoError(source) => Self::io(file, source),
+            other => Self::Encode { file: file.to_owned(), message: other.to_string() },
+        }
+    }
+}

@@ -1,0 +1,70 @@
+//! A file that appears in its place only when it is complete.
+
+use std::fs::{self, File};
+use std::io::{self, BufWriter};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU32, Ordering};
+
+use super::OutputError;
+
+/// A file on its way. Dropped before [`Partial::keep`], it is removed.
+#[derive(Debug)]
+pub(super) struct Partial {
+    /// The name under which it was asked for.
+    file: PathBuf,
+    /// Where it goes: `file`, with links followed.
+    target: PathBuf,
+    /// Where it is until then.
+    waiting: PathBuf,
+    kept: bool,
+}
+
+impl Partial {
+    /// Opens a new file beside `file`, on the same file system so that it can be moved there at once.
+    pub(super) fn create(file: &Path) -> Result<(Self, BufWriter<File>), OutputError> {
+        let io_error = |source| OutputError::io(file, source);
+        // A link keeps its name and gets a new target's content, as it would if it were written directly.
+        let target = match fs::canonicalize(file) {
+            Ok(target) => target,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => file.to_owned(),
+            Err(error) => return Err(io_error(error)),
+        };
+        if target.exists() && !target.is_file() {
+            return Err(OutputError::NotAFile { file: file.to_owned() });
+        }
+        let waiting = beside(&target).ok_or_else(|| OutputError::NotAFile { file: file.to_owned() })?;
+        let handle = File::create_new(&waiting).map_err(io_error)?;
+        Ok((Self { file: file.to_owned(), target, waiting, kept: false }, BufWriter::new(handle)))
+    }
+
+    /// The file's name, for errors.
+    pub(super) fn file(&self) -> &Path {
+        &self.file
+    }
+
+    /// Moves the complete and closed file to its place.
+    pub(super) fn keep(mut self) -> Result<(), OutputError> {
+        fs::rename(&self.waiting, &self.target).map_err(|source| OutputError::io(&self.file, source))?;
+        self.kept = true;
+        Ok(())
+    }
+}
+
+impl Drop for Partial {
+    fn drop(&mut self) {
+        if !self.kept {
+            // Nobody is left to tell; the error that led here is already on its way.
+            let _ = fs::remove_file(&self.waiting);
+        }
+    }
+}
+
+/// A name of its own for this process and this file.
+fn beside(target: &Path) -> Option<PathBuf> {
+    static COUNTER: AtomicU32 = AtomicU32::new(0);
+    let number = COUNTER.fetch_add(1, Ordering::Relaxed);
+    let mut name = std::ffi::OsString::from(".");
+    name.push(target.file_name()?);
+    name.push(format!(".{}-{number}.partial", std::process::id()));
+    Some(target.with_file_name(name))
+}

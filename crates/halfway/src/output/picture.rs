@@ -1,0 +1,116 @@
+//! Still pictures.
+
+use std::io::Write;
+use std::path::Path;
+
+use halfway_render::{Encoding, Picture};
+use image::{DynamicImage, ImageFormat, Rgba32FImage};
+
+use super::encode::{quantise, to_bytes};
+use super::partial::Partial;
+use super::{OutputError, PictureFormat};
+
+/// Writes a picture to a file, replacing one that is there.
+///
+/// `encoding` is the camera's. In a PNG, a picture drawn in floating point is clamped to [0, 1] and encoded with it;
+/// one drawn in bytes is encoded already. A PNG of sRGB values says so (`sRGB`, `gAMA` and `cHRM` chunks); raw values
+/// carry no such chunk, since they are meant to be seen as they are. In an EXR the intensities stand as they were drawn.
+///
+/// # Errors
+/// [`OutputError::TooCoarse`] for a byte picture in a format that holds more, [`OutputError::Empty`] for one without
+/// pixels, and whatever keeps the file from being written. The file then is as it was before.
+pub fn write_picture(
+    picture: &Picture,
+    file: &Path,
+    format: PictureFormat,
+    encoding: Encoding,
+) -> Result<(), OutputError> {
+    not_empty(file, picture.dimensions())?;
+    match (format, picture) {
+        (PictureFormat::Png8, _) => {
+            let bytes = to_bytes(picture, encoding);
+            write_png(file, picture.dimensions(), png::BitDepth::Eight, encoding, bytes.as_raw())
+        }
+        (PictureFormat::Png16, Picture::Float(image)) => {
+            let bytes = sixteen_bits(image, encoding);
+            write_png(file, picture.dimensions(), png::BitDepth::Sixteen, encoding, &bytes)
+        }
+        (PictureFormat::Exr, Picture::Float(image)) => write_exr(file, image),
+        (PictureFormat::Png16 | PictureFormat::Exr, Picture::Byte(_)) => {
+            Err(OutputError::TooCoarse { file: file.to_owned() })
+        }
+    }
+}
+
+/// Three channels of 16 bits, the high byte first as PNG has them.
+fn sixteen_bits(image: &Rgba32FImage, encoding: Encoding) -> Vec<u8> {
+    let mut bytes = Vec::with_capacity(image.as_raw().len() / 4 * 6);
+    for pixel in image.pixels() {
+        for &intensity in &pixel.0[..3] {
+            bytes.extend(quantise(intensity, encoding, u16::MAX).to_be_bytes());
+        }
+    }
+    bytes
+}
+
+fn write_png(
+    file: &Path,
+    (width, height): (u32, u32),
+    depth: png::BitDepth,
+    encoding: Encoding,
+    data: &[u8],
+) -> Result<(), OutputError> {
+    let (partial, writer) = Partial::create(file)?;
+    let encoder = png_encoder(writer, width, height, depth, encoding);
+    encoder
+        .write_header()
+        .and_then(|mut writer| {
+            writer.write_image_data(data)?;
+            writer.finish()
+        })
+        .map_err(|error| OutputError::png(file, error))?;
+    partial.keep()
+}
+
+/// An encoder for pictures of three channels, with the chunks that say what the values mean.
+pub(super) fn png_encoder<W: Write>(
+    writer: W,
+    width: u32,
+    height: u32,
+    depth: png::BitDepth,
+    encoding: Encoding,
+) -> png::Encoder<'static, W> {
+    let mut encoder = png::Encoder::new(writer, width, height);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(depth);
+    encoder.validate_sequence(true);
+    if encoding == Encoding::Srgb {
+        encoder.set_source_srgb(png::SrgbRenderingIntent::RelativeColorimetric);
+        // For readers that do not know the sRGB chunk: the values that the PNG specification gives for it.
+        encoder.set_source_gamma(png::ScaledFloat::from_scaled(45_455));
+        let scaled = |x: u32, y: u32| (png::ScaledFloat::from_scaled(x), png::ScaledFloat::from_scaled(y));
+        encoder.set_source_chromaticities(png::SourceChromaticities {
+            white: scaled(31_270, 32_900),
+            red: scaled(64_000, 33_000),
+            green: scaled(30_000, 60_000),
+            blue: scaled(15_000, 6_000),
+        });
+    }
+    encoder
+}
+
+fn write_exr(file: &Path, image: &Rgba32FImage) -> Result<(), OutputError> {
+    let (partial, mut writer) = Partial::create(file)?;
+    let rgb = DynamicImage::ImageRgba32F(image.clone()).into_rgb32f();
+    rgb.write_to(&mut writer, ImageFormat::OpenExr).map_err(|error| OutputError::image(file, error))?;
+    writer.flush().map_err(|source| OutputError::io(file, source))?;
+    drop(writer);
+    partial.keep()
+}
+
+pub(super) fn not_empty(file: &Path, (width, height): (u32, u32)) -> Result<(), OutputError> {
+    if width == 0 || height == 0 {
+        return Err(OutputError::Empty { file: file.to_owned(), width, height });
+    }
+    Ok(())
+}

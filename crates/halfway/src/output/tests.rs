@@ -1,0 +1,277 @@
+//! Pictures written and read back by the decoders of other crates.
+
+#![allow(clippy::float_cmp, reason = "what is written has to be read back exactly")]
+
+use std::fs::{self, File};
+use std::io::BufReader;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU32, Ordering};
+
+use halfway_render::{Encoding, Picture, Pixels};
+use image::{DynamicImage, Rgba, Rgba32FImage, RgbaImage};
+
+use super::*;
+
+/// A folder of its own for a test, removed at its end.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new() -> Self {
+        static COUNTER: AtomicU32 = AtomicU32::new(0);
+        let number = COUNTER.fetch_add(1, Ordering::Relaxed);
+        let folder = std::env::temp_dir().join(format!("halfway-output-{}-{number}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        Self(folder)
+    }
+
+    fn file(&self, name: &str) -> PathBuf {
+        self.0.join(name)
+    }
+
+    fn names(&self) -> Vec<String> {
+        let mut names: Vec<String> =
+            fs::read_dir(&self.0).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+/// 3 × 2 pixels, all different, so that a swapped axis or channel shows.
+fn bytes() -> Picture {
+    Picture::Byte(RgbaImage::from_fn(3, 2, |x, y| Rgba([10 * x as u8, 100 + 50 * y as u8, 7, 255])))
+}
+
+fn floats() -> Picture {
+    Picture::Float(Rgba32FImage::from_fn(3, 2, |x, y| Rgba([0.25 * x as f32, 3.5 * y as f32, 1e-3, 1.0])))
+}
+
+fn chunks(file: &Path) -> Vec<String> {
+    let data = fs::read(file).unwrap();
+    let mut names = Vec::new();
+    let mut at = 8;
+    while at + 8 <= data.len() {
+        let length = u32::from_be_bytes(data[at..at + 4].try_into().unwrap()) as usize;
+        names.push(String::from_utf8_lossy(&data[at + 4..at + 8]).into_owned());
+        at += length + 12;
+    }
+    names
+}
+
+#[test]
+fn formats_by_ending_and_bits() {
+    use PictureFormat::{Exr, Png8, Png16};
+    for (file, bits, expected) in [
+        ("a.png", None, Ok(Png8)),
+        ("a.PNG", Some(8), Ok(Png8)),
+        ("a.png", Some(16), Ok(Png16)),
+        ("dir.exr/a.png", None, Ok(Png8)),
+        ("a.exr", None, Ok(Exr)),
+        ("a.Exr", Some(32), Ok(Exr)),
+        ("a.png", Some(10), Err("a.png: 10 bits a channel were asked for; expected 8 or 16 in a PNG")),
+        (
+            "a.exr",
+            Some(16),
+            Err("a.exr: 16 bits a channel were asked for; expected 32 in an EXR, or the bits left out"),
+        ),
+        ("a.jpg", None, Err("a.jpg: unknown ending; expected a file that ends in .png or .exr")),
+        ("png", None, Err("png: unknown ending; expected a file that ends in .png or .exr")),
+        ("", None, Err(": unknown ending; expected a file that ends in .png or .exr")),
+    ] {
+        let found = PictureFormat::of(Path::new(file), bits).map_err(|error| error.to_string());
+        assert_eq!(found, expected.map_err(str::to_owned), "{file} {bits:?}");
+    }
+    assert_eq!([Png8, Png16, Exr].map(PictureFormat::pixels), [Pixels::Byte, Pixels::Float, Pixels::Float]);
+}
+
+#[test]
+fn a_png_of_bytes_is_those_bytes() {
+    let folder = Folder::new();
+    let file = folder.file("a.png");
+    for (encoding, marked) in [(Encoding::Srgb, true), (Encoding::Raw, false)] {
+        write_picture(&bytes(), &file, PictureFormat::Png8, encoding).unwrap();
+        let DynamicImage::ImageRgb8(image) = image::open(&file).unwrap() else { panic!("8 bits") };
+        assert_eq!(image, to_bytes(&bytes(), encoding));
+        assert_eq!(image.get_pixel(2, 1).0, [20, 150, 7]);
+        for chunk in ["sRGB", "gAMA", "cHRM"] {
+            assert_eq!(chunks(&file).contains(&chunk.to_owned()), marked, "{chunk} {encoding:?}");
+        }
+    }
+    assert_eq!(folder.names(), ["a.png"], "the second picture replaced the first, and nothing else is there");
+}
+
+#[test]
+fn a_png_of_floats_is_clamped_and_encoded() {
+    let folder = Folder::new();
+    let file = folder.file("a.png");
+    for (format, encoding, expected) in [
+        // x = 2, y = 1: 0.5, 3.5 and 0.001. sRGB of 0.5 is 0.735357, of 0.001 12.92 times that.
+        (PictureFormat::Png8, Encoding::Srgb, [188, 255, 3]),
+        (PictureFormat::Png8, Encoding::Raw, [128, 255, 0]),
+        (PictureFormat::Png16, Encoding::Srgb, [48192, 65535, 847]),
+        (PictureFormat::Png16, Encoding::Raw, [32768, 65535, 66]),
+    ] {
+        write_picture(&floats(), &file, format, encoding).unwrap();
+        let found = match image::open(&file).unwrap() {
+            DynamicImage::ImageRgb8(image) => image.get_pixel(2, 1).0.map(u16::from),
+            DynamicImage::ImageRgb16(image) => image.get_pixel(2, 1).0,
+            other => panic!("{:?}", other.color()),
+        };
+        assert_eq!(found, expected, "{format:?} {encoding:?}");
+    }
+}
+
+#[test]
+fn an_exr_holds_every_number_as_it_is() {
+    let folder = Folder::new();
+    let file = folder.file("a.exr");
+    for encoding in [Encoding::Srgb, Encoding::Raw] {
+        write_picture(&floats(), &file, PictureFormat::Exr, encoding).unwrap();
+        let DynamicImage::ImageRgb32F(image) = image::open(&file).unwrap() else { panic!("three floats") };
+        assert_eq!(image.dimensions(), (3, 2));
+        for (x, y, pixel) in image.enumerate_pixels() {
+            assert_eq!(pixel.0, [0.25 * x as f32, 3.5 * y as f32, 1e-3]);
+        }
+    }
+    let beyond = Picture::Float(Rgba32FImage::from_pixel(1, 1, Rgba([f32::INFINITY, -2.0, f32::MAX, 1.0])));
+    write_picture(&beyond, &file, PictureFormat::Exr, Encoding::Srgb).unwrap();
+    assert_eq!(image::open(&file).unwrap().into_rgb32f().get_pixel(0, 0).0, [f32::INFINITY, -2.0, f32::MAX]);
+}
+
+#[test]
+fn pictures_that_cannot_be_written_leave_nothing() {
+    let folder = Folder::new();
+    let file = folder.file("a.png");
+    let exr = folder.file("a.exr");
+    let nowhere = folder.file("missing/a.png");
+    let is_folder = folder.file("folder.png");
+    fs::create_dir(&is_folder).unwrap();
+    fs::write(&file, "what was there").unwrap();
+    let empty = Picture::Byte(RgbaImage::new(0, 5));
+    for (picture, file, format, message) in [
+        (&bytes(), &file, PictureFormat::Png16, "the picture was drawn with 8 bits a channel"),
+        (&bytes(), &exr, PictureFormat::Exr, "the picture was drawn with 8 bits a channel"),
+        (&empty, &file, PictureFormat::Png8, "the picture is 0 × 5 pixels; expected at least 1 × 1"),
+        (&bytes(), &nowhere, PictureFormat::Png8, "cannot be written: "),
+        (&bytes(), &is_folder, PictureFormat::Png8, "is there already, and is not a file"),
+    ] {
+        let error = write_picture(picture, file, format, Encoding::Srgb).unwrap_err().to_string();
+        assert!(error.starts_with(&format!("{}: {message}", file.display())), "{error}");
+    }
+    assert_eq!(folder.names(), ["a.png", "folder.png"]);
+    assert_eq!(fs::read_to_string(&file).unwrap(), "what was there");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_keeps_pointing_where_it_did() {
+    let folder = Folder::new();
+    let (target, link) = (folder.file("target.png"), folder.file("link.png"));
+    fs::write(&target, "old").unwrap();
+    std::os::unix::fs::symlink(&target, &link).unwrap();
+    write_picture(&bytes(), &link, PictureFormat::Png8, Encoding::Srgb).unwrap();
+    assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+    assert_eq!(image::open(&target).unwrap().width(), 3);
+}
+
+fn frame(grey: u8) -> Picture {
+    Picture::Byte(RgbaImage::from_pixel(4, 3, Rgba([grey, grey, grey, 255])))
+}
+
+#[test]
+fn an_animation_has_its_frames_and_their_delay() {
+    let folder = Folder::new();
+    let file = folder.file("a.png");
+    let delay = FrameDelay::per_second(24);
+    let mut writer = AnimationWriter::create(&file, (4, 3), 3, delay, Encoding::Srgb).unwrap();
+    for grey in [10, 20, 30] {
+        writer.frame(&frame(grey)).unwrap();
+    }
+    assert!(!file.exists(), "not before it is complete");
+    writer.finish().unwrap();
+    assert_eq!(folder.names(), ["a.png"]);
+
+    let mut reader = png::Decoder::new(BufReader::new(File::open(&file).unwrap())).read_info().unwrap();
+    let control = *reader.info().animation_control().unwrap();
+    assert_eq!((control.num_frames, control.num_plays), (3, 0));
+    let mut data = vec![0; reader.output_buffer_size().unwrap()];
+    for grey in [10, 20, 30] {
+        reader.next_frame(&mut data).unwrap();
+        let shown = reader.info().frame_control().unwrap();
+        assert_eq!((shown.delay_num, shown.delay_den), (1, 24));
+        assert!(data.iter().all(|&byte| byte == grey), "{grey}");
+    }
+    // A viewer that does not animate shows the first frame.
+    assert_eq!(image::open(&file).unwrap().into_rgb8().get_pixel(0, 0).0, [10, 10, 10]);
+}
+
+#[test]
+fn an_animation_that_is_not_as_announced_leaves_nothing() {
+    let folder = Folder::new();
+    let file = folder.file("a.apng");
+    let create =
+        |file: &Path, size, frames| AnimationWriter::create(file, size, frames, FrameDelay::default(), Encoding::Raw);
+    let refused = |result: Result<AnimationWriter, OutputError>| result.map(|_| ()).unwrap_err().to_string();
+    let name = file.display();
+    assert_eq!(
+        refused(create(&file, (4, 3), 0)),
+        format!("{name}: 0 frames were given; expected 0 as announced, and at least 1")
+    );
+    assert!(refused(create(&file, (0, 3), 1)).contains("the picture is 0 × 3 pixels"));
+    let gif = folder.file("a.gif");
+    assert!(
+        refused(create(&gif, (4, 3), 1)).contains("a.gif: unknown ending; expected a file that ends in .png or .apng")
+    );
+
+    let mut writer = create(&file, (4, 3), 2).unwrap();
+    writer.frame(&frame(1)).unwrap();
+    let error = writer.frame(&bytes()).unwrap_err().to_string();
+    assert_eq!(error, format!("{name}: frame 1 is 3 × 2 pixels; expected 4 × 3 as announced"));
+    let error = writer.finish().unwrap_err().to_string();
+    assert_eq!(error, format!("{name}: 1 frames were given; expected 2 as announced, and at least 1"));
+
+    let mut writer = create(&file, (4, 3), 1).unwrap();
+    writer.frame(&frame(1)).unwrap();
+    let error = writer.frame(&frame(2)).unwrap_err().to_string();
+    assert_eq!(error, format!("{name}: 2 frames were given; expected 1 as announced, and at least 1"));
+    drop(writer);
+    assert_eq!(folder.names(), Vec::<String>::new());
+}
+
+#[test]
+fn a_contact_sheet_shows_every_frame_in_its_place() {
+    let mut sheet = ContactSheet::new(2, 2, Encoding::Srgb);
+    assert!(sheet.is_empty());
+    for grey in [10, 20, 30] {
+        sheet.push(&frame(grey));
+    }
+    sheet.push(&Picture::Byte(RgbaImage::new(0, 0)));
+    assert_eq!(sheet.len(), 3);
+    let Picture::Byte(picture) = sheet.picture() else { panic!("bytes") };
+    // Two columns of 2, two rows of 2 (3 · 2/4, rounded up), gaps of 4 between and around.
+    assert_eq!(picture.dimensions(), (16, 16));
+    for (x, y, grey) in [(4, 4, 10), (10, 4, 20), (5, 11, 30)] {
+        assert_eq!(picture.get_pixel(x, y).0, [grey, grey, grey, 255], "{x} {y}");
+    }
+    for (x, y) in [(3, 4), (8, 4), (10, 10), (15, 15)] {
+        assert_eq!(picture.get_pixel(x, y).0, [24, 24, 24, 255], "paper at {x} {y}");
+    }
+}
+
+#[test]
+fn frames_are_made_smaller_as_light() {
+    let stripes = RgbaImage::from_fn(64, 64, |_, y| Rgba(if y % 2 == 0 { [255; 4] } else { [0, 0, 0, 255] }));
+    // Half the light is 0.5 in linear intensity: 188 of 255 in sRGB, 128 raw.
+    for (encoding, expected) in [(Encoding::Srgb, 188), (Encoding::Raw, 128)] {
+        let mut sheet = ContactSheet::new(1, 8, encoding);
+        sheet.push(&Picture::Byte(stripes.clone()));
+        let Picture::Byte(picture) = sheet.picture() else { panic!("bytes") };
+        let [grey, ..] = picture.get_pixel(8, 8).0;
+        assert!(grey.abs_diff(expected) <= 1, "{encoding:?}: {grey}; 1 for the weights' rounding");
+    }
+}

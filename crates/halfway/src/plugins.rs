@@ -1,0 +1,68 @@
+//! The plugin group.
+
+use bevy_app::{PluginGroup, PluginGroupBuilder, TaskPoolPlugin};
+use bevy_asset::AssetPlugin;
+use bevy_math::UVec2;
+use bevy_time::TimePlugin;
+use bevy_transform::TransformPlugin;
+use halfway_lighting::LightingPlugin;
+use halfway_mesh::MeshPlugin;
+use halfway_render::RenderPlugin;
+
+use crate::demo::Demo;
+use crate::record::HeadlessPlugin;
+
+/// Everything that a lit scene needs: tasks, assets, time, transforms, meshes, lighting, rendering, and a window where
+/// the feature `window` is on. Each plugin also works alone.
+///
+/// Without a window: [`HalfwayPlugins::headless`]. As a demo that takes its target from the command line:
+/// [`HalfwayPlugins::from_args`].
+#[derive(Clone, Copy, Debug, Default)]
+pub struct HalfwayPlugins;
+
+impl PluginGroup for HalfwayPlugins {
+    fn build(self) -> PluginGroupBuilder {
+        let group = Self::common();
+        #[cfg(feature = "window")]
+        let group = group.add(halfway_window::WindowPlugin::default());
+        group
+    }
+}
+
+impl HalfwayPlugins {
+    /// The group without a window: pictures of `size` pixels, to be drawn with
+    /// [`render_picture`](halfway_render::render_picture) or [`record`](crate::record::record).
+    pub fn headless(size: UVec2) -> PluginGroupBuilder {
+        Self::common().add(HeadlessPlugin { size })
+    }
+
+    /// The group for a demo program: a window, or, with `--headless OUT.png` on the command line, pictures on disk.
+    ///
+    /// | argument | meaning |
+    /// |---|---|
+    /// | `--headless FILE` | draw without a window and write FILE: a PNG or EXR, an animated PNG with `--frames` |
+    /// | `--frames N` | draw N frames, 30 a second; 1 unless given |
+    /// | `--size WxH` | pixels; 1280x720 unless given |
+    /// | `--contact-sheet FILE` | write up to 16 of the frames, small, on one PNG |
+    /// | `--model FILE` | left to the program |
+    /// | `--help` | print these and stop |
+    ///
+    /// Arguments that are not understood are refused with exit code 2.
+    pub fn from_args() -> PluginGroupBuilder {
+        match Demo::from_args() {
+            Demo::Window => Self.build(),
+            Demo::Record(recording) => Self::common().add(recording),
+        }
+    }
+
+    fn common() -> PluginGroupBuilder {
+        PluginGroupBuilder::start::<Self>()
+            .add(TaskPoolPlugin::default())
+            .add(AssetPlugin::default())
+            .add(TimePlugin)
+            .add(TransformPlugin)
+            .add(MeshPlugin)
+            .add(LightingPlugin)
+            .add(RenderPlugin::default())
+    }
+}

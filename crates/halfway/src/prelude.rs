@@ -1,0 +1,21 @@
+//! What a scene in code needs, in one `use`.
+
+pub use crate::HalfwayPlugins;
+pub use bevy_app::prelude::*;
+pub use bevy_asset::{Assets, Handle};
+pub use bevy_color::{Color, LinearRgba, Srgba};
+pub use bevy_ecs::prelude::*;
+pub use bevy_math::{EulerRot, Mat3, Mat4, Quat, UVec2, Vec2, Vec3, Vec4};
+pub use bevy_time::{Fixed, Real, Time, Virtual};
+pub use bevy_transform::prelude::{GlobalTransform, Transform, TransformPlugin};
+pub use halfway_lighting::{
+    Attenuation, BackMaterial, Blend, Cone, DirectionalLight, Faces, GlobalAmbient, LightingPlugin, Material,
+    PointLight, Reflectance, Shading, SpotLight, Viewer,
+};
+pub use halfway_mesh::{Cuboid, Mesh, Mesh3d, MeshPlugin, Plane, Teapot, UvSphere};
+pub use halfway_render::{
+    Camera, Encoding, FrameReport, Headless, Intensity, Picture, Pixels, RenderPlugin, RenderSet, Samples, Terms,
+    render_picture,
+};
+#[cfg(feature = "window")]
+pub use halfway_window::{OrbitCamera, OrbitCameraPlugin, ViewerKeysPlugin, WindowPlugin, WindowTitle};

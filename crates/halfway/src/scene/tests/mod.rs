@@ -1,0 +1,8 @@
+//! Scene files from outside: read, refused, written, spawned.
+
+#![allow(clippy::float_cmp, reason = "what is read and written has to be exact")]
+
+mod bad;
+mod defaults;
+mod examples;
+mod spawned;

@@ -1,0 +1,37 @@
+//! The mesh on an entity, and the plugin that makes meshes assets of an app.
+
+use bevy_app::{App, Plugin};
+use bevy_asset::{AssetApp, AssetServer, Handle};
+use bevy_ecs::component::Component;
+use bevy_transform::components::Transform;
+
+use crate::Mesh;
+
+/// The mesh that an entity shows.
+///
+/// The entity's `GlobalTransform` places it; an identity [`Transform`] is added where there is none.
+#[derive(Component, Clone, Debug, Default, PartialEq, Eq)]
+#[require(Transform)]
+pub struct Mesh3d(pub Handle<Mesh>);
+
+impl From<Handle<Mesh>> for Mesh3d {
+    fn from(handle: Handle<Mesh>) -> Self {
+        Self(handle)
+    }
+}
+
+/// Registers [`Mesh`] as an asset, so that systems can take `ResMut<Assets<Mesh>>`.
+///
+/// Adds `bevy_asset`'s `AssetPlugin` with its defaults where the app does not have it yet; add your own before this one
+/// to set it up otherwise.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct MeshPlugin;
+
+impl Plugin for MeshPlugin {
+    fn build(&self, app: &mut App) {
+        if !app.world().contains_resource::<AssetServer>() {
+            app.add_plugins(bevy_asset::AssetPlugin::default());
+        }
+        app.init_asset::<Mesh>();
+    }
+}

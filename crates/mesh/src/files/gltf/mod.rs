@@ -1,0 +1,191 @@
+//! glTF 2.0, in text and binary.
+//!
+//! The `gltf` crate reads the JSON and checks that what is referred to is there; it does not check that the data are,
+//! and its readers may panic where they are not. So every buffer, view and accessor is measured here before it is read.
+
+mod accessor;
+mod buffers;
+mod material;
+mod primitive;
+mod scene;
+
+use std::path::Path;
+
+use gltf::json::Root;
+use gltf::json::extensions::ENABLED_EXTENSIONS;
+use gltf::json::mesh::Semantic;
+use gltf::json::validation::Checked;
+use gltf::{Document, Gltf};
+
+use self::accessor::Accessors;
+use self::primitive::Primitives;
+use super::{LoadError, folder_of};
+use crate::{MeshError, Model};
+
+/// Reads the default scene of a glTF file.
+pub(super) fn parse(path: &Path, bytes: &[u8]) -> Result<Model, LoadError> {
+    let is_binary = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("glb"));
+    read(folder_of(path), bytes, is_binary).map_err(|fault| fault.at(path))
+}
+
+fn read(folder: &Path, bytes: &[u8], is_binary: bool) -> Result<Model, Fault> {
+    let (document, blob) = open(bytes, is_binary)?;
+    let buffers = buffers::resolve(&document, blob, folder)?;
+    let mut warnings = Vec::new();
+    warn_of_skipped(&document, &mut warnings);
+    let materials = material::materials(&document)?;
+    let mut primitives = Primitives::new(Accessors::new(&buffers));
+    let (parts, lights) = scene::read(&document, &mut primitives)?;
+    warnings.extend(primitives.into_warnings());
+    Ok(Model { parts, materials, lights, warnings })
+}
+
+/// The document, valid as far as the `gltf` crate looks, and the binary chunk.
+fn open(bytes: &[u8], is_binary: bool) -> Result<(Document, Option<Vec<u8>>), Fault> {
+    if is_binary || bytes.starts_with(b"glTF") {
+        check_header(bytes)?;
+    }
+    let Gltf { document, blob } = Gltf::from_slice_without_validation(bytes).map_err(|error| unreadable(&error))?;
+    let mut json = document.into_json();
+    if !json.asset.version.starts_with("2.") {
+        let found = format!("version {:?}", json.asset.version);
+        return Err(Fault::element("asset.version", found, "version \"2.0\" is"));
+    }
+    for extension in &json.extensions_required {
+        if !ENABLED_EXTENSIONS.contains(&extension.as_str()) {
+            return Err(Fault::RequiredExtension(extension.clone()));
+        }
+    }
+    check_positions(&json)?;
+    // Attributes of an application's own, as `_ID`, are allowed; the `gltf` crate takes them for mistakes.
+    for primitive in json.meshes.iter_mut().flat_map(|mesh| &mut mesh.primitives) {
+        primitive.attributes.remove(&Checked::Invalid);
+    }
+    let document = Document::from_json(json).map_err(|error| invalid(&error))?;
+    Ok((document, blob))
+}
+
+/// The header of a binary file: magic, version, length; its reader subtracts from the length without looking.
+fn check_header(bytes: &[u8]) -> Result<(), Fault> {
+    const HEADER: usize = 12;
+    let header = |found: String, expected: &str| Fault::element("GLB header", found, expected);
+    if !bytes.starts_with(b"glTF") {
+        return Err(header("no magic".to_owned(), "a file that begins with \"glTF\" is"));
+    }
+    let Some(&[a, b, c, d]) = bytes.get(8..HEADER) else {
+        let found = format!("{} bytes", bytes.len());
+        return Err(header(found, "at least 12 bytes are"));
+    };
+    let length = u32::from_le_bytes([a, b, c, d]) as usize;
+    if length < HEADER || length > bytes.len() {
+        let found = format!("length {length}");
+        let expected = format!("at most the file's {} bytes are", bytes.len());
+        return Err(header(found, &expected));
+    }
+    Ok(())
+}
+
+/// That positions are accessors which exist: the `gltf` crate's validation looks them up first and asks later.
+fn check_positions(json: &Root) -> Result<(), Fault> {
+    for (m, mesh) in json.meshes.iter().enumerate() {
+        for (p, primitive) in mesh.primitives.iter().enumerate() {
+            let position = primitive.attributes.get(&Checked::Valid(Semantic::Positions));
+            let Some(position) = position.filter(|index| index.value() >= json.accessors.len()) else {
+                continue;
+            };
+            return Err(Fault::element(
+                format!("meshes[{m}].primitives[{p}].attributes.POSITION"),
+                format!("accessor {}", position.value()),
+                format!("one of the {} accessors, from 0, is", json.accessors.len()),
+            ));
+        }
+    }
+    Ok(())
+}
+
+fn unreadable(error: &gltf::Error) -> Fault {
+    let (element, expected) = match error {
+        gltf::Error::Binary(_) => ("GLB", "a whole binary glTF file is"),
+        _ => ("JSON", "a glTF 2.0 document is"),
+    };
+    Fault::element(element, error.to_string(), expected)
+}
+
+fn invalid(error: &gltf::Error) -> Fault {
+    match error {
+        gltf::Error::Validation(errors) if !errors.is_empty() => {
+            let (path, error) = &errors[0];
+            let more = match errors.len() - 1 {
+                0 => String::new(),
+                n => format!(" (and {n} more)"),
+            };
+            let found = format!("{}{more}", error.to_string().to_lowercase());
+            Fault::element(path.to_string(), found, "valid glTF 2.0 is")
+        }
+        _ => unreadable(error),
+    }
+}
+
+fn warn_of_skipped(document: &Document, warnings: &mut Vec<String>) {
+    for extension in document.extensions_used() {
+        if !ENABLED_EXTENSIONS.contains(&extension) {
+            warnings.push(format!("the extension {extension} is skipped"));
+        }
+    }
+    let counts = [
+        ("animations", document.animations().len()),
+        ("cameras", document.cameras().len()),
+        ("skins", document.skins().len()),
+        ("textures", document.textures().len()),
+    ];
+    for (what, count) in counts {
+        if count > 0 {
+            warnings.push(format!("{what} are skipped ({count})"));
+        }
+    }
+    if document.scenes().len() > 1 {
+        let count = document.scenes().len();
+        warnings.push(format!("only the default scene of {count} is read"));
+    }
+}
+
+/// What is wrong, before the name of the file is put to it.
+#[derive(Debug)]
+enum Fault {
+    Element {
+        element: String,
+        found: String,
+        expected: String,
+    },
+    Mesh {
+        element: String,
+        source: MeshError,
+    },
+    RequiredExtension(String),
+    /// In a file that the document refers to; complete.
+    Elsewhere(LoadError),
+}
+
+impl Fault {
+    fn element(element: impl Into<String>, found: impl Into<String>, expected: impl Into<String>) -> Self {
+        Self::Element { element: element.into(), found: found.into(), expected: expected.into() }
+    }
+
+    fn at(self, path: &Path) -> LoadError {
+        let path = path.to_owned();
+        match self {
+            Self::Element { element, found, expected } => LoadError::Element { path, element, found, expected },
+            Self::Mesh { element, source } => LoadError::Mesh { path, element, source },
+            Self::RequiredExtension(extension) => LoadError::RequiredExtension { path, extension },
+            Self::Elsewhere(error) => error,
+        }
+    }
+}
+
+/// That the numbers of an element are finite; the JSON reader makes infinities of what is too large for `f32`.
+fn check_finite(element: &dyn Fn() -> String, numbers: &[f32]) -> Result<(), Fault> {
+    match numbers.iter().find(|x| !x.is_finite()) {
+        None => Ok(()),
+        Some(_) => Err(Fault::element(element(), format!("{numbers:?}"), "finite numbers are")),
+    }
+}

@@ -1,0 +1,141 @@
+//! The node tree: where meshes and lights stand.
+
+use bevy_math::{DMat4, DQuat, DVec3, Mat4, Vec4};
+use gltf::khr_lights_punctual::{Kind, Light};
+use gltf::scene::Transform;
+use gltf::{Document, Node};
+
+use super::primitive::Primitives;
+use super::{Fault, check_finite};
+use crate::{Part, SourceLight, SourceLightKind};
+
+/// The most parts that are made of one file: nodes and primitives multiply.
+const MOST_PARTS: usize = 1 << 18;
+
+/// The parts and lights of the default scene; of the first where none is the default; of all nodes without a parent
+/// where there is no scene.
+pub(super) fn read<'a>(
+    document: &'a Document,
+    primitives: &mut Primitives<'a>,
+) -> Result<(Vec<Part>, Vec<SourceLight>), Fault> {
+    let mut reader =
+        Reader { primitives, seen: vec![false; document.nodes().len()], parts: Vec::new(), lights: Vec::new() };
+    // Children are put on the stack last to first, so that nodes come in the order of the file.
+    let mut stack: Vec<(Node, DMat4)> = roots(document).into_iter().rev().map(|node| (node, DMat4::IDENTITY)).collect();
+    while let Some((node, world_from_parent)) = stack.pop() {
+        let world_from_node = reader.visit(&node, world_from_parent)?;
+        let children: Vec<Node> = node.children().collect();
+        stack.extend(children.into_iter().rev().map(|child| (child, world_from_node)));
+    }
+    Ok((reader.parts, reader.lights))
+}
+
+fn roots(document: &Document) -> Vec<Node<'_>> {
+    if let Some(scene) = document.default_scene().or_else(|| document.scenes().next()) {
+        return scene.nodes().collect();
+    }
+    let mut is_child = vec![false; document.nodes().len()];
+    for child in document.nodes().flat_map(|node| node.children()) {
+        is_child[child.index()] = true;
+    }
+    document.nodes().filter(|node| !is_child[node.index()]).collect()
+}
+
+struct Reader<'r, 'a> {
+    primitives: &'r mut Primitives<'a>,
+    seen: Vec<bool>,
+    parts: Vec<Part>,
+    lights: Vec<SourceLight>,
+}
+
+impl<'a> Reader<'_, 'a> {
+    /// Reads what stands at a node; returns where the node stands.
+    fn visit(&mut self, node: &Node<'a>, world_from_parent: DMat4) -> Result<DMat4, Fault> {
+        let element = || format!("nodes[{}]", node.index());
+        if std::mem::replace(&mut self.seen[node.index()], true) {
+            let expected = "a tree, in which every node has one parent at most, is";
+            return Err(Fault::element(element(), "reached twice", expected));
+        }
+        let world_from_node = world_from_parent * parent_from_node(node)?;
+        let world = world_from_node.as_mat4();
+        if !world.is_finite() {
+            let found = "a transform that leaves the range of f32";
+            return Err(Fault::element(element(), found, "a smaller one is"));
+        }
+        if let Some(light) = node.light() {
+            self.lights.push(source_light(node, &light, world)?);
+        }
+        if let Some(mesh) = node.mesh() {
+            for primitive in mesh.primitives() {
+                let Some(shown) = self.primitives.mesh(mesh.index(), &primitive)? else {
+                    continue;
+                };
+                if self.parts.len() == MOST_PARTS {
+                    let found = format!("more than {MOST_PARTS} primitives shown");
+                    return Err(Fault::element(element(), found, "fewer are"));
+                }
+                self.parts.push(Part {
+                    name: node.name().or(mesh.name()).unwrap_or_default().to_owned(),
+                    mesh: shown,
+                    material: primitive.material().index(),
+                    world_from_part: world,
+                });
+            }
+        }
+        Ok(world_from_node)
+    }
+}
+
+fn parent_from_node(node: &Node) -> Result<DMat4, Fault> {
+    let field = |name: &str| format!("nodes[{}].{name}", node.index());
+    match node.transform() {
+        Transform::Matrix { matrix } => {
+            check_finite(&|| field("matrix"), matrix.as_flattened())?;
+            let matrix = Mat4::from_cols_array_2d(&matrix);
+            if matrix.row(3) != Vec4::W {
+                let found = format!("last row {:?}", matrix.row(3).to_array());
+                return Err(Fault::element(field("matrix"), found, "0, 0, 0, 1 is"));
+            }
+            Ok(matrix.as_dmat4())
+        }
+        Transform::Decomposed { translation, rotation, scale } => {
+            check_finite(&|| field("translation"), &translation)?;
+            check_finite(&|| field("rotation"), &rotation)?;
+            check_finite(&|| field("scale"), &scale)?;
+            let quaternion = DQuat::from_array(rotation.map(f64::from));
+            if quaternion.length() == 0.0 {
+                let found = format!("{rotation:?}");
+                return Err(Fault::element(field("rotation"), found, "a unit quaternion is"));
+            }
+            Ok(DMat4::from_scale_rotation_translation(
+                DVec3::from_array(scale.map(f64::from)),
+                quaternion.normalize(),
+                DVec3::from_array(translation.map(f64::from)),
+            ))
+        }
+    }
+}
+
+fn source_light(node: &Node, light: &Light, world_from_light: Mat4) -> Result<SourceLight, Fault> {
+    let field = |name: &str| format!("lights[{}].{name}", light.index());
+    let kind = match light.kind() {
+        Kind::Directional => SourceLightKind::Directional,
+        Kind::Point => SourceLightKind::Point,
+        Kind::Spot { inner_cone_angle, outer_cone_angle } => {
+            let angles = [inner_cone_angle, outer_cone_angle];
+            check_finite(&|| field("spot"), &angles)?;
+            SourceLightKind::Spot { inner: inner_cone_angle, outer: outer_cone_angle }
+        }
+    };
+    check_finite(&|| field("color"), &light.color())?;
+    check_finite(&|| field("intensity"), &[light.intensity()])?;
+    check_finite(&|| field("range"), &[light.range().unwrap_or(0.0)])?;
+    Ok(SourceLight {
+        name: light.name().or(node.name()).unwrap_or_default().to_owned(),
+        kind,
+        color: light.color(),
+        intensity: light.intensity(),
+        range: light.range(),
+        world_from_light,
+    })
+}

@@ -1,0 +1,159 @@
+//! What a file holds, as the file says it.
+
+use bevy_math::Mat4;
+
+use crate::{Bounds, Mesh};
+
+/// The content of a model file: meshes placed in the world, and the materials and lights that the file describes.
+///
+/// Materials and lights keep the file's own terms; what they mean for shading is decided elsewhere.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Model {
+    /// The meshes, at least one in a model that came from [`load`](crate::load).
+    pub parts: Vec<Part>,
+    /// The materials; [`Part::material`] indexes them.
+    pub materials: Vec<SourceMaterial>,
+    /// The lights.
+    pub lights: Vec<SourceLight>,
+    /// What was skipped or mended on the way, one sentence each.
+    pub warnings: Vec<String>,
+}
+
+impl Model {
+    /// The box around all parts where they stand in the world, or `None` where there are none.
+    pub fn bounds(&self) -> Option<Bounds> {
+        self.parts
+            .iter()
+            .map(|part| part.mesh.bounds().transformed(&part.world_from_part))
+            .reduce(|all, part| all.union(&part))
+    }
+
+    /// How many triangles the parts have together.
+    pub fn triangle_count(&self) -> usize {
+        self.parts.iter().map(|part| part.mesh.triangle_count()).sum()
+    }
+}
+
+/// A mesh of a model, with one material and a place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Part {
+    /// The name of the object, group or node in the file; empty where it has none.
+    pub name: String,
+    /// The mesh. Parts that show the same mesh of the file share its data.
+    pub mesh: Mesh,
+    /// The index of its material in [`Model::materials`].
+    pub material: Option<usize>,
+    /// The place of the part; may mirror, but is always finite and affine.
+    pub world_from_part: Mat4,
+}
+
+/// A material in the terms of its file.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SourceMaterial {
+    /// From a Wavefront MTL file.
+    Mtl(MtlMaterial),
+    /// From glTF.
+    MetallicRoughness(MetallicRoughness),
+}
+
+impl SourceMaterial {
+    /// The material's name in the file; empty where it has none.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Mtl(material) => &material.name,
+            Self::MetallicRoughness(material) => &material.name,
+        }
+    }
+}
+
+/// A material of a Wavefront MTL file: the statements as they stand, finite but not limited to their usual ranges.
+/// `None` where the file says nothing. Textures (`map_…`) are not read.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MtlMaterial {
+    /// `newmtl`.
+    pub name: String,
+    /// `Ka`, ambient reflectance.
+    pub ka: Option<[f32; 3]>,
+    /// `Kd`, diffuse reflectance.
+    pub kd: Option<[f32; 3]>,
+    /// `Ks`, specular reflectance.
+    pub ks: Option<[f32; 3]>,
+    /// `Ke`, emission.
+    pub ke: Option<[f32; 3]>,
+    /// `Ns`, specular exponent.
+    pub ns: Option<f32>,
+    /// `d`, dissolve: 1 is opaque.
+    pub d: Option<f32>,
+    /// `Tr`, transparency: 0 is opaque.
+    pub tr: Option<f32>,
+    /// `illum`, the number of the illumination model.
+    pub illum: Option<u8>,
+}
+
+/// A metallic-roughness material of glTF 2.0 (§3.9.2): the factors as they stand, finite but not limited to their
+/// usual ranges. Textures are not read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MetallicRoughness {
+    /// The material's name.
+    pub name: String,
+    /// `baseColorFactor`: linear RGB, and alpha.
+    pub base_color: [f32; 4],
+    /// `metallicFactor`: 0 dielectric … 1 metal.
+    pub metallic: f32,
+    /// `roughnessFactor`: 0 smooth … 1 rough.
+    pub roughness: f32,
+    /// `emissiveFactor`: linear RGB.
+    pub emissive: [f32; 3],
+    /// `doubleSided`: both faces are shown.
+    pub double_sided: bool,
+    /// `alphaMode` and `alphaCutoff`.
+    pub alpha: AlphaMode,
+}
+
+/// What the alpha of a glTF material does.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum AlphaMode {
+    /// Nothing: the surface is opaque.
+    #[default]
+    Opaque,
+    /// Below the cutoff the surface is not there, from it on it is opaque.
+    Mask {
+        /// `alphaCutoff`, 0.5 by default.
+        cutoff: f32,
+    },
+    /// The surface covers by its alpha what is behind it.
+    Blend,
+}
+
+/// A light of `KHR_lights_punctual`. It stands at the origin of its frame and shines along −Z.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SourceLight {
+    /// The name of the light, else of its node; empty where neither has one.
+    pub name: String,
+    /// Its kind.
+    pub kind: SourceLightKind,
+    /// Linear RGB.
+    pub color: [f32; 3],
+    /// Candela for point and spot lights, lux for directional lights.
+    pub intensity: f32,
+    /// The distance at which it ends, in world units; `None` is unlimited.
+    pub range: Option<f32>,
+    /// The place and the direction of the light; may scale, which has no meaning for a light.
+    pub world_from_light: Mat4,
+}
+
+/// The kinds of `KHR_lights_punctual`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SourceLightKind {
+    /// Parallel rays.
+    Directional,
+    /// All ways from a point.
+    Point,
+    /// A cone from a point; angles in radians from its axis.
+    Spot {
+        /// Where the light begins to fade.
+        inner: f32,
+        /// Where it has ended.
+        outer: f32,
+    },
+}

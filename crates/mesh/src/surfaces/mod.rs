@@ -1,0 +1,128 @@
+//! Surfaces that are known by formula, with their analytic normals.
+
+mod bezier;
+mod cuboid;
+mod newell;
+mod plane;
+mod sphere;
+mod teapot;
+
+use thiserror::Error;
+
+pub use cuboid::Cuboid;
+pub use plane::Plane;
+pub use sphere::UvSphere;
+pub use teapot::Teapot;
+
+/// A surface that cannot be made.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[error("{surface}.{field}: {value}; {expected}")]
+pub struct SurfaceError {
+    /// The type, as `"UvSphere"`.
+    pub surface: &'static str,
+    /// The field, as `"radius"`.
+    pub field: &'static str,
+    /// What it holds.
+    pub value: f64,
+    /// What it may hold, as `"a number from 1 to 256 is expected"`.
+    pub expected: String,
+}
+
+/// The lengths that surfaces may have: every product of them with a unit vector is a normal number, and no box around
+/// them overflows.
+const LENGTHS: std::ops::RangeInclusive<f32> = 1e-30..=1e30;
+
+/// A field of a surface: checked, or brought into its range.
+struct Field<T> {
+    surface: &'static str,
+    name: &'static str,
+    value: T,
+}
+
+impl Field<f32> {
+    fn check(&self) -> Result<(), SurfaceError> {
+        if LENGTHS.contains(&self.value) {
+            return Ok(());
+        }
+        Err(SurfaceError {
+            surface: self.surface,
+            field: self.name,
+            value: f64::from(self.value),
+            expected: "a length from 1e-30 to 1e30 is expected".to_owned(),
+        })
+    }
+
+    /// The nearest value in range, 1 for NaN.
+    fn nearest(&self) -> f32 {
+        match self.check() {
+            Ok(()) => self.value,
+            Err(error) => {
+                let nearest =
+                    if self.value.is_nan() { 1.0 } else { self.value.clamp(*LENGTHS.start(), *LENGTHS.end()) };
+                log::warn!("{error}; made with {nearest}");
+                nearest
+            }
+        }
+    }
+}
+
+impl Field<u32> {
+    fn check(&self, range: std::ops::RangeInclusive<u32>) -> Result<(), SurfaceError> {
+        if range.contains(&self.value) {
+            return Ok(());
+        }
+        Err(SurfaceError {
+            surface: self.surface,
+            field: self.name,
+            value: f64::from(self.value),
+            expected: format!("a number from {} to {} is expected", range.start(), range.end()),
+        })
+    }
+
+    fn nearest(&self, range: std::ops::RangeInclusive<u32>) -> u32 {
+        match self.check(range.clone()) {
+            Ok(()) => self.value,
+            Err(error) => {
+                let nearest = self.value.clamp(*range.start(), *range.end());
+                log::warn!("{error}; made with {nearest}");
+                nearest
+            }
+        }
+    }
+}
+
+/// The triangles of a grid of `columns` × `rows` cells whose vertices lie row by row: for the cell with the vertices
+/// a b in one row and c d in the next, (a, c, b) and (b, c, d).
+fn grid_indices(columns: u32, rows: u32) -> Vec<u32> {
+    let mut indices = Vec::with_capacity(6 * columns as usize * rows as usize);
+    for row in 0..rows {
+        for column in 0..columns {
+            let a = row * (columns + 1) + column;
+            let (b, c, d) = (a + 1, a + columns + 1, a + columns + 2);
+            indices.extend([a, c, b, b, c, d]);
+        }
+    }
+    indices
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_nearest_value_in_range() {
+        let length = |value: f32| Field { surface: "Test", name: "length", value }.nearest();
+        for (value, nearest) in [
+            (2.0, 2.0),
+            (0.0, 1e-30),
+            (-1.0, 1e-30),
+            (f32::INFINITY, 1e30),
+            (f32::NEG_INFINITY, 1e-30),
+            (f32::NAN, 1.0),
+        ] {
+            assert_eq!(length(value).to_bits(), f32::to_bits(nearest), "{value}");
+        }
+        let count = |value: u32| Field { surface: "Test", name: "count", value }.nearest(3..=7);
+        assert_eq!([0, 3, 5, 7, 8, u32::MAX].map(count), [3, 3, 5, 7, 7, 7]);
+    }
+}

@@ -1,0 +1,63 @@
+//! A flat square.
+
+use bevy_math::{Vec2, Vec3};
+
+use super::{Field, SurfaceError, grid_indices};
+use crate::Mesh;
+
+/// A flat square in the plane y = 0, centred on the origin, that faces +Y.
+///
+/// Vertices lie row by row from −z to +z, in a row from −x to +x; texture coordinates run from (0, 0) at (−x, −z) to
+/// (1, 1) at (+x, +z). A cell with the vertices a b in one row and c d in the next has the triangles (a, c, b) and
+/// (b, c, d).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plane {
+    /// The length of an edge, 1e-30 … 1e30; 1 by default.
+    pub size: f32,
+    /// How many cells an edge is cut into, 1 … [`Plane::MAX_DIVISIONS`]; 1 by default.
+    pub divisions: u32,
+}
+
+impl Default for Plane {
+    fn default() -> Self {
+        Self { size: 1.0, divisions: 1 }
+    }
+}
+
+impl Plane {
+    /// The most cells along an edge; more would be more than four million vertices.
+    pub const MAX_DIVISIONS: u32 = 2048;
+
+    /// Whether the fields are in their ranges.
+    ///
+    /// # Errors
+    /// The first field that is not.
+    pub fn validate(&self) -> Result<(), SurfaceError> {
+        self.size_field().check()?;
+        self.divisions_field().check(1..=Self::MAX_DIVISIONS)
+    }
+
+    fn size_field(self) -> Field<f32> {
+        Field { surface: "Plane", name: "size", value: self.size }
+    }
+
+    fn divisions_field(self) -> Field<u32> {
+        Field { surface: "Plane", name: "divisions", value: self.divisions }
+    }
+}
+
+impl From<Plane> for Mesh {
+    /// Fields out of range are taken at their nearest value in range, with a warning in the log; see
+    /// [`Plane::validate`].
+    fn from(plane: Plane) -> Self {
+        let size = plane.size_field().nearest();
+        let n = plane.divisions_field().nearest(1..=Plane::MAX_DIVISIONS);
+        let along = |i: u32| f64::from(i) / f64::from(n);
+        let at = |i: u32| (f64::from(size) * (along(i) - 0.5)) as f32;
+        let grid = || (0..=n).flat_map(move |j| (0..=n).map(move |i| (i, j)));
+        let positions: Vec<Vec3> = grid().map(|(i, j)| Vec3::new(at(i), 0.0, at(j))).collect();
+        let uvs = grid().map(|(i, j)| Vec2::new(along(i) as f32, along(j) as f32)).collect();
+        let normals = vec![Vec3::Y; positions.len()];
+        Mesh::checked(positions, normals, Some(uvs), grid_indices(n, n))
+    }
+}

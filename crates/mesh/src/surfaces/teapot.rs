@@ -1,0 +1,226 @@
+//! The Utah teapot.
+
+use bevy_math::{DVec3, Vec2, Vec3};
+
+use super::bezier::{BicubicPatch, Parameter};
+use super::newell::{CONTROL_POINTS, PATCHES};
+use super::{Field, SurfaceError};
+use crate::Mesh;
+
+/// The Utah teapot, from Martin Newell's 32 bicubic Bézier patches (see the module `newell` for the source): rim, body,
+/// handle, spout, lid with its knob, and bottom, with the normals of the patches.
+///
+/// It is turned from Newell's Z up to Y up and made three quarters as large: the spout points along +X, the handle
+/// along −X; the axis of the body is the Y axis, the middle of the height lies on y = 0. It is 2.3625 high
+/// (y = ±1.18125), its body 3 across, from the handle to the tip of the spout it reaches from x = −2.25 to x ≈ 2.57.
+///
+/// Each patch is a grid of `divisions` × `divisions` cells of two triangles; where a patch ends in a point, at the top
+/// of the knob and in the middle of the bottom, the cells there have one. That makes 64 `divisions`² − 8 `divisions`
+/// triangles, none of them degenerate. Vertices are not shared between patches, since each patch has the whole texture;
+/// along an edge that two patches share they are bit-equal, so that there are no cracks. The surface is as Newell left
+/// it: the lid is not joined to the rim, and handle and spout end inside the body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Teapot {
+    /// How many cells an edge of a patch is cut into, 1 … [`Teapot::MAX_DIVISIONS`]; 8 by default.
+    pub divisions: u32,
+}
+
+impl Default for Teapot {
+    fn default() -> Self {
+        Self::new(8)
+    }
+}
+
+/// Newell's units to the mesh's.
+const SCALE: f64 = 0.75;
+/// Half of Newell's height.
+const MIDDLE: f64 = 3.15 / 2.0;
+
+impl Teapot {
+    /// The most cells along an edge of a patch; more would be more than two million vertices.
+    pub const MAX_DIVISIONS: u32 = 256;
+
+    /// A teapot with this many cells along each edge of its patches.
+    pub fn new(divisions: u32) -> Self {
+        Self { divisions }
+    }
+
+    /// Whether the divisions are in their range.
+    ///
+    /// # Errors
+    /// They are not.
+    pub fn validate(&self) -> Result<(), SurfaceError> {
+        self.divisions_field().check(1..=Self::MAX_DIVISIONS)
+    }
+
+    fn divisions_field(self) -> Field<u32> {
+        Field { surface: "Teapot", name: "divisions", value: self.divisions }
+    }
+}
+
+/// From Newell's frame, Z up, to the mesh's, Y up.
+fn mesh_from_newell(p: DVec3) -> DVec3 {
+    DVec3::new(p.x, p.z - MIDDLE, -p.y) * SCALE
+}
+
+fn patches() -> impl Iterator<Item = BicubicPatch> {
+    PATCHES.iter().map(|patch| {
+        let point = |i: usize| DVec3::from_array(CONTROL_POINTS[patch[i]]);
+        BicubicPatch { rows: [0, 4, 8, 12].map(|i| [point(i), point(i + 1), point(i + 2), point(i + 3)]) }
+    })
+}
+
+impl From<Teapot> for Mesh {
+    /// Divisions out of range are taken at their nearest value in range, with a warning in the log; see
+    /// [`Teapot::validate`].
+    fn from(teapot: Teapot) -> Self {
+        let n = teapot.divisions_field().nearest(1..=Teapot::MAX_DIVISIONS);
+        let count = PATCHES.len() * (n as usize + 1).pow(2);
+        let mut surface = Surface {
+            positions: Vec::with_capacity(count),
+            normals: Vec::with_capacity(count),
+            uvs: Vec::with_capacity(count),
+            indices: Vec::with_capacity(6 * PATCHES.len() * (n as usize).pow(2)),
+        };
+        for patch in patches() {
+            surface.add(&patch, n);
+        }
+        Mesh::checked(surface.positions, surface.normals, Some(surface.uvs), surface.indices)
+    }
+}
+
+/// The mesh in the making.
+struct Surface {
+    positions: Vec<Vec3>,
+    normals: Vec<Vec3>,
+    uvs: Vec<Vec2>,
+    indices: Vec<u32>,
+}
+
+impl Surface {
+    fn add(&mut self, patch: &BicubicPatch, n: u32) {
+        let first = self.positions.len() as u32;
+        for i in 0..=n {
+            for j in 0..=n {
+                let (u, v) = (Parameter::new(i, n), Parameter::new(j, n));
+                self.positions.push(mesh_from_newell(patch.position(u, v)).as_vec3());
+                // All of Newell's patches wind so that ∂p/∂v × ∂p/∂u points outward, and none of his normals
+                // vanishes altogether; up is as good as any other way should one do so.
+                let normal = patch.normal(u, v).unwrap_or(DVec3::Z);
+                self.normals.push(DVec3::new(normal.x, normal.z, -normal.y).as_vec3());
+                self.uvs.push(Vec2::new(1.0 - v.value() as f32, u.value() as f32));
+            }
+        }
+        for i in 0..n {
+            for j in 0..n {
+                let a = first + i * (n + 1) + j;
+                let (b, c, d) = (a + 1, a + n + 1, a + n + 2);
+                self.add_triangle([a, b, c]);
+                self.add_triangle([b, d, c]);
+            }
+        }
+    }
+
+    /// Adds the triangle unless two of its corners are one point.
+    fn add_triangle(&mut self, corners: [u32; 3]) {
+        let [a, b, c] = corners.map(|i| self.positions[i as usize]);
+        if a != b && b != c && c != a {
+            self.indices.extend(corners);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const N: u32 = 10;
+
+    fn grid() -> impl Iterator<Item = (u32, u32)> {
+        (0..=N).flat_map(|i| (0..=N).map(move |j| (i, j)))
+    }
+
+    #[test]
+    fn the_figures_are_whole() {
+        let mut used = vec![false; CONTROL_POINTS.len()];
+        PATCHES.as_flattened().iter().for_each(|&i| used[i] = true);
+        let unused: Vec<usize> = (0..used.len()).filter(|&i| !used[i]).collect();
+        // Four points a hair beside the top of the knob, which the published patches pass over.
+        assert_eq!(unused, [204, 205, 215, 222]);
+        // A quarter turn about the axis carries the surfaces of revolution onto themselves, patch by patch.
+        for first in [0, 4, 8, 20, 24, 28] {
+            let turned = |p: [f64; 3]| {
+                let clockwise = if first == 28 { -1.0 } else { 1.0 };
+                [clockwise * p[1], -clockwise * p[0], p[2]]
+            };
+            for (patch, next) in PATCHES[first..first + 4].iter().zip(&PATCHES[first + 1..first + 4]) {
+                for (&i, &j) in patch.iter().zip(next) {
+                    assert_eq!(turned(CONTROL_POINTS[i]), CONTROL_POINTS[j], "points {i} and {j}");
+                }
+            }
+        }
+        // Handle and spout are their own mirror images.
+        for first in [12, 14, 16, 18] {
+            for row in 0..4 {
+                for column in 0..4 {
+                    let [x, y, z] = CONTROL_POINTS[PATCHES[first][4 * row + column]];
+                    let mirrored = CONTROL_POINTS[PATCHES[first + 1][4 * row + 3 - column]];
+                    assert_eq!([x, -y, z], mirrored);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn normals_are_perpendicular_to_the_surface_around_them() {
+        // Central differences of the surface itself: their error is of second order in the step, times the curvature
+        // of Newell's tightest bends.
+        let steps = 1_000_000;
+        for (number, patch) in patches().enumerate() {
+            for (i, j) in grid().filter(|(i, j)| (1..N).contains(i) && (1..N).contains(j)) {
+                let at = |du: i32, dv: i32| {
+                    let shifted = |i: u32, d: i32| Parameter::new((i * (steps / N)).saturating_add_signed(d), steps);
+                    patch.position(shifted(i, du), shifted(j, dv))
+                };
+                let difference = (at(0, 1) - at(0, -1)).cross(at(1, 0) - at(-1, 0)).normalize();
+                let n = patch.normal(Parameter::new(i, N), Parameter::new(j, N)).unwrap();
+                assert!(n.distance(difference) < 1e-8, "patch {number} at {i}, {j}: {n} {difference}");
+            }
+        }
+    }
+
+    #[test]
+    fn normals_at_the_points_of_patches_are_the_limits() {
+        let (start, middle) = (Parameter::new(0, N), Parameter::new(1, 2));
+        let pointed: Vec<BicubicPatch> =
+            patches().filter(|patch| patch.position(start, start) == patch.position(start, middle)).collect();
+        for patch in &pointed {
+            for j in 0..=N {
+                let v = Parameter::new(j, N);
+                let limit = patch.normal(start, v).unwrap();
+                let near = patch.normal(Parameter::new(1, 1_000_000), v).unwrap();
+                // One millionth of the way along, where the surface has turned by about as much.
+                assert!(limit.distance(near) < 1e-5, "{limit} {near}");
+                // Along the axis of the body, but for the rounding of tangents to 2⁻⁵³.
+                assert!(limit.truncate().length() < 1e-14, "{limit}");
+            }
+        }
+        // Four patches of the knob and four of the bottom.
+        assert_eq!(pointed.len(), 8);
+    }
+
+    #[test]
+    fn edges_run_alike_in_both_directions() {
+        for n in [3, 7, 10, 100] {
+            for i in 0..=n {
+                let (there, back) = (Parameter::new(i, n), Parameter::new(n - i, n));
+                for patch in patches() {
+                    let mut reversed = BicubicPatch { rows: patch.rows };
+                    reversed.rows.iter_mut().for_each(|row| row.reverse());
+                    let u = Parameter::new(1, 3);
+                    assert_eq!(patch.position(u, there), reversed.position(u, back));
+                }
+            }
+        }
+    }
+}

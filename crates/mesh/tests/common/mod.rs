@@ -1,0 +1,77 @@
+//! What the tests of files share.
+#![allow(dead_code, reason = "each test program uses a part of it")]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU32, Ordering};
+
+/// A folder of the test's own, removed at the end.
+pub struct Folder(PathBuf);
+
+impl Folder {
+    pub fn new() -> Self {
+        static COUNT: AtomicU32 = AtomicU32::new(0);
+        let name = format!("halfway_mesh-{}-{}", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
+        let path = std::env::temp_dir().join(name);
+        fs::create_dir_all(&path).unwrap();
+        Self(path)
+    }
+
+    pub fn path(&self) -> &Path {
+        &self.0
+    }
+
+    /// Writes a file and returns its path.
+    pub fn write(&self, name: &str, content: impl AsRef<[u8]>) -> PathBuf {
+        let path = self.0.join(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(&path, content).unwrap();
+        path
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+/// A binary glTF file.
+pub fn glb(json: &str, data: &[u8]) -> Vec<u8> {
+    let header = gltf::binary::Header { magic: *b"glTF", version: 2, length: 0 };
+    let glb = gltf::Glb { header, json: json.as_bytes().into(), bin: Some(data.into()) };
+    glb.to_vec().unwrap()
+}
+
+/// A triangle with normals, texture coordinates, indices, a material and a node.
+pub const TRIANGLE_JSON: &str = r#"{
+"asset":{"version":"2.0"},
+"scene":0,
+"scenes":[{"nodes":[0]}],
+"nodes":[{"name":"node","mesh":0,"translation":[0,0,5]}],
+"meshes":[{"name":"mesh","primitives":[{"attributes":{"POSITION":0,"NORMAL":1,"TEXCOORD_0":2},"indices":3,"material":0}]}],
+"materials":[{"name":"red","pbrMetallicRoughness":{"baseColorFactor":[1,0,0,1],"metallicFactor":0.25,"roughnessFactor":0.5}}],
+"accessors":[
+{"bufferView":0,"componentType":5126,"type":"VEC3","count":3,"min":[0,0,0],"max":[1,1,0]},
+{"bufferView":1,"componentType":5126,"type":"VEC3","count":3},
+{"bufferView":2,"componentType":5126,"type":"VEC2","count":3},
+{"bufferView":3,"componentType":5123,"type":"SCALAR","count":3}],
+"bufferViews":[
+{"buffer":0,"byteOffset":0,"byteLength":36},
+{"buffer":0,"byteOffset":36,"byteLength":36},
+{"buffer":0,"byteOffset":72,"byteLength":24},
+{"buffer":0,"byteOffset":96,"byteLength":6}],
+"buffers":[{"byteLength":104}]
+}"#;
+
+/// The data of [`TRIANGLE_JSON`].
+pub fn triangle_data() -> Vec<u8> {
+    let floats: [f32; 24] = [
+        0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, // positions
+        0.0, 0.0, 2.0, 0.0, 0.0, 2.0, 0.0, 0.0, 2.0, // normals, not of unit length
+        0.0, 1.0, 1.0, 1.0, 0.0, 0.0, // texture coordinates
+    ];
+    let mut data: Vec<u8> = floats.iter().copied().flat_map(f32::to_le_bytes).collect();
+    data.extend([0_u16, 1, 2, 0].into_iter().flat_map(u16::to_le_bytes));
+    data
+}

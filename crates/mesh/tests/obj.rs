@@ -1,0 +1,283 @@
+//! OBJ and MTL files.
+
+mod common;
+
+use bevy_math::{Vec2, Vec3};
+use common::Folder;
+use halfway_mesh::{Model, MtlMaterial, SourceMaterial, load};
+
+const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+fn load_text(text: &str) -> Model {
+    let folder = Folder::new();
+    load(&folder.write("model.obj", text)).unwrap()
+}
+
+fn load_with_mtl(obj: &str, mtl: &str) -> Model {
+    let folder = Folder::new();
+    folder.write("model.mtl", mtl);
+    load(&folder.write("model.obj", obj)).unwrap()
+}
+
+#[test]
+fn the_forms_of_faces() {
+    let with_rest = format!("{SQUARE}vt 0 0\nvt 1 0.25\nvn 0 0 2\n");
+    let rows = [
+        ("triangle", "f 1 2 3", 1, false, false),
+        ("quadrangle", "f 1 2 3 4", 2, false, false),
+        ("texture coordinates", "f 1/1 2/2 3/1", 1, true, false),
+        ("normals", "f 1//1 2//1 3//1", 1, false, true),
+        ("both", "f 1/1/1 2/2/1 3/1/1 4/2/1", 2, true, true),
+        ("negative", "f -4/-2/-1 -3/-1/-1 -2/-2/-1", 1, true, true),
+        ("old keyword", "fo 1 2 3", 1, false, false),
+        ("comment behind", "f 1 2 3 # 4", 1, false, false),
+        ("continued", "f 1 2 \\\n 3 4", 2, false, false),
+        ("white space", " f\t1  2 3 \r", 1, false, false),
+    ];
+    for (name, face, triangles, uvs, normals) in rows {
+        let model = load_text(&format!("{with_rest}{face}\n"));
+        assert!(model.warnings.is_empty(), "{name}: {:?}", model.warnings);
+        let [part] = &model.parts[..] else { panic!("{name}: {} parts", model.parts.len()) };
+        assert_eq!(part.mesh.triangle_count(), triangles, "{name}");
+        assert_eq!(part.mesh.uvs().is_some(), uvs, "{name}");
+        assert_eq!(part.mesh.normals()[0], Vec3::Z, "{name}");
+        let [a, b, ..] = part.mesh.triangles().next().unwrap().map(|i| i as usize);
+        assert_eq!(part.mesh.positions()[b], Vec3::X, "{name}");
+        if let Some(uvs) = part.mesh.uvs() {
+            // v runs upward in the file.
+            assert_eq!((uvs[a], uvs[b]), (Vec2::new(0.0, 1.0), Vec2::new(1.0, 0.75)), "{name}");
+        }
+        let _ = normals;
+    }
+}
+
+#[test]
+fn given_normals_are_used() {
+    let model = load_text(&format!("{SQUARE}vn 3 0 4\nf 1//1 2//1 3//1\n"));
+    for n in model.parts[0].mesh.normals() {
+        assert!(n.distance(Vec3::new(0.6, 0.0, 0.8)) < 1e-7, "{n}");
+    }
+}
+
+#[test]
+fn faces_may_come_before_their_vertices() {
+    let model = load_text(&format!("o early\nf 1 2 3\no late\nf 2 3 4\n{SQUARE}"));
+    assert_eq!(model.triangle_count(), 2);
+    assert_eq!(model.parts[1].mesh.bounds().max, Vec3::new(1.0, 1.0, 0.0));
+}
+
+#[test]
+fn objects_groups_and_materials_become_parts() {
+    let obj = format!(
+        "mtllib model.mtl\n{SQUARE}f 1 2 3\no Left Side\nusemtl red\nf 1 2 3\nusemtl blue\nf 1 3 4\nf 2 3 4\ng right #1\nf 2 3 4\no empty\n"
+    );
+    let model = load_with_mtl(&obj, "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n");
+    let parts: Vec<_> =
+        model.parts.iter().map(|part| (&part.name[..], part.material, part.mesh.triangle_count())).collect();
+    assert_eq!(parts, [("", None, 1), ("Left Side", Some(0), 1), ("Left Side", Some(1), 2), ("right #1", Some(1), 1)]);
+    assert_eq!(model.materials.iter().map(SourceMaterial::name).collect::<Vec<_>>(), ["red", "blue"]);
+    assert!(model.warnings.is_empty(), "{:?}", model.warnings);
+}
+
+#[test]
+fn every_statement_of_a_material_is_kept() {
+    let mtl = "\u{feff}# two materials\nnewmtl all of it\n Ka 0.1 0.2 0.3\nKd 0.5\nKs 1 1 1 # white\n\tKe 0 0 2.5\nNs 27.8974\nd 0.75\nTr 0.5\nillum 2\nNi 1.5\nTf 1 1 1\nunknown thing\nnewmtl nothing\n";
+    let model = load_with_mtl(&format!("mtllib model.mtl\n{SQUARE}usemtl all of it\nf 1 2 3\n"), mtl);
+    let all = MtlMaterial {
+        name: "all of it".to_owned(),
+        ka: Some([0.1, 0.2, 0.3]),
+        kd: Some([0.5; 3]),
+        ks: Some([1.0; 3]),
+        ke: Some([0.0, 0.0, 2.5]),
+        ns: Some(27.8974),
+        d: Some(0.75),
+        tr: Some(0.5),
+        illum: Some(2),
+    };
+    let nothing = MtlMaterial { name: "nothing".to_owned(), ..MtlMaterial::default() };
+    assert_eq!(model.materials, [SourceMaterial::Mtl(all), SourceMaterial::Mtl(nothing)]);
+    assert_eq!(model.parts[0].material, Some(0));
+    assert!(model.warnings.is_empty(), "{:?}", model.warnings);
+}
+
+#[test]
+fn libraries_are_found_by_names_with_spaces_and_by_several_names() {
+    let folder = Folder::new();
+    folder.write("my brass.mtl", "newmtl brass\n");
+    folder.write("sub/red.mtl", "newmtl red\n");
+    folder.write("blue.mtl", "newmtl blue\n");
+    let obj = format!("mtllib my brass.mtl\nmtllib sub/red.mtl blue.mtl\n{SQUARE}usemtl blue\nf 1 2 3\n");
+    let model = load(&folder.write("model.obj", obj)).unwrap();
+    assert_eq!(model.materials.iter().map(SourceMaterial::name).collect::<Vec<_>>(), ["brass", "red", "blue"]);
+    assert_eq!(model.parts[0].material, Some(2));
+}
+
+#[test]
+fn what_is_skipped_is_said() {
+    let rows: [(&str, String, &[&str]); 9] = [
+        (
+            "missing library",
+            format!("mtllib gone.mtl\n{SQUARE}f 1 2 3\n"),
+            &["FOLDER/gone.mtl: cannot be read: No such file or directory (os error 2)"],
+        ),
+        (
+            "library outside",
+            format!("mtllib ../model.mtl /etc/model.mtl\n{SQUARE}f 1 2 3\n"),
+            &[
+                "../model.mtl: outside the folder of the model, not read",
+                "/etc/model.mtl: outside the folder of the model, not read",
+            ],
+        ),
+        (
+            "unknown material",
+            format!("{SQUARE}usemtl gold\nf 1 2 3\n"),
+            &["model.obj:5: the material `gold` is nowhere defined"],
+        ),
+        (
+            "lines and points",
+            format!("{SQUARE}l 1 2 3\np 1\np 2\nf 1 2 3\nf 1 2\n"),
+            &[
+                "model.obj:5: `l` is skipped",
+                "model.obj:6: `p` is skipped (and 1 more such lines)",
+                "model.obj:9: a face of fewer than three corners is skipped",
+            ],
+        ),
+        (
+            "vertex colours",
+            "v 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0 1\nf 1 2 3\n".to_owned(),
+            &["model.obj:1: vertex colours are skipped"],
+        ),
+        (
+            "smoothing groups",
+            format!("s off\n{SQUARE}s 1\nf 1 2 3\n"),
+            &["model.obj:6: smoothing groups are skipped; all normals are computed alike"],
+        ),
+        (
+            "some normals",
+            format!("{SQUARE}vn 1 0 0\nf 1//1 2//1 3\n"),
+            &["``: 2 of 3 vertices have a normal; all normals are computed"],
+        ),
+        (
+            "some texture coordinates",
+            format!("{SQUARE}vt 0 0\nf 1/1 2 3\n"),
+            &["``: 1 of 3 vertices have a texture coordinate; none is used"],
+        ),
+        (
+            "zero normals",
+            format!("{SQUARE}vn 0 0 0\no sheet\nf 1//1 2//1 3//1\n"),
+            &["`sheet`: 3 normals of zero length are replaced by computed ones"],
+        ),
+    ];
+    for (name, text, expected) in rows {
+        let folder = Folder::new();
+        let model = load(&folder.write("model.obj", text)).unwrap();
+        let expected: Vec<String> =
+            expected.iter().map(|text| text.replace("FOLDER", &folder.path().display().to_string())).collect();
+        assert_eq!(model.warnings, expected, "{name}");
+        assert_eq!(model.parts[0].mesh.normals()[0], Vec3::Z, "{name}");
+    }
+    let model = load_with_mtl(
+        &format!("mtllib model.mtl\n{SQUARE}f 1 2 3\n"),
+        "newmtl a\nmap_Kd a.png\nmap_Kd b.png\nd -halo 0.5\nKd spectral a.rfl\n",
+    );
+    assert_eq!(
+        model.warnings,
+        [
+            "model.mtl:2: the texture `map_Kd` is skipped (and 1 more such lines)",
+            "model.mtl:4: `d -halo` is skipped",
+            "model.mtl:5: `Kd spectral` is skipped",
+        ]
+    );
+}
+
+#[test]
+fn malformed_files_are_refused_by_line() {
+    const CORNERS: &str = "corners of the form v, v/vt, v//vn or v/vt/vn are expected";
+    let with = |line: &str| format!("{SQUARE}{line}\n").into_bytes();
+    let rows: [(&str, Vec<u8>, String); 26] = [
+        ("two coordinates", b"v 0 0\n".into(), ":1: `v 0 0`; `v` and three numbers are expected".into()),
+        ("five numbers", b"v 0 0 0 1 1\n".into(), ":1: `v 0 0 0 1 1`; `v` and three numbers are expected".into()),
+        ("NaN position", with("v nan 0 0"), ":5: `nan` in `v`; a finite number is expected".into()),
+        ("infinite position", with("v 0 1e400 0"), ":5: `1e400` in `v`; a finite number is expected".into()),
+        ("NaN normal", with("vn 0 0 NaN"), ":5: `NaN` in `vn`; a finite number is expected".into()),
+        ("two of a normal", with("vn 0 0"), ":5: `vn 0 0`; `vn` and three numbers are expected".into()),
+        ("no texture coordinate", with("vt"), ":5: `vt`; `vt` and two numbers are expected".into()),
+        ("infinite texture coordinate", with("vt inf 0"), ":5: `inf` in `vt`; a finite number is expected".into()),
+        (
+            "index 0",
+            with("f 0 1 2"),
+            ":5: the position 0 in `f`; a position from 1 to 4, or from -4 to -1, is expected".into(),
+        ),
+        (
+            "index out of range",
+            with("f 1 2 3\nf 1 2 5"),
+            ":6: the position 5 in `f`; a position from 1 to 4, or from -4 to -1, is expected".into(),
+        ),
+        (
+            "negative out of range",
+            with("f 1 2 -5"),
+            ":5: the position -5 in `f`; a position from 1 to 4, or from -4 to -1, is expected".into(),
+        ),
+        (
+            "least of all indices",
+            with("vt 0 0\nf 1/1 2/-9223372036854775808 3/1"),
+            ":6: the texture coordinate -9223372036854775808 in `f`; a texture coordinate from 1 to 1, or from -1 to -1, is expected"
+                .into(),
+        ),
+        (
+            "largest of all indices",
+            with("f 1 2 9223372036854775807"),
+            ":5: the position 9223372036854775807 in `f`; a position from 1 to 4, or from -4 to -1, is expected".into(),
+        ),
+        (
+            "no texture coordinates",
+            with("f 1/1 2/1 3/1"),
+            ":5: the texture coordinate 1 in `f`; a texture coordinate that a `vt` defines is expected".into(),
+        ),
+        (
+            "no normals",
+            with("f 1//1 2//1 3//-1"),
+            ":5: the normal -1 in `f`; a normal that a `vn` defines is expected".into(),
+        ),
+        ("four parts", with("f 1/1/1/1 2 3"), format!(":5: the texture coordinate 1 in `f`; a texture coordinate that a `vt` defines is expected")),
+        ("not a number", with("f 1 2 x"), format!(":5: `x` in `f`; {CORNERS}")),
+        ("fraction", with("f 1 2 1.5"), format!(":5: `1.5` in `f`; {CORNERS}")),
+        ("beyond i64", with("f 1 2 9223372036854775808"), format!(":5: `9223372036854775808` in `f`; {CORNERS}")),
+        ("end of a normal missing", with("vn 0 0 1\nf 1//1 2// 3//1"), format!(":6: `2//` in `f`; {CORNERS}")),
+        ("no material", with("usemtl"), ":5: `usemtl`; `usemtl` and a name is expected".into()),
+        ("no library", with("mtllib"), ":5: `mtllib`; `mtllib` and a file name is expected".into()),
+        ("continued line", with("f 1 \\\n2 \\\n3\nf 1 2 9"), ":8: the position 9 in `f`; a position from 1 to 4, or from -4 to -1, is expected".into()),
+        ("no faces", with(""), ": no triangles; at least one is expected".into()),
+        ("lines alone", with("l 1 2"), ": no triangles; at least one is expected".into()),
+        ("wrong UTF-8", b"v 0 0 0\no caf\xE9\n".into(), ":2: the byte 0xE9; UTF-8 text is expected".into()),
+    ];
+    for (name, text, expected) in rows {
+        let folder = Folder::new();
+        let path = folder.write("model.obj", text);
+        assert_eq!(load(&path).unwrap_err().to_string(), format!("{}{expected}", path.display()), "{name}");
+    }
+}
+
+#[test]
+fn malformed_libraries_are_refused_by_line() {
+    let rows = [
+        ("no name", "newmtl\n", ":1: `newmtl`; `newmtl` and a name is expected"),
+        ("no material", "Kd 1 1 1\n", ":1: `Kd 1 1 1`; `newmtl` and a name before it is expected"),
+        ("two numbers", "newmtl a\nKd 1 1\n", ":2: `Kd 1 1`; a colour of three numbers is expected"),
+        ("no numbers", "newmtl a\nKs\n", ":2: `Ks`; a colour of three numbers is expected"),
+        ("NaN", "newmtl a\nKe 0 nan 0\n", ":2: `nan` in `Ke`; a finite number is expected"),
+        ("infinite", "newmtl a\nNs 1e99\n", ":2: `1e99` in `Ns`; a finite number is expected"),
+        ("two exponents", "newmtl a\nNs 1 2\n", ":2: `Ns 1 2`; one number is expected"),
+        ("word", "newmtl a\nd half\n", ":2: `half` in `d`; a finite number is expected"),
+        ("model", "newmtl a\nillum 256\n", ":2: `illum 256`; `illum` and a number from 0 to 255 is expected"),
+        ("no model", "newmtl a\nillum\n", ":2: `illum`; `illum` and a number from 0 to 255 is expected"),
+    ];
+    for (name, mtl, expected) in rows {
+        let folder = Folder::new();
+        let library = folder.write("model.mtl", mtl);
+        let path = folder.write("model.obj", format!("mtllib model.mtl\n{SQUARE}f 1 2 3\n"));
+        let error = load(&path).unwrap_err();
+        assert_eq!(error.to_string(), format!("{}{expected}", library.display()), "{name}");
+        assert_eq!(error.path(), library, "{name}");
+    }
+}

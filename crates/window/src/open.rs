@@ -1,0 +1,146 @@
+//! Opening the window, and what to draw with in it.
+
+use crate::error::{WindowError, reason};
+use crate::input::Forward;
+use crate::orbit_camera::DragArea;
+use crate::plugin::WindowPlugin;
+use bevy_ecs::prelude::*;
+use bevy_math::{UVec2, Vec2};
+use halfway_render::{Gpu, SurfaceLost, SurfaceTarget, wgpu};
+use std::sync::Arc;
+use std::time::Duration;
+use winit::dpi::LogicalSize;
+use winit::event_loop::ActiveEventLoop;
+use winit::window::Window;
+
+/// The open window, on an entity of its own while [`WindowPlugin`]'s runner runs; for what the
+/// plugin leaves to you, as full screen or the pointer's shape.
+#[derive(Component, Clone, Debug)]
+pub struct WinitWindow(pub Arc<Window>);
+
+/// A surface that is lost again this many times without a picture in between is given up.
+const MOST_LOSSES: u32 = 10;
+
+/// The window of a running App.
+pub(crate) struct Open {
+    pub(crate) window: Arc<Window>,
+    pub(crate) input: Forward,
+    entity: Entity,
+    losses: u32,
+}
+
+impl Open {
+    /// Opens a window, an adapter that can draw in it and its surface, and puts them into `world`.
+    pub(crate) fn new(
+        event_loop: &ActiveEventLoop,
+        settings: &WindowPlugin,
+        world: &mut World,
+    ) -> Result<Self, WindowError> {
+        let UVec2 { x: width, y: height } = settings.size.max(UVec2::ONE);
+        let attributes =
+            Window::default_attributes().with_title(&settings.title).with_inner_size(LogicalSize::new(width, height));
+        let window = event_loop.create_window(attributes).map_err(|error| WindowError::Window {
+            width,
+            height,
+            reason: reason(&error),
+        })?;
+        let window = Arc::new(window);
+        let instance = Gpu::instance();
+        let surface = make_surface(&instance, &window).map_err(or_no_adapter)?;
+        let gpu = Gpu::open_for(instance, &surface)?;
+        log::info!("drawing on {}", gpu.describe());
+        let target = SurfaceTarget::new(&gpu, surface, physical_size(&window))?;
+        world.insert_resource(gpu);
+        world.insert_resource(target);
+        let entity = world.spawn(WinitWindow(Arc::clone(&window))).id();
+        let open = Self { window, input: Forward::new(entity), entity, losses: 0 };
+        open.follow_size(world);
+        Ok(open)
+    }
+
+    /// The shortest time between frames: a little less than the display's own, so that the display sets
+    /// the pace where presenting waits for it, and this does where it does not.
+    pub(crate) fn pace(&self) -> Duration {
+        let refresh = self.window.current_monitor().and_then(|monitor| monitor.refresh_rate_millihertz());
+        shortest_frame(refresh)
+    }
+
+    /// The window's picture and the area that is dragged over get the window's size.
+    pub(crate) fn follow_size(&self, world: &mut World) {
+        let size = physical_size(&self.window);
+        if let Some(mut target) = world.get_resource_mut::<SurfaceTarget>() {
+            target.resize(size);
+        }
+        if size.min_element() > 0 {
+            let logical = self.window.inner_size().to_logical::<f32>(self.window.scale_factor());
+            world.insert_resource(DragArea(Vec2::new(logical.width, logical.height)));
+        }
+    }
+
+    /// Whether the newest frame went to the display. A surface that it found lost is made anew.
+    pub(crate) fn settle(&mut self, world: &mut World) -> Result<bool, WindowError> {
+        if world.remove_resource::<SurfaceLost>().is_some() {
+            self.losses += 1;
+            if self.losses == MOST_LOSSES {
+                return Err(WindowError::LostAgain(MOST_LOSSES));
+            }
+            let instance = world.resource::<Gpu>().instance.clone();
+            let surface = make_surface(&instance, &self.window)?;
+            world.resource_mut::<SurfaceTarget>().replace(surface);
+            return Ok(false);
+        }
+        let presented = world.get_resource::<SurfaceTarget>().is_some_and(SurfaceTarget::acquired);
+        if presented {
+            self.losses = 0;
+        }
+        Ok(presented)
+    }
+
+    /// Lets go of the surface and then of the window, while the display is still connected.
+    pub(crate) fn close(self, world: &mut World) {
+        world.remove_resource::<SurfaceTarget>();
+        world.despawn(self.entity);
+    }
+}
+
+/// Nine tenths of the display's interval; of 60 Hz where the display does not say.
+fn shortest_frame(millihertz: Option<u32>) -> Duration {
+    let millihertz = millihertz.filter(|rate| (20_000..=1_000_000).contains(rate)).unwrap_or(60_000);
+    Duration::from_nanos(900_000_000_000 / u64::from(millihertz))
+}
+
+/// Without any driver there is no surface either, and the driver is what to say something about.
+fn or_no_adapter(error: WindowError) -> WindowError {
+    match Gpu::open_headless() {
+        Err(missing) => missing.into(),
+        Ok(_) => error,
+    }
+}
+
+fn physical_size(window: &Window) -> UVec2 {
+    let size = window.inner_size();
+    UVec2::new(size.width, size.height)
+}
+
+fn make_surface(instance: &wgpu::Instance, window: &Arc<Window>) -> Result<wgpu::Surface<'static>, WindowError> {
+    instance.create_surface(Arc::clone(window)).map_err(|error| WindowError::Surface(error.to_string()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frames_are_a_little_shorter_than_the_display_s() {
+        let rows = [
+            ("60 Hz", Some(60_000), 15_000),
+            ("144 Hz", Some(144_000), 6_250),
+            ("not said", None, 15_000),
+            ("nonsense", Some(0), 15_000),
+            ("more nonsense", Some(u32::MAX), 15_000),
+        ];
+        for (name, millihertz, microseconds) in rows {
+            assert_eq!(shortest_frame(millihertz), Duration::from_micros(microseconds), "{name}");
+        }
+    }
+}

@@ -1,0 +1,191 @@
+//! The window as a plugin.
+
+use crate::open::WinitWindow;
+use crate::orbit_camera::{OrbitCamera, OrbitCameraPlugin};
+use crate::runner;
+use crate::title::{FrameTime, WindowTitle};
+use crate::viewer_keys::ViewerKeysPlugin;
+use bevy_app::{App, Plugin, PostUpdate, PreUpdate};
+use bevy_ecs::prelude::*;
+use bevy_ecs::schedule::ScheduleLabel;
+use bevy_input::{InputPlugin, InputSystems};
+use bevy_math::{UVec2, Vec3};
+use bevy_transform::components::Transform;
+use halfway_render::{Camera, RenderPlugin, RenderSet, SurfaceTarget};
+
+/// Runs the App in a window: one `App::update` a frame, as fast as the display shows them.
+///
+/// What the App draws goes to the window instead of a headless picture; the adapter is open before
+/// the first update, so `Startup` systems find [`Gpu`](halfway_render::Gpu), [`SurfaceTarget`] and
+/// the entity of the [`WinitWindow`]. Keys, mouse buttons, wheel and pointer reach `bevy_input`, its
+/// `MouseMotion` in logical pixels. While the window is minimised or covered, the App is not
+/// updated, and nothing is drawn.
+///
+/// The App ends when the window is closed ([`AppExit::Success`](bevy_app::AppExit), after a last
+/// update that sees the message) or when it sends an `AppExit` itself. Where there is no display, or
+/// nothing to draw with, the run ends at once with `AppExit::error()` and a message that says what to
+/// do. Errors of a frame are logged once each. All messages go to the log, or to the standard error
+/// output where no logger shows errors.
+///
+/// The runner must run on the main thread, once a process, as displays demand. `InputPlugin` is added
+/// where the App has none yet (add your own before, and your own [`OrbitCameraPlugin`] and
+/// [`ViewerKeysPlugin`] too).
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct WindowPlugin {
+    /// The program's name, the first part of the window's title. Default "halfway".
+    pub title: String,
+    /// Width and height that the window opens with, in logical pixels. Default 1280 × 720.
+    pub size: UVec2,
+    /// Whether the title goes on with [`WindowTitle`], triangles, [`FrameTime`] and shading. Default true.
+    pub status: bool,
+    /// Whether mouse and keys move the camera. Adds [`OrbitCameraPlugin`], and gives an
+    /// [`OrbitCamera`] to every new [`Camera`] that has none and hangs on no parent; it turns about
+    /// the point of the view axis nearest the origin, or, where that is not in front of the camera,
+    /// the point as far in front of it as the origin is away. Default true.
+    pub orbit: bool,
+    /// Whether keys change the shading and close the window. Adds [`ViewerKeysPlugin`]. Default true.
+    pub viewer_keys: bool,
+}
+
+impl Default for WindowPlugin {
+    fn default() -> Self {
+        Self { title: "halfway".into(), size: UVec2::new(1280, 720), status: true, orbit: true, viewer_keys: true }
+    }
+}
+
+impl Plugin for WindowPlugin {
+    fn build(&self, app: &mut App) {
+        if !app.is_plugin_added::<InputPlugin>() {
+            app.add_plugins(InputPlugin);
+        }
+        if self.orbit {
+            if !app.is_plugin_added::<OrbitCameraPlugin>() {
+                app.add_plugins(OrbitCameraPlugin);
+            }
+            app.add_systems(PreUpdate, give_orbits.before(InputSystems));
+        }
+        if self.viewer_keys && !app.is_plugin_added::<ViewerKeysPlugin>() {
+            app.add_plugins(ViewerKeysPlugin);
+        }
+        app.init_resource::<WindowTitle>().init_resource::<FrameTime>();
+        let settings = self.clone();
+        app.set_runner(move |app| runner::run(app, settings));
+    }
+
+    fn finish(&self, app: &mut App) {
+        // By now every plugin is there, whichever came first.
+        let renderer = app.get_added_plugins::<RenderPlugin>().first().map(|plugin| plugin.schedule);
+        let schedule = renderer.unwrap_or(PostUpdate.intern());
+        app.add_systems(schedule, announce.after(RenderSet::Draw).before(RenderSet::Deliver));
+    }
+}
+
+/// Whether the environment names a display to open a window on. True where displays have no names
+/// (macOS, Windows); whether the named one answers shows only when a window is opened.
+pub fn has_display() -> bool {
+    names_display(|variable| std::env::var_os(variable).is_some_and(|value| !value.is_empty()))
+}
+
+fn names_display(is_set: impl Fn(&str) -> bool) -> bool {
+    let named = cfg!(all(unix, not(any(target_vendor = "apple", target_os = "android"))));
+    !named || ["WAYLAND_DISPLAY", "WAYLAND_SOCKET", "DISPLAY"].into_iter().any(is_set)
+}
+
+type NewCameras<'w, 's> =
+    Query<'w, 's, (Entity, &'static Transform), (Added<Camera>, Without<OrbitCamera>, Without<ChildOf>)>;
+
+/// A camera without an orbit gets one that leaves the picture as it is.
+fn give_orbits(cameras: NewCameras, mut commands: Commands) {
+    for (entity, transform) in &cameras {
+        commands.entity(entity).insert(OrbitCamera::resume(transform, distance_to_turn_at(transform)));
+    }
+}
+
+/// From the eye to the point of the view axis nearest the origin, or to the origin where that point
+/// is not well in front of the eye; 1 for an eye at the origin.
+fn distance_to_turn_at(transform: &Transform) -> f32 {
+    let away = transform.translation.length();
+    let along = transform.translation.dot(transform.rotation * Vec3::Z);
+    let distance = if along > 0.1 * away { along } else { away };
+    if distance > 0.0 && distance.is_finite() { distance } else { 1.0 }
+}
+
+/// Tells the window system that a picture is coming, so that it says when it wants the next one.
+fn announce(window: Query<&WinitWindow>, surface: Option<Res<SurfaceTarget>>) {
+    if surface.is_some_and(|surface| surface.acquired()) {
+        window.iter().for_each(|window| window.0.pre_present_notify());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn displays_are_named_by_the_environment() {
+        if !cfg!(target_os = "linux") {
+            return;
+        }
+        let rows = [
+            (&[][..], false),
+            (&["DISPLAY"], true),
+            (&["WAYLAND_DISPLAY"], true),
+            (&["WAYLAND_SOCKET"], true),
+            (&["HOME"], false),
+        ];
+        for (set, expected) in rows {
+            assert_eq!(names_display(|variable| set.contains(&variable)), expected, "{set:?}");
+        }
+    }
+
+    #[test]
+    fn cameras_turn_about_what_they_look_at() {
+        let at = |x, y, z, target: Vec3| Transform::from_xyz(x, y, z).looking_at(target, Vec3::Y);
+        let rows = [
+            ("at the origin", at(0.0, 3.0, 4.0, Vec3::ZERO), 5.0),
+            ("past the origin", at(0.0, 2.0, 6.0, Vec3::new(0.0, 2.0, -1.0)), 6.0),
+            ("away from the origin", at(0.0, 0.0, 4.0, Vec3::new(0.0, 0.0, 9.0)), 4.0),
+            ("across", at(3.0, 0.0, 0.0, Vec3::new(3.0, 0.0, -1.0)), 3.0),
+            ("from the origin", at(0.0, 0.0, 0.0, Vec3::NEG_Z), 1.0),
+            ("no number", Transform::from_xyz(f32::NAN, 0.0, 0.0), 1.0),
+        ];
+        for (name, transform, expected) in rows {
+            let distance = distance_to_turn_at(&transform);
+            // A few roundings.
+            assert!((distance - expected).abs() < 1e-5, "{name}: {distance}");
+        }
+    }
+
+    #[test]
+    fn new_cameras_get_an_orbit_and_keep_their_picture() {
+        let mut app = App::new();
+        app.add_plugins(WindowPlugin::default());
+        app.finish();
+        let transform = Transform::from_xyz(1.0, 2.0, 6.0).looking_at(Vec3::ZERO, Vec3::Y);
+        let own = OrbitCamera::looking_at(Vec3::Z, Vec3::X);
+        let camera = app.world_mut().spawn((Camera::default(), transform)).id();
+        let with_own = app.world_mut().spawn((Camera::default(), own.clone())).id();
+        let riding = app.world_mut().spawn((Camera::default(), ChildOf(camera))).id();
+        app.update();
+        app.update();
+        let world = app.world();
+        let orbit = world.get::<OrbitCamera>(camera).expect("one was given").orbit;
+        // The target is the origin but for rounding.
+        assert!(orbit.target.length() < 1e-5, "{}", orbit.target);
+        assert_eq!(*world.get::<Transform>(camera).unwrap(), transform);
+        assert_eq!(world.get::<OrbitCamera>(with_own).unwrap().orbit, own.orbit);
+        assert!(world.get::<OrbitCamera>(riding).is_none(), "a camera that rides on something is left alone");
+
+        app.world_mut().entity_mut(camera).remove::<OrbitCamera>();
+        app.update();
+        assert!(app.world().get::<OrbitCamera>(camera).is_none(), "taken away is taken away");
+    }
+
+    #[test]
+    fn works_beside_plugins_that_are_there_already() {
+        let mut app = App::new();
+        app.add_plugins((InputPlugin, OrbitCameraPlugin, ViewerKeysPlugin, WindowPlugin::default()));
+        app.finish();
+        app.update();
+    }
+}

@@ -1,0 +1,232 @@
+//! The event loop: one update of the App a redraw.
+
+use crate::error::{WindowError, reason};
+use crate::open::Open;
+use crate::plugin::{WindowPlugin, has_display};
+use crate::problems::{Said, say};
+use crate::title::{FrameTime, title};
+use bevy_app::{App, AppExit, PluginsState};
+use halfway_render::FrameReport;
+use std::time::{Duration, Instant};
+use winit::application::ApplicationHandler;
+use winit::event::{StartCause, WindowEvent};
+use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
+use winit::window::WindowId;
+
+/// Between looks at whether a hidden window is back, and between titles.
+const SELDOM: Duration = Duration::from_millis(250);
+
+/// Runs `app` in a window until it is closed.
+pub(crate) fn run(mut app: App, settings: WindowPlugin) -> AppExit {
+    let event_loop = match open_display() {
+        Ok(event_loop) => event_loop,
+        Err(error) => return failed(&error),
+    };
+    finish_plugins(&mut app);
+    let mut runner = Runner::new(app, settings);
+    if let Err(error) = event_loop.run_app(&mut runner) {
+        return failed(&WindowError::Display(reason(&error)));
+    }
+    runner.exit.unwrap_or(AppExit::Success)
+}
+
+fn open_display() -> Result<EventLoop<()>, WindowError> {
+    if !has_display() {
+        return Err(WindowError::NoDisplay);
+    }
+    EventLoop::new().map_err(|error| WindowError::Display(reason(&error)))
+}
+
+fn failed(error: &WindowError) -> AppExit {
+    say(error);
+    AppExit::error()
+}
+
+fn finish_plugins(app: &mut App) {
+    while app.plugins_state() == PluginsState::Adding {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    if app.plugins_state() == PluginsState::Ready {
+        app.finish();
+        app.cleanup();
+    }
+}
+
+/// The App, its window and what was last said about them.
+struct Runner {
+    app: App,
+    settings: WindowPlugin,
+    open: Option<Open>,
+    /// The window system says that nothing of the window can be seen.
+    covered: bool,
+    minimised: bool,
+    exit: Option<AppExit>,
+    frames: u64,
+    /// The shortest time from frame to frame.
+    pace: Duration,
+    said: Said,
+    shown_title: String,
+    next_title: Instant,
+}
+
+impl Runner {
+    fn new(app: App, settings: WindowPlugin) -> Self {
+        Self {
+            app,
+            open: None,
+            covered: false,
+            minimised: false,
+            exit: None,
+            frames: 0,
+            pace: Duration::ZERO,
+            said: Said::default(),
+            shown_title: settings.title.clone(),
+            next_title: Instant::now(),
+            settings,
+        }
+    }
+
+    /// Updates and draws, unless nothing of it could be seen, and arranges for the next time.
+    fn frame(&mut self, event_loop: &ActiveEventLoop) {
+        if self.hidden() || self.exit.is_some() {
+            return;
+        }
+        let start = Instant::now();
+        self.app.update();
+        let took = start.elapsed();
+        if let Some(exit) = self.app.should_exit() {
+            return self.end(event_loop, exit);
+        }
+        let Some(open) = &mut self.open else { return };
+        let presented = match open.settle(self.app.world_mut()) {
+            Ok(presented) => presented,
+            Err(error) => return self.end(event_loop, failed(&error)),
+        };
+        if took < self.pace {
+            event_loop.set_control_flow(ControlFlow::WaitUntil(start + self.pace));
+        } else {
+            event_loop.set_control_flow(ControlFlow::Wait);
+            open.window.request_redraw();
+        }
+        if presented {
+            self.frames += 1;
+            // The first frame builds the pipelines and is no measure of the others.
+            if self.frames > 1 {
+                self.app.world_mut().get_resource_or_init::<FrameTime>().push(took);
+            }
+        }
+        self.say_errors();
+        if start >= self.next_title {
+            self.next_title = start + SELDOM;
+            self.now_and_then(event_loop);
+        }
+    }
+
+    fn hidden(&self) -> bool {
+        self.covered || self.minimised
+    }
+
+    fn say_errors(&mut self) {
+        if let Some(report) = self.app.world().get_resource::<FrameReport>() {
+            self.said.say_new(&report.errors);
+        }
+    }
+
+    /// What costs too much for every frame: the title, and asking about the window and its display.
+    fn now_and_then(&mut self, event_loop: &ActiveEventLoop) {
+        let Some(open) = &self.open else { return };
+        self.pace = open.pace();
+        if self.settings.status {
+            let program = self.settings.title.clone();
+            if let Ok(title) = self.app.world_mut().run_system_cached_with(title, program)
+                && title != self.shown_title
+            {
+                open.window.set_title(&title);
+                self.shown_title = title;
+            }
+        }
+        self.look(event_loop);
+    }
+
+    /// Sees whether the window is minimised; not every window system says so by itself.
+    fn look(&mut self, event_loop: &ActiveEventLoop) {
+        let Some(open) = &self.open else { return };
+        let size = open.window.inner_size();
+        self.minimised = size.width == 0 || size.height == 0 || open.window.is_minimized() == Some(true);
+        if self.minimised {
+            event_loop.set_control_flow(ControlFlow::WaitUntil(Instant::now() + SELDOM));
+        }
+    }
+
+    fn redraw(&self) {
+        if let Some(open) = &self.open
+            && !self.hidden()
+        {
+            open.window.request_redraw();
+        }
+    }
+
+    /// The close button: a last update, in which systems see the message.
+    fn close(&mut self, event_loop: &ActiveEventLoop) {
+        self.app.world_mut().write_message(AppExit::Success);
+        self.app.update();
+        let exit = self.app.should_exit().unwrap_or(AppExit::Success);
+        self.end(event_loop, exit);
+    }
+
+    fn end(&mut self, event_loop: &ActiveEventLoop, exit: AppExit) {
+        self.say_errors();
+        self.exit = Some(exit);
+        event_loop.exit();
+    }
+}
+
+impl ApplicationHandler for Runner {
+    fn new_events(&mut self, event_loop: &ActiveEventLoop, cause: StartCause) {
+        if matches!(cause, StartCause::ResumeTimeReached { .. }) {
+            event_loop.set_control_flow(ControlFlow::Wait);
+            self.look(event_loop);
+            self.redraw();
+        }
+    }
+
+    fn resumed(&mut self, event_loop: &ActiveEventLoop) {
+        // Some systems resume more than once.
+        if self.open.is_some() {
+            return;
+        }
+        match Open::new(event_loop, &self.settings, self.app.world_mut()) {
+            Ok(open) => self.open = Some(open),
+            Err(error) => return self.end(event_loop, failed(&error)),
+        }
+        self.redraw();
+    }
+
+    fn window_event(&mut self, event_loop: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
+        let Some(open) = &mut self.open else { return };
+        open.input.event(&event, open.window.scale_factor(), self.app.world_mut());
+        match event {
+            WindowEvent::RedrawRequested => self.frame(event_loop),
+            // A change of the scale factor is followed by one of the size, but not everywhere.
+            WindowEvent::Resized(_) | WindowEvent::ScaleFactorChanged { .. } => {
+                open.follow_size(self.app.world_mut());
+                self.look(event_loop);
+                self.redraw();
+            }
+            WindowEvent::Occluded(covered) => {
+                self.covered = covered;
+                self.redraw();
+            }
+            WindowEvent::CloseRequested => self.close(event_loop),
+            // Taken away by the display; there is nothing left to draw in.
+            WindowEvent::Destroyed => self.end(event_loop, AppExit::Success),
+            _ => {}
+        }
+    }
+
+    fn exiting(&mut self, _: &ActiveEventLoop) {
+        if let Some(open) = self.open.take() {
+            open.close(self.app.world_mut());
+        }
+    }
+}

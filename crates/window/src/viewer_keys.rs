@@ -1,0 +1,239 @@
+//! The viewer's keys: shading frequency, reflectance, close.
+
+use crate::keys;
+use crate::orbit_camera::modified;
+use bevy_app::{App, AppExit, Plugin, PreUpdate};
+use bevy_ecs::component::Mutable;
+use bevy_ecs::prelude::*;
+use bevy_input::keyboard::{KeyCode, KeyboardInput};
+use bevy_input::{ButtonInput, InputPlugin, InputSystems};
+use halfway_lighting::{Reflectance, Shading};
+use halfway_render::{Camera, ModelView};
+
+/// Keys to compare shadings with, in `PreUpdate`:
+///
+/// | key | what it does |
+/// |---|---|
+/// | 1, 2, 3 | flat, Gouraud, Phong shading |
+/// | B | switches between Phong and Blinn–Phong reflectance |
+/// | Escape, Q | closes: [`AppExit::Success`] |
+///
+/// A choice is set on every camera and on every object that has a choice of its own. B goes to Phong
+/// where anything drawn is Blinn–Phong, and back to the kind of Blinn–Phong that was there. Keys with
+/// Control, Alt or Super are left to others. `InputPlugin` is added where the App has none yet (add
+/// your own before).
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ViewerKeysPlugin;
+
+impl Plugin for ViewerKeysPlugin {
+    fn build(&self, app: &mut App) {
+        if !app.is_plugin_added::<InputPlugin>() {
+            app.add_plugins(InputPlugin);
+        }
+        app.init_resource::<Pressed>();
+        let systems = (read, (shading, reflectance, close)).chain();
+        app.add_systems(PreUpdate, systems.after(InputSystems));
+    }
+}
+
+/// The commands of this frame.
+#[derive(Resource, Default)]
+struct Pressed(Vec<char>);
+
+const ESCAPE: char = '\u{1b}';
+
+impl Pressed {
+    fn has(&self, command: char) -> bool {
+        self.0.contains(&command)
+    }
+}
+
+fn read(mut presses: MessageReader<KeyboardInput>, keys: Res<ButtonInput<KeyCode>>, mut pressed: ResMut<Pressed>) {
+    pressed.0.clear();
+    let commands = presses.read().filter(|key| key.state.is_pressed() && !key.repeat).filter_map(|key| {
+        if key.key_code == KeyCode::Escape { Some(ESCAPE) } else { keys::command(key.key_code, &key.logical_key) }
+    });
+    if modified(&keys) {
+        commands.for_each(drop);
+    } else {
+        pressed.0.extend(commands);
+    }
+}
+
+/// Everything that a choice of `T` may be on: cameras, drawn objects, and what has one already.
+type Choosers<'w, 's, T> = Query<'w, 's, (Entity, Option<&'static mut T>, Has<Camera>, Has<ModelView>)>;
+
+/// Sets `value` on every camera and on every entity that has one of its own.
+fn choose<T>(value: T, choosers: &mut Choosers<T>, commands: &mut Commands)
+where
+    T: Component<Mutability = Mutable> + Copy,
+{
+    for (entity, own, is_camera, _) in choosers {
+        match own {
+            Some(mut own) => *own = value,
+            None if is_camera => {
+                commands.entity(entity).insert(value);
+            }
+            None => {}
+        }
+    }
+}
+
+fn shading(pressed: Res<Pressed>, mut choosers: Choosers<Shading>, mut commands: Commands) {
+    let keys = [('1', Shading::Flat), ('2', Shading::Gouraud), ('3', Shading::Phong)];
+    for (_, shading) in keys.into_iter().filter(|&(key, _)| pressed.has(key)) {
+        choose(shading, &mut choosers, &mut commands);
+    }
+}
+
+fn reflectance(
+    pressed: Res<Pressed>,
+    mut choosers: Choosers<Reflectance>,
+    mut last_blinn: Local<Reflectance>,
+    mut commands: Commands,
+) {
+    if !pressed.has('b') {
+        return;
+    }
+    let next = match shown_blinn(&choosers) {
+        Some(blinn) => {
+            *last_blinn = blinn;
+            Reflectance::Phong
+        }
+        None => *last_blinn,
+    };
+    choose(next, &mut choosers, &mut commands);
+}
+
+/// The Blinn–Phong reflectance of anything drawn, or of the view where nothing is.
+fn shown_blinn(choosers: &Choosers<Reflectance>) -> Option<Reflectance> {
+    let view = choosers.iter().find(|(_, _, is_camera, _)| *is_camera).and_then(|(_, own, ..)| own.copied());
+    let view = view.unwrap_or_default();
+    let drawn = choosers.iter().filter(|(.., is_drawn)| *is_drawn).map(|(_, own, ..)| own.copied().unwrap_or(view));
+    let mut shown = drawn.peekable();
+    if shown.peek().is_none() {
+        return Some(view).filter(|&view| view != Reflectance::Phong);
+    }
+    shown.find(|&shown| shown != Reflectance::Phong)
+}
+
+fn close(pressed: Res<Pressed>, mut exits: MessageWriter<AppExit>) {
+    if pressed.has('q') || pressed.has(ESCAPE) {
+        exits.write(AppExit::Success);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use bevy_input::ButtonState;
+    use bevy_input::keyboard::Key;
+
+    fn app() -> App {
+        let mut app = App::new();
+        app.add_plugins(ViewerKeysPlugin);
+        app
+    }
+
+    fn press(app: &mut App, key_code: KeyCode, text: &str) {
+        for state in [ButtonState::Pressed, ButtonState::Released] {
+            let (logical_key, window) = (Key::Character(text.into()), Entity::PLACEHOLDER);
+            let key = KeyboardInput { key_code, logical_key, state, text: None, repeat: false, window };
+            app.world_mut().write_message(key);
+            app.update();
+        }
+    }
+
+    fn drawn() -> ModelView {
+        ModelView::default()
+    }
+
+    #[test]
+    fn digits_set_the_shading_of_cameras_and_of_objects_with_their_own() {
+        let rows = [
+            (KeyCode::Digit1, "1", Shading::Flat),
+            (KeyCode::Digit2, "2", Shading::Gouraud),
+            (KeyCode::Numpad3, "3", Shading::Phong),
+        ];
+        for before in [Shading::Flat, Shading::Gouraud, Shading::Phong] {
+            for (key_code, text, expected) in rows {
+                let mut app = app();
+                let bare_camera = app.world_mut().spawn(Camera::default()).id();
+                let camera = app.world_mut().spawn((Camera::default(), before)).id();
+                let own = app.world_mut().spawn((drawn(), before)).id();
+                let bare = app.world_mut().spawn(drawn()).id();
+                press(&mut app, key_code, text);
+                for entity in [bare_camera, camera, own] {
+                    assert_eq!(app.world().get::<Shading>(entity), Some(&expected), "{text} after {before:?}");
+                }
+                assert_eq!(app.world().get::<Shading>(bare), None, "{text}: an object without its own keeps none");
+            }
+        }
+    }
+
+    #[test]
+    fn b_switches_what_is_shown() {
+        use Reflectance::{BlinnPhong, BlinnPhongMatched, Phong};
+        // The camera's own, the objects' own, and what all have after one press and after two.
+        let rows = [
+            ("no choice anywhere", None, &[None][..], Phong, BlinnPhong),
+            ("no objects", None, &[], Phong, BlinnPhong),
+            ("no objects, a Phong camera", Some(Phong), &[], BlinnPhong, Phong),
+            ("the camera's Phong", Some(Phong), &[None], BlinnPhong, Phong),
+            ("the object's Phong", None, &[Some(Phong)], BlinnPhong, Phong),
+            ("the object's Phong wins", Some(BlinnPhong), &[Some(Phong)], BlinnPhong, Phong),
+            ("mixed", None, &[Some(Phong), Some(BlinnPhong)], Phong, BlinnPhong),
+            ("matched comes back matched", Some(BlinnPhongMatched), &[None], Phong, BlinnPhongMatched),
+        ];
+        for (name, on_camera, on_objects, first, second) in rows {
+            let mut app = app();
+            let camera = app.world_mut().spawn(Camera::default()).id();
+            let mut with_own = vec![camera];
+            if let Some(own) = on_camera {
+                app.world_mut().entity_mut(camera).insert(own);
+            }
+            for own in on_objects {
+                let object = app.world_mut().spawn(drawn()).id();
+                if let Some(own) = *own {
+                    app.world_mut().entity_mut(object).insert(own);
+                    with_own.push(object);
+                }
+            }
+            for expected in [first, second] {
+                press(&mut app, KeyCode::KeyB, "b");
+                for &entity in &with_own {
+                    assert_eq!(app.world().get::<Reflectance>(entity), Some(&expected), "{name}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn escape_and_q_close() {
+        for (key_code, text) in [(KeyCode::Escape, ""), (KeyCode::KeyQ, "q"), (KeyCode::KeyA, "Q")] {
+            let mut app = app();
+            app.update();
+            assert_eq!(app.should_exit(), None);
+            press(&mut app, key_code, text);
+            assert_eq!(app.should_exit(), Some(AppExit::Success), "{key_code:?}");
+        }
+    }
+
+    #[test]
+    fn shortcuts_of_others_are_left_alone() {
+        let mut app = app();
+        let (logical_key, window, state) = (Key::Control, Entity::PLACEHOLDER, ButtonState::Pressed);
+        let key_code = KeyCode::ControlLeft;
+        app.world_mut().write_message(KeyboardInput {
+            key_code,
+            logical_key,
+            state,
+            text: None,
+            repeat: false,
+            window,
+        });
+        app.update();
+        press(&mut app, KeyCode::KeyQ, "q");
+        assert_eq!(app.should_exit(), None);
+    }
+}
