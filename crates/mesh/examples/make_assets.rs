@@ -308,7 +308,7 @@ fn lantern_glb() -> Vec<u8> {
         bytes.resize(bytes.len().next_multiple_of(4), 0);
     };
     for (i, (name, shape, material)) in lantern_shapes().into_iter().enumerate() {
-        let floats = |v: &[Vec3]| v.iter().flat_map(|p| p.to_array()).flat_map(f32::to_le_bytes).collect::<Vec<_>>();
+        let floats = |v: &[Vec3]| v.iter().flat_map(Vec3::to_array).flat_map(f32::to_le_bytes).collect::<Vec<_>>();
         view(&mut bytes, &floats(&shape.positions), 34962);
         view(&mut bytes, &floats(&shape.normals), 34962);
         let indices: Vec<u8> = shape.indices.iter().copied().flat_map(u16::to_le_bytes).collect();

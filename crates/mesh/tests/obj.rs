@@ -23,18 +23,18 @@ fn load_with_mtl(obj: &str, mtl: &str) -> Model {
 fn the_forms_of_faces() {
     let with_rest = format!("{SQUARE}vt 0 0\nvt 1 0.25\nvn 0 0 2\n");
     let rows = [
-        ("triangle", "f 1 2 3", 1, false, false),
-        ("quadrangle", "f 1 2 3 4", 2, false, false),
-        ("texture coordinates", "f 1/1 2/2 3/1", 1, true, false),
-        ("normals", "f 1//1 2//1 3//1", 1, false, true),
-        ("both", "f 1/1/1 2/2/1 3/1/1 4/2/1", 2, true, true),
-        ("negative", "f -4/-2/-1 -3/-1/-1 -2/-2/-1", 1, true, true),
-        ("old keyword", "fo 1 2 3", 1, false, false),
-        ("comment behind", "f 1 2 3 # 4", 1, false, false),
-        ("continued", "f 1 2 \\\n 3 4", 2, false, false),
-        ("white space", " f\t1  2 3 \r", 1, false, false),
+        ("triangle", "f 1 2 3", 1, false),
+        ("quadrangle", "f 1 2 3 4", 2, false),
+        ("texture coordinates", "f 1/1 2/2 3/1", 1, true),
+        ("normals", "f 1//1 2//1 3//1", 1, false),
+        ("both", "f 1/1/1 2/2/1 3/1/1 4/2/1", 2, true),
+        ("negative", "f -4/-2/-1 -3/-1/-1 -2/-2/-1", 1, true),
+        ("old keyword", "fo 1 2 3", 1, false),
+        ("comment behind", "f 1 2 3 # 4", 1, false),
+        ("continued", "f 1 2 \\\n 3 4", 2, false),
+        ("white space", " f\t1  2 3 \r", 1, false),
     ];
-    for (name, face, triangles, uvs, normals) in rows {
+    for (name, face, triangles, uvs) in rows {
         let model = load_text(&format!("{with_rest}{face}\n"));
         assert!(model.warnings.is_empty(), "{name}: {:?}", model.warnings);
         let [part] = &model.parts[..] else { panic!("{name}: {} parts", model.parts.len()) };
@@ -47,7 +47,6 @@ fn the_forms_of_faces() {
             // v runs upward in the file.
             assert_eq!((uvs[a], uvs[b]), (Vec2::new(0.0, 1.0), Vec2::new(1.0, 0.75)), "{name}");
         }
-        let _ = normals;
     }
 }
 
@@ -118,7 +117,7 @@ fn what_is_skipped_is_said() {
         (
             "missing library",
             format!("mtllib gone.mtl\n{SQUARE}f 1 2 3\n"),
-            &["FOLDER/gone.mtl: cannot be read: No such file or directory (os error 2)"],
+            &["FOLDER/gone.mtl: cannot be read: MISSING"],
         ),
         (
             "library outside",
@@ -171,8 +170,14 @@ fn what_is_skipped_is_said() {
     for (name, text, expected) in rows {
         let folder = Folder::new();
         let model = load(&folder.write("model.obj", text)).unwrap();
-        let expected: Vec<String> =
-            expected.iter().map(|text| text.replace("FOLDER", &folder.path().display().to_string())).collect();
+        // Number 2 on every system.
+        let missing = std::io::Error::from_raw_os_error(2);
+        let expected: Vec<String> = expected
+            .iter()
+            .map(|text| {
+                text.replace("FOLDER", &folder.path().display().to_string()).replace("MISSING", &missing.to_string())
+            })
+            .collect();
         assert_eq!(model.warnings, expected, "{name}");
         assert_eq!(model.parts[0].mesh.normals()[0], Vec3::Z, "{name}");
     }
@@ -239,7 +244,7 @@ fn malformed_files_are_refused_by_line() {
             with("f 1//1 2//1 3//-1"),
             ":5: the normal -1 in `f`; a normal that a `vn` defines is expected".into(),
         ),
-        ("four parts", with("f 1/1/1/1 2 3"), format!(":5: the texture coordinate 1 in `f`; a texture coordinate that a `vt` defines is expected")),
+        ("four parts", with("f 1/1/1/1 2 3"), format!(":5: `1/1/1/1` in `f`; {CORNERS}")),
         ("not a number", with("f 1 2 x"), format!(":5: `x` in `f`; {CORNERS}")),
         ("fraction", with("f 1 2 1.5"), format!(":5: `1.5` in `f`; {CORNERS}")),
         ("beyond i64", with("f 1 2 9223372036854775808"), format!(":5: `9223372036854775808` in `f`; {CORNERS}")),

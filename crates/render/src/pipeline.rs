@@ -273,7 +273,8 @@ const OVER: wgpu::BlendState = wgpu::BlendState {
 
 fn entry_points(key: PipelineKey) -> (&'static str, &'static str) {
     match (key.stage, key.cull) {
-        (Stage::Unlit, _) => ("vs_unlit", "fs_unlit"),
+        (Stage::Unlit, Cull::Back) => ("vs_unlit", "fs_unlit"),
+        (Stage::Unlit, _) => ("vs_unlit", "fs_unlit_both"),
         (Stage::Flat, _) => ("vs_flat", "fs_flat"),
         (Stage::Vertex, Cull::Back) => ("vs_gouraud", "fs_gouraud"),
         (Stage::Vertex, _) => ("vs_gouraud_both", "fs_gouraud_both"),

@@ -19,8 +19,9 @@ use super::{SceneError, json};
 
 /// A scene as it stands in a scene file. Every key may be left out; the defaults are [`SceneFile::default`].
 ///
-/// A scene that was read holds only values that make sense ([`SceneFile::validate`]); one that was put together in code
-/// is validated before it is written or spawned.
+/// A scene from [`SceneFile::read`] or [`SceneFile::from_json`] holds only values that make sense
+/// ([`SceneFile::validate`]). One that was put together in code, or deserialised by other means, is validated before it
+/// is written or spawned.
 #[derive(Serialize, Deserialize, JsonSchema, Clone, Debug, PartialEq)]
 #[serde(default, deny_unknown_fields)]
 #[schemars(
@@ -105,7 +106,7 @@ impl SceneFile {
 
     /// Reads a scene file.
     ///
-    /// Paths in it stay as they are written: relative to the folder of the file, which [`spawn`](super::spawn) is told.
+    /// Paths in it stay as they are written: relative to the folder of the file, which [`spawn()`](super::spawn()) is told.
     ///
     /// # Errors
     /// [`SceneError::Read`], [`SceneError::TooLarge`] and [`SceneError::NotUtf8`] for a file that is no text, and as
@@ -161,7 +162,7 @@ impl SceneFile {
 
     /// A scene of one model file, framed by the camera and lit by its own lights or by the default ones.
     ///
-    /// `path` is taken as it is; it is relative to the folder that [`spawn`](super::spawn) is told.
+    /// `path` is taken as it is; it is relative to the folder that [`spawn()`](super::spawn()) is told.
     pub fn for_model(path: impl Into<PathBuf>) -> Self {
         let model = ObjectEntry::new(MeshEntry::Path(path.into()));
         Self { objects: vec![model], ..Self::default() }

@@ -12,7 +12,7 @@ use bevy_math::{DMat3, DQuat, Mat4, Vec3};
 use bevy_transform::components::Transform;
 use halfway_lighting::conversion::PunctualLight;
 use halfway_lighting::{BackMaterial, Blend, Faces, GlobalAmbient, Reflectance, Shading};
-use halfway_mesh::{Mesh, Mesh3d};
+use halfway_mesh::{Bounds, Mesh, Mesh3d};
 use halfway_render::{Camera, Samples};
 
 use super::SceneError;
@@ -91,7 +91,7 @@ type Handles = HashMap<*const Vec3, Handle<Mesh>>;
 fn spawn_camera(scene: &SceneFile, objects: &[Object], world: &mut World) -> Entity {
     let entry = scene.camera.unwrap_or_else(|| {
         let [width, height] = scene.size;
-        framing_camera(corners(objects), width as f32 / height as f32)
+        framing_camera(outline(objects), width as f32 / height as f32)
     });
     let camera = Camera {
         fov_y: entry.fov_y_deg.to_radians(),
@@ -106,27 +106,36 @@ fn spawn_camera(scene: &SceneFile, objects: &[Object], world: &mut World) -> Ent
     world.spawn((Name::new("camera"), camera, camera_transform(&entry), view)).id()
 }
 
-/// The corners of the boxes around all parts, in the world.
-fn corners(objects: &[Object]) -> Vec<Vec3> {
-    let mut corners = Vec::new();
+/// Above this number of vertices the corners of boxes stand for them.
+const FRAMED_VERTICES: usize = 1 << 20;
+
+/// The vertices of all parts in the world, or, where they are many, the corners of the boxes around the parts.
+fn outline(objects: &[Object]) -> Vec<Vec3> {
+    let vertices: usize =
+        objects.iter().flat_map(|(_, shape)| &shape.parts).map(|part| part.mesh.positions().len()).sum();
+    let mut outline = Vec::new();
     for (object, shape) in objects {
         let world_from_object = object.transform.matrix().as_dmat4();
         for part in &shape.parts {
-            let bounds = part.mesh.bounds();
             let world_from_part = world_from_object * part.object_from_part.as_dmat4();
-            corners.extend((0..8).map(|i| {
-                let pick = |bit: u32, low: f32, high: f32| if i & bit == 0 { low } else { high };
-                let corner = Vec3::new(
-                    pick(1, bounds.min.x, bounds.max.x),
-                    pick(2, bounds.min.y, bounds.max.y),
-                    pick(4, bounds.min.z, bounds.max.z),
-                );
-                world_from_part.transform_point3(corner.as_dvec3()).as_vec3()
-            }));
+            let to_world = |p: Vec3| world_from_part.transform_point3(p.as_dvec3()).as_vec3();
+            if vertices <= FRAMED_VERTICES {
+                outline.extend(part.mesh.positions().iter().copied().map(to_world));
+            } else {
+                outline.extend(corners(&part.mesh.bounds()).map(to_world));
+            }
         }
     }
-    corners.retain(|corner| corner.is_finite());
-    corners
+    outline.retain(|point| point.is_finite());
+    outline
+}
+
+fn corners(bounds: &Bounds) -> impl Iterator<Item = Vec3> {
+    let Bounds { min, max } = *bounds;
+    (0..8).map(move |i| {
+        let pick = |axis: usize| if i & (1 << axis) == 0 { min[axis] } else { max[axis] };
+        Vec3::new(pick(0), pick(1), pick(2))
+    })
 }
 
 fn camera_transform(entry: &CameraEntry) -> Transform {

@@ -158,7 +158,7 @@ impl<'a> Plain<'a> {
     /// `v`, `v/vt`, `v//vn` or `v/vt/vn`, written with absolute indices.
     fn corner(&mut self, statement: &Statement<'a>, corner: &str) -> Result<(), LoadError> {
         const EXPECTED: &str = "corners of the form v, v/vt, v//vn or v/vt/vn are";
-        let malformed = || statement.error(format!("`{corner}` in `f`"), EXPECTED);
+        let malformed = || statement.unexpected_word(corner, EXPECTED);
         for (kind, word) in corner.split('/').enumerate() {
             self.faces.push_str(if kind == 0 { " " } else { "/" });
             if kind == 1 && word.is_empty() {

@@ -56,11 +56,16 @@ impl<'a> Statement<'a> {
         self.error(format!("`{}`", abridged(self.keyword, self.rest)), expected)
     }
 
+    /// That one of its words is not what it should be.
+    pub(super) fn unexpected_word(&self, word: &str, expected: &str) -> LoadError {
+        self.error(format!("`{}` in `{}`", abridged(word, ""), self.keyword), expected)
+    }
+
     /// A word as a finite number.
     pub(super) fn number(&self, word: &str) -> Result<f32, LoadError> {
         match f32::from_str(word) {
             Ok(x) if x.is_finite() => Ok(x),
-            _ => Err(self.error(format!("`{}` in `{}`", abridged(word, ""), self.keyword), "a finite number is")),
+            _ => Err(self.unexpected_word(word, "a finite number is")),
         }
     }
 }

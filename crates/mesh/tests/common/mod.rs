@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 
 /// A folder of the test's own, removed at the end.
-pub struct Folder(PathBuf);
+pub(crate) struct Folder(PathBuf);
 
 impl Folder {
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         static COUNT: AtomicU32 = AtomicU32::new(0);
         let name = format!("halfway_mesh-{}-{}", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
         let path = std::env::temp_dir().join(name);
@@ -17,12 +17,12 @@ impl Folder {
         Self(path)
     }
 
-    pub fn path(&self) -> &Path {
+    pub(crate) fn path(&self) -> &Path {
         &self.0
     }
 
     /// Writes a file and returns its path.
-    pub fn write(&self, name: &str, content: impl AsRef<[u8]>) -> PathBuf {
+    pub(crate) fn write(&self, name: &str, content: impl AsRef<[u8]>) -> PathBuf {
         let path = self.0.join(name);
         fs::create_dir_all(path.parent().unwrap()).unwrap();
         fs::write(&path, content).unwrap();
@@ -37,14 +37,14 @@ impl Drop for Folder {
 }
 
 /// A binary glTF file.
-pub fn glb(json: &str, data: &[u8]) -> Vec<u8> {
+pub(crate) fn glb(json: &str, data: &[u8]) -> Vec<u8> {
     let header = gltf::binary::Header { magic: *b"glTF", version: 2, length: 0 };
     let glb = gltf::Glb { header, json: json.as_bytes().into(), bin: Some(data.into()) };
     glb.to_vec().unwrap()
 }
 
 /// A triangle with normals, texture coordinates, indices, a material and a node.
-pub const TRIANGLE_JSON: &str = r#"{
+pub(crate) const TRIANGLE_JSON: &str = r#"{
 "asset":{"version":"2.0"},
 "scene":0,
 "scenes":[{"nodes":[0]}],
@@ -65,7 +65,7 @@ pub const TRIANGLE_JSON: &str = r#"{
 }"#;
 
 /// The data of [`TRIANGLE_JSON`].
-pub fn triangle_data() -> Vec<u8> {
+pub(crate) fn triangle_data() -> Vec<u8> {
     let floats: [f32; 24] = [
         0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, // positions
         0.0, 0.0, 2.0, 0.0, 0.0, 2.0, 0.0, 0.0, 2.0, // normals, not of unit length

@@ -115,29 +115,24 @@ fn shaded(colour: vec3f, front: bool) -> vec4f {
 
 // ---- no lights: emission and ambient -------------------------------------------------------
 
-struct Unlit {
-    @invariant @builtin(position) clip: vec4f,
-    @location(0) @interpolate(flat, first) front: vec4f,
-    @location(1) @interpolate(flat, first) back: vec4f,
-}
-
 @vertex
 fn vs_unlit(
     @location(0) row0: vec4f,
     @location(1) row1: vec4f,
     @location(2) row2: vec4f,
     @location(6) position: vec3f,
-) -> Unlit {
-    let p = eye_position(Object(row0, row1, row2, vec3f(), vec3f(), vec3f()), position);
-    return Unlit(clip_position(p), shaded(draw.front.base, true), shaded(draw.back.base, false));
+) -> @invariant @builtin(position) vec4f {
+    return clip_position(eye_position(Object(row0, row1, row2, vec3f(), vec3f(), vec3f()), position));
 }
 
 @fragment
-fn fs_unlit(in: Unlit, @builtin(front_facing) front: bool) -> @location(0) vec4f {
-    if TWO_SIDED {
-        return select(in.back, in.front, front);
-    }
-    return in.front;
+fn fs_unlit() -> @location(0) vec4f {
+    return shaded(draw.front.base, true);
+}
+
+@fragment
+fn fs_unlit_both(@builtin(front_facing) front: bool) -> @location(0) vec4f {
+    return shaded(select(draw.back.base, draw.front.base, front), front);
 }
 
 // ---- flat: one shade a triangle, made at its provoking vertex from its centroid and face normal ----

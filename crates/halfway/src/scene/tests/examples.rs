@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::spawned::app;
-use crate::scene::{SceneFile, spawn};
+use crate::scene::{SceneFile, json_schema, spawn};
 
 fn examples() -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/scenes");
@@ -46,4 +46,34 @@ fn the_documented_scene_is_an_example() {
     let docs = std::fs::read_to_string(root.join("docs/scene-format.md")).unwrap();
     let example = std::fs::read_to_string(root.join("examples/scenes/moonlit_table.json")).unwrap();
     assert!(docs.contains(&format!("```json\n{example}```")), "docs/scene-format.md shows another moonlit_table.json");
+}
+
+/// Every key and every word of the format, taken from the schema, stands in the documentation.
+#[test]
+fn every_key_is_documented() {
+    fn names(value: &serde_json::Value, found: &mut Vec<String>) {
+        match value {
+            serde_json::Value::Object(members) => {
+                if let Some(keys) = members.get("properties").and_then(serde_json::Value::as_object) {
+                    found.extend(keys.keys().cloned());
+                }
+                found.extend(members.get("const").and_then(serde_json::Value::as_str).map(str::to_owned));
+                members.values().for_each(|member| names(member, found));
+            }
+            serde_json::Value::Array(items) => items.iter().for_each(|item| names(item, found)),
+            _ => {}
+        }
+    }
+
+    let docs = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/scene-format.md")).unwrap();
+    let mut found = Vec::new();
+    names(&serde_json::from_str(&json_schema()).unwrap(), &mut found);
+    found.extend(halfway_lighting::Material::PRESETS.iter().map(|(name, _)| (*name).to_owned()));
+    assert!(found.len() > 90, "{found:?}");
+    for name in found {
+        assert!(
+            docs.contains(&format!("`{name}`")) || docs.contains(&format!("\"{name}\"")),
+            "docs/scene-format.md does not mention {name}"
+        );
+    }
 }

@@ -227,10 +227,17 @@ fn a_scene_without_camera_and_lights_gets_them() {
         r#"{"size": [300, 100], "objects": [
             {"mesh": {"box": {}}, "transform": {"translation": [100, 50, 0], "scale": [2, 2, 2]}}]}"#,
     );
-    let world_from_eye = global(&app, spawned.camera);
-    let eye_from_world = world_from_eye.inverse();
-    let center = eye_from_world.transform_point3(Vec3::new(100.0, 50.0, 0.0));
-    assert!(center.z < -2.0 && center.truncate().length() < 1e-4, "{center}");
+    // The box reaches from (99, 49, −1) to (101, 51, 1); the picture's half height is tan 22.5° of the depth.
+    let eye_from_world = global(&app, spawned.camera).inverse();
+    let heights = (0..8).map(|i| {
+        let corner =
+            Vec3::new(99.0, 49.0, -1.0) + 2.0 * Vec3::new((i & 1) as f32, (i >> 1 & 1) as f32, (i >> 2) as f32);
+        let p = eye_from_world.transform_point3(corner);
+        assert!(p.z < 0.0 && p.x.abs() < -p.z * 3.0 * 22.5_f32.to_radians().tan(), "{corner} at {p}");
+        p.y / (-p.z * 22.5_f32.to_radians().tan())
+    });
+    let (low, high) = heights.fold((f32::MAX, f32::MIN), |(low, high), y| (low.min(y), high.max(y)));
+    assert!(low > -1.0 && high < 1.0 && high - low > 1.7, "{low} to {high} of −1 to 1");
     assert_eq!(spawned.lights.len(), 3);
     let on_camera =
         spawned.lights.iter().filter(|&&l| get::<ChildOf>(&app, l).is_some_and(|c| c.parent() == spawned.camera));

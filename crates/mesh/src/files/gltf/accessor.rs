@@ -54,7 +54,7 @@ impl<'a> Accessors<'a> {
             return Ok(known.clone());
         }
         expect(accessor, Dimensions::Vec3, &[DataType::F32])?;
-        self.spend(&|| name(accessor), accessor.count().saturating_mul(12))?;
+        self.admit(accessor, size_of::<Vec3>())?;
         let read: Rc<[Vec3]> = self.items::<[f32; 3]>(accessor)?.map(Vec3::from_array).collect();
         self.vec3s.insert(accessor.index(), read.clone());
         Ok(read)
@@ -71,7 +71,7 @@ impl<'a> Accessors<'a> {
             let expected = "integers that are normalised are";
             return Err(Fault::element(name(accessor), "normalized false", expected));
         }
-        self.spend(&|| name(accessor), accessor.count().saturating_mul(8))?;
+        self.admit(accessor, size_of::<Vec2>())?;
         let read: Rc<[Vec2]> = match accessor.data_type() {
             DataType::U8 => {
                 self.items::<[u8; 2]>(accessor)?.map(|uv| Vec2::from_array(uv.map(|x| f32::from(x) / 255.0))).collect()
@@ -90,7 +90,7 @@ impl<'a> Accessors<'a> {
     pub(super) fn indices(&mut self, accessor: &Accessor) -> Result<Vec<u32>, Fault> {
         let allowed = [DataType::U8, DataType::U16, DataType::U32];
         expect(accessor, Dimensions::Scalar, &allowed)?;
-        self.spend(&|| name(accessor), accessor.count().saturating_mul(4))?;
+        self.admit(accessor, size_of::<u32>())?;
         Ok(match accessor.data_type() {
             DataType::U8 => self.items::<u8>(accessor)?.map(u32::from).collect(),
             DataType::U16 => self.items::<u16>(accessor)?.map(u32::from).collect(),
@@ -98,12 +98,14 @@ impl<'a> Accessors<'a> {
         })
     }
 
-    /// The items of an accessor, once all of them are known to be there.
-    fn items<T: Item>(&self, accessor: &Accessor<'a>) -> Result<Iter<'a, T>, Fault>
-    where
-        'a: 'a,
-    {
+    /// Makes sure that all items of an accessor are there, and that there is room for what they are read into.
+    fn admit(&mut self, accessor: &Accessor, bytes_each: usize) -> Result<(), Fault> {
         self.measure(accessor)?;
+        self.spend(&|| name(accessor), accessor.count().saturating_mul(bytes_each))
+    }
+
+    /// The items of an accessor that has been admitted.
+    fn items<T: Item>(&self, accessor: &Accessor) -> Result<Iter<'a, T>, Fault> {
         let buffers = self.buffers;
         Iter::new(accessor.clone(), move |buffer: Buffer| buffers.get(buffer.index()).map(Vec::as_slice))
             .ok_or_else(|| Fault::element(name(accessor), "no data", "a buffer view is"))

@@ -1,0 +1,244 @@
+//! Files as such: which are opened, and that nothing in one makes a reader panic. The project's own models.
+
+mod common;
+#[path = "../examples/make_assets.rs"]
+#[allow(dead_code, unreachable_pub, reason = "an example has a main function, and shares its files with this test")]
+mod make_assets;
+
+use std::path::{Path, PathBuf};
+
+use bevy_math::Vec3;
+use common::{Folder, TRIANGLE_JSON, glb, triangle_data};
+use halfway_mesh::{LoadError, Mesh, Model, SourceLightKind, SourceMaterial, Teapot, load};
+
+fn asset(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets").join(name)
+}
+
+#[test]
+fn only_regular_files_of_known_kinds_are_opened() {
+    let folder = Folder::new();
+    folder.write("folder.obj/x", "x");
+    for (name, content) in [("model.smf", ""), ("model.obj", ""), ("model.gltf", ""), ("model.glb", "")] {
+        folder.write(name, content);
+    }
+    // Number 2 on every system.
+    let missing = || format!("cannot be read: {}", std::io::Error::from_raw_os_error(2));
+    let unknown = "is unknown; smf, obj, gltf or glb is expected";
+    let rows = [
+        ("gone.smf", missing()),
+        ("gone.obj", missing()),
+        ("gone.GLB", missing()),
+        ("folder.obj", "not a regular file".to_owned()),
+        ("model.smf", "the file is empty".to_owned()),
+        ("model.obj", "the file is empty".to_owned()),
+        ("model.gltf", "the file is empty".to_owned()),
+        ("model.glb", "the file is empty".to_owned()),
+        ("model.fbx", format!("the extension \"fbx\" {unknown}")),
+        ("model", format!("the extension \"\" {unknown}")),
+        ("model.ply", "ply files are not read yet; smf, obj, gltf or glb is expected".to_owned()),
+        ("model.STL", "stl files are not read yet; smf, obj, gltf or glb is expected".to_owned()),
+    ];
+    for (name, expected) in rows {
+        let path = folder.path().join(name);
+        let error = load(&path).unwrap_err();
+        assert_eq!(error.to_string(), format!("{}: {expected}", path.display()));
+        assert_eq!(error.path(), path);
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn devices_are_not_read() {
+    let folder = Folder::new();
+    let path = folder.path().join("endless.obj");
+    std::os::unix::fs::symlink("/dev/zero", &path).unwrap();
+    assert!(matches!(load(&path), Err(LoadError::NotAFile { .. })));
+}
+
+#[test]
+fn extensions_are_read_in_either_case() {
+    let folder = Folder::new();
+    let path = folder.write("MODEL.SMF", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    assert_eq!(load(&path).unwrap().triangle_count(), 1);
+}
+
+/// Loads a file for the sake of not panicking; a model that comes out keeps its promises.
+fn survive(path: &Path) -> bool {
+    let Ok(model) = load(path) else {
+        return false;
+    };
+    for part in &model.parts {
+        let mesh = &part.mesh;
+        assert!(part.world_from_part.is_finite());
+        assert!(part.material.is_none_or(|material| material < model.materials.len()));
+        assert!(mesh.positions().iter().all(|p| p.is_finite()));
+        assert!(mesh.normals().iter().all(|n| (n.length() - 1.0).abs() < 1e-6));
+        assert!(mesh.indices().iter().all(|&i| (i as usize) < mesh.positions().len()));
+    }
+    assert!(model.bounds().is_some_and(|bounds| bounds.min.is_finite() && bounds.max.is_finite()));
+    true
+}
+
+/// The places of the runs of digits in a text.
+fn numbers(text: &str) -> Vec<std::ops::Range<usize>> {
+    let mut found: Vec<std::ops::Range<usize>> = Vec::new();
+    for (at, _) in text.char_indices().filter(|(_, c)| c.is_ascii_digit()) {
+        match found.last_mut() {
+            Some(last) if last.end == at => last.end = at + 1,
+            _ => found.push(at..at + 1),
+        }
+    }
+    found
+}
+
+const OBJ: &str = "mtllib model.mtl\no a\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0 1\nvt 0 0\nvt 1 1\nvn 0 0 1\nusemtl m\nf 1/1/1 2/2/1 3/1/1 -1/-1/-1\ng b\nl 1 2\nf 1 2 3\n";
+const MTL: &str = "newmtl m\nKa 1 1 1\nKd 0.5\nNs 10\nd 1\nTr 0\nillum 2\nmap_Kd a.png\n";
+const SMF: &str = "#$SMF 1.0\nbegin\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nend\n";
+
+/// The small files that are spoilt: name, what is written, the text in it that is spoilt.
+fn victims() -> [(&'static str, &'static str); 4] {
+    [("model.gltf", TRIANGLE_JSON), ("model.obj", OBJ), ("model.mtl", MTL), ("model.smf", SMF)]
+}
+
+/// Loads the model with one of its files spoilt.
+fn load_spoilt(folder: &Folder, name: &str, text: &[u8]) -> bool {
+    match name {
+        "model.gltf" => survive(&folder.write("model.glb", spoilt_glb(text))),
+        "model.mtl" => {
+            folder.write("model.mtl", text);
+            survive(&folder.write("model.obj", OBJ))
+        }
+        _ => {
+            folder.write("model.mtl", MTL);
+            survive(&folder.write(name, text))
+        }
+    }
+}
+
+/// A binary file whose JSON may be no text.
+fn spoilt_glb(json: &[u8]) -> Vec<u8> {
+    let placeholder = " ".repeat(json.len());
+    let mut file = glb(&placeholder, &triangle_data());
+    file[20..20 + json.len()].copy_from_slice(json);
+    file
+}
+
+#[test]
+fn no_number_makes_a_reader_panic() {
+    let values = [
+        "",
+        "0",
+        "-1",
+        "7",
+        "255",
+        "65536",
+        "4294967295",
+        "4294967296",
+        "18446744073709551615",
+        "1e39",
+        "1e999",
+        "1.5",
+    ];
+    let folder = Folder::new();
+    let mut survived = 0;
+    for (name, text) in victims() {
+        for place in numbers(text) {
+            for value in values {
+                let spoilt = format!("{}{value}{}", &text[..place.start], &text[place.end..]);
+                survived += usize::from(load_spoilt(&folder, name, spoilt.as_bytes()));
+            }
+        }
+    }
+    // Many numbers may take other values; were none of the files sound, nothing would be tested.
+    assert!(survived > 100, "{survived}");
+}
+
+#[test]
+fn no_byte_makes_a_reader_panic() {
+    let folder = Folder::new();
+    let mut survived = 0;
+    for (name, text) in victims() {
+        for at in 0..text.len() {
+            for byte in [0, b' ', b'"', b'9', b'-', b'/', b'\\', b'\n', b'[', 0xC3, 0xFF] {
+                let mut spoilt = text.as_bytes().to_vec();
+                spoilt[at] = byte;
+                survived += usize::from(load_spoilt(&folder, name, &spoilt));
+            }
+        }
+    }
+    assert!(survived > 100, "{survived}");
+}
+
+#[test]
+fn no_truncation_makes_a_reader_panic() {
+    let folder = Folder::new();
+    for name in ["teapot.obj", "lantern.glb", "cube.smf", "teapot.mtl"] {
+        let whole = std::fs::read(asset(name)).unwrap();
+        for part in 1..40 {
+            survive(&folder.write(name, &whole[..whole.len() * part / 40]));
+        }
+    }
+}
+
+#[test]
+fn the_assets_are_what_the_program_writes() {
+    for (name, expected) in make_assets::assets() {
+        let found = std::fs::read(asset(name)).unwrap();
+        assert!(found.len() < 400 * 1024, "{name}: {} bytes", found.len());
+        // The lantern's sines are not rounded to decimals: systems may differ in the last bit.
+        let same = if name == "lantern.glb" { found.len() == expected.len() } else { found == expected };
+        assert!(same, "{name} is not what `cargo run -p halfway_mesh --example make_assets` writes");
+    }
+}
+
+#[test]
+fn the_teapot_file_is_the_teapot() {
+    let model = load(&asset("teapot.obj")).unwrap();
+    assert!(model.warnings.is_empty(), "{:?}", model.warnings);
+    let names: Vec<_> = model.parts.iter().map(|part| &part.name[..]).collect();
+    assert_eq!(names, ["body", "handle", "spout", "lid", "bottom"]);
+    let teapot = Mesh::from(Teapot::new(8));
+    assert_eq!(model.triangle_count(), teapot.triangle_count());
+    let corners = |mesh: &Mesh| -> Vec<(Vec3, Vec3)> {
+        mesh.indices().iter().map(|&i| (mesh.positions()[i as usize], mesh.normals()[i as usize])).collect()
+    };
+    let file: Vec<_> = model.parts.iter().flat_map(|part| corners(&part.mesh)).collect();
+    for ((p, n), (q, m)) in file.into_iter().zip(corners(&teapot)) {
+        // Five decimals of positions, four of normals.
+        assert!(p.distance(q) < 1e-5 && n.distance(m) < 1e-4, "{p} {q} {n} {m}");
+    }
+    let [SourceMaterial::Mtl(brass)] = &model.materials[..] else { panic!("{:?}", model.materials) };
+    assert_eq!(
+        (brass.name.as_str(), brass.kd, brass.ns),
+        ("brass", Some([0.780_392, 0.568_627, 0.113_725]), Some(27.8974))
+    );
+}
+
+#[test]
+fn the_lantern_has_its_parts_and_its_light() {
+    let model: Model = load(&asset("lantern.glb")).unwrap();
+    assert!(model.warnings.is_empty(), "{:?}", model.warnings);
+    let count = |name: &str| model.parts.iter().filter(|part| part.name == name).count();
+    assert_eq!(["base", "roof", "bar", "ring", "glass", "candle", "flame"].map(count), [1, 1, 6, 1, 1, 1, 1]);
+    for part in &model.parts {
+        let problems = part.mesh.problems();
+        assert_eq!((problems.degenerate_triangles, problems.misoriented_edges), (0, 0), "{}: {problems}", part.name);
+    }
+    // Six bars on a circle.
+    for bar in model.parts.iter().filter(|part| part.name == "bar") {
+        let foot = bar.world_from_part.transform_point3(Vec3::ZERO);
+        assert!((foot.length() - 0.47).abs() < 1e-6 && foot.y == 0.0, "{foot}");
+    }
+    let [light] = &model.lights[..] else { panic!("{} lights", model.lights.len()) };
+    assert_eq!((light.kind, light.range), (SourceLightKind::Point, Some(12.0)));
+    assert!(light.world_from_light.transform_point3(Vec3::ZERO).distance(Vec3::NEG_Y * 0.01) < 1e-6);
+}
+
+#[test]
+fn the_cube_is_closed() {
+    let model = load(&asset("cube.smf")).unwrap();
+    assert!(model.warnings.is_empty() && model.parts[0].mesh.problems().is_none());
+    let bounds = model.bounds().unwrap();
+    assert_eq!((bounds.min, bounds.max, model.triangle_count()), (Vec3::NEG_ONE, Vec3::ONE, 12));
+}
