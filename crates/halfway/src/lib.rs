@@ -36,3 +36,8 @@ pub use halfway_mesh as mesh;
 pub use halfway_render as render;
 #[cfg(feature = "window")]
 pub use halfway_window as window;
+
+/// The README's code, compiled.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct Readme;

@@ -20,9 +20,13 @@ pub(super) struct Partial {
 }
 
 impl Partial {
-    /// Opens a new file beside `file`, on the same file system so that it can be moved there at once.
+    /// Opens a new file beside `file`, on the same file system so that it can be moved there at once. Folders on the way
+    /// that are missing are made.
     pub(super) fn create(file: &Path) -> Result<(Self, BufWriter<File>), OutputError> {
         let io_error = |source| OutputError::io(file, source);
+        if let Some(folder) = file.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+            fs::create_dir_all(folder).map_err(io_error)?;
+        }
         // A link keeps its name and gets a new target's content, as it would if it were written directly.
         let target = match fs::canonicalize(file) {
             Ok(target) => target,
