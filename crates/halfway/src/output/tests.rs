@@ -148,7 +148,8 @@ fn pictures_that_cannot_be_written_leave_nothing() {
     let folder = Folder::new();
     let file = folder.file("a.png");
     let exr = folder.file("a.exr");
-    let nowhere = folder.file("missing/a.png");
+    // A folder on the way is a file.
+    let nowhere = folder.file("a.png/b.png");
     let is_folder = folder.file("folder.png");
     fs::create_dir(&is_folder).unwrap();
     fs::write(&file, "what was there").unwrap();
@@ -165,6 +166,14 @@ fn pictures_that_cannot_be_written_leave_nothing() {
     }
     assert_eq!(folder.names(), ["a.png", "folder.png"]);
     assert_eq!(fs::read_to_string(&file).unwrap(), "what was there");
+}
+
+#[test]
+fn missing_folders_are_made() {
+    let folder = Folder::new();
+    let file = folder.file("some/where/a.png");
+    write_picture(&bytes(), &file, PictureFormat::Png8, Encoding::Srgb).unwrap();
+    assert!(image::open(&file).is_ok());
 }
 
 #[cfg(unix)]
