@@ -4,6 +4,7 @@ use crate::error::{RenderError, label};
 use crate::lights::{LightList, Lights, rgb};
 use crate::matrices::{ModelView, NormalMatrix, Visible};
 use crate::pipeline::{Cull, Lists, PipelineKey, Stage};
+use crate::records::{DrawRecord, InstanceRecord, MaterialRecord, exponent};
 use crate::report::FrameReport;
 use crate::target::Target;
 use crate::terms::{Chosen, TermMask};
@@ -11,46 +12,11 @@ use crate::view::View;
 use bevy_asset::{AssetId, Assets};
 use bevy_ecs::prelude::*;
 use bevy_math::Vec3;
-use bytemuck::{Pod, Zeroable};
-use halfway_lighting::{BackMaterial, Blend, Faces, InvalidValue, Material, Reflectance, Viewer, matched_shininess};
+use halfway_lighting::{BackMaterial, Blend, Faces, InvalidValue, Material, Reflectance, Viewer};
 use halfway_mesh::{Mesh, Mesh3d};
 use std::cmp::Reverse;
 use std::collections::HashMap;
 use std::ops::Range;
-
-/// One instance in its vertex buffer: `eye_from_model` as rows, the normal matrix as columns.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub(crate) struct InstanceRecord {
-    rows: [[f32; 4]; 3],
-    normal: [[f32; 3]; 3],
-}
-
-pub(crate) const INSTANCE_BYTES: u64 = size_of::<InstanceRecord>() as u64;
-
-/// A material as the shader reads it.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-struct MaterialRecord {
-    base: [f32; 3],
-    shininess: f32,
-    diffuse: [f32; 3],
-    opacity: f32,
-    specular: [f32; 3],
-    padding0: f32,
-    ambient: [f32; 3],
-    padding1: f32,
-}
-
-/// What is the same for every instance of a draw; the twin of `Draw` in mesh.wgsl.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub(crate) struct DrawRecord {
-    front: MaterialRecord,
-    back: MaterialRecord,
-    vertex_counts: [u32; 4],
-    fragment_counts: [u32; 4],
-}
 
 /// A pair of light lists that some draw uses: the vertex list, then the fragment list.
 pub(crate) type ListPair = (TermMask, TermMask);
@@ -180,7 +146,7 @@ pub(crate) fn batch(
         let (key, lists, counts) = object.key(&frame, *chosen);
         let record = batches.table.record(&mut batches.records, object.record(frame.lights.ambient, counts));
         let lists = batches.table.list(&mut batches.lists, lists);
-        for key in object.passes(key) {
+        for key in Object::passes(key) {
             let call = batches.table.call((key, id, chosen.flat));
             items.push(Item { blend, call, record, lists, depth, instance });
         }
@@ -258,7 +224,7 @@ impl Object<'_> {
     }
 
     /// The passes that draw the object: two for a blended two-sided one, the far side first.
-    fn passes(&self, key: PipelineKey) -> impl Iterator<Item = PipelineKey> {
+    fn passes(key: PipelineKey) -> impl Iterator<Item = PipelineKey> {
         let far_side = (key.blend && key.cull == Cull::None).then_some(PipelineKey { cull: Cull::Front, ..key });
         let near_side = if far_side.is_some() { PipelineKey { cull: Cull::Back, ..key } } else { key };
         far_side.into_iter().chain([near_side])
@@ -293,35 +259,6 @@ impl PipelineKey {
     }
 }
 
-impl InstanceRecord {
-    /// With only back faces shown, the surface is lit inside out: its normals turn, and so do its windings.
-    fn new(model_view: &ModelView, normal_matrix: &NormalMatrix, faces: Faces) -> Self {
-        let m = model_view.eye_from_model.matrix3.transpose();
-        let t = model_view.eye_from_model.translation;
-        let row = |row: bevy_math::Vec3A, translation: f32| [row.x, row.y, row.z, translation];
-        let side = if faces == Faces::Back { -1.0 } else { 1.0 };
-        Self {
-            rows: [row(m.x_axis, t.x), row(m.y_axis, t.y), row(m.z_axis, t.z)],
-            normal: (normal_matrix.0 * side).to_cols_array_2d(),
-        }
-    }
-}
-
-impl MaterialRecord {
-    fn new(material: &Material, reflectance: Reflectance, ambient: Vec3) -> Self {
-        let ka = rgb(material.ambient);
-        Self {
-            base: (rgb(material.emission) + ka * ambient).to_array(),
-            shininess: exponent(material, reflectance),
-            diffuse: rgb(material.diffuse).to_array(),
-            opacity: material.opacity,
-            specular: rgb(material.specular).to_array(),
-            ambient: ka.to_array(),
-            ..Self::default()
-        }
-    }
-}
-
 /// A material's numbers, for use as a key.
 fn bits(material: &Material) -> MaterialBits {
     let Material { ambient, diffuse, specular, emission, shininess, opacity } = material;
@@ -331,14 +268,6 @@ fn bits(material: &Material) -> MaterialBits {
     }
     (bits[12], bits[13]) = (shininess.to_bits(), opacity.to_bits());
     bits
-}
-
-/// α of Phong, β of Blinn–Phong, or the β that matches α.
-fn exponent(material: &Material, reflectance: Reflectance) -> f32 {
-    match reflectance {
-        Reflectance::BlinnPhongMatched => matched_shininess(material.shininess),
-        _ => material.shininess,
-    }
 }
 
 impl Table {
@@ -399,19 +328,12 @@ impl Batches {
             let state = (item.call, item.record, item.lists);
             let index = self.instances.len() as u32;
             self.instances.push(item.instance);
-            match self.draws.last_mut().filter(|_| last == Some(state)) {
-                Some(draw) => draw.instances.end = index + 1,
-                None => {
-                    let (key, mesh, flat) = self.table.calls[item.call as usize];
-                    self.draws.push(DrawCall {
-                        key,
-                        mesh,
-                        flat,
-                        record: item.record,
-                        lists: item.lists,
-                        instances: index..index + 1,
-                    });
-                }
+            if let Some(draw) = self.draws.last_mut().filter(|_| last == Some(state)) {
+                draw.instances.end = index + 1;
+            } else {
+                let (key, mesh, flat) = self.table.calls[item.call as usize];
+                let Item { record, lists, .. } = item;
+                self.draws.push(DrawCall { key, mesh, flat, record, lists, instances: index..index + 1 });
             }
             last = Some(state);
         }

@@ -122,7 +122,7 @@ fn upload(
 }
 
 /// Whether any triangle's normals can cancel under interpolation. While all pairs of the three have
-/// n_i·n_j ≥ −0.49, |Σ b_i n_i|² ≥ Σ b_i² − 0.98 Σ b_i b_j ≥ 0.0066 everywhere on the triangle.
+/// `n_i·n_j ≥ −0.49`, `|Σ b_i n_i|² ≥ Σ b_i² − 0.98 Σ b_i b_j ≥ 0.0066` everywhere on the triangle.
 fn has_opposite_normals(mesh: &Mesh) -> bool {
     let normals = mesh.normals();
     mesh.triangles().any(|triangle| {

@@ -15,6 +15,7 @@ mod matrices;
 mod picture;
 mod pipeline;
 mod plugin;
+mod records;
 mod report;
 mod target;
 mod terms;

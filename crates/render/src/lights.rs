@@ -35,6 +35,7 @@ pub(crate) struct LightRecord {
 
 /// Lights sorted by kind, as one draw shades from them at one frequency.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[expect(clippy::struct_excessive_bools, reason = "each is one independent fact about the records")]
 pub(crate) struct LightList {
     pub(crate) records: Vec<LightRecord>,
     /// How many directional, point and spot lights, in this order.
@@ -177,6 +178,7 @@ impl Gathered<'_> {
 
 impl LightList {
     /// The list that keeps only the terms of `mask`; a term that is left out has a colour of 0.
+    #[expect(clippy::float_cmp, reason = "a term that is left out is exactly 0, and a shared colour is a copy")]
     fn masked(records: &[LightRecord], counts: [u32; 3], mask: TermMask) -> Self {
         if mask.is_empty() {
             return Self::default();
@@ -199,7 +201,7 @@ impl LightList {
     }
 }
 
-/// The inner cone's fade of KHR_lights_punctual, s = clamp((cos φ − cos cutoff)/(cos inner − cos cutoff), 0, 1), as scale
+/// The inner cone's fade of `KHR_lights_punctual`, s = clamp((cos φ − cos cutoff)/(cos inner − cos cutoff), 0, 1), as scale
 /// and offset of cos φ; 0 and 1, which is s = 1, where there is no inner cone or it is as wide as the cutoff.
 fn inner_fade(cone: &Cone) -> (f32, f32) {
     let cos_cutoff = f64::from(cone.cutoff).cos();

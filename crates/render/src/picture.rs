@@ -112,8 +112,8 @@ impl PendingPicture {
         let bytes = self.buffer.get_mapped_range(..).map_err(|error| RenderError::Device(error.to_string()))?;
         let rows = bytes.chunks_exact(self.row_bytes as usize);
         let picture = match self.format {
-            wgpu::TextureFormat::Rgba32Float => float(self, rows, |pixel: [f32; 4]| pixel),
-            wgpu::TextureFormat::Rgba16Float => float(self, rows, |pixel: [u16; 4]| pixel.map(half_to_float)),
+            wgpu::TextureFormat::Rgba32Float => Some(float(self, rows, |pixel: [f32; 4]| pixel)),
+            wgpu::TextureFormat::Rgba16Float => Some(float(self, rows, |pixel: [u16; 4]| pixel.map(half_to_float))),
             _ => {
                 let row = self.width as usize * 4;
                 let pixels = rows.flat_map(|bytes| &bytes[..row]).copied().collect();
@@ -130,14 +130,14 @@ fn float<'a, T: bytemuck::Pod>(
     pending: &PendingPicture,
     rows: impl Iterator<Item = &'a [u8]>,
     decode: impl Fn(T) -> [f32; 4],
-) -> Option<Picture> {
+) -> Picture {
     let mut image = Rgba32FImage::new(pending.width, pending.height);
     for (out, bytes) in image.rows_mut().zip(rows) {
         for (pixel, bytes) in out.zip(bytes.chunks_exact(size_of::<T>())) {
             *pixel = Rgba(decode(bytemuck::pod_read_unaligned(bytes)));
         }
     }
-    Some(Picture::Float(image))
+    Picture::Float(image)
 }
 
 /// IEEE 754 binary16 to binary32.

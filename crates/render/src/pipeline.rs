@@ -1,8 +1,8 @@
 //! Pipelines: a small key for each, built on first use and counted.
 
-use crate::batch::DrawRecord;
 use crate::gpu::Gpu;
 use crate::lights::LightRecord;
+use crate::records::{DrawRecord, INSTANCE_BYTES};
 use crate::target::DEPTH_FORMAT;
 use bevy_ecs::prelude::Resource;
 use std::collections::HashMap;
@@ -207,7 +207,7 @@ fn build(gpu: &Gpu, shader: &Shader, key: PipelineKey) -> wgpu::RenderPipeline {
     // Unlit draws need no normal matrix, and a software adapter pays for every attribute it fetches.
     let instance = if key.stage == Stage::Unlit { &INSTANCE[..3] } else { &INSTANCE[..] };
     let mut buffers = vec![
-        buffer(instance, crate::batch::INSTANCE_BYTES, wgpu::VertexStepMode::Instance),
+        buffer(instance, INSTANCE_BYTES, wgpu::VertexStepMode::Instance),
         buffer(&POSITION, 12, wgpu::VertexStepMode::Vertex),
     ];
     match key.stage {

@@ -1,11 +1,12 @@
 //! Upload: what changed since the last frame goes to the GPU, and nothing else.
 
-use crate::batch::{Batches, DrawRecord};
+use crate::batch::Batches;
 use crate::error::RenderError;
 use crate::geometry::Geometries;
 use crate::gpu::Gpu;
 use crate::lights::{LightRecord, Lights};
 use crate::pipeline::{Pipelines, UNIFORM_LIGHT_BYTES};
+use crate::records::DrawRecord;
 use crate::report::FrameReport;
 use crate::view::View;
 use bevy_ecs::prelude::*;
@@ -226,7 +227,6 @@ pub(crate) fn build_pipelines(
     report.pipelines = pipelines.count();
 }
 
-#[expect(clippy::too_many_arguments, reason = "a system takes each resource as a parameter")]
 pub(crate) fn upload(
     gpu: Res<Gpu>,
     pipelines: Res<Pipelines>,

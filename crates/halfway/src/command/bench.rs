@@ -99,9 +99,9 @@ pub(super) fn run(args: &BenchArgs) -> Result<(), Failure> {
         })
         .collect::<Result<Vec<_>, Failure>>()?;
     if args.json {
-        print_json(args.scene, &device, &rows)
+        print_json(args.scene, &device, &rows);
     } else {
-        print_table(args.scene, &device, &rows)
+        print_table(args.scene, &device, &rows);
     }
     Ok(())
 }
