@@ -93,6 +93,8 @@ mod tests {
         assert_eq!(bounds.center(), Vec3::ZERO);
         assert_eq!(bounds.size(), Vec3::splat(f32::MAX));
         assert!(bounds.radius() >= f32::MAX && bounds.radius().is_finite());
+        let far = Bounds { min: Vec3::splat(0.5 * f32::MAX), max: Vec3::splat(f32::MAX) };
+        assert_eq!(far.center(), Vec3::splat(0.75 * f32::MAX));
         let larger = bounds.transformed(&Mat4::from_scale(Vec3::splat(10.0)));
         assert_eq!(larger, bounds);
     }

@@ -160,7 +160,7 @@ fn no_byte_makes_a_reader_panic() {
     let mut survived = 0;
     for (name, text) in victims() {
         for at in 0..text.len() {
-            for byte in [0, b' ', b'"', b'9', b'-', b'/', b'\\', b'\n', b'[', 0xC3, 0xFF] {
+            for byte in [0, b'"', b'9', b'-', 0xFF] {
                 let mut spoilt = text.as_bytes().to_vec();
                 spoilt[at] = byte;
                 survived += usize::from(load_spoilt(&folder, name, &spoilt));

@@ -225,6 +225,15 @@ fn cancelled_means_take_the_largest_face() {
 }
 
 #[test]
+fn means_that_rounding_alone_decides_count_as_cancelled() {
+    // A sheet folded onto itself but for a hundred-millionth; its mean is (0, 1e-8, 0) and means nothing.
+    let positions = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::new(0.0, 1.0, 1e-8)];
+    let (normals, report) = weighted(positions, vec![0, 1, 2, 0, 3, 1], NormalWeighting::Angle);
+    assert_eq!(normals[..2], [Vec3::Z; 2]);
+    assert_eq!(report, NormalReport { cancelled: 2, ..NormalReport::default() });
+}
+
+#[test]
 fn flat_meshes_have_corners_of_their_own() {
     let (mut positions, mut indices) = cube(0);
     positions.push(Vec3::X * 5.0);

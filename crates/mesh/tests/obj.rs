@@ -32,6 +32,7 @@ fn the_forms_of_faces() {
         ("old keyword", "fo 1 2 3", 1, false),
         ("comment behind", "f 1 2 3 # 4", 1, false),
         ("continued", "f 1 2 \\\n 3 4", 2, false),
+        ("comment that ends in a backslash", "# C:\\\nf 1 2 3", 1, false),
         ("white space", " f\t1  2 3 \r", 1, false),
     ];
     for (name, face, triangles, uvs) in rows {

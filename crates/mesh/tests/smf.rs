@@ -108,3 +108,12 @@ fn long_lines_are_quoted_in_part() {
     let path = folder.write("model.smf", format!("v {}\n", "ä".repeat(100_000)));
     assert!(load(&path).unwrap_err().to_string().len() < 400);
 }
+
+#[test]
+fn a_file_of_something_else_has_few_warnings() {
+    let words: Vec<String> = (0..1000).map(|i| format!("word{i:04}{}", "x".repeat(1000))).collect();
+    let warnings = load_text(format!("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n{}", words.join("\n"))).warnings;
+    assert_eq!(warnings.len(), 21);
+    assert!(warnings.iter().all(|warning| warning.len() < 120), "{warnings:?}");
+    assert_eq!(warnings[20], "model.smf:25: something else is skipped or not found (and 979 more such lines)");
+}

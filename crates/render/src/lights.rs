@@ -10,7 +10,8 @@ use bevy_math::{DVec3, Vec3};
 use bevy_transform::components::GlobalTransform;
 use bytemuck::{Pod, Zeroable};
 use halfway_lighting::{
-    Cone, DirectionalLight, GlobalAmbient, InvalidValue, PointLight, SpotLight, light_direction, light_position,
+    Attenuation, Cone, DirectionalLight, GlobalAmbient, InvalidValue, PointLight, SpotLight, light_direction,
+    light_position,
 };
 
 /// A light as the shader reads it; the twin of `Light` in lighting.wgsl.
@@ -137,15 +138,19 @@ impl Gathered<'_> {
         transform: &GlobalTransform,
     ) -> Result<(), InvalidValue> {
         light.validate()?;
-        let position = light_position(transform)?.as_dvec3();
+        let position = self.view.eye_from_world.transform_point3(light_position(transform)?.as_dvec3());
+        // A light beyond the reach of squares in f32 is brought near in its direction, and its distances shrink with it.
+        let unit = (position.length() / FARTHEST).max(1.0);
+        let in_units = |value: f64| value.min(f64::from(f32::MAX)) as f32;
+        let Attenuation { constant, linear, quadratic } = light.attenuation;
         let mut record = LightRecord {
-            position: self.view.eye_from_world.transform_point3(position).as_vec3().to_array(),
-            inverse_range: light.range.map_or(0.0, |range| 1.0 / range),
+            position: (position / unit).as_vec3().to_array(),
+            inverse_range: light.range.map_or(0.0, |range| in_units(unit / f64::from(range))),
             diffuse: rgb(light.diffuse).to_array(),
             specular: rgb(light.specular).to_array(),
-            constant: light.attenuation.constant,
-            linear: light.attenuation.linear,
-            quadratic: light.attenuation.quadratic,
+            constant,
+            linear: in_units(f64::from(linear) * unit),
+            quadratic: in_units(f64::from(quadratic) * unit * unit),
             ..LightRecord::default()
         };
         if let Some(cone) = cone {
@@ -200,6 +205,9 @@ impl LightList {
         list
     }
 }
+
+/// The distance in world units beyond which a light's square would not fit into f32.
+const FARTHEST: f64 = 1e18;
 
 /// The inner cone's fade of `KHR_lights_punctual`, s = clamp((cos φ − cos cutoff)/(cos inner − cos cutoff), 0, 1), as scale
 /// and offset of cos φ; 0 and 1, which is s = 1, where there is no inner cone or it is as wide as the cutoff.

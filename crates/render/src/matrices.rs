@@ -82,7 +82,7 @@ pub(crate) fn compute(
                 eye_from_model.matrix3.as_mat3(),
                 eye_from_model.translation.as_vec3(),
             ),
-            mirrored: eye_from_model.matrix3.determinant() < 0.0,
+            mirrored: is_mirror(&eye_from_model.matrix3),
             made_from: Some(source),
         };
         normal_matrix.0 = self::normal_matrix(&eye_from_model.matrix3);
@@ -110,16 +110,26 @@ fn largest_scale(m: &DMat3) -> f64 {
     if skew <= 1e-6 * largest * largest { largest * (1.0 + 2e-6) } else { (x * x + y * y + z * z).sqrt() }
 }
 
-/// sign(det M) · cof(M), divided by its largest element so that f32 neither under- nor overflows.
+/// Whether the matrix turns windings over: its determinant is negative. Transforms are kept in f32, so a determinant of
+/// unit columns within 8 ε of 0 is a rounding error; such a matrix flattens, and counts as not mirroring.
+fn is_mirror(m: &DMat3) -> bool {
+    let unit =
+        DMat3::from_cols(m.x_axis.normalize_or_zero(), m.y_axis.normalize_or_zero(), m.z_axis.normalize_or_zero());
+    unit.determinant() < -8.0 * f64::from(f32::EPSILON)
+}
+
+/// sign(det M) · cof(M), divided by its largest element so that f32 neither under- nor overflows. The sign of a matrix
+/// that flattens is +.
 pub fn normal_matrix(m: &DMat3) -> Mat3 {
-    let largest = m.to_cols_array().into_iter().map(f64::abs).fold(0.0, f64::max);
-    if largest == 0.0 || !largest.is_finite() {
+    let largest = |m: &DMat3| m.to_cols_array().into_iter().map(f64::abs).fold(0.0, f64::max);
+    let size = largest(m);
+    if size == 0.0 || !size.is_finite() {
         return Mat3::ZERO;
     }
-    let m = *m * (1.0 / largest);
+    let sign = if is_mirror(m) { -1.0 } else { 1.0 };
+    let m = *m * (1.0 / size);
     let (x, y, z) = (m.x_axis, m.y_axis, m.z_axis);
     let cofactors = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y));
-    let sign = if x.dot(cofactors.x_axis) < 0.0 { -1.0 } else { 1.0 };
-    let largest = cofactors.to_cols_array().into_iter().map(f64::abs).fold(0.0, f64::max);
-    if largest == 0.0 { Mat3::ZERO } else { (cofactors * (sign / largest)).as_mat3() }
+    let size = largest(&cofactors);
+    if size == 0.0 { Mat3::ZERO } else { (cofactors * (sign / size)).as_mat3() }
 }

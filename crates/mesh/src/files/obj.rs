@@ -10,7 +10,7 @@ use std::path::Path;
 
 use bevy_math::{Mat4, Vec2, Vec3};
 
-use super::text::{Skipped, Statement, statements};
+use super::text::{Skipped, Statement, abridged, statements};
 use super::{LoadError, folder_of, mtl, read, stays_inside};
 use crate::{Mesh, Model, Part, SourceMaterial};
 
@@ -110,7 +110,7 @@ impl<'a> Plain<'a> {
             "mtllib" => self.libraries.push(*statement),
             "s" if matches!(statement.rest, "off" | "0") => {}
             "s" => self.smoothing = self.smoothing.or(Some(statement.line)),
-            other => self.skipped.add(statement.line, format!("`{other}` is skipped")),
+            _ => self.skipped.add_statement(statement),
         }
         Ok(())
     }
@@ -252,7 +252,7 @@ impl<'a> Plain<'a> {
         let known: BTreeSet<&str> = materials.iter().map(SourceMaterial::name).collect();
         for &(line, name) in &self.used_materials {
             if !known.contains(name) {
-                self.skipped.add(line, format!("the material `{name}` is nowhere defined"));
+                self.skipped.add(line, format!("the material `{}` is nowhere defined", abridged(name, "")));
             }
         }
     }

@@ -22,7 +22,7 @@ pub(super) fn parse(path: &Path, text: &[u8]) -> Result<Model, LoadError> {
                 indices.extend(face(&statement)?);
                 lines.push(statement.line);
             }
-            other => skipped.add(statement.line, format!("`{other}` is skipped")),
+            _ => skipped.add_statement(&statement),
         }
     }
 

@@ -71,7 +71,7 @@ impl<'a> Statement<'a> {
 }
 
 /// A statement as it is quoted in an error: a file may have lines of any length.
-fn abridged(keyword: &str, rest: &str) -> String {
+pub(super) fn abridged(keyword: &str, rest: &str) -> String {
     const LONGEST: usize = 60;
     let whole = format!("{keyword} {rest}");
     let whole = whole.trim_end();
@@ -81,14 +81,27 @@ fn abridged(keyword: &str, rest: &str) -> String {
     }
 }
 
-/// Kinds of statements that were skipped, each with its first line and how many there were.
+/// Kinds of statements that were skipped, each with its first line and how many there were. A file of anything else
+/// has as many kinds as words; past the first few they count as one.
 #[derive(Debug, Default)]
 pub(super) struct Skipped(BTreeMap<String, (usize, usize)>);
+
+/// How many kinds are told apart.
+const KINDS: usize = 20;
 
 impl Skipped {
     /// Counts one of a kind, as "`begin` is skipped".
     pub(super) fn add(&mut self, line: usize, kind: impl Into<String>) {
-        self.0.entry(kind.into()).or_insert((line, 0)).1 += 1;
+        let mut kind = kind.into();
+        if self.0.len() >= KINDS && !self.0.contains_key(&kind) {
+            kind = String::from("something else is skipped or not found");
+        }
+        self.0.entry(kind).or_insert((line, 0)).1 += 1;
+    }
+
+    /// Counts a statement that is not read.
+    pub(super) fn add_statement(&mut self, statement: &Statement) {
+        self.add(statement.line, format!("`{}` is skipped", abridged(statement.keyword, "")));
     }
 
     /// A sentence for every kind, in the order of their first lines.
