@@ -1,0 +1,157 @@
+//! Every example runs without a window and draws what it says.
+
+use std::collections::HashSet;
+use std::env::consts::EXE_SUFFIX;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use image::{RgbImage, imageops};
+
+const SIZE: (u32, u32) = (160, 90);
+
+/// The binary of an example, which Cargo builds beside this test.
+fn binary(name: &str) -> PathBuf {
+    let test = std::env::current_exe().expect("a running test has a path");
+    let profile = test.ancestors().nth(2).expect("tests lie in target/PROFILE/deps");
+    let binary = profile.join("examples").join(format!("{name}{EXE_SUFFIX}"));
+    assert!(
+        binary.is_file(),
+        "{} is missing: `cargo test` builds the examples, but `cargo test --test` does not; run `cargo build --examples` \
+         with the same profile first",
+        binary.display()
+    );
+    binary
+}
+
+/// An empty folder of a test's own.
+fn folder(test: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("examples").join(test);
+    if folder.exists() {
+        std::fs::remove_dir_all(&folder).expect("the folder of an earlier run can be removed");
+    }
+    std::fs::create_dir_all(&folder).expect("a folder for pictures");
+    folder
+}
+
+fn run(name: &str, file: &Path, more: &[&str]) -> Output {
+    let size = format!("{}x{}", SIZE.0, SIZE.1);
+    let mut command = Command::new(binary(name));
+    command.arg("--headless").arg(file).args(["--size", &size]).args(more);
+    command.output().expect("the example can be started")
+}
+
+/// Runs an example that must succeed; gives what it printed.
+fn draw(name: &str, file: &Path, more: &[&str]) -> String {
+    let output = run(name, file, more);
+    let (printed, said) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    assert_eq!(output.status.code(), Some(0), "{name}: {printed}\n{said}");
+    printed.into_owned()
+}
+
+/// The picture, which has the size that was asked for and is not of one colour.
+fn picture(file: &Path) -> RgbImage {
+    let picture = image::open(file).unwrap_or_else(|error| panic!("{}: {error}", file.display())).into_rgb8();
+    assert_eq!(picture.dimensions(), SIZE, "{}", file.display());
+    assert!(colors(&picture) > 1, "{} is of one colour", file.display());
+    picture
+}
+
+fn colors(picture: &RgbImage) -> usize {
+    picture.pixels().collect::<HashSet<_>>().len()
+}
+
+#[test]
+fn teapots() {
+    let file = folder("teapots").join("teapots.png");
+    let printed = draw("teapots", &file, &[]);
+    assert!(printed.contains("24 teapots of 24 materials"), "{printed}");
+    picture(&file);
+}
+
+#[test]
+fn shading_frequencies() {
+    let file = folder("shading_frequencies").join("shading_frequencies.png");
+    draw("shading_frequencies", &file, &[]);
+    let picture = picture(&file);
+    // The coarse teapot: one colour a triangle on the left, where Phong shading on the right has highlights.
+    let cell =
+        |column| colors(&imageops::crop_imm(&picture, column * SIZE.0 / 3, 0, SIZE.0 / 3, SIZE.1 / 2).to_image());
+    let [flat, gouraud, phong] = [0, 1, 2].map(cell);
+    assert!(flat < gouraud && flat < phong, "{flat} {gouraud} {phong}");
+}
+
+#[test]
+fn moving_lights() {
+    let folder = folder("moving_lights");
+    draw("moving_lights", &folder.join("{}.png"), &["--frames", "2"]);
+    let [first, second] = ["0000.png", "0001.png"].map(|name| picture(&folder.join(name)));
+    assert!(first != second, "nothing moves");
+
+    let cube = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/cube.smf");
+    draw("moving_lights", &folder.join("cube.png"), &["--model", cube]);
+    assert!(picture(&folder.join("cube.png")) != first, "--model makes no difference");
+
+    let output = run("moving_lights", &folder.join("none.png"), &["--model", "no/such.obj"]);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(said.contains("no/such.obj"), "{said}");
+}
+
+#[test]
+fn homework() {
+    // I = ((1 − t)·n1·l + t·n2·l) / d by Gouraud with d = 1, by Phong with d = |(1 − t)·n1 + t·n2|, t = 0, 1/9 … 1.
+    let table = [
+        ["0.5615", "0.5615"],
+        ["0.5901", "0.5969"],
+        ["0.6188", "0.6314"],
+        ["0.6474", "0.6646"],
+        ["0.6761", "0.6961"],
+        ["0.7047", "0.7256"],
+        ["0.7334", "0.7528"],
+        ["0.7620", "0.7776"],
+        ["0.7907", "0.7998"],
+        ["0.8193", "0.8193"],
+    ];
+    let file = folder("homework").join("homework.png");
+    let printed = draw("homework", &file, &[]);
+    let picture = picture(&file);
+    for (i, [gouraud, phong]) in table.into_iter().enumerate() {
+        let number = (i + 1).to_string();
+        let row = [number.as_str(), gouraud, "0.0000", "0.0000", phong, "0.0000", "0.0000"];
+        assert!(printed.lines().any(|line| line.split_whitespace().eq(row)), "{row:?} is not in\n{printed}");
+        for (y, red) in [(SIZE.1 / 5, gouraud), (SIZE.1 / 2, phong)] {
+            let at = (SIZE.0 / 20 + i as u32 * SIZE.0 / 10, y);
+            let [r, g, b] = picture.get_pixel(at.0, at.1).0;
+            let expected = 255.0 * red.parse::<f64>().expect("a number");
+            // Half a step of 1/255, and what the four digits of the table leave out.
+            assert!((f64::from(r) - expected).abs() < 0.52, "{at:?}: {r}, expected {expected}");
+            assert_eq!([g, b], [0, 0], "{at:?}");
+        }
+    }
+}
+
+#[test]
+fn engine_module() {
+    let file = folder("engine_module").join("engine_module.png");
+    let printed = draw("engine_module", &file, &["--frames", "4"]);
+    picture(&file);
+    let rows: Vec<Vec<u64>> = printed
+        .lines()
+        .skip(1)
+        .take(4)
+        .map(|line| line.split_whitespace().map(|number| number.parse().expect("a count")).collect())
+        .collect();
+    // Matrices and bytes by frame: everything, what turned, nothing.
+    let [matrices, bytes] = [4, 5].map(|column| rows.iter().map(|row| row[column]).collect::<Vec<_>>());
+    assert_eq!(matrices, [10, 9, 0, 0], "{printed}");
+    assert!(bytes[0] > bytes[1] && bytes[1] > 0 && bytes[2..] == [0, 0], "{printed}");
+}
+
+#[test]
+fn arguments_that_are_not_understood_are_refused() {
+    let file = folder("arguments").join("teapots.png");
+    let output = run("teapots", &file, &["--colour", "red"]);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(said.contains("--colour") && !file.exists(), "{said}");
+}
