@@ -19,10 +19,7 @@ use std::error::Error;
 use std::f32::consts::{FRAC_PI_2, TAU};
 use std::path::Path;
 
-use halfway::lighting::conversion::{
-    AlphaMode, MetallicRoughnessNumbers, MtlNumbers, from_metallic_roughness, from_mtl,
-};
-use halfway::mesh::{MetallicRoughness, MtlMaterial, Part, SourceMaterial};
+use halfway::mesh::Part;
 use halfway::prelude::*;
 
 /// Seconds after which everything is where it was.
@@ -159,28 +156,13 @@ fn load() -> Result<Parts, Box<dyn Error>> {
     let bounds = model.bounds().ok_or("the model has no parts")?;
     let foot = bounds.center().with_y(bounds.min.y);
     let fit = Mat4::from_scale(Vec3::splat(4.8 / bounds.size().max_element())) * Mat4::from_translation(-foot);
-    let materials = model.materials.iter().map(material).collect::<Result<Vec<_>, _>>()?;
+    let materials = model.materials.iter().map(ModelMaterial::of).collect::<Result<Vec<_>, _>>()?;
+    for warning in materials.iter().flat_map(|(_, warnings)| warnings) {
+        eprintln!("{}: {warning}", file.display());
+    }
     let part = |part: Part| {
-        let own = part.material.map_or(Material::BRASS, |index| materials[index]);
+        let own = part.material.map_or(Material::BRASS, |index| materials[index].0.material);
         (part.mesh, own, Transform::from_matrix(fit * part.world_from_part))
     };
     Ok(Parts(model.parts.into_iter().map(part).collect()))
-}
-
-/// What the file says of a material, in the terms of the lighting equation.
-fn material(source: &SourceMaterial) -> Result<Material, Box<dyn Error>> {
-    match *source {
-        SourceMaterial::Mtl(MtlMaterial { ka, kd, ks, ke, ns, d, tr, illum, .. }) => {
-            let (material, warnings) = from_mtl(&MtlNumbers { ka, kd, ks, ke, ns, d, tr, illum })?;
-            for warning in warnings {
-                eprintln!("{}: {warning}", source.name());
-            }
-            Ok(material)
-        }
-        SourceMaterial::MetallicRoughness(MetallicRoughness { base_color, metallic, roughness, emissive, .. }) => {
-            let alpha = AlphaMode::Opaque;
-            let numbers = MetallicRoughnessNumbers { base_color, metallic, roughness, emissive, alpha };
-            Ok(from_metallic_roughness(&numbers)?)
-        }
-    }
 }

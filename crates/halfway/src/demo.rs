@@ -22,6 +22,7 @@ Usage: [--headless FILE [--frames N] [--size WxH] [--contact-sheet FILE]]
   --size WxH       pixels of the picture; 1280x720 unless given
   --contact-sheet FILE
                    write up to 16 of the frames, small, on one PNG
+  --model FILE     the model, in a demo that shows one
   --help           print this";
 
 impl Demo {

@@ -1,9 +1,10 @@
 //! What a scene in code needs, in one `use`.
 
 pub use crate::HalfwayPlugins;
+pub use crate::model::{ModelMaterial, model_light};
 pub use bevy_app::prelude::*;
 pub use bevy_asset::{Assets, Handle};
-pub use bevy_color::{Color, LinearRgba, Srgba};
+pub use bevy_color::{Color, ColorToComponents as _, Gray as _, LinearRgba, Srgba};
 pub use bevy_ecs::prelude::*;
 pub use bevy_math::{EulerRot, Mat3, Mat4, Quat, UVec2, Vec2, Vec3, Vec4};
 pub use bevy_time::{Fixed, Real, Time, Virtual};

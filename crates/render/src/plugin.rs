@@ -46,7 +46,9 @@ pub enum RenderSet {
 /// Draws every entity with a [`Mesh3d`] through the world's [`Camera`](crate::Camera), once a run of its schedule.
 ///
 /// Needs `GlobalTransform`s to be current: it runs after `TransformSystems::Propagate` where that set
-/// is in the same schedule, and an App with a schedule of its own propagates before.
+/// is in the same schedule, and an App with a schedule of its own propagates before. That a mesh changed is told by
+/// `AssetEvent`s, which `bevy_asset` sends in `PostUpdate`; an App that never runs `PostUpdate` draws meshes as they were
+/// when they were first seen.
 #[derive(Clone, Debug)]
 pub struct RenderPlugin {
     /// The schedule that draws a frame. Default `PostUpdate`.

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use halfway::prelude::*;
-use halfway::scene::{ReflectanceEntry, SceneFile, ShadingEntry, Spawned, spawn};
+use halfway::scene::{ReflectanceEntry, SceneError, SceneFile, ShadingEntry, Spawned, spawn};
 
 use super::{Failure, LookArgs, ReflectanceArg, ShadingArg};
 
@@ -11,7 +11,9 @@ use super::{Failure, LookArgs, ReflectanceArg, ShadingArg};
 pub(super) struct Input {
     pub(super) scene: SceneFile,
     base_dir: PathBuf,
-    pub(super) name: String,
+    /// The file as it was named, and whether it is a scene file.
+    file: PathBuf,
+    is_scene: bool,
 }
 
 impl Input {
@@ -41,16 +43,32 @@ impl Input {
         if let Some(samples) = &args.samples {
             scene.samples = if samples == "4" { 4 } else { 1 };
         }
-        let name = args.input.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        Ok(Self { scene, base_dir: folder.to_owned(), name })
+        Ok(Self { scene, base_dir: folder.to_owned(), file: args.input.clone(), is_scene })
+    }
+
+    /// The file's name without its folder.
+    pub(super) fn name(&self) -> String {
+        self.file.file_name().unwrap_or_default().to_string_lossy().into_owned()
     }
 
     /// Puts the scene into the App's world, and its warnings on standard error.
     pub(super) fn spawn(&self, app: &mut App) -> Result<Spawned, Failure> {
-        let spawned = spawn(&self.scene, &self.base_dir, app.world_mut())?;
+        let spawned = spawn(&self.scene, &self.base_dir, app.world_mut()).map_err(|error| self.failure(error))?;
         for warning in &spawned.warnings {
             eprintln!("warning: {warning}");
         }
         Ok(spawned)
+    }
+
+    /// What keeps a model from being shown is the model's own error; in a scene file it is one of that file's keys.
+    fn failure(&self, error: SceneError) -> Failure {
+        match error {
+            SceneError::Model { source, .. } if !self.is_scene => source.into(),
+            error => {
+                let text = error.to_string();
+                let text = text.strip_prefix("scene: ").unwrap_or(&text);
+                format!("{}: {text}", self.file.display()).into()
+            }
+        }
     }
 }

@@ -15,7 +15,7 @@ pub(super) struct ViewArgs {
 pub(super) fn run(args: &ViewArgs) -> Result<(), Failure> {
     let input = Input::read(&args.look)?;
     let mut app = App::new();
-    app.add_plugins(HalfwayPlugins).insert_resource(WindowTitle(input.name.clone()));
+    app.add_plugins(HalfwayPlugins).insert_resource(WindowTitle(input.name()));
     input.spawn(&mut app)?;
     match app.run() {
         AppExit::Success => Ok(()),

@@ -4,21 +4,15 @@ use std::collections::HashMap;
 use std::path::Path;
 use std::rc::Rc;
 
-use bevy_math::{Mat4, Vec3};
+use bevy_math::Mat4;
 use bevy_transform::components::Transform;
-use halfway_lighting::conversion::{
-    self, MetallicRoughnessNumbers, MtlNumbers, PunctualKind, PunctualLight, PunctualNumbers, RADIANCE_SCALE,
-    from_metallic_roughness, from_mtl, from_punctual,
-};
-use halfway_lighting::{Faces, Material, rotation_along};
-use halfway_mesh::{
-    AlphaMode, Cuboid, Mesh, Model, NormalReport, Normals, Plane, SourceLight, SourceLightKind, SourceMaterial, Teapot,
-    UvSphere,
-};
+use halfway_lighting::conversion::PunctualLight;
+use halfway_mesh::{Cuboid, Mesh, Model, NormalReport, Normals, Plane, SourceLight, SourceMaterial, Teapot, UvSphere};
 
 use super::SceneError;
 use super::mesh::{MeshEntry, NormalsEntry};
 use super::object::ObjectEntry;
+use crate::model::{ModelMaterial, model_light};
 
 /// What an object shows.
 pub(super) struct Shape {
@@ -32,15 +26,7 @@ pub(super) struct ShapePart {
     pub(super) mesh: Mesh,
     pub(super) object_from_part: Mat4,
     /// The model's own material.
-    pub(super) own: Option<OwnMaterial>,
-}
-
-/// A material that came with a model, and how it wants to be drawn.
-#[derive(Clone, Copy)]
-pub(super) struct OwnMaterial {
-    pub(super) material: Material,
-    pub(super) faces: Faces,
-    pub(super) blend: bool,
+    pub(super) own: Option<ModelMaterial>,
 }
 
 /// A light that came with a model, where it stands inside the object.
@@ -129,47 +115,14 @@ impl<'a> Shapes<'a> {
         Ok(Shape { parts, lights })
     }
 
-    fn material(&mut self, source: &SourceMaterial, at: String, index: usize) -> Result<OwnMaterial, SceneError> {
-        let translated = match source {
-            SourceMaterial::Mtl(mtl) => {
-                let numbers = MtlNumbers {
-                    ka: mtl.ka,
-                    kd: mtl.kd,
-                    ks: mtl.ks,
-                    ke: mtl.ke,
-                    ns: mtl.ns,
-                    d: mtl.d,
-                    tr: mtl.tr,
-                    illum: mtl.illum,
-                };
-                from_mtl(&numbers).map(|(material, warnings)| {
-                    self.warnings.extend(warnings.iter().map(|warning| format!("{at}: {warning}")));
-                    // An MTL file cannot say whether a surface is to be blended; the scene has to.
-                    OwnMaterial { material, faces: Faces::Front, blend: false }
-                })
+    fn material(&mut self, source: &SourceMaterial, at: String, index: usize) -> Result<ModelMaterial, SceneError> {
+        match ModelMaterial::of(source) {
+            Ok((material, warnings)) => {
+                self.warnings.extend(warnings.iter().map(|warning| format!("{at}: {warning}")));
+                Ok(material)
             }
-            SourceMaterial::MetallicRoughness(gltf) => {
-                let alpha = match gltf.alpha {
-                    AlphaMode::Opaque => conversion::AlphaMode::Opaque,
-                    AlphaMode::Mask { cutoff } => conversion::AlphaMode::Mask { cutoff },
-                    AlphaMode::Blend => conversion::AlphaMode::Blend,
-                };
-                let numbers = MetallicRoughnessNumbers {
-                    base_color: gltf.base_color,
-                    metallic: gltf.metallic,
-                    roughness: gltf.roughness,
-                    emissive: gltf.emissive,
-                    alpha,
-                };
-                from_metallic_roughness(&numbers).map(|material| OwnMaterial {
-                    material,
-                    faces: if gltf.double_sided { Faces::Both } else { Faces::Front },
-                    // What a mask cuts away has opacity 0, which shows only where it is blended.
-                    blend: gltf.alpha == AlphaMode::Blend || material.opacity == 0.0,
-                })
-            }
-        };
-        translated.map_err(|source| SceneError::ModelValue { key: mesh_path(index), at, source })
+            Err(source) => Err(SceneError::ModelValue { key: mesh_path(index), at, source }),
+        }
     }
 
     fn warn_of_normals(&mut self, at: &str, report: NormalReport) {
@@ -190,25 +143,11 @@ fn mesh_path(index: usize) -> String {
     format!("objects[{index}].mesh.path")
 }
 
-/// A light of a model. Its frame may scale, which has no meaning for a light: position and direction are taken from it.
 fn place_light(light: &SourceLight, at: &str, index: usize) -> Result<ShapeLight, SceneError> {
-    let numbers = PunctualNumbers {
-        kind: match light.kind {
-            SourceLightKind::Directional => PunctualKind::Directional,
-            SourceLightKind::Point => PunctualKind::Point,
-            SourceLightKind::Spot { inner, outer } => PunctualKind::Spot { inner, outer },
-        },
-        color: light.color,
-        intensity: light.intensity,
-        range: light.range,
-    };
-    let refused = |source| SceneError::ModelValue { key: mesh_path(index), at: at.to_owned(), source };
-    let component = from_punctual(&numbers, RADIANCE_SCALE).map_err(refused)?;
-    let mut place = Transform::from_translation(light.world_from_light.w_axis.truncate());
-    // A point light has no direction that could be wrong.
-    if light.kind != SourceLightKind::Point {
-        let along = light.world_from_light.transform_vector3(Vec3::NEG_Z);
-        place.rotation = rotation_along(along).map_err(refused)?;
-    }
-    Ok(ShapeLight { name: light.name.clone(), light: component, object_from_light: place })
+    let (component, object_from_light) = model_light(light).map_err(|source| SceneError::ModelValue {
+        key: mesh_path(index),
+        at: at.to_owned(),
+        source,
+    })?;
+    Ok(ShapeLight { name: light.name.clone(), light: component, object_from_light })
 }
