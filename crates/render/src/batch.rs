@@ -271,6 +271,9 @@ fn bits(material: &Material) -> MaterialBits {
 }
 
 impl Table {
+    /// How many materials are remembered as checked.
+    const CHECKED: usize = 4096;
+
     /// What is wrong with a material, remembered by its value.
     fn check(&mut self, material: &Material) -> Option<InvalidValue> {
         self.checked.entry(bits(material)).or_insert_with(|| material.validate().err()).clone()
@@ -308,6 +311,10 @@ impl Batches {
         self.table.lists.clear();
         self.table.keys.clear();
         self.table.calls.clear();
+        // Materials that change every frame must not pile up; those still in use are checked once more.
+        if self.table.checked.len() > Table::CHECKED {
+            self.table.checked.clear();
+        }
     }
 
     /// Sorts, and joins neighbours that differ only in their instance. The sort is stable: equal
