@@ -145,7 +145,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Bench(args) => bench::run(&args),
         Command::Adapters => adapters::run(),
         Command::Schema => {
-            println!("{}", halfway::scene::json_schema());
+            print!("{}", halfway::scene::json_schema());
             Ok(())
         }
     };

@@ -1,0 +1,96 @@
+//! `cargo xtask demo`.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use crate::arguments::DemoOptions;
+use crate::cargo::{cargo, root, step};
+use crate::failure::{Failure, Result};
+use crate::machine::display::Display;
+use crate::setup::{DRIVER, Need, WAYLAND_WINDOWS, X11_WINDOWS, adapters};
+
+const EXAMPLE: &str = "moving_lights";
+/// The six seconds after which the example's lights are where they were, so that the animation has no jump.
+const FRAMES: &str = "180";
+const SIZE: &str = "640x360";
+
+/// Sets up, builds, and shows or records the moving lights.
+pub(crate) fn run(options: &DemoOptions) -> Result {
+    let model = options.model.as_deref().map(model).transpose()?;
+    let display = Display::here().filter(|_| !options.headless);
+    options.setup.meet(needs(display))?;
+    step("build", &mut cargo(["build", "--release", "--bin", "halfway", "--example", EXAMPLE]))?;
+    adapters(options.setup)?;
+    if display.is_some() { show(model) } else { record(model) }
+}
+
+/// The model's absolute path: what runs later runs in the workspace's root.
+fn model(given: &Path) -> Result<PathBuf> {
+    let path = std::path::absolute(given).map_err(|error| Failure::usage(format!("{}: {error}", given.display())))?;
+    if path.is_file() { Ok(path) } else { Err(Failure::usage(format!("{}: there is no such file", given.display()))) }
+}
+
+fn needs(display: Option<Display>) -> &'static [Need] {
+    match display {
+        Some(Display::X11) => &[DRIVER, X11_WINDOWS],
+        Some(Display::Wayland) => &[DRIVER, WAYLAND_WINDOWS],
+        Some(Display::System) | None => &[DRIVER],
+    }
+}
+
+/// The command that runs the example. Without a model it takes its own, `assets/teapot.obj`.
+fn example(model: Option<PathBuf>) -> Command {
+    let mut command = cargo(["run", "--release", "--quiet", "--example", EXAMPLE, "--"]);
+    if let Some(model) = model {
+        command.arg("--model").arg(model);
+    }
+    command
+}
+
+fn show(model: Option<PathBuf>) -> Result {
+    eprintln!(
+        "\nA window opens. Drag to look around; 1, 2, 3: flat, Gouraud, Phong; B: reflectance; Escape closes it."
+    );
+    step("moving lights", &mut example(model))
+}
+
+fn record(model: Option<PathBuf>) -> Result {
+    let folder = root().join("out");
+    std::fs::create_dir_all(&folder).map_err(|error| Failure::new(format!("{}: {error}", folder.display())))?;
+    let animation = folder.join(format!("{EXAMPLE}.png"));
+    let sheet = folder.join(format!("{EXAMPLE}_sheet.png"));
+    eprintln!("\nNo display answers, or none was asked for: the lights are recorded.");
+    let mut command = example(model);
+    command.arg("--headless").arg(&animation).arg("--contact-sheet").arg(&sheet);
+    // It prints its files' names too, but not what they are.
+    step("moving lights", command.args(["--frames", FRAMES, "--size", SIZE]).stdout(Stdio::null()))?;
+    println!("animation:     {}\ncontact sheet: {}", animation.display(), sheet.display());
+    eprintln!("\nWeb browsers play the animation; most picture viewers show its first frame only.");
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn models_are_looked_for_before_anything_is_built() {
+        // Tests run in their package's folder.
+        assert_eq!(model(Path::new("Cargo.toml")), Ok(Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.toml")));
+        let problem = model(Path::new("no/such.obj")).unwrap_err();
+        assert_eq!(problem, Failure::usage("no/such.obj: there is no such file"));
+    }
+
+    #[test]
+    fn the_example_is_there() {
+        assert!(root().join(format!("examples/{EXAMPLE}.rs")).is_file());
+    }
+
+    #[test]
+    fn windows_need_their_libraries() {
+        let rows = [(None, 1), (Some(Display::System), 1), (Some(Display::X11), 2), (Some(Display::Wayland), 2)];
+        for (display, expected) in rows {
+            assert_eq!(needs(display).len(), expected, "{display:?}");
+        }
+    }
+}

@@ -1,0 +1,101 @@
+//! `cargo xtask docs`.
+
+use std::path::Path;
+
+use crate::cargo::{announce, cargo, ended, not_started, root, step};
+use crate::commands::{Shown, shown};
+use crate::failure::{Failure, Result};
+use crate::setup::{DRIVER, Setup, adapters};
+
+/// The page whose commands make the pictures.
+const PAGE: &str = "docs/examples.md";
+const SCHEMA: &str = "docs/scene.schema.json";
+
+/// Sets up, and makes schema and pictures again.
+pub(crate) fn run(setup: Setup) -> Result {
+    // Before anything is installed or built: a page that cannot be read, or shows something else.
+    let commands = pictures(&root())?;
+    setup.meet(&[DRIVER])?;
+    step("build", &mut cargo(["build", "--release", "--bins", "--examples"]))?;
+    adapters(setup)?;
+    schema()?;
+    for command in &commands {
+        step(&format!("{PAGE}, line {}", command.line), &mut cargo(&command.words[1..]))?;
+    }
+    eprintln!("\n{} commands of {PAGE} and the schema: done", commands.len());
+    Ok(())
+}
+
+/// Writes the schema as the command prints it.
+fn schema() -> Result {
+    let mut command = cargo(["run", "--release", "--quiet", "--bin", "halfway", "--", "schema"]);
+    announce(SCHEMA, &command);
+    let output = command.output().map_err(|error| not_started(&command, &error))?;
+    if !output.status.success() {
+        eprint!("{}", String::from_utf8_lossy(&output.stderr));
+        return Err(ended(&command, output.status));
+    }
+    let text = String::from_utf8_lossy(&output.stdout);
+    let written = std::fs::write(root().join(SCHEMA), format!("{}\n", text.trim_end()));
+    written.map_err(|error| Failure::new(format!("{SCHEMA}: {error}")))
+}
+
+/// The page's commands that draw: those that name a file to write to. The others open windows.
+fn pictures(root: &Path) -> Result<Vec<Shown>> {
+    let page = std::fs::read_to_string(root.join(PAGE)).map_err(|error| Failure::new(format!("{PAGE}: {error}")))?;
+    chosen(shown(&page).map_err(|problem| Failure::new(format!("{PAGE}, {problem}")))?)
+}
+
+fn chosen(commands: Vec<Shown>) -> Result<Vec<Shown>> {
+    let drawing: Vec<_> = commands
+        .into_iter()
+        .filter(|command| command.words.iter().any(|word| ["--headless", "-o", "--output"].contains(&word.as_str())))
+        .collect();
+    for command in &drawing {
+        if command.words.len() < 2 || command.words[0] != "cargo" || command.words[1] != "run" {
+            let text = command.words.join(" ");
+            return Err(Failure::new(format!("{PAGE}, line {}: expected cargo run …, found {text}", command.line)));
+        }
+    }
+    if drawing.is_empty() {
+        return Err(Failure::new(format!("{PAGE} shows no command that writes a picture")));
+    }
+    Ok(drawing)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn commands(lines: &[&str]) -> Vec<Shown> {
+        shown(&format!("```sh\n{}\n```\n", lines.join("\n"))).unwrap()
+    }
+
+    #[test]
+    fn commands_that_draw_are_chosen() {
+        let lines = [
+            "cargo run --example a",
+            "cargo run --example a -- --headless a.png",
+            "cargo run -- render b -o b.png",
+            "cargo run --example homework",
+        ];
+        let lines: Vec<_> = chosen(commands(&lines)).unwrap().iter().map(|command| command.line).collect();
+        assert_eq!(lines, [3, 4]);
+    }
+
+    #[test]
+    fn the_page_can_be_read() {
+        if let Err(problem) = pictures(&root()) {
+            panic!("{problem}");
+        }
+    }
+
+    #[test]
+    fn other_programs_are_not_run() {
+        for line in ["convert a -o b.png", "cargo install x --headless y", "cargo -o x"] {
+            let problem = chosen(commands(&[line])).unwrap_err().to_string();
+            assert!(problem.contains("docs/examples.md, line 2: expected cargo run"), "{problem}");
+        }
+        assert!(chosen(commands(&["cargo run"])).unwrap_err().to_string().contains("no command that writes a picture"));
+    }
+}

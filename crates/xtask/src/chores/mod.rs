@@ -1,0 +1,6 @@
+//! One file a chore.
+
+pub(crate) mod check;
+pub(crate) mod demo;
+pub(crate) mod docs;
+pub(crate) mod test;

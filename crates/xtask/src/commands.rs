@@ -1,0 +1,174 @@
+//! The commands that a page of documentation shows.
+
+/// A command of a page, cut into words.
+#[derive(Debug, PartialEq, Eq)]
+pub(crate) struct Shown {
+    /// The line it starts on, from 1.
+    pub(crate) line: usize,
+    pub(crate) words: Vec<String>,
+}
+
+/// The commands in the code blocks of a Markdown page that are marked `sh`: a line each, or several with a `\` at the
+/// end of all but the last. Comments are left out.
+///
+/// # Errors
+/// The line and the problem of a command that is more than a program and its arguments.
+pub(crate) fn shown(page: &str) -> Result<Vec<Shown>, String> {
+    let mut commands = Vec::new();
+    let mut fence = Fence::Text;
+    let mut open: Option<(usize, String)> = None;
+    for (index, text) in page.lines().enumerate() {
+        let text = text.trim();
+        if let Some(language) = text.strip_prefix("```") {
+            fence = fence.next(language.trim());
+            continue;
+        }
+        if fence != Fence::Shell {
+            continue;
+        }
+        let (line, mut command) = open.take().unwrap_or((index + 1, String::new()));
+        if let Some(part) = text.strip_suffix('\\') {
+            command.push_str(part);
+            open = Some((line, command));
+            continue;
+        }
+        command.push_str(text);
+        let words = words(&command).map_err(|problem| format!("line {line}: {problem}"))?;
+        if !words.is_empty() {
+            commands.push(Shown { line, words });
+        }
+    }
+    match open {
+        Some((line, _)) => Err(format!("line {line}: the command goes on after its last line")),
+        None => Ok(commands),
+    }
+}
+
+#[derive(PartialEq, Eq)]
+enum Fence {
+    Text,
+    Shell,
+    Other,
+}
+
+impl Fence {
+    /// What follows a line of three backticks.
+    fn next(&self, language: &str) -> Self {
+        match self {
+            Self::Text if language == "sh" => Self::Shell,
+            Self::Text => Self::Other,
+            _ => Self::Text,
+        }
+    }
+}
+
+/// Cuts a command into words as a shell does, with single and double quotes. What a shell would do more (variables,
+/// pipes, several commands) is refused, because no shell is used here.
+fn words(command: &str) -> Result<Vec<String>, String> {
+    let mut words = Vec::new();
+    let mut word: Option<String> = None;
+    let mut characters = command.chars();
+    while let Some(c) = characters.next() {
+        match c {
+            '\'' | '"' => {
+                let word = word.get_or_insert_default();
+                loop {
+                    match characters.next() {
+                        Some(end) if end == c => break,
+                        Some(special @ ('$' | '`' | '\\')) if c == '"' => return Err(unexpected(special)),
+                        Some(inside) => word.push(inside),
+                        None => return Err(format!("the quote {c} has no end")),
+                    }
+                }
+            }
+            '#' if word.is_none() => break,
+            c if c.is_whitespace() => words.extend(word.take()),
+            '$' | '`' | '\\' | '|' | '&' | ';' | '<' | '>' | '*' | '?' | '(' | ')' => return Err(unexpected(c)),
+            c => word.get_or_insert_default().push(c),
+        }
+    }
+    words.extend(word);
+    Ok(words)
+}
+
+fn unexpected(c: char) -> String {
+    format!("expected a program and its arguments, found the shell's {c}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PAGE: &str = "\
+# Pictures
+
+The command `cargo run` and
+
+    cargo indented
+
+are text.
+
+```rust
+fn main() {}
+```
+
+```sh
+# Two pictures:
+cargo run --example a -- --headless a.png
+
+cargo run --example b -- \\
+    --headless 'a file.png'   # the second
+```
+Text.
+```text
+cargo output
+```
+  ```sh
+  cargo last \"\" {}.png
+  ```
+";
+
+    #[test]
+    fn commands_of_a_page() {
+        let commands = shown(PAGE).unwrap();
+        let found: Vec<_> = commands.iter().map(|shown| (shown.line, shown.words.join("|"))).collect();
+        let expected = [
+            (15, "cargo|run|--example|a|--|--headless|a.png"),
+            (17, "cargo|run|--example|b|--|--headless|a file.png"),
+            (25, "cargo|last||{}.png"),
+        ];
+        assert_eq!(found, expected.map(|(line, words)| (line, words.to_owned())));
+    }
+
+    #[test]
+    fn what_needs_a_shell_is_refused_with_its_line() {
+        let rows = [
+            ("cargo run | tee log", "line 3: expected a program and its arguments, found the shell's |"),
+            ("cargo run > log", "the shell's >"),
+            ("cargo run && ls", "the shell's &"),
+            ("cargo run $HOME", "the shell's $"),
+            ("cargo run \"$HOME\"", "the shell's $"),
+            ("ls *.png", "the shell's *"),
+            ("cargo run 'a", "the quote ' has no end"),
+            ("cargo run \\", "line 3: the command goes on"),
+        ];
+        for (command, expected) in rows {
+            let problem = shown(&format!("Text\n```sh\n{command}\n```\n")).unwrap_err();
+            assert!(problem.contains(expected), "{command}: {problem}");
+        }
+    }
+
+    #[test]
+    fn quotes_keep_what_they_hold() {
+        let rows = [
+            ("a 'b c' d", vec!["a", "b c", "d"]),
+            ("a'b'\"c\"d", vec!["abcd"]),
+            ("'$a|b' \"it's\"", vec!["$a|b", "it's"]),
+            ("a#b #c", vec!["a#b"]),
+            ("  ", vec![]),
+        ];
+        for (command, expected) in rows {
+            assert_eq!(words(command).unwrap(), expected, "{command}");
+        }
+    }
+}

@@ -1,0 +1,11 @@
+//! What the machine has: libraries, a graphics driver, a display, a package manager.
+
+pub(crate) mod display;
+pub(crate) mod driver;
+pub(crate) mod libraries;
+mod library_path;
+pub(crate) mod packages;
+pub(crate) mod programs;
+
+#[cfg(test)]
+pub(crate) mod scratch;

@@ -1,0 +1,232 @@
+//! Set-up: what a chore needs of the machine, and getting it.
+
+use crate::cargo::{cargo, step, written};
+use crate::failure::{Failure, Result};
+use crate::machine::display::Display;
+use crate::machine::driver::Drivers;
+use crate::machine::libraries::Libraries;
+use crate::machine::packages::{Manager, Packages, Rights, apt, is_root};
+use crate::machine::programs;
+
+/// Whether set-up may change the machine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Setup {
+    /// Install what is missing.
+    Install,
+    /// Only see what is missing.
+    Check,
+}
+
+/// Something outside the project that a chore needs.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Need {
+    /// Why it is not met, or `None` where it is.
+    missing: fn() -> Option<String>,
+    packages: Packages,
+}
+
+/// A driver to draw with; the software one will do.
+pub(crate) const DRIVER: Need = Need {
+    missing: || {
+        // A backend chosen by name is the user's to care for; whether it works is seen after the build.
+        let chosen = std::env::var("WGPU_BACKEND").unwrap_or_default().to_lowercase();
+        if !chosen.is_empty() && !chosen.contains("vulkan") && !chosen.contains("vk") {
+            return None;
+        }
+        Drivers::here().usable().err().map(|problem| problem.to_string())
+    },
+    packages: Packages {
+        apt: &["libvulkan1", "mesa-vulkan-drivers"],
+        dnf: &["vulkan-loader", "mesa-vulkan-drivers"],
+        pacman: &["vulkan-icd-loader", "vulkan-swrast"],
+    },
+};
+
+/// A screen to open windows on.
+pub(crate) const SCREEN: Need = Need {
+    missing: || {
+        let there = programs::find("Xvfb").is_some() || Display::x11_answers();
+        (!there).then(|| "no screen for the tests of the window (the virtual one, Xvfb, will do)".into())
+    },
+    packages: Packages { apt: &["xvfb"], dnf: &["xorg-x11-server-Xvfb"], pacman: &["xorg-server-xvfb"] },
+};
+
+/// What windows on an X display load when they open.
+pub(crate) const X11_WINDOWS: Need = Need {
+    missing: || {
+        missing_libraries(&[
+            "libX11.so.6",
+            "libX11-xcb.so.1",
+            "libxcb.so.1",
+            "libXcursor.so.1",
+            "libXi.so.6",
+            "libxkbcommon.so.0",
+            "libxkbcommon-x11.so.0",
+        ])
+    },
+    packages: Packages {
+        apt: &["libx11-6", "libx11-xcb1", "libxcb1", "libxcursor1", "libxi6", "libxkbcommon0", "libxkbcommon-x11-0"],
+        dnf: &["libX11", "libX11-xcb", "libxcb", "libXcursor", "libXi", "libxkbcommon", "libxkbcommon-x11"],
+        pacman: &["libx11", "libxcb", "libxcursor", "libxi", "libxkbcommon", "libxkbcommon-x11"],
+    },
+};
+
+/// What windows on a Wayland display load when they open.
+pub(crate) const WAYLAND_WINDOWS: Need = Need {
+    missing: || missing_libraries(&["libwayland-client.so.0", "libxkbcommon.so.0"]),
+    packages: Packages {
+        apt: &["libwayland-client0", "libxkbcommon0"],
+        dnf: &["libwayland-client", "libxkbcommon"],
+        pacman: &["wayland", "libxkbcommon"],
+    },
+};
+
+fn missing_libraries(needed: &[&str]) -> Option<String> {
+    let missing = Libraries::here().missing(needed);
+    (!missing.is_empty()).then(|| format!("libraries that windows load: {}", missing.join(", ")))
+}
+
+impl Setup {
+    /// Sees that `needs` are met, and installs what is missing where it may. Systems other than Linux bring all of it.
+    ///
+    /// # Errors
+    /// What is missing, why it was not installed, and the command that would install it.
+    pub(crate) fn meet(self, needs: &[Need]) -> Result {
+        if !cfg!(target_os = "linux") {
+            return Ok(());
+        }
+        let (reasons, missing) = missing(needs);
+        if reasons.is_empty() {
+            return Ok(());
+        }
+        self.install(&reasons, &missing)?;
+        let (reasons, _) = self::missing(needs);
+        if reasons.is_empty() {
+            return Ok(());
+        }
+        Err(Failure::new(format!("still missing after the installation:\n{}", listed(&reasons))))
+    }
+
+    fn install(self, reasons: &[String], missing: &[Packages]) -> Result {
+        let manager = Manager::here();
+        let names: Vec<&str> =
+            missing.iter().flat_map(|&packages| manager.unwrap_or(Manager::Apt).names(packages)).copied().collect();
+        let rights = match (self, manager) {
+            (Self::Check, _) => Err("--no-install was given"),
+            (_, Some(Manager::Apt)) => match Rights::here() {
+                Rights::Nothing => Err("it takes root, or sudo without a password"),
+                rights => Ok(rights),
+            },
+            _ => Err("only apt-get is run from here"),
+        };
+        let rights = rights.map_err(|why_not| Failure::new(refusal(reasons, &names, manager, why_not, is_root())))?;
+        eprintln!("missing:\n{}\nInstalling {} by apt-get.", listed(reasons), names.join(" "));
+        let [mut update, mut install] = apt(rights, &names);
+        // A list that is out of date, or a repository that does not answer, need not keep the packages from coming.
+        if let Err(failure) = step("what packages there are", &mut update) {
+            eprintln!("warning: {failure}");
+        }
+        step("installing", &mut install)
+    }
+}
+
+/// Why needs are not met, and the packages that would meet them.
+fn missing(needs: &[Need]) -> (Vec<String>, Vec<Packages>) {
+    needs.iter().filter_map(|need| Some(((need.missing)()?, need.packages))).unzip()
+}
+
+fn listed(reasons: &[String]) -> String {
+    reasons.iter().map(|reason| format!("  - {reason}")).collect::<Vec<_>>().join("\n")
+}
+
+/// The message where nothing is installed.
+fn refusal(reasons: &[String], names: &[&str], manager: Option<Manager>, why_not: &str, is_root: bool) -> String {
+    let remedy = match manager {
+        Some(manager) => format!("Install it yourself, and try again:\n\n    {}", manager.remedy(names, is_root)),
+        None => {
+            format!("Install what your system calls these Debian packages, and try again:\n\n    {}", names.join(" "))
+        }
+    };
+    format!("missing:\n{}\nNothing was installed: {why_not}. {remedy}", listed(reasons))
+}
+
+/// Asks the built command for the adapters that it can draw with, and prints them.
+///
+/// # Errors
+/// There is none: a driver that looked usable is not. With [`Setup::Install`] the software driver is tried first.
+pub(crate) fn adapters(setup: Setup) -> Result {
+    if list_adapters()? {
+        return Ok(());
+    }
+    if !cfg!(target_os = "linux") {
+        return Err(Failure::new("no graphics adapter: install the driver of your graphics card"));
+    }
+    let reason = "an adapter: the drivers that are installed find nothing to draw with".to_owned();
+    setup.install(&[reason], &[DRIVER.packages])?;
+    if list_adapters()? {
+        return Ok(());
+    }
+    Err(Failure::new("no graphics adapter, even with the software driver; VK_LOADER_DEBUG=all tells what it tries"))
+}
+
+/// Whether the command finds an adapter; its list goes to the standard error output.
+fn list_adapters() -> Result<bool> {
+    const NONE: i32 = 3;
+    let mut command = cargo(["run", "--release", "--quiet", "--bin", "halfway", "--", "adapters"]);
+    let output = command.output().map_err(|error| crate::cargo::not_started(&command, &error))?;
+    match output.status.code() {
+        Some(0) => {
+            eprintln!("\nadapters:");
+            String::from_utf8_lossy(&output.stdout).lines().for_each(|line| eprintln!("   {line}"));
+            Ok(true)
+        }
+        Some(NONE) => Ok(false),
+        _ => {
+            let said = String::from_utf8_lossy(&output.stderr);
+            Err(Failure::new(format!("{} failed:\n{}", written(&command), said.trim_end())))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MET: Need = Need { missing: || None, ..DRIVER };
+    const UNMET: Need = Need { missing: || Some("a thing".into()), ..SCREEN };
+
+    #[test]
+    fn what_is_there_needs_no_installation() {
+        assert_eq!(Setup::Check.meet(&[MET, MET]), Ok(()));
+        assert_eq!(Setup::Install.meet(&[]), Ok(()));
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn what_is_missing_is_not_installed_unasked() {
+        let message = Setup::Check.meet(&[MET, UNMET]).unwrap_err().to_string();
+        assert!(message.contains("  - a thing\n"), "{message}");
+        assert!(message.contains("--no-install was given"), "{message}");
+    }
+
+    #[test]
+    fn refusals_have_a_remedy() {
+        let reasons = ["a driver".to_owned(), "a screen".to_owned()];
+        let rows = [
+            (
+                Some(Manager::Apt),
+                false,
+                "\n    sudo apt-get update && sudo apt-get install -y --no-install-recommends x y",
+            ),
+            (Some(Manager::Apt), true, "\n    apt-get update && apt-get install -y --no-install-recommends x y"),
+            (Some(Manager::Dnf), false, "\n    sudo dnf install -y x y"),
+            (None, false, "Debian packages, and try again:\n\n    x y"),
+        ];
+        for (manager, is_root, remedy) in rows {
+            let message = refusal(&reasons, &["x", "y"], manager, "because", is_root);
+            assert!(message.starts_with("missing:\n  - a driver\n  - a screen\n"), "{message}");
+            assert!(message.contains("Nothing was installed: because."), "{message}");
+            assert!(message.ends_with(remedy), "{message}");
+        }
+    }
+}
