@@ -133,13 +133,19 @@ fn has_opposite_normals(mesh: &Mesh) -> bool {
 
 /// A mesh whose every triangle has a vertex of its own in first place: that provoking vertex carries
 /// the triangle's face normal and centroid, and so its one shade. Triangles keep their order and
-/// winding; they are rotated so that as few vertices as possible are repeated.
+/// winding; they are rotated, and vertices repeated, so that each has one.
 struct FlatMesh {
     positions: Vec<[f32; 3]>,
     /// Face normal, centroid.
     attributes: Vec<[[f32; 3]; 2]>,
     indices: Vec<u32>,
+    /// Whether a vertex provokes a triangle already.
+    taken: Vec<bool>,
 }
+
+/// After so many triangles an adapter has forgotten a vertex and shades it anew. One that is taken is
+/// then better repeated: the new one can provoke another triangle, and costs no more than the old.
+const VERTEX_MEMORY: usize = 256;
 
 impl FlatMesh {
     fn new(mesh: &Mesh) -> Self {
@@ -148,31 +154,47 @@ impl FlatMesh {
             positions: corners.iter().map(Vec3::to_array).collect(),
             attributes: vec![[[0.0; 3]; 2]; corners.len()],
             indices: Vec::with_capacity(mesh.indices().len()),
+            taken: vec![false; corners.len()],
         };
-        let mut taken = vec![false; corners.len()];
-        for [a, b, c] in mesh.triangles() {
-            let [pa, pb, pc] = [a, b, c].map(|index| corners[index as usize]);
-            // A degenerate triangle covers no pixel; any shade will do.
-            let normal = face_normal(pa, pb, pc).unwrap_or(Vec3::ZERO);
-            let centroid = (pa.as_dvec3() + pb.as_dvec3() + pc.as_dvec3()) / 3.0;
-            let shade = [normal.to_array(), centroid.as_vec3().to_array()];
-            let [first, second, third] = [[a, b, c], [b, c, a], [c, a, b]]
-                .into_iter()
-                .find(|rotation| !taken[rotation[0] as usize])
-                .unwrap_or([a, b, c]);
-            let provoking = if taken[first as usize] {
-                flat.positions.push(corners[first as usize].to_array());
-                flat.attributes.push(shade);
-                flat.positions.len() as u32 - 1
-            } else {
-                taken[first as usize] = true;
-                flat.attributes[first as usize] = shade;
-                first
-            };
-            flat.indices.extend([provoking, second, third]);
+        // Of each vertex of the mesh: the copy in use, and the triangle that used it last.
+        let mut copies: Vec<(u32, usize)> = (0..corners.len() as u32).map(|vertex| (vertex, 0)).collect();
+        for (triangle, vertices) in mesh.triangles().enumerate() {
+            let mut used = vertices.map(|vertex| {
+                let (copy, last) = &mut copies[vertex as usize];
+                if flat.taken[*copy as usize] && triangle - *last > VERTEX_MEMORY {
+                    *copy = flat.repeat(*copy);
+                }
+                *last = triangle;
+                *copy
+            });
+            let free = used.iter().position(|&copy| !flat.taken[copy as usize]).unwrap_or_else(|| {
+                let copy = flat.repeat(used[0]);
+                copies[vertices[0] as usize].0 = copy;
+                used[0] = copy;
+                0
+            });
+            used.rotate_left(free);
+            let provoking = used[0] as usize;
+            flat.taken[provoking] = true;
+            flat.attributes[provoking] = shaded_point(vertices.map(|vertex| corners[vertex as usize]));
+            flat.indices.extend(used);
         }
         flat
     }
+
+    fn repeat(&mut self, vertex: u32) -> u32 {
+        self.positions.push(self.positions[vertex as usize]);
+        self.attributes.push([[0.0; 3]; 2]);
+        self.taken.push(false);
+        self.positions.len() as u32 - 1
+    }
+}
+
+/// Face normal and centroid. A degenerate triangle covers no pixel; any normal will do.
+fn shaded_point([a, b, c]: [Vec3; 3]) -> [[f32; 3]; 2] {
+    let normal = face_normal(a, b, c).unwrap_or(Vec3::ZERO);
+    let centroid = (a.as_dvec3() + b.as_dvec3() + c.as_dvec3()) / 3.0;
+    [normal.to_array(), centroid.as_vec3().to_array()]
 }
 
 #[cfg(test)]
@@ -199,7 +221,15 @@ mod tests {
             let [normal, _] = flat.attributes[corners[0] as usize].map(Vec3::from_array);
             assert!((p1 - p0).cross(p2 - p0).dot(normal) > 0.0, "the winding turned over");
         }
-        // As many vertices as triangles at most, plus those that provoke none.
-        assert!(flat.positions.len() <= mesh.triangle_count() + mesh.positions().len() / 8);
+        // Each repeated vertex stands for a taken one, and each triangle takes one.
+        assert!(flat.positions.len() <= mesh.triangle_count() + mesh.positions().len());
+    }
+
+    #[test]
+    fn a_grid_larger_than_the_vertex_memory_needs_one_vertex_a_triangle() {
+        // 512 quads a row: the upper row of vertices of each row of quads has been forgotten by then.
+        let mesh = Mesh::from(UvSphere { radius: 1.0, segments: 512, rings: 16 });
+        let flat = FlatMesh::new(&mesh);
+        assert!(flat.positions.len() <= mesh.triangle_count() + 2 * 513, "{} vertices", flat.positions.len());
     }
 }
