@@ -15,8 +15,8 @@ pub use halfway_lighting::{
 };
 pub use halfway_mesh::{Cuboid, Mesh, Mesh3d, MeshPlugin, Plane, Teapot, UvSphere};
 pub use halfway_render::{
-    Camera, Encoding, FrameReport, Headless, Intensity, Picture, Pixels, RenderPlugin, RenderSet, Samples, Terms,
-    render_picture,
+    Camera, Encoding, FrameReport, Frequency, Headless, Intensity, Picture, Pixels, RenderPlugin, RenderSet, Samples,
+    Terms, render_picture,
 };
 #[cfg(feature = "window")]
 pub use halfway_window::{OrbitCamera, OrbitCameraPlugin, ViewerKeysPlugin, WindowPlugin, WindowTitle};

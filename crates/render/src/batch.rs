@@ -74,7 +74,7 @@ type Objects<'w, 's> = Query<
     's,
     (
         &'static Mesh3d,
-        &'static Material,
+        Option<&'static Material>,
         Option<&'static BackMaterial>,
         Option<&'static Reflectance>,
         Option<&'static Faces>,
@@ -126,8 +126,12 @@ pub(crate) fn batch(
         };
         let id = mesh3d.0.id();
         let (Some(mesh), Some(geometry)) = (meshes.get(id), geometries.get(id, chosen.flat)) else { continue };
+        let material = material.unwrap_or(&Material::DEFAULT);
         let back = back.map_or(material, |back| &back.0);
-        let invalid = [material, back].into_iter().find_map(|material| batches.table.check(material));
+        let invalid = batches.table.check(material).or_else(|| {
+            // A back side without a material of its own has been checked with the front.
+            batches.table.check(back).map(|invalid| InvalidValue { owner: "BackMaterial", ..invalid })
+        });
         if let Some(source) = invalid {
             report.errors.push(RenderError::Invalid { entity: label(entity, name), source });
             continue;
@@ -202,7 +206,9 @@ impl Object<'_> {
             blinn_phong: self.reflectance != Reflectance::Phong,
             local_viewer: frame.viewer == Viewer::Local,
             attenuated_ambient: ambient,
-            shared_colour: vertex_list.shared_colour && fragment_list.shared_colour,
+            shared_colour: [vertex_list, fragment_list]
+                .iter()
+                .all(|list| list.records.is_empty() || list.shared_colour),
             ranged: vertex_list.ranged || fragment_list.ranged,
             squarings: self.squarings(),
             geometric_fallback: self.opposite_normals && !fragment.is_empty(),
@@ -211,7 +217,12 @@ impl Object<'_> {
             samples: frame.samples,
             format: frame.format,
         };
-        (key.canonical(), (vertex, fragment), [vertex_list.counts, fragment_list.counts])
+        // Counts that are compiled in need not be read, and would only make equal records differ.
+        let counts = match key.lists {
+            Lists::Counted { .. } => [[0; 3]; 2],
+            Lists::Uniform | Lists::Storage => [vertex_list.counts, fragment_list.counts],
+        };
+        (key.canonical(), (vertex, fragment), counts)
     }
 
     /// log₂ of the exponent where it is a power of two, the same on both sides.

@@ -1,6 +1,7 @@
 //! What can go wrong between a scene and its picture.
 
 use bevy_ecs::prelude::Entity;
+use bevy_transform::components::GlobalTransform;
 use halfway_lighting::InvalidValue;
 use thiserror::Error;
 
@@ -30,6 +31,24 @@ pub enum RenderError {
         /// Which field, and what it may hold.
         source: InvalidValue,
     },
+    /// An entity's `GlobalTransform` holds a number that is not finite, or gives a camera no direction.
+    #[error(
+        "{entity}: its GlobalTransform is {found}; expected finite numbers, and for a camera a scale that is not 0"
+    )]
+    BadTransform {
+        /// The entity, by its `Name` where it has one.
+        entity: String,
+        /// The matrix as it was found, column by column.
+        found: String,
+    },
+    /// The headless picture has no pixels.
+    #[error("the picture is {width} × {height} pixels; expected at least 1 × 1")]
+    EmptyPicture {
+        /// Its width in pixels.
+        width: u32,
+        /// Its height in pixels.
+        height: u32,
+    },
     /// There is nothing to look through.
     #[error("the scene has no camera: spawn an entity with a `Camera` and a `Transform`")]
     NoCamera,
@@ -58,6 +77,16 @@ pub enum RenderError {
     /// The device was lost, or the driver failed.
     #[error("the graphics device failed: {0}")]
     Device(String),
+}
+
+/// The error of a transform that cannot be drawn with.
+pub(crate) fn bad_transform(
+    entity: Entity,
+    name: Option<&bevy_ecs::name::Name>,
+    transform: &GlobalTransform,
+) -> RenderError {
+    let found = format!("{:?}", transform.affine().to_cols_array());
+    RenderError::BadTransform { entity: label(entity, name), found }
 }
 
 /// An entity's name for an error: its `Name`, or its number.

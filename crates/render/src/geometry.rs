@@ -20,6 +20,8 @@ pub(crate) struct Geometry {
     pub(crate) indices: wgpu::Buffer,
     pub(crate) index_format: wgpu::IndexFormat,
     pub(crate) index_count: u32,
+    /// What it was made of; a mesh is immutable and shares its data, so the same data is the same mesh.
+    source: Mesh,
     /// Some interpolated normal may vanish, so that Phong shading needs the geometric one at hand.
     pub(crate) opposite_normals: bool,
 }
@@ -37,7 +39,7 @@ impl Geometries {
 
     /// Uploads the mesh unless it is there. Returns the bytes sent.
     pub(crate) fn ensure(&mut self, gpu: &Gpu, id: AssetId<Mesh>, mesh: &Mesh, flat: bool) -> Result<u64, RenderError> {
-        if self.meshes.contains_key(&(id, flat)) {
+        if self.meshes.get(&(id, flat)).is_some_and(|geometry| is_same(&geometry.source, mesh)) {
             return Ok(0);
         }
         let geometry = if flat { upload_flat(gpu, mesh)? } else { upload_smooth(gpu, mesh)? };
@@ -65,10 +67,17 @@ pub(crate) fn upload_visible(
     }
 }
 
-/// Forgets what changed or is gone; what is still drawn is uploaded again.
-pub(crate) fn forget_changed(mut events: MessageReader<AssetEvent<Mesh>>, mut geometries: ResMut<Geometries>) {
+/// Whether two meshes are clones of each other.
+fn is_same(a: &Mesh, b: &Mesh) -> bool {
+    a.positions().as_ptr() == b.positions().as_ptr()
+        && a.normals().as_ptr() == b.normals().as_ptr()
+        && a.indices().as_ptr() == b.indices().as_ptr()
+}
+
+/// Forgets meshes that are gone. Those that changed are found when they are drawn, which needs no event.
+pub(crate) fn forget_removed(mut events: MessageReader<AssetEvent<Mesh>>, mut geometries: ResMut<Geometries>) {
     for event in events.read() {
-        if let AssetEvent::Modified { id } | AssetEvent::Removed { id } | AssetEvent::Unused { id } = event {
+        if let AssetEvent::Removed { id } | AssetEvent::Unused { id } = event {
             geometries.meshes.remove(&(*id, true));
             geometries.meshes.remove(&(*id, false));
         }
@@ -79,16 +88,17 @@ fn upload_smooth(gpu: &Gpu, mesh: &Mesh) -> Result<Geometry, RenderError> {
     let positions: Vec<[f32; 3]> = mesh.positions().iter().map(Vec3::to_array).collect();
     let normals: Vec<[f32; 3]> = mesh.normals().iter().map(Vec3::to_array).collect();
     let opposite_normals = has_opposite_normals(mesh);
-    upload(gpu, &positions, bytemuck::cast_slice(&normals), mesh.indices(), opposite_normals)
+    upload(gpu, mesh, &positions, bytemuck::cast_slice(&normals), mesh.indices(), opposite_normals)
 }
 
 fn upload_flat(gpu: &Gpu, mesh: &Mesh) -> Result<Geometry, RenderError> {
     let flat = FlatMesh::new(mesh);
-    upload(gpu, &flat.positions, bytemuck::cast_slice(&flat.attributes), &flat.indices, false)
+    upload(gpu, mesh, &flat.positions, bytemuck::cast_slice(&flat.attributes), &flat.indices, false)
 }
 
 fn upload(
     gpu: &Gpu,
+    source: &Mesh,
     positions: &[[f32; 3]],
     attributes: &[u8],
     indices: &[u32],
@@ -117,6 +127,7 @@ fn upload(
         indices: buffer("indices", &index_bytes, wgpu::BufferUsages::INDEX)?,
         index_format,
         index_count: indices.len() as u32,
+        source: source.clone(),
         opposite_normals,
     })
 }

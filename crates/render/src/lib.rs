@@ -26,7 +26,7 @@ pub use camera::{Camera, Encoding, Intensity, Samples};
 pub use error::RenderError;
 pub use gpu::Gpu;
 pub use lights::Lights;
-pub use matrices::{ModelView, NormalMatrix, Visible, normal_matrix};
+pub use matrices::{ModelView, NormalMatrix, SpawnOrder, Visible, normal_matrix};
 pub use picture::{PendingPicture, Picture, render_picture};
 pub use plugin::{RenderPlugin, RenderSet};
 pub use report::FrameReport;

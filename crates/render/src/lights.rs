@@ -90,7 +90,7 @@ pub(crate) fn gather(
     lights.set_if_neq(gathered.into_lists());
 }
 
-/// Visits lights in spawn order, which fixes the order of sums, and reports those that are invalid.
+/// Visits lights in a fixed order, so that sums repeat, and reports those that are invalid.
 fn each<L: Component>(
     query: &LightQuery<L>,
     errors: &mut Vec<RenderError>,
@@ -207,7 +207,7 @@ impl LightList {
 }
 
 /// The distance in world units beyond which a light's square would not fit into f32.
-const FARTHEST: f64 = 1e18;
+const FARTHEST: f64 = 9e18;
 
 /// The inner cone's fade of `KHR_lights_punctual`, s = clamp((cos φ − cos cutoff)/(cos inner − cos cutoff), 0, 1), as scale
 /// and offset of cos φ; 0 and 1, which is s = 1, where there is no inner cone or it is as wide as the cutoff.

@@ -1,6 +1,6 @@
 //! Select and Matrices: what the frustum sees, and its model-view and normal matrices.
 
-use crate::error::{RenderError, label};
+use crate::error::{RenderError, bad_transform, label};
 use crate::report::FrameReport;
 use crate::view::View;
 use bevy_asset::Assets;
@@ -8,6 +8,7 @@ use bevy_ecs::prelude::*;
 use bevy_math::{Affine3A, DAffine3, DMat3, DVec3, Mat3};
 use bevy_transform::components::GlobalTransform;
 use halfway_mesh::{Mesh, Mesh3d};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// `eye_from_model` of an object, composed in f64 relative to the camera and rounded once.
 /// Holds for visible objects after [`RenderSet::Matrices`](crate::RenderSet::Matrices).
@@ -25,12 +26,25 @@ pub struct ModelView {
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
 pub struct NormalMatrix(pub Mat3);
 
+/// When an object was spawned, among objects. Entities do not tell: their indices are used again.
+#[derive(Component, Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct SpawnOrder(u64);
+
+impl SpawnOrder {
+    /// Later than all that came before.
+    pub(crate) fn next() -> Self {
+        static COUNT: AtomicU64 = AtomicU64::new(0);
+        Self(COUNT.fetch_add(1, Ordering::Relaxed))
+    }
+}
+
 /// The objects whose bounding sphere meets the frustum, in spawn order.
 /// Holds after [`RenderSet::Select`](crate::RenderSet::Select).
 #[derive(Resource, Clone, Debug, Default)]
 pub struct Visible(pub Vec<Entity>);
 
-type Objects<'w, 's> = Query<'w, 's, (Entity, &'static Mesh3d, &'static GlobalTransform, Option<&'static Name>)>;
+type Objects<'w, 's> =
+    Query<'w, 's, (Entity, &'static Mesh3d, &'static GlobalTransform, &'static SpawnOrder, Option<&'static Name>)>;
 
 pub(crate) fn select(
     objects: Objects,
@@ -43,7 +57,8 @@ pub(crate) fn select(
     if view.camera.is_none() {
         return;
     }
-    for (entity, mesh, transform, name) in &objects {
+    let mut seen = Vec::new();
+    for (entity, mesh, transform, order, name) in &objects {
         report.objects += 1;
         let Some(mesh) = meshes.get(&mesh.0) else {
             report.errors.push(RenderError::MissingMesh { entity: label(entity, name) });
@@ -52,15 +67,20 @@ pub(crate) fn select(
         if mesh.triangle_count() == 0 {
             continue;
         }
+        if !transform.affine().is_finite() {
+            report.errors.push(bad_transform(entity, name, transform));
+            continue;
+        }
         let eye_from_model = compose(&view.eye_from_world, transform);
         let bounds = mesh.bounds();
         let center = eye_from_model.transform_point3(bounds.center().as_dvec3()).as_vec3();
         let radius = f64::from(bounds.radius()) * largest_scale(&eye_from_model.matrix3);
         if view.projection.sees(center, radius as f32) {
-            visible.0.push(entity);
+            seen.push((*order, entity));
         }
     }
-    visible.0.sort_unstable();
+    seen.sort_unstable();
+    visible.0.extend(seen.into_iter().map(|(_, entity)| entity));
     report.visible = visible.0.len() as u32;
 }
 

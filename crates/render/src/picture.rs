@@ -163,8 +163,8 @@ pub fn render_picture(app: &mut App) -> Result<Picture, RenderError> {
     if let Some(error) = world.get_resource::<FrameReport>().and_then(|report| report.errors.first()) {
         return Err(error.clone());
     }
-    let gpu = world.get_resource::<Gpu>().ok_or(RenderError::NoAdapter)?;
-    PendingPicture::request(world)?.wait(gpu)
+    let pending = PendingPicture::request(world)?;
+    pending.wait(world.get_resource::<Gpu>().ok_or(RenderError::NoPicture)?)
 }
 
 #[cfg(test)]

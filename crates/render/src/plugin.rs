@@ -5,7 +5,7 @@ use crate::draw;
 use crate::geometry::{self, Geometries};
 use crate::gpu::Gpu;
 use crate::lights::{self, Lights};
-use crate::matrices::{self, ModelView, NormalMatrix, Visible};
+use crate::matrices::{self, ModelView, NormalMatrix, SpawnOrder, Visible};
 use crate::pipeline::Pipelines;
 use crate::report::FrameReport;
 use crate::target::{self, Headless, Target};
@@ -46,9 +46,7 @@ pub enum RenderSet {
 /// Draws every entity with a [`Mesh3d`] through the world's [`Camera`](crate::Camera), once a run of its schedule.
 ///
 /// Needs `GlobalTransform`s to be current: it runs after `TransformSystems::Propagate` where that set
-/// is in the same schedule, and an App with a schedule of its own propagates before. That a mesh changed is told by
-/// `AssetEvent`s, which `bevy_asset` sends in `PostUpdate`; an App that never runs `PostUpdate` draws meshes as they were
-/// when they were first seen.
+/// is in the same schedule, and an App with a schedule of its own propagates before.
 #[derive(Clone, Debug)]
 pub struct RenderPlugin {
     /// The schedule that draws a frame. Default `PostUpdate`.
@@ -83,7 +81,8 @@ impl Plugin for RenderPlugin {
             .register_required_components::<Mesh3d, Material>()
             .register_required_components::<Mesh3d, ModelView>()
             .register_required_components::<Mesh3d, NormalMatrix>()
-            .register_required_components::<Mesh3d, Chosen>();
+            .register_required_components::<Mesh3d, Chosen>()
+            .register_required_components_with::<Mesh3d, SpawnOrder>(SpawnOrder::next);
         self.add_systems(app);
     }
 }
@@ -103,7 +102,7 @@ impl RenderPlugin {
             ),
         );
         let on_gpu = (
-            (target::prepare, geometry::forget_changed, geometry::upload_visible, batch::batch).chain().in_set(Batch),
+            (target::prepare, geometry::forget_removed, geometry::upload_visible, batch::batch).chain().in_set(Batch),
             (upload::build_pipelines, upload::upload).chain().in_set(Upload),
             draw::draw.in_set(Draw),
             draw::present.in_set(Deliver),

@@ -175,7 +175,7 @@ impl Target {
 
 /// Learns the size before the view needs it.
 pub(crate) fn measure(headless: Res<Headless>, surface: Option<Res<SurfaceTarget>>, mut target: ResMut<Target>) {
-    target.size = surface.map_or(headless.size, |surface| surface.size()).max(UVec2::ONE);
+    target.size = surface.map_or(headless.size, |surface| surface.size());
 }
 
 /// Makes the attachments that the camera and the target ask for, and acquires the surface's picture.
@@ -189,6 +189,10 @@ pub(crate) fn prepare(
     mut commands: Commands,
 ) {
     target.frame = None;
+    // The view has said so.
+    if target.size.min_element() == 0 {
+        return;
+    }
     let camera = view.camera.unwrap_or_default();
     let limit = gpu.device.limits().max_texture_dimension_2d;
     if target.size.max_element() > limit {

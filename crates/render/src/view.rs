@@ -1,7 +1,7 @@
 //! The view: the camera's matrices in f64, its projection and its frustum.
 
 use crate::camera::Camera;
-use crate::error::{RenderError, label};
+use crate::error::{RenderError, bad_transform, label};
 use crate::report::FrameReport;
 use crate::target::Target;
 use bevy_ecs::prelude::*;
@@ -92,7 +92,15 @@ pub(crate) fn update(
         return;
     }
     let size = target.size();
+    if size.min_element() == 0 {
+        report.errors.push(RenderError::EmptyPicture { width: size.x, height: size.y });
+        return;
+    }
     let eye_from_world = eye_from_world(transform);
+    if !eye_from_world.is_finite() {
+        report.errors.push(bad_transform(entity, name, transform));
+        return;
+    }
     if eye_from_world != view.eye_from_world {
         view.epoch += 1;
     }

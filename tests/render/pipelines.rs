@@ -1,0 +1,157 @@
+//! Every variant of the shader builds and draws.
+
+use crate::render::random::Random;
+use crate::render::scene::{Lamp, Scene, Thing, directional_light, material, other_material, point_light};
+use crate::render::stage::Stage;
+use halfway::prelude::*;
+use halfway::render::Frequency;
+
+/// What decides a pipeline, each by its number of choices.
+const FACTORS: [(&str, usize); 12] = [
+    ("shading", 5),
+    ("reflectance", 3),
+    ("specular", 3),
+    ("viewer", 2),
+    ("faces", 3),
+    ("blend", 2),
+    ("mirrored", 2),
+    ("samples", 2),
+    ("target", 3),
+    ("lights", 7),
+    ("attenuated ambient", 2),
+    ("mesh", 2),
+];
+
+type Choice = [usize; FACTORS.len()];
+
+/// Every set of three factors with every combination of their choices, in as few rows as a greedy search finds.
+fn covering_triples() -> Vec<Choice> {
+    let count = FACTORS.len();
+    let triples: Vec<[usize; 3]> =
+        (0..count).flat_map(|a| (a + 1..count).flat_map(move |b| (b + 1..count).map(move |c| [a, b, c]))).collect();
+    let code = |row: &Choice, [a, b, c]: [usize; 3]| row[a] + 8 * row[b] + 64 * row[c];
+    let mut open: Vec<Vec<bool>> = triples.iter().map(|_| vec![false; 512]).collect();
+    let mut left = 0;
+    for (triple, open) in triples.iter().zip(&mut open) {
+        let [a, b, c] = triple.map(|factor| FACTORS[factor].1);
+        for (i, j, k) in (0..a).flat_map(|i| (0..b).flat_map(move |j| (0..c).map(move |k| (i, j, k)))) {
+            open[i + 8 * j + 64 * k] = true;
+            left += 1;
+        }
+    }
+    let mut random = Random(7);
+    let mut rows = Vec::new();
+    while left > 0 {
+        // The best of a few random rows that cover at least one open combination.
+        let seed =
+            triples.iter().zip(&open).find_map(|(t, open)| open.iter().position(|open| *open).map(|at| (*t, at)));
+        let Some((triple, at)) = seed else { break };
+        let gain = |row: &Choice| triples.iter().zip(&open).filter(|(triple, open)| open[code(row, **triple)]).count();
+        let candidate = |random: &mut Random| {
+            let mut row: Choice = FACTORS.map(|(_, choices)| random.below(choices));
+            (row[triple[0]], row[triple[1]], row[triple[2]]) = (at % 8, at / 8 % 8, at / 64);
+            row
+        };
+        let best = (0..24).map(|_| candidate(&mut random)).max_by_key(gain).expect("there are candidates");
+        for (triple, open) in triples.iter().zip(&mut open) {
+            left -= usize::from(std::mem::take(&mut open[code(&best, *triple)]));
+        }
+        rows.push(best);
+    }
+    rows
+}
+
+fn describe(choice: &Choice) -> String {
+    let parts = FACTORS.iter().zip(choice).map(|((name, _), choice)| format!("{name} {choice}"));
+    parts.collect::<Vec<_>>().join(", ")
+}
+
+fn thing(choice: &Choice) -> Thing {
+    let [shading, reflectance, specular, _, faces, blend, mirrored, .., mesh] = *choice;
+    let mut material = material();
+    match specular {
+        0 => material.specular = LinearRgba::BLACK,
+        1 => material.shininess = 20.5,
+        _ => material.shininess = 16.0,
+    }
+    // Normals that may cancel under interpolation need another variant.
+    let (left, right) =
+        if mesh == 0 { (Vec3::Z, Vec3::Z) } else { (Vec3::new(0.95, 0.0, 0.3), Vec3::new(-0.95, 0.0, 0.3)) };
+    let corners = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]].map(Vec3::from_array);
+    let normals = Some(vec![left, right, right, left]);
+    let mesh = Mesh::from_parts(corners.to_vec(), normals, None, vec![0, 1, 2, 0, 2, 3]).expect("a square");
+    let faces = [Faces::Front, Faces::Back, Faces::Both][faces];
+    // Turned to the camera by the side that is shown.
+    let turn = if faces == Faces::Back { std::f32::consts::PI } else { 0.0 };
+    let scale = Vec3::new(if mirrored == 1 { -2.0 } else { 2.0 }, 2.0, 1.0);
+    let mut thing = Thing::new(mesh)
+        .at(Transform::from_xyz(0.0, 0.0, -3.0).with_rotation(Quat::from_rotation_y(turn)).with_scale(scale))
+        .of(material)
+        .back(Material { specular: material.specular, shininess: material.shininess, ..other_material() })
+        .faces(faces)
+        .reflecting([Reflectance::Phong, Reflectance::BlinnPhong, Reflectance::BlinnPhongMatched][reflectance]);
+    thing.blend = blend == 1;
+    thing.material.opacity = 0.75;
+    match shading {
+        0 => thing.shaded(Shading::Flat),
+        1 => thing.shaded(Shading::Gouraud),
+        2 => thing.shaded(Shading::Phong),
+        3 => thing.terms(Frequency::Vertex, Frequency::Fragment),
+        _ => thing.terms(Frequency::Fragment, Frequency::Vertex),
+    }
+}
+
+fn scene(choice: &Choice) -> Scene {
+    let [.., viewer, _, _, _, samples, target, lights, attenuated, _] =
+        [choice[3], choice[4], choice[5], choice[6], choice[7], choice[8], choice[9], choice[10], choice[11]];
+    let mut scene = Scene::in_eye_space().ambient(0.3).with(thing(choice));
+    scene.camera.viewer = [Viewer::Local, Viewer::Infinite][viewer];
+    scene.camera.samples = [Samples::One, Samples::Four][samples];
+    scene.camera.encoding = [Encoding::Srgb, Encoding::Raw, Encoding::Srgb][target];
+    let light = PointLight { attenuate_ambient: attenuated == 1, ..point_light() };
+    let directional = Lamp::directional(directional_light(), Vec3::new(0.2, 0.1, -1.0));
+    let point = Lamp::point(light, Vec3::X);
+    let ranged = Lamp::point(PointLight { range: Some(20.0), ..light }, Vec3::Y);
+    let spot = Lamp::spot(
+        SpotLight { light, cone: Cone { cutoff: 0.8, inner: Some(0.3), exponent: 1.0 } },
+        Vec3::Y * 0.5,
+        Vec3::new(0.0, -0.1, -1.0),
+    );
+    let mixed = [directional.clone(), point.clone(), ranged.clone(), spot.clone()];
+    scene.lamps = match lights {
+        0 => vec![],
+        1 => vec![directional],
+        2 => vec![point],
+        3 => vec![ranged],
+        4 => vec![spot],
+        5 => mixed.into_iter().cycle().take(9).collect(),
+        _ => mixed.into_iter().cycle().take(129).collect(),
+    };
+    scene
+}
+
+#[test]
+fn every_three_choices_that_decide_a_pipeline_build_and_draw() {
+    let rows = covering_triples();
+    let mut stage = Stage::new(8, 8);
+    let mut wrong = Vec::new();
+    for choice in &rows {
+        stage.set(&scene(choice));
+        let target = choice[8];
+        stage.pixels(if target == 2 { Pixels::Float } else { Pixels::Byte });
+        let shows = match stage.try_draw() {
+            Ok(Picture::Byte(image)) => image.get_pixel(4, 4).0[..3].iter().all(|channel| *channel > 0),
+            Ok(Picture::Float(image)) => image.get_pixel(4, 4).0[..3].iter().all(|v| v.is_finite() && *v > 0.0),
+            Err(error) => {
+                wrong.push(format!("{}: {error}", describe(choice)));
+                continue;
+            }
+        };
+        if !shows {
+            wrong.push(format!("{}: shows nothing", describe(choice)));
+        }
+    }
+    println!("{} rows cover every triple; {} pipelines", rows.len(), stage.report().pipelines);
+    assert!(wrong.is_empty(), "{} of {} wrong:\n{}", wrong.len(), rows.len(), wrong.join("\n"));
+    assert!(stage.report().pipelines > 80, "only {} pipelines were built", stage.report().pipelines);
+}

@@ -1,0 +1,259 @@
+//! A scene as plain data: what the stage spawns and the oracle evaluates.
+
+use bevy_math::{DAffine3, Vec3};
+use halfway::lighting::rotation_along;
+use halfway::prelude::*;
+use halfway::render::Frequency;
+
+/// Everything that decides a picture, but for its size.
+#[derive(Clone)]
+pub(crate) struct Scene {
+    pub(crate) camera: Camera,
+    pub(crate) eye: Transform,
+    /// `Shading` and `Reflectance` on the camera.
+    pub(crate) view_shading: Option<Shading>,
+    pub(crate) view_reflectance: Option<Reflectance>,
+    pub(crate) ambient: LinearRgba,
+    pub(crate) lamps: Vec<Lamp>,
+    pub(crate) things: Vec<Thing>,
+}
+
+#[derive(Clone)]
+pub(crate) struct Lamp {
+    pub(crate) kind: Kind,
+    pub(crate) on: On,
+    pub(crate) at: Transform,
+}
+
+#[derive(Clone)]
+pub(crate) enum Kind {
+    Directional(DirectionalLight),
+    Point(PointLight),
+    Spot(SpotLight),
+}
+
+/// What a lamp is attached to.
+#[derive(Clone, Copy)]
+pub(crate) enum On {
+    World,
+    Camera,
+    Thing(usize),
+}
+
+#[derive(Clone)]
+pub(crate) struct Thing {
+    pub(crate) name: Option<String>,
+    pub(crate) mesh: Mesh,
+    /// The transforms from the outermost parent to the object itself.
+    pub(crate) frames: Vec<Transform>,
+    pub(crate) material: Material,
+    pub(crate) back: Option<Material>,
+    pub(crate) shading: Option<Shading>,
+    pub(crate) terms: Option<Terms>,
+    pub(crate) reflectance: Option<Reflectance>,
+    pub(crate) faces: Option<Faces>,
+    pub(crate) blend: bool,
+}
+
+impl Scene {
+    /// A camera at `eye` that looks at `target`, no lights and no global ambient.
+    pub(crate) fn seen_from(eye: Vec3, target: Vec3) -> Self {
+        Self {
+            camera: Camera::default(),
+            eye: Transform::from_translation(eye).looking_at(target, Vec3::Y),
+            view_shading: None,
+            view_reflectance: None,
+            ambient: LinearRgba::BLACK,
+            lamps: Vec::new(),
+            things: Vec::new(),
+        }
+    }
+
+    /// A camera at the origin that looks along −Z, which makes world space eye space.
+    pub(crate) fn in_eye_space() -> Self {
+        Self::seen_from(Vec3::ZERO, Vec3::NEG_Z)
+    }
+
+    pub(crate) fn with(mut self, thing: Thing) -> Self {
+        self.things.push(thing);
+        self
+    }
+
+    pub(crate) fn lit(mut self, lamp: Lamp) -> Self {
+        self.lamps.push(lamp);
+        self
+    }
+
+    pub(crate) fn ambient(mut self, grey: f32) -> Self {
+        self.ambient = LinearRgba::rgb(grey, grey, grey);
+        self
+    }
+
+    /// The frames of a lamp, outermost first.
+    pub(crate) fn lamp_frames(&self, lamp: &Lamp) -> Vec<Transform> {
+        let mut frames = match lamp.on {
+            On::World => Vec::new(),
+            On::Camera => vec![self.eye],
+            On::Thing(thing) => self.things[thing].frames.clone(),
+        };
+        frames.push(lamp.at);
+        frames
+    }
+}
+
+impl Lamp {
+    pub(crate) fn point(light: PointLight, at: Vec3) -> Self {
+        Self { kind: Kind::Point(light), on: On::World, at: Transform::from_translation(at) }
+    }
+
+    pub(crate) fn spot(light: SpotLight, at: Vec3, direction: Vec3) -> Self {
+        Self { kind: Kind::Spot(light), on: On::World, at: shining(at, direction) }
+    }
+
+    pub(crate) fn directional(light: DirectionalLight, direction: Vec3) -> Self {
+        Self { kind: Kind::Directional(light), on: On::World, at: shining(Vec3::ZERO, direction) }
+    }
+
+    pub(crate) fn on(mut self, on: On) -> Self {
+        self.on = on;
+        self
+    }
+}
+
+/// A transform at `at` whose −Z axis is `direction`.
+pub(crate) fn shining(at: Vec3, direction: Vec3) -> Transform {
+    Transform::from_translation(at).with_rotation(rotation_along(direction).expect("a direction"))
+}
+
+impl Thing {
+    pub(crate) fn new(mesh: impl Into<Mesh>) -> Self {
+        Self {
+            name: None,
+            mesh: mesh.into(),
+            frames: vec![Transform::IDENTITY],
+            material: material(),
+            back: None,
+            shading: None,
+            terms: None,
+            reflectance: None,
+            faces: None,
+            blend: false,
+        }
+    }
+
+    /// A square of edge `size` about `center` whose front is turned along `normal`.
+    pub(crate) fn square(center: Vec3, normal: Vec3, size: f32) -> Self {
+        let rotation = Quat::from_rotation_arc(Vec3::Y, normal.normalize());
+        Self::new(Plane { size, divisions: 1 }).at(Transform::from_translation(center).with_rotation(rotation))
+    }
+
+    pub(crate) fn named(mut self, name: &str) -> Self {
+        self.name = Some(name.into());
+        self
+    }
+
+    pub(crate) fn at(mut self, transform: Transform) -> Self {
+        self.frames = vec![transform];
+        self
+    }
+
+    pub(crate) fn frames(mut self, frames: impl Into<Vec<Transform>>) -> Self {
+        self.frames = frames.into();
+        self
+    }
+
+    pub(crate) fn of(mut self, material: Material) -> Self {
+        self.material = material;
+        self
+    }
+
+    pub(crate) fn back(mut self, material: Material) -> Self {
+        self.back = Some(material);
+        self
+    }
+
+    pub(crate) fn shaded(mut self, shading: Shading) -> Self {
+        self.shading = Some(shading);
+        self
+    }
+
+    pub(crate) fn terms(mut self, diffuse: Frequency, specular: Frequency) -> Self {
+        self.terms = Some(Terms { diffuse, specular });
+        self
+    }
+
+    pub(crate) fn reflecting(mut self, reflectance: Reflectance) -> Self {
+        self.reflectance = Some(reflectance);
+        self
+    }
+
+    pub(crate) fn faces(mut self, faces: Faces) -> Self {
+        self.faces = Some(faces);
+        self
+    }
+
+    pub(crate) fn blended(mut self, opacity: f32) -> Self {
+        self.material.opacity = opacity;
+        self.blend = true;
+        self
+    }
+}
+
+/// A material in which no two coefficients are equal, so that none can stand in for another. Its shininess is no power
+/// of two.
+pub(crate) fn material() -> Material {
+    Material {
+        ambient: LinearRgba::rgb(0.15, 0.25, 0.35),
+        diffuse: LinearRgba::rgb(0.70, 0.45, 0.30),
+        specular: LinearRgba::rgb(0.40, 0.60, 0.50),
+        emission: LinearRgba::rgb(0.02, 0.01, 0.03),
+        shininess: 19.5,
+        opacity: 1.0,
+    }
+}
+
+/// A second one, for back faces and second objects.
+pub(crate) fn other_material() -> Material {
+    Material {
+        ambient: LinearRgba::rgb(0.30, 0.10, 0.20),
+        diffuse: LinearRgba::rgb(0.20, 0.65, 0.80),
+        specular: LinearRgba::rgb(0.55, 0.35, 0.25),
+        emission: LinearRgba::rgb(0.01, 0.04, 0.02),
+        shininess: 8.0,
+        opacity: 1.0,
+    }
+}
+
+/// Only ke: the pixel is exactly this grey.
+pub(crate) fn glowing(red: f32, green: f32, blue: f32) -> Material {
+    Material::emissive(LinearRgba::rgb(red, green, blue))
+}
+
+/// A point light in which no two colours or constants are equal.
+pub(crate) fn point_light() -> PointLight {
+    PointLight {
+        ambient: LinearRgba::rgb(0.10, 0.05, 0.15),
+        diffuse: LinearRgba::rgb(0.90, 0.80, 1.00),
+        specular: LinearRgba::rgb(0.60, 1.00, 0.80),
+        attenuation: Attenuation::new(0.8, 0.07, 0.03),
+        range: None,
+        attenuate_ambient: false,
+    }
+}
+
+pub(crate) fn directional_light() -> DirectionalLight {
+    let PointLight { ambient, diffuse, specular, .. } = point_light();
+    DirectionalLight { ambient, diffuse, specular }
+}
+
+/// The transform of a chain of frames, outermost first, in f64.
+pub(crate) fn world_from(frames: &[Transform]) -> DAffine3 {
+    frames.iter().fold(DAffine3::IDENTITY, |outer, frame| {
+        outer
+            * DAffine3::from_scale_rotation_translation(
+                frame.scale.as_dvec3(),
+                frame.rotation.as_dquat().normalize(),
+                frame.translation.as_dvec3(),
+            )
+    })
+}

@@ -1,0 +1,174 @@
+//! An App that draws scenes, one after the other.
+
+use crate::render::scene::{Kind, Lamp, On, Scene, Thing};
+use halfway::prelude::*;
+use halfway::render::RenderError;
+use image::{Rgba32FImage, RgbaImage};
+
+/// An App with the facade's plugins and a headless target, on which scenes replace each other.
+pub(crate) struct Stage {
+    pub(crate) app: App,
+    /// The roots of the scene that stands.
+    spawned: Vec<Entity>,
+    /// Equal meshes share a handle, as they would in an App.
+    meshes: Vec<(Mesh, Handle<Mesh>)>,
+}
+
+impl Stage {
+    /// A floating-point target.
+    pub(crate) fn new(width: u32, height: u32) -> Self {
+        let mut app = App::new();
+        app.add_plugins(HalfwayPlugins::headless(UVec2::new(width, height)));
+        app.world_mut().resource_mut::<Headless>().pixels = Pixels::Float;
+        Self { app, spawned: Vec::new(), meshes: Vec::new() }
+    }
+
+    pub(crate) fn world(&mut self) -> &mut World {
+        self.app.world_mut()
+    }
+
+    pub(crate) fn pixels(&mut self, pixels: Pixels) {
+        self.world().resource_mut::<Headless>().pixels = pixels;
+    }
+
+    pub(crate) fn target_size(&mut self, width: u32, height: u32) {
+        self.world().resource_mut::<Headless>().size = UVec2::new(width, height);
+    }
+
+    pub(crate) fn report(&self) -> &FrameReport {
+        self.app.world().resource::<FrameReport>()
+    }
+
+    /// Replaces what stands by `scene`; returns its objects, in order.
+    pub(crate) fn set(&mut self, scene: &Scene) -> Vec<Entity> {
+        for entity in std::mem::take(&mut self.spawned) {
+            // A test may have despawned it.
+            if let Ok(entity) = self.world().get_entity_mut(entity) {
+                entity.despawn();
+            }
+        }
+        self.world().insert_resource(GlobalAmbient(scene.ambient));
+        let camera = self.spawn((scene.camera, scene.eye));
+        if let Some(shading) = scene.view_shading {
+            self.world().entity_mut(camera).insert(shading);
+        }
+        if let Some(reflectance) = scene.view_reflectance {
+            self.world().entity_mut(camera).insert(reflectance);
+        }
+        let things: Vec<Entity> = scene.things.iter().map(|thing| self.thing(thing)).collect();
+        for lamp in &scene.lamps {
+            self.lamp(lamp, camera, &things);
+        }
+        things
+    }
+
+    /// Spawns one more entity that goes with the scene.
+    pub(crate) fn spawn(&mut self, bundle: impl Bundle) -> Entity {
+        let entity = self.world().spawn(bundle).id();
+        self.spawned.push(entity);
+        entity
+    }
+
+    fn thing(&mut self, thing: &Thing) -> Entity {
+        let handle = self.handle(&thing.mesh);
+        let (own, parents) = thing.frames.split_last().expect("an object has a transform");
+        let mut parent = None;
+        for frame in parents {
+            parent = Some(self.child(*frame, parent));
+        }
+        let entity = self.child((*own, Mesh3d(handle), thing.material), parent);
+        let mut entity = self.world().entity_mut(entity);
+        if let Some(name) = &thing.name {
+            entity.insert(Name::new(name.clone()));
+        }
+        if let Some(back) = thing.back {
+            entity.insert(BackMaterial(back));
+        }
+        if let Some(shading) = thing.shading {
+            entity.insert(shading);
+        }
+        if let Some(terms) = thing.terms {
+            entity.insert(terms);
+        }
+        if let Some(reflectance) = thing.reflectance {
+            entity.insert(reflectance);
+        }
+        if let Some(faces) = thing.faces {
+            entity.insert(faces);
+        }
+        if thing.blend {
+            entity.insert(Blend);
+        }
+        entity.id()
+    }
+
+    fn lamp(&mut self, lamp: &Lamp, camera: Entity, things: &[Entity]) {
+        let parent = match lamp.on {
+            On::World => None,
+            On::Camera => Some(camera),
+            On::Thing(thing) => Some(things[thing]),
+        };
+        match lamp.kind.clone() {
+            Kind::Directional(light) => self.child((light, lamp.at), parent),
+            Kind::Point(light) => self.child((light, lamp.at), parent),
+            Kind::Spot(light) => self.child((light, lamp.at), parent),
+        };
+    }
+
+    fn child(&mut self, bundle: impl Bundle, parent: Option<Entity>) -> Entity {
+        match parent {
+            Some(parent) => self.world().spawn((bundle, ChildOf(parent))).id(),
+            None => self.spawn(bundle),
+        }
+    }
+
+    /// The handle of a mesh; equal meshes get the same one.
+    pub(crate) fn handle(&mut self, mesh: &Mesh) -> Handle<Mesh> {
+        if let Some((_, handle)) = self.meshes.iter().find(|(known, _)| known == mesh) {
+            return handle.clone();
+        }
+        let handle = self.world().resource_mut::<Assets<Mesh>>().add(mesh.clone());
+        self.meshes.push((mesh.clone(), handle.clone()));
+        handle
+    }
+
+    pub(crate) fn try_draw(&mut self) -> Result<Picture, RenderError> {
+        render_picture(&mut self.app)
+    }
+
+    /// A frame without reading its picture: for counters and for errors.
+    pub(crate) fn frame(&mut self) -> &FrameReport {
+        self.app.update();
+        self.report()
+    }
+
+    /// Draws what stands into floating point; no error may be reported.
+    pub(crate) fn float(&mut self) -> Rgba32FImage {
+        self.pixels(Pixels::Float);
+        match self.try_draw() {
+            Ok(Picture::Float(image)) => image,
+            Ok(Picture::Byte(_)) => panic!("asked for a floating-point picture and got bytes"),
+            Err(error) => panic!("{error}"),
+        }
+    }
+
+    /// Draws what stands into 8 bits; no error may be reported.
+    pub(crate) fn bytes(&mut self) -> RgbaImage {
+        self.pixels(Pixels::Byte);
+        match self.try_draw() {
+            Ok(Picture::Byte(image)) => image,
+            Ok(Picture::Float(_)) => panic!("asked for a picture of bytes and got floating point"),
+            Err(error) => panic!("{error}"),
+        }
+    }
+
+    pub(crate) fn draw(&mut self, scene: &Scene) -> Rgba32FImage {
+        self.set(scene);
+        self.float()
+    }
+
+    pub(crate) fn draw_bytes(&mut self, scene: &Scene) -> RgbaImage {
+        self.set(scene);
+        self.bytes()
+    }
+}
