@@ -188,7 +188,8 @@ fn no_wild_scene_holds_anything_but_numbers() {
     let mut stage = Stage::new(24, 24);
     let mut failures = Failures::default();
     let mut shown = 0;
-    for seed in 0..240 {
+    // Each scene is a pipeline or more of its own, which a software adapter takes seconds to compile the first time.
+    for seed in 0..48 {
         let scene = wild_scene(&mut Random(1_000_000 + seed));
         let picture = stage.draw(&scene);
         shown += usize::from(picture.pixels().any(|pixel| pixel.0[0] > 0.0));
@@ -199,7 +200,7 @@ fn no_wild_scene_holds_anything_but_numbers() {
         }
     }
     failures.finish();
-    assert!(shown > 160, "only {shown} of 240 scenes show anything");
+    assert!(shown > 32, "only {shown} of 48 scenes show anything");
 }
 
 #[test]
