@@ -4,8 +4,8 @@ use crate::render::compare::{assert_identical, difference};
 use crate::render::scene::{Lamp, Scene, Thing, material, other_material, point_light};
 use crate::render::sides::hemisphere;
 use crate::render::stage::Stage;
+use halfway::lighting::Frequency;
 use halfway::prelude::*;
-use halfway::render::Frequency;
 
 fn one(mesh: impl Into<Mesh>) -> Scene {
     Scene::seen_from(Vec3::Z * 4.0, Vec3::ZERO)

@@ -4,8 +4,8 @@ use crate::render::compare::{FLOAT, Failures};
 use crate::render::random::Random;
 use crate::render::scene::{Lamp, Scene, Thing};
 use crate::render::stage::Stage;
+use halfway::lighting::Frequency;
 use halfway::prelude::*;
-use halfway::render::Frequency;
 
 /// Few pixels: a thousand lights take the evaluator a while at each.
 const SIZE: u32 = 8;

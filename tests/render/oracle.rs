@@ -4,12 +4,12 @@
 
 use crate::render::scene::{Kind, Scene, Thing, world_from};
 use bevy_math::{DAffine3, DMat3, DVec3};
+use halfway::lighting::Frequency;
 use halfway::lighting::equations::{
     self, Coefficients, Light, Surface, interpolated_normal, light_terms, normal_matrix, rgb, transform_normal,
 };
 use halfway::mesh::face_normal;
 use halfway::prelude::*;
-use halfway::render::Frequency;
 use std::cell::RefCell;
 use std::collections::HashMap;
 

@@ -3,8 +3,8 @@
 use crate::render::random::Random;
 use crate::render::scene::{Lamp, Scene, Thing, directional_light, material, other_material, point_light};
 use crate::render::stage::Stage;
+use halfway::lighting::Frequency;
 use halfway::prelude::*;
-use halfway::render::Frequency;
 
 /// What decides a pipeline, each by its number of choices.
 const FACTORS: [(&str, usize); 12] = [

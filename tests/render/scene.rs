@@ -1,9 +1,9 @@
 //! A scene as plain data: what the stage spawns and the oracle evaluates.
 
 use bevy_math::{DAffine3, Vec3};
+use halfway::lighting::Frequency;
 use halfway::lighting::rotation_along;
 use halfway::prelude::*;
-use halfway::render::Frequency;
 
 /// Everything that decides a picture, but for its size.
 #[derive(Clone)]

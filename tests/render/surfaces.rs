@@ -5,8 +5,8 @@ use crate::render::edges::{mesh, screen, unweakened};
 use crate::render::oracle::Oracle;
 use crate::render::scene::{Lamp, Scene, Thing, directional_light, material, other_material, point_light};
 use crate::render::stage::Stage;
+use halfway::lighting::Frequency;
 use halfway::prelude::*;
-use halfway::render::Frequency;
 
 const SHADINGS: [Shading; 3] = [Shading::Flat, Shading::Gouraud, Shading::Phong];
 

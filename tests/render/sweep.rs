@@ -7,8 +7,8 @@ use crate::render::random::Random;
 use crate::render::scene::{Lamp, Scene, Thing};
 use crate::render::sides::hemisphere;
 use crate::render::stage::Stage;
+use halfway::lighting::Frequency;
 use halfway::prelude::*;
-use halfway::render::Frequency;
 
 const SHADINGS: [Shading; 3] = [Shading::Flat, Shading::Gouraud, Shading::Phong];
 const REFLECTANCES: [Reflectance; 3] = [Reflectance::Phong, Reflectance::BlinnPhong, Reflectance::BlinnPhongMatched];

@@ -3,8 +3,8 @@
 use crate::render::compare::{Measured, assert_as_expected, assert_identical, difference};
 use crate::render::scene::{Lamp, Scene, Thing, directional_light, other_material, point_light};
 use crate::render::stage::Stage;
+use halfway::lighting::Frequency;
 use halfway::prelude::*;
-use halfway::render::Frequency;
 
 const FREQUENCIES: [Frequency; 3] = [Frequency::Never, Frequency::Vertex, Frequency::Fragment];
 

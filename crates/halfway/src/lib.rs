@@ -34,6 +34,7 @@ pub use plugins::HalfwayPlugins;
 
 pub use halfway_lighting as lighting;
 pub use halfway_mesh as mesh;
+pub use halfway_reference as reference;
 pub use halfway_render as render;
 #[cfg(feature = "window")]
 pub use halfway_window as window;

@@ -10,13 +10,10 @@ pub use bevy_math::{EulerRot, Mat3, Mat4, Quat, UVec2, Vec2, Vec3, Vec4};
 pub use bevy_time::{Fixed, Real, Time, Virtual};
 pub use bevy_transform::prelude::{GlobalTransform, Transform, TransformPlugin};
 pub use halfway_lighting::{
-    Attenuation, BackMaterial, Blend, Cone, DirectionalLight, Faces, GlobalAmbient, LightingPlugin, Material,
-    PointLight, Reflectance, Shading, SpotLight, Viewer,
+    Attenuation, BackMaterial, Blend, Camera, Cone, DirectionalLight, Encoding, Faces, Frequency, GlobalAmbient,
+    Intensity, LightingPlugin, Material, PointLight, Reflectance, Samples, Shading, SpotLight, Terms, Viewer,
 };
 pub use halfway_mesh::{Cuboid, Mesh, Mesh3d, MeshPlugin, Plane, Teapot, UvSphere};
-pub use halfway_render::{
-    Camera, Encoding, FrameReport, Frequency, Headless, Intensity, Picture, Pixels, RenderPlugin, RenderSet, Samples,
-    Terms, render_picture,
-};
+pub use halfway_render::{FrameReport, Headless, Picture, Pixels, RenderPlugin, RenderSet, render_picture};
 #[cfg(feature = "window")]
 pub use halfway_window::{OrbitCamera, OrbitCameraPlugin, ViewerKeysPlugin, WindowPlugin, WindowTitle};

@@ -8,7 +8,8 @@ use std::time::Duration;
 use bevy_app::{App, AppExit, Plugin, PluginsState};
 use bevy_math::UVec2;
 use bevy_time::TimeUpdateStrategy;
-use halfway_render::{Camera, Encoding, Headless, Picture, RenderError, render_picture};
+use halfway_lighting::{Camera, Encoding};
+use halfway_render::{Headless, Picture, RenderError, render_picture};
 use thiserror::Error;
 
 use crate::output::{AnimationWriter, ContactSheet, FrameDelay, OutputError, PictureFormat, write_picture};

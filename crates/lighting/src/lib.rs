@@ -49,6 +49,7 @@
 //! assert!(color[0] > color[1] && color[1] > color[2]);
 //! ```
 
+mod camera;
 pub mod conversion;
 pub mod equations;
 pub mod homogeneous;
@@ -61,10 +62,11 @@ mod plugin;
 mod presets;
 mod shading;
 
+pub use camera::{Camera, Encoding, Intensity, Samples};
 pub use invalid::{CHANNEL_MAX, InvalidValue, Problem};
 pub use light::{Attenuation, Cone, DirectionalLight, GlobalAmbient, PointLight, SpotLight};
 pub use matched::matched_shininess;
 pub use material::{BackMaterial, Material};
 pub use place::{light_direction, light_position, rotation_along};
 pub use plugin::LightingPlugin;
-pub use shading::{Blend, Faces, Reflectance, Shading, Viewer};
+pub use shading::{Blend, Faces, Frequency, Reflectance, Shading, Terms, Viewer};

@@ -27,7 +27,7 @@ mod problems;
 mod surfaces;
 
 pub use bounds::Bounds;
-pub use component::{Mesh3d, MeshPlugin};
+pub use component::{Mesh3d, MeshPlugin, SpawnOrder};
 pub use files::{LoadError, load};
 pub use mesh::{Mesh, MeshError};
 pub use model::{AlphaMode, MetallicRoughness, Model, MtlMaterial, Part, SourceLight, SourceLightKind, SourceMaterial};

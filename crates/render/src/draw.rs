@@ -1,7 +1,6 @@
 //! Draw and Deliver: the pass is encoded, submitted and presented.
 
 use crate::batch::Batches;
-use crate::camera::Camera;
 use crate::geometry::Geometries;
 use crate::gpu::Gpu;
 use crate::pipeline::{Lists, Pipelines, Stage};
@@ -10,6 +9,7 @@ use crate::target::{Attachments, Frame, Target};
 use crate::upload::{Buffers, RECORD_STRIDE};
 use crate::view::View;
 use bevy_ecs::prelude::*;
+use halfway_lighting::Camera;
 
 #[expect(clippy::too_many_arguments, reason = "a system takes each resource as a parameter")]
 pub(crate) fn draw(

@@ -5,7 +5,6 @@
 //! ([`SurfaceTarget`]). [`FrameReport`] counts what a frame did and holds what it could not do.
 
 mod batch;
-mod camera;
 mod draw;
 mod error;
 mod geometry;
@@ -22,16 +21,15 @@ mod terms;
 mod upload;
 mod view;
 
-pub use camera::{Camera, Encoding, Intensity, Samples};
 pub use error::RenderError;
 pub use gpu::Gpu;
 pub use lights::Lights;
-pub use matrices::{ModelView, NormalMatrix, SpawnOrder, Visible, normal_matrix};
+pub use matrices::{ModelView, NormalMatrix, Visible, normal_matrix};
 pub use picture::{PendingPicture, Picture, render_picture};
 pub use plugin::{RenderPlugin, RenderSet};
 pub use report::FrameReport;
 pub use target::{Headless, Pixels, SurfaceLost, SurfaceTarget};
-pub use terms::{Chosen, Frequency, Terms};
+pub use terms::Chosen;
 pub use view::{Projection, View};
 /// The wgpu that the renderer speaks; surfaces are made with it.
 pub use wgpu;

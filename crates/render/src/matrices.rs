@@ -7,8 +7,7 @@ use bevy_asset::Assets;
 use bevy_ecs::prelude::*;
 use bevy_math::{Affine3A, DAffine3, DMat3, DVec3, Mat3};
 use bevy_transform::components::GlobalTransform;
-use halfway_mesh::{Mesh, Mesh3d};
-use std::sync::atomic::{AtomicU64, Ordering};
+use halfway_mesh::{Mesh, Mesh3d, SpawnOrder};
 
 /// `eye_from_model` of an object, composed in f64 relative to the camera and rounded once.
 /// Holds for visible objects after [`RenderSet::Matrices`](crate::RenderSet::Matrices).
@@ -25,18 +24,6 @@ pub struct ModelView {
 /// turns model-space normals into eye-space directions, also where M is mirrored or of rank 2.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
 pub struct NormalMatrix(pub Mat3);
-
-/// When an object was spawned, among objects. Entities do not tell: their indices are used again.
-#[derive(Component, Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct SpawnOrder(u64);
-
-impl SpawnOrder {
-    /// Later than all that came before.
-    pub(crate) fn next() -> Self {
-        static COUNT: AtomicU64 = AtomicU64::new(0);
-        Self(COUNT.fetch_add(1, Ordering::Relaxed))
-    }
-}
 
 /// The objects whose bounding sphere meets the frustum, in spawn order.
 /// Holds after [`RenderSet::Select`](crate::RenderSet::Select).

@@ -5,7 +5,7 @@ use crate::draw;
 use crate::geometry::{self, Geometries};
 use crate::gpu::Gpu;
 use crate::lights::{self, Lights};
-use crate::matrices::{self, ModelView, NormalMatrix, SpawnOrder, Visible};
+use crate::matrices::{self, ModelView, NormalMatrix, Visible};
 use crate::pipeline::Pipelines;
 use crate::report::FrameReport;
 use crate::target::{self, Headless, Target};
@@ -81,8 +81,7 @@ impl Plugin for RenderPlugin {
             .register_required_components::<Mesh3d, Material>()
             .register_required_components::<Mesh3d, ModelView>()
             .register_required_components::<Mesh3d, NormalMatrix>()
-            .register_required_components::<Mesh3d, Chosen>()
-            .register_required_components_with::<Mesh3d, SpawnOrder>(SpawnOrder::next);
+            .register_required_components::<Mesh3d, Chosen>();
         self.add_systems(app);
     }
 }

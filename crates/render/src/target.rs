@@ -1,12 +1,12 @@
 //! Where pictures go: a texture, or a window's surface.
 
-use crate::camera::{Camera, Encoding, Samples};
 use crate::error::RenderError;
 use crate::gpu::Gpu;
 use crate::report::FrameReport;
 use crate::view::View;
 use bevy_ecs::prelude::*;
 use bevy_math::UVec2;
+use halfway_lighting::{Camera, Encoding, Samples};
 
 /// The headless target: pictures of this size, to be read back. The default target.
 #[derive(Resource, Clone, Copy, Debug, PartialEq, Eq)]

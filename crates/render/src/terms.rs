@@ -3,31 +3,7 @@
 use crate::matrices::Visible;
 use crate::view::View;
 use bevy_ecs::prelude::*;
-use halfway_lighting::Shading;
-
-/// How often a term is shaded.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Frequency {
-    /// Not at all.
-    Never,
-    /// At each vertex, interpolated perspective-correctly.
-    Vertex,
-    /// At each fragment, with the interpolated normal.
-    Fragment,
-}
-
-/// The frequency of each term of an object's lights, in place of its [`Shading`].
-///
-/// Gouraud is `Vertex` for both, Phong `Fragment` for both. The hybrid that keeps highlights sharp
-/// and spares the rest is `Terms { diffuse: Vertex, specular: Fragment }`. Emission and ambient are
-/// always there; an ambient colour that attenuates goes with the diffuse term.
-#[derive(Component, Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Terms {
-    /// Frequency of kd·Ld·max(n·l, 0).
-    pub diffuse: Frequency,
-    /// Frequency of ks·Ls·S.
-    pub specular: Frequency,
-}
+use halfway_lighting::{Frequency, Shading, Terms};
 
 /// Which terms a light list keeps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]

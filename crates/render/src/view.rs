@@ -1,12 +1,12 @@
 //! The view: the camera's matrices in f64, its projection and its frustum.
 
-use crate::camera::Camera;
 use crate::error::{RenderError, bad_transform, label};
 use crate::report::FrameReport;
 use crate::target::Target;
 use bevy_ecs::prelude::*;
 use bevy_math::{DAffine3, DMat3, DVec3, Vec3};
 use bevy_transform::components::GlobalTransform;
+use halfway_lighting::Camera;
 use halfway_lighting::{Reflectance, Shading};
 
 /// What the frame is seen through. Holds after [`RenderSet::View`](crate::RenderSet::View).

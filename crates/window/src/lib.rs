@@ -12,7 +12,8 @@
 //! use bevy_ecs::prelude::*;
 //! use bevy_math::Vec3;
 //! use bevy_transform::TransformPlugin;
-//! use halfway_render::{Camera, RenderPlugin};
+//! use halfway_lighting::Camera;
+//! use halfway_render::RenderPlugin;
 //! use halfway_window::{OrbitCamera, WindowPlugin, WindowTitle};
 //!
 //! fn main() -> AppExit {

@@ -11,7 +11,7 @@ use bevy_input::{ButtonInput, InputPlugin, InputSystems};
 use bevy_math::{Vec2, Vec3};
 use bevy_time::{Real, Time, TimePlugin, TimeSystems};
 use bevy_transform::components::Transform;
-use halfway_render::Camera;
+use halfway_lighting::Camera;
 use std::f32::consts::{FRAC_PI_2, PI};
 
 /// A camera that mouse and keys move around a target; needs [`OrbitCameraPlugin`].

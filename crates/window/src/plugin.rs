@@ -11,7 +11,8 @@ use bevy_ecs::schedule::ScheduleLabel;
 use bevy_input::{InputPlugin, InputSystems};
 use bevy_math::{UVec2, Vec3};
 use bevy_transform::components::Transform;
-use halfway_render::{Camera, RenderPlugin, RenderSet, SurfaceTarget};
+use halfway_lighting::Camera;
+use halfway_render::{RenderPlugin, RenderSet, SurfaceTarget};
 
 /// Runs the App in a window: one `App::update` a frame, as fast as the display shows them.
 ///

@@ -7,8 +7,9 @@ use bevy_ecs::component::Mutable;
 use bevy_ecs::prelude::*;
 use bevy_input::keyboard::{KeyCode, KeyboardInput};
 use bevy_input::{ButtonInput, InputPlugin, InputSystems};
+use halfway_lighting::Camera;
 use halfway_lighting::{Reflectance, Shading};
-use halfway_render::{Camera, ModelView};
+use halfway_render::ModelView;
 
 /// Keys to compare shadings with, in `PreUpdate`:
 ///

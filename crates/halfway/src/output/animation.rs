@@ -4,7 +4,8 @@ use std::fs::File;
 use std::io::BufWriter;
 use std::path::Path;
 
-use halfway_render::{Encoding, Picture};
+use halfway_lighting::Encoding;
+use halfway_render::Picture;
 
 use super::OutputError;
 use super::encode::to_bytes;

@@ -1,6 +1,7 @@
 //! Many frames on one picture.
 
-use halfway_render::{Encoding, Picture};
+use halfway_lighting::Encoding;
+use halfway_render::Picture;
 use image::imageops::{self, FilterType};
 use image::{Rgba, RgbaImage};
 

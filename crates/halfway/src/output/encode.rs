@@ -1,19 +1,8 @@
 //! From intensities to the numbers that a file holds, and back.
 
-use halfway_render::{Encoding, Picture};
+use halfway_lighting::Encoding;
+use halfway_render::Picture;
 use image::{Rgb, Rgb32FImage, RgbImage};
-
-/// The sRGB curve of IEC 61966-2-1: linear intensity in [0, 1] to the encoded value in [0, 1].
-///
-/// 12.92·x up to 0.0031308, then 1.055·x^(1/2.4) − 0.055. The value 1 is reached exactly.
-pub fn encode_srgb(linear: f64) -> f64 {
-    if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
-}
-
-/// The inverse of [`encode_srgb`].
-fn decode_srgb(encoded: f64) -> f64 {
-    if encoded <= 0.040_45 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
-}
 
 /// The clamp policy: min(I, 1), with 0 for what is no intensity.
 fn clamp(intensity: f32) -> f32 {
@@ -23,11 +12,7 @@ fn clamp(intensity: f32) -> f32 {
 /// An intensity as an integer of 0 to `most`: clamped to [0, 1], encoded, rounded to the nearest. NaN gives 0.
 pub(super) fn quantise(intensity: f32, encoding: Encoding, most: u16) -> u16 {
     let clamped = f64::from(clamp(intensity));
-    let encoded = match encoding {
-        Encoding::Srgb => encode_srgb(clamped),
-        Encoding::Raw => clamped,
-    };
-    (encoded * f64::from(most)).round() as u16
+    (encoding.encode(clamped) * f64::from(most)).round() as u16
 }
 
 /// The picture with 8 bits a channel, without its alpha: as it is if it was drawn so, else by the clamp policy and
@@ -51,14 +36,7 @@ pub(super) fn to_linear(picture: &Picture, encoding: Encoding) -> Rgb32FImage {
     let (width, height) = picture.dimensions();
     match picture {
         Picture::Byte(image) => {
-            let decode = |byte: usize| {
-                let encoded = byte as f64 / 255.0;
-                match encoding {
-                    Encoding::Srgb => decode_srgb(encoded) as f32,
-                    Encoding::Raw => encoded as f32,
-                }
-            };
-            let table: [f32; 256] = std::array::from_fn(decode);
+            let table: [f32; 256] = std::array::from_fn(|byte| encoding.decode(byte as f64 / 255.0) as f32);
             Rgb32FImage::from_fn(width, height, |x, y| {
                 let [r, g, b, _] = image.get_pixel(x, y).0;
                 Rgb([r, g, b].map(|byte| table[usize::from(byte)]))

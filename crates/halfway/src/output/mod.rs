@@ -5,7 +5,8 @@
 //!
 //! ```no_run
 //! use halfway::output::{PictureFormat, write_picture};
-//! use halfway_render::{Encoding, Picture};
+//! use halfway_lighting::Encoding;
+//! use halfway_render::Picture;
 //! # fn picture() -> Picture { unimplemented!() }
 //! # fn main() -> Result<(), halfway::output::OutputError> {
 //! let file = "teapot.png".as_ref();
@@ -26,7 +27,7 @@ mod picture;
 
 pub use animation::{AnimationWriter, FrameDelay};
 pub use contact_sheet::ContactSheet;
-pub use encode::{encode_srgb, to_bytes};
+pub use encode::to_bytes;
 pub use error::OutputError;
 pub use format::PictureFormat;
 pub use picture::write_picture;

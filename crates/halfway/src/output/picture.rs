@@ -3,7 +3,8 @@
 use std::io::Write;
 use std::path::Path;
 
-use halfway_render::{Encoding, Picture};
+use halfway_lighting::Encoding;
+use halfway_render::Picture;
 use image::{DynamicImage, ImageFormat, Rgba32FImage};
 
 use super::encode::{quantise, to_bytes};

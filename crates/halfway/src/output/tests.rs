@@ -7,7 +7,8 @@ use std::io::BufReader;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 
-use halfway_render::{Encoding, Picture, Pixels};
+use halfway_lighting::Encoding;
+use halfway_render::{Picture, Pixels};
 use image::{DynamicImage, Rgba, Rgba32FImage, RgbaImage};
 
 use super::*;

@@ -12,8 +12,8 @@ use bevy_math::{DMat3, DQuat, Mat4, Vec3};
 use bevy_transform::components::Transform;
 use halfway_lighting::conversion::PunctualLight;
 use halfway_lighting::{BackMaterial, Blend, Faces, GlobalAmbient, Reflectance, Shading};
+use halfway_lighting::{Camera, Samples};
 use halfway_mesh::{Bounds, Mesh, Mesh3d};
-use halfway_render::{Camera, Samples};
 
 use super::SceneError;
 use super::defaults::{default_lights, framing_camera};

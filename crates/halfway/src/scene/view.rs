@@ -1,8 +1,8 @@
 //! The keys of a scene file that say how its picture is seen and written.
 
 use bevy_math::{DVec3, Vec3};
+use halfway_lighting::{Encoding, Intensity};
 use halfway_lighting::{Reflectance, Shading, Viewer};
-use halfway_render::{Encoding, Intensity};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -1,8 +1,8 @@
 //! What a file means that leaves keys out, and that a file written means the same as the one read.
 
 use halfway_lighting::{Attenuation, Cone, Faces, Material, PointLight, Reflectance, Shading, Viewer};
+use halfway_lighting::{Camera, Encoding};
 use halfway_mesh::{Cuboid, Normals, Plane, Teapot, UvSphere};
-use halfway_render::{Camera, Encoding};
 
 use crate::scene::{
     AttachEntry, BoxEntry, CameraEntry, ConeEntry, FacesEntry, FalloffEntry, LightEntry, LightSource, MaterialValues,

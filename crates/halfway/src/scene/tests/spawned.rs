@@ -13,8 +13,8 @@ use halfway_lighting::{
     BackMaterial, Blend, Cone, DirectionalLight, Faces, GlobalAmbient, Material, PointLight, Reflectance, Shading,
     SpotLight, Viewer, light_direction,
 };
+use halfway_lighting::{Camera, Encoding, Samples};
 use halfway_mesh::{Mesh, Mesh3d, MeshPlugin};
-use halfway_render::{Camera, Encoding, Samples};
 
 use crate::scene::{SceneError, SceneFile, Spawned, spawn};
 

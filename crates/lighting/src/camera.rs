@@ -1,16 +1,17 @@
 //! The camera: what a view looks through and how its picture is written.
 
 use bevy_color::LinearRgba;
-use bevy_ecs::prelude::Component;
+use bevy_ecs::component::Component;
 use bevy_transform::components::Transform;
-use halfway_lighting::{InvalidValue, Problem, Viewer};
+
+use crate::Viewer;
+use crate::invalid::{InvalidValue, Problem};
 
 /// A perspective camera at its entity's transform, looking along its local −Z with +Y up.
 ///
 /// Only the transform's translation and rotation count: eye space has world units whatever the
-/// camera is attached to. A [`Shading`](halfway_lighting::Shading) or
-/// [`Reflectance`](halfway_lighting::Reflectance) component on the camera is the view's default;
-/// an object's own wins for that object.
+/// camera is attached to. A [`Shading`](crate::Shading) or [`Reflectance`](crate::Reflectance) component on the camera is
+/// the view's default; an object's own wins for that object.
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 #[require(Transform)]
 pub struct Camera {
@@ -72,6 +73,28 @@ pub enum Encoding {
     Srgb,
     /// I as it is, the textbook's way: 0.5 is written as 128.
     Raw,
+}
+
+impl Encoding {
+    /// What stands for the linear intensity I in [0, 1], itself in [0, 1].
+    ///
+    /// The sRGB curve is 12.92·I up to 0.0031308, then 1.055·I^(1/2.4) − 0.055; 1 is reached exactly.
+    pub fn encode(self, linear: f64) -> f64 {
+        match self {
+            Self::Raw => linear,
+            Self::Srgb if linear <= 0.003_130_8 => 12.92 * linear,
+            Self::Srgb => 1.055 * linear.powf(1.0 / 2.4) - 0.055,
+        }
+    }
+
+    /// The inverse of [`Encoding::encode`].
+    pub fn decode(self, encoded: f64) -> f64 {
+        match self {
+            Self::Raw => encoded,
+            Self::Srgb if encoded <= 0.040_45 => encoded / 12.92,
+            Self::Srgb => ((encoded + 0.055) / 1.055).powf(2.4),
+        }
+    }
 }
 
 /// What becomes of intensities above 1.
