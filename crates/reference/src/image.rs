@@ -1,0 +1,94 @@
+//! Pictures as linear intensities.
+
+use halfway_lighting::Encoding;
+use image::{Rgb, RgbImage, Rgba32FImage, RgbaImage};
+
+/// A picture of linear intensities in f64, top row first, three channels; and, where it is known, which pixels show an
+/// object and which the background.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Image {
+    width: u32,
+    height: u32,
+    pixels: Vec<[f64; 3]>,
+    covered: Option<Vec<bool>>,
+}
+
+impl Image {
+    /// A picture of `width` × `height` pixels, row by row.
+    ///
+    /// # Panics
+    /// There are not `width`·`height` pixels.
+    pub fn new(width: u32, height: u32, pixels: Vec<[f64; 3]>) -> Self {
+        assert_eq!(pixels.len(), width as usize * height as usize, "one colour a pixel");
+        Self { width, height, pixels, covered: None }
+    }
+
+    /// The same picture, told which pixels show an object.
+    ///
+    /// # Panics
+    /// There is not one entry a pixel.
+    #[must_use]
+    pub fn with_coverage(self, covered: Vec<bool>) -> Self {
+        assert_eq!(covered.len(), self.pixels.len(), "one entry a pixel");
+        Self { covered: Some(covered), ..self }
+    }
+
+    /// The same picture, in which every pixel of exactly this colour counts as background.
+    #[must_use]
+    pub fn with_background(self, background: [f64; 3]) -> Self {
+        let covered = self.pixels.iter().map(|pixel| *pixel != background).collect();
+        self.with_coverage(covered)
+    }
+
+    /// Linear intensities as they are; alpha is dropped.
+    pub fn from_float(image: &Rgba32FImage) -> Self {
+        let pixels = image.pixels().map(|p| [p.0[0], p.0[1], p.0[2]].map(f64::from)).collect();
+        Self::new(image.width(), image.height(), pixels)
+    }
+
+    /// Bytes decoded to the intensities they stand for; alpha is dropped.
+    pub fn from_bytes(image: &RgbaImage, encoding: Encoding) -> Self {
+        let table: [f64; 256] = std::array::from_fn(|byte| encoding.decode(byte as f64 / 255.0));
+        let pixels = image.pixels().map(|p| [p.0[0], p.0[1], p.0[2]].map(|byte| table[usize::from(byte)])).collect();
+        Self::new(image.width(), image.height(), pixels)
+    }
+
+    /// Width and height in pixels.
+    pub fn dimensions(&self) -> (u32, u32) {
+        (self.width, self.height)
+    }
+
+    /// The pixels, row by row.
+    pub fn pixels(&self) -> &[[f64; 3]] {
+        &self.pixels
+    }
+
+    /// The pixel in column `x` of row `y`.
+    ///
+    /// # Panics
+    /// It lies outside.
+    pub fn pixel(&self, x: u32, y: u32) -> [f64; 3] {
+        assert!(x < self.width && y < self.height, "({x}, {y}) lies outside {} × {}", self.width, self.height);
+        self.pixels[y as usize * self.width as usize + x as usize]
+    }
+
+    /// Whether each pixel shows an object, where that is known.
+    pub fn covered(&self) -> Option<&[bool]> {
+        self.covered.as_deref()
+    }
+
+    /// Each channel clamped to [0, 1], encoded and rounded to the nearest of 256 steps. NaN becomes 0.
+    pub fn to_bytes(&self, encoding: Encoding) -> RgbImage {
+        let step = |i: f64| (encoding.encode(if i.is_nan() { 0.0 } else { i.clamp(0.0, 1.0) }) * 255.0).round() as u8;
+        let pixel = |x, y| Rgb(self.pixel(x, y).map(step));
+        RgbImage::from_fn(self.width, self.height, pixel)
+    }
+
+    /// Rounded to f32, with an alpha of 1.
+    pub fn to_float(&self) -> Rgba32FImage {
+        Rgba32FImage::from_fn(self.width, self.height, |x, y| {
+            let [r, g, b] = self.pixel(x, y).map(|i| i as f32);
+            image::Rgba([r, g, b, 1.0])
+        })
+    }
+}

@@ -1,0 +1,11 @@
+//! The judge: the scene that a renderer draws, drawn in f64 on the CPU, and how far a picture is from it.
+//!
+//! [`Oracle`] takes the entities of a world (meshes, lights, materials, one camera) and says what each pixel should be.
+//! It shares components and the equations of `halfway_lighting` with a renderer, and none of its shading code.
+
+mod image;
+pub mod metrics;
+mod oracle;
+
+pub use image::Image;
+pub use oracle::{Mode, Oracle, OracleError, Stopped};
