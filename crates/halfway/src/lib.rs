@@ -21,6 +21,7 @@
 //! for one picture, [`record`] for many. [`scene`] reads scene files. The rooms that this crate opens onto are
 //! [`mesh`], [`lighting`], [`render`] and, with the feature `window`, `window`.
 
+pub mod benchmark;
 pub mod model;
 pub mod output;
 pub mod prelude;

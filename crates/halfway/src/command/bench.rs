@@ -4,7 +4,9 @@ use std::process::Command;
 use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
 use clap::{Args, ValueEnum};
+use halfway::benchmark::{Benchmark, BenchmarkScene, Look};
 use halfway::prelude::*;
+use halfway::record::parse_size;
 use halfway::render::{Gpu, wgpu};
 
 use super::Failure;
@@ -14,6 +16,12 @@ pub(super) struct BenchArgs {
     /// The scene
     #[arg(value_enum)]
     scene: Scene,
+    /// Width and height in pixels [default: the scene's]; 16x16 leaves hardly more than the work before the pixels
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    size: Option<UVec2>,
+    /// Draw the spheres of S2 as octahedra: 10,000 moving entities and few triangles
+    #[arg(long)]
+    octahedra: bool,
     /// Rounds; each times every shading in turn
     #[arg(long, default_value_t = 25, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     rounds: u32,
@@ -31,8 +39,23 @@ pub(super) struct BenchArgs {
 enum Scene {
     /// One sphere of 261,120 triangles, 4 lights, 1280 × 720
     S1,
+    /// 10,000 turning spheres of 224 triangles each, 1 light, 1280 × 720
+    S2,
+    /// 400 spheres on a plane, 256 moving lights of range 12, 1280 × 720
+    S3,
     /// One sphere of 3,968 triangles, 1 light, 256 × 256
     S4,
+}
+
+impl From<Scene> for BenchmarkScene {
+    fn from(scene: Scene) -> Self {
+        match scene {
+            Scene::S1 => Self::S1,
+            Scene::S2 => Self::S2,
+            Scene::S3 => Self::S3,
+            Scene::S4 => Self::S4,
+        }
+    }
 }
 
 /// How it is shaded.
@@ -55,6 +78,15 @@ impl Mode {
             Self::Phong => "phong",
         }
     }
+
+    fn look(self) -> Look {
+        match self {
+            Self::Constant => Look::Constant,
+            Self::Flat => Look::Shaded(Shading::Flat),
+            Self::Gouraud => Look::Shaded(Shading::Gouraud),
+            Self::Phong => Look::Shaded(Shading::Phong),
+        }
+    }
 }
 
 /// What was measured of one shading.
@@ -67,9 +99,9 @@ struct Row {
 
 pub(super) fn run(args: &BenchArgs) -> Result<(), Failure> {
     if let Some(mode) = args.once {
-        return once(args.scene, mode);
+        return once(args, mode);
     }
-    let mut apps = Mode::ALL.map(|mode| app(args.scene, mode));
+    let mut apps = Mode::ALL.map(|mode| app(args, mode));
     // The first frames build pipelines and upload meshes.
     for app in &mut apps {
         for _ in 0..3 {
@@ -94,7 +126,7 @@ pub(super) fn run(args: &BenchArgs) -> Result<(), Failure> {
         .into_iter()
         .zip(times)
         .map(|(mode, times)| {
-            let (first_frame_ms, peak_mb) = in_own_process(args.scene, mode)?;
+            let (first_frame_ms, peak_mb) = in_own_process(args, mode)?;
             Ok(Row { mode, frame_ms: median(times), first_frame_ms, peak_mb })
         })
         .collect::<Result<Vec<_>, Failure>>()?;
@@ -150,22 +182,27 @@ fn frame(app: &mut App) -> Result<(), Failure> {
     Ok(())
 }
 
-fn once(scene: Scene, mode: Mode) -> Result<(), Failure> {
-    frame(&mut app(scene, mode))?;
+fn once(args: &BenchArgs, mode: Mode) -> Result<(), Failure> {
+    frame(&mut app(args, mode))?;
     println!("{} {}", now_ms(), peak_kb());
     Ok(())
 }
 
 /// Median time to the first finished frame and peak memory in MB of three processes.
-fn in_own_process(scene: Scene, mode: Mode) -> Result<(f64, f64), Failure> {
+fn in_own_process(args: &BenchArgs, mode: Mode) -> Result<(f64, f64), Failure> {
     let program = std::env::current_exe().map_err(|error| Failure::new(1, error))?;
     let mut measured = Vec::new();
     for _ in 0..3 {
         let start = now_ms();
-        let output = Command::new(&program)
-            .args(["bench", &format!("{scene:?}").to_lowercase(), "--once", mode.name()])
-            .output()
-            .map_err(|error| Failure::new(1, error))?;
+        let mut command = Command::new(&program);
+        command.args(["bench", &format!("{:?}", args.scene).to_lowercase(), "--once", mode.name()]);
+        if let Some(size) = args.size {
+            command.args(["--size", &format!("{}x{}", size.x, size.y)]);
+        }
+        if args.octahedra {
+            command.arg("--octahedra");
+        }
+        let output = command.output().map_err(|error| Failure::new(1, error))?;
         let text = String::from_utf8_lossy(&output.stdout).into_owned();
         let mut numbers = text.split_whitespace().map(str::parse::<f64>);
         let (Some(Ok(finished)), Some(Ok(kb))) = (numbers.next(), numbers.next()) else {
@@ -189,60 +226,12 @@ fn peak_kb() -> u64 {
     line.and_then(|value| value.split_whitespace().next()?.parse().ok()).unwrap_or(0)
 }
 
-fn app(scene: Scene, mode: Mode) -> App {
-    let size = match scene {
-        Scene::S1 => UVec2::new(1280, 720),
-        Scene::S4 => UVec2::splat(256),
-    };
+fn app(args: &BenchArgs, mode: Mode) -> App {
+    let scene = BenchmarkScene::from(args.scene);
     let mut app = App::new();
-    app.add_plugins(HalfwayPlugins::headless(size));
-    app.insert_resource(GlobalAmbient(LinearRgba::rgb(0.1, 0.1, 0.1)));
-    app.add_systems(Startup, move |mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>| {
-        let camera = Camera { background: LinearRgba::rgb(0.01, 0.012, 0.02), ..Camera::default() };
-        commands.spawn((camera, Transform::from_xyz(0.0, 0.0, 3.0)));
-        let (segments, rings) = if scene == Scene::S1 { (512, 256) } else { (64, 32) };
-        let sphere = meshes.add(UvSphere { radius: 1.0, segments, rings });
-        commands.spawn((Mesh3d(sphere), material(mode), shading(mode)));
-        lights(&mut commands, scene);
-    });
+    app.add_plugins(HalfwayPlugins::headless(args.size.unwrap_or(scene.size())));
+    app.add_plugins(Benchmark { scene, look: mode.look(), octahedra: args.octahedra });
     app.finish();
     app.cleanup();
     app
-}
-
-fn material(mode: Mode) -> Material {
-    let red = LinearRgba::rgb(0.8, 0.3, 0.2);
-    if mode == Mode::Constant {
-        return Material {
-            diffuse: LinearRgba::BLACK,
-            specular: LinearRgba::BLACK,
-            ambient: red,
-            ..Material::default()
-        };
-    }
-    Material { ambient: red, diffuse: red, specular: LinearRgba::WHITE, shininess: 32.0, ..Material::default() }
-}
-
-fn shading(mode: Mode) -> Shading {
-    match mode {
-        Mode::Flat => Shading::Flat,
-        Mode::Gouraud => Shading::Gouraud,
-        Mode::Constant | Mode::Phong => Shading::Phong,
-    }
-}
-
-fn lights(commands: &mut Commands, scene: Scene) {
-    let grey = |i| LinearRgba::rgb(i, i, i);
-    let sun = Transform::from_xyz(1.0, 1.0, 1.0).looking_at(Vec3::ZERO, Vec3::Y);
-    if scene == Scene::S4 {
-        commands.spawn((DirectionalLight::from_color(grey(0.9)), sun));
-        return;
-    }
-    commands.spawn((DirectionalLight::from_color(grey(0.6)), sun));
-    for (position, [r, g, b]) in
-        [([2.0, 0.0, 2.0], [1.0, 0.9, 0.8]), ([-2.0, 1.0, 1.5], [0.8, 0.9, 1.0]), ([0.0, -2.0, 2.0], [0.9, 1.0, 0.9])]
-    {
-        let light = PointLight::from_color(LinearRgba::rgb(r * 0.5, g * 0.5, b * 0.5));
-        commands.spawn((light, Transform::from_translation(Vec3::from_array(position))));
-    }
 }
