@@ -1,42 +1,39 @@
-//! Bicubic Bézier patches.
+//! Bézier patches of any degree.
 
 use bevy_math::DVec3;
 
-/// A place on a patch's edge-to-edge scale, as the fraction `i` / `n`.
+use super::parametric::uv_at;
+use super::{ParametricSurface, SurfaceError, SurfacePiece, SurfacePoint, check_coordinates};
+
+/// A parameter from 0 to 1 with its complement.
 ///
-/// The fraction and its complement are rounded alike, so that an edge that two patches run along in opposite
-/// directions has bit-equal points.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Parameter {
+/// A fraction of whole numbers and its complement are rounded alike, so that an edge that two patches run along in
+/// opposite directions has bit-equal points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parameter {
     t: f64,
     s: f64,
 }
 
 impl Parameter {
-    pub(super) fn new(i: u32, n: u32) -> Self {
+    /// `i` / `n`, `i` at most `n`.
+    pub fn fraction(i: u32, n: u32) -> Self {
         Self { t: f64::from(i) / f64::from(n), s: f64::from(n - i) / f64::from(n) }
     }
 
-    pub(super) fn value(self) -> f64 {
+    /// The parameter as a number.
+    pub fn value(self) -> f64 {
         self.t
     }
 
-    /// The cubic Bernstein polynomials.
-    fn weights(self) -> [f64; 4] {
-        let Self { t, s } = self;
-        [s * s * s, 3.0 * (s * s) * t, 3.0 * (t * t) * s, t * t * t]
+    /// 1 less the parameter.
+    pub fn complement(self) -> f64 {
+        self.s
     }
 
-    /// Their derivatives.
-    fn slopes(self) -> [f64; 4] {
-        let Self { t, s } = self;
-        [-3.0 * s * s, 3.0 * s * (s - 2.0 * t), 3.0 * t * (2.0 * s - t), 3.0 * t * t]
-    }
-
-    /// Their second derivatives.
-    fn curvatures(self) -> [f64; 4] {
-        let Self { t, s } = self;
-        [6.0 * s, 6.0 * (t - 2.0 * s), 6.0 * (s - 2.0 * t), 6.0 * t]
+    /// ½ − t: from ½ down to −½, the ends exactly opposite.
+    pub(super) fn before_middle(self) -> f64 {
+        0.5 * (self.s - self.t)
     }
 
     /// +1 where the patch lies on the side of growing parameters, −1 at its far end.
@@ -45,42 +42,181 @@ impl Parameter {
     }
 }
 
-/// A bicubic Bézier patch: four rows of four control points; u runs from row to row, v along a row.
-pub(super) struct BicubicPatch {
-    pub(super) rows: [[DVec3; 4]; 4],
+impl From<f64> for Parameter {
+    fn from(t: f64) -> Self {
+        Self { t, s: 1.0 - t }
+    }
 }
 
+/// A Bézier patch: rows of control points; u runs from row to row, v along a row, both from 0 to 1.
+///
+/// The surface is Σᵢ Σⱼ Bᵢ(u) Bⱼ(v) pᵢⱼ with Bernstein's polynomials of degree one less than there are rows and columns.
+/// Its outward side is that of ∂p/∂v × ∂p/∂u: seen from there with the rows running right, the first row is on top.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BezierPatch {
+    columns: usize,
+    points: Vec<DVec3>,
+}
+
+/// One weight for each row, or each column; what is beyond them is not used.
+type Weights = [f64; BezierPatch::MAX_DEGREE + 1];
+
 /// Below this fraction of the largest product of tangents, their cross product counts as 0. The figures of a patch are
-/// of order 1 and rounded to 2⁻⁵³ of that, a hundred of which are allowed for.
+/// rounded to 2⁻⁵³, a hundred of which are allowed for.
 const VANISHED: f64 = 1e-14;
 
-impl BicubicPatch {
-    /// The sum of the control points, each weighted by its row's and its column's weight. Added in an order that does
-    /// not change when rows or columns are reversed.
-    fn blend(&self, rows: [f64; 4], columns: [f64; 4]) -> DVec3 {
-        let sum = |w: [f64; 4], p: [DVec3; 4]| (w[0] * p[0] + w[3] * p[3]) + (w[1] * p[1] + w[2] * p[2]);
-        sum(rows, self.rows.map(|row| sum(columns, row)))
+impl BezierPatch {
+    /// The highest degree. Far beyond it, Bernstein's polynomials can no longer be told from 0 in the middle.
+    pub const MAX_DEGREE: usize = 32;
+
+    /// A patch of control points that lie row by row, `columns` in each.
+    ///
+    /// # Errors
+    /// Fewer than two or more than [`MAX_DEGREE`](Self::MAX_DEGREE) + 1 columns or rows, a row that is not full, or a
+    /// coordinate that is not from −1e30 to 1e30.
+    pub fn new(columns: usize, points: Vec<DVec3>) -> Result<Self, SurfaceError> {
+        let counts = 2..=Self::MAX_DEGREE + 1;
+        let error = |field, value, expected: String| SurfaceError { surface: "BezierPatch", field, value, expected };
+        if !counts.contains(&columns) {
+            let expected = format!("a number from 2 to {} is expected", counts.end());
+            return Err(error("columns", columns as f64, expected));
+        }
+        if !points.len().is_multiple_of(columns) || !counts.contains(&(points.len() / columns)) {
+            let expected = format!("2 to {} full rows of {columns} points are expected", counts.end());
+            return Err(error("points", points.len() as f64, expected));
+        }
+        check_coordinates("BezierPatch", "points", points.iter().copied())?;
+        Ok(Self { columns, points })
+    }
+
+    /// The control points, row by row.
+    pub fn points(&self) -> &[DVec3] {
+        &self.points
+    }
+
+    pub(super) fn points_mut(&mut self) -> &mut [DVec3] {
+        &mut self.points
+    }
+
+    /// How many rows of control points there are: one more than the degree in u.
+    pub fn rows(&self) -> usize {
+        self.points.len() / self.columns
+    }
+
+    /// How many control points a row has: one more than the degree in v.
+    pub fn columns(&self) -> usize {
+        self.columns
+    }
+
+    /// The patch whose control points are those of this one, moved. For an affine map it is this patch, moved.
+    #[must_use]
+    pub fn mapped(&self, to_from: impl Fn(DVec3) -> DVec3) -> Self {
+        Self { columns: self.columns, points: self.points.iter().map(|&p| to_from(p)).collect() }
     }
 
     /// p(u, v).
-    pub(super) fn position(&self, u: Parameter, v: Parameter) -> DVec3 {
-        self.blend(u.weights(), v.weights())
+    pub fn position(&self, u: Parameter, v: Parameter) -> DVec3 {
+        self.blend(&bernstein(self.rows() - 1, u), &bernstein(self.columns - 1, v))
     }
 
-    /// ∂p/∂v × ∂p/∂u, normalised; `None` where it has no direction even in the limit.
+    /// p(u, v), ∂p/∂u and ∂p/∂v.
+    pub fn jet(&self, u: Parameter, v: Parameter) -> [DVec3; 3] {
+        let (m, n) = (self.rows() - 1, self.columns - 1);
+        let (at_u, at_v) = (bernstein(m, u), bernstein(n, v));
+        [self.blend(&at_u, &at_v), self.blend(&slopes(m, u), &at_v), self.blend(&at_u, &slopes(n, v))]
+    }
+
+    /// The outward unit normal, that of ∂p/∂v × ∂p/∂u; `None` where it has no direction even in the limit.
     ///
     /// Where the cross product vanishes, as at the end of a patch whose row has shrunk to a point, the direction is
     /// the limit from inside the patch: that of the cross product's derivative along the inward u, else the inward v.
-    pub(super) fn normal(&self, u: Parameter, v: Parameter) -> Option<DVec3> {
-        let pu = self.blend(u.slopes(), v.weights());
-        let pv = self.blend(u.weights(), v.slopes());
-        let puv = self.blend(u.slopes(), v.slopes());
-        let puu = self.blend(u.curvatures(), v.weights());
-        let pvv = self.blend(u.weights(), v.curvatures());
+    pub fn normal(&self, u: Parameter, v: Parameter) -> Option<DVec3> {
+        let (m, n) = (self.rows() - 1, self.columns - 1);
+        let (at_u, at_v, slope_u, slope_v) = (bernstein(m, u), bernstein(n, v), slopes(m, u), slopes(n, v));
+        let pu = self.blend(&slope_u, &at_v);
+        let pv = self.blend(&at_u, &slope_v);
+        let puv = self.blend(&slope_u, &slope_v);
+        let puu = self.blend(&curvatures(m, u), &at_v);
+        let pvv = self.blend(&at_u, &curvatures(n, v));
         let largest = [pu, pv, puv, puu, pvv].iter().fold(0.0_f64, |most, tangent| most.max(tangent.length_squared()));
         [pv.cross(pu), u.inward() * (puv.cross(pu) + pv.cross(puu)), v.inward() * (pvv.cross(pu) + pv.cross(puv))]
             .into_iter()
             .find(|n| n.length() > VANISHED * largest)
             .map(DVec3::normalize)
     }
+
+    /// The sum of the control points, each weighted by its row's and its column's weight.
+    fn blend(&self, rows: &Weights, columns: &Weights) -> DVec3 {
+        let row = |i: usize| &self.points[i * self.columns..][..self.columns];
+        let along = |i: usize| mirrored_sum(self.columns, |j| columns[j] * row(i)[j]);
+        mirrored_sum(self.rows(), |i| rows[i] * along(i))
+    }
+}
+
+impl ParametricSurface for BezierPatch {
+    /// Where there is no normal, even in the limit, it is +Y.
+    fn at(&self, u: Parameter, v: Parameter) -> SurfacePoint {
+        let [position, du, dv] = self.jet(u, v);
+        SurfacePoint { position, du, dv, normal: self.normal(u, v).unwrap_or(DVec3::Y), uv: uv_at(u, v) }
+    }
+
+    fn pieces(&self) -> Option<Vec<SurfacePiece>> {
+        Some(vec![SurfacePiece::Patch(self.clone())])
+    }
+}
+
+/// The sum of `count` terms, two or more, in an order that does not change when they are reversed: from both ends to the
+/// middle.
+fn mirrored_sum(count: usize, term: impl Fn(usize) -> DVec3) -> DVec3 {
+    let pair = |i: usize| term(i) + term(count - 1 - i);
+    let sum = (1..count / 2).fold(pair(0), |sum, i| sum + pair(i));
+    if count.is_multiple_of(2) { sum } else { sum + term(count / 2) }
+}
+
+/// The Bernstein polynomials of degree n: C(n, i) sⁿ⁻ⁱ tⁱ. Reversed to the bit where t and s are exchanged.
+fn bernstein(n: usize, at: Parameter) -> Weights {
+    let power = |x: f64| {
+        let mut powers = [1.0; BezierPatch::MAX_DEGREE + 1];
+        for i in 1..=n {
+            powers[i] = powers[i - 1] * x;
+        }
+        powers
+    };
+    let (s, t) = (power(at.s), power(at.t));
+    let mut weights = [0.0; BezierPatch::MAX_DEGREE + 1];
+    let mut choose = 1.0;
+    for i in 0..=n / 2 {
+        // The middle one of an even degree is its own mirror image.
+        weights[i] = if 2 * i == n { choose * (s[i] * t[i]) } else { choose * s[n - i] * t[i] };
+        weights[n - i] = if 2 * i == n { weights[i] } else { choose * t[n - i] * s[i] };
+        choose = choose * (n - i) as f64 / (i + 1) as f64;
+    }
+    weights
+}
+
+/// Their derivatives: n (Bᵢ₋₁ − Bᵢ) of degree n − 1.
+fn slopes(n: usize, at: Parameter) -> Weights {
+    let lower = bernstein(n - 1, at);
+    let degree = n as f64;
+    let mut weights = [0.0; BezierPatch::MAX_DEGREE + 1];
+    let lower_at = |i: usize| if (1..=n).contains(&i) { lower[i - 1] } else { 0.0 };
+    for (i, weight) in weights.iter_mut().enumerate() {
+        *weight = degree * (lower_at(i) - lower_at(i + 1));
+    }
+    weights
+}
+
+/// Their second derivatives: n (n − 1) (Bᵢ₋₂ − 2 Bᵢ₋₁ + Bᵢ) of degree n − 2.
+fn curvatures(n: usize, at: Parameter) -> Weights {
+    let mut weights = [0.0; BezierPatch::MAX_DEGREE + 1];
+    if n < 2 {
+        return weights;
+    }
+    let lower = bernstein(n - 2, at);
+    let factor = (n * (n - 1)) as f64;
+    let lower_at = |i: usize| if (2..=n).contains(&i) { lower[i - 2] } else { 0.0 };
+    for (i, weight) in weights.iter_mut().enumerate() {
+        *weight = factor * ((lower_at(i) + lower_at(i + 2)) - 2.0 * lower_at(i + 1));
+    }
+    weights
 }

@@ -1,18 +1,47 @@
 //! Surfaces that are known by formula, with their analytic normals.
 
 mod bezier;
+mod capsule;
+mod cone;
 mod cuboid;
+mod cylinder;
+mod disc;
+mod ellipsoid;
+mod height_field;
+mod hyperboloid;
+mod icosphere;
 mod newell;
+mod paraboloid;
+mod parametric;
 mod plane;
+mod polynomial;
 mod sphere;
+mod surface;
 mod teapot;
+mod tessellate;
+mod torus;
 
+use bevy_math::DVec3;
 use thiserror::Error;
 
+pub use bezier::{BezierPatch, Parameter};
+pub use capsule::Capsule;
+pub use cone::Cone;
 pub use cuboid::Cuboid;
+pub use cylinder::Cylinder;
+pub use disc::Disc;
+pub use ellipsoid::Ellipsoid;
+pub use height_field::HeightField;
+pub use hyperboloid::{Hyperboloid, HyperboloidSheet};
+pub use icosphere::Icosphere;
+pub use paraboloid::Paraboloid;
+pub use parametric::{ParametricSurface, SurfacePoint};
 pub use plane::Plane;
 pub use sphere::UvSphere;
+pub use surface::{Quadric, Surface, SurfacePiece};
 pub use teapot::Teapot;
+pub use tessellate::{Tessellation, tessellate};
+pub use torus::Torus;
 
 /// A surface that cannot be made.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -31,6 +60,44 @@ pub struct SurfaceError {
 /// The lengths that surfaces may have: every product of them with a unit vector is a normal number, and no box around
 /// them overflows.
 const LENGTHS: std::ops::RangeInclusive<f32> = 1e-30..=1e30;
+
+/// The greatest coordinate of a point that a surface is given by, so that it and everything between such points can be
+/// told in `f32`.
+const FURTHEST: f64 = 1e30;
+
+/// Whether the coordinates are in their range.
+fn check_coordinates(
+    surface: &'static str,
+    field: &'static str,
+    points: impl IntoIterator<Item = DVec3>,
+) -> Result<(), SurfaceError> {
+    let mut coordinates = points.into_iter().flat_map(|p| p.to_array());
+    match coordinates.find(|x| !(-FURTHEST..=FURTHEST).contains(x)) {
+        None => Ok(()),
+        Some(value) => {
+            let expected = "coordinates from -1e30 to 1e30 are expected".to_owned();
+            Err(SurfaceError { surface, field, value, expected })
+        }
+    }
+}
+
+/// How many times longer than another one length of a surface may be.
+const MOST_TIMES: f32 = 1e5;
+
+/// Whether all lengths of a surface are in their range, and none is too long for another.
+fn check_lengths(surface: &'static str, lengths: &[(&'static str, f32)]) -> Result<(), SurfaceError> {
+    lengths.iter().try_for_each(|&(name, value)| Field { surface, name, value }.check())?;
+    let shortest = lengths.iter().map(|length| length.1).fold(f32::MAX, f32::min);
+    match lengths.iter().find(|length| length.1 > MOST_TIMES * shortest) {
+        None => Ok(()),
+        Some(&(field, value)) => Err(SurfaceError {
+            surface,
+            field,
+            value: f64::from(value),
+            expected: format!("at most {MOST_TIMES} times the shortest length, {shortest}, is expected"),
+        }),
+    }
+}
 
 /// A field of a surface: checked, or brought into its range.
 struct Field<T> {

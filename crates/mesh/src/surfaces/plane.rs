@@ -1,8 +1,9 @@
 //! A flat square.
 
-use bevy_math::{Vec2, Vec3};
+use bevy_math::{DVec3, Vec2, Vec3};
 
-use super::{Field, SurfaceError, grid_indices};
+use super::parametric::uv_at;
+use super::{Field, Parameter, ParametricSurface, SurfaceError, SurfacePiece, SurfacePoint, grid_indices};
 use crate::Mesh;
 
 /// A flat square in the plane y = 0, centred on the origin, that faces +Y.
@@ -59,5 +60,28 @@ impl From<Plane> for Mesh {
         let uvs = grid().map(|(i, j)| Vec2::new(along(i) as f32, along(j) as f32)).collect();
         let normals = vec![Vec3::Y; positions.len()];
         Mesh::checked(positions, normals, Some(uvs), grid_indices(n, n))
+    }
+}
+
+/// u runs from −z to +z, v from +x to −x. The divisions matter to `Mesh::from` alone.
+impl ParametricSurface for Plane {
+    fn at(&self, u: Parameter, v: Parameter) -> SurfacePoint {
+        let size = f64::from(self.size);
+        SurfacePoint {
+            position: size * DVec3::new(v.before_middle(), 0.0, -u.before_middle()),
+            du: size * DVec3::Z,
+            dv: size * DVec3::NEG_X,
+            normal: DVec3::Y,
+            uv: uv_at(u, v),
+        }
+    }
+
+    fn validate(&self) -> Result<(), SurfaceError> {
+        Self::validate(self)
+    }
+
+    /// None: a mesh of it is exact.
+    fn pieces(&self) -> Option<Vec<SurfacePiece>> {
+        None
     }
 }

@@ -1,10 +1,9 @@
 //! The sphere by longitude and latitude.
 
-use std::f64::consts::PI;
-
 use bevy_math::{DVec3, Vec2};
 
-use super::{Field, SurfaceError};
+use super::parametric::{half_turn, turn};
+use super::{Field, Parameter, Quadric, SurfaceError};
 use crate::Mesh;
 
 /// A sphere about the origin, cut along meridians and parallels; its poles lie on the Y axis.
@@ -68,16 +67,6 @@ impl UvSphere {
     }
 }
 
-/// Sine and cosine of i/n of a turn. Exact at the quarters, and the last is the first to the bit: sin π is not 0 in
-/// floating point, and poles and seams must close.
-fn turn(i: u32, n: u32) -> (f64, f64) {
-    let i = i % n;
-    match (4 * i) / n {
-        quarter if (4 * i).is_multiple_of(n) => [(0.0, 1.0), (1.0, 0.0), (0.0, -1.0), (-1.0, 0.0)][quarter as usize],
-        _ => (2.0 * PI * f64::from(i) / f64::from(n)).sin_cos(),
-    }
-}
-
 impl From<UvSphere> for Mesh {
     /// Fields out of range are taken at their nearest value in range, with a warning in the log; see
     /// [`UvSphere::validate`].
@@ -86,13 +75,13 @@ impl From<UvSphere> for Mesh {
         let segments = sphere.segments_field().nearest(3..=UvSphere::MAX_SEGMENTS);
         let rings = sphere.rings_field().nearest(2..=UvSphere::MAX_RINGS);
 
-        let meridians: Vec<(f64, f64)> = (0..=segments).map(|i| turn(i, segments)).collect();
+        let meridians: Vec<(f64, f64)> = (0..=segments).map(|i| turn(Parameter::fraction(i, segments))).collect();
         let count = meridians.len() * (rings as usize + 1);
         let mut positions = Vec::with_capacity(count);
         let mut normals = Vec::with_capacity(count);
         let mut uvs = Vec::with_capacity(count);
         for j in 0..=rings {
-            let (sin_theta, cos_theta) = turn(j, 2 * rings);
+            let (sin_theta, cos_theta) = half_turn(Parameter::fraction(j, rings));
             for (i, (sin_phi, cos_phi)) in meridians.iter().enumerate() {
                 let n = DVec3::new(sin_theta * cos_phi, cos_theta, sin_theta * sin_phi);
                 positions.push((n * radius).as_vec3());
@@ -101,6 +90,7 @@ impl From<UvSphere> for Mesh {
             }
         }
         Mesh::checked(positions, normals, Some(uvs), indices(segments, rings))
+            .with_surface(Quadric::sphere(radius).into())
     }
 }
 
@@ -119,23 +109,4 @@ fn indices(segments: u32, rings: u32) -> Vec<u32> {
         }
     }
     indices
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn quarters_of_a_turn_are_exact() {
-        for n in [3, 4, 8, 12, 512] {
-            assert_eq!(turn(0, n), (0.0, 1.0));
-            assert_eq!(turn(n, n), turn(0, n));
-            for i in 0..n {
-                let (sin, cos) = turn(i, n);
-                let angle = 2.0 * PI * f64::from(i) / f64::from(n);
-                // sin and cos of the rounded angle are off by at most half a rounding step of the angle (< 2π).
-                assert!((sin - angle.sin()).abs() < 1e-15 && (cos - angle.cos()).abs() < 1e-15);
-            }
-        }
-    }
 }

@@ -1,10 +1,10 @@
 //! The Utah teapot.
 
-use bevy_math::{DVec3, Vec2, Vec3};
+use bevy_math::{DVec3, Vec2};
 
-use super::bezier::{BicubicPatch, Parameter};
 use super::newell::{CONTROL_POINTS, PATCHES};
-use super::{Field, SurfaceError};
+use super::tessellate::{Grids, Vertex, counts_for};
+use super::{BezierPatch, Field, Surface, SurfaceError, SurfacePiece};
 use crate::Mesh;
 
 /// The Utah teapot, from Martin Newell's 32 bicubic Bézier patches (see the module `newell` for the source): rim, body,
@@ -16,7 +16,7 @@ use crate::Mesh;
 ///
 /// Each patch is a grid of `divisions` × `divisions` cells of two triangles; where a patch ends in a point, at the top
 /// of the knob and in the middle of the bottom, the cells there have one. That makes 64 `divisions`² − 8 `divisions`
-/// triangles, none of them degenerate. Vertices are not shared between patches, since each patch has the whole texture;
+/// triangles, none of them degenerate; 52 for one division, where four would be. Vertices are not shared between patches, since each patch has the whole texture;
 /// along an edge that two patches share they are bit-equal, so that there are no cracks. The surface is as Newell left
 /// it: the lid is not joined to the rim, and handle and spout end inside the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,6 +45,14 @@ impl Teapot {
         Self { divisions }
     }
 
+    /// The coarsest teapot, about, whose triangles are nowhere further than `error` from its surface, as
+    /// [`Tessellation::ChordError`](crate::Tessellation::ChordError) has it; the finest there is where none is as near.
+    pub fn for_chord_error(error: f64) -> Self {
+        let most = [Self::MAX_DIVISIONS; 2];
+        let counts = patches().flat_map(|patch| counts_for(&patch.mapped(mesh_from_newell), error, most));
+        Self { divisions: counts.max().unwrap_or(1) }
+    }
+
     /// Whether the divisions are in their range.
     ///
     /// # Errors
@@ -63,10 +71,11 @@ fn mesh_from_newell(p: DVec3) -> DVec3 {
     DVec3::new(p.x, p.z - MIDDLE, -p.y) * SCALE
 }
 
-fn patches() -> impl Iterator<Item = BicubicPatch> {
+/// The patches in Newell's frame.
+fn patches() -> impl Iterator<Item = BezierPatch> {
     PATCHES.iter().map(|patch| {
-        let point = |i: usize| DVec3::from_array(CONTROL_POINTS[patch[i]]);
-        BicubicPatch { rows: [0, 4, 8, 12].map(|i| [point(i), point(i + 1), point(i + 2), point(i + 3)]) }
+        let points = patch.iter().map(|&i| DVec3::from_array(CONTROL_POINTS[i])).collect();
+        BezierPatch::new(4, points).expect("four rows of four points in range")
     })
 }
 
@@ -75,64 +84,28 @@ impl From<Teapot> for Mesh {
     /// [`Teapot::validate`].
     fn from(teapot: Teapot) -> Self {
         let n = teapot.divisions_field().nearest(1..=Teapot::MAX_DIVISIONS);
-        let count = PATCHES.len() * (n as usize + 1).pow(2);
-        let mut surface = Surface {
-            positions: Vec::with_capacity(count),
-            normals: Vec::with_capacity(count),
-            uvs: Vec::with_capacity(count),
-            indices: Vec::with_capacity(6 * PATCHES.len() * (n as usize).pow(2)),
-        };
+        let mut grids = Grids::default();
         for patch in patches() {
-            surface.add(&patch, n);
-        }
-        Mesh::checked(surface.positions, surface.normals, Some(surface.uvs), surface.indices)
-    }
-}
-
-/// The mesh in the making.
-struct Surface {
-    positions: Vec<Vec3>,
-    normals: Vec<Vec3>,
-    uvs: Vec<Vec2>,
-    indices: Vec<u32>,
-}
-
-impl Surface {
-    fn add(&mut self, patch: &BicubicPatch, n: u32) {
-        let first = self.positions.len() as u32;
-        for i in 0..=n {
-            for j in 0..=n {
-                let (u, v) = (Parameter::new(i, n), Parameter::new(j, n));
-                self.positions.push(mesh_from_newell(patch.position(u, v)).as_vec3());
-                // All of Newell's patches wind so that ∂p/∂v × ∂p/∂u points outward, and none of his normals
-                // vanishes altogether; up is as good as any other way should one do so.
+            grids.add(n, n, |u, v| {
+                // All of Newell's patches wind so that ∂p/∂v × ∂p/∂u points outward, and none of his normals vanishes
+                // altogether; up is as good as any other way should one do so.
                 let normal = patch.normal(u, v).unwrap_or(DVec3::Z);
-                self.normals.push(DVec3::new(normal.x, normal.z, -normal.y).as_vec3());
-                self.uvs.push(Vec2::new(1.0 - v.value() as f32, u.value() as f32));
-            }
+                Vertex {
+                    position: mesh_from_newell(patch.position(u, v)).as_vec3(),
+                    normal: DVec3::new(normal.x, normal.z, -normal.y).as_vec3(),
+                    uv: Vec2::new(1.0 - v.value() as f32, u.value() as f32),
+                }
+            });
         }
-        for i in 0..n {
-            for j in 0..n {
-                let a = first + i * (n + 1) + j;
-                let (b, c, d) = (a + 1, a + n + 1, a + n + 2);
-                self.add_triangle([a, b, c]);
-                self.add_triangle([b, d, c]);
-            }
-        }
-    }
-
-    /// Adds the triangle unless two of its corners are one point.
-    fn add_triangle(&mut self, corners: [u32; 3]) {
-        let [a, b, c] = corners.map(|i| self.positions[i as usize]);
-        if a != b && b != c && c != a {
-            self.indices.extend(corners);
-        }
+        let surface = Surface::new(patches().map(|patch| SurfacePiece::Patch(patch.mapped(mesh_from_newell))));
+        grids.mesh().expect("a patch has an area").with_surface(surface)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Parameter;
 
     const N: u32 = 10;
 
@@ -180,11 +153,12 @@ mod tests {
         for (number, patch) in patches().enumerate() {
             for (i, j) in grid().filter(|(i, j)| (1..N).contains(i) && (1..N).contains(j)) {
                 let at = |du: i32, dv: i32| {
-                    let shifted = |i: u32, d: i32| Parameter::new((i * (steps / N)).saturating_add_signed(d), steps);
+                    let shifted =
+                        |i: u32, d: i32| Parameter::fraction((i * (steps / N)).saturating_add_signed(d), steps);
                     patch.position(shifted(i, du), shifted(j, dv))
                 };
                 let difference = (at(0, 1) - at(0, -1)).cross(at(1, 0) - at(-1, 0)).normalize();
-                let n = patch.normal(Parameter::new(i, N), Parameter::new(j, N)).unwrap();
+                let n = patch.normal(Parameter::fraction(i, N), Parameter::fraction(j, N)).unwrap();
                 assert!(n.distance(difference) < 1e-8, "patch {number} at {i}, {j}: {n} {difference}");
             }
         }
@@ -192,14 +166,14 @@ mod tests {
 
     #[test]
     fn normals_at_the_points_of_patches_are_the_limits() {
-        let (start, middle) = (Parameter::new(0, N), Parameter::new(1, 2));
-        let pointed: Vec<BicubicPatch> =
+        let (start, middle) = (Parameter::fraction(0, N), Parameter::fraction(1, 2));
+        let pointed: Vec<BezierPatch> =
             patches().filter(|patch| patch.position(start, start) == patch.position(start, middle)).collect();
         for patch in &pointed {
             for j in 0..=N {
-                let v = Parameter::new(j, N);
+                let v = Parameter::fraction(j, N);
                 let limit = patch.normal(start, v).unwrap();
-                let near = patch.normal(Parameter::new(1, 1_000_000), v).unwrap();
+                let near = patch.normal(Parameter::fraction(1, 1_000_000), v).unwrap();
                 // One millionth of the way along, where the surface has turned by about as much.
                 assert!(limit.distance(near) < 1e-5, "{limit} {near}");
                 // Along the axis of the body, but for the rounding of tangents to 2⁻⁵³.
@@ -214,11 +188,11 @@ mod tests {
     fn edges_run_alike_in_both_directions() {
         for n in [3, 7, 10, 100] {
             for i in 0..=n {
-                let (there, back) = (Parameter::new(i, n), Parameter::new(n - i, n));
+                let (there, back) = (Parameter::fraction(i, n), Parameter::fraction(n - i, n));
                 for patch in patches() {
-                    let mut reversed = BicubicPatch { rows: patch.rows };
-                    reversed.rows.iter_mut().for_each(|row| row.reverse());
-                    let u = Parameter::new(1, 3);
+                    let rows = patch.points().chunks(4).flat_map(|row| row.iter().rev().copied());
+                    let reversed = BezierPatch::new(4, rows.collect()).unwrap();
+                    let u = Parameter::fraction(1, 3);
                     assert_eq!(patch.position(u, there), reversed.position(u, back));
                 }
             }
