@@ -35,6 +35,7 @@ impl Image {
 
     /// The same picture, in which every pixel of exactly this colour counts as background.
     #[must_use]
+    #[expect(clippy::float_cmp, reason = "what is cleared to a colour holds exactly that")]
     pub fn with_background(self, background: [f64; 3]) -> Self {
         let covered = self.pixels.iter().map(|pixel| *pixel != background).collect();
         self.with_coverage(covered)

@@ -6,6 +6,7 @@
 mod image;
 pub mod metrics;
 mod oracle;
+mod surface;
 
 pub use image::Image;
-pub use oracle::{Mode, Oracle, OracleError, Stopped};
+pub use oracle::{Around, Mode, Nearest, Oracle, OracleError, Seen, Stopped};

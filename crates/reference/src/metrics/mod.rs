@@ -1,1 +1,46 @@
 //! How far one picture is from another.
+//!
+//! [`compare`] measures two pictures pixel by pixel, in linear intensity and in the 256 steps of an 8-bit picture;
+//! [`flip()`] measures what a viewer would notice. [`judge`] measures a drawn picture against the oracle, apart from the
+//! pixels where edges leave the drawer a choice. [`difference`] shows where two pictures differ, and
+//! [`report_failure`] leaves what a failing test has to show.
+//!
+//! ```
+//! use halfway_lighting::Encoding;
+//! use halfway_reference::{Image, metrics};
+//!
+//! let expected = Image::new(2, 1, vec![[0.5; 3], [0.25; 3]]);
+//! let actual = Image::new(2, 1, vec![[0.5; 3], [0.25, 0.25, 0.27]]);
+//! let comparison = metrics::compare(&actual, &expected, Encoding::Raw)?;
+//! let worst = comparison.steps.all.worst.expect("there are pixels");
+//! assert_eq!((worst.at, worst.channel, worst.error()), ((1, 0), 2, 5.0));
+//! println!("{comparison}\n\n{}", comparison.table());
+//! # Ok::<(), metrics::SizeMismatch>(())
+//! ```
+
+mod canvas;
+mod comparison;
+mod coverage;
+mod difference;
+#[cfg(feature = "flip")]
+mod flip;
+mod judge;
+mod legend;
+mod report;
+mod statistics;
+mod table;
+mod triptych;
+
+pub use comparison::{Comparison, Difference, NotFinite, SizeMismatch, compare};
+pub use coverage::Coverage;
+pub use difference::{Scale, Unit, difference};
+#[cfg(feature = "flip")]
+pub use flip::{Flip, PIXELS_PER_DEGREE, flip};
+pub use judge::{Bars, EDGE_RADIUS, Measure, Verdict, judge};
+pub use report::report_failure;
+pub use statistics::{Errors, PERCENTILES, Statistics, Worst};
+pub use table::Table;
+pub use triptych::triptych;
+
+/// The channels' names, in their order.
+const CHANNELS: [&str; 3] = ["red", "green", "blue"];

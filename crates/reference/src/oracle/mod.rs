@@ -1,12 +1,30 @@
 //! The oracle: what each pixel of a scene should be.
+//!
+//! `gather` takes the world's entities into eye space (`view`, `solid`), `raster` finds what a ray through a point of the
+//! picture meets, `shade` says what that gives back, `layers` puts it one over the other, `draw` does so for every pixel
+//! and `probe` for any point.
 
-use std::ops::ControlFlow;
+mod draw;
+mod error;
+mod gather;
+mod layers;
+mod probe;
+mod raster;
+mod shade;
+mod solid;
+mod view;
+
+use std::sync::OnceLock;
 
 use bevy_ecs::world::World;
 use bevy_math::UVec2;
-use thiserror::Error;
 
-use crate::Image;
+pub use error::{OracleError, Stopped};
+pub use probe::{Around, Nearest, Seen};
+
+use gather::Scene;
+use layers::Layers;
+use raster::Tiles;
 
 /// What a pixel shows of an object.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -16,77 +34,83 @@ pub enum Mode {
     #[default]
     Mesh,
     /// Where a mesh stands for a surface that is known by formula, that surface with its analytic normal at every
-    /// pixel, whatever the shading; other meshes with Phong shading. Judges a method: what flat, Gouraud and Phong lose
+    /// pixel, whatever the shading; other meshes with Phong shading. Terms that are
+    /// [`Never`](halfway_lighting::Frequency::Never) shaded stay so. Judges a method: what flat, Gouraud and Phong lose
     /// at a tessellation.
     Surface,
 }
 
-/// Why a scene cannot be drawn.
-#[derive(Clone, Debug, Error, PartialEq)]
-#[non_exhaustive]
-pub enum OracleError {
-    /// There is nothing to look through.
-    #[error("the scene has no camera: spawn an entity with a `Camera` and a `Transform`")]
-    NoCamera,
-}
-
-/// The drawing was stopped from outside.
-#[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
-#[error("stopped")]
-pub struct Stopped;
-
 /// A scene, ready to be drawn in f64.
+///
+/// What is drawn where:
+/// - A point of the picture shows what the ray through it meets: the nearest opaque surface beyond the near plane, and
+///   the blended ones before it. Of two triangles that share an edge exactly one is met (top-left rule). Triangles
+///   without area are not drawn.
+/// - Opaque surfaces at equal depth (to 10⁻⁹ of it): the one that was spawned first, then the one that comes first in the
+///   mesh.
+/// - Blended objects are drawn over the opaque ones from back to front by the view depth of the middle of their bounds,
+///   those of equal depth (in f32) as they were spawned; of a two-sided one the back faces, then the front faces; then in
+///   the order of the mesh. Each gives opacity·I + (1 − opacity)·what is behind.
 #[derive(Debug)]
 pub struct Oracle {
+    scene: Scene,
     size: UVec2,
+    supersampling: u32,
+    clamp: bool,
+    /// Found when they are first needed: they depend on the mode.
+    tiles: OnceLock<Tiles>,
 }
 
 impl Oracle {
+    /// The most pixels of a picture, 2²⁶.
+    pub const MAX_PIXELS: u64 = 1 << 26;
+    /// The most samples a pixel along each axis, 64.
+    pub const MAX_SUPERSAMPLING: u32 = 64;
+
     /// Takes the scene as it stands in `world`, for a picture of `size` pixels.
     ///
-    /// `GlobalTransform`s have to be current, as they are after a frame of the App.
+    /// `GlobalTransform`s have to be current, as they are after a frame of the App. Where there is no `GlobalAmbient`
+    /// resource its default counts.
     ///
     /// # Errors
     /// The first thing that keeps the scene from being drawn as asked.
     pub fn new(world: &mut World, size: UVec2) -> Result<Self, OracleError> {
-        let _ = world;
-        Ok(Self { size })
+        let UVec2 { x: width, y: height } = size;
+        if width == 0 || height == 0 {
+            return Err(OracleError::EmptyPicture { width, height });
+        }
+        if u64::from(width) * u64::from(height) > Self::MAX_PIXELS {
+            return Err(OracleError::TooLarge { width, height, limit: Self::MAX_PIXELS });
+        }
+        let scene = Scene::gather(world, size)?;
+        Ok(Self { scene, size, supersampling: 1, clamp: false, tiles: OnceLock::new() })
     }
 
     /// What is drawn of each object; [`Mode::Mesh`] unless said.
     #[must_use]
-    pub fn with_mode(self, mode: Mode) -> Self {
-        let _ = mode;
+    pub fn with_mode(mut self, mode: Mode) -> Self {
+        for solid in &mut self.scene.solids {
+            solid.set_mode(mode);
+        }
+        self.tiles = OnceLock::new();
         self
     }
 
-    /// `n` × `n` samples a pixel, averaged, in place of its centre; 1 unless said.
+    /// `n` × `n` samples a pixel, averaged, in place of its centre; 1 unless said. They are the centres of the pixel's
+    /// `n` × `n` squares. `n` is taken into 1 to [`MAX_SUPERSAMPLING`](Self::MAX_SUPERSAMPLING).
     #[must_use]
     pub fn with_supersampling(self, n: u32) -> Self {
-        let _ = n;
-        self
+        Self { supersampling: n.clamp(1, Self::MAX_SUPERSAMPLING), ..self }
     }
 
-    /// Whether each surface is clamped to 1 before it is blended, as 8-bit pictures are; not unless said.
+    /// Whether each surface, and the background, is clamped to 1 before it is blended, as 8-bit pictures are; not unless
+    /// said.
     #[must_use]
     pub fn with_clamping(self, clamp: bool) -> Self {
-        let _ = clamp;
-        self
+        Self { clamp, ..self }
     }
 
-    /// Draws the picture on all cores.
-    pub fn draw(&self) -> Image {
-        let UVec2 { x, y } = self.size;
-        Image::new(x, y, vec![[0.0; 3]; x as usize * y as usize])
-    }
-
-    /// Draws the picture on all cores; `progress` is told how many tiles are done of how many, from any thread, and may
-    /// stop the work.
-    ///
-    /// # Errors
-    /// [`Stopped`] where `progress` said so.
-    pub fn draw_with(&self, progress: &(dyn Fn(u32, u32) -> ControlFlow<()> + Sync)) -> Result<Image, Stopped> {
-        let _ = progress;
-        Ok(self.draw())
+    fn tiles(&self) -> &Tiles {
+        self.tiles.get_or_init(|| Tiles::new(&self.scene))
     }
 }

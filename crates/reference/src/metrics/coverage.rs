@@ -1,0 +1,92 @@
+//! Which pixels two pictures cover, and which of them count.
+
+use crate::Image;
+
+/// How many finite pixels show an object, and how many the background. Only where both pictures know.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Coverage {
+    /// Covered in both.
+    pub both: usize,
+    /// Background in both.
+    pub neither: usize,
+    /// Covered in the actual picture, background in the expected one.
+    pub only_actual: usize,
+    /// Background in the actual picture, covered in the expected one.
+    pub only_expected: usize,
+    /// The first pixel, row by row, that exactly one of them covers: column and row.
+    pub first_difference: Option<(u32, u32)>,
+}
+
+impl Coverage {
+    /// Pixels that exactly one of the pictures covers.
+    pub fn different(&self) -> usize {
+        self.only_actual + self.only_expected
+    }
+}
+
+/// What the comparison of a pixel is good for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// Both pictures cover it, or it is not known: its error counts.
+    Counted,
+    /// Neither covers it.
+    Background,
+    /// Only the actual picture covers it.
+    OnlyActual,
+    /// Only the expected picture covers it.
+    OnlyExpected,
+    /// A channel of either picture is NaN or infinite.
+    NotFinite,
+}
+
+impl Kind {
+    /// Whether the pictures agree on what the pixel shows, so that a difference picture shows its error.
+    pub(super) fn is_on_scale(self) -> bool {
+        matches!(self, Self::Counted | Self::Background)
+    }
+}
+
+/// A pixel of two pictures of one size.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pair {
+    pub(super) at: (u32, u32),
+    pub(super) actual: [f64; 3],
+    pub(super) expected: [f64; 3],
+    pub(super) kind: Kind,
+}
+
+/// The pixels of two pictures of one size, row by row.
+pub(super) fn pairs<'a>(actual: &'a Image, expected: &'a Image) -> impl Iterator<Item = Pair> + Clone + 'a {
+    let width = actual.dimensions().0.max(1) as usize;
+    let covered = actual.covered().zip(expected.covered());
+    actual.pixels().iter().zip(expected.pixels()).enumerate().map(move |(i, (&actual, &expected))| {
+        let finite = actual.iter().chain(&expected).all(|channel| channel.is_finite());
+        let kind = match covered.map(|(a, b)| (a[i], b[i])) {
+            _ if !finite => Kind::NotFinite,
+            None | Some((true, true)) => Kind::Counted,
+            Some((false, false)) => Kind::Background,
+            Some((true, false)) => Kind::OnlyActual,
+            Some((false, true)) => Kind::OnlyExpected,
+        };
+        Pair { at: ((i % width) as u32, (i / width) as u32), actual, expected, kind }
+    })
+}
+
+/// The figures of the finite pixels, where both pictures know what they cover.
+pub(super) fn coverage(actual: &Image, expected: &Image) -> Option<Coverage> {
+    actual.covered().zip(expected.covered())?;
+    let mut coverage = Coverage::default();
+    for Pair { at, kind, .. } in pairs(actual, expected) {
+        match kind {
+            Kind::Counted => coverage.both += 1,
+            Kind::Background => coverage.neither += 1,
+            Kind::OnlyActual => coverage.only_actual += 1,
+            Kind::OnlyExpected => coverage.only_expected += 1,
+            Kind::NotFinite => {}
+        }
+        if matches!(kind, Kind::OnlyActual | Kind::OnlyExpected) {
+            coverage.first_difference.get_or_insert(at);
+        }
+    }
+    Some(coverage)
+}

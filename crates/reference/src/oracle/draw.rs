@@ -1,0 +1,135 @@
+//! Every pixel.
+
+use std::ops::{ControlFlow, Range};
+use std::sync::atomic::{AtomicU32, Ordering};
+
+use bevy_math::UVec2;
+use rayon::prelude::*;
+
+use super::raster::{Hit, Primitive, TILE};
+use super::{Layers, Oracle, Stopped};
+use crate::Image;
+
+/// A finished part of the picture.
+struct Part {
+    /// Its top left pixel.
+    origin: [u32; 2],
+    width: u32,
+    /// Row by row: the colour, and whether an object is seen.
+    pixels: Vec<([f64; 3], bool)>,
+}
+
+impl Oracle {
+    /// Draws the picture on all cores. It is the same to the bit whatever their number.
+    pub fn draw(&self) -> Image {
+        match self.draw_with(&|_, _| ControlFlow::Continue(())) {
+            Ok(image) => image,
+            Err(Stopped) => unreachable!("nothing asked to stop"),
+        }
+    }
+
+    /// Draws the picture on all cores; `progress` is told how many tiles are done of how many, from any thread, and may
+    /// stop the work.
+    ///
+    /// # Errors
+    /// [`Stopped`] where `progress` said so.
+    pub fn draw_with(&self, progress: &(dyn Fn(u32, u32) -> ControlFlow<()> + Sync)) -> Result<Image, Stopped> {
+        let tiles = self.tiles().count();
+        let done = AtomicU32::new(0);
+        let parts: Vec<Part> = (0..tiles)
+            .into_par_iter()
+            .map(|tile| {
+                let part = self.part(tile);
+                match progress(done.fetch_add(1, Ordering::Relaxed) + 1, tiles as u32) {
+                    ControlFlow::Continue(()) => Ok(part),
+                    ControlFlow::Break(()) => Err(Stopped),
+                }
+            })
+            .collect::<Result<_, _>>()?;
+        Ok(self.put_together(&parts))
+    }
+
+    fn part(&self, tile: usize) -> Part {
+        let origin = self.tiles().origin(tile);
+        let UVec2 { x, y } = self.size;
+        let [width, height] = [x - origin[0], y - origin[1]].map(|left| left.min(TILE));
+        let mut part = Part { origin, width, pixels: vec![([0.0; 3], false); (width * height) as usize] };
+        let n = self.supersampling;
+        let share = 1.0 / f64::from(n * n);
+        for sample in 0..n * n {
+            let offset = [sample % n, sample / n].map(|i| (f64::from(i) + 0.5) / f64::from(n));
+            for (layers, (sum, covered)) in self.layers(tile, &part, offset).iter().zip(&mut part.pixels) {
+                let colour = layers.colour(&self.scene, self.clamp);
+                *sum = [0, 1, 2].map(|k| sum[k] + share * colour[k]);
+                *covered |= !layers.is_empty();
+            }
+        }
+        part
+    }
+
+    /// What lies on the rays through the pixels of a part, each at `offset` from the pixel's top left corner.
+    fn layers(&self, tile: usize, part: &Part, offset: [f64; 2]) -> Vec<Layers> {
+        let mut layers = vec![Layers::default(); part.pixels.len()];
+        let height = part.pixels.len() as u32 / part.width;
+        let scene = &self.scene;
+        let mut add = |x: u32, y: u32, hit: Hit| {
+            let pixel = (y - part.origin[1]) * part.width + x - part.origin[0];
+            layers[pixel as usize].add(scene, hit);
+        };
+        let at = |x: u32, y: u32| [f64::from(x) + offset[0], f64::from(y) + offset[1]];
+        let primitives: Vec<&Primitive> = self.tiles().of_tile(tile).collect();
+        for group in primitives.chunk_by(|a, b| a.solid == b.solid) {
+            let solid = group[0].solid;
+            if scene.solids[solid].smooth.is_some() {
+                for (y, x) in grid(part.origin[1]..part.origin[1] + height, part.origin[0]..part.origin[0] + part.width)
+                {
+                    let [u, v] = at(x, y);
+                    let pieces = group.iter().copied().filter(|piece| piece.reaches(u, v));
+                    scene.pieces(solid, pieces, scene.view.ray(u, v)).for_each(|hit| add(x, y, hit));
+                }
+                continue;
+            }
+            for primitive in group {
+                let meet = scene.triangle(primitive);
+                let Primitive { low, high, .. } = primitive;
+                let rows = covered(low.y, high.y, offset[1], part.origin[1], height);
+                for (y, x) in grid(rows, covered(low.x, high.x, offset[0], part.origin[0], part.width)) {
+                    let [u, v] = at(x, y);
+                    if let Some(hit) = meet(scene.view.ray(u, v)) {
+                        add(x, y, hit);
+                    }
+                }
+            }
+        }
+        layers
+    }
+
+    fn put_together(&self, parts: &[Part]) -> Image {
+        let UVec2 { x: width, y: height } = self.size;
+        let pixels = width as usize * height as usize;
+        let mut colours = vec![[0.0; 3]; pixels];
+        let mut covered = vec![false; pixels];
+        for part in parts {
+            for (row, of_row) in part.pixels.chunks(part.width as usize).enumerate() {
+                let first = (part.origin[1] as usize + row) * width as usize + part.origin[0] as usize;
+                for (i, (colour, is_covered)) in of_row.iter().enumerate() {
+                    colours[first + i] = *colour;
+                    covered[first + i] = *is_covered;
+                }
+            }
+        }
+        Image::new(width, height, colours).with_coverage(covered)
+    }
+}
+
+/// The pixels, of `count` from `first` on, whose samples at `offset` lie from `low` to `high`.
+fn covered(low: f64, high: f64, offset: f64, first: u32, count: u32) -> Range<u32> {
+    let pixel = |at: f64| (at as u32).clamp(first, first + count);
+    // Casts take what is below 0 to 0.
+    pixel((low - offset).ceil())..pixel((high - offset).floor() + 1.0)
+}
+
+/// Row by row.
+fn grid(rows: Range<u32>, columns: Range<u32>) -> impl Iterator<Item = (u32, u32)> {
+    rows.flat_map(move |y| columns.clone().map(move |x| (y, x)))
+}

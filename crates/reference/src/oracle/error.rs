@@ -1,0 +1,63 @@
+//! What keeps a scene from being drawn.
+
+use halfway_lighting::InvalidValue;
+use thiserror::Error;
+
+/// Why a scene cannot be drawn.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum OracleError {
+    /// There is nothing to look through.
+    #[error("the scene has no camera: spawn an entity with a `Camera` and a `Transform`")]
+    NoCamera,
+    /// More than one camera is in the world.
+    #[error("the scene has {0} cameras and only one can be drawn; keep one `Camera` component")]
+    ManyCameras(usize),
+    /// A component holds a value outside its range.
+    #[error("{entity}: {source}")]
+    Invalid {
+        /// The entity that carries the component, by its `Name` where it has one.
+        entity: String,
+        /// Which field, and what it may hold.
+        source: InvalidValue,
+    },
+    /// An entity's `GlobalTransform` holds a number that is not finite, or gives a camera no direction.
+    #[error(
+        "{entity}: its GlobalTransform is {found}; expected finite numbers, and for a camera a scale that is not 0"
+    )]
+    BadTransform {
+        /// The entity, by its `Name` where it has one.
+        entity: String,
+        /// The matrix as it was found, column by column.
+        found: String,
+    },
+    /// An object's mesh handle leads to no mesh.
+    #[error("{entity}: its mesh is not in `Assets<Mesh>` (was it removed, or never added?)")]
+    MissingMesh {
+        /// The entity that carries the handle.
+        entity: String,
+    },
+    /// The picture has no pixels.
+    #[error("the picture is {width} × {height} pixels; expected at least 1 × 1")]
+    EmptyPicture {
+        /// Its width in pixels.
+        width: u32,
+        /// Its height in pixels.
+        height: u32,
+    },
+    /// The picture has more pixels than the oracle draws.
+    #[error("the picture is {width} × {height} pixels; expected at most {limit} in all")]
+    TooLarge {
+        /// Its width in pixels.
+        width: u32,
+        /// Its height in pixels.
+        height: u32,
+        /// How many pixels are drawn at most.
+        limit: u64,
+    },
+}
+
+/// The drawing was stopped from outside.
+#[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
+#[error("stopped")]
+pub struct Stopped;

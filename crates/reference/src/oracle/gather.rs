@@ -1,0 +1,170 @@
+//! From the entities of a world to a scene in eye space.
+
+use bevy_asset::Assets;
+use bevy_ecs::prelude::*;
+use bevy_math::UVec2;
+use bevy_transform::components::GlobalTransform;
+use halfway_lighting::equations::{self, Light, rgb, vector::add};
+use halfway_lighting::{
+    BackMaterial, Blend, Camera, DirectionalLight, Faces, GlobalAmbient, InvalidValue, Material, PointLight,
+    Reflectance, Shading, SpotLight, Terms, light_direction, light_position,
+};
+use halfway_mesh::{Mesh, Mesh3d, SpawnOrder};
+
+use super::error::OracleError;
+use super::solid::{Colour, Looks, Plan, Solid};
+use super::view::{View, affine};
+
+/// What is drawn, in eye space.
+#[derive(Debug)]
+pub(super) struct Scene {
+    pub(super) view: View,
+    pub(super) viewer: equations::View<f64>,
+    pub(super) background: Colour,
+    /// Ga, and La of the lights that do not attenuate it.
+    pub(super) ambient: Colour,
+    pub(super) lights: Vec<Light<f64>>,
+    /// In the order in which they are drawn: opaque ones as they were spawned, then blended ones, the farthest first.
+    pub(super) solids: Vec<Solid>,
+}
+
+impl Scene {
+    pub(super) fn gather(world: &mut World, size: UVec2) -> Result<Self, OracleError> {
+        let seen = see(world, size)?;
+        let (ambient, lights) = lights(world, &seen.view)?;
+        let solids = solids(world, &seen)?;
+        let viewer = equations::View::in_eye_space(seen.camera.viewer);
+        Ok(Self { view: seen.view, viewer, background: rgb(seen.camera.background), ambient, lights, solids })
+    }
+}
+
+/// The camera, and what it says of objects that say nothing themselves.
+struct Seen {
+    camera: Camera,
+    view: View,
+    shading: Shading,
+    reflectance: Reflectance,
+}
+
+fn see(world: &mut World, size: UVec2) -> Result<Seen, OracleError> {
+    let mut query =
+        world.query::<(Entity, &Camera, &GlobalTransform, Option<&Shading>, Option<&Reflectance>, Option<&Name>)>();
+    let mut cameras = query.iter(world);
+    let (entity, camera, transform, shading, reflectance, name) = cameras.next().ok_or(OracleError::NoCamera)?;
+    let more = cameras.count();
+    if more > 0 {
+        return Err(OracleError::ManyCameras(more + 1));
+    }
+    camera.validate().map_err(|source| OracleError::Invalid { entity: label(entity, name), source })?;
+    Ok(Seen {
+        camera: *camera,
+        view: View::new(camera, transform, size).ok_or_else(|| bad_transform(entity, name, transform))?,
+        shading: shading.copied().unwrap_or_default(),
+        reflectance: reflectance.copied().unwrap_or_default(),
+    })
+}
+
+fn lights(world: &mut World, view: &View) -> Result<(Colour, Vec<Light<f64>>), OracleError> {
+    let global = world.get_resource::<GlobalAmbient>().copied().unwrap_or_default();
+    global.validate().map_err(|source| OracleError::Invalid { entity: "resource".into(), source })?;
+
+    let position = |at: &GlobalTransform| light_position(at).map(|p| view.eye_from_point(p.as_dvec3()).to_array());
+    // What the light is asked for in f32 says whether there is a direction; the direction itself is taken in f64.
+    let direction = |at: &GlobalTransform| {
+        light_direction(at).map(|_| view.eye_from_direction(-affine(at).matrix3.z_axis).to_array())
+    };
+    let mut lights = each(world, |light: &DirectionalLight, at| {
+        light.validate()?;
+        light.along(direction(at)?)
+    })?;
+    lights.extend(each(world, |light: &PointLight, at| {
+        light.validate()?;
+        Ok(light.at(position(at)?))
+    })?);
+    lights.extend(each(world, |spot: &SpotLight, at| {
+        spot.validate()?;
+        if spot.cone.is_none() { Ok(spot.light.at(position(at)?)) } else { spot.at(position(at)?, direction(at)?) }
+    })?);
+    let steady = lights.iter().filter(|light| !light.attenuate_ambient);
+    Ok((steady.fold(global.ga(), |sum, light| add(sum, light.la)), lights))
+}
+
+/// Every light of one kind, in the order of their entities so that sums repeat.
+fn each<L: Component>(
+    world: &mut World,
+    light: impl Fn(&L, &GlobalTransform) -> Result<Light<f64>, InvalidValue>,
+) -> Result<Vec<Light<f64>>, OracleError> {
+    let mut query = world.query::<(Entity, &L, &GlobalTransform, Option<&Name>)>();
+    let mut all: Vec<_> = query.iter(world).collect();
+    all.sort_unstable_by_key(|(entity, ..)| *entity);
+    let gathered = all.into_iter().map(|(entity, component, transform, name)| {
+        light(component, transform).map_err(|source| OracleError::Invalid { entity: label(entity, name), source })
+    });
+    gathered.collect()
+}
+
+type Object<'a> = (
+    Entity,
+    &'a Mesh3d,
+    &'a GlobalTransform,
+    &'a SpawnOrder,
+    Option<&'a Name>,
+    Option<&'a Material>,
+    Option<&'a BackMaterial>,
+    Option<&'a Shading>,
+    Option<&'a Terms>,
+    Option<&'a Reflectance>,
+    Option<&'a Faces>,
+    Option<&'a Blend>,
+);
+
+fn solids(world: &mut World, seen: &Seen) -> Result<Vec<Solid>, OracleError> {
+    let mut query = world.query::<Object>();
+    let meshes = world.get_resource::<Assets<Mesh>>();
+    let mut objects: Vec<_> = query.iter(world).collect();
+    objects.sort_unstable_by_key(|(entity, _, _, order, ..)| (**order, *entity));
+    let solids = objects.into_iter().map(|object| solid(object, meshes, seen));
+    let (mut blended, mut solids): (Vec<_>, Vec<_>) =
+        solids.collect::<Result<Vec<_>, _>>()?.into_iter().partition(|solid| solid.blend);
+    // Stable: at equal depth what was spawned first is drawn first.
+    blended.sort_by(|a, b| b.centre_depth().total_cmp(&a.centre_depth()));
+    solids.extend(blended);
+    Ok(solids)
+}
+
+fn solid(
+    (entity, mesh, transform, _, name, material, back, shading, terms, reflectance, faces, blend): Object,
+    meshes: Option<&Assets<Mesh>>,
+    seen: &Seen,
+) -> Result<Solid, OracleError> {
+    let mesh = meshes.and_then(|meshes| meshes.get(&mesh.0));
+    let mesh = mesh.ok_or_else(|| OracleError::MissingMesh { entity: label(entity, name) })?;
+    let world_from_model = affine(transform);
+    if !world_from_model.is_finite() {
+        return Err(bad_transform(entity, name, transform));
+    }
+    let front = material.copied().unwrap_or_default();
+    front
+        .validate()
+        .and_then(|()| back.map_or(Ok(()), BackMaterial::validate))
+        .map_err(|source| OracleError::Invalid { entity: label(entity, name), source })?;
+    let looks = Looks {
+        front,
+        back: back.map_or(front, |back| back.0),
+        reflectance: reflectance.copied().unwrap_or(seen.reflectance),
+        faces: faces.copied().unwrap_or_default(),
+        blend: blend.is_some(),
+        plan: Plan::new(shading.copied().unwrap_or(seen.shading), terms.copied()),
+    };
+    Ok(Solid::new(entity, mesh.clone(), seen.view.eye_from_model(&world_from_model), &looks))
+}
+
+fn bad_transform(entity: Entity, name: Option<&Name>, transform: &GlobalTransform) -> OracleError {
+    let found = format!("{:?}", transform.affine().to_cols_array());
+    OracleError::BadTransform { entity: label(entity, name), found }
+}
+
+/// An entity's name for an error: its `Name`, or its number.
+fn label(entity: Entity, name: Option<&Name>) -> String {
+    name.map_or_else(|| format!("entity {entity}"), |name| format!("\"{name}\""))
+}

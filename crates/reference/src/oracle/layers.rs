@@ -1,0 +1,63 @@
+//! What lies on one ray, and the colour that it makes.
+
+use halfway_lighting::Faces;
+
+use super::gather::Scene;
+use super::raster::Hit;
+use super::solid::Colour;
+
+/// The hits on one ray that can be seen: the nearest opaque one, and the blended ones. They have to be added in the order
+/// of drawing.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Layers {
+    opaque: Option<Hit>,
+    blended: Vec<Hit>,
+}
+
+/// Depths that differ by this share are equal: far above the rounding of f64, and far below what a depth buffer in f32
+/// can tell apart.
+const EQUAL_DEPTH: f64 = 1e-9;
+
+/// Whether what is at depth `a` hides what was drawn at depth `b` before.
+fn hides(a: f64, b: f64) -> bool {
+    a < b * (1.0 - EQUAL_DEPTH)
+}
+
+impl Layers {
+    pub(super) fn add(&mut self, scene: &Scene, hit: Hit) {
+        if scene.solids[hit.solid].blend {
+            self.blended.push(hit);
+        } else if self.opaque.is_none_or(|known| hides(hit.depth, known.depth)) {
+            self.opaque = Some(hit);
+        }
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.opaque.is_none() && self.blended.is_empty()
+    }
+
+    /// The depth beyond which nothing is seen.
+    pub(super) fn opaque_depth(&self) -> f64 {
+        self.opaque.map_or(f64::INFINITY, |hit| hit.depth)
+    }
+
+    /// What is seen, in the order in which it is drawn: the opaque hit, then the blended ones before it.
+    pub(super) fn visible(&self, scene: &Scene) -> impl Iterator<Item = &Hit> {
+        let before = |hit: &&Hit| self.opaque.is_none_or(|opaque| hides(hit.depth, opaque.depth));
+        let mut blended: Vec<&Hit> = self.blended.iter().filter(before).collect();
+        // Of a two-sided object the far side comes first. Stable: in one pass triangles stay in their order.
+        blended.sort_by_key(|hit| (hit.solid, hit.front && scene.solids[hit.solid].faces == Faces::Both));
+        self.opaque.iter().chain(blended)
+    }
+
+    /// I of everything on the ray, one over the other; each is clamped to 1 first where `clamp` says so.
+    pub(super) fn colour(&self, scene: &Scene, clamp: bool) -> Colour {
+        let written = |i: Colour| if clamp { i.map(|channel| channel.min(1.0)) } else { i };
+        self.visible(scene).fold(written(scene.background), |behind, hit| {
+            let solid = &scene.solids[hit.solid];
+            let opacity = if solid.blend { solid.side(hit.front).opacity } else { 1.0 };
+            let over = written(scene.value(hit));
+            [0, 1, 2].map(|k| if opacity < 1.0 { opacity * over[k] + (1.0 - opacity) * behind[k] } else { over[k] })
+        })
+    }
+}

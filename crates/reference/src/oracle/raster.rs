@@ -1,0 +1,238 @@
+//! Which points of the picture a triangle covers, and in which tiles to look for it.
+
+use bevy_math::{DVec2, DVec3};
+
+use super::gather::Scene;
+
+/// A point of an object that a ray meets.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Hit {
+    /// The object, in the scene's order.
+    pub(super) solid: usize,
+    /// Distance along the view.
+    pub(super) depth: f64,
+    /// Whether the front is seen.
+    pub(super) front: bool,
+    pub(super) place: Place,
+}
+
+/// Where on an object a hit lies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Place {
+    /// On a triangle, by the weights of its corners: barycentric in space, which is perspective-correct on the picture.
+    Triangle(u32, [f64; 3]),
+    /// On the surface that a mesh stands for: the point, and the unit normal of the front there.
+    Surface { p: DVec3, n: DVec3 },
+}
+
+impl Hit {
+    /// The triangle, unless it is the surface itself that was met.
+    pub(super) fn triangle(&self) -> Option<u32> {
+        match self.place {
+            Place::Triangle(triangle, _) => Some(triangle),
+            Place::Surface { .. } => None,
+        }
+    }
+}
+
+/// A triangle of an object or a piece of its surface, and the part of the picture that it may reach, in pixels.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Primitive {
+    pub(super) solid: usize,
+    pub(super) index: u32,
+    pub(super) low: DVec2,
+    pub(super) high: DVec2,
+}
+
+/// The picture cut into squares, and what each of them may show, in the order in which it is drawn.
+#[derive(Debug)]
+pub(super) struct Tiles {
+    pub(super) primitives: Vec<Primitive>,
+    /// Numbers of primitives, a list a tile, row by row.
+    lists: Vec<Vec<u32>>,
+    columns: usize,
+}
+
+/// The edge of a tile in pixels.
+pub(super) const TILE: u32 = 32;
+
+/// Boxes are widened by this many pixels, so that no rounding puts what is covered outside them.
+const MARGIN: f64 = 1e-3;
+
+impl Tiles {
+    pub(super) fn new(scene: &Scene) -> Self {
+        let size = scene.view.size();
+        let count = |pixels: f64| (pixels / f64::from(TILE)).ceil() as usize;
+        let (columns, rows) = (count(size.x), count(size.y));
+        let mut tiles = Self { primitives: Vec::new(), lists: vec![Vec::new(); columns * rows], columns };
+        for (number, solid) in scene.solids.iter().enumerate() {
+            if let Some(smooth) = &solid.smooth {
+                for piece in 0..smooth.traced.pieces() {
+                    let hull = smooth.traced.hull(piece).iter();
+                    let hull: Vec<DVec3> = hull.map(|p| solid.eye_from_model.transform_point3(*p)).collect();
+                    tiles.add(scene, number, piece as u32, &hull);
+                }
+                continue;
+            }
+            for triangle in 0..solid.mesh.triangle_count() as u32 {
+                if solid.face(triangle).is_some() {
+                    tiles.add(scene, number, triangle, &solid.triangle(triangle));
+                }
+            }
+        }
+        tiles
+    }
+
+    fn add(&mut self, scene: &Scene, solid: usize, index: u32, hull: &[DVec3]) {
+        let Some([low, high]) = reach(scene, hull) else { return };
+        let number = self.primitives.len() as u32;
+        self.primitives.push(Primitive { solid, index, low, high });
+        let tile = |pixels: f64| pixels as usize / TILE as usize;
+        for row in tile(low.y)..=tile(high.y).min(self.lists.len() / self.columns - 1) {
+            for column in tile(low.x)..=tile(high.x).min(self.columns - 1) {
+                self.lists[row * self.columns + column].push(number);
+            }
+        }
+    }
+
+    pub(super) fn count(&self) -> usize {
+        self.lists.len()
+    }
+
+    /// The top left pixel of a tile.
+    pub(super) fn origin(&self, tile: usize) -> [u32; 2] {
+        [tile % self.columns, tile / self.columns].map(|number| number as u32 * TILE)
+    }
+
+    pub(super) fn of_tile(&self, tile: usize) -> impl Iterator<Item = &Primitive> {
+        self.lists[tile].iter().map(|&number| &self.primitives[number as usize])
+    }
+
+    /// What may be seen at a point of the picture.
+    pub(super) fn at(&self, x: f64, y: f64) -> impl Iterator<Item = &Primitive> {
+        let last = [self.columns, self.lists.len() / self.columns].map(|count| count - 1);
+        let tile = |pixels: f64| pixels.max(0.0) as usize / TILE as usize;
+        self.of_tile(tile(y).min(last[1]) * self.columns + tile(x).min(last[0]))
+    }
+}
+
+/// The corners of the box, in pixels and inside the picture, that holds what lies in the hull of some points and beyond
+/// the near plane. `None` where the picture shows nothing of it.
+fn reach(scene: &Scene, hull: &[DVec3]) -> Option<[DVec2; 2]> {
+    let (near, size) = (scene.view.near, scene.view.size());
+    let beyond = |p: &DVec3| -p.z >= near;
+    let mut low = DVec2::INFINITY;
+    let mut high = DVec2::NEG_INFINITY;
+    let mut add = |p: DVec3| {
+        let pixel = scene.view.pixel(p);
+        (low, high) = (low.min(pixel), high.max(pixel));
+    };
+    for (i, a) in hull.iter().enumerate() {
+        if beyond(a) {
+            add(*a);
+        }
+        // Where the hull is cut by the near plane its corners lie between points on either side.
+        for b in hull[..i].iter().filter(|b| beyond(a) != beyond(b)) {
+            let share = (-a.z - near) / (b.z - a.z);
+            add((a + (b - a) * share).with_z(-near));
+        }
+    }
+    let (low, high) = (low - MARGIN, high + MARGIN);
+    let on_picture = low.x <= size.x && low.y <= size.y && high.x >= 0.0 && high.y >= 0.0;
+    on_picture.then(|| [low.clamp(DVec2::ZERO, size), high.clamp(DVec2::ZERO, size)])
+}
+
+/// A triangle in eye space, ready to be met by rays.
+pub(super) struct Edges {
+    corners: [DVec3; 3],
+    /// Normals of the planes through the eye and the edge opposite to each corner. The edge that two triangles share has
+    /// exactly opposite ones.
+    normals: [DVec3; 3],
+}
+
+/// Where a ray meets a triangle.
+pub(super) struct Met {
+    pub(super) weights: [f64; 3],
+    pub(super) depth: f64,
+    /// Whether the triangle winds counter-clockwise as seen.
+    pub(super) counter_clockwise: bool,
+}
+
+impl Edges {
+    pub(super) fn new(corners: [DVec3; 3]) -> Self {
+        let [a, b, c] = corners;
+        Self { corners, normals: [b.cross(c), c.cross(a), a.cross(b)] }
+    }
+
+    /// Where the line along `ray` meets the triangle, before the eye or behind it.
+    ///
+    /// The edge functions are the volumes of the tetrahedra of the eye, the ray and each edge (homogeneous rasterisation,
+    /// Olano and Greer 1997): they need no clipping, and are proportional to the weights. A ray through an edge belongs
+    /// to the triangle that it enters when it is moved right by less than anything, or else down: the top-left rule.
+    pub(super) fn meet(&self, ray: DVec3) -> Option<Met> {
+        let volumes = self.normals.map(|n| n.dot(ray));
+        let inside = |i: usize| {
+            let (n, volume) = (self.normals[i], volumes[i]);
+            [volume, n.x, -n.y].into_iter().find(|side| *side != 0.0).map(|side| side > 0.0)
+        };
+        let side = inside(0)?;
+        let sum: f64 = volumes.iter().sum();
+        if inside(1)? != side || inside(2)? != side || sum == 0.0 {
+            return None;
+        }
+        let weights = volumes.map(|volume| volume / sum);
+        let depth = -(0..3).map(|i| weights[i] * self.corners[i].z).sum::<f64>();
+        // The sum is ray · (b − a)×(c − a).
+        Some(Met { weights, depth, counter_clockwise: sum < 0.0 })
+    }
+}
+
+impl Primitive {
+    /// Whether the primitive may reach a point of the picture.
+    pub(super) fn reaches(&self, x: f64, y: f64) -> bool {
+        self.low.x <= x && x <= self.high.x && self.low.y <= y && y <= self.high.y
+    }
+}
+
+impl Scene {
+    /// What meets rays for a triangle: its hit where a side that is shown lies beyond the near plane.
+    pub(super) fn triangle(&self, primitive: &Primitive) -> impl Fn(DVec3) -> Option<Hit> {
+        let &Primitive { solid: number, index, .. } = primitive;
+        let solid = &self.solids[number];
+        let edges = Edges::new(solid.triangle(index));
+        move |ray| {
+            let Met { weights, depth, counter_clockwise } = edges.meet(ray)?;
+            let front = counter_clockwise != solid.mirrored;
+            let seen = depth >= self.view.near && solid.side(front).shown;
+            seen.then_some(Hit { solid: number, depth, front, place: Place::Triangle(index, weights) })
+        }
+    }
+
+    /// The hits of a ray on the pieces of one object's surface, where a side that is shown lies beyond the near plane.
+    pub(super) fn pieces<'a>(
+        &self,
+        number: usize,
+        pieces: impl Iterator<Item = &'a Primitive>,
+        ray: DVec3,
+    ) -> impl Iterator<Item = Hit> {
+        let solid = &self.solids[number];
+        let met = solid.smooth.as_ref().map_or_else(Vec::new, |smooth| {
+            let origin = smooth.model_from_eye.translation;
+            let direction = smooth.model_from_eye.matrix3 * ray;
+            let mut met = Vec::new();
+            for piece in pieces {
+                smooth.traced.meet(piece.index as usize, origin, direction, &mut met);
+            }
+            smooth.traced.settle(direction, &mut met);
+            met
+        });
+        met.into_iter().filter_map(move |met| {
+            // The ray's length along the view is 1, in either space.
+            let depth = met.t;
+            let n = solid.turned(met.normal);
+            let front = n.dot(ray) < 0.0;
+            let seen = depth >= self.view.near && solid.side(front).shown;
+            seen.then_some(Hit { solid: number, depth, front, place: Place::Surface { p: ray * depth, n } })
+        })
+    }
+}

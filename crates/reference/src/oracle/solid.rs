@@ -1,0 +1,230 @@
+//! An object in eye space.
+
+use std::sync::OnceLock;
+
+use bevy_ecs::entity::Entity;
+use bevy_math::{DAffine3, DMat3, DVec3};
+use halfway_lighting::equations::vector::{length, normalize};
+use halfway_lighting::equations::{Coefficients, normal_matrix, transform_normal};
+use halfway_lighting::{Faces, Frequency, Material, Reflectance, Shading, Terms};
+use halfway_mesh::Mesh;
+use rayon::prelude::*;
+
+use super::Mode;
+use crate::surface::Traced;
+
+pub(super) type Colour = [f64; 3];
+
+/// What the scene says of an object, its defaults filled in.
+#[derive(Clone, Debug)]
+pub(super) struct Looks {
+    pub(super) front: Material,
+    pub(super) back: Material,
+    pub(super) reflectance: Reflectance,
+    pub(super) faces: Faces,
+    pub(super) blend: bool,
+    pub(super) plan: Plan,
+}
+
+/// Which terms of the lights are summed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Sum {
+    pub(super) diffuse: bool,
+    pub(super) specular: bool,
+}
+
+impl Sum {
+    pub(super) const ALL: Self = Self { diffuse: true, specular: true };
+    pub(super) const NONE: Self = Self { diffuse: false, specular: false };
+
+    pub(super) fn is_empty(self) -> bool {
+        self == Self::NONE
+    }
+}
+
+/// Where the terms of the lights are evaluated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Plan {
+    /// At the triangle's centroid, with its geometric normal.
+    pub(super) triangle: Sum,
+    /// At the vertices.
+    pub(super) vertex: Sum,
+    /// At the point that is seen.
+    pub(super) fragment: Sum,
+}
+
+impl Plan {
+    pub(super) fn new(shading: Shading, terms: Option<Terms>) -> Self {
+        let none = Self { triangle: Sum::NONE, vertex: Sum::NONE, fragment: Sum::NONE };
+        if let Some(Terms { diffuse, specular }) = terms {
+            let at = |frequency| Sum { diffuse: diffuse == frequency, specular: specular == frequency };
+            return Self { vertex: at(Frequency::Vertex), fragment: at(Frequency::Fragment), ..none };
+        }
+        match shading {
+            Shading::Flat => Self { triangle: Sum::ALL, ..none },
+            Shading::Gouraud => Self { vertex: Sum::ALL, ..none },
+            _ => Self { fragment: Sum::ALL, ..none },
+        }
+    }
+
+    /// The same terms, all at the point that is seen.
+    fn at_fragment(self) -> Self {
+        let Self { triangle, vertex, fragment } = self;
+        let any = |of: fn(Sum) -> bool| of(triangle) || of(vertex) || of(fragment);
+        let fragment = Sum { diffuse: any(|sum| sum.diffuse), specular: any(|sum| sum.specular) };
+        Self { triangle: Sum::NONE, vertex: Sum::NONE, fragment }
+    }
+}
+
+/// One side of an object.
+#[derive(Debug)]
+pub(super) struct Side {
+    pub(super) coefficients: Coefficients<f64>,
+    pub(super) opacity: f64,
+    pub(super) shown: bool,
+    /// What the vertices, or the triangles, have been found to give back; filled as they are seen.
+    pub(super) shaded: Vec<OnceLock<Colour>>,
+}
+
+/// A mesh in eye space, with what it takes to shade it.
+#[derive(Debug)]
+pub(super) struct Solid {
+    pub(super) entity: Entity,
+    pub(super) mesh: Mesh,
+    pub(super) eye_from_model: DAffine3,
+    /// Model-space normals to eye space.
+    normal_matrix: [[f64; 3]; 3],
+    /// The transform turns windings over.
+    pub(super) mirrored: bool,
+    pub(super) corners: Vec<DVec3>,
+    pub(super) normals: Vec<DVec3>,
+    /// Front and back.
+    pub(super) sides: [Side; 2],
+    pub(super) faces: Faces,
+    pub(super) reflectance: Reflectance,
+    pub(super) blend: bool,
+    pub(super) plan: Plan,
+    given: Plan,
+    /// What is drawn in place of the triangles.
+    pub(super) smooth: Option<Smooth>,
+}
+
+/// The surface that a mesh stands for, and the way to it.
+#[derive(Debug)]
+pub(super) struct Smooth {
+    pub(super) traced: Traced,
+    pub(super) model_from_eye: DAffine3,
+}
+
+/// Transforms are kept in f32, so a determinant of unit columns this near 0 is a rounding error.
+const FLAT: f64 = 8.0 * f32::EPSILON as f64;
+
+/// The determinant of the matrix with its columns brought to unit length.
+fn unit_determinant(m: &DMat3) -> f64 {
+    let unit = |column: DVec3| normalize(column.to_array()).map_or(DVec3::ZERO, DVec3::from_array);
+    unit(m.x_axis).cross(unit(m.y_axis)).dot(unit(m.z_axis))
+}
+
+impl Solid {
+    pub(super) fn new(entity: Entity, mesh: Mesh, eye_from_model: DAffine3, looks: &Looks) -> Self {
+        let m = eye_from_model.matrix3;
+        let determinant = unit_determinant(&m);
+        let mirrored = determinant < -FLAT;
+        let normal_matrix = signed_cofactors(&m, determinant, mirrored);
+        let plan = looks.plan;
+        let evaluations = match (plan.triangle.is_empty(), plan.vertex.is_empty()) {
+            (false, _) => mesh.triangle_count(),
+            (true, false) => mesh.positions().len(),
+            (true, true) => 0,
+        };
+        let side = |material: &Material, shown: bool| Side {
+            coefficients: Coefficients::from(material),
+            opacity: material.opacity.into(),
+            shown,
+            shaded: if shown { (0..evaluations).map(|_| OnceLock::new()).collect() } else { Vec::new() },
+        };
+        Self {
+            entity,
+            eye_from_model,
+            normal_matrix,
+            mirrored,
+            corners: mesh.positions().par_iter().map(|p| eye_from_model.transform_point3(p.as_dvec3())).collect(),
+            normals: mesh.normals().par_iter().map(|n| turned(normal_matrix, n.as_dvec3())).collect(),
+            sides: [side(&looks.front, looks.faces.shows_front()), side(&looks.back, looks.faces.shows_back())],
+            faces: looks.faces,
+            reflectance: looks.reflectance,
+            blend: looks.blend,
+            plan,
+            given: plan,
+            smooth: None,
+            mesh,
+        }
+    }
+
+    pub(super) fn set_mode(&mut self, mode: Mode) {
+        (self.plan, self.smooth) = match mode {
+            Mode::Mesh => (self.given, None),
+            Mode::Surface => (self.given.at_fragment(), self.smooth()),
+        };
+    }
+
+    /// The surface behind the mesh, unless it is unknown or the transform flattens it, so that no ray leads back to it.
+    fn smooth(&self) -> Option<Smooth> {
+        let surface = self.mesh.surface()?;
+        let is_flat = unit_determinant(&self.eye_from_model.matrix3).abs() <= FLAT;
+        (!is_flat).then(|| Smooth { traced: Traced::new(surface), model_from_eye: self.eye_from_model.inverse() })
+    }
+
+    /// A unit normal in eye space; 0 where the transform leaves none.
+    pub(super) fn turned(&self, n: DVec3) -> DVec3 {
+        turned(self.normal_matrix, n)
+    }
+
+    pub(super) fn side(&self, front: bool) -> &Side {
+        &self.sides[usize::from(!front)]
+    }
+
+    /// The numbers of a triangle's vertices.
+    pub(super) fn vertices(&self, triangle: u32) -> [usize; 3] {
+        let first = 3 * triangle as usize;
+        [0, 1, 2].map(|corner| self.mesh.indices()[first + corner] as usize)
+    }
+
+    /// A triangle's corners in eye space.
+    pub(super) fn triangle(&self, triangle: u32) -> [DVec3; 3] {
+        self.vertices(triangle).map(|vertex| self.corners[vertex])
+    }
+
+    /// The geometric normal of a triangle's front; `None` where the triangle has no area.
+    pub(super) fn face(&self, triangle: u32) -> Option<DVec3> {
+        let [a, b, c] = self.vertices(triangle).map(|vertex| self.mesh.positions()[vertex].as_dvec3());
+        // Differences in model space: those of eye space would hold the rounding of its distances.
+        let [ab, ac, bc] = [b - a, c - a, c - b].map(|edge| self.eye_from_model.matrix3 * edge);
+        let longest = [ab, ac, bc].map(|edge| length(edge.to_array())).into_iter().fold(0.0, f64::max);
+        let n = ab.cross(ac).to_array();
+        let turned = if self.mirrored { n.map(|x| -x) } else { n };
+        (length(n) > NO_AREA * longest * longest).then(|| normalize(turned).map(DVec3::from_array))?
+    }
+
+    /// The view depth of the middle of the mesh's bounds, in the precision of the transforms: nearer ones are equal.
+    pub(super) fn centre_depth(&self) -> f32 {
+        -self.eye_from_model.transform_point3(self.mesh.bounds().center().as_dvec3()).z as f32
+    }
+}
+
+/// A triangle whose height is this share of its longest edge has no area: far above the rounding of f64, and far below
+/// what could be seen.
+const NO_AREA: f64 = 1e-12;
+
+/// The matrix of [`normal_matrix`] with its sign decided in the precision of the transforms, so that normals and windings
+/// turn over together.
+fn signed_cofactors(m: &DMat3, determinant: f64, mirrored: bool) -> [[f64; 3]; 3] {
+    // cof(−M) = cof(M), and of M and −M one has no negative determinant: its sign is +.
+    let upright = if determinant < 0.0 { -*m } else { *m };
+    let cofactors = normal_matrix(upright.to_cols_array_2d());
+    if mirrored { cofactors.map(|column| column.map(|x| -x)) } else { cofactors }
+}
+
+fn turned(normal_matrix: [[f64; 3]; 3], n: DVec3) -> DVec3 {
+    transform_normal(normal_matrix, n.to_array()).map_or(DVec3::ZERO, DVec3::from_array)
+}

@@ -1,0 +1,130 @@
+//! Where rays meet the surfaces that are known by formula.
+//!
+//! A [`Surface`] is traced piece by piece, so that a picture can be made from the pieces whose [`hull`](Traced::hull)
+//! comes near a pixel. Everything is in the space of the mesh, in f64.
+
+mod net;
+mod patch;
+mod quadric;
+mod ray;
+
+#[cfg(test)]
+mod tests;
+
+use bevy_math::DVec3;
+use halfway_mesh::{Surface, SurfacePiece};
+
+use patch::Patches;
+use quadric::{meet_disc, meet_quadric};
+use ray::Ray;
+
+/// A place where a ray meets a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct SurfaceHit {
+    /// How far along the ray, in lengths of its direction; positive.
+    pub(crate) t: f64,
+    /// The place.
+    pub(crate) position: DVec3,
+    /// The outward unit normal there. At the tip of a cone, where there is none, it points away from the
+    /// middle of the piece.
+    pub(crate) normal: DVec3,
+}
+
+/// A surface made ready for rays: its patches are cut into small ones.
+#[derive(Debug)]
+pub(crate) struct Traced {
+    /// The quadrics and the discs.
+    plain: Vec<Plain>,
+    patches: Patches,
+    /// The longest edge of the box around the surface.
+    extent: f64,
+}
+
+/// A piece that is met in closed form.
+#[derive(Debug)]
+struct Plain {
+    piece: SurfacePiece,
+    hull: Vec<DVec3>,
+}
+
+/// Two hits that are nearer to each other than this share of the surface's extent, and face the same way, are one hit
+/// on the common edge of two pieces: far above the rounding of f64, far below a pixel.
+const SAME_PLACE: f64 = 1e-9;
+
+impl Traced {
+    pub(crate) fn new(surface: &Surface) -> Self {
+        let plain: Vec<Plain> = surface.pieces().iter().filter_map(Plain::new).collect();
+        let patches = surface.pieces().iter().filter_map(|piece| match piece {
+            SurfacePiece::Patch(patch) => Some(patch.clone()),
+            _ => None,
+        });
+        let patches = Patches::new(patches.collect());
+        let points = plain.iter().flat_map(|piece| &piece.hull).chain(patches.hulls()).copied();
+        let extent = extent(points);
+        Self { plain, patches, extent }
+    }
+
+    /// How many pieces there are.
+    pub(crate) fn pieces(&self) -> usize {
+        self.plain.len() + self.patches.len()
+    }
+
+    /// Points whose convex hull holds the piece.
+    pub(crate) fn hull(&self, piece: usize) -> &[DVec3] {
+        match self.plain.get(piece) {
+            Some(plain) => &plain.hull,
+            None => self.patches.hull(piece - self.plain.len()),
+        }
+    }
+
+    /// Adds every place at t > 0 where the ray origin + t·direction meets the piece, in any order. The direction is not
+    /// 0; its length is of no consequence.
+    ///
+    /// No ray is lost between pieces: on an edge that two of them share at least one is met, often both; see
+    /// [`settle`](Self::settle). Where a ray only touches the surface it meets it twice, once or not at all.
+    pub(crate) fn meet(&self, piece: usize, origin: DVec3, direction: DVec3, hits: &mut Vec<SurfaceHit>) {
+        let ray = Ray { origin, direction };
+        match self.plain.get(piece).map(|plain| &plain.piece) {
+            Some(SurfacePiece::Quadric(quadric)) => meet_quadric(quadric, &ray, hits),
+            Some(SurfacePiece::Disc(disc)) => meet_disc(disc, &ray, hits),
+            _ => self.patches.meet(piece - self.plain.len(), &ray, hits),
+        }
+    }
+
+    /// Sorts the hits of one ray on all pieces by t, and makes one of those that are the same place, met on two pieces
+    /// along their common edge: they lie together and face the ray with the same side.
+    pub(crate) fn settle(&self, direction: DVec3, hits: &mut Vec<SurfaceHit>) {
+        hits.sort_by(|a, b| a.t.total_cmp(&b.t));
+        let front = |hit: &SurfaceHit| hit.normal.dot(direction) < 0.0;
+        hits.dedup_by(|later, kept| {
+            let apart = later.position.distance(kept.position);
+            apart <= SAME_PLACE * self.extent && front(later) == front(kept)
+        });
+    }
+}
+
+impl Plain {
+    fn new(piece: &SurfacePiece) -> Option<Self> {
+        let hull = match piece {
+            SurfacePiece::Quadric(quadric) => {
+                let (min, max) = (quadric.min(), quadric.max());
+                let pick = |i: usize, bit: usize, axis: usize| if i & bit == 0 { min[axis] } else { max[axis] };
+                (0..8).map(|i| DVec3::new(pick(i, 1, 0), pick(i, 2, 1), pick(i, 4, 2))).collect()
+            }
+            SurfacePiece::Disc(disc) => {
+                let (a, b) = disc.normal().any_orthonormal_pair();
+                let corner = |x: f64, y: f64| disc.center() + disc.radius() * (x * a + y * b);
+                vec![corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)]
+            }
+            SurfacePiece::Patch(_) => return None,
+        };
+        Some(Self { piece: piece.clone(), hull })
+    }
+}
+
+/// The longest edge of the box around the points.
+fn extent(points: impl Iterator<Item = DVec3> + Clone) -> f64 {
+    let min = points.clone().fold(DVec3::INFINITY, DVec3::min);
+    let max = points.fold(DVec3::NEG_INFINITY, DVec3::max);
+    (max - min).max_element().max(0.0)
+}

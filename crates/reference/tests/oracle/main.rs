@@ -1,0 +1,11 @@
+//! The oracle against closed forms, hand arithmetic and itself.
+
+mod blending;
+mod coverage;
+mod errors;
+mod probes;
+mod repeats;
+mod scene;
+mod surfaces;
+mod transforms;
+mod values;
