@@ -29,6 +29,7 @@
 //!   its entity's `GlobalTransform` puts it and shines along the local −Z axis. Every value has a `validate()` whose
 //!   [`InvalidValue`] names type, field, value and what was expected.
 //! - [`equations`]: the equation and its parts as pure functions, in `f32` or `f64`, defined at every edge.
+//! - [`bounds`]: what a light can add to a patch of surface at most, and which lights a patch needs.
 //! - [`matched_shininess`]: the Blinn–Phong exponent for a Phong highlight.
 //! - [`homogeneous`]: light positions as four coordinates.
 //! - [`conversion`]: materials of MTL and glTF files, lights of `KHR_lights_punctual`.
@@ -49,6 +50,7 @@
 //! assert!(color[0] > color[1] && color[1] > color[2]);
 //! ```
 
+pub mod bounds;
 mod camera;
 pub mod conversion;
 pub mod equations;
