@@ -18,6 +18,11 @@ pub(crate) enum Chore {
     Docs {
         setup: Setup,
     },
+    Chart {
+        setup: Setup,
+        /// Less of everything, in less than two minutes.
+        quick: bool,
+    },
 }
 
 /// How the demo is shown.
@@ -40,6 +45,7 @@ Chores:
   test   Run every test, those that need a graphics adapter or a window included
   check  Check the formatting, lints, documentation and smallest build, all of which must be clean
   docs   Make the pictures and the schema in docs/ again, by the commands that docs/examples.md shows
+  chart  Measure what shading costs and what it loses, and write a page of charts to out/chart/
 
 cargo xtask <CHORE> --help tells more about one.";
 
@@ -86,12 +92,23 @@ Options:
       --no-install   Install nothing; say what is missing and how to get it
   -h, --help         Print this";
 
+const CHART_HELP: &str = "\
+Measure what flat, Gouraud and Phong shading cost and lose: error against time, rates of convergence, and how steady a
+moving highlight is. Writes a page that opens offline, out/chart/index.html, with every table as CSV and every chart as
+SVG beside it, and makes docs/pictures/chart.svg again. docs/charts.md tells what is measured and how.
+
+Usage: cargo xtask chart [OPTIONS]
+
+Options:
+      --quick        Fewer tessellations, rounds, frames and pixels, in less than two minutes; docs/ stays as it is
+      --no-install   Install nothing; say what is missing and how to get it
+  -h, --help         Print this";
+
 /// The options that a chore may have; each chore refuses those that are not its own.
 #[derive(Default)]
 struct Options {
-    help: bool,
-    no_install: bool,
-    headless: bool,
+    /// Those without a value.
+    flags: Vec<String>,
     model: Option<PathBuf>,
 }
 
@@ -101,21 +118,26 @@ impl Options {
         while let Some(argument) = arguments.next() {
             let name = argument.to_string_lossy();
             match name.as_ref() {
-                "-h" | "--help" => options.help = true,
-                name if !known.contains(&name) => return Err(format!("{chore} has no option {name}")),
-                "--no-install" => options.no_install = true,
-                "--headless" => options.headless = true,
-                _ => {
+                "-h" => options.flags.push("--help".into()),
+                name if name != "--help" && !known.contains(&name) => {
+                    return Err(format!("{chore} has no option {name}"));
+                }
+                "--model" => {
                     let value = arguments.next().ok_or_else(|| format!("{name} needs a value: a file"))?;
                     options.model = Some(value.into());
                 }
+                name => options.flags.push(name.into()),
             }
         }
         Ok(options)
     }
 
+    fn has(&self, flag: &str) -> bool {
+        self.flags.iter().any(|given| given == flag)
+    }
+
     fn setup(&self) -> Setup {
-        if self.no_install { Setup::Check } else { Setup::Install }
+        if self.has("--no-install") { Setup::Check } else { Setup::Install }
     }
 }
 
@@ -125,7 +147,9 @@ impl Options {
 /// What makes no sense, and what was expected.
 pub(crate) fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Chore, String> {
     let mut arguments = arguments.into_iter();
-    let Some(chore) = arguments.next() else { return Err("no chore given; expected demo, test, check or docs".into()) };
+    let Some(chore) = arguments.next() else {
+        return Err("no chore given; expected demo, test, check, docs or chart".into());
+    };
     let chore = chore.to_string_lossy().into_owned();
     let (known, page): (&[&str], _) = match chore.as_str() {
         "-h" | "--help" | "help" => return Ok(Chore::Help(HELP)),
@@ -133,17 +157,19 @@ pub(crate) fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Cho
         "test" => (&["--no-install"], TEST_HELP),
         "check" => (&[], CHECK_HELP),
         "docs" => (&["--no-install"], DOCS_HELP),
-        _ => return Err(format!("no chore is called {chore}; expected demo, test, check or docs")),
+        "chart" => (&["--no-install", "--quick"], CHART_HELP),
+        _ => return Err(format!("no chore is called {chore}; expected demo, test, check, docs or chart")),
     };
     let options = Options::parse(&chore, known, arguments)?;
-    if options.help {
+    if options.has("--help") {
         return Ok(Chore::Help(page));
     }
     let setup = options.setup();
     Ok(match chore.as_str() {
-        "demo" => Chore::Demo(DemoOptions { setup, headless: options.headless, model: options.model }),
+        "demo" => Chore::Demo(DemoOptions { setup, headless: options.has("--headless"), model: options.model }),
         "test" => Chore::Test { setup },
         "check" => Chore::Check,
+        "chart" => Chore::Chart { setup, quick: options.has("--quick") },
         _ => Chore::Docs { setup },
     })
 }
@@ -177,6 +203,8 @@ mod tests {
             ("test --no-install", Chore::Test { setup: Setup::Check }),
             ("check", Chore::Check),
             ("docs", Chore::Docs { setup: Setup::Install }),
+            ("chart", Chore::Chart { setup: Setup::Install, quick: false }),
+            ("chart --quick --no-install", Chore::Chart { setup: Setup::Check, quick: true }),
         ];
         for (line, expected) in rows {
             assert_eq!(parsed(line), Ok(expected), "{line}");
@@ -194,6 +222,7 @@ mod tests {
             ("test --model a.obj", "test has no option --model"),
             ("check --no-install", "check has no option --no-install"),
             ("docs --headless", "docs has no option --headless"),
+            ("test --quick", "test has no option --quick"),
         ];
         for (line, expected) in rows {
             let problem = parsed(line).unwrap_err();
@@ -203,12 +232,12 @@ mod tests {
 
     #[test]
     fn help_fits_the_screen_and_names_every_chore() {
-        for page in [HELP, DEMO_HELP, TEST_HELP, CHECK_HELP, DOCS_HELP] {
+        for page in [HELP, DEMO_HELP, TEST_HELP, CHECK_HELP, DOCS_HELP, CHART_HELP] {
             for line in page.lines() {
                 assert!(line.len() <= 120, "{line}");
             }
         }
-        for chore in ["demo", "test", "check", "docs"] {
+        for chore in ["demo", "test", "check", "docs", "chart"] {
             assert!(HELP.contains(&format!("\n  {chore} ")), "{chore}");
         }
     }

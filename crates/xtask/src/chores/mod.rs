@@ -1,5 +1,6 @@
 //! One file a chore.
 
+pub(crate) mod chart;
 pub(crate) mod check;
 pub(crate) mod demo;
 pub(crate) mod docs;

@@ -1,0 +1,191 @@
+//! Axes: where a value stands, and which values are marked.
+
+/// A direction of a chart.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    /// What is measured, and its unit.
+    pub label: String,
+    /// How values are spaced.
+    pub scale: Scale,
+}
+
+/// How values are spaced along an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scale {
+    /// Equal differences are equally long.
+    Linear,
+    /// Equal ratios are equally long.
+    Log,
+}
+
+/// A marked value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tick {
+    /// Where it stands ([`Axis::position`]).
+    pub position: f64,
+    /// How it is written.
+    pub label: String,
+}
+
+/// The mantissas that may be marked in each power of ten, the fewest first.
+const MANTISSAS: [&[f64]; 4] = [
+    &[1.0],
+    &[1.0, 2.0, 5.0],
+    &[1.0, 1.5, 2.0, 3.0, 5.0, 7.0],
+    &[1.0, 1.1, 1.2, 1.3, 1.4, 1.5, 1.6, 1.8, 2.0, 2.5, 3.0, 3.5, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0],
+];
+
+impl Axis {
+    /// An axis with this label and scale.
+    pub fn new(label: impl Into<String>, scale: Scale) -> Self {
+        Self { label: label.into(), scale }
+    }
+
+    /// Whether the value has a place on the axis: it is finite, and positive where the scale is logarithmic.
+    pub fn shows(&self, value: f64) -> bool {
+        value.is_finite() && (self.scale == Scale::Linear || value > 0.0)
+    }
+
+    /// Where a value stands: itself, or its decimal logarithm.
+    pub fn position(&self, value: f64) -> f64 {
+        match self.scale {
+            Scale::Linear => value,
+            Scale::Log => value.log10(),
+        }
+    }
+
+    /// The least positions that hold the values, with 5 % of room at each end; (0, 1) for none.
+    pub(super) fn range(&self, values: impl Iterator<Item = f64>) -> (f64, f64) {
+        let (low, high) = values
+            .map(|value| self.position(value))
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
+        if low > high {
+            return (0.0, 1.0);
+        }
+        // A single value still gets a range around it.
+        let room = ((high - low) * 0.05).max(high.abs() * 1e-3).max(1e-3);
+        (low - room, high + room)
+    }
+
+    /// The values to mark between two positions: round numbers, at least three of them where the range allows it.
+    pub fn ticks(&self, (low, high): (f64, f64)) -> Vec<Tick> {
+        match self.scale {
+            Scale::Linear => linear_ticks(low, high),
+            Scale::Log => log_ticks(low, high),
+        }
+    }
+}
+
+fn linear_ticks(low: f64, high: f64) -> Vec<Tick> {
+    let power = 10f64.powf(((high - low) / 5.0).log10().floor());
+    let steps = [1.0, 2.0, 5.0, 10.0].map(|factor| factor * power);
+    let step = steps.into_iter().find(|step| (high - low) / step <= 6.0).unwrap_or(steps[3]);
+    let first = (low / step).ceil() as i64;
+    let last = (high / step).floor() as i64;
+    let decimals = (-step.log10().floor()).max(0.0) as usize;
+    (first..=last)
+        .map(|i| {
+            let position = i as f64 * step;
+            Tick { position, label: format!("{position:.decimals$}") }
+        })
+        .collect()
+}
+
+fn log_ticks(low: f64, high: f64) -> Vec<Tick> {
+    let decades = low.floor() as i32..=high.ceil() as i32;
+    let ticks = |mantissas: &[f64]| -> Vec<Tick> {
+        decades
+            .clone()
+            .flat_map(|exponent| mantissas.iter().map(move |mantissa| (*mantissa, exponent)))
+            .map(|(mantissa, exponent)| Tick {
+                position: mantissa.log10() + f64::from(exponent),
+                label: power_of_ten(mantissa, exponent),
+            })
+            .filter(|tick| (low..=high).contains(&tick.position))
+            .collect()
+    };
+    let choices = MANTISSAS.map(ticks);
+    let enough = choices.iter().position(|ticks| ticks.len() >= 3).unwrap_or(choices.len() - 1);
+    let [.., last] = &choices;
+    choices.get(enough).unwrap_or(last).clone()
+}
+
+/// mantissa·10^exponent: plain from 0.001 to 10,000, else with a raised exponent.
+fn power_of_ten(mantissa: f64, exponent: i32) -> String {
+    if (-3..=4).contains(&exponent) {
+        // Rounded once, because 3·10⁻¹ is not 0.3 in binary.
+        let decimals = usize::try_from(-exponent).unwrap_or(0) + usize::from(mantissa.fract() != 0.0);
+        let text = format!("{:.decimals$}", mantissa * 10f64.powi(exponent));
+        return if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text };
+    }
+    let raised: String = exponent.to_string().chars().map(raised).collect();
+    if (mantissa - 1.0).abs() < 1e-9 { format!("10{raised}") } else { format!("{mantissa}·10{raised}") }
+}
+
+fn raised(digit: char) -> char {
+    match digit {
+        '-' => '⁻',
+        '1' => '¹',
+        '2' => '²',
+        '3' => '³',
+        '0' | '4'..='9' => char::from_u32(0x2070 + digit as u32 - '0' as u32).unwrap_or(digit),
+        other => other,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn labels(scale: Scale, low: f64, high: f64) -> Vec<String> {
+        let axis = Axis::new("", scale);
+        axis.ticks((axis.position(low), axis.position(high))).into_iter().map(|tick| tick.label).collect()
+    }
+
+    #[test]
+    fn log_ticks_are_round_and_enough() {
+        assert_eq!(labels(Scale::Log, 5e-6, 2.0), ["10⁻⁵", "10⁻⁴", "0.001", "0.01", "0.1", "1"]);
+        assert_eq!(labels(Scale::Log, 0.015, 0.6), ["0.02", "0.05", "0.1", "0.2", "0.5"]);
+        assert_eq!(labels(Scale::Log, 0.9, 3.2), ["1", "1.5", "2", "3"]);
+        assert!(labels(Scale::Log, 0.97, 1.35).len() >= 3);
+    }
+
+    #[test]
+    fn linear_ticks_are_round_and_enough() {
+        assert_eq!(labels(Scale::Linear, 0.0, 1.0), ["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
+        assert_eq!(labels(Scale::Linear, -3.0, 122.0), ["0", "50", "100"]);
+        assert_eq!(labels(Scale::Linear, 0.981, 1.013), ["0.99", "1.00", "1.01"]);
+    }
+
+    #[test]
+    fn powers_of_ten_are_written_plainly() {
+        for (mantissa, exponent, text) in [
+            (1.0, 0, "1"),
+            (1.5, 0, "1.5"),
+            (2.0, -3, "0.002"),
+            (1.5, -1, "0.15"),
+            (1.0, 4, "10000"),
+            (1.0, -12, "10⁻¹²"),
+            (2.0, -4, "2·10⁻⁴"),
+        ] {
+            assert_eq!(power_of_ten(mantissa, exponent), text);
+        }
+    }
+
+    #[test]
+    fn only_what_has_a_place_is_shown() {
+        let (linear, log) = (Axis::new("", Scale::Linear), Axis::new("", Scale::Log));
+        assert!(linear.shows(0.0) && linear.shows(-1.0) && !linear.shows(f64::NAN));
+        assert!(log.shows(1e-300) && !log.shows(0.0) && !log.shows(-1.0) && !log.shows(f64::INFINITY));
+    }
+
+    #[test]
+    fn ranges_are_never_empty() {
+        let axis = Axis::new("", Scale::Linear);
+        assert_eq!(axis.range(std::iter::empty()), (0.0, 1.0));
+        for value in [0.0, 1e9, -1e9] {
+            let (low, high) = axis.range([value].into_iter());
+            assert!(low < value && value < high);
+        }
+    }
+}

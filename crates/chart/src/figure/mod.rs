@@ -1,0 +1,199 @@
+//! What a chart says, apart from how it is drawn: [`svg`] draws a [`Figure`] for a file, and its panels for the page.
+
+mod axis;
+pub mod svg;
+
+pub use axis::{Axis, Scale, Tick};
+
+/// A chart of one or more panels whose axes and series mean the same.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figure {
+    /// Names the SVG file and the chart's place on the page: lower case, no spaces.
+    pub id: &'static str,
+    /// What is charted, in a line.
+    pub title: String,
+    /// The horizontal axis of every panel.
+    pub x: Axis,
+    /// The vertical axis of every panel.
+    pub y: Axis,
+    /// How many panels stand side by side where there is room for them, 1 or more.
+    pub columns: usize,
+    /// The panels, row by row.
+    pub panels: Vec<Panel>,
+}
+
+/// One pair of axes with what is drawn in it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Panel {
+    /// What the panel shows and its neighbours do not.
+    pub title: String,
+    /// Lines of text for a corner that the series leave free.
+    pub notes: Vec<String>,
+    /// What is drawn, the last on top.
+    pub series: Vec<Series>,
+}
+
+/// Points that belong together, joined by a line in their order.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Series {
+    /// What the points have in common. Series of the same name in several panels share one entry of the legend.
+    pub name: String,
+    /// How they are told from others.
+    pub style: Style,
+    /// The points.
+    pub points: Vec<Point>,
+}
+
+/// One measured point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Point {
+    /// In the unit of the horizontal axis.
+    pub x: f64,
+    /// In the unit of the vertical axis.
+    pub y: f64,
+    /// What the point is, in a line.
+    pub label: String,
+    /// The number of its card among those of the page, which tells and shows more; `None` where the label is all.
+    pub card: Option<usize>,
+}
+
+/// How a series looks. Colour, marker and line all differ between series, so that each is told by any of them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Style {
+    /// sRGB.
+    pub color: [u8; 3],
+    /// What stands at the points; `None` for a bare line.
+    pub marker: Option<Marker>,
+    /// Whether markers are filled, or only outlined.
+    pub filled: bool,
+    /// How the line is drawn.
+    pub stroke: Stroke,
+}
+
+/// The shape of a marker.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Marker {
+    /// ●
+    Circle,
+    /// ■
+    Square,
+    /// ▲
+    Triangle,
+}
+
+/// How a line is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stroke {
+    /// Without gaps.
+    Solid,
+    /// In dashes.
+    Dash,
+    /// In dots.
+    Dot,
+}
+
+impl Stroke {
+    /// The lengths of ink and gap in pixels; `None` without gaps.
+    pub(crate) fn pattern(self) -> Option<(u32, u32)> {
+        match self {
+            Self::Solid => None,
+            Self::Dash => Some((8, 4)),
+            Self::Dot => Some((2, 3)),
+        }
+    }
+}
+
+impl Style {
+    /// The colour as CSS has it, as `#d55e00`.
+    pub fn css_color(&self) -> String {
+        let [r, g, b] = self.color;
+        format!("#{r:02x}{g:02x}{b:02x}")
+    }
+}
+
+impl Figure {
+    /// The ends of the axes: the least that hold every point of every panel, and a little room. In positions
+    /// ([`Axis::position`]): x, then y.
+    pub fn ranges(&self) -> [(f64, f64); 2] {
+        let points = || self.shown().map(|(_, point)| point);
+        [self.x.range(points().map(|point| point.x)), self.y.range(points().map(|point| point.y))]
+    }
+
+    /// Every point that can be drawn, with its series. A logarithmic axis has no place for 0.
+    pub fn shown(&self) -> impl Iterator<Item = (&Series, &Point)> {
+        let series = self.panels.iter().flat_map(|panel| &panel.series);
+        series.flat_map(|series| self.drawn(series).map(move |point| (series, point)))
+    }
+
+    /// The points of one series that can be drawn.
+    pub fn drawn<'a>(&'a self, series: &'a Series) -> impl Iterator<Item = &'a Point> {
+        series.points.iter().filter(|point| self.x.shows(point.x) && self.y.shows(point.y))
+    }
+
+    /// The entries of the legend: every name once.
+    pub fn legend(&self) -> Vec<&Series> {
+        let mut entries: Vec<&Series> = Vec::new();
+        for series in self.panels.iter().flat_map(|panel| &panel.series) {
+            if entries.iter().all(|entry| entry.name != series.name) {
+                entries.push(series);
+            }
+        }
+        entries
+    }
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+
+    /// Two panels of two series; one point, at 0, has no place on the logarithmic axis.
+    pub(crate) fn example() -> Figure {
+        let style = |color, marker, stroke| Style { color, marker: Some(marker), filled: true, stroke };
+        let point = |x, y| Point { x, y, label: format!("<{x}> & {y}"), card: Some(7) };
+        let panel = |title: &str, factor: f64| Panel {
+            title: title.to_owned(),
+            notes: vec!["slope < 2".to_owned(), "another".to_owned()],
+            series: vec![
+                Series {
+                    name: "one & all".to_owned(),
+                    style: style([0xd5, 0x5e, 0x00], Marker::Square, Stroke::Dot),
+                    points: vec![point(1.0, 0.01 * factor), point(1.5, 0.1 * factor), point(2.0, 0.0)],
+                },
+                Series {
+                    name: "other".to_owned(),
+                    style: style([0x00, 0x72, 0xb2], Marker::Triangle, Stroke::Dash),
+                    points: vec![point(1.2, 0.02 * factor), point(3.0, 0.5 * factor)],
+                },
+            ],
+        };
+        Figure {
+            id: "example",
+            title: "An <example>".to_owned(),
+            x: Axis::new("time", Scale::Log),
+            y: Axis::new("error", Scale::Log),
+            columns: 2,
+            panels: vec![panel("left", 1.0), panel("right", 2.0)],
+        }
+    }
+
+    #[test]
+    fn ranges_hold_what_is_shown() {
+        let figure = example();
+        let [x, y] = figure.ranges();
+        assert!(x.0 < 0.0 && x.1 > 3f64.log10() && x.1 < 1.0, "{x:?}");
+        assert!(y.0 < -2.0 && y.0 > -3.0 && y.1 > 0.0 && y.1 < 1.0, "{y:?}");
+        assert_eq!(figure.shown().count(), 8, "the points at 0 have no logarithm");
+    }
+
+    #[test]
+    fn the_legend_names_each_series_once() {
+        let figure = example();
+        let names: Vec<&str> = figure.legend().iter().map(|series| series.name.as_str()).collect();
+        assert_eq!(names, ["one & all", "other"]);
+    }
+
+    #[test]
+    fn colors_are_css() {
+        assert_eq!(example().panels[0].series[0].style.css_color(), "#d55e00");
+    }
+}

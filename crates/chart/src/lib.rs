@@ -1,0 +1,12 @@
+//! What shading costs and what it loses: error against time, rates of convergence, and how steady highlights are.
+//!
+//! [`Plan`] says how much is measured, [`measure`] does it, [`Report`] holds what was found, and [`Report::files`] makes
+//! a page, tables and drawings of it. The parts can be had alone: the sweeps in [`mod@measure`], the charts in
+//! [`figure`], the page in [`page`].
+
+pub mod figure;
+pub mod measure;
+pub mod page;
+mod report;
+
+pub use report::{NamedFile, Plan, Report, ReportError, measure, write};

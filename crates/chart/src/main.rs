@@ -1,0 +1,79 @@
+//! `halfway-chart`: measures, and writes the report.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::Parser;
+use halfway::render::RenderError;
+use halfway_chart::measure::MeasureError;
+use halfway_chart::{Plan, ReportError, measure, write};
+use indicatif::{ProgressBar, ProgressStyle};
+
+/// Measures what flat, Gouraud and Phong shading cost and lose, and writes a page, tables and drawings of it.
+///
+/// Nothing is written before all is measured, and each file appears only when it is complete.
+#[derive(Debug, Parser)]
+#[command(name = "halfway-chart", version, max_term_width = 100)]
+#[command(
+    after_help = "Exit codes: 0 done; 1 it failed; 2 the command line cannot be used; 3 there is no graphics adapter."
+)]
+struct Arguments {
+    /// Fewer tessellations, rounds, frames and pixels
+    #[arg(long)]
+    quick: bool,
+    /// The folder for the page and what belongs to it
+    #[arg(short, long, value_name = "FOLDER", default_value = "out/chart")]
+    output: PathBuf,
+    /// Also write the main chart in small, an SVG file
+    #[arg(long, value_name = "FILE")]
+    small_chart: Option<PathBuf>,
+}
+
+fn main() -> ExitCode {
+    env_logger::Builder::from_env(env_logger::Env::default().default_filter_or("warn,wgpu_hal=off"))
+        .format_timestamp(None)
+        .init();
+    match run(&Arguments::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::from(exit_code(&error))
+        }
+    }
+}
+
+fn run(arguments: &Arguments) -> Result<(), ReportError> {
+    let plan = if arguments.quick { Plan::QUICK } else { Plan::FULL };
+    let bar = progress_bar(plan.units());
+    let report = measure(plan, &mut |done, what| {
+        bar.set_position(done);
+        bar.set_message(what.to_owned());
+    })?;
+    bar.finish_and_clear();
+    for (name, content) in report.files()? {
+        write_and_tell(&arguments.output.join(name), &content)?;
+    }
+    if let Some(file) = &arguments.small_chart {
+        write_and_tell(file, &report.small_chart()?)?;
+    }
+    Ok(())
+}
+
+fn write_and_tell(file: &Path, content: &str) -> Result<(), ReportError> {
+    write(file, content)?;
+    println!("{}", file.display());
+    Ok(())
+}
+
+/// A bar on standard error, with the time left; hidden where standard error is no terminal.
+fn progress_bar(units: u64) -> ProgressBar {
+    let style = ProgressStyle::with_template("{bar:40} {percent:>3} %, {eta} left: {msg}");
+    ProgressBar::new(units).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+}
+
+fn exit_code(error: &ReportError) -> u8 {
+    match error {
+        ReportError::Measure(MeasureError::Render(RenderError::NoAdapter | RenderError::NoDevice { .. })) => 3,
+        _ => 1,
+    }
+}

@@ -1,0 +1,147 @@
+//! Rates of convergence: how fast a mesh's picture nears the true surface's as the mesh is refined.
+//!
+//! Both pictures are the oracle's, so that it is the shading method that is judged, not its implementation.
+
+use halfway::prelude::*;
+use halfway::reference::Mode;
+use halfway::reference::metrics::{self, Comparison};
+
+use super::{Line, MeasureError, Object, Progress, SHADINGS, Scene, Stage, longest_edge};
+
+/// How much is measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Plan {
+    /// Width and height of the pictures in pixels.
+    pub size: u32,
+    /// How many levels of tessellation ([`Object::level`]).
+    pub levels: u32,
+}
+
+/// How many of the finest levels the slopes are fitted to.
+pub const FITTED: usize = 3;
+
+/// What the object is made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Surface {
+    /// Without a highlight.
+    Diffuse,
+    /// With a highlight of shininess 32.
+    Shiny,
+}
+
+impl Surface {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Diffuse, Self::Shiny];
+
+    /// In words.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Diffuse => "diffuse only",
+            Self::Shiny => "highlight of shininess 32",
+        }
+    }
+
+    fn material(self) -> Material {
+        match self {
+            Self::Diffuse => Scene::matte(),
+            Self::Shiny => Scene::shiny(),
+        }
+    }
+}
+
+/// One object of one material under one shading, at every level.
+#[derive(Clone, Debug)]
+pub struct Convergence {
+    /// What was drawn.
+    pub object: Object,
+    /// Of what.
+    pub surface: Surface,
+    /// How often it was shaded.
+    pub shading: Shading,
+    /// The levels, the coarsest first.
+    pub levels: Vec<Level>,
+}
+
+/// One level of tessellation.
+#[derive(Clone, Debug)]
+pub struct Level {
+    /// Its number ([`Object::level`]).
+    pub level: u32,
+    /// How many triangles it has.
+    pub triangles: usize,
+    /// The mesh's longest edge, in its units; the sphere's radius is 1, that of the teapot's body 1.5.
+    pub edge: f64,
+    /// How far the picture is from the true surface, on pixels that both cover.
+    pub comparison: Comparison,
+}
+
+impl Level {
+    /// The largest linear error of a channel.
+    pub fn max(&self) -> f64 {
+        self.comparison.linear.all.max()
+    }
+
+    /// The root of the mean squared linear error.
+    pub fn rms(&self) -> f64 {
+        self.comparison.linear.all.rmse
+    }
+
+    /// The linear error that 95 % of the channels keep to: that of the inside, without the outline's.
+    pub fn common(&self) -> f64 {
+        const P95: usize = 1;
+        self.comparison.linear.all.percentiles[P95]
+    }
+}
+
+/// What is told of a level: a name, and the figure.
+pub type Quantity = (&'static str, fn(&Level) -> f64);
+
+/// Every figure whose order of convergence is told.
+pub const QUANTITIES: [Quantity; 3] =
+    [("largest error", Level::max), ("RMS error", Level::rms), ("error that 95 % keep to", Level::common)];
+
+impl Convergence {
+    /// The order of convergence of an error: p where it goes with the edge length to the p, fitted to the [`FITTED`]
+    /// finest levels.
+    pub fn order(&self, error: fn(&Level) -> f64) -> Option<f64> {
+        let points: Vec<_> = self.levels.iter().map(|level| (level.edge, error(level))).collect();
+        Line::order(&points, FITTED)
+    }
+}
+
+impl Plan {
+    /// The units of [`Progress`] that [`sweep`] will report.
+    pub fn units(self) -> u64 {
+        (Object::ALL.len() * Surface::ALL.len() * SHADINGS.len()) as u64 * u64::from(self.levels)
+    }
+}
+
+/// Measures every object, material and shading; in this order, the last the quickest to change.
+///
+/// # Errors
+/// The first picture that could not be drawn.
+pub fn sweep(plan: Plan, progress: &mut Progress<'_>) -> Result<Vec<Convergence>, MeasureError> {
+    let mut stage = Stage::without_adapter(UVec2::splat(plan.size));
+    let mut all = Vec::new();
+    for object in Object::ALL {
+        let levels = (0..plan.levels).map(|i| object.level(i));
+        let meshes: Vec<_> = levels.map(|level| (level, object.mesh(level))).collect();
+        for surface in Surface::ALL {
+            let scene = |level| Scene { material: surface.material(), ..Scene::new(object, level) };
+            stage.show(&scene(object.level(plan.levels - 1)));
+            let truth = stage.oracle(Mode::Surface)?;
+            for shading in SHADINGS {
+                let mut levels = Vec::new();
+                for (level, mesh) in &meshes {
+                    stage.show(&Scene { shading: Some(shading), ..scene(*level) });
+                    let comparison = metrics::compare(&stage.oracle(Mode::Mesh)?, &truth, Encoding::Srgb)?;
+                    let (triangles, edge) = (mesh.triangle_count(), longest_edge(mesh));
+                    levels.push(Level { level: *level, triangles, edge, comparison });
+                    progress.advance(1, &format!("convergence, {}", object.name()));
+                }
+                all.push(Convergence { object, surface, shading, levels });
+            }
+        }
+    }
+    Ok(all)
+}

@@ -1,0 +1,49 @@
+//! The sweeps.
+
+pub mod accuracy;
+pub mod convergence;
+mod fit;
+pub mod highlight;
+mod progress;
+mod stage;
+
+use halfway::prelude::Shading;
+use halfway::reference::OracleError;
+use halfway::reference::metrics::SizeMismatch;
+use halfway::render::RenderError;
+use thiserror::Error;
+
+pub use fit::Line;
+pub use progress::Progress;
+pub use stage::{Object, Scene, Stage, longest_edge};
+
+/// The shadings that are compared, the cheapest first.
+pub const SHADINGS: [Shading; 3] = [Shading::Flat, Shading::Gouraud, Shading::Phong];
+
+/// A measurement that could not be made.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum MeasureError {
+    /// The adapter could not draw.
+    #[error(transparent)]
+    Render(#[from] RenderError),
+    /// The oracle could not draw.
+    #[error(transparent)]
+    Oracle(#[from] OracleError),
+    /// The adapter did not finish a frame.
+    #[error("waiting for the adapter: {0}")]
+    Wait(String),
+    /// Pictures of different sizes; the adapter drew what was not asked for.
+    #[error(transparent)]
+    Size(#[from] SizeMismatch),
+}
+
+/// The name of a shading, as a reader knows it.
+pub fn shading_name(shading: Shading) -> &'static str {
+    match shading {
+        Shading::Flat => "flat",
+        Shading::Gouraud => "Gouraud",
+        Shading::Phong => "Phong",
+        _ => "another",
+    }
+}

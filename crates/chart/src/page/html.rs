@@ -1,0 +1,238 @@
+//! The page as HTML.
+
+use super::{Card, Page, Section, Table};
+use crate::figure::svg::{self, Size, SvgError};
+use crate::figure::{Figure, Marker, Series, Style};
+
+const STYLE: &str = include_str!("page.css");
+const SCRIPT: &str = include_str!("page.js");
+/// Before everything else, so that it hears of every failure.
+const GUARD: &str = "window.addEventListener('error', (event) => {
+  const problem = document.getElementById('problem');
+  problem.textContent = 'Points cannot be pointed at: ' + event.message;
+  problem.hidden = false;
+});";
+
+/// The page with charts, pictures and figures inside.
+///
+/// # Errors
+/// A chart that could not be drawn.
+pub fn html(page: &Page) -> Result<String, SvgError> {
+    let title = escaped(&page.title);
+    let facts =
+        each(&page.facts, |(name, value)| format!("<div><dt>{}</dt><dd>{}</dd></div>", escaped(name), escaped(value)));
+    let sections = page.sections.iter().map(section).collect::<Result<String, _>>()?;
+    Ok(format!(
+        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{title}</title>\n\
+         <link rel=\"icon\" href=\"data:,\">\n<style>\n{STYLE}</style>\n</head>\n<body>\n\
+         <p id=\"problem\" role=\"alert\" hidden></p>\n<script>\n{GUARD}\n</script>\n\
+         <header>\n<h1>{title}</h1>\n<p>{lead}</p>\n<dl>{facts}</dl>\n</header>\n<main>\n{sections}</main>\n\
+         <aside id=\"card\" hidden></aside>\n\
+         <script type=\"application/json\" id=\"cards\">{cards}</script>\n\
+         <script>\n{SCRIPT}</script>\n</body>\n</html>\n",
+        lead = escaped(&page.lead),
+        cards = in_script(&cards(&page.cards)),
+    ))
+}
+
+/// Text as HTML, in elements and in quoted attributes.
+pub fn escaped(text: &str) -> String {
+    let mut html = String::with_capacity(text.len());
+    for character in text.chars() {
+        match character {
+            '&' => html.push_str("&amp;"),
+            '<' => html.push_str("&lt;"),
+            '>' => html.push_str("&gt;"),
+            '"' => html.push_str("&quot;"),
+            '\'' => html.push_str("&#39;"),
+            other => html.push(other),
+        }
+    }
+    html
+}
+
+/// The HTML of each, one after the other.
+fn each<T>(items: impl IntoIterator<Item = T>, html: impl Fn(T) -> String) -> String {
+    items.into_iter().map(html).collect()
+}
+
+/// JSON that cannot end the element it stands in: `<` occurs in strings only, where it may be written otherwise.
+fn in_script(json: &str) -> String {
+    json.replace('<', "\\u003c")
+}
+
+fn cards(cards: &[Card]) -> String {
+    let cards = cards.iter().map(|card| {
+        let Card { title, rows, pictures } = card;
+        serde_json::json!({ "title": title, "rows": rows, "pictures": pictures })
+    });
+    serde_json::Value::Array(cards.collect()).to_string()
+}
+
+fn section(section: &Section) -> Result<String, SvgError> {
+    let text = each(&section.text, |text| format!("<p>{}</p>\n", escaped(text)));
+    let figures = section.figures.iter().enumerate().map(|(i, (_, figure))| self::figure(figure, i == 0));
+    let figures = figures.collect::<Result<String, _>>()?;
+    let tables = each(&section.tables, table);
+    let files: Vec<_> = section
+        .files
+        .iter()
+        .map(|(what, file)| format!("<a href=\"{}\">{}</a>", escaped(file), escaped(what)))
+        .collect();
+    Ok(format!(
+        "<section>\n<h2>{}</h2>\n{text}{}{figures}{tables}<p class=\"files\">{}</p>\n</section>\n",
+        escaped(&section.title),
+        buttons(&section.figures),
+        files.join(" · ")
+    ))
+}
+
+/// The buttons that choose among figures; none where there is no choice.
+fn buttons(figures: &[(String, Figure)]) -> String {
+    if figures.len() < 2 {
+        return String::new();
+    }
+    let buttons = each(figures.iter().enumerate(), |(i, (name, figure))| {
+        let checked = if i == 0 { " checked" } else { "" };
+        format!(
+            "<label><input type=\"radio\" name=\"{}\" value=\"{}\"{checked}> {}</label>",
+            figures[0].1.id,
+            figure.id,
+            escaped(name)
+        )
+    });
+    format!("<fieldset><legend>Shown</legend>{buttons}</fieldset>\n")
+}
+
+fn figure(figure: &Figure, shown: bool) -> Result<String, SvgError> {
+    let legend = each(figure.legend(), |series| format!("<span>{}{}</span>", swatch(series), escaped(&series.name)));
+    // Panels are scaled to the columns of the page, so that their text comes out at about its own size.
+    let size = match figure.columns {
+        1 => Size { width: 860, row: 360 },
+        2 => Size { width: 560, row: 350 },
+        _ => Size { width: 320, row: 290 },
+    };
+    let panels = figure.panels.iter().map(|panel| {
+        let svg = svg::panel_with_hits(figure, panel, size)?;
+        Ok(format!("<div class=\"panel\" role=\"img\" aria-label=\"{}\">{svg}</div>\n", escaped(&panel.title)))
+    });
+    Ok(format!(
+        "<figure id=\"{}\"{}>\n<figcaption>{}</figcaption>\n<div class=\"legend\">{legend}</div>\n\
+         <div class=\"panels\" style=\"--columns: {}; --least: {}px\">\n{}</div>\n</figure>\n",
+        figure.id,
+        if shown { "" } else { " hidden" },
+        escaped(&figure.title),
+        figure.columns,
+        size.width * 4 / 5,
+        panels.collect::<Result<String, SvgError>>()?
+    ))
+}
+
+/// A piece of the series' line with its marker.
+fn swatch(series: &Series) -> String {
+    let Style { marker, filled, stroke, .. } = series.style;
+    let color = series.style.css_color();
+    let dashes = stroke.pattern().map(|(ink, gap)| format!(" stroke-dasharray=\"{ink} {gap}\"")).unwrap_or_default();
+    let shape = match marker {
+        None => "",
+        Some(Marker::Circle) => "<circle cx=\"18\" cy=\"7\" r=\"4\"",
+        Some(Marker::Square) => "<rect x=\"14\" y=\"3\" width=\"8\" height=\"8\"",
+        Some(Marker::Triangle) => "<path d=\"M18 2l5 9h-10z\"",
+    };
+    let fill = if filled { color.as_str() } else { "#fff" };
+    let shape = if shape.is_empty() { String::new() } else { format!("{shape} fill=\"{fill}\"/>") };
+    format!(
+        "<svg width=\"36\" height=\"14\" stroke=\"{color}\" stroke-width=\"2\" aria-hidden=\"true\">\
+         <path d=\"M0 7h36\"{dashes}/>{shape}</svg>"
+    )
+}
+
+fn table(table: &Table) -> String {
+    let cells = |tag: &str, cells: &[String]| {
+        let class = |i| if i < table.names { " class=\"name\"" } else { "" };
+        each(cells.iter().enumerate(), |(i, cell)| format!("<{tag}{}>{}</{tag}>", class(i), escaped(cell)))
+    };
+    let rows = each(&table.rows, |row| format!("<tr>{}</tr>\n", cells("td", row)));
+    format!(
+        "<div class=\"table\"><table>\n<caption>{}</caption>\n<thead><tr>{}</tr></thead>\n<tbody>\n{rows}</tbody>\n\
+         </table></div>\n",
+        escaped(&table.caption),
+        cells("th", &table.header)
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::figure::tests::example;
+
+    fn page() -> Page {
+        Page {
+            title: "A <page>".to_owned(),
+            lead: "Read & weep".to_owned(),
+            facts: vec![("adapter".to_owned(), "\"llvmpipe\"".to_owned())],
+            sections: vec![Section {
+                title: "One".to_owned(),
+                text: vec!["Text.".to_owned()],
+                figures: vec![("a".to_owned(), example()), ("b".to_owned(), Figure { id: "second", ..example() })],
+                tables: vec![Table {
+                    caption: "Numbers".to_owned(),
+                    names: 1,
+                    header: vec!["name".to_owned(), "slope".to_owned()],
+                    rows: vec![vec!["flat".to_owned(), "1.00".to_owned()]],
+                }],
+                files: vec![("data".to_owned(), "a.csv".to_owned())],
+            }],
+            cards: vec![Card {
+                title: "</script><b>".to_owned(),
+                rows: vec![("a".to_owned(), "b".to_owned())],
+                pictures: vec![("drawn".to_owned(), "data:,".to_owned())],
+            }],
+        }
+    }
+
+    #[test]
+    fn text_is_escaped() {
+        assert_eq!(escaped("<a href=\"x\">'&'</a>"), "&lt;a href=&quot;x&quot;&gt;&#39;&amp;&#39;&lt;/a&gt;");
+    }
+
+    #[test]
+    fn the_page_shows_everything_and_fetches_nothing() {
+        let html = html(&page()).unwrap();
+        for text in [
+            "<title>A &lt;page&gt;</title>",
+            "Read &amp; weep",
+            "&quot;llvmpipe&quot;",
+            "<h2>One</h2>",
+            "id=\"second\" hidden",
+            "<td>1.00</td>",
+            "href=\"a.csv\"",
+        ] {
+            assert!(html.contains(text), "{text}");
+        }
+        // Two figures of two panels of four points.
+        assert_eq!(html.matches("class=\"hit\"").count(), 16);
+        // Names of namespaces are no addresses.
+        let html = html.replace("xmlns=\"http://www.w3.org/2000/svg\"", "");
+        for outside in ["http:", "https:", "src=\"//", "@import", "url("] {
+            assert!(!html.contains(outside), "{outside}");
+        }
+        // Cards cannot end the script they stand in.
+        assert!(!html.contains("</script><b>"));
+        assert_eq!(html.matches("<script").count(), html.matches("</script>").count());
+    }
+
+    #[test]
+    fn cards_are_json() {
+        let cards: serde_json::Value = serde_json::from_str(&in_script(&cards(&page().cards))).unwrap();
+        assert_eq!(cards[0]["title"], "</script><b>");
+        assert_eq!(cards[0]["pictures"][0][1], "data:,");
+    }
+
+    #[test]
+    fn one_figure_needs_no_buttons() {
+        assert_eq!(buttons(&[("a".to_owned(), example())]), "");
+        assert_eq!(buttons(&page().sections[0].figures).matches("type=\"radio\"").count(), 2);
+    }
+}

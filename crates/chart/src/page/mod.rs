@@ -1,0 +1,65 @@
+//! The page: one file that needs no other and no network.
+
+mod csv;
+mod html;
+mod picture;
+
+pub use csv::csv;
+pub use html::{escaped, html};
+pub use picture::data_uri;
+
+use crate::figure::Figure;
+
+/// What stands on the page, from top to bottom.
+#[derive(Clone, Debug)]
+pub struct Page {
+    /// The page's title.
+    pub title: String,
+    /// How to read it: a paragraph.
+    pub lead: String,
+    /// What was measured on what: names and values.
+    pub facts: Vec<(String, String)>,
+    /// The chapters.
+    pub sections: Vec<Section>,
+    /// What points show, by [`Point::card`](crate::figure::Point::card).
+    pub cards: Vec<Card>,
+}
+
+/// A chapter.
+#[derive(Clone, Debug)]
+pub struct Section {
+    /// Its heading.
+    pub title: String,
+    /// What it shows, and how that was measured: paragraphs.
+    pub text: Vec<String>,
+    /// The same chart of several quantities, of which one is shown at a time, each with the name of its button.
+    pub figures: Vec<(String, Figure)>,
+    /// Figures as numbers.
+    pub tables: Vec<Table>,
+    /// Files beside the page: what they hold, and their names.
+    pub files: Vec<(String, String)>,
+}
+
+/// Rows under a header.
+#[derive(Clone, Debug)]
+pub struct Table {
+    /// What the rows are.
+    pub caption: String,
+    /// How many columns at the left hold names; the others hold numbers.
+    pub names: usize,
+    /// The names of the columns.
+    pub header: Vec<String>,
+    /// As many cells in each as in the header.
+    pub rows: Vec<Vec<String>>,
+}
+
+/// What a point tells when it is pointed at.
+#[derive(Clone, Debug)]
+pub struct Card {
+    /// What the point is.
+    pub title: String,
+    /// Names and values.
+    pub rows: Vec<(String, String)>,
+    /// Captions and pictures, the latter as `data:` addresses.
+    pub pictures: Vec<(String, String)>,
+}

@@ -1,0 +1,188 @@
+//! What is charted of the report.
+
+use halfway::prelude::{Reflectance, Shading, Viewer};
+
+use super::Report;
+use crate::figure::{Axis, Figure, Marker, Panel, Point, Scale, Series, Stroke, Style};
+use crate::measure::accuracy::{Measured, Variant, describe};
+use crate::measure::convergence::{Convergence, Level, Surface};
+use crate::measure::{Object, SHADINGS, shading_name};
+
+/// A measure of error that the main chart can show.
+#[derive(Clone, Copy)]
+pub(super) struct Quantity {
+    /// The chart's identifier.
+    id: &'static str,
+    /// The name of its button.
+    pub(super) name: &'static str,
+    /// The axis.
+    label: &'static str,
+    value: fn(&Measured) -> f64,
+}
+
+pub(super) const QUANTITIES: [Quantity; 3] = [
+    Quantity {
+        id: "error-rms",
+        name: "RMS error",
+        label: "RMS error (linear, white = 1)",
+        value: |measured| measured.comparison.linear.all.rmse,
+    },
+    Quantity {
+        id: "error-max",
+        name: "largest error",
+        label: "largest error (linear, white = 1)",
+        value: |measured| measured.comparison.linear.all.max(),
+    },
+    Quantity { id: "error-flip", name: "ꟻLIP", label: "mean ꟻLIP (0 … 1)", value: |measured| measured.flip },
+];
+
+const TIME: &str = "time of a frame (constant colour = 1)";
+
+/// Colours that colour-blind readers tell apart (Okabe and Ito, "Color Universal Design", 2008), with markers and strokes
+/// of their own.
+fn style(shading: Shading) -> Style {
+    let (color, marker, stroke) = match shading {
+        Shading::Flat => ([0xd5, 0x5e, 0x00], Marker::Square, Stroke::Dot),
+        Shading::Gouraud => ([0x00, 0x72, 0xb2], Marker::Triangle, Stroke::Dash),
+        _ => ([0x00, 0x9e, 0x73], Marker::Circle, Stroke::Solid),
+    };
+    Style { color, marker: Some(marker), filled: true, stroke }
+}
+
+impl Report {
+    /// Error against time: a row of panels an object, a column a variant.
+    pub(super) fn main_figure(&self, quantity: Quantity) -> Figure {
+        let panels = Object::ALL.into_iter().flat_map(|object| {
+            Variant::ALL.into_iter().map(move |variant| {
+                let [reflectance, viewer] = variant.names();
+                self.main_panel(format!("{}, {reflectance}, {viewer}", object.name()), object, variant, quantity)
+            })
+        });
+        Figure {
+            id: quantity.id,
+            title: format!(
+                "{}, {} tessellations from coarse to fine",
+                capital(quantity.name),
+                self.plan.accuracy.levels
+            ),
+            x: Axis::new(TIME, Scale::Log),
+            y: Axis::new(quantity.label, Scale::Log),
+            columns: Variant::ALL.len(),
+            panels: panels.collect(),
+        }
+    }
+
+    /// The RMS error of both objects under one variant, for a narrow page.
+    pub(super) fn small_figure(&self) -> Figure {
+        let variant = Variant { reflectance: Reflectance::BlinnPhong, viewer: Viewer::Local };
+        let panel = |object: Object| self.main_panel(object.name().to_owned(), object, variant, QUANTITIES[0]);
+        Figure {
+            id: "chart",
+            title: format!("Error against time at {} tessellations, from coarse to fine", self.plan.accuracy.levels),
+            columns: 2,
+            panels: Object::ALL.map(panel).into(),
+            ..self.main_figure(QUANTITIES[0])
+        }
+    }
+
+    fn main_panel(&self, title: String, object: Object, variant: Variant, quantity: Quantity) -> Panel {
+        let series = SHADINGS.map(|shading| {
+            let here = |measured: &&Measured| {
+                measured.object == object && measured.variant == variant && measured.shading == shading
+            };
+            // The cards of the page are those of the measurements, in their order.
+            let points =
+                self.accuracy.iter().enumerate().filter(|(_, measured)| here(measured)).map(|(i, measured)| {
+                    let y = (quantity.value)(measured);
+                    Point { x: measured.ratio, y, label: describe(measured), card: Some(i) }
+                });
+            Series { name: shading_name(shading).to_owned(), style: style(shading), points: points.collect() }
+        });
+        Panel { title, notes: Vec::new(), series: series.into() }
+    }
+
+    /// Error against edge length: a row of panels an object, a column a material.
+    pub(super) fn convergence_figure(&self) -> Figure {
+        let panels = Object::ALL.into_iter().flat_map(|object| {
+            Surface::ALL.into_iter().map(move |surface| {
+                let here = |found: &&Convergence| found.object == object && found.surface == surface;
+                let found: Vec<&Convergence> = self.convergence.iter().filter(here).collect();
+                let mut notes = vec!["slope of max, of RMS".to_owned()];
+                notes.extend(found.iter().map(|found| {
+                    let [max, rms] = [Level::max, Level::rms].map(|error| order(found.order(error)));
+                    format!("{}: {max}, {rms}", shading_name(found.shading))
+                }));
+                let title = format!("{}, {}", object.name(), surface.name());
+                Panel { title, notes, series: found.iter().flat_map(|found| convergence_series(found)).collect() }
+            })
+        });
+        Figure {
+            id: "convergence",
+            title: "Error of the shading method as the mesh is refined".to_owned(),
+            x: Axis::new("longest edge (the sphere's radius is 1)", Scale::Log),
+            y: Axis::new("error (linear, white = 1)", Scale::Log),
+            columns: 2,
+            panels: panels.collect(),
+        }
+    }
+
+    /// Energy over frames.
+    pub(super) fn highlight_figure(&self) -> Figure {
+        let truth = &self.energies.truth;
+        let mean = truth.iter().sum::<f64>() / truth.len() as f64;
+        let series = |name: &str, style: Style, energies: &[f64]| {
+            let points = energies.iter().enumerate().map(|(frame, energy)| {
+                let y = energy / mean;
+                Point { x: frame as f64, y, label: format!("{name}, frame {frame}: {y:.3}"), card: None }
+            });
+            Series { name: name.to_owned(), style: Style { marker: None, ..style }, points: points.collect() }
+        };
+        let shaded = SHADINGS.iter().zip(&self.energies.shaded);
+        let mut all: Vec<Series> =
+            shaded.map(|(shading, energies)| series(shading_name(*shading), style(*shading), energies)).collect();
+        let black = Style { color: [0x22; 3], marker: None, filled: true, stroke: Stroke::Solid };
+        all.push(series("true surface", black, truth));
+        Figure {
+            id: "highlight",
+            title: "Energy of a highlight while its light moves".to_owned(),
+            x: Axis::new("frame", Scale::Linear),
+            y: Axis::new("energy (mean of the true surface = 1)", Scale::Linear),
+            columns: 1,
+            panels: vec![Panel { title: self.coarse_sphere(), notes: Vec::new(), series: all }],
+        }
+    }
+
+    /// The sphere that the highlight moves over, in words.
+    pub(super) fn coarse_sphere(&self) -> String {
+        let rings = self.plan.highlight.level;
+        format!("sphere of {} meridians and {rings} bands", 2 * rings)
+    }
+}
+
+/// The largest and the RMS error of one shading.
+fn convergence_series(found: &Convergence) -> [Series; 2] {
+    let name = shading_name(found.shading);
+    let series = |what: &str, style: Style, error: fn(&Level) -> f64| {
+        let points = found.levels.iter().map(|level| {
+            let y = error(level);
+            let label = format!("{name}, {what}: {y:.3e} with {} triangles", level.triangles);
+            Point { x: level.edge, y, label, card: None }
+        });
+        Series { name: format!("{name}, {what}"), style, points: points.collect() }
+    };
+    let full = style(found.shading);
+    [
+        series("max", Style { filled: false, stroke: Stroke::Dash, ..full }, Level::max),
+        series("RMS", Style { stroke: Stroke::Solid, ..full }, Level::rms),
+    ]
+}
+
+/// An order of convergence with two decimals; a dash where there is none.
+pub(super) fn order(order: Option<f64>) -> String {
+    order.map_or_else(|| "–".to_owned(), |order| format!("{order:.2}"))
+}
+
+fn capital(text: &str) -> String {
+    let mut characters = text.chars();
+    characters.next().map(|first| first.to_uppercase().collect::<String>() + characters.as_str()).unwrap_or_default()
+}

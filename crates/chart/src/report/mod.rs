@@ -1,0 +1,99 @@
+//! Everything that is measured, and the files that tell it.
+
+mod charts;
+mod pages;
+mod plan;
+mod tables;
+mod write;
+
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+use crate::figure::svg::{self, Size, SvgError};
+use crate::measure::accuracy::{self, Measured};
+use crate::measure::convergence::{self, Convergence};
+use crate::measure::highlight::{self, Energies};
+use crate::measure::{MeasureError, Progress};
+use crate::page::html;
+
+pub use plan::Plan;
+pub use write::write;
+
+/// A report that could not be made.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum ReportError {
+    /// Something could not be measured.
+    #[error(transparent)]
+    Measure(#[from] MeasureError),
+    /// A chart could not be drawn.
+    #[error(transparent)]
+    Svg(#[from] SvgError),
+    /// A picture could not be put on the page.
+    #[error("a picture for the page: {0}")]
+    Picture(#[from] image::ImageError),
+    /// A file could not be written.
+    #[error("{}: {source}", file.display())]
+    Io {
+        /// The file.
+        file: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+}
+
+/// What was found.
+#[derive(Clone, Debug)]
+pub struct Report {
+    /// How much was measured.
+    pub plan: Plan,
+    /// What adapter drew, in a line.
+    pub adapter: String,
+    /// Error and time.
+    pub accuracy: Vec<Measured>,
+    /// Rates of convergence.
+    pub convergence: Vec<Convergence>,
+    /// The moving highlight.
+    pub energies: Energies,
+}
+
+/// A file's name and what is in it.
+pub type NamedFile = (String, String);
+
+/// Measures everything; `tell` hears of [`Plan::units`] done so far, and of what is being done.
+///
+/// # Errors
+/// The first picture that could not be drawn.
+pub fn measure(plan: Plan, tell: &mut dyn FnMut(u64, &str)) -> Result<Report, ReportError> {
+    let mut progress = Progress::new(tell);
+    let (accuracy, adapter) = accuracy::sweep(plan.accuracy, &mut progress)?;
+    let convergence = convergence::sweep(plan.convergence, &mut progress)?;
+    let energies = highlight::sweep(plan.highlight, &mut progress)?;
+    Ok(Report { plan, adapter, accuracy, convergence, energies })
+}
+
+impl Report {
+    /// The page `index.html`, and beside it every table as CSV and every chart as SVG.
+    ///
+    /// # Errors
+    /// What could not be drawn or encoded.
+    pub fn files(&self) -> Result<Vec<NamedFile>, ReportError> {
+        let page = self.page()?;
+        let mut files = vec![("index.html".to_owned(), html(&page)?)];
+        files.extend(self.tables());
+        for (_, figure) in page.sections.iter().flat_map(|section| &section.figures) {
+            let size = if figure.columns > 2 { Size { width: 1240, row: 300 } } else { Size { width: 900, row: 330 } };
+            files.push((format!("{}.svg", figure.id), svg::figure(figure, size)?));
+        }
+        Ok(files)
+    }
+
+    /// The main chart in small, as SVG 800 pixels wide: one reflectance, one viewer.
+    ///
+    /// # Errors
+    /// What the drawing library has to say.
+    pub fn small_chart(&self) -> Result<String, ReportError> {
+        Ok(svg::figure(&self.small_figure(), Size { width: 800, row: 330 })?)
+    }
+}

@@ -1,0 +1,47 @@
+//! `cargo xtask chart`.
+
+use std::process::Command;
+
+use crate::cargo::{cargo, root, step};
+use crate::failure::Result;
+use crate::setup::{DRIVER, Setup, adapters};
+
+/// Where the page goes.
+const FOLDER: &str = "out/chart";
+/// The README's chart, made again by all but quick runs.
+const PICTURE: &str = "docs/pictures/chart.svg";
+
+/// Sets up, builds, measures and writes the page.
+pub(crate) fn run(setup: Setup, quick: bool) -> Result {
+    setup.meet(&[DRIVER])?;
+    step("build", &mut cargo(["build", "--release", "-p", "halfway", "-p", "halfway_chart", "--bins"]))?;
+    adapters(setup)?;
+    step("measuring", &mut measuring(quick))?;
+    eprintln!("\nthe charts: {}", root().join(FOLDER).join("index.html").display());
+    Ok(())
+}
+
+fn measuring(quick: bool) -> Command {
+    let mut command = cargo(["run", "--release", "--quiet", "-p", "halfway_chart", "--", "--output", FOLDER]);
+    if quick {
+        command.arg("--quick");
+    } else {
+        command.args(["--small-chart", PICTURE]);
+    }
+    command
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cargo::written;
+
+    #[test]
+    fn quick_runs_leave_the_documentation_alone() {
+        let start = "cargo run --release --quiet -p halfway_chart -- --output out/chart";
+        assert!(written(&measuring(true)).ends_with(&format!("{} --quick", &start[5..])));
+        assert!(
+            written(&measuring(false)).ends_with(&format!("{} --small-chart docs/pictures/chart.svg", &start[5..]))
+        );
+    }
+}
