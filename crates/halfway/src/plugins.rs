@@ -15,8 +15,8 @@ use crate::record::HeadlessPlugin;
 /// Everything that a lit scene needs: tasks, assets, time, transforms, meshes, lighting, rendering, and a window where
 /// the feature `window` is on. Each plugin also works alone.
 ///
-/// Without a window: [`HalfwayPlugins::headless`]. As a demo that takes its target from the command line:
-/// [`HalfwayPlugins::from_args`].
+/// Without a window: [`HalfwayPlugins::headless`]. Without a renderer: [`HalfwayPlugins::reference`]. As a demo that takes
+/// its target from the command line: [`HalfwayPlugins::from_args`].
 #[derive(Clone, Copy, Debug, Default)]
 pub struct HalfwayPlugins;
 
@@ -34,6 +34,40 @@ impl HalfwayPlugins {
     /// [`render_picture`](halfway_render::render_picture) or [`record`](crate::record::record).
     pub fn headless(size: UVec2) -> PluginGroupBuilder {
         Self::common().add(HeadlessPlugin { size })
+    }
+
+    /// The group without a renderer, for scenes that only the [`Oracle`](halfway_reference::Oracle) draws. No graphics
+    /// adapter is needed.
+    ///
+    /// ```
+    /// use halfway::prelude::*;
+    /// use halfway::reference::{Oracle, OracleError};
+    ///
+    /// fn main() -> Result<(), OracleError> {
+    ///     let mut app = App::new();
+    ///     app.add_plugins(HalfwayPlugins::reference()).add_systems(Startup, scene);
+    ///     // One frame spawns the scene and puts everything in its place.
+    ///     app.update();
+    ///     let picture = Oracle::new(app.world_mut(), UVec2::new(64, 48))?.draw();
+    ///     let [red, _, blue] = picture.pixel(32, 24);
+    ///     assert!(red > 0.1 && red > blue);
+    ///     Ok(())
+    /// }
+    ///
+    /// fn scene(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>) {
+    ///     commands.spawn((Camera::default(), Transform::from_xyz(0.0, 0.0, 4.0)));
+    ///     commands.spawn((Mesh3d(meshes.add(UvSphere::default())), Material::BRASS));
+    ///     commands.spawn((PointLight::white(), Transform::from_xyz(0.0, 1.0, 4.0)));
+    /// }
+    /// ```
+    pub fn reference() -> PluginGroupBuilder {
+        PluginGroupBuilder::start::<Self>()
+            .add(TaskPoolPlugin::default())
+            .add(AssetPlugin::default())
+            .add(TimePlugin)
+            .add(TransformPlugin)
+            .add(MeshPlugin)
+            .add(LightingPlugin)
     }
 
     /// The group for a demo program: a window, or, with `--headless OUT.png` on the command line, pictures on disk.
@@ -56,13 +90,6 @@ impl HalfwayPlugins {
     }
 
     fn common() -> PluginGroupBuilder {
-        PluginGroupBuilder::start::<Self>()
-            .add(TaskPoolPlugin::default())
-            .add(AssetPlugin::default())
-            .add(TimePlugin)
-            .add(TransformPlugin)
-            .add(MeshPlugin)
-            .add(LightingPlugin)
-            .add(RenderPlugin::default())
+        Self::reference().add(RenderPlugin::default())
     }
 }

@@ -9,10 +9,15 @@ use bevy_app::{App, AppExit, Plugin, PluginsState};
 use bevy_math::UVec2;
 use bevy_time::TimeUpdateStrategy;
 use halfway_lighting::{Camera, Encoding};
-use halfway_render::{Headless, Picture, RenderError, render_picture};
+use halfway_reference::OracleError;
+use halfway_render::{Headless, Picture, Pixels, RenderError, render_picture};
 use thiserror::Error;
 
 use crate::output::{AnimationWriter, ContactSheet, FrameDelay, OutputError, PictureFormat, write_picture};
+
+mod reference;
+
+pub use reference::ReferenceDrawing;
 
 /// Makes the target a texture of `size` pixels. Part of [`HalfwayPlugins::headless`](crate::HalfwayPlugins::headless).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -136,6 +141,9 @@ pub enum RecordError {
     /// A frame could not be drawn.
     #[error("{0}")]
     Render(#[from] RenderError),
+    /// The reference renderer cannot draw a frame.
+    #[error("{0}")]
+    Oracle(#[from] OracleError),
     /// A frame could not be written.
     #[error("{0}")]
     Output(#[from] OutputError),
@@ -147,6 +155,17 @@ pub enum RecordError {
     Stopped(u32),
 }
 
+/// A frame that is to be drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Frame {
+    /// Counted from 0, as in [`Recording::frames`].
+    pub number: u32,
+    /// Width and height in pixels.
+    pub size: UVec2,
+    /// What a pixel has to hold so that the file can be written without loss.
+    pub pixels: Pixels,
+}
+
 /// Runs `app` frame by frame and writes what it draws. Time moves on by exactly 1/rate a frame, so that recordings
 /// repeat. `progress` is told how many frames are done of how many, and may stop the work.
 ///
@@ -155,6 +174,20 @@ pub enum RecordError {
 pub fn record(
     app: &mut App,
     recording: &Recording,
+    progress: impl FnMut(u32, u32) -> Continue,
+) -> Result<(), RecordError> {
+    record_with(app, recording, |app, _| Ok(render_picture(app)?), progress)
+}
+
+/// The same with a drawer of its own, such as [`ReferenceDrawing::picture`]. For each frame that is kept `draw` runs the
+/// App once and gives the picture.
+///
+/// # Errors
+/// The first thing that kept a frame from being drawn or written.
+pub fn record_with(
+    app: &mut App,
+    recording: &Recording,
+    mut draw: impl FnMut(&mut App, Frame) -> Result<Picture, RecordError>,
     mut progress: impl FnMut(u32, u32) -> Continue,
 ) -> Result<(), RecordError> {
     if recording.frames.is_empty() {
@@ -162,7 +195,7 @@ pub fn record(
     }
     let mut sink = Sink::new(recording)?;
     let pixels = if recording.is_animation() {
-        halfway_render::Pixels::Byte
+        Pixels::Byte
     } else {
         PictureFormat::of(&recording.path_of(0), recording.bits)?.pixels()
     };
@@ -172,12 +205,12 @@ pub fn record(
     for _ in 0..recording.frames.start {
         app.update();
     }
-    for frame in recording.frames.clone() {
-        let picture = render_picture(app)?;
-        sink.write(frame, &picture, encoding(app))?;
-        let done = frame - recording.frames.start + 1;
+    for number in recording.frames.clone() {
+        let picture = draw(app, Frame { number, size: recording.size, pixels })?;
+        sink.write(number, &picture, encoding(app))?;
+        let done = number - recording.frames.start + 1;
         if progress(done, recording.frames.len() as u32) == Continue::No {
-            return Err(RecordError::Stopped(frame));
+            return Err(RecordError::Stopped(number));
         }
     }
     sink.finish(encoding(app))
@@ -192,8 +225,13 @@ fn ready(app: &mut App) {
 }
 
 fn encoding(app: &mut App) -> Encoding {
+    camera(app).encoding
+}
+
+/// The world's camera; a default one where there is none, which whoever draws will refuse.
+fn camera(app: &mut App) -> Camera {
     let world = app.world_mut();
-    world.query::<&Camera>().iter(world).next().map(|camera| camera.encoding).unwrap_or_default()
+    world.query::<&Camera>().iter(world).next().copied().unwrap_or_default()
 }
 
 /// Where frames go.

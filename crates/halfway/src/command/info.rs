@@ -3,13 +3,13 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use halfway::mesh::{AlphaMode, Model, SourceLightKind, SourceMaterial};
+use halfway::mesh::{AlphaMode, Mesh, Meshlets, Model, SourceLightKind, SourceMaterial};
 
 use super::Failure;
 
 #[derive(Args, Debug)]
 pub(super) struct InfoArgs {
-    /// A model (.smf, .obj, .gltf, .glb)
+    /// A model (.smf, .obj, .gltf, .glb, .ply, .stl)
     model: PathBuf,
 }
 
@@ -19,10 +19,8 @@ pub(super) fn run(args: &InfoArgs) -> Result<(), Failure> {
     print_shape(&model);
     for part in &model.parts {
         let material = part.material.and_then(|i| model.materials.get(i)).map_or("none", SourceMaterial::name);
-        let (triangles, vertices) = (part.mesh.triangle_count(), part.mesh.positions().len());
-        let uvs = if part.mesh.uvs().is_some() { ", uv" } else { "" };
-        println!("part       \"{}\": {triangles} triangles, {vertices} vertices{uvs}; material {material}", part.name);
-        println!("  problems {}", part.mesh.problems());
+        println!("part       \"{}\": {}; material {material}", part.name, attributes(&part.mesh));
+        print_mesh(&part.mesh);
     }
     model.materials.iter().for_each(print_material);
     for light in &model.lights {
@@ -37,6 +35,30 @@ pub(super) fn run(args: &InfoArgs) -> Result<(), Failure> {
         println!("warning    {warning}");
     }
     Ok(())
+}
+
+fn attributes(mesh: &Mesh) -> String {
+    let has =
+        [(mesh.uvs().is_some(), "uvs"), (mesh.colors().is_some(), "colours"), (mesh.tangents().is_some(), "tangents")];
+    let has = has.iter().filter(|(has, _)| *has).map(|(_, what)| *what);
+    ["positions", "normals"].into_iter().chain(has).collect::<Vec<_>>().join(", ")
+}
+
+/// What the mesh is like, and what it can be made into.
+fn print_mesh(mesh: &Mesh) {
+    let report = mesh.report();
+    report.to_string().lines().for_each(|line| println!("  {line}"));
+    println!("  optimised  {:.3} vertices loaded a triangle", mesh.optimized().report().cache_misses);
+    let meshlets = mesh.meshlets(Meshlets::DEFAULT_TRIANGLES).meshlets;
+    let count = meshlets.len() as f64;
+    let radius = meshlets.iter().map(|meshlet| f64::from(meshlet.sphere.radius)).sum::<f64>() / count;
+    let degrees = |cos: f32| f64::from(cos).clamp(-1.0, 1.0).acos().to_degrees();
+    let angle = meshlets.iter().map(|meshlet| degrees(meshlet.normals.cos)).sum::<f64>() / count;
+    println!("  meshlets   {count} of {:.0} triangles in the mean", report.triangles as f64 / count);
+    println!("             mean radius {radius:.3e}, mean half angle of the normals {angle:.0}°");
+    let levels = mesh.levels_of_detail();
+    let levels = levels.iter().map(|level| format!("{} ({:.2e})", level.mesh.triangle_count(), level.error));
+    println!("  levels     triangles (error): {}", levels.collect::<Vec<_>>().join(", "));
 }
 
 fn print_shape(model: &Model) {

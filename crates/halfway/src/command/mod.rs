@@ -2,9 +2,15 @@
 
 mod adapters;
 mod bench;
+mod compare;
+mod convert;
+mod figures;
 mod info;
 mod input;
+mod picture;
+mod progress;
 mod render;
+mod verify;
 #[cfg(feature = "window")]
 mod view;
 
@@ -21,7 +27,8 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
     version,
     max_term_width = 100,
     after_help = "Exit codes: 0 done; 1 the graphics device \
-    failed; 2 the input or the command line cannot be used; 3 there is no graphics adapter."
+    failed; 2 the input or the command line cannot be used; 3 there is no graphics adapter; 4 pictures differ by more than they \
+    may; 130 stopped by Ctrl-C."
 )]
 struct Cli {
     #[command(subcommand)]
@@ -30,7 +37,7 @@ struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Draw a scene file (.json) or a model (.smf, .obj, .gltf, .glb) into a picture
+    /// Draw a scene file (.json) or a model (.smf, .obj, .gltf, .glb, .ply, .stl) into a picture
     Render(render::RenderArgs),
     /// Show a scene or a model in a window
     ///
@@ -38,8 +45,20 @@ enum Command {
     /// Home resets, Escape closes.
     #[cfg(feature = "window")]
     View(view::ViewArgs),
+    /// Say how far one picture is from another, and draw where
+    ///
+    /// Figures are of the errors of A, with B as what is expected, on the pixels that both cover. Exit code 4 where a pixel
+    /// differs by more than --max allows.
+    Compare(compare::CompareArgs),
+    /// Draw a scene with the graphics adapter and with the reference renderer, and judge the one by the other
+    ///
+    /// Pixels on edges, where rounding decides which side is seen, are told apart. Exit code 4 where another differs by
+    /// more than --max allows.
+    Verify(verify::VerifyArgs),
     /// Print what a model holds, and what is wrong with it
     Info(info::InfoArgs),
+    /// Write a model in another format, and print what that cannot hold
+    Convert(convert::ConvertArgs),
     /// Time a benchmark scene in every shading, beside a constant colour
     Bench(bench::BenchArgs),
     /// List the graphics adapters; exit code 3 where there is none
@@ -51,7 +70,7 @@ enum Command {
 /// How the scene is drawn; what is given here wins over the scene file.
 #[derive(Args, Clone, Debug)]
 struct LookArgs {
-    /// A scene file (.json) or a model (.smf, .obj, .gltf, .glb)
+    /// A scene file (.json) or a model (.smf, .obj, .gltf, .glb, .ply, .stl)
     #[arg(value_name = "SCENE|MODEL")]
     input: PathBuf,
     /// How often surfaces are shaded [default: the scene's; phong for a model]
@@ -92,6 +111,11 @@ struct Failure {
     error: Box<dyn Error>,
 }
 
+/// The exit code of pictures that differ by more than they may.
+const DIFFERENT: u8 = 4;
+/// The exit code of work that Ctrl-C stopped, as shells have it.
+const STOPPED: u8 = 130;
+
 impl Failure {
     fn new(code: u8, error: impl Into<Box<dyn Error>>) -> Self {
         Self { code, error: error.into() }
@@ -108,7 +132,14 @@ macro_rules! bad_input {
         })*
     };
 }
-bad_input!(halfway::scene::SceneError, halfway::mesh::LoadError, halfway::output::OutputError, String);
+bad_input!(
+    halfway::scene::SceneError,
+    halfway::mesh::LoadError,
+    halfway::mesh::WriteError,
+    halfway::output::OutputError,
+    halfway::reference::OracleError,
+    String
+);
 
 impl From<halfway::render::RenderError> for Failure {
     fn from(error: halfway::render::RenderError) -> Self {
@@ -127,7 +158,7 @@ impl From<halfway::record::RecordError> for Failure {
         use halfway::record::RecordError as E;
         match error {
             E::Render(error) => error.into(),
-            E::Stopped(_) => Self::new(130, error),
+            E::Stopped(_) => Self::new(STOPPED, error),
             other => Self::new(2, other),
         }
     }
@@ -141,7 +172,10 @@ pub(crate) fn main() -> ExitCode {
         Command::Render(args) => render::run(&args),
         #[cfg(feature = "window")]
         Command::View(args) => view::run(&args),
+        Command::Compare(args) => compare::run(&args),
+        Command::Verify(args) => verify::run(&args),
         Command::Info(args) => info::run(&args),
+        Command::Convert(args) => convert::run(&args),
         Command::Bench(args) => bench::run(&args),
         Command::Adapters => adapters::run(),
         Command::Schema => {

@@ -5,10 +5,12 @@ use std::path::PathBuf;
 
 use clap::Args;
 use halfway::prelude::*;
-use halfway::record::{Continue, Recording, parse_size, record};
-use indicatif::{ProgressBar, ProgressStyle};
+use halfway::record::{Recording, ReferenceDrawing, parse_size, record, record_with};
+use halfway::reference::Mode;
+use halfway::render::{Gpu, RenderError};
 
 use super::input::Input;
+use super::progress::Progress;
 use super::{Failure, LookArgs};
 
 #[derive(Args, Debug)]
@@ -30,6 +32,72 @@ pub(super) struct RenderArgs {
     /// Also put up to 16 of the frames, small, on one PNG
     #[arg(long, value_name = "FILE")]
     contact_sheet: Option<PathBuf>,
+    /// Draw with the reference renderer: every pixel in 64-bit arithmetic on the CPU, without a graphics adapter
+    #[arg(long)]
+    reference: bool,
+    /// Draw spheres, teapots and other surfaces that are known by formula as they are, and not the triangles that stand
+    /// for them
+    #[arg(long, requires = "reference")]
+    surface: bool,
+    /// N × N samples a pixel, 1 to 16 [default: 1; 2 where the scene has four samples]
+    #[arg(long, value_name = "N", requires = "reference", value_parser = clap::value_parser!(u32).range(1..=16))]
+    supersample: Option<u32>,
+}
+
+/// What draws the frames.
+enum Drawer {
+    Adapter(Gpu),
+    Reference(ReferenceDrawing),
+}
+
+impl Drawer {
+    /// The adapter, unless the command line wants the reference renderer or there is none.
+    fn choose(args: &RenderArgs) -> Result<Self, Failure> {
+        let mode = if args.surface { Mode::Surface } else { Mode::Mesh };
+        let reference = ReferenceDrawing { mode, supersampling: args.supersample };
+        if args.reference {
+            return Ok(Self::Reference(reference));
+        }
+        match Gpu::open_headless() {
+            Ok(gpu) => Ok(Self::Adapter(gpu)),
+            Err(error @ (RenderError::NoAdapter | RenderError::NoDevice { .. })) => {
+                eprintln!(
+                    "warning: no graphics adapter: drawn by the reference renderer on the CPU, exactly and slowly"
+                );
+                eprintln!("note: {error}");
+                Ok(Self::Reference(reference))
+            }
+            Err(error) => Err(error.into()),
+        }
+    }
+
+    fn app(&self, size: UVec2) -> App {
+        let mut app = App::new();
+        match self {
+            Self::Adapter(gpu) => app.add_plugins(HalfwayPlugins::headless(size)).insert_resource(gpu.clone()),
+            Self::Reference(_) => app.add_plugins(HalfwayPlugins::reference()),
+        };
+        app
+    }
+
+    fn record(&self, app: &mut App, recording: &Recording) -> Result<(), Failure> {
+        let frames = recording.frames.len() as u32;
+        match self {
+            Self::Adapter(_) => {
+                let progress = Progress::of_frames(frames);
+                record(app, recording, |done, _| progress.frame(done))?;
+            }
+            Self::Reference(drawing) => {
+                let progress = Progress::of_tiles();
+                let draw = |app: &mut App, frame: halfway::record::Frame| {
+                    let index = frame.number - recording.frames.start;
+                    drawing.picture(app, frame, &|done, of| progress.tile(index, frames, done, of))
+                };
+                record_with(app, recording, draw, |_, _| progress.going_on())?;
+            }
+        }
+        Ok(())
+    }
 }
 
 pub(super) fn run(args: &RenderArgs) -> Result<(), Failure> {
@@ -42,8 +110,8 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), Failure> {
         contact_sheet: args.contact_sheet.clone(),
         ..Recording::new(args.output.clone())
     };
-    let mut app = App::new();
-    app.add_plugins(HalfwayPlugins::headless(size));
+    let drawer = Drawer::choose(args)?;
+    let mut app = drawer.app(size);
     // A camera that frames everything has to know the picture's shape.
     input.scene.size = size.to_array();
     let spawned = input.spawn(&mut app)?;
@@ -51,22 +119,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), Failure> {
         let turntable = Turntable::new(&app, spawned.camera);
         app.insert_resource(turntable).add_systems(Update, turn);
     }
-    let bar = progress_bar(recording.frames.len() as u64);
-    record(&mut app, &recording, |done, _| {
-        bar.set_position(done.into());
-        Continue::Yes
-    })?;
-    bar.finish_and_clear();
-    Ok(())
-}
-
-/// A bar on standard error; hidden for a single picture, and where standard error is no terminal.
-fn progress_bar(frames: u64) -> ProgressBar {
-    if frames < 2 {
-        return ProgressBar::hidden();
-    }
-    let style = ProgressStyle::with_template("{bar:40} {pos}/{len} frames, {eta} left");
-    ProgressBar::new(frames).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+    drawer.record(&mut app, &recording)
 }
 
 /// The camera goes round the point on its axis that is nearest to the middle of what it sees.

@@ -4,7 +4,7 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 
 use bevy_math::{Vec2, Vec3};
-use halfway_mesh::{Cuboid, Mesh, MeshError, NormalWeighting, Normals, Plane, SurfaceError, Teapot, UvSphere};
+use halfway_mesh::{Cuboid, Format, Mesh, MeshError, NormalWeighting, Normals, Plane, SurfaceError, Teapot, UvSphere};
 use schemars::JsonSchema;
 use serde::de::{Deserializer, Error, MapAccess, Visitor};
 use serde::{Deserialize, Serialize};
@@ -16,7 +16,7 @@ use super::read::{Given, Object, Word, no_more};
 #[derive(Serialize, JsonSchema, Clone, Debug, PartialEq)]
 #[serde(rename_all = "snake_case")]
 pub enum MeshEntry {
-    /// A model file, relative to the scene file: smf, obj, gltf or glb (ply and stl: not yet).
+    /// A model file, relative to the scene file: smf, obj, gltf, glb, ply or stl.
     Path(PathBuf),
     /// A sphere about the origin.
     UvSphere(UvSphereEntry),
@@ -119,7 +119,7 @@ pub struct InlineMesh {
 #[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[serde(rename_all = "snake_case")]
 pub enum NormalsEntry {
-    /// The file's or the surface's own, else by the default weighting, which is `angle`.
+    /// The file's or the surface's own, else by the default weighting, which is `max`.
     #[default]
     Keep,
     /// One normal a triangle.
@@ -223,17 +223,13 @@ impl InlineMesh {
 }
 
 fn check_path(path: &Path) -> Check {
-    let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
-    match extension.as_deref() {
-        Some("smf" | "obj" | "gltf" | "glb") => Ok(()),
-        Some(format @ ("ply" | "stl")) => {
-            Err(Problem::new("", format!("not yet: this version does not read {format}; {KNOWN_MODELS}")))
-        }
-        _ => Err(Problem::new("", format!("is {}; {KNOWN_MODELS}", path.display()))),
+    match Format::of(path) {
+        Some(_) => Ok(()),
+        None => Err(Problem::new("", format!("is {}; {KNOWN_MODELS}", path.display()))),
     }
 }
 
-const KNOWN_MODELS: &str = "expected a file that ends in .smf, .obj, .gltf or .glb";
+const KNOWN_MODELS: &str = "expected a file that ends in .smf, .obj, .gltf, .glb, .ply or .stl";
 
 fn multiple_of_three(key: &str, length: usize) -> Check {
     if length.is_multiple_of(3) {

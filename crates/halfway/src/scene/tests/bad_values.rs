@@ -127,19 +127,9 @@ pub(super) const OUT_OF_RANGE: &[Bad] = &[
         "`objects[1].name`: is \"a\", as of an object before; expected a name of its own",
     ),
     (
-        r#"{"objects": [{"mesh": {"path": "a.stl"}}]}"#,
-        (1, 32),
-        "`objects[0].mesh.path`: not yet: this version does not read stl; expected a file that ends in .smf, ",
-    ),
-    (
-        r#"{"objects": [{"mesh": {"path": "a.PLY"}}]}"#,
-        (1, 32),
-        "`objects[0].mesh.path`: not yet: this version does not read ply; ",
-    ),
-    (
         r#"{"objects": [{"mesh": {"path": "a.fbx"}}]}"#,
         (1, 32),
-        "`objects[0].mesh.path`: is a.fbx; expected a file that ends in .smf, .obj, .gltf or .glb",
+        "`objects[0].mesh.path`: is a.fbx; expected a file that ends in .smf, .obj, .gltf, .glb, .ply or .stl",
     ),
     (r#"{"objects": [{"mesh": {"path": ""}}]}"#, (1, 32), "`objects[0].mesh.path`: is ; expected a file that ends in"),
     (
