@@ -1,8 +1,8 @@
 //! Whole-system tests of the renderer: scenes are spawned through the facade, drawn headless, and their pixels
-//! compared with the f64 evaluation of what the shading means.
+//! compared with what the oracle draws of the same world, and with closed forms.
 //!
-//! `render/scene.rs` describes a scene once; `render/stage.rs` spawns and draws it; `render/oracle.rs` says what each
-//! pixel should be; `render/compare.rs` measures the difference.
+//! `render/scene.rs` describes a scene; `render/stage.rs` spawns and draws it; `render/compare.rs` judges the picture.
+//! `render/conformance.rs` is the table of all features and all pairs of them.
 
 #![expect(clippy::float_cmp, reason = "what is exact in binary, and what is copied, is compared to the bit")]
 #![expect(clippy::type_complexity, reason = "a table's rows are tuples, with a function for what differs")]
@@ -10,22 +10,25 @@
 mod render {
     mod blend;
     mod changes;
+    mod closed_forms;
     mod compare;
+    mod conformance;
     mod counters;
     mod degenerate;
     mod edges;
     mod errors;
+    mod failures;
+    mod known_issues;
     mod light_counts;
-    mod oracle;
     mod picture;
     mod pipelines;
     mod plugins;
+    mod properties;
     mod random;
     mod scene;
     mod sides;
     mod stage;
     mod surfaces;
-    mod sweep;
     mod terms;
     mod transforms;
     mod values;

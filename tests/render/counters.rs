@@ -1,6 +1,6 @@
 //! What a frame did, by its own count: nothing is done twice, and nothing that cannot be seen.
 
-use crate::render::compare::{Failures, assert_identical};
+use crate::render::compare::{Failures, assert_as_expected, assert_identical};
 use crate::render::scene::{Lamp, Scene, Thing, directional_light, other_material, point_light};
 use crate::render::stage::Stage;
 use halfway::prelude::*;
@@ -288,7 +288,7 @@ fn scaled_and_sheared_objects_are_never_cut_away_while_they_show() {
             .lit(Lamp::directional(directional_light(), Vec3::NEG_Z));
         let picture = stage.draw(&scene);
         assert_eq!(stage.report().visible, 1, "{row}");
-        crate::render::compare::assert_as_expected(row, &scene, &picture);
+        assert_as_expected(row, &mut stage, &scene);
         assert!(picture.get_pixel(16, 16).0[0] > 0.0, "{row} does not reach the centre");
     }
 }

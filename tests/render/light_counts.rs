@@ -61,7 +61,7 @@ fn any_number_of_lights_adds_up() {
         for shading in [Shading::Flat, Shading::Gouraud, Shading::Phong] {
             let mut scene = over_floor().with(floor().shaded(shading));
             scene.lamps.clone_from(&lamps);
-            failures.compare(&format!("{count} lights, {shading:?}"), &scene, &stage.draw(&scene), FLOAT);
+            failures.draw(&format!("{count} lights, {shading:?}"), &mut stage, &scene, FLOAT);
             assert_eq!(stage.report().lights as usize, count, "{shading:?}");
         }
     }
@@ -79,7 +79,7 @@ fn mixed_frequencies_shade_from_two_lists_of_any_length() {
             let mut scene = over_floor().with(floor().terms(diffuse, specular));
             scene.lamps = mixed_lamps(count);
             let row = format!("{count} lights, diffuse {diffuse:?}, specular {specular:?}");
-            failures.compare(&row, &scene, &stage.draw(&scene), FLOAT);
+            failures.draw(&row, &mut stage, &scene, FLOAT);
         }
     }
     failures.finish();
@@ -100,7 +100,7 @@ fn objects_of_one_frame_may_use_lists_of_different_lengths() {
             .with(strip(2.5).shaded(Shading::Gouraud))
             .with(strip(-2.5).shaded(Shading::Flat));
         scene.lamps = mixed_lamps(count);
-        failures.compare(&format!("{count} lights"), &scene, &stage.draw(&scene), FLOAT);
+        failures.draw(&format!("{count} lights"), &mut stage, &scene, FLOAT);
     }
     failures.finish();
 }

@@ -1,7 +1,6 @@
 //! The picture itself: encodings, background, clamping, samples, sizes, depth, what the camera sees.
 
-use crate::render::compare::{assert_as_expected, assert_identical, difference};
-use crate::render::oracle::Oracle;
+use crate::render::compare::{FLOAT, Failures, SRGB, assert_as_expected, assert_identical, difference};
 use crate::render::scene::{Lamp, Scene, Thing, directional_light, glowing, point_light};
 use crate::render::stage::Stage;
 use halfway::prelude::*;
@@ -99,12 +98,12 @@ fn four_samples_smooth_edges_and_leave_the_inside_as_it_is() {
         let one = stage.draw(&scene);
         scene.camera.samples = Samples::Four;
         let four = stage.draw(&scene);
-        let oracle = Oracle::new(&scene, 48, 48);
+        let oracle = stage.oracle();
         let (mut inside, mut between) = (0, 0);
         for (x, y, pixel) in four.enumerate_pixels() {
             let corners = [(0, 0), (1, 0), (0, 1), (1, 1)];
             let hit = corners
-                .map(|(dx, dy)| oracle.hits(f64::from(x + dx), f64::from(y + dy)).first().map(|hit| hit.triangle));
+                .map(|(dx, dy)| oracle.seen(f64::from(x + dx), f64::from(y + dy)).nearest.map(|hit| hit.triangle));
             let single = one.get_pixel(x, y).0;
             if hit.iter().all(|triangle| *triangle == hit[0]) {
                 inside += usize::from(hit[0].is_some());
@@ -140,6 +139,7 @@ fn pictures_of_every_size_are_read_back_whole() {
         (96, 33),
         (33, 96),
     ];
+    let mut failures = Failures::default();
     for (width, height) in sizes {
         for samples in [Samples::One, Samples::Four] {
             let mut scene = Scene::seen_from(Vec3::new(0.5, 1.0, 2.0), Vec3::ZERO)
@@ -154,11 +154,13 @@ fn pictures_of_every_size_are_read_back_whole() {
             let bytes = stage.bytes();
             assert_eq!(bytes.dimensions(), (width, height));
             if samples == Samples::One {
-                assert_as_expected(&format!("{width} × {height}"), &scene, &float);
-                crate::render::compare::assert_same_in_bytes("bytes", &float, &bytes, Encoding::Srgb);
+                let row = format!("{width} × {height}");
+                failures.compare(&row, &mut stage, &float, FLOAT);
+                failures.compare_bytes(&format!("{row}, bytes"), &mut stage, &bytes, SRGB);
             }
         }
     }
+    failures.finish();
 }
 
 #[test]
@@ -169,14 +171,14 @@ fn right_is_right_and_up_is_the_first_row() {
         .with(Thing::square(Vec3::new(-0.5, 0.3, -2.0), Vec3::Z, 0.2).of(glowing(0.0, 1.0, 0.0)))
         .with(Thing::square(Vec3::new(0.5, -0.3, -2.0), Vec3::Z, 0.2).of(glowing(0.0, 0.0, 1.0)));
     let picture = stage.draw(&scene);
-    let oracle = Oracle::new(&scene, 32, 24);
+    let oracle = stage.oracle();
     for (at, expected) in [
         (Vec3::new(0.5, 0.3, -2.0), [1.0, 0.0, 0.0, 1.0]),
         (Vec3::new(-0.5, 0.3, -2.0), [0.0, 1.0, 0.0, 1.0]),
         (Vec3::new(0.5, -0.3, -2.0), [0.0, 0.0, 1.0, 1.0]),
         (Vec3::new(-0.5, -0.3, -2.0), [0.0, 0.0, 0.0, 1.0]),
     ] {
-        let (x, y) = oracle.pixel_of(at).expect("before the camera");
+        let (x, y) = oracle.project(at.as_dvec3()).expect("before the camera");
         assert_eq!(x > 16.0, at.x > 0.0);
         assert_eq!(y < 12.0, at.y > 0.0);
         assert_eq!(picture.get_pixel(x as u32, y as u32).0, expected, "{at}");
@@ -195,7 +197,7 @@ fn every_field_of_view_and_roll_is_projected_right() {
                 .lit(Lamp::directional(directional_light(), Vec3::new(-0.3, -0.5, -1.0)));
             scene.eye.rotation *= Quat::from_rotation_z(roll);
             (scene.camera.fov_y, scene.camera.near) = (fov_y, 1e-2);
-            assert_as_expected(&format!("fov {fov_y}, roll {roll}"), &scene, &stage.draw(&scene));
+            assert_as_expected(&format!("fov {fov_y}, roll {roll}"), &mut stage, &scene);
         }
     }
 }
@@ -257,7 +259,7 @@ fn intersecting_objects_hide_each_other_pixel_by_pixel() {
         .with(Thing::square(Vec3::ZERO, Vec3::new(0.5, 0.0, 1.0), 2.5).of(glowing(0.9, 0.1, 0.0)).faces(Faces::Both))
         .with(Thing::square(Vec3::ZERO, Vec3::new(-0.6, 0.3, 1.0), 2.5).of(glowing(0.1, 0.9, 0.0)).faces(Faces::Both))
         .with(Thing::new(UvSphere::new(0.7, 16, 8)).of(glowing(0.2, 0.3, 0.9)));
-    assert_as_expected("two squares through a sphere", &scene, &stage.draw(&scene));
+    assert_as_expected("two squares through a sphere", &mut stage, &scene);
 }
 
 #[test]

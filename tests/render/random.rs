@@ -1,7 +1,5 @@
 //! Seeded random numbers, the same on every machine.
 
-use bevy_math::Vec3;
-
 /// `splitmix64`, Steele, Lea and Flood 2014.
 pub(crate) struct Random(pub(crate) u64);
 
@@ -22,30 +20,7 @@ impl Random {
         low + (high - low) * self.unit()
     }
 
-    /// 10^x with x uniform in −8 … 8.
-    pub(crate) fn magnitude(&mut self) -> f32 {
-        10f64.powf(f64::from(self.between(-8.0, 8.0))) as f32
-    }
-
     pub(crate) fn below(&mut self, n: usize) -> usize {
         (self.bits() % n as u64) as usize
-    }
-
-    pub(crate) fn pick<T: Copy>(&mut self, from: &[T]) -> T {
-        from[self.below(from.len())]
-    }
-
-    pub(crate) fn chance(&mut self, share: f32) -> bool {
-        self.unit() < share
-    }
-
-    /// A direction, unit length.
-    pub(crate) fn direction(&mut self) -> Vec3 {
-        loop {
-            let v = Vec3::new(self.between(-1.0, 1.0), self.between(-1.0, 1.0), self.between(-1.0, 1.0));
-            if (0.01..1.0).contains(&v.length_squared()) {
-                return v.normalize();
-            }
-        }
     }
 }

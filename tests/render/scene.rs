@@ -1,6 +1,5 @@
-//! A scene as plain data: what the stage spawns and the oracle evaluates.
+//! A scene as plain data, which the stage spawns.
 
-use bevy_math::{DAffine3, Vec3};
 use halfway::lighting::Frequency;
 use halfway::lighting::rotation_along;
 use halfway::prelude::*;
@@ -18,14 +17,14 @@ pub(crate) struct Scene {
     pub(crate) things: Vec<Thing>,
 }
 
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 pub(crate) struct Lamp {
     pub(crate) kind: Kind,
     pub(crate) on: On,
     pub(crate) at: Transform,
 }
 
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 pub(crate) enum Kind {
     Directional(DirectionalLight),
     Point(PointLight),
@@ -33,7 +32,7 @@ pub(crate) enum Kind {
 }
 
 /// What a lamp is attached to.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) enum On {
     World,
     Camera,
@@ -88,17 +87,6 @@ impl Scene {
         self.ambient = LinearRgba::rgb(grey, grey, grey);
         self
     }
-
-    /// The frames of a lamp, outermost first.
-    pub(crate) fn lamp_frames(&self, lamp: &Lamp) -> Vec<Transform> {
-        let mut frames = match lamp.on {
-            On::World => Vec::new(),
-            On::Camera => vec![self.eye],
-            On::Thing(thing) => self.things[thing].frames.clone(),
-        };
-        frames.push(lamp.at);
-        frames
-    }
 }
 
 impl Lamp {
@@ -123,6 +111,14 @@ impl Lamp {
 /// A transform at `at` whose −Z axis is `direction`.
 pub(crate) fn shining(at: Vec3, direction: Vec3) -> Transform {
     Transform::from_translation(at).with_rotation(rotation_along(direction).expect("a direction"))
+}
+
+pub(crate) fn scaled(x: f32, y: f32, z: f32) -> Transform {
+    Transform::from_scale(Vec3::new(x, y, z))
+}
+
+pub(crate) fn rotated(x: f32, y: f32, z: f32) -> Transform {
+    Transform::from_rotation(Quat::from_euler(EulerRot::XYZ, x, y, z))
 }
 
 impl Thing {
@@ -244,16 +240,4 @@ pub(crate) fn point_light() -> PointLight {
 pub(crate) fn directional_light() -> DirectionalLight {
     let PointLight { ambient, diffuse, specular, .. } = point_light();
     DirectionalLight { ambient, diffuse, specular }
-}
-
-/// The transform of a chain of frames, outermost first, in f64.
-pub(crate) fn world_from(frames: &[Transform]) -> DAffine3 {
-    frames.iter().fold(DAffine3::IDENTITY, |outer, frame| {
-        outer
-            * DAffine3::from_scale_rotation_translation(
-                frame.scale.as_dvec3(),
-                frame.rotation.as_dquat().normalize(),
-                frame.translation.as_dvec3(),
-            )
-    })
 }

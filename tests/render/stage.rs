@@ -2,6 +2,7 @@
 
 use crate::render::scene::{Kind, Lamp, On, Scene, Thing};
 use halfway::prelude::*;
+use halfway::reference::Oracle;
 use halfway::render::RenderError;
 use image::{Rgba32FImage, RgbaImage};
 
@@ -29,6 +30,14 @@ impl Stage {
 
     pub(crate) fn pixels(&mut self, pixels: Pixels) {
         self.world().resource_mut::<Headless>().pixels = pixels;
+    }
+
+    /// What the camera's bytes are to mean from now on.
+    pub(crate) fn encode(&mut self, encoding: Encoding) {
+        let world = self.world();
+        for mut camera in world.query::<&mut Camera>().iter_mut(world) {
+            camera.encoding = encoding;
+        }
     }
 
     pub(crate) fn target_size(&mut self, width: u32, height: u32) {
@@ -67,6 +76,12 @@ impl Stage {
         let entity = self.world().spawn(bundle).id();
         self.spawned.push(entity);
         entity
+    }
+
+    /// What should be seen of what stands, since the last frame.
+    pub(crate) fn oracle(&mut self) -> Oracle {
+        let size = self.world().resource::<Headless>().size;
+        Oracle::new(self.world(), size).unwrap_or_else(|error| panic!("{error}"))
     }
 
     fn thing(&mut self, thing: &Thing) -> Entity {

@@ -1,6 +1,6 @@
 //! Every shading × reflectance × light kind × viewer, pixel by pixel against the f64 evaluation.
 
-use crate::render::compare::{FLOAT, Measured, Traced, assert_same_in_bytes};
+use crate::render::compare::{FLOAT, Failures, SRGB};
 use crate::render::scene::{Lamp, Scene, Thing, directional_light, point_light};
 use crate::render::stage::Stage;
 use halfway::prelude::*;
@@ -43,11 +43,10 @@ fn geometries() -> [(&'static str, Scene, [Vec3; 2]); 2] {
 /// Draws every combination under one shading, in floating point and in bytes.
 fn every_combination(shading: Shading) {
     let mut stage = Stage::new(SIZE, SIZE);
+    let mut failures = Failures::default();
     for (geometry, mut scene, [at, target]) in geometries() {
         scene.things[0].shading = Some(shading);
         scene.camera.background = LinearRgba::rgb(0.02, 0.03, 0.04);
-        let traced = Traced::new(&scene, SIZE, SIZE);
-        let mut worst = Measured { covered: 1.0, ..Measured::default() };
         let lamps = lamps(at, target);
         let products = REFLECTANCES
             .into_iter()
@@ -58,15 +57,13 @@ fn every_combination(shading: Shading) {
             let mut scene = scene.clone().lit(lamp.clone());
             scene.camera.viewer = viewer;
             scene.things[0].reflectance = Some(reflectance);
-            let picture = stage.draw(&scene);
-            let measured = traced.measure(&scene, &picture, FLOAT).unwrap_or_else(|what| panic!("{row}: {what}"));
-            measured.assert_within(&row, FLOAT);
-            worst = worst.or(measured);
-            assert_same_in_bytes(&row, &picture, &stage.bytes(), Encoding::Srgb);
+            let verdict = failures.draw(&row, &mut stage, &scene, FLOAT);
+            failures.unless(verdict.counted > 0.4, || format!("{row}: {verdict}"));
+            let bytes = stage.bytes();
+            failures.compare_bytes(&format!("{row}, bytes"), &mut stage, &bytes, SRGB);
         }
-        println!("{geometry}, {shading:?}: {worst}");
-        assert!(worst.covered > 0.4, "{geometry} covers only {:.0} % of the picture", worst.covered * 100.0);
     }
+    failures.finish();
 }
 
 #[test]

@@ -98,6 +98,19 @@ fn spot_by_hand() {
 }
 
 #[test]
+fn the_edge_of_a_cone_belongs_to_it() {
+    for cos_cutoff in [0.25, 0.5, 0.75, 1.0] {
+        let cone = |cos_inner| ConeTerms { direction: [0.0, 0.0, -1.0], cos_cutoff, cos_inner, exponent: 2.0 };
+        let on = cos_cutoff * cos_cutoff;
+        assert_eq!(spot_factor(cos_cutoff, &cone(None)), on, "a hard edge at {cos_cutoff}");
+        assert_eq!(spot_factor(cos_cutoff, &cone(Some(cos_cutoff))), on, "inner as wide as the cutoff, {cos_cutoff}");
+        assert_eq!(spot_factor(cos_cutoff - 1e-15, &cone(None)), 0.0, "just outside {cos_cutoff}");
+    }
+    let fading = ConeTerms { direction: [0.0, 0.0, -1.0], cos_cutoff: 0.5, cos_inner: Some(0.75), exponent: 0.0 };
+    assert_eq!([0.5, 0.625, 0.75].map(|cos| spot_factor(cos, &fading)), [0.0, 0.25, 1.0], "a fade ends at its edges");
+}
+
+#[test]
 fn a_right_angle_cone_ends_at_the_right_angle() {
     let half_space = |exponent| ConeTerms { direction: [0.0, 0.0, -1.0], cos_cutoff: 0.0, cos_inner: None, exponent };
     assert_eq!(spot_factor(0.0, &half_space(0.0)), 1.0, "0^0 = 1, and the edge belongs to the cone");

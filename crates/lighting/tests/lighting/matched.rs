@@ -107,8 +107,10 @@ fn matched_highlights_are_phongs_on_a_surface() {
                 let (l, v) = (in_plane(l_angle), in_plane(2.0 * psi - l_angle));
                 let phong = specular_term(Reflectance::Phong, n, l, v, shininess);
                 let matched = specular_term(Reflectance::BlinnPhongMatched, n, l, v, shininess);
+                let bare = specular_term(Reflectance::BlinnPhong, n, l, v, 4.0 * shininess);
                 let name = format!("α {shininess}, ψ {psi}, l at {l_angle}");
                 close(matched, phong, 0.08 / shininess, &name);
+                close(bare, phong, 0.16 / shininess, &format!("β = 4α, {name}"));
             }
         }
     }

@@ -1,10 +1,12 @@
 //! Normals under transforms.
 
 use bevy_math::{DMat3, DVec3};
-use halfway_lighting::equations::vector::{cross, dot, scale};
+use halfway_lighting::equations::vector::{cross, dot, length, normalize, scale};
 use halfway_lighting::equations::{normal_matrix, transform_normal};
+use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 
-use crate::support::{Pcg, close, close3};
+use crate::support::{Pcg, close, close3, to_f64};
 
 type Mat3 = [[f64; 3]; 3];
 /// Name, matrix, normal, transformed normal.
@@ -142,4 +144,61 @@ fn scales_neither_underflow_nor_overflow_in_f32() {
     let thin = [[1f32, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1e-30]];
     assert_eq!(transform_normal(normal_matrix(thin), n), Some([7.5e-31, 0.0, 1.0]));
     assert_eq!(transform_normal(normal_matrix(thin), [1.0, 0.0, 0.0]), Some([1.0, 0.0, 0.0]));
+}
+
+/// A column of any size: any direction, one axis, another column over again, or 0.
+fn columns() -> impl Strategy<Value = [[f32; 3]; 3]> {
+    let size = prop_oneof![1 => Just(0.0), 6 => (-8f32..=8.0).prop_map(|x| 10f32.powf(x))];
+    let column = (prop::array::uniform3(-1f32..=1.0), size, 0..6u8);
+    prop::array::uniform3(column).prop_map(|columns| {
+        let mut m = [[0f32; 3]; 3];
+        for (i, (direction, size, kind)) in columns.into_iter().enumerate() {
+            m[i] = match kind {
+                0 if i > 0 => m[i - 1],
+                1 => core::array::from_fn(|k| if k == i { size } else { 0.0 }),
+                2 => core::array::from_fn(|k| if k == i { -size } else { 0.0 }),
+                _ => direction.map(|x| x * size),
+            };
+        }
+        m
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig {
+        cases: 12_000,
+        failure_persistence: None,
+        rng_seed: RngSeed::Fixed(1971),
+        ..ProptestConfig::default()
+    })]
+
+    #[test]
+    fn any_transform_gives_a_normal_or_none(m in columns(), n in prop::array::uniform3(-1f32..=1.0)) {
+        prop_assume!(n != [0.0; 3]);
+        let n: [f32; 3] = normalize(n).expect("a direction");
+        let (m64, n64) = (m.map(to_f64), to_f64(n));
+        let got = [transform_normal(normal_matrix(m), n).map(to_f64), transform_normal(normal_matrix(m64), n64)];
+        for normal in got.into_iter().flatten() {
+            prop_assert!((length(normal) - 1.0).abs() < 1e-6, "{normal:?}");
+        }
+        let Some(off) = angle_of_rounding(m64, n64) else { return Ok(()) };
+        let [Some(single), Some(double)] = got else { return Err(TestCaseError::fail(format!("{got:?}"))) };
+        let apart = length([0, 1, 2].map(|i| single[i] - double[i]));
+        prop_assert!(apart <= off, "{single:?} against {double:?}: {apart:e} apart, and rounding explains {off:e}");
+    }
+}
+
+/// How far rounding to f32 may turn the normal of a transform; `None` where it may take or turn all of it.
+fn angle_of_rounding(m: Mat3, n: [f64; 3]) -> Option<f64> {
+    let lengths = m.map(length);
+    let unit = m.map(|column| normalize(column).unwrap_or([0.0; 3]));
+    let cofactors = [cross(unit[1], unit[2]), cross(unit[2], unit[0]), cross(unit[0], unit[1])];
+    // A sign within rounding of 0 may go either way.
+    let signed = dot(unit[0], cofactors[0]).abs() > 4e-6;
+    let shortest = lengths.into_iter().fold(f64::INFINITY, f64::min);
+    let shares = lengths.map(|s| if s <= shortest { 1.0 } else { shortest / s });
+    // A cofactor of unit columns is off by ten roundings of 6·10⁻⁸: four a column, two of its own.
+    let off: f64 = (0..3).map(|j| shares[j] * n[j].abs() * 6e-7).sum();
+    let whole = length([0, 1, 2].map(|i| (0..3).map(|j| shares[j] * cofactors[j][i] * n[j]).sum::<f64>()));
+    (signed && off < 0.1 * whole).then(|| 2.0 * off / whole + 3e-7)
 }

@@ -1,66 +1,9 @@
-//! `f32` against `f64`.
+//! Sharp highlights in `f32` against `f64`.
 
-use bevy_color::LinearRgba;
-use halfway_lighting::equations::vector::{dot, normalize, sub};
-use halfway_lighting::equations::{
-    Coefficients, Surface, View, half_vector, shade, specular_blinn_phong, specular_phong,
-};
-use halfway_lighting::{Cone, Material, SpotLight};
+use halfway_lighting::equations::vector::{dot, normalize};
+use halfway_lighting::equations::{half_vector, specular_blinn_phong, specular_phong};
 
-use crate::support::{ALL_REFLECTANCES, Pcg, close, in_plane};
-
-fn to_f32(a: [f64; 3]) -> [f32; 3] {
-    a.map(|x| x as f32)
-}
-
-fn to_f64(a: [f32; 3]) -> [f64; 3] {
-    a.map(f64::from)
-}
-
-#[test]
-fn ordinary_scenes_agree() {
-    let mut rng = Pcg::new(5);
-    let mut compared = 0;
-    for round in 0..20_000 {
-        let spot = SpotLight { cone: Cone { cutoff: 0.8, inner: Some(0.3), exponent: 2.0 }, ..Default::default() };
-        let material =
-            Material { shininess: rng.between(0.0, 128.0) as f32, ..Material::plastic(LinearRgba::rgb(0.9, 0.5, 0.1)) };
-        // Both evaluations start from the same f32 numbers, so that only the arithmetic differs.
-        let [position, place] = [rng.signed(-1.0, 1.0), rng.signed(-1.0, 1.0)].map(to_f32);
-        let [normal, direction] = [rng.direction(), rng.direction()].map(to_f32);
-        let aim = sub(to_f64(position), to_f64(place));
-        let direction = to_f32([0, 1, 2].map(|i| aim[i] + f64::from(direction[i])));
-        let reflectance = ALL_REFLECTANCES[round % 3];
-        let normal64 = normalize(to_f64(normal)).expect("unit");
-        let to_light = normalize(sub(to_f64(place), to_f64(position))).expect("apart");
-        // At the gate the highlight jumps, and rounding decides on which side a point falls.
-        if dot(normal64, to_light).abs() < 1e-5 {
-            continue;
-        }
-        let double = shade(
-            &Surface { position: to_f64(position), normal: normal64 },
-            &Coefficients::from(&material),
-            &[spot.at(to_f64(place), to_f64(direction)).expect("a direction")],
-            [0.1; 3],
-            &View::Local([0.0; 3]),
-            reflectance,
-        );
-        let single = shade(
-            &Surface { position, normal: normalize(normal).expect("unit") },
-            &Coefficients::from(&material),
-            &[spot.at(place, direction).expect("a direction")],
-            [0.1; 3],
-            &View::Local([0.0; 3]),
-            reflectance,
-        );
-        for i in 0..3 {
-            // A cosine is off by about 2e-7; the largest exponent here, matched from 128, multiplies that by 513.
-            close(f64::from(single[i]), double[i], 1.5e-4, &format!("round {round}, {reflectance:?}"));
-        }
-        compared += 1;
-    }
-    assert!(compared > 19_000, "{compared} compared");
-}
+use crate::support::{Pcg, close, in_plane, to_f32, to_f64};
 
 /// A highlight of exponent 10⁴ is 0.8 degrees wide under Blinn–Phong. In `f32` it keeps its peak and its shape.
 #[test]

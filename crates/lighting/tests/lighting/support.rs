@@ -22,6 +22,14 @@ pub(crate) fn close3(a: [f64; 3], b: [f64; 3], tolerance: f64, what: &str) {
     }
 }
 
+pub(crate) fn to_f32(a: [f64; 3]) -> [f32; 3] {
+    a.map(|x| x as f32)
+}
+
+pub(crate) fn to_f64(a: [f32; 3]) -> [f64; 3] {
+    a.map(f64::from)
+}
+
 pub(crate) fn gray(value: f32) -> LinearRgba {
     LinearRgba::rgb(value, value, value)
 }
@@ -73,23 +81,6 @@ impl Pcg {
 
     pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.unit()
-    }
-
-    pub(crate) fn chance(&mut self, probability: f64) -> bool {
-        self.unit() < probability
-    }
-
-    /// 10^x for x uniform between the two exponents.
-    pub(crate) fn magnitude(&mut self, low: f64, high: f64) -> f64 {
-        10f64.powf(self.between(low, high))
-    }
-
-    /// Three components, each of its own magnitude and sign.
-    pub(crate) fn signed(&mut self, low: f64, high: f64) -> [f64; 3] {
-        core::array::from_fn(|_| {
-            let size = self.magnitude(low, high);
-            if self.chance(0.5) { -size } else { size }
-        })
     }
 
     /// Uniform on the unit sphere.

@@ -1,0 +1,101 @@
+//! The conformance suite: named scenes, each drawn by the renderer and by the oracle, in floating point and in bytes of both encodings.
+//!
+//! There is a row for every value of every axis, one for every pair of values that a scene can have together
+//! (`conformance/axes.rs`), and one for every feature beside the axes (`conformance/features.rs`).
+
+mod axes;
+mod features;
+
+use crate::render::compare::{BLENDED, FLOAT, Failures, SRGB};
+use crate::render::scene::Scene;
+use crate::render::stage::Stage;
+use halfway::prelude::*;
+use halfway::reference::metrics::{Bars, Verdict};
+
+/// Small, and no multiple of anything: rows of pixels are padded on their way back.
+const SIZE: UVec2 = UVec2::new(76, 60);
+
+/// A scene with a name, and what its pictures have to keep to.
+struct Row {
+    name: String,
+    scene: Scene,
+    float: Bars,
+    raw: Bars,
+    srgb: Bars,
+}
+
+impl Row {
+    fn new(name: impl Into<String>, scene: Scene) -> Self {
+        let raw = if scene.things.iter().any(|thing| thing.blend) { BLENDED } else { Bars::bytes(Encoding::Raw) };
+        Self { name: name.into(), scene, float: FLOAT, raw, srgb: SRGB }
+    }
+}
+
+/// The worst figures of a table, and the rows that have them.
+#[derive(Default)]
+struct Worst {
+    most: (f64, String),
+    all: (f64, String),
+    steps: (f64, String),
+    unequal: (f64, String),
+    unequal_srgb: (f64, String),
+    edges: (f64, String),
+}
+
+impl Worst {
+    fn note(&mut self, name: &str, [float, raw, srgb]: [Verdict; 3]) {
+        for (worst, figure) in [
+            (&mut self.most, float.most),
+            (&mut self.all, float.worst),
+            (&mut self.steps, raw.worst.max(srgb.worst)),
+            // Where the bar is lower, its constant says why.
+            (&mut self.unequal, if raw.bars.equal > 0.0 { 1.0 - raw.equal } else { 0.0 }),
+            (&mut self.unequal_srgb, 1.0 - srgb.equal),
+            (&mut self.edges, float.edges.max(raw.edges).max(srgb.edges)),
+        ] {
+            if figure > worst.0 {
+                *worst = (figure, name.into());
+            }
+        }
+    }
+
+    fn print(&self, title: &str, rows: usize) {
+        println!("{title}: {rows} rows; off edges, the worst of each figure:");
+        println!("  float, 99.9 % of the channels: {:.1e} of the range ({})", self.most.0, self.most.1);
+        println!("  float, all: {:.1e} of the range ({})", self.all.0, self.all.1);
+        println!("  bytes, all: {} steps ({})", self.steps.0, self.steps.1);
+        println!("  raw bytes of opaque rows, pixels not equal: {:.2} % ({})", self.unequal.0 * 100.0, self.unequal.1);
+        println!("  sRGB bytes, pixels not equal: {:.2} % ({})", self.unequal_srgb.0 * 100.0, self.unequal_srgb.1);
+        println!("  pixels on edges: {:.2} % ({})", self.edges.0 * 100.0, self.edges.1);
+    }
+}
+
+/// Draws every row on one stage, and compares its three pictures with the oracle's.
+fn conform(title: &str, rows: &[Row]) {
+    let mut stage = Stage::new(SIZE.x, SIZE.y);
+    let mut failures = Failures::default();
+    let mut worst = Worst::default();
+    for Row { name, scene, float, raw, srgb } in rows {
+        let of_floats = failures.draw(name, &mut stage, scene, *float);
+        failures.unless(of_floats.counted > 0.02, || format!("{name} shows next to nothing"));
+        let [raw, srgb] = [(Encoding::Raw, raw), (Encoding::Srgb, srgb)].map(|(encoding, bars)| {
+            stage.encode(encoding);
+            let picture = stage.bytes();
+            failures.compare_bytes(&format!("{name}, {encoding:?} bytes"), &mut stage, &picture, *bars)
+        });
+        worst.note(name, [of_floats, raw, srgb]);
+    }
+    worst.print(title, rows.len());
+    println!("  {} pipelines", stage.report().pipelines);
+    failures.finish();
+}
+
+#[test]
+fn every_value_and_every_pair_of_values_conforms() {
+    conform("axes", &axes::rows());
+}
+
+#[test]
+fn every_feature_conforms() {
+    conform("features", &features::rows());
+}
