@@ -1,9 +1,15 @@
 //! What halfway lights: triangle meshes, their normals, parametric surfaces and file formats.
 //!
 //! - [`Mesh`] is a validated list of vertices and triangles, an asset of `bevy_asset`; [`Mesh3d`] puts one on an entity.
-//! - [`Normals`] says how a mesh gets its normals: the file's, one a face, or a weighted mean of the faces around a vertex.
-//! - [`Plane`], [`Cuboid`], [`UvSphere`] and [`Teapot`] turn into meshes with analytic normals.
-//! - [`load`] reads SMF, Wavefront OBJ with MTL, and glTF 2.0 (text and binary) into a [`Model`].
+//! - [`Normals`] says how a mesh gets its normals: the file's, one a face, or a weighted mean of the faces around a vertex,
+//!   creased or not; [`Mesh::with_tangents`] adds tangents.
+//! - [`Mesh::report`] looks a mesh over; [`Mesh::welded`] and [`Mesh::repaired`] mend it; [`Mesh::subdivided`] and
+//!   [`Mesh::displaced`] give it detail. The feature `prepare` adds an order for the GPU, meshlets and levels of detail.
+//! - [`Plane`], [`Cuboid`], [`UvSphere`], [`Icosphere`] and [`Teapot`] turn into meshes with analytic normals; so do the
+//!   quadrics, the torus, [`BezierPatch`] and the other [`ParametricSurface`]s, by count or by chord error.
+//! - [`Mesh::surface`] is the smooth surface that a mesh stands for, where it is known by formula.
+//! - [`load`] reads SMF, Wavefront OBJ with MTL, glTF 2.0 (text and binary), PLY and STL into a [`Model`]; [`write()`]
+//!   writes one as SMF, OBJ or binary glTF.
 //!
 //! The crate knows nothing of lights, GPUs or windows. Everything is right-handed with Y up, front faces wind
 //! counter-clockwise, and texture coordinates have their origin at the top left of the image.
@@ -19,18 +25,36 @@
 
 mod bounds;
 mod component;
+mod displace;
+mod edges;
 mod files;
 mod mesh;
 mod model;
 mod normals;
+mod numbering;
+mod prepare;
 mod problems;
+mod subdivide;
 mod surfaces;
+mod tangents;
 
 pub use bounds::Bounds;
 pub use component::{Mesh3d, MeshPlugin, SpawnOrder};
-pub use files::{LoadError, load};
+pub use displace::{HeightImage, HeightImageError};
+pub use files::{Format, LoadError, LoadOptions, LoadProgress, WriteError, load, load_bytes, load_with, write};
 pub use mesh::{Mesh, MeshError};
-pub use model::{AlphaMode, MetallicRoughness, Model, MtlMaterial, Part, SourceLight, SourceLightKind, SourceMaterial};
+pub use model::{
+    AlphaMode, MetallicRoughness, Model, MtlMaterial, Part, SourceCamera, SourceLight, SourceLightKind, SourceMaterial,
+    SourceProjection,
+};
 pub use normals::{NormalReport, NormalWeighting, Normals, face_normal};
+pub use prepare::{DistanceBounds, MeshReport, RepairReport, Weld, WeldReport};
+#[cfg(feature = "prepare")]
+pub use prepare::{BoundingSphere, LevelOfDetail, Meshlet, Meshlets, NormalCone};
 pub use problems::Problems;
-pub use surfaces::{Cuboid, Plane, SurfaceError, Teapot, UvSphere};
+pub use subdivide::Subdivision;
+pub use surfaces::{
+    BezierPatch, Capsule, Cone, Cuboid, Cylinder, Disc, Ellipsoid, HeightField, Hyperboloid, HyperboloidSheet, Icosphere,
+    Parameter, Paraboloid, ParametricSurface, Plane, Quadric, Surface, SurfaceError, SurfacePiece, SurfacePoint, Teapot,
+    Tessellation, Torus, UvSphere, tessellate,
+};

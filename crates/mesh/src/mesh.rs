@@ -3,15 +3,15 @@
 use std::sync::Arc;
 
 use bevy_asset::Asset;
-use bevy_math::{Vec2, Vec3};
+use bevy_math::{Vec2, Vec3, Vec4};
 use bevy_reflect::TypePath;
 use thiserror::Error;
 
-use crate::normals::{face_normals, vertex_normals};
-use crate::{Bounds, NormalReport, NormalWeighting, Normals};
+use crate::normals::{creased_normals, face_normals, vertex_normals};
+use crate::{Bounds, NormalReport, NormalWeighting, Normals, Surface};
 
-/// A triangle mesh: vertices with a position, a unit normal and perhaps texture coordinates, and triangles that index
-/// them.
+/// A triangle mesh: vertices with a position, a unit normal and perhaps texture coordinates, a colour and a tangent, and
+/// triangles that index them.
 ///
 /// What holds for every mesh: at least one triangle; every index in range; every number finite; every normal of unit
 /// length. At most 2³² − 1 vertices and as many indices, since a draw call counts them in 32 bits. Front faces wind
@@ -28,8 +28,11 @@ struct Data {
     positions: Vec<Vec3>,
     normals: Vec<Vec3>,
     uvs: Option<Vec<Vec2>>,
+    colors: Option<Vec<Vec4>>,
+    tangents: Option<Vec<Vec4>>,
     indices: Vec<u32>,
     bounds: Bounds,
+    surface: Option<Surface>,
 }
 
 /// Why a mesh was refused. Vertices and triangles are numbered from 0.
@@ -47,10 +50,10 @@ pub enum MeshError {
         /// How many there are.
         count: usize,
     },
-    /// Not as many normals or texture coordinates as positions.
+    /// Not as many of another attribute as positions.
     #[error("{found} {attribute}s for {expected} positions; one a vertex is expected")]
     CountMismatch {
-        /// `"normal"` or `"uv"`.
+        /// `"normal"`, `"uv"` or `"colour"`.
         attribute: &'static str,
         /// How many there are.
         found: usize,
@@ -78,17 +81,33 @@ pub enum MeshError {
     /// A number is NaN or infinite.
     #[error("vertex {vertex}: {attribute} {value:?}; finite numbers are expected")]
     NotFinite {
-        /// `"position"`, `"normal"` or `"uv"`.
+        /// `"position"`, `"normal"`, `"uv"`, `"colour"`, `"opacity"` or `"height"`.
         attribute: &'static str,
         /// The vertex.
         vertex: usize,
-        /// What was found there; the third number of a uv is 0.
+        /// What was found there; numbers that the attribute does not have are 0.
         value: [f32; 3],
+    },
+    /// What was asked for takes texture coordinates.
+    #[error("the mesh has no uvs; {what} takes one a vertex")]
+    NoUvs {
+        /// `"a tangent"` or `"displacement by an image"`.
+        what: &'static str,
+    },
+    /// Subdivision would make too many triangles.
+    #[error("{count} triangles after {times} subdivisions; at most {most} are expected")]
+    TooFine {
+        /// How many there would be; `u64::MAX` if more than that.
+        count: u64,
+        /// How many subdivisions were asked for.
+        times: u32,
+        /// How many there may be.
+        most: u64,
     },
 }
 
 impl Mesh {
-    /// A mesh with normals of the default weighting ([`NormalWeighting::Angle`]).
+    /// A mesh with normals of the default weighting ([`NormalWeighting::Max`]).
     ///
     /// # Errors
     /// As [`from_parts`](Self::from_parts).
@@ -146,7 +165,85 @@ impl Mesh {
     pub(crate) fn checked(positions: Vec<Vec3>, normals: Vec<Vec3>, uvs: Option<Vec<Vec2>>, indices: Vec<u32>) -> Self {
         let bounds =
             Bounds::from_points(positions.iter().copied()).unwrap_or(Bounds { min: Vec3::ZERO, max: Vec3::ZERO });
-        Self { data: Arc::new(Data { positions, normals, uvs, indices, bounds }) }
+        let data = Data { positions, normals, uvs, colors: None, tangents: None, indices, bounds, surface: None };
+        Self { data: Arc::new(data) }
+    }
+
+    /// The mesh with a colour a vertex: linear RGB and opacity.
+    ///
+    /// # Errors
+    /// Not one colour a vertex, or one that is not finite.
+    pub fn with_colors(self, colors: Vec<Vec4>) -> Result<Self, MeshError> {
+        let vertices = self.positions().len();
+        check_attribute("colour", vertices, colors.iter().map(|c| c.truncate().to_array()))?;
+        check_attribute("opacity", vertices, colors.iter().map(|c| [c.w, 0.0, 0.0]))?;
+        Ok(self.changed(|data| data.colors = Some(colors)))
+    }
+
+    /// The mesh with more vertices, each in the middle of two old ones in all that it has, and these triangles. Tangents
+    /// are dropped.
+    pub(crate) fn extended(&self, pairs: impl Iterator<Item = [u32; 2]> + Clone, indices: Vec<u32>) -> Self {
+        fn extend<T: Copy>(all: &[T], pairs: impl Iterator<Item = [u32; 2]>, middle: impl Fn(T, T) -> T) -> Vec<T> {
+            let middles = pairs.map(|pair| pair.map(|vertex| all[vertex as usize])).map(|[a, b]| middle(a, b));
+            all.iter().copied().chain(middles).collect()
+        }
+        // In f64, where no sum of two f32 overflows or loses its last bit.
+        let position = |a: Vec3, b: Vec3| (0.5 * (a.as_dvec3() + b.as_dvec3())).as_vec3();
+        let positions = extend(self.positions(), pairs.clone(), position);
+        let normals = extend(self.normals(), pairs.clone(), |a, b| (a + b).try_normalize().unwrap_or(a));
+        let uvs = self.uvs().map(|all| extend(all, pairs.clone(), Vec2::midpoint));
+        let mesh = Self::checked(positions, normals, uvs, indices);
+        mesh.changed(|data| data.colors = self.colors().map(|all| extend(all, pairs, Vec4::midpoint)))
+    }
+
+    /// Takes normals that are known to be good. Tangents, which belong to the old normals, are dropped.
+    pub(crate) fn with_given_normals(self, normals: Vec<Vec3>) -> Self {
+        self.changed(|data| {
+            data.normals = normals;
+            data.tangents = None;
+        })
+    }
+
+    /// Takes positions that are known to be good, as many as before.
+    pub(crate) fn with_given_positions(self, positions: Vec<Vec3>) -> Self {
+        let Data { normals, uvs, colors, tangents, indices, .. } = Arc::unwrap_or_clone(self.data);
+        Self::checked(positions, normals, uvs, indices).changed(|data| {
+            data.colors = colors;
+            data.tangents = tangents;
+        })
+    }
+
+    /// Takes tangents that are known to be good.
+    pub(crate) fn with_given_tangents(self, tangents: Vec<Vec4>) -> Self {
+        self.changed(|data| data.tangents = Some(tangents))
+    }
+
+    /// The mesh as one that stands for `surface`: the caller's promise that it approximates it, in the same space and with
+    /// the same outward side.
+    #[must_use]
+    pub fn with_surface(self, surface: Surface) -> Self {
+        self.changed(|data| data.surface = Some(surface))
+    }
+
+    fn changed(self, change: impl FnOnce(&mut Data)) -> Self {
+        let mut data = Arc::unwrap_or_clone(self.data);
+        change(&mut data);
+        Self { data: Arc::new(data) }
+    }
+
+    /// The mesh whose vertices are those of the given numbers, all in range, in that order, with everything that they
+    /// have, and whose triangles are the given ones.
+    pub(crate) fn selected(&self, vertices: &[u32], indices: Vec<u32>) -> Self {
+        fn pick<T: Copy>(all: &[T], vertices: &[u32]) -> Vec<T> {
+            vertices.iter().map(|&vertex| all[vertex as usize]).collect()
+        }
+        let uvs = self.uvs().map(|all| pick(all, vertices));
+        let mesh = Self::checked(pick(self.positions(), vertices), pick(self.normals(), vertices), uvs, indices);
+        mesh.changed(|data| {
+            data.colors = self.colors().map(|all| pick(all, vertices));
+            data.tangents = self.tangents().map(|all| pick(all, vertices));
+            data.surface = self.surface().cloned();
+        })
     }
 
     /// The positions of the vertices.
@@ -165,6 +262,16 @@ impl Mesh {
         self.data.uvs.as_deref()
     }
 
+    /// The colours of the vertices, one a vertex: linear RGB and opacity, finite but not limited to 0 … 1.
+    pub fn colors(&self) -> Option<&[Vec4]> {
+        self.data.colors.as_deref()
+    }
+
+    /// The tangents of the vertices, one a vertex; see [`with_tangents`](Self::with_tangents).
+    pub fn tangents(&self) -> Option<&[Vec4]> {
+        self.data.tangents.as_deref()
+    }
+
     /// The indices of the triangles' corners: three a triangle, all in range.
     pub fn indices(&self) -> &[u32] {
         &self.data.indices
@@ -180,6 +287,12 @@ impl Mesh {
         self.data.indices.len() / 3
     }
 
+    /// The smooth surface that the mesh stands for, where it is known by formula; `None` where the triangles are all that
+    /// is known, or all that there is. Other normals keep it, moved vertices do not.
+    pub fn surface(&self) -> Option<&Surface> {
+        self.data.surface.as_ref()
+    }
+
     /// The box around all vertices.
     pub fn bounds(&self) -> Bounds {
         self.data.bounds
@@ -188,30 +301,24 @@ impl Mesh {
     /// The mesh with its normals by the policy, and what had to be left out or made up.
     ///
     /// [`Normals::Keep`] changes nothing. [`Normals::Face`] gives every triangle three vertices of its own, and +Y to
-    /// degenerate ones, which show nothing. [`Normals::Weighted`] keeps vertices and triangles.
+    /// degenerate ones, which show nothing. [`Normals::Weighted`] keeps vertices and triangles. [`Normals::Creased`]
+    /// keeps the triangles, splits vertices and leaves out those of no triangle. All but `Keep` drop the tangents.
     #[must_use]
     pub fn with_normals(self, policy: Normals) -> (Self, NormalReport) {
         match policy {
             Normals::Keep => (self, NormalReport::default()),
-            Normals::Face => self.with_face_normals(),
+            Normals::Face => {
+                let (face, report) = face_normals(self.positions(), self.indices());
+                let normals = face.into_iter().flat_map(|n| [n; 3]).collect();
+                let corners = (0..self.indices().len() as u32).collect();
+                (self.selected(self.indices(), corners).with_given_normals(normals), report)
+            }
             Normals::Weighted(weighting) => {
                 let (normals, report) = vertex_normals(self.positions(), self.indices(), weighting);
-                let mut data = Arc::unwrap_or_clone(self.data);
-                data.normals = normals;
-                let data = Arc::new(data);
-                (Self { data }, report)
+                (self.with_given_normals(normals), report)
             }
+            Normals::Creased { angle, weighting } => creased_normals(&self, angle, weighting),
         }
-    }
-
-    fn with_face_normals(self) -> (Self, NormalReport) {
-        let (face, report) = face_normals(self.positions(), self.indices());
-        let normals = face.into_iter().flat_map(|n| [n; 3]).collect();
-        let corners = || self.indices().iter().map(|&i| i as usize);
-        let positions = corners().map(|i| self.positions()[i]).collect();
-        let uvs = self.uvs().map(|uvs| corners().map(|i| uvs[i]).collect());
-        let indices = (0..self.indices().len() as u32).collect();
-        (Self::checked(positions, normals, uvs, indices), report)
     }
 }
 
@@ -263,8 +370,10 @@ fn check_indices(indices: &[u32], vertices: usize) -> Result<(), MeshError> {
 fn kept_normals(mut given: Vec<Vec3>, positions: &[Vec3], indices: &[u32]) -> (Vec<Vec3>, NormalReport) {
     let mut without = Vec::new();
     for (vertex, n) in given.iter_mut().enumerate() {
-        // In f64, where no finite f32 vector under- or overflows.
+        // In f64, where no finite f32 vector under- or overflows. A unit vector that was rounded to f32 is off by less than
+        // 1e-7; it stays as it is, so that what was written is read again.
         match n.as_dvec3().try_normalize() {
+            Some(_) if (n.as_dvec3().length() - 1.0).abs() < 1e-7 => {}
             Some(unit) => *n = unit.as_vec3(),
             None => without.push(vertex),
         }

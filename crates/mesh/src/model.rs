@@ -15,6 +15,8 @@ pub struct Model {
     pub materials: Vec<SourceMaterial>,
     /// The lights.
     pub lights: Vec<SourceLight>,
+    /// The cameras.
+    pub cameras: Vec<SourceCamera>,
     /// What was skipped or mended on the way, one sentence each.
     pub warnings: Vec<String>,
 }
@@ -155,5 +157,43 @@ pub enum SourceLightKind {
         inner: f32,
         /// Where it has ended.
         outer: f32,
+    },
+}
+
+/// A camera of glTF 2.0 (§3.10). It stands at the origin of its frame and looks along −Z, with +Y up.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SourceCamera {
+    /// The name of the camera, else of its node; empty where neither has one.
+    pub name: String,
+    /// What it sees.
+    pub projection: SourceProjection,
+    /// The place and the direction of the camera; may scale, which has no meaning for a camera.
+    pub world_from_camera: Mat4,
+}
+
+/// The projections of glTF; lengths in units of the world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SourceProjection {
+    /// From a point.
+    Perspective {
+        /// The vertical angle of view in radians, above 0.
+        yfov: f32,
+        /// Width over height; `None` is that of the picture.
+        aspect: Option<f32>,
+        /// The distance of the near plane, above 0.
+        near: f32,
+        /// The distance of the far plane, above `near`; `None` is infinitely far.
+        far: Option<f32>,
+    },
+    /// By parallel rays.
+    Orthographic {
+        /// Half the width of what is seen (`xmag`), not 0.
+        half_width: f32,
+        /// Half the height of what is seen (`ymag`), not 0.
+        half_height: f32,
+        /// The distance of the near plane, not below 0.
+        near: f32,
+        /// The distance of the far plane, above `near`.
+        far: f32,
     },
 }

@@ -1,10 +1,11 @@
 //! What is wrong with a mesh that can be drawn all the same.
 
-use std::collections::{HashMap, HashSet};
 use std::fmt;
 
 use crate::Mesh;
-use crate::normals::{NormalWeighting, position_groups, vertex_normals};
+use crate::edges::{Edge, Edges};
+use crate::normals::{NormalWeighting, vertex_normals};
+use crate::numbering::Numbering;
 
 /// What a look over a mesh found: nothing of it keeps the mesh from being drawn.
 ///
@@ -16,7 +17,7 @@ pub struct Problems {
     pub degenerate_triangles: usize,
     /// Triangles with the same three positions as an earlier one, whichever way they wind.
     pub duplicate_triangles: usize,
-    /// Vertices that equal an earlier one in position, normal and texture coordinates.
+    /// Vertices that equal an earlier one in all that they have.
     pub duplicate_vertices: usize,
     /// Vertices of no triangle.
     pub unused_vertices: usize,
@@ -69,77 +70,38 @@ impl fmt::Display for Problems {
 impl Mesh {
     /// Looks the mesh over. Takes time and memory in proportion to its size.
     pub fn problems(&self) -> Problems {
-        let (groups, group_count) = position_groups(self.positions());
+        let groups = Numbering::of_positions(self.positions());
+        let edges = Edges::new(groups.triangles(self.indices()), groups.count());
+        self.problems_of(&groups, &edges)
+    }
+
+    /// The problems, from what was made for another look as well: the positions' numbers and the edges between them.
+    pub(crate) fn problems_of(&self, groups: &Numbering, edges: &Edges) -> Problems {
         let (_, report) = vertex_normals(self.positions(), self.indices(), NormalWeighting::default());
         let mut used = vec![false; self.positions().len()];
         for &i in self.indices() {
             used[i as usize] = true;
         }
-        let triangles: Vec<[u32; 3]> = self.triangles().map(|triangle| triangle.map(|i| groups[i as usize])).collect();
-        let edges = Edges::of(&triangles);
+        let count = |holds: fn(&Edges, &Edge) -> bool| edges.iter().filter(|edge| holds(edges, edge)).count();
         Problems {
             degenerate_triangles: report.degenerate_triangles,
-            duplicate_triangles: duplicate_triangles(&triangles, group_count),
-            duplicate_vertices: self.duplicate_vertices(&groups),
+            duplicate_triangles: duplicate_triangles(edges.triangles()),
+            duplicate_vertices: self.positions().len() - self.identical_vertices(&groups.numbers).count(),
             unused_vertices: used.iter().filter(|&&used| !used).count(),
             cancelled_normals: report.cancelled,
-            open_edges: edges.open,
-            crowded_edges: edges.crowded,
-            misoriented_edges: edges.misoriented,
+            open_edges: count(|_, edge| edge.passes.len() == 1),
+            crowded_edges: count(|_, edge| edge.passes.len() > 2),
+            misoriented_edges: count(|edges, edge| edge.passes.len() == 2 && edges.regular(edge).is_none()),
         }
-    }
-
-    fn duplicate_vertices(&self, groups: &[u32]) -> usize {
-        let mut seen = HashSet::with_capacity(groups.len());
-        groups
-            .iter()
-            .enumerate()
-            .filter(|&(vertex, &group)| {
-                let n = self.normals()[vertex].to_array().map(f32::to_bits);
-                let uv = self.uvs().map(|uvs| uvs[vertex].to_array().map(f32::to_bits));
-                !seen.insert((group, n, uv))
-            })
-            .count()
     }
 }
 
-fn duplicate_triangles(triangles: &[[u32; 3]], group_count: usize) -> usize {
-    let mut seen = HashSet::with_capacity(group_count);
-    triangles
-        .iter()
-        .filter(|triangle| {
-            let mut sorted = **triangle;
-            sorted.sort_unstable();
-            !seen.insert(sorted)
-        })
-        .count()
-}
-
-/// How the edges of a surface meet.
-struct Edges {
-    open: usize,
-    crowded: usize,
-    misoriented: usize,
-}
-
-impl Edges {
-    fn of(triangles: &[[u32; 3]]) -> Self {
-        // How many triangles pass an edge upward and downward, by the numbers of its ends.
-        let mut passes: HashMap<(u32, u32), (usize, usize)> = HashMap::new();
-        for &[a, b, c] in triangles {
-            for (from, to) in [(a, b), (b, c), (c, a)] {
-                match from.cmp(&to) {
-                    std::cmp::Ordering::Less => passes.entry((from, to)).or_default().0 += 1,
-                    std::cmp::Ordering::Greater => passes.entry((to, from)).or_default().1 += 1,
-                    std::cmp::Ordering::Equal => {}
-                }
-            }
-        }
-        let count = |holds: fn(usize, usize) -> bool| passes.values().filter(|&&(up, down)| holds(up, down)).count();
-        Self {
-            open: count(|up, down| up + down == 1),
-            crowded: count(|up, down| up + down > 2),
-            misoriented: count(|up, down| up + down == 2 && up != down),
-        }
-    }
+/// How many triangles have the points of an earlier one.
+fn duplicate_triangles(triangles: &[[u32; 3]]) -> usize {
+    let distinct = Numbering::new(triangles.len(), |triangle| {
+        let mut sorted = triangles[triangle];
+        sorted.sort_unstable();
+        sorted
+    });
+    triangles.len() - distinct.count()
 }

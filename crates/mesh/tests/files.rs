@@ -5,11 +5,15 @@ mod common;
 #[allow(dead_code, unreachable_pub, reason = "an example has a main function, and shares its files with this test")]
 mod make_assets;
 
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use bevy_math::Vec3;
-use common::{Folder, TRIANGLE_JSON, glb, triangle_data};
-use halfway_mesh::{LoadError, Mesh, Model, SourceLightKind, SourceMaterial, Teapot, load};
+use common::{Folder, TRIANGLE_JSON, check_model, glb, triangle_data};
+use halfway_mesh::{
+    Format, LoadError, LoadOptions, LoadProgress, Mesh, Model, SourceLightKind, SourceMaterial, Teapot, load,
+    load_bytes, load_with,
+};
 
 fn asset(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets").join(name)
@@ -19,12 +23,19 @@ fn asset(name: &str) -> PathBuf {
 fn only_regular_files_of_known_kinds_are_opened() {
     let folder = Folder::new();
     folder.write("folder.obj/x", "x");
-    for (name, content) in [("model.smf", ""), ("model.obj", ""), ("model.gltf", ""), ("model.glb", "")] {
+    for (name, content) in [
+        ("model.smf", ""),
+        ("model.obj", ""),
+        ("model.gltf", ""),
+        ("model.glb", ""),
+        ("model.ply", ""),
+        ("model.STL", ""),
+    ] {
         folder.write(name, content);
     }
     // Number 2 on every system.
     let missing = || format!("cannot be read: {}", std::io::Error::from_raw_os_error(2));
-    let unknown = "is unknown; smf, obj, gltf or glb is expected";
+    let unknown = "is unknown; smf, obj, gltf, glb, ply or stl is expected";
     let rows = [
         ("gone.smf", missing()),
         ("gone.obj", missing()),
@@ -36,8 +47,8 @@ fn only_regular_files_of_known_kinds_are_opened() {
         ("model.glb", "the file is empty".to_owned()),
         ("model.fbx", format!("the extension \"fbx\" {unknown}")),
         ("model", format!("the extension \"\" {unknown}")),
-        ("model.ply", "ply files are not read yet; smf, obj, gltf or glb is expected".to_owned()),
-        ("model.STL", "stl files are not read yet; smf, obj, gltf or glb is expected".to_owned()),
+        ("model.ply", "the file is empty".to_owned()),
+        ("model.STL", "the file is empty".to_owned()),
     ];
     for (name, expected) in rows {
         let path = folder.path().join(name);
@@ -63,21 +74,104 @@ fn extensions_are_read_in_either_case() {
     assert_eq!(load(&path).unwrap().triangle_count(), 1);
 }
 
+#[test]
+fn formats_are_told_by_the_extension() {
+    for format in Format::ALL {
+        let name = format!("a.b.{}", format.extension().to_ascii_uppercase());
+        assert_eq!(Format::of(Path::new(&name)), Some(format));
+    }
+    assert_eq!(Format::of(Path::new("obj")), None);
+    let model = load_bytes(Format::Smf, b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
+    assert_eq!((model.triangle_count(), &model.parts[0].name[..]), (1, "model"));
+    assert_eq!(load_bytes(Format::Stl, b"").unwrap_err().to_string(), "model.stl: the file is empty");
+    let error = load_bytes(Format::Obj, b"v 0 0\n").unwrap_err().to_string();
+    assert_eq!(error, "model.obj:1: `v 0 0`; `v` and three numbers are expected");
+}
+
+#[test]
+fn large_files_report_how_far_they_are_and_can_be_stopped() {
+    let folder = Folder::new();
+    let mut text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n".to_owned();
+    text.push_str(&"# nothing of account\n".repeat(300_000));
+    let mut soup = vec![0; 84 + 50 * 100_000];
+    soup[80..84].copy_from_slice(&100_000_u32.to_le_bytes());
+    let bytes = text.len() as u64;
+    for (name, content, length) in [
+        ("large.obj", text.as_bytes(), bytes),
+        ("large.smf", text.as_bytes(), bytes),
+        ("large.stl", &soup, soup.len() as u64),
+        ("large.gltf", text.as_bytes(), bytes),
+    ] {
+        let path = folder.write(name, content);
+        let mut told: Vec<LoadProgress> = Vec::new();
+        let _ = load_with(&path, LoadOptions::default(), &mut |progress| {
+            told.push(progress);
+            ControlFlow::Continue(())
+        });
+        assert!(told.len() >= 4, "{name}: {told:?}");
+        assert!(told.iter().all(|at| at.of == length && at.done <= length), "{name}: {told:?}");
+        assert!(told.is_sorted_by(|a, b| a.done < b.done), "{name}: {told:?}");
+
+        let mut calls = 0;
+        let stopped = load_with(&path, LoadOptions::default(), &mut |_| {
+            calls += 1;
+            ControlFlow::Break(())
+        });
+        assert_eq!(calls, 1, "{name}");
+        assert_eq!(stopped.unwrap_err().to_string(), format!("{}: stopped", path.display()));
+    }
+}
+
+#[test]
+fn large_buffers_report_too() {
+    let folder = Folder::new();
+    folder.write("large.bin", vec![0; 3 << 20]);
+    let json = TRIANGLE_JSON.replace("{\"byteLength\":104}", "{\"byteLength\":3145728,\"uri\":\"large.bin\"}");
+    let path = folder.write("model.gltf", json);
+    let stopped = load_with(&path, LoadOptions::default(), &mut |at| {
+        assert_eq!(at.of, 3 << 20);
+        if at.done < 2 << 20 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    });
+    assert!(matches!(stopped, Err(LoadError::Stopped { path }) if path.ends_with("large.bin")));
+}
+
+#[cfg(unix)]
+#[test]
+fn files_outside_the_folder_are_read_only_when_told_so() {
+    let folder = Folder::new();
+    let library = folder.write("outside/red.mtl", "newmtl red\n");
+    std::fs::create_dir_all(folder.path().join("inside")).unwrap();
+    std::os::unix::fs::symlink(&library, folder.path().join("inside/link.mtl")).unwrap();
+    std::os::unix::fs::symlink(folder.path().join("outside"), folder.path().join("inside/door")).unwrap();
+    folder.write("inside/own.mtl", "newmtl red\n");
+    std::os::unix::fs::symlink("own.mtl", folder.path().join("inside/alias.mtl")).unwrap();
+    let absolute = library.display().to_string();
+    for (reference, is_inside) in [
+        ("own.mtl", true),
+        ("alias.mtl", true),
+        ("link.mtl", false),
+        ("door/red.mtl", false),
+        ("../outside/red.mtl", false),
+        (&absolute, false),
+    ] {
+        let obj = format!("mtllib {reference}\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n");
+        let path = folder.write("inside/model.obj", obj);
+        let model = load(&path).unwrap();
+        assert_eq!(model.parts[0].material.is_some(), is_inside, "{reference}: {:?}", model.warnings);
+        let refused = format!("{}: outside the folder of the model, not read", &reference[..reference.len().min(61)]);
+        let is_refused = model.warnings.iter().any(|warning| warning.starts_with(&refused[..reference.len().min(50)]));
+        assert_eq!(is_refused, !is_inside, "{reference}: {:?}", model.warnings);
+        let model = load_with(&path, LoadOptions { outside: true }, &mut |_| ControlFlow::Continue(())).unwrap();
+        assert_eq!((model.parts[0].material, &model.warnings[..]), (Some(0), &[][..]), "{reference}");
+    }
+}
+
 /// Loads a file for the sake of not panicking; a model that comes out keeps its promises.
 fn survive(path: &Path) -> bool {
-    let Ok(model) = load(path) else {
-        return false;
-    };
-    for part in &model.parts {
-        let mesh = &part.mesh;
-        assert!(part.world_from_part.is_finite());
-        assert!(part.material.is_none_or(|material| material < model.materials.len()));
-        assert!(mesh.positions().iter().all(|p| p.is_finite()));
-        assert!(mesh.normals().iter().all(|n| (n.length() - 1.0).abs() < 1e-6));
-        assert!(mesh.indices().iter().all(|&i| (i as usize) < mesh.positions().len()));
-    }
-    assert!(model.bounds().is_some_and(|bounds| bounds.min.is_finite() && bounds.max.is_finite()));
-    true
+    load(path).is_ok_and(|model| {
+        check_model(&model);
+        true
+    })
 }
 
 /// The places of the runs of digits in a text.

@@ -4,9 +4,12 @@ mod common;
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use bevy_math::{Mat4, Quat, Vec2, Vec3};
+use bevy_math::{Mat4, Quat, Vec2, Vec3, Vec4};
 use common::{Folder, TRIANGLE_JSON, glb, triangle_data};
-use halfway_mesh::{AlphaMode, LoadError, MetallicRoughness, Model, SourceLightKind, SourceMaterial, load};
+use halfway_mesh::{
+    AlphaMode, LoadError, MetallicRoughness, Model, SourceCamera, SourceLightKind, SourceMaterial, SourceProjection,
+    load,
+};
 
 fn load_glb(json: &str, data: &[u8]) -> Result<Model, LoadError> {
     let folder = Folder::new();
@@ -277,9 +280,158 @@ fn what_is_skipped_is_said() {
         load_glb(&json, &triangle_data()).unwrap().warnings,
         [
             "the extension KHR_materials_unlit is skipped",
-            "cameras are skipped (1)",
             "only the default scene of 2 is read",
             "the morph targets of 1 primitives are skipped",
         ]
     );
+}
+
+#[test]
+fn cameras_are_kept() {
+    let cameras = r#""cameras":[
+        {"name":"eye","type":"perspective","perspective":{"yfov":0.5,"znear":0.1,"aspectRatio":1.5}},
+        {"type":"orthographic","orthographic":{"xmag":2,"ymag":1,"zfar":10,"znear":0}}],"#;
+    let nodes = r#""nodes":[{"name":"node","mesh":0,"translation":[0,0,5],"camera":0},{"name":"plan","camera":1}],"#;
+    let file = |cameras: &str| {
+        with(&[
+            ("\"nodes\":[{\"name\":\"node\",\"mesh\":0,\"translation\":[0,0,5]}],", &format!("{cameras}{nodes}")),
+            ("\"scenes\":[{\"nodes\":[0]}]", "\"scenes\":[{\"nodes\":[0,1]}]"),
+        ])
+    };
+    let model = load_glb(&file(cameras), &triangle_data()).unwrap();
+    assert!(model.warnings.is_empty(), "{:?}", model.warnings);
+    let projection = SourceProjection::Perspective { yfov: 0.5, aspect: Some(1.5), near: 0.1, far: None };
+    let eye =
+        SourceCamera { name: "eye".to_owned(), projection, world_from_camera: Mat4::from_translation(Vec3::Z * 5.0) };
+    let projection = SourceProjection::Orthographic { half_width: 2.0, half_height: 1.0, near: 0.0, far: 10.0 };
+    let plan = SourceCamera { name: "plan".to_owned(), projection, world_from_camera: Mat4::IDENTITY };
+    assert_eq!(model.cameras, [eye, plan]);
+
+    for (name, from, to, expected) in [
+        (
+            "other projection",
+            "\"perspective\",\"persp",
+            "\"orthographic\",\"persp",
+            "cameras[0]: no projection of its type; one is expected",
+        ),
+        ("no angle", "0.5", "0", "cameras[0].perspective: [0.0, 1.5, 0.1"),
+        ("far before near", "\"zfar\":10", "\"zfar\":0", "cameras[1].orthographic: [2.0, 1.0, 0.0, 0.0]"),
+        ("far too far", "\"zfar\":10", "\"zfar\":1e39", "cameras[1].orthographic: [2.0, 1.0, 0.0, inf]"),
+        ("no width", "\"xmag\":2", "\"xmag\":0", "cameras[1].orthographic: [0.0"),
+    ] {
+        assert!(cameras.contains(from), "{name}");
+        let message = load_glb(&file(&cameras.replace(from, to)), &triangle_data()).unwrap_err().to_string();
+        assert!(message.contains(expected), "{name}: {message}");
+    }
+}
+
+/// What the corners of the triangle have.
+type Corners<T> = [T; 3];
+
+/// An attribute: name, shape, component type, whether it is normalised, byte stride, bytes.
+type AttributeRow<'a> = (&'a str, &'a str, u32, bool, usize, &'a [u8]);
+
+/// A triangle whose attributes are given by their types and bytes, four bytes apart or more.
+fn attributes(extension: &str, rows: &[AttributeRow]) -> Result<Model, LoadError> {
+    let mut data = Vec::new();
+    let (mut views, mut accessors, mut names) = (Vec::new(), Vec::new(), Vec::new());
+    for (i, (name, shape, component, normalized, stride, bytes)) in rows.iter().enumerate() {
+        let bounds = if *name == "POSITION" { ",\"min\":[0,0,0],\"max\":[1,1,1]" } else { "" };
+        views.push(format!(
+            "{{\"buffer\":0,\"byteOffset\":{},\"byteLength\":{},\"byteStride\":{stride}}}",
+            data.len(),
+            bytes.len()
+        ));
+        accessors.push(format!(
+            "{{\"bufferView\":{i},\"componentType\":{component},\"normalized\":{normalized},\"type\":\"{shape}\",\"count\":3{bounds}}}"
+        ));
+        names.push(format!("\"{name}\":{i}"));
+        data.extend_from_slice(bytes);
+        data.resize(data.len().next_multiple_of(4), 0);
+    }
+    let json = format!(
+        "{{\"asset\":{{\"version\":\"2.0\"}},{extension}\"nodes\":[{{\"mesh\":0}}],\"meshes\":[{{\"primitives\":[{{\"attributes\":{{{}}}}}]}}],\"accessors\":[{}],\"bufferViews\":[{}],\"buffers\":[{{\"byteLength\":{}}}]}}",
+        names.join(","),
+        accessors.join(","),
+        views.join(","),
+        data.len()
+    );
+    load_glb(&json, &data)
+}
+
+const I8: u32 = 5120;
+const U8: u32 = 5121;
+const I16: u32 = 5122;
+const U16: u32 = 5123;
+const F32: u32 = 5126;
+
+#[test]
+fn attributes_may_be_quantised() {
+    const EXTENSION: &str = "\"extensionsUsed\":[\"KHR_mesh_quantization\"],\"extensionsRequired\":[\"KHR_mesh_quantization\",\"KHR_texture_transform\"],";
+    let words = |numbers: &[i16]| -> Vec<u8> { numbers.iter().flat_map(|x| x.to_le_bytes()).collect() };
+    let positions = words(&[0, 0, 0, 0, 7, 0, 0, 0, 0, -9, 0, 0]);
+    let model = attributes(
+        EXTENSION,
+        &[
+            ("POSITION", "VEC3", I16, false, 8, &positions),
+            ("NORMAL", "VEC3", I8, true, 4, &[0, 0, 127, 0, 0, 0, 129, 0, 0, 0, 128, 0]),
+            ("TEXCOORD_0", "VEC2", U8, false, 4, &[1, 2, 0, 0, 3, 4, 0, 0, 255, 0, 0, 0]),
+        ],
+    )
+    .unwrap();
+    let mesh = &model.parts[0].mesh;
+    assert_eq!(mesh.positions(), [Vec3::ZERO, Vec3::X * 7.0, Vec3::Y * -9.0]);
+    // −128 is −1 too.
+    assert_eq!(mesh.normals(), [Vec3::Z, Vec3::NEG_Z, Vec3::NEG_Z]);
+    assert_eq!(mesh.uvs(), Some(&[Vec2::new(1.0, 2.0), Vec2::new(3.0, 4.0), Vec2::new(255.0, 0.0)][..]));
+
+    let halves = words(&[0, 0, 0, 0, 32767, 0, 0, 0, 0, -32768, 0, 0]);
+    let rows: [(u32, bool, &[u8], Corners<Vec3>); 4] = [
+        (I16, true, &halves, [Vec3::ZERO, Vec3::X, Vec3::NEG_Y]),
+        (U16, true, &halves, [Vec3::ZERO, Vec3::X * (32767.0 / 65535.0), Vec3::Y * (32768.0 / 65535.0)]),
+        (I8, false, &[0, 0, 0, 0, 1, 0, 0, 0, 0, 255, 0, 0], [Vec3::ZERO, Vec3::X, Vec3::NEG_Y]),
+        (U8, true, &[0, 0, 0, 0, 255, 0, 0, 0, 0, 51, 0, 0], [Vec3::ZERO, Vec3::X, Vec3::Y * 0.2]),
+    ];
+    for (component, normalized, bytes, expected) in rows {
+        let stride = bytes.len() / 3;
+        let row = ("POSITION", "VEC3", component, normalized, stride, bytes);
+        let model = attributes(EXTENSION, &[row]).unwrap();
+        assert_eq!(model.parts[0].mesh.positions(), expected, "{component}");
+        let message = attributes("", &[row]).unwrap_err().to_string();
+        assert!(message.contains("Vec3 of one of [F32] is expected"), "{component}: {message}");
+    }
+}
+
+#[test]
+fn colours_and_tangents_are_kept() {
+    let floats = |numbers: &[f32]| -> Vec<u8> { numbers.iter().flat_map(|x| x.to_le_bytes()).collect() };
+    let positions = floats(&[0., 0., 0., 1., 0., 0., 0., 1., 0.]);
+    let position = ("POSITION", "VEC3", F32, false, 12, &positions[..]);
+    let normals = floats(&[0., 0., 1., 0., 0., 1., 0., 0., 1.]);
+    let normal = ("NORMAL", "VEC3", F32, false, 12, &normals[..]);
+    let rgb = floats(&[1., 0., 0., 0., 2., 0., 0., 0., 1.]);
+    let [red, green, blue] = [Vec4::new(1., 0., 0., 1.), Vec4::new(0., 2., 0., 1.), Vec4::new(0., 0., 1., 1.)];
+    let bytes = [255, 0, 0, 255, 0, 51, 0, 255, 0, 0, 255, 0];
+    let rows: [(AttributeRow, Corners<Vec4>); 2] = [
+        (("COLOR_0", "VEC3", F32, false, 12, &rgb), [red, green, blue]),
+        (("COLOR_0", "VEC4", U8, true, 4, &bytes), [red, Vec4::new(0., 0.2, 0., 1.), Vec4::new(0., 0., 1., 0.)]),
+    ];
+    for (color, expected) in rows {
+        let second = ("TEXCOORD_1", "VEC2", F32, false, 8, &positions[..24]);
+        let model = attributes("", &[position, color, second]).unwrap();
+        assert_eq!(model.parts[0].mesh.colors(), Some(&expected[..]), "{}", color.1);
+        let warning = "of 1 primitives only the first texture coordinates and colours are read".to_owned();
+        assert!(model.warnings.contains(&warning), "{:?}", model.warnings);
+    }
+    let tangents = floats(&[1., 0., 0., 1., 1., 0., 0., -1., 0., 1., 0., 1.]);
+    let model = attributes("", &[position, normal, ("TANGENT", "VEC4", F32, false, 16, &tangents)]).unwrap();
+    assert_eq!(model.parts[0].mesh.tangents().unwrap()[1], Vec4::new(1., 0., 0., -1.));
+    assert!(model.warnings.is_empty(), "{:?}", model.warnings);
+    // They belong to normals of the file.
+    let model = attributes("", &[position, ("TANGENT", "VEC4", F32, false, 16, &tangents)]).unwrap();
+    assert!(model.parts[0].mesh.tangents().is_none());
+    let bad = floats(&[1., 0., 0., 0.5, 1., 0., 0., -1., 0., 1., 0., 1.]);
+    let model = attributes("", &[position, normal, ("TANGENT", "VEC4", F32, false, 16, &bad)]).unwrap();
+    assert!(model.parts[0].mesh.tangents().is_none());
+    assert!(model.warnings[0].starts_with("the tangents of 1 primitives are skipped"), "{:?}", model.warnings);
 }

@@ -268,3 +268,16 @@ fn given_normals_are_kept_at_unit_length() {
     assert_eq!(kept, mesh);
     assert!(report.is_clean());
 }
+
+#[test]
+fn the_number_of_threads_does_not_matter() {
+    // More triangles than one thread takes at a time.
+    let mesh = Mesh::from(UvSphere::new(1.0, 200, 100));
+    for policy in WEIGHTINGS.map(Normals::Weighted).into_iter().chain([Normals::Face]) {
+        let [one, five] = [1, 5].map(|threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| mesh.clone().with_normals(policy))
+        });
+        assert_eq!(one, five, "{policy:?}");
+    }
+}

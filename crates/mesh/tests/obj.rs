@@ -2,7 +2,7 @@
 
 mod common;
 
-use bevy_math::{Vec2, Vec3};
+use bevy_math::{Vec2, Vec3, Vec4};
 use common::Folder;
 use halfway_mesh::{Model, MtlMaterial, SourceMaterial, load};
 
@@ -143,24 +143,24 @@ fn what_is_skipped_is_said() {
             ],
         ),
         (
-            "vertex colours",
-            "v 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0 1\nf 1 2 3\n".to_owned(),
-            &["model.obj:1: vertex colours are skipped"],
+            "seven numbers",
+            "v 0 0 0 1 0 0 1\nv 1 0 0\nv 0 1 0 1\nf 1 2 3\n".to_owned(),
+            &["model.obj:1: the seventh number of `v` is skipped"],
         ),
         (
-            "smoothing groups",
-            format!("s off\n{SQUARE}s 1\nf 1 2 3\n"),
-            &["model.obj:6: smoothing groups are skipped; all normals are computed alike"],
+            "unknown group",
+            format!("{SQUARE}s left\nf 1 2 3\n"),
+            &["model.obj:5: `s` without the number of a group is skipped"],
         ),
         (
             "some normals",
-            format!("{SQUARE}vn 1 0 0\nf 1//1 2//1 3\n"),
-            &["``: 2 of 3 vertices have a normal; all normals are computed"],
+            format!("{SQUARE}vn 0 0 3\nf 1//1 2//1 3\n"),
+            &["``: 1 of 3 vertices have no normal; they get a computed one"],
         ),
         (
             "some texture coordinates",
             format!("{SQUARE}vt 0 0\nf 1/1 2 3\n"),
-            &["``: 1 of 3 vertices have a texture coordinate; none is used"],
+            &["``: 2 of 3 vertices have no texture coordinate; they get (0, 0)"],
         ),
         (
             "zero normals",
@@ -286,4 +286,97 @@ fn malformed_libraries_are_refused_by_line() {
         assert_eq!(error.to_string(), format!("{}{expected}", library.display()), "{name}");
         assert_eq!(error.path(), library, "{name}");
     }
+}
+
+#[test]
+fn concave_polygons_are_cut_along_their_insides() {
+    // A dart seen from above: the fan from its first corner would cover the notch.
+    let dart = "v 2 -1 0\nv 0 3 0\nv -2 -1 0\nv 0 0 0\n";
+    for (name, text) in [
+        ("after", format!("{dart}f 1 2 3 4\n")),
+        ("before", format!("f 1 2 3 4\n{dart}")),
+        ("with uvs", format!("{dart}vt 0 0\nf 1/1 2/1 3/1 4/1\n")),
+    ] {
+        let model = load_text(&text);
+        let mesh = &model.parts[0].mesh;
+        let area = |[a, b, c]: [u32; 3]| {
+            let [a, b, c] = [a, b, c].map(|i| mesh.positions()[i as usize]);
+            0.5 * (b - a).cross(c - a).z
+        };
+        let areas: Vec<f32> = mesh.triangles().map(area).collect();
+        // Half of base 4 and height 4, less half of base 4 and height 1.
+        let whole: f32 = areas.iter().sum();
+        assert!(areas.iter().all(|area| *area > 0.0) && (whole - 6.0).abs() < 1e-6, "{name}: {areas:?}");
+    }
+}
+
+#[test]
+fn polygons_that_cross_themselves_are_said() {
+    for (name, face) in [("bow", "f 1 3 2 4"), ("twisted", "f 1 3 2 4 5")] {
+        let model = load_text(&format!("{SQUARE}v 0.5 3 0\n{face}\n"));
+        assert_eq!(
+            model.warnings,
+            ["model.obj:6: a polygon that crosses itself, or has too many corners, is cut somehow"],
+            "{name}"
+        );
+    }
+}
+
+#[test]
+fn parts_of_the_same_name_and_material_are_one() {
+    let text = format!("{SQUARE}g a\nf 1 2 3\ng b\nf 1 3 4\ng a\nf 2 3 4\n");
+    let model = load_text(&text);
+    let parts: Vec<_> = model.parts.iter().map(|part| (&part.name[..], part.mesh.triangle_count())).collect();
+    assert_eq!(parts, [("a", 2), ("b", 1)]);
+    // A vertex that two faces use alike is one vertex.
+    assert_eq!(model.parts[0].mesh.positions().len(), 4);
+}
+
+#[test]
+fn colours_of_vertices_are_kept() {
+    let model = load_text("v 0 0 0\nv 1 0 0 1 0 0.5\nv 0 1 0\nf 1 2 3\n");
+    let colors = model.parts[0].mesh.colors().unwrap();
+    assert_eq!((colors[0], colors[2]), (Vec4::ONE, Vec4::ONE));
+    // 0.5 in sRGB, decoded; a few roundings of f32.
+    assert!(colors[1].distance(Vec4::new(1.0, 0.0, 0.214_041_14, 1.0)) < 1e-6, "{}", colors[1]);
+    assert!(load_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").parts[0].mesh.colors().is_none());
+}
+
+#[test]
+fn smoothing_groups_part_the_normals() {
+    // A roof: two sides that meet in an edge along x.
+    let roof = "v 0 0 0\nv 1 0 0\nv 0 1 1\nv 1 1 1\nv 0 2 0\nv 1 2 0\n";
+    let normals = |groups: [&str; 2]| {
+        let text = format!("{roof}{}\nf 1 2 4 3\n{}\nf 3 4 6 5\n", groups[0], groups[1]);
+        let model = load_text(&text);
+        assert!(model.warnings.is_empty(), "{:?}", model.warnings);
+        let mesh = model.parts[0].mesh.clone();
+        let at_ridge = |n: &&Vec3| n.y.abs() < 1e-6;
+        (mesh.positions().len(), mesh.normals().iter().filter(at_ridge).count())
+    };
+    // Smooth over the ridge: its two vertices are shared and look straight up.
+    assert_eq!(normals(["", ""]), (6, 2));
+    assert_eq!(normals(["s 1", "s 1"]), (6, 2));
+    assert_eq!(normals(["s on", "# goes on"]), (6, 2));
+    assert_eq!(normals(["s 1", "s 2"]), (8, 0));
+    // Without smoothing every triangle has vertices of its own.
+    assert_eq!(normals(["s 1", "s off"]).1, 0);
+    assert_eq!(normals(["s off", "s 0"]), (12, 0));
+    // Normals of the file win.
+    let given = load_text(&format!("{roof}vn 0 0 1\ns 1\nf 1//1 2//1 3//1\n"));
+    assert_eq!(given.parts[0].mesh.normals(), [Vec3::Z; 3]);
+}
+
+#[test]
+fn many_parts_and_faces_are_read_in_proportion() {
+    // Ten thousand groups that come and go, and a polygon of ten thousand corners: nothing here may be quadratic.
+    let vertices = (0..10_000).map(|i| {
+        let (sin, cos) = (i as f32 * 6e-4).sin_cos();
+        format!("v {cos} {sin} 0\nv {i} 2 1\n")
+    });
+    let faces = (1..10_000).map(|i| format!("g g{}\nf {} {} {}\n", i % 5000, 2 * i - 1, 2 * i, 2 * i + 1));
+    let ring = (0..10_000).map(|i| format!(" {}", 2 * i + 1));
+    let text: String = vertices.chain(faces).chain(["g ring\nf".to_owned()]).chain(ring).collect();
+    let model = load_text(&text);
+    assert_eq!((model.parts.len(), model.triangle_count()), (5001, 9999 + 9998));
 }

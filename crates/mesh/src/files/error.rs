@@ -33,20 +33,18 @@ pub enum LoadError {
         path: PathBuf,
     },
     /// The extension names no format that is known.
-    #[error("{}: the extension {extension:?} is unknown; smf, obj, gltf or glb is expected", path.display())]
+    #[error("{}: the extension {extension:?} is unknown; smf, obj, gltf, glb, ply or stl is expected", path.display())]
     UnknownExtension {
         /// The file.
         path: PathBuf,
         /// What follows the last dot of its name, in lower case; empty where there is none.
         extension: String,
     },
-    /// The extension names a format that a later version will read.
-    #[error("{}: {extension} files are not read yet; smf, obj, gltf or glb is expected", path.display())]
-    NotYet {
+    /// Whoever was told of the progress asked for the end.
+    #[error("{}: stopped", path.display())]
+    Stopped {
         /// The file.
         path: PathBuf,
-        /// The extension, in lower case.
-        extension: String,
     },
     /// A line of a text file is not what its place asks for.
     #[error("{}:{line}: {found}; {expected} expected", path.display())]
@@ -106,7 +104,7 @@ impl LoadError {
             | Self::NotAFile { path }
             | Self::Empty { path }
             | Self::UnknownExtension { path, .. }
-            | Self::NotYet { path, .. }
+            | Self::Stopped { path }
             | Self::Line { path, .. }
             | Self::Element { path, .. }
             | Self::Mesh { path, .. }

@@ -1,30 +1,86 @@
 //! Model files: which there are, and how they are opened.
 
+mod color;
+mod distinct;
 mod error;
 mod gltf;
-mod mtl;
 mod obj;
+mod ply;
+mod polygon;
 mod smf;
+mod source;
+mod stl;
 mod text;
+mod write;
 
-use std::fs;
-use std::path::{Component, Path};
+use std::cell::RefCell;
+use std::ops::ControlFlow;
+use std::path::Path;
+
+use bevy_math::Vec2;
 
 use crate::Model;
 
 pub use error::LoadError;
+pub use source::{LoadOptions, LoadProgress};
+pub use write::{WriteError, write};
+
+use source::Source;
+use text::Statement;
+
+/// A format of model files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Format {
+    /// Garland's SMF.
+    Smf,
+    /// Wavefront OBJ with its MTL files.
+    Obj,
+    /// glTF 2.0 in text.
+    Gltf,
+    /// glTF 2.0 in one binary file.
+    Glb,
+    /// PLY, in ASCII or binary.
+    Ply,
+    /// STL, in ASCII or binary.
+    Stl,
+}
+
+impl Format {
+    /// All formats.
+    pub const ALL: [Self; 6] = [Self::Smf, Self::Obj, Self::Gltf, Self::Glb, Self::Ply, Self::Stl];
+
+    /// What the names of its files end in, without the dot.
+    pub const fn extension(self) -> &'static str {
+        match self {
+            Self::Smf => "smf",
+            Self::Obj => "obj",
+            Self::Gltf => "gltf",
+            Self::Glb => "glb",
+            Self::Ply => "ply",
+            Self::Stl => "stl",
+        }
+    }
+
+    /// The format that a file's extension names, in either case.
+    pub fn of(path: &Path) -> Option<Self> {
+        let extension = path.extension()?;
+        Self::ALL.into_iter().find(|format| extension.eq_ignore_ascii_case(format.extension()))
+    }
+}
 
 /// Reads a model file. Its format is told by its extension, in either case:
 ///
 /// | extension | format | what is read |
 /// |---|---|---|
-/// | `smf` | Garland's SMF | vertices and triangles, as one part |
-/// | `obj` | Wavefront OBJ with its MTL files | polygons (cut into fans), normals, texture coordinates, materials; a part for each object or group and material |
-/// | `gltf`, `glb` | glTF 2.0 | the default scene: nodes, triangles, normals, the first texture coordinates, metallic-roughness factors, `KHR_lights_punctual`; a part for each primitive of each node |
+/// | `smf` | Garland's SMF | vertices, triangles, scopes, transforms, bound normals, colours and texture coordinates; a part for each group |
+/// | `obj` | Wavefront OBJ with its MTL files | polygons, normals, texture coordinates, colours, smoothing groups, materials; a part for each name of an object or group and material |
+/// | `gltf`, `glb` | glTF 2.0 | the default scene: nodes, cameras, triangles, normals, tangents, the first texture coordinates and colours, metallic-roughness factors, `KHR_lights_punctual`, `KHR_mesh_quantization`; a part for each primitive of each node |
+/// | `ply` | PLY | polygons and strips, normals, texture coordinates and colours of vertices, as one part |
+/// | `stl` | STL | triangles, with vertices at equal positions as one; a part for each solid |
 ///
-/// Files that a model refers to are read only from its own folder and those in it. What is skipped is said in
-/// [`Model::warnings`]. Normals that are missing are those of the default weighting
-/// ([`NormalWeighting::Angle`](crate::NormalWeighting::Angle)).
+/// Polygons are cut into triangles, concave ones too. Files that a model refers to are read only from its own folder and
+/// those in it. What is skipped is said in [`Model::warnings`]. Normals that are missing are those of the default
+/// [weighting](crate::NormalWeighting).
 ///
 /// No memory is taken on the word of a number in the file: what is allocated is in proportion to the data that is there.
 ///
@@ -32,73 +88,65 @@ pub use error::LoadError;
 /// The file is missing, empty, not a regular file or of another format; it is malformed, where the error names the line
 /// or the element and what was expected there; or it holds no triangle.
 pub fn load(path: &Path) -> Result<Model, LoadError> {
-    let extension =
-        path.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
-    let parse = match extension.as_str() {
-        "smf" => smf::parse,
-        "obj" => obj::parse,
-        "gltf" | "glb" => gltf::parse,
-        "ply" | "stl" => {
-            return Err(LoadError::NotYet { path: path.to_owned(), extension });
-        }
-        _ => {
-            return Err(LoadError::UnknownExtension { path: path.to_owned(), extension });
-        }
+    load_with(path, LoadOptions::default(), &mut |_| ControlFlow::Continue(()))
+}
+
+/// [`load`], with options, and with a function that is told now and then how far a large file is read; where it breaks,
+/// the error is [`LoadError::Stopped`].
+///
+/// # Errors
+/// As [`load`].
+pub fn load_with(
+    path: &Path,
+    options: LoadOptions,
+    progress: &mut dyn FnMut(LoadProgress) -> ControlFlow<()>,
+) -> Result<Model, LoadError> {
+    let Some(format) = Format::of(path) else {
+        let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+        return Err(LoadError::UnknownExtension { path: path.to_owned(), extension });
     };
-    let model = parse(path, &read(path)?)?;
+    // Several readers tell it, one at a time.
+    let progress = RefCell::new(progress);
+    let on_progress = |at| (progress.borrow_mut())(at);
+    parse(format, Source::open(path, options, &on_progress)?)
+}
+
+/// Reads a model that is in memory. It has no folder: files that it refers to are not read. In errors it goes by the name
+/// `model` and the format's extension.
+///
+/// # Errors
+/// As [`load`].
+pub fn load_bytes(format: Format, bytes: &[u8]) -> Result<Model, LoadError> {
+    let name = format!("model.{}", format.extension());
+    let path = Path::new(&name);
+    parse(format, Source::of_bytes(path, bytes)?)
+}
+
+fn parse(format: Format, source: Source) -> Result<Model, LoadError> {
+    let path = source.path;
+    let model = match format {
+        Format::Smf => smf::parse(source),
+        Format::Obj => obj::parse(source),
+        Format::Gltf | Format::Glb => gltf::parse(source, format),
+        Format::Ply => ply::parse(source),
+        Format::Stl => stl::parse(source),
+    }?;
     if model.parts.is_empty() {
         return Err(LoadError::NoTriangles { path: path.to_owned() });
     }
     Ok(model)
 }
 
-/// The bytes of a regular file that has some.
-fn read(path: &Path) -> Result<Vec<u8>, LoadError> {
-    let failed = |source| LoadError::Read { path: path.to_owned(), source };
-    // Asked before it is opened: opening a pipe waits for its other end.
-    if !fs::metadata(path).map_err(failed)?.is_file() {
-        return Err(LoadError::NotAFile { path: path.to_owned() });
-    }
-    let bytes = fs::read(path).map_err(failed)?;
-    if bytes.is_empty() {
-        return Err(LoadError::Empty { path: path.to_owned() });
-    }
-    Ok(bytes)
+/// The name of a file without its extension, which names a model that has no name of its own.
+fn stem(path: &Path) -> String {
+    path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
 }
 
-/// Whether a path that stands in a file stays in that file's folder: relative, and without `..`.
-fn stays_inside(reference: &Path) -> bool {
-    let mut names = 0;
-    reference.components().all(|component| {
-        names += usize::from(matches!(component, Component::Normal(_)));
-        matches!(component, Component::Normal(_) | Component::CurDir)
-    }) && names > 0
-}
-
-/// The folder that a file lies in.
-fn folder_of(path: &Path) -> &Path {
-    path.parent().unwrap_or(Path::new(""))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn references_stay_inside() {
-        for (reference, inside) in [
-            ("a.bin", true),
-            ("./a.bin", true),
-            ("sub/a.bin", true),
-            ("a..b", true),
-            ("../a.bin", false),
-            ("sub/../../a.bin", false),
-            ("sub/../a.bin", false),
-            ("/etc/passwd", false),
-            ("", false),
-            (".", false),
-        ] {
-            assert_eq!(stays_inside(Path::new(reference)), inside, "{reference:?}");
-        }
-    }
+/// Texture coordinates of a format whose v runs upward.
+fn uv(statement: &Statement, u: &str, v: &str) -> Result<Vec2, LoadError> {
+    let u = statement.number(u)?;
+    statement.number(v)?;
+    // In f64, where v is turned without loss.
+    let v: f64 = v.parse().map_err(|_| statement.unexpected_word(v, "a finite number is"))?;
+    Ok(Vec2::new(u, (1.0 - v) as f32))
 }

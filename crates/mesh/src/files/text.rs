@@ -5,8 +5,98 @@ use std::path::Path;
 use std::str::FromStr;
 
 use super::LoadError;
+use super::source::Reader;
 
-/// A statement: a line that is neither empty nor a comment.
+/// The statements of a text, one at a time: lines that are neither empty nor comments.
+///
+/// Lines end with LF or CRLF; `#` at the beginning makes a comment, which may hold any bytes; other lines are UTF-8. A
+/// byte order mark at the beginning is passed over. No more than a line is in memory.
+pub(super) struct Lines<'a> {
+    reader: Reader<'a>,
+    buffer: Vec<u8>,
+    /// The number of the line in the buffer, from 1, and how many lines were read.
+    line: usize,
+    read: usize,
+    /// Whether a backslash at the end of a line joins the next one to it.
+    continued: bool,
+}
+
+impl<'a> Lines<'a> {
+    pub(super) fn new(reader: Reader<'a>) -> Self {
+        Self { reader, buffer: Vec::new(), line: 0, read: 0, continued: false }
+    }
+
+    /// A backslash at the end of a line that is no comment joins the next one to it.
+    pub(super) fn with_continued_lines(self) -> Self {
+        Self { continued: true, ..self }
+    }
+
+    pub(super) fn path(&self) -> &'a Path {
+        self.reader.path()
+    }
+
+    /// The number of the last line, for errors at the end of the file.
+    pub(super) fn line(&self) -> usize {
+        self.line
+    }
+
+    /// The next statement.
+    pub(super) fn next(&mut self) -> Result<Option<Statement<'_>>, LoadError> {
+        loop {
+            if !self.read_line()? {
+                return Ok(None);
+            }
+            match self.buffer.trim_ascii_start().first() {
+                None | Some(b'#') => {}
+                Some(_) => break,
+            }
+        }
+        let path = self.reader.path();
+        let text = str::from_utf8(self.buffer.trim_ascii()).map_err(|error| LoadError::Line {
+            path: path.to_owned(),
+            line: self.line,
+            found: format!("the byte 0x{:02X}", self.buffer.trim_ascii()[error.valid_up_to()]),
+            expected: "UTF-8 text is".to_owned(),
+        })?;
+        let (keyword, rest) = match text.bytes().position(|byte| byte.is_ascii_whitespace()) {
+            Some(end) => (&text[..end], text[end..].trim_ascii_start()),
+            None => (text, ""),
+        };
+        Ok(Some(Statement { path, line: self.line, keyword, rest }))
+    }
+
+    fn read_line(&mut self) -> Result<bool, LoadError> {
+        self.buffer.clear();
+        if !self.reader.line(&mut self.buffer)? {
+            return Ok(false);
+        }
+        self.read += 1;
+        self.line = self.read;
+        if self.line == 1 && self.buffer.starts_with(b"\xEF\xBB\xBF") {
+            self.buffer.drain(..3);
+        }
+        if self.continued && self.buffer.trim_ascii_start().first() != Some(&b'#') {
+            while let Some(end) = continued_at(&self.buffer) {
+                self.buffer.truncate(end);
+                self.buffer.push(b' ');
+                if !self.reader.line(&mut self.buffer)? {
+                    break;
+                }
+                self.read += 1;
+            }
+        }
+        Ok(true)
+    }
+}
+
+/// The place of the backslash that ends a line.
+fn continued_at(line: &[u8]) -> Option<usize> {
+    let line = line.strip_suffix(b"\n").unwrap_or(line);
+    let line = line.strip_suffix(b"\r").unwrap_or(line);
+    line.strip_suffix(b"\\").map(<[u8]>::len)
+}
+
+/// A statement: a keyword and what follows it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Statement<'a> {
     pub(super) path: &'a Path,
@@ -18,33 +108,45 @@ pub(super) struct Statement<'a> {
     pub(super) rest: &'a str,
 }
 
-/// The statements of a text. Lines end with LF or CRLF; `#` at the beginning makes a comment, which may hold any
-/// bytes; other lines are UTF-8. A byte order mark at the beginning is passed over.
-pub(super) fn statements<'a>(path: &'a Path, text: &'a [u8]) -> impl Iterator<Item = Result<Statement<'a>, LoadError>> {
-    let text = text.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(text);
-    text.split(|&byte| byte == b'\n').enumerate().filter_map(move |(index, bytes)| {
-        let bytes = bytes.trim_ascii();
-        if bytes.is_empty() || bytes.starts_with(b"#") {
-            return None;
-        }
-        let line = index + 1;
-        let decoded = std::str::from_utf8(bytes).map_err(|error| LoadError::Line {
-            path: path.to_owned(),
-            line,
-            found: format!("the byte 0x{:02X}", bytes[error.valid_up_to()]),
-            expected: "UTF-8 text is".to_owned(),
-        });
-        Some(decoded.map(|text| {
-            let (keyword, rest) = text.split_once(char::is_whitespace).unwrap_or((text, ""));
-            Statement { path, line, keyword, rest: rest.trim() }
-        }))
-    })
-}
-
 impl<'a> Statement<'a> {
     /// The words after the keyword, up to a comment at the end of the line.
     pub(super) fn words(&self) -> impl Iterator<Item = &'a str> + use<'a> {
-        self.rest.split_whitespace().take_while(|word| !word.starts_with('#'))
+        self.rest.split_ascii_whitespace().take_while(|word| !word.starts_with('#'))
+    }
+
+    /// The words after the keyword, of which there must be `N`.
+    pub(super) fn exactly<const N: usize>(&self, expected: &str) -> Result<[&'a str; N], LoadError> {
+        let mut found = [""; N];
+        let mut words = self.words();
+        for place in &mut found {
+            *place = words.next().ok_or_else(|| self.unexpected(expected))?;
+        }
+        if words.next().is_some() {
+            return Err(self.unexpected(expected));
+        }
+        Ok(found)
+    }
+
+    /// The words after the keyword as finite numbers, of which there may be so many, and how many there are.
+    pub(super) fn numbers<const N: usize>(
+        &self,
+        counts: &[usize],
+        expected: &str,
+    ) -> Result<([f32; N], usize), LoadError> {
+        let mut words = [""; N];
+        let mut count = 0;
+        for word in self.words() {
+            *words.get_mut(count).ok_or_else(|| self.unexpected(expected))? = word;
+            count += 1;
+        }
+        if !counts.contains(&count) {
+            return Err(self.unexpected(expected));
+        }
+        let mut found = [0.0; N];
+        for (number, word) in found.iter_mut().zip(&words[..count]) {
+            *number = self.number(word)?;
+        }
+        Ok((found, count))
     }
 
     pub(super) fn error(&self, found: impl Into<String>, expected: impl Into<String>) -> LoadError {
@@ -58,7 +160,7 @@ impl<'a> Statement<'a> {
 
     /// That one of its words is not what it should be.
     pub(super) fn unexpected_word(&self, word: &str, expected: &str) -> LoadError {
-        self.error(format!("`{}` in `{}`", abridged(word, ""), self.keyword), expected)
+        self.error(format!("`{}` in `{}`", abridged(word, ""), abridged(self.keyword, "")), expected)
     }
 
     /// A word as a finite number.
@@ -73,12 +175,14 @@ impl<'a> Statement<'a> {
 /// A statement as it is quoted in an error: a file may have lines of any length.
 pub(super) fn abridged(keyword: &str, rest: &str) -> String {
     const LONGEST: usize = 60;
-    let whole = format!("{keyword} {rest}");
-    let whole = whole.trim_end();
-    match whole.char_indices().nth(LONGEST) {
-        Some((end, _)) => format!("{}…", &whole[..end]),
-        None => whole.to_owned(),
+    let mut shown: String = [keyword, " ", rest].into_iter().flat_map(str::chars).take(LONGEST + 1).collect();
+    if shown.chars().count() > LONGEST {
+        shown.pop();
+        shown.push('…');
+    } else {
+        shown.truncate(shown.trim_end().len());
     }
+    shown
 }
 
 /// Kinds of statements that were skipped, each with its first line and how many there were. A file of anything else

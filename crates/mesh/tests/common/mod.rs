@@ -5,6 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 
+use halfway_mesh::Model;
+
 /// A folder of the test's own, removed at the end.
 pub(crate) struct Folder(PathBuf);
 
@@ -34,6 +36,24 @@ impl Drop for Folder {
     fn drop(&mut self) {
         let _ = fs::remove_dir_all(&self.0);
     }
+}
+
+/// That a model keeps its promises.
+pub(crate) fn check_model(model: &Model) {
+    assert!(!model.parts.is_empty());
+    for part in &model.parts {
+        let mesh = &part.mesh;
+        assert!(part.world_from_part.is_finite());
+        assert!(part.material.is_none_or(|material| material < model.materials.len()));
+        assert!(mesh.triangle_count() > 0);
+        assert!(mesh.positions().iter().all(|p| p.is_finite()));
+        assert!(mesh.normals().iter().all(|n| (n.length() - 1.0).abs() < 1e-6));
+        assert!(mesh.indices().iter().all(|&i| (i as usize) < mesh.positions().len()));
+        let vertices = mesh.positions().len();
+        assert!(mesh.uvs().is_none_or(|uvs| uvs.len() == vertices && uvs.iter().all(|uv| uv.is_finite())));
+        assert!(mesh.colors().is_none_or(|colors| colors.len() == vertices && colors.iter().all(|c| c.is_finite())));
+    }
+    assert!(model.bounds().is_some_and(|bounds| bounds.min.is_finite() && bounds.max.is_finite()));
 }
 
 /// A binary glTF file.

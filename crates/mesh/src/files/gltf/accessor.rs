@@ -1,36 +1,137 @@
 //! Accessors: typed views into the buffers, measured before they are read.
 
+use std::borrow::Cow;
 use std::collections::HashMap;
 use std::rc::Rc;
 
-use bevy_math::{Vec2, Vec3};
+use gltf::Accessor;
 use gltf::accessor::sparse::{IndexType, Sparse};
-use gltf::accessor::{DataType, Dimensions, Item, Iter};
+use gltf::accessor::{DataType, Dimensions};
 use gltf::buffer::View;
-use gltf::{Accessor, Buffer};
 
 use super::Fault;
 
-/// How many bytes of meshes a byte of data may become. Honest files stay far below: an index of one byte can bring a
-/// vertex of 32 bytes and, in a strip, three indices of four.
+/// How many bytes of meshes a byte of data may become. Honest files stay far below: a vertex of a few bytes becomes one
+/// of 64 at most, and an index of one byte, in a strip, three of four bytes.
 const EXPANSION: usize = 64;
 
-/// Reads accessors, each once.
+/// What an attribute may be made of.
+pub(super) struct Attribute {
+    shapes: &'static [Dimensions],
+    /// Integers among them are normalised.
+    types: &'static [DataType],
+    /// The types that `KHR_mesh_quantization` adds.
+    quantized: &'static [DataType],
+    /// Whether that extension allows integers as they stand.
+    plain: bool,
+}
+
+use DataType::{F32, I8, I16, U8, U16};
+
+pub(super) const POSITION: Attribute =
+    Attribute { shapes: &[Dimensions::Vec3], types: &[F32], quantized: &[I8, U8, I16, U16], plain: true };
+pub(super) const NORMAL: Attribute =
+    Attribute { shapes: &[Dimensions::Vec3], types: &[F32], quantized: &[I8, I16], plain: false };
+pub(super) const TANGENT: Attribute =
+    Attribute { shapes: &[Dimensions::Vec4], types: &[F32], quantized: &[I8, I16], plain: false };
+pub(super) const TEXCOORD: Attribute =
+    Attribute { shapes: &[Dimensions::Vec2], types: &[F32, U8, U16], quantized: &[I8, I16], plain: true };
+pub(super) const COLOR: Attribute =
+    Attribute { shapes: &[Dimensions::Vec3, Dimensions::Vec4], types: &[F32, U8, U16], quantized: &[], plain: false };
+
+/// Measures accessors and finds their data.
 ///
-/// What is read and made of it is counted against a budget in proportion to the buffers, so that a small file whose
-/// elements share their data cannot ask for much memory.
+/// What is made of them is counted against a budget in proportion to the buffers, so that a small file whose elements
+/// share their data cannot ask for much memory.
 pub(super) struct Accessors<'a> {
-    buffers: &'a [Vec<u8>],
+    buffers: &'a [Cow<'a, [u8]>],
     bytes: usize,
     budget: usize,
-    vec3s: HashMap<usize, Rc<[Vec3]>>,
-    vec2s: HashMap<usize, Rc<[Vec2]>>,
+    /// Whether `KHR_mesh_quantization` is used.
+    quantized: bool,
+    /// Those of sparse values, written out.
+    dense: HashMap<usize, Rc<[u8]>>,
+}
+
+/// The items of an accessor, all of which are there.
+pub(super) struct Items<'a> {
+    data: Data<'a>,
+    stride: usize,
+    data_type: DataType,
+    normalized: bool,
+    pub(super) shape: Dimensions,
+    pub(super) count: usize,
+}
+
+enum Data<'a> {
+    Plain(&'a [u8]),
+    Dense(Rc<[u8]>),
+}
+
+impl Data<'_> {
+    fn bytes(&self) -> &[u8] {
+        match self {
+            Self::Plain(bytes) => bytes,
+            Self::Dense(bytes) => bytes,
+        }
+    }
+}
+
+/// Which items are read, in order.
+pub(super) enum Which {
+    All,
+    These(Vec<u32>),
+}
+
+impl Items<'_> {
+    /// Items of `N` numbers. Integers that are normalised become fractions (glTF 2.0 §3.11).
+    pub(super) fn floats<const N: usize, T>(&self, which: &Which, make: impl Fn([f32; N]) -> T) -> Vec<T> {
+        match (self.data_type, self.normalized) {
+            (I8, true) => self.decoded(which, |x| (f32::from(i8::from_le_bytes(x)) / 127.0).max(-1.0), make),
+            (I8, false) => self.decoded(which, |x| i8::from_le_bytes(x).into(), make),
+            (U8, true) => self.decoded(which, |x| f32::from(u8::from_le_bytes(x)) / 255.0, make),
+            (U8, false) => self.decoded(which, |x| u8::from_le_bytes(x).into(), make),
+            (I16, true) => self.decoded(which, |x| (f32::from(i16::from_le_bytes(x)) / 32767.0).max(-1.0), make),
+            (I16, false) => self.decoded(which, |x| i16::from_le_bytes(x).into(), make),
+            (U16, true) => self.decoded(which, |x| f32::from(u16::from_le_bytes(x)) / 65535.0, make),
+            (U16, false) => self.decoded(which, |x| u16::from_le_bytes(x).into(), make),
+            (F32, _) => self.decoded(which, f32::from_le_bytes, make),
+            // No attribute is of these.
+            (DataType::U32, _) => self.decoded(which, |x| u32::from_le_bytes(x) as f32, make),
+        }
+    }
+
+    fn indices(&self) -> Vec<u32> {
+        match self.data_type {
+            U8 => self.decoded(&Which::All, |x| u32::from(u8::from_le_bytes(x)), |[i]| i),
+            U16 => self.decoded(&Which::All, |x| u32::from(u16::from_le_bytes(x)), |[i]| i),
+            _ => self.decoded(&Which::All, u32::from_le_bytes, |[i]| i),
+        }
+    }
+
+    /// Items of `N` numbers of `S` bytes.
+    fn decoded<const N: usize, const S: usize, X, T>(
+        &self,
+        which: &Which,
+        number: impl Fn([u8; S]) -> X,
+        make: impl Fn([X; N]) -> T,
+    ) -> Vec<T> {
+        let bytes = self.data.bytes();
+        let item = |i: usize| {
+            let (words, _) = bytes[i * self.stride..][..N * S].as_chunks::<S>();
+            make(std::array::from_fn(|k| number(words[k])))
+        };
+        match which {
+            Which::All => (0..self.count).map(item).collect(),
+            Which::These(items) => items.iter().map(|&i| item(i as usize)).collect(),
+        }
+    }
 }
 
 impl<'a> Accessors<'a> {
-    pub(super) fn new(buffers: &'a [Vec<u8>]) -> Self {
-        let bytes = buffers.iter().map(Vec::len).sum::<usize>();
-        Self { buffers, bytes, budget: bytes.saturating_mul(EXPANSION), vec3s: HashMap::new(), vec2s: HashMap::new() }
+    pub(super) fn new(buffers: &'a [Cow<'a, [u8]>], quantized: bool) -> Self {
+        let bytes = buffers.iter().map(|buffer| buffer.len()).sum::<usize>();
+        Self { buffers, bytes, budget: bytes.saturating_mul(EXPANSION), quantized, dense: HashMap::new() }
     }
 
     /// Takes the bytes of what is about to be made from the budget.
@@ -48,67 +149,75 @@ impl<'a> Accessors<'a> {
         }
     }
 
-    /// Triples of `f32`: positions, normals.
-    pub(super) fn vec3s(&mut self, accessor: &Accessor) -> Result<Rc<[Vec3]>, Fault> {
-        if let Some(known) = self.vec3s.get(&accessor.index()) {
-            return Ok(known.clone());
-        }
-        expect(accessor, Dimensions::Vec3, &[DataType::F32])?;
-        self.admit(accessor, size_of::<Vec3>())?;
-        let read: Rc<[Vec3]> = self.items::<[f32; 3]>(accessor)?.map(Vec3::from_array).collect();
-        self.vec3s.insert(accessor.index(), read.clone());
-        Ok(read)
-    }
-
-    /// Pairs of `f32`, or of normalised integers: texture coordinates.
-    pub(super) fn vec2s(&mut self, accessor: &Accessor) -> Result<Rc<[Vec2]>, Fault> {
-        if let Some(known) = self.vec2s.get(&accessor.index()) {
-            return Ok(known.clone());
-        }
-        let allowed = [DataType::F32, DataType::U8, DataType::U16];
-        expect(accessor, Dimensions::Vec2, &allowed)?;
-        if accessor.data_type() != DataType::F32 && !accessor.normalized() {
+    /// The items of an attribute.
+    pub(super) fn attribute(&mut self, accessor: &Accessor, attribute: &Attribute) -> Result<Items<'a>, Fault> {
+        let quantized = if self.quantized { attribute.quantized } else { &[] };
+        expect(accessor, attribute.shapes, &[attribute.types, quantized].concat())?;
+        let may_be_plain = attribute.plain && self.quantized;
+        if accessor.data_type() != F32 && !accessor.normalized() && !may_be_plain {
             let expected = "integers that are normalised are";
             return Err(Fault::element(name(accessor), "normalized false", expected));
         }
-        self.admit(accessor, size_of::<Vec2>())?;
-        let read: Rc<[Vec2]> = match accessor.data_type() {
-            DataType::U8 => {
-                self.items::<[u8; 2]>(accessor)?.map(|uv| Vec2::from_array(uv.map(|x| f32::from(x) / 255.0))).collect()
-            }
-            DataType::U16 => self
-                .items::<[u16; 2]>(accessor)?
-                .map(|uv| Vec2::from_array(uv.map(|x| f32::from(x) / 65535.0)))
-                .collect(),
-            _ => self.items::<[f32; 2]>(accessor)?.map(Vec2::from_array).collect(),
-        };
-        self.vec2s.insert(accessor.index(), read.clone());
-        Ok(read)
+        self.items(accessor)
     }
 
     /// The indices of a primitive.
     pub(super) fn indices(&mut self, accessor: &Accessor) -> Result<Vec<u32>, Fault> {
-        let allowed = [DataType::U8, DataType::U16, DataType::U32];
-        expect(accessor, Dimensions::Scalar, &allowed)?;
-        self.admit(accessor, size_of::<u32>())?;
-        Ok(match accessor.data_type() {
-            DataType::U8 => self.items::<u8>(accessor)?.map(u32::from).collect(),
-            DataType::U16 => self.items::<u16>(accessor)?.map(u32::from).collect(),
-            _ => self.items::<u32>(accessor)?.collect(),
+        expect(accessor, &[Dimensions::Scalar], &[U8, U16, DataType::U32])?;
+        let items = self.items(accessor)?;
+        self.spend(&|| name(accessor), items.count.saturating_mul(size_of::<u32>()))?;
+        Ok(items.indices())
+    }
+
+    /// The items of an accessor, once it is certain that they are there.
+    fn items(&mut self, accessor: &Accessor) -> Result<Items<'a>, Fault> {
+        self.measure(accessor)?;
+        let buffers = self.buffers;
+        let (data, stride) = match (accessor.view(), accessor.sparse()) {
+            (Some(view), None) => {
+                let bytes = &buffers[view.buffer().index()][view.offset()..][..view.length()];
+                (Data::Plain(&bytes[accessor.offset()..]), view.stride().unwrap_or(accessor.size()))
+            }
+            (_, sparse) => (Data::Dense(self.densified(accessor, sparse.as_ref())?), accessor.size()),
+        };
+        Ok(Items {
+            data,
+            stride,
+            data_type: accessor.data_type(),
+            normalized: accessor.normalized(),
+            shape: accessor.dimensions(),
+            count: accessor.count(),
         })
     }
 
-    /// Makes sure that all items of an accessor are there, and that there is room for what they are read into.
-    fn admit(&mut self, accessor: &Accessor, bytes_each: usize) -> Result<(), Fault> {
-        self.measure(accessor)?;
-        self.spend(&|| name(accessor), accessor.count().saturating_mul(bytes_each))
-    }
-
-    /// The items of an accessor that has been admitted.
-    fn items<T: Item>(&self, accessor: &Accessor) -> Result<Iter<'a, T>, Fault> {
-        let buffers = self.buffers;
-        Iter::new(accessor.clone(), move |buffer: Buffer| buffers.get(buffer.index()).map(Vec::as_slice))
-            .ok_or_else(|| Fault::element(name(accessor), "no data", "a buffer view is"))
+    /// The items of a sparse accessor, which has been measured, one after the other.
+    fn densified(&mut self, accessor: &Accessor, sparse: Option<&Sparse>) -> Result<Rc<[u8]>, Fault> {
+        if let Some(known) = self.dense.get(&accessor.index()) {
+            return Ok(known.clone());
+        }
+        let size = accessor.size();
+        self.spend(&|| name(accessor), accessor.count().saturating_mul(size))?;
+        let mut dense = vec![0; accessor.count() * size];
+        let view_bytes = |view: &View| &self.buffers[view.buffer().index()][view.offset()..][..view.length()];
+        if let Some(view) = accessor.view() {
+            let bytes = &view_bytes(&view)[accessor.offset()..];
+            let stride = view.stride().unwrap_or(size);
+            for (i, item) in dense.chunks_exact_mut(size).enumerate() {
+                item.copy_from_slice(&bytes[i * stride..][..size]);
+            }
+        }
+        if let Some(sparse) = sparse {
+            let (view, offset) = (sparse.values().view(), sparse.values().offset());
+            let bytes = &view_bytes(&view)[offset..];
+            let stride = view.stride().unwrap_or(size);
+            for i in 0..sparse.count() {
+                let place = self.sparse_index(sparse, i) * size;
+                dense[place..place + size].copy_from_slice(&bytes[i * stride..][..size]);
+            }
+        }
+        let dense: Rc<[u8]> = dense.into();
+        self.dense.insert(accessor.index(), dense.clone());
+        Ok(dense)
     }
 
     fn measure(&self, accessor: &Accessor) -> Result<(), Fault> {
@@ -133,7 +242,7 @@ impl<'a> Accessors<'a> {
 
     /// That a run of items lies in its view, and the view in its buffer.
     fn measure_run(&self, element: &str, view: &View, run: Run) -> Result<(), Fault> {
-        let buffer = self.buffers.get(view.buffer().index()).map_or(0, Vec::len);
+        let buffer = self.buffers.get(view.buffer().index()).map_or(0, |buffer| buffer.len());
         let fits =
             |offset: usize, length: usize, whole: usize| offset.checked_add(length).is_some_and(|end| end <= whole);
         if !fits(view.offset(), view.length(), buffer) {
@@ -184,20 +293,9 @@ impl<'a> Accessors<'a> {
 
     /// That the indices of sparse values grow from one to the next and are in range.
     fn check_sparse_indices(&self, element: &str, accessor: &Accessor, sparse: &Sparse) -> Result<(), Fault> {
-        let indices = sparse.indices();
-        let view = indices.view();
-        let size = indices.index_type().size();
-        let stride = view.stride().unwrap_or(size);
-        let data = &self.buffers[view.buffer().index()][view.offset() + indices.offset()..];
         let mut least = 0;
         for i in 0..sparse.count() {
-            let bytes = &data[i * stride..][..size];
-            let index = match (indices.index_type(), bytes) {
-                (IndexType::U8, &[a]) => usize::from(a),
-                (IndexType::U16, &[a, b]) => usize::from(u16::from_le_bytes([a, b])),
-                (_, &[a, b, c, d]) => u32::from_le_bytes([a, b, c, d]) as usize,
-                _ => usize::MAX,
-            };
+            let index = self.sparse_index(sparse, i);
             if index < least || index >= accessor.count() {
                 return Err(Fault::element(
                     format!("{element}.indices"),
@@ -208,6 +306,21 @@ impl<'a> Accessors<'a> {
             least = index + 1;
         }
         Ok(())
+    }
+
+    /// An index of sparse values, whose run has been measured.
+    fn sparse_index(&self, sparse: &Sparse, i: usize) -> usize {
+        let indices = sparse.indices();
+        let view = indices.view();
+        let size = indices.index_type().size();
+        let stride = view.stride().unwrap_or(size);
+        let bytes = &self.buffers[view.buffer().index()][view.offset() + indices.offset() + i * stride..][..size];
+        match (indices.index_type(), bytes) {
+            (IndexType::U8, &[a]) => usize::from(a),
+            (IndexType::U16, &[a, b]) => usize::from(u16::from_le_bytes([a, b])),
+            (_, &[a, b, c, d]) => u32::from_le_bytes([a, b, c, d]) as usize,
+            _ => usize::MAX,
+        }
     }
 }
 
@@ -223,13 +336,14 @@ fn name(accessor: &Accessor) -> String {
     format!("accessors[{}]", accessor.index())
 }
 
-fn expect(accessor: &Accessor, shape: Dimensions, types: &[DataType]) -> Result<(), Fault> {
-    if accessor.dimensions() == shape && types.contains(&accessor.data_type()) {
+fn expect(accessor: &Accessor, shapes: &[Dimensions], types: &[DataType]) -> Result<(), Fault> {
+    if shapes.contains(&accessor.dimensions()) && types.contains(&accessor.data_type()) {
         return Ok(());
     }
+    let shapes: Vec<String> = shapes.iter().map(|shape| format!("{shape:?}")).collect();
     Err(Fault::element(
         name(accessor),
         format!("{:?} of {:?}", accessor.dimensions(), accessor.data_type()),
-        format!("{shape:?} of one of {types:?} is"),
+        format!("{} of one of {types:?} is", shapes.join(" or ")),
     ))
 }

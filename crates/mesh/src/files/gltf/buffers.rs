@@ -1,6 +1,6 @@
 //! The bytes that a glTF file describes: in the file, in a data URI or in a file beside it.
 
-use std::path::Path;
+use std::borrow::Cow;
 
 use base64::Engine as _;
 use base64::alphabet::STANDARD;
@@ -9,7 +9,8 @@ use gltf::Document;
 use gltf::buffer::{Buffer, Source};
 
 use super::Fault;
-use crate::files::{read, stays_inside};
+use crate::files::source::{Around, Reader};
+use crate::files::text::abridged;
 
 /// Base64 as in RFC 4648, with or without the padding at its end.
 const BASE64: GeneralPurpose = GeneralPurpose::new(
@@ -18,16 +19,20 @@ const BASE64: GeneralPurpose = GeneralPurpose::new(
 );
 
 /// All buffers of the document, each of exactly the length that the document says.
-pub(super) fn resolve(document: &Document, mut blob: Option<Vec<u8>>, folder: &Path) -> Result<Vec<Vec<u8>>, Fault> {
+pub(super) fn resolve<'a>(
+    document: &Document,
+    mut binary: Option<&'a [u8]>,
+    around: Around,
+) -> Result<Vec<Cow<'a, [u8]>>, Fault> {
     document
         .buffers()
         .map(|buffer| {
-            let mut bytes = match buffer.source() {
-                Source::Bin => binary_chunk(&buffer, &mut blob)?,
-                Source::Uri(uri) => match uri.strip_prefix("data:") {
+            let bytes = match buffer.source() {
+                Source::Bin => Cow::Borrowed(binary_chunk(&buffer, &mut binary)?),
+                Source::Uri(uri) => Cow::Owned(match uri.strip_prefix("data:") {
                     Some(data) => data_uri(&buffer, data)?,
-                    None => file(&buffer, uri, folder)?,
-                },
+                    None => file(&buffer, uri, around)?,
+                }),
             };
             if bytes.len() < buffer.length() {
                 return Err(Fault::element(
@@ -36,8 +41,13 @@ pub(super) fn resolve(document: &Document, mut blob: Option<Vec<u8>>, folder: &P
                     "at most as many as there are is",
                 ));
             }
-            bytes.truncate(buffer.length());
-            Ok(bytes)
+            Ok(match bytes {
+                Cow::Borrowed(bytes) => Cow::Borrowed(&bytes[..buffer.length()]),
+                Cow::Owned(mut bytes) => {
+                    bytes.truncate(buffer.length());
+                    Cow::Owned(bytes)
+                }
+            })
         })
         .collect()
 }
@@ -46,8 +56,8 @@ fn name(buffer: &Buffer) -> String {
     format!("buffers[{}]", buffer.index())
 }
 
-fn binary_chunk(buffer: &Buffer, blob: &mut Option<Vec<u8>>) -> Result<Vec<u8>, Fault> {
-    let chunk = if buffer.index() == 0 { blob.take() } else { None };
+fn binary_chunk<'a>(buffer: &Buffer, binary: &mut Option<&'a [u8]>) -> Result<&'a [u8], Fault> {
+    let chunk = if buffer.index() == 0 { binary.take() } else { None };
     chunk.ok_or_else(|| {
         let expected = "a uri, or a binary chunk for the first buffer, is";
         Fault::element(name(buffer), "neither", expected)
@@ -63,17 +73,19 @@ fn data_uri(buffer: &Buffer, data: &str) -> Result<Vec<u8>, Fault> {
     BASE64.decode(body).map_err(|error| Fault::element(name(buffer), error.to_string(), "base64 is"))
 }
 
-fn file(buffer: &Buffer, uri: &str, folder: &Path) -> Result<Vec<u8>, Fault> {
-    let refused = |found: String| {
+fn file(buffer: &Buffer, uri: &str, around: Around) -> Result<Vec<u8>, Fault> {
+    let refused = || {
         let expected = "a file in the folder of the model, or in one inside it, is";
-        Fault::element(name(buffer), found, expected)
+        Fault::element(name(buffer), format!("uri {:?}", abridged(uri, "")), expected)
     };
-    let decoded = percent_decoded(uri).ok_or_else(|| refused(format!("uri {uri:?}")))?;
+    let decoded = percent_decoded(uri).ok_or_else(refused)?;
     // A colon makes a scheme, or a drive; a backslash parts folders on some systems and not on others.
-    if decoded.contains([':', '\\']) || !stays_inside(Path::new(&decoded)) {
-        return Err(refused(format!("uri {uri:?}")));
+    if decoded.contains([':', '\\']) {
+        return Err(refused());
     }
-    read(&folder.join(decoded)).map_err(Fault::Elsewhere)
+    let path = around.find(&decoded).ok_or_else(refused)?;
+    let bytes = around.open(&path).and_then(Reader::whole).map_err(Fault::Elsewhere)?;
+    Ok(bytes.into_owned())
 }
 
 /// `%20` and the like resolved (RFC 3986 §2.1); `None` where a `%` has no two hexadecimal digits after it, or where

@@ -12,57 +12,74 @@ mod scene;
 use std::path::Path;
 
 use gltf::json::Root;
+use gltf::json::camera::Type as CameraType;
 use gltf::json::extensions::ENABLED_EXTENSIONS;
 use gltf::json::mesh::Semantic;
 use gltf::json::validation::Checked;
-use gltf::{Document, Gltf};
+use gltf::{Document, Glb, Gltf};
 
 use self::accessor::Accessors;
 use self::primitive::Primitives;
-use super::{LoadError, folder_of};
+use super::source::{Around, Source};
+use super::{Format, LoadError};
 use crate::{MeshError, Model};
 
+/// The extension that allows integers in attributes.
+const QUANTIZATION: &str = "KHR_mesh_quantization";
+
+/// The extensions that are read here, or that concern nothing that is read: textures are not.
+const OWN_EXTENSIONS: [&str; 2] = [QUANTIZATION, "KHR_texture_transform"];
+
 /// Reads the default scene of a glTF file.
-pub(super) fn parse(path: &Path, bytes: &[u8]) -> Result<Model, LoadError> {
-    let is_binary = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("glb"));
-    read(folder_of(path), bytes, is_binary).map_err(|fault| fault.at(path))
+pub(super) fn parse(source: Source, format: Format) -> Result<Model, LoadError> {
+    let Source { path, reader, around } = source;
+    let bytes = reader.whole()?;
+    read(&bytes, format == Format::Glb, around).map_err(|fault| fault.at(path))
 }
 
-fn read(folder: &Path, bytes: &[u8], is_binary: bool) -> Result<Model, Fault> {
-    let (document, blob) = open(bytes, is_binary)?;
-    let buffers = buffers::resolve(&document, blob, folder)?;
+fn read(bytes: &[u8], is_binary: bool, around: Around) -> Result<Model, Fault> {
+    // In its place in the file, not copied.
+    let container = if is_binary || bytes.starts_with(b"glTF") { Some(open_container(bytes)?) } else { None };
+    let document = open(container.as_ref().map_or(bytes, |glb| &glb.json))?;
+    let binary = container.as_ref().and_then(|glb| glb.bin.as_deref());
+    let buffers = buffers::resolve(&document, binary, around)?;
     let mut warnings = Vec::new();
     warn_of_skipped(&document, &mut warnings);
     let materials = material::materials(&document)?;
-    let mut primitives = Primitives::new(Accessors::new(&buffers));
-    let (parts, lights) = scene::read(&document, &mut primitives)?;
+    let is_quantized = document.extensions_used().any(|extension| extension == QUANTIZATION);
+    let mut primitives = Primitives::new(Accessors::new(&buffers, is_quantized));
+    let scene::Contents { parts, lights, cameras } = scene::read(&document, &mut primitives)?;
     warnings.extend(primitives.into_warnings());
-    Ok(Model { parts, materials, lights, warnings })
+    Ok(Model { parts, materials, lights, cameras, warnings })
 }
 
-/// The document, valid as far as the `gltf` crate looks, and the binary chunk.
-fn open(bytes: &[u8], is_binary: bool) -> Result<(Document, Option<Vec<u8>>), Fault> {
-    if is_binary || bytes.starts_with(b"glTF") {
-        check_header(bytes)?;
-    }
-    let Gltf { document, blob } = Gltf::from_slice_without_validation(bytes).map_err(|error| unreadable(&error))?;
+fn open_container(bytes: &[u8]) -> Result<Glb<'_>, Fault> {
+    check_header(bytes)?;
+    Glb::from_slice(bytes).map_err(|error| unreadable(&error))
+}
+
+/// The document, valid as far as the `gltf` crate looks.
+fn open(json: &[u8]) -> Result<Document, Fault> {
+    let Gltf { document, .. } = Gltf::from_slice_without_validation(json).map_err(|error| unreadable(&error))?;
     let mut json = document.into_json();
     if !json.asset.version.starts_with("2.") {
         let found = format!("version {:?}", json.asset.version);
         return Err(Fault::element("asset.version", found, "version \"2.0\" is"));
     }
+    // The `gltf` crate refuses what it does not read itself.
+    json.extensions_required.retain(|extension| !OWN_EXTENSIONS.contains(&extension.as_str()));
     for extension in &json.extensions_required {
         if !ENABLED_EXTENSIONS.contains(&extension.as_str()) {
             return Err(Fault::RequiredExtension(extension.clone()));
         }
     }
     check_positions(&json)?;
+    check_cameras(&json)?;
     // Attributes of an application's own, as `_ID`, are allowed; the `gltf` crate takes them for mistakes.
     for primitive in json.meshes.iter_mut().flat_map(|mesh| &mut mesh.primitives) {
         primitive.attributes.remove(&Checked::Invalid);
     }
-    let document = Document::from_json(json).map_err(|error| invalid(&error))?;
-    Ok((document, blob))
+    Document::from_json(json).map_err(|error| invalid(&error))
 }
 
 /// The header of a binary file: magic, version, length; its reader subtracts from the length without looking.
@@ -103,6 +120,22 @@ fn check_positions(json: &Root) -> Result<(), Fault> {
     Ok(())
 }
 
+/// That cameras have the projection that they say: the `gltf` crate takes it for granted.
+fn check_cameras(json: &Root) -> Result<(), Fault> {
+    for (index, camera) in json.cameras.iter().enumerate() {
+        let is_there = match camera.type_ {
+            Checked::Valid(CameraType::Perspective) => camera.perspective.is_some(),
+            Checked::Valid(CameraType::Orthographic) => camera.orthographic.is_some(),
+            // Which validation finds.
+            Checked::Invalid => true,
+        };
+        if !is_there {
+            return Err(Fault::element(format!("cameras[{index}]"), "no projection of its type", "one is"));
+        }
+    }
+    Ok(())
+}
+
 fn unreadable(error: &gltf::Error) -> Fault {
     let (element, expected) = match error {
         gltf::Error::Binary(_) => ("GLB", "a whole binary glTF file is"),
@@ -128,13 +161,12 @@ fn invalid(error: &gltf::Error) -> Fault {
 
 fn warn_of_skipped(document: &Document, warnings: &mut Vec<String>) {
     for extension in document.extensions_used() {
-        if !ENABLED_EXTENSIONS.contains(&extension) {
+        if !ENABLED_EXTENSIONS.contains(&extension) && extension != QUANTIZATION {
             warnings.push(format!("the extension {extension} is skipped"));
         }
     }
     let counts = [
         ("animations", document.animations().len()),
-        ("cameras", document.cameras().len()),
         ("skins", document.skins().len()),
         ("textures", document.textures().len()),
     ];

@@ -2,15 +2,18 @@
 
 use std::collections::HashMap;
 
+use bevy_math::{Vec2, Vec3, Vec4};
 use gltf::Primitive;
+use gltf::accessor::Dimensions;
 use gltf::mesh::{Mode, Semantic};
 
 use super::Fault;
-use super::accessor::Accessors;
+use super::accessor::{self, Accessors, Attribute, Items, Which};
+use crate::numbering::Numbering;
 use crate::{Mesh, MeshError};
 
-/// Bytes of a vertex (position, normal, uv) and of an index in a mesh.
-const VERTEX: usize = 32;
+/// Bytes of a vertex (position, normal, uv, colour, tangent) and of an index in a mesh.
+const VERTEX: usize = 64;
 const INDEX: usize = 4;
 
 /// Makes meshes of primitives, each once, however many nodes show it.
@@ -21,11 +24,21 @@ pub(super) struct Primitives<'a> {
     warnings: Vec<String>,
     without_normals: usize,
     with_targets: usize,
+    with_more: usize,
+    with_bad_tangents: usize,
 }
 
 impl<'a> Primitives<'a> {
     pub(super) fn new(accessors: Accessors<'a>) -> Self {
-        Self { accessors, meshes: HashMap::new(), warnings: Vec::new(), without_normals: 0, with_targets: 0 }
+        Self {
+            accessors,
+            meshes: HashMap::new(),
+            warnings: Vec::new(),
+            without_normals: 0,
+            with_targets: 0,
+            with_more: 0,
+            with_bad_tangents: 0,
+        }
     }
 
     pub(super) fn into_warnings(self) -> Vec<String> {
@@ -38,6 +51,18 @@ impl<'a> Primitives<'a> {
         }
         if self.with_targets > 0 {
             warnings.push(format!("the morph targets of {} primitives are skipped", self.with_targets));
+        }
+        if self.with_more > 0 {
+            warnings.push(format!(
+                "of {} primitives only the first texture coordinates and colours are read",
+                self.with_more
+            ));
+        }
+        if self.with_bad_tangents > 0 {
+            warnings.push(format!(
+                "the tangents of {} primitives are skipped, since not all are of unit length with a sign of 1 or -1",
+                self.with_bad_tangents
+            ));
         }
         warnings
     }
@@ -60,57 +85,97 @@ impl<'a> Primitives<'a> {
         Ok(made)
     }
 
+    /// What a primitive has besides positions, one a vertex; what is left out of it is counted.
+    fn attributes(
+        &mut self,
+        element: &str,
+        primitive: &Primitive<'a>,
+        vertices: usize,
+    ) -> Result<Attributes<'a>, Fault> {
+        let mut attribute = |semantic: Semantic, kind: &Attribute, what: &'static str| {
+            let Some(accessor) = primitive.get(&semantic) else {
+                return Ok(None);
+            };
+            let items = self.accessors.attribute(&accessor, kind)?;
+            if items.count == vertices {
+                return Ok(Some(items));
+            }
+            let source = MeshError::CountMismatch { attribute: what, found: items.count, expected: vertices };
+            Err(Fault::Mesh { element: element.to_owned(), source })
+        };
+        let normals = attribute(Semantic::Normals, &accessor::NORMAL, "normal")?;
+        let uvs = attribute(Semantic::TexCoords(0), &accessor::TEXCOORD, "uv")?;
+        let colors = attribute(Semantic::Colors(0), &accessor::COLOR, "colour")?;
+        // Without normals of the file its tangents belong to others.
+        let tangents = attribute(Semantic::Tangents, &accessor::TANGENT, "tangent")?.filter(|_| normals.is_some());
+        self.without_normals += usize::from(normals.is_none());
+        self.with_targets += usize::from(primitive.morph_targets().len() > 0);
+        let is_more = |semantic| matches!(semantic, Semantic::TexCoords(1..) | Semantic::Colors(1..));
+        self.with_more += usize::from(primitive.attributes().any(|(semantic, _)| is_more(semantic)));
+        Ok(Attributes { normals, uvs, colors, tangents })
+    }
+
     fn make(&mut self, element: &str, primitive: &Primitive<'a>) -> Result<Mesh, Fault> {
         let invalid = |source: MeshError| Fault::Mesh { element: element.to_owned(), source };
         let Some(positions) = primitive.get(&Semantic::Positions) else {
             return Err(Fault::element(element, "no POSITION", "positions are"));
         };
-        let positions = self.accessors.vec3s(&positions)?;
+        let positions = self.accessors.attribute(&positions, &accessor::POSITION)?;
+        let vertices = positions.count;
         let corners = match primitive.indices() {
             Some(indices) => self.accessors.indices(&indices)?,
-            None => (0..positions.len() as u32).collect(),
+            None => (0..vertices as u32).collect(),
         };
         let indices = triangles(primitive.mode(), corners);
-        let used = used_vertices(&indices, positions.len()).map_err(invalid)?;
-        let bytes = used.len() * VERTEX + indices.len() * INDEX;
-        self.accessors.spend(&|| element.to_owned(), bytes)?;
+        let (which, indices) = used_vertices(indices, vertices).map_err(invalid)?;
+        let used = match &which {
+            Which::All => vertices,
+            Which::These(these) => these.len(),
+        };
+        self.accessors.spend(&|| element.to_owned(), used * VERTEX + indices.len() * INDEX)?;
 
-        let normals = match primitive.get(&Semantic::Normals) {
-            Some(normals) => Some(self.accessors.vec3s(&normals)?),
-            None => None,
-        };
-        let uvs = match primitive.get(&Semantic::TexCoords(0)) {
-            Some(uvs) => Some(self.accessors.vec2s(&uvs)?),
-            None => None,
-        };
-        self.without_normals += usize::from(normals.is_none());
-        self.with_targets += usize::from(primitive.morph_targets().len() > 0);
-        let same_count = |attribute, found: usize| {
-            if found == positions.len() {
-                return Ok(());
-            }
-            Err(invalid(MeshError::CountMismatch { attribute, found, expected: positions.len() }))
-        };
-        if let Some(normals) = &normals {
-            same_count("normal", normals.len())?;
-        }
-        if let Some(uvs) = &uvs {
-            same_count("uv", uvs.len())?;
-        }
+        let Attributes { normals, uvs, colors, tangents } = self.attributes(element, primitive, vertices)?;
         let (mesh, report) = Mesh::from_parts_reported(
-            pick(&positions, &used),
-            normals.map(|normals| pick(&normals, &used)),
-            uvs.map(|uvs| pick(&uvs, &used)),
-            renumbered(indices, &used),
+            positions.floats(&which, Vec3::from_array),
+            normals.map(|normals| normals.floats(&which, Vec3::from_array)),
+            uvs.map(|uvs| uvs.floats(&which, Vec2::from_array)),
+            indices,
         )
         .map_err(invalid)?;
         if report.replaced > 0 {
-            let count = report.replaced;
-            let warning = format!("{element}: {count} normals of zero length are replaced");
-            self.warnings.push(warning);
+            self.warnings.push(format!("{element}: {} normals of zero length are replaced", report.replaced));
         }
-        Ok(mesh)
+        let mesh = match colors.map(|colors| rgba(&colors, &which)) {
+            Some(colors) => mesh.with_colors(colors).map_err(invalid)?,
+            None => mesh,
+        };
+        match tangents.map(|tangents| tangents.floats(&which, Vec4::from_array)) {
+            Some(tangents) if tangents.iter().all(is_tangent) => Ok(mesh.with_given_tangents(tangents)),
+            tangents => {
+                self.with_bad_tangents += usize::from(tangents.is_some());
+                Ok(mesh)
+            }
+        }
     }
+}
+
+struct Attributes<'a> {
+    normals: Option<Items<'a>>,
+    uvs: Option<Items<'a>>,
+    colors: Option<Items<'a>>,
+    tangents: Option<Items<'a>>,
+}
+
+fn rgba(colors: &Items, which: &Which) -> Vec<Vec4> {
+    match colors.shape {
+        Dimensions::Vec3 => colors.floats(which, |rgb| Vec3::from_array(rgb).extend(1.0)),
+        _ => colors.floats(which, Vec4::from_array),
+    }
+}
+
+/// Quantised to bytes a unit vector's length is off by up to 1 %.
+fn is_tangent(tangent: &Vec4) -> bool {
+    (tangent.truncate().length() - 1.0).abs() < 0.02 && (tangent.w.abs() - 1.0).abs() < f32::EPSILON
 }
 
 /// The corners of the triangles that a primitive's corners make (glTF 2.0 §3.7.2.1).
@@ -129,34 +194,28 @@ fn triangles(mode: Mode, corners: Vec<u32>) -> Vec<u32> {
     }
 }
 
-/// The vertices that the triangles use, in order. Files may keep all their vertices in one place, of which a primitive
-/// shows a few.
-fn used_vertices(indices: &[u32], vertices: usize) -> Result<Vec<u32>, MeshError> {
+/// The vertices that the triangles use, and the indices into those. Files may keep all their vertices in one place, of
+/// which a primitive shows a few; then these come in the order of their use.
+fn used_vertices(indices: Vec<u32>, vertices: usize) -> Result<(Which, Vec<u32>), MeshError> {
     for (at, &index) in indices.iter().enumerate() {
         if index as usize >= vertices {
             return Err(MeshError::IndexOutOfRange { triangle: at / 3, corner: at % 3, index, vertices });
         }
     }
-    let mut used = indices.to_vec();
-    used.sort_unstable();
-    used.dedup();
-    Ok(used)
-}
-
-fn pick<T: Copy>(all: &[T], used: &[u32]) -> Vec<T> {
-    used.iter().map(|&vertex| all[vertex as usize]).collect()
-}
-
-/// The indices into the used vertices.
-fn renumbered(mut indices: Vec<u32>, used: &[u32]) -> Vec<u32> {
-    let all_used = used.last().is_some_and(|&last| last as usize + 1 == used.len());
-    if !all_used {
-        for index in &mut indices {
-            // Every index is among the used.
-            *index = used.partition_point(|vertex| *vertex < *index) as u32;
+    // Looked at only where there are enough indices, so that a vertex costs nothing to the primitives that do not use it.
+    let uses_all = indices.len() >= vertices && {
+        let mut is_used = vec![false; vertices];
+        for &index in &indices {
+            is_used[index as usize] = true;
         }
+        is_used.into_iter().all(|used| used)
+    };
+    if uses_all {
+        return Ok((Which::All, indices));
     }
-    indices
+    let used = Numbering::new(indices.len(), |corner| [indices[corner]]);
+    let these = used.firsts.iter().map(|&corner| indices[corner as usize]).collect();
+    Ok((Which::These(these), used.numbers))
 }
 
 #[cfg(test)]
@@ -178,11 +237,14 @@ mod tests {
 
     #[test]
     fn only_used_vertices_are_kept() {
-        let indices = vec![7, 2, 4, 4, 2, 9];
-        let used = used_vertices(&indices, 10).unwrap();
-        assert_eq!(used, [2, 4, 7, 9]);
-        assert_eq!(renumbered(indices, &used), [2, 0, 1, 1, 0, 3]);
-        let all = vec![0, 2, 1];
-        assert_eq!(renumbered(all.clone(), &used_vertices(&all, 3).unwrap()), all);
+        let (which, indices) = used_vertices(vec![7, 2, 4, 4, 2, 9], 10).unwrap();
+        assert!(matches!(which, Which::These(these) if these == [7, 2, 4, 9]));
+        assert_eq!(indices, [0, 1, 2, 2, 1, 3]);
+        let (which, indices) = used_vertices(vec![0, 2, 1], 3).unwrap();
+        assert!(matches!(which, Which::All));
+        assert_eq!(indices, [0, 2, 1]);
+        // As many indices as vertices, but not all are used.
+        let (which, _) = used_vertices(vec![0, 2, 2], 3).unwrap();
+        assert!(matches!(which, Which::These(these) if these == [0, 2]));
     }
 }

@@ -1,25 +1,30 @@
 //! The node tree: where meshes and lights stand.
 
 use bevy_math::{DMat4, DQuat, DVec3, Mat4, Vec4};
+use gltf::camera::{Camera, Projection};
 use gltf::khr_lights_punctual::{Kind, Light};
 use gltf::scene::Transform;
 use gltf::{Document, Node};
 
 use super::primitive::Primitives;
 use super::{Fault, check_finite};
-use crate::{Part, SourceLight, SourceLightKind};
+use crate::{Part, SourceCamera, SourceLight, SourceLightKind, SourceProjection};
 
 /// The most parts that are made of one file: nodes and primitives multiply.
 const MOST_PARTS: usize = 1 << 18;
 
-/// The parts and lights of the default scene; of the first where none is the default; of all nodes without a parent
+/// What stands in the world.
+#[derive(Default)]
+pub(super) struct Contents {
+    pub(super) parts: Vec<Part>,
+    pub(super) lights: Vec<SourceLight>,
+    pub(super) cameras: Vec<SourceCamera>,
+}
+
+/// The contents of the default scene; of the first where none is the default; of all nodes without a parent
 /// where there is no scene.
-pub(super) fn read<'a>(
-    document: &'a Document,
-    primitives: &mut Primitives<'a>,
-) -> Result<(Vec<Part>, Vec<SourceLight>), Fault> {
-    let mut reader =
-        Reader { primitives, seen: vec![false; document.nodes().len()], parts: Vec::new(), lights: Vec::new() };
+pub(super) fn read<'a>(document: &'a Document, primitives: &mut Primitives<'a>) -> Result<Contents, Fault> {
+    let mut reader = Reader { primitives, seen: vec![false; document.nodes().len()], contents: Contents::default() };
     // Children are put on the stack last to first, so that nodes come in the order of the file.
     let mut stack: Vec<(Node, DMat4)> = roots(document).into_iter().rev().map(|node| (node, DMat4::IDENTITY)).collect();
     while let Some((node, world_from_parent)) = stack.pop() {
@@ -27,7 +32,7 @@ pub(super) fn read<'a>(
         let children: Vec<Node> = node.children().collect();
         stack.extend(children.into_iter().rev().map(|child| (child, world_from_node)));
     }
-    Ok((reader.parts, reader.lights))
+    Ok(reader.contents)
 }
 
 fn roots(document: &Document) -> Vec<Node<'_>> {
@@ -44,8 +49,7 @@ fn roots(document: &Document) -> Vec<Node<'_>> {
 struct Reader<'r, 'a> {
     primitives: &'r mut Primitives<'a>,
     seen: Vec<bool>,
-    parts: Vec<Part>,
-    lights: Vec<SourceLight>,
+    contents: Contents,
 }
 
 impl<'a> Reader<'_, 'a> {
@@ -63,18 +67,21 @@ impl<'a> Reader<'_, 'a> {
             return Err(Fault::element(element(), found, "a smaller one is"));
         }
         if let Some(light) = node.light() {
-            self.lights.push(source_light(node, &light, world)?);
+            self.contents.lights.push(source_light(node, &light, world)?);
+        }
+        if let Some(camera) = node.camera() {
+            self.contents.cameras.push(source_camera(node, &camera, world)?);
         }
         if let Some(mesh) = node.mesh() {
             for primitive in mesh.primitives() {
                 let Some(shown) = self.primitives.mesh(mesh.index(), &primitive)? else {
                     continue;
                 };
-                if self.parts.len() == MOST_PARTS {
+                if self.contents.parts.len() == MOST_PARTS {
                     let found = format!("more than {MOST_PARTS} primitives shown");
                     return Err(Fault::element(element(), found, "fewer are"));
                 }
-                self.parts.push(Part {
+                self.contents.parts.push(Part {
                     name: node.name().or(mesh.name()).unwrap_or_default().to_owned(),
                     mesh: shown,
                     material: primitive.material().index(),
@@ -138,4 +145,36 @@ fn source_light(node: &Node, light: &Light, world_from_light: Mat4) -> Result<So
         range: light.range(),
         world_from_light,
     })
+}
+
+fn source_camera(node: &Node, camera: &Camera, world_from_camera: Mat4) -> Result<SourceCamera, Fault> {
+    let field = |name: &str| format!("cameras[{}].{name}", camera.index());
+    let projection = match camera.projection() {
+        Projection::Perspective(found) => {
+            let (near, far) = (found.znear(), found.zfar());
+            let numbers = [found.yfov(), found.aspect_ratio().unwrap_or(1.0), near, far.unwrap_or(f32::MAX)];
+            check_finite(&|| field("perspective"), &numbers)?;
+            if numbers.iter().any(|x| *x <= 0.0) || far.is_some_and(|far| far <= near) {
+                let expected = "an angle and an aspect ratio above 0, and 0 < znear < zfar, are";
+                return Err(Fault::element(field("perspective"), format!("{numbers:?}"), expected));
+            }
+            SourceProjection::Perspective { yfov: found.yfov(), aspect: found.aspect_ratio(), near, far }
+        }
+        Projection::Orthographic(found) => {
+            let (half_width, half_height) = (found.xmag(), found.ymag());
+            let numbers = [half_width, half_height, found.znear(), found.zfar()];
+            check_finite(&|| field("orthographic"), &numbers)?;
+            let [_, _, near, far] = numbers;
+            if half_width == 0.0 || half_height == 0.0 || near < 0.0 || far <= near {
+                return Err(Fault::element(
+                    field("orthographic"),
+                    format!("{numbers:?}"),
+                    "magnifications that are not 0, and 0 ≤ znear < zfar, are",
+                ));
+            }
+            SourceProjection::Orthographic { half_width, half_height, near, far }
+        }
+    };
+    let name = camera.name().or(node.name()).unwrap_or_default().to_owned();
+    Ok(SourceCamera { name, projection, world_from_camera })
 }

@@ -1,0 +1,130 @@
+//! The edges of a list of triangles.
+
+/// The edges between numbered points, and the triangles that pass them.
+///
+/// A pass is 3·triangle + corner: that triangle goes along the edge from that corner to its next. Sides between a point
+/// and itself are no edges.
+pub(crate) struct Edges {
+    triangles: Vec<[u32; 3]>,
+    /// Where the passes begin whose lower end is each point; one more at the end.
+    starts: Vec<u32>,
+    /// All passes, by the lower end, then the higher end, then their own number.
+    passes: Vec<u32>,
+}
+
+/// An edge, and who passes it.
+pub(crate) struct Edge<'a> {
+    /// Its ends, the lower first.
+    pub(crate) ends: [u32; 2],
+    /// At least one pass, in the order of the triangles.
+    pub(crate) passes: &'a [u32],
+}
+
+/// The corner after this one in its triangle, both as 3·triangle + corner.
+pub(crate) fn next_corner(corner: u32) -> u32 {
+    if corner % 3 == 2 { corner - 2 } else { corner + 1 }
+}
+
+impl Edges {
+    /// The edges of triangles whose corners are numbered below `points`; fewer than 2³² corners in all.
+    pub(crate) fn new(triangles: Vec<[u32; 3]>, points: usize) -> Self {
+        let mut edges = Self { triangles, starts: vec![0; points + 1], passes: Vec::new() };
+        let corners = 3 * edges.triangles.len() as u32;
+        for pass in 0..corners {
+            let [low, high] = edges.ends(pass);
+            if low != high {
+                edges.starts[low as usize + 1] += 1;
+            }
+        }
+        for point in 0..points {
+            edges.starts[point + 1] += edges.starts[point];
+        }
+        let mut passes = vec![0; edges.starts[points] as usize];
+        let mut next = edges.starts.clone();
+        for pass in 0..corners {
+            let [low, high] = edges.ends(pass);
+            if low != high {
+                passes[next[low as usize] as usize] = pass;
+                next[low as usize] += 1;
+            }
+        }
+        for point in 0..points {
+            let range = edges.starts[point] as usize..edges.starts[point + 1] as usize;
+            passes[range].sort_unstable_by_key(|&pass| (edges.ends(pass)[1], pass));
+        }
+        edges.passes = passes;
+        edges
+    }
+
+    /// The triangles by the numbers of their points.
+    pub(crate) fn triangles(&self) -> &[[u32; 3]] {
+        &self.triangles
+    }
+
+    /// The point at a corner.
+    pub(crate) fn point(&self, corner: u32) -> u32 {
+        self.triangles[corner as usize / 3][corner as usize % 3]
+    }
+
+    fn ends(&self, pass: u32) -> [u32; 2] {
+        let (from, to) = (self.point(pass), self.point(next_corner(pass)));
+        [from.min(to), from.max(to)]
+    }
+
+    /// Whether the pass goes from the lower end to the higher.
+    pub(crate) fn is_upward(&self, pass: u32) -> bool {
+        self.point(pass) < self.point(next_corner(pass))
+    }
+
+    /// The corners of a pass at the lower and at the higher end.
+    pub(crate) fn corners(&self, pass: u32) -> [u32; 2] {
+        let next = next_corner(pass);
+        if self.is_upward(pass) { [pass, next] } else { [next, pass] }
+    }
+
+    /// The point of the triangle that a pass leaves out.
+    pub(crate) fn opposite(&self, pass: u32) -> u32 {
+        self.point(next_corner(next_corner(pass)))
+    }
+
+    /// All edges, in the order of their ends.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = Edge<'_>> {
+        self.passes
+            .chunk_by(|&a, &b| self.ends(a) == self.ends(b))
+            .map(|passes| Edge { ends: self.ends(passes[0]), passes })
+    }
+
+    /// The two passes of an edge where two triangles meet that wind alike, each going its own way along it.
+    pub(crate) fn regular(&self, edge: &Edge) -> Option<[u32; 2]> {
+        match *edge.passes {
+            [a, b] if self.is_upward(a) != self.is_upward(b) => Some([a, b]),
+            _ => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn edges_and_their_passes() {
+        // Two triangles that wind alike, one that does not, and one with a side of no length.
+        let edges = Edges::new(vec![[0, 1, 2], [2, 1, 3], [1, 3, 4], [5, 5, 0]], 6);
+        let found: Vec<_> = edges.iter().map(|edge| (edge.ends, edge.passes.to_vec())).collect();
+        let expected = [
+            ([0, 1], vec![0]),
+            ([0, 2], vec![2]),
+            ([0, 5], vec![10, 11]),
+            ([1, 2], vec![1, 3]),
+            ([1, 3], vec![4, 6]),
+            ([1, 4], vec![8]),
+            ([2, 3], vec![5]),
+            ([3, 4], vec![7]),
+        ];
+        assert_eq!(found, expected);
+        let regular: Vec<_> = edges.iter().filter_map(|edge| edges.regular(&edge)).collect();
+        assert_eq!(regular, [[10, 11], [1, 3]]);
+        assert_eq!(edges.corners(3), [4, 3]);
+    }
+}

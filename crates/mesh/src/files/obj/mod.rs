@@ -1,0 +1,311 @@
+//! Wavefront OBJ.
+
+mod assemble;
+mod mtl;
+
+use std::collections::{HashMap, HashSet};
+use std::path::Path;
+
+use bevy_math::Vec3;
+
+use self::assemble::{Draft, Vertices};
+use super::source::{Around, Source};
+use super::text::{Lines, Skipped, Statement, abridged};
+use super::{LoadError, color, polygon};
+use crate::{Model, SourceMaterial};
+
+/// Reads vertices, polygons, groups, smoothing groups and materials; other statements are skipped with a warning. A
+/// missing MTL file is a warning, a malformed one an error.
+pub(super) fn parse(source: Source) -> Result<Model, LoadError> {
+    let path = source.path;
+    let mut lines = Lines::new(source.reader).with_continued_lines();
+    let mut obj = Obj::default();
+    while let Some(statement) = lines.next()? {
+        obj.add(&statement)?;
+    }
+    obj.check_forward_references(path)?;
+    obj.cut_late_polygons();
+
+    let mut warnings = Vec::new();
+    let materials = obj.read_libraries(source.around, &mut warnings)?;
+    let material_of: HashMap<&str, usize> =
+        materials.iter().enumerate().map(|(index, material)| (material.name(), index)).collect();
+    obj.warn_of_unknown_materials(&material_of);
+    let Obj { vertices, drafts, smoothing, skipped, .. } = obj;
+    warnings.splice(0..0, skipped.warnings(path));
+    let mut parts = Vec::with_capacity(drafts.len());
+    for draft in drafts {
+        let material = draft.material.as_deref().and_then(|name| material_of.get(name).copied());
+        parts.push(draft.into_part(path, &vertices, material, smoothing.is_some(), &mut warnings)?);
+    }
+    Ok(Model { parts, materials, warnings, ..Model::default() })
+}
+
+/// What a face refers to.
+const REFERRED: [(&str, &str); 3] = [("v", "position"), ("vt", "texture coordinate"), ("vn", "normal")];
+
+const CORNERS: &str = "corners of the form v, v/vt, v//vn or v/vt/vn are";
+
+/// A positive index beyond what was defined above its line; the format asks for definition first, but files are about
+/// that do without.
+#[derive(Clone, Copy, Debug)]
+struct ForwardReference {
+    line: usize,
+    index: i64,
+}
+
+/// A polygon whose vertices are not there yet, so that it cannot be cut.
+struct LatePolygon {
+    draft: usize,
+    group: u32,
+    corners: Vec<[u32; 3]>,
+}
+
+/// What has been read.
+#[derive(Default)]
+struct Obj {
+    vertices: Vertices,
+    drafts: Vec<Draft>,
+    /// The drafts by their names and materials.
+    draft_of: HashMap<(String, Option<String>), usize>,
+    /// The draft that faces go to; `None` until the next face where the name or the material has changed.
+    current: Option<usize>,
+    name: String,
+    material: Option<String>,
+    /// The smoothing group of the faces to come, 0 for none; `None` where the file does not speak of them.
+    smoothing: Option<u32>,
+    forward: [Option<ForwardReference>; 3],
+    late: Vec<LatePolygon>,
+    libraries: Vec<String>,
+    used_materials: Vec<(usize, String)>,
+    /// The corners of the face that is being read, and their places.
+    corners: Vec<[u32; 3]>,
+    points: Vec<Vec3>,
+    skipped: Skipped,
+}
+
+impl Obj {
+    fn add(&mut self, statement: &Statement) -> Result<(), LoadError> {
+        match statement.keyword {
+            "v" => self.position(statement)?,
+            "vt" => self.texture_coordinate(statement)?,
+            "vn" => {
+                let ([x, y, z], _) = statement.numbers(&[3], "`vn` and three numbers are")?;
+                self.vertices.normals.push(Vec3::new(x, y, z));
+            }
+            "f" | "fo" => self.face(statement)?,
+            "o" | "g" => {
+                statement.rest.clone_into(&mut self.name);
+                self.current = None;
+            }
+            "usemtl" if statement.rest.is_empty() => {
+                return Err(statement.unexpected("`usemtl` and a name is"));
+            }
+            "usemtl" => {
+                self.used_materials.push((statement.line, statement.rest.to_owned()));
+                self.material = Some(statement.rest.to_owned());
+                self.current = None;
+            }
+            "mtllib" if statement.rest.is_empty() => {
+                return Err(statement.unexpected("`mtllib` and a file name is"));
+            }
+            "mtllib" => self.libraries.push(statement.rest.to_owned()),
+            "s" => self.smoothing_group(statement),
+            _ => self.skipped.add_statement(statement),
+        }
+        Ok(())
+    }
+
+    /// `v x y z`, perhaps with a weight, which is for free-form curves, or with a colour.
+    fn position(&mut self, statement: &Statement) -> Result<(), LoadError> {
+        let (numbers, count) = statement.numbers::<7>(&[3, 4, 6, 7], "`v` and three numbers are")?;
+        let [x, y, z, r, g, b, _] = numbers;
+        if count >= 6 {
+            let linear = Vec3::new(r, g, b).to_array().map(color::linear);
+            if !linear.iter().all(|x| x.is_finite()) {
+                return Err(statement.unexpected("a colour of three numbers from 0 to 1 is"));
+            }
+            self.vertices.colors.resize(self.vertices.positions.len(), Vec3::ONE);
+            self.vertices.colors.push(Vec3::from_array(linear));
+        }
+        if count == 7 {
+            self.skipped.add(statement.line, "the seventh number of `v` is skipped");
+        }
+        self.vertices.positions.push(Vec3::new(x, y, z));
+        Ok(())
+    }
+
+    fn texture_coordinate(&mut self, statement: &Statement) -> Result<(), LoadError> {
+        const EXPECTED: &str = "`vt` and two numbers are";
+        let mut words = statement.words();
+        let Some(u) = words.next() else {
+            return Err(statement.unexpected(EXPECTED));
+        };
+        let v = words.next().unwrap_or("0");
+        if let Some(w) = words.next() {
+            statement.number(w)?;
+        }
+        if words.next().is_some() {
+            return Err(statement.unexpected(EXPECTED));
+        }
+        self.vertices.uvs.push(super::uv(statement, u, v)?);
+        Ok(())
+    }
+
+    /// `s off`, `s 0` or `s n`; some programs write `s on` or `s 1` for all that is smooth.
+    fn smoothing_group(&mut self, statement: &Statement) {
+        match (statement.rest, statement.rest.parse()) {
+            ("off" | "none", _) => self.smoothing = Some(0),
+            ("on", _) => self.smoothing = Some(1),
+            (_, Ok(group)) => self.smoothing = Some(group),
+            _ => self.skipped.add(statement.line, "`s` without the number of a group is skipped"),
+        }
+    }
+
+    fn face(&mut self, statement: &Statement) -> Result<(), LoadError> {
+        self.corners.clear();
+        let mut words = statement.words();
+        let first_three = [words.next(), words.next(), words.next()];
+        let [Some(a), Some(b), Some(c)] = first_three else {
+            self.skipped.add(statement.line, "a face of fewer than three corners is skipped");
+            return Ok(());
+        };
+        for word in [a, b, c].into_iter().chain(words) {
+            let corner = self.corner(statement, word)?;
+            self.corners.push(corner);
+        }
+        let draft = self.draft();
+        let group = self.smoothing.unwrap_or(0);
+        if let &[a, b, c] = &self.corners[..] {
+            self.drafts[draft].triangle([a, b, c], group);
+        } else if self.corners.iter().all(|[v, ..]| *v as usize <= self.vertices.positions.len()) {
+            let corners = std::mem::take(&mut self.corners);
+            self.cut(draft, group, &corners, statement.line);
+            self.corners = corners;
+        } else {
+            self.late.push(LatePolygon { draft, group, corners: self.corners.clone() });
+        }
+        Ok(())
+    }
+
+    /// The place of the draft for the present name and material.
+    fn draft(&mut self) -> usize {
+        if let Some(current) = self.current {
+            return current;
+        }
+        let Self { drafts, draft_of, name, material, .. } = self;
+        let place = *draft_of.entry((name.clone(), material.clone())).or_insert_with(|| {
+            drafts.push(Draft::new(name.clone(), material.clone()));
+            drafts.len() - 1
+        });
+        self.current = Some(place);
+        place
+    }
+
+    fn cut(&mut self, draft: usize, group: u32, corners: &[[u32; 3]], line: usize) {
+        self.points.clear();
+        self.points.extend(corners.iter().map(|[v, ..]| self.vertices.positions[*v as usize - 1]));
+        let draft = &mut self.drafts[draft];
+        let clean = polygon::cut(&self.points, |triangle| draft.triangle(triangle.map(|i| corners[i as usize]), group));
+        if !clean {
+            self.skipped.add(line, "a polygon that crosses itself, or has too many corners, is cut somehow");
+        }
+    }
+
+    /// Cuts the polygons whose vertices stood below them; all indices are known to be good.
+    fn cut_late_polygons(&mut self) {
+        for late in std::mem::take(&mut self.late) {
+            // Their lines are forgotten.
+            self.cut(late.draft, late.group, &late.corners, 0);
+        }
+    }
+
+    /// `v`, `v/vt`, `v//vn` or `v/vt/vn` as indices from 1, 0 for none.
+    fn corner(&mut self, statement: &Statement, corner: &str) -> Result<[u32; 3], LoadError> {
+        let malformed = || statement.unexpected_word(corner, CORNERS);
+        let mut found = [0; 3];
+        for (kind, word) in corner.split('/').enumerate() {
+            if kind == 1 && word.is_empty() {
+                continue;
+            }
+            let place = found.get_mut(kind).ok_or_else(malformed)?;
+            *place = self.absolute(statement, kind, word.parse().map_err(|_| malformed())?)?;
+        }
+        Ok(found)
+    }
+
+    /// A negative index counts back from the last one defined; 0 is none.
+    fn absolute(&mut self, statement: &Statement, kind: usize, index: i64) -> Result<u32, LoadError> {
+        let count = self.vertices.counts()[kind] as i64;
+        let absolute = match index {
+            1.. => index,
+            _ if index < 0 && index >= -count => count + 1 + index,
+            _ => return Err(out_of_range(statement.path, statement.line, kind, index, count)),
+        };
+        if absolute > count && self.forward[kind].is_none_or(|furthest| absolute > furthest.index) {
+            self.forward[kind] = Some(ForwardReference { line: statement.line, index });
+        }
+        // Beyond 32 bits is beyond every count, which the check of forward references says.
+        Ok(u32::try_from(absolute).unwrap_or(u32::MAX))
+    }
+
+    /// Only the furthest of each kind has to be looked at.
+    fn check_forward_references(&self, path: &Path) -> Result<(), LoadError> {
+        for (kind, count) in self.vertices.counts().into_iter().enumerate() {
+            if let Some(ForwardReference { line, index }) =
+                self.forward[kind].filter(|found| found.index > count as i64)
+            {
+                return Err(out_of_range(path, line, kind, index, count as i64));
+            }
+        }
+        Ok(())
+    }
+
+    /// The materials of all MTL files, each read once. What cannot be read is a warning.
+    fn read_libraries(&self, around: Around, warnings: &mut Vec<String>) -> Result<Vec<SourceMaterial>, LoadError> {
+        let mut materials = Vec::new();
+        let mut seen = HashSet::new();
+        for rest in &self.libraries {
+            // A name may have spaces, and a statement may have several names.
+            let names: Vec<&str> = match around.find(rest) {
+                Some(whole) if whole.exists() => vec![rest],
+                _ => rest.split_ascii_whitespace().collect(),
+            };
+            for name in names {
+                if !seen.insert(name) {
+                    continue;
+                }
+                let Some(library) = around.find(name) else {
+                    warnings.push(format!("{}: outside the folder of the model, not read", abridged(name, "")));
+                    continue;
+                };
+                match around.open(&library) {
+                    Ok(reader) => warnings.extend(mtl::parse(reader, &mut materials)?),
+                    Err(error) => warnings.push(error.to_string()),
+                }
+            }
+        }
+        Ok(materials)
+    }
+
+    fn warn_of_unknown_materials(&mut self, known: &HashMap<&str, usize>) {
+        for (line, name) in &self.used_materials {
+            if !known.contains_key(name.as_str()) {
+                self.skipped.add(*line, format!("the material `{}` is nowhere defined", abridged(name, "")));
+            }
+        }
+    }
+}
+
+fn out_of_range(path: &Path, line: usize, kind: usize, index: i64, count: i64) -> LoadError {
+    let (keyword, name) = REFERRED[kind];
+    LoadError::Line {
+        path: path.to_owned(),
+        line,
+        found: format!("the {name} {index} in `f`"),
+        expected: match count {
+            0 => format!("a {name} that a `{keyword}` defines is"),
+            _ => format!("a {name} from 1 to {count}, or from -{count} to -1, is"),
+        },
+    }
+}

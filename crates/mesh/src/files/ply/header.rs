@@ -1,0 +1,161 @@
+//! The header: which elements follow, and how they are written.
+
+use crate::files::LoadError;
+use crate::files::source::Reader;
+use crate::files::text::abridged;
+
+/// How the elements are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Encoding {
+    Ascii,
+    LittleEndian,
+    BigEndian,
+}
+
+/// The type of a number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Scalar {
+    I8,
+    U8,
+    I16,
+    U16,
+    I32,
+    U32,
+    F32,
+    F64,
+}
+
+impl Scalar {
+    fn of(name: &str) -> Option<Self> {
+        Some(match name {
+            "char" | "int8" => Self::I8,
+            "uchar" | "uint8" => Self::U8,
+            "short" | "int16" => Self::I16,
+            "ushort" | "uint16" => Self::U16,
+            "int" | "int32" => Self::I32,
+            "uint" | "uint32" => Self::U32,
+            "float" | "float32" => Self::F32,
+            "double" | "float64" => Self::F64,
+            _ => return None,
+        })
+    }
+
+    pub(super) fn is_float(self) -> bool {
+        matches!(self, Self::F32 | Self::F64)
+    }
+
+    /// The value that stands for 1 in colours.
+    pub(super) fn one(self) -> f64 {
+        match self {
+            Self::I8 => 127.0,
+            Self::U8 => 255.0,
+            Self::I16 => 32767.0,
+            Self::U16 => 65535.0,
+            Self::I32 => f64::from(i32::MAX),
+            Self::U32 => f64::from(u32::MAX),
+            Self::F32 | Self::F64 => 1.0,
+        }
+    }
+}
+
+/// A property of an element: a number, or a list with its length before it.
+#[derive(Clone, Debug)]
+pub(super) struct Property {
+    pub(super) name: String,
+    pub(super) scalar: Scalar,
+    /// The type of the length.
+    pub(super) list: Option<Scalar>,
+}
+
+/// So many elements of a kind.
+#[derive(Clone, Debug)]
+pub(super) struct Element {
+    pub(super) name: String,
+    /// On the word of the file.
+    pub(super) count: u64,
+    pub(super) properties: Vec<Property>,
+}
+
+/// The header, and how many lines it has.
+#[derive(Debug)]
+pub(super) struct Header {
+    pub(super) encoding: Encoding,
+    pub(super) elements: Vec<Element>,
+    pub(super) lines: usize,
+}
+
+/// Reads up to and with `end_header`.
+pub(super) fn parse(reader: &mut Reader) -> Result<Header, LoadError> {
+    let mut encoding = None;
+    let mut elements: Vec<Element> = Vec::new();
+    let mut buffer = Vec::new();
+    let mut line = 0;
+    loop {
+        line += 1;
+        buffer.clear();
+        let is_there = reader.line(&mut buffer)?;
+        // Comments may be of any encoding.
+        let text = String::from_utf8_lossy(&buffer);
+        let text = text.trim_ascii();
+        let error = |expected: &str| LoadError::Line {
+            path: reader.path().to_owned(),
+            line,
+            found: if is_there { format!("`{}`", abridged(text, "")) } else { "the end of the file".to_owned() },
+            expected: expected.to_owned(),
+        };
+        if !is_there {
+            return Err(error("`end_header` is"));
+        }
+        if line == 1 {
+            if text != "ply" {
+                return Err(error("`ply` is"));
+            }
+            continue;
+        }
+        let words: Vec<&str> = text.split_ascii_whitespace().take(6).collect();
+        match words[..] {
+            [] | ["comment" | "obj_info", ..] => {}
+            ["format", format, version] => {
+                encoding = Some(match (format, version) {
+                    ("ascii", "1.0") => Encoding::Ascii,
+                    ("binary_little_endian", "1.0") => Encoding::LittleEndian,
+                    ("binary_big_endian", "1.0") => Encoding::BigEndian,
+                    _ => {
+                        return Err(error(
+                            "`format`, one of ascii, binary_little_endian and binary_big_endian, and 1.0 are",
+                        ));
+                    }
+                });
+            }
+            ["element", name, count] => {
+                let count = count.parse().map_err(|_| error("`element`, a name and a number are"))?;
+                elements.push(Element { name: name.to_owned(), count, properties: Vec::new() });
+            }
+            ["property", ..] => {
+                let property = property(&words).ok_or_else(|| {
+                    error(
+                        "`property`, its type or `list` and two types (whole numbers for the first), and its name are",
+                    )
+                })?;
+                let element = elements.last_mut().ok_or_else(|| error("an `element` before it is"))?;
+                element.properties.push(property);
+            }
+            ["end_header"] => {
+                let encoding = encoding.ok_or_else(|| error("a `format` before it is"))?;
+                return Ok(Header { encoding, elements, lines: line });
+            }
+            _ => return Err(error("`format`, `element`, `property`, `comment` or `end_header` is")),
+        }
+    }
+}
+
+fn property(words: &[&str]) -> Option<Property> {
+    match *words {
+        [_, "list", length, scalar, name] => {
+            let length = Scalar::of(length).filter(|length| !length.is_float())?;
+            Some(Property { name: name.to_owned(), scalar: Scalar::of(scalar)?, list: Some(length) })
+        }
+        [_, scalar, name] => Some(Property { name: name.to_owned(), scalar: Scalar::of(scalar)?, list: None }),
+        _ => None,
+    }
+}

@@ -1,0 +1,278 @@
+//! PLY, in ASCII and binary (Turk 1994, "The PLY polygon file format").
+
+mod header;
+mod values;
+
+use bevy_math::{Mat4, Vec2, Vec3, Vec4};
+
+use self::header::{Element, Property};
+use self::values::{Place, Values};
+use super::source::Source;
+use super::text::abridged;
+use super::{LoadError, color, polygon, stem};
+use crate::{Mesh, Model, Part};
+
+/// Reads `vertex` (positions, normals, colours, texture coordinates), `face` and `tristrips`; what else there is, is
+/// skipped with a warning.
+pub(super) fn parse(source: Source) -> Result<Model, LoadError> {
+    let Source { path, mut reader, .. } = source;
+    let header = header::parse(&mut reader)?;
+    let mut values = Values::new(reader, &header);
+    let mut shape = Shape::default();
+    for element in &header.elements {
+        match element.name.as_str() {
+            "vertex" => shape.vertices(element, &mut values)?,
+            "face" => shape.faces(element, &mut values)?,
+            "tristrips" => shape.strips(element, &mut values)?,
+            _ => {
+                let name = abridged(&element.name, "");
+                shape.warnings.push(format!("the {} elements `{name}` are skipped", element.count));
+                skip_all(element, &mut values)?;
+            }
+        }
+    }
+    let Shape { positions, normals, uvs, colors, indices, mut warnings, crossed, small, .. } = shape;
+    for (count, what) in [
+        (crossed, "polygons that cross themselves, or have too many corners, are cut somehow"),
+        (small, "faces of fewer than three corners are skipped"),
+    ] {
+        if count > 0 {
+            warnings.push(format!("{count} {what}"));
+        }
+    }
+    if indices.is_empty() {
+        return Ok(Model { warnings, ..Model::default() });
+    }
+    let refused = |source| LoadError::Mesh { path: path.to_owned(), element: "mesh".to_owned(), source };
+    let (mut mesh, report) = Mesh::from_parts_reported(positions, normals, uvs, indices).map_err(refused)?;
+    if report.replaced > 0 {
+        warnings.push(format!("{} normals of zero length are replaced by computed ones", report.replaced));
+    }
+    if let Some(colors) = colors {
+        mesh = mesh.with_colors(colors).map_err(refused)?;
+    }
+    let part = Part { name: stem(path), mesh, material: None, world_from_part: Mat4::IDENTITY };
+    Ok(Model { parts: vec![part], warnings, ..Model::default() })
+}
+
+/// The properties of a vertex that are read, in the order of a vertex's slots.
+const SLOTS: [&[&str]; 12] = [
+    &["x"],
+    &["y"],
+    &["z"],
+    &["nx"],
+    &["ny"],
+    &["nz"],
+    &["s", "u", "texture_u", "texture_s"],
+    &["t", "v", "texture_v", "texture_t"],
+    &["red", "r", "diffuse_red"],
+    &["green", "g", "diffuse_green"],
+    &["blue", "b", "diffuse_blue"],
+    &["alpha", "a", "diffuse_alpha"],
+];
+
+/// The properties of faces that list their corners.
+const CORNERS: [&str; 2] = ["vertex_indices", "vertex_index"];
+
+#[derive(Default)]
+struct Shape {
+    positions: Vec<Vec3>,
+    normals: Option<Vec<Vec3>>,
+    uvs: Option<Vec<Vec2>>,
+    colors: Option<Vec<Vec4>>,
+    indices: Vec<u32>,
+    /// The corners of the face that is being read, and their places.
+    corners: Vec<u32>,
+    points: Vec<Vec3>,
+    crossed: usize,
+    small: usize,
+    warnings: Vec<String>,
+}
+
+impl Shape {
+    fn vertices(&mut self, element: &Element, values: &mut Values) -> Result<(), LoadError> {
+        let slot_of = |property: &Property| {
+            let named = |names: &&[&str]| names.contains(&property.name.as_str());
+            SLOTS.iter().position(named).filter(|_| property.list.is_none())
+        };
+        let slots: Vec<Option<usize>> = element.properties.iter().map(slot_of).collect();
+        let has = |wanted: std::ops::Range<usize>| wanted.into_iter().all(|slot| slots.contains(&Some(slot)));
+        self.warn_of_skipped(element, |i| slots[i].is_some());
+        if !has(0..3) {
+            let place = Place { element: "vertex", number: 0, property: "x, y and z" };
+            return Err(values.error(place, "no such properties", "three numbers are"));
+        }
+        self.normals = has(3..6).then(Vec::new);
+        self.uvs = has(6..8).then(Vec::new);
+        self.colors = has(8..11).then(Vec::new);
+        for number in 0..element.count {
+            let mut vertex = [0.0; 12];
+            vertex[11] = 1.0;
+            for (property, slot) in element.properties.iter().zip(&slots) {
+                let place = Place { element: &element.name, number, property: &property.name };
+                let Some(slot) = *slot else {
+                    skip(property, place, values)?;
+                    continue;
+                };
+                let found = values.next(property.scalar, place)?;
+                vertex[slot] = if slot < 8 { found } else { found / property.scalar.one() };
+                if !(vertex[slot] as f32).is_finite() {
+                    return Err(values.error(place, &format!("{found}"), "a finite number is"));
+                }
+            }
+            self.vertex(vertex);
+        }
+        Ok(())
+    }
+
+    fn vertex(&mut self, slots: [f64; 12]) {
+        let [x, y, z, nx, ny, nz, u, v, r, g, b, alpha] = slots;
+        let vec3 = |x: f64, y: f64, z: f64| Vec3::new(x as f32, y as f32, z as f32);
+        self.positions.push(vec3(x, y, z));
+        if let Some(normals) = &mut self.normals {
+            normals.push(vec3(nx, ny, nz));
+        }
+        if let Some(uvs) = &mut self.uvs {
+            // Programs write v upward, as in OBJ.
+            uvs.push(Vec2::new(u as f32, (1.0 - v) as f32));
+        }
+        if let Some(colors) = &mut self.colors {
+            colors.push(Vec3::from_array([r, g, b].map(|x| color::linear(x as f32))).extend(alpha as f32));
+        }
+    }
+
+    fn faces(&mut self, element: &Element, values: &mut Values) -> Result<(), LoadError> {
+        self.lists(element, values, |shape, values, place| {
+            for &corner in &shape.corners {
+                let Some(p) = shape.positions.get(corner as usize) else {
+                    return Err(outside(values, place, corner, shape.positions.len()));
+                };
+                shape.points.push(*p);
+            }
+            match &shape.corners[..] {
+                &[a, b, c] => shape.indices.extend([a, b, c]),
+                [] | [_] | [_, _] => shape.small += 1,
+                corners => {
+                    let indices = &mut shape.indices;
+                    let clean = polygon::cut(&shape.points, |triangle| {
+                        indices.extend(triangle.map(|i| corners[i as usize]));
+                    });
+                    shape.crossed += usize::from(!clean);
+                }
+            }
+            Ok(())
+        })
+    }
+
+    /// Strips, each from one −1 to the next.
+    fn strips(&mut self, element: &Element, values: &mut Values) -> Result<(), LoadError> {
+        self.lists(element, values, |shape, values, place| {
+            for strip in shape.corners.split(|&corner| corner == RESTART) {
+                if let Some(&corner) = strip.iter().find(|&&corner| corner as usize >= shape.positions.len()) {
+                    return Err(outside(values, place, corner, shape.positions.len()));
+                }
+                for (i, &three) in strip.array_windows::<3>().enumerate() {
+                    let [a, b, c] = three;
+                    shape.indices.extend(if i % 2 == 0 { [a, b, c] } else { [a, c, b] });
+                }
+            }
+            Ok(())
+        })
+    }
+
+    /// Reads the lists of corners and hands each on in `corners`.
+    fn lists(
+        &mut self,
+        element: &Element,
+        values: &mut Values,
+        mut take: impl FnMut(&mut Self, &Values, Place) -> Result<(), LoadError>,
+    ) -> Result<(), LoadError> {
+        let is_list = |property: &Property| {
+            property.list.is_some() && !property.scalar.is_float() && CORNERS.contains(&property.name.as_str())
+        };
+        let list = element.properties.iter().position(is_list);
+        self.warn_of_skipped(element, |i| Some(i) == list);
+        if element.properties.is_empty() {
+            return Ok(());
+        }
+        for number in 0..element.count {
+            self.corners.clear();
+            self.points.clear();
+            for (i, property) in element.properties.iter().enumerate() {
+                let place = Place { element: &element.name, number, property: &property.name };
+                match property.list {
+                    Some(length) if Some(i) == list => {
+                        for _ in 0..length_of(length, place, values)? {
+                            let corner = values.next(property.scalar, place)?;
+                            let is_restart = corner as i64 == -1 && element.name == "tristrips";
+                            if !(is_restart || (0.0..f64::from(u32::MAX)).contains(&corner)) {
+                                return Err(values.error(place, &format!("{corner}"), "a vertex, counted from 0, is"));
+                            }
+                            self.corners.push(if is_restart { RESTART } else { corner as u32 });
+                        }
+                    }
+                    _ => skip(property, place, values)?,
+                }
+            }
+            let property = list.map_or("", |list| &element.properties[list].name);
+            take(self, values, Place { element: &element.name, number, property })?;
+        }
+        Ok(())
+    }
+
+    fn warn_of_skipped(&mut self, element: &Element, is_read: impl Fn(usize) -> bool) {
+        const SHOWN: usize = 8;
+        let skipped: Vec<&str> =
+            (0..element.properties.len()).filter(|i| !is_read(*i)).map(|i| &element.properties[i].name[..]).collect();
+        if !skipped.is_empty() {
+            let mut names = skipped.iter().take(SHOWN).map(|name| abridged(name, "")).collect::<Vec<_>>().join(", ");
+            if skipped.len() > SHOWN {
+                names.push_str(" and more");
+            }
+            self.warnings.push(format!("of `{}` is skipped: {names}", abridged(&element.name, "")));
+        }
+    }
+}
+
+/// Stands for the −1 between strips.
+const RESTART: u32 = u32::MAX;
+
+fn outside(values: &Values, place: Place, corner: u32, vertices: usize) -> LoadError {
+    values.error(
+        place,
+        &format!("vertex {corner}"),
+        &format!("one of {vertices} vertices that stand before it, from 0, is"),
+    )
+}
+
+fn length_of(length: header::Scalar, place: Place, values: &mut Values) -> Result<u64, LoadError> {
+    let found = values.next(length, place)?;
+    if found < 0.0 {
+        return Err(values.error(place, &format!("a list of {found}"), "a length from 0 is"));
+    }
+    Ok(found as u64)
+}
+
+fn skip_all(element: &Element, values: &mut Values) -> Result<(), LoadError> {
+    // Elements without properties take no room, so their count says nothing.
+    if element.properties.is_empty() {
+        return Ok(());
+    }
+    for number in 0..element.count {
+        for property in &element.properties {
+            skip(property, Place { element: &element.name, number, property: &property.name }, values)?;
+        }
+    }
+    Ok(())
+}
+
+fn skip(property: &Property, place: Place, values: &mut Values) -> Result<(), LoadError> {
+    let count = match property.list {
+        Some(length) => length_of(length, place, values)?,
+        None => 1,
+    };
+    for _ in 0..count {
+        values.next(property.scalar, place)?;
+    }
+    Ok(())
+}

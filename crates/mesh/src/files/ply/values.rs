@@ -1,0 +1,106 @@
+//! The numbers of a body, one after the other.
+
+use super::header::{Encoding, Header, Scalar};
+use crate::files::LoadError;
+use crate::files::source::Reader;
+use crate::files::text::abridged;
+
+/// The numbers behind the header.
+pub(super) struct Values<'a> {
+    reader: Reader<'a>,
+    encoding: Encoding,
+    /// The line of a text, how far it is read, and its number.
+    buffer: Vec<u8>,
+    at: usize,
+    line: usize,
+}
+
+/// What a number belongs to, for errors.
+#[derive(Clone, Copy)]
+pub(super) struct Place<'p> {
+    pub(super) element: &'p str,
+    /// From 0.
+    pub(super) number: u64,
+    pub(super) property: &'p str,
+}
+
+impl<'a> Values<'a> {
+    pub(super) fn new(reader: Reader<'a>, header: &Header) -> Self {
+        Self { reader, encoding: header.encoding, buffer: Vec::new(), at: 0, line: header.lines }
+    }
+
+    /// The next number. Every `f32` and every whole number of the format is exact.
+    pub(super) fn next(&mut self, scalar: Scalar, place: Place) -> Result<f64, LoadError> {
+        match self.encoding {
+            Encoding::Ascii => self.word(scalar, place),
+            Encoding::LittleEndian => self.bytes(scalar, place, false),
+            Encoding::BigEndian => self.bytes(scalar, place, true),
+        }
+    }
+
+    fn word(&mut self, scalar: Scalar, place: Place) -> Result<f64, LoadError> {
+        loop {
+            self.at += self.buffer[self.at..].iter().take_while(|byte| byte.is_ascii_whitespace()).count();
+            if self.at < self.buffer.len() {
+                break;
+            }
+            self.buffer.clear();
+            self.at = 0;
+            if !self.reader.line(&mut self.buffer)? {
+                return Err(self.error(place, "the end of the file", "a number is"));
+            }
+            self.line += 1;
+        }
+        let rest = &self.buffer[self.at..];
+        let end = rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len());
+        let word = String::from_utf8_lossy(&rest[..end]);
+        let number = match scalar {
+            // Rounded once.
+            Scalar::F32 => word.parse::<f32>().map(f64::from).ok(),
+            Scalar::F64 => word.parse().ok(),
+            _ => word.parse::<i64>().map(|number| number as f64).ok(),
+        };
+        let expected = if scalar.is_float() { "a number is" } else { "a whole number is" };
+        let number = number.ok_or_else(|| self.error(place, &format!("`{}`", abridged(&word, "")), expected))?;
+        self.at += end;
+        Ok(number)
+    }
+
+    fn bytes(&mut self, scalar: Scalar, place: Place, big: bool) -> Result<f64, LoadError> {
+        Ok(match scalar {
+            Scalar::I8 => i8::from_le_bytes(self.array(place, big)?).into(),
+            Scalar::U8 => u8::from_le_bytes(self.array(place, big)?).into(),
+            Scalar::I16 => i16::from_le_bytes(self.array(place, big)?).into(),
+            Scalar::U16 => u16::from_le_bytes(self.array(place, big)?).into(),
+            Scalar::I32 => i32::from_le_bytes(self.array(place, big)?).into(),
+            Scalar::U32 => u32::from_le_bytes(self.array(place, big)?).into(),
+            Scalar::F32 => f32::from_le_bytes(self.array(place, big)?).into(),
+            Scalar::F64 => f64::from_le_bytes(self.array(place, big)?),
+        })
+    }
+
+    /// The next bytes, the least significant first.
+    fn array<const N: usize>(&mut self, place: Place, big: bool) -> Result<[u8; N], LoadError> {
+        let mut bytes = [0; N];
+        if self.reader.fill(&mut bytes)? < N {
+            return Err(self.error(place, "the end of the file", "a number is"));
+        }
+        if big {
+            bytes.reverse();
+        }
+        Ok(bytes)
+    }
+
+    pub(super) fn error(&self, place: Place, found: &str, expected: &str) -> LoadError {
+        let path = self.reader.path().to_owned();
+        let Place { element, number, property } = place;
+        let element = format!("{} {number}, {}", abridged(element, ""), abridged(property, ""));
+        let expected = expected.to_owned();
+        match self.encoding {
+            Encoding::Ascii => {
+                LoadError::Line { path, line: self.line, found: format!("{element}: {found}"), expected }
+            }
+            _ => LoadError::Element { path, element, found: found.to_owned(), expected },
+        }
+    }
+}

@@ -1,0 +1,273 @@
+//! What is read from: a file or bytes, how far reading is, and where the files lie that it refers to.
+
+use std::borrow::Cow;
+use std::fs::{self, File};
+use std::io::{BufRead, BufReader, Read as _};
+use std::ops::ControlFlow;
+use std::path::{Component, Path, PathBuf};
+
+use super::LoadError;
+
+/// How a model is loaded.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct LoadOptions {
+    /// Whether files that the model refers to may lie outside its own folder: by an absolute path, by `..`, or behind a
+    /// symbolic link. `false` by default.
+    pub outside: bool,
+}
+
+/// How far a file is read. The files that a model refers to count each by itself.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LoadProgress {
+    /// Bytes that are read.
+    pub done: u64,
+    /// Bytes that there are.
+    pub of: u64,
+}
+
+/// What is asked now and then whether to go on.
+pub(super) type OnProgress<'a> = dyn Fn(LoadProgress) -> ControlFlow<()> + 'a;
+
+/// So many bytes are read between two reports.
+const REPORT: u64 = 1 << 20;
+/// How much is asked of the system at once.
+const CHUNK: usize = 1 << 18;
+
+/// A model file, opened.
+pub(super) struct Source<'a> {
+    pub(super) path: &'a Path,
+    pub(super) reader: Reader<'a>,
+    pub(super) around: Around<'a>,
+}
+
+impl<'a> Source<'a> {
+    /// Opens a regular file that has bytes.
+    pub(super) fn open(
+        path: &'a Path,
+        options: LoadOptions,
+        on_progress: &'a OnProgress<'a>,
+    ) -> Result<Self, LoadError> {
+        let around = Around::of_file(path, options, on_progress);
+        Ok(Self { path, reader: around.open(path)?, around })
+    }
+
+    /// Takes bytes in memory for the content of a file.
+    pub(super) fn of_bytes(path: &'a Path, bytes: &'a [u8]) -> Result<Self, LoadError> {
+        Ok(Self { path, reader: Reader::of_bytes(path, bytes)?, around: Around::nowhere() })
+    }
+}
+
+/// The bytes of a file, in order.
+pub(super) struct Reader<'a> {
+    path: &'a Path,
+    from: From<'a>,
+    on_progress: Option<&'a OnProgress<'a>>,
+    done: u64,
+    of: u64,
+    told: u64,
+}
+
+enum From<'a> {
+    File(BufReader<File>),
+    Bytes(&'a [u8]),
+}
+
+impl<'a> Reader<'a> {
+    /// Opens a regular file that has bytes.
+    fn open(path: &'a Path, on_progress: Option<&'a OnProgress<'a>>) -> Result<Self, LoadError> {
+        let failed = |source| LoadError::Read { path: path.to_owned(), source };
+        // Asked before it is opened: opening a pipe waits for its other end.
+        let metadata = fs::metadata(path).map_err(failed)?;
+        if !metadata.is_file() {
+            return Err(LoadError::NotAFile { path: path.to_owned() });
+        }
+        if metadata.len() == 0 {
+            return Err(LoadError::Empty { path: path.to_owned() });
+        }
+        let file = BufReader::with_capacity(CHUNK, File::open(path).map_err(failed)?);
+        Ok(Self { path, from: From::File(file), on_progress, done: 0, of: metadata.len(), told: 0 })
+    }
+
+    fn of_bytes(path: &'a Path, bytes: &'a [u8]) -> Result<Self, LoadError> {
+        if bytes.is_empty() {
+            return Err(LoadError::Empty { path: path.to_owned() });
+        }
+        Ok(Self { path, from: From::Bytes(bytes), on_progress: None, done: 0, of: bytes.len() as u64, told: 0 })
+    }
+
+    pub(super) fn path(&self) -> &'a Path {
+        self.path
+    }
+
+    /// How many bytes the file had when it was opened.
+    pub(super) fn length(&self) -> u64 {
+        self.of
+    }
+
+    /// Appends a line with its end; returns whether there was one.
+    pub(super) fn line(&mut self, buffer: &mut Vec<u8>) -> Result<bool, LoadError> {
+        let read = match &mut self.from {
+            From::File(file) => file.read_until(b'\n', buffer),
+            From::Bytes(bytes) => bytes.read_until(b'\n', buffer),
+        };
+        let count = read.map_err(|source| self.failed(source))?;
+        self.advance(count)?;
+        Ok(count > 0)
+    }
+
+    /// The bytes to come, as many as the buffer takes and as there are; they are read again. At most [`CHUNK`] at once.
+    pub(super) fn peek(&mut self, buffer: &mut [u8]) -> Result<usize, LoadError> {
+        let ahead = match &mut self.from {
+            From::File(file) => file.fill_buf(),
+            From::Bytes(bytes) => bytes.fill_buf(),
+        };
+        match ahead {
+            Ok(ahead) => {
+                let count = ahead.len().min(buffer.len());
+                buffer[..count].copy_from_slice(&ahead[..count]);
+                Ok(count)
+            }
+            Err(source) => Err(self.failed(source)),
+        }
+    }
+
+    /// Fills the buffer as far as there are bytes; returns how many there were.
+    pub(super) fn fill(&mut self, buffer: &mut [u8]) -> Result<usize, LoadError> {
+        let mut filled = 0;
+        while filled < buffer.len() {
+            let rest = &mut buffer[filled..];
+            let read = match &mut self.from {
+                From::File(file) => file.read(rest),
+                From::Bytes(bytes) => bytes.read(rest),
+            };
+            match read {
+                Ok(0) => break,
+                Ok(count) => {
+                    filled += count;
+                    self.advance(count)?;
+                }
+                Err(error) if error.kind() == std::io::ErrorKind::Interrupted => {}
+                Err(source) => return Err(self.failed(source)),
+            }
+        }
+        Ok(filled)
+    }
+
+    /// All bytes.
+    pub(super) fn whole(mut self) -> Result<Cow<'a, [u8]>, LoadError> {
+        if let From::Bytes(bytes) = self.from {
+            return Ok(Cow::Borrowed(bytes));
+        }
+        let mut whole = Vec::new();
+        // The length is the system's word, not the file's; it may still be wrong.
+        let _ = whole.try_reserve_exact(usize::try_from(self.of).unwrap_or(0));
+        loop {
+            let read = match &mut self.from {
+                From::File(file) => file.take(REPORT).read_to_end(&mut whole),
+                From::Bytes(bytes) => bytes.read_to_end(&mut whole),
+            };
+            match read.map_err(|source| self.failed(source))? {
+                0 => return Ok(Cow::Owned(whole)),
+                count => self.advance(count)?,
+            }
+        }
+    }
+
+    fn failed(&self, source: std::io::Error) -> LoadError {
+        LoadError::Read { path: self.path.to_owned(), source }
+    }
+
+    fn advance(&mut self, bytes: usize) -> Result<(), LoadError> {
+        self.done += bytes as u64;
+        if self.done - self.told < REPORT {
+            return Ok(());
+        }
+        self.told = self.done;
+        let progress = LoadProgress { done: self.done, of: self.of.max(self.done) };
+        match self.on_progress.map_or(ControlFlow::Continue(()), |on_progress| on_progress(progress)) {
+            ControlFlow::Continue(()) => Ok(()),
+            ControlFlow::Break(()) => Err(LoadError::Stopped { path: self.path.to_owned() }),
+        }
+    }
+}
+
+/// Where the files lie that a model refers to.
+#[derive(Clone, Copy)]
+pub(super) struct Around<'a> {
+    /// The model's folder; `None` where the model is bytes in memory and has no files around it.
+    folder: Option<&'a Path>,
+    options: LoadOptions,
+    on_progress: Option<&'a OnProgress<'a>>,
+}
+
+impl<'a> Around<'a> {
+    fn of_file(path: &'a Path, options: LoadOptions, on_progress: &'a OnProgress<'a>) -> Self {
+        Self { folder: Some(path.parent().unwrap_or(Path::new(""))), options, on_progress: Some(on_progress) }
+    }
+
+    fn nowhere() -> Self {
+        Self { folder: None, options: LoadOptions::default(), on_progress: None }
+    }
+
+    /// Opens a file that was found.
+    pub(super) fn open<'b>(&self, path: &'b Path) -> Result<Reader<'b>, LoadError>
+    where
+        'a: 'b,
+    {
+        Reader::open(path, self.on_progress)
+    }
+
+    /// The path of a file that the model refers to, whether it is there or not; `None` where it may not be read.
+    pub(super) fn find(&self, reference: &str) -> Option<PathBuf> {
+        let folder = self.folder?;
+        let path = folder.join(reference);
+        if self.options.outside {
+            return Some(path);
+        }
+        if !stays_inside(Path::new(reference)) {
+            return None;
+        }
+        // A symbolic link may lead out all the same.
+        let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+        match (path.canonicalize(), folder.canonicalize()) {
+            (Ok(found), Ok(folder)) if !found.starts_with(&folder) => None,
+            _ => Some(path),
+        }
+    }
+}
+
+/// Whether a path that stands in a file stays in that file's folder: relative, and without `..`.
+fn stays_inside(reference: &Path) -> bool {
+    let mut names = 0;
+    reference.components().all(|component| {
+        names += usize::from(matches!(component, Component::Normal(_)));
+        matches!(component, Component::Normal(_) | Component::CurDir)
+    }) && names > 0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn references_stay_inside() {
+        for (reference, inside) in [
+            ("a.bin", true),
+            ("./a.bin", true),
+            ("sub/a.bin", true),
+            ("a..b", true),
+            ("../a.bin", false),
+            ("sub/../../a.bin", false),
+            ("sub/../a.bin", false),
+            ("/etc/passwd", false),
+            ("", false),
+            (".", false),
+        ] {
+            assert_eq!(stays_inside(Path::new(reference)), inside, "{reference:?}");
+            let around =
+                Around::of_file(Path::new("model.obj"), LoadOptions { outside: true }, &|_| ControlFlow::Continue(()));
+            assert_eq!(around.find(reference), Some(Path::new("").join(reference)));
+            assert_eq!(Around::nowhere().find(reference), None);
+        }
+    }
+}

@@ -1,0 +1,266 @@
+//! Binary glTF 2.0.
+
+use std::collections::HashMap;
+use std::io::Write as _;
+use std::path::Path;
+
+use bevy_math::{Mat4, Vec2, Vec3, Vec4};
+use serde_json::{Map, Value, json};
+
+use super::{WriteError, replace};
+use crate::{
+    AlphaMode, MetallicRoughness, Model, MtlMaterial, Part, SourceCamera, SourceLight, SourceLightKind, SourceMaterial,
+    SourceProjection,
+};
+
+const FLOAT: u32 = 5126;
+const UNSIGNED_INT: u32 = 5125;
+const ARRAY_BUFFER: u32 = 34962;
+const ELEMENT_ARRAY_BUFFER: u32 = 34963;
+
+/// Writes a node for each part, light and camera; parts that share a mesh and a material share it in the file.
+pub(super) fn write(path: &Path, model: &Model) -> Result<Vec<String>, WriteError> {
+    let mut file = Document::default();
+    for part in &model.parts {
+        file.part(part);
+    }
+    file.lights(&model.lights);
+    file.cameras(&model.cameras);
+    let json = file.json(model);
+    // Chunks are padded to four bytes, the JSON with spaces.
+    let mut text = json.to_string().into_bytes();
+    text.resize(text.len().next_multiple_of(4), b' ');
+    let length = 12 + 8 + text.len() + 8 + file.data.len();
+    let Ok(whole) = u32::try_from(length) else {
+        return Err(WriteError::TooLarge { path: path.to_owned(), what: format!("{length} bytes") });
+    };
+    replace(path, |out| {
+        out.write_all(b"glTF")?;
+        out.write_all(&2_u32.to_le_bytes())?;
+        out.write_all(&whole.to_le_bytes())?;
+        out.write_all(&(text.len() as u32).to_le_bytes())?;
+        out.write_all(b"JSON")?;
+        out.write_all(&text)?;
+        out.write_all(&(file.data.len() as u32).to_le_bytes())?;
+        out.write_all(b"BIN\0")?;
+        out.write_all(&file.data)
+    })?;
+    let mtl = model.materials.iter().filter(|source| matches!(source, SourceMaterial::Mtl(_))).count();
+    let lost = format!("{mtl} MTL materials lose Ka, Ks, illum and what is above 1; Ns becomes a roughness");
+    Ok(if mtl > 0 { vec![lost] } else { Vec::new() })
+}
+
+#[derive(Default)]
+struct Document {
+    /// All that accessors look at; every array of it is of words of four bytes.
+    data: Vec<u8>,
+    views: Vec<Value>,
+    accessors: Vec<Value>,
+    meshes: Vec<Value>,
+    nodes: Vec<Value>,
+    lights: Vec<Value>,
+    cameras: Vec<Value>,
+    /// The meshes that are written, by where their data lie and by material.
+    written: HashMap<(*const Vec3, Option<usize>), usize>,
+}
+
+impl Document {
+    fn part(&mut self, part: &Part) {
+        let key = (part.mesh.positions().as_ptr(), part.material);
+        let mesh = if let Some(&mesh) = self.written.get(&key) {
+            mesh
+        } else {
+            let mesh = self.mesh(part);
+            self.written.insert(key, mesh);
+            mesh
+        };
+        self.node(&part.name, part.world_from_part, "mesh", json!(mesh));
+    }
+
+    fn mesh(&mut self, part: &Part) -> usize {
+        let mesh = &part.mesh;
+        let bounds = mesh.bounds();
+        let positions = self.floats("VEC3", mesh.positions().iter().map(Vec3::to_array));
+        self.accessors[positions]["min"] = json!(bounds.min.to_array());
+        self.accessors[positions]["max"] = json!(bounds.max.to_array());
+        let mut attributes = Map::new();
+        attributes.insert("POSITION".to_owned(), json!(positions));
+        let normals = self.floats("VEC3", mesh.normals().iter().map(Vec3::to_array));
+        attributes.insert("NORMAL".to_owned(), json!(normals));
+        if let Some(uvs) = mesh.uvs() {
+            attributes.insert("TEXCOORD_0".to_owned(), json!(self.floats("VEC2", uvs.iter().map(Vec2::to_array))));
+        }
+        if let Some(colors) = mesh.colors() {
+            attributes.insert("COLOR_0".to_owned(), json!(self.floats("VEC4", colors.iter().map(Vec4::to_array))));
+        }
+        if let Some(tangents) = mesh.tangents() {
+            attributes.insert("TANGENT".to_owned(), json!(self.floats("VEC4", tangents.iter().map(Vec4::to_array))));
+        }
+        let bytes = mesh.indices().iter().flat_map(|index| index.to_le_bytes());
+        let indices = self.accessor(bytes, ELEMENT_ARRAY_BUFFER, UNSIGNED_INT, "SCALAR", mesh.indices().len());
+        let mut primitive = json!({ "attributes": attributes, "indices": indices });
+        if let Some(material) = part.material {
+            primitive["material"] = json!(material);
+        }
+        self.meshes.push(json!({ "primitives": [primitive] }));
+        self.meshes.len() - 1
+    }
+
+    fn floats<const N: usize>(&mut self, shape: &str, items: impl ExactSizeIterator<Item = [f32; N]>) -> usize {
+        let count = items.len();
+        let bytes = items.flatten().flat_map(f32::to_le_bytes);
+        self.accessor(bytes, ARRAY_BUFFER, FLOAT, shape, count)
+    }
+
+    fn accessor(
+        &mut self,
+        bytes: impl Iterator<Item = u8>,
+        target: u32,
+        component: u32,
+        shape: &str,
+        count: usize,
+    ) -> usize {
+        let start = self.data.len();
+        self.data.extend(bytes);
+        let length = self.data.len() - start;
+        self.views.push(json!({ "buffer": 0, "byteOffset": start, "byteLength": length, "target": target }));
+        let view = self.views.len() - 1;
+        self.accessors.push(json!({ "bufferView": view, "componentType": component, "type": shape, "count": count }));
+        self.accessors.len() - 1
+    }
+
+    fn node(&mut self, name: &str, world_from_node: Mat4, key: &str, value: Value) {
+        let mut node = Map::new();
+        if !name.is_empty() {
+            node.insert("name".to_owned(), json!(name));
+        }
+        if world_from_node != Mat4::IDENTITY {
+            node.insert("matrix".to_owned(), json!(world_from_node.to_cols_array()));
+        }
+        node.insert(key.to_owned(), value);
+        self.nodes.push(Value::Object(node));
+    }
+
+    fn lights(&mut self, lights: &[SourceLight]) {
+        for light in lights {
+            let mut described = json!({ "color": light.color, "intensity": light.intensity });
+            if !light.name.is_empty() {
+                described["name"] = json!(light.name);
+            }
+            if let Some(range) = light.range {
+                described["range"] = json!(range);
+            }
+            described["type"] = json!(match light.kind {
+                SourceLightKind::Directional => "directional",
+                SourceLightKind::Point => "point",
+                SourceLightKind::Spot { inner, outer } => {
+                    described["spot"] = json!({ "innerConeAngle": inner, "outerConeAngle": outer });
+                    "spot"
+                }
+            });
+            let extension = json!({ "KHR_lights_punctual": { "light": self.lights.len() } });
+            self.lights.push(described);
+            self.node("", light.world_from_light, "extensions", extension);
+        }
+    }
+
+    fn cameras(&mut self, cameras: &[SourceCamera]) {
+        for camera in cameras {
+            let mut described = match camera.projection {
+                SourceProjection::Perspective { yfov, aspect, near, far } => {
+                    let mut perspective = json!({ "yfov": yfov, "znear": near });
+                    if let Some(aspect) = aspect {
+                        perspective["aspectRatio"] = json!(aspect);
+                    }
+                    if let Some(far) = far {
+                        perspective["zfar"] = json!(far);
+                    }
+                    json!({ "type": "perspective", "perspective": perspective })
+                }
+                SourceProjection::Orthographic { half_width, half_height, near, far } => json!({
+                    "type": "orthographic",
+                    "orthographic": { "xmag": half_width, "ymag": half_height, "znear": near, "zfar": far },
+                }),
+            };
+            if !camera.name.is_empty() {
+                described["name"] = json!(camera.name);
+            }
+            let index = self.cameras.len();
+            self.cameras.push(described);
+            self.node("", camera.world_from_camera, "camera", json!(index));
+        }
+    }
+
+    fn json(&self, model: &Model) -> Value {
+        let mut root = json!({
+            "asset": { "version": "2.0", "generator": concat!("halfway ", env!("CARGO_PKG_VERSION")) },
+            "scene": 0,
+            "scenes": [{ "nodes": (0..self.nodes.len()).collect::<Vec<_>>() }],
+            "nodes": self.nodes,
+            "meshes": self.meshes,
+            "accessors": self.accessors,
+            "bufferViews": self.views,
+            "buffers": [{ "byteLength": self.data.len() }],
+        });
+        if !model.materials.is_empty() {
+            root["materials"] = model.materials.iter().map(material).collect();
+        }
+        if !self.cameras.is_empty() {
+            root["cameras"] = json!(self.cameras);
+        }
+        if !self.lights.is_empty() {
+            root["extensionsUsed"] = json!(["KHR_lights_punctual"]);
+            root["extensions"] = json!({ "KHR_lights_punctual": { "lights": self.lights } });
+        }
+        root
+    }
+}
+
+fn material(source: &SourceMaterial) -> Value {
+    let of_mtl;
+    let pbr = match source {
+        SourceMaterial::MetallicRoughness(pbr) => pbr,
+        SourceMaterial::Mtl(mtl) => {
+            of_mtl = metallic_roughness(mtl);
+            &of_mtl
+        }
+    };
+    let mut described = json!({
+        "pbrMetallicRoughness": {
+            "baseColorFactor": pbr.base_color,
+            "metallicFactor": pbr.metallic,
+            "roughnessFactor": pbr.roughness,
+        },
+        "emissiveFactor": pbr.emissive,
+        "doubleSided": pbr.double_sided,
+    });
+    if !pbr.name.is_empty() {
+        described["name"] = json!(pbr.name);
+    }
+    match pbr.alpha {
+        AlphaMode::Opaque => {}
+        AlphaMode::Mask { cutoff } => {
+            described["alphaMode"] = json!("MASK");
+            described["alphaCutoff"] = json!(cutoff);
+        }
+        AlphaMode::Blend => described["alphaMode"] = json!("BLEND"),
+    }
+    described
+}
+
+/// The nearest that glTF has: no metal, with the roughness r for which the exponent 2/r⁴ − 2 of a Blinn–Phong lobe is the
+/// material's (Walter et al. 2007, "Microfacet models for refraction", α = r²).
+fn metallic_roughness(mtl: &MtlMaterial) -> MetallicRoughness {
+    let [r, g, b] = mtl.kd.unwrap_or([0.8; 3]).map(|x| x.clamp(0.0, 1.0));
+    let opacity = mtl.d.or(mtl.tr.map(|tr| 1.0 - tr)).unwrap_or(1.0).clamp(0.0, 1.0);
+    let roughness = mtl.ns.map_or(1.0, |ns| (2.0 / (ns.max(0.0) + 2.0)).powf(0.25));
+    MetallicRoughness {
+        name: mtl.name.clone(),
+        base_color: [r, g, b, opacity],
+        metallic: 0.0,
+        roughness,
+        emissive: mtl.ke.unwrap_or([0.0; 3]).map(|x| x.clamp(0.0, 1.0)),
+        double_sided: false,
+        alpha: if opacity < 1.0 { AlphaMode::Blend } else { AlphaMode::Opaque },
+    }
+}

@@ -1,0 +1,141 @@
+//! Wavefront OBJ and MTL.
+
+use std::collections::HashSet;
+use std::io::{self, Write};
+use std::path::Path;
+
+use super::{Placed, WriteError, lost_in_text, replace, upward};
+use crate::files::color::encoded;
+use crate::{Mesh, Model, MtlMaterial, SourceMaterial};
+
+/// Writes an object for each part, and an MTL file where there are materials.
+pub(super) fn write(path: &Path, model: &Model) -> Result<Vec<String>, WriteError> {
+    let mut lost = lost_in_text(model);
+    let names = unique_names(model);
+    let library = path.with_extension("mtl");
+    if !model.materials.is_empty() {
+        replace(&library, |file| {
+            model.materials.iter().zip(&names).try_for_each(|(source, name)| write_material(file, name, source))
+        })?;
+    }
+    let renamed = model.materials.iter().zip(&names).filter(|(material, name)| material.name() != *name).count();
+    let pbr = model.materials.iter().filter(|source| matches!(source, SourceMaterial::MetallicRoughness(_))).count();
+    let distinct: HashSet<_> = model.parts.iter().map(|part| (one_line(&part.name), part.material)).collect();
+    for (count, what) in [
+        (
+            model.parts.len() - distinct.len(),
+            "parts have the name and the material of another, and will be read as one with it",
+        ),
+        (renamed, "materials get another name"),
+        (pbr, "materials lose their metallic, roughness and alpha mode, and which faces they show"),
+    ] {
+        if count > 0 {
+            lost.push(format!("{count} {what}"));
+        }
+    }
+    let placed: Vec<Placed> =
+        model.parts.iter().enumerate().map(|(i, part)| Placed::new(path, i, part)).collect::<Result<_, _>>()?;
+    replace(path, |file| {
+        if !model.materials.is_empty() {
+            writeln!(file, "mtllib {}", library.file_name().unwrap_or_default().to_string_lossy())?;
+        }
+        let mut first = [1, 1];
+        let mut used = None;
+        for (part, placed) in model.parts.iter().zip(&placed) {
+            writeln!(file, "o {}", one_line(&part.name))?;
+            if part.material != used {
+                // The format cannot go back to no material but by a name that is nowhere defined.
+                let name = part.material.and_then(|material| names.get(material)).map_or("none", String::as_str);
+                writeln!(file, "usemtl {name}")?;
+                used = part.material;
+            }
+            write_part(file, &part.mesh, placed, &mut first)?;
+        }
+        Ok(())
+    })?;
+    Ok(lost)
+}
+
+/// The vertices and faces of a part; `first` are the numbers of its first vertex and texture coordinate.
+fn write_part(file: &mut impl Write, mesh: &Mesh, placed: &Placed, first: &mut [u64; 2]) -> io::Result<()> {
+    for (i, p) in placed.positions.iter().enumerate() {
+        match mesh.colors() {
+            None => writeln!(file, "v {} {} {}", p.x, p.y, p.z)?,
+            Some(colors) => {
+                let [r, g, b] = colors[i].truncate().to_array().map(encoded);
+                writeln!(file, "v {} {} {} {r} {g} {b}", p.x, p.y, p.z)?;
+            }
+        }
+    }
+    for uv in mesh.uvs().unwrap_or_default() {
+        writeln!(file, "vt {} {}", uv.x, upward(uv.y))?;
+    }
+    for n in &placed.normals {
+        writeln!(file, "vn {} {} {}", n.x, n.y, n.z)?;
+    }
+    for triangle in mesh.triangles() {
+        write!(file, "f")?;
+        for corner in placed.triangle(triangle) {
+            let (v, vt) = (first[0] + u64::from(corner), first[1] + u64::from(corner));
+            match mesh.uvs() {
+                Some(_) => write!(file, " {v}/{vt}/{v}")?,
+                None => write!(file, " {v}//{v}")?,
+            }
+        }
+        writeln!(file)?;
+    }
+    first[0] += mesh.positions().len() as u64;
+    first[1] += mesh.uvs().map_or(0, <[_]>::len) as u64;
+    Ok(())
+}
+
+fn write_material(file: &mut impl Write, name: &str, source: &SourceMaterial) -> io::Result<()> {
+    writeln!(file, "newmtl {name}")?;
+    let of_pbr;
+    let mtl = match source {
+        SourceMaterial::Mtl(mtl) => mtl,
+        SourceMaterial::MetallicRoughness(pbr) => {
+            let [r, g, b, alpha] = pbr.base_color;
+            of_pbr =
+                MtlMaterial { kd: Some([r, g, b]), ke: Some(pbr.emissive), d: Some(alpha), ..MtlMaterial::default() };
+            &of_pbr
+        }
+    };
+    for (keyword, color) in [("Ka", mtl.ka), ("Kd", mtl.kd), ("Ks", mtl.ks), ("Ke", mtl.ke)] {
+        if let Some([r, g, b]) = color {
+            writeln!(file, "{keyword} {r} {g} {b}")?;
+        }
+    }
+    for (keyword, number) in [("Ns", mtl.ns), ("d", mtl.d), ("Tr", mtl.tr)] {
+        if let Some(number) = number {
+            writeln!(file, "{keyword} {number}")?;
+        }
+    }
+    mtl.illum.map_or(Ok(()), |illum| writeln!(file, "illum {illum}"))
+}
+
+/// Names of the materials that a line can hold, none of them twice.
+fn unique_names(model: &Model) -> Vec<String> {
+    let mut seen = HashSet::from(["none".to_owned()]);
+    model
+        .materials
+        .iter()
+        .enumerate()
+        .map(|(index, material)| {
+            let mut name = one_line(material.name());
+            if name.is_empty() || seen.contains(&name) {
+                name = format!("material_{index}");
+            }
+            while !seen.insert(name.clone()) {
+                name.push('_');
+            }
+            name
+        })
+        .collect()
+}
+
+/// A name as a line can hold it.
+fn one_line(name: &str) -> String {
+    let flat: String = name.chars().map(|c| if c.is_control() || c == '\\' { ' ' } else { c }).collect();
+    flat.trim_ascii().to_owned()
+}

@@ -1,0 +1,111 @@
+//! Fans: the parts into which creases cut the triangles around a vertex.
+
+use bevy_math::Vec3;
+
+use super::face::unsettled_face_normals;
+use super::{NormalReport, NormalWeighting, split_normals};
+use crate::Mesh;
+use crate::edges::Edges;
+use crate::numbering::Numbering;
+
+/// The directions of two normals from `f32` positions are known no better than this; flat edges stay smooth at angle 0.
+const ANGLE_ROUNDING: f64 = 1e-6;
+
+/// Pairs are looked at up to so many triangles an edge, so that no file makes their number quadratic in its size.
+const CROWD: usize = 16;
+
+/// The mesh with creased normals; see [`Normals::Creased`](super::Normals::Creased).
+pub(crate) fn creased_normals(mesh: &Mesh, angle: f32, weighting: NormalWeighting) -> (Mesh, NormalReport) {
+    let groups = Numbering::of_positions(mesh.positions());
+    let edges = Edges::new(groups.triangles(mesh.indices()), groups.count());
+    let normals = unsettled_face_normals(mesh.positions(), mesh.indices());
+    let limit = f64::from(angle) + ANGLE_ROUNDING;
+    let smooth = |a: usize, b: usize| {
+        let (a, b) = (normals[a].as_dvec3(), normals[b].as_dvec3());
+        let sound = a.length_squared() > 0.0 && b.length_squared() > 0.0;
+        // Not `acos`, which loses the small angles.
+        sound && a.cross(b).length().atan2(a.dot(b)) <= limit
+    };
+    let mut fans = Fans::new(&edges);
+    for edge in edges.iter().filter(|edge| edge.passes.len() <= CROWD) {
+        for (i, &pass) in edge.passes.iter().enumerate() {
+            let others = edge.passes[..i].iter().filter(|&&other| smooth(pass as usize / 3, other as usize / 3));
+            others.for_each(|&other| fans.join(&edges, pass, other));
+        }
+    }
+    fans.adopt_degenerate(&edges, &normals);
+    drop(normals);
+    let (classes, count) = fans.classes();
+    drop(edges);
+    split_normals(mesh, &classes, count, weighting)
+}
+
+/// Corners that share a normal: at first each is alone.
+pub(crate) struct Fans {
+    /// A corner of the same fan, never a later one; the first points to itself.
+    earlier: Vec<u32>,
+}
+
+impl Fans {
+    /// Every corner of the triangles for itself.
+    pub(crate) fn new(edges: &Edges) -> Self {
+        Self { earlier: (0..3 * edges.triangles().len() as u32).collect() }
+    }
+
+    /// Joins the corners of two passes of one edge, at both of its ends.
+    pub(crate) fn join(&mut self, edges: &Edges, pass: u32, other: u32) {
+        let (a, b) = (edges.corners(pass), edges.corners(other));
+        self.join_corners(a[0], b[0]);
+        self.join_corners(a[1], b[1]);
+    }
+
+    fn join_corners(&mut self, a: u32, b: u32) {
+        let (a, b) = (self.first(a), self.first(b));
+        self.earlier[a.max(b) as usize] = a.min(b);
+    }
+
+    fn first(&mut self, mut corner: u32) -> u32 {
+        while self.earlier[corner as usize] != corner {
+            let earlier = self.earlier[corner as usize];
+            self.earlier[corner as usize] = self.earlier[earlier as usize];
+            corner = earlier;
+        }
+        corner
+    }
+
+    /// Degenerate triangles show nothing: their corners take any fan at their position, so that no vertex is made for
+    /// them. `normals` are those of the faces, zero for degenerate ones.
+    pub(crate) fn adopt_degenerate(&mut self, edges: &Edges, normals: &[Vec3]) {
+        if normals.iter().all(|n| *n != Vec3::ZERO) {
+            return;
+        }
+        let corners = || 0..3 * edges.triangles().len() as u32;
+        let is_degenerate = |corner: &u32| normals[*corner as usize / 3] == Vec3::ZERO;
+        let points = edges.triangles().iter().flatten().max().map_or(0, |&most| most as usize + 1);
+        let mut sound = vec![None; points];
+        for corner in corners().filter(|corner| !is_degenerate(corner)) {
+            sound[edges.point(corner) as usize].get_or_insert(corner);
+        }
+        for corner in corners().filter(is_degenerate) {
+            if let Some(other) = sound[edges.point(corner) as usize] {
+                self.join_corners(corner, other);
+            }
+        }
+    }
+
+    /// The number of each corner's fan, and how many fans there are.
+    pub(crate) fn classes(mut self) -> (Vec<u32>, usize) {
+        let mut count = 0;
+        for corner in 0..self.earlier.len() as u32 {
+            // The first of a fan has its number already when the later ones come.
+            let earlier = self.earlier[corner as usize];
+            self.earlier[corner as usize] = if earlier == corner {
+                count += 1;
+                count - 1
+            } else {
+                self.earlier[earlier as usize]
+            };
+        }
+        (self.earlier, count as usize)
+    }
+}

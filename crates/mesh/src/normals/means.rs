@@ -1,0 +1,145 @@
+//! Weighted means of face normals.
+
+use std::collections::HashMap;
+
+use bevy_math::{DVec3, Vec3};
+use rayon::prelude::*;
+
+use super::face::{Face, PARALLEL_MIN};
+use super::{NormalReport, NormalWeighting};
+use crate::numbering::Numbering;
+
+/// A mean is taken to have vanished where its length is at most this fraction of the sum of the weights; a few
+/// rounding steps of the `f32` positions.
+const CANCELLED: f64 = 1e-6;
+
+/// So many triangles have their normals and weights computed together, by all threads, before one thread adds them up
+/// in the order of the triangles: sums do not depend on the number of threads, and the block stays in the cache.
+const BLOCK: usize = 1 << 14;
+
+/// The normals of all vertices. `indices` has three a triangle, all in range.
+pub(crate) fn vertex_normals(
+    positions: &[Vec3],
+    indices: &[u32],
+    weighting: NormalWeighting,
+) -> (Vec<Vec3>, NormalReport) {
+    let groups = Numbering::of_positions(positions);
+    let means =
+        Means::new(positions, indices, groups.count(), weighting, |corner| groups.numbers[indices[corner] as usize]);
+    let mut report = means.report;
+    let normals = groups.numbers.iter().map(|&group| means.normal(group, &mut report)).collect();
+    (normals, report)
+}
+
+/// The mean normal of every class of corners.
+pub(super) struct Means {
+    /// Zero where no triangle had a normal.
+    normals: Vec<Vec3>,
+    /// The classes whose mean vanished.
+    cancelled: HashMap<u32, Largest>,
+    /// How many triangles were degenerate.
+    pub(super) report: NormalReport,
+}
+
+/// The sum over one class.
+#[derive(Clone, Copy, Default)]
+struct Sum {
+    n: DVec3,
+    weights: f64,
+}
+
+/// The largest triangle of a class.
+#[derive(Clone, Copy, Default)]
+struct Largest {
+    n: DVec3,
+    area2: f64,
+}
+
+impl Means {
+    /// The means of the corners by the number of the class that `class` gives to each corner (3·triangle + corner),
+    /// below `classes`.
+    pub(super) fn new(
+        positions: &[Vec3],
+        indices: &[u32],
+        classes: usize,
+        weighting: NormalWeighting,
+        class: impl Fn(usize) -> u32,
+    ) -> Self {
+        let mut report = NormalReport::default();
+        let mut sums = vec![Sum::default(); classes];
+        let mut shares = Vec::new();
+        for (block, triangles) in indices.as_chunks::<3>().0.chunks(BLOCK).enumerate() {
+            triangles
+                .par_iter()
+                .with_min_len(PARALLEL_MIN)
+                .map(|triangle| {
+                    let face = Face::new(triangle.map(|i| positions[i as usize]))?;
+                    Some((face.n, face.weights(weighting)))
+                })
+                .collect_into_vec(&mut shares);
+            for (triangle, share) in shares.iter().enumerate() {
+                let Some((n, weights)) = share else {
+                    report.degenerate_triangles += 1;
+                    continue;
+                };
+                for (corner, weight) in weights.iter().enumerate() {
+                    let sum = &mut sums[class(3 * (block * BLOCK + triangle) + corner) as usize];
+                    sum.n += n * weight;
+                    sum.weights += weight;
+                }
+            }
+        }
+        let (normals, cancelled) = settle(&sums);
+        let mut means = Self { normals, cancelled, report };
+        means.find_largest(positions, indices, class);
+        means
+    }
+
+    /// The second look that only vanished means take.
+    fn find_largest(&mut self, positions: &[Vec3], indices: &[u32], class: impl Fn(usize) -> u32) {
+        if self.cancelled.is_empty() {
+            return;
+        }
+        for (triangle, corners) in indices.as_chunks::<3>().0.iter().enumerate() {
+            for corner in 0..3 {
+                let Some(largest) = self.cancelled.get_mut(&class(3 * triangle + corner)) else { continue };
+                let Some(face) = Face::new(corners.map(|i| positions[i as usize])) else { continue };
+                if face.area2 > largest.area2 {
+                    *largest = Largest { n: face.n, area2: face.area2 };
+                }
+            }
+        }
+    }
+
+    /// The normal of a vertex of this class, counted where it is made up.
+    pub(super) fn normal(&self, class: u32, report: &mut NormalReport) -> Vec3 {
+        let n = self.normals[class as usize];
+        if n != Vec3::ZERO {
+            n
+        } else if let Some(largest) = self.cancelled.get(&class) {
+            report.cancelled += 1;
+            largest.n.as_vec3()
+        } else {
+            report.without_face += 1;
+            Vec3::Y
+        }
+    }
+}
+
+/// The means that did not vanish, zero for the others, and the classes of those that had weights.
+fn settle(sums: &[Sum]) -> (Vec<Vec3>, HashMap<u32, Largest>) {
+    let mut cancelled = HashMap::new();
+    let settled = |(class, sum): (usize, &Sum)| {
+        let length = sum.n.length();
+        if length > CANCELLED * sum.weights {
+            (sum.n / length).as_vec3()
+        } else {
+            if sum.weights > 0.0 {
+                cancelled.insert(class as u32, Largest::default());
+            }
+            Vec3::ZERO
+        }
+    };
+    let normals = sums.iter().enumerate().map(settled).collect();
+    (normals, cancelled)
+}

@@ -1,0 +1,94 @@
+//! Face normals and vertex normals.
+//!
+//! Everything is computed in `f64` from the `f32` positions: differences of `f32` are exact there or nearly so, and
+//! the products of the smallest and of the largest models (1e-18 … 1e18 units) neither underflow nor overflow.
+
+mod face;
+mod fans;
+mod means;
+mod split;
+
+pub use face::face_normal;
+pub(crate) use face::{face_normals, unsettled_face_normals};
+pub(crate) use fans::{Fans, creased_normals};
+pub(crate) use means::vertex_normals;
+pub(crate) use split::{grouped_normals, split_normals};
+
+/// How a mesh gets its normals.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Normals {
+    /// As they are: the file's or the surface's own, or the default weighting's where it had none.
+    #[default]
+    Keep,
+    /// The normal of the triangle at each of its corners. Vertices are no longer shared: three for every triangle.
+    Face,
+    /// The normalised weighted mean of the normals of the triangles around each vertex.
+    Weighted(NormalWeighting),
+    /// The mean over the part of the triangles around each vertex that goes on without a crease: an edge is one where
+    /// the normals of its two triangles differ by more than `angle`. Vertices on creases are split.
+    ///
+    /// The parts are found by going round the vertex from triangle to triangle, so that a smooth cone is not creased
+    /// because its opposite sides face apart. Where more than two triangles meet in an edge each pair is looked at; an
+    /// edge of more than sixteen is a crease. Triangles that share a vertex and no edge do not share a normal.
+    Creased {
+        /// In radians, 0 … π. At 0 all but flat edges are creases, at π none; NaN makes every edge one.
+        angle: f32,
+        /// The weight of a triangle in the mean.
+        weighting: NormalWeighting,
+    },
+}
+
+/// The weight of a triangle's unit normal in the mean at one of its vertices.
+///
+/// Vertices at equal positions share their mean, so that a seam in the texture coordinates is not a seam in the shading.
+///
+/// The default is chosen by measurement, the example `normal_accuracy`: sphere, torus, ellipsoid, teapot and a random
+/// cubic, each at four tessellations, regular, with jittered vertices and with slivers. Of these 60 meshes it has the
+/// smallest mean angle to the true normals on 44 and the smallest worst angle on 32. Compared with the best on each mesh,
+/// in the median:
+///
+/// | | uniform | area | angle | Max |
+/// |---|--:|--:|--:|--:|
+/// | mean angle | 1.88 | 2.33 | 1.44 | 1.00 |
+/// | worst angle | 2.18 | 1.98 | 4.12 | 1.00 |
+///
+/// The regular meshes of the teapot and the ellipsoid, whose long cells follow the curvature, are the ones where others
+/// are better, area by up to 2.1 times.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum NormalWeighting {
+    /// 1: the plain mean of the face normals (Gouraud 1971). Depends on how faces are cut into triangles.
+    Uniform,
+    /// The area of the triangle: large faces win.
+    Area,
+    /// The angle of the triangle at the vertex (Thürmer and Wüthrich 1998, "Computing vertex normals from polygonal
+    /// facets"): independent of how flat faces are cut into triangles. A flat-topped triangle with an angle near π, whose
+    /// normal is the least sure, gets the largest weight: on jittered meshes it is off by up to 90°.
+    Angle,
+    /// sin α / (|e₁| |e₂|), α the angle between the edges e₁ and e₂ at the vertex (Max 1999, "Weights for computing
+    /// vertex normals from facet normals"): exact where the vertex and its neighbours lie on a sphere, and independent of
+    /// how flat faces are cut whose corners lie on a circle. Small faces win: beside a narrow bevel a large flat face
+    /// says little. The default.
+    #[default]
+    Max,
+}
+
+/// What had to be left out or made up while normals were computed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct NormalReport {
+    /// Triangles without a normal (see [`face_normal`]); they added nothing.
+    pub degenerate_triangles: usize,
+    /// Vertices whose mean vanished, as on a sheet folded onto itself; they took the normal of the largest triangle
+    /// around them, the first in order among equals.
+    pub cancelled: usize,
+    /// Vertices of no triangle, or of degenerate triangles alone; they took +Y.
+    pub without_face: usize,
+    /// Given normals of zero length that the default weighting's normal replaced.
+    pub replaced: usize,
+}
+
+impl NormalReport {
+    /// Whether nothing had to be left out or made up.
+    pub fn is_clean(&self) -> bool {
+        *self == Self::default()
+    }
+}

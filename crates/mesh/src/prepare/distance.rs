@@ -1,0 +1,104 @@
+//! How far a mesh is from another.
+
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
+use rayon::prelude::*;
+
+use super::nearest::{Triangle, Triangles};
+use crate::Mesh;
+
+/// Bounds of a distance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DistanceBounds {
+    /// A distance that some point has.
+    pub least: f64,
+    /// A distance that no point passes.
+    pub most: f64,
+}
+
+/// Triangles are cut in four at most so often.
+const CUTS: u32 = 1 << 18;
+
+impl Mesh {
+    /// The greatest distance of a point of this mesh's triangles from the other mesh (the one-sided Hausdorff distance),
+    /// to within `tolerance`, in the meshes' units; NaN or a negative number count as 0.
+    ///
+    /// The distance to one triangle is convex, so over a triangle it is greatest at a corner; the distance to a mesh
+    /// changes no faster than its point moves. Both bound it over a triangle from above, and triangles are cut in four
+    /// where that is not close enough (as by Tang, Lee and Kim 2009, "Interactive Hausdorff distance computation for
+    /// general polygonal models"). After some hundred thousand cuts the bounds are given as they are.
+    pub fn distance_to(&self, other: &Mesh, tolerance: f64) -> DistanceBounds {
+        let tolerance = tolerance.max(0.0);
+        let corners = |mesh: &Mesh, i: u32| mesh.positions()[i as usize].as_dvec3();
+        let target = Triangles::new(other.triangles().map(|triangle| triangle.map(|i| corners(other, i))).collect());
+        let own = |triangle: &[u32; 3]| triangle.map(|i| corners(self, i));
+        let triangles = self.indices().as_chunks::<3>().0;
+        let first: Vec<Cell> = triangles.par_iter().map(|triangle| Cell::new(own(triangle), &target, 0)).collect();
+        let mut least = first.iter().fold(0.0_f64, |least, cell| least.max(cell.lower));
+        let mut cells: BinaryHeap<Cell> = first.into_iter().filter(|cell| cell.upper > least + tolerance).collect();
+        for _ in 0..CUTS {
+            let Some(cell) = cells.pop().filter(|cell| cell.upper > least + tolerance) else { break };
+            for quarter in cell.quarters(&target) {
+                least = least.max(quarter.lower);
+                cells.push(quarter);
+            }
+        }
+        // What is not among the cells is within the tolerance.
+        let most = cells.peek().map_or(0.0, |cell| cell.upper).max(least + tolerance);
+        DistanceBounds { least, most }
+    }
+}
+
+/// A part of a triangle.
+struct Cell {
+    corners: Triangle,
+    /// A distance that one of its points has.
+    lower: f64,
+    /// A distance that none of its points passes.
+    upper: f64,
+    /// The number of the triangle nearest to its centre.
+    nearest: usize,
+}
+
+impl Cell {
+    /// `guess` is the number of a triangle that is probably near.
+    fn new(corners: Triangle, target: &Triangles, guess: usize) -> Self {
+        let [a, b, c] = corners;
+        let center = (a + b + c) / 3.0;
+        let (lower, nearest) = target.nearest(center, guess);
+        let reach = corners.iter().map(|p| p.distance(center)).fold(0.0, f64::max);
+        let to_nearest = corners.iter().map(|&p| target.distance(p, nearest)).fold(0.0, f64::max);
+        Self { corners, lower, upper: to_nearest.min(lower + reach), nearest }
+    }
+
+    fn quarters(&self, target: &Triangles) -> [Self; 4] {
+        let [a, b, c] = self.corners;
+        let [ab, bc, ca] = [0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)];
+        [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]].map(|corners| {
+            let quarter = Self::new(corners, target, self.nearest);
+            // No part is further than the whole, whatever rounding says.
+            Self { upper: quarter.upper.min(self.upper), ..quarter }
+        })
+    }
+}
+
+impl PartialEq for Cell {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Cell {}
+
+impl PartialOrd for Cell {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Cell {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.upper.total_cmp(&other.upper)
+    }
+}

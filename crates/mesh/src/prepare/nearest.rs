@@ -1,0 +1,159 @@
+//! The nearest triangle, by a tree of boxes.
+
+use bevy_math::DVec3;
+
+/// Three corners.
+pub(super) type Triangle = [DVec3; 3];
+
+/// Triangles, found by place.
+pub(super) struct Triangles {
+    triangles: Vec<Triangle>,
+    /// A node's near half follows it; leaves have triangles. The first is the root.
+    nodes: Vec<Node>,
+}
+
+struct Node {
+    min: DVec3,
+    max: DVec3,
+    /// The first triangle of a leaf, the number of the second half's node otherwise.
+    next: u32,
+    /// The number of a leaf's triangles, 0 otherwise.
+    count: u32,
+}
+
+/// So many triangles are not worth a box more.
+const LEAF: usize = 4;
+
+impl Triangles {
+    /// At least one triangle.
+    pub(super) fn new(mut triangles: Vec<Triangle>) -> Self {
+        let mut nodes = Vec::with_capacity(triangles.len());
+        build(&mut triangles, 0, &mut nodes);
+        Self { triangles, nodes }
+    }
+
+    /// The distance from one of the triangles, by its number.
+    pub(super) fn distance(&self, p: DVec3, triangle: usize) -> f64 {
+        distance_squared(p, self.triangles[triangle]).sqrt()
+    }
+
+    /// The least distance from a triangle, and its number. The nearer the triangle of number `guess`, the sooner it is
+    /// found.
+    pub(super) fn nearest(&self, p: DVec3, guess: usize) -> (f64, usize) {
+        let (mut least2, mut nearest) = (distance_squared(p, self.triangles[guess]), guess);
+        let mut waiting = vec![(self.nodes[0].distance_squared(p), 0)];
+        while let Some((distance2, number)) = waiting.pop() {
+            if distance2 >= least2 {
+                continue;
+            }
+            let node: &Node = &self.nodes[number];
+            for triangle in node.triangles() {
+                let distance2 = distance_squared(p, self.triangles[triangle]);
+                if distance2 < least2 {
+                    (least2, nearest) = (distance2, triangle);
+                }
+            }
+            if node.count == 0 {
+                let halves = [number + 1, node.next as usize].map(|half| (self.nodes[half].distance_squared(p), half));
+                let [a, b] = halves;
+                // The nearer half is looked at first.
+                waiting.extend(if a.0 < b.0 { [b, a] } else { [a, b] });
+            }
+        }
+        (least2.sqrt(), nearest)
+    }
+}
+
+/// The tree over the triangles, which come after `before` others.
+fn build(triangles: &mut [Triangle], before: usize, nodes: &mut Vec<Node>) {
+    let corners = || triangles.iter().flatten();
+    let min = corners().fold(DVec3::INFINITY, |min, p| min.min(*p));
+    let max = corners().fold(DVec3::NEG_INFINITY, |max, p| max.max(*p));
+    let this = nodes.len();
+    nodes.push(Node { min, max, next: before as u32, count: triangles.len() as u32 });
+    if triangles.len() <= LEAF {
+        return;
+    }
+    let axis = (max - min).max_position();
+    let middle = triangles.len() / 2;
+    let place = |triangle: &Triangle| triangle.iter().map(|p| p[axis]).sum::<f64>();
+    triangles.select_nth_unstable_by(middle, |a, b| place(a).total_cmp(&place(b)));
+    let (near, far) = triangles.split_at_mut(middle);
+    build(near, before, nodes);
+    nodes[this].count = 0;
+    nodes[this].next = nodes.len() as u32;
+    build(far, before + middle, nodes);
+}
+
+impl Node {
+    fn distance_squared(&self, p: DVec3) -> f64 {
+        p.distance_squared(p.clamp(self.min, self.max))
+    }
+
+    fn triangles(&self) -> std::ops::Range<usize> {
+        if self.count == 0 { 0..0 } else { self.next as usize..(self.next + self.count) as usize }
+    }
+}
+
+/// The square of the distance of a point from a triangle, which may be degenerate.
+fn distance_squared(p: DVec3, [a, b, c]: Triangle) -> f64 {
+    let n = (b - a).cross(c - a);
+    let n2 = n.length_squared();
+    // Inside the three sides, seen along n.
+    let inside = |from: DVec3, to: DVec3| (to - from).cross(p - from).dot(n) >= 0.0;
+    if n2 > 0.0 && inside(a, b) && inside(b, c) && inside(c, a) {
+        return (p - a).dot(n).powi(2) / n2;
+    }
+    let to_side = |from: DVec3, to: DVec3| {
+        let side = to - from;
+        let length2 = side.length_squared();
+        let t = if length2 > 0.0 { ((p - from).dot(side) / length2).clamp(0.0, 1.0) } else { 0.0 };
+        p.distance_squared(from + side * t)
+    };
+    to_side(a, b).min(to_side(b, c)).min(to_side(c, a))
+}
+
+#[cfg(test)]
+mod tests {
+    #![expect(clippy::float_cmp, reason = "whole numbers, and the same sums twice")]
+
+    use super::*;
+
+    #[test]
+    fn distances_to_every_part_of_a_triangle() {
+        let triangle = [DVec3::ZERO, DVec3::X * 2.0, DVec3::Y * 2.0];
+        let rows = [
+            ("inside", DVec3::new(0.5, 0.5, 3.0), 3.0),
+            ("corner", DVec3::new(-3.0, -4.0, 0.0), 5.0),
+            ("side", DVec3::new(1.0, -2.0, 0.0), 2.0),
+            ("long side", DVec3::new(2.0, 2.0, 0.0), 2.0_f64.sqrt()),
+            ("in the plane", DVec3::new(0.5, 0.5, 0.0), 0.0),
+        ];
+        for (name, p, expected) in rows {
+            for order in [[0, 1, 2], [1, 2, 0], [2, 1, 0]] {
+                let found = distance_squared(p, order.map(|i| triangle[i])).sqrt();
+                assert!((found - expected).abs() < 1e-12, "{name}: {found}");
+            }
+        }
+        let flat = [DVec3::ZERO, DVec3::X, DVec3::X * 0.5];
+        assert_eq!(distance_squared(DVec3::new(0.5, 2.0, 0.0), flat), 4.0);
+        assert_eq!(distance_squared(DVec3::Y, [DVec3::ZERO; 3]), 1.0);
+    }
+
+    #[test]
+    fn the_tree_finds_what_looking_at_all_finds() {
+        // Triangles and points at places that repeat, by the golden ratio.
+        let place = |i: u32| {
+            let t = f64::from(i) * 0.618_033_988_749_895;
+            DVec3::new(t.fract(), (t * 3.7).fract(), (t * 11.3).fract())
+        };
+        let triangles: Vec<Triangle> =
+            (0..200).map(|i| [0, 1, 2].map(|k| place(i) + 0.1 * place(1000 + 3 * i + k))).collect();
+        let tree = Triangles::new(triangles.clone());
+        for i in 0..300 {
+            let p = 2.0 * place(5000 + i) - 0.5;
+            let all = triangles.iter().map(|t| distance_squared(p, *t)).fold(f64::INFINITY, f64::min);
+            assert_eq!(tree.nearest(p, i as usize % 200).0, all.sqrt());
+        }
+    }
+}

@@ -1,0 +1,145 @@
+//! Welding: vertices that are one in all but number become one.
+
+use std::collections::HashMap;
+
+use bevy_math::Vec3;
+
+use crate::numbering::Numbering;
+use crate::{Mesh, MeshError};
+
+/// Which vertices [`Mesh::welded`] takes for one. By default those that are equal in everything.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Weld {
+    /// How far positions may lie apart, in the mesh's units; 0, a negative number and NaN ask for equal ones.
+    ///
+    /// A vertex joins the first that lies so near and joined none itself, so that rows of close vertices do not run
+    /// together.
+    pub distance: f32,
+    /// The step to which normals, texture coordinates, colours and tangents are rounded before they are compared: 0 asks
+    /// for equal ones, `None` does not look at them.
+    pub attributes: Option<f32>,
+}
+
+impl Default for Weld {
+    fn default() -> Self {
+        Self { distance: 0.0, attributes: Some(0.0) }
+    }
+}
+
+impl Weld {
+    /// Vertices no further apart than this, whatever else they have.
+    pub fn positions(distance: f32) -> Self {
+        Self { distance, attributes: None }
+    }
+}
+
+/// What [`Mesh::welded`] did.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct WeldReport {
+    /// Vertices that became one with an earlier one.
+    pub merged_vertices: usize,
+    /// Triangles left out because two of their corners became one position.
+    pub collapsed_triangles: usize,
+}
+
+/// The words of a vertex: its place, then normal, texture coordinates, colour and tangent.
+type VertexKey = [u32; 14];
+
+impl Mesh {
+    /// The mesh with vertices that `weld` takes for one made one, and without the triangles that this collapses.
+    ///
+    /// The first of the welded vertices stays. Where attributes are not looked at it takes the mean of their normals,
+    /// unless that vanishes, and tangents are dropped; the other attributes stay its own.
+    ///
+    /// # Errors
+    /// Every triangle collapses.
+    pub fn welded(&self, weld: Weld) -> Result<(Self, WeldReport), MeshError> {
+        let places = places(self.positions(), weld.distance);
+        let vertices = match weld.attributes {
+            None => Numbering::new(places.len(), |vertex| [places[vertex]]),
+            Some(step) if step > 0.0 => {
+                // Casts saturate.
+                let word = |x: f32| ((f64::from(x) / f64::from(step)).round() as i32).cast_unsigned();
+                Numbering::new(places.len(), |vertex| self.vertex_key(vertex, &places, word))
+            }
+            Some(_) => self.identical_vertices(&places),
+        };
+        let triangles = self.triangles().filter(|triangle| {
+            let [a, b, c] = triangle.map(|i| places[i as usize]);
+            a != b && b != c && c != a
+        });
+        let indices: Vec<u32> = triangles.flatten().map(|i| vertices.numbers[i as usize]).collect();
+        if indices.is_empty() {
+            return Err(MeshError::NoTriangles);
+        }
+        let report = WeldReport {
+            merged_vertices: places.len() - vertices.count(),
+            collapsed_triangles: self.triangle_count() - indices.len() / 3,
+        };
+        let positions = vertices.firsts.iter().map(|&vertex| self.positions()[places[vertex as usize] as usize]);
+        let positions = positions.collect();
+        let mut mesh = self.selected(&vertices.firsts, indices).with_given_positions(positions);
+        if weld.attributes.is_none() {
+            mesh = mesh.with_given_normals(self.mean_normals(&vertices));
+        }
+        Ok((mesh, report))
+    }
+
+    /// Numbers the vertices that are equal in everything; `places` are those of their positions.
+    pub(crate) fn identical_vertices(&self, places: &[u32]) -> Numbering {
+        Numbering::new(places.len(), |vertex| self.vertex_key(vertex, places, |x| (x + 0.0).to_bits()))
+    }
+
+    fn vertex_key(&self, vertex: usize, places: &[u32], word: impl Fn(f32) -> u32) -> VertexKey {
+        let mut key = [0; 14];
+        key[0] = places[vertex];
+        key[1..4].copy_from_slice(&self.normals()[vertex].to_array().map(&word));
+        if let Some(uvs) = self.uvs() {
+            key[4..6].copy_from_slice(&uvs[vertex].to_array().map(&word));
+        }
+        if let Some(colors) = self.colors() {
+            key[6..10].copy_from_slice(&colors[vertex].to_array().map(&word));
+        }
+        if let Some(tangents) = self.tangents() {
+            key[10..14].copy_from_slice(&tangents[vertex].to_array().map(&word));
+        }
+        key
+    }
+
+    /// The mean normal of the vertices of each number; the first's where it vanishes.
+    fn mean_normals(&self, vertices: &Numbering) -> Vec<Vec3> {
+        let mut sums = vec![Vec3::ZERO; vertices.count()];
+        for (n, &number) in self.normals().iter().zip(&vertices.numbers) {
+            sums[number as usize] += n;
+        }
+        let first = |number: usize| self.normals()[vertices.firsts[number] as usize];
+        sums.iter().enumerate().map(|(number, sum)| sum.try_normalize().unwrap_or_else(|| first(number))).collect()
+    }
+}
+
+/// For each vertex the one whose place it takes: the first within the distance that took no other's place.
+fn places(positions: &[Vec3], distance: f32) -> Vec<u32> {
+    let exact = Numbering::of_positions(positions);
+    let mut owners = exact.firsts.clone();
+    if distance > 0.0 {
+        let distance = f64::from(distance);
+        // Cells as wide as the distance, by the bits of their whole numbers, which may be too large for an integer. A
+        // cell holds few owners: they lie further apart than it is wide.
+        let mut cells: HashMap<[u64; 3], Vec<u32>> = HashMap::new();
+        for owner in &mut owners {
+            let p = positions[*owner as usize].as_dvec3();
+            let cell = (p / distance).floor();
+            let near = (0..27).find_map(|i| {
+                let offset = [i % 3, i / 3 % 3, i / 9].map(|x| f64::from(x) - 1.0);
+                let key = (cell + bevy_math::DVec3::from_array(offset)).to_array().map(|x| (x + 0.0).to_bits());
+                let mut owners = cells.get(&key)?.iter();
+                owners.find(|&&other| positions[other as usize].as_dvec3().distance(p) <= distance).copied()
+            });
+            match near {
+                Some(other) => *owner = other,
+                None => cells.entry(cell.to_array().map(|x| (x + 0.0).to_bits())).or_default().push(*owner),
+            }
+        }
+    }
+    exact.numbers.iter().map(|&number| owners[number as usize]).collect()
+}

@@ -1,0 +1,87 @@
+//! Tangents, for normal maps.
+
+use bevy_math::{Vec2, Vec3, Vec4};
+use bevy_mikktspace::{Geometry, TangentSpace, generate_tangents};
+
+use crate::numbering::Numbering;
+use crate::{Mesh, MeshError};
+
+impl Mesh {
+    /// The mesh with a tangent t a vertex by `MikkTSpace` (Mikkelsen 2008, "Simulation of wrinkled surfaces revisited"),
+    /// what normal maps are made for and glTF asks for.
+    ///
+    /// x, y, z of a tangent are a unit vector toward which u grows, perpendicular to the normal n; w is 1 or −1, so that
+    /// w·(n × t) is the way up in the image, where v falls. Vertices are split where the triangles around them do not
+    /// agree, as on the seam of a mirrored texture, and those of no triangle are left out. Where the texture coordinates
+    /// give no direction, any vector perpendicular to n is taken. Triangles keep their order; the size of the mesh is of
+    /// no account.
+    ///
+    /// # Errors
+    /// The mesh has no texture coordinates.
+    pub fn with_tangents(self) -> Result<Self, MeshError> {
+        let uvs = self.uvs().ok_or(MeshError::NoUvs { what: "a tangent" })?;
+        let tangents = Corners::tangents(&self, uvs);
+        let vertices = Numbering::new(tangents.len(), |corner| {
+            let [x, y, z, w] = tangents[corner].to_array().map(f32::to_bits);
+            [self.indices()[corner], x, y, z, w]
+        });
+        let sources: Vec<u32> = vertices.firsts.iter().map(|&corner| self.indices()[corner as usize]).collect();
+        let tangents = vertices.firsts.iter().map(|&corner| tangents[corner as usize]).collect();
+        Ok(self.selected(&sources, vertices.numbers).with_given_tangents(tangents))
+    }
+}
+
+/// The mesh as the algorithm sees it, and what it says of each corner.
+struct Corners<'a> {
+    mesh: &'a Mesh,
+    positions: Vec<[f32; 3]>,
+    uvs: &'a [Vec2],
+    tangents: Vec<Vec4>,
+}
+
+impl<'a> Corners<'a> {
+    /// The tangent of each corner.
+    fn tangents(mesh: &'a Mesh, uvs: &'a [Vec2]) -> Vec<Vec4> {
+        let (positions, tangents) = (mesh.unit_positions().0, vec![Vec4::ZERO; mesh.indices().len()]);
+        let mut corners = Self { mesh, positions, uvs, tangents };
+        generate_tangents(&mut corners).expect("it has no errors to give");
+        corners.tangents
+    }
+
+    fn vertex(&self, face: usize, corner: usize) -> usize {
+        self.mesh.indices()[3 * face + corner] as usize
+    }
+}
+
+impl Geometry for Corners<'_> {
+    fn num_faces(&self) -> usize {
+        self.mesh.triangle_count()
+    }
+
+    fn num_vertices_of_face(&self, _: usize) -> usize {
+        3
+    }
+
+    fn position(&self, face: usize, corner: usize) -> [f32; 3] {
+        self.positions[self.vertex(face, corner)]
+    }
+
+    fn normal(&self, face: usize, corner: usize) -> [f32; 3] {
+        self.mesh.normals()[self.vertex(face, corner)].to_array()
+    }
+
+    fn tex_coord(&self, face: usize, corner: usize) -> [f32; 2] {
+        self.uvs[self.vertex(face, corner)].to_array()
+    }
+
+    fn set_tangent(&mut self, space: Option<TangentSpace>, face: usize, corner: usize) {
+        let n = self.mesh.normals()[self.vertex(face, corner)];
+        // The algorithm's w·(n × t) is the way in which v grows.
+        let (t, w) = space.map_or((Vec3::ZERO, 1.0), |space| {
+            let [x, y, z, w] = space.tangent_encoded();
+            (Vec3::new(x, y, z), -w)
+        });
+        let t = (t - n * n.dot(t)).try_normalize().unwrap_or_else(|| n.any_orthonormal_vector());
+        self.tangents[3 * face + corner] = t.extend(w);
+    }
+}

@@ -1,0 +1,57 @@
+//! An allocator that counts, to see what memory a reader takes.
+#![allow(dead_code, reason = "each program uses a part of it")]
+#![allow(unsafe_code, reason = "an allocator is unsafe by its trait; this one only counts and hands on")]
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+
+/// The system's allocator, with a count of the bytes that are taken.
+pub(crate) struct Counting {
+    now: AtomicUsize,
+    peak: AtomicUsize,
+}
+
+impl Counting {
+    pub(crate) const fn new() -> Self {
+        Self { now: AtomicUsize::new(0), peak: AtomicUsize::new(0) }
+    }
+
+    /// Does some work; returns what it returns, and the most bytes that were taken meanwhile beyond those before.
+    pub(crate) fn peak_of<T>(&self, work: impl FnOnce() -> T) -> (T, usize) {
+        let before = self.now.load(Relaxed);
+        self.peak.store(before, Relaxed);
+        let done = work();
+        (done, self.peak.load(Relaxed) - before)
+    }
+
+    fn add(&self, bytes: usize) {
+        let now = self.now.fetch_add(bytes, Relaxed) + bytes;
+        self.peak.fetch_max(now, Relaxed);
+    }
+}
+
+// SAFETY: every call is handed on to the system's allocator as it is.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        self.add(layout.size());
+        // SAFETY: as the caller promises.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        self.now.fetch_sub(layout.size(), Relaxed);
+        // SAFETY: as the caller promises.
+        unsafe { System.dealloc(pointer, layout) }
+    }
+
+    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        // What is counted is the larger of the two: large blocks grow where they are.
+        if size > layout.size() {
+            self.add(size - layout.size());
+        } else {
+            self.now.fetch_sub(layout.size() - size, Relaxed);
+        }
+        // SAFETY: as the caller promises.
+        unsafe { System.realloc(pointer, layout, size) }
+    }
+}

@@ -1,0 +1,243 @@
+//! Writers: what is written is read as the same.
+
+mod common;
+
+use bevy_math::{Mat4, Vec2, Vec3, Vec4};
+use common::{Folder, check_model};
+use halfway_mesh::{
+    AlphaMode, Mesh, MetallicRoughness, Model, MtlMaterial, Part, SourceCamera, SourceLight, SourceLightKind,
+    SourceMaterial, SourceProjection, Teapot, WriteError, load, write,
+};
+
+fn part(name: &str, mesh: Mesh, material: Option<usize>) -> Part {
+    Part { name: name.to_owned(), mesh, material, world_from_part: Mat4::IDENTITY }
+}
+
+/// Numbers of all sizes, whose decimals are long.
+fn odd_mesh() -> Mesh {
+    let positions = vec![
+        Vec3::new(0.1, 1.0 / 3.0, -1e-30),
+        Vec3::new(1e30, f32::MIN_POSITIVE, 16_777_215.0),
+        Vec3::new(-0.0, 2.0_f32.sqrt(), 1e-7),
+        Vec3::new(f32::from_bits(1), 5.0, 6.0),
+    ];
+    let normals = [Vec3::new(1.0, 2.0, 3.0), Vec3::new(-0.3, 0.7, 1e-8), Vec3::new(5.0, -7.0, 11.0), Vec3::Z];
+    let uvs = vec![Vec2::new(0.1, 0.9), Vec2::new(1.0 / 3.0, 2.0 / 3.0), Vec2::new(-5.3, 7.1), Vec2::new(0.0, 1e-3)];
+    Mesh::from_parts(positions, Some(normals.to_vec()), Some(uvs), vec![0, 1, 2, 2, 1, 3]).unwrap()
+}
+
+/// Without the vertices that no triangle uses, which no reader of OBJ and glTF keeps.
+fn teapot() -> Mesh {
+    Mesh::from(Teapot::new(3)).with_tangents().unwrap()
+}
+
+fn of_parts(parts: Vec<Part>) -> Model {
+    Model { parts, ..Model::default() }
+}
+
+#[test]
+fn meshes_come_back_bit_by_bit() {
+    let folder = Folder::new();
+    let plain = of_parts(vec![part("model", odd_mesh(), None)]);
+    let teapot = of_parts(vec![part("model", teapot(), None)]);
+    for (what, model) in [("odd", plain), ("teapot", teapot)] {
+        for name in ["model.smf", "model.obj", "model.glb"] {
+            let path = folder.path().join(name);
+            write(&path, &model).unwrap();
+            let read = load(&path).unwrap();
+            assert!(read.warnings.is_empty(), "{what} {name}: {:?}", read.warnings);
+            check_model(&read);
+            let (found, expected) = (&read.parts[0], &model.parts[0]);
+            assert_eq!(found.name, expected.name, "{what} {name}");
+            // OBJ numbers vertices in the order of their use.
+            let corners = |mesh: &Mesh| -> Vec<[u32; 8]> {
+                let corner = |&i: &u32| {
+                    let (p, n) = (mesh.positions()[i as usize], mesh.normals()[i as usize]);
+                    let uv = mesh.uvs().unwrap_or_default().get(i as usize).copied().unwrap_or_default();
+                    [p.x, p.y, p.z, n.x, n.y, n.z, uv.x, uv.y].map(f32::to_bits)
+                };
+                mesh.indices().iter().map(corner).collect()
+            };
+            assert!(corners(&found.mesh) == corners(&expected.mesh), "{what} {name}");
+            assert_eq!(found.mesh.uvs().is_some(), expected.mesh.uvs().is_some(), "{what} {name}");
+            if !name.ends_with("obj") {
+                assert!(found.mesh.indices() == expected.mesh.indices(), "{what} {name}");
+            }
+        }
+    }
+}
+
+#[test]
+fn colours_come_back() {
+    let folder = Folder::new();
+    let colors =
+        vec![Vec4::ONE, Vec4::new(0.5, 0.25, 0.0, 1.0), Vec4::new(0.1, 0.001, 0.9, 1.0), Vec4::new(0., 0., 0., 1.)];
+    let model = of_parts(vec![part("model", odd_mesh().with_colors(colors.clone()).unwrap(), None)]);
+    for name in ["model.smf", "model.obj", "model.glb"] {
+        let path = folder.path().join(name);
+        assert_eq!(write(&path, &model).unwrap(), Vec::<String>::new(), "{name}");
+        let mesh = load(&path).unwrap().parts.remove(0).mesh;
+        let found: Vec<Vec4> = mesh.indices().iter().map(|&i| mesh.colors().unwrap()[i as usize]).collect();
+        for (found, i) in found.iter().zip([0, 1, 2, 2, 1, 3]) {
+            // Encoded in sRGB and decoded, each with a few roundings of f32.
+            assert!(found.distance(colors[i]) < 1e-6, "{name}: {found} {}", colors[i]);
+        }
+    }
+}
+
+/// Two placed parts of one mesh, one of them mirrored, with materials, a light and cameras.
+fn scene() -> Model {
+    let mesh = odd_triangle();
+    let mut model = of_parts(vec![part("left one", mesh.clone(), Some(0)), part("right\none", mesh, None)]);
+    model.parts[0].world_from_part = Mat4::from_translation(Vec3::new(1.0, 2.0, 3.0));
+    model.parts[1].world_from_part = Mat4::from_scale(Vec3::new(-2.0, 1.0, 1.0));
+    model.materials = vec![
+        SourceMaterial::MetallicRoughness(MetallicRoughness {
+            name: "gold \"24\"".to_owned(),
+            base_color: [1.0, 0.7, 0.1, 0.5],
+            metallic: 0.9,
+            roughness: 0.3,
+            emissive: [0.0, 0.25, 0.1],
+            double_sided: true,
+            alpha: AlphaMode::Mask { cutoff: 0.3 },
+        }),
+        SourceMaterial::Mtl(MtlMaterial {
+            name: String::new(),
+            ka: Some([0.1; 3]),
+            kd: Some([0.1, 0.2, 0.3]),
+            ns: Some(6.0),
+            d: Some(0.25),
+            illum: Some(2),
+            ..MtlMaterial::default()
+        }),
+    ];
+    let light = |name: &str, kind| SourceLight {
+        name: name.to_owned(),
+        kind,
+        color: [1.0, 0.5, 0.1],
+        intensity: 3.3,
+        range: Some(7.7),
+        world_from_light: Mat4::from_rotation_x(0.7),
+    };
+    model.lights =
+        vec![light("lamp", SourceLightKind::Spot { inner: 0.1, outer: 0.6 }), light("", SourceLightKind::Point)];
+    let camera = |projection| SourceCamera {
+        name: "eye".to_owned(),
+        projection,
+        world_from_camera: Mat4::from_translation(Vec3::Z),
+    };
+    model.cameras = vec![
+        camera(SourceProjection::Perspective { yfov: 0.7, aspect: None, near: 0.1, far: Some(9.9) }),
+        camera(SourceProjection::Orthographic { half_width: 2.0, half_height: 1.1, near: 0.0, far: 9.9 }),
+    ];
+    model
+}
+
+fn odd_triangle() -> Mesh {
+    Mesh::new(vec![Vec3::ZERO, Vec3::X, Vec3::new(0.1, 1.0, 0.3)], vec![0, 1, 2]).unwrap()
+}
+
+#[test]
+fn glb_holds_all_of_a_model() {
+    let folder = Folder::new();
+    let path = folder.path().join("model.glb");
+    let mut model = scene();
+    let lost = write(&path, &model).unwrap();
+    assert_eq!(lost, ["1 MTL materials lose Ka, Ks, illum and what is above 1; Ns becomes a roughness"]);
+    let read = load(&path).unwrap();
+    assert_eq!((&read.parts, &read.lights, &read.cameras), (&model.parts, &model.lights, &model.cameras));
+    assert_ne!(read.parts[0].mesh.positions().as_ptr(), read.parts[1].mesh.positions().as_ptr());
+    assert_eq!(read.materials[0], model.materials[0]);
+    let SourceMaterial::MetallicRoughness(plastic) = &read.materials[1] else { panic!("{:?}", read.materials[1]) };
+    assert_eq!((plastic.base_color, plastic.alpha), ([0.1, 0.2, 0.3, 0.25], AlphaMode::Blend));
+    // 2/r⁴ − 2 = 6.
+    assert!((plastic.roughness.powi(4) - 0.25).abs() < 1e-6 && plastic.metallic == 0.0);
+
+    // Parts of one mesh and one material stay so.
+    model.parts[1].material = Some(0);
+    write(&path, &model).unwrap();
+    let read = load(&path).unwrap();
+    assert_eq!(read.parts[0].mesh.positions().as_ptr(), read.parts[1].mesh.positions().as_ptr());
+
+    let model = of_parts(vec![part("", teapot(), None)]);
+    write(&path, &model).unwrap();
+    let read = load(&path).unwrap();
+    assert!(read.parts[0].mesh.tangents() == model.parts[0].mesh.tangents());
+    let obj = folder.path().join("model.obj");
+    assert_eq!(write(&obj, &model).unwrap(), ["1 parts lose their tangents"]);
+    let twins = of_parts(vec![part("twin", odd_triangle(), None), part("twin", odd_triangle(), None)]);
+    let said = "1 parts have the name and the material of another, and will be read as one with it";
+    assert_eq!(write(&obj, &twins).unwrap(), [said]);
+    assert_eq!(load(&obj).unwrap().parts.len(), 1);
+}
+
+#[test]
+fn text_formats_say_what_they_lose() {
+    let folder = Folder::new();
+    let model = scene();
+    let common = ["2 places of parts; their vertices are moved instead", "2 lights", "2 cameras"];
+    let smf = folder.path().join("model.smf");
+    let lost = write(&smf, &model).unwrap();
+    assert_eq!(lost[..3], common);
+    assert_eq!(lost[3..], ["2 materials", "the names and borders of 2 parts"]);
+    let obj = folder.path().join("model.obj");
+    let lost = write(&obj, &model).unwrap();
+    assert_eq!(lost[..3], common);
+    assert_eq!(
+        lost[3..],
+        [
+            "1 materials get another name",
+            "1 materials lose their metallic, roughness and alpha mode, and which faces they show",
+        ]
+    );
+    for path in [&smf, &obj] {
+        let read = load(path).unwrap();
+        let (found, expected) = (read.bounds().unwrap(), model.bounds().unwrap());
+        // A point of f32 moved in f64, and in f32 here.
+        assert!(
+            found.min.distance(expected.min) < 1e-6 && found.max.distance(expected.max) < 1e-6,
+            "{}",
+            path.display()
+        );
+        for part in &read.parts {
+            // Fronts stay fronts, in the mirrored part too.
+            for [a, b, c] in part.mesh.triangles().map(|triangle| triangle.map(|i| i as usize)) {
+                let p = part.mesh.positions();
+                assert!((p[b] - p[a]).cross(p[c] - p[a]).dot(part.mesh.normals()[a]) > 0.0);
+            }
+        }
+    }
+    let read = load(&obj).unwrap();
+    assert_eq!(read.warnings, ["model.obj:12: the material `none` is nowhere defined"]);
+    let parts: Vec<_> = read.parts.iter().map(|part| (&part.name[..], part.material)).collect();
+    assert_eq!(parts, [("left one", Some(0)), ("right one", None)]);
+    let names: Vec<_> = read.materials.iter().map(SourceMaterial::name).collect();
+    assert_eq!(names, ["gold \"24\"", "material_1"]);
+    let SourceMaterial::Mtl(plastic) = &read.materials[1] else { panic!() };
+    assert_eq!((plastic.ka, plastic.kd, plastic.ns), (Some([0.1; 3]), Some([0.1, 0.2, 0.3]), Some(6.0)));
+    assert_eq!((plastic.d, plastic.illum), (Some(0.25), Some(2)));
+}
+
+#[test]
+fn what_cannot_be_written_leaves_nothing_behind() {
+    let folder = Folder::new();
+    let model = of_parts(vec![part("", odd_triangle(), None)]);
+    let message = |name: &str, model: &Model| {
+        let path = folder.path().join(name);
+        write(&path, model).unwrap_err().to_string().replace(&path.display().to_string(), "FILE")
+    };
+    let known = "names no format that is written; smf, obj or glb is expected";
+    assert_eq!(message("model.ply", &model), format!("FILE: the extension \"ply\" {known}"));
+    assert_eq!(message("model", &model), format!("FILE: the extension \"\" {known}"));
+    assert_eq!(message("model.obj", &Model::default()), "FILE: the model has no parts; at least one is expected");
+    assert!(message("no/such/folder.obj", &model).starts_with("FILE: cannot be written: "));
+    let mut far = model.clone();
+    far.parts[0].world_from_part = Mat4::from_scale(Vec3::splat(1e38) * 2.0) * Mat4::from_translation(Vec3::X);
+    assert!(matches!(write(&folder.path().join("far.smf"), &far), Err(WriteError::NotFinite { part: 0, .. })));
+
+    folder.write("whole.glb", "as it was");
+    std::fs::create_dir_all(folder.path().join("taken.smf")).unwrap();
+    assert!(message("taken.smf", &model).starts_with("FILE: cannot be written: "));
+    let names: Vec<_> = std::fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    assert_eq!(names.len(), 2, "{names:?}");
+}
