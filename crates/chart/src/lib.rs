@@ -1,6 +1,6 @@
 //! What shading costs and what it loses: error against time, rates of convergence, and how steady highlights are.
 //!
-//! [`Plan`] says how much is measured, [`measure`] does it, [`Report`] holds what was found, and [`Report::files`] makes
+//! [`Plan`] says how much is measured, [`measure()`] does it, [`Report`] holds what was found, and [`Report::files`] makes
 //! a page, tables and drawings of it. The parts can be had alone: the sweeps in [`mod@measure`], the charts in
 //! [`figure`], the page in [`page`].
 

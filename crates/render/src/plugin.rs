@@ -43,7 +43,7 @@ pub enum RenderSet {
     Deliver,
 }
 
-/// Draws every entity with a [`Mesh3d`] through the world's [`Camera`](crate::Camera), once a run of its schedule.
+/// Draws every entity with a [`Mesh3d`] through the world's [`Camera`](halfway_lighting::Camera), once a run of its schedule.
 ///
 /// Needs `GlobalTransform`s to be current: it runs after `TransformSystems::Propagate` where that set
 /// is in the same schedule, and an App with a schedule of its own propagates before.

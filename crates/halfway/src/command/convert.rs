@@ -3,9 +3,10 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use halfway::mesh::{LoadError, LoadOptions, load_with, write};
+use halfway::mesh::{LoadError, LoadOptions, Model, NormalWeighting, Normals, Subdivision, Weld, load_with, write};
 
 use super::progress::Progress;
+use super::steps::Meshes;
 use super::{Failure, STOPPED};
 
 #[derive(Args, Debug)]
@@ -17,24 +18,110 @@ pub(super) struct ConvertArgs {
     /// Read files that the model refers to outside its own folder, too
     #[arg(long)]
     outside: bool,
+    /// Make vertices one that are equal in everything; with a DISTANCE those no further apart, whatever else they have
+    #[arg(long, value_name = "DISTANCE", num_args = 0..=1, value_parser = parse_length)]
+    weld: Option<Option<f64>>,
+    /// Leave out degenerate and duplicate triangles and unused vertices; wind what is left alike, closed pieces outward
+    #[arg(long)]
+    repair: bool,
+    /// Cut each triangle into four, N times over: in place, or to the smooth surface of Loop
+    #[arg(long, value_name = "midpoint=N|loop=N", value_parser = parse_subdivision)]
+    subdivide: Option<(Subdivision, u32)>,
+    /// Collapse edges until about so many triangles are left, shared among the parts by their number
+    #[arg(long, value_name = "TRIANGLES")]
+    simplify: Option<usize>,
+    /// Collapse edges as far as no point is further off than this; with --simplify whichever ends first
+    #[arg(long, value_name = "LENGTH", value_parser = parse_length)]
+    max_error: Option<f64>,
+    /// Make new normals: one a face, a mean by these weights, or a mean that stops where faces differ by more degrees
+    #[arg(long, value_name = "keep|face|uniform|area|angle|max|creased=DEGREES", value_parser = parse_normals)]
+    normals: Option<Normals>,
+    /// Put triangles and vertices in an order that is fast to draw
+    #[arg(long)]
+    optimize: bool,
 }
 
 pub(super) fn run(args: &ConvertArgs) -> Result<(), Failure> {
     let progress = Progress::of_bytes();
     let options = LoadOptions { outside: args.outside };
-    let model =
+    let mut model =
         load_with(&args.input, options, &mut |at| progress.bytes(at.done, at.of)).map_err(|error| match error {
             LoadError::Stopped { .. } => Failure::new(STOPPED, error),
             _ => error.into(),
         })?;
     drop(progress);
-    let lost = write(&args.output, &model)?;
-    println!("{}: {} parts, {} triangles", args.output.display(), model.parts.len(), model.triangle_count());
     for warning in &model.warnings {
         println!("warning    {warning}");
     }
+    change(args, &mut model)?;
+    let lost = write(&args.output, &model)?;
     for lost in &lost {
         println!("lost       {lost}");
     }
+    let vertices: usize = model.parts.iter().map(|part| part.mesh.positions().len()).sum();
+    let (parts, triangles) = (model.parts.len(), model.triangle_count());
+    println!("{}: {parts} parts, {triangles} triangles, {vertices} vertices", args.output.display());
     Ok(())
+}
+
+/// Takes the steps that were asked for, in the order of their options.
+fn change(args: &ConvertArgs, model: &mut Model) -> Result<(), Failure> {
+    let mut meshes = Meshes::of(model);
+    if let Some(distance) = args.weld {
+        meshes.weld(distance.map_or(Weld::default(), |distance| Weld::positions(distance as f32)));
+    }
+    if args.repair {
+        meshes.repair();
+    }
+    if let Some((scheme, times)) = args.subdivide {
+        meshes.subdivide(scheme, times).map_err(|error| format!("{}: {error}", args.input.display()))?;
+    }
+    if args.simplify.is_some() || args.max_error.is_some() {
+        meshes.simplify(args.simplify.unwrap_or(0), args.max_error.unwrap_or(f64::INFINITY));
+    }
+    if let Some(normals) = args.normals {
+        meshes.make_normals(normals);
+    }
+    if args.optimize {
+        meshes.optimize();
+    }
+    meshes.put_into(model);
+    if model.parts.is_empty() {
+        return Err(format!("{}: no triangle is left of any part", args.input.display()).into());
+    }
+    Ok(())
+}
+
+fn parse_length(text: &str) -> Result<f64, String> {
+    let length = text.parse().ok().filter(|length: &f64| length.is_finite() && *length >= 0.0);
+    length.ok_or_else(|| "expected a finite length, not below 0".into())
+}
+
+fn parse_subdivision(text: &str) -> Result<(Subdivision, u32), String> {
+    let expected = || "expected midpoint=N or loop=N".to_owned();
+    let (scheme, times) = text.split_once('=').ok_or_else(expected)?;
+    let scheme = match scheme {
+        "midpoint" => Subdivision::Midpoint,
+        "loop" => Subdivision::Loop,
+        _ => return Err(expected()),
+    };
+    Ok((scheme, times.parse().map_err(|_| expected())?))
+}
+
+fn parse_normals(text: &str) -> Result<Normals, String> {
+    Ok(match text {
+        "keep" => Normals::Keep,
+        "face" => Normals::Face,
+        "uniform" => Normals::Weighted(NormalWeighting::Uniform),
+        "area" => Normals::Weighted(NormalWeighting::Area),
+        "angle" => Normals::Weighted(NormalWeighting::Angle),
+        "max" => Normals::Weighted(NormalWeighting::Max),
+        _ => {
+            let degrees = text.strip_prefix("creased=").and_then(|degrees| degrees.parse().ok());
+            let degrees: f32 = degrees.filter(|degrees| (0.0..=180.0).contains(degrees)).ok_or(
+                "expected keep, face, uniform, area, angle, max or creased=DEGREES with an angle from 0 to 180",
+            )?;
+            Normals::Creased { angle: degrees.to_radians(), weighting: NormalWeighting::default() }
+        }
+    })
 }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use halfway::mesh::{AlphaMode, Mesh, Meshlets, Model, SourceLightKind, SourceMaterial};
+use halfway::mesh::{AlphaMode, Mesh, Meshlets, Model, SourceLightKind, SourceMaterial, SourceProjection};
 
 use super::Failure;
 
@@ -11,6 +11,9 @@ use super::Failure;
 pub(super) struct InfoArgs {
     /// A model (.smf, .obj, .gltf, .glb, .ply, .stl)
     model: PathBuf,
+    /// Make levels of detail, too, and measure how far off each is; takes seconds on large models
+    #[arg(long)]
+    levels: bool,
 }
 
 pub(super) fn run(args: &InfoArgs) -> Result<(), Failure> {
@@ -21,6 +24,9 @@ pub(super) fn run(args: &InfoArgs) -> Result<(), Failure> {
         let material = part.material.and_then(|i| model.materials.get(i)).map_or("none", SourceMaterial::name);
         println!("part       \"{}\": {}; material {material}", part.name, attributes(&part.mesh));
         print_mesh(&part.mesh);
+        if args.levels {
+            print_levels(&part.mesh);
+        }
     }
     model.materials.iter().for_each(print_material);
     for light in &model.lights {
@@ -30,6 +36,9 @@ pub(super) fn run(args: &InfoArgs) -> Result<(), Failure> {
             SourceLightKind::Spot { .. } => "spot, candela",
         };
         println!("light      \"{}\": {kind} {}, colour {:?}", light.name, light.intensity, light.color);
+    }
+    for camera in &model.cameras {
+        println!("camera     \"{}\": {}", camera.name, projection(camera.projection));
     }
     for warning in &model.warnings {
         println!("warning    {warning}");
@@ -56,9 +65,25 @@ fn print_mesh(mesh: &Mesh) {
     let angle = meshlets.iter().map(|meshlet| degrees(meshlet.normals.cos)).sum::<f64>() / count;
     println!("  meshlets   {count} of {:.0} triangles in the mean", report.triangles as f64 / count);
     println!("             mean radius {radius:.3e}, mean half angle of the normals {angle:.0}°");
+}
+
+fn print_levels(mesh: &Mesh) {
     let levels = mesh.levels_of_detail();
     let levels = levels.iter().map(|level| format!("{} ({:.2e})", level.mesh.triangle_count(), level.error));
     println!("  levels     triangles (error): {}", levels.collect::<Vec<_>>().join(", "));
+}
+
+fn projection(projection: SourceProjection) -> String {
+    match projection {
+        SourceProjection::Perspective { yfov, aspect, near, far } => {
+            let aspect = aspect.map_or("the picture's".into(), |aspect| aspect.to_string());
+            let far = far.map_or("infinity".into(), |far| far.to_string());
+            format!("perspective, {:.4}° high, aspect {aspect}, from {near} to {far}", yfov.to_degrees())
+        }
+        SourceProjection::Orthographic { half_width, half_height, near, far } => {
+            format!("orthographic, {} × {}, from {near} to {far}", 2.0 * half_width, 2.0 * half_height)
+        }
+    }
 }
 
 fn print_shape(model: &Model) {

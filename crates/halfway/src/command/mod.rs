@@ -10,6 +10,7 @@ mod input;
 mod picture;
 mod progress;
 mod render;
+mod steps;
 mod verify;
 #[cfg(feature = "window")]
 mod view;
@@ -57,7 +58,10 @@ enum Command {
     Verify(verify::VerifyArgs),
     /// Print what a model holds, and what is wrong with it
     Info(info::InfoArgs),
-    /// Write a model in another format, and print what that cannot hold
+    /// Write a model in another format, mended, refined, simplified or with other normals; print what is lost
+    ///
+    /// The steps asked for are taken in the order in which their options are listed here, on each mesh by itself. Lengths
+    /// are in the units of the file's meshes, before a glTF node scales them.
     Convert(convert::ConvertArgs),
     /// Time a benchmark scene in every shading, beside a constant colour
     Bench(bench::BenchArgs),
