@@ -227,7 +227,8 @@ fn what_is_compared_is_said_and_shown() {
     grey("hole.png", [16; 3]);
 
     let table = succeeds(&folder, &["compare", "off.png", "expected.png", "-o", "difference.png", "--max", "7"]);
-    for part in ["8 × 6 pixels", "4 pixels that both cover", "(4, 3) green: 127 instead of 120", "75.000 %", "ꟻLIP"] {
+    for part in ["8 × 6 pixels", "4 pixels that both cover", "(4, 3) green: 127 instead of 120", "75.000 %", "ꟻLIP"]
+    {
         assert!(table.contains(part), "{part} is missing in:\n{table}");
     }
     let difference = image::open(folder.join("difference.png")).expect("the difference was drawn").into_rgb8();
@@ -264,6 +265,7 @@ fn bad_input_is_named_and_ends_with_exit_code_2() {
     write("truncated.glb", &glb[..glb.len() / 2]);
     write("index.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n");
     write("index.smf", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 0\n");
+    write("fine.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     write("nan.smf", b"v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n");
     write("empty.obj", b"");
     write("text.png", b"no picture");
@@ -307,6 +309,14 @@ fn bad_input_is_named_and_ends_with_exit_code_2() {
         (&["compare", "2.png", "2.png", "--background", "1,2"], &["1,2", "three linear intensities"]),
         (&["compare", "2.png", "2.png", "-o", "a.bmp"], &["a.bmp", ".png or .exr"]),
         (&["verify", "missing.json"], &["missing.json"]),
+        (&["convert", "index.obj", "b.glb"], &["index.obj:4"]),
+        (&["convert", "fine.obj", "b.glb", "--weld=-1"], &["--weld", "a finite length, not below 0"]),
+        (&["convert", "fine.obj", "b.glb", "--max-error", "inf"], &["--max-error", "a finite length"]),
+        (&["convert", "fine.obj", "b.glb", "--simplify", "few"], &["--simplify", "few"]),
+        (&["convert", "fine.obj", "b.glb", "--subdivide", "4"], &["--subdivide", "midpoint=N or loop=N"]),
+        (&["convert", "fine.obj", "b.glb", "--subdivide", "loop=40"], &["fine.obj", "after 40 subdivisions"]),
+        (&["convert", "fine.obj", "b.glb", "--normals", "creased=181"], &["--normals", "from 0 to 180"]),
+        (&["convert", "fine.obj", "b.glb", "--weld=9"], &["fine.obj", "no triangle is left"]),
         (&["paint"], &["paint"]),
     ];
     for (arguments, expected) in cases {
@@ -318,6 +328,7 @@ fn bad_input_is_named_and_ends_with_exit_code_2() {
         }
         assert!(!error.contains("panicked"), "{arguments:?}: {error}");
         assert!(!folder.join("a.png").exists(), "{arguments:?} left a picture");
+        assert!(!folder.join("b.glb").exists(), "{arguments:?} left a model");
     }
 }
 
@@ -356,4 +367,86 @@ fn convert_changes_formats_and_says_what_is_lost() {
         assert!(output.status.code() == Some(2) && error.contains(expected), "{arguments:?}: {error}");
     }
     assert!(!folder.join("teapot.obj").exists() && !folder.join("teapot.stl").exists());
+}
+
+/// What a line of what was said begins with, and the numbers in it.
+#[track_caller]
+fn numbers(said: &str, step: &str) -> Vec<f64> {
+    let line = said.lines().find(|line| line.starts_with(step)).unwrap_or_else(|| panic!("no {step} in:\n{said}"));
+    line.split([' ', ',', ';']).filter_map(|word| word.parse().ok()).collect()
+}
+
+#[test]
+fn convert_takes_the_steps_that_are_asked_for() {
+    let folder = folder("convert_steps");
+    // A cube whose squares share no vertices, one of them wound inside out, with a triangle too many and one of no area.
+    let corners = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [5, 7, 3, 1]];
+    let vertices = corners.iter().flatten().map(|i| format!("v {} {} {}\n", i >> 2, i >> 1 & 1, i & 1));
+    let faces = (0..6).map(|i| 4 * i + 1).map(|i| format!("f {} {} {} {}\n", i, i + 1, i + 2, i + 3));
+    let cube = vertices.chain(faces).chain(["f 1 2 3\nf 1 2 2\n".to_owned()]).collect::<String>();
+    fs::write(folder.join("cube.obj"), cube).expect("the folder can be written");
+    let said =
+        succeeds(&folder, &["convert", "cube.obj", "cube.smf", "--weld=0.001", "--repair", "--normals", "creased=60"]);
+    assert_eq!(numbers(&said, "weld")[..2], [16.0, 24.0], "{said}");
+    assert_eq!(numbers(&said, "normals")[..2], [8.0, 24.0], "each corner has three normals: {said}");
+    let info = succeeds(&folder, &["info", "cube.smf"]);
+    for expected in ["12 triangles, 24 vertices at 8 positions", "1 closed, 0 of them inside out", "problems   none"] {
+        assert!(info.contains(expected), "{expected} is missing in:\n{info}");
+    }
+    assert!(info.contains("volume 1.000000e0") && !info.contains("levels"), "{info}");
+
+    // The teapot of 4032 triangles in five parts, refined and coarsened: all parts together come to what was asked for.
+    let teapot = asset("assets/teapot.obj");
+    let said = succeeds(&folder, &["convert", &teapot, "a.glb", "--subdivide", "midpoint=1", "--simplify", "2000"]);
+    assert_eq!(numbers(&said, "subdivide"), [4032.0, 4.0 * 4032.0], "{said}");
+    let [_, after, error] = numbers(&said, "simplify")[..] else { panic!("three numbers in {said}") };
+    assert_eq!(numbers(&said, "simplify")[..1], [4.0 * 4032.0], "{said}");
+    assert!((1900.0..=2100.0).contains(&after) && error > 0.0, "{said}");
+    assert!(said.contains(&format!("a.glb: 5 parts, {after} triangles")), "{said}");
+
+    // Without a distance only vertices that are equal in everything are one.
+    let said = succeeds(&folder, &["convert", "cube.smf", "same.smf", "--weld"]);
+    assert_eq!(numbers(&said, "weld")[..2], [0.0, 24.0], "normals differ: {said}");
+
+    // An error bound by itself is kept to.
+    let said =
+        succeeds(&folder, &["convert", &teapot, "b.glb", "--max-error", "0.02", "--normals", "face", "--optimize"]);
+    let [before, after, error] = numbers(&said, "simplify")[..] else { panic!("three numbers in {said}") };
+    assert!(after < 0.75 * before && error <= 0.02, "{said}");
+    assert_eq!(numbers(&said, "normals")[1..], [3.0 * after], "three vertices a face: {said}");
+
+    // Parts of a lantern that share a mesh go on sharing it; a part smaller than the distance goes, and that is said.
+    let lantern = asset("assets/lantern.glb");
+    let said = succeeds(&folder, &["convert", &lantern, "c.glb", "--weld=0.3"]);
+    assert!(said.contains("lost       part \"bar\", of which no triangle is left"), "{said}");
+    assert!(said.contains("c.glb: 6 parts"), "{said}");
+    let size = |name: &str| fs::metadata(folder.join(name)).expect("it was written").len();
+    succeeds(&folder, &["convert", &lantern, "d.glb"]);
+    succeeds(&folder, &["convert", &lantern, "e.glb", "--normals", "max"]);
+    assert_eq!(size("d.glb"), size("e.glb"), "normals are replaced, and nothing is written twice");
+}
+
+#[test]
+fn info_prints_cameras_and_levels() {
+    let folder = folder("info_more");
+    let gltf = r#"{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1, 2]}],
+        "nodes": [{"mesh": 0}, {"camera": 0, "name": "eye"}, {"camera": 1}],
+        "cameras": [{"type": "perspective", "perspective": {"yfov": 0.5, "znear": 0.1}},
+            {"type": "orthographic", "orthographic": {"xmag": 2, "ymag": 1.5, "znear": 0, "zfar": 10}}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+            "min": [0, 0, 0], "max": [1, 1, 0]}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        "buffers": [{"byteLength": 36, "uri":
+            "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]}"#;
+    fs::write(folder.join("cameras.gltf"), gltf).expect("the folder can be written");
+    let info = succeeds(&folder, &["info", "cameras.gltf", "--levels"]);
+    // 0.5 rad is 28.6479°; the magnifications of glTF are halves.
+    for expected in [
+        "camera     \"eye\": perspective, 28.6479° high, aspect the picture's, from 0.1 to infinity",
+        "orthographic, 4 × 3, from 0 to 10",
+        "levels     triangles (error): 1 (0.00e0)",
+    ] {
+        assert!(info.contains(expected), "{expected} is missing in:\n{info}");
+    }
 }

@@ -98,6 +98,28 @@ fn moving_lights() {
 }
 
 #[test]
+fn normal_weightings() {
+    let file = folder("normal_weightings").join("normal_weightings.png");
+    draw("normal_weightings", &file, &[]);
+    let picture = picture(&file);
+    let cells: HashSet<_> = (0..4)
+        .map(|column| imageops::crop_imm(&picture, column * SIZE.0 / 4, 0, SIZE.0 / 4, SIZE.1).to_image().into_raw())
+        .collect();
+    assert_eq!(cells.len(), 4, "the weightings differ");
+}
+
+#[test]
+fn crease_angles() {
+    let file = folder("crease_angles").join("crease_angles.png");
+    draw("crease_angles", &file, &[]);
+    let picture = picture(&file);
+    // One colour a face on the left.
+    let cell = |column| colors(&imageops::crop_imm(&picture, column * SIZE.0 / 3, 0, SIZE.0 / 3, SIZE.1).to_image());
+    let [faceted, creased, smooth] = [0, 1, 2].map(cell);
+    assert!(faceted < creased && creased < smooth, "{faceted} {creased} {smooth}");
+}
+
+#[test]
 fn homework() {
     // I = ((1 − t)·n1·l + t·n2·l) / d by Gouraud with d = 1, by Phong with d = |(1 − t)·n1 + t·n2|, t = 0, 1/9 … 1.
     let table = [

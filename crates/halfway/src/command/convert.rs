@@ -19,8 +19,9 @@ pub(super) struct ConvertArgs {
     #[arg(long)]
     outside: bool,
     /// Make vertices one that are equal in everything; with a DISTANCE those no further apart, whatever else they have
-    #[arg(long, value_name = "DISTANCE", num_args = 0..=1, value_parser = parse_length)]
-    weld: Option<Option<f64>>,
+    #[arg(long, value_name = "DISTANCE", num_args = 0..=1, require_equals = true, default_missing_value = EQUAL)]
+    #[arg(value_parser = parse_weld)]
+    weld: Option<Weld>,
     /// Leave out degenerate and duplicate triangles and unused vertices; wind what is left alike, closed pieces outward
     #[arg(long)]
     repair: bool,
@@ -67,8 +68,8 @@ pub(super) fn run(args: &ConvertArgs) -> Result<(), Failure> {
 /// Takes the steps that were asked for, in the order of their options.
 fn change(args: &ConvertArgs, model: &mut Model) -> Result<(), Failure> {
     let mut meshes = Meshes::of(model);
-    if let Some(distance) = args.weld {
-        meshes.weld(distance.map_or(Weld::default(), |distance| Weld::positions(distance as f32)));
+    if let Some(weld) = args.weld {
+        meshes.weld(weld);
     }
     if args.repair {
         meshes.repair();
@@ -92,8 +93,18 @@ fn change(args: &ConvertArgs, model: &mut Model) -> Result<(), Failure> {
     Ok(())
 }
 
+/// What `--weld` has for a distance where none is given.
+const EQUAL: &str = "equal";
+
+fn parse_weld(text: &str) -> Result<Weld, String> {
+    if text == EQUAL {
+        return Ok(Weld::default());
+    }
+    Ok(Weld::positions(parse_length(text)? as f32))
+}
+
 fn parse_length(text: &str) -> Result<f64, String> {
-    let length = text.parse().ok().filter(|length: &f64| length.is_finite() && *length >= 0.0);
+    let length = text.parse().ok().filter(|length| (0.0..=f64::from(f32::MAX)).contains(length));
     length.ok_or_else(|| "expected a finite length, not below 0".into())
 }
 
