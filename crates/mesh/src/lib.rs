@@ -48,13 +48,13 @@ pub use model::{
     SourceProjection,
 };
 pub use normals::{NormalReport, NormalWeighting, Normals, face_normal};
-pub use prepare::{DistanceBounds, MeshReport, RepairReport, Weld, WeldReport};
 #[cfg(feature = "prepare")]
 pub use prepare::{BoundingSphere, LevelOfDetail, Meshlet, Meshlets, NormalCone};
+pub use prepare::{DistanceBounds, MeshReport, RepairReport, Weld, WeldReport};
 pub use problems::Problems;
 pub use subdivide::Subdivision;
 pub use surfaces::{
-    BezierPatch, Capsule, Cone, Cuboid, Cylinder, Disc, Ellipsoid, HeightField, Hyperboloid, HyperboloidSheet, Icosphere,
-    Parameter, Paraboloid, ParametricSurface, Plane, Quadric, Surface, SurfaceError, SurfacePiece, SurfacePoint, Teapot,
-    Tessellation, Torus, UvSphere, tessellate,
+    BezierPatch, Capsule, Cone, Cuboid, Cylinder, Disc, Ellipsoid, HeightField, Hyperboloid, HyperboloidSheet,
+    Icosphere, Paraboloid, Parameter, ParametricSurface, Plane, Quadric, Surface, SurfaceError, SurfacePiece,
+    SurfacePoint, Teapot, Tessellation, Torus, UvSphere, tessellate,
 };
