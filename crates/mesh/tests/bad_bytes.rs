@@ -10,17 +10,11 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use common::{TRIANGLE_JSON, check_model, glb, triangle_data};
-use counting::Counting;
+use counting::{Counting, most_for};
 use halfway_mesh::{Format, load_bytes};
 
 #[global_allocator]
 static ALLOCATOR: Counting = Counting::new();
-
-/// Bytes that a file may take in memory: for each of its own, and however small it is. An `f` of SMF with two digits a
-/// corner takes 9 bytes and becomes three vertices of 48 bytes where attributes are bound to faces, in arrays that are
-/// up to twice as large; the documents of glTF are trees of JSON. Errors and warnings quote a few lines.
-const PER_BYTE: usize = 256;
-const AT_LEAST: usize = 1 << 18;
 
 const SMF: &str = "#$SMF 1.0\nbegin\ntrans 1 2 3\nscale 2 2 2\nrot x 30\nv 0 0 0\nv 1 0 0 1\nv 1 1 0\nv 0 1 0\nbind n vertex\nn 0 0 1\nn 0 0 1\nn 0 0 1\nn 0 0 1\nbind c face\nc 1 0 0\nc 0 0.5 1\nbind r vertex\nr 0 1\nf 1 2 3\ng second\nf 1 3 4\nf 1 2 3 4\nset vertex_correction 0\nend\nmload 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1\nf 1 2 4\n";
 const OBJ: &str = "mtllib model.mtl\no a\nv 0 0 0\nv 1 0 0 1 0 0\nv 1 1 0\nv 0 1 0 1\nv 0.5 0.2 0\nvt 0 0\nvt 1 1\nvn 0 0 1\nusemtl m\nf 1/1/1 2/2/1 3/1/1 -2/-1/-1\ns 1\ng b\nl 1 2\nf 1 2 3 4 5\nf 1 2 \\\n 3\ns off\nf 7 6 2 1\nv 3 3 3\nv 4 3 3\n";
@@ -213,7 +207,7 @@ fn spoilt_files_are_refused_or_read_soundly() {
                 panic!("{name}, seed {seed}, variant {variant}: {:?}", file.escape_ascii().to_string())
             };
             survived += one;
-            let most = AT_LEAST + PER_BYTE * file.len();
+            let most = most_for(file.len());
             assert!(peak <= most, "{name}, seed {seed}, variant {variant}: {peak} bytes for {}", file.len());
         }
         // Were no spoilt file sound, nothing but refusal would be tested.

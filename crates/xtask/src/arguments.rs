@@ -23,6 +23,17 @@ pub(crate) enum Chore {
         /// Less of everything, in less than two minutes.
         quick: bool,
     },
+    Fuzz(FuzzOptions),
+}
+
+/// What is fuzzed, and how long.
+#[derive(Debug, PartialEq, Eq)]
+pub(crate) struct FuzzOptions {
+    pub(crate) setup: Setup,
+    /// For each target, at least 1.
+    pub(crate) seconds: u32,
+    /// By name; all where none is named.
+    pub(crate) targets: Vec<String>,
 }
 
 /// How the demo is shown.
@@ -46,6 +57,7 @@ Chores:
   check  Check the formatting, lints, documentation and smallest build, all of which must be clean
   docs   Make the pictures and the schema in docs/ again, by the commands that docs/examples.md shows
   chart  Measure what shading costs and what it loses, and write a page of charts to out/chart/
+  fuzz   Feed the readers of model files what a fuzzer makes up, and see that they bear it
 
 cargo xtask <CHORE> --help tells more about one.";
 
@@ -104,13 +116,32 @@ Options:
       --no-install   Install nothing; say what is missing and how to get it
   -h, --help         Print this";
 
+const FUZZ_HELP: &str = "\
+Feed the readers of model files what a fuzzer makes up: nothing may panic, overflow, hang, or take memory out of
+proportion, and what is read must be sound. A target for each format, one for material libraries (mtl) and one for the
+parts of binary glTF (glb_chunks). Prints how often each was run; a failing input is kept, and how to try it again and
+where to put it as a test is printed. cargo-fuzz and a C++ compiler are installed first where they are missing.
+
+Usage: cargo xtask fuzz [OPTIONS] [TARGET]...
+
+Options:
+      --seconds N    How long each target is run; 10 unless given
+      --no-install   Install nothing; say what is missing and how to get it
+  -h, --help         Print this";
+
 /// The options that a chore may have; each chore refuses those that are not its own.
 #[derive(Default)]
 struct Options {
     /// Those without a value.
     flags: Vec<String>,
     model: Option<PathBuf>,
+    seconds: Option<u32>,
+    /// The words that are no options, of a chore that knows `NAMES`.
+    names: Vec<String>,
 }
+
+/// Stands among the options of a chore that takes names.
+const NAMES: &str = "NAMES";
 
 impl Options {
     fn parse(chore: &str, known: &[&str], mut arguments: impl Iterator<Item = OsString>) -> Result<Self, String> {
@@ -119,12 +150,18 @@ impl Options {
             let name = argument.to_string_lossy();
             match name.as_ref() {
                 "-h" => options.flags.push("--help".into()),
+                name if !name.starts_with('-') && known.contains(&NAMES) => options.names.push(name.into()),
                 name if name != "--help" && !known.contains(&name) => {
                     return Err(format!("{chore} has no option {name}"));
                 }
                 "--model" => {
                     let value = arguments.next().ok_or_else(|| format!("{name} needs a value: a file"))?;
                     options.model = Some(value.into());
+                }
+                "--seconds" => {
+                    let value = arguments.next().and_then(|value| value.to_str()?.parse().ok());
+                    let value = value.filter(|&seconds| seconds > 0);
+                    options.seconds = Some(value.ok_or_else(|| format!("{name} needs a value: a number from 1"))?);
                 }
                 name => options.flags.push(name.into()),
             }
@@ -148,7 +185,7 @@ impl Options {
 pub(crate) fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Chore, String> {
     let mut arguments = arguments.into_iter();
     let Some(chore) = arguments.next() else {
-        return Err("no chore given; expected demo, test, check, docs or chart".into());
+        return Err("no chore given; expected demo, test, check, docs, chart or fuzz".into());
     };
     let chore = chore.to_string_lossy().into_owned();
     let (known, page): (&[&str], _) = match chore.as_str() {
@@ -158,7 +195,8 @@ pub(crate) fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Cho
         "check" => (&[], CHECK_HELP),
         "docs" => (&["--no-install"], DOCS_HELP),
         "chart" => (&["--no-install", "--quick"], CHART_HELP),
-        _ => return Err(format!("no chore is called {chore}; expected demo, test, check, docs or chart")),
+        "fuzz" => (&["--no-install", "--seconds", NAMES], FUZZ_HELP),
+        _ => return Err(format!("no chore is called {chore}; expected demo, test, check, docs, chart or fuzz")),
     };
     let options = Options::parse(&chore, known, arguments)?;
     if options.has("--help") {
@@ -169,6 +207,7 @@ pub(crate) fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Cho
         "demo" => Chore::Demo(DemoOptions { setup, headless: options.has("--headless"), model: options.model }),
         "test" => Chore::Test { setup },
         "check" => Chore::Check,
+        "fuzz" => Chore::Fuzz(FuzzOptions { setup, seconds: options.seconds.unwrap_or(10), targets: options.names }),
         "chart" => Chore::Chart { setup, quick: options.has("--quick") },
         _ => Chore::Docs { setup },
     })
@@ -184,6 +223,10 @@ mod tests {
 
     fn demo(setup: Setup, headless: bool, model: Option<&str>) -> Chore {
         Chore::Demo(DemoOptions { setup, headless, model: model.map(PathBuf::from) })
+    }
+
+    fn fuzz(setup: Setup, seconds: u32, targets: &[&str]) -> Chore {
+        Chore::Fuzz(FuzzOptions { setup, seconds, targets: targets.iter().copied().map(String::from).collect() })
     }
 
     #[test]
@@ -205,6 +248,9 @@ mod tests {
             ("docs", Chore::Docs { setup: Setup::Install }),
             ("chart", Chore::Chart { setup: Setup::Install, quick: false }),
             ("chart --quick --no-install", Chore::Chart { setup: Setup::Check, quick: true }),
+            ("fuzz", fuzz(Setup::Install, 10, &[])),
+            ("fuzz smf --seconds 60 obj --no-install", fuzz(Setup::Check, 60, &["smf", "obj"])),
+            ("fuzz smf --help", Chore::Help(FUZZ_HELP)),
         ];
         for (line, expected) in rows {
             assert_eq!(parsed(line), Ok(expected), "{line}");
@@ -222,6 +268,10 @@ mod tests {
             ("test --model a.obj", "test has no option --model"),
             ("check --no-install", "check has no option --no-install"),
             ("docs --headless", "docs has no option --headless"),
+            ("fuzz --second 1", "fuzz has no option --second"),
+            ("fuzz --seconds", "--seconds needs a value: a number from 1"),
+            ("fuzz --seconds 0", "--seconds needs a value: a number from 1"),
+            ("fuzz --seconds smf", "--seconds needs a value: a number from 1"),
             ("test --quick", "test has no option --quick"),
         ];
         for (line, expected) in rows {
@@ -232,12 +282,12 @@ mod tests {
 
     #[test]
     fn help_fits_the_screen_and_names_every_chore() {
-        for page in [HELP, DEMO_HELP, TEST_HELP, CHECK_HELP, DOCS_HELP, CHART_HELP] {
+        for page in [HELP, DEMO_HELP, TEST_HELP, CHECK_HELP, DOCS_HELP, CHART_HELP, FUZZ_HELP] {
             for line in page.lines() {
                 assert!(line.len() <= 120, "{line}");
             }
         }
-        for chore in ["demo", "test", "check", "docs", "chart"] {
+        for chore in ["demo", "test", "check", "docs", "chart", "fuzz"] {
             assert!(HELP.contains(&format!("\n  {chore} ")), "{chore}");
         }
     }

@@ -32,6 +32,7 @@ fn main() -> ExitCode {
         Chore::Test { setup } => chores::test::run(setup),
         Chore::Check => chores::check::run(),
         Chore::Docs { setup } => chores::docs::run(setup),
+        Chore::Fuzz(options) => chores::fuzz::run(&options),
         Chore::Chart { setup, quick } => chores::chart::run(setup, quick),
     };
     match done {

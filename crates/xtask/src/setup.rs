@@ -42,6 +42,12 @@ pub(crate) const DRIVER: Need = Need {
     },
 };
 
+/// A compiler for the parts of dependencies that are written in C++.
+pub(crate) const COMPILER: Need = Need {
+    missing: || programs::find("c++").is_none().then(|| "a C++ compiler".into()),
+    packages: Packages { apt: &["g++"], dnf: &["gcc-c++"], pacman: &["gcc"] },
+};
+
 /// A screen to open windows on.
 pub(crate) const SCREEN: Need = Need {
     missing: || {

@@ -43,7 +43,7 @@ pub(crate) fn check_model(model: &Model) {
     assert!(!model.parts.is_empty());
     for part in &model.parts {
         let mesh = &part.mesh;
-        assert!(part.world_from_part.is_finite());
+        assert!(part.world_from_part.is_finite() && part.world_from_part.row(3) == [0.0, 0.0, 0.0, 1.0].into());
         assert!(part.material.is_none_or(|material| material < model.materials.len()));
         assert!(mesh.triangle_count() > 0);
         assert!(mesh.positions().iter().all(|p| p.is_finite()));
@@ -52,7 +52,10 @@ pub(crate) fn check_model(model: &Model) {
         let vertices = mesh.positions().len();
         assert!(mesh.uvs().is_none_or(|uvs| uvs.len() == vertices && uvs.iter().all(|uv| uv.is_finite())));
         assert!(mesh.colors().is_none_or(|colors| colors.len() == vertices && colors.iter().all(|c| c.is_finite())));
+        assert!(mesh.tangents().is_none_or(|all| all.len() == vertices && all.iter().all(|t| t.is_finite())));
     }
+    assert!(model.lights.iter().all(|light| light.world_from_light.is_finite()));
+    assert!(model.cameras.iter().all(|camera| camera.world_from_camera.is_finite()));
     assert!(model.bounds().is_some_and(|bounds| bounds.min.is_finite() && bounds.max.is_finite()));
 }
 

@@ -4,4 +4,5 @@ pub(crate) mod chart;
 pub(crate) mod check;
 pub(crate) mod demo;
 pub(crate) mod docs;
+pub(crate) mod fuzz;
 pub(crate) mod test;

@@ -60,6 +60,10 @@ fn open_container(bytes: &[u8]) -> Result<Glb<'_>, Fault> {
 
 /// The document, valid as far as the `gltf` crate looks.
 fn open(json: &[u8]) -> Result<Document, Fault> {
+    // A binary file for the text of another, which the `gltf` crate would open without a look at its header.
+    if json.starts_with(b"glTF") {
+        return Err(Fault::element("JSON chunk", "binary glTF", "JSON is"));
+    }
     let Gltf { document, .. } = Gltf::from_slice_without_validation(json).map_err(|error| unreadable(&error))?;
     let mut json = document.into_json();
     if !json.asset.version.starts_with("2.") {

@@ -1,0 +1,45 @@
+//! What fuzzing feeds the readers, and what it asks of them: that nothing panics, that a model keeps its promises, and
+//! that memory is in proportion to the bytes. One target for each format, and two for what a reader of bytes seldom or
+//! never comes to.
+
+use halfway_mesh::{Format, LoadError, Model, load, load_bytes};
+
+use crate::common::{Folder, check_model, glb};
+use crate::counting::{Counting, most_for};
+
+/// What a model read from files takes besides: the buffers of the two files that are open at once.
+const BUFFERS: usize = 1 << 19;
+
+/// Reads the bytes as `target` says: `mtl` is the material library of an OBJ file, `glb_chunks` the JSON of a binary glTF
+/// file up to the first zero byte and its buffer after that, so that no length in the file need be guessed; any other is
+/// the extension of a format.
+pub(crate) fn feed(target: &str, bytes: &[u8], allocator: &Counting) {
+    match target {
+        "mtl" => {
+            let folder = Folder::new();
+            let model = folder.write("model.obj", "mtllib model.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n");
+            folder.write("model.mtl", bytes);
+            judge(target, allocator, BUFFERS + most_for(bytes.len()), || load(&model));
+        }
+        "glb_chunks" => {
+            let end = bytes.iter().position(|&byte| byte == 0).unwrap_or(bytes.len());
+            let Ok(json) = str::from_utf8(&bytes[..end]) else { return };
+            let file = glb(json, bytes.get(end + 1..).unwrap_or_default());
+            judge(target, allocator, most_for(file.len()), || load_bytes(Format::Glb, &file));
+        }
+        _ => {
+            let format = Format::ALL.into_iter().find(|format| format.extension() == target);
+            let format = format.unwrap_or_else(|| panic!("no target is called {target}"));
+            judge(target, allocator, most_for(bytes.len()), || load_bytes(format, bytes));
+        }
+    }
+}
+
+fn judge(target: &str, allocator: &Counting, most: usize, read: impl FnOnce() -> Result<Model, LoadError>) {
+    let (read, peak) = allocator.peak_of(read);
+    assert!(peak <= most, "{target}: {peak} bytes of memory where {most} are enough");
+    match read {
+        Ok(model) => check_model(&model),
+        Err(error) => assert!(error.to_string().contains("model."), "{error}"),
+    }
+}

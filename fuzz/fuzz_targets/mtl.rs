@@ -1,0 +1,4 @@
+//! The material library of an OBJ file.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| halfway_fuzz::feed("mtl", bytes));

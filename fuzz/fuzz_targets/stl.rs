@@ -1,0 +1,4 @@
+//! STL.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| halfway_fuzz::feed("stl", bytes));

@@ -1,0 +1,21 @@
+//! What the fuzz targets share: it is what the tests of past failures do too, `crates/mesh/tests/past_failures.rs`.
+
+#[path = "../../crates/mesh/tests/common/mod.rs"]
+mod common;
+#[path = "../../crates/mesh/tests/common/counting.rs"]
+mod counting;
+#[path = "../../crates/mesh/tests/common/targets.rs"]
+mod targets;
+
+use counting::Counting;
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting::new();
+
+/// Feeds the reader that a target is named after.
+///
+/// # Panics
+/// The reader broke a promise: it panicked, gave a model that is not sound, or took more memory than the bytes warrant.
+pub fn feed(target: &str, bytes: &[u8]) {
+    targets::feed(target, bytes, &ALLOCATOR);
+}
