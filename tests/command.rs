@@ -257,6 +257,18 @@ fn what_is_compared_is_said_and_shown() {
 }
 
 /// What a user may hand to the command, and what has to be in the answer.
+#[cfg(unix)]
+#[test]
+fn a_reader_that_leaves_is_no_panic() {
+    let (reader, writer) = std::io::pipe().expect("a pipe can be made");
+    drop(reader);
+    let mut command = Command::new(env!("CARGO_BIN_EXE_halfway"));
+    let child = command.arg("schema").stdout(writer).stderr(std::process::Stdio::piped()).spawn();
+    let output = child.and_then(std::process::Child::wait_with_output).expect("the command was built with this test");
+    assert_eq!(String::from_utf8_lossy(&output.stderr), "");
+    assert_eq!(std::os::unix::process::ExitStatusExt::signal(&output.status), Some(libc::SIGPIPE));
+}
+
 #[test]
 fn bad_input_is_named_and_ends_with_exit_code_2() {
     let folder = folder("bad");

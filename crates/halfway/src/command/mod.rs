@@ -168,11 +168,31 @@ impl From<halfway::record::RecordError> for Failure {
     }
 }
 
+/// Rust programs go on when nobody reads their output any more, until printing panics. With the system's own way back,
+/// `halfway info … | head` ends quietly.
+#[cfg_attr(unix, expect(unsafe_code, reason = "a signal's default action is set, and no handler that could race"))]
+fn end_with_the_reader() {
+    #[cfg(unix)]
+    // SAFETY: both arguments are constants that `signal` documents, and the default action runs no code of this process.
+    unsafe {
+        libc::signal(libc::SIGPIPE, libc::SIG_DFL);
+    }
+}
+
 pub(crate) fn main() -> ExitCode {
     env_logger::Builder::from_env(env_logger::Env::default().default_filter_or("warn,wgpu_hal=off"))
         .format_timestamp(None)
         .init();
-    let result = match Cli::parse().command {
+    let command = Cli::parse().command;
+    // A window's connection to its display must not end it so.
+    #[cfg(feature = "window")]
+    let has_window = matches!(command, Command::View(_));
+    #[cfg(not(feature = "window"))]
+    let has_window = false;
+    if !has_window {
+        end_with_the_reader();
+    }
+    let result = match command {
         Command::Render(args) => render::run(&args),
         #[cfg(feature = "window")]
         Command::View(args) => view::run(&args),
