@@ -257,6 +257,20 @@ fn what_is_compared_is_said_and_shown() {
 }
 
 /// What a user may hand to the command, and what has to be in the answer.
+#[test]
+fn quantised_models_are_smaller_and_say_how_far_off() {
+    let folder = folder("quantise");
+    let teapot = asset("assets/teapot.obj");
+    succeeds(&folder, &["convert", &teapot, "floats.glb"]);
+    let said = succeeds(&folder, &["convert", &teapot, "shorts.glb", "--quantise"]);
+    assert!(said.contains("quantise   positions moved by at most 4."), "{said}");
+    let bytes = |name: &str| fs::metadata(folder.join(name)).expect("it was written").len();
+    assert!(bytes("shorts.glb") * 10 < bytes("floats.glb") * 7);
+    let refused = halfway(&folder, &["convert", &teapot, "no.obj", "--quantise"]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(!folder.join("no.obj").exists());
+}
+
 #[cfg(unix)]
 #[test]
 fn a_reader_that_leaves_is_no_panic() {

@@ -41,7 +41,9 @@ mod tangents;
 pub use bounds::Bounds;
 pub use component::{Mesh3d, MeshPlugin, SpawnOrder};
 pub use displace::{HeightImage, HeightImageError};
-pub use files::{Format, LoadError, LoadOptions, LoadProgress, WriteError, load, load_bytes, load_with, write};
+pub use files::{
+    Format, LoadError, LoadOptions, LoadProgress, WriteError, load, load_bytes, load_with, write, write_quantised,
+};
 pub use mesh::{Mesh, MeshError};
 pub use model::{
     AlphaMode, MetallicRoughness, Model, MtlMaterial, Part, SourceCamera, SourceLight, SourceLightKind, SourceMaterial,

@@ -5,8 +5,8 @@ mod common;
 use bevy_math::{Mat4, Vec2, Vec3, Vec4};
 use common::{Folder, check_model};
 use halfway_mesh::{
-    AlphaMode, Mesh, MetallicRoughness, Model, MtlMaterial, Part, SourceCamera, SourceLight, SourceLightKind,
-    SourceMaterial, SourceProjection, Teapot, WriteError, load, write,
+    AlphaMode, Cuboid, Mesh, MetallicRoughness, Model, MtlMaterial, Part, SourceCamera, SourceLight, SourceLightKind,
+    SourceMaterial, SourceProjection, Teapot, WriteError, load, write, write_quantised,
 };
 
 fn part(name: &str, mesh: Mesh, material: Option<usize>) -> Part {
@@ -169,6 +169,52 @@ fn glb_holds_all_of_a_model() {
     let said = "1 parts have the name and the material of another, and will be read as one with it";
     assert_eq!(write(&obj, &twins).unwrap(), [said]);
     assert_eq!(load(&obj).unwrap().parts.len(), 1);
+}
+
+fn farthest(a: &[Vec3], b: &[Vec3]) -> f64 {
+    assert_eq!(a.len(), b.len());
+    a.iter().zip(b).map(|(a, b)| f64::from(a.distance(*b))).fold(0.0, f64::max)
+}
+
+#[test]
+fn quantised_meshes_come_back_within_what_is_said() {
+    let folder = Folder::new();
+    let path = folder.path().join("model.glb");
+    let placed = Mat4::from_scale_rotation_translation(
+        Vec3::new(1.0, -2.0, 1.0),
+        bevy_math::Quat::from_rotation_y(0.7),
+        Vec3::new(5.0, 0.0, -3.0),
+    );
+    let mut model = of_parts(vec![part("teapot", teapot(), None), part("box", Cuboid::default().into(), None)]);
+    model.parts[0].world_from_part = placed;
+    write(&path, &model).unwrap();
+    let bytes = |path: &std::path::Path| std::fs::metadata(path).unwrap().len();
+    let plain = bytes(&path);
+    let (moved, lost) = write_quantised(&path, &model).unwrap();
+    assert!(lost.is_empty(), "{lost:?}");
+    assert!(bytes(&path) * 10 < plain * 7, "{} of {plain} bytes", bytes(&path));
+
+    let read = load(&path).unwrap();
+    assert!(read.warnings.is_empty(), "{:?}", read.warnings);
+    for (read, part) in read.parts.iter().zip(&model.parts) {
+        let (mesh, expected) = (&read.mesh, &part.mesh);
+        // Where they stand: the steps are in the node's matrix.
+        let part_from_read = part.world_from_part.as_dmat4().inverse() * read.world_from_part.as_dmat4();
+        let positions: Vec<Vec3> =
+            mesh.positions().iter().map(|p| part_from_read.transform_point3(p.as_dvec3()).as_vec3()).collect();
+        assert!(farthest(&positions, expected.positions()) <= moved, "{moved}");
+        // Half a step of 1/32767 along each axis, and f32.
+        assert!(farthest(mesh.normals(), expected.normals()) < 3e-5);
+        assert_eq!(mesh.indices(), expected.indices());
+        let uvs = mesh.uvs().zip(expected.uvs()).into_iter().flat_map(|(a, b)| a.iter().zip(b));
+        assert!(uvs.into_iter().all(|(a, b)| a.distance(*b) < 1.1e-5));
+        assert_eq!(mesh.tangents().is_some(), expected.tangents().is_some());
+    }
+    // Half a step of the teapot's longest edge, 4.82 / 65535, along each axis.
+    assert!(moved < 1e-4, "{moved}");
+
+    let text = write_quantised(&folder.path().join("model.obj"), &model).unwrap_err().to_string();
+    assert!(text.ends_with("model.obj: only .glb holds integers of 16 bits"), "{text}");
 }
 
 #[test]

@@ -3,13 +3,16 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use halfway::mesh::{LoadError, LoadOptions, Model, NormalWeighting, Normals, Subdivision, Weld, load_with, write};
+use halfway::mesh::{
+    LoadError, LoadOptions, Model, NormalWeighting, Normals, Subdivision, Weld, load_with, write, write_quantised,
+};
 
 use super::progress::Progress;
 use super::steps::Meshes;
 use super::{Failure, STOPPED};
 
 #[derive(Args, Debug)]
+#[expect(clippy::struct_excessive_bools, reason = "each is one independent switch of the command line")]
 pub(super) struct ConvertArgs {
     /// A model (.smf, .obj, .gltf, .glb, .ply, .stl)
     input: PathBuf,
@@ -40,6 +43,9 @@ pub(super) struct ConvertArgs {
     /// Put triangles and vertices in an order that is fast to draw
     #[arg(long)]
     optimize: bool,
+    /// Write vertices as integers of 16 bits, in about half the room; .glb only
+    #[arg(long)]
+    quantise: bool,
 }
 
 pub(super) fn run(args: &ConvertArgs) -> Result<(), Failure> {
@@ -55,7 +61,13 @@ pub(super) fn run(args: &ConvertArgs) -> Result<(), Failure> {
         println!("warning    {warning}");
     }
     change(args, &mut model)?;
-    let lost = write(&args.output, &model)?;
+    let lost = if args.quantise {
+        let (moved, lost) = write_quantised(&args.output, &model)?;
+        println!("quantise   positions moved by at most {moved:.3e}");
+        lost
+    } else {
+        write(&args.output, &model)?
+    };
     for lost in &lost {
         println!("lost       {lost}");
     }

@@ -23,7 +23,7 @@ use crate::Model;
 
 pub use error::LoadError;
 pub use source::{LoadOptions, LoadProgress};
-pub use write::{WriteError, write};
+pub use write::{WriteError, write, write_quantised};
 
 use source::Source;
 use text::Statement;

@@ -7,20 +7,23 @@ use std::path::Path;
 use bevy_math::{Mat4, Vec2, Vec3, Vec4};
 use serde_json::{Map, Value, json};
 
+use super::quantise::{Grid, signed, unsigned};
 use super::{WriteError, replace};
 use crate::{
-    AlphaMode, MetallicRoughness, Model, MtlMaterial, Part, SourceCamera, SourceLight, SourceLightKind, SourceMaterial,
-    SourceProjection,
+    AlphaMode, Mesh, MetallicRoughness, Model, MtlMaterial, Part, SourceCamera, SourceLight, SourceLightKind,
+    SourceMaterial, SourceProjection,
 };
 
 const FLOAT: u32 = 5126;
+const SHORT: u32 = 5122;
+const UNSIGNED_SHORT: u32 = 5123;
 const UNSIGNED_INT: u32 = 5125;
 const ARRAY_BUFFER: u32 = 34962;
 const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 
 /// Writes a node for each part, light and camera; parts that share a mesh and a material share it in the file.
-pub(super) fn write(path: &Path, model: &Model) -> Result<Vec<String>, WriteError> {
-    let mut file = Document::default();
+pub(super) fn write(path: &Path, model: &Model, quantised: bool) -> Result<Vec<String>, WriteError> {
+    let mut file = Document { quantised, ..Document::default() };
     for part in &model.parts {
         file.part(part);
     }
@@ -52,7 +55,9 @@ pub(super) fn write(path: &Path, model: &Model) -> Result<Vec<String>, WriteErro
 
 #[derive(Default)]
 struct Document {
-    /// All that accessors look at; every array of it is of words of four bytes.
+    /// Whether vertices are integers of 16 bits.
+    quantised: bool,
+    /// All that accessors look at; every array of it starts at a multiple of four bytes.
     data: Vec<u8>,
     views: Vec<Value>,
     accessors: Vec<Value>,
@@ -74,11 +79,27 @@ impl Document {
             self.written.insert(key, mesh);
             mesh
         };
-        self.node(&part.name, part.world_from_part, "mesh", json!(mesh));
+        let mut world_from_mesh = part.world_from_part;
+        if self.quantised {
+            let steps = Grid::of(&part.mesh).mesh_from_steps();
+            world_from_mesh = (part.world_from_part.as_dmat4() * steps).as_mat4();
+        }
+        self.node(&part.name, world_from_mesh, "mesh", json!(mesh));
     }
 
     fn mesh(&mut self, part: &Part) -> usize {
         let mesh = &part.mesh;
+        let attributes = if self.quantised { self.integers_of(mesh) } else { self.floats_of(mesh) };
+        let indices = self.indices(mesh.indices(), mesh.positions().len());
+        let mut primitive = json!({ "attributes": attributes, "indices": indices });
+        if let Some(material) = part.material {
+            primitive["material"] = json!(material);
+        }
+        self.meshes.push(json!({ "primitives": [primitive] }));
+        self.meshes.len() - 1
+    }
+
+    fn floats_of(&mut self, mesh: &Mesh) -> Map<String, Value> {
         let bounds = mesh.bounds();
         let positions = self.floats("VEC3", mesh.positions().iter().map(Vec3::to_array));
         self.accessors[positions]["min"] = json!(bounds.min.to_array());
@@ -96,14 +117,82 @@ impl Document {
         if let Some(tangents) = mesh.tangents() {
             attributes.insert("TANGENT".to_owned(), json!(self.floats("VEC4", tangents.iter().map(Vec4::to_array))));
         }
-        let bytes = mesh.indices().iter().flat_map(|index| index.to_le_bytes());
-        let indices = self.accessor(bytes, ELEMENT_ARRAY_BUFFER, UNSIGNED_INT, "SCALAR", mesh.indices().len());
-        let mut primitive = json!({ "attributes": attributes, "indices": indices });
-        if let Some(material) = part.material {
-            primitive["material"] = json!(material);
+        attributes
+    }
+
+    fn integers_of(&mut self, mesh: &Mesh) -> Map<String, Value> {
+        let grid = Grid::of(mesh);
+        let steps: Vec<[u16; 3]> = mesh.positions().iter().map(|p| grid.round(p.as_dvec3())).collect();
+        let bound = |pick: fn(u16, u16) -> u16| {
+            steps.iter().copied().reduce(|a, b| [0, 1, 2].map(|axis| pick(a[axis], b[axis]))).unwrap_or_default()
+        };
+        let (min, max) = (bound(u16::min), bound(u16::max));
+        let positions = self.shorts(UNSIGNED_SHORT, "VEC3", steps.iter().map(|[x, y, z]| [*x, *y, *z, 0]), false);
+        self.accessors[positions]["min"] = json!(min);
+        self.accessors[positions]["max"] = json!(max);
+        let mut attributes = Map::new();
+        attributes.insert("POSITION".to_owned(), json!(positions));
+        // Bits of a SHORT are written as those of an UNSIGNED_SHORT.
+        let direction = |n: [f32; 3], w: i16| [signed(n[0]), signed(n[1]), signed(n[2]), w].map(|x| x as u16);
+        let normals = mesh.normals().iter().map(|n| direction(n.to_array(), 0));
+        attributes.insert("NORMAL".to_owned(), json!(self.shorts(SHORT, "VEC3", normals, true)));
+        if let Some(tangents) = mesh.tangents() {
+            let tangents = tangents.iter().map(|t| direction(t.truncate().to_array(), signed(t.w)));
+            attributes.insert("TANGENT".to_owned(), json!(self.shorts(SHORT, "VEC4", tangents, true)));
         }
-        self.meshes.push(json!({ "primitives": [primitive] }));
-        self.meshes.len() - 1
+        if let Some(uvs) = mesh.uvs() {
+            let unit = uvs.iter().all(|uv| uv.min_element() >= 0.0 && uv.max_element() <= 1.0);
+            let coordinates = if unit {
+                self.shorts(UNSIGNED_SHORT, "VEC2", uvs.iter().map(|uv| uv.to_array().map(unsigned)), true)
+            } else {
+                self.floats("VEC2", uvs.iter().map(Vec2::to_array))
+            };
+            attributes.insert("TEXCOORD_0".to_owned(), json!(coordinates));
+        }
+        if let Some(colors) = mesh.colors() {
+            let unit = colors.iter().all(|c| c.min_element() >= 0.0 && c.max_element() <= 1.0);
+            let colors = if unit {
+                self.shorts(UNSIGNED_SHORT, "VEC4", colors.iter().map(|c| c.to_array().map(unsigned)), true)
+            } else {
+                self.floats("VEC4", colors.iter().map(Vec4::to_array))
+            };
+            attributes.insert("COLOR_0".to_owned(), json!(colors));
+        }
+        attributes
+    }
+
+    /// Integers of 16 bits, rows of which start at multiples of four bytes as glTF has it.
+    fn shorts<const N: usize>(
+        &mut self,
+        component: u32,
+        shape: &str,
+        items: impl ExactSizeIterator<Item = [u16; N]>,
+        normalized: bool,
+    ) -> usize {
+        let count = items.len();
+        let bytes = items.flatten().flat_map(u16::to_le_bytes);
+        let accessor = self.accessor(bytes, ARRAY_BUFFER, component, shape, count);
+        if normalized {
+            self.accessors[accessor]["normalized"] = json!(true);
+        }
+        if let Some(view) = self.views.last_mut() {
+            view["byteStride"] = json!(2 * N);
+        }
+        accessor
+    }
+
+    /// The corners of triangles: in 16 bits where those do and are asked for.
+    fn indices(&mut self, indices: &[u32], vertices: usize) -> usize {
+        let (target, count) = (ELEMENT_ARRAY_BUFFER, indices.len());
+        if !self.quantised || vertices > usize::from(u16::MAX) {
+            let bytes = indices.iter().flat_map(|index| index.to_le_bytes());
+            return self.accessor(bytes, target, UNSIGNED_INT, "SCALAR", count);
+        }
+        let bytes = indices.iter().flat_map(|&index| (index as u16).to_le_bytes());
+        let accessor = self.accessor(bytes, target, UNSIGNED_SHORT, "SCALAR", count);
+        // What comes after starts at a multiple of four bytes.
+        self.data.resize(self.data.len().next_multiple_of(4), 0);
+        accessor
     }
 
     fn floats<const N: usize>(&mut self, shape: &str, items: impl ExactSizeIterator<Item = [f32; N]>) -> usize {
@@ -208,9 +297,17 @@ impl Document {
         if !self.cameras.is_empty() {
             root["cameras"] = json!(self.cameras);
         }
+        let mut used = Vec::new();
+        if self.quantised {
+            used.push("KHR_mesh_quantization");
+            root["extensionsRequired"] = json!(used);
+        }
         if !self.lights.is_empty() {
-            root["extensionsUsed"] = json!(["KHR_lights_punctual"]);
+            used.push("KHR_lights_punctual");
             root["extensions"] = json!({ "KHR_lights_punctual": { "lights": self.lights } });
+        }
+        if !used.is_empty() {
+            root["extensionsUsed"] = json!(used);
         }
         root
     }
