@@ -51,7 +51,7 @@ pub use model::{
 };
 pub use normals::{NormalReport, NormalWeighting, Normals, face_normal};
 #[cfg(feature = "prepare")]
-pub use prepare::{BoundingSphere, LevelOfDetail, Meshlet, Meshlets, NormalCone};
+pub use prepare::{BoundingSphere, Level, LevelOfDetail, Meshlet, Meshlets, NormalCone};
 pub use prepare::{DistanceBounds, MeshReport, RepairReport, Weld, WeldReport};
 pub use problems::Problems;
 pub use subdivide::Subdivision;

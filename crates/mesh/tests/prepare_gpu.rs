@@ -1,8 +1,8 @@
-//! Vertex order, meshlets and levels of detail.
+//! Vertex order, meshlets and simplified meshes.
 #![cfg(feature = "prepare")]
 
 use bevy_math::Vec3;
-use halfway_mesh::{Cuboid, LevelOfDetail, Mesh, Meshlets, NormalCone, Teapot, UvSphere};
+use halfway_mesh::{Cuboid, Mesh, Meshlets, NormalCone, Teapot, UvSphere};
 
 fn models() -> [(&'static str, Mesh); 3] {
     [
@@ -106,35 +106,6 @@ fn meshlets_are_small() {
     assert!(mean < 1.5 * 2.0 / count.sqrt(), "{mean} {count}");
     // And normals as far from its middle as the sphere turns.
     assert!(cut.meshlets.iter().all(|meshlet| meshlet.normals.cos > 0.8));
-}
-
-#[test]
-fn levels_halve_and_say_how_far_they_are() {
-    for (name, mesh) in [("sphere", Mesh::from(UvSphere::new(1.0, 32, 16))), ("teapot", Mesh::from(Teapot::new(4)))] {
-        let levels = mesh.levels_of_detail();
-        assert!(levels.len() >= 3, "{name}: {}", levels.len());
-        assert_eq!((&levels[0].mesh, levels[0].error), (&mesh, 0.0));
-        for pair in levels.windows(2) {
-            let ratio = pair[1].mesh.triangle_count() as f64 / pair[0].mesh.triangle_count() as f64;
-            assert!(ratio <= 0.75 && pair[1].error >= pair[0].error, "{name}: {ratio}");
-        }
-        for LevelOfDetail { mesh: level, error } in &levels[1..] {
-            // No sampled point is further than the bound, and the bound is not idle: some point is nearly as far.
-            let sampled = sampled_distance(&mesh, level).max(sampled_distance(level, &mesh));
-            assert!(sampled <= *error, "{name}: {sampled} {error}");
-            let found = mesh.distance_to(level, 0.01 * error).least.max(level.distance_to(&mesh, 0.01 * error).least);
-            assert!(found > 0.8 * error, "{name}: {found} {error}");
-        }
-    }
-}
-
-/// The greatest distance of sampled points of one mesh from the other.
-fn sampled_distance(from: &Mesh, to: &Mesh) -> f64 {
-    let corners = from.triangles().step_by(3).map(|triangle| triangle.map(|i| from.positions()[i as usize]));
-    let samples: Vec<Vec3> = corners.flat_map(|[a, b, c]| [a, a.midpoint(b), (a + b + c) / 3.0]).collect();
-    // Each a triangle of no size.
-    let indices = (0..samples.len() as u32).flat_map(|i| [i; 3]).collect();
-    Mesh::new(samples, indices).unwrap().distance_to(to, 0.0).least
 }
 
 #[test]

@@ -11,7 +11,7 @@ use super::Failure;
 pub(super) struct InfoArgs {
     /// A model (.smf, .obj, .gltf, .glb, .ply, .stl)
     model: PathBuf,
-    /// Make levels of detail, too, and measure how far off each is; takes seconds on large models
+    /// Make levels of detail, too, and measure how far off each is
     #[arg(long)]
     levels: bool,
 }
@@ -68,9 +68,11 @@ fn print_mesh(mesh: &Mesh) {
 }
 
 fn print_levels(mesh: &Mesh) {
-    let levels = mesh.levels_of_detail();
-    let levels = levels.iter().map(|level| format!("{} ({:.2e})", level.mesh.triangle_count(), level.error));
-    println!("  levels     triangles (error): {}", levels.collect::<Vec<_>>().join(", "));
+    println!("  levels     triangles, error, error and spread of the normals");
+    for level in [mesh.finest_level()].iter().chain(&mesh.levels()) {
+        let [error, spread] = [level.normal_error, level.normal_spread].map(f32::to_degrees);
+        println!("             {}, {:.2e}, {error:.2}°, {spread:.2}°", level.triangle_count(), level.error);
+    }
 }
 
 fn projection(projection: SourceProjection) -> String {

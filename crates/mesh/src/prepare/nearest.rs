@@ -8,6 +8,8 @@ pub(super) type Triangle = [DVec3; 3];
 /// Triangles, found by place.
 pub(super) struct Triangles {
     triangles: Vec<Triangle>,
+    /// The number that each had when it was given.
+    originals: Vec<u32>,
     /// A node's near half follows it; leaves have triangles. The first is the root.
     nodes: Vec<Node>,
 }
@@ -26,10 +28,18 @@ const LEAF: usize = 4;
 
 impl Triangles {
     /// At least one triangle.
-    pub(super) fn new(mut triangles: Vec<Triangle>) -> Self {
+    pub(super) fn new(triangles: Vec<Triangle>) -> Self {
         let mut nodes = Vec::with_capacity(triangles.len());
-        build(&mut triangles, 0, &mut nodes);
-        Self { triangles, nodes }
+        let mut numbered: Vec<(Triangle, u32)> = triangles.into_iter().zip(0..).collect();
+        build(&mut numbered, 0, &mut nodes);
+        let (triangles, originals) = numbered.into_iter().unzip();
+        Self { triangles, originals, nodes }
+    }
+
+    /// The number that the triangle of this number had when it was given.
+    #[cfg(feature = "prepare")]
+    pub(super) fn original(&self, triangle: usize) -> usize {
+        self.originals[triangle] as usize
     }
 
     /// The distance from one of the triangles, by its number.
@@ -65,8 +75,8 @@ impl Triangles {
 }
 
 /// The tree over the triangles, which come after `before` others.
-fn build(triangles: &mut [Triangle], before: usize, nodes: &mut Vec<Node>) {
-    let corners = || triangles.iter().flatten();
+fn build(triangles: &mut [(Triangle, u32)], before: usize, nodes: &mut Vec<Node>) {
+    let corners = || triangles.iter().flat_map(|(triangle, _)| triangle);
     let min = corners().fold(DVec3::INFINITY, |min, p| min.min(*p));
     let max = corners().fold(DVec3::NEG_INFINITY, |max, p| max.max(*p));
     let this = nodes.len();
@@ -76,7 +86,7 @@ fn build(triangles: &mut [Triangle], before: usize, nodes: &mut Vec<Node>) {
     }
     let axis = (max - min).max_position();
     let middle = triangles.len() / 2;
-    let place = |triangle: &Triangle| triangle.iter().map(|p| p[axis]).sum::<f64>();
+    let place = |(triangle, _): &(Triangle, u32)| triangle.iter().map(|p| p[axis]).sum::<f64>();
     triangles.select_nth_unstable_by(middle, |a, b| place(a).total_cmp(&place(b)));
     let (near, far) = triangles.split_at_mut(middle);
     build(near, before, nodes);

@@ -1,4 +1,4 @@
-//! Levels of detail.
+//! A coarser mesh within a bound.
 
 use meshopt::SimplifyOptions;
 
@@ -14,15 +14,6 @@ pub struct LevelOfDetail {
     /// the longest edge of the box around the mesh.
     pub error: f64,
 }
-
-/// Levels with fewer triangles than this are not made.
-const FEWEST: usize = 32;
-
-/// Levels further off than this part of the radius of the box around the mesh are not made.
-const FARTHEST: f64 = 0.1;
-
-/// A level that keeps more than this part of the triangles of the one before is not worth its memory.
-const WORTHWHILE: f64 = 0.75;
 
 /// How often a mesh that came out too far off is tried again.
 const TRIES: u32 = 4;
@@ -70,25 +61,5 @@ impl Mesh {
             Some(&mut estimate),
         );
         (indices, f64::from(estimate))
-    }
-
-    /// The mesh itself, and coarser ones with half as many triangles each as the one before, down to 32 or to an error of
-    /// a tenth of the radius of the box around the mesh. Errors are against the mesh itself, and do not fall from level
-    /// to level.
-    pub fn levels_of_detail(&self) -> Vec<LevelOfDetail> {
-        let mut levels = vec![LevelOfDetail { mesh: self.clone(), error: 0.0 }];
-        let mut triangles = self.triangle_count() / 2;
-        let farthest = FARTHEST * f64::from(self.bounds().radius());
-        while triangles >= FEWEST {
-            let level = self.simplified(triangles, farthest);
-            let before = &levels[levels.len() - 1];
-            if level.mesh.triangle_count() as f64 > WORTHWHILE * before.mesh.triangle_count() as f64 {
-                break;
-            }
-            let error = level.error.max(before.error);
-            levels.push(LevelOfDetail { error, ..level });
-            triangles /= 2;
-        }
-        levels
     }
 }

@@ -118,20 +118,26 @@ impl Mesh {
 }
 
 /// For each vertex the one whose place it takes: the first within the distance that took no other's place.
-fn places(positions: &[Vec3], distance: f32) -> Vec<u32> {
+pub(super) fn places(positions: &[Vec3], distance: f32) -> Vec<u32> {
     let exact = Numbering::of_positions(positions);
     let mut owners = exact.firsts.clone();
     if distance > 0.0 {
         let distance = f64::from(distance);
-        // Cells as wide as the distance, by the bits of their whole numbers, which may be too large for an integer. A
-        // cell holds few owners: they lie further apart than it is wide.
+        // Cells four times as wide as the distance, by the bits of their whole numbers, which may be too large for an
+        // integer. A cell holds few owners: they lie further apart than a quarter of it.
+        let width = 4.0 * distance;
         let mut cells: HashMap<[u64; 3], Vec<u32>> = HashMap::new();
         for owner in &mut owners {
             let p = positions[*owner as usize].as_dvec3();
-            let cell = (p / distance).floor();
-            let near = (0..27).find_map(|i| {
-                let offset = [i % 3, i / 3 % 3, i / 9].map(|x| f64::from(x) - 1.0);
-                let key = (cell + bevy_math::DVec3::from_array(offset)).to_array().map(|x| (x + 0.0).to_bits());
+            let cell = (p / width).floor();
+            let [low, high] = [-distance, distance].map(|reach| ((p + reach) / width).floor());
+            let near = (0..8).find_map(|i| {
+                let is_high = bevy_math::BVec3::new(i & 1 > 0, i & 2 > 0, i & 4 > 0);
+                // Where both are one cell, it is looked at once.
+                if (is_high & low.cmpeq(high)).any() {
+                    return None;
+                }
+                let key = bevy_math::DVec3::select(is_high, high, low).to_array().map(|x| (x + 0.0).to_bits());
                 let mut owners = cells.get(&key)?.iter();
                 owners.find(|&&other| positions[other as usize].as_dvec3().distance(p) <= distance).copied()
             });

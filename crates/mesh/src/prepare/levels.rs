@@ -1,0 +1,142 @@
+//! Levels of detail: fewer and fewer triangles between the vertices of one mesh.
+
+use bevy_math::DVec3;
+use rayon::prelude::*;
+
+use super::collapse::Collapse;
+use super::deviation::{Deviation, Sheet, angle};
+use super::stand_ins::StandIns;
+use crate::Mesh;
+
+/// A coarser version of a mesh: fewer triangles between some of its vertices.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Level {
+    /// Its triangles, three corners each, as numbers of the mesh's vertices: all levels share the mesh's vertices.
+    pub indices: Vec<u32>,
+    /// How far the level is from the mesh, in its units, as [`Mesh::levels`] measures it.
+    pub error: f32,
+    /// How far the level's interpolated normals, made unit again, are from the mesh's at corresponding points, in radians.
+    pub normal_error: f32,
+    /// The largest angle between a vertex normal of a triangle and the mean of all three, in radians: what shading at the
+    /// vertices loses between them grows with its square.
+    pub normal_spread: f32,
+    /// The length of the longest edge, in the mesh's units; at most `f32::MAX`.
+    pub longest_edge: f32,
+}
+
+/// Levels with fewer triangles than this are not made.
+const FEWEST: usize = 32;
+
+/// Levels further off than this part of the radius of the box around the mesh are not made.
+const FARTHEST: f64 = 0.1;
+
+/// A level that keeps more than this part of the triangles of the one before is not worth its memory.
+const WORTHWHILE: f64 = 0.75;
+
+impl Level {
+    /// How many triangles there are.
+    pub fn triangle_count(&self) -> usize {
+        self.indices.len() / 3
+    }
+}
+
+impl Mesh {
+    /// The mesh itself as a level, its errors 0, for its spread and its longest edge.
+    pub fn finest_level(&self) -> Level {
+        self.level(self.indices().to_vec(), Deviation::default())
+    }
+
+    /// Coarser versions of the mesh, the finest first and without the mesh itself, each of about half the triangles of the
+    /// one before; none if it cannot be made coarser.
+    ///
+    /// Vertices go one by one, the least loss first, each onto a neighbour: a loss of shape or of shading (see
+    /// [`Level::normal_spread`]), so that triangles stay where the surface or its normals bend. Vertices within 10⁻⁶ of the
+    /// longest edge of the box are one place. Those of one place with the same attributes (to 10⁻⁴) become one; the others
+    /// make a seam or a crease, which stays closed and goes only along itself. Borders keep their line as well, within the
+    /// error. A faceted mesh is all creases: [weld](Self::welded) it first. There is no level of fewer than 32 triangles,
+    /// of more than three quarters of those before, or with an error of more than a tenth of the radius of the box.
+    ///
+    /// Errors are measured between a level and the one before and added up, so they never fall and are more than what
+    /// direct measurement would give. Measured are distance and normal at each vertex that went, against the new level, and
+    /// at the centroid and the edges' middles of each new triangle, against the old one; each at the nearest point that
+    /// faces alike, which is looked for from neighbours on, so that what is found is not nearer than the nearest. Points
+    /// between these samples may be further off. Texture coordinates, colours and tangents are not measured.
+    pub fn levels(&self) -> Vec<Level> {
+        let stand_ins = StandIns::new(self);
+        let steps = self.halved(&stand_ins);
+        let sheets: Vec<Sheet> = steps.par_iter().map(|step| Sheet::new(self, &stand_ins, step)).collect();
+        let deviations: Vec<_> = sheets.windows(2).map(|pair| pair[1].deviation_from(&pair[0])).collect();
+        let mut total = self.deviation_of(&stand_ins);
+        let mut levels = Vec::new();
+        for (deviation, step) in deviations.iter().zip(&steps[1..]) {
+            total = Deviation { distance: total.distance + deviation.distance, angle: total.angle + deviation.angle };
+            if total.distance > FARTHEST * f64::from(self.bounds().radius()) {
+                break;
+            }
+            let indices = meshopt::optimize_vertex_cache(step.as_flattened(), self.positions().len());
+            levels.push(self.level(indices, total));
+        }
+        levels
+    }
+
+    /// What stand-ins differ by from the vertices that they stand for.
+    fn deviation_of(&self, stand_ins: &StandIns) -> Deviation {
+        let deviation = |(vertex, &stand_in): (usize, &u32)| {
+            if vertex == stand_in as usize {
+                return Deviation::default();
+            }
+            let [p, q] = [vertex, stand_in as usize].map(|i| self.positions()[i].as_dvec3());
+            let [n, m] = [vertex, stand_in as usize].map(|i| self.normals()[i].as_dvec3());
+            Deviation { distance: p.distance(q), angle: angle(n, m) }
+        };
+        stand_ins.vertices.iter().enumerate().map(deviation).fold(Deviation::default(), Deviation::max)
+    }
+
+    /// The triangles between stand-ins, then half as many, and so on, each from the one before.
+    fn halved(&self, stand_ins: &StandIns) -> Vec<Vec<[u32; 3]>> {
+        let mut collapse = Collapse::new(self, stand_ins);
+        let mut steps = vec![collapse.triangles()];
+        loop {
+            let before = collapse.triangle_count();
+            if before / 2 < FEWEST {
+                break;
+            }
+            collapse.reduce_to(before / 2);
+            let left = collapse.triangle_count();
+            if left < FEWEST || left as f64 > WORTHWHILE * before as f64 {
+                break;
+            }
+            steps.push(collapse.triangles());
+        }
+        steps
+    }
+
+    fn level(&self, indices: Vec<u32>, deviation: Deviation) -> Level {
+        let spread = |triangle: &[u32; 3]| {
+            let normals = triangle.map(|i| self.normals()[i as usize].as_dvec3());
+            let mean = normals.iter().sum::<DVec3>();
+            let angles = normals.map(|n| if mean == DVec3::ZERO { std::f64::consts::PI } else { angle(n, mean) });
+            angles.into_iter().fold(0.0, f64::max)
+        };
+        let longest2 = |triangle: &[u32; 3]| {
+            let [a, b, c] = triangle.map(|i| self.positions()[i as usize].as_dvec3());
+            a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a))
+        };
+        let triangles = indices.as_chunks::<3>().0;
+        let most = |of: &(dyn Fn(&[u32; 3]) -> f64 + Sync)| triangles.par_iter().map(of).reduce(|| 0.0, f64::max);
+        let [normal_spread, longest_edge] = [most(&spread), most(&longest2).sqrt().min(f64::from(f32::MAX))];
+        Level {
+            error: rounded_up(deviation.distance),
+            normal_error: rounded_up(deviation.angle),
+            normal_spread: rounded_up(normal_spread),
+            longest_edge: longest_edge as f32,
+            indices,
+        }
+    }
+}
+
+/// The least `f32` that is not less.
+fn rounded_up(x: f64) -> f32 {
+    let near = x as f32;
+    if f64::from(near) < x { near.next_up() } else { near }
+}
