@@ -123,7 +123,9 @@ impl<'a> Sheet<'a> {
             if found.is_empty() {
                 break;
             }
-            found.into_iter().for_each(|(place, start)| starts[place as usize] = start);
+            for (place, start) in found {
+                starts[place as usize] = start;
+            }
         }
         self.find_lost(finer, &mut starts);
         starts
@@ -143,7 +145,9 @@ impl<'a> Sheet<'a> {
             self.place(self.triangles[tree.original(number)][0])
         };
         let found: Vec<u32> = lost.par_iter().map(nearest).collect();
-        lost.iter().zip(found).for_each(|(&place, start)| starts[place as usize] = start);
+        for (&place, start) in lost.iter().zip(found) {
+            starts[place as usize] = start;
+        }
     }
 
     /// The centroid and the middles of the edges of a triangle of this level that `finer` has not; an edge that two

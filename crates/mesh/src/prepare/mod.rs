@@ -1,7 +1,7 @@
 //! What is done to a mesh before it is drawn: welding, repair, a look over it, and its distance from another.
 //!
-//! With the feature `prepare`, which takes a C++ compiler, also an order for the GPU's caches, meshlets and levels of
-//! detail, by meshoptimizer.
+//! With the feature `prepare`, which takes a C++ compiler, also an order for the GPU's caches, meshlets and simplified
+//! meshes by meshoptimizer, and levels of detail.
 
 #[cfg(feature = "prepare")]
 mod collapse;

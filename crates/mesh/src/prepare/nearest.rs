@@ -7,9 +7,8 @@ pub(super) type Triangle = [DVec3; 3];
 
 /// Triangles, found by place.
 pub(super) struct Triangles {
-    triangles: Vec<Triangle>,
-    /// The number that each had when it was given.
-    originals: Vec<u32>,
+    /// Each with the number that it had when it was given.
+    triangles: Vec<(Triangle, u32)>,
     /// A node's near half follows it; leaves have triangles. The first is the root.
     nodes: Vec<Node>,
 }
@@ -30,27 +29,26 @@ impl Triangles {
     /// At least one triangle.
     pub(super) fn new(triangles: Vec<Triangle>) -> Self {
         let mut nodes = Vec::with_capacity(triangles.len());
-        let mut numbered: Vec<(Triangle, u32)> = triangles.into_iter().zip(0..).collect();
-        build(&mut numbered, 0, &mut nodes);
-        let (triangles, originals) = numbered.into_iter().unzip();
-        Self { triangles, originals, nodes }
+        let mut triangles: Vec<(Triangle, u32)> = triangles.into_iter().zip(0..).collect();
+        build(&mut triangles, 0, &mut nodes);
+        Self { triangles, nodes }
     }
 
     /// The number that the triangle of this number had when it was given.
     #[cfg(feature = "prepare")]
     pub(super) fn original(&self, triangle: usize) -> usize {
-        self.originals[triangle] as usize
+        self.triangles[triangle].1 as usize
     }
 
     /// The distance from one of the triangles, by its number.
     pub(super) fn distance(&self, p: DVec3, triangle: usize) -> f64 {
-        distance_squared(p, self.triangles[triangle]).sqrt()
+        distance_squared(p, self.triangles[triangle].0).sqrt()
     }
 
     /// The least distance from a triangle, and its number. The nearer the triangle of number `guess`, the sooner it is
     /// found.
     pub(super) fn nearest(&self, p: DVec3, guess: usize) -> (f64, usize) {
-        let (mut least2, mut nearest) = (distance_squared(p, self.triangles[guess]), guess);
+        let (mut least2, mut nearest) = (distance_squared(p, self.triangles[guess].0), guess);
         let mut waiting = vec![(self.nodes[0].distance_squared(p), 0)];
         while let Some((distance2, number)) = waiting.pop() {
             if distance2 >= least2 {
@@ -58,7 +56,7 @@ impl Triangles {
             }
             let node: &Node = &self.nodes[number];
             for triangle in node.triangles() {
-                let distance2 = distance_squared(p, self.triangles[triangle]);
+                let distance2 = distance_squared(p, self.triangles[triangle].0);
                 if distance2 < least2 {
                     (least2, nearest) = (distance2, triangle);
                 }
