@@ -6,7 +6,7 @@
 mod axes;
 mod features;
 
-use crate::render::compare::{BLENDED, FLOAT, Failures, SRGB};
+use crate::render::compare::{BLENDED, FLOAT, Failures, SELECTED, SRGB};
 use crate::render::scene::Scene;
 use crate::render::stage::Stage;
 use halfway::prelude::*;
@@ -26,7 +26,13 @@ struct Row {
 
 impl Row {
     fn new(name: impl Into<String>, scene: Scene) -> Self {
-        let raw = if scene.things.iter().any(|thing| thing.blend) { BLENDED } else { Bars::bytes(Encoding::Raw) };
+        let raw = if scene.things.iter().any(|thing| thing.blend) {
+            BLENDED
+        } else if scene.lamps.len() > 8 {
+            SELECTED
+        } else {
+            Bars::bytes(Encoding::Raw)
+        };
         Self { name: name.into(), scene, float: FLOAT, raw, srgb: SRGB }
     }
 }
@@ -49,7 +55,7 @@ impl Worst {
             (&mut self.all, float.worst),
             (&mut self.steps, raw.worst.max(srgb.worst)),
             // Where the bar is lower, its constant says why.
-            (&mut self.unequal, if raw.bars.equal > 0.0 { 1.0 - raw.equal } else { 0.0 }),
+            (&mut self.unequal, if raw.bars.equal > 0.5 { 1.0 - raw.equal } else { 0.0 }),
             (&mut self.unequal_srgb, 1.0 - srgb.equal),
             (&mut self.edges, float.edges.max(raw.edges).max(srgb.edges)),
         ] {

@@ -5,8 +5,8 @@ use crate::render::scene::{Lamp, Scene, Thing, directional_light, other_material
 use crate::render::stage::Stage;
 use halfway::prelude::*;
 
-/// A row-by-column of an affine matrix and a normal matrix, as 32-bit floats.
-const INSTANCE_BYTES: u64 = 4 * (12 + 9);
+/// A row-by-column of an affine matrix and a normal matrix, as 32-bit floats, and a number.
+const INSTANCE_BYTES: u64 = 4 * (12 + 9 + 1);
 
 /// Ten by ten equal spheres at one depth.
 fn crowd() -> Scene {
@@ -35,8 +35,12 @@ fn a_hundred_equal_objects_are_one_draw() {
 
 #[test]
 fn draws_are_as_many_as_differ() {
+    let mut stage = Stage::new(16, 16);
+    stage.draw(&crowd());
+    // A software adapter starts a few draws more gladly than it looks up materials.
+    let of = |materials| if stage.is_software() { materials } else { 1 };
     let rows: [(&str, fn(usize, &mut Thing), u32, u32); 8] = [
-        ("three materials", |i, thing| thing.material.shininess = (i % 3 + 5) as f32, 3, 3),
+        ("three materials", |i, thing| thing.material.shininess = (i % 3 + 5) as f32, of(3), 3),
         ("two sides of a material", |i, thing| thing.back = (i % 2 == 0).then(other_material), 1, 1),
         (
             "two sides shown",
@@ -44,7 +48,7 @@ fn draws_are_as_many_as_differ() {
                 thing.back = (i % 2 == 0).then(other_material);
                 thing.faces = Some(Faces::Both);
             },
-            2,
+            of(2),
             2,
         ),
         (
@@ -67,13 +71,43 @@ fn draws_are_as_many_as_differ() {
         ("mirrored and not", |i, thing| thing.frames[0].scale.x = if i % 2 == 0 { 1.0 } else { -1.0 }, 2, 1),
         ("all blended", |_, thing| thing.blend = true, 1, 1),
     ];
-    let mut stage = Stage::new(16, 16);
     for (row, change, draws, materials) in rows {
         let mut scene = crowd();
         scene.things.iter_mut().enumerate().for_each(|(i, thing)| change(i, thing));
         stage.draw(&scene);
         let report = stage.report();
         assert_eq!((report.draws, report.materials, report.visible), (draws, materials, 100), "{row}");
+    }
+}
+
+#[test]
+fn equal_meshes_of_many_materials_are_one_draw() {
+    let mut scene = Scene::seen_from(Vec3::Z * 40.0, Vec3::ZERO)
+        .ambient(0.1)
+        .lit(Lamp::point(point_light(), Vec3::new(3.0, 4.0, 5.0)))
+        .lit(Lamp::directional(directional_light(), Vec3::NEG_Z));
+    for i in 0..600 {
+        let mut thing = Thing::new(UvSphere::new(0.4, 8, 4));
+        let part = i as f32 / 600.0;
+        thing.material.diffuse = LinearRgba::rgb(part, 1.0 - part, 0.5);
+        thing.material.shininess = 4.5 + part;
+        let at = Vec3::new((i % 30) as f32 - 14.5, (i / 30) as f32 - 9.5, 0.0);
+        scene.things.push(thing.at(Transform::from_translation(at)));
+    }
+    let mut stage = Stage::new(96, 64);
+    for shading in [Shading::Flat, Shading::Gouraud, Shading::Phong] {
+        for blend in [false, true] {
+            scene.view_shading = Some(shading);
+            for thing in &mut scene.things {
+                thing.blend = blend;
+                thing.material.opacity = if blend { 0.7 } else { 1.0 };
+            }
+            let row = format!("{shading:?}, blended {blend}");
+            stage.draw(&scene);
+            let report = stage.report();
+            assert_eq!((report.draws, report.materials, report.visible), (1, 600, 600), "{row}");
+            assert_as_expected(&row, &mut stage, &scene);
+        }
     }
 }
 
@@ -245,7 +279,7 @@ fn what_the_frustum_does_not_see_is_not_drawn() {
     let mut stage = Stage::new(192, 96);
     for (row, at, seen) in rows {
         let mut scene = Scene::in_eye_space()
-            .with(Thing::new(UvSphere::new(1.0, 64, 32)).at(Transform::from_translation(at)))
+            .with(Thing::new(UvSphere::new(1.0, 24, 12)).at(Transform::from_translation(at)))
             .lit(Lamp::directional(directional_light(), Vec3::NEG_Z));
         scene.camera.fov_y = std::f32::consts::FRAC_PI_2;
         let picture = stage.draw(&scene);

@@ -3,7 +3,7 @@
 use crate::render::scene::{Kind, Lamp, On, Scene, Thing};
 use halfway::prelude::*;
 use halfway::reference::Oracle;
-use halfway::render::RenderError;
+use halfway::render::{Gpu, RenderError};
 use image::{Rgba32FImage, RgbaImage};
 
 /// An App with the facade's plugins and a headless target, on which scenes replace each other.
@@ -16,11 +16,12 @@ pub(crate) struct Stage {
 }
 
 impl Stage {
-    /// A floating-point target.
+    /// A floating-point target on which meshes are drawn as they are.
     pub(crate) fn new(width: u32, height: u32) -> Self {
         let mut app = App::new();
         app.add_plugins(HalfwayPlugins::headless(UVec2::new(width, height)));
         app.world_mut().resource_mut::<Headless>().pixels = Pixels::Float;
+        app.insert_resource(LevelsOfDetail::OFF);
         Self { app, spawned: Vec::new(), meshes: Vec::new() }
     }
 
@@ -42,6 +43,11 @@ impl Stage {
 
     pub(crate) fn target_size(&mut self, width: u32, height: u32) {
         self.world().resource_mut::<Headless>().size = UVec2::new(width, height);
+    }
+
+    /// Whether the adapter that has drawn is a software one.
+    pub(crate) fn is_software(&self) -> bool {
+        self.app.world().resource::<Gpu>().is_software()
     }
 
     pub(crate) fn report(&self) -> &FrameReport {

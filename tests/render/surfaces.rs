@@ -189,7 +189,7 @@ fn a_mesh_of_more_vertices_than_16_bits_count_is_drawn_whole() {
     // 66,049 vertices.
     let plane = Plane { size: 3.0, divisions: 256 };
     for shading in SHADINGS {
-        let mut scene = Scene::seen_from(Vec3::new(0.0, 3.0, 0.1), Vec3::ZERO)
+        let mut scene = Scene::seen_from(Vec3::new(0.0, 4.5, 0.1), Vec3::ZERO)
             .with(Thing::new(plane).shaded(shading))
             .lit(Lamp::point(point_light(), Vec3::new(0.5, 1.0, 0.2)));
         scene.camera.background = LinearRgba::rgb(2.0, 0.0, 0.0);

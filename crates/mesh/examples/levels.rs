@@ -1,5 +1,5 @@
 //! The levels of detail of spheres, or of the models named: how long they take and how far off they are. Run with
-//! `--release` and the feature `prepare`.
+//! `--release`.
 
 use std::time::Instant;
 

@@ -4,7 +4,7 @@
 //! - [`Normals`] says how a mesh gets its normals: the file's, one a face, or a weighted mean of the faces around a vertex,
 //!   creased or not; [`Mesh::with_tangents`] adds tangents.
 //! - [`Mesh::report`] looks a mesh over; [`Mesh::welded`] and [`Mesh::repaired`] mend it; [`Mesh::subdivided`] and
-//!   [`Mesh::displaced`] give it detail. The feature `prepare` adds an order for the GPU, meshlets and levels of detail.
+//!   [`Mesh::displaced`] give it detail. The feature `prepare` adds an order for the GPU, meshlets and simplified meshes.
 //! - [`Plane`], [`Cuboid`], [`UvSphere`], [`Icosphere`] and [`Teapot`] turn into meshes with analytic normals; so do the
 //!   quadrics, the torus, [`BezierPatch`] and the other [`ParametricSurface`]s, by count or by chord error.
 //! - [`Mesh::surface`] is the smooth surface that a mesh stands for, where it is known by formula.
@@ -51,8 +51,8 @@ pub use model::{
 };
 pub use normals::{NormalReport, NormalWeighting, Normals, face_normal};
 #[cfg(feature = "prepare")]
-pub use prepare::{BoundingSphere, Level, LevelOfDetail, Meshlet, Meshlets, NormalCone};
-pub use prepare::{DistanceBounds, MeshReport, RepairReport, Weld, WeldReport};
+pub use prepare::{BoundingSphere, LevelOfDetail, Meshlet, Meshlets, NormalCone};
+pub use prepare::{DistanceBounds, Level, MeshReport, RepairReport, Weld, WeldReport};
 pub use problems::Problems;
 pub use subdivide::Subdivision;
 pub use surfaces::{

@@ -1,5 +1,4 @@
 //! Levels of detail.
-#![cfg(feature = "prepare")]
 
 use std::collections::HashMap;
 

@@ -1,34 +1,36 @@
 //! Batch: visible objects become sorted, instanced draws.
 
+use crate::detail::{Demand, LevelsOfDetail};
 use crate::error::{RenderError, label};
-use crate::lights::{LightList, Lights, rgb};
+use crate::geometry::{Form, Geometries, Geometry};
+use crate::gpu::Gpu;
+use crate::lights::Lights;
+use crate::lists::LightLists;
 use crate::matrices::{ModelView, NormalMatrix, Visible};
-use crate::pipeline::{Cull, Lists, PipelineKey, Stage};
-use crate::records::{DrawRecord, InstanceRecord, MaterialRecord, exponent};
+use crate::object::{Drawn, Look, Reflecting, ReflectingBits, Shared};
+use crate::pipeline::{Lists, PipelineKey};
+use crate::records::{DrawRecord, InstanceRecord, RecordLists};
 use crate::report::FrameReport;
 use crate::target::Target;
-use crate::terms::{Chosen, TermMask};
+use crate::terms::Chosen;
 use crate::view::View;
-use bevy_asset::{AssetId, Assets};
+use bevy_asset::AssetId;
 use bevy_ecs::prelude::*;
 use bevy_math::Vec3;
-use halfway_lighting::{BackMaterial, Blend, Faces, InvalidValue, Material, Reflectance, Viewer};
+use bevy_platform::collections::HashMap;
+use halfway_lighting::{BackMaterial, Blend, Encoding, Faces, Material, Reflectance, equations};
 use halfway_mesh::{Mesh, Mesh3d};
-use std::cmp::Reverse;
-use std::collections::HashMap;
 use std::ops::Range;
-
-/// A pair of light lists that some draw uses: the vertex list, then the fragment list.
-pub(crate) type ListPair = (TermMask, TermMask);
 
 /// One draw call.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct DrawCall {
     pub(crate) key: PipelineKey,
     pub(crate) mesh: AssetId<Mesh>,
-    pub(crate) flat: bool,
+    pub(crate) form: Form,
+    /// Unless each instance names its own.
     pub(crate) record: u32,
-    pub(crate) lists: u32,
+    pub(crate) indices: Range<u32>,
     pub(crate) instances: Range<u32>,
 }
 
@@ -37,36 +39,44 @@ pub(crate) struct DrawCall {
 pub(crate) struct Batches {
     pub(crate) instances: Vec<InstanceRecord>,
     pub(crate) records: Vec<DrawRecord>,
-    pub(crate) lists: Vec<ListPair>,
+    pub(crate) lists: LightLists,
     pub(crate) draws: Vec<DrawCall>,
+    items: Vec<Item>,
+    /// The instances of the items, before sorting.
+    unsorted: Vec<InstanceRecord>,
     table: Table,
 }
 
 /// What repeats among objects, numbered, so that objects compare by small integers.
 #[derive(Debug, Default)]
 struct Table {
-    records: HashMap<RecordBits, u32>,
-    lists: HashMap<ListPair, u32>,
-    keys: HashMap<Call, u32>,
-    calls: Vec<Call>,
-    checked: HashMap<MaterialBits, Option<InvalidValue>>,
+    /// Kept from frame to frame, for lights with this ambient.
+    looks: HashMap<ReflectingBits, Look>,
+    ambient: Vec3,
+    /// The records without lists, each once.
+    materials: Vec<DrawRecord>,
+    material_numbers: HashMap<[u32; size_of::<DrawRecord>() / 4], u32>,
+    /// Of each material that the frame uses: the number of its record without lists, or a mark.
+    used: Vec<Option<u32>>,
+    numbers: HashMap<(u32, [u32; 16]), u32>,
+    calls: HashMap<Call, u32>,
+    called: Vec<Call>,
 }
 
-/// Pipeline, mesh, and whether the mesh's flat geometry is drawn.
-type Call = (PipelineKey, AssetId<Mesh>, bool);
-type RecordBits = [u32; size_of::<DrawRecord>() / 4];
-type MaterialBits = [u32; 14];
+/// Pipeline and geometry.
+type Call = (PipelineKey, AssetId<Mesh>, Form);
 
-/// One object's draw before sorting.
-#[derive(Clone, Copy)]
+/// One object's draw, or one patch's, before sorting.
+#[derive(Clone, Copy, Debug)]
 struct Item {
     blend: bool,
     call: u32,
+    indices: (u32, u32),
     record: u32,
-    lists: u32,
     /// Distance of the centre along the view; nearer opaque objects first, farther blended ones first.
     depth: f32,
-    instance: InstanceRecord,
+    /// Among the unsorted ones.
+    instance: u32,
 }
 
 type Objects<'w, 's> = Query<
@@ -86,292 +96,267 @@ type Objects<'w, 's> = Query<
     ),
 >;
 
-/// What every object's key takes from the frame.
-struct Frame<'a> {
-    view: &'a View,
-    lights: &'a Lights,
-    format: wgpu::TextureFormat,
-    samples: u32,
-    viewer: Viewer,
-}
-
 #[expect(clippy::too_many_arguments, reason = "a system takes each resource as a parameter")]
 pub(crate) fn batch(
+    gpu: Res<Gpu>,
     objects: Objects,
-    meshes: Res<Assets<Mesh>>,
-    geometries: Res<crate::geometry::Geometries>,
+    geometries: Res<Geometries>,
     visible: Res<Visible>,
     view: Res<View>,
     lights: Res<Lights>,
+    allowed: Res<LevelsOfDetail>,
     target: Res<Target>,
     mut batches: ResMut<Batches>,
     mut report: ResMut<FrameReport>,
 ) {
     let batches = &mut *batches;
-    batches.clear();
+    batches.begin(&lights);
     let (Some(camera), Some(frame)) = (&view.camera, &target.frame) else { return };
-    let frame = Frame {
-        view: &view,
-        lights: &lights,
-        format: frame.format,
-        samples: frame.samples.count(),
-        viewer: camera.viewer,
-    };
-    let mut items = Vec::with_capacity(visible.0.len());
+    let (format, samples, viewer) = (frame.format, frame.samples.count(), camera.viewer);
+    let shared = Shared { lights: &lights, allowed: &allowed, format, samples, viewer };
     for &entity in &visible.0 {
-        let Ok((mesh3d, material, back, reflectance, faces, blend, model_view, normal_matrix, chosen, name)) =
+        let Ok((mesh, material, back, reflectance, faces, blend, model_view, normal_matrix, chosen, name)) =
             objects.get(entity)
         else {
             continue;
         };
-        let id = mesh3d.0.id();
-        let (Some(mesh), Some(geometry)) = (meshes.get(id), geometries.get(id, chosen.flat)) else { continue };
+        let form = Form::new(chosen, blend);
+        let Some(geometry) = geometries.get(mesh.0.id(), form) else { continue };
         let material = material.unwrap_or(&Material::DEFAULT);
-        let back = back.map_or(material, |back| &back.0);
-        let invalid = batches.table.check(material).or_else(|| {
-            // A back side without a material of its own has been checked with the front.
-            batches.table.check(back).map(|invalid| InvalidValue { owner: "BackMaterial", ..invalid })
-        });
-        if let Some(source) = invalid {
-            report.errors.push(RenderError::Invalid { entity: label(entity, name), source });
+        let reflecting = Reflecting {
+            front: material,
+            back: back.map_or(material, |back| &back.0),
+            reflectance: reflectance.copied().unwrap_or(view.reflectance),
+            faces: faces.copied().unwrap_or_default(),
+        };
+        let look = batches.table.look(&reflecting);
+        if let Some(source) = &look.invalid {
+            report.errors.push(RenderError::Invalid { entity: label(entity, name), source: source.clone() });
             continue;
         }
-        let object = Object {
-            front: material,
-            back,
-            reflectance: reflectance.copied().unwrap_or(frame.view.reflectance),
-            faces: faces.copied().unwrap_or_default(),
+        let drawn = Drawn {
+            chosen: *chosen,
             blend,
-            model_view,
+            mirrored: model_view.mirrored,
             opposite_normals: geometry.opposite_normals,
         };
-        let depth = -model_view.eye_from_model.transform_point3(mesh.bounds().center()).z;
-        let instance = InstanceRecord::new(model_view, normal_matrix, object.faces);
-        let (key, lists, counts) = object.key(&frame, *chosen);
-        let record = batches.table.record(&mut batches.records, object.record(frame.lights.ambient, counts));
-        let lists = batches.table.list(&mut batches.lists, lists);
-        for key in Object::passes(key) {
-            let call = batches.table.call((key, id, chosen.flat));
-            items.push(Item { blend, call, record, lists, depth, instance });
-        }
+        let key = reflecting.key(look, drawn, shared);
+        let (material, exponent) = (look.material, look.exponent);
+        let object = Object { reflecting, key, material, exponent, mesh: mesh.0.id(), form, geometry, model_view, normal_matrix };
+        batches.add(&object, &view, shared, &mut report);
     }
-    report.materials = batches.records.len() as u32;
-    batches.emit(items);
+    report.materials = batches.table.materials_in_use();
+    report.lights_assigned = batches.lists.assigned;
+    report.left_out = batches.lists.left_out;
+    batches.emit(records_of_one_draw(&gpu));
     report.draws = batches.draws.len() as u32;
 }
 
+/// An object on its way into the draws.
 struct Object<'a> {
-    front: &'a Material,
-    back: &'a Material,
-    reflectance: Reflectance,
-    faces: Faces,
-    blend: bool,
+    reflecting: Reflecting<'a>,
+    key: PipelineKey,
+    material: u32,
+    exponent: f32,
+    mesh: AssetId<Mesh>,
+    form: Form,
+    geometry: &'a Geometry,
     model_view: &'a ModelView,
-    opposite_normals: bool,
+    normal_matrix: &'a NormalMatrix,
 }
 
-impl Object<'_> {
-    /// The pipeline, the lists and their counts. A term that the material or the lights leave black is
-    /// in neither list.
-    fn key(&self, frame: &Frame, chosen: Chosen) -> (PipelineKey, ListPair, [[u32; 3]; 2]) {
-        let sides = [self.front, self.back];
-        let any = |of: fn(&Material) -> Vec3| sides.into_iter().any(|material| of(material) != Vec3::ZERO);
-        let all = frame.lights.list(TermMask { diffuse: true, specular: true });
-        let ambient = all.ambient && any(|material| rgb(material.ambient));
-        let diffuse = any(|material| rgb(material.diffuse)) || ambient;
-        let specular = all.specular && any(|material| rgb(material.specular));
-        let used = |mask: TermMask| -> (TermMask, &LightList) {
-            let mask = TermMask { diffuse: mask.diffuse && diffuse, specular: mask.specular && specular };
-            let list = frame.lights.list(mask);
-            if list.records.is_empty() {
-                (TermMask::default(), frame.lights.list(TermMask::default()))
-            } else {
-                (mask, list)
-            }
-        };
-        let (vertex, vertex_list) = used(chosen.vertex);
-        let (fragment, fragment_list) = used(chosen.fragment);
-        let stage = match (vertex.is_empty(), fragment.is_empty()) {
-            (true, true) => Stage::Unlit,
-            (false, true) if chosen.flat => Stage::Flat,
-            (false, true) => Stage::Vertex,
-            (true, false) => Stage::Fragment,
-            (false, false) => Stage::Mixed,
-        };
-        let key = PipelineKey {
-            blend: self.blend,
-            stage,
-            lists: Lists::new(vertex_list.counts, fragment_list.counts),
-            specular: specular && (vertex.specular || fragment.specular),
-            blinn_phong: self.reflectance != Reflectance::Phong,
-            local_viewer: frame.viewer == Viewer::Local,
-            attenuated_ambient: ambient,
-            shared_colour: [vertex_list, fragment_list]
-                .iter()
-                .all(|list| list.records.is_empty() || list.shared_colour),
-            ranged: vertex_list.ranged || fragment_list.ranged,
-            squarings: self.squarings(),
-            geometric_fallback: self.opposite_normals && !fragment.is_empty(),
-            cull: if self.faces == Faces::Both { Cull::None } else { Cull::Back },
-            clockwise: self.model_view.mirrored != (self.faces == Faces::Back),
-            samples: frame.samples,
-            format: frame.format,
-        };
-        // Counts that are compiled in need not be read, and would only make equal records differ.
-        let counts = match key.lists {
-            Lists::Counted { .. } => [[0; 3]; 2],
-            Lists::Uniform | Lists::Storage => [vertex_list.counts, fragment_list.counts],
-        };
-        (key.canonical(), (vertex, fragment), counts)
-    }
-
-    /// log₂ of the exponent where it is a power of two, the same on both sides.
-    fn squarings(&self) -> Option<u8> {
-        let exponent = exponent(self.front, self.reflectance);
-        let both = exponent.to_bits() == self::exponent(self.back, self.reflectance).to_bits();
-        let is_power_of_two =
-            (1.0..=65536.0).contains(&exponent) && (exponent as u32).is_power_of_two() && exponent.fract() == 0.0;
-        (both && is_power_of_two).then(|| (exponent as u32).trailing_zeros() as u8)
-    }
-
-    /// The passes that draw the object: two for a blended two-sided one, the far side first.
-    fn passes(key: PipelineKey) -> impl Iterator<Item = PipelineKey> {
-        let far_side = (key.blend && key.cull == Cull::None).then_some(PipelineKey { cull: Cull::Front, ..key });
-        let near_side = if far_side.is_some() { PipelineKey { cull: Cull::Back, ..key } } else { key };
-        far_side.into_iter().chain([near_side])
-    }
-
-    fn record(&self, ambient: Vec3, [vertex, fragment]: [[u32; 3]; 2]) -> DrawRecord {
-        // Seen only from behind: the back is what the shader lights as front, see `InstanceRecord::new`.
-        let (front, back) = if self.faces == Faces::Back { (self.back, self.back) } else { (self.front, self.back) };
-        let back = if self.faces == Faces::Both { back } else { front };
-        let counts = |[directional, point, spot]: [u32; 3]| [directional, point, spot, 0];
-        DrawRecord {
-            front: MaterialRecord::new(front, self.reflectance, ambient),
-            back: MaterialRecord::new(back, self.reflectance, ambient),
-            vertex_counts: counts(vertex),
-            fragment_counts: counts(fragment),
-        }
-    }
-}
-
-impl PipelineKey {
-    /// Switches that make no difference are set one way, so that they make no variants.
-    fn canonical(self) -> Self {
-        let lit = self.stage != Stage::Unlit;
-        Self {
-            blinn_phong: self.blinn_phong || !self.specular,
-            local_viewer: self.local_viewer && self.specular,
-            attenuated_ambient: self.attenuated_ambient && lit,
-            shared_colour: self.shared_colour && self.specular,
-            squarings: self.squarings.filter(|_| self.specular),
-            ..self
-        }
-    }
-}
-
-/// A material's numbers, for use as a key.
-fn bits(material: &Material) -> MaterialBits {
-    let Material { ambient, diffuse, specular, emission, shininess, opacity } = material;
-    let mut bits = [0; 14];
-    for (colour, out) in [ambient, diffuse, specular, emission].into_iter().zip(bits.chunks_exact_mut(3)) {
-        out.copy_from_slice(&rgb(*colour).to_array().map(f32::to_bits));
-    }
-    (bits[12], bits[13]) = (shininess.to_bits(), opacity.to_bits());
-    bits
-}
-
-impl Table {
-    /// How many materials are remembered as checked.
-    const CHECKED: usize = 4096;
-
-    /// What is wrong with a material, remembered by its value.
-    fn check(&mut self, material: &Material) -> Option<InvalidValue> {
-        self.checked.entry(bits(material)).or_insert_with(|| material.validate().err()).clone()
-    }
-
-    fn record(&mut self, records: &mut Vec<DrawRecord>, record: DrawRecord) -> u32 {
-        *self.records.entry(bytemuck::cast(record)).or_insert_with(|| {
-            records.push(record);
-            records.len() as u32 - 1
-        })
-    }
-
-    fn list(&mut self, lists: &mut Vec<ListPair>, pair: ListPair) -> u32 {
-        *self.lists.entry(pair).or_insert_with(|| {
-            lists.push(pair);
-            lists.len() as u32 - 1
-        })
-    }
-
-    fn call(&mut self, call: Call) -> u32 {
-        *self.keys.entry(call).or_insert_with(|| {
-            self.calls.push(call);
-            self.calls.len() as u32 - 1
-        })
+/// What the bytes of a format hold; `None` for floating point.
+fn encoding(format: wgpu::TextureFormat) -> Option<Encoding> {
+    match format {
+        wgpu::TextureFormat::Rgba32Float | wgpu::TextureFormat::Rgba16Float => None,
+        format if format.is_srgb() => Some(Encoding::Srgb),
+        _ => Some(Encoding::Raw),
     }
 }
 
 impl Batches {
-    fn clear(&mut self) {
+    fn begin(&mut self, lights: &Lights) {
         self.instances.clear();
         self.records.clear();
         self.lists.clear();
         self.draws.clear();
-        self.table.records.clear();
-        self.table.lists.clear();
-        self.table.keys.clear();
-        self.table.calls.clear();
-        // Materials that change every frame must not pile up; those still in use are checked once more.
-        if self.table.checked.len() > Table::CHECKED {
-            self.table.checked.clear();
-        }
+        self.items.clear();
+        self.unsorted.clear();
+        self.table.begin(lights.ambient);
     }
 
-    /// Sorts, and joins neighbours that differ only in their instance. The sort is stable: equal
-    /// depths stay in spawn order.
-    fn emit(&mut self, mut items: Vec<Item>) {
-        items.sort_by(|a, b| {
-            let state = |item: &Item| (item.call, item.record, item.lists);
-            a.blend.cmp(&b.blend).then_with(|| {
-                if a.blend {
-                    Reverse(Depth(a.depth)).cmp(&Reverse(Depth(b.depth)))
-                } else {
-                    state(a).cmp(&state(b)).then_with(|| Depth(a.depth).cmp(&Depth(b.depth)))
+    /// Adds what is seen of an object: its patches, neighbours with equal light lists joined.
+    fn add(&mut self, object: &Object, view: &View, shared: Shared, report: &mut FrameReport) {
+        let Object { reflecting, key, geometry, model_view, normal_matrix, .. } = object;
+        let demand = Demand { allowed: shared.allowed, key, exponent: object.exponent };
+        let patches = geometry.detail.patches(model_view, view, demand);
+        report.triangles_in += geometry.source.triangle_count() as u64;
+        self.unsorted.push(InstanceRecord::new(model_view, normal_matrix, reflecting.faces));
+        // The object as a whole has been found to be seen.
+        let whole = patches.len() == 1;
+        let mut run: Option<(u32, Range<u32>)> = None;
+        for patch in patches {
+            if !whole {
+                report.patches += 1;
+                if !patch.is_seen(model_view, normal_matrix, view, reflecting.faces) {
+                    report.patches_culled += 1;
+                    continue;
                 }
-            })
-        });
-        let mut last = None;
-        for item in items {
-            let state = (item.call, item.record, item.lists);
-            let index = self.instances.len() as u32;
-            self.instances.push(item.instance);
-            if let Some(draw) = self.draws.last_mut().filter(|_| last == Some(state)) {
-                draw.instances.end = index + 1;
-            } else {
-                let (key, mesh, flat) = self.table.calls[item.call as usize];
-                let Item { record, lists, .. } = item;
-                self.draws.push(DrawCall { key, mesh, flat, record, lists, instances: index..index + 1 });
             }
-            last = Some(state);
+            let lists = if key.lists == Lists::Listed {
+                let patch = patch.in_eye_space(model_view, normal_matrix, reflecting.faces);
+                let eye = equations::View::in_eye_space(shared.viewer);
+                self.lists.select(shared.lights, &patch, &reflecting.surface(key), &eye, encoding(shared.format))
+            } else {
+                RecordLists::default()
+            };
+            let record = self.table.number(&mut self.records, object.material, lists);
+            match &mut run {
+                Some((last, indices)) if *last == record && indices.end == patch.indices.start => {
+                    indices.end = patch.indices.end;
+                }
+                _ => {
+                    if let Some(run) = run.replace((record, patch.indices.clone())) {
+                        self.add_run(object, run);
+                    }
+                }
+            }
+        }
+        if let Some(run) = run {
+            self.add_run(object, run);
         }
     }
-}
 
-/// A depth in its total order.
-#[derive(PartialEq)]
-struct Depth(f32);
+    fn add_run(&mut self, object: &Object, (record, indices): (u32, Range<u32>)) {
+        let (center, _) = object.geometry.detail.whole.sphere(object.model_view);
+        let depth = -center.z;
+        for key in object.key.passes() {
+            let call = self.table.call((key, object.mesh, object.form));
+            let indices = (indices.start, indices.end);
+            let instance = self.unsorted.len() as u32 - 1;
+            self.items.push(Item { blend: key.blend, call, indices, record, depth, instance });
+        }
+    }
 
-impl Eq for Depth {}
+    /// Sorts, and joins neighbours that differ only in their instance or record.
+    fn emit(&mut self, records_of_one_draw: usize) {
+        let mut items = std::mem::take(&mut self.items);
+        // Instances are numbered in spawn order, which equal ones keep.
+        items.sort_unstable_by(|a, b| a.blend.cmp(&b.blend).then_with(|| if a.blend { a.by_depth(b) } else { a.by_state(b) }));
+        for run in items.chunk_by_mut(|a, b| a.is_one_call(b)) {
+            let blend = run[0].blend;
+            let records = 1 + run.windows(2).filter(|pair| pair[0].record != pair[1].record).count();
+            if records == 1 {
+                self.emit_draw(run, false);
+            } else if blend || records >= records_of_one_draw {
+                if !blend {
+                    run.sort_unstable_by(|a, b| a.by_nearness(b));
+                }
+                self.emit_draw(run, true);
+            } else {
+                for same in run.chunk_by(|a, b| a.record == b.record) {
+                    self.emit_draw(same, false);
+                }
+            }
+        }
+        self.items = items;
+    }
 
-impl PartialOrd for Depth {
-    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
-        Some(self.cmp(other))
+    fn emit_draw(&mut self, items: &[Item], per_instance: bool) {
+        let start = self.instances.len() as u32;
+        for item in items {
+            let record = if per_instance { item.record } else { 0 };
+            self.instances.push(InstanceRecord { record, ..self.unsorted[item.instance as usize] });
+        }
+        let Item { call, indices: (first, end), record, .. } = items[0];
+        let (key, mesh, form) = self.table.called[call as usize];
+        let key = PipelineKey { per_instance, ..key };
+        let instances = start..self.instances.len() as u32;
+        self.draws.push(DrawCall { key, mesh, form, record, indices: first..end, instances });
     }
 }
 
-impl Ord for Depth {
-    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
-        self.0.total_cmp(&other.0)
+/// From this many materials and light lists on, equal meshes are one draw whose shader looks them up for each instance. A
+/// software adapter looks up pixel by pixel, for which it could start many a draw.
+fn records_of_one_draw(gpu: &Gpu) -> usize {
+    if gpu.is_software() { 512 } else { 2 }
+}
+
+impl Item {
+    fn is_one_call(&self, other: &Self) -> bool {
+        (self.blend, self.call, self.indices) == (other.blend, other.call, other.indices)
+    }
+
+    fn by_state(&self, other: &Self) -> std::cmp::Ordering {
+        let state = |item: &Self| (item.call, item.indices, item.record);
+        state(self).cmp(&state(other)).then_with(|| self.by_nearness(other))
+    }
+
+    fn by_nearness(&self, other: &Self) -> std::cmp::Ordering {
+        self.depth.total_cmp(&other.depth).then_with(|| self.instance.cmp(&other.instance))
+    }
+
+    /// Far ones first; of one instance the far side first, which has been called first.
+    fn by_depth(&self, other: &Self) -> std::cmp::Ordering {
+        let order = |item: &Self| (item.instance, item.call, item.indices);
+        other.depth.total_cmp(&self.depth).then_with(|| order(self).cmp(&order(other)))
+    }
+}
+
+impl Table {
+    /// How many looks are remembered.
+    const REMEMBERED: usize = 16_384;
+
+    fn begin(&mut self, ambient: Vec3) {
+        // Materials that change every frame must not pile up.
+        if self.ambient != ambient || self.looks.len() > Self::REMEMBERED {
+            self.looks.clear();
+            self.materials.clear();
+            self.material_numbers.clear();
+            self.ambient = ambient;
+        }
+        self.used.clear();
+        self.used.resize(self.materials.len(), None);
+        self.numbers.clear();
+        self.calls.clear();
+        self.called.clear();
+    }
+
+    /// What an object looks like, remembered by its components' values.
+    fn look(&mut self, reflecting: &Reflecting) -> &Look {
+        let Self { looks, materials, material_numbers, used, ambient, .. } = self;
+        looks.entry(reflecting.bits()).or_insert_with(|| {
+            reflecting.look(*ambient, |record| {
+                *material_numbers.entry(bytemuck::cast(record)).or_insert_with(|| {
+                    materials.push(record);
+                    used.push(None);
+                    materials.len() as u32 - 1
+                })
+            })
+        })
+    }
+
+    /// The number of the frame's record with this material and these lists.
+    fn number(&mut self, records: &mut Vec<DrawRecord>, material: u32, lists: RecordLists) -> u32 {
+        let push = || {
+            records.push(DrawRecord { lists, ..self.materials[material as usize] });
+            records.len() as u32 - 1
+        };
+        if lists == RecordLists::default() {
+            return *self.used[material as usize].get_or_insert_with(push);
+        }
+        self.used[material as usize].get_or_insert(u32::MAX);
+        *self.numbers.entry((material, bytemuck::cast(lists))).or_insert_with(push)
+    }
+
+    fn materials_in_use(&self) -> u32 {
+        self.used.iter().flatten().count() as u32
+    }
+
+    fn call(&mut self, call: Call) -> u32 {
+        *self.calls.entry(call).or_insert_with(|| {
+            self.called.push(call);
+            self.called.len() as u32 - 1
+        })
     }
 }

@@ -3,10 +3,10 @@
 use crate::batch::Batches;
 use crate::geometry::Geometries;
 use crate::gpu::Gpu;
-use crate::pipeline::{Lists, Pipelines, Stage};
+use crate::pipeline::{Pipelines, Stage};
 use crate::report::FrameReport;
 use crate::target::{Attachments, Frame, Target};
-use crate::upload::{Buffers, RECORD_STRIDE};
+use crate::upload::Buffers;
 use crate::view::View;
 use bevy_ecs::prelude::*;
 use halfway_lighting::Camera;
@@ -74,9 +74,8 @@ fn record(
 ) {
     let mut last = None;
     for draw in &batches.draws {
-        let storage = draw.key.lists == Lists::Storage;
-        let (Some(pipeline), Some(geometry), Some(group)) =
-            (pipelines.get(&draw.key), geometries.get(draw.mesh, draw.flat), buffers.bind_group(storage))
+        let (Some(pipeline), Some(geometry), Some((group, offset))) =
+            (pipelines.get(&draw.key), geometries.get(draw.mesh, draw.form), buffers.bindings(draw))
         else {
             continue;
         };
@@ -84,14 +83,13 @@ fn record(
             pass.set_pipeline(pipeline);
             last = Some(draw.key);
         }
-        let offsets = [draw.record * RECORD_STRIDE as u32, buffers.list_offsets[draw.lists as usize]];
-        pass.set_bind_group(0, group, &offsets);
+        pass.set_bind_group(0, group, &[offset]);
         pass.set_vertex_buffer(1, geometry.positions.slice(..));
         if draw.key.stage != Stage::Unlit {
             pass.set_vertex_buffer(2, geometry.attributes.slice(..));
         }
         pass.set_index_buffer(geometry.indices.slice(..), geometry.index_format);
-        pass.draw_indexed(0..geometry.index_count, 0, draw.instances.clone());
+        pass.draw_indexed(draw.indices.clone(), 0, draw.instances.clone());
     }
 }
 

@@ -3,13 +3,18 @@
 use crate::error::RenderError;
 use crate::gpu::Gpu;
 use crate::matrices::Visible;
+use crate::detail::{Detail, LevelsOfDetail};
+use crate::flat::FlatMesh;
 use crate::report::FrameReport;
 use crate::terms::Chosen;
+use crate::workshop::Workshop;
 use bevy_asset::{AssetEvent, AssetId, Assets};
 use bevy_ecs::prelude::*;
 use bevy_math::Vec3;
-use halfway_mesh::{Mesh, Mesh3d, face_normal};
+use halfway_lighting::Blend;
+use halfway_mesh::{Mesh, Mesh3d};
 use std::collections::HashMap;
+use std::sync::Arc;
 use wgpu::util::DeviceExt;
 
 /// The buffers of one mesh for one way of shading.
@@ -19,228 +24,214 @@ pub(crate) struct Geometry {
     pub(crate) attributes: wgpu::Buffer,
     pub(crate) indices: wgpu::Buffer,
     pub(crate) index_format: wgpu::IndexFormat,
-    pub(crate) index_count: u32,
+    /// The runs of the index list.
+    pub(crate) detail: Arc<Detail>,
     /// What it was made of; a mesh is immutable and shares its data, so the same data is the same mesh.
-    source: Mesh,
+    pub(crate) source: Mesh,
     /// Some interpolated normal may vanish, so that Phong shading needs the geometric one at hand.
     pub(crate) opposite_normals: bool,
+}
+
+/// How a mesh is laid out for drawing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct Form {
+    /// For flat shading.
+    pub(crate) flat: bool,
+    /// In one piece, with the triangles in the order of the mesh. Else in patches, in the patches' order.
+    pub(crate) ordered: bool,
+}
+
+impl Form {
+    pub(crate) const ALL: [Self; 4] = [
+        Self { flat: false, ordered: false },
+        Self { flat: false, ordered: true },
+        Self { flat: true, ordered: false },
+        Self { flat: true, ordered: true },
+    ];
+
+    /// Blended triangles are drawn in the order of the mesh.
+    pub(crate) fn new(chosen: &Chosen, blend: bool) -> Self {
+        Self { flat: chosen.flat, ordered: blend }
+    }
 }
 
 /// All meshes that have been drawn, until their assets change or go.
 #[derive(Resource, Default)]
 pub(crate) struct Geometries {
-    meshes: HashMap<(AssetId<Mesh>, bool), Geometry>,
+    meshes: HashMap<(AssetId<Mesh>, Form), Geometry>,
 }
 
 impl Geometries {
-    pub(crate) fn get(&self, id: AssetId<Mesh>, flat: bool) -> Option<&Geometry> {
-        self.meshes.get(&(id, flat))
+    pub(crate) fn get(&self, id: AssetId<Mesh>, form: Form) -> Option<&Geometry> {
+        self.meshes.get(&(id, form))
     }
 
-    /// Uploads the mesh unless it is there. Returns the bytes sent.
-    pub(crate) fn ensure(&mut self, gpu: &Gpu, id: AssetId<Mesh>, mesh: &Mesh, flat: bool) -> Result<u64, RenderError> {
-        if self.meshes.get(&(id, flat)).is_some_and(|geometry| is_same(&geometry.source, mesh)) {
+    /// Uploads the mesh unless it is there, and its levels of detail once they are. Returns the bytes sent.
+    fn ensure(
+        &mut self,
+        gpu: &Gpu,
+        (id, form): (AssetId<Mesh>, Form),
+        mesh: &Mesh,
+        levels: Option<&Arc<Detail>>,
+    ) -> Result<u64, RenderError> {
+        let there = self.meshes.get(&(id, form)).filter(|geometry| is_same(&geometry.source, mesh));
+        if there.is_some_and(|there| levels.is_none_or(|levels| Arc::ptr_eq(levels, &there.detail))) {
             return Ok(0);
         }
-        let geometry = if flat { upload_flat(gpu, mesh)? } else { upload_smooth(gpu, mesh)? };
-        let bytes = geometry.positions.size() + geometry.attributes.size() + geometry.indices.size();
-        self.meshes.insert((id, flat), geometry);
+        let detail = match levels {
+            Some(levels) => Arc::clone(levels),
+            None if form.ordered => Arc::new(Detail::in_order(mesh)),
+            None => Arc::new(Detail::in_patches(mesh)),
+        };
+        let (geometry, bytes) = match there {
+            // The vertices of levels are those of the mesh.
+            Some(there) if !form.flat => Geometry::with_vertices_of(there, gpu, detail)?,
+            _ if form.flat => Geometry::flat(gpu, mesh, detail)?,
+            _ => Geometry::smooth(gpu, mesh, detail)?,
+        };
+        self.meshes.insert((id, form), geometry);
         Ok(bytes)
     }
 }
 
 /// Uploads the meshes of visible objects that are not there yet, for the way they are shaded.
+#[expect(clippy::too_many_arguments, reason = "a system takes each resource as a parameter")]
 pub(crate) fn upload_visible(
     gpu: Res<Gpu>,
     meshes: Res<Assets<Mesh>>,
-    objects: Query<(&Mesh3d, &Chosen)>,
+    objects: Query<(&Mesh3d, &Chosen, Has<Blend>)>,
     visible: Res<Visible>,
+    allowed: Res<LevelsOfDetail>,
+    mut workshop: ResMut<Workshop>,
     mut geometries: ResMut<Geometries>,
     mut report: ResMut<FrameReport>,
 ) {
-    for (Mesh3d(handle), chosen) in objects.iter_many(&visible.0).flatten() {
+    workshop.collect();
+    let mut last = None;
+    for (Mesh3d(handle), chosen, blend) in objects.iter_many(&visible.0).flatten() {
+        let wanted = (handle.id(), Form::new(chosen, blend));
+        if last.replace(wanted) == Some(wanted) {
+            continue;
+        }
         let Some(mesh) = meshes.get(handle) else { continue };
-        match geometries.ensure(&gpu, handle.id(), mesh, chosen.flat) {
+        let levels = if wanted.1.ordered || *allowed == LevelsOfDetail::OFF { None } else { workshop.levels(wanted.0, mesh) };
+        match geometries.ensure(&gpu, wanted, mesh, levels) {
             Ok(bytes) => report.bytes_uploaded += bytes,
             Err(error) => report.errors.push(error),
         }
     }
+    report.levels_pending = workshop.pending();
 }
 
 /// Whether two meshes are clones of each other.
-fn is_same(a: &Mesh, b: &Mesh) -> bool {
+pub(crate) fn is_same(a: &Mesh, b: &Mesh) -> bool {
     a.positions().as_ptr() == b.positions().as_ptr()
         && a.normals().as_ptr() == b.normals().as_ptr()
         && a.indices().as_ptr() == b.indices().as_ptr()
 }
 
 /// Forgets meshes that are gone. Those that changed are found when they are drawn, which needs no event.
-pub(crate) fn forget_removed(mut events: MessageReader<AssetEvent<Mesh>>, mut geometries: ResMut<Geometries>) {
+pub(crate) fn forget_removed(
+    mut events: MessageReader<AssetEvent<Mesh>>,
+    mut geometries: ResMut<Geometries>,
+    mut workshop: ResMut<Workshop>,
+) {
     for event in events.read() {
         if let AssetEvent::Removed { id } | AssetEvent::Unused { id } = event {
-            geometries.meshes.remove(&(*id, true));
-            geometries.meshes.remove(&(*id, false));
+            workshop.forget(*id);
+            for form in Form::ALL {
+                geometries.meshes.remove(&(*id, form));
+            }
         }
     }
 }
 
-fn upload_smooth(gpu: &Gpu, mesh: &Mesh) -> Result<Geometry, RenderError> {
-    let positions: Vec<[f32; 3]> = mesh.positions().iter().map(Vec3::to_array).collect();
-    let normals: Vec<[f32; 3]> = mesh.normals().iter().map(Vec3::to_array).collect();
-    let opposite_normals = has_opposite_normals(mesh);
-    upload(gpu, mesh, &positions, bytemuck::cast_slice(&normals), mesh.indices(), opposite_normals)
+impl Geometry {
+    fn smooth(gpu: &Gpu, mesh: &Mesh, detail: Arc<Detail>) -> Result<(Self, u64), RenderError> {
+        let positions: Vec<[f32; 3]> = mesh.positions().iter().map(Vec3::to_array).collect();
+        let normals: Vec<[f32; 3]> = mesh.normals().iter().map(Vec3::to_array).collect();
+        let vertices = Vertices { positions: &positions, attributes: bytemuck::cast_slice(&normals) };
+        let opposite_normals = has_opposite_normals(mesh, &detail.triangles);
+        vertices.upload(gpu, mesh, (detail.triangles.as_flattened(), &detail), opposite_normals)
+    }
+
+    fn flat(gpu: &Gpu, mesh: &Mesh, detail: Arc<Detail>) -> Result<(Self, u64), RenderError> {
+        let flat = FlatMesh::new(mesh.positions(), &detail.triangles);
+        let vertices = Vertices { positions: &flat.positions, attributes: bytemuck::cast_slice(&flat.attributes) };
+        vertices.upload(gpu, mesh, (&flat.indices, &detail), false)
+    }
+
+    fn with_vertices_of(there: &Self, gpu: &Gpu, detail: Arc<Detail>) -> Result<(Self, u64), RenderError> {
+        let indices = index_buffer(gpu, detail.triangles.as_flattened(), there.index_format)?;
+        let bytes = indices.size();
+        let geometry = Self {
+            positions: there.positions.clone(),
+            attributes: there.attributes.clone(),
+            indices,
+            index_format: there.index_format,
+            opposite_normals: has_opposite_normals(&there.source, &detail.triangles),
+            source: there.source.clone(),
+            detail,
+        };
+        Ok((geometry, bytes))
+    }
 }
 
-fn upload_flat(gpu: &Gpu, mesh: &Mesh) -> Result<Geometry, RenderError> {
-    let flat = FlatMesh::new(mesh);
-    upload(gpu, mesh, &flat.positions, bytemuck::cast_slice(&flat.attributes), &flat.indices, false)
+/// What is stored for each vertex.
+struct Vertices<'a> {
+    positions: &'a [[f32; 3]],
+    attributes: &'a [u8],
 }
 
-fn upload(
-    gpu: &Gpu,
-    source: &Mesh,
-    positions: &[[f32; 3]],
-    attributes: &[u8],
-    indices: &[u32],
-    opposite_normals: bool,
-) -> Result<Geometry, RenderError> {
-    let buffer = |label, contents: &[u8], usage| {
-        let (needed, limit) = (contents.len() as u64, gpu.device.limits().max_buffer_size);
-        if needed > limit {
-            return Err(RenderError::TooLarge { what: format!("the mesh's {label}, in bytes,"), needed, limit });
-        }
-        Ok(gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage }))
-    };
-    let short = positions.len() < usize::from(u16::MAX);
-    let (index_bytes, index_format) = if short {
-        let short: Vec<u16> = indices.iter().map(|&index| index as u16).collect();
-        (bytemuck::pod_collect_to_vec::<u16, u8>(&short), wgpu::IndexFormat::Uint16)
-    } else {
-        (bytemuck::pod_collect_to_vec::<u32, u8>(indices), wgpu::IndexFormat::Uint32)
+impl Vertices<'_> {
+    fn upload(
+        &self,
+        gpu: &Gpu,
+        source: &Mesh,
+        (indices, detail): (&[u32], &Arc<Detail>),
+        opposite_normals: bool,
+    ) -> Result<(Geometry, u64), RenderError> {
+        let short = self.positions.len() < usize::from(u16::MAX);
+        let index_format = if short { wgpu::IndexFormat::Uint16 } else { wgpu::IndexFormat::Uint32 };
+        let geometry = Geometry {
+            positions: buffer(gpu, "positions", bytemuck::cast_slice(self.positions), wgpu::BufferUsages::VERTEX)?,
+            attributes: buffer(gpu, "attributes", self.attributes, wgpu::BufferUsages::VERTEX)?,
+            indices: index_buffer(gpu, indices, index_format)?,
+            index_format,
+            detail: Arc::clone(detail),
+            source: source.clone(),
+            opposite_normals,
+        };
+        let bytes = geometry.positions.size() + geometry.attributes.size() + geometry.indices.size();
+        Ok((geometry, bytes))
+    }
+}
+
+fn index_buffer(gpu: &Gpu, indices: &[u32], format: wgpu::IndexFormat) -> Result<wgpu::Buffer, RenderError> {
+    let mut bytes = match format {
+        wgpu::IndexFormat::Uint16 => indices.iter().flat_map(|&index| (index as u16).to_ne_bytes()).collect(),
+        wgpu::IndexFormat::Uint32 => bytemuck::pod_collect_to_vec::<u32, u8>(indices),
     };
     // A buffer's size is a multiple of 4; an odd count of u16 is padded.
-    let mut index_bytes = index_bytes;
-    index_bytes.resize(index_bytes.len().next_multiple_of(4), 0);
-    Ok(Geometry {
-        positions: buffer("positions", bytemuck::cast_slice(positions), wgpu::BufferUsages::VERTEX)?,
-        attributes: buffer("attributes", attributes, wgpu::BufferUsages::VERTEX)?,
-        indices: buffer("indices", &index_bytes, wgpu::BufferUsages::INDEX)?,
-        index_format,
-        index_count: indices.len() as u32,
-        source: source.clone(),
-        opposite_normals,
-    })
+    bytes.resize(bytes.len().next_multiple_of(4), 0);
+    buffer(gpu, "indices", &bytes, wgpu::BufferUsages::INDEX)
+}
+
+fn buffer(gpu: &Gpu, label: &str, contents: &[u8], usage: wgpu::BufferUsages) -> Result<wgpu::Buffer, RenderError> {
+    let (needed, limit) = (contents.len() as u64, gpu.device.limits().max_buffer_size);
+    if needed > limit {
+        return Err(RenderError::TooLarge { what: format!("the mesh's {label}, in bytes,"), needed, limit });
+    }
+    Ok(gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage }))
 }
 
 /// Whether any triangle's normals can cancel under interpolation. While all pairs of the three have
 /// `n_i·n_j ≥ −0.49`, `|Σ b_i n_i|² ≥ Σ b_i² − 0.98 Σ b_i b_j ≥ 0.0066` everywhere on the triangle.
-fn has_opposite_normals(mesh: &Mesh) -> bool {
+fn has_opposite_normals(mesh: &Mesh, triangles: &[[u32; 3]]) -> bool {
     let normals = mesh.normals();
-    mesh.triangles().any(|triangle| {
+    triangles.iter().any(|triangle| {
         let [a, b, c] = triangle.map(|index| normals[index as usize]);
         a.dot(b).min(b.dot(c)).min(c.dot(a)) < -0.49
     })
 }
 
-/// A mesh whose every triangle has a vertex of its own in first place: that provoking vertex carries
-/// the triangle's face normal and centroid, and so its one shade. Triangles keep their order and
-/// winding; they are rotated, and vertices repeated, so that each has one.
-struct FlatMesh {
-    positions: Vec<[f32; 3]>,
-    /// Face normal, centroid.
-    attributes: Vec<[[f32; 3]; 2]>,
-    indices: Vec<u32>,
-    /// Whether a vertex provokes a triangle already.
-    taken: Vec<bool>,
-}
-
-/// After so many triangles an adapter has forgotten a vertex and shades it anew. One that is taken is
-/// then better repeated: the new one can provoke another triangle, and costs no more than the old.
-const VERTEX_MEMORY: usize = 256;
-
-impl FlatMesh {
-    fn new(mesh: &Mesh) -> Self {
-        let corners = mesh.positions();
-        let mut flat = Self {
-            positions: corners.iter().map(Vec3::to_array).collect(),
-            attributes: vec![[[0.0; 3]; 2]; corners.len()],
-            indices: Vec::with_capacity(mesh.indices().len()),
-            taken: vec![false; corners.len()],
-        };
-        // Of each vertex of the mesh: the copy in use, and the triangle that used it last.
-        let mut copies: Vec<(u32, usize)> = (0..corners.len() as u32).map(|vertex| (vertex, 0)).collect();
-        for (triangle, vertices) in mesh.triangles().enumerate() {
-            let mut used = vertices.map(|vertex| {
-                let (copy, last) = &mut copies[vertex as usize];
-                if flat.taken[*copy as usize] && triangle - *last > VERTEX_MEMORY {
-                    *copy = flat.repeat(*copy);
-                }
-                *last = triangle;
-                *copy
-            });
-            let free = used.iter().position(|&copy| !flat.taken[copy as usize]).unwrap_or_else(|| {
-                let copy = flat.repeat(used[0]);
-                copies[vertices[0] as usize].0 = copy;
-                used[0] = copy;
-                0
-            });
-            used.rotate_left(free);
-            let provoking = used[0] as usize;
-            flat.taken[provoking] = true;
-            flat.attributes[provoking] = shaded_point(vertices.map(|vertex| corners[vertex as usize]));
-            flat.indices.extend(used);
-        }
-        flat
-    }
-
-    fn repeat(&mut self, vertex: u32) -> u32 {
-        self.positions.push(self.positions[vertex as usize]);
-        self.attributes.push([[0.0; 3]; 2]);
-        self.taken.push(false);
-        self.positions.len() as u32 - 1
-    }
-}
-
-/// Face normal and centroid. A degenerate triangle covers no pixel; any normal will do.
-fn shaded_point([a, b, c]: [Vec3; 3]) -> [[f32; 3]; 2] {
-    let normal = face_normal(a, b, c).unwrap_or(Vec3::ZERO);
-    let centroid = (a.as_dvec3() + b.as_dvec3() + c.as_dvec3()) / 3.0;
-    [normal.to_array(), centroid.as_vec3().to_array()]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use halfway_mesh::UvSphere;
-    use std::collections::HashSet;
-
-    #[test]
-    fn every_flat_triangle_has_its_own_provoking_vertex_and_keeps_its_corners() {
-        let mesh = Mesh::from(UvSphere { radius: 1.0, segments: 16, rings: 8 });
-        let flat = FlatMesh::new(&mesh);
-        let mut provoking = HashSet::new();
-        for (corners, triangle) in flat.indices.chunks_exact(3).zip(mesh.triangles()) {
-            assert!(provoking.insert(corners[0]), "vertex {} provokes two triangles", corners[0]);
-            let mut flat_corners: Vec<_> =
-                corners.iter().map(|&i| flat.positions[i as usize].map(f32::to_bits)).collect();
-            let mut mesh_corners: Vec<_> =
-                triangle.iter().map(|&i| mesh.positions()[i as usize].to_array().map(f32::to_bits)).collect();
-            flat_corners.sort_unstable();
-            mesh_corners.sort_unstable();
-            assert_eq!(flat_corners, mesh_corners);
-            let [p0, p1, p2] = [0, 1, 2].map(|i| Vec3::from_array(flat.positions[corners[i] as usize]));
-            let [normal, _] = flat.attributes[corners[0] as usize].map(Vec3::from_array);
-            assert!((p1 - p0).cross(p2 - p0).dot(normal) > 0.0, "the winding turned over");
-        }
-        // Each repeated vertex stands for a taken one, and each triangle takes one.
-        assert!(flat.positions.len() <= mesh.triangle_count() + mesh.positions().len());
-    }
-
-    #[test]
-    fn a_grid_larger_than_the_vertex_memory_needs_one_vertex_a_triangle() {
-        // 512 quads a row: the upper row of vertices of each row of quads has been forgotten by then.
-        let mesh = Mesh::from(UvSphere { radius: 1.0, segments: 512, rings: 16 });
-        let flat = FlatMesh::new(&mesh);
-        assert!(flat.positions.len() <= mesh.triangle_count() + 2 * 513, "{} vertices", flat.positions.len());
-    }
-}

@@ -5,12 +5,17 @@
 //! ([`SurfaceTarget`]). [`FrameReport`] counts what a frame did and holds what it could not do.
 
 mod batch;
+mod detail;
 mod draw;
 mod error;
+mod flat;
 mod geometry;
 mod gpu;
 mod lights;
+mod lists;
 mod matrices;
+mod object;
+mod patches;
 mod picture;
 mod pipeline;
 mod plugin;
@@ -20,7 +25,9 @@ mod target;
 mod terms;
 mod upload;
 mod view;
+mod workshop;
 
+pub use detail::LevelsOfDetail;
 pub use error::RenderError;
 pub use gpu::Gpu;
 pub use lights::Lights;

@@ -1,14 +1,14 @@
-//! Illuminate: the lights in eye space, as the lists that draws shade from.
+//! Illuminate: the lights in eye space.
 
 use crate::error::{RenderError, label};
 use crate::report::FrameReport;
-use crate::terms::TermMask;
 use crate::view::View;
 use bevy_color::LinearRgba;
 use bevy_ecs::prelude::*;
 use bevy_math::{DVec3, Vec3};
 use bevy_transform::components::GlobalTransform;
 use bytemuck::{Pod, Zeroable};
+use halfway_lighting::equations::Light;
 use halfway_lighting::{
     Attenuation, Cone, DirectionalLight, GlobalAmbient, InvalidValue, PointLight, SpotLight, light_direction,
     light_position,
@@ -34,36 +34,25 @@ pub(crate) struct LightRecord {
     padding: f32,
 }
 
-/// Lights sorted by kind, as one draw shades from them at one frequency.
-#[derive(Clone, Debug, Default, PartialEq)]
-#[expect(clippy::struct_excessive_bools, reason = "each is one independent fact about the records")]
-pub(crate) struct LightList {
-    pub(crate) records: Vec<LightRecord>,
-    /// How many directional, point and spot lights, in this order.
-    pub(crate) counts: [u32; 3],
-    /// Whether any record has a specular colour.
-    pub(crate) specular: bool,
-    /// Whether any record attenuates its ambient colour.
-    pub(crate) ambient: bool,
-    /// Whether every record's specular colour is its diffuse colour.
-    pub(crate) shared_colour: bool,
-    /// Whether any record has a range.
-    pub(crate) ranged: bool,
-}
-
-/// The scene's lights. Holds after [`RenderSet::Illuminate`](crate::RenderSet::Illuminate).
+/// The scene's lights, sorted by kind. Holds after [`RenderSet::Illuminate`](crate::RenderSet::Illuminate).
 #[derive(Resource, Clone, Debug, Default, PartialEq)]
+#[expect(clippy::struct_excessive_bools, reason = "each is one independent fact about the records")]
 pub struct Lights {
     /// Ga + Σ La of the lights that do not attenuate their ambient.
     pub(crate) ambient: Vec3,
-    /// One list for each [`TermMask`], by its bits.
-    pub(crate) lists: [LightList; 4],
-}
-
-impl Lights {
-    pub(crate) fn list(&self, mask: TermMask) -> &LightList {
-        &self.lists[mask.index()]
-    }
+    pub(crate) records: Vec<LightRecord>,
+    /// The same lights, in the same order, as the equations take them.
+    pub(crate) sources: Vec<Light<f32>>,
+    /// How many directional, point and spot lights, in this order.
+    pub(crate) counts: [u32; 3],
+    /// Whether any has a specular colour.
+    pub(crate) specular: bool,
+    /// Whether any attenuates its ambient colour.
+    pub(crate) attenuated_ambient: bool,
+    /// Whether every specular colour is the diffuse colour.
+    pub(crate) shared_colour: bool,
+    /// Whether any has a range.
+    pub(crate) ranged: bool,
 }
 
 type LightQuery<'w, 's, L> = Query<'w, 's, (Entity, &'static L, &'static GlobalTransform, Option<&'static Name>)>;
@@ -77,7 +66,8 @@ pub(crate) fn gather(
     mut lights: ResMut<Lights>,
     mut report: ResMut<FrameReport>,
 ) {
-    let mut gathered = Gathered { view: &view, ambient: Vec3::ZERO, records: [Vec::new(), Vec::new(), Vec::new()] };
+    let mut gathered =
+        Gathered { view: &view, ambient: Vec3::ZERO, records: Default::default(), sources: Default::default() };
     let errors = &mut report.errors;
     match ambient.validate() {
         Ok(()) => gathered.ambient = rgb(ambient.0),
@@ -87,7 +77,7 @@ pub(crate) fn gather(
     each(&points, errors, |light, at| gathered.finite(light, None, at));
     each(&spots, errors, |spot, at| gathered.spot(spot, at));
     report.lights = gathered.records.iter().map(|of_kind| of_kind.len() as u32).sum();
-    lights.set_if_neq(gathered.into_lists());
+    lights.set_if_neq(gathered.into_lights());
 }
 
 /// Visits lights in a fixed order, so that sums repeat, and reports those that are invalid.
@@ -109,14 +99,17 @@ struct Gathered<'a> {
     view: &'a View,
     ambient: Vec3,
     records: [Vec<LightRecord>; 3],
+    sources: [Vec<Light<f32>>; 3],
 }
 
 impl Gathered<'_> {
     fn directional(&mut self, light: &DirectionalLight, transform: &GlobalTransform) -> Result<(), InvalidValue> {
         light.validate()?;
+        let direction = self.eye_direction(light_direction(transform)?);
+        self.sources[0].push(light.along(direction.to_array())?);
         self.ambient += rgb(light.ambient);
         self.records[0].push(LightRecord {
-            position: (-self.eye_direction(light_direction(transform)?)).to_array(),
+            position: (-direction).to_array(),
             diffuse: rgb(light.diffuse).to_array(),
             specular: rgb(light.specular).to_array(),
             constant: 1.0,
@@ -153,7 +146,9 @@ impl Gathered<'_> {
             quadratic: in_units(f64::from(quadratic) * unit * unit),
             ..LightRecord::default()
         };
+        let mut source = light.at(position.as_vec3().clamp(Vec3::splat(-FAR), Vec3::splat(FAR)).to_array());
         if let Some(cone) = cone {
+            source.cone = cone.along(self.eye_direction(light_direction(transform)?).to_array());
             record.direction = self.eye_direction(light_direction(transform)?).to_array();
             record.cos_cutoff = f64::from(cone.cutoff).cos() as f32;
             record.exponent = cone.exponent;
@@ -164,7 +159,9 @@ impl Gathered<'_> {
         } else {
             self.ambient += rgb(light.ambient);
         }
-        self.records[if cone.is_some() { 2 } else { 1 }].push(record);
+        let kind = if cone.is_some() { 2 } else { 1 };
+        self.records[kind].push(record);
+        self.sources[kind].push(source);
         Ok(())
     }
 
@@ -173,41 +170,28 @@ impl Gathered<'_> {
         (self.view.eye_from_world.matrix3 * world).normalize_or_zero().as_vec3()
     }
 
-    fn into_lists(self) -> Lights {
+    #[expect(clippy::float_cmp, reason = "a colour that is left out is exactly 0, and a shared colour is a copy")]
+    fn into_lights(self) -> Lights {
         let counts = self.records.each_ref().map(|of_kind| of_kind.len() as u32);
         let records = self.records.concat();
-        let lists = TermMask::ALL.map(|mask| LightList::masked(&records, counts, mask));
-        Lights { ambient: self.ambient, lists }
-    }
-}
-
-impl LightList {
-    /// The list that keeps only the terms of `mask`; a term that is left out has a colour of 0.
-    #[expect(clippy::float_cmp, reason = "a term that is left out is exactly 0, and a shared colour is a copy")]
-    fn masked(records: &[LightRecord], counts: [u32; 3], mask: TermMask) -> Self {
-        if mask.is_empty() {
-            return Self::default();
+        Lights {
+            ambient: self.ambient,
+            sources: self.sources.concat(),
+            counts,
+            specular: records.iter().any(|light| light.specular != [0.0; 3]),
+            attenuated_ambient: records.iter().any(|light| light.ambient != [0.0; 3]),
+            shared_colour: records.iter().all(|light| light.specular == light.diffuse),
+            ranged: records.iter().any(|light| light.inverse_range > 0.0),
+            records,
         }
-        let mut list = Self { records: records.to_vec(), counts, shared_colour: true, ..Self::default() };
-        for record in &mut list.records {
-            if !mask.diffuse {
-                record.diffuse = [0.0; 3];
-                record.ambient = [0.0; 3];
-            }
-            if !mask.specular {
-                record.specular = [0.0; 3];
-            }
-            list.specular |= record.specular != [0.0; 3];
-            list.ambient |= record.ambient != [0.0; 3];
-            list.shared_colour &= record.specular == record.diffuse;
-            list.ranged |= record.inverse_range > 0.0;
-        }
-        list
     }
 }
 
 /// The distance in world units beyond which a light's square would not fit into f32.
 const FARTHEST: f64 = 9e18;
+
+/// Where bounds have a light that is farther along an axis; there it only seems brighter.
+const FAR: f32 = 1e37;
 
 /// The inner cone's fade of `KHR_lights_punctual`, s = clamp((cos φ − cos cutoff)/(cos inner − cos cutoff), 0, 1), as scale
 /// and offset of cos φ; 0 and 1, which is s = 1, where there is no inner cone or it is as wide as the cutoff.

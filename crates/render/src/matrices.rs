@@ -17,7 +17,21 @@ pub struct ModelView {
     pub eye_from_model: Affine3A,
     /// Whether the matrix mirrors: its determinant is negative, and windings turn over.
     pub mirrored: bool,
+    largest_scale: f32,
+    keeps_angles: bool,
     made_from: Option<(u64, Affine3A)>,
+}
+
+impl ModelView {
+    /// An upper bound of how much the matrix stretches a length.
+    pub(crate) fn largest_scale(&self) -> f32 {
+        self.largest_scale
+    }
+
+    /// Whether the matrix scales all directions alike, so that angles between normals stay.
+    pub(crate) fn keeps_angles(&self) -> bool {
+        self.keeps_angles
+    }
 }
 
 /// sign(det M) · cof(M) of the upper 3×3 of the model-view matrix, scaled to a largest element of 1:
@@ -90,6 +104,8 @@ pub(crate) fn compute(
                 eye_from_model.translation.as_vec3(),
             ),
             mirrored: is_mirror(&eye_from_model.matrix3),
+            largest_scale: largest_scale(&eye_from_model.matrix3) as f32,
+            keeps_angles: keeps_angles(&eye_from_model.matrix3),
             made_from: Some(source),
         };
         normal_matrix.0 = self::normal_matrix(&eye_from_model.matrix3);
@@ -115,6 +131,15 @@ fn largest_scale(m: &DMat3) -> f64 {
     let largest = x.max(y).max(z);
     let skew = m.x_axis.dot(m.y_axis).abs().max(m.y_axis.dot(m.z_axis).abs()).max(m.z_axis.dot(m.x_axis).abs());
     if skew <= 1e-6 * largest * largest { largest * (1.0 + 2e-6) } else { (x * x + y * y + z * z).sqrt() }
+}
+
+/// Whether the columns are equally long and at right angles, up to the rounding of transforms in f32.
+fn keeps_angles(m: &DMat3) -> bool {
+    let [x, y, z] = [m.x_axis, m.y_axis, m.z_axis];
+    let square = x.length_squared();
+    let alike = |other: f64| (other - square).abs() <= 1e-5 * square;
+    let right = |dot: f64| dot.abs() <= 1e-5 * square;
+    alike(y.length_squared()) && alike(z.length_squared()) && right(x.dot(y)) && right(y.dot(z)) && right(z.dot(x))
 }
 
 /// Whether the matrix turns windings over: its determinant is negative. Transforms are kept in f32, so a determinant of

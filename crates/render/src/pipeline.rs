@@ -2,17 +2,16 @@
 
 use crate::gpu::Gpu;
 use crate::lights::LightRecord;
-use crate::records::{DrawRecord, INSTANCE_BYTES};
+use crate::records::{INSTANCE_BYTES, RECORD_BYTES};
 use crate::target::DEPTH_FORMAT;
+use crate::terms::TermMask;
 use bevy_ecs::prelude::Resource;
 use std::collections::HashMap;
 use std::fmt;
 
-/// Light lists up to this many lights have their counts compiled into the pipeline, so that the
-/// loops unroll; longer ones share a pipeline that reads the counts.
-const COUNTED_LIGHTS: u32 = 8;
-/// Lists up to this long are read from a uniform buffer, longer ones from a storage buffer.
-pub(crate) const UNIFORM_LIGHTS: usize = 128;
+/// Up to this many lights have their counts compiled into the pipeline, so that the loops unroll; of more, each patch
+/// has lists of those that it needs.
+pub(crate) const COUNTED_LIGHTS: u32 = 8;
 
 /// Where a draw's terms are shaded; each has its own pair of entry points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -24,27 +23,19 @@ pub(crate) enum Stage {
     Mixed,
 }
 
-/// How the light lists reach the shader.
+/// How the lights reach the shader.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Lists {
-    /// Counts of directional, point and spot lights in the vertex and the fragment list.
-    Counted { vertex: [u8; 3], fragment: [u8; 3] },
-    /// Counts are read from the draw, lights from a uniform buffer.
-    Uniform,
-    /// Counts are read from the draw, lights from a storage buffer.
-    Storage,
+    /// All directional, point and spot lights of the scene, so many of each.
+    Counted([u8; 3]),
+    /// Those that the lists of the record name.
+    Listed,
 }
 
 impl Lists {
-    pub(crate) fn new(vertex: [u32; 3], fragment: [u32; 3]) -> Self {
-        let total: u32 = vertex.iter().chain(&fragment).sum();
-        if total <= COUNTED_LIGHTS {
-            Self::Counted { vertex: vertex.map(|n| n as u8), fragment: fragment.map(|n| n as u8) }
-        } else if total as usize <= UNIFORM_LIGHTS {
-            Self::Uniform
-        } else {
-            Self::Storage
-        }
+    /// For a scene of so many lights.
+    pub(crate) fn new(counts: [u32; 3]) -> Self {
+        if counts.iter().sum::<u32>() <= COUNTED_LIGHTS { Self::Counted(counts.map(|n| n as u8)) } else { Self::Listed }
     }
 }
 
@@ -55,7 +46,12 @@ pub(crate) struct PipelineKey {
     pub(crate) blend: bool,
     pub(crate) stage: Stage,
     pub(crate) lists: Lists,
-    pub(crate) specular: bool,
+    /// The terms that are shaded at the vertices.
+    pub(crate) vertex: TermMask,
+    /// The terms that are shaded at the fragments.
+    pub(crate) fragment: TermMask,
+    /// Each instance names its record.
+    pub(crate) per_instance: bool,
     pub(crate) blinn_phong: bool,
     pub(crate) local_viewer: bool,
     pub(crate) attenuated_ambient: bool,
@@ -89,7 +85,11 @@ impl fmt::Display for PipelineKey {
         let reflectance = if self.blinn_phong { "blinn_phong" } else { "phong" };
         write!(f, "{:?} {:?} {reflectance} {:?}", self.stage, self.lists, self.cull)?;
         for (on, name) in [
-            (self.specular, "specular"),
+            (self.vertex.diffuse, "vertex_diffuse"),
+            (self.vertex.specular, "vertex_specular"),
+            (self.fragment.diffuse, "fragment_diffuse"),
+            (self.fragment.specular, "fragment_specular"),
+            (self.per_instance, "per_instance"),
             (self.local_viewer, "local_viewer"),
             (self.attenuated_ambient, "attenuated_ambient"),
             (self.shared_colour, "shared_colour"),
@@ -112,28 +112,15 @@ impl fmt::Display for PipelineKey {
 /// The pipelines built so far, with what they share.
 #[derive(Resource)]
 pub(crate) struct Pipelines {
-    uniform: Shader,
-    storage: Shader,
+    module: wgpu::ShaderModule,
+    pub(crate) bindings: wgpu::BindGroupLayout,
+    layout: wgpu::PipelineLayout,
     built: HashMap<PipelineKey, wgpu::RenderPipeline>,
 }
 
-/// The lighting text with lights in one address space, and the layout that goes with it.
-struct Shader {
-    module: wgpu::ShaderModule,
-    bindings: wgpu::BindGroupLayout,
-    layout: wgpu::PipelineLayout,
-}
-
-/// Bytes of a uniform binding of [`UNIFORM_LIGHTS`] lights.
-pub(crate) const UNIFORM_LIGHT_BYTES: u64 = (UNIFORM_LIGHTS * size_of::<LightRecord>()) as u64;
-
-impl Shader {
-    fn new(gpu: &Gpu, storage: bool) -> Self {
-        let (space, count) =
-            if storage { ("storage, read", String::new()) } else { ("uniform", format!(", {UNIFORM_LIGHTS}")) };
-        let text = concat!(include_str!("shader/mesh.wgsl"), include_str!("shader/lighting.wgsl"))
-            .replace("LIGHT_SPACE", space)
-            .replace(", LIGHT_COUNT", &count);
+impl Pipelines {
+    pub(crate) fn new(gpu: &Gpu) -> Self {
+        let text = concat!(include_str!("shader/mesh.wgsl"), include_str!("shader/lighting.wgsl"));
         let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("lighting"),
             source: wgpu::ShaderSource::Wgsl(text.into()),
@@ -143,37 +130,27 @@ impl Shader {
             visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
             ty: wgpu::BindingType::Buffer {
                 ty,
-                has_dynamic_offset: binding > 0,
+                has_dynamic_offset: binding == 1,
                 min_binding_size: std::num::NonZeroU64::new(size),
             },
             count: None,
         };
-        let uniform = wgpu::BufferBindingType::Uniform;
-        let lights = if storage {
-            entry(2, wgpu::BufferBindingType::Storage { read_only: true }, size_of::<LightRecord>() as u64)
-        } else {
-            entry(2, uniform, UNIFORM_LIGHT_BYTES)
-        };
+        let storage = wgpu::BufferBindingType::Storage { read_only: true };
         let bindings = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("draw"),
-            entries: &[entry(0, uniform, 16), entry(1, uniform, size_of::<DrawRecord>() as u64), lights],
+            entries: &[
+                entry(0, wgpu::BufferBindingType::Uniform, 16),
+                entry(1, storage, RECORD_BYTES),
+                entry(2, storage, size_of::<LightRecord>() as u64),
+                entry(3, storage, 4),
+            ],
         });
         let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("draw"),
             bind_group_layouts: &[Some(&bindings)],
             ..Default::default()
         });
-        Self { module, bindings, layout }
-    }
-}
-
-impl Pipelines {
-    pub(crate) fn new(gpu: &Gpu) -> Self {
-        Self { uniform: Shader::new(gpu, false), storage: Shader::new(gpu, true), built: HashMap::new() }
-    }
-
-    pub(crate) fn bindings(&self, storage: bool) -> &wgpu::BindGroupLayout {
-        if storage { &self.storage.bindings } else { &self.uniform.bindings }
+        Self { module, bindings, layout, built: HashMap::new() }
     }
 
     pub(crate) fn get(&self, key: &PipelineKey) -> Option<&wgpu::RenderPipeline> {
@@ -186,26 +163,27 @@ impl Pipelines {
 
     /// Builds the pipeline unless it is there.
     pub(crate) fn ensure(&mut self, gpu: &Gpu, key: PipelineKey) {
-        let shader = if key.lists == Lists::Storage { &self.storage } else { &self.uniform };
-        self.built.entry(key).or_insert_with(|| {
+        if !self.built.contains_key(&key) {
             log::debug!("building pipeline {key}");
-            build(gpu, shader, key)
-        });
+            self.built.insert(key, self.build(gpu, key));
+        }
     }
 }
 
-const INSTANCE: [wgpu::VertexAttribute; 6] = wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32x4, 2 => Float32x4, 3 => Float32x3, 4 => Float32x3, 5 => Float32x3];
+const INSTANCE: [wgpu::VertexAttribute; 7] = wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32x4, 2 => Float32x4, 3 => Float32x3, 4 => Float32x3, 5 => Float32x3, 9 => Uint32];
 const POSITION: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![6 => Float32x3];
 const NORMAL: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![7 => Float32x3];
 const FACE: [wgpu::VertexAttribute; 2] = wgpu::vertex_attr_array![7 => Float32x3, 8 => Float32x3];
 
-fn build(gpu: &Gpu, shader: &Shader, key: PipelineKey) -> wgpu::RenderPipeline {
+impl Pipelines {
+fn build(&self, gpu: &Gpu, key: PipelineKey) -> wgpu::RenderPipeline {
     let constants = constants(key);
     let compilation_options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
     let buffer =
         |attributes, stride, step_mode| Some(wgpu::VertexBufferLayout { array_stride: stride, step_mode, attributes });
     // Unlit draws need no normal matrix, and a software adapter pays for every attribute it fetches.
-    let instance = if key.stage == Stage::Unlit { &INSTANCE[..3] } else { &INSTANCE[..] };
+    let unlit = [INSTANCE[0], INSTANCE[1], INSTANCE[2], INSTANCE[6]];
+    let instance = if key.stage == Stage::Unlit { &unlit[..] } else { &INSTANCE[..] };
     let mut buffers = vec![
         buffer(instance, INSTANCE_BYTES, wgpu::VertexStepMode::Instance),
         buffer(&POSITION, 12, wgpu::VertexStepMode::Vertex),
@@ -218,9 +196,9 @@ fn build(gpu: &Gpu, shader: &Shader, key: PipelineKey) -> wgpu::RenderPipeline {
     let (vertex, fragment) = entry_points(key);
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some(&key.to_string()),
-        layout: Some(&shader.layout),
+        layout: Some(&self.layout),
         vertex: wgpu::VertexState {
-            module: &shader.module,
+            module: &self.module,
             entry_point: Some(vertex),
             compilation_options: compilation_options.clone(),
             buffers: &buffers,
@@ -243,7 +221,7 @@ fn build(gpu: &Gpu, shader: &Shader, key: PipelineKey) -> wgpu::RenderPipeline {
         }),
         multisample: wgpu::MultisampleState { count: key.samples, ..Default::default() },
         fragment: Some(wgpu::FragmentState {
-            module: &shader.module,
+            module: &self.module,
             entry_point: Some(fragment),
             compilation_options,
             targets: &[Some(wgpu::ColorTargetState {
@@ -255,6 +233,7 @@ fn build(gpu: &Gpu, shader: &Shader, key: PipelineKey) -> wgpu::RenderPipeline {
         multiview_mask: None,
         cache: None,
     })
+}
 }
 
 /// opacity·I + (1 − opacity)·what is behind; the picture stays opaque.
@@ -284,13 +263,16 @@ fn entry_points(key: PipelineKey) -> (&'static str, &'static str) {
 }
 
 fn constants(key: PipelineKey) -> Vec<(&'static str, f64)> {
-    let (vertex, fragment, dynamic) = match key.lists {
-        Lists::Counted { vertex, fragment } => (vertex, fragment, false),
-        Lists::Uniform | Lists::Storage => ([0; 3], [0; 3], true),
+    let ([directional, points, spots], listed) = match key.lists {
+        Lists::Counted(counts) => (counts, false),
+        Lists::Listed => ([0; 3], true),
     };
     let flag = |on: bool| f64::from(u8::from(on));
     vec![
-        ("SPECULAR", flag(key.specular)),
+        ("VERTEX_DIFFUSE", flag(key.vertex.diffuse)),
+        ("VERTEX_SPECULAR", flag(key.vertex.specular)),
+        ("FRAGMENT_DIFFUSE", flag(key.fragment.diffuse)),
+        ("FRAGMENT_SPECULAR", flag(key.fragment.specular)),
         ("BLINN_PHONG", flag(key.blinn_phong)),
         ("LOCAL_VIEWER", flag(key.local_viewer)),
         ("ATTENUATED_AMBIENT", flag(key.attenuated_ambient)),
@@ -300,12 +282,10 @@ fn constants(key: PipelineKey) -> Vec<(&'static str, f64)> {
         ("TWO_SIDED", flag(key.cull != Cull::Back)),
         ("BLEND", flag(key.blend)),
         ("GEOMETRIC_FALLBACK", flag(key.geometric_fallback)),
-        ("DYNAMIC_COUNTS", flag(dynamic)),
-        ("VERTEX_DIRECTIONAL", vertex[0].into()),
-        ("VERTEX_POINT", vertex[1].into()),
-        ("VERTEX_SPOT", vertex[2].into()),
-        ("FRAGMENT_DIRECTIONAL", fragment[0].into()),
-        ("FRAGMENT_POINT", fragment[1].into()),
-        ("FRAGMENT_SPOT", fragment[2].into()),
+        ("PER_INSTANCE", flag(key.per_instance)),
+        ("LISTED", flag(listed)),
+        ("DIRECTIONAL", directional.into()),
+        ("POINTS", points.into()),
+        ("SPOTS", spots.into()),
     ]
 }

@@ -1,6 +1,7 @@
 //! The plugin and the way of one frame.
 
 use crate::batch::{self, Batches};
+use crate::detail::LevelsOfDetail;
 use crate::draw;
 use crate::geometry::{self, Geometries};
 use crate::gpu::Gpu;
@@ -12,6 +13,7 @@ use crate::target::{self, Headless, Target};
 use crate::terms::{self, Chosen};
 use crate::upload::{self, Buffers};
 use crate::view::{self, View};
+use crate::workshop::Workshop;
 use bevy_app::{App, Plugin, PostUpdate};
 use bevy_asset::{AssetApp, AssetEvent, AssetPlugin, Assets};
 use bevy_ecs::prelude::*;
@@ -75,6 +77,8 @@ impl Plugin for RenderPlugin {
             .init_resource::<Visible>()
             .init_resource::<Lights>()
             .init_resource::<Batches>()
+            .init_resource::<LevelsOfDetail>()
+            .init_resource::<Workshop>()
             .init_resource::<Geometries>()
             .init_resource::<Buffers>()
             .add_message::<AssetEvent<Mesh>>()

@@ -6,12 +6,14 @@ use bevy_math::{Vec3, Vec3A};
 use bytemuck::{Pod, Zeroable};
 use halfway_lighting::{Faces, Material, Reflectance, matched_shininess};
 
-/// One instance in its vertex buffer: `eye_from_model` as rows, the normal matrix as columns.
+/// One instance in its vertex buffer: `eye_from_model` as rows, the normal matrix as columns, and the number of its
+/// record, which only draws of several records read.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub(crate) struct InstanceRecord {
-    rows: [[f32; 4]; 3],
-    normal: [[f32; 3]; 3],
+    pub(crate) rows: [[f32; 4]; 3],
+    pub(crate) normal: [[f32; 3]; 3],
+    pub(crate) record: u32,
 }
 
 pub(crate) const INSTANCE_BYTES: u64 = size_of::<InstanceRecord>() as u64;
@@ -30,14 +32,35 @@ pub(crate) struct MaterialRecord {
     padding1: f32,
 }
 
-/// What is the same for every instance of a draw; the twin of `Draw` in mesh.wgsl.
+/// Material and light lists; the twin of `Draw` in mesh.wgsl. Its size is the largest alignment of offsets that WebGPU
+/// lets an adapter ask for.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub(crate) struct DrawRecord {
     pub(crate) front: MaterialRecord,
     pub(crate) back: MaterialRecord,
-    pub(crate) vertex_counts: [u32; 4],
-    pub(crate) fragment_counts: [u32; 4],
+    pub(crate) lists: RecordLists,
+    pub(crate) padding: [u32; 16],
+}
+
+pub(crate) const RECORD_BYTES: u64 = size_of::<DrawRecord>() as u64;
+
+/// Light lists of a record, each as how many directional, point and spot lights, and where their numbers begin. All 0
+/// where the lights are compiled in.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub(crate) struct RecordLists {
+    pub(crate) vertex: [u32; 4],
+    /// Lights without their specular terms.
+    pub(crate) vertex_diffuse: [u32; 4],
+    pub(crate) fragment: [u32; 4],
+    pub(crate) fragment_diffuse: [u32; 4],
+}
+
+impl DrawRecord {
+    pub(crate) fn new(front: MaterialRecord, back: MaterialRecord) -> Self {
+        Self { front, back, ..Self::default() }
+    }
 }
 
 impl InstanceRecord {
@@ -50,6 +73,7 @@ impl InstanceRecord {
         Self {
             rows: [row(m.x_axis, t.x), row(m.y_axis, t.y), row(m.z_axis, t.z)],
             normal: (normal_matrix.0 * side).to_cols_array_2d(),
+            record: 0,
         }
     }
 }

@@ -15,6 +15,19 @@ pub struct FrameReport {
     pub visible: u32,
     /// Lights that shone.
     pub lights: u32,
+    /// Meshes that have been seen and whose levels of detail are still being made; they are drawn as they are.
+    pub levels_pending: u32,
+    /// Triangles of the visible objects' meshes, as modelled.
+    pub triangles_in: u64,
+    /// Patches of the visible large meshes, at their levels of detail.
+    pub patches: u32,
+    /// Patches among them that are outside of the frustum or show only sides that are not drawn.
+    pub patches_culled: u32,
+    /// Diffuse and specular terms in the light lists, summed over objects and patches; 0 where all lights of the scene
+    /// are compiled in.
+    pub lights_assigned: u64,
+    /// The most that the terms left out of the lists could have added anywhere, in linear intensity; 0 where none was.
+    pub left_out: f64,
     /// Draw calls.
     pub draws: u32,
     /// Triangles in those draw calls, before culling of faces.

@@ -13,18 +13,6 @@ pub(crate) struct TermMask {
 }
 
 impl TermMask {
-    /// Every mask, at its own index.
-    pub(crate) const ALL: [Self; 4] = [
-        Self { diffuse: false, specular: false },
-        Self { diffuse: true, specular: false },
-        Self { diffuse: false, specular: true },
-        Self { diffuse: true, specular: true },
-    ];
-
-    pub(crate) fn index(self) -> usize {
-        usize::from(self.diffuse) | usize::from(self.specular) << 1
-    }
-
     pub(crate) fn is_empty(self) -> bool {
         self == Self::default()
     }

@@ -1,12 +1,11 @@
 //! Upload: what changed since the last frame goes to the GPU, and nothing else.
 
-use crate::batch::Batches;
+use crate::batch::{Batches, DrawCall};
 use crate::error::RenderError;
-use crate::geometry::Geometries;
 use crate::gpu::Gpu;
 use crate::lights::{LightRecord, Lights};
-use crate::pipeline::{Pipelines, UNIFORM_LIGHT_BYTES};
-use crate::records::DrawRecord;
+use crate::pipeline::Pipelines;
+use crate::records::RECORD_BYTES;
 use crate::report::FrameReport;
 use crate::view::View;
 use bevy_ecs::prelude::*;
@@ -84,29 +83,30 @@ fn changed_range(old: &[u8], new: &[u8]) -> std::ops::Range<usize> {
 #[derive(Resource)]
 pub(crate) struct Buffers {
     view: Mirrored,
-    draws: Mirrored,
+    records: Mirrored,
     lights: Mirrored,
+    lists: Mirrored,
     instances: Mirrored,
-    /// The offset of each pair of light lists in `lights`.
-    pub(crate) list_offsets: Vec<u32>,
-    uniform: Option<wgpu::BindGroup>,
-    storage: Option<(u64, wgpu::BindGroup)>,
+    groups: Option<Groups>,
 }
 
-/// Offsets of uniform records: the largest alignment that WebGPU lets an adapter ask for.
-pub(crate) const RECORD_STRIDE: usize = 256;
+struct Groups {
+    /// With the one record that the offset names.
+    one: wgpu::BindGroup,
+    /// With all records.
+    all: wgpu::BindGroup,
+}
 
 impl Default for Buffers {
     fn default() -> Self {
         use wgpu::BufferUsages as Usage;
         Self {
             view: Mirrored::new("the view", Usage::UNIFORM),
-            draws: Mirrored::new("the materials", Usage::UNIFORM),
-            lights: Mirrored::new("the lights", Usage::UNIFORM | Usage::STORAGE),
+            records: Mirrored::new("the materials", Usage::STORAGE),
+            lights: Mirrored::new("the lights", Usage::STORAGE),
+            lists: Mirrored::new("the light lists", Usage::STORAGE),
             instances: Mirrored::new("the instances", Usage::VERTEX),
-            list_offsets: Vec::new(),
-            uniform: None,
-            storage: None,
+            groups: None,
         }
     }
 }
@@ -116,8 +116,10 @@ impl Buffers {
         self.instances.buffer.as_ref()
     }
 
-    pub(crate) fn bind_group(&self, storage: bool) -> Option<&wgpu::BindGroup> {
-        if storage { self.storage.as_ref().map(|(_, group)| group) } else { self.uniform.as_ref() }
+    /// The bindings of a draw, and their offset.
+    pub(crate) fn bindings(&self, draw: &DrawCall) -> Option<(&wgpu::BindGroup, u32)> {
+        let groups = self.groups.as_ref()?;
+        Some(if draw.key.per_instance { (&groups.all, 0) } else { (&groups.one, draw.record * RECORD_BYTES as u32) })
     }
 
     fn upload(
@@ -128,43 +130,34 @@ impl Buffers {
         lights: &Lights,
         batches: &Batches,
     ) -> Result<u64, RenderError> {
-        let record = ViewRecord { scale: view.projection.scale, near: view.projection.near, padding: 0.0 };
-        let (lists, longest) = self.lay_out_lists(lights, batches);
-        let room = lists.len() as u64 + longest.max(UNIFORM_LIGHT_BYTES);
-        let records = strided(&batches.records);
+        let view = ViewRecord { scale: view.projection.scale, near: view.projection.near, padding: 0.0 };
         let sent = [
-            self.view.set(gpu, bytemuck::bytes_of(&record), 0)?,
-            self.draws.set(gpu, &records, 0)?,
-            self.lights.set(gpu, &lists, room)?,
+            self.view.set(gpu, bytemuck::bytes_of(&view), 0)?,
+            self.records.set(gpu, bytemuck::cast_slice(&batches.records), RECORD_BYTES)?,
+            self.lights.set(gpu, bytemuck::cast_slice(&lights.records), size_of::<LightRecord>() as u64)?,
+            self.lists.set(gpu, bytemuck::cast_slice(&batches.lists.numbers), 0)?,
         ];
         let (instances, _) = self.instances.set(gpu, bytemuck::cast_slice(&batches.instances), 0)?;
-        let stale = sent.iter().any(|&(_, new)| new);
-        self.bind(gpu, pipelines, stale, longest)?;
+        if self.groups.is_none() || sent.iter().any(|&(_, new)| new) {
+            self.groups = self.bind(gpu, pipelines)?;
+        }
         Ok(sent.iter().map(|(bytes, _)| bytes).sum::<u64>() + instances)
     }
 
-    /// Lays the light lists one after the other; returns their bytes and the longest's.
-    fn lay_out_lists(&mut self, lights: &Lights, batches: &Batches) -> (Vec<u8>, u64) {
-        let mut bytes = Vec::new();
-        let mut longest = 0;
-        self.list_offsets.clear();
-        for &(vertex, fragment) in &batches.lists {
-            bytes.resize(bytes.len().next_multiple_of(RECORD_STRIDE), 0);
-            self.list_offsets.push(bytes.len() as u32);
-            for list in [vertex, fragment] {
-                bytes.extend_from_slice(bytemuck::cast_slice(&lights.list(list).records));
-            }
-            longest = longest.max(bytes.len() as u64 - u64::from(self.list_offsets[self.list_offsets.len() - 1]));
-        }
-        (bytes, longest)
-    }
-
-    fn bind(&mut self, gpu: &Gpu, pipelines: &Pipelines, stale: bool, longest: u64) -> Result<(), RenderError> {
-        let (Some(view), Some(draws), Some(lights)) = (&self.view.buffer, &self.draws.buffer, &self.lights.buffer)
+    fn bind(&self, gpu: &Gpu, pipelines: &Pipelines) -> Result<Option<Groups>, RenderError> {
+        let (Some(view), Some(records), Some(lights), Some(lists)) =
+            (&self.view.buffer, &self.records.buffer, &self.lights.buffer, &self.lists.buffer)
         else {
-            return Ok(());
+            return Ok(None);
         };
-        let group = |storage, size| {
+        let limit = gpu.device.limits().max_storage_buffer_binding_size;
+        for (label, buffer) in [(self.records.label, records), (self.lights.label, lights), (self.lists.label, lists)] {
+            if buffer.size() > limit {
+                let what = format!("{label} of this frame, in bytes,");
+                return Err(RenderError::TooLarge { what, needed: buffer.size(), limit });
+            }
+        }
+        let group = |record_bytes| {
             let binding = |buffer, size| {
                 wgpu::BindingResource::Buffer(wgpu::BufferBinding {
                     buffer,
@@ -174,55 +167,29 @@ impl Buffers {
             };
             gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
                 label: Some("draw"),
-                layout: pipelines.bindings(storage),
+                layout: &pipelines.bindings,
                 entries: &[
                     wgpu::BindGroupEntry { binding: 0, resource: binding(view, 16) },
-                    wgpu::BindGroupEntry { binding: 1, resource: binding(draws, size_of::<DrawRecord>() as u64) },
-                    wgpu::BindGroupEntry { binding: 2, resource: binding(lights, size) },
+                    wgpu::BindGroupEntry { binding: 1, resource: binding(records, record_bytes) },
+                    wgpu::BindGroupEntry { binding: 2, resource: binding(lights, lights.size()) },
+                    wgpu::BindGroupEntry { binding: 3, resource: binding(lists, lists.size()) },
                 ],
             })
         };
-        if stale || self.uniform.is_none() {
-            self.uniform = Some(group(false, UNIFORM_LIGHT_BYTES));
-        }
-        let size = longest.max(size_of::<LightRecord>() as u64).next_multiple_of(4);
-        if longest > UNIFORM_LIGHT_BYTES && (stale || self.storage.as_ref().is_none_or(|(bound, _)| *bound != size)) {
-            let limit = gpu.device.limits().max_storage_buffer_binding_size;
-            if size > limit {
-                return Err(RenderError::TooLarge {
-                    what: "the longest light list, in bytes,".into(),
-                    needed: size,
-                    limit,
-                });
-            }
-            self.storage = Some((size, group(true, size)));
-        } else if stale {
-            self.storage = None;
-        }
-        Ok(())
+        Ok(Some(Groups { one: group(RECORD_BYTES), all: group(records.size()) }))
     }
-}
-
-fn strided(records: &[DrawRecord]) -> Vec<u8> {
-    let mut bytes = vec![0; records.len() * RECORD_STRIDE];
-    for (slot, record) in bytes.chunks_exact_mut(RECORD_STRIDE).zip(records) {
-        slot[..size_of::<DrawRecord>()].copy_from_slice(bytemuck::bytes_of(record));
-    }
-    bytes
 }
 
 /// Builds the pipelines of what is about to be drawn, and counts its triangles.
 pub(crate) fn build_pipelines(
     gpu: Res<Gpu>,
-    geometries: Res<Geometries>,
     batches: Res<Batches>,
     mut pipelines: ResMut<Pipelines>,
     mut report: ResMut<FrameReport>,
 ) {
     for draw in &batches.draws {
         pipelines.ensure(&gpu, draw.key);
-        let triangles = geometries.get(draw.mesh, draw.flat).map_or(0, |geometry| geometry.index_count / 3);
-        report.triangles += u64::from(triangles) * draw.instances.len() as u64;
+        report.triangles += draw.indices.len() as u64 / 3 * draw.instances.len() as u64;
     }
     report.pipelines = pipelines.count();
 }

@@ -18,6 +18,8 @@ pub struct View {
     pub eye_from_world: DAffine3,
     /// Eye to clip.
     pub projection: Projection,
+    /// How many pixels a way of 1 across the view takes at a depth of 1.
+    pub pixels_at_unit_depth: f32,
     /// The shading of objects that name none.
     pub shading: Shading,
     /// The reflectance of objects that name none.
@@ -104,10 +106,12 @@ pub(crate) fn update(
     if eye_from_world != view.eye_from_world {
         view.epoch += 1;
     }
+    let projection = Projection::new(camera, size.x, size.y);
     *view = View {
         camera: Some(*camera),
         eye_from_world,
-        projection: Projection::new(camera, size.x, size.y),
+        projection,
+        pixels_at_unit_depth: 0.5 * projection.scale[1] * size.y as f32,
         shading: shading.copied().unwrap_or_default(),
         reflectance: reflectance.copied().unwrap_or_default(),
         epoch: view.epoch,

@@ -73,8 +73,7 @@ impl Mesh {
             if total.distance > FARTHEST * f64::from(self.bounds().radius()) {
                 break;
             }
-            let indices = meshopt::optimize_vertex_cache(step.as_flattened(), self.positions().len());
-            levels.push(self.level(indices, total));
+            levels.push(self.level(step.as_flattened().to_vec(), total));
         }
         levels
     }

@@ -1,37 +1,32 @@
-//! What is done to a mesh before it is drawn: welding, repair, a look over it, and its distance from another.
+//! What is done to a mesh before it is drawn: welding, repair, a look over it, its distance from another, and levels of
+//! detail.
 //!
 //! With the feature `prepare`, which takes a C++ compiler, also an order for the GPU's caches, meshlets and simplified
-//! meshes by meshoptimizer, and levels of detail.
+//! meshes by meshoptimizer.
 
-#[cfg(feature = "prepare")]
 mod collapse;
 mod components;
-#[cfg(feature = "prepare")]
 mod deviation;
 mod distance;
 #[cfg(feature = "prepare")]
 mod enclose;
-#[cfg(feature = "prepare")]
 mod levels;
 #[cfg(feature = "prepare")]
 mod meshlets;
 mod nearest;
 #[cfg(feature = "prepare")]
 mod order;
-#[cfg(feature = "prepare")]
 mod quadric;
 mod repair;
 mod report;
 #[cfg(feature = "prepare")]
 mod simplify;
-#[cfg(feature = "prepare")]
 mod stand_ins;
 mod weld;
 
 pub use distance::DistanceBounds;
 #[cfg(feature = "prepare")]
 pub use enclose::{BoundingSphere, NormalCone};
-#[cfg(feature = "prepare")]
 pub use levels::Level;
 #[cfg(feature = "prepare")]
 pub use meshlets::{Meshlet, Meshlets};

@@ -1,8 +1,13 @@
 // The lighting text: one for the vertex and the fragment stage. Eye space, linear RGB.
 // Each function is the twin of the one of the same name in halfway_lighting::equations.
 
-// A light as a shading list holds it. A list may hold a light whose diffuse or specular colour is
-// zeroed: that term is then shaded at the other frequency, or not at all.
+// Which of a light's terms are added; the others are shaded at the other frequency, or cannot be seen. Ambient goes
+// with diffuse.
+struct Terms {
+    diffuse: bool,
+    specular: bool,
+}
+
 struct Light {
     position: vec3f,     // finite light: eye space; directional: unit vector toward the light
     inverse_range: f32,  // 0: no range
@@ -101,11 +106,13 @@ fn specular_blinn_phong(n: vec3f, l: vec3f, v: vec3f, beta: f32) -> f32 {
 }
 
 // Adds one light that arrives from l with strength `arriving` (att · spot).
-fn add_light(sum: Irradiance, light: Light, l: vec3f, arriving: f32, n: vec3f, v: vec3f, shininess: f32) -> Irradiance {
+fn add_light(sum: Irradiance, light: Light, l: vec3f, arriving: f32, n: vec3f, v: vec3f, shininess: f32, terms: Terms) -> Irradiance {
     var result = sum;
     let n_dot_l = dot(n, l);
-    result.diffuse += light.diffuse * (arriving * max(n_dot_l, 0.0));
-    if SPECULAR {
+    if terms.diffuse {
+        result.diffuse += light.diffuse * (arriving * max(n_dot_l, 0.0));
+    }
+    if terms.specular {
         var s: f32;
         if BLINN_PHONG {
             s = specular_blinn_phong(n, l, v, shininess);
@@ -118,14 +125,14 @@ fn add_light(sum: Irradiance, light: Light, l: vec3f, arriving: f32, n: vec3f, v
         }
         result.specular += colour * select(0.0, arriving * s, n_dot_l > 0.0);
     }
-    if ATTENUATED_AMBIENT {
+    if ATTENUATED_AMBIENT && terms.diffuse {
         result.ambient += light.ambient * arriving;
     }
     return result;
 }
 
 // Adds a point light, or a spot when `cone` is set, at its distance.
-fn add_finite_light(sum: Irradiance, light: Light, cone: bool, p: vec3f, n: vec3f, v: vec3f, shininess: f32) -> Irradiance {
+fn add_finite_light(sum: Irradiance, light: Light, cone: bool, p: vec3f, n: vec3f, v: vec3f, shininess: f32, terms: Terms) -> Irradiance {
     let to_light = light.position - p;
     let squared = dot(to_light, to_light);
     // A light on the surface has no direction: l falls back to n.
@@ -140,12 +147,12 @@ fn add_finite_light(sum: Irradiance, light: Light, cone: bool, p: vec3f, n: vec3
     if cone {
         arriving *= spot_factor(l, light);
     }
-    return add_light(sum, light, l, arriving, n, v, shininess);
+    return add_light(sum, light, l, arriving, n, v, shininess, terms);
 }
 
 // v: toward the eye, or (0, 0, 1) for an infinite viewer. An eye on the surface looks along n.
-fn to_viewer(p: vec3f, n: vec3f) -> vec3f {
-    if LOCAL_VIEWER {
+fn to_viewer(p: vec3f, n: vec3f, terms: Terms) -> vec3f {
+    if LOCAL_VIEWER && terms.specular {
         let squared = dot(p, p);
         return select(-p * inverseSqrt(max(squared, SMALLEST_NORMAL)), n, squared < SMALLEST_NORMAL);
     }
@@ -160,7 +167,7 @@ fn reflected(arriving: Irradiance, material: Material) -> vec3f {
 // The part of I that the lights of one list add.
 fn added(arriving: Irradiance, material: Material) -> vec3f {
     var sum = material.diffuse * arriving.diffuse;
-    if SPECULAR {
+    if VERTEX_SPECULAR || FRAGMENT_SPECULAR {
         sum += material.specular * arriving.specular;
     }
     if ATTENUATED_AMBIENT {

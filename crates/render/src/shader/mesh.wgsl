@@ -1,7 +1,10 @@
 // Bindings, specialisation and the entry points: one pair for each frequency of a draw's terms.
 
 // What a draw does not use is not in its pipeline.
-override SPECULAR: bool = true;
+override VERTEX_DIFFUSE: bool = false;
+override VERTEX_SPECULAR: bool = false;
+override FRAGMENT_DIFFUSE: bool = false;
+override FRAGMENT_SPECULAR: bool = false;
 override BLINN_PHONG: bool = true;
 override LOCAL_VIEWER: bool = true;
 override ATTENUATED_AMBIENT: bool = true;
@@ -11,15 +14,12 @@ override SQUARINGS: i32 = -1;          // the shininess is 2^SQUARINGS; -1: read
 override TWO_SIDED: bool = true;
 override BLEND: bool = false;
 override GEOMETRIC_FALLBACK: bool = false;
-// How many lights of each kind the vertex and the fragment list hold. With DYNAMIC_COUNTS they are
-// read from the draw instead, so that long lists of any length share a pipeline.
-override DYNAMIC_COUNTS: bool = false;
-override VERTEX_DIRECTIONAL: u32 = 0;
-override VERTEX_POINT: u32 = 0;
-override VERTEX_SPOT: u32 = 0;
-override FRAGMENT_DIRECTIONAL: u32 = 0;
-override FRAGMENT_POINT: u32 = 0;
-override FRAGMENT_SPOT: u32 = 0;
+override PER_INSTANCE: bool = false;   // each instance names its record; else the draw has one
+// The lights are those that the record's lists name. Else they are all of the scene, of each kind so many.
+override LISTED: bool = false;
+override DIRECTIONAL: u32 = 0;
+override POINTS: u32 = 0;
+override SPOTS: u32 = 0;
 
 struct View {
     scale: vec2f,        // x and y of clip_from_eye
@@ -27,19 +27,26 @@ struct View {
     padding: f32,
 }
 
+// Light lists: how many directional, point and spot lights, and where their numbers begin among `lists`.
 struct Draw {
     front: Material,
     back: Material,
-    vertex_counts: vec4u,    // directional, point, spot
-    fragment_counts: vec4u,
+    vertex: vec4u,
+    vertex_diffuse: vec4u,    // these lights' specular terms are left out
+    fragment: vec4u,
+    fragment_diffuse: vec4u,
+    padding: array<vec4u, 4>,
 }
 
 @group(0) @binding(0) var<uniform> view: View;
-@group(0) @binding(1) var<uniform> draw: Draw;
-// The vertex list, then the fragment list; each sorted by kind: directional, point, spot.
-@group(0) @binding(2) var<LIGHT_SPACE> lights: array<Light, LIGHT_COUNT>;
+// All but the view are read from storage: lavapipe compiles a shader anew for every value that a loop's end or a
+// condition takes from a uniform buffer.
+@group(0) @binding(1) var<storage, read> draws: array<Draw>;
+// All lights of the scene by kind: directional, point, spot.
+@group(0) @binding(2) var<storage, read> lights: array<Light>;
+@group(0) @binding(3) var<storage, read> lists: array<u32>;
 
-// One instance: eye_from_model as rows, the normal matrix as columns.
+// One instance: eye_from_model as rows, the normal matrix as columns, and the number of its record.
 struct Object {
     @location(0) row0: vec4f,
     @location(1) row1: vec4f,
@@ -47,6 +54,11 @@ struct Object {
     @location(3) normal0: vec3f,
     @location(4) normal1: vec3f,
     @location(5) normal2: vec3f,
+    @location(9) record: u32,
+}
+
+fn record_of(object_record: u32) -> u32 {
+    return select(0u, object_record, PER_INSTANCE);
 }
 
 fn eye_position(object: Object, position: vec3f) -> vec3f {
@@ -68,71 +80,94 @@ fn clip_position(eye: vec3f) -> vec4f {
     return vec4f(view.scale * eye.xy, view.near, -eye.z);
 }
 
-fn arriving(p: vec3f, n: vec3f, shininess: f32, first: u32, directional: u32, points: u32, spots: u32) -> Irradiance {
-    let v = to_viewer(p, n);
-    var sum = Irradiance();
-    var end = first + directional;
-    for (var i = first; i < end; i++) {
-        sum = add_light(sum, lights[i], lights[i].position, 1.0, n, v, shininess);
+// Adds `counts` lights of each kind, the numbers from `counts.w` on.
+fn add_lights(before: Irradiance, p: vec3f, n: vec3f, shininess: f32, counts: vec4u, terms: Terms) -> Irradiance {
+    let v = to_viewer(p, n, terms);
+    var sum = before;
+    let first_point = counts.w + counts.x;
+    let first_spot = first_point + counts.y;
+    for (var i = counts.w; i < first_point; i++) {
+        let light = light_numbered(i);
+        sum = add_light(sum, light, light.position, 1.0, n, v, shininess, terms);
     }
-    let first_point = end;
-    end += points;
-    for (var i = first_point; i < end; i++) {
-        sum = add_finite_light(sum, lights[i], false, p, n, v, shininess);
+    for (var i = first_point; i < first_spot; i++) {
+        sum = add_finite_light(sum, light_numbered(i), false, p, n, v, shininess, terms);
     }
-    let first_spot = end;
-    end += spots;
-    for (var i = first_spot; i < end; i++) {
-        sum = add_finite_light(sum, lights[i], true, p, n, v, shininess);
+    for (var i = first_spot; i < first_spot + counts.z; i++) {
+        sum = add_finite_light(sum, light_numbered(i), true, p, n, v, shininess, terms);
     }
     return sum;
 }
 
-fn shade_vertex(p: vec3f, n: vec3f, material: Material) -> vec3f {
-    var counts = vec3u(VERTEX_DIRECTIONAL, VERTEX_POINT, VERTEX_SPOT);
-    if DYNAMIC_COUNTS {
-        counts = draw.vertex_counts.xyz;
+fn light_numbered(i: u32) -> Light {
+    if LISTED {
+        return lights[lists[i]];
     }
-    return reflected(arriving(p, n, material.shininess, 0, counts.x, counts.y, counts.z), material);
+    return lights[i];
 }
 
-fn fragment_terms(p: vec3f, n: vec3f, shininess: f32) -> Irradiance {
-    var first = VERTEX_DIRECTIONAL + VERTEX_POINT + VERTEX_SPOT;
-    var counts = vec3u(FRAGMENT_DIRECTIONAL, FRAGMENT_POINT, FRAGMENT_SPOT);
-    if DYNAMIC_COUNTS {
-        first = draw.vertex_counts.x + draw.vertex_counts.y + draw.vertex_counts.z;
-        counts = draw.fragment_counts.xyz;
+fn vertex_terms(p: vec3f, n: vec3f, shininess: f32, record: u32) -> Irradiance {
+    let terms = Terms(VERTEX_DIFFUSE, VERTEX_SPECULAR);
+    if !LISTED {
+        return add_lights(Irradiance(), p, n, shininess, vec4u(DIRECTIONAL, POINTS, SPOTS, 0), terms);
     }
-    return arriving(p, n, shininess, first, counts.x, counts.y, counts.z);
+    let sum = add_lights(Irradiance(), p, n, shininess, draws[record].vertex, terms);
+    return add_lights(sum, p, n, shininess, draws[record].vertex_diffuse, Terms(VERTEX_DIFFUSE, false));
 }
 
-fn shaded(colour: vec3f, front: bool) -> vec4f {
+fn fragment_terms(p: vec3f, n: vec3f, shininess: f32, record: u32) -> Irradiance {
+    let terms = Terms(FRAGMENT_DIFFUSE, FRAGMENT_SPECULAR);
+    if !LISTED {
+        return add_lights(Irradiance(), p, n, shininess, vec4u(DIRECTIONAL, POINTS, SPOTS, 0), terms);
+    }
+    let sum = add_lights(Irradiance(), p, n, shininess, draws[record].fragment, terms);
+    return add_lights(sum, p, n, shininess, draws[record].fragment_diffuse, Terms(FRAGMENT_DIFFUSE, false));
+}
+
+fn shade_vertex(p: vec3f, n: vec3f, record: u32, front: bool) -> vec3f {
+    if front {
+        let terms = vertex_terms(p, n, draws[record].front.shininess, record);
+        return reflected(terms, draws[record].front);
+    }
+    return reflected(vertex_terms(p, n, draws[record].back.shininess, record), draws[record].back);
+}
+
+fn shaded(colour: vec3f, record: u32, front: bool) -> vec4f {
     if BLEND {
-        return vec4f(colour, select(draw.back.opacity, draw.front.opacity, front));
+        return vec4f(colour, select(draws[record].back.opacity, draws[record].front.opacity, front));
     }
     return vec4f(colour, 1.0);
 }
 
 // ---- no lights: emission and ambient -------------------------------------------------------
 
+struct Unlit {
+    @invariant @builtin(position) clip: vec4f,
+    @location(0) @interpolate(flat, either) record: u32,
+}
+
 @vertex
 fn vs_unlit(
     @location(0) row0: vec4f,
     @location(1) row1: vec4f,
     @location(2) row2: vec4f,
+    @location(9) record: u32,
     @location(6) position: vec3f,
-) -> @invariant @builtin(position) vec4f {
-    return clip_position(eye_position(Object(row0, row1, row2, vec3f(), vec3f(), vec3f()), position));
+) -> Unlit {
+    let object = Object(row0, row1, row2, vec3f(), vec3f(), vec3f(), record);
+    return Unlit(clip_position(eye_position(object, position)), record);
 }
 
 @fragment
-fn fs_unlit() -> @location(0) vec4f {
-    return shaded(draw.front.base, true);
+fn fs_unlit(in: Unlit) -> @location(0) vec4f {
+    let record = record_of(in.record);
+    return shaded(draws[record].front.base, record, true);
 }
 
 @fragment
-fn fs_unlit_both(@builtin(front_facing) front: bool) -> @location(0) vec4f {
-    return shaded(select(draw.back.base, draw.front.base, front), front);
+fn fs_unlit_both(in: Unlit, @builtin(front_facing) front: bool) -> @location(0) vec4f {
+    let record = record_of(in.record);
+    return shaded(select(draws[record].back.base, draws[record].front.base, front), record, front);
 }
 
 // ---- flat: one shade a triangle, made at its provoking vertex from its centroid and face normal ----
@@ -146,14 +181,15 @@ struct Flat {
 fn vs_flat(object: Object, @location(6) position: vec3f, @location(7) normal: vec3f, @location(8) centroid: vec3f) -> Flat {
     let p = eye_position(object, centroid);
     let n = eye_normal(object, normal);
+    let record = record_of(object.record);
     let front = dot(n, p) <= 0.0;
     var colour = vec3f();
     if front {
-        colour = shade_vertex(p, n, draw.front);
+        colour = shade_vertex(p, n, record, true);
     } else if TWO_SIDED {
-        colour = shade_vertex(p, -n, draw.back);
+        colour = shade_vertex(p, -n, record, false);
     }
-    return Flat(clip_position(eye_position(object, position)), shaded(colour, front));
+    return Flat(clip_position(eye_position(object, position)), shaded(colour, record, front));
 }
 
 @fragment
@@ -166,35 +202,40 @@ fn fs_flat(in: Flat) -> @location(0) vec4f {
 struct Gouraud {
     @invariant @builtin(position) clip: vec4f,
     @location(0) colour: vec3f,
+    @location(1) @interpolate(flat, either) record: u32,
 }
 
 @vertex
 fn vs_gouraud(object: Object, @location(6) position: vec3f, @location(7) normal: vec3f) -> Gouraud {
     let p = eye_position(object, position);
-    return Gouraud(clip_position(p), shade_vertex(p, eye_normal(object, normal), draw.front));
+    let colour = shade_vertex(p, eye_normal(object, normal), record_of(object.record), true);
+    return Gouraud(clip_position(p), colour, object.record);
 }
 
 @fragment
 fn fs_gouraud(in: Gouraud) -> @location(0) vec4f {
-    return shaded(in.colour, true);
+    return shaded(in.colour, record_of(in.record), true);
 }
 
 struct GouraudBoth {
     @invariant @builtin(position) clip: vec4f,
     @location(0) front: vec3f,
     @location(1) back: vec3f,
+    @location(2) @interpolate(flat, either) record: u32,
 }
 
 @vertex
 fn vs_gouraud_both(object: Object, @location(6) position: vec3f, @location(7) normal: vec3f) -> GouraudBoth {
     let p = eye_position(object, position);
     let n = eye_normal(object, normal);
-    return GouraudBoth(clip_position(p), shade_vertex(p, n, draw.front), shade_vertex(p, -n, draw.back));
+    let record = record_of(object.record);
+    let front = shade_vertex(p, n, record, true);
+    return GouraudBoth(clip_position(p), front, shade_vertex(p, -n, record, false), object.record);
 }
 
 @fragment
 fn fs_gouraud_both(in: GouraudBoth, @builtin(front_facing) front: bool) -> @location(0) vec4f {
-    return shaded(select(in.back, in.front, front), front);
+    return shaded(select(in.back, in.front, front), record_of(in.record), front);
 }
 
 // ---- every term at the fragments (Phong) -------------------------------------------------------
@@ -203,12 +244,13 @@ struct Phong {
     @invariant @builtin(position) clip: vec4f,
     @location(0) p: vec3f,
     @location(1) n: vec3f,
+    @location(2) @interpolate(flat, either) record: u32,
 }
 
 @vertex
 fn vs_phong(object: Object, @location(6) position: vec3f, @location(7) normal: vec3f) -> Phong {
     let p = eye_position(object, position);
-    return Phong(clip_position(p), p, eye_normal(object, normal));
+    return Phong(clip_position(p), p, eye_normal(object, normal), object.record);
 }
 
 // The interpolated normal, renormalised. Where it vanishes (opposite vertex normals; only meshes
@@ -226,17 +268,18 @@ fn fragment_normal(p: vec3f, n: vec3f, front: bool) -> vec3f {
 @fragment
 fn fs_phong(in: Phong, @builtin(front_facing) front: bool) -> @location(0) vec4f {
     let n = fragment_normal(in.p, in.n, front);
+    let record = record_of(in.record);
     if TWO_SIDED {
         // One evaluation for the side seen, not one a side.
-        var material = draw.back;
+        var material = draws[record].back;
         if front {
-            material = draw.front;
+            material = draws[record].front;
         }
-        let terms = fragment_terms(in.p, select(-n, n, front), material.shininess);
-        return shaded(reflected(terms, material), front);
+        let terms = fragment_terms(in.p, select(-n, n, front), material.shininess, record);
+        return shaded(reflected(terms, material), record, front);
     }
-    let terms = fragment_terms(in.p, n, draw.front.shininess);
-    return shaded(reflected(terms, draw.front), true);
+    let terms = fragment_terms(in.p, n, draws[record].front.shininess, record);
+    return shaded(reflected(terms, draws[record].front), record, true);
 }
 
 // ---- some terms at the vertices, some at the fragments -----------------------------------------
@@ -247,24 +290,29 @@ struct Mixed {
     @location(1) n: vec3f,
     @location(2) front: vec3f,
     @location(3) back: vec3f,
+    @location(4) @interpolate(flat, either) record: u32,
 }
 
 @vertex
 fn vs_mixed(object: Object, @location(6) position: vec3f, @location(7) normal: vec3f) -> Mixed {
     let p = eye_position(object, position);
     let n = eye_normal(object, normal);
+    let record = record_of(object.record);
     var back = vec3f();
     if TWO_SIDED {
-        back = shade_vertex(p, -n, draw.back);
+        back = shade_vertex(p, -n, record, false);
     }
-    return Mixed(clip_position(p), p, n, shade_vertex(p, n, draw.front), back);
+    return Mixed(clip_position(p), p, n, shade_vertex(p, n, record, true), back, object.record);
 }
 
 @fragment
 fn fs_mixed(in: Mixed, @builtin(front_facing) front: bool) -> @location(0) vec4f {
     let n = fragment_normal(in.p, in.n, front);
+    let record = record_of(in.record);
     if TWO_SIDED && !front {
-        return shaded(in.back + added(fragment_terms(in.p, -n, draw.back.shininess), draw.back), false);
+        let terms = fragment_terms(in.p, -n, draws[record].back.shininess, record);
+        return shaded(in.back + added(terms, draws[record].back), record, false);
     }
-    return shaded(in.front + added(fragment_terms(in.p, n, draw.front.shininess), draw.front), true);
+    let terms = fragment_terms(in.p, n, draws[record].front.shininess, record);
+    return shaded(in.front + added(terms, draws[record].front), record, true);
 }

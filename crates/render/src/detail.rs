@@ -1,0 +1,165 @@
+//! Levels of detail: coarser versions of a mesh, and when one of them is fine enough.
+
+use crate::matrices::ModelView;
+use crate::patches::{self, Patch};
+use crate::pipeline::{PipelineKey, Stage};
+use crate::view::View;
+use bevy_ecs::prelude::Resource;
+use halfway_mesh::Mesh;
+use std::ops::Range;
+
+/// How coarse a mesh may be drawn. A coarser level takes its place where
+///
+/// - no point of its surface moves by more than `pixels` on the picture, and
+/// - either no edge of the level is longer than a pixel, or no light's diffuse or specular term changes by more than
+///   `shading` of the largest value that the term can have there.
+///
+/// What shading changes by is estimated to the second order from how far normals are off (δ) and how far they are spread
+/// within a triangle (R): a term with exponent n by at most √n·((n − 1)/n)^((n − 1)/2)·δ, its steepest slope, where it is shaded at the fragments, and by
+/// ½·n·R² more where it is shaded at the vertices; n is the larger of 1 and the material's exponent, and Phong's reflection
+/// vector turns twice as far. Flat shading shows the triangles themselves, so that only the length of edges counts.
+///
+/// Levels are made in the background once a mesh has been seen in two frames; until then it is drawn as it is.
+/// Blended objects, whose triangles are drawn in the order of their mesh, and objects that are scaled differently along
+/// different axes keep all triangles.
+#[derive(Resource, Clone, Copy, Debug, PartialEq)]
+pub struct LevelsOfDetail {
+    /// How far a point may move, in pixels. Default 0.5; 0 draws every mesh as it is.
+    pub pixels: f32,
+    /// How much a term may change, as a part of its largest value. Default 1/64.
+    pub shading: f32,
+}
+
+impl LevelsOfDetail {
+    /// Every mesh as it is.
+    pub const OFF: Self = Self { pixels: 0.0, shading: 0.0 };
+}
+
+impl Default for LevelsOfDetail {
+    fn default() -> Self {
+        Self { pixels: 0.5, shading: 1.0 / 64.0 }
+    }
+}
+
+/// A mesh's triangles as they are drawn: level by level, each in patches.
+#[derive(Clone, Debug)]
+pub(crate) struct Detail {
+    /// The indices of all levels, the finest first.
+    pub(crate) triangles: Vec<[u32; 3]>,
+    pub(crate) levels: Vec<Level>,
+    pub(crate) patches: Vec<Patch>,
+    /// What is known of the whole.
+    pub(crate) whole: Patch,
+}
+
+/// One level, and how far it is from the finest.
+#[derive(Clone, Debug)]
+pub(crate) struct Level {
+    patches: Range<usize>,
+    /// In the mesh's units.
+    error: f32,
+    /// In radians.
+    normal_error: f32,
+    /// In radians.
+    normal_spread: f32,
+    /// In the mesh's units.
+    longest_edge: f32,
+}
+
+/// How an object's level is chosen.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Demand<'a> {
+    pub(crate) allowed: &'a LevelsOfDetail,
+    pub(crate) key: &'a PipelineKey,
+    /// The larger exponent of the material's sides.
+    pub(crate) exponent: f32,
+}
+
+impl Detail {
+    /// The mesh as it is, in the order of its triangles.
+    pub(crate) fn in_order(mesh: &Mesh) -> Self {
+        let triangles: Vec<_> = mesh.triangles().collect();
+        let whole = Patch::new(mesh, &triangles, 0);
+        Self { levels: vec![Level::finest(1)], patches: vec![whole.clone()], whole, triangles }
+    }
+
+    /// The mesh as it is, in patches.
+    pub(crate) fn in_patches(mesh: &Mesh) -> Self {
+        let mut triangles: Vec<_> = mesh.triangles().collect();
+        let patches = patches::cut(mesh, &mut triangles, 0);
+        let whole = if let [one] = &patches[..] { one.clone() } else { Patch::new(mesh, &triangles, 0) };
+        Self { levels: vec![Level::finest(patches.len())], patches, whole, triangles }
+    }
+
+    /// With the mesh's levels of detail.
+    pub(crate) fn in_levels(mesh: &Mesh) -> Self {
+        let mut detail = Self::in_patches(mesh);
+        for level in mesh.levels() {
+            let mut triangles = level.indices.as_chunks().0.to_vec();
+            let start = detail.patches.len();
+            detail.patches.extend(patches::cut(mesh, &mut triangles, 3 * detail.triangles.len() as u32));
+            detail.triangles.extend(triangles);
+            let halfway_mesh::Level { error, normal_error, normal_spread, longest_edge, .. } = level;
+            let patches = start..detail.patches.len();
+            detail.levels.push(Level { patches, error, normal_error, normal_spread, longest_edge });
+        }
+        detail
+    }
+
+    /// The patches of the coarsest level that will do.
+    pub(crate) fn patches(&self, model_view: &ModelView, view: &View, demand: Demand) -> &[Patch] {
+        let level = if self.levels.len() > 1 && demand.allowed.pixels > 0.0 && model_view.keeps_angles() {
+            let pixels = self.pixels_per_unit(model_view, view);
+            self.levels.iter().rposition(|level| level.will_do(pixels, demand)).unwrap_or(0)
+        } else {
+            0
+        };
+        &self.patches[self.levels[level].patches.clone()]
+    }
+
+    /// An upper bound of how many pixels a short way in the mesh's units takes, anywhere on it. A way of length e at
+    /// (x, y, −z) in eye space moves its end by at most f·e/z·√(1 + (x² + y²)/z²), f pixels being the way of a point at
+    /// depth 1 that moves by 1.
+    fn pixels_per_unit(&self, model_view: &ModelView, view: &View) -> f32 {
+        let (center, radius) = self.whole.sphere(model_view);
+        let nearest = (-center.z - radius).max(view.projection.near);
+        let [x, y] = view.projection.scale;
+        let slope = ((center.truncate().length() + radius) / nearest).min((1.0 / (x * x) + 1.0 / (y * y)).sqrt());
+        view.pixels_at_unit_depth / nearest * (1.0 + slope * slope).sqrt() * model_view.largest_scale()
+    }
+}
+
+impl Level {
+    /// The mesh itself, of so many patches.
+    fn finest(patches: usize) -> Self {
+        Self { patches: 0..patches, error: 0.0, normal_error: 0.0, normal_spread: 0.0, longest_edge: 0.0 }
+    }
+
+    fn will_do(&self, pixels_per_unit: f32, Demand { allowed, key, exponent }: Demand) -> bool {
+        if self.error * pixels_per_unit > allowed.pixels {
+            return false;
+        }
+        if key.stage == Stage::Unlit || self.longest_edge * pixels_per_unit <= 1.0 {
+            return true;
+        }
+        if key.stage == Stage::Flat {
+            return false;
+        }
+        let change = |specular: bool, at_vertices: bool| {
+            let n = if specular { exponent.max(1.0) } else { 1.0 };
+            let turn = if specular && !key.blinn_phong { 2.0 } else { 1.0 };
+            let spread = if at_vertices { turn * self.normal_spread } else { 0.0 };
+            steepest(n) * turn * self.normal_error + 0.5 * n * spread * spread
+        };
+        let fits = |used: bool, specular, at_vertices| !used || change(specular, at_vertices) <= allowed.shading;
+        fits(key.vertex.diffuse, false, true)
+            && fits(key.vertex.specular, true, true)
+            && fits(key.fragment.diffuse, false, false)
+            && fits(key.fragment.specular, true, false)
+    }
+}
+
+/// The steepest slope of cosⁿ f is √n·((n − 1)/n)^((n − 1)/2): √n times 1 at n = 1, and falling to √(n/e).
+fn steepest(n: f32) -> f32 {
+    n.sqrt() * ((n - 1.0) / n).powf(0.5 * (n - 1.0))
+}

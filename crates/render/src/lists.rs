@@ -1,0 +1,149 @@
+//! Light lists: which of many lights each patch needs, term by term.
+
+use crate::lights::{Lights, rgb};
+use crate::records::RecordLists;
+use crate::terms::TermMask;
+use bevy_math::Vec3;
+use halfway_lighting::bounds::{DEFAULT_TOLERANCE, Patch, Receiver, Selected, linear_tolerance};
+use halfway_lighting::equations::{Coefficients, View};
+use halfway_lighting::{Encoding, Material, Reflectance};
+
+/// The lists of a frame, one after the other.
+#[derive(Debug, Default)]
+pub(crate) struct LightLists {
+    /// Numbers of lights.
+    pub(crate) numbers: Vec<u32>,
+    /// The lists made last. Neighbouring patches often need the same.
+    last: Option<(RecordLists, usize)>,
+    selected: Selected<f32>,
+    /// How many terms of lights the lists name, over all patches.
+    pub(crate) assigned: u64,
+    /// The most that was left out anywhere, in linear intensity: the sum of the bounds, of the brightest channel.
+    pub(crate) left_out: f64,
+}
+
+/// What a patch does with light.
+pub(crate) struct Surface<'a> {
+    /// The materials of the sides that are seen.
+    pub(crate) sides: [&'a Material; 2],
+    pub(crate) reflectance: Reflectance,
+    /// The terms that are shaded at the vertices.
+    pub(crate) vertex: TermMask,
+    /// The terms that are shaded at the fragments.
+    pub(crate) fragment: TermMask,
+}
+
+impl LightLists {
+    pub(crate) fn clear(&mut self) {
+        self.numbers.clear();
+        self.last = None;
+        self.assigned = 0;
+        self.left_out = 0.0;
+    }
+
+    /// The lists of the lights that `patch` needs: those left out change no channel of a pixel by more than half an
+    /// 8-bit step together. A picture in floating point, which has no `encoding`, keeps all that reach the patch at all.
+    pub(crate) fn select(
+        &mut self,
+        lights: &Lights,
+        patch: &Patch<f32>,
+        surface: &Surface,
+        view: &View<f32>,
+        encoding: Option<Encoding>,
+    ) -> RecordLists {
+        let receiver = Receiver::new(patch, &surface.coefficients(), view, surface.reflectance);
+        let base = surface.base(lights.ambient).to_array();
+        let tolerance = base.map(|at_least| {
+            encoding.map_or(0.0, |encoding| linear_tolerance(encoding, DEFAULT_TOLERANCE, at_least.into()))
+        });
+        receiver.select((0..).zip(&lights.sources), tolerance, &mut self.selected);
+        self.left_out = self.selected.left_out.into_iter().fold(self.left_out, f64::max);
+        self.assigned += (self.selected.diffuse.len() + self.selected.specular.len()) as u64;
+        self.append(lights.counts, surface)
+    }
+
+    /// Appends what was selected, unless it is what was appended last.
+    fn append(&mut self, counts: [u32; 3], surface: &Surface) -> RecordLists {
+        let start = self.numbers.len();
+        let [vertex, vertex_diffuse] = self.append_stage(counts, surface.vertex);
+        let [fragment, fragment_diffuse] = self.append_stage(counts, surface.fragment);
+        let lists = RecordLists { vertex, vertex_diffuse, fragment, fragment_diffuse };
+        if let Some((last, last_start)) = self.last
+            && last.starting_at(0, last_start) == lists.starting_at(0, start)
+            && self.numbers[last_start..start] == self.numbers[start..]
+        {
+            self.numbers.truncate(start);
+            return last;
+        }
+        self.last = Some((lists, start));
+        lists
+    }
+
+    /// The lights with all terms of the stage, and those with the diffuse alone where it has both.
+    fn append_stage(&mut self, counts: [u32; 3], mask: TermMask) -> [[u32; 4]; 2] {
+        let Selected { diffuse, specular, .. } = &self.selected;
+        match (mask.diffuse, mask.specular) {
+            (false, false) => [[0; 4]; 2],
+            (true, false) => [append(&mut self.numbers, counts, diffuse.iter().copied()), [0; 4]],
+            (false, true) => [append(&mut self.numbers, counts, specular.iter().copied()), [0; 4]],
+            (true, true) => {
+                let rest = diffuse.iter().copied().filter(|light| specular.binary_search(light).is_err());
+                let both = append(&mut self.numbers, counts, specular.iter().copied());
+                [both, append(&mut self.numbers, counts, rest)]
+            }
+        }
+    }
+}
+
+/// Appends lights, which are sorted by kind; how many of each, and where they begin.
+fn append(numbers: &mut Vec<u32>, counts: [u32; 3], lights: impl Iterator<Item = u32>) -> [u32; 4] {
+    let start = numbers.len();
+    numbers.extend(lights);
+    let of_list = &numbers[start..];
+    let [directional, points, _] = counts;
+    let first_point = of_list.partition_point(|&light| light < directional);
+    let first_spot = of_list.partition_point(|&light| light < directional + points);
+    [first_point, first_spot - first_point, of_list.len() - first_spot, start].map(|n| n as u32)
+}
+
+impl RecordLists {
+    /// The same lists, had what was appended from `from` on been appended from `to` on.
+    fn starting_at(self, to: usize, from: usize) -> Self {
+        let moved = |[x, y, z, first]: [u32; 4]| {
+            let first = if x + y + z == 0 { 0 } else { first - from as u32 + to as u32 };
+            [x, y, z, first]
+        };
+        let Self { vertex, vertex_diffuse, fragment, fragment_diffuse } = self;
+        Self {
+            vertex: moved(vertex),
+            vertex_diffuse: moved(vertex_diffuse),
+            fragment: moved(fragment),
+            fragment_diffuse: moved(fragment_diffuse),
+        }
+    }
+}
+
+impl Surface<'_> {
+    /// Coefficients that are nowhere below either side's, so that bounds hold for both.
+    fn coefficients(&self) -> Coefficients<f32> {
+        let [front, back] = self.sides.map(Coefficients::<f32>::from);
+        let larger =
+            |a: [f32; 3], b: [f32; 3], used: bool| if used { [0, 1, 2].map(|k| a[k].max(b[k])) } else { [0.0; 3] };
+        let Self { vertex, fragment, .. } = self;
+        let diffuse = vertex.diffuse || fragment.diffuse;
+        Coefficients {
+            ka: larger(front.ka, back.ka, diffuse),
+            kd: larger(front.kd, back.kd, diffuse),
+            ks: larger(front.ks, back.ks, vertex.specular || fragment.specular),
+            ke: front.ke,
+            // The smaller exponent is the wider highlight.
+            shininess: front.shininess.min(back.shininess),
+        }
+    }
+
+    /// What every point of both sides has without lights.
+    fn base(&self, ambient: Vec3) -> Vec3 {
+        let [front, back] = self.sides.map(|side| rgb(side.emission) + rgb(side.ambient) * ambient);
+        front.min(back)
+    }
+}
