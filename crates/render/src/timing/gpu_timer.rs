@@ -36,7 +36,7 @@ pub struct GpuTimer {
 impl GpuTimer {
     /// From the beginning of the pass to its end, of the newest frame whose time has arrived. `None` before the
     /// first one has, and forever where the adapter has no such clock. What the GPU does for others meanwhile counts
-    /// too; the adapter may count in steps of up to a tenth of a millisecond.
+    /// too, and its clock may be coarse.
     pub fn newest(&self) -> Option<Duration> {
         self.newest
     }
