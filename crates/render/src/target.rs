@@ -180,6 +180,7 @@ pub(crate) fn measure(headless: Res<Headless>, surface: Option<Res<SurfaceTarget
 }
 
 /// Makes the attachments that the camera and the target ask for, and acquires the surface's picture.
+#[expect(clippy::too_many_arguments, reason = "a system takes each resource as a parameter")]
 pub(crate) fn prepare(
     gpu: Res<Gpu>,
     headless: Res<Headless>,
