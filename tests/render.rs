@@ -30,6 +30,7 @@ mod render {
     mod stage;
     mod surfaces;
     mod terms;
+    mod timing;
     mod transforms;
     mod values;
 }

@@ -60,6 +60,34 @@ fn keys_choose_the_shading_and_the_size_is_followed() {
 }
 
 #[test]
+fn the_title_counts() {
+    let screen = Screen::open();
+    let mut viewer = Viewer::open(&screen);
+    viewer.shown("Phong, Blinn–Phong", None);
+    // The first title comes before there is a rate of frames, and tells of the frame that uploads everything.
+    let settled = |title: &String| title.contains(" fps · ") && title.contains(" · 0 B · ");
+    let title = eventually("a title with frames a second and nothing uploaded", || viewer.title().filter(settled));
+    let (names, counted) = title.split_once(" — ").unwrap_or_else(|| panic!("no counters: {title}"));
+    assert_eq!(names, "halfway – teapot.obj");
+    let mut parts = counted.split(" · ");
+    for noun in ["draw", "triangle", "light", "pipeline"] {
+        let part = parts.next().unwrap_or_default();
+        let (number, what) = part.split_once(' ').unwrap_or_else(|| panic!("{part:?} in {title}"));
+        assert!(number.parse::<f64>().is_ok_and(|number| number > 0.0), "{part:?} in {title}");
+        assert_eq!(what.rsplit(' ').next().map(|what| what.trim_end_matches('s')), Some(noun), "{title}");
+    }
+    assert_eq!(parts.next(), Some("0 B"), "{title}");
+    let mut times = parts.filter_map(|part| part.split_once(" ms ").or(part.split_once(' ')));
+    let cpu = times.next().filter(|(number, what)| *what == "CPU" && number.parse::<f64>().is_ok());
+    assert!(cpu.is_some(), "{title}");
+    // An adapter without a clock has no time of the GPU.
+    let rest: Vec<_> = times.filter(|(_, what)| *what != "GPU").collect();
+    assert!(matches!(rest[..], [(rate, "fps"), ("Phong,", "Blinn–Phong")] if rate.parse::<f64>().is_ok()), "{title}");
+    viewer.request_close();
+    assert_eq!(viewer.end().code(), Some(0));
+}
+
+#[test]
 fn escape_closes() {
     let screen = Screen::open();
     let mut viewer = Viewer::open(&screen);
@@ -270,7 +298,7 @@ impl<'a> Viewer<'a> {
             let current = self.picture().filter(|picture| Some(picture) != before && !picture.is_flat());
             let settled = current.is_some() && current == last;
             last = current;
-            if settled && self.title()?.ends_with(&format!(" – {state}")) { last.take() } else { None }
+            if settled && self.title()?.ends_with(&format!(" · {state}")) { last.take() } else { None }
         })
     }
 

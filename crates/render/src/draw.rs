@@ -6,6 +6,7 @@ use crate::gpu::Gpu;
 use crate::pipeline::{Pipelines, Stage};
 use crate::report::FrameReport;
 use crate::target::{Attachments, Frame, Target};
+use crate::timing::{FrameTimes, GpuTimer};
 use crate::upload::Buffers;
 use crate::view::View;
 use bevy_ecs::prelude::*;
@@ -20,16 +21,21 @@ pub(crate) fn draw(
     geometries: Res<Geometries>,
     pipelines: Res<Pipelines>,
     buffers: Res<Buffers>,
+    mut timer: Option<ResMut<GpuTimer>>,
     mut report: ResMut<FrameReport>,
 ) {
     let (Some(frame), Some(attachments)) = (&target.frame, target.attachments()) else { return };
     let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
     {
-        let mut pass = begin(&mut encoder, frame, attachments, view.camera.unwrap_or_default());
+        let timing = timer.as_mut().and_then(|timer| timer.begin(&gpu));
+        let mut pass = begin(&mut encoder, frame, attachments, view.camera.unwrap_or_default(), timing);
         if let Some(instances) = buffers.instances() {
             pass.set_vertex_buffer(0, instances.slice(..));
             record(&mut pass, &batches, &geometries, &pipelines, &buffers);
         }
+    }
+    if let Some(mut timer) = timer {
+        timer.end(&mut encoder);
     }
     gpu.queue.submit([encoder.finish()]);
     report.errors.extend(gpu.take_failure());
@@ -40,6 +46,7 @@ fn begin<'a>(
     frame: &Frame,
     attachments: &Attachments,
     camera: Camera,
+    timestamp_writes: Option<wgpu::RenderPassTimestampWrites<'_>>,
 ) -> wgpu::RenderPass<'a> {
     let background = camera.background;
     let clear = wgpu::Color { r: background.red.into(), g: background.green.into(), b: background.blue.into(), a: 1.0 };
@@ -61,6 +68,7 @@ fn begin<'a>(
             depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
             stencil_ops: None,
         }),
+        timestamp_writes,
         ..Default::default()
     })
 }
@@ -93,8 +101,8 @@ fn record(
     }
 }
 
-pub(crate) fn present(gpu: Res<Gpu>, mut target: ResMut<Target>) {
+pub(crate) fn present(gpu: Res<Gpu>, mut target: ResMut<Target>, mut times: ResMut<FrameTimes>) {
     if let Some(surface) = target.frame.take().and_then(|frame| frame.surface) {
-        gpu.queue.present(surface);
+        times.at_display(|| gpu.queue.present(surface));
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! [`RenderPlugin`] adds the way of a frame, [`RenderSet`] by [`RenderSet`], to a schedule of any
 //! `bevy_app` App. The target is a texture ([`Headless`]) unless a window brings a surface
-//! ([`SurfaceTarget`]). [`FrameReport`] counts what a frame did and holds what it could not do.
+//! ([`SurfaceTarget`]). [`FrameReport`] counts what a frame did and holds what it could not do;
+//! [`FrameTimes`] says where its time went on the CPU, and [`GpuTimer`] how much of it the GPU took.
 
 mod batch;
 mod detail;
@@ -23,6 +24,7 @@ mod records;
 mod report;
 mod target;
 mod terms;
+mod timing;
 mod upload;
 mod view;
 mod workshop;
@@ -37,6 +39,7 @@ pub use plugin::{RenderPlugin, RenderSet};
 pub use report::FrameReport;
 pub use target::{Headless, Pixels, SurfaceLost, SurfaceTarget};
 pub use terms::Chosen;
+pub use timing::{FrameTimes, GpuTimer, SetTimes};
 pub use view::{Projection, View};
 /// The wgpu that the renderer speaks; surfaces are made with it.
 pub use wgpu;

@@ -11,6 +11,7 @@ use crate::pipeline::Pipelines;
 use crate::report::FrameReport;
 use crate::target::{self, Headless, Target};
 use crate::terms::{self, Chosen};
+use crate::timing;
 use crate::upload::{self, Buffers};
 use crate::view::{self, View};
 use crate::workshop::Workshop;
@@ -43,6 +44,36 @@ pub enum RenderSet {
     Draw,
     /// The picture is presented on the surface, or readable from the headless target.
     Deliver,
+}
+
+impl RenderSet {
+    /// All of them, in the order of a frame.
+    pub const ALL: [Self; 9] = [
+        Self::View,
+        Self::Select,
+        Self::Matrices,
+        Self::Illuminate,
+        Self::Choose,
+        Self::Batch,
+        Self::Upload,
+        Self::Draw,
+        Self::Deliver,
+    ];
+
+    /// Its name as it is written in code.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::View => "View",
+            Self::Select => "Select",
+            Self::Matrices => "Matrices",
+            Self::Illuminate => "Illuminate",
+            Self::Choose => "Choose",
+            Self::Batch => "Batch",
+            Self::Upload => "Upload",
+            Self::Draw => "Draw",
+            Self::Deliver => "Deliver",
+        }
+    }
 }
 
 /// Draws every entity with a [`Mesh3d`] through the world's [`Camera`](halfway_lighting::Camera), once a run of its schedule.
@@ -87,6 +118,7 @@ impl Plugin for RenderPlugin {
             .register_required_components::<Mesh3d, NormalMatrix>()
             .register_required_components::<Mesh3d, Chosen>();
         self.add_systems(app);
+        timing::add_clocks(app, self.schedule);
     }
 }
 

@@ -3,6 +3,7 @@
 use crate::error::RenderError;
 use crate::gpu::Gpu;
 use crate::report::FrameReport;
+use crate::timing::FrameTimes;
 use crate::view::View;
 use bevy_ecs::prelude::*;
 use bevy_math::UVec2;
@@ -179,6 +180,7 @@ pub(crate) fn measure(headless: Res<Headless>, surface: Option<Res<SurfaceTarget
 }
 
 /// Makes the attachments that the camera and the target ask for, and acquires the surface's picture.
+#[expect(clippy::too_many_arguments, reason = "a system takes each resource as a parameter")]
 pub(crate) fn prepare(
     gpu: Res<Gpu>,
     headless: Res<Headless>,
@@ -186,6 +188,7 @@ pub(crate) fn prepare(
     view: Res<View>,
     mut target: ResMut<Target>,
     mut report: ResMut<FrameReport>,
+    mut times: ResMut<FrameTimes>,
     mut commands: Commands,
 ) {
     target.frame = None;
@@ -208,7 +211,7 @@ pub(crate) fn prepare(
         None => (headless_format(&gpu, headless.pixels, &camera), None),
         Some(mut surface) => {
             surface.pick_format(camera.encoding);
-            match surface.acquire(&gpu) {
+            match times.at_display(|| surface.acquire(&gpu)) {
                 Ok(Some(texture)) => (surface.config.format, Some(texture)),
                 Ok(None) => return,
                 Err(Lost) => {

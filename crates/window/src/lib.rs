@@ -36,6 +36,7 @@ mod orbit_camera;
 mod plugin;
 mod problems;
 mod runner;
+mod short_numbers;
 mod title;
 mod viewer_keys;
 

@@ -12,7 +12,7 @@ use bevy_input::{InputPlugin, InputSystems};
 use bevy_math::{UVec2, Vec3};
 use bevy_transform::components::Transform;
 use halfway_lighting::Camera;
-use halfway_render::{RenderPlugin, RenderSet, SurfaceTarget};
+use halfway_render::{GpuTimer, RenderPlugin, RenderSet, SurfaceTarget};
 
 /// Runs the App in a window: one `App::update` a frame, as fast as the display shows them.
 ///
@@ -37,7 +37,10 @@ pub struct WindowPlugin {
     pub title: String,
     /// Width and height that the window opens with, in logical pixels. Default 1280 × 720.
     pub size: UVec2,
-    /// Whether the title goes on with [`WindowTitle`], triangles, [`FrameTime`] and shading. Default true.
+    /// Whether the title goes on with [`WindowTitle`] and, twice a second, the frame's counters
+    /// ([`FrameReport`](halfway_render::FrameReport)), its times on the CPU
+    /// ([`FrameTimes`](halfway_render::FrameTimes), without the wait for the display) and on the GPU
+    /// ([`GpuTimer`], which is inserted for it), frames a second, shading and errors. Default true.
     pub status: bool,
     /// Whether mouse and keys move the camera. Adds [`OrbitCameraPlugin`], and gives an
     /// [`OrbitCamera`] to every new [`Camera`] that has none and hangs on no parent; it turns about
@@ -69,6 +72,9 @@ impl Plugin for WindowPlugin {
             app.add_plugins(ViewerKeysPlugin);
         }
         app.init_resource::<WindowTitle>().init_resource::<FrameTime>();
+        if self.status {
+            app.init_resource::<GpuTimer>();
+        }
         let settings = self.clone();
         app.set_runner(move |app| runner::run(app, settings));
     }

@@ -13,8 +13,11 @@ use winit::event::{StartCause, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
 use winit::window::WindowId;
 
-/// Between looks at whether a hidden window is back, and between titles.
+/// Between looks at whether a hidden window is back.
 const SELDOM: Duration = Duration::from_millis(250);
+
+/// Between titles: long enough to read one.
+const TITLE: Duration = Duration::from_millis(500);
 
 /// Runs `app` in a window until it is closed.
 pub(crate) fn run(mut app: App, settings: WindowPlugin) -> AppExit {
@@ -65,8 +68,10 @@ struct Runner {
     /// The shortest time from frame to frame.
     pace: Duration,
     said: Said,
+    next_look: Instant,
     shown_title: String,
-    next_title: Instant,
+    /// When the title was made, and after how many frames.
+    titled: Option<(Instant, u64)>,
 }
 
 impl Runner {
@@ -80,8 +85,9 @@ impl Runner {
             frames: 0,
             pace: Duration::ZERO,
             said: Said::default(),
+            next_look: Instant::now(),
             shown_title: settings.title.clone(),
-            next_title: Instant::now(),
+            titled: None,
             settings,
         }
     }
@@ -116,8 +122,8 @@ impl Runner {
             }
         }
         self.say_errors();
-        if start >= self.next_title {
-            self.next_title = start + SELDOM;
+        if start >= self.next_look {
+            self.next_look = start + SELDOM;
             self.now_and_then(event_loop);
         }
     }
@@ -136,16 +142,24 @@ impl Runner {
     fn now_and_then(&mut self, event_loop: &ActiveEventLoop) {
         let Some(open) = &self.open else { return };
         self.pace = open.pace();
-        if self.settings.status {
-            let program = self.settings.title.clone();
-            if let Ok(title) = self.app.world_mut().run_system_cached_with(title, program)
-                && title != self.shown_title
-            {
-                open.window.set_title(&title);
-                self.shown_title = title;
-            }
+        if self.settings.status && self.titled.is_none_or(|(when, _)| when.elapsed() >= TITLE) {
+            self.set_title();
         }
         self.look(event_loop);
+    }
+
+    fn set_title(&mut self) {
+        let now = Instant::now();
+        let before = self.titled.replace((now, self.frames));
+        let rate = before.map(|(when, frames)| (self.frames - frames) as f64 / (now - when).as_secs_f64());
+        let program = self.settings.title.clone();
+        let title = self.app.world_mut().run_system_cached_with(title, (program, rate));
+        if let (Some(open), Ok(title)) = (&self.open, title)
+            && title != self.shown_title
+        {
+            open.window.set_title(&title);
+            self.shown_title = title;
+        }
     }
 
     /// Sees whether the window is minimised; not every window system says so by itself.

@@ -1,8 +1,9 @@
-//! The window's title: what is shown, how much of it, how fast, and how it is shaded.
+//! The window's title: what is shown, what a frame of it takes, and how it is shaded.
 
+use crate::short_numbers::{bytes, count, milliseconds, per_second};
 use bevy_ecs::prelude::*;
 use halfway_lighting::{Reflectance, Shading};
-use halfway_render::{FrameReport, ModelView, View};
+use halfway_render::{FrameReport, FrameTimes, GpuTimer, ModelView, View};
 use std::time::Duration;
 
 /// The name of what is shown, a model's or a scene's, for the window's title. Default empty: no name.
@@ -34,39 +35,44 @@ impl FrameTime {
 struct Status<'a> {
     program: &'a str,
     name: &'a str,
-    triangles: Option<u64>,
-    frame: Option<Duration>,
+    report: Option<&'a FrameReport>,
+    cpu: Option<Duration>,
+    gpu: Option<Duration>,
+    rate: Option<f64>,
     shading: Option<&'static str>,
     reflectance: Option<&'static str>,
-    errors: usize,
 }
 
 impl Status<'_> {
+    /// "program – name — counters · times · shading · errors", less what there is none of.
     fn text(&self) -> String {
-        let mut parts = Vec::new();
-        parts.extend([self.program, self.name].into_iter().filter(|part| !part.is_empty()).map(String::from));
-        parts.extend(self.triangles.map(|count| plural(count, "triangle")));
-        parts.extend(self.frame.map(|frame| format!("{:.1} ms", frame.as_secs_f64() * 1e3)));
+        let names: Vec<_> = [self.program, self.name].into_iter().filter(|name| !name.is_empty()).collect();
+        let mut parts = self.report.map_or_else(Vec::new, counters);
+        parts.extend(self.cpu.map(|time| format!("{} CPU", milliseconds(time))));
+        parts.extend(self.gpu.map(|time| format!("{} GPU", milliseconds(time))));
+        parts.extend(self.rate.map(per_second));
         parts.extend(
             self.shading.zip(self.reflectance).map(|(shading, reflectance)| format!("{shading}, {reflectance}")),
         );
-        parts.extend((self.errors > 0).then(|| plural(self.errors as u64, "error")));
-        parts.join(" – ")
+        let errors = self.report.map_or(0, |report| report.errors.len() as u64);
+        parts.extend((errors > 0).then(|| count(errors, "error")));
+        [names.join(" – "), parts.join(" · ")]
+            .into_iter()
+            .filter(|half| !half.is_empty())
+            .collect::<Vec<_>>()
+            .join(" — ")
     }
 }
 
-/// The count in groups of three digits, and the noun in its number.
-fn plural(count: u64, noun: &str) -> String {
-    let digits = count.to_string();
-    let mut grouped = String::new();
-    for (index, digit) in digits.char_indices() {
-        if index > 0 && (digits.len() - index).is_multiple_of(3) {
-            grouped.push(',');
-        }
-        grouped.push(digit);
-    }
-    let ending = if count == 1 { "" } else { "s" };
-    format!("{grouped} {noun}{ending}")
+/// The counters that a title shows, in its order: one line each.
+fn counters(report: &FrameReport) -> Vec<String> {
+    vec![
+        count(report.draws.into(), "draw"),
+        count(report.triangles, "triangle"),
+        count(report.lights.into(), "light"),
+        count(report.pipelines.into(), "pipeline"),
+        bytes(report.bytes_uploaded),
+    ]
 }
 
 fn shading_name(shading: Shading) -> &'static str {
@@ -92,12 +98,13 @@ fn common(mut names: impl Iterator<Item = &'static str>, view: &'static str) -> 
     if names.all(|name| name == first) { first } else { "mixed" }
 }
 
-/// The title of a window of `program` as it is now.
+/// The title of a window of `program` as it is now, after frames at `rate` a second.
 pub(crate) fn title(
-    In(program): In<String>,
+    In((program, rate)): In<(String, Option<f64>)>,
     name: Option<Res<WindowTitle>>,
-    time: Option<Res<FrameTime>>,
     report: Option<Res<FrameReport>>,
+    times: Option<Res<FrameTimes>>,
+    gpu: Option<Res<GpuTimer>>,
     view: Option<Res<View>>,
     objects: Query<(Option<&Shading>, Option<&Reflectance>), With<ModelView>>,
 ) -> String {
@@ -112,11 +119,12 @@ pub(crate) fn title(
     Status {
         program: &program,
         name: name.as_ref().map_or("", |name| &name.0),
-        triangles: report.as_ref().map(|report| report.triangles),
-        frame: time.and_then(|time| time.0),
+        report: report.as_deref(),
+        cpu: times.map(|times| times.smoothed().total()),
+        gpu: gpu.and_then(|gpu| gpu.smoothed()),
+        rate,
         shading: view.as_deref().map(shadings),
         reflectance: view.as_deref().map(reflectances),
-        errors: report.as_ref().map_or(0, |report| report.errors.len()),
     }
     .text()
 }
@@ -124,45 +132,52 @@ pub(crate) fn title(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use halfway_render::RenderError;
 
     #[test]
     fn titles() {
+        let report = FrameReport {
+            draws: 12,
+            triangles: 1_234_567,
+            lights: 4,
+            pipelines: 3,
+            bytes_uploaded: 0,
+            ..FrameReport::default()
+        };
+        let failing = FrameReport { errors: vec![RenderError::NoCamera; 2], ..FrameReport::default() };
         let full = || Status {
             program: "halfway",
             name: "teapot",
-            triangles: Some(15_872),
-            frame: Some(Duration::from_micros(4_240)),
+            report: Some(&report),
+            cpu: Some(Duration::from_micros(840)),
+            gpu: Some(Duration::from_micros(2_120)),
+            rate: Some(59.94),
             shading: Some("Phong"),
             reflectance: Some("Blinn–Phong"),
-            errors: 0,
         };
+        let counted = "12 draws · 1.2 M triangles · 4 lights · 3 pipelines · 0 B";
+        let shaded = "Phong, Blinn–Phong";
         let rows = [
-            (full(), "halfway – teapot – 15,872 triangles – 4.2 ms – Phong, Blinn–Phong"),
-            (Status { name: "", ..full() }, "halfway – 15,872 triangles – 4.2 ms – Phong, Blinn–Phong"),
-            (Status { frame: None, ..full() }, "halfway – teapot – 15,872 triangles – Phong, Blinn–Phong"),
+            (full(), format!("halfway – teapot — {counted} · 0.84 ms CPU · 2.1 ms GPU · 60 fps · {shaded}")),
             (
-                Status { errors: 2, triangles: Some(0), ..full() },
-                "halfway – teapot – 0 triangles – 4.2 ms – Phong, Blinn–Phong – 2 errors",
+                Status { name: "", gpu: None, ..full() },
+                format!("halfway — {counted} · 0.84 ms CPU · 60 fps · {shaded}"),
             ),
-            (Status { program: "halfway", ..Status::default() }, "halfway"),
+            (
+                Status { program: "", name: "", rate: None, gpu: None, ..full() },
+                format!("{counted} · 0.84 ms CPU · {shaded}"),
+            ),
+            (
+                Status { report: Some(&failing), cpu: None, gpu: None, rate: None, ..full() },
+                format!(
+                    "halfway – teapot — 0 draws · 0 triangles · 0 lights · 0 pipelines · 0 B · {shaded} · 2 errors"
+                ),
+            ),
+            (Status { program: "halfway", ..Status::default() }, "halfway".into()),
+            (Status::default(), String::new()),
         ];
         for (status, expected) in rows {
             assert_eq!(status.text(), expected);
-        }
-    }
-
-    #[test]
-    fn counts_are_grouped() {
-        let rows = [
-            (0, "0 triangles"),
-            (1, "1 triangle"),
-            (999, "999 triangles"),
-            (1_000, "1,000 triangles"),
-            (261_120, "261,120 triangles"),
-            (1_234_567, "1,234,567 triangles"),
-        ];
-        for (count, expected) in rows {
-            assert_eq!(plural(count, "triangle"), expected);
         }
     }
 
@@ -202,10 +217,11 @@ mod tests {
                     object.insert(own);
                 }
             }
-            let title = world.run_system_cached_with(title, "halfway".to_owned()).unwrap();
-            assert_eq!(title, format!("halfway – box – 12 triangles – {expected}, Blinn–Phong"), "{case}");
+            let title = world.run_system_cached_with(title, ("halfway".to_owned(), Some(30.0))).unwrap();
+            let counted = "0 draws · 12 triangles · 0 lights · 0 pipelines · 0 B";
+            assert_eq!(title, format!("halfway – box — {counted} · 30 fps · {expected}, Blinn–Phong"), "{case}");
         }
-        let empty = World::new().run_system_cached_with(title, "halfway".to_owned()).unwrap();
+        let empty = World::new().run_system_cached_with(title, ("halfway".to_owned(), None)).unwrap();
         assert_eq!(empty, "halfway", "an App that draws nothing");
     }
 }
