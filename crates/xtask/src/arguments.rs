@@ -107,9 +107,10 @@ Options:
   -h, --help         Print this";
 
 const CHART_HELP: &str = "\
-Measure what flat, Gouraud and Phong shading cost and lose: error against time, rates of convergence, how steady a moving
-highlight is, and how the time of a frame grows with triangles, objects, lights and pixels. Writes a page that opens offline, out/chart/index.html, with every table as CSV and every chart as
-SVG beside it, and makes docs/pictures/chart.svg again. docs/charts.md tells what is measured and how.
+Measure what flat, Gouraud and Phong shading cost and lose: error against time, rates of convergence, how steady a
+moving highlight is, and how the time of a frame grows with triangles, objects, lights and pixels. Writes a page that
+opens offline, out/chart/index.html, with every table as CSV and every chart as SVG beside it, and makes
+docs/pictures/chart.svg again. docs/charts.md tells what is measured and how.
 
 Usage: cargo xtask chart [OPTIONS]
 

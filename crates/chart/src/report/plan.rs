@@ -39,7 +39,7 @@ impl Plan {
             size: 256,
             per_decade: 1,
             rounds: 5,
-            budget_ms: 60.0,
+            budget_ms: 100.0,
             limit_ms: 300.0,
             decades_less: 1,
         },

@@ -7,7 +7,7 @@ use super::pages::files;
 use super::tables::number;
 use super::{NamedFile, ReportError, figure_file};
 use crate::figure::{Axis, Figure, Marker, Panel, Point, Scale, Series, Stroke, Style, superscript};
-use crate::measure::scaling::{self, Curve, Decade, Growth, LOOKS, Law, Plan};
+use crate::measure::scaling::{self, Curve, Decade, Growth, LOOKS, Law, Plan, Sample};
 use crate::measure::{MeasureError, Progress, shading_name};
 use crate::page::{Page, Section, Table, csv, html};
 
@@ -132,7 +132,7 @@ impl Scaling {
     /// How a curve grows, where it grows otherwise, and why it ends.
     fn sentence(&self, curve: &Curve) -> String {
         let power_law = |slope: f64| format!("as n^{}", order(Some(slope)));
-        let mut text = match curve.law() {
+        let law = match curve.law() {
             None => "measured at too few n for a slope".to_owned(),
             Some(Law { slope, breaks: None, .. }) => format!("{} throughout", power_law(slope)),
             Some(Law { slope, holds_from, breaks: Some(Decade { exponent, slope: there }) }) => {
@@ -141,11 +141,10 @@ impl Scaling {
                 format!("{} from {holds_from} on; {only}{} from {from} to {to}", power_law(slope), power_law(there))
             }
         };
-        if let Some(last) = curve.samples.last().filter(|_| curve.is_cut) {
-            text +=
-                &format!("; ends at {:.0}, for the next may take more than {:.0} ms", last.count, self.plan.limit_ms);
-        }
-        text
+        let end = |last: &Sample| {
+            format!("; ends at {:.0}, for the next may take more than {:.0} ms", last.count, self.plan.limit_ms)
+        };
+        law + &curve.samples.last().filter(|_| curve.is_cut).map(end).unwrap_or_default()
     }
 
     fn samples_csv(&self) -> String {
@@ -252,7 +251,6 @@ fn proportion(curves: &[&Curve]) -> Option<Series> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measure::scaling::Sample;
 
     fn scaling(is_cut: bool, times: &[(f64, f64)]) -> Scaling {
         let samples = times.iter().map(|&(count, ms)| Sample { count, frame_ms: Spread::of(&[ms]) }).collect();

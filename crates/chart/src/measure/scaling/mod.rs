@@ -18,6 +18,9 @@ pub use slopes::{Decade, Law};
 pub const LOOKS: [Look; 4] =
     [Look::Constant, Look::Shaded(Shading::Flat), Look::Shaded(Shading::Gouraud), Look::Shaded(Shading::Phong)];
 
+/// The fewest rounds that a median is taken of, however long a frame takes: one that is disturbed then leaves it alone.
+const LEAST: u32 = 3;
+
 /// How much is measured.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plan {
@@ -27,7 +30,8 @@ pub struct Plan {
     pub per_decade: u32,
     /// How often every look is timed in turn at each step, at most.
     pub rounds: u32,
-    /// The time in milliseconds that the timed frames of one look may take at one step; 2 rounds are made at least.
+    /// The time in milliseconds that the timed frames of one look may take at one step; 3 rounds are made at
+    /// least, unless `rounds` are fewer.
     pub budget_ms: f64,
     /// The longest frame that is worth waiting for, in milliseconds: where one may be expected to take longer, its curve
     /// ends.
@@ -122,7 +126,7 @@ fn extend(
     let mut times = in_turns(&mut apps, 1)?;
     let slowest = times.iter().map(|own| own.iter().sum::<f64>()).fold(f64::MIN_POSITIVE, f64::max);
     let rounds = (plan.budget_ms / slowest) as u32;
-    let more = in_turns(&mut apps, rounds.clamp(1, plan.rounds.max(2) - 1))?;
+    let more = in_turns(&mut apps, rounds.max(LEAST - 1).min(plan.rounds.saturating_sub(1)))?;
     for (((curve, count), own), more) in going_on.into_iter().zip(&mut times).zip(more) {
         own.extend(more);
         curve.samples.push(Sample { count, frame_ms: Spread::of(own) });
