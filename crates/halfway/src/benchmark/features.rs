@@ -145,6 +145,8 @@ impl Feature {
             Self { name: "two directional lights", lights: Lights::Directional(2), ..it },
             Self { name: "five directional lights", lights: Lights::Directional(5), ..it },
             Self { name: "eight directional lights", lights: Lights::Directional(8), ..it },
+            // One more than the renderer unrolls its loops for.
+            Self { name: "nine directional lights", lights: Lights::Directional(9), ..it },
             Self { name: "sixteen directional lights", lights: Lights::Directional(16), ..it },
             Self { name: "one point light", lights: points(1), ..it },
             Self { name: "five point lights", lights: points(5), ..it },
