@@ -126,19 +126,75 @@ fn info_schema_and_adapters_say_what_they_promise() {
     assert!(!succeeds(&folder, &["adapters"]).trim().is_empty());
 }
 
+/// What `halfway` prints as JSON.
+fn json_of(folder: &Path, arguments: &[&str]) -> serde_json::Value {
+    let value: serde_json::Value = serde_json::from_str(&succeeds(folder, arguments)).expect("JSON");
+    for name in ["adapter", "backend", "driver", "driver_version", "halfway", "cpu"] {
+        assert!(value["machine"][name].as_str().is_some_and(|text| !text.is_empty()), "{name} in {value}");
+    }
+    value
+}
+
+/// The figures are positive, and the times lie in order.
+fn is_timed(row: &serde_json::Value) {
+    let spread = &row["frame_ms_spread"];
+    let times: Vec<_> = ["min", "lower_quartile", "median", "upper_quartile", "max"]
+        .into_iter()
+        .map(|name| spread[name].as_f64().unwrap_or(f64::NAN))
+        .collect();
+    assert!(times[0] > 0.0 && times.is_sorted(), "{row}");
+    assert_eq!(row["frame_ms"], spread["median"]);
+    // Two frames a round.
+    assert_eq!(spread["frames"], 2);
+}
+
 #[test]
 fn a_benchmark_prints_a_row_for_each_shading() {
     let folder = folder("bench");
-    let json = succeeds(&folder, &["bench", "s4", "--rounds", "1", "--json"]);
-    let value: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+    let value = json_of(&folder, &["bench", "s4", "--rounds", "1", "--cold", "--json"]);
+    assert_eq!(value["size"], serde_json::json!([256, 256]));
     let rows = value["rows"].as_array().expect("rows");
     let shadings: Vec<_> = rows.iter().map(|row| row["shading"].as_str().unwrap_or("")).collect();
     assert_eq!(shadings, ["constant", "flat", "gouraud", "phong"]);
     for row in rows {
-        for figure in ["frame_ms", "ratio_to_constant", "first_frame_ms"] {
+        is_timed(row);
+        for figure in ["ratio_to_constant", "first_frame_ms", "first_frame_cold_ms"] {
             assert!(row[figure].as_f64().is_some_and(|value| value > 0.0), "{figure} in {row}");
         }
+        // One sphere of 64 × 32 cells, and nothing moves.
+        for (count, expected) in [("draws", 1), ("triangles", 3968), ("bytes_uploaded", 0), ("pipelines", 1)] {
+            assert_eq!(row["report"][count], expected, "{count} in {row}");
+        }
     }
+    let table = succeeds(&folder, &["bench", "s4", "--rounds", "1"]);
+    for text in ["256 × 256 pixels", "driver: ", "App::update", "| phong | "] {
+        assert!(table.contains(text), "{text} is missing in:\n{table}");
+    }
+}
+
+#[test]
+fn features_are_timed_beside_a_baseline() {
+    let folder = folder("bench_features");
+    let value = json_of(&folder, &["bench", "features", "--rounds", "1", "--json"]);
+    let rows = value["rows"].as_array().expect("rows");
+    let row = |name: &str| rows.iter().find(|row| row["feature"] == name).unwrap_or_else(|| panic!("no row {name}"));
+    let baseline = row("one directional light (the baseline)");
+    for stage in ["vertex", "fragment"] {
+        for row in rows {
+            is_timed(&row[stage]);
+        }
+        assert_eq!(baseline[stage]["ratio_to_baseline"], 1.0);
+        // As many as were asked for shine, and only what is compared by lights has a cost by lights.
+        for (name, lights) in [("no lights", 0), ("five point lights", 5), ("sixteen directional lights", 16)] {
+            assert_eq!(row(name)[stage]["report"]["lights"], lights, "{name}");
+        }
+        assert!(row("five spot lights")[stage]["light_ns"].is_f64());
+        assert!(row("no lights")[stage]["light_ns"].is_null() && row("four samples")[stage]["light_ns"].is_null());
+    }
+    assert_eq!(baseline["vertex"]["report"]["triangles"], 512 * 255 * 2);
+    let output = halfway(&folder, &["bench", "features", "--size", "64x64"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("no option but --rounds and --json"));
 }
 
 /// A backend that no system of this kind has, so that no adapter answers.

@@ -1,4 +1,5 @@
-//! What shading costs and what it loses: error against time, rates of convergence, and how steady highlights are.
+//! What shading costs and what it loses: error against time, rates of convergence, how steady highlights are, and how the
+//! time of a frame grows.
 //!
 //! [`Plan`] says how much is measured, [`measure()`] does it, [`Report`] holds what was found, and [`Report::files`] makes
 //! a page, tables and drawings of it. The parts can be had alone: the sweeps in [`mod@measure`], the charts in
@@ -9,4 +10,4 @@ pub mod measure;
 pub mod page;
 mod report;
 
-pub use report::{NamedFile, Plan, Report, ReportError, measure, write};
+pub use report::{NamedFile, Plan, Report, ReportError, Scaling, measure, write};

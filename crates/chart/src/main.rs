@@ -5,8 +5,8 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use halfway::render::RenderError;
-use halfway_chart::measure::MeasureError;
-use halfway_chart::{Plan, ReportError, measure, write};
+use halfway_chart::measure::{MeasureError, Progress};
+use halfway_chart::{NamedFile, Plan, ReportError, Scaling, measure, write};
 use indicatif::{ProgressBar, ProgressStyle};
 
 /// Measures what flat, Gouraud and Phong shading cost and lose, and writes a page, tables and drawings of it.
@@ -21,6 +21,9 @@ struct Arguments {
     /// Fewer tessellations, rounds, frames and pixels
     #[arg(long)]
     quick: bool,
+    /// Only how the time of a frame grows with triangles, objects, lights and pixels; the page is scaling.html
+    #[arg(long, conflicts_with = "small_chart")]
+    scaling: bool,
     /// The folder for the page and what belongs to it
     #[arg(short, long, value_name = "FOLDER", default_value = "out/chart")]
     output: PathBuf,
@@ -44,19 +47,27 @@ fn main() -> ExitCode {
 
 fn run(arguments: &Arguments) -> Result<(), ReportError> {
     let plan = if arguments.quick { Plan::QUICK } else { Plan::FULL };
-    let bar = progress_bar(plan.units());
-    let report = measure(plan, &mut |done, what| {
+    let bar = progress_bar(if arguments.scaling { plan.scaling.units() } else { plan.units() });
+    let tell = &mut |done, what: &str| {
         bar.set_position(done);
         bar.set_message(what.to_owned());
-    })?;
-    bar.finish_and_clear();
-    for (name, content) in report.files()? {
-        write_and_tell(&arguments.output.join(name), &content)?;
+    };
+    if arguments.scaling {
+        let scaling = Scaling::measure(plan.scaling, &mut Progress::new(tell))?;
+        bar.finish_and_clear();
+        return write_all(arguments, scaling.files()?);
     }
+    let report = measure(plan, tell)?;
+    bar.finish_and_clear();
+    write_all(arguments, report.files()?)?;
     if let Some(file) = &arguments.small_chart {
         write_and_tell(file, &report.small_chart()?)?;
     }
     Ok(())
+}
+
+fn write_all(arguments: &Arguments, files: Vec<NamedFile>) -> Result<(), ReportError> {
+    files.into_iter().try_for_each(|(name, content)| write_and_tell(&arguments.output.join(name), &content))
 }
 
 fn write_and_tell(file: &Path, content: &str) -> Result<(), ReportError> {

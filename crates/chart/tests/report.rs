@@ -5,6 +5,7 @@ mod browser;
 use std::sync::OnceLock;
 
 use halfway_chart::measure::highlight::{self, unsteadiness};
+use halfway_chart::measure::scaling::{self, Growth, LOOKS};
 use halfway_chart::measure::{Progress, SHADINGS, accuracy, convergence};
 use halfway_chart::{Plan, Report, measure};
 
@@ -13,7 +14,19 @@ const SMALLEST: Plan = Plan {
     accuracy: accuracy::Plan { size: 48, levels: 2, rounds: 1 },
     convergence: convergence::Plan { size: 48, levels: 2 },
     highlight: highlight::Plan { size: 32, level: 8, frames: 2 },
+    // No curve is cut, so that the number of points does not depend on the machine.
+    scaling: scaling::Plan {
+        size: 16,
+        per_decade: 1,
+        rounds: 2,
+        budget_ms: 1.0,
+        limit_ms: f64::INFINITY,
+        decades_less: 2,
+    },
 };
+/// The steps that it takes, in the order of [`Growth::ALL`].
+const STEPS: [&[f64]; Growth::ALL.len()] =
+    [&[1e3, 1e4], &[1e1, 1e2, 1e3], &[1e1, 1e2, 1e3], &[1.0, 1e1, 1e2], &[1.0, 3.0], &[4096.0, 1e4, 82944.0]];
 
 /// Measured once for all tests.
 fn report() -> &'static Report {
@@ -73,11 +86,41 @@ fn finer_meshes_err_less() {
 }
 
 #[test]
+fn everything_grows_in_its_steps() {
+    let curves = &report().scaling.curves;
+    assert_eq!(curves.len(), STEPS.len() * LOOKS.len());
+    for (curves, (growth, steps)) in curves.chunks(LOOKS.len()).zip(Growth::ALL.into_iter().zip(STEPS)) {
+        for (curve, look) in curves.iter().zip(LOOKS) {
+            assert_eq!((curve.growth, curve.look, curve.samples.len()), (growth, look, steps.len()));
+            for (sample, step) in curve.samples.iter().zip(steps) {
+                // Meshes and pictures have whole rows and columns: 960 of 1000 triangles are the least like.
+                assert!((sample.count / step - 1.0).abs() < 0.05, "{growth:?}: {} for {step}", sample.count);
+                // Two rounds of two frames.
+                assert!(sample.frame_ms.min > 0.0 && sample.frame_ms.count == 4, "{growth:?}: {sample:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn scaling_has_a_page_of_its_own() {
+    let files = report().scaling.files().expect("files can be made");
+    let names: Vec<_> = files.iter().map(|(name, _)| name.as_str()).collect();
+    assert_eq!(names, ["scaling.html", "scaling.svg", "scaling.csv", "scaling-slopes.csv"]);
+    for growth in Growth::ALL {
+        assert!(files[0].1.contains(growth.name()) && files[1].1.contains(growth.name()), "{growth:?}");
+    }
+}
+
+#[test]
 fn tables_have_every_row() {
     assert_eq!(rows("error.csv").len(), 48);
     // 2 objects, 2 materials, 3 shadings; 2 levels, or 3 quantities.
     assert_eq!((rows("convergence.csv").len(), rows("slopes.csv").len()), (24, 36));
     assert_eq!((rows("highlight.csv").len(), rows("unsteadiness.csv").len()), (2, 3));
+    let steps: usize = STEPS.iter().map(|steps| steps.len()).sum();
+    // One growth has a comma in its name.
+    assert_eq!(file("scaling.csv").lines().count(), 1 + steps * LOOKS.len());
     for row in rows("error.csv") {
         for number in &row[6..] {
             assert!(number.parse::<f64>().is_ok_and(f64::is_finite), "{row:?}");
@@ -87,7 +130,7 @@ fn tables_have_every_row() {
 
 #[test]
 fn charts_show_every_series() {
-    let mut charts = ["error-rms", "error-max", "error-flip", "convergence", "highlight"]
+    let mut charts = ["error-rms", "error-max", "error-flip", "convergence", "highlight", "scaling"]
         .map(|id| file(&format!("{id}.svg")))
         .to_vec();
     charts.push(report().small_chart().expect("the small chart can be drawn"));
@@ -103,8 +146,14 @@ fn charts_show_every_series() {
 #[test]
 fn the_page_holds_all_and_fetches_nothing() {
     let page = file("index.html");
-    for part in ["id=\"error-rms\"", "id=\"error-flip\" hidden", "id=\"convergence\"", "id=\"highlight\"", "error.csv"]
-    {
+    for part in [
+        "id=\"error-rms\"",
+        "id=\"error-flip\" hidden",
+        "id=\"convergence\"",
+        "id=\"highlight\"",
+        "id=\"scaling\"",
+        "error.csv",
+    ] {
         assert!(page.contains(part), "{part}");
     }
     // Two pictures for each of the 48 points.

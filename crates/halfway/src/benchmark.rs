@@ -1,4 +1,4 @@
-//! The benchmark scenes: the same four everywhere, so that renderers can be compared.
+//! The benchmark scenes: the same four everywhere, so that renderers can be compared; and how they are timed.
 //!
 //! All colours are linear RGB; the material is Blinn–Phong with a white highlight of shininess 32 and an ambient colour
 //! equal to its diffuse one; the background is (0.01, 0.012, 0.02); the camera has a vertical field of view of 45° and
@@ -23,6 +23,16 @@
 //! # Ok(())
 //! # }
 //! ```
+//!
+//! Times are those of a [`frame`], [in turns](in_turns) with what they are compared with, once all has [settled](settle).
+//! What single [`features`] cost is another, neutral scene's.
+
+pub mod features;
+mod machine;
+mod timing;
+
+pub use machine::{Machine, counters};
+pub use timing::{FRAME_TIME, Spread, frame, in_turns, median, median_ratio, settle};
 
 use std::f32::consts::TAU;
 
@@ -82,7 +92,7 @@ impl Plugin for Benchmark {
         app.insert_resource(GlobalAmbient(grey(ambient)))
             .init_resource::<FrameNumber>()
             .add_systems(Startup, move |mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>| {
-                let mut stage = Stage { commands: &mut commands, meshes: &mut meshes, look };
+                let mut stage = Scenery { commands: &mut commands, meshes: &mut meshes, look };
                 match scene {
                     BenchmarkScene::S1 => stage.one_mesh(),
                     BenchmarkScene::S2 => stage.many_objects(if octahedra { (4, 2) } else { (16, 8) }),
@@ -129,13 +139,13 @@ fn circle(frame: Res<FrameNumber>, mut lights: Query<(&Circling, &mut Transform)
     }
 }
 
-struct Stage<'a, 'w, 's> {
+struct Scenery<'a, 'w, 's> {
     commands: &'a mut Commands<'w, 's>,
     meshes: &'a mut Assets<Mesh>,
     look: Look,
 }
 
-impl Stage<'_, '_, '_> {
+impl Scenery<'_, '_, '_> {
     fn one_mesh(&mut self) {
         self.camera(Vec3::new(0.0, 0.0, 3.0));
         self.sun(0.6);
@@ -216,7 +226,9 @@ impl Stage<'_, '_, '_> {
 }
 
 impl Look {
-    fn material(self, colour: LinearRgba) -> Material {
+    /// A material of this ambient and diffuse colour with a white highlight of shininess 32; without a light to show for it
+    /// where the look is constant.
+    pub fn material(self, colour: LinearRgba) -> Material {
         let lit = Material { specular: LinearRgba::WHITE, shininess: 32.0, ..Material::matte(colour) };
         match self {
             Self::Constant => Material { diffuse: LinearRgba::BLACK, specular: LinearRgba::BLACK, ..lit },
@@ -224,7 +236,8 @@ impl Look {
         }
     }
 
-    fn shading(self) -> Shading {
+    /// The shading of objects; of no consequence where the look is constant.
+    pub fn shading(self) -> Shading {
         match self {
             Self::Constant => Shading::default(),
             Self::Shaded(shading) => shading,

@@ -22,6 +22,8 @@ pub(crate) enum Chore {
         setup: Setup,
         /// Less of everything, in less than two minutes.
         quick: bool,
+        /// Only how the time of a frame grows.
+        scaling: bool,
     },
     Fuzz(FuzzOptions),
 }
@@ -105,14 +107,16 @@ Options:
   -h, --help         Print this";
 
 const CHART_HELP: &str = "\
-Measure what flat, Gouraud and Phong shading cost and lose: error against time, rates of convergence, and how steady a
-moving highlight is. Writes a page that opens offline, out/chart/index.html, with every table as CSV and every chart as
-SVG beside it, and makes docs/pictures/chart.svg again. docs/charts.md tells what is measured and how.
+Measure what flat, Gouraud and Phong shading cost and lose: error against time, rates of convergence, how steady a
+moving highlight is, and how the time of a frame grows with triangles, objects, lights and pixels. Writes a page that
+opens offline, out/chart/index.html, with every table as CSV and every chart as SVG beside it, and makes
+docs/pictures/chart.svg again. docs/charts.md tells what is measured and how.
 
 Usage: cargo xtask chart [OPTIONS]
 
 Options:
       --quick        Fewer tessellations, rounds, frames and pixels, in less than two minutes; docs/ stays as it is
+      --scaling      Only how the time of a frame grows, on out/chart/scaling.html; docs/ stays as it is
       --no-install   Install nothing; say what is missing and how to get it
   -h, --help         Print this";
 
@@ -194,7 +198,7 @@ pub(crate) fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Cho
         "test" => (&["--no-install"], TEST_HELP),
         "check" => (&[], CHECK_HELP),
         "docs" => (&["--no-install"], DOCS_HELP),
-        "chart" => (&["--no-install", "--quick"], CHART_HELP),
+        "chart" => (&["--no-install", "--quick", "--scaling"], CHART_HELP),
         "fuzz" => (&["--no-install", "--seconds", NAMES], FUZZ_HELP),
         _ => return Err(format!("no chore is called {chore}; expected demo, test, check, docs, chart or fuzz")),
     };
@@ -208,7 +212,7 @@ pub(crate) fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Cho
         "test" => Chore::Test { setup },
         "check" => Chore::Check,
         "fuzz" => Chore::Fuzz(FuzzOptions { setup, seconds: options.seconds.unwrap_or(10), targets: options.names }),
-        "chart" => Chore::Chart { setup, quick: options.has("--quick") },
+        "chart" => Chore::Chart { setup, quick: options.has("--quick"), scaling: options.has("--scaling") },
         _ => Chore::Docs { setup },
     })
 }
@@ -246,8 +250,9 @@ mod tests {
             ("test --no-install", Chore::Test { setup: Setup::Check }),
             ("check", Chore::Check),
             ("docs", Chore::Docs { setup: Setup::Install }),
-            ("chart", Chore::Chart { setup: Setup::Install, quick: false }),
-            ("chart --quick --no-install", Chore::Chart { setup: Setup::Check, quick: true }),
+            ("chart", Chore::Chart { setup: Setup::Install, quick: false, scaling: false }),
+            ("chart --quick --no-install", Chore::Chart { setup: Setup::Check, quick: true, scaling: false }),
+            ("chart --scaling", Chore::Chart { setup: Setup::Install, quick: false, scaling: true }),
             ("fuzz", fuzz(Setup::Install, 10, &[])),
             ("fuzz smf --seconds 60 obj --no-install", fuzz(Setup::Check, 60, &["smf", "obj"])),
             ("fuzz smf --help", Chore::Help(FUZZ_HELP)),

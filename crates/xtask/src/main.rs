@@ -33,7 +33,7 @@ fn main() -> ExitCode {
         Chore::Check => chores::check::run(),
         Chore::Docs { setup } => chores::docs::run(setup),
         Chore::Fuzz(options) => chores::fuzz::run(&options),
-        Chore::Chart { setup, quick } => chores::chart::run(setup, quick),
+        Chore::Chart { setup, quick, scaling } => chores::chart::run(setup, quick, scaling),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

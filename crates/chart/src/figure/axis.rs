@@ -118,8 +118,13 @@ fn power_of_ten(mantissa: f64, exponent: i32) -> String {
         let text = format!("{:.decimals$}", mantissa * 10f64.powi(exponent));
         return if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text };
     }
-    let raised: String = exponent.to_string().chars().map(raised).collect();
+    let raised = superscript(exponent);
     if (mantissa - 1.0).abs() < 1e-9 { format!("10{raised}") } else { format!("{mantissa}·10{raised}") }
+}
+
+/// A raised number.
+pub(crate) fn superscript(number: i32) -> String {
+    number.to_string().chars().map(raised).collect()
 }
 
 fn raised(digit: char) -> char {

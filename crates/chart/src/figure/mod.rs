@@ -3,9 +3,10 @@
 mod axis;
 pub mod svg;
 
+pub(crate) use axis::superscript;
 pub use axis::{Axis, Scale, Tick};
 
-/// A chart of one or more panels whose axes and series mean the same.
+/// A chart of one or more panels whose axes and series mean the same; horizontal axes may differ ([`Panel::x_label`]).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
     /// Names the SVG file and the chart's place on the page: lower case, no spaces.
@@ -27,6 +28,8 @@ pub struct Figure {
 pub struct Panel {
     /// What the panel shows and its neighbours do not.
     pub title: String,
+    /// What its horizontal axis shows, where that is not what the figure's does; it has ends of its own then.
+    pub x_label: Option<String>,
     /// Lines of text for a corner that the series leave free.
     pub notes: Vec<String>,
     /// What is drawn, the last on top.
@@ -112,11 +115,16 @@ impl Style {
 }
 
 impl Figure {
-    /// The ends of the axes: the least that hold every point of every panel, and a little room. In positions
-    /// ([`Axis::position`]): x, then y.
-    pub fn ranges(&self) -> [(f64, f64); 2] {
-        let points = || self.shown().map(|(_, point)| point);
-        [self.x.range(points().map(|point| point.x)), self.y.range(points().map(|point| point.y))]
+    /// The ends of a panel's axes: the least that hold every point of every panel, or, where its horizontal axis is one of
+    /// its own, of this one; and a little room. In positions ([`Axis::position`]): x, then y.
+    pub fn ranges(&self, panel: &Panel) -> [(f64, f64); 2] {
+        let all = || self.shown().map(|(_, point)| point);
+        let own = || panel.series.iter().flat_map(|series| self.drawn(series));
+        let x = match panel.x_label {
+            None => self.x.range(all().map(|point| point.x)),
+            Some(_) => self.x.range(own().map(|point| point.x)),
+        };
+        [x, self.y.range(all().map(|point| point.y))]
     }
 
     /// Every point that can be drawn, with its series. A logarithmic axis has no place for 0.
@@ -152,6 +160,7 @@ pub(crate) mod tests {
         let point = |x, y| Point { x, y, label: format!("<{x}> & {y}"), card: Some(7) };
         let panel = |title: &str, factor: f64| Panel {
             title: title.to_owned(),
+            x_label: None,
             notes: vec!["slope < 2".to_owned(), "another".to_owned()],
             series: vec![
                 Series {
@@ -178,11 +187,16 @@ pub(crate) mod tests {
 
     #[test]
     fn ranges_hold_what_is_shown() {
-        let figure = example();
-        let [x, y] = figure.ranges();
+        let mut figure = example();
+        let [x, y] = figure.ranges(&figure.panels[0]);
         assert!(x.0 < 0.0 && x.1 > 3f64.log10() && x.1 < 1.0, "{x:?}");
         assert!(y.0 < -2.0 && y.0 > -3.0 && y.1 > 0.0 && y.1 < 1.0, "{y:?}");
         assert_eq!(figure.shown().count(), 8, "the points at 0 have no logarithm");
+        figure.panels[0].series.pop();
+        figure.panels[0].x_label = Some("another".to_owned());
+        let [own, same] = figure.ranges(&figure.panels[0]);
+        assert!(own.1 > 1.5f64.log10() && own.1 < 2f64.log10() && same == y, "{own:?}, {same:?}");
+        assert_eq!(figure.ranges(&figure.panels[1])[0], x);
     }
 
     #[test]

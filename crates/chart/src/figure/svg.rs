@@ -163,7 +163,7 @@ fn panel<'a>(
     root: &Area<'_>,
     area: &Area<'_>,
 ) -> Result<Vec<(&'a Point, Pixel)>> {
-    let [x, y] = figure.ranges();
+    let [x, y] = figure.ranges(panel);
     let mut chart = ChartBuilder::on(area)
         .margin(6)
         .margin_right(14)
@@ -173,7 +173,7 @@ fn panel<'a>(
         .build_cartesian_2d(Positions::of(&figure.x, x), Positions::of(&figure.y, y))?;
     chart
         .configure_mesh()
-        .x_desc(figure.x.label.as_str())
+        .x_desc(panel.x_label.as_ref().unwrap_or(&figure.x.label).as_str())
         .y_desc(figure.y.label.as_str())
         .label_style(style(11))
         .axis_desc_style(style(11))

@@ -1,7 +1,6 @@
 //! Error against time: what the adapter draws, beside the true surface and beside a constant colour.
 
-use std::time::Instant;
-
+use halfway::benchmark::{in_turns, median, median_ratio, settle};
 use halfway::prelude::*;
 use halfway::reference::metrics::{self, Comparison, Scale};
 use halfway::reference::{Image, Mode};
@@ -19,9 +18,6 @@ pub struct Plan {
     /// How often every shading is timed in turn.
     pub rounds: u32,
 }
-
-/// Frames of one turn that are timed together, after one that is not: it warms the caches that the others have cooled.
-const TIMED: u32 = 2;
 
 /// How a highlight is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -96,12 +92,11 @@ impl Plan {
     }
 }
 
-/// Measures every object, level, shading and variant; in this order, the last the quickest to change. Also tells what
-/// adapter drew.
+/// Measures every object, level, shading and variant; in this order, the last the quickest to change.
 ///
 /// # Errors
 /// The first picture that could not be drawn.
-pub fn sweep(plan: Plan, progress: &mut Progress<'_>) -> Result<(Vec<Measured>, String), MeasureError> {
+pub fn sweep(plan: Plan, progress: &mut Progress<'_>) -> Result<Vec<Measured>, MeasureError> {
     let size = UVec2::splat(plan.size);
     let mut stages = Stages::new(size);
     let mut oracle = Stage::without_adapter(size);
@@ -121,7 +116,7 @@ pub fn sweep(plan: Plan, progress: &mut Progress<'_>) -> Result<(Vec<Measured>, 
             }
         }
     }
-    Ok((measured, stages.constant.adapter()))
+    Ok(measured)
 }
 
 fn scene(object: Object, level: u32, variant: Variant) -> Scene {
@@ -151,7 +146,8 @@ impl Stages {
             stage.show(&Scene { shading: Some(shading), ..*scene });
         }
         let pictures = self.shaded.each_mut().map(Stage::draw);
-        let [constant, times @ ..] = self.time(rounds)?;
+        let mut times = self.time(rounds)?;
+        let constant = times.remove(0);
         let triangles = scene.object.mesh(scene.level).triangle_count();
         SHADINGS
             .into_iter()
@@ -167,9 +163,9 @@ impl Stages {
                     triangles,
                     shading,
                     variant,
-                    ratio: median(times.iter().zip(&constant).map(|(time, constant)| time / constant).collect()),
-                    frame_ms: median(times),
-                    constant_ms: median(constant.clone()),
+                    ratio: median_ratio(&times, &constant),
+                    frame_ms: median(&times),
+                    constant_ms: median(&constant),
                     comparison: metrics::compare(&picture, truth, Encoding::Srgb)?,
                     flip: metrics::flip(&alike, truth, Encoding::Srgb)?.mean,
                     picture: small.to_bytes(Encoding::Srgb),
@@ -179,27 +175,14 @@ impl Stages {
             .collect()
     }
 
-    /// The times of a frame in milliseconds, one a round, the constant colour's first. All take turns, so that what else
-    /// the machine does meets all alike.
-    fn time(&mut self, rounds: u32) -> Result<[Vec<f64>; SHADINGS.len() + 1], MeasureError> {
+    /// The times of frames in milliseconds, the constant colour's first ([`in_turns`]).
+    fn time(&mut self, rounds: u32) -> Result<Vec<Vec<f64>>, MeasureError> {
         let [flat, gouraud, phong] = &mut self.shaded;
-        let mut stages = [&mut self.constant, flat, gouraud, phong];
-        // The first frames build pipelines and upload meshes.
-        for stage in &mut stages {
-            stage.frame()?;
+        let mut apps = [&mut self.constant, flat, gouraud, phong].map(Stage::app);
+        for app in &mut apps {
+            settle(app)?;
         }
-        let mut times = [const { Vec::new() }; SHADINGS.len() + 1];
-        for _ in 0..rounds {
-            for (stage, times) in stages.iter_mut().zip(&mut times) {
-                stage.frame()?;
-                let start = Instant::now();
-                for _ in 0..TIMED {
-                    stage.frame()?;
-                }
-                times.push(start.elapsed().as_secs_f64() * 1e3 / f64::from(TIMED));
-            }
-        }
-        Ok(times)
+        Ok(in_turns(&mut apps, rounds)?)
     }
 }
 
@@ -229,12 +212,6 @@ fn reduced(image: &Image) -> Image {
     Image::new(width, height, (0..height).flat_map(|y| (0..width).map(move |x| average(x, y))).collect())
 }
 
-/// The middle value; the upper of two.
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(0.0)
-}
-
 /// What was measured, in a line.
 pub fn describe(measured: &Measured) -> String {
     let Measured { object, level, triangles, shading, variant, .. } = measured;
@@ -253,12 +230,6 @@ pub fn describe(measured: &Measured) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn medians() {
-        assert!((median(vec![3.0, 1.0, 2.0]) - 2.0).abs() < 1e-15);
-        assert!((median(vec![4.0, 1.0, 3.0, 2.0]) - 3.0).abs() < 1e-15);
-    }
 
     #[test]
     fn small_pictures_are_averages() {

@@ -5,6 +5,7 @@ pub mod convergence;
 mod fit;
 pub mod highlight;
 mod progress;
+pub mod scaling;
 mod stage;
 
 use halfway::prelude::Shading;
@@ -30,9 +31,6 @@ pub enum MeasureError {
     /// The oracle could not draw.
     #[error(transparent)]
     Oracle(#[from] OracleError),
-    /// The adapter did not finish a frame.
-    #[error("waiting for the adapter: {0}")]
-    Wait(String),
     /// Pictures of different sizes; the adapter drew what was not asked for.
     #[error(transparent)]
     Size(#[from] SizeMismatch),

@@ -4,7 +4,6 @@ use std::collections::HashMap;
 
 use halfway::prelude::*;
 use halfway::reference::{Image, Mode, Oracle};
-use halfway::render::{Gpu, wgpu};
 
 use super::MeasureError;
 
@@ -176,21 +175,6 @@ impl Stage {
         };
     }
 
-    /// Draws a frame and waits until the adapter has finished it.
-    ///
-    /// # Errors
-    /// What the frame could not do.
-    pub fn frame(&mut self) -> Result<(), MeasureError> {
-        self.app.update();
-        let world = self.app.world();
-        if let Some(error) = world.resource::<FrameReport>().errors.first() {
-            return Err(error.clone().into());
-        }
-        let device = &world.resource::<Gpu>().device;
-        device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| MeasureError::Wait(error.to_string()))?;
-        Ok(())
-    }
-
     /// What the adapter draws, in linear intensity.
     ///
     /// # Errors
@@ -220,9 +204,9 @@ impl Stage {
         Ok(Oracle::new(self.app.world_mut(), self.size)?.with_mode(mode).draw())
     }
 
-    /// One line about the adapter: its name, its backend, whether it is software. Empty before the first frame.
-    pub fn adapter(&self) -> String {
-        self.app.world().get_resource::<Gpu>().map(Gpu::describe).unwrap_or_default()
+    /// The App, to be timed.
+    pub(super) fn app(&mut self) -> &mut App {
+        &mut self.app
     }
 }
 

@@ -111,6 +111,7 @@ fn figure(figure: &Figure, shown: bool) -> Result<String, SvgError> {
     let size = match figure.columns {
         1 => Size { width: 860, row: 360 },
         2 => Size { width: 560, row: 350 },
+        3 => Size { width: 420, row: 310 },
         _ => Size { width: 320, row: 290 },
     };
     let panels = figure.panels.iter().map(|panel| {

@@ -40,13 +40,18 @@ const TIME: &str = "time of a frame (constant colour = 1)";
 
 /// Colours that colour-blind readers tell apart (Okabe and Ito, "Color Universal Design", 2008), with markers and strokes
 /// of their own.
-fn style(shading: Shading) -> Style {
+pub(super) fn style(shading: Shading) -> Style {
     let (color, marker, stroke) = match shading {
         Shading::Flat => ([0xd5, 0x5e, 0x00], Marker::Square, Stroke::Dot),
         Shading::Gouraud => ([0x00, 0x72, 0xb2], Marker::Triangle, Stroke::Dash),
         _ => ([0x00, 0x9e, 0x73], Marker::Circle, Stroke::Solid),
     };
     Style { color, marker: Some(marker), filled: true, stroke }
+}
+
+/// A bare line of this brightness.
+pub(super) fn gray(level: u8) -> Style {
+    Style { color: [level; 3], marker: None, filled: true, stroke: Stroke::Solid }
 }
 
 impl Report {
@@ -98,7 +103,7 @@ impl Report {
                 });
             Series { name: shading_name(shading).to_owned(), style: style(shading), points: points.collect() }
         });
-        Panel { title, notes: Vec::new(), series: series.into() }
+        Panel { title, x_label: None, notes: Vec::new(), series: series.into() }
     }
 
     /// Error against edge length: a row of panels an object, a column a material.
@@ -113,7 +118,12 @@ impl Report {
                     format!("{}: {max}, {rms}", shading_name(found.shading))
                 }));
                 let title = format!("{}, {}", object.name(), surface.name());
-                Panel { title, notes, series: found.iter().flat_map(|found| convergence_series(found)).collect() }
+                Panel {
+                    title,
+                    x_label: None,
+                    notes,
+                    series: found.iter().flat_map(|found| convergence_series(found)).collect(),
+                }
             })
         });
         Figure {
@@ -140,15 +150,14 @@ impl Report {
         let shaded = SHADINGS.iter().zip(&self.energies.shaded);
         let mut all: Vec<Series> =
             shaded.map(|(shading, energies)| series(shading_name(*shading), style(*shading), energies)).collect();
-        let black = Style { color: [0x22; 3], marker: None, filled: true, stroke: Stroke::Solid };
-        all.push(series("true surface", black, truth));
+        all.push(series("true surface", gray(0x22), truth));
         Figure {
             id: "highlight",
             title: "Energy of a highlight while its light moves".to_owned(),
             x: Axis::new("frame", Scale::Linear),
             y: Axis::new("energy (mean of the true surface = 1)", Scale::Linear),
             columns: 1,
-            panels: vec![Panel { title: self.coarse_sphere(), notes: Vec::new(), series: all }],
+            panels: vec![Panel { title: self.coarse_sphere(), x_label: None, notes: Vec::new(), series: all }],
         }
     }
 
@@ -179,7 +188,8 @@ fn convergence_series(found: &Convergence) -> [Series; 2] {
 
 /// An order of convergence with two decimals; a dash where there is none.
 pub(super) fn order(order: Option<f64>) -> String {
-    order.map_or_else(|| "–".to_owned(), |order| format!("{order:.2}"))
+    // What rounds to 0 has no sign.
+    order.map_or_else(|| "–".to_owned(), |order| format!("{:.2}", if order.abs() < 0.005 { 0.0 } else { order }))
 }
 
 fn capital(text: &str) -> String {

@@ -3,6 +3,7 @@
 mod charts;
 mod pages;
 mod plan;
+mod scaling;
 mod tables;
 mod write;
 
@@ -10,6 +11,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
+use crate::figure::Figure;
 use crate::figure::svg::{self, Size, SvgError};
 use crate::measure::accuracy::{self, Measured};
 use crate::measure::convergence::{self, Convergence};
@@ -18,6 +20,7 @@ use crate::measure::{MeasureError, Progress};
 use crate::page::html;
 
 pub use plan::Plan;
+pub use scaling::Scaling;
 pub use write::write;
 
 /// A report that could not be made.
@@ -48,14 +51,14 @@ pub enum ReportError {
 pub struct Report {
     /// How much was measured.
     pub plan: Plan,
-    /// What adapter drew, in a line.
-    pub adapter: String,
     /// Error and time.
     pub accuracy: Vec<Measured>,
     /// Rates of convergence.
     pub convergence: Vec<Convergence>,
     /// The moving highlight.
     pub energies: Energies,
+    /// How the time of a frame grows; also tells what drew.
+    pub scaling: Scaling,
 }
 
 /// A file's name and what is in it.
@@ -67,10 +70,17 @@ pub type NamedFile = (String, String);
 /// The first picture that could not be drawn.
 pub fn measure(plan: Plan, tell: &mut dyn FnMut(u64, &str)) -> Result<Report, ReportError> {
     let mut progress = Progress::new(tell);
-    let (accuracy, adapter) = accuracy::sweep(plan.accuracy, &mut progress)?;
+    let accuracy = accuracy::sweep(plan.accuracy, &mut progress)?;
     let convergence = convergence::sweep(plan.convergence, &mut progress)?;
     let energies = highlight::sweep(plan.highlight, &mut progress)?;
-    Ok(Report { plan, adapter, accuracy, convergence, energies })
+    let scaling = Scaling::measure(plan.scaling, &mut progress)?;
+    Ok(Report { plan, accuracy, convergence, energies, scaling })
+}
+
+/// A figure as SVG, named by its identifier.
+fn figure_file(figure: &Figure) -> Result<NamedFile, ReportError> {
+    let size = if figure.columns > 2 { Size { width: 1240, row: 300 } } else { Size { width: 900, row: 330 } };
+    Ok((format!("{}.svg", figure.id), svg::figure(figure, size)?))
 }
 
 impl Report {
@@ -83,8 +93,7 @@ impl Report {
         let mut files = vec![("index.html".to_owned(), html(&page)?)];
         files.extend(self.tables());
         for (_, figure) in page.sections.iter().flat_map(|section| &section.figures) {
-            let size = if figure.columns > 2 { Size { width: 1240, row: 300 } } else { Size { width: 900, row: 330 } };
-            files.push((format!("{}.svg", figure.id), svg::figure(figure, size)?));
+            files.push(figure_file(figure)?);
         }
         Ok(files)
     }

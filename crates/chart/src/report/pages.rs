@@ -1,7 +1,7 @@
 //! What the page says.
 
 use super::charts::{self, order};
-use super::{Report, ReportError};
+use super::{Report, ReportError, scaling};
 use crate::measure::accuracy::{Measured, describe};
 use crate::measure::convergence::{FITTED, QUANTITIES};
 use crate::measure::highlight::Unsteadiness;
@@ -22,23 +22,27 @@ impl Report {
                    faster. Point at a point to see its picture and its figures, click to keep them."
                 .to_owned(),
             facts: self.facts(),
-            sections: vec![self.main_section(), self.convergence_section(), self.highlight_section()],
+            sections: vec![
+                self.main_section(),
+                self.convergence_section(),
+                self.highlight_section(),
+                self.scaling.section(),
+            ],
             cards: self.accuracy.iter().map(card).collect::<Result<_, _>>()?,
         })
     }
 
     fn facts(&self) -> Vec<(String, String)> {
         let plan = self.plan;
-        let cores = std::thread::available_parallelism().map_or_else(|_| "?".to_owned(), |cores| cores.to_string());
         let fact = |name: &str, value: String| (name.to_owned(), value);
-        vec![
-            fact("adapter", self.adapter.clone()),
-            fact("CPU cores", cores),
+        let mut facts = scaling::facts(&self.scaling.machine);
+        facts.extend([
             fact("timed pictures", format!("{0} × {0} pixels", plan.accuracy.size)),
             fact("rounds", plan.accuracy.rounds.to_string()),
             fact("convergence", format!("{0} × {0} pixels", plan.convergence.size)),
             fact("highlight", format!("{} frames of {1} × {1} pixels", plan.highlight.frames, plan.highlight.size)),
-        ]
+        ]);
+        facts
     }
 
     fn main_section(&self) -> Section {
@@ -138,7 +142,7 @@ impl Report {
 }
 
 /// Links to charts as SVG and to tables as CSV.
-fn files(charts: &[(&str, &str)], tables: &[(&str, &str)]) -> Vec<(String, String)> {
+pub(super) fn files(charts: &[(&str, &str)], tables: &[(&str, &str)]) -> Vec<(String, String)> {
     let link =
         |what: &str, kind: &str, stem: &str, ending: &str| (format!("{what} ({kind})"), format!("{stem}.{ending}"));
     let charts = charts.iter().map(|(what, stem)| link(what, "SVG", stem, "svg"));

@@ -9,14 +9,15 @@ use crate::page::csv;
 
 impl Report {
     /// Every table.
-    pub(super) fn tables(&self) -> [NamedFile; 5] {
-        [
+    pub(super) fn tables(&self) -> Vec<NamedFile> {
+        let own = [
             ("error.csv".to_owned(), self.error_csv()),
             ("convergence.csv".to_owned(), self.convergence_csv()),
             ("slopes.csv".to_owned(), self.slopes_csv()),
             ("highlight.csv".to_owned(), self.highlight_csv()),
             ("unsteadiness.csv".to_owned(), self.unsteadiness_csv()),
-        ]
+        ];
+        own.into_iter().chain(self.scaling.tables()).collect()
     }
 
     /// How unsteady each of [`SHADINGS`] is, where that can be said.
@@ -137,7 +138,7 @@ fn error_row(measured: &Measured) -> [String; 17] {
 }
 
 /// Five significant digits.
-fn number(value: f64) -> String {
+pub(super) fn number(value: f64) -> String {
     if value == 0.0 {
         return "0".to_owned();
     }

@@ -63,8 +63,9 @@ fn the_page_works_in_a_browser() {
          facts.flip = !document.getElementById('error-flip').hidden && document.getElementById('error-rms').hidden;
          document.body.dataset.facts = JSON.stringify(facts);",
     );
-    // 48 points of the main chart, 2 objects × 2 materials × 3 shadings × 2 errors × 2 levels, 4 lines of 2 frames.
-    let facts = r#"{"first":104,"wide":true,"scrolls":false,"card":true,"pictures":2,"flip":true}"#;
+    // 48 points of the main chart, 2 objects × 2 materials × 3 shadings × 2 errors × 2 levels, 4 lines of 2 frames; 16 steps
+    // of 4 looks, and in each of 6 panels a line of 2 ends.
+    let facts = r#"{"first":180,"wide":true,"scrolls":false,"card":true,"pictures":2,"flip":true}"#;
     assert!(dom.contains(&facts.replace('"', "&quot;")), "{}", dom.chars().rev().take(600).collect::<String>());
     assert!(dom.contains("<p id=\"problem\" role=\"alert\" hidden=\"\"></p>"), "no script failed");
 }

@@ -63,7 +63,7 @@ enum Command {
     /// The steps asked for are taken in the order in which their options are listed here, on each mesh by itself. Lengths
     /// are in the units of the file's meshes, before a glTF node scales them.
     Convert(convert::ConvertArgs),
-    /// Time a benchmark scene in every shading, beside a constant colour
+    /// Time a benchmark scene in every shading, beside a constant colour; or what features cost
     Bench(bench::BenchArgs),
     /// List the graphics adapters; exit code 3 where there is none
     Adapters,

@@ -12,20 +12,25 @@ const FOLDER: &str = "out/chart";
 const PICTURE: &str = "docs/pictures/chart.svg";
 
 /// Sets up, builds, measures and writes the page.
-pub(crate) fn run(setup: Setup, quick: bool) -> Result {
+pub(crate) fn run(setup: Setup, quick: bool, scaling: bool) -> Result {
     setup.meet(&[DRIVER])?;
     step("build", &mut cargo(["build", "--release", "-p", "halfway", "-p", "halfway_chart", "--bins"]))?;
     adapters(setup)?;
-    step("measuring", &mut measuring(quick))?;
-    eprintln!("\nthe charts: {}", root().join(FOLDER).join("index.html").display());
+    step("measuring", &mut measuring(quick, scaling))?;
+    let page = if scaling { "scaling.html" } else { "index.html" };
+    eprintln!("\nthe charts: {}", root().join(FOLDER).join(page).display());
     Ok(())
 }
 
-fn measuring(quick: bool) -> Command {
+fn measuring(quick: bool, scaling: bool) -> Command {
     let mut command = cargo(["run", "--release", "--quiet", "-p", "halfway_chart", "--", "--output", FOLDER]);
     if quick {
         command.arg("--quick");
-    } else {
+    }
+    if scaling {
+        command.arg("--scaling");
+    }
+    if !quick && !scaling {
         command.args(["--small-chart", PICTURE]);
     }
     command
@@ -39,9 +44,14 @@ mod tests {
     #[test]
     fn quick_runs_leave_the_documentation_alone() {
         let start = "cargo run --release --quiet -p halfway_chart -- --output out/chart";
-        assert!(written(&measuring(true)).ends_with(&format!("{} --quick", &start[5..])));
+        for (quick, scaling, end) in
+            [(true, false, "--quick"), (false, true, "--scaling"), (true, true, "--quick --scaling")]
+        {
+            assert!(written(&measuring(quick, scaling)).ends_with(&format!("{} {end}", &start[5..])));
+        }
         assert!(
-            written(&measuring(false)).ends_with(&format!("{} --small-chart docs/pictures/chart.svg", &start[5..]))
+            written(&measuring(false, false))
+                .ends_with(&format!("{} --small-chart docs/pictures/chart.svg", &start[5..]))
         );
     }
 }
