@@ -112,18 +112,39 @@ impl fmt::Display for PipelineKey {
 /// The pipelines built so far, with what they share.
 #[derive(Resource)]
 pub(crate) struct Pipelines {
-    module: wgpu::ShaderModule,
-    pub(crate) bindings: wgpu::BindGroupLayout,
-    layout: wgpu::PipelineLayout,
+    uniform: Shader,
+    storage: Shader,
     built: HashMap<PipelineKey, wgpu::RenderPipeline>,
 }
 
-impl Pipelines {
-    pub(crate) fn new(gpu: &Gpu) -> Self {
+/// The text with its bindings in one address space.
+struct Shader {
+    module: wgpu::ShaderModule,
+    bindings: wgpu::BindGroupLayout,
+    layout: wgpu::PipelineLayout,
+}
+
+/// Bytes of as many lights as are compiled in.
+pub(crate) const COUNTED_LIGHT_BYTES: u64 = COUNTED_LIGHTS as u64 * size_of::<LightRecord>() as u64;
+
+impl PipelineKey {
+    /// Whether records and lights are read from storage, as lists and records of instances are.
+    pub(crate) fn reads_storage(&self) -> bool {
+        self.per_instance || self.lists == Lists::Listed
+    }
+}
+
+impl Shader {
+    fn new(gpu: &Gpu, storage: bool) -> Self {
         let text = concat!(include_str!("shader/mesh.wgsl"), include_str!("shader/lighting.wgsl"));
+        let bindings = if storage {
+            include_str!("shader/storage.wgsl").to_owned()
+        } else {
+            include_str!("shader/uniform.wgsl").replace("MOST_LIGHTS", &COUNTED_LIGHTS.to_string())
+        };
         let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("lighting"),
-            source: wgpu::ShaderSource::Wgsl(text.into()),
+            source: wgpu::ShaderSource::Wgsl(format!("{text}{bindings}").into()),
         });
         let entry = |binding, ty, size| wgpu::BindGroupLayoutEntry {
             binding,
@@ -135,22 +156,33 @@ impl Pipelines {
             },
             count: None,
         };
-        let storage = wgpu::BufferBindingType::Storage { read_only: true };
+        let uniform = wgpu::BufferBindingType::Uniform;
+        let read = wgpu::BufferBindingType::Storage { read_only: true };
+        let entries = if storage {
+            vec![entry(1, read, RECORD_BYTES), entry(2, read, size_of::<LightRecord>() as u64), entry(3, read, 4)]
+        } else {
+            vec![entry(1, uniform, RECORD_BYTES), entry(2, uniform, COUNTED_LIGHT_BYTES)]
+        };
         let bindings = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("draw"),
-            entries: &[
-                entry(0, wgpu::BufferBindingType::Uniform, 16),
-                entry(1, storage, RECORD_BYTES),
-                entry(2, storage, size_of::<LightRecord>() as u64),
-                entry(3, storage, 4),
-            ],
+            entries: &[vec![entry(0, uniform, 16)], entries].concat(),
         });
         let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("draw"),
             bind_group_layouts: &[Some(&bindings)],
             ..Default::default()
         });
-        Self { module, bindings, layout, built: HashMap::new() }
+        Self { module, bindings, layout }
+    }
+}
+
+impl Pipelines {
+    pub(crate) fn new(gpu: &Gpu) -> Self {
+        Self { uniform: Shader::new(gpu, false), storage: Shader::new(gpu, true), built: HashMap::new() }
+    }
+
+    pub(crate) fn bindings(&self, storage: bool) -> &wgpu::BindGroupLayout {
+        if storage { &self.storage.bindings } else { &self.uniform.bindings }
     }
 
     pub(crate) fn get(&self, key: &PipelineKey) -> Option<&wgpu::RenderPipeline> {
@@ -165,7 +197,8 @@ impl Pipelines {
     pub(crate) fn ensure(&mut self, gpu: &Gpu, key: PipelineKey) {
         if !self.built.contains_key(&key) {
             log::debug!("building pipeline {key}");
-            self.built.insert(key, self.build(gpu, key));
+            let shader = if key.reads_storage() { &self.storage } else { &self.uniform };
+            self.built.insert(key, shader.build(gpu, key));
         }
     }
 }
@@ -175,7 +208,7 @@ const POSITION: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![6 => Float
 const NORMAL: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![7 => Float32x3];
 const FACE: [wgpu::VertexAttribute; 2] = wgpu::vertex_attr_array![7 => Float32x3, 8 => Float32x3];
 
-impl Pipelines {
+impl Shader {
 fn build(&self, gpu: &Gpu, key: PipelineKey) -> wgpu::RenderPipeline {
     let constants = constants(key);
     let compilation_options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };

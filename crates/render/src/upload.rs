@@ -3,8 +3,8 @@
 use crate::batch::{Batches, DrawCall};
 use crate::error::RenderError;
 use crate::gpu::Gpu;
-use crate::lights::{LightRecord, Lights};
-use crate::pipeline::Pipelines;
+use crate::lights::Lights;
+use crate::pipeline::{COUNTED_LIGHT_BYTES, PipelineKey, Pipelines};
 use crate::records::RECORD_BYTES;
 use crate::report::FrameReport;
 use crate::view::View;
@@ -90,10 +90,13 @@ pub(crate) struct Buffers {
     groups: Option<Groups>,
 }
 
+/// Bindings of the same buffers.
 struct Groups {
-    /// With the one record that the offset names.
+    /// In uniform buffers, with the one record that the offset names.
+    uniform: wgpu::BindGroup,
+    /// In storage, with the one record that the offset names.
     one: wgpu::BindGroup,
-    /// With all records.
+    /// In storage, with all records.
     all: wgpu::BindGroup,
 }
 
@@ -102,8 +105,8 @@ impl Default for Buffers {
         use wgpu::BufferUsages as Usage;
         Self {
             view: Mirrored::new("the view", Usage::UNIFORM),
-            records: Mirrored::new("the materials", Usage::STORAGE),
-            lights: Mirrored::new("the lights", Usage::STORAGE),
+            records: Mirrored::new("the materials", Usage::UNIFORM | Usage::STORAGE),
+            lights: Mirrored::new("the lights", Usage::UNIFORM | Usage::STORAGE),
             lists: Mirrored::new("the light lists", Usage::STORAGE),
             instances: Mirrored::new("the instances", Usage::VERTEX),
             groups: None,
@@ -119,7 +122,12 @@ impl Buffers {
     /// The bindings of a draw, and their offset.
     pub(crate) fn bindings(&self, draw: &DrawCall) -> Option<(&wgpu::BindGroup, u32)> {
         let groups = self.groups.as_ref()?;
-        Some(if draw.key.per_instance { (&groups.all, 0) } else { (&groups.one, draw.record * RECORD_BYTES as u32) })
+        let offset = draw.record * RECORD_BYTES as u32;
+        Some(match draw.key {
+            PipelineKey { per_instance: true, .. } => (&groups.all, 0),
+            key if key.reads_storage() => (&groups.one, offset),
+            _ => (&groups.uniform, offset),
+        })
     }
 
     fn upload(
@@ -134,7 +142,7 @@ impl Buffers {
         let sent = [
             self.view.set(gpu, bytemuck::bytes_of(&view), 0)?,
             self.records.set(gpu, bytemuck::cast_slice(&batches.records), RECORD_BYTES)?,
-            self.lights.set(gpu, bytemuck::cast_slice(&lights.records), size_of::<LightRecord>() as u64)?,
+            self.lights.set(gpu, bytemuck::cast_slice(&lights.records), COUNTED_LIGHT_BYTES)?,
             self.lists.set(gpu, bytemuck::cast_slice(&batches.lists.numbers), 0)?,
         ];
         let (instances, _) = self.instances.set(gpu, bytemuck::cast_slice(&batches.instances), 0)?;
@@ -157,26 +165,31 @@ impl Buffers {
                 return Err(RenderError::TooLarge { what, needed: buffer.size(), limit });
             }
         }
-        let group = |record_bytes| {
-            let binding = |buffer, size| {
-                wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-                    buffer,
-                    offset: 0,
-                    size: std::num::NonZeroU64::new(size),
-                })
-            };
+        let binding = |binding, buffer, size| wgpu::BindGroupEntry {
+            binding,
+            resource: wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+                buffer,
+                offset: 0,
+                size: std::num::NonZeroU64::new(size),
+            }),
+        };
+        let group = |storage, entries: &[_]| {
             gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
                 label: Some("draw"),
-                layout: &pipelines.bindings,
-                entries: &[
-                    wgpu::BindGroupEntry { binding: 0, resource: binding(view, 16) },
-                    wgpu::BindGroupEntry { binding: 1, resource: binding(records, record_bytes) },
-                    wgpu::BindGroupEntry { binding: 2, resource: binding(lights, lights.size()) },
-                    wgpu::BindGroupEntry { binding: 3, resource: binding(lists, lists.size()) },
-                ],
+                layout: pipelines.bindings(storage),
+                entries: &[&[binding(0, view, 16)], entries].concat(),
             })
         };
-        Ok(Some(Groups { one: group(RECORD_BYTES), all: group(records.size()) }))
+        let in_storage = |record_bytes| {
+            let [lights, lists] = [binding(2, lights, lights.size()), binding(3, lists, lists.size())];
+            group(true, &[binding(1, records, record_bytes), lights, lists])
+        };
+        let counted = binding(2, lights, COUNTED_LIGHT_BYTES);
+        Ok(Some(Groups {
+            uniform: group(false, &[binding(1, records, RECORD_BYTES), counted]),
+            one: in_storage(RECORD_BYTES),
+            all: in_storage(records.size()),
+        }))
     }
 }
 

@@ -39,12 +39,6 @@ struct Draw {
 }
 
 @group(0) @binding(0) var<uniform> view: View;
-// All but the view are read from storage: lavapipe compiles a shader anew for every value that a loop's end or a
-// condition takes from a uniform buffer.
-@group(0) @binding(1) var<storage, read> draws: array<Draw>;
-// All lights of the scene by kind: directional, point, spot.
-@group(0) @binding(2) var<storage, read> lights: array<Light>;
-@group(0) @binding(3) var<storage, read> lists: array<u32>;
 
 // One instance: eye_from_model as rows, the normal matrix as columns, and the number of its record.
 struct Object {
@@ -97,13 +91,6 @@ fn add_lights(before: Irradiance, p: vec3f, n: vec3f, shininess: f32, counts: ve
         sum = add_finite_light(sum, light_numbered(i), true, p, n, v, shininess, terms);
     }
     return sum;
-}
-
-fn light_numbered(i: u32) -> Light {
-    if LISTED {
-        return lights[lists[i]];
-    }
-    return lights[i];
 }
 
 fn vertex_terms(p: vec3f, n: vec3f, shininess: f32, record: u32) -> Irradiance {
