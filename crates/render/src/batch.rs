@@ -7,6 +7,7 @@ use crate::gpu::Gpu;
 use crate::lights::Lights;
 use crate::lists::LightLists;
 use crate::matrices::{ModelView, NormalMatrix, Visible};
+use crate::patches::Patch;
 use crate::object::{Drawn, Look, Reflecting, ReflectingBits, Shared};
 use crate::pipeline::{Lists, PipelineKey};
 use crate::records::{DrawRecord, InstanceRecord, RecordLists};
@@ -30,6 +31,8 @@ pub(crate) struct DrawCall {
     pub(crate) form: Form,
     /// Unless each instance names its own.
     pub(crate) record: u32,
+    /// The first of the lights that are bound at fixed places.
+    pub(crate) lights: u32,
     pub(crate) indices: Range<u32>,
     pub(crate) instances: Range<u32>,
 }
@@ -72,6 +75,7 @@ struct Item {
     blend: bool,
     call: u32,
     indices: (u32, u32),
+    lights: u32,
     record: u32,
     /// Distance of the centre along the view; nearer opaque objects first, farther blended ones first.
     depth: f32,
@@ -113,7 +117,8 @@ pub(crate) fn batch(
     batches.begin(&lights);
     let (Some(camera), Some(frame)) = (&view.camera, &target.frame) else { return };
     let (format, samples, viewer) = (frame.format, frame.samples.count(), camera.viewer);
-    let shared = Shared { lights: &lights, allowed: &allowed, format, samples, viewer };
+    let shared =
+        Shared { lights: &lights, allowed: &allowed, format, samples, viewer, software: gpu.is_software() };
     for &entity in &visible.0 {
         let Ok((mesh, material, back, reflectance, faces, blend, model_view, normal_matrix, chosen, name)) =
             objects.get(entity)
@@ -148,7 +153,7 @@ pub(crate) fn batch(
     report.materials = batches.table.materials_in_use();
     report.lights_assigned = batches.lists.assigned;
     report.left_out = batches.lists.left_out;
-    batches.emit(records_of_one_draw(&gpu));
+    batches.emit(records_of_one_draw(shared.software));
     report.draws = batches.draws.len() as u32;
 }
 
@@ -178,11 +183,16 @@ impl Batches {
     fn begin(&mut self, lights: &Lights) {
         self.instances.clear();
         self.records.clear();
-        self.lists.clear();
+        self.lists.begin(lights);
         self.draws.clear();
         self.items.clear();
         self.unsorted.clear();
         self.table.begin(lights.ambient);
+    }
+
+    /// Whether any draw reads lights from storage.
+    pub(crate) fn reads_storage(&self) -> bool {
+        self.draws.iter().any(|draw| draw.key.reads_storage())
     }
 
     /// Adds what is seen of an object: its patches, neighbours with equal light lists joined.
@@ -194,7 +204,7 @@ impl Batches {
         self.unsorted.push(InstanceRecord::new(model_view, normal_matrix, reflecting.faces));
         // The object as a whole has been found to be seen.
         let whole = patches.len() == 1;
-        let mut run: Option<(u32, Range<u32>)> = None;
+        let mut run: Option<Run> = None;
         for patch in patches {
             if !whole {
                 report.patches += 1;
@@ -203,20 +213,13 @@ impl Batches {
                     continue;
                 }
             }
-            let lists = if key.lists == Lists::Listed {
-                let patch = patch.in_eye_space(model_view, normal_matrix, reflecting.faces);
-                let eye = equations::View::in_eye_space(shared.viewer);
-                self.lists.select(shared.lights, &patch, &reflecting.surface(key), &eye, encoding(shared.format))
-            } else {
-                RecordLists::default()
-            };
+            let (key, lights, lists) = self.lit(object, patch, shared);
             let record = self.table.number(&mut self.records, object.material, lists);
+            let next = Run { key, lights, record, indices: patch.indices.clone() };
             match &mut run {
-                Some((last, indices)) if *last == record && indices.end == patch.indices.start => {
-                    indices.end = patch.indices.end;
-                }
+                Some(run) if run.goes_on_with(&next) => run.indices.end = next.indices.end,
                 _ => {
-                    if let Some(run) = run.replace((record, patch.indices.clone())) {
+                    if let Some(run) = run.replace(next) {
                         self.add_run(object, run);
                     }
                 }
@@ -227,14 +230,33 @@ impl Batches {
         }
     }
 
-    fn add_run(&mut self, object: &Object, (record, indices): (u32, Range<u32>)) {
+    /// The pipeline of a patch, the lights that are bound for it, and its lists.
+    fn lit(&mut self, object: &Object, patch: &Patch, shared: Shared) -> (PipelineKey, u32, RecordLists) {
+        let Object { reflecting, key, model_view, normal_matrix, .. } = object;
+        if key.lists != Lists::Listed {
+            return (*key, 0, RecordLists::default());
+        }
+        let patch = patch.in_eye_space(model_view, normal_matrix, reflecting.faces);
+        let eye = equations::View::in_eye_space(shared.viewer);
+        let surface = reflecting.surface(key);
+        self.lists.select(shared.lights, &patch, &surface, &eye, encoding(shared.format));
+        if shared.software
+            && let Some(bound) = self.lists.bind(shared.lights)
+        {
+            let lists = Lists::Counted(bound.counts.map(|n| n as u8));
+            return (PipelineKey { lists, ..*key }, bound.start, RecordLists::default());
+        }
+        (*key, 0, self.lists.list(shared.lights, &surface))
+    }
+
+    fn add_run(&mut self, object: &Object, Run { key, lights, record, indices }: Run) {
         let (center, _) = object.geometry.detail.whole.sphere(object.model_view);
         let depth = -center.z;
-        for key in object.key.passes() {
+        for key in key.passes() {
             let call = self.table.call((key, object.mesh, object.form));
             let indices = (indices.start, indices.end);
             let instance = self.unsorted.len() as u32 - 1;
-            self.items.push(Item { blend: key.blend, call, indices, record, depth, instance });
+            self.items.push(Item { blend: key.blend, call, indices, lights, record, depth, instance });
         }
     }
 
@@ -244,11 +266,11 @@ impl Batches {
         // Instances are numbered in spawn order, which equal ones keep.
         items.sort_unstable_by(|a, b| a.blend.cmp(&b.blend).then_with(|| if a.blend { a.by_depth(b) } else { a.by_state(b) }));
         for run in items.chunk_by_mut(|a, b| a.is_one_call(b)) {
-            let blend = run[0].blend;
+            let Item { blend, lights, .. } = run[0];
             let records = 1 + run.windows(2).filter(|pair| pair[0].record != pair[1].record).count();
             if records == 1 {
                 self.emit_draw(run, false);
-            } else if blend || records >= records_of_one_draw {
+            } else if (blend || records >= records_of_one_draw) && lights == 0 {
                 if !blend {
                     run.sort_unstable_by(|a, b| a.by_nearness(b));
                 }
@@ -268,27 +290,47 @@ impl Batches {
             let record = if per_instance { item.record } else { 0 };
             self.instances.push(InstanceRecord { record, ..self.unsorted[item.instance as usize] });
         }
-        let Item { call, indices: (first, end), record, .. } = items[0];
+        let Item { call, indices: (first, end), lights, record, .. } = items[0];
         let (key, mesh, form) = self.table.called[call as usize];
         let key = PipelineKey { per_instance, ..key };
         let instances = start..self.instances.len() as u32;
-        self.draws.push(DrawCall { key, mesh, form, record, indices: first..end, instances });
+        self.draws.push(DrawCall { key, mesh, form, record, lights, indices: first..end, instances });
     }
 }
 
 /// From this many materials and light lists on, equal meshes are one draw whose shader looks them up for each instance. A
 /// software adapter looks up pixel by pixel, for which it could start many a draw.
-fn records_of_one_draw(gpu: &Gpu) -> usize {
-    if gpu.is_software() { 512 } else { 2 }
+fn records_of_one_draw(software: bool) -> usize {
+    if software { 512 } else { 2 }
+}
+
+/// Neighbouring patches of an object that are drawn alike.
+struct Run {
+    key: PipelineKey,
+    lights: u32,
+    record: u32,
+    indices: Range<u32>,
+}
+
+/// Triangles between patches of a run that are not seen are drawn with it if they are no more than so many: that costs
+/// less than another draw.
+const JOINED: u32 = 128;
+
+impl Run {
+    fn goes_on_with(&self, next: &Self) -> bool {
+        (self.key, self.lights, self.record) == (next.key, next.lights, next.record)
+            && next.indices.start - self.indices.end <= 3 * JOINED
+    }
 }
 
 impl Item {
     fn is_one_call(&self, other: &Self) -> bool {
-        (self.blend, self.call, self.indices) == (other.blend, other.call, other.indices)
+        let call = |item: &Self| (item.blend, item.call, item.indices, item.lights);
+        call(self) == call(other)
     }
 
     fn by_state(&self, other: &Self) -> std::cmp::Ordering {
-        let state = |item: &Self| (item.call, item.indices, item.record);
+        let state = |item: &Self| (item.call, item.indices, item.lights, item.record);
         state(self).cmp(&state(other)).then_with(|| self.by_nearness(other))
     }
 

@@ -82,7 +82,7 @@ fn record(
 ) {
     let mut last = None;
     for draw in &batches.draws {
-        let (Some(pipeline), Some(geometry), Some((group, offset))) =
+        let (Some(pipeline), Some(geometry), Some((group, offsets))) =
             (pipelines.get(&draw.key), geometries.get(draw.mesh, draw.form), buffers.bindings(draw))
         else {
             continue;
@@ -91,7 +91,7 @@ fn record(
             pass.set_pipeline(pipeline);
             last = Some(draw.key);
         }
-        pass.set_bind_group(0, group, &[offset]);
+        pass.set_bind_group(0, group, offsets.as_slice());
         pass.set_vertex_buffer(1, geometry.positions.slice(..));
         if draw.key.stage != Stage::Unlit {
             pass.set_vertex_buffer(2, geometry.attributes.slice(..));

@@ -31,7 +31,27 @@ pub(crate) struct LightRecord {
     exponent: f32,
     inner_scale: f32,
     inner_offset: f32,
-    padding: f32,
+    padding: [f32; 5],
+}
+
+impl LightRecord {
+    /// One that adds nothing.
+    pub(crate) const BLACK: Self = Self {
+        position: [0.0, 0.0, 1.0],
+        inverse_range: 0.0,
+        diffuse: [0.0; 3],
+        constant: 1.0,
+        specular: [0.0; 3],
+        linear: 0.0,
+        direction: [0.0; 3],
+        quadratic: 0.0,
+        ambient: [0.0; 3],
+        cos_cutoff: 1.0,
+        exponent: 0.0,
+        inner_scale: 0.0,
+        inner_offset: 1.0,
+        padding: [0.0; 5],
+    };
 }
 
 /// The scene's lights, sorted by kind. Holds after [`RenderSet::Illuminate`](crate::RenderSet::Illuminate).

@@ -1,6 +1,7 @@
 //! Light lists: which of many lights each patch needs, term by term.
 
-use crate::lights::{Lights, rgb};
+use crate::lights::{LightRecord, Lights, rgb};
+use crate::pipeline::{COUNTED_LIGHTS, filled_up};
 use crate::records::RecordLists;
 use crate::terms::TermMask;
 use bevy_math::Vec3;
@@ -8,11 +9,16 @@ use halfway_lighting::bounds::{DEFAULT_TOLERANCE, Patch, Receiver, Selected, lin
 use halfway_lighting::equations::{Coefficients, View};
 use halfway_lighting::{Encoding, Material, Reflectance};
 
-/// The lists of a frame, one after the other.
+/// The lists of a frame.
 #[derive(Debug, Default)]
 pub(crate) struct LightLists {
-    /// Numbers of lights.
+    /// Lists, one after the other, as numbers of lights.
     pub(crate) numbers: Vec<u32>,
+    /// Lights to be bound at fixed places, set after set: first all of a scene with few, at number 0.
+    pub(crate) bound: Vec<LightRecord>,
+    /// The set bound last: its lights' numbers, its start, and how many of each kind it was filled up to.
+    last_bound: (Vec<u32>, Bound),
+    union: Vec<u32>,
     /// The lists made last. Neighbouring patches often need the same.
     last: Option<(RecordLists, usize)>,
     selected: Selected<f32>,
@@ -21,6 +27,17 @@ pub(crate) struct LightLists {
     /// The most that was left out anywhere, in linear intensity: the sum of the bounds, of the brightest channel.
     pub(crate) left_out: f64,
 }
+
+/// A set of lights at fixed places.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Bound {
+    /// The number of the first, even, so that its bytes begin at a multiple of 256.
+    pub(crate) start: u32,
+    pub(crate) counts: [u32; 3],
+}
+
+/// A software adapter reads lights at fixed places faster, but starts a draw for each set.
+const MOST_BOUND: usize = 1 << 16;
 
 /// What a patch does with light.
 pub(crate) struct Surface<'a> {
@@ -34,15 +51,23 @@ pub(crate) struct Surface<'a> {
 }
 
 impl LightLists {
-    pub(crate) fn clear(&mut self) {
+    pub(crate) fn begin(&mut self, lights: &Lights) {
         self.numbers.clear();
+        self.bound.clear();
+        if lights.records.len() <= COUNTED_LIGHTS as usize {
+            self.bound.extend(&lights.records);
+        } else {
+            // No set of a patch is number 0.
+            self.bound.extend([LightRecord::BLACK; 2]);
+        }
+        self.last_bound = Default::default();
         self.last = None;
         self.assigned = 0;
         self.left_out = 0.0;
     }
 
-    /// The lists of the lights that `patch` needs: those left out change no channel of a pixel by more than half an
-    /// 8-bit step together. A picture in floating point, which has no `encoding`, keeps all that reach the patch at all.
+    /// Selects the lights that `patch` needs: those left out change no channel of a pixel by more than half an 8-bit
+    /// step together. A picture in floating point, which has no `encoding`, keeps all that reach the patch at all.
     pub(crate) fn select(
         &mut self,
         lights: &Lights,
@@ -50,7 +75,7 @@ impl LightLists {
         surface: &Surface,
         view: &View<f32>,
         encoding: Option<Encoding>,
-    ) -> RecordLists {
+    ) {
         let receiver = Receiver::new(patch, &surface.coefficients(), view, surface.reflectance);
         let base = surface.base(lights.ambient).to_array();
         let tolerance = base.map(|at_least| {
@@ -59,6 +84,39 @@ impl LightLists {
         receiver.select((0..).zip(&lights.sources), tolerance, &mut self.selected);
         self.left_out = self.selected.left_out.into_iter().fold(self.left_out, f64::max);
         self.assigned += (self.selected.diffuse.len() + self.selected.specular.len()) as u64;
+    }
+
+    /// Binds what was selected at fixed places, for all terms; `None` where it is too much.
+    pub(crate) fn bind(&mut self, lights: &Lights) -> Option<Bound> {
+        let Selected { diffuse, specular, .. } = &self.selected;
+        self.union.clear();
+        self.union.extend(diffuse.iter().chain(specular));
+        self.union.sort_unstable();
+        self.union.dedup();
+        let (last, bound) = &self.last_bound;
+        if *last == self.union {
+            return Some(*bound);
+        }
+        let [directional, points, spots] = split(&self.union, lights.counts);
+        let counts = filled_up([directional.len() as u32, points.len() as u32, spots.len() as u32])?;
+        if self.bound.len() > MOST_BOUND {
+            return None;
+        }
+        self.bound.resize(self.bound.len().next_multiple_of(2), LightRecord::default());
+        let start = self.bound.len();
+        for (of_kind, count) in [directional, points, spots].into_iter().zip(counts) {
+            let end = self.bound.len() + count as usize;
+            self.bound.extend(of_kind.iter().map(|&light| lights.records[light as usize]));
+            self.bound.resize(end, LightRecord::BLACK);
+        }
+        let bound = Bound { start: start as u32, counts };
+        self.last_bound.0.clone_from(&self.union);
+        self.last_bound.1 = bound;
+        Some(bound)
+    }
+
+    /// The lists of what was selected.
+    pub(crate) fn list(&mut self, lights: &Lights, surface: &Surface) -> RecordLists {
         self.append(lights.counts, surface)
     }
 
@@ -99,11 +157,15 @@ impl LightLists {
 fn append(numbers: &mut Vec<u32>, counts: [u32; 3], lights: impl Iterator<Item = u32>) -> [u32; 4] {
     let start = numbers.len();
     numbers.extend(lights);
-    let of_list = &numbers[start..];
-    let [directional, points, _] = counts;
-    let first_point = of_list.partition_point(|&light| light < directional);
-    let first_spot = of_list.partition_point(|&light| light < directional + points);
-    [first_point, first_spot - first_point, of_list.len() - first_spot, start].map(|n| n as u32)
+    let [directional, points, spots] = split(&numbers[start..], counts).map(|of_kind| of_kind.len() as u32);
+    [directional, points, spots, start as u32]
+}
+
+/// Numbers of lights, which are sorted by kind, kind by kind; `counts` are those of all lights.
+fn split(numbers: &[u32], [directional, points, _]: [u32; 3]) -> [&[u32]; 3] {
+    let first_point = numbers.partition_point(|&light| light < directional);
+    let first_spot = numbers.partition_point(|&light| light < directional + points);
+    [&numbers[..first_point], &numbers[first_point..first_spot], &numbers[first_spot..]]
 }
 
 impl RecordLists {

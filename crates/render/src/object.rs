@@ -43,6 +43,8 @@ pub(crate) struct Shared<'a> {
     pub(crate) format: wgpu::TextureFormat,
     pub(crate) samples: u32,
     pub(crate) viewer: Viewer,
+    /// Whether the adapter is a software one.
+    pub(crate) software: bool,
 }
 
 /// What an object's pipeline takes from its place, its mesh and its shading.

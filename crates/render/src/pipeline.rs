@@ -9,8 +9,7 @@ use bevy_ecs::prelude::Resource;
 use std::collections::HashMap;
 use std::fmt;
 
-/// Up to this many lights have their counts compiled into the pipeline, so that the loops unroll; of more, each patch
-/// has lists of those that it needs.
+/// Up to this many lights in a scene are all shaded everywhere; of more, each patch has those that it needs.
 pub(crate) const COUNTED_LIGHTS: u32 = 8;
 
 /// Where a draw's terms are shaded; each has its own pair of entry points.
@@ -26,9 +25,9 @@ pub(crate) enum Stage {
 /// How the lights reach the shader.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Lists {
-    /// All directional, point and spot lights of the scene, so many of each.
+    /// So many directional, point and spot lights are bound, in this order.
     Counted([u8; 3]),
-    /// Those that the lists of the record name.
+    /// All are bound, and the record's lists name some.
     Listed,
 }
 
@@ -38,6 +37,22 @@ impl Lists {
         if counts.iter().sum::<u32>() <= COUNTED_LIGHTS { Self::Counted(counts.map(|n| n as u8)) } else { Self::Listed }
     }
 }
+
+/// The numbers of point and of spot lights that have pipelines of their own where patches are lit by few of many lights.
+/// A patch with other numbers is filled up with black ones; one with more reads lists.
+const STEPS: [&[u32]; 3] = [&[0, 1, 2, 4, 8], &[0, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32], &[0, 1, 2, 4, 8, 16]];
+
+/// The numbers of lights of each kind to fill `counts` up to; `None` where they are too many.
+pub(crate) fn filled_up(counts: [u32; 3]) -> Option<[u32; 3]> {
+    let mut filled = [0; 3];
+    for ((filled, steps), count) in filled.iter_mut().zip(STEPS).zip(counts) {
+        *filled = *steps.iter().find(|&&step| step >= count)?;
+    }
+    Some(filled)
+}
+
+/// The most lights that are bound at fixed places.
+pub(crate) const BOUND_LIGHTS: u32 = 8 + 32 + 16;
 
 /// All that a pipeline is specialised for. What a draw does not use is not in its shader.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -124,8 +139,20 @@ struct Shader {
     layout: wgpu::PipelineLayout,
 }
 
-/// Bytes of as many lights as are compiled in.
-pub(crate) const COUNTED_LIGHT_BYTES: u64 = COUNTED_LIGHTS as u64 * size_of::<LightRecord>() as u64;
+/// The bytes of lights at fixed places.
+pub(crate) const BOUND_LIGHT_BYTES: u64 = BOUND_LIGHTS as u64 * size_of::<LightRecord>() as u64;
+
+/// Loops over the lights of one kind from `first` on, `length` at a time.
+fn loops(first: &str, count: &str, most: u32, length: u32, cone: bool) -> String {
+    let one = |start: u32| {
+        let end = start + length;
+        format!(
+            "    for (var i = {first} + {start}u; i < {first} + min({count}, {end}u); i++) {{\n        \
+             sum = add_finite_light(sum, lights[i], {cone}, p, n, v, shininess, terms);\n    }}\n"
+        )
+    };
+    (0..most).step_by(length as usize).map(one).collect()
+}
 
 impl PipelineKey {
     /// Whether records and lights are read from storage, as lists and records of instances are.
@@ -140,7 +167,10 @@ impl Shader {
         let bindings = if storage {
             include_str!("shader/storage.wgsl").to_owned()
         } else {
-            include_str!("shader/uniform.wgsl").replace("MOST_LIGHTS", &COUNTED_LIGHTS.to_string())
+            include_str!("shader/uniform.wgsl")
+                .replace("MOST_LIGHTS", &BOUND_LIGHTS.to_string())
+                .replace("POINT_LOOPS", &loops("DIRECTIONAL", "POINTS", 32, 4, false))
+                .replace("SPOT_LOOPS", &loops("DIRECTIONAL + POINTS", "SPOTS", 16, 4, true))
         };
         let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("lighting"),
@@ -151,7 +181,7 @@ impl Shader {
             visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
             ty: wgpu::BindingType::Buffer {
                 ty,
-                has_dynamic_offset: binding == 1,
+                has_dynamic_offset: binding == 1 || binding == 2 && !storage,
                 min_binding_size: std::num::NonZeroU64::new(size),
             },
             count: None,
@@ -161,7 +191,7 @@ impl Shader {
         let entries = if storage {
             vec![entry(1, read, RECORD_BYTES), entry(2, read, size_of::<LightRecord>() as u64), entry(3, read, 4)]
         } else {
-            vec![entry(1, uniform, RECORD_BYTES), entry(2, uniform, COUNTED_LIGHT_BYTES)]
+            vec![entry(1, uniform, RECORD_BYTES), entry(2, uniform, BOUND_LIGHT_BYTES)]
         };
         let bindings = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("draw"),

@@ -3,8 +3,8 @@
 use crate::batch::{Batches, DrawCall};
 use crate::error::RenderError;
 use crate::gpu::Gpu;
-use crate::lights::Lights;
-use crate::pipeline::{COUNTED_LIGHT_BYTES, PipelineKey, Pipelines};
+use crate::lights::{LightRecord, Lights};
+use crate::pipeline::{BOUND_LIGHT_BYTES, PipelineKey, Pipelines};
 use crate::records::RECORD_BYTES;
 use crate::report::FrameReport;
 use crate::view::View;
@@ -85,9 +85,25 @@ pub(crate) struct Buffers {
     view: Mirrored,
     records: Mirrored,
     lights: Mirrored,
+    bound: Mirrored,
     lists: Mirrored,
     instances: Mirrored,
     groups: Option<Groups>,
+}
+
+/// Offsets of a draw's record, and of its lights where they are at fixed places.
+pub(crate) enum Offsets {
+    One([u32; 1]),
+    Two([u32; 2]),
+}
+
+impl Offsets {
+    pub(crate) fn as_slice(&self) -> &[u32] {
+        match self {
+            Self::One(offsets) => offsets,
+            Self::Two(offsets) => offsets,
+        }
+    }
 }
 
 /// Bindings of the same buffers.
@@ -106,7 +122,8 @@ impl Default for Buffers {
         Self {
             view: Mirrored::new("the view", Usage::UNIFORM),
             records: Mirrored::new("the materials", Usage::UNIFORM | Usage::STORAGE),
-            lights: Mirrored::new("the lights", Usage::UNIFORM | Usage::STORAGE),
+            lights: Mirrored::new("the lights", Usage::STORAGE),
+            bound: Mirrored::new("the lights of patches", Usage::UNIFORM),
             lists: Mirrored::new("the light lists", Usage::STORAGE),
             instances: Mirrored::new("the instances", Usage::VERTEX),
             groups: None,
@@ -120,13 +137,13 @@ impl Buffers {
     }
 
     /// The bindings of a draw, and their offset.
-    pub(crate) fn bindings(&self, draw: &DrawCall) -> Option<(&wgpu::BindGroup, u32)> {
+    pub(crate) fn bindings(&self, draw: &DrawCall) -> Option<(&wgpu::BindGroup, Offsets)> {
         let groups = self.groups.as_ref()?;
-        let offset = draw.record * RECORD_BYTES as u32;
+        let record = draw.record * RECORD_BYTES as u32;
         Some(match draw.key {
-            PipelineKey { per_instance: true, .. } => (&groups.all, 0),
-            key if key.reads_storage() => (&groups.one, offset),
-            _ => (&groups.uniform, offset),
+            PipelineKey { per_instance: true, .. } => (&groups.all, Offsets::One([0])),
+            key if key.reads_storage() => (&groups.one, Offsets::One([record])),
+            _ => (&groups.uniform, Offsets::Two([record, draw.lights * size_of::<LightRecord>() as u32])),
         })
     }
 
@@ -139,10 +156,14 @@ impl Buffers {
         batches: &Batches,
     ) -> Result<u64, RenderError> {
         let view = ViewRecord { scale: view.projection.scale, near: view.projection.near, padding: 0.0 };
+        let listed = if batches.reads_storage() { lights.records.as_slice() } else { &[] };
+        let bound = bytemuck::cast_slice(&batches.lists.bound);
         let sent = [
             self.view.set(gpu, bytemuck::bytes_of(&view), 0)?,
             self.records.set(gpu, bytemuck::cast_slice(&batches.records), RECORD_BYTES)?,
-            self.lights.set(gpu, bytemuck::cast_slice(&lights.records), COUNTED_LIGHT_BYTES)?,
+            self.lights.set(gpu, bytemuck::cast_slice(listed), size_of::<LightRecord>() as u64)?,
+            // The last set too is bound as if it had all lights that fit.
+            self.bound.set(gpu, bound, bound.len() as u64 + BOUND_LIGHT_BYTES)?,
             self.lists.set(gpu, bytemuck::cast_slice(&batches.lists.numbers), 0)?,
         ];
         let (instances, _) = self.instances.set(gpu, bytemuck::cast_slice(&batches.instances), 0)?;
@@ -153,8 +174,13 @@ impl Buffers {
     }
 
     fn bind(&self, gpu: &Gpu, pipelines: &Pipelines) -> Result<Option<Groups>, RenderError> {
-        let (Some(view), Some(records), Some(lights), Some(lists)) =
-            (&self.view.buffer, &self.records.buffer, &self.lights.buffer, &self.lists.buffer)
+        let (Some(view), Some(records), Some(lights), Some(bound), Some(lists)) = (
+            &self.view.buffer,
+            &self.records.buffer,
+            &self.lights.buffer,
+            &self.bound.buffer,
+            &self.lists.buffer,
+        )
         else {
             return Ok(None);
         };
@@ -184,9 +210,9 @@ impl Buffers {
             let [lights, lists] = [binding(2, lights, lights.size()), binding(3, lists, lists.size())];
             group(true, &[binding(1, records, record_bytes), lights, lists])
         };
-        let counted = binding(2, lights, COUNTED_LIGHT_BYTES);
+        let bound = binding(2, bound, BOUND_LIGHT_BYTES);
         Ok(Some(Groups {
-            uniform: group(false, &[binding(1, records, RECORD_BYTES), counted]),
+            uniform: group(false, &[binding(1, records, RECORD_BYTES), bound]),
             one: in_storage(RECORD_BYTES),
             all: in_storage(records.size()),
         }))

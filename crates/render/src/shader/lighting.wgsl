@@ -22,7 +22,8 @@ struct Light {
     exponent: f32,
     inner_scale: f32,    // s = clamp(cos φ · inner_scale + inner_offset, 0, 1); 0 and 1 without an inner cone
     inner_offset: f32,
-    padding: f32,
+    padding0: f32,
+    padding1: vec4f,
 }
 
 struct Material {

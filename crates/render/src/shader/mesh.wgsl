@@ -15,7 +15,7 @@ override TWO_SIDED: bool = true;
 override BLEND: bool = false;
 override GEOMETRIC_FALLBACK: bool = false;
 override PER_INSTANCE: bool = false;   // each instance names its record; else the draw has one
-// The lights are those that the record's lists name. Else they are all of the scene, of each kind so many.
+// The lights are those that the record's lists name. Else they are the first that are bound, of each kind so many.
 override LISTED: bool = false;
 override DIRECTIONAL: u32 = 0;
 override POINTS: u32 = 0;
@@ -74,41 +74,22 @@ fn clip_position(eye: vec3f) -> vec4f {
     return vec4f(view.scale * eye.xy, view.near, -eye.z);
 }
 
-// Adds `counts` lights of each kind, the numbers from `counts.w` on.
-fn add_lights(before: Irradiance, p: vec3f, n: vec3f, shininess: f32, counts: vec4u, terms: Terms) -> Irradiance {
-    let v = to_viewer(p, n, terms);
-    var sum = before;
-    let first_point = counts.w + counts.x;
-    let first_spot = first_point + counts.y;
-    for (var i = counts.w; i < first_point; i++) {
-        let light = light_numbered(i);
-        sum = add_light(sum, light, light.position, 1.0, n, v, shininess, terms);
-    }
-    for (var i = first_point; i < first_spot; i++) {
-        sum = add_finite_light(sum, light_numbered(i), false, p, n, v, shininess, terms);
-    }
-    for (var i = first_spot; i < first_spot + counts.z; i++) {
-        sum = add_finite_light(sum, light_numbered(i), true, p, n, v, shininess, terms);
-    }
-    return sum;
-}
-
 fn vertex_terms(p: vec3f, n: vec3f, shininess: f32, record: u32) -> Irradiance {
     let terms = Terms(VERTEX_DIFFUSE, VERTEX_SPECULAR);
     if !LISTED {
-        return add_lights(Irradiance(), p, n, shininess, vec4u(DIRECTIONAL, POINTS, SPOTS, 0), terms);
+        return add_counted(p, n, shininess, terms);
     }
-    let sum = add_lights(Irradiance(), p, n, shininess, draws[record].vertex, terms);
-    return add_lights(sum, p, n, shininess, draws[record].vertex_diffuse, Terms(VERTEX_DIFFUSE, false));
+    let sum = add_listed(Irradiance(), p, n, shininess, draws[record].vertex, terms);
+    return add_listed(sum, p, n, shininess, draws[record].vertex_diffuse, Terms(VERTEX_DIFFUSE, false));
 }
 
 fn fragment_terms(p: vec3f, n: vec3f, shininess: f32, record: u32) -> Irradiance {
     let terms = Terms(FRAGMENT_DIFFUSE, FRAGMENT_SPECULAR);
     if !LISTED {
-        return add_lights(Irradiance(), p, n, shininess, vec4u(DIRECTIONAL, POINTS, SPOTS, 0), terms);
+        return add_counted(p, n, shininess, terms);
     }
-    let sum = add_lights(Irradiance(), p, n, shininess, draws[record].fragment, terms);
-    return add_lights(sum, p, n, shininess, draws[record].fragment_diffuse, Terms(FRAGMENT_DIFFUSE, false));
+    let sum = add_listed(Irradiance(), p, n, shininess, draws[record].fragment, terms);
+    return add_listed(sum, p, n, shininess, draws[record].fragment_diffuse, Terms(FRAGMENT_DIFFUSE, false));
 }
 
 fn shade_vertex(p: vec3f, n: vec3f, record: u32, front: bool) -> vec3f {

@@ -12,3 +12,26 @@ fn light_numbered(i: u32) -> Light {
     }
     return lights[i];
 }
+
+// Adds `counts` lights of each kind, the numbers from `counts.w` on.
+fn add_listed(before: Irradiance, p: vec3f, n: vec3f, shininess: f32, counts: vec4u, terms: Terms) -> Irradiance {
+    let v = to_viewer(p, n, terms);
+    var sum = before;
+    let first_point = counts.w + counts.x;
+    let first_spot = first_point + counts.y;
+    for (var i = counts.w; i < first_point; i++) {
+        let light = light_numbered(i);
+        sum = add_light(sum, light, light.position, 1.0, n, v, shininess, terms);
+    }
+    for (var i = first_point; i < first_spot; i++) {
+        sum = add_finite_light(sum, light_numbered(i), false, p, n, v, shininess, terms);
+    }
+    for (var i = first_spot; i < first_spot + counts.z; i++) {
+        sum = add_finite_light(sum, light_numbered(i), true, p, n, v, shininess, terms);
+    }
+    return sum;
+}
+
+fn add_counted(p: vec3f, n: vec3f, shininess: f32, terms: Terms) -> Irradiance {
+    return add_listed(Irradiance(), p, n, shininess, vec4u(DIRECTIONAL, POINTS, SPOTS, 0), terms);
+}

@@ -1,8 +1,22 @@
-// One record and few lights, at fixed places: a software adapter reads them once for eight pixels.
+// One record and lights at fixed places: a software adapter reads them once for eight pixels.
 
 @group(0) @binding(1) var<uniform> draws: array<Draw, 1>;
 @group(0) @binding(2) var<uniform> lights: array<Light, MOST_LIGHTS>;
 
-fn light_numbered(i: u32) -> Light {
-    return lights[i];
+// The driver unrolls a loop as long as what comes out is short, and reads at fixed places only in unrolled ones: so many
+// lights are several loops.
+fn add_counted(p: vec3f, n: vec3f, shininess: f32, terms: Terms) -> Irradiance {
+    let v = to_viewer(p, n, terms);
+    var sum = Irradiance();
+    for (var i = 0u; i < DIRECTIONAL; i++) {
+        sum = add_light(sum, lights[i], lights[i].position, 1.0, n, v, shininess, terms);
+    }
+POINT_LOOPS
+SPOT_LOOPS
+    return sum;
+}
+
+// Lists are in storage.
+fn add_listed(sum: Irradiance, p: vec3f, n: vec3f, shininess: f32, counts: vec4u, terms: Terms) -> Irradiance {
+    return sum;
 }
