@@ -79,16 +79,15 @@ impl Detail {
     /// The mesh as it is, in the order of its triangles.
     pub(crate) fn in_order(mesh: &Mesh) -> Self {
         let triangles: Vec<_> = mesh.triangles().collect();
-        let whole = Patch::new(mesh, &triangles, 0);
-        Self { levels: vec![Level::finest(1)], patches: vec![whole.clone()], whole, triangles }
+        let patches = vec![Patch::new(mesh, &triangles, 0)];
+        Self { levels: vec![Level::finest(1)], patches, whole: Patch::whole(mesh), triangles }
     }
 
     /// The mesh as it is, in patches.
     pub(crate) fn in_patches(mesh: &Mesh) -> Self {
         let mut triangles: Vec<_> = mesh.triangles().collect();
         let patches = patches::cut(mesh, &mut triangles, 0);
-        let whole = if let [one] = &patches[..] { one.clone() } else { Patch::new(mesh, &triangles, 0) };
-        Self { levels: vec![Level::finest(patches.len())], patches, whole, triangles }
+        Self { levels: vec![Level::finest(patches.len())], patches, whole: Patch::whole(mesh), triangles }
     }
 
     /// With the mesh's levels of detail.

@@ -74,18 +74,16 @@ fn spread(bits: u32) -> u32 {
 impl Patch {
     /// What is known of some triangles, which begin at `first` in the index list.
     pub(crate) fn new(mesh: &Mesh, triangles: &[[u32; 3]], first: u32) -> Self {
-        let vertices = || triangles.iter().flatten().map(|&i| i as usize);
+        let vertices = || triangles.as_flattened().iter().map(|&i| i as usize);
         let points = || vertices().map(|i| mesh.positions()[i]);
         let center = Bounds::from_points(points()).map_or(Vec3::ZERO, |bounds| bounds.center());
-        let faces = || {
-            triangles.iter().filter_map(|corners| {
-                let [a, b, c] = corners.map(|i| mesh.positions()[i as usize]);
-                face_normal(a, b, c)
-            })
-        };
-        let normals = || vertices().map(|i| mesh.normals()[i]).chain(faces());
-        let axis = normals().sum::<Vec3>().normalize_or_zero();
-        let least = normals().map(|n| n.dot(axis)).fold(1.0, f32::min);
+        let faces = triangles.iter().filter_map(|corners| {
+            let [a, b, c] = corners.map(|i| mesh.positions()[i as usize]);
+            face_normal(a, b, c)
+        });
+        let normals: Vec<Vec3> = vertices().map(|i| mesh.normals()[i]).chain(faces).collect();
+        let axis = normals.iter().sum::<Vec3>().normalize_or_zero();
+        let least = normals.iter().map(|n| n.dot(axis)).fold(1.0, f32::min);
         let half_angle = least.clamp(-1.0, 1.0).acos() + ANGLE_SLACK;
         let cone = (axis != Vec3::ZERO && half_angle < WIDEST).then_some(Cone { axis, half_angle });
         let farthest = |of: &dyn Fn(Vec3) -> f32| points().map(|p| of(p - center)).fold(0.0, f32::max) * (1.0 + 1e-5);
@@ -95,6 +93,19 @@ impl Patch {
             radius: farthest(&|offset| offset.length()),
             half_thickness: if cone.is_some() { farthest(&|offset| offset.dot(axis).abs()) } else { f32::INFINITY },
             cone,
+        }
+    }
+
+    /// All of a mesh, of whose normals nothing is known.
+    pub(crate) fn whole(mesh: &Mesh) -> Self {
+        let center = mesh.bounds().center();
+        let farthest = mesh.positions().iter().map(|p| p.distance(center)).fold(0.0, f32::max);
+        Self {
+            indices: 0..mesh.indices().len() as u32,
+            center,
+            radius: farthest * (1.0 + 1e-5),
+            cone: None,
+            half_thickness: f32::INFINITY,
         }
     }
 

@@ -125,14 +125,25 @@ impl fmt::Display for PipelineKey {
 }
 
 /// The pipelines built so far, with what they share.
-#[derive(Resource)]
+#[derive(Resource, Default)]
 pub(crate) struct Pipelines {
-    uniform: Shader,
-    storage: Shader,
+    shaders: HashMap<Text, Shader>,
     built: HashMap<PipelineKey, wgpu::RenderPipeline>,
 }
 
-/// The text with its bindings in one address space.
+/// How the text reads records and lights. Each is a text of its own, since a driver spends time and memory on what a
+/// pipeline leaves unused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Text {
+    /// From uniform buffers, up to [`COUNTED_LIGHTS`].
+    Few,
+    /// From uniform buffers, up to [`BOUND_LIGHTS`].
+    Many,
+    /// From storage, any number.
+    Listed,
+}
+
+/// The lighting text, and the layout that goes with it.
 struct Shader {
     module: wgpu::ShaderModule,
     bindings: wgpu::BindGroupLayout,
@@ -155,26 +166,46 @@ fn loops(first: &str, count: &str, most: u32, length: u32, cone: bool) -> String
 }
 
 impl PipelineKey {
+    pub(crate) fn text(&self) -> Text {
+        match self.lists {
+            _ if self.per_instance => Text::Listed,
+            Lists::Listed => Text::Listed,
+            Lists::Counted(counts) if counts.iter().sum::<u8>() <= COUNTED_LIGHTS as u8 => Text::Few,
+            Lists::Counted(_) => Text::Many,
+        }
+    }
+
     /// Whether records and lights are read from storage, as lists and records of instances are.
     pub(crate) fn reads_storage(&self) -> bool {
-        self.per_instance || self.lists == Lists::Listed
+        self.text() == Text::Listed
+    }
+}
+
+impl Text {
+    /// The whole of it.
+    fn wgsl(self) -> String {
+        let text = concat!(include_str!("shader/mesh.wgsl"), include_str!("shader/lighting.wgsl"));
+        let at_fixed_places = |points, spots, at_once| {
+            include_str!("shader/uniform.wgsl")
+                .replace("MOST_LIGHTS", &BOUND_LIGHTS.to_string())
+                .replace("POINT_LOOPS", &loops("DIRECTIONAL", "POINTS", points, at_once, false))
+                .replace("SPOT_LOOPS", &loops("DIRECTIONAL + POINTS", "SPOTS", spots, at_once, true))
+        };
+        let bindings = match self {
+            Self::Few => at_fixed_places(COUNTED_LIGHTS, COUNTED_LIGHTS, COUNTED_LIGHTS),
+            Self::Many => at_fixed_places(32, 16, 4),
+            Self::Listed => include_str!("shader/storage.wgsl").to_owned(),
+        };
+        format!("{text}{bindings}")
     }
 }
 
 impl Shader {
-    fn new(gpu: &Gpu, storage: bool) -> Self {
-        let text = concat!(include_str!("shader/mesh.wgsl"), include_str!("shader/lighting.wgsl"));
-        let bindings = if storage {
-            include_str!("shader/storage.wgsl").to_owned()
-        } else {
-            include_str!("shader/uniform.wgsl")
-                .replace("MOST_LIGHTS", &BOUND_LIGHTS.to_string())
-                .replace("POINT_LOOPS", &loops("DIRECTIONAL", "POINTS", 32, 4, false))
-                .replace("SPOT_LOOPS", &loops("DIRECTIONAL + POINTS", "SPOTS", 16, 4, true))
-        };
+    fn new(gpu: &Gpu, text: Text) -> Self {
+        let storage = text == Text::Listed;
         let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("lighting"),
-            source: wgpu::ShaderSource::Wgsl(format!("{text}{bindings}").into()),
+            source: wgpu::ShaderSource::Wgsl(text.wgsl().into()),
         });
         let entry = |binding, ty, size| wgpu::BindGroupLayoutEntry {
             binding,
@@ -207,12 +238,9 @@ impl Shader {
 }
 
 impl Pipelines {
-    pub(crate) fn new(gpu: &Gpu) -> Self {
-        Self { uniform: Shader::new(gpu, false), storage: Shader::new(gpu, true), built: HashMap::new() }
-    }
-
-    pub(crate) fn bindings(&self, storage: bool) -> &wgpu::BindGroupLayout {
-        if storage { &self.storage.bindings } else { &self.uniform.bindings }
+    /// The layout of the bindings that such pipelines need; `None` before the first is built.
+    pub(crate) fn bindings(&self, text: Text) -> Option<&wgpu::BindGroupLayout> {
+        self.shaders.get(&text).map(|shader| &shader.bindings)
     }
 
     pub(crate) fn get(&self, key: &PipelineKey) -> Option<&wgpu::RenderPipeline> {
@@ -227,7 +255,7 @@ impl Pipelines {
     pub(crate) fn ensure(&mut self, gpu: &Gpu, key: PipelineKey) {
         if !self.built.contains_key(&key) {
             log::debug!("building pipeline {key}");
-            let shader = if key.reads_storage() { &self.storage } else { &self.uniform };
+            let shader = self.shaders.entry(key.text()).or_insert_with_key(|&text| Shader::new(gpu, text));
             self.built.insert(key, shader.build(gpu, key));
         }
     }

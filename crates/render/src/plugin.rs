@@ -112,6 +112,7 @@ impl Plugin for RenderPlugin {
             .init_resource::<Workshop>()
             .init_resource::<Geometries>()
             .init_resource::<Buffers>()
+            .init_resource::<Pipelines>()
             .add_message::<AssetEvent<Mesh>>()
             .register_required_components::<Mesh3d, Material>()
             .register_required_components::<Mesh3d, ModelView>()
@@ -142,7 +143,7 @@ impl RenderPlugin {
             draw::draw.in_set(Draw),
             draw::present.in_set(Deliver),
         );
-        app.add_systems(self.schedule, on_gpu.run_if(resource_exists::<Gpu>).run_if(resource_exists::<Pipelines>));
+        app.add_systems(self.schedule, on_gpu.run_if(resource_exists::<Gpu>));
     }
 }
 
@@ -160,9 +161,5 @@ fn open_gpu(world: &mut World) {
                 return;
             }
         }
-    }
-    if !world.contains_resource::<Pipelines>() {
-        let pipelines = Pipelines::new(world.resource::<Gpu>());
-        world.insert_resource(pipelines);
     }
 }

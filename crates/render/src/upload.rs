@@ -4,7 +4,7 @@ use crate::batch::{Batches, DrawCall};
 use crate::error::RenderError;
 use crate::gpu::Gpu;
 use crate::lights::{LightRecord, Lights};
-use crate::pipeline::{BOUND_LIGHT_BYTES, PipelineKey, Pipelines};
+use crate::pipeline::{BOUND_LIGHT_BYTES, Pipelines, Text};
 use crate::records::RECORD_BYTES;
 use crate::report::FrameReport;
 use crate::view::View;
@@ -88,7 +88,7 @@ pub(crate) struct Buffers {
     bound: Mirrored,
     lists: Mirrored,
     instances: Mirrored,
-    groups: Option<Groups>,
+    groups: Groups,
 }
 
 /// Offsets of a draw's record, and of its lights where they are at fixed places.
@@ -106,14 +106,15 @@ impl Offsets {
     }
 }
 
-/// Bindings of the same buffers.
+/// Bindings of the same buffers, for each text that has a pipeline.
+#[derive(Default)]
 struct Groups {
-    /// In uniform buffers, with the one record that the offset names.
-    uniform: wgpu::BindGroup,
-    /// In storage, with the one record that the offset names.
-    one: wgpu::BindGroup,
-    /// In storage, with all records.
-    all: wgpu::BindGroup,
+    few: Option<wgpu::BindGroup>,
+    many: Option<wgpu::BindGroup>,
+    /// With the one record that the offset names.
+    one: Option<wgpu::BindGroup>,
+    /// With all records.
+    all: Option<wgpu::BindGroup>,
 }
 
 impl Default for Buffers {
@@ -126,7 +127,7 @@ impl Default for Buffers {
             bound: Mirrored::new("the lights of patches", Usage::UNIFORM),
             lists: Mirrored::new("the light lists", Usage::STORAGE),
             instances: Mirrored::new("the instances", Usage::VERTEX),
-            groups: None,
+            groups: Groups::default(),
         }
     }
 }
@@ -138,13 +139,16 @@ impl Buffers {
 
     /// The bindings of a draw, and their offset.
     pub(crate) fn bindings(&self, draw: &DrawCall) -> Option<(&wgpu::BindGroup, Offsets)> {
-        let groups = self.groups.as_ref()?;
         let record = draw.record * RECORD_BYTES as u32;
-        Some(match draw.key {
-            PipelineKey { per_instance: true, .. } => (&groups.all, Offsets::One([0])),
-            key if key.reads_storage() => (&groups.one, Offsets::One([record])),
-            _ => (&groups.uniform, Offsets::Two([record, draw.lights * size_of::<LightRecord>() as u32])),
-        })
+        let lights = draw.lights * size_of::<LightRecord>() as u32;
+        let Groups { few, many, one, all } = &self.groups;
+        let (group, offsets) = match draw.key.text() {
+            Text::Few => (few, Offsets::Two([record, lights])),
+            Text::Many => (many, Offsets::Two([record, lights])),
+            Text::Listed if draw.key.per_instance => (all, Offsets::One([0])),
+            Text::Listed => (one, Offsets::One([record])),
+        };
+        Some((group.as_ref()?, offsets))
     }
 
     fn upload(
@@ -167,22 +171,23 @@ impl Buffers {
             self.lists.set(gpu, bytemuck::cast_slice(&batches.lists.numbers), 0)?,
         ];
         let (instances, _) = self.instances.set(gpu, bytemuck::cast_slice(&batches.instances), 0)?;
-        if self.groups.is_none() || sent.iter().any(|&(_, new)| new) {
-            self.groups = self.bind(gpu, pipelines)?;
+        if sent.iter().any(|&(_, new)| new) {
+            self.groups = Groups::default();
         }
+        self.bind(gpu, pipelines)?;
         Ok(sent.iter().map(|(bytes, _)| bytes).sum::<u64>() + instances)
     }
 
-    fn bind(&self, gpu: &Gpu, pipelines: &Pipelines) -> Result<Option<Groups>, RenderError> {
+    /// Makes the bindings that are not there.
+    fn bind(&mut self, gpu: &Gpu, pipelines: &Pipelines) -> Result<(), RenderError> {
         let (Some(view), Some(records), Some(lights), Some(bound), Some(lists)) = (
             &self.view.buffer,
             &self.records.buffer,
             &self.lights.buffer,
             &self.bound.buffer,
             &self.lists.buffer,
-        )
-        else {
-            return Ok(None);
+        ) else {
+            return Ok(());
         };
         let limit = gpu.device.limits().max_storage_buffer_binding_size;
         for (label, buffer) in [(self.records.label, records), (self.lights.label, lights), (self.lists.label, lists)] {
@@ -199,23 +204,22 @@ impl Buffers {
                 size: std::num::NonZeroU64::new(size),
             }),
         };
-        let group = |storage, entries: &[_]| {
-            gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: Some("draw"),
-                layout: pipelines.bindings(storage),
-                entries: &[&[binding(0, view, 16)], entries].concat(),
-            })
+        let make = |group: &mut Option<_>, text, entries: &[_]| {
+            if let (None, Some(layout)) = (&group, pipelines.bindings(text)) {
+                let entries = &[&[binding(0, view, 16)], entries].concat();
+                let descriptor = wgpu::BindGroupDescriptor { label: Some("draw"), layout, entries };
+                *group = Some(gpu.device.create_bind_group(&descriptor));
+            }
         };
-        let in_storage = |record_bytes| {
+        let Groups { few, many, one, all } = &mut self.groups;
+        for (group, text) in [(few, Text::Few), (many, Text::Many)] {
+            make(group, text, &[binding(1, records, RECORD_BYTES), binding(2, bound, BOUND_LIGHT_BYTES)]);
+        }
+        for (group, bytes) in [(one, RECORD_BYTES), (all, records.size())] {
             let [lights, lists] = [binding(2, lights, lights.size()), binding(3, lists, lists.size())];
-            group(true, &[binding(1, records, record_bytes), lights, lists])
-        };
-        let bound = binding(2, bound, BOUND_LIGHT_BYTES);
-        Ok(Some(Groups {
-            uniform: group(false, &[binding(1, records, RECORD_BYTES), bound]),
-            one: in_storage(RECORD_BYTES),
-            all: in_storage(records.size()),
-        }))
+            make(group, Text::Listed, &[binding(1, records, bytes), lights, lists]);
+        }
+        Ok(())
     }
 }
 

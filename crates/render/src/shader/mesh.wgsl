@@ -92,11 +92,11 @@ fn fragment_terms(p: vec3f, n: vec3f, shininess: f32, record: u32) -> Irradiance
     return add_listed(sum, p, n, shininess, draws[record].fragment_diffuse, Terms(FRAGMENT_DIFFUSE, false));
 }
 
-fn shade_vertex(p: vec3f, n: vec3f, record: u32, front: bool) -> vec3f {
-    if front {
-        let terms = vertex_terms(p, n, draws[record].front.shininess, record);
-        return reflected(terms, draws[record].front);
-    }
+fn shade_front(p: vec3f, n: vec3f, record: u32) -> vec3f {
+    return reflected(vertex_terms(p, n, draws[record].front.shininess, record), draws[record].front);
+}
+
+fn shade_back(p: vec3f, n: vec3f, record: u32) -> vec3f {
     return reflected(vertex_terms(p, n, draws[record].back.shininess, record), draws[record].back);
 }
 
@@ -153,9 +153,9 @@ fn vs_flat(object: Object, @location(6) position: vec3f, @location(7) normal: ve
     let front = dot(n, p) <= 0.0;
     var colour = vec3f();
     if front {
-        colour = shade_vertex(p, n, record, true);
+        colour = shade_front(p, n, record);
     } else if TWO_SIDED {
-        colour = shade_vertex(p, -n, record, false);
+        colour = shade_back(p, -n, record);
     }
     return Flat(clip_position(eye_position(object, position)), shaded(colour, record, front));
 }
@@ -176,7 +176,7 @@ struct Gouraud {
 @vertex
 fn vs_gouraud(object: Object, @location(6) position: vec3f, @location(7) normal: vec3f) -> Gouraud {
     let p = eye_position(object, position);
-    let colour = shade_vertex(p, eye_normal(object, normal), record_of(object.record), true);
+    let colour = shade_front(p, eye_normal(object, normal), record_of(object.record));
     return Gouraud(clip_position(p), colour, object.record);
 }
 
@@ -197,8 +197,8 @@ fn vs_gouraud_both(object: Object, @location(6) position: vec3f, @location(7) no
     let p = eye_position(object, position);
     let n = eye_normal(object, normal);
     let record = record_of(object.record);
-    let front = shade_vertex(p, n, record, true);
-    return GouraudBoth(clip_position(p), front, shade_vertex(p, -n, record, false), object.record);
+    let front = shade_front(p, n, record);
+    return GouraudBoth(clip_position(p), front, shade_back(p, -n, record), object.record);
 }
 
 @fragment
@@ -268,9 +268,9 @@ fn vs_mixed(object: Object, @location(6) position: vec3f, @location(7) normal: v
     let record = record_of(object.record);
     var back = vec3f();
     if TWO_SIDED {
-        back = shade_vertex(p, -n, record, false);
+        back = shade_back(p, -n, record);
     }
-    return Mixed(clip_position(p), p, n, shade_vertex(p, n, record, true), back, object.record);
+    return Mixed(clip_position(p), p, n, shade_front(p, n, record), back, object.record);
 }
 
 @fragment
