@@ -14,12 +14,15 @@ mod render {
     mod compare;
     mod conformance;
     mod counters;
+    mod culling;
     mod degenerate;
     mod edges;
     mod errors;
     mod failures;
     mod known_issues;
+    mod levels;
     mod light_counts;
+    mod light_lists;
     mod picture;
     mod pipelines;
     mod plugins;

@@ -5,6 +5,7 @@ use halfway::prelude::*;
 use halfway::reference::Oracle;
 use halfway::render::{Gpu, RenderError};
 use image::{Rgba32FImage, RgbaImage};
+use std::time::Duration;
 
 /// An App with the facade's plugins and a headless target, on which scenes replace each other.
 pub(crate) struct Stage {
@@ -27,6 +28,18 @@ impl Stage {
 
     pub(crate) fn world(&mut self) -> &mut World {
         self.app.world_mut()
+    }
+
+    /// Lets meshes be drawn at these levels of detail, and draws what stands until all its levels are made.
+    pub(crate) fn levels(&mut self, levels: LevelsOfDetail) {
+        self.world().insert_resource(levels);
+        self.frame();
+        while self.report().levels_pending > 0 {
+            std::thread::sleep(Duration::from_millis(2));
+            self.frame();
+        }
+        // Of a mesh that was there before none is pending, even if it is the first frame that shows it at this level.
+        self.frame();
     }
 
     pub(crate) fn pixels(&mut self, pixels: Pixels) {

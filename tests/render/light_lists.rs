@@ -1,0 +1,191 @@
+//! Lists of many lights: each patch gets those that reach it, and what is left out does not show.
+
+use crate::render::compare::{FLOAT, Failures, SELECTED, SRGB, difference};
+use crate::render::random::Random;
+use crate::render::scene::{Lamp, Scene, Thing, rotated};
+use crate::render::stage::Stage;
+use halfway::lighting::bounds::{DEFAULT_TOLERANCE, linear_tolerance};
+use halfway::prelude::*;
+
+/// Seen from straight above, so that every patch of a floor about the origin with this edge shows.
+fn above(size: f32) -> Scene {
+    let mut scene = Scene::seen_from(Vec3::new(0.0, size, 0.01 * size), Vec3::ZERO);
+    scene.camera.fov_y = 1.2;
+    scene
+}
+
+/// A light of this brightness with a range.
+fn ranged(brightness: f32, range: f32) -> PointLight {
+    let colour = LinearRgba::rgb(brightness, 0.8 * brightness, 0.6 * brightness);
+    PointLight { range: Some(range), attenuation: Attenuation::new(1.0, 0.1, 0.3), ..PointLight::from_color(colour) }
+}
+
+/// A rough floor with balls on it, and `count` lights of all kinds over it.
+fn hall(count: usize, shading: Shading) -> Scene {
+    let mut scene = Scene::seen_from(Vec3::new(0.0, 9.0, 16.0), Vec3::new(0.0, 0.0, -1.0)).ambient(0.05);
+    scene.view_shading = Some(shading);
+    scene = scene.with(Thing::new(Plane { size: 24.0, divisions: 48 }));
+    for i in 0..6 {
+        let at = Vec3::new((i % 3) as f32 * 6.0 - 6.0, 1.0, (i / 3) as f32 * 7.0 - 5.0);
+        let turned = rotated(0.2 * i as f32, 0.5, 0.0).with_translation(at);
+        scene = scene.with(Thing::new(UvSphere::new(1.0, 32, 24)).at(turned));
+    }
+    let mut random = Random(count as u64);
+    for i in 0..count {
+        let at = Vec3::new(random.between(-12.0, 12.0), random.between(0.5, 3.0), random.between(-12.0, 12.0));
+        let down = Vec3::new(random.between(-0.5, 0.5), -1.0, random.between(-0.5, 0.5));
+        let light = ranged(random.between(0.2, 0.8), random.between(2.0, 6.0));
+        scene.lamps.push(match i % 4 {
+            0 | 1 => Lamp::point(light, at),
+            2 => Lamp::spot(SpotLight { light, cone: Cone { cutoff: 0.9, inner: Some(0.3), exponent: 1.0 } }, at, down),
+            _ => {
+                // Without a range: dim, and everywhere.
+                let share = 2.0 / count as f32;
+                Lamp::point(PointLight { range: None, ..ranged(share, 1.0) }, at)
+            }
+        });
+    }
+    let share = 0.5 / count as f32;
+    let sky = DirectionalLight::from_color(LinearRgba::rgb(share, share, share));
+    scene.lit(Lamp::directional(sky, Vec3::new(0.2, -1.0, 0.1)))
+}
+
+#[test]
+fn lists_change_no_picture_by_more_than_a_step() {
+    let mut stage = Stage::new(72, 48);
+    let mut failures = Failures::default();
+    for count in [12, 60, 200] {
+        for shading in [Shading::Flat, Shading::Gouraud, Shading::Phong] {
+            let row = format!("{count} lights, {shading:?}");
+            let scene = hall(count, shading);
+            let of_floats = failures.draw(&row, &mut stage, &scene, FLOAT);
+            failures.unless(stage.report().left_out == 0.0, || format!("{row}: left out of floats"));
+            println!("{row}: {of_floats}; {} terms assigned", stage.report().lights_assigned);
+            for (encoding, bars) in [(Encoding::Raw, SELECTED), (Encoding::Srgb, SRGB)] {
+                stage.encode(encoding);
+                let row = format!("{row}, {encoding:?} bytes");
+                let picture = stage.bytes();
+                let FrameReport { left_out, lights_assigned, .. } = *stage.report();
+                let verdict = failures.compare_bytes(&row, &mut stage, &picture, bars);
+                println!("{row}: {verdict}; {lights_assigned} terms assigned, {left_out:.1e} left out");
+                // The brightest of what is left out is known to be on top of the dimmest material's ambient at least,
+                // and of white at most.
+                let ambient = &scene.things[0].material.ambient;
+                let known = [ambient.red, ambient.green, ambient.blue].map(|ka| 0.05 * f64::from(ka) + 0.03);
+                let most = known.map(|known| linear_tolerance(encoding, DEFAULT_TOLERANCE, known));
+                let most = most.into_iter().fold(0.0, f64::max);
+                failures.unless(left_out <= most, || format!("{row}: {left_out} left out, over {most}"));
+            }
+        }
+    }
+    failures.finish();
+}
+
+/// A light for each sixteen units of a square floor, the floor in cells of one unit. Its edge is a power of two, so that
+/// all patches are squares of four by four cells whatever its size.
+fn field(size: u32, material: Material) -> Scene {
+    let floor = Thing::new(Plane { size: size as f32, divisions: size }).of(material).shaded(Shading::Phong);
+    let mut scene = above(size as f32).with(floor);
+    let mut random = Random(7);
+    for _ in 0..size * size / 16 {
+        let half = 0.5 * size as f32;
+        let at = Vec3::new(random.between(-half, half), 1.0, random.between(-half, half));
+        scene.lamps.push(Lamp::point(ranged(0.5, 3.0), at));
+    }
+    scene
+}
+
+#[test]
+fn lists_grow_with_what_lights_touch() {
+    let mut stage = Stage::new(32, 32);
+    let matte = Material::matte(LinearRgba::rgb(0.7, 0.6, 0.5));
+    let mut of_each = |size: u32, pixels| {
+        stage.set(&field(size, matte));
+        stage.pixels(pixels);
+        let FrameReport { errors, lights, lights_assigned, patches, patches_culled, left_out, .. } =
+            stage.frame().clone();
+        assert_eq!((errors, patches, patches_culled, lights), (vec![], size * size / 16, 0, size * size / 16));
+        let of_each = lights_assigned as f64 / f64::from(lights);
+        println!("{lights} lights, {pixels:?}: {of_each:.2} terms each in {patches} patches, {left_out:.1e} left out");
+        let most = linear_tolerance(Encoding::Srgb, DEFAULT_TOLERANCE, 0.0);
+        assert!(left_out <= if pixels == Pixels::Float { 0.0 } else { most }, "{lights}: {left_out} left out");
+        of_each
+    };
+    for pixels in [Pixels::Float, Pixels::Byte] {
+        // 1,024 lights and 16,384, and as many patches.
+        let [few, many] = [128, 512].map(|size| of_each(size, pixels));
+        // Of the smaller floor a share of 4·3/128 is within a range of the border, where a light loses up to half of
+        // what it would touch, of the larger one 4·3/512: 3.5 % more at most, and as much again for chance.
+        assert!((0.93..1.07).contains(&(many / few)), "{pixels:?}: {few} terms a light, then {many}");
+        // A light one unit above the floor reaches a disk of radius √(3² − 1²) in it, and with the spheres around
+        // patches, of radius √8, one of √8 + √8: (2·√8)²π of area, a patch each 16.
+        assert!(many < 32.0 * std::f64::consts::PI / 16.0 * 1.05, "{pixels:?}: {many} terms a light");
+    }
+}
+
+#[test]
+fn highlights_are_listed_where_they_can_be_seen() {
+    let mut stage = Stage::new(32, 32);
+    let glossy = Material { shininess: 200.0, ..Material::matte(LinearRgba::rgb(0.5, 0.5, 0.5)) };
+    let glossy = Material { specular: LinearRgba::rgb(0.5, 0.5, 0.5), ..glossy };
+    for (mesh, row) in
+        [(Plane { size: 40.0, divisions: 40 }, "in patches"), (Plane { size: 1.0, divisions: 1 }, "whole")]
+    {
+        let mut scene = above(40.0).with(Thing::new(mesh).of(glossy).shaded(Shading::Phong));
+        let mut random = Random(3);
+        for _ in 0..100 {
+            // Low and far out: halfway vectors lean by 30° and more over the most of the floor.
+            let around = random.between(0.0, std::f32::consts::TAU);
+            let at = Vec3::new(60.0 * around.cos(), 8.0, 60.0 * around.sin());
+            let light = PointLight { attenuation: Attenuation::NONE, ..PointLight::from_color(LinearRgba::gray(0.1)) };
+            scene.lamps.push(Lamp::point(light, at));
+        }
+        stage.draw_bytes(&scene);
+        let FrameReport { patches, lights_assigned, left_out, .. } = *stage.report();
+        let all = 100 * u64::from(patches.max(1));
+        println!("{row}: {lights_assigned} terms, {all} pairs of lights and patches, {left_out:.1e} left out");
+        // The diffuse terms are all there, and hardly a specular one.
+        assert!((0.9..1.1).contains(&(lights_assigned as f64 / all as f64)), "{row}: {lights_assigned} of {all}");
+    }
+}
+
+#[test]
+fn lights_that_cannot_reach_are_not_assigned() {
+    let mut stage = Stage::new(32, 32);
+    for divisions in [1, 32] {
+        for shading in [Shading::Flat, Shading::Gouraud, Shading::Phong] {
+            let floor = Plane { size: 20.0, divisions };
+            let mut scene = above(20.0).with(Thing::new(floor).shaded(shading));
+            let mut random = Random(11);
+            let mut places = || {
+                let mut place =
+                    || Vec3::new(random.between(-8.0, 8.0), random.between(4.0, 6.0), random.between(-8.0, 8.0));
+                [(); 12].map(|()| place())
+            };
+            scene.lamps.extend(places().map(|at| Lamp::point(ranged(0.4, 30.0), at)));
+            let picture = stage.draw(&scene);
+            let assigned = stage.report().lights_assigned;
+            assert!(assigned > 0);
+            let aside: [(&str, fn(Vec3) -> Lamp); 4] = [
+                ("lights behind the plane", |at| Lamp::point(ranged(0.4, 30.0), at.with_y(-at.y))),
+                ("suns from below", |at| Lamp::directional(DirectionalLight::white(), at)),
+                ("lights out of range", |at| Lamp::point(ranged(0.4, 3.5), at)),
+                ("spots that point away", |at| {
+                    Lamp::spot(SpotLight { light: ranged(0.4, 30.0), cone: Cone::new(0.6) }, at, Vec3::Y)
+                }),
+            ];
+            // The sphere around a floor in one piece holds these lights, and what is inside may shine anywhere.
+            for (row, lamp) in &aside[..if divisions == 1 { 3 } else { 4 }] {
+                let mut more = scene.clone();
+                more.lamps.extend(places().map(lamp));
+                let with = stage.draw(&more);
+                let report = stage.report();
+                let row = format!("{row}, {} patches, {shading:?}", report.patches);
+                assert_eq!((report.lights, report.lights_assigned), (24, assigned), "{row}");
+                // A scene with suns has shaders of its own, which round otherwise.
+                let most = difference(&picture, &with);
+                assert!(most < 1e-6, "{row}: {most}");
+            }
+        }
+    }
+}
