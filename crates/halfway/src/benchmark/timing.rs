@@ -14,7 +14,7 @@ const TIMED: usize = 2;
 /// The frames after which [`settle`] takes a scene as it is.
 const MOST: u32 = 20;
 /// How long [`settle`] waits for levels of detail.
-const PATIENCE: Duration = Duration::from_secs(300);
+const PATIENCE: Duration = Duration::from_mins(5);
 /// Between frames that only wait for levels, so that their maker has the machine to itself.
 const PAUSE: Duration = Duration::from_millis(1);
 

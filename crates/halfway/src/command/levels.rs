@@ -28,7 +28,7 @@ impl LevelsArgs {
 }
 
 /// In a few words.
-pub(super) fn describe(levels: &LevelsOfDetail) -> String {
+pub(super) fn describe(levels: LevelsOfDetail) -> String {
     if levels.pixels > 0.0 { format!("within {} pixels", levels.pixels) } else { "off".to_owned() }
 }
 

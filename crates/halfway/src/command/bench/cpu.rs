@@ -34,7 +34,7 @@ impl CpuTimes {
 
     /// What the renderer takes itself: without the set that submits, which a software adapter may use to draw.
     pub(super) fn own_ms(&self) -> f64 {
-        self.median_ms(|times| times.total() - times.of(RenderSet::Draw))
+        self.median_ms(|times| times.total().saturating_sub(times.of(RenderSet::Draw)))
     }
 
     fn median_ms(&self, of: impl Fn(&SetTimes) -> Duration) -> f64 {

@@ -66,7 +66,7 @@ fn print_table(args: &BenchArgs, scene: BenchmarkScene, machine: &Machine, rows:
     let size = size(args, scene);
     let octahedra = if args.octahedra { ", spheres as octahedra" } else { "" };
     println!("scene: {scene:?}{octahedra}, {} × {} pixels, {} rounds", size.x, size.y, args.rounds);
-    println!("levels of detail: {}", levels::describe(&args.levels.allowed()));
+    println!("levels of detail: {}", levels::describe(args.levels.allowed()));
     print_facts(machine);
     println!("\n{FRAME_TIME}\n{OWN_TIME}\n");
     let cold = if args.cold { ["first frame, no shaders kept, ms | ", "---|"] } else { [""; 2] };
