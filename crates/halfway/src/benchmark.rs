@@ -32,7 +32,7 @@ mod machine;
 mod timing;
 
 pub use machine::{Machine, counters};
-pub use timing::{FRAME_TIME, Spread, frame, in_turns, median, median_ratio, settle};
+pub use timing::{FRAME_TIME, Spread, frame, in_turns, in_turns_with, median, median_ratio, settle};
 
 use std::f32::consts::TAU;
 

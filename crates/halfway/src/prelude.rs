@@ -14,6 +14,8 @@ pub use halfway_lighting::{
     Intensity, LightingPlugin, Material, PointLight, Reflectance, Samples, Shading, SpotLight, Terms, Viewer,
 };
 pub use halfway_mesh::{Cuboid, Mesh, Mesh3d, MeshPlugin, Plane, Teapot, UvSphere};
-pub use halfway_render::{FrameReport, Headless, LevelsOfDetail, Picture, Pixels, RenderPlugin, RenderSet, render_picture};
+pub use halfway_render::{
+    FrameReport, Headless, LevelsOfDetail, Picture, Pixels, RenderPlugin, RenderSet, render_picture,
+};
 #[cfg(feature = "window")]
 pub use halfway_window::{OrbitCamera, OrbitCameraPlugin, ViewerKeysPlugin, WindowPlugin, WindowTitle};

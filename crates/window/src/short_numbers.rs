@@ -2,9 +2,13 @@
 
 use std::time::Duration;
 
-/// A count and its noun in the right number: "1 draw", "15.9 k triangles".
+/// A count and its noun in the right number: "1 draw", "15.9 k triangles", "2 patches".
 pub(crate) fn count(value: u64, noun: &str) -> String {
-    let ending = if value == 1 { "" } else { "s" };
+    let ending = match noun {
+        _ if value == 1 => "",
+        noun if noun.ends_with("ch") || noun.ends_with("sh") => "es",
+        _ => "s",
+    };
     format!("{} {noun}{ending}", scaled(value))
 }
 
@@ -75,6 +79,7 @@ mod tests {
         for (value, expected) in rows {
             assert_eq!(count(value, "draw"), expected);
         }
+        assert_eq!([count(1, "patch"), count(2, "patch"), count(0, "mesh")], ["1 patch", "2 patches", "0 meshes"]);
     }
 
     #[test]

@@ -64,15 +64,20 @@ impl Status<'_> {
     }
 }
 
-/// The counters that a title shows, in its order: one line each.
+/// The counters that a title shows, in its order: one line each. Some show only where there is something to count.
 fn counters(report: &FrameReport) -> Vec<String> {
-    vec![
-        count(report.draws.into(), "draw"),
-        count(report.triangles, "triangle"),
-        count(report.lights.into(), "light"),
-        count(report.pipelines.into(), "pipeline"),
-        bytes(report.bytes_uploaded),
-    ]
+    let unless_0 = |value: u64, noun: &str, done: &str| (value > 0).then(|| format!("{} {done}", count(value, noun)));
+    let shown = [
+        Some(count(report.draws.into(), "draw")),
+        Some(count(report.triangles, "triangle")),
+        unless_0(report.patches_culled.into(), "patch", "culled"),
+        Some(count(report.lights.into(), "light")),
+        unless_0(report.lights_assigned, "term", "listed"),
+        unless_0(report.levels_pending.into(), "mesh", "awaiting levels"),
+        Some(count(report.pipelines.into(), "pipeline")),
+        Some(bytes(report.bytes_uploaded)),
+    ];
+    shown.into_iter().flatten().collect()
 }
 
 fn shading_name(shading: Shading) -> &'static str {
@@ -145,6 +150,7 @@ mod tests {
             ..FrameReport::default()
         };
         let failing = FrameReport { errors: vec![RenderError::NoCamera; 2], ..FrameReport::default() };
+        let saving = FrameReport { patches_culled: 5_642, lights_assigned: 1, levels_pending: 1, ..report.clone() };
         let full = || Status {
             program: "halfway",
             name: "teapot",
@@ -172,6 +178,12 @@ mod tests {
                 format!(
                     "halfway – teapot — 0 draws · 0 triangles · 0 lights · 0 pipelines · 0 B · {shaded} · 2 errors"
                 ),
+            ),
+            (
+                Status { program: "", name: "", report: Some(&saving), ..Status::default() },
+                "12 draws · 1.2 M triangles · 5.6 k patches culled · 4 lights · 1 term listed · 1 mesh awaiting levels · \
+                 3 pipelines · 0 B"
+                    .into(),
             ),
             (Status { program: "halfway", ..Status::default() }, "halfway".into()),
             (Status::default(), String::new()),

@@ -130,10 +130,11 @@ pub struct Stage {
 }
 
 impl Stage {
-    /// A stage whose pictures, of `size` pixels, an adapter draws.
+    /// A stage whose pictures, of `size` pixels, an adapter draws, every mesh as it is.
     pub fn with_adapter(size: UVec2) -> Self {
         let mut app = App::new();
-        app.add_plugins(HalfwayPlugins::headless(size));
+        // What is measured is the shading of the tessellation that was asked for.
+        app.add_plugins(HalfwayPlugins::headless(size)).insert_resource(LevelsOfDetail::OFF);
         Self::new(app, size)
     }
 

@@ -67,6 +67,12 @@ impl Scaling {
                      pixels that grow, there are {1} × {1} of them.",
                     self.plan.rounds, self.plan.size
                 ),
+                format!(
+                    "Levels of detail are off while {} grow, so that all of them are there to draw; elsewhere they are as \
+                     by default, and made before anything is timed. Patches that turn away or lie outside are left out \
+                     everywhere.",
+                    Growth::Triangles.counted()
+                ),
                 "Both axes are logarithmic: a slope of 1, as of the grey line, is in proportion, and one of 0 does not \
                  depend on the count. The law of a curve is the slope of its last decade; it breaks where an earlier \
                  decade’s is off by more than 0.25. A decade counts as far as it was measured."

@@ -1,23 +1,25 @@
 //! What each feature of lighting costs: one neutral scene, in which one thing at a time is different.
 
-use std::f32::consts::{FRAC_PI_4, FRAC_PI_6, TAU};
+use std::f32::consts::{FRAC_PI_2, FRAC_PI_4, FRAC_PI_6, TAU};
 
 use bevy_app::{App, Plugin, Startup};
 use bevy_asset::Assets;
 use bevy_color::LinearRgba;
 use bevy_ecs::prelude::*;
-use bevy_math::{UVec2, Vec3};
+use bevy_math::{Quat, UVec2, Vec3};
 use bevy_transform::components::Transform;
 use halfway_lighting::{
     Attenuation, BackMaterial, Blend, Camera, Cone, DirectionalLight, Encoding, Faces, GlobalAmbient, Material,
     PointLight, Reflectance, Samples, Shading, SpotLight, Viewer,
 };
-use halfway_mesh::{Mesh, Mesh3d, UvSphere};
+use halfway_mesh::{Mesh, Mesh3d, Plane, UvSphere};
+use halfway_render::LevelsOfDetail;
 
 /// Where the lighting is evaluated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Stage {
-    /// Gouraud shading of a sphere of 512 × 256 cells in 32 × 32 pixels: hardly anything but vertices.
+    /// Gouraud shading of a plane of 360 × 360 cells in 32 × 32 pixels: hardly anything but vertices, and none of them on
+    /// a patch that turns away.
     Vertex,
     /// Phong shading of a sphere of 64 × 32 cells, seen from so near that it covers all of 640 × 480 pixels.
     Fragment,
@@ -38,23 +40,31 @@ impl Stage {
     /// How often a light is evaluated in a frame: once a vertex, or once a pixel.
     pub fn evaluations(self) -> u32 {
         match self {
-            Self::Vertex => (VERTEX_CELLS.0 + 1) * (VERTEX_CELLS.1 + 1),
+            Self::Vertex => (CELLS + 1) * (CELLS + 1),
             Self::Fragment => self.size().element_product(),
         }
     }
 
-    fn sphere(self) -> UvSphere {
+    fn mesh(self) -> Mesh {
         match self {
-            Self::Vertex => UvSphere::new(1.0, VERTEX_CELLS.0, VERTEX_CELLS.1),
-            Self::Fragment => UvSphere::new(1.0, 64, 32),
+            Self::Vertex => Plane { size: 2.0, divisions: CELLS }.into(),
+            Self::Fragment => UvSphere::new(1.0, 64, 32).into(),
         }
     }
 
-    /// Distance of the camera from the centre of the unit sphere.
+    /// A plane faces up; here it faces the camera.
+    fn place(self) -> Transform {
+        match self {
+            Self::Vertex => Transform::from_rotation(Quat::from_rotation_x(FRAC_PI_2)),
+            Self::Fragment => Transform::default(),
+        }
+    }
+
+    /// Distance of the camera from the middle.
     fn distance(self) -> f32 {
         match self {
             Self::Vertex => 3.0,
-            // The sphere's half angle is asin(1/1.7) = 36.0°; the corners of the picture lie 34.6° off its middle.
+            // The unit sphere's half angle is asin(1/1.7) = 36.0°; the corners of the picture lie 34.6° off its middle.
             Self::Fragment => 1.7,
         }
     }
@@ -67,7 +77,8 @@ impl Stage {
     }
 }
 
-const VERTEX_CELLS: (u32, u32) = (512, 256);
+/// Along each side of the plane.
+const CELLS: u32 = 360;
 
 /// The lights of a [`Feature`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -95,7 +106,7 @@ impl Lights {
 pub struct Feature {
     /// What is different, in words.
     pub name: &'static str,
-    /// The lights, all in front of the sphere.
+    /// The lights, all in front of the surface.
     pub lights: Lights,
     /// Of the front.
     pub material: Material,
@@ -203,7 +214,8 @@ impl Feature {
     }
 }
 
-/// A [`Feature`] where a [`Stage`] shows what it costs, as a plugin. Nothing moves.
+/// A [`Feature`] where a [`Stage`] shows what it costs, as a plugin. Nothing moves, and all triangles are drawn: levels of
+/// detail are off.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FeatureScene {
     /// What is different.
@@ -215,12 +227,11 @@ pub struct FeatureScene {
 impl Plugin for FeatureScene {
     fn build(&self, app: &mut App) {
         let scene = *self;
-        app.insert_resource(GlobalAmbient(LinearRgba::rgb(0.1, 0.1, 0.1))).add_systems(
-            Startup,
-            move |mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>| {
-                scene.spawn(&mut commands, meshes.add(scene.stage.sphere()));
-            },
-        );
+        app.insert_resource(GlobalAmbient(LinearRgba::rgb(0.1, 0.1, 0.1)))
+            .insert_resource(LevelsOfDetail::OFF)
+            .add_systems(Startup, move |mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>| {
+                scene.spawn(&mut commands, meshes.add(scene.stage.mesh()));
+            });
     }
 }
 
@@ -234,18 +245,19 @@ impl FeatureScene {
             feature.light(commands, i);
         }
         let material = Material { opacity: 0.5, ..feature.material };
-        let mut sphere = commands.spawn((Mesh3d(mesh), material, stage.shading(), feature.reflectance, feature.faces));
+        let look = (material, stage.shading(), feature.reflectance, feature.faces);
+        let mut surface = commands.spawn((Mesh3d(mesh), look, stage.place()));
         if let Some(back) = feature.back {
-            sphere.insert(BackMaterial(back));
+            surface.insert(BackMaterial(back));
         }
         if feature.blend {
-            sphere.insert(Blend);
+            surface.insert(Blend);
         }
     }
 }
 
 impl Feature {
-    /// The `i`-th light, on a circle between the camera and the sphere, so that all light most of what is seen.
+    /// The `i`-th light, on a circle between the camera and the surface, so that all light most of what is seen.
     fn light(&self, commands: &mut Commands, i: u32) {
         let (sin, cos) = (TAU * i as f32 / self.lights.count() as f32).sin_cos();
         let at = Transform::from_xyz(1.2 * cos, 1.2 * sin, 2.5).looking_at(Vec3::ZERO, Vec3::Y);

@@ -65,12 +65,18 @@ fn cpu_model(list: &str) -> String {
     model.filter(|model| !model.is_empty()).unwrap_or(UNKNOWN).to_owned()
 }
 
-/// What a frame counted, each count with its name in [`FrameReport`].
+/// What a frame counted, each count with its name in [`FrameReport`]; all of its numbers but `left_out`, which is no
+/// count.
 pub fn counters(report: &FrameReport) -> Vec<(&'static str, u64)> {
     vec![
         ("objects", report.objects.into()),
         ("visible", report.visible.into()),
         ("lights", report.lights.into()),
+        ("levels_pending", report.levels_pending.into()),
+        ("triangles_in", report.triangles_in),
+        ("patches", report.patches.into()),
+        ("patches_culled", report.patches_culled.into()),
+        ("lights_assigned", report.lights_assigned),
         ("draws", report.draws.into()),
         ("triangles", report.triangles),
         ("matrices", report.matrices.into()),

@@ -1,6 +1,6 @@
 //! How a frame is timed: until the device has finished it, in turns with what it is compared with.
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use bevy_app::App;
 use halfway_render::{FrameReport, Gpu, RenderError, wgpu};
@@ -13,6 +13,10 @@ pub const FRAME_TIME: &str = "A frame is App::update, which moves everything, pr
 const TIMED: usize = 2;
 /// The frames after which [`settle`] takes a scene as it is.
 const MOST: u32 = 20;
+/// How long [`settle`] waits for levels of detail.
+const PATIENCE: Duration = Duration::from_mins(5);
+/// Between frames that only wait for levels, so that their maker has the machine to itself.
+const PAUSE: Duration = Duration::from_millis(1);
 
 /// One frame, until the device has finished it.
 ///
@@ -28,18 +32,27 @@ pub fn frame(app: &mut App) -> Result<(), RenderError> {
     device.poll(wgpu::PollType::wait_indefinitely()).map(drop).map_err(|error| RenderError::Device(error.to_string()))
 }
 
-/// Runs frames until they are alike: the first ones build pipelines and upload meshes. Alike are three in a row after
-/// which as many pipelines are built and which upload as many bytes. A scene whose frames go on to differ is left after
-/// 20.
+/// Runs frames until they are alike: the first ones build pipelines, upload meshes and wait for levels of detail. Alike are
+/// three in a row after which as many pipelines are built, which upload as many bytes, and which wait for no levels. A
+/// scene whose frames go on to differ is left after 20, and one that waits for levels after five minutes: those of a mesh that
+/// was seen but once are not made.
 ///
 /// # Errors
 /// What [`frame`] says.
 pub fn settle(app: &mut App) -> Result<(), RenderError> {
     let mut last = None;
     let mut alike = 0;
-    for _ in 0..MOST {
+    let mut frames = 0;
+    let start = Instant::now();
+    while frames < MOST {
         frame(app)?;
-        let now = app.world().get_resource::<FrameReport>().map(|report| (report.pipelines, report.bytes_uploaded));
+        let report = app.world().get_resource::<FrameReport>();
+        if report.is_some_and(|report| report.levels_pending > 0) && start.elapsed() < PATIENCE {
+            std::thread::sleep(PAUSE);
+            continue;
+        }
+        frames += 1;
+        let now = report.map(|report| (report.pipelines, report.bytes_uploaded));
         alike = if now == last { alike + 1 } else { 0 };
         if alike == 2 {
             break;
@@ -58,14 +71,27 @@ pub fn settle(app: &mut App) -> Result<(), RenderError> {
 /// # Errors
 /// What [`frame`] says.
 pub fn in_turns(apps: &mut [&mut App], rounds: u32) -> Result<Vec<Vec<f64>>, RenderError> {
+    in_turns_with(apps, rounds, |_, _| ())
+}
+
+/// The same, with `note` told of each App, by its place, after each of its timed frames.
+///
+/// # Errors
+/// What [`frame`] says.
+pub fn in_turns_with(
+    apps: &mut [&mut App],
+    rounds: u32,
+    mut note: impl FnMut(usize, &App),
+) -> Result<Vec<Vec<f64>>, RenderError> {
     let mut times = vec![Vec::with_capacity(rounds as usize * TIMED); apps.len()];
     for _ in 0..rounds {
-        for (app, times) in apps.iter_mut().zip(&mut times) {
+        for (i, (app, times)) in apps.iter_mut().zip(&mut times).enumerate() {
             frame(app)?;
             for _ in 0..TIMED {
                 let start = Instant::now();
                 frame(app)?;
                 times.push(start.elapsed().as_secs_f64() * 1e3);
+                note(i, app);
             }
         }
     }

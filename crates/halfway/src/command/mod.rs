@@ -7,6 +7,7 @@ mod convert;
 mod figures;
 mod info;
 mod input;
+mod levels;
 mod picture;
 mod progress;
 mod render;

@@ -10,6 +10,7 @@ use halfway::reference::Mode;
 use halfway::render::{Gpu, RenderError};
 
 use super::input::Input;
+use super::levels::LevelsArgs;
 use super::progress::Progress;
 use super::{Failure, LookArgs};
 
@@ -17,6 +18,8 @@ use super::{Failure, LookArgs};
 pub(super) struct RenderArgs {
     #[command(flatten)]
     look: LookArgs,
+    #[command(flatten)]
+    levels: LevelsArgs,
     /// The picture: .png or .exr; with --frames an animated PNG, or one file a frame where the name has a {}
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
@@ -71,10 +74,12 @@ impl Drawer {
         }
     }
 
-    fn app(&self, size: UVec2) -> App {
+    fn app(&self, size: UVec2, levels: LevelsOfDetail) -> App {
         let mut app = App::new();
         match self {
-            Self::Adapter(gpu) => app.add_plugins(HalfwayPlugins::headless(size)).insert_resource(gpu.clone()),
+            Self::Adapter(gpu) => {
+                app.add_plugins(HalfwayPlugins::headless(size)).insert_resource(gpu.clone()).insert_resource(levels)
+            }
             Self::Reference(_) => app.add_plugins(HalfwayPlugins::reference()),
         };
         app
@@ -111,7 +116,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), Failure> {
         ..Recording::new(args.output.clone())
     };
     let drawer = Drawer::choose(args)?;
-    let mut app = drawer.app(size);
+    let mut app = drawer.app(size, args.levels.allowed());
     // A camera that frames everything has to know the picture's shape.
     input.scene.size = size.to_array();
     let spawned = input.spawn(&mut app)?;

@@ -41,7 +41,8 @@ pub(super) fn run(args: &VerifyArgs) -> Result<(), Failure> {
     let gpu = Gpu::open_headless()?;
     let device = gpu.describe();
     let mut app = App::new();
-    app.add_plugins(HalfwayPlugins::headless(size)).insert_resource(gpu);
+    // The oracle knows no levels of detail.
+    app.add_plugins(HalfwayPlugins::headless(size)).insert_resource(gpu).insert_resource(LevelsOfDetail::OFF);
     input.spawn(&mut app)?;
     let encoding = Encoding::from(input.scene.output);
     // The frames below are of one moment.

@@ -4,18 +4,21 @@ use clap::Args;
 use halfway::prelude::*;
 
 use super::input::Input;
+use super::levels::LevelsArgs;
 use super::{Failure, LookArgs};
 
 #[derive(Args, Debug)]
 pub(super) struct ViewArgs {
     #[command(flatten)]
     look: LookArgs,
+    #[command(flatten)]
+    levels: LevelsArgs,
 }
 
 pub(super) fn run(args: &ViewArgs) -> Result<(), Failure> {
     let input = Input::read(&args.look)?;
     let mut app = App::new();
-    app.add_plugins(HalfwayPlugins).insert_resource(WindowTitle(input.name()));
+    app.add_plugins(HalfwayPlugins).insert_resource(WindowTitle(input.name())).insert_resource(args.levels.allowed());
     input.spawn(&mut app)?;
     match app.run() {
         AppExit::Success => Ok(()),

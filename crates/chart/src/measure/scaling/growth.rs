@@ -1,11 +1,13 @@
 //! What grows, and in which steps.
 
+use halfway::prelude::LevelsOfDetail;
+
 use super::Plan;
 
 /// What there is more and more of, in a scene that stays as it is otherwise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Growth {
-    /// Triangles of one sphere, under one directional light.
+    /// Triangles of one sphere, under one directional light; levels of detail are off.
     Triangles,
     /// Objects of 8 triangles each that fill the picture, under one directional light; nothing moves.
     Objects,
@@ -37,6 +39,11 @@ impl Growth {
             Self::LightsOnOne => "lights on one sphere",
             Self::Pixels => "pixels",
         }
+    }
+
+    /// How coarse meshes may be drawn: by default, but where it is triangles that grow, as they are.
+    pub fn levels(self) -> LevelsOfDetail {
+        if self == Self::Triangles { LevelsOfDetail::OFF } else { LevelsOfDetail::default() }
     }
 
     /// What is counted.

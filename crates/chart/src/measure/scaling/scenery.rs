@@ -67,6 +67,7 @@ impl Scenery {
         }
         let size = if growth == Growth::Pixels { picture(count) } else { UVec2::splat(size) };
         world.resource_mut::<Headless>().size = size;
+        world.insert_resource(growth.levels());
         let whole = count as u32;
         match growth {
             Growth::Triangles => return self.one_mesh(count),

@@ -1,11 +1,12 @@
 //! `halfway bench features`: what each feature of lighting costs, once a vertex and once a pixel.
 
 use halfway::benchmark::features::{Feature, Stage};
-use halfway::benchmark::{FRAME_TIME, Machine, Spread, in_turns, median, median_ratio, settle};
+use halfway::benchmark::{FRAME_TIME, Machine, Spread, median, median_ratio, settle};
 use halfway::prelude::*;
 use halfway::render::Gpu;
 use serde_json::json;
 
+use super::cpu::{self, CpuTimes};
 use super::{BenchArgs, Failure, counters, finish, machine, print_facts, spread};
 
 /// What one stage costs under one feature.
@@ -15,11 +16,12 @@ struct Cost {
     ratio: f64,
     /// What a light costs at a vertex or pixel, where that can be said.
     per_light_ns: Option<f64>,
+    cpu: CpuTimes,
     report: FrameReport,
 }
 
 pub(super) fn run(args: &BenchArgs) -> Result<(), Failure> {
-    if args.size.is_some() || args.octahedra || args.cold || args.once.is_some() {
+    if args.size.is_some() || args.octahedra || args.levels.is_given() || args.cold || args.once.is_some() {
         return Err("bench features: expected no option but --rounds and --json".to_owned().into());
     }
     let features = Feature::all();
@@ -43,10 +45,11 @@ fn measure(features: &[Feature], stage: Stage, gpu: &Gpu, rounds: u32) -> Result
     for app in &mut apps {
         settle(app)?;
     }
-    let times = in_turns(&mut apps.iter_mut().collect::<Vec<_>>(), rounds)?;
+    let timed = cpu::timed(&mut apps.iter_mut().collect::<Vec<_>>(), rounds)?;
+    let (times, cpu): (Vec<_>, Vec<_>) = timed.into_iter().unzip();
     let baseline = features.iter().position(|feature| *feature == Feature::BASELINE).unwrap_or(0);
     let unlit = features.iter().position(|feature| feature.lights.count() == 0);
-    let costs = features.iter().zip(&apps).zip(&times).map(|((feature, app), own)| {
+    let costs = features.iter().zip(&apps).zip(times.iter().zip(cpu)).map(|((feature, app), (own, cpu))| {
         let evaluations = f64::from(feature.lights.count()) * f64::from(stage.evaluations());
         let unlit = unlit.filter(|_| feature.is_about_lights());
         // Within a round, as ratios are.
@@ -55,6 +58,7 @@ fn measure(features: &[Feature], stage: Stage, gpu: &Gpu, rounds: u32) -> Result
             frame: Spread::of(own),
             ratio: median_ratio(own, &times[baseline]),
             per_light_ns: more.map(|more| median(&more) * 1e6 / evaluations),
+            cpu,
             report: app.world().resource::<FrameReport>().clone(),
         }
     });
@@ -105,6 +109,7 @@ fn print_json(args: &BenchArgs, machine: &Machine, rows: &[Row<'_>]) {
             "frame_ms_spread": spread(&it.frame),
             "ratio_to_baseline": it.ratio,
             "light_ns": it.per_light_ns,
+            "cpu_ms": it.cpu.json(),
             "report": counters(&it.report),
         })
     };

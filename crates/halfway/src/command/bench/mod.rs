@@ -1,5 +1,6 @@
 //! `halfway bench`: the benchmark scenes, each shading beside a constant colour in the same run; and what features cost.
 
+mod cpu;
 mod features;
 mod own_process;
 mod scenes;
@@ -11,6 +12,7 @@ use halfway::record::parse_size;
 use serde_json::{Map, Value, json};
 
 use super::Failure;
+use super::levels::LevelsArgs;
 
 #[derive(Args, Debug)]
 pub(super) struct BenchArgs {
@@ -23,6 +25,8 @@ pub(super) struct BenchArgs {
     /// Draw the spheres of S2 as octahedra: 10,000 moving entities and few triangles
     #[arg(long)]
     octahedra: bool,
+    #[command(flatten)]
+    levels: LevelsArgs,
     /// Rounds; each times two frames of everything that is compared, in turn
     #[arg(long, default_value_t = 25, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     rounds: u32,
@@ -117,8 +121,9 @@ fn spread(it: &Spread) -> Value {
 }
 
 fn counters(report: &FrameReport) -> Value {
-    let counters = halfway::benchmark::counters(report).into_iter();
-    counters.map(|(name, count)| (name.to_owned(), json!(count))).collect::<Map<_, _>>().into()
+    let counters = halfway::benchmark::counters(report).into_iter().map(|(name, count)| (name, json!(count)));
+    let all = counters.chain([("left_out", json!(report.left_out))]);
+    all.map(|(name, value)| (name.to_owned(), value)).collect::<Map<_, _>>().into()
 }
 
 fn machine(it: &Machine) -> Value {

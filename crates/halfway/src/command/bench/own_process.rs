@@ -54,6 +54,7 @@ fn command(program: &std::path::Path, args: &BenchArgs, mode: Mode, cold: bool) 
     if args.octahedra {
         command.arg("--octahedra");
     }
+    command.args(args.levels.arguments());
     if cold {
         // Mesa's drivers compile anew then; others keep no such files, or do not let them be left aside.
         command.env("MESA_SHADER_CACHE_DISABLE", "true");

@@ -1,10 +1,12 @@
 //! `halfway bench s1` to `s4`: the table of one scene.
 
-use halfway::benchmark::{Benchmark, BenchmarkScene, FRAME_TIME, Machine, Spread, in_turns, median_ratio, settle};
+use halfway::benchmark::{Benchmark, BenchmarkScene, FRAME_TIME, Machine, Spread, median_ratio, settle};
 use halfway::prelude::*;
 use halfway::render::Gpu;
 use serde_json::json;
 
+use super::super::levels;
+use super::cpu::{self, CpuTimes, OWN_TIME};
 use super::own_process::{FirstFrame, first_frame};
 use super::{BenchArgs, Failure, Mode, counters, finish, machine, print_facts, spread};
 
@@ -13,6 +15,7 @@ struct Row {
     mode: Mode,
     frame: Spread,
     ratio: f64,
+    cpu: CpuTimes,
     report: FrameReport,
     warm: FirstFrame,
     cold: Option<FirstFrame>,
@@ -23,15 +26,16 @@ pub(super) fn run(args: &BenchArgs, scene: BenchmarkScene) -> Result<(), Failure
     for app in &mut apps {
         settle(app)?;
     }
-    let times = in_turns(&mut apps.each_mut(), args.rounds)?;
+    let timed = cpu::timed(&mut apps.each_mut(), args.rounds)?;
     let machine = Machine::new(apps[0].world().resource::<Gpu>());
     let reports = apps.map(|app| app.world().resource::<FrameReport>().clone());
     let mut rows = Vec::new();
-    for ((mode, report), own) in Mode::ALL.into_iter().zip(reports).zip(&times) {
+    for ((mode, report), (own, cpu)) in Mode::ALL.into_iter().zip(reports).zip(&timed) {
         rows.push(Row {
             mode,
             frame: Spread::of(own),
-            ratio: median_ratio(own, &times[0]),
+            ratio: median_ratio(own, &timed[0].0),
+            cpu: cpu.clone(),
             report,
             warm: first_frame(args, mode, false)?,
             cold: args.cold.then(|| first_frame(args, mode, true)).transpose()?,
@@ -49,6 +53,7 @@ pub(super) fn app(args: &BenchArgs, scene: BenchmarkScene, mode: Mode) -> App {
     let mut app = App::new();
     app.add_plugins(HalfwayPlugins::headless(size(args, scene)));
     app.add_plugins(Benchmark { scene, look: mode.look(), octahedra: args.octahedra });
+    app.insert_resource(args.levels.allowed());
     finish(&mut app);
     app
 }
@@ -61,17 +66,22 @@ fn print_table(args: &BenchArgs, scene: BenchmarkScene, machine: &Machine, rows:
     let size = size(args, scene);
     let octahedra = if args.octahedra { ", spheres as octahedra" } else { "" };
     println!("scene: {scene:?}{octahedra}, {} × {} pixels, {} rounds", size.x, size.y, args.rounds);
+    println!("levels of detail: {}", levels::describe(args.levels.allowed()));
     print_facts(machine);
-    println!("\n{FRAME_TIME}\n");
+    println!("\n{FRAME_TIME}\n{OWN_TIME}\n");
     let cold = if args.cold { ["first frame, no shaders kept, ms | ", "---|"] } else { [""; 2] };
-    println!("| shading | frame, ms: median | min | max | × constant | first frame, ms | {}peak memory, MB |", cold[0]);
-    println!("|---|---|---|---|---|---|{}---|", cold[1]);
-    for Row { mode, frame, ratio, report: _, warm, cold } in rows {
+    println!(
+        "| shading | frame, ms: median | min | max | × constant | own CPU, ms | first frame, ms | {}peak memory, MB |",
+        cold[0]
+    );
+    println!("|---|---|---|---|---|---|---|{}---|", cold[1]);
+    for Row { mode, frame, ratio, cpu, report: _, warm, cold } in rows {
         let Spread { median, min, max, .. } = frame;
         let cold = cold.as_ref().map(|cold| format!("{:.0} | ", cold.ms)).unwrap_or_default();
         println!(
-            "| {} | {median:.2} | {min:.2} | {max:.2} | {ratio:.2} | {:.0} | {cold}{:.0} |",
+            "| {} | {median:.2} | {min:.2} | {max:.2} | {ratio:.2} | {:.2} | {:.0} | {cold}{:.0} |",
             mode.name(),
+            cpu.own_ms(),
             warm.ms,
             warm.peak_mb
         );
@@ -80,6 +90,7 @@ fn print_table(args: &BenchArgs, scene: BenchmarkScene, machine: &Machine, rows:
 
 fn print_json(args: &BenchArgs, scene: BenchmarkScene, machine: &Machine, rows: &[Row]) {
     let size = size(args, scene);
+    let levels = args.levels.allowed();
     let rows: Vec<_> = rows
         .iter()
         .map(|row| {
@@ -90,6 +101,7 @@ fn print_json(args: &BenchArgs, scene: BenchmarkScene, machine: &Machine, rows: 
                 "ratio_to_constant": row.ratio,
                 "first_frame_ms": row.warm.ms,
                 "peak_mb": row.warm.peak_mb,
+                "cpu_ms": row.cpu.json(),
                 "report": counters(&row.report),
             });
             if let Some(cold) = &row.cold {
@@ -104,6 +116,7 @@ fn print_json(args: &BenchArgs, scene: BenchmarkScene, machine: &Machine, rows: 
             "scene": format!("{scene:?}"),
             "octahedra": args.octahedra,
             "size": size.to_array(),
+            "levels": { "pixels": levels.pixels, "shading": levels.shading },
             "rounds": args.rounds,
             "machine": self::machine(machine),
             "frame": FRAME_TIME,
