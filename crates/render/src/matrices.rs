@@ -53,12 +53,14 @@ pub(crate) fn select(
     view: Res<View>,
     mut visible: ResMut<Visible>,
     mut report: ResMut<FrameReport>,
+    // Its memory is kept.
+    mut seen: Local<Vec<(SpawnOrder, Entity)>>,
 ) {
     visible.0.clear();
+    seen.clear();
     if view.camera.is_none() {
         return;
     }
-    let mut seen = Vec::new();
     for (entity, mesh, transform, order, name) in &objects {
         report.objects += 1;
         let Some(mesh) = meshes.get(&mesh.0) else {
@@ -81,7 +83,7 @@ pub(crate) fn select(
         }
     }
     seen.sort_unstable();
-    visible.0.extend(seen.into_iter().map(|(_, entity)| entity));
+    visible.0.extend(seen.iter().map(|&(_, entity)| entity));
     report.visible = visible.0.len() as u32;
 }
 

@@ -58,7 +58,7 @@ pub(crate) fn cut(mesh: &Mesh, triangles: &mut [[u32; 3]], first: u32) -> Vec<Pa
 /// Where a point of the box is on the Z-order curve (Morton 1966) through 1024³ cells.
 fn place_on_curve(p: Vec3, bounds: &Bounds) -> u32 {
     let extent = (bounds.max - bounds.min).max_element().max(f32::MIN_POSITIVE);
-    let cell = (p - bounds.min) / extent * 1023.0;
+    let cell = (p - bounds.min) / extent * 1024.0;
     // Casts take what is no number, or beside the box by rounding, into the range.
     [cell.x, cell.y, cell.z].iter().enumerate().map(|(axis, cell)| spread((*cell as u32).min(1023)) << axis).sum()
 }

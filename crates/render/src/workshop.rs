@@ -16,16 +16,20 @@ const FEWEST: usize = 64;
 #[derive(Resource, Default)]
 pub(crate) struct Workshop {
     orders: HashMap<AssetId<Mesh>, Order>,
+    /// The number of the frame.
+    frame: u64,
     thread: Option<Thread>,
 }
 
 struct Order {
     source: Mesh,
+    /// The frame that wanted it last.
+    wanted: u64,
     state: State,
 }
 
 enum State {
-    /// Seen once. A picture that is drawn once needs no levels.
+    /// Seen in one frame. A picture that is drawn once needs no levels.
     Seen,
     /// On its way.
     Asked,
@@ -42,16 +46,18 @@ struct Thread {
 type Made = (AssetId<Mesh>, Mesh, Detail);
 
 impl Workshop {
-    /// The levels of `mesh` if they are made. Asks for them if it is the second time that they are wanted.
+    /// The levels of `mesh` if they are made. Asks for them if another frame has wanted them before.
     pub(crate) fn levels(&mut self, id: AssetId<Mesh>, mesh: &Mesh) -> Option<&Arc<Detail>> {
         if mesh.triangle_count() < FEWEST {
             return None;
         }
-        let Self { orders, thread } = self;
-        let order = orders.entry(id).or_insert_with(|| Order::new(mesh));
+        let Self { orders, frame, thread } = self;
+        let order = orders.entry(id).or_insert_with(|| Order::new(mesh, *frame));
         if !is_same(&order.source, mesh) {
-            *order = Order::new(mesh);
-        } else if let State::Seen = order.state {
+            *order = Order::new(mesh, *frame);
+        }
+        let before = std::mem::replace(&mut order.wanted, *frame);
+        if matches!(order.state, State::Seen) && before < *frame {
             if thread.is_none() {
                 *thread = Thread::start();
             }
@@ -61,8 +67,9 @@ impl Workshop {
         if let State::Made(detail) = &order.state { Some(detail) } else { None }
     }
 
-    /// Takes in what has been made.
+    /// Begins a frame, and takes in what has been made.
     pub(crate) fn collect(&mut self) {
+        self.frame += 1;
         let Some(thread) = &self.thread else { return };
         let made = thread.made.lock().unwrap_or_else(PoisonError::into_inner);
         for (id, source, detail) in made.try_iter() {
@@ -77,15 +84,16 @@ impl Workshop {
         self.orders.remove(&id);
     }
 
-    /// How many meshes have been seen whose levels are not made yet.
+    /// How many meshes the frame wants whose levels are not made yet.
     pub(crate) fn pending(&self) -> u32 {
-        self.orders.values().filter(|order| matches!(order.state, State::Seen | State::Asked)).count() as u32
+        let waits = |order: &&Order| order.wanted == self.frame && matches!(order.state, State::Seen | State::Asked);
+        self.orders.values().filter(waits).count() as u32
     }
 }
 
 impl Order {
-    fn new(mesh: &Mesh) -> Self {
-        Self { source: mesh.clone(), state: State::Seen }
+    fn new(mesh: &Mesh, wanted: u64) -> Self {
+        Self { source: mesh.clone(), wanted, state: State::Seen }
     }
 }
 
