@@ -39,16 +39,24 @@ pub(super) struct Collapse<'a> {
     alive: usize,
     /// Places by what drawing them onto their best neighbour loses.
     waiting: BinaryHeap<Reverse<(u32, u32)>>,
+    /// Of each place in line, the neighbour onto which it is best drawn, if its surroundings have not changed.
+    best: Vec<u32>,
     /// For each place, whether its surroundings have changed since it was put in line.
     changed: Vec<bool>,
     /// Whether each place is in line.
     is_waiting: Vec<bool>,
+    /// Of each vertex, the one onto which it was drawn; itself if none.
+    targets: Vec<u32>,
 }
 
-/// The greatest difference between one of three normals and their mean.
-fn spread(normals: [DVec3; 3]) -> f64 {
-    let mean = (normals[0] + normals[1] + normals[2]) / 3.0;
-    normals.map(|n| n.distance_squared(mean)).into_iter().fold(0.0, f64::max).sqrt()
+/// A normal that changes by so much, as a difference of unit vectors, counts twice, and more than that the cube of it: else
+/// a few small parts, cheap by their size, would lose their shading at once.
+const SHARP_TURN: f64 = 0.25;
+
+/// The square of the greatest difference between one of three normals and their mean.
+fn spread2(normals: [DVec3; 3]) -> f64 {
+    let mean = (normals[0] + normals[1] + normals[2]) * (1.0 / 3.0);
+    normals.map(|n| n.distance_squared(mean)).into_iter().fold(0.0, f64::max)
 }
 
 const GONE: [u32; 3] = [u32::MAX; 3];
@@ -56,12 +64,29 @@ const GONE: [u32; 3] = [u32::MAX; 3];
 /// A corner of a fan: the triangle's vertex at the fan's place, and the two after it.
 type Corner = [u32; 3];
 
-/// Vertices of the place that moves, and those that take their triangles.
-type Moves = Vec<(u32, u32)>;
+/// Vertices of the place that moves, and those that take their triangles. Most places have one vertex.
+#[derive(Default)]
+struct Moves {
+    first: Option<(u32, u32)>,
+    others: Vec<(u32, u32)>,
+}
 
-/// The vertex that takes the triangles of another, itself if none does.
-fn moved(vertex: u32, moves: &[(u32, u32)]) -> u32 {
-    moves.iter().find(|(from, _)| *from == vertex).map_or(vertex, |(_, to)| *to)
+impl Moves {
+    fn iter(&self) -> impl Iterator<Item = (u32, u32)> {
+        self.first.into_iter().chain(self.others.iter().copied())
+    }
+
+    fn push(&mut self, from: u32, to: u32) {
+        match self.first {
+            None => self.first = Some((from, to)),
+            Some(_) => self.others.push((from, to)),
+        }
+    }
+
+    /// The vertex that takes the triangles of this one, if there is one.
+    fn target(&self, vertex: u32) -> Option<u32> {
+        self.iter().find(|(from, _)| *from == vertex).map(|(_, to)| to)
+    }
 }
 
 impl<'a> Collapse<'a> {
@@ -87,15 +112,18 @@ impl<'a> Collapse<'a> {
             triangles,
             fans,
             waiting: BinaryHeap::new(),
+            best: vec![u32::MAX; stand_ins.places.len()],
             changed: vec![false; stand_ins.places.len()],
             is_waiting: vec![true; stand_ins.places.len()],
+            targets: (0..stand_ins.places.len() as u32).collect(),
         };
         collapse.add_quadrics();
         let first = (0..collapse.fans.len() as u32).into_par_iter();
-        let first = first.map(|place| collapse.best(place).map(|(cost, _)| Reverse((cost.to_bits(), place))));
-        let first: Vec<_> = first.collect();
+        let first: Vec<_> = first.map(|place| collapse.best(place)).collect();
         collapse.is_waiting = first.iter().map(Option::is_some).collect();
-        collapse.waiting = first.into_iter().flatten().collect();
+        collapse.best = first.iter().map(|best| best.map_or(u32::MAX, |(_, target)| target)).collect();
+        let in_line = |(place, best): (u32, Option<(f32, u32)>)| best.map(|(cost, _)| Reverse((cost.to_bits(), place)));
+        collapse.waiting = (0..).zip(first).filter_map(in_line).collect();
         collapse
     }
 
@@ -107,17 +135,24 @@ impl<'a> Collapse<'a> {
         self.triangles.iter().copied().filter(|&triangle| triangle != GONE).collect()
     }
 
+    /// Of each vertex, the one onto which it was drawn; itself if none.
+    pub(super) fn into_targets(self) -> Vec<u32> {
+        self.targets
+    }
+
     /// Draws vertices onto others until no more than so many triangles are left or nothing may be drawn any more.
     pub(super) fn reduce_to(&mut self, target: usize) {
         while self.alive > target {
             let Some(Reverse((_, place))) = self.waiting.pop() else { return };
             self.is_waiting[place as usize] = false;
-            let Some((cost, target)) = self.best(place) else { continue };
-            if std::mem::take(&mut self.changed[place as usize]) {
+            let has_changed = std::mem::take(&mut self.changed[place as usize]);
+            let target = self.best[place as usize];
+            if !has_changed && self.may_be_drawn(place, target) {
+                self.draw(place, target);
+            } else if let Some((cost, target)) = self.best(place) {
+                self.best[place as usize] = target;
                 self.is_waiting[place as usize] = true;
                 self.waiting.push(Reverse((cost.to_bits(), place)));
-            } else {
-                self.draw(place, target);
             }
         }
     }
@@ -177,22 +212,53 @@ impl<'a> Collapse<'a> {
         if self.fans[place as usize].len() > MOST_AROUND {
             return None;
         }
-        let fan: Vec<Corner> = self.corners(place).collect();
-        if fan.is_empty() || fan.len() > MOST_AROUND {
+        let fan = self.fan(place);
+        if fan.is_empty() {
             return None;
         }
-        let mut around: Vec<u32> = fan.iter().flat_map(|&[_, b, c]| [self.place(b), self.place(c)]).collect();
-        around.sort_unstable();
-        around.dedup();
+        let around = self.around(&fan);
+        let p = self.position(place);
+        let base = |&target: &u32| {
+            let q = self.position(target);
+            (self.quadrics[place as usize].distance(q) + EDGE_WEIGHT * p.distance_squared(q), target)
+        };
+        let mut targets: Vec<(f64, u32)> = around.iter().map(base).collect();
+        // Those that promise least first: after them the others can be left sooner.
+        targets.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let mut best: Option<(f64, u32)> = None;
-        for &target in &around {
+        for (base, target) in targets {
             let most = best.map_or(f64::INFINITY, |(cost, _)| cost);
-            let Some(cost) = self.cost(place, target, &fan, most) else { continue };
-            if cost < most && self.keeps_topology(target, &fan, &around) {
+            if base >= most {
+                break;
+            }
+            let Some(cost) = self.cost(place, (target, base), &fan, most) else { continue };
+            if self.keeps_topology(target, &fan, &around) {
                 best = Some((cost, target));
             }
         }
         best.map(|(cost, target)| (cost as f32, target))
+    }
+
+    /// The corners at a place.
+    fn fan(&self, place: u32) -> Vec<Corner> {
+        let mut fan = Vec::with_capacity(self.fans[place as usize].len());
+        fan.extend(self.corners(place));
+        fan
+    }
+
+    /// The neighbours of a place, in order.
+    fn around(&self, fan: &[Corner]) -> Vec<u32> {
+        let mut around = Vec::with_capacity(2 * fan.len());
+        around.extend(fan.iter().flat_map(|&[_, b, c]| [self.place(b), self.place(c)]));
+        around.sort_unstable();
+        around.dedup();
+        around
+    }
+
+    /// Whether what is best for a place still is where only what is further off than its neighbours has changed.
+    fn may_be_drawn(&self, place: u32, target: u32) -> bool {
+        let fan = self.fan(place);
+        self.keeps_topology(target, &fan, &self.around(&fan))
     }
 
     /// What drawing a place onto a neighbour loses, unless it is no less than `most`, it turns a triangle over or a seam
@@ -200,61 +266,66 @@ impl<'a> Collapse<'a> {
     ///
     /// A length, the sum of: how far the new position is from the planes of the original triangles, in the mean; how far
     /// the old position is from the new triangles, which the mean may hide; the spread of the new triangles' normals and
-    /// the change of the normal at the old position, both times the longest edge. So what is small may be cut coarsely,
+    /// the change of the normal at the old position (see [`SHARP_TURN`]), both times the longest edge. So what is small may be cut coarsely,
     /// and on a sphere all triangles become alike.
-    fn cost(&self, place: u32, target: u32, fan: &[Corner], most: f64) -> Option<f64> {
+    fn cost(&self, place: u32, (target, base): (u32, f64), fan: &[Corner], most: f64) -> Option<f64> {
         let (p, q) = (self.position(place), self.position(target));
-        let base = self.quadrics[place as usize].distance(q) + EDGE_WEIGHT * p.distance_squared(q);
-        if base >= most {
-            return None;
-        }
         let moves = self.moves(target, fan)?;
-        let (mut bulge, mut gap) = (0.0_f64, (f64::INFINITY, 0.0));
-        for &[a, b, c] in fan {
-            if self.place(b) == target || self.place(c) == target {
-                continue;
-            }
+        let stays = |&&[_, b, c]: &&Corner| self.place(b) != target && self.place(c) != target;
+        let (mut bulge2, most_bulge2) = (0.0_f64, (most - base).powi(2));
+        for &[a, b, c] in fan.iter().filter(stays) {
             let [p_b, p_c] = [b, c].map(|vertex| self.position(vertex));
             let side = p_c - p_b;
             let (before, after) = (side.cross(p - p_b), side.cross(q - p_b));
-            if before.dot(after) <= TURN * (before.length_squared() * after.length_squared()).sqrt() {
+            let dot = before.dot(after);
+            if dot <= 0.0 || dot * dot <= TURN * TURN * before.length_squared() * after.length_squared() {
                 return None;
             }
-            let normals = [moved(a, &moves), b, c].map(|vertex| self.normals[vertex as usize].as_dvec3());
-            let longest = side.length_squared().max(q.distance_squared(p_b)).max(q.distance_squared(p_c)).sqrt();
-            bulge = bulge.max(spread(normals) * longest);
-            if base + bulge >= most {
+            let normals = [moves.target(a).unwrap_or(a), b, c].map(|vertex| self.normal(vertex));
+            let longest2 = side.length_squared().max(q.distance_squared(p_b)).max(q.distance_squared(p_c));
+            bulge2 = bulge2.max(spread2(normals) * longest2);
+            if bulge2 >= most_bulge2 {
                 return None;
             }
-            let (gap2, [w_a, w_b, w_c]) = nearest_on(p, [q, p_b, p_c]);
-            if gap2 < gap.0 {
-                let n = w_a * normals[0] + w_b * normals[1] + w_c * normals[2];
-                gap = (gap2, n.distance(self.normals[a as usize].as_dvec3()) * longest);
+        }
+        let (mut gap2, mut turn) = (f64::INFINITY, 0.0);
+        for &[a, b, c] in fan.iter().filter(stays) {
+            let [p_b, p_c] = [b, c].map(|vertex| self.position(vertex));
+            let (distance2, weights) = nearest_on(p, [q, p_b, p_c]);
+            if distance2 < gap2 {
+                let normals = [moves.target(a).unwrap_or(a), b, c].map(|vertex| self.normal(vertex));
+                let n: DVec3 = normals.into_iter().zip(weights).map(|(n, weight)| weight * n).sum();
+                let longest2 = p_b.distance_squared(p_c).max(q.distance_squared(p_b)).max(q.distance_squared(p_c));
+                let by = n.distance(self.normal(a));
+                (gap2, turn) = (distance2, by * (1.0 + (by / SHARP_TURN).powi(2)) * longest2.sqrt());
             }
         }
         // An ear, or a piece of one triangle, would be gone.
-        if gap.0.is_infinite() {
+        if gap2.is_infinite() {
             return None;
         }
-        let loss = base + bulge + GAP_WEIGHT * gap.0.sqrt() + gap.1;
+        let loss = base + bulge2.sqrt() + GAP_WEIGHT * gap2.sqrt() + turn;
         (loss < most).then_some(loss)
+    }
+
+    fn normal(&self, vertex: u32) -> DVec3 {
+        self.normals[vertex as usize].as_dvec3()
     }
 
     /// Which vertex of the target each vertex of the fan's place becomes: the one that it shares an edge with. None if a
     /// vertex has none there, or two.
     fn moves(&self, target: u32, fan: &[Corner]) -> Option<Moves> {
-        let mut moves = Moves::with_capacity(2);
+        let mut moves = Moves::default();
         for &[a, b, c] in fan {
             for to in [b, c].into_iter().filter(|&vertex| self.place(vertex) == target) {
-                match moves.iter().find(|(from, _)| *from == a) {
-                    None => moves.push((a, to)),
-                    Some(&(_, other)) if other != to => return None,
+                match moves.target(a) {
+                    None => moves.push(a, to),
+                    Some(other) if other != to => return None,
                     Some(_) => {}
                 }
             }
         }
-        let moves_on = |vertex: u32| moves.iter().any(|(from, _)| *from == vertex);
-        fan.iter().all(|&[a, ..]| moves_on(a)).then_some(moves)
+        fan.iter().all(|&[a, ..]| moves.target(a).is_some()).then_some(moves)
     }
 
     /// Whether the surface stays one: the neighbours that both ends have are those of the triangles on their edge, one at
@@ -277,8 +348,11 @@ impl<'a> Collapse<'a> {
 
     /// Draws a place onto a neighbour.
     fn draw(&mut self, place: u32, target: u32) {
-        let fan: Vec<Corner> = self.corners(place).collect();
+        let fan = self.fan(place);
         let Some(moves) = self.moves(target, &fan) else { return };
+        for (from, to) in moves.iter() {
+            self.targets[from as usize] = to;
+        }
         let numbers = std::mem::take(&mut self.fans[place as usize]);
         for number in numbers {
             let triangle = self.triangles[number as usize];
@@ -289,7 +363,7 @@ impl<'a> Collapse<'a> {
                 self.triangles[number as usize] = GONE;
                 self.alive -= 1;
             } else {
-                self.triangles[number as usize] = triangle.map(|vertex| moved(vertex, &moves));
+                self.triangles[number as usize] = triangle.map(|vertex| moves.target(vertex).unwrap_or(vertex));
                 self.fans[target as usize].push(number);
             }
         }

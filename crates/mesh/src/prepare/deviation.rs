@@ -1,13 +1,20 @@
-//! How far a coarse level is from the finer one before it, at sampled points.
+//! How far a level is from the mesh, at sampled points.
+
+use std::ops::Range;
 
 use bevy_math::DVec3;
 use rayon::prelude::*;
 
 use super::nearest::Triangles;
-use super::stand_ins::StandIns;
 use crate::Mesh;
 
-/// What two levels differ by.
+/// So many of the vertices that went since the level before are sampled, and so many of those that went earlier.
+const MOST_GONE: usize = 8192;
+
+/// So many centroids and middles of edges are sampled.
+const MOST_MIDDLES: usize = 16384;
+
+/// What a level and the mesh differ by.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Deviation {
     /// The greatest distance of a sampled point.
@@ -22,22 +29,40 @@ impl Deviation {
     }
 }
 
-/// Triangles of a level that are looked at for a point, after which the best so far has to do.
-const LOOKED_AT: usize = 256;
+/// The vertices that levels do without, one after the other.
+pub(super) struct Gone {
+    order: Vec<u32>,
+    /// Of each vertex, where it is in the order; `usize::MAX` if it stays.
+    numbers: Vec<usize>,
+    /// Of each vertex, the one onto which it was drawn; itself if none.
+    targets: Vec<u32>,
+}
 
-/// No triangle of the level touches the place.
-const NOWHERE: u32 = u32::MAX;
+impl Gone {
+    pub(super) fn new(order: Vec<u32>, targets: Vec<u32>) -> Self {
+        let mut numbers = vec![usize::MAX; targets.len()];
+        for (number, &vertex) in order.iter().enumerate() {
+            numbers[vertex as usize] = number;
+        }
+        Self { order, numbers, targets }
+    }
 
-/// The triangles of a level, found by the places that they touch.
+    /// Where a vertex is after so many have gone: the vertex onto which it was drawn, or the one onto which that was
+    /// drawn, and so on.
+    fn target(&self, vertex: u32, gone: usize) -> u32 {
+        let mut vertex = vertex;
+        while self.numbers[vertex as usize] < gone && self.targets[vertex as usize] != vertex {
+            vertex = self.targets[vertex as usize];
+        }
+        vertex
+    }
+}
+
+/// Triangles between a mesh's vertices, found by place.
 pub(super) struct Sheet<'a> {
     mesh: &'a Mesh,
-    stand_ins: &'a StandIns,
     triangles: &'a [[u32; 3]],
-    /// Where the triangles about each place begin among `fans`; one more at the end.
-    starts: Vec<u32>,
-    fans: Vec<u32>,
-    /// Whether each vertex is one of the level's.
-    used: Vec<bool>,
+    tree: Triangles,
 }
 
 /// A point and its normal.
@@ -45,39 +70,15 @@ pub(super) struct Sheet<'a> {
 struct Sample {
     p: DVec3,
     n: DVec3,
-    /// A place of the level that is probably near.
-    start: u32,
+    /// A difference of unit normals counts as that part of this length, squared.
+    scale2: f64,
 }
 
 impl<'a> Sheet<'a> {
-    pub(super) fn new(mesh: &'a Mesh, stand_ins: &'a StandIns, triangles: &'a [[u32; 3]]) -> Self {
-        let count = mesh.positions().len();
-        let (mut starts, mut used) = (vec![0; count + 1], vec![false; count]);
-        for &vertex in triangles.iter().flatten() {
-            used[vertex as usize] = true;
-            starts[stand_ins.places[vertex as usize] as usize + 1] += 1;
-        }
-        for place in 0..count {
-            starts[place + 1] += starts[place];
-        }
-        let mut next = starts.clone();
-        let mut fans = vec![0; 3 * triangles.len()];
-        for (number, triangle) in (0..).zip(triangles) {
-            for &vertex in triangle {
-                let place = stand_ins.places[vertex as usize] as usize;
-                fans[next[place] as usize] = number;
-                next[place] += 1;
-            }
-        }
-        Self { mesh, stand_ins, triangles, starts, fans, used }
-    }
-
-    fn place(&self, vertex: u32) -> u32 {
-        self.stand_ins.places[vertex as usize]
-    }
-
-    fn fan(&self, place: u32) -> &[u32] {
-        &self.fans[self.starts[place as usize] as usize..self.starts[place as usize + 1] as usize]
+    /// At least one triangle.
+    pub(super) fn new(mesh: &'a Mesh, triangles: &'a [[u32; 3]]) -> Self {
+        let corners = |triangle: &[u32; 3]| triangle.map(|vertex| mesh.positions()[vertex as usize].as_dvec3());
+        Self { mesh, triangles, tree: Triangles::new(triangles.iter().map(corners).collect()) }
     }
 
     fn position(&self, vertex: u32) -> DVec3 {
@@ -88,149 +89,71 @@ impl<'a> Sheet<'a> {
         self.mesh.normals()[vertex as usize].as_dvec3()
     }
 
-    /// What this level and a finer one differ by: at the finer one's vertices that this one has not, and at the centroids
-    /// and the middles of the edges that the finer one has not.
-    pub(super) fn deviation_from(&self, finer: &Self) -> Deviation {
-        let starts = self.starts_of(finer);
-        let gone = (0..self.used.len() as u32).into_par_iter();
-        let gone = gone.filter(|&vertex| finer.used[vertex as usize] && !self.used[vertex as usize]).map(|vertex| {
+    /// What this level and the mesh differ by: at vertices that went since the level before, `late` in their order, at
+    /// those that went earlier, and at centroids and middles of edges of this level.
+    pub(super) fn deviation_from(&self, mesh: &Self, gone: &Gone, late: Range<usize>) -> Deviation {
+        let early = spread_out(late.start, MOST_GONE);
+        let numbers = early.chain(spread_out(late.len(), MOST_GONE).map(|i| late.start + i));
+        let vertices = numbers.map(|number| {
+            let vertex = gone.order[number];
             let (p, n) = (self.position(vertex), self.normal(vertex));
-            let start = starts[self.place(vertex) as usize];
-            self.deviation_at(Sample { p, n, start })
+            let scale2 = p.distance_squared(self.position(gone.target(vertex, late.end)));
+            self.deviation_at(Sample { p, n, scale2 })
         });
-        let new = self.triangles.par_iter().flat_map_iter(|triangle| self.new_samples(*triangle, finer));
-        let new = new.map(|sample| finer.deviation_at(sample));
-        gone.chain(new).reduce(Deviation::default, Deviation::max)
+        let middles = self.middles().into_par_iter().map(|middle| mesh.deviation_at(self.sample(middle)));
+        vertices.chain(middles).reduce(Deviation::default, Deviation::max)
     }
 
-    /// For each place of a finer level a place of this one that is near along edges.
-    fn starts_of(&self, finer: &Self) -> Vec<u32> {
-        let place_of = |place: u32| if self.fan(place).is_empty() { NOWHERE } else { place };
-        let mut starts: Vec<u32> = (0..self.used.len() as u32).map(place_of).collect();
-        let places = |triangle: &[u32; 3]| triangle.map(|vertex| self.place(vertex));
-        let mut waiting: Vec<[u32; 3]> = finer.triangles.iter().map(places).collect();
-        loop {
-            waiting.retain(|triangle| triangle.iter().any(|&place| starts[place as usize] == NOWHERE));
-            let mut found = Vec::new();
-            for triangle in &waiting {
-                for &place in triangle.iter().filter(|&&place| starts[place as usize] == NOWHERE) {
-                    let near = triangle.map(|other| starts[other as usize]).into_iter().filter(|&s| s != NOWHERE);
-                    let distance2 = |&start: &u32| self.position(start).distance_squared(self.position(place));
-                    let nearest = near.min_by(|a, b| distance2(a).total_cmp(&distance2(b)));
-                    found.extend(nearest.map(|start| (place, start)));
+    /// Corners whose centre is sampled: three of a triangle, or two of an edge and one of them again.
+    fn middles(&self) -> Vec<[u32; 3]> {
+        let middle = |number: usize| {
+            let [a, b, c] = self.triangles[number / 4];
+            let edge = |a: u32, b: u32| [a.min(b), a.max(b), a.max(b)];
+            [[a, b, c], edge(a, b), edge(b, c), edge(c, a)][number % 4]
+        };
+        let mut middles: Vec<[u32; 3]> = spread_out(4 * self.triangles.len(), MOST_MIDDLES).map(middle).collect();
+        // Triangles share edges.
+        middles.sort_unstable();
+        middles.dedup();
+        middles
+    }
+
+    fn sample(&self, [a, b, c]: [u32; 3]) -> Sample {
+        let corners = if b == c { &[a, b][..] } else { &[a, b, c] };
+        let p = corners.iter().map(|&vertex| self.position(vertex)).sum::<DVec3>() / corners.len() as f64;
+        let n = corners.iter().map(|&vertex| self.normal(vertex)).sum::<DVec3>().normalize_or_zero();
+        let to_corner2 = corners.iter().map(|&vertex| p.distance_squared(self.position(vertex)));
+        Sample { p, n, scale2: to_corner2.fold(f64::INFINITY, f64::min) }
+    }
+
+    /// The distance of a point from the triangles, and the angle of its normal to the interpolated one there.
+    ///
+    /// Where a crease or a thin part has two sides near the point, the one that faces its way is meant: a difference of
+    /// unit normals counts as that part of the sample's scale.
+    fn deviation_at(&self, Sample { p, n, scale2 }: Sample) -> Deviation {
+        let mut best = (f64::INFINITY, f64::INFINITY, DVec3::ZERO);
+        self.tree.search(p, f64::INFINITY, |_, triangle, number| {
+            let (distance2, weights) = nearest_on(p, *triangle);
+            if distance2 < best.0 {
+                let corners = self.triangles[number as usize].into_iter().zip(weights);
+                let m = corners.map(|(vertex, weight)| weight * self.normal(vertex)).sum::<DVec3>().normalize_or_zero();
+                let cost = distance2 + scale2 * m.distance_squared(n);
+                if cost < best.0 {
+                    best = (cost, distance2, m);
                 }
             }
-            if found.is_empty() {
-                break;
-            }
-            for (place, start) in found {
-                starts[place as usize] = start;
-            }
-        }
-        self.find_lost(finer, &mut starts);
-        starts
-    }
-
-    /// Starts for pieces that are gone altogether: a corner of the triangle nearest to each of their places.
-    fn find_lost(&self, finer: &Self, starts: &mut [u32]) {
-        let is_lost = |place: &u32| starts[*place as usize] == NOWHERE && !finer.fan(*place).is_empty();
-        let lost: Vec<u32> = (0..starts.len() as u32).filter(is_lost).collect();
-        if lost.is_empty() {
-            return;
-        }
-        let corners = |triangle: &[u32; 3]| triangle.map(|vertex| self.position(vertex));
-        let tree = Triangles::new(self.triangles.iter().map(corners).collect());
-        let nearest = |&place: &u32| {
-            let (_, number) = tree.nearest(self.position(place), 0);
-            self.place(self.triangles[tree.original(number)][0])
-        };
-        let found: Vec<u32> = lost.par_iter().map(nearest).collect();
-        for (&place, start) in lost.iter().zip(found) {
-            starts[place as usize] = start;
-        }
-    }
-
-    /// The centroid and the middles of the edges of a triangle of this level that `finer` has not; an edge that two
-    /// triangles share counts once.
-    fn new_samples(&self, triangle: [u32; 3], finer: &Self) -> impl Iterator<Item = Sample> {
-        let [a, b, c] = triangle;
-        let is_new = !finer.fan(self.place(a)).iter().any(|&i| is_rotation(finer.triangles[i as usize], triangle));
-        let sides = [[a, b], [b, c], [c, a]].into_iter().filter(move |_| is_new);
-        let sides = sides.filter(|&[a, b]| (a < b || !self.has_edge(b, a)) && !finer.has_edge(a, b));
-        let sample = |corners: &[u32]| {
-            let count = corners.len() as f64;
-            let n: DVec3 = corners.iter().map(|&vertex| self.normal(vertex)).sum();
-            let by_fan = |vertex: &&u32| finer.fan(self.place(**vertex)).len();
-            Sample {
-                p: corners.iter().map(|&vertex| self.position(vertex)).sum::<DVec3>() / count,
-                n: n.normalize_or_zero(),
-                start: self.place(*corners.iter().min_by_key(by_fan).unwrap_or(&corners[0])),
-            }
-        };
-        let centroid = is_new.then(|| sample(&triangle));
-        let middles: Vec<Sample> = sides.map(|side| sample(&side)).collect();
-        centroid.into_iter().chain(middles)
-    }
-
-    /// Whether a triangle goes from one vertex to the other.
-    fn has_edge(&self, from: u32, to: u32) -> bool {
-        self.fan(self.place(from)).iter().any(|&number| {
-            let [a, b, c] = self.triangles[number as usize];
-            [[a, b], [b, c], [c, a]].contains(&[from, to])
-        })
-    }
-
-    /// The distance of a point from this level, and the angle of its normal to the interpolated one there.
-    ///
-    /// Looks from the start around the corners of the best triangle so far until none is better. Where a crease or a thin
-    /// part has two sides near the point, the one that faces its way is meant: a difference of unit normals counts as
-    /// that part of the distance from the start. What it finds bounds the distance from the nearest point from above.
-    fn deviation_at(&self, sample: Sample) -> Deviation {
-        let scale2 = self.position(sample.start).distance_squared(sample.p);
-        let mut best = Match { cost: f64::INFINITY, distance2: f64::INFINITY, n: DVec3::ZERO, triangle: [0; 3] };
-        let mut looked_at = 0;
-        let mut around: Vec<u32> = Vec::with_capacity(16);
-        let mut next = Some(sample.start);
-        while let Some(place) = next {
-            around.push(place);
-            let fan = self.fan(place);
-            let fan = &fan[..fan.len().min(LOOKED_AT.saturating_sub(looked_at).max(1))];
-            looked_at += fan.len();
-            for &number in fan {
-                self.improve(&mut best, self.triangles[number as usize], sample, scale2);
-            }
-            let corners = best.triangle.map(|vertex| self.place(vertex)).into_iter();
-            let left = corners.filter(|place| looked_at < LOOKED_AT && !around.contains(place));
-            next = left.min_by_key(|&place| self.fan(place).len());
-        }
-        let angle = if best.n == DVec3::ZERO { std::f64::consts::PI } else { angle(sample.n, best.n) };
-        Deviation { distance: best.distance2.sqrt(), angle }
-    }
-
-    fn improve(&self, best: &mut Match, triangle: [u32; 3], sample: Sample, scale2: f64) {
-        let (distance2, weights) = nearest_on(sample.p, triangle.map(|vertex| self.position(vertex)));
-        if distance2 >= best.cost {
-            return;
-        }
-        let weighted = triangle.into_iter().zip(weights).map(|(vertex, weight)| weight * self.normal(vertex));
-        let n = weighted.sum::<DVec3>().normalize_or_zero();
-        let cost = distance2 + scale2 * n.distance_squared(sample.n);
-        if cost < best.cost {
-            *best = Match { cost, distance2, n, triangle };
-        }
+            best.0
+        });
+        let (_, distance2, m) = best;
+        let angle = if m == DVec3::ZERO { std::f64::consts::PI } else { angle(n, m) };
+        Deviation { distance: distance2.sqrt(), angle }
     }
 }
 
-/// The triangle that fits a sample best so far.
-struct Match {
-    cost: f64,
-    distance2: f64,
-    n: DVec3,
-    triangle: [u32; 3],
-}
-
-fn is_rotation([a, b, c]: [u32; 3], other: [u32; 3]) -> bool {
-    [[a, b, c], [b, c, a], [c, a, b]].contains(&other)
+/// At most so many numbers below `count`, evenly spread.
+fn spread_out(count: usize, most: usize) -> impl IndexedParallelIterator<Item = usize> {
+    let taken = count.min(most);
+    (0..taken).into_par_iter().map(move |i| i * count / taken)
 }
 
 /// The angle between two vectors, exact also where it is small.
@@ -244,25 +167,24 @@ pub(super) fn nearest_on(p: DVec3, [a, b, c]: [DVec3; 3]) -> (f64, [f64; 3]) {
     let (ab, ac, ap) = (b - a, c - a, p - a);
     let n = ab.cross(ac);
     let n2 = n.length_squared();
-    if n2 > 0.0 {
-        let [v, w] = [ap.cross(ac).dot(n) / n2, ab.cross(ap).dot(n) / n2];
-        let weights = [1.0 - v - w, v, w];
-        if weights.iter().all(|&weight| weight >= 0.0) {
-            return (ap.dot(n).powi(2) / n2, weights);
-        }
+    let [v, w] = [ap.cross(ac).dot(n), ab.cross(ap).dot(n)];
+    let weights = [n2 - v - w, v, w];
+    if n2 > 0.0 && weights.iter().all(|&weight| weight >= 0.0) {
+        return (ap.dot(n).powi(2) / n2, weights.map(|weight| weight / n2));
     }
-    let on_side = |from: DVec3, to: DVec3| {
+    // The nearest side is one that the point is beyond.
+    let mut best = (f64::INFINITY, [1.0, 0.0, 0.0]);
+    for (i, [from, to]) in [[b, c], [c, a], [a, b]].into_iter().enumerate() {
+        if n2 > 0.0 && weights[i] >= 0.0 {
+            continue;
+        }
         let side = to - from;
         let length2 = side.length_squared();
         let t = if length2 > 0.0 { ((p - from).dot(side) / length2).clamp(0.0, 1.0) } else { 0.0 };
-        (p.distance_squared(from + side * t), t)
-    };
-    let [(d_ab, t_ab), (d_bc, t_bc), (d_ca, t_ca)] = [on_side(a, b), on_side(b, c), on_side(c, a)];
-    if d_ab <= d_bc && d_ab <= d_ca {
-        (d_ab, [1.0 - t_ab, t_ab, 0.0])
-    } else if d_bc <= d_ca {
-        (d_bc, [0.0, 1.0 - t_bc, t_bc])
-    } else {
-        (d_ca, [t_ca, 0.0, 1.0 - t_ca])
+        let distance2 = p.distance_squared(from + side * t);
+        if distance2 < best.0 {
+            best = (distance2, [[0.0, 1.0 - t, t], [t, 0.0, 1.0 - t], [1.0 - t, t, 0.0]][i]);
+        }
     }
+    best
 }

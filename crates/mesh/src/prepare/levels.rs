@@ -1,10 +1,12 @@
 //! Levels of detail: fewer and fewer triangles between the vertices of one mesh.
 
+use std::ops::Range;
+
 use bevy_math::DVec3;
 use rayon::prelude::*;
 
 use super::collapse::Collapse;
-use super::deviation::{Deviation, Sheet, angle};
+use super::deviation::{Deviation, Gone, Sheet, angle};
 use super::stand_ins::StandIns;
 use crate::Mesh;
 
@@ -13,15 +15,22 @@ use crate::Mesh;
 pub struct Level {
     /// Its triangles, three corners each, as numbers of the mesh's vertices: all levels share the mesh's vertices.
     pub indices: Vec<u32>,
-    /// How far the level is from the mesh, in its units, as [`Mesh::levels`] measures it.
+    /// How far the level is from the mesh, in its units, at the points that [`Mesh::levels`] samples.
     pub error: f32,
-    /// How far the level's interpolated normals, made unit again, are from the mesh's at corresponding points, in radians.
+    /// How far the level's interpolated normals, made unit again, are from the mesh's at the same points, in radians.
     pub normal_error: f32,
     /// The largest angle between a vertex normal of a triangle and the mean of all three, in radians: what shading at the
     /// vertices loses between them grows with its square.
     pub normal_spread: f32,
     /// The length of the longest edge, in the mesh's units; at most `f32::MAX`.
     pub longest_edge: f32,
+}
+
+/// The triangles of a level.
+struct Step {
+    triangles: Vec<[u32; 3]>,
+    /// Which vertices went since the level before, as numbers in the order in which vertices go.
+    gone: Range<usize>,
 }
 
 /// Levels with fewer triangles than this are not made.
@@ -56,24 +65,33 @@ impl Mesh {
     /// error. A faceted mesh is all creases: [weld](Self::welded) it first. There is no level of fewer than 32 triangles,
     /// of more than three quarters of those before, or with an error of more than a tenth of the radius of the box.
     ///
-    /// Errors are measured between a level and the one before and added up, so they never fall and are more than what
-    /// direct measurement would give. Measured are distance and normal at each vertex that went, against the new level, and
-    /// at the centroid and the edges' middles of each new triangle, against the old one; each at the nearest point that
-    /// faces alike, which is looked for from neighbours on, so that what is found is not nearer than the nearest. Points
-    /// between these samples may be further off. Texture coordinates, colours and tangents are not measured.
+    /// Each level is measured against the mesh itself, at sampled points: at up to 8192 of the vertices that it has not and
+    /// the level before had, at up to 8192 that the level before had not either, and at up to 16384 centroids and middles
+    /// of edges of the level's triangles, each sort taken evenly over its order in the mesh or the level. A vertex is
+    /// compared with the level, the others with the mesh, at the nearest point that faces alike: the one with the least
+    /// d² + s² |n − m|², where d is the distance, n and m are the unit interpolated normals, and s is the distance of the
+    /// sample from the vertex onto which it went, of a centroid or a middle from its nearest corner. The largest d is the
+    /// error and the largest angle between n and m the normal's, or that of the level before if it is larger, so that
+    /// neither falls. Points between the samples may be further off. Texture coordinates, colours and tangents are not
+    /// measured.
     pub fn levels(&self) -> Vec<Level> {
         let stand_ins = StandIns::new(self);
-        let steps = self.halved(&stand_ins);
-        let sheets: Vec<Sheet> = steps.par_iter().map(|step| Sheet::new(self, &stand_ins, step)).collect();
-        let deviations: Vec<_> = sheets.windows(2).map(|pair| pair[1].deviation_from(&pair[0])).collect();
-        let mut total = self.deviation_of(&stand_ins);
+        let (steps, gone) = self.halved(&stand_ins);
+        if steps.is_empty() {
+            return Vec::new();
+        }
+        let finest = Sheet::new(self, self.indices().as_chunks().0);
+        let deviation =
+            |step: &Step| Sheet::new(self, &step.triangles).deviation_from(&finest, &gone, step.gone.clone());
+        let deviations: Vec<Deviation> = steps.par_iter().map(deviation).collect();
+        let mut worst = self.deviation_of(&stand_ins);
         let mut levels = Vec::new();
-        for (deviation, step) in deviations.iter().zip(&steps[1..]) {
-            total = Deviation { distance: total.distance + deviation.distance, angle: total.angle + deviation.angle };
-            if total.distance > FARTHEST * f64::from(self.bounds().radius()) {
+        for (deviation, step) in deviations.into_iter().zip(steps) {
+            worst = worst.max(deviation);
+            if worst.distance > FARTHEST * f64::from(self.bounds().radius()) {
                 break;
             }
-            levels.push(self.level(step.as_flattened().to_vec(), total));
+            levels.push(self.level(step.triangles.into_flattened(), worst));
         }
         levels
     }
@@ -91,10 +109,11 @@ impl Mesh {
         stand_ins.vertices.iter().enumerate().map(deviation).fold(Deviation::default(), Deviation::max)
     }
 
-    /// The triangles between stand-ins, then half as many, and so on, each from the one before.
-    fn halved(&self, stand_ins: &StandIns) -> Vec<Vec<[u32; 3]>> {
+    /// Half as many triangles between stand-ins, half of those, and so on, and the vertices that go on the way.
+    fn halved(&self, stand_ins: &StandIns) -> (Vec<Step>, Gone) {
         let mut collapse = Collapse::new(self, stand_ins);
-        let mut steps = vec![collapse.triangles()];
+        let mut used = self.used(&collapse.triangles());
+        let (mut steps, mut order) = (Vec::new(), Vec::new());
         loop {
             let before = collapse.triangle_count();
             if before / 2 < FEWEST {
@@ -105,9 +124,24 @@ impl Mesh {
             if left < FEWEST || left as f64 > WORTHWHILE * before as f64 {
                 break;
             }
-            steps.push(collapse.triangles());
+            let triangles = collapse.triangles();
+            let still_used = self.used(&triangles);
+            let first = order.len();
+            let is_gone = |vertex: &u32| used[*vertex as usize] && !still_used[*vertex as usize];
+            order.extend((0..used.len() as u32).filter(is_gone));
+            used = still_used;
+            steps.push(Step { triangles, gone: first..order.len() });
         }
-        steps
+        (steps, Gone::new(order, collapse.into_targets()))
+    }
+
+    /// Whether each vertex is a corner.
+    fn used(&self, triangles: &[[u32; 3]]) -> Vec<bool> {
+        let mut used = vec![false; self.positions().len()];
+        for &vertex in triangles.as_flattened() {
+            used[vertex as usize] = true;
+        }
+        used
     }
 
     fn level(&self, indices: Vec<u32>, deviation: Deviation) -> Level {

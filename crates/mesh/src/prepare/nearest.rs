@@ -28,16 +28,12 @@ const LEAF: usize = 4;
 impl Triangles {
     /// At least one triangle.
     pub(super) fn new(triangles: Vec<Triangle>) -> Self {
+        let key = |(number, [a, b, c]): (u32, &Triangle)| (a + b + c, number);
+        let mut keys: Vec<(DVec3, u32)> = (0..).zip(&triangles).map(key).collect();
         let mut nodes = Vec::with_capacity(triangles.len());
-        let mut triangles: Vec<(Triangle, u32)> = triangles.into_iter().zip(0..).collect();
-        build(&mut triangles, 0, &mut nodes);
+        build(&mut keys, 0, &triangles, &mut nodes);
+        let triangles = keys.into_iter().map(|(_, number)| (triangles[number as usize], number)).collect();
         Self { triangles, nodes }
-    }
-
-    /// The number that the triangle of this number had when it was given.
-    #[cfg(feature = "prepare")]
-    pub(super) fn original(&self, triangle: usize) -> usize {
-        self.triangles[triangle].1 as usize
     }
 
     /// The distance from one of the triangles, by its number.
@@ -49,17 +45,30 @@ impl Triangles {
     /// found.
     pub(super) fn nearest(&self, p: DVec3, guess: usize) -> (f64, usize) {
         let (mut least2, mut nearest) = (distance_squared(p, self.triangles[guess].0), guess);
+        self.search(p, least2, |number, triangle, _| {
+            let distance2 = distance_squared(p, *triangle);
+            if distance2 < least2 {
+                (least2, nearest) = (distance2, number);
+            }
+            least2
+        });
+        (least2.sqrt(), nearest)
+    }
+
+    /// Looks at triangles, the near ones first: `look` gets a triangle's number, its corners and the number that it had
+    /// when it was given, and returns the square of the distance from which on no others need be looked at; at first
+    /// `within2` is.
+    pub(super) fn search(&self, p: DVec3, within2: f64, mut look: impl FnMut(usize, &Triangle, u32) -> f64) {
+        let mut within2 = within2;
         let mut waiting = vec![(self.nodes[0].distance_squared(p), 0)];
         while let Some((distance2, number)) = waiting.pop() {
-            if distance2 >= least2 {
+            if distance2 >= within2 {
                 continue;
             }
             let node: &Node = &self.nodes[number];
-            for triangle in node.triangles() {
-                let distance2 = distance_squared(p, self.triangles[triangle].0);
-                if distance2 < least2 {
-                    (least2, nearest) = (distance2, triangle);
-                }
+            for number in node.triangles() {
+                let (triangle, given) = &self.triangles[number];
+                within2 = look(number, triangle, *given);
             }
             if node.count == 0 {
                 let halves = [number + 1, node.next as usize].map(|half| (self.nodes[half].distance_squared(p), half));
@@ -68,29 +77,33 @@ impl Triangles {
                 waiting.extend(if a.0 < b.0 { [b, a] } else { [a, b] });
             }
         }
-        (least2.sqrt(), nearest)
     }
 }
 
-/// The tree over the triangles, which come after `before` others.
-fn build(triangles: &mut [(Triangle, u32)], before: usize, nodes: &mut Vec<Node>) {
-    let corners = || triangles.iter().flat_map(|(triangle, _)| triangle);
-    let min = corners().fold(DVec3::INFINITY, |min, p| min.min(*p));
-    let max = corners().fold(DVec3::NEG_INFINITY, |max, p| max.max(*p));
+/// The tree over the triangles of these numbers, found by three times their centroids, which come after `before` others.
+fn build(keys: &mut [(DVec3, u32)], before: usize, triangles: &[Triangle], nodes: &mut Vec<Node>) {
     let this = nodes.len();
-    nodes.push(Node { min, max, next: before as u32, count: triangles.len() as u32 });
-    if triangles.len() <= LEAF {
+    if keys.len() <= LEAF {
+        let (min, max) = bounds(keys.iter().flat_map(|(_, number)| triangles[*number as usize]));
+        nodes.push(Node { min, max, next: before as u32, count: keys.len() as u32 });
         return;
     }
+    let (min, max) = bounds(keys.iter().map(|(place, _)| *place));
     let axis = (max - min).max_position();
-    let middle = triangles.len() / 2;
-    let place = |(triangle, _): &(Triangle, u32)| triangle.iter().map(|p| p[axis]).sum::<f64>();
-    triangles.select_nth_unstable_by(middle, |a, b| place(a).total_cmp(&place(b)));
-    let (near, far) = triangles.split_at_mut(middle);
-    build(near, before, nodes);
-    nodes[this].count = 0;
-    nodes[this].next = nodes.len() as u32;
-    build(far, before + middle, nodes);
+    let middle = keys.len() / 2;
+    keys.select_nth_unstable_by(middle, |a, b| a.0[axis].total_cmp(&b.0[axis]));
+    let (near, far) = keys.split_at_mut(middle);
+    nodes.push(Node { min, max, next: 0, count: 0 });
+    build(near, before, triangles, nodes);
+    let next = nodes.len();
+    build(far, before + middle, triangles, nodes);
+    let [a, b] = [&nodes[this + 1], &nodes[next]];
+    nodes[this] = Node { min: a.min.min(b.min), max: a.max.max(b.max), next: next as u32, count: 0 };
+}
+
+/// The box around points.
+fn bounds(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
+    points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), p| (min.min(p), max.max(p)))
 }
 
 impl Node {
