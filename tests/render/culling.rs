@@ -36,7 +36,10 @@ fn assert_culled(failures: &mut Failures, stage: &mut Stage, row: &str, scene: &
         // What is culled is not drawn, and what is not culled is drawn once.
         let drawn = triangles as f32 / triangles_in as f32;
         failures
-            .unless((drawn + share - 1.0).abs() < 0.01, || format!("{row}: {triangles} of {triangles_in} triangles"));
+            // What lies between two patches of a run and is not seen is drawn with it, while it is little.
+            .unless((-0.01..0.12).contains(&(drawn + share - 1.0)), || {
+                format!("{row}: {triangles} of {triangles_in} triangles")
+            });
     }
 }
 

@@ -59,11 +59,18 @@ struct Table {
     /// The records without lists, each once.
     materials: Vec<DrawRecord>,
     material_numbers: HashMap<[u32; size_of::<DrawRecord>() / 4], u32>,
-    /// Of each material that the frame uses: the number of its record without lists, or a mark.
-    used: Vec<Option<u32>>,
+    /// Of each material, what the frame has of it.
+    used: Vec<Used>,
     numbers: HashMap<(u32, [u32; 16]), u32>,
     calls: HashMap<Call, u32>,
     called: Vec<Call>,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct Used {
+    somewhere: bool,
+    /// The number of the record without lists.
+    plain: Option<u32>,
 }
 
 /// Pipeline and geometry.
@@ -358,7 +365,7 @@ impl Table {
             self.ambient = ambient;
         }
         self.used.clear();
-        self.used.resize(self.materials.len(), None);
+        self.used.resize(self.materials.len(), Used::default());
         self.numbers.clear();
         self.calls.clear();
         self.called.clear();
@@ -371,7 +378,7 @@ impl Table {
             reflecting.look(*ambient, |record| {
                 *material_numbers.entry(bytemuck::cast(record)).or_insert_with(|| {
                     materials.push(record);
-                    used.push(None);
+                    used.push(Used::default());
                     materials.len() as u32 - 1
                 })
             })
@@ -384,15 +391,16 @@ impl Table {
             records.push(DrawRecord { lists, ..self.materials[material as usize] });
             records.len() as u32 - 1
         };
+        let used = &mut self.used[material as usize];
+        used.somewhere = true;
         if lists == RecordLists::default() {
-            return *self.used[material as usize].get_or_insert_with(push);
+            return *used.plain.get_or_insert_with(push);
         }
-        self.used[material as usize].get_or_insert(u32::MAX);
         *self.numbers.entry((material, bytemuck::cast(lists))).or_insert_with(push)
     }
 
     fn materials_in_use(&self) -> u32 {
-        self.used.iter().flatten().count() as u32
+        self.used.iter().filter(|used| used.somewhere).count() as u32
     }
 
     fn call(&mut self, call: Call) -> u32 {
