@@ -205,7 +205,7 @@ impl Batches {
     /// Adds what is seen of an object: its patches, neighbours with equal light lists joined.
     fn add(&mut self, object: &Object, view: &View, shared: Shared, report: &mut FrameReport) {
         let Object { reflecting, key, geometry, model_view, normal_matrix, .. } = object;
-        let demand = Demand { allowed: shared.allowed, key, exponent: object.exponent };
+        let demand = Demand { allowed: shared.allowed, key, exponent: object.exponent, lights: shared.lights };
         let patches = geometry.detail.patches(model_view, view, demand);
         report.triangles_in += geometry.source.triangle_count() as u64;
         self.unsorted.push(InstanceRecord::new(model_view, normal_matrix, reflecting.faces));

@@ -2,7 +2,8 @@
 
 use crate::matrices::ModelView;
 use crate::patches::{self, Patch};
-use crate::pipeline::{PipelineKey, Stage};
+use crate::lights::Lights;
+use crate::pipeline::{Lists, PipelineKey, Stage};
 use crate::view::View;
 use bevy_ecs::prelude::Resource;
 use halfway_mesh::Mesh;
@@ -14,10 +15,16 @@ use std::ops::Range;
 /// - either no edge of the level is longer than a pixel, or no light's diffuse or specular term changes by more than
 ///   `shading` of the largest value that the term can have there.
 ///
-/// What shading changes by is estimated to the second order from how far normals are off (δ) and how far they are spread
-/// within a triangle (R): a term with exponent n by at most √n·((n − 1)/n)^((n − 1)/2)·δ, its steepest slope, where it is shaded at the fragments, and by
-/// ½·n·R² more where it is shaded at the vertices; n is the larger of 1 and the material's exponent, and Phong's reflection
-/// vector turns twice as far. Flat shading shows the triangles themselves, so that only the length of edges counts.
+/// What shading changes by is estimated. A term with exponent n (1 for diffuse) changes by
+///
+/// - √n·((n − 1)/n)^((n − 1)/2)·δ, its steepest slope, with δ how far the level's normals are off,
+/// - and where it is shaded at the vertices by ½·n·ω² + 6·w² more, the second-order error of interpolation: ω = R + ½(w + u)
+///   is how far n and h turn against each other within a triangle, R the spread of its normals, w = e/(√3·d) and u its size
+///   as seen from the nearest light and from a local viewer (e the longest edge, within a circle of e/√3, Jung 1901); 6·w²
+///   is for attenuation, up to the inverse square.
+///
+/// Phong's reflection vector turns twice as far. Flat shading shows the triangles themselves, so that only the length of
+/// edges counts. Vertices lit by spots, whose rims are sharp, or by more than eight lights keep all triangles.
 ///
 /// Levels are made in the background once a mesh has been seen in two frames; until then it is drawn as it is.
 /// Blended objects, whose triangles are drawn in the order of their mesh, and objects that are scaled differently along
@@ -26,7 +33,8 @@ use std::ops::Range;
 pub struct LevelsOfDetail {
     /// How far a point may move, in pixels. Default 0.5; 0 draws every mesh as it is.
     pub pixels: f32,
-    /// How much a term may change, as a part of its largest value. Default 1/64.
+    /// How much a term may change, as a part of its largest value. Default 1/16; what is measured is
+    /// about an eighth of that.
     pub shading: f32,
 }
 
@@ -37,7 +45,7 @@ impl LevelsOfDetail {
 
 impl Default for LevelsOfDetail {
     fn default() -> Self {
-        Self { pixels: 0.5, shading: 1.0 / 64.0 }
+        Self { pixels: 0.5, shading: 1.0 / 16.0 }
     }
 }
 
@@ -73,6 +81,18 @@ pub(crate) struct Demand<'a> {
     pub(crate) key: &'a PipelineKey,
     /// The larger exponent of the material's sides.
     pub(crate) exponent: f32,
+    pub(crate) lights: &'a Lights,
+}
+
+/// What lights the vertices of an object, and from where.
+#[derive(Clone, Copy, Debug)]
+struct Around {
+    /// The pixels that a unit of the mesh takes at most.
+    pixels: f32,
+    /// 1/d of the nearest light with a place, in the mesh's units; infinite where vertices must not be spared.
+    light: f32,
+    /// 1/d of the eye; 0 for an infinite viewer.
+    eye: f32,
 }
 
 impl Detail {
@@ -108,12 +128,32 @@ impl Detail {
     /// The patches of the coarsest level that will do.
     pub(crate) fn patches(&self, model_view: &ModelView, view: &View, demand: Demand) -> &[Patch] {
         let level = if self.levels.len() > 1 && demand.allowed.pixels > 0.0 && model_view.keeps_angles() {
-            let pixels = self.pixels_per_unit(model_view, view);
-            self.levels.iter().rposition(|level| level.will_do(pixels, demand)).unwrap_or(0)
+            let around = self.around(model_view, view, demand);
+            // Patches keep light lists short.
+            let listed = demand.key.lists == Lists::Listed && self.levels[0].patches.len() > 1;
+            let will_do = |level: &Level| !(listed && level.patches.len() == 1) && level.will_do(around, demand);
+            self.levels.iter().rposition(will_do).unwrap_or(0)
         } else {
             0
         };
         &self.patches[self.levels[level].patches.clone()]
+    }
+
+    fn around(&self, model_view: &ModelView, view: &View, demand: Demand) -> Around {
+        let (center, radius) = self.whole.sphere(model_view);
+        let scale = model_view.largest_scale();
+        let inverse = |distance: f32| if distance > radius { scale / (distance - radius) } else { f32::INFINITY };
+        let Demand { key, lights, .. } = demand;
+        let light = if key.vertex.is_empty() {
+            0.0
+        } else if key.lists == Lists::Listed || lights.counts[2] > 0 {
+            f32::INFINITY
+        } else {
+            let points = lights.records.iter().skip(lights.counts[0] as usize);
+            points.map(|light| inverse(light.distance(center))).fold(0.0, f32::max)
+        };
+        let eye = if key.local_viewer { inverse(center.length()) } else { 0.0 };
+        Around { pixels: self.pixels_per_unit(model_view, view), light, eye }
     }
 
     /// An upper bound of how many pixels a short way in the mesh's units takes, anywhere on it. A way of length e at
@@ -134,21 +174,28 @@ impl Level {
         Self { patches: 0..patches, error: 0.0, normal_error: 0.0, normal_spread: 0.0, longest_edge: 0.0 }
     }
 
-    fn will_do(&self, pixels_per_unit: f32, Demand { allowed, key, exponent }: Demand) -> bool {
-        if self.error * pixels_per_unit > allowed.pixels {
+    fn will_do(&self, around: Around, Demand { allowed, key, exponent, .. }: Demand) -> bool {
+        if self.error * around.pixels > allowed.pixels {
             return false;
         }
-        if key.stage == Stage::Unlit || self.longest_edge * pixels_per_unit <= 1.0 {
+        if key.stage == Stage::Unlit || self.longest_edge * around.pixels <= 1.0 {
             return true;
         }
         if key.stage == Stage::Flat {
             return false;
         }
+        // A level is no farther from lights than the mesh, up to its error.
+        let size = self.longest_edge / 3f32.sqrt();
+        let (w, u) = (size * around.light, size * around.eye);
         let change = |specular: bool, at_vertices: bool| {
-            let n = if specular { exponent.max(1.0) } else { 1.0 };
-            let turn = if specular && !key.blinn_phong { 2.0 } else { 1.0 };
-            let spread = if at_vertices { turn * self.normal_spread } else { 0.0 };
-            steepest(n) * turn * self.normal_error + 0.5 * n * spread * spread
+            let (n, turn) = match (specular, key.blinn_phong) {
+                (false, _) => (1.0, 1.0),
+                (true, true) => (exponent.max(1.0), 1.0),
+                (true, false) => (exponent.max(1.0), 2.0),
+            };
+            let turned = turn * (self.normal_spread + 0.5 * (w + u));
+            let interpolated = if at_vertices { 0.5 * n * turned * turned + 6.0 * w * w } else { 0.0 };
+            steepest(n) * turn * self.normal_error + interpolated
         };
         let fits = |used: bool, specular, at_vertices| !used || change(specular, at_vertices) <= allowed.shading;
         fits(key.vertex.diffuse, false, true)

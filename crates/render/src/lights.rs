@@ -35,6 +35,11 @@ pub(crate) struct LightRecord {
 }
 
 impl LightRecord {
+    /// How far a light with a place is from a point in eye space.
+    pub(crate) fn distance(&self, point: Vec3) -> f32 {
+        Vec3::from_array(self.position).distance(point)
+    }
+
     /// One that adds nothing.
     pub(crate) const BLACK: Self = Self {
         position: [0.0, 0.0, 1.0],

@@ -10,7 +10,7 @@ use halfway_mesh::{Bounds, Mesh, face_normal};
 use std::ops::Range;
 
 /// A mesh of up to this many triangles is one patch: cutting it would cost more draws than it saves.
-const WHOLE: usize = 1024;
+const WHOLE: usize = 4096;
 /// How many triangles a patch has at most. 64 to 256 serve; fewer cut the light lists shorter and cost more draws.
 const PATCH: usize = 32;
 /// Normals spread wider than this from their mean, in radians, bound nothing. Below π/2 those that are interpolated stay

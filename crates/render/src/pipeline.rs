@@ -185,15 +185,15 @@ impl Text {
     /// The whole of it.
     fn wgsl(self) -> String {
         let text = concat!(include_str!("shader/mesh.wgsl"), include_str!("shader/lighting.wgsl"));
-        let at_fixed_places = |points, spots, at_once| {
+        let at_fixed_places = |points, spots| {
             include_str!("shader/uniform.wgsl")
                 .replace("MOST_LIGHTS", &BOUND_LIGHTS.to_string())
-                .replace("POINT_LOOPS", &loops("DIRECTIONAL", "POINTS", points, at_once, false))
-                .replace("SPOT_LOOPS", &loops("DIRECTIONAL + POINTS", "SPOTS", spots, at_once, true))
+                .replace("POINT_LOOPS", &loops("DIRECTIONAL", "POINTS", points, 4, false))
+                .replace("SPOT_LOOPS", &loops("DIRECTIONAL + POINTS", "SPOTS", spots, 4, true))
         };
         let bindings = match self {
-            Self::Few => at_fixed_places(COUNTED_LIGHTS, COUNTED_LIGHTS, COUNTED_LIGHTS),
-            Self::Many => at_fixed_places(32, 16, 4),
+            Self::Few => at_fixed_places(COUNTED_LIGHTS, COUNTED_LIGHTS),
+            Self::Many => at_fixed_places(32, 16),
             Self::Listed => include_str!("shader/storage.wgsl").to_owned(),
         };
         format!("{text}{bindings}")
