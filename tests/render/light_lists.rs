@@ -129,7 +129,7 @@ fn highlights_are_listed_where_they_can_be_seen() {
     let glossy = Material { shininess: 200.0, ..Material::matte(LinearRgba::rgb(0.5, 0.5, 0.5)) };
     let glossy = Material { specular: LinearRgba::rgb(0.5, 0.5, 0.5), ..glossy };
     for (mesh, row) in
-        [(Plane { size: 40.0, divisions: 40 }, "in patches"), (Plane { size: 1.0, divisions: 1 }, "whole")]
+        [(Plane { size: 40.0, divisions: 64 }, "in patches"), (Plane { size: 1.0, divisions: 1 }, "whole")]
     {
         let mut scene = above(40.0).with(Thing::new(mesh).of(glossy).shaded(Shading::Phong));
         let mut random = Random(3);
@@ -152,7 +152,7 @@ fn highlights_are_listed_where_they_can_be_seen() {
 #[test]
 fn lights_that_cannot_reach_are_not_assigned() {
     let mut stage = Stage::new(32, 32);
-    for divisions in [1, 32] {
+    for divisions in [1, 64] {
         for shading in [Shading::Flat, Shading::Gouraud, Shading::Phong] {
             let floor = Plane { size: 20.0, divisions };
             let mut scene = above(20.0).with(Thing::new(floor).shaded(shading));

@@ -1,5 +1,6 @@
 //! Every variant of the shader builds and draws.
 
+use crate::render::compare::{FLOAT, Failures};
 use crate::render::random::Random;
 use crate::render::scene::{Lamp, Scene, Thing, directional_light, material, other_material, point_light};
 use crate::render::stage::Stage;
@@ -154,4 +155,40 @@ fn every_three_choices_that_decide_a_pipeline_build_and_draw() {
     println!("{} rows cover every triple; {} pipelines", rows.len(), stage.report().pipelines);
     assert!(wrong.is_empty(), "{} of {} wrong:\n{}", wrong.len(), rows.len(), wrong.join("\n"));
     assert!(stage.report().pipelines > 80, "only {} pipelines were built", stage.report().pipelines);
+}
+
+#[test]
+fn a_bounded_number_of_pipelines_draws_whatever_comes() {
+    // 3 shadings, 2 reflectances, 2 viewers and 17 exponents of their own: 204 keys beside the other scenes'.
+    let mut stage = Stage::new(12, 12);
+    let mut failures = Failures::default();
+    let mut built = 0;
+    for exponent in 0..17 {
+        for (shading, reflectance, viewer) in
+            [Shading::Flat, Shading::Gouraud, Shading::Phong].into_iter().flat_map(|shading| {
+                [Reflectance::Phong, Reflectance::BlinnPhong].into_iter().flat_map(move |reflectance| {
+                    [Viewer::Local, Viewer::Infinite].map(|viewer| (shading, reflectance, viewer))
+                })
+            })
+        {
+            let shininess = f32::from(2_u16.saturating_pow(exponent)).max(1.0);
+            let mut scene = Scene::in_eye_space()
+                .ambient(0.2)
+                .with(
+                    Thing::square(Vec3::NEG_Z * 2.0, Vec3::Z, 3.0)
+                        .of(Material { shininess, ..material() })
+                        .shaded(shading)
+                        .reflecting(reflectance),
+                )
+                .lit(Lamp::point(point_light(), Vec3::new(0.3, 0.2, 0.0)))
+                .lit(Lamp::directional(directional_light(), Vec3::NEG_Z));
+            scene.camera.viewer = viewer;
+            let row = format!("{shading:?}, {reflectance:?}, {viewer:?}, exponent {shininess}");
+            failures.draw(&row, &mut stage, &scene, FLOAT);
+            built = stage.report().pipelines;
+        }
+    }
+    failures.finish();
+    // 128 of their own, and one generic pipeline for each of 12 stages, reflectances and viewers.
+    assert!((128..=140).contains(&built), "{built} pipelines");
 }

@@ -7,18 +7,17 @@ use crate::gpu::Gpu;
 use crate::lights::Lights;
 use crate::lists::LightLists;
 use crate::matrices::{ModelView, NormalMatrix, Visible};
+use crate::object::{Drawn, Reflecting, Shared};
 use crate::patches::Patch;
-use crate::object::{Drawn, Look, Reflecting, ReflectingBits, Shared};
-use crate::pipeline::{Lists, PipelineKey};
+use crate::pipeline::{Lists, PipelineKey, Pipelines};
 use crate::records::{DrawRecord, InstanceRecord, RecordLists};
 use crate::report::FrameReport;
+use crate::table::Table;
 use crate::target::Target;
 use crate::terms::Chosen;
 use crate::view::View;
 use bevy_asset::AssetId;
 use bevy_ecs::prelude::*;
-use bevy_math::Vec3;
-use bevy_platform::collections::HashMap;
 use halfway_lighting::{BackMaterial, Blend, Encoding, Faces, Material, Reflectance, equations};
 use halfway_mesh::{Mesh, Mesh3d};
 use std::ops::Range;
@@ -49,32 +48,6 @@ pub(crate) struct Batches {
     unsorted: Vec<InstanceRecord>,
     table: Table,
 }
-
-/// What repeats among objects, numbered, so that objects compare by small integers.
-#[derive(Debug, Default)]
-struct Table {
-    /// Kept from frame to frame, for lights with this ambient.
-    looks: HashMap<ReflectingBits, Look>,
-    ambient: Vec3,
-    /// The records without lists, each once.
-    materials: Vec<DrawRecord>,
-    material_numbers: HashMap<[u32; size_of::<DrawRecord>() / 4], u32>,
-    /// Of each material, what the frame has of it.
-    used: Vec<Used>,
-    numbers: HashMap<(u32, [u32; 16]), u32>,
-    calls: HashMap<Call, u32>,
-    called: Vec<Call>,
-}
-
-#[derive(Clone, Copy, Debug, Default)]
-struct Used {
-    somewhere: bool,
-    /// The number of the record without lists.
-    plain: Option<u32>,
-}
-
-/// Pipeline and geometry.
-type Call = (PipelineKey, AssetId<Mesh>, Form);
 
 /// One object's draw, or one patch's, before sorting.
 #[derive(Clone, Copy, Debug)]
@@ -117,6 +90,7 @@ pub(crate) fn batch(
     lights: Res<Lights>,
     allowed: Res<LevelsOfDetail>,
     target: Res<Target>,
+    mut pipelines: ResMut<Pipelines>,
     mut batches: ResMut<Batches>,
     mut report: ResMut<FrameReport>,
 ) {
@@ -124,15 +98,14 @@ pub(crate) fn batch(
     batches.begin(&lights);
     let (Some(camera), Some(frame)) = (&view.camera, &target.frame) else { return };
     let (format, samples, viewer) = (frame.format, frame.samples.count(), camera.viewer);
-    let shared =
-        Shared { lights: &lights, allowed: &allowed, format, samples, viewer, software: gpu.is_software() };
+    let shared = Shared { lights: &lights, allowed: &allowed, format, samples, viewer, software: gpu.is_software() };
     for &entity in &visible.0 {
         let Ok((mesh, material, back, reflectance, faces, blend, model_view, normal_matrix, chosen, name)) =
             objects.get(entity)
         else {
             continue;
         };
-        let form = Form::new(chosen, blend);
+        let form = Form::new(*chosen, blend);
         let Some(geometry) = geometries.get(mesh.0.id(), form) else { continue };
         let material = material.unwrap_or(&Material::DEFAULT);
         let reflecting = Reflecting {
@@ -152,10 +125,20 @@ pub(crate) fn batch(
             mirrored: model_view.mirrored,
             opposite_normals: geometry.opposite_normals,
         };
-        let key = reflecting.key(look, drawn, shared);
+        let key = pipelines.admit(reflecting.key(look, drawn, shared));
         let (material, exponent) = (look.material, look.exponent);
-        let object = Object { reflecting, key, material, exponent, mesh: mesh.0.id(), form, geometry, model_view, normal_matrix };
-        batches.add(&object, &view, shared, &mut report);
+        let object = Object {
+            reflecting,
+            key,
+            material,
+            exponent,
+            mesh: mesh.0.id(),
+            form,
+            geometry,
+            model_view,
+            normal_matrix,
+        };
+        batches.add(&object, &view, shared, &mut pipelines, &mut report);
     }
     report.materials = batches.table.materials_in_use();
     report.lights_assigned = batches.lists.assigned;
@@ -203,7 +186,14 @@ impl Batches {
     }
 
     /// Adds what is seen of an object: its patches, neighbours with equal light lists joined.
-    fn add(&mut self, object: &Object, view: &View, shared: Shared, report: &mut FrameReport) {
+    fn add(
+        &mut self,
+        object: &Object,
+        view: &View,
+        shared: Shared,
+        pipelines: &mut Pipelines,
+        report: &mut FrameReport,
+    ) {
         let Object { reflecting, key, geometry, model_view, normal_matrix, .. } = object;
         let demand = Demand { allowed: shared.allowed, key, exponent: object.exponent, lights: shared.lights };
         let patches = geometry.detail.patches(model_view, view, demand);
@@ -220,7 +210,7 @@ impl Batches {
                     continue;
                 }
             }
-            let (key, lights, lists) = self.lit(object, patch, shared);
+            let (key, lights, lists) = self.lit(object, patch, shared, pipelines);
             let record = self.table.number(&mut self.records, object.material, lists);
             let next = Run { key, lights, record, indices: patch.indices.clone() };
             match &mut run {
@@ -238,7 +228,13 @@ impl Batches {
     }
 
     /// The pipeline of a patch, the lights that are bound for it, and its lists.
-    fn lit(&mut self, object: &Object, patch: &Patch, shared: Shared) -> (PipelineKey, u32, RecordLists) {
+    fn lit(
+        &mut self,
+        object: &Object,
+        patch: &Patch,
+        shared: Shared,
+        pipelines: &mut Pipelines,
+    ) -> (PipelineKey, u32, RecordLists) {
         let Object { reflecting, key, model_view, normal_matrix, .. } = object;
         if key.lists != Lists::Listed {
             return (*key, 0, RecordLists::default());
@@ -250,8 +246,10 @@ impl Batches {
         if shared.software
             && let Some(bound) = self.lists.bind(shared.lights)
         {
-            let lists = Lists::Counted(bound.counts.map(|n| n as u8));
-            return (PipelineKey { lists, ..*key }, bound.start, RecordLists::default());
+            let counted = PipelineKey { lists: Lists::Counted(bound.counts.map(|n| n as u8)), ..*key };
+            if pipelines.admit(counted) == counted {
+                return (counted, bound.start, RecordLists::default());
+            }
         }
         (*key, 0, self.lists.list(shared.lights, &surface))
     }
@@ -271,15 +269,17 @@ impl Batches {
     fn emit(&mut self, records_of_one_draw: usize) {
         let mut items = std::mem::take(&mut self.items);
         // Instances are numbered in spawn order, which equal ones keep.
-        items.sort_unstable_by(|a, b| a.blend.cmp(&b.blend).then_with(|| if a.blend { a.by_depth(b) } else { a.by_state(b) }));
-        for run in items.chunk_by_mut(|a, b| a.is_one_call(b)) {
+        items.sort_unstable_by(|a, b| {
+            a.blend.cmp(&b.blend).then_with(|| if a.blend { a.by_depth(b) } else { a.by_state(b) })
+        });
+        for run in items.chunk_by_mut(Item::is_one_call) {
             let Item { blend, lights, .. } = run[0];
             let records = 1 + run.windows(2).filter(|pair| pair[0].record != pair[1].record).count();
             if records == 1 {
                 self.emit_draw(run, false);
             } else if (blend || records >= records_of_one_draw) && lights == 0 {
                 if !blend {
-                    run.sort_unstable_by(|a, b| a.by_nearness(b));
+                    run.sort_unstable_by(Item::by_nearness);
                 }
                 self.emit_draw(run, true);
             } else {
@@ -349,64 +349,5 @@ impl Item {
     fn by_depth(&self, other: &Self) -> std::cmp::Ordering {
         let order = |item: &Self| (item.instance, item.call, item.indices);
         other.depth.total_cmp(&self.depth).then_with(|| order(self).cmp(&order(other)))
-    }
-}
-
-impl Table {
-    /// How many looks are remembered.
-    const REMEMBERED: usize = 16_384;
-
-    fn begin(&mut self, ambient: Vec3) {
-        // Materials that change every frame must not pile up.
-        if self.ambient != ambient || self.looks.len() > Self::REMEMBERED {
-            self.looks.clear();
-            self.materials.clear();
-            self.material_numbers.clear();
-            self.ambient = ambient;
-        }
-        self.used.clear();
-        self.used.resize(self.materials.len(), Used::default());
-        self.numbers.clear();
-        self.calls.clear();
-        self.called.clear();
-    }
-
-    /// What an object looks like, remembered by its components' values.
-    fn look(&mut self, reflecting: &Reflecting) -> &Look {
-        let Self { looks, materials, material_numbers, used, ambient, .. } = self;
-        looks.entry(reflecting.bits()).or_insert_with(|| {
-            reflecting.look(*ambient, |record| {
-                *material_numbers.entry(bytemuck::cast(record)).or_insert_with(|| {
-                    materials.push(record);
-                    used.push(Used::default());
-                    materials.len() as u32 - 1
-                })
-            })
-        })
-    }
-
-    /// The number of the frame's record with this material and these lists.
-    fn number(&mut self, records: &mut Vec<DrawRecord>, material: u32, lists: RecordLists) -> u32 {
-        let push = || {
-            records.push(DrawRecord { lists, ..self.materials[material as usize] });
-            records.len() as u32 - 1
-        };
-        let used = &mut self.used[material as usize];
-        used.somewhere = true;
-        if lists == RecordLists::default() {
-            return *used.plain.get_or_insert_with(push);
-        }
-        *self.numbers.entry((material, bytemuck::cast(lists))).or_insert_with(push)
-    }
-
-    fn materials_in_use(&self) -> u32 {
-        self.used.iter().filter(|used| used.somewhere).count() as u32
-    }
-
-    fn call(&mut self, call: Call) -> u32 {
-        *self.calls.entry(call).or_insert_with(|| {
-            self.called.push(call);
-            self.called.len() as u32 - 1
-        })
     }
 }

@@ -1,8 +1,8 @@
 //! Levels of detail: coarser versions of a mesh, and when one of them is fine enough.
 
+use crate::lights::Lights;
 use crate::matrices::ModelView;
 use crate::patches::{self, Patch};
-use crate::lights::Lights;
 use crate::pipeline::{Lists, PipelineKey, Stage};
 use crate::view::View;
 use bevy_ecs::prelude::Resource;

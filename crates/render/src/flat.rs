@@ -71,13 +71,13 @@ fn shaded_point([a, b, c]: [Vec3; 3]) -> [[f32; 3]; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use halfway_mesh::UvSphere;
+    use halfway_mesh::{Mesh, UvSphere};
     use std::collections::HashSet;
 
     #[test]
     fn every_flat_triangle_has_its_own_provoking_vertex_and_keeps_its_corners() {
         let mesh = Mesh::from(UvSphere { radius: 1.0, segments: 16, rings: 8 });
-        let flat = FlatMesh::new(mesh.positions(), mesh.indices().as_chunks::<3>().0);
+        let flat = FlatMesh::new(mesh.positions(), mesh.indices().as_chunks().0);
         let mut provoking = HashSet::new();
         for (corners, triangle) in flat.indices.chunks_exact(3).zip(mesh.triangles()) {
             assert!(provoking.insert(corners[0]), "vertex {} provokes two triangles", corners[0]);
@@ -100,7 +100,7 @@ mod tests {
     fn a_grid_larger_than_the_vertex_memory_needs_one_vertex_a_triangle() {
         // 512 quads a row: the upper row of vertices of each row of quads has been forgotten by then.
         let mesh = Mesh::from(UvSphere { radius: 1.0, segments: 512, rings: 16 });
-        let flat = FlatMesh::new(mesh.positions(), mesh.indices().as_chunks::<3>().0);
+        let flat = FlatMesh::new(mesh.positions(), mesh.indices().as_chunks().0);
         assert!(flat.positions.len() <= mesh.triangle_count() + 2 * 513, "{} vertices", flat.positions.len());
     }
 }

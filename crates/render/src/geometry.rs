@@ -1,10 +1,10 @@
 //! Meshes on the GPU: shared vertices for smooth shading, one vertex a triangle for flat.
 
+use crate::detail::{Detail, LevelsOfDetail};
 use crate::error::RenderError;
+use crate::flat::FlatMesh;
 use crate::gpu::Gpu;
 use crate::matrices::Visible;
-use crate::detail::{Detail, LevelsOfDetail};
-use crate::flat::FlatMesh;
 use crate::report::FrameReport;
 use crate::terms::Chosen;
 use crate::workshop::Workshop;
@@ -50,7 +50,7 @@ impl Form {
     ];
 
     /// Blended triangles are drawn in the order of the mesh.
-    pub(crate) fn new(chosen: &Chosen, blend: bool) -> Self {
+    pub(crate) fn new(chosen: Chosen, blend: bool) -> Self {
         Self { flat: chosen.flat, ordered: blend }
     }
 }
@@ -109,12 +109,13 @@ pub(crate) fn upload_visible(
     workshop.collect();
     let mut last = None;
     for (Mesh3d(handle), chosen, blend) in objects.iter_many(&visible.0).flatten() {
-        let wanted = (handle.id(), Form::new(chosen, blend));
+        let wanted = (handle.id(), Form::new(*chosen, blend));
         if last.replace(wanted) == Some(wanted) {
             continue;
         }
         let Some(mesh) = meshes.get(handle) else { continue };
-        let levels = if wanted.1.ordered || *allowed == LevelsOfDetail::OFF { None } else { workshop.levels(wanted.0, mesh) };
+        let levels =
+            if wanted.1.ordered || *allowed == LevelsOfDetail::OFF { None } else { workshop.levels(wanted.0, mesh) };
         match geometries.ensure(&gpu, wanted, mesh, levels) {
             Ok(bytes) => report.bytes_uploaded += bytes,
             Err(error) => report.errors.push(error),
@@ -234,4 +235,3 @@ fn has_opposite_normals(mesh: &Mesh, triangles: &[[u32; 3]]) -> bool {
         a.dot(b).min(b.dot(c)).min(c.dot(a)) < -0.49
     })
 }
-

@@ -22,6 +22,8 @@ mod pipeline;
 mod plugin;
 mod records;
 mod report;
+mod shader;
+mod table;
 mod target;
 mod terms;
 mod timing;

@@ -1,8 +1,9 @@
 //! Light lists: which of many lights each patch needs, term by term.
 
 use crate::lights::{LightRecord, Lights, rgb};
-use crate::pipeline::{COUNTED_LIGHTS, filled_up};
+use crate::pipeline::COUNTED_LIGHTS;
 use crate::records::RecordLists;
+use crate::shader::filled_up;
 use crate::terms::TermMask;
 use bevy_math::Vec3;
 use halfway_lighting::bounds::{DEFAULT_TOLERANCE, Patch, Receiver, Selected, linear_tolerance};

@@ -114,10 +114,7 @@ impl Reflecting<'_> {
         let attenuated_ambient = lights.attenuated_ambient && reflects_ambient;
         let diffuse = lit && (reflects_diffuse || attenuated_ambient);
         let specular = lit && lights.specular && reflects_specular;
-        let used = |mask: TermMask| TermMask {
-            diffuse: mask.diffuse && diffuse,
-            specular: mask.specular && specular,
-        };
+        let used = |mask: TermMask| TermMask { diffuse: mask.diffuse && diffuse, specular: mask.specular && specular };
         let (vertex, fragment) = (used(drawn.chosen.vertex), used(drawn.chosen.fragment));
         let stage = match (vertex.is_empty(), fragment.is_empty()) {
             (true, true) => Stage::Unlit,

@@ -157,10 +157,8 @@ impl Patch {
         bounds::Patch {
             center: center.to_array(),
             radius,
-            normals: cone.map(|Cone { axis, half_angle }| NormalCone {
-                axis: (normal_matrix.0 * axis).to_array(),
-                half_angle,
-            }),
+            normals: cone
+                .map(|Cone { axis, half_angle }| NormalCone { axis: (normal_matrix.0 * axis).to_array(), half_angle }),
             half_thickness: if cone.is_some() { self.half_thickness * scale } else { f32::INFINITY },
             faces,
         }

@@ -1,12 +1,12 @@
 //! Pipelines: a small key for each, built on first use and counted.
 
 use crate::gpu::Gpu;
-use crate::lights::LightRecord;
-use crate::records::{INSTANCE_BYTES, RECORD_BYTES};
+use crate::records::INSTANCE_BYTES;
+use crate::shader::{Shader, Text};
 use crate::target::DEPTH_FORMAT;
 use crate::terms::TermMask;
 use bevy_ecs::prelude::Resource;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::fmt;
 
 /// Up to this many lights in a scene are all shaded everywhere; of more, each patch has those that it needs.
@@ -37,22 +37,6 @@ impl Lists {
         if counts.iter().sum::<u32>() <= COUNTED_LIGHTS { Self::Counted(counts.map(|n| n as u8)) } else { Self::Listed }
     }
 }
-
-/// The numbers of point and of spot lights that have pipelines of their own where patches are lit by few of many lights.
-/// A patch with other numbers is filled up with black ones; one with more reads lists.
-const STEPS: [&[u32]; 3] = [&[0, 1, 2, 4, 8], &[0, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32], &[0, 1, 2, 4, 8, 16]];
-
-/// The numbers of lights of each kind to fill `counts` up to; `None` where they are too many.
-pub(crate) fn filled_up(counts: [u32; 3]) -> Option<[u32; 3]> {
-    let mut filled = [0; 3];
-    for ((filled, steps), count) in filled.iter_mut().zip(STEPS).zip(counts) {
-        *filled = *steps.iter().find(|&&step| step >= count)?;
-    }
-    Some(filled)
-}
-
-/// The most lights that are bound at fixed places.
-pub(crate) const BOUND_LIGHTS: u32 = 8 + 32 + 16;
 
 /// All that a pipeline is specialised for. What a draw does not use is not in its shader.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -129,41 +113,16 @@ impl fmt::Display for PipelineKey {
 pub(crate) struct Pipelines {
     shaders: HashMap<Text, Shader>,
     built: HashMap<PipelineKey, wgpu::RenderPipeline>,
+    /// The specialised keys that may be built.
+    special: HashSet<PipelineKey>,
+    /// What was asked last, and the answer.
+    last: Option<(PipelineKey, PipelineKey)>,
 }
 
-/// How the text reads records and lights. Each is a text of its own, since a driver spends time and memory on what a
-/// pipeline leaves unused.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) enum Text {
-    /// From uniform buffers, up to [`COUNTED_LIGHTS`].
-    Few,
-    /// From uniform buffers, up to [`BOUND_LIGHTS`].
-    Many,
-    /// From storage, any number.
-    Listed,
-}
-
-/// The lighting text, and the layout that goes with it.
-struct Shader {
-    module: wgpu::ShaderModule,
-    bindings: wgpu::BindGroupLayout,
-    layout: wgpu::PipelineLayout,
-}
-
-/// The bytes of lights at fixed places.
-pub(crate) const BOUND_LIGHT_BYTES: u64 = BOUND_LIGHTS as u64 * size_of::<LightRecord>() as u64;
-
-/// Loops over the lights of one kind from `first` on, `length` at a time.
-fn loops(first: &str, count: &str, most: u32, length: u32, cone: bool) -> String {
-    let one = |start: u32| {
-        let end = start + length;
-        format!(
-            "    for (var i = {first} + {start}u; i < {first} + min({count}, {end}u); i++) {{\n        \
-             sum = add_finite_light(sum, lights[i], {cone}, p, n, v, shininess, terms);\n    }}\n"
-        )
-    };
-    (0..most).step_by(length as usize).map(one).collect()
-}
+/// So many specialised pipelines live at most; what more a scene asks for is drawn by generic ones, which are slower and
+/// few: they differ in the stages of their terms, the reflectance, the viewer, faces, blending and the target alone. A
+/// draw that looks up records for its instances has a pipeline beside that of its key.
+pub(crate) const MOST_SPECIAL: usize = 128;
 
 impl PipelineKey {
     pub(crate) fn text(&self) -> Text {
@@ -175,65 +134,23 @@ impl PipelineKey {
         }
     }
 
+    /// The pipeline that draws the same without knowing the lights, the colours, the exponent and the mesh.
+    pub(crate) fn generic(self) -> Self {
+        let lit = self.stage != Stage::Unlit;
+        Self {
+            lists: if lit { Lists::Listed } else { self.lists },
+            shared_colour: false,
+            attenuated_ambient: self.vertex.diffuse || self.fragment.diffuse,
+            ranged: lit,
+            squarings: None,
+            geometric_fallback: !self.fragment.is_empty(),
+            ..self
+        }
+    }
+
     /// Whether records and lights are read from storage, as lists and records of instances are.
     pub(crate) fn reads_storage(&self) -> bool {
         self.text() == Text::Listed
-    }
-}
-
-impl Text {
-    /// The whole of it.
-    fn wgsl(self) -> String {
-        let text = concat!(include_str!("shader/mesh.wgsl"), include_str!("shader/lighting.wgsl"));
-        let at_fixed_places = |points, spots| {
-            include_str!("shader/uniform.wgsl")
-                .replace("MOST_LIGHTS", &BOUND_LIGHTS.to_string())
-                .replace("POINT_LOOPS", &loops("DIRECTIONAL", "POINTS", points, 4, false))
-                .replace("SPOT_LOOPS", &loops("DIRECTIONAL + POINTS", "SPOTS", spots, 4, true))
-        };
-        let bindings = match self {
-            Self::Few => at_fixed_places(COUNTED_LIGHTS, COUNTED_LIGHTS),
-            Self::Many => at_fixed_places(32, 16),
-            Self::Listed => include_str!("shader/storage.wgsl").to_owned(),
-        };
-        format!("{text}{bindings}")
-    }
-}
-
-impl Shader {
-    fn new(gpu: &Gpu, text: Text) -> Self {
-        let storage = text == Text::Listed;
-        let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some("lighting"),
-            source: wgpu::ShaderSource::Wgsl(text.wgsl().into()),
-        });
-        let entry = |binding, ty, size| wgpu::BindGroupLayoutEntry {
-            binding,
-            visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
-            ty: wgpu::BindingType::Buffer {
-                ty,
-                has_dynamic_offset: binding == 1 || binding == 2 && !storage,
-                min_binding_size: std::num::NonZeroU64::new(size),
-            },
-            count: None,
-        };
-        let uniform = wgpu::BufferBindingType::Uniform;
-        let read = wgpu::BufferBindingType::Storage { read_only: true };
-        let entries = if storage {
-            vec![entry(1, read, RECORD_BYTES), entry(2, read, size_of::<LightRecord>() as u64), entry(3, read, 4)]
-        } else {
-            vec![entry(1, uniform, RECORD_BYTES), entry(2, uniform, BOUND_LIGHT_BYTES)]
-        };
-        let bindings = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some("draw"),
-            entries: &[vec![entry(0, uniform, 16)], entries].concat(),
-        });
-        let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("draw"),
-            bind_group_layouts: &[Some(&bindings)],
-            ..Default::default()
-        });
-        Self { module, bindings, layout }
     }
 }
 
@@ -241,6 +158,19 @@ impl Pipelines {
     /// The layout of the bindings that such pipelines need; `None` before the first is built.
     pub(crate) fn bindings(&self, text: Text) -> Option<&wgpu::BindGroupLayout> {
         self.shaders.get(&text).map(|shader| &shader.bindings)
+    }
+
+    /// The key itself, or the generic one that draws the same.
+    pub(crate) fn admit(&mut self, key: PipelineKey) -> PipelineKey {
+        if let Some((asked, answer)) = self.last
+            && asked == key
+        {
+            return answer;
+        }
+        let room = self.special.len() < MOST_SPECIAL;
+        let answer = if self.special.contains(&key) || room && self.special.insert(key) { key } else { key.generic() };
+        self.last = Some((key, answer));
+        answer
     }
 
     pub(crate) fn get(&self, key: &PipelineKey) -> Option<&wgpu::RenderPipeline> {
@@ -267,64 +197,65 @@ const NORMAL: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![7 => Float32
 const FACE: [wgpu::VertexAttribute; 2] = wgpu::vertex_attr_array![7 => Float32x3, 8 => Float32x3];
 
 impl Shader {
-fn build(&self, gpu: &Gpu, key: PipelineKey) -> wgpu::RenderPipeline {
-    let constants = constants(key);
-    let compilation_options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
-    let buffer =
-        |attributes, stride, step_mode| Some(wgpu::VertexBufferLayout { array_stride: stride, step_mode, attributes });
-    // Unlit draws need no normal matrix, and a software adapter pays for every attribute it fetches.
-    let unlit = [INSTANCE[0], INSTANCE[1], INSTANCE[2], INSTANCE[6]];
-    let instance = if key.stage == Stage::Unlit { &unlit[..] } else { &INSTANCE[..] };
-    let mut buffers = vec![
-        buffer(instance, INSTANCE_BYTES, wgpu::VertexStepMode::Instance),
-        buffer(&POSITION, 12, wgpu::VertexStepMode::Vertex),
-    ];
-    match key.stage {
-        Stage::Unlit => {}
-        Stage::Flat => buffers.push(buffer(&FACE, 24, wgpu::VertexStepMode::Vertex)),
-        _ => buffers.push(buffer(&NORMAL, 12, wgpu::VertexStepMode::Vertex)),
-    }
-    let (vertex, fragment) = entry_points(key);
-    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some(&key.to_string()),
-        layout: Some(&self.layout),
-        vertex: wgpu::VertexState {
-            module: &self.module,
-            entry_point: Some(vertex),
-            compilation_options: compilation_options.clone(),
-            buffers: &buffers,
-        },
-        primitive: wgpu::PrimitiveState {
-            front_face: if key.clockwise { wgpu::FrontFace::Cw } else { wgpu::FrontFace::Ccw },
-            cull_mode: match key.cull {
-                Cull::Back => Some(wgpu::Face::Back),
-                Cull::Front => Some(wgpu::Face::Front),
-                Cull::None => None,
+    fn build(&self, gpu: &Gpu, key: PipelineKey) -> wgpu::RenderPipeline {
+        let constants = constants(key);
+        let compilation_options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
+        let buffer = |attributes, stride, step_mode| {
+            Some(wgpu::VertexBufferLayout { array_stride: stride, step_mode, attributes })
+        };
+        // Unlit draws need no normal matrix, and a software adapter pays for every attribute it fetches.
+        let unlit = [INSTANCE[0], INSTANCE[1], INSTANCE[2], INSTANCE[6]];
+        let instance = if key.stage == Stage::Unlit { &unlit[..] } else { &INSTANCE[..] };
+        let mut buffers = vec![
+            buffer(instance, INSTANCE_BYTES, wgpu::VertexStepMode::Instance),
+            buffer(&POSITION, 12, wgpu::VertexStepMode::Vertex),
+        ];
+        match key.stage {
+            Stage::Unlit => {}
+            Stage::Flat => buffers.push(buffer(&FACE, 24, wgpu::VertexStepMode::Vertex)),
+            _ => buffers.push(buffer(&NORMAL, 12, wgpu::VertexStepMode::Vertex)),
+        }
+        let (vertex, fragment) = entry_points(key);
+        gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some(&key.to_string()),
+            layout: Some(&self.layout),
+            vertex: wgpu::VertexState {
+                module: &self.module,
+                entry_point: Some(vertex),
+                compilation_options: compilation_options.clone(),
+                buffers: &buffers,
             },
-            ..Default::default()
-        },
-        depth_stencil: Some(wgpu::DepthStencilState {
-            format: DEPTH_FORMAT,
-            depth_write_enabled: Some(!key.blend),
-            depth_compare: Some(wgpu::CompareFunction::Greater),
-            stencil: wgpu::StencilState::default(),
-            bias: wgpu::DepthBiasState::default(),
-        }),
-        multisample: wgpu::MultisampleState { count: key.samples, ..Default::default() },
-        fragment: Some(wgpu::FragmentState {
-            module: &self.module,
-            entry_point: Some(fragment),
-            compilation_options,
-            targets: &[Some(wgpu::ColorTargetState {
-                format: key.format,
-                blend: key.blend.then_some(OVER),
-                write_mask: wgpu::ColorWrites::ALL,
-            })],
-        }),
-        multiview_mask: None,
-        cache: None,
-    })
-}
+            primitive: wgpu::PrimitiveState {
+                front_face: if key.clockwise { wgpu::FrontFace::Cw } else { wgpu::FrontFace::Ccw },
+                cull_mode: match key.cull {
+                    Cull::Back => Some(wgpu::Face::Back),
+                    Cull::Front => Some(wgpu::Face::Front),
+                    Cull::None => None,
+                },
+                ..Default::default()
+            },
+            depth_stencil: Some(wgpu::DepthStencilState {
+                format: DEPTH_FORMAT,
+                depth_write_enabled: Some(!key.blend),
+                depth_compare: Some(wgpu::CompareFunction::Greater),
+                stencil: wgpu::StencilState::default(),
+                bias: wgpu::DepthBiasState::default(),
+            }),
+            multisample: wgpu::MultisampleState { count: key.samples, ..Default::default() },
+            fragment: Some(wgpu::FragmentState {
+                module: &self.module,
+                entry_point: Some(fragment),
+                compilation_options,
+                targets: &[Some(wgpu::ColorTargetState {
+                    format: key.format,
+                    blend: key.blend.then_some(OVER),
+                    write_mask: wgpu::ColorWrites::ALL,
+                })],
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    }
 }
 
 /// opacity·I + (1 − opacity)·what is behind; the picture stays opaque.

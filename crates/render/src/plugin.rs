@@ -158,7 +158,6 @@ fn open_gpu(world: &mut World) {
             }
             Err(error) => {
                 world.resource_mut::<FrameReport>().errors.push(error);
-                return;
             }
         }
     }

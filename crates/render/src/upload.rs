@@ -4,9 +4,10 @@ use crate::batch::{Batches, DrawCall};
 use crate::error::RenderError;
 use crate::gpu::Gpu;
 use crate::lights::{LightRecord, Lights};
-use crate::pipeline::{BOUND_LIGHT_BYTES, Pipelines, Text};
+use crate::pipeline::Pipelines;
 use crate::records::RECORD_BYTES;
 use crate::report::FrameReport;
+use crate::shader::{BOUND_LIGHT_BYTES, Text};
 use crate::view::View;
 use bevy_ecs::prelude::*;
 use bytemuck::{Pod, Zeroable};
@@ -180,13 +181,9 @@ impl Buffers {
 
     /// Makes the bindings that are not there.
     fn bind(&mut self, gpu: &Gpu, pipelines: &Pipelines) -> Result<(), RenderError> {
-        let (Some(view), Some(records), Some(lights), Some(bound), Some(lists)) = (
-            &self.view.buffer,
-            &self.records.buffer,
-            &self.lights.buffer,
-            &self.bound.buffer,
-            &self.lists.buffer,
-        ) else {
+        let (Some(view), Some(records), Some(lights), Some(bound), Some(lists)) =
+            (&self.view.buffer, &self.records.buffer, &self.lights.buffer, &self.bound.buffer, &self.lists.buffer)
+        else {
             return Ok(());
         };
         let limit = gpu.device.limits().max_storage_buffer_binding_size;
