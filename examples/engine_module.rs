@@ -28,6 +28,8 @@ fn main() -> AppExit {
     App::new()
         .add_plugins((TaskPoolPlugin::default(), MeshPlugin, LightingPlugin))
         .add_plugins(RenderPlugin { schedule: MyFrame.intern() })
+        // Levels of detail would come in beside the frames, and count among their bytes.
+        .insert_resource(LevelsOfDetail::OFF)
         .init_resource::<StaticTransformOptimizations>()
         .add_systems(
             MyFrame,

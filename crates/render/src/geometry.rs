@@ -152,7 +152,7 @@ impl Geometry {
         let positions: Vec<[f32; 3]> = mesh.positions().iter().map(Vec3::to_array).collect();
         let normals: Vec<[f32; 3]> = mesh.normals().iter().map(Vec3::to_array).collect();
         let vertices = Vertices { positions: &positions, attributes: bytemuck::cast_slice(&normals) };
-        let opposite_normals = has_opposite_normals(mesh, &detail.triangles);
+        let opposite_normals = has_opposite_normals(mesh);
         vertices.upload(gpu, mesh, (detail.triangles.as_flattened(), &detail), opposite_normals)
     }
 
@@ -170,7 +170,7 @@ impl Geometry {
             attributes: there.attributes.clone(),
             indices,
             index_format: there.index_format,
-            opposite_normals: has_opposite_normals(&there.source, &detail.triangles),
+            opposite_normals: there.opposite_normals,
             source: there.source.clone(),
             detail,
         };
@@ -209,13 +209,13 @@ impl Vertices<'_> {
 }
 
 fn index_buffer(gpu: &Gpu, indices: &[u32], format: wgpu::IndexFormat) -> Result<wgpu::Buffer, RenderError> {
-    let mut bytes = match format {
-        wgpu::IndexFormat::Uint16 => indices.iter().flat_map(|&index| (index as u16).to_ne_bytes()).collect(),
-        wgpu::IndexFormat::Uint32 => bytemuck::pod_collect_to_vec::<u32, u8>(indices),
-    };
-    // A buffer's size is a multiple of 4; an odd count of u16 is padded.
-    bytes.resize(bytes.len().next_multiple_of(4), 0);
-    buffer(gpu, "indices", &bytes, wgpu::BufferUsages::INDEX)
+    if format == wgpu::IndexFormat::Uint32 {
+        return buffer(gpu, "indices", bytemuck::cast_slice(indices), wgpu::BufferUsages::INDEX);
+    }
+    let mut short: Vec<u16> = indices.iter().map(|&index| index as u16).collect();
+    // A buffer's size is a multiple of 4; an odd count is padded.
+    short.resize(short.len().next_multiple_of(2), 0);
+    buffer(gpu, "indices", bytemuck::cast_slice(&short), wgpu::BufferUsages::INDEX)
 }
 
 fn buffer(gpu: &Gpu, label: &str, contents: &[u8], usage: wgpu::BufferUsages) -> Result<wgpu::Buffer, RenderError> {
@@ -226,11 +226,12 @@ fn buffer(gpu: &Gpu, label: &str, contents: &[u8], usage: wgpu::BufferUsages) ->
     Ok(gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage }))
 }
 
-/// Whether any triangle's normals can cancel under interpolation. While all pairs of the three have
+/// Whether any triangle's normals can cancel under interpolation; those of coarser levels, which do so only where a
+/// triangle is smaller than a pixel, are not looked at. While all pairs of the three have
 /// `n_i·n_j ≥ −0.49`, `|Σ b_i n_i|² ≥ Σ b_i² − 0.98 Σ b_i b_j ≥ 0.0066` everywhere on the triangle.
-fn has_opposite_normals(mesh: &Mesh, triangles: &[[u32; 3]]) -> bool {
+fn has_opposite_normals(mesh: &Mesh) -> bool {
     let normals = mesh.normals();
-    triangles.iter().any(|triangle| {
+    mesh.triangles().any(|triangle| {
         let [a, b, c] = triangle.map(|index| normals[index as usize]);
         a.dot(b).min(b.dot(c)).min(c.dot(a)) < -0.49
     })

@@ -187,7 +187,7 @@ mod tests {
 
     #[test]
     fn patches_hold_every_triangle_once_and_all_that_is_said_of_them() {
-        for mesh in [Mesh::from(UvSphere::new(2.0, 64, 32)), Mesh::from(Plane { size: 200.0, divisions: 64 })] {
+        for mesh in [Mesh::from(UvSphere::new(2.0, 96, 48)), Mesh::from(Plane { size: 200.0, divisions: 64 })] {
             let (triangles, patches) = cut_whole(&mesh);
             let sorted = |mut triangles: Vec<[u32; 3]>| {
                 triangles.sort_unstable();
