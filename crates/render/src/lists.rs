@@ -87,7 +87,8 @@ impl LightLists {
         self.assigned += (self.selected.diffuse.len() + self.selected.specular.len()) as u64;
     }
 
-    /// Binds what was selected at fixed places, for all terms; `None` where it is too much.
+    /// Binds what was selected at fixed places; `None` where it is too much. A light that is needed for one term alone is
+    /// shaded with both: pipelines differ by numbers of lights, and two numbers a kind would make too many.
     pub(crate) fn bind(&mut self, lights: &Lights) -> Option<Bound> {
         let Selected { diffuse, specular, .. } = &self.selected;
         self.union.clear();
@@ -116,16 +117,11 @@ impl LightLists {
         Some(bound)
     }
 
-    /// The lists of what was selected.
-    pub(crate) fn list(&mut self, lights: &Lights, surface: &Surface) -> RecordLists {
-        self.append(lights.counts, surface)
-    }
-
-    /// Appends what was selected, unless it is what was appended last.
-    fn append(&mut self, counts: [u32; 3], surface: &Surface) -> RecordLists {
+    /// The lists of what was selected: appended, unless they are what was appended last.
+    pub(crate) fn list(&mut self, Lights { counts, .. }: &Lights, surface: &Surface) -> RecordLists {
         let start = self.numbers.len();
-        let [vertex, vertex_diffuse] = self.append_stage(counts, surface.vertex);
-        let [fragment, fragment_diffuse] = self.append_stage(counts, surface.fragment);
+        let [vertex, vertex_diffuse] = self.append_stage(*counts, surface.vertex);
+        let [fragment, fragment_diffuse] = self.append_stage(*counts, surface.fragment);
         let lists = RecordLists { vertex, vertex_diffuse, fragment, fragment_diffuse };
         if let Some((last, last_start)) = self.last
             && last.starting_at(0, last_start) == lists.starting_at(0, start)

@@ -39,7 +39,7 @@ fn loops(first: &str, count: &str, most: u32, length: u32, cone: bool) -> String
     (0..most).step_by(length as usize).map(one).collect()
 }
 
-/// The numbers of point and of spot lights that have pipelines of their own where patches are lit by few of many lights.
+/// The numbers of directional, point and spot lights that have pipelines of their own where patches are lit by few of many lights.
 /// A patch with other numbers is filled up with black ones; one with more reads lists.
 const STEPS: [&[u32]; 3] = [&[0, 1, 2, 4, 8], &[0, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32], &[0, 1, 2, 4, 8, 16]];
 
