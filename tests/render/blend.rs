@@ -198,6 +198,22 @@ fn one_sided_blended_objects_show_the_side_asked_for() {
 }
 
 #[test]
+fn opaque_pixels_are_the_same_beside_a_blended_object() {
+    // Without one, a software adapter's shaders encode.
+    let mut stage = Stage::new(24, 24);
+    let mut scene = Scene::seen_from(Vec3::Z * 4.0, Vec3::ZERO).with(Thing::new(UvSphere::new(1.0, 24, 12)));
+    scene = scene.lit(Lamp::point(point_light(), Vec3::new(1.0, 2.0, 4.0)));
+    scene.camera.encoding = Encoding::Srgb;
+    let alone = stage.draw_bytes(&scene);
+    let out_of_sight = pane(0.0, [1.0; 3], 0.5).at(Transform::from_xyz(500.0, 0.0, 0.0));
+    let beside = stage.draw_bytes(&scene.clone().with(out_of_sight));
+    let steps = alone.iter().zip(beside.iter()).map(|(a, b)| a.abs_diff(*b)).max();
+    // Each encodes within a step.
+    assert!(steps <= Some(1), "{steps:?}");
+    assert!(stage.draw_bytes(&scene) == alone, "alone again it looks different");
+}
+
+#[test]
 fn overbright_surfaces_are_clamped_before_they_are_blended_in_bytes() {
     let mut stage = Stage::new(9, 9);
     for encoding in [Encoding::Raw, Encoding::Srgb] {

@@ -18,7 +18,7 @@ use crate::terms::Chosen;
 use crate::view::View;
 use bevy_asset::AssetId;
 use bevy_ecs::prelude::*;
-use halfway_lighting::{BackMaterial, Blend, Encoding, Faces, Material, Reflectance, equations};
+use halfway_lighting::{BackMaterial, Blend, Faces, Material, Reflectance, equations};
 use halfway_mesh::{Mesh, Mesh3d};
 use std::ops::Range;
 
@@ -97,8 +97,16 @@ pub(crate) fn batch(
     let batches = &mut *batches;
     batches.begin(&lights);
     let (Some(camera), Some(frame)) = (&view.camera, &target.frame) else { return };
-    let (format, samples, viewer) = (frame.format, frame.samples.count(), camera.viewer);
-    let shared = Shared { lights: &lights, allowed: &allowed, format, samples, viewer, software: gpu.is_software() };
+    let shared = Shared {
+        lights: &lights,
+        allowed: &allowed,
+        format: frame.format,
+        encoded: frame.encoded,
+        encoding: frame.encoding(),
+        samples: frame.samples.count(),
+        viewer: camera.viewer,
+        software: gpu.is_software(),
+    };
     for &entity in &visible.0 {
         let Ok((mesh, material, back, reflectance, faces, blend, model_view, normal_matrix, chosen, name)) =
             objects.get(entity)
@@ -158,15 +166,6 @@ struct Object<'a> {
     geometry: &'a Geometry,
     model_view: &'a ModelView,
     normal_matrix: &'a NormalMatrix,
-}
-
-/// What the bytes of a format hold; `None` for floating point.
-fn encoding(format: wgpu::TextureFormat) -> Option<Encoding> {
-    match format {
-        wgpu::TextureFormat::Rgba32Float | wgpu::TextureFormat::Rgba16Float => None,
-        format if format.is_srgb() => Some(Encoding::Srgb),
-        _ => Some(Encoding::Raw),
-    }
 }
 
 impl Batches {
@@ -242,7 +241,7 @@ impl Batches {
         let patch = patch.in_eye_space(model_view, normal_matrix, reflecting.faces);
         let eye = equations::View::in_eye_space(shared.viewer);
         let surface = reflecting.surface(key);
-        self.lists.select(shared.lights, &patch, &surface, &eye, encoding(shared.format));
+        self.lists.select(shared.lights, &patch, &surface, &eye, shared.encoding);
         if shared.software
             && let Some(bound) = self.lists.bind(shared.lights)
         {

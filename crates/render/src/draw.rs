@@ -9,8 +9,9 @@ use crate::target::{Attachments, Frame, Target};
 use crate::timing::{FrameTimes, GpuTimer};
 use crate::upload::Buffers;
 use crate::view::View;
+use bevy_color::LinearRgba;
 use bevy_ecs::prelude::*;
-use halfway_lighting::Camera;
+use halfway_lighting::{Camera, Encoding};
 
 #[expect(clippy::too_many_arguments, reason = "a system takes each resource as a parameter")]
 pub(crate) fn draw(
@@ -48,8 +49,12 @@ fn begin<'a>(
     camera: Camera,
     timestamp_writes: Option<wgpu::RenderPassTimestampWrites<'_>>,
 ) -> wgpu::RenderPass<'a> {
-    let background = camera.background;
-    let clear = wgpu::Color { r: background.red.into(), g: background.green.into(), b: background.blue.into(), a: 1.0 };
+    let LinearRgba { red, green, blue, .. } = camera.background;
+    let [r, g, b] = [red, green, blue].map(|linear| match frame.encoded {
+        true => Encoding::Srgb.encode(f64::from(linear).clamp(0.0, 1.0)),
+        false => f64::from(linear),
+    });
+    let clear = wgpu::Color { r, g, b, a: 1.0 };
     let (view, resolve_target, store) = match &attachments.multisampled {
         Some(samples) => (samples, Some(&frame.view), wgpu::StoreOp::Discard),
         None => (&frame.view, None, wgpu::StoreOp::Store),

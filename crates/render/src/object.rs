@@ -7,7 +7,7 @@ use crate::pipeline::{Cull, Lists, PipelineKey, Stage};
 use crate::records::{DrawRecord, MaterialRecord, exponent};
 use crate::terms::{Chosen, TermMask};
 use bevy_math::Vec3;
-use halfway_lighting::{Faces, InvalidValue, Material, Reflectance, Viewer};
+use halfway_lighting::{Encoding, Faces, InvalidValue, Material, Reflectance, Viewer};
 
 /// The components that say how an object reflects light.
 #[derive(Clone, Copy, Debug)]
@@ -41,6 +41,10 @@ pub(crate) struct Shared<'a> {
     pub(crate) lights: &'a Lights,
     pub(crate) allowed: &'a LevelsOfDetail,
     pub(crate) format: wgpu::TextureFormat,
+    /// The shader writes the sRGB curve.
+    pub(crate) encoded: bool,
+    /// What the picture's bytes hold; `None` for floating point.
+    pub(crate) encoding: Option<Encoding>,
     pub(crate) samples: u32,
     pub(crate) viewer: Viewer,
     /// Whether the adapter is a software one.
@@ -108,7 +112,7 @@ impl Reflecting<'_> {
 
     /// The pipeline. A term that the material or the lights leave black is not in it.
     pub(crate) fn key(&self, look: &Look, drawn: Drawn, shared: Shared) -> PipelineKey {
-        let Shared { lights, format, samples, viewer, .. } = shared;
+        let Shared { lights, format, encoded, samples, viewer, .. } = shared;
         let [reflects_ambient, reflects_diffuse, reflects_specular] = look.reflects;
         let lit = !lights.records.is_empty();
         let attenuated_ambient = lights.attenuated_ambient && reflects_ambient;
@@ -144,6 +148,7 @@ impl Reflecting<'_> {
             clockwise: drawn.mirrored != (self.faces == Faces::Back),
             samples,
             format,
+            encoded,
         }
     }
 }

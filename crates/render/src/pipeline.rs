@@ -66,6 +66,8 @@ pub(crate) struct PipelineKey {
     pub(crate) clockwise: bool,
     pub(crate) samples: u32,
     pub(crate) format: wgpu::TextureFormat,
+    /// The shader writes the sRGB curve; see [`Frame::encoded`](crate::target::Frame::encoded).
+    pub(crate) encoded: bool,
 }
 
 /// Which faces the rasteriser drops.
@@ -96,6 +98,7 @@ impl fmt::Display for PipelineKey {
             (self.geometric_fallback, "geometric_fallback"),
             (self.clockwise, "clockwise"),
             (self.blend, "blend"),
+            (self.encoded, "encoded"),
         ] {
             if on {
                 write!(f, " {name}")?;
@@ -275,7 +278,7 @@ const OVER: wgpu::BlendState = wgpu::BlendState {
 fn entry_points(key: PipelineKey) -> (&'static str, &'static str) {
     match (key.stage, key.cull) {
         (Stage::Unlit, Cull::Back) => ("vs_unlit", "fs_unlit"),
-        (Stage::Unlit, _) => ("vs_unlit", "fs_unlit_both"),
+        (Stage::Unlit, _) => ("vs_unlit_both", "fs_unlit_both"),
         (Stage::Flat, _) => ("vs_flat", "fs_flat"),
         (Stage::Vertex, Cull::Back) => ("vs_gouraud", "fs_gouraud"),
         (Stage::Vertex, _) => ("vs_gouraud_both", "fs_gouraud_both"),
@@ -303,6 +306,7 @@ fn constants(key: PipelineKey) -> Vec<(&'static str, f64)> {
         ("SQUARINGS", key.squarings.map_or(-1.0, f64::from)),
         ("TWO_SIDED", flag(key.cull != Cull::Back)),
         ("BLEND", flag(key.blend)),
+        ("ENCODED", flag(key.encoded)),
         ("GEOMETRIC_FALLBACK", flag(key.geometric_fallback)),
         ("PER_INSTANCE", flag(key.per_instance)),
         ("LISTED", flag(listed)),

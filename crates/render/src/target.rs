@@ -7,7 +7,8 @@ use crate::timing::FrameTimes;
 use crate::view::View;
 use bevy_ecs::prelude::*;
 use bevy_math::UVec2;
-use halfway_lighting::{Camera, Encoding, Samples};
+use halfway_lighting::{Blend, Encoding, Samples};
+use halfway_mesh::Mesh3d;
 
 /// The headless target: pictures of this size, to be read back. The default target.
 #[derive(Resource, Clone, Copy, Debug, PartialEq, Eq)]
@@ -82,9 +83,9 @@ impl SurfaceTarget {
         UVec2::new(self.config.width, self.config.height)
     }
 
-    /// The surface's format for `encoding`; its first one where it has no such.
-    fn pick_format(&mut self, encoding: Encoding) {
-        let wanted = |format: &&wgpu::TextureFormat| format.is_srgb() == (encoding == Encoding::Srgb);
+    /// The surface's format that encodes as asked; its first one where it has no such.
+    fn pick_format(&mut self, encodes: bool) {
+        let wanted = |format: &&wgpu::TextureFormat| format.is_srgb() == encodes;
         let format = self.formats.iter().find(wanted).or(self.formats.first());
         if let Some(&format) = format.filter(|&&format| format != self.config.format) {
             self.config.format = format;
@@ -152,9 +153,19 @@ struct Made {
 /// The picture of this frame.
 pub(crate) struct Frame {
     pub(crate) format: wgpu::TextureFormat,
+    /// The format takes bytes as they are, and the shaders write them encoded as sRGB.
+    pub(crate) encoded: bool,
     pub(crate) samples: Samples,
     pub(crate) view: wgpu::TextureView,
     pub(crate) surface: Option<wgpu::SurfaceTexture>,
+}
+
+impl Frame {
+    /// What the bytes hold; `None` for floating point.
+    pub(crate) fn encoding(&self) -> Option<Encoding> {
+        let is_srgb = self.encoded || self.format.is_srgb();
+        (!is_float(self.format)).then_some(if is_srgb { Encoding::Srgb } else { Encoding::Raw })
+    }
 }
 
 pub(crate) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
@@ -186,6 +197,7 @@ pub(crate) fn prepare(
     headless: Res<Headless>,
     surface: Option<ResMut<SurfaceTarget>>,
     view: Res<View>,
+    blended: Query<(), (With<Blend>, With<Mesh3d>)>,
     mut target: ResMut<Target>,
     mut report: ResMut<FrameReport>,
     mut times: ResMut<FrameTimes>,
@@ -207,10 +219,14 @@ pub(crate) fn prepare(
         });
         return;
     }
+    // A software adapter decodes and encodes all 16 pixels of a block to write some of them. Blending and resolving need
+    // linear values, which only the format gives.
+    let shader_encodes = gpu.is_software() && camera.samples == Samples::One && blended.is_empty();
+    let format_encodes = camera.encoding == Encoding::Srgb && !shader_encodes;
     let (format, acquired) = match surface {
-        None => (headless_format(&gpu, headless.pixels, &camera), None),
+        None => (headless_format(&gpu, headless.pixels, camera.samples, format_encodes), None),
         Some(mut surface) => {
-            surface.pick_format(camera.encoding);
+            surface.pick_format(format_encodes);
             match times.at_display(|| surface.acquire(&gpu)) {
                 Ok(Some(texture)) => (surface.config.format, Some(texture)),
                 Ok(None) => return,
@@ -229,16 +245,21 @@ pub(crate) fn prepare(
     let Some(view) = texture.map(|texture| texture.create_view(&wgpu::TextureViewDescriptor::default())) else {
         return;
     };
-    target.frame = Some(Frame { format, samples: camera.samples, view, surface: acquired });
+    let encoded = camera.encoding == Encoding::Srgb && !format.is_srgb() && !is_float(format);
+    target.frame = Some(Frame { format, encoded, samples: camera.samples, view, surface: acquired });
 }
 
-fn headless_format(gpu: &Gpu, pixels: Pixels, camera: &Camera) -> wgpu::TextureFormat {
-    match (pixels, camera.encoding) {
-        (Pixels::Byte, Encoding::Srgb) => wgpu::TextureFormat::Rgba8UnormSrgb,
-        (Pixels::Byte, Encoding::Raw) => wgpu::TextureFormat::Rgba8Unorm,
-        (Pixels::Float, _) if draws_f32(gpu, camera.samples) => wgpu::TextureFormat::Rgba32Float,
-        (Pixels::Float, _) => wgpu::TextureFormat::Rgba16Float,
+fn headless_format(gpu: &Gpu, pixels: Pixels, samples: Samples, encodes: bool) -> wgpu::TextureFormat {
+    match pixels {
+        Pixels::Byte if encodes => wgpu::TextureFormat::Rgba8UnormSrgb,
+        Pixels::Byte => wgpu::TextureFormat::Rgba8Unorm,
+        Pixels::Float if draws_f32(gpu, samples) => wgpu::TextureFormat::Rgba32Float,
+        Pixels::Float => wgpu::TextureFormat::Rgba16Float,
     }
+}
+
+fn is_float(format: wgpu::TextureFormat) -> bool {
+    matches!(format, wgpu::TextureFormat::Rgba32Float | wgpu::TextureFormat::Rgba16Float)
 }
 
 fn draws_f32(gpu: &Gpu, samples: Samples) -> bool {
