@@ -12,6 +12,7 @@ mod render {
     mod changes;
     mod closed_forms;
     mod compare;
+    mod compile;
     mod conformance;
     mod counters;
     mod culling;

@@ -9,7 +9,8 @@ use crate::lists::LightLists;
 use crate::matrices::{ModelView, NormalMatrix, Visible};
 use crate::object::{Drawn, Reflecting, Shared};
 use crate::patches::Patch;
-use crate::pipeline::{Lists, PipelineKey, Pipelines};
+use crate::pipeline::{Lists, PipelineKey};
+use crate::pipelines::Pipelines;
 use crate::records::{DrawRecord, InstanceRecord, RecordLists};
 use crate::report::FrameReport;
 use crate::table::Table;
@@ -125,7 +126,7 @@ pub(crate) fn batch(
             mirrored: model_view.mirrored,
             opposite_normals: geometry.opposite_normals,
         };
-        let key = pipelines.admit(reflecting.key(look, drawn, shared));
+        let key = reflecting.key(look, drawn, shared);
         let (material, exponent) = (look.material, look.exponent);
         let object = Object {
             reflecting,
@@ -143,13 +144,14 @@ pub(crate) fn batch(
     report.materials = batches.table.materials_in_use();
     report.lights_assigned = batches.lists.assigned;
     report.left_out = batches.lists.left_out;
-    batches.emit(records_of_one_draw(shared.software));
+    batches.emit(records_of_one_draw(shared.software), &mut pipelines);
     report.draws = batches.draws.len() as u32;
 }
 
 /// An object on its way into the draws.
 struct Object<'a> {
     reflecting: Reflecting<'a>,
+    /// The pipeline that fits best.
     key: PipelineKey,
     material: u32,
     exponent: f32,
@@ -227,7 +229,7 @@ impl Batches {
         }
     }
 
-    /// The pipeline of a patch, the lights that are bound for it, and its lists.
+    /// The pipeline that draws a patch, the lights that are bound for it, and its lists.
     fn lit(
         &mut self,
         object: &Object,
@@ -236,14 +238,19 @@ impl Batches {
         pipelines: &mut Pipelines,
     ) -> (PipelineKey, u32, RecordLists) {
         let Object { reflecting, key, model_view, normal_matrix, .. } = object;
-        if key.lists != Lists::Listed {
-            return (*key, 0, RecordLists::default());
+        let counted = key.lists != Lists::Listed;
+        if counted {
+            let admitted = pipelines.admit(*key);
+            if admitted.lists != Lists::Listed {
+                return (admitted, 0, RecordLists::default());
+            }
         }
         let patch = patch.in_eye_space(model_view, normal_matrix, reflecting.faces);
         let eye = equations::View::in_eye_space(shared.viewer);
         let surface = reflecting.surface(key);
         self.lists.select(shared.lights, &patch, &surface, &eye, encoding(shared.format));
         if shared.software
+            && !counted
             && let Some(bound) = self.lists.bind(shared.lights)
         {
             let counted = PipelineKey { lists: Lists::Counted(bound.counts.map(|n| n as u8)), ..*key };
@@ -251,7 +258,7 @@ impl Batches {
                 return (counted, bound.start, RecordLists::default());
             }
         }
-        (*key, 0, self.lists.list(shared.lights, &surface))
+        (pipelines.admit(*key), 0, self.lists.list(shared.lights, &surface))
     }
 
     fn add_run(&mut self, object: &Object, Run { key, lights, record, indices }: Run) {
@@ -266,18 +273,19 @@ impl Batches {
     }
 
     /// Sorts, and joins neighbours that differ only in their instance or record.
-    fn emit(&mut self, records_of_one_draw: usize) {
+    fn emit(&mut self, records_of_one_draw: usize, pipelines: &mut Pipelines) {
         let mut items = std::mem::take(&mut self.items);
         // Instances are numbered in spawn order, which equal ones keep.
         items.sort_unstable_by(|a, b| {
             a.blend.cmp(&b.blend).then_with(|| if a.blend { a.by_depth(b) } else { a.by_state(b) })
         });
         for run in items.chunk_by_mut(Item::is_one_call) {
-            let Item { blend, lights, .. } = run[0];
+            let Item { blend, call, lights, .. } = run[0];
+            let (key, ..) = self.table.called[call as usize];
             let records = 1 + run.windows(2).filter(|pair| pair[0].record != pair[1].record).count();
             if records == 1 {
                 self.emit_draw(run, false);
-            } else if (blend || records >= records_of_one_draw) && lights == 0 {
+            } else if (blend || records >= records_of_one_draw) && lights == 0 && pipelines.looks_up(key) {
                 if !blend {
                     run.sort_unstable_by(Item::by_nearness);
                 }

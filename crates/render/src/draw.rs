@@ -3,7 +3,8 @@
 use crate::batch::Batches;
 use crate::geometry::Geometries;
 use crate::gpu::Gpu;
-use crate::pipeline::{Pipelines, Stage};
+use crate::pipeline::Stage;
+use crate::pipelines::Pipelines;
 use crate::report::FrameReport;
 use crate::target::{Attachments, Frame, Target};
 use crate::timing::{FrameTimes, GpuTimer};

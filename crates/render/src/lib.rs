@@ -6,6 +6,7 @@
 //! [`FrameTimes`] says where its time went on the CPU, and [`GpuTimer`] how much of it the GPU took.
 
 mod batch;
+mod compile;
 mod detail;
 mod draw;
 mod error;
@@ -19,6 +20,7 @@ mod object;
 mod patches;
 mod picture;
 mod pipeline;
+mod pipelines;
 mod plugin;
 mod records;
 mod report;
@@ -31,6 +33,7 @@ mod upload;
 mod view;
 mod workshop;
 
+pub use compile::Compile;
 pub use detail::LevelsOfDetail;
 pub use error::RenderError;
 pub use gpu::Gpu;

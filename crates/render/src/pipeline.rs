@@ -1,12 +1,10 @@
-//! Pipelines: a small key for each, built on first use and counted.
+//! A pipeline: its small key, and what is built from it.
 
 use crate::gpu::Gpu;
 use crate::records::INSTANCE_BYTES;
 use crate::shader::{Shader, Text};
 use crate::target::DEPTH_FORMAT;
 use crate::terms::TermMask;
-use bevy_ecs::prelude::Resource;
-use std::collections::{HashMap, HashSet};
 use std::fmt;
 
 /// Up to this many lights in a scene are all shaded everywhere; of more, each patch has those that it needs.
@@ -108,22 +106,6 @@ impl fmt::Display for PipelineKey {
     }
 }
 
-/// The pipelines built so far, with what they share.
-#[derive(Resource, Default)]
-pub(crate) struct Pipelines {
-    shaders: HashMap<Text, Shader>,
-    built: HashMap<PipelineKey, wgpu::RenderPipeline>,
-    /// The specialised keys that may be built.
-    special: HashSet<PipelineKey>,
-    /// What was asked last, and the answer.
-    last: Option<(PipelineKey, PipelineKey)>,
-}
-
-/// So many specialised pipelines live at most; what more a scene asks for is drawn by generic ones, which are slower and
-/// few: they differ in the stages of their terms, the reflectance, the viewer, faces, blending and the target alone. A
-/// draw that looks up records for its instances has a pipeline beside that of its key.
-pub(crate) const MOST_SPECIAL: usize = 128;
-
 impl PipelineKey {
     pub(crate) fn text(&self) -> Text {
         match self.lists {
@@ -148,46 +130,39 @@ impl PipelineKey {
         }
     }
 
+    /// Whether it knows anything that its generic one does not.
+    pub(crate) fn is_special(self) -> bool {
+        self != self.generic()
+    }
+
+    /// The generic pipelines that draw the same object under every shading and reflectance, this one's own among them.
+    pub(crate) fn relatives(self) -> impl Iterator<Item = Self> {
+        let none = TermMask::default();
+        let terms = TermMask {
+            diffuse: self.vertex.diffuse || self.fragment.diffuse,
+            specular: self.vertex.specular || self.fragment.specular,
+        };
+        let shadings = [(Stage::Flat, terms, none), (Stage::Vertex, terms, none), (Stage::Fragment, none, terms)];
+        let lit = shadings.into_iter().filter(move |_| !terms.is_empty()).flat_map(move |(stage, vertex, fragment)| {
+            [self.blinn_phong, self.blinn_phong ^ terms.specular].map(|blinn_phong| Self {
+                stage,
+                vertex,
+                fragment,
+                blinn_phong,
+                ..self
+            })
+        });
+        std::iter::once(self).chain(lit).map(Self::generic)
+    }
+
+    /// The one whose instances look up their records.
+    pub(crate) fn looking_up(self) -> Self {
+        Self { per_instance: true, ..self }
+    }
+
     /// Whether records and lights are read from storage, as lists and records of instances are.
     pub(crate) fn reads_storage(&self) -> bool {
         self.text() == Text::Listed
-    }
-}
-
-impl Pipelines {
-    /// The layout of the bindings that such pipelines need; `None` before the first is built.
-    pub(crate) fn bindings(&self, text: Text) -> Option<&wgpu::BindGroupLayout> {
-        self.shaders.get(&text).map(|shader| &shader.bindings)
-    }
-
-    /// The key itself, or the generic one that draws the same.
-    pub(crate) fn admit(&mut self, key: PipelineKey) -> PipelineKey {
-        if let Some((asked, answer)) = self.last
-            && asked == key
-        {
-            return answer;
-        }
-        let room = self.special.len() < MOST_SPECIAL;
-        let answer = if self.special.contains(&key) || room && self.special.insert(key) { key } else { key.generic() };
-        self.last = Some((key, answer));
-        answer
-    }
-
-    pub(crate) fn get(&self, key: &PipelineKey) -> Option<&wgpu::RenderPipeline> {
-        self.built.get(key)
-    }
-
-    pub(crate) fn count(&self) -> u32 {
-        self.built.len() as u32
-    }
-
-    /// Builds the pipeline unless it is there.
-    pub(crate) fn ensure(&mut self, gpu: &Gpu, key: PipelineKey) {
-        if !self.built.contains_key(&key) {
-            log::debug!("building pipeline {key}");
-            let shader = self.shaders.entry(key.text()).or_insert_with_key(|&text| Shader::new(gpu, text));
-            self.built.insert(key, shader.build(gpu, key));
-        }
     }
 }
 
@@ -197,7 +172,7 @@ const NORMAL: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![7 => Float32
 const FACE: [wgpu::VertexAttribute; 2] = wgpu::vertex_attr_array![7 => Float32x3, 8 => Float32x3];
 
 impl Shader {
-    fn build(&self, gpu: &Gpu, key: PipelineKey) -> wgpu::RenderPipeline {
+    pub(crate) fn build(&self, gpu: &Gpu, key: PipelineKey) -> wgpu::RenderPipeline {
         let constants = constants(key);
         let compilation_options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
         let buffer = |attributes, stride, step_mode| {
@@ -310,4 +285,45 @@ fn constants(key: PipelineKey) -> Vec<(&'static str, f64)> {
         ("POINTS", points.into()),
         ("SPOTS", spots.into()),
     ]
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+
+    /// A pipeline for one point light, with both terms at the fragments.
+    pub(crate) fn key() -> PipelineKey {
+        let both = TermMask { diffuse: true, specular: true };
+        PipelineKey {
+            blend: false,
+            stage: Stage::Fragment,
+            lists: Lists::Counted([0, 1, 0]),
+            vertex: TermMask::default(),
+            fragment: both,
+            per_instance: false,
+            blinn_phong: true,
+            local_viewer: true,
+            attenuated_ambient: false,
+            shared_colour: false,
+            ranged: false,
+            squarings: None,
+            geometric_fallback: false,
+            cull: Cull::Back,
+            clockwise: false,
+            samples: 1,
+            format: wgpu::TextureFormat::Rgba8Unorm,
+        }
+    }
+
+    #[test]
+    fn relatives_are_generic_and_every_shading_is_among_them() {
+        let relatives: std::collections::HashSet<_> = key().relatives().collect();
+        assert_eq!(relatives.len(), 6, "three shadings by two reflectances");
+        assert!(relatives.contains(&key().generic()) && !relatives.contains(&key()));
+        assert!(relatives.iter().all(|relative| !relative.is_special()));
+        let diffuse = PipelineKey { fragment: TermMask { diffuse: true, specular: false }, ..key() };
+        assert_eq!(diffuse.relatives().collect::<std::collections::HashSet<_>>().len(), 3);
+        let unlit = PipelineKey { stage: Stage::Unlit, fragment: TermMask::default(), ..key() };
+        assert!(unlit.relatives().eq([unlit.generic()]));
+    }
 }

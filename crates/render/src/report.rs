@@ -38,13 +38,21 @@ pub struct FrameReport {
     pub materials: u32,
     /// Bytes sent to the GPU: meshes, instances, materials and lights. 0 for a frame equal to the last.
     pub bytes_uploaded: u64,
-    /// Pipelines built since the start; each is one specialised shader variant.
+    /// Pipelines built since the start; each is one variant of the shader.
     pub pipelines: u32,
+    /// Pipelines that are there now: those built, less the specialised ones that were given up.
+    pub pipelines_live: u32,
+    /// Pipelines that are still being built beside the frames; generic ones draw in their place.
+    pub pipelines_pending: u32,
+    /// Pipelines that this frame waited for; under [`Compile::Beside`](crate::Compile::Beside) never a specialised one
+    /// after the first frame.
+    pub pipelines_awaited: u32,
 }
 
 impl FrameReport {
     /// Starts a frame: everything but the pipelines, which live on, is zeroed.
     pub(crate) fn begin(&mut self) {
-        *self = Self { pipelines: self.pipelines, ..Self::default() };
+        let Self { pipelines, pipelines_live, pipelines_pending, .. } = *self;
+        *self = Self { pipelines, pipelines_live, pipelines_pending, ..Self::default() };
     }
 }

@@ -4,6 +4,7 @@ use crate::gpu::Gpu;
 use crate::lights::LightRecord;
 use crate::pipeline::COUNTED_LIGHTS;
 use crate::records::RECORD_BYTES;
+use std::sync::OnceLock;
 
 /// How the text reads records and lights. Each is a text of its own, since a driver spends time and memory on what a
 /// pipeline leaves unused.
@@ -22,6 +23,20 @@ pub(crate) struct Shader {
     pub(crate) module: wgpu::ShaderModule,
     pub(crate) bindings: wgpu::BindGroupLayout,
     pub(crate) layout: wgpu::PipelineLayout,
+}
+
+/// The texts, each made when a pipeline first needs it, on whichever thread that is.
+#[derive(Default)]
+pub(crate) struct Shaders([OnceLock<Shader>; 3]);
+
+impl Shaders {
+    pub(crate) fn get(&self, text: Text) -> Option<&Shader> {
+        self.0[text as usize].get()
+    }
+
+    pub(crate) fn get_or_make(&self, gpu: &Gpu, text: Text) -> &Shader {
+        self.0[text as usize].get_or_init(|| Shader::new(gpu, text))
+    }
 }
 
 /// The bytes of lights at fixed places.
@@ -75,7 +90,7 @@ impl Text {
 }
 
 impl Shader {
-    pub(crate) fn new(gpu: &Gpu, text: Text) -> Self {
+    fn new(gpu: &Gpu, text: Text) -> Self {
         let storage = text == Text::Listed;
         let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("lighting"),

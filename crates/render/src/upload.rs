@@ -4,7 +4,7 @@ use crate::batch::{Batches, DrawCall};
 use crate::error::RenderError;
 use crate::gpu::Gpu;
 use crate::lights::{LightRecord, Lights};
-use crate::pipeline::Pipelines;
+use crate::pipelines::Pipelines;
 use crate::records::RECORD_BYTES;
 use crate::report::FrameReport;
 use crate::shader::{BOUND_LIGHT_BYTES, Text};
@@ -220,7 +220,7 @@ impl Buffers {
     }
 }
 
-/// Builds the pipelines of what is about to be drawn, and counts its triangles.
+/// Builds the pipelines that what is about to be drawn still lacks, and counts its triangles.
 pub(crate) fn build_pipelines(
     gpu: Res<Gpu>,
     batches: Res<Batches>,
@@ -228,10 +228,14 @@ pub(crate) fn build_pipelines(
     mut report: ResMut<FrameReport>,
 ) {
     for draw in &batches.draws {
-        pipelines.ensure(&gpu, draw.key);
+        if let Err(error) = pipelines.ensure(&gpu, draw.key)
+            && !report.errors.contains(&error)
+        {
+            report.errors.push(error);
+        }
         report.triangles += draw.indices.len() as u64 / 3 * draw.instances.len() as u64;
     }
-    report.pipelines = pipelines.count();
+    pipelines.report(&mut report);
 }
 
 pub(crate) fn upload(
