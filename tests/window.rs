@@ -90,6 +90,29 @@ fn the_title_counts() {
 }
 
 #[test]
+fn pipelines_come_in_beside_the_frames() {
+    let screen = Screen::open();
+    let mut viewer = Viewer::open(&screen);
+    let settles = |viewer: &Viewer, pipelines: u32, shading: &str| {
+        let counted = format!(" · {pipelines} pipelines · 0 B · ");
+        let settled =
+            |title: &String| title.contains(&counted) && title.ends_with(&format!(" · {shading}, Blinn–Phong"));
+        eventually(&format!("{shading} by {pipelines} pipelines"), || viewer.title().filter(settled));
+    };
+    // The first frame's, and generic ones for three shadings by two reflectances.
+    settles(&viewer, 7, "Phong");
+    // One for each that is chosen and was not seen before.
+    viewer.press('1'.into());
+    settles(&viewer, 8, "flat");
+    viewer.press('2'.into());
+    settles(&viewer, 9, "Gouraud");
+    viewer.press('3'.into());
+    settles(&viewer, 9, "Phong");
+    viewer.request_close();
+    assert_eq!(viewer.end().code(), Some(0));
+}
+
+#[test]
 fn escape_closes() {
     let screen = Screen::open();
     let mut viewer = Viewer::open(&screen);
