@@ -8,6 +8,7 @@
 mod batch;
 mod detail;
 mod draw;
+mod draws;
 mod error;
 mod flat;
 mod geometry;

@@ -241,7 +241,7 @@ mod tests {
                 view,
                 depth_slice: None,
                 resolve_target: None,
-                ops: Default::default(),
+                ops: wgpu::Operations::default(),
             };
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                 color_attachments: &[Some(attachment)],
