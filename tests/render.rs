@@ -24,6 +24,7 @@ mod render {
     mod levels;
     mod light_counts;
     mod light_lists;
+    mod multi_draw;
     mod picture;
     mod pipelines;
     mod plugins;

@@ -9,6 +9,7 @@ mod batch;
 mod compile;
 mod detail;
 mod draw;
+mod draws;
 mod error;
 mod flat;
 mod geometry;

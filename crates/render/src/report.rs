@@ -28,9 +28,9 @@ pub struct FrameReport {
     pub lights_assigned: u64,
     /// The most that the terms left out of the lists could have added anywhere, in linear intensity; 0 where none was.
     pub left_out: f64,
-    /// Draw calls.
+    /// Draw commands: a multi-draw is one, however much it draws ([`Gpu::multi_draw`](crate::Gpu::multi_draw)).
     pub draws: u32,
-    /// Triangles in those draw calls, before culling of faces.
+    /// Triangles in those draws, before culling of faces.
     pub triangles: u64,
     /// Model-view and normal matrices computed; 0 where nothing moved.
     pub matrices: u32,
