@@ -10,10 +10,11 @@ use crate::lists::LightLists;
 use crate::matrices::{ModelView, NormalMatrix, Visible};
 use crate::object::{Drawn, Reflecting, Shared};
 use crate::patches::Patch;
-use crate::pipeline::{Lists, PipelineKey};
+use crate::pipeline::PipelineKey;
 use crate::pipelines::Pipelines;
 use crate::records::{DrawRecord, InstanceRecord, RecordLists};
 use crate::report::FrameReport;
+use crate::shader::Lists;
 use crate::table::Table;
 use crate::target::Target;
 use crate::terms::Chosen;
@@ -130,6 +131,7 @@ pub(crate) fn batch(
     }
     report.materials = batches.table.materials_in_use();
     report.lights_assigned = batches.lists.assigned;
+    report.terms_shaded = batches.lists.shaded;
     report.left_out = batches.lists.left_out;
     batches.emit(records_of_one_command(shared.software), &mut pipelines);
     report.draws = batches.draws.command_count() as u32;
@@ -233,10 +235,11 @@ impl Batches {
         self.lists.select(shared.lights, &patch, &surface, &eye, encoding(shared.format));
         if shared.software
             && !counted
-            && let Some(bound) = self.lists.bind(shared.lights)
+            && let Some(bound) = self.lists.bind(shared.lights, key.takes_powers())
         {
-            let counted = PipelineKey { lists: Lists::Counted(bound.counts.map(|n| n as u8)), ..*key };
+            let counted = PipelineKey { lists: bound.lists(), ..*key };
             if pipelines.admit(counted) == counted {
+                self.lists.count_bound(bound, &surface);
                 return (counted, bound.start, RecordLists::default());
             }
         }

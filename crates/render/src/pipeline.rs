@@ -2,13 +2,10 @@
 
 use crate::gpu::Gpu;
 use crate::records::INSTANCE_BYTES;
-use crate::shader::{Shader, Text};
+use crate::shader::{COUNTED_LIGHTS, Highlights, Lists, Shader, Text};
 use crate::target::DEPTH_FORMAT;
 use crate::terms::TermMask;
 use std::fmt;
-
-/// Up to this many lights in a scene are all shaded everywhere; of more, each patch has those that it needs.
-pub(crate) const COUNTED_LIGHTS: u32 = 8;
 
 /// Where a draw's terms are shaded; each has its own pair of entry points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -18,22 +15,6 @@ pub(crate) enum Stage {
     Vertex,
     Fragment,
     Mixed,
-}
-
-/// How the lights reach the shader.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) enum Lists {
-    /// So many directional, point and spot lights are bound, in this order.
-    Counted([u8; 3]),
-    /// All are bound, and the record's lists name some.
-    Listed,
-}
-
-impl Lists {
-    /// For a scene of so many lights.
-    pub(crate) fn new(counts: [u32; 3]) -> Self {
-        if counts.iter().sum::<u32>() <= COUNTED_LIGHTS { Self::Counted(counts.map(|n| n as u8)) } else { Self::Listed }
-    }
 }
 
 /// All that a pipeline is specialised for. What a draw does not use is not in its shader.
@@ -111,8 +92,8 @@ impl PipelineKey {
         match self.lists {
             _ if self.per_instance => Text::Listed,
             Lists::Listed => Text::Listed,
-            Lists::Counted(counts) if counts.iter().sum::<u8>() <= COUNTED_LIGHTS as u8 => Text::Few,
-            Lists::Counted(_) => Text::Many,
+            Lists::Counted(counts, _) if counts.iter().sum::<u8>() <= COUNTED_LIGHTS as u8 => Text::Few,
+            Lists::Counted(..) => Text::Many,
         }
     }
 
@@ -158,6 +139,11 @@ impl PipelineKey {
     /// The one whose instances look up their records.
     pub(crate) fn looking_up(self) -> Self {
         Self { per_instance: true, ..self }
+    }
+
+    /// Whether a highlight takes a logarithm and an exponential, and not a few squarings.
+    pub(crate) fn takes_powers(&self) -> bool {
+        (self.vertex.specular || self.fragment.specular) && self.squarings.is_none()
     }
 
     /// Whether records and lights are read from storage, as lists and records of instances are.
@@ -260,9 +246,9 @@ fn entry_points(key: PipelineKey) -> (&'static str, &'static str) {
 }
 
 fn constants(key: PipelineKey) -> Vec<(&'static str, f64)> {
-    let ([directional, points, spots], listed) = match key.lists {
-        Lists::Counted(counts) => (counts, false),
-        Lists::Listed => ([0; 3], true),
+    let ([directional, points, spots], highlights, listed) = match key.lists {
+        Lists::Counted(counts, highlights) => (counts, highlights, false),
+        Lists::Listed => ([0; 3], Highlights::All, true),
     };
     let flag = |on: bool| f64::from(u8::from(on));
     vec![
@@ -284,6 +270,7 @@ fn constants(key: PipelineKey) -> Vec<(&'static str, f64)> {
         ("DIRECTIONAL", directional.into()),
         ("POINTS", points.into()),
         ("SPOTS", spots.into()),
+        ("HIGHLIGHTS", highlights.halves().into()),
     ]
 }
 
@@ -297,7 +284,7 @@ pub(crate) mod tests {
         PipelineKey {
             blend: false,
             stage: Stage::Fragment,
-            lists: Lists::Counted([0, 1, 0]),
+            lists: Lists::Counted([0, 1, 0], Highlights::All),
             vertex: TermMask::default(),
             fragment: both,
             per_instance: false,

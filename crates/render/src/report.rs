@@ -26,6 +26,9 @@ pub struct FrameReport {
     /// Diffuse and specular terms in the light lists, summed over objects and patches; 0 where all lights of the scene
     /// are compiled in.
     pub lights_assigned: u64,
+    /// Terms that are shaded at each point of an object or patch with light lists, summed over these: those in the
+    /// lists, and what a list is filled up with where a shader takes only some numbers of terms.
+    pub terms_shaded: u64,
     /// The most that the terms left out of the lists could have added anywhere, in linear intensity; 0 where none was.
     pub left_out: f64,
     /// Draw commands: a multi-draw is one, however much it draws ([`Gpu::multi_draw`](crate::Gpu::multi_draw)).
