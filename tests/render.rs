@@ -12,6 +12,7 @@ mod render {
     mod changes;
     mod closed_forms;
     mod compare;
+    mod compile;
     mod conformance;
     mod counters;
     mod culling;
@@ -23,6 +24,7 @@ mod render {
     mod levels;
     mod light_counts;
     mod light_lists;
+    mod multi_draw;
     mod picture;
     mod pipelines;
     mod plugins;

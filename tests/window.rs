@@ -70,7 +70,7 @@ fn the_title_counts() {
     let (names, counted) = title.split_once(" — ").unwrap_or_else(|| panic!("no counters: {title}"));
     assert_eq!(names, "halfway – teapot.obj");
     // What shows only where there is some of it.
-    let sometimes = ["culled", "listed", "awaiting levels"];
+    let sometimes = ["culled", "listed", "awaiting levels", "pending"];
     let mut parts = counted.split(" · ").filter(|part| !sometimes.iter().any(|end| part.ends_with(end)));
     for noun in ["draw", "triangle", "light", "pipeline"] {
         let part = parts.next().unwrap_or_default();
@@ -85,6 +85,29 @@ fn the_title_counts() {
     // An adapter without a clock has no time of the GPU.
     let rest: Vec<_> = times.filter(|(_, what)| *what != "GPU").collect();
     assert!(matches!(rest[..], [(rate, "fps"), ("Phong,", "Blinn–Phong")] if rate.parse::<f64>().is_ok()), "{title}");
+    viewer.request_close();
+    assert_eq!(viewer.end().code(), Some(0));
+}
+
+#[test]
+fn pipelines_come_in_beside_the_frames() {
+    let screen = Screen::open();
+    let mut viewer = Viewer::open(&screen);
+    let settles = |viewer: &Viewer, pipelines: u32, shading: &str| {
+        let counted = format!(" · {pipelines} pipelines · 0 B · ");
+        let settled =
+            |title: &String| title.contains(&counted) && title.ends_with(&format!(" · {shading}, Blinn–Phong"));
+        eventually(&format!("{shading} by {pipelines} pipelines"), || viewer.title().filter(settled));
+    };
+    // The first frame's, and generic ones for three shadings by two reflectances.
+    settles(&viewer, 7, "Phong");
+    // One for each that is chosen and was not seen before.
+    viewer.press('1'.into());
+    settles(&viewer, 8, "flat");
+    viewer.press('2'.into());
+    settles(&viewer, 9, "Gouraud");
+    viewer.press('3'.into());
+    settles(&viewer, 9, "Phong");
     viewer.request_close();
     assert_eq!(viewer.end().code(), Some(0));
 }

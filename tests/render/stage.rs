@@ -33,13 +33,22 @@ impl Stage {
     /// Lets meshes be drawn at these levels of detail, and draws what stands until all its levels are made.
     pub(crate) fn levels(&mut self, levels: LevelsOfDetail) {
         self.world().insert_resource(levels);
+        self.wait_for(|report| report.levels_pending);
+        // Of a mesh that was there before none is pending, even if it is the first frame that shows it at this level.
         self.frame();
-        while self.report().levels_pending > 0 {
+    }
+
+    /// Draws what stands until all pipelines that are asked for are built.
+    pub(crate) fn compile(&mut self) {
+        self.wait_for(|report| report.pipelines_pending);
+    }
+
+    fn wait_for(&mut self, pending: fn(&FrameReport) -> u32) {
+        self.frame();
+        while pending(self.report()) > 0 {
             std::thread::sleep(Duration::from_millis(2));
             self.frame();
         }
-        // Of a mesh that was there before none is pending, even if it is the first frame that shows it at this level.
-        self.frame();
     }
 
     pub(crate) fn pixels(&mut self, pixels: Pixels) {

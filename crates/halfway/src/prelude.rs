@@ -15,7 +15,7 @@ pub use halfway_lighting::{
 };
 pub use halfway_mesh::{Cuboid, Mesh, Mesh3d, MeshPlugin, Plane, Teapot, UvSphere};
 pub use halfway_render::{
-    FrameReport, Headless, LevelsOfDetail, Picture, Pixels, RenderPlugin, RenderSet, render_picture,
+    Compile, FrameReport, Headless, LevelsOfDetail, Picture, Pixels, RenderPlugin, RenderSet, render_picture,
 };
 #[cfg(feature = "window")]
 pub use halfway_window::{OrbitCamera, OrbitCameraPlugin, ViewerKeysPlugin, WindowPlugin, WindowTitle};

@@ -1,6 +1,7 @@
 //! Batch: visible objects become sorted, instanced draws.
 
 use crate::detail::{Demand, LevelsOfDetail};
+use crate::draws::{DrawState, Draws};
 use crate::error::{RenderError, label};
 use crate::geometry::{Form, Geometries, Geometry};
 use crate::gpu::Gpu;
@@ -9,9 +10,11 @@ use crate::lists::LightLists;
 use crate::matrices::{ModelView, NormalMatrix, Visible};
 use crate::object::{Drawn, Reflecting, Shared};
 use crate::patches::Patch;
-use crate::pipeline::{Lists, PipelineKey, Pipelines};
+use crate::pipeline::PipelineKey;
+use crate::pipelines::Pipelines;
 use crate::records::{DrawRecord, InstanceRecord, RecordLists};
 use crate::report::FrameReport;
+use crate::shader::Lists;
 use crate::table::Table;
 use crate::target::Target;
 use crate::terms::Chosen;
@@ -22,27 +25,13 @@ use halfway_lighting::{BackMaterial, Blend, Faces, Material, Reflectance, equati
 use halfway_mesh::{Mesh, Mesh3d};
 use std::ops::Range;
 
-/// One draw call.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct DrawCall {
-    pub(crate) key: PipelineKey,
-    pub(crate) mesh: AssetId<Mesh>,
-    pub(crate) form: Form,
-    /// Unless each instance names its own.
-    pub(crate) record: u32,
-    /// The first of the lights that are bound at fixed places.
-    pub(crate) lights: u32,
-    pub(crate) indices: Range<u32>,
-    pub(crate) instances: Range<u32>,
-}
-
 /// The frame's draws. Holds after [`RenderSet::Batch`](crate::RenderSet::Batch).
 #[derive(Resource, Debug, Default)]
 pub(crate) struct Batches {
     pub(crate) instances: Vec<InstanceRecord>,
     pub(crate) records: Vec<DrawRecord>,
     pub(crate) lists: LightLists,
-    pub(crate) draws: Vec<DrawCall>,
+    pub(crate) draws: Draws,
     items: Vec<Item>,
     /// The instances of the items, before sorting.
     unsorted: Vec<InstanceRecord>,
@@ -95,7 +84,7 @@ pub(crate) fn batch(
     mut report: ResMut<FrameReport>,
 ) {
     let batches = &mut *batches;
-    batches.begin(&lights);
+    batches.begin(&lights, gpu.multi_draw());
     let (Some(camera), Some(frame)) = (&view.camera, &target.frame) else { return };
     let shared = Shared {
         lights: &lights,
@@ -133,7 +122,7 @@ pub(crate) fn batch(
             mirrored: model_view.mirrored,
             opposite_normals: geometry.opposite_normals,
         };
-        let key = pipelines.admit(reflecting.key(look, drawn, shared));
+        let key = reflecting.key(look, drawn, shared);
         let (material, exponent) = (look.material, look.exponent);
         let object = Object {
             reflecting,
@@ -150,14 +139,16 @@ pub(crate) fn batch(
     }
     report.materials = batches.table.materials_in_use();
     report.lights_assigned = batches.lists.assigned;
+    report.terms_shaded = batches.lists.shaded;
     report.left_out = batches.lists.left_out;
-    batches.emit(records_of_one_draw(shared.software));
-    report.draws = batches.draws.len() as u32;
+    batches.emit(records_of_one_command(shared.software), &mut pipelines);
+    report.draws = batches.draws.command_count() as u32;
 }
 
 /// An object on its way into the draws.
 struct Object<'a> {
     reflecting: Reflecting<'a>,
+    /// The pipeline that fits best.
     key: PipelineKey,
     material: u32,
     exponent: f32,
@@ -169,19 +160,14 @@ struct Object<'a> {
 }
 
 impl Batches {
-    fn begin(&mut self, lights: &Lights) {
+    fn begin(&mut self, lights: &Lights, multi_draw: Option<u32>) {
         self.instances.clear();
         self.records.clear();
         self.lists.begin(lights);
-        self.draws.clear();
+        self.draws.begin(multi_draw);
         self.items.clear();
         self.unsorted.clear();
         self.table.begin(lights.ambient);
-    }
-
-    /// Whether any draw reads lights from storage.
-    pub(crate) fn reads_storage(&self) -> bool {
-        self.draws.iter().any(|draw| draw.key.reads_storage())
     }
 
     /// Adds what is seen of an object: its patches, neighbours with equal light lists joined.
@@ -226,7 +212,7 @@ impl Batches {
         }
     }
 
-    /// The pipeline of a patch, the lights that are bound for it, and its lists.
+    /// The pipeline that draws a patch, the lights that are bound for it, and its lists.
     fn lit(
         &mut self,
         object: &Object,
@@ -235,22 +221,28 @@ impl Batches {
         pipelines: &mut Pipelines,
     ) -> (PipelineKey, u32, RecordLists) {
         let Object { reflecting, key, model_view, normal_matrix, .. } = object;
-        if key.lists != Lists::Listed {
-            return (*key, 0, RecordLists::default());
+        let counted = key.lists != Lists::Listed;
+        if counted {
+            let admitted = pipelines.admit(*key);
+            if admitted.lists != Lists::Listed {
+                return (admitted, 0, RecordLists::default());
+            }
         }
         let patch = patch.in_eye_space(model_view, normal_matrix, reflecting.faces);
         let eye = equations::View::in_eye_space(shared.viewer);
         let surface = reflecting.surface(key);
         self.lists.select(shared.lights, &patch, &surface, &eye, shared.encoding);
         if shared.software
-            && let Some(bound) = self.lists.bind(shared.lights)
+            && !counted
+            && let Some(bound) = self.lists.bind(shared.lights, key.takes_powers())
         {
-            let counted = PipelineKey { lists: Lists::Counted(bound.counts.map(|n| n as u8)), ..*key };
+            let counted = PipelineKey { lists: bound.lists(), ..*key };
             if pipelines.admit(counted) == counted {
+                self.lists.count_bound(bound, &surface);
                 return (counted, bound.start, RecordLists::default());
             }
         }
-        (*key, 0, self.lists.list(shared.lights, &surface))
+        (pipelines.admit(*key), 0, self.lists.list(shared.lights, &surface))
     }
 
     fn add_run(&mut self, object: &Object, Run { key, lights, record, indices }: Run) {
@@ -264,30 +256,39 @@ impl Batches {
         }
     }
 
-    /// Sorts, and joins neighbours that differ only in their instance or record.
-    fn emit(&mut self, records_of_one_draw: usize) {
+    /// Sorts, and joins neighbours that differ only in their instance or record, and in one command in their indices.
+    fn emit(&mut self, records_of_one_command: usize, pipelines: &mut Pipelines) {
         let mut items = std::mem::take(&mut self.items);
         // Instances are numbered in spawn order, which equal ones keep.
         items.sort_unstable_by(|a, b| {
             a.blend.cmp(&b.blend).then_with(|| if a.blend { a.by_depth(b) } else { a.by_state(b) })
         });
-        for run in items.chunk_by_mut(Item::is_one_call) {
-            let Item { blend, lights, .. } = run[0];
-            let records = 1 + run.windows(2).filter(|pair| pair[0].record != pair[1].record).count();
-            if records == 1 {
-                self.emit_draw(run, false);
-            } else if (blend || records >= records_of_one_draw) && lights == 0 {
-                if !blend {
-                    run.sort_unstable_by(Item::by_nearness);
-                }
-                self.emit_draw(run, true);
+        for run in items.chunk_by_mut(Item::is_of_one_state) {
+            let draws = || 1 + run.windows(2).filter(|pair| pair[0].indices != pair[1].indices).count();
+            if self.draws.is_one_command(draws) {
+                self.emit_command(run, records_of_one_command, pipelines);
             } else {
-                for same in run.chunk_by(|a, b| a.record == b.record) {
-                    self.emit_draw(same, false);
+                for same in run.chunk_by_mut(|a, b| a.indices == b.indices) {
+                    self.emit_command(same, records_of_one_command, pipelines);
                 }
             }
         }
         self.items = items;
+    }
+
+    /// Draws what one command can draw, where records are looked up.
+    fn emit_command(&mut self, items: &mut [Item], records_of_one_command: usize, pipelines: &mut Pipelines) {
+        let Item { blend, call, lights, .. } = items[0];
+        let (key, ..) = self.table.called[call as usize];
+        let records = 1 + items.windows(2).filter(|pair| pair[0].record != pair[1].record).count();
+        let are_looked_up = records > 1 && (blend || records >= records_of_one_command) && lights == 0;
+        let per_instance = are_looked_up && pipelines.looks_up(key);
+        for same in items.chunk_by_mut(|a, b| a.indices == b.indices && (per_instance || a.record == b.record)) {
+            if per_instance && !blend {
+                same.sort_unstable_by(Item::by_nearness);
+            }
+            self.emit_draw(same, per_instance);
+        }
     }
 
     fn emit_draw(&mut self, items: &[Item], per_instance: bool) {
@@ -299,14 +300,14 @@ impl Batches {
         let Item { call, indices: (first, end), lights, record, .. } = items[0];
         let (key, mesh, form) = self.table.called[call as usize];
         let key = PipelineKey { per_instance, ..key };
-        let instances = start..self.instances.len() as u32;
-        self.draws.push(DrawCall { key, mesh, form, record, lights, indices: first..end, instances });
+        let record = if per_instance { 0 } else { record };
+        self.draws.push(DrawState { key, mesh, form, record, lights }, first..end, start..self.instances.len() as u32);
     }
 }
 
-/// From this many materials and light lists on, equal meshes are one draw whose shader looks them up for each instance. A
-/// software adapter looks up pixel by pixel, for which it could start many a draw.
-fn records_of_one_draw(software: bool) -> usize {
+/// From this many materials and light lists on, what a command draws looks them up by instance. A software adapter looks
+/// up pixel by pixel, for which it could start many a draw.
+fn records_of_one_command(software: bool) -> usize {
     if software { 512 } else { 2 }
 }
 
@@ -330,9 +331,10 @@ impl Run {
 }
 
 impl Item {
-    fn is_one_call(&self, other: &Self) -> bool {
-        let call = |item: &Self| (item.blend, item.call, item.indices, item.lights);
-        call(self) == call(other)
+    /// But for their records, which may be looked up.
+    fn is_of_one_state(&self, other: &Self) -> bool {
+        let state = |item: &Self| (item.blend, item.call, item.lights);
+        state(self) == state(other)
     }
 
     fn by_state(&self, other: &Self) -> std::cmp::Ordering {

@@ -3,7 +3,8 @@
 use crate::lights::Lights;
 use crate::matrices::ModelView;
 use crate::patches::{self, Patch};
-use crate::pipeline::{Lists, PipelineKey, Stage};
+use crate::pipeline::{PipelineKey, Stage};
+use crate::shader::Lists;
 use crate::view::View;
 use bevy_ecs::prelude::Resource;
 use halfway_mesh::Mesh;

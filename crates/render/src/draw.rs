@@ -1,9 +1,11 @@
 //! Draw and Deliver: the pass is encoded, submitted and presented.
 
 use crate::batch::Batches;
+use crate::draws::Commands;
 use crate::geometry::Geometries;
 use crate::gpu::Gpu;
-use crate::pipeline::{Pipelines, Stage};
+use crate::pipeline::Stage;
+use crate::pipelines::Pipelines;
 use crate::report::FrameReport;
 use crate::target::{Attachments, Frame, Target};
 use crate::timing::{FrameTimes, GpuTimer};
@@ -86,23 +88,35 @@ fn record(
     buffers: &Buffers,
 ) {
     let mut last = None;
-    for draw in &batches.draws {
-        let (Some(pipeline), Some(geometry), Some((group, offsets))) =
-            (pipelines.get(&draw.key), geometries.get(draw.mesh, draw.form), buffers.bindings(draw))
+    for group in batches.draws.groups() {
+        let state = &group.state;
+        let (Some(pipeline), Some(geometry), Some((bindings, offsets))) =
+            (pipelines.get(&state.key), geometries.get(state.mesh, state.form), buffers.bindings(state))
         else {
             continue;
         };
-        if last != Some(draw.key) {
+        if last != Some(state.key) {
             pass.set_pipeline(pipeline);
-            last = Some(draw.key);
+            last = Some(state.key);
         }
-        pass.set_bind_group(0, group, offsets.as_slice());
+        pass.set_bind_group(0, bindings, offsets.as_slice());
         pass.set_vertex_buffer(1, geometry.positions.slice(..));
-        if draw.key.stage != Stage::Unlit {
+        if state.key.stage != Stage::Unlit {
             pass.set_vertex_buffer(2, geometry.attributes.slice(..));
         }
         pass.set_index_buffer(geometry.indices.slice(..), geometry.index_format);
-        pass.draw_indexed(draw.indices.clone(), 0, draw.instances.clone());
+        match (batches.draws.commands(group), buffers.draws()) {
+            (Commands::Each(draws), _) => {
+                for draw in draws {
+                    let indices = draw.first_index..draw.first_index + draw.index_count;
+                    let instances = draw.first_instance..draw.first_instance + draw.instance_count;
+                    pass.draw_indexed(indices, draw.base_vertex, instances);
+                }
+            }
+            (Commands::Multi { offset, count }, Some(draws)) => pass.multi_draw_indexed_indirect(draws, offset, count),
+            // Uploaded before.
+            (Commands::Multi { .. }, None) => {}
+        }
     }
 }
 

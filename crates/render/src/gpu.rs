@@ -15,6 +15,8 @@ pub struct Gpu {
     pub device: wgpu::Device,
     /// The queue all work is submitted to.
     pub queue: wgpu::Queue,
+    /// From so many draws on; only where the device can.
+    multi_draw: Option<u32>,
     failure: Arc<Mutex<Option<String>>>,
 }
 
@@ -56,7 +58,8 @@ impl Gpu {
         .map_err(|_| RenderError::NoAdapter)?;
         let wanted = wgpu::Features::FLOAT32_BLENDABLE
             | wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES
-            | wgpu::Features::TIMESTAMP_QUERY;
+            | wgpu::Features::TIMESTAMP_QUERY
+            | wgpu::Features::INDIRECT_FIRST_INSTANCE;
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("halfway"),
             required_features: wanted & adapter.features(),
@@ -71,7 +74,28 @@ impl Gpu {
             log::error!("{error}");
             seen.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error.to_string());
         }));
-        Ok(Self { instance, adapter, device, queue, failure })
+        let mut gpu = Self { instance, adapter, device, queue, multi_draw: None, failure };
+        // With this feature wgpu does not write a multi-draw out into single ones.
+        let native = gpu.adapter.features().contains(wgpu::Features::MULTI_DRAW_INDIRECT_COUNT);
+        gpu.set_multi_draw((native && !gpu.is_software()).then_some(MULTI_DRAW));
+        Ok(gpu)
+    }
+
+    /// From how many draws on those that share their state are one command, `multi_draw_indexed_indirect`; `None` where
+    /// each is a command.
+    pub fn multi_draw(&self) -> Option<u32> {
+        self.multi_draw
+    }
+
+    /// Sets that number, from the next frame on. The picture is the same.
+    ///
+    /// Default: 128 on a hardware adapter that has multi-draw, else `None`. It stays `None` where the device cannot:
+    /// without `wgpu::Features::INDIRECT_FIRST_INSTANCE` or `wgpu::DownlevelFlags::INDIRECT_EXECUTION`.
+    pub fn set_multi_draw(&mut self, from: Option<u32>) {
+        let flags = self.adapter.get_downlevel_capabilities().flags;
+        let can = self.device.features().contains(wgpu::Features::INDIRECT_FIRST_INSTANCE)
+            && flags.contains(wgpu::DownlevelFlags::INDIRECT_EXECUTION);
+        self.multi_draw = from.filter(|_| can);
     }
 
     /// The first error the driver reported outside any call, if it has not been taken yet.
@@ -91,3 +115,7 @@ impl Gpu {
         format!("{} ({}{software})", info.name, info.backend)
     }
 }
+
+/// What a multi-draw reads wgpu checks on the GPU, by a pass before that of the frame. The CPU takes as long to set that up
+/// as for about a hundred draws.
+const MULTI_DRAW: u32 = 128;

@@ -6,8 +6,10 @@
 //! [`FrameTimes`] says where its time went on the CPU, and [`GpuTimer`] how much of it the GPU took.
 
 mod batch;
+mod compile;
 mod detail;
 mod draw;
+mod draws;
 mod error;
 mod flat;
 mod geometry;
@@ -19,6 +21,7 @@ mod object;
 mod patches;
 mod picture;
 mod pipeline;
+mod pipelines;
 mod plugin;
 mod records;
 mod report;
@@ -31,6 +34,7 @@ mod upload;
 mod view;
 mod workshop;
 
+pub use compile::Compile;
 pub use detail::LevelsOfDetail;
 pub use error::RenderError;
 pub use gpu::Gpu;

@@ -1,9 +1,8 @@
 //! Light lists: which of many lights each patch needs, term by term.
 
 use crate::lights::{LightRecord, Lights, rgb};
-use crate::pipeline::COUNTED_LIGHTS;
 use crate::records::RecordLists;
-use crate::shader::filled_up;
+use crate::shader::{COUNTED_LIGHTS, Highlights, Lists, filled_up};
 use crate::terms::TermMask;
 use bevy_math::Vec3;
 use halfway_lighting::bounds::{DEFAULT_TOLERANCE, Patch, Receiver, Selected, linear_tolerance};
@@ -17,24 +16,30 @@ pub(crate) struct LightLists {
     pub(crate) numbers: Vec<u32>,
     /// Lights to be bound at fixed places, set after set: first all of a scene with few, at number 0.
     pub(crate) bound: Vec<LightRecord>,
-    /// The set bound last: its lights' numbers, its start, and how many of each kind it was filled up to.
-    last_bound: (Vec<u32>, Bound),
-    union: Vec<u32>,
+    /// The numbers of a set of lights to be bound, those with highlights first.
+    set: Vec<u32>,
+    /// The set bound last.
+    last_set: Vec<u32>,
+    last_bound: Option<Bound>,
     /// The lists made last. Neighbouring patches often need the same.
     last: Option<(RecordLists, usize)>,
     selected: Selected<f32>,
     /// How many terms of lights the lists name, over all patches.
     pub(crate) assigned: u64,
+    /// How many terms are shaded at each point, over all patches.
+    pub(crate) shaded: u64,
     /// The most that was left out anywhere, in linear intensity: the sum of the bounds, of the brightest channel.
     pub(crate) left_out: f64,
 }
 
 /// A set of lights at fixed places.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Bound {
     /// The number of the first, even, so that its bytes begin at a multiple of 256.
     pub(crate) start: u32,
-    pub(crate) counts: [u32; 3],
+    /// How many of each kind it was filled up to, and how many of these have highlights.
+    counts: [u32; 3],
+    highlights: Highlights,
 }
 
 /// A software adapter reads lights at fixed places faster, but starts a draw for each set.
@@ -61,9 +66,10 @@ impl LightLists {
             // No set of a patch is number 0.
             self.bound.extend([LightRecord::BLACK; 2]);
         }
-        self.last_bound = Default::default();
+        self.last_bound = None;
         self.last = None;
         self.assigned = 0;
+        self.shaded = 0;
         self.left_out = 0.0;
     }
 
@@ -87,34 +93,46 @@ impl LightLists {
         self.assigned += (self.selected.diffuse.len() + self.selected.specular.len()) as u64;
     }
 
-    /// Binds what was selected at fixed places; `None` where it is too much. A light that is needed for one term alone is
-    /// shaded with both: pipelines differ by numbers of lights, and two numbers a kind would make too many.
-    pub(crate) fn bind(&mut self, lights: &Lights) -> Option<Bound> {
+    /// Binds what was selected at fixed places; `None` where it is too much. Of each kind the lights with highlights come
+    /// first, and the others' are left out as far as [`Highlights`] can say; or none, unless highlights `take_powers`: a few
+    /// squarings cost less than more pipelines. A light that is needed for its highlight alone is shaded with both terms.
+    pub(crate) fn bind(&mut self, lights: &Lights, take_powers: bool) -> Option<Bound> {
         let Selected { diffuse, specular, .. } = &self.selected;
-        self.union.clear();
-        self.union.extend(diffuse.iter().chain(specular));
-        self.union.sort_unstable();
-        self.union.dedup();
-        let (last, bound) = &self.last_bound;
-        if *last == self.union {
-            return Some(*bound);
+        self.set.clear();
+        self.set.extend(specular.iter().chain(without(diffuse, specular)));
+        let (highlit, rest) = self.set.split_at(specular.len());
+        let [highlit, rest] = [highlit, rest].map(|numbers| split(numbers, lights.counts));
+        let needed = highlit.map(|of_kind| of_kind.len() as u32);
+        let counts = filled_up([0, 1, 2].map(|kind| needed[kind] + rest[kind].len() as u32))?;
+        let highlights = if take_powers { Highlights::at_least(needed, counts) } else { Highlights::All };
+        if let Some(last) = self.last_bound
+            && self.last_set == self.set
+            && (last.counts, last.highlights) == (counts, highlights)
+        {
+            return Some(last);
         }
-        let [directional, points, spots] = split(&self.union, lights.counts);
-        let counts = filled_up([directional.len() as u32, points.len() as u32, spots.len() as u32])?;
         if self.bound.len() > MOST_BOUND {
             return None;
         }
         self.bound.resize(self.bound.len().next_multiple_of(2), LightRecord::default());
-        let start = self.bound.len();
-        for (of_kind, count) in [directional, points, spots].into_iter().zip(counts) {
+        let bound = Bound { start: self.bound.len() as u32, counts, highlights };
+        for ((highlit, rest), count) in highlit.into_iter().zip(rest).zip(counts) {
             let end = self.bound.len() + count as usize;
-            self.bound.extend(of_kind.iter().map(|&light| lights.records[light as usize]));
+            self.bound.extend(highlit.iter().chain(rest).map(|&light| lights.records[light as usize]));
             self.bound.resize(end, LightRecord::BLACK);
         }
-        let bound = Bound { start: start as u32, counts };
-        self.last_bound.0.clone_from(&self.union);
-        self.last_bound.1 = bound;
+        std::mem::swap(&mut self.set, &mut self.last_set);
+        self.last_bound = Some(bound);
         Some(bound)
+    }
+
+    /// Counts what a patch shades of the lights that are bound for it.
+    pub(crate) fn count_bound(&mut self, bound: Bound, surface: &Surface) {
+        let lights = |share: Highlights| bound.counts.into_iter().map(|count| u64::from(share.of(count))).sum::<u64>();
+        for mask in [surface.vertex, surface.fragment] {
+            self.shaded += u64::from(mask.diffuse) * lights(Highlights::All);
+            self.shaded += u64::from(mask.specular) * lights(bound.highlights);
+        }
     }
 
     /// The lists of what was selected: appended, unless they are what was appended last.
@@ -123,6 +141,9 @@ impl LightLists {
         let [vertex, vertex_diffuse] = self.append_stage(*counts, surface.vertex);
         let [fragment, fragment_diffuse] = self.append_stage(*counts, surface.fragment);
         let lists = RecordLists { vertex, vertex_diffuse, fragment, fragment_diffuse };
+        let lights = |[directional, points, spots, _]: [u32; 4]| u64::from(directional + points + spots);
+        self.shaded += lights(vertex) * surface.vertex.terms() + lights(fragment) * surface.fragment.terms();
+        self.shaded += lights(vertex_diffuse) + lights(fragment_diffuse);
         if let Some((last, last_start)) = self.last
             && last.starting_at(0, last_start) == lists.starting_at(0, start)
             && self.numbers[last_start..start] == self.numbers[start..]
@@ -142,12 +163,16 @@ impl LightLists {
             (true, false) => [append(&mut self.numbers, counts, diffuse.iter().copied()), [0; 4]],
             (false, true) => [append(&mut self.numbers, counts, specular.iter().copied()), [0; 4]],
             (true, true) => {
-                let rest = diffuse.iter().copied().filter(|light| specular.binary_search(light).is_err());
                 let both = append(&mut self.numbers, counts, specular.iter().copied());
-                [both, append(&mut self.numbers, counts, rest)]
+                [both, append(&mut self.numbers, counts, without(diffuse, specular).copied())]
             }
         }
     }
+}
+
+/// The lights that `others` lack; both ascend.
+fn without<'a>(lights: &'a [u32], others: &'a [u32]) -> impl Iterator<Item = &'a u32> {
+    lights.iter().filter(|light| others.binary_search(light).is_err())
 }
 
 /// Appends lights, which are sorted by kind; how many of each, and where they begin.
@@ -163,6 +188,12 @@ fn split(numbers: &[u32], [directional, points, _]: [u32; 3]) -> [&[u32]; 3] {
     let first_point = numbers.partition_point(|&light| light < directional);
     let first_spot = numbers.partition_point(|&light| light < directional + points);
     [&numbers[..first_point], &numbers[first_point..first_spot], &numbers[first_spot..]]
+}
+
+impl Bound {
+    pub(crate) fn lists(self) -> Lists {
+        Lists::counted(self.counts, self.highlights)
+    }
 }
 
 impl RecordLists {

@@ -3,8 +3,9 @@
 use crate::detail::LevelsOfDetail;
 use crate::lights::{Lights, rgb};
 use crate::lists::Surface;
-use crate::pipeline::{Cull, Lists, PipelineKey, Stage};
+use crate::pipeline::{Cull, PipelineKey, Stage};
 use crate::records::{DrawRecord, MaterialRecord, exponent};
+use crate::shader::{Highlights, Lists};
 use crate::terms::{Chosen, TermMask};
 use bevy_math::Vec3;
 use halfway_lighting::{Encoding, Faces, InvalidValue, Material, Reflectance, Viewer};
@@ -133,7 +134,7 @@ impl Reflecting<'_> {
         PipelineKey {
             blend: drawn.blend,
             stage,
-            lists: if lit { Lists::new(lights.counts) } else { Lists::Counted([0; 3]) },
+            lists: if lit { Lists::new(lights.counts) } else { Lists::counted([0; 3], Highlights::All) },
             vertex,
             fragment,
             per_instance: false,

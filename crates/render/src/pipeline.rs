@@ -1,16 +1,11 @@
-//! Pipelines: a small key for each, built on first use and counted.
+//! A pipeline: its small key, and what is built from it.
 
 use crate::gpu::Gpu;
 use crate::records::INSTANCE_BYTES;
-use crate::shader::{Shader, Text};
+use crate::shader::{COUNTED_LIGHTS, Highlights, Lists, Shader, Text};
 use crate::target::DEPTH_FORMAT;
 use crate::terms::TermMask;
-use bevy_ecs::prelude::Resource;
-use std::collections::{HashMap, HashSet};
 use std::fmt;
-
-/// Up to this many lights in a scene are all shaded everywhere; of more, each patch has those that it needs.
-pub(crate) const COUNTED_LIGHTS: u32 = 8;
 
 /// Where a draw's terms are shaded; each has its own pair of entry points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -20,22 +15,6 @@ pub(crate) enum Stage {
     Vertex,
     Fragment,
     Mixed,
-}
-
-/// How the lights reach the shader.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) enum Lists {
-    /// So many directional, point and spot lights are bound, in this order.
-    Counted([u8; 3]),
-    /// All are bound, and the record's lists name some.
-    Listed,
-}
-
-impl Lists {
-    /// For a scene of so many lights.
-    pub(crate) fn new(counts: [u32; 3]) -> Self {
-        if counts.iter().sum::<u32>() <= COUNTED_LIGHTS { Self::Counted(counts.map(|n| n as u8)) } else { Self::Listed }
-    }
 }
 
 /// All that a pipeline is specialised for. What a draw does not use is not in its shader.
@@ -111,29 +90,13 @@ impl fmt::Display for PipelineKey {
     }
 }
 
-/// The pipelines built so far, with what they share.
-#[derive(Resource, Default)]
-pub(crate) struct Pipelines {
-    shaders: HashMap<Text, Shader>,
-    built: HashMap<PipelineKey, wgpu::RenderPipeline>,
-    /// The specialised keys that may be built.
-    special: HashSet<PipelineKey>,
-    /// What was asked last, and the answer.
-    last: Option<(PipelineKey, PipelineKey)>,
-}
-
-/// So many specialised pipelines live at most; what more a scene asks for is drawn by generic ones, which are slower and
-/// few: they differ in the stages of their terms, the reflectance, the viewer, faces, blending and the target alone. A
-/// draw that looks up records for its instances has a pipeline beside that of its key.
-pub(crate) const MOST_SPECIAL: usize = 128;
-
 impl PipelineKey {
     pub(crate) fn text(&self) -> Text {
         match self.lists {
             _ if self.per_instance => Text::Listed,
             Lists::Listed => Text::Listed,
-            Lists::Counted(counts) if counts.iter().sum::<u8>() <= COUNTED_LIGHTS as u8 => Text::Few,
-            Lists::Counted(_) => Text::Many,
+            Lists::Counted(counts, _) if counts.iter().sum::<u8>() <= COUNTED_LIGHTS as u8 => Text::Few,
+            Lists::Counted(..) => Text::Many,
         }
     }
 
@@ -151,46 +114,44 @@ impl PipelineKey {
         }
     }
 
+    /// Whether it knows anything that its generic one does not.
+    pub(crate) fn is_special(self) -> bool {
+        self != self.generic()
+    }
+
+    /// The generic pipelines that draw the same object under every shading and reflectance, this one's own among them.
+    pub(crate) fn relatives(self) -> impl Iterator<Item = Self> {
+        let none = TermMask::default();
+        let terms = TermMask {
+            diffuse: self.vertex.diffuse || self.fragment.diffuse,
+            specular: self.vertex.specular || self.fragment.specular,
+        };
+        let shadings = [(Stage::Flat, terms, none), (Stage::Vertex, terms, none), (Stage::Fragment, none, terms)];
+        let lit = shadings.into_iter().filter(move |_| !terms.is_empty()).flat_map(move |(stage, vertex, fragment)| {
+            [self.blinn_phong, self.blinn_phong ^ terms.specular].map(|blinn_phong| Self {
+                stage,
+                vertex,
+                fragment,
+                blinn_phong,
+                ..self
+            })
+        });
+        std::iter::once(self).chain(lit).map(Self::generic)
+    }
+
+    /// The one whose instances look up their records.
+    pub(crate) fn looking_up(self) -> Self {
+        Self { per_instance: true, ..self }
+    }
+
+    /// Whether a highlight takes a logarithm and an exponential, and not a few squarings.
+    pub(crate) fn takes_powers(&self) -> bool {
+        (self.vertex.specular || self.fragment.specular) && self.squarings.is_none()
+    }
+
     /// Whether records and lights are read from storage, as lists and records of instances are.
     pub(crate) fn reads_storage(&self) -> bool {
         self.text() == Text::Listed
-    }
-}
-
-impl Pipelines {
-    /// The layout of the bindings that such pipelines need; `None` before the first is built.
-    pub(crate) fn bindings(&self, text: Text) -> Option<&wgpu::BindGroupLayout> {
-        self.shaders.get(&text).map(|shader| &shader.bindings)
-    }
-
-    /// The key itself, or the generic one that draws the same.
-    pub(crate) fn admit(&mut self, key: PipelineKey) -> PipelineKey {
-        if let Some((asked, answer)) = self.last
-            && asked == key
-        {
-            return answer;
-        }
-        let room = self.special.len() < MOST_SPECIAL;
-        let answer = if self.special.contains(&key) || room && self.special.insert(key) { key } else { key.generic() };
-        self.last = Some((key, answer));
-        answer
-    }
-
-    pub(crate) fn get(&self, key: &PipelineKey) -> Option<&wgpu::RenderPipeline> {
-        self.built.get(key)
-    }
-
-    pub(crate) fn count(&self) -> u32 {
-        self.built.len() as u32
-    }
-
-    /// Builds the pipeline unless it is there.
-    pub(crate) fn ensure(&mut self, gpu: &Gpu, key: PipelineKey) {
-        if !self.built.contains_key(&key) {
-            log::debug!("building pipeline {key}");
-            let shader = self.shaders.entry(key.text()).or_insert_with_key(|&text| Shader::new(gpu, text));
-            self.built.insert(key, shader.build(gpu, key));
-        }
     }
 }
 
@@ -200,7 +161,7 @@ const NORMAL: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![7 => Float32
 const FACE: [wgpu::VertexAttribute; 2] = wgpu::vertex_attr_array![7 => Float32x3, 8 => Float32x3];
 
 impl Shader {
-    fn build(&self, gpu: &Gpu, key: PipelineKey) -> wgpu::RenderPipeline {
+    pub(crate) fn build(&self, gpu: &Gpu, key: PipelineKey) -> wgpu::RenderPipeline {
         let constants = constants(key);
         let compilation_options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
         let buffer = |attributes, stride, step_mode| {
@@ -288,9 +249,9 @@ fn entry_points(key: PipelineKey) -> (&'static str, &'static str) {
 }
 
 fn constants(key: PipelineKey) -> Vec<(&'static str, f64)> {
-    let ([directional, points, spots], listed) = match key.lists {
-        Lists::Counted(counts) => (counts, false),
-        Lists::Listed => ([0; 3], true),
+    let ([directional, points, spots], highlights, listed) = match key.lists {
+        Lists::Counted(counts, highlights) => (counts, highlights, false),
+        Lists::Listed => ([0; 3], Highlights::All, true),
     };
     let flag = |on: bool| f64::from(u8::from(on));
     vec![
@@ -313,5 +274,47 @@ fn constants(key: PipelineKey) -> Vec<(&'static str, f64)> {
         ("DIRECTIONAL", directional.into()),
         ("POINTS", points.into()),
         ("SPOTS", spots.into()),
+        ("HIGHLIGHTS", highlights.halves().into()),
     ]
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+
+    /// A pipeline for one point light, with both terms at the fragments.
+    pub(crate) fn key() -> PipelineKey {
+        let both = TermMask { diffuse: true, specular: true };
+        PipelineKey {
+            blend: false,
+            stage: Stage::Fragment,
+            lists: Lists::Counted([0, 1, 0], Highlights::All),
+            vertex: TermMask::default(),
+            fragment: both,
+            per_instance: false,
+            blinn_phong: true,
+            local_viewer: true,
+            attenuated_ambient: false,
+            shared_colour: false,
+            ranged: false,
+            squarings: None,
+            geometric_fallback: false,
+            cull: Cull::Back,
+            clockwise: false,
+            samples: 1,
+            format: wgpu::TextureFormat::Rgba8Unorm,
+        }
+    }
+
+    #[test]
+    fn relatives_are_generic_and_every_shading_is_among_them() {
+        let relatives: std::collections::HashSet<_> = key().relatives().collect();
+        assert_eq!(relatives.len(), 6, "three shadings by two reflectances");
+        assert!(relatives.contains(&key().generic()) && !relatives.contains(&key()));
+        assert!(relatives.iter().all(|relative| !relative.is_special()));
+        let diffuse = PipelineKey { fragment: TermMask { diffuse: true, specular: false }, ..key() };
+        assert_eq!(diffuse.relatives().collect::<std::collections::HashSet<_>>().len(), 3);
+        let unlit = PipelineKey { stage: Stage::Unlit, fragment: TermMask::default(), ..key() };
+        assert!(unlit.relatives().eq([unlit.generic()]));
+    }
 }

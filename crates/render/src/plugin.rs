@@ -7,7 +7,7 @@ use crate::geometry::{self, Geometries};
 use crate::gpu::Gpu;
 use crate::lights::{self, Lights};
 use crate::matrices::{self, ModelView, NormalMatrix, Visible};
-use crate::pipeline::Pipelines;
+use crate::pipelines::{self, Pipelines};
 use crate::report::FrameReport;
 use crate::target::{self, Headless, Target};
 use crate::terms::{self, Chosen};
@@ -38,7 +38,7 @@ pub enum RenderSet {
     Choose,
     /// Draws are sorted, and equal ones are instanced.
     Batch,
-    /// What changed is on the GPU, and the pipelines are built.
+    /// What changed is on the GPU, and so are the pipelines of the draws.
     Upload,
     /// The passes are encoded and submitted.
     Draw,
@@ -138,7 +138,9 @@ impl RenderPlugin {
             ),
         );
         let on_gpu = (
-            (target::prepare, geometry::forget_removed, geometry::upload_visible, batch::batch).chain().in_set(Batch),
+            (target::prepare, geometry::forget_removed, geometry::upload_visible, pipelines::begin, batch::batch)
+                .chain()
+                .in_set(Batch),
             (upload::build_pipelines, upload::upload).chain().in_set(Upload),
             draw::draw.in_set(Draw),
             draw::present.in_set(Deliver),

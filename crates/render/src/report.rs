@@ -26,11 +26,14 @@ pub struct FrameReport {
     /// Diffuse and specular terms in the light lists, summed over objects and patches; 0 where all lights of the scene
     /// are compiled in.
     pub lights_assigned: u64,
+    /// Terms that are shaded at each point of an object or patch with light lists, summed over these: those in the
+    /// lists, and what a list is filled up with where a shader takes only some numbers of terms.
+    pub terms_shaded: u64,
     /// The most that the terms left out of the lists could have added anywhere, in linear intensity; 0 where none was.
     pub left_out: f64,
-    /// Draw calls.
+    /// Draw commands: a multi-draw is one, however much it draws ([`Gpu::multi_draw`](crate::Gpu::multi_draw)).
     pub draws: u32,
-    /// Triangles in those draw calls, before culling of faces.
+    /// Triangles in those draws, before culling of faces.
     pub triangles: u64,
     /// Model-view and normal matrices computed; 0 where nothing moved.
     pub matrices: u32,
@@ -38,13 +41,21 @@ pub struct FrameReport {
     pub materials: u32,
     /// Bytes sent to the GPU: meshes, instances, materials and lights. 0 for a frame equal to the last.
     pub bytes_uploaded: u64,
-    /// Pipelines built since the start; each is one specialised shader variant.
+    /// Pipelines built since the start; each is one variant of the shader.
     pub pipelines: u32,
+    /// Pipelines that are there now: those built, less the specialised ones that were given up.
+    pub pipelines_live: u32,
+    /// Pipelines that are still being built beside the frames; generic ones draw in their place.
+    pub pipelines_pending: u32,
+    /// Pipelines that this frame waited for; under [`Compile::Beside`](crate::Compile::Beside) never a specialised one
+    /// after the first frame.
+    pub pipelines_awaited: u32,
 }
 
 impl FrameReport {
     /// Starts a frame: everything but the pipelines, which live on, is zeroed.
     pub(crate) fn begin(&mut self) {
-        *self = Self { pipelines: self.pipelines, ..Self::default() };
+        let Self { pipelines, pipelines_live, pipelines_pending, .. } = *self;
+        *self = Self { pipelines, pipelines_live, pipelines_pending, ..Self::default() };
     }
 }

@@ -2,8 +2,63 @@
 
 use crate::gpu::Gpu;
 use crate::lights::LightRecord;
-use crate::pipeline::COUNTED_LIGHTS;
 use crate::records::RECORD_BYTES;
+use std::sync::OnceLock;
+
+/// Up to this many lights in a scene are all shaded everywhere; of more, each patch has those that it needs.
+pub(crate) const COUNTED_LIGHTS: u32 = 8;
+
+/// How the lights reach the shader.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Lists {
+    /// So many directional, point and spot lights are bound, in this order, and so many of them have highlights.
+    Counted([u8; 3], Highlights),
+    /// All are bound, and the record's lists name some.
+    Listed,
+}
+
+/// How many of the lights that are bound have specular terms: the first of each kind. Few choices, since each makes
+/// pipelines of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Highlights {
+    None,
+    /// Of an odd number the smaller half.
+    Half,
+    All,
+}
+
+impl Lists {
+    /// For a scene of so many lights.
+    pub(crate) fn new(counts: [u32; 3]) -> Self {
+        if counts.iter().sum::<u32>() <= COUNTED_LIGHTS { Self::counted(counts, Highlights::All) } else { Self::Listed }
+    }
+
+    pub(crate) fn counted(counts: [u32; 3], highlights: Highlights) -> Self {
+        Self::Counted(counts.map(|n| n as u8), highlights)
+    }
+}
+
+impl Highlights {
+    /// The fewest that are at least `needed` of `counts` lights of each kind.
+    pub(crate) fn at_least(needed: [u32; 3], counts: [u32; 3]) -> Self {
+        let suffice = |share: &Self| needed.into_iter().zip(counts).all(|(needed, count)| needed <= share.of(count));
+        [Self::None, Self::Half].into_iter().find(suffice).unwrap_or(Self::All)
+    }
+
+    /// How many of `count` lights of one kind.
+    pub(crate) fn of(self, count: u32) -> u32 {
+        self.halves() * count / 2
+    }
+
+    /// How many halves of each kind.
+    pub(crate) fn halves(self) -> u32 {
+        match self {
+            Self::None => 0,
+            Self::Half => 1,
+            Self::All => 2,
+        }
+    }
+}
 
 /// How the text reads records and lights. Each is a text of its own, since a driver spends time and memory on what a
 /// pipeline leaves unused.
@@ -24,6 +79,20 @@ pub(crate) struct Shader {
     pub(crate) layout: wgpu::PipelineLayout,
 }
 
+/// The texts, each made when a pipeline first needs it, on whichever thread that is.
+#[derive(Default)]
+pub(crate) struct Shaders([OnceLock<Shader>; 3]);
+
+impl Shaders {
+    pub(crate) fn get(&self, text: Text) -> Option<&Shader> {
+        self.0[text as usize].get()
+    }
+
+    pub(crate) fn get_or_make(&self, gpu: &Gpu, text: Text) -> &Shader {
+        self.0[text as usize].get_or_init(|| Shader::new(gpu, text))
+    }
+}
+
 /// The bytes of lights at fixed places.
 pub(crate) const BOUND_LIGHT_BYTES: u64 = BOUND_LIGHTS as u64 * size_of::<LightRecord>() as u64;
 
@@ -33,7 +102,7 @@ fn loops(first: &str, count: &str, most: u32, length: u32, cone: bool) -> String
         let end = start + length;
         format!(
             "    for (var i = {first} + {start}u; i < {first} + min({count}, {end}u); i++) {{\n        \
-             sum = add_finite_light(sum, lights[i], {cone}, p, n, v, shininess, terms);\n    }}\n"
+             sum = add_finite_light(sum, lights[i], {cone}, p, n, v, shininess, of_first(terms, i - ({first}), {count}));\n    }}\n"
         )
     };
     (0..most).step_by(length as usize).map(one).collect()
@@ -75,7 +144,7 @@ impl Text {
 }
 
 impl Shader {
-    pub(crate) fn new(gpu: &Gpu, text: Text) -> Self {
+    fn new(gpu: &Gpu, text: Text) -> Self {
         let storage = text == Text::Listed;
         let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("lighting"),

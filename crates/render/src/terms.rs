@@ -16,6 +16,11 @@ impl TermMask {
     pub(crate) fn is_empty(self) -> bool {
         self == Self::default()
     }
+
+    /// How many terms.
+    pub(crate) fn terms(self) -> u64 {
+        u64::from(self.diffuse) + u64::from(self.specular)
+    }
 }
 
 /// What the frame chose for an object. Holds after [`RenderSet::Choose`](crate::RenderSet::Choose).

@@ -10,7 +10,7 @@ use bevy_app::App;
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::InternedScheduleLabel;
 use bevy_transform::TransformSystems;
-use mean::weight;
+use mean::Weights;
 use std::time::{Duration, Instant};
 
 /// How long the CPU took for each [`RenderSet`], and how long the frame waited for the display.
@@ -45,12 +45,12 @@ impl SetTimes {
         RenderSet::ALL.into_iter().map(|set| (set, self.of(set)))
     }
 
-    /// Moves towards `new` by `weight`, 0 to 1.
-    fn approach(&mut self, new: &Self, weight: f64) {
+    /// Moves towards `new` by its share, 0 to 1.
+    fn approach(&mut self, new: &Self, share: f64) {
         for (old, new) in self.sets.iter_mut().zip(new.sets) {
-            *old = mean::approach(*old, new, weight);
+            *old = mean::approach(*old, new, share);
         }
-        self.display = mean::approach(self.display, new.display, weight);
+        self.display = mean::approach(self.display, new.display, share);
     }
 }
 
@@ -77,7 +77,7 @@ pub struct FrameTimes {
     set_began: Option<Instant>,
     /// From the beginning of the frame before to that of this one.
     interval: Duration,
-    frames: u64,
+    weights: Weights,
 }
 
 impl FrameTimes {
@@ -86,7 +86,7 @@ impl FrameTimes {
         &self.newest
     }
 
-    /// The mean over frames, an old frame's weight falling to 1/e within a second. It starts with the second
+    /// The mean over frames, each with a weight that falls to 1/e within a second. It starts with the second
     /// frame, since the first one opens the adapter and builds pipelines; until then it is the newest.
     pub fn smoothed(&self) -> &SetTimes {
         &self.smoothed
@@ -115,8 +115,7 @@ impl FrameTimes {
 
     fn finish(&mut self) {
         self.newest = self.current;
-        self.smoothed.approach(&self.newest, weight(self.frames, self.interval));
-        self.frames += 1;
+        self.smoothed.approach(&self.newest, self.weights.share(self.interval));
     }
 }
 
@@ -216,9 +215,10 @@ mod tests {
         for i in 1..=10 {
             frame(&mut times, start + (5000 + 100 * i) * MS, 4 * MS);
         }
-        // A second later the old value has a weight of 1/e.
-        let expected = 180.0 - 90.0 / std::f64::consts::E;
-        assert_close(times.smoothed().total(), MS.mul_f64(expected));
+        // Ten of weights that fall to 1/e within a second, and one of 1/e.
+        let ten: f64 = (0..10).map(|i| (-0.1 * f64::from(i)).exp()).sum();
+        let one = (-1f64).exp();
+        assert_close(times.smoothed().total(), MS.mul_f64((180.0 * ten + 90.0 * one) / (ten + one)));
         assert_close(times.newest().total(), 180 * MS);
     }
 }

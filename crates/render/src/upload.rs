@@ -1,10 +1,11 @@
 //! Upload: what changed since the last frame goes to the GPU, and nothing else.
 
-use crate::batch::{Batches, DrawCall};
+use crate::batch::Batches;
+use crate::draws::DrawState;
 use crate::error::RenderError;
 use crate::gpu::Gpu;
 use crate::lights::{LightRecord, Lights};
-use crate::pipeline::Pipelines;
+use crate::pipelines::Pipelines;
 use crate::records::RECORD_BYTES;
 use crate::report::FrameReport;
 use crate::shader::{BOUND_LIGHT_BYTES, Text};
@@ -89,6 +90,7 @@ pub(crate) struct Buffers {
     bound: Mirrored,
     lists: Mirrored,
     instances: Mirrored,
+    draws: Mirrored,
     groups: Groups,
 }
 
@@ -128,6 +130,7 @@ impl Default for Buffers {
             bound: Mirrored::new("the lights of patches", Usage::UNIFORM),
             lists: Mirrored::new("the light lists", Usage::STORAGE),
             instances: Mirrored::new("the instances", Usage::VERTEX),
+            draws: Mirrored::new("the draws", Usage::INDIRECT),
             groups: Groups::default(),
         }
     }
@@ -138,15 +141,20 @@ impl Buffers {
         self.instances.buffer.as_ref()
     }
 
+    /// What commands read their draws from.
+    pub(crate) fn draws(&self) -> Option<&wgpu::Buffer> {
+        self.draws.buffer.as_ref()
+    }
+
     /// The bindings of a draw, and their offset.
-    pub(crate) fn bindings(&self, draw: &DrawCall) -> Option<(&wgpu::BindGroup, Offsets)> {
-        let record = draw.record * RECORD_BYTES as u32;
-        let lights = draw.lights * size_of::<LightRecord>() as u32;
+    pub(crate) fn bindings(&self, state: &DrawState) -> Option<(&wgpu::BindGroup, Offsets)> {
+        let record = state.record * RECORD_BYTES as u32;
+        let lights = state.lights * size_of::<LightRecord>() as u32;
         let Groups { few, many, one, all } = &self.groups;
-        let (group, offsets) = match draw.key.text() {
+        let (group, offsets) = match state.key.text() {
             Text::Few => (few, Offsets::Two([record, lights])),
             Text::Many => (many, Offsets::Two([record, lights])),
-            Text::Listed if draw.key.per_instance => (all, Offsets::One([0])),
+            Text::Listed if state.key.per_instance => (all, Offsets::One([0])),
             Text::Listed => (one, Offsets::One([record])),
         };
         Some((group.as_ref()?, offsets))
@@ -161,7 +169,7 @@ impl Buffers {
         batches: &Batches,
     ) -> Result<u64, RenderError> {
         let view = ViewRecord { scale: view.projection.scale, near: view.projection.near, padding: 0.0 };
-        let listed = if batches.reads_storage() { lights.records.as_slice() } else { &[] };
+        let listed = if batches.draws.reads_storage() { lights.records.as_slice() } else { &[] };
         let bound = bytemuck::cast_slice(&batches.lists.bound);
         let sent = [
             self.view.set(gpu, bytemuck::bytes_of(&view), 0)?,
@@ -172,11 +180,15 @@ impl Buffers {
             self.lists.set(gpu, bytemuck::cast_slice(&batches.lists.numbers), 0)?,
         ];
         let (instances, _) = self.instances.set(gpu, bytemuck::cast_slice(&batches.instances), 0)?;
+        let draws = batches.draws.read();
+        // Not every device can have the buffer.
+        let (draws, _) =
+            if draws.is_empty() { (0, false) } else { self.draws.set(gpu, bytemuck::cast_slice(draws), 0)? };
         if sent.iter().any(|&(_, new)| new) {
             self.groups = Groups::default();
         }
         self.bind(gpu, pipelines)?;
-        Ok(sent.iter().map(|(bytes, _)| bytes).sum::<u64>() + instances)
+        Ok(sent.iter().map(|(bytes, _)| bytes).sum::<u64>() + instances + draws)
     }
 
     /// Makes the bindings that are not there.
@@ -220,18 +232,22 @@ impl Buffers {
     }
 }
 
-/// Builds the pipelines of what is about to be drawn, and counts its triangles.
+/// Builds the pipelines that what is about to be drawn still lacks, and counts its triangles.
 pub(crate) fn build_pipelines(
     gpu: Res<Gpu>,
     batches: Res<Batches>,
     mut pipelines: ResMut<Pipelines>,
     mut report: ResMut<FrameReport>,
 ) {
-    for draw in &batches.draws {
-        pipelines.ensure(&gpu, draw.key);
-        report.triangles += draw.indices.len() as u64 / 3 * draw.instances.len() as u64;
+    for group in batches.draws.groups() {
+        if let Err(error) = pipelines.ensure(&gpu, group.state.key)
+            && !report.errors.contains(&error)
+        {
+            report.errors.push(error);
+        }
     }
-    report.pipelines = pipelines.count();
+    report.triangles = batches.draws.triangles();
+    pipelines.report(&mut report);
 }
 
 pub(crate) fn upload(
@@ -243,7 +259,7 @@ pub(crate) fn upload(
     mut buffers: ResMut<Buffers>,
     mut report: ResMut<FrameReport>,
 ) {
-    if batches.draws.is_empty() {
+    if batches.draws.groups().is_empty() {
         return;
     }
     match buffers.upload(&gpu, &pipelines, &view, &lights, &batches) {

@@ -20,7 +20,8 @@ use halfway_render::{GpuTimer, RenderPlugin, RenderSet, SurfaceTarget};
 /// the first update, so `Startup` systems find [`Gpu`](halfway_render::Gpu), [`SurfaceTarget`] and
 /// the entity of the [`WinitWindow`]. Keys, mouse buttons, wheel and pointer reach `bevy_input`, its
 /// `MouseMotion` in logical pixels. While the window is minimised or covered, the App is not
-/// updated, and nothing is drawn.
+/// updated, and nothing is drawn. Pipelines are built beside the frames, unless
+/// [`Compile`](halfway_render::Compile) says otherwise.
 ///
 /// The App ends when the window is closed ([`AppExit::Success`](bevy_app::AppExit), after a last
 /// update that sees the message) or when it sends an `AppExit` itself. Where there is no display, or

@@ -21,6 +21,7 @@ override LISTED: bool = false;
 override DIRECTIONAL: u32 = 0;
 override POINTS: u32 = 0;
 override SPOTS: u32 = 0;
+override HIGHLIGHTS: u32 = 2;          // of each kind, the first so many halves have specular terms
 
 struct View {
     scale: vec2f,        // x and y of clip_from_eye

@@ -1,6 +1,6 @@
 //! The time of the pass on the GPU, by its own clock.
 
-use super::mean::{approach, weight};
+use super::mean::{Weights, approach};
 use crate::gpu::Gpu;
 use bevy_ecs::prelude::Resource;
 use std::sync::Arc;
@@ -30,7 +30,7 @@ pub struct GpuTimer {
     /// In seconds.
     smoothed: f64,
     arrived: Option<Instant>,
-    frames: u64,
+    weights: Weights,
 }
 
 impl GpuTimer {
@@ -41,8 +41,8 @@ impl GpuTimer {
         self.newest
     }
 
-    /// The mean over frames, an old frame's weight falling to 1/e within a second; without the first frame once
-    /// there is a second.
+    /// The mean over frames, each with a weight that falls to 1/e within a second; without the first frame once there is a
+    /// second.
     pub fn smoothed(&self) -> Option<Duration> {
         self.newest.map(|_| Duration::from_secs_f64(self.smoothed))
     }
@@ -68,9 +68,8 @@ impl GpuTimer {
 
     fn push(&mut self, time: Duration, now: Instant) {
         let interval = self.arrived.replace(now).map_or(Duration::ZERO, |before| now.saturating_duration_since(before));
-        self.smoothed = approach(self.smoothed, time.as_secs_f64(), weight(self.frames, interval));
+        self.smoothed = approach(self.smoothed, time.as_secs_f64(), self.weights.share(interval));
         self.newest = Some(time);
-        self.frames += 1;
     }
 }
 
@@ -97,6 +96,8 @@ struct Queries {
 
 struct ReadBack {
     buffer: wgpu::Buffer,
+    /// Those that it brought last.
+    ticks: Ticks,
     state: Arc<AtomicU8>,
 }
 
@@ -125,6 +126,7 @@ impl Queries {
             resolved: buffer("ticks", wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC),
             ring: std::array::from_fn(|_| ReadBack {
                 buffer: buffer("ticks read back", read_back),
+                ticks: Ticks::default(),
                 state: Arc::default(),
             }),
             next: 0,
@@ -135,15 +137,24 @@ impl Queries {
 
     /// The time of the oldest pass that has not been taken; `None` while it has not arrived.
     fn take_oldest(&mut self) -> Option<Duration> {
-        // Passes end in order, so what is under way stands between those that have been taken and the next.
-        let oldest = (0..RING).map(|i| &self.ring[(self.next + i) % RING]).find(|slot| slot.state() != FREE)?;
-        if oldest.state() != ARRIVED {
-            return None;
+        loop {
+            // Passes end in order, so what is under way stands between those that have been taken and the next.
+            let mut places = (0..RING).map(|i| (self.next + i) % RING);
+            let place = places.find(|&place| self.ring[place].state() != FREE)?;
+            let oldest = &mut self.ring[place];
+            if oldest.state() != ARRIVED {
+                return None;
+            }
+            let ticks = oldest.buffer.get_mapped_range(..).map(|bytes| bytemuck::pod_read_unaligned::<Ticks>(&bytes));
+            oldest.buffer.unmap();
+            oldest.state.store(FREE, Ordering::Relaxed);
+            // A frame whose commands were refused leaves what was there.
+            if let Ok(ticks) = ticks
+                && ticks != std::mem::replace(&mut oldest.ticks, ticks)
+            {
+                return Some(elapsed(ticks, self.period));
+            }
         }
-        let ticks = oldest.buffer.get_mapped_range(..).map(|bytes| bytemuck::pod_read_unaligned::<Ticks>(&bytes));
-        oldest.buffer.unmap();
-        oldest.state.store(FREE, Ordering::Relaxed);
-        ticks.ok().map(|ticks| elapsed(ticks, self.period))
     }
 
     fn writes(&mut self) -> Option<wgpu::RenderPassTimestampWrites<'_>> {
@@ -159,7 +170,7 @@ impl Queries {
         if !std::mem::take(&mut self.written) {
             return;
         }
-        let ReadBack { buffer, state } = &self.ring[self.next];
+        let ReadBack { buffer, state, .. } = &self.ring[self.next];
         encoder.resolve_query_set(&self.set, 0..2, &self.resolved, 0);
         encoder.copy_buffer_to_buffer(&self.resolved, 0, buffer, 0, TICKS_BYTES);
         state.store(UNDER_WAY, Ordering::Relaxed);
@@ -207,7 +218,71 @@ mod tests {
         timer.push(4 * ms, start + 20 * ms);
         let (newest, smoothed) = (timer.newest().unwrap(), timer.smoothed().unwrap());
         assert_eq!(newest, 4 * ms);
-        // A hundredth of the memory later, the new one weighs a hundredth.
-        assert!(smoothed > 2 * ms && smoothed < 2 * ms + ms / 40, "{smoothed:?}");
+        // A hundredth of the memory later, both weigh nearly alike.
+        assert!(smoothed > 3 * ms && smoothed < 3 * ms + ms / 100, "{smoothed:?}");
+    }
+
+    /// A pass over one pixel; refused as a whole where it is `wrong`.
+    fn frame(timer: &mut GpuTimer, gpu: &Gpu, wrong: bool) {
+        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+            label: None,
+            size: wgpu::Extent3d::default(),
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: wgpu::TextureFormat::Rgba8Unorm,
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
+            view_formats: &[],
+        });
+        let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        {
+            let view = &texture.create_view(&wgpu::TextureViewDescriptor::default());
+            let attachment = wgpu::RenderPassColorAttachment {
+                view,
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations::default(),
+            };
+            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                color_attachments: &[Some(attachment)],
+                timestamp_writes: timer.begin(gpu),
+                ..Default::default()
+            });
+            if wrong {
+                // No pipeline is set.
+                pass.draw(0..3, 0..1);
+            }
+        }
+        timer.end(&mut encoder);
+        gpu.queue.submit([encoder.finish()]);
+        assert_eq!(gpu.take_failure().is_some(), wrong);
+        gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("the device is there");
+    }
+
+    #[test]
+    fn frames_that_are_refused_have_no_time() {
+        let gpu = Gpu::open_headless().expect("there is an adapter");
+        if !gpu.device.features().contains(wgpu::Features::TIMESTAMP_QUERY) {
+            return;
+        }
+        let mut timer = GpuTimer::default();
+        // More than the ring has buffers.
+        for _ in 0..2 * RING {
+            frame(&mut timer, &gpu, true);
+        }
+        assert_eq!(timer.newest(), None, "nothing but refused frames");
+        frame(&mut timer, &gpu, false);
+        timer.begin(&gpu);
+        let first = timer.newest();
+        assert!(first.is_some(), "a frame after refused ones");
+        let arrived = timer.arrived;
+        for _ in 0..2 * RING {
+            frame(&mut timer, &gpu, true);
+        }
+        timer.begin(&gpu);
+        assert_eq!((timer.newest(), timer.arrived), (first, arrived), "a refused frame has brought a time");
+        frame(&mut timer, &gpu, false);
+        timer.begin(&gpu);
+        assert!(timer.arrived > arrived, "a frame after more refused ones");
     }
 }
