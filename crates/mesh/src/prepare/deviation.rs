@@ -27,6 +27,11 @@ impl Deviation {
     pub(super) fn max(self, other: Self) -> Self {
         Self { distance: self.distance.max(other.distance), angle: self.angle.max(other.angle) }
     }
+
+    /// Whether both are no larger.
+    pub(super) fn is_within(&self, other: &Self) -> bool {
+        self.distance <= other.distance && self.angle <= other.angle
+    }
 }
 
 /// The vertices that levels do without, one after the other.
