@@ -10,6 +10,13 @@ use bevy_ecs::prelude::Resource;
 use halfway_mesh::Mesh;
 use std::ops::Range;
 
+/// Where patches have light lists of their own, those of a level have in the mean no larger radius than the whole mesh's
+/// divided by this, or than the finest's and a quarter more.
+const PATCHES_ACROSS: f32 = 10.0;
+
+/// Slices of a sphere, an even number.
+const SLICES: u8 = 8;
+
 /// How coarse a mesh may be drawn. A coarser level takes its place where
 ///
 /// - no point of its surface moves by more than `pixels` on the picture, and
@@ -34,7 +41,7 @@ use std::ops::Range;
 pub struct LevelsOfDetail {
     /// How far a point may move, in pixels. Default 0.5; 0 draws every mesh as it is.
     pub pixels: f32,
-    /// How much a term may change, as a part of its largest value. Default 1/16; what is measured is
+    /// How much a term may change, as a part of its largest value. Default 0.1; what is measured is
     /// about an eighth of that.
     pub shading: f32,
 }
@@ -46,7 +53,7 @@ impl LevelsOfDetail {
 
 impl Default for LevelsOfDetail {
     fn default() -> Self {
-        Self { pixels: 0.5, shading: 1.0 / 16.0 }
+        Self { pixels: 0.5, shading: 0.1 }
     }
 }
 
@@ -65,6 +72,8 @@ pub(crate) struct Detail {
 #[derive(Clone, Debug)]
 pub(crate) struct Level {
     patches: Range<usize>,
+    /// Its patches are too large for short light lists.
+    spoils_lists: bool,
     /// In the mesh's units.
     error: f32,
     /// In radians.
@@ -114,14 +123,16 @@ impl Detail {
     /// With the mesh's levels of detail.
     pub(crate) fn in_levels(mesh: &Mesh) -> Self {
         let mut detail = Self::in_patches(mesh);
+        let allowed = (1.25 * patches::mean_radius(&detail.patches)).max(detail.whole.radius() / PATCHES_ACROSS);
         for level in mesh.levels() {
             let mut triangles = level.indices.as_chunks().0.to_vec();
             let start = detail.patches.len();
             detail.patches.extend(patches::cut(mesh, &mut triangles, 3 * detail.triangles.len() as u32));
             detail.triangles.extend(triangles);
+            let spoils_lists = patches::mean_radius(&detail.patches[start..]) > allowed;
             let halfway_mesh::Level { error, normal_error, normal_spread, longest_edge, .. } = level;
             let patches = start..detail.patches.len();
-            detail.levels.push(Level { patches, error, normal_error, normal_spread, longest_edge });
+            detail.levels.push(Level { patches, spoils_lists, error, normal_error, normal_spread, longest_edge });
         }
         detail
     }
@@ -130,9 +141,8 @@ impl Detail {
     pub(crate) fn patches(&self, model_view: &ModelView, view: &View, demand: Demand) -> &[Patch] {
         let level = if self.levels.len() > 1 && demand.allowed.pixels > 0.0 && model_view.keeps_angles() {
             let around = self.around(model_view, view, demand);
-            // Patches keep light lists short.
-            let listed = demand.key.lists == Lists::Listed && self.levels[0].patches.len() > 1;
-            let will_do = |level: &Level| !(listed && level.patches.len() == 1) && level.will_do(around, demand);
+            let listed = demand.key.lists == Lists::Listed;
+            let will_do = |level: &Level| !(listed && level.spoils_lists) && level.will_do(around, demand);
             self.levels.iter().rposition(will_do).unwrap_or(0)
         } else {
             0
@@ -159,20 +169,36 @@ impl Detail {
 
     /// An upper bound of how many pixels a short way in the mesh's units takes, anywhere on it. A way of length e at
     /// (x, y, −z) in eye space moves its end by at most f·e/z·√(1 + (x² + y²)/z²), f pixels being the way of a point at
-    /// depth 1 that moves by 1.
+    /// depth 1 that moves by 1. The sphere around the mesh is looked at slice by slice: what is near is not far aside.
     fn pixels_per_unit(&self, model_view: &ModelView, view: &View) -> f32 {
         let (center, radius) = self.whole.sphere(model_view);
-        let nearest = (-center.z - radius).max(view.projection.near);
+        let aside = center.truncate().length();
         let [x, y] = view.projection.scale;
-        let slope = ((center.truncate().length() + radius) / nearest).min((1.0 / (x * x) + 1.0 / (y * y)).sqrt());
-        view.pixels_at_unit_depth / nearest * (1.0 + slope * slope).sqrt() * model_view.largest_scale()
+        let steepest = (1.0 / (x * x) + 1.0 / (y * y)).sqrt();
+        let slice = |number: u8| {
+            // Between −1 and 1, the nearer end being the larger.
+            let [far, near] = [number, number + 1].map(|end| f32::from(end) / f32::from(SLICES / 2) - 1.0);
+            let widest = (1.0 - far.abs().min(near.abs()).powi(2)).max(0.0).sqrt();
+            let nearest = (-center.z - radius * near).max(view.projection.near);
+            let slope = ((aside + radius * widest) / nearest).min(steepest);
+            (1.0 + slope * slope).sqrt() / nearest
+        };
+        let most = (0..SLICES).map(slice).fold(0.0, f32::max);
+        view.pixels_at_unit_depth * most * model_view.largest_scale()
     }
 }
 
 impl Level {
     /// The mesh itself, of so many patches.
     fn finest(patches: usize) -> Self {
-        Self { patches: 0..patches, error: 0.0, normal_error: 0.0, normal_spread: 0.0, longest_edge: 0.0 }
+        Self {
+            patches: 0..patches,
+            spoils_lists: false,
+            error: 0.0,
+            normal_error: 0.0,
+            normal_spread: 0.0,
+            longest_edge: 0.0,
+        }
     }
 
     fn will_do(&self, around: Around, Demand { allowed, key, exponent, .. }: Demand) -> bool {

@@ -55,6 +55,11 @@ pub(crate) fn cut(mesh: &Mesh, triangles: &mut [[u32; 3]], first: u32) -> Vec<Pa
     (first..).step_by(3 * PATCH).zip(triangles.chunks(PATCH)).map(|(at, run)| Patch::new(mesh, run, at)).collect()
 }
 
+/// The mean radius of patches, in the mesh's units.
+pub(crate) fn mean_radius(patches: &[Patch]) -> f32 {
+    patches.iter().map(|patch| patch.radius).sum::<f32>() / patches.len().max(1) as f32
+}
+
 /// Where a point of the box is on the Z-order curve (Morton 1966) through 1024³ cells.
 fn place_on_curve(p: Vec3, bounds: &Bounds) -> u32 {
     let extent = (bounds.max - bounds.min).max_element().max(f32::MIN_POSITIVE);
@@ -107,6 +112,11 @@ impl Patch {
             cone: None,
             half_thickness: f32::INFINITY,
         }
+    }
+
+    /// The radius of the sphere around it, in the mesh's units.
+    pub(crate) fn radius(&self) -> f32 {
+        self.radius
     }
 
     /// The sphere around it in eye space.

@@ -303,6 +303,7 @@ pub(crate) mod tests {
             clockwise: false,
             samples: 1,
             format: wgpu::TextureFormat::Rgba8Unorm,
+            encoded: false,
         }
     }
 
