@@ -37,6 +37,18 @@ impl Row {
     }
 }
 
+/// The shaders' curve is within a 600th of a step. But it is steeper than bare values in the dark, and a facet of flat
+/// shading, which is a hundredth of some pictures, turns over as a whole.
+const SHADERS_SRGB: Bars = Bars { equal: 0.98, ..Bars::bytes(Encoding::Srgb) };
+
+impl Scene {
+    /// Whether a software adapter's bytes in sRGB are as exact as bare ones.
+    fn is_encoded_by_shaders(&self) -> bool {
+        let is_blended = self.things.iter().any(|thing| thing.blend);
+        !is_blended && self.camera.samples == Samples::One && self.lamps.len() <= 8
+    }
+}
+
 /// The worst figures of a table, and the rows that have them.
 #[derive(Default)]
 struct Worst {
@@ -84,7 +96,8 @@ fn conform(title: &str, rows: &[Row]) {
     for Row { name, scene, float, raw, srgb } in rows {
         let of_floats = failures.draw(name, &mut stage, scene, *float);
         failures.unless(of_floats.counted > 0.02, || format!("{name} shows next to nothing"));
-        let [raw, srgb] = [(Encoding::Raw, raw), (Encoding::Srgb, srgb)].map(|(encoding, bars)| {
+        let srgb = if stage.is_software() && scene.is_encoded_by_shaders() { SHADERS_SRGB } else { *srgb };
+        let [raw, srgb] = [(Encoding::Raw, raw), (Encoding::Srgb, &srgb)].map(|(encoding, bars)| {
             stage.encode(encoding);
             let picture = stage.bytes();
             failures.compare_bytes(&format!("{name}, {encoding:?} bytes"), &mut stage, &picture, *bars)

@@ -369,7 +369,7 @@ fn pictures_that_are_too_coarse_are_found_out() {
     let mut scene = one(Thing::new(sphere(256)).of(material()).shaded(Shading::Gouraud), 2.4);
     scene.camera.background = LinearRgba::rgb(BACKGROUND[0], BACKGROUND[1], BACKGROUND[2]);
     stage.set(&scene);
-    // Far beyond half a pixel and a sixteenth.
+    // Far beyond half a pixel and a tenth.
     stage.levels(LevelsOfDetail { pixels: 12.0, shading: 10.0 });
     let picture = Image::from_float(&stage.float());
     let fine = Oracle::new(stage.world(), UVec2::splat(SIZE * SAMPLES)).expect("a scene").draw();

@@ -87,7 +87,7 @@ impl Gpu {
         self.multi_draw
     }
 
-    /// Sets that number, from the next frame on. The picture is the same.
+    /// Sets that number, from the next frame on. The picture is the same, but for rounding where materials are looked up.
     ///
     /// Default: 128 on a hardware adapter that has multi-draw, else `None`. It stays `None` where the device cannot:
     /// without `wgpu::Features::INDIRECT_FIRST_INSTANCE` or `wgpu::DownlevelFlags::INDIRECT_EXECUTION`.

@@ -44,6 +44,8 @@ pub struct SurfaceTarget {
     config: wgpu::SurfaceConfiguration,
     stale: bool,
     acquired: bool,
+    /// It has shown blended objects, and keeps the format that blends them: another one waits for the GPU.
+    blends: bool,
 }
 
 impl SurfaceTarget {
@@ -56,7 +58,7 @@ impl SurfaceTarget {
         let config = surface
             .get_default_config(&gpu.adapter, size.x.max(1), size.y.max(1))
             .ok_or_else(|| RenderError::Device(format!("{} cannot present to this window", gpu.describe())))?;
-        Ok(Self { surface, formats: capabilities.formats, config, stale: true, acquired: false })
+        Ok(Self { surface, formats: capabilities.formats, config, stale: true, acquired: false, blends: false })
     }
 
     /// Follows the window to `size` physical pixels; a size of 0 (minimised) is ignored.
@@ -83,14 +85,10 @@ impl SurfaceTarget {
         UVec2::new(self.config.width, self.config.height)
     }
 
-    /// The surface's format that encodes as asked; its first one where it has no such.
     fn pick_format(&mut self, encodes: bool) {
-        let wanted = |format: &&wgpu::TextureFormat| format.is_srgb() == encodes;
-        let format = self.formats.iter().find(wanted).or(self.formats.first());
-        if let Some(&format) = format.filter(|&&format| format != self.config.format) {
-            self.config.format = format;
-            self.stale = true;
-        }
+        let format = pick_format(&self.formats, self.config.format, encodes);
+        self.stale |= format != self.config.format;
+        self.config.format = format;
     }
 
     /// The next picture of the surface; `None` means skip this frame.
@@ -221,12 +219,14 @@ pub(crate) fn prepare(
     }
     // A software adapter decodes and encodes all 16 pixels of a block to write some of them. Blending and resolving need
     // linear values, which only the format gives.
-    let shader_encodes = gpu.is_software() && camera.samples == Samples::One && blended.is_empty();
-    let format_encodes = camera.encoding == Encoding::Srgb && !shader_encodes;
+    let may_encode = gpu.is_software() && camera.samples == Samples::One;
+    let format_encodes = |blends: bool| camera.encoding == Encoding::Srgb && (blends || !may_encode);
     let (format, acquired) = match surface {
-        None => (headless_format(&gpu, headless.pixels, camera.samples, format_encodes), None),
+        None => (headless_format(&gpu, headless.pixels, camera.samples, format_encodes(!blended.is_empty())), None),
         Some(mut surface) => {
-            surface.pick_format(format_encodes);
+            surface.blends |= !blended.is_empty();
+            let encodes = format_encodes(surface.blends);
+            surface.pick_format(encodes);
             match times.at_display(|| surface.acquire(&gpu)) {
                 Ok(Some(texture)) => (surface.config.format, Some(texture)),
                 Ok(None) => return,
@@ -256,6 +256,20 @@ fn headless_format(gpu: &Gpu, pixels: Pixels, samples: Samples, encodes: bool) -
         Pixels::Float if draws_f32(gpu, samples) => wgpu::TextureFormat::Rgba32Float,
         Pixels::Float => wgpu::TextureFormat::Rgba16Float,
     }
+}
+
+/// Of a surface's formats the one that is `current` but for the encoding, else another of bytes that encodes as asked, else
+/// the first.
+fn pick_format(formats: &[wgpu::TextureFormat], current: wgpu::TextureFormat, encodes: bool) -> wgpu::TextureFormat {
+    let sibling = if encodes { current.add_srgb_suffix() } else { current.remove_srgb_suffix() };
+    let is_sibling = |format: &&wgpu::TextureFormat| **format == sibling;
+    let is_like_it = |format: &&wgpu::TextureFormat| {
+        let shows_bytes = format.remove_srgb_suffix() == wgpu::TextureFormat::Rgba8Unorm
+            || format.remove_srgb_suffix() == wgpu::TextureFormat::Bgra8Unorm;
+        shows_bytes && format.is_srgb() == encodes
+    };
+    let found = formats.iter().find(is_sibling).or_else(|| formats.iter().find(is_like_it)).or(formats.first());
+    found.copied().unwrap_or(current)
 }
 
 fn is_float(format: wgpu::TextureFormat) -> bool {
@@ -298,5 +312,27 @@ impl Attachments {
             multisampled: (samples == Samples::Four).then(|| view(texture("samples", format, 4, attachment))),
             depth: view(texture("depth", DEPTH_FORMAT, samples.count(), attachment)),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::pick_format;
+    use wgpu::TextureFormat::{Bgra8Unorm, Bgra8UnormSrgb, Rgba8Unorm, Rgba8UnormSrgb, Rgba16Float};
+
+    #[test]
+    fn surfaces_change_their_encoding_and_nothing_else() {
+        let all = [Rgba8UnormSrgb, Rgba16Float, Bgra8UnormSrgb, Rgba8Unorm, Bgra8Unorm];
+        for (current, encodes, expected) in [
+            (Bgra8UnormSrgb, true, Bgra8UnormSrgb),
+            (Bgra8UnormSrgb, false, Bgra8Unorm),
+            (Bgra8Unorm, true, Bgra8UnormSrgb),
+            (Rgba8Unorm, false, Rgba8Unorm),
+        ] {
+            assert_eq!(pick_format(&all, current, encodes), expected, "{current:?}, {encodes}");
+        }
+        let few = [Rgba16Float, Rgba8UnormSrgb, Bgra8Unorm];
+        assert_eq!(pick_format(&few, Rgba8UnormSrgb, false), Bgra8Unorm, "a float is no byte");
+        assert_eq!(pick_format(&[Rgba8Unorm], Rgba8Unorm, true), Rgba8Unorm, "nothing encodes");
     }
 }

@@ -68,7 +68,7 @@ impl Mesh {
 
     /// Coarser versions of the mesh, the finest first and without the mesh itself; none if it cannot be made coarser. A large
     /// mesh has levels of about half the triangles of the one before; from 32,768 triangles down they become closer. What is
-    /// hardly nearer to the mesh than something coarser is left out where no more than half of the triangles go with it.
+    /// hardly nearer to the mesh than something coarser is left out where no more than half of the triangles go at once.
     ///
     /// Vertices go one by one, the least loss first, each onto a neighbour: a loss of shape or of shading (see
     /// [`Level::normal_spread`]), so that triangles stay where the surface or its normals bend. Vertices within 10⁻⁶ of the
@@ -77,8 +77,8 @@ impl Mesh {
     /// error. A faceted mesh is all creases: [weld](Self::welded) it first. There is no level of fewer than 32 triangles,
     /// of more than 93 % of those before, or with an error of more than a tenth of the radius of the box.
     ///
-    /// Each level is measured against the mesh itself, at sampled points: at up to 8192 of the vertices that it has not and
-    /// the level before had, at up to 8192 that the level before had not either, and at up to 16384 centroids and middles
+    /// Each level is measured against the mesh itself, at sampled points: at up to 8192 of the vertices that went last,
+    /// at up to 8192 of those that went before them, and at up to 16384 centroids and middles
     /// of edges of the level's triangles, each sort taken evenly over its order in the mesh or the level. A vertex is
     /// compared with the level, the others with the mesh, at the nearest point that faces alike: the one with the least
     /// d² + s² |n − m|², where d is the distance, n and m are the unit interpolated normals, and s is the distance of the
@@ -97,23 +97,16 @@ impl Mesh {
             |step: &Step| Sheet::new(self, &step.triangles).deviation_from(&finest, &gone, step.gone.clone());
         let deviations: Vec<Deviation> = steps.par_iter().map(deviation).collect();
         let mut worst = self.deviation_of(&stand_ins);
-        let mut before = self.triangle_count();
-        let mut levels = Vec::new();
         let counts: Vec<usize> = steps.iter().map(|step| step.triangles.len()).collect();
-        for (number, (step, deviation)) in steps.into_iter().zip(&deviations).enumerate() {
-            let count = counts[number];
-            let hardly_less = Deviation { distance: 1.05 * deviation.distance, angle: 1.05 * deviation.angle };
-            // Longer edges may matter even where all is flat, so that at most half of the triangles go at once.
-            let mut coarser = counts.iter().zip(&deviations).skip(number + 1).take_while(|&(&left, _)| 2 * left >= before);
-            let is_outdone = coarser.any(|(_, coarser)| coarser.is_within(&hardly_less));
-            if is_outdone || count as f64 > WORTHWHILE * before as f64 {
-                continue;
-            }
-            worst = worst.max(*deviation);
+        let (mut steps, mut levels) = (steps.into_iter().enumerate(), Vec::new());
+        let mut before = self.triangle_count();
+        while let Some(chosen) = best_within_half(&counts, &deviations, (before, worst)) {
+            let Some((number, step)) = steps.find(|(number, _)| *number == chosen) else { break };
+            worst = worst.max(deviations[number]);
             if worst.distance > FARTHEST * f64::from(self.bounds().radius()) {
                 break;
             }
-            before = count;
+            before = step.triangles.len();
             levels.push(self.level(step.triangles.into_flattened(), worst));
         }
         levels
@@ -190,6 +183,17 @@ impl Mesh {
             indices,
         }
     }
+}
+
+/// After a level of so many triangles that is so far off: of the candidates that keep at least half of them, the coarsest
+/// that is hardly further off than the first one that is worth its memory, or that one. Longer edges may matter even where
+/// all is flat, so no more than half of the triangles go at once if that can be.
+fn best_within_half(counts: &[usize], deviations: &[Deviation], (before, worst): (usize, Deviation)) -> Option<usize> {
+    let first = counts.iter().position(|&count| count as f64 <= WORTHWHILE * before as f64)?;
+    let Deviation { distance, angle } = worst.max(deviations[first]);
+    let hardly_further = Deviation { distance: 1.05 * distance, angle: 1.05 * angle };
+    let half = counts.iter().rposition(|&count| 2 * count >= before)?;
+    (first..=half).rev().find(|&number| deviations[number].is_within(&hardly_further)).or(Some(first))
 }
 
 /// The least `f32` that is not less.
