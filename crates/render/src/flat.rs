@@ -7,9 +7,9 @@ use halfway_mesh::face_normal;
 /// the triangle's face normal and centroid, and so its one shade. Triangles keep their order and
 /// winding; they are rotated, and vertices repeated, so that each has one.
 pub(crate) struct FlatMesh {
-    pub(crate) positions: Vec<[f32; 3]>,
+    pub(crate) positions: Vec<Vec3>,
     /// Face normal, centroid.
-    pub(crate) attributes: Vec<[[f32; 3]; 2]>,
+    pub(crate) attributes: Vec<[Vec3; 2]>,
     pub(crate) indices: Vec<u32>,
     /// Whether a vertex provokes a triangle already.
     taken: Vec<bool>,
@@ -22,8 +22,8 @@ const VERTEX_MEMORY: usize = 256;
 impl FlatMesh {
     pub(crate) fn new(corners: &[Vec3], triangles: &[[u32; 3]]) -> Self {
         let mut flat = Self {
-            positions: corners.iter().map(Vec3::to_array).collect(),
-            attributes: vec![[[0.0; 3]; 2]; corners.len()],
+            positions: corners.to_vec(),
+            attributes: vec![[Vec3::ZERO; 2]; corners.len()],
             indices: Vec::with_capacity(3 * triangles.len()),
             taken: vec![false; corners.len()],
         };
@@ -55,17 +55,17 @@ impl FlatMesh {
 
     fn repeat(&mut self, vertex: u32) -> u32 {
         self.positions.push(self.positions[vertex as usize]);
-        self.attributes.push([[0.0; 3]; 2]);
+        self.attributes.push([Vec3::ZERO; 2]);
         self.taken.push(false);
         self.positions.len() as u32 - 1
     }
 }
 
 /// Face normal and centroid. A degenerate triangle covers no pixel; any normal will do.
-fn shaded_point([a, b, c]: [Vec3; 3]) -> [[f32; 3]; 2] {
+fn shaded_point([a, b, c]: [Vec3; 3]) -> [Vec3; 2] {
     let normal = face_normal(a, b, c).unwrap_or(Vec3::ZERO);
     let centroid = (a.as_dvec3() + b.as_dvec3() + c.as_dvec3()) / 3.0;
-    [normal.to_array(), centroid.as_vec3().to_array()]
+    [normal, centroid.as_vec3()]
 }
 
 #[cfg(test)]
@@ -82,14 +82,14 @@ mod tests {
         for (corners, triangle) in flat.indices.chunks_exact(3).zip(mesh.triangles()) {
             assert!(provoking.insert(corners[0]), "vertex {} provokes two triangles", corners[0]);
             let mut flat_corners: Vec<_> =
-                corners.iter().map(|&i| flat.positions[i as usize].map(f32::to_bits)).collect();
+                corners.iter().map(|&i| flat.positions[i as usize].to_array().map(f32::to_bits)).collect();
             let mut mesh_corners: Vec<_> =
                 triangle.iter().map(|&i| mesh.positions()[i as usize].to_array().map(f32::to_bits)).collect();
             flat_corners.sort_unstable();
             mesh_corners.sort_unstable();
             assert_eq!(flat_corners, mesh_corners);
-            let [p0, p1, p2] = [0, 1, 2].map(|i| Vec3::from_array(flat.positions[corners[i] as usize]));
-            let [normal, _] = flat.attributes[corners[0] as usize].map(Vec3::from_array);
+            let [p0, p1, p2] = [0, 1, 2].map(|i| flat.positions[corners[i] as usize]);
+            let [normal, _] = flat.attributes[corners[0] as usize];
             assert!((p1 - p0).cross(p2 - p0).dot(normal) > 0.0, "the winding turned over");
         }
         // Each repeated vertex stands for a taken one, and each triangle takes one.

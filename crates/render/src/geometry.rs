@@ -149,9 +149,7 @@ pub(crate) fn forget_removed(
 
 impl Geometry {
     fn smooth(gpu: &Gpu, mesh: &Mesh, detail: Arc<Detail>) -> Result<(Self, u64), RenderError> {
-        let positions: Vec<[f32; 3]> = mesh.positions().iter().map(Vec3::to_array).collect();
-        let normals: Vec<[f32; 3]> = mesh.normals().iter().map(Vec3::to_array).collect();
-        let vertices = Vertices { positions: &positions, attributes: bytemuck::cast_slice(&normals) };
+        let vertices = Vertices { positions: mesh.positions(), attributes: bytemuck::cast_slice(mesh.normals()) };
         let opposite_normals = has_opposite_normals(mesh);
         vertices.upload(gpu, mesh, (detail.triangles.as_flattened(), &detail), opposite_normals)
     }
@@ -180,7 +178,7 @@ impl Geometry {
 
 /// What is stored for each vertex.
 struct Vertices<'a> {
-    positions: &'a [[f32; 3]],
+    positions: &'a [Vec3],
     attributes: &'a [u8],
 }
 
@@ -223,6 +221,9 @@ fn buffer(gpu: &Gpu, label: &str, contents: &[u8], usage: wgpu::BufferUsages) ->
     if needed > limit {
         return Err(RenderError::TooLarge { what: format!("the mesh's {label}, in bytes,"), needed, limit });
     }
+    // Else wgpu writes to a second buffer, and keeps it until the frame is done.
+    let mapped = if gpu.shares_memory() { wgpu::BufferUsages::MAP_WRITE } else { wgpu::BufferUsages::empty() };
+    let usage = usage | mapped;
     Ok(gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage }))
 }
 

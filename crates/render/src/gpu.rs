@@ -60,6 +60,8 @@ impl Gpu {
             | wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES
             | wgpu::Features::TIMESTAMP_QUERY
             | wgpu::Features::INDIRECT_FIRST_INSTANCE;
+        let software = adapter.get_info().device_type == wgpu::DeviceType::Cpu;
+        let wanted = if software { wanted | wgpu::Features::MAPPABLE_PRIMARY_BUFFERS } else { wanted };
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("halfway"),
             required_features: wanted & adapter.features(),
@@ -106,6 +108,11 @@ impl Gpu {
     /// Whether the adapter draws on the CPU.
     pub fn is_software(&self) -> bool {
         self.adapter.get_info().device_type == wgpu::DeviceType::Cpu
+    }
+
+    /// Whether buffers that are drawn from can be written to directly.
+    pub(crate) fn shares_memory(&self) -> bool {
+        self.device.features().contains(wgpu::Features::MAPPABLE_PRIMARY_BUFFERS)
     }
 
     /// One line for people: the adapter's name, its backend, and whether it is software.
