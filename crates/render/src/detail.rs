@@ -9,6 +9,7 @@ use crate::view::View;
 use bevy_ecs::prelude::Resource;
 use halfway_mesh::Mesh;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// Where patches have light lists of their own, those of a level have in the mean no larger radius than the whole mesh's
 /// divided by this, or than the finest's and a quarter more.
@@ -57,11 +58,17 @@ impl Default for LevelsOfDetail {
     }
 }
 
-/// A mesh's triangles as they are drawn: level by level, each in patches.
-#[derive(Clone, Debug)]
+/// A mesh's triangles in the order in which they are drawn: level by level, the finest first, each in patches.
+#[derive(Debug)]
+pub(crate) struct Triangles {
+    pub(crate) corners: Vec<[u32; 3]>,
+    /// Apart, as it is needed long after the triangles have gone to the GPU.
+    pub(crate) detail: Arc<Detail>,
+}
+
+/// The runs of a mesh's triangles as they are drawn.
+#[derive(Debug)]
 pub(crate) struct Detail {
-    /// The indices of all levels, the finest first.
-    pub(crate) triangles: Vec<[u32; 3]>,
     pub(crate) levels: Vec<Level>,
     pub(crate) patches: Vec<Patch>,
     /// What is known of the whole.
@@ -105,36 +112,44 @@ struct Around {
     eye: f32,
 }
 
-impl Detail {
+impl Triangles {
     /// The mesh as it is, in the order of its triangles.
     pub(crate) fn in_order(mesh: &Mesh) -> Self {
-        let triangles: Vec<_> = mesh.triangles().collect();
-        let patches = vec![Patch::new(mesh, &triangles, 0)];
-        Self { levels: vec![Level::finest(1)], patches, whole: Patch::whole(mesh), triangles }
+        let corners: Vec<_> = mesh.triangles().collect();
+        let patches = vec![Patch::new(mesh, &corners, 0)];
+        Self { corners, detail: Arc::new(Detail::finest(mesh, patches)) }
     }
 
     /// The mesh as it is, in patches.
     pub(crate) fn in_patches(mesh: &Mesh) -> Self {
-        let mut triangles: Vec<_> = mesh.triangles().collect();
-        let patches = patches::cut(mesh, &mut triangles, 0);
-        Self { levels: vec![Level::finest(patches.len())], patches, whole: Patch::whole(mesh), triangles }
+        let mut corners: Vec<_> = mesh.triangles().collect();
+        let patches = patches::cut(mesh, &mut corners, 0);
+        Self { corners, detail: Arc::new(Detail::finest(mesh, patches)) }
     }
 
     /// With the mesh's levels of detail.
     pub(crate) fn in_levels(mesh: &Mesh) -> Self {
-        let mut detail = Self::in_patches(mesh);
+        let mut corners: Vec<_> = mesh.triangles().collect();
+        let mut detail = Detail::finest(mesh, patches::cut(mesh, &mut corners, 0));
         let allowed = (1.25 * patches::mean_radius(&detail.patches)).max(detail.whole.radius() / PATCHES_ACROSS);
         for level in mesh.levels() {
-            let mut triangles = level.indices.as_chunks().0.to_vec();
+            let mut coarser = level.indices.as_chunks().0.to_vec();
             let start = detail.patches.len();
-            detail.patches.extend(patches::cut(mesh, &mut triangles, 3 * detail.triangles.len() as u32));
-            detail.triangles.extend(triangles);
+            detail.patches.extend(patches::cut(mesh, &mut coarser, 3 * corners.len() as u32));
+            corners.extend(coarser);
             let spoils_lists = patches::mean_radius(&detail.patches[start..]) > allowed;
             let halfway_mesh::Level { error, normal_error, normal_spread, longest_edge, .. } = level;
             let patches = start..detail.patches.len();
             detail.levels.push(Level { patches, spoils_lists, error, normal_error, normal_spread, longest_edge });
         }
-        detail
+        Self { corners, detail: Arc::new(detail) }
+    }
+}
+
+impl Detail {
+    /// The mesh itself, in these patches.
+    fn finest(mesh: &Mesh, patches: Vec<Patch>) -> Self {
+        Self { levels: vec![Level::finest(patches.len())], patches, whole: Patch::whole(mesh) }
     }
 
     /// The patches of the coarsest level that will do.

@@ -1,6 +1,6 @@
 //! Meshes on the GPU: shared vertices for smooth shading, one vertex a triangle for flat.
 
-use crate::detail::{Detail, LevelsOfDetail};
+use crate::detail::{Detail, LevelsOfDetail, Triangles};
 use crate::error::RenderError;
 use crate::flat::FlatMesh;
 use crate::gpu::Gpu;
@@ -24,7 +24,7 @@ pub(crate) struct Geometry {
     pub(crate) attributes: wgpu::Buffer,
     pub(crate) indices: wgpu::Buffer,
     pub(crate) index_format: wgpu::IndexFormat,
-    /// The runs of the index list.
+    /// The runs of its triangles.
     pub(crate) detail: Arc<Detail>,
     /// What it was made of; a mesh is immutable and shares its data, so the same data is the same mesh.
     pub(crate) source: Mesh,
@@ -72,22 +72,25 @@ impl Geometries {
         gpu: &Gpu,
         (id, form): (AssetId<Mesh>, Form),
         mesh: &Mesh,
-        levels: Option<&Arc<Detail>>,
+        levels: Option<&Triangles>,
     ) -> Result<u64, RenderError> {
         let there = self.meshes.get(&(id, form)).filter(|geometry| is_same(&geometry.source, mesh));
-        if there.is_some_and(|there| levels.is_none_or(|levels| Arc::ptr_eq(levels, &there.detail))) {
+        if there.is_some_and(|there| levels.is_none_or(|levels| Arc::ptr_eq(&levels.detail, &there.detail))) {
             return Ok(0);
         }
-        let detail = match levels {
-            Some(levels) => Arc::clone(levels),
-            None if form.ordered => Arc::new(Detail::in_order(mesh)),
-            None => Arc::new(Detail::in_patches(mesh)),
+        let finest;
+        let triangles = match levels {
+            Some(levels) => levels,
+            None => {
+                finest = if form.ordered { Triangles::in_order(mesh) } else { Triangles::in_patches(mesh) };
+                &finest
+            }
         };
         let (geometry, bytes) = match there {
             // The vertices of levels are those of the mesh.
-            Some(there) if !form.flat => Geometry::with_vertices_of(there, gpu, detail)?,
-            _ if form.flat => Geometry::flat(gpu, mesh, detail)?,
-            _ => Geometry::smooth(gpu, mesh, detail)?,
+            Some(there) if !form.flat => Geometry::with_vertices_of(there, gpu, triangles)?,
+            _ if form.flat => Geometry::flat(gpu, mesh, triangles)?,
+            _ => Geometry::smooth(gpu, mesh, triangles)?,
         };
         self.meshes.insert((id, form), geometry);
         Ok(bytes)
@@ -148,20 +151,20 @@ pub(crate) fn forget_removed(
 }
 
 impl Geometry {
-    fn smooth(gpu: &Gpu, mesh: &Mesh, detail: Arc<Detail>) -> Result<(Self, u64), RenderError> {
+    fn smooth(gpu: &Gpu, mesh: &Mesh, triangles: &Triangles) -> Result<(Self, u64), RenderError> {
         let vertices = Vertices { positions: mesh.positions(), attributes: bytemuck::cast_slice(mesh.normals()) };
         let opposite_normals = has_opposite_normals(mesh);
-        vertices.upload(gpu, mesh, (detail.triangles.as_flattened(), &detail), opposite_normals)
+        vertices.upload(gpu, mesh, (triangles.corners.as_flattened(), &triangles.detail), opposite_normals)
     }
 
-    fn flat(gpu: &Gpu, mesh: &Mesh, detail: Arc<Detail>) -> Result<(Self, u64), RenderError> {
-        let flat = FlatMesh::new(mesh.positions(), &detail.triangles);
+    fn flat(gpu: &Gpu, mesh: &Mesh, triangles: &Triangles) -> Result<(Self, u64), RenderError> {
+        let flat = FlatMesh::new(mesh.positions(), &triangles.corners);
         let vertices = Vertices { positions: &flat.positions, attributes: bytemuck::cast_slice(&flat.attributes) };
-        vertices.upload(gpu, mesh, (&flat.indices, &detail), false)
+        vertices.upload(gpu, mesh, (&flat.indices, &triangles.detail), false)
     }
 
-    fn with_vertices_of(there: &Self, gpu: &Gpu, detail: Arc<Detail>) -> Result<(Self, u64), RenderError> {
-        let indices = index_buffer(gpu, detail.triangles.as_flattened(), there.index_format)?;
+    fn with_vertices_of(there: &Self, gpu: &Gpu, triangles: &Triangles) -> Result<(Self, u64), RenderError> {
+        let indices = index_buffer(gpu, triangles.corners.as_flattened(), there.index_format)?;
         let bytes = indices.size();
         let geometry = Self {
             positions: there.positions.clone(),
@@ -170,7 +173,7 @@ impl Geometry {
             index_format: there.index_format,
             opposite_normals: there.opposite_normals,
             source: there.source.clone(),
-            detail,
+            detail: Arc::clone(&triangles.detail),
         };
         Ok((geometry, bytes))
     }

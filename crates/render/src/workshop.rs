@@ -1,13 +1,13 @@
 //! Where levels of detail are made, beside the frames.
 
-use crate::detail::Detail;
+use crate::detail::Triangles;
 use crate::geometry::is_same;
 use bevy_asset::AssetId;
 use bevy_ecs::prelude::Resource;
 use bevy_platform::collections::HashMap;
 use halfway_mesh::Mesh;
 use std::sync::mpsc::{Receiver, Sender, channel};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Mutex, PoisonError};
 
 /// Meshes with fewer triangles have no levels.
 const FEWEST: usize = 64;
@@ -33,7 +33,7 @@ enum State {
     Seen,
     /// On its way.
     Asked,
-    Made(Arc<Detail>),
+    Made(Triangles),
     /// There is no thread to make it.
     Refused,
 }
@@ -43,11 +43,11 @@ struct Thread {
     made: Mutex<Receiver<Made>>,
 }
 
-type Made = (AssetId<Mesh>, Mesh, Detail);
+type Made = (AssetId<Mesh>, Mesh, Triangles);
 
 impl Workshop {
     /// The levels of `mesh` if they are made. Asks for them if another frame has wanted them before.
-    pub(crate) fn levels(&mut self, id: AssetId<Mesh>, mesh: &Mesh) -> Option<&Arc<Detail>> {
+    pub(crate) fn levels(&mut self, id: AssetId<Mesh>, mesh: &Mesh) -> Option<&Triangles> {
         if mesh.triangle_count() < FEWEST {
             return None;
         }
@@ -64,7 +64,7 @@ impl Workshop {
             let asked = thread.as_ref().is_some_and(|thread| thread.wanted.send((id, mesh.clone())).is_ok());
             order.state = if asked { State::Asked } else { State::Refused };
         }
-        if let State::Made(detail) = &order.state { Some(detail) } else { None }
+        if let State::Made(triangles) = &order.state { Some(triangles) } else { None }
     }
 
     /// Begins a frame, and takes in what has been made.
@@ -72,10 +72,10 @@ impl Workshop {
         self.frame += 1;
         let Some(thread) = &self.thread else { return };
         let made = thread.made.lock().unwrap_or_else(PoisonError::into_inner);
-        for (id, source, detail) in made.try_iter() {
+        for (id, source, triangles) in made.try_iter() {
             // The asset may have got another mesh since.
             if let Some(order) = self.orders.get_mut(&id).filter(|order| is_same(&order.source, &source)) {
-                order.state = State::Made(Arc::new(detail));
+                order.state = State::Made(triangles);
             }
         }
     }
@@ -105,8 +105,8 @@ impl Thread {
         let make = move || {
             // Ends when the workshop is gone.
             for (id, mesh) in wishes {
-                let detail = Detail::in_levels(&mesh);
-                if sender.send((id, mesh, detail)).is_err() {
+                let triangles = Triangles::in_levels(&mesh);
+                if sender.send((id, mesh, triangles)).is_err() {
                     break;
                 }
             }
