@@ -224,9 +224,8 @@ fn buffer(gpu: &Gpu, label: &str, contents: &[u8], usage: wgpu::BufferUsages) ->
     if needed > limit {
         return Err(RenderError::TooLarge { what: format!("the mesh's {label}, in bytes,"), needed, limit });
     }
-    // Else wgpu writes to a second buffer, and keeps it until the frame is done.
-    let mapped = if gpu.shares_memory() { wgpu::BufferUsages::MAP_WRITE } else { wgpu::BufferUsages::empty() };
-    let usage = usage | mapped;
+    // What cannot be mapped is written to a second buffer of its size, which is kept until the frame is done.
+    let usage = if gpu.shares_memory() { usage | wgpu::BufferUsages::MAP_WRITE } else { usage };
     Ok(gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage }))
 }
 

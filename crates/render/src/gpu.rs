@@ -61,6 +61,7 @@ impl Gpu {
             | wgpu::Features::TIMESTAMP_QUERY
             | wgpu::Features::INDIRECT_FIRST_INSTANCE;
         let software = adapter.get_info().device_type == wgpu::DeviceType::Cpu;
+        // Elsewhere the memory that both reach is slow for one of them.
         let wanted = if software { wanted | wgpu::Features::MAPPABLE_PRIMARY_BUFFERS } else { wanted };
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("halfway"),
@@ -110,7 +111,7 @@ impl Gpu {
         self.adapter.get_info().device_type == wgpu::DeviceType::Cpu
     }
 
-    /// Whether buffers that are drawn from can be written to directly.
+    /// Whether buffers that are drawn from can be mapped: drawing on the CPU, their memory is the CPU's.
     pub(crate) fn shares_memory(&self) -> bool {
         self.device.features().contains(wgpu::Features::MAPPABLE_PRIMARY_BUFFERS)
     }
