@@ -79,12 +79,11 @@ impl Geometries {
             return Ok(0);
         }
         let finest;
-        let triangles = match levels {
-            Some(levels) => levels,
-            None => {
-                finest = if form.ordered { Triangles::in_order(mesh) } else { Triangles::in_patches(mesh) };
-                &finest
-            }
+        let triangles = if let Some(levels) = levels {
+            levels
+        } else {
+            finest = if form.ordered { Triangles::in_order(mesh) } else { Triangles::in_patches(mesh) };
+            &finest
         };
         let (geometry, bytes) = match there {
             // The vertices of levels are those of the mesh.
