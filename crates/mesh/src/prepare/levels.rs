@@ -46,9 +46,9 @@ const WORTHWHILE: f64 = 0.93;
 /// vertex after the other goes, and candidates cost little to measure and to keep.
 fn kept_part(triangles: usize) -> f64 {
     match triangles {
-        ..=512 => 0.97,
-        ..=4096 => 0.85,
-        ..=32_768 => 0.7,
+        0..=512 => 0.97,
+        513..=4096 => 0.85,
+        4097..=32_768 => 0.7,
         _ => 0.5,
     }
 }
