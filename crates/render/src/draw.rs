@@ -1,7 +1,7 @@
 //! Draw and Deliver: the pass is encoded, submitted and presented.
 
 use crate::batch::Batches;
-use crate::draws::Commands;
+use crate::draws::GroupCommands;
 use crate::geometry::Geometries;
 use crate::gpu::Gpu;
 use crate::pipeline::Stage;
@@ -106,16 +106,18 @@ fn record(
         }
         pass.set_index_buffer(geometry.indices.slice(..), geometry.index_format);
         match (batches.draws.commands(group), buffers.draws()) {
-            (Commands::Each(draws), _) => {
+            (GroupCommands::Each(draws), _) => {
                 for draw in draws {
                     let indices = draw.first_index..draw.first_index + draw.index_count;
                     let instances = draw.first_instance..draw.first_instance + draw.instance_count;
                     pass.draw_indexed(indices, draw.base_vertex, instances);
                 }
             }
-            (Commands::Multi { offset, count }, Some(draws)) => pass.multi_draw_indexed_indirect(draws, offset, count),
+            (GroupCommands::Multi { offset, count }, Some(draws)) => {
+                pass.multi_draw_indexed_indirect(draws, offset, count)
+            }
             // Uploaded before.
-            (Commands::Multi { .. }, None) => {}
+            (GroupCommands::Multi { .. }, None) => {}
         }
     }
 }
