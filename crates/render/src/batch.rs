@@ -224,7 +224,7 @@ impl Batches {
         let eye = equations::View::in_eye_space(shared.viewer);
         let surface = reflecting.surface(key);
         self.lists.select(shared.lights, &patch, &surface, &eye, shared.frame.encoding());
-        if shared.software
+        let key = if shared.software
             && !counted
             && let Some(bound) = self.lists.bind(shared.lights, key.takes_powers())
         {
@@ -233,8 +233,12 @@ impl Batches {
                 self.lists.count_bound(bound, &surface);
                 return (counted, bound.start, RecordLists::default());
             }
-        }
-        (pipelines.admit(*key), 0, self.lists.list(shared.lights, &surface))
+            // One with lists that is not generic either would take up room and time of those that are to draw.
+            key.generic()
+        } else {
+            pipelines.admit(*key)
+        };
+        (key, 0, self.lists.list(shared.lights, &surface))
     }
 
     fn add_run(&mut self, object: &Object, Run { key, lights, record, indices }: Run) {
