@@ -52,9 +52,9 @@ fn begin<'a>(
     timestamp_writes: Option<wgpu::RenderPassTimestampWrites<'_>>,
 ) -> wgpu::RenderPass<'a> {
     let LinearRgba { red, green, blue, .. } = camera.background;
-    let [r, g, b] = [red, green, blue].map(|linear| match frame.encoded {
-        true => Encoding::Srgb.encode(f64::from(linear).clamp(0.0, 1.0)),
-        false => f64::from(linear),
+    let [r, g, b] = [red, green, blue].map(|linear| {
+        let linear = f64::from(linear);
+        if frame.encoded { Encoding::Srgb.encode(linear.clamp(0.0, 1.0)) } else { linear }
     });
     let clear = wgpu::Color { r, g, b, a: 1.0 };
     let (view, resolve_target, store) = match &attachments.multisampled {
@@ -114,7 +114,7 @@ fn record(
                 }
             }
             (GroupCommands::Multi { offset, count }, Some(draws)) => {
-                pass.multi_draw_indexed_indirect(draws, offset, count)
+                pass.multi_draw_indexed_indirect(draws, offset, count);
             }
             // Uploaded before.
             (GroupCommands::Multi { .. }, None) => {}
