@@ -190,4 +190,33 @@ fn headless_pictures_wait_unless_they_are_told_not_to() {
         stage.draw(&scene);
         assert_eq!((counts(&stage), stage.report().lights_assigned), ((built, 0, 1), 0));
     }
+    stage.world().insert_resource(Compile::Beside);
+    let mut scene = ball();
+    scene.things[0].material.shininess = 32.0;
+    stage.draw(&scene);
+    // It waited for the generic one alone, which reads lists.
+    assert_eq!(counts(&stage), (3 + 1, 1, 1));
+    assert!(stage.report().lights_assigned > 0);
+}
+
+#[test]
+fn of_many_lights_only_what_is_going_to_draw_is_built() {
+    let mut scene = Scene::in_eye_space().with(Thing::square(Vec3::NEG_Z * 2.0, Vec3::Z, 1.0));
+    for i in 0..12_u8 {
+        scene = scene.lit(Lamp::point(point_light(), Vec3::new(0.1 * f32::from(i), 0.2, 0.0)));
+    }
+    let mut stage = stage();
+    stage.draw(&scene);
+    assert_eq!(counts(&stage), (1, 0, 1));
+    stage.compile();
+    assert_eq!(counts(&stage), (1 + RELATIVES, 0, 0));
+    scene.things[0].material.shininess = 32.0;
+    let mut failures = Failures::default();
+    failures.draw("generic", &mut stage, &scene, FLOAT);
+    failures.finish();
+    // On a software adapter that is the one with its lights at fixed places, and none of its own that reads lists.
+    assert_eq!(counts(&stage), (1 + RELATIVES, 1, 0));
+    stage.compile();
+    assert_identical("its own", &Stage::new(24, 24).draw(&scene), &stage.float());
+    assert_eq!(counts(&stage), (1 + RELATIVES + 1, 0, 0));
 }

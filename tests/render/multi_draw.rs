@@ -17,7 +17,9 @@ fn set_multi_draw(stage: &mut Stage, wanted: bool) -> bool {
 fn set_multi_draw_from(stage: &mut Stage, from: Option<u32>) -> bool {
     let mut gpu = stage.world().resource_mut::<Gpu>();
     gpu.set_multi_draw(from);
-    let can = gpu.device.features().contains(wgpu::Features::INDIRECT_FIRST_INSTANCE);
+    let flags = gpu.adapter.get_downlevel_capabilities().flags;
+    let can = gpu.device.features().contains(wgpu::Features::INDIRECT_FIRST_INSTANCE)
+        && flags.contains(wgpu::DownlevelFlags::INDIRECT_EXECUTION);
     assert_eq!(gpu.multi_draw(), from.filter(|_| can));
     gpu.multi_draw().is_some()
 }

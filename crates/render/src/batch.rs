@@ -86,16 +86,8 @@ pub(crate) fn batch(
     let batches = &mut *batches;
     batches.begin(&lights, gpu.multi_draw());
     let (Some(camera), Some(frame)) = (&view.camera, &target.frame) else { return };
-    let shared = Shared {
-        lights: &lights,
-        allowed: &allowed,
-        format: frame.format,
-        encoded: frame.encoded,
-        encoding: frame.encoding(),
-        samples: frame.samples.count(),
-        viewer: camera.viewer,
-        software: gpu.is_software(),
-    };
+    let shared =
+        Shared { lights: &lights, allowed: &allowed, frame, viewer: camera.viewer, software: gpu.is_software() };
     for &entity in &visible.0 {
         let Ok((mesh, material, back, reflectance, faces, blend, model_view, normal_matrix, chosen, name)) =
             objects.get(entity)
@@ -231,8 +223,8 @@ impl Batches {
         let patch = patch.in_eye_space(model_view, normal_matrix, reflecting.faces);
         let eye = equations::View::in_eye_space(shared.viewer);
         let surface = reflecting.surface(key);
-        self.lists.select(shared.lights, &patch, &surface, &eye, shared.encoding);
-        if shared.software
+        self.lists.select(shared.lights, &patch, &surface, &eye, shared.frame.encoding());
+        let key = if shared.software
             && !counted
             && let Some(bound) = self.lists.bind(shared.lights, key.takes_powers())
         {
@@ -241,8 +233,12 @@ impl Batches {
                 self.lists.count_bound(bound, &surface);
                 return (counted, bound.start, RecordLists::default());
             }
-        }
-        (pipelines.admit(*key), 0, self.lists.list(shared.lights, &surface))
+            // One with lists that is not generic either would take up room and time of those that are to draw.
+            key.generic()
+        } else {
+            pipelines.admit(*key)
+        };
+        (key, 0, self.lists.list(shared.lights, &surface))
     }
 
     fn add_run(&mut self, object: &Object, Run { key, lights, record, indices }: Run) {

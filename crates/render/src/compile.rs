@@ -21,7 +21,8 @@ pub enum Compile {
     /// Beside the frames, but for those of the first frame that draws anything. Until a specialised pipeline is there, the
     /// generic one draws in its place: the same picture but for rounding, more slowly. Generic ones are built ahead for
     /// what is seen, under every shading and reflectance; a frame waits for one only where it needs one that was not
-    /// foreseen or is not ready ([`FrameReport::pipelines_awaited`](crate::FrameReport::pipelines_awaited)).
+    /// foreseen or is not ready ([`FrameReport::pipelines_awaited`](crate::FrameReport::pipelines_awaited)). Where there is
+    /// no thread that builds them, or none any more, this is as [`Compile::Now`].
     Beside,
 }
 
@@ -52,20 +53,32 @@ type Built = (PipelineKey, Result<wgpu::RenderPipeline, String>);
 impl Builder {
     /// `None` where the system gives no thread.
     pub(crate) fn start(gpu: &Gpu, shaders: &Arc<Shaders>) -> Option<Self> {
+        let (gpu, shaders) = (gpu.clone(), Arc::clone(shaders));
+        Self::of(move |key| build(&gpu, &shaders, key))
+    }
+
+    /// A thread that builds in this way; `None` where the system gives none.
+    pub(crate) fn of(
+        build: impl Fn(PipelineKey) -> Result<wgpu::RenderPipeline, String> + Send + 'static,
+    ) -> Option<Self> {
         let (wanted, wishes) = channel();
         let (sender, built) = channel();
-        let (gpu, shaders) = (gpu.clone(), Arc::clone(shaders));
         let work = move || {
             // Ends when the builder is gone.
             for key in wishes {
                 log::debug!("building pipeline {key} beside the frames");
-                if sender.send((key, build(&gpu, &shaders, key))).is_err() {
+                if sender.send((key, build(key))).is_err() {
                     break;
                 }
             }
         };
         let thread = std::thread::Builder::new().name("pipelines".into()).spawn(work).ok()?;
         Some(Self { ends: Some(Ends { wanted, built: Mutex::new(built) }), thread: Some(thread) })
+    }
+
+    /// Whether the thread goes on building. One that has panicked does not.
+    pub(crate) fn is_alive(&self) -> bool {
+        self.thread.as_ref().is_some_and(|thread| !thread.is_finished())
     }
 
     /// Whether there is a thread that will build it.

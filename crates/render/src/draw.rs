@@ -1,7 +1,7 @@
 //! Draw and Deliver: the pass is encoded, submitted and presented.
 
 use crate::batch::Batches;
-use crate::draws::Commands;
+use crate::draws::GroupCommands;
 use crate::geometry::Geometries;
 use crate::gpu::Gpu;
 use crate::pipeline::Stage;
@@ -52,11 +52,10 @@ fn begin<'a>(
     timestamp_writes: Option<wgpu::RenderPassTimestampWrites<'_>>,
 ) -> wgpu::RenderPass<'a> {
     let LinearRgba { red, green, blue, .. } = camera.background;
-    let written = |linear: f32| {
+    let [r, g, b] = [red, green, blue].map(|linear| {
         let linear = f64::from(linear);
         if frame.encoded { Encoding::Srgb.encode(linear.clamp(0.0, 1.0)) } else { linear }
-    };
-    let [r, g, b] = [red, green, blue].map(written);
+    });
     let clear = wgpu::Color { r, g, b, a: 1.0 };
     let (view, resolve_target, store) = match &attachments.multisampled {
         Some(samples) => (samples, Some(&frame.view), wgpu::StoreOp::Discard),
@@ -107,16 +106,18 @@ fn record(
         }
         pass.set_index_buffer(geometry.indices.slice(..), geometry.index_format);
         match (batches.draws.commands(group), buffers.draws()) {
-            (Commands::Each(draws), _) => {
+            (GroupCommands::Each(draws), _) => {
                 for draw in draws {
                     let indices = draw.first_index..draw.first_index + draw.index_count;
                     let instances = draw.first_instance..draw.first_instance + draw.instance_count;
                     pass.draw_indexed(indices, draw.base_vertex, instances);
                 }
             }
-            (Commands::Multi { offset, count }, Some(draws)) => pass.multi_draw_indexed_indirect(draws, offset, count),
+            (GroupCommands::Multi { offset, count }, Some(draws)) => {
+                pass.multi_draw_indexed_indirect(draws, offset, count);
+            }
             // Uploaded before.
-            (Commands::Multi { .. }, None) => {}
+            (GroupCommands::Multi { .. }, None) => {}
         }
     }
 }

@@ -36,7 +36,7 @@ pub(crate) struct Draws {
 }
 
 /// How a group is drawn.
-pub(crate) enum Commands<'a> {
+pub(crate) enum GroupCommands<'a> {
     /// Draw by draw.
     Each(&'a [DrawIndexedIndirectArgs]),
     /// By one command that reads so many draws, from this byte of their buffer on.
@@ -78,28 +78,28 @@ impl Draws {
         &self.groups
     }
 
-    pub(crate) fn commands(&self, group: &DrawGroup) -> Commands<'_> {
+    pub(crate) fn commands(&self, group: &DrawGroup) -> GroupCommands<'_> {
         let Range { start, end } = group.draws;
         if self.is_one_command(|| end - start) {
             let offset = (start * size_of::<DrawIndexedIndirectArgs>()) as u64;
-            Commands::Multi { offset, count: (end - start) as u32 }
+            GroupCommands::Multi { offset, count: (end - start) as u32 }
         } else {
-            Commands::Each(self.each.get(start..end).unwrap_or_default())
+            GroupCommands::Each(self.each.get(start..end).unwrap_or_default())
         }
     }
 
     /// How many commands draw it all.
     pub(crate) fn command_count(&self) -> usize {
         let count = |group| match self.commands(group) {
-            Commands::Each(draws) => draws.len(),
-            Commands::Multi { .. } => 1,
+            GroupCommands::Each(draws) => draws.len(),
+            GroupCommands::Multi { .. } => 1,
         };
         self.groups.iter().map(count).sum()
     }
 
     /// What the buffer has to hold that commands read; empty where none does.
     pub(crate) fn read(&self) -> &[DrawIndexedIndirectArgs] {
-        let is_read = self.groups.iter().any(|group| matches!(self.commands(group), Commands::Multi { .. }));
+        let is_read = self.groups.iter().any(|group| matches!(self.commands(group), GroupCommands::Multi { .. }));
         if is_read { &self.each } else { &[] }
     }
 

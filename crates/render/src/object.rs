@@ -6,9 +6,10 @@ use crate::lists::Surface;
 use crate::pipeline::{Cull, PipelineKey, Stage};
 use crate::records::{DrawRecord, MaterialRecord, exponent};
 use crate::shader::{Highlights, Lists};
+use crate::target::Frame;
 use crate::terms::{Chosen, TermMask};
 use bevy_math::Vec3;
-use halfway_lighting::{Encoding, Faces, InvalidValue, Material, Reflectance, Viewer};
+use halfway_lighting::{Faces, InvalidValue, Material, Reflectance, Viewer};
 
 /// The components that say how an object reflects light.
 #[derive(Clone, Copy, Debug)]
@@ -37,16 +38,11 @@ pub(crate) struct Look {
 }
 
 /// What every object's pipeline takes from the frame.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub(crate) struct Shared<'a> {
     pub(crate) lights: &'a Lights,
     pub(crate) allowed: &'a LevelsOfDetail,
-    pub(crate) format: wgpu::TextureFormat,
-    /// The shader writes the sRGB curve.
-    pub(crate) encoded: bool,
-    /// What the picture's bytes hold; `None` for floating point.
-    pub(crate) encoding: Option<Encoding>,
-    pub(crate) samples: u32,
+    pub(crate) frame: &'a Frame,
     pub(crate) viewer: Viewer,
     /// Whether the adapter is a software one.
     pub(crate) software: bool,
@@ -113,7 +109,7 @@ impl Reflecting<'_> {
 
     /// The pipeline. A term that the material or the lights leave black is not in it.
     pub(crate) fn key(&self, look: &Look, drawn: Drawn, shared: Shared) -> PipelineKey {
-        let Shared { lights, format, encoded, samples, viewer, .. } = shared;
+        let Shared { lights, frame, viewer, .. } = shared;
         let [reflects_ambient, reflects_diffuse, reflects_specular] = look.reflects;
         let lit = !lights.records.is_empty();
         let attenuated_ambient = lights.attenuated_ambient && reflects_ambient;
@@ -147,9 +143,9 @@ impl Reflecting<'_> {
             geometric_fallback: drawn.opposite_normals && !fragment.is_empty(),
             cull: if self.faces == Faces::Both { Cull::None } else { Cull::Back },
             clockwise: drawn.mirrored != (self.faces == Faces::Back),
-            samples,
-            format,
-            encoded,
+            samples: frame.samples.count(),
+            format: frame.format,
+            encoded: frame.encoded,
         }
     }
 }

@@ -39,7 +39,7 @@ pub(crate) struct Pipelines {
     /// What was asked last in this frame, and the answer.
     last: Option<(PipelineKey, PipelineKey)>,
     compile: Option<Compile>,
-    builder: Option<Builder>,
+    background: Background,
     /// Those that a frame has waited for, and whose relatives have not been asked for yet.
     unforeseen: Vec<PipelineKey>,
     /// What went wrong beside the frames, until it is reported.
@@ -48,6 +48,16 @@ pub(crate) struct Pipelines {
     built: u32,
     /// Since the last report.
     awaited: u32,
+}
+
+/// What builds beside the frames.
+#[derive(Default)]
+enum Background {
+    #[default]
+    NotYet,
+    Running(Builder),
+    /// The system gives no thread, or the thread has died. It is not tried again.
+    Unavailable,
 }
 
 #[derive(Default)]
@@ -75,8 +85,24 @@ impl Pipelines {
         (self.full, self.last) = (false, None);
         std::mem::swap(&mut self.refused, &mut self.refused_before);
         self.refused.clear();
-        self.compile = Some(compile);
-        for (key, result) in self.builder.iter().flat_map(Builder::built) {
+        self.take_in();
+        if compile == Compile::Beside && self.built > 0 && matches!(self.background, Background::NotYet) {
+            self.background = Builder::start(gpu, &self.shaders).map_or(Background::Unavailable, Background::Running);
+        }
+        self.compile = Some(if matches!(self.background, Background::Unavailable) { Compile::Now } else { compile });
+        if !self.waits() {
+            for key in std::mem::take(&mut self.unforeseen).into_iter().flat_map(PipelineKey::relatives) {
+                self.ask(key);
+            }
+        }
+    }
+
+    /// Takes in what has been built beside the frames. What a thread that has died leaves unbuilt is for the frames.
+    fn take_in(&mut self) {
+        let Background::Running(builder) = &self.background else { return };
+        // Before it is emptied: whatever a dead thread has built is in it by now.
+        let is_alive = builder.is_alive();
+        for (key, result) in builder.built() {
             // A frame may have built it rather than wait for its turn, or it may have been given up.
             if let Some(variant) = self.variants.get_mut(&key).filter(|variant| matches!(variant.state, State::Asked)) {
                 variant.state = State::new(key, result);
@@ -86,17 +112,20 @@ impl Pipelines {
                 }
             }
         }
-        if compile == Compile::Beside && self.built > 0 {
-            self.builder = self.builder.take().or_else(|| Builder::start(gpu, &self.shaders));
-            for key in std::mem::take(&mut self.unforeseen).into_iter().flat_map(PipelineKey::relatives) {
-                self.ask(key);
+        if !is_alive {
+            self.background = Background::Unavailable;
+            for variant in self.variants.values_mut().filter(|variant| matches!(variant.state, State::Asked)) {
+                variant.state = State::Admitted;
             }
+            let reason =
+                "the thread that builds pipelines beside the frames has died; from now on frames wait for them";
+            self.failures.push(RenderError::Device(reason.into()));
         }
     }
 
     /// Whether the frame waits for the pipelines that it asks for.
     fn waits(&self) -> bool {
-        self.compile != Some(Compile::Beside) || self.builder.is_none()
+        self.compile != Some(Compile::Beside) || !matches!(self.background, Background::Running(_))
     }
 
     /// The layout of the bindings that such pipelines need; `None` before the first is built.
@@ -104,15 +133,18 @@ impl Pipelines {
         self.shaders.get(text).map(|shader| &shader.bindings)
     }
 
-    /// The key itself, or the generic one that draws the same: where there is no room, and until what the key needs is there.
+    /// The key itself, or the generic one that draws the same: where there is no room, where what the key needs cannot be
+    /// built, and until it is there.
     pub(crate) fn admit(&mut self, key: PipelineKey) -> PipelineKey {
         if let Some((asked, answer)) = self.last
             && asked == key
         {
             return answer;
         }
+        // Both passes ask for room, whether or not the first gets any, so that both get it in the same frame.
         let special = key.is_special()
-            && key.passes().all(|pass| self.has_room(pass))
+            && key.passes().filter(|&pass| !self.has_room(pass)).count() == 0
+            && !key.passes().any(|pass| self.has_failed(pass))
             && (self.waits() || key.passes().filter(|&pass| !self.is_there(pass)).count() == 0);
         let answer = if special { key } else { key.generic() };
         self.last = Some((key, answer));
@@ -122,7 +154,7 @@ impl Pipelines {
     /// Whether instances can look up their records in such a draw. If not, each record is a draw.
     pub(crate) fn looks_up(&mut self, key: PipelineKey) -> bool {
         if self.compile != Some(Compile::Beside) {
-            return true;
+            return !self.has_failed(key.looking_up());
         }
         self.ask(key.generic().looking_up());
         self.is_there(key.looking_up())
@@ -174,11 +206,16 @@ impl Pipelines {
 
     /// Has it built beside the frames, unless it was asked for before.
     fn ask(&mut self, key: PipelineKey) {
-        let Some(builder) = &self.builder else { return };
+        let Background::Running(builder) = &self.background else { return };
         let variant = self.variants.entry(key).or_default();
         if matches!(variant.state, State::Admitted) && builder.ask(key) {
             variant.state = State::Asked;
         }
+    }
+
+    /// Whether it is known that the pipeline cannot be built.
+    fn has_failed(&self, key: PipelineKey) -> bool {
+        matches!(self.variants.get(&key), Some(Variant { state: State::Failed(_), .. }))
     }
 
     pub(crate) fn get(&self, key: &PipelineKey) -> Option<&wgpu::RenderPipeline> {

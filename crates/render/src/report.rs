@@ -6,8 +6,9 @@ use bevy_ecs::prelude::Resource;
 /// Counters and errors of the newest frame. Counts are exact, so they can be tested.
 #[derive(Resource, Clone, Debug, Default, PartialEq)]
 pub struct FrameReport {
-    /// Everything that kept the frame from being drawn as asked, in the order found. What an error
-    /// names is left out of the picture; nothing is left out without one.
+    /// Everything that kept the frame from being drawn as asked, in the order found. What an error names is left out of
+    /// the picture, and nothing is left out without one. What goes wrong beside the frames is told here as well, once, though
+    /// nothing is left out for it: a pipeline that a frame can do without, or the end of the thread that builds them.
     pub errors: Vec<RenderError>,
     /// Objects with a mesh.
     pub objects: u32,
@@ -39,13 +40,15 @@ pub struct FrameReport {
     pub matrices: u32,
     /// Distinct materials (front and back together) in the picture.
     pub materials: u32,
-    /// Bytes sent to the GPU: meshes, instances, materials and lights. 0 for a frame equal to the last.
+    /// Bytes sent to the GPU: meshes, the view, instances, materials, lights and their lists, and draws that a multi-draw
+    /// reads. 0 for a frame equal to the last.
     pub bytes_uploaded: u64,
     /// Pipelines built since the start; each is one variant of the shader.
     pub pipelines: u32,
     /// Pipelines that are there now: those built, less the specialised ones that were given up.
     pub pipelines_live: u32,
-    /// Pipelines that are still being built beside the frames; generic ones draw in their place.
+    /// Pipelines that are still being built beside the frames: specialised ones, in whose place generic ones draw, and
+    /// generic ones that are built ahead.
     pub pipelines_pending: u32,
     /// Pipelines that this frame waited for; under [`Compile::Beside`](crate::Compile::Beside) never a specialised one
     /// after the first frame.
