@@ -203,10 +203,13 @@ fn meshes() -> [(&'static str, Mesh, f32); 4] {
     ]
 }
 
-/// The default's tolerance of shading is seldom met by a level of what is curved here more and there less, so that one
-/// sixteen times as large is tried as well.
-const LEVELS: [LevelsOfDetail; 2] =
-    [LevelsOfDetail { pixels: 0.5, shading: 1.0 / 64.0 }, LevelsOfDetail { pixels: 0.5, shading: 1.0 / 4.0 }];
+/// A stricter tolerance of shading than the default, the default, and one that levels meet of what is curved here more and
+/// there less.
+const LEVELS: [LevelsOfDetail; 3] = [
+    LevelsOfDetail { pixels: 0.5, shading: 1.0 / 64.0 },
+    LevelsOfDetail { pixels: 0.5, shading: 0.1 },
+    LevelsOfDetail { pixels: 0.5, shading: 1.0 / 4.0 },
+];
 
 /// What the oracle shows near a pixel.
 struct Near {

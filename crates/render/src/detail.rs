@@ -42,8 +42,8 @@ const SLICES: u8 = 8;
 pub struct LevelsOfDetail {
     /// How far a point may move, in pixels. Default 0.5; 0 draws every mesh as it is.
     pub pixels: f32,
-    /// How much a term may change, as a part of its largest value. Default 0.1; what is measured is
-    /// about an eighth of that.
+    /// How much a term may change, as a part of its largest value. Default 0.1; of that no more than
+    /// an eighth is measured under Gouraud shading and no more than a half under Phong's.
     pub shading: f32,
 }
 
