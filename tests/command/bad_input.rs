@@ -1,0 +1,111 @@
+//! What a user may hand to the command, and what has to be in the answer.
+
+use crate::command::{asset, folder, halfway};
+use std::fs;
+use std::process::Command;
+
+#[cfg(unix)]
+#[test]
+fn a_reader_that_leaves_is_no_panic() {
+    let (reader, writer) = std::io::pipe().expect("a pipe can be made");
+    drop(reader);
+    let mut command = Command::new(env!("CARGO_BIN_EXE_halfway"));
+    let child = command.arg("schema").stdout(writer).stderr(std::process::Stdio::piped()).spawn();
+    let output = child.and_then(std::process::Child::wait_with_output).expect("the command was built with this test");
+    assert_eq!(String::from_utf8_lossy(&output.stderr), "");
+    assert_eq!(std::os::unix::process::ExitStatusExt::signal(&output.status), Some(libc::SIGPIPE));
+}
+
+#[test]
+fn bad_input_is_named_and_ends_with_exit_code_2() {
+    let folder = folder("bad");
+    let glb = fs::read(asset("assets/lantern.glb")).expect("the asset is there");
+    let write = |name: &str, bytes: &[u8]| fs::write(folder.join(name), bytes).expect("the folder can be written");
+    write("truncated.glb", &glb[..glb.len() / 2]);
+    write("index.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n");
+    write("index.smf", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 0\n");
+    write("fine.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    write("nan.smf", b"v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n");
+    write("empty.obj", b"");
+    write("text.png", b"no picture");
+    for (name, side) in [("2.png", 2), ("3.png", 3)] {
+        image::RgbImage::new(side, 3).save(folder.join(name)).expect("the folder can be written");
+    }
+    write("absurd.gltf", ABSURD_COUNT.as_bytes());
+    for (name, text) in SCENES {
+        write(name, text.as_bytes());
+    }
+    let cases: &[(&[&str], &[&str])] = &[
+        (&["render", "missing.obj", "-o", "a.png"], &["missing.obj"]),
+        (&["info", "missing.obj"], &["missing.obj"]),
+        (&["render", "missing.json", "-o", "a.png"], &["missing.json"]),
+        (&["render", "truncated.glb", "-o", "a.png"], &["truncated.glb"]),
+        (&["render", "index.obj", "-o", "a.png"], &["index.obj:4"]),
+        (&["render", "index.smf", "-o", "a.png"], &["index.smf:4"]),
+        (&["render", "nan.smf", "-o", "a.png"], &["nan.smf:2"]),
+        (&["render", "empty.obj", "-o", "a.png"], &["empty.obj"]),
+        (&["info", "absurd.gltf"], &["absurd.gltf"]),
+        (&["render", "light.json", "-o", "a.png"], &["light.json:2:", "lights[0].attenuation"]),
+        (&["render", "size.json", "-o", "a.png"], &["size.json:2:", "size[0]"]),
+        (&["render", "sphere.json", "-o", "a.png"], &["sphere.json:2:", "segments"]),
+        (&["render", "unknown.json", "-o", "a.png"], &["unknown.json:3:", "shadig"]),
+        (&["render", "auto.json", "-o", "a.png"], &["shading.auto", "not yet"]),
+        (&["render", "tone.json", "-o", "a.png"], &["intensity", "not yet"]),
+        (&["render", "model.json", "-o", "a.png"], &["model.json", "objects[0].mesh.path", "nowhere.obj"]),
+        (&["render", "fine.json", "-o", "a.bmp"], &["a.bmp", ".png or .exr"]),
+        (&["render", "fine.json", "-o", "a.png", "--bits", "12"], &["a.png", "8 or 16"]),
+        (&["render", "fine.json", "-o", "a.png", "--size", "0x9"], &["0x9"]),
+        (&["render", "fine.json", "-o", "a.png", "--size", "99999x9"], &["99999x9"]),
+        (&["render", "fine.json", "-o", "a.png", "--frames", "3..3"], &["A below B"]),
+        (&["render", "fine.json", "-o", "a.png", "--shading", "cel"], &["cel", "gouraud"]),
+        (&["render", "fine.json", "-o", "fine.json/a.png"], &["fine.json/a.png"]),
+        (&["render", "fine.json", "-o", "a.png", "--surface"], &["--reference"]),
+        (&["render", "fine.json", "-o", "a.png", "--reference", "--supersample", "0"], &["--supersample", "1..=16"]),
+        (&["render", "missing.obj", "-o", "a.png", "--reference"], &["missing.obj"]),
+        (&["compare", "missing.png", "2.png"], &["missing.png"]),
+        (&["compare", "text.png", "2.png"], &["text.png", "expected a PNG or EXR"]),
+        (&["compare", "2.png", "3.png"], &["2.png and 3.png", "2 × 3", "3 × 3"]),
+        (&["compare", "2.png", "2.png", "--background", "1,2"], &["1,2", "three linear intensities"]),
+        (&["compare", "2.png", "2.png", "-o", "a.bmp"], &["a.bmp", ".png or .exr"]),
+        (&["verify", "missing.json"], &["missing.json"]),
+        (&["convert", "index.obj", "b.glb"], &["index.obj:4"]),
+        (&["convert", "fine.obj", "b.glb", "--weld=-1"], &["--weld", "a finite length, not below 0"]),
+        (&["convert", "fine.obj", "b.glb", "--max-error", "inf"], &["--max-error", "a finite length"]),
+        (&["convert", "fine.obj", "b.glb", "--simplify", "few"], &["--simplify", "few"]),
+        (&["convert", "fine.obj", "b.glb", "--subdivide", "4"], &["--subdivide", "midpoint=N or loop=N"]),
+        (&["convert", "fine.obj", "b.glb", "--subdivide", "loop=40"], &["fine.obj", "after 40 subdivisions"]),
+        (&["convert", "fine.obj", "b.glb", "--normals", "creased=181"], &["--normals", "from 0 to 180"]),
+        (&["convert", "fine.obj", "b.glb", "--weld=9"], &["fine.obj", "no triangle is left"]),
+        (&["paint"], &["paint"]),
+    ];
+    for (arguments, expected) in cases {
+        let output = halfway(&folder, arguments);
+        let error = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {error}");
+        for part in *expected {
+            assert!(error.contains(part), "{arguments:?}: {part} is missing in: {error}");
+        }
+        assert!(!error.contains("panicked"), "{arguments:?}: {error}");
+        assert!(!folder.join("a.png").exists(), "{arguments:?} left a picture");
+        assert!(!folder.join("b.glb").exists(), "{arguments:?} left a model");
+    }
+}
+
+const SCENES: &[(&str, &str)] = &[
+    ("fine.json", r#"{"objects": [{"mesh": {"teapot": {"divisions": 2}}}]}"#),
+    ("light.json", "{\n\"lights\": [{\"kind\": \"point\", \"attenuation\": [0, 0, -1]}]}"),
+    ("size.json", "{\n\"size\": [0, 4]}"),
+    ("sphere.json", "{\n\"objects\": [{\"mesh\": {\"uv_sphere\": {\"segments\": 4000000000}}}]}"),
+    ("unknown.json", "{\n\"objects\": [],\n\"shadig\": \"flat\"}"),
+    ("auto.json", r#"{"shading": {"auto": {"tolerance": 1.0}}}"#),
+    ("tone.json", r#"{"intensity": "aces"}"#),
+    ("model.json", r#"{"objects": [{"mesh": {"path": "nowhere.obj"}}]}"#),
+];
+
+/// Four thousand million vertices in twelve bytes.
+const ABSURD_COUNT: &str = r#"{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4000000000, "type": "VEC3",
+        "min": [0, 0, 0], "max": [1, 1, 1]}],
+    "bufferViews": [{"buffer": 0, "byteLength": 12}],
+    "buffers": [{"byteLength": 12, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAA"}]}"#;

@@ -1,0 +1,113 @@
+//! What `bench` times and prints.
+
+use crate::command::{asset, folder, halfway, succeeds};
+use std::path::Path;
+
+/// What `halfway` prints as JSON.
+fn json_of(folder: &Path, arguments: &[&str]) -> serde_json::Value {
+    let value: serde_json::Value = serde_json::from_str(&succeeds(folder, arguments)).expect("JSON");
+    for name in ["adapter", "backend", "driver", "driver_version", "halfway", "cpu"] {
+        assert!(value["machine"][name].as_str().is_some_and(|text| !text.is_empty()), "{name} in {value}");
+    }
+    value
+}
+
+/// The figures are positive, and the times lie in order.
+fn is_timed(row: &serde_json::Value) {
+    let spread = &row["frame_ms_spread"];
+    let times: Vec<_> = ["min", "lower_quartile", "median", "upper_quartile", "max"]
+        .into_iter()
+        .map(|name| spread[name].as_f64().unwrap_or(f64::NAN))
+        .collect();
+    assert!(times[0] > 0.0 && times.is_sorted(), "{row}");
+    assert_eq!(row["frame_ms"], spread["median"]);
+    // Two frames a round.
+    assert_eq!(spread["frames"], 2);
+}
+
+#[test]
+fn a_benchmark_prints_a_row_for_each_shading() {
+    let folder = folder("bench");
+    let value = json_of(&folder, &["bench", "s4", "--rounds", "1", "--cold", "--json"]);
+    assert_eq!(value["size"], serde_json::json!([256, 256]));
+    let rows = value["rows"].as_array().expect("rows");
+    let shadings: Vec<_> = rows.iter().map(|row| row["shading"].as_str().unwrap_or("")).collect();
+    assert_eq!(shadings, ["constant", "flat", "gouraud", "phong"]);
+    for row in rows {
+        is_timed(row);
+        for figure in ["ratio_to_constant", "first_frame_ms", "first_frame_cold_ms"] {
+            assert!(row[figure].as_f64().is_some_and(|value| value > 0.0), "{figure} in {row}");
+        }
+        // One sphere of 64 × 32 cells, and nothing moves; its levels are made, and it is drawn in patches.
+        let counts = [("triangles_in", 3968), ("bytes_uploaded", 0), ("pipelines", 1), ("levels_pending", 0)];
+        for (count, expected) in counts {
+            assert_eq!(row["report"][count], expected, "{count} in {row}");
+        }
+        assert_eq!((&row["report"]["lights_assigned"], &row["report"]["left_out"]), (&0.into(), &0.0.into()), "{row}");
+        let sets = row["cpu_ms"].as_object().expect("the time of each set");
+        assert!(sets.len() == 10 && sets.values().all(|ms| ms.as_f64().is_some_and(|ms| ms >= 0.0)), "{row}");
+        assert!(row["cpu_ms"]["total"].as_f64() <= row["frame_ms_spread"]["max"].as_f64(), "{row}");
+    }
+    let table = succeeds(&folder, &["bench", "s4", "--rounds", "1"]);
+    for text in
+        ["256 × 256 pixels", "detail: within 0.5 pixels", "driver: ", "App::update", "own CPU, ms", "| phong | "]
+    {
+        assert!(table.contains(text), "{text} is missing in:\n{table}");
+    }
+}
+
+#[test]
+fn levels_of_detail_are_for_whoever_asks() {
+    let folder = folder("levels");
+    let bench = |levels: &[&str]| {
+        json_of(&folder, &[&["bench", "s4", "--size", "16x16", "--rounds", "1", "--json"], levels].concat())
+    };
+    let drawn = |value: &serde_json::Value| -> Vec<u64> {
+        let rows = value["rows"].as_array().expect("rows");
+        rows.iter().map(|row| row["report"]["triangles"].as_u64().expect("a count")).collect()
+    };
+    let [off, default, coarse] = [&["--levels", "off"][..], &[], &["--levels", "4"]].map(bench);
+    assert_eq!((&off["levels"]["pixels"], &coarse["levels"]["pixels"]), (&0.0.into(), &4.0.into()));
+    let [off, default, coarse] = [off, default, coarse].map(|value| drawn(&value));
+    assert!(coarse.iter().zip(&default).all(|(coarse, default)| coarse <= default), "{default:?}, {coarse:?}");
+    assert!(default.iter().zip(&off).all(|(default, off)| default <= off), "{off:?}, {default:?}");
+    // In a constant colour only the outline counts, and on 16 pixels that is soon fine enough.
+    assert!(default[0] < off[0] / 2, "{off:?}, {default:?}");
+
+    let render = ["render", &asset("assets/teapot.obj"), "--size", "32x32", "-o", "turn.png"];
+    succeeds(&folder, &[&render[..], &["--frames", "0..3", "--levels", "2.5"]].concat());
+    succeeds(&folder, &[&render[..], &["--levels", "off"]].concat());
+    for bad in ["on", "-1", "inf", ""] {
+        let levels = format!("--levels={bad}");
+        let output = halfway(&folder, &[&render[..], &[&levels]].concat());
+        assert_eq!(output.status.code(), Some(2), "{bad}");
+        assert!(String::from_utf8_lossy(&output.stderr).contains("--levels <PIXELS|off>"), "{output:?}");
+    }
+}
+
+#[test]
+fn features_are_timed_beside_a_baseline() {
+    let folder = folder("bench_features");
+    let value = json_of(&folder, &["bench", "features", "--rounds", "1", "--json"]);
+    let rows = value["rows"].as_array().expect("rows");
+    let row = |name: &str| rows.iter().find(|row| row["feature"] == name).unwrap_or_else(|| panic!("no row {name}"));
+    let baseline = row("one directional light (the baseline)");
+    for stage in ["vertex", "fragment"] {
+        for row in rows {
+            is_timed(&row[stage]);
+        }
+        assert_eq!(baseline[stage]["ratio_to_baseline"], 1.0);
+        // As many as were asked for shine, and only what is compared by lights has a cost by lights.
+        for (name, lights) in [("no lights", 0), ("five point lights", 5), ("sixteen directional lights", 16)] {
+            assert_eq!(row(name)[stage]["report"]["lights"], lights, "{name}");
+        }
+        assert!(row("five spot lights")[stage]["light_ns"].is_f64());
+        assert!(row("no lights")[stage]["light_ns"].is_null() && row("four samples")[stage]["light_ns"].is_null());
+    }
+    // A plane of 360 × 360 cells that faces the camera: nothing is left out of it.
+    assert_eq!(baseline["vertex"]["report"]["triangles"], 360 * 360 * 2);
+    assert_eq!(baseline["vertex"]["report"]["patches_culled"], 0);
+    let output = halfway(&folder, &["bench", "features", "--size", "64x64"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("no option but --rounds and --json"));
+}

@@ -1,0 +1,120 @@
+//! The reference renderer, and what is judged by it.
+
+use crate::command::{asset, folder, halfway, succeeds};
+use std::fs;
+use std::process::Command;
+
+/// A backend that no system of this kind has, so that no adapter answers.
+const NO_BACKEND: &str = if cfg!(target_vendor = "apple") { "dx12" } else { "metal" };
+
+#[test]
+fn without_an_adapter_the_reference_renderer_draws_and_says_so() {
+    let folder = folder("no_adapter");
+    let teapot = asset("assets/teapot.obj");
+    let without_adapter = |arguments: &[&str]| {
+        Command::new(env!("CARGO_BIN_EXE_halfway"))
+            .args(arguments)
+            .current_dir(&folder)
+            .env("WGPU_BACKEND", NO_BACKEND)
+            .output()
+            .expect("the command was built with this test")
+    };
+    let output = without_adapter(&["render", &teapot, "--size", "64x48", "-o", "fallback.png"]);
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{error}");
+    assert!(error.contains("no graphics adapter: drawn by the reference renderer on the CPU"), "{error}");
+    let output = without_adapter(&["render", &teapot, "--size", "64x48", "-o", "reference.png", "--reference"]);
+    assert!(output.status.success() && output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
+    let [a, b] = ["fallback.png", "reference.png"].map(|name| fs::read(folder.join(name)).expect("it was drawn"));
+    assert_eq!(a, b);
+    for arguments in [&["adapters"][..], &["verify", &teapot]] {
+        assert_eq!(without_adapter(arguments).status.code(), Some(3), "{arguments:?}");
+    }
+}
+
+#[test]
+fn the_reference_renderer_writes_every_format() {
+    let folder = folder("reference");
+    let teapot = asset("assets/teapot.obj");
+    let draw = |more: &[&str]| {
+        succeeds(&folder, &[&["render", &teapot, "--size", "64x48", "--reference"], more].concat());
+    };
+    draw(&["-o", "a.png"]);
+    draw(&["-o", "b.png", "--bits", "16"]);
+    draw(&["-o", "c.exr"]);
+    draw(&["-o", "turn.png", "--frames", "0..3"]);
+    draw(&["-o", "frame-{}.png", "--frames", "1..2"]);
+    // The same picture, rounded to 8 bits, 16 bits and single precision.
+    for (a, b) in [("b.png", "a.png"), ("c.exr", "a.png"), ("turn.png", "a.png")] {
+        succeeds(&folder, &["compare", a, b, "--max", "0"]);
+    }
+    let turned = halfway(&folder, &["compare", "frame-0001.png", "a.png", "--max", "0"]);
+    assert_eq!(turned.status.code(), Some(4), "the camera turns");
+    draw(&["-o", "four.png", "--samples", "4"]);
+    draw(&["-o", "square.png", "--supersample", "2"]);
+    succeeds(&folder, &["compare", "four.png", "square.png", "--max", "0"]);
+    assert_eq!(halfway(&folder, &["compare", "four.png", "a.png", "--max", "0"]).status.code(), Some(4));
+}
+
+#[test]
+fn every_example_scene_is_what_the_reference_renderer_draws() {
+    let folder = folder("verify");
+    for scene in fs::read_dir(asset("examples/scenes")).expect("the example scenes are there") {
+        let path = scene.expect("the folder can be read").path();
+        let path = path.to_string_lossy();
+        // An 8-bit target rounds after each blended layer, and there are two of them on the table.
+        let max = if path.ends_with("moonlit_table.json") { "2" } else { "1" };
+        let common = ["verify", &path, "--size", "160x90", "--json", "-o", "difference.png", "--max", max];
+        let json: serde_json::Value = serde_json::from_str(&succeeds(&folder, &common)).expect("JSON");
+        assert_eq!(json["float"]["within"], true, "{path}: {json}");
+        assert!(json["bytes"]["counted"].as_f64().is_some_and(|share| share > 0.02), "{path}: {json}");
+        assert!(json["bytes"]["edges"].as_f64().is_some_and(|share| share < 0.02), "{path}: {json}");
+        let difference = image::open(folder.join("difference.png")).expect("the difference was drawn");
+        assert_eq!(difference.width(), 320, "160 pixels, each shown as 2 × 2");
+    }
+}
+
+#[test]
+fn what_is_compared_is_said_and_shown() {
+    let folder = folder("compare");
+    let grey = |name: &str, changed: [u8; 3]| {
+        let mut picture = image::RgbImage::from_pixel(8, 6, image::Rgb([16; 3]));
+        for x in 2..6 {
+            picture.put_pixel(x, 3, image::Rgb([120; 3]));
+        }
+        picture.put_pixel(4, 3, image::Rgb(changed));
+        picture.save(folder.join(name)).expect("the folder can be written");
+    };
+    grey("expected.png", [120; 3]);
+    grey("off.png", [120, 127, 120]);
+    grey("hole.png", [16; 3]);
+
+    let table = succeeds(&folder, &["compare", "off.png", "expected.png", "-o", "difference.png", "--max", "7"]);
+    for part in ["8 × 6 pixels", "4 pixels that both cover", "(4, 3) green: 127 instead of 120", "75.000 %", "ꟻLIP"]
+    {
+        assert!(table.contains(part), "{part} is missing in:\n{table}");
+    }
+    let difference = image::open(folder.join("difference.png")).expect("the difference was drawn").into_rgb8();
+    assert_eq!(difference.width(), 320, "8 pixels, each shown as 40 × 40");
+    assert_ne!(difference.get_pixel(4 * 40, 3 * 40), difference.get_pixel(3 * 40, 3 * 40));
+
+    let over = halfway(&folder, &["compare", "off.png", "expected.png", "--max", "6"]);
+    assert_eq!(over.status.code(), Some(4));
+    assert!(String::from_utf8_lossy(&over.stderr).contains("(4, 3) green"), "{over:?}");
+
+    let json = |arguments: &[&str]| -> serde_json::Value {
+        serde_json::from_str(&succeeds(&folder, &[&["compare"], arguments, &["--json"]].concat())).expect("JSON")
+    };
+    let hole = json(&["hole.png", "expected.png"]);
+    assert_eq!((&hole["coverage"]["only_expected"], &hole["counted"]), (&1.into(), &3.into()), "{hole}");
+    assert_eq!((&hole["steps"]["all"]["max"], &hole["anywhere"]["steps"]), (&0.0.into(), &104.into()), "{hole}");
+    // Where another colour is the background, the hole is a wrong pixel like any other.
+    let hole = json(&["hole.png", "expected.png", "--background", "1,1,1"]);
+    assert_eq!((&hole["counted"], &hole["steps"]["all"]["max"]), (&48.into(), &104.0.into()), "{hole}");
+    // 120 of 255 is 0.1878 by the curve of sRGB (by hand) and 0.4706 as it is.
+    for (raw, expected) in [(&[][..], 0.1878), (&["--raw"][..], 120.0 / 255.0)] {
+        let json = json(&[&["off.png", "expected.png"], raw].concat());
+        let worst = json["linear"]["green"]["worst"]["expected"].as_f64().expect("a number");
+        assert!((worst - expected).abs() < 1e-4, "{worst}");
+    }
+}
