@@ -1,20 +1,21 @@
 //! The plugin and the way of one frame.
 
-use crate::batch::{self, Batches};
-use crate::detail::LevelsOfDetail;
-use crate::draw;
-use crate::geometry::{self, Geometries};
-use crate::gpu::Gpu;
-use crate::lights::{self, Lights};
-use crate::matrices::{self, ModelView, NormalMatrix, Visible};
-use crate::pipelines::{self, Pipelines};
-use crate::report::FrameReport;
-use crate::target::{self, Headless, Target};
-use crate::terms::{self, Chosen};
-use crate::timing;
-use crate::upload::{self, Buffers};
-use crate::view::{self, View};
-use crate::workshop::Workshop;
+use crate::batch::batches::{self, Batches};
+use crate::batch::terms::{self, Chosen};
+use crate::device::gpu::Gpu;
+use crate::draw::pass;
+use crate::draw::upload::{self, Buffers};
+use crate::frame::report::FrameReport;
+use crate::frame::sets::RenderSet;
+use crate::frame::times;
+use crate::geometry::detail::LevelsOfDetail;
+use crate::geometry::meshes::{self, Geometries};
+use crate::geometry::workshop::Workshop;
+use crate::lights::gather::{self, Lights};
+use crate::pipelines::cache::{self, Pipelines};
+use crate::target::frame::{self, Headless, Target};
+use crate::view::camera::{self, View};
+use crate::view::matrices::{self, ModelView, NormalMatrix, Visible};
 use bevy_app::{App, Plugin, PostUpdate};
 use bevy_asset::{AssetApp, AssetEvent, AssetPlugin, Assets};
 use bevy_ecs::prelude::*;
@@ -22,59 +23,6 @@ use bevy_ecs::schedule::{InternedScheduleLabel, ScheduleLabel};
 use bevy_transform::TransformSystems;
 use halfway_lighting::{GlobalAmbient, Material};
 use halfway_mesh::{Mesh, Mesh3d};
-
-/// The steps of a frame, in order. Each says what holds after it.
-#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum RenderSet {
-    /// The adapter is open, the camera is validated, and [`View`] holds its matrices and projection.
-    View,
-    /// [`Visible`] holds the objects that the frustum sees.
-    Select,
-    /// [`ModelView`] and [`NormalMatrix`] of every visible object are current.
-    Matrices,
-    /// [`Lights`] holds the lights in eye space.
-    Illuminate,
-    /// [`Chosen`] holds each visible object's shading frequencies.
-    Choose,
-    /// Draws are sorted, and equal ones are instanced.
-    Batch,
-    /// What changed is on the GPU, and so are the pipelines of the draws.
-    Upload,
-    /// The passes are encoded and submitted.
-    Draw,
-    /// The picture is presented on the surface, or readable from the headless target.
-    Deliver,
-}
-
-impl RenderSet {
-    /// All of them, in the order of a frame.
-    pub const ALL: [Self; 9] = [
-        Self::View,
-        Self::Select,
-        Self::Matrices,
-        Self::Illuminate,
-        Self::Choose,
-        Self::Batch,
-        Self::Upload,
-        Self::Draw,
-        Self::Deliver,
-    ];
-
-    /// Its name as it is written in code.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::View => "View",
-            Self::Select => "Select",
-            Self::Matrices => "Matrices",
-            Self::Illuminate => "Illuminate",
-            Self::Choose => "Choose",
-            Self::Batch => "Batch",
-            Self::Upload => "Upload",
-            Self::Draw => "Draw",
-            Self::Deliver => "Deliver",
-        }
-    }
-}
 
 /// Draws every entity with a [`Mesh3d`] through the world's [`Camera`](halfway_lighting::Camera), once a run of its schedule.
 ///
@@ -119,7 +67,7 @@ impl Plugin for RenderPlugin {
             .register_required_components::<Mesh3d, NormalMatrix>()
             .register_required_components::<Mesh3d, Chosen>();
         self.add_systems(app);
-        timing::add_clocks(app, self.schedule);
+        times::add_clocks(app, self.schedule);
     }
 }
 
@@ -130,20 +78,20 @@ impl RenderPlugin {
         app.configure_sets(self.schedule, order.chain().after(TransformSystems::Propagate)).add_systems(
             self.schedule,
             (
-                (target::measure, view::update, open_gpu).chain().in_set(View),
+                (frame::measure, camera::update, open_gpu).chain().in_set(View),
                 matrices::select.in_set(Select),
                 matrices::compute.in_set(Matrices),
-                lights::gather.in_set(Illuminate),
+                gather::gather.in_set(Illuminate),
                 terms::choose.in_set(Choose),
             ),
         );
         let on_gpu = (
-            (target::prepare, geometry::forget_removed, geometry::upload_visible, pipelines::begin, batch::batch)
+            (frame::prepare, meshes::forget_removed, meshes::upload_visible, cache::begin, batches::batch)
                 .chain()
                 .in_set(Batch),
             (upload::build_pipelines, upload::upload).chain().in_set(Upload),
-            draw::draw.in_set(Draw),
-            draw::present.in_set(Deliver),
+            pass::draw.in_set(Draw),
+            pass::present.in_set(Deliver),
         );
         app.add_systems(self.schedule, on_gpu.run_if(resource_exists::<Gpu>));
     }

@@ -1,0 +1,95 @@
+//! What repeats among objects, numbered.
+
+use crate::batch::object::{Look, Reflecting, ReflectingBits};
+use crate::geometry::meshes::Form;
+use crate::pipelines::key::PipelineKey;
+use crate::shaders::records::{DrawRecord, RecordLists};
+use bevy_asset::AssetId;
+use bevy_math::Vec3;
+use bevy_platform::collections::HashMap;
+use halfway_mesh::Mesh;
+
+/// What repeats among objects, numbered, so that objects compare by small integers.
+#[derive(Debug, Default)]
+pub(crate) struct Table {
+    /// Kept from frame to frame, for lights with this ambient.
+    looks: HashMap<ReflectingBits, Look>,
+    ambient: Vec3,
+    /// The records without lists, each once.
+    materials: Vec<DrawRecord>,
+    material_numbers: HashMap<[u32; size_of::<DrawRecord>() / 4], u32>,
+    /// Of each material, what the frame has of it.
+    used: Vec<Used>,
+    numbers: HashMap<(u32, [u32; 16]), u32>,
+    calls: HashMap<Call, u32>,
+    pub(crate) called: Vec<Call>,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct Used {
+    somewhere: bool,
+    /// The number of the record without lists.
+    plain: Option<u32>,
+}
+
+/// Pipeline and geometry.
+pub(crate) type Call = (PipelineKey, AssetId<Mesh>, Form);
+
+impl Table {
+    /// How many looks are remembered.
+    const REMEMBERED: usize = 16_384;
+
+    pub(crate) fn begin(&mut self, ambient: Vec3) {
+        // Materials that change every frame must not pile up.
+        if self.ambient != ambient || self.looks.len() > Self::REMEMBERED {
+            self.looks.clear();
+            self.materials.clear();
+            self.material_numbers.clear();
+            self.ambient = ambient;
+        }
+        self.used.clear();
+        self.used.resize(self.materials.len(), Used::default());
+        self.numbers.clear();
+        self.calls.clear();
+        self.called.clear();
+    }
+
+    /// What an object looks like, remembered by its components' values.
+    pub(crate) fn look(&mut self, reflecting: &Reflecting) -> &Look {
+        let Self { looks, materials, material_numbers, used, ambient, .. } = self;
+        looks.entry(reflecting.bits()).or_insert_with(|| {
+            reflecting.look(*ambient, |record| {
+                *material_numbers.entry(bytemuck::cast(record)).or_insert_with(|| {
+                    materials.push(record);
+                    used.push(Used::default());
+                    materials.len() as u32 - 1
+                })
+            })
+        })
+    }
+
+    /// The number of the frame's record with this material and these lists.
+    pub(crate) fn number(&mut self, records: &mut Vec<DrawRecord>, material: u32, lists: RecordLists) -> u32 {
+        let push = || {
+            records.push(DrawRecord { lists, ..self.materials[material as usize] });
+            records.len() as u32 - 1
+        };
+        let used = &mut self.used[material as usize];
+        used.somewhere = true;
+        if lists == RecordLists::default() {
+            return *used.plain.get_or_insert_with(push);
+        }
+        *self.numbers.entry((material, bytemuck::cast(lists))).or_insert_with(push)
+    }
+
+    pub(crate) fn materials_in_use(&self) -> u32 {
+        self.used.iter().filter(|used| used.somewhere).count() as u32
+    }
+
+    pub(crate) fn call(&mut self, call: Call) -> u32 {
+        *self.calls.entry(call).or_insert_with(|| {
+            self.called.push(call);
+            self.called.len() as u32 - 1
+        })
+    }
+}

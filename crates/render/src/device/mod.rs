@@ -1,0 +1,4 @@
+//! The adapter and its device.
+
+pub(crate) mod gpu;
+pub(crate) mod gpu_timer;

@@ -1,0 +1,130 @@
+//! Draw and Deliver: the pass is encoded, submitted and presented.
+
+use crate::batch::batches::Batches;
+use crate::batch::draws::GroupCommands;
+use crate::device::gpu::Gpu;
+use crate::device::gpu_timer::GpuTimer;
+use crate::draw::upload::Buffers;
+use crate::frame::report::FrameReport;
+use crate::frame::times::FrameTimes;
+use crate::geometry::meshes::Geometries;
+use crate::pipelines::cache::Pipelines;
+use crate::pipelines::key::Stage;
+use crate::target::frame::{Attachments, Frame, Target};
+use crate::view::camera::View;
+use bevy_color::LinearRgba;
+use bevy_ecs::prelude::*;
+use halfway_lighting::{Camera, Encoding};
+
+#[expect(clippy::too_many_arguments, reason = "a system takes each resource as a parameter")]
+pub(crate) fn draw(
+    gpu: Res<Gpu>,
+    view: Res<View>,
+    target: Res<Target>,
+    batches: Res<Batches>,
+    geometries: Res<Geometries>,
+    pipelines: Res<Pipelines>,
+    buffers: Res<Buffers>,
+    mut timer: Option<ResMut<GpuTimer>>,
+    mut report: ResMut<FrameReport>,
+) {
+    let (Some(frame), Some(attachments)) = (&target.frame, target.attachments()) else { return };
+    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
+    {
+        let timing = timer.as_mut().and_then(|timer| timer.begin(&gpu));
+        let mut pass = begin(&mut encoder, frame, attachments, view.camera.unwrap_or_default(), timing);
+        if let Some(instances) = buffers.instances() {
+            pass.set_vertex_buffer(0, instances.slice(..));
+            record(&mut pass, &batches, &geometries, &pipelines, &buffers);
+        }
+    }
+    if let Some(mut timer) = timer {
+        timer.end(&mut encoder);
+    }
+    gpu.queue.submit([encoder.finish()]);
+    report.errors.extend(gpu.take_failure());
+}
+
+fn begin<'a>(
+    encoder: &'a mut wgpu::CommandEncoder,
+    frame: &Frame,
+    attachments: &Attachments,
+    camera: Camera,
+    timestamp_writes: Option<wgpu::RenderPassTimestampWrites<'_>>,
+) -> wgpu::RenderPass<'a> {
+    let LinearRgba { red, green, blue, .. } = camera.background;
+    let [r, g, b] = [red, green, blue].map(|linear| {
+        let linear = f64::from(linear);
+        if frame.encoded { Encoding::Srgb.encode(linear.clamp(0.0, 1.0)) } else { linear }
+    });
+    let clear = wgpu::Color { r, g, b, a: 1.0 };
+    let (view, resolve_target, store) = match &attachments.multisampled {
+        Some(samples) => (samples, Some(&frame.view), wgpu::StoreOp::Discard),
+        None => (&frame.view, None, wgpu::StoreOp::Store),
+    };
+    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some("scene"),
+        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+            view,
+            depth_slice: None,
+            resolve_target,
+            ops: wgpu::Operations { load: wgpu::LoadOp::Clear(clear), store },
+        })],
+        // Reversed depth: the far end is 0.
+        depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+            view: &attachments.depth,
+            depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
+            stencil_ops: None,
+        }),
+        timestamp_writes,
+        ..Default::default()
+    })
+}
+
+fn record(
+    pass: &mut wgpu::RenderPass<'_>,
+    batches: &Batches,
+    geometries: &Geometries,
+    pipelines: &Pipelines,
+    buffers: &Buffers,
+) {
+    let mut last = None;
+    for group in batches.draws.groups() {
+        let state = &group.state;
+        let (Some(pipeline), Some(geometry), Some((bindings, offsets))) =
+            (pipelines.get(&state.key), geometries.get(state.mesh, state.form), buffers.bindings(state))
+        else {
+            continue;
+        };
+        if last != Some(state.key) {
+            pass.set_pipeline(pipeline);
+            last = Some(state.key);
+        }
+        pass.set_bind_group(0, bindings, offsets.as_slice());
+        pass.set_vertex_buffer(1, geometry.positions.slice(..));
+        if state.key.stage != Stage::Unlit {
+            pass.set_vertex_buffer(2, geometry.attributes.slice(..));
+        }
+        pass.set_index_buffer(geometry.indices.slice(..), geometry.index_format);
+        match (batches.draws.commands(group), buffers.draws()) {
+            (GroupCommands::Each(draws), _) => {
+                for draw in draws {
+                    let indices = draw.first_index..draw.first_index + draw.index_count;
+                    let instances = draw.first_instance..draw.first_instance + draw.instance_count;
+                    pass.draw_indexed(indices, draw.base_vertex, instances);
+                }
+            }
+            (GroupCommands::Multi { offset, count }, Some(draws)) => {
+                pass.multi_draw_indexed_indirect(draws, offset, count);
+            }
+            // Uploaded before.
+            (GroupCommands::Multi { .. }, None) => {}
+        }
+    }
+}
+
+pub(crate) fn present(gpu: Res<Gpu>, mut target: ResMut<Target>, mut times: ResMut<FrameTimes>) {
+    if let Some(surface) = target.frame.take().and_then(|frame| frame.surface) {
+        times.at_display(|| gpu.queue.present(surface));
+    }
+}

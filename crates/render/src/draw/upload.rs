@@ -1,0 +1,272 @@
+//! Upload: what changed since the last frame goes to the GPU, and nothing else.
+
+use crate::batch::batches::Batches;
+use crate::batch::draws::DrawState;
+use crate::device::gpu::Gpu;
+use crate::error::RenderError;
+use crate::frame::report::FrameReport;
+use crate::lights::gather::{LightRecord, Lights};
+use crate::pipelines::cache::Pipelines;
+use crate::shaders::records::RECORD_BYTES;
+use crate::shaders::text::{BOUND_LIGHT_BYTES, Text};
+use crate::view::camera::View;
+use bevy_ecs::prelude::*;
+use bytemuck::{Pod, Zeroable};
+
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct ViewRecord {
+    scale: [f32; 2],
+    near: f32,
+    padding: f32,
+}
+
+/// A GPU buffer with the bytes it holds, so that equal bytes are not sent again.
+struct Mirrored {
+    label: &'static str,
+    usage: wgpu::BufferUsages,
+    buffer: Option<wgpu::Buffer>,
+    bytes: Vec<u8>,
+}
+
+impl Mirrored {
+    fn new(label: &'static str, usage: wgpu::BufferUsages) -> Self {
+        Self { label, usage: usage | wgpu::BufferUsages::COPY_DST, buffer: None, bytes: Vec::new() }
+    }
+
+    /// Makes the buffer hold `bytes`, at least `room` long. Returns the bytes sent and whether the
+    /// buffer is a new one.
+    fn set(&mut self, gpu: &Gpu, bytes: &[u8], room: u64) -> Result<(u64, bool), RenderError> {
+        let needed = room.max(bytes.len() as u64).max(16).next_multiple_of(16);
+        let limit = gpu.device.limits().max_buffer_size;
+        if needed > limit {
+            return Err(RenderError::TooLarge {
+                what: format!("{} of this frame, in bytes,", self.label),
+                needed,
+                limit,
+            });
+        }
+        let grown = self.buffer.as_ref().is_none_or(|buffer| buffer.size() < needed);
+        if grown {
+            self.bytes.clear();
+            self.buffer = Some(gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(self.label),
+                size: needed.checked_next_power_of_two().unwrap_or(needed).min(limit),
+                usage: self.usage,
+                mapped_at_creation: false,
+            }));
+        }
+        let Some(buffer) = &self.buffer else { return Ok((0, false)) };
+        let changed = changed_range(&self.bytes, bytes);
+        if !changed.is_empty() {
+            gpu.queue.write_buffer(buffer, changed.start as u64, &bytes[changed.clone()]);
+            self.bytes.clear();
+            self.bytes.extend_from_slice(bytes);
+        }
+        Ok((changed.len() as u64, grown))
+    }
+}
+
+/// The part of `new` that differs from `old`, widened to whole 4-byte words.
+fn changed_range(old: &[u8], new: &[u8]) -> std::ops::Range<usize> {
+    if old == new {
+        return 0..0;
+    }
+    let same_start = old.iter().zip(new).take_while(|(a, b)| a == b).count();
+    let start = same_start / 4 * 4;
+    if old.len() != new.len() {
+        return start..new.len();
+    }
+    let same_end = old.iter().rev().zip(new.iter().rev()).take_while(|(a, b)| a == b).count();
+    start..(new.len() - same_end).next_multiple_of(4).min(new.len())
+}
+
+/// The buffers that draws read.
+#[derive(Resource)]
+pub(crate) struct Buffers {
+    view: Mirrored,
+    records: Mirrored,
+    lights: Mirrored,
+    bound: Mirrored,
+    lists: Mirrored,
+    instances: Mirrored,
+    draws: Mirrored,
+    groups: Groups,
+}
+
+/// Offsets of a draw's record, and of its lights where they are at fixed places.
+pub(crate) enum Offsets {
+    One([u32; 1]),
+    Two([u32; 2]),
+}
+
+impl Offsets {
+    pub(crate) fn as_slice(&self) -> &[u32] {
+        match self {
+            Self::One(offsets) => offsets,
+            Self::Two(offsets) => offsets,
+        }
+    }
+}
+
+/// Bindings of the same buffers, for each text that has a pipeline.
+#[derive(Default)]
+struct Groups {
+    few: Option<wgpu::BindGroup>,
+    many: Option<wgpu::BindGroup>,
+    /// With the one record that the offset names.
+    one: Option<wgpu::BindGroup>,
+    /// With all records.
+    all: Option<wgpu::BindGroup>,
+}
+
+impl Default for Buffers {
+    fn default() -> Self {
+        use wgpu::BufferUsages as Usage;
+        Self {
+            view: Mirrored::new("the view", Usage::UNIFORM),
+            records: Mirrored::new("the materials", Usage::UNIFORM | Usage::STORAGE),
+            lights: Mirrored::new("the lights", Usage::STORAGE),
+            bound: Mirrored::new("the lights of patches", Usage::UNIFORM),
+            lists: Mirrored::new("the light lists", Usage::STORAGE),
+            instances: Mirrored::new("the instances", Usage::VERTEX),
+            draws: Mirrored::new("the draws", Usage::INDIRECT),
+            groups: Groups::default(),
+        }
+    }
+}
+
+impl Buffers {
+    pub(crate) fn instances(&self) -> Option<&wgpu::Buffer> {
+        self.instances.buffer.as_ref()
+    }
+
+    /// What commands read their draws from.
+    pub(crate) fn draws(&self) -> Option<&wgpu::Buffer> {
+        self.draws.buffer.as_ref()
+    }
+
+    /// The bindings of a draw, and their offset.
+    pub(crate) fn bindings(&self, state: &DrawState) -> Option<(&wgpu::BindGroup, Offsets)> {
+        let record = state.record * RECORD_BYTES as u32;
+        let lights = state.lights * size_of::<LightRecord>() as u32;
+        let Groups { few, many, one, all } = &self.groups;
+        let (group, offsets) = match state.key.text() {
+            Text::Few => (few, Offsets::Two([record, lights])),
+            Text::Many => (many, Offsets::Two([record, lights])),
+            Text::Listed if state.key.per_instance => (all, Offsets::One([0])),
+            Text::Listed => (one, Offsets::One([record])),
+        };
+        Some((group.as_ref()?, offsets))
+    }
+
+    fn upload(
+        &mut self,
+        gpu: &Gpu,
+        pipelines: &Pipelines,
+        view: &View,
+        lights: &Lights,
+        batches: &Batches,
+    ) -> Result<u64, RenderError> {
+        let view = ViewRecord { scale: view.projection.scale, near: view.projection.near, padding: 0.0 };
+        let listed = if batches.draws.reads_storage() { lights.records.as_slice() } else { &[] };
+        let bound = bytemuck::cast_slice(&batches.lists.bound);
+        let sent = [
+            self.view.set(gpu, bytemuck::bytes_of(&view), 0)?,
+            self.records.set(gpu, bytemuck::cast_slice(&batches.records), RECORD_BYTES)?,
+            self.lights.set(gpu, bytemuck::cast_slice(listed), size_of::<LightRecord>() as u64)?,
+            // The last set too is bound as if it had all lights that fit.
+            self.bound.set(gpu, bound, bound.len() as u64 + BOUND_LIGHT_BYTES)?,
+            self.lists.set(gpu, bytemuck::cast_slice(&batches.lists.numbers), 0)?,
+        ];
+        let (instances, _) = self.instances.set(gpu, bytemuck::cast_slice(&batches.instances), 0)?;
+        let draws = batches.draws.read();
+        // Not every device can have the buffer.
+        let (draws, _) =
+            if draws.is_empty() { (0, false) } else { self.draws.set(gpu, bytemuck::cast_slice(draws), 0)? };
+        if sent.iter().any(|&(_, new)| new) {
+            self.groups = Groups::default();
+        }
+        self.bind(gpu, pipelines)?;
+        Ok(sent.iter().map(|(bytes, _)| bytes).sum::<u64>() + instances + draws)
+    }
+
+    /// Makes the bindings that are not there.
+    fn bind(&mut self, gpu: &Gpu, pipelines: &Pipelines) -> Result<(), RenderError> {
+        let (Some(view), Some(records), Some(lights), Some(bound), Some(lists)) =
+            (&self.view.buffer, &self.records.buffer, &self.lights.buffer, &self.bound.buffer, &self.lists.buffer)
+        else {
+            return Ok(());
+        };
+        let limit = gpu.device.limits().max_storage_buffer_binding_size;
+        for (label, buffer) in [(self.records.label, records), (self.lights.label, lights), (self.lists.label, lists)] {
+            if buffer.size() > limit {
+                let what = format!("{label} of this frame, in bytes,");
+                return Err(RenderError::TooLarge { what, needed: buffer.size(), limit });
+            }
+        }
+        let binding = |binding, buffer, size| wgpu::BindGroupEntry {
+            binding,
+            resource: wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+                buffer,
+                offset: 0,
+                size: std::num::NonZeroU64::new(size),
+            }),
+        };
+        let make = |group: &mut Option<_>, text, entries: &[_]| {
+            if let (None, Some(layout)) = (&group, pipelines.bindings(text)) {
+                let entries = &[&[binding(0, view, 16)], entries].concat();
+                let descriptor = wgpu::BindGroupDescriptor { label: Some("draw"), layout, entries };
+                *group = Some(gpu.device.create_bind_group(&descriptor));
+            }
+        };
+        let Groups { few, many, one, all } = &mut self.groups;
+        for (group, text) in [(few, Text::Few), (many, Text::Many)] {
+            make(group, text, &[binding(1, records, RECORD_BYTES), binding(2, bound, BOUND_LIGHT_BYTES)]);
+        }
+        for (group, bytes) in [(one, RECORD_BYTES), (all, records.size())] {
+            let [lights, lists] = [binding(2, lights, lights.size()), binding(3, lists, lists.size())];
+            make(group, Text::Listed, &[binding(1, records, bytes), lights, lists]);
+        }
+        Ok(())
+    }
+}
+
+/// Builds the pipelines that what is about to be drawn still lacks, and counts its triangles.
+pub(crate) fn build_pipelines(
+    gpu: Res<Gpu>,
+    batches: Res<Batches>,
+    mut pipelines: ResMut<Pipelines>,
+    mut report: ResMut<FrameReport>,
+) {
+    for group in batches.draws.groups() {
+        if let Err(error) = pipelines.ensure(&gpu, group.state.key)
+            && !report.errors.contains(&error)
+        {
+            report.errors.push(error);
+        }
+    }
+    report.triangles = batches.draws.triangles();
+    pipelines.report(&mut report);
+}
+
+pub(crate) fn upload(
+    gpu: Res<Gpu>,
+    pipelines: Res<Pipelines>,
+    view: Res<View>,
+    lights: Res<Lights>,
+    mut batches: ResMut<Batches>,
+    mut buffers: ResMut<Buffers>,
+    mut report: ResMut<FrameReport>,
+) {
+    if batches.draws.groups().is_empty() {
+        return;
+    }
+    match buffers.upload(&gpu, &pipelines, &view, &lights, &batches) {
+        Ok(bytes) => report.bytes_uploaded += bytes,
+        Err(error) => {
+            report.errors.push(error);
+            batches.draws.clear();
+        }
+    }
+}

@@ -1,0 +1,239 @@
+//! Light lists: which of many lights each patch needs, term by term.
+
+use crate::batch::terms::TermMask;
+use crate::lights::gather::{LightRecord, Lights, rgb};
+use crate::shaders::light_slots::{COUNTED_LIGHTS, Highlights, Lists, filled_up};
+use crate::shaders::records::RecordLists;
+use bevy_math::Vec3;
+use halfway_lighting::bounds::{DEFAULT_TOLERANCE, Patch, Receiver, Selected, linear_tolerance};
+use halfway_lighting::equations::{Coefficients, View};
+use halfway_lighting::{Encoding, Material, Reflectance};
+
+/// The lists of a frame.
+#[derive(Debug, Default)]
+pub(crate) struct LightLists {
+    /// Lists, one after the other, as numbers of lights.
+    pub(crate) numbers: Vec<u32>,
+    /// Lights to be bound at fixed places, set after set: first all of a scene with few, at number 0.
+    pub(crate) bound: Vec<LightRecord>,
+    /// The numbers of a set of lights to be bound, those with highlights first.
+    set: Vec<u32>,
+    /// The set bound last.
+    last_set: Vec<u32>,
+    last_bound: Option<Bound>,
+    /// The lists made last. Neighbouring patches often need the same.
+    last: Option<(RecordLists, usize)>,
+    selected: Selected<f32>,
+    /// How many terms of lights the lists name, over all patches.
+    pub(crate) assigned: u64,
+    /// How many terms are shaded at each point, over all patches.
+    pub(crate) shaded: u64,
+    /// The most that was left out anywhere, in linear intensity: the sum of the bounds, of the brightest channel.
+    pub(crate) left_out: f64,
+}
+
+/// A set of lights at fixed places.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Bound {
+    /// The number of the first, even, so that its bytes begin at a multiple of 256.
+    pub(crate) start: u32,
+    /// How many of each kind it was filled up to, and how many of these have highlights.
+    counts: [u32; 3],
+    highlights: Highlights,
+}
+
+/// A software adapter reads lights at fixed places faster, but starts a draw for each set.
+const MOST_BOUND: usize = 1 << 16;
+
+/// What a patch does with light.
+pub(crate) struct Surface<'a> {
+    /// The materials of the sides that are seen.
+    pub(crate) sides: [&'a Material; 2],
+    pub(crate) reflectance: Reflectance,
+    /// The terms that are shaded at the vertices.
+    pub(crate) vertex: TermMask,
+    /// The terms that are shaded at the fragments.
+    pub(crate) fragment: TermMask,
+}
+
+impl LightLists {
+    pub(crate) fn begin(&mut self, lights: &Lights) {
+        self.numbers.clear();
+        self.bound.clear();
+        if lights.records.len() <= COUNTED_LIGHTS as usize {
+            self.bound.extend(&lights.records);
+        } else {
+            // No set of a patch is number 0.
+            self.bound.extend([LightRecord::BLACK; 2]);
+        }
+        self.last_bound = None;
+        self.last = None;
+        self.assigned = 0;
+        self.shaded = 0;
+        self.left_out = 0.0;
+    }
+
+    /// Selects the lights that `patch` needs: those left out change no channel of a pixel by more than half an 8-bit
+    /// step together. A picture in floating point, which has no `encoding`, keeps all that reach the patch at all.
+    pub(crate) fn select(
+        &mut self,
+        lights: &Lights,
+        patch: &Patch<f32>,
+        surface: &Surface,
+        view: &View<f32>,
+        encoding: Option<Encoding>,
+    ) {
+        let receiver = Receiver::new(patch, &surface.coefficients(), view, surface.reflectance);
+        let base = surface.base(lights.ambient).to_array();
+        let tolerance = base.map(|at_least| {
+            encoding.map_or(0.0, |encoding| linear_tolerance(encoding, DEFAULT_TOLERANCE, at_least.into()))
+        });
+        receiver.select((0..).zip(&lights.sources), tolerance, &mut self.selected);
+        self.left_out = self.selected.left_out.into_iter().fold(self.left_out, f64::max);
+        self.assigned += (self.selected.diffuse.len() + self.selected.specular.len()) as u64;
+    }
+
+    /// Binds what was selected at fixed places; `None` where it is too much. Of each kind the lights with highlights come
+    /// first, and the others' are left out as far as [`Highlights`] can say; or none, unless highlights `take_powers`: a few
+    /// squarings cost less than more pipelines. A light that is needed for its highlight alone is shaded with both terms.
+    pub(crate) fn bind(&mut self, lights: &Lights, take_powers: bool) -> Option<Bound> {
+        let Selected { diffuse, specular, .. } = &self.selected;
+        self.set.clear();
+        self.set.extend(specular.iter().chain(without(diffuse, specular)));
+        let (highlit, rest) = self.set.split_at(specular.len());
+        let [highlit, rest] = [highlit, rest].map(|numbers| split(numbers, lights.counts));
+        let needed = highlit.map(|of_kind| of_kind.len() as u32);
+        let counts = filled_up([0, 1, 2].map(|kind| needed[kind] + rest[kind].len() as u32))?;
+        let highlights = if take_powers { Highlights::at_least(needed, counts) } else { Highlights::All };
+        if let Some(last) = self.last_bound
+            && self.last_set == self.set
+            && (last.counts, last.highlights) == (counts, highlights)
+        {
+            return Some(last);
+        }
+        if self.bound.len() > MOST_BOUND {
+            return None;
+        }
+        self.bound.resize(self.bound.len().next_multiple_of(2), LightRecord::default());
+        let bound = Bound { start: self.bound.len() as u32, counts, highlights };
+        for ((highlit, rest), count) in highlit.into_iter().zip(rest).zip(counts) {
+            let end = self.bound.len() + count as usize;
+            self.bound.extend(highlit.iter().chain(rest).map(|&light| lights.records[light as usize]));
+            self.bound.resize(end, LightRecord::BLACK);
+        }
+        std::mem::swap(&mut self.set, &mut self.last_set);
+        self.last_bound = Some(bound);
+        Some(bound)
+    }
+
+    /// Counts what a patch shades of the lights that are bound for it.
+    pub(crate) fn count_bound(&mut self, bound: Bound, surface: &Surface) {
+        let lights = |share: Highlights| bound.counts.into_iter().map(|count| u64::from(share.of(count))).sum::<u64>();
+        for mask in [surface.vertex, surface.fragment] {
+            self.shaded += u64::from(mask.diffuse) * lights(Highlights::All);
+            self.shaded += u64::from(mask.specular) * lights(bound.highlights);
+        }
+    }
+
+    /// The lists of what was selected: appended, unless they are what was appended last.
+    pub(crate) fn list(&mut self, Lights { counts, .. }: &Lights, surface: &Surface) -> RecordLists {
+        let start = self.numbers.len();
+        let [vertex, vertex_diffuse] = self.append_stage(*counts, surface.vertex);
+        let [fragment, fragment_diffuse] = self.append_stage(*counts, surface.fragment);
+        let lists = RecordLists { vertex, vertex_diffuse, fragment, fragment_diffuse };
+        let lights = |[directional, points, spots, _]: [u32; 4]| u64::from(directional + points + spots);
+        self.shaded += lights(vertex) * surface.vertex.terms() + lights(fragment) * surface.fragment.terms();
+        self.shaded += lights(vertex_diffuse) + lights(fragment_diffuse);
+        if let Some((last, last_start)) = self.last
+            && last.starting_at(0, last_start) == lists.starting_at(0, start)
+            && self.numbers[last_start..start] == self.numbers[start..]
+        {
+            self.numbers.truncate(start);
+            return last;
+        }
+        self.last = Some((lists, start));
+        lists
+    }
+
+    /// The lights with all terms of the stage, and those with the diffuse alone where it has both.
+    fn append_stage(&mut self, counts: [u32; 3], mask: TermMask) -> [[u32; 4]; 2] {
+        let Selected { diffuse, specular, .. } = &self.selected;
+        match (mask.diffuse, mask.specular) {
+            (false, false) => [[0; 4]; 2],
+            (true, false) => [append(&mut self.numbers, counts, diffuse.iter().copied()), [0; 4]],
+            (false, true) => [append(&mut self.numbers, counts, specular.iter().copied()), [0; 4]],
+            (true, true) => {
+                let both = append(&mut self.numbers, counts, specular.iter().copied());
+                [both, append(&mut self.numbers, counts, without(diffuse, specular).copied())]
+            }
+        }
+    }
+}
+
+/// The lights that `others` lack; both ascend.
+fn without<'a>(lights: &'a [u32], others: &'a [u32]) -> impl Iterator<Item = &'a u32> {
+    lights.iter().filter(|light| others.binary_search(light).is_err())
+}
+
+/// Appends lights, which are sorted by kind; how many of each, and where they begin.
+fn append(numbers: &mut Vec<u32>, counts: [u32; 3], lights: impl Iterator<Item = u32>) -> [u32; 4] {
+    let start = numbers.len();
+    numbers.extend(lights);
+    let [directional, points, spots] = split(&numbers[start..], counts).map(|of_kind| of_kind.len() as u32);
+    [directional, points, spots, start as u32]
+}
+
+/// Numbers of lights, which are sorted by kind, kind by kind; `counts` are those of all lights.
+fn split(numbers: &[u32], [directional, points, _]: [u32; 3]) -> [&[u32]; 3] {
+    let first_point = numbers.partition_point(|&light| light < directional);
+    let first_spot = numbers.partition_point(|&light| light < directional + points);
+    [&numbers[..first_point], &numbers[first_point..first_spot], &numbers[first_spot..]]
+}
+
+impl Bound {
+    pub(crate) fn lists(self) -> Lists {
+        Lists::counted(self.counts, self.highlights)
+    }
+}
+
+impl RecordLists {
+    /// The same lists, had what was appended from `from` on been appended from `to` on.
+    fn starting_at(self, to: usize, from: usize) -> Self {
+        let moved = |[x, y, z, first]: [u32; 4]| {
+            let first = if x + y + z == 0 { 0 } else { first - from as u32 + to as u32 };
+            [x, y, z, first]
+        };
+        let Self { vertex, vertex_diffuse, fragment, fragment_diffuse } = self;
+        Self {
+            vertex: moved(vertex),
+            vertex_diffuse: moved(vertex_diffuse),
+            fragment: moved(fragment),
+            fragment_diffuse: moved(fragment_diffuse),
+        }
+    }
+}
+
+impl Surface<'_> {
+    /// Coefficients that are nowhere below either side's, so that bounds hold for both.
+    fn coefficients(&self) -> Coefficients<f32> {
+        let [front, back] = self.sides.map(Coefficients::<f32>::from);
+        let larger =
+            |a: [f32; 3], b: [f32; 3], used: bool| if used { [0, 1, 2].map(|k| a[k].max(b[k])) } else { [0.0; 3] };
+        let Self { vertex, fragment, .. } = self;
+        let diffuse = vertex.diffuse || fragment.diffuse;
+        Coefficients {
+            ka: larger(front.ka, back.ka, diffuse),
+            kd: larger(front.kd, back.kd, diffuse),
+            ks: larger(front.ks, back.ks, vertex.specular || fragment.specular),
+            ke: front.ke,
+            // The smaller exponent is the wider highlight.
+            shininess: front.shininess.min(back.shininess),
+        }
+    }
+
+    /// What every point of both sides has without lights.
+    fn base(&self, ambient: Vec3) -> Vec3 {
+        let [front, back] = self.sides.map(|side| rgb(side.emission) + rgb(side.ambient) * ambient);
+        front.min(back)
+    }
+}

@@ -1,0 +1,173 @@
+//! Which pipelines are there, and what waits for them.
+
+use super::*;
+use crate::pipelines::key::Cull;
+use crate::pipelines::key::tests::key;
+
+fn numbered(number: u16) -> PipelineKey {
+    PipelineKey { squarings: Some(number as u8), clockwise: number > 255, ..key() }
+}
+
+/// A frame that draws these: how many by their own pipelines, which it waited for, and its report.
+fn frame(
+    pipelines: &mut Pipelines,
+    gpu: &Gpu,
+    compile: Compile,
+    keys: &[PipelineKey],
+) -> (usize, Vec<PipelineKey>, FrameReport) {
+    pipelines.begin(gpu, compile);
+    let answers: Vec<_> = keys.iter().map(|&key| pipelines.admit(key)).collect();
+    let mut report = FrameReport::default();
+    let before = pipelines.unforeseen.len();
+    report.errors.extend(answers.iter().filter_map(|&key| pipelines.ensure(gpu, key).err()));
+    let awaited = pipelines.unforeseen[before..].to_vec();
+    pipelines.report(&mut report);
+    (answers.iter().zip(keys).filter(|(answer, key)| answer == key).count(), awaited, report)
+}
+
+#[test]
+fn no_special_one_is_awaited_after_the_first_frame() {
+    let gpu = Gpu::open_headless().unwrap();
+    let mut pipelines = Pipelines::default();
+    let (own, awaited, _) = frame(&mut pipelines, &gpu, Compile::Beside, &[key()]);
+    assert_eq!((own, awaited), (1, vec![key()]));
+    // At once, so that the generic one is not there either.
+    let other = numbered(3);
+    let (own, awaited, report) = frame(&mut pipelines, &gpu, Compile::Beside, &[key(), other]);
+    assert_eq!((own, awaited, report.pipelines_awaited), (1, vec![other.generic()], 1));
+    for number in 4..12 {
+        let (own, awaited, _) = frame(&mut pipelines, &gpu, Compile::Beside, &[numbered(number)]);
+        assert_eq!((own, awaited), (0, vec![]));
+    }
+    settle(&mut pipelines, &gpu);
+    let keys: Vec<_> = (3..12).map(numbered).collect();
+    let (own, awaited, report) = frame(&mut pipelines, &gpu, Compile::Beside, &keys);
+    assert_eq!((own, awaited, report.pipelines), (9, vec![], 1 + 6 + 9));
+}
+
+#[test]
+fn what_cannot_be_built_is_reported_and_not_tried_again() {
+    let gpu = Gpu::open_headless().unwrap();
+    let mut pipelines = Pipelines::default();
+    // No adapter takes three samples a pixel.
+    let wrong = PipelineKey { samples: 3, ..key() };
+    // The first frame tries its own, the second the generic one in its place, which fails as well, in every frame.
+    for (own, awaited) in [(2, 2), (1, 1), (1, 0), (1, 0)] {
+        let (by_own, _, report) = frame(&mut pipelines, &gpu, Compile::Now, &[wrong, key()]);
+        assert!(matches!(&report.errors[..], [RenderError::Device(_)]), "{:?}", report.errors);
+        assert_eq!((by_own, report.pipelines_awaited, report.pipelines_live), (own, awaited, 1));
+    }
+    // Beside the frames: the specialised one once, the generic one, which is to draw in its place, in every frame.
+    let other = PipelineKey { squarings: Some(2), ..wrong };
+    let mut errors = 0;
+    loop {
+        let (own, _, report) = frame(&mut pipelines, &gpu, Compile::Beside, &[other]);
+        assert_eq!(own, 0);
+        errors = report.errors.len().max(errors);
+        if report.pipelines_pending == 0 && errors > 1 {
+            break;
+        }
+        std::thread::yield_now();
+    }
+    let (_, awaited, report) = frame(&mut pipelines, &gpu, Compile::Beside, &[other]);
+    assert_eq!((awaited, report.errors.len()), (vec![], 1));
+    assert_eq!(gpu.take_failure(), None);
+}
+
+#[test]
+fn the_generic_one_draws_where_the_special_one_cannot_be_built() {
+    let gpu = Gpu::open_headless().unwrap();
+    for compile in [Compile::Now, Compile::Beside] {
+        let mut pipelines = Pipelines::default();
+        frame(&mut pipelines, &gpu, compile, &[key().generic()]);
+        let failed = || Variant { used: 0, state: State::Failed(RenderError::Device("broken".into())) };
+        pipelines.variants.extend([key(), key().looking_up()].map(|key| (key, failed())));
+        for _ in 0..3 {
+            let (own, awaited, report) = frame(&mut pipelines, &gpu, compile, &[key()]);
+            assert_eq!((own, awaited, report.errors), (0, vec![], vec![]), "{compile:?}");
+            assert!(!pipelines.looks_up(key()), "{compile:?}: each record is a draw");
+        }
+    }
+}
+
+/// A frame under `Compile::Beside` that draws nothing, as often as it takes until nothing is on its way.
+fn settle(pipelines: &mut Pipelines, gpu: &Gpu) -> FrameReport {
+    loop {
+        let (.., report) = frame(pipelines, gpu, Compile::Beside, &[]);
+        if report.pipelines_pending == 0 {
+            return report;
+        }
+        std::thread::yield_now();
+    }
+}
+
+#[test]
+fn frames_build_for_themselves_once_the_thread_has_died() {
+    let gpu = Gpu::open_headless().unwrap();
+    let mut pipelines = Pipelines::default();
+    frame(&mut pipelines, &gpu, Compile::Beside, &[key()]);
+    pipelines.background = Background::Running(Builder::of(|_| panic!("as a driver may")).unwrap());
+    let report = settle(&mut pipelines, &gpu);
+    assert!(matches!(&report.errors[..], [RenderError::Device(reason)] if reason.contains("died")), "{report:?}");
+    for (number, awaited) in [(3, 1), (4, 1), (4, 0)] {
+        let (own, _, report) = frame(&mut pipelines, &gpu, Compile::Beside, &[numbered(number)]);
+        assert_eq!((own, report.pipelines_awaited, report.pipelines_pending), (1, awaited, 0));
+        assert_eq!(report.errors, [], "told once");
+        assert!(pipelines.looks_up(numbered(number)));
+    }
+}
+
+#[test]
+fn frames_build_for_themselves_where_there_is_no_thread() {
+    let gpu = Gpu::open_headless().unwrap();
+    let mut pipelines = Pipelines { background: Background::Unavailable, ..Pipelines::default() };
+    for number in 0..3 {
+        let (own, _, report) = frame(&mut pipelines, &gpu, Compile::Beside, &[numbered(number)]);
+        assert_eq!((own, report.pipelines_awaited, report.errors), (1, 1, vec![]));
+        assert!(pipelines.looks_up(numbered(number)));
+    }
+}
+
+#[test]
+fn both_passes_get_room_in_the_same_frame() {
+    let gpu = Gpu::open_headless().unwrap();
+    let mut pipelines = Pipelines::default();
+    let mut draw = |keys: &[PipelineKey]| {
+        pipelines.begin(&gpu, Compile::Now);
+        keys.iter().filter(|&&key| pipelines.admit(key) == key).count()
+    };
+    let all: Vec<_> = (0..MOST_SPECIAL as u16).map(numbered).collect();
+    assert_eq!(draw(&all), MOST_SPECIAL);
+    for _ in 0..KEPT_FRAMES {
+        assert_eq!(draw(&[]), 0);
+    }
+    let blended = PipelineKey { blend: true, cull: Cull::None, ..key() };
+    assert_eq!(blended.passes().count(), 2);
+    assert_eq!(draw(&[blended]), 0, "in the first frame nothing is given up for it");
+    assert_eq!(draw(&[blended]), 1);
+}
+
+#[test]
+fn the_one_unused_for_longest_makes_room() {
+    let gpu = Gpu::open_headless().unwrap();
+    let mut pipelines = Pipelines::default();
+    let mut draws = |keys: &[u16]| {
+        pipelines.begin(&gpu, Compile::Now);
+        keys.iter().filter(|&&number| pipelines.admit(numbered(number)) == numbered(number)).count()
+    };
+    let all: Vec<u16> = (0..MOST_SPECIAL as u16).collect();
+    assert_eq!(draws(&all), MOST_SPECIAL);
+    // All but two are used on; one of the two in one frame more.
+    assert_eq!(draws(&all[1..]), MOST_SPECIAL - 1);
+    for _ in 2..=KEPT_FRAMES {
+        assert_eq!(draws(&all[2..]), MOST_SPECIAL - 2);
+        assert_eq!(draws(&[]), 0);
+    }
+    assert_eq!(draws(&[200, 201, 202]), 0, "in the first frame nothing is given up for them");
+    assert_eq!(draws(&[200, 201, 202]), 2);
+    // 0 and 1 have been given up, and nothing else that was used lately.
+    assert_eq!(draws(&[0, 1]), 0);
+    assert_eq!(draws(&[0, 1]), 0);
+    assert_eq!(draws(&all[2..]), MOST_SPECIAL - 2);
+    assert_eq!(draws(&[200, 201]), 2);
+}

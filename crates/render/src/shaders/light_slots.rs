@@ -1,0 +1,72 @@
+//! How the lights of a draw reach its shader: at fixed places, or by lists.
+
+/// Up to this many lights in a scene are all shaded everywhere; of more, each patch has those that it needs.
+pub(crate) const COUNTED_LIGHTS: u32 = 8;
+
+/// How the lights reach the shader.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Lists {
+    /// So many directional, point and spot lights are bound, in this order, and so many of them have highlights.
+    Counted([u8; 3], Highlights),
+    /// All are bound, and the record's lists name some.
+    Listed,
+}
+
+/// How many of the lights that are bound have specular terms: the first of each kind. Few choices, since each makes
+/// pipelines of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Highlights {
+    None,
+    /// Of an odd number the smaller half.
+    Half,
+    All,
+}
+
+impl Lists {
+    /// For a scene of so many lights.
+    pub(crate) fn new(counts: [u32; 3]) -> Self {
+        if counts.iter().sum::<u32>() <= COUNTED_LIGHTS { Self::counted(counts, Highlights::All) } else { Self::Listed }
+    }
+
+    pub(crate) fn counted(counts: [u32; 3], highlights: Highlights) -> Self {
+        Self::Counted(counts.map(|n| n as u8), highlights)
+    }
+}
+
+impl Highlights {
+    /// The fewest that are at least `needed` of `counts` lights of each kind.
+    pub(crate) fn at_least(needed: [u32; 3], counts: [u32; 3]) -> Self {
+        let suffice = |share: &Self| needed.into_iter().zip(counts).all(|(needed, count)| needed <= share.of(count));
+        [Self::None, Self::Half].into_iter().find(suffice).unwrap_or(Self::All)
+    }
+
+    /// How many of `count` lights of one kind.
+    pub(crate) fn of(self, count: u32) -> u32 {
+        self.halves() * count / 2
+    }
+
+    /// How many halves of each kind.
+    pub(crate) fn halves(self) -> u32 {
+        match self {
+            Self::None => 0,
+            Self::Half => 1,
+            Self::All => 2,
+        }
+    }
+}
+
+/// The numbers of directional, point and spot lights that have pipelines of their own where patches are lit by few of many lights.
+/// A patch with other numbers is filled up with black ones; one with more reads lists.
+const STEPS: [&[u32]; 3] = [&[0, 1, 2, 4, 8], &[0, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32], &[0, 1, 2, 4, 8, 16]];
+
+/// The numbers of lights of each kind to fill `counts` up to; `None` where they are too many.
+pub(crate) fn filled_up(counts: [u32; 3]) -> Option<[u32; 3]> {
+    let mut filled = [0; 3];
+    for ((filled, steps), count) in filled.iter_mut().zip(STEPS).zip(counts) {
+        *filled = *steps.iter().find(|&&step| step >= count)?;
+    }
+    Some(filled)
+}
+
+/// The most lights that are bound at fixed places.
+pub(crate) const BOUND_LIGHTS: u32 = 8 + 32 + 16;

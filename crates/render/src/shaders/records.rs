@@ -1,0 +1,102 @@
+//! What the GPU reads of instances, materials and draws.
+
+use crate::lights::gather::rgb;
+use crate::view::matrices::{ModelView, NormalMatrix};
+use bevy_math::{Vec3, Vec3A};
+use bytemuck::{Pod, Zeroable};
+use halfway_lighting::{Faces, Material, Reflectance, matched_shininess};
+
+/// One instance in its vertex buffer: `eye_from_model` as rows, the normal matrix as columns, and the number of its
+/// record, which only draws of several records read.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub(crate) struct InstanceRecord {
+    pub(crate) rows: [[f32; 4]; 3],
+    pub(crate) normal: [[f32; 3]; 3],
+    pub(crate) record: u32,
+}
+
+pub(crate) const INSTANCE_BYTES: u64 = size_of::<InstanceRecord>() as u64;
+
+/// A material as the shader reads it.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub(crate) struct MaterialRecord {
+    base: [f32; 3],
+    shininess: f32,
+    diffuse: [f32; 3],
+    opacity: f32,
+    specular: [f32; 3],
+    padding0: f32,
+    ambient: [f32; 3],
+    padding1: f32,
+}
+
+/// Material and light lists; the twin of `Draw` in mesh.wgsl. Its size is the largest alignment of offsets that WebGPU
+/// lets an adapter ask for.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub(crate) struct DrawRecord {
+    pub(crate) front: MaterialRecord,
+    pub(crate) back: MaterialRecord,
+    pub(crate) lists: RecordLists,
+    pub(crate) padding: [u32; 16],
+}
+
+pub(crate) const RECORD_BYTES: u64 = size_of::<DrawRecord>() as u64;
+
+/// Light lists of a record, each as how many directional, point and spot lights, and where their numbers begin. All 0
+/// where the lights are compiled in.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub(crate) struct RecordLists {
+    pub(crate) vertex: [u32; 4],
+    /// Lights without their specular terms.
+    pub(crate) vertex_diffuse: [u32; 4],
+    pub(crate) fragment: [u32; 4],
+    pub(crate) fragment_diffuse: [u32; 4],
+}
+
+impl DrawRecord {
+    pub(crate) fn new(front: MaterialRecord, back: MaterialRecord) -> Self {
+        Self { front, back, ..Self::default() }
+    }
+}
+
+impl InstanceRecord {
+    /// With only back faces shown, the surface is lit inside out: its normals turn, and so do its windings.
+    pub(crate) fn new(model_view: &ModelView, normal_matrix: &NormalMatrix, faces: Faces) -> Self {
+        let m = model_view.eye_from_model.matrix3.transpose();
+        let t = model_view.eye_from_model.translation;
+        let row = |row: Vec3A, translation: f32| [row.x, row.y, row.z, translation];
+        let side = if faces == Faces::Back { -1.0 } else { 1.0 };
+        Self {
+            rows: [row(m.x_axis, t.x), row(m.y_axis, t.y), row(m.z_axis, t.z)],
+            normal: (normal_matrix.0 * side).to_cols_array_2d(),
+            record: 0,
+        }
+    }
+}
+
+impl MaterialRecord {
+    pub(crate) fn new(material: &Material, reflectance: Reflectance, ambient: Vec3) -> Self {
+        let ka = rgb(material.ambient);
+        Self {
+            base: (rgb(material.emission) + ka * ambient).to_array(),
+            shininess: exponent(material, reflectance),
+            diffuse: rgb(material.diffuse).to_array(),
+            opacity: material.opacity,
+            specular: rgb(material.specular).to_array(),
+            ambient: ka.to_array(),
+            ..Self::default()
+        }
+    }
+}
+
+/// α of Phong, β of Blinn–Phong, or the β that matches α.
+pub(crate) fn exponent(material: &Material, reflectance: Reflectance) -> f32 {
+    match reflectance {
+        Reflectance::BlinnPhongMatched => matched_shininess(material.shininess),
+        _ => material.shininess,
+    }
+}

@@ -1,0 +1,4 @@
+//! Where pictures go, and how they are read back.
+
+pub(crate) mod frame;
+pub(crate) mod picture;

@@ -1,0 +1,193 @@
+//! Pictures read back from the headless target.
+
+use crate::device::gpu::Gpu;
+use crate::error::RenderError;
+use crate::frame::report::FrameReport;
+use crate::target::frame::Target;
+use bevy_app::App;
+use bevy_ecs::prelude::World;
+use image::{Rgba, Rgba32FImage, RgbaImage};
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+
+/// A picture, top row first.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Picture {
+    /// 8 bits a channel, encoded as the camera says.
+    Byte(RgbaImage),
+    /// Linear I, before the intensity policy.
+    Float(Rgba32FImage),
+}
+
+impl Picture {
+    /// Width and height in pixels.
+    pub fn dimensions(&self) -> (u32, u32) {
+        match self {
+            Self::Byte(image) => image.dimensions(),
+            Self::Float(image) => image.dimensions(),
+        }
+    }
+}
+
+/// A picture on its way from the GPU. Poll it with [`PendingPicture::try_take`] while other frames
+/// are drawn, or wait for it with [`PendingPicture::wait`].
+pub struct PendingPicture {
+    buffer: wgpu::Buffer,
+    width: u32,
+    height: u32,
+    row_bytes: u32,
+    format: wgpu::TextureFormat,
+    mapped: Receiver<Result<(), wgpu::BufferAsyncError>>,
+}
+
+impl PendingPicture {
+    /// Starts to copy the newest headless picture; later frames do not change what arrives.
+    ///
+    /// # Errors
+    /// [`RenderError::NoPicture`] before the first headless frame or while a window is the target.
+    pub fn request(world: &World) -> Result<Self, RenderError> {
+        let (Some(gpu), Some(target)) = (world.get_resource::<Gpu>(), world.get_resource::<Target>()) else {
+            return Err(RenderError::NoPicture);
+        };
+        let texture = target.picture().ok_or(RenderError::NoPicture)?;
+        let (width, height, format) = (texture.width(), texture.height(), texture.format());
+        let pixel_bytes = format.block_copy_size(None).ok_or(RenderError::NoPicture)?;
+        let row_bytes = (width * pixel_bytes).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+        let size = u64::from(row_bytes) * u64::from(height);
+        let limit = gpu.device.limits().max_buffer_size;
+        if size > limit {
+            return Err(RenderError::TooLarge {
+                what: "reading the picture back, in bytes,".into(),
+                needed: size,
+                limit,
+            });
+        }
+        let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("read-back"),
+            size,
+            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+            mapped_at_creation: false,
+        });
+        let mut encoder =
+            gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("read-back") });
+        encoder.copy_texture_to_buffer(
+            texture.as_image_copy(),
+            wgpu::TexelCopyBufferInfo {
+                buffer: &buffer,
+                layout: wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row_bytes), rows_per_image: None },
+            },
+            texture.size(),
+        );
+        gpu.queue.submit([encoder.finish()]);
+        let (sender, mapped) = channel();
+        // The receiver is gone only when nobody wants the picture any more.
+        buffer.map_async(wgpu::MapMode::Read, .., move |result| drop(sender.send(result)));
+        Ok(Self { buffer, width, height, row_bytes, format, mapped })
+    }
+
+    /// The picture if it has arrived; `None` while it has not, and after it was taken.
+    ///
+    /// # Errors
+    /// [`RenderError::Device`] when the device failed on the way.
+    pub fn try_take(&mut self, gpu: &Gpu) -> Result<Option<Picture>, RenderError> {
+        gpu.device.poll(wgpu::PollType::Poll).map_err(|error| RenderError::Device(error.to_string()))?;
+        match self.mapped.try_recv() {
+            Ok(Ok(())) => self.read().map(Some),
+            Ok(Err(error)) => Err(RenderError::Device(error.to_string())),
+            Err(TryRecvError::Empty | TryRecvError::Disconnected) => Ok(None),
+        }
+    }
+
+    /// Blocks until the picture has arrived.
+    ///
+    /// # Errors
+    /// [`RenderError::Device`] when the device failed on the way.
+    pub fn wait(self, gpu: &Gpu) -> Result<Picture, RenderError> {
+        let failed = |error: &dyn std::fmt::Display| RenderError::Device(error.to_string());
+        gpu.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| failed(&error))?;
+        self.mapped.recv().map_err(|error| failed(&error))?.map_err(|error| failed(&error))?;
+        self.read()
+    }
+
+    fn read(&self) -> Result<Picture, RenderError> {
+        let bytes = self.buffer.get_mapped_range(..).map_err(|error| RenderError::Device(error.to_string()))?;
+        let rows = bytes.chunks_exact(self.row_bytes as usize);
+        let picture = match self.format {
+            wgpu::TextureFormat::Rgba32Float => Some(float(self, rows, |pixel: [f32; 4]| pixel)),
+            wgpu::TextureFormat::Rgba16Float => Some(float(self, rows, |pixel: [u16; 4]| pixel.map(half_to_float))),
+            _ => {
+                let row = self.width as usize * 4;
+                let pixels = rows.flat_map(|bytes| &bytes[..row]).copied().collect();
+                RgbaImage::from_raw(self.width, self.height, pixels).map(Picture::Byte)
+            }
+        };
+        drop(bytes);
+        self.buffer.unmap();
+        picture.ok_or_else(|| RenderError::Device("the driver returned a picture of the wrong size".into()))
+    }
+}
+
+fn float<'a, T: bytemuck::Pod>(
+    pending: &PendingPicture,
+    rows: impl Iterator<Item = &'a [u8]>,
+    decode: impl Fn(T) -> [f32; 4],
+) -> Picture {
+    let mut image = Rgba32FImage::new(pending.width, pending.height);
+    for (out, bytes) in image.rows_mut().zip(rows) {
+        for (pixel, bytes) in out.zip(bytes.chunks_exact(size_of::<T>())) {
+            *pixel = Rgba(decode(bytemuck::pod_read_unaligned(bytes)));
+        }
+    }
+    Picture::Float(image)
+}
+
+/// IEEE 754 binary16 to binary32.
+fn half_to_float(half: u16) -> f32 {
+    let magnitude = u32::from(half & 0x7fff);
+    let bits = match magnitude {
+        0x7c00.. => magnitude << 13 | 0x7f80_0000,
+        0x0400.. => (magnitude << 13) + 0x3800_0000,
+        // Subnormal: the mantissa counts units of 2⁻²⁴.
+        _ => (magnitude as f32 * 2f32.powi(-24)).to_bits(),
+    };
+    f32::from_bits(bits | u32::from(half & 0x8000) << 16)
+}
+
+/// Runs one frame of `app` and waits for its picture. Everything the frame could not do is an error
+/// here: the first of [`FrameReport::errors`].
+///
+/// # Errors
+/// The frame's first error, or why its picture could not be read back.
+pub fn render_picture(app: &mut App) -> Result<Picture, RenderError> {
+    app.update();
+    let world = app.world();
+    if let Some(error) = world.get_resource::<FrameReport>().and_then(|report| report.errors.first()) {
+        return Err(error.clone());
+    }
+    let pending = PendingPicture::request(world)?;
+    pending.wait(world.get_resource::<Gpu>().ok_or(RenderError::NoPicture)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::half_to_float;
+
+    #[test]
+    fn half_floats_decode_at_their_edges() {
+        let cases = [
+            (0x0000, 0.0),
+            (0x8000, -0.0),
+            (0x0001, 5.960_464_5e-8),
+            (0x03ff, 6.097_555e-5),
+            (0x0400, 6.103_515_6e-5),
+            (0x3c00, 1.0),
+            (0xc000, -2.0),
+            (0x7bff, 65504.0),
+            (0x7c00, f32::INFINITY),
+            (0xfc00, f32::NEG_INFINITY),
+        ];
+        for (half, float) in cases {
+            assert_eq!(half_to_float(half).to_bits(), f32::to_bits(float), "{half:#06x}");
+        }
+        assert!(half_to_float(0x7e00).is_nan());
+    }
+}
