@@ -9,5 +9,6 @@ pub mod figure;
 pub mod measure;
 pub mod page;
 mod report;
+pub mod timing;
 
 pub use report::{NamedFile, Plan, Report, ReportError, Scaling, measure, write};

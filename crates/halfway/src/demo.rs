@@ -3,15 +3,39 @@
 use std::ffi::OsString;
 use std::ops::Range;
 use std::path::PathBuf;
-use std::process::exit;
 
-use crate::record::{Recording, parse_size};
+use bevy_app::{App, AppExit, Plugin};
+use halfway_record::{Recording, parse_size};
 
 /// Where a demo draws.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Demo {
     Window,
     Record(Recording),
+    Stop(Stop),
+}
+
+/// Gives the App a runner that draws nothing: it prints how the program is used and ends, with exit code 2 where there
+/// is a problem.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Stop {
+    problem: Option<String>,
+}
+
+impl Plugin for Stop {
+    fn build(&self, app: &mut App) {
+        let problem = self.problem.clone();
+        app.set_runner(move |_| match problem {
+            None => {
+                println!("{USAGE}");
+                AppExit::Success
+            }
+            Some(problem) => {
+                eprintln!("error: {problem}\n\n{USAGE}");
+                AppExit::from_code(2)
+            }
+        });
+    }
 }
 
 const USAGE: &str = "\
@@ -29,14 +53,8 @@ impl Demo {
     pub(crate) fn from_args() -> Self {
         match Self::parse(std::env::args_os().skip(1)) {
             Ok(Some(demo)) => demo,
-            Ok(None) => {
-                println!("{USAGE}");
-                exit(0)
-            }
-            Err(problem) => {
-                eprintln!("error: {problem}\n\n{USAGE}");
-                exit(2)
-            }
+            Ok(None) => Self::Stop(Stop { problem: None }),
+            Err(problem) => Self::Stop(Stop { problem: Some(problem) }),
         }
     }
 

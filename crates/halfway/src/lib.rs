@@ -18,15 +18,11 @@
 //! ```
 //!
 //! The same App draws without a window: [`HalfwayPlugins::headless`] and [`render_picture`](render::render_picture)
-//! for one picture, [`record`] for many. [`scene`] reads scene files. The rooms that this crate opens onto are
-//! [`mesh`], [`lighting`], [`render`] and, with the feature `window`, `window`.
+//! for one picture, [`record`] for many. [`scene`] reads scene files. This crate holds the [`prelude`] and the group of plugins;
+//! all else is re-exported from crates of one subject each: [`mesh`], [`lighting`], [`scene`], [`render`], [`reference`],
+//! [`record`], [`output`] and, with the feature `window`, `window`.
 
-pub mod benchmark;
-pub mod model;
-pub mod output;
 pub mod prelude;
-pub mod record;
-pub mod scene;
 
 mod demo;
 mod plugins;
@@ -35,8 +31,11 @@ pub use plugins::HalfwayPlugins;
 
 pub use halfway_lighting as lighting;
 pub use halfway_mesh as mesh;
+pub use halfway_record as record;
+pub use halfway_record::output;
 pub use halfway_reference as reference;
 pub use halfway_render as render;
+pub use halfway_scene as scene;
 #[cfg(feature = "window")]
 pub use halfway_window as window;
 

@@ -10,7 +10,7 @@ use halfway_mesh::MeshPlugin;
 use halfway_render::RenderPlugin;
 
 use crate::demo::Demo;
-use crate::record::HeadlessPlugin;
+use halfway_record::HeadlessPlugin;
 
 /// Everything that a lit scene needs: tasks, assets, time, transforms, meshes, lighting, rendering, and a window where
 /// the feature `window` is on. Each plugin also works alone.
@@ -31,7 +31,7 @@ impl PluginGroup for HalfwayPlugins {
 
 impl HalfwayPlugins {
     /// The group without a window: pictures of `size` pixels, to be drawn with
-    /// [`render_picture`](halfway_render::render_picture) or [`record`](crate::record::record).
+    /// [`render_picture`](halfway_render::render_picture) or [`record`](halfway_record::record).
     pub fn headless(size: UVec2) -> PluginGroupBuilder {
         Self::common().add(HeadlessPlugin { size })
     }
@@ -81,11 +81,13 @@ impl HalfwayPlugins {
     /// | `--model FILE` | left to the program |
     /// | `--help` | print these and stop |
     ///
-    /// Arguments that are not understood are refused with exit code 2.
+    /// Arguments that are not understood are refused: the App then draws nothing, [`App::run`](bevy_app::App::run) prints
+    /// what is wrong, and the exit code is 2.
     pub fn from_args() -> PluginGroupBuilder {
         match Demo::from_args() {
             Demo::Window => Self.build(),
             Demo::Record(recording) => Self::common().add(recording),
+            Demo::Stop(stop) => Self::common().add(stop),
         }
     }
 

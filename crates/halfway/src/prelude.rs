@@ -1,7 +1,6 @@
 //! What a scene in code needs, in one `use`.
 
 pub use crate::HalfwayPlugins;
-pub use crate::model::{ModelMaterial, model_light};
 pub use bevy_app::prelude::*;
 pub use bevy_asset::{Assets, Handle};
 pub use bevy_color::{Color, ColorToComponents as _, Gray as _, LinearRgba, Srgba};
@@ -17,5 +16,6 @@ pub use halfway_mesh::{Cuboid, Mesh, Mesh3d, MeshPlugin, Plane, Teapot, UvSphere
 pub use halfway_render::{
     Compile, FrameReport, Headless, LevelsOfDetail, Picture, Pixels, RenderPlugin, RenderSet, render_picture,
 };
+pub use halfway_scene::import::{ModelMaterial, model_light};
 #[cfg(feature = "window")]
 pub use halfway_window::{OrbitCamera, OrbitCameraPlugin, ViewerKeysPlugin, WindowPlugin, WindowTitle};

@@ -73,50 +73,67 @@ const UNIT_INTERVAL: &str = "a number from 0 to 1";
 const CHANNEL: &str = "a number from 0 to 1e12";
 
 /// The fields of one value under validation: names the owner and the path in every error.
-#[derive(Clone, Copy)]
-pub(crate) struct Fields {
-    pub(crate) owner: &'static str,
+#[derive(Clone, Copy, Debug)]
+pub struct Fields {
+    /// The type that holds the value.
+    pub owner: &'static str,
     /// What stands before a field's name: empty, or the path to an inner struct with its dot.
-    pub(crate) prefix: &'static str,
+    pub prefix: &'static str,
 }
 
 impl Fields {
-    pub(crate) const fn of(owner: &'static str) -> Self {
+    /// The fields of a value of the type `owner`.
+    pub const fn of(owner: &'static str) -> Self {
         Self { owner, prefix: "" }
     }
 
-    pub(crate) const fn inside(self, prefix: &'static str) -> Self {
+    /// The fields of an inner struct; `prefix` is the path to it with its dot.
+    pub const fn inside(self, prefix: &'static str) -> Self {
         Self { prefix, ..self }
     }
 
-    pub(crate) fn error(self, field: &str, problem: Problem) -> InvalidValue {
+    /// The error of one field.
+    pub fn error(self, field: &str, problem: Problem) -> InvalidValue {
         InvalidValue { owner: self.owner, field: format!("{}{field}", self.prefix), problem }
     }
 
     /// `Err` unless `holds`; NaN fails every comparison and so needs no case of its own.
-    pub(crate) fn number(
-        self,
-        field: &str,
-        value: f32,
-        holds: bool,
-        expected: &'static str,
-    ) -> Result<(), InvalidValue> {
+    ///
+    /// # Errors
+    /// `holds` is false.
+    pub fn number(self, field: &str, value: f32, holds: bool, expected: &'static str) -> Result<(), InvalidValue> {
         if holds { Ok(()) } else { Err(self.error(field, Problem::Number { value, expected })) }
     }
 
-    pub(crate) fn non_negative(self, field: &str, value: f32) -> Result<(), InvalidValue> {
+    /// Expects a finite number, 0 or more.
+    ///
+    /// # Errors
+    /// The value is not so.
+    pub fn non_negative(self, field: &str, value: f32) -> Result<(), InvalidValue> {
         self.number(field, value, value >= 0.0 && value.is_finite(), NON_NEGATIVE)
     }
 
-    pub(crate) fn positive(self, field: &str, value: f32) -> Result<(), InvalidValue> {
+    /// Expects a finite number above 0.
+    ///
+    /// # Errors
+    /// The value is not so.
+    pub fn positive(self, field: &str, value: f32) -> Result<(), InvalidValue> {
         self.number(field, value, value > 0.0 && value.is_finite(), POSITIVE)
     }
 
-    pub(crate) fn unit_interval(self, field: &str, value: f32) -> Result<(), InvalidValue> {
+    /// Expects a number from 0 to 1.
+    ///
+    /// # Errors
+    /// The value is not so.
+    pub fn unit_interval(self, field: &str, value: f32) -> Result<(), InvalidValue> {
         self.number(field, value, (0.0..=1.0).contains(&value), UNIT_INTERVAL)
     }
 
-    pub(crate) fn channels(self, field: &str, rgb: [f32; 3]) -> Result<(), InvalidValue> {
+    /// Expects three channels of a color, each 0 to [`CHANNEL_MAX`].
+    ///
+    /// # Errors
+    /// The value is not so.
+    pub fn channels(self, field: &str, rgb: [f32; 3]) -> Result<(), InvalidValue> {
         for (name, value) in ["red", "green", "blue"].into_iter().zip(rgb) {
             if !(0.0..=CHANNEL_MAX).contains(&value) {
                 return Err(self.error(&format!("{field}.{name}"), Problem::Number { value, expected: CHANNEL }));
@@ -125,7 +142,11 @@ impl Fields {
         Ok(())
     }
 
-    pub(crate) fn color(self, field: &str, color: LinearRgba) -> Result<(), InvalidValue> {
+    /// Expects a color whose channels are 0 to [`CHANNEL_MAX`]; its alpha is ignored.
+    ///
+    /// # Errors
+    /// The value is not so.
+    pub fn color(self, field: &str, color: LinearRgba) -> Result<(), InvalidValue> {
         self.channels(field, [color.red, color.green, color.blue])
     }
 }

@@ -32,7 +32,6 @@
 //! - [`bounds`]: what a light can add to a patch of surface at most, and which lights a patch needs.
 //! - [`matched_shininess`]: the Blinn–Phong exponent for a Phong highlight.
 //! - [`homogeneous`]: light positions as four coordinates.
-//! - [`conversion`]: materials of MTL and glTF files, lights of `KHR_lights_punctual`.
 //!
 //! No GPU, no window, no file is touched.
 //!
@@ -52,7 +51,6 @@
 
 pub mod bounds;
 mod camera;
-pub mod conversion;
 pub mod equations;
 pub mod homogeneous;
 mod invalid;
@@ -65,7 +63,7 @@ mod presets;
 mod shading;
 
 pub use camera::{Camera, Encoding, Intensity, Samples};
-pub use invalid::{CHANNEL_MAX, InvalidValue, Problem};
+pub use invalid::{CHANNEL_MAX, Fields, InvalidValue, Problem};
 pub use light::{Attenuation, Cone, DirectionalLight, GlobalAmbient, PointLight, SpotLight};
 pub use matched::matched_shininess;
 pub use material::{BackMaterial, Material};

@@ -1,12 +1,12 @@
 //! Error against time: what the adapter draws, beside the true surface and beside a constant colour.
 
-use halfway::benchmark::{in_turns, median, median_ratio, settle};
 use halfway::prelude::*;
 use halfway::reference::metrics::{self, Comparison, Scale};
 use halfway::reference::{Image, Mode};
 use image::RgbImage;
 
 use super::{MeasureError, Object, Progress, SHADINGS, Scene, Stage, shading_name};
+use crate::timing::{in_turns, median, median_ratio, settle};
 
 /// How much is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,7 +1,5 @@
 //! How the time of a frame grows, as a chapter of the report and as a page of its own.
 
-use halfway::benchmark::{FRAME_TIME, Look, Machine, Spread};
-
 use super::charts::{gray, order, style};
 use super::pages::files;
 use super::tables::number;
@@ -10,6 +8,7 @@ use crate::figure::{Axis, Figure, Marker, Panel, Point, Scale, Series, Stroke, S
 use crate::measure::scaling::{self, Curve, Decade, Growth, LOOKS, Law, Plan, Sample};
 use crate::measure::{MeasureError, Progress, shading_name};
 use crate::page::{Page, Section, Table, csv, html};
+use crate::timing::{FRAME_TIME, Look, Machine, Spread};
 
 /// How the time of a frame grows with what is in it.
 #[derive(Clone, Debug)]

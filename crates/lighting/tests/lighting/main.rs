@@ -4,7 +4,6 @@
 #![allow(clippy::float_cmp)]
 
 mod components;
-mod conversion;
 mod degenerate;
 mod ecs;
 mod edges;

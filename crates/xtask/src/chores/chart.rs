@@ -14,7 +14,7 @@ const PICTURE: &str = "docs/pictures/chart.svg";
 /// Sets up, builds, measures and writes the page.
 pub(crate) fn run(setup: Setup, quick: bool, scaling: bool) -> Result {
     setup.meet(&[DRIVER])?;
-    step("build", &mut cargo(["build", "--release", "-p", "halfway", "-p", "halfway_chart", "--bins"]))?;
+    step("build", &mut cargo(["build", "--release", "-p", "halfway_command", "-p", "halfway_chart", "--bins"]))?;
     adapters(setup)?;
     step("measuring", &mut measuring(quick, scaling))?;
     let page = if scaling { "scaling.html" } else { "index.html" };

@@ -4,11 +4,11 @@ mod growth;
 mod scenery;
 mod slopes;
 
-use halfway::benchmark::{Look, Machine, Spread, in_turns, settle};
 use halfway::prelude::*;
 use halfway::render::Gpu;
 
 use super::{MeasureError, Progress};
+use crate::timing::{Look, Machine, Spread, in_turns, settle};
 use scenery::Scenery;
 
 pub use growth::Growth;

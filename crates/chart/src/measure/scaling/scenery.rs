@@ -2,12 +2,12 @@
 
 use std::f32::consts::TAU;
 
-use halfway::benchmark::Look;
 use halfway::prelude::*;
 use halfway::render::Gpu;
 
 use super::Growth;
 use super::growth::PIXELS;
+use crate::timing::Look;
 
 /// An App that shows one scene after another in the same look.
 pub(super) struct Scenery {

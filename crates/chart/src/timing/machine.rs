@@ -1,0 +1,102 @@
+//! What was measured on.
+
+use halfway::render::{FrameReport, Gpu};
+
+/// The machine and the programs that figures come from. What cannot be found out is `unknown`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Machine {
+    /// The adapter's name, as its driver tells it.
+    pub adapter: String,
+    /// The interface that it is driven through, such as `vulkan`.
+    pub backend: String,
+    /// Whether the adapter draws on the CPU.
+    pub software: bool,
+    /// The driver's name.
+    pub driver: String,
+    /// The driver's version, in its own words.
+    pub driver_version: String,
+    /// halfway's version.
+    pub halfway: &'static str,
+    /// The CPU's model.
+    pub cpu: String,
+    /// The threads that this process may run at once; 0 where the system does not tell.
+    pub cores: usize,
+}
+
+impl Machine {
+    /// This machine, drawing on `gpu`.
+    pub fn new(gpu: &Gpu) -> Self {
+        let info = gpu.adapter.get_info();
+        let known = |text: String| if text.is_empty() { UNKNOWN.to_owned() } else { text };
+        Self {
+            adapter: known(info.name),
+            backend: info.backend.to_string(),
+            software: gpu.is_software(),
+            driver: known(info.driver),
+            driver_version: known(info.driver_info),
+            halfway: env!("CARGO_PKG_VERSION"),
+            cpu: cpu_model(&std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default()),
+            cores: std::thread::available_parallelism().map_or(0, Into::into),
+        }
+    }
+
+    /// Names and values, for people.
+    pub fn facts(&self) -> Vec<(&'static str, String)> {
+        let software = if self.software { ", software" } else { "" };
+        let cores = if self.cores == 0 { UNKNOWN.to_owned() } else { self.cores.to_string() };
+        vec![
+            ("adapter", format!("{} ({}{software})", self.adapter, self.backend)),
+            ("driver", format!("{} {}", self.driver, self.driver_version)),
+            ("halfway", self.halfway.to_owned()),
+            ("CPU", self.cpu.clone()),
+            ("CPU cores", cores),
+        ]
+    }
+}
+
+const UNKNOWN: &str = "unknown";
+
+/// The first model that Linux's list of processors names.
+fn cpu_model(list: &str) -> String {
+    let model = list.lines().find_map(|line| {
+        let (key, value) = line.split_once(':')?;
+        (key.trim() == "model name").then(|| value.trim())
+    });
+    model.filter(|model| !model.is_empty()).unwrap_or(UNKNOWN).to_owned()
+}
+
+/// What a frame counted, each count with its name in [`FrameReport`]; all of its numbers but `left_out`, which is no
+/// count.
+pub fn counters(report: &FrameReport) -> Vec<(&'static str, u64)> {
+    vec![
+        ("objects", report.objects.into()),
+        ("visible", report.visible.into()),
+        ("lights", report.lights.into()),
+        ("levels_pending", report.levels_pending.into()),
+        ("triangles_in", report.triangles_in),
+        ("patches", report.patches.into()),
+        ("patches_culled", report.patches_culled.into()),
+        ("lights_assigned", report.lights_assigned),
+        ("terms_shaded", report.terms_shaded),
+        ("draws", report.draws.into()),
+        ("triangles", report.triangles),
+        ("matrices", report.matrices.into()),
+        ("materials", report.materials.into()),
+        ("bytes_uploaded", report.bytes_uploaded),
+        ("pipelines", report.pipelines.into()),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn processors_by_their_model() {
+        let list = "processor\t: 0\nmodel\t\t: 85\nmodel name\t: A CPU: fast @ 2 GHz\n\nmodel name\t: Another\n";
+        assert_eq!(cpu_model(list), "A CPU: fast @ 2 GHz");
+        for list in ["", "model name\t:\n", "Hardware : board\n"] {
+            assert_eq!(cpu_model(list), "unknown", "{list:?}");
+        }
+    }
+}

@@ -1,0 +1,167 @@
+//! How a frame is timed: until the device has finished it, in turns with what it is compared with.
+
+use std::time::{Duration, Instant};
+
+use halfway::prelude::App;
+use halfway::render::{FrameReport, Gpu, RenderError, wgpu};
+
+/// What the time of a [`frame`] is.
+pub const FRAME_TIME: &str = "A frame is App::update, which moves everything, prepares, encodes and submits the draws, \
+                              and the wait until the device has finished them; start-up and reading the picture back are not in it.";
+
+/// The frames that a turn of [`in_turns`] times.
+const TIMED: usize = 2;
+/// The frames after which [`settle`] takes a scene as it is.
+const MOST: u32 = 20;
+/// How long [`settle`] waits for levels of detail.
+const PATIENCE: Duration = Duration::from_mins(5);
+/// Between frames that only wait for levels, so that their maker has the machine to itself.
+const PAUSE: Duration = Duration::from_millis(1);
+
+/// One frame, until the device has finished it.
+///
+/// # Errors
+/// The first thing that the frame could not do, or why the device did not finish.
+pub fn frame(app: &mut App) -> Result<(), RenderError> {
+    app.update();
+    let world = app.world();
+    if let Some(error) = world.get_resource::<FrameReport>().and_then(|report| report.errors.first()) {
+        return Err(error.clone());
+    }
+    let device = &world.get_resource::<Gpu>().ok_or(RenderError::NoAdapter)?.device;
+    device.poll(wgpu::PollType::wait_indefinitely()).map(drop).map_err(|error| RenderError::Device(error.to_string()))
+}
+
+/// Runs frames until they are alike: the first ones build pipelines, upload meshes and wait for levels of detail. Alike are
+/// three in a row after which as many pipelines are built, which upload as many bytes, and which wait for no levels. A
+/// scene whose frames go on to differ is left after 20, and one that waits for levels after five minutes: those of a mesh that
+/// was seen but once are not made.
+///
+/// # Errors
+/// What [`frame`] says.
+pub fn settle(app: &mut App) -> Result<(), RenderError> {
+    let mut last = None;
+    let mut alike = 0;
+    let mut frames = 0;
+    let start = Instant::now();
+    while frames < MOST {
+        frame(app)?;
+        let report = app.world().get_resource::<FrameReport>();
+        if report.is_some_and(|report| report.levels_pending > 0) && start.elapsed() < PATIENCE {
+            std::thread::sleep(PAUSE);
+            continue;
+        }
+        frames += 1;
+        let now = report.map(|report| (report.pipelines, report.bytes_uploaded));
+        alike = if now == last { alike + 1 } else { 0 };
+        if alike == 2 {
+            break;
+        }
+        last = now;
+    }
+    Ok(())
+}
+
+/// The times of frames in milliseconds, a list for each App, two frames a round.
+///
+/// All take turns within a round, so that what else the machine does meets all alike, and the i-th times belong
+/// together. The first frame of each turn is not timed: it warms the caches that the others have cooled. [`settle`] the
+/// Apps first.
+///
+/// # Errors
+/// What [`frame`] says.
+pub fn in_turns(apps: &mut [&mut App], rounds: u32) -> Result<Vec<Vec<f64>>, RenderError> {
+    in_turns_with(apps, rounds, |_, _| ())
+}
+
+/// The same, with `note` told of each App, by its place, after each of its timed frames.
+///
+/// # Errors
+/// What [`frame`] says.
+pub fn in_turns_with(
+    apps: &mut [&mut App],
+    rounds: u32,
+    mut note: impl FnMut(usize, &App),
+) -> Result<Vec<Vec<f64>>, RenderError> {
+    let mut times = vec![Vec::with_capacity(rounds as usize * TIMED); apps.len()];
+    for _ in 0..rounds {
+        for (i, (app, times)) in apps.iter_mut().zip(&mut times).enumerate() {
+            frame(app)?;
+            for _ in 0..TIMED {
+                let start = Instant::now();
+                frame(app)?;
+                times.push(start.elapsed().as_secs_f64() * 1e3);
+                note(i, app);
+            }
+        }
+    }
+    Ok(times)
+}
+
+/// The middle value; the upper of two, 0 of none.
+pub fn median(values: &[f64]) -> f64 {
+    Spread::of(values).median
+}
+
+/// The median over the rounds of a time as a multiple of another one of the same round: what slows the machine down for a
+/// while slows both. 0 for none.
+pub fn median_ratio(times: &[f64], to: &[f64]) -> f64 {
+    median(&times.iter().zip(to).map(|(time, to)| time / to).collect::<Vec<_>>())
+}
+
+/// How values lie, in their unit; all 0 of none. Of two middle values the upper one is the median, and so with the
+/// quartiles.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Spread {
+    /// The least.
+    pub min: f64,
+    /// A quarter is below it.
+    pub lower_quartile: f64,
+    /// Half is below it.
+    pub median: f64,
+    /// Three quarters are below it.
+    pub upper_quartile: f64,
+    /// The largest.
+    pub max: f64,
+    /// How many there are.
+    pub count: usize,
+}
+
+impl Spread {
+    /// Of these values, in any order.
+    pub fn of(values: &[f64]) -> Self {
+        let mut sorted = values.to_vec();
+        sorted.sort_by(f64::total_cmp);
+        let count = sorted.len();
+        let at = |index: usize| sorted.get(index).copied().unwrap_or_default();
+        Self {
+            min: at(0),
+            lower_quartile: at(count / 4),
+            median: at(count / 2),
+            upper_quartile: at(count * 3 / 4),
+            max: at(count.saturating_sub(1)),
+            count,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn spreads_of_few_values() {
+        let spread = Spread::of(&[5.0, 1.0, 4.0, 2.0, 3.0]);
+        let expected = Spread { min: 1.0, lower_quartile: 2.0, median: 3.0, upper_quartile: 4.0, max: 5.0, count: 5 };
+        assert_eq!(spread, expected);
+        assert_eq!(median(&[4.0, 1.0, 3.0, 2.0]).to_bits(), 3f64.to_bits(), "the upper of two");
+        assert_eq!(Spread::of(&[]), Spread::default());
+    }
+
+    #[test]
+    fn ratios_are_taken_within_a_round() {
+        // The machine is ten times slower in the second round; the ratio of the medians would be 20.
+        let ratio = median_ratio(&[2.0, 20.0, 2.0], &[1.0, 10.0, 1.0]);
+        assert_eq!(ratio.to_bits(), 2f64.to_bits());
+    }
+}

@@ -1,0 +1,43 @@
+//! What the CPU takes for each set of a frame.
+
+use std::time::Duration;
+
+use halfway::prelude::*;
+use halfway::render::{FrameTimes, RenderError, SetTimes};
+use halfway_chart::timing::{in_turns_with, median};
+use serde_json::{Map, Value, json};
+
+/// What [`CpuTimes::own_ms`] is, for readers.
+pub(super) const OWN_TIME: &str = "Own CPU is the renderer's own part of it, a median, too: every set of a frame but \
+                                   Draw, which hands the work to the adapter; a software adapter may draw in there.";
+
+/// The sets' times in each frame that was timed.
+#[derive(Clone, Debug, Default)]
+pub(super) struct CpuTimes(Vec<SetTimes>);
+
+/// As [`halfway_chart::timing::in_turns`], with what the CPU took in the same frames.
+pub(super) fn timed(apps: &mut [&mut App], rounds: u32) -> Result<Vec<(Vec<f64>, CpuTimes)>, RenderError> {
+    let mut cpu = vec![CpuTimes::default(); apps.len()];
+    let times = in_turns_with(apps, rounds, |i, app| {
+        cpu[i].0.extend(app.world().get_resource::<FrameTimes>().map(FrameTimes::newest));
+    })?;
+    Ok(times.into_iter().zip(cpu).collect())
+}
+
+impl CpuTimes {
+    /// Medians in milliseconds, by the names of the sets; and that of the sum.
+    pub(super) fn json(&self) -> Value {
+        let sets = RenderSet::ALL.map(|set| (set.name().to_owned(), json!(self.median_ms(|times| times.of(set)))));
+        let total = ("total".to_owned(), json!(self.median_ms(SetTimes::total)));
+        sets.into_iter().chain([total]).collect::<Map<_, _>>().into()
+    }
+
+    /// What the renderer takes itself: without the set that submits, which a software adapter may use to draw.
+    pub(super) fn own_ms(&self) -> f64 {
+        self.median_ms(|times| times.total().saturating_sub(times.of(RenderSet::Draw)))
+    }
+
+    fn median_ms(&self, of: impl Fn(&SetTimes) -> Duration) -> f64 {
+        median(&self.0.iter().map(|times| of(times).as_secs_f64() * 1e3).collect::<Vec<_>>())
+    }
+}

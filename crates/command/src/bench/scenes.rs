@@ -1,0 +1,117 @@
+//! `halfway bench s1` to `s4`: the table of one scene.
+
+use halfway::prelude::*;
+use halfway::render::Gpu;
+use halfway_chart::timing::{FRAME_TIME, Machine, Spread, median_ratio, settle};
+use serde_json::json;
+
+use super::app::{app, size};
+use super::args::{BenchArgs, Mode};
+use super::cpu::{self, CpuTimes, OWN_TIME};
+use super::facts::{counters, machine, print_facts, spread};
+use super::own_process::{FirstFrame, first_frame};
+use crate::failure::Failure;
+use crate::levels;
+use crate::scenery::BenchmarkScene;
+
+/// What was measured of one shading.
+struct Row {
+    mode: Mode,
+    frame: Spread,
+    ratio: f64,
+    cpu: CpuTimes,
+    report: FrameReport,
+    warm: FirstFrame,
+    cold: Option<FirstFrame>,
+}
+
+pub(super) fn run(args: &BenchArgs, scene: BenchmarkScene) -> Result<(), Failure> {
+    let mut apps = Mode::ALL.map(|mode| app(args, scene, mode));
+    for app in &mut apps {
+        settle(app)?;
+    }
+    let timed = cpu::timed(&mut apps.each_mut(), args.rounds)?;
+    let machine = Machine::new(apps[0].world().resource::<Gpu>());
+    let reports = apps.map(|app| app.world().resource::<FrameReport>().clone());
+    let mut rows = Vec::new();
+    for ((mode, report), (own, cpu)) in Mode::ALL.into_iter().zip(reports).zip(&timed) {
+        rows.push(Row {
+            mode,
+            frame: Spread::of(own),
+            ratio: median_ratio(own, &timed[0].0),
+            cpu: cpu.clone(),
+            report,
+            warm: first_frame(args, mode, false)?,
+            cold: args.cold.then(|| first_frame(args, mode, true)).transpose()?,
+        });
+    }
+    if args.json {
+        print_json(args, scene, &machine, &rows);
+    } else {
+        print_table(args, scene, &machine, &rows);
+    }
+    Ok(())
+}
+
+fn print_table(args: &BenchArgs, scene: BenchmarkScene, machine: &Machine, rows: &[Row]) {
+    let size = size(args, scene);
+    let octahedra = if args.octahedra { ", spheres as octahedra" } else { "" };
+    println!("scene: {scene:?}{octahedra}, {} × {} pixels, {} rounds", size.x, size.y, args.rounds);
+    println!("levels of detail: {}", levels::describe(args.levels.allowed()));
+    print_facts(machine);
+    println!("\n{FRAME_TIME}\n{OWN_TIME}\n");
+    let cold = if args.cold { ["first frame, no shaders kept, ms | ", "---|"] } else { [""; 2] };
+    println!(
+        "| shading | frame, ms: median | min | max | × constant | own CPU, ms | first frame, ms | {}peak memory, MB |",
+        cold[0]
+    );
+    println!("|---|---|---|---|---|---|---|{}---|", cold[1]);
+    for Row { mode, frame, ratio, cpu, report: _, warm, cold } in rows {
+        let Spread { median, min, max, .. } = frame;
+        let cold = cold.as_ref().map(|cold| format!("{:.0} | ", cold.ms)).unwrap_or_default();
+        println!(
+            "| {} | {median:.2} | {min:.2} | {max:.2} | {ratio:.2} | {:.2} | {:.0} | {cold}{:.0} |",
+            mode.name(),
+            cpu.own_ms(),
+            warm.ms,
+            warm.peak_mb
+        );
+    }
+}
+
+fn print_json(args: &BenchArgs, scene: BenchmarkScene, machine: &Machine, rows: &[Row]) {
+    let size = size(args, scene);
+    let levels = args.levels.allowed();
+    let rows: Vec<_> = rows
+        .iter()
+        .map(|row| {
+            let mut value = json!({
+                "shading": row.mode.name(),
+                "frame_ms": row.frame.median,
+                "frame_ms_spread": spread(&row.frame),
+                "ratio_to_constant": row.ratio,
+                "first_frame_ms": row.warm.ms,
+                "peak_mb": row.warm.peak_mb,
+                "cpu_ms": row.cpu.json(),
+                "report": counters(&row.report),
+            });
+            if let Some(cold) = &row.cold {
+                value["first_frame_cold_ms"] = json!(cold.ms);
+            }
+            value
+        })
+        .collect();
+    println!(
+        "{}",
+        json!({
+            "scene": format!("{scene:?}"),
+            "octahedra": args.octahedra,
+            "size": size.to_array(),
+            "levels": { "pixels": levels.pixels, "shading": levels.shading },
+            "rounds": args.rounds,
+            "machine": self::machine(machine),
+            "frame": FRAME_TIME,
+            "rows": rows,
+        })
+    );
+}

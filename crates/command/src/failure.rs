@@ -1,0 +1,63 @@
+//! Why a command failed, and its exit code.
+
+use std::error::Error;
+
+/// Why a command failed, and the exit code that says so.
+#[derive(Debug)]
+pub(crate) struct Failure {
+    pub(crate) code: u8,
+    pub(crate) error: Box<dyn Error>,
+}
+
+/// The exit code of pictures that differ by more than they may.
+pub(crate) const DIFFERENT: u8 = 4;
+/// The exit code of work that Ctrl-C stopped, as shells have it.
+pub(crate) const STOPPED: u8 = 130;
+
+impl Failure {
+    pub(crate) fn new(code: u8, error: impl Into<Box<dyn Error>>) -> Self {
+        Self { code, error: error.into() }
+    }
+}
+
+/// Input that cannot be used is exit code 2.
+macro_rules! bad_input {
+    ($($error:ty),*) => {
+        $(impl From<$error> for Failure {
+            fn from(error: $error) -> Self {
+                Self::new(2, error)
+            }
+        })*
+    };
+}
+bad_input!(
+    halfway::scene::SceneError,
+    halfway::mesh::LoadError,
+    halfway::mesh::WriteError,
+    halfway::output::OutputError,
+    halfway::reference::OracleError,
+    String
+);
+
+impl From<halfway::render::RenderError> for Failure {
+    fn from(error: halfway::render::RenderError) -> Self {
+        use halfway::render::RenderError as E;
+        let code = match error {
+            E::NoAdapter | E::NoDevice { .. } => 3,
+            E::Device(_) => 1,
+            _ => 2,
+        };
+        Self::new(code, error)
+    }
+}
+
+impl From<halfway::record::RecordError> for Failure {
+    fn from(error: halfway::record::RecordError) -> Self {
+        use halfway::record::RecordError as E;
+        match error {
+            E::Render(error) => error.into(),
+            E::Stopped(_) => Self::new(STOPPED, error),
+            other => Self::new(2, other),
+        }
+    }
+}

@@ -1,0 +1,137 @@
+//! The `halfway` command: scenes and models to pictures, to a window, to figures.
+
+mod adapters;
+mod bench;
+mod compare;
+mod convert;
+mod failure;
+mod figures;
+mod info;
+mod input;
+mod levels;
+mod look;
+mod picture;
+mod progress;
+mod render;
+mod scenery;
+mod steps;
+mod verify;
+#[cfg(feature = "window")]
+mod view;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+use failure::Failure;
+
+/// Classic lighting and shading of scenes and models: flat, Gouraud and Phong, with Phong and Blinn–Phong reflectance.
+#[derive(Debug, Parser)]
+#[command(
+    name = "halfway",
+    version,
+    max_term_width = 100,
+    after_help = "Exit codes: 0 done; 1 the graphics device \
+    failed; 2 the input or the command line cannot be used; 3 there is no graphics adapter; 4 pictures differ by more than they \
+    may; 130 stopped by Ctrl-C."
+)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Draw a scene file (.json) or a model (.smf, .obj, .gltf, .glb, .ply, .stl) into a picture
+    Render(render::RenderArgs),
+    /// Show a scene or a model in a window
+    ///
+    /// Left drag turns, right drag pans, the wheel zooms; 1, 2, 3 switch flat, Gouraud and Phong, B the reflectance,
+    /// Home resets, Escape closes.
+    #[cfg(feature = "window")]
+    View(view::ViewArgs),
+    /// Say how far one picture is from another, and draw where
+    ///
+    /// Figures are of the errors of A, with B as what is expected, on the pixels that both cover. Exit code 4 where a pixel
+    /// differs by more than --max allows.
+    Compare(compare::CompareArgs),
+    /// Draw a scene with the graphics adapter and with the reference renderer, and judge the one by the other
+    ///
+    /// Pixels on edges, where rounding decides which side is seen, are told apart. Exit code 4 where another differs by
+    /// more than --max allows.
+    Verify(verify::VerifyArgs),
+    /// Print what a model holds, and what is wrong with it
+    Info(info::InfoArgs),
+    /// Write a model in another format, mended, refined, simplified or with other normals; print what is lost
+    ///
+    /// The steps asked for are taken in the order in which their options are listed here, on each mesh by itself. Lengths
+    /// are in the units of the file's meshes, before a glTF node scales them.
+    Convert(convert::ConvertArgs),
+    /// Time a benchmark scene in every shading, beside a constant colour; or what features cost
+    Bench(bench::BenchArgs),
+    /// List the graphics adapters; exit code 3 where there is none
+    Adapters,
+    /// Print the JSON schema of scene files
+    Schema,
+}
+
+/// Mesa's Vulkan drivers look for a Wayland display while adapters are listed. Without a session, where `XDG_RUNTIME_DIR`
+/// is not set, the Wayland library then prints an error that is none; with any folder there, it finds nothing in silence.
+#[expect(unsafe_code, reason = "the environment may be written while there is one thread, which is now")]
+fn quiet_driver() {
+    const FOLDER: &str = "XDG_RUNTIME_DIR";
+    if cfg!(target_os = "linux") && std::env::var_os(FOLDER).is_none() && std::env::var_os("WAYLAND_DISPLAY").is_none()
+    {
+        // SAFETY: the first statement of `main`; no other thread exists that could read the environment.
+        unsafe { std::env::set_var(FOLDER, std::env::temp_dir()) };
+    }
+}
+
+/// Rust programs go on when nobody reads their output any more, until printing panics. With the system's own way back,
+/// `halfway info … | head` ends quietly.
+#[cfg_attr(unix, expect(unsafe_code, reason = "a signal's default action is set, and no handler that could race"))]
+fn end_with_the_reader() {
+    #[cfg(unix)]
+    // SAFETY: both arguments are constants that `signal` documents, and the default action runs no code of this process.
+    unsafe {
+        libc::signal(libc::SIGPIPE, libc::SIG_DFL);
+    }
+}
+
+fn main() -> ExitCode {
+    quiet_driver();
+    env_logger::Builder::from_env(env_logger::Env::default().default_filter_or("warn,wgpu_hal=off"))
+        .format_timestamp(None)
+        .init();
+    let command = Cli::parse().command;
+    // A window's connection to its display must not end it so.
+    #[cfg(feature = "window")]
+    let has_window = matches!(command, Command::View(_));
+    #[cfg(not(feature = "window"))]
+    let has_window = false;
+    if !has_window {
+        end_with_the_reader();
+    }
+    let result = match command {
+        Command::Render(args) => render::run(&args),
+        #[cfg(feature = "window")]
+        Command::View(args) => view::run(&args),
+        Command::Compare(args) => compare::run(&args),
+        Command::Verify(args) => verify::run(&args),
+        Command::Info(args) => info::run(&args),
+        Command::Convert(args) => convert::run(&args),
+        Command::Bench(args) => bench::run(&args),
+        Command::Adapters => adapters::run(),
+        Command::Schema => {
+            print!("{}", halfway::scene::json_schema());
+            Ok(())
+        }
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(Failure { code, error }) => {
+            eprintln!("error: {error}");
+            ExitCode::from(code)
+        }
+    }
+}

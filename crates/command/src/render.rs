@@ -1,0 +1,190 @@
+//! `halfway render`.
+
+use std::ops::Range;
+use std::path::PathBuf;
+
+use clap::Args;
+use halfway::prelude::*;
+use halfway::record::{Recording, ReferenceDrawing, parse_size, record, record_with};
+use halfway::reference::Mode;
+use halfway::render::{Gpu, RenderError};
+
+use crate::failure::Failure;
+use crate::input::Input;
+use crate::levels::LevelsArgs;
+use crate::look::LookArgs;
+use crate::progress::Progress;
+
+#[derive(Args, Debug)]
+pub(crate) struct RenderArgs {
+    #[command(flatten)]
+    look: LookArgs,
+    #[command(flatten)]
+    levels: LevelsArgs,
+    /// The picture: .png or .exr; with --frames an animated PNG, or one file a frame where the name has a {}
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+    /// Width and height in pixels, such as 1280x720 [default: the scene's; 1280x720 for a model]
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    size: Option<UVec2>,
+    /// Frames A to B − 1 of a turn around the scene's upright axis, 3° a frame, 30 frames a second
+    #[arg(long, value_name = "A..B", value_parser = parse_frames)]
+    frames: Option<Range<u32>>,
+    /// Bits a channel: 8 or 16 in a PNG, 32 in an EXR [default: 8; 32]
+    #[arg(long)]
+    bits: Option<u32>,
+    /// Also put up to 16 of the frames, small, on one PNG
+    #[arg(long, value_name = "FILE")]
+    contact_sheet: Option<PathBuf>,
+    /// Draw with the reference renderer: every pixel in 64-bit arithmetic on the CPU, without a graphics adapter
+    #[arg(long)]
+    reference: bool,
+    /// Draw spheres, teapots and other surfaces that are known by formula as they are, and not the triangles that stand
+    /// for them
+    #[arg(long, requires = "reference")]
+    surface: bool,
+    /// N × N samples a pixel, 1 to 16 [default: 1; 2 where the scene has four samples]
+    #[arg(long, value_name = "N", requires = "reference", value_parser = clap::value_parser!(u32).range(1..=16))]
+    supersample: Option<u32>,
+}
+
+/// What draws the frames.
+enum Drawer {
+    Adapter(Gpu),
+    Reference(ReferenceDrawing),
+}
+
+impl Drawer {
+    /// The adapter, unless the command line wants the reference renderer or there is none.
+    fn choose(args: &RenderArgs) -> Result<Self, Failure> {
+        let mode = if args.surface { Mode::Surface } else { Mode::Mesh };
+        let reference = ReferenceDrawing { mode, supersampling: args.supersample };
+        if args.reference {
+            return Ok(Self::Reference(reference));
+        }
+        match Gpu::open_headless() {
+            Ok(gpu) => Ok(Self::Adapter(gpu)),
+            Err(error @ (RenderError::NoAdapter | RenderError::NoDevice { .. })) => {
+                eprintln!(
+                    "warning: no graphics adapter: drawn by the reference renderer on the CPU, exactly and slowly"
+                );
+                eprintln!("note: {error}");
+                Ok(Self::Reference(reference))
+            }
+            Err(error) => Err(error.into()),
+        }
+    }
+
+    fn app(&self, size: UVec2, levels: LevelsOfDetail) -> App {
+        let mut app = App::new();
+        match self {
+            Self::Adapter(gpu) => {
+                app.add_plugins(HalfwayPlugins::headless(size)).insert_resource(gpu.clone()).insert_resource(levels)
+            }
+            Self::Reference(_) => app.add_plugins(HalfwayPlugins::reference()),
+        };
+        app
+    }
+
+    fn record(&self, app: &mut App, recording: &Recording) -> Result<(), Failure> {
+        let frames = recording.frames.len() as u32;
+        match self {
+            Self::Adapter(_) => {
+                let progress = Progress::of_frames(frames);
+                record(app, recording, |done, _| progress.frame(done))?;
+            }
+            Self::Reference(drawing) => {
+                let progress = Progress::of_tiles();
+                let draw = |app: &mut App, frame: halfway::record::Frame| {
+                    let index = frame.number - recording.frames.start;
+                    drawing.picture(app, frame, &|done, of| progress.tile(index, frames, done, of))
+                };
+                record_with(app, recording, draw, |_, _| progress.going_on())?;
+            }
+        }
+        Ok(())
+    }
+}
+
+pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
+    let mut input = Input::read(&args.look)?;
+    let size = args.size.unwrap_or(UVec2::from_array(input.scene.size));
+    let recording = Recording {
+        frames: args.frames.clone().unwrap_or(0..1),
+        size,
+        bits: args.bits,
+        contact_sheet: args.contact_sheet.clone(),
+        ..Recording::new(args.output.clone())
+    };
+    let drawer = Drawer::choose(args)?;
+    let mut app = drawer.app(size, args.levels.allowed());
+    // A camera that frames everything has to know the picture's shape.
+    input.scene.size = size.to_array();
+    let spawned = input.spawn(&mut app)?;
+    if args.frames.is_some() {
+        let turntable = Turntable::new(&app, spawned.camera);
+        app.insert_resource(turntable).add_systems(Update, turn);
+    }
+    drawer.record(&mut app, &recording)
+}
+
+/// The camera goes round the point on its axis that is nearest to the middle of what it sees.
+#[derive(Resource)]
+struct Turntable {
+    camera: Entity,
+    start: Transform,
+    frame: u32,
+}
+
+/// A full turn in 120 frames.
+const STEP: f32 = std::f32::consts::TAU / 120.0;
+
+impl Turntable {
+    fn new(app: &App, camera: Entity) -> Self {
+        let start = app.world().get::<Transform>(camera).copied().unwrap_or_default();
+        Self { camera, start, frame: 0 }
+    }
+}
+
+fn turn(
+    mut table: ResMut<Turntable>,
+    mut cameras: Query<&mut Transform, With<Camera>>,
+    objects: Query<(&Mesh3d, &GlobalTransform)>,
+    meshes: Res<Assets<Mesh>>,
+) {
+    if table.frame > 0 {
+        let centers: Vec<Vec3> = objects
+            .iter()
+            .filter_map(|(mesh, transform)| Some(transform.transform_point(meshes.get(&mesh.0)?.bounds().center())))
+            .collect();
+        let middle = centers.iter().sum::<Vec3>() / centers.len().max(1) as f32;
+        let along = (middle - table.start.translation).dot(*table.start.forward()).max(0.0);
+        let pivot = table.start.translation + table.start.forward() * along;
+        if let Ok(mut transform) = cameras.get_mut(table.camera) {
+            *transform = table.start;
+            transform.rotate_around(pivot, Quat::from_rotation_y(STEP * table.frame as f32));
+        }
+    }
+    table.frame += 1;
+}
+
+fn parse_frames(text: &str) -> Result<Range<u32>, String> {
+    const MOST: u32 = 100_000;
+    text.split_once("..")
+        .and_then(|(start, end)| Some(start.trim().parse().ok()?..end.trim().parse().ok()?))
+        .filter(|frames: &Range<u32>| !frames.is_empty() && frames.end <= MOST)
+        .ok_or_else(|| format!("expected A..B with A below B and B at most {MOST}, such as 0..120"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::parse_frames;
+
+    #[test]
+    fn frame_ranges() {
+        assert_eq!(parse_frames("0..120"), Ok(0..120));
+        for bad in ["", "5", "5..5", "6..5", "0..4000000000", "-1..4", "a..b"] {
+            assert!(parse_frames(bad).is_err(), "{bad}");
+        }
+    }
+}

@@ -1,0 +1,281 @@
+//! What each feature of lighting costs: one neutral scene, in which one thing at a time is different.
+
+use std::f32::consts::{FRAC_PI_2, FRAC_PI_4, FRAC_PI_6, TAU};
+
+use halfway::prelude::*;
+
+/// Where the lighting is evaluated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Stage {
+    /// Gouraud shading of a plane of 360 × 360 cells in 32 × 32 pixels: hardly anything but vertices, and none of them on
+    /// a patch that turns away.
+    Vertex,
+    /// Phong shading of a sphere of 64 × 32 cells, seen from so near that it covers all of 640 × 480 pixels.
+    Fragment,
+}
+
+impl Stage {
+    /// Both.
+    pub(crate) const ALL: [Self; 2] = [Self::Vertex, Self::Fragment];
+
+    /// The size of the picture in pixels.
+    pub(crate) fn size(self) -> UVec2 {
+        match self {
+            Self::Vertex => UVec2::splat(32),
+            Self::Fragment => UVec2::new(640, 480),
+        }
+    }
+
+    /// How often a light is evaluated in a frame: once a vertex, or once a pixel.
+    pub(crate) fn evaluations(self) -> u32 {
+        match self {
+            Self::Vertex => (CELLS + 1) * (CELLS + 1),
+            Self::Fragment => self.size().element_product(),
+        }
+    }
+
+    fn mesh(self) -> Mesh {
+        match self {
+            Self::Vertex => Plane { size: 2.0, divisions: CELLS }.into(),
+            Self::Fragment => UvSphere::new(1.0, 64, 32).into(),
+        }
+    }
+
+    /// A plane faces up; here it faces the camera.
+    fn place(self) -> Transform {
+        match self {
+            Self::Vertex => Transform::from_rotation(Quat::from_rotation_x(FRAC_PI_2)),
+            Self::Fragment => Transform::default(),
+        }
+    }
+
+    /// Distance of the camera from the middle.
+    fn distance(self) -> f32 {
+        match self {
+            Self::Vertex => 3.0,
+            // The unit sphere's half angle is asin(1/1.7) = 36.0°; the corners of the picture lie 34.6° off its middle.
+            Self::Fragment => 1.7,
+        }
+    }
+
+    fn shading(self) -> Shading {
+        match self {
+            Self::Vertex => Shading::Gouraud,
+            Self::Fragment => Shading::Phong,
+        }
+    }
+}
+
+/// Along each side of the plane.
+const CELLS: u32 = 360;
+
+/// The lights of a [`Feature`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Lights {
+    /// Infinitely far away.
+    Directional(u32),
+    /// Points with this falloff and range.
+    Points(u32, Attenuation, Option<f32>),
+    /// Points that shine into this cone.
+    Spots(u32, Cone),
+}
+
+impl Lights {
+    /// How many there are.
+    pub(crate) fn count(self) -> u32 {
+        match self {
+            Self::Directional(count) | Self::Points(count, ..) | Self::Spots(count, _) => count,
+        }
+    }
+}
+
+/// The neutral scene with something different, as a plugin; [`Feature::BASELINE`] is as it is, and [`Feature::all`]
+/// are those worth comparing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Feature {
+    /// What is different, in words.
+    pub(crate) name: &'static str,
+    /// The lights, all in front of the surface.
+    pub(crate) lights: Lights,
+    /// Of the front.
+    pub(crate) material: Material,
+    /// Of the back, where it is another.
+    pub(crate) back: Option<Material>,
+    /// How the highlight is made.
+    pub(crate) reflectance: Reflectance,
+    /// Where the viewer is for the highlight.
+    pub(crate) viewer: Viewer,
+    /// The sides that are drawn.
+    pub(crate) faces: Faces,
+    /// Whether the surface is blended, half covering.
+    pub(crate) blend: bool,
+    /// Coverage samples a pixel.
+    pub(crate) samples: Samples,
+    /// What the bytes of the picture hold.
+    pub(crate) encoding: Encoding,
+}
+
+impl Feature {
+    /// One directional light, Blinn–Phong with an exponent of 32, local viewer, front faces, opaque, one sample, sRGB.
+    pub(crate) const BASELINE: Self = Self {
+        name: "one directional light (the baseline)",
+        lights: Lights::Directional(1),
+        material: Material { specular: LinearRgba::rgb(0.35, 0.35, 0.35), ..Material::matte(COLOR) },
+        back: None,
+        reflectance: Reflectance::BlinnPhong,
+        viewer: Viewer::Local,
+        faces: Faces::Front,
+        blend: false,
+        samples: Samples::One,
+        encoding: Encoding::Srgb,
+    };
+
+    /// The baseline, then everything that is compared with it.
+    pub(crate) fn all() -> Vec<Self> {
+        let it = Self::BASELINE;
+        let shiny = |shininess| Material { shininess, ..it.material };
+        let falloff = Attenuation::new(1.0, 0.09, 0.032);
+        let points = |count| Lights::Points(count, falloff, None);
+        let hard = Cone::new(FRAC_PI_4);
+        let soft = Cone { inner: Some(FRAC_PI_6), exponent: 4.0, ..hard };
+        vec![
+            it,
+            Self { name: "no lights", lights: Lights::Directional(0), ..it },
+            Self { name: "no highlight", material: Material::matte(COLOR), ..it },
+            Self { name: "two directional lights", lights: Lights::Directional(2), ..it },
+            Self { name: "five directional lights", lights: Lights::Directional(5), ..it },
+            Self { name: "eight directional lights", lights: Lights::Directional(8), ..it },
+            // One more than the renderer unrolls its loops for.
+            Self { name: "nine directional lights", lights: Lights::Directional(9), ..it },
+            Self { name: "sixteen directional lights", lights: Lights::Directional(16), ..it },
+            Self { name: "one point light", lights: points(1), ..it },
+            Self { name: "five point lights", lights: points(5), ..it },
+            Self {
+                name: "five point lights, no attenuation",
+                lights: Lights::Points(5, Attenuation::NONE, None),
+                ..it
+            },
+            Self { name: "five point lights, with a range", lights: Lights::Points(5, falloff, Some(20.0)), ..it },
+            Self { name: "one spot light", lights: Lights::Spots(1, hard), ..it },
+            Self { name: "five spot lights", lights: Lights::Spots(5, hard), ..it },
+            Self { name: "five spot lights, soft edge, exponent 4", lights: Lights::Spots(5, soft), ..it },
+            Self { name: "infinite viewer", viewer: Viewer::Infinite, ..it },
+            Self {
+                name: "five directional lights, infinite viewer",
+                lights: Lights::Directional(5),
+                viewer: Viewer::Infinite,
+                ..it
+            },
+            Self { name: "five point lights, infinite viewer", lights: points(5), viewer: Viewer::Infinite, ..it },
+            Self { name: "Phong reflectance", reflectance: Reflectance::Phong, ..it },
+            Self {
+                name: "five directional lights, Phong reflectance",
+                lights: Lights::Directional(5),
+                reflectance: Reflectance::Phong,
+                ..it
+            },
+            Self { name: "exponent 33", material: shiny(33.0), ..it },
+            Self { name: "exponent 32.5", material: shiny(32.5), ..it },
+            Self {
+                name: "five directional lights, exponent 33",
+                lights: Lights::Directional(5),
+                material: shiny(33.0),
+                ..it
+            },
+            Self { name: "both sides", faces: Faces::Both, ..it },
+            Self { name: "both sides, another material behind", faces: Faces::Both, back: Some(shiny(8.0)), ..it },
+            Self { name: "blended", blend: true, ..it },
+            Self { name: "four samples", samples: Samples::Four, ..it },
+            Self { name: "raw bytes", encoding: Encoding::Raw, ..it },
+        ]
+    }
+
+    /// Whether what it costs more than no lights is the cost of its lights, all else being as in the baseline.
+    pub(crate) fn is_about_lights(&self) -> bool {
+        let it = Self::BASELINE;
+        self.lights.count() > 0
+            && (self.faces, self.blend, self.samples, self.encoding) == (it.faces, it.blend, it.samples, it.encoding)
+    }
+
+    /// The plugin that shows it.
+    pub(crate) fn at(self, stage: Stage) -> FeatureScene {
+        FeatureScene { feature: self, stage }
+    }
+}
+
+/// A [`Feature`] where a [`Stage`] shows what it costs, as a plugin. Nothing moves, and all triangles are drawn: levels of
+/// detail are off.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct FeatureScene {
+    /// What is different.
+    pub(crate) feature: Feature,
+    /// Where it is evaluated.
+    pub(crate) stage: Stage,
+}
+
+impl Plugin for FeatureScene {
+    fn build(&self, app: &mut App) {
+        let scene = *self;
+        app.insert_resource(GlobalAmbient(LinearRgba::rgb(0.1, 0.1, 0.1)))
+            .insert_resource(LevelsOfDetail::OFF)
+            .add_systems(Startup, move |mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>| {
+                scene.spawn(&mut commands, meshes.add(scene.stage.mesh()));
+            });
+    }
+}
+
+impl FeatureScene {
+    fn spawn(&self, commands: &mut Commands, mesh: Handle<Mesh>) {
+        let Self { feature, stage } = self;
+        let Feature { viewer, samples, encoding, .. } = *feature;
+        let camera = Camera { viewer, samples, encoding, ..Camera::default() };
+        commands.spawn((camera, Transform::from_xyz(0.0, 0.0, stage.distance())));
+        for i in 0..feature.lights.count() {
+            feature.light(commands, i);
+        }
+        let material = Material { opacity: 0.5, ..feature.material };
+        let look = (material, stage.shading(), feature.reflectance, feature.faces);
+        let mut surface = commands.spawn((Mesh3d(mesh), look, stage.place()));
+        if let Some(back) = feature.back {
+            surface.insert(BackMaterial(back));
+        }
+        if feature.blend {
+            surface.insert(Blend);
+        }
+    }
+}
+
+impl Feature {
+    /// The `i`-th light, on a circle between the camera and the surface, so that all light most of what is seen.
+    fn light(&self, commands: &mut Commands, i: u32) {
+        let (sin, cos) = (TAU * i as f32 / self.lights.count() as f32).sin_cos();
+        let at = Transform::from_xyz(1.2 * cos, 1.2 * sin, 2.5).looking_at(Vec3::ZERO, Vec3::Y);
+        let color = LinearRgba::rgb(0.05, 0.05, 0.05);
+        match self.lights {
+            Lights::Directional(_) => commands.spawn((DirectionalLight::from_color(color), at)),
+            Lights::Points(_, attenuation, range) => {
+                commands.spawn((PointLight { attenuation, range, ..PointLight::from_color(color) }, at))
+            }
+            Lights::Spots(_, cone) => commands.spawn((SpotLight { light: PointLight::from_color(color), cone }, at)),
+        };
+    }
+}
+
+const COLOR: LinearRgba = LinearRgba::rgb(0.55, 0.42, 0.30);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn features_are_told_apart() {
+        let all = Feature::all();
+        assert_eq!(all[0], Feature::BASELINE);
+        for (i, one) in all.iter().enumerate() {
+            for other in &all[..i] {
+                assert_ne!(one.name, other.name);
+                assert_ne!(Feature { name: "", ..*one }, Feature { name: "", ..*other }, "{}", one.name);
+            }
+        }
+    }
+}

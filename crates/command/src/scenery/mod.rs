@@ -1,0 +1,240 @@
+//! The benchmark scenes: the same four everywhere, so that renderers can be compared.
+//!
+//! All colours are linear RGB; the material is Blinn–Phong with a white highlight of shininess 32 and an ambient colour
+//! equal to its diffuse one; the background is (0.01, 0.012, 0.02); the camera has a vertical field of view of 45° and
+//! looks at the origin.
+//!
+//! | | what stands | lights besides ambient | camera | pixels |
+//! |---|---|---|---|---|
+//! | S1 | one sphere, 512 × 256 | directional 0.6 from (1, 1, 1), three tinted points of 0.5 | (0, 0, 3) | 1280 × 720 |
+//! | S2 | 10,000 spheres of 16 × 8 in 10 colours, 2.5 apart, all turning | directional 0.9 | (0, 60, 160) | 1280 × 720 |
+//! | S3 | 400 spheres on a plane of 200 | directional 0.15, 256 circling points of 2.0 and range 12 | (0, 40, 100) | 1280 × 720 |
+//! | S4 | one sphere, 64 × 32 | directional 0.9 | (0, 0, 3) | 256 × 256 |
+//!
+//! What single [`features`] cost is another, neutral scene's.
+
+pub(crate) mod features;
+
+use std::f32::consts::TAU;
+
+use halfway::prelude::*;
+use halfway_chart::timing::Look;
+
+/// Which scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum BenchmarkScene {
+    /// One mesh of 261,120 triangles, four lights.
+    S1,
+    /// 10,000 moving objects, 2.24 million triangles, one light.
+    S2,
+    /// 256 moving lights over 401 objects.
+    S3,
+    /// One small sphere, one light.
+    S4,
+}
+
+impl BenchmarkScene {
+    /// The size of its picture in pixels.
+    pub(crate) fn size(self) -> UVec2 {
+        if self == Self::S4 { UVec2::splat(256) } else { UVec2::new(1280, 720) }
+    }
+}
+
+/// A benchmark scene as a plugin: spawns it at start-up and moves it on by one step a frame, the first frame being 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Benchmark {
+    /// The scene.
+    pub(crate) scene: BenchmarkScene,
+    /// Its look.
+    pub(crate) look: Look,
+    /// Spheres of S2 as octahedra, which leaves the work on 10,000 entities and takes that on their triangles away.
+    pub(crate) octahedra: bool,
+}
+
+impl Plugin for Benchmark {
+    fn build(&self, app: &mut App) {
+        let Self { scene, look, octahedra } = *self;
+        let ambient = if scene == BenchmarkScene::S3 { 0.05 } else { 0.1 };
+        app.insert_resource(GlobalAmbient(grey(ambient)))
+            .init_resource::<FrameNumber>()
+            .add_systems(Startup, move |mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>| {
+                let mut stage = Scenery { commands: &mut commands, meshes: &mut meshes, look };
+                match scene {
+                    BenchmarkScene::S1 => stage.one_mesh(),
+                    BenchmarkScene::S2 => stage.many_objects(if octahedra { (4, 2) } else { (16, 8) }),
+                    BenchmarkScene::S3 => stage.many_lights(),
+                    BenchmarkScene::S4 => stage.small(),
+                }
+            })
+            .add_systems(Update, (turn, circle, count).chain());
+    }
+}
+
+/// f, the number of the frame.
+#[derive(Resource, Default)]
+struct FrameNumber(u32);
+
+fn count(mut frame: ResMut<FrameNumber>) {
+    frame.0 += 1;
+}
+
+/// An object of S2: turns about a slanted axis, starting at an angle of its own.
+#[derive(Component)]
+struct Turning {
+    start: f32,
+}
+
+fn turn(frame: Res<FrameNumber>, mut objects: Query<(&Turning, &mut Transform)>) {
+    let axis = Vec3::new(0.3, 1.0, 0.2).normalize();
+    for (turning, mut transform) in &mut objects {
+        transform.rotation = Quat::from_axis_angle(axis, turning.start + 0.02 * frame.0 as f32);
+    }
+}
+
+/// A light of S3: goes round a circle of radius 3 about a point.
+#[derive(Component)]
+struct Circling {
+    center: Vec3,
+    start: f32,
+}
+
+fn circle(frame: Res<FrameNumber>, mut lights: Query<(&Circling, &mut Transform)>) {
+    for (circling, mut transform) in &mut lights {
+        let (sin, cos) = (circling.start + 0.05 * frame.0 as f32).sin_cos();
+        transform.translation = circling.center + 3.0 * Vec3::new(cos, 0.0, sin);
+    }
+}
+
+struct Scenery<'a, 'w, 's> {
+    commands: &'a mut Commands<'w, 's>,
+    meshes: &'a mut Assets<Mesh>,
+    look: Look,
+}
+
+impl Scenery<'_, '_, '_> {
+    fn one_mesh(&mut self) {
+        self.camera(Vec3::new(0.0, 0.0, 3.0));
+        self.sun(0.6);
+        let tinted = [
+            ([2.0, 0.0, 2.0], [1.0, 0.9, 0.8]),
+            ([-2.0, 1.0, 1.5], [0.8, 0.9, 1.0]),
+            ([0.0, -2.0, 2.0], [0.9, 1.0, 0.9]),
+        ];
+        for (position, [red, green, blue]) in tinted {
+            let light = PointLight::from_color(LinearRgba::rgb(red, green, blue) * 0.5);
+            self.commands.spawn((light, Transform::from_translation(position.into())));
+        }
+        self.object(UvSphere::new(1.0, 512, 256), RED, Vec3::ZERO);
+    }
+
+    fn small(&mut self) {
+        self.camera(Vec3::new(0.0, 0.0, 3.0));
+        self.sun(0.9);
+        self.object(UvSphere::new(1.0, 64, 32), RED, Vec3::ZERO);
+    }
+
+    fn many_objects(&mut self, (segments, rings): (u32, u32)) {
+        self.camera(Vec3::new(0.0, 60.0, 160.0));
+        self.sun(0.9);
+        let sphere = self.meshes.add(UvSphere::new(1.0, segments, rings));
+        for i in 0..10_000_u16 {
+            let (column, row) = (f32::from(i % 100), f32::from(i / 100));
+            let place = Transform::from_xyz((column - 49.5) * 2.5, 0.0, (row - 49.5) * 2.5);
+            let color = hsv(f32::from(i % 10) / 10.0, 0.7, 0.8);
+            let turning = Turning { start: 0.01 * f32::from(i % 97) };
+            self.commands.spawn((
+                Mesh3d(sphere.clone()),
+                self.look.material(color),
+                self.look.shading(),
+                place,
+                turning,
+            ));
+        }
+    }
+
+    fn many_lights(&mut self) {
+        self.camera(Vec3::new(0.0, 40.0, 100.0));
+        self.sun(0.15);
+        self.object(Plane { size: 200.0, divisions: 64 }, grey(0.6), Vec3::ZERO);
+        let sphere = self.meshes.add(UvSphere::new(1.5, 32, 16));
+        for i in 0..400_u16 {
+            let (column, row) = (f32::from(i % 20), f32::from(i / 20));
+            let place = Transform::from_xyz((column - 9.5) * 8.0, 1.5, (row - 9.5) * 8.0);
+            self.commands.spawn((Mesh3d(sphere.clone()), self.look.material(grey(0.8)), self.look.shading(), place));
+        }
+        for i in 0..256 {
+            let light = PointLight {
+                attenuation: Attenuation::new(1.0, 0.0, 0.5),
+                range: Some(12.0),
+                ..PointLight::from_color(hsv(random(i, 4), 0.6, 1.0) * 2.0)
+            };
+            let center =
+                Vec3::new(-90.0 + 180.0 * random(i, 0), 1.0 + 5.0 * random(i, 1), -90.0 + 180.0 * random(i, 2));
+            self.commands.spawn((light, Circling { center, start: TAU * random(i, 3) }));
+        }
+    }
+
+    fn camera(&mut self, position: Vec3) {
+        let camera = Camera { background: LinearRgba::rgb(0.01, 0.012, 0.02), ..Camera::default() };
+        self.commands.spawn((camera, Transform::from_translation(position).looking_at(Vec3::ZERO, Vec3::Y)));
+    }
+
+    fn sun(&mut self, intensity: f32) {
+        let from = Transform::from_xyz(1.0, 1.0, 1.0).looking_at(Vec3::ZERO, Vec3::Y);
+        self.commands.spawn((DirectionalLight::from_color(grey(intensity)), from));
+    }
+
+    fn object(&mut self, mesh: impl Into<Mesh>, color: LinearRgba, at: Vec3) {
+        let mesh = Mesh3d(self.meshes.add(mesh.into()));
+        let place = Transform::from_translation(at);
+        self.commands.spawn((mesh, self.look.material(color), self.look.shading(), place));
+    }
+}
+
+const RED: LinearRgba = LinearRgba::rgb(0.8, 0.3, 0.2);
+
+fn grey(intensity: f32) -> LinearRgba {
+    LinearRgba::rgb(intensity, intensity, intensity)
+}
+
+/// Hue, saturation and value, each 0 to 1, straight to linear RGB.
+fn hsv(hue: f32, saturation: f32, value: f32) -> LinearRgba {
+    let channel = |n: f32| {
+        let k = (n + 6.0 * hue) % 6.0;
+        value - value * saturation * k.min(4.0 - k).clamp(0.0, 1.0)
+    };
+    LinearRgba::rgb(channel(5.0), channel(3.0), channel(1.0))
+}
+
+/// The k-th random number of the i-th light, in [0, 1): the PCG hash of O'Neill 2014, so that every program draws the
+/// same scene.
+fn random(i: u32, k: u32) -> f32 {
+    let state = (i * 8 + k).wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
+    let word = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);
+    (((word >> 22) ^ word) >> 8) as f32 / (1 << 24) as f32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn colours_by_hue() {
+        for (hue, expected) in [(0.0, [1.0, 0.5, 0.5]), (1.0 / 3.0, [0.5, 1.0, 0.5]), (0.5, [0.5, 1.0, 1.0])] {
+            let LinearRgba { red, green, blue, .. } = hsv(hue, 0.5, 1.0);
+            for (channel, expected) in [red, green, blue].into_iter().zip(expected) {
+                assert!((channel - expected).abs() < 1e-6, "{hue}: {red} {green} {blue}");
+            }
+        }
+    }
+
+    #[test]
+    fn random_numbers_fill_their_range() {
+        let mean = (0..4096).map(|i| f64::from(random(i, 3))).sum::<f64>() / 4096.0;
+        // The mean of 4096 uniform numbers is 0.5 within 0.0045 by one standard deviation.
+        assert!((mean - 0.5).abs() < 0.02, "{mean}");
+        assert!((0..4096).all(|i| (0.0..1.0).contains(&random(i, 0))));
+        // By hand from the definition: hash(0) = 129708002.
+        assert_eq!((random(0, 0) * (1 << 24) as f32) as u32, 129_708_002 >> 8);
+    }
+}

@@ -1,0 +1,153 @@
+//! What `halfway convert` does to meshes on the way, each step with a line that says what it did.
+
+use std::collections::HashMap;
+
+use halfway::mesh::{Mesh, MeshError, Model, NormalReport, Normals, Part, RepairReport, Subdivision, Weld, WeldReport};
+
+/// The meshes of a model, each once however many parts show it; counted as often as it is shown.
+pub(crate) struct Meshes {
+    /// With the parts that show it.
+    meshes: Vec<(Mesh, Vec<usize>)>,
+    /// How many parts had tangents.
+    tangents: usize,
+}
+
+impl Meshes {
+    pub(crate) fn of(model: &Model) -> Self {
+        let mut meshes: Vec<(Mesh, Vec<usize>)> = Vec::new();
+        let mut numbers = HashMap::new();
+        for (i, part) in model.parts.iter().enumerate() {
+            // Meshes that share their data have it at one address.
+            let number = *numbers.entry(part.mesh.positions().as_ptr()).or_insert(meshes.len());
+            match meshes.get_mut(number) {
+                Some((_, parts)) => parts.push(i),
+                None => meshes.push((part.mesh.clone(), vec![i])),
+            }
+        }
+        Self { tangents: with_tangents(model), meshes }
+    }
+
+    /// Gives the parts their meshes; those that have none any more are left out.
+    pub(crate) fn put_into(self, model: &mut Model) {
+        let mut parts: Vec<_> = std::mem::take(&mut model.parts).into_iter().map(Some).collect();
+        let mut changed = Vec::new();
+        for (mesh, shown) in self.meshes {
+            changed.extend(shown.into_iter().filter_map(|i| Some((i, mesh.clone(), parts[i].take()?))));
+        }
+        changed.sort_by_key(|&(i, ..)| i);
+        model.parts = changed.into_iter().map(|(_, mesh, part)| Part { mesh, ..part }).collect();
+        for part in parts.into_iter().flatten() {
+            println!("lost       part \"{}\", of which no triangle is left", part.name);
+        }
+        let tangents = self.tangents.saturating_sub(with_tangents(model));
+        if tangents > 0 {
+            println!("lost       the tangents of {tangents} parts, which belonged to other normals");
+        }
+    }
+
+    fn triangles(&self) -> usize {
+        self.meshes.iter().map(|(mesh, parts)| mesh.triangle_count() * parts.len()).sum()
+    }
+
+    fn vertices(&self) -> usize {
+        self.meshes.iter().map(|(mesh, parts)| mesh.positions().len() * parts.len()).sum()
+    }
+
+    /// Changes every mesh, of which `step` is also told how often it is shown; those of which no triangle is left go.
+    fn change(&mut self, mut step: impl FnMut(&Mesh, usize) -> Option<Mesh>) {
+        let meshes = std::mem::take(&mut self.meshes).into_iter();
+        self.meshes = meshes.filter_map(|(mesh, parts)| Some((step(&mesh, parts.len())?, parts))).collect();
+    }
+
+    pub(crate) fn weld(&mut self, weld: Weld) {
+        let before = self.vertices();
+        let mut all = WeldReport::default();
+        self.change(|mesh, times| {
+            let (welded, report) = mesh.welded(weld).ok()?;
+            all.merged_vertices += times * report.merged_vertices;
+            all.collapsed_triangles += times * report.collapsed_triangles;
+            Some(welded)
+        });
+        let WeldReport { merged_vertices, collapsed_triangles } = all;
+        println!("weld       {merged_vertices} of {before} vertices merged, {collapsed_triangles} triangles collapsed");
+    }
+
+    pub(crate) fn repair(&mut self) {
+        let mut all = RepairReport::default();
+        self.change(|mesh, times| {
+            let (repaired, report) = mesh.repaired().ok()?;
+            all.removed_degenerate += times * report.removed_degenerate;
+            all.removed_duplicate += times * report.removed_duplicate;
+            all.removed_vertices += times * report.removed_vertices;
+            all.turned += times * report.turned;
+            all.conflicts += times * report.conflicts;
+            all.against_normals += times * report.against_normals;
+            Some(repaired)
+        });
+        println!("repair     {all}");
+    }
+
+    pub(crate) fn subdivide(&mut self, scheme: Subdivision, times: u32) -> Result<(), MeshError> {
+        let before = self.triangles();
+        for (mesh, _) in &mut self.meshes {
+            *mesh = mesh.subdivided(scheme, times)?;
+        }
+        println!("subdivide  {before} to {} triangles", self.triangles());
+        Ok(())
+    }
+
+    /// To `triangles` in all, or as near as `max_error` allows.
+    pub(crate) fn simplify(&mut self, triangles: usize, max_error: f64) {
+        let before = self.triangles();
+        let share = triangles as f64 / before as f64;
+        let mut error = 0.0_f64;
+        self.change(|mesh, _| {
+            let level = mesh.simplified((share * mesh.triangle_count() as f64).round() as usize, max_error);
+            error = error.max(level.error);
+            Some(level.mesh)
+        });
+        let after = self.triangles();
+        println!("simplify   {before} to {after} triangles; no point is further off than {error:.3e}");
+    }
+
+    pub(crate) fn make_normals(&mut self, normals: Normals) {
+        let before = self.vertices();
+        let mut all = NormalReport::default();
+        self.change(|mesh, times| {
+            let (mesh, report) = mesh.clone().with_normals(normals);
+            all.degenerate_triangles += times * report.degenerate_triangles;
+            all.cancelled += times * report.cancelled;
+            all.without_face += times * report.without_face;
+            Some(mesh)
+        });
+        print!("normals    {before} to {} vertices", self.vertices());
+        for (count, what) in [
+            (all.degenerate_triangles, "degenerate triangles without one"),
+            (all.cancelled, "vertices whose faces cancel out"),
+            (all.without_face, "vertices of no face"),
+        ] {
+            if count > 0 {
+                print!(", {count} {what}");
+            }
+        }
+        println!();
+    }
+
+    pub(crate) fn optimize(&mut self) {
+        let before = self.loads();
+        self.change(|mesh, _| Some(mesh.optimized()));
+        println!("optimize   {before:.3} to {:.3} vertices loaded a triangle (cache of 16)", self.loads());
+    }
+
+    /// Vertices that a cache loads for a triangle, in the mean over all.
+    fn loads(&self) -> f64 {
+        let loads = |(mesh, parts): &(Mesh, Vec<usize>)| {
+            mesh.report().cache_misses * (mesh.triangle_count() * parts.len()) as f64
+        };
+        self.meshes.iter().map(loads).sum::<f64>() / self.triangles() as f64
+    }
+}
+
+fn with_tangents(model: &Model) -> usize {
+    model.parts.iter().filter(|part| part.mesh.tangents().is_some()).count()
+}

@@ -1,0 +1,130 @@
+//! `halfway verify`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use halfway::prelude::*;
+use halfway::record::parse_size;
+use halfway::reference::metrics::{Bars, Scale, Verdict, difference, judge};
+use halfway::reference::{Image, Oracle};
+use halfway::render::Gpu;
+
+use crate::failure::{DIFFERENT, Failure, STOPPED};
+use crate::input::Input;
+use crate::look::LookArgs;
+use crate::progress::Progress;
+use crate::{figures, picture};
+
+#[derive(Args, Debug)]
+pub(crate) struct VerifyArgs {
+    #[command(flatten)]
+    look: LookArgs,
+    /// Width and height in pixels, such as 1280x720 [default: the scene's; 1280x720 for a model]
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    size: Option<UVec2>,
+    /// Draw where the 8-bit pictures differ, with a legend, into this PNG
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Exit with code 4 where a pixel of the 8-bit picture that is on no edge differs by more steps of 1/255
+    #[arg(long, value_name = "STEPS", default_value_t = 1)]
+    max: u8,
+    /// Print JSON instead of lines
+    #[arg(long)]
+    json: bool,
+}
+
+pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
+    let mut input = Input::read(&args.look)?;
+    let size = args.size.unwrap_or(UVec2::from_array(input.scene.size));
+    if input.scene.samples != 1 {
+        eprintln!("note: judged with one sample a pixel, since adapters differ in where they take four");
+    }
+    (input.scene.size, input.scene.samples) = (size.to_array(), 1);
+    let gpu = Gpu::open_headless()?;
+    let device = gpu.describe();
+    let mut app = App::new();
+    // The oracle knows no levels of detail.
+    app.add_plugins(HalfwayPlugins::headless(size)).insert_resource(gpu).insert_resource(LevelsOfDetail::OFF);
+    input.spawn(&mut app)?;
+    let encoding = Encoding::from(input.scene.output);
+    // The frames below are of one moment.
+    app.insert_resource(bevy_time::TimeUpdateStrategy::ManualDuration(std::time::Duration::ZERO));
+    app.finish();
+    app.cleanup();
+
+    let progress = Progress::of_tiles();
+    let max = f64::from(args.max);
+    let bars = Bars { most: max, worst: max, equal: 0.0, ..Bars::bytes(encoding) };
+    let bytes = Drawn::new(&mut app, Pixels::Byte, size, encoding, (0, &progress))?;
+    let of_bytes = bytes.judged(bars)?;
+    let float = Drawn::new(&mut app, Pixels::Float, size, encoding, (1, &progress))?.judged(Bars::FLOAT)?;
+    drop(progress);
+    if let Some(file) = &args.output {
+        picture::write(file, difference(&bytes.actual, &bytes.expected, encoding, Scale::default()).map_err(text)?)?;
+    }
+    if args.json {
+        let json = serde_json::json!({
+            "device": device,
+            "size": size.to_array(),
+            "bytes": figures::verdict(&of_bytes),
+            "float": figures::verdict(&float),
+        });
+        println!("{json}");
+    } else {
+        println!("{device}, {} × {} pixels", size.x, size.y);
+        println!("8 bits  {of_bytes}");
+        println!("float   {float}");
+    }
+    verdict(args.max, &of_bytes, &float)
+}
+
+/// The 8-bit picture keeps to its bar, and the other is a picture at all.
+fn verdict(max: u8, bytes: &Verdict, float: &Verdict) -> Result<(), Failure> {
+    let different = |what: String| Err(Failure::new(DIFFERENT, what));
+    if bytes.bad + float.bad > 0 {
+        return different("the picture holds values that are not finite or negative".into());
+    }
+    if bytes.is_mostly_edges() {
+        return different("too many pixels lie on edges to judge by the others: try a larger size".into());
+    }
+    if !bytes.is_within() {
+        return different(format!("a pixel differs by {} of 255 steps, more than --max {max}", bytes.worst));
+    }
+    Ok(())
+}
+
+/// One picture of a scene by the adapter, and by the oracle.
+struct Drawn {
+    oracle: Oracle,
+    actual: Image,
+    expected: Image,
+}
+
+impl Drawn {
+    fn new(
+        app: &mut App,
+        pixels: Pixels,
+        size: UVec2,
+        encoding: Encoding,
+        (index, progress): (u32, &Progress),
+    ) -> Result<Self, Failure> {
+        app.insert_resource(Headless { size, pixels });
+        let actual = match render_picture(app)? {
+            Picture::Byte(image) => Image::from_bytes(&image, encoding),
+            Picture::Float(image) => Image::from_float(&image),
+        };
+        let oracle = Oracle::new(app.world_mut(), size)?.with_clamping(pixels == Pixels::Byte);
+        let expected = oracle
+            .draw_with(&|done, of| progress.tile(index, 2, done, of))
+            .map_err(|stopped| Failure::new(STOPPED, stopped))?;
+        Ok(Self { oracle, actual, expected })
+    }
+
+    fn judged(&self, bars: Bars) -> Result<Verdict, Failure> {
+        judge(&self.oracle, &self.expected, &self.actual, bars).map_err(text)
+    }
+}
+
+fn text(error: impl std::fmt::Display) -> Failure {
+    error.to_string().into()
+}

@@ -1,0 +1,29 @@
+//! `halfway view`.
+
+use clap::Args;
+use halfway::prelude::*;
+
+use crate::failure::Failure;
+use crate::input::Input;
+use crate::levels::LevelsArgs;
+use crate::look::LookArgs;
+
+#[derive(Args, Debug)]
+pub(crate) struct ViewArgs {
+    #[command(flatten)]
+    look: LookArgs,
+    #[command(flatten)]
+    levels: LevelsArgs,
+}
+
+pub(crate) fn run(args: &ViewArgs) -> Result<(), Failure> {
+    let input = Input::read(&args.look)?;
+    let mut app = App::new();
+    app.add_plugins(HalfwayPlugins).insert_resource(WindowTitle(input.name())).insert_resource(args.levels.allowed());
+    input.spawn(&mut app)?;
+    match app.run() {
+        AppExit::Success => Ok(()),
+        // What went wrong has been said where it happened.
+        AppExit::Error(code) => Err(Failure::new(code.get(), "the window could not be kept open")),
+    }
+}

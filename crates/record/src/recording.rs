@@ -1,0 +1,298 @@
+//! Pictures without a window: one, a numbered sequence, or an animated PNG.
+
+use std::io::{IsTerminal, Write};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use bevy_app::{App, AppExit, Plugin, PluginsState};
+use bevy_math::UVec2;
+use bevy_time::TimeUpdateStrategy;
+use halfway_lighting::{Camera, Encoding};
+use halfway_reference::OracleError;
+use halfway_render::{Headless, Picture, Pixels, RenderError, render_picture};
+use thiserror::Error;
+
+use crate::output::{AnimationWriter, ContactSheet, FrameDelay, OutputError, PictureFormat, write_picture};
+
+/// Makes the target a texture of `size` pixels. Part of `HalfwayPlugins::headless`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct HeadlessPlugin {
+    /// Width and height in pixels, each at least 1.
+    pub size: UVec2,
+}
+
+impl Plugin for HeadlessPlugin {
+    fn build(&self, app: &mut App) {
+        app.insert_resource(Headless { size: self.size, ..Headless::default() });
+    }
+}
+
+/// Which frames to draw and where to write them. As a plugin it gives the App a runner that records and exits.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Recording {
+    /// The file. One frame makes a picture: `.png` or `.exr`. More make an animated PNG, or a file each where the path
+    /// has a `{}`, which becomes the frame's number with four digits.
+    pub path: PathBuf,
+    /// The frames to keep, counted from 0; those before the first are run but not drawn to a file. Default 0..1.
+    pub frames: Range<u32>,
+    /// Width and height in pixels. Default 1280 × 720.
+    pub size: UVec2,
+    /// Bits a channel, as [`PictureFormat::of`] takes them; `None` is the format's own.
+    pub bits: Option<u32>,
+    /// Frames a second: how far the App's time moves on between frames. Default 30.
+    pub rate: u16,
+    /// Where to put a contact sheet of up to 16 of the frames, if anywhere.
+    pub contact_sheet: Option<PathBuf>,
+}
+
+impl Recording {
+    /// The default size.
+    pub const SIZE: UVec2 = UVec2::new(1280, 720);
+
+    /// The first frame, 1280 × 720, to `path`.
+    pub fn new(path: PathBuf) -> Self {
+        Self { path, frames: 0..1, size: Self::SIZE, bits: None, rate: 30, contact_sheet: None }
+    }
+
+    /// Whether the frames go into one animated PNG.
+    fn is_animation(&self) -> bool {
+        self.frames.len() > 1 && !self.is_sequence()
+    }
+
+    fn is_sequence(&self) -> bool {
+        self.path.to_string_lossy().contains("{}")
+    }
+
+    fn path_of(&self, frame: u32) -> PathBuf {
+        if self.is_sequence() {
+            PathBuf::from(self.path.to_string_lossy().replace("{}", &format!("{frame:04}")))
+        } else {
+            self.path.clone()
+        }
+    }
+}
+
+impl Plugin for Recording {
+    fn build(&self, app: &mut App) {
+        let recording = self.clone();
+        app.set_runner(move |mut app| match record(&mut app, &recording, on_stderr) {
+            Ok(()) => {
+                println!("{}", recording.path.display());
+                if let Some(sheet) = &recording.contact_sheet {
+                    println!("{}", sheet.display());
+                }
+                app.should_exit().unwrap_or(AppExit::Success)
+            }
+            Err(error) => {
+                eprintln!("error: {error}");
+                AppExit::from_code(2)
+            }
+        });
+    }
+}
+
+/// Says on standard error how many frames of an animation are done; on a terminal as a bar, else every tenth part.
+fn on_stderr(done: u32, of: u32) -> Continue {
+    const WIDTH: u32 = 40;
+    if of > 1 {
+        let mut stderr = std::io::stderr().lock();
+        // Whoever closed standard error does not want to hear.
+        let _ = if stderr.is_terminal() {
+            let full = (WIDTH * done / of) as usize;
+            let end = if done == of { "\n" } else { "" };
+            write!(stderr, "\r[{:<width$}] {done}/{of} frames{end}", "=".repeat(full), width = WIDTH as usize)
+        } else if done * 10 / of > (done - 1) * 10 / of {
+            writeln!(stderr, "{done}/{of} frames")
+        } else {
+            Ok(())
+        };
+    }
+    Continue::Yes
+}
+
+/// Reads a size in pixels as people write it, such as `1280x720`.
+///
+/// # Errors
+/// Says what was expected: each side from 1 to 16384.
+pub fn parse_size(text: &str) -> Result<UVec2, String> {
+    let side = |text: &str| text.parse::<u32>().ok().filter(|side| (1..=16384).contains(side));
+    text.split_once(['x', 'X', '×'])
+        .and_then(|(width, height)| Some(UVec2::new(side(width)?, side(height)?)))
+        .ok_or_else(|| format!("size {text}: expected WIDTHxHEIGHT in pixels, each from 1 to 16384, such as 1280x720"))
+}
+
+/// Whether to go on after a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Continue {
+    /// Draw the next frame.
+    Yes,
+    /// Stop; nothing is left of an animation, finished files of a sequence stay.
+    No,
+}
+
+/// Why a recording failed.
+#[derive(Debug, Error)]
+pub enum RecordError {
+    /// A frame could not be drawn.
+    #[error("{0}")]
+    Render(#[from] RenderError),
+    /// The reference renderer cannot draw a frame.
+    #[error("{0}")]
+    Oracle(#[from] OracleError),
+    /// A frame could not be written.
+    #[error("{0}")]
+    Output(#[from] OutputError),
+    /// There is no frame in the range.
+    #[error("frames {}..{}: the range is empty; expected A..B with A below B", .0.start, .0.end)]
+    NoFrames(Range<u32>),
+    /// It was stopped from outside.
+    #[error("stopped at frame {0}")]
+    Stopped(u32),
+}
+
+/// A frame that is to be drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Frame {
+    /// Counted from 0, as in [`Recording::frames`].
+    pub number: u32,
+    /// Width and height in pixels.
+    pub size: UVec2,
+    /// What a pixel has to hold so that the file can be written without loss.
+    pub pixels: Pixels,
+}
+
+/// Runs `app` frame by frame and writes what it draws. Time moves on by exactly 1/rate a frame, so that recordings
+/// repeat; to the byte with [`LevelsOfDetail::OFF`](halfway_render::LevelsOfDetail::OFF), for levels of detail are used
+/// from whichever frame on they are made. `progress` is told how many frames are done of how many, and may stop the work.
+///
+/// # Errors
+/// The first thing that kept a frame from being drawn or written.
+pub fn record(
+    app: &mut App,
+    recording: &Recording,
+    progress: impl FnMut(u32, u32) -> Continue,
+) -> Result<(), RecordError> {
+    record_with(app, recording, |app, _| Ok(render_picture(app)?), progress)
+}
+
+/// The same with a drawer of its own, such as [`ReferenceDrawing::picture`](crate::ReferenceDrawing::picture). For each frame that is kept `draw` runs the
+/// App once and gives the picture.
+///
+/// # Errors
+/// The first thing that kept a frame from being drawn or written.
+pub fn record_with(
+    app: &mut App,
+    recording: &Recording,
+    mut draw: impl FnMut(&mut App, Frame) -> Result<Picture, RecordError>,
+    mut progress: impl FnMut(u32, u32) -> Continue,
+) -> Result<(), RecordError> {
+    if recording.frames.is_empty() {
+        return Err(RecordError::NoFrames(recording.frames.clone()));
+    }
+    let mut sink = Sink::new(recording)?;
+    let pixels = if recording.is_animation() {
+        Pixels::Byte
+    } else {
+        PictureFormat::of(&recording.path_of(0), recording.bits)?.pixels()
+    };
+    app.insert_resource(Headless { size: recording.size, pixels });
+    app.insert_resource(TimeUpdateStrategy::ManualDuration(Duration::from_secs(1) / u32::from(recording.rate.max(1))));
+    ready(app);
+    for _ in 0..recording.frames.start {
+        app.update();
+    }
+    for number in recording.frames.clone() {
+        let picture = draw(app, Frame { number, size: recording.size, pixels })?;
+        sink.write(number, &picture, encoding(app))?;
+        let done = number - recording.frames.start + 1;
+        if progress(done, recording.frames.len() as u32) == Continue::No {
+            return Err(RecordError::Stopped(number));
+        }
+    }
+    sink.finish(encoding(app))
+}
+
+/// Finishes the plugins, as a runner has to.
+fn ready(app: &mut App) {
+    if app.plugins_state() != PluginsState::Cleaned {
+        app.finish();
+        app.cleanup();
+    }
+}
+
+fn encoding(app: &mut App) -> Encoding {
+    camera(app).encoding
+}
+
+/// The world's camera; a default one where there is none, which whoever draws will refuse.
+pub(crate) fn camera(app: &mut App) -> Camera {
+    let world = app.world_mut();
+    world.query::<&Camera>().iter(world).next().copied().unwrap_or_default()
+}
+
+/// Where frames go.
+struct Sink<'a> {
+    recording: &'a Recording,
+    animation: Option<AnimationWriter>,
+    sheet: Option<(&'a Path, ContactSheet)>,
+}
+
+const SHEET_CELLS: u32 = 16;
+
+impl<'a> Sink<'a> {
+    fn new(recording: &'a Recording) -> Result<Self, RecordError> {
+        // Refuses a bad ending before the first frame is drawn.
+        if recording.is_animation() {
+            if let Some(bits) = recording.bits.filter(|&bits| bits != 8) {
+                let file = recording.path.clone();
+                return Err(OutputError::Bits { file, bits, expected: "8 in an animated PNG" }.into());
+            }
+        } else {
+            PictureFormat::of(&recording.path_of(0), recording.bits)?;
+        }
+        if let Some(sheet) = &recording.contact_sheet {
+            PictureFormat::of(sheet, Some(8))?;
+        }
+        Ok(Self { recording, animation: None, sheet: None })
+    }
+
+    fn write(&mut self, frame: u32, picture: &Picture, encoding: Encoding) -> Result<(), RecordError> {
+        let recording = self.recording;
+        if recording.is_animation() {
+            let animation = match &mut self.animation {
+                Some(animation) => animation,
+                none => none.insert(AnimationWriter::create(
+                    &recording.path,
+                    picture.dimensions(),
+                    recording.frames.len() as u32,
+                    FrameDelay::per_second(recording.rate),
+                    encoding,
+                )?),
+            };
+            animation.frame(picture)?;
+        } else {
+            let path = recording.path_of(frame);
+            let format = PictureFormat::of(&path, recording.bits)?;
+            write_picture(picture, &path, format, encoding)?;
+        }
+        if let Some(path) = &recording.contact_sheet {
+            let index = frame - recording.frames.start;
+            if index.is_multiple_of((recording.frames.len() as u32).div_ceil(SHEET_CELLS)) {
+                let (_, sheet) = self.sheet.get_or_insert_with(|| (path, ContactSheet::new(4, 400, encoding)));
+                sheet.push(picture);
+            }
+        }
+        Ok(())
+    }
+
+    fn finish(self, encoding: Encoding) -> Result<(), RecordError> {
+        if let Some(animation) = self.animation {
+            animation.finish()?;
+        }
+        if let Some((path, sheet)) = self.sheet {
+            write_picture(&sheet.picture(), path, PictureFormat::Png8, encoding)?;
+        }
+        Ok(())
+    }
+}

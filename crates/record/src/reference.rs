@@ -1,0 +1,66 @@
+//! Frames by the reference renderer.
+
+use std::ops::ControlFlow;
+
+use bevy_app::App;
+use halfway_lighting::Samples;
+use halfway_reference::{Mode, Oracle};
+use halfway_render::{Picture, Pixels};
+use image::DynamicImage;
+
+use crate::recording::{Frame, RecordError, camera};
+
+/// How frames are drawn without a graphics adapter: in f64 on the CPU.
+///
+/// ```no_run
+/// use bevy_app::App;
+/// use halfway_record::{Continue, RecordError, Recording, ReferenceDrawing, record_with};
+/// use std::ops::ControlFlow;
+///
+/// fn draw(app: &mut App) -> Result<(), RecordError> {
+///     let drawing = ReferenceDrawing::default();
+///     record_with(
+///         app,
+///         &Recording::new("teapot.png".into()),
+///         |app, frame| drawing.picture(app, frame, &|_done, _of| ControlFlow::Continue(())),
+///         |_done, _of| Continue::Yes,
+///     )
+/// }
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ReferenceDrawing {
+    /// What is drawn of each object. Default [`Mode::Mesh`].
+    pub mode: Mode,
+    /// This number squared is the samples a pixel. `None`, the default, is 2 where the camera has four samples, else 1.
+    pub supersampling: Option<u32>,
+}
+
+impl ReferenceDrawing {
+    /// Runs the App once and draws what is there then. `progress` is told how many tiles of the picture are done of how
+    /// many, from any thread, and may stop the work.
+    ///
+    /// # Errors
+    /// [`RecordError::Oracle`] for a scene that cannot be drawn, [`RecordError::Stopped`].
+    pub fn picture(
+        &self,
+        app: &mut App,
+        frame: Frame,
+        progress: &(dyn Fn(u32, u32) -> ControlFlow<()> + Sync),
+    ) -> Result<Picture, RecordError> {
+        app.update();
+        let camera = camera(app);
+        let supersampling = self.supersampling.unwrap_or(match camera.samples {
+            Samples::One => 1,
+            Samples::Four => 2,
+        });
+        let oracle = Oracle::new(app.world_mut(), frame.size)?
+            .with_mode(self.mode)
+            .with_supersampling(supersampling)
+            .with_clamping(frame.pixels == Pixels::Byte);
+        let image = oracle.draw_with(progress).map_err(|_| RecordError::Stopped(frame.number))?;
+        Ok(match frame.pixels {
+            Pixels::Byte => Picture::Byte(DynamicImage::from(image.to_bytes(camera.encoding)).into_rgba8()),
+            Pixels::Float => Picture::Float(image.to_float()),
+        })
+    }
+}

@@ -1,0 +1,145 @@
+//! What a scene gets that says nothing about its camera or its lights.
+
+use bevy_math::{DVec3, Vec3};
+
+use crate::light::{AttachEntry, LightEntry, LightSource};
+use crate::view::CameraEntry;
+
+/// The side that a framing camera looks from: 30° to the right of the front, 20° above the ground.
+const AZIMUTH: f64 = std::f64::consts::PI / 6.0;
+const ELEVATION: f64 = std::f64::consts::PI / 9.0;
+
+/// How much farther away than necessary a framing camera stands, so that nothing touches the picture's edge.
+const MARGIN: f64 = 1.12;
+
+/// A camera that sees all of `points` (the vertices of the objects, or corners of boxes around them), from the front, a
+/// little from the right and from above, as large as it can. `aspect` is the picture's width over its height.
+///
+/// Without points it is [`CameraEntry::default`]. Points that coincide are seen as if they were a unit apart.
+pub fn framing_camera(points: impl IntoIterator<Item = Vec3>, aspect: f32) -> CameraEntry {
+    let points: Vec<DVec3> = points.into_iter().map(Vec3::as_dvec3).collect();
+    let Some(&first) = points.first() else { return CameraEntry::default() };
+    let (min, max) = points.iter().fold((first, first), |(min, max), &p| (min.min(p), max.max(p)));
+    let center = (min + max) * 0.5;
+    let back = DVec3::new(AZIMUTH.sin() * ELEVATION.cos(), ELEVATION.sin(), AZIMUTH.cos() * ELEVATION.cos());
+    let right = DVec3::Y.cross(back).normalize();
+    let up = back.cross(right);
+
+    let default = CameraEntry::default();
+    let tan_y = (f64::from(default.fov_y_deg).to_radians() * 0.5).tan();
+    let tan_x = tan_y * f64::from(aspect.clamp(1e-4, 1e4));
+    let (aside, distance_x) = fit(&points, center, right, back, tan_x);
+    let (above, distance_y) = fit(&points, center, up, back, tan_y);
+    let target = center + right * aside + up * above;
+    let tight = distance_x.max(distance_y);
+    let nearest = points.iter().map(|p| (*p - center).dot(back)).fold(0.0, f64::max);
+    // Far from the origin the camera must not be rounded onto its target.
+    let least = center.abs().max_element() * 1e-5;
+    let distance = if tight > 0.0 { (tight * MARGIN).max(least) } else { least.max(1.0) * 3.0 };
+    CameraEntry {
+        position: to_f32(target + back * distance),
+        target: to_f32(target),
+        near: near_plane(distance, nearest),
+        ..default
+    }
+}
+
+/// How far beside `center` along `axis`, and how far from it along `back`, an eye has to be at least, so that the points
+/// lie within the half angle of this tangent to both sides of its line of sight.
+///
+/// A point (x, z) is inside when |x − c| ≤ (d − z)·tan, that is, when c + d·tan is at least x + z·tan and d·tan − c at
+/// least z·tan − x. The largest of each over all points decides, and half their sum is the least d·tan.
+fn fit(points: &[DVec3], center: DVec3, axis: DVec3, back: DVec3, tan: f64) -> (f64, f64) {
+    let (right, left) = points.iter().fold((f64::MIN, f64::MIN), |(right, left), p| {
+        let (x, z) = ((*p - center).dot(axis), (*p - center).dot(back));
+        (right.max(z * tan + x), left.max(z * tan - x))
+    });
+    ((right - left) * 0.5, (right + left) * 0.5 / tan)
+}
+
+/// Well in front of everything, yet so near that one can go closer.
+fn near_plane(distance: f64, nearest: f64) -> f32 {
+    let near = (distance * 0.01).min((distance - nearest) * 0.5);
+    near.clamp(f64::from(f32::MIN_POSITIVE), f64::from(f32::MAX)) as f32
+}
+
+fn to_f32(v: DVec3) -> [f32; 3] {
+    v.to_array().map(|c| c.clamp(f64::from(f32::MIN), f64::from(f32::MAX)) as f32)
+}
+
+/// The lights of a scene that has none of its own: a key light from the upper left, a weaker fill light from the right,
+/// both fixed in the world as seen by the camera of [`framing_camera`], and a faint headlight that moves with the
+/// camera, so that no side is black. All are directional, so they suit a scene of any size.
+pub fn default_lights() -> Vec<LightEntry> {
+    let light = |direction, diffuse, specular, attach| LightEntry {
+        diffuse,
+        specular,
+        attach,
+        ..LightEntry::white(LightSource::Directional { direction })
+    };
+    vec![
+        light([0.4, -1.0, -1.0], [0.62, 0.6, 0.57], [0.62, 0.6, 0.57], AttachEntry::World),
+        light([-1.0, -0.3, -0.3], [0.14, 0.16, 0.19], [0.07, 0.08, 0.095], AttachEntry::World),
+        light([0.0, 0.0, -1.0], [0.1; 3], [0.1; 3], AttachEntry::Camera),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::float_cmp, reason = "marks and exact values are compared")]
+
+    use super::*;
+
+    /// Where a point is in the picture, ±1 at its edges.
+    fn in_picture(camera: &CameraEntry, aspect: f32, p: Vec3) -> (f64, f64) {
+        let [right, up, back] = camera.axes().unwrap();
+        let p = p.as_dvec3() - Vec3::from(camera.position).as_dvec3();
+        let depth = -p.dot(back);
+        assert!(depth > f64::from(camera.near), "{depth} is before the near plane {}", camera.near);
+        let tan = (f64::from(camera.fov_y_deg).to_radians() * 0.5).tan();
+        (p.dot(right) / (depth * tan * f64::from(aspect)), p.dot(up) / (depth * tan))
+    }
+
+    #[test]
+    fn everything_is_in_the_picture_and_fills_it() {
+        let boxes = [
+            (Vec3::splat(-1.0), Vec3::splat(1.0)),
+            (Vec3::new(-5.0, 0.0, -5.0), Vec3::new(5.0, 0.0, 5.0)),
+            (Vec3::new(0.0, -40.0, 0.0), Vec3::new(0.0, 2.0, 0.0)),
+            (Vec3::splat(1e-18), Vec3::splat(3e-18)),
+            (Vec3::splat(-1e18), Vec3::splat(2e18)),
+            (Vec3::new(100.0, 7.0, -3.0), Vec3::new(101.0, 9.0, -2.0)),
+        ];
+        for (min, max) in boxes {
+            for aspect in [0.3, 1.0, 16.0 / 9.0] {
+                let corners: Vec<Vec3> = (0..8)
+                    .map(|i| {
+                        let pick = |bit: u32, axis: usize| if i & bit == 0 { min[axis] } else { max[axis] };
+                        Vec3::new(pick(1, 0), pick(2, 1), pick(4, 2))
+                    })
+                    .collect();
+                let camera = framing_camera(corners.iter().copied(), aspect);
+                camera.check().unwrap();
+                let largest = corners
+                    .iter()
+                    .map(|&p| in_picture(&camera, aspect, p))
+                    .fold(0.0, |m: f64, (x, y)| m.max(x.abs()).max(y.abs()));
+                // The margin is 12 % of the distance from the middle; the nearest points, half as far away at the most,
+                // lose up to twice that at the edge that decides.
+                assert!((0.76..1.0).contains(&largest), "{min} {max} {aspect}: {largest}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_camera_for_nothing_and_for_one_point() {
+        assert_eq!(framing_camera([], 1.0), CameraEntry::default());
+        for point in [Vec3::ZERO, Vec3::splat(1e9), Vec3::splat(f32::MAX)] {
+            for aspect in [1.0, 0.0, f32::INFINITY] {
+                let camera = framing_camera([point], aspect);
+                assert!(camera.check().is_ok() || point.x == f32::MAX, "{point} {camera:?}");
+                assert!(camera.position.iter().all(|c| c.is_finite()));
+            }
+        }
+    }
+}

@@ -1,0 +1,32 @@
+//! Materials and lights of model files, as components.
+//!
+//! `halfway_mesh` reads files and `halfway_lighting` knows the equations; this is where the two meet. What a format says
+//! exactly is taken exactly, what it leaves open is decided here and written down, and what had to be changed comes
+//! back as a [`Warning`].
+//!
+//! ```no_run
+//! use halfway_scene::import::ModelMaterial;
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let model = halfway_mesh::load("assets/teapot.obj".as_ref())?;
+//! for source in &model.materials {
+//!     let (material, warnings) = ModelMaterial::of(source)?;
+//!     println!("{}: {:?} {warnings:?}", source.name(), material.material);
+//! }
+//! # Ok(())
+//! # }
+//! ```
+
+mod metallic_roughness;
+mod model_material;
+mod mtl;
+mod punctual;
+mod warning;
+
+pub use metallic_roughness::{
+    DIELECTRIC_REFLECTANCE, SHININESS_MAX, from_metallic_roughness, shininess_from_roughness,
+};
+pub use model_material::ModelMaterial;
+pub use mtl::from_mtl;
+pub use punctual::{RADIANCE_SCALE, from_punctual, model_light};
+pub use warning::Warning;

@@ -1,0 +1,47 @@
+//! The material of a model, whichever format it came in.
+
+use halfway_lighting::{Faces, InvalidValue, Material};
+use halfway_mesh::{AlphaMode, MetallicRoughness, MtlMaterial, SourceMaterial};
+
+use super::metallic_roughness::from_metallic_roughness;
+use super::mtl::from_mtl;
+
+/// A material that came with a model, and how it wants to be drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ModelMaterial {
+    /// The material, as [`from_mtl`] and [`from_metallic_roughness`] make it.
+    pub material: Material,
+    /// Both where the file says double-sided, else the front.
+    pub faces: Faces,
+    /// Whether the file asks for blending. An MTL file cannot; whoever shows it has to.
+    pub blend: bool,
+}
+
+impl ModelMaterial {
+    /// The material that a model file describes, with a sentence for everything that was mended or left out.
+    ///
+    /// # Errors
+    /// [`InvalidValue`] for a number that is not finite or out of its range.
+    pub fn of(source: &SourceMaterial) -> Result<(Self, Vec<String>), InvalidValue> {
+        match source {
+            SourceMaterial::Mtl(mtl) => Self::of_mtl(mtl),
+            SourceMaterial::MetallicRoughness(gltf) => Ok((Self::of_gltf(gltf)?, Vec::new())),
+        }
+    }
+
+    fn of_mtl(mtl: &MtlMaterial) -> Result<(Self, Vec<String>), InvalidValue> {
+        let (material, warnings) = from_mtl(mtl)?;
+        let warnings = warnings.iter().map(ToString::to_string).collect();
+        Ok((Self { material, faces: Faces::Front, blend: false }, warnings))
+    }
+
+    fn of_gltf(gltf: &MetallicRoughness) -> Result<Self, InvalidValue> {
+        let material = from_metallic_roughness(gltf)?;
+        Ok(Self {
+            material,
+            faces: if gltf.double_sided { Faces::Both } else { Faces::Front },
+            // What a mask cuts away has opacity 0, which shows only where it is blended.
+            blend: gltf.alpha == AlphaMode::Blend || material.opacity == 0.0,
+        })
+    }
+}

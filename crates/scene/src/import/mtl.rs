@@ -1,0 +1,111 @@
+//! Wavefront MTL.
+
+use bevy_color::LinearRgba;
+use halfway_lighting::{Fields, InvalidValue, Material};
+use halfway_mesh::MtlMaterial;
+
+use super::warning::Warning;
+
+/// `d` and `1 − Tr` may differ by this much before they disagree: both are commonly printed with two decimals, and
+/// 1/8 and 7/8 become 0.13 and 0.88.
+const OPACITY_SLACK: f32 = 0.015;
+
+/// The material that an MTL file describes, and what had to be changed on the way.
+///
+/// The format is Wavefront's (Alias|Wavefront, *File Formats*, version 4.2, 1995: Material Library File). Its highlight
+/// is `Ks·(H·Hj)^Ns` with the halfway vector, so it is exact under
+/// [`Reflectance::BlinnPhong`](halfway_lighting::Reflectance::BlinnPhong). Colors are taken as linear RGB.
+///
+/// | key | becomes | missing | refused |
+/// |---|---|---|---|
+/// | `Ka` | ambient | 0.2 grey | negative, NaN, above 10¹² |
+/// | `Kd` | diffuse | 0.8 grey | same |
+/// | `Ks` | specular | black: no highlight | same |
+/// | `Ke` | emission | black | same |
+/// | `Ns` | shininess | 32, with a warning where there is a highlight | negative, not finite |
+/// | `d` | opacity; above 1 taken as 1 with a warning | 1 − `Tr` | negative, not finite |
+/// | `Tr` | 1 − opacity; above 1 taken as 1 with a warning | 0 | negative, not finite |
+///
+/// Values above 1 in a colour are kept: the format allows them. Where `d` and `Tr` are both there and differ by more
+/// than 0.015 from d = 1 − Tr, `d` wins with a warning; there are programs that write `Tr` the other way round, and `d`
+/// is the key of the original format. An opacity of 0 is kept, with a warning: some programs write it for opaque
+/// surfaces. Opacity acts only on entities with [`Blend`](halfway_lighting::Blend).
+///
+/// | `illum` | effect |
+/// |---|---|
+/// | 0 | constant colour: emission is Kd + Ke, all reflectances are black |
+/// | 1 | ambient and diffuse; specular is black whatever `Ks` says |
+/// | 2, missing | ambient, diffuse and specular |
+/// | 3 to 10 | as 2 with a warning: reflection and refraction are left out |
+/// | above 10 | as 2 with a warning |
+///
+/// # Errors
+/// The first key whose value is refused, as `MTL.Kd.green: …`.
+pub fn from_mtl(mtl: &MtlMaterial) -> Result<(Material, Vec<Warning>), InvalidValue> {
+    check(mtl)?;
+    let mut warnings = Vec::new();
+    let color = |key: Option<[f32; 3]>, missing| key.map_or(missing, |[r, g, b]| LinearRgba::rgb(r, g, b));
+    let mut material = Material {
+        ambient: color(mtl.ka, Material::DEFAULT.ambient),
+        diffuse: color(mtl.kd, Material::DEFAULT.diffuse),
+        specular: color(mtl.ks, Material::DEFAULT.specular),
+        emission: color(mtl.ke, Material::DEFAULT.emission),
+        shininess: mtl.ns.unwrap_or(Material::DEFAULT.shininess),
+        opacity: opacity(mtl, &mut warnings),
+    };
+    apply_illum(mtl.illum.unwrap_or(2), &mut material, &mut warnings);
+    if mtl.ns.is_none() && material.specular != LinearRgba::BLACK {
+        warnings.push(Warning::NoShininess { shininess: material.shininess });
+    }
+    // The sum of illum 0 is the one value that can pass a limit which its parts keep.
+    material.validate()?;
+    Ok((material, warnings))
+}
+
+fn check(mtl: &MtlMaterial) -> Result<(), InvalidValue> {
+    let fields = Fields::of("MTL");
+    for (key, value) in [("Ka", mtl.ka), ("Kd", mtl.kd), ("Ks", mtl.ks), ("Ke", mtl.ke)] {
+        value.map_or(Ok(()), |rgb| fields.channels(key, rgb))?;
+    }
+    for (key, value) in [("Ns", mtl.ns), ("d", mtl.d), ("Tr", mtl.tr)] {
+        value.map_or(Ok(()), |number| fields.non_negative(key, number))?;
+    }
+    Ok(())
+}
+
+fn opacity(mtl: &MtlMaterial, warnings: &mut Vec<Warning>) -> f32 {
+    let mut at_most_one = |key, value: f32| {
+        if value > 1.0 {
+            warnings.push(Warning::OpacityClamped { key, value });
+        }
+        value.min(1.0)
+    };
+    let d = mtl.d.map(|d| at_most_one("d", d));
+    let from_tr = mtl.tr.map(|tr| 1.0 - at_most_one("Tr", tr));
+    if let (Some(given), Some(tr), Some(d), Some(from_tr)) = (mtl.d, mtl.tr, d, from_tr)
+        && (d - from_tr).abs() > OPACITY_SLACK
+    {
+        warnings.push(Warning::OpacityDisagrees { d: given, tr });
+    }
+    let opacity = d.or(from_tr).unwrap_or(1.0);
+    if opacity == 0.0 {
+        let (key, value) = mtl.d.map_or(("Tr", mtl.tr.unwrap_or(1.0)), |d| ("d", d));
+        warnings.push(Warning::FullyTransparent { key, value });
+    }
+    opacity
+}
+
+fn apply_illum(illum: u8, material: &mut Material, warnings: &mut Vec<Warning>) {
+    match illum {
+        0 => {
+            // Alpha is ignored everywhere, but a sum of two would not compare equal to a colour built by `rgb`.
+            let constant = LinearRgba { alpha: 1.0, ..material.diffuse + material.emission };
+            let (shininess, opacity) = (material.shininess, material.opacity);
+            *material = Material { shininess, opacity, ..Material::emissive(constant) };
+        }
+        1 => material.specular = LinearRgba::BLACK,
+        2 => {}
+        3..=10 => warnings.push(Warning::IllumNeedsRays { illum }),
+        _ => warnings.push(Warning::IllumUnknown { illum }),
+    }
+}

@@ -1,0 +1,51 @@
+//! Scene files: cameras, lights, materials and meshes as JSON, read, checked, written and put into a world.
+//!
+//! [`SceneFile`] is the file as a value: [`SceneFile::read`] reads one and says exactly what is wrong with it,
+//! [`SceneFile::write`] writes one. [`spawn()`] turns it into entities. The format is described in
+//! `docs/scene-format.md`, and as a JSON schema in `docs/scene.schema.json` ([`json_schema`]).
+//!
+//! ```
+//! use halfway_scene::SceneFile;
+//!
+//! let scene = SceneFile::from_json(r#"{"objects": [{"mesh": {"teapot": {}}}]}"#, "example").unwrap();
+//! assert_eq!(scene.size, [1280, 720]);
+//!
+//! let error = SceneFile::from_json(r#"{"objects": [{"mesh": {"teapot": {"divisons": 4}}}]}"#, "example").unwrap_err();
+//! assert_eq!(error.key(), Some("objects[0].mesh.teapot.divisons"));
+//! ```
+
+mod check;
+mod defaults;
+mod error;
+mod file;
+pub mod import;
+mod json;
+mod light;
+mod light_component;
+mod light_keys;
+mod light_place;
+mod locate;
+mod material;
+mod mesh;
+mod models;
+mod object;
+mod placement;
+mod read;
+mod schema;
+mod spawn;
+mod view;
+
+pub use defaults::{default_lights, framing_camera};
+pub use error::SceneError;
+pub use file::SceneFile;
+pub use light::{AttachEntry, ConeEntry, FalloffEntry, LightEntry, LightSource};
+pub use light_component::LightComponent;
+pub use material::{MaterialEntry, MaterialValues};
+pub use mesh::{BoxEntry, InlineMesh, MeshEntry, NormalsEntry, PlaneEntry, TeapotEntry, UvSphereEntry};
+pub use object::{FacesEntry, ObjectEntry, TransformEntry, TransformMatrix, TransformParts};
+pub use schema::json_schema;
+pub use spawn::{Spawned, spawn};
+pub use view::{AutoShading, CameraEntry, IntensityEntry, OutputEntry, ReflectanceEntry, ShadingEntry, ViewerEntry};
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,153 @@
+//! The shapes that a scene names: surfaces made, model files loaded, their materials and lights translated.
+
+use std::collections::HashMap;
+use std::path::Path;
+use std::rc::Rc;
+
+use bevy_math::Mat4;
+use bevy_transform::components::Transform;
+use halfway_mesh::{Cuboid, Mesh, Model, NormalReport, Normals, Plane, SourceLight, SourceMaterial, Teapot, UvSphere};
+
+use crate::SceneError;
+use crate::import::{ModelMaterial, model_light};
+use crate::light_component::LightComponent;
+use crate::mesh::{MeshEntry, NormalsEntry};
+use crate::object::ObjectEntry;
+
+/// What an object shows.
+pub(crate) struct Shape {
+    pub(crate) parts: Vec<ShapePart>,
+    pub(crate) lights: Vec<ShapeLight>,
+}
+
+/// One mesh of a shape, where it stands inside the object.
+pub(crate) struct ShapePart {
+    pub(crate) name: String,
+    pub(crate) mesh: Mesh,
+    pub(crate) object_from_part: Mat4,
+    /// The model's own material.
+    pub(crate) own: Option<ModelMaterial>,
+}
+
+/// A light that came with a model, where it stands inside the object.
+pub(crate) struct ShapeLight {
+    pub(crate) name: String,
+    pub(crate) light: LightComponent,
+    pub(crate) object_from_light: Transform,
+}
+
+/// The shapes of a scene, each loaded once however often it is used.
+pub(crate) struct Shapes<'a> {
+    base_dir: &'a Path,
+    loaded: HashMap<(String, NormalsEntry), Rc<Shape>>,
+    pub(crate) warnings: Vec<String>,
+}
+
+impl<'a> Shapes<'a> {
+    pub(crate) fn new(base_dir: &'a Path) -> Self {
+        Self { base_dir, loaded: HashMap::new(), warnings: Vec::new() }
+    }
+
+    /// The shape of object `index`.
+    pub(crate) fn of(&mut self, object: &ObjectEntry, index: usize) -> Result<Rc<Shape>, SceneError> {
+        let key = match &object.mesh {
+            // Written out for one object; comparing it with others would cost more than it saves.
+            MeshEntry::Inline(_) => None,
+            MeshEntry::Path(path) => Some(format!("path {}", path.display())),
+            surface => Some(format!("{surface:?}")),
+        };
+        let key = key.map(|key| (key, object.normals));
+        if let Some(shape) = key.as_ref().and_then(|key| self.loaded.get(key)) {
+            return Ok(Rc::clone(shape));
+        }
+        let shape = Rc::new(self.load(object, index)?);
+        if let Some(key) = key {
+            self.loaded.insert(key, Rc::clone(&shape));
+        }
+        Ok(shape)
+    }
+
+    fn load(&mut self, object: &ObjectEntry, index: usize) -> Result<Shape, SceneError> {
+        let mesh = match &object.mesh {
+            MeshEntry::Path(path) => {
+                let path = self.base_dir.join(path);
+                let key = format!("objects[{index}].mesh.path");
+                let model = halfway_mesh::load(&path).map_err(|source| SceneError::Model { key, source })?;
+                return self.model(model, &path, object.normals.into(), index);
+            }
+            MeshEntry::UvSphere(sphere) => Mesh::from(UvSphere::from(*sphere)),
+            MeshEntry::Plane(plane) => Mesh::from(Plane::from(*plane)),
+            MeshEntry::Box(cuboid) => Mesh::from(Cuboid::from(*cuboid)),
+            MeshEntry::Teapot(teapot) => Mesh::from(Teapot::from(*teapot)),
+            MeshEntry::Inline(mesh) => mesh
+                .mesh()
+                .map_err(|source| SceneError::Mesh { key: format!("objects[{index}].mesh.inline"), source })?,
+        };
+        let (mesh, report) = mesh.with_normals(object.normals.into());
+        self.warn_of_normals(&format!("objects[{index}]"), report);
+        let part = ShapePart { name: String::new(), mesh, object_from_part: Mat4::IDENTITY, own: None };
+        Ok(Shape { parts: vec![part], lights: Vec::new() })
+    }
+
+    fn model(&mut self, model: Model, path: &Path, normals: Normals, index: usize) -> Result<Shape, SceneError> {
+        let file = path.display();
+        self.warnings.extend(model.warnings.iter().map(|warning| format!("{file}: {warning}")));
+        let mut materials = Vec::with_capacity(model.materials.len());
+        for material in &model.materials {
+            let at = format!("{file}: material {:?}", material.name());
+            materials.push(self.material(material, at, index)?);
+        }
+        let mut lights = Vec::with_capacity(model.lights.len());
+        for light in &model.lights {
+            lights.push(place_light(light, &format!("{file}: light {:?}", light.name), index)?);
+        }
+        let mut parts = Vec::with_capacity(model.parts.len());
+        for part in model.parts {
+            let (mesh, report) = part.mesh.with_normals(normals);
+            self.warn_of_normals(&format!("{file}: part {:?}", part.name), report);
+            parts.push(ShapePart {
+                name: part.name,
+                mesh,
+                object_from_part: part.world_from_part,
+                own: part.material.and_then(|material| materials.get(material).copied()),
+            });
+        }
+        Ok(Shape { parts, lights })
+    }
+
+    fn material(&mut self, source: &SourceMaterial, at: String, index: usize) -> Result<ModelMaterial, SceneError> {
+        match ModelMaterial::of(source) {
+            Ok((material, warnings)) => {
+                self.warnings.extend(warnings.iter().map(|warning| format!("{at}: {warning}")));
+                Ok(material)
+            }
+            Err(source) => Err(SceneError::ModelValue { key: mesh_path(index), at, source }),
+        }
+    }
+
+    fn warn_of_normals(&mut self, at: &str, report: NormalReport) {
+        for (count, what) in [
+            (report.degenerate_triangles, "degenerate triangles have no normal"),
+            (report.cancelled, "vertices whose faces cancel out take the largest face's normal"),
+            (report.without_face, "vertices of no triangle with a normal take +Y"),
+            (report.replaced, "normals of zero length are replaced"),
+        ] {
+            if count > 0 {
+                self.warnings.push(format!("{at}: {count} {what}"));
+            }
+        }
+    }
+}
+
+fn mesh_path(index: usize) -> String {
+    format!("objects[{index}].mesh.path")
+}
+
+fn place_light(light: &SourceLight, at: &str, index: usize) -> Result<ShapeLight, SceneError> {
+    let (component, object_from_light) = model_light(light).map_err(|source| SceneError::ModelValue {
+        key: mesh_path(index),
+        at: at.to_owned(),
+        source,
+    })?;
+    Ok(ShapeLight { name: light.name.clone(), light: component, object_from_light })
+}

@@ -1,0 +1,263 @@
+//! From a scene file to entities.
+
+use std::borrow::Cow;
+use std::collections::HashMap;
+use std::path::Path;
+use std::rc::Rc;
+
+use bevy_asset::{Assets, Handle};
+use bevy_color::{ColorToComponents, LinearRgba};
+use bevy_ecs::prelude::*;
+use bevy_math::{DMat3, DQuat, Mat4, Vec3};
+use bevy_transform::components::Transform;
+use halfway_lighting::{BackMaterial, Blend, Faces, GlobalAmbient, Reflectance, Shading};
+use halfway_lighting::{Camera, Samples};
+use halfway_mesh::{Bounds, Mesh, Mesh3d};
+
+use crate::SceneError;
+use crate::defaults::{default_lights, framing_camera};
+use crate::file::SceneFile;
+use crate::light::{AttachEntry, LightEntry};
+use crate::light_component::LightComponent;
+use crate::light_place::place;
+use crate::material::{MaterialEntry, MaterialValues};
+use crate::models::{Shape, ShapePart, Shapes};
+use crate::object::ObjectEntry;
+use crate::placement::Placement;
+use crate::view::{CameraEntry, ShadingEntry};
+
+/// The entities of a scene that was spawned.
+#[derive(Clone, Debug)]
+pub struct Spawned {
+    /// The camera, with the scene's [`Shading`] and [`Reflectance`].
+    pub camera: Entity,
+    /// The entity of every object of the file, in its order: it carries the object's `Name` and its frame. A shape of
+    /// one part has its mesh on it, a model of several parts has one child for each.
+    pub objects: Vec<Entity>,
+    /// The lights: the scene's, in its order; or the models' own; or the default ones.
+    pub lights: Vec<Entity>,
+    /// What was mended or left out while models were loaded, one sentence each, with the file's name.
+    pub warnings: Vec<String>,
+}
+
+/// Puts a scene into a world: camera, objects, lights, and the [`GlobalAmbient`] resource.
+///
+/// Paths in the scene are relative to `base_dir`, the folder of the scene file. The size of the picture is not the
+/// world's business: it is for whoever makes the target.
+///
+/// - Where the scene has no camera, one is made that frames all objects ([`framing_camera`]).
+/// - Where an object has no material, its model's own materials are used, translated by
+///   [`import`](crate::import), with their double-sidedness and blending unless the object says otherwise.
+/// - Where the scene has no `lights`, the models' own lights shine (`KHR_lights_punctual`), attached to their object;
+///   where there are none either, the [`default_lights`]. An empty list of lights is a list: nothing shines.
+/// - A transform that shears becomes a parent and a child, since a `Transform` cannot hold it.
+///
+/// Equal shapes share their meshes, and so do the parts of a model that show the same mesh of its file.
+///
+/// # Errors
+/// What [`SceneFile::validate`] refuses, models that cannot be loaded, and [`SceneError::NoMeshAssets`]. Nothing is
+/// spawned then.
+pub fn spawn(scene: &SceneFile, base_dir: &Path, world: &mut World) -> Result<Spawned, SceneError> {
+    scene.validate()?;
+    if !world.contains_resource::<Assets<Mesh>>() {
+        return Err(SceneError::NoMeshAssets);
+    }
+    let mut shapes = Shapes::new(base_dir);
+    let objects = scene
+        .objects
+        .iter()
+        .enumerate()
+        .map(|(i, object)| Ok((object, shapes.of(object, i)?)))
+        .collect::<Result<Vec<_>, SceneError>>()?;
+
+    world.insert_resource(GlobalAmbient(LinearRgba::from_f32_array_no_alpha(scene.ambient)));
+    let camera = spawn_camera(scene, &objects, world);
+    let mut handles = Handles::new();
+    let frames = objects
+        .iter()
+        .enumerate()
+        .map(|(i, (object, shape))| spawn_object(object, i, shape, &mut handles, world))
+        .collect::<Vec<_>>();
+    let lights = spawn_lights(scene, camera, &objects, &frames, world);
+    Ok(Spawned { camera, objects: frames, lights, warnings: shapes.warnings })
+}
+
+type Object<'a> = (&'a ObjectEntry, Rc<Shape>);
+
+/// The handle of every mesh that has been added, by where its data is: meshes that share data share a handle. All of
+/// them outlive this map, in the shapes.
+type Handles = HashMap<*const Vec3, Handle<Mesh>>;
+
+fn spawn_camera(scene: &SceneFile, objects: &[Object], world: &mut World) -> Entity {
+    let entry = scene.camera.unwrap_or_else(|| {
+        let [width, height] = scene.size;
+        framing_camera(outline(objects), width as f32 / height as f32)
+    });
+    let camera = Camera {
+        fov_y: entry.fov_y_deg.to_radians(),
+        near: entry.near,
+        background: LinearRgba::from_f32_array_no_alpha(scene.background),
+        viewer: scene.viewer.into(),
+        samples: if scene.samples == 4 { Samples::Four } else { Samples::One },
+        encoding: scene.output.into(),
+        intensity: scene.intensity.policy().unwrap_or_default(),
+    };
+    let view = (shading(scene.shading), Reflectance::from(scene.reflectance));
+    world.spawn((Name::new("camera"), camera, camera_transform(&entry), view)).id()
+}
+
+/// Above this number of vertices the corners of boxes stand for them.
+const FRAMED_VERTICES: usize = 1 << 20;
+
+/// The vertices of all parts in the world, or, where they are many, the corners of the boxes around the parts.
+fn outline(objects: &[Object]) -> Vec<Vec3> {
+    let vertices: usize =
+        objects.iter().flat_map(|(_, shape)| &shape.parts).map(|part| part.mesh.positions().len()).sum();
+    let mut outline = Vec::new();
+    for (object, shape) in objects {
+        let world_from_object = object.transform.matrix().as_dmat4();
+        for part in &shape.parts {
+            let world_from_part = world_from_object * part.object_from_part.as_dmat4();
+            let to_world = |p: Vec3| world_from_part.transform_point3(p.as_dvec3()).as_vec3();
+            if vertices <= FRAMED_VERTICES {
+                outline.extend(part.mesh.positions().iter().copied().map(to_world));
+            } else {
+                outline.extend(corners(&part.mesh.bounds()).map(to_world));
+            }
+        }
+    }
+    outline.retain(|point| point.is_finite());
+    outline
+}
+
+fn corners(bounds: &Bounds) -> impl Iterator<Item = Vec3> {
+    let Bounds { min, max } = *bounds;
+    (0..8).map(move |i| {
+        let pick = |axis: usize| if i & (1 << axis) == 0 { min[axis] } else { max[axis] };
+        Vec3::new(pick(0), pick(1), pick(2))
+    })
+}
+
+fn camera_transform(entry: &CameraEntry) -> Transform {
+    let rotation =
+        entry.axes().map_or(DQuat::IDENTITY, |[right, up, back]| DQuat::from_mat3(&DMat3::from_cols(right, up, back)));
+    Transform::from_translation(entry.position.into()).with_rotation(rotation.normalize().as_quat())
+}
+
+/// Validation has refused what there is no component for.
+fn shading(entry: ShadingEntry) -> Shading {
+    entry.shading().unwrap_or_default()
+}
+
+/// Spawns an object and gives the entity of its frame.
+fn spawn_object(object: &ObjectEntry, index: usize, shape: &Shape, handles: &mut Handles, world: &mut World) -> Entity {
+    let name = object.name.clone().unwrap_or_else(|| format!("objects[{index}]"));
+    let frame = spawn_frame(&Placement::of(&object.transform.matrix()), None, &name, world);
+    let single = matches!(shape.parts.as_slice(), [part] if part.object_from_part == Mat4::IDENTITY);
+    for (i, part) in shape.parts.iter().enumerate() {
+        let mesh = handles
+            .entry(part.mesh.positions().as_ptr())
+            .or_insert_with(|| world.resource_mut::<Assets<Mesh>>().add(part.mesh.clone()))
+            .clone();
+        let entity = if single {
+            frame
+        } else {
+            let name = if part.name.is_empty() { format!("parts[{i}]") } else { part.name.clone() };
+            spawn_frame(&Placement::of(&part.object_from_part), Some(frame), &name, world)
+        };
+        dress(object, part, mesh, &mut world.entity_mut(entity));
+    }
+    frame
+}
+
+/// An entity at a placement; the inner of two where it shears.
+fn spawn_frame(placement: &Placement, parent: Option<Entity>, name: &str, world: &mut World) -> Entity {
+    let mut spawn_at = |transform: Transform, parent: Option<Entity>| {
+        let mut entity = world.spawn(transform);
+        if let Some(parent) = parent {
+            entity.insert(ChildOf(parent));
+        }
+        entity.id()
+    };
+    let outer = spawn_at(placement.outer, parent);
+    let frame = placement.inner.map_or(outer, |inner| spawn_at(inner, Some(outer)));
+    world.entity_mut(frame).insert(Name::new(name.to_owned()));
+    frame
+}
+
+/// Gives a part its mesh and its looks.
+fn dress(object: &ObjectEntry, part: &ShapePart, mesh: Handle<Mesh>, entity: &mut EntityWorldMut) {
+    let own = if object.material.is_some() { None } else { part.own };
+    let given = object.material.as_ref().and_then(MaterialEntry::material);
+    let material = given.or(own.map(|own| own.material)).unwrap_or_else(|| MaterialValues::default().into());
+    let faces = object.faces.map(Faces::from).or(own.map(|own| own.faces)).unwrap_or_default();
+    entity.insert((Mesh3d(mesh), material, faces));
+    if let Some(back) = object.back_material.as_ref().and_then(MaterialEntry::material) {
+        entity.insert(BackMaterial(back));
+    }
+    if let Some(entry) = object.shading {
+        entity.insert(shading(entry));
+    }
+    if let Some(reflectance) = object.reflectance {
+        entity.insert(Reflectance::from(reflectance));
+    }
+    if object.blend.unwrap_or_else(|| own.is_some_and(|own| own.blend)) {
+        entity.insert(Blend);
+    }
+}
+
+/// The scene's lights, else the models', else the default ones.
+fn spawn_lights(
+    scene: &SceneFile,
+    camera: Entity,
+    objects: &[Object],
+    frames: &[Entity],
+    world: &mut World,
+) -> Vec<Entity> {
+    let mut entries = Cow::Borrowed(scene.lights.as_deref().unwrap_or_default());
+    if scene.lights.is_none() {
+        let own = spawn_own_lights(objects, frames, world);
+        if !own.is_empty() {
+            return own;
+        }
+        entries = Cow::Owned(default_lights());
+    }
+    let by_name: HashMap<&str, Entity> =
+        objects.iter().zip(frames).filter_map(|((object, _), &frame)| Some((object.name.as_deref()?, frame))).collect();
+    let spawn_entry = |(i, entry): (usize, &LightEntry)| {
+        let parent = match &entry.attach {
+            AttachEntry::World => None,
+            AttachEntry::Camera => Some(camera),
+            AttachEntry::Object(name) => by_name.get(name.as_str()).copied(),
+        };
+        let (component, transform) = place(entry);
+        spawn_light(format!("lights[{i}]"), component, transform, parent, world)
+    };
+    entries.iter().enumerate().map(spawn_entry).collect()
+}
+
+fn spawn_own_lights(objects: &[Object], frames: &[Entity], world: &mut World) -> Vec<Entity> {
+    let mut lights = Vec::new();
+    for ((_, shape), &frame) in objects.iter().zip(frames) {
+        for light in &shape.lights {
+            let name = if light.name.is_empty() { "light".to_owned() } else { light.name.clone() };
+            lights.push(spawn_light(name, light.light, light.object_from_light, Some(frame), world));
+        }
+    }
+    lights
+}
+
+fn spawn_light(
+    name: String,
+    component: LightComponent,
+    transform: Transform,
+    parent: Option<Entity>,
+    world: &mut World,
+) -> Entity {
+    let mut entity = world.spawn((Name::new(name), transform));
+    component.insert_into(&mut entity);
+    if let Some(parent) = parent {
+        entity.insert(ChildOf(parent));
+    }
+    entity.id()
+}

@@ -1,0 +1,178 @@
+//! What a file means that leaves keys out, and that a file written means the same as the one read.
+
+use halfway_lighting::{Attenuation, Cone, Faces, Material, PointLight, Reflectance, Shading, Viewer};
+use halfway_lighting::{Camera, Encoding};
+use halfway_mesh::{Cuboid, Normals, Plane, Teapot, UvSphere};
+
+use crate::{
+    AttachEntry, BoxEntry, CameraEntry, ConeEntry, FacesEntry, FalloffEntry, LightEntry, LightSource, MaterialValues,
+    MeshEntry, NormalsEntry, ObjectEntry, PlaneEntry, SceneFile, TeapotEntry, TransformEntry, UvSphereEntry,
+};
+
+fn parse(text: &str) -> SceneFile {
+    SceneFile::from_json(text, "test").unwrap()
+}
+
+/// The format's own description, with every key spelled out; the defaults have to be these.
+const WRITTEN_OUT: &str = r#"{
+  "schema_version": 1,
+  "size": [1280, 720],
+  "background": [0, 0, 0],
+  "output": "srgb",
+  "intensity": "clamp",
+  "samples": 1,
+  "ambient": [0.1, 0.1, 0.1],
+  "viewer": "local",
+  "shading": "phong",
+  "reflectance": "blinn_phong",
+  "camera": {"position": [0, 0, 3], "target": [0, 0, 0], "up": [0, 1, 0], "fov_y_deg": 45, "near": 0.1},
+  "lights": [
+    {"kind": "point", "position": [2, 0, 2], "ambient": [0, 0, 0], "diffuse": [1, 1, 1], "specular": [1, 1, 1],
+     "attenuation": [1, 0.09, 0.032], "range": null, "attenuate_ambient": false, "attach": "world"},
+    {"kind": "spot", "position": [2, 0, 2], "direction": [0, -1, 0], "cutoff_deg": 30, "inner_deg": null,
+     "exponent": 0, "ambient": [0, 0, 0], "diffuse": [1, 1, 1], "specular": [1, 1, 1],
+     "attenuation": [1, 0.09, 0.032], "range": null, "attenuate_ambient": false, "attach": "world"},
+    {"kind": "directional", "direction": [0, -1, -1], "ambient": [0, 0, 0], "diffuse": [1, 1, 1],
+     "specular": [1, 1, 1], "attach": "world"},
+    {"kind": "homogeneous", "position": [0, 0, 1, 0], "direction": [0, -1, 0], "cutoff_deg": 180, "inner_deg": null,
+     "exponent": 0, "ambient": [0, 0, 0], "diffuse": [1, 1, 1], "specular": [1, 1, 1],
+     "attenuation": [1, 0.09, 0.032], "range": null, "attenuate_ambient": false, "attach": "world"}
+  ],
+  "objects": [
+    {"name": null, "mesh": {"uv_sphere": {"radius": 1, "segments": 32, "rings": 16}}, "normals": "keep",
+     "transform": {"translation": [0, 0, 0], "rotation": [0, 0, 0, 1], "scale": [1, 1, 1]},
+     "material": {"ambient": [0.2, 0.2, 0.2], "diffuse": [0.8, 0.8, 0.8], "specular": [0, 0, 0],
+                  "emission": [0, 0, 0], "shininess": 32, "opacity": 1},
+     "back_material": null, "shading": null, "reflectance": null},
+    {"mesh": {"plane": {"size": 2, "divisions": 1}}},
+    {"mesh": {"box": {"size": [1, 1, 1]}}},
+    {"mesh": {"teapot": {"divisions": 8}}}
+  ]
+}"#;
+
+const LEFT_OUT: &str = r#"{
+  "camera": {},
+  "lights": [{"kind": "point"}, {"kind": "spot"}, {"kind": "directional"}, {"kind": "homogeneous"}],
+  "objects": [{"mesh": {"uv_sphere": {}}, "material": {}}, {"mesh": {"plane": {}}}, {"mesh": {"box": {}}},
+              {"mesh": {"teapot": {}}}]
+}"#;
+
+#[test]
+fn defaults_are_those_of_the_format() {
+    assert_eq!(parse(LEFT_OUT), parse(WRITTEN_OUT));
+    assert_eq!(parse("{}"), SceneFile::default());
+    assert_eq!(parse(r#"{"camera": null, "lights": null}"#), SceneFile::default());
+    let object = &parse(r#"{"objects": [{"mesh": {"box": {}}}]}"#).objects[0];
+    assert_eq!(*object, ObjectEntry::new(MeshEntry::Box(BoxEntry::default())));
+}
+
+#[test]
+fn defaults_agree_with_those_of_the_components() {
+    assert_eq!(Material::from(MaterialValues::default()), Material::default());
+    assert_eq!(UvSphere::from(UvSphereEntry::default()), UvSphere::default());
+    assert_eq!(Cuboid::from(BoxEntry::default()), Cuboid::default());
+    assert_eq!(Teapot::from(TeapotEntry::default()), Teapot::default());
+    // The format's plane reaches from −1 to 1; the surface's own default is a unit square.
+    assert_eq!(Plane::from(PlaneEntry::default()), Plane { size: 2.0, ..Plane::default() });
+    assert_eq!(Normals::from(NormalsEntry::default()), Normals::default());
+    let falloff = FalloffEntry::default();
+    let [a, b, c] = falloff.attenuation;
+    assert_eq!(Attenuation::new(a, b, c), PointLight::default().attenuation);
+    assert_eq!(ConeEntry::default().cutoff_deg.to_radians(), Cone::default().cutoff);
+    let (scene, camera) = (SceneFile::default(), Camera::default());
+    assert_eq!(CameraEntry::default().fov_y_deg.to_radians(), camera.fov_y);
+    assert_eq!(CameraEntry::default().near, camera.near);
+    assert_eq!(Encoding::from(scene.output), camera.encoding);
+    assert_eq!(Viewer::from(scene.viewer), camera.viewer);
+    assert_eq!(Reflectance::from(scene.reflectance), Reflectance::default());
+    assert_eq!(scene.shading.shading(), Some(Shading::default()));
+    assert_eq!(Faces::from(FacesEntry::default()), Faces::default());
+}
+
+/// Every key at a value that is not its default.
+const UNUSUAL: &str = r#"{
+  "size": [1, 16384],
+  "background": [0.01, 0.012, 0.02],
+  "output": "raw",
+  "samples": 4,
+  "ambient": [0, 1e12, 0.3],
+  "viewer": "infinite",
+  "shading": "gouraud",
+  "reflectance": "blinn_phong_matched",
+  "camera": {"position": [1e-7, 2, 3e20], "target": [0.1, 0.2, 0.3], "up": [1, 0, 0.5], "fov_y_deg": 179.9, "near": 1e-20},
+  "lights": [
+    {"kind": "spot", "position": [1, 2, 3], "direction": [0.1, 0, 0], "cutoff_deg": 90, "inner_deg": 90,
+     "exponent": 128, "attenuation": [0, 0, 1], "range": 7.5, "attenuate_ambient": true, "attach": {"object": "a \"b\" [c, d]"}},
+    {"kind": "homogeneous", "position": [1, 2, 3, -4], "cutoff_deg": 0, "attach": "camera"},
+    {"kind": "directional", "ambient": [0.1, 0.2, 0.3]}
+  ],
+  "objects": [
+    {"name": "a \"b\" [c, d]", "mesh": {"path": "models/a b.GLB"}, "normals": "max",
+     "transform": {"matrix": [1,0,0,0, 0.5,1,0,0, 0,0,1,0, 7,8,9,1]}, "material": "Red Plastic",
+     "back_material": {"emission": [1, 0, 0]}, "faces": "both", "shading": "flat", "reflectance": "phong", "blend": true},
+    {"mesh": {"inline": {"positions": [0,0,0, 1,0,0, 0,1,0], "normals": [0,0,1, 0,0,1, 0,0,1], "uvs": [0,0, 1,0, 0,1],
+     "indices": [0, 1, 2]}}, "faces": "front", "blend": false, "transform": {"rotation": [0, 0.70710678, 0, 0.70710678]}}
+  ]
+}"#;
+
+#[test]
+fn written_and_read_again_a_scene_is_the_same() {
+    for text in ["{}", LEFT_OUT, WRITTEN_OUT, UNUSUAL] {
+        let scene = parse(text);
+        let written = scene.to_json().unwrap();
+        assert_eq!(parse(&written), scene, "{written}");
+        assert_eq!(parse(&written).to_json().unwrap(), written);
+    }
+}
+
+#[test]
+fn any_number_survives_being_written() {
+    // Exponents and fractions of all sizes; a fixed linear congruential sequence (Knuth, MMIX).
+    let mut state = 1_u64;
+    for _ in 0..2000 {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        let number = f32::from_bits((state >> 33) as u32);
+        if !number.is_finite() {
+            continue;
+        }
+        let mut scene = SceneFile::for_model("a.obj");
+        let mut light = LightEntry::white(LightSource::point());
+        light.source = LightSource::Point { position: [number, -number, 1.0], falloff: FalloffEntry::default() };
+        scene.lights = Some(vec![light]);
+        assert_eq!(parse(&scene.to_json().unwrap()), scene, "{number:?}");
+    }
+}
+
+#[test]
+fn lists_of_numbers_stand_on_one_line() {
+    let written = parse(UNUSUAL).to_json().unwrap();
+    assert!(written.contains("\n  \"size\": [1, 16384],\n"), "{written}");
+    assert!(written.contains("\"position\": [1e-7, 2.0, 3e+20],\n"), "{written}");
+    assert!(written.contains("\"name\": \"a \\\"b\\\" [c, d]\",\n"), "{written}");
+    assert!(written.ends_with("}\n"));
+}
+
+#[test]
+fn rotations_near_unit_length_become_unit() {
+    for (rotation, accepted) in [("0, 0.707, 0, 0.707", true), ("0, 0.7, 0, 0.7", true), ("0, 0.5, 0, 0.5", false)] {
+        let text =
+            format!(r#"{{"objects": [{{"mesh": {{"box": {{}}}}, "transform": {{"rotation": [{rotation}]}}}}]}}"#);
+        let scene = SceneFile::from_json(&text, "test");
+        assert_eq!(scene.is_ok(), accepted, "{rotation}");
+        let Ok(scene) = scene else { continue };
+        let x = scene.objects[0].transform.matrix().x_axis;
+        // A quarter turn about +Y takes +X to −Z, to the rounding of f32.
+        assert!((x - bevy_math::Vec4::NEG_Z).length() < 1e-6, "{rotation}: {x}");
+    }
+}
+
+#[test]
+fn kinds_of_light_and_frames() {
+    let scene = parse(UNUSUAL);
+    let lights = scene.lights.as_deref().unwrap();
+    assert_eq!(lights[0].attach, AttachEntry::Object("a \"b\" [c, d]".into()));
+    assert_eq!(lights[1].attach, AttachEntry::Camera);
+    assert!(matches!(lights[1].source, LightSource::Homogeneous { position: [1.0, 2.0, 3.0, -4.0], .. }));
+    assert!(matches!(lights[2].source, LightSource::Directional { direction: [0.0, -1.0, -1.0] }));
+    assert!(matches!(scene.objects[0].transform, TransformEntry::Matrix(_)));
+}

@@ -1,0 +1,253 @@
+//! The keys of a scene file that say how its picture is seen and written.
+
+use bevy_math::{DVec3, Vec3};
+use halfway_lighting::{Encoding, Intensity};
+use halfway_lighting::{Reflectance, Shading, Viewer};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::check::{Check, Problem, direction, finite, positive, test};
+use crate::read::{Given, Object, Word};
+use serde::de::MapAccess;
+
+/// `output`: what the channels of an 8- or 16-bit picture hold.
+#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum OutputEntry {
+    /// Intensities encoded with the sRGB curve, as displays expect.
+    #[default]
+    Srgb,
+    /// Intensities as they are, the textbook's way.
+    Raw,
+}
+
+impl From<OutputEntry> for Encoding {
+    fn from(entry: OutputEntry) -> Self {
+        match entry {
+            OutputEntry::Srgb => Self::Srgb,
+            OutputEntry::Raw => Self::Raw,
+        }
+    }
+}
+
+/// `intensity`: what becomes of intensities above 1. This version draws `clamp`; the others are read and refused.
+#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum IntensityEntry {
+    /// min(I, 1) for every channel.
+    #[default]
+    Clamp,
+    /// The whole picture divided by its largest intensity. Not yet.
+    Renormalise,
+    /// I / (1 + I). Not yet.
+    Reinhard,
+    /// The filmic curve of the Academy Color Encoding System. Not yet.
+    Aces,
+}
+
+impl IntensityEntry {
+    /// The renderer's policy, or `None` where it has none yet.
+    pub(crate) fn policy(self) -> Option<Intensity> {
+        match self {
+            Self::Clamp => Some(Intensity::Clamp),
+            Self::Renormalise | Self::Reinhard | Self::Aces => None,
+        }
+    }
+
+    pub(crate) fn check(self) -> Check {
+        match self.policy() {
+            Some(_) => Ok(()),
+            None => Err(Problem::new("", "not yet: this version knows the intensity policy \"clamp\" only")),
+        }
+    }
+}
+
+/// `viewer`: where the viewer is for the highlights.
+#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum ViewerEntry {
+    /// The direction to the viewer is taken at every point.
+    #[default]
+    Local,
+    /// The direction to the viewer is the camera's axis everywhere: cheaper, right only from afar.
+    Infinite,
+}
+
+impl From<ViewerEntry> for Viewer {
+    fn from(entry: ViewerEntry) -> Self {
+        match entry {
+            ViewerEntry::Local => Self::Local,
+            ViewerEntry::Infinite => Self::Infinite,
+        }
+    }
+}
+
+/// `shading`: how often a surface is shaded.
+#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Debug, Default, PartialEq)]
+#[serde(rename_all = "snake_case")]
+pub enum ShadingEntry {
+    /// One shade per triangle, at its centroid.
+    Flat,
+    /// At every vertex; colours are interpolated.
+    Gouraud,
+    /// At every fragment; normals are interpolated.
+    #[default]
+    Phong,
+    /// The cheapest of these whose error stays within a tolerance. This version reads it and refuses it.
+    Auto(AutoShading),
+}
+
+/// The value of `{"auto": …}`.
+#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq)]
+#[serde(default, deny_unknown_fields)]
+pub struct AutoShading {
+    /// The largest error, in steps of 1/255 of the output. Above 0.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub tolerance: f32,
+}
+
+impl Default for AutoShading {
+    fn default() -> Self {
+        Self { tolerance: 1.0 }
+    }
+}
+
+impl Object for AutoShading {
+    const EXPECTED: &'static str = "an object such as {\"tolerance\": 1.0}";
+}
+
+impl Word for ShadingEntry {
+    const EXPECTED: &'static str = "\"flat\", \"gouraud\", \"phong\" or {\"auto\": {\"tolerance\": 1.0}}";
+    const KEY: Option<&'static str> = Some("auto");
+
+    fn from_member<'de, A: MapAccess<'de>>(map: &mut A) -> Result<Self, A::Error> {
+        map.next_value().map(|Given(auto)| Self::Auto(auto))
+    }
+}
+
+impl Word for OutputEntry {
+    const EXPECTED: &'static str = "\"srgb\" or \"raw\"";
+}
+
+impl Word for IntensityEntry {
+    const EXPECTED: &'static str = "\"clamp\" (or \"renormalise\", \"reinhard\", \"aces\", which are not yet drawn)";
+}
+
+impl Word for ViewerEntry {
+    const EXPECTED: &'static str = "\"local\" or \"infinite\"";
+}
+
+impl Word for ReflectanceEntry {
+    const EXPECTED: &'static str = "\"phong\", \"blinn_phong\" or \"blinn_phong_matched\"";
+}
+
+impl Object for CameraEntry {
+    const EXPECTED: &'static str = "an object with the keys of a camera";
+}
+
+impl ShadingEntry {
+    /// The component, or `None` where there is none yet.
+    pub(crate) fn shading(self) -> Option<Shading> {
+        match self {
+            Self::Flat => Some(Shading::Flat),
+            Self::Gouraud => Some(Shading::Gouraud),
+            Self::Phong => Some(Shading::Phong),
+            Self::Auto(_) => None,
+        }
+    }
+
+    pub(crate) fn check(self) -> Check {
+        match self {
+            Self::Flat | Self::Gouraud | Self::Phong => Ok(()),
+            Self::Auto(AutoShading { tolerance }) => {
+                positive("auto.tolerance", tolerance)?;
+                Err(Problem::new(
+                    "auto",
+                    "not yet: this version does not choose the shading by itself; \
+                     expected \"flat\", \"gouraud\" or \"phong\"",
+                ))
+            }
+        }
+    }
+}
+
+/// `reflectance`: the specular term.
+#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum ReflectanceEntry {
+    /// (r·v)^shininess, r the reflected light direction.
+    Phong,
+    /// (n·h)^shininess, h the halfway vector.
+    #[default]
+    BlinnPhong,
+    /// (n·h)^β with β matched, so that highlights are about as large as under `phong`.
+    BlinnPhongMatched,
+}
+
+impl From<ReflectanceEntry> for Reflectance {
+    fn from(entry: ReflectanceEntry) -> Self {
+        match entry {
+            ReflectanceEntry::Phong => Self::Phong,
+            ReflectanceEntry::BlinnPhong => Self::BlinnPhong,
+            ReflectanceEntry::BlinnPhongMatched => Self::BlinnPhongMatched,
+        }
+    }
+}
+
+/// `camera`: where the scene is seen from. Right-handed, Y up; the camera looks from `position` to `target`.
+#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq)]
+#[serde(default, deny_unknown_fields)]
+pub struct CameraEntry {
+    /// Where the camera stands.
+    pub position: [f32; 3],
+    /// The point in the middle of the picture; not `position`.
+    pub target: [f32; 3],
+    /// What is up in the picture; not along the line of sight. Any length above 0.
+    pub up: [f32; 3],
+    /// Vertical field of view in degrees, above 0 and below 180.
+    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 180))]
+    pub fov_y_deg: f32,
+    /// Distance of the near plane, above 0. There is no far plane.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub near: f32,
+}
+
+impl Default for CameraEntry {
+    fn default() -> Self {
+        Self { position: [0.0, 0.0, 3.0], target: [0.0; 3], up: [0.0, 1.0, 0.0], fov_y_deg: 45.0, near: 0.1 }
+    }
+}
+
+impl CameraEntry {
+    pub(crate) fn check(&self) -> Check {
+        finite("position", &self.position)?;
+        finite("target", &self.target)?;
+        direction("up", &self.up)?;
+        let fov = self.fov_y_deg;
+        test("fov_y_deg", fov, fov > 0.0 && fov < 180.0, "degrees above 0 and below 180")?;
+        positive("near", self.near)?;
+        if Vec3::from(self.position) == Vec3::from(self.target) {
+            return Err(Problem::new("target", "is where the camera stands; expected another point"));
+        }
+        if self.axes().is_none() {
+            return Err(Problem::new("up", "is along the line of sight; expected another direction"));
+        }
+        Ok(())
+    }
+}
+
+impl CameraEntry {
+    /// The camera's right, up and back in world space, of unit length and perpendicular; `None` where `position` and
+    /// `target` or `up` do not say which they are.
+    pub(crate) fn axes(&self) -> Option<[DVec3; 3]> {
+        let [position, target, up] = [self.position, self.target, self.up].map(|v| Vec3::from(v).as_dvec3());
+        let back = (position - target).try_normalize()?;
+        let right = up.try_normalize()?.cross(back);
+        // The sine of the angle between `up` and the line of sight; below this, rounding alone picks the roll.
+        if right.length() < 1e-6 {
+            return None;
+        }
+        let right = right.normalize();
+        Some([right, back.cross(right), back])
+    }
+}
