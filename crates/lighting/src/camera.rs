@@ -2,6 +2,9 @@
 
 use bevy_color::LinearRgba;
 use bevy_ecs::component::Component;
+use bevy_ecs::reflect::ReflectComponent;
+use bevy_reflect::Reflect;
+use bevy_reflect::std_traits::ReflectDefault;
 use bevy_transform::components::Transform;
 
 use crate::Viewer;
@@ -12,7 +15,8 @@ use crate::invalid::{InvalidValue, Problem};
 /// Only the transform's translation and rotation count: eye space has world units whatever the
 /// camera is attached to. A [`Shading`](crate::Shading) or [`Reflectance`](crate::Reflectance) component on the camera is
 /// the view's default; an object's own wins for that object.
-#[derive(Component, Clone, Copy, Debug, PartialEq)]
+#[derive(Component, Reflect, Clone, Copy, Debug, PartialEq)]
+#[reflect(Component, Clone, Debug, Default, PartialEq)]
 #[require(Transform)]
 pub struct Camera {
     /// Vertical field of view in radians, in (0, π). Default 45°.
@@ -46,7 +50,8 @@ impl Default for Camera {
 }
 
 /// Coverage samples a pixel. Shading is still evaluated once a pixel and triangle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[reflect(Clone, Debug, Default, PartialEq, Hash)]
 pub enum Samples {
     /// The pixel's centre decides.
     #[default]
@@ -66,7 +71,8 @@ impl Samples {
 }
 
 /// What the channels of an 8-bit picture hold.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[reflect(Clone, Debug, Default, PartialEq, Hash)]
 pub enum Encoding {
     /// I encoded with the sRGB curve (IEC 61966-2-1), as displays expect.
     #[default]
@@ -98,7 +104,8 @@ impl Encoding {
 }
 
 /// What becomes of intensities above 1.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[reflect(Clone, Debug, Default, PartialEq, Hash)]
 #[non_exhaustive]
 pub enum Intensity {
     /// min(I, 1) a channel, as each surface is written and before it is blended. Floating-point

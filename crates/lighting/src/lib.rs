@@ -25,12 +25,13 @@
 //!
 //! # What is here
 //! - Components: the lights, [`Material`] (with [presets](Material::PRESETS)) and [`BackMaterial`], [`Shading`],
-//!   [`Reflectance`], [`Faces`], [`Blend`]; the resource [`GlobalAmbient`]; [`LightingPlugin`]. A light stands where
+//!   [`Reflectance`], [`Faces`], [`Blend`], [`Visibility`]; the resource [`GlobalAmbient`]; [`LightingPlugin`]. A light stands where
 //!   its entity's `GlobalTransform` puts it and shines along the local −Z axis. Every value has a `validate()` whose
 //!   [`InvalidValue`] names type, field, value and what was expected.
 //! - [`equations`]: the equation and its parts as pure functions, in `f32` or `f64`, defined at every edge.
 //! - [`bounds`]: what a light can add to a patch of surface at most, and which lights a patch needs.
 //! - [`matched_shininess`]: the Blinn–Phong exponent for a Phong highlight.
+//! - [`Shown`], [`propagation`]: what is hidden; whether transforms are propagated.
 //! - [`homogeneous`]: light positions as four coordinates.
 //!
 //! No GPU, no window, no file is touched.
@@ -60,7 +61,9 @@ mod material;
 mod place;
 mod plugin;
 mod presets;
+mod propagation;
 mod shading;
+mod visibility;
 
 pub use camera::{Camera, Encoding, Intensity, Samples};
 pub use invalid::{CHANNEL_MAX, Fields, InvalidValue, Problem};
@@ -69,4 +72,6 @@ pub use matched::matched_shininess;
 pub use material::{BackMaterial, Material};
 pub use place::{light_direction, light_position, rotation_along};
 pub use plugin::LightingPlugin;
+pub use propagation::{Propagation, propagation};
 pub use shading::{Blend, Faces, Frequency, Reflectance, Shading, Terms, Viewer};
+pub use visibility::{Shown, Visibility};

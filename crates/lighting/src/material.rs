@@ -2,13 +2,17 @@
 
 use bevy_color::LinearRgba;
 use bevy_ecs::component::Component;
+use bevy_ecs::reflect::ReflectComponent;
+use bevy_reflect::Reflect;
+use bevy_reflect::std_traits::ReflectDefault;
 
 use crate::invalid::{Fields, InvalidValue};
 
 /// The classic material: how much of each kind of light a surface gives back.
 ///
 /// A plain value; equal materials may share one record on the GPU. Named materials are in [`Material::PRESETS`].
-#[derive(Component, Clone, Copy, Debug, PartialEq)]
+#[derive(Component, Reflect, Clone, Copy, Debug, PartialEq)]
+#[reflect(Component, Clone, Debug, Default, PartialEq)]
 pub struct Material {
     /// ka: the share of ambient light given back. Linear RGB, 0 to 10¹², normally at most 1; alpha is ignored. Default
     /// 0.2 grey.
@@ -84,7 +88,8 @@ impl Default for Material {
 /// The material of back faces, where they are drawn ([`crate::Faces`]) and differ from the front.
 ///
 /// Without it back faces take the entity's [`Material`].
-#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Component, Reflect, Clone, Copy, Debug, Default, PartialEq)]
+#[reflect(Component, Clone, Debug, Default, PartialEq)]
 pub struct BackMaterial(pub Material);
 
 impl BackMaterial {

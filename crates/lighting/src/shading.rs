@@ -1,11 +1,15 @@
 //! How often a surface is shaded, by which reflectance, and on which side.
 
 use bevy_ecs::component::Component;
+use bevy_ecs::reflect::ReflectComponent;
+use bevy_reflect::Reflect;
+use bevy_reflect::std_traits::ReflectDefault;
 
 /// The shading frequency: where the equation is evaluated.
 ///
 /// On an object it wins over the one on the camera.
-#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Component, Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[reflect(Component, Clone, Debug, Default, PartialEq, Hash)]
 #[non_exhaustive]
 pub enum Shading {
     /// One colour a triangle, at its centroid and with its geometric normal turned to the side seen.
@@ -19,7 +23,8 @@ pub enum Shading {
 }
 
 /// How often a term is shaded.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Reflect, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[reflect(Clone, Debug, PartialEq, Hash)]
 pub enum Frequency {
     /// Not at all.
     Never,
@@ -34,7 +39,8 @@ pub enum Frequency {
 /// Gouraud is `Vertex` for both, Phong `Fragment` for both. The hybrid that keeps highlights sharp
 /// and spares the rest is `Terms { diffuse: Vertex, specular: Fragment }`. Emission and ambient are
 /// always there; an ambient colour that attenuates goes with the diffuse term.
-#[derive(Component, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Component, Reflect, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[reflect(Component, Clone, Debug, PartialEq, Hash)]
 pub struct Terms {
     /// Frequency of kd·Ld·max(n·l, 0).
     pub diffuse: Frequency,
@@ -45,7 +51,8 @@ pub struct Terms {
 /// The specular term: how a highlight falls off.
 ///
 /// On an object it wins over the one on the camera.
-#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Component, Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[reflect(Component, Clone, Debug, Default, PartialEq, Hash)]
 pub enum Reflectance {
     /// Phong 1975: `max(r·v, 0)^α`, r the reflected light direction and α the material's shininess.
     Phong,
@@ -58,7 +65,8 @@ pub enum Reflectance {
 }
 
 /// Which sides of a surface are drawn. Front faces wind counter-clockwise, also under a mirroring transform.
-#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Component, Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[reflect(Component, Clone, Debug, Default, PartialEq, Hash)]
 pub enum Faces {
     /// Front faces; back faces are culled.
     #[default]
@@ -84,11 +92,13 @@ impl Faces {
 /// Marks a surface as blended: drawn after the opaque ones, sorted back to front, by its material's opacity.
 ///
 /// Without it a surface is opaque whatever its opacity says.
-#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Component, Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[reflect(Component, Clone, Debug, Default, PartialEq, Hash)]
 pub struct Blend;
 
 /// Where the viewer is for the highlights.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[reflect(Clone, Debug, Default, PartialEq, Hash)]
 pub enum Viewer {
     /// v points from the surface to the eye.
     #[default]

@@ -3,11 +3,13 @@
 use bevy_app::App;
 use bevy_color::LinearRgba;
 use bevy_ecs::hierarchy::ChildOf;
+use bevy_ecs::world::World;
 use bevy_math::{Quat, Vec3};
 use bevy_transform::TransformPlugin;
 use bevy_transform::components::{GlobalTransform, Transform};
 use halfway_lighting::{
-    DirectionalLight, GlobalAmbient, LightingPlugin, PointLight, SpotLight, light_direction, light_position,
+    DirectionalLight, GlobalAmbient, LightingPlugin, PointLight, Propagation, SpotLight, light_direction,
+    light_position, propagation,
 };
 
 #[test]
@@ -56,4 +58,33 @@ fn a_light_moves_with_what_it_is_attached_to() {
     app.update();
     let moved = *app.world().entity(light).get::<GlobalTransform>().expect("required");
     assert!(light_position(&moved).expect("finite").distance(Vec3::new(7.0, 5.0, 0.0)) < 1e-5);
+}
+
+#[test]
+fn one_entity_tells_whether_transforms_are_propagated() {
+    let (here, there) = (Transform::from_xyz(1.0, 2.0, 3.0), Transform::from_xyz(4.0, 5.0, 6.0));
+    let (origin, nowhere) = (Transform::IDENTITY, Transform::from_xyz(f32::NAN, 0.0, 0.0));
+    let none = GlobalTransform::IDENTITY;
+    let mut world = World::new();
+    let [a, b] = [(); 2].map(|()| world.spawn_empty().id());
+    let rows = [
+        ("nothing", vec![], Propagation::Unknown),
+        ("at the origin", vec![(a, origin, none)], Propagation::Unknown),
+        (
+            "the identity, written otherwise",
+            vec![(a, origin.with_rotation(-Quat::IDENTITY), none)],
+            Propagation::Unknown,
+        ),
+        ("propagated", vec![(a, here, here.into())], Propagation::Works),
+        ("not propagated", vec![(a, here, none)], Propagation::Missing(a)),
+        ("the first of two", vec![(a, here, none), (b, there, none)], Propagation::Missing(a)),
+        ("late", vec![(a, here, none), (b, there, there.into())], Propagation::Works),
+        ("by hand, with a transform", vec![(a, here, there.into())], Propagation::Unknown),
+        ("by hand, without", vec![(a, origin, there.into())], Propagation::Unknown),
+        ("no number", vec![(a, nowhere, nowhere.into())], Propagation::Unknown),
+    ];
+    for (row, roots, expected) in rows {
+        let found = propagation(roots.iter().map(|(entity, transform, global)| (*entity, transform, global)));
+        assert_eq!(found, expected, "{row}");
+    }
 }

@@ -19,3 +19,4 @@ mod reflectance;
 mod shade;
 mod support;
 mod vectors;
+mod visibility;
