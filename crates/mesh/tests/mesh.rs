@@ -1,10 +1,11 @@
 //! The mesh: what is refused, what is kept, what is found.
 
 use bevy_app::App;
-use bevy_asset::Assets;
+use bevy_asset::{AssetEvent, Assets};
+use bevy_ecs::message::Messages;
 use bevy_math::{Vec2, Vec3};
 use bevy_transform::components::Transform;
-use halfway_mesh::{Cuboid, Mesh, Mesh3d, MeshError, MeshPlugin, NormalWeighting, Normals, Problems};
+use halfway_mesh::{Cuboid, Mesh, Mesh3d, MeshError, MeshPlugin, NormalWeighting, Normals, Problems, UvSphere};
 
 fn triangle() -> Vec<Vec3> {
     vec![Vec3::ZERO, Vec3::X, Vec3::Y]
@@ -188,4 +189,36 @@ fn the_plugin_stands_alone() {
     assert!(app.world().get::<Transform>(entity).is_some());
     let meshes = app.world().resource::<Assets<Mesh>>();
     assert_eq!(meshes.get(&handle).map(Mesh::triangle_count), Some(12));
+}
+
+#[test]
+fn meshes_stay_when_the_plugin_comes_late_and_when_it_comes_again() {
+    let triangles = |app: &App, handle| app.world().resource::<Assets<Mesh>>().get(handle).map(Mesh::triangle_count);
+    let mut app = App::new();
+    // Somebody had meshes before any plugin.
+    app.init_resource::<Assets<Mesh>>();
+    let early = app.world_mut().resource_mut::<Assets<Mesh>>().add(Cuboid::default());
+    app.add_plugins(MeshPlugin);
+    let second = app.world_mut().resource_mut::<Assets<Mesh>>().add(UvSphere::new(1.0, 4, 2));
+    assert_ne!(early, second);
+    app.add_plugins(MeshPlugin);
+    app.update();
+    app.add_plugins((MeshPlugin, MeshPlugin));
+    app.update();
+    assert_eq!((triangles(&app, &early), triangles(&app, &second)), (Some(12), Some(8)));
+
+    // Changes are told once each: the systems that tell them are there once.
+    let id = early.id();
+    app.world_mut().resource_mut::<Messages<AssetEvent<Mesh>>>().clear();
+    *app.world_mut().resource_mut::<Assets<Mesh>>().get_mut(&early).expect("it stayed") = Cuboid::default().into();
+    app.update();
+    let messages = app.world().resource::<Messages<AssetEvent<Mesh>>>();
+    let modified = messages.iter_current_update_messages().filter(|event| event.is_modified(id)).count();
+    assert_eq!(modified, 1);
+
+    // What nobody holds any more goes.
+    drop(early);
+    app.update();
+    app.update();
+    assert!(app.world().resource::<Assets<Mesh>>().get(id).is_none());
 }
