@@ -31,6 +31,15 @@ pub enum OracleError {
         /// The matrix as it was found, column by column.
         found: String,
     },
+    /// Nothing carries `Transform`s over to `GlobalTransform`s, so that everything would be at the origin.
+    #[error(
+        "{entity}: its `Transform` has not reached its `GlobalTransform`. Add `TransformPlugin` and run the app's \
+         schedules once, or propagate transforms before the oracle looks at the world"
+    )]
+    NotPropagated {
+        /// The first entity found, by its `Name` where it has one.
+        entity: String,
+    },
     /// An object's mesh handle leads to no mesh.
     #[error("{entity}: its mesh is not in `Assets<Mesh>` (was it removed, or never added?)")]
     MissingMesh {

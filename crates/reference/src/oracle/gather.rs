@@ -2,18 +2,22 @@
 
 use bevy_asset::Assets;
 use bevy_ecs::prelude::*;
+use bevy_ecs::system::SystemState;
 use bevy_math::UVec2;
-use bevy_transform::components::GlobalTransform;
+use bevy_transform::components::{GlobalTransform, Transform};
 use halfway_lighting::equations::{self, Light, rgb, vector::add};
 use halfway_lighting::{
     BackMaterial, Blend, Camera, DirectionalLight, Faces, GlobalAmbient, InvalidValue, Material, PointLight,
-    Reflectance, Shading, SpotLight, Terms, light_direction, light_position,
+    Propagation, Reflectance, Shading, Shown, SpotLight, Terms, light_direction, light_position, propagation,
 };
 use halfway_mesh::{Mesh, Mesh3d, SpawnOrder};
 
 use super::error::OracleError;
 use super::solid::{Colour, Looks, Plan, Solid};
 use super::view::{View, affine};
+
+/// [`Shown`] asks a world for no resource, so that there is nothing it could lack.
+const ALWAYS: &str = "queries can be had of every world";
 
 /// What is drawn, in eye space.
 #[derive(Debug)]
@@ -30,11 +34,22 @@ pub(super) struct Scene {
 
 impl Scene {
     pub(super) fn gather(world: &mut World, size: UVec2) -> Result<Self, OracleError> {
+        require_propagation(world)?;
         let seen = see(world, size)?;
         let (ambient, lights) = lights(world, &seen.view)?;
         let solids = solids(world, &seen)?;
         let viewer = equations::View::in_eye_space(seen.camera.viewer);
         Ok(Self { view: seen.view, viewer, background: rgb(seen.camera.background), ambient, lights, solids })
+    }
+}
+
+fn require_propagation(world: &mut World) -> Result<(), OracleError> {
+    let mut roots = world.query_filtered::<(Entity, &Transform, &GlobalTransform), Without<ChildOf>>();
+    match propagation(roots.iter(world)) {
+        Propagation::Missing(entity) => {
+            Err(OracleError::NotPropagated { entity: label(entity, world.get::<Name>(entity)) })
+        }
+        Propagation::Works | Propagation::Unknown => Ok(()),
     }
 }
 
@@ -89,13 +104,16 @@ fn lights(world: &mut World, view: &View) -> Result<(Colour, Vec<Light<f64>>), O
     Ok((steady.fold(global.ga(), |sum, light| add(sum, light.la)), lights))
 }
 
-/// Every light of one kind, in the order of their entities so that sums repeat.
+/// Every light of one kind that shines, in the order of their entities so that sums repeat.
 fn each<L: Component>(
     world: &mut World,
     light: impl Fn(&L, &GlobalTransform) -> Result<Light<f64>, InvalidValue>,
 ) -> Result<Vec<Light<f64>>, OracleError> {
     let mut query = world.query::<(Entity, &L, &GlobalTransform, Option<&Name>)>();
-    let mut all: Vec<_> = query.iter(world).collect();
+    let mut shown = SystemState::<Shown>::new(world);
+    let shown = shown.get(world).expect(ALWAYS);
+    let is_shown = shown.by_entity();
+    let mut all: Vec<_> = query.iter(world).filter(|(entity, ..)| is_shown(*entity)).collect();
     all.sort_unstable_by_key(|(entity, ..)| *entity);
     let gathered = all.into_iter().map(|(entity, component, transform, name)| {
         light(component, transform).map_err(|source| OracleError::Invalid { entity: label(entity, name), source })
@@ -120,8 +138,11 @@ type Object<'a> = (
 
 fn solids(world: &mut World, seen: &Seen) -> Result<Vec<Solid>, OracleError> {
     let mut query = world.query::<Object>();
+    let mut shown = SystemState::<Shown>::new(world);
+    let shown = shown.get(world).expect(ALWAYS);
+    let is_shown = shown.by_entity();
     let meshes = world.get_resource::<Assets<Mesh>>();
-    let mut objects: Vec<_> = query.iter(world).collect();
+    let mut objects: Vec<_> = query.iter(world).filter(|(entity, ..)| is_shown(*entity)).collect();
     objects.sort_unstable_by_key(|(entity, _, _, order, ..)| (**order, *entity));
     let solids = objects.into_iter().map(|object| solid(object, meshes, seen));
     let (mut blended, mut solids): (Vec<_>, Vec<_>) =
