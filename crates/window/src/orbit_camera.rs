@@ -94,12 +94,15 @@ impl OrbitCamera {
 /// | Home, R | back to the start |
 ///
 /// Keys with Control, Alt or Super are left to others. Knows no window; `InputPlugin` and
-/// `TimePlugin` are added where the App has none yet (add your own before).
+/// `TimePlugin` are added where the App has none yet (add your own before). May be added more than once.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct OrbitCameraPlugin;
 
 impl Plugin for OrbitCameraPlugin {
     fn build(&self, app: &mut App) {
+        if app.is_plugin_added::<Self>() {
+            return;
+        }
         if !app.is_plugin_added::<InputPlugin>() {
             app.add_plugins(InputPlugin);
         }
@@ -107,6 +110,10 @@ impl Plugin for OrbitCameraPlugin {
             app.add_plugins(TimePlugin);
         }
         app.init_resource::<DragArea>().add_systems(PreUpdate, drive.after(InputSystems).after(TimeSystems));
+    }
+
+    fn is_unique(&self) -> bool {
+        false
     }
 }
 

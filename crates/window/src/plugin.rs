@@ -30,8 +30,7 @@ use halfway_render::{GpuTimer, RenderPlugin, RenderSet, SurfaceTarget};
 /// output where no logger shows errors.
 ///
 /// The runner must run on the main thread, once a process, as displays demand. `InputPlugin` is added
-/// where the App has none yet (add your own before, and your own [`OrbitCameraPlugin`] and
-/// [`ViewerKeysPlugin`] too).
+/// where the App has none yet (add your own before).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WindowPlugin {
     /// The program's name, the first part of the window's title. Default "halfway".
@@ -64,12 +63,9 @@ impl Plugin for WindowPlugin {
             app.add_plugins(InputPlugin);
         }
         if self.orbit {
-            if !app.is_plugin_added::<OrbitCameraPlugin>() {
-                app.add_plugins(OrbitCameraPlugin);
-            }
-            app.add_systems(PreUpdate, give_orbits.before(InputSystems));
+            app.add_plugins(OrbitCameraPlugin).add_systems(PreUpdate, give_orbits.before(InputSystems));
         }
-        if self.viewer_keys && !app.is_plugin_added::<ViewerKeysPlugin>() {
+        if self.viewer_keys {
             app.add_plugins(ViewerKeysPlugin);
         }
         app.init_resource::<WindowTitle>().init_resource::<FrameTime>();
@@ -193,6 +189,7 @@ mod tests {
     fn works_beside_plugins_that_are_there_already() {
         let mut app = App::new();
         app.add_plugins((InputPlugin, OrbitCameraPlugin, ViewerKeysPlugin, WindowPlugin::default()));
+        app.add_plugins((OrbitCameraPlugin, ViewerKeysPlugin));
         app.finish();
         app.update();
     }

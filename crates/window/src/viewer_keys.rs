@@ -22,18 +22,25 @@ use halfway_render::ModelView;
 /// A choice is set on every camera and on every object that has a choice of its own. B goes to Phong
 /// where anything drawn is Blinn–Phong, and back to the kind of Blinn–Phong that was there. Keys with
 /// Control, Alt or Super are left to others. `InputPlugin` is added where the App has none yet (add
-/// your own before).
+/// your own before). May be added more than once.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ViewerKeysPlugin;
 
 impl Plugin for ViewerKeysPlugin {
     fn build(&self, app: &mut App) {
+        if app.is_plugin_added::<Self>() {
+            return;
+        }
         if !app.is_plugin_added::<InputPlugin>() {
             app.add_plugins(InputPlugin);
         }
         app.init_resource::<Pressed>();
         let systems = (read, (shading, reflectance, close)).chain();
         app.add_systems(PreUpdate, systems.after(InputSystems));
+    }
+
+    fn is_unique(&self) -> bool {
+        false
     }
 }
 
@@ -132,7 +139,8 @@ mod tests {
 
     fn app() -> App {
         let mut app = App::new();
-        app.add_plugins(ViewerKeysPlugin);
+        // Twice, which must not switch twice.
+        app.add_plugins((ViewerKeysPlugin, ViewerKeysPlugin));
         app
     }
 

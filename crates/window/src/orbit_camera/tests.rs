@@ -25,7 +25,8 @@ impl Stage {
     /// A camera at `EYE` that looks at the origin; a frame lasts `milliseconds`, the picture is 720 high.
     fn new(milliseconds: u64) -> Self {
         let mut app = App::new();
-        app.add_plugins(OrbitCameraPlugin);
+        // Twice, which must not turn twice.
+        app.add_plugins((OrbitCameraPlugin, OrbitCameraPlugin));
         app.insert_resource(TimeUpdateStrategy::ManualDuration(Duration::from_millis(milliseconds)));
         let camera = app.world_mut().spawn(OrbitCamera::looking_at(EYE, Vec3::ZERO)).id();
         app.update();
