@@ -1,6 +1,6 @@
 //! The plugin group.
 
-use bevy_app::{PluginGroup, PluginGroupBuilder, TaskPoolPlugin};
+use bevy_app::{App, Plugin, PluginGroup, PluginGroupBuilder, TaskPoolPlugin};
 use bevy_asset::AssetPlugin;
 use bevy_math::UVec2;
 use bevy_time::TimePlugin;
@@ -14,6 +14,8 @@ use halfway_record::HeadlessPlugin;
 
 /// Everything that a lit scene needs: tasks, assets, time, transforms, meshes, lighting, rendering, and a window where
 /// the feature `window` is on. Each plugin also works alone.
+///
+/// Plugins of bevy that the app has already stay as they are: add your own before the group.
 ///
 /// Without a window: [`HalfwayPlugins::headless`]. Without a renderer: [`HalfwayPlugins::reference`]. As a demo that takes
 /// its target from the command line: [`HalfwayPlugins::from_args`].
@@ -61,13 +63,7 @@ impl HalfwayPlugins {
     /// }
     /// ```
     pub fn reference() -> PluginGroupBuilder {
-        PluginGroupBuilder::start::<Self>()
-            .add(TaskPoolPlugin::default())
-            .add(AssetPlugin::default())
-            .add(TimePlugin)
-            .add(TransformPlugin)
-            .add(MeshPlugin)
-            .add(LightingPlugin)
+        PluginGroupBuilder::start::<Self>().add(FoundationPlugin).add(MeshPlugin).add(LightingPlugin)
     }
 
     /// The group for a demo program: a window, or, with `--headless OUT.png` on the command line, pictures on disk.
@@ -93,5 +89,24 @@ impl HalfwayPlugins {
 
     fn common() -> PluginGroupBuilder {
         Self::reference().add(RenderPlugin::default())
+    }
+}
+
+/// The plugins of bevy that a scene needs: tasks, assets, time and transforms, each with its defaults unless the app has
+/// it already.
+#[derive(Clone, Copy, Debug, Default)]
+struct FoundationPlugin;
+
+impl Plugin for FoundationPlugin {
+    fn build(&self, app: &mut App) {
+        fn add_missing<P: Plugin + Default>(app: &mut App) {
+            if !app.is_plugin_added::<P>() {
+                app.add_plugins(P::default());
+            }
+        }
+        add_missing::<TaskPoolPlugin>(app);
+        add_missing::<AssetPlugin>(app);
+        add_missing::<TimePlugin>(app);
+        add_missing::<TransformPlugin>(app);
     }
 }
