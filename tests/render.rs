@@ -20,6 +20,7 @@ mod render {
     mod edges;
     mod errors;
     mod failures;
+    mod globs;
     mod known_issues;
     mod levels;
     mod light_counts;
@@ -30,6 +31,7 @@ mod render {
     mod plugins;
     mod properties;
     mod random;
+    mod reflection;
     mod scene;
     mod sides;
     mod stage;
@@ -38,4 +40,5 @@ mod render {
     mod timing;
     mod transforms;
     mod values;
+    mod visibility;
 }

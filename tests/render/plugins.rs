@@ -9,6 +9,8 @@ use bevy_transform::systems::{
     StaticTransformOptimizations, mark_dirty_trees, propagate_parent_transforms, sync_simple_transforms,
 };
 use halfway::prelude::*;
+use halfway::reference::{Oracle, OracleError};
+use halfway::render::{Gpu, RenderError};
 use image::Rgba32FImage;
 
 const SIZE: UVec2 = UVec2::new(24, 24);
@@ -50,13 +52,172 @@ fn the_render_plugin_works_with_transforms_alone() {
     assert_identical("TransformPlugin and RenderPlugin", &expected(), &float(&mut app));
 }
 
+/// All orders of so many things.
+fn orders(count: usize) -> Vec<Vec<usize>> {
+    if count == 0 {
+        return vec![vec![]];
+    }
+    let insert_last = |order: Vec<usize>| {
+        (0..count).map(move |at| [&order[..at], &[count - 1], &order[at..]].concat()).collect::<Vec<_>>()
+    };
+    orders(count - 1).into_iter().flat_map(insert_last).collect()
+}
+
+/// The plugins that draw, by name.
+const PLUGINS: &[(&str, fn(&mut App) -> &mut App)] = &[
+    ("RenderPlugin", |app| app.add_plugins(RenderPlugin::default())),
+    ("LightingPlugin", |app| app.add_plugins(LightingPlugin)),
+    ("MeshPlugin", |app| app.add_plugins(MeshPlugin)),
+    ("TransformPlugin", |app| app.add_plugins(TransformPlugin)),
+    #[cfg(feature = "window")]
+    ("WindowPlugin", |app| app.add_plugins(WindowPlugin::default())),
+];
+
+/// An App with the plugins in this order and the scene at a place among them, and what was added, in words.
+fn app_in(order: &[usize], scene_at: usize) -> (App, String) {
+    let mut app = App::new();
+    let mut row = Vec::new();
+    for at in 0..=order.len() {
+        if at == scene_at {
+            app.world_mut().init_resource::<Assets<Mesh>>();
+            spawn(app.world_mut());
+            row.push("the scene");
+        }
+        if let Some(&plugin) = order.get(at) {
+            let (name, add) = PLUGINS[plugin];
+            add(&mut app);
+            row.push(name);
+        }
+    }
+    (app, row.join(", "))
+}
+
 #[test]
-fn plugins_may_come_in_any_order() {
+fn plugins_may_come_in_any_order_before_and_after_the_scene() {
+    let expected = expected();
+    let cuboid = Mesh::from(Cuboid::new(1.9, 1.0, 1.0));
+    let mut of_cuboid = ball();
+    of_cuboid.things[0].mesh = cuboid.clone();
+    let expected_cuboid = Stage::new(SIZE.x, SIZE.y).draw(&of_cuboid);
+    // One device for all, as opening it takes longest.
+    let mut gpu = None;
+    for (number, order) in orders(PLUGINS.len()).into_iter().enumerate() {
+        let (mut app, row) = app_in(&order, number % (PLUGINS.len() + 1));
+        if let Some(gpu) = &gpu {
+            app.insert_resource(Gpu::clone(gpu));
+        }
+        app.finish();
+        app.cleanup();
+        assert_identical(&row, &expected, &float(&mut app));
+        gpu.get_or_insert_with(|| app.world().resource::<Gpu>().clone());
+
+        // The assets that the systems hold are those that the renderer watches.
+        let world = app.world_mut();
+        let handle = world.query::<&Mesh3d>().single(world).expect("one object").0.clone();
+        *world.resource_mut::<Assets<Mesh>>().get_mut(&handle).expect("it is there") = cuboid.clone();
+        assert_identical(&format!("{row}, another mesh"), &expected_cuboid, &float(&mut app));
+    }
+}
+
+#[test]
+fn plugins_that_are_there_already_may_come_again() {
+    let mut app = App::new();
+    app.add_plugins((MeshPlugin, LightingPlugin, HalfwayPlugins::headless(SIZE)));
+    spawn(app.world_mut());
+    app.add_plugins((LightingPlugin, MeshPlugin));
+    assert_identical("before a frame", &expected(), &float(&mut app));
+    app.add_plugins((LightingPlugin, MeshPlugin));
+    assert_identical("after a frame", &expected(), &float(&mut app));
+}
+
+#[test]
+fn the_group_keeps_what_is_there() {
+    let mut app = App::new();
+    app.add_plugins((
+        TaskPoolPlugin::default(),
+        TransformPlugin,
+        bevy_time::TimePlugin,
+        bevy_asset::AssetPlugin::default(),
+    ));
+    app.add_plugins(HalfwayPlugins::headless(SIZE));
+    spawn(app.world_mut());
+    assert_identical("after the plugins of bevy", &expected(), &float(&mut app));
+}
+
+#[test]
+fn objects_from_before_the_renderer_get_what_they_lack() {
+    let mut app = App::new();
+    app.add_plugins((TransformPlugin, MeshPlugin));
+    let mesh = app.world_mut().resource_mut::<Assets<Mesh>>().add(UvSphere::new(1.0, 12, 6));
+    let early = app.world_mut().spawn(Mesh3d(mesh.clone())).id();
+    app.add_plugins(RenderPlugin::default());
+    app.insert_resource(Headless { size: SIZE, pixels: Pixels::Float });
+    app.world_mut().spawn((Camera::default(), Transform::from_xyz(0.0, 0.0, 4.0)));
+    let late = app.world_mut().spawn((Mesh3d(mesh), Material::BRASS)).id();
+    for _ in 0..2 {
+        float(&mut app);
+        assert_eq!(app.world().resource::<FrameReport>().draws, 2);
+    }
+    assert_eq!(app.world().get::<Material>(early), Some(&Material::DEFAULT));
+    assert_eq!(app.world().get::<Material>(late), Some(&Material::BRASS), "its own stays");
+}
+
+fn frame_errors(app: &mut App) -> Vec<RenderError> {
+    app.update();
+    app.world().resource::<FrameReport>().errors.clone()
+}
+
+fn not_propagated(errors: &[RenderError]) -> bool {
+    matches!(errors, [RenderError::NotPropagated { .. }])
+}
+
+#[test]
+fn transforms_that_nothing_propagates_are_an_error() {
     let mut app = App::new();
     app.add_plugins(RenderPlugin::default());
-    app.add_plugins((LightingPlugin, MeshPlugin, TransformPlugin));
     spawn(app.world_mut());
-    assert_identical("RenderPlugin first", &expected(), &float(&mut app));
+    for _ in 0..2 {
+        let errors = frame_errors(&mut app);
+        assert!(not_propagated(&errors), "{errors:?}");
+        assert!(errors[0].to_string().contains("TransformPlugin"), "{}", errors[0]);
+        assert_eq!(app.world().resource::<FrameReport>().draws, 0, "nothing is drawn at the origin");
+    }
+    let refused = Oracle::new(app.world_mut(), SIZE).expect_err("the oracle says so, too");
+    assert!(matches!(refused, OracleError::NotPropagated { .. }), "{refused}");
+    app.add_plugins(TransformPlugin);
+    assert_identical("propagated now", &expected(), &float(&mut app));
+    assert!(Oracle::new(app.world_mut(), SIZE).is_ok());
+}
+
+#[test]
+fn transforms_may_be_the_identity_or_written_by_hand() {
+    let mut app = App::new();
+    app.add_plugins(RenderPlugin::default());
+    app.world_mut().spawn(Camera::default());
+    assert_eq!(frame_errors(&mut app), [], "everything is at the origin, and is meant to be");
+
+    let mut app = App::new();
+    app.add_plugins(RenderPlugin::default());
+    spawn(app.world_mut());
+    let world = app.world_mut();
+    for (transform, mut global) in world.query::<(&Transform, &mut GlobalTransform)>().iter_mut(world) {
+        *global = (*transform).into();
+    }
+    assert_identical("by hand", &expected(), &float(&mut app));
+}
+
+#[test]
+fn one_object_that_comes_after_propagation_is_no_error() {
+    let mut app = App::new();
+    app.add_plugins(HalfwayPlugins::headless(SIZE));
+    spawn(app.world_mut());
+    let late = |mut commands: Commands| {
+        commands.spawn((Transform::from_xyz(1.0, 0.0, 0.0), point_light()));
+    };
+    app.add_systems(PostUpdate, late.after(TransformSystems::Propagate).before(RenderSet::View));
+    for _ in 0..3 {
+        assert_eq!(frame_errors(&mut app), []);
+    }
 }
 
 #[test]

@@ -41,6 +41,15 @@ pub enum RenderError {
         /// The matrix as it was found, column by column.
         found: String,
     },
+    /// Nothing carries `Transform`s over to `GlobalTransform`s, so that everything would be at the origin.
+    #[error(
+        "{entity}: its `Transform` has not reached its `GlobalTransform`. Add `TransformPlugin` or, in a schedule \
+         of the app's own, propagate transforms before `RenderSet::View`"
+    )]
+    NotPropagated {
+        /// The first entity found, by its `Name` where it has one.
+        entity: String,
+    },
     /// The headless picture has no pixels.
     #[error("the picture is {width} × {height} pixels; expected at least 1 × 1")]
     EmptyPicture {

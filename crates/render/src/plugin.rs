@@ -13,21 +13,25 @@ use crate::geometry::meshes::{self, Geometries};
 use crate::geometry::workshop::Workshop;
 use crate::lights::gather::{self, Lights};
 use crate::pipelines::cache::{self, Pipelines};
+use crate::pipelines::compile::Compile;
 use crate::target::frame::{self, Headless, Target};
 use crate::view::camera::{self, View};
 use crate::view::matrices::{self, ModelView, NormalMatrix, Visible};
 use bevy_app::{App, Plugin, PostUpdate};
-use bevy_asset::{AssetApp, AssetEvent, AssetPlugin, Assets};
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{InternedScheduleLabel, ScheduleLabel};
 use bevy_transform::TransformSystems;
-use halfway_lighting::{GlobalAmbient, Material};
-use halfway_mesh::{Mesh, Mesh3d};
+use halfway_lighting::{LightingPlugin, Material};
+use halfway_mesh::{Mesh3d, MeshPlugin};
 
 /// Draws every entity with a [`Mesh3d`] through the world's [`Camera`](halfway_lighting::Camera), once a run of its schedule.
 ///
 /// Needs `GlobalTransform`s to be current: it runs after `TransformSystems::Propagate` where that set
-/// is in the same schedule, and an App with a schedule of its own propagates before.
+/// is in the same schedule, and an App with a schedule of its own propagates before. Where nothing propagates them, the
+/// frame is not drawn, and [`FrameReport::errors`] says so.
+///
+/// Brings [`MeshPlugin`] and [`LightingPlugin`]. May be added before or after other plugins, and to an App that has
+/// cameras, lights and objects already.
 #[derive(Clone, Debug)]
 pub struct RenderPlugin {
     /// The schedule that draws a frame. Default `PostUpdate`.
@@ -42,15 +46,9 @@ impl Default for RenderPlugin {
 
 impl Plugin for RenderPlugin {
     fn build(&self, app: &mut App) {
-        if !app.is_plugin_added::<AssetPlugin>() {
-            app.add_plugins(AssetPlugin::default());
-        }
-        if !app.world().contains_resource::<Assets<Mesh>>() {
-            app.init_asset::<Mesh>();
-        }
-        app.init_resource::<Headless>()
+        app.add_plugins((MeshPlugin, LightingPlugin))
+            .init_resource::<Headless>()
             .init_resource::<FrameReport>()
-            .init_resource::<GlobalAmbient>()
             .init_resource::<Target>()
             .init_resource::<View>()
             .init_resource::<Visible>()
@@ -60,25 +58,37 @@ impl Plugin for RenderPlugin {
             .init_resource::<Workshop>()
             .init_resource::<Geometries>()
             .init_resource::<Buffers>()
-            .init_resource::<Pipelines>()
-            .add_message::<AssetEvent<Mesh>>()
-            .register_required_components::<Mesh3d, Material>()
-            .register_required_components::<Mesh3d, ModelView>()
-            .register_required_components::<Mesh3d, NormalMatrix>()
-            .register_required_components::<Mesh3d, Chosen>();
+            .init_resource::<Pipelines>();
+        register_types(app);
         self.add_systems(app);
+        self.require_components(app);
         times::add_clocks(app, self.schedule);
     }
 }
 
 impl RenderPlugin {
+    /// Gives objects what they are drawn with. An app in which there were objects before this plugin takes no new
+    /// requirements; it has a look for objects that lack something in each frame.
+    fn require_components(&self, app: &mut App) {
+        let world = app.world_mut();
+        let required = [
+            world.try_register_required_components::<Mesh3d, Material>(),
+            world.try_register_required_components::<Mesh3d, ModelView>(),
+            world.try_register_required_components::<Mesh3d, NormalMatrix>(),
+            world.try_register_required_components::<Mesh3d, Chosen>(),
+        ];
+        if required.iter().any(Result::is_err) {
+            app.add_systems(self.schedule, complete.in_set(RenderSet::View).before(frame::measure));
+        }
+    }
+
     fn add_systems(&self, app: &mut App) {
         use RenderSet::{Batch, Choose, Deliver, Draw, Illuminate, Matrices, Select, Upload, View};
         let order = (View, Select, Matrices, Illuminate, Choose, Batch, Upload, Draw, Deliver);
         app.configure_sets(self.schedule, order.chain().after(TransformSystems::Propagate)).add_systems(
             self.schedule,
             (
-                (frame::measure, camera::update, open_gpu).chain().in_set(View),
+                (frame::measure, camera::update, camera::require_propagation, open_gpu).chain().in_set(View),
                 matrices::select.in_set(Select),
                 matrices::compute.in_set(Matrices),
                 gather::gather.in_set(Illuminate),
@@ -95,6 +105,28 @@ impl RenderPlugin {
         );
         app.add_systems(self.schedule, on_gpu.run_if(resource_exists::<Gpu>));
     }
+}
+
+type Incomplete = (With<Mesh3d>, Or<(Without<Material>, Without<ModelView>, Without<NormalMatrix>, Without<Chosen>)>);
+
+/// Gives objects what they lack.
+fn complete(objects: Query<Entity, Incomplete>, mut commands: Commands) {
+    for object in &objects {
+        let all = (Material::default(), ModelView::default(), NormalMatrix::default(), Chosen::default());
+        commands.entity(object).insert_if_new(all);
+    }
+}
+
+fn register_types(app: &mut App) {
+    app.register_type::<Headless>()
+        .register_type::<Compile>()
+        .register_type::<LevelsOfDetail>()
+        .register_type::<FrameReport>()
+        .register_type::<View>()
+        .register_type::<Visible>()
+        .register_type::<ModelView>()
+        .register_type::<NormalMatrix>()
+        .register_type::<Chosen>();
 }
 
 /// Opens an adapter for headless pictures unless a window has opened one. What fails is in the report,

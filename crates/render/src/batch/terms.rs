@@ -3,6 +3,8 @@
 use crate::view::camera::View;
 use crate::view::matrices::Visible;
 use bevy_ecs::prelude::*;
+use bevy_reflect::Reflect;
+use bevy_reflect::std_traits::ReflectDefault;
 use halfway_lighting::{Frequency, Shading, Terms};
 
 /// Which terms a light list keeps.
@@ -24,7 +26,8 @@ impl TermMask {
 }
 
 /// What the frame chose for an object. Holds after [`RenderSet::Choose`](crate::RenderSet::Choose).
-#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Component, Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[reflect(opaque, Component, Clone, Debug, Default, PartialEq, Hash)]
 pub struct Chosen {
     /// The terms of the vertex list.
     pub(crate) vertex: TermMask,

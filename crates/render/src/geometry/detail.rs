@@ -6,7 +6,9 @@ use crate::pipelines::key::{PipelineKey, Stage};
 use crate::shaders::light_slots::Lists;
 use crate::view::camera::View;
 use crate::view::matrices::ModelView;
-use bevy_ecs::prelude::Resource;
+use bevy_ecs::prelude::{ReflectResource, Resource};
+use bevy_reflect::Reflect;
+use bevy_reflect::std_traits::ReflectDefault;
 use halfway_mesh::Mesh;
 use std::ops::Range;
 use std::sync::Arc;
@@ -38,7 +40,8 @@ const SLICES: u8 = 8;
 /// Levels are made in the background once a mesh has been seen in two frames; until then it is drawn as it is.
 /// Blended objects, whose triangles are drawn in the order of their mesh, and objects that are scaled differently along
 /// different axes keep all triangles.
-#[derive(Resource, Clone, Copy, Debug, PartialEq)]
+#[derive(Resource, Reflect, Clone, Copy, Debug, PartialEq)]
+#[reflect(Resource, Clone, Debug, Default, PartialEq)]
 pub struct LevelsOfDetail {
     /// How far a point may move, in pixels. Default 0.5; 0 draws every mesh as it is.
     pub pixels: f32,

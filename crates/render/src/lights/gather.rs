@@ -10,7 +10,7 @@ use bevy_transform::components::GlobalTransform;
 use bytemuck::{Pod, Zeroable};
 use halfway_lighting::equations::Light;
 use halfway_lighting::{
-    Attenuation, Cone, DirectionalLight, GlobalAmbient, InvalidValue, PointLight, SpotLight, light_direction,
+    Attenuation, Cone, DirectionalLight, GlobalAmbient, InvalidValue, PointLight, Shown, SpotLight, light_direction,
     light_position,
 };
 
@@ -82,10 +82,12 @@ pub struct Lights {
 
 type LightQuery<'w, 's, L> = Query<'w, 's, (Entity, &'static L, &'static GlobalTransform, Option<&'static Name>)>;
 
+#[expect(clippy::too_many_arguments, reason = "a system takes each resource as a parameter")]
 pub(crate) fn gather(
     directional: LightQuery<DirectionalLight>,
     points: LightQuery<PointLight>,
     spots: LightQuery<SpotLight>,
+    shown: Shown,
     ambient: Res<GlobalAmbient>,
     view: Res<View>,
     mut lights: ResMut<Lights>,
@@ -98,20 +100,22 @@ pub(crate) fn gather(
         Ok(()) => gathered.ambient = rgb(ambient.0),
         Err(source) => errors.push(RenderError::Invalid { entity: "resource".into(), source }),
     }
-    each(&directional, errors, |light, at| gathered.directional(light, at));
-    each(&points, errors, |light, at| gathered.finite(light, None, at));
-    each(&spots, errors, |spot, at| gathered.spot(spot, at));
+    let is_shown = shown.by_entity();
+    each(&directional, &is_shown, errors, |light, at| gathered.directional(light, at));
+    each(&points, &is_shown, errors, |light, at| gathered.finite(light, None, at));
+    each(&spots, &is_shown, errors, |spot, at| gathered.spot(spot, at));
     report.lights = gathered.records.iter().map(|of_kind| of_kind.len() as u32).sum();
     lights.set_if_neq(gathered.into_lights());
 }
 
-/// Visits lights in a fixed order, so that sums repeat, and reports those that are invalid.
+/// Visits lights that are shown in a fixed order, so that sums repeat, and reports those that are invalid.
 fn each<L: Component>(
     query: &LightQuery<L>,
+    is_shown: impl Fn(Entity) -> bool,
     errors: &mut Vec<RenderError>,
     mut add: impl FnMut(&L, &GlobalTransform) -> Result<(), InvalidValue>,
 ) {
-    let mut all: Vec<_> = query.iter().collect();
+    let mut all: Vec<_> = query.iter().filter(|(entity, ..)| is_shown(*entity)).collect();
     all.sort_unstable_by_key(|(entity, ..)| *entity);
     for (entity, light, transform, name) in all {
         if let Err(source) = add(light, transform) {

@@ -3,7 +3,8 @@
 use crate::device::gpu::Gpu;
 use crate::pipelines::key::PipelineKey;
 use crate::shaders::text::Shaders;
-use bevy_ecs::prelude::Resource;
+use bevy_ecs::prelude::{ReflectResource, Resource};
+use bevy_reflect::Reflect;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
@@ -13,7 +14,8 @@ use std::thread::JoinHandle;
 ///
 /// A software adapter makes machine code when a pipeline first draws, whichever thread has built it; what goes beside the
 /// frames there is the work before.
-#[derive(Resource, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Resource, Reflect, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[reflect(Resource, Clone, Debug, PartialEq, Hash)]
 pub enum Compile {
     /// In the frame that first needs them, which waits. Every frame is drawn by the pipelines made for it, so that two
     /// runs are equal to the byte.

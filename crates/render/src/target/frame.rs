@@ -7,11 +7,14 @@ use crate::frame::times::FrameTimes;
 use crate::view::camera::View;
 use bevy_ecs::prelude::*;
 use bevy_math::UVec2;
-use halfway_lighting::{Blend, Encoding, Samples};
+use bevy_reflect::Reflect;
+use bevy_reflect::std_traits::ReflectDefault;
+use halfway_lighting::{Blend, Encoding, Samples, Shown};
 use halfway_mesh::Mesh3d;
 
 /// The headless target: pictures of this size, to be read back. The default target.
-#[derive(Resource, Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Resource, Reflect, Clone, Copy, Debug, PartialEq, Eq)]
+#[reflect(Resource, Clone, Debug, Default, PartialEq)]
 pub struct Headless {
     /// Width and height in pixels, each at least 1. Default 1280 × 720.
     pub size: UVec2,
@@ -26,7 +29,8 @@ impl Default for Headless {
 }
 
 /// What a pixel of a headless picture holds.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[reflect(Clone, Debug, Default, PartialEq, Hash)]
 pub enum Pixels {
     /// 8 bits a channel, encoded as the camera says.
     #[default]
@@ -195,7 +199,8 @@ pub(crate) fn prepare(
     headless: Res<Headless>,
     surface: Option<ResMut<SurfaceTarget>>,
     view: Res<View>,
-    blended: Query<(), (With<Blend>, With<Mesh3d>)>,
+    blended: Query<Entity, (With<Blend>, With<Mesh3d>)>,
+    shown: Shown,
     mut target: ResMut<Target>,
     mut report: ResMut<FrameReport>,
     mut times: ResMut<FrameTimes>,
@@ -220,11 +225,12 @@ pub(crate) fn prepare(
     // A software adapter decodes and encodes all 16 pixels of a block to write some of them. Blending and resolving need
     // linear values, which only the format gives.
     let may_encode = gpu.is_software() && camera.samples == Samples::One;
+    let blends = blended.iter().any(shown.by_entity());
     let format_encodes = |blends: bool| camera.encoding == Encoding::Srgb && (blends || !may_encode);
     let (format, acquired) = match surface {
-        None => (headless_format(&gpu, headless.pixels, camera.samples, format_encodes(!blended.is_empty())), None),
+        None => (headless_format(&gpu, headless.pixels, camera.samples, format_encodes(blends)), None),
         Some(mut surface) => {
-            surface.blends |= !blended.is_empty();
+            surface.blends |= blends;
             let encodes = format_encodes(surface.blends);
             surface.pick_format(encodes);
             match times.at_display(|| surface.acquire(&gpu)) {

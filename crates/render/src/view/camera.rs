@@ -5,12 +5,14 @@ use crate::frame::report::FrameReport;
 use crate::target::frame::Target;
 use bevy_ecs::prelude::*;
 use bevy_math::{DAffine3, DMat3, DVec3, Vec3};
-use bevy_transform::components::GlobalTransform;
-use halfway_lighting::Camera;
-use halfway_lighting::{Reflectance, Shading};
+use bevy_reflect::Reflect;
+use bevy_reflect::std_traits::ReflectDefault;
+use bevy_transform::components::{GlobalTransform, Transform};
+use halfway_lighting::{Camera, Propagation, Reflectance, Shading, propagation};
 
 /// What the frame is seen through. Holds after [`RenderSet::View`](crate::RenderSet::View).
-#[derive(Resource, Clone, Debug, Default, PartialEq)]
+#[derive(Resource, Reflect, Clone, Debug, Default, PartialEq)]
+#[reflect(Resource, Clone, Debug, Default, PartialEq)]
 pub struct View {
     /// The camera, validated; `None` while there is none to draw with.
     pub camera: Option<Camera>,
@@ -30,7 +32,8 @@ pub struct View {
 
 /// A perspective projection with reversed depth (near = 1) and an infinite far plane:
 /// clip = (`scale`·xy, `near`, −z).
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Reflect, Clone, Copy, Debug, Default, PartialEq)]
+#[reflect(Clone, Debug, Default, PartialEq)]
 pub struct Projection {
     /// cot(fov/2) / aspect and cot(fov/2).
     pub scale: [f32; 2],
@@ -116,6 +119,27 @@ pub(crate) fn update(
         reflectance: reflectance.copied().unwrap_or_default(),
         epoch: view.epoch,
     };
+}
+
+/// Draws nothing where transforms are not propagated. Once they have been found to be, it does not look again.
+pub(crate) fn require_propagation(
+    roots: Query<(Entity, &Transform, &GlobalTransform), Without<ChildOf>>,
+    names: Query<&Name>,
+    mut works: Local<bool>,
+    mut view: ResMut<View>,
+    mut report: ResMut<FrameReport>,
+) {
+    if *works || view.camera.is_none() {
+        return;
+    }
+    match propagation(roots) {
+        Propagation::Works => *works = true,
+        Propagation::Missing(entity) => {
+            report.errors.push(RenderError::NotPropagated { entity: label(entity, names.get(entity).ok()) });
+            view.camera = None;
+        }
+        Propagation::Unknown => {}
+    }
 }
 
 /// The inverse of the rigid part of the camera's transform.

@@ -6,12 +6,16 @@ use crate::view::camera::View;
 use bevy_asset::Assets;
 use bevy_ecs::prelude::*;
 use bevy_math::{Affine3A, DAffine3, DMat3, DVec3, Mat3};
+use bevy_reflect::Reflect;
+use bevy_reflect::std_traits::ReflectDefault;
 use bevy_transform::components::GlobalTransform;
+use halfway_lighting::Shown;
 use halfway_mesh::{Mesh, Mesh3d, SpawnOrder};
 
 /// `eye_from_model` of an object, composed in f64 relative to the camera and rounded once.
 /// Holds for visible objects after [`RenderSet::Matrices`](crate::RenderSet::Matrices).
-#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Component, Reflect, Clone, Copy, Debug, Default, PartialEq)]
+#[reflect(Component, Clone, Debug, Default, PartialEq)]
 pub struct ModelView {
     /// Model to eye.
     pub eye_from_model: Affine3A,
@@ -36,12 +40,15 @@ impl ModelView {
 
 /// sign(det M) · cof(M) of the upper 3×3 of the model-view matrix, scaled to a largest element of 1:
 /// turns model-space normals into eye-space directions, also where M is mirrored or of rank 2.
-#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Component, Reflect, Clone, Copy, Debug, Default, PartialEq)]
+#[reflect(Component, Clone, Debug, Default, PartialEq)]
 pub struct NormalMatrix(pub Mat3);
 
-/// The objects whose bounding sphere meets the frustum, in spawn order.
+/// The objects that are not [hidden](halfway_lighting::Visibility) and whose bounding sphere meets the frustum, in spawn
+/// order.
 /// Holds after [`RenderSet::Select`](crate::RenderSet::Select).
-#[derive(Resource, Clone, Debug, Default)]
+#[derive(Resource, Reflect, Clone, Debug, Default)]
+#[reflect(Resource, Clone, Debug, Default)]
 pub struct Visible(pub Vec<Entity>);
 
 type Objects<'w, 's> =
@@ -49,6 +56,7 @@ type Objects<'w, 's> =
 
 pub(crate) fn select(
     objects: Objects,
+    shown: Shown,
     meshes: Res<Assets<Mesh>>,
     view: Res<View>,
     mut visible: ResMut<Visible>,
@@ -61,7 +69,8 @@ pub(crate) fn select(
     if view.camera.is_none() {
         return;
     }
-    for (entity, mesh, transform, order, name) in &objects {
+    let is_shown = shown.by_entity();
+    for (entity, mesh, transform, order, name) in objects.iter().filter(|(entity, ..)| is_shown(*entity)) {
         report.objects += 1;
         let Some(mesh) = meshes.get(&mesh.0) else {
             report.errors.push(RenderError::MissingMesh { entity: label(entity, name) });
