@@ -6,19 +6,32 @@ use halfway::prelude::*;
 use std::collections::BTreeSet;
 use std::path::Path;
 
+/// The crates with components and resources.
+const ROOMS: &[&str] = &[
+    "lighting",
+    "mesh",
+    "render",
+    #[cfg(feature = "window")]
+    "window",
+];
+
 /// Public components and resources that are not reflected, and why.
-const NOT_REFLECTED: [(&str, &str); 6] = [
+const NOT_REFLECTED: &[(&str, &str)] = &[
     ("Gpu", "holds the adapter and the device"),
     ("GpuTimer", "holds queries on the device"),
     ("SurfaceTarget", "holds the surface of a window"),
     ("SurfaceLost", "a message to the owner of the window"),
     ("Lights", "has no public field"),
     ("FrameTimes", "has no public field"),
+    #[cfg(feature = "window")]
+    ("WinitWindow", "holds the window"),
 ];
 
 fn app() -> App {
     let mut app = App::new();
     app.add_plugins(HalfwayPlugins::headless(UVec2::new(8, 8)));
+    #[cfg(feature = "window")]
+    app.add_plugins(WindowPlugin::default());
     app
 }
 
@@ -50,11 +63,11 @@ fn declared(folder: &Path, found: &mut BTreeSet<String>) {
 #[test]
 fn every_public_component_and_resource_is_registered() {
     let mut declared_types = BTreeSet::new();
-    for room in ["lighting", "mesh", "render"] {
+    for room in ROOMS {
         let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("crates").join(room).join("src");
         declared(&sources, &mut declared_types);
     }
-    for (name, why) in NOT_REFLECTED {
+    for &(name, why) in NOT_REFLECTED {
         assert!(declared_types.remove(name), "{name}, which {why}, is not there any more");
     }
 
