@@ -29,12 +29,9 @@ pub(crate) fn cargo<A: AsRef<OsStr>>(arguments: impl IntoIterator<Item = A>) -> 
 pub(crate) fn written(command: &Command) -> String {
     let program = Path::new(command.get_program()).file_stem().unwrap_or_default();
     let words = std::iter::once(program).chain(command.get_args());
-    words.map(|word| quoted(&word.to_string_lossy())).collect::<Vec<_>>().join(" ")
-}
-
-fn quoted(word: &str) -> String {
-    let plain = |c: char| c.is_alphanumeric() || "-_./=:,+@{}".contains(c);
-    if !word.is_empty() && word.chars().all(plain) { word.into() } else { format!("'{}'", word.replace('\'', r"'\''")) }
+    let words: Vec<_> = words.map(|word| word.to_string_lossy()).collect();
+    // Only a NUL, which no argument can hold, is beyond quoting.
+    shlex::try_join(words.iter().map(AsRef::as_ref)).unwrap_or_else(|_| words.join(" "))
 }
 
 /// Prints what is about to happen, and the command.
@@ -89,7 +86,7 @@ mod tests {
     fn commands_can_be_copied() {
         let mut command = Command::new("/opt/rust/bin/cargo");
         command.args(["test", "a b", "it's", "", "*", "target/x=1"]);
-        assert_eq!(written(&command), r"cargo test 'a b' 'it'\''s' '' '*' target/x=1");
+        assert_eq!(written(&command), r#"cargo test 'a b' "it's" '' '*' 'target/x=1'"#);
     }
 
     #[test]

@@ -1,11 +1,24 @@
 //! The commands that a page of documentation shows.
 
+use std::path::Path;
+
+use crate::failure::Failure;
+
 /// A command of a page, cut into words.
 #[derive(Debug, PartialEq, Eq)]
-pub(crate) struct Shown {
+pub(crate) struct PageCommand {
     /// The line it starts on, from 1.
     pub(crate) line: usize,
     pub(crate) words: Vec<String>,
+}
+
+/// The commands of the page of that name in the folder `root`.
+///
+/// # Errors
+/// The page cannot be read, or has a command that is more than a program and its arguments.
+pub(crate) fn of_page(root: &Path, page: &str) -> crate::failure::Result<Vec<PageCommand>> {
+    let text = std::fs::read_to_string(root.join(page)).map_err(|error| Failure::new(format!("{page}: {error}")))?;
+    shown(&text).map_err(|problem| Failure::new(format!("{page}, {problem}")))
 }
 
 /// The commands in the code blocks of a Markdown page that are marked `sh`: a line each, or several with a `\` at the
@@ -13,7 +26,7 @@ pub(crate) struct Shown {
 ///
 /// # Errors
 /// The line and the problem of a command that is more than a program and its arguments.
-pub(crate) fn shown(page: &str) -> Result<Vec<Shown>, String> {
+pub(crate) fn shown(page: &str) -> Result<Vec<PageCommand>, String> {
     let mut commands = Vec::new();
     let mut fence = Fence::Text;
     let mut open: Option<(usize, String)> = None;
@@ -35,7 +48,7 @@ pub(crate) fn shown(page: &str) -> Result<Vec<Shown>, String> {
         command.push_str(text);
         let words = words(&command).map_err(|problem| format!("line {line}: {problem}"))?;
         if !words.is_empty() {
-            commands.push(Shown { line, words });
+            commands.push(PageCommand { line, words });
         }
     }
     match open {
@@ -62,37 +75,14 @@ impl Fence {
     }
 }
 
-/// Cuts a command into words as a shell does, with single and double quotes. What a shell would do more (variables,
-/// pipes, several commands) is refused, because no shell is used here.
+/// Cuts a command into words as a shell does, quotes and comments included. What a shell would do more (variables,
+/// pipes, several commands) is refused, quoted or not, because no shell is used here.
 fn words(command: &str) -> Result<Vec<String>, String> {
-    let mut words = Vec::new();
-    let mut word: Option<String> = None;
-    let mut characters = command.chars();
-    while let Some(c) = characters.next() {
-        match c {
-            '\'' | '"' => {
-                let word = word.get_or_insert_default();
-                loop {
-                    match characters.next() {
-                        Some(end) if end == c => break,
-                        Some(special @ ('$' | '`' | '\\')) if c == '"' => return Err(unexpected(special)),
-                        Some(inside) => word.push(inside),
-                        None => return Err(format!("the quote {c} has no end")),
-                    }
-                }
-            }
-            '#' if word.is_none() => break,
-            c if c.is_whitespace() => words.extend(word.take()),
-            '$' | '`' | '\\' | '|' | '&' | ';' | '<' | '>' | '*' | '?' | '(' | ')' => return Err(unexpected(c)),
-            c => word.get_or_insert_default().push(c),
-        }
+    let words = shlex::split(command).ok_or("a quote has no end")?;
+    match words.iter().flat_map(|word| word.chars()).find(|&c| "$`\\|&;<>*?()".contains(c)) {
+        Some(c) => Err(format!("expected a program and its arguments, found the shell's {c}")),
+        None => Ok(words),
     }
-    words.extend(word);
-    Ok(words)
-}
-
-fn unexpected(c: char) -> String {
-    format!("expected a program and its arguments, found the shell's {c}")
 }
 
 #[cfg(test)]
@@ -149,7 +139,7 @@ cargo output
             ("cargo run $HOME", "the shell's $"),
             ("cargo run \"$HOME\"", "the shell's $"),
             ("ls *.png", "the shell's *"),
-            ("cargo run 'a", "the quote ' has no end"),
+            ("cargo run 'a", "line 3: a quote has no end"),
             ("cargo run \\", "line 3: the command goes on"),
         ];
         for (command, expected) in rows {
@@ -163,7 +153,7 @@ cargo output
         let rows = [
             ("a 'b c' d", vec!["a", "b c", "d"]),
             ("a'b'\"c\"d", vec!["abcd"]),
-            ("'$a|b' \"it's\"", vec!["$a|b", "it's"]),
+            ("'a#b' \"it's\" # and (more)", vec!["a#b", "it's"]),
             ("a#b #c", vec!["a#b"]),
             ("  ", vec![]),
         ];

@@ -1,8 +1,5 @@
 //! The project's chores: `cargo xtask --help` lists them.
-//!
-//! Only the standard library is used, so that the first of them starts within seconds of a clone.
 
-mod arguments;
 mod cargo;
 mod chores;
 mod commands;
@@ -13,33 +10,109 @@ mod tally;
 
 use std::process::ExitCode;
 
-use arguments::Chore;
+use clap::{Parser, Subcommand};
+
+/// The chores of this project
+#[derive(Debug, Parser)]
+#[command(name = "cargo xtask", bin_name = "cargo xtask")]
+struct Arguments {
+    #[command(subcommand)]
+    chore: Chore,
+}
+
+#[derive(Debug, Subcommand)]
+enum Chore {
+    Demo(chores::demo::Options),
+    Test(chores::test::Options),
+    Check(chores::check::Options),
+    Docs(chores::docs::Options),
+    Chart(chores::chart::Options),
+    Fuzz(chores::fuzz::Options),
+    Readme(chores::readme::Options),
+    Screen(chores::screen::Options),
+}
+
+impl Chore {
+    fn run(self) -> failure::Result {
+        match self {
+            Self::Demo(options) => chores::demo::run(&options),
+            Self::Test(options) => chores::test::run(&options),
+            Self::Check(options) => chores::check::run(&options),
+            Self::Docs(options) => chores::docs::run(&options),
+            Self::Chart(options) => chores::chart::run(&options),
+            Self::Fuzz(options) => chores::fuzz::run(&options),
+            Self::Readme(options) => chores::readme::run(&options),
+            Self::Screen(options) => chores::screen::run(&options),
+        }
+    }
+}
 
 fn main() -> ExitCode {
-    let chore = match arguments::parse(std::env::args_os().skip(1)) {
-        Ok(chore) => chore,
-        Err(problem) => {
-            eprintln!("error: {problem}\n\nSee cargo xtask --help.");
-            return ExitCode::from(2);
-        }
-    };
-    let done = match chore {
-        Chore::Help(page) => {
-            println!("{page}");
-            Ok(())
-        }
-        Chore::Demo(options) => chores::demo::run(&options),
-        Chore::Test { setup } => chores::test::run(setup),
-        Chore::Check => chores::check::run(),
-        Chore::Docs { setup } => chores::docs::run(setup),
-        Chore::Fuzz(options) => chores::fuzz::run(&options),
-        Chore::Chart { setup, quick, scaling } => chores::chart::run(setup, quick, scaling),
-    };
-    match done {
+    match Arguments::parse().chore.run() {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             eprintln!("\nerror: {failure}");
             failure.exit_code()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_that_are_understood() {
+        let rows = [
+            "demo --no-install",
+            "demo --headless --model a.obj",
+            "test",
+            "test --no-install",
+            "check",
+            "check",
+            "docs --no-install",
+            "chart --quick --no-install",
+            "chart --scaling",
+            "fuzz smf --seconds 60 obj --no-install",
+            "readme --list",
+            "screen cargo test --release --test window",
+        ];
+        for line in rows {
+            let parsed = Arguments::try_parse_from(["xtask"].into_iter().chain(line.split(' ')));
+            assert!(parsed.is_ok(), "{line}: {parsed:?}");
+        }
+    }
+
+    #[test]
+    fn other_lines_are_refused_by_name() {
+        let rows = [
+            ("demmo", "'demmo'"),
+            ("demo --modle a.obj", "'--modle'"),
+            ("demo --model", "'--model <FILE>'"),
+            ("demo a.obj", "'a.obj'"),
+            ("test --model a.obj", "'--model'"),
+            ("fuzz --second 1", "'--second'"),
+            ("fuzz --seconds", "'--seconds <N>'"),
+            ("fuzz --seconds 0", "'0'"),
+            ("fuzz --seconds smf", "'smf'"),
+            ("screen", "<COMMAND>"),
+        ];
+        for (line, named) in rows {
+            let problem = Arguments::try_parse_from(["xtask"].into_iter().chain(line.split(' '))).unwrap_err();
+            assert_eq!(problem.exit_code(), 2, "{line}");
+            assert!(problem.to_string().contains(named), "{line}: {problem}");
+        }
+    }
+
+    #[test]
+    fn help_fits_the_screen() {
+        use clap::CommandFactory;
+        let mut all = Arguments::command();
+        all.build();
+        for chore in all.get_subcommands_mut() {
+            for line in chore.render_long_help().to_string().lines() {
+                assert!(line.chars().count() <= 120, "{line}");
+            }
         }
     }
 }

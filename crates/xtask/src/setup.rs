@@ -1,5 +1,7 @@
 //! Set-up: what a chore needs of the machine, and getting it.
 
+use clap::Args;
+
 use crate::cargo::{cargo, step, written};
 use crate::failure::{Failure, Result};
 use crate::machine::display::Display;
@@ -9,12 +11,11 @@ use crate::machine::packages::{Manager, Packages, Rights, apt, is_root};
 use crate::machine::programs;
 
 /// Whether set-up may change the machine.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Setup {
-    /// Install what is missing.
-    Install,
-    /// Only see what is missing.
-    Check,
+#[derive(Args, Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Setup {
+    /// Install nothing; say what is missing and how to get it
+    #[arg(long)]
+    pub(crate) no_install: bool,
 }
 
 /// Something outside the project that a chore needs.
@@ -56,6 +57,16 @@ pub(crate) const SCREEN: Need = Need {
     },
     packages: Packages { apt: &["xvfb"], dnf: &["xorg-x11-server-Xvfb"], pacman: &["xorg-server-xvfb"] },
 };
+
+/// The program that lists the windows of an X display.
+pub(crate) const WINDOW_LIST: Need = Need {
+    missing: || programs::find("xwininfo").is_none().then(|| "xwininfo, which lists windows".into()),
+    packages: Packages { apt: &["x11-utils"], dnf: &["xwininfo"], pacman: &["xorg-xwininfo"] },
+};
+
+/// The virtual screen, Xvfb.
+pub(crate) const VIRTUAL_SCREEN: Need =
+    Need { missing: || programs::find("Xvfb").is_none().then(|| "the virtual screen Xvfb".into()), ..SCREEN };
 
 /// What windows on an X display load when they open.
 pub(crate) const X11_WINDOWS: Need = Need {
@@ -117,9 +128,9 @@ impl Setup {
         let manager = Manager::here();
         let names: Vec<&str> =
             missing.iter().flat_map(|&packages| manager.unwrap_or(Manager::Apt).names(packages)).copied().collect();
-        let rights = match (self, manager) {
-            (Self::Check, _) => Err("--no-install was given"),
-            (_, Some(Manager::Apt)) => match Rights::here() {
+        let rights = match manager {
+            _ if self.no_install => Err("--no-install was given"),
+            Some(Manager::Apt) => match Rights::here() {
                 Rights::Nothing => Err("it takes root, or sudo without a password"),
                 rights => Ok(rights),
             },
@@ -159,7 +170,7 @@ fn refusal(reasons: &[String], names: &[&str], manager: Option<Manager>, why_not
 /// Asks the built command for the adapters that it can draw with, and prints them.
 ///
 /// # Errors
-/// There is none: a driver that looked usable is not. With [`Setup::Install`] the software driver is tried first.
+/// There is none: a driver that looked usable is not. Where set-up may install, the software driver is tried first.
 pub(crate) fn adapters(setup: Setup) -> Result {
     if list_adapters()? {
         return Ok(());
@@ -203,14 +214,14 @@ mod tests {
 
     #[test]
     fn what_is_there_needs_no_installation() {
-        assert_eq!(Setup::Check.meet(&[MET, MET]), Ok(()));
-        assert_eq!(Setup::Install.meet(&[]), Ok(()));
+        assert_eq!(Setup { no_install: true }.meet(&[MET, MET]), Ok(()));
+        assert_eq!(Setup::default().meet(&[]), Ok(()));
     }
 
     #[cfg(target_os = "linux")]
     #[test]
     fn what_is_missing_is_not_installed_unasked() {
-        let message = Setup::Check.meet(&[MET, UNMET]).unwrap_err().to_string();
+        let message = Setup { no_install: true }.meet(&[MET, UNMET]).unwrap_err().to_string();
         assert!(message.contains("  - a thing\n"), "{message}");
         assert!(message.contains("--no-install was given"), "{message}");
     }

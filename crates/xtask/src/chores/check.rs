@@ -2,11 +2,17 @@
 
 use std::process::Command;
 
+use clap::Args;
+
 use crate::cargo::{cargo, step};
 use crate::failure::{Failure, Result};
 
+/// Check the formatting, lints, documentation and smallest build, all of which must be clean
+#[derive(Args, Debug)]
+pub(crate) struct Options {}
+
 /// Runs every check, and then says which failed.
-pub(crate) fn run() -> Result {
+pub(crate) fn run(_: &Options) -> Result {
     let failures: Vec<String> = checks()
         .into_iter()
         .filter_map(|(title, mut command)| {

@@ -3,19 +3,37 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use crate::arguments::DemoOptions;
+use clap::Args;
+
 use crate::cargo::{cargo, root, step};
 use crate::failure::{Failure, Result};
 use crate::machine::display::Display;
-use crate::setup::{DRIVER, Need, WAYLAND_WINDOWS, X11_WINDOWS, adapters};
+use crate::setup::{DRIVER, Need, Setup, WAYLAND_WINDOWS, X11_WINDOWS, adapters};
 
 const EXAMPLE: &str = "moving_lights";
 /// The six seconds after which the example's lights are where they were, so that the animation has no jump.
 const FRAMES: &str = "180";
 const SIZE: &str = "640x360";
 
+/// Show moving lights around a model in a window, or record them where there is no display
+///
+/// Records an animated PNG and a contact sheet in out/. What drawing needs and the machine lacks (a Vulkan driver;
+/// with a display, the libraries of windows) is installed first, by apt-get where it may be used.
+#[derive(Args, Debug)]
+#[command(verbatim_doc_comment)]
+pub(crate) struct Options {
+    #[command(flatten)]
+    setup: Setup,
+    /// Record, even where a display is
+    #[arg(long)]
+    headless: bool,
+    /// What the lights shine on: an .smf, .obj, .gltf or .glb file; assets/teapot.obj unless given
+    #[arg(long, value_name = "FILE")]
+    model: Option<PathBuf>,
+}
+
 /// Sets up, builds, and shows or records the moving lights.
-pub(crate) fn run(options: &DemoOptions) -> Result {
+pub(crate) fn run(options: &Options) -> Result {
     let model = options.model.as_deref().map(model).transpose()?;
     let display = Display::here().filter(|_| !options.headless);
     options.setup.meet(needs(display))?;

@@ -2,8 +2,10 @@
 
 use std::path::Path;
 
+use clap::Args;
+
 use crate::cargo::{announce, cargo, ended, not_started, root, step};
-use crate::commands::{Shown, shown};
+use crate::commands::{self, PageCommand};
 use crate::failure::{Failure, Result};
 use crate::setup::{DRIVER, Setup, adapters};
 
@@ -11,8 +13,16 @@ use crate::setup::{DRIVER, Setup, adapters};
 const PAGE: &str = "docs/examples.md";
 const SCHEMA: &str = "docs/scene.schema.json";
 
+/// Make the pictures and the schema in docs/ again, by the commands that docs/examples.md shows
+#[derive(Args, Debug)]
+pub(crate) struct Options {
+    #[command(flatten)]
+    setup: Setup,
+}
+
 /// Sets up, and makes schema and pictures again.
-pub(crate) fn run(setup: Setup) -> Result {
+pub(crate) fn run(options: &Options) -> Result {
+    let setup = options.setup;
     // Before anything is installed or built: a page that cannot be read, or shows something else.
     let commands = pictures(&root())?;
     setup.meet(&[DRIVER])?;
@@ -41,12 +51,11 @@ fn schema() -> Result {
 }
 
 /// The page's commands that draw: those that name a file to write to. The others open windows.
-fn pictures(root: &Path) -> Result<Vec<Shown>> {
-    let page = std::fs::read_to_string(root.join(PAGE)).map_err(|error| Failure::new(format!("{PAGE}: {error}")))?;
-    chosen(shown(&page).map_err(|problem| Failure::new(format!("{PAGE}, {problem}")))?)
+fn pictures(root: &Path) -> Result<Vec<PageCommand>> {
+    chosen(commands::of_page(root, PAGE)?)
 }
 
-fn chosen(commands: Vec<Shown>) -> Result<Vec<Shown>> {
+fn chosen(commands: Vec<PageCommand>) -> Result<Vec<PageCommand>> {
     let drawing: Vec<_> = commands
         .into_iter()
         .filter(|command| command.words.iter().any(|word| ["--headless", "-o", "--output"].contains(&word.as_str())))
@@ -67,8 +76,8 @@ fn chosen(commands: Vec<Shown>) -> Result<Vec<Shown>> {
 mod tests {
     use super::*;
 
-    fn commands(lines: &[&str]) -> Vec<Shown> {
-        shown(&format!("```sh\n{}\n```\n", lines.join("\n"))).unwrap()
+    fn commands(lines: &[&str]) -> Vec<PageCommand> {
+        commands::shown(&format!("```sh\n{}\n```\n", lines.join("\n"))).unwrap()
     }
 
     #[test]

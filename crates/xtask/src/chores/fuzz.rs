@@ -3,7 +3,8 @@
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use crate::arguments::FuzzOptions;
+use clap::Args;
+
 use crate::cargo::{announce, cargo, ended, not_started, root, step, written};
 use crate::failure::{Failure, Result};
 use crate::setup::{COMPILER, Setup};
@@ -20,8 +21,27 @@ const MEMORY: &str = "/dev/shm";
 const PAST_FAILURES: &str = "crates/mesh/tests/past_failures";
 const TEST: &str = "cargo test -p halfway_mesh --test past_failures";
 
+/// Feed the readers of model files what a fuzzer makes up, and see that they bear it
+///
+/// Nothing may panic, overflow, hang, or take memory out of proportion, and what is read must be sound. A target for
+/// each format, one for material libraries (mtl) and one for the parts of binary glTF (glb_chunks). Prints how often
+/// each was run; a failing input is kept, and how to try it again and where to put it as a test is printed.
+/// cargo-fuzz and a C++ compiler are installed first where they are missing.
+#[derive(Args, Debug)]
+#[command(verbatim_doc_comment)]
+pub(crate) struct Options {
+    #[command(flatten)]
+    setup: Setup,
+    /// How long each target is run
+    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..))]
+    seconds: u32,
+    /// What is fuzzed, by name; all where none is named
+    #[arg(value_name = "TARGET")]
+    targets: Vec<String>,
+}
+
 /// Sets up, builds, and runs every target for a while, also those after one that fails.
-pub(crate) fn run(options: &FuzzOptions) -> Result {
+pub(crate) fn run(options: &Options) -> Result {
     let targets = chosen(targets(&root())?, &options.targets)?;
     options.setup.meet(&[COMPILER])?;
     have_cargo_fuzz(options.setup)?;
@@ -66,14 +86,13 @@ fn have_cargo_fuzz(setup: Setup) -> Result {
         return Ok(());
     }
     let mut install = cargo(["install", "cargo-fuzz", "--version", CARGO_FUZZ, "--locked"]);
-    match setup {
-        Setup::Install => step("installing cargo-fuzz", &mut install),
-        Setup::Check => Err(Failure::new(format!(
-            "missing: cargo-fuzz\nNothing was installed: --no-install was given. Install it yourself, and try again:\n\n    \
-             {}",
-            written(&install)
-        ))),
+    if !setup.no_install {
+        return step("installing cargo-fuzz", &mut install);
     }
+    Err(Failure::new(format!(
+        "missing: cargo-fuzz\nNothing was installed: --no-install was given. Install it yourself, and try again:\n\n    {}",
+        written(&install)
+    )))
 }
 
 /// A command of cargo-fuzz. No sanitizer: the readers have no unsafe code for one to watch, the targets count memory

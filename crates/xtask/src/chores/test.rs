@@ -4,14 +4,29 @@ use std::io::{BufRead, BufReader};
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
+use clap::Args;
+
 use crate::cargo::{announce, cargo, duration, ended, not_started, step};
 use crate::failure::{Failure, Result};
 use crate::machine::programs;
 use crate::setup::{DRIVER, SCREEN, Setup, X11_WINDOWS, adapters};
 use crate::tally::Tally;
 
+/// Run every test, those that need a graphics adapter or a window included
+///
+/// Documentation examples included, in the release profile, with a summary at the end. No test is skipped for want of
+/// an adapter or a screen: what they need and the machine lacks (a Vulkan driver, the virtual screen Xvfb) is
+/// installed first, by apt-get where it may be used; otherwise nothing is built, and the remedy is printed.
+#[derive(Args, Debug)]
+#[command(verbatim_doc_comment)]
+pub(crate) struct Options {
+    #[command(flatten)]
+    setup: Setup,
+}
+
 /// Sets up, builds, runs every test and sums up.
-pub(crate) fn run(setup: Setup) -> Result {
+pub(crate) fn run(options: &Options) -> Result {
+    let setup = options.setup;
     let start = Instant::now();
     setup.meet(&[DRIVER, SCREEN, X11_WINDOWS])?;
     // Without a choice of targets these are all tests of libraries, programs, `tests/` and the documentation; the

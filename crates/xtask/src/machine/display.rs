@@ -163,7 +163,7 @@ mod tests {
     #[cfg(unix)]
     #[test]
     fn sockets_answer_while_somebody_listens() {
-        let scratch = crate::machine::scratch::Scratch::new("sockets");
+        let scratch = tempfile::tempdir().unwrap();
         let path = scratch.path().join("wayland-7");
         let listener = std::os::unix::net::UnixListener::bind(&path).unwrap();
         assert!(answers(&Address::Local(path.clone())));

@@ -8,7 +8,6 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 
 use super::libraries::Libraries;
-use super::library_path::library_path;
 
 /// The loader, which finds the drivers.
 const LOADER: &str = "libvulkan.so.1";
@@ -66,10 +65,11 @@ impl Drivers {
 
     fn judge(&self, manifest: &Path) -> Result<(), String> {
         let json = std::fs::read_to_string(manifest).map_err(|error| error.to_string())?;
-        let library = library_path(&json).ok_or("names no library_path")?;
+        let json: serde_json::Value = serde_json::from_str(&json).map_err(|error| format!("not JSON: {error}"))?;
+        let library = json["ICD"]["library_path"].as_str().ok_or("names no library_path")?;
         // A path without a folder is the dynamic loader's to find; other relative ones start at the manifest.
         let folder = manifest.parent().filter(|_| library.contains('/')).unwrap_or(Path::new(""));
-        let library = folder.join(&library).to_string_lossy().into_owned();
+        let library = folder.join(library).to_string_lossy().into_owned();
         if !self.libraries.has(&library) {
             return Err(format!("its library {library} is missing"));
         }

@@ -59,12 +59,12 @@ fn names_in_cache(listing: &str) -> HashSet<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::machine::scratch::Scratch;
 
     #[test]
     fn the_cache_lists_what_still_exists() {
-        let scratch = Scratch::new("cache");
-        let there = scratch.file("libthere.so.1", "");
+        let scratch = tempfile::tempdir().unwrap();
+        let there = scratch.path().join("libthere.so.1");
+        std::fs::write(&there, "").unwrap();
         let gone = scratch.path().join("libgone.so.1");
         let listing = format!(
             "2 libs found in cache `/etc/ld.so.cache'\n\tlibthere.so.1 (libc6,x86-64) => {}\n\tlibgone.so.1 (libc6) => {}\n",
@@ -76,8 +76,9 @@ mod tests {
 
     #[test]
     fn libraries_by_name_and_by_path() {
-        let scratch = Scratch::new("libraries");
-        let path = scratch.file("liba.so", "");
+        let scratch = tempfile::tempdir().unwrap();
+        let path = scratch.path().join("liba.so");
+        std::fs::write(&path, "").unwrap();
         let libraries = Libraries::in_folder(scratch.path());
         assert!(libraries.has("liba.so"));
         assert!(libraries.has(path.to_str().unwrap()));

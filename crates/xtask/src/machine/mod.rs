@@ -3,9 +3,6 @@
 pub(crate) mod display;
 pub(crate) mod driver;
 pub(crate) mod libraries;
-mod library_path;
 pub(crate) mod packages;
 pub(crate) mod programs;
-
-#[cfg(test)]
-pub(crate) mod scratch;
+pub(crate) mod screen;

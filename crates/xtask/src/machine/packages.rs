@@ -121,13 +121,13 @@ mod tests {
     #[test]
     fn apt_is_run_with_the_rights_there_are() {
         let [update, install] = apt(Rights::Root, &["a", "b"]);
-        assert_eq!(written(&update), "env DEBIAN_FRONTEND=noninteractive apt-get update");
+        assert_eq!(written(&update), "env 'DEBIAN_FRONTEND=noninteractive' apt-get update");
         assert_eq!(
             written(&install),
-            "env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends a b"
+            "env 'DEBIAN_FRONTEND=noninteractive' apt-get install -y --no-install-recommends a b"
         );
         let [update, _] = apt(Rights::Sudo, &["a"]);
-        assert_eq!(written(&update), "sudo -n env DEBIAN_FRONTEND=noninteractive apt-get update");
+        assert_eq!(written(&update), "sudo -n env 'DEBIAN_FRONTEND=noninteractive' apt-get update");
     }
 
     #[test]

@@ -1,22 +1,30 @@
 //! Machines made of empty files.
 
 use super::*;
-use crate::machine::scratch::Scratch;
+use std::fs;
+use tempfile::{TempDir, tempdir};
 
 /// Name and value.
 type Pair<'a> = (&'a str, &'a str);
 /// Case, drivers, devices, and the manifest or part of the problem.
 type Row<'a> = (&'a str, &'a [Pair<'a>], &'a [&'a str], Result<&'a str, &'a str>);
 
+/// Writes a file in the machine's folder, and makes the folders it is in.
+fn file(scratch: &TempDir, name: &str, text: &str) {
+    let path = scratch.path().join(name);
+    fs::create_dir_all(path.parent().unwrap()).unwrap();
+    fs::write(path, text).unwrap();
+}
+
 /// A machine with the loader and the named drivers, each `name: library_path`; `@` stands for the machine's folder.
-fn machine(scratch: &Scratch, drivers: &[Pair]) -> Drivers {
-    scratch.file("lib/libvulkan.so.1", "");
+fn machine(scratch: &TempDir, drivers: &[Pair]) -> Drivers {
+    file(scratch, "lib/libvulkan.so.1", "");
     for name in ["libvulkan_lvp.so", "libvulkan_intel.so", "libGLX_nvidia.so.0", "libvulkan_dzn.so"] {
-        scratch.file(&format!("lib/{name}"), "");
+        file(scratch, &format!("lib/{name}"), "");
     }
     for (name, library) in drivers {
         let library = library.replace('@', scratch.path().to_str().unwrap());
-        scratch.file(&format!("icd.d/{name}.json"), &format!(r#"{{"ICD": {{"library_path": "{library}"}}}}"#));
+        file(scratch, &format!("icd.d/{name}.json"), &format!(r#"{{"ICD": {{"library_path": "{library}"}}}}"#));
     }
     Drivers {
         libraries: Libraries::in_folder(&scratch.path().join("lib")),
@@ -44,10 +52,10 @@ fn drivers_need_their_library_and_their_device() {
         ("a manifest whose library is gone", &[("lvp_icd", "@/gone/lvp.so")], &[], Err("gone/lvp.so is missing")),
         ("none", &[], &["dri/renderD128"], Err("no driver is installed")),
     ];
-    for (index, (name, drivers, devices, expected)) in rows.into_iter().enumerate() {
-        let scratch = Scratch::new(&format!("driver-{index}"));
+    for (name, drivers, devices, expected) in rows {
+        let scratch = tempdir().unwrap();
         for device in devices {
-            scratch.file(&format!("dev/{device}"), "");
+            file(&scratch, &format!("dev/{device}"), "");
         }
         let machine = machine(&scratch, drivers);
         match (machine.usable(), expected) {
@@ -60,33 +68,34 @@ fn drivers_need_their_library_and_their_device() {
 
 #[test]
 fn drivers_need_the_loader() {
-    let scratch = Scratch::new("loader");
+    let scratch = tempdir().unwrap();
     let machine = machine(&scratch, &[("lvp", "libvulkan_lvp.so"), ("intel", "libvulkan_intel.so")]);
-    std::fs::remove_file(scratch.path().join("lib/libvulkan.so.1")).unwrap();
+    fs::remove_file(scratch.path().join("lib/libvulkan.so.1")).unwrap();
     let problem = machine.usable().unwrap_err();
     assert_eq!(problem.reasons, ["the loader libvulkan.so.1 is missing"]);
 }
 
 #[test]
 fn broken_manifests_are_told_of() {
-    let scratch = Scratch::new("broken");
-    scratch.file("icd.d/a.json", "{}");
-    scratch.file("icd.d/b.json", "");
+    let scratch = tempdir().unwrap();
+    file(&scratch, "icd.d/a.json", "{}");
+    file(&scratch, "icd.d/b.json", "");
     let problem = machine(&scratch, &[]).usable().unwrap_err();
     assert_eq!(problem.reasons.len(), 2, "{problem}");
-    assert!(problem.reasons.iter().all(|reason| reason.ends_with("names no library_path")), "{problem}");
+    assert!(problem.reasons[0].ends_with("a.json: names no library_path"), "{problem}");
+    assert!(problem.reasons[1].contains("b.json: not JSON: "), "{problem}");
 }
 
 #[test]
 fn manifests_are_where_the_loader_looks() {
-    let scratch = Scratch::new("manifests");
+    let scratch = tempdir().unwrap();
     let root = scratch.path().to_str().unwrap();
-    for file in ["home/.local/share/vulkan/icd.d/own.json", "data/vulkan/icd.d/b.json", "data/vulkan/icd.d/a.json"] {
-        scratch.file(file, "");
+    for name in ["home/.local/share/vulkan/icd.d/own.json", "data/vulkan/icd.d/b.json", "data/vulkan/icd.d/a.json"] {
+        file(&scratch, name, "");
     }
-    scratch.file("data/vulkan/icd.d/readme.txt", "");
-    scratch.file("given/x.json", "");
-    scratch.file("given/y.json", "");
+    file(&scratch, "data/vulkan/icd.d/readme.txt", "");
+    file(&scratch, "given/x.json", "");
+    file(&scratch, "given/y.json", "");
     // Without these, the folders of the machine that runs the test would be read too; /etc still is.
     let elsewhere = [("XDG_CONFIG_DIRS", "@/none"), ("XDG_DATA_DIRS", "@/data"), ("HOME", "@/home")];
     let usual: &[&str] =
