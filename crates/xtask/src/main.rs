@@ -1,6 +1,7 @@
 //! The project's chores: `cargo xtask --help` lists them.
 
 mod cargo;
+mod checks;
 mod chores;
 mod commands;
 mod failure;
@@ -69,7 +70,7 @@ mod tests {
             "test",
             "test --no-install",
             "check",
-            "check",
+            "check circles lengths",
             "docs --no-install",
             "chart --quick --no-install",
             "chart --scaling",
@@ -91,6 +92,7 @@ mod tests {
             ("demo --model", "'--model <FILE>'"),
             ("demo a.obj", "'a.obj'"),
             ("test --model a.obj", "'--model'"),
+            ("check circle", "'circle'"),
             ("fuzz --second 1", "'--second'"),
             ("fuzz --seconds", "'--seconds <N>'"),
             ("fuzz --seconds 0", "'0'"),

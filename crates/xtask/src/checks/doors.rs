@@ -1,0 +1,97 @@
+//! Doors: which room may import which.
+
+use std::path::Path;
+
+use super::metadata::{Package, packages};
+use super::none_of;
+use crate::failure::Result;
+
+/// A room, the rooms it may import, and the crates from outside that it must not know.
+struct Room {
+    name: &'static str,
+    imports: &'static [&'static str],
+    not: &'static [&'static str],
+}
+
+const fn room(name: &'static str, imports: &'static [&'static str], not: &'static [&'static str]) -> Room {
+    Room { name, imports, not }
+}
+
+const NO_GPU: &[&str] = &["wgpu", "naga", "winit"];
+const NO_WINDOW: &[&str] = &["winit"];
+/// The house, as docs/architecture.md tells it; `*` stands for every room further up in this table.
+const ROOMS: [Room; 12] = [
+    room("halfway_mesh", &[], NO_GPU),
+    room("halfway_texture", &[], NO_GPU),
+    room("halfway_lighting", &[], NO_GPU),
+    room("halfway_reference", &["halfway_mesh", "halfway_texture", "halfway_lighting"], NO_GPU),
+    room(
+        "halfway_raster",
+        &["halfway_lighting", "halfway_texture"],
+        &["wgpu", "naga", "winit", "bevy_ecs", "bevy_app"],
+    ),
+    room("halfway_render", &["halfway_mesh", "halfway_texture", "halfway_lighting", "halfway_raster"], NO_WINDOW),
+    room("halfway_window", &["halfway_render", "halfway_lighting"], &[]),
+    room("halfway_scene", &["halfway_mesh", "halfway_texture", "halfway_lighting"], NO_GPU),
+    room("halfway", &["*"], NO_WINDOW),
+    room("halfway_chart", &["*"], NO_WINDOW),
+    room("halfway_command", &["*"], NO_WINDOW),
+    room("xtask", &[], NO_GPU),
+];
+
+/// Looks at every manifest of the workspace in `root`.
+pub(crate) fn run(root: &Path) -> Result {
+    none_of(&faults(&packages(root)?))
+}
+
+fn faults(packages: &[Package]) -> Vec<String> {
+    packages.iter().flat_map(|package| forbidden(package)).collect()
+}
+
+fn forbidden(package: &Package) -> Vec<String> {
+    let name = &package.name;
+    let Some(place) = ROOMS.iter().position(|room| room.name == name) else {
+        return vec![format!("{name} is no room that the table of doors knows")];
+    };
+    let room = &ROOMS[place];
+    let below = |other: &str| ROOMS[..place].iter().any(|room| room.name == other);
+    let may = |other: &str| room.imports.contains(&other) || room.imports.contains(&"*") && below(other);
+    let inside = package.dependencies.iter().filter(|other| other.inside && !may(&other.name));
+    let outside = package.dependencies.iter().filter(|other| !other.inside && room.not.contains(&other.name.as_str()));
+    let inside = inside.map(|other| format!("{name} must not import {}", other.name));
+    inside.chain(outside.map(|other| format!("{name} must not know {}", other.name))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::checks::metadata::Dependency;
+
+    fn package(name: &str, inside: &[&str], outside: &[&str]) -> Package {
+        let dependency = |name: &&str, inside| Dependency { name: (*name).into(), inside, versions: "1".into() };
+        let inside = inside.iter().map(|name| dependency(name, true));
+        let dependencies = inside.chain(outside.iter().map(|name| dependency(name, false))).collect();
+        Package { name: name.into(), dependencies, ..Package::default() }
+    }
+
+    #[test]
+    fn doors_that_must_not_be_are_found() {
+        let rows: [(&str, &[&str], &[&str], Option<&str>); 10] = [
+            ("halfway_render", &["halfway_mesh", "halfway_lighting"], &["wgpu"], None),
+            ("halfway_render", &["halfway_reference"], &[], Some("halfway_render must not import halfway_reference")),
+            ("halfway_mesh", &["halfway_lighting"], &[], Some("halfway_mesh must not import halfway_lighting")),
+            ("halfway_mesh", &[], &["wgpu"], Some("halfway_mesh must not know wgpu")),
+            ("halfway_raster", &["halfway_lighting"], &["bevy_ecs"], Some("halfway_raster must not know bevy_ecs")),
+            ("halfway", &["halfway_scene", "halfway_window"], &[], None),
+            ("halfway", &["halfway_command"], &[], Some("halfway must not import halfway_command")),
+            ("halfway_command", &["halfway", "halfway_chart"], &["clap"], None),
+            ("xtask", &["halfway"], &[], Some("xtask must not import halfway")),
+            ("halfway_new", &[], &[], Some("halfway_new is no room")),
+        ];
+        for (name, inside, outside, expected) in rows {
+            let found = faults(&[package(name, inside, outside)]);
+            assert_eq!(found.len(), usize::from(expected.is_some()), "{name}: {found:?}");
+            assert!(found.iter().all(|fault| fault.starts_with(expected.unwrap_or_default())), "{found:?}");
+        }
+    }
+}

@@ -1,0 +1,18 @@
+//! The rules of this house that no other tool keeps: one file a rule.
+
+pub(crate) mod circles;
+pub(crate) mod commits;
+pub(crate) mod doors;
+pub(crate) mod lengths;
+mod metadata;
+pub(crate) mod msrv;
+pub(crate) mod names;
+pub(crate) mod package;
+mod source;
+
+use crate::failure::{Failure, Result};
+
+/// What a check of this house ends with: the faults that it found, a line or more each.
+fn none_of(faults: &[String]) -> Result {
+    if faults.is_empty() { Ok(()) } else { Err(Failure::new(format!("\n    {}", faults.join("\n    ")))) }
+}
