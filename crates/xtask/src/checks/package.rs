@@ -29,7 +29,9 @@ pub(crate) fn run(root: &Path) -> Result {
     if folder.exists() {
         fs::remove_dir_all(&folder).map_err(failed(&folder))?;
     }
-    let mut package = cargo(["package", "--quiet", "--no-verify", "--allow-dirty", "--target-dir", FOLDER]);
+    // A lock file would need the packages themselves to be found in a registry.
+    let mut package = cargo(["package", "--quiet", "--no-verify", "--allow-dirty", "--exclude-lockfile"]);
+    package.args(["--target-dir", FOLDER]);
     package.args(wanted.iter().flat_map(|wanted| ["-p", &wanted.name]));
     step("making packages", package.current_dir(root))?;
     let unpacked = unpack(&folder)?;
