@@ -1,8 +1,8 @@
 //! No circle of files: what one file takes from another, the other takes nothing of it, on whatever way round.
 //!
 //! A file takes from another what it names of it, by `use` or by a path; where the name is re-exported on the way, the
-//! file that defines it counts. To declare a module or to hand a name on is to take nothing. Nor is what a module takes of
-//! its own children counted: they are parts of it, and may know it.
+//! file that defines it counts. To declare a module or to hand a name on is to take nothing. What a module
+//! takes of its own children is not counted either: they are parts of it, and may know it.
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::path::{Path, PathBuf};
@@ -116,13 +116,12 @@ fn described(ties: &Ties, circle: &[PathBuf], tied: &BTreeSet<PathBuf>, root: &P
         format!("      {} takes {} from {}", short(&step[0]), names.join(", "), short(&step[1]))
     });
     let steps: Vec<String> = steps.collect();
-    let mut text = format!("{} files in a circle:\n{}", circle.len() - 1, steps.join("\n"));
-    if tied.len() > circle.len() - 1 {
-        let all: Vec<String> = tied.iter().map(|file| short(file)).collect();
-        text +=
-            &format!("\n      which is the shortest of the circles that tie {} files: {}", tied.len(), all.join(", "));
+    let text = format!("{} files in a circle:\n{}", steps.len(), steps.join("\n"));
+    if tied.len() == steps.len() {
+        return text;
     }
-    text
+    let all: Vec<String> = tied.iter().map(|file| short(file)).collect();
+    format!("{text}\n      which is the shortest of the circles that tie {} files: {}", all.len(), all.join(", "))
 }
 
 #[cfg(test)]
@@ -144,9 +143,8 @@ mod tests {
             ("b.rs", "pub struct Beta; fn f() { assert!(super::c::gamma()) }"),
             ("c.rs", "pub fn gamma() -> bool { let _ = |_: crate::a::Alpha| (); true }"),
         ];
-        let expected = "3 files in a circle:\n      a.rs takes Beta from b.rs\n      b.rs takes gamma from c.rs\n      c.rs \
-                        takes Alpha from a.rs";
-        assert_eq!(found(&files), [expected]);
+        let steps = ["a.rs takes Beta from b.rs", "b.rs takes gamma from c.rs", "c.rs takes Alpha from a.rs"];
+        assert_eq!(found(&files), [format!("3 files in a circle:\n      {}", steps.join("\n      "))]);
     }
 
     #[test]

@@ -8,20 +8,18 @@ use crate::cargo::{ended, not_started};
 use crate::failure::Result;
 
 const MOST: usize = 72;
-/// The newest commit from before the rule, and when it was made: where a clone does not reach back to it, the time tells.
+/// The newest commit from before the rule, and its time, which tells where a clone does not reach back to it.
 const BEFORE: (&str, &str) = ("4f2bd24", "2026-11-21T18:43:11Z");
 /// How far to look back.
 const COMMITS: &str = "--max-count=200";
 
 /// Looks at the newest commits of the clone in `root`; at none where it is no clone.
 pub(crate) fn run(root: &Path) -> Result {
-    match subjects(root)? {
-        Some(log) => none_of(&faults(&log)),
-        None => {
-            eprintln!("   no git history here: nothing to look at");
-            Ok(())
-        }
-    }
+    let Some(log) = subjects(root)? else {
+        eprintln!("   no git history here: nothing to look at");
+        return Ok(());
+    };
+    none_of(&faults(&log))
 }
 
 /// A line for each commit, its short hash and its subject; nothing without git or a history.

@@ -166,6 +166,8 @@ mod tests {
         fs::write(package.join("LICENSE-MIT"), "").unwrap();
         fs::write(package.join("README.md"), "").unwrap();
         assert_eq!(missing(&package), ["a-0.1.0: the package has no LICENSE-APACHE"]);
-        assert!(manifest(&[package.clone()]).contains(&format!("\na = {{ path = '{}' }}\n", package.display())));
+        assert!(
+            manifest(std::slice::from_ref(&package)).contains(&format!("\na = {{ path = '{}' }}\n", package.display()))
+        );
     }
 }

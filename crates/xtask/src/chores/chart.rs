@@ -1,12 +1,11 @@
 //! `cargo xtask chart`.
 
-use std::process::Command;
-
 use clap::Args;
 
-use crate::cargo::{cargo, root, step};
+use super::program;
+use crate::cargo::root;
 use crate::failure::Result;
-use crate::setup::{DRIVER, Setup, adapters};
+use crate::setup::Setup;
 
 /// Where the page goes.
 const FOLDER: &str = "out/chart";
@@ -35,45 +34,36 @@ pub(crate) struct Options {
 /// Sets up, builds, measures and writes the page.
 pub(crate) fn run(options: &Options) -> Result {
     let &Options { setup, quick, scaling } = options;
-    setup.meet(&[DRIVER])?;
-    step("build", &mut cargo(["build", "--release", "-p", "halfway_command", "-p", "halfway_chart", "--bins"]))?;
-    adapters(setup)?;
-    step("measuring", &mut measuring(quick, scaling))?;
+    program::run("measuring", setup, &["-p", "halfway_chart"], arguments(quick, scaling))?;
     let page = if scaling { "scaling.html" } else { "index.html" };
     eprintln!("\nthe charts: {}", root().join(FOLDER).join(page).display());
     Ok(())
 }
 
-fn measuring(quick: bool, scaling: bool) -> Command {
-    let mut command = cargo(["run", "--release", "--quiet", "-p", "halfway_chart", "--", "--output", FOLDER]);
-    if quick {
-        command.arg("--quick");
-    }
-    if scaling {
-        command.arg("--scaling");
-    }
+fn arguments(quick: bool, scaling: bool) -> Vec<&'static str> {
+    let mut arguments = vec!["--output", FOLDER];
+    arguments.extend(quick.then_some("--quick"));
+    arguments.extend(scaling.then_some("--scaling"));
     if !quick && !scaling {
-        command.args(["--small-chart", PICTURE]);
+        arguments.extend(["--small-chart", PICTURE]);
     }
-    command
+    arguments
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cargo::written;
 
     #[test]
     fn quick_runs_leave_the_documentation_alone() {
-        let start = "cargo run --release --quiet -p halfway_chart -- --output out/chart";
-        for (quick, scaling, end) in
-            [(true, false, "--quick"), (false, true, "--scaling"), (true, true, "--quick --scaling")]
-        {
-            assert!(written(&measuring(quick, scaling)).ends_with(&format!("{} {end}", &start[5..])));
+        let rows = [
+            (true, false, "--quick"),
+            (false, true, "--scaling"),
+            (true, true, "--quick --scaling"),
+            (false, false, "--small-chart docs/pictures/chart.svg"),
+        ];
+        for (quick, scaling, end) in rows {
+            assert_eq!(arguments(quick, scaling).join(" "), format!("--output out/chart {end}"));
         }
-        assert!(
-            written(&measuring(false, false))
-                .ends_with(&format!("{} --small-chart docs/pictures/chart.svg", &start[5..]))
-        );
     }
 }

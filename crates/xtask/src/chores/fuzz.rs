@@ -24,7 +24,7 @@ const TEST: &str = "cargo test -p halfway_mesh --test past_failures";
 /// Feed the readers of model files what a fuzzer makes up, and see that they bear it
 ///
 /// Nothing may panic, overflow, hang, or take memory out of proportion, and what is read must be sound. A target for
-/// each format, one for material libraries (mtl) and one for the parts of binary glTF (glb_chunks). Prints how often
+/// each format, one for material libraries (mtl) and one for the parts of binary glTF (`glb_chunks`). Prints how often
 /// each was run; a failing input is kept, and how to try it again and where to put it as a test is printed.
 /// cargo-fuzz and a C++ compiler are installed first where they are missing.
 #[derive(Args, Debug)]
@@ -90,7 +90,8 @@ fn have_cargo_fuzz(setup: Setup) -> Result {
         return step("installing cargo-fuzz", &mut install);
     }
     Err(Failure::new(format!(
-        "missing: cargo-fuzz\nNothing was installed: --no-install was given. Install it yourself, and try again:\n\n    {}",
+        "missing: cargo-fuzz\nNothing was installed: --no-install was given. Install it yourself, and try again:\n\n    \
+         {}",
         written(&install)
     )))
 }

@@ -50,7 +50,9 @@ pub(crate) fn run(options: &Options) -> Result {
     let page = &options.page;
     let commands = ways(commands::of_page(&root(), page)?).map_err(|problem| problem.on(page))?;
     if options.list {
-        commands.iter().for_each(|(shown, way)| println!("{:9} {}", format!("{way:?}"), shown.words.join(" ")));
+        for (shown, way) in &commands {
+            println!("{:9} {}", format!("{way:?}"), shown.words.join(" "));
+        }
         return Ok(());
     }
     options.setup.meet(&[DRIVER])?;
