@@ -27,6 +27,7 @@
 //! }
 //! ```
 
+mod display;
 mod error;
 mod input;
 mod keys;
@@ -40,10 +41,11 @@ mod short_numbers;
 mod title;
 mod viewer_keys;
 
+pub use display::has_display;
 pub use open::WinitWindow;
 pub use orbit::{Orbit, PITCH_LIMIT};
 pub use orbit_camera::{DragArea, OrbitCamera, OrbitCameraPlugin};
-pub use plugin::{WindowPlugin, has_display};
+pub use plugin::WindowPlugin;
 pub use title::{FrameTime, WindowTitle};
 pub use viewer_keys::ViewerKeysPlugin;
 /// The winit that opens the window.

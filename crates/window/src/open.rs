@@ -3,7 +3,6 @@
 use crate::error::{WindowError, reason};
 use crate::input::Forward;
 use crate::orbit_camera::DragArea;
-use crate::plugin::WindowPlugin;
 use bevy_ecs::prelude::*;
 use bevy_math::{UVec2, Vec2};
 use halfway_render::{Gpu, SurfaceLost, SurfaceTarget, wgpu};
@@ -13,7 +12,7 @@ use winit::dpi::LogicalSize;
 use winit::event_loop::ActiveEventLoop;
 use winit::window::Window;
 
-/// The open window, on an entity of its own while [`WindowPlugin`]'s runner runs; for what the
+/// The open window, on an entity of its own while [`WindowPlugin`](crate::WindowPlugin)'s runner runs; for what the
 /// plugin leaves to you, as full screen or the pointer's shape.
 #[derive(Component, Clone, Debug)]
 pub struct WinitWindow(pub Arc<Window>);
@@ -33,12 +32,13 @@ impl Open {
     /// Opens a window, an adapter that can draw in it and its surface, and puts them into `world`.
     pub(crate) fn new(
         event_loop: &ActiveEventLoop,
-        settings: &WindowPlugin,
+        title: &str,
+        size: UVec2,
         world: &mut World,
     ) -> Result<Self, WindowError> {
-        let UVec2 { x: width, y: height } = settings.size.max(UVec2::ONE);
+        let UVec2 { x: width, y: height } = size.max(UVec2::ONE);
         let attributes =
-            Window::default_attributes().with_title(&settings.title).with_inner_size(LogicalSize::new(width, height));
+            Window::default_attributes().with_title(title).with_inner_size(LogicalSize::new(width, height));
         let window = event_loop.create_window(attributes).map_err(|error| WindowError::Window {
             width,
             height,

@@ -2,7 +2,7 @@
 
 use crate::open::WinitWindow;
 use crate::orbit_camera::{OrbitCamera, OrbitCameraPlugin};
-use crate::runner;
+use crate::runner::{self, Settings};
 use crate::title::{FrameTime, WindowTitle};
 use crate::viewer_keys::ViewerKeysPlugin;
 use bevy_app::{App, Plugin, PostUpdate, PreUpdate};
@@ -73,7 +73,7 @@ impl Plugin for WindowPlugin {
         if self.status {
             app.init_resource::<GpuTimer>();
         }
-        let settings = self.clone();
+        let settings = Settings { title: self.title.clone(), size: self.size, status: self.status };
         app.set_runner(move |app| runner::run(app, settings));
     }
 
@@ -83,17 +83,6 @@ impl Plugin for WindowPlugin {
         let schedule = renderer.unwrap_or(PostUpdate.intern());
         app.add_systems(schedule, announce.after(RenderSet::Draw).before(RenderSet::Deliver));
     }
-}
-
-/// Whether the environment names a display to open a window on. True where displays have no names
-/// (macOS, Windows); whether the named one answers shows only when a window is opened.
-pub fn has_display() -> bool {
-    names_display(|variable| std::env::var_os(variable).is_some_and(|value| !value.is_empty()))
-}
-
-fn names_display(is_set: impl Fn(&str) -> bool) -> bool {
-    let named = cfg!(all(unix, not(any(target_vendor = "apple", target_os = "android"))));
-    !named || ["WAYLAND_DISPLAY", "WAYLAND_SOCKET", "DISPLAY"].into_iter().any(is_set)
 }
 
 type NewCameras<'w, 's> =
@@ -125,23 +114,6 @@ fn announce(window: Query<&WinitWindow>, surface: Option<Res<SurfaceTarget>>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn displays_are_named_by_the_environment() {
-        if !cfg!(target_os = "linux") {
-            return;
-        }
-        let rows = [
-            (&[][..], false),
-            (&["DISPLAY"], true),
-            (&["WAYLAND_DISPLAY"], true),
-            (&["WAYLAND_SOCKET"], true),
-            (&["HOME"], false),
-        ];
-        for (set, expected) in rows {
-            assert_eq!(names_display(|variable| set.contains(&variable)), expected, "{set:?}");
-        }
-    }
 
     #[test]
     fn cameras_turn_about_what_they_look_at() {

@@ -1,11 +1,12 @@
 //! The event loop: one update of the App a redraw.
 
+use crate::display::has_display;
 use crate::error::{WindowError, reason};
 use crate::open::Open;
-use crate::plugin::{WindowPlugin, has_display};
 use crate::problems::{Said, say};
 use crate::title::{FrameTime, title};
 use bevy_app::{App, AppExit, PluginsState};
+use bevy_math::UVec2;
 use halfway_render::FrameReport;
 use std::time::{Duration, Instant};
 use winit::application::ApplicationHandler;
@@ -19,8 +20,17 @@ const SELDOM: Duration = Duration::from_millis(250);
 /// Between titles: long enough to read one.
 const TITLE: Duration = Duration::from_millis(500);
 
+/// What the window is to be, from the plugin.
+pub(crate) struct Settings {
+    pub(crate) title: String,
+    /// In logical pixels.
+    pub(crate) size: UVec2,
+    /// Whether the title shows counters.
+    pub(crate) status: bool,
+}
+
 /// Runs `app` in a window until it is closed.
-pub(crate) fn run(mut app: App, settings: WindowPlugin) -> AppExit {
+pub(crate) fn run(mut app: App, settings: Settings) -> AppExit {
     let event_loop = match open_display() {
         Ok(event_loop) => event_loop,
         Err(error) => return failed(&error),
@@ -58,7 +68,7 @@ fn finish_plugins(app: &mut App) {
 /// The App, its window and what was last said about them.
 struct Runner {
     app: App,
-    settings: WindowPlugin,
+    settings: Settings,
     open: Option<Open>,
     /// The window system says that nothing of the window can be seen.
     covered: bool,
@@ -75,7 +85,7 @@ struct Runner {
 }
 
 impl Runner {
-    fn new(app: App, settings: WindowPlugin) -> Self {
+    fn new(app: App, settings: Settings) -> Self {
         Self {
             app,
             open: None,
@@ -209,7 +219,7 @@ impl ApplicationHandler for Runner {
         if self.open.is_some() {
             return;
         }
-        match Open::new(event_loop, &self.settings, self.app.world_mut()) {
+        match Open::new(event_loop, &self.settings.title, self.settings.size, self.app.world_mut()) {
             Ok(open) => self.open = Some(open),
             Err(error) => return self.end(event_loop, failed(&error)),
         }
