@@ -9,8 +9,10 @@ use super::source::Crate;
 use crate::failure::Result;
 
 /// Names that mean the same wherever they stand, each with its reason.
-const ALLOWED: [(&str, &str); 1] =
-    [("Options", "what one chore of xtask is given; always written with its chore, `demo::Options`")];
+const ALLOWED: [(&str, &str); 2] = [
+    ("Failure", "what a program prints and its exit code: the command's and the chores'"),
+    ("Options", "what one chore of xtask is given; always written with its chore, `demo::Options`"),
+];
 
 /// For each name, where it is defined, as `file:line`.
 type Places = BTreeMap<String, BTreeSet<String>>;
