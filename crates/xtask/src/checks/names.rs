@@ -1,6 +1,6 @@
 //! One type name for one thing: no two types of the house that others can see share a name.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::metadata::packages;
@@ -14,8 +14,8 @@ const ALLOWED: [(&str, &str); 2] = [
     ("Options", "what one chore of xtask is given; always written with its chore, `demo::Options`"),
 ];
 
-/// For each name, where it is defined, as `file:line`.
-type Places = BTreeMap<String, BTreeSet<String>>;
+/// For each name, the files that define it, once for each time.
+type Places = BTreeMap<String, Vec<String>>;
 
 /// Looks through every crate of the workspace in `root`.
 pub(crate) fn run(root: &Path) -> Result {
@@ -31,8 +31,8 @@ pub(crate) fn run(root: &Path) -> Result {
 fn collect(krate: &Crate, root: &Path, places: &mut Places) {
     for module in &krate.modules {
         let file = module.file.strip_prefix(root).unwrap_or(&module.file).display();
-        for (name, line) in &module.types {
-            places.entry(name.clone()).or_default().insert(format!("{file}:{line}"));
+        for name in &module.types {
+            places.entry(name.clone()).or_default().push(file.to_string());
         }
     }
 }
@@ -40,12 +40,8 @@ fn collect(krate: &Crate, root: &Path, places: &mut Places) {
 fn repeated(places: &Places, allowed: &[(&str, &str)]) -> Vec<String> {
     let is_allowed = |name: &str| allowed.iter().any(|(other, _)| *other == name);
     let more = places.iter().filter(|(name, places)| places.len() > 1 && !is_allowed(name));
-    let mut faults: Vec<String> = more
-        .map(|(name, places)| {
-            let list: Vec<&str> = places.iter().map(String::as_str).collect();
-            format!("{name} ×{}: {}", list.len(), list.join(", "))
-        })
-        .collect();
+    let mut faults: Vec<String> =
+        more.map(|(name, places)| format!("{name} ×{}: {}", places.len(), places.join(", "))).collect();
     let once = |name: &str| places.get(name).is_none_or(|places| places.len() < 2);
     let idle = allowed.iter().filter(|(name, _)| once(name));
     faults.extend(idle.map(|(name, _)| format!("{name} may repeat, but does not: take it from the list")));
@@ -66,7 +62,7 @@ mod tests {
         ]);
         let mut places = Places::new();
         collect(&krate, folder.path(), &mut places);
-        assert_eq!(repeated(&places, &[("Allowed", "a test")]), ["Plan ×2: a.rs:1, b.rs:3"]);
+        assert_eq!(repeated(&places, &[("Allowed", "a test")]), ["Plan ×2: a.rs, b.rs"]);
         let idle = repeated(&places, &[("Allowed", "a test"), ("Plan", "a test"), ("Once", "a test")]);
         assert_eq!(idle, ["Once may repeat, but does not: take it from the list"]);
     }

@@ -7,8 +7,7 @@ use std::path::{Path, PathBuf};
 
 use proc_macro2::{TokenStream, TokenTree};
 use quote::ToTokens;
-use syn::visit_mut::VisitMut;
-use syn::{Attribute, Item, Meta, UseTree, Visibility};
+use syn::{Attribute, ImplItem, Item, Meta, UseTree, Visibility};
 
 use crate::failure::{Failure, Result};
 
@@ -28,8 +27,8 @@ pub(crate) struct Module {
     pub(crate) imports: Vec<Import>,
     /// The names of its items, re-exports left out.
     defines: HashSet<String>,
-    /// Its structs, enums, unions and traits that more than this module can see, each with its line.
-    pub(crate) types: Vec<(String, usize)>,
+    /// Its structs, enums, unions and traits that more than this module can see.
+    pub(crate) types: Vec<String>,
     /// The paths of two names and more in its items, imports left out.
     pub(crate) paths: Vec<Vec<String>>,
     /// Every name that occurs in its items.
@@ -70,15 +69,14 @@ impl Crate {
     fn file(&mut self, file: &Path, folder: &Path, parent: usize) -> Result<usize> {
         let failed = |error: &dyn std::fmt::Display| Failure::new(format!("{}: {error}", file.display()));
         let text = std::fs::read_to_string(file).map_err(|error| failed(&error))?;
-        let mut syntax = syn::parse_file(&text).map_err(|error| failed(&error))?;
-        WithoutTests.visit_file_mut(&mut syntax);
+        let syntax = syn::parse_file(&text).map_err(|error| failed(&error))?;
         self.module(file, folder, parent, syntax.items)
     }
 
     fn module(&mut self, file: &Path, folder: &Path, parent: usize, items: Vec<Item>) -> Result<usize> {
         let index = self.modules.len();
         self.modules.push(Module { file: file.to_owned(), parent, ..Module::default() });
-        for item in items {
+        for item in items.into_iter().filter(|item| !for_tests(attributes(item))) {
             match item {
                 Item::Mod(item) => {
                     let name = plain(&item.ident);
@@ -99,6 +97,10 @@ impl Crate {
                 Item::Use(item) => {
                     let handed_on = !matches!(item.vis, Visibility::Inherited);
                     imports(&item.tree, &mut Vec::new(), handed_on, &mut self.modules[index].imports);
+                }
+                Item::Impl(mut item) => {
+                    item.items.retain(|item| !matches!(item, ImplItem::Fn(item) if for_tests(&item.attrs)));
+                    self.modules[index].scan(item.to_token_stream());
                 }
                 item => self.modules[index].take(&item),
             }
@@ -168,7 +170,7 @@ impl Crate {
 }
 
 impl Module {
-    /// Takes in an item other than `mod` and `use`.
+    /// Takes in an item other than `mod`, `use` and `impl`.
     fn take(&mut self, item: &Item) {
         let (name, visible) = match item {
             Item::Struct(item) => (Some(&item.ident), Some(&item.vis)),
@@ -186,7 +188,7 @@ impl Module {
         if let Some(name) = name {
             self.defines.insert(plain(name));
             if visible.is_some_and(|visible| !matches!(visible, Visibility::Inherited)) {
-                self.types.push((plain(name), name.span().start().line));
+                self.types.push(plain(name));
             }
         }
         self.scan(item.to_token_stream());
@@ -270,34 +272,6 @@ fn imports(tree: &UseTree, path: &mut Vec<String>, handed_on: bool, all: &mut Ve
 
 fn joined(path: &[String], name: String) -> Vec<String> {
     path.iter().cloned().chain([name]).collect()
-}
-
-/// Takes away what is compiled for tests only.
-struct WithoutTests;
-
-impl VisitMut for WithoutTests {
-    fn visit_file_mut(&mut self, file: &mut syn::File) {
-        file.items.retain(|item| !for_tests(attributes(item)));
-        syn::visit_mut::visit_file_mut(self, file);
-    }
-
-    fn visit_item_mod_mut(&mut self, module: &mut syn::ItemMod) {
-        if let Some((_, items)) = &mut module.content {
-            items.retain(|item| !for_tests(attributes(item)));
-        }
-        syn::visit_mut::visit_item_mod_mut(self, module);
-    }
-
-    fn visit_item_impl_mut(&mut self, item: &mut syn::ItemImpl) {
-        item.items.retain(|item| {
-            !for_tests(match item {
-                syn::ImplItem::Fn(item) => &item.attrs,
-                syn::ImplItem::Const(item) => &item.attrs,
-                syn::ImplItem::Type(item) => &item.attrs,
-                _ => &[],
-            })
-        });
-    }
 }
 
 fn attributes(item: &Item) -> &[Attribute] {
