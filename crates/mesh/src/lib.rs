@@ -24,6 +24,7 @@
 //! ```
 
 mod bounds;
+mod classes;
 mod component;
 mod displace;
 mod edges;

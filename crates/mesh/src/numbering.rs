@@ -1,8 +1,9 @@
 //! Equal things get equal numbers.
 
-use std::hash::{BuildHasher, RandomState};
+use std::hash::BuildHasher;
 
 use bevy_math::Vec3;
+use hashbrown::{DefaultHashBuilder, HashTable};
 
 /// The numbers of a list of things: equal ones have the same, counted from 0 in the order in which they first come.
 pub(crate) struct Numbering {
@@ -12,35 +13,19 @@ pub(crate) struct Numbering {
     pub(crate) firsts: Vec<u32>,
 }
 
-/// A place of the table that holds no number.
-const FREE: u32 = u32::MAX;
-
 impl Numbering {
-    /// Numbers `count` things, at most 2³² − 1, by their keys.
+    /// Numbers `count` things, at most 2³² − 1, by their keys. Keys are asked for again, not kept.
     pub(crate) fn new<const N: usize>(count: usize, key: impl Fn(usize) -> [u32; N]) -> Self {
-        // An open table at most half full, which grows with what it holds: corners are many more than their vertices. Its
-        // seed is drawn anew each run, so that no file can be made to collide; the numbers do not depend on it.
-        let seed = RandomState::new().hash_one(0);
-        let mut table = vec![FREE; 64];
+        let mut table = Table::default();
         let mut firsts: Vec<u32> = Vec::new();
         let mut numbers = Vec::with_capacity(count);
         for thing in 0..count {
-            if 2 * firsts.len() >= table.len() {
-                table = vec![FREE; 2 * table.len()];
-                for (number, &first) in firsts.iter().enumerate() {
-                    let free = places(&table, hash(seed, key(first as usize))).find(|&place| table[place] == FREE);
-                    table[free.expect("half of the places are free")] = number as u32;
-                }
-            }
-            let this = key(thing);
-            let is_its = |number: u32| number == FREE || key(firsts[number as usize] as usize) == this;
-            let place = places(&table, hash(seed, this)).find(|&place| is_its(table[place]));
-            let place = place.expect("half of the places are free");
-            if table[place] == FREE {
-                table[place] = firsts.len() as u32;
+            let next = firsts.len() as u32;
+            let number = table.number(next, key(thing), |number| key(firsts[number as usize] as usize));
+            if number == next {
                 firsts.push(thing as u32);
             }
-            numbers.push(table[place]);
+            numbers.push(number);
         }
         Self { numbers, firsts }
     }
@@ -61,23 +46,53 @@ impl Numbering {
     }
 }
 
-/// The places of a table, a power of two of them, in the order in which a hash looks at them.
-fn places(table: &[u32], hash: u64) -> impl Iterator<Item = usize> + use<> {
-    let mask = table.len() - 1;
-    (0..=mask).map(move |step| (hash as usize).wrapping_add(step) & mask)
+/// Distinct keys that come one by one, numbered from 0 in the order in which they first come: the corners of a file of
+/// any length, of which only the distinct ones are kept.
+#[derive(Default)]
+pub(crate) struct DistinctKeys {
+    /// The key of each number.
+    keys: Vec<[u32; 3]>,
+    table: Table,
+}
+
+impl DistinctKeys {
+    /// The number of a key. There are fewer than 2³² of them, since each takes bytes of the file.
+    pub(crate) fn number(&mut self, key: [u32; 3]) -> u32 {
+        let Self { keys, table } = self;
+        let next = keys.len() as u32;
+        let number = table.number(next, key, |number| keys[number as usize]);
+        if number == next {
+            keys.push(key);
+        }
+        number
+    }
+
+    /// The key of each number.
+    pub(crate) fn into_keys(self) -> Vec<[u32; 3]> {
+        self.keys
+    }
+}
+
+/// The numbers of keys, found by the keys, which lie elsewhere. The hashes are seeded anew each run, so that no file can
+/// be made to collide; the numbers do not depend on it.
+#[derive(Default)]
+struct Table {
+    numbers: HashTable<u32>,
+    hasher: DefaultHashBuilder,
+}
+
+impl Table {
+    /// The number of a key, which is `next` where the key is not there yet; `key_of` gives the keys of those that are.
+    fn number<const N: usize>(&mut self, next: u32, key: [u32; N], key_of: impl Fn(u32) -> [u32; N]) -> u32 {
+        let Self { numbers, hasher } = self;
+        let hash = |key: [u32; N]| hasher.hash_one(key);
+        *numbers.entry(hash(key), |&number| key_of(number) == key, |&number| hash(key_of(number))).or_insert(next).get()
+    }
 }
 
 /// The bits of a position, after −0 has become 0.
 pub(crate) fn position_key(p: Vec3) -> [u32; 3] {
     (p + Vec3::ZERO).to_array().map(f32::to_bits)
-}
-
-/// Folded multiplication, word by word: every bit of the key reaches the low bits that choose the place.
-pub(crate) fn hash<const N: usize>(seed: u64, key: [u32; N]) -> u64 {
-    key.iter().fold(seed, |hash, &word| {
-        let wide = u128::from(hash ^ u64::from(word)) * 0x9e37_79b9_7f4a_7c15;
-        wide as u64 ^ (wide >> 64) as u64
-    })
 }
 
 #[cfg(test)]
@@ -91,6 +106,17 @@ mod tests {
         assert_eq!(numbering.numbers, [0, 1, 0, 2, 1, 0]);
         assert_eq!(numbering.firsts, [0, 1, 3]);
         assert_eq!(Numbering::new(0, |_| [0]).count(), 0);
+    }
+
+    #[test]
+    fn keys_that_come_one_by_one_are_numbered_alike() {
+        let key = |i: u32| [i, i / 7, i.wrapping_mul(1 << 20)];
+        let mut distinct = DistinctKeys::default();
+        for i in 0..5000 {
+            assert_eq!(distinct.number(key(i)), i);
+            assert_eq!(distinct.number(key(i / 2)), i / 2);
+        }
+        assert_eq!(distinct.into_keys().len(), 5000);
     }
 
     #[test]

@@ -112,7 +112,7 @@ impl Mesh {
             fans.join(&edges, a, b);
         }
         fans.adopt_degenerate(&edges, &unsettled_face_normals(self.positions(), self.indices()));
-        let (classes, count) = fans.classes();
+        let (classes, count) = fans.numbers();
         split_normals(self, &classes, count, NormalWeighting::default()).0
     }
 }

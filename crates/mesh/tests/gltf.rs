@@ -270,7 +270,7 @@ fn what_is_skipped_is_said() {
     let json = with(&[
         (
             "{\"version\":\"2.0\"}",
-            "{\"version\":\"2.0\"},\"extensionsUsed\":[\"KHR_materials_unlit\"],\"cameras\":[{\"type\":\"orthographic\",\"orthographic\":{\"xmag\":1,\"ymag\":1,\"zfar\":10,\"znear\":0}}]",
+            "{\"version\":\"2.0\"},\"extensionsUsed\":[\"KHR_materials_unlit\",\"KHR_texture_transform\"],\"cameras\":[{\"type\":\"orthographic\",\"orthographic\":{\"xmag\":1,\"ymag\":1,\"zfar\":10,\"znear\":0}}]",
         ),
         ("\"scenes\":[{\"nodes\":[0]}]", "\"scenes\":[{\"nodes\":[0]},{\"nodes\":[]}]"),
         // Attributes of the application's own pass.
@@ -280,10 +280,28 @@ fn what_is_skipped_is_said() {
         load_glb(&json, &triangle_data()).unwrap().warnings,
         [
             "the extension KHR_materials_unlit is skipped",
+            "the extension KHR_texture_transform is skipped",
             "only the default scene of 2 is read",
             "the morph targets of 1 primitives are skipped",
         ]
     );
+}
+
+#[test]
+fn matrices_may_be_off_by_rounding() {
+    let node = "{\"name\":\"node\",\"mesh\":0,\"translation\":[0,0,5]}";
+    let of = |last: &str| format!("{{\"mesh\":0,\"matrix\":[2,0,0,0, 0,2,0,0, 0,0,2,0, 1,2,3,{last}]}}");
+    let file = |nodes: &str, roots: &str| with(&[(node, nodes), ("{\"nodes\":[0]}", roots)]);
+    let two = format!("{},{}", of("0.99999994"), of("1.000001"));
+    let model = load_glb(&file(&two, "{\"nodes\":[0,1]}"), &triangle_data()).unwrap();
+    assert_eq!(
+        model.warnings,
+        ["nodes[0].matrix: last row [0.0, 0.0, 0.0, 0.99999994] is taken for 0, 0, 0, 1 (and 1 more such matrices)"]
+    );
+    let expected = Mat4::from_translation(Vec3::new(1.0, 2.0, 3.0)) * Mat4::from_scale(Vec3::splat(2.0));
+    assert!(model.parts.iter().all(|part| part.world_from_part == expected));
+    let error = load_glb(&file(&of("0.9999"), "{\"nodes\":[0]}"), &triangle_data()).unwrap_err().to_string();
+    assert!(error.ends_with("nodes[0].matrix: last row [0.0, 0.0, 0.0, 0.9999]; 0, 0, 0, 1 is expected"), "{error}");
 }
 
 #[test]
@@ -367,7 +385,7 @@ const F32: u32 = 5126;
 
 #[test]
 fn attributes_may_be_quantised() {
-    const EXTENSION: &str = "\"extensionsUsed\":[\"KHR_mesh_quantization\"],\"extensionsRequired\":[\"KHR_mesh_quantization\",\"KHR_texture_transform\"],";
+    const EXTENSION: &str = "\"extensionsUsed\":[\"KHR_mesh_quantization\"],\"extensionsRequired\":[\"KHR_mesh_quantization\"],";
     let words = |numbers: &[i16]| -> Vec<u8> { numbers.iter().flat_map(|x| x.to_le_bytes()).collect() };
     let positions = words(&[0, 0, 0, 0, 7, 0, 0, 0, 0, -9, 0, 0]);
     let model = attributes(

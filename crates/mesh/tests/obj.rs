@@ -34,6 +34,9 @@ fn the_forms_of_faces() {
         ("continued", "f 1 2 \\\n 3 4", 2, false),
         ("comment that ends in a backslash", "# C:\\\nf 1 2 3", 1, false),
         ("white space", " f\t1  2 3 \r", 1, false),
+        ("nothing after two slashes", "f 1// 2// 3//", 1, false),
+        ("nothing after one slash", "f 1/ 2/ 3/", 1, false),
+        ("nothing after the last slash", "f 1/1/ 2/2/ 3/1/", 1, true),
     ];
     for (name, face, triangles, uvs) in rows {
         let model = load_text(&format!("{with_rest}{face}\n"));
@@ -114,7 +117,7 @@ fn libraries_are_found_by_names_with_spaces_and_by_several_names() {
 
 #[test]
 fn what_is_skipped_is_said() {
-    let rows: [(&str, String, &[&str]); 9] = [
+    let rows: [(&str, String, &[&str]); 11] = [
         (
             "missing library",
             format!("mtllib gone.mtl\n{SQUARE}f 1 2 3\n"),
@@ -156,6 +159,16 @@ fn what_is_skipped_is_said() {
             "some normals",
             format!("{SQUARE}vn 0 0 3\nf 1//1 2//1 3\n"),
             &["``: 1 of 3 vertices have no normal; they get a computed one"],
+        ),
+        (
+            "end of a normal missing",
+            format!("{SQUARE}vn 0 0 3\nf 1//1 2// 3//1\n"),
+            &["``: 1 of 3 vertices have no normal; they get a computed one"],
+        ),
+        (
+            "no name of a material",
+            format!("{SQUARE}usemtl\nf 1 2 3\n"),
+            &["model.obj:5: `usemtl` without a name: the faces after it have no material"],
         ),
         (
             "some texture coordinates",
@@ -200,7 +213,7 @@ fn what_is_skipped_is_said() {
 fn malformed_files_are_refused_by_line() {
     const CORNERS: &str = "corners of the form v, v/vt, v//vn or v/vt/vn are expected";
     let with = |line: &str| format!("{SQUARE}{line}\n").into_bytes();
-    let rows: [(&str, Vec<u8>, String); 26] = [
+    let rows: [(&str, Vec<u8>, String); 24] = [
         ("two coordinates", b"v 0 0\n".into(), ":1: `v 0 0`; `v` and three numbers are expected".into()),
         ("five numbers", b"v 0 0 0 1 1\n".into(), ":1: `v 0 0 0 1 1`; `v` and three numbers are expected".into()),
         ("NaN position", with("v nan 0 0"), ":5: `nan` in `v`; a finite number is expected".into()),
@@ -249,13 +262,11 @@ fn malformed_files_are_refused_by_line() {
         ("not a number", with("f 1 2 x"), format!(":5: `x` in `f`; {CORNERS}")),
         ("fraction", with("f 1 2 1.5"), format!(":5: `1.5` in `f`; {CORNERS}")),
         ("beyond i64", with("f 1 2 9223372036854775808"), format!(":5: `9223372036854775808` in `f`; {CORNERS}")),
-        ("end of a normal missing", with("vn 0 0 1\nf 1//1 2// 3//1"), format!(":6: `2//` in `f`; {CORNERS}")),
-        ("no material", with("usemtl"), ":5: `usemtl`; `usemtl` and a name is expected".into()),
         ("no library", with("mtllib"), ":5: `mtllib`; `mtllib` and a file name is expected".into()),
         ("continued line", with("f 1 \\\n2 \\\n3\nf 1 2 9"), ":8: the position 9 in `f`; a position from 1 to 4, or from -4 to -1, is expected".into()),
         ("no faces", with(""), ": no triangles; at least one is expected".into()),
         ("lines alone", with("l 1 2"), ": no triangles; at least one is expected".into()),
-        ("wrong UTF-8", b"v 0 0 0\no caf\xE9\n".into(), ":2: the byte 0xE9; UTF-8 text is expected".into()),
+        ("no number", b"v 0 0 caf\xE9\n".into(), ":1: `café` in `v`; a finite number is expected".into()),
     ];
     for (name, text, expected) in rows {
         let folder = Folder::new();
@@ -365,6 +376,84 @@ fn smoothing_groups_part_the_normals() {
     // Normals of the file win.
     let given = load_text(&format!("{roof}vn 0 0 1\ns 1\nf 1//1 2//1 3//1\n"));
     assert_eq!(given.parts[0].mesh.normals(), [Vec3::Z; 3]);
+}
+
+/// The vertex normals of a model at a position, part by part.
+fn normals_at(model: &Model, p: Vec3) -> Vec<Vec3> {
+    let meshes = model.parts.iter().map(|part| &part.mesh);
+    let vertices = meshes.flat_map(|mesh| mesh.positions().iter().zip(mesh.normals()));
+    vertices.filter(|(q, _)| **q == p).map(|(_, n)| *n).collect()
+}
+
+#[test]
+fn smoothing_runs_across_the_borders_of_materials_and_groups() {
+    // A roof whose sides meet in the edge from (0, 1, 1) to (1, 1, 1); the last two vertices repeat that edge.
+    let roof = "v 0 0 0\nv 1 0 0\nv 0 1 1\nv 1 1 1\nv 0 2 0\nv 1 2 0\nv 0 1 1\nv 1 1 1\n";
+    let ridge = Vec3::new(0.0, 1.0, 1.0);
+    let rows = [
+        // Name, what stands before the two sides, the second side, whether the ridge is smooth, the parts.
+        ("one part", ["s 1", ""], "f 3 4 6 5", true, 1),
+        ("materials", ["s 1\nusemtl a", "usemtl b"], "f 3 4 6 5", true, 2),
+        ("materials, no groups", ["usemtl a", "usemtl b"], "f 3 4 6 5", true, 2),
+        ("materials, vertices of their own", ["s 1\nusemtl a", "usemtl b"], "f 7 8 6 5", true, 2),
+        ("materials, two groups", ["s 1\nusemtl a", "s 2\nusemtl b"], "f 3 4 6 5", false, 2),
+        ("materials, flat", ["s off\nusemtl a", "usemtl b"], "f 3 4 6 5", false, 2),
+        ("groups of faces", ["s 1\ng a", "g b"], "f 3 4 6 5", true, 2),
+        ("objects", ["s 1\no a", "o b"], "f 3 4 6 5", true, 2),
+        ("objects that touch", ["s 1\no a", "o b"], "f 7 8 6 5", false, 2),
+    ];
+    for (name, [first, second], face, is_smooth, parts) in rows {
+        let model = load_text(&format!("{roof}{first}\nf 1 2 4 3\n{second}\n{face}\n"));
+        assert_eq!(model.parts.len(), parts, "{name}");
+        let normals = normals_at(&model, ridge);
+        assert!(normals.len() >= parts, "{name}");
+        // The sides face (0, ∓1, 1)/√2; their mean looks straight up.
+        let expected = |n: &Vec3| if is_smooth { n.distance(Vec3::Z) < 1e-6 } else { (n.y.abs() - n.z).abs() < 1e-6 };
+        assert!(normals.iter().all(expected), "{name}: {normals:?}");
+    }
+    // Parts with normals of their own keep them, and say nothing of the others.
+    let model = load_text(&format!("{roof}vn 1 0 0\ns 1\nusemtl a\nf 1//1 2//1 4//1 3//1\nusemtl b\nf 3 4 6 5\n"));
+    let given: Vec<Vec3> = normals_at(&model, ridge);
+    assert!(given[0] == Vec3::X && (given[1].y - given[1].z).abs() < 1e-6, "{given:?}");
+}
+
+#[test]
+fn a_group_of_smoothing_may_have_a_comment() {
+    let model = load_text(&format!("{SQUARE}s 1 # round\nf 1 2 3\n"));
+    assert!(model.warnings.is_empty(), "{:?}", model.warnings);
+}
+
+#[test]
+fn names_may_be_latin_1() {
+    let folder = Folder::new();
+    folder.write("model.mtl", b"newmtl gr\xFCn\nKd 0 1 0\n");
+    let mut obj = format!("mtllib model.mtl\n{SQUARE}").into_bytes();
+    obj.extend(b"g caf\xE9\nusemtl gr\xFCn\nf 1 2 3\n");
+    let model = load(&folder.write("model.obj", obj)).unwrap();
+    assert_eq!((&model.parts[0].name[..], model.parts[0].material), ("café", Some(0)));
+    assert_eq!(model.materials[0].name(), "grün");
+    let latin = "a line that is not UTF-8 is read as Latin-1";
+    let expected = [format!("model.obj:6: {latin} (and 1 more such lines)"), format!("model.mtl:1: {latin}")];
+    assert_eq!(model.warnings, expected);
+}
+
+#[test]
+fn a_comment_may_follow_the_name_of_a_material_which_may_hold_the_sign_itself() {
+    let mtl = "newmtl a\nnewmtl Material #25\nnewmtl Material #26\nnewmtl b # blue\n";
+    for (used, expected) in [
+        ("a", Some(0)),
+        ("a # x", Some(0)),
+        ("a  #x", Some(0)),
+        ("Material #25", Some(1)),
+        ("Material #26", Some(2)),
+        ("b # blue", Some(3)),
+        ("b", Some(3)),
+        ("a#x", None),
+    ] {
+        let model = load_with_mtl(&format!("mtllib model.mtl # of it\n{SQUARE}usemtl {used}\nf 1 2 3\n"), mtl);
+        assert_eq!(model.parts[0].material, expected, "{used}");
+        assert_eq!(model.warnings.is_empty(), expected.is_some(), "{used}: {:?}", model.warnings);
+    }
 }
 
 #[test]

@@ -2,9 +2,9 @@
 
 mod common;
 
-use bevy_math::{Mat4, Vec2, Vec3, Vec4};
+use bevy_math::{DVec3, Mat4, Vec2, Vec3, Vec4};
 use common::Folder;
-use halfway_mesh::{Model, load};
+use halfway_mesh::{Model, NormalWeighting, Normals, load};
 
 fn load_text(text: impl AsRef<[u8]>) -> Model {
     let folder = Folder::new();
@@ -250,7 +250,7 @@ fn malformed_files_are_refused_by_line() {
         ),
         ("no faces", start.into(), ": no triangles; at least one is expected"),
         ("comments alone", b"# nothing\n\n".into(), ": no triangles; at least one is expected"),
-        ("wrong UTF-8", b"v 0 0 0\nv 0 \xFF 0\n".into(), ":2: the byte 0xFF; UTF-8 text is expected"),
+        ("wrong UTF-8", b"v 0 0 0\nv 0 \xFF 0\n".into(), ":2: `ÿ` in `v`; a finite number is expected"),
     ];
     for (name, text, expected) in rows {
         let folder = Folder::new();
@@ -275,4 +275,46 @@ fn a_file_of_something_else_has_few_warnings() {
     assert_eq!(warnings.len(), 21);
     assert!(warnings.iter().all(|warning| warning.len() < 120), "{warnings:?}");
     assert_eq!(warnings[20], "model.smf:25: something else is skipped or not found (and 979 more such lines)");
+}
+
+#[test]
+fn the_meshes_of_the_lecture_have_the_normals_of_hand() {
+    // As they are printed. Each normal is the sum of the unit normals of the triangles around the vertex, normalised.
+    let cube = "v -1 -1 -1\nv 1 -1 -1\nv -1 1 -1\nv 1 1 -1\nv -1 -1 1\nv 1 -1 1\nv -1 1 1\nv 1 1 1\n\
+        f 1 3 4\nf 1 4 2\nf 5 6 8\nf 5 8 7\nf 1 2 6\nf 1 6 5\nf 3 7 8\nf 3 8 4\nf 1 5 7\nf 1 7 3\nf 2 4 8\nf 2 8 6\n";
+    // How many of the triangles around each vertex are on the side along x, y and z, by hand.
+    let cube_sums = [
+        [-2.0, -2.0, -2.0],
+        [2.0, -1.0, -1.0],
+        [-1.0, 2.0, -1.0],
+        [1.0, 1.0, -2.0],
+        [-1.0, -1.0, 2.0],
+        [1.0, -2.0, 1.0],
+        [-2.0, 1.0, 1.0],
+        [2.0, 2.0, 2.0],
+    ];
+    let pyramid = "##SMF 1.0\n##vertices 5\n##faces 6\nv 2.0 0.0 2.0\nv 2.0 0.0 -2.0\nv -2.0 0.0 -2.0\nv -2.0 0.0 2.0\n\
+        v 0.0 5.0 0.0\nf 1 3 2\nf 1 4 3\nf 3 5 2\nf 2 5 1\nf 1 5 4\nf 4 5 3\n";
+    // The base faces −y. A side rises by 5 over 2, so it faces (5, 2)/√29 outward and up.
+    let [out, up] = [5.0, 2.0].map(|x: f64| x / 29.0_f64.sqrt());
+    let pyramid_sums = [
+        [out, 2.0 * up - 2.0, out],
+        [out, 2.0 * up - 1.0, -out],
+        [-out, 2.0 * up - 2.0, -out],
+        [-out, 2.0 * up - 1.0, out],
+        [0.0, 4.0 * up, 0.0],
+    ];
+    for (name, text, sums) in [("cube", cube, &cube_sums[..]), ("pyramid", pyramid, &pyramid_sums)] {
+        let model = load_text(text);
+        assert!(model.warnings.is_empty(), "{name}: {:?}", model.warnings);
+        let [part] = &model.parts[..] else { panic!("{name}: {} parts", model.parts.len()) };
+        assert_eq!(part.mesh.positions().len(), sums.len(), "{name}");
+        let (mesh, report) = part.mesh.clone().with_normals(Normals::Weighted(NormalWeighting::Uniform));
+        assert!(report.is_clean(), "{name}: {report:?}");
+        for (i, (n, sum)) in mesh.normals().iter().zip(sums).enumerate() {
+            // Rounded to f32 in each coordinate.
+            let expected = DVec3::from_array(*sum).normalize();
+            assert!(n.as_dvec3().distance(expected) < 1e-7, "{name}, vertex {}: {n} {expected}", i + 1);
+        }
+    }
 }

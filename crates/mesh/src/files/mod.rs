@@ -1,7 +1,6 @@
 //! Model files: which there are, and how they are opened.
 
 mod color;
-mod distinct;
 mod error;
 mod gltf;
 mod obj;

@@ -2,7 +2,7 @@
 
 use bevy_math::{Mat4, Vec3};
 
-use super::distinct::Distinct;
+use crate::numbering::DistinctKeys;
 use super::source::{Reader, Source};
 use super::text::{Lines, Skipped, Statement};
 use super::{LoadError, stem};
@@ -61,7 +61,7 @@ pub(super) fn parse(source: Source) -> Result<Model, LoadError> {
 struct Solid {
     name: String,
     /// The bits of the distinct positions.
-    positions: Distinct,
+    positions: DistinctKeys,
     indices: Vec<u32>,
     /// How many normals point against the winding.
     against: usize,
@@ -69,7 +69,7 @@ struct Solid {
 
 impl Solid {
     fn new(name: String) -> Self {
-        Self { name, positions: Distinct::new(), indices: Vec::new(), against: 0 }
+        Self { name, positions: DistinctKeys::default(), indices: Vec::new(), against: 0 }
     }
 
     fn triangle(&mut self, normal: Vec3, corners: [Vec3; 3]) {
@@ -160,6 +160,7 @@ fn text(reader: Reader, skipped: &mut Skipped, name: &str) -> Result<Vec<Solid>,
             _ => skipped.add_statement(&statement),
         }
     }
+    lines.warn_of_encoding(skipped);
     if inside {
         return Err(LoadError::Line {
             path: lines.path().to_owned(),

@@ -9,11 +9,16 @@ use super::source::Reader;
 
 /// The statements of a text, one at a time: lines that are neither empty nor comments.
 ///
-/// Lines end with LF or CRLF; `#` at the beginning makes a comment, which may hold any bytes; other lines are UTF-8. A
-/// byte order mark at the beginning is passed over. No more than a line is in memory.
+/// Lines end with LF or CRLF; `#` at the beginning makes a comment, which may hold any bytes; other lines are UTF-8, or
+/// else Latin-1, as older programs write names. A byte order mark at the beginning is skipped. No more than a line is in
+/// memory.
 pub(super) struct Lines<'a> {
     reader: Reader<'a>,
     buffer: Vec<u8>,
+    /// The line in the buffer as text, where it is Latin-1.
+    latin1: String,
+    /// The first line that is Latin-1, and how many lines are.
+    latin1_lines: Option<(usize, usize)>,
     /// The number of the line in the buffer, from 1, and how many lines were read.
     line: usize,
     read: usize,
@@ -23,7 +28,15 @@ pub(super) struct Lines<'a> {
 
 impl<'a> Lines<'a> {
     pub(super) fn new(reader: Reader<'a>) -> Self {
-        Self { reader, buffer: Vec::new(), line: 0, read: 0, continued: false }
+        Self {
+            reader,
+            buffer: Vec::new(),
+            latin1: String::new(),
+            latin1_lines: None,
+            line: 0,
+            read: 0,
+            continued: false,
+        }
     }
 
     /// A backslash at the end of a line that is no comment joins the next one to it.
@@ -33,6 +46,13 @@ impl<'a> Lines<'a> {
 
     pub(super) fn path(&self) -> &'a Path {
         self.reader.path()
+    }
+
+    /// Counts the lines that are not UTF-8.
+    pub(super) fn warn_of_encoding(&self, skipped: &mut Skipped) {
+        if let Some((first, count)) = self.latin1_lines {
+            skipped.add_several(first, count, "a line that is not UTF-8 is read as Latin-1");
+        }
     }
 
     /// The number of the last line, for errors at the end of the file.
@@ -52,12 +72,14 @@ impl<'a> Lines<'a> {
             }
         }
         let path = self.reader.path();
-        let text = str::from_utf8(self.buffer.trim_ascii()).map_err(|error| LoadError::Line {
-            path: path.to_owned(),
-            line: self.line,
-            found: format!("the byte 0x{:02X}", self.buffer.trim_ascii()[error.valid_up_to()]),
-            expected: "UTF-8 text is".to_owned(),
-        })?;
+        let text = if let Ok(text) = str::from_utf8(self.buffer.trim_ascii()) {
+            text
+        } else {
+            self.latin1_lines.get_or_insert((self.line, 0)).1 += 1;
+            self.latin1.clear();
+            self.latin1.extend(self.buffer.trim_ascii().iter().map(|&byte| char::from(byte)));
+            &self.latin1
+        };
         let (keyword, rest) = match text.bytes().position(|byte| byte.is_ascii_whitespace()) {
             Some(end) => (&text[..end], text[end..].trim_ascii_start()),
             None => (text, ""),
@@ -196,11 +218,16 @@ const KINDS: usize = 20;
 impl Skipped {
     /// Counts one of a kind, as "`begin` is skipped".
     pub(super) fn add(&mut self, line: usize, kind: impl Into<String>) {
+        self.add_several(line, 1, kind);
+    }
+
+    /// Counts several of a kind, of which the first is in this line.
+    fn add_several(&mut self, line: usize, count: usize, kind: impl Into<String>) {
         let mut kind = kind.into();
         if self.0.len() >= KINDS && !self.0.contains_key(&kind) {
             kind = String::from("something else is skipped or not found");
         }
-        self.0.entry(kind).or_insert((line, 0)).1 += 1;
+        self.0.entry(kind).or_insert((line, 0)).1 += count;
     }
 
     /// Counts a statement that is not read.

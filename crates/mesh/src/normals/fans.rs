@@ -5,6 +5,7 @@ use bevy_math::Vec3;
 use super::face::unsettled_face_normals;
 use super::{NormalReport, NormalWeighting, split_normals};
 use crate::Mesh;
+use crate::classes::Classes;
 use crate::edges::Edges;
 use crate::numbering::Numbering;
 
@@ -35,42 +36,25 @@ pub(crate) fn creased_normals(mesh: &Mesh, angle: f32, weighting: NormalWeightin
     }
     fans.adopt_degenerate(&edges, &normals);
     drop(normals);
-    let (classes, count) = fans.classes();
+    let (classes, count) = fans.numbers();
     drop(edges);
     split_normals(mesh, &classes, count, weighting)
 }
 
 /// Corners that share a normal: at first each is alone.
-pub(crate) struct Fans {
-    /// A corner of the same fan, never a later one; the first points to itself.
-    earlier: Vec<u32>,
-}
+pub(crate) struct Fans(Classes);
 
 impl Fans {
     /// Every corner of the triangles for itself.
     pub(crate) fn new(edges: &Edges) -> Self {
-        Self { earlier: (0..3 * edges.triangles().len() as u32).collect() }
+        Self(Classes::new(3 * edges.triangles().len()))
     }
 
     /// Joins the corners of two passes of one edge, at both of its ends.
     pub(crate) fn join(&mut self, edges: &Edges, pass: u32, other: u32) {
         let (a, b) = (edges.corners(pass), edges.corners(other));
-        self.join_corners(a[0], b[0]);
-        self.join_corners(a[1], b[1]);
-    }
-
-    fn join_corners(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.first(a), self.first(b));
-        self.earlier[a.max(b) as usize] = a.min(b);
-    }
-
-    fn first(&mut self, mut corner: u32) -> u32 {
-        while self.earlier[corner as usize] != corner {
-            let earlier = self.earlier[corner as usize];
-            self.earlier[corner as usize] = self.earlier[earlier as usize];
-            corner = earlier;
-        }
-        corner
+        self.0.join(a[0], b[0]);
+        self.0.join(a[1], b[1]);
     }
 
     /// Degenerate triangles show nothing: their corners take any fan at their position, so that no vertex is made for
@@ -88,24 +72,13 @@ impl Fans {
         }
         for corner in corners().filter(is_degenerate) {
             if let Some(other) = sound[edges.point(corner) as usize] {
-                self.join_corners(corner, other);
+                self.0.join(corner, other);
             }
         }
     }
 
     /// The number of each corner's fan, and how many fans there are.
-    pub(crate) fn classes(mut self) -> (Vec<u32>, usize) {
-        let mut count = 0;
-        for corner in 0..self.earlier.len() as u32 {
-            // The first of a fan has its number already when the later ones come.
-            let earlier = self.earlier[corner as usize];
-            self.earlier[corner as usize] = if earlier == corner {
-                count += 1;
-                count - 1
-            } else {
-                self.earlier[earlier as usize]
-            };
-        }
-        (self.earlier, count as usize)
+    pub(crate) fn numbers(self) -> (Vec<u32>, usize) {
+        self.0.numbers()
     }
 }

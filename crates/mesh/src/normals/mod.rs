@@ -12,7 +12,7 @@ pub use face::face_normal;
 pub(crate) use face::{face_normals, unsettled_face_normals};
 pub(crate) use fans::{Fans, creased_normals};
 pub(crate) use means::vertex_normals;
-pub(crate) use split::{grouped_normals, split_normals};
+pub(crate) use split::{Smoothed, grouped_normals, split_normals};
 
 /// How a mesh gets its normals.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

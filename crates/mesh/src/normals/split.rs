@@ -5,26 +5,46 @@ use bevy_math::Vec3;
 use super::means::Means;
 use super::{NormalReport, NormalWeighting};
 use crate::Mesh;
-use crate::numbering::{Numbering, position_key};
+use crate::numbering::Numbering;
 
-/// The mesh with the normals that the smoothing groups of Wavefront OBJ ask for.
+/// A mesh that gets its normals together with others.
+pub(crate) struct Smoothed<'a> {
+    pub(crate) mesh: &'a Mesh,
+    /// For each vertex the number of its point: what shares a point, in whichever mesh, shares its normal.
+    pub(crate) points: &'a [u32],
+    /// The smoothing group of each triangle; what is missing at the end counts as 0.
+    pub(crate) groups: &'a [u32],
+}
+
+/// The meshes with the normals that the smoothing groups of Wavefront OBJ ask for.
 ///
-/// `groups` has one number a triangle; what is missing at its end counts as 0. The triangles of one group share the
-/// mean of their normals at each position; those of group 0 are faceted. Vertices are split where groups meet, and the
-/// vertices of no triangle are left out.
-pub(crate) fn grouped_normals(mesh: &Mesh, groups: &[u32], weighting: NormalWeighting) -> (Mesh, NormalReport) {
-    let (positions, indices) = (mesh.positions(), mesh.indices());
-    let classes = Numbering::new(indices.len(), |corner| {
-        let triangle = corner / 3;
-        match groups.get(triangle).copied().unwrap_or(0) {
-            0 => [triangle as u32, 0, 0, 0],
-            group => {
-                let [x, y, z] = position_key(positions[indices[corner] as usize]);
-                [x, y, z, group]
-            }
-        }
+/// The triangles of one group share the mean of their normals at each point, across all the meshes; those of group 0 are
+/// faceted. Vertices are split where groups meet, and the vertices of no triangle are left out. All meshes together have
+/// at most 2³² − 1 corners.
+pub(crate) fn grouped_normals(meshes: &[Smoothed], weighting: NormalWeighting) -> Vec<Mesh> {
+    let (mut positions, mut points, mut indices, mut groups) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    for smoothed in meshes {
+        let first = positions.len() as u32;
+        positions.extend_from_slice(smoothed.mesh.positions());
+        points.extend_from_slice(smoothed.points);
+        indices.extend(smoothed.mesh.indices().iter().map(|&i| first + i));
+        groups.extend_from_slice(smoothed.groups);
+        groups.resize(indices.len() / 3, 0);
+    }
+    let classes = Numbering::new(indices.len(), |corner| match groups[corner / 3] {
+        0 => [corner as u32 / 3, 0],
+        group => [points[indices[corner] as usize], group],
     });
-    split_normals(mesh, &classes.numbers, classes.count(), weighting)
+    let class = |corner: usize| classes.numbers[corner];
+    let means = Means::new(&positions, &indices, classes.count(), weighting, class);
+    let mut rest = &classes.numbers[..];
+    let mut made = Vec::with_capacity(meshes.len());
+    for smoothed in meshes {
+        let (own, others) = rest.split_at(smoothed.mesh.indices().len());
+        made.push(split(smoothed.mesh, own, &means).0);
+        rest = others;
+    }
+    made
 }
 
 /// The mesh with the mean normals of classes of corners, numbered below `count`; vertices are split between classes,
@@ -35,8 +55,12 @@ pub(crate) fn split_normals(
     count: usize,
     weighting: NormalWeighting,
 ) -> (Mesh, NormalReport) {
+    split(mesh, classes, &Means::new(mesh.positions(), mesh.indices(), count, weighting, |corner| classes[corner]))
+}
+
+/// The mesh with these means as the normals of its corners' classes.
+fn split(mesh: &Mesh, classes: &[u32], means: &Means) -> (Mesh, NormalReport) {
     let indices = mesh.indices();
-    let means = Means::new(mesh.positions(), indices, count, weighting, |corner| classes[corner]);
     let vertices = Numbering::new(indices.len(), |corner| [indices[corner], classes[corner]]);
     let mut report = means.report;
     let corners = vertices.firsts.iter().map(|&corner| corner as usize);
@@ -49,6 +73,12 @@ pub(crate) fn split_normals(
 mod tests {
     use super::*;
     use crate::{Cuboid, Weld, face_normal};
+
+    /// The normals of one mesh whose points are its positions.
+    fn grouped(mesh: &Mesh, groups: &[u32]) -> Mesh {
+        let points = Numbering::of_positions(mesh.positions()).numbers;
+        grouped_normals(&[Smoothed { mesh, points: &points, groups }], NormalWeighting::Angle).remove(0)
+    }
 
     fn normals_at(mesh: &Mesh, triangle: usize) -> [Vec3; 3] {
         [0, 1, 2].map(|corner| mesh.normals()[mesh.indices()[3 * triangle + corner] as usize])
@@ -67,8 +97,7 @@ mod tests {
     #[test]
     fn group_zero_is_faceted() {
         for groups in [&[0; 12][..], &[]] {
-            let (mesh, report) = grouped_normals(&cube(), groups, NormalWeighting::Angle);
-            assert!(report.is_clean());
+            let mesh = grouped(&cube(), groups);
             assert_eq!(mesh.positions().len(), 36);
             (0..12).for_each(|triangle| assert_eq!(normals_at(&mesh, triangle), [face(&mesh, triangle); 3]));
         }
@@ -76,8 +105,7 @@ mod tests {
 
     #[test]
     fn one_group_is_smooth() {
-        let (mesh, report) = grouped_normals(&cube(), &[7; 12], NormalWeighting::Angle);
-        assert!(report.is_clean());
+        let mesh = grouped(&cube(), &[7; 12]);
         assert_eq!(mesh.positions().len(), 8);
         for (n, p) in mesh.normals().iter().zip(mesh.positions()) {
             // Rounded to f32 in each coordinate.
@@ -90,14 +118,14 @@ mod tests {
         // Each side of the cube a group of its own, then pairs of sides; the cuboid itself has split vertices.
         for mesh in [cube(), Mesh::from(Cuboid::default())] {
             let sides: Vec<u32> = (0..12).map(|triangle| 1 + triangle / 2).collect();
-            let (split, _) = grouped_normals(&mesh, &sides, NormalWeighting::Angle);
+            let split = grouped(&mesh, &sides);
             assert_eq!(split.positions().len(), 24);
             for triangle in 0..12 {
                 let expected = face(&split, triangle);
                 assert!(normals_at(&split, triangle).iter().all(|n| n.distance(expected) < 1e-6));
             }
             let pairs: Vec<u32> = (0..12).map(|triangle| 1 + triangle / 4).collect();
-            let (split, _) = grouped_normals(&mesh, &pairs, NormalWeighting::Angle);
+            let split = grouped(&mesh, &pairs);
             // Opposite sides make a pair: the groups share no position, and everything stays as it was.
             for triangle in 0..12 {
                 let expected = face(&split, triangle);

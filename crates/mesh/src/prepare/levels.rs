@@ -186,13 +186,14 @@ impl Mesh {
 }
 
 /// After a level of so many triangles that is so far off: of the candidates that keep at least half of them, the coarsest
-/// that is hardly further off than the first one that is worth its memory, or that one. Longer edges may matter even where
-/// all is flat, so no more than half of the triangles go at once if that can be.
+/// that is hardly further off than the first one that is worth its memory, or that one, also where it keeps less: an odd
+/// number has no half. Longer edges may matter even where all is flat, so no more than half of the triangles go at once if
+/// that can be.
 fn best_within_half(counts: &[usize], deviations: &[Deviation], (before, worst): (usize, Deviation)) -> Option<usize> {
     let first = counts.iter().position(|&count| count as f64 <= WORTHWHILE * before as f64)?;
     let Deviation { distance, angle } = worst.max(deviations[first]);
     let hardly_further = Deviation { distance: 1.05 * distance, angle: 1.05 * angle };
-    let half = counts.iter().rposition(|&count| 2 * count >= before)?;
+    let half = counts.iter().rposition(|&count| 2 * count >= before).unwrap_or(first);
     (first..=half).rev().find(|&number| deviations[number].is_within(&hardly_further)).or(Some(first))
 }
 

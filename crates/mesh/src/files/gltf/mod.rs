@@ -27,9 +27,6 @@ use crate::{MeshError, Model};
 /// The extension that allows integers in attributes.
 const QUANTIZATION: &str = "KHR_mesh_quantization";
 
-/// The extensions that are read here, or that concern nothing that is read: textures are not.
-const OWN_EXTENSIONS: [&str; 2] = [QUANTIZATION, "KHR_texture_transform"];
-
 /// Reads the default scene of a glTF file.
 pub(super) fn parse(source: Source, format: Format) -> Result<Model, LoadError> {
     let Source { path, reader, around } = source;
@@ -48,7 +45,11 @@ fn read(bytes: &[u8], is_binary: bool, around: Around) -> Result<Model, Fault> {
     let materials = material::materials(&document)?;
     let is_quantized = document.extensions_used().any(|extension| extension == QUANTIZATION);
     let mut primitives = Primitives::new(Accessors::new(&buffers, is_quantized));
-    let scene::Contents { parts, lights, cameras } = scene::read(&document, &mut primitives)?;
+    let scene::Contents { parts, lights, cameras, mended } = scene::read(&document, &mut primitives)?;
+    if let Some((count, first)) = mended {
+        let more = if count > 1 { format!(" (and {} more such matrices)", count - 1) } else { String::new() };
+        warnings.push(format!("{first} is taken for 0, 0, 0, 1{more}"));
+    }
     warnings.extend(primitives.into_warnings());
     Ok(Model { parts, materials, lights, cameras, warnings })
 }
@@ -71,7 +72,7 @@ fn open(json: &[u8]) -> Result<Document, Fault> {
         return Err(Fault::element("asset.version", found, "version \"2.0\" is"));
     }
     // The `gltf` crate refuses what it does not read itself.
-    json.extensions_required.retain(|extension| !OWN_EXTENSIONS.contains(&extension.as_str()));
+    json.extensions_required.retain(|extension| extension != QUANTIZATION);
     for extension in &json.extensions_required {
         if !ENABLED_EXTENSIONS.contains(&extension.as_str()) {
             return Err(Fault::RequiredExtension(extension.clone()));

@@ -13,12 +13,18 @@ use crate::{Part, SourceCamera, SourceLight, SourceLightKind, SourceProjection};
 /// The most parts that are made of one file: nodes and primitives multiply.
 const MOST_PARTS: usize = 1 << 18;
 
+/// How far the last row of a matrix may be from (0, 0, 0, 1): some roundings of `f32`, as a product or an inverse of
+/// matrices leaves them.
+const ROUNDED: f32 = 1e-5;
+
 /// What stands in the world.
 #[derive(Default)]
 pub(super) struct Contents {
     pub(super) parts: Vec<Part>,
     pub(super) lights: Vec<SourceLight>,
     pub(super) cameras: Vec<SourceCamera>,
+    /// How many matrices have a last row that is mended, and the first of them.
+    pub(super) mended: Option<(usize, String)>,
 }
 
 /// The contents of the default scene; of the first where none is the default; of all nodes without a parent
@@ -60,7 +66,7 @@ impl<'a> Reader<'_, 'a> {
             let expected = "a tree, in which every node has one parent at most, is";
             return Err(Fault::element(element(), "reached twice", expected));
         }
-        let world_from_node = world_from_parent * parent_from_node(node)?;
+        let world_from_node = world_from_parent * parent_from_node(node, &mut self.contents.mended)?;
         let world = world_from_node.as_mat4();
         if !world.is_finite() {
             let found = "a transform that leaves the range of f32";
@@ -93,15 +99,23 @@ impl<'a> Reader<'_, 'a> {
     }
 }
 
-fn parent_from_node(node: &Node) -> Result<DMat4, Fault> {
+/// The transform of a node. A matrix whose last row is off by rounding is mended and counted.
+fn parent_from_node(node: &Node, mended: &mut Option<(usize, String)>) -> Result<DMat4, Fault> {
     let field = |name: &str| format!("nodes[{}].{name}", node.index());
     match node.transform() {
         Transform::Matrix { matrix } => {
             check_finite(&|| field("matrix"), matrix.as_flattened())?;
-            let matrix = Mat4::from_cols_array_2d(&matrix);
-            if matrix.row(3) != Vec4::W {
-                let found = format!("last row {:?}", matrix.row(3).to_array());
-                return Err(Fault::element(field("matrix"), found, "0, 0, 0, 1 is"));
+            let mut matrix = Mat4::from_cols_array_2d(&matrix);
+            let last_row = matrix.row(3);
+            if last_row != Vec4::W {
+                let found = format!("last row {:?}", last_row.to_array());
+                if (last_row - Vec4::W).abs().max_element() > ROUNDED {
+                    return Err(Fault::element(field("matrix"), found, "0, 0, 0, 1 is"));
+                }
+                mended.get_or_insert_with(|| (0, format!("{}: {found}", field("matrix")))).0 += 1;
+                for (axis, last) in [0.0, 0.0, 0.0, 1.0].into_iter().enumerate() {
+                    matrix.col_mut(axis).w = last;
+                }
             }
             Ok(matrix.as_dmat4())
         }

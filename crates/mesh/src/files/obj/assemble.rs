@@ -1,13 +1,15 @@
 //! Parts of what was read.
 
+use std::collections::HashMap;
 use std::path::Path;
 
 use bevy_math::{Mat4, Vec2, Vec3};
 
+use crate::classes::Classes;
 use crate::files::LoadError;
-use crate::files::distinct::Distinct;
-use crate::normals::grouped_normals;
-use crate::{Mesh, NormalWeighting, Part};
+use crate::normals::{Smoothed, grouped_normals};
+use crate::numbering::{DistinctKeys, Numbering, position_key};
+use crate::{Mesh, MeshError, NormalWeighting, Part};
 
 /// All that faces refer to.
 #[derive(Default)]
@@ -31,7 +33,7 @@ pub(super) struct Draft {
     name: String,
     pub(super) material: Option<String>,
     /// The distinct corners, as indices from 1 of position, texture coordinate and normal, 0 for none.
-    corners: Distinct,
+    corners: DistinctKeys,
     indices: Vec<u32>,
     /// The smoothing group of each triangle; what is missing at the end is 0.
     groups: Vec<u32>,
@@ -39,7 +41,7 @@ pub(super) struct Draft {
 
 impl Draft {
     pub(super) fn new(name: String, material: Option<String>) -> Self {
-        Self { name, material, corners: Distinct::new(), indices: Vec::new(), groups: Vec::new() }
+        Self { name, material, corners: DistinctKeys::default(), indices: Vec::new(), groups: Vec::new() }
     }
 
     pub(super) fn triangle(&mut self, corners: [[u32; 3]; 3], group: u32) {
@@ -50,15 +52,14 @@ impl Draft {
         self.indices.extend(corners.map(|corner| self.corners.number(corner)));
     }
 
-    /// The part. Smoothing groups count where the file speaks of them and gives no normals.
-    pub(super) fn into_part(
+    /// The part, and what is needed to make its normals where it has none and `normals_later`; they are +Y until then.
+    fn into_part(
         self,
         path: &Path,
         vertices: &Vertices,
-        material: Option<usize>,
-        has_groups: bool,
+        normals_later: bool,
         warnings: &mut Vec<String>,
-    ) -> Result<Part, LoadError> {
+    ) -> Result<(Part, Option<Unsmoothed>), LoadError> {
         let Self { name, corners, indices, groups, .. } = self;
         let keys = corners.into_keys();
         let mut given = |kind: usize, what: &str| {
@@ -72,12 +73,18 @@ impl Draft {
         let uvs = given(1, "texture coordinate; they get (0, 0)").then(|| picked(&keys, 1, &vertices.uvs, Vec2::ZERO));
         let has_normals = given(2, "normal; they get a computed one");
         let missing = keys.iter().filter(|key| key[2] == 0).count();
-        // Where there is none, zero stands for one that is to be computed.
-        let normals = has_normals.then(|| picked(&keys, 2, &vertices.normals, Vec3::ZERO));
+        let normals = match (has_normals, normals_later) {
+            // Zero stands for one that is to be computed.
+            (true, _) => Some(picked(&keys, 2, &vertices.normals, Vec3::ZERO)),
+            (false, true) => Some(vec![Vec3::Y; keys.len()]),
+            (false, false) => None,
+        };
         let colors = (!vertices.colors.is_empty()).then(|| {
             let color = |key: &[u32; 3]| vertices.colors.get(key[0] as usize - 1).unwrap_or(&Vec3::ONE).extend(1.0);
             keys.iter().map(color).collect()
         });
+        let unsmoothed = (!has_normals && normals_later)
+            .then(|| Unsmoothed { part: 0, groups, sources: keys.iter().map(|key| key[0] - 1).collect() });
         drop(keys);
         let refused = |source| LoadError::Mesh { path: path.to_owned(), element: format!("`{name}`"), source };
         let (mut mesh, report) = Mesh::from_parts_reported(positions, normals, uvs, indices).map_err(refused)?;
@@ -89,10 +96,82 @@ impl Draft {
         if let Some(colors) = colors {
             mesh = mesh.with_colors(colors).map_err(refused)?;
         }
-        if has_groups && !has_normals {
-            (mesh, _) = grouped_normals(&mesh, &groups, NormalWeighting::default());
+        Ok((Part { name, mesh, material: None, world_from_part: Mat4::IDENTITY }, unsmoothed))
+    }
+}
+
+/// A part without normals.
+struct Unsmoothed {
+    /// Its number among the parts.
+    part: usize,
+    /// The smoothing group of each triangle; what is missing at the end is 0.
+    groups: Vec<u32>,
+    /// The position in the file, counted from 0, of each vertex.
+    sources: Vec<u32>,
+}
+
+/// The parts of all drafts. Those without normals are smooth together, by smoothing groups where the file speaks of
+/// them: a border between materials or names is no crease.
+pub(super) fn parts(
+    drafts: Vec<Draft>,
+    path: &Path,
+    vertices: &Vertices,
+    has_groups: bool,
+    warnings: &mut Vec<String>,
+) -> Result<Vec<Part>, LoadError> {
+    let normals_later = has_groups || drafts.len() > 1;
+    let mut parts = Vec::with_capacity(drafts.len());
+    let mut unsmoothed = Vec::new();
+    for draft in drafts {
+        let (part, without) = draft.into_part(path, vertices, normals_later, warnings)?;
+        unsmoothed.extend(without.map(|without| Unsmoothed { part: parts.len(), ..without }));
+        parts.push(part);
+    }
+    let count = unsmoothed.iter().map(|without| parts[without.part].mesh.indices().len()).sum();
+    if u32::try_from(count).is_err() {
+        let source = MeshError::TooMany { elements: "indices", count };
+        return Err(LoadError::Mesh { path: path.to_owned(), element: "parts without normals".to_owned(), source });
+    }
+    if !has_groups {
+        for without in &mut unsmoothed {
+            without.groups = vec![1; parts[without.part].mesh.triangle_count()];
         }
-        Ok(Part { name, mesh, material, world_from_part: Mat4::IDENTITY })
+    }
+    smooth(&mut parts, &unsmoothed, &vertices.positions);
+    Ok(parts)
+}
+
+/// Makes normals. Faces share a point where they use the same `v`, and within one name also where they are at the same
+/// position: things that only touch are not one surface.
+fn smooth(parts: &mut [Part], unsmoothed: &[Unsmoothed], positions: &[Vec3]) {
+    let mut names = HashMap::new();
+    let mut used: Vec<(u32, u32)> = Vec::new();
+    for without in unsmoothed {
+        let next = names.len() as u32;
+        let name = *names.entry(&parts[without.part].name[..]).or_insert(next);
+        used.extend(without.sources.iter().map(|&source| (name, source)));
+    }
+    let at_one_position = Numbering::new(used.len(), |i| {
+        let (name, source) = used[i];
+        let [x, y, z] = position_key(positions[source as usize]);
+        [name, x, y, z]
+    });
+    let mut points = Classes::new(positions.len());
+    for (&(_, source), &number) in used.iter().zip(&at_one_position.numbers) {
+        let (_, first) = used[at_one_position.firsts[number as usize] as usize];
+        points.join(source, first);
+    }
+    drop((names, used, at_one_position));
+    let (points, _) = points.numbers();
+    let points_of = |without: &Unsmoothed| without.sources.iter().map(|&source| points[source as usize]).collect();
+    let points: Vec<Vec<u32>> = unsmoothed.iter().map(points_of).collect();
+    let with_points = unsmoothed.iter().zip(&points);
+    let meshes: Vec<Smoothed> = with_points
+        .map(|(without, points)| Smoothed { mesh: &parts[without.part].mesh, points, groups: &without.groups })
+        .collect();
+    let made = grouped_normals(&meshes, NormalWeighting::default());
+    for (without, mesh) in unsmoothed.iter().zip(made) {
+        parts[without.part].mesh = mesh;
     }
 }
 

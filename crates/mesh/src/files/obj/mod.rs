@@ -26,17 +26,18 @@ pub(super) fn parse(source: Source) -> Result<Model, LoadError> {
     obj.check_forward_references(path)?;
     obj.cut_late_polygons();
 
+    lines.warn_of_encoding(&mut obj.skipped);
     let mut warnings = Vec::new();
     let materials = obj.read_libraries(source.around, &mut warnings)?;
-    let material_of: HashMap<&str, usize> =
-        materials.iter().enumerate().map(|(index, material)| (material.name(), index)).collect();
-    obj.warn_of_unknown_materials(&material_of);
+    let named = NamedMaterials::new(&materials);
+    obj.warn_of_unknown_materials(&named);
     let Obj { vertices, drafts, smoothing, skipped, .. } = obj;
     warnings.splice(0..0, skipped.warnings(path));
-    let mut parts = Vec::with_capacity(drafts.len());
-    for draft in drafts {
-        let material = draft.material.as_deref().and_then(|name| material_of.get(name).copied());
-        parts.push(draft.into_part(path, &vertices, material, smoothing.is_some(), &mut warnings)?);
+    let used: Vec<_> =
+        drafts.iter().map(|draft| draft.material.as_deref().and_then(|name| named.find(name))).collect();
+    let mut parts = assemble::parts(drafts, path, &vertices, smoothing.is_some(), &mut warnings)?;
+    for (part, material) in parts.iter_mut().zip(used) {
+        part.material = material;
     }
     Ok(Model { parts, materials, warnings, ..Model::default() })
 }
@@ -99,7 +100,9 @@ impl Obj {
                 self.current = None;
             }
             "usemtl" if statement.rest.is_empty() => {
-                return Err(statement.unexpected("`usemtl` and a name is"));
+                self.skipped.add(statement.line, "`usemtl` without a name: the faces after it have no material");
+                self.material = None;
+                self.current = None;
             }
             "usemtl" => {
                 self.used_materials.push((statement.line, statement.rest.to_owned()));
@@ -154,7 +157,8 @@ impl Obj {
 
     /// `s off`, `s 0` or `s n`; some programs write `s on` or `s 1` for all that is smooth.
     fn smoothing_group(&mut self, statement: &Statement) {
-        match (statement.rest, statement.rest.parse()) {
+        let word = statement.words().next().unwrap_or_default();
+        match (word, word.parse()) {
             ("off" | "none", _) => self.smoothing = Some(0),
             ("on", _) => self.smoothing = Some(1),
             (_, Ok(group)) => self.smoothing = Some(group),
@@ -220,15 +224,16 @@ impl Obj {
         }
     }
 
-    /// `v`, `v/vt`, `v//vn` or `v/vt/vn` as indices from 1, 0 for none.
+    /// `v`, `v/vt`, `v//vn` or `v/vt/vn`, also with nothing after a slash, as indices from 1, 0 for none.
     fn corner(&mut self, statement: &Statement, corner: &str) -> Result<[u32; 3], LoadError> {
         let malformed = || statement.unexpected_word(corner, CORNERS);
         let mut found = [0; 3];
         for (kind, word) in corner.split('/').enumerate() {
-            if kind == 1 && word.is_empty() {
+            let place = found.get_mut(kind).ok_or_else(malformed)?;
+            // Some programs write `v//` where there is neither.
+            if kind > 0 && word.is_empty() {
                 continue;
             }
-            let place = found.get_mut(kind).ok_or_else(malformed)?;
             *place = self.absolute(statement, kind, word.parse().map_err(|_| malformed())?)?;
         }
         Ok(found)
@@ -269,7 +274,7 @@ impl Obj {
             // A name may have spaces, and a statement may have several names.
             let names: Vec<&str> = match around.find(rest) {
                 Some(whole) if whole.exists() => vec![rest],
-                _ => rest.split_ascii_whitespace().collect(),
+                _ => rest.split_ascii_whitespace().take_while(|word| !word.starts_with('#')).collect(),
             };
             for name in names {
                 if !seen.insert(name) {
@@ -288,13 +293,37 @@ impl Obj {
         Ok(materials)
     }
 
-    fn warn_of_unknown_materials(&mut self, known: &HashMap<&str, usize>) {
+    fn warn_of_unknown_materials(&mut self, named: &NamedMaterials) {
         for (line, name) in &self.used_materials {
-            if !known.contains_key(name.as_str()) {
+            if named.find(name).is_none() {
                 self.skipped.add(*line, format!("the material `{}` is nowhere defined", abridged(name, "")));
             }
         }
     }
+}
+
+/// Materials by their names. A name may hold spaces and `#` ("Material #25"), and a comment may follow it: what is
+/// looked for is first the whole, then what stands before ` #`.
+struct NamedMaterials<'a>(HashMap<&'a str, usize>);
+
+impl<'a> NamedMaterials<'a> {
+    fn new(materials: &'a [SourceMaterial]) -> Self {
+        let mut named: HashMap<&str, usize> = HashMap::new();
+        let names = || materials.iter().map(SourceMaterial::name).enumerate();
+        named.extend(names().map(|(index, name)| (name, index)));
+        for (index, name) in names() {
+            named.entry(before_comment(name)).or_insert(index);
+        }
+        Self(named)
+    }
+
+    fn find(&self, name: &str) -> Option<usize> {
+        self.0.get(name).or_else(|| self.0.get(before_comment(name))).copied()
+    }
+}
+
+fn before_comment(name: &str) -> &str {
+    name.split_once(" #").map_or(name, |(name, _)| name.trim_ascii_end())
 }
 
 fn out_of_range(path: &Path, line: usize, kind: usize, index: i64, count: i64) -> LoadError {

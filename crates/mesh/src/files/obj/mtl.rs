@@ -33,6 +33,7 @@ pub(super) fn parse(reader: Reader, materials: &mut Vec<SourceMaterial>) -> Resu
         }
     }
     materials.extend(material.map(SourceMaterial::Mtl));
+    lines.warn_of_encoding(&mut skipped);
     Ok(skipped.warnings(&path))
 }
 

@@ -27,6 +27,7 @@ pub(super) fn parse(source: Source) -> Result<Model, LoadError> {
         smf.add(&statement)?;
     }
     smf.check_furthest(path)?;
+    lines.warn_of_encoding(&mut smf.skipped);
     smf.scopes.warn_of_open(lines.line(), &mut smf.skipped);
     let (parts, more) = smf.shape.into_parts(path)?;
     let mut warnings = smf.skipped.warnings(path);
