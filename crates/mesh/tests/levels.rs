@@ -69,6 +69,23 @@ fn a_sphere_stays_a_sphere() {
 }
 
 #[test]
+fn large_meshes_of_any_number_of_triangles_have_levels() {
+    // Above 32,768 triangles a candidate keeps about half: exactly half of 34,322 = 4k + 2 or of an odd number cannot be
+    // left, since triangles vanish by twos.
+    let sphere = Mesh::from(UvSphere::new(1.0, 131, 132));
+    for left_out in [0, 1] {
+        let indices = sphere.indices()[3 * left_out..].to_vec();
+        let mesh = Mesh::from_parts(sphere.positions().to_vec(), Some(sphere.normals().to_vec()), None, indices).unwrap();
+        let (count, levels) = (mesh.triangle_count(), mesh.levels());
+        assert_eq!(count, 34_322 - left_out);
+        assert!(levels.len() >= 8, "{count}: {} levels", levels.len());
+        check_order(&mesh, &levels, &format!("{count} triangles"));
+        let first = levels[0].triangle_count();
+        assert!(first.abs_diff(count / 2) <= 2, "{count}: {first}");
+    }
+}
+
+#[test]
 fn seams_do_not_crack() {
     // The sphere repeats its first meridian and its poles; here each meridian end also misses its twin by some bits.
     let sphere = Mesh::from(UvSphere::new(1.0, 48, 24));
