@@ -78,7 +78,7 @@ const OBJECTS: [(&str, usize); 5] = [("body", 12), ("handle", 4), ("spout", 4), 
 
 fn teapot_obj() -> String {
     let mesh = Mesh::from(Teapot::new(DIVISIONS));
-    let mut lines = ["v", "vt", "vn"].map(Lines::new);
+    let mut lines = ["v", "vt", "vn"].map(NumberedLines::new);
     let corners: Vec<[usize; 3]> = (0..mesh.positions().len())
         .map(|i| {
             let uv = mesh.uvs().map_or(Vec2::ZERO, |uvs| uvs[i]);
@@ -109,13 +109,13 @@ fn teapot_obj() -> String {
 }
 
 /// Statements of one kind, each written once.
-struct Lines {
+struct NumberedLines {
     keyword: &'static str,
     text: String,
     known: std::collections::HashMap<String, usize>,
 }
 
-impl Lines {
+impl NumberedLines {
     fn new(keyword: &'static str) -> Self {
         Self { keyword, text: String::new(), known: std::collections::HashMap::new() }
     }
@@ -141,13 +141,13 @@ impl Lines {
 
 /// A shape of positions, normals and triangles.
 #[derive(Default)]
-struct Shape {
+struct LanternPart {
     positions: Vec<Vec3>,
     normals: Vec<Vec3>,
     indices: Vec<u16>,
 }
 
-impl Shape {
+impl LanternPart {
     /// Adds a closed band: rings of equally many vertices, one above the other. Seen from the front a ring runs to the
     /// left.
     fn add_rings(&mut self, rings: &[Vec<(Vec3, Vec3)>]) {
@@ -179,7 +179,7 @@ fn turn(i: usize, n: usize) -> (f32, f32) {
 
 /// The surface of revolution about the Y axis of a profile of (radius, height), from its lower end upward. Its bands
 /// meet in edges, or smoothly.
-fn lathe(profile: &[(f32, f32)], segments: usize, smooth: bool) -> Shape {
+fn lathe(profile: &[(f32, f32)], segments: usize, smooth: bool) -> LanternPart {
     let slope = |i: usize| {
         let ((r0, y0), (r1, y1)) = (profile[i], profile[i + 1]);
         Vec2::new(y1 - y0, r0 - r1).normalize()
@@ -195,7 +195,7 @@ fn lathe(profile: &[(f32, f32)], segments: usize, smooth: bool) -> Shape {
             })
             .collect()
     };
-    let mut shape = Shape::default();
+    let mut shape = LanternPart::default();
     if smooth {
         let rings: Vec<_> = profile.iter().enumerate().map(|(i, &point)| ring(point, mean(i))).collect();
         shape.add_rings(&rings);
@@ -208,7 +208,7 @@ fn lathe(profile: &[(f32, f32)], segments: usize, smooth: bool) -> Shape {
 }
 
 /// A ring about the Y axis.
-fn torus(radius: f32, thickness: f32, segments: usize, sides: usize) -> Shape {
+fn torus(radius: f32, thickness: f32, segments: usize, sides: usize) -> LanternPart {
     let ring = |j: usize| {
         let (sin_side, cos_side) = turn(j % sides, sides);
         (0..segments)
@@ -219,7 +219,7 @@ fn torus(radius: f32, thickness: f32, segments: usize, sides: usize) -> Shape {
             })
             .collect()
     };
-    let mut shape = Shape::default();
+    let mut shape = LanternPart::default();
     shape.add_rings(&(0..=sides).map(ring).collect::<Vec<_>>());
     shape
 }
@@ -236,7 +236,7 @@ fn drop_profile() -> Vec<(f32, f32)> {
 }
 
 /// The meshes of the lantern with the number of their material.
-fn lantern_shapes() -> [(&'static str, Shape, usize); 7] {
+fn lantern_shapes() -> [(&'static str, LanternPart, usize); 7] {
     let base = [(0.0, -1.0), (0.62, -1.0), (0.66, -0.92), (0.5, -0.84), (0.5, -0.76), (0.0, -0.76)];
     let roof = [(0.0, 0.7), (0.62, 0.7), (0.66, 0.76), (0.3, 1.0), (0.16, 1.04), (0.16, 1.12), (0.0, 1.16)];
     let candle = [(0.17, -0.76), (0.16, -0.22), (0.13, -0.19), (0.0, -0.21)];

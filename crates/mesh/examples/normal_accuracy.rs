@@ -14,20 +14,20 @@ const WEIGHTINGS: [NormalWeighting; 4] =
     [NormalWeighting::Uniform, NormalWeighting::Area, NormalWeighting::Angle, NormalWeighting::Max];
 
 /// A point of a surface and its unit normal, or `None` where it has none.
-type Point = (DVec3, Option<DVec3>);
+type PointAndNormal = (DVec3, Option<DVec3>);
 
 /// A piece of a surface over the unit square.
-struct Piece {
-    at: Box<dyn Fn(f64, f64) -> Point>,
+struct ParameterPiece {
+    at: Box<dyn Fn(f64, f64) -> PointAndNormal>,
     /// Whether u and v end where they begin.
     closed: [bool; 2],
     /// Cells along u for one along v.
     aspect: usize,
 }
 
-struct Shape {
+struct TestSurface {
     name: &'static str,
-    pieces: Vec<Piece>,
+    pieces: Vec<ParameterPiece>,
     /// Cells along v.
     cells: [usize; 4],
 }
@@ -40,7 +40,7 @@ fn random(key: u64) -> f64 {
     (z ^ (z >> 31)) as f64 / 2.0_f64.powi(64)
 }
 
-fn ellipsoid(name: &'static str, axes: DVec3) -> Shape {
+fn ellipsoid(name: &'static str, axes: DVec3) -> TestSurface {
     let at = move |u: f64, v: f64| {
         let ((sin_phi, cos_phi), (sin_theta, cos_theta)) = ((TAU * u).sin_cos(), (PI * v).sin_cos());
         // A parallel of no radius is one point.
@@ -48,48 +48,52 @@ fn ellipsoid(name: &'static str, axes: DVec3) -> Shape {
         let n = DVec3::new(sin_theta * cos_phi, cos_theta, sin_theta * sin_phi);
         (n * axes, Some((n / axes).normalize()))
     };
-    Shape { name, pieces: vec![Piece { at: Box::new(at), closed: [true, false], aspect: 2 }], cells: [8, 16, 32, 64] }
+    TestSurface {
+        name,
+        pieces: vec![ParameterPiece { at: Box::new(at), closed: [true, false], aspect: 2 }],
+        cells: [8, 16, 32, 64],
+    }
 }
 
-fn torus() -> Shape {
+fn torus() -> TestSurface {
     let at = |u: f64, v: f64| {
         let ((sin_u, cos_u), (sin_v, cos_v)) = ((TAU * u).sin_cos(), (TAU * v).sin_cos());
         let n = DVec3::new(cos_v * cos_u, sin_v, cos_v * sin_u);
         (DVec3::new(cos_u, 0.0, sin_u) + n * 0.4, Some(n))
     };
-    let piece = Piece { at: Box::new(at), closed: [true, true], aspect: 2 };
-    Shape { name: "torus", pieces: vec![piece], cells: [8, 16, 32, 64] }
+    let piece = ParameterPiece { at: Box::new(at), closed: [true, true], aspect: 2 };
+    TestSurface { name: "torus", pieces: vec![piece], cells: [8, 16, 32, 64] }
 }
 
-fn patch(patch: BezierPatch) -> Piece {
+fn patch(patch: BezierPatch) -> ParameterPiece {
     let at = move |u: f64, v: f64| {
         let (u, v) = (Parameter::from(u), Parameter::from(v));
         (patch.position(u, v), patch.normal(u, v))
     };
-    Piece { at: Box::new(at), closed: [false; 2], aspect: 1 }
+    ParameterPiece { at: Box::new(at), closed: [false; 2], aspect: 1 }
 }
 
 /// Heights drawn at random over a square of 3 × 3.
-fn cubic() -> Shape {
+fn cubic() -> TestSurface {
     let point = |i: u64| DVec3::new((i / 4) as f64, 2.5 * random(i), -((i % 4) as f64));
     let points = (0..16).map(point).collect();
     let patch = patch(BezierPatch::new(4, points).expect("four rows of four finite points"));
-    Shape { name: "random cubic", pieces: vec![patch], cells: [8, 16, 32, 64] }
+    TestSurface { name: "random cubic", pieces: vec![patch], cells: [8, 16, 32, 64] }
 }
 
-fn teapot() -> Shape {
+fn teapot() -> TestSurface {
     let mesh = Mesh::from(Teapot::new(1));
     let pieces = mesh.surface().into_iter().flat_map(|surface| surface.pieces().to_vec());
     let pieces = pieces.filter_map(|piece| match piece {
         SurfacePiece::Patch(piece) => Some(patch(piece)),
         _ => None,
     });
-    Shape { name: "teapot", pieces: pieces.collect(), cells: [4, 8, 16, 32] }
+    TestSurface { name: "teapot", pieces: pieces.collect(), cells: [4, 8, 16, 32] }
 }
 
 /// Where the vertices of the grid are.
 #[derive(Clone, Copy, PartialEq)]
-enum Kind {
+enum MeshKind {
     Regular,
     Jittered,
     Slivers,
@@ -97,14 +101,14 @@ enum Kind {
 
 /// A mesh and the true normal of each vertex.
 #[derive(Default)]
-struct Sample {
+struct SampledMesh {
     positions: Vec<Vec3>,
     normals: Vec<Option<DVec3>>,
     indices: Vec<u32>,
 }
 
-impl Sample {
-    fn of(shape: &Shape, cells: usize, kind: Kind) -> Self {
+impl SampledMesh {
+    fn of(shape: &TestSurface, cells: usize, kind: MeshKind) -> Self {
         let mut sample = Self::default();
         for piece in &shape.pieces {
             sample.add(piece, [cells * piece.aspect, cells], kind);
@@ -112,7 +116,7 @@ impl Sample {
         sample
     }
 
-    fn add(&mut self, piece: &Piece, cells: [usize; 2], kind: Kind) {
+    fn add(&mut self, piece: &ParameterPiece, cells: [usize; 2], kind: MeshKind) {
         let first = self.positions.len();
         for i in 0..=cells[0] {
             for j in 0..=cells[1] {
@@ -128,7 +132,7 @@ impl Sample {
                 let a = (first + i * (cells[1] + 1) + j) as u32;
                 let (b, c) = (a + 1, a + cells[1] as u32 + 1);
                 let d = c + 1;
-                let other = kind != Kind::Regular && random(u64::from(a) ^ 0xd1a6) < 0.5;
+                let other = kind != MeshKind::Regular && random(u64::from(a) ^ 0xd1a6) < 0.5;
                 let two = if other { [[a, b, d], [a, d, c]] } else { [[a, b, c], [b, d, c]] };
                 for triangle in two {
                     self.add_triangle(triangle);
@@ -184,11 +188,11 @@ impl Sample {
 }
 
 /// The parameters of a vertex of the grid. The ends of what is not closed stay; those of what is closed agree.
-fn parameters(piece: &Piece, cells: [usize; 2], at: [usize; 2], kind: Kind) -> [f64; 2] {
+fn parameters(piece: &ParameterPiece, cells: [usize; 2], at: [usize; 2], kind: MeshKind) -> [f64; 2] {
     let place = [0, 1].map(|k| if piece.closed[k] { at[k] % cells[k] } else { at[k] });
     let inside = |k: usize| piece.closed[k] || (place[k] > 0 && place[k] < cells[k]);
     let [u, v] = [0, 1].map(|k| place[k] as f64 / cells[k] as f64);
-    if kind == Kind::Regular || !inside(0) || !inside(1) {
+    if kind == MeshKind::Regular || !inside(0) || !inside(1) {
         return [u, v];
     }
     let [du, dv] = cells.map(|count| 0.5 / count as f64);
@@ -198,7 +202,7 @@ fn parameters(piece: &Piece, cells: [usize; 2], at: [usize; 2], kind: Kind) -> [
     ];
     let shorter = sides[0].min(sides[1]);
     let shift = |k: usize| {
-        let part = if kind == Kind::Slivers { 1.0 } else { shorter / sides[k] };
+        let part = if kind == MeshKind::Slivers { 1.0 } else { shorter / sides[k] };
         let key = (place[0] as u64) << 32 | (place[1] as u64) << 1 | k as u64;
         (0.7 * random(key ^ 0x0005_eed0) - 0.35) * part / cells[k] as f64
     };
@@ -206,7 +210,7 @@ fn parameters(piece: &Piece, cells: [usize; 2], at: [usize; 2], kind: Kind) -> [
 }
 
 /// Mean and worst angle in degrees.
-fn errors(sample: &Sample, weighting: NormalWeighting) -> [f64; 2] {
+fn errors(sample: &SampledMesh, weighting: NormalWeighting) -> [f64; 2] {
     let mesh = Mesh::new(sample.positions.clone(), sample.indices.clone()).expect("a mesh of finite numbers");
     let (mesh, _) = mesh.with_normals(Normals::Weighted(weighting));
     let asked = sample.asked();
@@ -234,9 +238,11 @@ fn main() {
     ];
     let mut ratios: [[Vec<f64>; 2]; 4] = Default::default();
     for shape in &shapes {
-        for (mesh, kind) in [("regular", Kind::Regular), ("jittered", Kind::Jittered), ("slivers", Kind::Slivers)] {
+        for (mesh, kind) in
+            [("regular", MeshKind::Regular), ("jittered", MeshKind::Jittered), ("slivers", MeshKind::Slivers)]
+        {
             for cells in shape.cells {
-                let sample = Sample::of(shape, cells, kind);
+                let sample = SampledMesh::of(shape, cells, kind);
                 let triangles = sample.indices.len() / 3;
                 let found = WEIGHTINGS.map(|weighting| errors(&sample, weighting));
                 for kind in 0..2 {

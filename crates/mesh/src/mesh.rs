@@ -7,8 +7,8 @@ use bevy_math::{Vec2, Vec3, Vec4};
 use bevy_reflect::TypePath;
 use thiserror::Error;
 
-use crate::normals::{creased_normals, face_normals, vertex_normals};
-use crate::{Bounds, NormalReport, NormalWeighting, Normals, Surface};
+use crate::normals::vertex_normals;
+use crate::{Bounds, NormalReport, NormalWeighting, Surface};
 
 /// A triangle mesh: vertices with a position, a unit normal and perhaps texture coordinates, a colour and a tangent, and
 /// triangles that index them.
@@ -20,11 +20,11 @@ use crate::{Bounds, NormalReport, NormalWeighting, Normals, Surface};
 /// A mesh does not change once it is made, and its clones share its data.
 #[derive(Asset, TypePath, Clone, Debug, PartialEq)]
 pub struct Mesh {
-    data: Arc<Data>,
+    data: Arc<MeshData>,
 }
 
 #[derive(Clone, Debug, PartialEq)]
-struct Data {
+struct MeshData {
     positions: Vec<Vec3>,
     normals: Vec<Vec3>,
     uvs: Option<Vec<Vec2>>,
@@ -165,7 +165,7 @@ impl Mesh {
     pub(crate) fn checked(positions: Vec<Vec3>, normals: Vec<Vec3>, uvs: Option<Vec<Vec2>>, indices: Vec<u32>) -> Self {
         let bounds =
             Bounds::from_points(positions.iter().copied()).unwrap_or(Bounds { min: Vec3::ZERO, max: Vec3::ZERO });
-        let data = Data { positions, normals, uvs, colors: None, tangents: None, indices, bounds, surface: None };
+        let data = MeshData { positions, normals, uvs, colors: None, tangents: None, indices, bounds, surface: None };
         Self { data: Arc::new(data) }
     }
 
@@ -206,7 +206,7 @@ impl Mesh {
 
     /// Takes positions that are known to be good, as many as before.
     pub(crate) fn with_given_positions(self, positions: Vec<Vec3>) -> Self {
-        let Data { normals, uvs, colors, tangents, indices, .. } = Arc::unwrap_or_clone(self.data);
+        let MeshData { normals, uvs, colors, tangents, indices, .. } = Arc::unwrap_or_clone(self.data);
         Self::checked(positions, normals, uvs, indices).changed(|data| {
             data.colors = colors;
             data.tangents = tangents;
@@ -225,7 +225,7 @@ impl Mesh {
         self.changed(|data| data.surface = Some(surface))
     }
 
-    fn changed(self, change: impl FnOnce(&mut Data)) -> Self {
+    fn changed(self, change: impl FnOnce(&mut MeshData)) -> Self {
         let mut data = Arc::unwrap_or_clone(self.data);
         change(&mut data);
         Self { data: Arc::new(data) }
@@ -296,29 +296,6 @@ impl Mesh {
     /// The box around all vertices.
     pub fn bounds(&self) -> Bounds {
         self.data.bounds
-    }
-
-    /// The mesh with its normals by the policy, and what had to be left out or made up.
-    ///
-    /// [`Normals::Keep`] changes nothing. [`Normals::Face`] gives every triangle three vertices of its own, and +Y to
-    /// degenerate ones, which show nothing. [`Normals::Weighted`] keeps vertices and triangles. [`Normals::Creased`]
-    /// keeps the triangles, splits vertices and leaves out those of no triangle. All but `Keep` drop the tangents.
-    #[must_use]
-    pub fn with_normals(self, policy: Normals) -> (Self, NormalReport) {
-        match policy {
-            Normals::Keep => (self, NormalReport::default()),
-            Normals::Face => {
-                let (face, report) = face_normals(self.positions(), self.indices());
-                let normals = face.into_iter().flat_map(|n| [n; 3]).collect();
-                let corners = (0..self.indices().len() as u32).collect();
-                (self.selected(self.indices(), corners).with_given_normals(normals), report)
-            }
-            Normals::Weighted(weighting) => {
-                let (normals, report) = vertex_normals(self.positions(), self.indices(), weighting);
-                (self.with_given_normals(normals), report)
-            }
-            Normals::Creased { angle, weighting } => creased_normals(&self, angle, weighting),
-        }
     }
 }
 

@@ -385,7 +385,8 @@ const F32: u32 = 5126;
 
 #[test]
 fn attributes_may_be_quantised() {
-    const EXTENSION: &str = "\"extensionsUsed\":[\"KHR_mesh_quantization\"],\"extensionsRequired\":[\"KHR_mesh_quantization\"],";
+    const EXTENSION: &str =
+        "\"extensionsUsed\":[\"KHR_mesh_quantization\"],\"extensionsRequired\":[\"KHR_mesh_quantization\"],";
     let words = |numbers: &[i16]| -> Vec<u8> { numbers.iter().flat_map(|x| x.to_le_bytes()).collect() };
     let positions = words(&[0, 0, 0, 0, 7, 0, 0, 0, 0, -9, 0, 0]);
     let model = attributes(

@@ -75,7 +75,8 @@ fn large_meshes_of_any_number_of_triangles_have_levels() {
     let sphere = Mesh::from(UvSphere::new(1.0, 131, 132));
     for left_out in [0, 1] {
         let indices = sphere.indices()[3 * left_out..].to_vec();
-        let mesh = Mesh::from_parts(sphere.positions().to_vec(), Some(sphere.normals().to_vec()), None, indices).unwrap();
+        let mesh =
+            Mesh::from_parts(sphere.positions().to_vec(), Some(sphere.normals().to_vec()), None, indices).unwrap();
         let (count, levels) = (mesh.triangle_count(), mesh.levels());
         assert_eq!(count, 34_322 - left_out);
         assert!(levels.len() >= 8, "{count}: {} levels", levels.len());

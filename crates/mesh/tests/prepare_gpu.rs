@@ -2,7 +2,7 @@
 #![cfg(feature = "prepare")]
 
 use bevy_math::Vec3;
-use halfway_mesh::{Cuboid, Mesh, Meshlets, NormalCone, Teapot, UvSphere};
+use halfway_mesh::{Cuboid, DirectionCone, Mesh, Meshlets, Teapot, UvSphere};
 
 fn models() -> [(&'static str, Mesh); 3] {
     [
@@ -49,7 +49,7 @@ fn the_optimised_mesh_is_the_same_in_a_better_order() {
     assert!(sphere.optimized().report().cache_misses < 0.8, "{}", sphere.optimized().report().cache_misses);
 }
 
-fn is_inside(cone: &NormalCone, n: Vec3) -> bool {
+fn is_inside(cone: &DirectionCone, n: Vec3) -> bool {
     n.as_dvec3().dot(cone.axis.as_dvec3()) >= f64::from(cone.cos)
 }
 

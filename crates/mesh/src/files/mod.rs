@@ -2,6 +2,7 @@
 
 mod color;
 mod error;
+mod format;
 mod gltf;
 mod obj;
 mod ply;
@@ -16,56 +17,14 @@ use std::cell::RefCell;
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use bevy_math::Vec2;
-
 use crate::Model;
 
 pub use error::LoadError;
+pub use format::Format;
 pub use source::{LoadOptions, LoadProgress};
 pub use write::{WriteError, write, write_quantised};
 
 use source::Source;
-use text::Statement;
-
-/// A format of model files.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Format {
-    /// Garland's SMF.
-    Smf,
-    /// Wavefront OBJ with its MTL files.
-    Obj,
-    /// glTF 2.0 in text.
-    Gltf,
-    /// glTF 2.0 in one binary file.
-    Glb,
-    /// PLY, in ASCII or binary.
-    Ply,
-    /// STL, in ASCII or binary.
-    Stl,
-}
-
-impl Format {
-    /// All formats.
-    pub const ALL: [Self; 6] = [Self::Smf, Self::Obj, Self::Gltf, Self::Glb, Self::Ply, Self::Stl];
-
-    /// What the names of its files end in, without the dot.
-    pub const fn extension(self) -> &'static str {
-        match self {
-            Self::Smf => "smf",
-            Self::Obj => "obj",
-            Self::Gltf => "gltf",
-            Self::Glb => "glb",
-            Self::Ply => "ply",
-            Self::Stl => "stl",
-        }
-    }
-
-    /// The format that a file's extension names, in either case.
-    pub fn of(path: &Path) -> Option<Self> {
-        let extension = path.extension()?;
-        Self::ALL.into_iter().find(|format| extension.eq_ignore_ascii_case(format.extension()))
-    }
-}
 
 /// Reads a model file. Its format is told by its extension, in either case:
 ///
@@ -134,18 +93,4 @@ fn parse(format: Format, source: Source) -> Result<Model, LoadError> {
         return Err(LoadError::NoTriangles { path: path.to_owned() });
     }
     Ok(model)
-}
-
-/// The name of a file without its extension, which names a model that has no name of its own.
-fn stem(path: &Path) -> String {
-    path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
-}
-
-/// Texture coordinates of a format whose v runs upward.
-fn uv(statement: &Statement, u: &str, v: &str) -> Result<Vec2, LoadError> {
-    let u = statement.number(u)?;
-    statement.number(v)?;
-    // In f64, where v is turned without loss.
-    let v: f64 = v.parse().map_err(|_| statement.unexpected_word(v, "a finite number is"))?;
-    Ok(Vec2::new(u, (1.0 - v) as f32))
 }

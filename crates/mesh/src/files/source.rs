@@ -37,7 +37,7 @@ const CHUNK: usize = 1 << 18;
 pub(super) struct Source<'a> {
     pub(super) path: &'a Path,
     pub(super) reader: Reader<'a>,
-    pub(super) around: Around<'a>,
+    pub(super) around: ModelFolder<'a>,
 }
 
 impl<'a> Source<'a> {
@@ -47,13 +47,13 @@ impl<'a> Source<'a> {
         options: LoadOptions,
         on_progress: &'a OnProgress<'a>,
     ) -> Result<Self, LoadError> {
-        let around = Around::of_file(path, options, on_progress);
+        let around = ModelFolder::of_file(path, options, on_progress);
         Ok(Self { path, reader: around.open(path)?, around })
     }
 
     /// Takes bytes in memory for the content of a file.
     pub(super) fn of_bytes(path: &'a Path, bytes: &'a [u8]) -> Result<Self, LoadError> {
-        Ok(Self { path, reader: Reader::of_bytes(path, bytes)?, around: Around::nowhere() })
+        Ok(Self { path, reader: Reader::of_bytes(path, bytes)?, around: ModelFolder::nowhere() })
     }
 }
 
@@ -193,14 +193,14 @@ impl<'a> Reader<'a> {
 
 /// Where the files lie that a model refers to.
 #[derive(Clone, Copy)]
-pub(super) struct Around<'a> {
+pub(super) struct ModelFolder<'a> {
     /// The model's folder; `None` where the model is bytes in memory and has no files around it.
     folder: Option<&'a Path>,
     options: LoadOptions,
     on_progress: Option<&'a OnProgress<'a>>,
 }
 
-impl<'a> Around<'a> {
+impl<'a> ModelFolder<'a> {
     fn of_file(path: &'a Path, options: LoadOptions, on_progress: &'a OnProgress<'a>) -> Self {
         Self { folder: Some(path.parent().unwrap_or(Path::new(""))), options, on_progress: Some(on_progress) }
     }
@@ -236,6 +236,11 @@ impl<'a> Around<'a> {
     }
 }
 
+/// The name of a file without its extension, which names a model that has no name of its own.
+pub(super) fn stem(path: &Path) -> String {
+    path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
+}
+
 /// Whether a path that stands in a file stays in that file's folder: relative, and without `..`.
 fn stays_inside(reference: &Path) -> bool {
     let mut names = 0;
@@ -264,10 +269,11 @@ mod tests {
             (".", false),
         ] {
             assert_eq!(stays_inside(Path::new(reference)), inside, "{reference:?}");
-            let around =
-                Around::of_file(Path::new("model.obj"), LoadOptions { outside: true }, &|_| ControlFlow::Continue(()));
+            let around = ModelFolder::of_file(Path::new("model.obj"), LoadOptions { outside: true }, &|_| {
+                ControlFlow::Continue(())
+            });
             assert_eq!(around.find(reference), Some(Path::new("").join(reference)));
-            assert_eq!(Around::nowhere().find(reference), None);
+            assert_eq!(ModelFolder::nowhere().find(reference), None);
         }
     }
 }

@@ -2,10 +2,10 @@
 
 use bevy_math::{Mat4, Vec3};
 
+use super::LoadError;
+use super::source::{Reader, Source, stem};
+use super::text::{Skipped, Statement, Statements};
 use crate::numbering::DistinctKeys;
-use super::source::{Reader, Source};
-use super::text::{Lines, Skipped, Statement};
-use super::{LoadError, stem};
 use crate::{Mesh, Model, Part, face_normal};
 
 /// The bytes before the triangles of a binary file, of which the last four count them, and those of a triangle.
@@ -58,7 +58,7 @@ pub(super) fn parse(source: Source) -> Result<Model, LoadError> {
 }
 
 /// The triangles of one `solid`.
-struct Solid {
+struct StlSolid {
     name: String,
     /// The bits of the distinct positions.
     positions: DistinctKeys,
@@ -67,7 +67,7 @@ struct Solid {
     against: usize,
 }
 
-impl Solid {
+impl StlSolid {
     fn new(name: String) -> Self {
         Self { name, positions: DistinctKeys::default(), indices: Vec::new(), against: 0 }
     }
@@ -90,10 +90,10 @@ impl Solid {
     }
 }
 
-fn binary(mut reader: Reader, count: u32, warnings: &mut Vec<String>, name: String) -> Result<Solid, LoadError> {
+fn binary(mut reader: Reader, count: u32, warnings: &mut Vec<String>, name: String) -> Result<StlSolid, LoadError> {
     let mut header = [0; HEADER];
     reader.fill(&mut header)?;
-    let mut solid = Solid::new(name);
+    let mut solid = StlSolid::new(name);
     let path = reader.path();
     let mut facet = [0; FACET];
     let mut with_attribute = 0_usize;
@@ -126,9 +126,9 @@ fn binary(mut reader: Reader, count: u32, warnings: &mut Vec<String>, name: Stri
 }
 
 /// `solid`, facets, `endsolid`, perhaps several.
-fn text(reader: Reader, skipped: &mut Skipped, name: &str) -> Result<Vec<Solid>, LoadError> {
-    let mut lines = Lines::new(reader);
-    let mut solids: Vec<Solid> = Vec::new();
+fn text(reader: Reader, skipped: &mut Skipped, name: &str) -> Result<Vec<StlSolid>, LoadError> {
+    let mut lines = Statements::new(reader);
+    let mut solids: Vec<StlSolid> = Vec::new();
     let mut normal = Vec3::ZERO;
     let mut corners = Vec::new();
     let mut inside = false;
@@ -136,7 +136,7 @@ fn text(reader: Reader, skipped: &mut Skipped, name: &str) -> Result<Vec<Solid>,
         match statement.keyword.to_ascii_lowercase().as_str() {
             "solid" => {
                 let own = if statement.rest.is_empty() { name } else { statement.rest };
-                solids.push(Solid::new(own.to_owned()));
+                solids.push(StlSolid::new(own.to_owned()));
             }
             "facet" => {
                 normal = facet_normal(&statement)?;

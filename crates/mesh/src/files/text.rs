@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::str::FromStr;
 
+use bevy_math::Vec2;
+
 use super::LoadError;
 use super::source::Reader;
 
@@ -12,7 +14,7 @@ use super::source::Reader;
 /// Lines end with LF or CRLF; `#` at the beginning makes a comment, which may hold any bytes; other lines are UTF-8, or
 /// else Latin-1, as older programs write names. A byte order mark at the beginning is skipped. No more than a line is in
 /// memory.
-pub(super) struct Lines<'a> {
+pub(super) struct Statements<'a> {
     reader: Reader<'a>,
     buffer: Vec<u8>,
     /// The line in the buffer as text, where it is Latin-1.
@@ -26,7 +28,7 @@ pub(super) struct Lines<'a> {
     continued: bool,
 }
 
-impl<'a> Lines<'a> {
+impl<'a> Statements<'a> {
     pub(super) fn new(reader: Reader<'a>) -> Self {
         Self {
             reader,
@@ -191,6 +193,15 @@ impl<'a> Statement<'a> {
             Ok(x) if x.is_finite() => Ok(x),
             _ => Err(self.unexpected_word(word, "a finite number is")),
         }
+    }
+
+    /// Two of its words as texture coordinates, whose v runs upward in the file.
+    pub(super) fn uv(&self, u: &str, v: &str) -> Result<Vec2, LoadError> {
+        let u = self.number(u)?;
+        self.number(v)?;
+        // In f64, where v is turned without loss.
+        let v: f64 = v.parse().map_err(|_| self.unexpected_word(v, "a finite number is"))?;
+        Ok(Vec2::new(u, (1.0 - v) as f32))
     }
 }
 

@@ -43,7 +43,7 @@ pub(super) struct Means {
 
 /// The sum over one class.
 #[derive(Clone, Copy, Default)]
-struct Sum {
+struct NormalSum {
     n: DVec3,
     weights: f64,
 }
@@ -66,7 +66,7 @@ impl Means {
         class: impl Fn(usize) -> u32,
     ) -> Self {
         let mut report = NormalReport::default();
-        let mut sums = vec![Sum::default(); classes];
+        let mut sums = vec![NormalSum::default(); classes];
         let mut shares = Vec::new();
         for (block, triangles) in indices.as_chunks::<3>().0.chunks(BLOCK).enumerate() {
             triangles
@@ -127,9 +127,9 @@ impl Means {
 }
 
 /// The means that did not vanish, zero for the others, and the classes of those that had weights.
-fn settle(sums: &[Sum]) -> (Vec<Vec3>, HashMap<u32, Largest>) {
+fn settle(sums: &[NormalSum]) -> (Vec<Vec3>, HashMap<u32, Largest>) {
     let mut cancelled = HashMap::new();
-    let settled = |(class, sum): (usize, &Sum)| {
+    let settled = |(class, sum): (usize, &NormalSum)| {
         let length = sum.n.length();
         if length > CANCELLED * sum.weights {
             (sum.n / length).as_vec3()

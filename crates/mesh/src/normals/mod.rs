@@ -6,6 +6,7 @@
 mod face;
 mod fans;
 mod means;
+mod policy;
 mod split;
 
 pub use face::face_normal;

@@ -1,4 +1,4 @@
-//! Fewer triangles between some of the vertices: vertices are drawn onto neighbours, the least loss first.
+//! Fewer triangles between some of the vertices: vertices collapse onto neighbours, those that lose least first.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -7,7 +7,7 @@ use bevy_math::{DVec3, Vec3};
 use rayon::prelude::*;
 
 use super::deviation::nearest_on;
-use super::quadric::Quadric;
+use super::quadric::ErrorQuadric;
 use super::stand_ins::StandIns;
 use crate::Mesh;
 
@@ -31,21 +31,21 @@ pub(super) struct Collapse<'a> {
     positions: Vec<DVec3>,
     normals: &'a [Vec3],
     /// Of each place.
-    quadrics: Vec<Quadric>,
+    quadrics: Vec<ErrorQuadric>,
     /// By vertices; those that are gone are `GONE`.
     triangles: Vec<[u32; 3]>,
     /// The numbers of the triangles around each place; some may be gone.
     fans: Vec<Vec<u32>>,
     alive: usize,
-    /// Places by what drawing them onto their best neighbour loses.
+    /// Places by what collapsing them onto their best neighbour loses.
     waiting: BinaryHeap<Reverse<(u32, u32)>>,
-    /// Of each place in line, the neighbour onto which it is best drawn, if its surroundings have not changed.
+    /// Of each place in line, the neighbour onto which it collapses best, if its surroundings have not changed.
     best: Vec<u32>,
     /// For each place, whether its surroundings have changed since it was put in line.
     changed: Vec<bool>,
     /// Whether each place is in line.
     is_waiting: Vec<bool>,
-    /// Of each vertex, the one onto which it was drawn; itself if none.
+    /// Of each vertex, the one onto which it has collapsed; itself if none.
     targets: Vec<u32>,
 }
 
@@ -62,7 +62,7 @@ fn spread2(normals: [DVec3; 3]) -> f64 {
 const GONE: [u32; 3] = [u32::MAX; 3];
 
 /// A corner of a fan: the triangle's vertex at the fan's place, and the two after it.
-type Corner = [u32; 3];
+type FanCorner = [u32; 3];
 
 /// Vertices of the place that moves, and those that take their triangles. Most places have one vertex.
 #[derive(Default)]
@@ -105,7 +105,7 @@ impl<'a> Collapse<'a> {
         }
         let mut collapse = Self {
             places: &stand_ins.places,
-            quadrics: vec![Quadric::NONE; positions.len()],
+            quadrics: vec![ErrorQuadric::NONE; positions.len()],
             positions,
             normals: mesh.normals(),
             alive: triangles.len(),
@@ -135,20 +135,20 @@ impl<'a> Collapse<'a> {
         self.triangles.iter().copied().filter(|&triangle| triangle != GONE).collect()
     }
 
-    /// Of each vertex, the one onto which it was drawn; itself if none.
+    /// Of each vertex, the one onto which it has collapsed; itself if none.
     pub(super) fn into_targets(self) -> Vec<u32> {
         self.targets
     }
 
-    /// Draws vertices onto others until no more than so many triangles are left or nothing may be drawn any more.
+    /// Collapses vertices onto others until at most `target` triangles are left or no vertex may collapse any more.
     pub(super) fn reduce_to(&mut self, target: usize) {
         while self.alive > target {
             let Some(Reverse((_, place))) = self.waiting.pop() else { return };
             self.is_waiting[place as usize] = false;
             let has_changed = std::mem::take(&mut self.changed[place as usize]);
             let target = self.best[place as usize];
-            if !has_changed && self.may_be_drawn(place, target) {
-                self.draw(place, target);
+            if !has_changed && self.may_collapse(place, target) {
+                self.collapse(place, target);
             } else if let Some((cost, target)) = self.best(place) {
                 self.best[place as usize] = target;
                 self.is_waiting[place as usize] = true;
@@ -166,7 +166,7 @@ impl<'a> Collapse<'a> {
     }
 
     /// The corners at a place.
-    fn corners(&self, place: u32) -> impl Iterator<Item = Corner> + Clone {
+    fn corners(&self, place: u32) -> impl Iterator<Item = FanCorner> + Clone {
         let fan = self.fans[place as usize].iter().map(|&number| self.triangles[number as usize]);
         fan.filter(|&triangle| triangle != GONE).map(move |[a, b, c]| {
             if self.place(a) == place {
@@ -187,7 +187,7 @@ impl<'a> Collapse<'a> {
             let n = (b - a).cross(c - a);
             let area = 0.5 * n.length();
             let Some(n) = n.try_normalize() else { continue };
-            let face = Quadric::plane(n, a, area);
+            let face = ErrorQuadric::plane(n, a, area);
             for vertex in triangle {
                 self.quadrics[self.places[vertex as usize] as usize] += face;
             }
@@ -199,7 +199,7 @@ impl<'a> Collapse<'a> {
                 }
                 let side = self.position(to) - self.position(from);
                 let across =
-                    Quadric::plane(side.cross(n).normalize_or_zero(), self.position(from), side.length_squared());
+                    ErrorQuadric::plane(side.cross(n).normalize_or_zero(), self.position(from), side.length_squared());
                 for vertex in [from, to] {
                     self.quadrics[self.places[vertex as usize] as usize] += across;
                 }
@@ -207,7 +207,7 @@ impl<'a> Collapse<'a> {
         }
     }
 
-    /// The neighbour onto which a place is best drawn, and what that loses.
+    /// The neighbour onto which a place collapses best, and what that loses.
     fn best(&self, place: u32) -> Option<(f32, u32)> {
         if self.fans[place as usize].len() > MOST_AROUND {
             return None;
@@ -240,14 +240,14 @@ impl<'a> Collapse<'a> {
     }
 
     /// The corners at a place.
-    fn fan(&self, place: u32) -> Vec<Corner> {
+    fn fan(&self, place: u32) -> Vec<FanCorner> {
         let mut fan = Vec::with_capacity(self.fans[place as usize].len());
         fan.extend(self.corners(place));
         fan
     }
 
     /// The neighbours of a place, in order.
-    fn around(&self, fan: &[Corner]) -> Vec<u32> {
+    fn around(&self, fan: &[FanCorner]) -> Vec<u32> {
         let mut around = Vec::with_capacity(2 * fan.len());
         around.extend(fan.iter().flat_map(|&[_, b, c]| [self.place(b), self.place(c)]));
         around.sort_unstable();
@@ -256,22 +256,22 @@ impl<'a> Collapse<'a> {
     }
 
     /// Whether what is best for a place still is where only what is further off than its neighbours has changed.
-    fn may_be_drawn(&self, place: u32, target: u32) -> bool {
+    fn may_collapse(&self, place: u32, target: u32) -> bool {
         let fan = self.fan(place);
         self.keeps_topology(target, &fan, &self.around(&fan))
     }
 
-    /// What drawing a place onto a neighbour loses, unless it is no less than `most`, it turns a triangle over or a seam
+    /// What collapsing a place onto a neighbour loses, unless it is no less than `most`, it turns a triangle over or a seam
     /// would tear.
     ///
     /// A length, the sum of: how far the new position is from the planes of the original triangles, in the mean; how far
     /// the old position is from the new triangles, which the mean may hide; the spread of the new triangles' normals and
     /// the change of the normal at the old position (see [`SHARP_TURN`]), both times the longest edge. So what is small may be cut coarsely,
     /// and on a sphere all triangles become alike.
-    fn cost(&self, place: u32, (target, base): (u32, f64), fan: &[Corner], most: f64) -> Option<f64> {
+    fn cost(&self, place: u32, (target, base): (u32, f64), fan: &[FanCorner], most: f64) -> Option<f64> {
         let (p, q) = (self.position(place), self.position(target));
         let moves = self.moves(target, fan)?;
-        let stays = |&&[_, b, c]: &&Corner| self.place(b) != target && self.place(c) != target;
+        let stays = |&&[_, b, c]: &&FanCorner| self.place(b) != target && self.place(c) != target;
         let (mut bulge2, most_bulge2) = (0.0_f64, (most - base).powi(2));
         for &[a, b, c] in fan.iter().filter(stays) {
             let [p_b, p_c] = [b, c].map(|vertex| self.position(vertex));
@@ -314,7 +314,7 @@ impl<'a> Collapse<'a> {
 
     /// Which vertex of the target each vertex of the fan's place becomes: the one that it shares an edge with. None if a
     /// vertex has none there, or two.
-    fn moves(&self, target: u32, fan: &[Corner]) -> Option<Moves> {
+    fn moves(&self, target: u32, fan: &[FanCorner]) -> Option<Moves> {
         let mut moves = Moves::default();
         for &[a, b, c] in fan {
             for to in [b, c].into_iter().filter(|&vertex| self.place(vertex) == target) {
@@ -330,7 +330,7 @@ impl<'a> Collapse<'a> {
 
     /// Whether the surface stays one: the neighbours that both ends have are those of the triangles on their edge, one at
     /// a border and else two, and what is on a border moves along it.
-    fn keeps_topology(&self, target: u32, fan: &[Corner], around: &[u32]) -> bool {
+    fn keeps_topology(&self, target: u32, fan: &[FanCorner], around: &[u32]) -> bool {
         let on_edge = fan.iter().filter(|&&[_, b, c]| self.place(b) == target || self.place(c) == target).count();
         let is_closed = around.len() == fan.len();
         let is_open = around.len() == fan.len() + 1;
@@ -346,8 +346,8 @@ impl<'a> Collapse<'a> {
         self.corners(few).any(|[_, x, y]| self.place(x) == other || self.place(y) == other)
     }
 
-    /// Draws a place onto a neighbour.
-    fn draw(&mut self, place: u32, target: u32) {
+    /// Collapses a place onto a neighbour.
+    fn collapse(&mut self, place: u32, target: u32) {
         let fan = self.fan(place);
         let Some(moves) = self.moves(target, &fan) else { return };
         for (from, to) in moves.iter() {

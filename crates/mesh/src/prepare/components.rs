@@ -12,14 +12,14 @@ pub(super) struct Components {
     /// Whether each triangle has to be turned for its piece to be wound alike and, if closed, outward.
     pub(super) turn: Vec<bool>,
     /// The pieces, by their first triangle.
-    pub(super) pieces: Vec<Piece>,
+    pub(super) pieces: Vec<ConnectedPiece>,
     /// Pairs of triangles of one piece that cannot be made to agree, as on a Möbius strip.
     pub(super) conflicts: usize,
 }
 
 /// One piece.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Piece {
+pub(super) struct ConnectedPiece {
     /// Whether every edge has two triangles and the piece has two sides.
     pub(super) closed: bool,
     /// Whether it is closed and, wound alike, has more triangles that face in than out.
@@ -74,7 +74,7 @@ impl Components {
         let turned = members.iter().filter(|&&triangle| self.turn[triangle as usize]).count();
         let mut invert = 2 * turned > members.len();
         let closed = two_sided && members.iter().all(|&triangle| neighbours.is_enclosed(triangle));
-        let mut piece = Piece { closed, ..Piece::default() };
+        let mut piece = ConnectedPiece { closed, ..ConnectedPiece::default() };
         if piece.closed {
             let corners = |triangle: u32| edges.triangles()[triangle as usize].map(|i| positions(i).as_dvec3());
             let origin = corners(members[0])[0];

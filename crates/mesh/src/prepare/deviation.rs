@@ -5,7 +5,7 @@ use std::ops::Range;
 use bevy_math::DVec3;
 use rayon::prelude::*;
 
-use super::nearest::Triangles;
+use super::nearest::TriangleTree;
 use crate::Mesh;
 
 /// So many of the vertices that went since the level before are sampled, and so many of those that went earlier.
@@ -39,7 +39,7 @@ pub(super) struct Gone {
     order: Vec<u32>,
     /// Of each vertex, where it is in the order; `usize::MAX` if it stays.
     numbers: Vec<usize>,
-    /// Of each vertex, the one onto which it was drawn; itself if none.
+    /// Of each vertex, the one onto which it has collapsed; itself if none.
     targets: Vec<u32>,
 }
 
@@ -52,8 +52,8 @@ impl Gone {
         Self { order, numbers, targets }
     }
 
-    /// Where a vertex is after so many have gone: the vertex onto which it was drawn, or the one onto which that was
-    /// drawn, and so on.
+    /// Where a vertex is after so many have gone: the vertex onto which it has collapsed, or the one onto which that
+    /// has, and so on.
     fn target(&self, vertex: u32, gone: usize) -> u32 {
         let mut vertex = vertex;
         while self.numbers[vertex as usize] < gone && self.targets[vertex as usize] != vertex {
@@ -67,12 +67,12 @@ impl Gone {
 pub(super) struct Sheet<'a> {
     mesh: &'a Mesh,
     triangles: &'a [[u32; 3]],
-    tree: Triangles,
+    tree: TriangleTree,
 }
 
 /// A point and its normal.
 #[derive(Clone, Copy)]
-struct Sample {
+struct SurfaceSample {
     p: DVec3,
     n: DVec3,
     /// A difference of unit normals counts as that part of this length, squared.
@@ -83,7 +83,7 @@ impl<'a> Sheet<'a> {
     /// At least one triangle.
     pub(super) fn new(mesh: &'a Mesh, triangles: &'a [[u32; 3]]) -> Self {
         let corners = |triangle: &[u32; 3]| triangle.map(|vertex| mesh.positions()[vertex as usize].as_dvec3());
-        Self { mesh, triangles, tree: Triangles::new(triangles.iter().map(corners).collect()) }
+        Self { mesh, triangles, tree: TriangleTree::new(triangles.iter().map(corners).collect()) }
     }
 
     fn position(&self, vertex: u32) -> DVec3 {
@@ -103,7 +103,7 @@ impl<'a> Sheet<'a> {
             let vertex = gone.order[number];
             let (p, n) = (self.position(vertex), self.normal(vertex));
             let scale2 = p.distance_squared(self.position(gone.target(vertex, late.end)));
-            self.deviation_at(Sample { p, n, scale2 })
+            self.deviation_at(SurfaceSample { p, n, scale2 })
         });
         let middles = self.middles().into_par_iter().map(|middle| mesh.deviation_at(self.sample(middle)));
         vertices.chain(middles).reduce(Deviation::default, Deviation::max)
@@ -123,19 +123,19 @@ impl<'a> Sheet<'a> {
         middles
     }
 
-    fn sample(&self, [a, b, c]: [u32; 3]) -> Sample {
+    fn sample(&self, [a, b, c]: [u32; 3]) -> SurfaceSample {
         let corners = if b == c { &[a, b][..] } else { &[a, b, c] };
         let p = corners.iter().map(|&vertex| self.position(vertex)).sum::<DVec3>() / corners.len() as f64;
         let n = corners.iter().map(|&vertex| self.normal(vertex)).sum::<DVec3>().normalize_or_zero();
         let to_corner2 = corners.iter().map(|&vertex| p.distance_squared(self.position(vertex)));
-        Sample { p, n, scale2: to_corner2.fold(f64::INFINITY, f64::min) }
+        SurfaceSample { p, n, scale2: to_corner2.fold(f64::INFINITY, f64::min) }
     }
 
     /// The distance of a point from the triangles, and the angle of its normal to the interpolated one there.
     ///
     /// Where a crease or a thin part has two sides near the point, the one that faces its way is meant: a difference of
     /// unit normals counts as that part of the sample's scale.
-    fn deviation_at(&self, Sample { p, n, scale2 }: Sample) -> Deviation {
+    fn deviation_at(&self, SurfaceSample { p, n, scale2 }: SurfaceSample) -> Deviation {
         let mut best = (f64::INFINITY, f64::INFINITY, DVec3::ZERO);
         self.tree.search(p, f64::INFINITY, |_, triangle, number| {
             let (distance2, weights) = nearest_on(p, *triangle);

@@ -5,7 +5,7 @@ use std::collections::BinaryHeap;
 
 use rayon::prelude::*;
 
-use super::nearest::{Triangle, Triangles};
+use super::nearest::{TriangleCorners, TriangleTree};
 use crate::Mesh;
 
 /// Bounds of a distance.
@@ -31,12 +31,14 @@ impl Mesh {
     pub fn distance_to(&self, other: &Mesh, tolerance: f64) -> DistanceBounds {
         let tolerance = tolerance.max(0.0);
         let corners = |mesh: &Mesh, i: u32| mesh.positions()[i as usize].as_dvec3();
-        let target = Triangles::new(other.triangles().map(|triangle| triangle.map(|i| corners(other, i))).collect());
+        let target = TriangleTree::new(other.triangles().map(|triangle| triangle.map(|i| corners(other, i))).collect());
         let own = |triangle: &[u32; 3]| triangle.map(|i| corners(self, i));
         let triangles = self.indices().as_chunks::<3>().0;
-        let first: Vec<Cell> = triangles.par_iter().map(|triangle| Cell::new(own(triangle), &target, 0)).collect();
+        let first: Vec<SubTriangle> =
+            triangles.par_iter().map(|triangle| SubTriangle::new(own(triangle), &target, 0)).collect();
         let mut least = first.iter().fold(0.0_f64, |least, cell| least.max(cell.lower));
-        let mut cells: BinaryHeap<Cell> = first.into_iter().filter(|cell| cell.upper > least + tolerance).collect();
+        let mut cells: BinaryHeap<SubTriangle> =
+            first.into_iter().filter(|cell| cell.upper > least + tolerance).collect();
         for _ in 0..CUTS {
             let Some(cell) = cells.pop().filter(|cell| cell.upper > least + tolerance) else { break };
             for quarter in cell.quarters(&target) {
@@ -51,8 +53,8 @@ impl Mesh {
 }
 
 /// A part of a triangle.
-struct Cell {
-    corners: Triangle,
+struct SubTriangle {
+    corners: TriangleCorners,
     /// A distance that one of its points has.
     lower: f64,
     /// A distance that none of its points passes.
@@ -61,9 +63,9 @@ struct Cell {
     nearest: usize,
 }
 
-impl Cell {
+impl SubTriangle {
     /// `guess` is the number of a triangle that is probably near.
-    fn new(corners: Triangle, target: &Triangles, guess: usize) -> Self {
+    fn new(corners: TriangleCorners, target: &TriangleTree, guess: usize) -> Self {
         let [a, b, c] = corners;
         let center = (a + b + c) / 3.0;
         let (lower, nearest) = target.nearest(center, guess);
@@ -72,7 +74,7 @@ impl Cell {
         Self { corners, lower, upper: to_nearest.min(lower + reach), nearest }
     }
 
-    fn quarters(&self, target: &Triangles) -> [Self; 4] {
+    fn quarters(&self, target: &TriangleTree) -> [Self; 4] {
         let [a, b, c] = self.corners;
         let [ab, bc, ca] = [0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)];
         [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]].map(|corners| {
@@ -83,21 +85,21 @@ impl Cell {
     }
 }
 
-impl PartialEq for Cell {
+impl PartialEq for SubTriangle {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other).is_eq()
     }
 }
 
-impl Eq for Cell {}
+impl Eq for SubTriangle {}
 
-impl PartialOrd for Cell {
+impl PartialOrd for SubTriangle {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl Ord for Cell {
+impl Ord for SubTriangle {
     fn cmp(&self, other: &Self) -> Ordering {
         self.upper.total_cmp(&other.upper)
     }

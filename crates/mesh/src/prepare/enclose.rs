@@ -15,7 +15,7 @@ pub struct BoundingSphere {
 ///
 /// Where `cos` is positive the cone is convex, and holds all normalised means of the directions it was made for.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct NormalCone {
+pub struct DirectionCone {
     /// Its middle, of unit length.
     pub axis: Vec3,
     /// The least cosine of a direction's angle to the axis, rounded down; −1 or less where there is no cone to speak of.
@@ -36,7 +36,7 @@ impl BoundingSphere {
     }
 }
 
-impl NormalCone {
+impl DirectionCone {
     /// A cone around unit directions; around none, +Y alone.
     pub(super) fn around(directions: &[Vec3]) -> Self {
         if directions.is_empty() {

@@ -5,7 +5,7 @@ use std::ops::Range;
 use bevy_math::Vec3;
 use meshopt::VertexDataAdapter;
 
-use super::enclose::{BoundingSphere, NormalCone};
+use super::enclose::{BoundingSphere, DirectionCone};
 use crate::{Mesh, face_normal};
 
 /// A mesh cut into patches of neighbouring triangles.
@@ -26,9 +26,9 @@ pub struct Meshlet {
     /// Holds the positions of its vertices, and so its triangles.
     pub sphere: BoundingSphere,
     /// Holds the normals of its vertices, and, if narrower than a half-space, the interpolated ones between them.
-    pub normals: NormalCone,
+    pub normals: DirectionCone,
     /// Holds the normals of its triangles that have one.
-    pub faces: NormalCone,
+    pub faces: DirectionCone,
 }
 
 impl Meshlets {
@@ -82,8 +82,8 @@ impl Mesh {
         Meshlet {
             triangles,
             sphere: BoundingSphere::around(&of(self.positions())),
-            normals: NormalCone::around(&of(self.normals())),
-            faces: NormalCone::around(&faces),
+            normals: DirectionCone::around(&of(self.normals())),
+            faces: DirectionCone::around(&faces),
         }
     }
 }

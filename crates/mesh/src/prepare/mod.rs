@@ -26,14 +26,14 @@ mod weld;
 
 pub use distance::DistanceBounds;
 #[cfg(feature = "prepare")]
-pub use enclose::{BoundingSphere, NormalCone};
+pub use enclose::{BoundingSphere, DirectionCone};
 pub use levels::Level;
 #[cfg(feature = "prepare")]
 pub use meshlets::{Meshlet, Meshlets};
 pub use repair::RepairReport;
 pub use report::MeshReport;
 #[cfg(feature = "prepare")]
-pub use simplify::LevelOfDetail;
+pub use simplify::SimplifiedMesh;
 pub use weld::{Weld, WeldReport};
 
 use bevy_math::{DVec3, Vec3};

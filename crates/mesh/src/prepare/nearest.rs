@@ -3,12 +3,12 @@
 use bevy_math::DVec3;
 
 /// Three corners.
-pub(super) type Triangle = [DVec3; 3];
+pub(super) type TriangleCorners = [DVec3; 3];
 
 /// Triangles, found by place.
-pub(super) struct Triangles {
+pub(super) struct TriangleTree {
     /// Each with the number that it had when it was given.
-    triangles: Vec<(Triangle, u32)>,
+    triangles: Vec<(TriangleCorners, u32)>,
     /// A node's near half follows it; leaves have triangles. The first is the root.
     nodes: Vec<Node>,
 }
@@ -25,10 +25,10 @@ struct Node {
 /// So many triangles are not worth a box more.
 const LEAF: usize = 4;
 
-impl Triangles {
+impl TriangleTree {
     /// At least one triangle.
-    pub(super) fn new(triangles: Vec<Triangle>) -> Self {
-        let key = |(number, [a, b, c]): (u32, &Triangle)| (a + b + c, number);
+    pub(super) fn new(triangles: Vec<TriangleCorners>) -> Self {
+        let key = |(number, [a, b, c]): (u32, &TriangleCorners)| (a + b + c, number);
         let mut keys: Vec<(DVec3, u32)> = (0..).zip(&triangles).map(key).collect();
         let mut nodes = Vec::with_capacity(triangles.len());
         build(&mut keys, 0, &triangles, &mut nodes);
@@ -58,7 +58,7 @@ impl Triangles {
     /// Looks at triangles, the near ones first: `look` gets a triangle's number, its corners and the number that it had
     /// when it was given, and returns the square of the distance from which on no others need be looked at; at first
     /// `within2` is.
-    pub(super) fn search(&self, p: DVec3, within2: f64, mut look: impl FnMut(usize, &Triangle, u32) -> f64) {
+    pub(super) fn search(&self, p: DVec3, within2: f64, mut look: impl FnMut(usize, &TriangleCorners, u32) -> f64) {
         let mut within2 = within2;
         let mut waiting = vec![(self.nodes[0].distance_squared(p), 0)];
         while let Some((distance2, number)) = waiting.pop() {
@@ -81,7 +81,7 @@ impl Triangles {
 }
 
 /// The tree over the triangles of these numbers, found by three times their centroids, which come after `before` others.
-fn build(keys: &mut [(DVec3, u32)], before: usize, triangles: &[Triangle], nodes: &mut Vec<Node>) {
+fn build(keys: &mut [(DVec3, u32)], before: usize, triangles: &[TriangleCorners], nodes: &mut Vec<Node>) {
     let this = nodes.len();
     if keys.len() <= LEAF {
         let (min, max) = bounds(keys.iter().flat_map(|(_, number)| triangles[*number as usize]));
@@ -117,7 +117,7 @@ impl Node {
 }
 
 /// The square of the distance of a point from a triangle, which may be degenerate.
-fn distance_squared(p: DVec3, [a, b, c]: Triangle) -> f64 {
+fn distance_squared(p: DVec3, [a, b, c]: TriangleCorners) -> f64 {
     let n = (b - a).cross(c - a);
     let n2 = n.length_squared();
     // Inside the three sides, seen along n.
@@ -168,9 +168,9 @@ mod tests {
             let t = f64::from(i) * 0.618_033_988_749_895;
             DVec3::new(t.fract(), (t * 3.7).fract(), (t * 11.3).fract())
         };
-        let triangles: Vec<Triangle> =
+        let triangles: Vec<TriangleCorners> =
             (0..200).map(|i| [0, 1, 2].map(|k| place(i) + 0.1 * place(1000 + 3 * i + k))).collect();
-        let tree = Triangles::new(triangles.clone());
+        let tree = TriangleTree::new(triangles.clone());
         for i in 0..300 {
             let p = 2.0 * place(5000 + i) - 0.5;
             let all = triangles.iter().map(|t| distance_squared(p, *t)).fold(f64::INFINITY, f64::min);

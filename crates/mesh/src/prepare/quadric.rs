@@ -7,14 +7,14 @@ use bevy_math::{DMat3, DVec3};
 
 /// The weighted squares of the distances from some planes: pᵀ`a`p + 2`b`·p + `c`.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Quadric {
+pub(super) struct ErrorQuadric {
     a: DMat3,
     b: DVec3,
     c: f64,
     weight: f64,
 }
 
-impl Quadric {
+impl ErrorQuadric {
     /// Of no planes.
     pub(super) const NONE: Self = Self { a: DMat3::ZERO, b: DVec3::ZERO, c: 0.0, weight: 0.0 };
 
@@ -33,7 +33,7 @@ impl Quadric {
     }
 }
 
-impl AddAssign for Quadric {
+impl AddAssign for ErrorQuadric {
     fn add_assign(&mut self, other: Self) {
         self.a += other.a;
         self.b += other.b;

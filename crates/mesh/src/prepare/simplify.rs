@@ -6,7 +6,7 @@ use crate::Mesh;
 
 /// A coarser mesh in the place of a fine one.
 #[derive(Clone, Debug, PartialEq)]
-pub struct LevelOfDetail {
+pub struct SimplifiedMesh {
     /// The mesh; its vertices are some of the fine mesh's, with all that they have.
     pub mesh: Mesh,
     /// No point of either mesh is further from the other than this, in their units: the larger of both
@@ -27,7 +27,7 @@ impl Mesh {
     /// its units) or change its topology; by meshoptimizer's edge collapses under quadric errors (Garland and Heckbert
     /// 1997). An error too small to be told from none is allowed. Seams between vertices at one position stay; faceted meshes, which are all seams, should be
     /// [welded](Self::welded) first.
-    pub fn simplified(&self, triangles: usize, max_error: f64) -> LevelOfDetail {
+    pub fn simplified(&self, triangles: usize, max_error: f64) -> SimplifiedMesh {
         let (positions, unit) = self.unit_positions();
         // NaN asks for nothing.
         let max_error = max_error.max(0.0);
@@ -41,12 +41,12 @@ impl Mesh {
             let tolerance = (ERROR_TOLERANCE[0] * estimate).max(ERROR_TOLERANCE[1]) * unit;
             let error = self.distance_to(&mesh, tolerance).most.max(mesh.distance_to(self, tolerance).most);
             if error <= max_error.max(tolerance) {
-                return LevelOfDetail { mesh, error };
+                return SimplifiedMesh { mesh, error };
             }
             // The simplifier knows a mean of squares only; a little less than what would do.
             limit *= 0.9 * max_error / error;
         }
-        LevelOfDetail { mesh: self.clone(), error: 0.0 }
+        SimplifiedMesh { mesh: self.clone(), error: 0.0 }
     }
 
     /// The indices after collapses up to a limit, both it and the mean error found in units of the positions.

@@ -2,51 +2,7 @@
 
 use bevy_math::DVec3;
 
-use super::parametric::uv_at;
-use super::{ParametricSurface, SurfaceError, SurfacePiece, SurfacePoint, check_coordinates};
-
-/// A parameter from 0 to 1 with its complement.
-///
-/// A fraction of whole numbers and its complement are rounded alike, so that an edge that two patches run along in
-/// opposite directions has bit-equal points.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Parameter {
-    t: f64,
-    s: f64,
-}
-
-impl Parameter {
-    /// `i` / `n`, `i` at most `n`.
-    pub fn fraction(i: u32, n: u32) -> Self {
-        Self { t: f64::from(i) / f64::from(n), s: f64::from(n - i) / f64::from(n) }
-    }
-
-    /// The parameter as a number.
-    pub fn value(self) -> f64 {
-        self.t
-    }
-
-    /// 1 less the parameter.
-    pub fn complement(self) -> f64 {
-        self.s
-    }
-
-    /// ½ − t: from ½ down to −½, the ends exactly opposite.
-    pub(super) fn before_middle(self) -> f64 {
-        0.5 * (self.s - self.t)
-    }
-
-    /// +1 where the patch lies on the side of growing parameters, −1 at its far end.
-    fn inward(self) -> f64 {
-        if self.t < self.s { 1.0 } else { -1.0 }
-    }
-}
-
-impl From<f64> for Parameter {
-    fn from(t: f64) -> Self {
-        Self { t, s: 1.0 - t }
-    }
-}
+use super::{Parameter, SurfaceError, check_coordinates};
 
 /// A Bézier patch: rows of control points; u runs from row to row, v along a row, both from 0 to 1.
 ///
@@ -59,7 +15,7 @@ pub struct BezierPatch {
 }
 
 /// One weight for each row, or each column; what is beyond them is not used.
-type Weights = [f64; BezierPatch::MAX_DEGREE + 1];
+type BasisValues = [f64; BezierPatch::MAX_DEGREE + 1];
 
 /// Below this fraction of the largest product of tangents, their cross product counts as 0. The figures of a patch are
 /// rounded to 2⁻⁵³, a hundred of which are allowed for.
@@ -146,22 +102,10 @@ impl BezierPatch {
     }
 
     /// The sum of the control points, each weighted by its row's and its column's weight.
-    fn blend(&self, rows: &Weights, columns: &Weights) -> DVec3 {
+    fn blend(&self, rows: &BasisValues, columns: &BasisValues) -> DVec3 {
         let row = |i: usize| &self.points[i * self.columns..][..self.columns];
         let along = |i: usize| mirrored_sum(self.columns, |j| columns[j] * row(i)[j]);
         mirrored_sum(self.rows(), |i| rows[i] * along(i))
-    }
-}
-
-impl ParametricSurface for BezierPatch {
-    /// Where there is no normal, even in the limit, it is +Y.
-    fn at(&self, u: Parameter, v: Parameter) -> SurfacePoint {
-        let [position, du, dv] = self.jet(u, v);
-        SurfacePoint { position, du, dv, normal: self.normal(u, v).unwrap_or(DVec3::Y), uv: uv_at(u, v) }
-    }
-
-    fn pieces(&self) -> Option<Vec<SurfacePiece>> {
-        Some(vec![SurfacePiece::Patch(self.clone())])
     }
 }
 
@@ -174,7 +118,7 @@ fn mirrored_sum(count: usize, term: impl Fn(usize) -> DVec3) -> DVec3 {
 }
 
 /// The Bernstein polynomials of degree n: C(n, i) sⁿ⁻ⁱ tⁱ. Reversed to the bit where t and s are exchanged.
-fn bernstein(n: usize, at: Parameter) -> Weights {
+fn bernstein(n: usize, at: Parameter) -> BasisValues {
     let power = |x: f64| {
         let mut powers = [1.0; BezierPatch::MAX_DEGREE + 1];
         for i in 1..=n {
@@ -182,7 +126,7 @@ fn bernstein(n: usize, at: Parameter) -> Weights {
         }
         powers
     };
-    let (s, t) = (power(at.s), power(at.t));
+    let (s, t) = (power(at.complement()), power(at.value()));
     let mut weights = [0.0; BezierPatch::MAX_DEGREE + 1];
     let mut choose = 1.0;
     for i in 0..=n / 2 {
@@ -195,7 +139,7 @@ fn bernstein(n: usize, at: Parameter) -> Weights {
 }
 
 /// Their derivatives: n (Bᵢ₋₁ − Bᵢ) of degree n − 1.
-fn slopes(n: usize, at: Parameter) -> Weights {
+fn slopes(n: usize, at: Parameter) -> BasisValues {
     let lower = bernstein(n - 1, at);
     let degree = n as f64;
     let mut weights = [0.0; BezierPatch::MAX_DEGREE + 1];
@@ -207,7 +151,7 @@ fn slopes(n: usize, at: Parameter) -> Weights {
 }
 
 /// Their second derivatives: n (n − 1) (Bᵢ₋₂ − 2 Bᵢ₋₁ + Bᵢ) of degree n − 2.
-fn curvatures(n: usize, at: Parameter) -> Weights {
+fn curvatures(n: usize, at: Parameter) -> BasisValues {
     let mut weights = [0.0; BezierPatch::MAX_DEGREE + 1];
     if n < 2 {
         return weights;

@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use bevy_math::{DMat4, DVec2, DVec3, DVec4};
 
-use super::parametric::Profile;
+use super::parameter::Profile;
 use super::{Parameter, ParametricSurface, Quadric, SurfaceError, SurfacePiece, SurfacePoint, check_lengths};
 
 /// A cylinder about the Y axis that ends in half spheres: the points at the distance `radius` from a line of `length`

@@ -2,7 +2,7 @@
 
 use bevy_math::{DMat4, DVec2, DVec3, DVec4};
 
-use super::parametric::Profile;
+use super::parameter::Profile;
 use super::{Disc, Parameter, ParametricSurface, Quadric, SurfaceError, SurfacePiece, SurfacePoint, check_lengths};
 
 /// A circular cone about the Y axis: its tip is at y = `height` / 2, its base at y = −`height` / 2.

@@ -2,7 +2,7 @@
 
 use bevy_math::{DMat4, DVec2, DVec3, DVec4};
 
-use super::parametric::Profile;
+use super::parameter::Profile;
 use super::{Disc, Parameter, ParametricSurface, Quadric, SurfaceError, SurfacePiece, SurfacePoint, check_lengths};
 
 /// A circular cylinder about the Y axis: x² + z² = `radius`², |y| ≤ `height` / 2.

@@ -2,7 +2,7 @@
 
 use bevy_math::{DMat4, DVec3, Vec3};
 
-use super::parametric::{half_turn, turn, uv_at};
+use super::parameter::{half_turn, turn, uv_at};
 use super::{Parameter, ParametricSurface, Quadric, SurfaceError, SurfacePiece, SurfacePoint, UvSphere, check_lengths};
 
 /// An ellipsoid about the origin: (x/a)² + (y/b)² + (z/c)² = 1.

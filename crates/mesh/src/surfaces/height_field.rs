@@ -2,7 +2,7 @@
 
 use bevy_math::{DVec2, DVec3};
 
-use super::parametric::uv_at;
+use super::parameter::uv_at;
 use super::{
     BezierPatch, Field, Parameter, ParametricSurface, SurfaceError, SurfacePiece, SurfacePoint, Tessellation,
     check_lengths,

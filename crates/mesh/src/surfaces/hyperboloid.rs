@@ -2,7 +2,7 @@
 
 use bevy_math::{DMat4, DVec2, DVec3, DVec4};
 
-use super::parametric::Profile;
+use super::parameter::Profile;
 use super::{Parameter, ParametricSurface, Quadric, SurfaceError, SurfacePiece, SurfacePoint, check_lengths};
 
 /// A circular hyperboloid of one sheet about the Y axis, open at both ends: (x² + z²)/`waist`² − y²/c² = 1, |y| ≤

@@ -95,10 +95,10 @@ impl Icosphere {
 }
 
 /// The weights of three corners, whose sum is the number of divisions.
-type Weights = [u32; 3];
+type CornerWeights = [u32; 3];
 
 /// The small triangles of a face, each by the weights of the face's corners at its own.
-fn small_triangles(n: u32) -> impl Iterator<Item = [Weights; 3]> {
+fn small_triangles(n: u32) -> impl Iterator<Item = [CornerWeights; 3]> {
     let at = move |i: u32, j: u32| [n - i - j, i, j];
     (0..n).flat_map(move |i| (0..n - i).map(move |j| (i, j))).flat_map(move |(i, j)| {
         let upright = [at(i, j), at(i + 1, j), at(i, j + 1)];
@@ -117,14 +117,14 @@ fn on_sphere(corners: [(usize, u32); 3]) -> DVec3 {
         .normalize()
 }
 
-fn paired(face: [usize; 3], weights: Weights) -> [(usize, u32); 3] {
+fn paired(face: [usize; 3], weights: CornerWeights) -> [(usize, u32); 3] {
     [0, 1, 2].map(|k| (face[k], weights[k]))
 }
 
 /// How far the facets of a unit sphere are from it at most: at the foot of the normal through the middle, for each. All
 /// faces are alike.
 fn chord_error(divisions: u32) -> f64 {
-    let height = |triangle: [Weights; 3]| {
+    let height = |triangle: [CornerWeights; 3]| {
         let [a, b, c] = triangle.map(|weights| on_sphere(paired(FACES[0], weights)));
         (b - a).cross(c - a).normalize().dot(a)
     };

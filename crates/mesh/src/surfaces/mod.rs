@@ -12,7 +12,8 @@ mod hyperboloid;
 mod icosphere;
 mod newell;
 mod paraboloid;
-mod parametric;
+mod parameter;
+mod pieces;
 mod plane;
 mod polynomial;
 mod sphere;
@@ -24,7 +25,7 @@ mod torus;
 use bevy_math::DVec3;
 use thiserror::Error;
 
-pub use bezier::{BezierPatch, Parameter};
+pub use bezier::BezierPatch;
 pub use capsule::Capsule;
 pub use cone::Cone;
 pub use cuboid::Cuboid;
@@ -35,12 +36,12 @@ pub use height_field::HeightField;
 pub use hyperboloid::{Hyperboloid, HyperboloidSheet};
 pub use icosphere::Icosphere;
 pub use paraboloid::Paraboloid;
-pub use parametric::{ParametricSurface, SurfacePoint};
+pub use parameter::{Parameter, SurfacePoint};
 pub use plane::Plane;
 pub use sphere::UvSphere;
 pub use surface::{Quadric, Surface, SurfacePiece};
 pub use teapot::Teapot;
-pub use tessellate::{Tessellation, tessellate};
+pub use tessellate::{ParametricSurface, Tessellation, tessellate};
 pub use torus::Torus;
 
 /// A surface that cannot be made.

@@ -2,7 +2,7 @@
 
 use bevy_math::{DMat4, DVec2, DVec3, DVec4};
 
-use super::parametric::Profile;
+use super::parameter::Profile;
 use super::{Parameter, ParametricSurface, Quadric, SurfaceError, SurfacePiece, SurfacePoint, check_lengths};
 
 /// A circular paraboloid about the Y axis, open below: its top is at y = `height` / 2, its rim at y = −`height` / 2.

@@ -2,7 +2,7 @@
 
 use bevy_math::{DVec3, Vec2, Vec3};
 
-use super::parametric::uv_at;
+use super::parameter::uv_at;
 use super::{Field, Parameter, ParametricSurface, SurfaceError, SurfacePiece, SurfacePoint, grid_indices};
 use crate::Mesh;
 

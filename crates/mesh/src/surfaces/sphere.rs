@@ -2,7 +2,7 @@
 
 use bevy_math::{DVec3, Vec2};
 
-use super::parametric::{half_turn, turn};
+use super::parameter::{half_turn, turn};
 use super::{Field, Parameter, Quadric, SurfaceError};
 use crate::Mesh;
 

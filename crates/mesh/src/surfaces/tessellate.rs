@@ -1,9 +1,56 @@
-//! From parametric surfaces to meshes.
+//! Surfaces as functions of two parameters, and their meshes.
 
 use bevy_math::{DVec3, Vec2, Vec3};
 
-use super::{Field, Parameter, ParametricSurface, Surface, SurfaceError, SurfacePiece, SurfacePoint};
+use super::{Disc, Field, Parameter, Surface, SurfaceError, SurfacePiece, SurfacePoint};
 use crate::{Mesh, face_normal};
+
+/// A surface p(u, v), u and v from 0 to 1, in f64.
+///
+/// u runs from row to row of a mesh of it, v along a row; the outward side is that of ∂p/∂v × ∂p/∂u. Seen from outside
+/// with v running left, u runs down: a texture that covers it whole has the coordinates (1 − v, u).
+pub trait ParametricSurface {
+    /// Everything about the point p(u, v).
+    ///
+    /// Means nothing where [`validate`](Self::validate) refuses the surface.
+    fn at(&self, u: Parameter, v: Parameter) -> SurfacePoint;
+
+    /// Whether every field is in its range: all lengths from 1e-30 to 1e30, none more than 10⁵ times another, since
+    /// `f32` could no longer tell their ends apart.
+    ///
+    /// # Errors
+    /// The first field that is not.
+    fn validate(&self) -> Result<(), SurfaceError> {
+        Ok(())
+    }
+
+    /// The fewest rows and columns of cells that show its shape.
+    fn least_counts(&self) -> [u32; 2] {
+        [1, 1]
+    }
+
+    /// The discs that belong to it as well.
+    fn caps(&self) -> Vec<Disc> {
+        Vec::new()
+    }
+
+    /// The pieces of a [`Surface`](super::Surface) that are exactly p, without the caps; `None` where there are no such.
+    fn pieces(&self) -> Option<Vec<SurfacePiece>>;
+
+    /// Its mesh, with its caps: a grid of cells of two triangles each, which at a pole have one.
+    ///
+    /// Vertices lie row by row; seams and poles are repeated at equal positions for the sake of the texture coordinates.
+    /// Triangles that are degenerate in `f32` are left out.
+    ///
+    /// # Errors
+    /// A field of the surface or of the tessellation is out of its range.
+    fn mesh(&self, tessellation: Tessellation) -> Result<Mesh, SurfaceError>
+    where
+        Self: Sized,
+    {
+        tessellate(&[self], tessellation)
+    }
+}
 
 /// How finely a surface is cut into triangles.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -165,10 +212,10 @@ pub(super) fn counts_for(surface: &dyn ParametricSurface, error: f64, most: [u32
     let allowed = SPENT * error;
     let mut counts = surface.least_counts();
     loop {
-        let deviation = Deviation::of(surface, counts);
+        let deviation = ChordDeviation::of(surface, counts);
         if deviation.most <= allowed {
             let finer = counts.map(|count| 2 * count);
-            if counts.into_iter().max() >= Some(CERTAIN) || Deviation::of(surface, finer).most <= allowed {
+            if counts.into_iter().max() >= Some(CERTAIN) || ChordDeviation::of(surface, finer).most <= allowed {
                 return counts;
             }
             counts = finer;
@@ -181,7 +228,7 @@ pub(super) fn counts_for(surface: &dyn ParametricSurface, error: f64, most: [u32
             let wanted = (f64::from(counts[axis]) * (along / room).sqrt().min(16.0)).ceil() as u32;
             wanted.max(counts[axis]).min(most[axis])
         };
-        let Deviation { along_u, along_v, .. } = deviation;
+        let ChordDeviation { along_u, along_v, .. } = deviation;
         let mut next = [finer(0, along_u, along_v), finer(1, along_v, along_u)];
         if next == counts {
             // What is left comes from the twist of the cells.
@@ -197,7 +244,7 @@ pub(super) fn counts_for(surface: &dyn ParametricSurface, error: f64, most: [u32
 }
 
 /// How far a surface is from the triangles of a tessellation.
-struct Deviation {
+struct ChordDeviation {
     /// At the middles of the edges along u.
     along_u: f64,
     /// At the middles of the edges along v.
@@ -206,7 +253,7 @@ struct Deviation {
     most: f64,
 }
 
-impl Deviation {
+impl ChordDeviation {
     fn of(surface: &dyn ParametricSurface, [rows, columns]: [u32; 2]) -> Self {
         // Vertices and edge middles are every other point of a grid that is twice as fine, the middles of triangles
         // every sixth.
@@ -215,8 +262,8 @@ impl Deviation {
         let mut deviation = Self { along_u: 0.0, along_v: 0.0, most: 0.0 };
         for (i, j) in (0..rows).flat_map(|i| (0..columns).map(move |j| (6 * i, 6 * j))) {
             let (a, b, c, d) = (at(i, j), at(i, j + 6), at(i + 6, j), at(i + 6, j + 6));
-            let upper = Triangle::new([a, b, c]);
-            let lower = Triangle::new([b, d, c]);
+            let upper = ChordTriangle::new([a, b, c]);
+            let lower = ChordTriangle::new([b, d, c]);
             let (top, left) = (at(i, j + 3), at(i + 3, j));
             let (bottom, right) = (at(i + 6, j + 3), at(i + 3, j + 6));
             let mut along_u = upper.distance(left).max(lower.distance(right));
@@ -239,13 +286,13 @@ impl Deviation {
 }
 
 /// The plane of a triangle.
-struct Triangle {
+struct ChordTriangle {
     corner: DVec3,
     /// 0 where the triangle is a line or a point: then its neighbours cover it.
     normal: DVec3,
 }
 
-impl Triangle {
+impl ChordTriangle {
     fn new([a, b, c]: [DVec3; 3]) -> Self {
         Self { corner: a, normal: (b - a).cross(c - a).normalize_or_zero() }
     }

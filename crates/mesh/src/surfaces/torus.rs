@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use bevy_math::DVec2;
 
-use super::parametric::{Profile, turn};
+use super::parameter::{Profile, turn};
 use super::{Parameter, ParametricSurface, SurfaceError, SurfacePiece, SurfacePoint, check_lengths};
 
 /// A ring about the Y axis: a tube around a circle in the plane y = 0.

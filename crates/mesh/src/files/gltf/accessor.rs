@@ -9,7 +9,7 @@ use gltf::accessor::sparse::{IndexType, Sparse};
 use gltf::accessor::{DataType, Dimensions};
 use gltf::buffer::View;
 
-use super::Fault;
+use super::fault::Fault;
 
 /// How many bytes of meshes a byte of data may become. Honest files stay far below: a vertex of a few bytes becomes one
 /// of 64 at most, and an index of one byte, in a strip, three of four bytes.
@@ -55,7 +55,7 @@ pub(super) struct Accessors<'a> {
 
 /// The items of an accessor, all of which are there.
 pub(super) struct Items<'a> {
-    data: Data<'a>,
+    data: AccessorBytes<'a>,
     stride: usize,
     data_type: DataType,
     normalized: bool,
@@ -63,12 +63,12 @@ pub(super) struct Items<'a> {
     pub(super) count: usize,
 }
 
-enum Data<'a> {
+enum AccessorBytes<'a> {
     Plain(&'a [u8]),
     Dense(Rc<[u8]>),
 }
 
-impl Data<'_> {
+impl AccessorBytes<'_> {
     fn bytes(&self) -> &[u8] {
         match self {
             Self::Plain(bytes) => bytes,
@@ -176,9 +176,9 @@ impl<'a> Accessors<'a> {
         let (data, stride) = match (accessor.view(), accessor.sparse()) {
             (Some(view), None) => {
                 let bytes = &buffers[view.buffer().index()][view.offset()..][..view.length()];
-                (Data::Plain(&bytes[accessor.offset()..]), view.stride().unwrap_or(accessor.size()))
+                (AccessorBytes::Plain(&bytes[accessor.offset()..]), view.stride().unwrap_or(accessor.size()))
             }
-            (_, sparse) => (Data::Dense(self.densified(accessor, sparse.as_ref())?), accessor.size()),
+            (_, sparse) => (AccessorBytes::Dense(self.densified(accessor, sparse.as_ref())?), accessor.size()),
         };
         Ok(Items {
             data,
@@ -221,7 +221,7 @@ impl<'a> Accessors<'a> {
     }
 
     fn measure(&self, accessor: &Accessor) -> Result<(), Fault> {
-        let run = Run { offset: accessor.offset(), count: accessor.count(), item: accessor.size() };
+        let run = ItemRun { offset: accessor.offset(), count: accessor.count(), item: accessor.size() };
         match accessor.view() {
             Some(view) => self.measure_run(&name(accessor), &view, run)?,
             // All zero but for the sparse values: nothing but this bounds the count.
@@ -241,7 +241,7 @@ impl<'a> Accessors<'a> {
     }
 
     /// That a run of items lies in its view, and the view in its buffer.
-    fn measure_run(&self, element: &str, view: &View, run: Run) -> Result<(), Fault> {
+    fn measure_run(&self, element: &str, view: &View, run: ItemRun) -> Result<(), Fault> {
         let buffer = self.buffers.get(view.buffer().index()).map_or(0, |buffer| buffer.len());
         let fits =
             |offset: usize, length: usize, whole: usize| offset.checked_add(length).is_some_and(|end| end <= whole);
@@ -283,7 +283,7 @@ impl<'a> Accessors<'a> {
             let expected = format!("at most the accessor's count {} is", accessor.count());
             return Err(Fault::element(element, found, expected));
         }
-        let run = |offset, item| Run { offset, count: sparse.count(), item };
+        let run = |offset, item| ItemRun { offset, count: sparse.count(), item };
         let index_run = run(indices.offset(), indices.index_type().size());
         self.measure_run(&format!("{element}.indices"), &indices.view(), index_run)?;
         let value_run = run(values.offset(), accessor.size());
@@ -326,7 +326,7 @@ impl<'a> Accessors<'a> {
 
 /// A row of equally spaced items in a view.
 #[derive(Clone, Copy)]
-struct Run {
+struct ItemRun {
     offset: usize,
     count: usize,
     item: usize,

@@ -8,8 +8,8 @@ use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 use gltf::Document;
 use gltf::buffer::{Buffer, Source};
 
-use super::Fault;
-use crate::files::source::{Around, Reader};
+use super::fault::Fault;
+use crate::files::source::{ModelFolder, Reader};
 use crate::files::text::abridged;
 
 /// Base64 as in RFC 4648, with or without the padding at its end.
@@ -22,7 +22,7 @@ const BASE64: GeneralPurpose = GeneralPurpose::new(
 pub(super) fn resolve<'a>(
     document: &Document,
     mut binary: Option<&'a [u8]>,
-    around: Around,
+    around: ModelFolder,
 ) -> Result<Vec<Cow<'a, [u8]>>, Fault> {
     document
         .buffers()
@@ -73,7 +73,7 @@ fn data_uri(buffer: &Buffer, data: &str) -> Result<Vec<u8>, Fault> {
     BASE64.decode(body).map_err(|error| Fault::element(name(buffer), error.to_string(), "base64 is"))
 }
 
-fn file(buffer: &Buffer, uri: &str, around: Around) -> Result<Vec<u8>, Fault> {
+fn file(buffer: &Buffer, uri: &str, around: ModelFolder) -> Result<Vec<u8>, Fault> {
     let refused = || {
         let expected = "a file in the folder of the model, or in one inside it, is";
         Fault::element(name(buffer), format!("uri {:?}", abridged(uri, "")), expected)

@@ -3,7 +3,7 @@
 use gltf::Document;
 use gltf::material::AlphaMode as GltfAlphaMode;
 
-use super::{Fault, check_finite};
+use super::fault::{Fault, check_finite};
 use crate::{AlphaMode, MetallicRoughness, SourceMaterial};
 
 /// All materials of the document, in its order.

@@ -5,11 +5,10 @@
 
 mod accessor;
 mod buffers;
+mod fault;
 mod material;
 mod primitive;
 mod scene;
-
-use std::path::Path;
 
 use gltf::json::Root;
 use gltf::json::camera::Type as CameraType;
@@ -19,10 +18,11 @@ use gltf::json::validation::Checked;
 use gltf::{Document, Glb, Gltf};
 
 use self::accessor::Accessors;
+use self::fault::Fault;
 use self::primitive::Primitives;
-use super::source::{Around, Source};
+use super::source::{ModelFolder, Source};
 use super::{Format, LoadError};
-use crate::{MeshError, Model};
+use crate::Model;
 
 /// The extension that allows integers in attributes.
 const QUANTIZATION: &str = "KHR_mesh_quantization";
@@ -34,7 +34,7 @@ pub(super) fn parse(source: Source, format: Format) -> Result<Model, LoadError> 
     read(&bytes, format == Format::Glb, around).map_err(|fault| fault.at(path))
 }
 
-fn read(bytes: &[u8], is_binary: bool, around: Around) -> Result<Model, Fault> {
+fn read(bytes: &[u8], is_binary: bool, around: ModelFolder) -> Result<Model, Fault> {
     // In its place in the file, not copied.
     let container = if is_binary || bytes.starts_with(b"glTF") { Some(open_container(bytes)?) } else { None };
     let document = open(container.as_ref().map_or(bytes, |glb| &glb.json))?;
@@ -183,46 +183,5 @@ fn warn_of_skipped(document: &Document, warnings: &mut Vec<String>) {
     if document.scenes().len() > 1 {
         let count = document.scenes().len();
         warnings.push(format!("only the default scene of {count} is read"));
-    }
-}
-
-/// What is wrong, before the name of the file is put to it.
-#[derive(Debug)]
-enum Fault {
-    Element {
-        element: String,
-        found: String,
-        expected: String,
-    },
-    Mesh {
-        element: String,
-        source: MeshError,
-    },
-    RequiredExtension(String),
-    /// In a file that the document refers to; complete.
-    Elsewhere(LoadError),
-}
-
-impl Fault {
-    fn element(element: impl Into<String>, found: impl Into<String>, expected: impl Into<String>) -> Self {
-        Self::Element { element: element.into(), found: found.into(), expected: expected.into() }
-    }
-
-    fn at(self, path: &Path) -> LoadError {
-        let path = path.to_owned();
-        match self {
-            Self::Element { element, found, expected } => LoadError::Element { path, element, found, expected },
-            Self::Mesh { element, source } => LoadError::Mesh { path, element, source },
-            Self::RequiredExtension(extension) => LoadError::RequiredExtension { path, extension },
-            Self::Elsewhere(error) => error,
-        }
-    }
-}
-
-/// That the numbers of an element are finite; the JSON reader makes infinities of what is too large for `f32`.
-fn check_finite(element: &dyn Fn() -> String, numbers: &[f32]) -> Result<(), Fault> {
-    match numbers.iter().find(|x| !x.is_finite()) {
-        None => Ok(()),
-        Some(_) => Err(Fault::element(element(), format!("{numbers:?}"), "finite numbers are")),
     }
 }

@@ -7,8 +7,8 @@ use gltf::Primitive;
 use gltf::accessor::Dimensions;
 use gltf::mesh::{Mode, Semantic};
 
-use super::Fault;
 use super::accessor::{self, Accessors, Attribute, Items, Which};
+use super::fault::Fault;
 use crate::numbering::Numbering;
 use crate::{Mesh, MeshError};
 

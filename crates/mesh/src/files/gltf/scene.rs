@@ -6,8 +6,8 @@ use gltf::khr_lights_punctual::{Kind, Light};
 use gltf::scene::Transform;
 use gltf::{Document, Node};
 
+use super::fault::{Fault, check_finite};
 use super::primitive::Primitives;
-use super::{Fault, check_finite};
 use crate::{Part, SourceCamera, SourceLight, SourceLightKind, SourceProjection};
 
 /// The most parts that are made of one file: nodes and primitives multiply.
@@ -30,7 +30,8 @@ pub(super) struct Contents {
 /// The contents of the default scene; of the first where none is the default; of all nodes without a parent
 /// where there is no scene.
 pub(super) fn read<'a>(document: &'a Document, primitives: &mut Primitives<'a>) -> Result<Contents, Fault> {
-    let mut reader = Reader { primitives, seen: vec![false; document.nodes().len()], contents: Contents::default() };
+    let mut reader =
+        SceneReader { primitives, seen: vec![false; document.nodes().len()], contents: Contents::default() };
     // Children are put on the stack last to first, so that nodes come in the order of the file.
     let mut stack: Vec<(Node, DMat4)> = roots(document).into_iter().rev().map(|node| (node, DMat4::IDENTITY)).collect();
     while let Some((node, world_from_parent)) = stack.pop() {
@@ -52,13 +53,13 @@ fn roots(document: &Document) -> Vec<Node<'_>> {
     document.nodes().filter(|node| !is_child[node.index()]).collect()
 }
 
-struct Reader<'r, 'a> {
+struct SceneReader<'r, 'a> {
     primitives: &'r mut Primitives<'a>,
     seen: Vec<bool>,
     contents: Contents,
 }
 
-impl<'a> Reader<'_, 'a> {
+impl<'a> SceneReader<'_, 'a> {
     /// Reads what stands at a node; returns where the node stands.
     fn visit(&mut self, node: &Node<'a>, world_from_parent: DMat4) -> Result<DMat4, Fault> {
         let element = || format!("nodes[{}]", node.index());

@@ -13,7 +13,7 @@ use crate::{Mesh, MeshError, NormalWeighting, Part};
 
 /// All that faces refer to.
 #[derive(Default)]
-pub(super) struct Vertices {
+pub(super) struct ObjVertices {
     pub(super) positions: Vec<Vec3>,
     pub(super) uvs: Vec<Vec2>,
     pub(super) normals: Vec<Vec3>,
@@ -21,7 +21,7 @@ pub(super) struct Vertices {
     pub(super) colors: Vec<Vec3>,
 }
 
-impl Vertices {
+impl ObjVertices {
     /// How many positions, texture coordinates and normals there are.
     pub(super) fn counts(&self) -> [usize; 3] {
         [self.positions.len(), self.uvs.len(), self.normals.len()]
@@ -56,7 +56,7 @@ impl Draft {
     fn into_part(
         self,
         path: &Path,
-        vertices: &Vertices,
+        vertices: &ObjVertices,
         normals_later: bool,
         warnings: &mut Vec<String>,
     ) -> Result<(Part, Option<Unsmoothed>), LoadError> {
@@ -83,8 +83,11 @@ impl Draft {
             let color = |key: &[u32; 3]| vertices.colors.get(key[0] as usize - 1).unwrap_or(&Vec3::ONE).extend(1.0);
             keys.iter().map(color).collect()
         });
-        let unsmoothed = (!has_normals && normals_later)
-            .then(|| Unsmoothed { part: 0, groups, sources: keys.iter().map(|key| key[0] - 1).collect() });
+        let unsmoothed = (!has_normals && normals_later).then(|| Unsmoothed {
+            part: 0,
+            groups,
+            sources: keys.iter().map(|key| key[0] - 1).collect(),
+        });
         drop(keys);
         let refused = |source| LoadError::Mesh { path: path.to_owned(), element: format!("`{name}`"), source };
         let (mut mesh, report) = Mesh::from_parts_reported(positions, normals, uvs, indices).map_err(refused)?;
@@ -115,7 +118,7 @@ struct Unsmoothed {
 pub(super) fn parts(
     drafts: Vec<Draft>,
     path: &Path,
-    vertices: &Vertices,
+    vertices: &ObjVertices,
     has_groups: bool,
     warnings: &mut Vec<String>,
 ) -> Result<Vec<Part>, LoadError> {

@@ -8,9 +8,9 @@ use std::path::Path;
 
 use bevy_math::Vec3;
 
-use self::assemble::{Draft, Vertices};
-use super::source::{Around, Source};
-use super::text::{Lines, Skipped, Statement, abridged};
+use self::assemble::{Draft, ObjVertices};
+use super::source::{ModelFolder, Source};
+use super::text::{Skipped, Statement, Statements, abridged};
 use super::{LoadError, color, polygon};
 use crate::{Model, SourceMaterial};
 
@@ -18,7 +18,7 @@ use crate::{Model, SourceMaterial};
 /// missing MTL file is a warning, a malformed one an error.
 pub(super) fn parse(source: Source) -> Result<Model, LoadError> {
     let path = source.path;
-    let mut lines = Lines::new(source.reader).with_continued_lines();
+    let mut lines = Statements::new(source.reader).with_continued_lines();
     let mut obj = Obj::default();
     while let Some(statement) = lines.next()? {
         obj.add(&statement)?;
@@ -33,8 +33,7 @@ pub(super) fn parse(source: Source) -> Result<Model, LoadError> {
     obj.warn_of_unknown_materials(&named);
     let Obj { vertices, drafts, smoothing, skipped, .. } = obj;
     warnings.splice(0..0, skipped.warnings(path));
-    let used: Vec<_> =
-        drafts.iter().map(|draft| draft.material.as_deref().and_then(|name| named.find(name))).collect();
+    let used: Vec<_> = drafts.iter().map(|draft| draft.material.as_deref().and_then(|name| named.find(name))).collect();
     let mut parts = assemble::parts(drafts, path, &vertices, smoothing.is_some(), &mut warnings)?;
     for (part, material) in parts.iter_mut().zip(used) {
         part.material = material;
@@ -65,7 +64,7 @@ struct LatePolygon {
 /// What has been read.
 #[derive(Default)]
 struct Obj {
-    vertices: Vertices,
+    vertices: ObjVertices,
     drafts: Vec<Draft>,
     /// The drafts by their names and materials.
     draft_of: HashMap<(String, Option<String>), usize>,
@@ -151,7 +150,7 @@ impl Obj {
         if words.next().is_some() {
             return Err(statement.unexpected(EXPECTED));
         }
-        self.vertices.uvs.push(super::uv(statement, u, v)?);
+        self.vertices.uvs.push(statement.uv(u, v)?);
         Ok(())
     }
 
@@ -267,7 +266,11 @@ impl Obj {
     }
 
     /// The materials of all MTL files, each read once. What cannot be read is a warning.
-    fn read_libraries(&self, around: Around, warnings: &mut Vec<String>) -> Result<Vec<SourceMaterial>, LoadError> {
+    fn read_libraries(
+        &self,
+        around: ModelFolder,
+        warnings: &mut Vec<String>,
+    ) -> Result<Vec<SourceMaterial>, LoadError> {
         let mut materials = Vec::new();
         let mut seen = HashSet::new();
         for rest in &self.libraries {

@@ -2,7 +2,7 @@
 
 use crate::files::LoadError;
 use crate::files::source::Reader;
-use crate::files::text::{Lines, Skipped, Statement};
+use crate::files::text::{Skipped, Statement, Statements};
 use crate::{MtlMaterial, SourceMaterial};
 
 /// Appends the materials of an MTL file; returns what was skipped.
@@ -13,7 +13,7 @@ use crate::{MtlMaterial, SourceMaterial};
 /// - Textures are skipped with a warning, everything else in silence.
 pub(super) fn parse(reader: Reader, materials: &mut Vec<SourceMaterial>) -> Result<Vec<String>, LoadError> {
     let path = reader.path().to_owned();
-    let mut lines = Lines::new(reader);
+    let mut lines = Statements::new(reader);
     let mut skipped = Skipped::default();
     let mut material: Option<MtlMaterial> = None;
     while let Some(statement) = lines.next()? {

@@ -6,7 +6,7 @@ use crate::files::text::abridged;
 
 /// How the elements are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Encoding {
+pub(super) enum PlyEncoding {
     Ascii,
     LittleEndian,
     BigEndian,
@@ -79,7 +79,7 @@ pub(super) struct Element {
 /// The header, and how many lines it has.
 #[derive(Debug)]
 pub(super) struct Header {
-    pub(super) encoding: Encoding,
+    pub(super) encoding: PlyEncoding,
     pub(super) elements: Vec<Element>,
     pub(super) lines: usize,
 }
@@ -117,9 +117,9 @@ pub(super) fn parse(reader: &mut Reader) -> Result<Header, LoadError> {
             [] | ["comment" | "obj_info", ..] => {}
             ["format", format, version] => {
                 encoding = Some(match (format, version) {
-                    ("ascii", "1.0") => Encoding::Ascii,
-                    ("binary_little_endian", "1.0") => Encoding::LittleEndian,
-                    ("binary_big_endian", "1.0") => Encoding::BigEndian,
+                    ("ascii", "1.0") => PlyEncoding::Ascii,
+                    ("binary_little_endian", "1.0") => PlyEncoding::LittleEndian,
+                    ("binary_big_endian", "1.0") => PlyEncoding::BigEndian,
                     _ => {
                         return Err(error(
                             "`format`, one of ascii, binary_little_endian and binary_big_endian, and 1.0 are",

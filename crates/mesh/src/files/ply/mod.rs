@@ -6,10 +6,10 @@ mod values;
 use bevy_math::{Mat4, Vec2, Vec3, Vec4};
 
 use self::header::{Element, Property};
-use self::values::{Place, Values};
-use super::source::Source;
+use self::values::{ElementProperty, Values};
+use super::source::{Source, stem};
 use super::text::abridged;
-use super::{LoadError, color, polygon, stem};
+use super::{LoadError, color, polygon};
 use crate::{Mesh, Model, Part};
 
 /// Reads `vertex` (positions, normals, colours, texture coordinates), `face` and `tristrips`; what else there is, is
@@ -18,7 +18,7 @@ pub(super) fn parse(source: Source) -> Result<Model, LoadError> {
     let Source { path, mut reader, .. } = source;
     let header = header::parse(&mut reader)?;
     let mut values = Values::new(reader, &header);
-    let mut shape = Shape::default();
+    let mut shape = PlyContent::default();
     for element in &header.elements {
         match element.name.as_str() {
             "vertex" => shape.vertices(element, &mut values)?,
@@ -31,7 +31,7 @@ pub(super) fn parse(source: Source) -> Result<Model, LoadError> {
             }
         }
     }
-    let Shape { positions, normals, uvs, colors, indices, mut warnings, crossed, small, .. } = shape;
+    let PlyContent { positions, normals, uvs, colors, indices, mut warnings, crossed, small, .. } = shape;
     for (count, what) in [
         (crossed, "polygons that cross themselves, or have too many corners, are cut somehow"),
         (small, "faces of fewer than three corners are skipped"),
@@ -75,7 +75,7 @@ const SLOTS: [&[&str]; 12] = [
 const CORNERS: [&str; 2] = ["vertex_indices", "vertex_index"];
 
 #[derive(Default)]
-struct Shape {
+struct PlyContent {
     positions: Vec<Vec3>,
     normals: Option<Vec<Vec3>>,
     uvs: Option<Vec<Vec2>>,
@@ -89,7 +89,7 @@ struct Shape {
     warnings: Vec<String>,
 }
 
-impl Shape {
+impl PlyContent {
     fn vertices(&mut self, element: &Element, values: &mut Values) -> Result<(), LoadError> {
         let slot_of = |property: &Property| {
             let named = |names: &&[&str]| names.contains(&property.name.as_str());
@@ -99,7 +99,7 @@ impl Shape {
         let has = |wanted: std::ops::Range<usize>| wanted.into_iter().all(|slot| slots.contains(&Some(slot)));
         self.warn_of_skipped(element, |i| slots[i].is_some());
         if !has(0..3) {
-            let place = Place { element: "vertex", number: 0, property: "x, y and z" };
+            let place = ElementProperty { element: "vertex", number: 0, property: "x, y and z" };
             return Err(values.error(place, "no such properties", "three numbers are"));
         }
         self.normals = has(3..6).then(Vec::new);
@@ -109,7 +109,7 @@ impl Shape {
             let mut vertex = [0.0; 12];
             vertex[11] = 1.0;
             for (property, slot) in element.properties.iter().zip(&slots) {
-                let place = Place { element: &element.name, number, property: &property.name };
+                let place = ElementProperty { element: &element.name, number, property: &property.name };
                 let Some(slot) = *slot else {
                     skip(property, place, values)?;
                     continue;
@@ -185,7 +185,7 @@ impl Shape {
         &mut self,
         element: &Element,
         values: &mut Values,
-        mut take: impl FnMut(&mut Self, &Values, Place) -> Result<(), LoadError>,
+        mut take: impl FnMut(&mut Self, &Values, ElementProperty) -> Result<(), LoadError>,
     ) -> Result<(), LoadError> {
         let is_list = |property: &Property| {
             property.list.is_some() && !property.scalar.is_float() && CORNERS.contains(&property.name.as_str())
@@ -199,7 +199,7 @@ impl Shape {
             self.corners.clear();
             self.points.clear();
             for (i, property) in element.properties.iter().enumerate() {
-                let place = Place { element: &element.name, number, property: &property.name };
+                let place = ElementProperty { element: &element.name, number, property: &property.name };
                 match property.list {
                     Some(length) if Some(i) == list => {
                         for _ in 0..length_of(length, place, values)? {
@@ -215,7 +215,7 @@ impl Shape {
                 }
             }
             let property = list.map_or("", |list| &element.properties[list].name);
-            take(self, values, Place { element: &element.name, number, property })?;
+            take(self, values, ElementProperty { element: &element.name, number, property })?;
         }
         Ok(())
     }
@@ -237,7 +237,7 @@ impl Shape {
 /// Stands for the −1 between strips.
 const RESTART: u32 = u32::MAX;
 
-fn outside(values: &Values, place: Place, corner: u32, vertices: usize) -> LoadError {
+fn outside(values: &Values, place: ElementProperty, corner: u32, vertices: usize) -> LoadError {
     values.error(
         place,
         &format!("vertex {corner}"),
@@ -245,7 +245,7 @@ fn outside(values: &Values, place: Place, corner: u32, vertices: usize) -> LoadE
     )
 }
 
-fn length_of(length: header::Scalar, place: Place, values: &mut Values) -> Result<u64, LoadError> {
+fn length_of(length: header::Scalar, place: ElementProperty, values: &mut Values) -> Result<u64, LoadError> {
     let found = values.next(length, place)?;
     if found < 0.0 {
         return Err(values.error(place, &format!("a list of {found}"), "a length from 0 is"));
@@ -260,13 +260,13 @@ fn skip_all(element: &Element, values: &mut Values) -> Result<(), LoadError> {
     }
     for number in 0..element.count {
         for property in &element.properties {
-            skip(property, Place { element: &element.name, number, property: &property.name }, values)?;
+            skip(property, ElementProperty { element: &element.name, number, property: &property.name }, values)?;
         }
     }
     Ok(())
 }
 
-fn skip(property: &Property, place: Place, values: &mut Values) -> Result<(), LoadError> {
+fn skip(property: &Property, place: ElementProperty, values: &mut Values) -> Result<(), LoadError> {
     let count = match property.list {
         Some(length) => length_of(length, place, values)?,
         None => 1,

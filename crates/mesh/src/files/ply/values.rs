@@ -1,6 +1,6 @@
 //! The numbers of a body, one after the other.
 
-use super::header::{Encoding, Header, Scalar};
+use super::header::{Header, PlyEncoding, Scalar};
 use crate::files::LoadError;
 use crate::files::source::Reader;
 use crate::files::text::abridged;
@@ -8,7 +8,7 @@ use crate::files::text::abridged;
 /// The numbers behind the header.
 pub(super) struct Values<'a> {
     reader: Reader<'a>,
-    encoding: Encoding,
+    encoding: PlyEncoding,
     /// The line of a text, how far it is read, and its number.
     buffer: Vec<u8>,
     at: usize,
@@ -17,7 +17,7 @@ pub(super) struct Values<'a> {
 
 /// What a number belongs to, for errors.
 #[derive(Clone, Copy)]
-pub(super) struct Place<'p> {
+pub(super) struct ElementProperty<'p> {
     pub(super) element: &'p str,
     /// From 0.
     pub(super) number: u64,
@@ -30,15 +30,15 @@ impl<'a> Values<'a> {
     }
 
     /// The next number. Every `f32` and every whole number of the format is exact.
-    pub(super) fn next(&mut self, scalar: Scalar, place: Place) -> Result<f64, LoadError> {
+    pub(super) fn next(&mut self, scalar: Scalar, place: ElementProperty) -> Result<f64, LoadError> {
         match self.encoding {
-            Encoding::Ascii => self.word(scalar, place),
-            Encoding::LittleEndian => self.bytes(scalar, place, false),
-            Encoding::BigEndian => self.bytes(scalar, place, true),
+            PlyEncoding::Ascii => self.word(scalar, place),
+            PlyEncoding::LittleEndian => self.bytes(scalar, place, false),
+            PlyEncoding::BigEndian => self.bytes(scalar, place, true),
         }
     }
 
-    fn word(&mut self, scalar: Scalar, place: Place) -> Result<f64, LoadError> {
+    fn word(&mut self, scalar: Scalar, place: ElementProperty) -> Result<f64, LoadError> {
         loop {
             self.at += self.buffer[self.at..].iter().take_while(|byte| byte.is_ascii_whitespace()).count();
             if self.at < self.buffer.len() {
@@ -66,7 +66,7 @@ impl<'a> Values<'a> {
         Ok(number)
     }
 
-    fn bytes(&mut self, scalar: Scalar, place: Place, big: bool) -> Result<f64, LoadError> {
+    fn bytes(&mut self, scalar: Scalar, place: ElementProperty, big: bool) -> Result<f64, LoadError> {
         Ok(match scalar {
             Scalar::I8 => i8::from_le_bytes(self.array(place, big)?).into(),
             Scalar::U8 => u8::from_le_bytes(self.array(place, big)?).into(),
@@ -80,7 +80,7 @@ impl<'a> Values<'a> {
     }
 
     /// The next bytes, the least significant first.
-    fn array<const N: usize>(&mut self, place: Place, big: bool) -> Result<[u8; N], LoadError> {
+    fn array<const N: usize>(&mut self, place: ElementProperty, big: bool) -> Result<[u8; N], LoadError> {
         let mut bytes = [0; N];
         if self.reader.fill(&mut bytes)? < N {
             return Err(self.error(place, "the end of the file", "a number is"));
@@ -91,13 +91,13 @@ impl<'a> Values<'a> {
         Ok(bytes)
     }
 
-    pub(super) fn error(&self, place: Place, found: &str, expected: &str) -> LoadError {
+    pub(super) fn error(&self, place: ElementProperty, found: &str, expected: &str) -> LoadError {
         let path = self.reader.path().to_owned();
-        let Place { element, number, property } = place;
+        let ElementProperty { element, number, property } = place;
         let element = format!("{} {number}, {}", abridged(element, ""), abridged(property, ""));
         let expected = expected.to_owned();
         match self.encoding {
-            Encoding::Ascii => {
+            PlyEncoding::Ascii => {
                 LoadError::Line { path, line: self.line, found: format!("{element}: {found}"), expected }
             }
             _ => LoadError::Element { path, element, found: found.to_owned(), expected },

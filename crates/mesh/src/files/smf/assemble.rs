@@ -19,12 +19,12 @@ pub(super) enum Binding {
 
 /// The values of an attribute.
 #[derive(Default)]
-pub(super) struct Bound<T> {
+pub(super) struct BoundValues<T> {
     pub(super) binding: Binding,
     pub(super) values: Vec<T>,
 }
 
-impl<T> Bound<T> {
+impl<T> BoundValues<T> {
     /// Binds the values to come; those that there are keep their binding, so it must be the same.
     pub(super) fn bind(&mut self, binding: Binding) -> bool {
         let fits = self.values.is_empty() || self.binding == binding;
@@ -41,11 +41,11 @@ struct Group {
 
 /// What the file describes.
 #[derive(Default)]
-pub(super) struct Shape {
+pub(super) struct SmfContent {
     pub(super) positions: Vec<Vec3>,
-    pub(super) normals: Bound<Vec3>,
-    pub(super) colors: Bound<Vec3>,
-    pub(super) uvs: Bound<Vec2>,
+    pub(super) normals: BoundValues<Vec3>,
+    pub(super) colors: BoundValues<Vec3>,
+    pub(super) uvs: BoundValues<Vec2>,
     pub(super) faces: usize,
     indices: Vec<u32>,
     /// The face of every triangle, where a face was cut into several.
@@ -53,7 +53,7 @@ pub(super) struct Shape {
     groups: Vec<Group>,
 }
 
-impl Shape {
+impl SmfContent {
     pub(super) fn new(name: String) -> Self {
         Self { groups: vec![Group { name, triangle: 0 }], ..Self::default() }
     }
@@ -180,7 +180,7 @@ impl Shape {
     }
 }
 
-impl<T: Copy> Bound<T> {
+impl<T: Copy> BoundValues<T> {
     /// One value a vertex, `None` where there are none.
     fn filled(&mut self, vertices: usize, missing: T) -> Option<Vec<T>> {
         let mut values = std::mem::take(&mut self.values);

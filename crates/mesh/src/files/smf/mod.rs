@@ -6,12 +6,12 @@ mod scope;
 
 use bevy_math::Vec3;
 
-use self::assemble::{Binding, Shape};
+use self::assemble::{Binding, SmfContent};
 use self::scope::Scopes;
 use super::polygon;
-use super::source::Source;
-use super::text::{Lines, Skipped, Statement};
-use super::{LoadError, color, stem};
+use super::source::{Source, stem};
+use super::text::{Skipped, Statement, Statements};
+use super::{LoadError, color};
 use crate::Model;
 
 const FACE: &str = "`f` and three vertex numbers, counted from 1, are";
@@ -21,7 +21,7 @@ const FACE: &str = "`f` and three vertex numbers, counted from 1, are";
 /// skipped with a warning.
 pub(super) fn parse(source: Source) -> Result<Model, LoadError> {
     let path = source.path;
-    let mut lines = Lines::new(source.reader);
+    let mut lines = Statements::new(source.reader);
     let mut smf = Smf::new(stem(path));
     while let Some(statement) = lines.next()? {
         smf.add(&statement)?;
@@ -45,7 +45,7 @@ struct Furthest {
 }
 
 struct Smf {
-    shape: Shape,
+    shape: SmfContent,
     scopes: Scopes,
     furthest: Option<Furthest>,
     /// The corners of the face that is being read, and their places.
@@ -57,7 +57,7 @@ struct Smf {
 impl Smf {
     fn new(name: String) -> Self {
         Self {
-            shape: Shape::new(name),
+            shape: SmfContent::new(name),
             scopes: Scopes::new(),
             furthest: None,
             corners: Vec::new(),
@@ -171,7 +171,7 @@ impl Smf {
 
     fn texture_coordinate(&mut self, statement: &Statement) -> Result<(), LoadError> {
         let words: [&str; 2] = statement.exactly("`r` and two numbers are")?;
-        let uv = super::uv(statement, words[0], words[1])?;
+        let uv = statement.uv(words[0], words[1])?;
         match self.shape.uvs.binding {
             Binding::Vertex => self.shape.uvs.values.push(uv),
             Binding::Face => self.skipped.add(statement.line, "`r` bound to faces is skipped"),

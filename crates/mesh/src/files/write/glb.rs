@@ -7,8 +7,8 @@ use std::path::Path;
 use bevy_math::{Mat4, Vec2, Vec3, Vec4};
 use serde_json::{Map, Value, json};
 
+use super::file::{WriteError, replace};
 use super::quantise::{Grid, signed, unsigned};
-use super::{WriteError, replace};
 use crate::{
     AlphaMode, Mesh, MetallicRoughness, Model, MtlMaterial, Part, SourceCamera, SourceLight, SourceLightKind,
     SourceMaterial, SourceProjection,

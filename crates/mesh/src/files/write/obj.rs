@@ -4,7 +4,8 @@ use std::collections::HashSet;
 use std::io::{self, Write};
 use std::path::Path;
 
-use super::{Placed, WriteError, lost_in_text, replace, upward};
+use super::file::{WriteError, replace};
+use super::placed::{Placed, lost_in_text, upward};
 use crate::files::color::encoded;
 use crate::{Mesh, Model, MtlMaterial, SourceMaterial};
 

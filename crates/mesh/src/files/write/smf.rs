@@ -3,7 +3,8 @@
 use std::io::Write as _;
 use std::path::Path;
 
-use super::{Placed, WriteError, lost_in_text, replace, upward};
+use super::file::{WriteError, replace};
+use super::placed::{Placed, lost_in_text, upward};
 use crate::Model;
 use crate::files::color::encoded;
 

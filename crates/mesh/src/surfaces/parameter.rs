@@ -1,60 +1,53 @@
-//! Surfaces as functions of two parameters.
+//! Parameters of surfaces, and what is at them.
 
 use std::f64::consts::TAU;
 
 use bevy_math::{DVec2, DVec3};
 
-use super::{Disc, Parameter, SurfaceError, SurfacePiece, Tessellation, tessellate};
-use crate::Mesh;
-
-/// A surface p(u, v), u and v from 0 to 1, in f64.
+/// A parameter from 0 to 1 with its complement.
 ///
-/// u runs from row to row of a mesh of it, v along a row; the outward side is that of ∂p/∂v × ∂p/∂u. Seen from outside
-/// with v running left, u runs down: a texture that covers it whole has the coordinates (1 − v, u).
-pub trait ParametricSurface {
-    /// Everything about the point p(u, v).
-    ///
-    /// Means nothing where [`validate`](Self::validate) refuses the surface.
-    fn at(&self, u: Parameter, v: Parameter) -> SurfacePoint;
+/// A fraction of whole numbers and its complement are rounded alike, so that an edge that two patches run along in
+/// opposite directions has bit-equal points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parameter {
+    t: f64,
+    s: f64,
+}
 
-    /// Whether every field is in its range: all lengths from 1e-30 to 1e30, none more than 10⁵ times another, since
-    /// `f32` could no longer tell their ends apart.
-    ///
-    /// # Errors
-    /// The first field that is not.
-    fn validate(&self) -> Result<(), SurfaceError> {
-        Ok(())
+impl Parameter {
+    /// `i` / `n`, `i` at most `n`.
+    pub fn fraction(i: u32, n: u32) -> Self {
+        Self { t: f64::from(i) / f64::from(n), s: f64::from(n - i) / f64::from(n) }
     }
 
-    /// The fewest rows and columns of cells that show its shape.
-    fn least_counts(&self) -> [u32; 2] {
-        [1, 1]
+    /// The parameter as a number.
+    pub fn value(self) -> f64 {
+        self.t
     }
 
-    /// The discs that belong to it as well.
-    fn caps(&self) -> Vec<Disc> {
-        Vec::new()
+    /// 1 less the parameter.
+    pub fn complement(self) -> f64 {
+        self.s
     }
 
-    /// The pieces of a [`Surface`](super::Surface) that are exactly p, without the caps; `None` where there are no such.
-    fn pieces(&self) -> Option<Vec<SurfacePiece>>;
+    /// ½ − t: from ½ down to −½, the ends exactly opposite.
+    pub(super) fn before_middle(self) -> f64 {
+        0.5 * (self.s - self.t)
+    }
 
-    /// Its mesh, with its caps: a grid of cells of two triangles each, which at a pole have one.
-    ///
-    /// Vertices lie row by row; seams and poles are repeated at equal positions for the sake of the texture coordinates.
-    /// Triangles that are degenerate in `f32` are left out.
-    ///
-    /// # Errors
-    /// A field of the surface or of the tessellation is out of its range.
-    fn mesh(&self, tessellation: Tessellation) -> Result<Mesh, SurfaceError>
-    where
-        Self: Sized,
-    {
-        tessellate(&[self], tessellation)
+    /// +1 where the patch lies on the side of growing parameters, −1 at its far end.
+    pub(super) fn inward(self) -> f64 {
+        if self.t < self.s { 1.0 } else { -1.0 }
     }
 }
 
-/// A point of a [`ParametricSurface`].
+impl From<f64> for Parameter {
+    fn from(t: f64) -> Self {
+        Self { t, s: 1.0 - t }
+    }
+}
+
+/// A point of a [`ParametricSurface`](super::ParametricSurface).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfacePoint {
     /// p.

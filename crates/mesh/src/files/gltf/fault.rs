@@ -1,0 +1,47 @@
+//! What can be wrong with a glTF file.
+
+use std::path::Path;
+
+use crate::MeshError;
+use crate::files::LoadError;
+
+/// What is wrong, before the name of the file is put to it.
+#[derive(Debug)]
+pub(super) enum Fault {
+    Element {
+        element: String,
+        found: String,
+        expected: String,
+    },
+    Mesh {
+        element: String,
+        source: MeshError,
+    },
+    RequiredExtension(String),
+    /// In a file that the document refers to; complete.
+    Elsewhere(LoadError),
+}
+
+impl Fault {
+    pub(super) fn element(element: impl Into<String>, found: impl Into<String>, expected: impl Into<String>) -> Self {
+        Self::Element { element: element.into(), found: found.into(), expected: expected.into() }
+    }
+
+    pub(super) fn at(self, path: &Path) -> LoadError {
+        let path = path.to_owned();
+        match self {
+            Self::Element { element, found, expected } => LoadError::Element { path, element, found, expected },
+            Self::Mesh { element, source } => LoadError::Mesh { path, element, source },
+            Self::RequiredExtension(extension) => LoadError::RequiredExtension { path, extension },
+            Self::Elsewhere(error) => error,
+        }
+    }
+}
+
+/// That the numbers of an element are finite; the JSON reader makes infinities of what is too large for `f32`.
+pub(super) fn check_finite(element: &dyn Fn() -> String, numbers: &[f32]) -> Result<(), Fault> {
+    match numbers.iter().find(|x| !x.is_finite()) {
+        None => Ok(()),
+        Some(_) => Err(Fault::element(element(), format!("{numbers:?}"), "finite numbers are")),
+    }
+}

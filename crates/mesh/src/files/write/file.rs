@@ -1,0 +1,77 @@
+//! A file that is written whole or not at all.
+
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+/// Why a model was not written. Nothing is left behind, and a file that was there before stays as it was.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum WriteError {
+    /// The extension names no format that is written.
+    #[error("{}: the extension {extension:?} names no format that is written; smf, obj or glb is expected", path.display())]
+    UnknownExtension {
+        /// The file.
+        path: PathBuf,
+        /// What follows the last dot of its name, in lower case; empty where there is none.
+        extension: String,
+    },
+    /// Only GLB holds quantised meshes.
+    #[error("{}: only .glb holds integers of 16 bits", path.display())]
+    NotQuantised {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The model has no parts, and no format can say so.
+    #[error("{}: the model has no parts; at least one is expected", path.display())]
+    NoParts {
+        /// The file.
+        path: PathBuf,
+    },
+    /// More than the format can count.
+    #[error("{}: {what}; at most {} are expected", path.display(), u32::MAX)]
+    TooLarge {
+        /// The file.
+        path: PathBuf,
+        /// What there is too much of, and how much.
+        what: String,
+    },
+    /// A part stands where its vertices leave the range of single precision.
+    #[error("{}: the vertices of part {part}, where they stand in the world, are not finite", path.display())]
+    NotFinite {
+        /// The file.
+        path: PathBuf,
+        /// The part, from 0.
+        part: usize,
+    },
+    /// The system refuses.
+    #[error("{}: cannot be written: {source}", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+}
+
+/// Writes a file beside its place and renames it.
+pub(super) fn replace(
+    path: &Path,
+    content: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+) -> Result<(), WriteError> {
+    let failed = |source| WriteError::Write { path: path.to_owned(), source };
+    let mut name = path.file_name().unwrap_or_default().to_owned();
+    name.push(format!(".{}.partial", std::process::id()));
+    let beside = path.with_file_name(name);
+    let written = File::create(&beside).and_then(|file| {
+        let mut file = BufWriter::with_capacity(1 << 16, file);
+        content(&mut file)?;
+        file.flush()
+    });
+    written.and_then(|()| fs::rename(&beside, path)).map_err(|source| {
+        let _ = fs::remove_file(&beside);
+        failed(source)
+    })
+}

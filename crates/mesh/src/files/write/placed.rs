@@ -1,0 +1,70 @@
+//! What the text formats share: parts as they stand in the world.
+
+use std::path::Path;
+
+use bevy_math::{DMat3, Mat4, Vec3};
+
+use super::file::WriteError;
+use crate::{Model, Part};
+
+/// The vertices of a part where they stand in the world.
+pub(super) struct Placed {
+    pub(super) positions: Vec<Vec3>,
+    pub(super) normals: Vec<Vec3>,
+    /// Whether triangles wind the other way round because the part is mirrored.
+    mirrored: bool,
+}
+
+impl Placed {
+    pub(super) fn new(path: &Path, index: usize, part: &Part) -> Result<Self, WriteError> {
+        let (positions, normals) = (part.mesh.positions(), part.mesh.normals());
+        if part.world_from_part == Mat4::IDENTITY {
+            return Ok(Self { positions: positions.to_vec(), normals: normals.to_vec(), mirrored: false });
+        }
+        let world_from_part = part.world_from_part.as_dmat4();
+        let positions: Vec<Vec3> =
+            positions.iter().map(|p| world_from_part.transform_point3(p.as_dvec3()).as_vec3()).collect();
+        if !positions.iter().all(|p| p.is_finite()) {
+            return Err(WriteError::NotFinite { path: path.to_owned(), part: index });
+        }
+        let m = DMat3::from_mat4(world_from_part);
+        let mirrored = m.determinant() < 0.0;
+        // The inverse transpose but for a factor, whose sign is set right.
+        let cofactors = DMat3::from_cols(m.y_axis.cross(m.z_axis), m.z_axis.cross(m.x_axis), m.x_axis.cross(m.y_axis));
+        let sign = if mirrored { -1.0 } else { 1.0 };
+        let turn = |n: &Vec3| (sign * (cofactors * n.as_dvec3())).try_normalize().unwrap_or(n.as_dvec3()).as_vec3();
+        Ok(Self { normals: normals.iter().map(turn).collect(), positions, mirrored })
+    }
+
+    /// The corners of a triangle, so that its front stays in front.
+    pub(super) fn triangle(&self, [a, b, c]: [u32; 3]) -> [u32; 3] {
+        if self.mirrored { [a, c, b] } else { [a, b, c] }
+    }
+}
+
+/// v upward, with all the digits that it takes to be turned again without loss.
+pub(super) fn upward(v: f32) -> f64 {
+    1.0 - f64::from(v)
+}
+
+/// What SMF and OBJ cannot hold.
+pub(super) fn lost_in_text(model: &Model) -> Vec<String> {
+    let mut lost = Vec::new();
+    let mut add = |count: usize, what: &str| {
+        if count > 0 {
+            lost.push(format!("{count} {what}"));
+        }
+    };
+    let parts = &model.parts;
+    add(
+        parts.iter().filter(|part| part.world_from_part != Mat4::IDENTITY).count(),
+        "places of parts; their vertices are moved instead",
+    );
+    add(parts.iter().filter(|part| part.mesh.tangents().is_some()).count(), "parts lose their tangents");
+    let is_clear =
+        |part: &&Part| part.mesh.colors().is_some_and(|colors| colors.iter().any(|c| (c.w - 1.0).abs() > 0.0));
+    add(parts.iter().filter(is_clear).count(), "parts lose the opacity of their vertices");
+    add(model.lights.len(), "lights");
+    add(model.cameras.len(), "cameras");
+    lost
+}
