@@ -57,14 +57,29 @@ impl<'a> Shapes<'a> {
             surface => Some(format!("{surface:?}")),
         };
         let key = key.map(|key| (key, object.normals));
-        if let Some(shape) = key.as_ref().and_then(|key| self.loaded.get(key)) {
-            return Ok(Rc::clone(shape));
-        }
-        let shape = Rc::new(self.load(object, index)?);
+        let shape = match key.as_ref().and_then(|key| self.loaded.get(key)) {
+            Some(shape) => Rc::clone(shape),
+            None => Rc::new(self.load(object, index)?),
+        };
         if let Some(key) = key {
             self.loaded.insert(key, Rc::clone(&shape));
         }
+        self.warn_of_opacity(object, &shape, index);
         Ok(shape)
+    }
+
+    /// An MTL file gives an opacity but cannot ask for blending.
+    fn warn_of_opacity(&mut self, object: &ObjectEntry, shape: &Shape, index: usize) {
+        if object.material.is_some() || object.blend.is_some() {
+            return;
+        }
+        let own = shape.parts.iter().filter_map(|part| part.own.as_ref());
+        let count = own.filter(|own| own.material.opacity < 1.0 && !own.blend).count();
+        if count > 0 {
+            self.warnings.push(format!(
+                "objects[{index}]: {count} parts have an opacity below 1, which is not shown without \"blend\": true"
+            ));
+        }
     }
 
     fn load(&mut self, object: &ObjectEntry, index: usize) -> Result<Shape, SceneError> {
@@ -92,6 +107,15 @@ impl<'a> Shapes<'a> {
     fn model(&mut self, model: Model, path: &Path, normals: Normals, index: usize) -> Result<Shape, SceneError> {
         let file = path.display();
         self.warnings.extend(model.warnings.iter().map(|warning| format!("{file}: {warning}")));
+        let with_colors = model.parts.iter().filter(|part| part.mesh.colors().is_some()).count();
+        for (count, what) in [
+            (with_colors, "parts have colors at their vertices, which are not drawn"),
+            (model.cameras.len(), "cameras are not used; a scene has its own"),
+        ] {
+            if count > 0 {
+                self.warnings.push(format!("{file}: {count} {what}"));
+            }
+        }
         let mut materials = Vec::with_capacity(model.materials.len());
         for material in &model.materials {
             let at = format!("{file}: material {:?}", material.name());
