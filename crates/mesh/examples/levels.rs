@@ -41,8 +41,8 @@ fn print_levels(name: &str, mesh: &Mesh) {
     }
 }
 
-/// The angle between the mesh's normal and the level's, in radians, that 99 % of some vertices do not pass: of those that
-/// the level has not, each against all its triangles.
+/// The angle between the mesh's normal and the level's, in radians, that 99 % of some vertices do not pass: of those
+/// that the level has not, each against all its triangles.
 fn normal_error_of_most(mesh: &Mesh, level: &Level) -> f32 {
     let mut is_used = vec![false; mesh.positions().len()];
     level.indices.iter().for_each(|&vertex| is_used[vertex as usize] = true);
@@ -54,8 +54,8 @@ fn normal_error_of_most(mesh: &Mesh, level: &Level) -> f32 {
     angles.get(angles.len() * 99 / 100).copied().unwrap_or(0.0)
 }
 
-/// The angle at a vertex: at the nearest point, where a difference of normals counts as that part of the distance from the
-/// level's nearest vertex.
+/// The angle at a vertex: at the nearest point, where a difference of normals counts as that part of the distance from
+/// the level's nearest vertex.
 fn normal_error_at(mesh: &Mesh, level: &Level, vertex: usize) -> f32 {
     let (p, n) = (mesh.positions()[vertex], mesh.normals()[vertex]);
     let to_vertex2 = |&i: &u32| p.distance_squared(mesh.positions()[i as usize]);

@@ -1,8 +1,9 @@
-//! How far vertex normals are from those of the surface: the four weightings on five surfaces, at four tessellations, on
-//! regular and on jittered meshes. Prints a table in Markdown, or with the argument `csv` one in CSV.
+//! How far vertex normals are from those of the surface: the four weightings on five surfaces, at four tessellations,
+//! on regular and on jittered meshes. Prints a table in Markdown, or with the argument `csv` one in CSV.
 //!
-//! Jittered meshes have their vertices moved on the surface, and their cells cut along either diagonal: by up to 0.35 of
-//! the shorter side of their cell, or, to make slivers, by 0.35 of the cell along each parameter. Vertices on borders and creases are left out: no weighting can know what lies beyond.
+//! Jittered meshes have their vertices moved on the surface, and their cells cut along either diagonal: by up to 0.35
+//! of the shorter side of their cell, or, to make slivers, by 0.35 of the cell along each parameter. Vertices on
+//! borders and creases are left out: no weighting can know what lies beyond.
 
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::{PI, TAU};

@@ -86,7 +86,8 @@ fn neighbours(coordinate: f32, texels: u32, repeat: bool) -> (usize, usize, f64)
 }
 
 impl Mesh {
-    /// The mesh with each vertex moved along its normal by `height` of its number, and normals of the default weighting.
+    /// The mesh with each vertex moved along its normal by `height` of its number, and normals of the default
+    /// weighting.
     ///
     /// Vertices at equal positions stay together, so that nothing tears open at a seam or a crease: they move by the
     /// mean of their heights along the mean of their normals, and not at all where that vanishes. A mesh shows no more

@@ -1,12 +1,14 @@
 //! What halfway lights: triangle meshes, their normals, parametric surfaces and file formats.
 //!
-//! - [`Mesh`] is a validated list of vertices and triangles, an asset of `bevy_asset`; [`Mesh3d`] puts one on an entity.
-//! - [`Normals`] says how a mesh gets its normals: the file's, one a face, or a weighted mean of the faces around a vertex,
-//!   creased or not; [`Mesh::with_tangents`] adds tangents.
+//! - [`Mesh`] is a validated list of vertices and triangles, an asset of `bevy_asset`; [`Mesh3d`] puts one on an
+//!   entity.
+//! - [`Normals`] says how a mesh gets its normals: the file's, one a face, or a weighted mean of the faces around a
+//!   vertex, creased or not; [`Mesh::with_tangents`] adds tangents.
 //! - [`Mesh::report`] looks a mesh over; [`Mesh::welded`] and [`Mesh::repaired`] mend it; [`Mesh::subdivided`] and
-//!   [`Mesh::displaced`] give it detail. The feature `prepare` adds an order for the GPU, meshlets and simplified meshes.
-//! - [`Plane`], [`Cuboid`], [`UvSphere`], [`Icosphere`] and [`Teapot`] turn into meshes with analytic normals; so do the
-//!   quadrics, the torus, [`BezierPatch`] and the other [`ParametricSurface`]s, by count or by chord error.
+//!   [`Mesh::displaced`] give it detail. The feature `prepare` adds an order for the GPU, meshlets and simplified
+//!   meshes.
+//! - [`Plane`], [`Cuboid`], [`UvSphere`], [`Icosphere`] and [`Teapot`] turn into meshes with analytic normals; so do
+//!   the quadrics, the torus, [`BezierPatch`] and the other [`ParametricSurface`]s, by count or by chord error.
 //! - [`Mesh::surface`] is the smooth surface that a mesh stands for, where it is known by formula.
 //! - [`load`] reads SMF, Wavefront OBJ with MTL, glTF 2.0 (text and binary), PLY and STL into a [`Model`]; [`write()`]
 //!   writes one as SMF, OBJ or binary glTF.

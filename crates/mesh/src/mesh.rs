@@ -10,8 +10,8 @@ use thiserror::Error;
 use crate::normals::vertex_normals;
 use crate::{Bounds, NormalReport, NormalWeighting, Surface};
 
-/// A triangle mesh: vertices with a position, a unit normal and perhaps texture coordinates, a colour and a tangent, and
-/// triangles that index them.
+/// A triangle mesh: vertices with a position, a unit normal and perhaps texture coordinates, a colour and a tangent,
+/// and triangles that index them.
 ///
 /// What holds for every mesh: at least one triangle; every index in range; every number finite; every normal of unit
 /// length. At most 2³² − 1 vertices and as many indices, since a draw call counts them in 32 bits. Front faces wind
@@ -180,8 +180,8 @@ impl Mesh {
         Ok(self.changed(|data| data.colors = Some(colors)))
     }
 
-    /// The mesh with more vertices, each in the middle of two old ones in all that it has, and these triangles. Tangents
-    /// are dropped.
+    /// The mesh with more vertices, each in the middle of two old ones in all that it has, and these triangles.
+    /// Tangents are dropped.
     pub(crate) fn extended(&self, pairs: impl Iterator<Item = [u32; 2]> + Clone, indices: Vec<u32>) -> Self {
         fn extend<T: Copy>(all: &[T], pairs: impl Iterator<Item = [u32; 2]>, middle: impl Fn(T, T) -> T) -> Vec<T> {
             let middles = pairs.map(|pair| pair.map(|vertex| all[vertex as usize])).map(|[a, b]| middle(a, b));
@@ -218,8 +218,8 @@ impl Mesh {
         self.changed(|data| data.tangents = Some(tangents))
     }
 
-    /// The mesh as one that stands for `surface`: the caller's promise that it approximates it, in the same space and with
-    /// the same outward side.
+    /// The mesh as one that stands for `surface`: the caller's promise that it approximates it, in the same space and
+    /// with the same outward side.
     #[must_use]
     pub fn with_surface(self, surface: Surface) -> Self {
         self.changed(|data| data.surface = Some(surface))
@@ -287,8 +287,8 @@ impl Mesh {
         self.data.indices.len() / 3
     }
 
-    /// The smooth surface that the mesh stands for, where it is known by formula; `None` where the triangles are all that
-    /// is known, or all that there is. Other normals keep it, moved vertices do not.
+    /// The smooth surface that the mesh stands for, where it is known by formula; `None` where the triangles are all
+    /// that is known, or all that there is. Other normals keep it, moved vertices do not.
     pub fn surface(&self) -> Option<&Surface> {
         self.data.surface.as_ref()
     }
@@ -347,8 +347,8 @@ fn check_indices(indices: &[u32], vertices: usize) -> Result<(), MeshError> {
 fn kept_normals(mut given: Vec<Vec3>, positions: &[Vec3], indices: &[u32]) -> (Vec<Vec3>, NormalReport) {
     let mut without = Vec::new();
     for (vertex, n) in given.iter_mut().enumerate() {
-        // In f64, where no finite f32 vector under- or overflows. A unit vector that was rounded to f32 is off by less than
-        // 1e-7; it stays as it is, so that what was written is read again.
+        // In f64, where no finite f32 vector under- or overflows. A unit vector that was rounded to f32 is off by less
+        // than 1e-7; it stays as it is, so that what was written is read again.
         match n.as_dvec3().try_normalize() {
             Some(_) if (n.as_dvec3().length() - 1.0).abs() < 1e-7 => {}
             Some(unit) => *n = unit.as_vec3(),

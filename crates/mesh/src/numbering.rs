@@ -73,8 +73,8 @@ impl DistinctKeys {
     }
 }
 
-/// The numbers of keys, found by the keys, which lie elsewhere. The hashes are seeded anew each run, so that no file can
-/// be made to collide; the numbers do not depend on it.
+/// The numbers of keys, found by the keys, which lie elsewhere. The hashes are seeded anew each run, so that no file
+/// can be made to collide; the numbers do not depend on it.
 #[derive(Default)]
 struct Table {
     numbers: HashTable<u32>,

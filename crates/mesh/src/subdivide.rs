@@ -14,11 +14,12 @@ pub enum Subdivision {
     /// mean normals. The default.
     #[default]
     Midpoint,
-    /// Loop 1987, "Smooth subdivision surfaces based on triangles": the shape becomes ever smoother, and has a continuous
-    /// normal in the limit. Edges stay sharp where the mesh has a border, where more than two triangles meet or two wind
-    /// opposite ways, and where the normals on both sides differ by more than a degree; sharp rows of edges become cubic
-    /// B-splines, and vertices of three sharp edges or more stay where they are (Hoppe et al. 1994, "Piecewise smooth
-    /// surface reconstruction"). Normals are of the default weighting, apart on both sides of sharp edges.
+    /// Loop 1987, "Smooth subdivision surfaces based on triangles": the shape becomes ever smoother, and has a
+    /// continuous normal in the limit. Edges stay sharp where the mesh has a border, where more than two triangles meet
+    /// or two wind opposite ways, and where the normals on both sides differ by more than a degree; sharp rows of edges
+    /// become cubic B-splines, and vertices of three sharp edges or more stay where they are (Hoppe et al. 1994,
+    /// "Piecewise smooth surface reconstruction"). Normals are of the default weighting, apart on both sides of sharp
+    /// edges.
     Loop,
 }
 

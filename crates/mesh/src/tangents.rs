@@ -7,14 +7,14 @@ use crate::numbering::Numbering;
 use crate::{Mesh, MeshError};
 
 impl Mesh {
-    /// The mesh with a tangent t a vertex by `MikkTSpace` (Mikkelsen 2008, "Simulation of wrinkled surfaces revisited"),
-    /// what normal maps are made for and glTF asks for.
+    /// The mesh with a tangent t a vertex by `MikkTSpace` (Mikkelsen 2008, "Simulation of wrinkled surfaces
+    /// revisited"), what normal maps are made for and glTF asks for.
     ///
-    /// x, y, z of a tangent are a unit vector toward which u grows, perpendicular to the normal n; w is 1 or −1, so that
-    /// w·(n × t) is the way up in the image, where v falls. Vertices are split where the triangles around them do not
-    /// agree, as on the seam of a mirrored texture, and those of no triangle are left out. Where the texture coordinates
-    /// give no direction, any vector perpendicular to n is taken. Triangles keep their order; the size of the mesh is of
-    /// no account.
+    /// x, y, z of a tangent are a unit vector toward which u grows, perpendicular to the normal n; w is 1 or −1, so
+    /// that w·(n × t) is the way up in the image, where v falls. Vertices are split where the triangles around them do
+    /// not agree, as on the seam of a mirrored texture, and those of no triangle are left out. Where the texture
+    /// coordinates give no direction, any vector perpendicular to n is taken. Triangles keep their order; the size of
+    /// the mesh is of no account.
     ///
     /// # Errors
     /// The mesh has no texture coordinates.

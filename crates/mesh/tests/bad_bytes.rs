@@ -1,5 +1,6 @@
-//! Thousands of spoilt files of every format: each is refused or gives a model that keeps its promises, and takes memory
-//! in proportion to its bytes. The same at every run; `HALFWAY_SEED` and `HALFWAY_VARIANTS` ask for others and for more.
+//! Thousands of spoilt files of every format: each is refused or gives a model that keeps its promises, and takes
+//! memory in proportion to its bytes. The same at every run; `HALFWAY_SEED` and `HALFWAY_VARIANTS` ask for others and
+//! for more.
 
 mod common;
 #[path = "common/counting.rs"]

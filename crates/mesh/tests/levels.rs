@@ -55,11 +55,12 @@ fn a_sphere_stays_a_sphere() {
         };
         let sagitta = triangles(level).iter().map(sagitta).fold(0.0, f64::max);
         let error = f64::from(level.error);
-        // The mesh itself is up to 1 − cos(π/64) = 0.0012 inside the sphere, so what is furthest in may be nearer to it by
-        // that; other points than the deepest are sampled, and the nearest that faces alike is not quite the nearest.
+        // The mesh itself is up to 1 − cos(π/64) = 0.0012 inside the sphere, so what is furthest in may be nearer to it
+        // by that; other points than the deepest are sampled, and the nearest that faces alike is not quite the
+        // nearest.
         assert!(error > 0.9 * sagitta - 0.0012 && error < 1.02 * sagitta, "{count}: {error} {sagitta}");
-        // Interpolated normals of a sphere point away from its centre, whatever the triangles are; 0.063 is what 48 of them
-        // are off by.
+        // Interpolated normals of a sphere point away from its centre, whatever the triangles are; 0.063 is what 48 of
+        // them are off by.
         assert!(level.normal_error < 0.07, "{count}: {}", level.normal_error);
         // Even triangles have the circumradius √(9.67/N); 1.9 is the worst that was found.
         let even = (9.67 / count as f32).sqrt();
@@ -70,8 +71,8 @@ fn a_sphere_stays_a_sphere() {
 
 #[test]
 fn large_meshes_of_any_number_of_triangles_have_levels() {
-    // Above 32,768 triangles a candidate keeps about half: exactly half of 34,322 = 4k + 2 or of an odd number cannot be
-    // left, since triangles vanish by twos.
+    // Above 32,768 triangles a candidate keeps about half: exactly half of 34,322 = 4k + 2 or of an odd number cannot
+    // be left, since triangles vanish by twos.
     let sphere = Mesh::from(UvSphere::new(1.0, 131, 132));
     for left_out in [0, 1] {
         let indices = sphere.indices()[3 * left_out..].to_vec();

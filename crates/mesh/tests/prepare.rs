@@ -221,8 +221,8 @@ fn the_distance_between_meshes() {
     let rows = [
         ("itself", small.clone(), small.clone(), 0.0),
         ("beside", moved(&unit, Vec3::X * 3.0), unit.clone(), 3.0),
-        // The corners of the larger sphere are half a unit from the corners below them; the planes of the smaller one are
-        // lower, but the corners hold.
+        // The corners of the larger sphere are half a unit from the corners below them; the planes of the smaller one
+        // are lower, but the corners hold.
         ("around", large, small, 0.5),
         ("a corner that sticks out", square(2.0), square(1.0), 2.0_f64.sqrt()),
         ("a part of it", square(1.0), square(2.0), 0.0),

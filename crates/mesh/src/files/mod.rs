@@ -1,6 +1,5 @@
 //! Model files: which there are, and how they are opened.
 
-mod color;
 mod error;
 mod format;
 mod gltf;
@@ -36,11 +35,12 @@ use source::Source;
 /// | `ply` | PLY | polygons and strips, normals, texture coordinates and colours of vertices, as one part |
 /// | `stl` | STL | triangles, with vertices at equal positions as one; a part for each solid |
 ///
-/// Polygons are cut into triangles, concave ones too. Files that a model refers to are read only from its own folder and
-/// those in it. What is skipped is said in [`Model::warnings`]. Normals that are missing are those of the default
+/// Polygons are cut into triangles, concave ones too. Files that a model refers to are read only from its own folder
+/// and those in it. What is skipped is said in [`Model::warnings`]. Normals that are missing are those of the default
 /// [weighting](crate::NormalWeighting).
 ///
-/// No memory is taken on the word of a number in the file: what is allocated is in proportion to the data that is there.
+/// No memory is taken on the word of a number in the file: what is allocated is in proportion to the data that is
+/// there.
 ///
 /// # Errors
 /// The file is missing, empty, not a regular file or of another format; it is malformed, where the error names the line
@@ -69,8 +69,8 @@ pub fn load_with(
     parse(format, Source::open(path, options, &on_progress)?)
 }
 
-/// Reads a model that is in memory. It has no folder: files that it refers to are not read. In errors it goes by the name
-/// `model` and the format's extension.
+/// Reads a model that is in memory. It has no folder: files that it refers to are not read. In errors it goes by the
+/// name `model` and the format's extension.
 ///
 /// # Errors
 /// As [`load`].

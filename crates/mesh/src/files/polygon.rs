@@ -7,8 +7,8 @@ use bevy_math::{DVec2, DVec3, Vec3};
 const PATIENCE: usize = 1 << 14;
 
 /// Cuts a polygon of at least three corners into triangles, two fewer than it has corners, each as three numbers of
-/// corners in the polygon's own winding. Returns whether it came out without overlaps, as every polygon does that is simple
-/// when seen along its normal; others, which cross themselves, are cut all the same.
+/// corners in the polygon's own winding. Returns whether it came out without overlaps, as every polygon does that is
+/// simple when seen along its normal; others, which cross themselves, are cut all the same.
 ///
 /// Triangles and convex polygons are cut as a fan from the first corner, others by ears (Meisters 1975, "Polygons have
 /// ears"). No corner is dropped, not even where three lie in a line: neighbours may use it.

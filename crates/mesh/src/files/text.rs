@@ -12,8 +12,8 @@ use super::source::Reader;
 /// The statements of a text, one at a time: lines that are neither empty nor comments.
 ///
 /// Lines end with LF or CRLF; `#` at the beginning makes a comment, which may hold any bytes; other lines are UTF-8, or
-/// else Latin-1, as older programs write names. A byte order mark at the beginning is skipped. No more than a line is in
-/// memory.
+/// else Latin-1, as older programs write names. A byte order mark at the beginning is skipped. No more than a line is
+/// in memory.
 pub(super) struct Statements<'a> {
     reader: Reader<'a>,
     buffer: Vec<u8>,

@@ -41,12 +41,13 @@ pub enum Normals {
 
 /// The weight of a triangle's unit normal in the mean at one of its vertices.
 ///
-/// Vertices at equal positions share their mean, so that a seam in the texture coordinates is not a seam in the shading.
+/// Vertices at equal positions share their mean, so that a seam in the texture coordinates is not a seam in the
+/// shading.
 ///
 /// The default is chosen by measurement, the example `normal_accuracy`: sphere, torus, ellipsoid, teapot and a random
 /// cubic, each at four tessellations, regular, with jittered vertices and with slivers. Of these 60 meshes it has the
-/// smallest mean angle to the true normals on 44 and the smallest worst angle on 32. Compared with the best on each mesh,
-/// in the median:
+/// smallest mean angle to the true normals on 44 and the smallest worst angle on 32. Compared with the best on each
+/// mesh, in the median:
 ///
 /// | | uniform | area | angle | Max |
 /// |---|--:|--:|--:|--:|
@@ -62,13 +63,13 @@ pub enum NormalWeighting {
     /// The area of the triangle: large faces win.
     Area,
     /// The angle of the triangle at the vertex (Thürmer and Wüthrich 1998, "Computing vertex normals from polygonal
-    /// facets"): independent of how flat faces are cut into triangles. A flat-topped triangle with an angle near π, whose
-    /// normal is the least sure, gets the largest weight: on jittered meshes it is off by up to 90°.
+    /// facets"): independent of how flat faces are cut into triangles. A flat-topped triangle with an angle near π,
+    /// whose normal is the least sure, gets the largest weight: on jittered meshes it is off by up to 90°.
     Angle,
     /// sin α / (|e₁| |e₂|), α the angle between the edges e₁ and e₂ at the vertex (Max 1999, "Weights for computing
-    /// vertex normals from facet normals"): exact where the vertex and its neighbours lie on a sphere, and independent of
-    /// how flat faces are cut whose corners lie on a circle. Small faces win: beside a narrow bevel a large flat face
-    /// says little. The default.
+    /// vertex normals from facet normals"): exact where the vertex and its neighbours lie on a sphere, and independent
+    /// of how flat faces are cut whose corners lie on a circle. Small faces win: beside a narrow bevel a large flat
+    /// face says little. The default.
     #[default]
     Max,
 }

@@ -18,9 +18,9 @@ pub(crate) struct Smoothed<'a> {
 
 /// The meshes with the normals that the smoothing groups of Wavefront OBJ ask for.
 ///
-/// The triangles of one group share the mean of their normals at each point, across all the meshes; those of group 0 are
-/// faceted. Vertices are split where groups meet, and the vertices of no triangle are left out. All meshes together have
-/// at most 2³² − 1 corners.
+/// The triangles of one group share the mean of their normals at each point, across all the meshes; those of group 0
+/// are faceted. Vertices are split where groups meet, and the vertices of no triangle are left out. All meshes together
+/// have at most 2³² − 1 corners.
 pub(crate) fn grouped_normals(meshes: &[Smoothed], weighting: NormalWeighting) -> Vec<Mesh> {
     let (mut positions, mut points, mut indices, mut groups) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for smoothed in meshes {

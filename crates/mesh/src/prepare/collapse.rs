@@ -6,7 +6,7 @@ use std::collections::BinaryHeap;
 use bevy_math::{DVec3, Vec3};
 use rayon::prelude::*;
 
-use super::deviation::nearest_on;
+use super::nearest::nearest_on;
 use super::quadric::ErrorQuadric;
 use super::stand_ins::StandIns;
 use crate::Mesh;
@@ -49,8 +49,8 @@ pub(super) struct Collapse<'a> {
     targets: Vec<u32>,
 }
 
-/// A normal that changes by so much, as a difference of unit vectors, counts twice, and more than that the cube of it: else
-/// a few small parts, cheap by their size, would lose their shading at once.
+/// A normal that changes by so much, as a difference of unit vectors, counts twice, and more than that the cube of it:
+/// else a few small parts, cheap by their size, would lose their shading at once.
 const SHARP_TURN: f64 = 0.25;
 
 /// The square of the greatest difference between one of three normals and their mean.
@@ -261,13 +261,13 @@ impl<'a> Collapse<'a> {
         self.keeps_topology(target, &fan, &self.around(&fan))
     }
 
-    /// What collapsing a place onto a neighbour loses, unless it is no less than `most`, it turns a triangle over or a seam
-    /// would tear.
+    /// What collapsing a place onto a neighbour loses, unless it is no less than `most`, it turns a triangle over or a
+    /// seam would tear.
     ///
-    /// A length, the sum of: how far the new position is from the planes of the original triangles, in the mean; how far
-    /// the old position is from the new triangles, which the mean may hide; the spread of the new triangles' normals and
-    /// the change of the normal at the old position (see [`SHARP_TURN`]), both times the longest edge. So what is small may be cut coarsely,
-    /// and on a sphere all triangles become alike.
+    /// A length, the sum of: how far the new position is from the planes of the original triangles, in the mean; how
+    /// far the old position is from the new triangles, which the mean may hide; the spread of the new triangles'
+    /// normals and the change of the normal at the old position (see [`SHARP_TURN`]), both times the longest edge. So
+    /// what is small may be cut coarsely, and on a sphere all triangles become alike.
     fn cost(&self, place: u32, (target, base): (u32, f64), fan: &[FanCorner], most: f64) -> Option<f64> {
         let (p, q) = (self.position(place), self.position(target));
         let moves = self.moves(target, fan)?;
@@ -312,8 +312,8 @@ impl<'a> Collapse<'a> {
         self.normals[vertex as usize].as_dvec3()
     }
 
-    /// Which vertex of the target each vertex of the fan's place becomes: the one that it shares an edge with. None if a
-    /// vertex has none there, or two.
+    /// Which vertex of the target each vertex of the fan's place becomes: the one that it shares an edge with. None if
+    /// a vertex has none there, or two.
     fn moves(&self, target: u32, fan: &[FanCorner]) -> Option<Moves> {
         let mut moves = Moves::default();
         for &[a, b, c] in fan {
@@ -328,8 +328,8 @@ impl<'a> Collapse<'a> {
         fan.iter().all(|&[a, ..]| moves.target(a).is_some()).then_some(moves)
     }
 
-    /// Whether the surface stays one: the neighbours that both ends have are those of the triangles on their edge, one at
-    /// a border and else two, and what is on a border moves along it.
+    /// Whether the surface stays one: the neighbours that both ends have are those of the triangles on their edge, one
+    /// at a border and else two, and what is on a border moves along it.
     fn keeps_topology(&self, target: u32, fan: &[FanCorner], around: &[u32]) -> bool {
         let on_edge = fan.iter().filter(|&&[_, b, c]| self.place(b) == target || self.place(c) == target).count();
         let is_closed = around.len() == fan.len();

@@ -5,7 +5,7 @@ use std::ops::Range;
 use bevy_math::DVec3;
 use rayon::prelude::*;
 
-use super::nearest::TriangleTree;
+use super::nearest::{TriangleTree, nearest_on};
 use crate::Mesh;
 
 /// So many of the vertices that went since the level before are sampled, and so many of those that went earlier.
@@ -164,32 +164,4 @@ fn spread_out(count: usize, most: usize) -> impl IndexedParallelIterator<Item = 
 /// The angle between two vectors, exact also where it is small.
 pub(super) fn angle(a: DVec3, b: DVec3) -> f64 {
     a.cross(b).length().atan2(a.dot(b))
-}
-
-/// The square of the distance of a point from a triangle, which may be degenerate, and the weights of its corners at the
-/// nearest point.
-pub(super) fn nearest_on(p: DVec3, [a, b, c]: [DVec3; 3]) -> (f64, [f64; 3]) {
-    let (ab, ac, ap) = (b - a, c - a, p - a);
-    let n = ab.cross(ac);
-    let n2 = n.length_squared();
-    let [v, w] = [ap.cross(ac).dot(n), ab.cross(ap).dot(n)];
-    let weights = [n2 - v - w, v, w];
-    if n2 > 0.0 && weights.iter().all(|&weight| weight >= 0.0) {
-        return (ap.dot(n).powi(2) / n2, weights.map(|weight| weight / n2));
-    }
-    // The nearest side is one that the point is beyond.
-    let mut best = (f64::INFINITY, [1.0, 0.0, 0.0]);
-    for (i, [from, to]) in [[b, c], [c, a], [a, b]].into_iter().enumerate() {
-        if n2 > 0.0 && weights[i] >= 0.0 {
-            continue;
-        }
-        let side = to - from;
-        let length2 = side.length_squared();
-        let t = if length2 > 0.0 { ((p - from).dot(side) / length2).clamp(0.0, 1.0) } else { 0.0 };
-        let distance2 = p.distance_squared(from + side * t);
-        if distance2 < best.0 {
-            best = (distance2, [[0.0, 1.0 - t, t], [t, 0.0, 1.0 - t], [1.0 - t, t, 0.0]][i]);
-        }
-    }
-    best
 }

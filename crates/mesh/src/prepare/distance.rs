@@ -21,8 +21,8 @@ pub struct DistanceBounds {
 const CUTS: u32 = 1 << 18;
 
 impl Mesh {
-    /// The greatest distance of a point of this mesh's triangles from the other mesh (the one-sided Hausdorff distance),
-    /// to within `tolerance`, in the meshes' units; NaN or a negative number count as 0.
+    /// The greatest distance of a point of this mesh's triangles from the other mesh (the one-sided Hausdorff
+    /// distance), to within `tolerance`, in the meshes' units; NaN or a negative number count as 0.
     ///
     /// The distance to one triangle is convex, so over a triangle it is greatest at a corner; the distance to a mesh
     /// changes no faster than its point moves. Both bound it over a triangle from above, and triangles are cut in four

@@ -18,7 +18,8 @@ pub struct BoundingSphere {
 pub struct DirectionCone {
     /// Its middle, of unit length.
     pub axis: Vec3,
-    /// The least cosine of a direction's angle to the axis, rounded down; −1 or less where there is no cone to speak of.
+    /// The least cosine of a direction's angle to the axis, rounded down; −1 or less where there is no cone to speak
+    /// of.
     pub cos: f32,
 }
 

@@ -19,8 +19,8 @@ pub struct Level {
     pub error: f32,
     /// How far the level's interpolated normals, made unit again, are from the mesh's at the same points, in radians.
     pub normal_error: f32,
-    /// The largest angle between a vertex normal of a triangle and the mean of all three, in radians: what shading at the
-    /// vertices loses between them grows with its square.
+    /// The largest angle between a vertex normal of a triangle and the mean of all three, in radians: what shading at
+    /// the vertices loses between them grows with its square.
     pub normal_spread: f32,
     /// The length of the longest edge, in the mesh's units; at most `f32::MAX`.
     pub longest_edge: f32,
@@ -42,8 +42,8 @@ const FARTHEST: f64 = 0.1;
 /// A level that keeps more than this part of the triangles of the one before is not worth its memory.
 const WORTHWHILE: f64 = 0.93;
 
-/// Which part of so many triangles the next candidate for a level keeps. The errors of small meshes rise in jumps, as one
-/// vertex after the other goes, and candidates cost little to measure and to keep.
+/// Which part of so many triangles the next candidate for a level keeps. The errors of small meshes rise in jumps, as
+/// one vertex after the other goes, and candidates cost little to measure and to keep.
 fn kept_part(triangles: usize) -> f64 {
     match triangles {
         0..=512 => 0.97,
@@ -66,26 +66,26 @@ impl Mesh {
         self.level(self.indices().to_vec(), Deviation::default())
     }
 
-    /// Coarser versions of the mesh, the finest first and without the mesh itself; none if it cannot be made coarser. A large
-    /// mesh has levels of about half the triangles of the one before; from 32,768 triangles down they become closer. What is
-    /// hardly nearer to the mesh than something coarser is left out where no more than half of the triangles go at once.
+    /// Coarser versions of the mesh, the finest first and without the mesh itself; none if it cannot be made coarser. A
+    /// large mesh has levels of about half the triangles of the one before; from 32,768 triangles down they become
+    /// closer. What is hardly nearer to the mesh than something coarser is left out where no more than half of the
+    /// triangles go at once.
     ///
     /// Vertices go one by one, the least loss first, each onto a neighbour: a loss of shape or of shading (see
-    /// [`Level::normal_spread`]), so that triangles stay where the surface or its normals bend. Vertices within 10⁻⁶ of the
-    /// longest edge of the box are one place. Those of one place with the same attributes (to 10⁻⁴) become one; the others
-    /// make a seam or a crease, which stays closed and goes only along itself. Borders keep their line as well, within the
-    /// error. A faceted mesh is all creases: [weld](Self::welded) it first. There is no level of fewer than 32 triangles,
-    /// of more than 93 % of those before, or with an error of more than a tenth of the radius of the box.
+    /// [`Level::normal_spread`]), so that triangles stay where the surface or its normals bend. Vertices within 10⁻⁶ of
+    /// the longest edge of the box are one place. Those of one place with the same attributes (to 10⁻⁴) become one; the
+    /// others make a seam or a crease, which stays closed and goes only along itself. Borders keep their line as well,
+    /// within the error. A faceted mesh is all creases: [weld](Self::welded) it first. There is no level of fewer than
+    /// 32 triangles, of more than 93 % of those before, or with an error of more than a tenth of the radius of the box.
     ///
     /// Each level is measured against the mesh itself, at sampled points: at up to 8192 of the vertices that went last,
-    /// at up to 8192 of those that went before them, and at up to 16384 centroids and middles
-    /// of edges of the level's triangles, each sort taken evenly over its order in the mesh or the level. A vertex is
-    /// compared with the level, the others with the mesh, at the nearest point that faces alike: the one with the least
-    /// d² + s² |n − m|², where d is the distance, n and m are the unit interpolated normals, and s is the distance of the
-    /// sample from the vertex onto which it went, of a centroid or a middle from its nearest corner. The largest d is the
-    /// error and the largest angle between n and m the normal's, or that of the level before if it is larger, so that
-    /// neither falls. Points between the samples may be further off. Texture coordinates, colours and tangents are not
-    /// measured.
+    /// at up to 8192 of those that went before them, and at up to 16384 centroids and middles of edges of the level's
+    /// triangles, each sort taken evenly over its order in the mesh or the level. A vertex is compared with the level,
+    /// the others with the mesh, at the nearest point that faces alike: the one with the least d² + s² |n − m|², where
+    /// d is the distance, n and m are the unit interpolated normals, and s is the distance of the sample from the
+    /// vertex onto which it went, of a centroid or a middle from its nearest corner. The largest d is the error and the
+    /// largest angle between n and m the normal's, or that of the level before if it is larger, so that neither falls.
+    /// Points between the samples may be further off. Texture coordinates, colours and tangents are not measured.
     pub fn levels(&self) -> Vec<Level> {
         let stand_ins = StandIns::new(self);
         let (steps, gone) = self.steps(&stand_ins);
@@ -185,10 +185,10 @@ impl Mesh {
     }
 }
 
-/// After a level of so many triangles that is so far off: of the candidates that keep at least half of them, the coarsest
-/// that is hardly further off than the first one that is worth its memory, or that one, also where it keeps less: an odd
-/// number has no half. Longer edges may matter even where all is flat, so no more than half of the triangles go at once if
-/// that can be.
+/// After a level of so many triangles that is so far off: of the candidates that keep at least half of them, the
+/// coarsest that is hardly further off than the first one that is worth its memory, or that one, also where it keeps
+/// less: an odd number has no half. Longer edges may matter even where all is flat, so no more than half of the
+/// triangles go at once if that can be.
 fn best_within_half(counts: &[usize], deviations: &[Deviation], (before, worst): (usize, Deviation)) -> Option<usize> {
     let first = counts.iter().position(|&count| count as f64 <= WORTHWHILE * before as f64)?;
     let Deviation { distance, angle } = worst.max(deviations[first]);

@@ -80,7 +80,8 @@ impl TriangleTree {
     }
 }
 
-/// The tree over the triangles of these numbers, found by three times their centroids, which come after `before` others.
+/// The tree over the triangles of these numbers, found by three times their centroids, which come after `before`
+/// others.
 fn build(keys: &mut [(DVec3, u32)], before: usize, triangles: &[TriangleCorners], nodes: &mut Vec<Node>) {
     let this = nodes.len();
     if keys.len() <= LEAF {
@@ -117,21 +118,36 @@ impl Node {
 }
 
 /// The square of the distance of a point from a triangle, which may be degenerate.
-fn distance_squared(p: DVec3, [a, b, c]: TriangleCorners) -> f64 {
-    let n = (b - a).cross(c - a);
+fn distance_squared(p: DVec3, triangle: TriangleCorners) -> f64 {
+    nearest_on(p, triangle).0
+}
+
+/// The square of the distance of a point from a triangle, which may be degenerate, and the weights of its corners at
+/// the nearest point.
+pub(super) fn nearest_on(p: DVec3, [a, b, c]: [DVec3; 3]) -> (f64, [f64; 3]) {
+    let (ab, ac, ap) = (b - a, c - a, p - a);
+    let n = ab.cross(ac);
     let n2 = n.length_squared();
-    // Inside the three sides, seen along n.
-    let inside = |from: DVec3, to: DVec3| (to - from).cross(p - from).dot(n) >= 0.0;
-    if n2 > 0.0 && inside(a, b) && inside(b, c) && inside(c, a) {
-        return (p - a).dot(n).powi(2) / n2;
+    let [v, w] = [ap.cross(ac).dot(n), ab.cross(ap).dot(n)];
+    let weights = [n2 - v - w, v, w];
+    if n2 > 0.0 && weights.iter().all(|&weight| weight >= 0.0) {
+        return (ap.dot(n).powi(2) / n2, weights.map(|weight| weight / n2));
     }
-    let to_side = |from: DVec3, to: DVec3| {
+    // The nearest side is one that the point is beyond.
+    let mut best = (f64::INFINITY, [1.0, 0.0, 0.0]);
+    for (i, [from, to]) in [[b, c], [c, a], [a, b]].into_iter().enumerate() {
+        if n2 > 0.0 && weights[i] >= 0.0 {
+            continue;
+        }
         let side = to - from;
         let length2 = side.length_squared();
         let t = if length2 > 0.0 { ((p - from).dot(side) / length2).clamp(0.0, 1.0) } else { 0.0 };
-        p.distance_squared(from + side * t)
-    };
-    to_side(a, b).min(to_side(b, c)).min(to_side(c, a))
+        let distance2 = p.distance_squared(from + side * t);
+        if distance2 < best.0 {
+            best = (distance2, [[0.0, 1.0 - t, t], [t, 0.0, 1.0 - t], [1.0 - t, t, 0.0]][i]);
+        }
+    }
+    best
 }
 
 #[cfg(test)]

@@ -46,7 +46,8 @@ impl fmt::Display for RepairReport {
 }
 
 impl Mesh {
-    /// The mesh without degenerate and duplicate triangles and unused vertices, the triangles of each piece wound alike.
+    /// The mesh without degenerate and duplicate triangles and unused vertices, the triangles of each piece wound
+    /// alike.
     ///
     /// A piece is what edges of exactly two triangles hold together, edges being told apart by the positions of their
     /// ends. A closed piece is turned outward by the sign of its volume, also one that lies inside another; an open one

@@ -40,8 +40,8 @@ pub struct MeshReport {
     pub conflicts: usize,
     /// Triangles whose front is away from the mean of their vertex normals.
     pub against_normals: usize,
-    /// How many vertices a cache of the last sixteen has to load for a triangle: from 0.5 for a large smooth mesh in the
-    /// best order to 3 where no vertex is shared.
+    /// How many vertices a cache of the last sixteen has to load for a triangle: from 0.5 for a large smooth mesh in
+    /// the best order to 3 where no vertex is shared.
     pub cache_misses: f64,
     /// What is wrong with it.
     pub problems: Problems,

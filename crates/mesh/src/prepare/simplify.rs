@@ -10,8 +10,8 @@ pub struct SimplifiedMesh {
     /// The mesh; its vertices are some of the fine mesh's, with all that they have.
     pub mesh: Mesh,
     /// No point of either mesh is further from the other than this, in their units: the larger of both
-    /// [distances](Mesh::distance_to), known to a fifth of what the simplifier takes it for or to a ten-thousandth of half
-    /// the longest edge of the box around the mesh.
+    /// [distances](Mesh::distance_to), known to a fifth of what the simplifier takes it for or to a ten-thousandth of
+    /// half the longest edge of the box around the mesh.
     pub error: f64,
 }
 
@@ -25,8 +25,8 @@ const ERROR_TOLERANCE: [f64; 2] = [0.2, 1e-4];
 impl Mesh {
     /// The mesh with about as many triangles as asked for, or more, if fewer would be further off than `max_error` (in
     /// its units) or change its topology; by meshoptimizer's edge collapses under quadric errors (Garland and Heckbert
-    /// 1997). An error too small to be told from none is allowed. Seams between vertices at one position stay; faceted meshes, which are all seams, should be
-    /// [welded](Self::welded) first.
+    /// 1997). An error too small to be told from none is allowed. Seams between vertices at one position stay; faceted
+    /// meshes, which are all seams, should be [welded](Self::welded) first.
     pub fn simplified(&self, triangles: usize, max_error: f64) -> SimplifiedMesh {
         let (positions, unit) = self.unit_positions();
         // NaN asks for nothing.

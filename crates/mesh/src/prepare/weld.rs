@@ -15,8 +15,8 @@ pub struct Weld {
     /// A vertex joins the first that lies so near and joined none itself, so that rows of close vertices do not run
     /// together.
     pub distance: f32,
-    /// The step to which normals, texture coordinates, colours and tangents are rounded before they are compared: 0 asks
-    /// for equal ones, `None` does not look at them.
+    /// The step to which normals, texture coordinates, colours and tangents are rounded before they are compared: 0
+    /// asks for equal ones, `None` does not look at them.
     pub attributes: Option<f32>,
 }
 

@@ -6,8 +6,9 @@ use super::{Parameter, SurfaceError, check_coordinates};
 
 /// A Bézier patch: rows of control points; u runs from row to row, v along a row, both from 0 to 1.
 ///
-/// The surface is Σᵢ Σⱼ Bᵢ(u) Bⱼ(v) pᵢⱼ with Bernstein's polynomials of degree one less than there are rows and columns.
-/// Its outward side is that of ∂p/∂v × ∂p/∂u: seen from there with the rows running right, the first row is on top.
+/// The surface is Σᵢ Σⱼ Bᵢ(u) Bⱼ(v) pᵢⱼ with Bernstein's polynomials of degree one less than there are rows and
+/// columns. Its outward side is that of ∂p/∂v × ∂p/∂u: seen from there with the rows running right, the first row is on
+/// top.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BezierPatch {
     columns: usize,
@@ -109,8 +110,8 @@ impl BezierPatch {
     }
 }
 
-/// The sum of `count` terms, two or more, in an order that does not change when they are reversed: from both ends to the
-/// middle.
+/// The sum of `count` terms, two or more, in an order that does not change when they are reversed: from both ends to
+/// the middle.
 fn mirrored_sum(count: usize, term: impl Fn(usize) -> DVec3) -> DVec3 {
     let pair = |i: usize| term(i) + term(count - 1 - i);
     let sum = (1..count / 2).fold(pair(0), |sum, i| sum + pair(i));

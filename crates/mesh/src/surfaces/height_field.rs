@@ -10,8 +10,8 @@ use super::{
 
 /// Heights over a rectangle in the plane y = 0 that is centred on the origin; it faces +Y.
 ///
-/// Samples lie row by row from −z to +z, in a row from −x to +x. Between them the surface follows Catmull–Rom splines in
-/// both directions (E. Catmull and R. Rom, "A class of local interpolating splines", 1974): it passes through every
+/// Samples lie row by row from −z to +z, in a row from −x to +x. Between them the surface follows Catmull–Rom splines
+/// in both directions (E. Catmull and R. Rom, "A class of local interpolating splines", 1974): it passes through every
 /// sample, and its normals are continuous. Beyond the border it is taken to go on straight.
 ///
 /// u runs from −z to +z, v from +x to −x.

@@ -65,8 +65,8 @@ impl ParametricSurface for Hyperboloid {
 /// One of the two sheets of a circular hyperboloid about the Y axis: y²/a² − (x² + z²)/b² = 1, a half the `gap`, b such
 /// that the rim has the `radius`.
 ///
-/// Its outward side is the one toward the other sheet. u runs from the tip to the rim in proportion to the distance from
-/// the axis; v around from +X, toward +Z on the lower sheet and toward −Z on the upper one.
+/// Its outward side is the one toward the other sheet. u runs from the tip to the rim in proportion to the distance
+/// from the axis; v around from +X, toward +Z on the lower sheet and toward −Z on the upper one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HyperboloidSheet {
     /// The distance between the tips of both sheets, 1e-30 … 1e30.

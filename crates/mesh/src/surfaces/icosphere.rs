@@ -107,8 +107,8 @@ fn small_triangles(n: u32) -> impl Iterator<Item = [CornerWeights; 3]> {
     })
 }
 
-/// The point of the unit sphere above the weighted mean of corners. Those without weight add nothing, so that a point on
-/// an edge is the same from both faces as long as the others come in one order.
+/// The point of the unit sphere above the weighted mean of corners. Those without weight add nothing, so that a point
+/// on an edge is the same from both faces as long as the others come in one order.
 fn on_sphere(corners: [(usize, u32); 3]) -> DVec3 {
     corners
         .iter()

@@ -69,8 +69,8 @@ pub(super) fn uv_at(u: Parameter, v: Parameter) -> DVec2 {
 
 /// Sine and cosine of a fraction of a turn.
 ///
-/// Exact at the quarters, the last equal to the first: sin π is not 0 in floating point, and poles and seams must close.
-/// The complement has the opposite sine and the same cosine, to the bit.
+/// Exact at the quarters, the last equal to the first: sin π is not 0 in floating point, and poles and seams must
+/// close. The complement has the opposite sine and the same cosine, to the bit.
 pub(super) fn turn(at: Parameter) -> (f64, f64) {
     let (t, s) = (at.value(), at.complement());
     let (sin, cos) = match 4.0 * t.min(s) {

@@ -16,9 +16,10 @@ use crate::Mesh;
 ///
 /// Each patch is a grid of `divisions` × `divisions` cells of two triangles; where a patch ends in a point, at the top
 /// of the knob and in the middle of the bottom, the cells there have one. That makes 64 `divisions`² − 8 `divisions`
-/// triangles, none of them degenerate; 52 for one division, where four would be. Vertices are not shared between patches, since each patch has the whole texture;
-/// along an edge that two patches share they are bit-equal, so that there are no cracks. The surface is as Newell left
-/// it: the lid is not joined to the rim, and handle and spout end inside the body.
+/// triangles, none of them degenerate; 52 for one division, where four would be. Vertices are not shared between
+/// patches, since each patch has the whole texture; along an edge that two patches share they are bit-equal, so that
+/// there are no cracks. The surface is as Newell left it: the lid is not joined to the rim, and handle and spout end
+/// inside the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Teapot {
     /// How many cells an edge of a patch is cut into, 1 … [`Teapot::MAX_DIVISIONS`]; 8 by default.

@@ -34,13 +34,14 @@ pub trait ParametricSurface {
         Vec::new()
     }
 
-    /// The pieces of a [`Surface`](super::Surface) that are exactly p, without the caps; `None` where there are no such.
+    /// The pieces of a [`Surface`](super::Surface) that are exactly p, without the caps; `None` where there are no
+    /// such.
     fn pieces(&self) -> Option<Vec<SurfacePiece>>;
 
     /// Its mesh, with its caps: a grid of cells of two triangles each, which at a pole have one.
     ///
-    /// Vertices lie row by row; seams and poles are repeated at equal positions for the sake of the texture coordinates.
-    /// Triangles that are degenerate in `f32` are left out.
+    /// Vertices lie row by row; seams and poles are repeated at equal positions for the sake of the texture
+    /// coordinates. Triangles that are degenerate in `f32` are left out.
     ///
     /// # Errors
     /// A field of the surface or of the tessellation is out of its range.
@@ -62,11 +63,11 @@ pub enum Tessellation {
         /// Along v, at most [`Tessellation::MAX_COLUMNS`].
         columns: u32,
     },
-    /// Until nowhere the surface is further than this from the plane of its triangle, nor its border from an edge; in the
-    /// units of the surface, positive.
+    /// Until nowhere the surface is further than this from the plane of its triangle, nor its border from an edge; in
+    /// the units of the surface, positive.
     ///
-    /// Measured at the middle and along the edges of every triangle, with a twentieth to spare for what lies between. The
-    /// greatest counts end it, with a warning in the log.
+    /// Measured at the middle and along the edges of every triangle, with a twentieth to spare for what lies between.
+    /// The greatest counts end it, with a warning in the log.
     ChordError(f64),
 }
 
@@ -203,8 +204,8 @@ impl Grids {
 /// The part of the chord error that is spent at the samples.
 const SPENT: f64 = 0.95;
 
-/// From this many rows or columns on, samples are believed. A surface that bends to and fro within larger cells may pass
-/// through their samples, and is looked at in cells of half the size as well.
+/// From this many rows or columns on, samples are believed. A surface that bends to and fro within larger cells may
+/// pass through their samples, and is looked at in cells of half the size as well.
 const CERTAIN: u32 = 16;
 
 /// The fewest rows and columns, about, that keep the chord error, and at most so many.
@@ -221,8 +222,8 @@ pub(super) fn counts_for(surface: &dyn ParametricSurface, error: f64, most: [u32
             counts = finer;
             continue;
         }
-        // Deviations fall with the square of the counts, and those along u and along v add up in the middle of a cell. The
-        // cells are fewest where both are half of what is allowed, or where one has what the other does not need.
+        // Deviations fall with the square of the counts, and those along u and along v add up in the middle of a cell.
+        // The cells are fewest where both are half of what is allowed, or where one has what the other does not need.
         let finer = |axis: usize, along: f64, across: f64| {
             let room = (allowed - across).max(0.5 * allowed);
             let wanted = (f64::from(counts[axis]) * (along / room).sqrt().min(16.0)).ceil() as u32;

@@ -10,9 +10,9 @@ use crate::counting::{Counting, most_for};
 /// What a model read from files takes besides: the buffers of the two files that are open at once.
 const BUFFERS: usize = 1 << 19;
 
-/// Reads the bytes as `target` says: `mtl` is the material library of an OBJ file, `glb_chunks` the JSON of a binary glTF
-/// file up to the first zero byte and its buffer after that, so that no length in the file need be guessed; any other is
-/// the extension of a format.
+/// Reads the bytes as `target` says: `mtl` is the material library of an OBJ file, `glb_chunks` the JSON of a binary
+/// glTF file up to the first zero byte and its buffer after that, so that no length in the file need be guessed; any
+/// other is the extension of a format.
 pub(crate) fn feed(target: &str, bytes: &[u8], allocator: &Counting) {
     match target {
         "mtl" => {

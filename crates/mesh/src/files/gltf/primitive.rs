@@ -202,7 +202,8 @@ fn used_vertices(indices: Vec<u32>, vertices: usize) -> Result<(Which, Vec<u32>)
             return Err(MeshError::IndexOutOfRange { triangle: at / 3, corner: at % 3, index, vertices });
         }
     }
-    // Looked at only where there are enough indices, so that a vertex costs nothing to the primitives that do not use it.
+    // Looked at only where there are enough indices, so that a vertex costs nothing to the primitives that do not use
+    // it.
     let uses_all = indices.len() >= vertices && {
         let mut is_used = vec![false; vertices];
         for &index in &indices {

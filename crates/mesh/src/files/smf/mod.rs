@@ -4,14 +4,15 @@
 mod assemble;
 mod scope;
 
+use bevy_color::Srgba;
 use bevy_math::Vec3;
 
 use self::assemble::{Binding, SmfContent};
 use self::scope::Scopes;
+use super::LoadError;
 use super::polygon;
 use super::source::{Source, stem};
 use super::text::{Skipped, Statement, Statements};
-use super::{LoadError, color};
 use crate::Model;
 
 const FACE: &str = "`f` and three vertex numbers, counted from 1, are";
@@ -158,7 +159,7 @@ impl Smf {
 
     fn color(&mut self, statement: &Statement) -> Result<(), LoadError> {
         let (rgb, _) = statement.numbers::<3>(&[3], "`c` and three numbers are")?;
-        let linear = rgb.map(color::linear);
+        let linear = rgb.map(Srgba::gamma_function);
         if !linear.iter().all(|x| x.is_finite()) {
             return Err(statement.unexpected("`c` and three numbers from 0 to 1 are"));
         }

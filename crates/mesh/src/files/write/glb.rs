@@ -345,8 +345,8 @@ fn material(source: &SourceMaterial) -> Value {
     described
 }
 
-/// The nearest that glTF has: no metal, with the roughness r for which the exponent 2/r⁴ − 2 of a Blinn–Phong lobe is the
-/// material's (Walter et al. 2007, "Microfacet models for refraction", α = r²).
+/// The nearest that glTF has: no metal, with the roughness r for which the exponent 2/r⁴ − 2 of a Blinn–Phong lobe is
+/// the material's (Walter et al. 2007, "Microfacet models for refraction", α = r²).
 fn metallic_roughness(mtl: &MtlMaterial) -> MetallicRoughness {
     let [r, g, b] = mtl.kd.unwrap_or([0.8; 3]).map(|x| x.clamp(0.0, 1.0));
     let opacity = mtl.d.or(mtl.tr.map(|tr| 1.0 - tr)).unwrap_or(1.0).clamp(0.0, 1.0);

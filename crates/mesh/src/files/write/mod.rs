@@ -14,14 +14,14 @@ pub use file::WriteError;
 use super::Format;
 use crate::Model;
 
-/// Writes a model into an SMF, OBJ or GLB file, told by the extension in either case. OBJ brings an MTL file of the same
-/// name where the model has materials. Files are written beside their place and renamed, so that half a file is never
-/// there.
+/// Writes a model into an SMF, OBJ or GLB file, told by the extension in either case. OBJ brings an MTL file of the
+/// same name where the model has materials. Files are written beside their place and renamed, so that half a file is
+/// never there.
 ///
 /// Returns what the format cannot hold, one sentence each. Numbers are written so that they are read as the same `f32`;
-/// of positions and normals that holds for parts that stand at the origin, since SMF and OBJ have no places: they get the
-/// vertices where they stand in the world. Texture coordinates of SMF and OBJ run upward, which costs those below 1e-9
-/// their last bits. Vertex colours are written as sRGB in both.
+/// of positions and normals that holds for parts that stand at the origin, since SMF and OBJ have no places: they get
+/// the vertices where they stand in the world. Texture coordinates of SMF and OBJ run upward, which costs those below
+/// 1e-9 their last bits. Vertex colours are written as sRGB in both.
 ///
 /// # Errors
 /// Another extension, a model without parts, more than the format can count, or the system refuses.
@@ -43,8 +43,8 @@ pub fn write(path: &Path, model: &Model) -> Result<Vec<String>, WriteError> {
 /// Writes a model into a GLB file with integers of 16 bits (`KHR_mesh_quantization`), which takes about half the room.
 ///
 /// Positions are rounded to 65,536 steps along the longest edge of each mesh's box, normals, tangents and colours to
-/// 32,768 or more, texture coordinates to 65,536 where all of a mesh lie from 0 to 1. Returns how far positions moved at
-/// most, in model space, and what the format cannot hold, one sentence each.
+/// 32,768 or more, texture coordinates to 65,536 where all of a mesh lie from 0 to 1. Returns how far positions moved
+/// at most, in model space, and what the format cannot hold, one sentence each.
 ///
 /// # Errors
 /// As [`write()`], and another extension than `glb`.
