@@ -51,7 +51,9 @@ mod tests {
     #[test]
     fn joined_things_have_one_number() {
         let mut classes = Classes::new(6);
-        [(4, 2), (5, 1), (1, 4), (3, 3)].into_iter().for_each(|(a, b)| classes.join(a, b));
+        for (a, b) in [(4, 2), (5, 1), (1, 4), (3, 3)] {
+            classes.join(a, b);
+        }
         assert_eq!(classes.numbers(), (vec![0, 1, 1, 2, 1, 1], 3));
     }
 }
