@@ -1,7 +1,7 @@
 //! What shading costs and what it loses: error against time, rates of convergence, how steady highlights are, and how the
 //! time of a frame grows.
 //!
-//! [`Plan`] says how much is measured, [`measure()`] does it, [`Report`] holds what was found, and [`Report::files`] makes
+//! [`ReportPlan`] says how much is measured, [`measure()`] does it, [`Report`] holds what was found, and [`Report::files`] makes
 //! a page, tables and drawings of it. The parts can be had alone: the sweeps in [`mod@measure`], the charts in
 //! [`figure`], the page in [`page`].
 
@@ -11,4 +11,4 @@ pub mod page;
 mod report;
 pub mod timing;
 
-pub use report::{NamedFile, Plan, Report, ReportError, Scaling, measure, write};
+pub use report::{NamedFile, Report, ReportError, ReportPlan, Scaling, measure};

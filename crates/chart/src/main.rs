@@ -4,9 +4,10 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Parser;
+use halfway::output::write_text;
 use halfway::render::RenderError;
-use halfway_chart::measure::{MeasureError, Progress};
-use halfway_chart::{NamedFile, Plan, ReportError, Scaling, measure, write};
+use halfway_chart::measure::{MeasureError, MeasureProgress};
+use halfway_chart::{NamedFile, ReportError, ReportPlan, Scaling, measure};
 use indicatif::{ProgressBar, ProgressStyle};
 
 /// Measures what flat, Gouraud and Phong shading cost and lose, and writes a page, tables and drawings of it.
@@ -46,14 +47,14 @@ fn main() -> ExitCode {
 }
 
 fn run(arguments: &Arguments) -> Result<(), ReportError> {
-    let plan = if arguments.quick { Plan::QUICK } else { Plan::FULL };
+    let plan = if arguments.quick { ReportPlan::QUICK } else { ReportPlan::FULL };
     let bar = progress_bar(if arguments.scaling { plan.scaling.units() } else { plan.units() });
     let tell = &mut |done, what: &str| {
         bar.set_position(done);
         bar.set_message(what.to_owned());
     };
     if arguments.scaling {
-        let scaling = Scaling::measure(plan.scaling, &mut Progress::new(tell))?;
+        let scaling = Scaling::measure(plan.scaling, &mut MeasureProgress::new(tell))?;
         bar.finish_and_clear();
         return write_all(arguments, scaling.files()?);
     }
@@ -71,7 +72,7 @@ fn write_all(arguments: &Arguments, files: Vec<NamedFile>) -> Result<(), ReportE
 }
 
 fn write_and_tell(file: &Path, content: &str) -> Result<(), ReportError> {
-    write(file, content)?;
+    write_text(file, content)?;
     println!("{}", file.display());
     Ok(())
 }

@@ -6,16 +6,16 @@ use std::sync::OnceLock;
 
 use halfway_chart::measure::highlight::{self, unsteadiness};
 use halfway_chart::measure::scaling::{self, Growth, LOOKS};
-use halfway_chart::measure::{Progress, SHADINGS, accuracy, convergence};
-use halfway_chart::{Plan, Report, measure};
+use halfway_chart::measure::{MeasureProgress, SHADINGS, accuracy, convergence};
+use halfway_chart::{Report, ReportPlan, measure};
 
 /// Two levels, two rounds, two frames of very small pictures.
-const SMALLEST: Plan = Plan {
-    accuracy: accuracy::Plan { size: 48, levels: 2, rounds: 1 },
-    convergence: convergence::Plan { size: 48, levels: 2 },
-    highlight: highlight::Plan { size: 32, level: 8, frames: 2 },
+const SMALLEST: ReportPlan = ReportPlan {
+    accuracy: accuracy::AccuracyPlan { size: 48, levels: 2, rounds: 1 },
+    convergence: convergence::ConvergencePlan { size: 48, levels: 2 },
+    highlight: highlight::HighlightPlan { size: 32, level: 8, frames: 2 },
     // No curve is cut, so that the number of points does not depend on the machine.
-    scaling: scaling::Plan {
+    scaling: scaling::ScalingPlan {
         size: 16,
         per_decade: 1,
         rounds: 2,
@@ -166,8 +166,8 @@ fn the_page_holds_all_and_fetches_nothing() {
 /// measured at the sizes of the report.
 #[test]
 fn highlights_flicker_under_gouraud() {
-    let plan = highlight::Plan { size: 96, level: 8, frames: 24 };
-    let energies = highlight::sweep(plan, &mut Progress::new(&mut |_, _| ())).expect("frames can be drawn");
+    let plan = highlight::HighlightPlan { size: 96, level: 8, frames: 24 };
+    let energies = highlight::sweep(plan, &mut MeasureProgress::new(&mut |_, _| ())).expect("frames can be drawn");
     let [flat, gouraud, phong] =
         energies.shaded.each_ref().map(|shaded| unsteadiness(shaded, &energies.truth).expect("a number").rms);
     assert!(gouraud > 3.0 * phong, "{SHADINGS:?}: {flat}, {gouraud}, {phong}");

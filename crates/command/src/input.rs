@@ -9,7 +9,7 @@ use crate::failure::Failure;
 use crate::look::{LookArgs, ReflectanceArg, ShadingArg};
 
 /// A scene with the folder that its paths start from.
-pub(crate) struct Input {
+pub(crate) struct SceneInput {
     pub(crate) scene: SceneFile,
     base_dir: PathBuf,
     /// The file as it was named, and whether it is a scene file.
@@ -17,7 +17,7 @@ pub(crate) struct Input {
     is_scene: bool,
 }
 
-impl Input {
+impl SceneInput {
     /// Reads the scene file, or wraps the model in one, and applies what the command line says.
     pub(crate) fn read(args: &LookArgs) -> Result<Self, Failure> {
         let is_scene = args.input.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"));

@@ -10,7 +10,7 @@ use halfway::reference::Mode;
 use halfway::render::{Gpu, RenderError};
 
 use crate::failure::Failure;
-use crate::input::Input;
+use crate::input::SceneInput;
 use crate::levels::LevelsArgs;
 use crate::look::LookArgs;
 use crate::progress::Progress;
@@ -95,7 +95,7 @@ impl Drawer {
             }
             Self::Reference(drawing) => {
                 let progress = Progress::of_tiles();
-                let draw = |app: &mut App, frame: halfway::record::Frame| {
+                let draw = |app: &mut App, frame: halfway::record::FrameToDraw| {
                     let index = frame.number - recording.frames.start;
                     drawing.picture(app, frame, &|done, of| progress.tile(index, frames, done, of))
                 };
@@ -107,7 +107,7 @@ impl Drawer {
 }
 
 pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
-    let mut input = Input::read(&args.look)?;
+    let mut input = SceneInput::read(&args.look)?;
     let size = args.size.unwrap_or(UVec2::from_array(input.scene.size));
     let recording = Recording {
         frames: args.frames.clone().unwrap_or(0..1),

@@ -10,7 +10,7 @@ use halfway::reference::{Image, Oracle};
 use halfway::render::Gpu;
 
 use crate::failure::{DIFFERENT, Failure, STOPPED};
-use crate::input::Input;
+use crate::input::SceneInput;
 use crate::look::LookArgs;
 use crate::progress::Progress;
 use crate::{figures, picture};
@@ -34,7 +34,7 @@ pub(crate) struct VerifyArgs {
 }
 
 pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
-    let mut input = Input::read(&args.look)?;
+    let mut input = SceneInput::read(&args.look)?;
     let size = args.size.unwrap_or(UVec2::from_array(input.scene.size));
     if input.scene.samples != 1 {
         eprintln!("note: judged with one sample a pixel, since adapters differ in where they take four");

@@ -4,7 +4,7 @@ use clap::Args;
 use halfway::prelude::*;
 
 use crate::failure::Failure;
-use crate::input::Input;
+use crate::input::SceneInput;
 use crate::levels::LevelsArgs;
 use crate::look::LookArgs;
 
@@ -17,7 +17,7 @@ pub(crate) struct ViewArgs {
 }
 
 pub(crate) fn run(args: &ViewArgs) -> Result<(), Failure> {
-    let input = Input::read(&args.look)?;
+    let input = SceneInput::read(&args.look)?;
     let mut app = App::new();
     app.add_plugins(HalfwayPlugins).insert_resource(WindowTitle(input.name())).insert_resource(args.levels.allowed());
     input.spawn(&mut app)?;

@@ -8,5 +8,5 @@ pub mod output;
 mod recording;
 mod reference;
 
-pub use recording::{Continue, Frame, HeadlessPlugin, RecordError, Recording, parse_size, record, record_with};
+pub use recording::{Continue, FrameToDraw, HeadlessPlugin, RecordError, Recording, parse_size, record, record_with};
 pub use reference::ReferenceDrawing;

@@ -153,7 +153,7 @@ pub enum RecordError {
 
 /// A frame that is to be drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Frame {
+pub struct FrameToDraw {
     /// Counted from 0, as in [`Recording::frames`].
     pub number: u32,
     /// Width and height in pixels.
@@ -184,7 +184,7 @@ pub fn record(
 pub fn record_with(
     app: &mut App,
     recording: &Recording,
-    mut draw: impl FnMut(&mut App, Frame) -> Result<Picture, RecordError>,
+    mut draw: impl FnMut(&mut App, FrameToDraw) -> Result<Picture, RecordError>,
     mut progress: impl FnMut(u32, u32) -> Continue,
 ) -> Result<(), RecordError> {
     if recording.frames.is_empty() {
@@ -203,7 +203,7 @@ pub fn record_with(
         app.update();
     }
     for number in recording.frames.clone() {
-        let picture = draw(app, Frame { number, size: recording.size, pixels })?;
+        let picture = draw(app, FrameToDraw { number, size: recording.size, pixels })?;
         sink.write(number, &picture, encoding(app))?;
         let done = number - recording.frames.start + 1;
         if progress(done, recording.frames.len() as u32) == Continue::No {

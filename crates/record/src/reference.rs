@@ -8,7 +8,7 @@ use halfway_reference::{Mode, Oracle};
 use halfway_render::{Picture, Pixels};
 use image::DynamicImage;
 
-use crate::recording::{Frame, RecordError, camera};
+use crate::recording::{FrameToDraw, RecordError, camera};
 
 /// How frames are drawn without a graphics adapter: in f64 on the CPU.
 ///
@@ -44,7 +44,7 @@ impl ReferenceDrawing {
     pub fn picture(
         &self,
         app: &mut App,
-        frame: Frame,
+        frame: FrameToDraw,
         progress: &(dyn Fn(u32, u32) -> ControlFlow<()> + Sync),
     ) -> Result<Picture, RecordError> {
         app.update();

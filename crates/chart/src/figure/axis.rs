@@ -6,12 +6,12 @@ pub struct Axis {
     /// What is measured, and its unit.
     pub label: String,
     /// How values are spaced.
-    pub scale: Scale,
+    pub scale: AxisScale,
 }
 
 /// How values are spaced along an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Scale {
+pub enum AxisScale {
     /// Equal differences are equally long.
     Linear,
     /// Equal ratios are equally long.
@@ -37,20 +37,20 @@ const MANTISSAS: [&[f64]; 4] = [
 
 impl Axis {
     /// An axis with this label and scale.
-    pub fn new(label: impl Into<String>, scale: Scale) -> Self {
+    pub fn new(label: impl Into<String>, scale: AxisScale) -> Self {
         Self { label: label.into(), scale }
     }
 
     /// Whether the value has a place on the axis: it is finite, and positive where the scale is logarithmic.
     pub fn shows(&self, value: f64) -> bool {
-        value.is_finite() && (self.scale == Scale::Linear || value > 0.0)
+        value.is_finite() && (self.scale == AxisScale::Linear || value > 0.0)
     }
 
     /// Where a value stands: itself, or its decimal logarithm.
     pub fn position(&self, value: f64) -> f64 {
         match self.scale {
-            Scale::Linear => value,
-            Scale::Log => value.log10(),
+            AxisScale::Linear => value,
+            AxisScale::Log => value.log10(),
         }
     }
 
@@ -70,8 +70,8 @@ impl Axis {
     /// The values to mark between two positions: round numbers, at least three of them where the range allows it.
     pub fn ticks(&self, (low, high): (f64, f64)) -> Vec<Tick> {
         match self.scale {
-            Scale::Linear => linear_ticks(low, high),
-            Scale::Log => log_ticks(low, high),
+            AxisScale::Linear => linear_ticks(low, high),
+            AxisScale::Log => log_ticks(low, high),
         }
     }
 }
@@ -142,24 +142,24 @@ fn raised(digit: char) -> char {
 mod tests {
     use super::*;
 
-    fn labels(scale: Scale, low: f64, high: f64) -> Vec<String> {
+    fn labels(scale: AxisScale, low: f64, high: f64) -> Vec<String> {
         let axis = Axis::new("", scale);
         axis.ticks((axis.position(low), axis.position(high))).into_iter().map(|tick| tick.label).collect()
     }
 
     #[test]
     fn log_ticks_are_round_and_enough() {
-        assert_eq!(labels(Scale::Log, 5e-6, 2.0), ["10⁻⁵", "10⁻⁴", "0.001", "0.01", "0.1", "1"]);
-        assert_eq!(labels(Scale::Log, 0.015, 0.6), ["0.02", "0.05", "0.1", "0.2", "0.5"]);
-        assert_eq!(labels(Scale::Log, 0.9, 3.2), ["1", "1.5", "2", "3"]);
-        assert!(labels(Scale::Log, 0.97, 1.35).len() >= 3);
+        assert_eq!(labels(AxisScale::Log, 5e-6, 2.0), ["10⁻⁵", "10⁻⁴", "0.001", "0.01", "0.1", "1"]);
+        assert_eq!(labels(AxisScale::Log, 0.015, 0.6), ["0.02", "0.05", "0.1", "0.2", "0.5"]);
+        assert_eq!(labels(AxisScale::Log, 0.9, 3.2), ["1", "1.5", "2", "3"]);
+        assert!(labels(AxisScale::Log, 0.97, 1.35).len() >= 3);
     }
 
     #[test]
     fn linear_ticks_are_round_and_enough() {
-        assert_eq!(labels(Scale::Linear, 0.0, 1.0), ["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
-        assert_eq!(labels(Scale::Linear, -3.0, 122.0), ["0", "50", "100"]);
-        assert_eq!(labels(Scale::Linear, 0.981, 1.013), ["0.99", "1.00", "1.01"]);
+        assert_eq!(labels(AxisScale::Linear, 0.0, 1.0), ["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
+        assert_eq!(labels(AxisScale::Linear, -3.0, 122.0), ["0", "50", "100"]);
+        assert_eq!(labels(AxisScale::Linear, 0.981, 1.013), ["0.99", "1.00", "1.01"]);
     }
 
     #[test]
@@ -179,14 +179,14 @@ mod tests {
 
     #[test]
     fn only_what_has_a_place_is_shown() {
-        let (linear, log) = (Axis::new("", Scale::Linear), Axis::new("", Scale::Log));
+        let (linear, log) = (Axis::new("", AxisScale::Linear), Axis::new("", AxisScale::Log));
         assert!(linear.shows(0.0) && linear.shows(-1.0) && !linear.shows(f64::NAN));
         assert!(log.shows(1e-300) && !log.shows(0.0) && !log.shows(-1.0) && !log.shows(f64::INFINITY));
     }
 
     #[test]
     fn ranges_are_never_empty() {
-        let axis = Axis::new("", Scale::Linear);
+        let axis = Axis::new("", AxisScale::Linear);
         assert_eq!(axis.range(std::iter::empty()), (0.0, 1.0));
         for value in [0.0, 1e9, -1e9] {
             let (low, high) = axis.range([value].into_iter());

@@ -4,7 +4,7 @@ mod axis;
 pub mod svg;
 
 pub(crate) use axis::superscript;
-pub use axis::{Axis, Scale, Tick};
+pub use axis::{Axis, AxisScale, Tick};
 
 /// A chart of one or more panels whose axes and series mean the same; horizontal axes may differ ([`Panel::x_label`]).
 #[derive(Clone, Debug, PartialEq)]
@@ -178,8 +178,8 @@ pub(crate) mod tests {
         Figure {
             id: "example",
             title: "An <example>".to_owned(),
-            x: Axis::new("time", Scale::Log),
-            y: Axis::new("error", Scale::Log),
+            x: Axis::new("time", AxisScale::Log),
+            y: Axis::new("error", AxisScale::Log),
             columns: 2,
             panels: vec![panel("left", 1.0), panel("right", 2.0)],
         }

@@ -243,7 +243,7 @@ fn color(style: Style) -> RGBColor {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::figure::Scale;
+    use crate::figure::AxisScale;
     use crate::figure::tests::example;
 
     #[test]
@@ -274,7 +274,7 @@ mod tests {
 
     #[test]
     fn positions_are_linear_and_named() {
-        let axis = Positions::of(&Axis::new("", Scale::Log), (-2.0, 2.0));
+        let axis = Positions::of(&Axis::new("", AxisScale::Log), (-2.0, 2.0));
         assert_eq!([-2.0, 0.0, 2.0].map(|position| axis.map(&position, (100, 500))), [100, 300, 500]);
         assert_eq!(axis.format_ext(&-1.0), "0.1");
     }

@@ -5,15 +5,15 @@ use halfway::reference::metrics::{self, Comparison, Scale};
 use halfway::reference::{Image, Mode};
 use image::RgbImage;
 
-use super::{MeasureError, Object, Progress, SHADINGS, Scene, Stage, shading_name};
+use super::{ChartObject, ChartScene, MeasureError, MeasureProgress, SHADINGS, SceneApp, shading_name};
 use crate::timing::{in_turns, median, median_ratio, settle};
 
 /// How much is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Plan {
+pub struct AccuracyPlan {
     /// Width and height of the pictures in pixels.
     pub size: u32,
-    /// How many levels of tessellation ([`Object::level`]).
+    /// How many levels of tessellation ([`ChartObject::level`]).
     pub levels: u32,
     /// How often every shading is timed in turn.
     pub rounds: u32,
@@ -21,14 +21,14 @@ pub struct Plan {
 
 /// How a highlight is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Variant {
+pub struct AccuracyVariant {
     /// Phong or Blinn–Phong.
     pub reflectance: Reflectance,
     /// Local or infinite.
     pub viewer: Viewer,
 }
 
-impl Variant {
+impl AccuracyVariant {
     /// Every reflectance with every viewer.
     pub const ALL: [Self; 4] = [
         Self { reflectance: Reflectance::BlinnPhong, viewer: Viewer::Local },
@@ -56,15 +56,15 @@ impl Variant {
 #[derive(Clone, Debug)]
 pub struct Measured {
     /// What was drawn.
-    pub object: Object,
-    /// How finely ([`Object::level`]).
+    pub object: ChartObject,
+    /// How finely ([`ChartObject::level`]).
     pub level: u32,
     /// How many triangles that is.
     pub triangles: usize,
     /// How often it was shaded.
     pub shading: Shading,
     /// How its highlight was made.
-    pub variant: Variant,
+    pub variant: AccuracyVariant,
     /// Median time of a frame in milliseconds.
     pub frame_ms: f64,
     /// The same of the mesh in a constant colour.
@@ -85,10 +85,10 @@ pub struct Measured {
 /// The longer side that small pictures have at most, in pixels.
 const SMALL: u32 = 320;
 
-impl Plan {
-    /// The units of [`Progress`] that [`sweep`] will report.
+impl AccuracyPlan {
+    /// The units of [`MeasureProgress`] that [`sweep`] will report.
     pub fn units(self) -> u64 {
-        (Object::ALL.len() * Variant::ALL.len()) as u64 * u64::from(self.levels)
+        (ChartObject::ALL.len() * AccuracyVariant::ALL.len()) as u64 * u64::from(self.levels)
     }
 }
 
@@ -96,20 +96,20 @@ impl Plan {
 ///
 /// # Errors
 /// The first picture that could not be drawn.
-pub fn sweep(plan: Plan, progress: &mut Progress<'_>) -> Result<Vec<Measured>, MeasureError> {
+pub fn sweep(plan: AccuracyPlan, progress: &mut MeasureProgress<'_>) -> Result<Vec<Measured>, MeasureError> {
     let size = UVec2::splat(plan.size);
     let mut stages = Stages::new(size);
-    let mut oracle = Stage::without_adapter(size);
+    let mut oracle = SceneApp::without_adapter(size);
     let mut measured = Vec::new();
-    for object in Object::ALL {
+    for object in ChartObject::ALL {
         let mut truths = Vec::new();
-        for variant in Variant::ALL {
+        for variant in AccuracyVariant::ALL {
             progress.begin(&format!("{}, true surface", object.name()));
             oracle.show(&scene(object, object.level(plan.levels - 1), variant));
             truths.push(oracle.oracle(Mode::Surface)?);
         }
         for level in (0..plan.levels).map(|i| object.level(i)) {
-            for (variant, truth) in Variant::ALL.into_iter().zip(&truths) {
+            for (variant, truth) in AccuracyVariant::ALL.into_iter().zip(&truths) {
                 let scene = scene(object, level, variant);
                 measured.extend(stages.measure(&scene, variant, truth, plan.rounds)?);
                 progress.advance(1, &format!("{}, level {level}", object.name()));
@@ -119,33 +119,33 @@ pub fn sweep(plan: Plan, progress: &mut Progress<'_>) -> Result<Vec<Measured>, M
     Ok(measured)
 }
 
-fn scene(object: Object, level: u32, variant: Variant) -> Scene {
-    Scene { reflectance: variant.reflectance, viewer: variant.viewer, ..Scene::new(object, level) }
+fn scene(object: ChartObject, level: u32, variant: AccuracyVariant) -> ChartScene {
+    ChartScene { reflectance: variant.reflectance, viewer: variant.viewer, ..ChartScene::new(object, level) }
 }
 
 /// An App for each shading and one for the constant colour, so that a turn changes nothing in any of them.
 struct Stages {
-    constant: Stage,
-    shaded: [Stage; SHADINGS.len()],
+    constant: SceneApp,
+    shaded: [SceneApp; SHADINGS.len()],
 }
 
 impl Stages {
     fn new(size: UVec2) -> Self {
-        Self { constant: Stage::with_adapter(size), shaded: SHADINGS.map(|_| Stage::with_adapter(size)) }
+        Self { constant: SceneApp::with_adapter(size), shaded: SHADINGS.map(|_| SceneApp::with_adapter(size)) }
     }
 
     fn measure(
         &mut self,
-        scene: &Scene,
-        variant: Variant,
+        scene: &ChartScene,
+        variant: AccuracyVariant,
         truth: &Image,
         rounds: u32,
     ) -> Result<Vec<Measured>, MeasureError> {
-        self.constant.show(&Scene { shading: None, ..*scene });
+        self.constant.show(&ChartScene { shading: None, ..*scene });
         for (stage, shading) in self.shaded.iter_mut().zip(SHADINGS) {
-            stage.show(&Scene { shading: Some(shading), ..*scene });
+            stage.show(&ChartScene { shading: Some(shading), ..*scene });
         }
-        let pictures = self.shaded.each_mut().map(Stage::draw);
+        let pictures = self.shaded.each_mut().map(SceneApp::draw);
         let mut times = self.time(rounds)?;
         let constant = times.remove(0);
         let triangles = scene.object.mesh(scene.level).triangle_count();
@@ -178,7 +178,7 @@ impl Stages {
     /// The times of frames in milliseconds, the constant colour's first ([`in_turns`]).
     fn time(&mut self, rounds: u32) -> Result<Vec<Vec<f64>>, MeasureError> {
         let [flat, gouraud, phong] = &mut self.shaded;
-        let mut apps = [&mut self.constant, flat, gouraud, phong].map(Stage::app);
+        let mut apps = [&mut self.constant, flat, gouraud, phong].map(SceneApp::app);
         for app in &mut apps {
             settle(app)?;
         }
@@ -217,8 +217,8 @@ pub fn describe(measured: &Measured) -> String {
     let Measured { object, level, triangles, shading, variant, .. } = measured;
     let [reflectance, viewer] = variant.names();
     let tessellation = match object {
-        Object::Sphere => format!("{} × {level}", 2 * level),
-        Object::Teapot => format!("{level} × {level} a patch"),
+        ChartObject::Sphere => format!("{} × {level}", 2 * level),
+        ChartObject::Teapot => format!("{level} × {level} a patch"),
     };
     format!(
         "{} ({tessellation}, {triangles} triangles), {} shading, {reflectance}, {viewer}",

@@ -6,14 +6,14 @@ use halfway::prelude::*;
 use halfway::reference::Mode;
 use halfway::reference::metrics::{self, Comparison};
 
-use super::{Line, MeasureError, Object, Progress, SHADINGS, Scene, Stage, longest_edge};
+use super::{ChartObject, ChartScene, Line, MeasureError, MeasureProgress, SHADINGS, SceneApp, longest_edge};
 
 /// How much is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Plan {
+pub struct ConvergencePlan {
     /// Width and height of the pictures in pixels.
     pub size: u32,
-    /// How many levels of tessellation ([`Object::level`]).
+    /// How many levels of tessellation ([`ChartObject::level`]).
     pub levels: u32,
 }
 
@@ -22,14 +22,14 @@ pub const FITTED: usize = 3;
 
 /// What the object is made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Surface {
+pub enum ConvergenceSurface {
     /// Without a highlight.
     Diffuse,
     /// With a highlight of shininess 32.
     Shiny,
 }
 
-impl Surface {
+impl ConvergenceSurface {
     /// Both.
     pub const ALL: [Self; 2] = [Self::Diffuse, Self::Shiny];
 
@@ -43,8 +43,8 @@ impl Surface {
 
     fn material(self) -> Material {
         match self {
-            Self::Diffuse => Scene::matte(),
-            Self::Shiny => Scene::shiny(),
+            Self::Diffuse => ChartScene::matte(),
+            Self::Shiny => ChartScene::shiny(),
         }
     }
 }
@@ -53,19 +53,19 @@ impl Surface {
 #[derive(Clone, Debug)]
 pub struct Convergence {
     /// What was drawn.
-    pub object: Object,
+    pub object: ChartObject,
     /// Of what.
-    pub surface: Surface,
+    pub surface: ConvergenceSurface,
     /// How often it was shaded.
     pub shading: Shading,
     /// The levels, the coarsest first.
-    pub levels: Vec<Level>,
+    pub levels: Vec<Refinement>,
 }
 
 /// One level of tessellation.
 #[derive(Clone, Debug)]
-pub struct Level {
-    /// Its number ([`Object::level`]).
+pub struct Refinement {
+    /// Its number ([`ChartObject::level`]).
     pub level: u32,
     /// How many triangles it has.
     pub triangles: usize,
@@ -75,7 +75,7 @@ pub struct Level {
     pub comparison: Comparison,
 }
 
-impl Level {
+impl Refinement {
     /// The largest linear error of a channel.
     pub fn max(&self) -> f64 {
         self.comparison.linear.all.max()
@@ -94,25 +94,28 @@ impl Level {
 }
 
 /// What is told of a level: a name, and the figure.
-pub type Quantity = (&'static str, fn(&Level) -> f64);
+pub type ErrorMeasure = (&'static str, fn(&Refinement) -> f64);
 
 /// Every figure whose order of convergence is told.
-pub const QUANTITIES: [Quantity; 3] =
-    [("largest error", Level::max), ("RMS error", Level::rms), ("error that 95 % keep to", Level::common)];
+pub const QUANTITIES: [ErrorMeasure; 3] = [
+    ("largest error", Refinement::max),
+    ("RMS error", Refinement::rms),
+    ("error that 95 % keep to", Refinement::common),
+];
 
 impl Convergence {
     /// The order of convergence of an error: p where it goes with the edge length to the p, fitted to the [`FITTED`]
     /// finest levels.
-    pub fn order(&self, error: fn(&Level) -> f64) -> Option<f64> {
+    pub fn order(&self, error: fn(&Refinement) -> f64) -> Option<f64> {
         let points: Vec<_> = self.levels.iter().map(|level| (level.edge, error(level))).collect();
         Line::order(&points, FITTED)
     }
 }
 
-impl Plan {
-    /// The units of [`Progress`] that [`sweep`] will report.
+impl ConvergencePlan {
+    /// The units of [`MeasureProgress`] that [`sweep`] will report.
     pub fn units(self) -> u64 {
-        (Object::ALL.len() * Surface::ALL.len() * SHADINGS.len()) as u64 * u64::from(self.levels)
+        (ChartObject::ALL.len() * ConvergenceSurface::ALL.len() * SHADINGS.len()) as u64 * u64::from(self.levels)
     }
 }
 
@@ -120,23 +123,23 @@ impl Plan {
 ///
 /// # Errors
 /// The first picture that could not be drawn.
-pub fn sweep(plan: Plan, progress: &mut Progress<'_>) -> Result<Vec<Convergence>, MeasureError> {
-    let mut stage = Stage::without_adapter(UVec2::splat(plan.size));
+pub fn sweep(plan: ConvergencePlan, progress: &mut MeasureProgress<'_>) -> Result<Vec<Convergence>, MeasureError> {
+    let mut stage = SceneApp::without_adapter(UVec2::splat(plan.size));
     let mut all = Vec::new();
-    for object in Object::ALL {
+    for object in ChartObject::ALL {
         let levels = (0..plan.levels).map(|i| object.level(i));
         let meshes: Vec<_> = levels.map(|level| (level, object.mesh(level))).collect();
-        for surface in Surface::ALL {
-            let scene = |level| Scene { material: surface.material(), ..Scene::new(object, level) };
+        for surface in ConvergenceSurface::ALL {
+            let scene = |level| ChartScene { material: surface.material(), ..ChartScene::new(object, level) };
             stage.show(&scene(object.level(plan.levels - 1)));
             let truth = stage.oracle(Mode::Surface)?;
             for shading in SHADINGS {
                 let mut levels = Vec::new();
                 for (level, mesh) in &meshes {
-                    stage.show(&Scene { shading: Some(shading), ..scene(*level) });
+                    stage.show(&ChartScene { shading: Some(shading), ..scene(*level) });
                     let comparison = metrics::compare(&stage.oracle(Mode::Mesh)?, &truth, Encoding::Srgb)?;
                     let (triangles, edge) = (mesh.triangle_count(), longest_edge(mesh));
-                    levels.push(Level { level: *level, triangles, edge, comparison });
+                    levels.push(Refinement { level: *level, triangles, edge, comparison });
                     progress.advance(1, &format!("convergence, {}", object.name()));
                 }
                 all.push(Convergence { object, surface, shading, levels });

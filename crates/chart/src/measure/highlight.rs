@@ -7,14 +7,14 @@
 use halfway::prelude::*;
 use halfway::reference::{Image, Mode};
 
-use super::{MeasureError, Object, Progress, SHADINGS, Scene, Stage};
+use super::{ChartObject, ChartScene, MeasureError, MeasureProgress, SHADINGS, SceneApp};
 
 /// How much is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Plan {
+pub struct HighlightPlan {
     /// Width and height of the frames in pixels.
     pub size: u32,
-    /// The sphere's level ([`Object::level`]): n bands, 2n meridians.
+    /// The sphere's level ([`ChartObject::level`]): n bands, 2n meridians.
     pub level: u32,
     /// How many frames the light takes for its way.
     pub frames: u32,
@@ -55,8 +55,8 @@ pub fn unsteadiness(energy: &[f64], truth: &[f64]) -> Option<Unsteadiness> {
     Some(Unsteadiness { rms, worst, worst_frame: t + 1 })
 }
 
-impl Plan {
-    /// The units of [`Progress`] that [`sweep`] will report.
+impl HighlightPlan {
+    /// The units of [`MeasureProgress`] that [`sweep`] will report.
     pub fn units(self) -> u64 {
         u64::from(self.frames)
     }
@@ -66,16 +66,17 @@ impl Plan {
 ///
 /// # Errors
 /// The first frame that could not be drawn.
-pub fn sweep(plan: Plan, progress: &mut Progress<'_>) -> Result<Energies, MeasureError> {
-    let mut stage = Stage::without_adapter(UVec2::splat(plan.size));
+pub fn sweep(plan: HighlightPlan, progress: &mut MeasureProgress<'_>) -> Result<Energies, MeasureError> {
+    let mut stage = SceneApp::without_adapter(UVec2::splat(plan.size));
     let mut energies = Energies { truth: Vec::new(), shaded: [const { Vec::new() }; SHADINGS.len()] };
     for frame in 0..plan.frames {
         let light = light(frame, plan.frames);
-        let scene = Scene { material: Scene::highlight(), light, ..Scene::new(Object::Sphere, plan.level) };
+        let scene =
+            ChartScene { material: ChartScene::highlight(), light, ..ChartScene::new(ChartObject::Sphere, plan.level) };
         stage.show(&scene);
         energies.truth.push(energy(&stage.oracle(Mode::Surface)?));
         for (shading, energies) in SHADINGS.into_iter().zip(&mut energies.shaded) {
-            stage.show(&Scene { shading: Some(shading), ..scene });
+            stage.show(&ChartScene { shading: Some(shading), ..scene });
             energies.push(energy(&stage.oracle(Mode::Mesh)?));
         }
         progress.advance(1, "moving highlight");

@@ -15,8 +15,8 @@ use halfway::render::RenderError;
 use thiserror::Error;
 
 pub use fit::Line;
-pub use progress::Progress;
-pub use stage::{Object, Scene, Stage, longest_edge};
+pub use progress::MeasureProgress;
+pub use stage::{ChartObject, ChartScene, SceneApp, longest_edge};
 
 /// The shadings that are compared, the cheapest first.
 pub const SHADINGS: [Shading; 3] = [Shading::Flat, Shading::Gouraud, Shading::Phong];

@@ -1,12 +1,12 @@
 //! How far the sweeps are.
 
 /// Is told what has been done, and how much of all that is. Units are about equally long.
-pub struct Progress<'a> {
+pub struct MeasureProgress<'a> {
     done: u64,
     tell: &'a mut dyn FnMut(u64, &str),
 }
 
-impl<'a> Progress<'a> {
+impl<'a> MeasureProgress<'a> {
     /// Progress that `tell` hears of: units done so far, and what is being done.
     pub fn new(tell: &'a mut dyn FnMut(u64, &str)) -> Self {
         Self { done: 0, tell }

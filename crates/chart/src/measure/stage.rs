@@ -9,14 +9,14 @@ use super::MeasureError;
 
 /// What is looked at: a surface that is known by formula.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Object {
+pub enum ChartObject {
     /// [`UvSphere`] of radius 1; level n has 2n meridians and n bands.
     Sphere,
     /// [`Teapot`]; level n cuts each patch into n × n cells.
     Teapot,
 }
 
-impl Object {
+impl ChartObject {
     /// Both.
     pub const ALL: [Self; 2] = [Self::Sphere, Self::Teapot];
 
@@ -67,9 +67,9 @@ pub fn longest_edge(mesh: &Mesh) -> f64 {
 
 /// One picture to draw.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Scene {
+pub struct ChartScene {
     /// What is looked at.
-    pub object: Object,
+    pub object: ChartObject,
     /// How finely it is tessellated.
     pub level: u32,
     /// How often it is shaded; `None` draws it in its ambient colour alone, without a light.
@@ -84,14 +84,14 @@ pub struct Scene {
     pub light: Vec3,
 }
 
-impl Scene {
+impl ChartScene {
     /// The direction toward the light of the first two charts: from over the viewer's right shoulder.
     pub const LIGHT: Vec3 = Vec3::new(0.5, 0.7, 1.0);
     /// Ambient and diffuse colour: warm grey, whose channels lie apart, so that they do not err alike.
     const COLOR: LinearRgba = LinearRgba::rgb(0.55, 0.42, 0.30);
 
     /// An object under Phong shading with Blinn–Phong reflectance, shininess 32, seen from where the camera is.
-    pub fn new(object: Object, level: u32) -> Self {
+    pub fn new(object: ChartObject, level: u32) -> Self {
         Self {
             object,
             level,
@@ -119,17 +119,17 @@ impl Scene {
     }
 }
 
-/// An App that shows one [`Scene`] after another.
-pub struct Stage {
+/// An App that shows one [`ChartScene`] after another.
+pub struct SceneApp {
     app: App,
     object: Entity,
     camera: Entity,
     light: Entity,
-    meshes: HashMap<(Object, u32), Handle<Mesh>>,
+    meshes: HashMap<(ChartObject, u32), Handle<Mesh>>,
     size: UVec2,
 }
 
-impl Stage {
+impl SceneApp {
     /// A stage whose pictures, of `size` pixels, an adapter draws, every mesh as it is.
     pub fn with_adapter(size: UVec2) -> Self {
         let mut app = App::new();
@@ -157,7 +157,7 @@ impl Stage {
     }
 
     /// Sets the scene; it is seen from the next frame on.
-    pub fn show(&mut self, scene: &Scene) {
+    pub fn show(&mut self, scene: &ChartScene) {
         let world = self.app.world_mut();
         let mesh = self
             .meshes
@@ -218,7 +218,7 @@ mod tests {
     #[test]
     fn the_longest_edge_halves_as_the_level_doubles() {
         // In the limit: a Bézier patch is stretched unevenly, by 1/n over a cell of n × n.
-        for object in Object::ALL {
+        for object in ChartObject::ALL {
             let ratio = longest_edge(&object.mesh(64)) / longest_edge(&object.mesh(128));
             assert!((ratio - 2.0).abs() < 2.0 / 64.0, "{object:?}: {ratio}");
         }

@@ -1,6 +1,6 @@
 //! The page as HTML.
 
-use super::{Card, Page, Section, Table};
+use super::{Card, Page, PageTable, Section};
 use crate::figure::svg::{self, Size, SvgError};
 use crate::figure::{Figure, Marker, Series, Style};
 
@@ -149,7 +149,7 @@ fn swatch(series: &Series) -> String {
     )
 }
 
-fn table(table: &Table) -> String {
+fn table(table: &PageTable) -> String {
     let cells = |tag: &str, cells: &[String]| {
         let class = |i| if i < table.names { " class=\"name\"" } else { "" };
         each(cells.iter().enumerate(), |(i, cell)| format!("<{tag}{}>{}</{tag}>", class(i), escaped(cell)))
@@ -177,7 +177,7 @@ mod tests {
                 title: "One".to_owned(),
                 text: vec!["Text.".to_owned()],
                 figures: vec![("a".to_owned(), example()), ("b".to_owned(), Figure { id: "second", ..example() })],
-                tables: vec![Table {
+                tables: vec![PageTable {
                     caption: "Numbers".to_owned(),
                     names: 1,
                     header: vec!["name".to_owned(), "slope".to_owned()],

@@ -35,14 +35,14 @@ pub struct Section {
     /// The same chart of several quantities, of which one is shown at a time, each with the name of its button.
     pub figures: Vec<(String, Figure)>,
     /// Figures as numbers.
-    pub tables: Vec<Table>,
+    pub tables: Vec<PageTable>,
     /// Files beside the page: what they hold, and their names.
     pub files: Vec<(String, String)>,
 }
 
 /// Rows under a header.
 #[derive(Clone, Debug)]
-pub struct Table {
+pub struct PageTable {
     /// What the rows are.
     pub caption: String,
     /// How many columns at the left hold names; the others hold numbers.

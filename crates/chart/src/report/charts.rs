@@ -3,10 +3,10 @@
 use halfway::prelude::{Reflectance, Shading, Viewer};
 
 use super::Report;
-use crate::figure::{Axis, Figure, Marker, Panel, Point, Scale, Series, Stroke, Style};
-use crate::measure::accuracy::{Measured, Variant, describe};
-use crate::measure::convergence::{Convergence, Level, Surface};
-use crate::measure::{Object, SHADINGS, shading_name};
+use crate::figure::{Axis, AxisScale, Figure, Marker, Panel, Point, Series, Stroke, Style};
+use crate::measure::accuracy::{AccuracyVariant, Measured, describe};
+use crate::measure::convergence::{Convergence, ConvergenceSurface, Refinement};
+use crate::measure::{ChartObject, SHADINGS, shading_name};
 
 /// A measure of error that the main chart can show.
 #[derive(Clone, Copy)]
@@ -57,8 +57,8 @@ pub(super) fn gray(level: u8) -> Style {
 impl Report {
     /// Error against time: a row of panels an object, a column a variant.
     pub(super) fn main_figure(&self, quantity: Quantity) -> Figure {
-        let panels = Object::ALL.into_iter().flat_map(|object| {
-            Variant::ALL.into_iter().map(move |variant| {
+        let panels = ChartObject::ALL.into_iter().flat_map(|object| {
+            AccuracyVariant::ALL.into_iter().map(move |variant| {
                 let [reflectance, viewer] = variant.names();
                 self.main_panel(format!("{}, {reflectance}, {viewer}", object.name()), object, variant, quantity)
             })
@@ -70,27 +70,27 @@ impl Report {
                 capital(quantity.name),
                 self.plan.accuracy.levels
             ),
-            x: Axis::new(TIME, Scale::Log),
-            y: Axis::new(quantity.label, Scale::Log),
-            columns: Variant::ALL.len(),
+            x: Axis::new(TIME, AxisScale::Log),
+            y: Axis::new(quantity.label, AxisScale::Log),
+            columns: AccuracyVariant::ALL.len(),
             panels: panels.collect(),
         }
     }
 
     /// The RMS error of both objects under one variant, for a narrow page.
     pub(super) fn small_figure(&self) -> Figure {
-        let variant = Variant { reflectance: Reflectance::BlinnPhong, viewer: Viewer::Local };
-        let panel = |object: Object| self.main_panel(object.name().to_owned(), object, variant, QUANTITIES[0]);
+        let variant = AccuracyVariant { reflectance: Reflectance::BlinnPhong, viewer: Viewer::Local };
+        let panel = |object: ChartObject| self.main_panel(object.name().to_owned(), object, variant, QUANTITIES[0]);
         Figure {
             id: "chart",
             title: format!("Error against time at {} tessellations, from coarse to fine", self.plan.accuracy.levels),
             columns: 2,
-            panels: Object::ALL.map(panel).into(),
+            panels: ChartObject::ALL.map(panel).into(),
             ..self.main_figure(QUANTITIES[0])
         }
     }
 
-    fn main_panel(&self, title: String, object: Object, variant: Variant, quantity: Quantity) -> Panel {
+    fn main_panel(&self, title: String, object: ChartObject, variant: AccuracyVariant, quantity: Quantity) -> Panel {
         let series = SHADINGS.map(|shading| {
             let here = |measured: &&Measured| {
                 measured.object == object && measured.variant == variant && measured.shading == shading
@@ -108,13 +108,13 @@ impl Report {
 
     /// Error against edge length: a row of panels an object, a column a material.
     pub(super) fn convergence_figure(&self) -> Figure {
-        let panels = Object::ALL.into_iter().flat_map(|object| {
-            Surface::ALL.into_iter().map(move |surface| {
+        let panels = ChartObject::ALL.into_iter().flat_map(|object| {
+            ConvergenceSurface::ALL.into_iter().map(move |surface| {
                 let here = |found: &&Convergence| found.object == object && found.surface == surface;
                 let found: Vec<&Convergence> = self.convergence.iter().filter(here).collect();
                 let mut notes = vec!["slope of max, of RMS".to_owned()];
                 notes.extend(found.iter().map(|found| {
-                    let [max, rms] = [Level::max, Level::rms].map(|error| order(found.order(error)));
+                    let [max, rms] = [Refinement::max, Refinement::rms].map(|error| order(found.order(error)));
                     format!("{}: {max}, {rms}", shading_name(found.shading))
                 }));
                 let title = format!("{}, {}", object.name(), surface.name());
@@ -129,8 +129,8 @@ impl Report {
         Figure {
             id: "convergence",
             title: "Error of the shading method as the mesh is refined".to_owned(),
-            x: Axis::new("longest edge (the sphere's radius is 1)", Scale::Log),
-            y: Axis::new("error (linear, white = 1)", Scale::Log),
+            x: Axis::new("longest edge (the sphere's radius is 1)", AxisScale::Log),
+            y: Axis::new("error (linear, white = 1)", AxisScale::Log),
             columns: 2,
             panels: panels.collect(),
         }
@@ -154,8 +154,8 @@ impl Report {
         Figure {
             id: "highlight",
             title: "Energy of a highlight while its light moves".to_owned(),
-            x: Axis::new("frame", Scale::Linear),
-            y: Axis::new("energy (mean of the true surface = 1)", Scale::Linear),
+            x: Axis::new("frame", AxisScale::Linear),
+            y: Axis::new("energy (mean of the true surface = 1)", AxisScale::Linear),
             columns: 1,
             panels: vec![Panel { title: self.coarse_sphere(), x_label: None, notes: Vec::new(), series: all }],
         }
@@ -171,7 +171,7 @@ impl Report {
 /// The largest and the RMS error of one shading.
 fn convergence_series(found: &Convergence) -> [Series; 2] {
     let name = shading_name(found.shading);
-    let series = |what: &str, style: Style, error: fn(&Level) -> f64| {
+    let series = |what: &str, style: Style, error: fn(&Refinement) -> f64| {
         let points = found.levels.iter().map(|level| {
             let y = error(level);
             let label = format!("{name}, {what}: {y:.3e} with {} triangles", level.triangles);
@@ -181,8 +181,8 @@ fn convergence_series(found: &Convergence) -> [Series; 2] {
     };
     let full = style(found.shading);
     [
-        series("max", Style { filled: false, stroke: Stroke::Dash, ..full }, Level::max),
-        series("RMS", Style { stroke: Stroke::Solid, ..full }, Level::rms),
+        series("max", Style { filled: false, stroke: Stroke::Dash, ..full }, Refinement::max),
+        series("RMS", Style { stroke: Stroke::Solid, ..full }, Refinement::rms),
     ]
 }
 

@@ -5,10 +5,8 @@ mod pages;
 mod plan;
 mod scaling;
 mod tables;
-mod write;
 
-use std::path::PathBuf;
-
+use halfway::output::OutputError;
 use thiserror::Error;
 
 use crate::figure::Figure;
@@ -16,12 +14,11 @@ use crate::figure::svg::{self, Size, SvgError};
 use crate::measure::accuracy::{self, Measured};
 use crate::measure::convergence::{self, Convergence};
 use crate::measure::highlight::{self, Energies};
-use crate::measure::{MeasureError, Progress};
+use crate::measure::{MeasureError, MeasureProgress};
 use crate::page::html;
 
-pub use plan::Plan;
+pub use plan::ReportPlan;
 pub use scaling::Scaling;
-pub use write::write;
 
 /// A report that could not be made.
 #[derive(Debug, Error)]
@@ -37,20 +34,15 @@ pub enum ReportError {
     #[error("a picture for the page: {0}")]
     Picture(#[from] image::ImageError),
     /// A file could not be written.
-    #[error("{}: {source}", file.display())]
-    Io {
-        /// The file.
-        file: PathBuf,
-        /// Why.
-        source: std::io::Error,
-    },
+    #[error(transparent)]
+    Output(#[from] OutputError),
 }
 
 /// What was found.
 #[derive(Clone, Debug)]
 pub struct Report {
     /// How much was measured.
-    pub plan: Plan,
+    pub plan: ReportPlan,
     /// Error and time.
     pub accuracy: Vec<Measured>,
     /// Rates of convergence.
@@ -64,12 +56,12 @@ pub struct Report {
 /// A file's name and what is in it.
 pub type NamedFile = (String, String);
 
-/// Measures everything; `tell` hears of [`Plan::units`] done so far, and of what is being done.
+/// Measures everything; `tell` hears of [`ReportPlan::units`] done so far, and of what is being done.
 ///
 /// # Errors
 /// The first picture that could not be drawn.
-pub fn measure(plan: Plan, tell: &mut dyn FnMut(u64, &str)) -> Result<Report, ReportError> {
-    let mut progress = Progress::new(tell);
+pub fn measure(plan: ReportPlan, tell: &mut dyn FnMut(u64, &str)) -> Result<Report, ReportError> {
+    let mut progress = MeasureProgress::new(tell);
     let accuracy = accuracy::sweep(plan.accuracy, &mut progress)?;
     let convergence = convergence::sweep(plan.convergence, &mut progress)?;
     let energies = highlight::sweep(plan.highlight, &mut progress)?;

@@ -1,12 +1,13 @@
 //! What the page says.
 
 use super::charts::{self, order};
+use super::tables::files;
 use super::{Report, ReportError, scaling};
 use crate::measure::accuracy::{Measured, describe};
 use crate::measure::convergence::{FITTED, QUANTITIES};
 use crate::measure::highlight::Unsteadiness;
 use crate::measure::{SHADINGS, shading_name};
-use crate::page::{Card, Page, Section, Table, data_uri};
+use crate::page::{Card, Page, PageTable, Section, data_uri};
 
 impl Report {
     /// The page.
@@ -92,7 +93,7 @@ impl Report {
     }
 
     /// A row for each object, material and quantity, a column for each shading.
-    fn slopes(&self) -> Table {
+    fn slopes(&self) -> PageTable {
         let mut header = vec!["object, material".to_owned(), "slope of the".to_owned()];
         header.extend(SHADINGS.map(|shading| shading_name(shading).to_owned()));
         // The sweep's innermost loop is over the shadings.
@@ -103,7 +104,7 @@ impl Report {
                 row
             })
         });
-        Table {
+        PageTable {
             caption: "Slopes of log error against log edge length".to_owned(),
             names: 2,
             header,
@@ -129,7 +130,7 @@ impl Report {
             )],
             files: files(&[("chart", figure.id)], &[("energies", "highlight"), ("numbers", "unsteadiness")]),
             figures: vec![(String::new(), figure)],
-            tables: vec![Table {
+            tables: vec![PageTable {
                 caption:
                     "Change of energy from frame to frame less the true surface’s, relative to the mean true energy"
                         .to_owned(),
@@ -139,14 +140,6 @@ impl Report {
             }],
         }
     }
-}
-
-/// Links to charts as SVG and to tables as CSV.
-pub(super) fn files(charts: &[(&str, &str)], tables: &[(&str, &str)]) -> Vec<(String, String)> {
-    let link =
-        |what: &str, kind: &str, stem: &str, ending: &str| (format!("{what} ({kind})"), format!("{stem}.{ending}"));
-    let charts = charts.iter().map(|(what, stem)| link(what, "SVG", stem, "svg"));
-    charts.chain(tables.iter().map(|(what, stem)| link(what, "CSV", stem, "csv"))).collect()
 }
 
 fn card(measured: &Measured) -> Result<Card, ReportError> {

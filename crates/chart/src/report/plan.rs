@@ -4,24 +4,24 @@ use crate::measure::{accuracy, convergence, highlight, scaling};
 
 /// How much is measured of everything.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Plan {
+pub struct ReportPlan {
     /// Of error and time.
-    pub accuracy: accuracy::Plan,
+    pub accuracy: accuracy::AccuracyPlan,
     /// Of the rates of convergence.
-    pub convergence: convergence::Plan,
+    pub convergence: convergence::ConvergencePlan,
     /// Of the moving highlight.
-    pub highlight: highlight::Plan,
+    pub highlight: highlight::HighlightPlan,
     /// Of how the time of a frame grows.
-    pub scaling: scaling::Plan,
+    pub scaling: scaling::ScalingPlan,
 }
 
-impl Plan {
+impl ReportPlan {
     /// What the project's figures come from: minutes on two cores without a GPU.
     pub const FULL: Self = Self {
-        accuracy: accuracy::Plan { size: 640, levels: 5, rounds: 25 },
-        convergence: convergence::Plan { size: 768, levels: 5 },
-        highlight: highlight::Plan { size: 256, level: 8, frames: 120 },
-        scaling: scaling::Plan {
+        accuracy: accuracy::AccuracyPlan { size: 640, levels: 5, rounds: 25 },
+        convergence: convergence::ConvergencePlan { size: 768, levels: 5 },
+        highlight: highlight::HighlightPlan { size: 256, level: 8, frames: 120 },
+        scaling: scaling::ScalingPlan {
             size: 512,
             per_decade: 2,
             rounds: 15,
@@ -32,10 +32,10 @@ impl Plan {
     };
     /// The same with fewer levels, rounds, frames and pixels: for a look, and for CI.
     pub const QUICK: Self = Self {
-        accuracy: accuracy::Plan { size: 320, levels: 3, rounds: 15 },
-        convergence: convergence::Plan { size: 384, levels: 4 },
-        highlight: highlight::Plan { size: 128, level: 8, frames: 60 },
-        scaling: scaling::Plan {
+        accuracy: accuracy::AccuracyPlan { size: 320, levels: 3, rounds: 15 },
+        convergence: convergence::ConvergencePlan { size: 384, levels: 4 },
+        highlight: highlight::HighlightPlan { size: 128, level: 8, frames: 60 },
+        scaling: scaling::ScalingPlan {
             size: 256,
             per_decade: 1,
             rounds: 5,

@@ -1,20 +1,19 @@
 //! How the time of a frame grows, as a chapter of the report and as a page of its own.
 
 use super::charts::{gray, order, style};
-use super::pages::files;
-use super::tables::number;
+use super::tables::{files, number};
 use super::{NamedFile, ReportError, figure_file};
-use crate::figure::{Axis, Figure, Marker, Panel, Point, Scale, Series, Stroke, Style, superscript};
-use crate::measure::scaling::{self, Curve, Decade, Growth, LOOKS, Law, Plan, Sample};
-use crate::measure::{MeasureError, Progress, shading_name};
-use crate::page::{Page, Section, Table, csv, html};
-use crate::timing::{FRAME_TIME, Look, Machine, Spread};
+use crate::figure::{Axis, AxisScale, Figure, Marker, Panel, Point, Series, Stroke, Style, superscript};
+use crate::measure::scaling::{self, Curve, Decade, Growth, LOOKS, Law, ScalingPlan, TimedSample};
+use crate::measure::{MeasureError, MeasureProgress, shading_name};
+use crate::page::{Page, PageTable, Section, csv, html};
+use crate::timing::{FRAME_TIME, Machine, Spread, TimedLook};
 
 /// How the time of a frame grows with what is in it.
 #[derive(Clone, Debug)]
 pub struct Scaling {
     /// How much was measured.
-    pub plan: Plan,
+    pub plan: ScalingPlan,
     /// What it was measured on.
     pub machine: Machine,
     /// A curve for each of [`Growth::ALL`] and each of [`LOOKS`], the last the quickest to change.
@@ -22,11 +21,11 @@ pub struct Scaling {
 }
 
 impl Scaling {
-    /// Measures; `progress` hears of [`Plan::units`].
+    /// Measures; `progress` hears of [`ScalingPlan::units`].
     ///
     /// # Errors
     /// The first frame that could not be drawn.
-    pub fn measure(plan: Plan, progress: &mut Progress<'_>) -> Result<Self, MeasureError> {
+    pub fn measure(plan: ScalingPlan, progress: &mut MeasureProgress<'_>) -> Result<Self, MeasureError> {
         let (curves, machine) = scaling::sweep(plan, progress)?;
         Ok(Self { plan, machine, curves })
     }
@@ -88,8 +87,8 @@ impl Scaling {
         Figure {
             id: "scaling",
             title: "Time of a frame against what is in it".to_owned(),
-            x: Axis::new("count", Scale::Log),
-            y: Axis::new("frame, ms", Scale::Log),
+            x: Axis::new("count", AxisScale::Log),
+            y: Axis::new("frame, ms", AxisScale::Log),
             columns: 3,
             panels: Growth::ALL.map(|growth| self.panel(growth)).into(),
         }
@@ -103,7 +102,7 @@ impl Scaling {
     }
 
     /// A row for each curve, a column for each decade of any.
-    fn slope_table(&self) -> Table {
+    fn slope_table(&self) -> PageTable {
         let decades = || self.curves.iter().flat_map(Curve::decades).map(|decade| decade.exponent);
         let (first, last) = (decades().min().unwrap_or(0), decades().max().unwrap_or(-1));
         let mut header = names();
@@ -115,7 +114,7 @@ impl Scaling {
             row.extend((first..=last).map(|exponent| order(slope(exponent))));
             row
         });
-        Table {
+        PageTable {
             caption: "Slopes of log time against log count, decade by decade".to_owned(),
             names: 2,
             header,
@@ -123,7 +122,7 @@ impl Scaling {
         }
     }
 
-    fn law_table(&self) -> Table {
+    fn law_table(&self) -> PageTable {
         let mut header = names();
         header.push("time of a frame with n of them".to_owned());
         let rows = self.curves.iter().map(|curve| {
@@ -131,7 +130,7 @@ impl Scaling {
             row.push(self.sentence(curve));
             row
         });
-        Table { caption: "The laws, and where they break".to_owned(), names: 3, header, rows: rows.collect() }
+        PageTable { caption: "The laws, and where they break".to_owned(), names: 3, header, rows: rows.collect() }
     }
 
     /// How a curve grows, where it grows otherwise, and why it ends.
@@ -146,7 +145,7 @@ impl Scaling {
                 format!("{} from {holds_from} on; {only}{} from {from} to {to}", power_law(slope), power_law(there))
             }
         };
-        let end = |last: &Sample| {
+        let end = |last: &TimedSample| {
             format!("; ends at {:.0}, for the next may take more than {:.0} ms", last.count, self.plan.limit_ms)
         };
         law + &curve.samples.last().filter(|_| curve.is_cut).map(end).unwrap_or_default()
@@ -195,10 +194,10 @@ pub(super) fn facts(machine: &Machine) -> Vec<(String, String)> {
     machine.facts().into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
 }
 
-fn look_name(look: Look) -> &'static str {
+fn look_name(look: TimedLook) -> &'static str {
     match look {
-        Look::Constant => "constant",
-        Look::Shaded(shading) => shading_name(shading),
+        TimedLook::Constant => "constant",
+        TimedLook::Shaded(shading) => shading_name(shading),
     }
 }
 
@@ -223,8 +222,8 @@ fn power(exponent: i32) -> String {
 fn series(curve: &Curve) -> Series {
     let name = look_name(curve.look);
     let style = match curve.look {
-        Look::Constant => Style { marker: Some(Marker::Circle), filled: false, ..gray(0x55) },
-        Look::Shaded(shading) => style(shading),
+        TimedLook::Constant => Style { marker: Some(Marker::Circle), filled: false, ..gray(0x55) },
+        TimedLook::Shaded(shading) => style(shading),
     };
     let points = curve.samples.iter().map(|sample| {
         let Spread { median, lower_quartile, upper_quartile, .. } = sample.frame_ms;
@@ -258,7 +257,7 @@ mod tests {
     use super::*;
 
     fn scaling(is_cut: bool, times: &[(f64, f64)]) -> Scaling {
-        let samples = times.iter().map(|&(count, ms)| Sample { count, frame_ms: Spread::of(&[ms]) }).collect();
+        let samples = times.iter().map(|&(count, ms)| TimedSample { count, frame_ms: Spread::of(&[ms]) }).collect();
         let curve = Curve { growth: Growth::Lights, look: LOOKS[3], samples, is_cut };
         let machine = Machine {
             adapter: "one".to_owned(),
@@ -270,7 +269,7 @@ mod tests {
             cpu: "fast".to_owned(),
             cores: 2,
         };
-        Scaling { plan: crate::Plan::QUICK.scaling, machine, curves: vec![curve] }
+        Scaling { plan: crate::ReportPlan::QUICK.scaling, machine, curves: vec![curve] }
     }
 
     #[test]

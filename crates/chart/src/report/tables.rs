@@ -151,6 +151,14 @@ pub(super) fn number(value: f64) -> String {
     }
 }
 
+/// Links to charts as SVG and to tables as CSV.
+pub(super) fn files(charts: &[(&str, &str)], tables: &[(&str, &str)]) -> Vec<(String, String)> {
+    let link =
+        |what: &str, kind: &str, stem: &str, ending: &str| (format!("{what} ({kind})"), format!("{stem}.{ending}"));
+    let charts = charts.iter().map(|(what, stem)| link(what, "SVG", stem, "svg"));
+    charts.chain(tables.iter().map(|(what, stem)| link(what, "CSV", stem, "csv"))).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::number;

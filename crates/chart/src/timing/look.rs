@@ -4,14 +4,14 @@ use halfway::prelude::*;
 
 /// How everything in a scene is shaded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Look {
+pub enum TimedLook {
     /// In the colour of its material alone: what drawing costs without lighting.
     Constant,
     /// Lit.
     Shaded(Shading),
 }
 
-impl Look {
+impl TimedLook {
     /// A material of this ambient and diffuse color with a white highlight of shininess 32; without a light to show for it
     /// where the look is constant.
     pub fn material(self, color: LinearRgba) -> Material {

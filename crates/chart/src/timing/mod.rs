@@ -6,6 +6,6 @@ mod look;
 mod machine;
 mod turns;
 
-pub use look::Look;
+pub use look::TimedLook;
 pub use machine::{Machine, counters};
 pub use turns::{FRAME_TIME, Spread, frame, in_turns, in_turns_with, median, median_ratio, settle};

@@ -2,10 +2,10 @@
 
 use halfway::prelude::*;
 
-use super::args::{BenchArgs, Mode};
+use super::args::{BenchArgs, BenchShading};
 use crate::scenery::{Benchmark, BenchmarkScene};
 
-pub(super) fn app(args: &BenchArgs, scene: BenchmarkScene, mode: Mode) -> App {
+pub(super) fn app(args: &BenchArgs, scene: BenchmarkScene, mode: BenchShading) -> App {
     let mut app = App::new();
     app.add_plugins(HalfwayPlugins::headless(size(args, scene)));
     app.add_plugins(Benchmark { scene, look: mode.look(), octahedra: args.octahedra });

@@ -3,7 +3,7 @@
 use clap::{Args, ValueEnum};
 use halfway::prelude::*;
 use halfway::record::parse_size;
-use halfway_chart::timing::Look;
+use halfway_chart::timing::TimedLook;
 
 use crate::levels::LevelsArgs;
 
@@ -32,7 +32,7 @@ pub(crate) struct BenchArgs {
     /// Draw one frame of one shading and print when it was finished and the peak memory: what the table's last
     /// columns run in a process of their own
     #[arg(long, value_enum, hide = true)]
-    pub(super) once: Option<Mode>,
+    pub(super) once: Option<BenchShading>,
 }
 
 /// What is timed.
@@ -52,14 +52,14 @@ pub(crate) enum Subject {
 
 /// How a scene is shaded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Mode {
+pub(crate) enum BenchShading {
     Constant,
     Flat,
     Gouraud,
     Phong,
 }
 
-impl Mode {
+impl BenchShading {
     pub(super) const ALL: [Self; 4] = [Self::Constant, Self::Flat, Self::Gouraud, Self::Phong];
 
     pub(super) fn name(self) -> &'static str {
@@ -71,12 +71,12 @@ impl Mode {
         }
     }
 
-    pub(super) fn look(self) -> Look {
+    pub(super) fn look(self) -> TimedLook {
         match self {
-            Self::Constant => Look::Constant,
-            Self::Flat => Look::Shaded(Shading::Flat),
-            Self::Gouraud => Look::Shaded(Shading::Gouraud),
-            Self::Phong => Look::Shaded(Shading::Phong),
+            Self::Constant => TimedLook::Constant,
+            Self::Flat => TimedLook::Shaded(Shading::Flat),
+            Self::Gouraud => TimedLook::Shaded(Shading::Gouraud),
+            Self::Phong => TimedLook::Shaded(Shading::Phong),
         }
     }
 }

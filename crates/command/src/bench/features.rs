@@ -10,7 +10,7 @@ use super::args::BenchArgs;
 use super::cpu::{self, CpuTimes};
 use super::facts::{counters, machine, print_facts, spread};
 use crate::failure::Failure;
-use crate::scenery::features::{Feature, Stage};
+use crate::scenery::features::{Feature, FeatureStage};
 
 /// What one stage costs under one feature.
 struct Cost {
@@ -30,7 +30,7 @@ pub(super) fn run(args: &BenchArgs) -> Result<(), Failure> {
     let features = Feature::all();
     // One device for all, so that two dozen of them need not share the machine.
     let gpu = Gpu::open_headless()?;
-    let [vertex, fragment] = Stage::ALL.map(|stage| measure(&features, stage, &gpu, args.rounds));
+    let [vertex, fragment] = FeatureStage::ALL.map(|stage| measure(&features, stage, &gpu, args.rounds));
     let (vertex, fragment) = (vertex?, fragment?);
     let machine = Machine::new(&gpu);
     let rows: Vec<_> = features.iter().zip(vertex.iter().zip(&fragment)).collect();
@@ -43,7 +43,7 @@ pub(super) fn run(args: &BenchArgs) -> Result<(), Failure> {
 }
 
 /// Every feature at one stage, all in turns.
-fn measure(features: &[Feature], stage: Stage, gpu: &Gpu, rounds: u32) -> Result<Vec<Cost>, Failure> {
+fn measure(features: &[Feature], stage: FeatureStage, gpu: &Gpu, rounds: u32) -> Result<Vec<Cost>, Failure> {
     let mut apps: Vec<App> = features.iter().map(|feature| app(*feature, stage, gpu)).collect();
     for app in &mut apps {
         settle(app)?;
@@ -68,7 +68,7 @@ fn measure(features: &[Feature], stage: Stage, gpu: &Gpu, rounds: u32) -> Result
     Ok(costs.collect())
 }
 
-fn app(feature: Feature, stage: Stage, gpu: &Gpu) -> App {
+fn app(feature: Feature, stage: FeatureStage, gpu: &Gpu) -> App {
     let mut app = App::new();
     app.insert_resource(gpu.clone());
     app.add_plugins((HalfwayPlugins::headless(stage.size()), feature.at(stage)));
@@ -84,7 +84,7 @@ fn print_table(args: &BenchArgs, machine: &Machine, rows: &[Row<'_>]) {
     println!("\n{FRAME_TIME}\nMedians; × is to the baseline, the median of the ratios within a round.");
     if let Some((_, (vertex, fragment))) = rows.first() {
         for (what, stage, cost) in
-            [("vertex: Gouraud", Stage::Vertex, vertex), ("pixel: Phong", Stage::Fragment, fragment)]
+            [("vertex: Gouraud", FeatureStage::Vertex, vertex), ("pixel: Phong", FeatureStage::Fragment, fragment)]
         {
             let UVec2 { x, y } = stage.size();
             let (triangles, count) = (cost.report.triangles, stage.evaluations());
@@ -127,14 +127,14 @@ fn print_json(args: &BenchArgs, machine: &Machine, rows: &[Row<'_>]) {
             })
         })
         .collect();
-    let stage = |stage: Stage| json!({ "size": stage.size().to_array(), "evaluations": stage.evaluations() });
+    let stage = |stage: FeatureStage| json!({ "size": stage.size().to_array(), "evaluations": stage.evaluations() });
     println!(
         "{}",
         json!({
             "rounds": args.rounds,
             "machine": self::machine(machine),
             "frame": FRAME_TIME,
-            "stages": { "vertex": stage(Stage::Vertex), "fragment": stage(Stage::Fragment) },
+            "stages": { "vertex": stage(FeatureStage::Vertex), "fragment": stage(FeatureStage::Fragment) },
             "rows": rows,
         })
     );

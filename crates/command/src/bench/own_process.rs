@@ -6,7 +6,7 @@ use std::time::{SystemTime, UNIX_EPOCH};
 use halfway_chart::timing::frame;
 
 use super::app::app;
-use super::args::{BenchArgs, Mode};
+use super::args::{BenchArgs, BenchShading};
 use crate::failure::Failure;
 use crate::scenery::BenchmarkScene;
 
@@ -23,14 +23,14 @@ pub(super) struct FirstFrame {
 const PROCESSES: usize = 3;
 
 /// In the process: draws the frame, and prints when it was finished and the memory.
-pub(super) fn once(args: &BenchArgs, scene: BenchmarkScene, mode: Mode) -> Result<(), Failure> {
+pub(super) fn once(args: &BenchArgs, scene: BenchmarkScene, mode: BenchShading) -> Result<(), Failure> {
     frame(&mut app(args, scene, mode))?;
     println!("{} {}", now_ms(), peak_kb());
     Ok(())
 }
 
 /// From outside: the first frame with the shaders that the driver has kept on disk, or `cold`, without.
-pub(super) fn first_frame(args: &BenchArgs, mode: Mode, cold: bool) -> Result<FirstFrame, Failure> {
+pub(super) fn first_frame(args: &BenchArgs, mode: BenchShading, cold: bool) -> Result<FirstFrame, Failure> {
     let failed = |error: std::io::Error| Failure::new(1, error);
     let program = std::env::current_exe().map_err(failed)?;
     let mut measured = Vec::new();
@@ -48,7 +48,7 @@ pub(super) fn first_frame(args: &BenchArgs, mode: Mode, cold: bool) -> Result<Fi
     Ok(measured[PROCESSES / 2])
 }
 
-fn command(program: &std::path::Path, args: &BenchArgs, mode: Mode, cold: bool) -> Command {
+fn command(program: &std::path::Path, args: &BenchArgs, mode: BenchShading, cold: bool) -> Command {
     let mut command = Command::new(program);
     command.args(["bench", &format!("{:?}", args.subject).to_lowercase(), "--once", mode.name()]);
     if let Some(size) = args.size {

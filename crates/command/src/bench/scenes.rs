@@ -6,7 +6,7 @@ use halfway_chart::timing::{FRAME_TIME, Machine, Spread, median_ratio, settle};
 use serde_json::json;
 
 use super::app::{app, size};
-use super::args::{BenchArgs, Mode};
+use super::args::{BenchArgs, BenchShading};
 use super::cpu::{self, CpuTimes, OWN_TIME};
 use super::facts::{counters, machine, print_facts, spread};
 use super::own_process::{FirstFrame, first_frame};
@@ -16,7 +16,7 @@ use crate::scenery::BenchmarkScene;
 
 /// What was measured of one shading.
 struct Row {
-    mode: Mode,
+    mode: BenchShading,
     frame: Spread,
     ratio: f64,
     cpu: CpuTimes,
@@ -26,7 +26,7 @@ struct Row {
 }
 
 pub(super) fn run(args: &BenchArgs, scene: BenchmarkScene) -> Result<(), Failure> {
-    let mut apps = Mode::ALL.map(|mode| app(args, scene, mode));
+    let mut apps = BenchShading::ALL.map(|mode| app(args, scene, mode));
     for app in &mut apps {
         settle(app)?;
     }
@@ -34,7 +34,7 @@ pub(super) fn run(args: &BenchArgs, scene: BenchmarkScene) -> Result<(), Failure
     let machine = Machine::new(apps[0].world().resource::<Gpu>());
     let reports = apps.map(|app| app.world().resource::<FrameReport>().clone());
     let mut rows = Vec::new();
-    for ((mode, report), (own, cpu)) in Mode::ALL.into_iter().zip(reports).zip(&timed) {
+    for ((mode, report), (own, cpu)) in BenchShading::ALL.into_iter().zip(reports).zip(&timed) {
         rows.push(Row {
             mode,
             frame: Spread::of(own),

@@ -6,7 +6,7 @@ use halfway::prelude::*;
 
 /// Where the lighting is evaluated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) enum Stage {
+pub(crate) enum FeatureStage {
     /// Gouraud shading of a plane of 360 × 360 cells in 32 × 32 pixels: hardly anything but vertices, and none of them on
     /// a patch that turns away.
     Vertex,
@@ -14,7 +14,7 @@ pub(crate) enum Stage {
     Fragment,
 }
 
-impl Stage {
+impl FeatureStage {
     /// Both.
     pub(crate) const ALL: [Self; 2] = [Self::Vertex, Self::Fragment];
 
@@ -71,7 +71,7 @@ const CELLS: u32 = 360;
 
 /// The lights of a [`Feature`].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Lights {
+pub(crate) enum FeatureLights {
     /// Infinitely far away.
     Directional(u32),
     /// Points with this falloff and range.
@@ -80,7 +80,7 @@ pub(crate) enum Lights {
     Spots(u32, Cone),
 }
 
-impl Lights {
+impl FeatureLights {
     /// How many there are.
     pub(crate) fn count(self) -> u32 {
         match self {
@@ -96,7 +96,7 @@ pub(crate) struct Feature {
     /// What is different, in words.
     pub(crate) name: &'static str,
     /// The lights, all in front of the surface.
-    pub(crate) lights: Lights,
+    pub(crate) lights: FeatureLights,
     /// Of the front.
     pub(crate) material: Material,
     /// Of the back, where it is another.
@@ -119,7 +119,7 @@ impl Feature {
     /// One directional light, Blinn–Phong with an exponent of 32, local viewer, front faces, opaque, one sample, sRGB.
     pub(crate) const BASELINE: Self = Self {
         name: "one directional light (the baseline)",
-        lights: Lights::Directional(1),
+        lights: FeatureLights::Directional(1),
         material: Material { specular: LinearRgba::rgb(0.35, 0.35, 0.35), ..Material::matte(COLOR) },
         back: None,
         reflectance: Reflectance::BlinnPhong,
@@ -135,34 +135,38 @@ impl Feature {
         let it = Self::BASELINE;
         let shiny = |shininess| Material { shininess, ..it.material };
         let falloff = Attenuation::new(1.0, 0.09, 0.032);
-        let points = |count| Lights::Points(count, falloff, None);
+        let points = |count| FeatureLights::Points(count, falloff, None);
         let hard = Cone::new(FRAC_PI_4);
         let soft = Cone { inner: Some(FRAC_PI_6), exponent: 4.0, ..hard };
         vec![
             it,
-            Self { name: "no lights", lights: Lights::Directional(0), ..it },
+            Self { name: "no lights", lights: FeatureLights::Directional(0), ..it },
             Self { name: "no highlight", material: Material::matte(COLOR), ..it },
-            Self { name: "two directional lights", lights: Lights::Directional(2), ..it },
-            Self { name: "five directional lights", lights: Lights::Directional(5), ..it },
-            Self { name: "eight directional lights", lights: Lights::Directional(8), ..it },
+            Self { name: "two directional lights", lights: FeatureLights::Directional(2), ..it },
+            Self { name: "five directional lights", lights: FeatureLights::Directional(5), ..it },
+            Self { name: "eight directional lights", lights: FeatureLights::Directional(8), ..it },
             // One more than the renderer unrolls its loops for.
-            Self { name: "nine directional lights", lights: Lights::Directional(9), ..it },
-            Self { name: "sixteen directional lights", lights: Lights::Directional(16), ..it },
+            Self { name: "nine directional lights", lights: FeatureLights::Directional(9), ..it },
+            Self { name: "sixteen directional lights", lights: FeatureLights::Directional(16), ..it },
             Self { name: "one point light", lights: points(1), ..it },
             Self { name: "five point lights", lights: points(5), ..it },
             Self {
                 name: "five point lights, no attenuation",
-                lights: Lights::Points(5, Attenuation::NONE, None),
+                lights: FeatureLights::Points(5, Attenuation::NONE, None),
                 ..it
             },
-            Self { name: "five point lights, with a range", lights: Lights::Points(5, falloff, Some(20.0)), ..it },
-            Self { name: "one spot light", lights: Lights::Spots(1, hard), ..it },
-            Self { name: "five spot lights", lights: Lights::Spots(5, hard), ..it },
-            Self { name: "five spot lights, soft edge, exponent 4", lights: Lights::Spots(5, soft), ..it },
+            Self {
+                name: "five point lights, with a range",
+                lights: FeatureLights::Points(5, falloff, Some(20.0)),
+                ..it
+            },
+            Self { name: "one spot light", lights: FeatureLights::Spots(1, hard), ..it },
+            Self { name: "five spot lights", lights: FeatureLights::Spots(5, hard), ..it },
+            Self { name: "five spot lights, soft edge, exponent 4", lights: FeatureLights::Spots(5, soft), ..it },
             Self { name: "infinite viewer", viewer: Viewer::Infinite, ..it },
             Self {
                 name: "five directional lights, infinite viewer",
-                lights: Lights::Directional(5),
+                lights: FeatureLights::Directional(5),
                 viewer: Viewer::Infinite,
                 ..it
             },
@@ -170,7 +174,7 @@ impl Feature {
             Self { name: "Phong reflectance", reflectance: Reflectance::Phong, ..it },
             Self {
                 name: "five directional lights, Phong reflectance",
-                lights: Lights::Directional(5),
+                lights: FeatureLights::Directional(5),
                 reflectance: Reflectance::Phong,
                 ..it
             },
@@ -178,7 +182,7 @@ impl Feature {
             Self { name: "exponent 32.5", material: shiny(32.5), ..it },
             Self {
                 name: "five directional lights, exponent 33",
-                lights: Lights::Directional(5),
+                lights: FeatureLights::Directional(5),
                 material: shiny(33.0),
                 ..it
             },
@@ -198,19 +202,19 @@ impl Feature {
     }
 
     /// The plugin that shows it.
-    pub(crate) fn at(self, stage: Stage) -> FeatureScene {
+    pub(crate) fn at(self, stage: FeatureStage) -> FeatureScene {
         FeatureScene { feature: self, stage }
     }
 }
 
-/// A [`Feature`] where a [`Stage`] shows what it costs, as a plugin. Nothing moves, and all triangles are drawn: levels of
+/// A [`Feature`] where a [`FeatureStage`] shows what it costs, as a plugin. Nothing moves, and all triangles are drawn: levels of
 /// detail are off.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct FeatureScene {
     /// What is different.
     pub(crate) feature: Feature,
     /// Where it is evaluated.
-    pub(crate) stage: Stage,
+    pub(crate) stage: FeatureStage,
 }
 
 impl Plugin for FeatureScene {
@@ -252,11 +256,13 @@ impl Feature {
         let at = Transform::from_xyz(1.2 * cos, 1.2 * sin, 2.5).looking_at(Vec3::ZERO, Vec3::Y);
         let color = LinearRgba::rgb(0.05, 0.05, 0.05);
         match self.lights {
-            Lights::Directional(_) => commands.spawn((DirectionalLight::from_color(color), at)),
-            Lights::Points(_, attenuation, range) => {
+            FeatureLights::Directional(_) => commands.spawn((DirectionalLight::from_color(color), at)),
+            FeatureLights::Points(_, attenuation, range) => {
                 commands.spawn((PointLight { attenuation, range, ..PointLight::from_color(color) }, at))
             }
-            Lights::Spots(_, cone) => commands.spawn((SpotLight { light: PointLight::from_color(color), cone }, at)),
+            FeatureLights::Spots(_, cone) => {
+                commands.spawn((SpotLight { light: PointLight::from_color(color), cone }, at))
+            }
         };
     }
 }

@@ -18,7 +18,7 @@ pub(crate) mod features;
 use std::f32::consts::TAU;
 
 use halfway::prelude::*;
-use halfway_chart::timing::Look;
+use halfway_chart::timing::TimedLook;
 
 /// Which scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -46,7 +46,7 @@ pub(crate) struct Benchmark {
     /// The scene.
     pub(crate) scene: BenchmarkScene,
     /// Its look.
-    pub(crate) look: Look,
+    pub(crate) look: TimedLook,
     /// Spheres of S2 as octahedra, which leaves the work on 10,000 entities and takes that on their triangles away.
     pub(crate) octahedra: bool,
 }
@@ -108,7 +108,7 @@ fn circle(frame: Res<FrameNumber>, mut lights: Query<(&Circling, &mut Transform)
 struct Scenery<'a, 'w, 's> {
     commands: &'a mut Commands<'w, 's>,
     meshes: &'a mut Assets<Mesh>,
-    look: Look,
+    look: TimedLook,
 }
 
 impl Scenery<'_, '_, '_> {

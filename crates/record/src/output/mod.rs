@@ -30,6 +30,7 @@ pub use contact_sheet::ContactSheet;
 pub use encode::to_bytes;
 pub use error::OutputError;
 pub use format::PictureFormat;
+pub use partial::write_text;
 pub use picture::write_picture;
 
 #[cfg(test)]

@@ -1,11 +1,23 @@
 //! A file that appears in its place only when it is complete.
 
 use std::fs::{self, File};
-use std::io::{self, BufWriter};
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use super::OutputError;
+
+/// Writes a text to a file, complete or not at all. Folders on the way that are missing are made.
+///
+/// # Errors
+/// What keeps the file from being written; what was there before is then still there.
+pub fn write_text(file: &Path, text: &str) -> Result<(), OutputError> {
+    let (partial, mut writer) = Partial::create(file)?;
+    writer.write_all(text.as_bytes()).and_then(|()| writer.flush()).map_err(|source| OutputError::io(file, source))?;
+    // Closed before it is moved.
+    drop(writer);
+    partial.keep()
+}
 
 /// A file on its way. Dropped before [`Partial::keep`], it is removed.
 #[derive(Debug)]

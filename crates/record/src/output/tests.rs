@@ -285,3 +285,19 @@ fn frames_are_made_smaller_as_light() {
         assert!(grey.abs_diff(expected) <= 1, "{encoding:?}: {grey}; 1 for the weights' rounding");
     }
 }
+
+#[test]
+fn texts_are_complete_or_not_there() {
+    let folder = std::env::temp_dir().join(format!("halfway-write-text-{}", std::process::id()));
+    let file = folder.join("new/page.html");
+    write_text(&file, "one").unwrap();
+    write_text(&file, "two").unwrap();
+    assert_eq!(std::fs::read_to_string(&file).unwrap(), "two");
+    // A folder stands where the file should be.
+    let taken = folder.join("new");
+    let problem = write_text(&taken, "three").unwrap_err().to_string();
+    assert!(problem.starts_with(&taken.display().to_string()), "{problem}");
+    let left: Vec<_> = std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    assert_eq!(left, ["new"]);
+    std::fs::remove_dir_all(&folder).unwrap();
+}

@@ -2,7 +2,7 @@
 
 use halfway::prelude::LevelsOfDetail;
 
-use super::Plan;
+use super::ScalingPlan;
 
 /// What there is more and more of, in a scene that stays as it is otherwise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -79,7 +79,7 @@ impl Growth {
 
     /// The counts to measure at: the first, the powers of ten and the steps between them, the last. A mesh or a picture
     /// has about as many triangles or pixels.
-    pub fn steps(self, plan: Plan) -> Vec<f64> {
+    pub fn steps(self, plan: ScalingPlan) -> Vec<f64> {
         let per_decade = plan.per_decade.max(1);
         let (start, end) = (self.start(), self.end() / 10f64.powf(f64::from(plan.decades_less)));
         let first = (start.log10() * f64::from(per_decade)).floor() as i32;
@@ -99,12 +99,12 @@ mod tests {
 
     #[test]
     fn steps_hold_both_ends_and_every_power_of_ten() {
-        let plan = Plan { per_decade: 2, decades_less: 0, ..crate::Plan::QUICK.scaling };
+        let plan = ScalingPlan { per_decade: 2, decades_less: 0, ..crate::ReportPlan::QUICK.scaling };
         assert_eq!(Growth::LightsOnOne.steps(plan), [1.0, 3.0, 10.0, 32.0, 100.0, 256.0]);
         assert_eq!(Growth::Triangles.steps(plan), [1e3, 3162.0, 1e4, 31623.0, 1e5, 316_228.0, 1e6]);
         let pixels = Growth::Pixels.steps(plan);
         assert_eq!((pixels[0], pixels[1], pixels[pixels.len() - 1]), (4096.0, 1e4, PIXELS));
-        let plan = Plan { per_decade: 1, decades_less: 1, ..plan };
+        let plan = ScalingPlan { per_decade: 1, decades_less: 1, ..plan };
         assert_eq!(Growth::Objects.steps(plan), [10.0, 100.0, 1e3, 1e4]);
         assert_eq!(Growth::LightsOnOne.steps(plan), [1.0, 10.0, 26.0]);
     }

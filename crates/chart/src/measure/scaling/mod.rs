@@ -7,23 +7,27 @@ mod slopes;
 use halfway::prelude::*;
 use halfway::render::Gpu;
 
-use super::{MeasureError, Progress};
-use crate::timing::{Look, Machine, Spread, in_turns, settle};
-use scenery::Scenery;
+use super::{MeasureError, MeasureProgress};
+use crate::timing::{Machine, Spread, TimedLook, in_turns, settle};
+use scenery::ScalingScene;
 
 pub use growth::Growth;
 pub use slopes::{Decade, Law};
 
 /// How objects look: in one constant colour, and under each shading, the cheapest first.
-pub const LOOKS: [Look; 4] =
-    [Look::Constant, Look::Shaded(Shading::Flat), Look::Shaded(Shading::Gouraud), Look::Shaded(Shading::Phong)];
+pub const LOOKS: [TimedLook; 4] = [
+    TimedLook::Constant,
+    TimedLook::Shaded(Shading::Flat),
+    TimedLook::Shaded(Shading::Gouraud),
+    TimedLook::Shaded(Shading::Phong),
+];
 
 /// The fewest rounds that a median is taken of, however long a frame takes: one that is disturbed then leaves it alone.
 const LEAST: u32 = 3;
 
 /// How much is measured.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Plan {
+pub struct ScalingPlan {
     /// Width and height of the pictures in pixels, where it is not pixels that grow.
     pub size: u32,
     /// How many steps lead from 10ᵏ to 10ᵏ⁺¹.
@@ -42,7 +46,7 @@ pub struct Plan {
 
 /// One point of a curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sample {
+pub struct TimedSample {
     /// How many triangles, objects, lights or pixels there are.
     pub count: f64,
     /// Times of a frame in milliseconds.
@@ -55,10 +59,10 @@ pub struct Curve {
     /// What is counted.
     pub growth: Growth,
     /// How it looks.
-    pub look: Look,
+    pub look: TimedLook,
     /// From few to many.
-    pub samples: Vec<Sample>,
-    /// Whether it was ended because a frame would have taken too long ([`Plan::limit_ms`]).
+    pub samples: Vec<TimedSample>,
+    /// Whether it was ended because a frame would have taken too long ([`ScalingPlan::limit_ms`]).
     pub is_cut: bool,
 }
 
@@ -75,8 +79,8 @@ impl Curve {
     }
 }
 
-impl Plan {
-    /// The units of [`Progress`] that [`sweep`] will report.
+impl ScalingPlan {
+    /// The units of [`MeasureProgress`] that [`sweep`] will report.
     pub fn units(self) -> u64 {
         Growth::ALL.iter().map(|growth| growth.steps(self).len() as u64).sum()
     }
@@ -87,9 +91,9 @@ impl Plan {
 ///
 /// # Errors
 /// The first frame that could not be drawn.
-pub fn sweep(plan: Plan, progress: &mut Progress<'_>) -> Result<(Vec<Curve>, Machine), MeasureError> {
+pub fn sweep(plan: ScalingPlan, progress: &mut MeasureProgress<'_>) -> Result<(Vec<Curve>, Machine), MeasureError> {
     let gpu = Gpu::open_headless()?;
-    let mut sceneries = LOOKS.map(|look| Scenery::new(look, &gpu));
+    let mut sceneries = LOOKS.map(|look| ScalingScene::new(look, &gpu));
     let mut all = Vec::new();
     for growth in Growth::ALL {
         let mut curves = LOOKS.map(|look| Curve { growth, look, samples: Vec::new(), is_cut: false });
@@ -106,9 +110,9 @@ pub fn sweep(plan: Plan, progress: &mut Progress<'_>) -> Result<(Vec<Curve>, Mac
 /// Takes one step on every curve that is not cut.
 fn extend(
     curves: &mut [Curve; LOOKS.len()],
-    sceneries: &mut [Scenery; LOOKS.len()],
+    sceneries: &mut [ScalingScene; LOOKS.len()],
     step: f64,
-    plan: Plan,
+    plan: ScalingPlan,
 ) -> Result<(), MeasureError> {
     let mut going_on = Vec::new();
     let mut apps = Vec::new();
@@ -129,12 +133,12 @@ fn extend(
     let more = in_turns(&mut apps, rounds.max(LEAST - 1).min(plan.rounds.saturating_sub(1)))?;
     for (((curve, count), own), more) in going_on.into_iter().zip(&mut times).zip(more) {
         own.extend(more);
-        curve.samples.push(Sample { count, frame_ms: Spread::of(own) });
+        curve.samples.push(TimedSample { count, frame_ms: Spread::of(own) });
     }
     Ok(())
 }
 
 /// What a frame takes at a later step if its time grows in proportion.
-fn expected(last: &Sample, step: f64) -> f64 {
+fn expected(last: &TimedSample, step: f64) -> f64 {
     last.frame_ms.median * step / last.count
 }

@@ -7,12 +7,12 @@ use halfway::render::Gpu;
 
 use super::Growth;
 use super::growth::PIXELS;
-use crate::timing::Look;
+use crate::timing::TimedLook;
 
 /// An App that shows one scene after another in the same look.
-pub(super) struct Scenery {
+pub(super) struct ScalingScene {
     app: App,
-    look: Look,
+    look: TimedLook,
 }
 
 /// Marks what goes when the next scene comes.
@@ -40,9 +40,9 @@ const GROUND: u32 = 100;
 /// Width of its tiles.
 const TILE: u32 = 5;
 
-impl Scenery {
+impl ScalingScene {
     /// Without a scene, drawing on `gpu`, which others may share.
-    pub(super) fn new(look: Look, gpu: &Gpu) -> Self {
+    pub(super) fn new(look: TimedLook, gpu: &Gpu) -> Self {
         let mut app = App::new();
         app.insert_resource(gpu.clone())
             .insert_resource(GlobalAmbient(LinearRgba::rgb(0.1, 0.1, 0.1)))
