@@ -3,6 +3,8 @@
 use bevy_color::LinearRgba;
 use thiserror::Error;
 
+use crate::field::Range;
+
 /// The largest value that a colour channel may have: 10¹².
 ///
 /// A reflectance (10¹²) times a light (10¹²) times the largest attenuation (10⁶, see
@@ -67,11 +69,6 @@ pub enum Problem {
     },
 }
 
-const NON_NEGATIVE: &str = "a finite number, 0 or more";
-const POSITIVE: &str = "a finite number above 0";
-const UNIT_INTERVAL: &str = "a number from 0 to 1";
-const CHANNEL: &str = "a number from 0 to 1e12";
-
 /// The fields of one value under validation: names the owner and the path in every error.
 #[derive(Clone, Copy, Debug)]
 pub struct Fields {
@@ -88,6 +85,7 @@ impl Fields {
     }
 
     /// The fields of an inner struct; `prefix` is the path to it with its dot.
+    #[must_use]
     pub const fn inside(self, prefix: &'static str) -> Self {
         Self { prefix, ..self }
     }
@@ -105,12 +103,20 @@ impl Fields {
         if holds { Ok(()) } else { Err(self.error(field, Problem::Number { value, expected })) }
     }
 
+    /// Expects a number in `range`.
+    ///
+    /// # Errors
+    /// It is outside.
+    pub fn within(self, field: &str, value: f32, range: Range) -> Result<(), InvalidValue> {
+        self.number(field, value, range.contains(value), range.expected())
+    }
+
     /// Expects a finite number, 0 or more.
     ///
     /// # Errors
     /// The value is not so.
     pub fn non_negative(self, field: &str, value: f32) -> Result<(), InvalidValue> {
-        self.number(field, value, value >= 0.0 && value.is_finite(), NON_NEGATIVE)
+        self.within(field, value, Range::NonNegative)
     }
 
     /// Expects a finite number above 0.
@@ -118,7 +124,7 @@ impl Fields {
     /// # Errors
     /// The value is not so.
     pub fn positive(self, field: &str, value: f32) -> Result<(), InvalidValue> {
-        self.number(field, value, value > 0.0 && value.is_finite(), POSITIVE)
+        self.within(field, value, Range::Positive)
     }
 
     /// Expects a number from 0 to 1.
@@ -126,7 +132,7 @@ impl Fields {
     /// # Errors
     /// The value is not so.
     pub fn unit_interval(self, field: &str, value: f32) -> Result<(), InvalidValue> {
-        self.number(field, value, (0.0..=1.0).contains(&value), UNIT_INTERVAL)
+        self.within(field, value, Range::Unit)
     }
 
     /// Expects three channels of a color, each 0 to [`CHANNEL_MAX`].
@@ -135,8 +141,8 @@ impl Fields {
     /// The value is not so.
     pub fn channels(self, field: &str, rgb: [f32; 3]) -> Result<(), InvalidValue> {
         for (name, value) in ["red", "green", "blue"].into_iter().zip(rgb) {
-            if !(0.0..=CHANNEL_MAX).contains(&value) {
-                return Err(self.error(&format!("{field}.{name}"), Problem::Number { value, expected: CHANNEL }));
+            if !Range::Channel.contains(value) {
+                self.within(&format!("{field}.{name}"), value, Range::Channel)?;
             }
         }
         Ok(())

@@ -53,6 +53,7 @@
 pub mod bounds;
 mod camera;
 pub mod equations;
+mod field;
 pub mod homogeneous;
 mod invalid;
 mod light;
@@ -66,6 +67,7 @@ mod shading;
 mod visibility;
 
 pub use camera::{Camera, Encoding, Intensity, Samples};
+pub use field::{Described, Field, FieldNumbers, FieldPlace, Range};
 pub use invalid::{CHANNEL_MAX, Fields, InvalidValue, Problem};
 pub use light::{Attenuation, Cone, DirectionalLight, GlobalAmbient, PointLight, SpotLight};
 pub use matched::matched_shininess;

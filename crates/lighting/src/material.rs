@@ -6,6 +6,7 @@ use bevy_ecs::reflect::ReflectComponent;
 use bevy_reflect::Reflect;
 use bevy_reflect::std_traits::ReflectDefault;
 
+use crate::field::{Described, Field, Range};
 use crate::invalid::{Fields, InvalidValue};
 
 /// The classic material: how much of each kind of light a surface gives back.
@@ -70,13 +71,25 @@ impl Material {
     }
 
     fn validate_as(&self, fields: Fields) -> Result<(), InvalidValue> {
-        fields.color("ambient", self.ambient)?;
-        fields.color("diffuse", self.diffuse)?;
-        fields.color("specular", self.specular)?;
-        fields.color("emission", self.emission)?;
-        fields.non_negative("shininess", self.shininess)?;
-        fields.unit_interval("opacity", self.opacity)
+        Self::FIELDS.iter().try_for_each(|field| field.validate(self, fields))
     }
+}
+
+impl Described for Material {
+    const FIELDS: &'static [Field<Self>] = &[
+        Field::color("ambient", "ka, linear RGB: reflects ambient light. Normally at most 1.", |it| &mut it.ambient),
+        Field::color("diffuse", "kd, linear RGB: reflects light evenly to all sides. Normally at most 1.", |it| {
+            &mut it.diffuse
+        }),
+        Field::color("specular", "ks, linear RGB: reflects light into the highlight. Normally at most 1.", |it| {
+            &mut it.specular
+        }),
+        Field::color("emission", "ke, linear RGB: shines by itself, unaffected by lights.", |it| &mut it.emission),
+        Field::number("shininess", Range::NonNegative, "The exponent of the highlight.", |it| &mut it.shininess),
+        Field::number("opacity", Range::Unit, "0 is clear, 1 opaque; seen only where the object is blended.", |it| {
+            &mut it.opacity
+        }),
+    ];
 }
 
 impl Default for Material {

@@ -2,19 +2,19 @@
 
 use std::ops::RangeInclusive;
 
-use halfway_lighting::CHANNEL_MAX;
+use halfway_lighting::Range;
 
 /// A value that does not hold: its path inside the scene, and what was expected there.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Problem {
+pub(crate) struct KeyProblem {
     pub(crate) key: String,
     pub(crate) message: String,
 }
 
 /// The result of a check.
-pub(crate) type Check = Result<(), Problem>;
+pub(crate) type Check = Result<(), KeyProblem>;
 
-impl Problem {
+impl KeyProblem {
     pub(crate) fn new(key: impl Into<String>, message: impl Into<String>) -> Self {
         Self { key: key.into(), message: message.into() }
     }
@@ -28,11 +28,11 @@ pub(crate) trait Within {
     fn within_item(self, parent: &str, index: usize) -> Self;
 }
 
-impl<T> Within for Result<T, Problem> {
+impl<T> Within for Result<T, KeyProblem> {
     fn within(self, parent: &str) -> Self {
-        self.map_err(|Problem { key, message }| {
+        self.map_err(|KeyProblem { key, message }| {
             let joint = if key.is_empty() || key.starts_with('[') { "" } else { "." };
-            Problem { key: format!("{parent}{joint}{key}"), message }
+            KeyProblem { key: format!("{parent}{joint}{key}"), message }
         })
     }
 
@@ -47,26 +47,21 @@ pub(crate) fn finite(key: &str, values: &[f32]) -> Check {
     each(key, values, f32::is_finite, "a finite number of at most 3.4e38")
 }
 
-/// A colour: every channel 0 to [`CHANNEL_MAX`].
-pub(crate) fn colour(key: &str, rgb: &[f32; 3]) -> Check {
-    each(key, rgb, |v| (0.0..=CHANNEL_MAX).contains(&v), "a number from 0 to 1e12")
+/// A color: every channel in its range.
+pub(crate) fn color(key: &str, rgb: &[f32; 3]) -> Check {
+    each(key, rgb, |v| Range::Channel.contains(v), Range::Channel.expected())
 }
 
-/// Finite, and 0 or more.
-pub(crate) fn not_negative(key: &str, value: f32) -> Check {
-    test(key, value, value.is_finite() && value >= 0.0, "a finite number, 0 or more")
-}
-
-/// Finite, and more than 0.
-pub(crate) fn positive(key: &str, value: f32) -> Check {
-    test(key, value, value.is_finite() && value > 0.0, "a finite number above 0")
+/// A number in a range.
+pub(crate) fn in_range(key: &str, value: f32, range: Range) -> Check {
+    test(key, value, range.contains(value), range.expected())
 }
 
 /// A vector that has a direction: finite, not zero.
 pub(crate) fn direction(key: &str, v: &[f32; 3]) -> Check {
     finite(key, v)?;
     if v.iter().all(|&c| c == 0.0) {
-        return Err(Problem::new(key, "is [0, 0, 0]; expected a direction, of any length above 0"));
+        return Err(KeyProblem::new(key, "is [0, 0, 0]; expected a direction, of any length above 0"));
     }
     Ok(())
 }
@@ -77,12 +72,12 @@ pub(crate) fn count(key: &str, value: u32, limits: RangeInclusive<u32>) -> Check
         return Ok(());
     }
     let (least, most) = (limits.start(), limits.end());
-    Err(Problem::new(key, format!("is {value}; expected {least} to {most}")))
+    Err(KeyProblem::new(key, format!("is {value}; expected {least} to {most}")))
 }
 
 /// `value` if `holds`, else what was expected instead.
 pub(crate) fn test(key: &str, value: f32, holds: bool, expected: &str) -> Check {
-    if holds { Ok(()) } else { Err(Problem::new(key, format!("is {value}; expected {expected}"))) }
+    if holds { Ok(()) } else { Err(KeyProblem::new(key, format!("is {value}; expected {expected}"))) }
 }
 
 fn each(key: &str, values: &[f32], holds: impl Fn(f32) -> bool, expected: &str) -> Check {

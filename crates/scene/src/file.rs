@@ -5,17 +5,20 @@ use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
+use bevy_color::ColorToComponents;
+use halfway_lighting::{Camera, GlobalAmbient};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::check::{Check, Problem, Within, colour, count};
+use crate::check::{Check, KeyProblem, Within, color, count};
+use crate::error::SceneError;
+use crate::json;
 use crate::light::{AttachEntry, LightEntry};
 use crate::locate::{line_and_column, place_of};
 use crate::mesh::MeshEntry;
 use crate::object::ObjectEntry;
-use crate::read::{Given, Object, object_or_null, objects, objects_or_null, word};
+use crate::read::{Given, JsonObject, object_or_null, objects, objects_or_null, word};
 use crate::view::{CameraEntry, IntensityEntry, OutputEntry, ReflectanceEntry, ShadingEntry, ViewerEntry};
-use crate::{SceneError, json};
 
 /// A scene as it stands in a scene file. Every key may be left out; the defaults are [`SceneFile::default`].
 ///
@@ -77,11 +80,11 @@ impl Default for SceneFile {
         Self {
             schema_version: Self::VERSION,
             size: [1280, 720],
-            background: [0.0; 3],
+            background: Camera::default().background.to_f32_array_no_alpha(),
             output: OutputEntry::default(),
             intensity: IntensityEntry::default(),
             samples: 1,
-            ambient: [0.1; 3],
+            ambient: GlobalAmbient::default().0.to_f32_array_no_alpha(),
             viewer: ViewerEntry::default(),
             shading: ShadingEntry::default(),
             reflectance: ReflectanceEntry::default(),
@@ -92,7 +95,7 @@ impl Default for SceneFile {
     }
 }
 
-impl Object for SceneFile {
+impl JsonObject for SceneFile {
     const EXPECTED: &'static str = "an object with the keys of a scene";
 }
 
@@ -106,7 +109,7 @@ impl SceneFile {
 
     /// Reads a scene file.
     ///
-    /// Paths in it stay as they are written: relative to the folder of the file, which [`spawn()`](super::spawn()) is told.
+    /// Paths in it stay as they are written: relative to the folder of the file, which [`spawn()`](fn@crate::spawn) is told.
     ///
     /// # Errors
     /// [`SceneError::Read`], [`SceneError::TooLarge`] and [`SceneError::NotUtf8`] for a file that is no text, and as
@@ -135,7 +138,7 @@ impl SceneFile {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let Given(scene): Given<Self> =
             serde_json::from_str(text).map_err(|error| json::located(&error, text, origin))?;
-        scene.check().map_err(|Problem { key, message }| {
+        scene.check().map_err(|KeyProblem { key, message }| {
             let (line, column) = line_and_column(text, place_of(text, &key).value);
             SceneError::Text { origin: origin.to_owned(), line, column, key, message }
         })?;
@@ -162,7 +165,7 @@ impl SceneFile {
 
     /// A scene of one model file, framed by the camera and lit by its own lights or by the default ones.
     ///
-    /// `path` is taken as it is; it is relative to the folder that [`spawn()`](super::spawn()) is told.
+    /// `path` is taken as it is; it is relative to the folder that [`spawn()`](fn@crate::spawn) is told.
     pub fn for_model(path: impl Into<PathBuf>) -> Self {
         let model = ObjectEntry::new(MeshEntry::Path(path.into()));
         Self { objects: vec![model], ..Self::default() }
@@ -173,23 +176,23 @@ impl SceneFile {
     /// # Errors
     /// [`SceneError::Value`] for the first that is not, with its path.
     pub fn validate(&self) -> Result<(), SceneError> {
-        self.check().map_err(|Problem { key, message }| SceneError::Value { key, message })
+        self.check().map_err(|KeyProblem { key, message }| SceneError::Value { key, message })
     }
 
     fn check(&self) -> Check {
         if self.schema_version != Self::VERSION {
             let message = format!("is {}; this version reads {} only", self.schema_version, Self::VERSION);
-            return Err(Problem::new("schema_version", message));
+            return Err(KeyProblem::new("schema_version", message));
         }
         for (i, &side) in self.size.iter().enumerate() {
             count("", side, 1..=Self::MAX_SIDE).within_item("size", i)?;
         }
-        colour("background", &self.background)?;
+        color("background", &self.background)?;
         self.intensity.check().within("intensity")?;
         if !matches!(self.samples, 1 | 4) {
-            return Err(Problem::new("samples", format!("is {}; expected 1 or 4", self.samples)));
+            return Err(KeyProblem::new("samples", format!("is {}; expected 1 or 4", self.samples)));
         }
-        colour("ambient", &self.ambient)?;
+        color("ambient", &self.ambient)?;
         self.shading.check().within("shading")?;
         self.camera.as_ref().map_or(Ok(()), CameraEntry::check).within("camera")?;
         for (i, object) in self.objects.iter().enumerate() {
@@ -204,13 +207,13 @@ impl SceneFile {
     }
 
     /// The names of the objects, all different.
-    fn names(&self) -> Result<HashSet<&str>, Problem> {
+    fn names(&self) -> Result<HashSet<&str>, KeyProblem> {
         let mut names = HashSet::new();
         for (i, object) in self.objects.iter().enumerate() {
             let Some(name) = object.name.as_deref() else { continue };
             if !names.insert(name) {
                 let message = format!("is {name:?}, as of an object before; expected a name of its own");
-                return Err(Problem::new("name", message)).within_item("objects", i);
+                return Err(KeyProblem::new("name", message)).within_item("objects", i);
             }
         }
         Ok(names)
@@ -220,7 +223,7 @@ impl SceneFile {
 fn check_attach(attach: &AttachEntry, names: &HashSet<&str>) -> Check {
     match attach {
         AttachEntry::Object(name) if !names.contains(name.as_str()) => {
-            Err(Problem::new("attach.object", format!("is {name:?}; no object of the scene has that name")))
+            Err(KeyProblem::new("attach.object", format!("is {name:?}; no object of the scene has that name")))
         }
         _ => Ok(()),
     }

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::SceneError;
+use crate::error::SceneError;
 use crate::locate::{byte_of, line_and_column, place_at, place_of};
 
 /// An error of the parser, with the path of the key it is about.

@@ -17,6 +17,7 @@
 mod check;
 mod defaults;
 mod error;
+mod fields;
 mod file;
 pub mod import;
 mod json;
@@ -40,7 +41,7 @@ pub use error::SceneError;
 pub use file::SceneFile;
 pub use light::{AttachEntry, ConeEntry, FalloffEntry, LightEntry, LightSource};
 pub use light_component::LightComponent;
-pub use material::{MaterialEntry, MaterialValues};
+pub use material::MaterialEntry;
 pub use mesh::{BoxEntry, InlineMesh, MeshEntry, NormalsEntry, PlaneEntry, TeapotEntry, UvSphereEntry};
 pub use object::{FacesEntry, ObjectEntry, TransformEntry, TransformMatrix, TransformParts};
 pub use schema::json_schema;

@@ -1,17 +1,18 @@
 //! The lights of a scene file.
 
-use halfway_lighting::CHANNEL_MAX;
-use schemars::JsonSchema;
-use serde::de::{Error, MapAccess};
-use serde::{Deserialize, Deserializer, Serialize};
+use bevy_color::{ColorToComponents, LinearRgba};
+use halfway_lighting::{Attenuation, CHANNEL_MAX, PointLight, Range};
+use schemars::{JsonSchema, Schema};
+use serde::de::MapAccess;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
-use crate::check::{Check, Problem, Within, colour, direction, finite, not_negative, positive, test};
-use crate::light_keys::LightKeys;
-use crate::read::{Object, Word};
+use crate::check::{Check, KeyProblem, Within, color, direction, finite, in_range, test};
+use crate::read::{JsonObject, Word};
 
 /// A light. In JSON, the keys of `source` (with its `kind`) stand beside the others.
 #[derive(Serialize, JsonSchema, Clone, Debug, PartialEq)]
-#[schemars(description = "A light.", transform = super::schema::each_light_with_its_keys)]
+#[schemars(description = "A light.", transform = each_light_with_its_keys)]
 pub struct LightEntry {
     /// The kind of light, with the keys that belong to it.
     #[serde(flatten)]
@@ -86,7 +87,9 @@ pub struct FalloffEntry {
 
 impl Default for FalloffEntry {
     fn default() -> Self {
-        Self { attenuation: [1.0, 0.09, 0.032], range: None, attenuate_ambient: false }
+        let PointLight { attenuation, range, attenuate_ambient, .. } = PointLight::default();
+        let Attenuation { constant, linear, quadratic } = attenuation;
+        Self { attenuation: [constant, linear, quadratic], range, attenuate_ambient }
     }
 }
 
@@ -96,7 +99,7 @@ pub struct ConeEntry {
     /// The way the light travels along the axis. Any length above 0.
     pub direction: [f32; 3],
     /// Degrees from the axis to the edge: 0 to 90, or 180 for no cone.
-    #[schemars(range(min = 0, max = 180))]
+    #[schemars(extend("anyOf" = [{"minimum": 0, "maximum": 90}, {"const": 180}]))]
     pub cutoff_deg: f32,
     /// Degrees from the axis to where the light begins to fade, 0 to `cutoff_deg`; null: a hard edge.
     #[schemars(range(min = 0, max = 180))]
@@ -145,7 +148,7 @@ impl Word for AttachEntry {
     }
 }
 
-impl Object for LightEntry {
+impl JsonObject for LightEntry {
     const EXPECTED: &'static str = "an object with the keys of a light";
 }
 
@@ -201,26 +204,28 @@ impl LightSource {
 impl LightEntry {
     /// A white light that adds no ambient light, in the world's frame.
     pub fn white(source: LightSource) -> Self {
-        Self { source, ambient: [0.0; 3], diffuse: [1.0; 3], specular: [1.0; 3], attach: AttachEntry::World }
+        let PointLight { ambient, diffuse, specular, .. } = PointLight::white();
+        let [ambient, diffuse, specular] = [ambient, diffuse, specular].map(LinearRgba::to_f32_array_no_alpha);
+        Self { source, ambient, diffuse, specular, attach: AttachEntry::World }
     }
 
     pub(crate) fn check(&self) -> Check {
         self.source.check()?;
-        colour("ambient", &self.ambient)?;
-        colour("diffuse", &self.diffuse)?;
-        colour("specular", &self.specular)
+        color("ambient", &self.ambient)?;
+        color("diffuse", &self.diffuse)?;
+        color("specular", &self.specular)
     }
 }
 
 impl FalloffEntry {
     fn check(&self) -> Check {
         for (i, &constant) in self.attenuation.iter().enumerate() {
-            not_negative("", constant).within_item("attenuation", i)?;
+            in_range("", constant, Range::NonNegative).within_item("attenuation", i)?;
         }
         if self.attenuation.iter().all(|&constant| constant == 0.0) {
-            return Err(Problem::new("attenuation", "is [0, 0, 0]; expected at least one number above 0"));
+            return Err(KeyProblem::new("attenuation", "is [0, 0, 0]; expected at least one number above 0"));
         }
-        self.range.map_or(Ok(()), |range| positive("range", range))
+        self.range.map_or(Ok(()), |range| in_range("range", range, Range::Positive))
     }
 }
 
@@ -228,29 +233,44 @@ impl ConeEntry {
     fn check(&self) -> Check {
         let cutoff = self.cutoff_deg;
         direction("direction", &self.direction)?;
-        let in_range = self.is_none() || (0.0..=90.0).contains(&cutoff);
-        test("cutoff_deg", cutoff, in_range, "degrees from 0 to 90, or 180 for no cone")?;
+        let holds = self.is_none() || (0.0..=90.0).contains(&cutoff);
+        test("cutoff_deg", cutoff, holds, "degrees from 0 to 90, or 180 for no cone")?;
         if let Some(inner) = self.inner_deg {
             let expected = format!("degrees from 0 to cutoff_deg, which is {cutoff}");
             test("inner_deg", inner, (0.0..=cutoff).contains(&inner), &expected)?;
         }
-        not_negative("exponent", self.exponent)
+        in_range("exponent", self.exponent, Range::NonNegative)
     }
 }
 
 fn homogeneous(key: &str, p: &[f32; 4]) -> Check {
     finite(key, p)?;
     if p.iter().all(|&c| c == 0.0) {
-        return Err(Problem::new(key, "is [0, 0, 0, 0]; expected a point (w not 0) or a direction (w = 0)"));
+        return Err(KeyProblem::new(key, "is [0, 0, 0, 0]; expected a point (w not 0) or a direction (w = 0)"));
     }
     if p[3] != 0.0 && p[..3].iter().any(|c| !(c / p[3]).is_finite()) {
-        return Err(Problem::new(key, format!("is {p:?}; expected xyz/w to be finite, or w = 0")));
+        return Err(KeyProblem::new(key, format!("is {p:?}; expected xyz/w to be finite, or w = 0")));
     }
     Ok(())
 }
 
-impl<'de> Deserialize<'de> for LightEntry {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        LightKeys::deserialize(deserializer)?.light().map_err(D::Error::custom)
+/// The schema of lights, made from the shared keys and those of each kind: every kind with all of its keys and no
+/// others, and with their defaults.
+fn each_light_with_its_keys(schema: &mut Schema) {
+    let Some(Value::Object(shared)) = schema.remove("properties") else { return };
+    schema.remove("required");
+    schema.remove("type");
+    let Some(Value::Array(kinds)) = schema.get_mut("oneOf") else { return };
+    let defaults = [LightSource::point(), LightSource::spot(), LightSource::directional(), LightSource::homogeneous()];
+    for (kind, source) in kinds.iter_mut().zip(defaults) {
+        let defaults = serde_json::to_value(LightEntry::white(source)).unwrap_or_default();
+        let Some(Value::Object(keys)) = kind.get_mut("properties") else { continue };
+        debug_assert_eq!(keys["kind"]["const"], defaults["kind"], "the kinds in the order of the enum");
+        keys.extend(shared.clone());
+        for (key, described) in keys.iter_mut().filter(|(key, _)| *key != "kind") {
+            described["default"] = defaults[key].clone();
+        }
+        kind["required"] = Value::from(vec!["kind"]);
+        kind["additionalProperties"] = Value::from(false);
     }
 }

@@ -6,6 +6,7 @@
 use std::fmt;
 
 use serde::Deserialize;
+use serde::de::Error;
 
 use crate::light::{AttachEntry, ConeEntry, FalloffEntry, LightEntry, LightSource};
 use crate::read::{Word, given, word};
@@ -187,5 +188,11 @@ fn white() -> [f32; 3] {
 impl<'de> Deserialize<'de> for Position {
     fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         Vec::deserialize(deserializer).map(Self)
+    }
+}
+
+impl<'de> Deserialize<'de> for LightEntry {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        LightKeys::deserialize(deserializer)?.light().map_err(D::Error::custom)
     }
 }

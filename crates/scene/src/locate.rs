@@ -6,7 +6,7 @@
 
 /// A place in a JSON text.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub(crate) struct Place {
+pub(crate) struct KeyPlace {
     /// The path of the value, such as `lights[2].attenuation`; empty for the outermost value.
     pub(crate) key: String,
     /// The byte where the value begins.
@@ -17,7 +17,7 @@ pub(crate) struct Place {
 
 /// The value that a parser was reading when it had consumed the first `consumed` bytes, and the last
 /// key read inside that value, if it is an object.
-pub(crate) fn place_at(text: &str, consumed: usize) -> (Place, Option<Place>) {
+pub(crate) fn place_at(text: &str, consumed: usize) -> (KeyPlace, Option<KeyPlace>) {
     let mut walk = Walk::new(text, consumed, |_| false);
     walk.value(0, 0);
     match walk.closed {
@@ -27,9 +27,9 @@ pub(crate) fn place_at(text: &str, consumed: usize) -> (Place, Option<Place>) {
 }
 
 /// The place of the value at the path `key`, or of the innermost value around it that the text has.
-pub(crate) fn place_of(text: &str, key: &str) -> Place {
-    let mut best = Place::default();
-    let mut walk = Walk::new(text, text.len(), |place: &Place| {
+pub(crate) fn place_of(text: &str, key: &str) -> KeyPlace {
+    let mut best = KeyPlace::default();
+    let mut walk = Walk::new(text, text.len(), |place: &KeyPlace| {
         if encloses(&place.key, key) {
             best = place.clone();
         }
@@ -73,14 +73,14 @@ struct Walk<'t, F> {
     end: usize,
     path: String,
     /// The values begun and not ended, each with the last key read in it.
-    open: Vec<(Place, Option<Place>)>,
+    open: Vec<(KeyPlace, Option<KeyPlace>)>,
     /// The value ended last, and where.
-    closed: Option<(Place, usize)>,
+    closed: Option<(KeyPlace, usize)>,
     /// Called at the start of every value; true ends the walk.
     found: F,
 }
 
-impl<'t, F: FnMut(&Place) -> bool> Walk<'t, F> {
+impl<'t, F: FnMut(&KeyPlace) -> bool> Walk<'t, F> {
     fn new(text: &'t str, end: usize, found: F) -> Self {
         let bytes = text.as_bytes();
         let end = end.min(bytes.len());
@@ -91,7 +91,7 @@ impl<'t, F: FnMut(&Place) -> bool> Walk<'t, F> {
     fn value(&mut self, name: usize, depth: usize) -> Option<()> {
         self.skip_space();
         let name = if depth == 0 || self.path.ends_with(']') { self.at } else { name };
-        let place = Place { key: self.path.clone(), value: self.at, name };
+        let place = KeyPlace { key: self.path.clone(), value: self.at, name };
         let stop = (self.found)(&place);
         self.open.push((place, None));
         if stop || depth > MAX_DEPTH {
@@ -132,7 +132,7 @@ impl<'t, F: FnMut(&Place) -> bool> Walk<'t, F> {
         // A key with escapes stays as it is written: it is only compared with names that have none.
         self.path.push_str(&String::from_utf8_lossy(&self.bytes[name + 1..self.at - 1]));
         if let Some((_, last)) = self.open.last_mut() {
-            *last = Some(Place { key: self.path.clone(), value: name, name });
+            *last = Some(KeyPlace { key: self.path.clone(), value: name, name });
         }
         self.skip_space();
         if self.peek()? != b':' {

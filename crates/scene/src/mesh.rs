@@ -9,8 +9,8 @@ use schemars::JsonSchema;
 use serde::de::{Deserializer, Error, MapAccess, Visitor};
 use serde::{Deserialize, Serialize};
 
-use crate::check::{Check, Problem, Within, finite};
-use crate::read::{Given, Object, Word, no_more};
+use crate::check::{Check, KeyProblem, Within, finite};
+use crate::read::{Given, JsonObject, Word, no_more};
 
 /// The shape of an object: an object with exactly one of these keys.
 #[derive(Serialize, JsonSchema, Clone, Debug, PartialEq)]
@@ -190,7 +190,7 @@ impl InlineMesh {
         multiple_of_three("positions", self.positions.len())?;
         multiple_of_three("indices", self.indices.len())?;
         if self.indices.is_empty() {
-            return Err(Problem::new("indices", "is empty; expected at least one triangle"));
+            return Err(KeyProblem::new("indices", "is empty; expected at least one triangle"));
         }
         finite("positions", &self.positions)?;
         for (key, values, each) in [("normals", &self.normals, 3), ("uvs", &self.uvs, 2)] {
@@ -198,14 +198,14 @@ impl InlineMesh {
             if values.len() != each * vertices {
                 let message =
                     format!("has {} numbers; expected {each} for each of the {vertices} vertices", values.len());
-                return Err(Problem::new(key, message));
+                return Err(KeyProblem::new(key, message));
             }
             finite(key, values)?;
         }
         let outside = self.indices.iter().position(|&index| index as usize >= vertices);
         outside.map_or(Ok(()), |i| {
             let message = format!("is {}; expected less than {vertices}, the number of vertices", self.indices[i]);
-            Err(Problem::new("", message)).within_item("indices", i)
+            Err(KeyProblem::new("", message)).within_item("indices", i)
         })
     }
 
@@ -225,7 +225,7 @@ impl InlineMesh {
 fn check_path(path: &Path) -> Check {
     match Format::of(path) {
         Some(_) => Ok(()),
-        None => Err(Problem::new("", format!("is {}; {KNOWN_MODELS}", path.display()))),
+        None => Err(KeyProblem::new("", format!("is {}; {KNOWN_MODELS}", path.display()))),
     }
 }
 
@@ -235,14 +235,14 @@ fn multiple_of_three(key: &str, length: usize) -> Check {
     if length.is_multiple_of(3) {
         return Ok(());
     }
-    Err(Problem::new(key, format!("has {length} numbers; expected a multiple of 3")))
+    Err(KeyProblem::new(key, format!("has {length} numbers; expected a multiple of 3")))
 }
 
 fn surface(result: Result<(), SurfaceError>) -> Check {
     result.map_err(|SurfaceError { field, value, expected, .. }| {
         // The axes of a box are elements of a list in the file.
         let key = field.replace(".x", "[0]").replace(".y", "[1]").replace(".z", "[2]");
-        Problem::new(key, format!("is {value}; {expected}"))
+        KeyProblem::new(key, format!("is {value}; {expected}"))
     })
 }
 
@@ -254,23 +254,23 @@ impl<'de> Deserialize<'de> for MeshEntry {
     }
 }
 
-impl Object for UvSphereEntry {
+impl JsonObject for UvSphereEntry {
     const EXPECTED: &'static str = "an object such as {\"radius\": 1}";
 }
 
-impl Object for PlaneEntry {
+impl JsonObject for PlaneEntry {
     const EXPECTED: &'static str = "an object such as {\"size\": 2}";
 }
 
-impl Object for BoxEntry {
+impl JsonObject for BoxEntry {
     const EXPECTED: &'static str = "an object such as {\"size\": [1, 1, 1]}";
 }
 
-impl Object for TeapotEntry {
+impl JsonObject for TeapotEntry {
     const EXPECTED: &'static str = "an object such as {\"divisions\": 8}";
 }
 
-impl Object for InlineMesh {
+impl JsonObject for InlineMesh {
     const EXPECTED: &'static str = "an object with positions and indices";
 }
 

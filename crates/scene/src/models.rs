@@ -8,14 +8,14 @@ use bevy_math::Mat4;
 use bevy_transform::components::Transform;
 use halfway_mesh::{Cuboid, Mesh, Model, NormalReport, Normals, Plane, SourceLight, SourceMaterial, Teapot, UvSphere};
 
-use crate::SceneError;
+use crate::error::SceneError;
 use crate::import::{ModelMaterial, model_light};
 use crate::light_component::LightComponent;
 use crate::mesh::{MeshEntry, NormalsEntry};
 use crate::object::ObjectEntry;
 
 /// What an object shows.
-pub(crate) struct Shape {
+pub(crate) struct ObjectShape {
     pub(crate) parts: Vec<ShapePart>,
     pub(crate) lights: Vec<ShapeLight>,
 }
@@ -39,7 +39,7 @@ pub(crate) struct ShapeLight {
 /// The shapes of a scene, each loaded once however often it is used.
 pub(crate) struct Shapes<'a> {
     base_dir: &'a Path,
-    loaded: HashMap<(String, NormalsEntry), Rc<Shape>>,
+    loaded: HashMap<(String, NormalsEntry), Rc<ObjectShape>>,
     pub(crate) warnings: Vec<String>,
 }
 
@@ -49,7 +49,7 @@ impl<'a> Shapes<'a> {
     }
 
     /// The shape of object `index`.
-    pub(crate) fn of(&mut self, object: &ObjectEntry, index: usize) -> Result<Rc<Shape>, SceneError> {
+    pub(crate) fn of(&mut self, object: &ObjectEntry, index: usize) -> Result<Rc<ObjectShape>, SceneError> {
         let key = match &object.mesh {
             // Written out for one object; comparing it with others would cost more than it saves.
             MeshEntry::Inline(_) => None,
@@ -69,7 +69,7 @@ impl<'a> Shapes<'a> {
     }
 
     /// An MTL file gives an opacity but cannot ask for blending.
-    fn warn_of_opacity(&mut self, object: &ObjectEntry, shape: &Shape, index: usize) {
+    fn warn_of_opacity(&mut self, object: &ObjectEntry, shape: &ObjectShape, index: usize) {
         if object.material.is_some() || object.blend.is_some() {
             return;
         }
@@ -82,7 +82,7 @@ impl<'a> Shapes<'a> {
         }
     }
 
-    fn load(&mut self, object: &ObjectEntry, index: usize) -> Result<Shape, SceneError> {
+    fn load(&mut self, object: &ObjectEntry, index: usize) -> Result<ObjectShape, SceneError> {
         let mesh = match &object.mesh {
             MeshEntry::Path(path) => {
                 let path = self.base_dir.join(path);
@@ -101,10 +101,10 @@ impl<'a> Shapes<'a> {
         let (mesh, report) = mesh.with_normals(object.normals.into());
         self.warn_of_normals(&format!("objects[{index}]"), report);
         let part = ShapePart { name: String::new(), mesh, object_from_part: Mat4::IDENTITY, own: None };
-        Ok(Shape { parts: vec![part], lights: Vec::new() })
+        Ok(ObjectShape { parts: vec![part], lights: Vec::new() })
     }
 
-    fn model(&mut self, model: Model, path: &Path, normals: Normals, index: usize) -> Result<Shape, SceneError> {
+    fn model(&mut self, model: Model, path: &Path, normals: Normals, index: usize) -> Result<ObjectShape, SceneError> {
         let file = path.display();
         self.warnings.extend(model.warnings.iter().map(|warning| format!("{file}: {warning}")));
         let with_colors = model.parts.iter().filter(|part| part.mesh.colors().is_some()).count();
@@ -136,7 +136,7 @@ impl<'a> Shapes<'a> {
                 own: part.material.and_then(|material| materials.get(material).copied()),
             });
         }
-        Ok(Shape { parts, lights })
+        Ok(ObjectShape { parts, lights })
     }
 
     fn material(&mut self, source: &SourceMaterial, at: String, index: usize) -> Result<ModelMaterial, SceneError> {

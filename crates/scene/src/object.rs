@@ -6,10 +6,10 @@ use schemars::JsonSchema;
 use serde::de::{Deserializer, Error};
 use serde::{Deserialize, Serialize};
 
-use crate::check::{Check, Problem, Within, finite};
+use crate::check::{Check, KeyProblem, Within, finite};
 use crate::material::MaterialEntry;
 use crate::mesh::{MeshEntry, NormalsEntry};
-use crate::read::{Object, Word, given, given_word, object, word, word_or_null};
+use crate::read::{JsonObject, Word, given, given_word, object, word, word_or_null};
 use crate::view::{ReflectanceEntry, ShadingEntry};
 
 /// A mesh somewhere in the scene, with a material.
@@ -104,11 +104,11 @@ pub struct TransformMatrix {
     pub matrix: [f32; 16],
 }
 
-impl Object for ObjectEntry {
+impl JsonObject for ObjectEntry {
     const EXPECTED: &'static str = "an object with the keys of a scene's object";
 }
 
-impl Object for TransformEntry {
+impl JsonObject for TransformEntry {
     const EXPECTED: &'static str = "an object with translation, rotation and scale, or with matrix";
 }
 
@@ -180,7 +180,7 @@ impl TransformEntry {
                     return Ok(());
                 }
                 let message = format!("has the length {length:.3}; expected a quaternion [x, y, z, w] of length 1");
-                Err(Problem::new("rotation", message))
+                Err(KeyProblem::new("rotation", message))
             }
             Self::Matrix(TransformMatrix { matrix }) => {
                 finite("matrix", matrix)?;
@@ -188,7 +188,7 @@ impl TransformEntry {
                     #[allow(clippy::float_cmp, reason = "anything else is a projection, however small")]
                     if matrix[i] != expected {
                         let message = format!("is {}; expected {expected}: the last row is 0, 0, 0, 1", matrix[i]);
-                        return Err(Problem::new("", message)).within_item("matrix", i);
+                        return Err(KeyProblem::new("", message)).within_item("matrix", i);
                     }
                 }
                 Ok(())

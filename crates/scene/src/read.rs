@@ -12,7 +12,7 @@ use serde::de::value::{MapAccessDeserializer, StrDeserializer};
 use serde::de::{Deserialize, Deserializer, Error, IntoDeserializer, MapAccess, Unexpected, Visitor};
 
 /// A value that JSON has as an object.
-pub(crate) trait Object {
+pub(crate) trait JsonObject {
     /// Such an object in words; follows "expected".
     const EXPECTED: &'static str;
 }
@@ -34,7 +34,7 @@ pub(crate) trait Word: Sized {
 pub(crate) fn object<'de, D, T>(deserializer: D) -> Result<T, D::Error>
 where
     D: Deserializer<'de>,
-    T: Deserialize<'de> + Object,
+    T: Deserialize<'de> + JsonObject,
 {
     Given::deserialize(deserializer).map(|Given(object)| object)
 }
@@ -43,7 +43,7 @@ where
 pub(crate) fn object_or_null<'de, D, T>(deserializer: D) -> Result<Option<T>, D::Error>
 where
     D: Deserializer<'de>,
-    T: Deserialize<'de> + Object,
+    T: Deserialize<'de> + JsonObject,
 {
     Ok(Option::deserialize(deserializer)?.map(|Given(object)| object))
 }
@@ -52,7 +52,7 @@ where
 pub(crate) fn objects<'de, D, T>(deserializer: D) -> Result<Vec<T>, D::Error>
 where
     D: Deserializer<'de>,
-    T: Deserialize<'de> + Object,
+    T: Deserialize<'de> + JsonObject,
 {
     let objects: Vec<Given<T>> = Vec::deserialize(deserializer)?;
     Ok(objects.into_iter().map(|Given(object)| object).collect())
@@ -62,7 +62,7 @@ where
 pub(crate) fn objects_or_null<'de, D, T>(deserializer: D) -> Result<Option<Vec<T>>, D::Error>
 where
     D: Deserializer<'de>,
-    T: Deserialize<'de> + Object,
+    T: Deserialize<'de> + JsonObject,
 {
     let objects: Option<Vec<Given<T>>> = Option::deserialize(deserializer)?;
     Ok(objects.map(|objects| objects.into_iter().map(|Given(object)| object).collect()))
@@ -123,7 +123,7 @@ pub(crate) fn no_more<'de, A: MapAccess<'de>>(map: &mut A, expected: &str) -> Re
 /// A value that was given as an object.
 pub(crate) struct Given<T>(pub(crate) T);
 
-impl<'de, T: Deserialize<'de> + Object> Deserialize<'de> for Given<T> {
+impl<'de, T: Deserialize<'de> + JsonObject> Deserialize<'de> for Given<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_map(ObjectVisitor(PhantomData)).map(Self)
     }
@@ -131,7 +131,7 @@ impl<'de, T: Deserialize<'de> + Object> Deserialize<'de> for Given<T> {
 
 struct ObjectVisitor<T>(PhantomData<T>);
 
-impl<'de, T: Deserialize<'de> + Object> Visitor<'de> for ObjectVisitor<T> {
+impl<'de, T: Deserialize<'de> + JsonObject> Visitor<'de> for ObjectVisitor<T> {
     type Value = T;
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {

@@ -1,11 +1,9 @@
 //! The JSON schema of scene files, for editors and other tools.
 
-use schemars::Schema;
 use schemars::generate::SchemaSettings;
 use serde_json::Value;
 
-use crate::SceneFile;
-use crate::light::{LightEntry, LightSource};
+use crate::file::SceneFile;
 
 /// The JSON schema (draft 2020-12) of scene files, as indented text.
 ///
@@ -16,28 +14,7 @@ pub fn json_schema() -> String {
     let mut schema = generator.into_root_schema_for::<SceneFile>().to_value();
     tidy(&mut schema);
     // A value is always JSON.
-    super::json::pretty(&schema).unwrap_or_default()
-}
-
-/// The schema of lights, made from the shared keys and those of each kind: every kind with all of its keys and no
-/// others, and with their defaults.
-pub(crate) fn each_light_with_its_keys(schema: &mut Schema) {
-    let Some(Value::Object(shared)) = schema.remove("properties") else { return };
-    schema.remove("required");
-    schema.remove("type");
-    let Some(Value::Array(kinds)) = schema.get_mut("oneOf") else { return };
-    let defaults = [LightSource::point(), LightSource::spot(), LightSource::directional(), LightSource::homogeneous()];
-    for (kind, source) in kinds.iter_mut().zip(defaults) {
-        let defaults = serde_json::to_value(LightEntry::white(source)).unwrap_or_default();
-        let Some(Value::Object(keys)) = kind.get_mut("properties") else { continue };
-        debug_assert_eq!(keys["kind"]["const"], defaults["kind"], "the kinds in the order of the enum");
-        keys.extend(shared.clone());
-        for (key, described) in keys.iter_mut().filter(|(key, _)| *key != "kind") {
-            described["default"] = defaults[key].clone();
-        }
-        kind["required"] = Value::from(vec!["kind"]);
-        kind["additionalProperties"] = Value::from(false);
-    }
+    crate::json::pretty(&schema).unwrap_or_default()
 }
 
 /// Defaults are `f32`, of which 0.1 would show as 0.10000000149011612; and descriptions have the line ends of the source.

@@ -14,14 +14,14 @@ use halfway_lighting::{BackMaterial, Blend, Faces, GlobalAmbient, Reflectance, S
 use halfway_lighting::{Camera, Samples};
 use halfway_mesh::{Bounds, Mesh, Mesh3d};
 
-use crate::SceneError;
 use crate::defaults::{default_lights, framing_camera};
+use crate::error::SceneError;
 use crate::file::SceneFile;
 use crate::light::{AttachEntry, LightEntry};
 use crate::light_component::LightComponent;
 use crate::light_place::place;
-use crate::material::{MaterialEntry, MaterialValues};
-use crate::models::{Shape, ShapePart, Shapes};
+use crate::material::MaterialEntry;
+use crate::models::{ObjectShape, ShapePart, Shapes};
 use crate::object::ObjectEntry;
 use crate::placement::Placement;
 use crate::view::{CameraEntry, ShadingEntry};
@@ -82,7 +82,7 @@ pub fn spawn(scene: &SceneFile, base_dir: &Path, world: &mut World) -> Result<Sp
     Ok(Spawned { camera, objects: frames, lights, warnings: shapes.warnings })
 }
 
-type Object<'a> = (&'a ObjectEntry, Rc<Shape>);
+type Object<'a> = (&'a ObjectEntry, Rc<ObjectShape>);
 
 /// The handle of every mesh that has been added, by where its data is: meshes that share data share a handle. All of
 /// them outlive this map, in the shapes.
@@ -150,7 +150,13 @@ fn shading(entry: ShadingEntry) -> Shading {
 }
 
 /// Spawns an object and gives the entity of its frame.
-fn spawn_object(object: &ObjectEntry, index: usize, shape: &Shape, handles: &mut Handles, world: &mut World) -> Entity {
+fn spawn_object(
+    object: &ObjectEntry,
+    index: usize,
+    shape: &ObjectShape,
+    handles: &mut Handles,
+    world: &mut World,
+) -> Entity {
     let name = object.name.clone().unwrap_or_else(|| format!("objects[{index}]"));
     let frame = spawn_frame(&Placement::of(&object.transform.matrix()), None, &name, world);
     let single = matches!(shape.parts.as_slice(), [part] if part.object_from_part == Mat4::IDENTITY);
@@ -189,7 +195,7 @@ fn spawn_frame(placement: &Placement, parent: Option<Entity>, name: &str, world:
 fn dress(object: &ObjectEntry, part: &ShapePart, mesh: Handle<Mesh>, entity: &mut EntityWorldMut) {
     let own = if object.material.is_some() { None } else { part.own };
     let given = object.material.as_ref().and_then(MaterialEntry::material);
-    let material = given.or(own.map(|own| own.material)).unwrap_or_else(|| MaterialValues::default().into());
+    let material = given.or(own.map(|own| own.material)).unwrap_or_default();
     let faces = object.faces.map(Faces::from).or(own.map(|own| own.faces)).unwrap_or_default();
     entity.insert((Mesh3d(mesh), material, faces));
     if let Some(back) = object.back_material.as_ref().and_then(MaterialEntry::material) {

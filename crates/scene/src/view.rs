@@ -1,13 +1,12 @@
 //! The keys of a scene file that say how its picture is seen and written.
 
 use bevy_math::{DVec3, Vec3};
-use halfway_lighting::{Encoding, Intensity};
-use halfway_lighting::{Reflectance, Shading, Viewer};
+use halfway_lighting::{Camera, Encoding, Intensity, Range, Reflectance, Shading, Viewer};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::check::{Check, Problem, direction, finite, positive, test};
-use crate::read::{Given, Object, Word};
+use crate::check::{Check, KeyProblem, direction, finite, in_range, test};
+use crate::read::{Given, JsonObject, Word};
 use serde::de::MapAccess;
 
 /// `output`: what the channels of an 8- or 16-bit picture hold.
@@ -30,7 +29,8 @@ impl From<OutputEntry> for Encoding {
     }
 }
 
-/// `intensity`: what becomes of intensities above 1. This version draws `clamp`; the others are read and refused.
+/// `intensity`: what becomes of intensities above 1. This version draws `clamp`; the others are words that it knows and
+/// refuses, and are not in the schema.
 #[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 pub enum IntensityEntry {
@@ -38,10 +38,13 @@ pub enum IntensityEntry {
     #[default]
     Clamp,
     /// The whole picture divided by its largest intensity. Not yet.
+    #[schemars(skip)]
     Renormalise,
     /// I / (1 + I). Not yet.
+    #[schemars(skip)]
     Reinhard,
     /// The filmic curve of the Academy Color Encoding System. Not yet.
+    #[schemars(skip)]
     Aces,
 }
 
@@ -57,7 +60,7 @@ impl IntensityEntry {
     pub(crate) fn check(self) -> Check {
         match self.policy() {
             Some(_) => Ok(()),
-            None => Err(Problem::new("", "not yet: this version knows the intensity policy \"clamp\" only")),
+            None => Err(KeyProblem::new("", "not yet: this version knows the intensity policy \"clamp\" only")),
         }
     }
 }
@@ -93,16 +96,17 @@ pub enum ShadingEntry {
     /// At every fragment; normals are interpolated.
     #[default]
     Phong,
-    /// The cheapest of these whose error stays within a tolerance. This version reads it and refuses it.
+    /// The cheapest of these whose error stays within a tolerance. This version knows it, refuses it, and does not have it in
+    /// the schema.
+    #[schemars(skip)]
     Auto(AutoShading),
 }
 
 /// The value of `{"auto": …}`.
-#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq)]
+#[derive(Serialize, Deserialize, Clone, Copy, Debug, PartialEq)]
 #[serde(default, deny_unknown_fields)]
 pub struct AutoShading {
     /// The largest error, in steps of 1/255 of the output. Above 0.
-    #[schemars(extend("exclusiveMinimum" = 0))]
     pub tolerance: f32,
 }
 
@@ -112,7 +116,7 @@ impl Default for AutoShading {
     }
 }
 
-impl Object for AutoShading {
+impl JsonObject for AutoShading {
     const EXPECTED: &'static str = "an object such as {\"tolerance\": 1.0}";
 }
 
@@ -141,7 +145,7 @@ impl Word for ReflectanceEntry {
     const EXPECTED: &'static str = "\"phong\", \"blinn_phong\" or \"blinn_phong_matched\"";
 }
 
-impl Object for CameraEntry {
+impl JsonObject for CameraEntry {
     const EXPECTED: &'static str = "an object with the keys of a camera";
 }
 
@@ -160,8 +164,8 @@ impl ShadingEntry {
         match self {
             Self::Flat | Self::Gouraud | Self::Phong => Ok(()),
             Self::Auto(AutoShading { tolerance }) => {
-                positive("auto.tolerance", tolerance)?;
-                Err(Problem::new(
+                in_range("auto.tolerance", tolerance, Range::Positive)?;
+                Err(KeyProblem::new(
                     "auto",
                     "not yet: this version does not choose the shading by itself; \
                      expected \"flat\", \"gouraud\" or \"phong\"",
@@ -214,7 +218,13 @@ pub struct CameraEntry {
 
 impl Default for CameraEntry {
     fn default() -> Self {
-        Self { position: [0.0, 0.0, 3.0], target: [0.0; 3], up: [0.0, 1.0, 0.0], fov_y_deg: 45.0, near: 0.1 }
+        Self {
+            position: [0.0, 0.0, 3.0],
+            target: [0.0; 3],
+            up: [0.0, 1.0, 0.0],
+            fov_y_deg: 45.0,
+            near: Camera::default().near,
+        }
     }
 }
 
@@ -225,12 +235,12 @@ impl CameraEntry {
         direction("up", &self.up)?;
         let fov = self.fov_y_deg;
         test("fov_y_deg", fov, fov > 0.0 && fov < 180.0, "degrees above 0 and below 180")?;
-        positive("near", self.near)?;
+        in_range("near", self.near, Range::Positive)?;
         if Vec3::from(self.position) == Vec3::from(self.target) {
-            return Err(Problem::new("target", "is where the camera stands; expected another point"));
+            return Err(KeyProblem::new("target", "is where the camera stands; expected another point"));
         }
         if self.axes().is_none() {
-            return Err(Problem::new("up", "is along the line of sight; expected another direction"));
+            return Err(KeyProblem::new("up", "is along the line of sight; expected another direction"));
         }
         Ok(())
     }

@@ -5,7 +5,7 @@ use halfway_lighting::{Camera, Encoding};
 use halfway_mesh::{Cuboid, Normals, Plane, Teapot, UvSphere};
 
 use crate::{
-    AttachEntry, BoxEntry, CameraEntry, ConeEntry, FacesEntry, FalloffEntry, LightEntry, LightSource, MaterialValues,
+    AttachEntry, BoxEntry, CameraEntry, ConeEntry, FacesEntry, FalloffEntry, LightEntry, LightSource, MaterialEntry,
     MeshEntry, NormalsEntry, ObjectEntry, PlaneEntry, SceneFile, TeapotEntry, TransformEntry, UvSphereEntry,
 };
 
@@ -68,7 +68,7 @@ fn defaults_are_those_of_the_format() {
 
 #[test]
 fn defaults_agree_with_those_of_the_components() {
-    assert_eq!(Material::from(MaterialValues::default()), Material::default());
+    assert_eq!(MaterialEntry::default().material(), Some(Material::default()));
     assert_eq!(UvSphere::from(UvSphereEntry::default()), UvSphere::default());
     assert_eq!(Cuboid::from(BoxEntry::default()), Cuboid::default());
     assert_eq!(Teapot::from(TeapotEntry::default()), Teapot::default());

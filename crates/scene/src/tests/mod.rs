@@ -6,5 +6,6 @@ mod bad;
 mod bad_keys;
 mod bad_values;
 mod defaults;
+mod documented;
 mod examples;
 mod spawned;
