@@ -8,6 +8,7 @@ use bevy_reflect::std_traits::ReflectDefault;
 use bevy_transform::components::Transform;
 
 use crate::Viewer;
+use crate::equations::srgb_encoded;
 use crate::invalid::{InvalidValue, Problem};
 
 /// A perspective camera at its entity's transform, looking along its local −Z with +Y up.
@@ -88,8 +89,7 @@ impl Encoding {
     pub fn encode(self, linear: f64) -> f64 {
         match self {
             Self::Raw => linear,
-            Self::Srgb if linear <= 0.003_130_8 => 12.92 * linear,
-            Self::Srgb => 1.055 * linear.powf(1.0 / 2.4) - 0.055,
+            Self::Srgb => srgb_encoded(linear),
         }
     }
 

@@ -1,6 +1,6 @@
 //! How far a light matters.
 
-use crate::equations::{Light, Place, Real, attenuation, range_window};
+use crate::equations::{ATTENUATION_MAX, Light, Place, Real, attenuation, range_window};
 
 /// Halvings of the interval that holds the reach of a light with a range: to 10⁻⁹ of it.
 const HALVINGS: u32 = 30;
@@ -11,7 +11,8 @@ const HALVINGS: u32 = 30;
 /// Without a range it solves a + b·d + c·d² = colour/ε in closed form; with one, where the window takes part, by
 /// bisection: both fall with the distance. Infinite for a directional light and for one that never falls so low, 0 for
 /// one that is black or nowhere so bright. What is conservative: a cone is ignored, n·l and S count as 1, and the
-/// result is rounded up by a millionth.
+/// result is rounded up by a millionth. A point at which the light counts as being
+/// ([`COINCIDENT`](crate::equations::COINCIDENT)) is within its reach, whatever the distance.
 ///
 /// A spatial structure that finds only the lights within their reach drops each of the others for less than ε, but the
 /// sum of what they would add counts: subtract it from the tolerance of [`Receiver::select`](super::Receiver::select).
@@ -45,10 +46,11 @@ fn brightest<T: Real>(light: &Light<T>) -> f64 {
 
 /// The d from which on a + b·d + c·d² ≥ `divisor`, in the form without cancellation.
 fn crossing([a, b, c]: [f64; 3], divisor: f64) -> f64 {
-    let rest = divisor - a.max(1.0 / f64::from(crate::equations::ATTENUATION_MAX));
-    if rest <= 0.0 {
+    // Nowhere brighter than at the light itself, where the divisor is a, but for its least value.
+    if divisor <= a.max(1.0 / f64::from(ATTENUATION_MAX)) {
         return 0.0;
     }
+    let rest = divisor - a;
     let d = 2.0 * rest / (b + b.hypot(2.0 * c.sqrt() * rest.sqrt()));
     // 0/0 and ∞/∞: the light does not fall, or falls beyond the number range.
     if d.is_nan() { f64::INFINITY } else { d }

@@ -2,9 +2,9 @@
 
 use super::Patch;
 use super::angle::{Angle, Cap, slack};
-use crate::equations::vector::{cross, dot, mul, neg, scale, sub};
+use crate::equations::vector::{cross, dot, length, mul, neg, scale, sub};
 use crate::equations::{
-    Coefficients, Light, Place, Real, View, attenuation, power, range_window, reflect, specular_exponent, spot_factor,
+    COINCIDENT, Coefficients, Light, Place, Real, View, attenuation, power, range_window, reflect, specular_exponent, spot_factor,
 };
 use crate::{Faces, Reflectance};
 
@@ -36,6 +36,8 @@ impl<T: Real> TermBounds<T> {
 pub struct Receiver<T> {
     center: [T; 3],
     radius: T,
+    /// A light no farther than this from a point of the patch may count as being there.
+    coincident: T,
     half_thickness: T,
     normals: Cap<T>,
     both_sides: bool,
@@ -82,6 +84,7 @@ impl<T: Real> Receiver<T> {
         Self {
             center: patch.center,
             radius: patch.radius,
+            coincident: T::of(COINCIDENT.into()) * (length(patch.center) + patch.radius) * (T::one() + slack()),
             half_thickness: patch.half_thickness,
             normals,
             both_sides: patch.faces == Faces::Both,
@@ -142,7 +145,7 @@ impl<T: Real> Receiver<T> {
         if let Some(range) = light.range {
             // Without a root: most lights of a large scene get no farther. Squares below the normal numbers say
             // nothing.
-            let end = range + self.radius;
+            let end = range.max(self.coincident) + self.radius;
             if square * (T::one() - slack::<T>() * T::of(4.0)) > end * end && square > T::min_positive_value() {
                 return None;
             }
@@ -151,6 +154,10 @@ impl<T: Real> Receiver<T> {
         let beyond_sphere = distance * (T::one() - slack()) - self.radius * (T::one() + slack());
         let (beyond_slab, rise) = self.slab(offset, square, distance);
         let nearest = beyond_sphere.max(beyond_slab).max(T::zero());
+        if nearest <= self.coincident {
+            let weight = attenuation(light.attenuation, T::zero());
+            return Some(Arrival { l: Cap::everything(), rise: Angle::zero(), weight });
+        }
         let window = light.range.map_or(T::one(), |range| range_window(nearest, range));
         // A divisor beyond the number range gives 0 where the quotient only is smaller than any normal number.
         let weight = (attenuation(light.attenuation, nearest) * window).max(T::min_positive_value());

@@ -5,8 +5,8 @@
 //!                     + att_i·spot_i·[ kd·Ld_i·max(n·l_i, 0) + ks·Ls_i·S_i ]
 //! ```
 //!
-//! [`shade`] is the whole of it, [`light_contribution`] one summand, [`light_terms`] its three terms; the rest are the
-//! factors. All vectors have unit length unless said, all colours are linear RGB, angles are in radians. What goes in
+//! [`shade`] is the whole of it, [`light_contribution`] one summand, [`light_terms`] its three terms, [`irradiance`] those
+//! before the material; the rest are the factors. All vectors have unit length unless said, all colours are linear RGB, angles are in radians. What goes in
 //! is made from the components: `Coefficients::from(&material)`, [`PointLight::at`](crate::PointLight::at),
 //! [`SpotLight::at`](crate::SpotLight::at), [`DirectionalLight::along`](crate::DirectionalLight::along),
 //! [`View::in_eye_space`].
@@ -17,7 +17,7 @@
 //! | 0⁰ (shininess 0 and cosine 0; exponent 0 at the edge of a cone) | 1: [`power`] |
 //! | a cosine that rounding put above 1 | clamped to 1: [`power`] |
 //! | l = −v, no halfway vector | S = 0: [`specular_blinn_phong`] |
-//! | the light at the lit point (d = 0) | l is n; attenuation 1/a, at most [`ATTENUATION_MAX`] |
+//! | the light at the lit point ([`COINCIDENT`]) | l is n, d is 0; attenuation 1/a, at most [`ATTENUATION_MAX`] |
 //! | a local eye at the lit point | v is n: [`view_vector`] |
 //! | the light behind the surface (n·l ≤ 0) | neither diffuse nor specular |
 //! | distances beyond the number range | the direction is kept, the distance is the largest finite number |
@@ -25,6 +25,7 @@
 //! | an interpolated normal ≈ 0 | the geometric normal: [`interpolated_normal`] |
 //! | a singular or mirroring matrix | [`normal_matrix`] by cofactors, with the sign of the determinant |
 
+mod encoding;
 mod falloff;
 mod normal;
 mod reflectance;
@@ -32,6 +33,7 @@ mod scene;
 mod shade;
 pub mod vector;
 
+pub use encoding::srgb_encoded;
 pub use falloff::{ATTENUATION_MAX, ConeTerms, attenuation, range_window, spot_factor};
 pub use normal::{NORMAL_MIN, normal_matrix, transform_normal};
 pub use reflectance::{
@@ -39,5 +41,8 @@ pub use reflectance::{
     specular_blinn_phong, specular_exponent, specular_phong, specular_term,
 };
 pub use scene::{Coefficients, Light, Place, Surface, View, rgb};
-pub use shade::{Incidence, Terms, incidence, light_contribution, light_terms, shade, view_vector};
+pub use shade::{
+    COINCIDENT, Incidence, Irradiance, Terms, incidence, irradiance, light_contribution, light_terms, reflected, shade,
+    view_vector,
+};
 pub use vector::Real;

@@ -1,7 +1,7 @@
 //! Normals under transforms.
 
 use super::Real;
-use super::vector::{cross, dot, length, normalize, scale};
+use super::vector::{cross, dot, length, normalize, normalize_or_zero, scale};
 
 /// An interpolated normal at most this long has no direction; see [`interpolated_normal`](super::interpolated_normal).
 pub const NORMAL_MIN: f32 = 1e-6;
@@ -16,7 +16,7 @@ pub const NORMAL_MIN: f32 = 1e-6;
 /// [`transform_normal`].
 pub fn normal_matrix<T: Real>(m: [[T; 3]; 3]) -> [[T; 3]; 3] {
     let lengths = m.map(length);
-    let unit = m.map(|column| normalize(column).unwrap_or([T::zero(); 3]));
+    let unit = m.map(normalize_or_zero);
     let cofactors = [cross(unit[1], unit[2]), cross(unit[2], unit[0]), cross(unit[0], unit[1])];
     let det = dot(unit[0], cofactors[0]);
     let sign = if det < -T::epsilon() * T::of(8.0) { -T::one() } else { T::one() };

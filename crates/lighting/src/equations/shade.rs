@@ -4,8 +4,13 @@ use super::Real;
 use super::falloff::{attenuation, range_window, spot_factor};
 use super::reflectance::{diffuse_term, specular_term};
 use super::scene::{Coefficients, Light, Place, Surface, View};
-use super::vector::{add, dot, mul, neg, scale, toward};
+use super::vector::{add, dot, length, mul, neg, scale, toward};
 use crate::Reflectance;
+
+/// A light counts as being at the lit point p where its distance is at most this share of ‖p‖: its direction is n and
+/// its distance 0 there. Positions in eye space, made by a matrix in `f32`, are known to about half of this share of
+/// their distance from the eye, so a nearer light has no direction but that of rounding errors.
+pub const COINCIDENT: f32 = 2e-6;
 
 /// A light as it arrives at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,6 +19,18 @@ pub struct Incidence<T> {
     pub l: [T; 3],
     /// att·spot: attenuation, range window and cone together; 0 to [`ATTENUATION_MAX`](super::ATTENUATION_MAX).
     pub weight: T,
+}
+
+/// What one light brings to a point, before the material: its colours, weakened. The specular part depends on the
+/// material's shininess.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Irradiance<T> {
+    /// La, times att·spot where the light attenuates its ambient.
+    pub ambient: [T; 3],
+    /// att·spot·Ld·max(n·l, 0).
+    pub diffuse: [T; 3],
+    /// att·spot·Ls·S.
+    pub specular: [T; 3],
 }
 
 /// What one light adds to a point, term by term. Their sum is [`light_contribution`].
@@ -27,14 +44,19 @@ pub struct Terms<T> {
     pub specular: [T; 3],
 }
 
-/// Direction and strength of a light at a point. Where the light is at the point itself l is n.
+/// Direction and strength of a light at a point. Where the light is at the point itself ([`COINCIDENT`]) l is n and the
+/// distance 0.
 pub fn incidence<T: Real>(surface: &Surface<T>, light: &Light<T>) -> Incidence<T> {
     let (l, att) = match light.place {
         Place::Directional(l) => (l, T::one()),
         Place::Point(position) => {
-            let (l, d) = toward(surface.position, position);
+            let at_point = T::of(COINCIDENT.into()) * length(surface.position);
+            let (l, d) = match toward(surface.position, position) {
+                (Some(l), d) if d > at_point => (l, d),
+                _ => (surface.normal, T::zero()),
+            };
             let window = light.range.map_or(T::one(), |range| range_window(d, range));
-            (l.unwrap_or(surface.normal), attenuation(light.attenuation, d) * window)
+            (l, attenuation(light.attenuation, d) * window)
         }
     };
     let spot = light.cone.as_ref().map_or(T::one(), |cone| spot_factor(dot(neg(l), cone.direction), cone));
@@ -49,6 +71,39 @@ pub fn view_vector<T: Real>(surface: &Surface<T>, view: &View<T>) -> [T; 3] {
     }
 }
 
+/// What one light brings to a point whose material has this shininess.
+pub fn irradiance<T: Real>(
+    surface: &Surface<T>,
+    light: &Light<T>,
+    view: &View<T>,
+    reflectance: Reflectance,
+    shininess: T,
+) -> Irradiance<T> {
+    let n = surface.normal;
+    let v = view_vector(surface, view);
+    let Incidence { l, weight } = incidence(surface, light);
+    let ambient = if light.attenuate_ambient { weight } else { T::one() };
+    Irradiance {
+        ambient: scale(light.la, ambient),
+        diffuse: scale(light.ld, weight * diffuse_term(n, l)),
+        specular: scale(light.ls, weight * specular_term(reflectance, n, l, v, shininess)),
+    }
+}
+
+/// What a material gives back of what lights bring: `ka·ambient + kd·diffuse + ks·specular`.
+pub fn reflected<T: Real>(irradiance: &Irradiance<T>, material: &Coefficients<T>) -> [T; 3] {
+    let Terms { ambient, diffuse, specular } = reflected_terms(irradiance, material);
+    add(ambient, add(diffuse, specular))
+}
+
+fn reflected_terms<T: Real>(irradiance: &Irradiance<T>, material: &Coefficients<T>) -> Terms<T> {
+    Terms {
+        ambient: mul(material.ka, irradiance.ambient),
+        diffuse: mul(material.kd, irradiance.diffuse),
+        specular: mul(material.ks, irradiance.specular),
+    }
+}
+
 /// The ambient, diffuse and specular term that one light adds at a point.
 pub fn light_terms<T: Real>(
     surface: &Surface<T>,
@@ -57,17 +112,7 @@ pub fn light_terms<T: Real>(
     view: &View<T>,
     reflectance: Reflectance,
 ) -> Terms<T> {
-    let n = surface.normal;
-    let v = view_vector(surface, view);
-    let Incidence { l, weight } = incidence(surface, light);
-    let ambient = if light.attenuate_ambient { weight } else { T::one() };
-    let diffuse = weight * diffuse_term(n, l);
-    let specular = weight * specular_term(reflectance, n, l, v, material.shininess);
-    Terms {
-        ambient: scale(mul(material.ka, light.la), ambient),
-        diffuse: scale(mul(material.kd, light.ld), diffuse),
-        specular: scale(mul(material.ks, light.ls), specular),
-    }
+    reflected_terms(&irradiance(surface, light, view, reflectance, material.shininess), material)
 }
 
 /// What one light adds at a point: the summand of the equation.
@@ -78,8 +123,7 @@ pub fn light_contribution<T: Real>(
     view: &View<T>,
     reflectance: Reflectance,
 ) -> [T; 3] {
-    let Terms { ambient, diffuse, specular } = light_terms(surface, material, light, view, reflectance);
-    add(ambient, add(diffuse, specular))
+    reflected(&irradiance(surface, light, view, reflectance, material.shininess), material)
 }
 
 /// I: the colour of a point under all lights, linear RGB, unclamped.

@@ -84,6 +84,11 @@ pub fn normalize<T: Real>(a: [T; 3]) -> Option<[T; 3]> {
     }
 }
 
+/// `a/‖a‖`, or 0 where a is 0 or not finite.
+pub fn normalize_or_zero<T: Real>(a: [T; 3]) -> [T; 3] {
+    normalize(a).unwrap_or([T::zero(); 3])
+}
+
 /// The unit vector from p to q and the distance, for any finite p and q. `None` where they coincide.
 ///
 /// A distance above the largest finite number is returned as that number.

@@ -59,6 +59,15 @@ fn reach_has_its_closed_forms() {
         let same = reached == expected || (reached / expected - 1.0).abs() < 2e-6;
         assert!(same, "{name}: {reached} instead of {expected}");
     }
+    // Near its place, where the cap takes part: 1/d² = 5·10⁵.
+    let near: Light<f64> = PointLight {
+        attenuation: Attenuation::INVERSE_SQUARE,
+        ..PointLight::from_color(LinearRgba::rgb(0.5, 0.5, 0.5))
+    }
+    .at([0.0; 3]);
+    let reached = reach(&near, 5e5);
+    assert!((reached / 2e-6f64.sqrt() - 1.0).abs() < 2e-6, "an inverse-square light near its place: {reached}");
+    assert_eq!(reach(&near, 1.1e6), 0.0, "brighter than the cap");
     let sun: Light<f64> = DirectionalLight::white().along([0.0, -1.0, 0.0]).expect("not 0");
     assert_eq!(reach(&sun, 0.01), f64::INFINITY);
     let black: Light<f64> = PointLight::from_color(LinearRgba::BLACK).at([0.0; 3]);
