@@ -14,7 +14,8 @@ use halfway_lighting::{
     light_position,
 };
 
-/// A light as the shader reads it; the twin of `Light` in lighting.wgsl.
+/// A light as the shader reads it; `Light` in lighting.wgsl. 128 bytes, so that every second one begins at an offset that
+/// any adapter can bind.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub(crate) struct LightRecord {
@@ -31,7 +32,7 @@ pub(crate) struct LightRecord {
     exponent: f32,
     inner_scale: f32,
     inner_offset: f32,
-    padding: [f32; 5],
+    padding: [f32; 9],
 }
 
 impl LightRecord {
@@ -55,7 +56,7 @@ impl LightRecord {
         exponent: 0.0,
         inner_scale: 0.0,
         inner_offset: 1.0,
-        padding: [0.0; 5],
+        padding: [0.0; 9],
     };
 }
 

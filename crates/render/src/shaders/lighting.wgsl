@@ -1,13 +1,24 @@
-// The lighting text: one for the vertex and the fragment stage. Eye space, linear RGB.
-// Each function is the twin of the one of the same name in halfway_lighting::equations.
+// The lighting text: the equations in eye space, linear RGB. It needs no other file and has no bindings; the vertex and the
+// fragment stages share it. Each function and each constant here has a twin of the same name in
+// halfway_lighting::equations, written apart; a test calls each function on the adapter and compares it with its twin.
 
-// Which of a light's terms are added; the others are shaded at the other frequency, or cannot be seen. Ambient goes
-// with diffuse.
+// What the pipeline knows of its draws. The equations with a switch off are those of draws that need no more.
+override BLINN_PHONG: bool = true;          // else Phong
+override LOCAL_VIEWER: bool = true;
+override ATTENUATED_AMBIENT: bool = true;   // some light attenuates its ambient color
+override SHARED_COLOR: bool = false;        // every light's specular color is its diffuse color
+override SPECULAR: bool = true;             // some highlight is shaded, in this stage or the other
+override RANGED: bool = true;               // some light has a range
+override SQUARINGS: i32 = -1;               // the shininess is 2^SQUARINGS; -1: read it and take a power
+
+// Which of a light's terms are shaded; the others are shaded in the other stage, or cannot be seen. Ambient goes with
+// diffuse.
 struct Terms {
     diffuse: bool,
     specular: bool,
 }
 
+// 128 bytes: sets of lights are bound at offsets that are multiples of 256.
 struct Light {
     position: vec3f,     // finite light: eye space; directional: unit vector toward the light
     inverse_range: f32,  // 0: no range
@@ -24,6 +35,7 @@ struct Light {
     inner_offset: f32,
     padding0: f32,
     padding1: vec4f,
+    padding2: vec4f,
 }
 
 struct Material {
@@ -37,35 +49,60 @@ struct Material {
     padding1: f32,
 }
 
-// What reaches a point, before the material: sums over lights of colour · att · spot · factor.
+// A light as it arrives at a point: l toward the light, and att · spot.
+struct Incidence {
+    l: vec3f,
+    weight: f32,
+}
+
+// What lights bring to a point, before the material: colour · att · spot · factor, of one light or summed over several.
 struct Irradiance {
     ambient: vec3f,
     diffuse: vec3f,
     specular: vec3f,
 }
 
-const MAX_ATTENUATION: f32 = 1e6;
-// Below this |l + v|² (an angle of 1e-6 rad from l = −v) the half vector is rounding noise: S = 0.
-const HALF_VECTOR_EPSILON: f32 = 1e-12;
-const SMALLEST_NORMAL: f32 = 1.17549435e-38;
+// The largest attenuation.
+const ATTENUATION_MAX: f32 = 1e6;
+// A light at most this share of ‖p‖ away from p counts as being at p.
+const COINCIDENT: f32 = 2e-6;
+// l and v with a shorter sum (an angle of 1e-6 rad from l = −v) have no half vector: S = 0.
+const HALFWAY_MIN: f32 = 1e-6;
+// A shorter interpolated normal has no direction.
+const NORMAL_MIN: f32 = 1e-6;
+// The smallest normal number. Squares below it have lost their digits.
+const MIN_POSITIVE: f32 = 1.17549435e-38;
 
-// base^exponent for base in 0..1, with 0⁰ = 1, which pow leaves indeterminate.
-fn power(base: f32, exponent: f32) -> f32 {
-    return select(pow(base, exponent), select(0.0, 1.0, exponent == 0.0), base <= 0.0);
+// n / ‖n‖. Zero stays zero: a collapsed normal lights nothing, and is finite.
+fn normalize_or_zero(n: vec3f) -> vec3f {
+    return n * inverseSqrt(max(dot(n, n), MIN_POSITIVE));
 }
 
-// x^(2^squarings): an exponent that is a power of two takes no logarithm.
-fn square(x: f32, squarings: i32) -> f32 {
-    var result = x;
-    for (var i = 0; i < squarings; i++) {
-        result *= result;
+fn transform_normal(normal_matrix: mat3x3f, n: vec3f) -> vec3f {
+    return normalize_or_zero(normal_matrix[0] * n.x + normal_matrix[1] * n.y + normal_matrix[2] * n.z);
+}
+
+// The interpolated normal, renormalised; the geometric one where it vanishes (opposite vertex normals).
+fn interpolated_normal(n: vec3f, geometric: vec3f) -> vec3f {
+    return select(normalize_or_zero(n), geometric, dot(n, n) < NORMAL_MIN * NORMAL_MIN);
+}
+
+// x^e for x in 0..1, with 0⁰ = 1, which pow leaves indeterminate. An exponent that is known to be 2^squarings takes no
+// logarithm; −1 stands for any other.
+fn power(x: f32, e: f32, squarings: i32) -> f32 {
+    if squarings >= 0 {
+        var result = x;
+        for (var i = 0; i < squarings; i++) {
+            result *= result;
+        }
+        return result;
     }
-    return result;
+    return select(pow(x, e), select(0.0, 1.0, e == 0.0), x <= 0.0);
 }
 
-fn attenuation(d: f32, light: Light) -> f32 {
-    let denominator = light.constant + d * (light.linear + d * light.quadratic);
-    return 1.0 / max(denominator, 1.0 / MAX_ATTENUATION);
+fn attenuation(light: Light, d: f32) -> f32 {
+    let divisor = light.constant + d * (light.linear + d * light.quadratic);
+    return 1.0 / max(divisor, 1.0 / ATTENUATION_MAX);
 }
 
 // KHR_lights_punctual: clamp(1 − (d/R)⁴, 0, 1)².
@@ -75,104 +112,106 @@ fn range_window(d: f32, inverse_range: f32) -> f32 {
     return w * w;
 }
 
-fn spot_factor(l: vec3f, light: Light) -> f32 {
-    let cos_phi = min(-dot(l, light.direction), 1.0);
+fn spot_factor(cosine: f32, light: Light) -> f32 {
+    let cos_phi = min(cosine, 1.0);
     let inner = clamp(cos_phi * light.inner_scale + light.inner_offset, 0.0, 1.0);
-    let falloff = power(max(cos_phi, 0.0), light.exponent) * inner * inner;
+    let falloff = power(max(cos_phi, 0.0), light.exponent, -1) * inner * inner;
     return select(0.0, falloff, cos_phi >= light.cos_cutoff);
+}
+
+// The way of a point light's light, or of a spot's when `cone` is set, to a point.
+fn incidence(light: Light, cone: bool, p: vec3f, n: vec3f) -> Incidence {
+    let to_light = light.position - p;
+    let squared = dot(to_light, to_light);
+    // A light at the point has no direction, and no distance: l falls back to n.
+    let at_point = squared <= max(COINCIDENT * COINCIDENT * dot(p, p), MIN_POSITIVE);
+    let inverse = inverseSqrt(max(squared, MIN_POSITIVE));
+    let l = select(to_light * inverse, n, at_point);
+    let d = select(squared * inverse, 0.0, at_point);
+    var weight = attenuation(light, d);
+    if RANGED {
+        weight *= range_window(d, light.inverse_range);
+    }
+    if cone {
+        weight *= spot_factor(-dot(l, light.direction), light);
+    }
+    return Incidence(l, weight);
+}
+
+// v: toward the eye, or (0, 0, 1) for an infinite viewer. An eye on the surface looks along n.
+fn view_vector(p: vec3f, n: vec3f) -> vec3f {
+    if LOCAL_VIEWER {
+        let squared = dot(p, p);
+        return select(-p * inverseSqrt(max(squared, MIN_POSITIVE)), n, squared < MIN_POSITIVE);
+    }
+    return vec3f(0.0, 0.0, 1.0);
+}
+
+fn diffuse_term(n: vec3f, l: vec3f) -> f32 {
+    return max(dot(n, l), 0.0);
 }
 
 // (v·r)^α with r = 2(n·l)n − l.
 fn specular_phong(n: vec3f, l: vec3f, v: vec3f, alpha: f32) -> f32 {
-    let cos_r = clamp(2.0 * dot(n, l) * dot(n, v) - dot(l, v), 0.0, 1.0);
-    if SQUARINGS >= 0 {
-        return square(cos_r, SQUARINGS);
-    }
-    return power(cos_r, alpha);
+    let n_dot_l = dot(n, l);
+    let cos_r = clamp(2.0 * n_dot_l * dot(n, v) - dot(l, v), 0.0, 1.0);
+    return select(0.0, power(cos_r, alpha, SQUARINGS), n_dot_l > 0.0);
 }
 
 // (n·h)^β with h = (l + v)/‖l + v‖, as ((n·(l + v))²/‖l + v‖²)^(β/2), which needs no square root.
 fn specular_blinn_phong(n: vec3f, l: vec3f, v: vec3f, beta: f32) -> f32 {
     let sum = l + v;
     let squared = dot(sum, sum);
+    let shortest = HALFWAY_MIN * HALFWAY_MIN;
     let n_dot_sum = max(dot(n, sum), 0.0);
-    let cos_squared = min(n_dot_sum * n_dot_sum / max(squared, HALF_VECTOR_EPSILON), 1.0);
-    var s: f32;
-    if SQUARINGS >= 1 {
-        s = square(cos_squared, SQUARINGS - 1);
-    } else {
-        s = power(cos_squared, 0.5 * beta);
-    }
-    return select(0.0, s, squared > HALF_VECTOR_EPSILON);
+    let cos_squared = min(n_dot_sum * n_dot_sum / max(squared, shortest), 1.0);
+    let s = power(cos_squared, 0.5 * beta, SQUARINGS - 1);
+    return select(0.0, s, (squared > shortest) & (dot(n, l) > 0.0));
 }
 
-// Adds one light that arrives from l with strength `arriving` (att · spot).
-fn add_light(sum: Irradiance, light: Light, l: vec3f, arriving: f32, n: vec3f, v: vec3f, shininess: f32, terms: Terms) -> Irradiance {
-    var result = sum;
-    let n_dot_l = dot(n, l);
+fn specular_term(n: vec3f, l: vec3f, v: vec3f, shininess: f32) -> f32 {
+    if BLINN_PHONG {
+        return specular_blinn_phong(n, l, v, shininess);
+    }
+    return specular_phong(n, l, v, shininess);
+}
+
+// What one light brings to a point.
+fn irradiance(light: Light, incident: Incidence, n: vec3f, v: vec3f, shininess: f32, terms: Terms) -> Irradiance {
+    var result = Irradiance();
     if terms.diffuse {
-        result.diffuse += light.diffuse * (arriving * max(n_dot_l, 0.0));
+        result.diffuse = light.diffuse * (incident.weight * diffuse_term(n, incident.l));
     }
     if terms.specular {
-        var s: f32;
-        if BLINN_PHONG {
-            s = specular_blinn_phong(n, l, v, shininess);
-        } else {
-            s = specular_phong(n, l, v, shininess);
+        var color = light.specular;
+        if SHARED_COLOR {
+            color = light.diffuse;
         }
-        var colour = light.specular;
-        if SHARED_COLOUR {
-            colour = light.diffuse;
-        }
-        result.specular += colour * select(0.0, arriving * s, n_dot_l > 0.0);
+        result.specular = color * (incident.weight * specular_term(n, incident.l, v, shininess));
     }
     if ATTENUATED_AMBIENT && terms.diffuse {
-        result.ambient += light.ambient * arriving;
+        result.ambient = light.ambient * incident.weight;
     }
     return result;
 }
 
-// Adds a point light, or a spot when `cone` is set, at its distance.
-fn add_finite_light(sum: Irradiance, light: Light, cone: bool, p: vec3f, n: vec3f, v: vec3f, shininess: f32, terms: Terms) -> Irradiance {
-    let to_light = light.position - p;
-    let squared = dot(to_light, to_light);
-    // A light on the surface has no direction: l falls back to n.
-    let at_surface = squared < SMALLEST_NORMAL;
-    let inverse = inverseSqrt(max(squared, SMALLEST_NORMAL));
-    let l = select(to_light * inverse, n, at_surface);
-    let d = squared * inverse;
-    var arriving = attenuation(d, light);
-    if RANGED {
-        arriving *= range_window(d, light.inverse_range);
-    }
-    if cone {
-        arriving *= spot_factor(l, light);
-    }
-    return add_light(sum, light, l, arriving, n, v, shininess, terms);
-}
-
-// v: toward the eye, or (0, 0, 1) for an infinite viewer. An eye on the surface looks along n.
-fn to_viewer(p: vec3f, n: vec3f, terms: Terms) -> vec3f {
-    if LOCAL_VIEWER && terms.specular {
-        let squared = dot(p, p);
-        return select(-p * inverseSqrt(max(squared, SMALLEST_NORMAL)), n, squared < SMALLEST_NORMAL);
-    }
-    return vec3f(0.0, 0.0, 1.0);
-}
-
-// I = ke + ka·(Ga + Σ La) + Σ …, from what arrives.
+// What a material gives back of what lights bring.
 fn reflected(arriving: Irradiance, material: Material) -> vec3f {
-    return material.base + added(arriving, material);
-}
-
-// The part of I that the lights of one list add.
-fn added(arriving: Irradiance, material: Material) -> vec3f {
     var sum = material.diffuse * arriving.diffuse;
-    if VERTEX_SPECULAR || FRAGMENT_SPECULAR {
+    if SPECULAR {
         sum += material.specular * arriving.specular;
     }
     if ATTENUATED_AMBIENT {
         sum += material.ambient * arriving.ambient;
     }
     return sum;
+}
+
+// The sRGB curve (IEC 61966-2-1) of intensities in 0..1. Its upper part, 1.055·I^(1/2.4) − 0.055, is a polynomial of the
+// fifth degree in ⁴√I here, fitted for the least greatest error: 6.8e-6, a 600th of an 8-bit step.
+fn srgb_encoded(linear: vec3f) -> vec3f {
+    let q = sqrt(sqrt(linear));
+    let lower = -0.06134022 + q * (0.16202632 + q * 1.2554042);
+    let curved = lower + q * q * q * (-0.57748237 + q * (0.28953271 - q * 0.06814721));
+    return select(curved, 12.92 * linear, linear <= vec3f(0.0031308));
 }

@@ -1,5 +1,5 @@
-// Any number of records and lights. Not uniform: lavapipe compiles a shader anew for every value that a loop's end or a
-// condition takes from a uniform buffer.
+// Any number of records and lights. Needs lighting.wgsl and records.wgsl. Not uniform: lavapipe compiles a shader anew for
+// every value that a loop's end or a condition takes from a uniform buffer.
 
 @group(0) @binding(1) var<storage, read> draws: array<Draw>;
 // All lights of the scene by kind: directional, point, spot.
@@ -15,19 +15,21 @@ fn light_numbered(i: u32) -> Light {
 
 // Adds `counts` lights of each kind, the numbers from `counts.w` on.
 fn add_listed(before: Irradiance, p: vec3f, n: vec3f, shininess: f32, counts: vec4u, terms: Terms) -> Irradiance {
-    let v = to_viewer(p, n, terms);
+    let v = view_vector(p, n);
     var sum = before;
     let first_point = counts.w + counts.x;
     let first_spot = first_point + counts.y;
     for (var i = counts.w; i < first_point; i++) {
         let light = light_numbered(i);
-        sum = add_light(sum, light, light.position, 1.0, n, v, shininess, terms);
+        sum = plus(sum, irradiance(light, Incidence(light.position, 1.0), n, v, shininess, terms));
     }
     for (var i = first_point; i < first_spot; i++) {
-        sum = add_finite_light(sum, light_numbered(i), false, p, n, v, shininess, terms);
+        let light = light_numbered(i);
+        sum = plus(sum, irradiance(light, incidence(light, false, p, n), n, v, shininess, terms));
     }
     for (var i = first_spot; i < first_spot + counts.z; i++) {
-        sum = add_finite_light(sum, light_numbered(i), true, p, n, v, shininess, terms);
+        let light = light_numbered(i);
+        sum = plus(sum, irradiance(light, incidence(light, true, p, n), n, v, shininess, terms));
     }
     return sum;
 }

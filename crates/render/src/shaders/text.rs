@@ -42,34 +42,19 @@ impl Shaders {
 /// The bytes of lights at fixed places.
 pub(crate) const BOUND_LIGHT_BYTES: u64 = BOUND_LIGHTS as u64 * size_of::<LightRecord>() as u64;
 
-/// Loops over the lights of one kind from `first` on, `length` at a time.
-fn loops(first: &str, count: &str, most: u32, length: u32, cone: bool) -> String {
-    let one = |start: u32| {
-        let end = start + length;
-        format!(
-            "    for (var i = {first} + {start}u; i < {first} + min({count}, {end}u); i++) {{\n        \
-             sum = add_finite_light(sum, lights[i], {cone}, p, n, v, shininess, of_first(terms, i - ({first}), {count}));\n    }}\n"
-        )
-    };
-    (0..most).step_by(length as usize).map(one).collect()
-}
-
 impl Text {
-    /// The whole of it.
-    fn wgsl(self) -> String {
-        let text = concat!(include_str!("mesh.wgsl"), include_str!("lighting.wgsl"));
-        let at_fixed_places = |points, spots| {
-            include_str!("uniform.wgsl")
-                .replace("MOST_LIGHTS", &BOUND_LIGHTS.to_string())
-                .replace("POINT_LOOPS", &loops("DIRECTIONAL", "POINTS", points, 4, false))
-                .replace("SPOT_LOOPS", &loops("DIRECTIONAL + POINTS", "SPOTS", spots, 4, true))
-        };
-        let bindings = match self {
-            Self::Few => at_fixed_places(COUNTED_LIGHTS, COUNTED_LIGHTS),
-            Self::Many => at_fixed_places(32, 16),
-            Self::Listed => include_str!("storage.wgsl").to_owned(),
-        };
-        format!("{text}{bindings}")
+    /// The files that it is put together of, end to end. Each needs only those before it, so that it is valid WGSL with
+    /// them; `lighting.wgsl` needs none.
+    fn files(self) -> &'static [&'static str] {
+        const LIGHTING: &str = include_str!("lighting.wgsl");
+        const RECORDS: &str = include_str!("records.wgsl");
+        const UNIFORM: &str = include_str!("uniform.wgsl");
+        const MESH: &str = include_str!("mesh.wgsl");
+        match self {
+            Self::Few => &[LIGHTING, RECORDS, UNIFORM, include_str!("few.wgsl"), MESH],
+            Self::Many => &[LIGHTING, RECORDS, UNIFORM, include_str!("many.wgsl"), MESH],
+            Self::Listed => &[LIGHTING, RECORDS, include_str!("storage.wgsl"), MESH],
+        }
     }
 }
 
@@ -78,7 +63,7 @@ impl Shader {
         let storage = text == Text::Listed;
         let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("lighting"),
-            source: wgpu::ShaderSource::Wgsl(text.wgsl().into()),
+            source: wgpu::ShaderSource::Wgsl(text.files().concat().into()),
         });
         let entry = |binding, ty, size| wgpu::BindGroupLayoutEntry {
             binding,

@@ -1,23 +1,35 @@
-// One record and lights at fixed places: a software adapter reads them once for eight pixels.
+// One record and lights at fixed places: a software adapter reads them once for eight pixels. Needs lighting.wgsl and
+// records.wgsl.
 
 @group(0) @binding(1) var<uniform> draws: array<Draw, 1>;
-@group(0) @binding(2) var<uniform> lights: array<Light, MOST_LIGHTS>;
+@group(0) @binding(2) var<uniform> lights: array<Light, 56>;
 
 // The terms of the i-th of `count` lights of one kind.
 fn of_first(terms: Terms, i: u32, count: u32) -> Terms {
     return Terms(terms.diffuse, terms.specular && i < HIGHLIGHTS * count / 2u);
 }
 
-// The driver unrolls a loop as long as what comes out is short, and reads at fixed places only in unrolled ones: so many
-// lights are several loops.
-fn add_counted(p: vec3f, n: vec3f, shininess: f32, terms: Terms) -> Irradiance {
-    let v = to_viewer(p, n, terms);
+fn add_directional(p: vec3f, n: vec3f, v: vec3f, shininess: f32, terms: Terms) -> Irradiance {
     var sum = Irradiance();
     for (var i = 0u; i < DIRECTIONAL; i++) {
-        sum = add_light(sum, lights[i], lights[i].position, 1.0, n, v, shininess, of_first(terms, i, DIRECTIONAL));
+        let incident = Incidence(lights[i].position, 1.0);
+        sum = plus(sum, irradiance(lights[i], incident, n, v, shininess, of_first(terms, i, DIRECTIONAL)));
     }
-POINT_LOOPS
-SPOT_LOOPS
+    return sum;
+}
+
+// Adds those of the numbers `from` to `from` + 3 among the `count` points or spots that begin at `first`. The driver unrolls
+// a loop as long as what comes out is short, and reads at fixed places only in unrolled ones: so many lights are several
+// loops. The numbers are constants wherever this is called.
+fn add_four(
+    before: Irradiance, first: u32, count: u32, from: u32, cone: bool,
+    p: vec3f, n: vec3f, v: vec3f, shininess: f32, terms: Terms,
+) -> Irradiance {
+    var sum = before;
+    for (var i = first + from; i < first + min(count, from + 4u); i++) {
+        let incident = incidence(lights[i], cone, p, n);
+        sum = plus(sum, irradiance(lights[i], incident, n, v, shininess, of_first(terms, i - first, count)));
+    }
     return sum;
 }
 

@@ -1,0 +1,36 @@
+// What draws read, and what a pipeline knows of them. Needs lighting.wgsl.
+
+// What a draw does not use is not in its pipeline.
+override VERTEX_DIFFUSE: bool = false;
+override VERTEX_SPECULAR: bool = false;
+override FRAGMENT_DIFFUSE: bool = false;
+override FRAGMENT_SPECULAR: bool = false;
+// The lights are those that the record's lists name. Else they are the first that are bound, of each kind so many.
+override LISTED: bool = false;
+override DIRECTIONAL: u32 = 0;
+override POINTS: u32 = 0;
+override SPOTS: u32 = 0;
+override HIGHLIGHTS: u32 = 2;          // of each kind, the first so many halves have specular terms
+
+struct View {
+    scale: vec2f,        // x and y of clip_from_eye
+    near: f32,
+    padding: f32,
+}
+
+// Light lists: how many directional, point and spot lights, and where their numbers begin among `lists`.
+struct Draw {
+    front: Material,
+    back: Material,
+    vertex: vec4u,
+    vertex_diffuse: vec4u,    // these lights' specular terms are left out
+    fragment: vec4u,
+    fragment_diffuse: vec4u,
+    padding: array<vec4u, 4>,
+}
+
+@group(0) @binding(0) var<uniform> view: View;
+
+fn plus(a: Irradiance, b: Irradiance) -> Irradiance {
+    return Irradiance(a.ambient + b.ambient, a.diffuse + b.diffuse, a.specular + b.specular);
+}
