@@ -35,12 +35,16 @@ pub(crate) struct LightLists {
 /// A set of lights at fixed places.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Bound {
-    /// The number of the first, even, so that its bytes begin at a multiple of 256.
+    /// The number of the first: a multiple of [`SET_ALIGNMENT`].
     pub(crate) start: u32,
     /// How many of each kind it was filled up to, and how many of these have highlights.
     counts: [u32; 3],
     highlights: Highlights,
 }
+
+/// Sets begin at numbers that are multiples of this, and so at offsets that are multiples of 256: any adapter can bind them.
+const SET_ALIGNMENT: usize = 256 / size_of::<LightRecord>();
+const _: () = assert!(SET_ALIGNMENT * size_of::<LightRecord>() == 256, "a LightRecord's bytes divide 256");
 
 /// A software adapter reads lights at fixed places faster, but starts a draw for each set.
 const MOST_BOUND: usize = 1 << 16;
@@ -64,7 +68,7 @@ impl LightLists {
             self.bound.extend(&lights.records);
         } else {
             // No set of a patch is number 0.
-            self.bound.extend([LightRecord::BLACK; 2]);
+            self.bound.extend([LightRecord::BLACK; SET_ALIGNMENT]);
         }
         self.last_bound = None;
         self.last = None;
@@ -114,7 +118,7 @@ impl LightLists {
         if self.bound.len() > MOST_BOUND {
             return None;
         }
-        self.bound.resize(self.bound.len().next_multiple_of(2), LightRecord::default());
+        self.bound.resize(self.bound.len().next_multiple_of(SET_ALIGNMENT), LightRecord::default());
         let bound = Bound { start: self.bound.len() as u32, counts, highlights };
         for ((highlit, rest), count) in highlit.into_iter().zip(rest).zip(counts) {
             let end = self.bound.len() + count as usize;

@@ -155,11 +155,14 @@ fn fs_flat(in: Flat) -> @location(0) vec4f {
     return in.color;
 }
 
+// Of a pixel with four samples of which a triangle covers some, the centre may lie outside the triangle: what is
+// interpolated is taken where the triangle is (centroid). With one sample that is the centre.
+
 // ---- every term at the vertices (Gouraud) ------------------------------------------------------
 
 struct Gouraud {
     @invariant @builtin(position) clip: vec4f,
-    @location(0) color: vec3f,
+    @location(0) @interpolate(perspective, centroid) color: vec3f,
     @location(1) @interpolate(flat, either) record: u32,
 }
 
@@ -177,8 +180,8 @@ fn fs_gouraud(in: Gouraud) -> @location(0) vec4f {
 
 struct GouraudBoth {
     @invariant @builtin(position) clip: vec4f,
-    @location(0) front: vec3f,
-    @location(1) back: vec3f,
+    @location(0) @interpolate(perspective, centroid) front: vec3f,
+    @location(1) @interpolate(perspective, centroid) back: vec3f,
     @location(2) @interpolate(flat, either) record: u32,
 }
 
@@ -200,8 +203,8 @@ fn fs_gouraud_both(in: GouraudBoth, @builtin(front_facing) front: bool) -> @loca
 
 struct Phong {
     @invariant @builtin(position) clip: vec4f,
-    @location(0) p: vec3f,
-    @location(1) n: vec3f,
+    @location(0) @interpolate(perspective, centroid) p: vec3f,
+    @location(1) @interpolate(perspective, centroid) n: vec3f,
     @location(2) @interpolate(flat, either) record: u32,
 }
 
@@ -243,10 +246,10 @@ fn fs_phong(in: Phong, @builtin(front_facing) front: bool) -> @location(0) vec4f
 
 struct Mixed {
     @invariant @builtin(position) clip: vec4f,
-    @location(0) p: vec3f,
-    @location(1) n: vec3f,
-    @location(2) front: vec3f,
-    @location(3) back: vec3f,
+    @location(0) @interpolate(perspective, centroid) p: vec3f,
+    @location(1) @interpolate(perspective, centroid) n: vec3f,
+    @location(2) @interpolate(perspective, centroid) front: vec3f,
+    @location(3) @interpolate(perspective, centroid) back: vec3f,
     @location(4) @interpolate(flat, either) record: u32,
 }
 
