@@ -11,6 +11,7 @@ mod render {
     mod blend;
     mod changes;
     mod closed_forms;
+    mod coincident;
     mod compare;
     mod compile;
     mod conformance;
@@ -32,6 +33,7 @@ mod render {
     mod properties;
     mod random;
     mod reflection;
+    mod samples;
     mod scene;
     mod sides;
     mod stage;

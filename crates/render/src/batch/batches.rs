@@ -175,7 +175,7 @@ impl Batches {
         let demand = Demand { allowed: shared.allowed, key, exponent: object.exponent, lights: shared.lights };
         let patches = geometry.detail.patches(model_view, view, demand);
         report.triangles_in += geometry.source.triangle_count() as u64;
-        self.unsorted.push(InstanceRecord::new(model_view, normal_matrix, reflecting.faces));
+        self.unsorted.push(InstanceRecord::new(model_view, normal_matrix, reflecting.faces, view.unit() as f32));
         // The object as a whole has been found to be seen.
         let whole = patches.len() == 1;
         let mut run: Option<Run> = None;

@@ -5,21 +5,12 @@ use crate::batch::draws::DrawState;
 use crate::device::gpu::Gpu;
 use crate::error::RenderError;
 use crate::frame::report::FrameReport;
-use crate::lights::gather::{LightRecord, Lights};
+use crate::lights::gather::Lights;
 use crate::pipelines::cache::Pipelines;
-use crate::shaders::records::RECORD_BYTES;
+use crate::shaders::records::{LightRecord, RECORD_BYTES, ViewRecord};
 use crate::shaders::text::{BOUND_LIGHT_BYTES, Text};
 use crate::view::camera::View;
 use bevy_ecs::prelude::*;
-use bytemuck::{Pod, Zeroable};
-
-#[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
-struct ViewRecord {
-    scale: [f32; 2],
-    near: f32,
-    padding: f32,
-}
 
 /// A GPU buffer with the bytes it holds, so that equal bytes are not sent again.
 struct Mirrored {
@@ -168,7 +159,7 @@ impl Buffers {
         lights: &Lights,
         batches: &Batches,
     ) -> Result<u64, RenderError> {
-        let view = ViewRecord { scale: view.projection.scale, near: view.projection.near, padding: 0.0 };
+        let view = ViewRecord { scale: view.projection.scale, near: view.projection.near * view.unit() as f32, padding: 0.0 };
         let listed = if batches.draws.reads_storage() { lights.records.as_slice() } else { &[] };
         let bound = bytemuck::cast_slice(&batches.lists.bound);
         let sent = [

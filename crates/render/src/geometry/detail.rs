@@ -7,8 +7,10 @@ use crate::shaders::light_slots::Lists;
 use crate::view::camera::View;
 use crate::view::matrices::ModelView;
 use bevy_ecs::prelude::{ReflectResource, Resource};
+use bevy_math::Vec3;
 use bevy_reflect::Reflect;
 use bevy_reflect::std_traits::ReflectDefault;
+use halfway_lighting::equations::Place;
 use halfway_mesh::Mesh;
 use std::ops::Range;
 use std::sync::Arc;
@@ -178,10 +180,13 @@ impl Detail {
         } else if key.lists == Lists::Listed || lights.counts[2] > 0 {
             f32::INFINITY
         } else {
-            let points = lights.records.iter().skip(lights.counts[0] as usize);
-            points.map(|light| inverse(light.distance(center))).fold(0.0, f32::max)
+            let distance = |place| match place {
+                Place::Point(position) => center.as_dvec3().distance(Vec3::from(position).as_dvec3()) as f32,
+                Place::Directional(_) => f32::INFINITY,
+            };
+            lights.sources.iter().map(|light| inverse(distance(light.place))).fold(0.0, f32::max)
         };
-        let eye = if key.local_viewer { inverse(center.length()) } else { 0.0 };
+        let eye = if key.local_viewer { inverse(center.as_dvec3().length() as f32) } else { 0.0 };
         Around { pixels: self.pixels_per_unit(model_view, view), light, eye }
     }
 

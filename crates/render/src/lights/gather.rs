@@ -2,63 +2,17 @@
 
 use crate::error::{RenderError, label};
 use crate::frame::report::FrameReport;
+use crate::shaders::records::LightRecord;
 use crate::view::camera::View;
 use bevy_color::LinearRgba;
 use bevy_ecs::prelude::*;
 use bevy_math::{DVec3, Vec3};
 use bevy_transform::components::GlobalTransform;
-use bytemuck::{Pod, Zeroable};
 use halfway_lighting::equations::Light;
 use halfway_lighting::{
     Attenuation, Cone, DirectionalLight, GlobalAmbient, InvalidValue, PointLight, Shown, SpotLight, light_direction,
     light_position,
 };
-
-/// A light as the shader reads it; `Light` in lighting.wgsl. 128 bytes, so that every second one begins at an offset that
-/// any adapter can bind.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub(crate) struct LightRecord {
-    position: [f32; 3],
-    inverse_range: f32,
-    diffuse: [f32; 3],
-    constant: f32,
-    specular: [f32; 3],
-    linear: f32,
-    direction: [f32; 3],
-    quadratic: f32,
-    ambient: [f32; 3],
-    cos_cutoff: f32,
-    exponent: f32,
-    inner_scale: f32,
-    inner_offset: f32,
-    padding: [f32; 9],
-}
-
-impl LightRecord {
-    /// How far a light with a place is from a point in eye space.
-    pub(crate) fn distance(&self, point: Vec3) -> f32 {
-        Vec3::from_array(self.position).distance(point)
-    }
-
-    /// One that adds nothing.
-    pub(crate) const BLACK: Self = Self {
-        position: [0.0, 0.0, 1.0],
-        inverse_range: 0.0,
-        diffuse: [0.0; 3],
-        constant: 1.0,
-        specular: [0.0; 3],
-        linear: 0.0,
-        direction: [0.0; 3],
-        quadratic: 0.0,
-        ambient: [0.0; 3],
-        cos_cutoff: 1.0,
-        exponent: 0.0,
-        inner_scale: 0.0,
-        inner_offset: 1.0,
-        padding: [0.0; 9],
-    };
-}
 
 /// The scene's lights, sorted by kind. Holds after [`RenderSet::Illuminate`](crate::RenderSet::Illuminate).
 #[derive(Resource, Clone, Debug, Default, PartialEq)]
@@ -162,8 +116,9 @@ impl Gathered<'_> {
     ) -> Result<(), InvalidValue> {
         light.validate()?;
         let position = self.view.eye_from_world.transform_point3(light_position(transform)?.as_dvec3());
-        // A light beyond the reach of squares in f32 is brought near in its direction, and its distances shrink with it.
-        let unit = (position.length() / FARTHEST).max(1.0);
+        // How long the record's unit is: the shaders', or longer. A light beyond the reach of squares in f32 is brought near
+        // in its direction, and its distances shrink with it.
+        let unit = (position.length() / FARTHEST).max(self.view.unit().recip());
         let in_units = |value: f64| value.min(f64::from(f32::MAX)) as f32;
         let Attenuation { constant, linear, quadratic } = light.attenuation;
         let mut record = LightRecord {
@@ -217,7 +172,7 @@ impl Gathered<'_> {
     }
 }
 
-/// The distance in world units beyond which a light's square would not fit into f32.
+/// The distance beyond which a light's square would not fit into f32.
 const FARTHEST: f64 = 9e18;
 
 /// Where bounds have a light that is farther along an axis; there it only seems brighter.

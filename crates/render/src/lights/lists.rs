@@ -1,9 +1,9 @@
 //! Light lists: which of many lights each patch needs, term by term.
 
 use crate::batch::terms::TermMask;
-use crate::lights::gather::{LightRecord, Lights, rgb};
+use crate::lights::gather::{Lights, rgb};
 use crate::shaders::light_slots::{COUNTED_LIGHTS, Highlights, Lists, filled_up};
-use crate::shaders::records::RecordLists;
+use crate::shaders::records::{LightRecord, RecordLists};
 use bevy_math::Vec3;
 use halfway_lighting::bounds::{DEFAULT_TOLERANCE, Patch, Receiver, Selected, linear_tolerance};
 use halfway_lighting::equations::{Coefficients, View};
@@ -239,5 +239,26 @@ impl Surface<'_> {
     fn base(&self, ambient: Vec3) -> Vec3 {
         let [front, back] = self.sides.map(|side| rgb(side.emission) + rgb(side.ambient) * ambient);
         front.min(back)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_bound_set_begins_where_any_adapter_can_bind_it() {
+        let lights = Lights { records: vec![LightRecord::BLACK; 40], counts: [4, 20, 16], ..Lights::default() };
+        let mut lists = LightLists::default();
+        lists.begin(&lights);
+        // Sets of 1 to 24 lights, one after the other, from all kinds.
+        for count in 1..=24 {
+            lists.selected.diffuse = (40 - count..40).collect();
+            lists.selected.specular = (40 - count / 2..40).collect();
+            let bound = lists.bind(&lights, true).expect("so few lights fit");
+            let offset = bound.start as usize * size_of::<LightRecord>();
+            assert!(offset > 0 && offset.is_multiple_of(256), "the set of {count} lights begins at {offset}");
+        }
+        assert!(lists.bound.len() > 24 * 8, "each set is another");
     }
 }

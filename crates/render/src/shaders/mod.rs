@@ -2,4 +2,6 @@
 
 pub(crate) mod light_slots;
 pub(crate) mod records;
+#[cfg(test)]
+mod tests;
 pub(crate) mod text;

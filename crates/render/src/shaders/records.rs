@@ -1,4 +1,4 @@
-//! What the GPU reads of instances, materials and draws.
+//! What the GPU reads: the same bytes as the structs of the WGSL texts, which a test compares.
 
 use crate::lights::gather::rgb;
 use crate::view::matrices::{ModelView, NormalMatrix};
@@ -18,6 +18,56 @@ pub(crate) struct InstanceRecord {
 
 pub(crate) const INSTANCE_BYTES: u64 = size_of::<InstanceRecord>() as u64;
 
+/// The projection as the shader reads it.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+pub(crate) struct ViewRecord {
+    pub(crate) scale: [f32; 2],
+    pub(crate) near: f32,
+    pub(crate) padding: f32,
+}
+
+/// A light as the shader reads it; `Light` in lighting.wgsl. 128 bytes, so that every second one begins at an offset that
+/// any adapter can bind.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub(crate) struct LightRecord {
+    pub(crate) position: [f32; 3],
+    pub(crate) inverse_range: f32,
+    pub(crate) diffuse: [f32; 3],
+    pub(crate) constant: f32,
+    pub(crate) specular: [f32; 3],
+    pub(crate) linear: f32,
+    pub(crate) direction: [f32; 3],
+    pub(crate) quadratic: f32,
+    pub(crate) ambient: [f32; 3],
+    pub(crate) cos_cutoff: f32,
+    pub(crate) exponent: f32,
+    pub(crate) inner_scale: f32,
+    pub(crate) inner_offset: f32,
+    pub(crate) padding: [f32; 9],
+}
+
+impl LightRecord {
+    /// One that adds nothing.
+    pub(crate) const BLACK: Self = Self {
+        position: [0.0, 0.0, 1.0],
+        inverse_range: 0.0,
+        diffuse: [0.0; 3],
+        constant: 1.0,
+        specular: [0.0; 3],
+        linear: 0.0,
+        direction: [0.0; 3],
+        quadratic: 0.0,
+        ambient: [0.0; 3],
+        cos_cutoff: 1.0,
+        exponent: 0.0,
+        inner_scale: 0.0,
+        inner_offset: 1.0,
+        padding: [0.0; 9],
+    };
+}
+
 /// A material as the shader reads it.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
@@ -32,7 +82,7 @@ pub(crate) struct MaterialRecord {
     padding1: f32,
 }
 
-/// Material and light lists; the twin of `Draw` in mesh.wgsl. Its size is the largest alignment of offsets that WebGPU
+/// Material and light lists; `Draw` in records.wgsl. Its size is the largest alignment of offsets that WebGPU
 /// lets an adapter ask for.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
@@ -65,10 +115,11 @@ impl DrawRecord {
 
 impl InstanceRecord {
     /// With only back faces shown, the surface is lit inside out: its normals turn, and so do its windings.
-    pub(crate) fn new(model_view: &ModelView, normal_matrix: &NormalMatrix, faces: Faces) -> Self {
+    /// `unit` is the [view's](crate::View), which scales positions.
+    pub(crate) fn new(model_view: &ModelView, normal_matrix: &NormalMatrix, faces: Faces, unit: f32) -> Self {
         let m = model_view.eye_from_model.matrix3.transpose();
         let t = model_view.eye_from_model.translation;
-        let row = |row: Vec3A, translation: f32| [row.x, row.y, row.z, translation];
+        let row = |row: Vec3A, translation: f32| [row.x, row.y, row.z, translation].map(|x| x * unit);
         let side = if faces == Faces::Back { -1.0 } else { 1.0 };
         Self {
             rows: [row(m.x_axis, t.x), row(m.y_axis, t.y), row(m.z_axis, t.z)],

@@ -1,16 +1,15 @@
 //! The lighting text with its bindings, and what goes with them.
 
 use crate::device::gpu::Gpu;
-use crate::lights::gather::LightRecord;
-use crate::shaders::light_slots::{BOUND_LIGHTS, COUNTED_LIGHTS};
-use crate::shaders::records::RECORD_BYTES;
+use crate::shaders::light_slots::BOUND_LIGHTS;
+use crate::shaders::records::{LightRecord, RECORD_BYTES};
 use std::sync::OnceLock;
 
 /// How the text reads records and lights. Each is a text of its own, since a driver spends time and memory on what a
 /// pipeline leaves unused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Text {
-    /// From uniform buffers, up to [`COUNTED_LIGHTS`].
+    /// From uniform buffers, up to [`COUNTED_LIGHTS`](crate::shaders::light_slots::COUNTED_LIGHTS).
     Few,
     /// From uniform buffers, up to [`BOUND_LIGHTS`].
     Many,
@@ -45,7 +44,7 @@ pub(crate) const BOUND_LIGHT_BYTES: u64 = BOUND_LIGHTS as u64 * size_of::<LightR
 impl Text {
     /// The files that it is put together of, end to end. Each needs only those before it, so that it is valid WGSL with
     /// them; `lighting.wgsl` needs none.
-    fn files(self) -> &'static [&'static str] {
+    pub(crate) fn files(self) -> &'static [&'static str] {
         const LIGHTING: &str = include_str!("lighting.wgsl");
         const RECORDS: &str = include_str!("records.wgsl");
         const UNIFORM: &str = include_str!("uniform.wgsl");

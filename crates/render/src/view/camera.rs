@@ -28,6 +28,16 @@ pub struct View {
     pub reflectance: Reflectance,
     /// Counts changes of `eye_from_world`; equal epochs mean equal matrices.
     pub epoch: u64,
+    /// log₂ of [`View::unit`].
+    pub(crate) unit_exponent: i32,
+}
+
+impl View {
+    /// How long a world unit is in the eye space of the shaders: a power of two, and 1 but for scenes so large or so small
+    /// that the squares of their distances leave f32. Holds after [`RenderSet::Select`](crate::RenderSet::Select).
+    pub(crate) fn unit(&self) -> f64 {
+        2f64.powi(self.unit_exponent)
+    }
 }
 
 /// A perspective projection with reversed depth (near = 1) and an infinite far plane:
@@ -118,6 +128,7 @@ pub(crate) fn update(
         shading: shading.copied().unwrap_or_default(),
         reflectance: reflectance.copied().unwrap_or_default(),
         epoch: view.epoch,
+        unit_exponent: 0,
     };
 }
 

@@ -58,7 +58,7 @@ pub(crate) fn select(
     objects: Objects,
     shown: Shown,
     meshes: Res<Assets<Mesh>>,
-    view: Res<View>,
+    mut view: ResMut<View>,
     mut visible: ResMut<Visible>,
     mut report: ResMut<FrameReport>,
     // Its memory is kept.
@@ -70,6 +70,7 @@ pub(crate) fn select(
         return;
     }
     let is_shown = shown.by_entity();
+    let mut farthest = 0.0;
     for (entity, mesh, transform, order, name) in objects.iter().filter(|(entity, ..)| is_shown(*entity)) {
         report.objects += 1;
         let Some(mesh) = meshes.get(&mesh.0) else {
@@ -85,15 +86,31 @@ pub(crate) fn select(
         }
         let eye_from_model = compose(&view.eye_from_world, transform);
         let bounds = mesh.bounds();
-        let center = eye_from_model.transform_point3(bounds.center().as_dvec3()).as_vec3();
+        let center = eye_from_model.transform_point3(bounds.center().as_dvec3());
         let radius = f64::from(bounds.radius()) * largest_scale(&eye_from_model.matrix3);
-        if view.projection.sees(center, radius as f32) {
+        if view.projection.sees(center.as_vec3(), radius as f32) {
+            farthest = f64::max(farthest, center.length() + radius);
             seen.push((*order, entity));
         }
     }
+    view.unit_exponent = unit_exponent(farthest);
     seen.sort_unstable();
     visible.0.extend(seen.iter().map(|&(_, entity)| entity));
     report.visible = visible.0.len() as u32;
+}
+
+/// Of the unit in which the shaders measure a scene whose farthest visible point is at this distance: squares of distances
+/// down to 10⁻¹⁷ of it, and of lights as far again beyond it, are normal numbers of f32.
+fn unit_exponent(farthest: f64) -> i32 {
+    const MOST: i32 = 56;
+    const LEAST: i32 = -40;
+    let exponent = farthest.log2().ceil();
+    match exponent as i32 {
+        _ if !exponent.is_finite() => 0,
+        large if large > MOST => MOST - large,
+        small if small < LEAST => -small,
+        _ => 0,
+    }
 }
 
 pub(crate) fn compute(

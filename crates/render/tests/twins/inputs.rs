@@ -191,7 +191,9 @@ pub(crate) fn coincident() -> Vec<Lit> {
         base,
         constant,
         Lit { range: Some(1e-9), ..constant },
-        // A millionth of ‖p‖ away, the nearest step of f32 but one: at the point. Ten steps: not.
+        // A millionth of ‖p‖ away: at the point. Four millionths: not.
+        Lit { position: [5e-6, 0.0, -5.0], ..constant },
+        Lit { position: [2e-5, 0.0, -5.0], ..constant },
         Lit { position: [0.0, 0.0, -5.000_004_8], ..base },
         Lit { position: [0.0, 0.0, -4.999_98], ..base },
         Lit { position: [0.0, 0.0, -4.999_98], ..constant },
@@ -267,9 +269,14 @@ pub(crate) fn highlights() -> Vec<Input> {
     })
 }
 
-/// Vectors of lengths 10⁻¹⁵ to 10¹⁵, and 0.
+/// Those of [`vectors`], and one whose square is no normal number.
+pub(crate) fn short_vectors() -> Vec<Input> {
+    [vectors(), vec![input(&[1e-30, 0.0, 0.0, 0.0, 0.6, 0.8])]].concat()
+}
+
+/// Vectors of lengths 10⁻¹⁵ to 10¹⁵, and 0; with each a unit vector.
 pub(crate) fn vectors() -> Vec<Input> {
-    let edges = [[0.0f32; 3], [1e-30, 0.0, 0.0], [0.0, 3e-7, 4e-7], [0.0, 3e-6, 4e-6], [0.0, -2.0, 0.0]];
+    let edges = [[0.0f32; 3], [0.0, 3e-7, 4e-7], [0.0, 3e-6, 4e-6], [0.0, -2.0, 0.0]];
     let edges = edges.map(|a| input(&[a[0], a[1], a[2], 0.0, 0.6, 0.8]));
     many(edges, 1000, |random| {
         let (a, size, b) = (random.direction(), random.magnitude(-15.0, 15.0), random.direction());

@@ -1,0 +1,177 @@
+//! The texts are valid file by file, and the records lie as the texts read them.
+
+use crate::pipelines::key::INSTANCE;
+use crate::shaders::light_slots::BOUND_LIGHTS;
+use crate::shaders::records::{DrawRecord, InstanceRecord, LightRecord, MaterialRecord, ViewRecord};
+use crate::shaders::text::Text;
+use bytemuck::Zeroable;
+use std::mem::offset_of;
+use wgpu::naga::valid::{Capabilities, ValidationFlags, Validator};
+use wgpu::naga::{self, Binding, TypeInner};
+
+const TEXTS: [Text; 3] = [Text::Few, Text::Many, Text::Listed];
+
+fn valid(text: &str) -> Result<naga::Module, String> {
+    let module = naga::front::wgsl::parse_str(text).map_err(|error| error.emit_to_string(text))?;
+    let mut validator = Validator::new(ValidationFlags::all(), Capabilities::default());
+    validator.validate(&module).map_err(|error| error.emit_to_string(text))?;
+    Ok(module)
+}
+
+#[test]
+fn each_file_is_valid_with_those_before_it() {
+    let mut used = std::collections::HashSet::new();
+    for text in TEXTS {
+        let files = text.files();
+        for count in 1..=files.len() {
+            valid(&files[..count].concat()).unwrap_or_else(|error| panic!("{text:?}, {count} files: {error}"));
+            used.insert(files[count - 1]);
+        }
+    }
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/src/shaders");
+    for entry in std::fs::read_dir(folder).expect("the folder of the texts") {
+        let path = entry.expect("a file").path();
+        if path.extension().is_some_and(|extension| extension == "wgsl") {
+            let text = std::fs::read_to_string(&path).expect("UTF-8");
+            assert!(used.contains(text.as_str()), "{} is in no text", path.display());
+        }
+    }
+}
+
+#[test]
+fn what_no_tool_can_read_is_found() {
+    let lighting = Text::Listed.files()[0];
+    for (right, wrong) in [("1e6;", "ATTENUATION;"), ("return w * w;", "LOOPS"), ("fn power(", "fn powers(")] {
+        assert!(valid(&lighting.replacen(right, wrong, 1)).is_err(), "{wrong} for {right} passes");
+    }
+}
+
+/// Name, offset and size in bytes.
+type Field = (String, usize, usize);
+
+/// The fields of a WGSL struct but for padding, and the struct's size.
+fn members(module: &naga::Module, name: &str) -> (Vec<Field>, usize) {
+    let structs = module.types.iter().filter(|(_, ty)| ty.name.as_deref() == Some(name));
+    let mut found = structs.filter_map(|(_, ty)| match &ty.inner {
+        TypeInner::Struct { members, span } => Some((members, *span as usize)),
+        _ => None,
+    });
+    let (members, span) = found.next().unwrap_or_else(|| panic!("the text has no struct {name}"));
+    let fields = members.iter().map(|member| {
+        let size = module.types[member.ty].inner.size(module.to_ctx()) as usize;
+        (member.name.clone().unwrap_or_default(), member.offset as usize, size)
+    });
+    (fields.filter(|(name, ..)| !name.starts_with("padding")).collect(), span)
+}
+
+/// The fields of a record, and its size. What is not named is padding.
+macro_rules! fields {
+    ($record:ty { $($($field:ident).+),+ }) => {{
+        let zero = <$record>::zeroed();
+        let last = |path: &str| path.rsplit(['.', ' ']).next().unwrap_or_default().to_owned();
+        let fields: Vec<Field> = vec![$((
+            last(stringify!($($field).+)),
+            offset_of!($record, $($field).+),
+            size_of_val(&zero.$($field).+),
+        )),+];
+        (fields, size_of::<$record>())
+    }};
+}
+
+/// Each record by the name of its struct.
+fn records() -> [(&'static str, (Vec<Field>, usize)); 4] {
+    [
+        ("View", fields!(ViewRecord { scale, near })),
+        (
+            "Light",
+            fields!(LightRecord {
+                position, inverse_range, diffuse, constant, specular, linear, direction, quadratic, ambient, cos_cutoff,
+                exponent, inner_scale, inner_offset
+            }),
+        ),
+        ("Material", fields!(MaterialRecord { base, shininess, diffuse, opacity, specular, ambient })),
+        (
+            "Draw",
+            fields!(DrawRecord {
+                front, back, lists.vertex, lists.vertex_diffuse, lists.fragment, lists.fragment_diffuse
+            }),
+        ),
+    ]
+}
+
+#[test]
+fn records_lie_as_the_texts_read_them() {
+    for text in TEXTS {
+        let module = valid(&text.files().concat()).expect("a valid text");
+        for (name, record) in records() {
+            assert_eq!(members(&module, name), record, "{name} in {text:?}");
+        }
+        let strides = module.global_variables.iter().filter_map(|(_, global)| match module.types[global.ty].inner {
+            TypeInner::Array { stride, .. } => Some((global.name.clone()?, stride as usize)),
+            _ => None,
+        });
+        for (name, stride) in strides {
+            let expected = match name.as_str() {
+                "draws" => size_of::<DrawRecord>(),
+                "lights" => size_of::<LightRecord>(),
+                _ => size_of::<u32>(),
+            };
+            assert_eq!(stride, expected, "{name} in {text:?}");
+        }
+    }
+}
+
+#[test]
+fn a_field_that_moved_is_found() {
+    let whole = Text::Few.files().concat();
+    let moves = [
+        ("Light", "    exponent: f32,\n", ""),
+        ("Light", "inner_scale: f32", "inner_slope: f32"),
+        ("Light", "    padding2: vec4f,\n", ""),
+        ("Material", "base: vec3f", "base: vec4f"),
+        ("View", "    near: f32,\n    padding: f32,", "    padding: f32,\n    near: f32,"),
+        ("Draw", "    padding: array<vec4u, 4>,\n", ""),
+    ];
+    for (name, right, wrong) in moves {
+        assert!(whole.contains(right), "{right} is in the text");
+        // Parsed only: what reads the field that is gone is not what is tried here.
+        let structs = whole.split("@group").next().unwrap_or_default().replace(right, wrong);
+        let structs: String = structs.split_inclusive("\n}\n").filter(|part| part.contains("struct ")).collect();
+        let module = naga::front::wgsl::parse_str(&structs).expect("structs alone");
+        let record = records().into_iter().find(|record| record.0 == name).expect("a record of each struct").1;
+        assert_ne!(members(&module, name), record, "{wrong:?} for {right:?} passes");
+    }
+}
+
+#[test]
+fn instances_lie_as_the_vertex_stages_read_them() {
+    let (fields, bytes) = fields!(InstanceRecord { rows, normal, record });
+    let [(_, rows, _), (_, normal, _), (_, record, _)] = &fields[..] else { panic!("three fields") };
+    let columns = |start: usize, size: usize| (0..3).map(move |k| start + k * size);
+    let expected: Vec<u64> = columns(*rows, 16).chain(columns(*normal, 12)).chain([*record]).map(|at| at as u64).collect();
+    assert_eq!(INSTANCE.map(|attribute| attribute.offset).to_vec(), expected);
+    assert_eq!(INSTANCE.iter().map(|attribute| attribute.format.size()).sum::<u64>(), bytes as u64);
+
+    let module = valid(&Text::Few.files().concat()).expect("a valid text");
+    for name in ["Object", "Placed"] {
+        let inner = module.types.iter().find(|(_, ty)| ty.name.as_deref() == Some(name)).map(|(_, ty)| &ty.inner);
+        let Some(TypeInner::Struct { members, .. }) = inner else { panic!("the text has no struct {name}") };
+        for member in members {
+            let Some(Binding::Location { location, .. }) = member.binding else { panic!("{name} has a location each") };
+            let attribute = INSTANCE.iter().find(|attribute| attribute.shader_location == location);
+            let size = module.types[member.ty].inner.size(module.to_ctx());
+            assert_eq!(attribute.map(|attribute| attribute.format.size()), Some(size.into()), "{name} at {location}");
+        }
+    }
+}
+
+#[test]
+fn lights_at_fixed_places_are_as_many_as_are_bound() {
+    for text in [Text::Few, Text::Many] {
+        let module = valid(&text.files().concat()).expect("a valid text");
+        let lights = module.global_variables.iter().find(|(_, global)| global.name.as_deref() == Some("lights"));
+        let (_, lights) = lights.expect("the lights are bound");
+        let size = module.types[lights.ty].inner.size(module.to_ctx()) as usize;
+        assert_eq!(size, BOUND_LIGHTS as usize * size_of::<LightRecord>());
+    }
+}
