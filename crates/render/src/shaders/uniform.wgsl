@@ -18,15 +18,15 @@ fn add_directional(p: vec3f, n: vec3f, v: vec3f, shininess: f32, terms: Terms) -
     return sum;
 }
 
-// Adds those of the numbers `from` to `from` + 3 among the `count` points or spots that begin at `first`. The driver unrolls
+// Adds those of the numbers `start` to `start` + 3 among the `count` points or spots that begin at `first`. The driver unrolls
 // a loop as long as what comes out is short, and reads at fixed places only in unrolled ones: so many lights are several
 // loops. The numbers are constants wherever this is called.
 fn add_four(
-    before: Irradiance, first: u32, count: u32, from: u32, cone: bool,
+    before: Irradiance, first: u32, count: u32, start: u32, cone: bool,
     p: vec3f, n: vec3f, v: vec3f, shininess: f32, terms: Terms,
 ) -> Irradiance {
     var sum = before;
-    for (var i = first + from; i < first + min(count, from + 4u); i++) {
+    for (var i = first + start; i < first + min(count, start + 4u); i++) {
         let incident = incidence(lights[i], cone, p, n);
         sum = plus(sum, irradiance(lights[i], incident, n, v, shininess, of_first(terms, i - first, count)));
     }

@@ -115,7 +115,7 @@ pub(crate) fn results(
     gpu.queue.submit([encoder.finish()]);
     read.slice(..).map_async(wgpu::MapMode::Read, |mapped| mapped.expect("the results can be read"));
     device.poll(wgpu::PollType::wait_indefinitely()).expect("the adapter finishes");
-    let mapped = read.slice(..).get_mapped_range();
+    let mapped = read.slice(..).get_mapped_range().expect("the results are mapped");
     let floats: Vec<f32> = bytemuck::cast_slice(&mapped).to_vec();
     floats.as_chunks().0.to_vec()
 }

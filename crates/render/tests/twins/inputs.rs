@@ -63,7 +63,6 @@ pub(crate) struct Lit {
     colors: [[f32; 3]; 3],
     pub(crate) p: [f32; 3],
     pub(crate) n: [f32; 3],
-    pub(crate) v: [f32; 3],
     pub(crate) shininess: f32,
 }
 
@@ -99,7 +98,6 @@ impl Lit {
             colors: [random.color(), random.color(), random.color()],
             p,
             n,
-            v: random.direction(),
             shininess: random.magnitude(-1.0, 3.0),
         }
     }
@@ -183,7 +181,6 @@ pub(crate) fn coincident() -> Vec<Lit> {
         colors: [[0.2, 0.1, 0.3], [1.0, 0.5, 0.25], [0.5, 1.0, 2.0]],
         p: [0.0, 0.0, -5.0],
         n: [0.0, 0.0, 1.0],
-        v: [0.0, 0.0, 1.0],
         shininess: 20.0,
     };
     let constant = Lit { attenuation: [4.0, 1.0, 0.0], ..base };

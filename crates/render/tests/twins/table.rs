@@ -112,7 +112,7 @@ fn of_highlight(phong: bool, n: [f64; 3], l: [f64; 3], v: [f64; 3], blur: f64, e
 }
 
 fn vectors_of(x: &[f32]) -> ([f64; 3], [f64; 3], [f64; 3], f64) {
-    (wide(x), wide(&x[3..]), wide(&x[6..]), x[9].into())
+    (wide(x), wide(&x[3..]), wide(&x[6..]), f64::from(x[9]))
 }
 
 /// Of att·spot: the distance is known to 4 ULP, which its square takes twice and the window four times; the cosine of the
@@ -152,8 +152,8 @@ fn of_irradiance(x: &[f32], expected: &[f64], reflectance: Reflectance, shared: 
     let v = view_vector(&surface, &View::Local([0.0; 3]));
     let n = surface.normal;
     let of_weight = of_weight(x, true, true);
-    let s = specular_term(reflectance, n, l, v, x[SHININESS].into());
-    let of_s = of_highlight(reflectance == Reflectance::Phong, n, l, v, 16.0 * ULP, x[SHININESS].into());
+    let s = specular_term(reflectance, n, l, v, f64::from(x[SHININESS]));
+    let of_s = of_highlight(reflectance == Reflectance::Phong, n, l, v, 16.0 * ULP, f64::from(x[SHININESS]));
     let of_diffuse = of_weight * diffuse_term(n, l) + weight * 10.0 * ULP;
     let of_specular = of_weight * (s + of_s) + weight * of_s;
     let specular = if shared { light.ld } else { light.ls };
@@ -193,18 +193,18 @@ use equations::{
 pub(crate) fn rows() -> Vec<Row> {
     vec![
         row!(power("s(i, 0), s(i, 1), -1") -> Scalar, NOTHING, inputs::powers(),
-            |x| (x[0].into(), x[1].into()), |x, e| each(e, of_power(x[0].into(), x[1].into()))),
+            |x| (f64::from(x[0]), f64::from(x[1])), |x, e| each(e, of_power(f64::from(x[0]), f64::from(x[1])))),
         // Each of k squarings doubles the error that it is given, and adds half a ULP.
         row!(power("s(i, 0), 0.0, i32(s(i, 1))") -> Scalar, NOTHING, inputs::squarings(),
-            |x| (x[0].into(), f64::from(x[1]).exp2()),
+            |x| (f64::from(x[0]), f64::from(x[1]).exp2()),
             |x, e| each(e, e[0] * (x[1].exp2() * f32::EPSILON).exp_m1() as f64 + LEAST)),
         row!(attenuation("light(i, 0), s(i, 32)") -> Scalar, NOTHING, inputs::falls(),
-            |x| ([x[7], x[11], x[15]].map(f64::from), x[32].into()), |_, e| each(e, 5.0 * ULP * e[0] + LEAST)),
+            |x| ([x[7], x[11], x[15]].map(f64::from), f64::from(x[32])), |_, e| each(e, 5.0 * ULP * e[0] + LEAST)),
         // (d/R)⁴ is off by 6 ULP where it counts, below 1; its square root of the window twice that.
         row!(range_window("s(i, 0), s(i, 2)") -> Scalar, NOTHING, inputs::ranges(),
-            |x| (x[0].into(), x[1].into()), |_, e| each(e, 16.0 * ULP)),
+            |x| (f64::from(x[0]), f64::from(x[1])), |_, e| each(e, 16.0 * ULP)),
         row!(spot_factor("s(i, 32), light(i, 0)") -> Scalar, NOTHING, inputs::cones(),
-            |x| (x[32].into(), &cone(x)), |x, e| each(e, of_spot(x[32].into(), 0.0, x, e[0]))),
+            |x| (f64::from(x[32]), &cone(x)), |x, e| each(e, of_spot(f64::from(x[32]), 0.0, x, e[0]))),
         row!(incidence("light(i, 0), true, v(i, 23), v(i, 26)") -> Incidence, NOTHING, inputs::lit(inputs::coincident()),
             |x| (&surface(x), &light(x)),
             |x, _| [6.0 * ULP, 6.0 * ULP, 6.0 * ULP, of_weight(x, true, true)].to_vec()),
@@ -220,10 +220,10 @@ pub(crate) fn rows() -> Vec<Row> {
         row!(diffuse_term("v(i, 0), v(i, 3)") -> Scalar, NOTHING, inputs::highlights(),
             |x| (wide(x), wide(&x[3..])), |_, e| each(e, 3.0 * ULP)),
         row!(specular_phong("v(i, 0), v(i, 3), v(i, 6), s(i, 9)") -> Scalar, PHONG, inputs::highlights(),
-            |x| (wide(x), wide(&x[3..]), wide(&x[6..]), x[9].into()),
+            |x| (wide(x), wide(&x[3..]), wide(&x[6..]), f64::from(x[9])),
             |x, e| { let (n, l, v, a) = vectors_of(x); each(e, of_highlight(true, n, l, v, 4.0 * ULP, a)) }),
         row!(specular_blinn_phong("v(i, 0), v(i, 3), v(i, 6), s(i, 9)") -> Scalar, NOTHING, inputs::highlights(),
-            |x| (wide(x), wide(&x[3..]), wide(&x[6..]), x[9].into()),
+            |x| (wide(x), wide(&x[3..]), wide(&x[6..]), f64::from(x[9])),
             |x, e| { let (n, l, v, a) = vectors_of(x); each(e, of_highlight(false, n, l, v, 4.0 * ULP, a)) }),
         // An exponent of 32 that the pipeline knows.
         row!(specular_blinn_phong("v(i, 0), v(i, 3), v(i, 6), s(i, 9)") -> Scalar, &[("SQUARINGS", 5.0)], inputs::highlights(),
@@ -233,20 +233,20 @@ pub(crate) fn rows() -> Vec<Row> {
             |x| (wide(x), wide(&x[3..]), wide(&x[6..]), 32.0),
             |x, e| { let (n, l, v, _) = vectors_of(x); each(e, of_highlight(true, n, l, v, 4.0 * ULP, 32.0)) }),
         row!(specular_term("v(i, 0), v(i, 3), v(i, 6), s(i, 9)") -> Scalar, PHONG, inputs::highlights(),
-            |x| (Reflectance::Phong, wide(x), wide(&x[3..]), wide(&x[6..]), x[9].into()),
+            |x| (Reflectance::Phong, wide(x), wide(&x[3..]), wide(&x[6..]), f64::from(x[9])),
             |x, e| { let (n, l, v, a) = vectors_of(x); each(e, of_highlight(true, n, l, v, 4.0 * ULP, a)) }),
         row!(specular_term("v(i, 0), v(i, 3), v(i, 6), s(i, 9)") -> Scalar, NOTHING, inputs::highlights(),
-            |x| (Reflectance::BlinnPhong, wide(x), wide(&x[3..]), wide(&x[6..]), x[9].into()),
+            |x| (Reflectance::BlinnPhong, wide(x), wide(&x[3..]), wide(&x[6..]), f64::from(x[9])),
             |x, e| { let (n, l, v, a) = vectors_of(x); each(e, of_highlight(false, n, l, v, 4.0 * ULP, a)) }),
         row!(irradiance("light(i, 0), incidence(light(i, 0), true, v(i, 23), v(i, 26)), v(i, 26), \
                 view_vector(v(i, 23), v(i, 26)), s(i, 29), Terms(true, true)") -> Irradiance,
             NOTHING, inputs::lit(inputs::coincident()),
-            |x| (&surface(x), &light(x), &View::Local([0.0; 3]), Reflectance::BlinnPhong, x[SHININESS].into()),
+            |x| (&surface(x), &light(x), &View::Local([0.0; 3]), Reflectance::BlinnPhong, f64::from(x[SHININESS])),
             |x, e| of_irradiance(x, e, Reflectance::BlinnPhong, false)),
         row!(irradiance("light(i, 0), incidence(light(i, 0), true, v(i, 23), v(i, 26)), v(i, 26), \
                 view_vector(v(i, 23), v(i, 26)), s(i, 29), Terms(true, true)") -> Irradiance,
             &[("BLINN_PHONG", 0.0), ("SHARED_COLOR", 1.0)], inputs::lit(inputs::coincident()),
-            |x| (&surface(x), &shared(x), &View::Local([0.0; 3]), Reflectance::Phong, x[SHININESS].into()),
+            |x| (&surface(x), &shared(x), &View::Local([0.0; 3]), Reflectance::Phong, f64::from(x[SHININESS])),
             |x, e| of_irradiance(x, e, Reflectance::Phong, true)),
         row!(reflected("Irradiance(v(i, 0), v(i, 3), v(i, 6)), \
                 Material(vec3f(), 0.0, v(i, 12), 0.0, v(i, 15), 0.0, v(i, 9), 0.0)") -> Vector, NOTHING, inputs::reflections(),
@@ -259,7 +259,7 @@ pub(crate) fn rows() -> Vec<Row> {
             |x| (wide(x), wide(&x[3..])), |_, e| each(e, 5.0 * ULP)),
         // The polynomial is 6.8·10⁻⁶ from the curve, and q is known to 3 ULP.
         row!(srgb_encoded("vec3f(s(i, 0))") -> Repeated, NOTHING, inputs::intensities(),
-            |x| (x[0].into()), |_, e| each(e, 6.8e-6 + 6.0 * ULP)),
+            |x| (f64::from(x[0])), |_, e| each(e, 6.8e-6 + 6.0 * ULP)),
     ]
 }
 
