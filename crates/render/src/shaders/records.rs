@@ -72,13 +72,13 @@ impl LightRecord {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub(crate) struct MaterialRecord {
-    base: [f32; 3],
-    shininess: f32,
-    diffuse: [f32; 3],
-    opacity: f32,
-    specular: [f32; 3],
+    pub(crate) base: [f32; 3],
+    pub(crate) shininess: f32,
+    pub(crate) diffuse: [f32; 3],
+    pub(crate) opacity: f32,
+    pub(crate) specular: [f32; 3],
     padding0: f32,
-    ambient: [f32; 3],
+    pub(crate) ambient: [f32; 3],
     padding1: f32,
 }
 
