@@ -4,7 +4,8 @@ use super::Patch;
 use super::angle::{Angle, Cap, slack};
 use crate::equations::vector::{cross, dot, length, mul, neg, scale, sub};
 use crate::equations::{
-    COINCIDENT, Coefficients, Light, Place, Real, View, attenuation, power, range_window, reflect, specular_exponent, spot_factor,
+    COINCIDENT, Coefficients, Light, Place, Real, View, attenuation, power, range_window, reflect, specular_exponent,
+    spot_factor,
 };
 use crate::{Faces, Reflectance};
 

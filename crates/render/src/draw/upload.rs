@@ -159,7 +159,8 @@ impl Buffers {
         lights: &Lights,
         batches: &Batches,
     ) -> Result<u64, RenderError> {
-        let view = ViewRecord { scale: view.projection.scale, near: view.projection.near * view.unit() as f32, padding: 0.0 };
+        let view =
+            ViewRecord { scale: view.projection.scale, near: view.projection.near * view.unit() as f32, padding: 0.0 };
         let listed = if batches.draws.reads_storage() { lights.records.as_slice() } else { &[] };
         let bound = bytemuck::cast_slice(&batches.lists.bound);
         let sent = [

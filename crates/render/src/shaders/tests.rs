@@ -85,8 +85,19 @@ fn records() -> [(&'static str, (Vec<Field>, usize)); 4] {
         (
             "Light",
             fields!(LightRecord {
-                position, inverse_range, diffuse, constant, specular, linear, direction, quadratic, ambient, cos_cutoff,
-                exponent, inner_scale, inner_offset
+                position,
+                inverse_range,
+                diffuse,
+                constant,
+                specular,
+                linear,
+                direction,
+                quadratic,
+                ambient,
+                cos_cutoff,
+                exponent,
+                inner_scale,
+                inner_offset
             }),
         ),
         ("Material", fields!(MaterialRecord { base, shininess, diffuse, opacity, specular, ambient })),
@@ -148,7 +159,8 @@ fn instances_lie_as_the_vertex_stages_read_them() {
     let (fields, bytes) = fields!(InstanceRecord { rows, normal, record });
     let [(_, rows, _), (_, normal, _), (_, record, _)] = &fields[..] else { panic!("three fields") };
     let columns = |start: usize, size: usize| (0..3).map(move |k| start + k * size);
-    let expected: Vec<u64> = columns(*rows, 16).chain(columns(*normal, 12)).chain([*record]).map(|at| at as u64).collect();
+    let expected: Vec<u64> =
+        columns(*rows, 16).chain(columns(*normal, 12)).chain([*record]).map(|at| at as u64).collect();
     assert_eq!(INSTANCE.map(|attribute| attribute.offset).to_vec(), expected);
     assert_eq!(INSTANCE.iter().map(|attribute| attribute.format.size()).sum::<u64>(), bytes as u64);
 

@@ -56,8 +56,15 @@ impl Kind {
             Self::Vector => &["r.x", "r.y", "r.z"],
             Self::Incidence => &["r.l.x", "r.l.y", "r.l.z", "r.weight"],
             Self::Irradiance => &[
-                "r.ambient.x", "r.ambient.y", "r.ambient.z", "r.diffuse.x", "r.diffuse.y", "r.diffuse.z",
-                "r.specular.x", "r.specular.y", "r.specular.z",
+                "r.ambient.x",
+                "r.ambient.y",
+                "r.ambient.z",
+                "r.diffuse.x",
+                "r.diffuse.y",
+                "r.diffuse.z",
+                "r.specular.x",
+                "r.specular.y",
+                "r.specular.z",
             ],
         }
     }
@@ -88,7 +95,12 @@ pub(crate) fn results(
         cache: None,
     });
     let buffer = |size: usize, usage| {
-        device.create_buffer(&wgpu::BufferDescriptor { label: None, size: size as u64, usage, mapped_at_creation: false })
+        device.create_buffer(&wgpu::BufferDescriptor {
+            label: None,
+            size: size as u64,
+            usage,
+            mapped_at_creation: false,
+        })
     };
     let bytes: &[u8] = bytemuck::cast_slice(inputs.as_flattened());
     let size = 4 * RESULT * inputs.len();

@@ -108,7 +108,8 @@ impl Lit {
         let (direction, cos_cutoff, inner, exponent) = self.cone;
         let width = inner.map_or(0.0, |inner| f64::from(inner) - f64::from(cos_cutoff));
         let (scale, offset) = if width > 0.0 { (1.0 / width, -f64::from(cos_cutoff) / width) } else { (0.0, 1.0) };
-        let vectors = [(self.position, self.range.map_or(0.0, f32::recip)), (ld, a), (ls, b), (direction, c), (la, cos_cutoff)];
+        let vectors =
+            [(self.position, self.range.map_or(0.0, f32::recip)), (ld, a), (ls, b), (direction, c), (la, cos_cutoff)];
         let mut numbers: Vec<f32> = vectors.into_iter().flat_map(|(v, s)| [v[0], v[1], v[2], s]).collect();
         numbers.extend([exponent, scale as f32, offset as f32]);
         numbers.extend(self.p.into_iter().chain(self.n));
@@ -145,7 +146,11 @@ fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-fn many(edges: impl IntoIterator<Item = Input>, count: usize, mut random: impl FnMut(&mut Random) -> Input) -> Vec<Input> {
+fn many(
+    edges: impl IntoIterator<Item = Input>,
+    count: usize,
+    mut random: impl FnMut(&mut Random) -> Input,
+) -> Vec<Input> {
     let mut source = Random(0x9e37_79b9_7f4a_7c15);
     let mut inputs: Vec<Input> = edges.into_iter().collect();
     inputs.extend((0..count).map(|_| random(&mut source)));
@@ -235,7 +240,9 @@ pub(crate) fn cones() -> Vec<Input> {
 
 /// n, l, v and an exponent; l = −v and its neighbours, a light in the surface's plane and behind it.
 pub(crate) fn highlights() -> Vec<Input> {
-    let row = |n: [f32; 3], l: [f32; 3], v: [f32; 3], e: f32| input(&[n[0], n[1], n[2], l[0], l[1], l[2], v[0], v[1], v[2], e]);
+    let row = |n: [f32; 3], l: [f32; 3], v: [f32; 3], e: f32| {
+        input(&[n[0], n[1], n[2], l[0], l[1], l[2], v[0], v[1], v[2], e])
+    };
     let z = [0.0, 0.0, 1.0];
     let edges = [
         row(z, z, z, 0.0),
@@ -305,7 +312,8 @@ pub(crate) fn falls() -> Vec<Input> {
 
 /// A distance and a range.
 pub(crate) fn ranges() -> Vec<Input> {
-    let edges = [(0.0f32, 2.0f32), (2.0, 2.0), (2.1, 2.0), (1.0, 1e30), (1e18, 2.0)].map(|(d, range)| input(&[d, range, range.recip()]));
+    let edges = [(0.0f32, 2.0f32), (2.0, 2.0), (2.1, 2.0), (1.0, 1e30), (1e18, 2.0)]
+        .map(|(d, range)| input(&[d, range, range.recip()]));
     many(edges, 1000, |random| {
         let range = random.magnitude(-12.0, 12.0);
         input(&[range * random.between(0.0, 1.2), range, range.recip()])

@@ -17,7 +17,11 @@ fn too_far(gpu: &Gpu, lighting: &str, row: &Row) -> Option<String> {
     row.inputs.iter().zip(results).find_map(|(input, result)| {
         let expected = (row.twin)(input);
         let allowed = (row.allowed)(input, &expected);
-        assert!(!expected.is_empty() && allowed.len() == expected.len(), "{}: as many tolerances as numbers", row.function);
+        assert!(
+            !expected.is_empty() && allowed.len() == expected.len(),
+            "{}: as many tolerances as numbers",
+            row.function
+        );
         (0..expected.len()).find_map(|k| {
             let (found, expected, allowed) = (f64::from(result[k]), expected[k], allowed[k]);
             // A result that is not a number is too far.

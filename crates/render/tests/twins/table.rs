@@ -186,7 +186,8 @@ fn arriving(x: &[f32]) -> Irradiance<f64> {
 use equations::vector::{add, dot, length, normalize_or_zero};
 use equations::{
     attenuation, diffuse_term, half_vector, incidence, interpolated_normal, irradiance, power, range_window, reflect,
-    reflected, specular_blinn_phong, specular_phong, specular_term, spot_factor, srgb_encoded, transform_normal, view_vector,
+    reflected, specular_blinn_phong, specular_phong, specular_term, spot_factor, srgb_encoded, transform_normal,
+    view_vector,
 };
 
 #[rustfmt::skip]
