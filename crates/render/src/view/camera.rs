@@ -29,7 +29,7 @@ pub struct View {
     /// Counts changes of `eye_from_world`; equal epochs mean equal matrices.
     pub epoch: u64,
     /// log₂ of [`View::unit`].
-    pub(crate) unit_exponent: i32,
+    pub unit_exponent: i32,
 }
 
 impl View {
