@@ -8,7 +8,7 @@ use bevy_reflect::std_traits::ReflectDefault;
 use bevy_transform::components::Transform;
 
 use crate::Viewer;
-use crate::equations::srgb_encoded;
+use crate::equations::{Transcendental, srgb_encoded};
 use crate::invalid::{InvalidValue, Problem};
 
 /// A perspective camera at its entity's transform, looking along its local −Z with +Y up.
@@ -98,7 +98,7 @@ impl Encoding {
         match self {
             Self::Raw => encoded,
             Self::Srgb if encoded <= 0.040_45 => encoded / 12.92,
-            Self::Srgb => ((encoded + 0.055) / 1.055).powf(2.4),
+            Self::Srgb => ((encoded + 0.055) / 1.055).pow(2.4),
         }
     }
 }

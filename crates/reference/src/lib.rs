@@ -3,10 +3,13 @@
 //! [`Oracle`] takes the entities of a world (meshes, lights, materials, one camera) and says what each pixel should be.
 //! It shares components and the equations of `halfway_lighting` with a renderer, and none of its shading code.
 
+// Powers and the functions of angles only by the door in `halfway_lighting::equations`: see clippy.toml.
+#![warn(clippy::disallowed_methods)]
+
 mod image;
 pub mod metrics;
 mod oracle;
 mod surface;
 
 pub use image::Image;
-pub use oracle::{Around, Mode, Nearest, Oracle, OracleError, Seen, Stopped};
+pub use oracle::{ColorRange, Mode, Nearest, Oracle, OracleError, Possible, Seen, Stopped};

@@ -32,8 +32,8 @@ impl<T: Real> Angle<T> {
     /// `radians`, at least 0 and at most π; π where it is not a number.
     pub(super) fn of(radians: T) -> Self {
         if radians < T::of(core::f64::consts::PI) {
-            let (sin, cos) = radians.max(T::zero()).sin_cos();
-            Self { cos, sin }
+            let radians = radians.max(T::zero());
+            Self { cos: radians.cosine(), sin: radians.sine() }
         } else {
             Self::straight()
         }

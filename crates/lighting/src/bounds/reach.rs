@@ -1,6 +1,6 @@
 //! How far a light matters.
 
-use crate::equations::{ATTENUATION_MAX, Light, Place, Real, attenuation, range_window};
+use crate::equations::{ATTENUATION_MAX, Light, Place, Real, Transcendental, attenuation, range_window};
 
 /// Halvings of the interval that holds the reach of a light with a range: to 10⁻⁹ of it.
 const HALVINGS: u32 = 30;
@@ -51,7 +51,7 @@ fn crossing([a, b, c]: [f64; 3], divisor: f64) -> f64 {
         return 0.0;
     }
     let rest = divisor - a;
-    let d = 2.0 * rest / (b + b.hypot(2.0 * c.sqrt() * rest.sqrt()));
+    let d = 2.0 * rest / (b + b.hypotenuse(2.0 * c.sqrt() * rest.sqrt()));
     // 0/0 and ∞/∞: the light does not fall, or falls beyond the number range.
     if d.is_nan() { f64::INFINITY } else { d }
 }

@@ -8,6 +8,6 @@ pub fn srgb_encoded<T: Real>(linear: T) -> T {
     if linear <= T::of(0.003_130_8) {
         T::of(12.92) * linear
     } else {
-        T::of(1.055) * linear.powf(T::of(1.0 / 2.4)) - T::of(0.055)
+        T::of(1.055) * linear.pow(T::of(1.0 / 2.4)) - T::of(0.055)
     }
 }

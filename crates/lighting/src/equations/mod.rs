@@ -31,6 +31,7 @@ mod normal;
 mod reflectance;
 mod scene;
 mod shade;
+mod transcendental;
 pub mod vector;
 
 pub use encoding::srgb_encoded;
@@ -45,4 +46,5 @@ pub use shade::{
     COINCIDENT, Incidence, Irradiance, Terms, incidence, irradiance, light_contribution, light_terms, reflected, shade,
     view_vector,
 };
+pub use transcendental::Transcendental;
 pub use vector::Real;

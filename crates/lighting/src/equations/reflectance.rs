@@ -20,7 +20,7 @@ pub fn power<T: Real>(x: T, e: T) -> T {
     } else if x == T::zero() {
         T::zero()
     } else {
-        x.powf(e)
+        x.pow(e)
     }
 }
 

@@ -127,8 +127,8 @@ impl Cone {
     pub fn along<T: Real>(&self, direction: [T; 3]) -> Option<ConeTerms<T>> {
         (!self.is_none()).then(|| ConeTerms {
             direction,
-            cos_cutoff: real::<T>(self.cutoff).cos(),
-            cos_inner: self.inner.map(|inner| real::<T>(inner).cos()),
+            cos_cutoff: real::<T>(self.cutoff).cosine(),
+            cos_inner: self.inner.map(|inner| real::<T>(inner).cosine()),
             exponent: real(self.exponent),
         })
     }

@@ -4,8 +4,10 @@ use core::fmt::Debug;
 
 use num_traits::Float;
 
+use super::Transcendental;
+
 /// The numbers the equations run in: `f32` and `f64`.
-pub trait Real: Float + Debug + Send + Sync + 'static + sealed::Sealed {
+pub trait Real: Float + Transcendental + Debug + Send + Sync + 'static + sealed::Sealed {
     /// The number of this type nearest to `value`.
     fn of(value: f64) -> Self;
 }

@@ -38,10 +38,10 @@ pub(super) fn write(image: &mut RgbImage, (x, y): (u32, u32), scale: u32, text: 
 }
 
 /// Fills what lies inside the picture.
-pub(super) fn fill(image: &mut RgbImage, (x, y): (u32, u32), (width, height): (u32, u32), colour: Rgb<u8>) {
+pub(super) fn fill(image: &mut RgbImage, (x, y): (u32, u32), (width, height): (u32, u32), color: Rgb<u8>) {
     for y in y..(y + height).min(image.height()) {
         for x in x..(x + width).min(image.width()) {
-            image.put_pixel(x, y, colour);
+            image.put_pixel(x, y, color);
         }
     }
 }

@@ -1,29 +1,28 @@
 //! A drawn picture against the oracle's.
 //!
 //! Two drawers that are both right differ on the edges of objects, faces and spot cones: a rasteriser snaps vertices to
-//! a grid (Vulkan lets it be as coarse as 1/16 pixel; 1/256 is usual), so that either side may win a pixel whose centre
-//! lies beside an edge. Such pixels are told from wrong ones by asking the oracle what is to be seen close by, and are
-//! counted apart.
+//! a grid, so that either side may win a pixel whose centre lies beside an edge. Of a pixel that is over the bar the
+//! oracle says which colours it may show, and it is right if it shows one of them.
 
 use std::fmt;
 
 use halfway_lighting::Encoding;
+use rayon::prelude::*;
 
 use super::comparison::{SizeMismatch, range, same_size};
 use super::statistics::{Worst, percentile};
-use super::table::Place;
-use crate::oracle::Around;
+use crate::oracle::{ColorRange, Possible};
 use crate::{Image, Oracle};
 
-/// Within this many pixels of an edge a pixel may belong to either side: eight times the 1/256 pixel to which
-/// rasterisers usually snap vertices, since a snapped vertex also tilts long edges.
-pub const EDGE_RADIUS: f64 = 1.0 / 32.0;
-/// A step of this share of the range within the edge's width is an edge (of a spot's cone, say) and not a slope.
-const STEP: f64 = 0.02;
-/// The share of pixels that may lie on edges: with more, what is judged is hardly the picture.
-const MOST_EDGES: f64 = 0.06;
+/// Within this many pixels of an edge a pixel may belong to either side: vertices are snapped to a grid of this width or
+/// a finer one (four bits, the least that Vulkan grants; eight are usual).
+pub const EDGE_RADIUS: f64 = 1.0 / 16.0;
+/// Where a triangle's own colour changes by more than this share of the range within the disc of [`EDGE_RADIUS`], any of
+/// the colours there is right. On a gentler slope, vertices on a grid of 1/256 pixel change a pixel by less than 1/16 of
+/// it, which the bars cover: there the colour at the centre is the right one.
+const STEEP: f64 = 0.04;
 
-/// What a picture has to keep to, off edges.
+/// What a picture has to keep to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bars {
     /// What errors are counted in.
@@ -60,8 +59,9 @@ impl Bars {
 
 /// How a drawn picture did. Displayed it is one line.
 ///
-/// Figures are over the pixels that are on no edge and show an object; background that is right is left out, as it would
-/// flatter them. Where the expected picture does not know what it covers, all pixels count as showing one.
+/// Figures are over the pixels that show an object, less those that show the other side of an edge; background that is
+/// right is left out, as it would flatter them. Where the expected picture does not know what it covers, all pixels count
+/// as showing an object.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Verdict {
     /// What it was judged by; errors are in its measure.
@@ -75,7 +75,8 @@ pub struct Verdict {
     pub at: Option<Worst>,
     /// The share of pixels without any error.
     pub equal: f64,
-    /// The share of the picture's pixels that lie on an edge and show something that is to be seen there.
+    /// The share of the picture's pixels that show the other side of an edge than the oracle does at their centres, and
+    /// may. Each has been judged: the figure excuses nothing.
     pub edges: f64,
     /// The share of the picture's pixels that count.
     pub counted: f64,
@@ -86,57 +87,68 @@ pub struct Verdict {
 }
 
 impl Verdict {
-    /// Whether the picture keeps to its bars, has no bad pixel, and few enough on edges to be judged by the others.
+    /// Whether the picture keeps to its bars and has no bad pixel.
     pub fn is_within(&self) -> bool {
         let Self { bars, most, worst, equal, .. } = *self;
-        most <= bars.most && worst <= bars.worst && equal >= bars.equal && self.bad == 0 && !self.is_mostly_edges()
-    }
-
-    /// Whether more than 6 % of the pixels lie on edges.
-    pub fn is_mostly_edges(&self) -> bool {
-        self.edges > MOST_EDGES
+        most <= bars.most && worst <= bars.worst && equal >= bars.equal && self.bad == 0
     }
 }
 
-/// Judges `actual` by `expected`, which `oracle` has drawn.
+/// Judges `actual` by `expected`, which `oracle` has drawn with one sample a pixel; `actual` has as many as the camera says.
 ///
-/// Of a pixel whose error is over `bars.most` the oracle is asked what is to be seen within [`EDGE_RADIUS`] of its
-/// centre. Several primitives, or a step of more than 2 % of the range, are an edge; there any value between the least
-/// and the largest seen is right, and the pixel is counted apart. Any other error counts.
+/// Of a pixel whose error is over `bars.most` the oracle is asked which colours it [may show](Oracle::possible) with
+/// vertices moved by less than [`EDGE_RADIUS`]. On an edge (several triangles, or a jump in the colour of one) and on a
+/// slope of more than 4 % of the range within that radius, each of these colours, give or take `bars.worst`, is right, and
+/// the pixel is counted apart. Any other error counts; no share of pixels is excused.
 ///
 /// # Errors
 /// [`SizeMismatch`].
 pub fn judge(oracle: &Oracle, expected: &Image, actual: &Image, bars: Bars) -> Result<Verdict, SizeMismatch> {
-    judge_with(|x, y| oracle.around(x, y, EDGE_RADIUS), expected, actual, bars)
+    judge_with(|x, y| oracle.possible(x, y, EDGE_RADIUS), expected, actual, bars)
 }
 
 fn judge_with(
-    around: impl Fn(u32, u32) -> Around,
+    possible: impl Fn(u32, u32) -> Possible + Sync,
     expected: &Image,
     actual: &Image,
     bars: Bars,
 ) -> Result<Verdict, SizeMismatch> {
     same_size(actual, expected)?;
     let ruler = Ruler::new(expected, bars);
-    let mut tally = Tally::default();
     let width = expected.dimensions().0.max(1) as usize;
-    for (i, (&should, &is)) in expected.pixels().iter().zip(actual.pixels()).enumerate() {
+    let of_pixel = |i: usize| {
         let at = ((i % width) as u32, (i / width) as u32);
+        let (should, is) = (expected.pixels()[i], actual.pixels()[i]);
         if is.iter().any(|channel| !(channel.is_finite() && *channel >= 0.0)) {
-            tally.bad += 1;
-            tally.first_bad.get_or_insert((at, is));
-            continue;
+            return Finding::Bad(at, is);
         }
         let errors: [f64; 3] = std::array::from_fn(|k| ruler.error(is[k], should[k]));
         // An error that is no number is over the bar too.
-        let over = errors.iter().any(|error| error.is_nan() || *error > bars.most);
-        if over && ruler.is_on_edge(is, &around(at.0, at.1)) {
-            tally.edges += 1;
-        } else if over || expected.covered().is_none_or(|covered| covered[i]) {
-            tally.count(at, [is, should].map(|pixel| pixel.map(|channel| ruler.value(channel))), errors);
+        let is_over = errors.iter().any(|error| error.is_nan() || *error > bars.most);
+        if is_over && ruler.may_be_shown(is, &possible(at.0, at.1)) {
+            Finding::Edge
+        } else if is_over || expected.covered().is_none_or(|covered| covered[i]) {
+            Finding::Counted(at, [is, should].map(|pixel| pixel.map(|channel| ruler.value(channel))), errors)
+        } else {
+            Finding::Background
         }
-    }
+    };
+    let findings: Vec<Finding> = (0..expected.pixels().len()).into_par_iter().map(of_pixel).collect();
+    let mut tally = Tally::default();
+    findings.into_iter().for_each(|finding| tally.add(finding));
     Ok(tally.verdict(bars, expected.pixels().len()))
+}
+
+/// How a pixel did.
+enum Finding {
+    /// It holds no number, or one below 0.
+    Bad((u32, u32), [f64; 3]),
+    /// It is over the bar, and shows another side of an edge.
+    Edge,
+    /// It shows no object, and is right.
+    Background,
+    /// Its place, what it shows and should show, and the errors.
+    Counted((u32, u32), [[f64; 3]; 2], [f64; 3]),
 }
 
 /// From intensities to the unit of the bars.
@@ -144,6 +156,8 @@ struct Ruler {
     bars: Bars,
     /// The expected range, linear or in steps.
     range: f64,
+    /// The least expected value, in the same unit.
+    darkest: f64,
 }
 
 impl Ruler {
@@ -154,7 +168,11 @@ impl Ruler {
             Measure::Range => [range(expected), brightest, 1.0].into_iter().find(|range| *range > 1e-12).unwrap_or(1.0),
             Measure::Steps(_) => 255.0,
         };
-        Self { bars, range }
+        let darkest = match bars.measure {
+            Measure::Range => (brightest - range).max(0.0),
+            Measure::Steps(_) => 0.0,
+        };
+        Self { bars, range, darkest }
     }
 
     /// An intensity as errors are shown: linear, or the nearest whole step.
@@ -177,18 +195,27 @@ impl Ruler {
         self.in_unit((self.value(actual) - self.value(expected)).abs())
     }
 
-    /// Whether the surroundings hold an edge, and the pixel a value that is to be seen there.
-    fn is_on_edge(&self, actual: [f64; 3], around: &Around) -> bool {
-        let [low, high] = [around.low, around.high].map(|pixel| pixel.map(|channel| self.value(channel)));
-        let span = (0..3).map(|k| high[k] - low[k]).fold(0.0, f64::max);
-        let steep = span > STEP * self.range;
+    /// Whether a pixel over the bar lies on an edge or a steep slope, and has one of the colours that it may show there.
+    fn may_be_shown(&self, actual: [f64; 3], possible: &Possible) -> bool {
+        let is_steep = |range: &ColorRange| (0..3).any(|k| self.span(range, k) > STEEP * self.range);
+        (possible.is_edge || possible.ranges.iter().any(is_steep))
+            && possible.ranges.iter().any(|range| self.is_in(actual, range))
+    }
+
+    fn span(&self, range: &ColorRange, channel: usize) -> f64 {
+        self.value(range.high[channel]) - self.value(range.low[channel])
+    }
+
+    /// Whether each channel lies in the range, give or take the largest error that is within the bars.
+    fn is_in(&self, actual: [f64; 3], range: &ColorRange) -> bool {
+        let [low, high] = [range.low, range.high].map(|color| color.map(|channel| self.value(channel)));
         // An edge may show what is brighter than the whole of the picture, rounded to its own brightness.
-        let share = self.range / self.range.max(span);
-        let outside = |k: usize| {
+        let brightest = high.into_iter().fold(0.0, f64::max) - self.darkest;
+        let share = self.range / self.range.max(brightest);
+        (0..3).all(|k| {
             let value = self.value(actual[k]);
-            share * self.in_unit((low[k] - value).max(value - high[k]))
-        };
-        (around.edge || steep) && (0..3).all(|k| outside(k) <= self.bars.worst)
+            share * self.in_unit((low[k] - value).max(value - high[k])) <= self.bars.worst
+        })
     }
 }
 
@@ -206,6 +233,18 @@ struct Tally {
 }
 
 impl Tally {
+    fn add(&mut self, finding: Finding) {
+        match finding {
+            Finding::Bad(at, pixel) => {
+                self.bad += 1;
+                self.first_bad.get_or_insert((at, pixel));
+            }
+            Finding::Edge => self.edges += 1,
+            Finding::Background => {}
+            Finding::Counted(at, values, errors) => self.count(at, values, errors),
+        }
+    }
+
     fn count(&mut self, at: (u32, u32), [actual, expected]: [[f64; 3]; 2], errors: [f64; 3]) {
         self.pixels += 1;
         self.equal += usize::from(errors.iter().all(|error| *error == 0.0));
@@ -247,12 +286,9 @@ impl fmt::Display for Verdict {
             }
         }
         write!(f, "; {:.0} % of the picture counts, ", self.counted * 100.0)?;
-        write!(f, "{:.2} % lies on edges", self.edges * 100.0)?;
-        if self.is_mostly_edges() {
-            write!(f, ", too much to judge by the rest (more than {} %)", MOST_EDGES * 100.0)?;
-        }
+        write!(f, "{:.2} % shows another side of an edge", self.edges * 100.0)?;
         if let Some(worst) = self.at {
-            write!(f, "; the worst is {}", Place(worst))?;
+            write!(f, "; the worst is {}", worst)?;
         }
         if let Some((at, pixel)) = self.first_bad {
             write!(f, "; {} pixels are not finite or negative, the first at {at:?}: {pixel:?}", self.bad)?;

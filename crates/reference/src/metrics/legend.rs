@@ -3,7 +3,7 @@
 use image::{Rgb, RgbImage};
 
 use super::canvas::{INK, PAPER, fill, text_height, text_scale, text_width, write};
-use super::difference::{COVERAGE, NOT_FINITE, Shown, Unit, colour};
+use super::scale::{COVERAGE, NOT_FINITE, Shown, Unit, color, power_of_ten};
 
 /// No narrower, so that the words have room.
 const LEAST_WIDTH: u32 = 320;
@@ -14,7 +14,7 @@ pub(super) fn legend(width: u32, shown: Shown) -> RgbImage {
     let scale = text_scale(width);
     let (line, margin) = (text_height(scale), 8 * scale);
     let marks = [(shown.coverage, COVERAGE, "coverage differs"), (shown.not_finite, NOT_FINITE, "not finite")];
-    let marks = marks.into_iter().filter(|(occurs, ..)| *occurs).map(|(_, colour, words)| (colour, words));
+    let marks = marks.into_iter().filter(|(occurs, ..)| *occurs).map(|(_, color, words)| (color, words));
     let marks: Vec<(Rgb<u8>, &str)> = marks.collect();
     let bar_height = 12 * scale;
     let mut y = margin;
@@ -30,14 +30,14 @@ pub(super) fn legend(width: u32, shown: Shown) -> RgbImage {
     let length = width - 2 * margin;
     for x in 0..length {
         let share = f64::from(x) / f64::from(length - 1);
-        fill(&mut strip, (margin + x, y), (1, bar_height), colour(share));
+        fill(&mut strip, (margin + x, y), (1, bar_height), color(share));
     }
     y += bar_height;
     ticks(&mut strip, (margin, y), length, scale, shown);
     y += line + margin;
     let mut x = margin;
-    for (colour, words) in marks {
-        fill(&mut strip, (x, y), (line, line), colour);
+    for (color, words) in marks {
+        fill(&mut strip, (x, y), (line, line), color);
         write(&mut strip, (x + line + margin / 2, y), scale, words);
         x += line + margin / 2 + text_width(words, scale) + 2 * margin;
     }
@@ -63,7 +63,7 @@ fn ticks(strip: &mut RgbImage, (left, y): (u32, u32), length: u32, scale: u32, s
 
 /// How many parts have round ends.
 fn parts(shown: Shown) -> u32 {
-    let leading = shown.upper / 10_f64.powf(shown.upper.log10().floor());
+    let leading = shown.upper / power_of_ten(shown.upper);
     match shown.unit {
         Unit::Steps if shown.upper <= 5.0 && shown.upper.fract() == 0.0 => shown.upper as u32,
         _ if (leading - 2.0).abs() < 1e-9 => 4,

@@ -27,20 +27,19 @@ mod flip;
 mod judge;
 mod legend;
 mod report;
+mod scale;
 mod statistics;
 mod table;
 mod triptych;
 
 pub use comparison::{Comparison, Difference, NotFinite, SizeMismatch, compare};
 pub use coverage::Coverage;
-pub use difference::{Scale, Unit, difference};
+pub use difference::difference;
 #[cfg(feature = "flip")]
 pub use flip::{Flip, PIXELS_PER_DEGREE, flip};
 pub use judge::{Bars, EDGE_RADIUS, Measure, Verdict, judge};
 pub use report::report_failure;
+pub use scale::{Scale, Unit};
 pub use statistics::{Errors, PERCENTILES, Statistics, Worst};
 pub use table::Table;
 pub use triptych::triptych;
-
-/// The channels' names, in their order.
-const CHANNELS: [&str; 3] = ["red", "green", "blue"];

@@ -5,8 +5,9 @@ use std::path::Path;
 
 use image::{ImageResult, RgbImage};
 
-use super::Comparison;
-use super::difference::{Scale, difference};
+use super::comparison::Comparison;
+use super::difference::difference;
+use super::scale::Scale;
 use super::triptych::triptych;
 use crate::Image;
 

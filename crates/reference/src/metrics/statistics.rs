@@ -1,6 +1,10 @@
 //! Figures over many errors.
 
 use std::cmp::Ordering;
+use std::fmt;
+
+/// The channels' names, in their order.
+pub(super) const CHANNELS: [&str; 3] = ["red", "green", "blue"];
 
 /// The shares of [`Statistics::percentiles`], in per cent.
 pub const PERCENTILES: [f64; 4] = [50.0, 95.0, 99.0, 99.9];
@@ -46,6 +50,16 @@ impl Worst {
     /// The absolute error.
     pub fn error(&self) -> f64 {
         (self.actual - self.expected).abs()
+    }
+}
+
+/// The place and both values.
+impl fmt::Display for Worst {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Worst { at, channel, actual, expected } = *self;
+        // Bytes are whole.
+        let digits = if actual.fract() == 0.0 && expected.fract() == 0.0 { 0 } else { 6 };
+        write!(f, "{at:?} {}: {actual:.digits$} instead of {expected:.digits$}", CHANNELS[channel])
     }
 }
 

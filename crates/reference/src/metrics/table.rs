@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-use super::statistics::{Errors, PERCENTILES, Statistics, Worst};
-use super::{CHANNELS, Comparison};
+use super::comparison::Comparison;
+use super::statistics::{CHANNELS, Errors, PERCENTILES, Statistics};
 
 /// Every figure of a [`Comparison`], in several lines.
 #[derive(Clone, Copy, Debug)]
@@ -30,7 +30,7 @@ impl fmt::Display for Comparison {
             Some(worst) => {
                 write!(f, "up to {} steps of 1/255", steps.max())?;
                 let relative = self.relative(worst.error());
-                write!(f, " and {relative:.1e} of the range, at {}", Place(worst))?;
+                write!(f, " and {relative:.1e} of the range, at {}", worst)?;
                 write!(f, "; mean {:.3}, RMSE {:.3} steps", steps.mean, steps.rmse)?;
             }
         }
@@ -46,18 +46,6 @@ impl fmt::Display for Comparison {
             write!(f, " instead of {:?}", bad.expected)?;
         }
         Ok(())
-    }
-}
-
-/// The place of an error and both values.
-pub(super) struct Place(pub(super) Worst);
-
-impl fmt::Display for Place {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Worst { at, channel, actual, expected } = self.0;
-        // Bytes are whole.
-        let digits = if actual.fract() == 0.0 && expected.fract() == 0.0 { 0 } else { 6 };
-        write!(f, "{at:?} {}: {actual:.digits$} instead of {expected:.digits$}", CHANNELS[channel])
     }
 }
 
@@ -122,7 +110,7 @@ fn row(f: &mut fmt::Formatter<'_>, name: &str, statistics: &Statistics, scale: f
         write!(f, "{:>9}", number(*value))?;
     }
     match worst {
-        Some(worst) if worst.error() > 0.0 => writeln!(f, "  {}", Place(*worst)),
+        Some(worst) if worst.error() > 0.0 => writeln!(f, "  {}", worst),
         _ => writeln!(f),
     }
 }

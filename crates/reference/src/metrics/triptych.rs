@@ -5,7 +5,8 @@ use image::RgbImage;
 
 use super::canvas::{PAPER, below_one_another, beside_one_another, enlarged, text_height, text_scale, write};
 use super::comparison::SizeMismatch;
-use super::difference::{Scale, difference};
+use super::difference::difference;
+use super::scale::Scale;
 use crate::Image;
 
 /// The actual picture, the expected one and their [`difference`], side by side under their names.

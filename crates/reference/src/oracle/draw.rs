@@ -6,8 +6,10 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use bevy_math::UVec2;
 use rayon::prelude::*;
 
+use super::Oracle;
+use super::error::Stopped;
+use super::layers::Layers;
 use super::raster::{Hit, Primitive, TILE};
-use super::{Layers, Oracle, Stopped};
 use crate::Image;
 
 /// A finished part of the picture.
@@ -59,8 +61,8 @@ impl Oracle {
         for sample in 0..n * n {
             let offset = [sample % n, sample / n].map(|i| (f64::from(i) + 0.5) / f64::from(n));
             for (layers, (sum, covered)) in self.layers(tile, &part, offset).iter().zip(&mut part.pixels) {
-                let colour = layers.colour(&self.scene, self.clamp);
-                *sum = [0, 1, 2].map(|k| sum[k] + share * colour[k]);
+                let color = layers.color(&self.scene, self.clamp);
+                *sum = [0, 1, 2].map(|k| sum[k] + share * color[k]);
                 *covered |= !layers.is_empty();
             }
         }
@@ -107,18 +109,18 @@ impl Oracle {
     fn put_together(&self, parts: &[Part]) -> Image {
         let UVec2 { x: width, y: height } = self.size;
         let pixels = width as usize * height as usize;
-        let mut colours = vec![[0.0; 3]; pixels];
+        let mut colors = vec![[0.0; 3]; pixels];
         let mut covered = vec![false; pixels];
         for part in parts {
             for (row, of_row) in part.pixels.chunks(part.width as usize).enumerate() {
                 let first = (part.origin[1] as usize + row) * width as usize + part.origin[0] as usize;
-                for (i, (colour, is_covered)) in of_row.iter().enumerate() {
-                    colours[first + i] = *colour;
+                for (i, (color, is_covered)) in of_row.iter().enumerate() {
+                    colors[first + i] = *color;
                     covered[first + i] = *is_covered;
                 }
             }
         }
-        Image::new(width, height, colours).with_coverage(covered)
+        Image::new(width, height, colors).with_coverage(covered)
     }
 }
 

@@ -8,12 +8,12 @@ use bevy_transform::components::{GlobalTransform, Transform};
 use halfway_lighting::equations::{self, Light, rgb, vector::add};
 use halfway_lighting::{
     BackMaterial, Blend, Camera, DirectionalLight, Faces, GlobalAmbient, InvalidValue, Material, PointLight,
-    Propagation, Reflectance, Shading, Shown, SpotLight, Terms, light_direction, light_position, propagation,
+    Propagation, Reflectance, Samples, Shading, Shown, SpotLight, Terms, light_direction, light_position, propagation,
 };
 use halfway_mesh::{Mesh, Mesh3d, SpawnOrder};
 
 use super::error::OracleError;
-use super::solid::{Colour, Looks, Plan, Solid};
+use super::solid::{Color, Looks, Plan, Solid};
 use super::view::{View, affine};
 
 /// [`Shown`] asks a world for no resource, so that there is nothing it could lack.
@@ -24,9 +24,10 @@ const ALWAYS: &str = "queries can be had of every world";
 pub(super) struct Scene {
     pub(super) view: View,
     pub(super) viewer: equations::View<f64>,
-    pub(super) background: Colour,
+    pub(super) background: Color,
+    pub(super) samples: Samples,
     /// Ga, and La of the lights that do not attenuate it.
-    pub(super) ambient: Colour,
+    pub(super) ambient: Color,
     pub(super) lights: Vec<Light<f64>>,
     /// In the order in which they are drawn: opaque ones as they were spawned, then blended ones, the farthest first.
     pub(super) solids: Vec<Solid>,
@@ -39,7 +40,8 @@ impl Scene {
         let (ambient, lights) = lights(world, &seen.view)?;
         let solids = solids(world, &seen)?;
         let viewer = equations::View::in_eye_space(seen.camera.viewer);
-        Ok(Self { view: seen.view, viewer, background: rgb(seen.camera.background), ambient, lights, solids })
+        let Camera { background, samples, .. } = seen.camera;
+        Ok(Self { view: seen.view, viewer, background: rgb(background), samples, ambient, lights, solids })
     }
 }
 
@@ -79,7 +81,7 @@ fn see(world: &mut World, size: UVec2) -> Result<Seen, OracleError> {
     })
 }
 
-fn lights(world: &mut World, view: &View) -> Result<(Colour, Vec<Light<f64>>), OracleError> {
+fn lights(world: &mut World, view: &View) -> Result<(Color, Vec<Light<f64>>), OracleError> {
     let global = world.get_resource::<GlobalAmbient>().copied().unwrap_or_default();
     global.validate().map_err(|source| OracleError::Invalid { entity: "resource".into(), source })?;
 

@@ -4,7 +4,7 @@ use halfway_lighting::Faces;
 
 use super::gather::Scene;
 use super::raster::Hit;
-use super::solid::Colour;
+use super::solid::Color;
 
 /// The hits on one ray that can be seen: the nearest opaque one, and the blended ones. They have to be added in the order
 /// of drawing.
@@ -36,11 +36,6 @@ impl Layers {
         self.opaque.is_none() && self.blended.is_empty()
     }
 
-    /// The depth beyond which nothing is seen.
-    pub(super) fn opaque_depth(&self) -> f64 {
-        self.opaque.map_or(f64::INFINITY, |hit| hit.depth)
-    }
-
     /// What is seen, in the order in which it is drawn: the opaque hit, then the blended ones before it.
     pub(super) fn visible(&self, scene: &Scene) -> impl Iterator<Item = &Hit> {
         let before = |hit: &&Hit| self.opaque.is_none_or(|opaque| hides(hit.depth, opaque.depth));
@@ -51,8 +46,8 @@ impl Layers {
     }
 
     /// I of everything on the ray, one over the other; each is clamped to 1 first where `clamp` says so.
-    pub(super) fn colour(&self, scene: &Scene, clamp: bool) -> Colour {
-        let written = |i: Colour| if clamp { i.map(|channel| channel.min(1.0)) } else { i };
+    pub(super) fn color(&self, scene: &Scene, clamp: bool) -> Color {
+        let written = |i: Color| if clamp { i.map(|channel| channel.min(1.0)) } else { i };
         self.visible(scene).fold(written(scene.background), |behind, hit| {
             let solid = &scene.solids[hit.solid];
             let opacity = if solid.blend { solid.side(hit.front).opacity } else { 1.0 };

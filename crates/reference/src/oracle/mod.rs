@@ -2,12 +2,14 @@
 //!
 //! `gather` takes the world's entities into eye space (`view`, `solid`), `raster` finds what a ray through a point of the
 //! picture meets, `shade` says what that gives back, `layers` puts it one over the other, `draw` does so for every pixel
-//! and `probe` for any point.
+//! and `probe` for any point. `possible` says what else a pixel may show, for judges.
 
 mod draw;
 mod error;
 mod gather;
 mod layers;
+mod mode;
+mod possible;
 mod probe;
 mod raster;
 mod shade;
@@ -20,25 +22,12 @@ use bevy_ecs::world::World;
 use bevy_math::UVec2;
 
 pub use error::{OracleError, Stopped};
-pub use probe::{Around, Nearest, Seen};
+pub use mode::Mode;
+pub use possible::{ColorRange, Possible};
+pub use probe::{Nearest, Seen};
 
 use gather::Scene;
-use layers::Layers;
 use raster::Tiles;
-
-/// What a pixel shows of an object.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Mode {
-    /// Exactly the mesh, shaded as its [`Shading`](halfway_lighting::Shading) or [`Terms`](halfway_lighting::Terms)
-    /// say. Judges an implementation.
-    #[default]
-    Mesh,
-    /// Where a mesh stands for a surface that is known by formula, that surface with its analytic normal at every
-    /// pixel, whatever the shading; other meshes with Phong shading. Terms that are
-    /// [`Never`](halfway_lighting::Frequency::Never) shaded stay so. Judges a method: what flat, Gouraud and Phong lose
-    /// at a tessellation.
-    Surface,
-}
 
 /// A scene, ready to be drawn in f64.
 ///

@@ -13,12 +13,12 @@ pub(super) struct Hit {
     pub(super) depth: f64,
     /// Whether the front is seen.
     pub(super) front: bool,
-    pub(super) place: Place,
+    pub(super) place: HitPoint,
 }
 
 /// Where on an object a hit lies.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Place {
+pub(super) enum HitPoint {
     /// On a triangle, by the weights of its corners: barycentric in space, which is perspective-correct on the picture.
     Triangle(u32, [f64; 3]),
     /// On the surface that a mesh stands for: the point, and the unit normal of the front there.
@@ -29,8 +29,8 @@ impl Hit {
     /// The triangle, unless it is the surface itself that was met.
     pub(super) fn triangle(&self) -> Option<u32> {
         match self.place {
-            Place::Triangle(triangle, _) => Some(triangle),
-            Place::Surface { .. } => None,
+            HitPoint::Triangle(triangle, _) => Some(triangle),
+            HitPoint::Surface { .. } => None,
         }
     }
 }
@@ -110,9 +110,30 @@ impl Tiles {
 
     /// What may be seen at a point of the picture.
     pub(super) fn at(&self, x: f64, y: f64) -> impl Iterator<Item = &Primitive> {
+        self.of_tile(self.tile(DVec2::new(x, y)))
+    }
+
+    /// What may be seen between the corners of a box that is smaller than a tile.
+    pub(super) fn within(&self, low: DVec2, high: DVec2) -> Vec<&Primitive> {
+        let mut tiles =
+            [low, DVec2::new(high.x, low.y), DVec2::new(low.x, high.y), high].map(|p| self.tile(p)).to_vec();
+        tiles.dedup();
+        let mut numbers: Vec<u32> = tiles.into_iter().flat_map(|tile| &self.lists[tile]).copied().collect();
+        numbers.retain(|number| {
+            let primitive = &self.primitives[*number as usize];
+            primitive.low.cmple(high).all() && primitive.high.cmpge(low).all()
+        });
+        // In the order of drawing, each once.
+        numbers.sort_unstable();
+        numbers.dedup();
+        numbers.into_iter().map(|number| &self.primitives[number as usize]).collect()
+    }
+
+    /// The tile of a point, or the one next to it.
+    fn tile(&self, p: DVec2) -> usize {
         let last = [self.columns, self.lists.len() / self.columns].map(|count| count - 1);
         let tile = |pixels: f64| pixels.max(0.0) as usize / TILE as usize;
-        self.of_tile(tile(y).min(last[1]) * self.columns + tile(x).min(last[0]))
+        tile(p.y).min(last[1]) * self.columns + tile(p.x).min(last[0])
     }
 }
 
@@ -204,7 +225,7 @@ impl Scene {
             let Met { weights, depth, counter_clockwise } = edges.meet(ray)?;
             let front = counter_clockwise != solid.mirrored;
             let seen = depth >= self.view.near && solid.side(front).shown;
-            seen.then_some(Hit { solid: number, depth, front, place: Place::Triangle(index, weights) })
+            seen.then_some(Hit { solid: number, depth, front, place: HitPoint::Triangle(index, weights) })
         }
     }
 
@@ -232,7 +253,7 @@ impl Scene {
             let n = solid.turned(met.normal);
             let front = n.dot(ray) < 0.0;
             let seen = depth >= self.view.near && solid.side(front).shown;
-            seen.then_some(Hit { solid: number, depth, front, place: Place::Surface { p: ray * depth, n } })
+            seen.then_some(Hit { solid: number, depth, front, place: HitPoint::Surface { p: ray * depth, n } })
         })
     }
 }

@@ -5,24 +5,24 @@ use halfway_lighting::equations::vector::{add, mul};
 use halfway_lighting::equations::{Surface, interpolated_normal, light_terms, side_normal};
 
 use super::gather::Scene;
-use super::raster::{Hit, Place};
-use super::solid::{Colour, Plan, Solid, Sum};
+use super::raster::{Hit, HitPoint};
+use super::solid::{Color, Plan, Solid, Sum};
 
 impl Scene {
     /// I of the side that is seen: emission and ambient, and the terms of the lights where they are evaluated.
-    pub(super) fn value(&self, hit: &Hit) -> Colour {
+    pub(super) fn value(&self, hit: &Hit) -> Color {
         let solid = &self.solids[hit.solid];
         let side = solid.side(hit.front);
         let unlit = add(side.coefficients.ke, mul(side.coefficients.ka, self.ambient));
         let lit = match hit.place {
-            Place::Triangle(triangle, weights) => self.on_triangle(solid, hit.front, triangle, weights),
-            Place::Surface { p, n } => self.lit(solid, hit.front, p, n.to_array(), solid.plan.fragment),
+            HitPoint::Triangle(triangle, weights) => self.on_triangle(solid, hit.front, triangle, weights),
+            HitPoint::Surface { p, n } => self.lit(solid, hit.front, p, n.to_array(), solid.plan.fragment),
         };
         add(unlit, lit)
     }
 
     /// What the lights add at a point of a triangle. What is evaluated at the triangle or at its vertices is remembered.
-    fn on_triangle(&self, solid: &Solid, front: bool, triangle: u32, weights: [f64; 3]) -> Colour {
+    fn on_triangle(&self, solid: &Solid, front: bool, triangle: u32, weights: [f64; 3]) -> Color {
         let Plan { triangle: flat, vertex, fragment } = solid.plan;
         let shaded = &solid.side(front).shaded;
         let corners = solid.triangle(triangle);
@@ -53,7 +53,7 @@ impl Scene {
     /// What the lights add at a point of one side, term by term; `n` is the normal of the front.
     ///
     /// An ambient colour that attenuates goes with the diffuse term; one that does not is in the scene's ambient.
-    fn lit(&self, solid: &Solid, front: bool, p: DVec3, n: [f64; 3], sum: Sum) -> Colour {
+    fn lit(&self, solid: &Solid, front: bool, p: DVec3, n: [f64; 3], sum: Sum) -> Color {
         let surface = Surface { position: p.to_array(), normal: side_normal(n, front) };
         let material = &solid.side(front).coefficients;
         self.lights.iter().fold([0.0; 3], |mut i, light| {

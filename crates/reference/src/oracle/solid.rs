@@ -10,10 +10,10 @@ use halfway_lighting::{Faces, Frequency, Material, Reflectance, Shading, Terms};
 use halfway_mesh::Mesh;
 use rayon::prelude::*;
 
-use super::Mode;
+use super::mode::Mode;
 use crate::surface::Traced;
 
-pub(super) type Colour = [f64; 3];
+pub(super) type Color = [f64; 3];
 
 /// What the scene says of an object, its defaults filled in.
 #[derive(Clone, Debug)]
@@ -83,7 +83,7 @@ pub(super) struct Side {
     pub(super) opacity: f64,
     pub(super) shown: bool,
     /// What the vertices, or the triangles, have been found to give back; filled as they are seen.
-    pub(super) shaded: Vec<OnceLock<Colour>>,
+    pub(super) shaded: Vec<OnceLock<Color>>,
 }
 
 /// A mesh in eye space, with what it takes to shade it.

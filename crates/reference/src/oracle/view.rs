@@ -3,6 +3,7 @@
 use bevy_math::{DAffine3, DMat3, DVec2, DVec3, UVec2};
 use bevy_transform::components::GlobalTransform;
 use halfway_lighting::Camera;
+use halfway_lighting::equations::Transcendental;
 
 /// Where the picture is seen from, and where a point of eye space lies on it.
 ///
@@ -28,7 +29,7 @@ impl View {
         let (_, rotation, position) = world_from_camera.to_scale_rotation_translation();
         let eye_from_world = DMat3::from_quat(rotation.normalize()).transpose();
         let size = size.as_dvec2();
-        let half = (0.5 * f64::from(camera.fov_y)).tan();
+        let half = (0.5 * f64::from(camera.fov_y)).tangent();
         eye_from_world.is_finite().then_some(Self {
             eye_from_world,
             position,
@@ -69,6 +70,12 @@ impl View {
     pub(super) fn pixel(&self, p: DVec3) -> DVec2 {
         let at_depth_1 = p.truncate() / -p.z / self.half;
         0.5 * self.size * (1.0 + DVec2::new(at_depth_1.x, -at_depth_1.y))
+    }
+
+    /// [`pixel`](Self::pixel) less `origin`, times the depth: linear in space, and finite wherever the point lies.
+    pub(super) fn pixel_by_depth(&self, p: DVec3, origin: DVec2) -> DVec2 {
+        let at_depth_1 = DVec2::new(p.x, -p.y) / self.half;
+        0.5 * self.size * at_depth_1 - p.z * (0.5 * self.size - origin)
     }
 
     pub(super) fn size(&self) -> DVec2 {

@@ -16,19 +16,9 @@ use halfway_mesh::{Surface, SurfacePiece};
 
 use patch::Patches;
 use quadric::{meet_disc, meet_quadric};
-use ray::Ray;
+use ray::{Ray, extent};
 
-/// A place where a ray meets a surface.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct SurfaceHit {
-    /// How far along the ray, in lengths of its direction; positive.
-    pub(crate) t: f64,
-    /// The place.
-    pub(crate) position: DVec3,
-    /// The outward unit normal there. At the tip of a cone, where there is none, it points away from the
-    /// middle of the piece.
-    pub(crate) normal: DVec3,
-}
+pub(crate) use ray::SurfaceHit;
 
 /// A surface made ready for rays: its patches are cut into small ones.
 #[derive(Debug)]
@@ -120,11 +110,4 @@ impl Plain {
         };
         Some(Self { piece: piece.clone(), hull })
     }
-}
-
-/// The longest edge of the box around the points.
-fn extent(points: impl Iterator<Item = DVec3> + Clone) -> f64 {
-    let min = points.clone().fold(DVec3::INFINITY, DVec3::min);
-    let max = points.fold(DVec3::NEG_INFINITY, DVec3::max);
-    (max - min).max_element().max(0.0)
 }

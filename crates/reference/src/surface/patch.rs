@@ -4,8 +4,7 @@ use bevy_math::{DVec2, DVec3};
 use halfway_mesh::{BezierPatch, Parameter};
 
 use super::net::{Net, spans};
-use super::ray::Ray;
-use super::{SurfaceHit, extent};
+use super::ray::{Ray, SurfaceHit, extent};
 
 /// A patch is cut until its pieces are no longer than this share of the whole surface …
 const PIECE: f64 = 1.0 / 24.0;

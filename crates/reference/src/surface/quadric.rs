@@ -3,8 +3,7 @@
 use bevy_math::DVec3;
 use halfway_mesh::{Disc, Quadric};
 
-use super::SurfaceHit;
-use super::ray::Ray;
+use super::ray::{Ray, SurfaceHit};
 
 /// The share of its size by which a piece is taken to be larger, so that rounding loses no ray on the edge between two.
 const SLACK: f64 = 1e-12;

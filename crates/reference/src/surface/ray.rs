@@ -1,4 +1,4 @@
-//! Rays.
+//! Rays and where they meet something.
 
 use bevy_math::DVec3;
 
@@ -23,4 +23,23 @@ impl Ray {
     pub(super) fn at(&self, t: f64) -> DVec3 {
         self.origin + t * self.direction
     }
+}
+
+/// A place where a ray meets a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct SurfaceHit {
+    /// How far along the ray, in lengths of its direction; positive.
+    pub(crate) t: f64,
+    /// The place.
+    pub(crate) position: DVec3,
+    /// The outward unit normal there. At the tip of a cone, where there is none, it points away from the
+    /// middle of the piece.
+    pub(crate) normal: DVec3,
+}
+
+/// The longest edge of the box around the points.
+pub(super) fn extent(points: impl Iterator<Item = DVec3> + Clone) -> f64 {
+    let min = points.clone().fold(DVec3::INFINITY, DVec3::min);
+    let max = points.fold(DVec3::NEG_INFINITY, DVec3::max);
+    (max - min).max_element().max(0.0)
 }

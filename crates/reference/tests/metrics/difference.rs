@@ -20,19 +20,19 @@ fn steps(steps: &[u32]) -> Vec<f64> {
     steps.iter().map(|step| f64::from(*step) / 255.0).collect()
 }
 
-fn holds(picture: &RgbImage, colour: Rgb<u8>) -> bool {
-    picture.pixels().any(|pixel| *pixel == colour)
+fn holds(picture: &RgbImage, color: Rgb<u8>) -> bool {
+    picture.pixels().any(|pixel| *pixel == color)
 }
 
 #[test]
-fn pixels_have_the_colour_of_their_error() {
+fn pixels_have_the_color_of_their_error() {
     let (actual, expected) = (grey(2, &steps(&[100, 103, 104, 100])), grey(2, &steps(&[100, 100, 100, 110])));
-    for (upper, colours) in [(None, [0.0, 0.3, 0.4, 1.0]), (Some(5.0), [0.0, 0.6, 0.8, 1.0])] {
+    for (upper, colors) in [(None, [0.0, 0.3, 0.4, 1.0]), (Some(5.0), [0.0, 0.6, 0.8, 1.0])] {
         let picture = difference(&actual, &expected, Raw, Scale { upper, ..Scale::default() }).unwrap();
         // Two pixels become 320, and the legend stands below.
         assert_eq!(picture.width(), 320);
         assert!(picture.height() > 320);
-        for ((x, y), share) in [(0, 0), (1, 0), (0, 1), (1, 1)].into_iter().zip(colours) {
+        for ((x, y), share) in [(0, 0), (1, 0), (0, 1), (1, 1)].into_iter().zip(colors) {
             for (dx, dy) in [(0, 0), (159, 159)] {
                 assert_eq!(*picture.get_pixel(160 * x + dx, 160 * y + dy), magma(share), "({x}, {y})");
             }

@@ -58,9 +58,9 @@ fn equal_centres_are_drawn_as_they_were_spawned() {
     // Two walls that cross in their common centre, in either order.
     for (first, second) in [(RED, GREEN), (GREEN, RED)] {
         let mut stage = Stage::new();
-        for (colour, angle) in [(first, 0.4), (second, -0.3)] {
+        for (color, angle) in [(first, 0.4), (second, -0.3)] {
             let at = Transform::from_xyz(0.0, 0.0, -3.1).with_rotation(bevy_math::Quat::from_rotation_y(angle));
-            stage.add_at(wall(2.0, 0.0), at, veil(of(colour), 0.5));
+            stage.add_at(wall(2.0, 0.0), at, veil(of(color), 0.5));
         }
         let blend = |k: usize| f64::from(0.5 * second[k] + 0.25 * first[k]);
         assert_close("spawned", middle(&mut stage), [0, 1, 2].map(blend));
@@ -73,11 +73,11 @@ fn of_opaque_surfaces_at_one_depth_the_first_stays() {
     // Entities in another order than the objects were spawned in.
     let spare: Vec<Entity> = (0..3).map(|_| stage.world.spawn_empty().id()).collect();
     let mesh = stage.mesh(wall(9.0, 2.0));
-    for (entity, colour) in [(spare[2], RED), (spare[0], GREEN), (spare[1], BLUE)] {
+    for (entity, color) in [(spare[2], RED), (spare[0], GREEN), (spare[1], BLUE)] {
         stage.world.entity_mut(entity).insert((
             halfway_mesh::Mesh3d(mesh.clone()),
             GlobalTransform::IDENTITY,
-            of(colour),
+            of(color),
         ));
     }
     let image = stage.draw(9, 9);

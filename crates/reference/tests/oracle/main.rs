@@ -3,6 +3,8 @@
 mod blending;
 mod coverage;
 mod errors;
+mod mutants;
+mod possible;
 mod probes;
 mod repeats;
 mod scene;

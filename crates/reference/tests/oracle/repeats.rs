@@ -41,7 +41,7 @@ fn a_point_of_the_picture_is_what_the_pixel_is() {
     let image = oracle.draw();
     for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
         let seen = oracle.seen(f64::from(x) + 0.5, f64::from(y) + 0.5);
-        assert_same(&format!("({x}, {y})"), seen.colour, image.pixel(x, y));
+        assert_same(&format!("({x}, {y})"), seen.color, image.pixel(x, y));
         assert_eq!(seen.nearest.is_some(), image.covered().expect("known")[(y * width + x) as usize]);
     }
 }

@@ -86,7 +86,7 @@ fn the_inside_of_a_sphere_is_its_back() {
             assert!((nearest.depth - depth).abs() < 1e-9 && nearest.position.distance(p) < 1e-9);
             let d = p.length();
             let [a, b, c] = [1.0f32, 0.09, 0.032].map(f64::from);
-            assert_close("inside", seen.colour, [0.5 * n.dot(p / d).max(0.0) / (a + b * d + c * d * d); 3]);
+            assert_close("inside", seen.color, [0.5 * n.dot(p / d).max(0.0) / (a + b * d + c * d * d); 3]);
         } else {
             assert!(expected.is_none(), "({x}, {y}) shows nothing");
         }
@@ -127,8 +127,8 @@ fn a_blended_surface_has_no_seams() {
     let oracle = stage.oracle(25, 25).with_mode(Mode::Surface);
     let mut layers = 0.0;
     for y in (0..25).map(|y| f64::from(y) + 0.5) {
-        let beside = oracle.seen(12.5 + 1e-4, y).colour;
-        assert_close(&format!("row {y}"), oracle.seen(12.5, y).colour, beside);
+        let beside = oracle.seen(12.5 + 1e-4, y).color;
+        assert_close(&format!("row {y}"), oracle.seen(12.5, y).color, beside);
         layers -= (1.0 - beside[0]).log2();
     }
     assert!(layers > 16.0, "the column shows hardly anything: {layers} layers");
@@ -196,7 +196,7 @@ fn a_teapot_before_and_around_the_eye_is_seen_the_same_by_points_and_pixels() {
         let image = oracle.draw();
         for (x, y) in each_pixel() {
             let seen = oracle.seen(f64::from(x) + 0.5, f64::from(y) + 0.5);
-            assert_same(&format!("({x}, {y})"), seen.colour, image.pixel(x, y));
+            assert_same(&format!("({x}, {y})"), seen.color, image.pixel(x, y));
         }
         let covered = image.covered().expect("known").iter().filter(|covered| **covered).count();
         assert!(covered > 30, "{covered}");

@@ -1,0 +1,63 @@
+//! The one door to functions that the standard library leaves to each platform.
+//!
+//! `+`, `−`, `·`, `/`, the square root and the fused product are rounded to the nearest number everywhere (IEEE 754). Powers
+//! and the functions of angles are not: their last bits differ between systems. Here they are `libm`'s, whose code is the
+//! same on all of them, so that what the equations say is the same to the bit wherever they run.
+
+/// Powers and the functions of angles, equal to the bit on every machine. Angles are in radians.
+pub trait Transcendental: Sized {
+    /// `self` to the power of `exponent`.
+    fn pow(self, exponent: Self) -> Self;
+    /// The sine of an angle.
+    fn sine(self) -> Self;
+    /// The cosine of an angle.
+    fn cosine(self) -> Self;
+    /// The tangent of an angle.
+    fn tangent(self) -> Self;
+    /// `√(self² + other²)`; the squares neither overflow nor underflow.
+    fn hypotenuse(self, other: Self) -> Self;
+}
+
+impl Transcendental for f32 {
+    fn pow(self, exponent: Self) -> Self {
+        libm::powf(self, exponent)
+    }
+
+    fn sine(self) -> Self {
+        libm::sinf(self)
+    }
+
+    fn cosine(self) -> Self {
+        libm::cosf(self)
+    }
+
+    fn tangent(self) -> Self {
+        libm::tanf(self)
+    }
+
+    fn hypotenuse(self, other: Self) -> Self {
+        libm::hypotf(self, other)
+    }
+}
+
+impl Transcendental for f64 {
+    fn pow(self, exponent: Self) -> Self {
+        libm::pow(self, exponent)
+    }
+
+    fn sine(self) -> Self {
+        libm::sin(self)
+    }
+
+    fn cosine(self) -> Self {
+        libm::cos(self)
+    }
+
+    fn tangent(self) -> Self {
+        libm::tan(self)
+    }
+
+    fn hypotenuse(self, other: Self) -> Self {
+        libm::hypot(self, other)
+    }
+}

@@ -1,0 +1,238 @@
+//! The part of a triangle that lies within a small area of the picture.
+
+use bevy_math::{DVec2, DVec3};
+
+use crate::oracle::gather::Scene;
+use crate::oracle::raster::{Edges, Primitive};
+use crate::oracle::solid::Solid;
+use crate::oracle::view::View;
+
+/// A small convex area of the picture, in pixels.
+pub(super) struct Zone {
+    centre: DVec2,
+    /// Unit vectors across its sides, outward.
+    sides: Vec<DVec2>,
+    /// How far each side is from the centre.
+    reach: f64,
+    /// Whether the area is the disc within the sides, and not all that lies within them.
+    round: bool,
+}
+
+/// The sides of the polygon around a disc. Each of its corners lies 2 % of the radius outside, so that the corners are on
+/// both sides of whatever straight line cuts the disc.
+const SIDES: u32 = 16;
+
+/// 0, 22.5, 45 and 67.5 degrees as cosine and sine, to the nearest f64.
+const ANGLES: [[f64; 2]; 4] = [
+    [1.0, 0.0],
+    [0.923_879_532_511_286_7, 0.382_683_432_365_089_8],
+    [std::f64::consts::FRAC_1_SQRT_2, std::f64::consts::FRAC_1_SQRT_2],
+    [0.382_683_432_365_089_8, 0.923_879_532_511_286_7],
+];
+
+impl Zone {
+    /// The disc around a point.
+    pub(super) fn disc(centre: DVec2, radius: f64) -> Self {
+        let side = |i: u32| {
+            let quarter = DVec2::from_array(ANGLES[i as usize % ANGLES.len()]);
+            (0..i / ANGLES.len() as u32).fold(quarter, |turned, _| turned.perp())
+        };
+        Self { centre, sides: (0..SIDES).map(side).collect(), reach: radius, round: true }
+    }
+
+    /// The square around a point, its sides `2·half` long.
+    pub(super) fn square(centre: DVec2, half: f64) -> Self {
+        let sides = vec![DVec2::X, DVec2::Y, DVec2::NEG_X, DVec2::NEG_Y];
+        Self { centre, sides, reach: half, round: false }
+    }
+
+    /// The corners of a box that holds the area.
+    pub(super) fn bounds(&self) -> [DVec2; 2] {
+        [self.centre - self.reach, self.centre + self.reach]
+    }
+
+    /// How far a point before the eye lies beyond a side, in pixels, times its depth: linear in space, so that an edge is
+    /// cut there without a division by depths near 0.
+    fn beyond(&self, view: &View, side: DVec2, p: DVec3) -> f64 {
+        view.pixel_by_depth(p, self.centre).dot(side) + self.reach * p.z
+    }
+
+    /// Whether what is left of a shape inside the sides reaches the area.
+    fn meets(&self, view: &View, outline: &[Corner]) -> bool {
+        !outline.is_empty() && (!self.round || distance(view, outline, self.centre) <= self.reach)
+    }
+}
+
+/// A corner of a part of a triangle.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Corner {
+    pub(super) p: DVec3,
+    /// The weights of the triangle's corners.
+    pub(super) weights: [f64; 3],
+}
+
+impl Corner {
+    pub(super) fn between(&self, other: &Self, share: f64) -> Self {
+        let weights = std::array::from_fn(|i| self.weights[i] + share * (other.weights[i] - self.weights[i]));
+        Self { p: self.p + share * (other.p - self.p), weights }
+    }
+
+    pub(super) fn depth(&self) -> f64 {
+        -self.p.z
+    }
+}
+
+/// A triangle within a disc around a point of the picture.
+#[derive(Clone, Debug)]
+pub(super) struct Footprint {
+    pub(super) solid: usize,
+    pub(super) triangle: u32,
+    /// Whether the front is seen.
+    pub(super) front: bool,
+    /// Whether it winds counter-clockwise as seen.
+    pub(super) counter_clockwise: bool,
+    /// Whether it covers the disc's centre: exactly one of two triangles that share an edge does.
+    pub(super) at_centre: bool,
+    /// So thin that vertices moved by the disc's radius may turn it over.
+    pub(super) thin: bool,
+    /// What lies within the polygon around the disc.
+    pub(super) outline: Vec<Corner>,
+    /// The least and the greatest 1/depth within the disc, widened by what rounding may do to them.
+    pub(super) nearness: [f64; 2],
+    /// The triangle's corners, for comparison: of equal ones the bits are equal.
+    pub(super) corners: [[u64; 3]; 3],
+    /// Which edges come into the disc; edge i leads from corner i to the next.
+    pub(super) edges: [bool; 3],
+    /// Whether the near plane cuts it within the disc.
+    pub(super) cut: bool,
+}
+
+impl Footprint {
+    /// What is seen of a triangle within the disc `zone`, of either side, shown or not; `None` where there is nothing.
+    pub(super) fn new(scene: &Scene, primitive: &Primitive, zone: &Zone) -> Option<Self> {
+        let (view, solid) = (&scene.view, &scene.solids[primitive.solid]);
+        let corners = solid.triangle(primitive.index);
+        let outline = clipped(view, &whole(corners), zone);
+        if !zone.meets(view, &outline) {
+            return None;
+        }
+        let [a, b, c] = corners;
+        let counter_clockwise = (b - a).cross(c - a).dot(a) < 0.0;
+        let ray = view.ray(zone.centre.x, zone.centre.y);
+        let met = Edges::new(corners).meet(ray).filter(|met| met.depth >= view.near);
+        let edge = |i: usize| {
+            let ends = [whole(corners)[i], whole(corners)[(i + 1) % 3]];
+            zone.meets(view, &clipped(view, &ends, zone))
+        };
+        let near = |corner: &Corner| corner.depth() <= view.near * (1.0 + 1e-9);
+        Some(Self {
+            solid: primitive.solid,
+            triangle: primitive.index,
+            front: counter_clockwise != solid.mirrored,
+            counter_clockwise,
+            at_centre: met.is_some(),
+            thin: is_thin(view, corners, zone.reach),
+            nearness: nearness(view, solid, primitive.index, &outline),
+            corners: corners.map(|p| p.to_array().map(|x| (x + 0.0).to_bits())),
+            edges: [0, 1, 2].map(edge),
+            cut: outline.iter().any(near),
+            outline,
+        })
+    }
+
+    /// What lies within another area around the same point, to be shaded there.
+    pub(super) fn within(&self, scene: &Scene, zone: &Zone) -> Vec<Corner> {
+        clipped(&scene.view, &whole(scene.solids[self.solid].triangle(self.triangle)), zone)
+    }
+
+    /// Whether two of them are the same triangle of space, drawn twice, so that their depths are equal to the bit.
+    pub(super) fn coincides(&self, other: &Self, scene: &Scene) -> bool {
+        let transform = |it: &Self| scene.solids[it.solid].eye_from_model;
+        self.corners == other.corners && transform(self) == transform(other)
+    }
+}
+
+fn whole(corners: [DVec3; 3]) -> [Corner; 3] {
+    let mut number = 0;
+    corners.map(|p| {
+        let mut weights = [0.0; 3];
+        weights[number] = 1.0;
+        number += 1;
+        Corner { p, weights }
+    })
+}
+
+/// The part of a convex outline beyond the near plane and inside the sides of a zone (Sutherland and Hodgman 1974).
+fn clipped(view: &View, outline: &[Corner], zone: &Zone) -> Vec<Corner> {
+    let mut rest = cut(outline, |corner| corner.p.z + view.near);
+    for side in &zone.sides {
+        if rest.is_empty() {
+            break;
+        }
+        rest = cut(&rest, |corner| zone.beyond(view, *side, corner.p));
+    }
+    rest
+}
+
+/// What is left of a convex outline where `beyond`, linear in space, is not above 0.
+fn cut(outline: &[Corner], beyond: impl Fn(&Corner) -> f64) -> Vec<Corner> {
+    let mut rest = Vec::with_capacity(outline.len() + 1);
+    for (i, from) in outline.iter().enumerate() {
+        let to = &outline[(i + 1) % outline.len()];
+        let (here, there) = (beyond(from), beyond(to));
+        if here <= 0.0 {
+            rest.push(*from);
+        }
+        if (here < 0.0 && there > 0.0) || (here > 0.0 && there < 0.0) {
+            rest.push(from.between(to, here / (here - there)));
+        }
+    }
+    rest
+}
+
+/// How far a point of the picture lies outside a convex outline, or a line, in pixels.
+fn distance(view: &View, outline: &[Corner], point: DVec2) -> f64 {
+    let pixels: Vec<DVec2> = outline.iter().map(|corner| view.pixel(corner.p) - point).collect();
+    let edges = || (0..pixels.len()).map(|i| (pixels[i], pixels[(i + 1) % pixels.len()]));
+    let turns = |sign: f64| edges().all(|(a, b)| sign * a.perp_dot(b) > 0.0);
+    if turns(1.0) || turns(-1.0) {
+        return 0.0;
+    }
+    let to_edge = |(a, b): (DVec2, DVec2)| {
+        let along = b - a;
+        let share = (-a.dot(along) / along.length_squared()).clamp(0.0, 1.0);
+        // An edge seen end on is its first corner.
+        if share.is_nan() { a.length() } else { (a + share * along).length() }
+    };
+    edges().map(to_edge).fold(f64::INFINITY, f64::min)
+}
+
+/// Whether the height of a triangle on the picture is at most twice `reach`.
+fn is_thin(view: &View, corners: [DVec3; 3], reach: f64) -> bool {
+    if corners.iter().any(|corner| -corner.z < view.near) {
+        return false;
+    }
+    let [a, b, c] = corners.map(|corner| view.pixel(corner));
+    let longest = [(a, b), (b, c), (c, a)].map(|(from, to)| from.distance(to)).into_iter().fold(0.0, f64::max);
+    (b - a).perp_dot(c - a).abs() <= 2.0 * reach * longest
+}
+
+/// A depth buffer in f32 holds near/depth. A renderer knows it, of a triangle, to a few roundings of the greatest one on it,
+/// from which it interpolates.
+const ROUNDINGS: f64 = 4.0 * f32::EPSILON as f64;
+
+/// The least and the greatest 1/depth of an outline, widened by the roundings of f32: those of the vertices, whose depths
+/// are sums of larger terms, and those of the interpolation between them.
+fn nearness(view: &View, solid: &Solid, triangle: u32, outline: &[Corner]) -> [f64; 2] {
+    let inverse = || outline.iter().map(|corner| corner.depth().recip());
+    let z = solid.eye_from_model.matrix3.row(2).abs();
+    let rounding = solid.vertices(triangle).map(|vertex| {
+        let position = solid.mesh.positions()[vertex].as_dvec3();
+        let terms = z.dot(position.abs()) + solid.eye_from_model.translation.z.abs();
+        let depth = -solid.corners[vertex].z;
+        // In place of what lies before the near plane there are corners on it.
+        if depth > view.near { ROUNDINGS * (terms / depth).max(1.0) / depth } else { ROUNDINGS / view.near }
+    });
+    let rounding = rounding.into_iter().fold(0.0, f64::max);
+    [inverse().fold(f64::INFINITY, f64::min) - rounding, inverse().fold(0.0, f64::max) + rounding]
+}

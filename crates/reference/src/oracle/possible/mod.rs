@@ -1,0 +1,93 @@
+//! Which colours a pixel may show, drawn by a renderer that rounds where vertices are.
+//!
+//! `footprint` finds the triangles that come close to a sampling point, `covering` which of them cannot be missed,
+//! `values` what each gives back there, and `stack` puts them one over the other.
+
+mod covering;
+mod footprint;
+mod range;
+mod stack;
+mod values;
+
+use bevy_math::DVec2;
+use halfway_lighting::Samples;
+
+use super::Oracle;
+use footprint::{Footprint, Zone};
+use stack::Stack;
+
+pub use range::{ColorRange, Possible};
+
+/// Where the four samples of a pixel lie, from its top left corner (WebGPU, "multisample state"; Vulkan, "standard sample
+/// locations").
+const FOUR: [[f64; 2]; 4] = [[0.375, 0.125], [0.875, 0.375], [0.125, 0.625], [0.625, 0.875]];
+
+/// More combinations of the samples' colours become one range.
+const MOST_RANGES: usize = 4096;
+
+impl Oracle {
+    /// The colours that the pixel in column `x` of row `y` may show, drawn by a renderer that moves each vertex by at most
+    /// `radius` pixels, vertices at one place together: what any sampling point so far beside the true one could have met.
+    /// The radius is below 1/8.
+    ///
+    /// - A triangle may be seen if it comes into the disc of that radius, unless something before it cannot be missed: a
+    ///   surface that covers the disc's centre and has neither an end nor a silhouette within the disc, and of which the
+    ///   farthest point in the disc is nearer than the triangle's nearest one.
+    /// - Depths are equal if they differ by no more than four roundings of f32 of the nearest depth on the triangle, from
+    ///   which a renderer interpolates, and of the terms of its vertices' depths. Of two triangles with the same corners
+    ///   and transforms the one that is drawn first is seen.
+    /// - Blended surfaces are put over each other in every combination, in the order of drawing.
+    /// - Where the camera takes four samples a pixel, each of them has a disc of its own. A triangle is shaded once, anywhere in the part of
+    ///   the pixel that it covers, or at the centre if it covers the pixel.
+    ///
+    /// For [`Mode::Mesh`](super::Mode::Mesh). Surfaces that are drawn by their formula are not known here.
+    pub fn possible(&self, x: u32, y: u32, radius: f64) -> Possible {
+        let corner = DVec2::new(f64::from(x), f64::from(y));
+        let centre = corner + 0.5;
+        match self.scene.samples {
+            Samples::One => {
+                let disc = Zone::disc(centre, radius);
+                self.stack(&disc, &[&disc]).possible(&self.scene, self.clamp)
+            }
+            Samples::Four => {
+                let shading = [&Zone::disc(centre, radius), &Zone::square(centre, 0.5 + radius)];
+                let sample = |at: [f64; 2]| {
+                    let disc = Zone::disc(corner + DVec2::from_array(at), radius);
+                    self.stack(&disc, &shading).possible(&self.scene, self.clamp)
+                };
+                mean(&FOUR.map(sample))
+            }
+        }
+    }
+
+    fn stack(&self, disc: &Zone, shading: &[&Zone]) -> Stack {
+        let [low, high] = disc.bounds();
+        let near = self.tiles().within(low, high);
+        let footprints = near.into_iter().filter_map(|primitive| Footprint::new(&self.scene, primitive, disc));
+        Stack::new(&self.scene, footprints.collect(), shading)
+    }
+}
+
+/// The means of all combinations of the samples' colours.
+fn mean(samples: &[Possible; 4]) -> Possible {
+    let mut sums = vec![ColorRange { low: [0.0; 3], high: [0.0; 3] }];
+    for sample in samples {
+        let more: Vec<ColorRange> = if sums.len() * sample.ranges.len() > MOST_RANGES {
+            let all = |ranges: &[ColorRange]| ranges.iter().copied().reduce(|a, b| a.with(&b));
+            all(&sums).zip(all(&sample.ranges)).map(|(a, b)| add_quarter(&a, &b)).into_iter().collect()
+        } else {
+            sums.iter().flat_map(|sum| sample.ranges.iter().map(move |range| add_quarter(sum, range))).collect()
+        };
+        sums.clear();
+        for sum in more {
+            if !sums.contains(&sum) {
+                sums.push(sum);
+            }
+        }
+    }
+    Possible { is_edge: sums.len() > 1 || samples.iter().any(|sample| sample.is_edge), ranges: sums }
+}
+
+fn add_quarter(sum: &ColorRange, range: &ColorRange) -> ColorRange {
+    sum.through(range, |sum, part| sum + 0.25 * part)
+}

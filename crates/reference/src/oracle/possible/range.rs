@@ -1,0 +1,44 @@
+//! Colours that a pixel may show.
+
+/// All the colours between two, channel by channel. Linear RGB.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ColorRange {
+    /// The least of each channel.
+    pub low: [f64; 3],
+    /// The greatest of each channel.
+    pub high: [f64; 3],
+}
+
+/// The colours that one pixel may show.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Possible {
+    /// One for each combination of triangles that may be seen.
+    pub ranges: Vec<ColorRange>,
+    /// Whether more than one combination of triangles may be seen, or a triangle's own colour jumps, as it does at the
+    /// edge of a spot's cone. Where neither is so the pixel has one right colour: that at its centre.
+    pub is_edge: bool,
+}
+
+impl ColorRange {
+    pub(super) fn of(colors: impl IntoIterator<Item = [f64; 3]>) -> Self {
+        let none = Self { low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3] };
+        colors.into_iter().fold(none, |range, color| range.with(&Self { low: color, high: color }))
+    }
+
+    /// The least range that holds both.
+    pub(super) fn with(&self, other: &Self) -> Self {
+        let [low, high] = [0, 1].map(|end| {
+            std::array::from_fn(|k| match end {
+                0 => self.low[k].min(other.low[k]),
+                _ => self.high[k].max(other.high[k]),
+            })
+        });
+        Self { low, high }
+    }
+
+    /// Each end put through a function that grows with every channel of what goes in.
+    pub(super) fn through(&self, other: &Self, grows: impl Fn(f64, f64) -> f64) -> Self {
+        let ends = |a: [f64; 3], b: [f64; 3]| std::array::from_fn(|k| grows(a[k], b[k]));
+        Self { low: ends(self.low, other.low), high: ends(self.high, other.high) }
+    }
+}

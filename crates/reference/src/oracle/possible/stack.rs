@@ -1,0 +1,202 @@
+//! What may lie over what near a sampling point, and the colours that this makes.
+
+use halfway_lighting::Faces;
+
+use super::covering::{Covering, coverings};
+use super::footprint::{Footprint, Zone};
+use super::range::{ColorRange, Possible};
+use super::values::Values;
+use crate::oracle::gather::Scene;
+
+/// A side of a triangle that may be seen.
+struct Layer {
+    /// The footprint's number, which is its place in the order of drawing among those of its object.
+    footprint: usize,
+    front: bool,
+    values: Values,
+}
+
+/// Blended layers of which at most one lies over the sampling point.
+struct Choice {
+    layers: Vec<Layer>,
+    /// Exactly one does.
+    is_certain: bool,
+}
+
+/// Everything that may be seen near a sampling point.
+pub(super) struct Stack {
+    footprints: Vec<Footprint>,
+    opaque: Vec<Layer>,
+    /// Whether no opaque surface may be met.
+    is_bare: bool,
+    blended: Vec<Choice>,
+}
+
+/// More combinations of blended layers become one range.
+const MOST_COMBINATIONS: usize = 256;
+
+impl Stack {
+    pub(super) fn new(scene: &Scene, footprints: Vec<Footprint>, shading: &[&Zone]) -> Self {
+        let coverings = coverings(scene, &footprints);
+        let is_blended = |covering: &&Covering| scene.solids[footprints[covering.members[0]].solid].blend;
+        let (blended, opaque): (Vec<&Covering>, Vec<&Covering>) = coverings.iter().partition(is_blended);
+        // The farthest point of each surface that cannot be missed.
+        let farthest = |covering: &&Covering| {
+            let shown = covering.members.iter().map(|member| &footprints[*member]).filter(|it| is_shown(scene, it));
+            shown.map(|footprint| footprint.nearness[0]).fold(f64::INFINITY, f64::min)
+        };
+        let certain: Vec<f64> = opaque.iter().filter(|it| it.is_certain).map(farthest).collect();
+        let cover = certain.iter().copied().fold(0.0, f64::max);
+        let layer = |footprint: usize, front: bool| {
+            let values = Values::new(scene, &footprints[footprint], front, shading);
+            Layer { footprint, front, values }
+        };
+        let layers = |covering: &&Covering| -> Vec<Layer> {
+            let visible = covering.members.iter().copied().filter(|m| {
+                let it = &footprints[*m];
+                let is_first = || !footprints[..*m].iter().any(|earlier| is_hidden_by(scene, it, earlier));
+                it.nearness[1] >= cover && is_first()
+            });
+            let sides =
+                visible.flat_map(|m| sides(scene, &footprints[m], covering.is_certain).map(move |side| (m, side)));
+            sides.map(|(m, front)| layer(m, front)).collect()
+        };
+        let opaque_layers = opaque.iter().flat_map(&layers).collect();
+        let choices = blended.iter().flat_map(|covering| {
+            let layers = layers(covering);
+            choices(covering.is_single && layers.len() == covering.members.len(), layers, &footprints)
+        });
+        Self { opaque: opaque_layers, is_bare: certain.is_empty(), blended: choices.collect(), footprints }
+    }
+
+    /// The colours of all combinations.
+    pub(super) fn possible(&self, scene: &Scene, clamp: bool) -> Possible {
+        let written =
+            |range: &ColorRange| range.through(range, |channel, _| if clamp { channel.min(1.0) } else { channel });
+        let mut ranges: Vec<ColorRange> = Vec::new();
+        let behind = self.opaque.iter().map(Some).chain(self.is_bare.then_some(None));
+        for opaque in behind {
+            let range = opaque.map_or_else(|| ColorRange::of([scene.background]), |layer| layer.values.range);
+            for range in self.over(scene, opaque, written(&range), &written) {
+                if !ranges.contains(&range) {
+                    ranges.push(range);
+                }
+            }
+        }
+        let blended = self.blended.iter().flat_map(|choice| &choice.layers);
+        let jumps = self.opaque.iter().chain(blended).any(|layer| layer.values.jumps);
+        Possible { is_edge: ranges.len() > 1 || jumps, ranges }
+    }
+
+    /// The colours of all combinations of blended layers over an opaque one, or over the background.
+    fn over(
+        &self,
+        scene: &Scene,
+        opaque: Option<&Layer>,
+        behind: ColorRange,
+        written: &impl Fn(&ColorRange) -> ColorRange,
+    ) -> Vec<ColorRange> {
+        let blend = |behind: &ColorRange, layer: &Layer| {
+            let opacity = scene.solids[self.footprints[layer.footprint].solid].side(layer.front).opacity;
+            let over = written(&layer.values.range);
+            behind.through(
+                &over,
+                |behind, over| if opacity < 1.0 { opacity * over + (1.0 - opacity) * behind } else { over },
+            )
+        };
+        let seen: Vec<(Vec<&Layer>, bool)> =
+            self.blended.iter().map(|choice| self.before(scene, choice, opaque)).collect();
+        let combinations = seen.iter().try_fold(1_usize, |product, (layers, may_be_missed)| {
+            let ways = layers.len() + usize::from(*may_be_missed);
+            product.checked_mul(ways.max(1)).filter(|product| *product <= MOST_COMBINATIONS)
+        });
+        if combinations.is_none() {
+            return vec![self.over_at_once(scene, behind, &seen, blend)];
+        }
+        let mut ways: Vec<Vec<&Layer>> = vec![Vec::new()];
+        for (layers, may_be_missed) in &seen {
+            let missed = (*may_be_missed || layers.is_empty()).then_some(None);
+            let choices: Vec<Option<&Layer>> = layers.iter().map(|layer| Some(*layer)).chain(missed).collect();
+            ways = ways
+                .iter()
+                .flat_map(|way| choices.iter().map(move |choice| way.iter().copied().chain(*choice).collect()))
+                .collect();
+        }
+        let over = ways.into_iter().map(|mut way| {
+            way.sort_by_key(|layer| self.order(scene, layer));
+            way.into_iter().fold(behind, |behind, layer| blend(&behind, layer))
+        });
+        over.collect()
+    }
+
+    /// All combinations in one range: each layer may be missed.
+    fn over_at_once(
+        &self,
+        scene: &Scene,
+        behind: ColorRange,
+        seen: &[(Vec<&Layer>, bool)],
+        blend: impl Fn(&ColorRange, &Layer) -> ColorRange,
+    ) -> ColorRange {
+        let mut layers: Vec<&Layer> = seen.iter().flat_map(|(layers, _)| layers).copied().collect();
+        layers.sort_by_key(|layer| self.order(scene, layer));
+        layers.into_iter().fold(behind, |behind, layer| behind.with(&blend(&behind, layer)))
+    }
+
+    /// Which layers of a choice may lie before an opaque one, and whether perhaps none does.
+    fn before<'a>(&self, scene: &Scene, choice: &'a Choice, opaque: Option<&Layer>) -> (Vec<&'a Layer>, bool) {
+        let Some(opaque) = opaque.map(|layer| &self.footprints[layer.footprint]) else {
+            return (choice.layers.iter().collect(), !choice.is_certain);
+        };
+        let of = |layer: &Layer| &self.footprints[layer.footprint];
+        let may_be_before =
+            |layer: &&Layer| of(layer).nearness[1] >= opaque.nearness[0] && !of(layer).coincides(opaque, scene);
+        let layers: Vec<&Layer> = choice.layers.iter().filter(may_be_before).collect();
+        let is_before = |layer: &&Layer| of(layer).nearness[0] > opaque.nearness[1];
+        let all_are = layers.len() == choice.layers.len() && layers.iter().all(is_before);
+        (layers, !(choice.is_certain && all_are))
+    }
+
+    /// The order of drawing: by object; of a two-sided one the back first; then by triangle.
+    fn order(&self, scene: &Scene, layer: &Layer) -> (usize, bool, u32) {
+        let footprint = &self.footprints[layer.footprint];
+        let in_two_passes = scene.solids[footprint.solid].faces == Faces::Both;
+        (footprint.solid, layer.front && in_two_passes, footprint.triangle)
+    }
+}
+
+fn is_shown(scene: &Scene, footprint: &Footprint) -> bool {
+    scene.solids[footprint.solid].side(footprint.front).shown
+}
+
+/// Whether an opaque triangle that is drawn before another takes its place.
+fn is_hidden_by(scene: &Scene, footprint: &Footprint, earlier: &Footprint) -> bool {
+    let is_opaque = |it: &Footprint| !scene.solids[it.solid].blend;
+    is_opaque(earlier) && is_opaque(footprint) && is_shown(scene, earlier) && footprint.coincides(earlier, scene)
+}
+
+/// The sides that may be seen: the one that is turned to the eye, and of a thin triangle at a silhouette, which rounding
+/// may turn over, both; if they are shown.
+fn sides(scene: &Scene, footprint: &Footprint, is_certain: bool) -> impl Iterator<Item = bool> {
+    let solid = &scene.solids[footprint.solid];
+    let may_turn = footprint.thin && !is_certain;
+    let front = footprint.front;
+    [true, false].into_iter().filter(move |side| (may_turn || *side == front) && solid.side(*side).shown)
+}
+
+/// The layers of one covering, of which each side is met once at most; or each by itself, where they overlap.
+fn choices(is_single: bool, layers: Vec<Layer>, footprints: &[Footprint]) -> Vec<Choice> {
+    if is_single {
+        return vec![Choice { layers, is_certain: true }];
+    }
+    let (front, back): (Vec<Layer>, Vec<Layer>) = layers.into_iter().partition(|layer| layer.front);
+    let mut choices = Vec::new();
+    for layers in [back, front].into_iter().filter(|layers| !layers.is_empty()) {
+        let number = layers.iter().filter(|layer| footprints[layer.footprint].at_centre).count();
+        if number > 1 {
+            choices.extend(layers.into_iter().map(|layer| Choice { layers: vec![layer], is_certain: false }));
+        } else {
+            choices.push(Choice { layers, is_certain: false });
+        }
+    }
+    choices
+}

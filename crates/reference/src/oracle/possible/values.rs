@@ -1,0 +1,89 @@
+//! What a triangle gives back within a small area of the picture.
+
+use super::footprint::{Corner, Footprint, Zone};
+use super::range::ColorRange;
+use crate::oracle::gather::Scene;
+use crate::oracle::raster::{Hit, HitPoint};
+use crate::oracle::solid::Color;
+
+/// The colours of one side of a triangle near a point of the picture.
+#[derive(Clone, Debug)]
+pub(super) struct Values {
+    pub(super) range: ColorRange,
+    /// Whether they change by much from one place to the next.
+    pub(super) jumps: bool,
+}
+
+/// How often the way between two places is halved to tell a jump from a slope: the ends are then 2⁻¹² as far apart.
+const HALVINGS: u32 = 12;
+/// A difference of which this share is left between them is a jump; of a slope a few thousandths are left.
+const JUMP: f64 = 0.125;
+/// What is left out by a triangle that counts as covering a square, as a share.
+const ROUNDING: f64 = 1e-9;
+
+impl Values {
+    /// The colours of a side within the last of some areas, or within the first of them if the triangle covers the last.
+    ///
+    /// They are found at the corners of the part of the triangle that lies within, and in its middle. What is interpolated
+    /// between vertices is extreme at corners; a jump along a straight line has corners on both sides; and what curves in
+    /// between does so by less than the bars of a judge, the area being a small part of a pixel.
+    pub(super) fn new(scene: &Scene, footprint: &Footprint, front: bool, shading: &[&Zone]) -> Self {
+        let mut outline = match shading {
+            [_] => footprint.outline.clone(),
+            [first, .., last] => {
+                let whole = footprint.within(scene, last);
+                if covers(scene, &whole, last) { footprint.within(scene, first) } else { whole }
+            }
+            [] => Vec::new(),
+        };
+        if outline.is_empty() {
+            outline.clone_from(&footprint.outline);
+        }
+        outline.push(middle(&outline));
+        let color = |corner: &Corner| color(scene, footprint, front, corner);
+        let colors: Vec<Color> = outline.iter().map(color).collect();
+        let range = ColorRange::of(colors.iter().copied());
+        let jumps = !scene.solids[footprint.solid].plan.fragment.is_empty() && jumps(&outline, &colors, &range, color);
+        Self { range, jumps }
+    }
+}
+
+fn color(scene: &Scene, footprint: &Footprint, front: bool, corner: &Corner) -> Color {
+    let place = HitPoint::Triangle(footprint.triangle, corner.weights);
+    scene.value(&Hit { solid: footprint.solid, depth: corner.depth(), front, place })
+}
+
+fn middle(outline: &[Corner]) -> Corner {
+    let share = 1.0 / outline.len() as f64;
+    let weights = std::array::from_fn(|i| share * outline.iter().map(|corner| corner.weights[i]).sum::<f64>());
+    Corner { p: share * outline.iter().map(|corner| corner.p).sum::<bevy_math::DVec3>(), weights }
+}
+
+/// Whether an outline fills the square of a zone.
+fn covers(scene: &Scene, outline: &[Corner], zone: &Zone) -> bool {
+    let [low, high] = zone.bounds();
+    let pixels: Vec<_> = outline.iter().map(|corner| scene.view.pixel(corner.p) - low).collect();
+    let twice_area: f64 = (0..pixels.len()).map(|i| pixels[i].perp_dot(pixels[(i + 1) % pixels.len()])).sum();
+    let square = (high - low).x * (high - low).y;
+    0.5 * twice_area.abs() >= (1.0 - ROUNDING) * square
+}
+
+/// Whether the way between the two places that differ most holds a jump.
+fn jumps(outline: &[Corner], colors: &[Color], range: &ColorRange, color: impl Fn(&Corner) -> Color) -> bool {
+    let span = |k: &usize| range.high[*k] - range.low[*k];
+    let channel = [0, 1, 2].into_iter().max_by(|a, b| span(a).total_cmp(&span(b))).unwrap_or(0);
+    let whole = span(&channel);
+    let by_channel = |a: &&usize, b: &&usize| colors[**a][channel].total_cmp(&colors[**b][channel]);
+    let numbers: Vec<usize> = (0..outline.len()).collect();
+    let (Some(low), Some(high)) = (numbers.iter().min_by(by_channel), numbers.iter().max_by(by_channel)) else {
+        return false;
+    };
+    let [mut low, mut high] = [*low, *high].map(|number| (outline[number], colors[number][channel]));
+    for _ in 0..HALVINGS {
+        let between = low.0.between(&high.0, 0.5);
+        let value = color(&between)[channel];
+        let half = (between, value);
+        if high.1 - value > value - low.1 { low = half } else { high = half }
+    }
+    whole > 0.0 && high.1 - low.1 > JUMP * whole
+}

@@ -1,0 +1,377 @@
+//! The judge itself: pictures with planted faults, each of which it finds, and pictures of rasterisers that are right.
+
+use bevy_ecs::prelude::*;
+use bevy_math::{Vec2, Vec3};
+use bevy_transform::components::GlobalTransform;
+use halfway_lighting::{
+    BackMaterial, Blend, Camera, DirectionalLight, Encoding, Faces, Material, PointLight, Samples, Shading,
+};
+use halfway_mesh::{Mesh, UvSphere};
+use halfway_reference::metrics::{Bars, Verdict, judge};
+use halfway_reference::{Image, Oracle};
+use image::{DynamicImage, RgbaImage};
+
+use crate::scene::{Stage, glow, panel, wall};
+
+const SIZE: u32 = 96;
+/// Where the four samples of a pixel lie.
+const FOUR: [[f64; 2]; 4] = [[0.375, 0.125], [0.875, 0.375], [0.125, 0.625], [0.625, 0.875]];
+
+fn oracle(stage: &mut Stage) -> Oracle {
+    stage.oracle(SIZE, SIZE)
+}
+
+fn float(truth: &Oracle, actual: &Image) -> Verdict {
+    judge(truth, &truth.draw(), actual, Bars::FLOAT).expect("pictures of one size")
+}
+
+/// The picture rounded to bytes, judged by their bars.
+fn bytes(stage: &mut Stage, actual: &Image, encoding: Encoding) -> Verdict {
+    let truth = oracle(stage).with_clamping(true);
+    let rounded: RgbaImage = DynamicImage::from(actual.to_bytes(encoding)).into_rgba8();
+    let bars = Bars { equal: 0.0, ..Bars::bytes(encoding) };
+    judge(&truth, &truth.draw(), &Image::from_bytes(&rounded, encoding), bars).expect("pictures of one size")
+}
+
+/// Fails unless both judges, of floating point and of bytes, find the fault.
+fn assert_caught(fault: &str, stage: &mut Stage, actual: &Image) {
+    let verdict = float(&oracle(stage), actual);
+    assert!(!verdict.is_within(), "{fault}: {verdict}");
+    for encoding in [Encoding::Raw, Encoding::Srgb] {
+        let verdict = bytes(stage, actual, encoding);
+        assert!(!verdict.is_within(), "{fault}, {encoding:?}: {verdict}");
+    }
+}
+
+/// The picture with some pixels changed.
+fn with(image: &Image, changes: impl IntoIterator<Item = ((u32, u32), [f64; 3])>) -> Image {
+    let (width, height) = image.dimensions();
+    let mut pixels = image.pixels().to_vec();
+    for ((x, y), color) in changes {
+        pixels[(y * width + x) as usize] = color;
+    }
+    Image::new(width, height, pixels)
+}
+
+fn all_pixels() -> impl Iterator<Item = (u32, u32)> {
+    (0..SIZE).flat_map(|y| (0..SIZE).map(move |x| (x, y)))
+}
+
+/// A grey material under a white light from above, to be seen by either shading.
+fn lamp(stage: &mut Stage) -> Entity {
+    stage.world.spawn((PointLight::white(), GlobalTransform::from_xyz(2.0, 3.0, 1.0))).id()
+}
+
+/// A sphere whose vertices are in eye space, so that they can be moved there.
+fn ball(center: Vec3, radius: f32, columns: u32, rows: u32) -> Mesh {
+    let mesh = Mesh::from(UvSphere::new(radius, columns, rows));
+    moved(&mesh, |p| p + center)
+}
+
+fn moved(mesh: &Mesh, place: impl Fn(Vec3) -> Vec3) -> Mesh {
+    let positions = mesh.positions().iter().map(|p| place(*p)).collect();
+    Mesh::from_parts(positions, Some(mesh.normals().to_vec()), None, mesh.indices().to_vec())
+        .expect("the same triangles")
+}
+
+fn without(mesh: &Mesh, triangle: usize) -> Mesh {
+    let mut indices = mesh.indices().to_vec();
+    indices.drain(3 * triangle..3 * triangle + 3);
+    Mesh::from_parts(mesh.positions().to_vec(), Some(mesh.normals().to_vec()), None, indices).expect("one less")
+}
+
+/// Where a point before the stage's camera lies on the picture.
+fn pixel(p: Vec3) -> Vec2 {
+    0.5 * SIZE as f32 * (1.0 + Vec2::new(p.x, -p.y) / -p.z)
+}
+
+/// The point of the same depth that lies elsewhere on the picture.
+fn at_pixel(p: Vec3, pixel: Vec2) -> Vec3 {
+    let at_depth_1 = pixel / (0.5 * SIZE as f32) - 1.0;
+    Vec3::new(at_depth_1.x * -p.z, -at_depth_1.y * -p.z, p.z)
+}
+
+/// The mesh with its vertices on a grid of so many places a pixel, as a rasteriser has them.
+fn snapped(mesh: &Mesh, places: f32) -> Mesh {
+    moved(mesh, |p| at_pixel(p, (pixel(p) * places).round() / places))
+}
+
+/// A scene of balls before a wall, some inside each other, each mesh taken through a function.
+fn balls(looks: impl Fn(f32) -> Material, shading: Shading, change: impl Fn(&Mesh) -> Mesh) -> Stage {
+    let mut stage = Stage::new();
+    lamp(&mut stage);
+    stage.add(wall(30.0, 8.0), (looks(0.2), shading));
+    for (i, (center, columns)) in
+        [(Vec3::new(-0.7, 0.3, -2.5), 96), (Vec3::new(0.9, -0.4, -3.0), 16), (Vec3::new(0.2, 0.2, -2.2), 9)]
+            .into_iter()
+            .enumerate()
+    {
+        stage.add(change(&ball(center, 0.8, columns, columns / 2)), (looks(0.5 + 0.2 * i as f32), shading));
+    }
+    // A plate that is seen nearly from its edge, and two of its sides.
+    let plate = moved(&panel(-0.9, 0.3, -1.0, 1.0, 0.0), |p| Vec3::new(p.x, -0.9 + 0.02 * p.y, p.y - 3.0));
+    stage.add(change(&plate), (looks(0.4), shading, Faces::Both));
+    stage
+}
+
+fn grey_glow(grey: f32) -> Material {
+    glow(grey, 1.0 - grey, 0.5 * grey)
+}
+
+fn plain(_: f32) -> Material {
+    Material::default()
+}
+
+#[test]
+fn a_rasteriser_that_is_right_passes() {
+    for places in [16.0, 256.0] {
+        let picture = oracle(&mut balls(grey_glow, Shading::Flat, |mesh| snapped(mesh, places))).draw();
+        let verdict = float(&oracle(&mut balls(grey_glow, Shading::Flat, Mesh::clone)), &picture);
+        assert!(verdict.is_within() && verdict.edges > 0.0, "{places} places a pixel: {verdict}");
+    }
+    for shading in [Shading::Flat, Shading::Gouraud, Shading::Phong] {
+        let picture = oracle(&mut balls(plain, shading, |mesh| snapped(mesh, 256.0))).draw();
+        let mut truth = balls(plain, shading, Mesh::clone);
+        let verdict = float(&oracle(&mut truth), &picture);
+        assert!(verdict.is_within() && verdict.edges > 0.0, "{shading:?}: {verdict}");
+        let verdict = bytes(&mut truth, &picture, Encoding::Srgb);
+        assert!(verdict.is_within(), "{shading:?} in bytes: {verdict}");
+    }
+}
+
+#[test]
+fn cracks_beside_inner_edges_are_found() {
+    // A 96 × 48 sphere before a wall: the wall shows through wherever an inner edge passes a centre.
+    let scene = |with_sphere: bool| {
+        let mut stage = Stage::new();
+        lamp(&mut stage);
+        stage.add(wall(30.0, 8.0), (glow(1.0, 0.5, 0.1), Shading::Phong));
+        if with_sphere {
+            stage.add(ball(Vec3::new(0.0, 0.0, -2.0), 1.2, 96, 48), (Material::default(), Shading::Phong));
+        }
+        stage
+    };
+    let behind = oracle(&mut scene(false)).draw();
+    let mut truth = scene(true);
+    let judged = oracle(&mut truth);
+    let picture = judged.draw();
+    let triangles = |x: u32, y: u32| {
+        [(0.47, 0.5), (0.53, 0.5), (0.5, 0.47), (0.5, 0.53)].map(|(dx, dy)| {
+            let nearest = judged.seen(f64::from(x) + dx, f64::from(y) + dy).nearest.expect("the wall is behind");
+            (nearest.object, nearest.triangle)
+        })
+    };
+    let sphere = judged.seen(48.5, 48.5).nearest.expect("the sphere").object;
+    let cracks: Vec<(u32, u32)> = all_pixels()
+        .filter(|(x, y)| {
+            let found = triangles(*x, *y);
+            found.iter().all(|(object, _)| *object == sphere) && found.iter().any(|one| *one != found[0])
+        })
+        .collect();
+    assert!(cracks.len() > 300, "{} pixels beside inner edges", cracks.len());
+    assert!(float(&judged, &picture).is_within());
+    assert_caught(
+        "all cracks",
+        &mut truth,
+        &with(&picture, cracks.iter().map(|(x, y)| ((*x, *y), behind.pixel(*x, *y)))),
+    );
+    for (x, y) in cracks.iter().step_by(29) {
+        let one = with(&picture, [((*x, *y), behind.pixel(*x, *y))]);
+        assert_caught("one crack", &mut truth, &one);
+    }
+    // A seam is black.
+    let (x, y) = cracks[cracks.len() / 2];
+    assert_caught("a black pixel", &mut truth, &with(&picture, [((x, y), [0.0; 3])]));
+}
+
+#[test]
+fn a_missing_object_is_found() {
+    let scene = |with_ball: bool| {
+        let mut stage = balls(plain, Shading::Gouraud, Mesh::clone);
+        if with_ball {
+            // Some 300 pixels; 2,000 triangles, so that most centres have an edge beside them.
+            stage.add(ball(Vec3::new(1.4, 1.4, -2.5), 0.5, 64, 32), Material::default());
+        }
+        stage
+    };
+    let picture = oracle(&mut scene(false)).draw();
+    let mut truth = scene(true);
+    assert_caught("a missing ball", &mut truth, &picture);
+}
+
+#[test]
+fn a_missing_light_is_found() {
+    for shading in [Shading::Flat, Shading::Gouraud, Shading::Phong] {
+        let scene = |with_light: bool| {
+            let mut stage = balls(plain, shading, Mesh::clone);
+            if with_light {
+                let light = DirectionalLight { diffuse: crate::scene::grey(0.05), ..DirectionalLight::white() };
+                stage.sun(light, Vec3::new(1.0, -0.5, -1.0));
+            }
+            stage
+        };
+        let picture = oracle(&mut scene(false)).draw();
+        assert_caught("a missing light", &mut scene(true), &picture);
+    }
+}
+
+#[test]
+fn a_missing_triangle_is_found() {
+    let mesh = ball(Vec3::new(0.0, 0.0, -2.0), 1.2, 96, 48);
+    let scene = |mesh: &Mesh| {
+        let mut stage = Stage::new();
+        lamp(&mut stage);
+        stage.add(wall(30.0, 8.0), glow(1.0, 0.5, 0.1));
+        stage.add(mesh.clone(), Material::default());
+        stage
+    };
+    let mut truth = scene(&mesh);
+    let judged = oracle(&mut truth);
+    let mut triangles: Vec<u32> = (20..76)
+        .step_by(5)
+        .flat_map(|y| (20..76).step_by(7).map(move |x| (x, y)))
+        .filter_map(|(x, y)| judged.seen(f64::from(x) + 0.5, f64::from(y) + 0.5).nearest?.triangle)
+        .filter(|triangle| *triangle > 1)
+        .collect();
+    triangles.dedup();
+    assert!(triangles.len() > 50);
+    for triangle in triangles.into_iter().step_by(9) {
+        let picture = oracle(&mut scene(&without(&mesh, triangle as usize))).draw();
+        assert_caught(&format!("triangle {triangle} missing"), &mut truth, &picture);
+    }
+}
+
+#[test]
+fn an_outline_moved_by_a_quarter_of_a_pixel_is_found() {
+    let corners = [Vec3::new(-1.3, -1.1, -2.0), Vec3::new(1.2, -0.7, -2.0), Vec3::new(0.1, 1.4, -2.0)];
+    let scene = |corner: usize, by: Vec2| {
+        let mut stage = Stage::new();
+        let mut corners = corners;
+        corners[corner] = at_pixel(corners[corner], pixel(corners[corner]) + by);
+        stage.add(crate::scene::triangle(corners, None), glow(1.0, 1.0, 1.0));
+        stage.add(wall(30.0, 8.0), glow(0.3, 0.0, 0.0));
+        stage
+    };
+    let mut truth = scene(0, Vec2::ZERO);
+    for corner in 0..3 {
+        for by in [Vec2::X, Vec2::Y, Vec2::NEG_X, Vec2::NEG_Y] {
+            let picture = oracle(&mut scene(corner, 0.25 * by)).draw();
+            assert_caught(&format!("corner {corner} moved by {by}"), &mut truth, &picture);
+            // What a grid of four bits allows passes.
+            let picture = oracle(&mut scene(corner, 0.06 * by)).draw();
+            let verdict = float(&oracle(&mut truth), &picture);
+            assert!(verdict.is_within(), "corner {corner}: {verdict}");
+        }
+    }
+}
+
+#[test]
+fn an_exponent_one_hundredth_off_is_found() {
+    for shading in [Shading::Gouraud, Shading::Phong] {
+        for shininess in [5.0, 60.0] {
+            let looks = |factor: f32| move |_: f32| Material { shininess: shininess * factor, ..Material::default() };
+            let picture = oracle(&mut balls(looks(1.01), shading, Mesh::clone)).draw();
+            let verdict = float(&oracle(&mut balls(looks(1.0), shading, Mesh::clone)), &picture);
+            assert!(!verdict.is_within(), "{shading:?}, {shininess}: {verdict}");
+        }
+    }
+}
+
+#[test]
+fn the_near_side_of_a_blended_object_before_its_far_side_is_found() {
+    let [near, far] = [(0.9, 0.1), (0.1, 0.9)].map(|(red, green)| Material { opacity: 0.5, ..glow(red, green, 0.2) });
+    let mesh = ball(Vec3::new(0.0, 0.0, -2.0), 1.0, 32, 16);
+    let mut truth = Stage::new();
+    truth.add(mesh.clone(), (near, BackMaterial(far), Faces::Both, Blend));
+    // What is spawned first is drawn first: of equal depth.
+    let mut wrong = Stage::new();
+    wrong.add(mesh.clone(), (near, Faces::Front, Blend));
+    wrong.add(mesh.clone(), (far, Faces::Back, Blend));
+    let picture = oracle(&mut wrong).draw();
+    assert_caught("the near side first", &mut truth, &picture);
+    // One pixel is enough.
+    let one = with(&oracle(&mut truth).draw(), [((50, 40), picture.pixel(50, 40))]);
+    assert_caught("the near side first in one pixel", &mut truth, &one);
+    let mut right = Stage::new();
+    right.add(mesh.clone(), (far, Faces::Back, Blend));
+    right.add(mesh, (near, Faces::Front, Blend));
+    let verdict = float(&oracle(&mut truth), &oracle(&mut right).draw());
+    assert!(verdict.is_within(), "{verdict}");
+}
+
+#[test]
+fn black_pixels_between_facets_are_found() {
+    let mut truth = Stage::new();
+    lamp(&mut truth);
+    truth.add(ball(Vec3::new(0.0, 0.0, -2.0), 1.2, 96, 48), (Material::default(), Shading::Flat, Faces::Both));
+    let judged = oracle(&mut truth);
+    let picture = judged.draw();
+    // Where triangles are slivers, near the outline, but not on it.
+    let is_inside = |x: u32, y: u32| {
+        let corner = |dx: f64, dy: f64| judged.seen(f64::from(x) + dx, f64::from(y) + dy).nearest.is_some();
+        corner(0.2, 0.5) && corner(0.8, 0.5) && corner(0.5, 0.2) && corner(0.5, 0.8)
+    };
+    let inside: Vec<_> = all_pixels().filter(|(x, y)| is_inside(*x, *y)).collect();
+    let lit: Vec<_> = inside.iter().filter(|(x, y)| picture.pixel(*x, *y)[0] > 0.05).collect();
+    assert!(lit.len() > 1000);
+    for (x, y) in lit.into_iter().step_by(97) {
+        assert_caught(&format!("({x}, {y}) black"), &mut truth, &with(&picture, [((*x, *y), [0.0; 3])]));
+    }
+}
+
+/// A picture of four samples a pixel: each sample's triangle shaded in the middle of the samples that it covers, or, as a
+/// renderer does that forgets `centroid`, at the pixel's centre, be it inside the triangle or not.
+fn four_samples(oracle: &Oracle, extrapolated: bool) -> Image {
+    let seen = |x: u32, y: u32, [dx, dy]: [f64; 2]| oracle.seen(f64::from(x) + dx, f64::from(y) + dy);
+    let pixel = |(x, y): (u32, u32)| {
+        let of_sample = |at: [f64; 2]| {
+            let here = seen(x, y, at);
+            if !extrapolated || here.nearest.is_none() || seen(x, y, [0.5; 2]).nearest.is_some() {
+                return here.color;
+            }
+            // On along the triangle, from two places close to each other, as far as the centre.
+            let step = 1e-3;
+            let beside =
+                |axis: usize| seen(x, y, std::array::from_fn(|i| at[i] + if i == axis { step } else { 0.0 })).color;
+            let (right, below) = (beside(0), beside(1));
+            let along = |k: usize, axis: usize| ([right, below][axis][k] - here.color[k]) / step * (0.5 - at[axis]);
+            std::array::from_fn(|k| here.color[k] + along(k, 0) + along(k, 1))
+        };
+        let samples = FOUR.map(of_sample);
+        std::array::from_fn(|k| samples.iter().map(|color| color[k]).sum::<f64>() / 4.0)
+    };
+    Image::new(SIZE, SIZE, all_pixels().map(pixel).collect())
+}
+
+#[test]
+fn colors_from_outside_a_triangle_are_found_with_four_samples() {
+    let scene = |change: &dyn Fn(&Mesh) -> Mesh| {
+        let mut stage = Stage::new();
+        *stage.camera() = Camera { samples: Samples::Four, ..*stage.camera() };
+        lamp(&mut stage);
+        let mesh = ball(Vec3::new(0.0, 0.0, -2.0), 1.2, 24, 12);
+        stage.add(change(&mesh), (Material::default(), Shading::Gouraud));
+        stage
+    };
+    let mut truth = scene(&Mesh::clone);
+    for places in [16.0, 256.0] {
+        let picture = four_samples(&oracle(&mut scene(&|mesh| snapped(mesh, places))), false);
+        let verdict = float(&oracle(&mut truth), &picture);
+        // With four bits the slopes inside move by more than the bars.
+        let within = if places < 256.0 { verdict.bad == 0 } else { verdict.is_within() };
+        assert!(within && verdict.edges > 0.0, "{places} places a pixel: {verdict}");
+    }
+    let picture = four_samples(&oracle(&mut truth), true);
+    assert!(picture.pixels().iter().flatten().any(|channel| *channel < 0.0), "some are negative");
+    let without_negative = Image::new(SIZE, SIZE, picture.pixels().iter().map(|p| p.map(|i| i.max(0.0))).collect());
+    assert!(!float(&oracle(&mut truth), &picture).is_within());
+    assert_caught("extrapolated", &mut truth, &without_negative);
+    // One sample's picture is none of four.
+    stage_of_one_sample(&mut truth);
+}
+
+/// Fails unless a picture with one sample a pixel is found where four are asked for.
+fn stage_of_one_sample(truth: &mut Stage) {
+    let jagged = oracle(truth).draw();
+    assert_caught("one sample a pixel", truth, &jagged);
+}
