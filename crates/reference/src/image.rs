@@ -1,7 +1,7 @@
 //! Pictures as linear intensities.
 
 use halfway_lighting::Encoding;
-use image::{Rgb, RgbImage, Rgba32FImage, RgbaImage};
+use image::{DynamicImage, Rgb, RgbImage, Rgba32FImage, RgbaImage};
 
 /// A picture of linear intensities in f64, top row first, three channels; and, where it is known, which pixels show an
 /// object and which the background.
@@ -52,6 +52,21 @@ impl Image {
         let table: [f64; 256] = std::array::from_fn(|byte| encoding.decode(byte as f64 / 255.0));
         let pixels = image.pixels().map(|p| [p.0[0], p.0[1], p.0[2]].map(|byte| table[usize::from(byte)])).collect();
         Self::new(image.width(), image.height(), pixels)
+    }
+
+    /// A decoded picture of 8 or 16 bits, whose values are decoded to the intensities they stand for, or one in floating
+    /// point, whose intensities stand as they are. Alpha is dropped.
+    pub fn from_decoded(image: &DynamicImage, encoding: Encoding) -> Self {
+        use DynamicImage as D;
+        match image {
+            D::ImageRgb32F(_) | D::ImageRgba32F(_) => Self::from_float(&image.to_rgba32f()),
+            D::ImageLuma16(_) | D::ImageLumaA16(_) | D::ImageRgb16(_) | D::ImageRgba16(_) => {
+                let decode = |value: u16| encoding.decode(f64::from(value) / 65535.0);
+                let pixels = image.to_rgb16().pixels().map(|pixel| pixel.0.map(decode)).collect();
+                Self::new(image.width(), image.height(), pixels)
+            }
+            _ => Self::from_bytes(&image.to_rgba8(), encoding),
+        }
     }
 
     /// Width and height in pixels.

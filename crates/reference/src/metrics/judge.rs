@@ -7,6 +7,7 @@
 use std::fmt;
 
 use halfway_lighting::Encoding;
+use image::DynamicImage;
 use rayon::prelude::*;
 
 use super::comparison::{SizeMismatch, range, same_size};
@@ -54,6 +55,21 @@ impl Bars {
     /// where a smaller [`equal`](Self::equal) is due.
     pub const fn bytes(encoding: Encoding) -> Self {
         Self { measure: Measure::Steps(encoding), most: 1.0, worst: 1.0, equal: 0.99 }
+    }
+
+    /// For a decoded picture of whatever drawer: [`FLOAT`](Self::FLOAT) in floating point, else
+    /// [`bytes`](Self::bytes) without a share that has to be equal, as it is not known who wrote the curve.
+    pub fn for_decoded(picture: &DynamicImage, encoding: Encoding) -> Self {
+        match picture {
+            DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_) => Self::FLOAT,
+            _ => Self { equal: 0.0, ..Self::bytes(encoding) },
+        }
+    }
+
+    /// Whether such pictures hold no intensity above 1, so that the oracle has to
+    /// [clamp](Oracle::with_clamping) too.
+    pub fn are_clamped(&self) -> bool {
+        matches!(self.measure, Measure::Steps(_))
     }
 }
 

@@ -1,5 +1,6 @@
 //! The oracle against closed forms, hand arithmetic and itself.
 
+mod bits;
 mod blending;
 mod coverage;
 mod errors;
