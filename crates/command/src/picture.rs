@@ -11,24 +11,16 @@ use crate::failure::Failure;
 /// Reads a PNG of 8 or 16 bits, whose values are decoded, or an EXR, whose intensities stand as they are. Alpha is dropped;
 /// of an animation it is the first frame.
 pub(crate) fn read(file: &Path, encoding: Encoding) -> Result<Image, Failure> {
+    Ok(Image::from_decoded(&decoded(file)?, encoding))
+}
+
+/// Reads a PNG or an EXR as it is; of an animation it is the first frame.
+pub(crate) fn decoded(file: &Path) -> Result<DynamicImage, Failure> {
     let unreadable = |error: &dyn std::fmt::Display| {
         Failure::from(format!("{}: cannot be read as a picture: {error}; expected a PNG or EXR", file.display()))
     };
     let reader = ImageReader::open(file).and_then(ImageReader::with_guessed_format).map_err(|e| unreadable(&e))?;
-    Ok(linear(reader.decode().map_err(|error| unreadable(&error))?, encoding))
-}
-
-fn linear(image: DynamicImage, encoding: Encoding) -> Image {
-    use DynamicImage as D;
-    let (width, height) = (image.width(), image.height());
-    match image {
-        D::ImageRgb32F(_) | D::ImageRgba32F(_) => Image::from_float(&image.into_rgba32f()),
-        D::ImageLuma16(_) | D::ImageLumaA16(_) | D::ImageRgb16(_) | D::ImageRgba16(_) => {
-            let decode = |value: u16| encoding.decode(f64::from(value) / 65535.0);
-            Image::new(width, height, image.into_rgb16().pixels().map(|pixel| pixel.0.map(decode)).collect())
-        }
-        _ => Image::from_bytes(&image.into_rgba8(), encoding),
-    }
+    reader.decode().map_err(|error| unreadable(&error))
 }
 
 /// Writes a picture that people look at.

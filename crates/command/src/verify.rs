@@ -1,6 +1,6 @@
 //! `halfway verify`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use halfway::prelude::*;
@@ -25,7 +25,10 @@ pub(crate) struct VerifyArgs {
     /// Draw where the 8-bit pictures differ, with a legend, into this PNG
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Exit with code 4 where a pixel of the 8-bit picture that is on no edge differs by more steps of 1/255
+    /// Judge this picture, a PNG or EXR of the scene's first moment, and not what the adapter draws; its size is taken
+    #[arg(long, value_name = "FILE")]
+    picture: Option<PathBuf>,
+    /// Exit with code 4 where a pixel of a picture of bytes differs by more steps of 1/255 from what it may show
     #[arg(long, value_name = "STEPS", default_value_t = 1)]
     max: u8,
     /// Print JSON instead of lines
@@ -35,6 +38,9 @@ pub(crate) struct VerifyArgs {
 
 pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
     let mut input = SceneInput::read(&args.look)?;
+    if let Some(file) = &args.picture {
+        return judge_picture(args, input, file);
+    }
     let size = args.size.unwrap_or(UVec2::from_array(input.scene.size));
     if input.scene.samples != 1 {
         eprintln!("note: judged with one sample a pixel, since adapters differ in where they take four");
@@ -76,6 +82,52 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
         println!("float   {float}");
     }
     verdict(args.max, &of_bytes, &float)
+}
+
+/// Judges a picture that is there, by the oracle alone.
+fn judge_picture(args: &VerifyArgs, mut input: SceneInput, file: &Path) -> Result<(), Failure> {
+    let encoding = Encoding::from(input.scene.output);
+    let picture = picture::decoded(file)?;
+    let size = UVec2::new(picture.width(), picture.height());
+    if let Some(wanted) = args.size.filter(|wanted| *wanted != size) {
+        let [found, wanted] = [size, wanted].map(|size| format!("{} × {}", size.x, size.y));
+        return Err(format!("{}: the picture has {found} pixels; expected {wanted}", file.display()).into());
+    }
+    input.scene.size = size.to_array();
+    let mut app = App::new();
+    app.add_plugins(HalfwayPlugins::reference());
+    input.spawn(&mut app)?;
+    app.insert_resource(bevy_time::TimeUpdateStrategy::ManualDuration(std::time::Duration::ZERO));
+    app.finish();
+    app.cleanup();
+    app.update();
+
+    let bars = match Bars::for_decoded(&picture, encoding) {
+        bars if bars.are_clamped() => Bars { most: args.max.into(), worst: args.max.into(), ..bars },
+        bars => bars,
+    };
+    let progress = Progress::of_tiles();
+    let oracle = Oracle::new(app.world_mut(), size)?.with_clamping(bars.are_clamped());
+    let expected = oracle
+        .draw_with(&|done, of| progress.tile(0, 1, done, of))
+        .map_err(|stopped| Failure::new(STOPPED, stopped))?;
+    let drawn = Drawn { oracle, actual: Image::from_decoded(&picture, encoding), expected };
+    let found = drawn.judged(bars)?;
+    drop(progress);
+    if let Some(file) = &args.output {
+        picture::write(file, difference(&drawn.actual, &drawn.expected, encoding, Scale::default()).map_err(text)?)?;
+    }
+    if args.json {
+        let picture = file.display().to_string();
+        println!(
+            "{}",
+            serde_json::json!({ "picture": picture, "size": size.to_array(), "verdict": figures::verdict(&found) })
+        );
+    } else {
+        println!("{}, {} × {} pixels", file.display(), size.x, size.y);
+        println!("{found}");
+    }
+    if found.is_within() { Ok(()) } else { Err(Failure::new(DIFFERENT, format!("{}: {found}", file.display()))) }
 }
 
 /// The 8-bit picture keeps to its bar, and the other is a picture at all.

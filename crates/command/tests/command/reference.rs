@@ -75,6 +75,31 @@ fn every_example_scene_is_what_the_reference_renderer_draws() {
 }
 
 #[test]
+fn a_given_picture_is_judged_without_an_adapter() {
+    let folder = folder("given");
+    let scene = asset("examples/scenes/transforms.json");
+    for name in ["given.png", "given.exr"] {
+        let look = [scene.as_str(), "--samples", "1", "--size", "96x54"];
+        succeeds(&folder, &[&["render"], &look[..], &["--reference", "-o", name]].concat());
+        let json = succeeds(&folder, &[&["verify"], &look[..3], &["--picture", name, "--json"]].concat());
+        let json: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+        assert_eq!((&json["verdict"]["within"], &json["size"][0]), (&true.into(), &96.into()), "{json}");
+    }
+    // One pixel of the brightest object turns black.
+    let mut picture = image::open(folder.join("given.png")).expect("it was drawn").into_rgb8();
+    let brightest = picture.enumerate_pixels().max_by_key(|(_, _, p)| p.0.iter().map(|c| u32::from(*c)).sum::<u32>());
+    let (x, y, _) = brightest.expect("there are pixels");
+    picture.put_pixel(x, y, image::Rgb([0; 3]));
+    picture.save(folder.join("wrong.png")).expect("the folder can be written");
+    let wrong = halfway(&folder, &["verify", &scene, "--samples", "1", "--picture", "wrong.png"]);
+    assert_eq!(wrong.status.code(), Some(4));
+    assert!(String::from_utf8_lossy(&wrong.stderr).contains(&format!("({x}, {y})")), "{wrong:?}");
+    let size = halfway(&folder, &["verify", &scene, "--picture", "wrong.png", "--size", "64x48"]);
+    assert_eq!(size.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&size.stderr).contains("96 × 54 pixels; expected 64 × 48"), "{size:?}");
+}
+
+#[test]
 fn what_is_compared_is_said_and_shown() {
     let folder = folder("compare");
     let grey = |name: &str, changed: [u8; 3]| {
