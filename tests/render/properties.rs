@@ -197,9 +197,7 @@ fn scenes_of_any_numbers_are_what_the_oracle_says() {
         let rounding = numbers.rounding();
         let bars = metrics::Bars { most: FLOAT.most + rounding, worst: FLOAT.worst + rounding, ..FLOAT };
         let verdict = metrics::judge(&oracle, &oracle.draw(), &picture, bars).expect("pictures of one size");
-        // A needle may be all edges.
-        let within = verdict.bad == 0 && verdict.most <= bars.most && verdict.worst <= bars.worst;
-        prop_assert!(within, "{verdict}; within {bars:?}");
+        prop_assert!(verdict.is_within(), "{verdict}; within {bars:?}");
         Ok(())
     });
 }

@@ -50,6 +50,9 @@
 //! assert!(color[0] > color[1] && color[1] > color[2]);
 //! ```
 
+// Powers and the functions of angles only by `equations::Transcendental`: see clippy.toml.
+#![warn(clippy::disallowed_methods)]
+
 pub mod bounds;
 mod camera;
 pub mod equations;

@@ -7,14 +7,19 @@
 /// Powers and the functions of angles, equal to the bit on every machine. Angles are in radians.
 pub trait Transcendental: Sized {
     /// `self` to the power of `exponent`.
+    #[must_use]
     fn pow(self, exponent: Self) -> Self;
     /// The sine of an angle.
+    #[must_use]
     fn sine(self) -> Self;
     /// The cosine of an angle.
+    #[must_use]
     fn cosine(self) -> Self;
     /// The tangent of an angle.
+    #[must_use]
     fn tangent(self) -> Self;
     /// `√(self² + other²)`; the squares neither overflow nor underflow.
+    #[must_use]
     fn hypotenuse(self, other: Self) -> Self;
 }
 

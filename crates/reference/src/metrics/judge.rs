@@ -6,7 +6,7 @@
 
 use std::fmt;
 
-use halfway_lighting::Encoding;
+use halfway_lighting::{Encoding, Samples};
 use image::DynamicImage;
 use rayon::prelude::*;
 
@@ -113,18 +113,20 @@ impl Verdict {
 /// Judges `actual` by `expected`, which `oracle` has drawn with one sample a pixel; `actual` has as many as the camera says.
 ///
 /// Of a pixel whose error is over `bars.most` the oracle is asked which colours it [may show](Oracle::possible) with
-/// vertices moved by less than [`EDGE_RADIUS`]. On an edge (several triangles, or a jump in the colour of one) and on a
+/// vertices moved by less than [`EDGE_RADIUS`]; with four samples a pixel, also of one beside which something else is seen. On an edge (several triangles, or a jump in the colour of one) and on a
 /// slope of more than 4 % of the range within that radius, each of these colours, give or take `bars.worst`, is right, and
-/// the pixel is counted apart. Any other error counts; no share of pixels is excused.
+/// the pixel is counted apart; the error of another one is its distance from the nearest of them. No share of pixels is
+/// excused.
 ///
 /// # Errors
 /// [`SizeMismatch`].
 pub fn judge(oracle: &Oracle, expected: &Image, actual: &Image, bars: Bars) -> Result<Verdict, SizeMismatch> {
-    judge_with(|x, y| oracle.possible(x, y, EDGE_RADIUS), expected, actual, bars)
+    judge_with(|x, y| oracle.possible(x, y, EDGE_RADIUS), oracle.samples(), expected, actual, bars)
 }
 
 fn judge_with(
     possible: impl Fn(u32, u32) -> Possible + Sync,
+    samples: Samples,
     expected: &Image,
     actual: &Image,
     bars: Bars,
@@ -141,10 +143,24 @@ fn judge_with(
         let errors: [f64; 3] = std::array::from_fn(|k| ruler.error(is[k], should[k]));
         // An error that is no number is over the bar too.
         let is_over = errors.iter().any(|error| error.is_nan() || *error > bars.most);
-        if is_over && ruler.may_be_shown(is, &possible(at.0, at.1)) {
-            Finding::Edge
-        } else if is_over || expected.covered().is_none_or(|covered| covered[i]) {
-            Finding::Counted(at, [is, should].map(|pixel| pixel.map(|channel| ruler.value(channel))), errors)
+        let counted = |should, errors| {
+            Finding::Counted(at, [is, should].map(|pixel: [f64; 3]| pixel.map(|channel| ruler.value(channel))), errors)
+        };
+        // Of four samples the centre says nothing where something else is beside it.
+        if is_over || (samples == Samples::Four && ruler.differs_beside(expected, at)) {
+            let possible = possible(at.0, at.1);
+            if ruler.has_choice(&possible) {
+                let (nearest, errors) = ruler.nearest(is, &possible);
+                if !errors.iter().all(|error| *error <= bars.worst) {
+                    return counted(nearest, errors);
+                }
+                if is_over {
+                    return Finding::Edge;
+                }
+            }
+        }
+        if is_over || expected.covered().is_none_or(|covered| covered[i]) {
+            counted(should, errors)
         } else {
             Finding::Background
         }
@@ -211,26 +227,49 @@ impl Ruler {
         self.in_unit((self.value(actual) - self.value(expected)).abs())
     }
 
-    /// Whether a pixel over the bar lies on an edge or a steep slope, and has one of the colours that it may show there.
-    fn may_be_shown(&self, actual: [f64; 3], possible: &Possible) -> bool {
-        let is_steep = |range: &ColorRange| (0..3).any(|k| self.span(range, k) > STEEP * self.range);
-        (possible.is_edge || possible.ranges.iter().any(is_steep))
-            && possible.ranges.iter().any(|range| self.is_in(actual, range))
+    /// Whether a pixel lies on an edge or a steep slope, where more than one colour is right.
+    fn has_choice(&self, possible: &Possible) -> bool {
+        let span = |range: &ColorRange, k: usize| self.value(range.high[k]) - self.value(range.low[k]);
+        possible.is_edge || possible.ranges.iter().any(|range| (0..3).any(|k| span(range, k) > STEEP * self.range))
     }
 
-    fn span(&self, range: &ColorRange, channel: usize) -> f64 {
-        self.value(range.high[channel]) - self.value(range.low[channel])
+    /// The colour that a pixel may show and that is nearest to what it shows, and the errors of the channels.
+    fn nearest(&self, actual: [f64; 3], possible: &Possible) -> ([f64; 3], [f64; 3]) {
+        let largest = |errors: &[f64; 3]| errors.iter().copied().fold(0.0, f64::max);
+        let of_ranges = possible.ranges.iter().map(|range| {
+            let inside = std::array::from_fn(|k| actual[k].max(range.low[k]).min(range.high[k]));
+            (inside, self.errors_outside(actual, range))
+        });
+        let nearest = of_ranges.min_by(|a, b| largest(&a.1).total_cmp(&largest(&b.1)));
+        nearest.unwrap_or((actual, [f64::INFINITY; 3]))
     }
 
-    /// Whether each channel lies in the range, give or take the largest error that is within the bars.
-    fn is_in(&self, actual: [f64; 3], range: &ColorRange) -> bool {
+    /// How far each channel lies outside a range.
+    fn errors_outside(&self, actual: [f64; 3], range: &ColorRange) -> [f64; 3] {
         let [low, high] = [range.low, range.high].map(|color| color.map(|channel| self.value(channel)));
         // An edge may show what is brighter than the whole of the picture, rounded to its own brightness.
         let brightest = high.into_iter().fold(0.0, f64::max) - self.darkest;
         let share = self.range / self.range.max(brightest);
-        (0..3).all(|k| {
+        std::array::from_fn(|k| {
             let value = self.value(actual[k]);
-            share * self.in_unit((low[k] - value).max(value - high[k])) <= self.bars.worst
+            let outside = [low[k] - value, value - high[k]].map(|outside| share * self.in_unit(outside));
+            // What is no number is no color.
+            if outside.iter().any(|outside| outside.is_nan()) {
+                f64::INFINITY
+            } else {
+                outside[0].max(outside[1]).max(0.0)
+            }
+        })
+    }
+
+    /// Whether a pixel next to one, at a corner too, shows something else.
+    fn differs_beside(&self, expected: &Image, (x, y): (u32, u32)) -> bool {
+        let (width, height) = expected.dimensions();
+        let here = expected.pixel(x, y);
+        let around = |at: u32, size: u32| at.saturating_sub(1)..(at + 2).min(size);
+        around(y, height).flat_map(|y| around(x, width).map(move |x| (x, y))).any(|(x, y)| {
+            let there = expected.pixel(x, y);
+            (0..3).any(|k| self.error(here[k], there[k]) > self.bars.worst)
         })
     }
 }

@@ -20,6 +20,7 @@ use std::sync::OnceLock;
 
 use bevy_ecs::world::World;
 use bevy_math::UVec2;
+use halfway_lighting::Samples;
 
 pub use error::{OracleError, Stopped};
 pub use mode::Mode;
@@ -97,6 +98,11 @@ impl Oracle {
     #[must_use]
     pub fn with_clamping(self, clamp: bool) -> Self {
         Self { clamp, ..self }
+    }
+
+    /// Coverage samples a pixel of the pictures that are judged, as the camera says.
+    pub(crate) fn samples(&self) -> Samples {
+        self.scene.samples
     }
 
     fn tiles(&self) -> &Tiles {

@@ -218,8 +218,9 @@ fn with_four_samples_each_may_see_its_own() {
     // Between the samples at 3/8 and 5/8 of the pixel's width, away from both.
     stage.add(panel(CENTRE, 9.0, -9.0, 9.0, 1.0), glow(1.0, 1.0, 1.0));
     assert_shows("a half", &possible(&mut stage, 8, 3), &[[0.5; 3]]);
-    // The one at 5/8 of the row's width, too.
-    stage.add(panel(CENTRE - 0.125 * PIXEL, CENTRE + PIXEL, -9.0, 9.0, 1.5), glow(1.0, 1.0, 1.0));
+    // Through the one at 3/8.
+    let left = 0.99 * (CENTRE - 0.125 * PIXEL);
+    stage.add(panel(left, left + PIXEL, -9.0, 9.0, 0.99), glow(1.0, 1.0, 1.0));
     assert_shows("an edge", &possible(&mut stage, 8, 3), &[[0.5; 3], [0.75; 3]]);
 }
 

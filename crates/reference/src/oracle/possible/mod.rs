@@ -44,7 +44,7 @@ impl Oracle {
     pub fn possible(&self, x: u32, y: u32, radius: f64) -> Possible {
         let corner = DVec2::new(f64::from(x), f64::from(y));
         let centre = corner + 0.5;
-        match self.scene.samples {
+        match self.samples() {
             Samples::One => {
                 let disc = Zone::disc(centre, radius);
                 self.stack(&disc, &[&disc]).possible(&self.scene, self.clamp)
@@ -85,7 +85,8 @@ fn mean(samples: &[Possible; 4]) -> Possible {
             }
         }
     }
-    Possible { is_edge: sums.len() > 1 || samples.iter().any(|sample| sample.is_edge), ranges: sums }
+    let is_edge = samples.iter().any(|sample| sample.is_edge || sample.ranges != samples[0].ranges);
+    Possible { is_edge, ranges: sums }
 }
 
 fn add_quarter(sum: &ColorRange, range: &ColorRange) -> ColorRange {
