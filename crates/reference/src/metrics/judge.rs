@@ -167,7 +167,9 @@ fn judge_with(
     };
     let findings: Vec<Finding> = (0..expected.pixels().len()).into_par_iter().map(of_pixel).collect();
     let mut tally = Tally::default();
-    findings.into_iter().for_each(|finding| tally.add(finding));
+    for finding in findings {
+        tally.add(finding);
+    }
     Ok(tally.verdict(bars, expected.pixels().len()))
 }
 
@@ -343,7 +345,7 @@ impl fmt::Display for Verdict {
         write!(f, "; {:.0} % of the picture counts, ", self.counted * 100.0)?;
         write!(f, "{:.2} % shows another side of an edge", self.edges * 100.0)?;
         if let Some(worst) = self.at {
-            write!(f, "; the worst is {}", worst)?;
+            write!(f, "; the worst is {worst}")?;
         }
         if let Some((at, pixel)) = self.first_bad {
             write!(f, "; {} pixels are not finite or negative, the first at {at:?}: {pixel:?}", self.bad)?;

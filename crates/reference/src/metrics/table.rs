@@ -30,7 +30,7 @@ impl fmt::Display for Comparison {
             Some(worst) => {
                 write!(f, "up to {} steps of 1/255", steps.max())?;
                 let relative = self.relative(worst.error());
-                write!(f, " and {relative:.1e} of the range, at {}", worst)?;
+                write!(f, " and {relative:.1e} of the range, at {worst}")?;
                 write!(f, "; mean {:.3}, RMSE {:.3} steps", steps.mean, steps.rmse)?;
             }
         }
@@ -110,7 +110,7 @@ fn row(f: &mut fmt::Formatter<'_>, name: &str, statistics: &Statistics, scale: f
         write!(f, "{:>9}", number(*value))?;
     }
     match worst {
-        Some(worst) if worst.error() > 0.0 => writeln!(f, "  {}", worst),
+        Some(worst) if worst.error() > 0.0 => writeln!(f, "  {worst}"),
         _ => writeln!(f),
     }
 }

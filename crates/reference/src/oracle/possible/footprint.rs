@@ -84,6 +84,7 @@ impl Corner {
 
 /// A triangle within a disc around a point of the picture.
 #[derive(Clone, Debug)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a fact of its own")]
 pub(super) struct Footprint {
     pub(super) solid: usize,
     pub(super) triangle: u32,
