@@ -7,7 +7,7 @@ use super::canvas::{below_one_another, enlarged};
 use super::comparison::{SizeMismatch, same_size, step};
 use super::coverage::{Kind, pairs};
 use super::legend::legend;
-use super::scale::{COVERAGE, NOT_FINITE, Scale, Shown, Unit, color, round_up};
+use super::scale::{COVERAGE, LegendContent, NOT_FINITE, Scale, Unit, color, round_up};
 use super::statistics::percentile;
 use crate::Image;
 
@@ -35,7 +35,7 @@ pub fn difference(
     let (width, height) = actual.dimensions();
     let picture = RgbImage::from_raw(width, height, pixels.collect()).unwrap_or_default();
     let has = |wanted: &[Kind]| kinds.iter().any(|kind| wanted.contains(kind));
-    let shown = Shown {
+    let shown = LegendContent {
         unit: scale.unit,
         upper,
         beyond: kinds.iter().zip(&errors).any(|(kind, error)| kind.is_on_scale() && *error > upper),

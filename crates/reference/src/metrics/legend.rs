@@ -3,13 +3,13 @@
 use image::{Rgb, RgbImage};
 
 use super::canvas::{INK, PAPER, fill, text_height, text_scale, text_width, write};
-use super::scale::{COVERAGE, NOT_FINITE, Shown, Unit, color, power_of_ten};
+use super::scale::{COVERAGE, LegendContent, NOT_FINITE, Unit, color, power_of_ten};
 
 /// No narrower, so that the words have room.
 const LEAST_WIDTH: u32 = 320;
 
 /// The name of what is shown, a colour bar with ticks in its unit, and the colours beside the scale that occur.
-pub(super) fn legend(width: u32, shown: Shown) -> RgbImage {
+pub(super) fn legend(width: u32, shown: LegendContent) -> RgbImage {
     let width = width.max(LEAST_WIDTH);
     let scale = text_scale(width);
     let (line, margin) = (text_height(scale), 8 * scale);
@@ -45,7 +45,7 @@ pub(super) fn legend(width: u32, shown: Shown) -> RgbImage {
 }
 
 /// Marks and numbers along the bar, whose lower left corner is at (x, y).
-fn ticks(strip: &mut RgbImage, (left, y): (u32, u32), length: u32, scale: u32, shown: Shown) {
+fn ticks(strip: &mut RgbImage, (left, y): (u32, u32), length: u32, scale: u32, shown: LegendContent) {
     let parts = parts(shown);
     for i in 0..=parts {
         let share = f64::from(i) / f64::from(parts);
@@ -62,7 +62,7 @@ fn ticks(strip: &mut RgbImage, (left, y): (u32, u32), length: u32, scale: u32, s
 }
 
 /// How many parts have round ends.
-fn parts(shown: Shown) -> u32 {
+fn parts(shown: LegendContent) -> u32 {
     let leading = shown.upper / power_of_ten(shown.upper);
     match shown.unit {
         Unit::Steps if shown.upper <= 5.0 && shown.upper.fract() == 0.0 => shown.upper as u32,

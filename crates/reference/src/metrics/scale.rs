@@ -30,7 +30,7 @@ pub(super) const NOT_FINITE: Rgb<u8> = Rgb([0, 200, 255]);
 
 /// What the legend has to explain.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Shown {
+pub(super) struct LegendContent {
     pub(super) unit: Unit,
     pub(super) upper: f64,
     /// Whether an error is larger than the scale.
