@@ -33,7 +33,7 @@ fn opposite_vertex_normals_fall_back_to_the_geometric_normal() {
                 assert_finite(&row, &picture);
                 let oracle = stage.oracle();
                 for (x, y) in [(16, 3), (16, 16), (16, 30), (5, 16), (28, 7)] {
-                    let expected = oracle.seen(f64::from(x) + 0.5, f64::from(y) + 0.5).colour;
+                    let expected = oracle.seen(f64::from(x) + 0.5, f64::from(y) + 0.5).color;
                     let found = picture.get_pixel(x, y).0;
                     // The fallback is a difference of neighbouring pixels: 10⁻³ of the brightest, 0.9.
                     let close = (0..3).all(|k| (f64::from(found[k]) - expected[k]).abs() < 1e-3);
@@ -115,7 +115,7 @@ fn a_vast_floor_is_lit_however_low_the_camera_is() {
                     let row = format!("{size:e} wide, seen from {height} above, {shading:?}, {faces:?} faces");
                     let picture = stage.draw(&scene);
                     // The horizon is above the picture: all of it shows the front, which one colour covers.
-                    let expected = stage.oracle().seen(16.5, 16.5).colour;
+                    let expected = stage.oracle().seen(16.5, 16.5).color;
                     for (x, y, pixel) in picture.enumerate_pixels() {
                         let close = (0..3).all(|k| (f64::from(pixel.0[k]) - expected[k]).abs() < 1e-4);
                         if !close {
