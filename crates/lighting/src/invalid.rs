@@ -3,6 +3,7 @@
 use bevy_color::LinearRgba;
 use thiserror::Error;
 
+use crate::Frequency;
 use crate::field::Range;
 
 /// The largest value that a colour channel may have: 10¹².
@@ -60,6 +61,12 @@ pub enum Problem {
     NoPosition {
         /// The position as it was given or computed.
         value: [f32; 3],
+    },
+    /// A term that is evaluated once a triangle, beside one that is evaluated at the vertices or fragments.
+    #[error("the term is evaluated once a triangle and the other at {other:?}; expected Triangle or Never for both")]
+    TriangleBeside {
+        /// The frequency of the other term.
+        other: Frequency,
     },
     /// A homogeneous position that is neither a point nor a direction.
     #[error("the homogeneous position is {value:?}; expected finite coordinates, not all 0, with a finite xyz/w")]

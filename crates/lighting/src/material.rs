@@ -5,15 +5,18 @@ use bevy_ecs::component::Component;
 use bevy_ecs::reflect::ReflectComponent;
 use bevy_reflect::Reflect;
 use bevy_reflect::std_traits::ReflectDefault;
+use bytemuck::NoUninit;
 
 use crate::field::{Described, Field, Range};
 use crate::invalid::{Fields, InvalidValue};
 
 /// The classic material: how much of each kind of light a surface gives back.
 ///
-/// A plain value; equal materials may share one record on the GPU. Named materials are in [`Material::PRESETS`].
-#[derive(Component, Reflect, Clone, Copy, Debug, PartialEq)]
+/// A plain value without padding (its bytes can be hashed); equal materials may share one record on the GPU. Named
+/// materials are in [`Material::PRESETS`].
+#[derive(Component, Reflect, Clone, Copy, Debug, PartialEq, NoUninit)]
 #[reflect(Component, Clone, Debug, Default, PartialEq)]
+#[repr(C)]
 pub struct Material {
     /// ka: the share of ambient light given back. Linear RGB, 0 to 10¹², normally at most 1; alpha is ignored. Default
     /// 0.2 grey.

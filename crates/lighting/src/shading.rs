@@ -5,6 +5,8 @@ use bevy_ecs::reflect::ReflectComponent;
 use bevy_reflect::Reflect;
 use bevy_reflect::std_traits::ReflectDefault;
 
+use crate::invalid::{Fields, InvalidValue, Problem};
+
 /// The shading frequency: where the equation is evaluated.
 ///
 /// On an object it wins over the one on the camera.
@@ -22,22 +24,24 @@ pub enum Shading {
     Phong,
 }
 
-/// How often a term is shaded.
+/// Where a term of the lights is evaluated.
 #[derive(Reflect, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[reflect(Clone, Debug, PartialEq, Hash)]
 pub enum Frequency {
-    /// Not at all.
+    /// Nowhere: the term is left out.
     Never,
+    /// Once a triangle, at its centroid, with its geometric normal turned to the side seen.
+    Triangle,
     /// At each vertex, interpolated perspective-correctly.
     Vertex,
     /// At each fragment, with the interpolated normal.
     Fragment,
 }
 
-/// The frequency of each term of an object's lights, in place of its [`Shading`].
+/// Where each term of an object's lights is evaluated, in place of its [`Shading`].
 ///
-/// Gouraud is `Vertex` for both, Phong `Fragment` for both. The hybrid that keeps highlights sharp
-/// and spares the rest is `Terms { diffuse: Vertex, specular: Fragment }`. Emission and ambient are
+/// Flat is `Triangle` for both, Gouraud `Vertex`, Phong `Fragment` (`Terms::from(shading)`). The hybrid that keeps
+/// highlights sharp and spares the rest is `Terms { diffuse: Vertex, specular: Fragment }`. Emission and ambient are
 /// always there; an ambient colour that attenuates goes with the diffuse term.
 #[derive(Component, Reflect, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[reflect(Component, Clone, Debug, PartialEq, Hash)]
@@ -46,6 +50,52 @@ pub struct Terms {
     pub diffuse: Frequency,
     /// Frequency of ks·Ls·S.
     pub specular: Frequency,
+}
+
+impl Terms {
+    /// Both terms left out: emission and ambient alone.
+    pub const NONE: Self = Self::both(Frequency::Never);
+
+    /// Both terms at one frequency.
+    pub const fn both(frequency: Frequency) -> Self {
+        Self { diffuse: frequency, specular: frequency }
+    }
+
+    /// Whether any term has this frequency.
+    pub fn has(self, frequency: Frequency) -> bool {
+        self.diffuse == frequency || self.specular == frequency
+    }
+
+    /// The same terms, each at the frequency that `of` gives for its own.
+    #[must_use]
+    pub fn map(self, of: impl Fn(Frequency) -> Frequency) -> Self {
+        Self { diffuse: of(self.diffuse), specular: of(self.specular) }
+    }
+
+    /// Checks that the two frequencies can be drawn together.
+    ///
+    /// # Errors
+    /// One term is evaluated once a triangle, and the other at the vertices or fragments.
+    pub fn validate(&self) -> Result<(), InvalidValue> {
+        let other = [Frequency::Vertex, Frequency::Fragment].into_iter().find(|&other| self.has(other));
+        match other.filter(|_| self.has(Frequency::Triangle)) {
+            None => Ok(()),
+            Some(other) => {
+                let field = if self.diffuse == Frequency::Triangle { "diffuse" } else { "specular" };
+                Err(Fields::of("Terms").error(field, Problem::TriangleBeside { other }))
+            }
+        }
+    }
+}
+
+impl From<Shading> for Terms {
+    fn from(shading: Shading) -> Self {
+        Self::both(match shading {
+            Shading::Flat => Frequency::Triangle,
+            Shading::Gouraud => Frequency::Vertex,
+            Shading::Phong => Frequency::Fragment,
+        })
+    }
 }
 
 /// The specular term: how a highlight falls off.

@@ -75,6 +75,32 @@ pub struct Light<T> {
     pub attenuate_ambient: bool,
 }
 
+impl<T: Real> Light<T> {
+    /// The same light in another number type, each number rounded once. Whoever narrows sees to it that lengths fit.
+    pub fn cast<U: Real>(&self) -> Light<U> {
+        let number = |x: T| U::of(x.to_f64().unwrap_or(f64::NAN));
+        let vector = |v: [T; 3]| v.map(number);
+        Light {
+            place: match self.place {
+                Place::Point(position) => Place::Point(vector(position)),
+                Place::Directional(toward) => Place::Directional(vector(toward)),
+            },
+            la: vector(self.la),
+            ld: vector(self.ld),
+            ls: vector(self.ls),
+            attenuation: vector(self.attenuation),
+            range: self.range.map(number),
+            cone: self.cone.map(|cone| ConeTerms {
+                direction: vector(cone.direction),
+                cos_cutoff: number(cone.cos_cutoff),
+                cos_inner: cone.cos_inner.map(number),
+                exponent: number(cone.exponent),
+            }),
+            attenuate_ambient: self.attenuate_ambient,
+        }
+    }
+}
+
 impl PointLight {
     /// This light at a position.
     pub fn at<T: Real>(&self, position: [T; 3]) -> Light<T> {

@@ -13,7 +13,7 @@ use halfway_lighting::{
 use halfway_mesh::{Mesh, Mesh3d, SpawnOrder};
 
 use super::error::OracleError;
-use super::solid::{Color, Looks, Plan, Solid};
+use super::solid::{Color, Looks, Solid};
 use super::view::{View, affine};
 
 /// [`Shown`] asks a world for no resource, so that there is nothing it could lack.
@@ -167,9 +167,11 @@ fn solid(
         return Err(bad_transform(entity, name, transform));
     }
     let front = material.copied().unwrap_or_default();
+    let terms = terms.copied().unwrap_or_else(|| shading.copied().unwrap_or(seen.shading).into());
     front
         .validate()
         .and_then(|()| back.map_or(Ok(()), BackMaterial::validate))
+        .and_then(|()| terms.validate())
         .map_err(|source| OracleError::Invalid { entity: label(entity, name), source })?;
     let looks = Looks {
         front,
@@ -177,7 +179,7 @@ fn solid(
         reflectance: reflectance.copied().unwrap_or(seen.reflectance),
         faces: faces.copied().unwrap_or_default(),
         blend: blend.is_some(),
-        plan: Plan::new(shading.copied().unwrap_or(seen.shading), terms.copied()),
+        terms,
     };
     Ok(Solid::new(entity, mesh.clone(), seen.view.eye_from_model(&world_from_model), &looks))
 }

@@ -1,12 +1,13 @@
 //! I at a point of an object.
 
 use bevy_math::DVec3;
+use halfway_lighting::Frequency;
 use halfway_lighting::equations::vector::{add, mul};
 use halfway_lighting::equations::{Surface, interpolated_normal, light_terms, side_normal};
 
 use super::gather::Scene;
 use super::raster::{Hit, HitPoint};
-use super::solid::{Color, Plan, Solid, Sum};
+use super::solid::{Color, Solid};
 
 impl Scene {
     /// I of the side that is seen: emission and ambient, and the terms of the lights where they are evaluated.
@@ -16,55 +17,54 @@ impl Scene {
         let unlit = add(side.coefficients.ke, mul(side.coefficients.ka, self.ambient));
         let lit = match hit.place {
             HitPoint::Triangle(triangle, weights) => self.on_triangle(solid, hit.front, triangle, weights),
-            HitPoint::Surface { p, n } => self.lit(solid, hit.front, p, n.to_array(), solid.plan.fragment),
+            HitPoint::Surface { p, n } => self.lit(solid, hit.front, p, n.to_array(), Frequency::Fragment),
         };
         add(unlit, lit)
     }
 
     /// What the lights add at a point of a triangle. What is evaluated at the triangle or at its vertices is remembered.
     fn on_triangle(&self, solid: &Solid, front: bool, triangle: u32, weights: [f64; 3]) -> Color {
-        let Plan { triangle: flat, vertex, fragment } = solid.plan;
         let shaded = &solid.side(front).shaded;
         let corners = solid.triangle(triangle);
         // Triangles without area have no normal, and are not drawn.
         let geometric = || solid.face(triangle).unwrap_or(DVec3::ZERO).to_array();
         let mut i = [0.0; 3];
-        if !flat.is_empty() {
+        if solid.terms.has(Frequency::Triangle) {
             let centroid = (corners[0] + corners[1] + corners[2]) / 3.0;
-            let of_triangle = || self.lit(solid, front, centroid, geometric(), flat);
+            let of_triangle = || self.lit(solid, front, centroid, geometric(), Frequency::Triangle);
             i = add(i, *shaded[triangle as usize].get_or_init(of_triangle));
         }
-        if !vertex.is_empty() {
+        if solid.terms.has(Frequency::Vertex) {
             let of_vertex = |number: usize| {
                 let (p, n) = (solid.corners[number], solid.normals[number].to_array());
-                *shaded[number].get_or_init(|| self.lit(solid, front, p, n, vertex))
+                *shaded[number].get_or_init(|| self.lit(solid, front, p, n, Frequency::Vertex))
             };
             let of_vertices = solid.vertices(triangle).map(|number| DVec3::from_array(of_vertex(number)));
             i = add(i, mixed(of_vertices, weights).to_array());
         }
-        if !fragment.is_empty() {
+        if solid.terms.has(Frequency::Fragment) {
             let n = mixed(solid.vertices(triangle).map(|number| solid.normals[number]), weights).to_array();
             let n = interpolated_normal(n, geometric());
-            i = add(i, self.lit(solid, front, mixed(corners, weights), n, fragment));
+            i = add(i, self.lit(solid, front, mixed(corners, weights), n, Frequency::Fragment));
         }
         i
     }
 
-    /// What the lights add at a point of one side, term by term; `n` is the normal of the front.
+    /// What those terms of the lights add at a point of one side that have this frequency; `n` is the normal of the front.
     ///
     /// An ambient colour that attenuates goes with the diffuse term; one that does not is in the scene's ambient.
-    fn lit(&self, solid: &Solid, front: bool, p: DVec3, n: [f64; 3], sum: Sum) -> Color {
+    fn lit(&self, solid: &Solid, front: bool, p: DVec3, n: [f64; 3], at: Frequency) -> Color {
         let surface = Surface { position: p.to_array(), normal: side_normal(n, front) };
         let material = &solid.side(front).coefficients;
         self.lights.iter().fold([0.0; 3], |mut i, light| {
             let terms = light_terms(&surface, material, light, &self.viewer, solid.reflectance);
-            if sum.diffuse {
+            if solid.terms.diffuse == at {
                 i = add(i, terms.diffuse);
                 if light.attenuate_ambient {
                     i = add(i, terms.ambient);
                 }
             }
-            if sum.specular {
+            if solid.terms.specular == at {
                 i = add(i, terms.specular);
             }
             i

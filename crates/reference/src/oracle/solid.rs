@@ -6,7 +6,7 @@ use bevy_ecs::entity::Entity;
 use bevy_math::{DAffine3, DMat3, DVec3};
 use halfway_lighting::equations::vector::{length, normalize};
 use halfway_lighting::equations::{Coefficients, normal_matrix, transform_normal};
-use halfway_lighting::{Faces, Frequency, Material, Reflectance, Shading, Terms};
+use halfway_lighting::{Faces, Frequency, Material, Reflectance, Terms};
 use halfway_mesh::Mesh;
 use rayon::prelude::*;
 
@@ -23,56 +23,14 @@ pub(super) struct Looks {
     pub(super) reflectance: Reflectance,
     pub(super) faces: Faces,
     pub(super) blend: bool,
-    pub(super) plan: Plan,
+    pub(super) terms: Terms,
 }
 
-/// Which terms of the lights are summed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Sum {
-    pub(super) diffuse: bool,
-    pub(super) specular: bool,
-}
-
-impl Sum {
-    pub(super) const ALL: Self = Self { diffuse: true, specular: true };
-    pub(super) const NONE: Self = Self { diffuse: false, specular: false };
-
-    pub(super) fn is_empty(self) -> bool {
-        self == Self::NONE
-    }
-}
-
-/// Where the terms of the lights are evaluated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Plan {
-    /// At the triangle's centroid, with its geometric normal.
-    pub(super) triangle: Sum,
-    /// At the vertices.
-    pub(super) vertex: Sum,
-    /// At the point that is seen.
-    pub(super) fragment: Sum,
-}
-
-impl Plan {
-    pub(super) fn new(shading: Shading, terms: Option<Terms>) -> Self {
-        let none = Self { triangle: Sum::NONE, vertex: Sum::NONE, fragment: Sum::NONE };
-        if let Some(Terms { diffuse, specular }) = terms {
-            let at = |frequency| Sum { diffuse: diffuse == frequency, specular: specular == frequency };
-            return Self { vertex: at(Frequency::Vertex), fragment: at(Frequency::Fragment), ..none };
-        }
-        match shading {
-            Shading::Flat => Self { triangle: Sum::ALL, ..none },
-            Shading::Gouraud => Self { vertex: Sum::ALL, ..none },
-            _ => Self { fragment: Sum::ALL, ..none },
-        }
-    }
-
-    /// The same terms, all at the point that is seen.
-    fn at_fragment(self) -> Self {
-        let Self { triangle, vertex, fragment } = self;
-        let any = |of: fn(Sum) -> bool| of(triangle) || of(vertex) || of(fragment);
-        let fragment = Sum { diffuse: any(|sum| sum.diffuse), specular: any(|sum| sum.specular) };
-        Self { triangle: Sum::NONE, vertex: Sum::NONE, fragment }
+/// Where the surface itself is met, all that is evaluated anywhere is evaluated at the point that is seen.
+fn at_the_point(frequency: Frequency) -> Frequency {
+    match frequency {
+        Frequency::Never => Frequency::Never,
+        _ => Frequency::Fragment,
     }
 }
 
@@ -103,8 +61,9 @@ pub(super) struct Solid {
     pub(super) faces: Faces,
     pub(super) reflectance: Reflectance,
     pub(super) blend: bool,
-    pub(super) plan: Plan,
-    given: Plan,
+    /// Where the terms of the lights are evaluated.
+    pub(super) terms: Terms,
+    given: Terms,
     /// What is drawn in place of the triangles.
     pub(super) smooth: Option<Smooth>,
 }
@@ -131,11 +90,11 @@ impl Solid {
         let determinant = unit_determinant(&m);
         let mirrored = determinant < -FLAT;
         let normal_matrix = signed_cofactors(&m, determinant, mirrored);
-        let plan = looks.plan;
-        let evaluations = match (plan.triangle.is_empty(), plan.vertex.is_empty()) {
-            (false, _) => mesh.triangle_count(),
-            (true, false) => mesh.positions().len(),
-            (true, true) => 0,
+        let terms = looks.terms;
+        let evaluations = match (terms.has(Frequency::Triangle), terms.has(Frequency::Vertex)) {
+            (true, _) => mesh.triangle_count(),
+            (false, true) => mesh.positions().len(),
+            (false, false) => 0,
         };
         let side = |material: &Material, shown: bool| Side {
             coefficients: Coefficients::from(material),
@@ -154,17 +113,17 @@ impl Solid {
             faces: looks.faces,
             reflectance: looks.reflectance,
             blend: looks.blend,
-            plan,
-            given: plan,
+            terms,
+            given: terms,
             smooth: None,
             mesh,
         }
     }
 
     pub(super) fn set_mode(&mut self, mode: Mode) {
-        (self.plan, self.smooth) = match mode {
+        (self.terms, self.smooth) = match mode {
             Mode::Mesh => (self.given, None),
-            Mode::Surface => (self.given.at_fragment(), self.smooth()),
+            Mode::Surface => (self.given.map(at_the_point), self.smooth()),
         };
     }
 
