@@ -15,6 +15,7 @@ mod render {
     mod compare;
     mod compile;
     mod conformance;
+    mod costs;
     mod counters;
     mod culling;
     mod degenerate;

@@ -2,6 +2,7 @@
 
 use crate::render::scene::{Lamp, Scene, Thing, glowing, point_light};
 use crate::render::stage::Stage;
+use halfway::lighting::Frequency;
 use halfway::prelude::*;
 use halfway::render::{Gpu, PendingPicture, RenderError};
 
@@ -126,6 +127,14 @@ const LIGHTS: &[Row] = &[
 ];
 
 const OBJECTS: &[Row] = &[
+    (
+        "a term a triangle beside one at the vertices",
+        |w| {
+            let object = object(w);
+            w.entity_mut(object).insert(Terms { diffuse: Frequency::Triangle, specular: Frequency::Vertex });
+        },
+        &["\"ball\"", "Terms.diffuse", "Vertex", "Triangle"],
+    ),
     ("a NaN colour", |w| edit_material(w, |m| m.diffuse = NAN), &["\"ball\"", "Material.diffuse.green", "NaN"]),
     (
         "a negative colour",

@@ -292,3 +292,18 @@ fn lights_that_cannot_reach_are_not_assigned() {
         }
     }
 }
+
+#[test]
+fn lights_beyond_the_reach_of_squares_keep_their_direction() {
+    let mut stage = Stage::new(48, 48);
+    let mut scene = Scene::seen_from(Vec3::new(0.0, 0.0, 3.0), Vec3::ZERO).with(Thing::new(UvSphere::new(1.0, 32, 16)));
+    let light =
+        PointLight { attenuation: Attenuation::NONE, ..PointLight::from_color(LinearRgba::rgb(0.1, 0.08, 0.06)) };
+    // More than are compiled in.
+    for _ in 0..9 {
+        scene = scene.lit(Lamp::point(light, Vec3::new(0.3, 0.5, 0.8) * 1e38));
+    }
+    let mut failures = Failures::default();
+    failures.draw("far lights", &mut stage, &scene, FLOAT);
+    failures.finish();
+}

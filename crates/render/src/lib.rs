@@ -18,7 +18,7 @@ mod shaders;
 mod target;
 mod view;
 
-pub use batch::terms::Chosen;
+pub use device::costs::Costs;
 pub use device::gpu::Gpu;
 pub use device::gpu_timer::GpuTimer;
 pub use error::RenderError;
@@ -27,10 +27,12 @@ pub use frame::sets::RenderSet;
 pub use frame::times::{FrameTimes, SetTimes};
 pub use geometry::detail::LevelsOfDetail;
 pub use lights::gather::Lights;
+pub use lights::terms::Chosen;
 pub use pipelines::compile::Compile;
 pub use plugin::RenderPlugin;
-pub use target::frame::{Headless, Pixels, SurfaceLost, SurfaceTarget};
+pub use target::frame::{Headless, Pixels};
 pub use target::picture::{PendingPicture, Picture, render_picture};
+pub use target::surface::{SurfaceLost, SurfaceTarget};
 pub use view::camera::{Projection, View};
 pub use view::matrices::{ModelView, NormalMatrix, Visible, normal_matrix};
 /// The wgpu that the renderer speaks; surfaces are made with it.

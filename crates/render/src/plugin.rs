@@ -1,8 +1,9 @@
 //! The plugin and the way of one frame.
 
 use crate::batch::batches::{self, Batches};
-use crate::batch::terms::{self, Chosen};
+use crate::batch::lit_patches::{self, LitPatches};
 use crate::device::gpu::Gpu;
+use crate::draw::meshes::{self as mesh_buffers, MeshBuffers};
 use crate::draw::pass;
 use crate::draw::upload::{self, Buffers};
 use crate::frame::report::FrameReport;
@@ -12,10 +13,11 @@ use crate::geometry::detail::LevelsOfDetail;
 use crate::geometry::meshes::{self, Geometries};
 use crate::geometry::workshop::Workshop;
 use crate::lights::gather::{self, Lights};
+use crate::lights::terms::{self, Chosen};
 use crate::pipelines::cache::{self, Pipelines};
 use crate::pipelines::compile::Compile;
 use crate::target::frame::{self, Headless, Target};
-use crate::view::camera::{self, View};
+use crate::view::camera::{self, PictureSize, View};
 use crate::view::matrices::{self, ModelView, NormalMatrix, Visible};
 use bevy_app::{App, Plugin, PostUpdate};
 use bevy_ecs::prelude::*;
@@ -50,13 +52,16 @@ impl Plugin for RenderPlugin {
             .init_resource::<Headless>()
             .init_resource::<FrameReport>()
             .init_resource::<Target>()
+            .init_resource::<PictureSize>()
             .init_resource::<View>()
             .init_resource::<Visible>()
             .init_resource::<Lights>()
+            .init_resource::<LitPatches>()
             .init_resource::<Batches>()
             .init_resource::<LevelsOfDetail>()
             .init_resource::<Workshop>()
             .init_resource::<Geometries>()
+            .init_resource::<MeshBuffers>()
             .init_resource::<Buffers>()
             .init_resource::<Pipelines>();
         register_types(app);
@@ -84,22 +89,23 @@ impl RenderPlugin {
 
     fn add_systems(&self, app: &mut App) {
         use RenderSet::{Batch, Choose, Deliver, Draw, Illuminate, Matrices, Select, Upload, View};
-        let order = (View, Select, Matrices, Illuminate, Choose, Batch, Upload, Draw, Deliver);
+        let order = (View, Select, Matrices, Choose, Illuminate, Batch, Upload, Draw, Deliver);
         app.configure_sets(self.schedule, order.chain().after(TransformSystems::Propagate)).add_systems(
             self.schedule,
             (
                 (frame::measure, camera::update, camera::require_propagation, open_gpu).chain().in_set(View),
                 matrices::select.in_set(Select),
                 matrices::compute.in_set(Matrices),
+                (terms::choose, meshes::forget_removed, meshes::lay_out).chain().in_set(Choose),
                 gather::gather.in_set(Illuminate),
-                terms::choose.in_set(Choose),
             ),
         );
+        // What draws the batches: wgpu.
         let on_gpu = (
-            (frame::prepare, meshes::forget_removed, meshes::upload_visible, cache::begin, batches::batch)
-                .chain()
-                .in_set(Batch),
-            (upload::build_pipelines, upload::upload).chain().in_set(Upload),
+            frame::prepare.in_set(View).after(open_gpu),
+            (cache::begin, lit_patches::illuminate::<Pipelines>).chain().in_set(Illuminate).after(gather::gather),
+            batches::batch::<Pipelines>.in_set(Batch),
+            (mesh_buffers::upload, upload::build_pipelines, upload::upload).chain().in_set(Upload),
             pass::draw.in_set(Draw),
             pass::present.in_set(Deliver),
         );

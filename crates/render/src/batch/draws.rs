@@ -1,22 +1,34 @@
 //! The frame's draws, those that share their state together.
 
+use crate::batch::key::DrawKey;
 use crate::geometry::meshes::Form;
-use crate::pipelines::key::PipelineKey;
 use bevy_asset::AssetId;
+use bytemuck::{Pod, Zeroable};
 use halfway_mesh::Mesh;
 use std::ops::Range;
-use wgpu::util::DrawIndexedIndirectArgs;
 
 /// All that is set before a mesh is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct DrawState {
-    pub(crate) key: PipelineKey,
+    pub(crate) key: DrawKey,
     pub(crate) mesh: AssetId<Mesh>,
     pub(crate) form: Form,
     /// 0 where each instance names its own.
     pub(crate) record: u32,
     /// The first of the lights that are bound at fixed places.
     pub(crate) lights: u32,
+}
+
+/// One draw, laid out as commands read it from a buffer.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
+pub(crate) struct IndexedDraw {
+    pub(crate) index_count: u32,
+    pub(crate) instance_count: u32,
+    pub(crate) first_index: u32,
+    /// Added to each index; always 0.
+    base_vertex: i32,
+    pub(crate) first_instance: u32,
 }
 
 /// Draws one after the other that share their state.
@@ -30,16 +42,16 @@ pub(crate) struct DrawGroup {
 #[derive(Debug, Default)]
 pub(crate) struct Draws {
     groups: Vec<DrawGroup>,
-    each: Vec<DrawIndexedIndirectArgs>,
-    /// A group of so many draws is one command that reads them from a buffer.
+    each: Vec<IndexedDraw>,
+    /// A group of this many draws or more is one command that reads them from a buffer.
     multi_draw: Option<u32>,
 }
 
 /// How a group is drawn.
 pub(crate) enum GroupCommands<'a> {
     /// Draw by draw.
-    Each(&'a [DrawIndexedIndirectArgs]),
-    /// By one command that reads so many draws, from this byte of their buffer on.
+    Each(&'a [IndexedDraw]),
+    /// By one command that reads `count` draws, from byte `offset` of their buffer on.
     Multi { offset: u64, count: u32 },
 }
 
@@ -49,7 +61,7 @@ impl Draws {
         self.multi_draw = multi_draw;
     }
 
-    /// Whether so many draws that share their state are one command.
+    /// Whether this number of draws that share their state is one command.
     pub(crate) fn is_one_command(&self, draws: impl FnOnce() -> usize) -> bool {
         self.multi_draw.is_some_and(|from| draws() >= from as usize)
     }
@@ -60,7 +72,7 @@ impl Draws {
     }
 
     pub(crate) fn push(&mut self, state: DrawState, indices: Range<u32>, instances: Range<u32>) {
-        self.each.push(DrawIndexedIndirectArgs {
+        self.each.push(IndexedDraw {
             index_count: indices.end - indices.start,
             instance_count: instances.end - instances.start,
             first_index: indices.start,
@@ -81,7 +93,7 @@ impl Draws {
     pub(crate) fn commands(&self, group: &DrawGroup) -> GroupCommands<'_> {
         let Range { start, end } = group.draws;
         if self.is_one_command(|| end - start) {
-            let offset = (start * size_of::<DrawIndexedIndirectArgs>()) as u64;
+            let offset = (start * size_of::<IndexedDraw>()) as u64;
             GroupCommands::Multi { offset, count: (end - start) as u32 }
         } else {
             GroupCommands::Each(self.each.get(start..end).unwrap_or_default())
@@ -98,14 +110,9 @@ impl Draws {
     }
 
     /// What the buffer has to hold that commands read; empty where none does.
-    pub(crate) fn read(&self) -> &[DrawIndexedIndirectArgs] {
+    pub(crate) fn read(&self) -> &[IndexedDraw] {
         let is_read = self.groups.iter().any(|group| matches!(self.commands(group), GroupCommands::Multi { .. }));
         if is_read { &self.each } else { &[] }
-    }
-
-    /// Whether any draw reads lights from storage.
-    pub(crate) fn reads_storage(&self) -> bool {
-        self.groups.iter().any(|group| group.state.key.reads_storage())
     }
 
     pub(crate) fn triangles(&self) -> u64 {

@@ -1,7 +1,9 @@
-//! Visible objects become sorted, instanced draws.
+//! What is seen becomes draws: patches with their materials and light lists, sorted, instanced, and put together.
 
+pub(crate) mod backend;
 pub(crate) mod batches;
 pub(crate) mod draws;
+pub(crate) mod key;
+pub(crate) mod lit_patches;
 pub(crate) mod object;
 pub(crate) mod table;
-pub(crate) mod terms;

@@ -1,8 +1,8 @@
 //! What repeats among objects, numbered.
 
-use crate::batch::object::{Look, Reflecting, ReflectingBits};
+use crate::batch::key::DrawKey;
+use crate::batch::object::{Appearance, Reflecting, ReflectingBits};
 use crate::geometry::meshes::Form;
-use crate::pipelines::key::PipelineKey;
 use crate::shaders::records::{DrawRecord, RecordLists};
 use bevy_asset::AssetId;
 use bevy_math::Vec3;
@@ -11,9 +11,9 @@ use halfway_mesh::Mesh;
 
 /// What repeats among objects, numbered, so that objects compare by small integers.
 #[derive(Debug, Default)]
-pub(crate) struct Table {
+pub(crate) struct ObjectTable {
     /// Kept from frame to frame, for lights with this ambient.
-    looks: HashMap<ReflectingBits, Look>,
+    looks: HashMap<ReflectingBits, Appearance>,
     ambient: Vec3,
     /// The records without lists, each once.
     materials: Vec<DrawRecord>,
@@ -32,10 +32,10 @@ struct Used {
     plain: Option<u32>,
 }
 
-/// Pipeline and geometry.
-pub(crate) type Call = (PipelineKey, AssetId<Mesh>, Form);
+/// How something is drawn, and the triangles of which mesh in which form.
+pub(crate) type Call = (DrawKey, AssetId<Mesh>, Form);
 
-impl Table {
+impl ObjectTable {
     /// How many looks are remembered.
     const REMEMBERED: usize = 16_384;
 
@@ -55,7 +55,7 @@ impl Table {
     }
 
     /// What an object looks like, remembered by its components' values.
-    pub(crate) fn look(&mut self, reflecting: &Reflecting) -> &Look {
+    pub(crate) fn look(&mut self, reflecting: &Reflecting) -> &Appearance {
         let Self { looks, materials, material_numbers, used, ambient, .. } = self;
         looks.entry(reflecting.bits()).or_insert_with(|| {
             reflecting.look(*ambient, |record| {

@@ -1,5 +1,6 @@
 //! The adapter, its device and its queue.
 
+use crate::device::costs::Costs;
 use crate::error::RenderError;
 use bevy_ecs::prelude::Resource;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -15,8 +16,7 @@ pub struct Gpu {
     pub device: wgpu::Device,
     /// The queue all work is submitted to.
     pub queue: wgpu::Queue,
-    /// From so many draws on; only where the device can.
-    multi_draw: Option<u32>,
+    costs: Costs,
     failure: Arc<Mutex<Option<String>>>,
 }
 
@@ -60,9 +60,8 @@ impl Gpu {
             | wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES
             | wgpu::Features::TIMESTAMP_QUERY
             | wgpu::Features::INDIRECT_FIRST_INSTANCE;
-        let software = adapter.get_info().device_type == wgpu::DeviceType::Cpu;
-        // Elsewhere the memory that both reach is slow for one of them.
-        let wanted = if software { wanted | wgpu::Features::MAPPABLE_PRIMARY_BUFFERS } else { wanted };
+        let costs = Costs::of(&adapter);
+        let wanted = if costs.maps_meshes { wanted | wgpu::Features::MAPPABLE_PRIMARY_BUFFERS } else { wanted };
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("halfway"),
             required_features: wanted & adapter.features(),
@@ -77,17 +76,15 @@ impl Gpu {
             log::error!("{error}");
             seen.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error.to_string());
         }));
-        let mut gpu = Self { instance, adapter, device, queue, multi_draw: None, failure };
-        // With this feature wgpu does not write a multi-draw out into single ones.
-        let native = gpu.adapter.features().contains(wgpu::Features::MULTI_DRAW_INDIRECT_COUNT);
-        gpu.set_multi_draw((native && !gpu.is_software()).then_some(MULTI_DRAW));
+        let mut gpu = Self { instance, adapter, device, queue, costs, failure };
+        gpu.set_costs(costs);
         Ok(gpu)
     }
 
     /// From how many draws on those that share their state are one command, `multi_draw_indexed_indirect`; `None` where
     /// each is a command.
     pub fn multi_draw(&self) -> Option<u32> {
-        self.multi_draw
+        self.costs.multi_draw
     }
 
     /// Sets that number, from the next frame on. The picture is the same, but for rounding where materials are looked up.
@@ -95,10 +92,27 @@ impl Gpu {
     /// Default: 128 on a hardware adapter that has multi-draw, else `None`. It stays `None` where the device cannot:
     /// without `wgpu::Features::INDIRECT_FIRST_INSTANCE` or `wgpu::DownlevelFlags::INDIRECT_EXECUTION`.
     pub fn set_multi_draw(&mut self, from: Option<u32>) {
+        self.set_costs(Costs { multi_draw: from, ..self.costs });
+    }
+
+    /// What is taken to be cheap on the adapter.
+    pub fn costs(&self) -> Costs {
+        self.costs
+    }
+
+    /// Draws in the ways that are cheap by `costs`, from the next frame on, as far as the device can: multi-draw takes
+    /// `wgpu::Features::INDIRECT_FIRST_INSTANCE` and `wgpu::DownlevelFlags::INDIRECT_EXECUTION`, and mapping
+    /// `wgpu::Features::MAPPABLE_PRIMARY_BUFFERS`. Meshes that have been uploaded stay as they are.
+    pub fn set_costs(&mut self, costs: Costs) {
+        let features = self.device.features();
         let flags = self.adapter.get_downlevel_capabilities().flags;
-        let can = self.device.features().contains(wgpu::Features::INDIRECT_FIRST_INSTANCE)
+        let can_multi_draw = features.contains(wgpu::Features::INDIRECT_FIRST_INSTANCE)
             && flags.contains(wgpu::DownlevelFlags::INDIRECT_EXECUTION);
-        self.multi_draw = from.filter(|_| can);
+        self.costs = Costs {
+            multi_draw: costs.multi_draw.filter(|_| can_multi_draw),
+            maps_meshes: costs.maps_meshes && features.contains(wgpu::Features::MAPPABLE_PRIMARY_BUFFERS),
+            ..costs
+        };
     }
 
     /// The first error the driver reported outside any call, if it has not been taken yet.
@@ -111,11 +125,6 @@ impl Gpu {
         self.adapter.get_info().device_type == wgpu::DeviceType::Cpu
     }
 
-    /// Whether buffers that are drawn from can be mapped: drawing on the CPU, their memory is the CPU's.
-    pub(crate) fn shares_memory(&self) -> bool {
-        self.device.features().contains(wgpu::Features::MAPPABLE_PRIMARY_BUFFERS)
-    }
-
     /// One line for people: the adapter's name, its backend, and whether it is software.
     pub fn describe(&self) -> String {
         let info = self.adapter.get_info();
@@ -123,7 +132,3 @@ impl Gpu {
         format!("{} ({}{software})", info.name, info.backend)
     }
 }
-
-/// What a multi-draw reads wgpu checks on the GPU, by a pass before that of the frame. The CPU takes as long to set that up
-/// as for about a hundred draws.
-const MULTI_DRAW: u32 = 128;

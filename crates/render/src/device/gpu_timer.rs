@@ -1,7 +1,7 @@
 //! The time of the pass on the GPU, by its own clock.
 
 use crate::device::gpu::Gpu;
-use crate::frame::mean::{Weights, approach};
+use crate::frame::mean::{FrameWeights, approach};
 use bevy_ecs::prelude::Resource;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU8, Ordering};
@@ -30,7 +30,7 @@ pub struct GpuTimer {
     /// In seconds.
     smoothed: f64,
     arrived: Option<Instant>,
-    weights: Weights,
+    weights: FrameWeights,
 }
 
 impl GpuTimer {

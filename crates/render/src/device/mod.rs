@@ -1,4 +1,5 @@
 //! The adapter and its device.
 
+pub(crate) mod costs;
 pub(crate) mod gpu;
 pub(crate) mod gpu_timer;

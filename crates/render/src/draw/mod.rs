@@ -1,4 +1,5 @@
-//! Draws go to the GPU: what they read is uploaded, and the pass is encoded, submitted and presented.
+//! How wgpu draws batches: what draws read is uploaded, and the pass is encoded, submitted and presented.
 
+pub(crate) mod meshes;
 pub(crate) mod pass;
 pub(crate) mod upload;

@@ -4,13 +4,12 @@ use crate::batch::batches::Batches;
 use crate::batch::draws::GroupCommands;
 use crate::device::gpu::Gpu;
 use crate::device::gpu_timer::GpuTimer;
+use crate::draw::meshes::MeshBuffers;
 use crate::draw::upload::Buffers;
 use crate::frame::report::FrameReport;
 use crate::frame::times::FrameTimes;
-use crate::geometry::meshes::Geometries;
 use crate::pipelines::cache::Pipelines;
-use crate::pipelines::key::Stage;
-use crate::target::frame::{Attachments, Frame, Target};
+use crate::target::frame::{Attachments, FramePicture, Target};
 use crate::view::camera::View;
 use bevy_color::LinearRgba;
 use bevy_ecs::prelude::*;
@@ -22,7 +21,7 @@ pub(crate) fn draw(
     view: Res<View>,
     target: Res<Target>,
     batches: Res<Batches>,
-    geometries: Res<Geometries>,
+    meshes: Res<MeshBuffers>,
     pipelines: Res<Pipelines>,
     buffers: Res<Buffers>,
     mut timer: Option<ResMut<GpuTimer>>,
@@ -35,7 +34,7 @@ pub(crate) fn draw(
         let mut pass = begin(&mut encoder, frame, attachments, view.camera.unwrap_or_default(), timing);
         if let Some(instances) = buffers.instances() {
             pass.set_vertex_buffer(0, instances.slice(..));
-            record(&mut pass, &batches, &geometries, &pipelines, &buffers);
+            record(&mut pass, &batches, &meshes, &pipelines, &buffers);
         }
     }
     if let Some(mut timer) = timer {
@@ -47,7 +46,7 @@ pub(crate) fn draw(
 
 fn begin<'a>(
     encoder: &'a mut wgpu::CommandEncoder,
-    frame: &Frame,
+    frame: &FramePicture,
     attachments: &Attachments,
     camera: Camera,
     timestamp_writes: Option<wgpu::RenderPassTimestampWrites<'_>>,
@@ -55,7 +54,7 @@ fn begin<'a>(
     let LinearRgba { red, green, blue, .. } = camera.background;
     let [r, g, b] = [red, green, blue].map(|linear| {
         let linear = f64::from(linear);
-        if frame.encoded { Encoding::Srgb.encode(linear.clamp(0.0, 1.0)) } else { linear }
+        if frame.output.encoded { Encoding::Srgb.encode(linear.clamp(0.0, 1.0)) } else { linear }
     });
     let clear = wgpu::Color { r, g, b, a: 1.0 };
     let (view, resolve_target, store) = match &attachments.multisampled {
@@ -84,15 +83,15 @@ fn begin<'a>(
 fn record(
     pass: &mut wgpu::RenderPass<'_>,
     batches: &Batches,
-    geometries: &Geometries,
+    meshes: &MeshBuffers,
     pipelines: &Pipelines,
     buffers: &Buffers,
 ) {
     let mut last = None;
     for group in batches.draws.groups() {
         let state = &group.state;
-        let (Some(pipeline), Some(geometry), Some((bindings, offsets))) =
-            (pipelines.get(&state.key), geometries.get(state.mesh, state.form), buffers.bindings(state))
+        let (Some(pipeline), Some(mesh), Some((bindings, offsets))) =
+            (pipelines.get(state.key), meshes.get(state.mesh, state.form), buffers.bindings(state))
         else {
             continue;
         };
@@ -101,17 +100,17 @@ fn record(
             last = Some(state.key);
         }
         pass.set_bind_group(0, bindings, offsets.as_slice());
-        pass.set_vertex_buffer(1, geometry.positions.slice(..));
-        if state.key.stage != Stage::Unlit {
-            pass.set_vertex_buffer(2, geometry.attributes.slice(..));
+        pass.set_vertex_buffer(1, mesh.positions.slice(..));
+        if state.key.is_lit() {
+            pass.set_vertex_buffer(2, mesh.attributes.slice(..));
         }
-        pass.set_index_buffer(geometry.indices.slice(..), geometry.index_format);
+        pass.set_index_buffer(mesh.indices.slice(..), mesh.index_format);
         match (batches.draws.commands(group), buffers.draws()) {
             (GroupCommands::Each(draws), _) => {
                 for draw in draws {
                     let indices = draw.first_index..draw.first_index + draw.index_count;
                     let instances = draw.first_instance..draw.first_instance + draw.instance_count;
-                    pass.draw_indexed(indices, draw.base_vertex, instances);
+                    pass.draw_indexed(indices, 0, instances);
                 }
             }
             (GroupCommands::Multi { offset, count }, Some(draws)) => {

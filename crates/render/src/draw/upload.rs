@@ -2,6 +2,7 @@
 
 use crate::batch::batches::Batches;
 use crate::batch::draws::DrawState;
+use crate::batch::lit_patches::LitPatches;
 use crate::device::gpu::Gpu;
 use crate::error::RenderError;
 use crate::frame::report::FrameReport;
@@ -142,7 +143,7 @@ impl Buffers {
         let record = state.record * RECORD_BYTES as u32;
         let lights = state.lights * size_of::<LightRecord>() as u32;
         let Groups { few, many, one, all } = &self.groups;
-        let (group, offsets) = match state.key.text() {
+        let (group, offsets) = match Text::of(&state.key) {
             Text::Few => (few, Offsets::Two([record, lights])),
             Text::Many => (many, Offsets::Two([record, lights])),
             Text::Listed if state.key.per_instance => (all, Offsets::One([0])),
@@ -157,19 +158,22 @@ impl Buffers {
         pipelines: &Pipelines,
         view: &View,
         lights: &Lights,
-        batches: &Batches,
+        (lit, batches): (&LitPatches, &Batches),
     ) -> Result<u64, RenderError> {
-        let view =
-            ViewRecord { scale: view.projection.scale, near: view.projection.near * view.unit() as f32, padding: 0.0 };
-        let listed = if batches.draws.reads_storage() { lights.records.as_slice() } else { &[] };
-        let bound = bytemuck::cast_slice(&batches.lists.bound);
+        let view = ViewRecord::from(view);
+        let listed = if batches.draws.groups().iter().any(|group| Text::of(&group.state.key) == Text::Listed) {
+            lights.records.as_slice()
+        } else {
+            &[]
+        };
+        let bound = bytemuck::cast_slice(&lit.lists.bound);
         let sent = [
             self.view.set(gpu, bytemuck::bytes_of(&view), 0)?,
-            self.records.set(gpu, bytemuck::cast_slice(&batches.records), RECORD_BYTES)?,
+            self.records.set(gpu, bytemuck::cast_slice(&lit.records), RECORD_BYTES)?,
             self.lights.set(gpu, bytemuck::cast_slice(listed), size_of::<LightRecord>() as u64)?,
             // The last set too is bound as if it had all lights that fit.
             self.bound.set(gpu, bound, bound.len() as u64 + BOUND_LIGHT_BYTES)?,
-            self.lists.set(gpu, bytemuck::cast_slice(&batches.lists.numbers), 0)?,
+            self.lists.set(gpu, bytemuck::cast_slice(&lit.lists.numbers), 0)?,
         ];
         let (instances, _) = self.instances.set(gpu, bytemuck::cast_slice(&batches.instances), 0)?;
         let draws = batches.draws.read();
@@ -224,7 +228,7 @@ impl Buffers {
     }
 }
 
-/// Builds the pipelines that what is about to be drawn still lacks, and counts its triangles.
+/// Builds the pipelines that what is about to be drawn still lacks.
 pub(crate) fn build_pipelines(
     gpu: Res<Gpu>,
     batches: Res<Batches>,
@@ -238,15 +242,16 @@ pub(crate) fn build_pipelines(
             report.errors.push(error);
         }
     }
-    report.triangles = batches.draws.triangles();
     pipelines.report(&mut report);
 }
 
+#[expect(clippy::too_many_arguments, reason = "a system takes each resource as a parameter")]
 pub(crate) fn upload(
     gpu: Res<Gpu>,
     pipelines: Res<Pipelines>,
     view: Res<View>,
     lights: Res<Lights>,
+    lit: Res<LitPatches>,
     mut batches: ResMut<Batches>,
     mut buffers: ResMut<Buffers>,
     mut report: ResMut<FrameReport>,
@@ -254,7 +259,7 @@ pub(crate) fn upload(
     if batches.draws.groups().is_empty() {
         return;
     }
-    match buffers.upload(&gpu, &pipelines, &view, &lights, &batches) {
+    match buffers.upload(&gpu, &pipelines, &view, &lights, (&lit, &batches)) {
         Ok(bytes) => report.bytes_uploaded += bytes,
         Err(error) => {
             report.errors.push(error);

@@ -7,12 +7,12 @@ const MEMORY: f64 = 1.0;
 
 /// The weights of all frames so far: each begins with 1.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Weights {
+pub(crate) struct FrameWeights {
     sum: f64,
     frames: u64,
 }
 
-impl Weights {
+impl FrameWeights {
     /// The share of a new frame, which begins `interval` after the one before, in the mean. The first frame, which is
     /// slow, counts only until the second comes.
     pub(crate) fn share(&mut self, interval: Duration) -> f64 {
@@ -37,7 +37,7 @@ mod tests {
     #[test]
     fn every_frame_weighs_alike_but_for_its_age() {
         for interval in [Duration::ZERO, MS / 10, MS, 16 * MS, 700 * MS, Duration::MAX] {
-            let (mut weights, mut mean) = (Weights::default(), 0.0);
+            let (mut weights, mut mean) = (FrameWeights::default(), 0.0);
             let values = [1e3, 50.0, 2.0, 7.0, 4.0, 4.0, 9.0];
             for value in values {
                 mean = approach(mean, value, weights.share(interval));
@@ -53,7 +53,7 @@ mod tests {
 
     #[test]
     fn a_slow_second_frame_is_soon_outweighed() {
-        let (mut weights, mut mean) = (Weights::default(), 0.0);
+        let (mut weights, mut mean) = (FrameWeights::default(), 0.0);
         for frame in 0..102 {
             mean = approach(mean, if frame < 2 { 101.0 } else { 1.0 }, weights.share(MS));
         }

@@ -5,19 +5,22 @@ use bevy_ecs::prelude::SystemSet;
 /// The steps of a frame, in order. Each says what holds after it.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum RenderSet {
-    /// The adapter is open, the camera is validated, and [`View`](crate::View) holds its matrices and projection.
+    /// The adapter is open, the camera is validated, [`View`](crate::View) holds its matrices and projection, and there is
+    /// something to draw into.
     View,
     /// [`Visible`](crate::Visible) holds the objects that the frustum sees.
     Select,
     /// [`ModelView`](crate::ModelView) and [`NormalMatrix`](crate::NormalMatrix) of every visible object are current.
     Matrices,
-    /// [`Lights`](crate::Lights) holds the lights in eye space.
-    Illuminate,
-    /// [`Chosen`](crate::Chosen) holds each visible object's shading frequencies.
+    /// [`Chosen`](crate::Chosen) says where each visible object's terms are shaded, and its mesh is in patches laid out for
+    /// that.
     Choose,
-    /// Draws are sorted, and equal ones are instanced.
+    /// [`Lights`](crate::Lights) holds the lights in eye space; each visible object has a level of detail, and each of its
+    /// patches that is seen has its light lists.
+    Illuminate,
+    /// Those patches are draws: sorted, equal ones instanced, and those that share their state together.
     Batch,
-    /// What changed is on the GPU, and so are the pipelines of the draws.
+    /// The GPU holds what the draws read: meshes, pipelines, instances, materials, lights and their lists.
     Upload,
     /// The passes are encoded and submitted.
     Draw,
@@ -31,8 +34,8 @@ impl RenderSet {
         Self::View,
         Self::Select,
         Self::Matrices,
-        Self::Illuminate,
         Self::Choose,
+        Self::Illuminate,
         Self::Batch,
         Self::Upload,
         Self::Draw,
@@ -45,8 +48,8 @@ impl RenderSet {
             Self::View => "View",
             Self::Select => "Select",
             Self::Matrices => "Matrices",
-            Self::Illuminate => "Illuminate",
             Self::Choose => "Choose",
+            Self::Illuminate => "Illuminate",
             Self::Batch => "Batch",
             Self::Upload => "Upload",
             Self::Draw => "Draw",

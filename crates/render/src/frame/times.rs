@@ -1,6 +1,6 @@
 //! Where the time of a frame goes on the CPU, set by set.
 
-use crate::frame::mean::{self, Weights};
+use crate::frame::mean::{self, FrameWeights};
 use crate::frame::sets::RenderSet;
 use bevy_app::App;
 use bevy_ecs::prelude::*;
@@ -73,7 +73,7 @@ pub struct FrameTimes {
     set_began: Option<Instant>,
     /// From the beginning of the frame before to that of this one.
     interval: Duration,
-    weights: Weights,
+    weights: FrameWeights,
 }
 
 impl FrameTimes {

@@ -1,9 +1,8 @@
 //! Levels of detail: coarser versions of a mesh, and when one of them is fine enough.
 
-use crate::geometry::patches::{self, Patch};
+use crate::geometry::patches::{self, MeshPatch};
 use crate::lights::gather::Lights;
-use crate::pipelines::key::{PipelineKey, Stage};
-use crate::shaders::light_slots::Lists;
+use crate::lights::terms::by_vertex_shader;
 use crate::view::camera::View;
 use crate::view::matrices::ModelView;
 use bevy_ecs::prelude::{ReflectResource, Resource};
@@ -11,6 +10,7 @@ use bevy_math::Vec3;
 use bevy_reflect::Reflect;
 use bevy_reflect::std_traits::ReflectDefault;
 use halfway_lighting::equations::Place;
+use halfway_lighting::{Frequency, Terms};
 use halfway_mesh::Mesh;
 use std::ops::Range;
 use std::sync::Arc;
@@ -64,25 +64,25 @@ impl Default for LevelsOfDetail {
 }
 
 /// A mesh's triangles in the order in which they are drawn: level by level, the finest first, each in patches.
-#[derive(Debug)]
-pub(crate) struct Triangles {
+#[derive(Clone, Debug)]
+pub(crate) struct MeshTriangles {
     pub(crate) corners: Vec<[u32; 3]>,
-    /// Apart, as it is needed long after the triangles have gone to the GPU.
+    /// Shared, as it is needed after the triangles have gone to the GPU.
     pub(crate) detail: Arc<Detail>,
 }
 
 /// The runs of a mesh's triangles as they are drawn.
 #[derive(Debug)]
 pub(crate) struct Detail {
-    pub(crate) levels: Vec<Level>,
-    pub(crate) patches: Vec<Patch>,
+    pub(crate) levels: Vec<MeshLevel>,
+    pub(crate) patches: Vec<MeshPatch>,
     /// What is known of the whole.
-    pub(crate) whole: Patch,
+    pub(crate) whole: MeshPatch,
 }
 
 /// One level, and how far it is from the finest.
 #[derive(Clone, Debug)]
-pub(crate) struct Level {
+pub(crate) struct MeshLevel {
     patches: Range<usize>,
     /// Its patches are too large for short light lists.
     spoils_lists: bool,
@@ -100,15 +100,20 @@ pub(crate) struct Level {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Demand<'a> {
     pub(crate) allowed: &'a LevelsOfDetail,
-    pub(crate) key: &'a PipelineKey,
+    /// Where its terms are shaded.
+    pub(crate) terms: Terms,
+    /// Its patches have light lists of their own.
+    pub(crate) listed: bool,
+    pub(crate) blinn_phong: bool,
+    pub(crate) local_viewer: bool,
     /// The larger exponent of the material's sides.
     pub(crate) exponent: f32,
     pub(crate) lights: &'a Lights,
 }
 
-/// What lights the vertices of an object, and from where.
+/// How near an object is to the picture, to what lights its vertices, and to the eye.
 #[derive(Clone, Copy, Debug)]
-struct Around {
+struct Nearness {
     /// The pixels that a unit of the mesh takes at most.
     pixels: f32,
     /// 1/d of the nearest light with a place, in the mesh's units; infinite where vertices must not be spared.
@@ -117,11 +122,11 @@ struct Around {
     eye: f32,
 }
 
-impl Triangles {
+impl MeshTriangles {
     /// The mesh as it is, in the order of its triangles.
     pub(crate) fn in_order(mesh: &Mesh) -> Self {
         let corners: Vec<_> = mesh.triangles().collect();
-        let patches = vec![Patch::new(mesh, &corners, 0)];
+        let patches = vec![MeshPatch::new(mesh, &corners, 0)];
         Self { corners, detail: Arc::new(Detail::finest(mesh, patches)) }
     }
 
@@ -145,7 +150,7 @@ impl Triangles {
             let spoils_lists = patches::mean_radius(&detail.patches[start..]) > allowed;
             let halfway_mesh::Level { error, normal_error, normal_spread, longest_edge, .. } = level;
             let patches = start..detail.patches.len();
-            detail.levels.push(Level { patches, spoils_lists, error, normal_error, normal_spread, longest_edge });
+            detail.levels.push(MeshLevel { patches, spoils_lists, error, normal_error, normal_spread, longest_edge });
         }
         Self { corners, detail: Arc::new(detail) }
     }
@@ -153,16 +158,15 @@ impl Triangles {
 
 impl Detail {
     /// The mesh itself, in these patches.
-    fn finest(mesh: &Mesh, patches: Vec<Patch>) -> Self {
-        Self { levels: vec![Level::finest(patches.len())], patches, whole: Patch::whole(mesh) }
+    fn finest(mesh: &Mesh, patches: Vec<MeshPatch>) -> Self {
+        Self { levels: vec![MeshLevel::finest(patches.len())], patches, whole: MeshPatch::whole(mesh) }
     }
 
     /// The patches of the coarsest level that will do.
-    pub(crate) fn patches(&self, model_view: &ModelView, view: &View, demand: Demand) -> &[Patch] {
+    pub(crate) fn patches(&self, model_view: &ModelView, view: &View, demand: Demand) -> &[MeshPatch] {
         let level = if self.levels.len() > 1 && demand.allowed.pixels > 0.0 && model_view.keeps_angles() {
-            let around = self.around(model_view, view, demand);
-            let listed = demand.key.lists == Lists::Listed;
-            let will_do = |level: &Level| !(listed && level.spoils_lists) && level.will_do(around, demand);
+            let nearness = self.nearness(model_view, view, demand);
+            let will_do = |level: &MeshLevel| !(demand.listed && level.spoils_lists) && level.will_do(nearness, demand);
             self.levels.iter().rposition(will_do).unwrap_or(0)
         } else {
             0
@@ -170,14 +174,14 @@ impl Detail {
         &self.patches[self.levels[level].patches.clone()]
     }
 
-    fn around(&self, model_view: &ModelView, view: &View, demand: Demand) -> Around {
+    fn nearness(&self, model_view: &ModelView, view: &View, demand: Demand) -> Nearness {
         let (center, radius) = self.whole.sphere(model_view);
         let scale = model_view.largest_scale();
         let inverse = |distance: f32| if distance > radius { scale / (distance - radius) } else { f32::INFINITY };
-        let Demand { key, lights, .. } = demand;
-        let light = if key.vertex.is_empty() {
+        let lights = demand.lights;
+        let light = if !by_vertex_shader(demand.terms).contains(&true) {
             0.0
-        } else if key.lists == Lists::Listed || lights.counts[2] > 0 {
+        } else if demand.listed || lights.counts[2] > 0 {
             f32::INFINITY
         } else {
             let distance = |place| match place {
@@ -186,8 +190,8 @@ impl Detail {
             };
             lights.sources.iter().map(|light| inverse(distance(light.place))).fold(0.0, f32::max)
         };
-        let eye = if key.local_viewer { inverse(center.as_dvec3().length() as f32) } else { 0.0 };
-        Around { pixels: self.pixels_per_unit(model_view, view), light, eye }
+        let eye = if demand.local_viewer { inverse(center.as_dvec3().length() as f32) } else { 0.0 };
+        Nearness { pixels: self.pixels_per_unit(model_view, view), light, eye }
     }
 
     /// An upper bound of how many pixels a short way in the mesh's units takes, anywhere on it. A way of length e at
@@ -211,8 +215,8 @@ impl Detail {
     }
 }
 
-impl Level {
-    /// The mesh itself, of so many patches.
+impl MeshLevel {
+    /// The mesh itself, in this number of patches.
     fn finest(patches: usize) -> Self {
         Self {
             patches: 0..patches,
@@ -224,34 +228,32 @@ impl Level {
         }
     }
 
-    fn will_do(&self, around: Around, Demand { allowed, key, exponent, .. }: Demand) -> bool {
-        if self.error * around.pixels > allowed.pixels {
+    fn will_do(&self, nearness: Nearness, demand: Demand) -> bool {
+        let Demand { allowed, terms, blinn_phong, exponent, .. } = demand;
+        if self.error * nearness.pixels > allowed.pixels {
             return false;
         }
-        if key.stage == Stage::Unlit || self.longest_edge * around.pixels <= 1.0 {
+        if terms == Terms::NONE || self.longest_edge * nearness.pixels <= 1.0 {
             return true;
         }
-        if key.stage == Stage::Flat {
+        if terms.has(Frequency::Triangle) {
             return false;
         }
         // A level is no farther from lights than the mesh, up to its error.
         let size = self.longest_edge / 3f32.sqrt();
-        let (w, u) = (size * around.light, size * around.eye);
-        let change = |specular: bool, at_vertices: bool| {
-            let (n, turn) = match (specular, key.blinn_phong) {
+        let (w, u) = (size * nearness.light, size * nearness.eye);
+        let change = |specular: bool, at: Frequency| {
+            let (n, turn) = match (specular, blinn_phong) {
                 (false, _) => (1.0, 1.0),
                 (true, true) => (exponent.max(1.0), 1.0),
                 (true, false) => (exponent.max(1.0), 2.0),
             };
             let turned = turn * (self.normal_spread + 0.5 * (w + u));
-            let interpolated = if at_vertices { 0.5 * n * turned * turned + 6.0 * w * w } else { 0.0 };
+            let interpolated = if at == Frequency::Vertex { 0.5 * n * turned * turned + 6.0 * w * w } else { 0.0 };
             steepest(n) * turn * self.normal_error + interpolated
         };
-        let fits = |used: bool, specular, at_vertices| !used || change(specular, at_vertices) <= allowed.shading;
-        fits(key.vertex.diffuse, false, true)
-            && fits(key.vertex.specular, true, true)
-            && fits(key.fragment.diffuse, false, false)
-            && fits(key.fragment.specular, true, false)
+        let fits = |specular, at| at == Frequency::Never || change(specular, at) <= allowed.shading;
+        fits(false, terms.diffuse) && fits(true, terms.specular)
     }
 }
 

@@ -15,8 +15,8 @@ pub(crate) struct FlatMesh {
     taken: Vec<bool>,
 }
 
-/// After so many triangles an adapter has forgotten a vertex and shades it anew. One that is taken is
-/// then better repeated: the new one can provoke another triangle, and costs no more than the old.
+/// After N triangles an adapter has forgotten a shaded vertex, and shades it again. A vertex that provokes a triangle
+/// already is then better repeated: the copy can provoke another triangle, and costs no more than the old one.
 const VERTEX_MEMORY: usize = 256;
 
 impl FlatMesh {

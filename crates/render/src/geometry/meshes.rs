@@ -1,35 +1,36 @@
-//! Meshes on the GPU: shared vertices for smooth shading, one vertex a triangle for flat.
+//! Meshes laid out for drawing: shared vertices for smooth shading, one vertex a triangle for flat.
 
-use crate::batch::terms::Chosen;
-use crate::device::gpu::Gpu;
-use crate::error::RenderError;
 use crate::frame::report::FrameReport;
-use crate::geometry::detail::{Detail, LevelsOfDetail, Triangles};
+use crate::geometry::detail::{Detail, LevelsOfDetail, MeshTriangles};
 use crate::geometry::flat::FlatMesh;
-use crate::geometry::workshop::Workshop;
+use crate::geometry::workshop::{Workshop, is_same};
+use crate::lights::terms::Chosen;
 use crate::view::matrices::Visible;
 use bevy_asset::{AssetEvent, AssetId, Assets};
 use bevy_ecs::prelude::*;
-use bevy_math::Vec3;
-use halfway_lighting::Blend;
+use bevy_platform::collections::HashMap;
+use halfway_lighting::{Blend, Frequency, Terms};
 use halfway_mesh::{Mesh, Mesh3d};
-use std::collections::HashMap;
 use std::sync::Arc;
-use wgpu::util::DeviceExt;
 
-/// The buffers of one mesh for one way of shading.
+/// One mesh, laid out for one way of shading.
 pub(crate) struct Geometry {
-    pub(crate) positions: wgpu::Buffer,
-    /// Smooth: normals. Flat: face normal and centroid of the triangle whose provoking vertex this is.
-    pub(crate) attributes: wgpu::Buffer,
-    pub(crate) indices: wgpu::Buffer,
-    pub(crate) index_format: wgpu::IndexFormat,
     /// The runs of its triangles.
     pub(crate) detail: Arc<Detail>,
     /// What it was made of; a mesh is immutable and shares its data, so the same data is the same mesh.
     pub(crate) source: Mesh,
     /// Some interpolated normal may vanish, so that Phong shading needs the geometric one at hand.
     pub(crate) opposite_normals: bool,
+    /// Until what draws it has taken it.
+    pub(crate) layout: Option<Layout>,
+}
+
+/// Vertices, and which of them make triangles, in the order in which they are drawn.
+pub(crate) enum Layout {
+    /// The vertices of the mesh, and their numbers.
+    Smooth(Vec<u32>),
+    /// Vertices and numbers of their own.
+    Flat(FlatMesh),
 }
 
 /// How a mesh is laid out for drawing.
@@ -50,8 +51,8 @@ impl Form {
     ];
 
     /// Blended triangles are drawn in the order of the mesh.
-    pub(crate) fn new(chosen: Chosen, blend: bool) -> Self {
-        Self { flat: chosen.flat, ordered: blend }
+    pub(crate) fn new(terms: Terms, blend: bool) -> Self {
+        Self { flat: terms.has(Frequency::Triangle), ordered: blend }
     }
 }
 
@@ -59,6 +60,8 @@ impl Form {
 #[derive(Resource, Default)]
 pub(crate) struct Geometries {
     meshes: HashMap<(AssetId<Mesh>, Form), Geometry>,
+    /// How many meshes have been forgotten since the start.
+    pub(crate) forgotten: u64,
 }
 
 impl Geometries {
@@ -66,40 +69,35 @@ impl Geometries {
         self.meshes.get(&(id, form))
     }
 
-    /// Uploads the mesh unless it is there, and its levels of detail once they are. Returns the bytes sent.
-    fn ensure(
-        &mut self,
-        gpu: &Gpu,
-        (id, form): (AssetId<Mesh>, Form),
-        mesh: &Mesh,
-        levels: Option<&Triangles>,
-    ) -> Result<u64, RenderError> {
+    pub(crate) fn get_mut(&mut self, id: AssetId<Mesh>, form: Form) -> Option<&mut Geometry> {
+        self.meshes.get_mut(&(id, form))
+    }
+
+    /// Lays the mesh out unless it is, and its levels of detail once they are there.
+    fn ensure(&mut self, (id, form): (AssetId<Mesh>, Form), mesh: &Mesh, levels: Option<&MeshTriangles>) {
         let there = self.meshes.get(&(id, form)).filter(|geometry| is_same(&geometry.source, mesh));
         if there.is_some_and(|there| levels.is_none_or(|levels| Arc::ptr_eq(&levels.detail, &there.detail))) {
-            return Ok(0);
+            return;
         }
-        let finest;
-        let triangles = if let Some(levels) = levels {
-            levels
+        let opposite_normals =
+            there.map_or_else(|| !form.flat && has_opposite_normals(mesh), |there| there.opposite_normals);
+        let MeshTriangles { corners, detail } = match levels {
+            Some(levels) => levels.clone(),
+            None if form.ordered => MeshTriangles::in_order(mesh),
+            None => MeshTriangles::in_patches(mesh),
+        };
+        let layout = if form.flat {
+            Layout::Flat(FlatMesh::new(mesh.positions(), &corners))
         } else {
-            finest = if form.ordered { Triangles::in_order(mesh) } else { Triangles::in_patches(mesh) };
-            &finest
+            Layout::Smooth(corners.into_flattened())
         };
-        let (geometry, bytes) = match there {
-            // The vertices of levels are those of the mesh.
-            Some(there) if !form.flat => Geometry::with_vertices_of(there, gpu, triangles)?,
-            _ if form.flat => Geometry::flat(gpu, mesh, triangles)?,
-            _ => Geometry::smooth(gpu, mesh, triangles)?,
-        };
+        let geometry = Geometry { detail, source: mesh.clone(), opposite_normals, layout: Some(layout) };
         self.meshes.insert((id, form), geometry);
-        Ok(bytes)
     }
 }
 
-/// Uploads the meshes of visible objects that are not there yet, for the way they are shaded.
-#[expect(clippy::too_many_arguments, reason = "a system takes each resource as a parameter")]
-pub(crate) fn upload_visible(
-    gpu: Res<Gpu>,
+/// Lays out the meshes of visible objects that are not yet, for the way they are shaded.
+pub(crate) fn lay_out(
     meshes: Res<Assets<Mesh>>,
     objects: Query<(&Mesh3d, &Chosen, Has<Blend>)>,
     visible: Res<Visible>,
@@ -111,29 +109,19 @@ pub(crate) fn upload_visible(
     workshop.collect();
     let mut last = None;
     for (Mesh3d(handle), chosen, blend) in objects.iter_many(&visible.0).flatten() {
-        let wanted = (handle.id(), Form::new(*chosen, blend));
+        let wanted = (handle.id(), Form::new(chosen.0, blend));
         if last.replace(wanted) == Some(wanted) {
             continue;
         }
         let Some(mesh) = meshes.get(handle) else { continue };
         let levels =
             if wanted.1.ordered || *allowed == LevelsOfDetail::OFF { None } else { workshop.levels(wanted.0, mesh) };
-        match geometries.ensure(&gpu, wanted, mesh, levels) {
-            Ok(bytes) => report.bytes_uploaded += bytes,
-            Err(error) => report.errors.push(error),
-        }
+        geometries.ensure(wanted, mesh, levels);
     }
     report.levels_pending = workshop.pending();
 }
 
-/// Whether two meshes are clones of each other.
-pub(crate) fn is_same(a: &Mesh, b: &Mesh) -> bool {
-    a.positions().as_ptr() == b.positions().as_ptr()
-        && a.normals().as_ptr() == b.normals().as_ptr()
-        && a.indices().as_ptr() == b.indices().as_ptr()
-}
-
-/// Forgets meshes that are gone. Those that changed are found when they are drawn, which needs no event.
+/// Forgets meshes that are gone. A mesh that changed is found when it is drawn next, without an event.
 pub(crate) fn forget_removed(
     mut events: MessageReader<AssetEvent<Mesh>>,
     mut geometries: ResMut<Geometries>,
@@ -143,89 +131,10 @@ pub(crate) fn forget_removed(
         if let AssetEvent::Removed { id } | AssetEvent::Unused { id } = event {
             workshop.forget(*id);
             for form in Form::ALL {
-                geometries.meshes.remove(&(*id, form));
+                geometries.forgotten += u64::from(geometries.meshes.remove(&(*id, form)).is_some());
             }
         }
     }
-}
-
-impl Geometry {
-    fn smooth(gpu: &Gpu, mesh: &Mesh, triangles: &Triangles) -> Result<(Self, u64), RenderError> {
-        let vertices = Vertices { positions: mesh.positions(), attributes: bytemuck::cast_slice(mesh.normals()) };
-        let opposite_normals = has_opposite_normals(mesh);
-        vertices.upload(gpu, mesh, (triangles.corners.as_flattened(), &triangles.detail), opposite_normals)
-    }
-
-    fn flat(gpu: &Gpu, mesh: &Mesh, triangles: &Triangles) -> Result<(Self, u64), RenderError> {
-        let flat = FlatMesh::new(mesh.positions(), &triangles.corners);
-        let vertices = Vertices { positions: &flat.positions, attributes: bytemuck::cast_slice(&flat.attributes) };
-        vertices.upload(gpu, mesh, (&flat.indices, &triangles.detail), false)
-    }
-
-    fn with_vertices_of(there: &Self, gpu: &Gpu, triangles: &Triangles) -> Result<(Self, u64), RenderError> {
-        let indices = index_buffer(gpu, triangles.corners.as_flattened(), there.index_format)?;
-        let bytes = indices.size();
-        let geometry = Self {
-            positions: there.positions.clone(),
-            attributes: there.attributes.clone(),
-            indices,
-            index_format: there.index_format,
-            opposite_normals: there.opposite_normals,
-            source: there.source.clone(),
-            detail: Arc::clone(&triangles.detail),
-        };
-        Ok((geometry, bytes))
-    }
-}
-
-/// What is stored for each vertex.
-struct Vertices<'a> {
-    positions: &'a [Vec3],
-    attributes: &'a [u8],
-}
-
-impl Vertices<'_> {
-    fn upload(
-        &self,
-        gpu: &Gpu,
-        source: &Mesh,
-        (indices, detail): (&[u32], &Arc<Detail>),
-        opposite_normals: bool,
-    ) -> Result<(Geometry, u64), RenderError> {
-        let short = self.positions.len() < usize::from(u16::MAX);
-        let index_format = if short { wgpu::IndexFormat::Uint16 } else { wgpu::IndexFormat::Uint32 };
-        let geometry = Geometry {
-            positions: buffer(gpu, "positions", bytemuck::cast_slice(self.positions), wgpu::BufferUsages::VERTEX)?,
-            attributes: buffer(gpu, "attributes", self.attributes, wgpu::BufferUsages::VERTEX)?,
-            indices: index_buffer(gpu, indices, index_format)?,
-            index_format,
-            detail: Arc::clone(detail),
-            source: source.clone(),
-            opposite_normals,
-        };
-        let bytes = geometry.positions.size() + geometry.attributes.size() + geometry.indices.size();
-        Ok((geometry, bytes))
-    }
-}
-
-fn index_buffer(gpu: &Gpu, indices: &[u32], format: wgpu::IndexFormat) -> Result<wgpu::Buffer, RenderError> {
-    if format == wgpu::IndexFormat::Uint32 {
-        return buffer(gpu, "indices", bytemuck::cast_slice(indices), wgpu::BufferUsages::INDEX);
-    }
-    let mut short: Vec<u16> = indices.iter().map(|&index| index as u16).collect();
-    // A buffer's size is a multiple of 4; an odd count is padded.
-    short.resize(short.len().next_multiple_of(2), 0);
-    buffer(gpu, "indices", bytemuck::cast_slice(&short), wgpu::BufferUsages::INDEX)
-}
-
-fn buffer(gpu: &Gpu, label: &str, contents: &[u8], usage: wgpu::BufferUsages) -> Result<wgpu::Buffer, RenderError> {
-    let (needed, limit) = (contents.len() as u64, gpu.device.limits().max_buffer_size);
-    if needed > limit {
-        return Err(RenderError::TooLarge { what: format!("the mesh's {label}, in bytes,"), needed, limit });
-    }
-    // What cannot be mapped is written to a second buffer of its size, which is kept until the frame is done.
-    let usage = if gpu.shares_memory() { usage | wgpu::BufferUsages::MAP_WRITE } else { usage };
-    Ok(gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage }))
 }
 
 /// Whether any triangle's normals can cancel under interpolation; those of coarser levels, which do so only where a

@@ -21,29 +21,29 @@ const ANGLE_SLACK: f32 = 2e-3;
 
 /// A run of triangles of a mesh and what is known of them, in model space.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Patch {
+pub(crate) struct MeshPatch {
     /// Its part of the index list.
     pub(crate) indices: Range<u32>,
     center: Vec3,
     radius: f32,
     /// Of the normals of vertices and faces; `None` where they are spread too wide.
-    cone: Option<Cone>,
+    cone: Option<PatchCone>,
     /// How far any vertex is from the plane through the centre across the cone's axis.
     half_thickness: f32,
 }
 
 /// The mean of some normals, and how far the farthest is from it in radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Cone {
+struct PatchCone {
     axis: Vec3,
     half_angle: f32,
 }
 
 /// Puts triangles of a mesh in an order in which neighbours in the list are neighbours in space, and cuts them into
 /// patches, the first of which begins at `first` in the index list. Few triangles are one patch, in their order.
-pub(crate) fn cut(mesh: &Mesh, triangles: &mut [[u32; 3]], first: u32) -> Vec<Patch> {
+pub(crate) fn cut(mesh: &Mesh, triangles: &mut [[u32; 3]], first: u32) -> Vec<MeshPatch> {
     if triangles.len() <= WHOLE {
-        return vec![Patch::new(mesh, triangles, first)];
+        return vec![MeshPatch::new(mesh, triangles, first)];
     }
     let bounds = mesh.bounds();
     let positions = mesh.positions();
@@ -52,11 +52,11 @@ pub(crate) fn cut(mesh: &Mesh, triangles: &mut [[u32; 3]], first: u32) -> Vec<Pa
         let [a, b, c] = corners.map(|i| positions[i as usize] / 3.0);
         place_on_curve(a + b + c, &bounds)
     });
-    (first..).step_by(3 * PATCH).zip(triangles.chunks(PATCH)).map(|(at, run)| Patch::new(mesh, run, at)).collect()
+    (first..).step_by(3 * PATCH).zip(triangles.chunks(PATCH)).map(|(at, run)| MeshPatch::new(mesh, run, at)).collect()
 }
 
 /// The mean radius of patches, in the mesh's units.
-pub(crate) fn mean_radius(patches: &[Patch]) -> f32 {
+pub(crate) fn mean_radius(patches: &[MeshPatch]) -> f32 {
     patches.iter().map(|patch| patch.radius).sum::<f32>() / patches.len().max(1) as f32
 }
 
@@ -76,7 +76,7 @@ fn spread(bits: u32) -> u32 {
     (bits | bits << 2) & 0x0924_9249
 }
 
-impl Patch {
+impl MeshPatch {
     /// What is known of some triangles, which begin at `first` in the index list.
     pub(crate) fn new(mesh: &Mesh, triangles: &[[u32; 3]], first: u32) -> Self {
         let vertices = || triangles.as_flattened().iter().map(|&i| i as usize);
@@ -90,7 +90,7 @@ impl Patch {
         let axis = normals.iter().sum::<Vec3>().normalize_or_zero();
         let least = normals.iter().map(|n| n.dot(axis)).fold(1.0, f32::min);
         let half_angle = least.clamp(-1.0, 1.0).acos() + ANGLE_SLACK;
-        let cone = (axis != Vec3::ZERO && half_angle < WIDEST).then_some(Cone { axis, half_angle });
+        let cone = (axis != Vec3::ZERO && half_angle < WIDEST).then_some(PatchCone { axis, half_angle });
         let farthest = |of: &dyn Fn(Vec3) -> f32| points().map(|p| of(p - center)).fold(0.0, f32::max) * (1.0 + 1e-5);
         Self {
             indices: first..first + 3 * triangles.len() as u32,
@@ -167,8 +167,10 @@ impl Patch {
         bounds::Patch {
             center: center.to_array(),
             radius,
-            normals: cone
-                .map(|Cone { axis, half_angle }| NormalCone { axis: (normal_matrix.0 * axis).to_array(), half_angle }),
+            normals: cone.map(|PatchCone { axis, half_angle }| NormalCone {
+                axis: (normal_matrix.0 * axis).to_array(),
+                half_angle,
+            }),
             half_thickness: if cone.is_some() { self.half_thickness * scale } else { f32::INFINITY },
             faces,
         }
@@ -180,7 +182,7 @@ mod tests {
     use super::*;
     use halfway_mesh::{Plane, UvSphere};
 
-    fn cut_whole(mesh: &Mesh) -> (Vec<[u32; 3]>, Vec<Patch>) {
+    fn cut_whole(mesh: &Mesh) -> (Vec<[u32; 3]>, Vec<MeshPatch>) {
         let mut triangles: Vec<_> = mesh.triangles().collect();
         let patches = cut(mesh, &mut triangles, 0);
         (triangles, patches)

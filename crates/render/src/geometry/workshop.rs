@@ -1,7 +1,6 @@
-//! Where levels of detail are made, beside the frames.
+//! The thread that makes levels of detail beside the frames.
 
-use crate::geometry::detail::Triangles;
-use crate::geometry::meshes::is_same;
+use crate::geometry::detail::MeshTriangles;
 use bevy_asset::AssetId;
 use bevy_ecs::prelude::Resource;
 use bevy_platform::collections::HashMap;
@@ -25,15 +24,15 @@ struct Order {
     source: Mesh,
     /// The frame that wanted it last.
     wanted: u64,
-    state: State,
+    state: OrderState,
 }
 
-enum State {
+enum OrderState {
     /// Seen in one frame. A picture that is drawn once needs no levels.
     Seen,
     /// On its way.
     Asked,
-    Made(Triangles),
+    Made(MeshTriangles),
     /// There is no thread to make it.
     Refused,
 }
@@ -43,11 +42,11 @@ struct Thread {
     made: Mutex<Receiver<Made>>,
 }
 
-type Made = (AssetId<Mesh>, Mesh, Triangles);
+type Made = (AssetId<Mesh>, Mesh, MeshTriangles);
 
 impl Workshop {
     /// The levels of `mesh` if they are made. Asks for them if another frame has wanted them before.
-    pub(crate) fn levels(&mut self, id: AssetId<Mesh>, mesh: &Mesh) -> Option<&Triangles> {
+    pub(crate) fn levels(&mut self, id: AssetId<Mesh>, mesh: &Mesh) -> Option<&MeshTriangles> {
         if mesh.triangle_count() < FEWEST {
             return None;
         }
@@ -57,14 +56,14 @@ impl Workshop {
             *order = Order::new(mesh, *frame);
         }
         let before = std::mem::replace(&mut order.wanted, *frame);
-        if matches!(order.state, State::Seen) && before < *frame {
+        if matches!(order.state, OrderState::Seen) && before < *frame {
             if thread.is_none() {
                 *thread = Thread::start();
             }
             let asked = thread.as_ref().is_some_and(|thread| thread.wanted.send((id, mesh.clone())).is_ok());
-            order.state = if asked { State::Asked } else { State::Refused };
+            order.state = if asked { OrderState::Asked } else { OrderState::Refused };
         }
-        if let State::Made(triangles) = &order.state { Some(triangles) } else { None }
+        if let OrderState::Made(triangles) = &order.state { Some(triangles) } else { None }
     }
 
     /// Begins a frame, and takes in what has been made.
@@ -75,7 +74,7 @@ impl Workshop {
         for (id, source, triangles) in made.try_iter() {
             // The asset may have got another mesh since.
             if let Some(order) = self.orders.get_mut(&id).filter(|order| is_same(&order.source, &source)) {
-                order.state = State::Made(triangles);
+                order.state = OrderState::Made(triangles);
             }
         }
     }
@@ -86,14 +85,22 @@ impl Workshop {
 
     /// How many meshes the frame wants whose levels are not made yet.
     pub(crate) fn pending(&self) -> u32 {
-        let waits = |order: &&Order| order.wanted == self.frame && matches!(order.state, State::Seen | State::Asked);
+        let waits =
+            |order: &&Order| order.wanted == self.frame && matches!(order.state, OrderState::Seen | OrderState::Asked);
         self.orders.values().filter(waits).count() as u32
     }
 }
 
+/// Whether two meshes are clones of each other.
+pub(crate) fn is_same(a: &Mesh, b: &Mesh) -> bool {
+    a.positions().as_ptr() == b.positions().as_ptr()
+        && a.normals().as_ptr() == b.normals().as_ptr()
+        && a.indices().as_ptr() == b.indices().as_ptr()
+}
+
 impl Order {
     fn new(mesh: &Mesh, wanted: u64) -> Self {
-        Self { source: mesh.clone(), wanted, state: State::Seen }
+        Self { source: mesh.clone(), wanted, state: OrderState::Seen }
     }
 }
 
@@ -105,7 +112,7 @@ impl Thread {
         let make = move || {
             // Ends when the workshop is gone.
             for (id, mesh) in wishes {
-                let triangles = Triangles::in_levels(&mesh);
+                let triangles = MeshTriangles::in_levels(&mesh);
                 if sender.send((id, mesh, triangles)).is_err() {
                     break;
                 }

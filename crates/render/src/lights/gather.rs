@@ -8,10 +8,9 @@ use bevy_color::LinearRgba;
 use bevy_ecs::prelude::*;
 use bevy_math::{DVec3, Vec3};
 use bevy_transform::components::GlobalTransform;
-use halfway_lighting::equations::Light;
+use halfway_lighting::equations::{self, Light, Place};
 use halfway_lighting::{
-    Attenuation, Cone, DirectionalLight, GlobalAmbient, InvalidValue, PointLight, Shown, SpotLight, light_direction,
-    light_position,
+    DirectionalLight, GlobalAmbient, InvalidValue, PointLight, Shown, SpotLight, light_direction, light_position,
 };
 
 /// The scene's lights, sorted by kind. Holds after [`RenderSet::Illuminate`](crate::RenderSet::Illuminate).
@@ -25,12 +24,12 @@ pub struct Lights {
     pub(crate) sources: Vec<Light<f32>>,
     /// How many directional, point and spot lights, in this order.
     pub(crate) counts: [u32; 3],
-    /// Whether any has a specular colour.
+    /// Whether any has a specular color.
     pub(crate) specular: bool,
-    /// Whether any attenuates its ambient colour.
+    /// Whether any attenuates its ambient color.
     pub(crate) attenuated_ambient: bool,
-    /// Whether every specular colour is the diffuse colour.
-    pub(crate) shared_colour: bool,
+    /// Whether every specular color is the diffuse color.
+    pub(crate) shared_color: bool,
     /// Whether any has a range.
     pub(crate) ranged: bool,
 }
@@ -48,8 +47,7 @@ pub(crate) fn gather(
     mut lights: ResMut<Lights>,
     mut report: ResMut<FrameReport>,
 ) {
-    let mut gathered =
-        Gathered { view: &view, ambient: Vec3::ZERO, records: Default::default(), sources: Default::default() };
+    let mut gathered = Gathered { view: &view, ambient: Vec3::ZERO, lights: Default::default() };
     let errors = &mut report.errors;
     match ambient.validate() {
         Ok(()) => gathered.ambient = rgb(ambient.0),
@@ -57,9 +55,9 @@ pub(crate) fn gather(
     }
     let is_shown = shown.by_entity();
     each(&directional, &is_shown, errors, |light, at| gathered.directional(light, at));
-    each(&points, &is_shown, errors, |light, at| gathered.finite(light, None, at));
+    each(&points, &is_shown, errors, |light, at| gathered.point(light, at));
     each(&spots, &is_shown, errors, |spot, at| gathered.spot(spot, at));
-    report.lights = gathered.records.iter().map(|of_kind| of_kind.len() as u32).sum();
+    report.lights = gathered.lights.iter().map(|of_kind| of_kind.len() as u32).sum();
     lights.set_if_neq(gathered.into_lights());
 }
 
@@ -82,91 +80,67 @@ fn each<L: Component>(
 struct Gathered<'a> {
     view: &'a View,
     ambient: Vec3,
-    records: [Vec<LightRecord>; 3],
-    sources: [Vec<Light<f32>>; 3],
+    /// Directional, point and spot lights.
+    lights: [Vec<Light<f64>>; 3],
 }
 
 impl Gathered<'_> {
-    fn directional(&mut self, light: &DirectionalLight, transform: &GlobalTransform) -> Result<(), InvalidValue> {
+    fn directional(&mut self, light: &DirectionalLight, at: &GlobalTransform) -> Result<(), InvalidValue> {
         light.validate()?;
-        let direction = self.eye_direction(light_direction(transform)?);
-        self.sources[0].push(light.along(direction.to_array())?);
-        self.ambient += rgb(light.ambient);
-        self.records[0].push(LightRecord {
-            position: (-direction).to_array(),
-            diffuse: rgb(light.diffuse).to_array(),
-            specular: rgb(light.specular).to_array(),
-            constant: 1.0,
-            ..LightRecord::default()
-        });
+        self.add(light.along(self.direction(at)?)?);
         Ok(())
     }
 
-    fn spot(&mut self, spot: &SpotLight, transform: &GlobalTransform) -> Result<(), InvalidValue> {
+    fn point(&mut self, light: &PointLight, at: &GlobalTransform) -> Result<(), InvalidValue> {
+        light.validate()?;
+        self.add(light.at(self.position(at)?));
+        Ok(())
+    }
+
+    fn spot(&mut self, spot: &SpotLight, at: &GlobalTransform) -> Result<(), InvalidValue> {
         spot.validate()?;
-        let cone = (!spot.cone.is_none()).then_some(&spot.cone);
-        self.finite(&spot.light, cone, transform)
-    }
-
-    fn finite(
-        &mut self,
-        light: &PointLight,
-        cone: Option<&Cone>,
-        transform: &GlobalTransform,
-    ) -> Result<(), InvalidValue> {
-        light.validate()?;
-        let position = self.view.eye_from_world.transform_point3(light_position(transform)?.as_dvec3());
-        // How long the record's unit is: the shaders', or longer. A light beyond the reach of squares in f32 is brought near
-        // in its direction, and its distances shrink with it.
-        let unit = (position.length() / FARTHEST).max(self.view.unit().recip());
-        let in_units = |value: f64| value.min(f64::from(f32::MAX)) as f32;
-        let Attenuation { constant, linear, quadratic } = light.attenuation;
-        let mut record = LightRecord {
-            position: (position / unit).as_vec3().to_array(),
-            inverse_range: light.range.map_or(0.0, |range| in_units(unit / f64::from(range))),
-            diffuse: rgb(light.diffuse).to_array(),
-            specular: rgb(light.specular).to_array(),
-            constant,
-            linear: in_units(f64::from(linear) * unit),
-            quadratic: in_units(f64::from(quadratic) * unit * unit),
-            ..LightRecord::default()
-        };
-        let mut source = light.at(position.as_vec3().clamp(Vec3::splat(-FAR), Vec3::splat(FAR)).to_array());
-        if let Some(cone) = cone {
-            source.cone = cone.along(self.eye_direction(light_direction(transform)?).to_array());
-            record.direction = self.eye_direction(light_direction(transform)?).to_array();
-            record.cos_cutoff = f64::from(cone.cutoff).cos() as f32;
-            record.exponent = cone.exponent;
-            (record.inner_scale, record.inner_offset) = inner_fade(cone);
-        }
-        if light.attenuate_ambient {
-            record.ambient = rgb(light.ambient).to_array();
-        } else {
-            self.ambient += rgb(light.ambient);
-        }
-        let kind = if cone.is_some() { 2 } else { 1 };
-        self.records[kind].push(record);
-        self.sources[kind].push(source);
+        let position = self.position(at)?;
+        self.add(if spot.cone.is_none() { spot.light.at(position) } else { spot.at(position, self.direction(at)?)? });
         Ok(())
     }
 
-    fn eye_direction(&self, world: Vec3) -> Vec3 {
-        let world: DVec3 = world.as_dvec3();
-        (self.view.eye_from_world.matrix3 * world).normalize_or_zero().as_vec3()
+    fn add(&mut self, light: Light<f64>) {
+        if !light.attenuate_ambient {
+            self.ambient += Vec3::from_array(light.la.map(|channel| channel as f32));
+        }
+        let kind = match (light.place, light.cone) {
+            (Place::Directional(_), _) => 0,
+            (Place::Point(_), None) => 1,
+            (Place::Point(_), Some(_)) => 2,
+        };
+        self.lights[kind].push(light);
     }
 
-    #[expect(clippy::float_cmp, reason = "a colour that is left out is exactly 0, and a shared colour is a copy")]
+    fn position(&self, at: &GlobalTransform) -> Result<[f64; 3], InvalidValue> {
+        let world = light_position(at)?.as_dvec3();
+        Ok(self.view.eye_from_world.transform_point3(world).to_array())
+    }
+
+    fn direction(&self, at: &GlobalTransform) -> Result<[f64; 3], InvalidValue> {
+        let world: DVec3 = light_direction(at)?.as_dvec3();
+        Ok((self.view.eye_from_world.matrix3 * world).to_array())
+    }
+
     fn into_lights(self) -> Lights {
-        let counts = self.records.each_ref().map(|of_kind| of_kind.len() as u32);
-        let records = self.records.concat();
+        let counts = self.lights.each_ref().map(|of_kind| of_kind.len() as u32);
+        let lights = self.lights.concat();
+        // The shaders' unit, or a longer one.
+        let unit = self.view.unit().recip();
+        let near = |light| LightRecord::from(&brought_near(light, FARTHEST, unit));
+        let records: Vec<_> = lights.iter().map(near).collect();
         Lights {
             ambient: self.ambient,
-            sources: self.sources.concat(),
+            sources: lights.iter().map(|light| brought_near(light, FAR, 1.0).cast()).collect(),
             counts,
-            specular: records.iter().any(|light| light.specular != [0.0; 3]),
-            attenuated_ambient: records.iter().any(|light| light.ambient != [0.0; 3]),
-            shared_colour: records.iter().all(|light| light.specular == light.diffuse),
-            ranged: records.iter().any(|light| light.inverse_range > 0.0),
+            specular: records.iter().any(LightRecord::is_specular),
+            attenuated_ambient: records.iter().any(LightRecord::attenuates_ambient),
+            shared_color: records.iter().all(LightRecord::shares_color),
+            ranged: records.iter().any(LightRecord::is_ranged),
             records,
         }
     }
@@ -175,17 +149,25 @@ impl Gathered<'_> {
 /// The distance beyond which a light's square would not fit into f32.
 const FARTHEST: f64 = 9e18;
 
-/// Where bounds have a light that is farther along an axis; there it only seems brighter.
-const FAR: f32 = 1e37;
+/// The distance beyond which bounds, which take no squares of it, could leave f32.
+const FAR: f64 = 1e37;
 
-/// The inner cone's fade of `KHR_lights_punctual`, s = clamp((cos φ − cos cutoff)/(cos inner − cos cutoff), 0, 1), as scale
-/// and offset of cos φ; 0 and 1, which is s = 1, where there is no inner cone or it is as wide as the cutoff.
-fn inner_fade(cone: &Cone) -> (f32, f32) {
-    let cos_cutoff = f64::from(cone.cutoff).cos();
-    let width = cone.inner.map_or(0.0, |inner| f64::from(inner).cos() - cos_cutoff);
-    if width > 0.0 { ((1.0 / width) as f32, (-cos_cutoff / width) as f32) } else { (0.0, 1.0) }
+/// The same light, its lengths measured in a unit of `least` world units, or in a longer one where it would be farther than
+/// `farthest` of them. The direction is kept, so that near the eye, where what it lights is seen, it lights the same.
+fn brought_near(light: &Light<f64>, farthest: f64, least: f64) -> Light<f64> {
+    let Place::Point(position) = light.place else { return *light };
+    let position = DVec3::from_array(position);
+    let unit = (position.length() / farthest).max(least);
+    let [constant, linear, quadratic] = light.attenuation;
+    Light {
+        place: Place::Point((position / unit).to_array()),
+        attenuation: [constant, linear * unit, quadratic * unit * unit].map(|value| value.min(f64::from(f32::MAX))),
+        range: light.range.map(|range| range / unit),
+        ..*light
+    }
 }
 
+/// A color without its alpha.
 pub(crate) fn rgb(color: LinearRgba) -> Vec3 {
-    Vec3::new(color.red, color.green, color.blue)
+    Vec3::from_array(equations::rgb(color))
 }

@@ -1,13 +1,13 @@
 //! Light lists: which of many lights each patch needs, term by term.
 
-use crate::batch::terms::TermMask;
-use crate::lights::gather::{Lights, rgb};
+use crate::lights::gather::Lights;
+use crate::lights::terms::{by_fragment_shader, by_vertex_shader};
 use crate::shaders::light_slots::{COUNTED_LIGHTS, Highlights, Lists, filled_up};
 use crate::shaders::records::{LightRecord, RecordLists};
 use bevy_math::Vec3;
 use halfway_lighting::bounds::{DEFAULT_TOLERANCE, Patch, Receiver, Selected, linear_tolerance};
 use halfway_lighting::equations::{Coefficients, View};
-use halfway_lighting::{Encoding, Material, Reflectance};
+use halfway_lighting::{Encoding, Frequency, Reflectance, Terms};
 
 /// The lists of a frame.
 #[derive(Debug, Default)]
@@ -20,7 +20,7 @@ pub(crate) struct LightLists {
     set: Vec<u32>,
     /// The set bound last.
     last_set: Vec<u32>,
-    last_bound: Option<Bound>,
+    last_bound: Option<BoundLights>,
     /// The lists made last. Neighbouring patches often need the same.
     last: Option<(RecordLists, usize)>,
     selected: Selected<f32>,
@@ -34,7 +34,7 @@ pub(crate) struct LightLists {
 
 /// A set of lights at fixed places.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Bound {
+pub(crate) struct BoundLights {
     /// The number of the first: a multiple of [`SET_ALIGNMENT`].
     pub(crate) start: u32,
     /// How many of each kind it was filled up to, and how many of these have highlights.
@@ -50,14 +50,12 @@ const _: () = assert!(SET_ALIGNMENT * size_of::<LightRecord>() == 256, "a LightR
 const MOST_BOUND: usize = 1 << 16;
 
 /// What a patch does with light.
-pub(crate) struct Surface<'a> {
-    /// The materials of the sides that are seen.
-    pub(crate) sides: [&'a Material; 2],
+pub(crate) struct Reflector {
+    /// The sides that are seen; twice the same where one is.
+    pub(crate) sides: [Coefficients<f32>; 2],
     pub(crate) reflectance: Reflectance,
-    /// The terms that are shaded at the vertices.
-    pub(crate) vertex: TermMask,
-    /// The terms that are shaded at the fragments.
-    pub(crate) fragment: TermMask,
+    /// Where its terms are shaded.
+    pub(crate) terms: Terms,
 }
 
 impl LightLists {
@@ -83,12 +81,12 @@ impl LightLists {
         &mut self,
         lights: &Lights,
         patch: &Patch<f32>,
-        surface: &Surface,
+        reflector: &Reflector,
         view: &View<f32>,
         encoding: Option<Encoding>,
     ) {
-        let receiver = Receiver::new(patch, &surface.coefficients(), view, surface.reflectance);
-        let base = surface.base(lights.ambient).to_array();
+        let receiver = Receiver::new(patch, &reflector.larger_side(), view, reflector.reflectance);
+        let base = reflector.unlit(lights.ambient).to_array();
         let tolerance = base.map(|at_least| {
             encoding.map_or(0.0, |encoding| linear_tolerance(encoding, DEFAULT_TOLERANCE, at_least.into()))
         });
@@ -100,7 +98,7 @@ impl LightLists {
     /// Binds what was selected at fixed places; `None` where it is too much. Of each kind the lights with highlights come
     /// first, and the others' are left out as far as [`Highlights`] can say; or none, unless highlights `take_powers`: a few
     /// squarings cost less than more pipelines. A light that is needed for its highlight alone is shaded with both terms.
-    pub(crate) fn bind(&mut self, lights: &Lights, take_powers: bool) -> Option<Bound> {
+    pub(crate) fn bind(&mut self, lights: &Lights, take_powers: bool) -> Option<BoundLights> {
         let Selected { diffuse, specular, .. } = &self.selected;
         self.set.clear();
         self.set.extend(specular.iter().chain(without(diffuse, specular)));
@@ -119,7 +117,7 @@ impl LightLists {
             return None;
         }
         self.bound.resize(self.bound.len().next_multiple_of(SET_ALIGNMENT), LightRecord::default());
-        let bound = Bound { start: self.bound.len() as u32, counts, highlights };
+        let bound = BoundLights { start: self.bound.len() as u32, counts, highlights };
         for ((highlit, rest), count) in highlit.into_iter().zip(rest).zip(counts) {
             let end = self.bound.len() + count as usize;
             self.bound.extend(highlit.iter().chain(rest).map(|&light| lights.records[light as usize]));
@@ -131,22 +129,22 @@ impl LightLists {
     }
 
     /// Counts what a patch shades of the lights that are bound for it.
-    pub(crate) fn count_bound(&mut self, bound: Bound, surface: &Surface) {
+    pub(crate) fn count_bound(&mut self, bound: BoundLights, terms: Terms) {
         let lights = |share: Highlights| bound.counts.into_iter().map(|count| u64::from(share.of(count))).sum::<u64>();
-        for mask in [surface.vertex, surface.fragment] {
-            self.shaded += u64::from(mask.diffuse) * lights(Highlights::All);
-            self.shaded += u64::from(mask.specular) * lights(bound.highlights);
-        }
+        self.shaded += u64::from(terms.diffuse != Frequency::Never) * lights(Highlights::All);
+        self.shaded += u64::from(terms.specular != Frequency::Never) * lights(bound.highlights);
     }
 
     /// The lists of what was selected: appended, unless they are what was appended last.
-    pub(crate) fn list(&mut self, Lights { counts, .. }: &Lights, surface: &Surface) -> RecordLists {
+    pub(crate) fn list(&mut self, Lights { counts, .. }: &Lights, terms: Terms) -> RecordLists {
         let start = self.numbers.len();
-        let [vertex, vertex_diffuse] = self.append_stage(*counts, surface.vertex);
-        let [fragment, fragment_diffuse] = self.append_stage(*counts, surface.fragment);
+        let (by_vertex, by_fragment) = (by_vertex_shader(terms), by_fragment_shader(terms));
+        let [vertex, vertex_diffuse] = self.append_terms(*counts, by_vertex);
+        let [fragment, fragment_diffuse] = self.append_terms(*counts, by_fragment);
         let lists = RecordLists { vertex, vertex_diffuse, fragment, fragment_diffuse };
         let lights = |[directional, points, spots, _]: [u32; 4]| u64::from(directional + points + spots);
-        self.shaded += lights(vertex) * surface.vertex.terms() + lights(fragment) * surface.fragment.terms();
+        let count = |terms: [bool; 2]| terms.map(u64::from).iter().sum::<u64>();
+        self.shaded += lights(vertex) * count(by_vertex) + lights(fragment) * count(by_fragment);
         self.shaded += lights(vertex_diffuse) + lights(fragment_diffuse);
         if let Some((last, last_start)) = self.last
             && last.starting_at(0, last_start) == lists.starting_at(0, start)
@@ -159,10 +157,10 @@ impl LightLists {
         lists
     }
 
-    /// The lights with all terms of the stage, and those with the diffuse alone where it has both.
-    fn append_stage(&mut self, counts: [u32; 3], mask: TermMask) -> [[u32; 4]; 2] {
+    /// The lights with all terms that one shader evaluates, and those with the diffuse alone where it evaluates both.
+    fn append_terms(&mut self, counts: [u32; 3], [has_diffuse, has_specular]: [bool; 2]) -> [[u32; 4]; 2] {
         let Selected { diffuse, specular, .. } = &self.selected;
-        match (mask.diffuse, mask.specular) {
+        match (has_diffuse, has_specular) {
             (false, false) => [[0; 4]; 2],
             (true, false) => [append(&mut self.numbers, counts, diffuse.iter().copied()), [0; 4]],
             (false, true) => [append(&mut self.numbers, counts, specular.iter().copied()), [0; 4]],
@@ -194,7 +192,7 @@ fn split(numbers: &[u32], [directional, points, _]: [u32; 3]) -> [&[u32]; 3] {
     [&numbers[..first_point], &numbers[first_point..first_spot], &numbers[first_spot..]]
 }
 
-impl Bound {
+impl BoundLights {
     pub(crate) fn lists(self) -> Lists {
         Lists::counted(self.counts, self.highlights)
     }
@@ -217,27 +215,27 @@ impl RecordLists {
     }
 }
 
-impl Surface<'_> {
+impl Reflector {
     /// Coefficients that are nowhere below either side's, so that bounds hold for both.
-    fn coefficients(&self) -> Coefficients<f32> {
-        let [front, back] = self.sides.map(Coefficients::<f32>::from);
-        let larger =
-            |a: [f32; 3], b: [f32; 3], used: bool| if used { [0, 1, 2].map(|k| a[k].max(b[k])) } else { [0.0; 3] };
-        let Self { vertex, fragment, .. } = self;
-        let diffuse = vertex.diffuse || fragment.diffuse;
+    fn larger_side(&self) -> Coefficients<f32> {
+        let [front, back] = &self.sides;
+        let larger = |a: [f32; 3], b: [f32; 3], term: Frequency| {
+            if term == Frequency::Never { [0.0; 3] } else { [0, 1, 2].map(|k| a[k].max(b[k])) }
+        };
+        let Terms { diffuse, specular } = self.terms;
         Coefficients {
             ka: larger(front.ka, back.ka, diffuse),
             kd: larger(front.kd, back.kd, diffuse),
-            ks: larger(front.ks, back.ks, vertex.specular || fragment.specular),
-            ke: front.ke,
+            ks: larger(front.ks, back.ks, specular),
             // The smaller exponent is the wider highlight.
             shininess: front.shininess.min(back.shininess),
+            ..*front
         }
     }
 
     /// What every point of both sides has without lights.
-    fn base(&self, ambient: Vec3) -> Vec3 {
-        let [front, back] = self.sides.map(|side| rgb(side.emission) + rgb(side.ambient) * ambient);
+    fn unlit(&self, ambient: Vec3) -> Vec3 {
+        let [front, back] = self.sides.map(|side| Vec3::from_array(side.ke) + Vec3::from_array(side.ka) * ambient);
         front.min(back)
     }
 }

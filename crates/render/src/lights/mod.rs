@@ -1,4 +1,5 @@
-//! The lights of a frame, and which of them each patch needs.
+//! The lights of a frame, the terms that are shaded of them, and which of them each patch needs.
 
 pub(crate) mod gather;
 pub(crate) mod lists;
+pub(crate) mod terms;

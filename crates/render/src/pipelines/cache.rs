@@ -1,23 +1,26 @@
 //! The pipelines that are there: bounded in number, and built when [`Compile`] says.
 
+use crate::batch::backend::Backend;
+use crate::batch::key::DrawKey;
+use crate::device::costs::Costs;
 use crate::device::gpu::Gpu;
 use crate::error::RenderError;
 use crate::frame::report::FrameReport;
 use crate::pipelines::compile::{Builder, Compile, build};
 use crate::pipelines::key::PipelineKey;
 use crate::shaders::text::{Shaders, Text};
-use crate::target::frame::Target;
+use crate::target::frame::{Output, Target};
 use bevy_ecs::prelude::*;
 use bevy_platform::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
-/// So many specialised pipelines live at most; what more a frame asks for is drawn by generic ones, which are slower and
-/// few: they differ in the stages of their terms, the reflectance, the viewer, faces, blending and the target alone. A
-/// draw that looks up records for its instances has a pipeline beside that of its key.
+/// The most specialised pipelines that are kept. What a frame asks for beyond them is drawn by generic ones, which are
+/// slower, and few: they differ only in where their terms are shaded, the reflectance, the viewer, faces, blending and the
+/// target. A draw that looks up records for its instances has a pipeline beside that of its key.
 const MOST_SPECIAL: usize = 128;
 
-/// A specialised pipeline that no frame has used for longer makes room for another. A second's worth of frames: a scene
-/// that goes round and round among more pipelines than live must not build them over and over.
+/// A specialised pipeline that was not used for more than this number of frames makes room for another. It is the frames
+/// of a second: a scene that changes between more pipelines than are kept must not build them again and again.
 const KEPT_FRAMES: u64 = 60;
 
 /// The pipelines, with what they share.
@@ -25,19 +28,22 @@ const KEPT_FRAMES: u64 = 60;
 pub(crate) struct Pipelines {
     shaders: Arc<Shaders>,
     /// Its hashes are the same in every run, and so is which of equally old ones goes first.
-    variants: HashMap<PipelineKey, Variant>,
+    variants: HashMap<PipelineKey, PipelineVariant>,
     /// How many of them are specialised, those that look up records aside.
     special: usize,
     /// The number of the frame.
     frame: u64,
-    /// No specialised one can make room in this frame.
+    /// What the frame draws into.
+    output: Output,
+    costs: Costs,
+    /// No specialised pipeline can make room in this frame.
     full: bool,
-    /// For which there was no room in this frame.
+    /// The keys for which there was no room in this frame.
     refused: HashSet<PipelineKey>,
-    /// The same of the frame before.
+    /// The keys for which there was no room in the frame before.
     refused_before: HashSet<PipelineKey>,
     /// What was asked last in this frame, and the answer.
-    last: Option<(PipelineKey, PipelineKey)>,
+    last: Option<(DrawKey, DrawKey)>,
     compile: Option<Compile>,
     background: Background,
     /// Those that a frame has waited for, and whose relatives have not been asked for yet.
@@ -61,14 +67,14 @@ enum Background {
 }
 
 #[derive(Default)]
-struct Variant {
+struct PipelineVariant {
     /// The frame that used it last.
     used: u64,
-    state: State,
+    state: VariantState,
 }
 
 #[derive(Default)]
-enum State {
+enum VariantState {
     /// It may be built.
     #[default]
     Admitted,
@@ -80,8 +86,9 @@ enum State {
 
 impl Pipelines {
     /// Begins a frame, and takes in what has been built beside the frames.
-    fn begin(&mut self, gpu: &Gpu, compile: Compile) {
+    fn begin(&mut self, gpu: &Gpu, output: Output, compile: Compile) {
         self.frame += 1;
+        (self.output, self.costs) = (output, gpu.costs());
         (self.full, self.last) = (false, None);
         std::mem::swap(&mut self.refused, &mut self.refused_before);
         self.refused.clear();
@@ -91,8 +98,10 @@ impl Pipelines {
         }
         self.compile = Some(if matches!(self.background, Background::Unavailable) { Compile::Now } else { compile });
         if !self.waits() {
-            for key in std::mem::take(&mut self.unforeseen).into_iter().flat_map(PipelineKey::relatives) {
-                self.ask(key);
+            for key in std::mem::take(&mut self.unforeseen) {
+                for draw in key.draw.relatives() {
+                    self.ask(PipelineKey { draw, ..key });
+                }
             }
         }
     }
@@ -104,18 +113,20 @@ impl Pipelines {
         let is_alive = builder.is_alive();
         for (key, result) in builder.built() {
             // A frame may have built it rather than wait for its turn, or it may have been given up.
-            if let Some(variant) = self.variants.get_mut(&key).filter(|variant| matches!(variant.state, State::Asked)) {
-                variant.state = State::new(key, result);
+            if let Some(variant) =
+                self.variants.get_mut(&key).filter(|variant| matches!(variant.state, VariantState::Asked))
+            {
+                variant.state = VariantState::new(key, result);
                 match &variant.state {
-                    State::Failed(error) => self.failures.push(error.clone()),
+                    VariantState::Failed(error) => self.failures.push(error.clone()),
                     _ => self.built += 1,
                 }
             }
         }
         if !is_alive {
             self.background = Background::Unavailable;
-            for variant in self.variants.values_mut().filter(|variant| matches!(variant.state, State::Asked)) {
-                variant.state = State::Admitted;
+            for variant in self.variants.values_mut().filter(|variant| matches!(variant.state, VariantState::Asked)) {
+                variant.state = VariantState::Admitted;
             }
             let reason =
                 "the thread that builds pipelines beside the frames has died; from now on frames wait for them";
@@ -133,9 +144,129 @@ impl Pipelines {
         self.shaders.get(text).map(|shader| &shader.bindings)
     }
 
-    /// The key itself, or the generic one that draws the same: where there is no room, where what the key needs cannot be
+    /// The pipeline that draws this into what the frame draws into.
+    fn key(&self, draw: DrawKey) -> PipelineKey {
+        PipelineKey { draw, output: self.output }
+    }
+
+    /// Whether a specialised pipeline may be there; it is kept for now if so.
+    fn has_room(&mut self, draw: DrawKey) -> bool {
+        let key = self.key(draw);
+        if let Some(variant) = self.variants.get_mut(&key) {
+            variant.used = self.frame;
+            return true;
+        }
+        // What a frame uses is known when it is over. Only what was refused in the frame before takes the place of another,
+        // so that nothing takes the place of what this frame is about to ask for, which would then take another's.
+        let asked_before = self.refused_before.contains(&key);
+        if self.special < MOST_SPECIAL || asked_before && self.give_up_one() {
+            self.special += 1;
+            self.variants.insert(key, PipelineVariant { used: self.frame, state: VariantState::Admitted });
+            return true;
+        }
+        if self.refused.len() < MOST_SPECIAL {
+            self.refused.insert(key);
+        }
+        false
+    }
+
+    /// Gives up the specialised pipeline that has not been used for longest, unless it was used too lately.
+    fn give_up_one(&mut self) -> bool {
+        if self.full {
+            return false;
+        }
+        let special = self.variants.iter().filter(|(key, _)| key.draw.is_special() && !key.draw.per_instance);
+        let oldest = special.min_by_key(|(_, variant)| variant.used);
+        let Some((&key, _)) = oldest.filter(|(_, variant)| variant.used + KEPT_FRAMES < self.frame) else {
+            self.full = true;
+            return false;
+        };
+        log::debug!("giving up pipeline {key}");
+        self.variants.remove(&key);
+        self.variants.remove(&PipelineKey { draw: key.draw.looking_up(), ..key });
+        self.special -= 1;
+        true
+    }
+
+    /// Asks for the pipeline if it is not there.
+    fn is_there(&mut self, draw: DrawKey) -> bool {
+        self.ask(self.key(draw));
+        self.get(draw).is_some()
+    }
+
+    /// Has it built beside the frames, unless it was asked for before.
+    fn ask(&mut self, key: PipelineKey) {
+        let Background::Running(builder) = &self.background else { return };
+        let variant = self.variants.entry(key).or_default();
+        if matches!(variant.state, VariantState::Admitted) && builder.ask(key) {
+            variant.state = VariantState::Asked;
+        }
+    }
+
+    /// Whether it is known that the pipeline cannot be built.
+    fn has_failed(&self, draw: DrawKey) -> bool {
+        matches!(self.variants.get(&self.key(draw)), Some(PipelineVariant { state: VariantState::Failed(_), .. }))
+    }
+
+    /// The pipeline of such draws in this frame, if it is there.
+    pub(crate) fn get(&self, draw: DrawKey) -> Option<&wgpu::RenderPipeline> {
+        match &self.variants.get(&self.key(draw))?.state {
+            VariantState::Built(pipeline) => Some(pipeline),
+            _ => None,
+        }
+    }
+
+    /// Builds the pipeline unless it is there.
+    ///
+    /// # Errors
+    /// Why it cannot be built.
+    pub(crate) fn ensure(&mut self, gpu: &Gpu, draw: DrawKey) -> Result<(), RenderError> {
+        let key = self.key(draw);
+        let state = &mut self.variants.entry(key).or_default().state;
+        if matches!(state, VariantState::Admitted | VariantState::Asked) {
+            log::debug!("building pipeline {key}");
+            *state = VariantState::new(key, build(gpu, &self.shaders, key));
+            self.awaited += 1;
+            self.built += u32::from(matches!(state, VariantState::Built(_)));
+            if self.compile == Some(Compile::Beside) {
+                self.unforeseen.push(key);
+            }
+        }
+        if let VariantState::Failed(error) = state { Err(error.clone()) } else { Ok(()) }
+    }
+
+    /// Tells how many there are, and what went wrong beside the frames.
+    pub(crate) fn report(&mut self, report: &mut FrameReport) {
+        let count =
+            |is: fn(&VariantState) -> bool| self.variants.values().filter(|variant| is(&variant.state)).count() as u32;
+        report.pipelines = self.built;
+        report.pipelines_live = count(|state| matches!(state, VariantState::Built(_)));
+        report.pipelines_pending = count(|state| matches!(state, VariantState::Asked));
+        report.pipelines_awaited = std::mem::take(&mut self.awaited);
+        report.errors.append(&mut self.failures);
+    }
+}
+
+impl VariantState {
+    fn new(key: PipelineKey, result: Result<wgpu::RenderPipeline, String>) -> Self {
+        result.map_or_else(
+            |reason| {
+                log::error!("pipeline {key}: {reason}");
+                Self::Failed(RenderError::Device(reason))
+            },
+            Self::Built,
+        )
+    }
+}
+
+impl Backend for Pipelines {
+    fn costs(&self) -> Costs {
+        self.costs
+    }
+
+    /// The key itself, or the generic one: where there is no room, where what the key needs cannot be
     /// built, and until it is there.
-    pub(crate) fn admit(&mut self, key: PipelineKey) -> PipelineKey {
+    fn admit(&mut self, key: DrawKey) -> DrawKey {
         if let Some((asked, answer)) = self.last
             && asked == key
         {
@@ -151,118 +282,12 @@ impl Pipelines {
         answer
     }
 
-    /// Whether instances can look up their records in such a draw. If not, each record is a draw.
-    pub(crate) fn looks_up(&mut self, key: PipelineKey) -> bool {
+    fn looks_up(&mut self, key: DrawKey) -> bool {
         if self.compile != Some(Compile::Beside) {
             return !self.has_failed(key.looking_up());
         }
-        self.ask(key.generic().looking_up());
+        self.ask(self.key(key.generic().looking_up()));
         self.is_there(key.looking_up())
-    }
-
-    /// Whether a specialised pipeline may be there; it is kept for now if so.
-    fn has_room(&mut self, key: PipelineKey) -> bool {
-        if let Some(variant) = self.variants.get_mut(&key) {
-            variant.used = self.frame;
-            return true;
-        }
-        // What a frame uses is known when it is over. Only what was refused in the frame before takes the place of another,
-        // so that nothing takes the place of what this frame is about to ask for, which would then take another's.
-        let asked_before = self.refused_before.contains(&key);
-        if self.special < MOST_SPECIAL || asked_before && self.give_up_one() {
-            self.special += 1;
-            self.variants.insert(key, Variant { used: self.frame, state: State::Admitted });
-            return true;
-        }
-        if self.refused.len() < MOST_SPECIAL {
-            self.refused.insert(key);
-        }
-        false
-    }
-
-    /// Gives up the specialised pipeline that has not been used for longest, unless it was used too lately.
-    fn give_up_one(&mut self) -> bool {
-        if self.full {
-            return false;
-        }
-        let special = self.variants.iter().filter(|(key, _)| key.is_special() && !key.per_instance);
-        let oldest = special.min_by_key(|(_, variant)| variant.used);
-        let Some((&key, _)) = oldest.filter(|(_, variant)| variant.used + KEPT_FRAMES < self.frame) else {
-            self.full = true;
-            return false;
-        };
-        log::debug!("giving up pipeline {key}");
-        self.variants.remove(&key);
-        self.variants.remove(&key.looking_up());
-        self.special -= 1;
-        true
-    }
-
-    /// Asks for the pipeline if it is not there.
-    fn is_there(&mut self, key: PipelineKey) -> bool {
-        self.ask(key);
-        self.get(&key).is_some()
-    }
-
-    /// Has it built beside the frames, unless it was asked for before.
-    fn ask(&mut self, key: PipelineKey) {
-        let Background::Running(builder) = &self.background else { return };
-        let variant = self.variants.entry(key).or_default();
-        if matches!(variant.state, State::Admitted) && builder.ask(key) {
-            variant.state = State::Asked;
-        }
-    }
-
-    /// Whether it is known that the pipeline cannot be built.
-    fn has_failed(&self, key: PipelineKey) -> bool {
-        matches!(self.variants.get(&key), Some(Variant { state: State::Failed(_), .. }))
-    }
-
-    pub(crate) fn get(&self, key: &PipelineKey) -> Option<&wgpu::RenderPipeline> {
-        match &self.variants.get(key)?.state {
-            State::Built(pipeline) => Some(pipeline),
-            _ => None,
-        }
-    }
-
-    /// Builds the pipeline unless it is there.
-    ///
-    /// # Errors
-    /// Why it cannot be built.
-    pub(crate) fn ensure(&mut self, gpu: &Gpu, key: PipelineKey) -> Result<(), RenderError> {
-        let state = &mut self.variants.entry(key).or_default().state;
-        if matches!(state, State::Admitted | State::Asked) {
-            log::debug!("building pipeline {key}");
-            *state = State::new(key, build(gpu, &self.shaders, key));
-            self.awaited += 1;
-            self.built += u32::from(matches!(state, State::Built(_)));
-            if self.compile == Some(Compile::Beside) {
-                self.unforeseen.push(key);
-            }
-        }
-        if let State::Failed(error) = state { Err(error.clone()) } else { Ok(()) }
-    }
-
-    /// Tells how many there are, and what went wrong beside the frames.
-    pub(crate) fn report(&mut self, report: &mut FrameReport) {
-        let count = |is: fn(&State) -> bool| self.variants.values().filter(|variant| is(&variant.state)).count() as u32;
-        report.pipelines = self.built;
-        report.pipelines_live = count(|state| matches!(state, State::Built(_)));
-        report.pipelines_pending = count(|state| matches!(state, State::Asked));
-        report.pipelines_awaited = std::mem::take(&mut self.awaited);
-        report.errors.append(&mut self.failures);
-    }
-}
-
-impl State {
-    fn new(key: PipelineKey, result: Result<wgpu::RenderPipeline, String>) -> Self {
-        result.map_or_else(
-            |reason| {
-                log::error!("pipeline {key}: {reason}");
-                Self::Failed(RenderError::Device(reason))
-            },
-            Self::Built,
-        )
     }
 }
 
@@ -275,7 +300,7 @@ pub(crate) fn begin(
 ) {
     if let Some(frame) = &target.frame {
         let by_target = if frame.surface.is_some() { Compile::Beside } else { Compile::Now };
-        pipelines.begin(&gpu, compile.map_or(by_target, |compile| *compile));
+        pipelines.begin(&gpu, frame.output, compile.map_or(by_target, |compile| *compile));
     }
 }
 

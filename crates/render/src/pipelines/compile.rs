@@ -2,7 +2,7 @@
 
 use crate::device::gpu::Gpu;
 use crate::pipelines::key::PipelineKey;
-use crate::shaders::text::Shaders;
+use crate::shaders::text::{Shaders, Text};
 use bevy_ecs::prelude::{ReflectResource, Resource};
 use bevy_reflect::Reflect;
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -33,7 +33,7 @@ pub(crate) fn build(gpu: &Gpu, shaders: &Shaders, key: PipelineKey) -> Result<wg
     use wgpu::ErrorFilter::{Internal, OutOfMemory, Validation};
     // Scopes belong to the thread, so that two threads that build keep their errors apart.
     let scopes = [Validation, OutOfMemory, Internal].map(|filter| gpu.device.push_error_scope(filter));
-    let pipeline = shaders.get_or_make(gpu, key.text()).build(gpu, key);
+    let pipeline = shaders.get_or_make(gpu, Text::of(&key.draw)).build(gpu, key);
     // Popped in reverse order, and all of them.
     let error = scopes.into_iter().rev().filter_map(|scope| pollster::block_on(scope.pop())).last();
     error.map_or(Ok(pipeline), |error| Err(error.to_string()))
@@ -110,7 +110,9 @@ impl Drop for Builder {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pipelines::key::tests::key;
+    use crate::batch::key::DrawKey;
+    use crate::batch::key::tests::key;
+    use crate::target::frame::Output;
 
     #[test]
     fn what_cannot_be_built_comes_back_as_an_error() {
@@ -118,15 +120,16 @@ mod tests {
         let shaders = Arc::default();
         let builder = Builder::start(&gpu, &shaders).unwrap();
         // No adapter takes three samples a pixel.
-        let wrong = PipelineKey { samples: 3, ..key() };
-        assert!(builder.ask(wrong) && builder.ask(key()));
+        let right = PipelineKey { draw: key(), output: Output::default() };
+        let wrong = PipelineKey { output: Output { samples: 3, ..right.output }, ..right };
+        assert!(builder.ask(wrong) && builder.ask(right));
         let mut built = Vec::new();
         while built.len() < 2 {
             built.extend(builder.built());
             std::thread::yield_now();
         }
         let [(first, failed), (second, fine)] = &built[..] else { panic!("{} pipelines", built.len()) };
-        assert_eq!((*first, *second), (wrong, key()));
+        assert_eq!((*first, *second), (wrong, right));
         assert!(failed.as_ref().is_err_and(|reason| reason.to_lowercase().contains("sample")), "{failed:?}");
         assert!(fine.is_ok(), "{fine:?}");
         assert_eq!(gpu.take_failure(), None, "what is handed back is not reported again");
@@ -138,7 +141,8 @@ mod tests {
         let shaders = Arc::default();
         let builder = Builder::start(&gpu, &shaders).unwrap();
         for squarings in 0..16 {
-            assert!(builder.ask(PipelineKey { squarings: Some(squarings), ..key() }));
+            let draw = DrawKey { squarings: Some(squarings), ..key() };
+            assert!(builder.ask(PipelineKey { draw, output: Output::default() }));
         }
         drop(builder);
         assert_eq!(Arc::strong_count(&shaders), 1, "the thread shares the shaders as long as it lives");

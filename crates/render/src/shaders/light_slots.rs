@@ -6,7 +6,8 @@ pub(crate) const COUNTED_LIGHTS: u32 = 8;
 /// How the lights reach the shader.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Lists {
-    /// So many directional, point and spot lights are bound, in this order, and so many of them have highlights.
+    /// These numbers of directional, point and spot lights are bound, in this order; the second field says how many of
+    /// them have highlights.
     Counted([u8; 3], Highlights),
     /// All are bound, and the record's lists name some.
     Listed,
@@ -23,7 +24,7 @@ pub(crate) enum Highlights {
 }
 
 impl Lists {
-    /// For a scene of so many lights.
+    /// For a scene with these numbers of directional, point and spot lights.
     pub(crate) fn new(counts: [u32; 3]) -> Self {
         if counts.iter().sum::<u32>() <= COUNTED_LIGHTS { Self::counted(counts, Highlights::All) } else { Self::Listed }
     }

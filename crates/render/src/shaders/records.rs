@@ -1,10 +1,11 @@
 //! What the GPU reads: the same bytes as the structs of the WGSL texts, which a test compares.
 
-use crate::lights::gather::rgb;
+use crate::view::camera::{Projection, View};
 use crate::view::matrices::{ModelView, NormalMatrix};
 use bevy_math::{Vec3, Vec3A};
 use bytemuck::{Pod, Zeroable};
-use halfway_lighting::{Faces, Material, Reflectance, matched_shininess};
+use halfway_lighting::equations::{Coefficients, ConeTerms, Light, Place, specular_exponent};
+use halfway_lighting::{Faces, Reflectance};
 
 /// One instance in its vertex buffer: `eye_from_model` as rows, the normal matrix as columns, and the number of its
 /// record, which only draws of several records read.
@@ -18,6 +19,9 @@ pub(crate) struct InstanceRecord {
 
 pub(crate) const INSTANCE_BYTES: u64 = size_of::<InstanceRecord>() as u64;
 
+/// Its parts, by their locations in the texts.
+pub(crate) const INSTANCE: [wgpu::VertexAttribute; 7] = wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32x4, 2 => Float32x4, 3 => Float32x3, 4 => Float32x3, 5 => Float32x3, 9 => Uint32];
+
 /// The projection as the shader reads it.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
@@ -25,6 +29,13 @@ pub(crate) struct ViewRecord {
     pub(crate) scale: [f32; 2],
     pub(crate) near: f32,
     pub(crate) padding: f32,
+}
+
+impl From<&View> for ViewRecord {
+    fn from(view: &View) -> Self {
+        let Projection { scale, near } = view.projection;
+        Self { scale, near: near * view.unit() as f32, padding: 0.0 }
+    }
 }
 
 /// A light as the shader reads it; `Light` in lighting.wgsl. 128 bytes, so that every second one begins at an offset that
@@ -107,12 +118,6 @@ pub(crate) struct RecordLists {
     pub(crate) fragment_diffuse: [u32; 4],
 }
 
-impl DrawRecord {
-    pub(crate) fn new(front: MaterialRecord, back: MaterialRecord) -> Self {
-        Self { front, back, ..Self::default() }
-    }
-}
-
 impl InstanceRecord {
     /// With only back faces shown, the surface is lit inside out: its normals turn, and so do its windings.
     /// `unit` is the [view's](crate::View), which scales positions.
@@ -130,24 +135,77 @@ impl InstanceRecord {
 }
 
 impl MaterialRecord {
-    pub(crate) fn new(material: &Material, reflectance: Reflectance, ambient: Vec3) -> Self {
-        let ka = rgb(material.ambient);
+    /// The record of a material under ambient light: Ga, and La of the lights that do not attenuate it.
+    pub(crate) fn new(material: &Coefficients<f32>, opacity: f32, reflectance: Reflectance, ambient: Vec3) -> Self {
+        let unlit = Vec3::from_array(material.ke) + Vec3::from_array(material.ka) * ambient;
         Self {
-            base: (rgb(material.emission) + ka * ambient).to_array(),
-            shininess: exponent(material, reflectance),
-            diffuse: rgb(material.diffuse).to_array(),
-            opacity: material.opacity,
-            specular: rgb(material.specular).to_array(),
-            ambient: ka.to_array(),
+            base: unlit.to_array(),
+            shininess: specular_exponent(reflectance, material.shininess),
+            diffuse: material.kd,
+            opacity,
+            specular: material.ks,
+            ambient: material.ka,
             ..Self::default()
         }
     }
 }
 
-/// α of Phong, β of Blinn–Phong, or the β that matches α.
-pub(crate) fn exponent(material: &Material, reflectance: Reflectance) -> f32 {
-    match reflectance {
-        Reflectance::BlinnPhongMatched => matched_shininess(material.shininess),
-        _ => material.shininess,
+impl From<&Light<f64>> for LightRecord {
+    /// Whatever leaves the range of f32 becomes the largest number in it.
+    fn from(light: &Light<f64>) -> Self {
+        let number = |value: f64| value.min(f64::from(f32::MAX)) as f32;
+        let vector = |v: [f64; 3]| v.map(|x| x as f32);
+        let [constant, linear, quadratic] = light.attenuation.map(number);
+        let (Place::Point(position) | Place::Directional(position)) = light.place;
+        let mut record = Self {
+            position: vector(position),
+            inverse_range: light.range.map_or(0.0, |range| number(range.recip())),
+            diffuse: vector(light.ld),
+            specular: vector(light.ls),
+            constant,
+            linear,
+            quadratic,
+            ..Self::default()
+        };
+        if light.attenuate_ambient {
+            record.ambient = vector(light.la);
+        }
+        if let Some(cone) = &light.cone {
+            record.direction = vector(cone.direction);
+            record.cos_cutoff = number(cone.cos_cutoff);
+            record.exponent = number(cone.exponent);
+            (record.inner_scale, record.inner_offset) = inner_fade(cone);
+        }
+        record
     }
+}
+
+impl LightRecord {
+    /// Whether it has a specular color.
+    pub(crate) fn is_specular(&self) -> bool {
+        self.specular.iter().any(|&channel| channel > 0.0)
+    }
+
+    /// Whether it attenuates an ambient color.
+    pub(crate) fn attenuates_ambient(&self) -> bool {
+        self.ambient.iter().any(|&channel| channel > 0.0)
+    }
+
+    /// Whether its specular color is a copy of its diffuse color.
+    #[expect(clippy::float_cmp, reason = "a shared color is a copy")]
+    pub(crate) fn shares_color(&self) -> bool {
+        self.specular == self.diffuse
+    }
+
+    /// Whether it has a range.
+    pub(crate) fn is_ranged(&self) -> bool {
+        self.inverse_range > 0.0
+    }
+}
+
+/// The inner cone's fade of `KHR_lights_punctual`, s = clamp((cos φ − cos cutoff)/(cos inner − cos cutoff), 0, 1), as scale
+/// and offset of cos φ; 0 and 1, which is s = 1, where there is no inner cone or it is as wide as the cutoff.
+fn inner_fade(cone: &ConeTerms<f64>) -> (f32, f32) {
+    let width = cone.cos_inner.map_or(0.0, |cos_inner| cos_inner - cone.cos_cutoff);
+    if width > 0.0 { ((1.0 / width) as f32, (-cone.cos_cutoff / width) as f32) } else { (0.0, 1.0) }
 }

@@ -1,8 +1,7 @@
 //! The texts are valid file by file, and the records lie as the texts read them.
 
-use crate::pipelines::key::INSTANCE;
 use crate::shaders::light_slots::BOUND_LIGHTS;
-use crate::shaders::records::{DrawRecord, InstanceRecord, LightRecord, MaterialRecord, ViewRecord};
+use crate::shaders::records::{DrawRecord, INSTANCE, InstanceRecord, LightRecord, MaterialRecord, ViewRecord};
 use crate::shaders::text::Text;
 use bytemuck::Zeroable;
 use std::mem::offset_of;

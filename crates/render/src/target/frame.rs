@@ -1,10 +1,11 @@
-//! Where pictures go: a texture, or a window's surface.
+//! What a frame draws into: a texture, or the picture of a window's surface.
 
 use crate::device::gpu::Gpu;
 use crate::error::RenderError;
 use crate::frame::report::FrameReport;
 use crate::frame::times::FrameTimes;
-use crate::view::camera::View;
+use crate::target::surface::{Lost, SurfaceLost, SurfaceTarget};
+use crate::view::camera::{PictureSize, View};
 use bevy_ecs::prelude::*;
 use bevy_math::UVec2;
 use bevy_reflect::Reflect;
@@ -40,104 +41,16 @@ pub enum Pixels {
     Float,
 }
 
-/// A window's surface; while this resource is there it is the target instead of [`Headless`].
-#[derive(Resource)]
-pub struct SurfaceTarget {
-    surface: wgpu::Surface<'static>,
-    formats: Vec<wgpu::TextureFormat>,
-    config: wgpu::SurfaceConfiguration,
-    stale: bool,
-    acquired: bool,
-    /// It has shown blended objects, and keeps the format that blends them: another one waits for the GPU.
-    blends: bool,
-}
-
-impl SurfaceTarget {
-    /// A target of `size` physical pixels on `surface`, presented without tearing.
-    ///
-    /// # Errors
-    /// [`RenderError::Device`] when the adapter cannot present to the surface.
-    pub fn new(gpu: &Gpu, surface: wgpu::Surface<'static>, size: UVec2) -> Result<Self, RenderError> {
-        let capabilities = surface.get_capabilities(&gpu.adapter);
-        let config = surface
-            .get_default_config(&gpu.adapter, size.x.max(1), size.y.max(1))
-            .ok_or_else(|| RenderError::Device(format!("{} cannot present to this window", gpu.describe())))?;
-        Ok(Self { surface, formats: capabilities.formats, config, stale: true, acquired: false, blends: false })
-    }
-
-    /// Follows the window to `size` physical pixels; a size of 0 (minimised) is ignored.
-    pub fn resize(&mut self, size: UVec2) {
-        if size.x > 0 && size.y > 0 && size != self.size() {
-            (self.config.width, self.config.height) = (size.x, size.y);
-            (self.stale, self.acquired) = (true, false);
-        }
-    }
-
-    /// Replaces a lost surface by a new one of the same window.
-    pub fn replace(&mut self, surface: wgpu::Surface<'static>) {
-        self.surface = surface;
-        (self.stale, self.acquired) = (true, false);
-    }
-
-    /// Whether the newest frame has a picture of the surface to draw into and present. Where it has
-    /// none the frame is skipped without waiting for the display, so whoever asks for frames waits.
-    pub fn acquired(&self) -> bool {
-        self.acquired
-    }
-
-    fn size(&self) -> UVec2 {
-        UVec2::new(self.config.width, self.config.height)
-    }
-
-    fn pick_format(&mut self, encodes: bool) {
-        let format = pick_format(&self.formats, self.config.format, encodes);
-        self.stale |= format != self.config.format;
-        self.config.format = format;
-    }
-
-    /// The next picture of the surface; `None` means skip this frame.
-    fn acquire(&mut self, gpu: &Gpu) -> Result<Option<wgpu::SurfaceTexture>, Lost> {
-        use wgpu::CurrentSurfaceTexture as Current;
-        self.acquired = false;
-        if std::mem::take(&mut self.stale) {
-            self.surface.configure(&gpu.device, &self.config);
-        }
-        let texture = match self.surface.get_current_texture() {
-            Current::Success(texture) => Some(texture),
-            Current::Suboptimal(texture) => {
-                self.stale = true;
-                Some(texture)
-            }
-            Current::Outdated => {
-                self.stale = true;
-                None
-            }
-            Current::Lost => return Err(Lost),
-            Current::Timeout | Current::Occluded | Current::Validation => None,
-        };
-        self.acquired = texture.is_some();
-        Ok(texture)
-    }
-}
-
-/// The window's surface is gone: whoever owns the window makes a new one and calls
-/// [`SurfaceTarget::replace`]. Set by the frame that found out.
-#[derive(Resource, Clone, Copy, Debug, PartialEq, Eq)]
-pub struct SurfaceLost;
-
-struct Lost;
-
 /// What the frame draws into.
 #[derive(Resource, Default)]
 pub(crate) struct Target {
-    size: UVec2,
     attachments: Option<Attachments>,
-    pub(crate) frame: Option<Frame>,
+    pub(crate) frame: Option<FramePicture>,
 }
 
 /// The textures of one configuration.
 pub(crate) struct Attachments {
-    made_for: Made,
+    made_as: Configuration,
     /// The headless picture; a surface brings its own.
     pub(crate) picture: Option<wgpu::Texture>,
     pub(crate) multisampled: Option<wgpu::TextureView>,
@@ -145,24 +58,38 @@ pub(crate) struct Attachments {
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
-struct Made {
+struct Configuration {
     size: UVec2,
     format: wgpu::TextureFormat,
     samples: Samples,
     headless: bool,
 }
 
-/// The picture of this frame.
-pub(crate) struct Frame {
+/// What the shaders write.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct Output {
     pub(crate) format: wgpu::TextureFormat,
     /// The format takes bytes as they are, and the shaders write them encoded as sRGB.
     pub(crate) encoded: bool,
-    pub(crate) samples: Samples,
+    /// Samples a pixel.
+    pub(crate) samples: u32,
+}
+
+/// The picture of this frame.
+pub(crate) struct FramePicture {
+    pub(crate) output: Output,
     pub(crate) view: wgpu::TextureView,
     pub(crate) surface: Option<wgpu::SurfaceTexture>,
 }
 
-impl Frame {
+impl Default for Output {
+    /// Bytes as they are, one sample a pixel.
+    fn default() -> Self {
+        Self { format: wgpu::TextureFormat::Rgba8Unorm, encoded: false, samples: 1 }
+    }
+}
+
+impl Output {
     /// What the bytes hold; `None` for floating point.
     pub(crate) fn encoding(&self) -> Option<Encoding> {
         let is_srgb = self.encoded || self.format.is_srgb();
@@ -173,10 +100,6 @@ impl Frame {
 pub(crate) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
 impl Target {
-    pub(crate) fn size(&self) -> UVec2 {
-        self.size
-    }
-
     pub(crate) fn attachments(&self) -> Option<&Attachments> {
         self.attachments.as_ref()
     }
@@ -188,8 +111,8 @@ impl Target {
 }
 
 /// Learns the size before the view needs it.
-pub(crate) fn measure(headless: Res<Headless>, surface: Option<Res<SurfaceTarget>>, mut target: ResMut<Target>) {
-    target.size = surface.map_or(headless.size, |surface| surface.size());
+pub(crate) fn measure(headless: Res<Headless>, surface: Option<Res<SurfaceTarget>>, mut size: ResMut<PictureSize>) {
+    size.0 = surface.map_or(headless.size, |surface| surface.size());
 }
 
 /// Makes the attachments that the camera and the target ask for, and acquires the surface's picture.
@@ -199,6 +122,7 @@ pub(crate) fn prepare(
     headless: Res<Headless>,
     surface: Option<ResMut<SurfaceTarget>>,
     view: Res<View>,
+    size: Res<PictureSize>,
     blended: Query<Entity, (With<Blend>, With<Mesh3d>)>,
     shown: Shown,
     mut target: ResMut<Target>,
@@ -208,13 +132,13 @@ pub(crate) fn prepare(
 ) {
     target.frame = None;
     // The view has said so.
-    if target.size.min_element() == 0 {
+    if size.0.min_element() == 0 {
         return;
     }
     let camera = view.camera.unwrap_or_default();
     let limit = gpu.device.limits().max_texture_dimension_2d;
-    if target.size.max_element() > limit {
-        let needed = u64::from(target.size.max_element());
+    if size.0.max_element() > limit {
+        let needed = u64::from(size.0.max_element());
         report.errors.push(RenderError::TooLarge {
             what: "the picture's longer side, in pixels,".into(),
             needed,
@@ -222,19 +146,16 @@ pub(crate) fn prepare(
         });
         return;
     }
-    // A software adapter decodes and encodes all 16 pixels of a block to write some of them. Blending and resolving need
-    // linear values, which only the format gives.
-    let may_encode = gpu.is_software() && camera.samples == Samples::One;
     let blends = blended.iter().any(shown.by_entity());
-    let format_encodes = |blends: bool| camera.encoding == Encoding::Srgb && (blends || !may_encode);
+    // Blending and resolving need linear values, which only the format gives.
+    let shaders_may = gpu.costs().shaders_encode && camera.samples == Samples::One;
+    let format_encodes = |blends: bool| camera.encoding == Encoding::Srgb && (blends || !shaders_may);
     let (format, acquired) = match surface {
         None => (headless_format(&gpu, headless.pixels, camera.samples, format_encodes(blends)), None),
         Some(mut surface) => {
-            surface.blends |= blends;
-            let encodes = format_encodes(surface.blends);
-            surface.pick_format(encodes);
+            surface.pick_format(blends, format_encodes);
             match times.at_display(|| surface.acquire(&gpu)) {
-                Ok(Some(texture)) => (surface.config.format, Some(texture)),
+                Ok(Some(texture)) => (surface.format(), Some(texture)),
                 Ok(None) => return,
                 Err(Lost) => {
                     commands.insert_resource(SurfaceLost);
@@ -243,16 +164,17 @@ pub(crate) fn prepare(
             }
         }
     };
-    let made_for = Made { size: target.size, format, samples: camera.samples, headless: acquired.is_none() };
-    if target.attachments.as_ref().is_none_or(|attachments| attachments.made_for != made_for) {
-        target.attachments = Some(Attachments::new(&gpu, made_for));
+    let made_as = Configuration { size: size.0, format, samples: camera.samples, headless: acquired.is_none() };
+    if target.attachments.as_ref().is_none_or(|attachments| attachments.made_as != made_as) {
+        target.attachments = Some(Attachments::new(&gpu, made_as));
     }
     let texture = acquired.as_ref().map(|acquired| &acquired.texture).or(target.picture());
     let Some(view) = texture.map(|texture| texture.create_view(&wgpu::TextureViewDescriptor::default())) else {
         return;
     };
     let encoded = camera.encoding == Encoding::Srgb && !format.is_srgb() && !is_float(format);
-    target.frame = Some(Frame { format, encoded, samples: camera.samples, view, surface: acquired });
+    let output = Output { format, encoded, samples: camera.samples.count() };
+    target.frame = Some(FramePicture { output, view, surface: acquired });
 }
 
 fn headless_format(gpu: &Gpu, pixels: Pixels, samples: Samples, encodes: bool) -> wgpu::TextureFormat {
@@ -262,20 +184,6 @@ fn headless_format(gpu: &Gpu, pixels: Pixels, samples: Samples, encodes: bool) -
         Pixels::Float if draws_f32(gpu, samples) => wgpu::TextureFormat::Rgba32Float,
         Pixels::Float => wgpu::TextureFormat::Rgba16Float,
     }
-}
-
-/// Of a surface's formats the one that is `current` but for the encoding, else another of bytes that encodes as asked, else
-/// the first.
-fn pick_format(formats: &[wgpu::TextureFormat], current: wgpu::TextureFormat, encodes: bool) -> wgpu::TextureFormat {
-    let sibling = if encodes { current.add_srgb_suffix() } else { current.remove_srgb_suffix() };
-    let is_sibling = |format: &&wgpu::TextureFormat| **format == sibling;
-    let is_like_it = |format: &&wgpu::TextureFormat| {
-        let shows_bytes = format.remove_srgb_suffix() == wgpu::TextureFormat::Rgba8Unorm
-            || format.remove_srgb_suffix() == wgpu::TextureFormat::Bgra8Unorm;
-        shows_bytes && format.is_srgb() == encodes
-    };
-    let found = formats.iter().find(is_sibling).or_else(|| formats.iter().find(is_like_it)).or(formats.first());
-    found.copied().unwrap_or(current)
 }
 
 fn is_float(format: wgpu::TextureFormat) -> bool {
@@ -296,8 +204,8 @@ fn draws_f32(gpu: &Gpu, samples: Samples) -> bool {
 }
 
 impl Attachments {
-    fn new(gpu: &Gpu, made_for: Made) -> Self {
-        let Made { size, format, samples, headless } = made_for;
+    fn new(gpu: &Gpu, made_as: Configuration) -> Self {
+        let Configuration { size, format, samples, headless } = made_as;
         let texture = |label, format, sample_count, usage| {
             gpu.device.create_texture(&wgpu::TextureDescriptor {
                 label: Some(label),
@@ -313,32 +221,10 @@ impl Attachments {
         let attachment = wgpu::TextureUsages::RENDER_ATTACHMENT;
         let view = |texture: wgpu::Texture| texture.create_view(&wgpu::TextureViewDescriptor::default());
         Self {
-            made_for,
+            made_as,
             picture: headless.then(|| texture("picture", format, 1, attachment | wgpu::TextureUsages::COPY_SRC)),
             multisampled: (samples == Samples::Four).then(|| view(texture("samples", format, 4, attachment))),
             depth: view(texture("depth", DEPTH_FORMAT, samples.count(), attachment)),
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::pick_format;
-    use wgpu::TextureFormat::{Bgra8Unorm, Bgra8UnormSrgb, Rgba8Unorm, Rgba8UnormSrgb, Rgba16Float};
-
-    #[test]
-    fn surfaces_change_their_encoding_and_nothing_else() {
-        let all = [Rgba8UnormSrgb, Rgba16Float, Bgra8UnormSrgb, Rgba8Unorm, Bgra8Unorm];
-        for (current, encodes, expected) in [
-            (Bgra8UnormSrgb, true, Bgra8UnormSrgb),
-            (Bgra8UnormSrgb, false, Bgra8Unorm),
-            (Bgra8Unorm, true, Bgra8UnormSrgb),
-            (Rgba8Unorm, false, Rgba8Unorm),
-        ] {
-            assert_eq!(pick_format(&all, current, encodes), expected, "{current:?}, {encodes}");
-        }
-        let few = [Rgba16Float, Rgba8UnormSrgb, Bgra8Unorm];
-        assert_eq!(pick_format(&few, Rgba8UnormSrgb, false), Bgra8Unorm, "a float is no byte");
-        assert_eq!(pick_format(&[Rgba8Unorm], Rgba8Unorm, true), Rgba8Unorm, "nothing encodes");
     }
 }

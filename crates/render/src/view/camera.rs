@@ -2,9 +2,8 @@
 
 use crate::error::{RenderError, bad_transform, label};
 use crate::frame::report::FrameReport;
-use crate::target::frame::Target;
 use bevy_ecs::prelude::*;
-use bevy_math::{DAffine3, DMat3, DVec3, Vec3};
+use bevy_math::{DAffine3, DMat3, DVec3, UVec2, Vec3};
 use bevy_reflect::Reflect;
 use bevy_reflect::std_traits::ReflectDefault;
 use bevy_transform::components::{GlobalTransform, Transform};
@@ -39,6 +38,10 @@ impl View {
         2f64.powi(self.unit_exponent)
     }
 }
+
+/// The size of the picture that is drawn next, in pixels.
+#[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct PictureSize(pub(crate) UVec2);
 
 /// A perspective projection with reversed depth (near = 1) and an infinite far plane:
 /// clip = (`scale`·xy, `near`, −z).
@@ -86,7 +89,7 @@ type CameraQuery<'w, 's> = Query<
 
 pub(crate) fn update(
     cameras: CameraQuery,
-    target: Res<Target>,
+    size: Res<PictureSize>,
     mut view: ResMut<View>,
     mut report: ResMut<FrameReport>,
 ) {
@@ -106,7 +109,7 @@ pub(crate) fn update(
         report.errors.push(RenderError::Invalid { entity: label(entity, name), source });
         return;
     }
-    let size = target.size();
+    let size = size.0;
     if size.min_element() == 0 {
         report.errors.push(RenderError::EmptyPicture { width: size.x, height: size.y });
         return;

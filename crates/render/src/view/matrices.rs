@@ -51,11 +51,11 @@ pub struct NormalMatrix(pub Mat3);
 #[reflect(Resource, Clone, Debug, Default)]
 pub struct Visible(pub Vec<Entity>);
 
-type Objects<'w, 's> =
+type MeshQuery<'w, 's> =
     Query<'w, 's, (Entity, &'static Mesh3d, &'static GlobalTransform, &'static SpawnOrder, Option<&'static Name>)>;
 
 pub(crate) fn select(
-    objects: Objects,
+    objects: MeshQuery,
     shown: Shown,
     meshes: Res<Assets<Mesh>>,
     mut view: ResMut<View>,

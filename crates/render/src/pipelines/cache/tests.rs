@@ -1,11 +1,11 @@
 //! Which pipelines are there, and what waits for them.
 
 use super::*;
-use crate::pipelines::key::Cull;
-use crate::pipelines::key::tests::key;
+use crate::batch::key::Cull;
+use crate::batch::key::tests::key;
 
-fn numbered(number: u16) -> PipelineKey {
-    PipelineKey { squarings: Some(number as u8), clockwise: number > 255, ..key() }
+fn numbered(number: u16) -> DrawKey {
+    DrawKey { squarings: Some(number as u8), clockwise: number > 255, ..key() }
 }
 
 /// A frame that draws these: how many by their own pipelines, which it waited for, and its report.
@@ -13,14 +13,25 @@ fn frame(
     pipelines: &mut Pipelines,
     gpu: &Gpu,
     compile: Compile,
-    keys: &[PipelineKey],
-) -> (usize, Vec<PipelineKey>, FrameReport) {
-    pipelines.begin(gpu, compile);
+    keys: &[DrawKey],
+) -> (usize, Vec<DrawKey>, FrameReport) {
+    frame_into(Output::default(), pipelines, gpu, compile, keys)
+}
+
+/// The same, drawn into something else.
+fn frame_into(
+    output: Output,
+    pipelines: &mut Pipelines,
+    gpu: &Gpu,
+    compile: Compile,
+    keys: &[DrawKey],
+) -> (usize, Vec<DrawKey>, FrameReport) {
+    pipelines.begin(gpu, output, compile);
     let answers: Vec<_> = keys.iter().map(|&key| pipelines.admit(key)).collect();
     let mut report = FrameReport::default();
     let before = pipelines.unforeseen.len();
     report.errors.extend(answers.iter().filter_map(|&key| pipelines.ensure(gpu, key).err()));
-    let awaited = pipelines.unforeseen[before..].to_vec();
+    let awaited = pipelines.unforeseen[before..].iter().map(|key| key.draw).collect();
     pipelines.report(&mut report);
     (answers.iter().zip(keys).filter(|(answer, key)| answer == key).count(), awaited, report)
 }
@@ -50,18 +61,20 @@ fn what_cannot_be_built_is_reported_and_not_tried_again() {
     let gpu = Gpu::open_headless().unwrap();
     let mut pipelines = Pipelines::default();
     // No adapter takes three samples a pixel.
-    let wrong = PipelineKey { samples: 3, ..key() };
+    let wrong = Output { samples: 3, ..Output::default() };
+    let (own, _, report) = frame(&mut pipelines, &gpu, Compile::Now, &[key()]);
+    assert_eq!((own, report.pipelines_live, report.errors), (1, 1, vec![]));
     // The first frame tries its own, the second the generic one in its place, which fails as well, in every frame.
-    for (own, awaited) in [(2, 2), (1, 1), (1, 0), (1, 0)] {
-        let (by_own, _, report) = frame(&mut pipelines, &gpu, Compile::Now, &[wrong, key()]);
+    for (own, awaited) in [(1, 1), (0, 1), (0, 0), (0, 0)] {
+        let (by_own, _, report) = frame_into(wrong, &mut pipelines, &gpu, Compile::Now, &[key()]);
         assert!(matches!(&report.errors[..], [RenderError::Device(_)]), "{:?}", report.errors);
         assert_eq!((by_own, report.pipelines_awaited, report.pipelines_live), (own, awaited, 1));
     }
     // Beside the frames: the specialised one once, the generic one, which is to draw in its place, in every frame.
-    let other = PipelineKey { squarings: Some(2), ..wrong };
+    let other = DrawKey { squarings: Some(2), ..key() };
     let mut errors = 0;
     loop {
-        let (own, _, report) = frame(&mut pipelines, &gpu, Compile::Beside, &[other]);
+        let (own, _, report) = frame_into(wrong, &mut pipelines, &gpu, Compile::Beside, &[other]);
         assert_eq!(own, 0);
         errors = report.errors.len().max(errors);
         if report.pipelines_pending == 0 && errors > 1 {
@@ -69,7 +82,7 @@ fn what_cannot_be_built_is_reported_and_not_tried_again() {
         }
         std::thread::yield_now();
     }
-    let (_, awaited, report) = frame(&mut pipelines, &gpu, Compile::Beside, &[other]);
+    let (_, awaited, report) = frame_into(wrong, &mut pipelines, &gpu, Compile::Beside, &[other]);
     assert_eq!((awaited, report.errors.len()), (vec![], 1));
     assert_eq!(gpu.take_failure(), None);
 }
@@ -80,8 +93,9 @@ fn the_generic_one_draws_where_the_special_one_cannot_be_built() {
     for compile in [Compile::Now, Compile::Beside] {
         let mut pipelines = Pipelines::default();
         frame(&mut pipelines, &gpu, compile, &[key().generic()]);
-        let failed = || Variant { used: 0, state: State::Failed(RenderError::Device("broken".into())) };
-        pipelines.variants.extend([key(), key().looking_up()].map(|key| (key, failed())));
+        let failed = || PipelineVariant { used: 0, state: VariantState::Failed(RenderError::Device("broken".into())) };
+        let keys = [key(), key().looking_up()].map(|key| pipelines.key(key));
+        pipelines.variants.extend(keys.map(|key| (key, failed())));
         for _ in 0..3 {
             let (own, awaited, report) = frame(&mut pipelines, &gpu, compile, &[key()]);
             assert_eq!((own, awaited, report.errors), (0, vec![], vec![]), "{compile:?}");
@@ -132,8 +146,8 @@ fn frames_build_for_themselves_where_there_is_no_thread() {
 fn both_passes_get_room_in_the_same_frame() {
     let gpu = Gpu::open_headless().unwrap();
     let mut pipelines = Pipelines::default();
-    let mut draw = |keys: &[PipelineKey]| {
-        pipelines.begin(&gpu, Compile::Now);
+    let mut draw = |keys: &[DrawKey]| {
+        pipelines.begin(&gpu, Output::default(), Compile::Now);
         keys.iter().filter(|&&key| pipelines.admit(key) == key).count()
     };
     let all: Vec<_> = (0..MOST_SPECIAL as u16).map(numbered).collect();
@@ -141,7 +155,7 @@ fn both_passes_get_room_in_the_same_frame() {
     for _ in 0..KEPT_FRAMES {
         assert_eq!(draw(&[]), 0);
     }
-    let blended = PipelineKey { blend: true, cull: Cull::None, ..key() };
+    let blended = DrawKey { blend: true, cull: Cull::None, ..key() };
     assert_eq!(blended.passes().count(), 2);
     assert_eq!(draw(&[blended]), 0, "in the first frame nothing is given up for it");
     assert_eq!(draw(&[blended]), 1);
@@ -152,7 +166,7 @@ fn the_one_unused_for_longest_makes_room() {
     let gpu = Gpu::open_headless().unwrap();
     let mut pipelines = Pipelines::default();
     let mut draws = |keys: &[u16]| {
-        pipelines.begin(&gpu, Compile::Now);
+        pipelines.begin(&gpu, Output::default(), Compile::Now);
         keys.iter().filter(|&&number| pipelines.admit(numbered(number)) == numbered(number)).count()
     };
     let all: Vec<u16> = (0..MOST_SPECIAL as u16).collect();

@@ -1,0 +1,155 @@
+//! What a draw is specialised for.
+
+use crate::shaders::light_slots::Lists;
+use halfway_lighting::{Frequency, Terms};
+use std::fmt;
+
+/// All of a draw that its pipeline is specialised for. What a draw does not use is not in its shader.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[expect(clippy::struct_excessive_bools, reason = "each is one independent switch of the shader")]
+pub(crate) struct DrawKey {
+    pub(crate) blend: bool,
+    pub(crate) lists: Lists,
+    /// Where each term is shaded; `Never` where nothing would come of it.
+    pub(crate) terms: Terms,
+    /// Each instance names its record.
+    pub(crate) per_instance: bool,
+    pub(crate) blinn_phong: bool,
+    pub(crate) local_viewer: bool,
+    pub(crate) attenuated_ambient: bool,
+    /// Every light's specular color is its diffuse color.
+    pub(crate) shared_color: bool,
+    /// Some light has a range.
+    pub(crate) ranged: bool,
+    /// The exponent is 2 to this power on both sides.
+    pub(crate) squarings: Option<u8>,
+    pub(crate) geometric_fallback: bool,
+    pub(crate) cull: Cull,
+    /// Front faces wind clockwise: the transform mirrors, or only back faces are shown.
+    pub(crate) clockwise: bool,
+}
+
+/// Which faces the rasteriser drops.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Cull {
+    /// The side that is not lit as front.
+    Back,
+    /// Only the first pass of a blended two-sided object, which draws the far side.
+    Front,
+    /// None: both sides are lit.
+    None,
+}
+
+impl fmt::Display for DrawKey {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Terms { diffuse, specular } = self.terms;
+        let reflectance = if self.blinn_phong { "blinn_phong" } else { "phong" };
+        write!(f, "diffuse={diffuse:?} specular={specular:?} {:?} {reflectance} {:?}", self.lists, self.cull)?;
+        for (on, name) in [
+            (self.per_instance, "per_instance"),
+            (self.local_viewer, "local_viewer"),
+            (self.attenuated_ambient, "attenuated_ambient"),
+            (self.shared_color, "shared_color"),
+            (self.ranged, "ranged"),
+            (self.geometric_fallback, "geometric_fallback"),
+            (self.clockwise, "clockwise"),
+            (self.blend, "blend"),
+        ] {
+            if on {
+                write!(f, " {name}")?;
+            }
+        }
+        self.squarings.map_or(Ok(()), |squarings| write!(f, " squarings={squarings}"))
+    }
+}
+
+impl DrawKey {
+    /// Whether it has terms of lights at all.
+    pub(crate) fn is_lit(&self) -> bool {
+        self.terms != Terms::NONE
+    }
+
+    /// The key that draws the same without knowing the lights, the colors, the exponent and the mesh.
+    pub(crate) fn generic(self) -> Self {
+        Self {
+            lists: if self.is_lit() { Lists::Listed } else { self.lists },
+            shared_color: false,
+            attenuated_ambient: self.terms.diffuse != Frequency::Never,
+            ranged: self.is_lit(),
+            squarings: None,
+            geometric_fallback: self.terms.has(Frequency::Fragment),
+            ..self
+        }
+    }
+
+    /// Whether it knows anything that its generic one does not.
+    pub(crate) fn is_special(self) -> bool {
+        self != self.generic()
+    }
+
+    /// The generic keys that draw the same object under every shading and reflectance, this one's own among them.
+    pub(crate) fn relatives(self) -> impl Iterator<Item = Self> {
+        let shadings = [Frequency::Triangle, Frequency::Vertex, Frequency::Fragment].into_iter();
+        let has_highlights = self.terms.specular != Frequency::Never;
+        let lit = shadings.filter(move |_| self.is_lit()).flat_map(move |at| {
+            let terms = self.terms.map(|term| if term == Frequency::Never { term } else { at });
+            [self.blinn_phong, self.blinn_phong ^ has_highlights].map(|blinn_phong| Self { terms, blinn_phong, ..self })
+        });
+        std::iter::once(self).chain(lit).map(Self::generic)
+    }
+
+    /// The one whose instances look up their records.
+    pub(crate) fn looking_up(self) -> Self {
+        Self { per_instance: true, ..self }
+    }
+
+    /// The passes that draw an object: two for a blended two-sided one, the far side first.
+    pub(crate) fn passes(self) -> impl Iterator<Item = Self> {
+        let far_side = (self.blend && self.cull == Cull::None).then_some(Self { cull: Cull::Front, ..self });
+        let near_side = if far_side.is_some() { Self { cull: Cull::Back, ..self } } else { self };
+        far_side.into_iter().chain([near_side])
+    }
+
+    /// Whether a highlight takes a logarithm and an exponential, and not a few squarings.
+    pub(crate) fn takes_powers(&self) -> bool {
+        self.terms.specular != Frequency::Never && self.squarings.is_none()
+    }
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+    use crate::shaders::light_slots::Highlights;
+    use std::collections::HashSet;
+
+    /// A draw under one point light, with both terms at the fragments.
+    pub(crate) fn key() -> DrawKey {
+        DrawKey {
+            blend: false,
+            lists: Lists::Counted([0, 1, 0], Highlights::All),
+            terms: Terms::both(Frequency::Fragment),
+            per_instance: false,
+            blinn_phong: true,
+            local_viewer: true,
+            attenuated_ambient: false,
+            shared_color: false,
+            ranged: false,
+            squarings: None,
+            geometric_fallback: false,
+            cull: Cull::Back,
+            clockwise: false,
+        }
+    }
+
+    #[test]
+    fn relatives_are_generic_and_every_shading_is_among_them() {
+        let relatives: HashSet<_> = key().relatives().collect();
+        assert_eq!(relatives.len(), 6, "three shadings by two reflectances");
+        assert!(relatives.contains(&key().generic()) && !relatives.contains(&key()));
+        assert!(relatives.iter().all(|relative| !relative.is_special()));
+        let diffuse = DrawKey { terms: Terms { specular: Frequency::Never, ..key().terms }, ..key() };
+        assert_eq!(diffuse.relatives().collect::<HashSet<_>>().len(), 3);
+        let unlit = DrawKey { terms: Terms::NONE, ..key() };
+        assert!(unlit.relatives().eq([unlit.generic()]));
+    }
+}

@@ -1,0 +1,300 @@
+//! Illuminate: what is seen of each object, patch by patch, with its material and the lights that it needs.
+
+use crate::batch::backend::Backend;
+use crate::batch::key::DrawKey;
+use crate::batch::object::{Circumstances, Reflecting, Shared};
+use crate::batch::table::ObjectTable;
+use crate::error::{RenderError, label};
+use crate::frame::report::FrameReport;
+use crate::geometry::detail::{Demand, LevelsOfDetail};
+use crate::geometry::meshes::{Form, Geometries, Geometry};
+use crate::geometry::patches::MeshPatch;
+use crate::lights::gather::Lights;
+use crate::lights::lists::LightLists;
+use crate::lights::terms::Chosen;
+use crate::shaders::light_slots::Lists;
+use crate::shaders::records::{DrawRecord, InstanceRecord, RecordLists};
+use crate::target::frame::Target;
+use crate::view::camera::View;
+use crate::view::matrices::{ModelView, NormalMatrix, Visible};
+use bevy_asset::AssetId;
+use bevy_ecs::component::Mutable;
+use bevy_ecs::prelude::*;
+use halfway_lighting::{BackMaterial, Blend, Faces, Material, Reflectance, equations};
+use halfway_mesh::{Mesh, Mesh3d};
+use std::cmp::Ordering;
+use std::ops::Range;
+
+/// What is seen, in the order of the objects. Holds after [`RenderSet::Illuminate`](crate::RenderSet::Illuminate).
+#[derive(Resource, Debug, Default)]
+pub(crate) struct LitPatches {
+    pub(crate) runs: Vec<LitRun>,
+    /// The matrices of each object that has runs.
+    pub(crate) instances: Vec<InstanceRecord>,
+    /// Materials with light lists.
+    pub(crate) records: Vec<DrawRecord>,
+    pub(crate) lists: LightLists,
+    pub(crate) table: ObjectTable,
+}
+
+/// Neighbouring patches of an object that are drawn alike.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LitRun {
+    pub(crate) blend: bool,
+    /// The number of its key, mesh and form.
+    pub(crate) call: u32,
+    /// The first of its indices, and the first behind them.
+    pub(crate) indices: (u32, u32),
+    /// The first of the lights that are bound for it at fixed places.
+    pub(crate) lights: u32,
+    pub(crate) record: u32,
+    /// Distance of the object's centre along the view; nearer opaque objects first, farther blended ones first.
+    pub(crate) depth: f32,
+    pub(crate) instance: u32,
+}
+
+type ObjectQuery<'w, 's> = Query<
+    'w,
+    's,
+    (
+        &'static Mesh3d,
+        Option<&'static Material>,
+        Option<&'static BackMaterial>,
+        Option<&'static Reflectance>,
+        Option<&'static Faces>,
+        Has<Blend>,
+        &'static ModelView,
+        &'static NormalMatrix,
+        &'static Chosen,
+        Option<&'static Name>,
+    ),
+>;
+
+#[expect(clippy::too_many_arguments, reason = "a system takes each resource as a parameter")]
+pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
+    objects: ObjectQuery,
+    geometries: Res<Geometries>,
+    visible: Res<Visible>,
+    view: Res<View>,
+    lights: Res<Lights>,
+    allowed: Res<LevelsOfDetail>,
+    target: Res<Target>,
+    mut backend: ResMut<B>,
+    mut lit: ResMut<LitPatches>,
+    mut report: ResMut<FrameReport>,
+) {
+    let lit = &mut *lit;
+    lit.begin(&lights);
+    let (Some(camera), Some(frame)) = (&view.camera, &target.frame) else { return };
+    let (encoding, viewer, costs) = (frame.output.encoding(), camera.viewer, backend.costs());
+    let shared = Shared { lights: &lights, allowed: &allowed, encoding, viewer, costs };
+    for &entity in &visible.0 {
+        let Ok((mesh, material, back, reflectance, faces, blend, model_view, normal_matrix, chosen, name)) =
+            objects.get(entity)
+        else {
+            continue;
+        };
+        let form = Form::new(chosen.0, blend);
+        let Some(geometry) = geometries.get(mesh.0.id(), form) else { continue };
+        let material = material.unwrap_or(&Material::DEFAULT);
+        let reflecting = Reflecting {
+            front: material,
+            back: back.map_or(material, |back| &back.0),
+            reflectance: reflectance.copied().unwrap_or(view.reflectance),
+            faces: faces.copied().unwrap_or_default(),
+        };
+        let look = lit.table.look(&reflecting);
+        if let Some(source) = &look.invalid {
+            report.errors.push(RenderError::Invalid { entity: label(entity, name), source: source.clone() });
+            continue;
+        }
+        let circumstances = Circumstances {
+            terms: chosen.0,
+            blend,
+            mirrored: model_view.mirrored,
+            opposite_normals: geometry.opposite_normals,
+        };
+        let key = reflecting.key(look, circumstances, shared);
+        let (material, exponent) = (look.material, look.exponent);
+        let object = LitObject {
+            reflecting,
+            key,
+            material,
+            exponent,
+            mesh: mesh.0.id(),
+            form,
+            geometry,
+            model_view,
+            normal_matrix,
+        };
+        lit.add(&object, &view, shared, &mut *backend, &mut report);
+    }
+    report.materials = lit.table.materials_in_use();
+    report.lights_assigned = lit.lists.assigned;
+    report.terms_shaded = lit.lists.shaded;
+    report.left_out = lit.lists.left_out;
+}
+
+/// An object whose patches are being lit.
+struct LitObject<'a> {
+    reflecting: Reflecting<'a>,
+    /// The key that fits best.
+    key: DrawKey,
+    material: u32,
+    exponent: f32,
+    mesh: AssetId<Mesh>,
+    form: Form,
+    geometry: &'a Geometry,
+    model_view: &'a ModelView,
+    normal_matrix: &'a NormalMatrix,
+}
+
+impl LitPatches {
+    fn begin(&mut self, lights: &Lights) {
+        self.runs.clear();
+        self.instances.clear();
+        self.records.clear();
+        self.lists.begin(lights);
+        self.table.begin(lights.ambient);
+    }
+
+    /// Adds what is seen of an object: its patches, neighbours with equal light lists joined.
+    fn add(
+        &mut self,
+        object: &LitObject,
+        view: &View,
+        shared: Shared,
+        backend: &mut impl Backend,
+        report: &mut FrameReport,
+    ) {
+        let LitObject { reflecting, key, geometry, model_view, normal_matrix, .. } = object;
+        let demand = Demand {
+            allowed: shared.allowed,
+            terms: key.terms,
+            listed: key.lists == Lists::Listed,
+            blinn_phong: key.blinn_phong,
+            local_viewer: key.local_viewer,
+            exponent: object.exponent,
+            lights: shared.lights,
+        };
+        let patches = geometry.detail.patches(model_view, view, demand);
+        report.triangles_in += geometry.source.triangle_count() as u64;
+        self.instances.push(InstanceRecord::new(model_view, normal_matrix, reflecting.faces, view.unit() as f32));
+        // The object as a whole has been found to be seen.
+        let whole = patches.len() == 1;
+        let mut run: Option<OpenRun> = None;
+        for patch in patches {
+            if !whole {
+                report.patches += 1;
+                if !patch.is_seen(model_view, normal_matrix, view, reflecting.faces) {
+                    report.patches_culled += 1;
+                    continue;
+                }
+            }
+            let (key, lights, lists) = self.lit(object, patch, shared, backend);
+            let record = self.table.number(&mut self.records, object.material, lists);
+            let next = OpenRun { key, lights, record, indices: patch.indices.clone() };
+            match &mut run {
+                Some(run) if run.goes_on_with(&next) => run.indices.end = next.indices.end,
+                _ => {
+                    if let Some(run) = run.replace(next) {
+                        self.add_run(object, run);
+                    }
+                }
+            }
+        }
+        if let Some(run) = run {
+            self.add_run(object, run);
+        }
+    }
+
+    /// The key that draws a patch, the lights that are bound for it, and its lists.
+    fn lit(
+        &mut self,
+        object: &LitObject,
+        patch: &MeshPatch,
+        shared: Shared,
+        backend: &mut impl Backend,
+    ) -> (DrawKey, u32, RecordLists) {
+        let LitObject { reflecting, key, model_view, normal_matrix, .. } = object;
+        let counted = key.lists != Lists::Listed;
+        if counted {
+            let admitted = backend.admit(*key);
+            if admitted.lists != Lists::Listed {
+                return (admitted, 0, RecordLists::default());
+            }
+        }
+        let patch = patch.in_eye_space(model_view, normal_matrix, reflecting.faces);
+        let eye = equations::View::in_eye_space(shared.viewer);
+        let reflector = reflecting.reflector(key.terms);
+        self.lists.select(shared.lights, &patch, &reflector, &eye, shared.encoding);
+        let key = if shared.costs.lights_at_fixed_places
+            && !counted
+            && let Some(bound) = self.lists.bind(shared.lights, key.takes_powers())
+        {
+            let counted = DrawKey { lists: bound.lists(), ..*key };
+            if backend.admit(counted) == counted {
+                self.lists.count_bound(bound, key.terms);
+                return (counted, bound.start, RecordLists::default());
+            }
+            // One with lists that is not generic either would take up room and time of those that are to draw.
+            key.generic()
+        } else {
+            backend.admit(*key)
+        };
+        (key, 0, self.lists.list(shared.lights, key.terms))
+    }
+
+    fn add_run(&mut self, object: &LitObject, OpenRun { key, lights, record, indices }: OpenRun) {
+        let (center, _) = object.geometry.detail.whole.sphere(object.model_view);
+        let depth = -center.z;
+        for key in key.passes() {
+            let call = self.table.call((key, object.mesh, object.form));
+            let indices = (indices.start, indices.end);
+            let instance = self.instances.len() as u32 - 1;
+            self.runs.push(LitRun { blend: key.blend, call, indices, lights, record, depth, instance });
+        }
+    }
+}
+
+/// A part that may go on with the next patch.
+struct OpenRun {
+    key: DrawKey,
+    lights: u32,
+    record: u32,
+    indices: Range<u32>,
+}
+
+/// Triangles between patches of a run that are not seen are drawn with it if they are no more than this: that costs less
+/// than another draw.
+const JOINED: u32 = 128;
+
+impl OpenRun {
+    fn goes_on_with(&self, next: &Self) -> bool {
+        (self.key, self.lights, self.record) == (next.key, next.lights, next.record)
+            && next.indices.start - self.indices.end <= 3 * JOINED
+    }
+}
+
+impl LitRun {
+    /// But for their records, which may be looked up.
+    pub(crate) fn is_of_one_state(&self, other: &Self) -> bool {
+        let state = |item: &Self| (item.blend, item.call, item.lights);
+        state(self) == state(other)
+    }
+
+    pub(crate) fn by_state(&self, other: &Self) -> Ordering {
+        let state = |item: &Self| (item.call, item.indices, item.lights, item.record);
+        state(self).cmp(&state(other)).then_with(|| self.by_nearness(other))
+    }
+
+    pub(crate) fn by_nearness(&self, other: &Self) -> Ordering {
+        self.depth.total_cmp(&other.depth).then_with(|| self.instance.cmp(&other.instance))
+    }
+
+    /// Far ones first; of one instance the far side first, which has been called first.
+    pub(crate) fn by_depth(&self, other: &Self) -> Ordering {
+        let order = |item: &Self| (item.instance, item.call, item.indices);
+        other.depth.total_cmp(&self.depth).then_with(|| order(self).cmp(&order(other)))
+    }
+}

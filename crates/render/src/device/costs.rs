@@ -1,0 +1,64 @@
+//! What is cheap on an adapter.
+
+/// What is cheap on the adapter, and so by which of two ways a frame is drawn: the one place where the renderer tells
+/// software adapters, which draw on the CPU, from hardware. Either way gives the same picture, but for rounding.
+///
+/// Taken from the adapter when it is opened; [`Gpu::set_costs`](crate::Gpu::set_costs) sets it otherwise, so that the ways
+/// of hardware can be tried on a software adapter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Costs {
+    /// Shaders write the sRGB curve where nothing blends and a pixel has one sample; else the target's format does. A
+    /// software adapter decodes and encodes all 16 pixels of a block to write some of them.
+    pub shaders_encode: bool,
+    /// Each patch of a scene with many lights has its own bound at fixed places, where they are few enough. A software
+    /// adapter reads those faster than lists, but starts a draw for each set.
+    pub lights_at_fixed_places: bool,
+    /// From this number of materials and light lists on, what one command can draw looks them up by instance; 2 or more. A
+    /// software adapter looks up pixel by pixel, in the time of which it starts many draws.
+    pub records_of_one_command: usize,
+    /// From this number of draws on, those that share their state are one command, `multi_draw_indexed_indirect`; `None`
+    /// where each draw is a command.
+    pub multi_draw: Option<u32>,
+    /// The CPU writes meshes directly into the buffers that are drawn from. Elsewhere than on a software adapter, memory
+    /// that both reach is slow for one of them.
+    pub maps_meshes: bool,
+}
+
+/// What an adapter is taken for of which nothing is known: [`Costs::HARDWARE`].
+impl Default for Costs {
+    fn default() -> Self {
+        Self::HARDWARE
+    }
+}
+
+impl Costs {
+    /// Of an adapter that draws on the CPU.
+    pub const SOFTWARE: Self = Self {
+        shaders_encode: true,
+        lights_at_fixed_places: true,
+        records_of_one_command: 512,
+        multi_draw: None,
+        maps_meshes: true,
+    };
+
+    /// Of a graphics card.
+    ///
+    /// wgpu checks on the GPU what a multi-draw reads, by a pass before that of the frame. The CPU takes as long to set
+    /// that pass up as for about a hundred draws.
+    pub const HARDWARE: Self = Self {
+        shaders_encode: false,
+        lights_at_fixed_places: false,
+        records_of_one_command: 2,
+        multi_draw: Some(128),
+        maps_meshes: false,
+    };
+
+    /// Of this adapter. Without the feature that is asked for here, wgpu writes a multi-draw out as single draws.
+    pub(crate) fn of(adapter: &wgpu::Adapter) -> Self {
+        if adapter.get_info().device_type == wgpu::DeviceType::Cpu {
+            return Self::SOFTWARE;
+        }
+        let has_multi_draw = adapter.features().contains(wgpu::Features::MULTI_DRAW_INDIRECT_COUNT);
+        Self { multi_draw: Self::HARDWARE.multi_draw.filter(|_| has_multi_draw), ..Self::HARDWARE }
+    }
+}

@@ -1,0 +1,155 @@
+//! Upload: meshes on the GPU.
+
+use crate::batch::batches::Batches;
+use crate::device::gpu::Gpu;
+use crate::error::RenderError;
+use crate::frame::report::FrameReport;
+use crate::geometry::detail::Detail;
+use crate::geometry::meshes::{Form, Geometries, Geometry, Layout};
+use crate::geometry::workshop::is_same;
+use bevy_asset::AssetId;
+use bevy_ecs::prelude::*;
+use bevy_math::Vec3;
+use bevy_platform::collections::HashMap;
+use halfway_mesh::Mesh;
+use std::sync::Arc;
+use wgpu::util::DeviceExt;
+
+/// The buffers of the meshes that have been drawn, until they change or go.
+#[derive(Resource, Default)]
+pub(crate) struct MeshBuffers {
+    meshes: HashMap<(AssetId<Mesh>, Form), MeshBuffer>,
+    /// Of the geometries when the buffers were last looked through.
+    forgotten: u64,
+}
+
+/// The buffers of one mesh for one way of shading.
+pub(crate) struct MeshBuffer {
+    pub(crate) positions: wgpu::Buffer,
+    /// Smooth: normals. Flat: face normal and centroid of the triangle whose provoking vertex this is.
+    pub(crate) attributes: wgpu::Buffer,
+    pub(crate) indices: wgpu::Buffer,
+    pub(crate) index_format: wgpu::IndexFormat,
+    source: Mesh,
+    detail: Arc<Detail>,
+}
+
+/// Uploads the meshes that are drawn and not there yet, as far as they are not. What is too large is not drawn, and its
+/// error is in the report, every frame anew.
+pub(crate) fn upload(
+    gpu: Res<Gpu>,
+    batches: Res<Batches>,
+    mut geometries: ResMut<Geometries>,
+    mut buffers: ResMut<MeshBuffers>,
+    mut report: ResMut<FrameReport>,
+) {
+    if buffers.forgotten != geometries.forgotten {
+        buffers.forgotten = geometries.forgotten;
+        buffers.meshes.retain(|&(id, form), _| geometries.get(id, form).is_some());
+    }
+    let mut last = None;
+    for group in batches.draws.groups() {
+        let key = (group.state.mesh, group.state.form);
+        if last.replace(key) == Some(key) {
+            continue;
+        }
+        let Some(geometry) = geometries.get_mut(key.0, key.1) else { continue };
+        match buffers.ensure(&gpu, key, geometry) {
+            Ok(bytes) => report.bytes_uploaded += bytes,
+            Err(error) => {
+                buffers.meshes.remove(&key);
+                if !report.errors.contains(&error) {
+                    report.errors.push(error);
+                }
+            }
+        }
+    }
+}
+
+impl MeshBuffers {
+    pub(crate) fn get(&self, id: AssetId<Mesh>, form: Form) -> Option<&MeshBuffer> {
+        self.meshes.get(&(id, form))
+    }
+
+    /// Uploads the mesh unless it is there. Returns the bytes sent.
+    fn ensure(&mut self, gpu: &Gpu, key: (AssetId<Mesh>, Form), geometry: &mut Geometry) -> Result<u64, RenderError> {
+        let there = self.meshes.get(&key).filter(|there| is_same(&there.source, &geometry.source));
+        if there.is_some_and(|there| Arc::ptr_eq(&there.detail, &geometry.detail)) {
+            return Ok(0);
+        }
+        let (buffer, bytes) = match (&geometry.layout, there) {
+            // The vertices of levels are those of the mesh.
+            (Some(Layout::Smooth(indices)), Some(there)) => there.with_indices(gpu, indices, &geometry.detail)?,
+            (Some(Layout::Smooth(indices)), None) => {
+                let source = &geometry.source;
+                let vertices = (source.positions(), bytemuck::cast_slice(source.normals()));
+                MeshBuffer::new(gpu, vertices, indices, geometry)?
+            }
+            (Some(Layout::Flat(flat)), _) => {
+                let vertices = (&flat.positions[..], bytemuck::cast_slice(&flat.attributes));
+                MeshBuffer::new(gpu, vertices, &flat.indices, geometry)?
+            }
+            (None, _) => return Ok(0),
+        };
+        geometry.layout = None;
+        self.meshes.insert(key, buffer);
+        Ok(bytes)
+    }
+}
+
+impl MeshBuffer {
+    fn new(
+        gpu: &Gpu,
+        (positions, attributes): (&[Vec3], &[u8]),
+        indices: &[u32],
+        geometry: &Geometry,
+    ) -> Result<(Self, u64), RenderError> {
+        let short = positions.len() < usize::from(u16::MAX);
+        let index_format = if short { wgpu::IndexFormat::Uint16 } else { wgpu::IndexFormat::Uint32 };
+        let buffers = Self {
+            positions: buffer(gpu, "positions", bytemuck::cast_slice(positions), wgpu::BufferUsages::VERTEX)?,
+            attributes: buffer(gpu, "attributes", attributes, wgpu::BufferUsages::VERTEX)?,
+            indices: index_buffer(gpu, indices, index_format)?,
+            index_format,
+            source: geometry.source.clone(),
+            detail: Arc::clone(&geometry.detail),
+        };
+        let bytes = buffers.positions.size() + buffers.attributes.size() + buffers.indices.size();
+        Ok((buffers, bytes))
+    }
+
+    /// The same vertices, and other triangles.
+    fn with_indices(&self, gpu: &Gpu, indices: &[u32], detail: &Arc<Detail>) -> Result<(Self, u64), RenderError> {
+        let indices = index_buffer(gpu, indices, self.index_format)?;
+        let bytes = indices.size();
+        let buffers = Self {
+            positions: self.positions.clone(),
+            attributes: self.attributes.clone(),
+            indices,
+            index_format: self.index_format,
+            source: self.source.clone(),
+            detail: Arc::clone(detail),
+        };
+        Ok((buffers, bytes))
+    }
+}
+
+fn index_buffer(gpu: &Gpu, indices: &[u32], format: wgpu::IndexFormat) -> Result<wgpu::Buffer, RenderError> {
+    if format == wgpu::IndexFormat::Uint32 {
+        return buffer(gpu, "indices", bytemuck::cast_slice(indices), wgpu::BufferUsages::INDEX);
+    }
+    let mut short: Vec<u16> = indices.iter().map(|&index| index as u16).collect();
+    // A buffer's size is a multiple of 4; an odd count is padded.
+    short.resize(short.len().next_multiple_of(2), 0);
+    buffer(gpu, "indices", bytemuck::cast_slice(&short), wgpu::BufferUsages::INDEX)
+}
+
+fn buffer(gpu: &Gpu, label: &str, contents: &[u8], usage: wgpu::BufferUsages) -> Result<wgpu::Buffer, RenderError> {
+    let (needed, limit) = (contents.len() as u64, gpu.device.limits().max_buffer_size);
+    if needed > limit {
+        return Err(RenderError::TooLarge { what: format!("the mesh's {label}, in bytes,"), needed, limit });
+    }
+    // What cannot be mapped is written to a second buffer of its size, which is kept until the frame is done.
+    let usage = if gpu.costs().maps_meshes { usage | wgpu::BufferUsages::MAP_WRITE } else { usage };
+    Ok(gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage }))
+}

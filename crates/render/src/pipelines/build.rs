@@ -1,0 +1,140 @@
+//! How a pipeline is built from its key.
+
+use crate::batch::key::{Cull, DrawKey};
+use crate::device::gpu::Gpu;
+use crate::lights::terms::{by_fragment_shader, by_vertex_shader};
+use crate::pipelines::key::PipelineKey;
+use crate::shaders::light_slots::{Highlights, Lists};
+use crate::shaders::records::{INSTANCE, INSTANCE_BYTES};
+use crate::shaders::text::Shader;
+use crate::target::frame::{DEPTH_FORMAT, Output};
+use halfway_lighting::Frequency;
+
+const POSITION: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![6 => Float32x3];
+const NORMAL: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![7 => Float32x3];
+const FACE: [wgpu::VertexAttribute; 2] = wgpu::vertex_attr_array![7 => Float32x3, 8 => Float32x3];
+
+impl Shader {
+    pub(crate) fn build(&self, gpu: &Gpu, pipeline: PipelineKey) -> wgpu::RenderPipeline {
+        let PipelineKey { draw: key, output } = pipeline;
+        let constants = constants(&key, output);
+        let compilation_options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
+        let buffer = |attributes, stride, step_mode| {
+            Some(wgpu::VertexBufferLayout { array_stride: stride, step_mode, attributes })
+        };
+        // Unlit draws need no normal matrix, and a software adapter pays for every attribute it fetches.
+        let unlit = [INSTANCE[0], INSTANCE[1], INSTANCE[2], INSTANCE[6]];
+        let instance = if key.is_lit() { &INSTANCE[..] } else { &unlit[..] };
+        let mut buffers = vec![
+            buffer(instance, INSTANCE_BYTES, wgpu::VertexStepMode::Instance),
+            buffer(&POSITION, 12, wgpu::VertexStepMode::Vertex),
+        ];
+        if key.terms.has(Frequency::Triangle) {
+            buffers.push(buffer(&FACE, 24, wgpu::VertexStepMode::Vertex));
+        } else if key.is_lit() {
+            buffers.push(buffer(&NORMAL, 12, wgpu::VertexStepMode::Vertex));
+        }
+        let (vertex, fragment) = entry_points(&key);
+        gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some(&pipeline.to_string()),
+            layout: Some(&self.layout),
+            vertex: wgpu::VertexState {
+                module: &self.module,
+                entry_point: Some(vertex),
+                compilation_options: compilation_options.clone(),
+                buffers: &buffers,
+            },
+            primitive: wgpu::PrimitiveState {
+                front_face: if key.clockwise { wgpu::FrontFace::Cw } else { wgpu::FrontFace::Ccw },
+                cull_mode: match key.cull {
+                    Cull::Back => Some(wgpu::Face::Back),
+                    Cull::Front => Some(wgpu::Face::Front),
+                    Cull::None => None,
+                },
+                ..Default::default()
+            },
+            depth_stencil: Some(wgpu::DepthStencilState {
+                format: DEPTH_FORMAT,
+                depth_write_enabled: Some(!key.blend),
+                depth_compare: Some(wgpu::CompareFunction::Greater),
+                stencil: wgpu::StencilState::default(),
+                bias: wgpu::DepthBiasState::default(),
+            }),
+            multisample: wgpu::MultisampleState { count: output.samples, ..Default::default() },
+            fragment: Some(wgpu::FragmentState {
+                module: &self.module,
+                entry_point: Some(fragment),
+                compilation_options,
+                targets: &[Some(wgpu::ColorTargetState {
+                    format: output.format,
+                    blend: key.blend.then_some(OVER),
+                    write_mask: wgpu::ColorWrites::ALL,
+                })],
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    }
+}
+
+/// opacity·I + (1 − opacity)·what is behind; the picture stays opaque.
+const OVER: wgpu::BlendState = wgpu::BlendState {
+    color: wgpu::BlendComponent {
+        src_factor: wgpu::BlendFactor::SrcAlpha,
+        dst_factor: wgpu::BlendFactor::OneMinusSrcAlpha,
+        operation: wgpu::BlendOperation::Add,
+    },
+    alpha: wgpu::BlendComponent {
+        src_factor: wgpu::BlendFactor::One,
+        dst_factor: wgpu::BlendFactor::OneMinusSrcAlpha,
+        operation: wgpu::BlendOperation::Add,
+    },
+};
+
+fn entry_points(key: &DrawKey) -> (&'static str, &'static str) {
+    let is_one_sided = key.cull == Cull::Back;
+    if key.terms.has(Frequency::Triangle) {
+        return ("vs_flat", "fs_flat");
+    }
+    match (key.terms.has(Frequency::Vertex), key.terms.has(Frequency::Fragment)) {
+        (false, false) if is_one_sided => ("vs_unlit", "fs_unlit"),
+        (false, false) => ("vs_unlit_both", "fs_unlit_both"),
+        (true, false) if is_one_sided => ("vs_gouraud", "fs_gouraud"),
+        (true, false) => ("vs_gouraud_both", "fs_gouraud_both"),
+        (false, true) => ("vs_phong", "fs_phong"),
+        (true, true) => ("vs_mixed", "fs_mixed"),
+    }
+}
+
+fn constants(key: &DrawKey, output: Output) -> Vec<(&'static str, f64)> {
+    let ([directional, points, spots], highlights, listed) = match key.lists {
+        Lists::Counted(counts, highlights) => (counts, highlights, false),
+        Lists::Listed => ([0; 3], Highlights::All, true),
+    };
+    let flag = |on: bool| f64::from(u8::from(on));
+    let [vertex_diffuse, vertex_specular] = by_vertex_shader(key.terms).map(flag);
+    let [fragment_diffuse, fragment_specular] = by_fragment_shader(key.terms).map(flag);
+    vec![
+        ("VERTEX_DIFFUSE", vertex_diffuse),
+        ("VERTEX_SPECULAR", vertex_specular),
+        ("FRAGMENT_DIFFUSE", fragment_diffuse),
+        ("FRAGMENT_SPECULAR", fragment_specular),
+        ("BLINN_PHONG", flag(key.blinn_phong)),
+        ("LOCAL_VIEWER", flag(key.local_viewer)),
+        ("ATTENUATED_AMBIENT", flag(key.attenuated_ambient)),
+        ("SHARED_COLOR", flag(key.shared_color)),
+        ("SPECULAR", flag(key.terms.specular != Frequency::Never)),
+        ("RANGED", flag(key.ranged)),
+        ("SQUARINGS", key.squarings.map_or(-1.0, f64::from)),
+        ("TWO_SIDED", flag(key.cull != Cull::Back)),
+        ("BLEND", flag(key.blend)),
+        ("ENCODED", flag(output.encoded)),
+        ("GEOMETRIC_FALLBACK", flag(key.geometric_fallback)),
+        ("PER_INSTANCE", flag(key.per_instance)),
+        ("LISTED", flag(listed)),
+        ("DIRECTIONAL", directional.into()),
+        ("POINTS", points.into()),
+        ("SPOTS", spots.into()),
+        ("HIGHLIGHTS", highlights.halves().into()),
+    ]
+}

@@ -1,0 +1,138 @@
+//! A window's surface.
+
+use crate::device::gpu::Gpu;
+use crate::error::RenderError;
+use bevy_ecs::prelude::Resource;
+use bevy_math::UVec2;
+
+/// A window's surface; while this resource is there it is the target instead of [`Headless`].
+#[derive(Resource)]
+pub struct SurfaceTarget {
+    surface: wgpu::Surface<'static>,
+    formats: Vec<wgpu::TextureFormat>,
+    config: wgpu::SurfaceConfiguration,
+    stale: bool,
+    acquired: bool,
+    /// It has shown blended objects, and keeps the format that blends them: another one waits for the GPU.
+    blends: bool,
+}
+
+impl SurfaceTarget {
+    /// A target of `size` physical pixels on `surface`, presented without tearing.
+    ///
+    /// # Errors
+    /// [`RenderError::Device`] when the adapter cannot present to the surface.
+    pub fn new(gpu: &Gpu, surface: wgpu::Surface<'static>, size: UVec2) -> Result<Self, RenderError> {
+        let capabilities = surface.get_capabilities(&gpu.adapter);
+        let config = surface
+            .get_default_config(&gpu.adapter, size.x.max(1), size.y.max(1))
+            .ok_or_else(|| RenderError::Device(format!("{} cannot present to this window", gpu.describe())))?;
+        Ok(Self { surface, formats: capabilities.formats, config, stale: true, acquired: false, blends: false })
+    }
+
+    /// Follows the window to `size` physical pixels; a size of 0 (minimised) is ignored.
+    pub fn resize(&mut self, size: UVec2) {
+        if size.x > 0 && size.y > 0 && size != self.size() {
+            (self.config.width, self.config.height) = (size.x, size.y);
+            (self.stale, self.acquired) = (true, false);
+        }
+    }
+
+    /// Replaces a lost surface by a new one of the same window.
+    pub fn replace(&mut self, surface: wgpu::Surface<'static>) {
+        self.surface = surface;
+        (self.stale, self.acquired) = (true, false);
+    }
+
+    /// Whether the newest frame has a picture of the surface to draw into and present. Where it has
+    /// none the frame is skipped without waiting for the display, so whoever asks for frames waits.
+    pub fn acquired(&self) -> bool {
+        self.acquired
+    }
+
+    /// In physical pixels.
+    pub(crate) fn size(&self) -> UVec2 {
+        UVec2::new(self.config.width, self.config.height)
+    }
+
+    /// The format of its pictures.
+    pub(crate) fn format(&self) -> wgpu::TextureFormat {
+        self.config.format
+    }
+
+    /// Takes a format that blends and encodes as asked.
+    pub(crate) fn pick_format(&mut self, blends: bool, format_encodes: impl FnOnce(bool) -> bool) {
+        self.blends |= blends;
+        let encodes = format_encodes(self.blends);
+        let format = pick_format(&self.formats, self.config.format, encodes);
+        self.stale |= format != self.config.format;
+        self.config.format = format;
+    }
+
+    /// The next picture of the surface; `None` means skip this frame.
+    pub(crate) fn acquire(&mut self, gpu: &Gpu) -> Result<Option<wgpu::SurfaceTexture>, Lost> {
+        use wgpu::CurrentSurfaceTexture as Current;
+        self.acquired = false;
+        if std::mem::take(&mut self.stale) {
+            self.surface.configure(&gpu.device, &self.config);
+        }
+        let texture = match self.surface.get_current_texture() {
+            Current::Success(texture) => Some(texture),
+            Current::Suboptimal(texture) => {
+                self.stale = true;
+                Some(texture)
+            }
+            Current::Outdated => {
+                self.stale = true;
+                None
+            }
+            Current::Lost => return Err(Lost),
+            Current::Timeout | Current::Occluded | Current::Validation => None,
+        };
+        self.acquired = texture.is_some();
+        Ok(texture)
+    }
+}
+
+/// The window's surface is gone: whoever owns the window makes a new one and calls
+/// [`SurfaceTarget::replace`]. Set by the frame that found out.
+#[derive(Resource, Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SurfaceLost;
+
+pub(crate) struct Lost;
+
+/// Of a surface's formats the one that is `current` but for the encoding, else another of bytes that encodes as asked, else
+/// the first.
+fn pick_format(formats: &[wgpu::TextureFormat], current: wgpu::TextureFormat, encodes: bool) -> wgpu::TextureFormat {
+    let sibling = if encodes { current.add_srgb_suffix() } else { current.remove_srgb_suffix() };
+    let is_sibling = |format: &&wgpu::TextureFormat| **format == sibling;
+    let is_like_it = |format: &&wgpu::TextureFormat| {
+        let shows_bytes = format.remove_srgb_suffix() == wgpu::TextureFormat::Rgba8Unorm
+            || format.remove_srgb_suffix() == wgpu::TextureFormat::Bgra8Unorm;
+        shows_bytes && format.is_srgb() == encodes
+    };
+    let found = formats.iter().find(is_sibling).or_else(|| formats.iter().find(is_like_it)).or(formats.first());
+    found.copied().unwrap_or(current)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::pick_format;
+    use wgpu::TextureFormat::{Bgra8Unorm, Bgra8UnormSrgb, Rgba8Unorm, Rgba8UnormSrgb, Rgba16Float};
+
+    #[test]
+    fn surfaces_change_their_encoding_and_nothing_else() {
+        let all = [Rgba8UnormSrgb, Rgba16Float, Bgra8UnormSrgb, Rgba8Unorm, Bgra8Unorm];
+        for (current, encodes, expected) in [
+            (Bgra8UnormSrgb, true, Bgra8UnormSrgb),
+            (Bgra8UnormSrgb, false, Bgra8Unorm),
+            (Bgra8Unorm, true, Bgra8UnormSrgb),
+            (Rgba8Unorm, false, Rgba8Unorm),
+        ] {
+            assert_eq!(pick_format(&all, current, encodes), expected, "{current:?}, {encodes}");
+        }
+        let few = [Rgba16Float, Rgba8UnormSrgb, Bgra8Unorm];
+        assert_eq!(pick_format(&few, Rgba8UnormSrgb, false), Bgra8Unorm, "a float is no byte");
+        assert_eq!(pick_format(&[Rgba8Unorm], Rgba8Unorm, true), Rgba8Unorm, "nothing encodes");
+    }
+}
