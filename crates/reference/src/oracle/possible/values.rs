@@ -5,6 +5,7 @@ use super::range::ColorRange;
 use crate::oracle::gather::Scene;
 use crate::oracle::raster::{Hit, HitPoint};
 use crate::oracle::solid::Color;
+use halfway_lighting::Frequency;
 
 /// The colours of one side of a triangle near a point of the picture.
 #[derive(Clone, Debug)]
@@ -43,7 +44,8 @@ impl Values {
         let color = |corner: &Corner| color(scene, footprint, front, corner);
         let colors: Vec<Color> = outline.iter().map(color).collect();
         let range = ColorRange::of(colors.iter().copied());
-        let jumps = !scene.solids[footprint.solid].plan.fragment.is_empty() && jumps(&outline, &colors, &range, color);
+        let jumps =
+            scene.solids[footprint.solid].terms.has(Frequency::Fragment) && jumps(&outline, &colors, &range, color);
         Self { range, jumps }
     }
 }
