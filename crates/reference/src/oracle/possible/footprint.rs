@@ -143,7 +143,12 @@ impl Footprint {
 
     /// What lies within another area around the same point, to be shaded there.
     pub(super) fn within(&self, scene: &Scene, zone: &Zone) -> Vec<Corner> {
-        clipped(&scene.view, &whole(scene.solids[self.solid].triangle(self.triangle)), zone)
+        clipped(&scene.view, &self.whole(scene), zone)
+    }
+
+    /// All of the triangle.
+    pub(super) fn whole(&self, scene: &Scene) -> Vec<Corner> {
+        whole(scene.solids[self.solid].triangle(self.triangle)).to_vec()
     }
 
     /// Whether two of them are the same triangle of space, drawn twice, so that their depths are equal to the bit.
