@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use halfway::prelude::*;
-use halfway::scene::{ReflectanceEntry, SceneError, SceneFile, ShadingEntry, Spawned, spawn};
+use halfway::scene::{SceneError, SceneFile, ShadingEntry, Spawned, spawn};
 
 use crate::failure::Failure;
 use crate::look::{LookArgs, ReflectanceArg, ShadingArg};
@@ -34,9 +34,9 @@ impl SceneInput {
         }
         if let Some(reflectance) = args.reflectance {
             let reflectance = match reflectance {
-                ReflectanceArg::Phong => ReflectanceEntry::Phong,
-                ReflectanceArg::BlinnPhong => ReflectanceEntry::BlinnPhong,
-                ReflectanceArg::BlinnPhongMatched => ReflectanceEntry::BlinnPhongMatched,
+                ReflectanceArg::Phong => Reflectance::Phong,
+                ReflectanceArg::BlinnPhong => Reflectance::BlinnPhong,
+                ReflectanceArg::BlinnPhongMatched => Reflectance::BlinnPhongMatched,
             };
             scene.reflectance = reflectance;
             scene.objects.iter_mut().for_each(|object| object.reflectance = None);

@@ -52,7 +52,7 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
     // The oracle knows no levels of detail.
     app.add_plugins(HalfwayPlugins::headless(size)).insert_resource(gpu).insert_resource(LevelsOfDetail::OFF);
     input.spawn(&mut app)?;
-    let encoding = Encoding::from(input.scene.output);
+    let encoding = input.scene.output;
     // The frames below are of one moment.
     app.insert_resource(bevy_time::TimeUpdateStrategy::ManualDuration(std::time::Duration::ZERO));
     app.finish();
@@ -86,7 +86,7 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
 
 /// Judges a picture that is there, by the oracle alone.
 fn judge_picture(args: &VerifyArgs, mut input: SceneInput, file: &Path) -> Result<(), Failure> {
-    let encoding = Encoding::from(input.scene.output);
+    let encoding = input.scene.output;
     let picture = picture::decoded(file)?;
     let size = UVec2::new(picture.width(), picture.height());
     if let Some(wanted) = args.size.filter(|wanted| *wanted != size) {

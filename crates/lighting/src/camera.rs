@@ -1,5 +1,8 @@
 //! The camera: what a view looks through and how its picture is written.
 
+use std::f32::consts::{FRAC_PI_4, PI};
+use std::ops::Bound::Excluded;
+
 use bevy_color::LinearRgba;
 use bevy_ecs::component::Component;
 use bevy_ecs::reflect::ReflectComponent;
@@ -9,7 +12,8 @@ use bevy_transform::components::Transform;
 
 use crate::Viewer;
 use crate::equations::{Transcendental, srgb_encoded};
-use crate::invalid::{InvalidValue, Problem};
+use crate::field::Range;
+use crate::invalid::{Fields, InvalidValue};
 
 /// A perspective camera at its entity's transform, looking along its local −Z with +Y up.
 ///
@@ -24,7 +28,7 @@ pub struct Camera {
     pub fov_y: f32,
     /// Distance of the near plane in world units, above 0. Default 0.1. There is no far plane.
     pub near: f32,
-    /// Colour where nothing is drawn, linear RGB; alpha is ignored, the picture is opaque. Default black.
+    /// Colour where nothing is drawn, linear RGB, 0 to 10¹²; alpha is ignored, the picture is opaque. Default black.
     pub background: LinearRgba,
     /// Whether `v` points toward the eye or is constant. Default [`Viewer::Local`].
     pub viewer: Viewer,
@@ -39,7 +43,7 @@ pub struct Camera {
 impl Default for Camera {
     fn default() -> Self {
         Self {
-            fov_y: std::f32::consts::FRAC_PI_4,
+            fov_y: FRAC_PI_4,
             near: 0.1,
             background: LinearRgba::BLACK,
             viewer: Viewer::default(),
@@ -120,23 +124,11 @@ impl Camera {
     /// # Errors
     /// An [`InvalidValue`] that names the field.
     pub fn validate(&self) -> Result<(), InvalidValue> {
-        let number = |field: &str, value, expected| InvalidValue {
-            owner: "Camera",
-            field: field.into(),
-            problem: Problem::Number { value, expected },
-        };
-        if !(self.fov_y > 0.0 && self.fov_y < std::f32::consts::PI) {
-            return Err(number("fov_y", self.fov_y, "an angle above 0 and below π radians"));
-        }
-        if !(self.near > 0.0 && self.near.is_finite()) {
-            return Err(number("near", self.near, "a finite distance above 0"));
-        }
-        let LinearRgba { red, green, blue, .. } = self.background;
-        for channel in [red, green, blue] {
-            if !(channel >= 0.0 && channel.is_finite()) {
-                return Err(number("background", channel, "finite channels, 0 and up"));
-            }
-        }
-        Ok(())
+        let fields = Fields::of("Camera");
+        fields.within("fov_y", self.fov_y, Self::FIELD_OF_VIEW)?;
+        fields.positive("near", self.near)?;
+        fields.color("background", self.background)
     }
+
+    const FIELD_OF_VIEW: Range = Range::new(Excluded(0.0), Excluded(PI), "an angle above 0 and below π radians");
 }

@@ -2,51 +2,46 @@
 //!
 //! `validate()` runs over the table, and so do the readers and writers of files and the schema that describes them.
 
-use bevy_color::{ColorToComponents, LinearRgba};
+use std::ops::Bound::{self, Excluded, Included, Unbounded};
+use std::ops::RangeBounds;
+
+use bevy_color::LinearRgba;
 
 use crate::invalid::{CHANNEL_MAX, Fields, InvalidValue};
 
-/// The numbers that a field takes. NaN is in none of them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Range {
-    /// Finite, 0 or more.
-    NonNegative,
-    /// Finite, above 0.
-    Positive,
-    /// 0 to 1.
-    Unit,
-    /// A channel of a color: 0 to [`CHANNEL_MAX`].
-    Channel,
+/// The numbers that a field takes, all of them finite.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Range {
+    /// Where they begin.
+    pub least: Bound<f32>,
+    /// Where they end.
+    pub most: Bound<f32>,
+    /// One more number, which stands outside.
+    pub also: Option<f32>,
+    /// The range in words that follow "expected".
+    pub expected: &'static str,
 }
 
 impl Range {
+    /// Every finite number.
+    pub const FINITE: Self = Self::new(Unbounded, Unbounded, "a finite number of at most 3.4e38");
+    /// 0 or more.
+    pub const NON_NEGATIVE: Self = Self::new(Included(0.0), Unbounded, "a finite number, 0 or more");
+    /// Above 0.
+    pub const POSITIVE: Self = Self::new(Excluded(0.0), Unbounded, "a finite number above 0");
+    /// 0 to 1.
+    pub const UNIT: Self = Self::new(Included(0.0), Included(1.0), "a number from 0 to 1");
+    /// A channel of a color: 0 to [`CHANNEL_MAX`].
+    pub const CHANNEL: Self = Self::new(Included(0.0), Included(CHANNEL_MAX), "a number from 0 to 1e12");
+
+    /// The numbers between two bounds; `expected` says so in words.
+    pub const fn new(least: Bound<f32>, most: Bound<f32>, expected: &'static str) -> Self {
+        Self { least, most, also: None, expected }
+    }
+
     /// Whether the number is in the range.
     pub fn contains(self, value: f32) -> bool {
-        match self {
-            Self::NonNegative => value >= 0.0 && value.is_finite(),
-            Self::Positive => value > 0.0 && value.is_finite(),
-            Self::Unit => (0.0..=1.0).contains(&value),
-            Self::Channel => (0.0..=CHANNEL_MAX).contains(&value),
-        }
-    }
-
-    /// The range in words that follow "expected".
-    pub const fn expected(self) -> &'static str {
-        match self {
-            Self::NonNegative => "a finite number, 0 or more",
-            Self::Positive => "a finite number above 0",
-            Self::Unit => "a number from 0 to 1",
-            Self::Channel => "a number from 0 to 1e12",
-        }
-    }
-
-    /// The largest number of the range, where it is not that of `f32`. The least is 0 in all of them.
-    pub const fn most(self) -> Option<f32> {
-        match self {
-            Self::NonNegative | Self::Positive => None,
-            Self::Unit => Some(1.0),
-            Self::Channel => Some(CHANNEL_MAX),
-        }
+        value.is_finite() && (self.least, self.most).contains(&value) || self.also == Some(value)
     }
 }
 
@@ -57,7 +52,7 @@ pub struct Field<T> {
     pub name: &'static str,
     /// What it means, in few words; its range is not part of them.
     pub meaning: &'static str,
-    /// The range of the number, or of each channel of the color.
+    /// The range of the number, or of each of the three.
     pub range: Range,
     /// Where it is in the component.
     pub place: FieldPlace<T>,
@@ -68,17 +63,44 @@ pub struct Field<T> {
 pub enum FieldPlace<T> {
     /// A number.
     Number(fn(&mut T) -> &mut f32),
-    /// A color; its alpha is ignored.
-    Color(fn(&mut T) -> &mut LinearRgba),
+    /// A number or nothing.
+    Optional(fn(&mut T) -> &mut Option<f32>),
+    /// Three numbers with what each is called in messages: the channels of a color, or a vector.
+    Three(fn(&mut T) -> [&mut f32; 3], [&'static str; 3]),
+    /// Yes or no; it has no range.
+    Flag(fn(&mut T) -> &mut bool),
 }
 
-/// A component whose fields are all numbers and colors.
+/// The value of a [`Field`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FieldValue {
+    /// A number.
+    Number(f32),
+    /// A number or nothing.
+    Optional(Option<f32>),
+    /// Three numbers; of a color: red, green, blue.
+    Three([f32; 3]),
+    /// Yes or no.
+    Flag(bool),
+}
+
+/// A component with a table of those fields that are numbers, colors and flags.
 pub trait Described: Copy + Default + 'static {
-    /// All fields, in the order of the struct.
+    /// The fields, in the order of the struct.
     const FIELDS: &'static [Field<Self>];
 }
 
+/// The channels of a color, as [`FieldPlace::Three`] has them.
+pub(crate) fn rgb(color: &mut LinearRgba) -> [&mut f32; 3] {
+    [&mut color.red, &mut color.green, &mut color.blue]
+}
+
 impl<T: Copy> Field<T> {
+    /// A field.
+    pub const fn new(name: &'static str, range: Range, meaning: &'static str, place: FieldPlace<T>) -> Self {
+        Self { name, meaning, range, place }
+    }
+
     /// A number.
     pub const fn number(
         name: &'static str,
@@ -86,38 +108,65 @@ impl<T: Copy> Field<T> {
         meaning: &'static str,
         place: fn(&mut T) -> &mut f32,
     ) -> Self {
-        Self { name, meaning, range, place: FieldPlace::Number(place) }
+        Self::new(name, range, meaning, FieldPlace::Number(place))
     }
 
-    /// A color.
-    pub const fn color(name: &'static str, meaning: &'static str, place: fn(&mut T) -> &mut LinearRgba) -> Self {
-        Self { name, meaning, range: Range::Channel, place: FieldPlace::Color(place) }
+    /// A color; its alpha is ignored.
+    pub const fn color(name: &'static str, meaning: &'static str, place: fn(&mut T) -> [&mut f32; 3]) -> Self {
+        Self::new(name, Range::CHANNEL, meaning, FieldPlace::Three(place, ["red", "green", "blue"]))
     }
 
-    /// The number, or the three channels of the color.
-    pub fn numbers(&self, of: &T) -> FieldNumbers {
+    /// The value in a component.
+    pub fn value(&self, of: &T) -> FieldValue {
         // The table has one way into the component, which may write.
         let mut copy = *of;
         match self.place {
-            FieldPlace::Number(place) => FieldNumbers::One(*place(&mut copy)),
-            FieldPlace::Color(place) => FieldNumbers::Three(place(&mut copy).to_f32_array_no_alpha()),
+            FieldPlace::Number(place) => FieldValue::Number(*place(&mut copy)),
+            FieldPlace::Optional(place) => FieldValue::Optional(*place(&mut copy)),
+            FieldPlace::Three(place, _) => FieldValue::Three(place(&mut copy).map(|number| *number)),
+            FieldPlace::Flag(place) => FieldValue::Flag(*place(&mut copy)),
         }
     }
 
-    /// Expects the field to be in its range.
-    pub(crate) fn validate(&self, of: &T, fields: Fields) -> Result<(), InvalidValue> {
-        match self.numbers(of) {
-            FieldNumbers::One(value) => fields.within(self.name, value, self.range),
-            FieldNumbers::Three(rgb) => fields.channels(self.name, rgb),
+    /// Puts a value into a component. One of another type is left.
+    pub fn set(&self, of: &mut T, value: FieldValue) {
+        match (&self.place, value) {
+            (FieldPlace::Number(place), FieldValue::Number(number)) => *place(of) = number,
+            (FieldPlace::Optional(place), FieldValue::Optional(number)) => *place(of) = number,
+            (FieldPlace::Flag(place), FieldValue::Flag(flag)) => *place(of) = flag,
+            (FieldPlace::Three(place, _), FieldValue::Three(numbers)) => {
+                place(of).into_iter().zip(numbers).for_each(|(place, number)| *place = number);
+            }
+            _ => {}
         }
+    }
+
+    /// Its numbers, each with its index where there are three.
+    pub fn numbers(&self, of: &T) -> impl Iterator<Item = (Option<usize>, f32)> {
+        let (alone, three) = match self.value(of) {
+            FieldValue::Number(number) => (Some(number), None),
+            FieldValue::Optional(number) => (number, None),
+            FieldValue::Three(numbers) => (None, Some(numbers)),
+            FieldValue::Flag(_) => (None, None),
+        };
+        let three = three.into_iter().flatten().enumerate().map(|(i, number)| (Some(i), number));
+        alone.map(|number| (None, number)).into_iter().chain(three)
     }
 }
 
-/// The value of a [`Field`].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum FieldNumbers {
-    /// A number.
-    One(f32),
-    /// The channels of a color: red, green, blue.
-    Three([f32; 3]),
+/// Expects every field to be in its range.
+pub(crate) fn validate<T: Described>(component: &T, fields: Fields) -> Result<(), InvalidValue> {
+    for field in T::FIELDS {
+        for (index, value) in field.numbers(component) {
+            if field.range.contains(value) {
+                continue;
+            }
+            let part = match (index, &field.place) {
+                (Some(i), FieldPlace::Three(_, names)) => format!(".{}", names[i]),
+                _ => String::new(),
+            };
+            fields.within(&format!("{}{part}", field.name), value, field.range)?;
+        }
+    }
+    Ok(())
 }

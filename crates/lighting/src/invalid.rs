@@ -115,7 +115,7 @@ impl Fields {
     /// # Errors
     /// It is outside.
     pub fn within(self, field: &str, value: f32, range: Range) -> Result<(), InvalidValue> {
-        self.number(field, value, range.contains(value), range.expected())
+        self.number(field, value, range.contains(value), range.expected)
     }
 
     /// Expects a finite number, 0 or more.
@@ -123,7 +123,7 @@ impl Fields {
     /// # Errors
     /// The value is not so.
     pub fn non_negative(self, field: &str, value: f32) -> Result<(), InvalidValue> {
-        self.within(field, value, Range::NonNegative)
+        self.within(field, value, Range::NON_NEGATIVE)
     }
 
     /// Expects a finite number above 0.
@@ -131,7 +131,7 @@ impl Fields {
     /// # Errors
     /// The value is not so.
     pub fn positive(self, field: &str, value: f32) -> Result<(), InvalidValue> {
-        self.within(field, value, Range::Positive)
+        self.within(field, value, Range::POSITIVE)
     }
 
     /// Expects a number from 0 to 1.
@@ -139,7 +139,7 @@ impl Fields {
     /// # Errors
     /// The value is not so.
     pub fn unit_interval(self, field: &str, value: f32) -> Result<(), InvalidValue> {
-        self.within(field, value, Range::Unit)
+        self.within(field, value, Range::UNIT)
     }
 
     /// Expects three channels of a color, each 0 to [`CHANNEL_MAX`].
@@ -148,8 +148,8 @@ impl Fields {
     /// The value is not so.
     pub fn channels(self, field: &str, rgb: [f32; 3]) -> Result<(), InvalidValue> {
         for (name, value) in ["red", "green", "blue"].into_iter().zip(rgb) {
-            if !Range::Channel.contains(value) {
-                self.within(&format!("{field}.{name}"), value, Range::Channel)?;
+            if !Range::CHANNEL.contains(value) {
+                self.within(&format!("{field}.{name}"), value, Range::CHANNEL)?;
             }
         }
         Ok(())

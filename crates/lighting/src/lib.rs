@@ -70,7 +70,7 @@ mod shading;
 mod visibility;
 
 pub use camera::{Camera, Encoding, Intensity, Samples};
-pub use field::{Described, Field, FieldNumbers, FieldPlace, Range};
+pub use field::{Described, Field, FieldPlace, FieldValue, Range};
 pub use invalid::{CHANNEL_MAX, Fields, InvalidValue, Problem};
 pub use light::{Attenuation, Cone, DirectionalLight, GlobalAmbient, PointLight, SpotLight};
 pub use matched::matched_shininess;

@@ -14,6 +14,7 @@ use bevy_reflect::Reflect;
 use bevy_reflect::std_traits::ReflectDefault;
 use bevy_transform::components::Transform;
 
+use crate::field::{self, Described, Field, FieldPlace, Range, rgb};
 use crate::invalid::{Fields, InvalidValue, Problem};
 
 /// How far an angle in radians may lie from π/2 or π and still be taken as it, because degrees were converted in `f32`.
@@ -51,20 +52,15 @@ impl Attenuation {
     /// # Errors
     /// A constant is negative or not finite, or all three are 0.
     pub fn validate(&self) -> Result<(), InvalidValue> {
-        self.validate_as(Fields::of("Attenuation"), "")
+        let fields = Fields::of("Attenuation");
+        for (name, value) in [("constant", self.constant), ("linear", self.linear), ("quadratic", self.quadratic)] {
+            fields.non_negative(name, value)?;
+        }
+        self.some_above_zero(fields, "constant")
     }
 
-    /// `field` is the attenuation's own name inside its owner, empty where it stands alone.
-    fn validate_as(&self, fields: Fields, field: &str) -> Result<(), InvalidValue> {
-        let dot = if field.is_empty() { "" } else { "." };
-        for (name, value) in [("constant", self.constant), ("linear", self.linear), ("quadratic", self.quadratic)] {
-            fields.non_negative(&format!("{field}{dot}{name}"), value)?;
-        }
-        if self.constant == 0.0 && self.linear == 0.0 && self.quadratic == 0.0 {
-            let field = if field.is_empty() { "constant" } else { field };
-            return Err(fields.error(field, Problem::NoAttenuation));
-        }
-        Ok(())
+    fn some_above_zero(&self, fields: Fields, field: &str) -> Result<(), InvalidValue> {
+        if *self == Self::new(0.0, 0.0, 0.0) { Err(fields.error(field, Problem::NoAttenuation)) } else { Ok(()) }
     }
 }
 
@@ -124,12 +120,40 @@ impl PointLight {
     }
 
     fn validate_as(&self, fields: Fields) -> Result<(), InvalidValue> {
-        fields.color("ambient", self.ambient)?;
-        fields.color("diffuse", self.diffuse)?;
-        fields.color("specular", self.specular)?;
-        self.attenuation.validate_as(fields, "attenuation")?;
-        self.range.map_or(Ok(()), |range| fields.positive("range", range))
+        field::validate(self, fields)?;
+        self.attenuation.some_above_zero(fields, "attenuation")
     }
+}
+
+impl Described for PointLight {
+    const FIELDS: &'static [Field<Self>] = &[
+        Field::color("ambient", "La, linear RGB: added wherever the surface faces.", |it| rgb(&mut it.ambient)),
+        Field::color("diffuse", "Ld, linear RGB: received by the diffuse term.", |it| rgb(&mut it.diffuse)),
+        Field::color("specular", "Ls, linear RGB: received by the specular term.", |it| rgb(&mut it.specular)),
+        Field::new(
+            "attenuation",
+            Range::NON_NEGATIVE,
+            "[a, b, c] of 1/(a + b·d + c·d²), d the distance. One of them above 0.",
+            FieldPlace::Three(
+                |PointLight { attenuation: Attenuation { constant, linear, quadratic }, .. }| {
+                    [constant, linear, quadratic]
+                },
+                ["constant", "linear", "quadratic"],
+            ),
+        ),
+        Field::new(
+            "range",
+            Range::POSITIVE,
+            "Where the light ends: multiplies by clamp(1 − (d/range)⁴, 0, 1)². null: it does not end.",
+            FieldPlace::Optional(|it| &mut it.range),
+        ),
+        Field::new(
+            "attenuate_ambient",
+            Range::FINITE,
+            "Whether distance and cone weaken the ambient color too, as in OpenGL.",
+            FieldPlace::Flag(|it| &mut it.attenuate_ambient),
+        ),
+    ];
 }
 
 impl Default for PointLight {

@@ -7,7 +7,7 @@ use bevy_reflect::Reflect;
 use bevy_reflect::std_traits::ReflectDefault;
 use bytemuck::NoUninit;
 
-use crate::field::{Described, Field, Range};
+use crate::field::{self, Described, Field, Range, rgb};
 use crate::invalid::{Fields, InvalidValue};
 
 /// The classic material: how much of each kind of light a surface gives back.
@@ -70,26 +70,24 @@ impl Material {
     /// # Errors
     /// The first field that is outside the range it documents.
     pub fn validate(&self) -> Result<(), InvalidValue> {
-        self.validate_as(Fields::of("Material"))
-    }
-
-    fn validate_as(&self, fields: Fields) -> Result<(), InvalidValue> {
-        Self::FIELDS.iter().try_for_each(|field| field.validate(self, fields))
+        field::validate(self, Fields::of("Material"))
     }
 }
 
 impl Described for Material {
     const FIELDS: &'static [Field<Self>] = &[
-        Field::color("ambient", "ka, linear RGB: reflects ambient light. Normally at most 1.", |it| &mut it.ambient),
+        Field::color("ambient", "ka, linear RGB: reflects ambient light. Normally at most 1.", |it| {
+            rgb(&mut it.ambient)
+        }),
         Field::color("diffuse", "kd, linear RGB: reflects light evenly to all sides. Normally at most 1.", |it| {
-            &mut it.diffuse
+            rgb(&mut it.diffuse)
         }),
         Field::color("specular", "ks, linear RGB: reflects light into the highlight. Normally at most 1.", |it| {
-            &mut it.specular
+            rgb(&mut it.specular)
         }),
-        Field::color("emission", "ke, linear RGB: shines by itself, unaffected by lights.", |it| &mut it.emission),
-        Field::number("shininess", Range::NonNegative, "The exponent of the highlight.", |it| &mut it.shininess),
-        Field::number("opacity", Range::Unit, "0 is clear, 1 opaque; seen only where the object is blended.", |it| {
+        Field::color("emission", "ke, linear RGB: shines by itself, unaffected by lights.", |it| rgb(&mut it.emission)),
+        Field::number("shininess", Range::NON_NEGATIVE, "The exponent of the highlight.", |it| &mut it.shininess),
+        Field::number("opacity", Range::UNIT, "0 is clear, 1 opaque; seen only where the object is blended.", |it| {
             &mut it.opacity
         }),
     ];
@@ -114,6 +112,6 @@ impl BackMaterial {
     /// # Errors
     /// The first field that is outside the range it documents.
     pub fn validate(&self) -> Result<(), InvalidValue> {
-        self.0.validate_as(Fields::of("BackMaterial"))
+        field::validate(&self.0, Fields::of("BackMaterial"))
     }
 }

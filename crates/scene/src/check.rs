@@ -44,17 +44,17 @@ impl<T> Within for Result<T, KeyProblem> {
 
 /// Every number is finite and, as 32 bits, not beyond the largest.
 pub(crate) fn finite(key: &str, values: &[f32]) -> Check {
-    each(key, values, f32::is_finite, "a finite number of at most 3.4e38")
+    each(key, values, Range::FINITE)
 }
 
 /// A color: every channel in its range.
 pub(crate) fn color(key: &str, rgb: &[f32; 3]) -> Check {
-    each(key, rgb, |v| Range::Channel.contains(v), Range::Channel.expected())
+    each(key, rgb, Range::CHANNEL)
 }
 
 /// A number in a range.
 pub(crate) fn in_range(key: &str, value: f32, range: Range) -> Check {
-    test(key, value, range.contains(value), range.expected())
+    test(key, value, range.contains(value), range.expected)
 }
 
 /// A vector that has a direction: finite, not zero.
@@ -80,9 +80,7 @@ pub(crate) fn test(key: &str, value: f32, holds: bool, expected: &str) -> Check 
     if holds { Ok(()) } else { Err(KeyProblem::new(key, format!("is {value}; expected {expected}"))) }
 }
 
-fn each(key: &str, values: &[f32], holds: impl Fn(f32) -> bool, expected: &str) -> Check {
-    match values.iter().position(|&v| !holds(v)) {
-        None => Ok(()),
-        Some(i) => test("", values[i], false, expected).within_item(key, i),
-    }
+fn each(key: &str, values: &[f32], range: Range) -> Check {
+    let outside = values.iter().position(|&value| !range.contains(value));
+    outside.map_or(Ok(()), |i| in_range("", values[i], range).within_item(key, i))
 }

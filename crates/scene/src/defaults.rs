@@ -1,8 +1,9 @@
 //! What a scene gets that says nothing about its camera or its lights.
 
+use bevy_color::LinearRgba;
 use bevy_math::{DVec3, Vec3};
 
-use crate::light::{AttachEntry, LightEntry, LightSource};
+use crate::light::{AttachEntry, LightEntry, LightKind};
 use crate::view::CameraEntry;
 
 /// The side that a framing camera looks from: 30° to the right of the front, 20° above the ground.
@@ -71,16 +72,17 @@ fn to_f32(v: DVec3) -> [f32; 3] {
 /// both fixed in the world as seen by the camera of [`framing_camera`], and a faint headlight that moves with the
 /// camera, so that no side is black. All are directional, so they suit a scene of any size.
 pub fn default_lights() -> Vec<LightEntry> {
-    let light = |direction, diffuse, specular, attach| LightEntry {
-        diffuse,
-        specular,
-        attach,
-        ..LightEntry::white(LightSource::Directional { direction })
+    let light = |direction, [red, green, blue]: [f32; 3], shine: f32, attach| {
+        let mut entry = LightEntry { attach, ..LightEntry::white(LightKind::Directional) };
+        entry.cone.direction = direction;
+        entry.light.diffuse = LinearRgba::rgb(red, green, blue);
+        entry.light.specular = LinearRgba::rgb(red * shine, green * shine, blue * shine);
+        entry
     };
     vec![
-        light([0.4, -1.0, -1.0], [0.62, 0.6, 0.57], [0.62, 0.6, 0.57], AttachEntry::World),
-        light([-1.0, -0.3, -0.3], [0.14, 0.16, 0.19], [0.07, 0.08, 0.095], AttachEntry::World),
-        light([0.0, 0.0, -1.0], [0.1; 3], [0.1; 3], AttachEntry::Camera),
+        light([0.4, -1.0, -1.0], [0.62, 0.6, 0.57], 1.0, AttachEntry::World),
+        light([-1.0, -0.3, -0.3], [0.14, 0.16, 0.19], 0.5, AttachEntry::World),
+        light([0.0, 0.0, -1.0], [0.1; 3], 1.0, AttachEntry::Camera),
     ]
 }
 

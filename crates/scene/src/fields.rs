@@ -1,114 +1,189 @@
-//! Components of numbers and colors as JSON objects: read, written, checked and described by the tables of
-//! `halfway_lighting`, so that a field stands there and nowhere here.
+//! Numbers, colors and flags of components as keys of a JSON object: read, written, checked and described by the tables
+//! of `halfway_lighting`, so that a field stands there and nowhere here.
 
 use std::fmt;
-use std::marker::PhantomData;
+use std::ops::Bound::{Excluded, Included};
 
-use bevy_color::LinearRgba;
-use halfway_lighting::{Described, Field, FieldNumbers, FieldPlace, Range};
-use schemars::Schema;
-use serde::de::{Deserialize, Deserializer, Error, MapAccess, Visitor};
+use halfway_lighting::{Described, Field, FieldPlace, FieldValue, Range};
+use serde::Serialize;
+use serde::de::{DeserializeSeed, Deserializer, Error, MapAccess, Visitor};
 use serde::ser::{SerializeMap, Serializer};
 use serde_json::{Map, Value, json};
 
-use crate::check::{Check, Within, color, in_range};
+use crate::check::{Check, Within, in_range};
+
+/// The names of all fields.
+pub(crate) fn names<T: Described>() -> impl Iterator<Item = &'static str> {
+    T::FIELDS.iter().map(|field| field.name)
+}
+
+/// Reads the next key, which has to be a `known` one that is not among those `given` so far.
+pub(crate) fn next_key<'de, A: MapAccess<'de>>(
+    map: &mut A,
+    known: &[&'static str],
+    given: &mut Vec<&'static str>,
+) -> Result<Option<&'static str>, A::Error> {
+    // The parser knows the place of the key only while it reads it.
+    map.next_key_seed(Key { known, given })
+}
+
+/// Reads the value of the field `name` into a component; false if there is no such field.
+pub(crate) fn read_field<'de, T: Described, A: MapAccess<'de>>(
+    component: &mut T,
+    name: &str,
+    map: &mut A,
+) -> Result<bool, A::Error> {
+    let Some(field) = T::FIELDS.iter().find(|field| field.name == name) else { return Ok(false) };
+    let value = match field.place {
+        FieldPlace::Number(_) => FieldValue::Number(map.next_value()?),
+        FieldPlace::Optional(_) => FieldValue::Optional(map.next_value()?),
+        FieldPlace::Three(..) => FieldValue::Three(map.next_value()?),
+        FieldPlace::Flag(_) => FieldValue::Flag(map.next_value()?),
+    };
+    field.set(component, value);
+    Ok(true)
+}
 
 /// Reads the fields of a component; those that are left out have their defaults.
 pub(crate) fn read<'de, T: Described, A: MapAccess<'de>>(mut map: A) -> Result<T, A::Error> {
+    let (known, mut given): (Vec<_>, _) = (names::<T>().collect(), Vec::new());
     let mut component = T::default();
-    let mut given = Vec::new();
-    while let Some(Key(field)) = map.next_key::<Key<T>>()? {
-        if given.contains(&field.name) {
-            return Err(A::Error::duplicate_field(field.name));
-        }
-        given.push(field.name);
-        match field.place {
-            FieldPlace::Number(place) => *place(&mut component) = map.next_value()?,
-            FieldPlace::Color(place) => {
-                let [red, green, blue] = map.next_value()?;
-                *place(&mut component) = LinearRgba::rgb(red, green, blue);
-            }
-        }
+    while let Some(name) = next_key(&mut map, &known, &mut given)? {
+        read_field(&mut component, name, &mut map)?;
     }
     Ok(component)
+}
+
+/// Writes the fields of a component that `has` names.
+pub(crate) fn write_fields<T: Described, M: SerializeMap>(
+    component: &T,
+    has: impl Fn(&str) -> bool,
+    map: &mut M,
+) -> Result<(), M::Error> {
+    let fields = T::FIELDS.iter().filter(|field| has(field.name));
+    fields.into_iter().try_for_each(|field| map.serialize_entry(field.name, &Written(field.value(component))))
 }
 
 /// Writes every field of a component.
 pub(crate) fn write<T: Described, S: Serializer>(component: &T, serializer: S) -> Result<S::Ok, S::Error> {
     let mut map = serializer.serialize_map(Some(T::FIELDS.len()))?;
-    for field in T::FIELDS {
-        match field.numbers(component) {
-            FieldNumbers::One(number) => map.serialize_entry(field.name, &number)?,
-            FieldNumbers::Three(rgb) => map.serialize_entry(field.name, &rgb)?,
-        }
-    }
+    write_fields(component, |_| true, &mut map)?;
     map.end()
 }
 
 /// Checks every field of a component against its range.
 pub(crate) fn check<T: Described>(component: &T) -> Check {
-    T::FIELDS.iter().try_for_each(|field| match field.numbers(component) {
-        FieldNumbers::One(number) => in_range("", number, field.range).within(field.name),
-        FieldNumbers::Three(rgb) => color(field.name, &rgb),
-    })
+    for field in T::FIELDS {
+        for (index, number) in field.numbers(component) {
+            let found = in_range("", number, field.range);
+            match index {
+                None => found.within(field.name),
+                Some(i) => found.within_item(field.name, i),
+            }?;
+        }
+    }
+    Ok(())
 }
 
-/// The schema of a component's object.
-pub(crate) fn schema<T: Described>() -> Schema {
-    let default = T::default();
-    let properties: Map<String, Value> =
-        T::FIELDS.iter().map(|field| (field.name.to_owned(), property(field, &default))).collect();
-    let mut schema = Schema::default();
-    schema.insert("type".to_owned(), json!("object"));
-    schema.insert("properties".to_owned(), properties.into());
-    schema.insert("additionalProperties".to_owned(), json!(false));
-    schema
+/// The schema of an object with these properties and no others.
+pub(crate) fn object(properties: Map<String, Value>) -> Value {
+    json!({ "type": "object", "properties": properties, "additionalProperties": false })
+}
+
+/// What the schema says of each field of a component that has these defaults.
+pub(crate) fn properties<T: Described>(default: &T) -> impl Iterator<Item = (String, Value)> {
+    T::FIELDS.iter().map(move |field| (field.name.to_owned(), property(field, default)))
 }
 
 fn property<T: Described>(field: &Field<T>, default: &T) -> Value {
-    let mut number = json!({ "type": "number", "format": "float" });
-    let least = if field.range == Range::Positive { "exclusiveMinimum" } else { "minimum" };
-    number[least] = json!(0);
-    if let Some(most) = field.range.most() {
-        number["maximum"] = json!(most);
-    }
-    let expected = field.range.expected();
-    let (description, default) = match field.numbers(default) {
-        FieldNumbers::One(default) => (format!("{} Expected: {expected}.", field.meaning), json!(default)),
-        FieldNumbers::Three(rgb) => (format!("{} Each channel: {expected}.", field.meaning), json!(rgb)),
+    let Field { meaning, range, .. } = field;
+    let (mut property, whose, end) = match field.place {
+        FieldPlace::Number(_) => (number(range), "Expected", "."),
+        FieldPlace::Optional(_) => {
+            let mut number = number(range);
+            number["type"] = json!(["number", "null"]);
+            (number, "Expected", ", or null.")
+        }
+        FieldPlace::Three(_, ["red", ..]) => (list(number(range), 3), "Each channel", "."),
+        FieldPlace::Three(..) => (list(number(range), 3), "Each", "."),
+        FieldPlace::Flag(_) => (json!({ "type": "boolean" }), "Expected", "."),
     };
-    let mut property = match field.place {
-        FieldPlace::Number(_) => number,
-        FieldPlace::Color(_) => json!({ "type": "array", "items": number, "minItems": 3, "maxItems": 3 }),
-    };
-    property["description"] = description.into();
-    property["default"] = default;
+    // That a number is finite goes without saying.
+    let words = if *range == Range::FINITE { String::new() } else { format!(" {whose}: {}{end}", range.expected) };
+    property["description"] = format!("{meaning}{words}").into();
+    property["default"] = json!(Written(field.value(default)));
     property
 }
 
-/// The name of a field of `T`.
-struct Key<T: 'static>(&'static Field<T>);
+/// A list of so many items.
+pub(crate) fn list(item: Value, count: usize) -> Value {
+    json!({ "type": "array", "items": item, "minItems": count, "maxItems": count })
+}
 
-impl<'de, T: Described> Deserialize<'de> for Key<T> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        // The parser knows the place of the key only while it reads it.
-        deserializer.deserialize_identifier(KeyVisitor(PhantomData))
+/// A number in a range.
+pub(crate) fn number(range: &Range) -> Value {
+    let mut limits = Map::new();
+    for (bound, inclusive, exclusive) in
+        [(range.least, "minimum", "exclusiveMinimum"), (range.most, "maximum", "exclusiveMaximum")]
+    {
+        match bound {
+            Included(limit) => limits.insert(inclusive.to_owned(), json!(limit)),
+            Excluded(limit) => limits.insert(exclusive.to_owned(), json!(limit)),
+            std::ops::Bound::Unbounded => None,
+        };
+    }
+    let mut number = json!({ "type": "number", "format": "float" });
+    match range.also {
+        Some(also) => number["anyOf"] = json!([limits, { "const": also }]),
+        None => number.as_object_mut().into_iter().for_each(|number| number.extend(limits.clone())),
+    }
+    number
+}
+
+/// A value as it is written.
+struct Written(FieldValue);
+
+impl Serialize for Written {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self.0 {
+            FieldValue::Number(number) => number.serialize(serializer),
+            FieldValue::Optional(number) => number.serialize(serializer),
+            FieldValue::Three(numbers) => numbers.serialize(serializer),
+            FieldValue::Flag(flag) => flag.serialize(serializer),
+        }
     }
 }
 
-struct KeyVisitor<T>(PhantomData<T>);
+/// Reads one of the known keys.
+struct Key<'a> {
+    known: &'a [&'static str],
+    given: &'a mut Vec<&'static str>,
+}
 
-impl<T: Described> Visitor<'_> for KeyVisitor<T> {
-    type Value = Key<T>;
+impl<'de> DeserializeSeed<'de> for Key<'_> {
+    type Value = &'static str;
+
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<&'static str, D::Error> {
+        deserializer.deserialize_identifier(self)
+    }
+}
+
+impl Visitor<'_> for Key<'_> {
+    type Value = &'static str;
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.write_str("a key")
     }
 
-    fn visit_str<E: Error>(self, name: &str) -> Result<Key<T>, E> {
-        T::FIELDS.iter().find(|field| field.name == name).map(Key).ok_or_else(|| {
-            let known: Vec<String> = T::FIELDS.iter().map(|field| format!("`{}`", field.name)).collect();
-            E::custom(format_args!("unknown field `{name}`, expected one of {}", known.join(", ")))
-        })
+    fn visit_str<E: Error>(self, name: &str) -> Result<&'static str, E> {
+        let Some(known) = self.known.iter().find(|known| **known == name) else {
+            let known: Vec<String> = self.known.iter().map(|known| format!("`{known}`")).collect();
+            return Err(E::custom(format_args!("unknown field `{name}`, expected one of {}", known.join(", "))));
+        };
+        if self.given.contains(known) {
+            return Err(E::duplicate_field(known));
+        }
+        self.given.push(known);
+        Ok(known)
     }
 }

@@ -6,7 +6,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use bevy_color::ColorToComponents;
-use halfway_lighting::{Camera, GlobalAmbient};
+use halfway_lighting::{Camera, Encoding, GlobalAmbient, Intensity, Reflectance, Viewer};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -17,8 +17,8 @@ use crate::light::{AttachEntry, LightEntry};
 use crate::locate::{line_and_column, place_of};
 use crate::mesh::MeshEntry;
 use crate::object::ObjectEntry;
-use crate::read::{Given, JsonObject, object_or_null, objects, objects_or_null, word};
-use crate::view::{CameraEntry, IntensityEntry, OutputEntry, ReflectanceEntry, ShadingEntry, ViewerEntry};
+use crate::read::{Given, JsonObject, Spoken, object_or_null, objects, objects_or_null, word, write_word};
+use crate::view::{CameraEntry, ShadingEntry};
 
 /// A scene as it stands in a scene file. Every key may be left out; the defaults are [`SceneFile::default`].
 ///
@@ -43,11 +43,13 @@ pub struct SceneFile {
     #[schemars(inner(range(min = 0, max = halfway_lighting::CHANNEL_MAX)))]
     pub background: [f32; 3],
     /// What the channels of a PNG picture hold.
-    #[serde(deserialize_with = "word")]
-    pub output: OutputEntry,
+    #[serde(deserialize_with = "word", serialize_with = "write_word")]
+    #[schemars(with = "Spoken<Encoding>")]
+    pub output: Encoding,
     /// What becomes of intensities above 1.
-    #[serde(deserialize_with = "word")]
-    pub intensity: IntensityEntry,
+    #[serde(deserialize_with = "word", serialize_with = "write_word")]
+    #[schemars(with = "Spoken<Intensity>")]
+    pub intensity: Intensity,
     /// Coverage samples a pixel: 1, or 4 for smooth edges.
     #[schemars(extend("enum" = [1, 4]))]
     pub samples: u32,
@@ -55,14 +57,16 @@ pub struct SceneFile {
     #[schemars(inner(range(min = 0, max = halfway_lighting::CHANNEL_MAX)))]
     pub ambient: [f32; 3],
     /// Where the viewer is for the highlights.
-    #[serde(deserialize_with = "word")]
-    pub viewer: ViewerEntry,
+    #[serde(deserialize_with = "word", serialize_with = "write_word")]
+    #[schemars(with = "Spoken<Viewer>")]
+    pub viewer: Viewer,
     /// The shading of objects that name none.
     #[serde(deserialize_with = "word")]
     pub shading: ShadingEntry,
     /// The reflectance of objects that name none.
-    #[serde(deserialize_with = "word")]
-    pub reflectance: ReflectanceEntry,
+    #[serde(deserialize_with = "word", serialize_with = "write_word")]
+    #[schemars(with = "Spoken<Reflectance>")]
+    pub reflectance: Reflectance,
     /// The camera; null or left out: one that frames everything.
     #[serde(deserialize_with = "object_or_null")]
     pub camera: Option<CameraEntry>,
@@ -81,13 +85,13 @@ impl Default for SceneFile {
             schema_version: Self::VERSION,
             size: [1280, 720],
             background: Camera::default().background.to_f32_array_no_alpha(),
-            output: OutputEntry::default(),
-            intensity: IntensityEntry::default(),
+            output: Encoding::default(),
+            intensity: Intensity::default(),
             samples: 1,
             ambient: GlobalAmbient::default().0.to_f32_array_no_alpha(),
-            viewer: ViewerEntry::default(),
+            viewer: Viewer::default(),
             shading: ShadingEntry::default(),
-            reflectance: ReflectanceEntry::default(),
+            reflectance: Reflectance::default(),
             camera: None,
             lights: None,
             objects: Vec::new(),
@@ -188,7 +192,6 @@ impl SceneFile {
             count("", side, 1..=Self::MAX_SIDE).within_item("size", i)?;
         }
         color("background", &self.background)?;
-        self.intensity.check().within("intensity")?;
         if !matches!(self.samples, 1 | 4) {
             return Err(KeyProblem::new("samples", format!("is {}; expected 1 or 4", self.samples)));
         }

@@ -23,7 +23,6 @@ pub mod import;
 mod json;
 mod light;
 mod light_component;
-mod light_keys;
 mod light_place;
 mod locate;
 mod material;
@@ -39,14 +38,14 @@ mod view;
 pub use defaults::{default_lights, framing_camera};
 pub use error::SceneError;
 pub use file::SceneFile;
-pub use light::{AttachEntry, ConeEntry, FalloffEntry, LightEntry, LightSource};
+pub use light::{AttachEntry, ConeEntry, LightEntry, LightKind};
 pub use light_component::LightComponent;
 pub use material::MaterialEntry;
-pub use mesh::{BoxEntry, InlineMesh, MeshEntry, NormalsEntry, PlaneEntry, TeapotEntry, UvSphereEntry};
-pub use object::{FacesEntry, ObjectEntry, TransformEntry, TransformMatrix, TransformParts};
+pub use mesh::{BoxEntry, InlineMesh, MeshEntry, PlaneEntry, TeapotEntry, UvSphereEntry};
+pub use object::{ObjectEntry, TransformEntry, TransformMatrix, TransformParts};
 pub use schema::json_schema;
 pub use spawn::{Spawned, spawn};
-pub use view::{AutoShading, CameraEntry, IntensityEntry, OutputEntry, ReflectanceEntry, ShadingEntry, ViewerEntry};
+pub use view::{AutoShading, CameraEntry, ShadingEntry};
 
 #[cfg(test)]
 mod tests;

@@ -50,7 +50,7 @@ impl MaterialEntry {
 }
 
 fn values_schema(_: &mut SchemaGenerator) -> Schema {
-    fields::schema::<Material>()
+    fields::object(fields::properties(&Material::default()).collect()).try_into().unwrap_or_default()
 }
 
 impl<'de> Deserialize<'de> for MaterialEntry {

@@ -10,7 +10,7 @@ use serde::de::{Deserializer, Error, MapAccess, Visitor};
 use serde::{Deserialize, Serialize};
 
 use crate::check::{Check, KeyProblem, Within, finite};
-use crate::read::{Given, JsonObject, Word, no_more};
+use crate::read::{ComponentWord, Given, JsonObject, Word, no_more};
 
 /// The shape of an object: an object with exactly one of these keys.
 #[derive(Serialize, JsonSchema, Clone, Debug, PartialEq)]
@@ -115,36 +115,28 @@ pub struct InlineMesh {
     pub indices: Vec<u32>,
 }
 
-/// `normals`: how a mesh gets its normals.
-#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[serde(rename_all = "snake_case")]
-pub enum NormalsEntry {
-    /// The file's or the surface's own, else by the default weighting, which is `max`.
-    #[default]
-    Keep,
-    /// One normal a triangle.
-    Face,
-    /// The mean of the faces around a vertex, all alike.
-    Uniform,
-    /// The mean weighted by the faces' areas.
-    Area,
-    /// The mean weighted by the faces' angles at the vertex.
-    Angle,
-    /// The mean with the weights of Max 1999.
-    Max,
+impl Word for Normals {
+    const WORDS: &'static [(&'static str, Self)] = &[
+        ("keep", Self::Keep),
+        ("face", Self::Face),
+        ("uniform", Self::Weighted(NormalWeighting::Uniform)),
+        ("area", Self::Weighted(NormalWeighting::Area)),
+        ("angle", Self::Weighted(NormalWeighting::Angle)),
+        ("max", Self::Weighted(NormalWeighting::Max)),
+    ];
 }
 
-impl From<NormalsEntry> for Normals {
-    fn from(entry: NormalsEntry) -> Self {
-        match entry {
-            NormalsEntry::Keep => Self::Keep,
-            NormalsEntry::Face => Self::Face,
-            NormalsEntry::Uniform => Self::Weighted(NormalWeighting::Uniform),
-            NormalsEntry::Area => Self::Weighted(NormalWeighting::Area),
-            NormalsEntry::Angle => Self::Weighted(NormalWeighting::Angle),
-            NormalsEntry::Max => Self::Weighted(NormalWeighting::Max),
-        }
-    }
+impl ComponentWord for Normals {
+    const NAME: &'static str = "NormalsEntry";
+    const MEANING: &'static str = "`normals`: how a mesh gets its normals.";
+    const MEANINGS: &'static [&'static str] = &[
+        "The file's or the surface's own, else by the default weighting, which is `max`.",
+        "One normal a triangle.",
+        "The mean of the faces around a vertex, all alike.",
+        "The mean weighted by the faces' areas.",
+        "The mean weighted by the faces' angles at the vertex.",
+        "The mean with the weights of Max 1999.",
+    ];
 }
 
 impl From<UvSphereEntry> for UvSphere {
@@ -272,10 +264,6 @@ impl JsonObject for TeapotEntry {
 
 impl JsonObject for InlineMesh {
     const EXPECTED: &'static str = "an object with positions and indices";
-}
-
-impl Word for NormalsEntry {
-    const EXPECTED: &'static str = "\"keep\", \"face\", \"uniform\", \"area\", \"angle\" or \"max\"";
 }
 
 struct OneShape;

@@ -11,7 +11,7 @@ use halfway_mesh::{Cuboid, Mesh, Model, NormalReport, Normals, Plane, SourceLigh
 use crate::error::SceneError;
 use crate::import::{ModelMaterial, model_light};
 use crate::light_component::LightComponent;
-use crate::mesh::{MeshEntry, NormalsEntry};
+use crate::mesh::MeshEntry;
 use crate::object::ObjectEntry;
 
 /// What an object shows.
@@ -39,7 +39,7 @@ pub(crate) struct ShapeLight {
 /// The shapes of a scene, each loaded once however often it is used.
 pub(crate) struct Shapes<'a> {
     base_dir: &'a Path,
-    loaded: HashMap<(String, NormalsEntry), Rc<ObjectShape>>,
+    loaded: HashMap<String, Rc<ObjectShape>>,
     pub(crate) warnings: Vec<String>,
 }
 
@@ -56,7 +56,7 @@ impl<'a> Shapes<'a> {
             MeshEntry::Path(path) => Some(format!("path {}", path.display())),
             surface => Some(format!("{surface:?}")),
         };
-        let key = key.map(|key| (key, object.normals));
+        let key = key.map(|key| format!("{key} {:?}", object.normals));
         let shape = match key.as_ref().and_then(|key| self.loaded.get(key)) {
             Some(shape) => Rc::clone(shape),
             None => Rc::new(self.load(object, index)?),
@@ -86,9 +86,9 @@ impl<'a> Shapes<'a> {
         let mesh = match &object.mesh {
             MeshEntry::Path(path) => {
                 let path = self.base_dir.join(path);
-                let key = format!("objects[{index}].mesh.path");
-                let model = halfway_mesh::load(&path).map_err(|source| SceneError::Model { key, source })?;
-                return self.model(model, &path, object.normals.into(), index);
+                let model =
+                    halfway_mesh::load(&path).map_err(|source| SceneError::Model { key: mesh_path(index), source })?;
+                return self.model(model, &path, object.normals, index);
             }
             MeshEntry::UvSphere(sphere) => Mesh::from(UvSphere::from(*sphere)),
             MeshEntry::Plane(plane) => Mesh::from(Plane::from(*plane)),
@@ -98,7 +98,7 @@ impl<'a> Shapes<'a> {
                 .mesh()
                 .map_err(|source| SceneError::Mesh { key: format!("objects[{index}].mesh.inline"), source })?,
         };
-        let (mesh, report) = mesh.with_normals(object.normals.into());
+        let (mesh, report) = mesh.with_normals(object.normals);
         self.warn_of_normals(&format!("objects[{index}]"), report);
         let part = ShapePart { name: String::new(), mesh, object_from_part: Mat4::IDENTITY, own: None };
         Ok(ObjectShape { parts: vec![part], lights: Vec::new() })

@@ -1,16 +1,17 @@
 //! The objects of a scene file.
 
 use bevy_math::{DVec4, Mat4, Quat, Vec3};
-use halfway_lighting::Faces;
+use halfway_lighting::{Faces, Reflectance};
+use halfway_mesh::Normals;
 use schemars::JsonSchema;
 use serde::de::{Deserializer, Error};
 use serde::{Deserialize, Serialize};
 
 use crate::check::{Check, KeyProblem, Within, finite};
 use crate::material::MaterialEntry;
-use crate::mesh::{MeshEntry, NormalsEntry};
-use crate::read::{JsonObject, Word, given, given_word, object, word, word_or_null};
-use crate::view::{ReflectanceEntry, ShadingEntry};
+use crate::mesh::MeshEntry;
+use crate::read::{JsonObject, Spoken, given, given_word, object, word, word_or_null, write_word, write_word_or_null};
+use crate::view::ShadingEntry;
 
 /// A mesh somewhere in the scene, with a material.
 #[derive(Serialize, Deserialize, JsonSchema, Clone, Debug, PartialEq)]
@@ -22,8 +23,9 @@ pub struct ObjectEntry {
     /// The shape. Required.
     pub mesh: MeshEntry,
     /// How the mesh gets its normals.
-    #[serde(default, deserialize_with = "word")]
-    pub normals: NormalsEntry,
+    #[serde(default, deserialize_with = "word", serialize_with = "write_word")]
+    #[schemars(with = "Spoken<Normals>")]
+    pub normals: Normals,
     /// Where the mesh is in the world.
     #[serde(default, deserialize_with = "object")]
     pub transform: TransformEntry,
@@ -34,43 +36,26 @@ pub struct ObjectEntry {
     #[serde(default)]
     pub back_material: Option<MaterialEntry>,
     /// Which sides are shown. Left out: `front`, or `both` for parts with a double-sided material of the model's own.
-    #[serde(default, deserialize_with = "given_word", skip_serializing_if = "Option::is_none")]
-    #[schemars(with = "FacesEntry", default)]
-    pub faces: Option<FacesEntry>,
+    #[serde(
+        default,
+        deserialize_with = "given_word",
+        serialize_with = "write_word_or_null",
+        skip_serializing_if = "Option::is_none"
+    )]
+    #[schemars(with = "Spoken<Faces>", default)]
+    pub faces: Option<Faces>,
     /// The shading of this object; null: the scene's.
     #[serde(default, deserialize_with = "word_or_null")]
     pub shading: Option<ShadingEntry>,
     /// The reflectance of this object; null: the scene's.
-    #[serde(default, deserialize_with = "word_or_null")]
-    pub reflectance: Option<ReflectanceEntry>,
+    #[serde(default, deserialize_with = "word_or_null", serialize_with = "write_word_or_null")]
+    #[schemars(with = "Option<Spoken<Reflectance>>")]
+    pub reflectance: Option<Reflectance>,
     /// Whether the material's opacity lets what is behind show through. Left out: no, except for parts with a blended
     /// material of the model's own.
     #[serde(default, deserialize_with = "given", skip_serializing_if = "Option::is_none")]
     #[schemars(with = "bool", default)]
     pub blend: Option<bool>,
-}
-
-/// `faces`: which sides of a surface are shown. Front faces wind counter-clockwise, also under a mirroring transform.
-#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[serde(rename_all = "snake_case")]
-pub enum FacesEntry {
-    /// The front.
-    #[default]
-    Front,
-    /// The back, lit with the flipped normal and the back material, if any.
-    Back,
-    /// Both.
-    Both,
-}
-
-impl From<FacesEntry> for Faces {
-    fn from(entry: FacesEntry) -> Self {
-        match entry {
-            FacesEntry::Front => Self::Front,
-            FacesEntry::Back => Self::Back,
-            FacesEntry::Both => Self::Both,
-        }
-    }
 }
 
 /// Where something is: in parts, or as a matrix.
@@ -112,10 +97,6 @@ impl JsonObject for TransformEntry {
     const EXPECTED: &'static str = "an object with translation, rotation and scale, or with matrix";
 }
 
-impl Word for FacesEntry {
-    const EXPECTED: &'static str = "\"front\", \"back\" or \"both\"";
-}
-
 impl Default for TransformParts {
     fn default() -> Self {
         Self { translation: [0.0; 3], rotation: [0.0, 0.0, 0.0, 1.0], scale: [1.0; 3] }
@@ -134,7 +115,7 @@ impl ObjectEntry {
         Self {
             name: None,
             mesh,
-            normals: NormalsEntry::default(),
+            normals: Normals::default(),
             transform: TransformEntry::default(),
             material: None,
             back_material: None,

@@ -10,7 +10,7 @@ use bevy_color::{ColorToComponents, LinearRgba};
 use bevy_ecs::prelude::*;
 use bevy_math::{DMat3, DQuat, Mat4, Vec3};
 use bevy_transform::components::Transform;
-use halfway_lighting::{BackMaterial, Blend, Faces, GlobalAmbient, Reflectance, Shading};
+use halfway_lighting::{BackMaterial, Blend, GlobalAmbient, Shading};
 use halfway_lighting::{Camera, Samples};
 use halfway_mesh::{Bounds, Mesh, Mesh3d};
 
@@ -97,12 +97,12 @@ fn spawn_camera(scene: &SceneFile, objects: &[Object], world: &mut World) -> Ent
         fov_y: entry.fov_y_deg.to_radians(),
         near: entry.near,
         background: LinearRgba::from_f32_array_no_alpha(scene.background),
-        viewer: scene.viewer.into(),
+        viewer: scene.viewer,
         samples: if scene.samples == 4 { Samples::Four } else { Samples::One },
-        encoding: scene.output.into(),
-        intensity: scene.intensity.policy().unwrap_or_default(),
+        encoding: scene.output,
+        intensity: scene.intensity,
     };
-    let view = (shading(scene.shading), Reflectance::from(scene.reflectance));
+    let view = (shading(scene.shading), scene.reflectance);
     world.spawn((Name::new("camera"), camera, camera_transform(&entry), view)).id()
 }
 
@@ -196,7 +196,7 @@ fn dress(object: &ObjectEntry, part: &ShapePart, mesh: Handle<Mesh>, entity: &mu
     let own = if object.material.is_some() { None } else { part.own };
     let given = object.material.as_ref().and_then(MaterialEntry::material);
     let material = given.or(own.map(|own| own.material)).unwrap_or_default();
-    let faces = object.faces.map(Faces::from).or(own.map(|own| own.faces)).unwrap_or_default();
+    let faces = object.faces.or(own.map(|own| own.faces)).unwrap_or_default();
     entity.insert((Mesh3d(mesh), material, faces));
     if let Some(back) = object.back_material.as_ref().and_then(MaterialEntry::material) {
         entity.insert(BackMaterial(back));
@@ -205,7 +205,7 @@ fn dress(object: &ObjectEntry, part: &ShapePart, mesh: Handle<Mesh>, entity: &mu
         entity.insert(shading(entry));
     }
     if let Some(reflectance) = object.reflectance {
-        entity.insert(Reflectance::from(reflectance));
+        entity.insert(reflectance);
     }
     if object.blend.unwrap_or_else(|| own.is_some_and(|own| own.blend)) {
         entity.insert(Blend);

@@ -1,92 +1,90 @@
 //! The keys of a scene file that say how its picture is seen and written.
 
 use bevy_math::{DVec3, Vec3};
-use halfway_lighting::{Camera, Encoding, Intensity, Range, Reflectance, Shading, Viewer};
+use halfway_lighting::{Camera, Encoding, Faces, Intensity, Range, Reflectance, Shading, Viewer};
 use schemars::JsonSchema;
+use serde::de::MapAccess;
 use serde::{Deserialize, Serialize};
 
 use crate::check::{Check, KeyProblem, direction, finite, in_range, test};
-use crate::read::{Given, JsonObject, Word};
-use serde::de::MapAccess;
+use crate::read::{ComponentWord, Given, JsonObject, Word};
 
-/// `output`: what the channels of an 8- or 16-bit picture hold.
-#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[serde(rename_all = "snake_case")]
-pub enum OutputEntry {
-    /// Intensities encoded with the sRGB curve, as displays expect.
-    #[default]
-    Srgb,
-    /// Intensities as they are, the textbook's way.
-    Raw,
+impl Word for Encoding {
+    const WORDS: &'static [(&'static str, Self)] = &[("srgb", Self::Srgb), ("raw", Self::Raw)];
 }
 
-impl From<OutputEntry> for Encoding {
-    fn from(entry: OutputEntry) -> Self {
-        match entry {
-            OutputEntry::Srgb => Self::Srgb,
-            OutputEntry::Raw => Self::Raw,
-        }
+impl ComponentWord for Encoding {
+    const NAME: &'static str = "OutputEntry";
+    const MEANING: &'static str = "`output`: what the channels of an 8- or 16-bit picture hold.";
+    const MEANINGS: &'static [&'static str] = &[
+        "Intensities encoded with the sRGB curve, as displays expect.",
+        "Intensities as they are, the textbook's way.",
+    ];
+}
+
+impl Word for Intensity {
+    const WORDS: &'static [(&'static str, Self)] = &[("clamp", Self::Clamp)];
+
+    fn expected() -> String {
+        "\"clamp\" (or \"renormalise\", \"reinhard\", \"aces\", which are not yet drawn)".to_owned()
+    }
+
+    fn refused(word: &str) -> Option<&'static str> {
+        matches!(word, "renormalise" | "reinhard" | "aces")
+            .then_some("not yet: this version knows the intensity policy \"clamp\" only")
     }
 }
 
-/// `intensity`: what becomes of intensities above 1. This version draws `clamp`; the others are words that it knows and
-/// refuses, and are not in the schema.
-#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[serde(rename_all = "snake_case")]
-pub enum IntensityEntry {
-    /// min(I, 1) for every channel.
-    #[default]
-    Clamp,
-    /// The whole picture divided by its largest intensity. Not yet.
-    #[schemars(skip)]
-    Renormalise,
-    /// I / (1 + I). Not yet.
-    #[schemars(skip)]
-    Reinhard,
-    /// The filmic curve of the Academy Color Encoding System. Not yet.
-    #[schemars(skip)]
-    Aces,
+impl ComponentWord for Intensity {
+    const NAME: &'static str = "IntensityEntry";
+    const MEANING: &'static str = "`intensity`: what becomes of intensities above 1. This version draws `clamp`; the \
+                                   others are words that it knows and refuses, and are not in the schema.";
+    const MEANINGS: &'static [&'static str] = &["min(I, 1) for every channel."];
 }
 
-impl IntensityEntry {
-    /// The renderer's policy, or `None` where it has none yet.
-    pub(crate) fn policy(self) -> Option<Intensity> {
-        match self {
-            Self::Clamp => Some(Intensity::Clamp),
-            Self::Renormalise | Self::Reinhard | Self::Aces => None,
-        }
-    }
-
-    pub(crate) fn check(self) -> Check {
-        match self.policy() {
-            Some(_) => Ok(()),
-            None => Err(KeyProblem::new("", "not yet: this version knows the intensity policy \"clamp\" only")),
-        }
-    }
+impl Word for Viewer {
+    const WORDS: &'static [(&'static str, Self)] = &[("local", Self::Local), ("infinite", Self::Infinite)];
 }
 
-/// `viewer`: where the viewer is for the highlights.
-#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[serde(rename_all = "snake_case")]
-pub enum ViewerEntry {
-    /// The direction to the viewer is taken at every point.
-    #[default]
-    Local,
-    /// The direction to the viewer is the camera's axis everywhere: cheaper, right only from afar.
-    Infinite,
+impl ComponentWord for Viewer {
+    const NAME: &'static str = "ViewerEntry";
+    const MEANING: &'static str = "`viewer`: where the viewer is for the highlights.";
+    const MEANINGS: &'static [&'static str] = &[
+        "The direction to the viewer is taken at every point.",
+        "The direction to the viewer is the camera's axis everywhere: cheaper, right only from afar.",
+    ];
 }
 
-impl From<ViewerEntry> for Viewer {
-    fn from(entry: ViewerEntry) -> Self {
-        match entry {
-            ViewerEntry::Local => Self::Local,
-            ViewerEntry::Infinite => Self::Infinite,
-        }
-    }
+impl Word for Reflectance {
+    const WORDS: &'static [(&'static str, Self)] =
+        &[("phong", Self::Phong), ("blinn_phong", Self::BlinnPhong), ("blinn_phong_matched", Self::BlinnPhongMatched)];
+}
+
+impl ComponentWord for Reflectance {
+    const NAME: &'static str = "ReflectanceEntry";
+    const MEANING: &'static str = "`reflectance`: the specular term.";
+    const MEANINGS: &'static [&'static str] = &[
+        "(r·v)^shininess, r the reflected light direction.",
+        "(n·h)^shininess, h the halfway vector.",
+        "(n·h)^β with β matched, so that highlights are about as large as under `phong`.",
+    ];
+}
+
+impl Word for Faces {
+    const WORDS: &'static [(&'static str, Self)] =
+        &[("front", Self::Front), ("back", Self::Back), ("both", Self::Both)];
+}
+
+impl ComponentWord for Faces {
+    const NAME: &'static str = "FacesEntry";
+    const MEANING: &'static str = "`faces`: which sides of a surface are shown. Front faces wind counter-clockwise, also \
+                                   under a mirroring transform.";
+    const MEANINGS: &'static [&'static str] =
+        &["The front.", "The back, lit with the flipped normal and the back material, if any.", "Both."];
 }
 
 /// `shading`: how often a surface is shaded.
-#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Serialize, JsonSchema, Clone, Copy, Debug, Default, PartialEq)]
 #[serde(rename_all = "snake_case")]
 pub enum ShadingEntry {
     /// One shade per triangle, at its centroid.
@@ -121,28 +119,13 @@ impl JsonObject for AutoShading {
 }
 
 impl Word for ShadingEntry {
-    const EXPECTED: &'static str = "\"flat\", \"gouraud\", \"phong\" or {\"auto\": {\"tolerance\": 1.0}}";
-    const KEY: Option<&'static str> = Some("auto");
+    const WORDS: &'static [(&'static str, Self)] =
+        &[("flat", Self::Flat), ("gouraud", Self::Gouraud), ("phong", Self::Phong)];
+    const OBJECT: Option<(&'static str, &'static str)> = Some(("auto", "{\"auto\": {\"tolerance\": 1.0}}"));
 
     fn from_member<'de, A: MapAccess<'de>>(map: &mut A) -> Result<Self, A::Error> {
         map.next_value().map(|Given(auto)| Self::Auto(auto))
     }
-}
-
-impl Word for OutputEntry {
-    const EXPECTED: &'static str = "\"srgb\" or \"raw\"";
-}
-
-impl Word for IntensityEntry {
-    const EXPECTED: &'static str = "\"clamp\" (or \"renormalise\", \"reinhard\", \"aces\", which are not yet drawn)";
-}
-
-impl Word for ViewerEntry {
-    const EXPECTED: &'static str = "\"local\" or \"infinite\"";
-}
-
-impl Word for ReflectanceEntry {
-    const EXPECTED: &'static str = "\"phong\", \"blinn_phong\" or \"blinn_phong_matched\"";
 }
 
 impl JsonObject for CameraEntry {
@@ -164,36 +147,13 @@ impl ShadingEntry {
         match self {
             Self::Flat | Self::Gouraud | Self::Phong => Ok(()),
             Self::Auto(AutoShading { tolerance }) => {
-                in_range("auto.tolerance", tolerance, Range::Positive)?;
+                in_range("auto.tolerance", tolerance, Range::POSITIVE)?;
                 Err(KeyProblem::new(
                     "auto",
                     "not yet: this version does not choose the shading by itself; \
                      expected \"flat\", \"gouraud\" or \"phong\"",
                 ))
             }
-        }
-    }
-}
-
-/// `reflectance`: the specular term.
-#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[serde(rename_all = "snake_case")]
-pub enum ReflectanceEntry {
-    /// (r·v)^shininess, r the reflected light direction.
-    Phong,
-    /// (n·h)^shininess, h the halfway vector.
-    #[default]
-    BlinnPhong,
-    /// (n·h)^β with β matched, so that highlights are about as large as under `phong`.
-    BlinnPhongMatched,
-}
-
-impl From<ReflectanceEntry> for Reflectance {
-    fn from(entry: ReflectanceEntry) -> Self {
-        match entry {
-            ReflectanceEntry::Phong => Self::Phong,
-            ReflectanceEntry::BlinnPhong => Self::BlinnPhong,
-            ReflectanceEntry::BlinnPhongMatched => Self::BlinnPhongMatched,
         }
     }
 }
@@ -235,7 +195,7 @@ impl CameraEntry {
         direction("up", &self.up)?;
         let fov = self.fov_y_deg;
         test("fov_y_deg", fov, fov > 0.0 && fov < 180.0, "degrees above 0 and below 180")?;
-        in_range("near", self.near, Range::Positive)?;
+        in_range("near", self.near, Range::POSITIVE)?;
         if Vec3::from(self.position) == Vec3::from(self.target) {
             return Err(KeyProblem::new("target", "is where the camera stands; expected another point"));
         }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::bad_keys::{NOT_JSON, NOT_THE_FORMAT};
 use super::bad_values::OUT_OF_RANGE;
-use crate::{LightEntry, LightSource, SceneError, SceneFile};
+use crate::{LightEntry, LightKind, SceneError, SceneFile};
 
 /// A scene file, where its error is (line and column), and how the message goes on.
 pub(super) type Bad = (&'static str, (usize, usize), &'static str);
@@ -54,9 +54,9 @@ fn files_that_are_no_text() {
 #[test]
 fn a_scene_made_in_code_is_checked_before_it_is_written() {
     let mut scene = SceneFile::default();
-    let mut light = LightEntry::white(LightSource::point());
-    light.diffuse[1] = f32::NAN;
-    scene.lights = Some(vec![LightEntry::white(LightSource::spot()), light]);
+    let mut light = LightEntry::white(LightKind::Point);
+    light.light.diffuse.green = f32::NAN;
+    scene.lights = Some(vec![LightEntry::white(LightKind::Spot), light]);
     let error = scene.to_json().unwrap_err();
     assert!(matches!(error, SceneError::Value { .. }));
     assert_eq!(error.key(), Some("lights[1].diffuse[1]"));

@@ -1,12 +1,11 @@
 //! What a file means that leaves keys out, and that a file written means the same as the one read.
 
-use halfway_lighting::{Attenuation, Cone, Faces, Material, PointLight, Reflectance, Shading, Viewer};
-use halfway_lighting::{Camera, Encoding};
-use halfway_mesh::{Cuboid, Normals, Plane, Teapot, UvSphere};
+use halfway_lighting::{Camera, Cone, Material, PointLight, Reflectance, Shading};
+use halfway_mesh::{Cuboid, Plane, Teapot, UvSphere};
 
 use crate::{
-    AttachEntry, BoxEntry, CameraEntry, ConeEntry, FacesEntry, FalloffEntry, LightEntry, LightSource, MaterialEntry,
-    MeshEntry, NormalsEntry, ObjectEntry, PlaneEntry, SceneFile, TeapotEntry, TransformEntry, UvSphereEntry,
+    AttachEntry, BoxEntry, CameraEntry, ConeEntry, LightEntry, LightKind, MaterialEntry, MeshEntry, ObjectEntry,
+    PlaneEntry, SceneFile, TeapotEntry, TransformEntry, UvSphereEntry,
 };
 
 fn parse(text: &str) -> SceneFile {
@@ -74,19 +73,15 @@ fn defaults_agree_with_those_of_the_components() {
     assert_eq!(Teapot::from(TeapotEntry::default()), Teapot::default());
     // The format's plane reaches from −1 to 1; the surface's own default is a unit square.
     assert_eq!(Plane::from(PlaneEntry::default()), Plane { size: 2.0, ..Plane::default() });
-    assert_eq!(Normals::from(NormalsEntry::default()), Normals::default());
-    let falloff = FalloffEntry::default();
-    let [a, b, c] = falloff.attenuation;
-    assert_eq!(Attenuation::new(a, b, c), PointLight::default().attenuation);
+    assert_eq!(LightEntry::white(LightKind::Point).light, PointLight::default());
     assert_eq!(ConeEntry::default().cutoff_deg.to_radians(), Cone::default().cutoff);
     let (scene, camera) = (SceneFile::default(), Camera::default());
     assert_eq!(CameraEntry::default().fov_y_deg.to_radians(), camera.fov_y);
     assert_eq!(CameraEntry::default().near, camera.near);
-    assert_eq!(Encoding::from(scene.output), camera.encoding);
-    assert_eq!(Viewer::from(scene.viewer), camera.viewer);
-    assert_eq!(Reflectance::from(scene.reflectance), Reflectance::default());
+    assert_eq!(scene.output, camera.encoding);
+    assert_eq!(scene.viewer, camera.viewer);
+    assert_eq!(scene.reflectance, Reflectance::default());
     assert_eq!(scene.shading.shading(), Some(Shading::default()));
-    assert_eq!(Faces::from(FacesEntry::default()), Faces::default());
 }
 
 /// Every key at a value that is not its default.
@@ -136,8 +131,7 @@ fn any_number_survives_being_written() {
             continue;
         }
         let mut scene = SceneFile::for_model("a.obj");
-        let mut light = LightEntry::white(LightSource::point());
-        light.source = LightSource::Point { position: [number, -number, 1.0], falloff: FalloffEntry::default() };
+        let light = LightEntry { position: [number, -number, 1.0, 1.0], ..LightEntry::white(LightKind::Point) };
         scene.lights = Some(vec![light]);
         assert_eq!(parse(&scene.to_json().unwrap()), scene, "{number:?}");
     }
@@ -172,7 +166,7 @@ fn kinds_of_light_and_frames() {
     let lights = scene.lights.as_deref().unwrap();
     assert_eq!(lights[0].attach, AttachEntry::Object("a \"b\" [c, d]".into()));
     assert_eq!(lights[1].attach, AttachEntry::Camera);
-    assert!(matches!(lights[1].source, LightSource::Homogeneous { position: [1.0, 2.0, 3.0, -4.0], .. }));
-    assert!(matches!(lights[2].source, LightSource::Directional { direction: [0.0, -1.0, -1.0] }));
+    assert_eq!((lights[1].kind, lights[1].position), (LightKind::Homogeneous, [1.0, 2.0, 3.0, -4.0]));
+    assert_eq!((lights[2].kind, lights[2].cone.direction), (LightKind::Directional, [0.0, -1.0, -1.0]));
     assert!(matches!(scene.objects[0].transform, TransformEntry::Matrix(_)));
 }
