@@ -14,7 +14,6 @@ use plotters::style::{Color, IntoFont, TextStyle};
 use thiserror::Error;
 
 use super::{Axis, Figure, Marker, Panel, Point, Series, Style, Tick};
-use crate::page::escaped;
 
 /// How large a figure is drawn, in pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -97,6 +96,15 @@ fn hit((point, (x, y)): (&Point, Pixel)) -> String {
         let _ = write!(circle, " data-card=\"{card}\"");
     }
     circle + "/>\n"
+}
+
+/// Text as HTML and SVG, in elements and in quoted attributes.
+pub fn escaped(text: &str) -> String {
+    let mut escaped = text.replace('&', "&amp;");
+    for (character, entity) in [('<', "&lt;"), ('>', "&gt;"), ('"', "&quot;"), ('\'', "&#39;")] {
+        escaped = escaped.replace(character, entity);
+    }
+    escaped
 }
 
 fn head(figure: &Figure, root: &Area<'_>) -> Result {
@@ -245,6 +253,11 @@ mod tests {
     use super::*;
     use crate::figure::AxisScale;
     use crate::figure::tests::example;
+
+    #[test]
+    fn text_is_escaped() {
+        assert_eq!(escaped("<a href=\"x\">'&'</a>"), "&lt;a href=&quot;x&quot;&gt;&#39;&amp;&#39;&lt;/a&gt;");
+    }
 
     #[test]
     fn an_svg_file_shows_all_and_keeps_text_as_text() {

@@ -1,7 +1,7 @@
 //! The page as HTML.
 
 use super::{Card, Page, PageTable, Section};
-use crate::figure::svg::{self, Size, SvgError};
+use crate::figure::svg::{self, Size, SvgError, escaped};
 use crate::figure::{Figure, Marker, Series, Style};
 
 const STYLE: &str = include_str!("page.css");
@@ -34,22 +34,6 @@ pub fn html(page: &Page) -> Result<String, SvgError> {
         lead = escaped(&page.lead),
         cards = in_script(&cards(&page.cards)),
     ))
-}
-
-/// Text as HTML, in elements and in quoted attributes.
-pub fn escaped(text: &str) -> String {
-    let mut html = String::with_capacity(text.len());
-    for character in text.chars() {
-        match character {
-            '&' => html.push_str("&amp;"),
-            '<' => html.push_str("&lt;"),
-            '>' => html.push_str("&gt;"),
-            '"' => html.push_str("&quot;"),
-            '\'' => html.push_str("&#39;"),
-            other => html.push(other),
-        }
-    }
-    html
 }
 
 /// The HTML of each, one after the other.
@@ -191,11 +175,6 @@ mod tests {
                 pictures: vec![("drawn".to_owned(), "data:,".to_owned())],
             }],
         }
-    }
-
-    #[test]
-    fn text_is_escaped() {
-        assert_eq!(escaped("<a href=\"x\">'&'</a>"), "&lt;a href=&quot;x&quot;&gt;&#39;&amp;&#39;&lt;/a&gt;");
     }
 
     #[test]

@@ -5,7 +5,7 @@ mod html;
 mod picture;
 
 pub use csv::csv;
-pub use html::{escaped, html};
+pub use html::html;
 pub use picture::data_uri;
 
 use crate::figure::Figure;
