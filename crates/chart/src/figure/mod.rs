@@ -106,14 +106,6 @@ impl Stroke {
     }
 }
 
-impl Style {
-    /// The colour as CSS has it, as `#d55e00`.
-    pub fn css_color(&self) -> String {
-        let [r, g, b] = self.color;
-        format!("#{r:02x}{g:02x}{b:02x}")
-    }
-}
-
 impl Figure {
     /// The ends of a panel's axes: the least that hold every point of every panel, or, where its horizontal axis is one of
     /// its own, of this one; and a little room. In positions ([`Axis::position`]): x, then y.
@@ -204,10 +196,5 @@ pub(crate) mod tests {
         let figure = example();
         let names: Vec<&str> = figure.legend().iter().map(|series| series.name.as_str()).collect();
         assert_eq!(names, ["one & all", "other"]);
-    }
-
-    #[test]
-    fn colors_are_css() {
-        assert_eq!(example().panels[0].series[0].style.css_color(), "#d55e00");
     }
 }

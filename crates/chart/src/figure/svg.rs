@@ -77,6 +77,20 @@ pub fn panel_with_hits(figure: &Figure, content: &Panel, size: Size) -> Result<S
     Ok(svg)
 }
 
+/// Draws a piece of a series' line with its marker, as the legend shows it.
+///
+/// # Errors
+/// What the drawing library has to say; it has no reason to fail on text in memory.
+pub fn swatch(style: Style) -> Result<String> {
+    let drawn = on_canvas((SWATCH as u32, 14), |root| piece(root, (0, 7), style));
+    drawn.map(|(svg, ())| svg)
+}
+
+fn piece(root: &Area<'_>, (x, y): Pixel, style: Style) -> Result {
+    line(root, vec![(x, y), (x + SWATCH, y)], style)?;
+    mark(root, (x + SWATCH / 2, y), style)
+}
+
 fn on_canvas<T>((width, height): (u32, u32), draw: impl FnOnce(&Area<'_>) -> Result<T>) -> Result<(String, T)> {
     let mut svg = String::new();
     let drawn = {
@@ -116,8 +130,7 @@ fn head(figure: &Figure, root: &Area<'_>) -> Result {
     let mut x = middle - legend.iter().map(|series| advance(series)).sum::<i32>() / 2 + 11;
     for series in legend {
         const Y: i32 = 47;
-        line(root, vec![(x, Y), (x + SWATCH, Y)], series.style)?;
-        mark(root, (x + SWATCH / 2, Y), series.style)?;
+        piece(root, (x, Y), series.style)?;
         write(root, &series.name, (x + SWATCH + 8, Y), 13, (HPos::Left, VPos::Center))?;
         x += advance(series);
     }

@@ -2,7 +2,7 @@
 
 use super::{Card, Page, PageTable, Section};
 use crate::figure::svg::{self, Size, SvgError, escaped};
-use crate::figure::{Figure, Marker, Series, Style};
+use crate::figure::{Figure, Series};
 
 const STYLE: &str = include_str!("page.css");
 const SCRIPT: &str = include_str!("page.js");
@@ -90,7 +90,8 @@ fn buttons(figures: &[(String, Figure)]) -> String {
 }
 
 fn figure(figure: &Figure, shown: bool) -> Result<String, SvgError> {
-    let legend = each(figure.legend(), |series| format!("<span>{}{}</span>", swatch(series), escaped(&series.name)));
+    let entry = |series: &Series| Ok(format!("<span>{}{}</span>", svg::swatch(series.style)?, escaped(&series.name)));
+    let legend = figure.legend().into_iter().map(entry).collect::<Result<String, SvgError>>()?;
     // Panels are scaled to the columns of the page, so that their text comes out at about its own size.
     let size = match figure.columns {
         1 => Size { width: 860, row: 360 },
@@ -112,25 +113,6 @@ fn figure(figure: &Figure, shown: bool) -> Result<String, SvgError> {
         size.width * 4 / 5,
         panels.collect::<Result<String, SvgError>>()?
     ))
-}
-
-/// A piece of the series' line with its marker.
-fn swatch(series: &Series) -> String {
-    let Style { marker, filled, stroke, .. } = series.style;
-    let color = series.style.css_color();
-    let dashes = stroke.pattern().map(|(ink, gap)| format!(" stroke-dasharray=\"{ink} {gap}\"")).unwrap_or_default();
-    let shape = match marker {
-        None => "",
-        Some(Marker::Circle) => "<circle cx=\"18\" cy=\"7\" r=\"4\"",
-        Some(Marker::Square) => "<rect x=\"14\" y=\"3\" width=\"8\" height=\"8\"",
-        Some(Marker::Triangle) => "<path d=\"M18 2l5 9h-10z\"",
-    };
-    let fill = if filled { color.as_str() } else { "#fff" };
-    let shape = if shape.is_empty() { String::new() } else { format!("{shape} fill=\"{fill}\"/>") };
-    format!(
-        "<svg width=\"36\" height=\"14\" stroke=\"{color}\" stroke-width=\"2\" aria-hidden=\"true\">\
-         <path d=\"M0 7h36\"{dashes}/>{shape}</svg>"
-    )
 }
 
 fn table(table: &PageTable) -> String {

@@ -2,7 +2,7 @@
 
 use super::charts::{self, order};
 use super::tables::files;
-use super::{Report, ReportError, scaling};
+use super::{Report, ReportError};
 use crate::measure::accuracy::{Measured, describe};
 use crate::measure::convergence::{FITTED, QUANTITIES};
 use crate::measure::highlight::Unsteadiness;
@@ -36,7 +36,7 @@ impl Report {
     fn facts(&self) -> Vec<(String, String)> {
         let plan = self.plan;
         let fact = |name: &str, value: String| (name.to_owned(), value);
-        let mut facts = scaling::facts(&self.scaling.machine);
+        let mut facts = self.scaling.machine.facts();
         facts.extend([
             fact("timed pictures", format!("{0} × {0} pixels", plan.accuracy.size)),
             fact("rounds", plan.accuracy.rounds.to_string()),

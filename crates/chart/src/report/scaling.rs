@@ -40,7 +40,7 @@ impl Scaling {
             lead: "Flat shading evaluates the lighting once a triangle, Gouraud shading once a vertex, Phong shading \
                    once a pixel; a constant colour leaves it out. What does each cost in large scenes and in small ones?"
                 .to_owned(),
-            facts: facts(&self.machine),
+            facts: self.machine.facts(),
             sections: vec![self.section()],
             cards: Vec::new(),
         };
@@ -187,11 +187,6 @@ impl Scaling {
         });
         csv(["what grows", "shading", "from", "to", "slope"], rows)
     }
-}
-
-/// What the figures come from.
-pub(super) fn facts(machine: &Machine) -> Vec<(String, String)> {
-    machine.facts().into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
 }
 
 fn look_name(look: TimedLook) -> &'static str {

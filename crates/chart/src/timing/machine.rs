@@ -41,16 +41,18 @@ impl Machine {
     }
 
     /// Names and values, for people.
-    pub fn facts(&self) -> Vec<(&'static str, String)> {
+    pub fn facts(&self) -> Vec<(String, String)> {
         let software = if self.software { ", software" } else { "" };
         let cores = if self.cores == 0 { UNKNOWN.to_owned() } else { self.cores.to_string() };
-        vec![
+        [
             ("adapter", format!("{} ({}{software})", self.adapter, self.backend)),
             ("driver", format!("{} {}", self.driver, self.driver_version)),
             ("halfway", self.halfway.to_owned()),
             ("CPU", self.cpu.clone()),
             ("CPU cores", cores),
         ]
+        .map(|(name, value)| (name.to_owned(), value))
+        .into()
     }
 }
 

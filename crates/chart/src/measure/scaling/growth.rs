@@ -29,52 +29,41 @@ impl Growth {
     pub const ALL: [Self; 6] =
         [Self::Triangles, Self::Objects, Self::TurningObjects, Self::Lights, Self::LightsOnOne, Self::Pixels];
 
+    /// Its name, what is counted, the first count and the last.
+    fn row(self) -> (&'static str, &'static str, f64, f64) {
+        match self {
+            Self::Triangles => ("triangles of one sphere", "triangles", 1e3, 1e6),
+            Self::Objects => ("objects at rest", "objects", 1e1, 1e5),
+            Self::TurningObjects => ("objects, all turning", "objects", 1e1, 1e5),
+            Self::Lights => ("lights of short range", "lights", 1.0, 1e4),
+            Self::LightsOnOne => ("lights on one sphere", "lights", 1.0, 256.0),
+            Self::Pixels => ("pixels", "pixels", 64.0 * 64.0, PIXELS),
+        }
+    }
+
     /// In a few words, lower case.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Triangles => "triangles of one sphere",
-            Self::Objects => "objects at rest",
-            Self::TurningObjects => "objects, all turning",
-            Self::Lights => "lights of short range",
-            Self::LightsOnOne => "lights on one sphere",
-            Self::Pixels => "pixels",
-        }
+        self.row().0
+    }
+
+    /// What is counted.
+    pub fn counted(self) -> &'static str {
+        self.row().1
+    }
+
+    /// The first count.
+    pub fn start(self) -> f64 {
+        self.row().2
+    }
+
+    /// The last count.
+    pub fn end(self) -> f64 {
+        self.row().3
     }
 
     /// How coarse meshes may be drawn: by default, but where it is triangles that grow, as they are.
     pub fn levels(self) -> LevelsOfDetail {
         if self == Self::Triangles { LevelsOfDetail::OFF } else { LevelsOfDetail::default() }
-    }
-
-    /// What is counted.
-    pub fn counted(self) -> &'static str {
-        match self {
-            Self::Triangles => "triangles",
-            Self::Objects | Self::TurningObjects => "objects",
-            Self::Lights | Self::LightsOnOne => "lights",
-            Self::Pixels => "pixels",
-        }
-    }
-
-    /// The first count.
-    pub fn start(self) -> f64 {
-        match self {
-            Self::Triangles => 1e3,
-            Self::Objects | Self::TurningObjects => 1e1,
-            Self::Lights | Self::LightsOnOne => 1.0,
-            Self::Pixels => 64.0 * 64.0,
-        }
-    }
-
-    /// The last count.
-    pub fn end(self) -> f64 {
-        match self {
-            Self::Triangles => 1e6,
-            Self::Objects | Self::TurningObjects => 1e5,
-            Self::Lights => 1e4,
-            Self::LightsOnOne => 256.0,
-            Self::Pixels => PIXELS,
-        }
     }
 
     /// The counts to measure at: the first, the powers of ten and the steps between them, the last. A mesh or a picture

@@ -30,7 +30,7 @@ fn turn(mut objects: Query<&mut Transform, With<Turning>>) {
 }
 
 /// The colour of everything.
-const COLOUR: LinearRgba = LinearRgba::rgb(0.6, 0.5, 0.4);
+const COLOR: LinearRgba = LinearRgba::rgb(0.6, 0.5, 0.4);
 /// Distance of the objects from each other.
 const SPACING: f32 = 2.5;
 /// cot(45°/2): how far a camera has to be from what is 2 units high.
@@ -131,7 +131,7 @@ impl ScalingScene {
             let light = PointLight {
                 attenuation: Attenuation::new(1.0, 0.0, 0.5),
                 range: Some(1.5),
-                ..PointLight::from_color(COLOUR)
+                ..PointLight::from_color(COLOR)
             };
             self.spawn((light, Transform::from_xyz(at(unit % GROUND), 0.5, at(unit / GROUND))));
         }
@@ -172,7 +172,7 @@ impl ScalingScene {
     }
 
     fn object(&mut self, mesh: Handle<Mesh>, place: Transform) -> Entity {
-        self.spawn((Mesh3d(mesh), self.look.material(COLOUR), self.look.shading(), place))
+        self.spawn((Mesh3d(mesh), self.look.material(COLOR), self.look.shading(), place))
     }
 
     fn spawn(&mut self, parts: impl Bundle) -> Entity {
