@@ -15,6 +15,20 @@ pub enum RenderError {
          a software one will do (Debian and Ubuntu: apt install mesa-vulkan-drivers)"
     )]
     NoAdapter,
+    /// Of the backends that the environment allows none has an adapter.
+    #[error("no graphics adapter: none answered by {backends}, and WGPU_BACKEND lets nothing else be asked")]
+    NoAdapterAmong {
+        /// The value of `WGPU_BACKEND`.
+        backends: String,
+    },
+    /// No adapter fits the name that [`AdapterChoice`](crate::AdapterChoice) or the environment gives.
+    #[error("no graphics adapter fits \"{wanted}\"; {}", listed(there))]
+    NoSuchAdapter {
+        /// The name, in lower case.
+        wanted: String,
+        /// The adapters that there are, a line each.
+        there: Vec<String>,
+    },
     /// The adapter was found but would not open.
     #[error("the adapter {adapter} could not be opened: {reason}")]
     NoDevice {
@@ -86,6 +100,10 @@ pub enum RenderError {
     /// The device was lost, or the driver failed.
     #[error("the graphics device failed: {0}")]
     Device(String),
+}
+
+fn listed(adapters: &[String]) -> String {
+    if adapters.is_empty() { "there is none".into() } else { format!("there are:\n  {}", adapters.join("\n  ")) }
 }
 
 /// The error of a transform that cannot be drawn with.

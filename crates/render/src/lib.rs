@@ -18,6 +18,7 @@ mod shaders;
 mod target;
 mod view;
 
+pub use device::choice::{AdapterChoice, describe_adapter};
 pub use device::costs::Costs;
 pub use device::gpu::Gpu;
 pub use device::gpu_timer::GpuTimer;

@@ -2,6 +2,7 @@
 
 use crate::batch::batches::{self, Batches};
 use crate::batch::lit_patches::{self, LitPatches};
+use crate::device::choice::AdapterChoice;
 use crate::device::gpu::Gpu;
 use crate::draw::meshes::{self as mesh_buffers, MeshBuffers};
 use crate::draw::pass;
@@ -49,6 +50,7 @@ impl Default for RenderPlugin {
 impl Plugin for RenderPlugin {
     fn build(&self, app: &mut App) {
         app.add_plugins((MeshPlugin, LightingPlugin))
+            .init_resource::<AdapterChoice>()
             .init_resource::<Headless>()
             .init_resource::<FrameReport>()
             .init_resource::<Target>()
@@ -124,7 +126,8 @@ fn complete(objects: Query<Entity, Incomplete>, mut commands: Commands) {
 }
 
 fn register_types(app: &mut App) {
-    app.register_type::<Headless>()
+    app.register_type::<AdapterChoice>()
+        .register_type::<Headless>()
         .register_type::<Compile>()
         .register_type::<LevelsOfDetail>()
         .register_type::<FrameReport>()
@@ -139,7 +142,7 @@ fn register_types(app: &mut App) {
 /// every frame anew, so that an adapter that appears later is found.
 fn open_gpu(world: &mut World) {
     if !world.contains_resource::<Gpu>() {
-        match Gpu::open_headless() {
+        match world.resource::<AdapterChoice>().open() {
             Ok(gpu) => {
                 log::info!("drawing on {}", gpu.describe());
                 world.insert_resource(gpu);

@@ -5,7 +5,7 @@ use crate::input::Forward;
 use crate::orbit_camera::DragArea;
 use bevy_ecs::prelude::*;
 use bevy_math::{UVec2, Vec2};
-use halfway_render::{Gpu, SurfaceLost, SurfaceTarget, wgpu};
+use halfway_render::{AdapterChoice, Gpu, SurfaceLost, SurfaceTarget, wgpu};
 use std::sync::Arc;
 use std::time::Duration;
 use winit::dpi::LogicalSize;
@@ -45,9 +45,9 @@ impl Open {
             reason: reason(&error),
         })?;
         let window = Arc::new(window);
-        let instance = Gpu::instance();
-        let surface = make_surface(&instance, &window).map_err(or_no_adapter)?;
-        let gpu = Gpu::open_for(instance, &surface)?;
+        let choice = world.get_resource_or_init::<AdapterChoice>().clone();
+        let display = event_loop.owned_display_handle();
+        let (gpu, surface) = choice.open_for(&display, |instance| make_surface(instance, &window))?;
         log::info!("drawing on {}", gpu.describe());
         let target = SurfaceTarget::new(&gpu, surface, physical_size(&window))?;
         world.insert_resource(gpu);
@@ -107,14 +107,6 @@ impl Open {
 fn shortest_frame(millihertz: Option<u32>) -> Duration {
     let millihertz = millihertz.filter(|rate| (20_000..=1_000_000).contains(rate)).unwrap_or(60_000);
     Duration::from_nanos(900_000_000_000 / u64::from(millihertz))
-}
-
-/// Without any driver there is no surface either, and the driver is what to say something about.
-fn or_no_adapter(error: WindowError) -> WindowError {
-    match Gpu::open_headless() {
-        Err(missing) => missing.into(),
-        Ok(_) => error,
-    }
 }
 
 fn physical_size(window: &Window) -> UVec2 {

@@ -1,5 +1,6 @@
 //! The adapter, its device and its queue.
 
+use crate::device::choice::{AdapterChoice, describe_adapter};
 use crate::device::costs::Costs;
 use crate::error::RenderError;
 use bevy_ecs::prelude::Resource;
@@ -21,41 +22,15 @@ pub struct Gpu {
 }
 
 impl Gpu {
-    /// An instance for every backend that was compiled in, or those that the environment variable
-    /// `WGPU_BACKEND` names (`vulkan`, `gl`, `metal`, `dx12`).
-    pub fn instance() -> wgpu::Instance {
-        let descriptor = wgpu::InstanceDescriptor {
-            // Probing OpenGL costs start-up time and prints driver warnings on machines without a
-            // session, so it is asked only where it is wanted by name.
-            backends: wgpu::Backends::PRIMARY,
-            ..wgpu::InstanceDescriptor::new_without_display_handle()
-        };
-        wgpu::Instance::new(descriptor.with_env())
-    }
-
-    /// Opens an adapter that needs no window: a hardware one where there is one, else a software one.
+    /// Opens an adapter that needs no window, the one that [`AdapterChoice::default`] finds.
     ///
     /// # Errors
-    /// [`RenderError::NoAdapter`] or [`RenderError::NoDevice`], each with what to do about it.
+    /// As [`AdapterChoice::open`].
     pub fn open_headless() -> Result<Self, RenderError> {
-        Self::open(Self::instance(), None)
+        AdapterChoice::default().open()
     }
 
-    /// Opens an adapter that can present to `surface`, which must come from `instance`.
-    ///
-    /// # Errors
-    /// [`RenderError::NoAdapter`] or [`RenderError::NoDevice`], each with what to do about it.
-    pub fn open_for(instance: wgpu::Instance, surface: &wgpu::Surface<'_>) -> Result<Self, RenderError> {
-        Self::open(instance, Some(surface))
-    }
-
-    fn open(instance: wgpu::Instance, surface: Option<&wgpu::Surface<'_>>) -> Result<Self, RenderError> {
-        let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions {
-            power_preference: wgpu::PowerPreference::from_env().unwrap_or(wgpu::PowerPreference::HighPerformance),
-            compatible_surface: surface,
-            ..Default::default()
-        }))
-        .map_err(|_| RenderError::NoAdapter)?;
+    pub(super) fn of_adapter(instance: wgpu::Instance, adapter: wgpu::Adapter) -> Result<Self, RenderError> {
         let wanted = wgpu::Features::FLOAT32_BLENDABLE
             | wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES
             | wgpu::Features::TIMESTAMP_QUERY
@@ -127,8 +102,6 @@ impl Gpu {
 
     /// One line for people: the adapter's name, its backend, and whether it is software.
     pub fn describe(&self) -> String {
-        let info = self.adapter.get_info();
-        let software = if self.is_software() { ", software" } else { "" };
-        format!("{} ({}{software})", info.name, info.backend)
+        describe_adapter(&self.adapter.get_info())
     }
 }

@@ -1,5 +1,7 @@
 //! The adapter and its device.
 
+pub(crate) mod choice;
 pub(crate) mod costs;
 pub(crate) mod gpu;
 pub(crate) mod gpu_timer;
+mod instance;

@@ -1,0 +1,307 @@
+//! Which adapter to draw with.
+
+use crate::device::gpu::Gpu;
+use crate::device::instance::instance;
+use crate::error::RenderError;
+use bevy_ecs::prelude::{ReflectResource, Resource};
+use bevy_reflect::Reflect;
+use bevy_reflect::std_traits::ReflectDefault;
+
+/// Which graphics adapter to draw with. Insert it before the first frame; an open [`Gpu`] stays.
+///
+/// The first of these that is given decides:
+///
+/// 1. the name here;
+/// 2. the environment variable `HALFWAY_ADAPTER`, a name as here;
+/// 3. wgpu's variables `WGPU_BACKEND`, the backends to ask (`vulkan`, `gl`, `metal`, `dx12`; several with commas), and
+///    `WGPU_ADAPTER_NAME`, a name as here;
+/// 4. nothing by name: a hardware adapter of Vulkan, Metal or DirectX 12, else a software one; where none of these
+///    answers, one of OpenGL.
+///
+/// A name is a part, in upper or lower case, of the adapter's name or of its backend's (`vulkan`, `metal`, `dx12`, `gl`
+/// or `opengl`), or both with a colon between: `vulkan:llvmpipe`, `gl:llvmpipe`. The name of a backend in full stands for
+/// the backend only. Of several adapters that fit, hardware goes before software. `VK_DRIVER_FILES` says which Vulkan
+/// drivers there are to choose from, whatever names them. OpenGL is asked only where the name can mean it and nothing of
+/// the others fits: asking it takes time.
+#[derive(Resource, Reflect, Clone, Debug, Default, PartialEq, Eq)]
+#[reflect(Resource, Default)]
+pub struct AdapterChoice {
+    /// The name. Default `None`: the environment's, or none.
+    pub name: Option<String>,
+}
+
+impl AdapterChoice {
+    /// The adapter of that name.
+    pub fn named(name: impl Into<String>) -> Self {
+        Self { name: Some(name.into()) }
+    }
+
+    /// Opens the adapter, for pictures without a window.
+    ///
+    /// # Errors
+    /// [`RenderError::NoAdapter`], [`RenderError::NoAdapterAmong`], [`RenderError::NoSuchAdapter`] or
+    /// [`RenderError::NoDevice`], each with what to do about it.
+    pub fn open(&self) -> Result<Gpu, RenderError> {
+        let (instance, adapter) = self.find()?;
+        Gpu::of_adapter(instance, adapter)
+    }
+
+    /// Opens the adapter with a surface that it can present to. `display` is the display of the surface's window, which
+    /// OpenGL has to know; `make_surface` makes the surface from an instance, and may be called once a backend.
+    ///
+    /// # Errors
+    /// As [`open`](Self::open), and what `make_surface` could not do.
+    pub fn open_for<E: From<RenderError>>(
+        &self,
+        display: &(impl wgpu::wgt::WgpuHasDisplayHandle + Clone),
+        mut make_surface: impl FnMut(&wgpu::Instance) -> Result<wgpu::Surface<'static>, E>,
+    ) -> Result<(Gpu, wgpu::Surface<'static>), E> {
+        let wanted = self.wanted(variable);
+        let mut refused = None;
+        for &backends in &wanted.rounds {
+            let instance = instance(backends, Some(Box::new(display.clone())));
+            match make_surface(&instance) {
+                Ok(surface) => {
+                    if let Some(adapter) = wanted.pick(&instance, backends, Some(&surface)) {
+                        return Ok((Gpu::of_adapter(instance, adapter)?, surface));
+                    }
+                }
+                // Without any driver there is no surface either, and the driver is what to say something about.
+                Err(error) if !enumerate(&instance, backends).is_empty() => refused = Some(error),
+                Err(_) => {}
+            }
+        }
+        Err(refused.unwrap_or_else(|| wanted.missing().into()))
+    }
+
+    /// All adapters that there are, or that `WGPU_BACKEND` allows; the one that would be opened comes first. OpenGL is
+    /// asked, too.
+    pub fn list(&self) -> Vec<wgpu::AdapterInfo> {
+        let mut all: Vec<_> = self.find().ok().map(|(_, adapter)| adapter.get_info()).into_iter().collect();
+        let rounds = AdapterChoice::default().wanted(|name| variable(name).filter(|_| name == BACKEND)).rounds;
+        for info in infos(&rounds) {
+            if !all.contains(&info) {
+                all.push(info);
+            }
+        }
+        all
+    }
+
+    fn find(&self) -> Result<(wgpu::Instance, wgpu::Adapter), RenderError> {
+        let wanted = self.wanted(variable);
+        let found = wanted.rounds.iter().find_map(|&backends| {
+            let instance = instance(backends, None);
+            let adapter = wanted.pick(&instance, backends, None)?;
+            Some((instance, adapter))
+        });
+        found.ok_or_else(|| wanted.missing())
+    }
+
+    fn wanted(&self, variable: impl Fn(&str) -> Option<String>) -> Wanted {
+        if let Some(text) = self.name.clone().filter(|name| !name.is_empty()).or_else(|| variable("HALFWAY_ADAPTER")) {
+            let name = AdapterName::new(&text);
+            let rounds = ROUNDS.map(|round| round & name.backends()).into_iter().filter(|round| !round.is_empty());
+            return Wanted { rounds: rounds.collect(), name: Some(name), limited: None };
+        }
+        let limited = variable(BACKEND);
+        let rounds = limited.as_deref().map_or(ROUNDS.to_vec(), |list| vec![wgpu::Backends::from_comma_list(list)]);
+        let name = variable("WGPU_ADAPTER_NAME").map(|text| AdapterName::new(&text));
+        Wanted { name, rounds, limited }
+    }
+}
+
+/// One line for people: the adapter's name, its backend, and whether it is software.
+pub fn describe_adapter(info: &wgpu::AdapterInfo) -> String {
+    let software = if info.device_type == wgpu::DeviceType::Cpu { ", software" } else { "" };
+    format!("{} ({}{software})", info.name, info.backend)
+}
+
+/// The variable that says which backends may be asked.
+const BACKEND: &str = "WGPU_BACKEND";
+
+/// What is asked, and, where that gives nothing, what then.
+const ROUNDS: [wgpu::Backends; 2] = [wgpu::Backends::PRIMARY, wgpu::Backends::GL];
+
+/// An environment variable that says something.
+fn variable(name: &str) -> Option<String> {
+    std::env::var(name).ok().filter(|value| !value.is_empty())
+}
+
+/// What is to be found.
+#[derive(Debug, PartialEq, Eq)]
+struct Wanted {
+    name: Option<AdapterName>,
+    rounds: Vec<wgpu::Backends>,
+    /// What `WGPU_BACKEND` limits it to.
+    limited: Option<String>,
+}
+
+impl Wanted {
+    fn pick(
+        &self,
+        instance: &wgpu::Instance,
+        backends: wgpu::Backends,
+        surface: Option<&wgpu::Surface<'_>>,
+    ) -> Option<wgpu::Adapter> {
+        let Some(name) = &self.name else {
+            let options = wgpu::RequestAdapterOptions {
+                power_preference: wgpu::PowerPreference::from_env().unwrap_or(wgpu::PowerPreference::HighPerformance),
+                compatible_surface: surface,
+                ..Default::default()
+            };
+            return pollster::block_on(instance.request_adapter(&options)).ok();
+        };
+        let fitting = enumerate(instance, backends).into_iter().filter(|adapter| name.fits(&adapter.get_info()));
+        let able = fitting.filter(|adapter| surface.is_none_or(|surface| adapter.is_surface_supported(surface)));
+        able.min_by_key(|adapter| rank(adapter.get_info().device_type))
+    }
+
+    /// The error of not having found it.
+    fn missing(&self) -> RenderError {
+        match (&self.name, &self.limited) {
+            (Some(name), limited) => {
+                // What a name may be chosen from; the limit goes for a name of wgpu's own only.
+                let rounds = if limited.is_some() { &self.rounds[..] } else { &ROUNDS };
+                let there = infos(rounds).iter().map(describe_adapter).collect();
+                RenderError::NoSuchAdapter { wanted: name.0.clone(), there }
+            }
+            (None, Some(backends)) => RenderError::NoAdapterAmong { backends: backends.clone() },
+            (None, None) => RenderError::NoAdapter,
+        }
+    }
+}
+
+/// The adapters of these backends, in the order in which they are asked.
+fn infos(rounds: &[wgpu::Backends]) -> Vec<wgpu::AdapterInfo> {
+    let of = |&backends: &wgpu::Backends| enumerate(&instance(backends, None), backends);
+    rounds.iter().flat_map(of).map(|adapter| adapter.get_info()).collect()
+}
+
+fn enumerate(instance: &wgpu::Instance, backends: wgpu::Backends) -> Vec<wgpu::Adapter> {
+    pollster::block_on(instance.enumerate_adapters(backends))
+}
+
+/// The better, the lower.
+fn rank(kind: wgpu::DeviceType) -> u8 {
+    match kind {
+        wgpu::DeviceType::DiscreteGpu => 0,
+        wgpu::DeviceType::IntegratedGpu => 1,
+        wgpu::DeviceType::VirtualGpu => 2,
+        wgpu::DeviceType::Other => 3,
+        wgpu::DeviceType::Cpu => 4,
+    }
+}
+
+/// The backends by the names that people give them.
+const BACKENDS: [(&str, wgpu::Backends); 5] = [
+    ("vulkan", wgpu::Backends::VULKAN),
+    ("metal", wgpu::Backends::METAL),
+    ("dx12", wgpu::Backends::DX12),
+    ("gl", wgpu::Backends::GL),
+    ("opengl", wgpu::Backends::GL),
+];
+
+/// A name that people give an adapter, in lower case.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct AdapterName(String);
+
+impl AdapterName {
+    fn new(text: &str) -> Self {
+        Self(text.to_lowercase())
+    }
+
+    fn fits(&self, info: &wgpu::AdapterInfo) -> bool {
+        let (backend, part) = self.parts();
+        let is_backend = |backends: wgpu::Backends| backends.contains(info.backend.into());
+        let in_name = info.name.to_lowercase().contains(part);
+        match backend {
+            Some(backends) => is_backend(backends) && in_name,
+            None => in_name || is_backend(backends_of(part)),
+        }
+    }
+
+    /// The backends that can have it.
+    fn backends(&self) -> wgpu::Backends {
+        self.parts().0.unwrap_or(wgpu::Backends::all())
+    }
+
+    /// The backends, where the text names one in full or before a colon; and a part of the adapter's name.
+    fn parts(&self) -> (Option<wgpu::Backends>, &str) {
+        if let Some((_, backends)) = BACKENDS.iter().find(|(name, _)| *name == self.0) {
+            return (Some(*backends), "");
+        }
+        // A colon may also belong to the adapter's name.
+        match self.0.split_once(':') {
+            Some((backend, part)) if !backends_of(backend).is_empty() => (Some(backends_of(backend)), part.trim()),
+            _ => (None, &self.0),
+        }
+    }
+}
+
+/// The backends with names that `part` is a part of; none for an empty one.
+fn backends_of(part: &str) -> wgpu::Backends {
+    let named = BACKENDS.iter().filter(|(name, _)| !part.is_empty() && name.contains(part));
+    named.fold(wgpu::Backends::empty(), |all, (_, backends)| all | *backends)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use wgpu::{Backend, Backends, DeviceType};
+
+    fn info(name: &str, backend: Backend) -> wgpu::AdapterInfo {
+        wgpu::AdapterInfo { name: name.into(), ..wgpu::AdapterInfo::new(DeviceType::Cpu, backend) }
+    }
+
+    #[test]
+    fn names_fit_parts_of_adapters_and_backends() {
+        let vulkan = info("llvmpipe (LLVM 15.0.6, 256 bits)", Backend::Vulkan);
+        let gl = info("llvmpipe (LLVM 15.0.6, 256 bits)", Backend::Gl);
+        // The letters of a backend are in many names.
+        let intel = info("Intel(R) Iris(R) Xe Graphics (TGL GT2)", Backend::Vulkan);
+        let rows = [
+            ("llvmpipe", [true, true, false]),
+            ("LLVM", [true, true, false]),
+            ("vulkan:llvmpipe", [true, false, false]),
+            ("gl:llvmpipe", [false, true, false]),
+            ("OpenGL: llvmpipe", [false, true, false]),
+            ("vulkan", [true, false, true]),
+            ("vulk", [true, false, true]),
+            ("gl", [false, true, false]),
+            ("opengl", [false, true, false]),
+            ("vulkan:", [true, false, true]),
+            ("(tgl", [false, false, true]),
+            ("intel", [false, false, true]),
+            ("metal", [false; 3]),
+            ("metal:llvmpipe", [false; 3]),
+            ("nothing:llvmpipe", [false; 3]),
+            (":llvmpipe", [false; 3]),
+        ];
+        for (name, expected) in rows {
+            assert_eq!([&vulkan, &gl, &intel].map(|info| AdapterName::new(name).fits(info)), expected, "{name}");
+        }
+    }
+
+    #[test]
+    fn who_says_more_nearly_goes_first() {
+        let wanted = |own: Option<&str>, set: &[(&str, &str)]| {
+            let choice = AdapterChoice { name: own.map(str::to_owned) };
+            let variable = |name: &str| set.iter().find(|(key, _)| *key == name).map(|(_, value)| (*value).to_owned());
+            let Wanted { name, rounds, .. } = choice.wanted(variable);
+            (name.map(|name| name.0), rounds)
+        };
+        let both = vec![Backends::PRIMARY, Backends::GL];
+        let named = |name: &str| Some(name.to_owned());
+        let all = [("HALFWAY_ADAPTER", "B"), ("WGPU_BACKEND", "gl"), ("WGPU_ADAPTER_NAME", "C")];
+        assert_eq!(wanted(Some("A"), &all), (named("a"), both.clone()));
+        assert_eq!(wanted(None, &all), (named("b"), both.clone()));
+        assert_eq!(wanted(None, &all[1..]), (named("c"), vec![Backends::GL]));
+        assert_eq!(wanted(None, &all[2..]), (named("c"), both.clone()));
+        assert_eq!(wanted(None, &all[1..2]), (None, vec![Backends::GL]));
+        assert_eq!(wanted(None, &[]), (None, both.clone()));
+        assert_eq!(wanted(Some(""), &[]), (None, both));
+        // What a name leaves out is not asked.
+        assert_eq!(wanted(Some("gl:a"), &[]).1, [Backends::GL]);
+        assert_eq!(wanted(Some("vulkan"), &[]).1, [Backends::VULKAN]);
+    }
+}
