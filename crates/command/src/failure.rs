@@ -6,17 +6,23 @@ use std::error::Error;
 #[derive(Debug)]
 pub(crate) struct Failure {
     pub(crate) code: u8,
-    pub(crate) error: Box<dyn Error>,
+    /// What is still to be said about it.
+    pub(crate) error: Option<Box<dyn Error>>,
 }
 
 /// The exit code of pictures that differ by more than they may.
 pub(crate) const DIFFERENT: u8 = 4;
-/// The exit code of work that Ctrl-C stopped, as shells have it.
+/// The exit code of work that Ctrl-C or SIGTERM stopped, as shells have it for the first.
 pub(crate) const STOPPED: u8 = 130;
 
 impl Failure {
     pub(crate) fn new(code: u8, error: impl Into<Box<dyn Error>>) -> Self {
-        Self { code, error: error.into() }
+        Self { code, error: Some(error.into()) }
+    }
+
+    /// One that has been told where it happened.
+    pub(crate) fn said(code: u8) -> Self {
+        Self { code, error: None }
     }
 }
 
@@ -43,7 +49,7 @@ impl From<halfway::render::RenderError> for Failure {
     fn from(error: halfway::render::RenderError) -> Self {
         use halfway::render::RenderError as E;
         let code = match error {
-            E::NoAdapter | E::NoDevice { .. } => 3,
+            E::NoAdapter | E::NoAdapterAmong { .. } | E::NoSuchAdapter { .. } | E::NoDevice { .. } => 3,
             E::Device(_) => 1,
             _ => 2,
         };

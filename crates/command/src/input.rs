@@ -1,12 +1,13 @@
 //! The scene that the command line means.
 
+use std::cell::Cell;
 use std::path::{Path, PathBuf};
 
 use halfway::prelude::*;
-use halfway::scene::{SceneError, SceneFile, ShadingEntry, Spawned, spawn};
+use halfway::scene::{SceneError, SceneFile, Spawned, spawn};
 
 use crate::failure::Failure;
-use crate::look::{LookArgs, ReflectanceArg, ShadingArg};
+use crate::look::{LookArgs, SizeArgs};
 
 /// A scene with the folder that its paths start from.
 pub(crate) struct SceneInput {
@@ -15,36 +16,43 @@ pub(crate) struct SceneInput {
     /// The file as it was named, and whether it is a scene file.
     file: PathBuf,
     is_scene: bool,
+    warned: Cell<bool>,
 }
 
 impl SceneInput {
-    /// Reads the scene file, or wraps the model in one, and applies what the command line says.
+    /// Reads the scene file, or wraps the model in one.
+    pub(crate) fn open(file: &Path) -> Result<Self, Failure> {
+        let is_scene = file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
+        let scene = if is_scene { SceneFile::read(file)? } else { SceneFile::for_model(file.to_owned()) };
+        let folder = file.parent().filter(|_| is_scene).unwrap_or(Path::new(""));
+        let warned = Cell::new(false);
+        Ok(Self { scene, base_dir: folder.to_owned(), file: file.to_owned(), is_scene, warned })
+    }
+
+    /// The same with what the command line says.
     pub(crate) fn read(args: &LookArgs) -> Result<Self, Failure> {
-        let is_scene = args.input.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
-        let mut scene = if is_scene { SceneFile::read(&args.input)? } else { SceneFile::for_model(args.input.clone()) };
-        let folder = args.input.parent().filter(|_| is_scene).unwrap_or(Path::new(""));
+        let mut input = Self::open(&args.input)?;
+        let scene = &mut input.scene;
         if let Some(shading) = args.shading {
-            let shading = match shading {
-                ShadingArg::Flat => ShadingEntry::Flat,
-                ShadingArg::Gouraud => ShadingEntry::Gouraud,
-                ShadingArg::Phong => ShadingEntry::Phong,
-            };
             scene.shading = shading;
             scene.objects.iter_mut().for_each(|object| object.shading = None);
         }
         if let Some(reflectance) = args.reflectance {
-            let reflectance = match reflectance {
-                ReflectanceArg::Phong => Reflectance::Phong,
-                ReflectanceArg::BlinnPhong => Reflectance::BlinnPhong,
-                ReflectanceArg::BlinnPhongMatched => Reflectance::BlinnPhongMatched,
-            };
             scene.reflectance = reflectance;
             scene.objects.iter_mut().for_each(|object| object.reflectance = None);
         }
-        if let Some(samples) = &args.samples {
-            scene.samples = if samples == "4" { 4 } else { 1 };
+        if let Some(samples) = args.samples {
+            scene.samples = samples;
         }
-        Ok(Self { scene, base_dir: folder.to_owned(), file: args.input.clone(), is_scene })
+        Ok(input)
+    }
+
+    /// The size of the picture in pixels: what the command line says, or the scene's. A camera that frames everything has
+    /// to know the picture's shape, so the scene has it then.
+    pub(crate) fn resize(&mut self, args: SizeArgs) -> UVec2 {
+        let size = args.size.unwrap_or(UVec2::from_array(self.scene.size));
+        self.scene.size = size.to_array();
+        size
     }
 
     /// The file's name without its folder.
@@ -52,11 +60,11 @@ impl SceneInput {
         self.file.file_name().unwrap_or_default().to_string_lossy().into_owned()
     }
 
-    /// Puts the scene into the App's world, and its warnings on standard error.
+    /// Puts the scene into the App's world, and its warnings, once, on standard error.
     pub(crate) fn spawn(&self, app: &mut App) -> Result<Spawned, Failure> {
         let spawned = spawn(&self.scene, &self.base_dir, app.world_mut()).map_err(|error| self.failure(error))?;
-        for warning in &spawned.warnings {
-            eprintln!("warning: {warning}");
+        if !self.warned.replace(true) {
+            spawned.warnings.iter().for_each(|warning| eprintln!("warning: {warning}"));
         }
         Ok(spawned)
     }

@@ -2,7 +2,13 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use halfway::prelude::{Reflectance, UVec2};
+use halfway::record::parse_size;
+use halfway::scene::ShadingEntry;
+
+use crate::adapters::AdapterArgs;
 
 /// How the scene is drawn; what is given here wins over the scene file.
 #[derive(Args, Clone, Debug)]
@@ -11,32 +17,52 @@ pub(crate) struct LookArgs {
     #[arg(value_name = "SCENE|MODEL")]
     pub(crate) input: PathBuf,
     /// How often surfaces are shaded [default: the scene's; phong for a model]
-    #[arg(long, value_enum)]
-    pub(crate) shading: Option<ShadingArg>,
+    #[arg(long, value_parser = one_of(&SHADINGS))]
+    pub(crate) shading: Option<ShadingEntry>,
     /// How surfaces reflect [default: the scene's; blinn-phong for a model]
-    #[arg(long, value_enum)]
-    pub(crate) reflectance: Option<ReflectanceArg>,
+    #[arg(long, value_parser = one_of(&REFLECTANCES))]
+    pub(crate) reflectance: Option<Reflectance>,
     /// Coverage samples a pixel: 1, or 4 for smooth edges [default: the scene's; 1 for a model]
-    #[arg(long, value_parser = clap::builder::PossibleValuesParser::new(["1", "4"]))]
-    pub(crate) samples: Option<String>,
+    #[arg(long, value_parser = one_of(&SAMPLES))]
+    pub(crate) samples: Option<u32>,
+    #[command(flatten)]
+    pub(crate) adapter: AdapterArgs,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum ShadingArg {
-    /// Once a triangle
-    Flat,
-    /// Once a vertex
-    Gouraud,
-    /// Once a pixel
-    Phong,
+/// The size of a picture.
+#[derive(Args, Clone, Copy, Debug)]
+pub(crate) struct SizeArgs {
+    /// Width and height in pixels, such as 1280x720 [default: the scene's; 1280x720 for a model]
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub(crate) size: Option<UVec2>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum ReflectanceArg {
-    /// (v·r)^α
-    Phong,
-    /// (n·h)^β, β the shininess as it is
-    BlinnPhong,
-    /// (n·h)^β, β matched to the α that the shininess means
-    BlinnPhongMatched,
+/// Values of an option: what is typed, what the help says, and what it means.
+type Values<T, const N: usize> = [(&'static str, &'static str, T); N];
+
+const SHADINGS: Values<ShadingEntry, 3> = [
+    ("flat", "Once a triangle", ShadingEntry::Flat),
+    ("gouraud", "Once a vertex", ShadingEntry::Gouraud),
+    ("phong", "Once a pixel", ShadingEntry::Phong),
+];
+const REFLECTANCES: Values<Reflectance, 3> = [
+    ("phong", "(v·r)^α", Reflectance::Phong),
+    ("blinn-phong", "(n·h)^β, β the shininess as it is", Reflectance::BlinnPhong),
+    (
+        "blinn-phong-matched",
+        "(n·h)^β, β matched to the α that the shininess means",
+        Reflectance::BlinnPhongMatched,
+    ),
+];
+const SAMPLES: Values<u32, 2> = [("1", "The middle of the pixel", 1), ("4", "Four points of it", 4)];
+
+fn one_of<T, const N: usize>(values: &'static Values<T, N>) -> impl TypedValueParser<Value = T>
+where
+    T: Clone + Send + Sync,
+{
+    let names = values.iter().map(|(name, help, _)| PossibleValue::new(*name).help(*help));
+    PossibleValuesParser::new(names).try_map(|text| {
+        let value = values.iter().find(|(name, ..)| *name == text);
+        value.map(|(.., value)| value.clone()).ok_or("not one of the values")
+    })
 }

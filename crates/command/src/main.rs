@@ -15,10 +15,12 @@ mod progress;
 mod render;
 mod scenery;
 mod steps;
+mod turntable;
 mod verify;
 #[cfg(feature = "window")]
 mod view;
 
+use std::io::Write;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
@@ -33,7 +35,7 @@ use failure::Failure;
     max_term_width = 100,
     after_help = "Exit codes: 0 done; 1 the graphics device \
     failed; 2 the input or the command line cannot be used; 3 there is no graphics adapter; 4 pictures differ by more than they \
-    may; 130 stopped by Ctrl-C."
+    may; 130 stopped by Ctrl-C or SIGTERM."
 )]
 struct Cli {
     #[command(subcommand)]
@@ -69,22 +71,10 @@ enum Command {
     Convert(convert::ConvertArgs),
     /// Time a benchmark scene in every shading, beside a constant colour; or what features cost
     Bench(bench::BenchArgs),
-    /// List the graphics adapters; exit code 3 where there is none
+    /// List the graphics adapters, the one that is used first; exit code 3 where there is none
     Adapters,
     /// Print the JSON schema of scene files
     Schema,
-}
-
-/// Mesa's Vulkan drivers look for a Wayland display while adapters are listed. Without a session, where `XDG_RUNTIME_DIR`
-/// is not set, the Wayland library then prints an error that is none; with any folder there, it finds nothing in silence.
-#[expect(unsafe_code, reason = "the environment may be written while there is one thread, which is now")]
-fn quiet_driver() {
-    const FOLDER: &str = "XDG_RUNTIME_DIR";
-    if cfg!(target_os = "linux") && std::env::var_os(FOLDER).is_none() && std::env::var_os("WAYLAND_DISPLAY").is_none()
-    {
-        // SAFETY: the first statement of `main`; no other thread exists that could read the environment.
-        unsafe { std::env::set_var(FOLDER, std::env::temp_dir()) };
-    }
 }
 
 /// Rust programs go on when nobody reads their output any more, until printing panics. With the system's own way back,
@@ -99,9 +89,8 @@ fn end_with_the_reader() {
 }
 
 fn main() -> ExitCode {
-    quiet_driver();
     env_logger::Builder::from_env(env_logger::Env::default().default_filter_or("warn,wgpu_hal=off"))
-        .format_timestamp(None)
+        .format(|line, record| writeln!(line, "{}: {}", record.level().as_str().to_lowercase(), record.args()))
         .init();
     let command = Cli::parse().command;
     // A window's connection to its display must not end it so.
@@ -130,7 +119,9 @@ fn main() -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(Failure { code, error }) => {
-            eprintln!("error: {error}");
+            if let Some(error) = error {
+                eprintln!("error: {error}");
+            }
             ExitCode::from(code)
         }
     }

@@ -4,7 +4,8 @@ use std::path::Path;
 
 use halfway::prelude::*;
 use halfway::reference::Image;
-use image::{DynamicImage, ImageReader};
+use halfway::scene::SceneFile;
+use image::{DynamicImage, ImageReader, Limits};
 
 use crate::failure::Failure;
 
@@ -19,8 +20,18 @@ pub(crate) fn decoded(file: &Path) -> Result<DynamicImage, Failure> {
     let unreadable = |error: &dyn std::fmt::Display| {
         Failure::from(format!("{}: cannot be read as a picture: {error}; expected a PNG or EXR", file.display()))
     };
-    let reader = ImageReader::open(file).and_then(ImageReader::with_guessed_format).map_err(|e| unreadable(&e))?;
+    let mut reader = ImageReader::open(file).and_then(ImageReader::with_guessed_format).map_err(|e| unreadable(&e))?;
+    reader.limits(limits());
     reader.decode().map_err(|error| unreadable(&error))
+}
+
+/// The largest pictures that are drawn, in the format that takes most: four channels of 32 bits.
+fn limits() -> Limits {
+    const MOST: u32 = SceneFile::MAX_SIDE;
+    let mut limits = Limits::default();
+    (limits.max_image_width, limits.max_image_height) = (Some(MOST), Some(MOST));
+    limits.max_alloc = Some(16 * u64::from(MOST) * u64::from(MOST));
+    limits
 }
 
 /// Writes a picture that people look at.

@@ -1,4 +1,4 @@
-//! How far long work is, and Ctrl-C.
+//! How far long work is, and signals to stop it.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -6,10 +6,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use halfway::record::Continue;
 use indicatif::{ProgressBar, ProgressStyle};
+use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::flag;
 
-/// A bar on standard error, hidden where that is no terminal; and whether Ctrl-C asked for the end.
+use crate::failure::STOPPED;
+
+/// A bar on standard error, hidden where that is no terminal; and whether Ctrl-C or SIGTERM asked for the end.
 ///
-/// The first Ctrl-C ends the work in good order, so that no half file is left; a second one ends it at once.
+/// The first of them ends the work in good order, so that no half file is left; a second one ends it at once.
 pub(crate) struct Progress {
     bar: ProgressBar,
     stop: Arc<AtomicBool>,
@@ -19,19 +23,19 @@ impl Progress {
     /// Of whole frames; no bar for a single one.
     pub(crate) fn of_frames(frames: u32) -> Self {
         if frames < 2 {
-            return Self { bar: ProgressBar::hidden(), stop: stop_on_ctrl_c() };
+            return Self { bar: ProgressBar::hidden(), stop: stop_on_signals() };
         }
-        Self { bar: bar("{bar:40} {pos}/{len} frames, {eta} left"), stop: stop_on_ctrl_c() }.with_length(frames.into())
+        Self { bar: bar("{bar:40} {pos}/{len} frames, {eta} left"), stop: stop_on_signals() }.with_length(frames.into())
     }
 
     /// Of the tiles of frames; their number is told by the first that is done.
     pub(crate) fn of_tiles() -> Self {
-        Self { bar: bar("{bar:40} {percent} %, {eta} left"), stop: stop_on_ctrl_c() }
+        Self { bar: bar("{bar:40} {percent} %, {eta} left"), stop: stop_on_signals() }
     }
 
     /// Of the bytes of a file; their number is told with the first that are read.
     pub(crate) fn of_bytes() -> Self {
-        Self { bar: bar("{bar:40} {bytes}/{total_bytes}, {eta} left"), stop: stop_on_ctrl_c() }
+        Self { bar: bar("{bar:40} {bytes}/{total_bytes}, {eta} left"), stop: stop_on_signals() }
     }
 
     fn with_length(self, length: u64) -> Self {
@@ -81,15 +85,14 @@ fn bar(template: &str) -> ProgressBar {
     ProgressBar::new(1).with_style(style)
 }
 
-/// Set by the first Ctrl-C from now on.
-fn stop_on_ctrl_c() -> Arc<AtomicBool> {
+/// Set by the first Ctrl-C or SIGTERM from now on.
+fn stop_on_signals() -> Arc<AtomicBool> {
     let stop = Arc::new(AtomicBool::new(false));
-    let pressed = Arc::clone(&stop);
-    // Where no handler can be set Ctrl-C ends the process, as it always did.
-    let _ = ctrlc::set_handler(move || {
-        if pressed.swap(true, Ordering::Relaxed) {
-            std::process::exit(crate::failure::STOPPED.into());
-        }
-    });
+    for signal in [SIGINT, SIGTERM] {
+        // Asked in this order, so that it takes a second signal to end the process. Where a handler cannot be set the signal
+        // ends it, as it always did.
+        let second = flag::register_conditional_shutdown(signal, STOPPED.into(), Arc::clone(&stop));
+        let _ = second.and_then(|_| flag::register(signal, Arc::clone(&stop)));
+    }
     stop
 }

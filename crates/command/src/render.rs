@@ -5,15 +5,16 @@ use std::path::PathBuf;
 
 use clap::Args;
 use halfway::prelude::*;
-use halfway::record::{Recording, ReferenceDrawing, parse_size, record, record_with};
+use halfway::record::{Recording, ReferenceDrawing, record, record_with};
 use halfway::reference::Mode;
 use halfway::render::{Gpu, RenderError};
 
 use crate::failure::Failure;
 use crate::input::SceneInput;
 use crate::levels::LevelsArgs;
-use crate::look::LookArgs;
+use crate::look::{LookArgs, SizeArgs};
 use crate::progress::Progress;
+use crate::turntable::Turntable;
 
 #[derive(Args, Debug)]
 pub(crate) struct RenderArgs {
@@ -24,9 +25,8 @@ pub(crate) struct RenderArgs {
     /// The picture: .png or .exr; with --frames an animated PNG, or one file a frame where the name has a {}
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
-    /// Width and height in pixels, such as 1280x720 [default: the scene's; 1280x720 for a model]
-    #[arg(long, value_name = "WxH", value_parser = parse_size)]
-    size: Option<UVec2>,
+    #[command(flatten)]
+    size: SizeArgs,
     /// Frames A to B − 1 of a turn around the scene's upright axis, 3° a frame, 30 frames a second
     #[arg(long, value_name = "A..B", value_parser = parse_frames)]
     frames: Option<Range<u32>>,
@@ -57,14 +57,15 @@ enum Drawer {
 impl Drawer {
     /// The adapter, unless the command line wants the reference renderer or there is none.
     fn choose(args: &RenderArgs) -> Result<Self, Failure> {
+        use RenderError as E;
         let mode = if args.surface { Mode::Surface } else { Mode::Mesh };
         let reference = ReferenceDrawing { mode, supersampling: args.supersample };
         if args.reference {
             return Ok(Self::Reference(reference));
         }
-        match Gpu::open_headless() {
+        match args.look.adapter.choice().open() {
             Ok(gpu) => Ok(Self::Adapter(gpu)),
-            Err(error @ (RenderError::NoAdapter | RenderError::NoDevice { .. })) => {
+            Err(error @ (E::NoAdapter | E::NoAdapterAmong { .. } | E::NoDevice { .. })) => {
                 eprintln!(
                     "warning: no graphics adapter: drawn by the reference renderer on the CPU, exactly and slowly"
                 );
@@ -108,7 +109,7 @@ impl Drawer {
 
 pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let mut input = SceneInput::read(&args.look)?;
-    let size = args.size.unwrap_or(UVec2::from_array(input.scene.size));
+    let size = input.resize(args.size);
     let recording = Recording {
         frames: args.frames.clone().unwrap_or(0..1),
         size,
@@ -118,54 +119,12 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     };
     let drawer = Drawer::choose(args)?;
     let mut app = drawer.app(size, args.levels.allowed());
-    // A camera that frames everything has to know the picture's shape.
-    input.scene.size = size.to_array();
     let spawned = input.spawn(&mut app)?;
     if args.frames.is_some() {
-        let turntable = Turntable::new(&app, spawned.camera);
-        app.insert_resource(turntable).add_systems(Update, turn);
+        // A full turn in 120 frames.
+        Turntable::turn(&mut app, spawned.camera, std::f32::consts::TAU / 120.0);
     }
     drawer.record(&mut app, &recording)
-}
-
-/// The camera goes round the point on its axis that is nearest to the middle of what it sees.
-#[derive(Resource)]
-struct Turntable {
-    camera: Entity,
-    start: Transform,
-    frame: u32,
-}
-
-/// A full turn in 120 frames.
-const STEP: f32 = std::f32::consts::TAU / 120.0;
-
-impl Turntable {
-    fn new(app: &App, camera: Entity) -> Self {
-        let start = app.world().get::<Transform>(camera).copied().unwrap_or_default();
-        Self { camera, start, frame: 0 }
-    }
-}
-
-fn turn(
-    mut table: ResMut<Turntable>,
-    mut cameras: Query<&mut Transform, With<Camera>>,
-    objects: Query<(&Mesh3d, &GlobalTransform)>,
-    meshes: Res<Assets<Mesh>>,
-) {
-    if table.frame > 0 {
-        let centers: Vec<Vec3> = objects
-            .iter()
-            .filter_map(|(mesh, transform)| Some(transform.transform_point(meshes.get(&mesh.0)?.bounds().center())))
-            .collect();
-        let middle = centers.iter().sum::<Vec3>() / centers.len().max(1) as f32;
-        let along = (middle - table.start.translation).dot(*table.start.forward()).max(0.0);
-        let pivot = table.start.translation + table.start.forward() * along;
-        if let Ok(mut transform) = cameras.get_mut(table.camera) {
-            *transform = table.start;
-            transform.rotate_around(pivot, Quat::from_rotation_y(STEP * table.frame as f32));
-        }
-    }
-    table.frame += 1;
 }
 
 fn parse_frames(text: &str) -> Result<Range<u32>, String> {

@@ -4,14 +4,12 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use halfway::prelude::*;
-use halfway::record::parse_size;
 use halfway::reference::metrics::{Bars, Scale, Verdict, difference, judge};
 use halfway::reference::{Image, Oracle};
-use halfway::render::Gpu;
 
 use crate::failure::{DIFFERENT, Failure, STOPPED};
 use crate::input::SceneInput;
-use crate::look::LookArgs;
+use crate::look::{LookArgs, SizeArgs};
 use crate::progress::Progress;
 use crate::{figures, picture};
 
@@ -19,9 +17,8 @@ use crate::{figures, picture};
 pub(crate) struct VerifyArgs {
     #[command(flatten)]
     look: LookArgs,
-    /// Width and height in pixels, such as 1280x720 [default: the scene's; 1280x720 for a model]
-    #[arg(long, value_name = "WxH", value_parser = parse_size)]
-    size: Option<UVec2>,
+    #[command(flatten)]
+    size: SizeArgs,
     /// Draw where the 8-bit pictures differ, with a legend, into this PNG
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -41,12 +38,12 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
     if let Some(file) = &args.picture {
         return judge_picture(args, input, file);
     }
-    let size = args.size.unwrap_or(UVec2::from_array(input.scene.size));
+    let size = input.resize(args.size);
     if input.scene.samples != 1 {
         eprintln!("note: judged with one sample a pixel, since adapters differ in where they take four");
     }
-    (input.scene.size, input.scene.samples) = (size.to_array(), 1);
-    let gpu = Gpu::open_headless()?;
+    input.scene.samples = 1;
+    let gpu = args.look.adapter.choice().open()?;
     let device = gpu.describe();
     let mut app = App::new();
     // The oracle knows no levels of detail.
@@ -89,7 +86,7 @@ fn judge_picture(args: &VerifyArgs, mut input: SceneInput, file: &Path) -> Resul
     let encoding = input.scene.output;
     let picture = picture::decoded(file)?;
     let size = UVec2::new(picture.width(), picture.height());
-    if let Some(wanted) = args.size.filter(|wanted| *wanted != size) {
+    if let Some(wanted) = args.size.size.filter(|wanted| *wanted != size) {
         let [found, wanted] = [size, wanted].map(|size| format!("{} × {}", size.x, size.y));
         return Err(format!("{}: the picture has {found} pixels; expected {wanted}", file.display()).into());
     }

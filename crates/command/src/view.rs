@@ -20,10 +20,11 @@ pub(crate) fn run(args: &ViewArgs) -> Result<(), Failure> {
     let input = SceneInput::read(&args.look)?;
     let mut app = App::new();
     app.add_plugins(HalfwayPlugins).insert_resource(WindowTitle(input.name())).insert_resource(args.levels.allowed());
+    app.insert_resource(args.look.adapter.choice());
     input.spawn(&mut app)?;
     match app.run() {
         AppExit::Success => Ok(()),
         // What went wrong has been said where it happened.
-        AppExit::Error(code) => Err(Failure::new(code.get(), "the window could not be kept open")),
+        AppExit::Error(code) => Err(Failure::said(code.get())),
     }
 }

@@ -143,6 +143,9 @@ pub enum RecordError {
     /// A frame could not be written.
     #[error("{0}")]
     Output(#[from] OutputError),
+    /// The contact sheet has the name of the animation, or of a frame.
+    #[error("{}: is to be both the contact sheet and a picture; expected two names", .0.display())]
+    SheetOverFrame(PathBuf),
     /// There is no frame in the range.
     #[error("frames {}..{}: the range is empty; expected A..B with A below B", .0.start, .0.end)]
     NoFrames(Range<u32>),
@@ -238,12 +241,26 @@ struct Sink<'a> {
     sheet: Option<(&'a Path, ContactSheet)>,
 }
 
+/// Whether both names lead to one file, there already or not.
+fn is_same_file(a: &Path, b: &Path) -> bool {
+    if a.file_name() != b.file_name() {
+        // Different names may still be links to one file.
+        return matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b);
+    }
+    let folder = |file: &Path| {
+        let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        folder.canonicalize().or_else(|_| std::path::absolute(folder)).ok()
+    };
+    folder(a) == folder(b)
+}
+
 const SHEET_CELLS: u32 = 16;
 
 impl<'a> Sink<'a> {
     fn new(recording: &'a Recording) -> Result<Self, RecordError> {
         // Refuses a bad ending before the first frame is drawn.
         if recording.is_animation() {
+            AnimationWriter::check(&recording.path)?;
             if let Some(bits) = recording.bits.filter(|&bits| bits != 8) {
                 let file = recording.path.clone();
                 return Err(OutputError::Bits { file, bits, expected: "8 in an animated PNG" }.into());
@@ -253,6 +270,9 @@ impl<'a> Sink<'a> {
         }
         if let Some(sheet) = &recording.contact_sheet {
             PictureFormat::of(sheet, Some(8))?;
+            if recording.frames.clone().any(|frame| is_same_file(&recording.path_of(frame), sheet)) {
+                return Err(RecordError::SheetOverFrame(sheet.clone()));
+            }
         }
         Ok(Self { recording, animation: None, sheet: None })
     }

@@ -17,6 +17,12 @@ pub enum SceneError {
         /// What the system said.
         source: io::Error,
     },
+    /// The path leads to a folder, a pipe or a device.
+    #[error("{}: is not a regular file; expected one, since a pipe may never end", file.display())]
+    NotAFile {
+        /// The path.
+        file: PathBuf,
+    },
     /// The file could not be written.
     #[error("{}: cannot be written: {source}", file.display())]
     Write {

@@ -1,5 +1,6 @@
 //! Why there is no window.
 
+use bevy_app::AppExit;
 use halfway_render::RenderError;
 use thiserror::Error;
 
@@ -24,6 +25,20 @@ pub(crate) enum WindowError {
     Gpu(#[from] RenderError),
     #[error("the window's surface was lost {0} times in a row; the graphics driver may have been restarted")]
     LostAgain(u32),
+}
+
+impl WindowError {
+    /// 3 where there is nothing to draw with or no display to draw on, else 1.
+    pub(crate) fn exit(&self) -> AppExit {
+        use RenderError as E;
+        let missing = matches!(
+            self,
+            Self::NoDisplay
+                | Self::Display(_)
+                | Self::Gpu(E::NoAdapter | E::NoAdapterAmong { .. } | E::NoSuchAdapter { .. } | E::NoDevice { .. })
+        );
+        AppExit::from_code(if missing { 3 } else { 1 })
+    }
 }
 
 /// What the display said, without the place in winit's source where winit learnt it.

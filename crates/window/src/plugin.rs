@@ -25,7 +25,7 @@ use halfway_render::{GpuTimer, RenderPlugin, RenderSet, SurfaceTarget};
 ///
 /// The App ends when the window is closed ([`AppExit::Success`](bevy_app::AppExit), after a last
 /// update that sees the message) or when it sends an `AppExit` itself. Where there is no display, or
-/// nothing to draw with, the run ends at once with `AppExit::error()` and a message that says what to
+/// nothing to draw with, the run ends at once with exit code 3 and a message that says what to
 /// do. Errors of a frame are logged once each. All messages go to the log, or to the standard error
 /// output where no logger shows errors.
 ///

@@ -52,7 +52,7 @@ fn open_display() -> Result<EventLoop<()>, WindowError> {
 
 fn failed(error: &WindowError) -> AppExit {
     say(error);
-    AppExit::error()
+    error.exit()
 }
 
 fn finish_plugins(app: &mut App) {

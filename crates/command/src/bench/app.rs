@@ -1,22 +1,78 @@
 //! A benchmark scene as an App that is ready to run.
 
 use halfway::prelude::*;
+use halfway_chart::timing::TimedLook;
 
 use super::args::{BenchArgs, BenchShading};
+use crate::failure::Failure;
+use crate::input::SceneInput;
 use crate::scenery::{Benchmark, BenchmarkScene};
+use crate::turntable::Turntable;
 
-pub(super) fn app(args: &BenchArgs, scene: BenchmarkScene, mode: BenchShading) -> App {
-    let mut app = App::new();
-    app.add_plugins(HalfwayPlugins::headless(size(args, scene)));
-    app.add_plugins(Benchmark { scene, look: mode.look(), octahedra: args.octahedra });
-    app.insert_resource(args.levels.allowed());
-    finish(&mut app);
-    app
+/// What is drawn: a scene of ours, or one that is read.
+pub(super) enum Timed {
+    Made(BenchmarkScene),
+    Read(SceneInput),
 }
 
-/// Of its picture in pixels.
-pub(super) fn size(args: &BenchArgs, scene: BenchmarkScene) -> UVec2 {
-    args.size.unwrap_or(scene.size())
+impl Timed {
+    pub(super) fn name(&self) -> String {
+        match self {
+            Self::Made(scene) => format!("{scene:?}"),
+            Self::Read(input) => input.name(),
+        }
+    }
+
+    /// Of its picture in pixels.
+    pub(super) fn size(&self, args: &BenchArgs) -> UVec2 {
+        let own = match self {
+            Self::Made(scene) => scene.size(),
+            Self::Read(input) => UVec2::from_array(input.scene.size),
+        };
+        args.size.size.unwrap_or(own)
+    }
+
+    pub(super) fn app(&self, args: &BenchArgs, mode: BenchShading) -> Result<App, Failure> {
+        let mut app = App::new();
+        app.add_plugins(HalfwayPlugins::headless(self.size(args)));
+        app.insert_resource(args.levels.allowed()).insert_resource(args.adapter.choice());
+        let look = mode.look();
+        match self {
+            Self::Made(scene) => {
+                app.add_plugins(Benchmark { scene: *scene, look, octahedra: args.octahedra });
+            }
+            Self::Read(input) => {
+                let camera = input.spawn(&mut app)?.camera;
+                // So that no frame is the one before.
+                Turntable::turn(&mut app, camera, 1.0_f32.to_radians());
+                shade(app.world_mut(), look);
+            }
+        }
+        finish(&mut app);
+        Ok(app)
+    }
+}
+
+/// Gives every object this look, whatever it had.
+fn shade(world: &mut World, look: TimedLook) {
+    let objects: Vec<Entity> = world.query_filtered::<Entity, With<Mesh3d>>().iter(world).collect();
+    for object in objects {
+        let mut object = world.entity_mut(object);
+        object.insert(look.shading());
+        if look == TimedLook::Constant {
+            if let Some(mut material) = object.get_mut::<Material>() {
+                *material = unlit(&material);
+            }
+            if let Some(mut back) = object.get_mut::<BackMaterial>() {
+                back.0 = unlit(&back.0);
+            }
+        }
+    }
+}
+
+/// In its diffuse color, without any light.
+fn unlit(material: &Material) -> Material {
+    Material { opacity: material.opacity, ..Material::emissive(material.diffuse) }
 }
 
 /// Runs what the plugins left to the end of their building.

@@ -1,20 +1,34 @@
 //! What `halfway bench` can be asked.
 
+use std::ffi::{OsStr, OsString};
+use std::path::PathBuf;
+
+use clap::builder::{OsStringValueParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use halfway::prelude::*;
-use halfway::record::parse_size;
 use halfway_chart::timing::TimedLook;
 
+use crate::adapters::AdapterArgs;
 use crate::levels::LevelsArgs;
+use crate::look::SizeArgs;
+use crate::scenery::BenchmarkScene;
 
 #[derive(Args, Debug)]
 pub(crate) struct BenchArgs {
-    /// What is timed
-    #[arg(value_enum)]
+    /// What is timed: a scene file or a model, its camera turning by 1° a frame; or one of these
+    ///
+    /// s1: one sphere of 261,120 triangles, 4 lights, 1280 × 720;
+    /// s2: 10,000 turning spheres of 224 triangles each, 1 light, 1280 × 720;
+    /// s3: 400 spheres on a plane, 256 moving lights of range 12, 1280 × 720;
+    /// s4: one sphere of 3,968 triangles, 1 light, 256 × 256;
+    /// features: what each feature of lighting costs once a vertex and once a pixel, beside one directional light
+    #[arg(value_name = "s1|s2|s3|s4|features|SCENE|MODEL", verbatim_doc_comment)]
+    #[arg(value_parser = OsStringValueParser::new().map(|text| Subject::named(&text)))]
     pub(super) subject: Subject,
-    /// Width and height in pixels [default: the scene's]; 16x16 leaves hardly more than the work before the pixels
-    #[arg(long, value_name = "WxH", value_parser = parse_size)]
-    pub(super) size: Option<UVec2>,
+    #[command(flatten)]
+    pub(super) size: SizeArgs,
+    #[command(flatten)]
+    pub(super) adapter: AdapterArgs,
     /// Draw the spheres of S2 as octahedra: 10,000 moving entities and few triangles
     #[arg(long)]
     pub(super) octahedra: bool,
@@ -36,18 +50,34 @@ pub(crate) struct BenchArgs {
 }
 
 /// What is timed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Subject {
-    /// One sphere of 261,120 triangles, 4 lights, 1280 × 720
-    S1,
-    /// 10,000 turning spheres of 224 triangles each, 1 light, 1280 × 720
-    S2,
-    /// 400 spheres on a plane, 256 moving lights of range 12, 1280 × 720
-    S3,
-    /// One sphere of 3,968 triangles, 1 light, 256 × 256
-    S4,
-    /// What each feature of lighting costs once a vertex and once a pixel, beside one directional light
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Subject {
+    Scene(BenchmarkScene),
     Features,
+    /// A scene file or a model.
+    File(PathBuf),
+}
+
+impl Subject {
+    fn named(text: &OsStr) -> Self {
+        match text.to_str() {
+            Some("s1") => Self::Scene(BenchmarkScene::S1),
+            Some("s2") => Self::Scene(BenchmarkScene::S2),
+            Some("s3") => Self::Scene(BenchmarkScene::S3),
+            Some("s4") => Self::Scene(BenchmarkScene::S4),
+            Some("features") => Self::Features,
+            _ => Self::File(text.into()),
+        }
+    }
+
+    /// The argument that means it.
+    pub(super) fn argument(&self) -> OsString {
+        match self {
+            Self::Scene(scene) => format!("{scene:?}").to_lowercase().into(),
+            Self::Features => "features".into(),
+            Self::File(file) => file.into(),
+        }
+    }
 }
 
 /// How a scene is shaded.

@@ -24,12 +24,12 @@ struct Cost {
 }
 
 pub(super) fn run(args: &BenchArgs) -> Result<(), Failure> {
-    if args.size.is_some() || args.octahedra || args.levels.is_given() || args.cold || args.once.is_some() {
-        return Err("bench features: expected no option but --rounds and --json".to_owned().into());
+    if args.size.size.is_some() || args.octahedra || args.levels.is_given() || args.cold || args.once.is_some() {
+        return Err("bench features: expected no option but --adapter, --rounds and --json".to_owned().into());
     }
     let features = Feature::all();
     // One device for all, so that two dozen of them need not share the machine.
-    let gpu = Gpu::open_headless()?;
+    let gpu = args.adapter.choice().open()?;
     let [vertex, fragment] = FeatureStage::ALL.map(|stage| measure(&features, stage, &gpu, args.rounds));
     let (vertex, fragment) = (vertex?, fragment?);
     let machine = Machine::new(&gpu);

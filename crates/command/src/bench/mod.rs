@@ -1,4 +1,4 @@
-//! `halfway bench`: the benchmark scenes, each shading beside a constant colour in the same run; and what features cost.
+//! `halfway bench`: benchmark scenes, each shading beside a constant colour in the same run; and what features cost.
 
 mod app;
 mod args;
@@ -11,19 +11,25 @@ mod scenes;
 pub(crate) use args::BenchArgs;
 
 use crate::failure::Failure;
-use crate::scenery::BenchmarkScene;
+use crate::input::SceneInput;
+use app::Timed;
 use args::Subject;
 
 pub(crate) fn run(args: &BenchArgs) -> Result<(), Failure> {
-    let scene = match args.subject {
-        Subject::S1 => BenchmarkScene::S1,
-        Subject::S2 => BenchmarkScene::S2,
-        Subject::S3 => BenchmarkScene::S3,
-        Subject::S4 => BenchmarkScene::S4,
+    let timed = match &args.subject {
         Subject::Features => return features::run(args),
+        Subject::Scene(scene) => Timed::Made(*scene),
+        Subject::File(file) => {
+            if args.octahedra {
+                return Err("--octahedra: expected the subject s2, whose spheres it makes coarse".to_owned().into());
+            }
+            let mut input = SceneInput::open(file)?;
+            input.resize(args.size);
+            Timed::Read(input)
+        }
     };
     match args.once {
-        Some(mode) => own_process::once(args, scene, mode),
-        None => scenes::run(args, scene),
+        Some(mode) => own_process::once(args, &timed, mode),
+        None => scenes::run(args, &timed),
     }
 }

@@ -5,10 +5,9 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 use halfway_chart::timing::frame;
 
-use super::app::app;
+use super::app::Timed;
 use super::args::{BenchArgs, BenchShading};
 use crate::failure::Failure;
-use crate::scenery::BenchmarkScene;
 
 /// How a process got to its first frame.
 #[derive(Clone, Copy, Debug)]
@@ -23,8 +22,8 @@ pub(super) struct FirstFrame {
 const PROCESSES: usize = 3;
 
 /// In the process: draws the frame, and prints when it was finished and the memory.
-pub(super) fn once(args: &BenchArgs, scene: BenchmarkScene, mode: BenchShading) -> Result<(), Failure> {
-    frame(&mut app(args, scene, mode))?;
+pub(super) fn once(args: &BenchArgs, timed: &Timed, mode: BenchShading) -> Result<(), Failure> {
+    frame(&mut timed.app(args, mode)?)?;
     println!("{} {}", now_ms(), peak_kb());
     Ok(())
 }
@@ -50,14 +49,14 @@ pub(super) fn first_frame(args: &BenchArgs, mode: BenchShading, cold: bool) -> R
 
 fn command(program: &std::path::Path, args: &BenchArgs, mode: BenchShading, cold: bool) -> Command {
     let mut command = Command::new(program);
-    command.args(["bench", &format!("{:?}", args.subject).to_lowercase(), "--once", mode.name()]);
-    if let Some(size) = args.size {
+    command.arg("bench").arg(args.subject.argument()).args(["--once", mode.name()]);
+    if let Some(size) = args.size.size {
         command.args(["--size", &format!("{}x{}", size.x, size.y)]);
     }
     if args.octahedra {
         command.arg("--octahedra");
     }
-    command.args(args.levels.arguments());
+    command.args(args.levels.arguments()).args(args.adapter.arguments());
     if cold {
         // Mesa's drivers compile anew then; others keep no such files, or do not let them be left aside.
         command.env("MESA_SHADER_CACHE_DISABLE", "true");

@@ -5,14 +5,13 @@ use halfway::render::Gpu;
 use halfway_chart::timing::{FRAME_TIME, Machine, Spread, median_ratio, settle};
 use serde_json::json;
 
-use super::app::{app, size};
+use super::app::Timed;
 use super::args::{BenchArgs, BenchShading};
 use super::cpu::{self, CpuTimes, OWN_TIME};
 use super::facts::{counters, machine, print_facts, spread};
 use super::own_process::{FirstFrame, first_frame};
 use crate::failure::Failure;
 use crate::levels;
-use crate::scenery::BenchmarkScene;
 
 /// What was measured of one shading.
 struct Row {
@@ -25,20 +24,21 @@ struct Row {
     cold: Option<FirstFrame>,
 }
 
-pub(super) fn run(args: &BenchArgs, scene: BenchmarkScene) -> Result<(), Failure> {
-    let mut apps = BenchShading::ALL.map(|mode| app(args, scene, mode));
+pub(super) fn run(args: &BenchArgs, timed: &Timed) -> Result<(), Failure> {
+    let apps: Result<Vec<App>, Failure> = BenchShading::ALL.iter().map(|mode| timed.app(args, *mode)).collect();
+    let mut apps = apps?;
     for app in &mut apps {
         settle(app)?;
     }
-    let timed = cpu::timed(&mut apps.each_mut(), args.rounds)?;
+    let times = cpu::timed(&mut apps.iter_mut().collect::<Vec<_>>(), args.rounds)?;
     let machine = Machine::new(apps[0].world().resource::<Gpu>());
-    let reports = apps.map(|app| app.world().resource::<FrameReport>().clone());
+    let reports = apps.iter().map(|app| app.world().resource::<FrameReport>().clone());
     let mut rows = Vec::new();
-    for ((mode, report), (own, cpu)) in BenchShading::ALL.into_iter().zip(reports).zip(&timed) {
+    for ((mode, report), (own, cpu)) in BenchShading::ALL.into_iter().zip(reports).zip(&times) {
         rows.push(Row {
             mode,
             frame: Spread::of(own),
-            ratio: median_ratio(own, &timed[0].0),
+            ratio: median_ratio(own, &times[0].0),
             cpu: cpu.clone(),
             report,
             warm: first_frame(args, mode, false)?,
@@ -46,17 +46,17 @@ pub(super) fn run(args: &BenchArgs, scene: BenchmarkScene) -> Result<(), Failure
         });
     }
     if args.json {
-        print_json(args, scene, &machine, &rows);
+        print_json(args, timed, &machine, &rows);
     } else {
-        print_table(args, scene, &machine, &rows);
+        print_table(args, timed, &machine, &rows);
     }
     Ok(())
 }
 
-fn print_table(args: &BenchArgs, scene: BenchmarkScene, machine: &Machine, rows: &[Row]) {
-    let size = size(args, scene);
+fn print_table(args: &BenchArgs, timed: &Timed, machine: &Machine, rows: &[Row]) {
+    let size = timed.size(args);
     let octahedra = if args.octahedra { ", spheres as octahedra" } else { "" };
-    println!("scene: {scene:?}{octahedra}, {} × {} pixels, {} rounds", size.x, size.y, args.rounds);
+    println!("scene: {}{octahedra}, {} × {} pixels, {} rounds", timed.name(), size.x, size.y, args.rounds);
     println!("levels of detail: {}", levels::describe(args.levels.allowed()));
     print_facts(machine);
     println!("\n{FRAME_TIME}\n{OWN_TIME}\n");
@@ -79,8 +79,8 @@ fn print_table(args: &BenchArgs, scene: BenchmarkScene, machine: &Machine, rows:
     }
 }
 
-fn print_json(args: &BenchArgs, scene: BenchmarkScene, machine: &Machine, rows: &[Row]) {
-    let size = size(args, scene);
+fn print_json(args: &BenchArgs, timed: &Timed, machine: &Machine, rows: &[Row]) {
+    let size = timed.size(args);
     let levels = args.levels.allowed();
     let rows: Vec<_> = rows
         .iter()
@@ -104,7 +104,7 @@ fn print_json(args: &BenchArgs, scene: BenchmarkScene, machine: &Machine, rows: 
     println!(
         "{}",
         json!({
-            "scene": format!("{scene:?}"),
+            "scene": timed.name(),
             "octahedra": args.octahedra,
             "size": size.to_array(),
             "levels": { "pixels": levels.pixels, "shading": levels.shading },

@@ -109,5 +109,5 @@ fn features_are_timed_beside_a_baseline() {
     assert_eq!(baseline["vertex"]["report"]["patches_culled"], 0);
     let output = halfway(&folder, &["bench", "features", "--size", "64x64"]);
     assert_eq!(output.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&output.stderr).contains("no option but --rounds and --json"));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("no option but --adapter, --rounds and --json"));
 }

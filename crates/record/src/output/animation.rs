@@ -61,9 +61,7 @@ impl AnimationWriter {
         delay: FrameDelay,
         encoding: Encoding,
     ) -> Result<Self, OutputError> {
-        if !matches!(ending(file).as_str(), "png" | "apng") {
-            return Err(OutputError::UnknownEnding { file: file.to_owned(), known: ".png or .apng" });
-        }
+        Self::check(file)?;
         not_empty(file, size)?;
         if frames == 0 {
             return Err(OutputError::FrameCount { file: file.to_owned(), found: 0, expected: 0 });
@@ -76,6 +74,17 @@ impl AnimationWriter {
             .and_then(|()| encoder.write_header())
             .map_err(|error| OutputError::png(file, error))?;
         Ok(Self { writer, partial, size, encoding, written: 0, frames })
+    }
+
+    /// Whether a file of this name can hold an animation.
+    ///
+    /// # Errors
+    /// [`OutputError::UnknownEnding`] where it does not end in `.png` or `.apng`.
+    pub fn check(file: &Path) -> Result<(), OutputError> {
+        match ending(file).as_str() {
+            "png" | "apng" => Ok(()),
+            _ => Err(OutputError::UnknownEnding { file: file.to_owned(), known: ".png or .apng" }),
+        }
     }
 
     /// Adds the next frame. One drawn in floating point is clamped and encoded.
