@@ -1,6 +1,7 @@
 //! The `halfway` command from outside: what it writes, and how it refuses what it cannot use.
 
 mod command {
+    mod adapters;
     mod bad_input;
     mod bench;
     mod models;

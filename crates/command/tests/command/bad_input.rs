@@ -35,7 +35,22 @@ fn bad_input_is_named_and_ends_with_exit_code_2() {
     for (name, text) in SCENES {
         write(name, text.as_bytes());
     }
+    #[cfg(unix)]
+    assert!(Command::new("mkfifo").arg(folder.join("pipe.json")).status().is_ok_and(|status| status.success()));
+    #[cfg(not(unix))]
+    fs::create_dir_all(folder.join("pipe.json")).expect("the folder can be written");
     let cases: &[(&[&str], &[&str])] = &[
+        (&["render", "pipe.json", "-o", "a.png"], &["pipe.json", "not a regular file"]),
+        (&["render", "fine.json", "-o", "a.exr", "--frames", "0..2"], &["a.exr", ".png or .apng"]),
+        (&["render", "fine.json", "-o", "a.png", "--contact-sheet", "./a.png"], &["a.png", "contact sheet"]),
+        (
+            &["render", "fine.json", "-o", "turn-{}.png", "--frames", "0..2", "--contact-sheet", "turn-0001.png"],
+            &["turn-0001.png", "contact sheet"],
+        ),
+        (&["bench", "missing.json"], &["missing.json"]),
+        (&["bench", "fine.json", "--octahedra"], &["--octahedra", "s2"]),
+        (&["render", "fine.json", "-o", "a.png", "--adapter", ""], &["--adapter"]),
+        (&["render", "fine.json", "-o", "a.png", "--reference", "--adapter", "gl"], &["--reference", "--adapter"]),
         (&["render", "missing.obj", "-o", "a.png"], &["missing.obj"]),
         (&["info", "missing.obj"], &["missing.obj"]),
         (&["render", "missing.json", "-o", "a.png"], &["missing.json"]),
@@ -88,6 +103,52 @@ fn bad_input_is_named_and_ends_with_exit_code_2() {
         assert!(!error.contains("panicked"), "{arguments:?}: {error}");
         assert!(!folder.join("a.png").exists(), "{arguments:?} left a picture");
         assert!(!folder.join("b.glb").exists(), "{arguments:?} left a model");
+    }
+}
+
+#[test]
+fn the_largest_pictures_are_not_too_large_to_compare() {
+    let folder = folder("largest");
+    let header = |name: &str, side: u32| {
+        let mut bytes = Vec::new();
+        let mut encoder = png::Encoder::new(&mut bytes, side, side);
+        encoder.set_color(png::ColorType::Rgb);
+        encoder.set_depth(png::BitDepth::Sixteen);
+        // The pixels, and with them gigabytes, are left out.
+        drop(encoder.write_header().expect("memory takes it"));
+        fs::write(folder.join(name), bytes).expect("the folder can be written");
+    };
+    header("largest.png", 16384);
+    header("larger.png", 16385);
+    let refused = |name: &str| {
+        let output = halfway(&folder, &["compare", name, name]);
+        assert_eq!(output.status.code(), Some(2), "{output:?}");
+        String::from_utf8_lossy(&output.stderr).to_lowercase()
+    };
+    let (largest, larger) = (refused("largest.png"), refused("larger.png"));
+    assert!(!largest.contains("limit") && !largest.contains("memory"), "{largest}");
+    assert!(larger.contains("limit") || larger.contains("memory"), "{larger}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_signal_leaves_no_partial_file() {
+    for signal in ["INT", "TERM"] {
+        let folder = folder(&format!("signal_{signal}"));
+        let files = || fs::read_dir(&folder).expect("it was made").count();
+        let (teapot, frames) = (asset("assets/teapot.obj"), "0..100000");
+        let mut command = Command::new(env!("CARGO_BIN_EXE_halfway"));
+        command.args(["render", &teapot, "--size", "32x24", "--frames", frames, "-o", "turn.png"]);
+        let mut child = command.current_dir(&folder).spawn().expect("the command was built with this test");
+        // The animation is on its way.
+        while files() == 0 {
+            assert!(child.try_wait().is_ok_and(|ended| ended.is_none()), "it ended by itself");
+            std::thread::sleep(std::time::Duration::from_millis(20));
+        }
+        let kill = format!("kill -{signal} {}", child.id());
+        assert!(Command::new("sh").args(["-c", &kill]).status().is_ok_and(|status| status.success()));
+        let status = child.wait().expect("it was started");
+        assert_eq!((status.code(), files()), (Some(130), 0), "{signal}: {status:?}");
     }
 }
 

@@ -57,6 +57,30 @@ fn a_benchmark_prints_a_row_for_each_shading() {
 }
 
 #[test]
+fn any_scene_or_model_is_timed() {
+    let folder = folder("bench_files");
+    for (file, objects) in [("examples/scenes/brass_teapot.json", 1), ("assets/cube.smf", 1)] {
+        let file = asset(file);
+        let value = json_of(&folder, &["bench", &file, "--size", "48x32", "--rounds", "1", "--json"]);
+        assert!(value["scene"].as_str().is_some_and(|name| file.ends_with(name)), "{value}");
+        assert_eq!(value["size"], serde_json::json!([48, 32]));
+        let rows = value["rows"].as_array().expect("rows");
+        assert_eq!(rows.len(), 4);
+        for row in rows {
+            is_timed(row);
+            let counts = ["objects_drawn", "draws"].map(|count| row["report"][count].as_u64());
+            assert!(counts.iter().flatten().all(|count| *count >= objects), "{row}");
+            // The camera turns.
+            assert!(row["report"]["bytes_uploaded"].as_u64().is_some_and(|bytes| bytes > 0), "{row}");
+            assert!(row["first_frame_ms"].as_f64().is_some_and(|ms| ms > 0.0), "{row}");
+        }
+    }
+    // The scene's own size.
+    let table = succeeds(&folder, &["bench", &asset("examples/scenes/brass_teapot.json"), "--rounds", "1"]);
+    assert!(table.contains("scene: brass_teapot.json, ") && table.contains("| constant | "), "{table}");
+}
+
+#[test]
 fn levels_of_detail_are_for_whoever_asks() {
     let folder = folder("levels");
     let bench = |levels: &[&str]| {

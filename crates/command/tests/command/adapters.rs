@@ -1,0 +1,129 @@
+//! Choosing a graphics adapter by its name.
+
+use crate::command::{asset, folder, succeeds};
+use std::path::Path;
+use std::process::{Command, Output};
+
+/// Runs the command with these variables, and without all others that choose an adapter or a session.
+fn run(folder: &Path, set: &[(&str, &str)], arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_halfway"));
+    for variable in ["HALFWAY_ADAPTER", "WGPU_BACKEND", "WGPU_ADAPTER_NAME"] {
+        command.env_remove(variable);
+    }
+    for variable in ["XDG_RUNTIME_DIR", "WAYLAND_DISPLAY", "WAYLAND_SOCKET", "DISPLAY"] {
+        command.env_remove(variable);
+    }
+    let command = command.args(arguments).envs(set.iter().copied()).current_dir(folder);
+    command.output().expect("the command was built with this test")
+}
+
+/// The lines that `halfway adapters` prints.
+fn listed(folder: &Path, set: &[(&str, &str)]) -> Vec<String> {
+    let output = run(folder, set, &["adapters"]);
+    assert!(output.status.success(), "{output:?}");
+    String::from_utf8_lossy(&output.stdout).lines().map(str::to_owned).collect()
+}
+
+/// A name for an adapter of the list: its backend and the first word of its own name.
+fn name_of(line: &str) -> String {
+    let (name, kind) = line.rsplit_once(" (").expect("a name and a backend");
+    let backend = kind.split([',', ')']).next().unwrap_or_default();
+    format!("{backend}:{}", name.split(' ').next().unwrap_or_default())
+}
+
+#[test]
+fn every_adapter_of_the_list_can_be_chosen() {
+    let folder = folder("adapters");
+    let teapot = asset("assets/teapot.obj");
+    let all = listed(&folder, &[]);
+    assert!(!all.is_empty());
+    for line in &all {
+        let name = name_of(line).to_uppercase();
+        // How near it is to the oracle is for other tests to say.
+        let verify = ["verify", &teapot, "--size", "32x24", "--json", "--max", "255", "--adapter", &name];
+        let json: serde_json::Value = serde_json::from_str(&succeeds(&folder, &verify)).expect("JSON");
+        assert_eq!(json["device"], **line, "{name}");
+        assert_eq!(listed(&folder, &[("HALFWAY_ADAPTER", &name)])[0], *line, "the one that is used comes first");
+    }
+    let own = name_of(&all[0]);
+    succeeds(&folder, &["render", &teapot, "--size", "32x24", "-o", "a.png", "--adapter", &own]);
+    let bench = ["bench", "s4", "--size", "16x16", "--rounds", "1", "--json", "--adapter", &own];
+    let json: serde_json::Value = serde_json::from_str(&succeeds(&folder, &bench)).expect("JSON");
+    assert!(json["machine"]["adapter"].as_str().is_some_and(|adapter| all[0].starts_with(adapter)), "{json}");
+}
+
+#[test]
+fn a_name_that_fits_nothing_lists_what_there_is() {
+    let folder = folder("no_such_adapter");
+    let teapot = asset("assets/teapot.obj");
+    let all = listed(&folder, &[]);
+    let own = name_of(&all[0]);
+    let render = ["render", &teapot, "--size", "32x24", "-o", "a.png"];
+    let by_name = |name: &str| [&render[..], &["--adapter", name]].concat().join("\n");
+    let commands = [
+        by_name("nothing"),
+        by_name("metal:nothing"),
+        format!("verify\n{teapot}\n--adapter\nnothing"),
+        "bench\ns4\n--adapter\nnothing".to_owned(),
+        "bench\nfeatures\n--adapter\nnothing".to_owned(),
+    ];
+    for command in commands {
+        let output = run(&folder, &[], &command.split('\n').collect::<Vec<_>>());
+        let error = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(3), "{command}: {error}");
+        assert!(error.contains("no graphics adapter fits"), "{command}: {error}");
+        assert!(all.iter().all(|line| error.contains(line)), "{command}: {error}");
+    }
+    assert!(!folder.join("a.png").exists(), "the reference renderer did not step in");
+
+    // Who says more nearly goes first.
+    let backend = own.split(':').next().unwrap_or_default();
+    let rows: [(&[(&str, &str)], &[&str], i32); 6] = [
+        (&[("HALFWAY_ADAPTER", "nothing")], &[], 3),
+        (&[("HALFWAY_ADAPTER", "nothing")], &["--adapter", &own], 0),
+        (&[("WGPU_ADAPTER_NAME", "nothing")], &[], 3),
+        (&[("WGPU_ADAPTER_NAME", "nothing"), ("HALFWAY_ADAPTER", &own)], &[], 0),
+        (&[("WGPU_BACKEND", "noop"), ("HALFWAY_ADAPTER", backend)], &[], 0),
+        (&[("HALFWAY_ADAPTER", "")], &[], 0),
+    ];
+    for (set, more, expected) in rows {
+        let output = run(&folder, set, &[&render[..], more].concat());
+        assert_eq!(output.status.code(), Some(expected), "{set:?} {more:?}: {output:?}");
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn opengl_is_tried_before_giving_up() {
+    let folder = folder("opengl");
+    let teapot = asset("assets/teapot.obj");
+    let opengl = listed(&folder, &[]).into_iter().find(|line| line.contains(" (gl"));
+    let without_vulkan = [("VK_DRIVER_FILES", "/dev/null"), ("VK_ICD_FILENAMES", "/dev/null")];
+    let output = run(&folder, &without_vulkan, &["adapters"]);
+    let (said, error) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    if let Some(line) = opengl {
+        assert_eq!(said.lines().next(), Some(line.as_str()), "{error}");
+        let output = run(&folder, &without_vulkan, &["render", &teapot, "--size", "32x24", "-o", "a.png"]);
+        assert!(output.status.success(), "{output:?}");
+        assert!(!String::from_utf8_lossy(&output.stderr).contains("reference renderer"), "{output:?}");
+    } else {
+        assert_eq!(output.status.code(), Some(3), "{said}{error}");
+        assert!(error.contains("OpenGL driver answered"), "{error}");
+    }
+    // A limit is not said to be more than it is.
+    let output = run(&folder, &[("WGPU_BACKEND", "metal")], &["adapters"]);
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(3), "{error}");
+    assert!(error.contains("WGPU_BACKEND") && !error.contains("OpenGL"), "{error}");
+}
+
+#[test]
+fn a_machine_without_a_session_hears_nothing_of_it() {
+    let folder = folder("no_session");
+    let teapot = asset("assets/teapot.obj");
+    for arguments in [&["render", &teapot, "--size", "32x24", "-o", "a.png"][..], &["adapters"]] {
+        let output = run(&folder, &[], arguments);
+        assert!(output.status.success(), "{output:?}");
+        assert_eq!(String::from_utf8_lossy(&output.stderr), "", "{arguments:?}");
+    }
+}
