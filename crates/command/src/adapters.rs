@@ -10,7 +10,7 @@ use crate::failure::Failure;
 pub(crate) struct AdapterArgs {
     /// The graphics adapter: a part of its name or its backend's, as `halfway adapters` lists them, or both, such as
     /// vulkan:llvmpipe [default: HALFWAY_ADAPTER, then WGPU_BACKEND and WGPU_ADAPTER_NAME; else hardware first]
-    #[arg(long = "adapter", value_name = "NAME", value_parser = NonEmptyStringValueParser::new())]
+    #[arg(id = "adapter", long = "adapter", value_name = "NAME", value_parser = NonEmptyStringValueParser::new())]
     name: Option<String>,
 }
 

@@ -37,7 +37,7 @@ pub(crate) struct RenderArgs {
     #[arg(long, value_name = "FILE")]
     contact_sheet: Option<PathBuf>,
     /// Draw with the reference renderer: every pixel in 64-bit arithmetic on the CPU, without a graphics adapter
-    #[arg(long)]
+    #[arg(long, conflicts_with = "adapter")]
     reference: bool,
     /// Draw spheres, teapots and other surfaces that are known by formula as they are, and not the triangles that stand
     /// for them
