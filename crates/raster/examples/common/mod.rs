@@ -1,0 +1,155 @@
+//! Scenes S1 and S4 of the project's benchmarks, as plain data.
+
+use halfway_mesh::{Mesh, UvSphere};
+use halfway_raster::{
+    DrawCall, Highlight, InstanceData, Lens, LightData, LightRange, Pass, Pieces, PixelFormat, RasterError, SampleCount,
+    ShadedTerms, SideData, SurfaceData, TriangleOrder,
+};
+
+/// Where terms are shaded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shading {
+    Constant,
+    Flat,
+    Gouraud,
+    Phong,
+}
+
+impl Shading {
+    pub const ALL: [Self; 4] = [Self::Constant, Self::Flat, Self::Gouraud, Self::Phong];
+}
+
+/// All that a pass borrows.
+pub struct Scene {
+    pub size: [u32; 2],
+    pub samples: SampleCount,
+    pub pixels: PixelFormat,
+    pub clear: [f32; 3],
+    pub lens: Lens,
+    pub lights: Vec<LightData>,
+    pub lists: Vec<u32>,
+    pub surfaces: Vec<SurfaceData>,
+    pub instances: Vec<InstanceData>,
+    pub meshes: Vec<Pieces>,
+    pub draws: Vec<DrawCall>,
+}
+
+impl Scene {
+    /// Draws with what it holds.
+    pub fn with_pass<R>(&self, draw: impl FnOnce(&Pass) -> R) -> R {
+        let meshes: Vec<_> = self.meshes.iter().collect();
+        draw(&Pass {
+            size: self.size,
+            samples: self.samples,
+            pixels: self.pixels,
+            clear: self.clear,
+            lens: self.lens,
+            local_viewer: true,
+            lights: &self.lights,
+            lists: &self.lists,
+            surfaces: &self.surfaces,
+            instances: &self.instances,
+            meshes: &meshes,
+            draws: &self.draws,
+        })
+    }
+}
+
+/// A lens with this vertical angle in degrees.
+pub fn lens([width, height]: [u32; 2], degrees: f64) -> Lens {
+    let y = 1.0 / (degrees.to_radians() * 0.5).tan();
+    Lens { scale: [(y * f64::from(height) / f64::from(width)) as f32, y as f32], near: 0.1 }
+}
+
+/// A mesh made ready.
+pub fn pieces(mesh: &Mesh, order: TriangleOrder) -> Result<Pieces, RasterError> {
+    let positions: Vec<_> = mesh.positions().iter().map(|p| p.to_array()).collect();
+    let normals: Vec<_> = mesh.normals().iter().map(|n| n.to_array()).collect();
+    Pieces::new(&positions, &normals, mesh.indices(), &[], order)
+}
+
+/// A mesh at this place, unturned.
+pub fn at(place: [f32; 3], surface: u32) -> InstanceData {
+    let row = |axis: usize| {
+        let mut row = [0.0, 0.0, 0.0, place[axis]];
+        row[axis] = 1.0;
+        row
+    };
+    InstanceData {
+        eye_from_model: [row(0), row(1), row(2)],
+        normal: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        surface,
+    }
+}
+
+/// A draw of a whole mesh and so many instances.
+pub fn draw(mesh: &Pieces, instances: u32, shading: Shading) -> DrawCall {
+    let (none, both) = (ShadedTerms::default(), ShadedTerms::BOTH);
+    let (vertex, fragment) = match shading {
+        Shading::Constant => (none, none),
+        Shading::Flat | Shading::Gouraud => (both, none),
+        Shading::Phong => (none, both),
+    };
+    DrawCall {
+        indices: 0..3 * mesh.triangle_count() as u32,
+        instances: 0..instances,
+        vertex,
+        fragment,
+        flat: shading == Shading::Flat,
+        highlight: Highlight::BlinnPhong,
+        ..DrawCall::default()
+    }
+}
+
+/// One sphere of 261,120 triangles under four lights, or a small one of 3,968 under one.
+pub fn sphere(small: bool, shading: Shading) -> Result<Scene, RasterError> {
+    let size = if small { [256, 256] } else { [1280, 720] };
+    let (segments, rings) = if small { (64, 32) } else { (512, 256) };
+    let mesh = pieces(&Mesh::from(UvSphere { radius: 1.0, segments, rings }), TriangleOrder::Clustered)?;
+    let c = 1.0 / 3.0_f32.sqrt();
+    let from_the_side = |strength: f32| LightData {
+        position: [c; 3],
+        diffuse: [strength; 3],
+        specular: [strength; 3],
+        ..LightData::default()
+    };
+    let point = |position: [f32; 3], color: [f32; 3]| LightData {
+        position: [position[0], position[1], position[2] - 3.0],
+        attenuation: [1.0, 0.09, 0.032],
+        diffuse: color.map(|x| 0.5 * x),
+        specular: color.map(|x| 0.5 * x),
+        ..LightData::default()
+    };
+    let (lights, counts) = if small {
+        (vec![from_the_side(0.9)], [1, 0, 0])
+    } else {
+        let points = [
+            point([2.0, 0.0, 2.0], [1.0, 0.9, 0.8]),
+            point([-2.0, 1.0, 1.5], [0.8, 0.9, 1.0]),
+            point([0.0, -2.0, 2.0], [0.9, 1.0, 0.9]),
+        ];
+        ([vec![from_the_side(0.6)], points.to_vec()].concat(), [1, 3, 0])
+    };
+    let all = LightRange { counts, start: 0 };
+    let front = SideData {
+        base: [0.08, 0.03, 0.02],
+        diffuse: [0.8, 0.3, 0.2],
+        specular: if small { [0.0; 3] } else { [1.0; 3] },
+        exponent: 32.0,
+        opacity: 1.0,
+        ..SideData::default()
+    };
+    Ok(Scene {
+        size,
+        samples: SampleCount::One,
+        pixels: PixelFormat::SrgbBytes,
+        clear: [0.01, 0.012, 0.02],
+        lens: lens(size, 45.0),
+        lists: (0..lights.len() as u32).collect(),
+        lights,
+        surfaces: vec![SurfaceData { front, vertex: all, fragment: all, ..SurfaceData::default() }],
+        instances: vec![at([0.0, 0.0, -3.0], 0)],
+        draws: vec![draw(&mesh, 1, shading)],
+        meshes: vec![mesh],
+    })
+}

@@ -1,0 +1,51 @@
+//! How long scenes S1 and S4 take, by shading, width and threads: the shortest of many frames, in milliseconds.
+//!
+//! `cargo run --release -p halfway_raster --example time [FRAMES [FOLDER]]`; pictures go into the folder.
+
+mod common;
+
+use common::{Shading, sphere};
+use halfway_raster::{Output, RasterOptions, Rasterizer, SampleCount, VectorWidth};
+use std::error::Error;
+use std::time::Instant;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let mut arguments = std::env::args().skip(1);
+    let frames: u32 = arguments.next().map_or(Ok(200), |argument| argument.parse())?;
+    let folder = arguments.next();
+    println!("{:12}{:>8}{:>8} {:?}", "scene", "width", "threads", Shading::ALL);
+    for (small, samples, name) in
+        [(false, SampleCount::One, "S1"), (false, SampleCount::Four, "S1 × 4"), (true, SampleCount::One, "S4")]
+    {
+        for width in VectorWidth::available() {
+            for threads in [1, 2] {
+                let mut rasterizer = Rasterizer::new(RasterOptions { width: Some(width), threads: Some(threads) })?;
+                print!("{name:12}{:>8}{threads:>8}", width.to_string());
+                for shading in Shading::ALL {
+                    let mut scene = sphere(small, shading)?;
+                    scene.samples = samples;
+                    let mut bytes = vec![0; 4 * scene.size[0] as usize * scene.size[1] as usize];
+                    let mut shortest = f64::INFINITY;
+                    for _ in 0..frames {
+                        let start = Instant::now();
+                        scene.with_pass(|pass| rasterizer.draw(pass, Output::Bytes(&mut bytes)))?;
+                        shortest = shortest.min(start.elapsed().as_secs_f64());
+                    }
+                    print!(" {:8.3}", 1e3 * shortest);
+                    if let Some(folder) = folder.as_ref().filter(|_| threads == 1) {
+                        write_png(&format!("{folder}/{name}_{shading:?}_{width}.png"), scene.size, &bytes)?;
+                    }
+                }
+                println!();
+            }
+        }
+    }
+    Ok(())
+}
+
+fn write_png(path: &str, [width, height]: [u32; 2], bytes: &[u8]) -> Result<(), Box<dyn Error>> {
+    let mut encoder = png::Encoder::new(std::fs::File::create(path)?, width, height);
+    encoder.set_color(png::ColorType::Rgba);
+    encoder.write_header()?.write_image_data(bytes)?;
+    Ok(())
+}

@@ -1,0 +1,263 @@
+//! Which pieces show, and in which tiles of the picture.
+
+use crate::error::RasterError;
+use crate::pass::{DrawCall, InstanceData, LeftOut, Pass};
+use crate::pieces::Piece;
+use crate::state::State;
+use std::ops::Range;
+
+/// Pixels along a side of a tile. It is part of the picture's bits: interpolation counts from a tile's corner.
+pub(crate) const TILE: usize = 64;
+
+/// A piece in more tiles than this is in no tile's list; each tile asks for its box.
+const MANY_TILES: u32 = 64;
+
+/// A piece of an instance, to be drawn.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Job {
+    pub(crate) draw: u32,
+    pub(crate) instance: u32,
+    pub(crate) piece: u32,
+    pub(crate) state: u32,
+    /// First and last column, first and last row of tiles.
+    tiles: [u16; 4],
+}
+
+/// What is to be drawn, tile by tile. Its memory is kept from frame to frame.
+#[derive(Debug, Default)]
+pub(crate) struct Bins {
+    pub(crate) states: Vec<State>,
+    /// In the order of drawing.
+    pub(crate) jobs: Vec<Job>,
+    /// The first job that blends.
+    pub(crate) first_blended: u32,
+    /// Columns and rows of tiles.
+    pub(crate) tiles: [u32; 2],
+    /// Where each tile's jobs begin among `listed`.
+    starts: Vec<u32>,
+    listed: Vec<u32>,
+    /// The jobs in many tiles.
+    wide: Vec<u32>,
+}
+
+impl Bins {
+    /// Sorts a pass's pieces into tiles.
+    pub(crate) fn fill(&mut self, pass: &Pass) -> Result<(), RasterError> {
+        self.states.clear();
+        self.jobs.clear();
+        self.wide.clear();
+        self.tiles = pass.size.map(|side| side.div_ceil(TILE as u32));
+        for blend in [false, true] {
+            if blend {
+                self.first_blended = self.jobs.len() as u32;
+            }
+            for (number, draw) in pass.draws.iter().enumerate().filter(|(_, draw)| draw.blend == blend) {
+                self.add_draw(pass, number, draw)?;
+            }
+        }
+        self.list()
+    }
+
+    /// The jobs of a tile, in the order of drawing.
+    pub(crate) fn of_tile(&self, column: u32, row: u32) -> impl Iterator<Item = u32> + '_ {
+        let tile = (row * self.tiles[0] + column) as usize;
+        let listed = &self.listed[self.starts[tile] as usize..self.starts[tile + 1] as usize];
+        let (column, row) = (column as u16, row as u16);
+        let in_tile = move |&&job: &&u32| {
+            let [left, right, top, bottom] = self.jobs[job as usize].tiles;
+            left <= column && column <= right && top <= row && row <= bottom
+        };
+        let (mut listed, mut wide) = (listed.iter().peekable(), self.wide.iter().filter(in_tile).peekable());
+        std::iter::from_fn(move || match (listed.peek(), wide.peek()) {
+            (Some(a), Some(b)) if b < a => wide.next(),
+            (Some(_), _) => listed.next(),
+            _ => wide.next(),
+        })
+        .copied()
+    }
+
+    fn add_draw(&mut self, pass: &Pass, number: usize, draw: &DrawCall) -> Result<(), RasterError> {
+        let mesh = pass.meshes[draw.mesh as usize];
+        let Range { start, end } = draw.indices;
+        let range = mesh.of(&draw.indices).ok_or(RasterError::Cut { draw: number, start, end })?;
+        for index in draw.instances.clone() {
+            let instance = &pass.instances[index as usize];
+            let placed = Placed::new(pass, instance, draw);
+            if range.len() > 1 && placed.tiles(mesh.center, mesh.radius).is_none() {
+                continue;
+            }
+            let state = State::new(draw, instance.surface, &pass.surfaces[instance.surface as usize]);
+            if self.states.last() != Some(&state) {
+                reserve(&mut self.states, 1)?;
+                self.states.push(state);
+            }
+            let state = self.states.len() as u32 - 1;
+            reserve(&mut self.jobs, range.len())?;
+            for (piece, of) in range.clone().zip(&mesh.each[range.clone()]) {
+                if placed.turns_away(of) {
+                    continue;
+                }
+                if let Some(tiles) = placed.tiles(of.center, of.radius) {
+                    self.jobs.push(Job { draw: number as u32, instance: index, piece: piece as u32, state, tiles });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Makes the tiles' lists by counting.
+    fn list(&mut self) -> Result<(), RasterError> {
+        let tiles = (self.tiles[0] * self.tiles[1]) as usize;
+        self.starts.clear();
+        reserve(&mut self.starts, tiles + 2)?;
+        self.starts.resize(tiles + 2, 0);
+        let columns = self.tiles[0];
+        for (number, job) in self.jobs.iter().enumerate() {
+            if job.is_wide() {
+                reserve(&mut self.wide, 1)?;
+                self.wide.push(number as u32);
+            } else {
+                job.each_tile(columns, |tile| self.starts[tile + 2] += 1);
+            }
+        }
+        let mut total: u64 = 0;
+        for start in &mut self.starts {
+            total += u64::from(*start);
+            *start = u32::try_from(total).map_err(|_| refused(4 * total))?;
+        }
+        self.listed.clear();
+        reserve(&mut self.listed, total as usize)?;
+        self.listed.resize(total as usize, 0);
+        for (number, job) in self.jobs.iter().enumerate().filter(|(_, job)| !job.is_wide()) {
+            job.each_tile(columns, |tile| {
+                let place = &mut self.starts[tile + 1];
+                self.listed[*place as usize] = number as u32;
+                *place += 1;
+            });
+        }
+        Ok(())
+    }
+}
+
+fn reserve<T>(list: &mut Vec<T>, more: usize) -> Result<(), RasterError> {
+    list.try_reserve(more).map_err(|_| refused(more as u64 * size_of::<T>() as u64))
+}
+
+fn refused(bytes: u64) -> RasterError {
+    RasterError::Memory { what: "the lists of tiles", bytes }
+}
+
+impl Job {
+    fn is_wide(&self) -> bool {
+        let [left, right, top, bottom] = self.tiles.map(u32::from);
+        (right - left + 1) * (bottom - top + 1) > MANY_TILES
+    }
+
+    fn each_tile(&self, columns: u32, mut with: impl FnMut(usize)) {
+        let [left, right, top, bottom] = self.tiles.map(u32::from);
+        for row in top..=bottom {
+            for column in left..=right {
+                with((row * columns + column) as usize);
+            }
+        }
+    }
+}
+
+/// An instance's transform, ready to place spheres.
+struct Placed {
+    rows: [[f32; 4]; 3],
+    /// An upper bound of how much it stretches lengths.
+    stretch: f32,
+    /// 1 or −1, the side of a face's normal that is left out; 0 where that cannot be told for many faces at once.
+    left_out: f32,
+    near: f32,
+    scale: [f32; 2],
+    size: [f32; 2],
+}
+
+impl Placed {
+    fn new(pass: &Pass, instance: &InstanceData, draw: &DrawCall) -> Self {
+        let rows = instance.eye_from_model;
+        let column = |c: usize| [rows[0][c], rows[1][c], rows[2][c]].map(f64::from);
+        let (x, y, z) = (column(0), column(1), column(2));
+        let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+        let (xx, yy, zz) = (dot(x, x), dot(y, y), dot(z, z));
+        let largest = xx.max(yy).max(zz);
+        let right = dot(x, y).abs().max(dot(y, z).abs()).max(dot(z, x).abs()) <= 1e-6 * largest;
+        let even = right && xx.min(yy).min(zz) >= (1.0 - 1e-5) * largest;
+        let stretch = if right { largest * (1.0 + 4e-6) } else { xx + yy + zz };
+        let det = dot(x, [y[1] * z[2] - y[2] * z[1], y[2] * z[0] - y[0] * z[2], y[0] * z[1] - y[1] * z[0]]);
+        // The turned normal of a face is that of its front unless its winding is turned over, too.
+        let side = if (det < 0.0) == draw.clockwise { 1.0 } else { -1.0 };
+        let left_out = match draw.left_out {
+            LeftOut::Neither => 0.0,
+            LeftOut::Back => side,
+            LeftOut::Front => -side,
+        };
+        Self {
+            rows,
+            stretch: stretch.sqrt() as f32,
+            left_out: if even && largest > 0.0 { left_out } else { 0.0 },
+            near: pass.lens.near,
+            scale: pass.lens.scale,
+            size: pass.size.map(|side| side as f32),
+        }
+    }
+
+    fn place(&self, p: [f32; 3]) -> [f32; 3] {
+        self.rows.map(|row| row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + row[3])
+    }
+
+    /// Whether all faces of a piece show the side that is left out.
+    fn turns_away(&self, piece: &Piece) -> bool {
+        let Some(cone) = piece.cone.filter(|_| self.left_out != 0.0) else { return false };
+        let center = self.place(piece.center);
+        let axis = self.rows.map(|row| row[0] * cone.axis[0] + row[1] * cone.axis[1] + row[2] * cone.axis[2]);
+        let along = (axis[0] * center[0] + axis[1] * center[1] + axis[2] * center[2]) * self.left_out / self.stretch;
+        let square = center[0] * center[0] + center[1] * center[1] + center[2] * center[2];
+        let across = (square - along * along).max(0.0).sqrt();
+        // Over the sphere and the cone n·p is at least D·cos(γ + α) − r; where that is above 0 all faces turn away.
+        along * cone.cos - across * cone.sin > piece.radius * self.stretch * 1.0001
+    }
+
+    /// The tiles that a sphere may reach; `None` where it is out of the picture.
+    fn tiles(&self, center: [f32; 3], radius: f32) -> Option<[u16; 4]> {
+        let [x, y, z] = self.place(center);
+        let (depth, radius) = (-z, radius * self.stretch * 1.0001);
+        if depth + radius < self.near {
+            return None;
+        }
+        let [left, right] = self.span(0, x, depth, radius)?;
+        let [bottom, top] = self.span(1, y, depth, radius)?;
+        let columns = tiles_of(0.5 + 0.5 * left, 0.5 + 0.5 * right, self.size[0])?;
+        let rows = tiles_of(0.5 - 0.5 * top, 0.5 - 0.5 * bottom, self.size[1])?;
+        Some([columns[0], columns[1], rows[0], rows[1]])
+    }
+
+    /// From where to where the sphere's cube reaches along an axis, as −1 to 1 over the picture.
+    fn span(&self, axis: usize, offset: f32, depth: f32, radius: f32) -> Option<[f32; 2]> {
+        let scale = self.scale[axis];
+        let nearest = depth - radius;
+        if nearest > 1e-3 * radius && nearest > 0.0 {
+            let (low, high) = (offset - radius, offset + radius);
+            let low = scale * low / if low < 0.0 { nearest } else { depth + radius };
+            let high = scale * high / if high < 0.0 { depth + radius } else { nearest };
+            return Some([low, high]);
+        }
+        // It surrounds the eye, or nearly: only the side planes can leave it out.
+        let beyond = scale * offset.abs() - depth > radius * (scale * scale + 1.0).sqrt() * 1.0001;
+        (!beyond).then_some([f32::NEG_INFINITY, f32::INFINITY])
+    }
+}
+
+/// The tiles from `low` to `high`, given as shares of a side, with a pixel to spare.
+fn tiles_of(low: f32, high: f32, size: f32) -> Option<[u16; 2]> {
+    let (low, high) = (low * size - 1.0, high * size + 1.0);
+    if low >= size || high < 0.0 {
+        return None;
+    }
+    // What is no number reaches everywhere.
+    let first = if low > 0.0 { low } else { 0.0 };
+    let last = if high < size - 1.0 { high } else { size - 1.0 };
+    Some([first, last].map(|x| (x as u32 / TILE as u32) as u16))
+}

@@ -1,0 +1,134 @@
+//! Whether a pass can be drawn: references within their lists, numbers finite and in their ranges.
+
+use crate::error::{LARGEST_SIDE, RasterError};
+use crate::pass::{InstanceData, LightData, LightRange, Output, Pass, SideData, SurfaceData};
+use crate::rasterizer::is_bytes;
+
+/// Checks all of a pass but what drawing it finds out.
+pub(crate) fn check(pass: &Pass, output: &Output) -> Result<(), RasterError> {
+    check_size(pass, output)?;
+    check_view(pass)?;
+    for (index, light) in pass.lights.iter().enumerate() {
+        check_light(index, light)?;
+    }
+    if let Some((index, &light)) = pass.lists.iter().enumerate().find(|(_, light)| **light as usize >= pass.lights.len()) {
+        return beyond("list", index, "light", u64::from(light) + 1, pass.lights.len());
+    }
+    for (index, surface) in pass.surfaces.iter().enumerate() {
+        check_surface(index, surface, pass)?;
+    }
+    for (index, instance) in pass.instances.iter().enumerate() {
+        check_instance(index, instance, pass)?;
+    }
+    for (index, draw) in pass.draws.iter().enumerate() {
+        if draw.mesh as usize >= pass.meshes.len() {
+            return beyond("draw", index, "mesh", u64::from(draw.mesh) + 1, pass.meshes.len());
+        }
+        if draw.instances.end as usize > pass.instances.len() {
+            return beyond("draw", index, "instances", u64::from(draw.instances.end), pass.instances.len());
+        }
+    }
+    Ok(())
+}
+
+fn check_size(pass: &Pass, output: &Output) -> Result<(), RasterError> {
+    let [width, height] = pass.size;
+    if !pass.size.iter().all(|side| (1..=LARGEST_SIDE).contains(side)) {
+        return Err(RasterError::Size { width, height });
+    }
+    let expected = 4 * width as usize * height as usize;
+    let (found, fits) = match output {
+        Output::Bytes(bytes) => (bytes.len(), is_bytes(pass.pixels)),
+        Output::Floats(floats) => (floats.len(), !is_bytes(pass.pixels)),
+    };
+    if found == expected && fits { Ok(()) } else { Err(RasterError::Output { width, height, expected, found }) }
+}
+
+fn check_view(pass: &Pass) -> Result<(), RasterError> {
+    finite("pass", 0, "clear", &pass.clear)?;
+    let positive = |field, value: f32| {
+        let is_right = value.is_finite() && value > 0.0;
+        if is_right { Ok(()) } else { wrong("lens", 0, field, value, "a finite number above 0") }
+    };
+    positive("scale", pass.lens.scale[0])?;
+    positive("scale", pass.lens.scale[1])?;
+    positive("near", pass.lens.near)
+}
+
+fn check_light(index: usize, light: &LightData) -> Result<(), RasterError> {
+    finite("light", index, "position", &light.position)?;
+    finite("light", index, "direction", &light.direction)?;
+    finite("light", index, "cos_cutoff", &[light.cos_cutoff])?;
+    finite("light", index, "inner_fade", &light.inner_fade)?;
+    from_zero("light", index, "inverse_range", &[light.inverse_range])?;
+    from_zero("light", index, "attenuation", &light.attenuation)?;
+    from_zero("light", index, "exponent", &[light.exponent])?;
+    from_zero("light", index, "ambient", &light.ambient)?;
+    from_zero("light", index, "diffuse", &light.diffuse)?;
+    from_zero("light", index, "specular", &light.specular)
+}
+
+fn check_surface(index: usize, surface: &SurfaceData, pass: &Pass) -> Result<(), RasterError> {
+    for SideData { base, diffuse, specular, ambient, exponent, opacity } in [&surface.front, &surface.back] {
+        from_zero("surface", index, "base", base)?;
+        from_zero("surface", index, "diffuse", diffuse)?;
+        from_zero("surface", index, "specular", specular)?;
+        from_zero("surface", index, "ambient", ambient)?;
+        from_zero("surface", index, "exponent", &[*exponent])?;
+        if !(0.0..=1.0).contains(opacity) {
+            return wrong("surface", index, "opacity", *opacity, "0 to 1");
+        }
+    }
+    let range = |field, range: &LightRange| {
+        let end = u64::from(range.start) + range.len();
+        let fits = range.is_empty() || end <= pass.lists.len() as u64;
+        if fits { Ok(()) } else { beyond("surface", index, field, end, pass.lists.len()) }
+    };
+    range("vertex", &surface.vertex)?;
+    range("vertex_diffuse", &surface.vertex_diffuse)?;
+    range("fragment", &surface.fragment)?;
+    range("fragment_diffuse", &surface.fragment_diffuse)
+}
+
+fn check_instance(index: usize, instance: &InstanceData, pass: &Pass) -> Result<(), RasterError> {
+    finite("instance", index, "eye_from_model", instance.eye_from_model.as_flattened())?;
+    finite("instance", index, "normal", instance.normal.as_flattened())?;
+    if instance.surface as usize >= pass.surfaces.len() {
+        return beyond("instance", index, "surface", u64::from(instance.surface) + 1, pass.surfaces.len());
+    }
+    Ok(())
+}
+
+fn finite(what: &'static str, index: usize, field: &'static str, values: &[f32]) -> Result<(), RasterError> {
+    match values.iter().find(|value| !value.is_finite()) {
+        Some(&value) => wrong(what, index, field, value, "a finite number"),
+        None => Ok(()),
+    }
+}
+
+fn from_zero(what: &'static str, index: usize, field: &'static str, values: &[f32]) -> Result<(), RasterError> {
+    match values.iter().find(|value| !(0.0..=f32::MAX).contains(*value)) {
+        Some(&value) => wrong(what, index, field, value, "a finite number from 0"),
+        None => Ok(()),
+    }
+}
+
+fn wrong(
+    what: &'static str,
+    index: usize,
+    field: &'static str,
+    value: f32,
+    expected: &'static str,
+) -> Result<(), RasterError> {
+    Err(RasterError::Number { what, index, field, value: f64::from(value), expected })
+}
+
+fn beyond(
+    what: &'static str,
+    index: usize,
+    field: &'static str,
+    reaches: u64,
+    available: usize,
+) -> Result<(), RasterError> {
+    Err(RasterError::Reference { what, index, field, reaches, available: available as u64 })
+}

@@ -1,0 +1,376 @@
+//! Which pixels a triangle covers, and what it leaves in them where nothing is nearer.
+
+use crate::bins::TILE;
+use crate::lanes::{F, I, M, Simd, counting, counting_i, each, f32x4, fma, lanes, load, load_i, max, max_one, min, min_one, splat, splat_i, store, store_i};
+use crate::pass::SampleCount;
+use crate::planes::{Planes, Slopes};
+use crate::state::{Stage, State};
+use crate::triangle::Batch;
+use fearless_simd::{i32x4, prelude::*};
+
+/// Pixels of a tile.
+pub(crate) const PIXELS: usize = TILE * TILE;
+
+/// Where the four samples lie, in sixteenths of a pixel from its center.
+const PLACES: [[i32; 2]; 4] = [[-2, -6], [6, -2], [-6, 2], [2, 6]];
+
+/// The same in steps of the grid.
+const GRID_PLACES: [[i32; 2]; 4] = [[-32, -96], [96, -32], [-96, 32], [32, 96]];
+
+/// The same in pixels, by axis.
+const OFFSETS: [[f32; 4]; 2] = [[-0.125, 0.375, -0.375, 0.125], [-0.375, -0.125, 0.125, 0.375]];
+
+/// The places of samples in steps of the grid; of one sample the center.
+pub(crate) fn sample_offsets(samples: SampleCount) -> [[i32; 2]; 4] {
+    match samples {
+        SampleCount::One => [[0; 2]; 4],
+        SampleCount::Four => GRID_PLACES,
+    }
+}
+
+/// By the samples that are covered, from 0 (the center itself is) to 15: their mean, in pixels from the center.
+pub(crate) const CENTROIDS: [[f32; 2]; 16] = centroids();
+
+const fn centroids() -> [[f32; 2]; 16] {
+    let mut means = [[0.0; 2]; 16];
+    let mut mask = 1;
+    while mask < 15 {
+        let (mut sum, mut count, mut sample) = ([0, 0], 0, 0);
+        while sample < 4 {
+            if mask >> sample & 1 == 1 {
+                sum = [sum[0] + PLACES[sample][0], sum[1] + PLACES[sample][1]];
+                count += 1;
+            }
+            sample += 1;
+        }
+        means[mask] = [sum[0] as f32 / (16 * count) as f32, sum[1] as f32 / (16 * count) as f32];
+        mask += 1;
+    }
+    means
+}
+
+/// Three edge functions over a tile: a pixel is covered where none is below 0.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Edges {
+    /// At the samples of the first pixel.
+    pub(crate) at: [[i32; 4]; 3],
+    /// At its center.
+    pub(crate) center: [i32; 3],
+    pub(crate) across: [i32; 3],
+    pub(crate) down: [i32; 3],
+    /// First and last column, first and last row.
+    pub(crate) bounds: [i32; 4],
+}
+
+impl Edges {
+    /// Those of one lane.
+    #[inline(always)]
+    pub(crate) fn of_lane(batch: &Batch, lane: usize, samples: SampleCount) -> Self {
+        let mut edges = Self {
+            across: each!(k in 3 => batch.across[k][lane]),
+            down: each!(k in 3 => batch.down[k][lane]),
+            bounds: each!(k in 4 => batch.bounds[k][lane]),
+            center: each!(k in 3 => batch.edge[k][lane] >> 8),
+            at: [[0; 4]; 3],
+        };
+        for k in 0..3 {
+            match samples {
+                SampleCount::One => edges.at[k][0] = edges.center[k],
+                SampleCount::Four => {
+                    for (at, [dx, dy]) in edges.at[k].iter_mut().zip(sample_offsets(samples)) {
+                        *at = (batch.edge[k][lane] + edges.across[k] * dx + edges.down[k] * dy) >> 8;
+                    }
+                }
+            }
+        }
+        edges
+    }
+}
+
+/// The nearest that has been drawn of a tile. With four samples each list holds all pixels' first samples, then all
+/// second ones, and so on; the depths of a pixel's samples lie side by side.
+pub(crate) struct Nearest {
+    /// 1/w, 0 where nothing is.
+    pub(crate) depth: Vec<f32>,
+    /// What shades it: 0 for nothing, else 2 + 2·state + 1 for backs; in the upper bits 2²⁸·the centroid's number.
+    pub(crate) shader: Vec<i32>,
+    /// With four samples, which triangle it is.
+    pub(crate) triangle: Vec<i32>,
+    triangles: i32,
+    /// 1/w where it is shaded, with four samples.
+    pub(crate) inverse_w: Vec<f32>,
+    /// The leading numbers, in the end the color.
+    pub(crate) lead: [Vec<f32>; 3],
+    pub(crate) second: [Vec<f32>; 3],
+    pub(crate) face: [Vec<f32>; 3],
+}
+
+/// Which of its numbers a triangle leaves behind.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Kept {
+    pub(crate) lead: bool,
+    pub(crate) second: bool,
+    pub(crate) face: bool,
+}
+
+impl Kept {
+    /// What shading takes.
+    #[inline(always)]
+    pub(crate) fn of(state: &State) -> Self {
+        Self {
+            lead: state.stage != Stage::Unlit,
+            second: state.stage == Stage::Mixed,
+            face: state.opposite_normals,
+        }
+    }
+}
+
+impl Nearest {
+    pub(crate) fn new() -> Self {
+        let lists = || [Vec::new(), Vec::new(), Vec::new()];
+        Self {
+            depth: Vec::new(),
+            shader: Vec::new(),
+            triangle: Vec::new(),
+            triangles: 0,
+            inverse_w: Vec::new(),
+            lead: lists(),
+            second: lists(),
+            face: lists(),
+        }
+    }
+
+    /// Empties a tile.
+    pub(crate) fn clear(&mut self, samples: SampleCount) {
+        let count = PIXELS * samples.count();
+        let attributes = self.lead.iter_mut().chain(&mut self.second).chain(&mut self.face);
+        for list in attributes.chain([&mut self.inverse_w]) {
+            list.resize(count, 0.0);
+        }
+        self.triangle.resize(count, 0);
+        self.triangles = 0;
+        self.depth.clear();
+        self.depth.resize(count, 0.0);
+        self.shader.clear();
+        self.shader.resize(count, 0);
+    }
+
+    /// Draws a triangle with one sample a pixel, pixel by pixel.
+    #[inline(always)]
+    pub(crate) fn cover_few<S: Simd>(&mut self, simd: S, edges: &Edges, planes: &Planes, shader: i32, kept: Kept) {
+        let [left, right, top, bottom] = edges.bounds;
+        let (base, dx, dy) = vectors(simd, &planes.lead);
+        let mut row_edges = each!(k in 3 => edges.at[k][0] + edges.across[k] * left + edges.down[k] * top);
+        for j in top..=bottom {
+            let row = dy.mul_add_precise(f32x4::simd_from(simd, j as f32), base);
+            let mut e = row_edges;
+            for i in left..=right {
+                if e[0] | e[1] | e[2] >= 0 {
+                    let v = dx.mul_add_precise(f32x4::simd_from(simd, i as f32), row);
+                    let depth = min_one(max_one(v[0], planes.range[0]), planes.range[1]);
+                    let pixel = (j as usize * TILE + i as usize) & (PIXELS - 1);
+                    if depth > self.depth[pixel] {
+                        self.depth[pixel] = depth;
+                        self.shader[pixel] = shader;
+                        if kept.lead {
+                            for c in 0..3 {
+                                self.lead[c][pixel] = v[c + 1];
+                            }
+                        }
+                        if kept.second || kept.face {
+                            self.keep_more(simd, planes, pixel, [i as f32, j as f32], kept);
+                        }
+                    }
+                }
+                for k in 0..3 {
+                    e[k] += edges.across[k];
+                }
+            }
+            for k in 0..3 {
+                row_edges[k] += edges.down[k];
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn keep_more<S: Simd>(&mut self, simd: S, planes: &Planes, at: usize, [i, j]: [f32; 2], kept: Kept) {
+        if kept.second {
+            let v = value(simd, &planes.second, i, j);
+            for c in 0..3 {
+                self.second[c][at] = v[c + 1];
+            }
+        }
+        if kept.face {
+            for c in 0..3 {
+                self.face[c][at] = planes.face[c];
+            }
+        }
+    }
+
+    /// The same row by row, as many pixels at once as there are lanes.
+    #[inline(always)]
+    pub(crate) fn cover_rows<S: Simd>(&mut self, simd: S, edges: &Edges, planes: &Planes, shader: i32, kept: Kept) {
+        let [left, right, top, bottom] = edges.bounds;
+        let count = lanes::<S>() as i32;
+        let shader = splat_i(simd, shader);
+        for j in top..=bottom {
+            let mut i = left.min(TILE as i32 - count);
+            while i <= right {
+                let at = (j as usize * TILE + i as usize) & (PIXELS - 1);
+                let covered = covered(simd, edges, i, j);
+                let depth = depth(simd, planes, i, j);
+                let before = load(simd, &self.depth, at);
+                let nearer = covered & depth.simd_gt(before);
+                if nearer.any_true() {
+                    store::<S>(nearer.select(depth, before), &mut self.depth, at);
+                    store_i::<S>(nearer.select(shader, load_i(simd, &self.shader, at)), &mut self.shader, at);
+                    let x = counting(simd) + splat(simd, i as f32);
+                    let y = splat(simd, j as f32);
+                    for c in 0..3 {
+                        if kept.lead {
+                            put(simd, &mut self.lead[c], at, nearer, plane(simd, &planes.lead, c + 1, x, y));
+                        }
+                        if kept.second {
+                            put(simd, &mut self.second[c], at, nearer, plane(simd, &planes.second, c + 1, x, y));
+                        }
+                        if kept.face {
+                            put(simd, &mut self.face[c], at, nearer, splat(simd, planes.face[c]));
+                        }
+                    }
+                }
+                i += count;
+                // The last vector of a row may begin earlier, so that it ends with the tile.
+                if i <= right {
+                    i = i.min(TILE as i32 - count);
+                }
+            }
+        }
+    }
+
+    /// Draws a triangle with four samples a pixel: shaded once, at the center or, where that is not covered, at the
+    /// centroid of the samples that are.
+    #[inline(always)]
+    pub(crate) fn cover_four<S: Simd>(&mut self, simd: S, edges: &Edges, planes: &Planes, shader: i32, kept: Kept) {
+        let [left, right, top, bottom] = edges.bounds;
+        self.triangles += 1;
+        for j in top..=bottom {
+            for i in left..=right {
+                let pixel = (j as usize * TILE + i as usize) & (PIXELS - 1);
+                let (covered, depth) = samples(simd, edges, planes, i, j);
+                let before = f32x4::from_slice(simd, &self.depth[4 * pixel..4 * pixel + 4]);
+                let nearer = covered & depth.simd_gt(before);
+                let mask = nearer.to_bitmask() as usize;
+                if mask == 0 {
+                    continue;
+                }
+                nearer.select(depth, before).store_slice(&mut self.depth[4 * pixel..4 * pixel + 4]);
+                let place = centroid(edges, i, j, covered.to_bitmask() as usize);
+                let [x, y] = [i as f32 + CENTROIDS[place][0], j as f32 + CENTROIDS[place][1]];
+                let v = value(simd, &planes.lead, x, y);
+                let inverse_w = min_one(max_one(v[0], planes.range[0]), planes.range[1]);
+                for sample in 0..4 {
+                    if mask >> sample & 1 == 0 {
+                        continue;
+                    }
+                    let at = sample * PIXELS + pixel;
+                    self.shader[at] = shader | (place as i32) << CENTROID_SHIFT;
+                    self.triangle[at] = self.triangles;
+                    self.inverse_w[at] = inverse_w;
+                    if kept.lead {
+                        for c in 0..3 {
+                            self.lead[c][at] = v[c + 1];
+                        }
+                    }
+                    self.keep_more(simd, planes, at, [x, y], kept);
+                }
+            }
+        }
+    }
+}
+
+/// Where the number of the centroid begins among a shader's bits.
+pub(crate) const CENTROID_SHIFT: i32 = 28;
+/// The bits of a shader below it.
+pub(crate) const SHADER_BITS: i32 = (1 << CENTROID_SHIFT) - 1;
+
+/// Replaces the lanes of a mask.
+#[inline(always)]
+fn put<S: Simd>(simd: S, list: &mut [f32], at: usize, mask: M<S>, value: F<S>) {
+    store::<S>(mask.select(value, load(simd, list, at)), list, at);
+}
+
+/// The lanes that an edge function leaves, from pixel (i, j) on.
+#[inline(always)]
+pub(crate) fn covered<S: Simd>(simd: S, edges: &Edges, i: i32, j: i32) -> M<S> {
+    let [left, right, ..] = edges.bounds;
+    let steps = counting_i(simd);
+    let [a, b, c]: [I<S>; 3] = each!(k in 3 => {
+        let first = edges.at[k][0] + edges.across[k] * i + edges.down[k] * j;
+        steps * splat_i(simd, edges.across[k]) + splat_i(simd, first)
+    });
+    let inside = (a | b | c).simd_ge(splat_i(simd, 0));
+    let column = steps + splat_i(simd, i);
+    inside & column.simd_ge(splat_i(simd, left)) & column.simd_le(splat_i(simd, right))
+}
+
+/// 1/w, kept between the corners'.
+#[inline(always)]
+fn depth<S: Simd>(simd: S, planes: &Planes, i: i32, j: i32) -> F<S> {
+    let x = counting(simd) + splat(simd, i as f32);
+    clamped(simd, plane(simd, &planes.lead, 0, x, splat(simd, j as f32)), planes)
+}
+
+#[inline(always)]
+pub(crate) fn clamped<S: Simd>(simd: S, inverse_w: F<S>, planes: &Planes) -> F<S> {
+    let [least, most] = planes.range;
+    min::<S>(max::<S>(inverse_w, splat(simd, least)), splat(simd, most))
+}
+
+/// One of the numbers at places of the tile.
+#[inline(always)]
+pub(crate) fn plane<S: Simd>(simd: S, slopes: &Slopes, k: usize, x: F<S>, y: F<S>) -> F<S> {
+    let row = fma::<S>(splat(simd, slopes.dy[k]), y, splat(simd, slopes.base[k]));
+    fma::<S>(splat(simd, slopes.dx[k]), x, row)
+}
+
+#[inline(always)]
+fn vectors<S: Simd>(simd: S, slopes: &Slopes) -> (f32x4<S>, f32x4<S>, f32x4<S>) {
+    let Slopes { base, dx, dy } = slopes;
+    (f32x4::from_slice(simd, base), f32x4::from_slice(simd, dx), f32x4::from_slice(simd, dy))
+}
+
+/// All four numbers at a place of the tile.
+#[inline(always)]
+fn value<S: Simd>(simd: S, slopes: &Slopes, x: f32, y: f32) -> f32x4<S> {
+    let (base, dx, dy) = vectors(simd, slopes);
+    dx.mul_add_precise(f32x4::simd_from(simd, x), dy.mul_add_precise(f32x4::simd_from(simd, y), base))
+}
+
+/// Which samples of a pixel are covered, and 1/w at each.
+#[inline(always)]
+pub(crate) fn samples<S: Simd>(
+    simd: S,
+    edges: &Edges,
+    planes: &Planes,
+    i: i32,
+    j: i32,
+) -> (fearless_simd::mask32x4<S>, f32x4<S>) {
+    let [a, b, c] = each!(k in 3 => {
+        i32x4::from_slice(simd, &edges.at[k]) + (edges.across[k] * i + edges.down[k] * j)
+    });
+    let covered = (a | b | c).simd_ge(i32x4::simd_from(simd, 0));
+    let [x, y] = each!(axis in 2 => f32x4::from_slice(simd, &OFFSETS[axis]));
+    let [base, dx, dy] = [planes.lead.base[0], planes.lead.dx[0], planes.lead.dy[0]];
+    let row = f32x4::simd_from(simd, dy).mul_add_precise(y + j as f32, f32x4::simd_from(simd, base));
+    let depth = f32x4::simd_from(simd, dx).mul_add_precise(x + i as f32, row);
+    let [least, most] = each!(k in 2 => f32x4::simd_from(simd, planes.range[k]));
+    let depth = depth.simd_gt(least).select(depth, least);
+    (covered, depth.simd_lt(most).select(depth, most))
+}
+
+/// The number of the place where a pixel is shaded: 0 where its center is covered, else the samples that are.
+#[inline(always)]
+pub(crate) fn centroid(edges: &Edges, i: i32, j: i32, mask: usize) -> usize {
+    let [a, b, c] = each!(k in 3 => edges.center[k] + edges.across[k] * i + edges.down[k] * j);
+    if mask == 15 || a | b | c >= 0 { 0 } else { mask }
+}

@@ -1,0 +1,94 @@
+//! What can be wrong with a pass.
+
+use thiserror::Error;
+
+/// The longest side of a picture, in pixels.
+pub const LARGEST_SIDE: u32 = 16_384;
+
+/// Why nothing was drawn.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum RasterError {
+    /// A side of the picture is 0 or longer than [`LARGEST_SIDE`].
+    #[error("a picture of {width} × {height} pixels: each side must be 1 to {LARGEST_SIDE}")]
+    Size {
+        /// Pixels in a row.
+        width: u32,
+        /// Rows.
+        height: u32,
+    },
+    /// The memory to draw into has another length than the picture.
+    #[error("the output holds {found} values, but a picture of {width} × {height} pixels has {expected}")]
+    Output {
+        /// Pixels in a row.
+        width: u32,
+        /// Rows.
+        height: u32,
+        /// How many values it must hold.
+        expected: usize,
+        /// How many it holds.
+        found: usize,
+    },
+    /// The system refuses the memory that drawing takes.
+    #[error("{bytes} bytes of memory for {what} were refused")]
+    Memory {
+        /// What it is for.
+        what: &'static str,
+        /// How much was asked for.
+        bytes: u64,
+    },
+    /// A number is NaN, infinite or out of its range.
+    #[error("{what} {index}: {field} is {value}, expected {expected}")]
+    Number {
+        /// The list or struct that holds it.
+        what: &'static str,
+        /// Which element.
+        index: usize,
+        /// Which field.
+        field: &'static str,
+        /// What it is.
+        value: f64,
+        /// What it has to be.
+        expected: &'static str,
+    },
+    /// An index or range reaches beyond what it indexes.
+    #[error("{what} {index}: {field} reaches to {reaches}, but there are {available}")]
+    Reference {
+        /// The list that holds the index.
+        what: &'static str,
+        /// Which element.
+        index: usize,
+        /// Which field.
+        field: &'static str,
+        /// The end of the range, or one more than the index.
+        reaches: u64,
+        /// How many there are.
+        available: u64,
+    },
+    /// A range of indices does not begin and end where the mesh was cut.
+    #[error("draw {draw}: indices {start}..{end} do not begin and end where the mesh was cut")]
+    Cut {
+        /// Which draw.
+        draw: usize,
+        /// First index.
+        start: u32,
+        /// One more than the last.
+        end: u32,
+    },
+    /// A width was asked for that this CPU does not have, or whose name is unknown.
+    #[error("this CPU cannot draw with {asked:?}; it has {available}")]
+    Width {
+        /// What was asked for.
+        asked: String,
+        /// The names that would do, with commas between.
+        available: String,
+    },
+    /// The system refuses threads.
+    #[error("{count} threads were refused: {reason}")]
+    Threads {
+        /// How many were asked for.
+        count: usize,
+        /// What the system says.
+        reason: String,
+    },
+}

@@ -1,0 +1,71 @@
+//! Draws on the CPU, without a graphics driver: lit triangles in tiles of the picture, with vectors as wide as the CPU
+//! has. It knows neither a graphics interface nor an ECS; what is drawn is plain data, a [`Pass`].
+//!
+//! ```
+//! use halfway_raster::{DrawCall, InstanceData, Lens, Output, Pass, Pieces, PixelFormat, Rasterizer, RasterOptions};
+//! use halfway_raster::{SampleCount, SideData, SurfaceData, TriangleOrder};
+//!
+//! # fn main() -> Result<(), halfway_raster::RasterError> {
+//! let triangle = [[-1.0, -1.0, -3.0], [1.0, -1.0, -3.0], [0.0, 1.0, -3.0]];
+//! let mesh = Pieces::new(&triangle, &[], &[0, 1, 2], &[], TriangleOrder::Clustered)?;
+//! let red = SideData { base: [1.0, 0.0, 0.0], ..SideData::default() };
+//! let mut bytes = vec![0; 64 * 64 * 4];
+//! Rasterizer::new(RasterOptions::default())?.draw(
+//!     &Pass {
+//!         size: [64, 64],
+//!         samples: SampleCount::One,
+//!         pixels: PixelFormat::SrgbBytes,
+//!         clear: [0.0; 3],
+//!         lens: Lens { scale: [2.0, 2.0], near: 0.1 },
+//!         local_viewer: true,
+//!         lights: &[],
+//!         lists: &[],
+//!         surfaces: &[SurfaceData { front: red, ..SurfaceData::default() }],
+//!         instances: &[InstanceData {
+//!             eye_from_model: [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]],
+//!             normal: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+//!             surface: 0,
+//!         }],
+//!         meshes: &[&mesh],
+//!         draws: &[DrawCall { indices: 0..3, instances: 0..1, ..DrawCall::default() }],
+//!     },
+//!     Output::Bytes(&mut bytes),
+//! )?;
+//! assert_eq!(bytes[4 * (32 * 64 + 32)..][..4], [255, 0, 0, 255]);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! The same pass gives the same bits on every width of vectors, with any number of threads and on every machine.
+#![expect(clippy::inline_always, reason = "what is not inlined is not compiled for the CPU's vectors")]
+#![expect(clippy::too_many_arguments, reason = "vectors are passed in registers, and not in structs in memory")]
+
+mod bins;
+mod blend;
+mod check;
+mod clip;
+mod cover;
+mod encode;
+mod error;
+mod lanes;
+mod lighting;
+mod pass;
+mod pieces;
+mod planes;
+mod power;
+mod rasterizer;
+mod shade;
+mod state;
+mod tile;
+mod triangle;
+mod vertices;
+mod width;
+
+pub use error::{LARGEST_SIDE, RasterError};
+pub use pass::{
+    DrawCall, Highlight, InstanceData, LeftOut, Lens, LightData, LightRange, Output, Pass, PixelFormat, SampleCount,
+    ShadedTerms, SideData, SurfaceData,
+};
+pub use pieces::{Pieces, TriangleOrder};
+pub use rasterizer::{RasterOptions, Rasterizer};
+pub use width::{VectorWidth, WIDTH_VARIABLE};

@@ -1,0 +1,332 @@
+//! A mesh made ready: cut into pieces whose vertices lie together.
+
+use crate::error::RasterError;
+use std::ops::Range;
+
+/// The most triangles of a piece.
+pub(crate) const PIECE_TRIANGLES: usize = 64;
+/// The most vertices of a piece; a multiple of every width.
+pub(crate) const PIECE_VERTICES: usize = 96;
+/// Vertices begin at multiples of this, the largest width.
+const ALIGNED: usize = 16;
+
+/// A mesh made ready for drawing: pieces of up to 64 triangles with vertices of their own, so that each is transformed,
+/// culled and put into the tiles of the picture by itself. Made once for a mesh, and kept with it.
+#[derive(Clone, Debug, Default)]
+pub struct Pieces {
+    pub(crate) each: Vec<Piece>,
+    /// Coordinates of the pieces' vertices, one list an axis.
+    pub(crate) positions: [Vec<f32>; 3],
+    /// The same of the normals.
+    pub(crate) normals: [Vec<f32>; 3],
+    /// Corners as numbers of the piece's vertices.
+    pub(crate) triangles: Vec<[u8; 3]>,
+    index_count: u32,
+    /// A sphere around all.
+    pub(crate) center: [f32; 3],
+    pub(crate) radius: f32,
+}
+
+/// Up to 64 triangles that lie close together.
+#[derive(Clone, Debug)]
+pub(crate) struct Piece {
+    /// The run of indices it was cut from; pieces of one run share it.
+    cut: Range<u32>,
+    pub(crate) first_vertex: u32,
+    pub(crate) vertex_count: u32,
+    pub(crate) triangles: Range<u32>,
+    /// A sphere around it, in model space.
+    pub(crate) center: [f32; 3],
+    pub(crate) radius: f32,
+    /// Of its face normals the axis, and the sine and cosine of the largest angle to it; `None` where they spread wide.
+    pub(crate) cone: Option<FaceCone>,
+}
+
+/// A cone around the normals of faces.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct FaceCone {
+    pub(crate) axis: [f32; 3],
+    pub(crate) sin: f32,
+    pub(crate) cos: f32,
+}
+
+/// In which order a run's triangles are drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum TriangleOrder {
+    /// Those that lie together come together: faster. Triangles with the same corners keep their order.
+    #[default]
+    Clustered,
+    /// As in the list, for surfaces that blend.
+    Kept,
+}
+
+impl Pieces {
+    /// Cuts a mesh. `cuts` are the runs of indices that draws name, in ascending order and without gaps from 0 to the
+    /// end of the list; an empty slice means that the whole list is one run. Shading takes `normals` as they are: unit
+    /// length, one a position. They may be left out (empty) for draws that are unlit or flat.
+    ///
+    /// # Errors
+    /// An index beyond the positions, a number that is not finite, a list of indices that is no multiple of three, cuts
+    /// that leave gaps or part triangles, or memory that is refused.
+    pub fn new(
+        positions: &[[f32; 3]],
+        normals: &[[f32; 3]],
+        indices: &[u32],
+        cuts: &[Range<u32>],
+        order: TriangleOrder,
+    ) -> Result<Self, RasterError> {
+        check(positions, normals, indices)?;
+        let whole = [0..indices.len() as u32];
+        let cuts = if cuts.is_empty() { &whole[..] } else { cuts };
+        let mut pieces = Self { index_count: indices.len() as u32, ..Self::default() };
+        let mut builder = Builder::new(positions, normals, indices)?;
+        let mut end = 0;
+        for (index, cut) in cuts.iter().enumerate() {
+            if cut.start != end || cut.end < cut.start || cut.end % 3 != 0 || cut.end as usize > indices.len() {
+                let (reaches, available) = (u64::from(cut.end), indices.len() as u64);
+                return Err(RasterError::Reference { what: "cut", index, field: "indices", reaches, available });
+            }
+            end = cut.end;
+            builder.cut(&mut pieces, cut.clone(), order)?;
+        }
+        if end as usize != indices.len() {
+            let (reaches, available) = (u64::from(end), indices.len() as u64);
+            return Err(RasterError::Reference { what: "cut", index: cuts.len(), field: "indices", reaches, available });
+        }
+        (pieces.center, pieces.radius) = sphere(positions.iter().copied());
+        Ok(pieces)
+    }
+
+    /// How many triangles.
+    pub fn triangle_count(&self) -> usize {
+        self.triangles.len()
+    }
+
+    /// The pieces of a range of indices; `None` where it parts a run.
+    pub(crate) fn of(&self, indices: &Range<u32>) -> Option<Range<usize>> {
+        if indices.start > indices.end || indices.end > self.index_count {
+            return None;
+        }
+        let first = self.each.partition_point(|piece| piece.cut.end <= indices.start);
+        let end = self.each.partition_point(|piece| piece.cut.start < indices.end);
+        let parted = self.each[first..end.max(first)]
+            .iter()
+            .any(|piece| piece.cut.start < indices.start || piece.cut.end > indices.end);
+        (!parted).then_some(first..end.max(first))
+    }
+}
+
+fn check(positions: &[[f32; 3]], normals: &[[f32; 3]], indices: &[u32]) -> Result<(), RasterError> {
+    for (what, field, list) in [("position", "a coordinate", positions), ("normal", "a coordinate", normals)] {
+        for (index, vector) in list.iter().enumerate() {
+            if let Some(&value) = vector.iter().find(|x| !x.is_finite()) {
+                let value = f64::from(value);
+                return Err(RasterError::Number { what, index, field, value, expected: "a finite number" });
+            }
+        }
+    }
+    let list_error = |field, reaches: usize, available: usize| {
+        let (reaches, available) = (reaches as u64, available as u64);
+        Err(RasterError::Reference { what: "mesh", index: 0, field, reaches, available })
+    };
+    if !normals.is_empty() && normals.len() != positions.len() {
+        return list_error("normals", normals.len(), positions.len());
+    }
+    if !indices.len().is_multiple_of(3) || indices.len() > u32::MAX as usize {
+        return list_error("the last triangle", indices.len().next_multiple_of(3), indices.len());
+    }
+    match indices.iter().find(|&&index| index as usize >= positions.len()) {
+        Some(&index) => list_error("an index", index as usize + 1, positions.len()),
+        None => Ok(()),
+    }
+}
+
+struct Builder<'a> {
+    positions: &'a [[f32; 3]],
+    normals: &'a [[f32; 3]],
+    indices: &'a [u32],
+    /// Of each vertex its number in the piece that is being made, and which piece that is.
+    local: Vec<(u32, u8)>,
+    /// The vertices of the piece that is being made.
+    used: Vec<u32>,
+    order: Vec<(u32, u32)>,
+}
+
+fn reserve<T>(list: &mut Vec<T>, more: usize, what: &'static str) -> Result<(), RasterError> {
+    let bytes = (more as u64).saturating_mul(size_of::<T>() as u64);
+    list.try_reserve(more).map_err(|_| RasterError::Memory { what, bytes })
+}
+
+impl<'a> Builder<'a> {
+    fn new(positions: &'a [[f32; 3]], normals: &'a [[f32; 3]], indices: &'a [u32]) -> Result<Self, RasterError> {
+        let mut local = Vec::new();
+        reserve(&mut local, positions.len(), "a mesh's pieces")?;
+        local.resize(positions.len(), (u32::MAX, 0));
+        Ok(Self { positions, normals, indices, local, used: Vec::with_capacity(PIECE_VERTICES), order: Vec::new() })
+    }
+
+    fn corners(&self, triangle: u32) -> [u32; 3] {
+        let first = 3 * triangle as usize;
+        [self.indices[first], self.indices[first + 1], self.indices[first + 2]]
+    }
+
+    fn points(&self, triangle: u32) -> [[f32; 3]; 3] {
+        self.corners(triangle).map(|corner| self.positions[corner as usize])
+    }
+
+    fn cut(&mut self, pieces: &mut Pieces, cut: Range<u32>, order: TriangleOrder) -> Result<(), RasterError> {
+        let triangles = cut.start / 3..cut.end / 3;
+        self.order.clear();
+        reserve(&mut self.order, triangles.len(), "a mesh's pieces")?;
+        if order == TriangleOrder::Clustered && triangles.len() > PIECE_TRIANGLES {
+            let curve = Curve::through(triangles.clone().flat_map(|triangle| self.points(triangle)));
+            for triangle in triangles {
+                self.order.push((curve.place(self.points(triangle)), triangle));
+            }
+            self.order.sort_unstable();
+        } else {
+            self.order.extend(triangles.map(|triangle| (0, triangle)));
+        }
+        reserve(&mut pieces.triangles, self.order.len(), "a mesh's pieces")?;
+        let mut piece_start = 0;
+        for at in 0..self.order.len() {
+            let new = self.count_new(pieces.each.len(), self.order[at].1);
+            if at - piece_start == PIECE_TRIANGLES || self.used.len() + new > PIECE_VERTICES {
+                self.finish(pieces, piece_start..at, cut.clone())?;
+                piece_start = at;
+            }
+            self.add(pieces, self.order[at].1);
+        }
+        if piece_start < self.order.len() {
+            self.finish(pieces, piece_start..self.order.len(), cut)?;
+        }
+        Ok(())
+    }
+
+    /// How many vertices of a triangle the piece does not have yet; at most so many.
+    fn count_new(&self, piece: usize, triangle: u32) -> usize {
+        self.corners(triangle).into_iter().filter(|&corner| self.local[corner as usize].0 != piece as u32).count()
+    }
+
+    fn add(&mut self, pieces: &mut Pieces, triangle: u32) {
+        let piece = pieces.each.len() as u32;
+        let numbers = self.corners(triangle).map(|corner| {
+            let local = &mut self.local[corner as usize];
+            if local.0 != piece {
+                *local = (piece, self.used.len() as u8);
+                self.used.push(corner);
+            }
+            local.1
+        });
+        pieces.triangles.push(numbers);
+    }
+
+    fn finish(&mut self, pieces: &mut Pieces, of: Range<usize>, cut: Range<u32>) -> Result<(), RasterError> {
+        let first_vertex = pieces.positions[0].len();
+        let padded = self.used.len().next_multiple_of(ALIGNED);
+        for axis in 0..3 {
+            reserve(&mut pieces.positions[axis], padded, "a mesh's pieces")?;
+            reserve(&mut pieces.normals[axis], padded, "a mesh's pieces")?;
+            for k in 0..padded {
+                // The rest repeats the last vertex, so that nothing there is out of the ordinary.
+                let vertex = self.used[k.min(self.used.len() - 1)] as usize;
+                pieces.positions[axis].push(self.positions[vertex][axis]);
+                pieces.normals[axis].push(self.normals.get(vertex).map_or(0.0, |normal| normal[axis]));
+            }
+        }
+        let (center, radius) = sphere(self.used.iter().map(|&vertex| self.positions[vertex as usize]));
+        let end = pieces.triangles.len() as u32;
+        reserve(&mut pieces.each, 1, "a mesh's pieces")?;
+        pieces.each.push(Piece {
+            cut,
+            first_vertex: first_vertex as u32,
+            vertex_count: self.used.len() as u32,
+            triangles: end - of.len() as u32..end,
+            center,
+            radius,
+            cone: cone(self.order[of].iter().map(|&(_, triangle)| self.points(triangle))),
+        });
+        self.used.clear();
+        Ok(())
+    }
+}
+
+/// A sphere around the center of the box of some points.
+fn sphere(points: impl Iterator<Item = [f32; 3]> + Clone) -> ([f32; 3], f32) {
+    let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+    for point in points.clone() {
+        for axis in 0..3 {
+            low[axis] = low[axis].min(point[axis]);
+            high[axis] = high[axis].max(point[axis]);
+        }
+    }
+    if low[0] > high[0] {
+        return ([0.0; 3], 0.0);
+    }
+    let center = [0, 1, 2].map(|axis| 0.5 * low[axis] + 0.5 * high[axis]);
+    let distance = |p: [f32; 3]| {
+        let [x, y, z] = [0, 1, 2].map(|axis| f64::from(p[axis]) - f64::from(center[axis]));
+        (x * x + y * y + z * z).sqrt()
+    };
+    let radius = points.map(distance).fold(0.0, f64::max) * (1.0 + 1e-6);
+    (center, radius.min(f64::from(f32::MAX)) as f32)
+}
+
+/// The cone of the normals of some triangles, without those that have none.
+fn cone(triangles: impl Iterator<Item = [[f32; 3]; 3]> + Clone) -> Option<FaceCone> {
+    let normals = triangles.filter_map(|[a, b, c]| {
+        let edge = |p: [f32; 3]| [0, 1, 2].map(|axis| f64::from(p[axis]) - f64::from(a[axis]));
+        let (e, f) = (edge(b), edge(c));
+        unit([e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]])
+    });
+    let sum = normals.clone().fold([0.0; 3], |sum, n| [0, 1, 2].map(|axis| sum[axis] + n[axis]));
+    let axis = unit(sum)?;
+    let least = normals.map(|n| n[0] * axis[0] + n[1] * axis[1] + n[2] * axis[2]).fold(1.0, f64::min);
+    // Faces turned by more than this beyond the cone bound nothing; half of it is room for rounding to the pixels' grid.
+    let angle = least.clamp(-1.0, 1.0).acos() + 0.03;
+    (angle < 1.5).then(|| FaceCone { axis: axis.map(|x| x as f32), sin: angle.sin() as f32, cos: angle.cos() as f32 })
+}
+
+fn unit(v: [f64; 3]) -> Option<[f64; 3]> {
+    let length = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
+    (length > 0.0).then(|| v.map(|x| x / length))
+}
+
+/// The Z-order curve (Morton 1966) through 1024³ cells of a box.
+struct Curve {
+    low: [f32; 3],
+    cells: f32,
+}
+
+impl Curve {
+    fn through(points: impl Iterator<Item = [f32; 3]> + Clone) -> Self {
+        let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+        for point in points {
+            for axis in 0..3 {
+                low[axis] = low[axis].min(point[axis]);
+                high[axis] = high[axis].max(point[axis]);
+            }
+        }
+        let extent = (0..3).map(|axis| high[axis] - low[axis]).fold(f32::MIN_POSITIVE, f32::max);
+        Self { low, cells: 1024.0 / extent }
+    }
+
+    /// Where the center of a triangle's box is: equal corners, in whatever order, are in one place.
+    fn place(&self, points: [[f32; 3]; 3]) -> u32 {
+        let axis_bits = |axis: usize| {
+            let [a, b, c] = points.map(|point| point[axis]);
+            let center = 0.5 * a.min(b).min(c) + 0.5 * a.max(b).max(c);
+            // The cast takes what is beside the box by rounding into the range.
+            spread((((center - self.low[axis]) * self.cells) as u32).min(1023)) << axis
+        };
+        axis_bits(0) | axis_bits(1) | axis_bits(2)
+    }
+}
+
+/// The ten lowest bits with two zeros between each.
+fn spread(bits: u32) -> u32 {
+    let bits = (bits | bits << 16) & 0x0300_00ff;
+    let bits = (bits | bits << 8) & 0x0300_f00f;
+    let bits = (bits | bits << 4) & 0x030c_30c3;
+    (bits | bits << 2) & 0x0924_9249
+}

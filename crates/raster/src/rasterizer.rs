@@ -1,0 +1,190 @@
+//! What draws passes, and hands their tiles to threads.
+
+use crate::bins::{Bins, TILE};
+use crate::check::check;
+use crate::error::RasterError;
+use crate::lanes::Simd;
+use crate::pass::{Output, Pass, PixelFormat};
+use crate::tile::{Scene, Worker};
+use crate::vertices::Screen;
+use crate::width::VectorWidth;
+use fearless_simd::Level;
+use std::fmt;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Evaluates an expression with the vectors of a level: like [`fearless_simd::dispatch`], but not for every level there is.
+macro_rules! with_vectors {
+    ($level:expr, $simd:ident => $draw:expr) => {
+        match $level {
+            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            Level::Avx512($simd) => $draw,
+            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            Level::Avx2($simd) => $draw,
+            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            level => {
+                let Some($simd) = level.as_sse2() else { return };
+                $draw
+            }
+            #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
+            level => fearless_simd::dispatch!(level, $simd => $draw),
+        }
+    };
+}
+
+/// How to draw. Neither choice changes a bit of a picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RasterOptions {
+    /// The vectors to draw with; `None` for [`VectorWidth::from_environment`].
+    pub width: Option<VectorWidth>,
+    /// How many threads draw, the calling one among them; `None` for one a core. 0 counts as 1.
+    pub threads: Option<usize>,
+}
+
+/// Draws passes on the CPU. It keeps the memory that it needs from one picture to the next; its threads sleep between.
+pub struct Rasterizer {
+    width: VectorWidth,
+    level: Level,
+    threads: usize,
+    pool: Option<rayon::ThreadPool>,
+    bins: Bins,
+    workers: Vec<Mutex<Worker>>,
+}
+
+/// A pass of less work than this many triangles and pixels is drawn by the calling thread: to wake another takes longer.
+const WORTH_A_THREAD: usize = 20_000;
+
+impl Rasterizer {
+    /// Finds out what the CPU has, and starts threads.
+    ///
+    /// # Errors
+    /// The width is not this CPU's, the environment names an unknown one, or the system refuses threads.
+    pub fn new(options: RasterOptions) -> Result<Self, RasterError> {
+        let width = options.width.map_or_else(VectorWidth::from_environment, Ok)?;
+        let Some(level) = width.level() else { return VectorWidth::named(&width.to_string()).map(|_| unreachable!()) };
+        let cores = || std::thread::available_parallelism().map_or(1, usize::from);
+        let threads = options.threads.unwrap_or_else(cores).max(1);
+        let pool = (threads > 1).then(|| {
+            let named = |number| format!("raster {number}");
+            let built = rayon::ThreadPoolBuilder::new().num_threads(threads - 1).thread_name(named).build();
+            built.map_err(|error| RasterError::Threads { count: threads - 1, reason: error.to_string() })
+        });
+        let pool = pool.transpose()?;
+        let workers = (0..threads).map(|_| Mutex::new(Worker::new())).collect();
+        Ok(Self { width, level, threads, pool, bins: Bins::default(), workers })
+    }
+
+    /// The vectors it draws with.
+    pub fn width(&self) -> VectorWidth {
+        self.width
+    }
+
+    /// How many threads draw.
+    pub fn threads(&self) -> usize {
+        self.threads
+    }
+
+    /// Draws a pass into memory that holds four values a pixel: red, green, blue, alpha.
+    ///
+    /// # Errors
+    /// Whatever is wrong with the pass or the output; nothing is drawn then.
+    pub fn draw(&mut self, pass: &Pass, output: Output) -> Result<(), RasterError> {
+        check(pass, &output)?;
+        self.bins.fill(pass)?;
+        let screen = Screen::new(pass);
+        let scene = Scene { pass, bins: &self.bins, screen: &screen };
+        let tiles = Tiles { columns: self.bins.tiles[0], count: (self.bins.tiles[0] * self.bins.tiles[1]) as usize };
+        let bands = Bands::new(pass, output);
+        let next = AtomicUsize::new(0);
+        let work = || {
+            // As many as there are threads, so that one is free.
+            let Some(mut worker) = self.workers.iter().find_map(|worker| worker.try_lock().ok()) else { return };
+            worker.prepare(pass.pixels);
+            with_vectors!(self.level, simd => tiles.draw(simd, &mut worker, &scene, &next, &bands));
+        };
+        let amount = pass.size[0] as usize * pass.size[1] as usize / 8 + 16 * self.bins.jobs.len();
+        match &self.pool {
+            Some(pool) if amount > WORTH_A_THREAD && tiles.count > 1 => pool.in_place_scope(|scope| {
+                for _ in 1..self.threads.min(tiles.count) {
+                    scope.spawn(|_| work());
+                }
+                work();
+            }),
+            _ => work(),
+        }
+        Ok(())
+    }
+}
+
+impl fmt::Debug for Rasterizer {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Rasterizer").field("width", &self.width).field("threads", &self.threads).finish_non_exhaustive()
+    }
+}
+
+#[derive(Clone, Copy)]
+struct Tiles {
+    columns: u32,
+    count: usize,
+}
+
+impl Tiles {
+    /// Draws tile after tile while there are any.
+    #[inline(always)]
+    fn draw<S: Simd>(self, simd: S, worker: &mut Worker, scene: &Scene, next: &AtomicUsize, bands: &Bands) {
+        loop {
+            let number = next.fetch_add(1, Ordering::Relaxed);
+            if number >= self.count {
+                return;
+            }
+            let tile = [number as u32 % self.columns, number as u32 / self.columns];
+            worker.draw(simd, scene, tile);
+            bands.put(worker, tile, scene.pass);
+        }
+    }
+}
+
+/// The picture, a row of tiles at a time.
+enum Bands<'a> {
+    Bytes(Vec<Mutex<&'a mut [u8]>>),
+    Floats(Vec<Mutex<&'a mut [f32]>>),
+}
+
+impl<'a> Bands<'a> {
+    fn new(pass: &Pass, output: Output<'a>) -> Self {
+        let band = 4 * pass.size[0] as usize * TILE;
+        match output {
+            Output::Bytes(bytes) => Self::Bytes(bytes.chunks_mut(band).map(Mutex::new).collect()),
+            Output::Floats(floats) => Self::Floats(floats.chunks_mut(band).map(Mutex::new).collect()),
+        }
+    }
+
+    /// Copies a tile's pixels into its place.
+    fn put(&self, worker: &Worker, [column, row]: [u32; 2], pass: &Pass) {
+        let width = pass.size[0] as usize;
+        let left = column as usize * TILE;
+        let across = TILE.min(width - left);
+        match self {
+            Self::Bytes(bands) => {
+                let Ok(mut band) = bands[row as usize].lock() else { return };
+                for (to, from) in band.chunks_exact_mut(4 * width).zip(worker.bytes.chunks_exact(TILE)) {
+                    let to = &mut to[4 * left..4 * (left + across)];
+                    for (to, from) in to.chunks_exact_mut(4).zip(from) {
+                        to.copy_from_slice(&from.to_le_bytes());
+                    }
+                }
+            }
+            Self::Floats(bands) => {
+                let Ok(mut band) = bands[row as usize].lock() else { return };
+                for (to, from) in band.chunks_exact_mut(4 * width).zip(worker.floats.chunks_exact(4 * TILE)) {
+                    to[4 * left..4 * (left + across)].copy_from_slice(&from[..4 * across]);
+                }
+            }
+        }
+    }
+}
+
+/// Whether the format is written as bytes.
+pub(crate) fn is_bytes(pixels: PixelFormat) -> bool {
+    pixels != PixelFormat::Floats
+}

@@ -1,0 +1,217 @@
+//! Shading of what is nearest in a tile, a vector of pixels at a time.
+
+use crate::bins::TILE;
+use crate::cover::{CENTROIDS, CENTROID_SHIFT, Nearest, PIXELS, SHADER_BITS};
+use crate::encode::{cleared, kept};
+use crate::lanes::{
+    F, Simd, V3, add, counting, dot, each, fma, lanes, load, load3, load_i, neg, safe_normalize, scale, select3, splat, splat3,
+    splat_i, store,
+};
+use crate::lighting::{Points, added, reflected, to_viewer};
+use crate::pass::{Pass, SampleCount};
+use crate::state::{Stage, State};
+use crate::vertices::Screen;
+use fearless_simd::prelude::*;
+use halfway_lighting::equations::NORMAL_MIN;
+
+/// What shading a tile takes from the frame.
+#[derive(Clone, Copy)]
+pub(crate) struct Look<'a> {
+    pub(crate) pass: &'a Pass<'a>,
+    pub(crate) states: &'a [State],
+    pub(crate) screen: &'a Screen,
+    /// Column and row of the tile.
+    pub(crate) tile: [u32; 2],
+}
+
+/// What is interpolated in some pixels.
+#[derive(Clone, Copy)]
+pub(crate) struct Fragments<S: Simd> {
+    /// In pixels from the tile's first.
+    pub(crate) place: [F<S>; 2],
+    pub(crate) inverse_w: F<S>,
+    pub(crate) lead: V3<S>,
+    pub(crate) second: V3<S>,
+    pub(crate) face: V3<S>,
+}
+
+impl<S: Simd> Fragments<S> {
+    /// Their colors, all of one state and side.
+    pub(crate) fn color(&self, simd: S, look: &Look, state: &State, back: bool) -> V3<S> {
+        simd.vectorize(
+            #[inline(always)]
+            || self.shaded(simd, look, state, back),
+        )
+    }
+
+    #[inline(always)]
+    fn shaded(&self, simd: S, look: &Look, state: &State, back: bool) -> V3<S> {
+        let side = state.side(look.pass, back);
+        match state.stage {
+            Stage::Unlit => splat3(simd, side.base),
+            Stage::Flat => self.lead,
+            Stage::Vertex => scale::<S>(self.lead, splat(simd, 1.0) / self.inverse_w),
+            Stage::Fragment | Stage::Mixed => {
+                let terms = state.fragment_terms(simd, look.pass, &self.points(simd, look, state, back), back);
+                if state.stage == Stage::Fragment {
+                    return reflected(simd, &terms, side);
+                }
+                let vertex = scale::<S>(self.second, splat(simd, 1.0) / self.inverse_w);
+                add::<S>(vertex, added(simd, &terms, side))
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn points(&self, simd: S, look: &Look, state: &State, back: bool) -> Points<S> {
+        let w = splat(simd, 1.0) / self.inverse_w;
+        let way = each!(axis in 2 => {
+            let first = look.tile[axis] as f32 * TILE as f32;
+            let pixel = self.place[axis] + splat(simd, first);
+            fma::<S>(pixel, splat(simd, look.screen.way_step[axis]), splat(simd, look.screen.way_start[axis]))
+        });
+        let n = self.fragment_normal(simd, w, state, back);
+        let p = [way[0] * w, way[1] * w, -w];
+        // The way through the pixel, not p: it has a direction however far p is.
+        let v = to_viewer(simd, [way[0], way[1], splat(simd, -1.0)], n, look.pass.local_viewer);
+        Points { p, n, v }
+    }
+
+    /// The interpolated normal on the side that is seen. Where it vanishes the triangle's own takes its place.
+    #[inline(always)]
+    fn fragment_normal(&self, simd: S, w: F<S>, state: &State, back: bool) -> V3<S> {
+        let mut n = safe_normalize(simd, self.lead);
+        if state.opposite_normals {
+            let interpolated = scale::<S>(self.lead, w);
+            let short = dot::<S>(interpolated, interpolated).simd_le(splat(simd, NORMAL_MIN * NORMAL_MIN));
+            n = select3::<S>(short, self.face, n);
+        }
+        if back { neg::<S>(n) } else { n }
+    }
+}
+
+impl Nearest {
+    /// Puts colors, as the target keeps them, in the place of the leading numbers.
+    #[inline(always)]
+    pub(crate) fn shade<S: Simd>(&mut self, simd: S, look: &Look, rows: usize) {
+        let clear = cleared(simd, look.pass.clear, look.pass.pixels);
+        for at in (0..rows * TILE).step_by(lanes::<S>()) {
+            match look.pass.samples {
+                SampleCount::One => self.shade_one(simd, look, at, clear),
+                SampleCount::Four => self.shade_four(simd, look, at, clear),
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn shade_one<S: Simd>(&mut self, simd: S, look: &Look, at: usize, clear: V3<S>) {
+        let mut left = (!load_i(simd, &self.shader, at).simd_eq(splat_i(simd, 0))).to_bitmask();
+        let mut color = clear;
+        while left != 0 {
+            let shader = self.shader[at + left.trailing_zeros() as usize];
+            let same = load_i(simd, &self.shader, at).simd_eq(splat_i(simd, shader));
+            left &= !same.to_bitmask();
+            let place = pixels(simd, at);
+            // What is not drawn has no w; its lanes must not divide by 0.
+            let inverse_w = same.select(load(simd, &self.depth, at), splat(simd, 1.0));
+            color = select3::<S>(same, self.color(simd, look, shader, (at, place, inverse_w)), color);
+        }
+        self.put(simd, at, color, look);
+    }
+
+    #[inline(always)]
+    fn shade_four<S: Simd>(&mut self, simd: S, look: &Look, pixel: usize, clear: V3<S>) {
+        for sample in 0..4 {
+            let at = sample * PIXELS + pixel;
+            let triangle = load_i(simd, &self.triangle, at);
+            let mut left = (!load_i(simd, &self.shader, at).simd_eq(splat_i(simd, 0))).to_bitmask();
+            let mut color = clear;
+            // What another sample of the pixel has shaded is taken over.
+            for before in 0..sample {
+                let before = before * PIXELS + pixel;
+                let lit = !load_i(simd, &self.shader, before).simd_eq(splat_i(simd, 0));
+                let same = triangle.simd_eq(load_i(simd, &self.triangle, before)) & lit;
+                let other = load3(simd, &self.lead, before);
+                let here = fearless_simd::SimdMask::from_bitmask(simd, left);
+                color = select3::<S>(same & here, other, color);
+                left &= !same.to_bitmask();
+            }
+            while left != 0 {
+                let shader = self.shader[at + left.trailing_zeros() as usize] & SHADER_BITS;
+                let all = load_i(simd, &self.shader, at);
+                let same = (all & splat_i(simd, SHADER_BITS)).simd_eq(splat_i(simd, shader));
+                let fresh = same & fearless_simd::SimdMask::from_bitmask(simd, left);
+                left &= !same.to_bitmask();
+                let mut place = pixels(simd, pixel);
+                for axis in 0..2 {
+                    for lane in 0..lanes::<S>() {
+                        place[axis][lane] += CENTROIDS[(all[lane] >> CENTROID_SHIFT) as usize & 15][axis];
+                    }
+                }
+                let inverse_w = fresh.select(load(simd, &self.inverse_w, at), splat(simd, 1.0));
+                color = select3::<S>(fresh, self.color(simd, look, shader, (at, place, inverse_w)), color);
+            }
+            self.put(simd, at, color, look);
+        }
+    }
+
+    #[inline(always)]
+    fn color<S: Simd>(
+        &self,
+        simd: S,
+        look: &Look,
+        shader: i32,
+        (at, place, inverse_w): (usize, [F<S>; 2], F<S>),
+    ) -> V3<S> {
+        let (state, back) = state_of(look.states, shader);
+        let zero = [splat(simd, 0.0); 3];
+        let fragments = Fragments {
+            place,
+            inverse_w,
+            lead: load3(simd, &self.lead, at),
+            second: if state.stage == Stage::Mixed { load3(simd, &self.second, at) } else { zero },
+            face: if state.opposite_normals { load3(simd, &self.face, at) } else { zero },
+        };
+        fragments.color(simd, look, state, back)
+    }
+
+    #[inline(always)]
+    fn put<S: Simd>(&mut self, simd: S, at: usize, color: V3<S>, look: &Look) {
+        let color = kept(simd, color, look.pass.pixels);
+        for c in 0..3 {
+            store::<S>(color[c], &mut self.lead[c], at);
+        }
+    }
+
+    /// The colors of pixels: their own, or the mean of their samples.
+    #[inline(always)]
+    pub(crate) fn resolved<S: Simd>(&self, simd: S, at: usize, samples: SampleCount) -> V3<S> {
+        match samples {
+            SampleCount::One => load3(simd, &self.lead, at),
+            SampleCount::Four => {
+                // Quarters first: the sum of four largest numbers would be infinite.
+                let [a, b, c, d] = each!(sample in 4 => {
+                    scale::<S>(load3(simd, &self.lead, sample * PIXELS + at), splat(simd, 0.25))
+                });
+                add::<S>(add::<S>(a, b), add::<S>(c, d))
+            }
+        }
+    }
+}
+
+/// What a shader's number stands for.
+#[inline(always)]
+pub(crate) fn state_of(states: &[State], shader: i32) -> (&State, bool) {
+    (&states[(shader as usize >> 1) - 1], shader & 1 != 0)
+}
+
+/// The number of a state's shader.
+pub(crate) fn shader_of(state: u32, back: bool) -> i32 {
+    2 + 2 * state as i32 + i32::from(back)
+}
+
+/// Column and row of pixels from `at` on, all in one row.
+#[inline(always)]
+fn pixels<S: Simd>(simd: S, at: usize) -> [F<S>; 2] {
+    [counting(simd) + splat(simd, (at % TILE) as f32), splat(simd, (at / TILE) as f32)]
+}

@@ -1,0 +1,96 @@
+//! What shading takes from draws and surfaces, looked up by the number that a pixel keeps.
+
+use crate::lanes::Simd;
+use crate::lighting::{Gloss, Irradiance, Points, gathered};
+use crate::pass::{DrawCall, Highlight, LeftOut, Pass, ShadedTerms, SideData, SurfaceData};
+use crate::power::Exponent;
+
+/// Where a draw's terms are shaded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Stage {
+    /// Nowhere: only the base.
+    Unlit,
+    /// At a triangle's centroid.
+    Flat,
+    /// At the vertices.
+    Vertex,
+    /// At the fragments.
+    Fragment,
+    /// Some there, some here.
+    Mixed,
+}
+
+/// A surface in a draw.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct State {
+    pub(crate) stage: Stage,
+    pub(crate) surface: u32,
+    pub(crate) vertex: ShadedTerms,
+    pub(crate) fragment: ShadedTerms,
+    pub(crate) highlight: Highlight,
+    /// Whether triangles keep their own normal for where the interpolated one vanishes.
+    pub(crate) opposite_normals: bool,
+    /// Whether backs are drawn.
+    pub(crate) backs: bool,
+    /// Exponents of the highlights of front and back, halved for Blinn–Phong.
+    exponents: [Exponent; 2],
+}
+
+impl State {
+    pub(crate) fn new(draw: &DrawCall, surface: u32, data: &SurfaceData) -> Self {
+        let lit = |terms: ShadedTerms, all: bool, diffuse: bool| {
+            let any = all && !terms.is_empty() || diffuse && terms.diffuse;
+            if any { terms } else { ShadedTerms::default() }
+        };
+        let vertex = lit(draw.vertex, !data.vertex.is_empty(), !data.vertex_diffuse.is_empty());
+        let fragment = lit(draw.fragment, !data.fragment.is_empty(), !data.fragment_diffuse.is_empty());
+        let stage = match (vertex.is_empty(), fragment.is_empty()) {
+            (true, true) => Stage::Unlit,
+            (false, true) if draw.flat => Stage::Flat,
+            (false, true) => Stage::Vertex,
+            (true, false) => Stage::Fragment,
+            (false, false) => Stage::Mixed,
+        };
+        let exponent = |side: &SideData| match draw.highlight {
+            Highlight::Phong => Exponent::new(side.exponent),
+            Highlight::BlinnPhong => Exponent::new(side.exponent).halved(),
+        };
+        Self {
+            stage,
+            surface,
+            vertex,
+            fragment,
+            highlight: draw.highlight,
+            opposite_normals: draw.opposite_normals && matches!(stage, Stage::Fragment | Stage::Mixed),
+            backs: draw.left_out != LeftOut::Back,
+            exponents: [exponent(&data.front), exponent(&data.back)],
+        }
+    }
+
+    /// How a side takes light.
+    pub(crate) fn gloss(&self, back: bool) -> Gloss {
+        Gloss { highlight: self.highlight, exponent: self.exponents[usize::from(back)] }
+    }
+
+    /// What the lights of the vertex terms bring to points.
+    #[inline(always)]
+    pub(crate) fn vertex_terms<S: Simd>(&self, simd: S, pass: &Pass, points: &Points<S>, back: bool) -> Irradiance<S> {
+        let surface = &pass.surfaces[self.surface as usize];
+        let ranges = [surface.vertex, surface.vertex_diffuse];
+        gathered(simd, (pass.lights, pass.lists), ranges, points, self.gloss(back), self.vertex)
+    }
+
+    /// What the lights of the fragment terms bring to points.
+    #[inline(always)]
+    pub(crate) fn fragment_terms<S: Simd>(&self, simd: S, pass: &Pass, points: &Points<S>, back: bool) -> Irradiance<S> {
+        let surface = &pass.surfaces[self.surface as usize];
+        let ranges = [surface.fragment, surface.fragment_diffuse];
+        gathered(simd, (pass.lights, pass.lists), ranges, points, self.gloss(back), self.fragment)
+    }
+
+    /// The material of a side.
+    pub(crate) fn side<'a>(&self, pass: &Pass<'a>, back: bool) -> &'a SideData {
+        let surface = &pass.surfaces[self.surface as usize];
+        if back { &surface.back } else { &surface.front }
+    }
+}

@@ -1,0 +1,234 @@
+//! A piece's vertices: transformed, lit where the draw lights vertices, and put onto the picture's grid.
+
+use crate::bins::TILE;
+use crate::lanes::{I, Simd, V3, each, fma, lanes, load3, max, min, safe_normalize, splat, splat_i, store, store_i};
+use crate::lighting::{Points, reflected, to_viewer};
+use crate::pass::{InstanceData, Pass};
+use crate::pieces::{PIECE_VERTICES, Piece, Pieces};
+use crate::state::{Stage, State};
+use fearless_simd::prelude::*;
+
+/// Steps of the grid in a pixel.
+pub(crate) const GRID: i32 = 256;
+/// Where screen coordinates end, in pixels: 2¹⁵ apart, so that edges fit into the arithmetic of coverage.
+pub(crate) const SCREEN_LOW: f32 = -8190.0;
+/// The other end.
+pub(crate) const SCREEN_HIGH: f32 = 24_574.0;
+
+/// Reasons to clip the triangles of a vertex.
+pub(crate) const CLIPPED: i32 = 0b1_1111;
+/// It is nearer than the near plane, or behind the eye.
+pub(crate) const TOO_NEAR: i32 = 1;
+/// It is too far from the tile for 16 bits.
+const FAR_AWAY: i32 = 0b10_0000;
+
+/// How eye space falls onto the picture and its tiles.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Screen {
+    pub(crate) near: f32,
+    /// Pixels = x/w·scale + center; y counts downward.
+    pub(crate) scale: [f32; 2],
+    pub(crate) center: [f32; 2],
+    /// The steps of the way through a pixel from one to the next, and the way through the first.
+    pub(crate) way_step: [f32; 2],
+    pub(crate) way_start: [f32; 2],
+}
+
+impl Screen {
+    pub(crate) fn new(pass: &Pass) -> Self {
+        let [width, height] = pass.size.map(f64::from);
+        let [x, y] = pass.lens.scale.map(f64::from);
+        Self {
+            near: pass.lens.near,
+            scale: [(0.5 * width * x) as f32, (-0.5 * height * y) as f32],
+            center: [(0.5 * width) as f32, (0.5 * height) as f32],
+            way_step: [(2.0 / (width * x)) as f32, (-2.0 / (height * y)) as f32],
+            way_start: [((1.0 / width - 1.0) / x) as f32, ((1.0 - 1.0 / height) / y) as f32],
+        }
+    }
+}
+
+type List = [f32; PIECE_VERTICES];
+/// Four numbers a vertex.
+type Attributes = [[f32; 4]; PIECE_VERTICES];
+
+/// What is known of a piece's vertices.
+pub(crate) struct Vertices {
+    pub(crate) eye: [List; 3],
+    /// In pixels.
+    pub(crate) screen: [List; 2],
+    pub(crate) inverse_w: List,
+    /// In steps of the grid.
+    pub(crate) grid: [[i32; PIECE_VERTICES]; 2],
+    /// From the tile's center, in steps of the grid: x in the lower 16 bits and y in the upper.
+    pub(crate) packed: [i32; PIECE_VERTICES],
+    pub(crate) codes: [i32; PIECE_VERTICES],
+    /// All codes together.
+    pub(crate) any_code: i32,
+    /// Normal, color of the front, color of the back.
+    pub(crate) raw: [List; 9],
+    /// 1/w and the first three interpolated numbers over w, of front and back.
+    pub(crate) lead: [Box<Attributes>; 2],
+    /// Whether the leading numbers are colors, which the sides have of their own.
+    pub(crate) sides_lead: bool,
+    /// Nothing and three more of them.
+    pub(crate) second: [Box<Attributes>; 2],
+}
+
+impl Vertices {
+    pub(crate) fn new() -> Self {
+        let none = || Box::new([[0.0; 4]; PIECE_VERTICES]);
+        Self {
+            eye: [[0.0; PIECE_VERTICES]; 3],
+            screen: [[0.0; PIECE_VERTICES]; 2],
+            inverse_w: [0.0; PIECE_VERTICES],
+            grid: [[0; PIECE_VERTICES]; 2],
+            packed: [0; PIECE_VERTICES],
+            codes: [0; PIECE_VERTICES],
+            any_code: 0,
+            raw: [[0.0; PIECE_VERTICES]; 9],
+            lead: [none(), none()],
+            sides_lead: false,
+            second: [none(), none()],
+        }
+    }
+
+    /// Fills them for a tile.
+    #[inline(always)]
+    pub(crate) fn fill<S: Simd>(
+        &mut self,
+        simd: S,
+        (mesh, piece): (&Pieces, &Piece),
+        instance: &InstanceData,
+        (screen, tile): (&Screen, [u32; 2]),
+        (pass, state): (&Pass, &State),
+    ) {
+        let mut any_code = splat_i(simd, 0);
+        let center = tile.map(|place| (place as i32 * TILE as i32 + TILE as i32 / 2) * GRID);
+        for at in (0..piece.vertex_count as usize).step_by(lanes::<S>()) {
+            let from = piece.first_vertex as usize + at;
+            let p = load3(simd, &mesh.positions, from);
+            let p = transformed(simd, &instance.eye_from_model, p);
+            any_code = any_code | self.project(simd, at, p, screen, center);
+            if matches!(state.stage, Stage::Vertex | Stage::Fragment | Stage::Mixed) {
+                let n = load3(simd, &mesh.normals, from);
+                let n = safe_normalize(simd, turned(simd, &instance.normal, n));
+                self.shade(simd, at, p, n, pass, state);
+            }
+        }
+        self.any_code = any_code.as_slice().iter().fold(0, |all, code| all | code);
+        self.gather(piece.vertex_count as usize, state);
+    }
+
+    /// Stores the place on the screen; returns the codes.
+    #[inline(always)]
+    fn project<S: Simd>(&mut self, simd: S, at: usize, p: V3<S>, screen: &Screen, center: [i32; 2]) -> I<S> {
+        let w = -p[2];
+        let in_front = w.simd_ge(splat(simd, screen.near));
+        let one = splat(simd, 1.0);
+        let inverse_w = one / in_front.select(w, one);
+        let zero = splat_i(simd, 0);
+        let mut code = in_front.select(zero, splat_i(simd, TOO_NEAR));
+        let mut relative = [zero; 2];
+        for axis in 0..2 {
+            let x = fma::<S>(p[axis] * inverse_w, splat(simd, screen.scale[axis]), splat(simd, screen.center[axis]));
+            let (low, high) = (splat(simd, SCREEN_LOW), splat(simd, SCREEN_HIGH));
+            // What is no number is beyond both ends.
+            code = code | x.simd_ge(low).select(zero, splat_i(simd, 2 << (2 * axis)));
+            code = code | x.simd_le(high).select(zero, splat_i(simd, 4 << (2 * axis)));
+            let inside = min::<S>(max::<S>(x, low), high);
+            let grid: I<S> = (inside * splat(simd, GRID as f32)).round_ties_even().to_int();
+            relative[axis] = grid - splat_i(simd, center[axis]);
+            let far = relative[axis].simd_gt(splat_i(simd, 32_767)) | relative[axis].simd_lt(splat_i(simd, -32_768));
+            code = code | far.select(splat_i(simd, FAR_AWAY), zero);
+            store::<S>(inside, &mut self.screen[axis], at);
+            store_i::<S>(grid, &mut self.grid[axis], at);
+        }
+        for axis in 0..3 {
+            store::<S>(p[axis], &mut self.eye[axis], at);
+        }
+        store::<S>(inverse_w, &mut self.inverse_w, at);
+        store_i::<S>((relative[0] & splat_i(simd, 0xffff)) | (relative[1] << 16), &mut self.packed, at);
+        store_i::<S>(code, &mut self.codes, at);
+        code
+    }
+
+    #[inline(always)]
+    fn shade<S: Simd>(&mut self, simd: S, at: usize, p: V3<S>, n: V3<S>, pass: &Pass, state: &State) {
+        if state.stage != Stage::Vertex {
+            for axis in 0..3 {
+                store::<S>(n[axis], &mut self.raw[axis], at);
+            }
+        }
+        if state.stage == Stage::Fragment {
+            return;
+        }
+        for back in [false, true] {
+            if back && !state.backs {
+                break;
+            }
+            let n = if back { crate::lanes::neg::<S>(n) } else { n };
+            let points = Points { p, n, v: to_viewer(simd, p, n, pass.local_viewer) };
+            let terms = state.vertex_terms(simd, pass, &points, back);
+            let color = reflected(simd, &terms, state.side(pass, back));
+            for c in 0..3 {
+                store::<S>(color[c], &mut self.raw[3 + 3 * usize::from(back) + c], at);
+            }
+        }
+    }
+
+    /// Brings each vertex's numbers together.
+    #[inline(always)]
+    fn gather(&mut self, count: usize, state: &State) {
+        self.sides_lead = state.stage == Stage::Vertex;
+        let (raw, i) = (&self.raw, &self.inverse_w);
+        match state.stage {
+            Stage::Unlit | Stage::Flat => {
+                for (to, &i) in self.lead[0][..count].iter_mut().zip(i) {
+                    *to = [i, 0.0, 0.0, 0.0];
+                }
+            }
+            Stage::Fragment => over_w(&mut self.lead[0][..count], i, &raw[..3]),
+            Stage::Vertex => {
+                over_w(&mut self.lead[0][..count], i, &raw[3..6]);
+                if state.backs {
+                    over_w(&mut self.lead[1][..count], i, &raw[6..]);
+                }
+            }
+            Stage::Mixed => {
+                over_w(&mut self.lead[0][..count], i, &raw[..3]);
+                over_w(&mut self.second[0][..count], i, &raw[3..6]);
+                if state.backs {
+                    over_w(&mut self.second[1][..count], i, &raw[6..]);
+                }
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn over_w(to: &mut [[f32; 4]], inverse_w: &List, raw: &[List]) {
+    let [a, b, c] = raw else { return };
+    for (v, to) in to.iter_mut().enumerate() {
+        let i = inverse_w[v];
+        *to = [i, a[v] * i, b[v] * i, c[v] * i];
+    }
+}
+
+/// Points through rows.
+#[inline(always)]
+pub(crate) fn transformed<S: Simd>(simd: S, rows: &[[f32; 4]; 3], p: V3<S>) -> V3<S> {
+    each!(axis in 3 => {
+        let [a, b, c, d] = each!(k in 4 => splat(simd, rows[axis][k]));
+        fma::<S>(c, p[2], fma::<S>(b, p[1], fma::<S>(a, p[0], d)))
+    })
+}
+
+/// Directions through columns.
+#[inline(always)]
+pub(crate) fn turned<S: Simd>(simd: S, columns: &[[f32; 3]; 3], n: V3<S>) -> V3<S> {
+    each!(axis in 3 => {
+        let [a, b, c] = each!(k in 3 => splat(simd, columns[k][axis]));
+        fma::<S>(c, n[2], fma::<S>(b, n[1], a * n[0]))
+    })
+}

@@ -1,0 +1,92 @@
+//! How wide vectors are: found out when the program runs, or forced.
+
+use crate::error::RasterError;
+use fearless_simd::Level;
+use std::fmt;
+
+/// The environment variable that forces a width by its name.
+pub const WIDTH_VARIABLE: &str = "HALFWAY_SIMD";
+
+/// The vectors that a CPU has. Pictures are the same to the bit on all of them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum VectorWidth {
+    /// 16 numbers: AVX-512 as of Ice Lake and Zen 4.
+    Avx512,
+    /// 8 numbers: AVX2 with fused multiply-add, most x86 CPUs since 2013.
+    Avx2,
+    /// 4 numbers: 64-bit ARM.
+    Neon,
+    /// What every CPU of the target has; 4 numbers, and a fused multiply-add that is emulated exactly.
+    Plain,
+}
+
+impl VectorWidth {
+    const ALL: [Self; 4] = [Self::Avx512, Self::Avx2, Self::Neon, Self::Plain];
+
+    /// Those of this CPU, the widest first. There is always one.
+    pub fn available() -> impl Iterator<Item = Self> {
+        Self::ALL.into_iter().filter(|width| width.level().is_some())
+    }
+
+    /// The widest of this CPU, or what [`WIDTH_VARIABLE`] asks for.
+    ///
+    /// # Errors
+    /// The variable names a width that is unknown or that this CPU does not have.
+    pub fn from_environment() -> Result<Self, RasterError> {
+        match std::env::var(WIDTH_VARIABLE) {
+            Ok(name) if !name.is_empty() => Self::named(&name),
+            _ => Ok(Self::available().next().unwrap_or(Self::Plain)),
+        }
+    }
+
+    /// The one of this name: `avx512`, `avx2`, `neon` or `plain`, in any case.
+    ///
+    /// # Errors
+    /// The name is unknown, or this CPU does not have it.
+    pub fn named(name: &str) -> Result<Self, RasterError> {
+        Self::available().find(|width| width.to_string().eq_ignore_ascii_case(name)).ok_or_else(|| {
+            let names: Vec<_> = Self::available().map(|width| width.to_string()).collect();
+            RasterError::Width { asked: name.to_owned(), available: names.join(", ") }
+        })
+    }
+
+    /// How many numbers a vector holds.
+    pub fn lanes(self) -> usize {
+        match self {
+            Self::Avx512 => 16,
+            Self::Avx2 => 8,
+            Self::Neon | Self::Plain => 4,
+        }
+    }
+
+    /// The proof that this CPU has it.
+    pub(crate) fn level(self) -> Option<Level> {
+        let best = Level::new();
+        match self {
+            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            Self::Avx512 => best.as_avx512().map(Level::Avx512),
+            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            Self::Avx2 => best.as_avx2().map(Level::Avx2),
+            #[cfg(target_arch = "aarch64")]
+            Self::Neon => best.as_neon().map(Level::Neon),
+            #[cfg(not(target_arch = "aarch64"))]
+            Self::Plain => Some(Level::baseline()),
+            _ => {
+                let _ = best;
+                None
+            }
+        }
+    }
+}
+
+impl fmt::Display for VectorWidth {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Avx512 => "avx512",
+            Self::Avx2 => "avx2",
+            Self::Neon => "neon",
+            Self::Plain => "plain",
+        })
+    }
+}
