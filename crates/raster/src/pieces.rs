@@ -149,7 +149,8 @@ struct Builder<'a> {
     local: Vec<(u32, u8)>,
     /// The vertices of the piece that is being made.
     used: Vec<u32>,
-    order: Vec<(u32, u32)>,
+    /// A run's triangles in the order of drawing.
+    order: Vec<u32>,
 }
 
 fn reserve<T>(list: &mut Vec<T>, more: usize, what: &'static str) -> Result<(), RasterError> {
@@ -179,23 +180,24 @@ impl<'a> Builder<'a> {
         self.order.clear();
         reserve(&mut self.order, triangles.len(), "a mesh's pieces")?;
         if order == TriangleOrder::Clustered && triangles.len() > PIECE_TRIANGLES {
-            let curve = Curve::through(triangles.clone().flat_map(|triangle| self.points(triangle)));
-            for triangle in triangles {
-                self.order.push((curve.place(self.points(triangle)), triangle));
-            }
-            self.order.sort_unstable();
+            let mut centers = Vec::new();
+            reserve(&mut centers, triangles.len(), "a mesh's pieces")?;
+            centers.extend(triangles.map(|triangle| (box_center(self.points(triangle)), triangle)));
+            cluster(&mut centers);
+            self.order.extend(centers.iter().map(|&(_, triangle)| triangle));
         } else {
-            self.order.extend(triangles.map(|triangle| (0, triangle)));
+            self.order.extend(triangles);
         }
         reserve(&mut pieces.triangles, self.order.len(), "a mesh's pieces")?;
         let mut piece_start = 0;
         for at in 0..self.order.len() {
-            let new = self.count_new(pieces.each.len(), self.order[at].1);
-            if at - piece_start == PIECE_TRIANGLES || self.used.len() + new > PIECE_VERTICES {
+            let new = self.count_new(pieces.each.len(), self.order[at]);
+            // Where clusters end pieces end, also where one has been cut short by its vertices.
+            if at > piece_start && (at.is_multiple_of(PIECE_TRIANGLES) || self.used.len() + new > PIECE_VERTICES) {
                 self.finish(pieces, piece_start..at, cut.clone())?;
                 piece_start = at;
             }
-            self.add(pieces, self.order[at].1);
+            self.add(pieces, self.order[at]);
         }
         if piece_start < self.order.len() {
             self.finish(pieces, piece_start..self.order.len(), cut)?;
@@ -244,7 +246,7 @@ impl<'a> Builder<'a> {
             triangles: end - of.len() as u32..end,
             center,
             radius,
-            cone: cone(self.order[of].iter().map(|&(_, triangle)| self.points(triangle))),
+            cone: cone(self.order[of].iter().map(|&triangle| self.points(triangle))),
         });
         self.used.clear();
         Ok(())
@@ -292,41 +294,79 @@ fn unit(v: [f64; 3]) -> Option<[f64; 3]> {
     (length > 0.0).then(|| v.map(|x| x / length))
 }
 
-/// The Z-order curve (Morton 1966) through 1024³ cells of a box.
-struct Curve {
-    low: [f32; 3],
-    cells: f32,
+/// Where a triangle is: equal corners, in whatever order, are in one place.
+fn box_center(points: [[f32; 3]; 3]) -> [f32; 3] {
+    [0, 1, 2].map(|axis| {
+        let [a, b, c] = points.map(|point| point[axis]);
+        0.5 * a.min(b).min(c) + 0.5 * a.max(b).max(c)
+    })
 }
 
-impl Curve {
-    fn through(points: impl Iterator<Item = [f32; 3]> + Clone) -> Self {
-        let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
-        for point in points {
-            for axis in 0..3 {
-                low[axis] = low[axis].min(point[axis]);
-                high[axis] = high[axis].max(point[axis]);
-            }
+/// Puts triangles that lie together next to each other: halves them across the longest side of their box until a piece
+/// is left, as a k-d tree does. What lies in one place keeps its order.
+fn cluster(triangles: &mut [([f32; 3], u32)]) {
+    if triangles.len() <= PIECE_TRIANGLES {
+        triangles.sort_unstable_by_key(|&(_, triangle)| triangle);
+        return;
+    }
+    let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+    for (center, _) in &*triangles {
+        for axis in 0..3 {
+            low[axis] = low[axis].min(center[axis]);
+            high[axis] = high[axis].max(center[axis]);
         }
-        let extent = (0..3).map(|axis| high[axis] - low[axis]).fold(f32::MIN_POSITIVE, f32::max);
-        Self { low, cells: 1024.0 / extent }
     }
-
-    /// Where the center of a triangle's box is: equal corners, in whatever order, are in one place.
-    fn place(&self, points: [[f32; 3]; 3]) -> u32 {
-        let axis_bits = |axis: usize| {
-            let [a, b, c] = points.map(|point| point[axis]);
-            let center = 0.5 * a.min(b).min(c) + 0.5 * a.max(b).max(c);
-            // The cast takes what is beside the box by rounding into the range.
-            spread((((center - self.low[axis]) * self.cells) as u32).min(1023)) << axis
-        };
-        axis_bits(0) | axis_bits(1) | axis_bits(2)
-    }
+    let extent = |axis: usize| high[axis] * 0.5 - low[axis] * 0.5;
+    let axis = (1..3).fold(0, |longest, axis| if extent(axis) > extent(longest) { axis } else { longest });
+    // Whole pieces on the first side, so that only the last one of a run is not full.
+    let half = (triangles.len() / 2).next_multiple_of(PIECE_TRIANGLES).min(triangles.len() - 1);
+    triangles.select_nth_unstable_by(half, |a, b| a.0[axis].total_cmp(&b.0[axis]).then(a.1.cmp(&b.1)));
+    let (first, second) = triangles.split_at_mut(half);
+    cluster(first);
+    cluster(second);
 }
 
-/// The ten lowest bits with two zeros between each.
-fn spread(bits: u32) -> u32 {
-    let bits = (bits | bits << 16) & 0x0300_00ff;
-    let bits = (bits | bits << 8) & 0x0300_f00f;
-    let bits = (bits | bits << 4) & 0x030c_30c3;
-    (bits | bits << 2) & 0x0924_9249
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use halfway_mesh::{Mesh, Plane, UvSphere};
+
+    fn cut(mesh: &Mesh) -> Pieces {
+        let positions: Vec<_> = mesh.positions().iter().map(|p| p.to_array()).collect();
+        Pieces::new(&positions, &[], mesh.indices(), &[], TriangleOrder::Clustered).expect("a sound mesh")
+    }
+
+    #[test]
+    fn pieces_hold_every_triangle_once() {
+        let mesh = Mesh::from(UvSphere { radius: 2.0, segments: 96, rings: 48 });
+        let pieces = cut(&mesh);
+        let corner = |piece: &Piece, number: u8| {
+            [0, 1, 2].map(|axis| pieces.positions[axis][piece.first_vertex as usize + usize::from(number)].to_bits())
+        };
+        let mut found: Vec<_> = pieces
+            .each
+            .iter()
+            .flat_map(|piece| {
+                let range = piece.triangles.start as usize..piece.triangles.end as usize;
+                pieces.triangles[range].iter().map(move |triangle| triangle.map(|number| corner(piece, number)))
+            })
+            .collect();
+        let mut expected: Vec<_> =
+            mesh.triangles().map(|t| t.map(|i| mesh.positions()[i as usize].to_array().map(f32::to_bits))).collect();
+        found.sort_unstable();
+        expected.sort_unstable();
+        assert!(found == expected, "triangles were lost, repeated or turned");
+    }
+
+    #[test]
+    fn pieces_are_small_and_full() {
+        // 64 triangles are 32 cells of edge 1: at most 4 × 8 of them, with half a diagonal of 4.5, or 11 × 3.
+        let pieces = cut(&Mesh::from(Plane { size: 64.0, divisions: 64 }));
+        assert_eq!(pieces.each.len(), 2 * 64 * 64 / PIECE_TRIANGLES);
+        let largest = pieces.each.iter().map(|piece| piece.radius).fold(0.0, f32::max);
+        assert!(largest < 6.0, "{largest}");
+        let sphere = cut(&Mesh::from(UvSphere { radius: 1.0, segments: 512, rings: 256 }));
+        let largest = sphere.each.iter().map(|piece| piece.radius).fold(0.0, f32::max);
+        assert!(sphere.each.len() < 4_200 && largest < 0.08, "{} pieces, {largest}", sphere.each.len());
+    }
 }

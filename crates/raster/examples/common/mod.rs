@@ -8,7 +8,7 @@ use halfway_raster::{
 
 /// Where terms are shaded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shading {
+pub(crate) enum Shading {
     Constant,
     Flat,
     Gouraud,
@@ -16,27 +16,27 @@ pub enum Shading {
 }
 
 impl Shading {
-    pub const ALL: [Self; 4] = [Self::Constant, Self::Flat, Self::Gouraud, Self::Phong];
+    pub(crate) const ALL: [Self; 4] = [Self::Constant, Self::Flat, Self::Gouraud, Self::Phong];
 }
 
 /// All that a pass borrows.
-pub struct Scene {
-    pub size: [u32; 2],
-    pub samples: SampleCount,
-    pub pixels: PixelFormat,
-    pub clear: [f32; 3],
-    pub lens: Lens,
-    pub lights: Vec<LightData>,
-    pub lists: Vec<u32>,
-    pub surfaces: Vec<SurfaceData>,
-    pub instances: Vec<InstanceData>,
-    pub meshes: Vec<Pieces>,
-    pub draws: Vec<DrawCall>,
+pub(crate) struct Scene {
+    pub(crate) size: [u32; 2],
+    pub(crate) samples: SampleCount,
+    pub(crate) pixels: PixelFormat,
+    pub(crate) clear: [f32; 3],
+    pub(crate) lens: Lens,
+    pub(crate) lights: Vec<LightData>,
+    pub(crate) lists: Vec<u32>,
+    pub(crate) surfaces: Vec<SurfaceData>,
+    pub(crate) instances: Vec<InstanceData>,
+    pub(crate) meshes: Vec<Pieces>,
+    pub(crate) draws: Vec<DrawCall>,
 }
 
 impl Scene {
     /// Draws with what it holds.
-    pub fn with_pass<R>(&self, draw: impl FnOnce(&Pass) -> R) -> R {
+    pub(crate) fn with_pass<R>(&self, draw: impl FnOnce(&Pass) -> R) -> R {
         let meshes: Vec<_> = self.meshes.iter().collect();
         draw(&Pass {
             size: self.size,
@@ -56,20 +56,20 @@ impl Scene {
 }
 
 /// A lens with this vertical angle in degrees.
-pub fn lens([width, height]: [u32; 2], degrees: f64) -> Lens {
+pub(crate) fn lens([width, height]: [u32; 2], degrees: f64) -> Lens {
     let y = 1.0 / (degrees.to_radians() * 0.5).tan();
     Lens { scale: [(y * f64::from(height) / f64::from(width)) as f32, y as f32], near: 0.1 }
 }
 
 /// A mesh made ready.
-pub fn pieces(mesh: &Mesh, order: TriangleOrder) -> Result<Pieces, RasterError> {
+pub(crate) fn pieces(mesh: &Mesh, order: TriangleOrder) -> Result<Pieces, RasterError> {
     let positions: Vec<_> = mesh.positions().iter().map(|p| p.to_array()).collect();
     let normals: Vec<_> = mesh.normals().iter().map(|n| n.to_array()).collect();
     Pieces::new(&positions, &normals, mesh.indices(), &[], order)
 }
 
 /// A mesh at this place, unturned.
-pub fn at(place: [f32; 3], surface: u32) -> InstanceData {
+pub(crate) fn at(place: [f32; 3], surface: u32) -> InstanceData {
     let row = |axis: usize| {
         let mut row = [0.0, 0.0, 0.0, place[axis]];
         row[axis] = 1.0;
@@ -83,7 +83,7 @@ pub fn at(place: [f32; 3], surface: u32) -> InstanceData {
 }
 
 /// A draw of a whole mesh and so many instances.
-pub fn draw(mesh: &Pieces, instances: u32, shading: Shading) -> DrawCall {
+pub(crate) fn draw(mesh: &Pieces, instances: u32, shading: Shading) -> DrawCall {
     let (none, both) = (ShadedTerms::default(), ShadedTerms::BOTH);
     let (vertex, fragment) = match shading {
         Shading::Constant => (none, none),
@@ -102,7 +102,7 @@ pub fn draw(mesh: &Pieces, instances: u32, shading: Shading) -> DrawCall {
 }
 
 /// One sphere of 261,120 triangles under four lights, or a small one of 3,968 under one.
-pub fn sphere(small: bool, shading: Shading) -> Result<Scene, RasterError> {
+pub(crate) fn sphere(small: bool, shading: Shading) -> Result<Scene, RasterError> {
     let size = if small { [256, 256] } else { [1280, 720] };
     let (segments, rings) = if small { (64, 32) } else { (512, 256) };
     let mesh = pieces(&Mesh::from(UvSphere { radius: 1.0, segments, rings }), TriangleOrder::Clustered)?;
