@@ -220,3 +220,5 @@ pub(crate) fn added<S: Simd>(simd: S, arriving: &Irradiance<S>, side: &SideData)
     sum
 }
 
+#[cfg(test)]
+mod tests;

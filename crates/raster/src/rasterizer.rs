@@ -7,30 +7,11 @@ use crate::lanes::Simd;
 use crate::pass::{Output, Pass, PixelFormat};
 use crate::tile::{Scene, Worker};
 use crate::vertices::Screen;
-use crate::width::VectorWidth;
+use crate::width::{VectorWidth, with_vectors};
 use fearless_simd::Level;
 use std::fmt;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
-
-/// Evaluates an expression with the vectors of a level: like [`fearless_simd::dispatch`], but not for every level there is.
-macro_rules! with_vectors {
-    ($level:expr, $simd:ident => $draw:expr) => {
-        match $level {
-            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-            Level::Avx512($simd) => $draw,
-            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-            Level::Avx2($simd) => $draw,
-            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-            level => {
-                let Some($simd) = level.as_sse2() else { return };
-                $draw
-            }
-            #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
-            level => fearless_simd::dispatch!(level, $simd => $draw),
-        }
-    };
-}
 
 /// How to draw. Neither choice changes a bit of a picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

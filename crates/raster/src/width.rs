@@ -4,6 +4,28 @@ use crate::error::RasterError;
 use fearless_simd::Level;
 use std::fmt;
 
+/// Evaluates an expression with the vectors of a level: like [`fearless_simd::dispatch`], but not for every level there is.
+macro_rules! with_vectors {
+    ($level:expr, $simd:ident => $draw:expr) => {
+        match $level {
+            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            fearless_simd::Level::Avx512($simd) => $draw,
+            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            fearless_simd::Level::Avx2($simd) => $draw,
+            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            level => {
+                match level.as_sse2() {
+                    Some($simd) => $draw,
+                    None => unreachable!("every x86 CPU that runs this has SSE2"),
+                }
+            }
+            #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
+            level => fearless_simd::dispatch!(level, $simd => $draw),
+        }
+    };
+}
+pub(crate) use with_vectors;
+
 /// The environment variable that forces a width by its name.
 pub const WIDTH_VARIABLE: &str = "HALFWAY_SIMD";
 

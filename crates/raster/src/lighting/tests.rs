@@ -1,0 +1,253 @@
+//! The twin against `halfway_lighting::equations` in f64, over random inputs and the edges, on every width.
+
+use super::*;
+use crate::lanes::MOST_LANES;
+use crate::width::{VectorWidth, with_vectors};
+use halfway_lighting::Reflectance;
+use halfway_lighting::equations::{
+    self, Coefficients, ConeTerms, Light, Place, Surface, View, face_forward, vector::normalize,
+};
+
+/// One lane's input.
+#[derive(Clone, Copy, Debug)]
+struct Case {
+    p: [f32; 3],
+    n: [f32; 3],
+    light: LightData,
+    kind: Kind,
+    exponent: f32,
+    highlight: Highlight,
+    local_viewer: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Kind {
+    Directional,
+    Point,
+    Spot,
+}
+
+/// A linear congruential generator (Knuth's constants): the same cases everywhere.
+struct Random(u64);
+
+impl Random {
+    fn unit(&mut self) -> f32 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 40) as f32 / (1 << 24) as f32
+    }
+
+    fn within(&mut self, low: f32, high: f32) -> f32 {
+        low + (high - low) * self.unit()
+    }
+
+    fn direction(&mut self) -> [f32; 3] {
+        loop {
+            let v = [self.within(-1.0, 1.0), self.within(-1.0, 1.0), self.within(-1.0, 1.0)];
+            if let Some(unit) = normalize(v.map(f64::from)) {
+                return unit.map(|x| x as f32);
+            }
+        }
+    }
+
+    fn case(&mut self) -> Case {
+        let p = [self.within(-2.0, 2.0), self.within(-2.0, 2.0), self.within(-9.0, -0.5)];
+        let kind = [Kind::Directional, Kind::Point, Kind::Spot][(self.unit() * 3.0) as usize];
+        let toward = self.direction();
+        let far = self.within(0.1, 4.0);
+        let position = [0, 1, 2].map(|axis| p[axis] + far * toward[axis]);
+        let aim = self.direction();
+        let direction = normalize([0, 1, 2].map(|axis| f64::from(0.7 * aim[axis] - toward[axis])));
+        let (cutoff, inner) = (self.within(0.2, 1.5), self.within(0.0, 0.9));
+        let (cos_cutoff, cos_inner) = (cutoff.cos(), (cutoff * inner).cos());
+        let faded = self.unit() < 0.5;
+        let width = cos_inner - cos_cutoff;
+        Case {
+            p,
+            n: self.direction(),
+            light: LightData {
+                position: if kind == Kind::Directional { toward } else { position },
+                inverse_range: if self.unit() < 0.5 { 0.0 } else { 1.0 / self.within(0.5, 5.0) },
+                attenuation: [self.within(0.1, 1.0), self.within(0.0, 1.0), self.within(0.0, 1.0)],
+                direction: direction.map_or([0.0, 0.0, -1.0], |d| d.map(|x| x as f32)),
+                cos_cutoff,
+                exponent: (self.unit() * 5.0).floor() * 2.5,
+                inner_fade: if faded { [1.0 / width, -cos_cutoff / width] } else { [0.0, 1.0] },
+                ambient: if self.unit() < 0.5 { [0.0; 3] } else { [self.unit(), 0.5, 0.25] },
+                diffuse: [self.unit(), self.unit(), self.unit()],
+                specular: [self.unit(), self.unit(), self.unit()],
+            },
+            kind,
+            exponent: [0.0, 1.0, 5.0, 32.0, 100.5, 1000.0][(self.unit() * 6.0) as usize],
+            highlight: if self.unit() < 0.5 { Highlight::Phong } else { Highlight::BlinnPhong },
+            local_viewer: self.unit() < 0.8,
+        }
+    }
+}
+
+const SIDE: SideData = SideData {
+    base: [0.1, 0.2, 0.3],
+    diffuse: [0.9, 0.7, 0.5],
+    specular: [0.4, 0.6, 0.8],
+    ambient: [0.3, 0.2, 0.1],
+    exponent: 0.0,
+    opacity: 1.0,
+};
+
+fn expected(case: &Case) -> [f64; 3] {
+    let f = |v: [f32; 3]| v.map(f64::from);
+    let light = &case.light;
+    let [fade, offset] = light.inner_fade.map(f64::from);
+    let cone = (case.kind == Kind::Spot).then(|| ConeTerms {
+        direction: f(light.direction),
+        cos_cutoff: f64::from(light.cos_cutoff),
+        cos_inner: (fade > 0.0).then(|| (1.0 - offset) / fade),
+        exponent: f64::from(light.exponent),
+    });
+    let directional = case.kind == Kind::Directional;
+    let source = Light {
+        place: if directional { Place::Directional(f(light.position)) } else { Place::Point(f(light.position)) },
+        la: f(light.ambient),
+        ld: f(light.diffuse),
+        ls: f(light.specular),
+        attenuation: f(light.attenuation),
+        range: (light.inverse_range > 0.0).then(|| 1.0 / f64::from(light.inverse_range)),
+        cone,
+        attenuate_ambient: true,
+    };
+    let material = Coefficients {
+        ka: f(SIDE.ambient),
+        kd: f(SIDE.diffuse),
+        ks: f(SIDE.specular),
+        ke: f(SIDE.base),
+        shininess: f64::from(case.exponent),
+    };
+    let view = if case.local_viewer { View::Local([0.0; 3]) } else { View::Infinite([0.0, 0.0, 1.0]) };
+    let reflectance = match case.highlight {
+        Highlight::Phong => Reflectance::Phong,
+        Highlight::BlinnPhong => Reflectance::BlinnPhong,
+    };
+    let surface = Surface { position: f(case.p), normal: f(case.n) };
+    equations::shade(&surface, &material, &[source], [0.0; 3], &view, reflectance)
+}
+
+/// What the twin makes of a case, in every lane.
+fn shaded<S: Simd>(simd: S, case: &Case) -> [[f32; MOST_LANES]; 3] {
+    let (p, n) = (splat3(simd, case.p), splat3(simd, case.n));
+    let points = Points { p, n, v: to_viewer(simd, p, n, case.local_viewer) };
+    let exponent = Exponent::new(case.exponent);
+    let exponent = if case.highlight == Highlight::BlinnPhong { exponent.halved() } else { exponent };
+    let gloss = Gloss { highlight: case.highlight, exponent };
+    let counts = [Kind::Directional, Kind::Point, Kind::Spot].map(|kind| u32::from(kind == case.kind));
+    let ranges = [LightRange { counts, start: 0 }, LightRange::default()];
+    let terms = gathered(simd, (&[case.light], &[0]), ranges, &points, gloss, ShadedTerms::BOTH);
+    let color = reflected(simd, &terms, &SIDE);
+    let mut lanes = [[0.0; MOST_LANES]; 3];
+    for c in 0..3 {
+        color[c].store_slice(&mut lanes[c][..crate::lanes::lanes::<S>()]);
+    }
+    lanes
+}
+
+fn on(width: VectorWidth, case: &Case) -> [[f32; MOST_LANES]; 3] {
+    let level = width.level().expect("one of this CPU's");
+    with_vectors!(level, simd => shaded(simd, case))
+}
+
+/// How far f32 may be: its rounding near the cosine's maximum is multiplied by the exponent (`equations::power` says how
+/// far), and that of a cone's cosine by the steepness of its fade.
+fn tolerance(case: &Case) -> f64 {
+    2e-6 * f64::from(1.0 + case.exponent) + 1e-6 * f64::from(case.light.inner_fade[0])
+}
+
+fn is_on_an_edge(case: &Case) -> bool {
+    // Either side of these is right: n·l = 0, and φ = cutoff.
+    let f = |v: [f32; 3]| v.map(f64::from);
+    let to_light = match case.kind {
+        Kind::Directional => f(case.light.position),
+        _ => [0, 1, 2].map(|axis| f64::from(case.light.position[axis]) - f64::from(case.p[axis])),
+    };
+    let Some(l) = normalize(to_light) else { return false };
+    let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    let beside_cone = -dot(l, f(case.light.direction)) - f64::from(case.light.cos_cutoff);
+    dot(l, f(case.n)).abs() < 1e-5 || case.kind == Kind::Spot && beside_cone.abs() < 1e-5
+}
+
+#[test]
+fn shades_as_the_equations_in_f64_do() {
+    let mut random = Random(1);
+    let mut worst: f64 = 0.0;
+    for _ in 0..20_000 {
+        let case = random.case();
+        if is_on_an_edge(&case) {
+            continue;
+        }
+        let expected = expected(&case);
+        for width in VectorWidth::available() {
+            let found = on(width, &case);
+            for c in 0..3 {
+                for lane in 0..width.lanes() {
+                    assert_eq!(found[c][lane].to_bits(), found[c][0].to_bits(), "{width}: lanes differ: {case:?}");
+                }
+                let error = (f64::from(found[c][0]) - expected[c]).abs();
+                worst = worst.max(error / tolerance(&case));
+                assert!(error <= tolerance(&case), "{width}: {} instead of {}: {case:?}", found[c][0], expected[c]);
+            }
+        }
+    }
+    assert!(worst > 0.05, "the tolerance could be tighter: {worst}");
+}
+
+#[test]
+fn widths_give_the_same_bits() {
+    let mut random = Random(2);
+    for _ in 0..5_000 {
+        let case = random.case();
+        let bits = |width| [0, 1, 2].map(|c| on(width, &case)[c][0].to_bits());
+        for width in VectorWidth::available() {
+            assert_eq!(bits(width), bits(VectorWidth::available().last().expect("one")), "{width}: {case:?}");
+        }
+    }
+}
+
+#[test]
+fn the_edges_are_those_of_the_equations() {
+    let straight = Case {
+        p: [0.0, 0.0, -2.0],
+        n: [0.0, 0.0, 1.0],
+        light: LightData { diffuse: [0.5; 3], specular: [0.5; 3], ..LightData::default() },
+        kind: Kind::Directional,
+        exponent: 32.0,
+        highlight: Highlight::BlinnPhong,
+        local_viewer: true,
+    };
+    let at = |position, attenuation| LightData { position, attenuation, ..straight.light };
+    let sideways = face_forward([1.0_f32, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 0.0, 0.0]);
+    let cases = [
+        ("0⁰", Case { exponent: 0.0, n: sideways, light: at([1.0, 0.0, 0.0], [1.0, 0.0, 0.0]), ..straight }),
+        ("l = −v", Case { light: at([0.0, 0.0, -1.0], [1.0, 0.0, 0.0]), ..straight }),
+        ("d = 0", Case { kind: Kind::Point, light: at([0.0, 0.0, -2.0], [0.5, 1.0, 1.0]), ..straight }),
+        ("a = 0 and d = 0", Case { kind: Kind::Point, light: at([0.0, 0.0, -2.0], [0.0, 0.0, 1.0]), ..straight }),
+        ("the eye on the surface", Case { p: [0.0; 3], ..straight }),
+        ("a light behind", Case { light: at([0.0, 0.0, -1.0], [1.0, 0.0, 0.0]), ..straight }),
+        ("a cutoff of 0", Case {
+            kind: Kind::Spot,
+            light: LightData { position: [0.0; 3], cos_cutoff: 1.0, ..straight.light },
+            ..straight
+        }),
+    ];
+    for (name, case) in cases {
+        for highlight in [Highlight::Phong, Highlight::BlinnPhong] {
+            let case = Case { highlight, ..case };
+            let expected = expected(&case);
+            for width in VectorWidth::available() {
+                let found = on(width, &case);
+                for c in 0..3 {
+                    let error = (f64::from(found[c][0]) - expected[c]).abs();
+                    // One of an attenuation of 10⁶ is rounded as any number of that size.
+                    let tolerance = 1e-6 * (1.0 + expected[c].abs());
+                    assert!(error <= tolerance, "{name} on {width}: {} instead of {}", found[c][0], expected[c]);
+                }
+            }
+        }
+    }
+}
