@@ -1,0 +1,136 @@
+//! The same bits on every width and thread count, and on every machine.
+
+#[path = "../examples/common/mod.rs"]
+mod common;
+
+use common::{Scene, Shading, at, draw, lens, pieces, sphere};
+use halfway_mesh::{Mesh, Plane, UvSphere};
+use halfway_raster::{
+    Highlight, InstanceData, LeftOut, LightData, Output, PixelFormat, RasterOptions, Rasterizer, SampleCount,
+    ShadedTerms, TriangleOrder, VectorWidth,
+};
+
+/// FNV-1a of 64 bits.
+fn hash(bytes: impl IntoIterator<Item = u8>) -> u64 {
+    bytes.into_iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
+}
+
+fn hash_of_picture(scene: &Scene, rasterizer: &mut Rasterizer) -> u64 {
+    let count = 4 * scene.size[0] as usize * scene.size[1] as usize;
+    if scene.pixels == PixelFormat::Floats {
+        let mut floats = vec![0.0; count];
+        scene.with_pass(|pass| rasterizer.draw(pass, Output::Floats(&mut floats))).expect("a sound pass");
+        assert!(floats.iter().all(|x: &f32| x.is_finite() && *x >= 0.0));
+        hash(floats.iter().flat_map(|x| x.to_bits().to_le_bytes()))
+    } else {
+        let mut bytes = vec![0; count];
+        scene.with_pass(|pass| rasterizer.draw(pass, Output::Bytes(&mut bytes))).expect("a sound pass");
+        hash(bytes)
+    }
+}
+
+/// A floor that reaches from behind the eye to afar, and a half-transparent sphere that is seen from both sides.
+fn floor_and_glass(samples: SampleCount, pixels: PixelFormat) -> Scene {
+    let mut scene = sphere(true, Shading::Phong).expect("a sound mesh");
+    scene.size = [333, 217];
+    scene.lens = lens(scene.size, 60.0);
+    (scene.samples, scene.pixels) = (samples, pixels);
+    let floor = pieces(&Mesh::from(Plane { size: 200.0, divisions: 3 }), TriangleOrder::Clustered).expect("sound");
+    let glass = pieces(&Mesh::from(UvSphere { radius: 0.9, segments: 21, rings: 13 }), TriangleOrder::Kept).expect("sound");
+    let mut surface = scene.surfaces[0];
+    (surface.front.opacity, surface.back.opacity) = (0.4, 0.4);
+    surface.back.base = [0.2, 0.5, 0.9];
+    surface.front.specular = [0.9, 0.8, 0.7];
+    surface.front.exponent = 13.7;
+    scene.surfaces.push(surface);
+    scene.lights.push(LightData {
+        position: [0.5, 1.5, -2.0],
+        attenuation: [0.5, 0.1, 0.05],
+        inverse_range: 0.125,
+        direction: [0.0, -0.8, -0.6],
+        cos_cutoff: 0.6,
+        exponent: 2.0,
+        inner_fade: [5.0, -3.0],
+        ambient: [0.1; 3],
+        diffuse: [0.3, 0.5, 0.4],
+        specular: [0.5; 3],
+    });
+    scene.lists = vec![0, 1];
+    for surface in &mut scene.surfaces {
+        surface.fragment.counts = [1, 0, 1];
+        surface.vertex.counts = [1, 0, 1];
+    }
+    let turned = InstanceData { surface: 1, eye_from_model: [[0.8, 0.1, 0.0, 0.3], [0.0, 0.9, 0.2, 0.0], [0.1, 0.0, -0.7, -2.2]], ..at([0.0; 3], 1) };
+    scene.instances = vec![at([0.0, -1.1, -2.0], 0), turned, at([-0.9, 0.0, -2.6], 1)];
+    let call = |mesh: u32, pieces, instances, blend| halfway_raster::DrawCall {
+        mesh,
+        instances,
+        blend,
+        left_out: if blend { LeftOut::Neither } else { LeftOut::Back },
+        ..draw(pieces, 0, Shading::Phong)
+    };
+    let mixed = halfway_raster::DrawCall {
+        clockwise: true,
+        vertex: ShadedTerms { diffuse: true, specular: false },
+        fragment: ShadedTerms { diffuse: false, specular: true },
+        highlight: Highlight::Phong,
+        ..call(1, &glass, 1..2, true)
+    };
+    scene.draws = vec![call(0, &floor, 0..1, false), mixed, call(1, &glass, 2..3, true)];
+    scene.meshes = vec![floor, glass];
+    scene
+}
+
+fn scenes() -> Vec<(String, Scene)> {
+    let mut scenes = Vec::new();
+    for shading in Shading::ALL {
+        scenes.push((format!("S4 {shading:?}"), sphere(true, shading).expect("a sound mesh")));
+    }
+    for shading in [Shading::Flat, Shading::Gouraud] {
+        let mut scene = sphere(true, shading).expect("a sound mesh");
+        (scene.samples, scene.pixels) = (SampleCount::Four, PixelFormat::RawBytes);
+        scenes.push((format!("S4 {shading:?} with four samples, raw"), scene));
+    }
+    for samples in [SampleCount::One, SampleCount::Four] {
+        for pixels in [PixelFormat::SrgbBytes, PixelFormat::Floats] {
+            scenes.push((format!("floor and glass, {samples:?}, {pixels:?}"), floor_and_glass(samples, pixels)));
+        }
+    }
+    scenes
+}
+
+/// The hashes of the ten pictures, the same on every machine. After a change that pictures show, the test prints them anew.
+const HASHES: [u64; 10] = [0; 10];
+
+#[test]
+fn ten_pictures_have_the_same_bits_on_every_width_and_with_any_threads() {
+    let scenes = scenes();
+    let mut found = Vec::new();
+    for width in VectorWidth::available() {
+        for threads in [1, 2, 3] {
+            let options = RasterOptions { width: Some(width), threads: Some(threads) };
+            let mut rasterizer = Rasterizer::new(options).expect("a width of this CPU");
+            let hashes: Vec<_> = scenes.iter().map(|(_, scene)| hash_of_picture(scene, &mut rasterizer)).collect();
+            // Drawn again, in memory that has been used.
+            let again: Vec<_> = scenes.iter().map(|(_, scene)| hash_of_picture(scene, &mut rasterizer)).collect();
+            assert_eq!(hashes, again, "{width} with {threads} threads draws differently the second time");
+            found.push((width, threads, hashes));
+        }
+    }
+    assert!(found.len() >= 3);
+    for (width, threads, hashes) in &found {
+        for (((name, _), hash), expected) in scenes.iter().zip(hashes).zip(&found[0].2) {
+            assert_eq!(hash, expected, "{name} on {width} with {threads} threads");
+        }
+    }
+    assert_eq!(found[0].2, HASHES, "all widths agree, but not with what they were: {:#018x?}", found[0].2);
+}
+
+#[test]
+fn pictures_differ_where_scenes_do() {
+    let mut rasterizer = Rasterizer::new(RasterOptions::default()).expect("threads");
+    let mut hashes: Vec<_> = scenes().iter().map(|(_, scene)| hash_of_picture(scene, &mut rasterizer)).collect();
+    hashes.sort_unstable();
+    hashes.dedup();
+    assert_eq!(hashes.len(), 10);
+}

@@ -1,0 +1,228 @@
+//! What passes mean apart from light: order, blending, formats, ranges of indices, and what is refused.
+
+#[path = "../examples/common/mod.rs"]
+mod common;
+
+use common::{Scene, Shading, at, draw, lens, sphere};
+use halfway_raster::{
+    DrawCall, LARGEST_SIDE, LeftOut, Output, Pieces, PixelFormat, RasterError, RasterOptions, Rasterizer, SampleCount,
+    SideData, SurfaceData, TriangleOrder, VectorWidth,
+};
+
+/// Squares across the whole view at these depths, each of a color and an opacity.
+fn squares(squares: &[(f32, [f32; 3], f32)], blend: bool) -> Scene {
+    let corners = [[-9.0, -9.0, 0.0], [9.0, -9.0, 0.0], [9.0, 9.0, 0.0], [-9.0, 9.0, 0.0]];
+    let mesh = Pieces::new(&corners, &[], &[0, 1, 2, 0, 2, 3], &[0..3, 3..6], TriangleOrder::Kept).expect("sound");
+    let surface = |&(_, base, opacity): &(f32, [f32; 3], f32)| SurfaceData {
+        front: SideData { base, opacity, ..SideData::default() },
+        ..SurfaceData::default()
+    };
+    let call = |number: u32| DrawCall { instances: number..number + 1, blend, ..draw(&mesh, 0, Shading::Constant) };
+    Scene {
+        size: [70, 66],
+        samples: SampleCount::One,
+        pixels: PixelFormat::Floats,
+        clear: [0.25, 0.5, 4.0],
+        lens: lens([70, 66], 60.0),
+        lights: Vec::new(),
+        lists: Vec::new(),
+        surfaces: squares.iter().map(surface).collect(),
+        instances: squares.iter().zip(0..).map(|(&(depth, ..), number)| at([0.0, 0.0, -depth], number)).collect(),
+        draws: (0..squares.len() as u32).map(call).collect(),
+        meshes: vec![mesh],
+    }
+}
+
+fn floats(scene: &Scene) -> Vec<[f32; 4]> {
+    let mut floats = vec![f32::NAN; 4 * (scene.size[0] * scene.size[1]) as usize];
+    let mut rasterizer = Rasterizer::new(RasterOptions::default()).expect("threads");
+    scene.with_pass(|pass| rasterizer.draw(pass, Output::Floats(&mut floats))).expect("a sound pass");
+    floats.as_chunks().0.to_vec()
+}
+
+fn every_pixel_is(scene: &Scene, expected: [f32; 3]) {
+    for samples in [SampleCount::One, SampleCount::Four] {
+        let scene = Scene { samples, draws: scene.draws.clone(), ..squares_like(scene) };
+        for pixel in floats(&scene) {
+            for c in 0..3 {
+                assert!((pixel[c] - expected[c]).abs() < 1e-6, "{pixel:?} instead of {expected:?}, {samples:?}");
+            }
+            assert!((pixel[3] - 1.0).abs() < 1e-9);
+        }
+    }
+}
+
+/// The same lists in a scene of its own.
+fn squares_like(scene: &Scene) -> Scene {
+    let list: Vec<_> = scene
+        .surfaces
+        .iter()
+        .zip(&scene.instances)
+        .map(|(surface, instance)| (-instance.eye_from_model[2][3], surface.front.base, surface.front.opacity))
+        .collect();
+    squares(&list, false)
+}
+
+const RED: [f32; 3] = [1.0, 0.0, 0.0];
+const GREEN: [f32; 3] = [0.0, 1.0, 0.0];
+const BLUE: [f32; 3] = [0.0, 0.0, 2.0];
+
+#[test]
+fn nothing_drawn_is_the_clear_color() {
+    every_pixel_is(&squares(&[], false), [0.25, 0.5, 4.0]);
+}
+
+#[test]
+fn nearer_surfaces_hide_farther_ones_in_any_order() {
+    every_pixel_is(&squares(&[(2.0, RED, 1.0), (3.0, GREEN, 1.0), (2.5, BLUE, 1.0)], false), RED);
+    every_pixel_is(&squares(&[(3.0, GREEN, 1.0), (2.5, BLUE, 1.0), (2.0, RED, 1.0)], false), RED);
+}
+
+#[test]
+fn of_equal_depths_the_first_drawn_stays() {
+    every_pixel_is(&squares(&[(2.0, GREEN, 1.0), (2.0, RED, 1.0)], false), GREEN);
+}
+
+#[test]
+fn blended_surfaces_are_laid_over_in_order() {
+    let scene = squares(&[(3.0, GREEN, 0.5), (2.0, RED, 0.25)], true);
+    // Over the clear color green by a half, then red by a quarter, not clamped.
+    every_pixel_is(&scene, [0.34375, 0.5625, 1.5]);
+    let turned = squares(&[(2.0, RED, 0.25), (3.0, GREEN, 0.5)], true);
+    every_pixel_is(&turned, [0.21875, 0.6875, 1.5]);
+}
+
+#[test]
+fn blended_surfaces_are_drawn_after_opaque_ones_and_hidden_by_them() {
+    let mut scene = squares(&[(2.0, RED, 0.5), (4.0, RED, 0.5), (3.0, GREEN, 1.0)], true);
+    scene.draws[2].blend = false;
+    every_pixel_is(&scene, [0.5, 0.5, 0.0]);
+}
+
+#[test]
+fn a_range_of_indices_draws_its_triangles() {
+    let mut scene = squares(&[(2.0, RED, 1.0)], false);
+    scene.draws[0].indices = 3..6;
+    let reds = floats(&scene).iter().filter(|pixel| pixel[0] > 0.5).count();
+    // The upper left half of 70 × 66 pixels, but for how the diagonal of another shape runs.
+    assert!((1_500..3_200).contains(&reds), "{reds}");
+    scene.draws[0].indices = 1..6;
+    let refused = refusal(&scene);
+    assert_eq!(refused, RasterError::Cut { draw: 0, start: 1, end: 6 });
+}
+
+#[test]
+fn bytes_are_clamped_and_encoded() {
+    for (pixels, expected) in [(PixelFormat::SrgbBytes, [188, 137, 255, 255]), (PixelFormat::RawBytes, [128, 64, 255, 255])] {
+        let mut scene = squares(&[(2.0, [0.5, 0.25, 7.0], 1.0)], false);
+        scene.pixels = pixels;
+        let mut bytes = vec![0; 4 * 70 * 66];
+        let mut rasterizer = Rasterizer::new(RasterOptions::default()).expect("threads");
+        scene.with_pass(|pass| rasterizer.draw(pass, Output::Bytes(&mut bytes))).expect("a sound pass");
+        assert!(bytes.chunks_exact(4).all(|pixel| pixel == expected), "{pixels:?}: {:?}", &bytes[..4]);
+    }
+}
+
+#[test]
+fn every_byte_of_srgb_is_the_nearest() {
+    // Each step's own intensity, by the definition (IEC 61966-2-1) in f64.
+    for step in 0..=255_u8 {
+        let encoded = f64::from(step) / 255.0;
+        let linear = if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) };
+        let mut scene = squares(&[], false);
+        (scene.size, scene.pixels, scene.clear) = ([1, 1], PixelFormat::SrgbBytes, [linear as f32; 3]);
+        let mut bytes = [0; 4];
+        let mut rasterizer = Rasterizer::new(RasterOptions::default()).expect("threads");
+        scene.with_pass(|pass| rasterizer.draw(pass, Output::Bytes(&mut bytes))).expect("a sound pass");
+        assert_eq!(bytes, [step, step, step, 255]);
+    }
+}
+
+#[test]
+fn pictures_of_many_shapes_are_drawn_to_their_ends() {
+    for size in [[1, 1], [1, 200], [200, 1], [63, 65], [64, 64], [129, 127]] {
+        let mut scene = squares(&[(2.0, RED, 1.0)], false);
+        scene.size = size;
+        assert!(floats(&scene).iter().all(|pixel| pixel[0] > 0.5), "{size:?}");
+    }
+}
+
+#[test]
+fn the_largest_picture_is_drawn() {
+    let mut scene = squares(&[(2.0, RED, 1.0)], false);
+    (scene.size, scene.pixels) = ([LARGEST_SIDE, 33], PixelFormat::RawBytes);
+    scene.lens = lens(scene.size, 0.5);
+    let mut bytes = vec![0; 4 * LARGEST_SIDE as usize * 33];
+    let mut rasterizer = Rasterizer::new(RasterOptions::default()).expect("threads");
+    scene.with_pass(|pass| rasterizer.draw(pass, Output::Bytes(&mut bytes))).expect("a sound pass");
+    assert!(bytes.chunks_exact(4).all(|pixel| pixel == [255, 0, 0, 255]));
+}
+
+fn refusal(scene: &Scene) -> RasterError {
+    let [width, height] = scene.size.map(|side| side.min(64) as usize);
+    let mut floats = vec![0.0; 4 * width.max(scene.size[0] as usize).min(70) * height.max(scene.size[1] as usize).min(66)];
+    let mut rasterizer = Rasterizer::new(RasterOptions::default()).expect("threads");
+    scene.with_pass(|pass| rasterizer.draw(pass, Output::Floats(&mut floats))).expect_err("an unsound pass")
+}
+
+#[test]
+fn what_is_wrong_is_refused_and_named() {
+    let sound = || squares(&[(2.0, RED, 1.0)], false);
+    let cases: [(&str, fn(&mut Scene)); 9] = [
+        ("each side must be", |scene| scene.size = [LARGEST_SIDE + 1, 4]),
+        ("each side must be", |scene| scene.size = [0, 4]),
+        ("clear is NaN", |scene| scene.clear[1] = f32::NAN),
+        ("near is 0", |scene| scene.lens.near = 0.0),
+        ("eye_from_model is inf", |scene| scene.instances[0].eye_from_model[1][1] = f32::INFINITY),
+        ("base is -1", |scene| scene.surfaces[0].front.base[2] = -1.0),
+        ("opacity is 1.5", |scene| scene.surfaces[0].back.opacity = 1.5),
+        ("surface reaches to 8", |scene| scene.instances[0].surface = 7),
+        ("vertex reaches to 3", |scene| scene.surfaces[0].vertex.counts = [1, 1, 1]),
+    ];
+    for (message, spoil) in cases {
+        let mut scene = sound();
+        spoil(&mut scene);
+        let refusal = refusal(&scene).to_string();
+        assert!(refusal.contains(message), "{refusal} does not say {message:?}");
+    }
+}
+
+#[test]
+fn meshes_that_are_not_sound_are_refused() {
+    let corners = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    let of = |positions: &[[f32; 3]], normals: &[[f32; 3]], indices: &[u32], cuts: &[std::ops::Range<u32>]| {
+        Pieces::new(positions, normals, indices, cuts, TriangleOrder::Clustered).expect_err("it is not").to_string()
+    };
+    assert!(of(&corners, &[], &[0, 1, 3], &[]).contains("an index reaches to 4, but there are 3"));
+    assert!(of(&corners, &[], &[0, 1], &[]).contains("the last triangle"));
+    assert!(of(&corners, &[[0.0; 3]], &[0, 1, 2], &[]).contains("normals"));
+    assert!(of(&[[f32::NAN; 3]; 3], &[], &[0, 1, 2], &[]).contains("NaN"));
+    assert!(of(&corners, &[], &[0, 1, 2], &[0..2, 2..3]).contains("cut 0"));
+    assert!(of(&corners, &[], &[0, 1, 2, 0, 1, 2], &[0..3]).contains("cut 1"));
+}
+
+#[test]
+fn unknown_widths_are_refused_with_those_that_there_are() {
+    let refused = VectorWidth::named("mmx").expect_err("long gone").to_string();
+    let plainest = VectorWidth::available().last().expect("one").to_string();
+    assert!(refused.contains("\"mmx\"") && refused.contains(&plainest), "{refused}");
+}
+
+#[test]
+fn what_collapses_draws_nothing_or_itself_and_is_finite() {
+    let mut scene = sphere(true, Shading::Phong).expect("a sound mesh");
+    scene.pixels = PixelFormat::Floats;
+    for rows in [
+        [[0.0; 4], [0.0; 4], [0.0, 0.0, 0.0, -3.0]],
+        [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 0.0, -3.0]],
+        [[1e30, 0.0, 0.0, 0.0], [0.0, 1e30, 0.0, 0.0], [0.0, 0.0, 1e30, 0.0]],
+        [[f32::MAX, f32::MAX, 0.0, 0.0], [0.0, f32::MAX, f32::MAX, 0.0], [0.0, f32::MAX, f32::MAX, f32::MAX]],
+        [[1e-30, 0.0, 0.0, 0.0], [0.0, 1e-30, 0.0, 0.0], [0.0, 0.0, 1e-30, -3.0]],
+    ] {
+        for left_out in [LeftOut::Back, LeftOut::Neither] {
+            scene.instances[0].eye_from_model = rows;
+            scene.draws[0].left_out = left_out;
+            assert!(floats(&scene).as_flattened().iter().all(|x| x.is_finite() && *x >= 0.0), "{rows:?}");
+        }
+    }
+}

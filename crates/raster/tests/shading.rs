@@ -1,0 +1,337 @@
+//! Whole pictures against a slow renderer in f64: rays, exact triangles, and `halfway_lighting::equations`.
+
+#[path = "../examples/common/mod.rs"]
+mod common;
+
+use common::{Scene, Shading, at, draw, lens, pieces};
+use halfway_lighting::Reflectance;
+use halfway_lighting::equations::{
+    Coefficients, ConeTerms, Light, Place, Surface, View, normal_matrix, shade, transform_normal, vector,
+};
+use halfway_mesh::{Mesh, UvSphere};
+use halfway_raster::{
+    Highlight, InstanceData, LeftOut, LightData, LightRange, Output, PixelFormat, RasterOptions, Rasterizer, SampleCount,
+    ShadedTerms, SideData, SurfaceData, TriangleOrder,
+};
+
+type V = [f64; 3];
+
+/// What the slow renderer knows besides the pass.
+struct Case {
+    scene: Scene,
+    mesh: Mesh,
+    local_viewer: bool,
+    /// The columns of the upper 3 × 3 of `eye_from_model`.
+    linear: [[f64; 3]; 3],
+    place: V,
+}
+
+fn f(v: [f32; 3]) -> V {
+    v.map(f64::from)
+}
+
+fn lights() -> Vec<LightData> {
+    let plain = LightData { diffuse: [0.5, 0.4, 0.3], specular: [0.5, 0.6, 0.7], ..LightData::default() };
+    let c = 1.0 / 3.0_f32.sqrt();
+    vec![
+        LightData { position: [c, c, c], ..plain },
+        LightData {
+            position: [-1.5, 1.0, -1.0],
+            attenuation: [0.4, 0.1, 0.2],
+            inverse_range: 0.2,
+            ambient: [0.1, 0.05, 0.0],
+            ..plain
+        },
+        LightData {
+            position: [0.3, -0.4, -0.4],
+            direction: [-0.1, 0.124_89, -0.987_12],
+            cos_cutoff: 0.85,
+            exponent: 3.0,
+            inner_fade: [1.0 / 0.1, -8.5],
+            ..plain
+        },
+    ]
+}
+
+fn case(shading: Shading, highlight: Highlight) -> Case {
+    let mesh = Mesh::from(UvSphere { radius: 1.0, segments: 24, rings: 12 });
+    let ready = pieces(&mesh, TriangleOrder::Clustered).expect("a sound mesh");
+    let side = |red: f32| SideData {
+        base: [0.05, 0.02, 0.1],
+        diffuse: [red, 0.5, 0.3],
+        specular: [0.6, 0.7, 0.8],
+        ambient: [0.5, 0.4, 0.3],
+        exponent: 20.0,
+        opacity: 1.0,
+    };
+    let all = LightRange { counts: [1, 1, 1], start: 0 };
+    let mut call = draw(&ready, 1, shading);
+    call.highlight = highlight;
+    let scene = Scene {
+        size: [96, 72],
+        samples: SampleCount::One,
+        pixels: PixelFormat::Floats,
+        clear: [0.0; 3],
+        lens: lens([96, 72], 45.0),
+        lights: lights(),
+        lists: vec![0, 1, 2],
+        surfaces: vec![SurfaceData { front: side(0.8), back: side(0.2), vertex: all, fragment: all, ..SurfaceData::default() }],
+        instances: vec![at([0.1, -0.05, -3.2], 0)],
+        draws: vec![call],
+        meshes: vec![ready],
+    };
+    Case {
+        scene,
+        mesh,
+        local_viewer: true,
+        linear: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        place: [0.1, -0.05, -3.2].map(|x: f32| f64::from(x)),
+    }
+}
+
+impl Case {
+    /// Stands the mesh by another matrix, given as columns.
+    fn with(mut self, linear: [[f64; 3]; 3]) -> Self {
+        let row = |axis: usize| [linear[0][axis], linear[1][axis], linear[2][axis], self.place[axis]].map(|x| x as f32);
+        let normal = normal_matrix(linear).map(|column| column.map(|x| x as f32));
+        self.scene.instances = vec![InstanceData { eye_from_model: [row(0), row(1), row(2)], normal, surface: 0 }];
+        let det = vector::dot(linear[0], vector::cross(linear[1], linear[2]));
+        self.scene.draws[0].clockwise = det < 0.0;
+        self.linear = linear;
+        self
+    }
+
+    fn picture(&self) -> Vec<f32> {
+        let [width, height] = self.scene.size;
+        let mut floats = vec![0.0; 4 * (width * height) as usize];
+        let mut rasterizer = Rasterizer::new(RasterOptions::default()).expect("threads");
+        self.scene
+            .with_pass(|pass| {
+                let pass = halfway_raster::Pass { local_viewer: self.local_viewer, ..*pass };
+                rasterizer.draw(&pass, Output::Floats(&mut floats))
+            })
+            .expect("a sound pass");
+        floats
+    }
+
+    fn in_eye(&self, p: V) -> V {
+        [0, 1, 2].map(|axis| (0..3).map(|k| self.linear[k][axis] * p[k]).sum::<f64>() + self.place[axis])
+    }
+
+    fn turned(&self, n: V) -> V {
+        transform_normal(normal_matrix(self.linear), n).unwrap_or([0.0; 3])
+    }
+
+    fn sources(&self) -> Vec<Light<f64>> {
+        let source = |(number, light): (usize, &LightData)| {
+            let [fade, offset] = light.inner_fade.map(f64::from);
+            Light {
+                place: if number == 0 { Place::Directional(f(light.position)) } else { Place::Point(f(light.position)) },
+                la: f(light.ambient),
+                ld: f(light.diffuse),
+                ls: f(light.specular),
+                attenuation: f(light.attenuation),
+                range: (light.inverse_range > 0.0).then(|| 1.0 / f64::from(light.inverse_range)),
+                cone: (number == 2).then(|| ConeTerms {
+                    direction: f(light.direction),
+                    cos_cutoff: f64::from(light.cos_cutoff),
+                    cos_inner: (fade > 0.0).then(|| (1.0 - offset) / fade),
+                    exponent: f64::from(light.exponent),
+                }),
+                attenuate_ambient: number > 0,
+            }
+        };
+        self.scene.lights.iter().enumerate().map(source).collect()
+    }
+
+    /// I at a point of a side, of some terms and with or without the base.
+    fn shade(&self, position: V, normal: V, back: bool, terms: ShadedTerms, base: bool) -> V {
+        let surface = &self.scene.surfaces[0];
+        let side = if back { &surface.back } else { &surface.front };
+        let kept = |on: bool, color: [f32; 3]| if on { f(color) } else { [0.0; 3] };
+        let material = Coefficients {
+            ka: kept(terms.diffuse, side.ambient),
+            kd: kept(terms.diffuse, side.diffuse),
+            ks: kept(terms.specular, side.specular),
+            ke: kept(base, side.base),
+            shininess: f64::from(side.exponent),
+        };
+        let view = if self.local_viewer { View::Local([0.0; 3]) } else { View::Infinite([0.0, 0.0, 1.0]) };
+        let reflectance = match self.scene.draws[0].highlight {
+            Highlight::Phong => Reflectance::Phong,
+            Highlight::BlinnPhong => Reflectance::BlinnPhong,
+        };
+        let normal = if back { vector::neg(normal) } else { normal };
+        shade(&Surface { position, normal }, &material, &self.sources(), [0.0; 3], &view, reflectance)
+    }
+
+    /// All of them in eye space.
+    fn triangles(&self) -> Vec<[V; 3]> {
+        let corner = |i: u32| self.in_eye(f(self.mesh.positions()[i as usize].to_array()));
+        self.mesh.triangles().map(|triangle| triangle.map(corner)).collect()
+    }
+
+    /// The nearest triangle along the way through a place of the picture, as its number, weights and side.
+    fn hit(&self, triangles: &[[V; 3]], x: f64, y: f64) -> Option<(usize, V, bool)> {
+        let [width, height] = self.scene.size.map(f64::from);
+        let [sx, sy] = self.scene.lens.scale.map(f64::from);
+        let way = [(2.0 * x / width - 1.0) / sx, (1.0 - 2.0 * y / height) / sy, -1.0];
+        let call = &self.scene.draws[0];
+        let mut nearest: Option<(f64, usize, V, bool)> = None;
+        for (number, &[a, b, c]) in triangles.iter().enumerate() {
+            // way·t = a·u + b·v + c·w: volumes of the eye, the way and two corners.
+            let volumes = [[b, c], [c, a], [a, b]].map(|[p, q]| vector::dot(way, vector::cross(p, q)));
+            let sum: f64 = volumes.iter().sum();
+            if sum == 0.0 || volumes.iter().any(|volume| volume / sum < 0.0) {
+                continue;
+            }
+            let weights = volumes.map(|volume| volume / sum);
+            let depth = -(0..3).map(|k| weights[k] * [a, b, c][k][2]).sum::<f64>();
+            // The sum is below 0 where the corners are seen counter-clockwise.
+            let back = (sum > 0.0) != call.clockwise;
+            let left_out = match call.left_out {
+                LeftOut::Back => back,
+                LeftOut::Front => !back,
+                LeftOut::Neither => false,
+            };
+            let in_front = depth >= f64::from(self.scene.lens.near);
+            if !left_out && in_front && nearest.is_none_or(|(least, ..)| depth < least) {
+                nearest = Some((depth, number, weights, back));
+            }
+        }
+        nearest.map(|(_, number, weights, back)| (number, weights, back))
+    }
+
+    fn color(&self, (number, weights, back): (usize, V, bool)) -> V {
+        let call = &self.scene.draws[0];
+        let triangle: [u32; 3] = self.mesh.triangles().nth(number).expect("it was hit");
+        let corners = triangle.map(|i| self.in_eye(f(self.mesh.positions()[i as usize].to_array())));
+        let normals = triangle.map(|i| self.turned(f(self.mesh.normals()[i as usize].to_array())));
+        let mean = |of: [V; 3]| [0, 1, 2].map(|axis| (0..3).map(|k| weights[k] * of[k][axis]).sum::<f64>());
+        if call.flat {
+            let [a, b, c] = triangle.map(|i| f(self.mesh.positions()[i as usize].to_array()));
+            let n = self.turned(vector::normalize(vector::cross(vector::sub(b, a), vector::sub(c, a))).expect("a face"));
+            let middle = vector::scale(vector::add(corners[0], vector::add(corners[1], corners[2])), 1.0 / 3.0);
+            return self.shade(middle, n, back, call.vertex, true);
+        }
+        let of_vertices = mean([0, 1, 2].map(|k| self.shade(corners[k], normals[k], back, call.vertex, true)));
+        if call.fragment == ShadedTerms::default() {
+            return of_vertices;
+        }
+        let n = vector::normalize(mean(normals)).expect("normals that do not vanish");
+        vector::add(of_vertices, self.shade(mean(corners), n, back, call.fragment, false))
+    }
+
+    fn check(&self, name: &str) {
+        self.judge(name, &self.picture());
+    }
+
+    /// Compares all pixels that do not lie on an edge; their share of the picture must be sound.
+    fn judge(&self, name: &str, found: &[f32]) {
+        let triangles = self.triangles();
+        let [width, height] = self.scene.size;
+        let (mut errors, mut edges, mut range) = (Vec::new(), 0, 0.0_f64);
+        for y in 0..height {
+            for x in 0..width {
+                let at = |dx: f64, dy: f64| self.hit(&triangles, f64::from(x) + 0.5 + dx, f64::from(y) + 0.5 + dy);
+                let place = 4 * (y * width + x) as usize;
+                let found = [0, 1, 2].map(|c| f64::from(found[place + c]));
+                let centers = at(0.0, 0.0);
+                // The rasteriser's grid may give it to either of two triangles.
+                let around = [(-0.004, 0.0), (0.004, 0.0), (0.0, -0.004), (0.0, 0.004)].map(|(dx, dy)| at(dx, dy));
+                let number = |hit: &Option<(usize, V, bool)>| hit.map(|(number, ..)| number);
+                if around.iter().any(|near| number(near) != number(&centers)) {
+                    edges += 1;
+                    continue;
+                }
+                let expected = centers.map_or([0.0; 3], |hit| self.color(hit));
+                range = expected.into_iter().fold(range, f64::max);
+                for c in 0..3 {
+                    errors.push(((found[c] - expected[c]).abs(), x, y, found[c], expected[c]));
+                }
+            }
+        }
+        assert!(edges * 20 < width * height, "{name}: {edges} pixels lie on edges");
+        errors.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let worst = errors[errors.len() - 1];
+        let most = errors[errors.len() * 999 / 1000];
+        // The project's bars of conformance; docs/accuracy.md.
+        assert!(worst.0 <= 2e-3 * range && most.0 <= 2e-4 * range, "{name}: worst {worst:?}, 99.9 % {most:?} of {range}");
+    }
+}
+
+#[test]
+fn every_shading_and_highlight_is_that_of_the_equations() {
+    for shading in [Shading::Flat, Shading::Gouraud, Shading::Phong] {
+        for highlight in [Highlight::Phong, Highlight::BlinnPhong] {
+            let mut case = case(shading, highlight);
+            case.check(&format!("{shading:?} {highlight:?}"));
+            case.local_viewer = false;
+            case.check(&format!("{shading:?} {highlight:?}, infinite viewer"));
+        }
+    }
+}
+
+#[test]
+fn terms_are_shaded_where_the_draw_says() {
+    let (diffuse, specular) =
+        (ShadedTerms { diffuse: true, specular: false }, ShadedTerms { diffuse: false, specular: true });
+    for (vertex, fragment) in [(diffuse, specular), (specular, diffuse), (diffuse, ShadedTerms::default())] {
+        let mut case = case(Shading::Phong, Highlight::BlinnPhong);
+        (case.scene.draws[0].vertex, case.scene.draws[0].fragment) = (vertex, fragment);
+        case.check(&format!("{vertex:?} at the vertices, {fragment:?} at the fragments"));
+    }
+}
+
+#[test]
+fn transforms_may_skew_mirror_and_flatten() {
+    for (name, linear) in [
+        ("skewed", [[1.0, 0.3, 0.0], [-0.4, 0.7, 0.2], [0.1, 0.0, 1.2]]),
+        ("mirrored", [[-1.0, 0.3, 0.0], [0.4, 0.7, 0.2], [-0.1, 0.0, 1.2]]),
+        ("nearly flat", [[1.0, 0.0, 0.1], [0.0, 1.0, 0.1], [0.0, 0.0, 0.01]]),
+    ] {
+        for shading in [Shading::Flat, Shading::Gouraud, Shading::Phong] {
+            case(shading, Highlight::BlinnPhong).with(linear).check(&format!("{name} {shading:?}"));
+        }
+    }
+}
+
+#[test]
+fn a_sphere_cut_by_the_near_plane_shows_its_back() {
+    for shading in Shading::ALL {
+        let mut case = case(shading, Highlight::Phong);
+        case.place = [0.1, -0.05, -1.2].map(|x: f32| f64::from(x));
+        case.scene.lens.near = 0.5;
+        case.scene.draws[0].left_out = LeftOut::Neither;
+        case.with([[1.0, 0.2, 0.0], [-0.2, 1.0, 0.0], [0.0, 0.0, 1.0]]).check(&format!("{shading:?} cut open"));
+    }
+}
+
+#[test]
+fn from_inside_the_far_side_is_seen_from_behind() {
+    for left_out in [LeftOut::Front, LeftOut::Neither] {
+        let mut case = case(Shading::Phong, Highlight::BlinnPhong);
+        case.place = [0.0, 0.1, 0.2].map(|x: f32| f64::from(x));
+        case.scene.draws[0].left_out = left_out;
+        case.with([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]).check(&format!("{left_out:?} is left out"));
+    }
+}
+
+#[test]
+#[should_panic(expected = "an exponent of 20.2")]
+fn the_check_finds_an_exponent_that_is_one_percent_off() {
+    let mut case = case(Shading::Phong, Highlight::Phong);
+    case.scene.surfaces[0].front.exponent = 20.2;
+    let picture = case.picture();
+    case.scene.surfaces[0].front.exponent = 20.0;
+    case.judge("an exponent of 20.2", &picture);
+}
+
+#[test]
+#[should_panic(expected = "without a light")]
+fn the_check_finds_a_light_that_is_left_out() {
+    let mut case = case(Shading::Gouraud, Highlight::Phong);
+    case.scene.surfaces[0].vertex.counts = [1, 1, 0];
+    let picture = case.picture();
+    case.judge("without a light", &picture);
+}
