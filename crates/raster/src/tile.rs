@@ -128,24 +128,28 @@ impl Worker {
                 let backs = self.batch.backs & small | others;
                 self.faces.fill(simd, triangles, look, work, backs != 0);
             }
-            let mut left = small;
+            // In their order, which decides where surfaces blend or lie in one depth.
+            let mut left = small | others;
             while left != 0 {
                 let lane = left.trailing_zeros() as usize;
                 left &= left - 1;
-                self.small(simd, look, work, triangles[lane], lane);
-            }
-            let mut left = others;
-            while left != 0 {
-                let lane = left.trailing_zeros() as usize;
-                left &= left - 1;
-                let (faces, nearest) = (&self.faces, &mut self.nearest);
-                let place = (look.tile, &work.covering);
-                each_part(&self.vertices, triangles[lane], look.screen, place, |(edges, mut planes, back)| {
-                    faces.put(&mut planes, lane, back, work.state);
-                    draw_more(simd, nearest, &edges, &planes, back, look, work);
-                });
+                if small >> lane & 1 != 0 {
+                    self.small(simd, look, work, triangles[lane], lane);
+                } else {
+                    self.other(simd, look, work, triangles[lane], lane);
+                }
             }
         }
+    }
+
+    /// A triangle that is large, or has to be clipped.
+    fn other<S: Simd>(&mut self, simd: S, look: &Look, work: &Work, triangle: [u8; 3], lane: usize) {
+        let (faces, nearest) = (&self.faces, &mut self.nearest);
+        let place = (look.tile, &work.covering);
+        each_part(&self.vertices, triangle, look.screen, place, |(edges, mut planes, back)| {
+            faces.put(&mut planes, lane, back, work.state);
+            draw_more(simd, nearest, &edges, &planes, back, look, work);
+        });
     }
 
     #[inline(always)]

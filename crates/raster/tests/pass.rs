@@ -100,6 +100,27 @@ fn blended_surfaces_are_drawn_after_opaque_ones_and_hidden_by_them() {
 }
 
 #[test]
+fn triangles_of_a_mesh_blend_in_their_order() {
+    // Squares of one mesh over each other: small ones and large ones by turns, each over what is there by a half.
+    let mut positions = Vec::new();
+    let mut scene = squares(&[(2.0, RED, 0.5)], true);
+    for (number, reach) in [9.0_f32, 0.05, 9.0, 0.05, 0.05, 9.0].into_iter().enumerate() {
+        let depth = -0.01 * number as f32;
+        positions.extend([[-reach, -reach, depth], [reach, -reach, depth], [0.0, reach, depth]]);
+    }
+    // Front and back differ in color, and triangles turn over by turns.
+    let indices: Vec<_> = (0..6).flat_map(|k| if k % 2 == 0 { [3 * k, 3 * k + 1, 3 * k + 2] } else { [3 * k, 3 * k + 2, 3 * k + 1] }).collect();
+    scene.meshes = vec![Pieces::new(&positions, &[], &indices, &[], TriangleOrder::Kept).expect("sound")];
+    scene.surfaces[0].back = SideData { base: GREEN, opacity: 0.5, ..SideData::default() };
+    scene.clear = [0.0; 3];
+    scene.draws[0] = DrawCall { indices: 0..18, left_out: LeftOut::Neither, ..scene.draws[0].clone() };
+    let middle = floats(&scene)[(33 * 70 + 35) as usize];
+    // Red and green by turns: Σ 2⁻ᵏ over every other k.
+    let (red, green) = (1.0 / 4.0 + 1.0 / 16.0 + 1.0 / 64.0, 1.0 / 2.0 + 1.0 / 8.0 + 1.0 / 32.0);
+    assert!((middle[0] - red).abs() < 1e-6 && (middle[1] - green).abs() < 1e-6, "{middle:?}");
+}
+
+#[test]
 fn a_range_of_indices_draws_its_triangles() {
     let mut scene = squares(&[(2.0, RED, 1.0)], false);
     scene.draws[0].indices = 3..6;
