@@ -1,7 +1,7 @@
 //! Fragments that are laid over what is there, in the order of drawing.
 
 use crate::bins::TILE;
-use crate::cover::{CENTROIDS, Edges, Nearest, PIXELS, centroid, clamped, covered, plane, samples};
+use crate::cover::{CENTROIDS, Edges, Nearest, centroid, clamped, covered, plane, samples};
 use crate::encode::kept;
 use crate::lanes::{F, M, Simd, V3, counting, each, fma, lanes, load, splat, splat3, store};
 use crate::pass::SampleCount;
@@ -46,7 +46,7 @@ impl Nearest {
         let place = [counting(simd) + splat(simd, i as f32), splat(simd, j as f32)];
         let depth = clamped(simd, plane(simd, &planes.lead, 0, place[0], place[1]), planes);
         let at = j as usize * TILE + i as usize;
-        let any = covered(simd, edges, i, j) & depth.simd_gt(load(simd, &self.depth, at));
+        let any = covered(simd, edges, i, j) & depth.simd_gt(load(simd, &self.depth[0], at));
         Shown { masks: [any; 4], any, place }
     }
 
@@ -62,7 +62,7 @@ impl Nearest {
             }
             let (covered, depth) = samples(simd, edges, planes, column, j);
             let at = 4 * (j as usize * TILE + column as usize);
-            let before = fearless_simd::f32x4::from_slice(simd, &self.depth[at..at + 4]);
+            let before = fearless_simd::f32x4::from_slice(simd, &self.depth.as_flattened()[at..at + 4]);
             let nearer = (covered & depth.simd_gt(before)).to_bitmask();
             if nearer == 0 {
                 continue;
@@ -103,12 +103,12 @@ impl Nearest {
         let color = kept(simd, fragments.color(simd, look, state, back), look.pass.pixels);
         let opacity = splat(simd, state.side(look.pass, back).opacity);
         for sample in 0..look.pass.samples.count() {
-            let at = sample * PIXELS + j as usize * TILE + i as usize;
+            let at = j as usize * TILE + i as usize;
             let show = shown.masks[sample] & new;
             for c in 0..3 {
-                let before = load(simd, &self.lead[c], at);
+                let before = load(simd, &self.lead[sample][c], at);
                 let over = fma::<S>(opacity, color[c] - before, before);
-                store::<S>(show.select(over, before), &mut self.lead[c], at);
+                store::<S>(show.select(over, before), &mut self.lead[sample][c], at);
             }
         }
     }

@@ -11,7 +11,9 @@ pub(crate) fn check(pass: &Pass, output: &Output) -> Result<(), RasterError> {
     for (index, light) in pass.lights.iter().enumerate() {
         check_light(index, light)?;
     }
-    if let Some((index, &light)) = pass.lists.iter().enumerate().find(|(_, light)| **light as usize >= pass.lights.len()) {
+    if let Some((index, &light)) =
+        pass.lists.iter().enumerate().find(|(_, light)| **light as usize >= pass.lights.len())
+    {
         return beyond("list", index, "light", u64::from(light) + 1, pass.lights.len());
     }
     for (index, surface) in pass.surfaces.iter().enumerate() {

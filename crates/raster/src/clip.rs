@@ -111,7 +111,9 @@ impl Polygon {
         let eye = numbers.map(|v| [0, 1, 2].map(|axis| f64::from(vertices.eye[axis][v])));
         let near = f64::from(screen.near);
         if code & TOO_NEAR != 0 {
-            self.cut(|weights| weights[0] * (-eye[0][2] - near) + weights[1] * (-eye[1][2] - near) + weights[2] * (-eye[2][2] - near));
+            self.cut(|weights| {
+                weights[0] * (-eye[0][2] - near) + weights[1] * (-eye[1][2] - near) + weights[2] * (-eye[2][2] - near)
+            });
         }
         // Behind the eye a corner's side of the other planes is unknown.
         for axis in 0..2 {
@@ -208,17 +210,10 @@ fn edges(x: [i64; 3], y: [i64; 3], covering: &Covering) -> Option<Edges> {
 
 const LARGEST_EDGE: i64 = (1 << 30) - 1;
 
-fn planes(
-    corners: &[Corner; 3],
-    first: [i64; 2],
-    (x, y): ([i64; 3], [i64; 3]),
-    positive: bool,
-    front: bool,
-) -> Planes {
+fn planes(corners: &[Corner; 3], first: [i64; 2], (x, y): ([i64; 3], [i64; 3]), positive: bool, front: bool) -> Planes {
     let side = usize::from(!front);
-    let exact = |axis: usize| {
-        corners.map(|corner| f64::from(corner.screen[axis]) - first[axis] as f64 / f64::from(GRID))
-    };
+    let exact =
+        |axis: usize| corners.map(|corner| f64::from(corner.screen[axis]) - first[axis] as f64 / f64::from(GRID));
     let on_grid = |v: [i64; 3]| v.map(|v| v as f64 / f64::from(GRID));
     let gradient = Gradient::<f64>::new(exact(0), exact(1), (on_grid(x), on_grid(y)), positive);
     let lead = [0, 1, 2].map(|k| &corners[k].lead[side]);
@@ -227,10 +222,6 @@ fn planes(
         lead: gradient.slopes(lead),
         second: gradient.slopes([0, 1, 2].map(|k| &corners[k].second[side])),
         face: [0.0; 3],
-        range: [
-            inverse_w.into_iter().fold(f32::INFINITY, f32::min),
-            inverse_w.into_iter().fold(0.0, f32::max),
-        ],
+        range: [inverse_w.into_iter().fold(f32::INFINITY, f32::min), inverse_w.into_iter().fold(0.0, f32::max)],
     }
 }
-

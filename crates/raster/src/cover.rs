@@ -1,7 +1,10 @@
 //! Which pixels a triangle covers, and what it leaves in them where nothing is nearer.
 
 use crate::bins::TILE;
-use crate::lanes::{F, I, M, Simd, counting, counting_i, each, f32x4, fma, lanes, load, load_i, max, max_one, min, min_one, splat, splat_i, store, store_i};
+use crate::lanes::{
+    F, I, M, Simd, counting, counting_i, each, f32x4, fma, lanes, load, load_i, max, max_one, min, min_one, splat,
+    splat_i, store, store_i,
+};
 use crate::pass::SampleCount;
 use crate::planes::{Planes, Slopes};
 use crate::state::{Stage, State};
@@ -87,22 +90,41 @@ impl Edges {
     }
 }
 
+impl Edges {
+    /// Whether a triangle of few pixels covers none: often so, and found out fast.
+    #[inline(always)]
+    pub(crate) fn miss_all(&self) -> bool {
+        let [left, right, top, bottom] = self.bounds;
+        if right - left > 1 || bottom - top > 1 {
+            return false;
+        }
+        let mut miss = -1;
+        for j in [top, bottom] {
+            for i in [left, right] {
+                let [a, b, c] = each!(k in 3 => self.at[k][0] + self.across[k] * i + self.down[k] * j);
+                miss &= a | b | c;
+            }
+        }
+        miss < 0
+    }
+}
+
 /// The nearest that has been drawn of a tile. With four samples each list holds all pixels' first samples, then all
 /// second ones, and so on; the depths of a pixel's samples lie side by side.
 pub(crate) struct Nearest {
     /// 1/w, 0 where nothing is.
-    pub(crate) depth: Vec<f32>,
+    pub(crate) depth: Vec<[f32; PIXELS]>,
     /// What shades it: 0 for nothing, else 2 + 2·state + 1 for backs; in the upper bits 2²⁸·the centroid's number.
-    pub(crate) shader: Vec<i32>,
+    pub(crate) shader: Vec<[i32; PIXELS]>,
     /// With four samples, which triangle it is.
-    pub(crate) triangle: Vec<i32>,
+    pub(crate) triangle: Vec<[i32; PIXELS]>,
     triangles: i32,
     /// 1/w where it is shaded, with four samples.
-    pub(crate) inverse_w: Vec<f32>,
+    pub(crate) inverse_w: Vec<[f32; PIXELS]>,
     /// The leading numbers, in the end the color.
-    pub(crate) lead: [Vec<f32>; 3],
-    pub(crate) second: [Vec<f32>; 3],
-    pub(crate) face: [Vec<f32>; 3],
+    pub(crate) lead: Vec<[[f32; PIXELS]; 3]>,
+    pub(crate) second: Vec<[[f32; PIXELS]; 3]>,
+    pub(crate) face: Vec<[[f32; PIXELS]; 3]>,
 }
 
 /// Which of its numbers a triangle leaves behind.
@@ -117,42 +139,40 @@ impl Kept {
     /// What shading takes.
     #[inline(always)]
     pub(crate) fn of(state: &State) -> Self {
-        Self {
-            lead: state.stage != Stage::Unlit,
-            second: state.stage == Stage::Mixed,
-            face: state.opposite_normals,
-        }
+        Self { lead: state.stage != Stage::Unlit, second: state.stage == Stage::Mixed, face: state.opposite_normals }
     }
 }
 
 impl Nearest {
     pub(crate) fn new() -> Self {
-        let lists = || [Vec::new(), Vec::new(), Vec::new()];
         Self {
             depth: Vec::new(),
             shader: Vec::new(),
             triangle: Vec::new(),
             triangles: 0,
             inverse_w: Vec::new(),
-            lead: lists(),
-            second: lists(),
-            face: lists(),
+            lead: Vec::new(),
+            second: Vec::new(),
+            face: Vec::new(),
         }
     }
 
     /// Empties a tile.
+    #[expect(clippy::large_stack_arrays, reason = "48 KiB, once for each list")]
     pub(crate) fn clear(&mut self, samples: SampleCount) {
-        let count = PIXELS * samples.count();
-        let attributes = self.lead.iter_mut().chain(&mut self.second).chain(&mut self.face);
-        for list in attributes.chain([&mut self.inverse_w]) {
-            list.resize(count, 0.0);
+        let count = samples.count();
+        self.depth.resize(count, [0.0; PIXELS]);
+        self.shader.resize(count, [0; PIXELS]);
+        self.depth.as_flattened_mut().fill(0.0);
+        self.shader.as_flattened_mut().fill(0);
+        for list in [&mut self.lead, &mut self.second, &mut self.face] {
+            list.resize(count, [[0.0; PIXELS]; 3]);
         }
-        self.triangle.resize(count, 0);
-        self.triangles = 0;
-        self.depth.clear();
-        self.depth.resize(count, 0.0);
-        self.shader.clear();
-        self.shader.resize(count, 0);
+        if samples == SampleCount::Four {
+            self.inverse_w.resize(count, [0.0; PIXELS]);
+            self.triangle.resize(count, [0; PIXELS]);
+            self.triangles = 0;
+        }
     }
 
     /// Draws a triangle with one sample a pixel, pixel by pixel.
@@ -169,16 +189,16 @@ impl Nearest {
                     let v = dx.mul_add_precise(f32x4::simd_from(simd, i as f32), row);
                     let depth = min_one(max_one(v[0], planes.range[0]), planes.range[1]);
                     let pixel = (j as usize * TILE + i as usize) & (PIXELS - 1);
-                    if depth > self.depth[pixel] {
-                        self.depth[pixel] = depth;
-                        self.shader[pixel] = shader;
+                    if depth > self.depth[0][pixel] {
+                        self.depth[0][pixel] = depth;
+                        self.shader[0][pixel] = shader;
                         if kept.lead {
                             for c in 0..3 {
-                                self.lead[c][pixel] = v[c + 1];
+                                self.lead[0][c][pixel] = v[c + 1];
                             }
                         }
                         if kept.second || kept.face {
-                            self.keep_more(simd, planes, pixel, [i as f32, j as f32], kept);
+                            self.keep_more(simd, planes, (0, pixel), [i as f32, j as f32], kept);
                         }
                     }
                 }
@@ -193,16 +213,17 @@ impl Nearest {
     }
 
     #[inline(always)]
-    fn keep_more<S: Simd>(&mut self, simd: S, planes: &Planes, at: usize, [i, j]: [f32; 2], kept: Kept) {
+    fn keep_more<S: Simd>(&mut self, simd: S, planes: &Planes, at: (usize, usize), [i, j]: [f32; 2], kept: Kept) {
+        let (sample, pixel) = at;
         if kept.second {
             let v = value(simd, &planes.second, i, j);
             for c in 0..3 {
-                self.second[c][at] = v[c + 1];
+                self.second[sample][c][pixel] = v[c + 1];
             }
         }
         if kept.face {
             for c in 0..3 {
-                self.face[c][at] = planes.face[c];
+                self.face[sample][c][pixel] = planes.face[c];
             }
         }
     }
@@ -219,22 +240,22 @@ impl Nearest {
                 let at = (j as usize * TILE + i as usize) & (PIXELS - 1);
                 let covered = covered(simd, edges, i, j);
                 let depth = depth(simd, planes, i, j);
-                let before = load(simd, &self.depth, at);
+                let before = load(simd, &self.depth[0], at);
                 let nearer = covered & depth.simd_gt(before);
                 if nearer.any_true() {
-                    store::<S>(nearer.select(depth, before), &mut self.depth, at);
-                    store_i::<S>(nearer.select(shader, load_i(simd, &self.shader, at)), &mut self.shader, at);
+                    store::<S>(nearer.select(depth, before), &mut self.depth[0], at);
+                    store_i::<S>(nearer.select(shader, load_i(simd, &self.shader[0], at)), &mut self.shader[0], at);
                     let x = counting(simd) + splat(simd, i as f32);
                     let y = splat(simd, j as f32);
                     for c in 0..3 {
                         if kept.lead {
-                            put(simd, &mut self.lead[c], at, nearer, plane(simd, &planes.lead, c + 1, x, y));
+                            put(simd, &mut self.lead[0][c], at, nearer, plane(simd, &planes.lead, c + 1, x, y));
                         }
                         if kept.second {
-                            put(simd, &mut self.second[c], at, nearer, plane(simd, &planes.second, c + 1, x, y));
+                            put(simd, &mut self.second[0][c], at, nearer, plane(simd, &planes.second, c + 1, x, y));
                         }
                         if kept.face {
-                            put(simd, &mut self.face[c], at, nearer, splat(simd, planes.face[c]));
+                            put(simd, &mut self.face[0][c], at, nearer, splat(simd, planes.face[c]));
                         }
                     }
                 }
@@ -257,13 +278,13 @@ impl Nearest {
             for i in left..=right {
                 let pixel = (j as usize * TILE + i as usize) & (PIXELS - 1);
                 let (covered, depth) = samples(simd, edges, planes, i, j);
-                let before = f32x4::from_slice(simd, &self.depth[4 * pixel..4 * pixel + 4]);
+                let before = f32x4::from_slice(simd, &self.depth.as_flattened()[4 * pixel..4 * pixel + 4]);
                 let nearer = covered & depth.simd_gt(before);
                 let mask = nearer.to_bitmask() as usize;
                 if mask == 0 {
                     continue;
                 }
-                nearer.select(depth, before).store_slice(&mut self.depth[4 * pixel..4 * pixel + 4]);
+                nearer.select(depth, before).store_slice(&mut self.depth.as_flattened_mut()[4 * pixel..4 * pixel + 4]);
                 let place = centroid(edges, i, j, covered.to_bitmask() as usize);
                 let [x, y] = [i as f32 + CENTROIDS[place][0], j as f32 + CENTROIDS[place][1]];
                 let v = value(simd, &planes.lead, x, y);
@@ -272,16 +293,15 @@ impl Nearest {
                     if mask >> sample & 1 == 0 {
                         continue;
                     }
-                    let at = sample * PIXELS + pixel;
-                    self.shader[at] = shader | (place as i32) << CENTROID_SHIFT;
-                    self.triangle[at] = self.triangles;
-                    self.inverse_w[at] = inverse_w;
+                    self.shader[sample][pixel] = shader | (place as i32) << CENTROID_SHIFT;
+                    self.triangle[sample][pixel] = self.triangles;
+                    self.inverse_w[sample][pixel] = inverse_w;
                     if kept.lead {
                         for c in 0..3 {
-                            self.lead[c][at] = v[c + 1];
+                            self.lead[sample][c][pixel] = v[c + 1];
                         }
                     }
-                    self.keep_more(simd, planes, at, [x, y], kept);
+                    self.keep_more(simd, planes, (sample, pixel), [x, y], kept);
                 }
             }
         }

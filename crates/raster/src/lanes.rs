@@ -75,10 +75,10 @@ pub(crate) fn store_i<S: Simd>(x: I<S>, to: &mut [i32], at: usize) {
     x.store_slice(&mut to[at..at + lanes::<S>()]);
 }
 
-/// One number a coordinate's list, from `at` on.
+/// The vectors from `at` on, of one list a coordinate.
 #[inline(always)]
-pub(crate) fn load3<S: Simd>(simd: S, from: &[Vec<f32>; 3], at: usize) -> V3<S> {
-    each!(axis in 3 => load(simd, &from[axis], at))
+pub(crate) fn load3<S: Simd>(simd: S, from: &[impl AsRef<[f32]>; 3], at: usize) -> V3<S> {
+    each!(axis in 3 => load(simd, from[axis].as_ref(), at))
 }
 
 /// 0, 1, 2 …

@@ -2,7 +2,8 @@
 //! their names. Eye space, linear RGB. The test beside it holds it to the equations in f64.
 
 use crate::lanes::{
-    F, SMALLEST_SQUARE, Simd, V3, add, add_scaled, dot, fma, max, min, neg, saturate, scale, select3, splat, splat3, sub,
+    F, SMALLEST_SQUARE, Simd, V3, add, add_scaled, dot, fma, max, min, neg, saturate, scale, select3, splat, splat3,
+    sub,
 };
 use crate::pass::{Highlight, LightData, LightRange, ShadedTerms, SideData};
 use crate::power::{Exponent, power};
@@ -106,7 +107,7 @@ pub(crate) fn add_light<S: Simd>(
     if terms.diffuse {
         let factor = arriving * max::<S>(n_dot_l, zero);
         sum.diffuse = add_scaled::<S>(sum.diffuse, splat3(simd, light.diffuse), factor);
-        if light.ambient != [0.0; 3] {
+        if light.ambient.iter().any(|&la| la > 0.0) {
             sum.ambient = add_scaled::<S>(sum.ambient, splat3(simd, light.ambient), arriving);
         }
     }
@@ -132,10 +133,10 @@ pub(crate) fn finite_light<S: Simd>(simd: S, light: &LightData, cone: bool, poin
     let l = select3::<S>(at_surface, points.n, scale::<S>(to_light, inverse));
     let mut arriving = attenuation(simd, light.attenuation, d);
     if light.inverse_range > 0.0 {
-        arriving = arriving * range_window(simd, d, light.inverse_range);
+        arriving *= range_window(simd, d, light.inverse_range);
     }
     if cone {
-        arriving = arriving * spot_factor(simd, l, light);
+        arriving *= spot_factor(simd, l, light);
     }
     (l, arriving)
 }

@@ -227,6 +227,7 @@ pub enum LeftOut {
 
 /// Some triangles of a mesh for some instances.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[expect(clippy::struct_excessive_bools, reason = "each is one independent fact about the draw")]
 pub struct DrawCall {
     /// The number of the mesh.
     pub mesh: u32,

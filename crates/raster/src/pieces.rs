@@ -76,8 +76,8 @@ impl Pieces {
         order: TriangleOrder,
     ) -> Result<Self, RasterError> {
         check(positions, normals, indices)?;
-        let whole = [0..indices.len() as u32];
-        let cuts = if cuts.is_empty() { &whole[..] } else { cuts };
+        let whole = 0..indices.len() as u32;
+        let cuts = if cuts.is_empty() { std::slice::from_ref(&whole) } else { cuts };
         let mut pieces = Self { index_count: indices.len() as u32, ..Self::default() };
         let mut builder = Builder::new(positions, normals, indices)?;
         let mut end = 0;
@@ -91,7 +91,13 @@ impl Pieces {
         }
         if end as usize != indices.len() {
             let (reaches, available) = (u64::from(end), indices.len() as u64);
-            return Err(RasterError::Reference { what: "cut", index: cuts.len(), field: "indices", reaches, available });
+            return Err(RasterError::Reference {
+                what: "cut",
+                index: cuts.len(),
+                field: "indices",
+                reaches,
+                available,
+            });
         }
         (pieces.center, pieces.radius) = sphere(positions.iter().copied());
         Ok(pieces)

@@ -38,31 +38,20 @@ pub(crate) struct Gradient<T> {
 const FLATTEST: f32 = 1.0 / 32.0;
 
 impl Gradient<f32> {
-    /// From the corners in pixels from the tile's first pixel, or, where the triangle is flat or turned over by the
-    /// rounding to the grid, from those on the grid, whose area's sign is given.
+    /// From the corners in pixels from the tile's first.
     #[inline(always)]
-    pub(crate) fn new(x: [f32; 3], y: [f32; 3], on_grid: ([f32; 3], [f32; 3]), positive: bool) -> Self {
-        let exact = Self::of(x, y);
-        if Self::is_sound(x, y, exact.inverse, positive) { exact.inverted() } else { Self::of(on_grid.0, on_grid.1).inverted() }
-    }
-
-    /// With twice the area in place of its inverse.
-    #[inline(always)]
-    fn of(x: [f32; 3], y: [f32; 3]) -> Self {
+    pub(crate) fn new(x: [f32; 3], y: [f32; 3]) -> Self {
         let area = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
-        Self { x, y, inverse: area }
+        Self { x, y, inverse: 1.0 / area }
     }
 
+    /// Whether the triangle is neither flat nor turned over by the rounding to the grid, where its area's sign is given.
+    /// If it is, slopes are made from the corners on the grid.
     #[inline(always)]
-    fn inverted(self) -> Self {
-        Self { inverse: 1.0 / self.inverse, ..self }
-    }
-
-    #[inline(always)]
-    fn is_sound(x: [f32; 3], y: [f32; 3], area: f32, positive: bool) -> bool {
-        let (along, down) = (extent(x), extent(y));
-        let signed = if positive { area } else { -area };
-        signed >= max_one(along, down) * FLATTEST
+    pub(crate) fn is_sound(&self, positive: bool) -> bool {
+        let longest = max_one(extent(self.x), extent(self.y));
+        let inverse = if positive { self.inverse } else { -self.inverse };
+        inverse > 0.0 && inverse * (longest * FLATTEST) <= 1.0
     }
 
     /// The slopes of four numbers.
@@ -95,7 +84,8 @@ impl Gradient<f64> {
     /// The same in f64, for triangles that reach far beyond the tile.
     pub(crate) fn new(x: [f64; 3], y: [f64; 3], on_grid: ([f64; 3], [f64; 3]), positive: bool) -> Self {
         let area = |x: [f64; 3], y: [f64; 3]| (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
-        let extent = |v: [f64; 3]| v.iter().copied().fold(f64::MIN, f64::max) - v.iter().copied().fold(f64::MAX, f64::min);
+        let extent =
+            |v: [f64; 3]| v.iter().copied().fold(f64::MIN, f64::max) - v.iter().copied().fold(f64::MAX, f64::min);
         let exact = area(x, y);
         let signed = if positive { exact } else { -exact };
         if signed >= extent(x).max(extent(y)) * f64::from(FLATTEST) {

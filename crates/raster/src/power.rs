@@ -56,7 +56,7 @@ pub(crate) enum Exponent {
 impl Exponent {
     pub(crate) fn new(exponent: f32) -> Self {
         let whole = exponent as u32;
-        if whole.is_power_of_two() && whole <= 4096 && whole as f32 == exponent {
+        if whole.is_power_of_two() && whole <= 4096 && exponent.fract() == 0.0 {
             Self::Squarings(whole.trailing_zeros())
         } else {
             Self::Any(exponent)

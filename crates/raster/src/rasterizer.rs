@@ -33,7 +33,7 @@ pub struct Rasterizer {
 }
 
 /// A pass of less work than this many triangles and pixels is drawn by the calling thread: to wake another takes longer.
-const WORTH_A_THREAD: usize = 20_000;
+const WORTH_A_THREAD: usize = 4_000;
 
 impl Rasterizer {
     /// Finds out what the CPU has, and starts threads.

@@ -1,11 +1,11 @@
 //! Shading of what is nearest in a tile, a vector of pixels at a time.
 
 use crate::bins::TILE;
-use crate::cover::{CENTROIDS, CENTROID_SHIFT, Nearest, PIXELS, SHADER_BITS};
+use crate::cover::{CENTROID_SHIFT, CENTROIDS, Nearest, SHADER_BITS};
 use crate::encode::{cleared, kept};
 use crate::lanes::{
-    F, Simd, V3, add, counting, dot, each, fma, lanes, load, load3, load_i, neg, safe_normalize, scale, select3, splat, splat3,
-    splat_i, store,
+    F, Simd, V3, add, counting, dot, each, fma, lanes, load, load_i, load3, neg, safe_normalize, scale, select3, splat,
+    splat_i, splat3, store,
 };
 use crate::lighting::{Points, added, reflected, to_viewer};
 use crate::pass::{Pass, SampleCount};
@@ -105,53 +105,51 @@ impl Nearest {
 
     #[inline(always)]
     fn shade_one<S: Simd>(&mut self, simd: S, look: &Look, at: usize, clear: V3<S>) {
-        let mut left = (!load_i(simd, &self.shader, at).simd_eq(splat_i(simd, 0))).to_bitmask();
+        let mut left = (!load_i(simd, &self.shader[0], at).simd_eq(splat_i(simd, 0))).to_bitmask();
         let mut color = clear;
         while left != 0 {
-            let shader = self.shader[at + left.trailing_zeros() as usize];
-            let same = load_i(simd, &self.shader, at).simd_eq(splat_i(simd, shader));
+            let shader = self.shader[0][at + left.trailing_zeros() as usize];
+            let same = load_i(simd, &self.shader[0], at).simd_eq(splat_i(simd, shader));
             left &= !same.to_bitmask();
             let place = pixels(simd, at);
             // What is not drawn has no w; its lanes must not divide by 0.
-            let inverse_w = same.select(load(simd, &self.depth, at), splat(simd, 1.0));
-            color = select3::<S>(same, self.color(simd, look, shader, (at, place, inverse_w)), color);
+            let inverse_w = same.select(load(simd, &self.depth[0], at), splat(simd, 1.0));
+            color = select3::<S>(same, self.color(simd, look, shader, ((0, at), place, inverse_w)), color);
         }
-        self.put(simd, at, color, look);
+        self.put(simd, (0, at), color, look);
     }
 
     #[inline(always)]
-    fn shade_four<S: Simd>(&mut self, simd: S, look: &Look, pixel: usize, clear: V3<S>) {
+    fn shade_four<S: Simd>(&mut self, simd: S, look: &Look, at: usize, clear: V3<S>) {
         for sample in 0..4 {
-            let at = sample * PIXELS + pixel;
-            let triangle = load_i(simd, &self.triangle, at);
-            let mut left = (!load_i(simd, &self.shader, at).simd_eq(splat_i(simd, 0))).to_bitmask();
+            let triangle = load_i(simd, &self.triangle[sample], at);
+            let mut left = (!load_i(simd, &self.shader[sample], at).simd_eq(splat_i(simd, 0))).to_bitmask();
             let mut color = clear;
             // What another sample of the pixel has shaded is taken over.
             for before in 0..sample {
-                let before = before * PIXELS + pixel;
-                let lit = !load_i(simd, &self.shader, before).simd_eq(splat_i(simd, 0));
-                let same = triangle.simd_eq(load_i(simd, &self.triangle, before)) & lit;
-                let other = load3(simd, &self.lead, before);
+                let lit = !load_i(simd, &self.shader[before], at).simd_eq(splat_i(simd, 0));
+                let same = triangle.simd_eq(load_i(simd, &self.triangle[before], at)) & lit;
+                let other = load3(simd, &self.lead[before], at);
                 let here = fearless_simd::SimdMask::from_bitmask(simd, left);
                 color = select3::<S>(same & here, other, color);
                 left &= !same.to_bitmask();
             }
             while left != 0 {
-                let shader = self.shader[at + left.trailing_zeros() as usize] & SHADER_BITS;
-                let all = load_i(simd, &self.shader, at);
+                let shader = self.shader[sample][at + left.trailing_zeros() as usize] & SHADER_BITS;
+                let all = load_i(simd, &self.shader[sample], at);
                 let same = (all & splat_i(simd, SHADER_BITS)).simd_eq(splat_i(simd, shader));
                 let fresh = same & fearless_simd::SimdMask::from_bitmask(simd, left);
                 left &= !same.to_bitmask();
-                let mut place = pixels(simd, pixel);
+                let mut place = pixels(simd, at);
                 for axis in 0..2 {
                     for lane in 0..lanes::<S>() {
                         place[axis][lane] += CENTROIDS[(all[lane] >> CENTROID_SHIFT) as usize & 15][axis];
                     }
                 }
-                let inverse_w = fresh.select(load(simd, &self.inverse_w, at), splat(simd, 1.0));
-                color = select3::<S>(fresh, self.color(simd, look, shader, (at, place, inverse_w)), color);
+                let inverse_w = fresh.select(load(simd, &self.inverse_w[sample], at), splat(simd, 1.0));
+                color = select3::<S>(fresh, self.color(simd, look, shader, ((sample, at), place, inverse_w)), color);
             }
-            self.put(simd, at, color, look);
+            self.put(simd, (sample, at), color, look);
         }
     }
 
@@ -161,25 +159,25 @@ impl Nearest {
         simd: S,
         look: &Look,
         shader: i32,
-        (at, place, inverse_w): (usize, [F<S>; 2], F<S>),
+        ((sample, at), place, inverse_w): ((usize, usize), [F<S>; 2], F<S>),
     ) -> V3<S> {
         let (state, back) = state_of(look.states, shader);
         let zero = [splat(simd, 0.0); 3];
         let fragments = Fragments {
             place,
             inverse_w,
-            lead: load3(simd, &self.lead, at),
-            second: if state.stage == Stage::Mixed { load3(simd, &self.second, at) } else { zero },
-            face: if state.opposite_normals { load3(simd, &self.face, at) } else { zero },
+            lead: load3(simd, &self.lead[sample], at),
+            second: if state.stage == Stage::Mixed { load3(simd, &self.second[sample], at) } else { zero },
+            face: if state.opposite_normals { load3(simd, &self.face[sample], at) } else { zero },
         };
         fragments.color(simd, look, state, back)
     }
 
     #[inline(always)]
-    fn put<S: Simd>(&mut self, simd: S, at: usize, color: V3<S>, look: &Look) {
+    fn put<S: Simd>(&mut self, simd: S, (sample, at): (usize, usize), color: V3<S>, look: &Look) {
         let color = kept(simd, color, look.pass.pixels);
         for c in 0..3 {
-            store::<S>(color[c], &mut self.lead[c], at);
+            store::<S>(color[c], &mut self.lead[sample][c], at);
         }
     }
 
@@ -187,11 +185,11 @@ impl Nearest {
     #[inline(always)]
     pub(crate) fn resolved<S: Simd>(&self, simd: S, at: usize, samples: SampleCount) -> V3<S> {
         match samples {
-            SampleCount::One => load3(simd, &self.lead, at),
+            SampleCount::One => load3(simd, &self.lead[0], at),
             SampleCount::Four => {
                 // Quarters first: the sum of four largest numbers would be infinite.
                 let [a, b, c, d] = each!(sample in 4 => {
-                    scale::<S>(load3(simd, &self.lead, sample * PIXELS + at), splat(simd, 0.25))
+                    scale::<S>(load3(simd, &self.lead[sample], at), splat(simd, 0.25))
                 });
                 add::<S>(add::<S>(a, b), add::<S>(c, d))
             }

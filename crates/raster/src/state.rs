@@ -82,7 +82,13 @@ impl State {
 
     /// What the lights of the fragment terms bring to points.
     #[inline(always)]
-    pub(crate) fn fragment_terms<S: Simd>(&self, simd: S, pass: &Pass, points: &Points<S>, back: bool) -> Irradiance<S> {
+    pub(crate) fn fragment_terms<S: Simd>(
+        &self,
+        simd: S,
+        pass: &Pass,
+        points: &Points<S>,
+        back: bool,
+    ) -> Irradiance<S> {
         let surface = &pass.surfaces[self.surface as usize];
         let ranges = [surface.fragment, surface.fragment_diffuse];
         gathered(simd, (pass.lights, pass.lists), ranges, points, self.gloss(back), self.fragment)

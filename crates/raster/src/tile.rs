@@ -5,7 +5,8 @@ use crate::clip::each_part;
 use crate::cover::{Edges, Kept, Nearest, PIXELS};
 use crate::encode::{bytes, cleared};
 use crate::lanes::{
-    MOST_LANES, Simd, V3, add, cross, each, lanes, load, max, max_one, min_one, neg, safe_normalize, scale, splat, store, store_i, sub,
+    MOST_LANES, Simd, V3, add, cross, each, lanes, load, max, max_one, min_one, neg, safe_normalize, scale, splat,
+    store, store_i, sub,
 };
 use crate::lighting::{Points, reflected, to_viewer};
 use crate::pass::{InstanceData, Pass, PixelFormat, SampleCount};
@@ -23,6 +24,8 @@ pub(crate) struct Worker {
     batch: Batch,
     faces: Faces,
     nearest: Nearest,
+    /// Whether the pixels are all of the clear color.
+    is_clear: bool,
     /// The tile's pixels as bytes.
     pub(crate) bytes: Vec<i32>,
     /// Or as numbers, four a pixel.
@@ -61,6 +64,7 @@ impl Worker {
             batch: Batch::default(),
             faces: Faces { each: [[[0.0; MOST_LANES]; 3]; 2] },
             nearest: Nearest::new(),
+            is_clear: false,
             bytes: Vec::new(),
             floats: Vec::new(),
         }
@@ -73,12 +77,15 @@ impl Worker {
         let last = [0, 1].map(|axis| (pass.size[axis] - tile[axis] * TILE as u32).min(TILE as u32) as i32 - 1);
         let mut jobs = bins.of_tile(tile[0], tile[1]).peekable();
         if jobs.peek().is_none() {
-            simd.vectorize(
-                #[inline(always)]
-                || self.fill_with_clear(simd, pass),
-            );
+            if !std::mem::replace(&mut self.is_clear, true) {
+                simd.vectorize(
+                    #[inline(always)]
+                    || self.fill_with_clear(simd, pass),
+                );
+            }
             return;
         }
+        self.is_clear = false;
         self.nearest.clear(pass.samples);
         let mut shaded = false;
         for number in jobs {
@@ -155,6 +162,9 @@ impl Worker {
     #[inline(always)]
     fn small<S: Simd>(&mut self, simd: S, look: &Look, work: &Work, triangle: [u8; 3], lane: usize) {
         let edges = Edges::of_lane(&self.batch, lane, look.pass.samples);
+        if look.pass.samples == SampleCount::One && edges.miss_all() {
+            return;
+        }
         let back = self.batch.backs >> lane & 1 != 0;
         let positive = self.batch.clockwise >> lane & 1 != 0;
         let numbers = each!(k in 3 => usize::from(triangle[k]));
@@ -163,11 +173,14 @@ impl Worker {
             let first = look.tile[axis] as f32 * TILE as f32 + 0.5;
             each!(k in 3 => v.screen[axis][numbers[k]] - first)
         });
-        let [grid_x, grid_y] = each!(axis in 2 => {
-            let first = look.tile[axis] as i32 * (TILE as i32 * GRID) + GRID / 2;
-            each!(k in 3 => (v.grid[axis][numbers[k]] - first) as f32 * (1.0 / GRID as f32))
-        });
-        let gradient = Gradient::<f32>::new(x, y, (grid_x, grid_y), positive);
+        let mut gradient = Gradient::<f32>::new(x, y);
+        if !gradient.is_sound(positive) {
+            let [x, y] = each!(axis in 2 => {
+                let first = look.tile[axis] as i32 * (TILE as i32 * GRID) + GRID / 2;
+                each!(k in 3 => (v.grid[axis][numbers[k]] - first) as f32 * (1.0 / GRID as f32))
+            });
+            gradient = Gradient::<f32>::new(x, y);
+        }
         let lead = &v.lead[usize::from(back && v.sides_lead)];
         let [a, b, c] = each!(k in 3 => &lead[numbers[k]]);
         let mut planes = Planes {
@@ -203,6 +216,7 @@ impl Worker {
 
     /// Makes room for a tile's pixels.
     pub(crate) fn prepare(&mut self, pixels: PixelFormat) {
+        self.is_clear = false;
         match pixels {
             PixelFormat::Floats => self.floats.resize(4 * PIXELS, 1.0),
             _ => self.bytes.resize(PIXELS, 0),
@@ -268,12 +282,7 @@ impl<'a> Work<'a> {
             piece: &mesh.each[job.piece as usize],
             instance: &pass.instances[job.instance as usize],
             state: &bins.states[job.state as usize],
-            covering: Covering {
-                left_out: draw.left_out,
-                clockwise: draw.clockwise,
-                samples: pass.samples,
-                last,
-            },
+            covering: Covering { left_out: draw.left_out, clockwise: draw.clockwise, samples: pass.samples, last },
             blend,
         }
     }
@@ -346,4 +355,3 @@ fn face_normal<S: Simd>(simd: S, [a, b, c]: [V3<S>; 3]) -> V3<S> {
     let size = splat(simd, 1.0) / longest;
     safe_normalize(simd, cross::<S>(scale::<S>(e, size), scale::<S>(f, size)))
 }
-

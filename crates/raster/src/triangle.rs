@@ -74,7 +74,7 @@ impl Batch {
             let clipped = load_i(simd, &code_or, 0).simd_gt(zero);
             let gone = (load_i(simd, &code_and, 0) & splat_i(simd, CLIPPED)).simd_gt(zero);
             self.others = (clipped & !gone & usable).to_bitmask();
-            usable = usable & !clipped;
+            usable &= !clipped;
         }
         self.set_up(simd, each!(k in 3 => load_i(simd, &corners[k], 0)), usable, covering);
     }
@@ -95,7 +95,7 @@ impl Batch {
             let last = (high[axis] + splat_i(simd, reach)) >> 8;
             let first = SimdBase::max(first, splat_i(simd, 0));
             let last = SimdBase::min(last, splat_i(simd, covering.last[axis]));
-            meets = meets & first.simd_le(last);
+            meets &= first.simd_le(last);
             store_i::<S>(first, &mut self.bounds[2 * axis], 0);
             store_i::<S>(last, &mut self.bounds[2 * axis + 1], 0);
         }

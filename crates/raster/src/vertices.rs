@@ -4,7 +4,7 @@ use crate::bins::TILE;
 use crate::lanes::{I, Simd, V3, each, fma, lanes, load3, max, min, safe_normalize, splat, splat_i, store, store_i};
 use crate::lighting::{Points, reflected, to_viewer};
 use crate::pass::{InstanceData, Pass};
-use crate::pieces::{PIECE_VERTICES, Piece, Pieces};
+use crate::pieces::{Piece, Pieces};
 use crate::state::{Stage, State};
 use fearless_simd::prelude::*;
 
@@ -48,9 +48,13 @@ impl Screen {
     }
 }
 
-type List = [f32; PIECE_VERTICES];
+/// A piece has fewer vertices; so many that a number of 8 bits is always in range.
+const SLOTS: usize = 256;
+
+/// A number a vertex.
+type List = [f32; SLOTS];
 /// Four numbers a vertex.
-type Attributes = [[f32; 4]; PIECE_VERTICES];
+type Attributes = [[f32; 4]; SLOTS];
 
 /// What is known of a piece's vertices.
 pub(crate) struct Vertices {
@@ -59,10 +63,10 @@ pub(crate) struct Vertices {
     pub(crate) screen: [List; 2],
     pub(crate) inverse_w: List,
     /// In steps of the grid.
-    pub(crate) grid: [[i32; PIECE_VERTICES]; 2],
+    pub(crate) grid: [[i32; SLOTS]; 2],
     /// From the tile's center, in steps of the grid: x in the lower 16 bits and y in the upper.
-    pub(crate) packed: [i32; PIECE_VERTICES],
-    pub(crate) codes: [i32; PIECE_VERTICES],
+    pub(crate) packed: [i32; SLOTS],
+    pub(crate) codes: [i32; SLOTS],
     /// All codes together.
     pub(crate) any_code: i32,
     /// Normal, color of the front, color of the back.
@@ -77,16 +81,16 @@ pub(crate) struct Vertices {
 
 impl Vertices {
     pub(crate) fn new() -> Self {
-        let none = || Box::new([[0.0; 4]; PIECE_VERTICES]);
+        let none = || Box::new([[0.0; 4]; SLOTS]);
         Self {
-            eye: [[0.0; PIECE_VERTICES]; 3],
-            screen: [[0.0; PIECE_VERTICES]; 2],
-            inverse_w: [0.0; PIECE_VERTICES],
-            grid: [[0; PIECE_VERTICES]; 2],
-            packed: [0; PIECE_VERTICES],
-            codes: [0; PIECE_VERTICES],
+            eye: [[0.0; SLOTS]; 3],
+            screen: [[0.0; SLOTS]; 2],
+            inverse_w: [0.0; SLOTS],
+            grid: [[0; SLOTS]; 2],
+            packed: [0; SLOTS],
+            codes: [0; SLOTS],
             any_code: 0,
-            raw: [[0.0; PIECE_VERTICES]; 9],
+            raw: [[0.0; SLOTS]; 9],
             lead: [none(), none()],
             sides_lead: false,
             second: [none(), none()],
@@ -109,7 +113,7 @@ impl Vertices {
             let from = piece.first_vertex as usize + at;
             let p = load3(simd, &mesh.positions, from);
             let p = transformed(simd, &instance.eye_from_model, p);
-            any_code = any_code | self.project(simd, at, p, screen, center);
+            any_code |= self.project(simd, at, p, screen, center);
             if matches!(state.stage, Stage::Vertex | Stage::Fragment | Stage::Mixed) {
                 let n = load3(simd, &mesh.normals, from);
                 let n = safe_normalize(simd, turned(simd, &instance.normal, n));
@@ -134,13 +138,13 @@ impl Vertices {
             let x = fma::<S>(p[axis] * inverse_w, splat(simd, screen.scale[axis]), splat(simd, screen.center[axis]));
             let (low, high) = (splat(simd, SCREEN_LOW), splat(simd, SCREEN_HIGH));
             // What is no number is beyond both ends.
-            code = code | x.simd_ge(low).select(zero, splat_i(simd, 2 << (2 * axis)));
-            code = code | x.simd_le(high).select(zero, splat_i(simd, 4 << (2 * axis)));
+            code |= x.simd_ge(low).select(zero, splat_i(simd, 2 << (2 * axis)));
+            code |= x.simd_le(high).select(zero, splat_i(simd, 4 << (2 * axis)));
             let inside = min::<S>(max::<S>(x, low), high);
             let grid: I<S> = (inside * splat(simd, GRID as f32)).round_ties_even().to_int();
             relative[axis] = grid - splat_i(simd, center[axis]);
             let far = relative[axis].simd_gt(splat_i(simd, 32_767)) | relative[axis].simd_lt(splat_i(simd, -32_768));
-            code = code | far.select(splat_i(simd, FAR_AWAY), zero);
+            code |= far.select(splat_i(simd, FAR_AWAY), zero);
             store::<S>(inside, &mut self.screen[axis], at);
             store_i::<S>(grid, &mut self.grid[axis], at);
         }

@@ -2,8 +2,8 @@
 
 use halfway_mesh::{Mesh, UvSphere};
 use halfway_raster::{
-    DrawCall, Highlight, InstanceData, Lens, LightData, LightRange, Pass, Pieces, PixelFormat, RasterError, SampleCount,
-    ShadedTerms, SideData, SurfaceData, TriangleOrder,
+    DrawCall, Highlight, InstanceData, Lens, LightData, LightRange, Pass, Pieces, PixelFormat, RasterError,
+    SampleCount, ShadedTerms, SideData, SurfaceData, TriangleOrder,
 };
 
 /// Where terms are shaded.
@@ -63,8 +63,8 @@ pub(crate) fn lens([width, height]: [u32; 2], degrees: f64) -> Lens {
 
 /// A mesh made ready.
 pub(crate) fn pieces(mesh: &Mesh, order: TriangleOrder) -> Result<Pieces, RasterError> {
-    let positions: Vec<_> = mesh.positions().iter().map(|p| p.to_array()).collect();
-    let normals: Vec<_> = mesh.normals().iter().map(|n| n.to_array()).collect();
+    let positions: Vec<_> = mesh.positions().iter().map(|&p| p.into()).collect();
+    let normals: Vec<_> = mesh.normals().iter().map(|&n| n.into()).collect();
     Pieces::new(&positions, &normals, mesh.indices(), &[], order)
 }
 

@@ -229,11 +229,14 @@ fn the_edges_are_those_of_the_equations() {
         ("a = 0 and d = 0", Case { kind: Kind::Point, light: at([0.0, 0.0, -2.0], [0.0, 0.0, 1.0]), ..straight }),
         ("the eye on the surface", Case { p: [0.0; 3], ..straight }),
         ("a light behind", Case { light: at([0.0, 0.0, -1.0], [1.0, 0.0, 0.0]), ..straight }),
-        ("a cutoff of 0", Case {
-            kind: Kind::Spot,
-            light: LightData { position: [0.0; 3], cos_cutoff: 1.0, ..straight.light },
-            ..straight
-        }),
+        (
+            "a cutoff of 0",
+            Case {
+                kind: Kind::Spot,
+                light: LightData { position: [0.0; 3], cos_cutoff: 1.0, ..straight.light },
+                ..straight
+            },
+        ),
     ];
     for (name, case) in cases {
         for highlight in [Highlight::Phong, Highlight::BlinnPhong] {

@@ -1,17 +1,14 @@
 //! Whole pictures against a slow renderer in f64: rays, exact triangles, and `halfway_lighting::equations`.
 
-#[path = "../examples/common/mod.rs"]
-mod common;
-
-use common::{Scene, Shading, at, draw, lens, pieces};
+use crate::common::{Scene, Shading, at, draw, lens, pieces};
 use halfway_lighting::Reflectance;
 use halfway_lighting::equations::{
     Coefficients, ConeTerms, Light, Place, Surface, View, normal_matrix, shade, transform_normal, vector,
 };
 use halfway_mesh::{Mesh, UvSphere};
 use halfway_raster::{
-    Highlight, InstanceData, LeftOut, LightData, LightRange, Output, PixelFormat, RasterOptions, Rasterizer, SampleCount,
-    ShadedTerms, SideData, SurfaceData, TriangleOrder,
+    Highlight, InstanceData, LeftOut, LightData, LightRange, Output, PixelFormat, RasterOptions, Rasterizer,
+    SampleCount, ShadedTerms, SideData, SurfaceData, TriangleOrder,
 };
 
 type V = [f64; 3];
@@ -75,7 +72,13 @@ fn case(shading: Shading, highlight: Highlight) -> Case {
         lens: lens([96, 72], 45.0),
         lights: lights(),
         lists: vec![0, 1, 2],
-        surfaces: vec![SurfaceData { front: side(0.8), back: side(0.2), vertex: all, fragment: all, ..SurfaceData::default() }],
+        surfaces: vec![SurfaceData {
+            front: side(0.8),
+            back: side(0.2),
+            vertex: all,
+            fragment: all,
+            ..SurfaceData::default()
+        }],
         instances: vec![at([0.1, -0.05, -3.2], 0)],
         draws: vec![call],
         meshes: vec![ready],
@@ -126,7 +129,11 @@ impl Case {
         let source = |(number, light): (usize, &LightData)| {
             let [fade, offset] = light.inner_fade.map(f64::from);
             Light {
-                place: if number == 0 { Place::Directional(f(light.position)) } else { Place::Point(f(light.position)) },
+                place: if number == 0 {
+                    Place::Directional(f(light.position))
+                } else {
+                    Place::Point(f(light.position))
+                },
                 la: f(light.ambient),
                 ld: f(light.diffuse),
                 ls: f(light.specular),
@@ -210,7 +217,8 @@ impl Case {
         let mean = |of: [V; 3]| [0, 1, 2].map(|axis| (0..3).map(|k| weights[k] * of[k][axis]).sum::<f64>());
         if call.flat {
             let [a, b, c] = triangle.map(|i| f(self.mesh.positions()[i as usize].to_array()));
-            let n = self.turned(vector::normalize(vector::cross(vector::sub(b, a), vector::sub(c, a))).expect("a face"));
+            let n =
+                self.turned(vector::normalize(vector::cross(vector::sub(b, a), vector::sub(c, a))).expect("a face"));
             let middle = vector::scale(vector::add(corners[0], vector::add(corners[1], corners[2])), 1.0 / 3.0);
             return self.shade(middle, n, back, call.vertex, true);
         }
@@ -256,7 +264,10 @@ impl Case {
         let worst = errors[errors.len() - 1];
         let most = errors[errors.len() * 999 / 1000];
         // The project's bars of conformance; docs/accuracy.md.
-        assert!(worst.0 <= 2e-3 * range && most.0 <= 2e-4 * range, "{name}: worst {worst:?}, 99.9 % {most:?} of {range}");
+        assert!(
+            worst.0 <= 2e-3 * range && most.0 <= 2e-4 * range,
+            "{name}: worst {worst:?}, 99.9 % {most:?} of {range}"
+        );
     }
 }
 
