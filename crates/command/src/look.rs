@@ -48,11 +48,7 @@ const SHADINGS: Values<ShadingEntry, 3> = [
 const REFLECTANCES: Values<Reflectance, 3> = [
     ("phong", "(v·r)^α", Reflectance::Phong),
     ("blinn-phong", "(n·h)^β, β the shininess as it is", Reflectance::BlinnPhong),
-    (
-        "blinn-phong-matched",
-        "(n·h)^β, β matched to the α that the shininess means",
-        Reflectance::BlinnPhongMatched,
-    ),
+    ("blinn-phong-matched", "(n·h)^β, β matched to the α that the shininess means", Reflectance::BlinnPhongMatched),
 ];
 const SAMPLES: Values<u32, 2> = [("1", "The middle of the pixel", 1), ("4", "Four points of it", 4)];
 
