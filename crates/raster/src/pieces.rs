@@ -338,7 +338,7 @@ mod tests {
     use halfway_mesh::{Mesh, Plane, UvSphere};
 
     fn cut(mesh: &Mesh) -> Pieces {
-        let positions: Vec<_> = mesh.positions().iter().map(|p| p.to_array()).collect();
+        let positions: Vec<_> = mesh.positions().iter().map(|&p| p.into()).collect();
         Pieces::new(&positions, &[], mesh.indices(), &[], TriangleOrder::Clustered).expect("a sound mesh")
     }
 
