@@ -29,6 +29,7 @@ mod render {
     mod light_lists;
     mod multi_draw;
     mod picture;
+    mod order;
     mod pipelines;
     mod plugins;
     mod properties;

@@ -156,6 +156,19 @@ fn of_coincident_triangles_the_first_spawned_is_seen() {
 }
 
 #[test]
+fn of_coincident_triangles_of_different_meshes_either_is_seen() {
+    let colors = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    let square = wall(9.0, 2.0);
+    let halves = square.indices().iter().skip(3).chain(square.indices().iter().take(3)).copied().collect();
+    let other = Mesh::from_parts(square.positions().to_vec(), None, None, halves).expect("the same triangles");
+    let mut stage = Stage::new();
+    for (mesh, [red, green, blue]) in [square, other].into_iter().zip(colors) {
+        stage.add(mesh, glow(red, green, blue));
+    }
+    assert_shows("of two meshes", &possible(&mut stage, 8, 3), &colors.map(|color| color.map(f64::from)));
+}
+
+#[test]
 fn blended_layers_come_in_the_order_of_drawing() {
     let glass = |red: f32, green: f32| (Material { opacity: 0.5, ..glow(red, green, 0.0) }, Blend);
     let mut stage = Stage::new();

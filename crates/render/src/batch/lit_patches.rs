@@ -43,6 +43,11 @@ pub(crate) struct LitRun {
     pub(crate) blend: bool,
     /// The number of its key, mesh and form.
     pub(crate) call: u32,
+    /// 0, and 1 for the second pass of an object that is drawn in two: its near side.
+    pub(crate) pass: u32,
+    /// How many opaque objects that were spawned before have its bounding sphere; such may coincide, and the first is to
+    /// win. 0 for blended ones.
+    pub(crate) twins_before: u32,
     /// The first of its indices, and the first behind them.
     pub(crate) indices: (u32, u32),
     /// The first of the lights that are bound for it at fixed places.
@@ -116,7 +121,10 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
         };
         let key = reflecting.key(look, circumstances, shared);
         let (material, exponent) = (look.material, look.exponent);
+        let sphere = geometry.detail.whole.sphere(model_view);
         let object = LitObject {
+            depth: -sphere.0.z,
+            twins_before: if blend { 0 } else { lit.table.twins_before(sphere) },
             reflecting,
             key,
             material,
@@ -142,6 +150,8 @@ struct LitObject<'a> {
     key: DrawKey,
     material: u32,
     exponent: f32,
+    depth: f32,
+    twins_before: u32,
     mesh: AssetId<Mesh>,
     form: Form,
     geometry: &'a Geometry,
@@ -246,13 +256,13 @@ impl LitPatches {
     }
 
     fn add_run(&mut self, object: &LitObject, OpenRun { key, lights, record, indices }: OpenRun) {
-        let (center, _) = object.geometry.detail.whole.sphere(object.model_view);
-        let depth = -center.z;
-        for key in key.passes() {
+        let LitObject { depth, twins_before, .. } = *object;
+        for (pass, key) in (0..).zip(key.passes()) {
             let call = self.table.call((key, object.mesh, object.form));
             let indices = (indices.start, indices.end);
             let instance = self.instances.len() as u32 - 1;
-            self.runs.push(LitRun { blend: key.blend, call, indices, lights, record, depth, instance });
+            let blend = key.blend;
+            self.runs.push(LitRun { blend, call, pass, twins_before, indices, lights, record, depth, instance });
         }
     }
 }
@@ -284,7 +294,7 @@ impl LitRun {
     }
 
     pub(crate) fn by_state(&self, other: &Self) -> Ordering {
-        let state = |item: &Self| (item.call, item.indices, item.lights, item.record);
+        let state = |item: &Self| (item.twins_before, item.call, item.indices, item.lights, item.record);
         state(self).cmp(&state(other)).then_with(|| self.by_nearness(other))
     }
 
@@ -292,9 +302,9 @@ impl LitRun {
         self.depth.total_cmp(&other.depth).then_with(|| self.instance.cmp(&other.instance))
     }
 
-    /// Far ones first; of one instance the far side first, which has been called first.
+    /// Far ones first; of one instance the far side first, and then by triangle.
     pub(crate) fn by_depth(&self, other: &Self) -> Ordering {
-        let order = |item: &Self| (item.instance, item.call, item.indices);
+        let order = |item: &Self| (item.instance, item.pass, item.indices);
         other.depth.total_cmp(&self.depth).then_with(|| order(self).cmp(&order(other)))
     }
 }

@@ -22,6 +22,8 @@ pub(crate) struct ObjectTable {
     used: Vec<Used>,
     numbers: HashMap<(u32, [u32; 16]), u32>,
     calls: HashMap<Call, u32>,
+    /// How many opaque objects there are with a bounding sphere, by its bits.
+    twins: HashMap<[u32; 4], u32>,
     pub(crate) called: Vec<Call>,
 }
 
@@ -51,6 +53,7 @@ impl ObjectTable {
         self.used.resize(self.materials.len(), Used::default());
         self.numbers.clear();
         self.calls.clear();
+        self.twins.clear();
         self.called.clear();
     }
 
@@ -84,6 +87,13 @@ impl ObjectTable {
 
     pub(crate) fn materials_in_use(&self) -> u32 {
         self.used.iter().filter(|used| used.somewhere).count() as u32
+    }
+
+    /// How many opaque objects before this one have the same bounding sphere, as have those whose triangles all coincide.
+    pub(crate) fn twins_before(&mut self, (center, radius): (Vec3, f32)) -> u32 {
+        let number = self.twins.entry([center.x, center.y, center.z, radius].map(f32::to_bits)).or_default();
+        *number += 1;
+        *number - 1
     }
 
     pub(crate) fn call(&mut self, call: Call) -> u32 {

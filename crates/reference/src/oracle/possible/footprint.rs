@@ -1,6 +1,7 @@
 //! The part of a triangle that lies within a small area of the picture.
 
 use bevy_math::{DVec2, DVec3};
+use halfway_lighting::Frequency;
 
 use crate::oracle::gather::Scene;
 use crate::oracle::raster::{Edges, Primitive};
@@ -153,8 +154,12 @@ impl Footprint {
 
     /// Whether two of them are the same triangle of space, drawn twice, so that their depths are equal to the bit.
     pub(super) fn coincides(&self, other: &Self, scene: &Scene) -> bool {
-        let transform = |it: &Self| scene.solids[it.solid].eye_from_model;
-        self.corners == other.corners && transform(self) == transform(other)
+        let place = |it: &Self| {
+            let solid = &scene.solids[it.solid];
+            // For flat shading corners may come in another order, which rounds depths within the triangle otherwise.
+            (solid.eye_from_model, solid.terms.has(Frequency::Triangle))
+        };
+        self.corners == other.corners && place(self) == place(other)
     }
 }
 

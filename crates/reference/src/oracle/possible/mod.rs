@@ -34,8 +34,8 @@ impl Oracle {
     ///   surface that covers the disc's centre and has neither an end nor a silhouette within the disc, and of which the
     ///   farthest point in the disc is nearer than the triangle's nearest one.
     /// - Depths are equal if they differ by no more than four roundings of f32 of the nearest depth on the triangle, from
-    ///   which a renderer interpolates, and of the terms of its vertices' depths. Of two triangles with the same corners
-    ///   and transforms the one that is drawn first is seen.
+    ///   which a renderer interpolates, and of the terms of its vertices' depths. Of two opaque objects with
+    ///   equal meshes and the same transform, both flat or neither, the one that was spawned first is seen.
     /// - Blended surfaces are put over each other in every combination, in the order of drawing.
     /// - Where the camera takes four samples a pixel, each of them has a disc of its own. A triangle is shaded once, anywhere in the part of
     ///   the pixel that it covers, or at the centre if it covers the pixel.

@@ -168,10 +168,13 @@ fn is_shown(scene: &Scene, footprint: &Footprint) -> bool {
     scene.solids[footprint.solid].side(footprint.front).shown
 }
 
-/// Whether an opaque triangle that is drawn before another takes its place.
+/// Whether an opaque triangle takes the place of another one: the same of an object with an equal mesh and the same
+/// transform that was spawned before. Of others that coincide either may be drawn first.
 fn is_hidden_by(scene: &Scene, footprint: &Footprint, earlier: &Footprint) -> bool {
-    let is_opaque = |it: &Footprint| !scene.solids[it.solid].blend;
-    is_opaque(earlier) && is_opaque(footprint) && is_shown(scene, earlier) && footprint.coincides(earlier, scene)
+    let [solid, first] = [footprint, earlier].map(|it| &scene.solids[it.solid]);
+    let are_twins = || solid.mesh.positions() == first.mesh.positions() && solid.mesh.indices() == first.mesh.indices();
+    let are_the_same = footprint.triangle == earlier.triangle && footprint.coincides(earlier, scene);
+    !solid.blend && !first.blend && is_shown(scene, earlier) && are_the_same && are_twins()
 }
 
 /// The sides that may be seen: the one that is turned to the eye, and of a thin triangle at a silhouette, which rounding
