@@ -28,7 +28,6 @@ mod render {
     mod light_counts;
     mod light_lists;
     mod multi_draw;
-    mod picture;
     mod order;
     mod pipelines;
     mod plugins;

@@ -140,11 +140,13 @@ fn vs_flat(object: Object, @location(6) position: vec3f, @location(7) normal: ve
     let p = eye_position(object, centroid);
     let n = eye_normal(object, normal);
     let record = record_of(object.record);
-    let front = dot(n, p) <= 0.0;
-    var color = vec3f();
+    // Of one side the rasteriser shows what winds as the front does. It snaps vertices to a grid, so that of a triangle
+    // seen edge-on, or smaller than the grid, it may find another side than n·p does.
+    let front = !TWO_SIDED || dot(n, p) <= 0.0;
+    var color: vec3f;
     if front {
         color = shade_front(p, n, record);
-    } else if TWO_SIDED {
+    } else {
         color = shade_back(p, -n, record);
     }
     return Flat(clip_position(eye_position(object, position)), shaded(color, record, front));
