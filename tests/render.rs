@@ -22,6 +22,7 @@ mod render {
     mod edges;
     mod errors;
     mod failures;
+    mod floats;
     mod globs;
     mod known_issues;
     mod levels;
@@ -29,6 +30,7 @@ mod render {
     mod light_lists;
     mod multi_draw;
     mod order;
+    mod picture;
     mod pipelines;
     mod plugins;
     mod properties;
@@ -37,6 +39,7 @@ mod render {
     mod samples;
     mod scene;
     mod sides;
+    mod slivers;
     mod stage;
     mod surfaces;
     mod terms;

@@ -236,7 +236,7 @@ fn blended_objects_are_smoothed_like_others() {
     let mut scene = Scene::in_eye_space().with(pane(4.0, RED, 0.5)).with(pane(3.0, BLUE, 0.5));
     scene.camera.samples = Samples::Four;
     let centre = stage.draw(&scene).get_pixel(4, 4).0;
-    // Powers of two: exact in 16 bits too.
+    // Powers of two are exact.
     assert_eq!(centre, [0.25, 0.0, 0.5, 1.0]);
 }
 

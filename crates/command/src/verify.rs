@@ -6,6 +6,7 @@ use clap::Args;
 use halfway::prelude::*;
 use halfway::reference::metrics::{Bars, Scale, Verdict, difference, judge};
 use halfway::reference::{Image, Oracle};
+use halfway::render::RenderError;
 
 use crate::failure::{DIFFERENT, Failure, STOPPED};
 use crate::input::SceneInput;
@@ -58,10 +59,19 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
     let progress = Progress::of_tiles();
     let max = f64::from(args.max);
     let bars = Bars { most: max, worst: max, equal: 0.0, ..Bars::bytes(encoding) };
-    let bytes = Drawn::new(&mut app, Pixels::Byte, size, encoding, (0, &progress))?;
+    let picture = draw(&mut app, size, Pixels::Byte)?;
+    let bytes = Drawn::new(&mut app, &picture, size, encoding, (0, &progress))?;
     let of_bytes = bytes.judged(bars)?;
-    let float = Drawn::new(&mut app, Pixels::Float, size, encoding, (1, &progress))?.judged(Bars::FLOAT)?;
+    let float = match draw(&mut app, size, Pixels::Float) {
+        // The bytes are judged all the same.
+        Err(RenderError::FloatTarget { cannot }) => Err(cannot),
+        drawn => Ok(Drawn::new(&mut app, &drawn?, size, encoding, (1, &progress))?.judged(Bars::FLOAT)?),
+    };
     drop(progress);
+    if let Err(cannot) = &float {
+        eprintln!("note: not judged in floating point: of 32-bit floats the adapter cannot {cannot}");
+    }
+    let float = float.ok();
     if let Some(file) = &args.output {
         picture::write(file, difference(&bytes.actual, &bytes.expected, encoding, Scale::default()).map_err(text)?)?;
     }
@@ -70,15 +80,17 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
             "device": device,
             "size": size.to_array(),
             "bytes": figures::verdict(&of_bytes),
-            "float": figures::verdict(&float),
+            "float": float.as_ref().map(figures::verdict),
         });
         println!("{json}");
     } else {
         println!("{device}, {} × {} pixels", size.x, size.y);
         println!("8 bits  {of_bytes}");
-        println!("float   {float}");
+        if let Some(float) = &float {
+            println!("float   {float}");
+        }
     }
-    verdict(args.max, &of_bytes, &float)
+    verdict(args.max, &of_bytes, float.as_ref())
 }
 
 /// Judges a picture that is there, by the oracle alone.
@@ -127,16 +139,21 @@ fn judge_picture(args: &VerifyArgs, mut input: SceneInput, file: &Path) -> Resul
     if found.is_within() { Ok(()) } else { Err(Failure::new(DIFFERENT, format!("{}: {found}", file.display()))) }
 }
 
-/// The 8-bit picture keeps to its bar, and the other is a picture at all.
-fn verdict(max: u8, bytes: &Verdict, float: &Verdict) -> Result<(), Failure> {
+/// The 8-bit picture keeps to its bar, and the other, where there is one, is a picture at all.
+fn verdict(max: u8, bytes: &Verdict, float: Option<&Verdict>) -> Result<(), Failure> {
     let different = |what: String| Err(Failure::new(DIFFERENT, what));
-    if bytes.bad + float.bad > 0 {
+    if bytes.bad + float.map_or(0, |float| float.bad) > 0 {
         return different("the picture holds values that are not finite or negative".into());
     }
     if !bytes.is_within() {
         return different(format!("a pixel differs by {} of 255 steps, more than --max {max}", bytes.worst));
     }
     Ok(())
+}
+
+fn draw(app: &mut App, size: UVec2, pixels: Pixels) -> Result<Picture, RenderError> {
+    app.insert_resource(Headless { size, pixels });
+    render_picture(app)
 }
 
 /// One picture of a scene by the adapter, and by the oracle.
@@ -149,17 +166,16 @@ struct Drawn {
 impl Drawn {
     fn new(
         app: &mut App,
-        pixels: Pixels,
+        picture: &Picture,
         size: UVec2,
         encoding: Encoding,
         (index, progress): (u32, &Progress),
     ) -> Result<Self, Failure> {
-        app.insert_resource(Headless { size, pixels });
-        let actual = match render_picture(app)? {
-            Picture::Byte(image) => Image::from_bytes(&image, encoding),
-            Picture::Float(image) => Image::from_float(&image),
+        let (actual, is_clamped) = match picture {
+            Picture::Byte(image) => (Image::from_bytes(image, encoding), true),
+            Picture::Float(image) => (Image::from_float(image), false),
         };
-        let oracle = Oracle::new(app.world_mut(), size)?.with_clamping(pixels == Pixels::Byte);
+        let oracle = Oracle::new(app.world_mut(), size)?.with_clamping(is_clamped);
         let expected = oracle
             .draw_with(&|done, of| progress.tile(index, 2, done, of))
             .map_err(|stopped| Failure::new(STOPPED, stopped))?;

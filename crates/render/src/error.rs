@@ -94,6 +94,15 @@ pub enum RenderError {
         /// The adapter's limit.
         limit: u64,
     },
+    /// The adapter cannot draw this scene into 32-bit floating point.
+    #[error(
+        "the picture is to hold 32-bit floats, and the adapter cannot {cannot}; expected another adapter, a picture of 8 \
+         bits, or a scene that does without"
+    )]
+    FloatTarget {
+        /// What it cannot do with them.
+        cannot: String,
+    },
     /// There is no headless picture to read.
     #[error("there is no headless target to read a picture from: add `Headless`")]
     NoPicture,

@@ -36,8 +36,9 @@ pub enum Pixels {
     /// 8 bits a channel, encoded as the camera says.
     #[default]
     Byte,
-    /// Linear I in 32-bit floating point, before the intensity policy. An adapter that cannot blend
-    /// or resolve 32-bit floats draws in 16 bits.
+    /// Linear I in 32-bit floating point, before the intensity policy. An adapter may be unable to blend them, or to take
+    /// four samples of them: then a frame with [`Blend`] objects, or with [`Samples::Four`], is
+    /// [`RenderError::FloatTarget`], and others are drawn.
     Float,
 }
 
@@ -151,7 +152,13 @@ pub(crate) fn prepare(
     let shaders_may = gpu.costs().shaders_encode && camera.samples == Samples::One;
     let format_encodes = |blends: bool| camera.encoding == Encoding::Srgb && (blends || !shaders_may);
     let (format, acquired) = match surface {
-        None => (headless_format(&gpu, headless.pixels, camera.samples, format_encodes(blends)), None),
+        None => match headless_format(&gpu, headless.pixels, camera.samples, blends, format_encodes(blends)) {
+            Ok(format) => (format, None),
+            Err(error) => {
+                report.errors.push(error);
+                return;
+            }
+        },
         Some(mut surface) => {
             surface.pick_format(blends, format_encodes);
             match times.at_display(|| surface.acquire(&gpu)) {
@@ -177,12 +184,20 @@ pub(crate) fn prepare(
     target.frame = Some(FramePicture { output, view, surface: acquired });
 }
 
-fn headless_format(gpu: &Gpu, pixels: Pixels, samples: Samples, encodes: bool) -> wgpu::TextureFormat {
+fn headless_format(
+    gpu: &Gpu,
+    pixels: Pixels,
+    samples: Samples,
+    blends: bool,
+    encodes: bool,
+) -> Result<wgpu::TextureFormat, RenderError> {
     match pixels {
-        Pixels::Byte if encodes => wgpu::TextureFormat::Rgba8UnormSrgb,
-        Pixels::Byte => wgpu::TextureFormat::Rgba8Unorm,
-        Pixels::Float if draws_f32(gpu, samples) => wgpu::TextureFormat::Rgba32Float,
-        Pixels::Float => wgpu::TextureFormat::Rgba16Float,
+        Pixels::Byte if encodes => Ok(wgpu::TextureFormat::Rgba8UnormSrgb),
+        Pixels::Byte => Ok(wgpu::TextureFormat::Rgba8Unorm),
+        Pixels::Float => match what_floats_lack(gpu, samples, blends) {
+            None => Ok(wgpu::TextureFormat::Rgba32Float),
+            Some(cannot) => Err(RenderError::FloatTarget { cannot: cannot.into() }),
+        },
     }
 }
 
@@ -190,17 +205,25 @@ fn is_float(format: wgpu::TextureFormat) -> bool {
     matches!(format, wgpu::TextureFormat::Rgba32Float | wgpu::TextureFormat::Rgba16Float)
 }
 
-fn draws_f32(gpu: &Gpu, samples: Samples) -> bool {
+/// What the device cannot do with 32-bit floats, of what the frame needs.
+fn what_floats_lack(gpu: &Gpu, samples: Samples, blends: bool) -> Option<&'static str> {
     use wgpu::TextureFormatFeatureFlags as Flags;
-    let needed = match samples {
-        Samples::One => Flags::BLENDABLE,
-        Samples::Four => Flags::BLENDABLE | Flags::MULTISAMPLE_X4 | Flags::MULTISAMPLE_RESOLVE,
+    let format = wgpu::TextureFormat::Rgba32Float;
+    let device = gpu.device.features();
+    // The adapter may say more than WebGPU grants, but a device has to have been asked for it.
+    let can = if device.contains(wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES) {
+        gpu.adapter.get_texture_format_features(format)
+    } else {
+        format.guaranteed_format_features(device)
     };
-    let enabled = gpu
-        .device
-        .features()
-        .contains(wgpu::Features::FLOAT32_BLENDABLE | wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES);
-    enabled && gpu.adapter.get_texture_format_features(wgpu::TextureFormat::Rgba32Float).flags.contains(needed)
+    if !can.allowed_usages.contains(wgpu::TextureUsages::RENDER_ATTACHMENT) {
+        return Some("draw them");
+    }
+    if blends && !can.flags.contains(Flags::BLENDABLE) {
+        return Some("blend them");
+    }
+    let four = Flags::MULTISAMPLE_X4 | Flags::MULTISAMPLE_RESOLVE;
+    (samples == Samples::Four && !can.flags.contains(four)).then_some("take four samples of them")
 }
 
 impl Attachments {

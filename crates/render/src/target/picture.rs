@@ -111,14 +111,12 @@ impl PendingPicture {
     fn read(&self) -> Result<Picture, RenderError> {
         let bytes = self.buffer.get_mapped_range(..).map_err(|error| RenderError::Device(error.to_string()))?;
         let rows = bytes.chunks_exact(self.row_bytes as usize);
-        let picture = match self.format {
-            wgpu::TextureFormat::Rgba32Float => Some(float(self, rows, |pixel: [f32; 4]| pixel)),
-            wgpu::TextureFormat::Rgba16Float => Some(float(self, rows, |pixel: [u16; 4]| pixel.map(half_to_float))),
-            _ => {
-                let row = self.width as usize * 4;
-                let pixels = rows.flat_map(|bytes| &bytes[..row]).copied().collect();
-                RgbaImage::from_raw(self.width, self.height, pixels).map(Picture::Byte)
-            }
+        let picture = if self.format == wgpu::TextureFormat::Rgba32Float {
+            Some(float(self, rows))
+        } else {
+            let row = self.width as usize * 4;
+            let pixels = rows.flat_map(|bytes| &bytes[..row]).copied().collect();
+            RgbaImage::from_raw(self.width, self.height, pixels).map(Picture::Byte)
         };
         drop(bytes);
         self.buffer.unmap();
@@ -126,30 +124,14 @@ impl PendingPicture {
     }
 }
 
-fn float<'a, T: bytemuck::Pod>(
-    pending: &PendingPicture,
-    rows: impl Iterator<Item = &'a [u8]>,
-    decode: impl Fn(T) -> [f32; 4],
-) -> Picture {
+fn float<'a>(pending: &PendingPicture, rows: impl Iterator<Item = &'a [u8]>) -> Picture {
     let mut image = Rgba32FImage::new(pending.width, pending.height);
     for (out, bytes) in image.rows_mut().zip(rows) {
-        for (pixel, bytes) in out.zip(bytes.chunks_exact(size_of::<T>())) {
-            *pixel = Rgba(decode(bytemuck::pod_read_unaligned(bytes)));
+        for (pixel, bytes) in out.zip(bytes.chunks_exact(size_of::<[f32; 4]>())) {
+            *pixel = Rgba(bytemuck::pod_read_unaligned(bytes));
         }
     }
     Picture::Float(image)
-}
-
-/// IEEE 754 binary16 to binary32.
-fn half_to_float(half: u16) -> f32 {
-    let magnitude = u32::from(half & 0x7fff);
-    let bits = match magnitude {
-        0x7c00.. => magnitude << 13 | 0x7f80_0000,
-        0x0400.. => (magnitude << 13) + 0x3800_0000,
-        // Subnormal: the mantissa counts units of 2⁻²⁴.
-        _ => (magnitude as f32 * 2f32.powi(-24)).to_bits(),
-    };
-    f32::from_bits(bits | u32::from(half & 0x8000) << 16)
 }
 
 /// Runs one frame of `app` and waits for its picture. Everything the frame could not do is an error
@@ -165,29 +147,4 @@ pub fn render_picture(app: &mut App) -> Result<Picture, RenderError> {
     }
     let pending = PendingPicture::request(world)?;
     pending.wait(world.get_resource::<Gpu>().ok_or(RenderError::NoPicture)?)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::half_to_float;
-
-    #[test]
-    fn half_floats_decode_at_their_edges() {
-        let cases = [
-            (0x0000, 0.0),
-            (0x8000, -0.0),
-            (0x0001, 5.960_464_5e-8),
-            (0x03ff, 6.097_555e-5),
-            (0x0400, 6.103_515_6e-5),
-            (0x3c00, 1.0),
-            (0xc000, -2.0),
-            (0x7bff, 65504.0),
-            (0x7c00, f32::INFINITY),
-            (0xfc00, f32::NEG_INFINITY),
-        ];
-        for (half, float) in cases {
-            assert_eq!(half_to_float(half).to_bits(), f32::to_bits(float), "{half:#06x}");
-        }
-        assert!(half_to_float(0x7e00).is_nan());
-    }
 }
