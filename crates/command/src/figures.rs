@@ -35,6 +35,7 @@ pub(crate) fn verdict(it: &Verdict) -> Value {
         "at": it.at.map(worst),
         "equal": it.equal,
         "edges": it.edges,
+        "layered": it.layered,
         "counted": it.counted,
         "bad": it.bad,
         "within": it.is_within(),

@@ -34,6 +34,8 @@ pub struct Bars {
     pub worst: f64,
     /// The share of pixels that have to show no error at all.
     pub equal: f64,
+    /// What each blended layer that a pixel is seen through may add to `worst`.
+    pub layer: f64,
 }
 
 /// What errors are counted in.
@@ -48,20 +50,28 @@ pub enum Measure {
 impl Bars {
     /// For pictures in 32-bit floating point: 2·10⁻⁴ of the range for 99.9 %, 2·10⁻³ for all. Single precision over a
     /// few hundred operations, and attributes interpolated between vertices that were snapped.
-    pub const FLOAT: Self = Self { measure: Measure::Range, most: 2e-4, worst: 2e-3, equal: 0.0 };
+    pub const FLOAT: Self = Self { measure: Measure::Range, most: 2e-4, worst: 2e-3, equal: 0.0, layer: 0.0 };
 
     /// For pictures of 8 bits: 1 step anywhere, and 99 % equal. A value near the middle between two steps may be
     /// rounded to either. Adapters may round values of the sRGB curve less exactly (llvmpipe to steps up to 0.66 away),
     /// where a smaller [`equal`](Self::equal) is due.
+    ///
+    /// Half a step more for each blended layer: a picture of bytes is rounded whenever something is blended over it, to at
+    /// most half a step away, and the layers above let no more of that through.
     pub const fn bytes(encoding: Encoding) -> Self {
-        Self { measure: Measure::Steps(encoding), most: 1.0, worst: 1.0, equal: 0.99 }
+        Self { measure: Measure::Steps(encoding), most: 1.0, worst: 1.0, equal: 0.99, layer: 0.5 }
     }
 
     /// For a decoded picture of whatever drawer: [`FLOAT`](Self::FLOAT) in floating point, else
-    /// [`bytes`](Self::bytes) without a share that has to be equal, as it is not known who wrote the curve.
+    /// [`bytes`](Self::bytes) without a share that has to be equal, as it is not known who wrote the curve. One of 16 bits
+    /// was rounded once, whatever the layers.
     pub fn for_decoded(picture: &DynamicImage, encoding: Encoding) -> Self {
         match picture {
             DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_) => Self::FLOAT,
+            DynamicImage::ImageLuma16(_)
+            | DynamicImage::ImageLumaA16(_)
+            | DynamicImage::ImageRgb16(_)
+            | DynamicImage::ImageRgba16(_) => Self { equal: 0.0, layer: 0.0, ..Self::bytes(encoding) },
             _ => Self { equal: 0.0, ..Self::bytes(encoding) },
         }
     }
@@ -75,8 +85,8 @@ impl Bars {
 
 /// How a drawn picture did. Displayed it is one line.
 ///
-/// Figures are over the pixels that show an object, less those that show the other side of an edge; background that is
-/// right is left out, as it would flatter them. Where the expected picture does not know what it covers, all pixels count
+/// Figures are over the pixels that show an object, less those that show the other side of an edge or the roundings of
+/// blended layers; background that is right is left out, as it would flatter them. Where the expected picture does not know what it covers, all pixels count
 /// as showing an object.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Verdict {
@@ -94,6 +104,9 @@ pub struct Verdict {
     /// The share of the picture's pixels that show the other side of an edge than the oracle does at their centres, and
     /// may. Each has been judged: the figure excuses nothing.
     pub edges: f64,
+    /// The share of the picture's pixels that are over the bar by no more than the roundings of the blended layers there
+    /// explain.
+    pub layered: f64,
     /// The share of the picture's pixels that count.
     pub counted: f64,
     /// Pixels of the drawn picture with a NaN, an infinity or a negative channel; they are in no other figure.
@@ -115,8 +128,8 @@ impl Verdict {
 /// Of a pixel whose error is over `bars.most` the oracle is asked which colours it [may show](Oracle::possible) with
 /// vertices moved by less than [`EDGE_RADIUS`]; with four samples a pixel, also of one beside which something else is seen. On an edge (several triangles, or a jump in the colour of one) and on a
 /// slope of more than 4 % of the range within that radius, each of these colours, give or take `bars.worst`, is right, and
-/// the pixel is counted apart; the error of another one is its distance from the nearest of them. No share of pixels is
-/// excused.
+/// the pixel is counted apart; the error of another one is its distance from the nearest of them. Where blended layers are
+/// seen, `bars.worst` is larger by `bars.layer` for each. No share of pixels is excused.
 ///
 /// # Errors
 /// [`SizeMismatch`].
@@ -149,14 +162,15 @@ fn judge_with(
         // Of four samples the centre says nothing where something else is beside it.
         if is_over || (samples == Samples::Four && ruler.differs_beside(expected, at)) {
             let possible = possible(at.0, at.1);
-            if ruler.has_choice(&possible) {
-                let (nearest, errors) = ruler.nearest(is, &possible);
-                if !errors.iter().all(|error| *error <= bars.worst) {
-                    return counted(nearest, errors);
-                }
-                if is_over {
-                    return Finding::Edge;
-                }
+            let has_choice = ruler.has_choice(&possible);
+            let (nearest, errors) = if has_choice { ruler.nearest(is, &possible) } else { (should, errors) };
+            let is_within = |bar: f64| errors.iter().all(|error| *error <= bar);
+            if !is_within(bars.worst) {
+                let is_layered = is_within(ruler.bar_through(&possible, samples));
+                return if is_layered { Finding::Layered } else { counted(nearest, errors) };
+            }
+            if has_choice && is_over {
+                return Finding::Edge;
             }
         }
         if is_over || expected.covered().is_none_or(|covered| covered[i]) {
@@ -179,6 +193,8 @@ enum Finding {
     Bad((u32, u32), [f64; 3]),
     /// It is over the bar, and shows another side of an edge.
     Edge,
+    /// It is over the bar by no more than the roundings of blended layers.
+    Layered,
     /// It shows no object, and is right.
     Background,
     /// Its place, what it shows and should show, and the errors.
@@ -227,6 +243,13 @@ impl Ruler {
 
     fn error(&self, actual: f64, expected: f64) -> f64 {
         self.in_unit((self.value(actual) - self.value(expected)).abs())
+    }
+
+    /// The bar for the worst pixel where such layers are seen. Where four samples lie under layers, their mean is rounded
+    /// once more.
+    fn bar_through(&self, possible: &Possible, samples: Samples) -> f64 {
+        let roundings = possible.layers + usize::from(samples == Samples::Four && possible.layers > 0);
+        self.bars.worst + self.bars.layer * roundings as f64
     }
 
     /// Whether a pixel lies on an edge or a steep slope, where more than one colour is right.
@@ -283,6 +306,7 @@ struct Tally {
     pixels: usize,
     equal: usize,
     edges: usize,
+    layered: usize,
     bad: usize,
     first_bad: Option<((u32, u32), [f64; 3])>,
     worst: f64,
@@ -297,6 +321,7 @@ impl Tally {
                 self.first_bad.get_or_insert((at, pixel));
             }
             Finding::Edge => self.edges += 1,
+            Finding::Layered => self.layered += 1,
             Finding::Background => {}
             Finding::Counted(at, values, errors) => self.count(at, values, errors),
         }
@@ -326,6 +351,7 @@ impl Tally {
             at: self.at,
             equal: share(self.equal, self.pixels, 1.0),
             edges: share(self.edges, of, 0.0),
+            layered: share(self.layered, of, 0.0),
             counted: share(self.pixels, of, 0.0),
             bad: self.bad,
             first_bad: self.first_bad,
@@ -344,6 +370,9 @@ impl fmt::Display for Verdict {
         }
         write!(f, "; {:.0} % of the picture counts, ", self.counted * 100.0)?;
         write!(f, "{:.2} % shows another side of an edge", self.edges * 100.0)?;
+        if self.layered > 0.0 {
+            write!(f, ", {:.2} % the roundings of blended layers", self.layered * 100.0)?;
+        }
         if let Some(worst) = self.at {
             write!(f, "; the worst is {worst}")?;
         }

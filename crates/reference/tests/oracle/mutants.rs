@@ -305,6 +305,69 @@ fn the_near_side_of_a_blended_object_before_its_far_side_is_found() {
     assert!(verdict.is_within(), "{verdict}");
 }
 
+/// Panes with these opacities before a wall, the farthest first.
+fn panes(opacities: &[f32]) -> Stage {
+    let mut stage = Stage::new();
+    stage.add(wall(30.0, 9.0), glow(0.55, 0.3, 0.05));
+    for (i, opacity) in opacities.iter().enumerate() {
+        let [red, blue] = [0.1, 0.7].map(|share| (share + 0.23 * i as f32).fract());
+        let looks = Material { opacity: *opacity, ..glow(red, 0.4, blue) };
+        stage.add(wall(30.0, 8.0 - i as f32), (looks, Blend));
+    }
+    stage
+}
+
+#[test]
+fn a_step_more_than_the_roundings_of_blended_layers_is_found() {
+    for count in 0..6 {
+        let mut truth = panes(&vec![0.15; count]);
+        for encoding in [Encoding::Raw, Encoding::Srgb] {
+            let picture = oracle(&mut truth).draw();
+            let off_by = |steps: f64| {
+                let here = picture.pixel(50, 40).map(|i| (encoding.encode(i) * 255.0).round() + steps);
+                with(&picture, [((50, 40), here.map(|byte| encoding.decode(byte / 255.0)))])
+            };
+            // One step for the surface and the oracle, and a half for each layer.
+            let allowed = (1.0 + 0.5 * count as f64).floor();
+            let verdict = bytes(&mut truth, &off_by(allowed), encoding);
+            assert!(verdict.is_within(), "{count} layers, {encoding:?}: {verdict}");
+            assert_eq!(verdict.layered > 0.0, allowed > 1.0, "{count} layers, {encoding:?}: {verdict}");
+            for steps in [allowed + 1.0, -allowed - 1.0] {
+                let verdict = bytes(&mut truth, &off_by(steps), encoding);
+                let is_one_more = (verdict.worst - (allowed + 1.0)).abs() < 1e-9;
+                assert!(!verdict.is_within() && is_one_more, "{count} layers, {encoding:?}: {verdict}");
+            }
+            // Floating point is never rounded to bytes.
+            let verdict = float(&oracle(&mut truth), &off_by(allowed));
+            assert!(!verdict.is_within(), "{count} layers: {verdict}");
+        }
+    }
+}
+
+#[test]
+fn bytes_rounded_after_each_blended_layer_pass() {
+    for opacities in [&[0.5, 0.5][..], &[0.1, 0.2, 0.1], &[0.05; 5], &[0.9, 0.02, 0.3]] {
+        for encoding in [Encoding::Raw, Encoding::Srgb] {
+            let rounded = |i: f64| encoding.decode((encoding.encode(i) * 255.0).round() / 255.0);
+            let mut stage = panes(&[]);
+            let mut picture = oracle(&mut stage).draw().pixel(50, 40).map(rounded);
+            for count in 1..=opacities.len() {
+                // What a pane adds is found from pictures with and without it.
+                let [before, after] =
+                    [count - 1, count].map(|n| oracle(&mut panes(&opacities[..n])).draw().pixel(50, 40));
+                let opacity = f64::from(opacities[count - 1]);
+                picture = std::array::from_fn(|k| {
+                    rounded(picture[k] * (1.0 - opacity) + after[k] - before[k] * (1.0 - opacity))
+                });
+            }
+            let mut truth = panes(opacities);
+            let whole = Image::new(SIZE, SIZE, vec![picture; (SIZE * SIZE) as usize]);
+            let verdict = bytes(&mut truth, &whole, encoding);
+            assert!(verdict.is_within(), "{opacities:?}, {encoding:?}: {verdict}");
+        }
+    }
+}
+
 #[test]
 fn black_pixels_between_facets_are_found() {
     let mut truth = Stage::new();

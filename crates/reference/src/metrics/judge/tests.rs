@@ -23,6 +23,7 @@ fn pixels<const N: usize>(is_edge: bool, greys: [[f64; 2]; N]) -> impl Fn(u32, u
     move |_, _| Possible {
         is_edge,
         ranges: greys.map(|[low, high]| ColorRange { low: [low; 3], high: [high; 3] }).to_vec(),
+        layers: 0,
     }
 }
 

@@ -86,7 +86,7 @@ fn mean(samples: &[Possible; 4]) -> Possible {
         }
     }
     let is_edge = samples.iter().any(|sample| sample.is_edge || sample.ranges != samples[0].ranges);
-    Possible { is_edge, ranges: sums }
+    Possible { is_edge, ranges: sums, layers: samples.iter().map(|sample| sample.layers).max().unwrap_or(0) }
 }
 
 fn add_quarter(sum: &ColorRange, range: &ColorRange) -> ColorRange {

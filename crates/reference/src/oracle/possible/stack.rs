@@ -74,10 +74,13 @@ impl Stack {
         let written =
             |range: &ColorRange| range.through(range, |channel, _| if clamp { channel.min(1.0) } else { channel });
         let mut ranges: Vec<ColorRange> = Vec::new();
+        let mut layers = 0;
         let behind = self.opaque.iter().map(Some).chain(self.is_bare.then_some(None));
         for opaque in behind {
             let range = opaque.map_or_else(|| ColorRange::of([scene.background]), |layer| layer.values.range);
-            for range in self.over(scene, opaque, written(&range), &written) {
+            let seen = self.seen_over(scene, opaque);
+            layers = layers.max(seen.iter().filter(|(layers, _)| !layers.is_empty()).count());
+            for range in self.over(scene, &seen, written(&range), &written) {
                 if !ranges.contains(&range) {
                     ranges.push(range);
                 }
@@ -85,14 +88,20 @@ impl Stack {
         }
         let blended = self.blended.iter().flat_map(|choice| &choice.layers);
         let jumps = self.opaque.iter().chain(blended).any(|layer| layer.values.jumps);
-        Possible { is_edge: ranges.len() > 1 || jumps, ranges }
+        Possible { is_edge: ranges.len() > 1 || jumps, ranges, layers }
     }
 
-    /// The colours of all combinations of blended layers over an opaque one, or over the background.
+    /// Of each choice the blended layers that may lie over an opaque one, or over the background, and whether perhaps none
+    /// does.
+    fn seen_over(&self, scene: &Scene, opaque: Option<&Layer>) -> Vec<(Vec<&Layer>, bool)> {
+        self.blended.iter().map(|choice| self.before(scene, choice, opaque)).collect()
+    }
+
+    /// The colours of all combinations of blended layers over what is behind them.
     fn over(
         &self,
         scene: &Scene,
-        opaque: Option<&Layer>,
+        seen: &[(Vec<&Layer>, bool)],
         behind: ColorRange,
         written: &impl Fn(&ColorRange) -> ColorRange,
     ) -> Vec<ColorRange> {
@@ -104,17 +113,15 @@ impl Stack {
                 |behind, over| if opacity < 1.0 { opacity * over + (1.0 - opacity) * behind } else { over },
             )
         };
-        let seen: Vec<(Vec<&Layer>, bool)> =
-            self.blended.iter().map(|choice| self.before(scene, choice, opaque)).collect();
         let combinations = seen.iter().try_fold(1_usize, |product, (layers, may_be_missed)| {
             let ways = layers.len() + usize::from(*may_be_missed);
             product.checked_mul(ways.max(1)).filter(|product| *product <= MOST_COMBINATIONS)
         });
         if combinations.is_none() {
-            return vec![self.over_at_once(scene, behind, &seen, blend)];
+            return vec![self.over_at_once(scene, behind, seen, blend)];
         }
         let mut ways: Vec<Vec<&Layer>> = vec![Vec::new()];
-        for (layers, may_be_missed) in &seen {
+        for (layers, may_be_missed) in seen {
             let missed = (*may_be_missed || layers.is_empty()).then_some(None);
             let choices: Vec<Option<&Layer>> = layers.iter().map(|layer| Some(*layer)).chain(missed).collect();
             ways = ways
