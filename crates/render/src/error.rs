@@ -37,6 +37,12 @@ pub enum RenderError {
         /// What the driver said.
         reason: String,
     },
+    /// The environment variable `HALFWAY_COSTS` has a value that means nothing.
+    #[error("HALFWAY_COSTS is \"{found}\"; expected software or hardware")]
+    BadCosts {
+        /// The value.
+        found: String,
+    },
     /// A component holds a value outside its range.
     #[error("{entity}: {source}")]
     Invalid {

@@ -1,10 +1,12 @@
 //! What is cheap on an adapter.
 
+use crate::error::RenderError;
+
 /// What is cheap on the adapter, and so by which of two ways a frame is drawn: the one place where the renderer tells
 /// software adapters, which draw on the CPU, from hardware. Either way gives the same picture, but for rounding.
 ///
-/// Taken from the adapter when it is opened; [`Gpu::set_costs`](crate::Gpu::set_costs) sets it otherwise, so that the ways
-/// of hardware can be tried on a software adapter.
+/// Taken from the adapter when it is opened, unless the environment variable `HALFWAY_COSTS` says `software` or `hardware`;
+/// [`Gpu::set_costs`](crate::Gpu::set_costs) sets it later. So the ways of hardware can be tried on a software adapter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Costs {
     /// Shaders write the sRGB curve where nothing blends and a pixel has one sample; else the target's format does. A
@@ -53,12 +55,39 @@ impl Costs {
         maps_meshes: false,
     };
 
-    /// Of this adapter. Without the feature that is asked for here, wgpu writes a multi-draw out as single draws.
-    pub(crate) fn of(adapter: &wgpu::Adapter) -> Self {
-        if adapter.get_info().device_type == wgpu::DeviceType::Cpu {
-            return Self::SOFTWARE;
-        }
+    /// Of this adapter, or what the environment says of it. Without the feature that is asked for here, wgpu writes a
+    /// multi-draw out as single draws.
+    pub(crate) fn of(adapter: &wgpu::Adapter) -> Result<Self, RenderError> {
+        let costs = match std::env::var_os(VARIABLE) {
+            Some(value) if !value.is_empty() => Self::named(&value.to_string_lossy())?,
+            _ if adapter.get_info().device_type == wgpu::DeviceType::Cpu => Self::SOFTWARE,
+            _ => Self::HARDWARE,
+        };
         let has_multi_draw = adapter.features().contains(wgpu::Features::MULTI_DRAW_INDIRECT_COUNT);
-        Self { multi_draw: Self::HARDWARE.multi_draw.filter(|_| has_multi_draw), ..Self::HARDWARE }
+        Ok(Self { multi_draw: costs.multi_draw.filter(|_| has_multi_draw), ..costs })
+    }
+
+    fn named(name: &str) -> Result<Self, RenderError> {
+        match name {
+            "software" => Ok(Self::SOFTWARE),
+            "hardware" => Ok(Self::HARDWARE),
+            other => Err(RenderError::BadCosts { found: other.into() }),
+        }
+    }
+}
+
+/// The environment variable that says what is to be taken for cheap.
+const VARIABLE: &str = "HALFWAY_COSTS";
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn costs_go_by_two_names() {
+        assert_eq!(Costs::named("software"), Ok(Costs::SOFTWARE));
+        assert_eq!(Costs::named("hardware"), Ok(Costs::HARDWARE));
+        let message = Costs::named("Hardware").unwrap_err().to_string();
+        assert_eq!(message, "HALFWAY_COSTS is \"Hardware\"; expected software or hardware");
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::device::choice::{AdapterChoice, describe_adapter};
 use crate::device::costs::Costs;
+use crate::device::provoking_vertex::ProvokingVertex;
 use crate::error::RenderError;
 use bevy_ecs::prelude::Resource;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -35,7 +36,7 @@ impl Gpu {
             | wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES
             | wgpu::Features::TIMESTAMP_QUERY
             | wgpu::Features::INDIRECT_FIRST_INSTANCE;
-        let costs = Costs::of(&adapter);
+        let costs = Costs::of(&adapter)?;
         let wanted = if costs.maps_meshes { wanted | wgpu::Features::MAPPABLE_PRIMARY_BUFFERS } else { wanted };
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("halfway"),
@@ -93,6 +94,11 @@ impl Gpu {
     /// The first error the driver reported outside any call, if it has not been taken yet.
     pub(crate) fn take_failure(&self) -> Option<RenderError> {
         self.failure.lock().unwrap_or_else(PoisonError::into_inner).take().map(RenderError::Device)
+    }
+
+    /// Which vertex of a triangle gives what is not interpolated.
+    pub(crate) fn provoking_vertex(&self) -> ProvokingVertex {
+        ProvokingVertex::of(self.adapter.get_info().backend)
     }
 
     /// Whether the adapter draws on the CPU.

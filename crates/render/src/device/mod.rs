@@ -5,3 +5,5 @@ pub(crate) mod costs;
 pub(crate) mod gpu;
 pub(crate) mod gpu_timer;
 mod instance;
+pub(crate) mod provoking_vertex;
+pub(crate) mod sub_pixel_grid;

@@ -77,6 +77,9 @@ impl MeshBuffers {
         if there.is_some_and(|there| Arc::ptr_eq(&there.detail, &geometry.detail)) {
             return Ok(0);
         }
+        if let Some(Layout::Flat(flat)) = &mut geometry.layout {
+            gpu.provoking_vertex().place(&mut flat.indices);
+        }
         let (buffer, bytes) = match (&geometry.layout, there) {
             // The vertices of levels are those of the mesh.
             (Some(Layout::Smooth(indices)), Some(there)) => there.with_indices(gpu, indices, &geometry.detail)?,

@@ -1,5 +1,6 @@
 //! The texts are valid file by file, and the records lie as the texts read them.
 
+use crate::device::provoking_vertex::ProvokingVertex;
 use crate::shaders::light_slots::BOUND_LIGHTS;
 use crate::shaders::records::{DrawRecord, INSTANCE, InstanceRecord, LightRecord, MaterialRecord, ViewRecord};
 use crate::shaders::text::Text;
@@ -34,6 +35,18 @@ fn each_file_is_valid_with_those_before_it() {
             let text = std::fs::read_to_string(&path).expect("UTF-8");
             assert!(used.contains(text.as_str()), "{} is in no text", path.display());
         }
+    }
+}
+
+#[test]
+fn opengl_gets_texts_without_the_first_vertex() {
+    for text in TEXTS {
+        let text = text.files().concat();
+        assert!(text.contains("@interpolate(flat, first)"), "nothing is flat");
+        let opengls = ProvokingVertex::Last.text(&text);
+        assert!(!opengls.contains("first)"), "naga refuses it for OpenGL");
+        valid(&opengls).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(ProvokingVertex::First.text(&text), text);
     }
 }
 

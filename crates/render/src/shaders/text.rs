@@ -62,7 +62,7 @@ impl Shader {
         let storage = text == Text::Listed;
         let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("lighting"),
-            source: wgpu::ShaderSource::Wgsl(text.files().concat().into()),
+            source: wgpu::ShaderSource::Wgsl(gpu.provoking_vertex().text(&text.files().concat()).into()),
         });
         let entry = |binding, ty, size| wgpu::BindGroupLayoutEntry {
             binding,
