@@ -18,10 +18,11 @@ use crate::{Image, Oracle};
 /// Within this many pixels of an edge a pixel may belong to either side: vertices are snapped to a grid of this width or
 /// a finer one (four bits, the least that Vulkan grants; eight are usual).
 pub const EDGE_RADIUS: f64 = 1.0 / 16.0;
-/// Where a triangle's own colour changes by more than this share of the range within the disc of [`EDGE_RADIUS`], any of
-/// the colours there is right. On a gentler slope, vertices on a grid of 1/256 pixel change a pixel by less than 1/16 of
-/// it, which the bars cover: there the colour at the centre is the right one.
+/// What is [steep](Bars::steep) for a drawer with a grid of 1/256 pixel. On a gentler slope it changes a pixel by less than
+/// 1/16 of that, which the bars cover.
 const STEEP: f64 = 0.04;
+/// The bits of such a grid.
+const FINE_BITS: u32 = 8;
 
 /// What a picture has to keep to.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,6 +37,9 @@ pub struct Bars {
     pub equal: f64,
     /// What each blended layer that a pixel is seen through may add to `worst`.
     pub layer: f64,
+    /// Where a triangle's own colour changes by more than this share of the range within the disc of [`EDGE_RADIUS`], any
+    /// of the colours there is right; on a gentler slope only the one at the centre.
+    pub steep: f64,
 }
 
 /// What errors are counted in.
@@ -50,7 +54,8 @@ pub enum Measure {
 impl Bars {
     /// For pictures in 32-bit floating point: 2·10⁻⁴ of the range for 99.9 %, 2·10⁻³ for all. Single precision over a
     /// few hundred operations, and attributes interpolated between vertices that were snapped.
-    pub const FLOAT: Self = Self { measure: Measure::Range, most: 2e-4, worst: 2e-3, equal: 0.0, layer: 0.0 };
+    pub const FLOAT: Self =
+        Self { measure: Measure::Range, most: 2e-4, worst: 2e-3, equal: 0.0, layer: 0.0, steep: STEEP };
 
     /// For pictures of 8 bits: 1 step anywhere, and 99 % equal. A value near the middle between two steps may be
     /// rounded to either. Adapters may round values of the sRGB curve less exactly (llvmpipe to steps up to 0.66 away),
@@ -59,7 +64,15 @@ impl Bars {
     /// Half a step more for each blended layer: a picture of bytes is rounded whenever something is blended over it, to at
     /// most half a step away, and the layers above let no more of that through.
     pub const fn bytes(encoding: Encoding) -> Self {
-        Self { measure: Measure::Steps(encoding), most: 1.0, worst: 1.0, equal: 0.99, layer: 0.5 }
+        Self { measure: Measure::Steps(encoding), most: 1.0, worst: 1.0, equal: 0.99, layer: 0.5, steep: STEEP }
+    }
+
+    /// For a drawer that rounds vertices to a grid of so many bits within a pixel. One of fewer than 8 moves what is
+    /// interpolated by so much that on any slope all colours of the disc are right: by up to 1/32 pixel along each axis
+    /// with 4 bits. How many pixels are equal then says nothing.
+    #[must_use]
+    pub fn on_grid(self, bits: u32) -> Self {
+        if bits < FINE_BITS { Self { steep: 0.0, equal: 0.0, ..self } } else { self }
     }
 
     /// For a decoded picture of whatever drawer: [`FLOAT`](Self::FLOAT) in floating point, else
@@ -255,7 +268,8 @@ impl Ruler {
     /// Whether a pixel lies on an edge or a steep slope, where more than one colour is right.
     fn has_choice(&self, possible: &Possible) -> bool {
         let span = |range: &ColorRange, k: usize| self.value(range.high[k]) - self.value(range.low[k]);
-        possible.is_edge || possible.ranges.iter().any(|range| (0..3).any(|k| span(range, k) > STEEP * self.range))
+        possible.is_edge
+            || possible.ranges.iter().any(|range| (0..3).any(|k| span(range, k) > self.bars.steep * self.range))
     }
 
     /// The colour that a pixel may show and that is nearest to what it shows, and the errors of the channels.

@@ -25,6 +25,11 @@ fn float(truth: &Oracle, actual: &Image) -> Verdict {
     judge(truth, &truth.draw(), actual, Bars::FLOAT).expect("pictures of one size")
 }
 
+/// As a drawer with a grid of four bits is judged.
+fn coarse(truth: &Oracle, actual: &Image) -> Verdict {
+    judge(truth, &truth.draw(), actual, Bars::FLOAT.on_grid(4)).expect("pictures of one size")
+}
+
 /// The picture rounded to bytes, judged by their bars.
 fn bytes(stage: &mut Stage, actual: &Image, encoding: Encoding) -> Verdict {
     let truth = oracle(stage).with_clamping(true);
@@ -33,10 +38,12 @@ fn bytes(stage: &mut Stage, actual: &Image, encoding: Encoding) -> Verdict {
     judge(&truth, &truth.draw(), &Image::from_bytes(&rounded, encoding), bars).expect("pictures of one size")
 }
 
-/// Fails unless both judges, of floating point and of bytes, find the fault.
+/// Fails unless all judges, of floating point on either grid and of bytes, find the fault.
 fn assert_caught(fault: &str, stage: &mut Stage, actual: &Image) {
     let verdict = float(&oracle(stage), actual);
     assert!(!verdict.is_within(), "{fault}: {verdict}");
+    let verdict = coarse(&oracle(stage), actual);
+    assert!(!verdict.is_within(), "{fault}, on a grid of four bits: {verdict}");
     for encoding in [Encoding::Raw, Encoding::Srgb] {
         let verdict = bytes(stage, actual, encoding);
         assert!(!verdict.is_within(), "{fault}, {encoding:?}: {verdict}");
@@ -142,6 +149,11 @@ fn a_rasteriser_that_is_right_passes() {
         assert!(verdict.is_within(), "{shading:?}: {verdict}");
         let verdict = bytes(&mut truth, &picture, Encoding::Srgb);
         assert!(verdict.is_within(), "{shading:?} in bytes: {verdict}");
+        // A coarse grid moves slopes, too, and is over the bar that knows nothing of it.
+        let picture = oracle(&mut balls(plain, shading, |mesh| snapped(mesh, 16.0))).draw();
+        let verdict = coarse(&oracle(&mut truth), &picture);
+        assert!(verdict.is_within(), "{shading:?} on a grid of four bits: {verdict}");
+        assert!(!float(&oracle(&mut truth), &picture).is_within(), "{shading:?}: the slopes do not move");
     }
 }
 
@@ -279,6 +291,10 @@ fn an_exponent_one_hundredth_off_is_found() {
             let picture = oracle(&mut balls(looks(1.01), shading, Mesh::clone)).draw();
             let verdict = float(&oracle(&mut balls(looks(1.0), shading, Mesh::clone)), &picture);
             assert!(!verdict.is_within(), "{shading:?}, {shininess}: {verdict}");
+            // What is as small as a coarse grid moves things can be found only on a fine one.
+            let picture = oracle(&mut balls(looks(1.1), shading, Mesh::clone)).draw();
+            let verdict = coarse(&oracle(&mut balls(looks(1.0), shading, Mesh::clone)), &picture);
+            assert!(!verdict.is_within(), "{shading:?}, {shininess}, on a grid of four bits: {verdict}");
         }
     }
 }
