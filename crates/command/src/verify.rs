@@ -46,6 +46,7 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
     input.scene.samples = 1;
     let gpu = args.look.adapter.choice().open()?;
     let device = gpu.describe();
+    let bits = gpu.sub_pixel_bits()?;
     let mut app = App::new();
     // The oracle knows no levels of detail.
     app.add_plugins(HalfwayPlugins::headless(size)).insert_resource(gpu).insert_resource(LevelsOfDetail::OFF);
@@ -61,11 +62,11 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
     let bars = Bars { most: max, worst: max, equal: 0.0, ..Bars::bytes(encoding) };
     let picture = draw(&mut app, size, Pixels::Byte)?;
     let bytes = Drawn::new(&mut app, &picture, size, encoding, (0, &progress))?;
-    let of_bytes = bytes.judged(bars)?;
+    let of_bytes = bytes.judged(bars.on_grid(bits))?;
     let float = match draw(&mut app, size, Pixels::Float) {
         // The bytes are judged all the same.
         Err(RenderError::FloatTarget { cannot }) => Err(cannot),
-        drawn => Ok(Drawn::new(&mut app, &drawn?, size, encoding, (1, &progress))?.judged(Bars::FLOAT)?),
+        drawn => Ok(Drawn::new(&mut app, &drawn?, size, encoding, (1, &progress))?.judged(Bars::FLOAT.on_grid(bits))?),
     };
     drop(progress);
     if let Err(cannot) = &float {
@@ -81,10 +82,16 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
             "size": size.to_array(),
             "bytes": figures::verdict(&of_bytes),
             "float": float.as_ref().map(figures::verdict),
+            "subPixelBits": bits,
         });
         println!("{json}");
     } else {
         println!("{device}, {} × {} pixels", size.x, size.y);
+        if bits < 8 {
+            println!(
+                "its vertices are on a grid of {bits} bits a pixel: on slopes any color within 1/16 pixel is right"
+            );
+        }
         println!("8 bits  {of_bytes}");
         if let Some(float) = &float {
             println!("float   {float}");
