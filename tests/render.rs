@@ -8,6 +8,7 @@
 #![expect(clippy::type_complexity, reason = "a table's rows are tuples, with a function for what differs")]
 
 mod render {
+    mod adapter;
     mod blend;
     mod changes;
     mod closed_forms;

@@ -41,7 +41,7 @@ impl Failures {
     /// Adds the row unless `picture` shows something, and is what the oracle says of what stands on the stage.
     pub(crate) fn compare(&mut self, row: &str, stage: &mut Stage, picture: &Rgba32FImage, bars: Bars) -> Verdict {
         self.unless(picture.pixels().all(|pixel| pixel.0[3] == 1.0), || format!("{row} is not opaque"));
-        let (verdict, expected) = self.judge(row, &stage.oracle(), &Image::from_float(picture), bars);
+        let (verdict, expected) = self.judge(row, &stage.oracle(), &Image::from_float(picture), stage.on_grid(bars));
         let shows = expected.covered().is_none_or(|covered| covered.contains(&true));
         self.unless(shows, || format!("{row} shows nothing"));
         verdict
@@ -50,14 +50,14 @@ impl Failures {
     /// Draws `scene`, of which nothing may be seen, and adds the row unless it is what the oracle says within `bars`.
     pub(crate) fn draw_any(&mut self, row: &str, stage: &mut Stage, scene: &Scene, bars: Bars) -> Verdict {
         let picture = Image::from_float(&stage.draw(scene));
-        self.judge(row, &stage.oracle(), &picture, bars).0
+        self.judge(row, &stage.oracle(), &picture, stage.on_grid(bars)).0
     }
 
     /// Adds the row unless a picture of bytes is what the oracle says of what stands on the stage.
     pub(crate) fn compare_bytes(&mut self, row: &str, stage: &mut Stage, picture: &RgbaImage, bars: Bars) -> Verdict {
         self.unless(picture.pixels().all(|pixel| pixel.0[3] == 255), || format!("{row} is not opaque"));
         let picture = Image::from_bytes(picture, encoding(&bars));
-        self.judge(row, &stage.oracle().with_clamping(true), &picture, bars).0
+        self.judge(row, &stage.oracle().with_clamping(true), &picture, stage.on_grid(bars)).0
     }
 
     fn judge(&mut self, row: &str, oracle: &Oracle, actual: &Image, bars: Bars) -> (Verdict, Image) {

@@ -61,15 +61,16 @@ struct Worst {
 }
 
 impl Worst {
-    fn note(&mut self, name: &str, [float, raw, srgb]: [Verdict; 3]) {
+    fn note(&mut self, name: &str, float: Option<Verdict>, [raw, srgb]: [Verdict; 2]) {
+        let of_float = |figure: fn(&Verdict) -> f64| float.as_ref().map_or(0.0, figure);
         for (worst, figure) in [
-            (&mut self.most, float.most),
-            (&mut self.all, float.worst),
+            (&mut self.most, of_float(|float| float.most)),
+            (&mut self.all, of_float(|float| float.worst)),
             (&mut self.steps, raw.worst.max(srgb.worst)),
             // Where the bar is lower, its constant says why.
             (&mut self.unequal, if raw.bars.equal > 0.5 { 1.0 - raw.equal } else { 0.0 }),
             (&mut self.unequal_srgb, 1.0 - srgb.equal),
-            (&mut self.edges, float.edges.max(raw.edges).max(srgb.edges)),
+            (&mut self.edges, of_float(|float| float.edges).max(raw.edges).max(srgb.edges)),
         ] {
             if figure > worst.0 {
                 *worst = (figure, name.into());
@@ -77,7 +78,8 @@ impl Worst {
         }
     }
 
-    fn print(&self, title: &str, rows: usize) {
+    fn print(&self, title: &str, rows: usize, drawn_by: &str) {
+        println!("drawn by {drawn_by}");
         println!("{title}: {rows} rows; off edges, the worst of each figure:");
         println!("  float, 99.9 % of the channels: {:.1e} of the range ({})", self.most.0, self.most.1);
         println!("  float, all: {:.1e} of the range ({})", self.all.0, self.all.1);
@@ -93,19 +95,34 @@ fn conform(title: &str, rows: &[Row]) {
     let mut stage = Stage::new(SIZE.x, SIZE.y);
     let mut failures = Failures::default();
     let mut worst = Worst::default();
+    let mut without_floats = 0;
+    stage.frame();
     for Row { name, scene, float, raw, srgb } in rows {
-        let of_floats = failures.draw(name, &mut stage, scene, *float);
-        failures.unless(of_floats.counted > 0.02, || format!("{name} shows next to nothing"));
-        let srgb = if stage.is_software() && scene.is_encoded_by_shaders() { SHADERS_SRGB } else { *srgb };
+        stage.set(scene);
+        // An adapter may be unable to blend 32-bit floats, as OpenGL is.
+        let of_floats = if stage.blends_floats() || !scene.things.iter().any(|thing| thing.blend) {
+            let picture = stage.float();
+            let verdict = failures.compare(name, &mut stage, &picture, *float);
+            failures.unless(verdict.counted + verdict.edges > 0.02, || format!("{name} shows next to nothing"));
+            Some(verdict)
+        } else {
+            without_floats += 1;
+            None
+        };
+        let srgb = if stage.costs().shaders_encode && scene.is_encoded_by_shaders() { SHADERS_SRGB } else { *srgb };
         let [raw, srgb] = [(Encoding::Raw, raw), (Encoding::Srgb, &srgb)].map(|(encoding, bars)| {
             stage.encode(encoding);
             let picture = stage.bytes();
             failures.compare_bytes(&format!("{name}, {encoding:?} bytes"), &mut stage, &picture, *bars)
         });
-        worst.note(name, [of_floats, raw, srgb]);
+        worst.note(name, of_floats, [raw, srgb]);
     }
-    worst.print(title, rows.len());
-    println!("  {} pipelines", stage.report().pipelines);
+    let ways = if stage.costs().shaders_encode { "software" } else { "hardware" };
+    worst.print(title, rows.len(), &format!("{}, in the ways of {ways}", stage.gpu().describe()));
+    println!(
+        "  {} pipelines; {without_floats} rows of blended objects not in floating point",
+        stage.report().pipelines
+    );
     failures.finish();
 }
 

@@ -206,7 +206,7 @@ fn highlights_that_cannot_be_seen_are_not_shaded() {
             stage.draw_bytes(&scene);
             let FrameReport { lights_assigned, terms_shaded, .. } = *stage.report();
             let needed = (low + 2 * overhead) as u64;
-            let expected = if stage.is_software() { bound } else { needed };
+            let expected = if stage.costs().lights_at_fixed_places { bound } else { needed };
             assert_eq!((lights_assigned, terms_shaded), (needed, expected), "{row}, {frequency}");
         }
     }
@@ -243,11 +243,11 @@ fn highlights_left_out_change_no_picture() {
                 let verdict = failures.compare_bytes(&format!("{row}, {encoding:?} bytes"), &mut stage, &picture, bars);
                 println!("{row}, {encoding:?} bytes: {verdict}; {} terms shaded", stage.report().terms_shaded);
             }
-            (stage.report().terms_shaded, stage.is_software())
+            (stage.report().terms_shaded, stage.costs().lights_at_fixed_places)
         };
-        let [(few, software), (all, _)] = [120.5, 128.0].map(&mut shaded);
+        let [(few, bound), (all, _)] = [120.5, 128.0].map(&mut shaded);
         // Nearly the same lists; on a software adapter highlights of the second are not left out.
-        failures.unless(!software || few < all, || format!("{row}: {few} terms of {all} are shaded"));
+        failures.unless(!bound || few < all, || format!("{row}: {few} terms of {all} are shaded"));
     }
     failures.finish();
 }

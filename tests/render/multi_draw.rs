@@ -88,9 +88,9 @@ fn multi_draw_changes_no_pixel() {
             println!("{row}: {draws} draws, {} by multi-draw", report.draws);
             assert!(report.patches_culled > 300, "{row}: {report:?}");
             // Where each patch is a draw with lights bound for it, few share their state.
-            let most = if lights == "many" && stage.is_software() { draws } else { draws * 3 / 4 };
+            let most = if lights == "many" && stage.costs().lights_at_fixed_places { draws } else { draws * 3 / 4 };
             assert!(if can { report.draws < most } else { report.draws == draws }, "{row}: {draws}, {report:?}");
-            if stage.is_software() {
+            if stage.costs().records_of_one_command > 3 {
                 assert_identical(&row, &direct, &multi);
                 assert_eq!(direct_bytes, multi_bytes, "{row}");
             } else {
@@ -125,7 +125,7 @@ fn a_draw_is_a_command() {
         thing.material.emission.red = 0.1 * f32::from(i % 2);
         thing
     };
-    let on_software = stage.is_software();
+    let on_software = stage.costs().records_of_one_command > 2;
     // Without multi-draw, and with it. A software adapter looks few materials up, so that both levels come by turns with
     // one and the other.
     let of = |software, hardware| if on_software { software } else { hardware };
@@ -195,6 +195,6 @@ fn only_hardware_has_it_unasked() {
     stage.draw(&near());
     let gpu = stage.world().resource::<Gpu>();
     let native = wgpu::Features::INDIRECT_FIRST_INSTANCE | wgpu::Features::MULTI_DRAW_INDIRECT_COUNT;
-    let has = gpu.adapter.features().contains(native) && !gpu.is_software();
+    let has = gpu.adapter.features().contains(native) && !gpu.costs().shaders_encode;
     assert_eq!(gpu.multi_draw(), has.then_some(128));
 }

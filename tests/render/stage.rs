@@ -3,8 +3,10 @@
 use crate::render::scene::{Kind, Lamp, On, Scene, Thing};
 use halfway::prelude::*;
 use halfway::reference::Oracle;
-use halfway::render::{Gpu, RenderError};
+use halfway::reference::metrics::Bars;
+use halfway::render::{Costs, Gpu, RenderError, wgpu};
 use image::{Rgba32FImage, RgbaImage};
+use std::sync::OnceLock;
 use std::time::Duration;
 
 /// An App with the facade's plugins and a headless target, on which scenes replace each other.
@@ -67,9 +69,26 @@ impl Stage {
         self.world().resource_mut::<Headless>().size = UVec2::new(width, height);
     }
 
-    /// Whether the adapter that has drawn is a software one.
-    pub(crate) fn is_software(&self) -> bool {
-        self.app.world().resource::<Gpu>().is_software()
+    /// The device that has drawn.
+    pub(crate) fn gpu(&self) -> &Gpu {
+        self.app.world().resource::<Gpu>()
+    }
+
+    /// `bars` for the adapter's grid.
+    pub(crate) fn on_grid(&self, bars: Bars) -> Bars {
+        // One adapter draws all tests of a process.
+        static BITS: OnceLock<u32> = OnceLock::new();
+        bars.on_grid(*BITS.get_or_init(|| self.gpu().sub_pixel_bits().unwrap_or_else(|error| panic!("{error}"))))
+    }
+
+    /// Whether a floating-point picture may show blended objects.
+    pub(crate) fn blends_floats(&self) -> bool {
+        self.gpu().device.features().contains(wgpu::Features::FLOAT32_BLENDABLE)
+    }
+
+    /// What was taken to be cheap.
+    pub(crate) fn costs(&self) -> Costs {
+        self.gpu().costs()
     }
 
     pub(crate) fn report(&self) -> &FrameReport {

@@ -25,6 +25,7 @@ struct Arguments {
 enum Chore {
     Demo(chores::demo::Options),
     Test(chores::test::Options),
+    Adapters(chores::adapters::Options),
     Check(chores::check::Options),
     Docs(chores::docs::Options),
     Chart(chores::chart::Options),
@@ -38,6 +39,7 @@ impl Chore {
         match self {
             Self::Demo(options) => chores::demo::run(&options),
             Self::Test(options) => chores::test::run(&options),
+            Self::Adapters(options) => chores::adapters::run(&options),
             Self::Check(options) => chores::check::run(&options),
             Self::Docs(options) => chores::docs::run(&options),
             Self::Chart(options) => chores::chart::run(&options),
@@ -69,6 +71,7 @@ mod tests {
             "demo --headless --model a.obj",
             "test",
             "test --no-install",
+            "adapters --no-install",
             "check",
             "check circles lengths",
             "docs --no-install",

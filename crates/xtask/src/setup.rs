@@ -1,5 +1,7 @@
 //! Set-up: what a chore needs of the machine, and getting it.
 
+use std::path::PathBuf;
+
 use clap::Args;
 
 use crate::cargo::{cargo, step, written};
@@ -43,6 +45,28 @@ pub(crate) const DRIVER: Need = Need {
     },
 };
 
+/// The software driver of OpenGL, to be drawn with without a display.
+pub(crate) const OPENGL: Need = Need {
+    missing: || missing_libraries("OpenGL without a display", &["libEGL.so.1", "libEGL_mesa.so.0"]),
+    packages: Packages {
+        apt: &["libegl1", "libegl-mesa0", "libgl1-mesa-dri"],
+        dnf: &["libglvnd-egl", "mesa-libEGL", "mesa-dri-drivers"],
+        pacman: &["libglvnd", "mesa"],
+    },
+};
+
+/// SwiftShader, a second software driver of Vulkan, which comes with a browser.
+pub(crate) const SWIFTSHADER: Need = Need {
+    missing: || swiftshader().is_none().then(|| "SwiftShader, the software Vulkan driver that chromium brings".into()),
+    packages: Packages { apt: &["chromium"], dnf: &["chromium"], pacman: &["chromium"] },
+};
+
+/// The manifest of SwiftShader.
+pub(crate) fn swiftshader() -> Option<PathBuf> {
+    let folders = ["/usr/lib/chromium", "/usr/lib64/chromium-browser", "/usr/lib/chromium-browser"];
+    folders.map(|folder| PathBuf::from(folder).join("vk_swiftshader_icd.json")).into_iter().find(|path| path.is_file())
+}
+
 /// A compiler for the parts of dependencies that are written in C++.
 pub(crate) const COMPILER: Need = Need {
     missing: || programs::find("c++").is_none().then(|| "a C++ compiler".into()),
@@ -71,7 +95,7 @@ pub(crate) const VIRTUAL_SCREEN: Need =
 /// What windows on an X display load when they open.
 pub(crate) const X11_WINDOWS: Need = Need {
     missing: || {
-        missing_libraries(&[
+        let needed = [
             "libX11.so.6",
             "libX11-xcb.so.1",
             "libxcb.so.1",
@@ -79,7 +103,8 @@ pub(crate) const X11_WINDOWS: Need = Need {
             "libXi.so.6",
             "libxkbcommon.so.0",
             "libxkbcommon-x11.so.0",
-        ])
+        ];
+        missing_libraries("windows", &needed)
     },
     packages: Packages {
         apt: &["libx11-6", "libx11-xcb1", "libxcb1", "libxcursor1", "libxi6", "libxkbcommon0", "libxkbcommon-x11-0"],
@@ -90,7 +115,7 @@ pub(crate) const X11_WINDOWS: Need = Need {
 
 /// What windows on a Wayland display load when they open.
 pub(crate) const WAYLAND_WINDOWS: Need = Need {
-    missing: || missing_libraries(&["libwayland-client.so.0", "libxkbcommon.so.0"]),
+    missing: || missing_libraries("windows", &["libwayland-client.so.0", "libxkbcommon.so.0"]),
     packages: Packages {
         apt: &["libwayland-client0", "libxkbcommon0"],
         dnf: &["libwayland-client", "libxkbcommon"],
@@ -98,9 +123,9 @@ pub(crate) const WAYLAND_WINDOWS: Need = Need {
     },
 };
 
-fn missing_libraries(needed: &[&str]) -> Option<String> {
+fn missing_libraries(what_loads: &str, needed: &[&str]) -> Option<String> {
     let missing = Libraries::here().missing(needed);
-    (!missing.is_empty()).then(|| format!("libraries that windows load: {}", missing.join(", ")))
+    (!missing.is_empty()).then(|| format!("libraries for {what_loads}: {}", missing.join(", ")))
 }
 
 impl Setup {

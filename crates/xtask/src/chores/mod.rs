@@ -3,6 +3,7 @@
 //! A chore that is a program of the workspace, an example with arguments of its own, say, is a variant of `Chore` in
 //! `main.rs` and a call of [`program::run`].
 
+pub(crate) mod adapters;
 pub(crate) mod chart;
 pub(crate) mod check;
 pub(crate) mod demo;

@@ -7,6 +7,7 @@ use std::time::Instant;
 use clap::Args;
 
 use crate::cargo::{announce, cargo, duration, ended, not_started, step};
+use crate::chores::adapters as each_adapter;
 use crate::failure::{Failure, Result};
 use crate::machine::programs;
 use crate::setup::{DRIVER, SCREEN, Setup, X11_WINDOWS, adapters};
@@ -15,7 +16,7 @@ use crate::tally::Tally;
 /// Run every test, those that need a graphics adapter or a window included
 ///
 /// Documentation examples included, in the release profile, with a summary at the end. No test is skipped for want of
-/// an adapter or a screen: what they need and the machine lacks (a Vulkan driver, the virtual screen Xvfb) is
+/// an adapter or a screen: what they need and the machine lacks (Vulkan drivers, OpenGL, the virtual screen Xvfb) is
 /// installed first, by apt-get where it may be used; otherwise nothing is built, and the remedy is printed.
 #[derive(Args, Debug)]
 #[command(verbatim_doc_comment)]
@@ -28,7 +29,7 @@ pub(crate) struct Options {
 pub(crate) fn run(options: &Options) -> Result {
     let setup = options.setup;
     let start = Instant::now();
-    setup.meet(&[DRIVER, SCREEN, X11_WINDOWS])?;
+    setup.meet(&[&[DRIVER, SCREEN, X11_WINDOWS][..], &each_adapter::NEEDS].concat())?;
     // Without a choice of targets these are all tests of libraries, programs, `tests/` and the documentation; the
     // examples are built beside them as programs, which `tests/` runs.
     step("build", &mut cargo(["test", "--release", "--workspace", "--no-run"]))?;
@@ -43,7 +44,8 @@ pub(crate) fn run(options: &Options) -> Result {
     if tally.passed == 0 {
         return Err(Failure::new("no test ran"));
     }
-    Ok(())
+    // Elsewhere than on Linux there is the system's own.
+    if cfg!(target_os = "linux") { each_adapter::try_all() } else { Ok(()) }
 }
 
 /// Where the virtual screen is installed, the tests open their windows there, whatever display is at hand: none flashes

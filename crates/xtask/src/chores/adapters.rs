@@ -1,0 +1,186 @@
+//! `cargo xtask adapters`.
+
+use std::path::PathBuf;
+use std::process::Command;
+
+use clap::Args;
+
+use crate::cargo::{cargo, not_started, root, step, written};
+use crate::chores::test::counted;
+use crate::failure::{Failure, Result};
+use crate::setup::{DRIVER, OPENGL, SWIFTSHADER, Setup, swiftshader};
+
+/// Run the picture tests and verify the example scenes on every adapter that a bare Debian can have
+///
+/// These are lavapipe (Vulkan), lavapipe in the ways of hardware, llvmpipe through OpenGL, and SwiftShader, the software
+/// Vulkan driver of chromium. On each: the conformance suite, all three shadings with few and many lights, and
+/// `halfway verify` over examples/scenes. Each suite prints the worst figures, from which the table in docs/accuracy.md is.
+/// What is missing is installed first, as for `cargo xtask test`, of which this is a part.
+#[derive(Args, Debug)]
+#[command(verbatim_doc_comment)]
+pub(crate) struct Options {
+    #[command(flatten)]
+    setup: Setup,
+}
+
+/// Sets up, and tries each adapter.
+pub(crate) fn run(options: &Options) -> Result {
+    if !cfg!(target_os = "linux") {
+        return Err(Failure::new("the adapters are those of Linux: here the tests run on the system's own"));
+    }
+    options.setup.meet(&[DRIVER, OPENGL, SWIFTSHADER])?;
+    step("build", &mut cargo(["test", "--release", "--workspace", "--test", "render", "--no-run"]))?;
+    try_all()
+}
+
+/// What the adapters need beyond the driver.
+pub(crate) const NEEDS: [crate::setup::Need; 2] = [OPENGL, SWIFTSHADER];
+
+/// Tries each adapter, and says in the end what failed on which.
+///
+/// # Errors
+/// An adapter is not there, a test fails, or a scene is not as the oracle draws it.
+pub(crate) fn try_all() -> Result {
+    let mut failed = Vec::new();
+    for adapter in all()? {
+        let found = adapter.is_there().and_then(|()| {
+            let outcomes = [adapter.test(), adapter.verify()];
+            outcomes.into_iter().collect::<Result>()
+        });
+        failed.extend(found.err().map(|failure| format!("{}: {failure}", adapter.name)));
+    }
+    if failed.is_empty() { Ok(()) } else { Err(Failure::new(failed.join("\n"))) }
+}
+
+/// The tests of the program `render` that each adapter runs, by parts of their names. Lavapipe runs all, in `cargo xtask test`.
+const TESTS: [&str; 4] = ["render::adapter::", "render::conformance::", "render::costs::", "render::light_counts::"];
+
+/// An adapter, and how a program is made to draw with it.
+struct Adapter {
+    name: &'static str,
+    variables: Vec<(&'static str, String)>,
+    /// Parts of the line that `halfway adapters` prints of it.
+    says: [&'static str; 2],
+}
+
+/// Every variable that chooses an adapter or its ways.
+const CHOICES: [&str; 7] = [
+    "HALFWAY_ADAPTER",
+    "HALFWAY_COSTS",
+    "VK_DRIVER_FILES",
+    "VK_ICD_FILENAMES",
+    "WGPU_ADAPTER_NAME",
+    "WGPU_BACKEND",
+    "EGL_PLATFORM",
+];
+
+fn all() -> Result<Vec<Adapter>> {
+    let set = |name, value: &str| (name, value.to_owned());
+    let swiftshader = swiftshader().ok_or_else(|| Failure::new("SwiftShader is missing"))?;
+    let lavapipe = || set("HALFWAY_ADAPTER", "vulkan:llvmpipe");
+    Ok(vec![
+        Adapter { name: "lavapipe", variables: vec![lavapipe()], says: ["llvmpipe", "(vulkan"] },
+        Adapter {
+            name: "lavapipe in the ways of hardware",
+            variables: vec![lavapipe(), set("HALFWAY_COSTS", "hardware")],
+            says: ["llvmpipe", "(vulkan"],
+        },
+        Adapter {
+            name: "llvmpipe through OpenGL",
+            variables: vec![
+                set("WGPU_BACKEND", "gl"),
+                set("EGL_PLATFORM", "surfaceless"),
+                set("LIBGL_ALWAYS_SOFTWARE", "true"),
+                // Targets of 32-bit floats, which the tests need, are a part of OpenGL since 3.0, but wgpu looks for the
+                // name that they had as an extension.
+                set("MESA_EXTENSION_OVERRIDE", "+GL_ARB_color_buffer_float"),
+            ],
+            says: ["llvmpipe", "(gl"],
+        },
+        Adapter {
+            name: "SwiftShader",
+            variables: vec![set("VK_DRIVER_FILES", &swiftshader.to_string_lossy())],
+            says: ["SwiftShader", "(vulkan"],
+        },
+    ])
+}
+
+impl Adapter {
+    fn lend<'a>(&self, command: &'a mut Command) -> &'a mut Command {
+        for choice in CHOICES {
+            command.env_remove(choice);
+        }
+        command.envs(self.variables.iter().map(|(name, value)| (name, value)))
+    }
+
+    fn halfway(&self, arguments: &[&str]) -> Command {
+        let words = ["run", "--release", "--quiet", "--bin", "halfway", "--"];
+        let mut command = cargo(words.into_iter().chain(arguments.iter().copied()));
+        self.lend(&mut command);
+        command
+    }
+
+    /// Whether the programs draw with it, by the first line of `halfway adapters`: the adapter that is opened.
+    fn is_there(&self) -> Result {
+        let mut command = self.halfway(&["adapters"]);
+        let output = command.output().map_err(|error| not_started(&command, &error))?;
+        let said = String::from_utf8_lossy(&output.stdout);
+        let first = said.lines().next().unwrap_or("no adapter");
+        if self.says.iter().all(|part| first.contains(part)) {
+            return Ok(());
+        }
+        Err(Failure::new(format!("it is not what draws, but {first} ({})", written(&command))))
+    }
+
+    fn test(&self) -> Result {
+        let words = ["test", "--release", "--workspace", "--test", "render", "--", "--show-output"];
+        let mut command = cargo(words.into_iter().chain(TESTS));
+        let (tally, outcome) = counted(self.name, self.lend(&mut command))?;
+        eprintln!("{tally}");
+        outcome?;
+        if tally.passed == 0 { Err(Failure::new("no test ran")) } else { Ok(()) }
+    }
+
+    fn verify(&self) -> Result {
+        let mut failed = Vec::new();
+        let scenes = scenes()?;
+        for scene in &scenes {
+            let title = format!("{} by {}", scene.display(), self.name);
+            let mut command = self.halfway(&["verify", &scene.to_string_lossy()]);
+            failed.extend(step(&title, &mut command).err().map(|failure| failure.to_string()));
+        }
+        if failed.is_empty() { Ok(()) } else { Err(Failure::new(failed.join("\n"))) }
+    }
+}
+
+/// The example scenes, by name.
+fn scenes() -> Result<Vec<PathBuf>> {
+    let folder = root().join("examples/scenes");
+    let entries = std::fs::read_dir(&folder).map_err(|error| Failure::new(format!("{}: {error}", folder.display())))?;
+    let paths = entries.flatten().map(|entry| entry.path());
+    let mut scenes: Vec<PathBuf> = paths.filter(|path| path.extension().is_some_and(|end| end == "json")).collect();
+    scenes.sort();
+    if scenes.is_empty() { Err(Failure::new("there is no example scene")) } else { Ok(scenes) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_scenes_are_the_examples() {
+        let scenes = scenes().unwrap();
+        assert!(scenes.iter().any(|scene| scene.ends_with("moonlit_table.json")), "{scenes:?}");
+    }
+
+    #[test]
+    fn an_adapter_is_chosen_by_its_own_variables_alone() {
+        let adapter = Adapter { name: "a", variables: vec![("WGPU_BACKEND", "gl".into())], says: ["", ""] };
+        let mut command = Command::new("program");
+        adapter.lend(&mut command);
+        let set: Vec<_> =
+            command.get_envs().filter_map(|(name, value)| Some((name.to_str()?, value?.to_str()?))).collect();
+        assert_eq!(set, [("WGPU_BACKEND", "gl")]);
+        assert!(command.get_envs().any(|(name, value)| name == "HALFWAY_ADAPTER" && value.is_none()));
+    }
+}

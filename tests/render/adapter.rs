@@ -1,0 +1,36 @@
+//! What is measured of the adapter, and what the environment says of it. `cargo xtask adapters` runs these on each.
+
+use halfway::render::{Costs, Gpu};
+
+fn gpu() -> Gpu {
+    Gpu::open_headless().unwrap_or_else(|error| panic!("{error}"))
+}
+
+#[test]
+fn the_grid_is_as_fine_as_the_driver_says() {
+    let gpu = gpu();
+    let bits = gpu.sub_pixel_bits().unwrap_or_else(|error| panic!("{error}"));
+    // `subPixelPrecisionBits` of either.
+    let said = [("llvmpipe", 8), ("SwiftShader", 4)].into_iter().find(|(name, _)| gpu.describe().contains(name));
+    match said {
+        Some((name, said)) => assert_eq!(bits, said, "{name}"),
+        None => assert!(bits >= 4, "{bits} bits; Vulkan grants 4"),
+    }
+    assert_eq!(gpu.sub_pixel_bits(), Ok(bits), "measured again");
+}
+
+#[test]
+fn the_environment_says_what_is_cheap() {
+    let gpu = gpu();
+    let is_software = match std::env::var("HALFWAY_COSTS").as_deref() {
+        Ok("software") => true,
+        Ok("hardware") => false,
+        _ => gpu.is_software(),
+    };
+    let expected = if is_software { Costs::SOFTWARE } else { Costs::HARDWARE };
+    // Multi-draw and mapping are for devices that can.
+    assert!(gpu.costs().multi_draw.is_none() || gpu.costs().multi_draw == expected.multi_draw);
+    assert!(expected.maps_meshes || !gpu.costs().maps_meshes);
+    let Costs { multi_draw, maps_meshes, .. } = gpu.costs();
+    assert_eq!(gpu.costs(), Costs { multi_draw, maps_meshes, ..expected });
+}
