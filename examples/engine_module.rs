@@ -18,7 +18,7 @@ use bevy_transform::systems::{
 use halfway::output::{PictureFormat, write_picture};
 use halfway::prelude::*;
 use halfway::record::parse_size;
-use halfway::render::{Gpu, PendingPicture};
+use halfway::render::PendingPicture;
 
 /// What the engine runs when it wants a picture.
 #[derive(ScheduleLabel, Clone, Debug, PartialEq, Eq, Hash)]
@@ -73,7 +73,7 @@ fn run(mut app: App) -> Result<(), Box<dyn Error>> {
         );
     }
     if let Some(file) = argument("--headless").map(PathBuf::from) {
-        let picture = PendingPicture::request(app.world())?.wait(app.world().resource::<Gpu>())?;
+        let picture = PendingPicture::request(app.world())?.wait()?;
         write_picture(&picture, &file, PictureFormat::of(&file, Some(8))?, Encoding::Srgb)?;
         println!("{}", file.display());
     }

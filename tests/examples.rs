@@ -170,6 +170,19 @@ fn engine_module() {
 }
 
 #[test]
+fn soak() {
+    let run = |more: &[&str]| {
+        let mut command = Command::new(binary("soak"));
+        let output = command.args(["--frames", "3000"]).args(more).output().expect("the example can be started");
+        (output.status.code(), format!("{output:?}"))
+    };
+    let (code, said) = run(&[]);
+    assert_eq!(code, Some(0), "{said}");
+    let (code, said) = run(&["--leak"]);
+    assert!(code == Some(1) && said.contains("memory grows"), "a leak is not found: {said}");
+}
+
+#[test]
 fn arguments_that_are_not_understood_are_refused() {
     let file = folder("arguments").join("teapots.png");
     let output = run("teapots", &file, &["--colour", "red"]);

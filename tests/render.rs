@@ -20,7 +20,9 @@ mod render {
     mod counters;
     mod culling;
     mod degenerate;
+    mod devices;
     mod edges;
+    mod engine;
     mod errors;
     mod failures;
     mod floats;

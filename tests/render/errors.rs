@@ -4,7 +4,7 @@ use crate::render::scene::{Lamp, Scene, Thing, glowing, point_light};
 use crate::render::stage::Stage;
 use halfway::lighting::Frequency;
 use halfway::prelude::*;
-use halfway::render::{Gpu, PendingPicture, RenderError};
+use halfway::render::{PendingPicture, RenderError};
 
 fn scene() -> Scene {
     Scene::seen_from(Vec3::Z * 4.0, Vec3::ZERO)
@@ -308,9 +308,8 @@ fn what_is_refused_is_left_out_and_the_rest_is_drawn() {
         "{messages:?}"
     );
     assert_eq!((report.lights, report.draws), (0, 1));
-    let gpu = stage.app.world().resource::<Gpu>().clone();
     let pending = PendingPicture::request(stage.app.world()).expect("the frame was drawn");
-    let Ok(Picture::Float(picture)) = pending.wait(&gpu) else { panic!("no picture") };
+    let Ok(Picture::Float(picture)) = pending.wait() else { panic!("no picture") };
     assert_eq!(picture.get_pixel(4, 8).0, [0.5, 0.5, 0.5, 1.0], "the good one");
     assert_eq!(picture.get_pixel(11, 8).0, [0.0, 0.0, 0.0, 1.0], "the bad one");
 }

@@ -4,7 +4,7 @@ use crate::render::compare::{FLOAT, Failures, SRGB, assert_as_expected, assert_i
 use crate::render::scene::{Lamp, Scene, Thing, directional_light, glowing, point_light};
 use crate::render::stage::Stage;
 use halfway::prelude::*;
-use halfway::render::{Gpu, PendingPicture};
+use halfway::render::PendingPicture;
 
 /// A square that fills the picture with one grey.
 fn grey(value: f32) -> Scene {
@@ -315,20 +315,19 @@ fn a_picture_on_its_way_is_not_changed_by_later_frames() {
     stage.set(&grey(0.75));
     stage.frame();
     let mut later = PendingPicture::request(stage.app.world()).expect("a headless frame has been drawn");
-    let gpu = stage.app.world().resource::<Gpu>().clone();
     let red = |picture: Picture| match picture {
         Picture::Float(image) => image.get_pixel(4, 4).0[0],
         Picture::Byte(_) => panic!("bytes"),
     };
-    assert!((red(pending.wait(&gpu).expect("the first picture")) - 0.25).abs() < 1e-7);
+    assert!((red(pending.wait().expect("the first picture")) - 0.25).abs() < 1e-7);
     let picture = loop {
-        if let Some(picture) = later.try_take(&gpu).expect("the second picture") {
+        if let Some(picture) = later.try_take().expect("the second picture") {
             break picture;
         }
         std::thread::yield_now();
     };
     assert!((red(picture) - 0.75).abs() < 1e-7);
-    assert_eq!(later.try_take(&gpu), Ok(None), "a picture is taken once");
+    assert_eq!(later.try_take(), Ok(None), "a picture is taken once");
 }
 
 #[test]

@@ -21,6 +21,7 @@ const NOT_REFLECTED: &[(&str, &str)] = &[
     ("GpuTimer", "holds queries on the device"),
     ("SurfaceTarget", "holds the surface of a window"),
     ("SurfaceLost", "a message to the owner of the window"),
+    ("TextureTarget", "holds a view of a texture"),
     ("Lights", "has no public field"),
     ("FrameTimes", "has no public field"),
     #[cfg(feature = "window")]

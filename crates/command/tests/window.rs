@@ -5,7 +5,7 @@
 
 #![cfg(target_os = "linux")]
 
-use std::io::{BufRead, BufReader};
+use std::io::{BufRead, BufReader, Read, Write};
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread::sleep;
@@ -113,6 +113,68 @@ fn pipelines_come_in_beside_the_frames() {
 }
 
 #[test]
+fn a_lost_device_is_said_once_and_all_is_drawn_on() {
+    const LOSSES: usize = 3;
+    let screen = Screen::open();
+    let mut program = device_loser();
+    program.stdin(Stdio::piped()).stderr(Stdio::piped());
+    let mut viewer = Viewer::run(&screen, program);
+    let phong = viewer.shown("Phong, Blinn–Phong", None);
+    for _ in 0..LOSSES {
+        writeln!(viewer.process.stdin.as_ref().expect("it is piped")).expect("the program reads");
+        viewer.press('1'.into());
+        viewer.shown("flat, Blinn–Phong", Some(&phong));
+        viewer.press('3'.into());
+        eventually("the first picture comes back", || (viewer.picture()? == phong).then_some(()));
+    }
+    viewer.resize(1000, 600);
+    eventually("a picture of the new size", || {
+        let picture = viewer.picture().filter(|picture| (picture.width, picture.height) == (1000, 600))?;
+        same_framing(&phong, &picture).then_some(())
+    });
+    viewer.request_close();
+    assert_eq!(viewer.end().code(), Some(0));
+    let mut said = String::new();
+    viewer.process.stderr.take().expect("it is piped").read_to_string(&mut said).expect("messages are text");
+    assert_eq!(said.matches("the graphics device was lost: it was destroyed").count(), LOSSES, "{said}");
+    assert!(!said.contains("panicked"), "{said}");
+}
+
+#[test]
+fn an_app_that_has_drawn_before_there_is_a_window_draws_in_it() {
+    let screen = Screen::open();
+    let mut program = device_loser();
+    program.arg("--update-first");
+    let mut viewer = Viewer::run(&screen, program);
+    let after = viewer.shown("Phong, Blinn–Phong", None);
+    viewer.request_close();
+    assert_eq!(viewer.end().code(), Some(0));
+    let mut viewer = Viewer::run(&screen, device_loser());
+    assert!(after == viewer.shown("Phong, Blinn–Phong", None), "another picture than without");
+    viewer.request_close();
+    assert_eq!(viewer.end().code(), Some(0));
+}
+
+#[test]
+fn a_window_whose_size_changes_without_end_keeps_drawing() {
+    let screen = Screen::open();
+    let mut viewer = Viewer::open(&screen);
+    let before = viewer.shown("Phong, Blinn–Phong", None);
+    // As often as a frame is drawn and oftener, down to a pixel, and beyond what is seen of the screen.
+    for step in 0..300u32 {
+        viewer.resize(1 + step * 37 % 900, 1 + step * 53 % 1500);
+        if step % 3 == 0 {
+            sleep(Duration::from_millis(u64::from(step % 7)));
+        }
+        viewer.assert_running();
+    }
+    viewer.resize(before.width.into(), before.height.into());
+    eventually("the first picture comes back", || (viewer.picture()? == before).then_some(()));
+    viewer.request_close();
+    assert_eq!(viewer.end().code(), Some(0));
+}
+
+#[test]
 fn escape_closes() {
     let screen = Screen::open();
     let mut viewer = Viewer::open(&screen);
@@ -133,6 +195,16 @@ fn without_a_display_it_says_so() {
 fn view() -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_halfway"));
     command.args(["view", concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/teapot.obj")]);
+    command.env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET").stdin(Stdio::null());
+    command
+}
+
+/// The example that loses its device by command, which Cargo builds beside this test.
+fn device_loser() -> Command {
+    let test = std::env::current_exe().expect("a running test has a path");
+    let program = test.ancestors().nth(2).expect("tests lie in target/PROFILE/deps").join("examples/lose_device");
+    assert!(program.is_file(), "{} is missing; run `cargo build --examples` with the same profile", program.display());
+    let mut command = Command::new(program);
     command.env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET").stdin(Stdio::null());
     command
 }
@@ -300,7 +372,12 @@ struct Viewer<'a> {
 
 impl<'a> Viewer<'a> {
     fn open(screen: &'a Screen) -> Self {
-        let process = view().env("DISPLAY", &screen.name).spawn().expect("the command starts");
+        Self::run(screen, view())
+    }
+
+    /// Starts a program, and waits for its window.
+    fn run(screen: &'a Screen, mut program: Command) -> Self {
+        let process = program.env("DISPLAY", &screen.name).spawn().expect("the program starts");
         let mut viewer = Self { screen, process, window: NONE };
         viewer.window = eventually("a window opens", || {
             viewer.assert_running();

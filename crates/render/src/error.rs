@@ -112,7 +112,31 @@ pub enum RenderError {
     /// There is no headless picture to read.
     #[error("there is no headless target to read a picture from: add `Headless`")]
     NoPicture,
-    /// The device was lost, or the driver failed.
+    /// There is no frame to encode.
+    #[error(
+        "there is no frame to encode: insert a `TextureTarget` and run the schedule that draws before `encode_frame`"
+    )]
+    NoFrame,
+    /// A frame cannot be drawn into a texture as the scene asks.
+    #[error("the frame cannot be drawn into the `TextureTarget` of {format}: {reason}")]
+    BadTarget {
+        /// The format of its pixels.
+        format: String,
+        /// What it lacks, or what of the scene does not go with it.
+        reason: String,
+    },
+    /// The levels of detail of a mesh could not be made; it is drawn as it is.
+    #[error("{mesh}: its levels of detail could not be made, and it is drawn as it is: {reason}")]
+    NoLevels {
+        /// The mesh, by the number of its asset.
+        mesh: String,
+        /// What went wrong.
+        reason: String,
+    },
+    /// The device was lost, and the frame with it. The next one is drawn on a new device.
+    #[error("the graphics device was lost: {0}. Everything is made anew on a new device")]
+    DeviceLost(String),
+    /// The driver failed.
     #[error("the graphics device failed: {0}")]
     Device(String),
 }
@@ -134,4 +158,10 @@ pub(crate) fn bad_transform(
 /// An entity's name for an error: its `Name`, or its number.
 pub(crate) fn label(entity: Entity, name: Option<&bevy_ecs::name::Name>) -> String {
     name.map_or_else(|| format!("entity {entity}"), |name| format!("\"{name}\""))
+}
+
+/// What a thread said when it panicked.
+pub(crate) fn panic_message(panic: &(dyn std::any::Any + Send)) -> String {
+    let literal = panic.downcast_ref::<&str>().map(|message| (*message).to_owned());
+    literal.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "it panicked".into())
 }

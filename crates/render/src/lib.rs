@@ -2,7 +2,7 @@
 //!
 //! [`RenderPlugin`] adds the way of a frame, [`RenderSet`] by [`RenderSet`], to a schedule of any
 //! `bevy_app` App. The target is a texture ([`Headless`]) unless a window brings a surface
-//! ([`SurfaceTarget`]). [`FrameReport`] counts what a frame did and holds what it could not do;
+//! ([`SurfaceTarget`]) or an engine a texture of its own ([`TextureTarget`]). [`FrameReport`] counts what a frame did and holds what it could not do;
 //! [`FrameTimes`] says where its time went on the CPU, and [`GpuTimer`] how much of it the GPU took.
 
 mod batch;
@@ -22,6 +22,7 @@ pub use device::choice::{AdapterChoice, describe_adapter};
 pub use device::costs::Costs;
 pub use device::gpu::Gpu;
 pub use device::gpu_timer::GpuTimer;
+pub use draw::pass::encode_frame;
 pub use error::RenderError;
 pub use frame::report::FrameReport;
 pub use frame::sets::RenderSet;
@@ -34,6 +35,7 @@ pub use plugin::RenderPlugin;
 pub use target::frame::{Headless, Pixels};
 pub use target::picture::{PendingPicture, Picture, render_picture};
 pub use target::surface::{SurfaceLost, SurfaceTarget};
+pub use target::texture::TextureTarget;
 pub use view::camera::{Projection, View};
 pub use view::matrices::{ModelView, NormalMatrix, Visible, normal_matrix};
 /// The wgpu that the renderer speaks; surfaces are made with it.

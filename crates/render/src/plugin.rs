@@ -5,8 +5,8 @@ use crate::batch::lit_patches::{self, LitPatches};
 use crate::device::choice::AdapterChoice;
 use crate::device::gpu::Gpu;
 use crate::draw::meshes::{self as mesh_buffers, MeshBuffers};
-use crate::draw::pass;
 use crate::draw::upload::{self, Buffers};
+use crate::draw::{pass, replaced};
 use crate::frame::report::FrameReport;
 use crate::frame::sets::RenderSet;
 use crate::frame::times;
@@ -104,14 +104,14 @@ impl RenderPlugin {
         );
         // What draws the batches: wgpu.
         let on_gpu = (
-            frame::prepare.in_set(View).after(open_gpu),
+            (replaced::forget, frame::prepare).chain().in_set(View).after(open_gpu),
             (cache::begin, lit_patches::illuminate::<Pipelines>).chain().in_set(Illuminate).after(gather::gather),
             batches::batch::<Pipelines>.in_set(Batch),
             (mesh_buffers::upload, upload::build_pipelines, upload::upload).chain().in_set(Upload),
             pass::draw.in_set(Draw),
             pass::present.in_set(Deliver),
         );
-        app.add_systems(self.schedule, on_gpu.run_if(resource_exists::<Gpu>));
+        app.add_systems(self.schedule, on_gpu.run_if(can_draw));
     }
 }
 
@@ -138,18 +138,26 @@ fn register_types(app: &mut App) {
         .register_type::<Chosen>();
 }
 
-/// Opens an adapter for headless pictures unless a window has opened one. What fails is in the report,
-/// every frame anew, so that an adapter that appears later is found.
+/// Opens an adapter for headless pictures unless there is one that works. What fails is in the report, every frame
+/// anew, so that an adapter that appears later is found. A device that is lost is replaced once a report has said so.
 fn open_gpu(world: &mut World) {
-    if !world.contains_resource::<Gpu>() {
-        match world.resource::<AdapterChoice>().open() {
-            Ok(gpu) => {
-                log::info!("drawing on {}", gpu.describe());
-                world.insert_resource(gpu);
-            }
-            Err(error) => {
-                world.resource_mut::<FrameReport>().errors.push(error);
-            }
-        }
+    let lost = match world.get_resource::<Gpu>() {
+        Some(gpu) if !gpu.is_lost() => return,
+        there => there.cloned(),
+    };
+    if let Some(loss) = lost.as_ref().and_then(Gpu::take_loss) {
+        world.resource_mut::<FrameReport>().errors.push(loss);
+        return;
     }
+    match world.resource::<AdapterChoice>().open() {
+        Ok(gpu) => {
+            log::info!("drawing on {}", gpu.describe());
+            world.insert_resource(if let Some(lost) = &lost { gpu.in_place_of(lost) } else { gpu });
+        }
+        Err(error) => world.resource_mut::<FrameReport>().errors.push(error),
+    }
+}
+
+fn can_draw(gpu: Option<Res<Gpu>>) -> bool {
+    gpu.is_some_and(|gpu| !gpu.is_lost())
 }

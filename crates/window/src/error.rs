@@ -23,7 +23,7 @@ pub(crate) enum WindowError {
     Surface(String),
     #[error("nothing can be drawn in the window: {0}")]
     Gpu(#[from] RenderError),
-    #[error("the window's surface was lost {0} times in a row; the graphics driver may have been restarted")]
+    #[error("the window's surface or the graphics device was lost {0} times in a row; the driver may be broken")]
     LostAgain(u32),
 }
 

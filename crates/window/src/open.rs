@@ -9,7 +9,7 @@ use halfway_render::{AdapterChoice, Gpu, SurfaceLost, SurfaceTarget, wgpu};
 use std::sync::Arc;
 use std::time::Duration;
 use winit::dpi::LogicalSize;
-use winit::event_loop::ActiveEventLoop;
+use winit::event_loop::{ActiveEventLoop, OwnedDisplayHandle};
 use winit::window::Window;
 
 /// The open window, on an entity of its own while [`WindowPlugin`](crate::WindowPlugin)'s runner runs; for what the
@@ -17,12 +17,13 @@ use winit::window::Window;
 #[derive(Component, Clone, Debug)]
 pub struct WinitWindow(pub Arc<Window>);
 
-/// A surface that is lost again this many times without a picture in between is given up.
+/// A surface or device that is lost again this many times without a picture in between is given up.
 const MOST_LOSSES: u32 = 10;
 
 /// The window of a running App.
 pub(crate) struct Open {
     pub(crate) window: Arc<Window>,
+    display: OwnedDisplayHandle,
     pub(crate) input: Forward,
     entity: Entity,
     losses: u32,
@@ -45,15 +46,10 @@ impl Open {
             reason: reason(&error),
         })?;
         let window = Arc::new(window);
-        let choice = world.get_resource_or_init::<AdapterChoice>().clone();
         let display = event_loop.owned_display_handle();
-        let (gpu, surface) = choice.open_for(&display, |instance| make_surface(instance, &window))?;
-        log::info!("drawing on {}", gpu.describe());
-        let target = SurfaceTarget::new(&gpu, surface, physical_size(&window))?;
-        world.insert_resource(gpu);
-        world.insert_resource(target);
+        open_gpu(&window, &display, world)?;
         let entity = world.spawn(WinitWindow(Arc::clone(&window))).id();
-        let open = Self { window, input: Forward::new(entity), entity, losses: 0 };
+        let open = Self { window, display, input: Forward::new(entity), entity, losses: 0 };
         open.follow_size(world);
         Ok(open)
     }
@@ -77,16 +73,24 @@ impl Open {
         }
     }
 
-    /// Whether the newest frame went to the display. A surface that it found lost is made anew.
+    /// Whether the newest frame went to the display. A surface or a device that it found lost is made anew.
     pub(crate) fn settle(&mut self, world: &mut World) -> Result<bool, WindowError> {
-        if world.remove_resource::<SurfaceLost>().is_some() {
+        let surface_lost = world.remove_resource::<SurfaceLost>().is_some();
+        let device_lost = world.get_resource::<Gpu>().is_some_and(Gpu::is_lost);
+        if surface_lost || device_lost {
             self.losses += 1;
             if self.losses == MOST_LOSSES {
                 return Err(WindowError::LostAgain(MOST_LOSSES));
             }
-            let instance = world.resource::<Gpu>().instance.clone();
-            let surface = make_surface(&instance, &self.window)?;
-            world.resource_mut::<SurfaceTarget>().replace(surface);
+            // A window has one surface at a time.
+            world.remove_resource::<SurfaceTarget>();
+            match world.get_resource::<Gpu>().filter(|_| !device_lost).cloned() {
+                Some(gpu) => {
+                    let surface = make_surface(&gpu.instance, &self.window)?;
+                    world.insert_resource(SurfaceTarget::new(&gpu, surface, physical_size(&self.window))?);
+                }
+                None => open_gpu(&self.window, &self.display, world)?,
+            }
             return Ok(false);
         }
         let presented = world.get_resource::<SurfaceTarget>().is_some_and(SurfaceTarget::acquired);
@@ -101,6 +105,19 @@ impl Open {
         world.remove_resource::<SurfaceTarget>();
         world.despawn(self.entity);
     }
+}
+
+/// Opens an adapter that can draw in the window and the window's surface, and puts them into `world`.
+fn open_gpu(window: &Arc<Window>, display: &OwnedDisplayHandle, world: &mut World) -> Result<(), WindowError> {
+    let choice = world.get_resource_or_init::<AdapterChoice>().clone();
+    let (mut gpu, surface) = choice.open_for(display, |instance| make_surface(instance, window))?;
+    log::info!("drawing on {}", gpu.describe());
+    if let Some(lost) = world.get_resource::<Gpu>().filter(|gpu| gpu.is_lost()) {
+        gpu = gpu.in_place_of(lost);
+    }
+    world.insert_resource(SurfaceTarget::new(&gpu, surface, physical_size(window))?);
+    world.insert_resource(gpu);
+    Ok(())
 }
 
 /// Nine tenths of the display's interval; of 60 Hz where the display does not say.

@@ -7,7 +7,7 @@ use crate::problems::{Said, say};
 use crate::title::{FrameTime, title};
 use bevy_app::{App, AppExit, PluginsState};
 use bevy_math::UVec2;
-use halfway_render::FrameReport;
+use halfway_render::{FrameReport, RenderError};
 use std::time::{Duration, Instant};
 use winit::application::ApplicationHandler;
 use winit::event::{StartCause, WindowEvent};
@@ -143,9 +143,12 @@ impl Runner {
     }
 
     fn say_errors(&mut self) {
-        if let Some(report) = self.app.world().get_resource::<FrameReport>() {
-            self.said.say_new(&report.errors);
-        }
+        let Some(report) = self.app.world().get_resource::<FrameReport>() else { return };
+        let (losses, others): (Vec<_>, Vec<_>) =
+            report.errors.iter().partition(|error| matches!(error, RenderError::DeviceLost(_)));
+        // One report has it; the next loss is another one, though it reads the same.
+        losses.into_iter().for_each(say);
+        self.said.say_new(others);
     }
 
     /// What costs too much for every frame: the title, and asking about the window and its display.

@@ -32,6 +32,7 @@ enum Chore {
     Fuzz(chores::fuzz::Options),
     Readme(chores::readme::Options),
     Screen(chores::screen::Options),
+    Soak(chores::soak::Options),
 }
 
 impl Chore {
@@ -46,6 +47,7 @@ impl Chore {
             Self::Fuzz(options) => chores::fuzz::run(&options),
             Self::Readme(options) => chores::readme::run(&options),
             Self::Screen(options) => chores::screen::run(&options),
+            Self::Soak(options) => chores::soak::run(&options),
         }
     }
 }
@@ -80,6 +82,8 @@ mod tests {
             "fuzz smf --seconds 60 obj --no-install",
             "readme --list",
             "screen cargo test --release --test window",
+            "soak --no-install",
+            "soak --frames 3000",
         ];
         for line in rows {
             let parsed = Arguments::try_parse_from(["xtask"].into_iter().chain(line.split(' ')));

@@ -14,6 +14,8 @@ use halfway_mesh::Mesh;
 pub(crate) struct ObjectTable {
     /// Kept from frame to frame, for lights with this ambient.
     looks: HashMap<ReflectingBits, Appearance>,
+    /// How often the frame has asked for one.
+    asked: usize,
     ambient: Vec3,
     /// The records without lists, each once.
     materials: Vec<DrawRecord>,
@@ -38,17 +40,18 @@ struct Used {
 pub(crate) type Call = (DrawKey, AssetId<Mesh>, Form);
 
 impl ObjectTable {
-    /// How many looks are remembered.
-    const REMEMBERED: usize = 16_384;
+    /// Up to this many looks are remembered however few are asked for.
+    const REMEMBERED: usize = 512;
 
     pub(crate) fn begin(&mut self, ambient: Vec3) {
-        // Materials that change every frame must not pile up.
-        if self.ambient != ambient || self.looks.len() > Self::REMEMBERED {
+        // Materials that change every frame must not pile up, and those of a scene of many must not be made anew.
+        if self.ambient != ambient || self.looks.len() > Self::REMEMBERED.max(2 * self.asked) {
             self.looks.clear();
             self.materials.clear();
             self.material_numbers.clear();
             self.ambient = ambient;
         }
+        self.asked = 0;
         self.used.clear();
         self.used.resize(self.materials.len(), Used::default());
         self.numbers.clear();
@@ -59,6 +62,7 @@ impl ObjectTable {
 
     /// What an object looks like, remembered by its components' values.
     pub(crate) fn look(&mut self, reflecting: &Reflecting) -> &Appearance {
+        self.asked += 1;
         let Self { looks, materials, material_numbers, used, ambient, .. } = self;
         looks.entry(reflecting.bits()).or_insert_with(|| {
             reflecting.look(*ambient, |record| {

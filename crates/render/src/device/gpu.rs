@@ -5,9 +5,18 @@ use crate::device::costs::Costs;
 use crate::device::provoking_vertex::ProvokingVertex;
 use crate::error::RenderError;
 use bevy_ecs::prelude::Resource;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// The open graphics device. Inserted by the window, or opened headless by the first frame.
+/// The open graphics device. Inserted by the window, by an engine that has one ([`Gpu::from_existing`]), or opened
+/// headless by the first frame.
+///
+/// Another `Gpu` may be inserted between any two frames: the next one is drawn on it, from what the App holds.
+///
+/// A device can be lost at any time: the driver crashes or is updated, the GPU hangs or is unplugged. The frame that
+/// finds out has [`RenderError::DeviceLost`] in its report, once, and is not drawn; then a new device is opened, by the
+/// window for its surface and else by the next frame, which is drawn.
 #[derive(Resource, Clone)]
 pub struct Gpu {
     /// The instance the adapter came from; surfaces are made with it.
@@ -19,7 +28,23 @@ pub struct Gpu {
     /// The queue all work is submitted to.
     pub queue: wgpu::Queue,
     costs: Costs,
-    failure: Arc<Mutex<Option<String>>>,
+    /// No other device has it, in any instance. (wgpu's own comparison holds within an instance only.)
+    id: u64,
+    notices: Arc<Mutex<Notices>>,
+}
+
+/// What the device has said by itself.
+#[derive(Default)]
+struct Notices {
+    /// The first error outside of any call, until it is taken.
+    failure: Option<String>,
+    loss: Option<Loss>,
+}
+
+struct Loss {
+    reason: String,
+    /// A report has it.
+    told: bool,
 }
 
 impl Gpu {
@@ -46,15 +71,42 @@ impl Gpu {
             ..Default::default()
         }))
         .map_err(|error| RenderError::NoDevice { adapter: adapter.get_info().name, reason: error.to_string() })?;
-        let failure = Arc::new(Mutex::new(None));
-        let seen = Arc::clone(&failure);
-        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
-            log::error!("{error}");
-            seen.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error.to_string());
-        }));
-        let mut gpu = Self { instance, adapter, device, queue, costs, failure };
-        gpu.set_costs(costs);
+        let gpu = Self::from_existing(instance, adapter, device, queue);
+        gpu.listen();
         Ok(gpu)
+    }
+
+    /// A device that is open already: an engine's. It may lack any of wgpu's optional features and have the smallest
+    /// limits; what it cannot do is done in another way, or said in [`FrameReport::errors`](crate::FrameReport::errors).
+    ///
+    /// The device's callbacks stay the engine's: what goes wrong outside of any call, and the loss of the device, goes to
+    /// whatever it has set with `on_uncaptured_error` and `set_device_lost_callback`. After a loss it inserts another
+    /// `Gpu`. [`TextureTarget`](crate::TextureTarget) has a frame drawn by an encoder of the engine's own.
+    pub fn from_existing(
+        instance: wgpu::Instance,
+        adapter: wgpu::Adapter,
+        device: wgpu::Device,
+        queue: wgpu::Queue,
+    ) -> Self {
+        static DEVICES: AtomicU64 = AtomicU64::new(0);
+        let costs = Costs::of(&adapter);
+        let id = DEVICES.fetch_add(1, Ordering::Relaxed);
+        let mut gpu = Self { instance, adapter, device, queue, costs, id, notices: Arc::default() };
+        gpu.set_costs(costs);
+        gpu
+    }
+
+    /// Takes note of what the device says by itself.
+    fn listen(&self) {
+        let notices = Arc::clone(&self.notices);
+        self.device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
+            log::error!("{error}");
+            lock(&notices).failure.get_or_insert(error.to_string());
+        }));
+        let notices = Arc::clone(&self.notices);
+        self.device.set_device_lost_callback(move |reason, message| {
+            lock(&notices).loss = Some(Loss { reason: describe_loss(reason, &message), told: false });
+        });
     }
 
     /// From how many draws on those that share their state are one command, `multi_draw_indexed_indirect`; `None` where
@@ -91,9 +143,70 @@ impl Gpu {
         };
     }
 
+    /// What the device can do with textures of a format.
+    pub(crate) fn format_features(&self, format: wgpu::TextureFormat) -> wgpu::TextureFormatFeatures {
+        let features = self.device.features();
+        if features.contains(wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES) {
+            self.adapter.get_texture_format_features(format)
+        } else {
+            format.guaranteed_format_features(features)
+        }
+    }
+
+    /// Takes over the costs of a device that this one replaces, where both are of one adapter.
+    #[must_use]
+    pub fn in_place_of(mut self, old: &Self) -> Self {
+        if self.describe() == old.describe() {
+            self.set_costs(old.costs);
+        }
+        self
+    }
+
+    /// Whether it is known that the device is lost. Never of an engine's device, which alone hears of it.
+    pub fn is_lost(&self) -> bool {
+        lock(&self.notices).loss.is_some()
+    }
+
+    /// Tells devices apart.
+    pub(crate) fn id(&self) -> u64 {
+        self.id
+    }
+
+    /// Lets the device make known what it has finished, and whether it is lost.
+    ///
+    /// # Errors
+    /// [`RenderError::DeviceLost`], each time; whoever gets it tells of the loss.
+    pub(crate) fn poll(&self, poll: wgpu::PollType) -> Result<(), RenderError> {
+        if !self.is_lost() {
+            // wgpu panics where it is by polling that it learns of the loss, after it has called back.
+            let polled = catch_unwind(AssertUnwindSafe(|| self.device.poll(poll)));
+            if !self.is_lost() {
+                return match polled {
+                    Ok(Ok(_)) => Ok(()),
+                    Ok(Err(error)) => Err(RenderError::Device(error.to_string())),
+                    Err(_) => Err(RenderError::Device("waiting for it failed".into())),
+                };
+            }
+        }
+        let mut notices = lock(&self.notices);
+        let reason = notices.loss.as_mut().map(|loss| {
+            loss.told = true;
+            loss.reason.clone()
+        });
+        Err(RenderError::DeviceLost(reason.unwrap_or_default()))
+    }
+
     /// The first error the driver reported outside any call, if it has not been taken yet.
     pub(crate) fn take_failure(&self) -> Option<RenderError> {
-        self.failure.lock().unwrap_or_else(PoisonError::into_inner).take().map(RenderError::Device)
+        lock(&self.notices).failure.take().map(RenderError::Device)
+    }
+
+    /// The loss of the device, if it has not been told yet.
+    pub(crate) fn take_loss(&self) -> Option<RenderError> {
+        let mut notices = lock(&self.notices);
+        let loss = notices.loss.as_mut().filter(|loss| !loss.told)?;
+        loss.told = true;
+        Some(RenderError::DeviceLost(loss.reason.clone()))
     }
 
     /// Which vertex of a triangle gives what is not interpolated.
@@ -109,5 +222,17 @@ impl Gpu {
     /// One line for people: the adapter's name, its backend, and whether it is software.
     pub fn describe(&self) -> String {
         describe_adapter(&self.adapter.get_info())
+    }
+}
+
+fn lock(notices: &Mutex<Notices>) -> MutexGuard<'_, Notices> {
+    notices.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+fn describe_loss(reason: wgpu::DeviceLostReason, message: &str) -> String {
+    match (reason, message.trim()) {
+        (wgpu::DeviceLostReason::Destroyed, _) => "it was destroyed".into(),
+        (_, "") => "the driver does not say why".into(),
+        (_, message) => message.into(),
     }
 }

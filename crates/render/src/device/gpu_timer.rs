@@ -66,6 +66,11 @@ impl GpuTimer {
         }
     }
 
+    /// Lets go of what belongs to a device.
+    pub(crate) fn forget_device(&mut self) {
+        self.queries = None;
+    }
+
     fn push(&mut self, time: Duration, now: Instant) {
         let interval = self.arrived.replace(now).map_or(Duration::ZERO, |before| now.saturating_duration_since(before));
         self.smoothed = approach(self.smoothed, time.as_secs_f64(), self.weights.share(interval));

@@ -13,7 +13,6 @@ use bevy_math::Vec3;
 use bevy_platform::collections::HashMap;
 use halfway_mesh::Mesh;
 use std::sync::Arc;
-use wgpu::util::DeviceExt;
 
 /// The buffers of the meshes that have been drawn, until they change or go.
 #[derive(Resource, Default)]
@@ -69,6 +68,11 @@ pub(crate) fn upload(
 impl MeshBuffers {
     pub(crate) fn get(&self, id: AssetId<Mesh>, form: Form) -> Option<&MeshBuffer> {
         self.meshes.get(&(id, form))
+    }
+
+    #[cfg(test)]
+    pub(crate) fn len(&self) -> usize {
+        self.meshes.len()
     }
 
     /// Uploads the mesh unless it is there. Returns the bytes sent.
@@ -154,5 +158,15 @@ fn buffer(gpu: &Gpu, label: &str, contents: &[u8], usage: wgpu::BufferUsages) ->
     }
     // What cannot be mapped is written to a second buffer of its size, which is kept until the frame is done.
     let usage = if gpu.costs().maps_meshes { usage | wgpu::BufferUsages::MAP_WRITE } else { usage };
-    Ok(gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage }))
+    let size = needed.max(1).next_multiple_of(wgpu::COPY_BUFFER_ALIGNMENT);
+    let descriptor = wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: true };
+    let buffer = gpu.device.create_buffer(&descriptor);
+    // A lost device maps nothing.
+    let mut mapped = buffer
+        .get_mapped_range_mut(..)
+        .map_err(|error| RenderError::Device(format!("the mesh's {label} could not be sent ({error})")))?;
+    mapped.slice(..contents.len()).copy_from_slice(contents);
+    drop(mapped);
+    buffer.unmap();
+    Ok(buffer)
 }

@@ -2,4 +2,5 @@
 
 pub(crate) mod meshes;
 pub(crate) mod pass;
+pub(crate) mod replaced;
 pub(crate) mod upload;

@@ -6,10 +6,11 @@ use crate::device::gpu::Gpu;
 use crate::device::gpu_timer::GpuTimer;
 use crate::draw::meshes::MeshBuffers;
 use crate::draw::upload::Buffers;
+use crate::error::RenderError;
 use crate::frame::report::FrameReport;
 use crate::frame::times::FrameTimes;
 use crate::pipelines::cache::Pipelines;
-use crate::target::frame::{Attachments, FramePicture, Target};
+use crate::target::frame::{Attachments, Delivery, FramePicture, Target};
 use crate::view::camera::View;
 use bevy_color::LinearRgba;
 use bevy_ecs::prelude::*;
@@ -28,14 +29,14 @@ pub(crate) fn draw(
     mut report: ResMut<FrameReport>,
 ) {
     let (Some(frame), Some(attachments)) = (&target.frame, target.attachments()) else { return };
+    if frame.delivery == Delivery::Encode {
+        return;
+    }
     let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
     {
         let timing = timer.as_mut().and_then(|timer| timer.begin(&gpu));
         let mut pass = begin(&mut encoder, frame, attachments, view.camera.unwrap_or_default(), timing);
-        if let Some(instances) = buffers.instances() {
-            pass.set_vertex_buffer(0, instances.slice(..));
-            record(&mut pass, &batches, &meshes, &pipelines, &buffers);
-        }
+        record(&mut pass, &batches, &meshes, &pipelines, &buffers);
     }
     if let Some(mut timer) = timer {
         timer.end(&mut encoder);
@@ -87,6 +88,8 @@ fn record(
     pipelines: &Pipelines,
     buffers: &Buffers,
 ) {
+    let Some(instances) = buffers.instances() else { return };
+    pass.set_vertex_buffer(0, instances.slice(..));
     let mut last = None;
     for group in batches.draws.groups() {
         let state = &group.state;
@@ -122,8 +125,46 @@ fn record(
     }
 }
 
-pub(crate) fn present(gpu: Res<Gpu>, mut target: ResMut<Target>, mut times: ResMut<FrameTimes>) {
-    if let Some(surface) = target.frame.take().and_then(|frame| frame.surface) {
+/// Shows the frame where it goes to a window, and asks the device whether it is still there.
+pub(crate) fn present(
+    gpu: Res<Gpu>,
+    mut target: ResMut<Target>,
+    mut times: ResMut<FrameTimes>,
+    mut report: ResMut<FrameReport>,
+) {
+    if let Some(surface) = target.take_surface_texture() {
         times.at_display(|| gpu.queue.present(surface));
     }
+    // Whatever else has failed, it is why.
+    if let Err(error) = gpu.poll(wgpu::PollType::Poll) {
+        report.errors.insert(0, error);
+    }
+}
+
+/// Draws the frame that the render schedule has made for a [`TextureTarget`](crate::TextureTarget) by an encoder of the
+/// engine's own, which must come from the device of the world's [`Gpu`]. The pass clears the texture and draws over it.
+///
+/// What the pass reads is on its way already: submit the encoder on the queue of that `Gpu`, before the render schedule
+/// runs again. Until then a frame can be encoded more than once. [`GpuTimer`] does not time it.
+///
+/// # Errors
+/// [`RenderError::NoFrame`] before the schedule has run with a `TextureTarget`, or the first error of
+/// [`FrameReport::errors`] where the frame could not be made. With `Ok`, what was left out of the frame is in the report.
+pub fn encode_frame(world: &World, encoder: &mut wgpu::CommandEncoder) -> Result<(), RenderError> {
+    let ready = || {
+        let target = world.get_resource::<Target>()?;
+        let frame = target.frame.as_ref().filter(|frame| frame.delivery == Delivery::Encode)?;
+        Some((frame, target.attachments()?, world.get_resource::<View>()?.camera.unwrap_or_default()))
+    };
+    let made = || {
+        let (batches, meshes) = (world.get_resource::<Batches>()?, world.get_resource::<MeshBuffers>()?);
+        Some((batches, meshes, world.get_resource::<Pipelines>()?, world.get_resource::<Buffers>()?))
+    };
+    let (Some((frame, attachments, camera)), Some((batches, meshes, pipelines, buffers))) = (ready(), made()) else {
+        let first = world.get_resource::<FrameReport>().and_then(|report| report.errors.first());
+        return Err(first.cloned().unwrap_or(RenderError::NoFrame));
+    };
+    let mut pass = begin(encoder, frame, attachments, camera, None);
+    record(&mut pass, batches, meshes, pipelines, buffers);
+    Ok(())
 }

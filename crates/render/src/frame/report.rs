@@ -11,7 +11,7 @@ use bevy_reflect::std_traits::ReflectDefault;
 pub struct FrameReport {
     /// Everything that kept the frame from being drawn as asked, in the order found. What an error names is left out of
     /// the picture, and nothing is left out without one. What goes wrong beside the frames is told here as well, once, though
-    /// nothing is left out for it: a pipeline that a frame can do without, or the end of the thread that builds them.
+    /// nothing is left out for it: a pipeline that a frame can do without, or levels of detail that cannot be made.
     #[reflect(ignore)]
     pub errors: Vec<RenderError>,
     /// Objects with a mesh that are not [hidden](halfway_lighting::Visibility).
@@ -47,7 +47,7 @@ pub struct FrameReport {
     /// Bytes sent to the GPU: meshes, the view, instances, materials, lights and their lists, and draws that a multi-draw
     /// reads. 0 for a frame equal to the last.
     pub bytes_uploaded: u64,
-    /// Pipelines built since the start; each is one variant of the shader.
+    /// Pipelines built since the device was opened; each is one variant of the shader.
     pub pipelines: u32,
     /// Pipelines that are there now: those built, less the specialised ones that were given up.
     pub pipelines_live: u32,

@@ -6,7 +6,7 @@ use crate::geometry::flat::FlatMesh;
 use crate::geometry::workshop::{Workshop, is_same};
 use crate::lights::terms::Chosen;
 use crate::view::matrices::Visible;
-use bevy_asset::{AssetEvent, AssetId, Assets};
+use bevy_asset::{AssetId, Assets};
 use bevy_ecs::prelude::*;
 use bevy_platform::collections::HashMap;
 use halfway_lighting::{Blend, Frequency, Terms};
@@ -43,13 +43,6 @@ pub(crate) struct Form {
 }
 
 impl Form {
-    pub(crate) const ALL: [Self; 4] = [
-        Self { flat: false, ordered: false },
-        Self { flat: false, ordered: true },
-        Self { flat: true, ordered: false },
-        Self { flat: true, ordered: true },
-    ];
-
     /// Blended triangles are drawn in the order of the mesh.
     pub(crate) fn new(terms: Terms, blend: bool) -> Self {
         Self { flat: terms.has(Frequency::Triangle), ordered: blend }
@@ -60,6 +53,8 @@ impl Form {
 #[derive(Resource, Default)]
 pub(crate) struct Geometries {
     meshes: HashMap<(AssetId<Mesh>, Form), Geometry>,
+    /// How many there were, and how many assets, when those that are gone were last looked for.
+    looked: (usize, usize),
     /// How many meshes have been forgotten since the start.
     pub(crate) forgotten: u64,
 }
@@ -71,6 +66,12 @@ impl Geometries {
 
     pub(crate) fn get_mut(&mut self, id: AssetId<Mesh>, form: Form) -> Option<&mut Geometry> {
         self.meshes.get_mut(&(id, form))
+    }
+
+    /// Forgets all meshes, as if none had been drawn.
+    pub(crate) fn forget_all(&mut self) {
+        self.forgotten += self.meshes.len() as u64;
+        self.meshes.clear();
     }
 
     /// Lays the mesh out unless it is, and its levels of detail once they are there.
@@ -119,22 +120,26 @@ pub(crate) fn lay_out(
         geometries.ensure(wanted, mesh, levels);
     }
     report.levels_pending = workshop.pending();
+    report.errors.append(&mut workshop.failures);
 }
 
-/// Forgets meshes that are gone. A mesh that changed is found when it is drawn next, without an event.
+/// Forgets meshes whose assets are gone. It looks for them only when the number of assets or that of laid out meshes is
+/// another than it was: without that nothing grows. (Messages would not do: they live for two updates of the App, and the
+/// frames of an App may be fewer.) A mesh that changed is found when it is drawn next.
 pub(crate) fn forget_removed(
-    mut events: MessageReader<AssetEvent<Mesh>>,
+    meshes: Res<Assets<Mesh>>,
     mut geometries: ResMut<Geometries>,
     mut workshop: ResMut<Workshop>,
 ) {
-    for event in events.read() {
-        if let AssetEvent::Removed { id } | AssetEvent::Unused { id } = event {
-            workshop.forget(*id);
-            for form in Form::ALL {
-                geometries.forgotten += u64::from(geometries.meshes.remove(&(*id, form)).is_some());
-            }
-        }
+    let before = geometries.meshes.len();
+    if geometries.looked == (before, meshes.len()) {
+        return;
     }
+    geometries.meshes.retain(|&(id, _), _| meshes.contains(id));
+    workshop.retain(|id| meshes.contains(id));
+    let after = geometries.meshes.len();
+    geometries.forgotten += (before - after) as u64;
+    geometries.looked = (after, meshes.len());
 }
 
 /// Whether any triangle's normals can cancel under interpolation; those of coarser levels, which do so only where a
@@ -146,4 +151,71 @@ fn has_opposite_normals(mesh: &Mesh) -> bool {
         let [a, b, c] = triangle.map(|index| normals[index as usize]);
         a.dot(b).min(b.dot(c)).min(c.dot(a)) < -0.49
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::draw::meshes::MeshBuffers;
+    use crate::plugin::RenderPlugin;
+    use crate::target::frame::Headless;
+    use bevy_app::App;
+    use bevy_ecs::schedule::ScheduleLabel;
+    use bevy_math::UVec2;
+    use bevy_transform::TransformPlugin;
+    use bevy_transform::components::Transform;
+    use halfway_lighting::{Camera, Material, Shading};
+    use halfway_mesh::UvSphere;
+
+    #[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    struct Seldom;
+
+    /// How many meshes the renderer keeps laid out, ordered in levels, and in buffers.
+    fn kept(app: &App) -> [usize; 3] {
+        let world = app.world();
+        let orders = world.resource::<Workshop>().len();
+        [world.resource::<Geometries>().meshes.len(), orders, world.resource::<MeshBuffers>().len()]
+    }
+
+    /// Draws ten meshes after each other, `updates` of the App between, each of which stays for one frame or more.
+    fn most_kept(updates: usize, frames: usize) -> [usize; 3] {
+        let mut app = App::new();
+        app.add_plugins((TransformPlugin, RenderPlugin { schedule: Seldom.intern() }));
+        app.init_schedule(Seldom).insert_resource(Headless { size: UVec2::splat(4), ..Headless::default() });
+        app.world_mut().spawn((Camera::default(), Transform::from_xyz(0.0, 0.0, 3.0)));
+        let mut most = [0; 3];
+        for number in 0..10 {
+            let mesh = Mesh::from(UvSphere::new(1.0, 12 + number, 6));
+            let handle = app.world_mut().resource_mut::<Assets<Mesh>>().add(mesh);
+            let objects = [Shading::Flat, Shading::Phong].map(|shading| {
+                app.world_mut().spawn((Mesh3d(handle.clone()), Material::DEFAULT, shading, Transform::default())).id()
+            });
+            drop(handle);
+            app.update();
+            for _ in 0..frames {
+                app.world_mut().run_schedule(Seldom);
+            }
+            assert_eq!(app.world().resource::<FrameReport>().errors, []);
+            assert!(kept(&app)[0] >= 2, "both ways of shading are laid out");
+            most = std::array::from_fn(|i| most[i].max(kept(&app)[i]));
+            for object in objects {
+                app.world_mut().despawn(object);
+            }
+            for _ in 0..updates {
+                app.update();
+            }
+        }
+        app.world_mut().run_schedule(Seldom);
+        assert_eq!(kept(&app)[..2], [0, 0], "nothing is there, and something is kept");
+        most
+    }
+
+    #[test]
+    fn meshes_that_are_gone_are_forgotten_however_seldom_frames_are() {
+        for updates in [1, 2, 3, 10] {
+            // Those of the frame in two ways of shading, and those of the frame before, which is looked for first.
+            let most = most_kept(updates, 2);
+            assert!(most[0] <= 4 && most[1] <= 2 && most[2] <= 4, "{updates} updates: {most:?}");
+        }
+    }
 }

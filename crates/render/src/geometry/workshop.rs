@@ -1,10 +1,12 @@
 //! The thread that makes levels of detail beside the frames.
 
+use crate::error::{RenderError, panic_message};
 use crate::geometry::detail::MeshTriangles;
 use bevy_asset::AssetId;
 use bevy_ecs::prelude::Resource;
 use bevy_platform::collections::HashMap;
 use halfway_mesh::Mesh;
+use std::panic::catch_unwind;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Mutex, PoisonError};
 
@@ -12,12 +14,21 @@ use std::sync::{Mutex, PoisonError};
 const FEWEST: usize = 64;
 
 /// The meshes whose levels are asked for, and one thread that makes them, one after the other.
-#[derive(Resource, Default)]
+#[derive(Resource)]
 pub(crate) struct Workshop {
     orders: HashMap<AssetId<Mesh>, Order>,
     /// The number of the frame.
     frame: u64,
     thread: Option<Thread>,
+    make: fn(&Mesh) -> MeshTriangles,
+    /// What went wrong beside the frames, until it is reported.
+    pub(crate) failures: Vec<RenderError>,
+}
+
+impl Default for Workshop {
+    fn default() -> Self {
+        Self::making(MeshTriangles::in_levels)
+    }
 }
 
 struct Order {
@@ -33,7 +44,7 @@ enum OrderState {
     /// On its way.
     Asked,
     Made(MeshTriangles),
-    /// There is no thread to make it.
+    /// There is no thread to make it, or making it went wrong.
     Refused,
 }
 
@@ -42,15 +53,20 @@ struct Thread {
     made: Mutex<Receiver<Made>>,
 }
 
-type Made = (AssetId<Mesh>, Mesh, MeshTriangles);
+/// A mesh and its levels, or what went wrong.
+type Made = (AssetId<Mesh>, Mesh, Result<MeshTriangles, String>);
 
 impl Workshop {
+    fn making(make: fn(&Mesh) -> MeshTriangles) -> Self {
+        Self { orders: HashMap::default(), frame: 0, thread: None, make, failures: Vec::new() }
+    }
+
     /// The levels of `mesh` if they are made. Asks for them if another frame has wanted them before.
     pub(crate) fn levels(&mut self, id: AssetId<Mesh>, mesh: &Mesh) -> Option<&MeshTriangles> {
         if mesh.triangle_count() < FEWEST {
             return None;
         }
-        let Self { orders, frame, thread } = self;
+        let Self { orders, frame, thread, make, failures } = self;
         let order = orders.entry(id).or_insert_with(|| Order::new(mesh, *frame));
         if !is_same(&order.source, mesh) {
             *order = Order::new(mesh, *frame);
@@ -58,10 +74,13 @@ impl Workshop {
         let before = std::mem::replace(&mut order.wanted, *frame);
         if matches!(order.state, OrderState::Seen) && before < *frame {
             if thread.is_none() {
-                *thread = Thread::start();
+                *thread = Thread::start(*make);
             }
             let asked = thread.as_ref().is_some_and(|thread| thread.wanted.send((id, mesh.clone())).is_ok());
             order.state = if asked { OrderState::Asked } else { OrderState::Refused };
+            if !asked {
+                failures.push(no_levels(id, "the system gives no thread".into()));
+            }
         }
         if let OrderState::Made(triangles) = &order.state { Some(triangles) } else { None }
     }
@@ -73,14 +92,28 @@ impl Workshop {
         let made = thread.made.lock().unwrap_or_else(PoisonError::into_inner);
         for (id, source, triangles) in made.try_iter() {
             // The asset may have got another mesh since.
-            if let Some(order) = self.orders.get_mut(&id).filter(|order| is_same(&order.source, &source)) {
-                order.state = OrderState::Made(triangles);
-            }
+            let Some(order) = self.orders.get_mut(&id).filter(|order| is_same(&order.source, &source)) else {
+                continue;
+            };
+            order.state = match triangles {
+                Ok(triangles) => OrderState::Made(triangles),
+                Err(reason) => {
+                    self.failures.push(no_levels(id, reason));
+                    OrderState::Refused
+                }
+            };
         }
     }
 
-    pub(crate) fn forget(&mut self, id: AssetId<Mesh>) {
-        self.orders.remove(&id);
+    /// Keeps the orders of these assets, and no others.
+    pub(crate) fn retain(&mut self, keep: impl Fn(AssetId<Mesh>) -> bool) {
+        self.orders.retain(|&id, _| keep(id));
+    }
+
+    /// How many meshes are on order, or made.
+    #[cfg(test)]
+    pub(crate) fn len(&self) -> usize {
+        self.orders.len()
     }
 
     /// How many meshes the frame wants whose levels are not made yet.
@@ -104,21 +137,61 @@ impl Order {
     }
 }
 
+fn no_levels(id: AssetId<Mesh>, reason: String) -> RenderError {
+    RenderError::NoLevels { mesh: format!("mesh {id}"), reason }
+}
+
 impl Thread {
     /// `None` where the system gives no thread.
-    fn start() -> Option<Self> {
+    fn start(make: fn(&Mesh) -> MeshTriangles) -> Option<Self> {
         let (wanted, wishes) = channel::<(AssetId<Mesh>, Mesh)>();
         let (sender, made) = channel();
-        let make = move || {
+        let work = move || {
             // Ends when the workshop is gone.
             for (id, mesh) in wishes {
-                let triangles = MeshTriangles::in_levels(&mesh);
+                let triangles = catch_unwind(|| make(&mesh)).map_err(|panic| panic_message(&*panic));
                 if sender.send((id, mesh, triangles)).is_err() {
                     break;
                 }
             }
         };
-        std::thread::Builder::new().name("levels of detail".into()).spawn(make).ok()?;
+        std::thread::Builder::new().name("levels of detail".into()).spawn(work).ok()?;
         Some(Self { wanted, made: Mutex::new(made) })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use bevy_asset::Assets;
+    use halfway_mesh::UvSphere;
+
+    #[test]
+    fn a_mesh_whose_levels_cannot_be_made_is_refused_and_the_next_one_is_made() {
+        let broken = Mesh::from(UvSphere::new(1.0, 16, 8));
+        let whole = Mesh::from(UvSphere::new(1.0, 24, 12));
+        let mut assets = Assets::<Mesh>::default();
+        let handles = [&broken, &whole].map(|mesh| assets.add(mesh.clone()));
+        let mut workshop = Workshop::making(|mesh| {
+            assert!(mesh.triangle_count() != UvSphere::new(1.0, 16, 8).triangle_count(), "this mesh is broken");
+            MeshTriangles::in_levels(mesh)
+        });
+        let mut failures = Vec::new();
+        let mut frame = |workshop: &mut Workshop| {
+            workshop.collect();
+            failures.append(&mut workshop.failures);
+            let [first, second] = &handles;
+            let made = [(first, &broken), (second, &whole)].map(|(at, mesh)| workshop.levels(at.id(), mesh).is_some());
+            (made, workshop.pending())
+        };
+        assert_eq!(frame(&mut workshop), ([false, false], 2), "seen once");
+        while frame(&mut workshop).1 > 0 {
+            std::thread::yield_now();
+        }
+        for _ in 0..3 {
+            assert_eq!(frame(&mut workshop), ([false, true], 0));
+        }
+        let [RenderError::NoLevels { mesh, reason }] = &failures[..] else { panic!("said once, not {failures:?}") };
+        assert!(mesh.starts_with("mesh ") && reason == "this mesh is broken", "{mesh}: {reason}");
     }
 }

@@ -9,7 +9,7 @@ use crate::frame::report::FrameReport;
 use crate::pipelines::compile::{Builder, Compile, build};
 use crate::pipelines::key::PipelineKey;
 use crate::shaders::text::{Shaders, Text};
-use crate::target::frame::{Output, Target};
+use crate::target::frame::{Delivery, Output, Target};
 use bevy_ecs::prelude::*;
 use bevy_platform::collections::{HashMap, HashSet};
 use std::sync::Arc;
@@ -62,7 +62,7 @@ enum Background {
     #[default]
     NotYet,
     Running(Builder),
-    /// The system gives no thread, or the thread has died. It is not tried again.
+    /// The system gives no thread. It is not tried again.
     Unavailable,
 }
 
@@ -106,11 +106,9 @@ impl Pipelines {
         }
     }
 
-    /// Takes in what has been built beside the frames. What a thread that has died leaves unbuilt is for the frames.
+    /// Takes in what has been built beside the frames.
     fn take_in(&mut self) {
         let Background::Running(builder) = &self.background else { return };
-        // Before it is emptied: whatever a dead thread has built is in it by now.
-        let is_alive = builder.is_alive();
         for (key, result) in builder.built() {
             // A frame may have built it rather than wait for its turn, or it may have been given up.
             if let Some(variant) =
@@ -122,15 +120,6 @@ impl Pipelines {
                     _ => self.built += 1,
                 }
             }
-        }
-        if !is_alive {
-            self.background = Background::Unavailable;
-            for variant in self.variants.values_mut().filter(|variant| matches!(variant.state, VariantState::Asked)) {
-                variant.state = VariantState::Admitted;
-            }
-            let reason =
-                "the thread that builds pipelines beside the frames has died; from now on frames wait for them";
-            self.failures.push(RenderError::Device(reason.into()));
         }
     }
 
@@ -299,7 +288,8 @@ pub(crate) fn begin(
     mut pipelines: ResMut<Pipelines>,
 ) {
     if let Some(frame) = &target.frame {
-        let by_target = if frame.surface.is_some() { Compile::Beside } else { Compile::Now };
+        let shows = matches!(frame.delivery, Delivery::Present(_));
+        let by_target = if shows { Compile::Beside } else { Compile::Now };
         pipelines.begin(&gpu, frame.output, compile.map_or(by_target, |compile| *compile));
     }
 }

@@ -1,10 +1,12 @@
 //! When pipelines are built: in the frame that needs them, or beside the frames by a thread of their own.
 
 use crate::device::gpu::Gpu;
+use crate::error::panic_message;
 use crate::pipelines::key::PipelineKey;
 use crate::shaders::text::{Shaders, Text};
 use bevy_ecs::prelude::{ReflectResource, Resource};
 use bevy_reflect::Reflect;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
@@ -24,7 +26,7 @@ pub enum Compile {
     /// generic one draws in its place: the same picture but for rounding, more slowly. Generic ones are built ahead for
     /// what is seen, under every shading and reflectance; a frame waits for one only where it needs one that was not
     /// foreseen or is not ready ([`FrameReport::pipelines_awaited`](crate::FrameReport::pipelines_awaited)). Where there is
-    /// no thread that builds them, or none any more, this is as [`Compile::Now`].
+    /// no thread that builds them, this is as [`Compile::Now`].
     Beside,
 }
 
@@ -69,18 +71,14 @@ impl Builder {
             // Ends when the builder is gone.
             for key in wishes {
                 log::debug!("building pipeline {key} beside the frames");
-                if sender.send((key, build(key))).is_err() {
+                let built = catch_unwind(AssertUnwindSafe(|| build(key)));
+                if sender.send((key, built.unwrap_or_else(|panic| Err(panic_message(&*panic))))).is_err() {
                     break;
                 }
             }
         };
         let thread = std::thread::Builder::new().name("pipelines".into()).spawn(work).ok()?;
         Some(Self { ends: Some(Ends { wanted, built: Mutex::new(built) }), thread: Some(thread) })
-    }
-
-    /// Whether the thread goes on building. One that has panicked does not.
-    pub(crate) fn is_alive(&self) -> bool {
-        self.thread.as_ref().is_some_and(|thread| !thread.is_finished())
     }
 
     /// Whether there is a thread that will build it.
@@ -99,10 +97,9 @@ impl Drop for Builder {
     /// Waits for the pipeline that is being built, since a driver may not be unloaded while it works.
     fn drop(&mut self) {
         self.ends = None;
-        if let Some(thread) = self.thread.take()
-            && thread.join().is_err()
-        {
-            log::error!("the thread that builds pipelines has panicked");
+        if let Some(thread) = self.thread.take() {
+            // It ends without a panic: those of builds are caught.
+            drop(thread.join());
         }
     }
 }

@@ -5,6 +5,7 @@ use crate::error::RenderError;
 use crate::frame::report::FrameReport;
 use crate::frame::times::FrameTimes;
 use crate::target::surface::{Lost, SurfaceLost, SurfaceTarget};
+use crate::target::texture::TextureTarget;
 use crate::view::camera::{PictureSize, View};
 use bevy_ecs::prelude::*;
 use bevy_math::UVec2;
@@ -80,7 +81,18 @@ pub(crate) struct Output {
 pub(crate) struct FramePicture {
     pub(crate) output: Output,
     pub(crate) view: wgpu::TextureView,
-    pub(crate) surface: Option<wgpu::SurfaceTexture>,
+    pub(crate) delivery: Delivery,
+}
+
+/// What becomes of a frame.
+#[derive(Debug, PartialEq)]
+pub(crate) enum Delivery {
+    /// It can be read back.
+    Read,
+    /// A window shows it.
+    Present(wgpu::SurfaceTexture),
+    /// An engine has it drawn, by [`encode_frame`](crate::encode_frame).
+    Encode,
 }
 
 impl Default for Output {
@@ -105,6 +117,14 @@ impl Target {
         self.attachments.as_ref()
     }
 
+    /// The window's picture, if the frame has one that is not shown yet. The frame is over then.
+    pub(crate) fn take_surface_texture(&mut self) -> Option<wgpu::SurfaceTexture> {
+        match self.frame.take_if(|frame| frame.delivery != Delivery::Encode)?.delivery {
+            Delivery::Present(texture) => Some(texture),
+            Delivery::Read | Delivery::Encode => None,
+        }
+    }
+
     /// The newest headless picture's texture.
     pub(crate) fn picture(&self) -> Option<&wgpu::Texture> {
         self.attachments.as_ref()?.picture.as_ref()
@@ -112,8 +132,14 @@ impl Target {
 }
 
 /// Learns the size before the view needs it.
-pub(crate) fn measure(headless: Res<Headless>, surface: Option<Res<SurfaceTarget>>, mut size: ResMut<PictureSize>) {
-    size.0 = surface.map_or(headless.size, |surface| surface.size());
+pub(crate) fn measure(
+    headless: Res<Headless>,
+    surface: Option<Res<SurfaceTarget>>,
+    texture: Option<Res<TextureTarget>>,
+    mut size: ResMut<PictureSize>,
+) {
+    let without_texture = || surface.map_or(headless.size, |surface| surface.size());
+    size.0 = texture.map_or_else(without_texture, |texture| texture.size);
 }
 
 /// Makes the attachments that the camera and the target ask for, and acquires the surface's picture.
@@ -122,6 +148,7 @@ pub(crate) fn prepare(
     gpu: Res<Gpu>,
     headless: Res<Headless>,
     surface: Option<ResMut<SurfaceTarget>>,
+    texture: Option<Res<TextureTarget>>,
     view: Res<View>,
     size: Res<PictureSize>,
     blended: Query<Entity, (With<Blend>, With<Mesh3d>)>,
@@ -151,18 +178,27 @@ pub(crate) fn prepare(
     // Blending and resolving need linear values, which only the format gives.
     let shaders_may = gpu.costs().shaders_encode && camera.samples == Samples::One;
     let format_encodes = |blends: bool| camera.encoding == Encoding::Srgb && (blends || !shaders_may);
-    let (format, acquired) = match surface {
-        None => match headless_format(&gpu, headless.pixels, camera.samples, blends, format_encodes(blends)) {
-            Ok(format) => (format, None),
-            Err(error) => {
+    let (format, given, delivery) = match (texture, surface) {
+        (Some(texture), _) => {
+            if let Err(error) = texture.check(&gpu, &camera, blends) {
                 report.errors.push(error);
                 return;
             }
-        },
-        Some(mut surface) => {
+            (texture.format, Some(texture.view.clone()), Delivery::Encode)
+        }
+        (None, None) => {
+            match headless_format(&gpu, headless.pixels, camera.samples, blends, format_encodes(blends)) {
+                Ok(format) => (format, None, Delivery::Read),
+                Err(error) => {
+                    report.errors.push(error);
+                    return;
+                }
+            }
+        }
+        (None, Some(mut surface)) => {
             surface.pick_format(blends, format_encodes);
             match times.at_display(|| surface.acquire(&gpu)) {
-                Ok(Some(texture)) => (surface.format(), Some(texture)),
+                Ok(Some(texture)) => (surface.format(), Some(view_of(&texture.texture)), Delivery::Present(texture)),
                 Ok(None) => return,
                 Err(Lost) => {
                     commands.insert_resource(SurfaceLost);
@@ -171,17 +207,18 @@ pub(crate) fn prepare(
             }
         }
     };
-    let made_as = Configuration { size: size.0, format, samples: camera.samples, headless: acquired.is_none() };
+    let made_as = Configuration { size: size.0, format, samples: camera.samples, headless: given.is_none() };
     if target.attachments.as_ref().is_none_or(|attachments| attachments.made_as != made_as) {
         target.attachments = Some(Attachments::new(&gpu, made_as));
     }
-    let texture = acquired.as_ref().map(|acquired| &acquired.texture).or(target.picture());
-    let Some(view) = texture.map(|texture| texture.create_view(&wgpu::TextureViewDescriptor::default())) else {
-        return;
-    };
+    let Some(view) = given.or_else(|| target.picture().map(view_of)) else { return };
     let encoded = camera.encoding == Encoding::Srgb && !format.is_srgb() && !is_float(format);
     let output = Output { format, encoded, samples: camera.samples.count() };
-    target.frame = Some(FramePicture { output, view, surface: acquired });
+    target.frame = Some(FramePicture { output, view, delivery });
+}
+
+fn view_of(texture: &wgpu::Texture) -> wgpu::TextureView {
+    texture.create_view(&wgpu::TextureViewDescriptor::default())
 }
 
 fn headless_format(
@@ -201,7 +238,7 @@ fn headless_format(
     }
 }
 
-fn is_float(format: wgpu::TextureFormat) -> bool {
+pub(crate) fn is_float(format: wgpu::TextureFormat) -> bool {
     matches!(format, wgpu::TextureFormat::Rgba32Float | wgpu::TextureFormat::Rgba16Float)
 }
 
@@ -242,7 +279,7 @@ impl Attachments {
             })
         };
         let attachment = wgpu::TextureUsages::RENDER_ATTACHMENT;
-        let view = |texture: wgpu::Texture| texture.create_view(&wgpu::TextureViewDescriptor::default());
+        let view = |texture: wgpu::Texture| view_of(&texture);
         Self {
             made_as,
             picture: headless.then(|| texture("picture", format, 1, attachment | wgpu::TextureUsages::COPY_SRC)),

@@ -3,3 +3,4 @@
 pub(crate) mod frame;
 pub(crate) mod picture;
 pub(crate) mod surface;
+pub(crate) mod texture;

@@ -31,6 +31,8 @@ impl Picture {
 /// A picture on its way from the GPU. Poll it with [`PendingPicture::try_take`] while other frames
 /// are drawn, or wait for it with [`PendingPicture::wait`].
 pub struct PendingPicture {
+    /// The device that it comes from, which another may have replaced by now.
+    gpu: Gpu,
     buffer: wgpu::Buffer,
     width: u32,
     height: u32,
@@ -81,15 +83,15 @@ impl PendingPicture {
         let (sender, mapped) = channel();
         // The receiver is gone only when nobody wants the picture any more.
         buffer.map_async(wgpu::MapMode::Read, .., move |result| drop(sender.send(result)));
-        Ok(Self { buffer, width, height, row_bytes, format, mapped })
+        Ok(Self { gpu: gpu.clone(), buffer, width, height, row_bytes, format, mapped })
     }
 
     /// The picture if it has arrived; `None` while it has not, and after it was taken.
     ///
     /// # Errors
-    /// [`RenderError::Device`] when the device failed on the way.
-    pub fn try_take(&mut self, gpu: &Gpu) -> Result<Option<Picture>, RenderError> {
-        gpu.device.poll(wgpu::PollType::Poll).map_err(|error| RenderError::Device(error.to_string()))?;
+    /// [`RenderError::DeviceLost`] or [`RenderError::Device`] when the device was lost or failed on the way.
+    pub fn try_take(&mut self) -> Result<Option<Picture>, RenderError> {
+        self.gpu.poll(wgpu::PollType::Poll)?;
         match self.mapped.try_recv() {
             Ok(Ok(())) => self.read().map(Some),
             Ok(Err(error)) => Err(RenderError::Device(error.to_string())),
@@ -100,10 +102,10 @@ impl PendingPicture {
     /// Blocks until the picture has arrived.
     ///
     /// # Errors
-    /// [`RenderError::Device`] when the device failed on the way.
-    pub fn wait(self, gpu: &Gpu) -> Result<Picture, RenderError> {
+    /// [`RenderError::DeviceLost`] or [`RenderError::Device`] when the device was lost or failed on the way.
+    pub fn wait(self) -> Result<Picture, RenderError> {
         let failed = |error: &dyn std::fmt::Display| RenderError::Device(error.to_string());
-        gpu.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| failed(&error))?;
+        self.gpu.poll(wgpu::PollType::wait_indefinitely())?;
         self.mapped.recv().map_err(|error| failed(&error))?.map_err(|error| failed(&error))?;
         self.read()
     }
@@ -145,6 +147,5 @@ pub fn render_picture(app: &mut App) -> Result<Picture, RenderError> {
     if let Some(error) = world.get_resource::<FrameReport>().and_then(|report| report.errors.first()) {
         return Err(error.clone());
     }
-    let pending = PendingPicture::request(world)?;
-    pending.wait(world.get_resource::<Gpu>().ok_or(RenderError::NoPicture)?)
+    PendingPicture::request(world)?.wait()
 }

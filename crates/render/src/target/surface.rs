@@ -9,6 +9,8 @@ use bevy_math::UVec2;
 #[derive(Resource)]
 pub struct SurfaceTarget {
     surface: wgpu::Surface<'static>,
+    /// The device that it was made for.
+    gpu: u64,
     formats: Vec<wgpu::TextureFormat>,
     config: wgpu::SurfaceConfiguration,
     stale: bool,
@@ -27,7 +29,15 @@ impl SurfaceTarget {
         let config = surface
             .get_default_config(&gpu.adapter, size.x.max(1), size.y.max(1))
             .ok_or_else(|| RenderError::Device(format!("{} cannot present to this window", gpu.describe())))?;
-        Ok(Self { surface, formats: capabilities.formats, config, stale: true, acquired: false, blends: false })
+        Ok(Self {
+            surface,
+            gpu: gpu.id(),
+            formats: capabilities.formats,
+            config,
+            stale: true,
+            acquired: false,
+            blends: false,
+        })
     }
 
     /// Follows the window to `size` physical pixels; a size of 0 (minimised) is ignored.
@@ -36,12 +46,6 @@ impl SurfaceTarget {
             (self.config.width, self.config.height) = (size.x, size.y);
             (self.stale, self.acquired) = (true, false);
         }
-    }
-
-    /// Replaces a lost surface by a new one of the same window.
-    pub fn replace(&mut self, surface: wgpu::Surface<'static>) {
-        self.surface = surface;
-        (self.stale, self.acquired) = (true, false);
     }
 
     /// Whether the newest frame has a picture of the surface to draw into and present. Where it has
@@ -73,6 +77,10 @@ impl SurfaceTarget {
     pub(crate) fn acquire(&mut self, gpu: &Gpu) -> Result<Option<wgpu::SurfaceTexture>, Lost> {
         use wgpu::CurrentSurfaceTexture as Current;
         self.acquired = false;
+        // It may be another instance's by now.
+        if self.gpu != gpu.id() {
+            return Err(Lost);
+        }
         if std::mem::take(&mut self.stale) {
             self.surface.configure(&gpu.device, &self.config);
         }
@@ -94,8 +102,8 @@ impl SurfaceTarget {
     }
 }
 
-/// The window's surface is gone: whoever owns the window makes a new one and calls
-/// [`SurfaceTarget::replace`]. Set by the frame that found out.
+/// The window's surface is gone, or it was made for another device than the world's [`Gpu`]: whoever owns the window
+/// removes its [`SurfaceTarget`], and inserts a new one. Set by the frame that found out.
 #[derive(Resource, Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SurfaceLost;
 

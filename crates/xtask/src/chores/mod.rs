@@ -12,4 +12,5 @@ pub(crate) mod fuzz;
 pub(crate) mod program;
 pub(crate) mod readme;
 pub(crate) mod screen;
+pub(crate) mod soak;
 pub(crate) mod test;

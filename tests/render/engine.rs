@@ -1,0 +1,184 @@
+//! Frames on a device of an engine's own, by an encoder of its own, into a texture of its own.
+
+use crate::render::compare::assert_identical;
+use crate::render::scene::{Lamp, Scene, Thing, directional_light, material, other_material, point_light};
+use crate::render::stage::Stage;
+use halfway::prelude::*;
+use halfway::render::{Gpu, GpuTimer, RenderError, TextureTarget, encode_frame, wgpu};
+
+const SIZE: UVec2 = UVec2::new(24, 16);
+
+fn scene(lights: u8) -> Scene {
+    let mut scene = Scene::seen_from(Vec3::new(0.0, 3.0, 6.0), Vec3::ZERO).ambient(0.1);
+    scene.camera.encoding = Encoding::Raw;
+    scene = scene
+        .with(Thing::new(Plane { size: 9.0, divisions: 64 }).of(other_material()))
+        .with(Thing::new(UvSphere::new(0.8, 24, 12)).of(material()))
+        .with(Thing::new(Cuboid::default()).at(Transform::from_xyz(1.5, 0.5, 0.0)).shaded(Shading::Flat))
+        .lit(Lamp::directional(directional_light(), Vec3::new(-0.4, -0.5, -1.0)));
+    for i in 0..lights {
+        let at = Vec3::new(2.0 * f32::from(i % 5) - 4.0, 1.0, 2.0 * f32::from(i / 5) - 4.0);
+        scene = scene.lit(Lamp::point(PointLight { range: Some(3.0), ..point_light() }, at));
+    }
+    scene
+}
+
+fn with_blended(scene: Scene) -> Scene {
+    scene.with(Thing::new(Cuboid::default()).at(Transform::from_xyz(-1.5, 0.5, 1.0)).blended(0.5))
+}
+
+/// A device with no optional feature and the smallest limits, as an engine may open it. Errors outside of a call panic.
+fn plain_device() -> Gpu {
+    let Gpu { instance, adapter, .. } = Gpu::open_headless().expect("an adapter");
+    let (device, queue) = {
+        let request = adapter
+            .request_device(&wgpu::DeviceDescriptor { required_limits: wgpu::Limits::default(), ..Default::default() });
+        pollster::block_on(request).expect("every adapter has the defaults")
+    };
+    Gpu::from_existing(instance, adapter, device, queue)
+}
+
+/// A texture of the engine's, in two levels, and the second of these as the target.
+fn texture(gpu: &Gpu, format: wgpu::TextureFormat) -> (wgpu::Texture, TextureTarget) {
+    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("the engine's"),
+        size: wgpu::Extent3d { width: 2 * SIZE.x, height: 2 * SIZE.y, depth_or_array_layers: 1 },
+        mip_level_count: 2,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+        view_formats: &[],
+    });
+    let view = texture.create_view(&wgpu::TextureViewDescriptor {
+        base_mip_level: 1,
+        mip_level_count: Some(1),
+        ..Default::default()
+    });
+    (texture, TextureTarget { view, format, size: SIZE })
+}
+
+/// The texels of the second level.
+fn read(gpu: &Gpu, texture: &wgpu::Texture, mut encoder: wgpu::CommandEncoder) -> Vec<u8> {
+    let row = SIZE.x * texture.format().block_copy_size(None).expect("a color");
+    let padded = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+    let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: None,
+        size: u64::from(padded * SIZE.y),
+        usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+        mapped_at_creation: false,
+    });
+    encoder.copy_texture_to_buffer(
+        wgpu::TexelCopyTextureInfo { mip_level: 1, ..texture.as_image_copy() },
+        wgpu::TexelCopyBufferInfo {
+            buffer: &buffer,
+            layout: wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(padded), rows_per_image: None },
+        },
+        wgpu::Extent3d { width: SIZE.x, height: SIZE.y, depth_or_array_layers: 1 },
+    );
+    gpu.queue.submit([encoder.finish()]);
+    buffer.map_async(wgpu::MapMode::Read, .., |result| result.expect("the buffer can be mapped"));
+    gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("the device is there");
+    let mapped = buffer.get_mapped_range(..).expect("it is mapped");
+    mapped.chunks_exact(padded as usize).flat_map(|bytes| &bytes[..row as usize]).copied().collect()
+}
+
+fn encoder(gpu: &Gpu) -> wgpu::CommandEncoder {
+    gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default())
+}
+
+#[test]
+fn a_frame_in_an_engine_s_texture_is_that_of_a_picture() {
+    let gpu = plain_device();
+    let mut stage = Stage::new(SIZE.x, SIZE.y);
+    stage.world().insert_resource(gpu.clone());
+    // Without the clock it has nothing to do.
+    stage.world().init_resource::<GpuTimer>();
+    let formats =
+        [(wgpu::TextureFormat::Rgba8Unorm, Encoding::Raw), (wgpu::TextureFormat::Rgba8UnormSrgb, Encoding::Srgb)];
+    for (format, encoding) in formats {
+        for (lights, samples) in [(2, Samples::One), (20, Samples::One), (2, Samples::Four)] {
+            let mut scene = with_blended(scene(lights));
+            (scene.camera.encoding, scene.camera.samples) = (encoding, samples);
+            stage.world().remove_resource::<TextureTarget>();
+            let picture = stage.draw_bytes(&scene);
+            let (texture, target) = texture(&gpu, format);
+            stage.world().insert_resource(target);
+            assert_eq!(stage.frame().errors, [], "{format:?}");
+            let mut encoder = encoder(&gpu);
+            encode_frame(stage.app.world(), &mut encoder).expect("a frame");
+            let row = format!("{format:?}, {lights} lights, {samples:?}");
+            assert!(picture.into_raw() == read(&gpu, &texture, encoder), "{row}: other bytes");
+        }
+    }
+}
+
+#[test]
+fn what_a_plain_device_cannot_do_is_done_otherwise() {
+    let gpu = plain_device();
+    assert!(gpu.device.features().is_empty() || !gpu.device.features().contains(wgpu::Features::FLOAT32_BLENDABLE));
+    assert_eq!((gpu.multi_draw(), gpu.costs().maps_meshes), (None, false));
+    let mut own = Stage::new(SIZE.x, SIZE.y);
+    let mut stage = Stage::new(SIZE.x, SIZE.y);
+    stage.world().insert_resource(gpu.clone());
+    // 16 bits of floating point: half a unit in the eleventh bit.
+    let (wide, narrow) = (own.draw(&with_blended(scene(2))), stage.draw(&with_blended(scene(2))));
+    for (wide, narrow) in wide.as_raw().iter().zip(narrow.as_raw()) {
+        assert!((wide - narrow).abs() <= wide.abs() / 512.0, "{wide} and {narrow}");
+    }
+    // Opaque objects need no blending, so that 32 bits will do for a texture of the engine's.
+    let (texture, target) = texture(&gpu, wgpu::TextureFormat::Rgba32Float);
+    stage.world().insert_resource(target);
+    stage.set(&scene(2));
+    assert_eq!(stage.frame().errors, []);
+    let mut encoder = encoder(&gpu);
+    encode_frame(stage.app.world(), &mut encoder).expect("a frame");
+    let bytes = read(&gpu, &texture, encoder);
+    let floats = bytes.chunks_exact(4).map(|bytes| f32::from_le_bytes(bytes.try_into().expect("four"))).collect();
+    let picture = image::Rgba32FImage::from_raw(SIZE.x, SIZE.y, floats).expect("all texels");
+    assert_identical("32 bits", &own.draw(&scene(2)), &picture);
+}
+
+#[test]
+fn what_does_not_go_into_a_texture_is_said() {
+    use wgpu::TextureFormat::{Depth32Float, Rgba8Unorm, Rgba8UnormSrgb, Rgba16Float, Rgba32Float};
+    let gpu = plain_device();
+    let mut stage = Stage::new(SIZE.x, SIZE.y);
+    stage.world().insert_resource(gpu.clone());
+    let mut encoder = encoder(&gpu);
+    stage.set(&scene(1));
+    stage.frame();
+    assert_eq!(encode_frame(stage.app.world(), &mut encoder), Err(RenderError::NoFrame), "a headless frame");
+    let rows = [
+        (Rgba8Unorm, Encoding::Raw, Samples::Four, true, None),
+        (Rgba8UnormSrgb, Encoding::Raw, Samples::One, false, Some("raw")),
+        (Rgba8Unorm, Encoding::Srgb, Samples::One, false, None),
+        (Rgba8Unorm, Encoding::Srgb, Samples::One, true, Some("blended, which takes an sRGB format")),
+        (Rgba8Unorm, Encoding::Srgb, Samples::Four, false, Some("averaged, which takes an sRGB format")),
+        (Rgba8UnormSrgb, Encoding::Srgb, Samples::Four, true, None),
+        (Rgba16Float, Encoding::Srgb, Samples::Four, true, None),
+        (Rgba32Float, Encoding::Raw, Samples::One, true, Some("blended, which the device cannot")),
+        (Rgba32Float, Encoding::Raw, Samples::Four, false, Some("four samples a pixel, which the device cannot")),
+        (Depth32Float, Encoding::Raw, Samples::One, false, Some("expected Rgba8Unorm")),
+    ];
+    for (format, encoding, samples, blends, problem) in rows {
+        let row = format!("{format:?}, {encoding:?}, {samples:?}, blended: {blends}");
+        let mut scene = if blends { with_blended(scene(1)) } else { scene(1) };
+        (scene.camera.encoding, scene.camera.samples) = (encoding, samples);
+        stage.set(&scene);
+        stage.world().insert_resource(texture(&gpu, format).1);
+        let errors = stage.frame().errors.clone();
+        let encoded = encode_frame(stage.app.world(), &mut encoder);
+        match problem {
+            None => assert_eq!((&errors[..], encoded), (&[][..], Ok(())), "{row}"),
+            Some(problem) => {
+                let [error @ RenderError::BadTarget { reason, .. }] = &errors[..] else { panic!("{row}: {errors:?}") };
+                assert!(reason.contains(problem), "{row}: {reason}");
+                assert_eq!(encoded, Err(error.clone()), "{row}");
+            }
+        }
+    }
+    let (_, target) = texture(&gpu, Rgba8Unorm);
+    stage.world().insert_resource(TextureTarget { size: SIZE + 1, ..target });
+    assert!(matches!(&stage.frame().errors[..], [RenderError::BadTarget { reason, .. }] if reason.contains("size")));
+}
