@@ -1,0 +1,348 @@
+//! The tests' hands and eyes: an X display, a program with a window on it, and what the window shows.
+
+use std::io::{BufRead, BufReader};
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::thread::sleep;
+use std::time::Duration;
+
+use x11rb::connection::Connection;
+use x11rb::protocol::xproto::{
+    AtomEnum, ClientMessageEvent, ConfigureWindowAux, ConnectionExt, CreateWindowAux, EventMask, ImageFormat,
+    InputFocus, KEY_PRESS_EVENT, KEY_RELEASE_EVENT, KeyButMask, KeyPressEvent, Keysym, MapState, PropMode, Window,
+    WindowClass,
+};
+use x11rb::rust_connection::RustConnection;
+use x11rb::wrapper::ConnectionExt as _;
+use x11rb::{CURRENT_TIME, NONE};
+
+/// Looks this often before giving up: minutes on a machine that is not stuck.
+const LOOKS: u32 = 2400;
+pub(crate) const BETWEEN_LOOKS: Duration = Duration::from_millis(50);
+
+/// Displays have one focus; the tests that open windows take turns.
+static TURN: Mutex<()> = Mutex::new(());
+
+/// The command that shows the teapot, on whatever X display it will be told.
+pub(crate) fn view() -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_halfway"));
+    command.args(["view", concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/teapot.obj")]);
+    command.env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET").stdin(Stdio::null());
+    command
+}
+
+/// The example that loses its device by command, which Cargo builds beside this test.
+pub(crate) fn device_loser() -> Command {
+    let test = std::env::current_exe().expect("a running test has a path");
+    let program = test.ancestors().nth(2).expect("tests lie in target/PROFILE/deps").join("examples/lose_device");
+    assert!(program.is_file(), "{} is missing; run `cargo build --examples` with the same profile", program.display());
+    let mut command = Command::new(program);
+    command.env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET").stdin(Stdio::null());
+    command
+}
+
+/// Asks until there is an answer.
+pub(crate) fn eventually<T>(what: &str, mut ask: impl FnMut() -> Option<T>) -> T {
+    for _ in 0..LOOKS {
+        if let Some(answer) = ask() {
+            return answer;
+        }
+        sleep(BETWEEN_LOOKS);
+    }
+    panic!("waited in vain: {what}")
+}
+
+/// Whether the model's edges are as far from the middle in both pictures, in heights. The field of view is a vertical
+/// one, so that this holds for every width.
+pub(crate) fn same_framing(a: &Picture, b: &Picture) -> bool {
+    let (Some(a_edges), Some(b_edges)) = (a.edges(), b.edges()) else { return false };
+    // Edges are whole pixels: half a pixel each way, and as much for where the pixels' centres fall.
+    let tolerance = 1.0 / f64::from(a.height) + 1.0 / f64::from(b.height);
+    a_edges.iter().zip(b_edges).all(|(a, b)| (a - b).abs() <= tolerance)
+}
+
+/// What a window shows.
+#[derive(PartialEq)]
+pub(crate) struct Picture {
+    pub(crate) width: u16,
+    pub(crate) height: u16,
+    /// Four bytes a pixel, top row first; the fourth is no part of the colour and 0.
+    bytes: Vec<u8>,
+}
+
+impl Picture {
+    pub(crate) fn is_flat(&self) -> bool {
+        self.bytes.chunks_exact(4).all(|pixel| pixel == &self.bytes[..4])
+    }
+
+    pub(crate) fn colours(&self) -> usize {
+        self.bytes.chunks_exact(4).collect::<std::collections::HashSet<_>>().len()
+    }
+
+    /// Left, top, right and bottom of what is not background, from the middle, in heights; none where nothing is.
+    pub(crate) fn edges(&self) -> Option<[f64; 4]> {
+        let background = self.bytes.get(..4)?;
+        let width = usize::from(self.width);
+        let drawn = self.bytes.chunks_exact(4).enumerate().filter(|(_, pixel)| *pixel != background);
+        let (mut left, mut top, mut right, mut bottom) = (usize::MAX, usize::MAX, 0, 0);
+        for (index, _) in drawn {
+            let (x, y) = (index % width, index / width);
+            (left, right) = (left.min(x), right.max(x + 1));
+            (top, bottom) = (top.min(y), bottom.max(y + 1));
+        }
+        let height = f64::from(self.height);
+        let across = |x: usize| (x as f64 - f64::from(self.width) / 2.0) / height;
+        let down = |y: usize| y as f64 / height - 0.5;
+        (right > 0).then(|| [across(left), down(top), across(right), down(bottom)])
+    }
+}
+
+/// An X display, to which the test itself is connected.
+pub(crate) struct Screen {
+    connection: RustConnection,
+    root: Window,
+    name: String,
+    server: Option<Child>,
+    _turn: MutexGuard<'static, ()>,
+}
+
+impl Screen {
+    pub(crate) fn open() -> Self {
+        let turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
+        let given = std::env::var("DISPLAY").ok().filter(|name| !name.is_empty());
+        let (name, server) = given.map_or_else(Self::start, |name| (name, None));
+        let (connection, number) = Self::connect(&name);
+        let root = connection.setup().roots[number].root;
+        Self { connection, root, name, server, _turn: turn }
+    }
+
+    /// Connects to a display. One that has just lost its last program may start afresh, and hangs up on whoever comes
+    /// meanwhile; so it is asked again for a second.
+    pub(crate) fn connect(name: &str) -> (RustConnection, usize) {
+        let mut problem = None;
+        for _ in 0..20 {
+            match RustConnection::connect(Some(name)) {
+                Ok(connected) => return connected,
+                Err(error) => problem = Some(error),
+            }
+            sleep(BETWEEN_LOOKS);
+        }
+        panic!("the X display {name} does not answer: {}", problem.expect("there was one"));
+    }
+
+    /// Starts a virtual screen under a free number, which it writes when it is ready.
+    pub(crate) fn start() -> (String, Option<Child>) {
+        let mut server = Command::new("Xvfb")
+            .args(["-displayfd", "1", "-screen", "0", "1280x1024x24", "-nolisten", "tcp"])
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .spawn()
+            .unwrap_or_else(|error| {
+                panic!(
+                    "no display for the tests of the window: DISPLAY is not set, and Xvfb does not start ({error}). \
+                     Install it (Debian and Ubuntu: apt-get install xvfb)"
+                )
+            });
+        let mut number = String::new();
+        let output = server.stdout.take().expect("it is piped");
+        BufReader::new(output).read_line(&mut number).expect("Xvfb writes text");
+        assert!(!number.is_empty(), "Xvfb ended without a screen");
+        (format!(":{}", number.trim()), Some(server))
+    }
+
+    /// The window of a process that can be seen, at any depth, since window managers put frames around it.
+    pub(crate) fn window_of(&self, process: u32) -> Option<Window> {
+        let pid = self.atom("_NET_WM_PID");
+        let mut open = vec![self.root];
+        while let Some(window) = open.pop() {
+            // Windows come and go meanwhile; one that is gone is not the one.
+            let Ok(tree) = self.connection.query_tree(window).ok()?.reply() else { continue };
+            open.extend(tree.children);
+            let owner = self.connection.get_property(false, window, pid, AtomEnum::CARDINAL, 0, 1).ok()?.reply();
+            let is_its = owner.is_ok_and(|owner| owner.value32().is_some_and(|mut pid| pid.next() == Some(process)));
+            let attributes = self.connection.get_window_attributes(window).ok()?.reply();
+            if is_its && attributes.is_ok_and(|attributes| attributes.map_state == MapState::VIEWABLE) {
+                return Some(window);
+            }
+        }
+        None
+    }
+
+    /// A window over all of the screen, that no window manager touches.
+    pub(crate) fn cover(&self) -> Window {
+        let cover = self.connection.generate_id().expect("there are ids");
+        let look = CreateWindowAux::new().override_redirect(1).background_pixel(0);
+        let class = WindowClass::INPUT_OUTPUT;
+        let made = self.connection.create_window(0, cover, self.root, 0, 0, 1280, 1024, 0, class, 0, &look);
+        made.expect("the display is there").check().expect("a window is made");
+        self.connection.map_window(cover).expect("the display is there").check().expect("the window is mapped");
+        cover
+    }
+
+    pub(crate) fn destroy(&self, window: Window) {
+        self.connection.destroy_window(window).expect("the display is there").check().expect("the window is there");
+    }
+
+    /// As the settings of a desktop do.
+    pub(crate) fn set_dots_per_inch(&self, number: u32) {
+        let settings = format!("Xft.dpi:\t{number}\n");
+        let (mode, kind) = (PropMode::REPLACE, AtomEnum::STRING);
+        let set =
+            self.connection.change_property8(mode, self.root, AtomEnum::RESOURCE_MANAGER, kind, settings.as_bytes());
+        set.expect("the display is there").check().expect("the screen takes settings");
+    }
+
+    pub(crate) fn atom(&self, name: &str) -> u32 {
+        let request = self.connection.intern_atom(false, name.as_bytes()).expect("the display is there");
+        request.reply().expect("every name can be an atom").atom
+    }
+
+    pub(crate) fn key_code(&self, symbol: Keysym) -> u8 {
+        let setup = self.connection.setup();
+        let (first, last) = (setup.min_keycode, setup.max_keycode);
+        let request = self.connection.get_keyboard_mapping(first, last - first + 1).expect("the display is there");
+        let mapping = request.reply().expect("a display has a keyboard");
+        let columns = usize::from(mapping.keysyms_per_keycode).max(1);
+        let mut keys = (first..=last).zip(mapping.keysyms.chunks(columns));
+        let key = keys.find(|(_, symbols)| symbols.contains(&symbol));
+        key.unwrap_or_else(|| panic!("no key of the display types {symbol:#x}")).0
+    }
+}
+
+impl Drop for Screen {
+    fn drop(&mut self) {
+        if let Some(server) = &mut self.server {
+            // Asked rather than killed, so that it leaves no lock behind.
+            let _ = Command::new("sh").args(["-c", &format!("kill {}", server.id())]).status();
+            let _ = server.wait();
+        }
+    }
+}
+
+/// The running command and its window.
+pub(crate) struct Viewer<'a> {
+    screen: &'a Screen,
+    pub(crate) process: Child,
+    window: Window,
+}
+
+impl<'a> Viewer<'a> {
+    pub(crate) fn open(screen: &'a Screen) -> Self {
+        Self::run(screen, view())
+    }
+
+    /// Starts a program, and waits for its window.
+    pub(crate) fn run(screen: &'a Screen, mut program: Command) -> Self {
+        let process = program.env("DISPLAY", &screen.name).spawn().expect("the program starts");
+        let mut viewer = Self { screen, process, window: NONE };
+        viewer.window = eventually("a window opens", || {
+            viewer.assert_running();
+            screen.window_of(viewer.process.id())
+        });
+        viewer
+    }
+
+    pub(crate) fn assert_running(&mut self) {
+        if let Some(status) = self.process.try_wait().expect("it is a child") {
+            panic!("the viewer ended by itself: {status}");
+        }
+    }
+
+    /// The picture under a title that ends with `state`, once it has settled and is another than `before`.
+    pub(crate) fn shown(&mut self, state: &str, before: Option<&Picture>) -> Picture {
+        let mut last = None;
+        eventually(&format!("another picture, under the title … {state}"), || {
+            self.assert_running();
+            let current = self.picture().filter(|picture| Some(picture) != before && !picture.is_flat());
+            let settled = current.is_some() && current == last;
+            last = current;
+            if settled && self.title()?.ends_with(&format!(" · {state}")) { last.take() } else { None }
+        })
+    }
+
+    pub(crate) fn title(&self) -> Option<String> {
+        let (name, text) = (self.screen.atom("_NET_WM_NAME"), self.screen.atom("UTF8_STRING"));
+        let request = self.screen.connection.get_property(false, self.window, name, text, 0, 256).ok()?;
+        String::from_utf8(request.reply().ok()?.value).ok()
+    }
+
+    /// `None` while the window is not all on the screen, or its size changes at this moment.
+    pub(crate) fn picture(&self) -> Option<Picture> {
+        const COLOUR: u32 = 0x00ff_ffff;
+        let connection = &self.screen.connection;
+        let size = connection.get_geometry(self.window).ok()?.reply().ok()?;
+        let (width, height) = (size.width, size.height);
+        let image = connection.get_image(ImageFormat::Z_PIXMAP, self.window, 0, 0, width, height, COLOUR);
+        let bytes = image.ok()?.reply().ok()?.data;
+        (bytes.len() == 4 * usize::from(width) * usize::from(height)).then_some(Picture { width, height, bytes })
+    }
+
+    /// Gives the window the focus and a key to press and release.
+    pub(crate) fn press(&self, key: Keysym) {
+        let Screen { connection, root, .. } = self.screen;
+        let press = KeyPressEvent {
+            response_type: KEY_PRESS_EVENT,
+            detail: self.screen.key_code(key),
+            sequence: 0,
+            time: CURRENT_TIME,
+            root: *root,
+            event: self.window,
+            child: NONE,
+            root_x: 0,
+            root_y: 0,
+            event_x: 0,
+            event_y: 0,
+            state: KeyButMask::default(),
+            same_screen: true,
+        };
+        let release = KeyPressEvent { response_type: KEY_RELEASE_EVENT, ..press };
+        let focus = connection.set_input_focus(InputFocus::PARENT, self.window, CURRENT_TIME);
+        focus.expect("the display is there").check().expect("a window that is seen takes the focus");
+        for event in [press, release] {
+            // With no mask, an event goes to the program that made the window.
+            let sent = connection.send_event(false, self.window, EventMask::NO_EVENT, event);
+            sent.expect("the display is there").check().expect("the window takes keys");
+        }
+    }
+
+    pub(crate) fn resize(&self, width: u32, height: u32) {
+        let size = ConfigureWindowAux::new().width(width).height(height);
+        let request = self.screen.connection.configure_window(self.window, &size);
+        request.expect("the display is there").check().expect("the window takes a size");
+    }
+
+    pub(crate) fn set_mapped(&self, mapped: bool) {
+        let connection = &self.screen.connection;
+        let request = if mapped { connection.map_window(self.window) } else { connection.unmap_window(self.window) };
+        request.expect("the display is there").check().expect("the window is there");
+    }
+
+    /// How long the viewer has worked, in the system's ticks.
+    pub(crate) fn cpu_ticks(&self) -> u64 {
+        let status = std::fs::read_to_string(format!("/proc/{}/stat", self.process.id())).expect("the viewer runs");
+        // Behind the name, which may have spaces, the twelfth and thirteenth.
+        let (_, behind) = status.rsplit_once(')').expect("a name in brackets");
+        behind.split_whitespace().skip(11).take(2).map(|ticks| ticks.parse::<u64>().expect("a number")).sum()
+    }
+
+    /// What a window manager sends when the close button is clicked.
+    pub(crate) fn request_close(&self) {
+        let [protocols, delete] = ["WM_PROTOCOLS", "WM_DELETE_WINDOW"].map(|name| self.screen.atom(name));
+        let message = ClientMessageEvent::new(32, self.window, protocols, [delete, CURRENT_TIME, 0, 0, 0]);
+        let sent = self.screen.connection.send_event(false, self.window, EventMask::NO_EVENT, message);
+        sent.expect("the display is there").check().expect("the window takes messages");
+    }
+
+    /// Waits until the viewer has ended.
+    pub(crate) fn end(&mut self) -> ExitStatus {
+        eventually("the viewer ends", || self.process.try_wait().expect("it is a child"))
+    }
+}
+
+impl Drop for Viewer<'_> {
+    fn drop(&mut self) {
+        // After a failure it still runs.
+        let _ = self.process.kill();
+        let _ = self.process.wait();
+    }
+}
