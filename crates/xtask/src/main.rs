@@ -33,6 +33,7 @@ enum Chore {
     Readme(chores::readme::Options),
     Screen(chores::screen::Options),
     Soak(chores::soak::Options),
+    Wild(chores::wild::Options),
 }
 
 impl Chore {
@@ -48,6 +49,7 @@ impl Chore {
             Self::Readme(options) => chores::readme::run(&options),
             Self::Screen(options) => chores::screen::run(&options),
             Self::Soak(options) => chores::soak::run(&options),
+            Self::Wild(options) => chores::wild::run(&options),
         }
     }
 }
@@ -84,6 +86,9 @@ mod tests {
             "screen cargo test --release --test window",
             "soak --no-install",
             "soak --frames 3000",
+            "wild",
+            "wild --seed 7 --scenes 1000 --output out/wild",
+            "wild --no-install --first 12",
         ];
         for line in rows {
             let parsed = Arguments::try_parse_from(["xtask"].into_iter().chain(line.split(' ')));

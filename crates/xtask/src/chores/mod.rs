@@ -14,3 +14,4 @@ pub(crate) mod readme;
 pub(crate) mod screen;
 pub(crate) mod soak;
 pub(crate) mod test;
+pub(crate) mod wild;

@@ -1,0 +1,168 @@
+//! A scene drawn by an adapter and judged by the oracle.
+
+use std::fmt;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::PathBuf;
+use std::time::Duration;
+
+use halfway::prelude::*;
+use halfway::reference::metrics::{Bars, Verdict, judge};
+use halfway::reference::{Image, Oracle};
+use halfway::render::{Gpu, RenderError};
+use halfway::scene::{SceneFile, spawn};
+use serde_json::Value;
+
+use crate::shrink::shrink;
+
+/// Draws scenes with one adapter and judges the pictures by the oracle, as `halfway verify` does.
+///
+/// A picture is right if it keeps to [`Bars::FLOAT`] in floating point, and if none of its bytes is off by more than one
+/// step; where something is blended by one step more for each blended object, since each layer is rounded to bytes. A
+/// scene with four samples a pixel is drawn and judged with four.
+pub struct Judge {
+    gpu: Gpu,
+    base_dir: PathBuf,
+    fault: Option<Fault>,
+}
+
+/// A change of the scene that only the renderer is given, to see that it is found.
+pub type Fault = fn(&mut SceneFile);
+
+/// What is wrong with a scene.
+#[derive(Clone, Debug)]
+pub enum Finding {
+    /// The picture in floating point is not what the oracle says.
+    Float(Verdict),
+    /// The picture of bytes is not what the oracle says.
+    Bytes(Verdict),
+    /// The scene was read, and then not drawn.
+    Refused(String),
+    /// The format does not allow the scene.
+    NoScene(String),
+    /// The renderer or the oracle panicked.
+    Panicked(String),
+}
+
+/// How the pictures of a right scene did.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Figures {
+    /// In floating point.
+    pub float: Verdict,
+    /// In bytes.
+    pub bytes: Verdict,
+}
+
+impl Finding {
+    /// Whether two scenes fail in the same way, so that the smaller one may stand for the larger one.
+    pub fn is_like(&self, other: &Self) -> bool {
+        std::mem::discriminant(self) == std::mem::discriminant(other)
+    }
+}
+
+impl fmt::Display for Finding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Float(verdict) => write!(f, "float: {verdict}"),
+            Self::Bytes(verdict) => write!(f, "8 bits: {verdict}"),
+            Self::Refused(reason) => write!(f, "not drawn: {reason}"),
+            Self::NoScene(reason) => write!(f, "no scene: {reason}"),
+            Self::Panicked(reason) => write!(f, "panicked: {reason}"),
+        }
+    }
+}
+
+impl Judge {
+    /// Judges what `gpu` draws. Paths of scenes are relative to `base_dir`.
+    pub fn new(gpu: Gpu, base_dir: impl Into<PathBuf>) -> Self {
+        Self { gpu, base_dir: base_dir.into(), fault: None }
+    }
+
+    /// Gives the renderer another scene than the oracle.
+    #[must_use]
+    pub fn with_fault(self, fault: Fault) -> Self {
+        Self { fault: Some(fault), ..self }
+    }
+
+    /// Reads the scene, draws it and judges its pictures.
+    ///
+    /// # Errors
+    /// What is wrong, the picture in floating point first.
+    pub fn judge(&self, scene: &Value) -> Result<Figures, Finding> {
+        let scene = SceneFile::from_json(&scene.to_string(), "scene").map_err(|no| Finding::NoScene(no.to_string()))?;
+        catch_unwind(AssertUnwindSafe(|| self.judge_unguarded(&scene))).unwrap_or_else(|panic| {
+            let text = panic.downcast_ref::<String>().map(String::as_str);
+            let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
+            Err(Finding::Panicked(text.unwrap_or("without a message").into()))
+        })
+    }
+
+    /// The scene in small, if it fails: one that fails in the same way, found with at most `trials` pictures.
+    pub fn shrunk(&self, scene: &Value, finding: &Finding, trials: usize) -> Value {
+        shrink(scene, trials, |smaller| self.judge(smaller).is_err_and(|other| other.is_like(finding)))
+    }
+
+    fn judge_unguarded(&self, scene: &SceneFile) -> Result<Figures, Finding> {
+        let size = UVec2::from_array(scene.size);
+        let encoding = Encoding::from(scene.output);
+        let blended = scene.objects.iter().filter(|object| object.blend == Some(true)).count();
+        let steps = 1.0 + blended as f64;
+        let bytes = Bars { most: steps, worst: steps, equal: 0.0, ..Bars::bytes(encoding) };
+
+        let mut drawn = scene.clone();
+        if let Some(fault) = self.fault {
+            fault(&mut drawn);
+        }
+        let mut renderer = App::new();
+        renderer.add_plugins(HalfwayPlugins::headless(size)).insert_resource(self.gpu.clone());
+        // The oracle knows no levels of detail.
+        renderer.insert_resource(LevelsOfDetail::OFF);
+        self.set_up(&mut renderer, &drawn)?;
+        let mut pictures = Pictures { renderer, oracle: App::new(), size, encoding };
+        pictures.oracle.add_plugins(HalfwayPlugins::reference());
+        self.set_up(&mut pictures.oracle, scene)?;
+        pictures.oracle.update();
+
+        let float = pictures.judged(Pixels::Float, Bars::FLOAT)?;
+        let bytes = pictures.judged(Pixels::Byte, bytes)?;
+        if !float.is_within() {
+            Err(Finding::Float(float))
+        } else if !bytes.is_within() {
+            Err(Finding::Bytes(bytes))
+        } else {
+            Ok(Figures { float, bytes })
+        }
+    }
+
+    fn set_up(&self, app: &mut App, scene: &SceneFile) -> Result<(), Finding> {
+        spawn(scene, &self.base_dir, app.world_mut()).map_err(refused)?;
+        app.insert_resource(bevy_time::TimeUpdateStrategy::ManualDuration(Duration::ZERO));
+        app.finish();
+        app.cleanup();
+        Ok(())
+    }
+}
+
+/// One scene in two worlds.
+struct Pictures {
+    renderer: App,
+    oracle: App,
+    size: UVec2,
+    encoding: Encoding,
+}
+
+impl Pictures {
+    fn judged(&mut self, pixels: Pixels, bars: Bars) -> Result<Verdict, Finding> {
+        self.renderer.insert_resource(Headless { size: self.size, pixels });
+        let actual = match render_picture(&mut self.renderer).map_err(refused::<RenderError>)? {
+            Picture::Byte(image) => Image::from_bytes(&image, self.encoding),
+            Picture::Float(image) => Image::from_float(&image),
+        };
+        let oracle = Oracle::new(self.oracle.world_mut(), self.size).map_err(refused)?;
+        let oracle = oracle.with_clamping(bars.are_clamped());
+        judge(&oracle, &oracle.draw(), &actual, bars).map_err(refused)
+    }
+}
+
+fn refused<E: fmt::Display>(error: E) -> Finding {
+    Finding::Refused(error.to_string())
+}

@@ -1,0 +1,111 @@
+//! `halfway-wild`: random scenes, drawn, judged and, where they fail, made small.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Instant;
+
+use clap::Parser;
+use halfway::output::write_text;
+use halfway::render::{Gpu, RenderError};
+use halfway_wild::{Judge, scene, written};
+use serde_json::Value;
+
+/// Draws random scenes with the graphics adapter and judges each by the oracle; makes what fails small and prints it.
+///
+/// The same seed means the same scenes on every machine. A failure is written as a scene file, which `halfway verify` takes.
+#[derive(Debug, Parser)]
+#[command(name = "halfway-wild", version, max_term_width = 100)]
+#[command(
+    after_help = "Exit codes: 0 done; 1 a file could not be written; 2 the command line cannot be used; 3 there is \
+    no graphics adapter; 4 a scene failed."
+)]
+struct Arguments {
+    /// Which scenes
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// How many
+    #[arg(long, value_name = "N", default_value_t = 100)]
+    scenes: u64,
+    /// The number of the first one
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    first: u64,
+    /// Judge a failure at most so often to make it small
+    #[arg(long, value_name = "N", default_value_t = 500)]
+    trials: usize,
+    /// The folder for the scenes that failed
+    #[arg(short, long, value_name = "FOLDER", default_value = "out/wild")]
+    output: PathBuf,
+}
+
+fn main() -> ExitCode {
+    env_logger::Builder::from_env(env_logger::Env::default().default_filter_or("warn,wgpu_hal=off"))
+        .format_timestamp(None)
+        .init();
+    match run(&Arguments::parse()) {
+        Ok(0) => ExitCode::SUCCESS,
+        Ok(_) => ExitCode::from(4),
+        Err((code, error)) => {
+            eprintln!("error: {error}");
+            ExitCode::from(code)
+        }
+    }
+}
+
+/// The worst of the scenes that were right, in shares of the range and in steps.
+#[derive(Default)]
+struct Worst {
+    float: f64,
+    steps: f64,
+}
+
+/// How many scenes failed.
+fn run(arguments: &Arguments) -> Result<u64, (u8, String)> {
+    let gpu = Gpu::open_headless().map_err(no_adapter)?;
+    println!("{}, seed {}", gpu.describe(), arguments.seed);
+    let judge = Judge::new(gpu, "");
+    let start = Instant::now();
+    let (mut worst, mut failed) = (Worst::default(), 0);
+    for number in arguments.first..arguments.first.saturating_add(arguments.scenes) {
+        let drawn = scene(arguments.seed, number);
+        match judge.judge(&drawn) {
+            Ok(figures) => {
+                worst.float = worst.float.max(figures.float.worst);
+                worst.steps = worst.steps.max(figures.bytes.worst);
+            }
+            Err(finding) => {
+                failed += 1;
+                println!("\nscene {number} fails: {finding}");
+                let small = judge.shrunk(&drawn, &finding, arguments.trials);
+                tell(arguments, number, &judge, &small)?;
+            }
+        }
+    }
+    println!(
+        "\n{} scenes in {:.0} s: {failed} failed; the others are within {:.1e} of the range and {} of 255 steps",
+        arguments.scenes,
+        start.elapsed().as_secs_f64(),
+        worst.float,
+        worst.steps
+    );
+    Ok(failed)
+}
+
+fn no_adapter(error: RenderError) -> (u8, String) {
+    let code = if matches!(error, RenderError::Device(_)) { 1 } else { 3 };
+    (code, error.to_string())
+}
+
+/// Prints a small scene and writes it.
+fn tell(arguments: &Arguments, number: u64, judge: &Judge, small: &Value) -> Result<(), (u8, String)> {
+    let text = written(small);
+    let file = file(&arguments.output, arguments.seed, number);
+    if let Err(finding) = judge.judge(small) {
+        println!("{}: {finding}", file.display());
+    }
+    print!("{text}");
+    write_text(&file, &text).map_err(|error| (1, error.to_string()))
+}
+
+fn file(folder: &Path, seed: u64, number: u64) -> PathBuf {
+    folder.join(format!("seed_{seed}_scene_{number}.json"))
+}

@@ -1,0 +1,111 @@
+//! Draws scenes over the whole format of scene files, models in files excepted.
+//!
+//! Most values are ordinary, so that most scenes show something; each may be extreme, and any key may be left out.
+
+mod light;
+mod looks;
+mod mesh;
+mod place;
+
+use serde_json::{Map, Value, json};
+
+use crate::random::Random;
+
+/// Scene number `number` of a seed, as the JSON of a scene file: the same one on every machine.
+pub fn scene(seed: u64, number: u64) -> Value {
+    let random = &mut Random::new(seed, number);
+    let unit = place::unit(random);
+    let objects = objects(random, unit);
+    let lights = light::lights(random, unit, objects.len());
+    let mut scene = Object::new();
+    scene.set("size", json!([random.whole(64, 128), random.whole(64, 128)]));
+    scene.set("camera", place::camera(random, unit));
+    scene.set("lights", lights);
+    scene.set("objects", objects.into());
+    scene.perhaps(random, 50, "background", |random| looks::color(random, 0.3));
+    scene.perhaps(random, 50, "output", |random| random.of(&["srgb", "raw"]).into());
+    scene.perhaps(random, 15, "samples", |_| json!(4));
+    scene.perhaps(random, 60, "ambient", |random| looks::color(random, 0.4));
+    scene.perhaps(random, 30, "viewer", |random| random.of(&["local", "infinite"]).into());
+    scene.perhaps(random, 80, "shading", looks::shading);
+    scene.perhaps(random, 70, "reflectance", looks::reflectance);
+    scene.into()
+}
+
+fn objects(random: &mut Random, unit: f64) -> Vec<Value> {
+    let count = match random.whole(0, 99) {
+        0..2 => 0,
+        2..40 => random.whole(1, 2),
+        40..90 => random.whole(2, 6),
+        _ => random.whole(6, 12),
+    };
+    let mut objects: Vec<Value> = Vec::new();
+    for i in 0..count {
+        // One on top of another, or the same shape elsewhere.
+        let mut object = match objects.last() {
+            Some(last) if random.percent(4) => last.clone(),
+            Some(last) if random.percent(10) => {
+                json!({"mesh": last["mesh"], "transform": place::transform(random, unit)})
+            }
+            _ => object(random, unit),
+        };
+        object["name"] = format!("o{i}").into();
+        objects.push(object);
+    }
+    objects
+}
+
+fn object(random: &mut Random, unit: f64) -> Value {
+    let mut object = Object::new();
+    object.set("mesh", mesh::mesh(random, unit));
+    object.perhaps(random, 90, "transform", |random| place::transform(random, unit));
+    object.perhaps(random, 20, "normals", |random| {
+        random.of(&["keep", "face", "uniform", "area", "angle", "max"]).into()
+    });
+    object.perhaps(random, 85, "material", looks::material);
+    object.perhaps(random, 15, "back_material", looks::material);
+    object.perhaps(random, 60, "faces", |random| random.of(&["front", "back", "both", "both"]).into());
+    object.perhaps(random, 25, "shading", looks::shading);
+    object.perhaps(random, 25, "reflectance", looks::reflectance);
+    object.perhaps(random, 22, "blend", |_| json!(true));
+    object.into()
+}
+
+/// A JSON object in the making.
+struct Object(Map<String, Value>);
+
+impl Object {
+    fn new() -> Self {
+        Self(Map::new())
+    }
+
+    fn set(&mut self, key: &str, value: Value) {
+        self.0.insert(key.into(), value);
+    }
+
+    /// Gives the key a value in so many of a hundred cases.
+    fn perhaps(&mut self, random: &mut Random, percent: u64, key: &str, value: impl FnOnce(&mut Random) -> Value) {
+        if random.percent(percent) {
+            let value = value(random);
+            self.set(key, value);
+        }
+    }
+}
+
+impl From<Object> for Value {
+    fn from(object: Object) -> Self {
+        Self::Object(object.0)
+    }
+}
+
+/// Four digits, so that files can be read.
+fn short(x: f64) -> f64 {
+    format!("{x:.3e}").parse().unwrap_or(x)
+}
+
+fn shorts<const N: usize>(values: [f64; N]) -> Value {
+    values.map(short).to_vec().into()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,54 @@
+//! Colours, materials, shading.
+
+use serde_json::{Value, json};
+
+use super::{Object, short, shorts};
+use crate::random::Random;
+
+/// A few of the presets; which one makes no difference to the code that draws it.
+const PRESETS: [&str; 6] = ["brass", "gold", "emerald", "chrome", "red_plastic", "cyan_rubber"];
+
+/// A colour with channels up to about `brightness`: any, grey, or with channels that are 0.
+pub(super) fn color(random: &mut Random, brightness: f64) -> Value {
+    let mut channel = || random.between(0.0, brightness);
+    let rgb = [channel(), channel(), channel()];
+    match random.whole(0, 9) {
+        0 => json!([0, 0, 0]),
+        1 => shorts([rgb[0]; 3]),
+        2 => shorts([rgb[0], 0.0, rgb[2]]),
+        3 => shorts([0.0, rgb[1], 0.0]),
+        _ => shorts(rgb),
+    }
+}
+
+pub(super) fn shading(random: &mut Random) -> Value {
+    random.of(&["flat", "gouraud", "phong"]).into()
+}
+
+pub(super) fn reflectance(random: &mut Random) -> Value {
+    random.of(&["phong", "blinn_phong", "blinn_phong_matched"]).into()
+}
+
+pub(super) fn material(random: &mut Random) -> Value {
+    if random.percent(25) {
+        return random.of(&PRESETS).into();
+    }
+    let mut material = Object::new();
+    material.perhaps(random, 60, "ambient", |random| color(random, 1.0));
+    material.perhaps(random, 80, "diffuse", |random| color(random, 1.0));
+    material.perhaps(random, 70, "specular", |random| color(random, 1.0));
+    material.perhaps(random, 15, "emission", |random| color(random, 0.5));
+    material.perhaps(random, 80, "shininess", |random| match random.whole(0, 9) {
+        0 => json!(0),
+        1 => json!(1),
+        2 => json!(short(random.unit())),
+        3 => json!(short(random.magnitude(8, 11))),
+        _ => json!(short(random.magnitude(0, 7))),
+    });
+    material.perhaps(random, 60, "opacity", |random| match random.whole(0, 9) {
+        0 => json!(0),
+        1 => json!(1),
+        _ => json!(short(random.unit())),
+    });
+    material.into()
+}

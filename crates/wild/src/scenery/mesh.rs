@@ -1,0 +1,84 @@
+//! Surfaces of every tessellation, and meshes written out.
+
+use serde_json::{Value, json};
+
+use super::{Object, short, shorts};
+use crate::random::Random;
+
+pub(super) fn mesh(random: &mut Random, unit: f64) -> Value {
+    let size = unit * random.between(0.4, 1.6);
+    match random.whole(0, 99) {
+        0..35 => json!({ "uv_sphere": {
+            "radius": short(size),
+            "segments": random.magnitude(1, 5).floor() as u64 + 1,
+            "rings": random.magnitude(1, 4).floor() as u64,
+        }}),
+        35..50 => json!({ "box": { "size": shorts([size, unit * random.between(0.2, 1.6), unit]) } }),
+        50..65 => {
+            let divisions = random.magnitude(0, 4).floor() as u64;
+            json!({ "plane": { "size": short(size * random.of(&[1.0, 2.0, 8.0])), "divisions": divisions } })
+        }
+        // Its size is not to be chosen.
+        65..75 if unit == 1.0 => json!({ "teapot": { "divisions": random.whole(1, 6) } }),
+        65..80 => {
+            let cells = random.whole(1, 8);
+            inline(random, terrain(cells, size))
+        }
+        80..90 => inline(random, tetrahedron(size)),
+        _ => {
+            let count = random.whole(1, 8);
+            let mesh = soup(random, count, size);
+            inline(random, mesh)
+        }
+    }
+}
+
+/// Positions and triangles.
+type Written = (Vec<[f64; 3]>, Vec<u64>);
+
+/// Written out, with normals and texture coordinates or without.
+fn inline(random: &mut Random, (mut positions, indices): Written) -> Value {
+    let size = positions.iter().flatten().fold(0.0, |most: f64, c| most.max(c.abs()));
+    let uneven = random.between(0.0, 0.3) * size;
+    for position in &mut positions {
+        position.iter_mut().for_each(|c| *c = short(*c + random.between(-uneven, uneven)));
+    }
+    let mut inline = Object::new();
+    inline.set("indices", indices.into());
+    inline.perhaps(random, 30, "normals", |random| {
+        let toward = random.direction();
+        let normals = positions.iter().flat_map(|_| {
+            let [x, y, z] = random.direction();
+            [toward[0] + 0.7 * x, toward[1] + 0.7 * y, toward[2] + 0.7 * z].map(short)
+        });
+        normals.collect::<Vec<f64>>().into()
+    });
+    inline.perhaps(random, 10, "uvs", |random| {
+        (0..2 * positions.len()).map(|_| short(random.unit())).collect::<Vec<f64>>().into()
+    });
+    inline.set("positions", positions.concat().into());
+    let inline = Value::from(inline);
+    json!({ "inline": inline })
+}
+
+/// Squares of two triangles each, facing +Y.
+fn terrain(cells: u64, size: f64) -> Written {
+    let width = cells + 1;
+    let along = |i: u64| (i as f64 / cells as f64 - 0.5) * 2.0 * size;
+    let positions = (0..width * width).map(|i| [along(i % width), 0.0, along(i / width)]).collect();
+    let corners = (0..cells * cells).map(|i| i / cells * width + i % cells);
+    (positions, corners.flat_map(|i| [i, i + width, i + 1, i + 1, i + width, i + width + 1]).collect())
+}
+
+fn tetrahedron(size: f64) -> Written {
+    let corners = [[1.0, 1.0, 1.0], [-1.0, -1.0, 1.0], [-1.0, 1.0, -1.0], [1.0, -1.0, -1.0]];
+    let corners = corners.map(|corner: [f64; 3]| corner.map(|c| c * size * 0.6));
+    (corners.to_vec(), vec![0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3])
+}
+
+/// Triangles anywhere, which may share corners, be slivers or have no area.
+fn soup(random: &mut Random, triangles: u64, size: f64) -> Written {
+    let vertices = random.whole(3, 2 + 2 * triangles);
+    let positions = (0..vertices).map(|_| std::array::from_fn(|_| random.between(-size, size))).collect();
+    (positions, (0..3 * triangles).map(|_| random.whole(0, vertices - 1)).collect())
+}

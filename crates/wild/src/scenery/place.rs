@@ -1,0 +1,92 @@
+//! Where things are: the scene's unit of length, the camera, transforms.
+
+use serde_json::{Value, json};
+
+use super::{Object, short, shorts};
+use crate::random::Random;
+
+/// The length that all others are multiples of: 1 as a rule.
+pub(super) fn unit(random: &mut Random) -> f64 {
+    match random.whole(0, 99) {
+        0..3 => random.magnitude(-60, 60),
+        3..15 => random.magnitude(-14, 14),
+        _ => 1.0,
+    }
+}
+
+/// So far from the origin, in any direction.
+pub(super) fn at_distance(random: &mut Random, distance: f64) -> [f64; 3] {
+    random.direction().map(|c| c * distance)
+}
+
+/// From outside as a rule, from near by, or from inside.
+pub(super) fn camera(random: &mut Random, unit: f64) -> Value {
+    let distance = match random.whole(0, 19) {
+        0 => random.between(0.05, 0.8),
+        1..4 => random.between(0.8, 2.0),
+        4 => random.magnitude(3, 9),
+        _ => random.between(3.0, 9.0),
+    };
+    let mut camera = Object::new();
+    camera.set("position", shorts(at_distance(random, distance * unit)));
+    let aside = random.between(0.0, 0.4) * distance.min(2.0);
+    camera.perhaps(random, 70, "target", |random| shorts(at_distance(random, aside * unit)));
+    camera.set("up", shorts(random.direction()));
+    camera.perhaps(random, 60, "fov_y_deg", |random| match random.whole(0, 9) {
+        0 => json!(short(random.between(120.0, 165.0))),
+        1 => json!(short(random.between(1.0, 10.0))),
+        _ => json!(short(random.between(20.0, 90.0))),
+    });
+    // Of scenes of another size the default would cut everything away.
+    let near = match random.whole(0, 3) {
+        0 => random.magnitude(-10, -1),
+        _ => 0.1,
+    };
+    camera.set("near", json!(short(near * unit)));
+    camera.into()
+}
+
+/// In parts or as a matrix; mirrored, skew and flattened ones among them.
+pub(super) fn transform(random: &mut Random, unit: f64) -> Value {
+    let distance = random.between(0.0, 2.5) * unit;
+    let translation = at_distance(random, distance);
+    let size = random.between(0.4, 1.6);
+    if random.percent(20) {
+        return matrix(random, translation, size);
+    }
+    let mut transform = Object::new();
+    transform.perhaps(random, 85, "translation", |_| shorts(translation));
+    transform.perhaps(random, 75, "rotation", |random| quaternion(random));
+    transform.perhaps(random, 60, "scale", |random| scale(random, size));
+    transform.into()
+}
+
+/// Six digits, so that its length is 1 as nearly as the format wants.
+fn quaternion(random: &mut Random) -> Value {
+    let ([x, y, z], share) = (random.direction(), random.between(-1.0, 1.0));
+    let rest = (1.0 - share * share).sqrt();
+    json!([x * rest, y * rest, z * rest, share].map(|c| (c * 1e6).round() / 1e6))
+}
+
+fn scale(random: &mut Random, size: f64) -> Value {
+    let mut axis = |least: f64, most: f64| size * random.between(least, most);
+    let uneven = [axis(0.3, 1.5), axis(0.3, 1.5), axis(0.3, 1.5)];
+    match random.whole(0, 19) {
+        0 => shorts([uneven[0], 0.0, uneven[2]]),
+        1 => shorts([uneven[0], uneven[1], uneven[2] * 1e-3]),
+        2..5 => shorts([-uneven[0], uneven[1], uneven[2]]),
+        5 => shorts([-size; 3]),
+        6..12 => shorts(uneven),
+        _ => shorts([size; 3]),
+    }
+}
+
+fn matrix(random: &mut Random, [x, y, z]: [f64; 3], size: f64) -> Value {
+    let mut column = || -> [f64; 3] { std::array::from_fn(|_| size * random.between(-1.0, 1.0)) };
+    let (a, b, mut c) = (column(), column(), column());
+    // One column in the plane of the others: no volume is left.
+    if random.percent(10) {
+        c = std::array::from_fn(|i| (a[i] + b[i]) / 2.0);
+    }
+    json!({ "matrix": shorts([a[0], a[1], a[2], 0.0, b[0], b[1], b[2], 0.0, c[0], c[1], c[2], 0.0, x, y, z, 1.0]) })
+}

@@ -1,0 +1,110 @@
+//! Random scenes, those that failed once, and planted faults.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use halfway::render::Gpu;
+use halfway::scene::{MaterialEntry, SceneFile};
+use halfway_wild::{Fault, Finding, Judge, scene, written};
+use serde_json::Value;
+
+/// Scenes that failed once, small. Those in the folder `known` inside still do.
+const KEPT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/wild");
+
+fn judge() -> Judge {
+    Judge::new(Gpu::open_headless().unwrap_or_else(|error| panic!("{error}")), KEPT)
+}
+
+fn kept(folder: &Path) -> Vec<(PathBuf, Value)> {
+    let files = fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
+    let mut files: Vec<PathBuf> = files.map(|file| file.unwrap().path()).collect();
+    files.retain(|file| file.extension().is_some_and(|ending| ending == "json"));
+    files.sort();
+    let read = |file: PathBuf| {
+        let scene = serde_json::from_str(&fs::read_to_string(&file).unwrap());
+        (file.clone(), scene.unwrap_or_else(|error| panic!("{}: {error}", file.display())))
+    };
+    files.into_iter().map(read).collect()
+}
+
+#[test]
+fn a_few_dozen_scenes_are_right() {
+    let judge = judge();
+    let failures = (0..40).filter_map(|number| {
+        let scene = scene(SEED, number);
+        let finding = judge.judge(&scene).err()?;
+        Some(format!("scene {number}: {finding}\n{}", written(&judge.shrunk(&scene, &finding, 100))))
+    });
+    let failures: Vec<String> = failures.collect();
+    assert!(failures.is_empty(), "{} scenes of seed {SEED} failed:\n{}", failures.len(), failures.join("\n"));
+}
+
+/// A seed of which no scene is known to fail.
+const SEED: u64 = 1;
+
+#[test]
+fn scenes_that_failed_once_are_right() {
+    let judge = judge();
+    let wrong = kept(Path::new(KEPT))
+        .into_iter()
+        .filter_map(|(file, scene)| judge.judge(&scene).err().map(|finding| format!("{}: {finding}", file.display())));
+    let wrong: Vec<String> = wrong.collect();
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// What is mended moves one folder up.
+#[test]
+fn known_failures_fail() {
+    let judge = judge();
+    for (file, scene) in kept(&Path::new(KEPT).join("known")) {
+        match judge.judge(&scene) {
+            Err(Finding::NoScene(problem)) => panic!("{}: {problem}", file.display()),
+            Err(_) => {}
+            Ok(_) => panic!("{}: mended", file.display()),
+        }
+    }
+}
+
+fn without_last_light(scene: &mut SceneFile) {
+    scene.lights.as_mut().map(Vec::pop);
+}
+
+fn with_broader_highlights(scene: &mut SceneFile) {
+    for object in &mut scene.objects {
+        if let Some(MaterialEntry::Values(material)) = &mut object.material {
+            material.shininess *= 0.8;
+        }
+    }
+}
+
+fn with_mirrors_undone(scene: &mut SceneFile) {
+    for object in &mut scene.objects {
+        if let halfway::scene::TransformEntry::Parts(parts) = &mut object.transform {
+            parts.scale = parts.scale.map(f32::abs);
+        }
+    }
+}
+
+/// Each fault is found within 40 scenes, and the scene that shows it has at most two objects in the end.
+#[test]
+fn planted_faults_are_found_and_made_small() {
+    let faults: [(&str, Fault); 3] = [
+        ("a light less", without_last_light),
+        ("exponents", with_broader_highlights),
+        ("mirrors", with_mirrors_undone),
+    ];
+    for (name, fault) in faults {
+        let (right, faulty) = (judge(), judge().with_fault(fault));
+        let found = (0..40).map(|number| scene(SEED, number)).find_map(|scene| {
+            let finding = faulty.judge(&scene).err()?;
+            // Scenes to which one more object matters, such as those it takes to see something.
+            (scene["objects"].as_array()?.len() > 2 && right.judge(&scene).is_ok()).then_some((scene, finding))
+        });
+        let (scene, finding) = found.unwrap_or_else(|| panic!("{name}: not found"));
+        let small = faulty.shrunk(&scene, &finding, 200);
+        let objects = small["objects"].as_array().map_or(0, Vec::len);
+        assert!((1..=2).contains(&objects), "{name}: {objects} objects in\n{}", written(&small));
+        assert!(written(&small).len() * 2 < written(&scene).len(), "{name}: still large:\n{}", written(&small));
+        assert!(right.judge(&small).is_ok(), "{name}: it is not the planted fault that is left:\n{}", written(&small));
+    }
+}
