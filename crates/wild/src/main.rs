@@ -5,8 +5,9 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use clap::Parser;
+use clap::builder::NonEmptyStringValueParser;
 use halfway::output::write_text;
-use halfway::render::{Gpu, RenderError};
+use halfway::render::AdapterChoice;
 use halfway_wild::{Judge, scene, written};
 use serde_json::Value;
 
@@ -29,6 +30,13 @@ struct Arguments {
     /// The number of the first one
     #[arg(long, value_name = "N", default_value_t = 0)]
     first: u64,
+    /// The graphics adapter: a part of its name or its backend's, as `halfway adapters` lists them, or both, such as
+    /// gl:llvmpipe
+    #[arg(long, value_name = "NAME", value_parser = NonEmptyStringValueParser::new())]
+    adapter: Option<String>,
+    /// The bits of the grid that the adapter puts vertices on: 4 for SwiftShader
+    #[arg(long, value_name = "BITS", default_value_t = 8, value_parser = clap::value_parser!(u32).range(4..=8))]
+    grid: u32,
     /// Judge a failure at most so often to make it small
     #[arg(long, value_name = "N", default_value_t = 500)]
     trials: usize,
@@ -60,9 +68,10 @@ struct Worst {
 
 /// How many scenes failed.
 fn run(arguments: &Arguments) -> Result<u64, (u8, String)> {
-    let gpu = Gpu::open_headless().map_err(no_adapter)?;
+    let choice = AdapterChoice { name: arguments.adapter.clone() };
+    let gpu = choice.open().map_err(|error| (3, error.to_string()))?;
     println!("{}, seed {}", gpu.describe(), arguments.seed);
-    let judge = Judge::new(gpu, "");
+    let judge = Judge::new(gpu, "").with_grid(arguments.grid);
     let start = Instant::now();
     let (mut worst, mut failed) = (Worst::default(), 0);
     for number in arguments.first..arguments.first.saturating_add(arguments.scenes) {
@@ -88,11 +97,6 @@ fn run(arguments: &Arguments) -> Result<u64, (u8, String)> {
         worst.steps
     );
     Ok(failed)
-}
-
-fn no_adapter(error: RenderError) -> (u8, String) {
-    let code = if matches!(error, RenderError::Device(_)) { 1 } else { 3 };
-    (code, error.to_string())
 }
 
 /// Prints a small scene and writes it.

@@ -97,7 +97,8 @@ impl<F: FnMut(&Value) -> bool> Search<F> {
         }
     }
 
-    /// Takes keys away wherever they are. The camera and the lights stay: without them the format puts in its own.
+    /// Takes keys away wherever they are. The camera, the lights and the size stay: without
+    /// them the format puts in its own, which are no simpler.
     fn remove_keys(&mut self) {
         let mut paths = paths(&self.best, &|value| matches!(value, Value::Object(_)));
         // What is outside first: with it goes what is inside.
@@ -106,7 +107,7 @@ impl<F: FnMut(&Value) -> bool> Search<F> {
             let Some(Value::Object(keys)) = at(&mut self.best, &path) else { continue };
             let names: Vec<String> = keys.keys().cloned().collect();
             for name in names {
-                if path.is_empty() && ["camera", "lights", "objects"].contains(&name.as_str()) {
+                if path.is_empty() && ["camera", "lights", "objects", "size"].contains(&name.as_str()) {
                     continue;
                 }
                 self.attempt(|scene| {

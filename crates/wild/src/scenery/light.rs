@@ -29,8 +29,9 @@ fn light(random: &mut Random, unit: f64, objects: usize, brightness: f64) -> Val
     light.set("diffuse", looks::color(random, 1.2 * bright));
     light.perhaps(random, 85, "specular", |random| looks::color(random, 1.2 * bright));
     light.perhaps(random, 30, "ambient", |random| looks::color(random, 0.3 * bright));
-    light.perhaps(random, 30, "attach", |random| match random.whole(0, 1) {
-        1 if objects > 0 => json!({ "object": format!("o{}", random.whole(0, objects as u64 - 1)) }),
+    light.perhaps(random, 30, "attach", |random| match random.whole(0, 4) {
+        0 => json!("world"),
+        1..3 if objects > 0 => json!({ "object": format!("o{}", random.whole(0, objects as u64 - 1)) }),
         _ => json!("camera"),
     });
     match kind {

@@ -11,7 +11,8 @@ use crate::setup::Setup;
 /// Draw random scenes, judge each by the reference renderer, and make those that fail small
 ///
 /// A failure is printed and written to out/wild/ as a scene file. The same seed means the same scenes on every machine.
-/// Options are those of the program: --seed N, --scenes N, --first N, --trials N, --output FOLDER; -- --help tells of them.
+/// Options are those of the program: --seed N, --scenes N, --first N, --adapter NAME, --trials N, --output
+/// FOLDER; `cargo xtask wild -- --help` tells of them.
 #[derive(Args, Debug)]
 #[command(verbatim_doc_comment)]
 pub(crate) struct Options {
