@@ -35,9 +35,9 @@ pub type Fault = fn(&mut SceneFile);
 #[derive(Clone, Debug)]
 pub enum Finding {
     /// The picture in floating point is not what the oracle says.
-    Float(Verdict),
+    Float(Box<Verdict>),
     /// The picture of bytes is not what the oracle says.
-    Bytes(Verdict),
+    Bytes(Box<Verdict>),
     /// The scene was read, and then not drawn.
     Refused(String),
     /// The format does not allow the scene.
@@ -113,7 +113,7 @@ impl Judge {
 
     fn judge_unguarded(&self, scene: &SceneFile) -> Result<Figures, Finding> {
         let size = UVec2::from_array(scene.size);
-        let encoding = Encoding::from(scene.output);
+        let encoding = scene.output;
         let blended = scene.objects.iter().filter(|object| object.blend == Some(true)).count();
         let offset = Bars::FLOAT.worst * f64::from(1 << (8 - self.grid));
         let float = Bars { worst: offset, ..Bars::FLOAT };
@@ -137,9 +137,9 @@ impl Judge {
         let float = pictures.judged(Pixels::Float, float)?;
         let bytes = pictures.judged(Pixels::Byte, bytes)?;
         if float.worst > offset || float.bad > 0 {
-            Err(Finding::Float(float))
+            Err(Finding::Float(Box::new(float)))
         } else if !bytes.is_within() {
-            Err(Finding::Bytes(bytes))
+            Err(Finding::Bytes(Box::new(bytes)))
         } else {
             Ok(Figures { float, bytes })
         }

@@ -34,7 +34,7 @@ struct Arguments {
     /// gl:llvmpipe
     #[arg(long, value_name = "NAME", value_parser = NonEmptyStringValueParser::new())]
     adapter: Option<String>,
-    /// The bits of the grid that the adapter puts vertices on: 4 for SwiftShader
+    /// The bits of the grid of a pixel that the adapter puts vertices on; some have 4
     #[arg(long, value_name = "BITS", default_value_t = 8, value_parser = clap::value_parser!(u32).range(4..=8))]
     grid: u32,
     /// Judge a failure at most so often to make it small

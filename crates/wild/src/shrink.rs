@@ -170,7 +170,7 @@ fn simpler(x: f64) -> Vec<f64> {
         found.extend(format!("{x:.*e}", digits - 1).parse::<f64>());
     }
     found.extend([(x / 2.0).round(), x.round(), x.round() - 1.0]);
-    found.retain(|candidate| *candidate != x && candidate.is_finite());
+    found.retain(|candidate| candidate.is_finite());
     found
 }
 

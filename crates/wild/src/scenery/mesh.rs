@@ -19,7 +19,7 @@ pub(super) fn mesh(random: &mut Random, unit: f64) -> Value {
             json!({ "plane": { "size": short(size * random.of(&[1.0, 2.0, 8.0])), "divisions": divisions } })
         }
         // Its size is not to be chosen.
-        65..75 if unit == 1.0 => json!({ "teapot": { "divisions": random.whole(1, 6) } }),
+        65..75 if (0.25..4.0).contains(&unit) => json!({ "teapot": { "divisions": random.whole(1, 6) } }),
         65..80 => {
             let cells = random.whole(1, 8);
             inline(random, terrain(cells, size))
@@ -41,7 +41,9 @@ fn inline(random: &mut Random, (mut positions, indices): Written) -> Value {
     let size = positions.iter().flatten().fold(0.0, |most: f64, c| most.max(c.abs()));
     let uneven = random.between(0.0, 0.3) * size;
     for position in &mut positions {
-        position.iter_mut().for_each(|c| *c = short(*c + random.between(-uneven, uneven)));
+        for c in position {
+            *c = short(*c + random.between(-uneven, uneven));
+        }
     }
     let mut inline = Object::new();
     inline.set("indices", indices.into());

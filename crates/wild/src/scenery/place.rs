@@ -56,7 +56,7 @@ pub(super) fn transform(random: &mut Random, unit: f64) -> Value {
     }
     let mut transform = Object::new();
     transform.perhaps(random, 85, "translation", |_| shorts(translation));
-    transform.perhaps(random, 75, "rotation", |random| quaternion(random));
+    transform.perhaps(random, 75, "rotation", quaternion);
     transform.perhaps(random, 60, "scale", |random| scale(random, size));
     transform.into()
 }
@@ -86,7 +86,7 @@ fn matrix(random: &mut Random, [x, y, z]: [f64; 3], size: f64) -> Value {
     let (a, b, mut c) = (column(), column(), column());
     // One column in the plane of the others: no volume is left.
     if random.percent(10) {
-        c = std::array::from_fn(|i| (a[i] + b[i]) / 2.0);
+        c = std::array::from_fn(|i| f64::midpoint(a[i], b[i]));
     }
     json!({ "matrix": shorts([a[0], a[1], a[2], 0.0, b[0], b[1], b[2], 0.0, c[0], c[1], c[2], 0.0, x, y, z, 1.0]) })
 }
