@@ -37,6 +37,9 @@ struct Arguments {
     /// The bits of the grid of a pixel that the adapter puts vertices on; some have 4
     #[arg(long, value_name = "BITS", default_value_t = 8, value_parser = clap::value_parser!(u32).range(4..=8))]
     grid: u32,
+    /// Draw scenes with four samples a pixel as they are, not with one
+    #[arg(long)]
+    four: bool,
     /// Judge a failure at most so often to make it small
     #[arg(long, value_name = "N", default_value_t = 500)]
     trials: usize,
@@ -71,7 +74,7 @@ fn run(arguments: &Arguments) -> Result<u64, (u8, String)> {
     let choice = AdapterChoice { name: arguments.adapter.clone() };
     let gpu = choice.open().map_err(|error| (3, error.to_string()))?;
     println!("{}, seed {}", gpu.describe(), arguments.seed);
-    let judge = Judge::new(gpu, "").with_grid(arguments.grid);
+    let judge = Judge::new(gpu, "").with_grid(arguments.grid).with_four_samples(arguments.four);
     let start = Instant::now();
     let (mut worst, mut failed) = (Worst::default(), 0);
     for number in arguments.first..arguments.first.saturating_add(arguments.scenes) {
