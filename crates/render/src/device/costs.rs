@@ -55,16 +55,24 @@ impl Costs {
         maps_meshes: false,
     };
 
-    /// Of this adapter, or what the environment says of it. Without the feature that is asked for here, wgpu writes a
-    /// multi-draw out as single draws.
+    /// Of this adapter, or what the environment says of it.
     pub(crate) fn of(adapter: &wgpu::Adapter) -> Result<Self, RenderError> {
-        let costs = match std::env::var_os(VARIABLE) {
-            Some(value) if !value.is_empty() => Self::named(&value.to_string_lossy())?,
-            _ if adapter.get_info().device_type == wgpu::DeviceType::Cpu => Self::SOFTWARE,
-            _ => Self::HARDWARE,
-        };
+        match std::env::var_os(VARIABLE) {
+            Some(value) if !value.is_empty() => Ok(Self::named(&value.to_string_lossy())?.without_slow(adapter)),
+            _ => Ok(Self::of_kind(adapter)),
+        }
+    }
+
+    /// Of this adapter, whatever the environment says.
+    pub(crate) fn of_kind(adapter: &wgpu::Adapter) -> Self {
+        let is_software = adapter.get_info().device_type == wgpu::DeviceType::Cpu;
+        if is_software { Self::SOFTWARE } else { Self::HARDWARE }.without_slow(adapter)
+    }
+
+    /// Without the feature that is asked for here, wgpu writes a multi-draw out as single draws.
+    fn without_slow(self, adapter: &wgpu::Adapter) -> Self {
         let has_multi_draw = adapter.features().contains(wgpu::Features::MULTI_DRAW_INDIRECT_COUNT);
-        Ok(Self { multi_draw: costs.multi_draw.filter(|_| has_multi_draw), ..costs })
+        Self { multi_draw: self.multi_draw.filter(|_| has_multi_draw), ..self }
     }
 
     fn named(name: &str) -> Result<Self, RenderError> {

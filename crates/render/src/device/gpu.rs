@@ -71,7 +71,7 @@ impl Gpu {
             ..Default::default()
         }))
         .map_err(|error| RenderError::NoDevice { adapter: adapter.get_info().name, reason: error.to_string() })?;
-        let gpu = Self::from_existing(instance, adapter, device, queue);
+        let gpu = Self::with_costs(instance, adapter, device, queue, costs);
         gpu.listen();
         Ok(gpu)
     }
@@ -88,8 +88,18 @@ impl Gpu {
         device: wgpu::Device,
         queue: wgpu::Queue,
     ) -> Self {
+        let costs = Costs::of_kind(&adapter);
+        Self::with_costs(instance, adapter, device, queue, costs)
+    }
+
+    fn with_costs(
+        instance: wgpu::Instance,
+        adapter: wgpu::Adapter,
+        device: wgpu::Device,
+        queue: wgpu::Queue,
+        costs: Costs,
+    ) -> Self {
         static DEVICES: AtomicU64 = AtomicU64::new(0);
-        let costs = Costs::of(&adapter);
         let id = DEVICES.fetch_add(1, Ordering::Relaxed);
         let mut gpu = Self { instance, adapter, device, queue, costs, id, notices: Arc::default() };
         gpu.set_costs(costs);

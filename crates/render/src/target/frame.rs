@@ -186,15 +186,13 @@ pub(crate) fn prepare(
             }
             (texture.format, Some(texture.view.clone()), Delivery::Encode)
         }
-        (None, None) => {
-            match headless_format(&gpu, headless.pixels, camera.samples, blends, format_encodes(blends)) {
-                Ok(format) => (format, None, Delivery::Read),
-                Err(error) => {
-                    report.errors.push(error);
-                    return;
-                }
+        (None, None) => match headless_format(&gpu, headless.pixels, camera.samples, blends, format_encodes(blends)) {
+            Ok(format) => (format, None, Delivery::Read),
+            Err(error) => {
+                report.errors.push(error);
+                return;
             }
-        }
+        },
         (None, Some(mut surface)) => {
             surface.pick_format(blends, format_encodes);
             match times.at_display(|| surface.acquire(&gpu)) {
