@@ -9,7 +9,8 @@ use crate::failure::Failure;
 #[derive(Args, Clone, Debug)]
 pub(crate) struct AdapterArgs {
     /// The graphics adapter: a part of its name or its backend's, as `halfway adapters` lists them, or both, such as
-    /// vulkan:llvmpipe [default: HALFWAY_ADAPTER, then WGPU_BACKEND and WGPU_ADAPTER_NAME; else hardware first]
+    /// vulkan:llvmpipe [default: `HALFWAY_ADAPTER`, then `WGPU_BACKEND` and `WGPU_ADAPTER_NAME`; else hardware
+    /// first]
     #[arg(id = "adapter", long = "adapter", value_name = "NAME", value_parser = NonEmptyStringValueParser::new())]
     name: Option<String>,
 }
@@ -31,6 +32,8 @@ pub(crate) fn run() -> Result<(), Failure> {
         let error = AdapterChoice::default().open().err().unwrap_or(RenderError::NoAdapter);
         return Err(error.into());
     }
-    adapters.iter().for_each(|adapter| println!("{}", describe_adapter(adapter)));
+    for adapter in &adapters {
+        println!("{}", describe_adapter(adapter));
+    }
     Ok(())
 }

@@ -196,29 +196,6 @@ fn nothing_is_drawn_while_nothing_can_be_seen() {
 }
 
 #[test]
-fn a_window_follows_the_scale_of_its_screen() {
-    let screen = Screen::open();
-    let mut viewer = Viewer::open(&screen);
-    viewer.resize(400, 300);
-    let sized = |viewer: &Viewer, width: u16, height: u16| {
-        eventually(&format!("a picture of {width} × {height}"), || {
-            let picture = viewer.picture().filter(|picture| (picture.width, picture.height) == (width, height));
-            picture.filter(|picture| !picture.is_flat())
-        })
-    };
-    let before = sized(&viewer, 400, 300);
-    for _ in 0..2 {
-        screen.set_dots_per_inch(192);
-        let large = sized(&viewer, 800, 600);
-        assert!(same_framing(&before, &large), "another framing at twice the scale");
-        screen.set_dots_per_inch(96);
-        eventually("the first picture comes back", || (sized(&viewer, 400, 300) == before).then_some(()));
-    }
-    viewer.request_close();
-    assert_eq!(viewer.end().code(), Some(0));
-}
-
-#[test]
 fn escape_closes() {
     let screen = Screen::open();
     let mut viewer = Viewer::open(&screen);

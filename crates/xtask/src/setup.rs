@@ -55,13 +55,13 @@ pub(crate) const OPENGL: Need = Need {
     },
 };
 
-/// SwiftShader, a second software driver of Vulkan, which comes with a browser.
+/// `SwiftShader`, a second software driver of Vulkan, which comes with a browser.
 pub(crate) const SWIFTSHADER: Need = Need {
     missing: || swiftshader().is_none().then(|| "SwiftShader, the software Vulkan driver that chromium brings".into()),
     packages: Packages { apt: &["chromium"], dnf: &["chromium"], pacman: &["chromium"] },
 };
 
-/// The manifest of SwiftShader.
+/// The manifest of `SwiftShader`.
 pub(crate) fn swiftshader() -> Option<PathBuf> {
     let folders = ["/usr/lib/chromium", "/usr/lib64/chromium-browser", "/usr/lib/chromium-browser"];
     folders.map(|folder| PathBuf::from(folder).join("vk_swiftshader_icd.json")).into_iter().find(|path| path.is_file())

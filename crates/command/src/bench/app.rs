@@ -12,7 +12,7 @@ use crate::turntable::Turntable;
 /// What is drawn: a scene of ours, or one that is read.
 pub(super) enum Timed {
     Made(BenchmarkScene),
-    Read(SceneInput),
+    Read(Box<SceneInput>),
 }
 
 impl Timed {

@@ -25,7 +25,7 @@ pub(crate) fn run(args: &BenchArgs) -> Result<(), Failure> {
             }
             let mut input = SceneInput::open(file)?;
             input.resize(args.size);
-            Timed::Read(input)
+            Timed::Read(Box::new(input))
         }
     };
     match args.once {

@@ -52,6 +52,9 @@ fn every_adapter_of_the_list_can_be_chosen() {
     assert!(json["machine"]["adapter"].as_str().is_some_and(|adapter| all[0].starts_with(adapter)), "{json}");
 }
 
+/// Variables of the environment, arguments, and the exit code.
+type Row<'a> = (&'a [(&'a str, &'a str)], &'a [&'a str], i32);
+
 #[test]
 fn a_name_that_fits_nothing_lists_what_there_is() {
     let folder = folder("no_such_adapter");
@@ -78,7 +81,7 @@ fn a_name_that_fits_nothing_lists_what_there_is() {
 
     // Who says more nearly goes first.
     let backend = own.split(':').next().unwrap_or_default();
-    let rows: [(&[(&str, &str)], &[&str], i32); 6] = [
+    let rows: [Row; 6] = [
         (&[("HALFWAY_ADAPTER", "nothing")], &[], 3),
         (&[("HALFWAY_ADAPTER", "nothing")], &["--adapter", &own], 0),
         (&[("WGPU_ADAPTER_NAME", "nothing")], &[], 3),

@@ -183,15 +183,6 @@ impl Screen {
         self.connection.destroy_window(window).expect("the display is there").check().expect("the window is there");
     }
 
-    /// As the settings of a desktop do.
-    pub(crate) fn set_dots_per_inch(&self, number: u32) {
-        let settings = format!("Xft.dpi:\t{number}\n");
-        let (mode, kind) = (PropMode::REPLACE, AtomEnum::STRING);
-        let set =
-            self.connection.change_property8(mode, self.root, AtomEnum::RESOURCE_MANAGER, kind, settings.as_bytes());
-        set.expect("the display is there").check().expect("the screen takes settings");
-    }
-
     pub(crate) fn atom(&self, name: &str) -> u32 {
         let request = self.connection.intern_atom(false, name.as_bytes()).expect("the display is there");
         request.reply().expect("every name can be an atom").atom

@@ -12,6 +12,7 @@ use bevy_ecs::prelude::*;
 /// Forgets all that belongs to a device, once [`Gpu`] is another one: the frame makes it anew from what the App holds.
 /// What belongs to a device is held nowhere else, but for a window's surface, which knows its device, and for pictures
 /// that are still on their way.
+#[expect(clippy::too_many_arguments, reason = "a system takes each resource as a parameter")]
 pub(crate) fn forget(
     gpu: Res<Gpu>,
     mut drawn_on: Local<Option<u64>>,

@@ -13,6 +13,10 @@ use std::sync::{Mutex, PoisonError};
 /// Meshes with fewer triangles have no levels.
 const FEWEST: usize = 64;
 
+/// So many meshes are on their way at most; the others wait until some are made. A mesh that is gone by then is never made:
+/// what comes and goes faster than levels are made must not pile up.
+const MOST_ON_THEIR_WAY: usize = 64;
+
 /// The meshes whose levels are asked for, and one thread that makes them, one after the other.
 #[derive(Resource)]
 pub(crate) struct Workshop {
@@ -20,6 +24,8 @@ pub(crate) struct Workshop {
     /// The number of the frame.
     frame: u64,
     thread: Option<Thread>,
+    /// How many meshes have been sent to the thread and have not come back.
+    on_their_way: usize,
     make: fn(&Mesh) -> MeshTriangles,
     /// What went wrong beside the frames, until it is reported.
     pub(crate) failures: Vec<RenderError>,
@@ -39,7 +45,7 @@ struct Order {
 }
 
 enum OrderState {
-    /// Seen in one frame. A picture that is drawn once needs no levels.
+    /// Seen in one frame, or waiting for others to be made. A picture that is drawn once needs no levels.
     Seen,
     /// On its way.
     Asked,
@@ -58,7 +64,7 @@ type Made = (AssetId<Mesh>, Mesh, Result<MeshTriangles, String>);
 
 impl Workshop {
     fn making(make: fn(&Mesh) -> MeshTriangles) -> Self {
-        Self { orders: HashMap::default(), frame: 0, thread: None, make, failures: Vec::new() }
+        Self { orders: HashMap::default(), frame: 0, thread: None, on_their_way: 0, make, failures: Vec::new() }
     }
 
     /// The levels of `mesh` if they are made. Asks for them if another frame has wanted them before.
@@ -66,19 +72,21 @@ impl Workshop {
         if mesh.triangle_count() < FEWEST {
             return None;
         }
-        let Self { orders, frame, thread, make, failures } = self;
+        let Self { orders, frame, thread, on_their_way, make, failures } = self;
         let order = orders.entry(id).or_insert_with(|| Order::new(mesh, *frame));
         if !is_same(&order.source, mesh) {
             *order = Order::new(mesh, *frame);
         }
         let before = std::mem::replace(&mut order.wanted, *frame);
-        if matches!(order.state, OrderState::Seen) && before < *frame {
+        if matches!(order.state, OrderState::Seen) && before < *frame && *on_their_way < MOST_ON_THEIR_WAY {
             if thread.is_none() {
                 *thread = Thread::start(*make);
             }
             let asked = thread.as_ref().is_some_and(|thread| thread.wanted.send((id, mesh.clone())).is_ok());
             order.state = if asked { OrderState::Asked } else { OrderState::Refused };
-            if !asked {
+            if asked {
+                *on_their_way += 1;
+            } else {
                 failures.push(no_levels(id, "the system gives no thread".into()));
             }
         }
@@ -91,6 +99,7 @@ impl Workshop {
         let Some(thread) = &self.thread else { return };
         let made = thread.made.lock().unwrap_or_else(PoisonError::into_inner);
         for (id, source, triangles) in made.try_iter() {
+            self.on_their_way -= 1;
             // The asset may have got another mesh since.
             let Some(order) = self.orders.get_mut(&id).filter(|order| is_same(&order.source, &source)) else {
                 continue;

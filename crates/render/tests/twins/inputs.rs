@@ -196,7 +196,7 @@ pub(crate) fn coincident() -> Vec<Lit> {
         // A millionth of ‖p‖ away: at the point. Four millionths: not.
         Lit { position: [5e-6, 0.0, -5.0], ..constant },
         Lit { position: [2e-5, 0.0, -5.0], ..constant },
-        Lit { position: [0.0, 0.0, -5.000_004_8], ..base },
+        Lit { position: [0.0, 0.0, -5.000_005], ..base },
         Lit { position: [0.0, 0.0, -4.999_98], ..base },
         Lit { position: [0.0, 0.0, -4.999_98], ..constant },
         Lit { position: [0.0; 3], p: [0.0; 3], ..base },

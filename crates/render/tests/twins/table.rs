@@ -198,7 +198,7 @@ pub(crate) fn rows() -> Vec<Row> {
         // Each of k squarings doubles the error that it is given, and adds half a ULP.
         row!(power("s(i, 0), 0.0, i32(s(i, 1))") -> Scalar, NOTHING, inputs::squarings(),
             |x| (f64::from(x[0]), f64::from(x[1]).exp2()),
-            |x, e| each(e, e[0] * (x[1].exp2() * f32::EPSILON).exp_m1() as f64 + LEAST)),
+            |x, e| each(e, e[0] * f64::from((x[1].exp2() * f32::EPSILON).exp_m1()) + LEAST)),
         row!(attenuation("light(i, 0), s(i, 32)") -> Scalar, NOTHING, inputs::falls(),
             |x| ([x[7], x[11], x[15]].map(f64::from), f64::from(x[32])), |_, e| each(e, 5.0 * ULP * e[0] + LEAST)),
         // (d/R)⁴ is off by 6 ULP where it counts, below 1; its square root of the window twice that.

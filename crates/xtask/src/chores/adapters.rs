@@ -12,7 +12,7 @@ use crate::setup::{DRIVER, OPENGL, SWIFTSHADER, Setup, swiftshader};
 
 /// Run the picture tests and verify the example scenes on every adapter that a bare Debian can have
 ///
-/// These are lavapipe (Vulkan), lavapipe in the ways of hardware, llvmpipe through OpenGL, and SwiftShader, the software
+/// These are lavapipe (Vulkan), lavapipe in the ways of hardware, llvmpipe through OpenGL, and `SwiftShader`, the software
 /// Vulkan driver of chromium. On each: the conformance suite, all three shadings with few and many lights, and
 /// `halfway verify` over examples/scenes. Each suite prints the worst figures, from which the table in docs/accuracy.md is.
 /// What is missing is installed first, as for `cargo xtask test`, of which this is a part.
