@@ -5,7 +5,7 @@ use crate::error::RenderError;
 use bevy_ecs::prelude::Resource;
 use bevy_math::UVec2;
 
-/// A window's surface; while this resource is there it is the target instead of [`Headless`].
+/// A window's surface; while this resource is there it is the target instead of [`Headless`](crate::Headless).
 #[derive(Resource)]
 pub struct SurfaceTarget {
     surface: wgpu::Surface<'static>,

@@ -27,7 +27,8 @@ pub struct View {
     pub reflectance: Reflectance,
     /// Counts changes of `eye_from_world`; equal epochs mean equal matrices.
     pub epoch: u64,
-    /// log₂ of [`View::unit`].
+    /// log₂ of the length of a world unit in the eye space of the shaders; 0 but for scenes so large or so small that the
+    /// squares of their distances leave f32.
     pub unit_exponent: i32,
 }
 
