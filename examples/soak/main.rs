@@ -34,7 +34,7 @@ const LOOK: u64 = 7;
 /// A picture is read back this often, in frames.
 const READ: u64 = 500;
 /// The program's own bytes on the heap may grow by this much from the first frames after the warm-up to the last: tables
-/// double when a rare frame has more of something. 3,000 frames that keep one small mesh each take 20 times as much.
+/// double when a rare frame has more of something. `--leak` grows by more than this.
 const SLACK_LIVE: u64 = 64 << 10;
 /// And the memory that is resident, the driver's included, by this much: allocators keep pages in reserve.
 const SLACK_RESIDENT: u64 = 4 << 20;
