@@ -10,7 +10,7 @@
 //! brighter, forty times.
 
 use halfway::lighting::equations::vector::normalize;
-use halfway::lighting::equations::{Coefficients, Surface, View, interpolated_normal, shade};
+use halfway::lighting::equations::{Coefficients, Eye, SurfacePoint, interpolated_normal, shade};
 use halfway::prelude::*;
 
 const V1: [f64; 3] = [-80.0, 0.0, 58.0];
@@ -27,9 +27,10 @@ fn colors() -> Option<Colors> {
     let light = DirectionalLight::from_color(LinearRgba::rgb(1.0, 0.5, 0.5)).along(L.map(|x| -x)).ok()?;
     let red = Coefficients::from(&Material::matte(LinearRgba::RED));
     // Without highlights it makes no difference where the viewer is.
-    let view = View::Infinite([0.0, 0.0, 1.0]);
-    let color =
-        |position, normal| shade(&Surface { position, normal }, &red, &[light], [0.0; 3], &view, Reflectance::Phong);
+    let view = Eye::Infinite([0.0, 0.0, 1.0]);
+    let color = |position, normal| {
+        shade(&SurfacePoint { position, normal }, &red, &[light], [0.0; 3], &view, Reflectance::Phong)
+    };
     let (n1, n2) = (normalize(N1)?, normalize(N2)?);
     let (c1, c2) = (color(V1, n1), color(V2, n2));
     Some(std::array::from_fn(|i| {

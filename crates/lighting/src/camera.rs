@@ -12,8 +12,8 @@ use bevy_transform::components::Transform;
 
 use crate::Viewer;
 use crate::equations::{Transcendental, srgb_encoded};
-use crate::field::Range;
 use crate::invalid::{Fields, InvalidValue};
+use crate::range::Range;
 
 /// A perspective camera at its entity's transform, looking along its local −Z with +Y up.
 ///

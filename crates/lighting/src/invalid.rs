@@ -3,15 +3,8 @@
 use bevy_color::LinearRgba;
 use thiserror::Error;
 
-use crate::Frequency;
-use crate::field::Range;
-
-/// The largest value that a colour channel may have: 10¹².
-///
-/// A reflectance (10¹²) times a light (10¹²) times the largest attenuation (10⁶, see
-/// [`ATTENUATION_MAX`](crate::equations::ATTENUATION_MAX)) is 10³⁰, so that the sum over 10⁸ lights still fits in an
-/// `f32`. Reflectances are normally at most 1.
-pub const CHANNEL_MAX: f32 = 1e12;
+use crate::frequency::Frequency;
+use crate::range::Range;
 
 /// A value that cannot be used: whose it is, which field, and what is wrong with it.
 ///
@@ -142,7 +135,7 @@ impl Fields {
         self.within(field, value, Range::UNIT)
     }
 
-    /// Expects three channels of a color, each 0 to [`CHANNEL_MAX`].
+    /// Expects three channels of a color, each 0 to [`CHANNEL_MAX`](crate::CHANNEL_MAX).
     ///
     /// # Errors
     /// The value is not so.
@@ -155,7 +148,7 @@ impl Fields {
         Ok(())
     }
 
-    /// Expects a color whose channels are 0 to [`CHANNEL_MAX`]; its alpha is ignored.
+    /// Expects a color whose channels are 0 to [`CHANNEL_MAX`](crate::CHANNEL_MAX); its alpha is ignored.
     ///
     /// # Errors
     /// The value is not so.

@@ -38,12 +38,12 @@
 //!
 //! # A shaded point
 //! ```
-//! use halfway_lighting::equations::{Coefficients, Surface, View, shade};
+//! use halfway_lighting::equations::{Coefficients, Eye, SurfacePoint, shade};
 //! use halfway_lighting::{GlobalAmbient, Material, PointLight, Reflectance, Viewer};
 //!
-//! let surface = Surface { position: [0.0, 0.0, -5.0], normal: [0.0, 0.0, 1.0] };
+//! let surface = SurfacePoint { position: [0.0, 0.0, -5.0], normal: [0.0, 0.0, 1.0] };
 //! let lights = [PointLight::white().at([1.0, 2.0, 0.0])];
-//! let view = View::in_eye_space(Viewer::Local);
+//! let view = Eye::in_eye_space(Viewer::Local);
 //! let ambient = GlobalAmbient::default().ga();
 //! let color: [f64; 3] =
 //!     shade(&surface, &Coefficients::from(&Material::BRASS), &lights, ambient, &view, Reflectance::BlinnPhong);
@@ -57,6 +57,7 @@ pub mod bounds;
 mod camera;
 pub mod equations;
 mod field;
+mod frequency;
 pub mod homogeneous;
 mod invalid;
 mod light;
@@ -66,17 +67,20 @@ mod place;
 mod plugin;
 mod presets;
 mod propagation;
+mod range;
 mod shading;
 mod visibility;
 
 pub use camera::{Camera, Encoding, Intensity, Samples};
-pub use field::{Described, Field, FieldPlace, FieldValue, Range};
-pub use invalid::{CHANNEL_MAX, Fields, InvalidValue, Problem};
+pub use field::{Described, Field, FieldPlace, FieldValue};
+pub use frequency::Frequency;
+pub use invalid::{Fields, InvalidValue, Problem};
 pub use light::{Attenuation, Cone, DirectionalLight, GlobalAmbient, PointLight, SpotLight};
 pub use matched::matched_shininess;
 pub use material::{BackMaterial, Material};
 pub use place::{light_direction, light_position, rotation_along};
 pub use plugin::LightingPlugin;
 pub use propagation::{Propagation, propagation};
-pub use shading::{Blend, Faces, Frequency, Reflectance, Shading, Terms, Viewer};
+pub use range::{CHANNEL_MAX, Range};
+pub use shading::{Blend, Faces, Reflectance, Shading, Terms, Viewer};
 pub use visibility::{Shown, Visibility};

@@ -14,8 +14,9 @@ use bevy_reflect::Reflect;
 use bevy_reflect::std_traits::ReflectDefault;
 use bevy_transform::components::Transform;
 
-use crate::field::{self, Described, Field, FieldPlace, Range, rgb};
+use crate::field::{self, Described, Field, FieldPlace, rgb};
 use crate::invalid::{Fields, InvalidValue, Problem};
+use crate::range::Range;
 
 /// How far an angle in radians may lie from π/2 or π and still be taken as it, because degrees were converted in `f32`.
 const ANGLE_SLACK: f32 = 1e-6;

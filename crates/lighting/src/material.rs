@@ -7,8 +7,9 @@ use bevy_reflect::Reflect;
 use bevy_reflect::std_traits::ReflectDefault;
 use bytemuck::NoUninit;
 
-use crate::field::{self, Described, Field, Range, rgb};
+use crate::field::{self, Described, Field, rgb};
 use crate::invalid::{Fields, InvalidValue};
+use crate::range::Range;
 
 /// The classic material: how much of each kind of light a surface gives back.
 ///

@@ -5,6 +5,7 @@ use bevy_ecs::reflect::ReflectComponent;
 use bevy_reflect::Reflect;
 use bevy_reflect::std_traits::ReflectDefault;
 
+use crate::frequency::Frequency;
 use crate::invalid::{Fields, InvalidValue, Problem};
 
 /// The shading frequency: where the equation is evaluated.
@@ -22,20 +23,6 @@ pub enum Shading {
     /// At each fragment with the interpolated, renormalised normal.
     #[default]
     Phong,
-}
-
-/// Where a term of the lights is evaluated.
-#[derive(Reflect, Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[reflect(Clone, Debug, PartialEq, Hash)]
-pub enum Frequency {
-    /// Nowhere: the term is left out.
-    Never,
-    /// Once a triangle, at its centroid, with its geometric normal turned to the side seen.
-    Triangle,
-    /// At each vertex, interpolated perspective-correctly.
-    Vertex,
-    /// At each fragment, with the interpolated normal.
-    Fragment,
 }
 
 /// Where each term of an object's lights is evaluated, in place of its [`Shading`].

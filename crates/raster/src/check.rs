@@ -2,7 +2,6 @@
 
 use crate::error::{LARGEST_SIDE, RasterError};
 use crate::pass::{InstanceData, LightData, LightRange, Output, Pass, SideData, SurfaceData};
-use crate::rasterizer::is_bytes;
 
 /// Checks all of a pass but what drawing it finds out.
 pub(crate) fn check(pass: &Pass, output: &Output) -> Result<(), RasterError> {
@@ -40,8 +39,8 @@ fn check_size(pass: &Pass, output: &Output) -> Result<(), RasterError> {
     }
     let expected = 4 * width as usize * height as usize;
     let (found, fits) = match output {
-        Output::Bytes(bytes) => (bytes.len(), is_bytes(pass.pixels)),
-        Output::Floats(floats) => (floats.len(), !is_bytes(pass.pixels)),
+        Output::Bytes(bytes) => (bytes.len(), pass.pixels.is_bytes()),
+        Output::Floats(floats) => (floats.len(), !pass.pixels.is_bytes()),
     };
     if found == expected && fits { Ok(()) } else { Err(RasterError::Output { width, height, expected, found }) }
 }

@@ -65,6 +65,13 @@ pub enum PixelFormat {
     Floats,
 }
 
+impl PixelFormat {
+    /// Whether it is written as bytes.
+    pub(crate) fn is_bytes(self) -> bool {
+        self != Self::Floats
+    }
+}
+
 /// A perspective with reversed depth and an infinite far plane: clip = (`scale`·xy, `near`, −z).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lens {

@@ -4,7 +4,7 @@ use crate::bins::{Bins, TILE};
 use crate::check::check;
 use crate::error::RasterError;
 use crate::lanes::Simd;
-use crate::pass::{Output, Pass, PixelFormat};
+use crate::pass::{Output, Pass};
 use crate::tile::{Scene, Worker};
 use crate::vertices::Screen;
 use crate::width::{VectorWidth, with_vectors};
@@ -163,9 +163,4 @@ impl<'a> Bands<'a> {
             }
         }
     }
-}
-
-/// Whether the format is written as bytes.
-pub(crate) fn is_bytes(pixels: PixelFormat) -> bool {
-    pixels != PixelFormat::Floats
 }

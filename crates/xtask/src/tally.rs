@@ -1,6 +1,11 @@
 //! What came out of the tests.
 
 use std::fmt;
+use std::io::{BufRead, BufReader};
+use std::process::{Command, Stdio};
+
+use crate::cargo::{announce, ended, not_started};
+use crate::failure::{Failure, Result};
 
 /// The results of the test programs of one run, read from what they print.
 #[derive(Debug, Default, PartialEq, Eq)]
@@ -27,6 +32,28 @@ impl Tally {
             }
         }
     }
+}
+
+/// Runs tests, hands on what they print, and counts it. The second part says whether all went well.
+///
+/// # Errors
+/// The command cannot be started, or what it prints cannot be read.
+pub(crate) fn counted(title: &str, command: &mut Command) -> Result<(Tally, Result)> {
+    announce(title, command);
+    let mut child = command.stdout(Stdio::piped()).spawn().map_err(|error| not_started(command, &error))?;
+    let mut tally = Tally::default();
+    let mut output = BufReader::new(child.stdout.take().ok_or_else(|| Failure::new("no output to read"))?);
+    let mut line = Vec::new();
+    // Bytes, because tests may print what is no text.
+    while output.read_until(b'\n', &mut line).map_err(|error| not_started(command, &error))? > 0 {
+        let text = String::from_utf8_lossy(&line);
+        print!("{text}");
+        tally.line(text.trim_end());
+        line.clear();
+    }
+    let status = child.wait().map_err(|error| not_started(command, &error))?;
+    let outcome = if status.success() { Ok(()) } else { Err(ended(command, status)) };
+    Ok((tally, outcome))
 }
 
 /// The 12 of `ok. 12 passed; 0 failed; …`.
@@ -95,5 +122,26 @@ test result: ok. 1 passed; 0 failed; 1 ignored; 0 measured; 0 filtered out; fini
             tally.line(line);
         }
         assert_eq!(tally, Tally::default());
+    }
+
+    #[cfg(unix)]
+    fn shell(script: &str) -> Command {
+        let mut command = Command::new("sh");
+        command.args(["-c", script]);
+        command
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn output_is_counted_and_the_exit_code_counts() {
+        let script = "echo 'test a ... ok'; echo 'test b ... FAILED'; printf '\\377\\n'
+                      echo 'test result: FAILED. 1 passed; 1 failed; 0 ignored'; exit 101";
+        let (tally, outcome) = counted("a script", &mut shell(script)).unwrap();
+        assert_eq!((tally.passed, tally.failed.as_slice()), (1, &["b".to_owned()][..]));
+        assert!(outcome.unwrap_err().to_string().ends_with("exit code 101"));
+
+        let (tally, outcome) = counted("nothing", &mut shell("exit 0")).unwrap();
+        assert_eq!((tally, outcome), (Tally::default(), Ok(())));
+        assert!(counted("no program", &mut Command::new("/no/such/program")).is_err());
     }
 }

@@ -2,7 +2,7 @@
 //! directions.
 
 use crate::equations::vector::{add, cross, dot, scale, sub, toward};
-use crate::equations::{Real, View};
+use crate::equations::{Eye, Real};
 
 /// 32 ε: what a cosine is raised by, and the share by which a radius is widened and a distance shortened.
 ///
@@ -131,10 +131,10 @@ impl<T: Real> Cap<T> {
     }
 
     /// The v of the points of a sphere.
-    pub(super) fn of_view(center: [T; 3], radius: T, view: &View<T>) -> Self {
+    pub(super) fn of_view(center: [T; 3], radius: T, view: &Eye<T>) -> Self {
         match *view {
-            View::Infinite(v) => Self::single(v),
-            View::Local(eye) => {
+            Eye::Infinite(v) => Self::single(v),
+            Eye::Local(eye) => {
                 let offset = sub(eye, center);
                 Self::toward(center, radius, eye, offset, dot(offset, offset)).0
             }

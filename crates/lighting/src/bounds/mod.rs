@@ -31,7 +31,7 @@
 //!
 //! ```
 //! use halfway_lighting::bounds::{DEFAULT_TOLERANCE, NormalCone, Patch, Receiver, Selected, linear_tolerance};
-//! use halfway_lighting::equations::{Coefficients, Light, View};
+//! use halfway_lighting::equations::{Coefficients, Light, Eye};
 //! use halfway_lighting::{Encoding, Faces, Material, PointLight, Reflectance, Viewer};
 //!
 //! // A floor tile five units before the eye, and two lights: one above the tile, one below it.
@@ -44,7 +44,7 @@
 //! };
 //! let lights: [Light<f32>; 2] = [[0.0, 1.0, -5.0], [0.0, -3.0, -5.0]].map(|place| PointLight::white().at(place));
 //! let material = Coefficients::from(&Material::BRASS);
-//! let receiver = Receiver::new(&tile, &material, &View::in_eye_space(Viewer::Local), Reflectance::BlinnPhong);
+//! let receiver = Receiver::new(&tile, &material, &Eye::in_eye_space(Viewer::Local), Reflectance::BlinnPhong);
 //!
 //! let tolerance = [linear_tolerance(Encoding::Srgb, DEFAULT_TOLERANCE, 0.0); 3];
 //! let mut selected = Selected::default();

@@ -4,7 +4,7 @@ use super::Patch;
 use super::angle::{Angle, Cap, slack};
 use crate::equations::vector::{cross, dot, length, mul, neg, scale, sub};
 use crate::equations::{
-    COINCIDENT, Coefficients, Light, Place, Real, View, attenuation, power, range_window, reflect, specular_exponent,
+    COINCIDENT, Coefficients, Eye, Light, Place, Real, attenuation, power, range_window, reflect, specular_exponent,
     spot_factor,
 };
 use crate::{Faces, Reflectance};
@@ -73,7 +73,7 @@ enum Lobe<T> {
 impl<T: Real> Receiver<T> {
     /// `patch` with the coefficients of the sides that are seen, all in one space. Where a coefficient varies over the
     /// patch, give the largest value of each channel, and of the shininess the smallest.
-    pub fn new(patch: &Patch<T>, material: &Coefficients<T>, view: &View<T>, reflectance: Reflectance) -> Self {
+    pub fn new(patch: &Patch<T>, material: &Coefficients<T>, view: &Eye<T>, reflectance: Reflectance) -> Self {
         let normals = patch.seen_normals();
         let view = Cap::of_view(patch.center, patch.radius, view);
         let lobe = match reflectance {

@@ -9,7 +9,7 @@
 //! before the material; the rest are the factors. All vectors have unit length unless said, all colours are linear RGB, angles are in radians. What goes in
 //! is made from the components: `Coefficients::from(&material)`, [`PointLight::at`](crate::PointLight::at),
 //! [`SpotLight::at`](crate::SpotLight::at), [`DirectionalLight::along`](crate::DirectionalLight::along),
-//! [`View::in_eye_space`].
+//! [`Eye::in_eye_space`].
 //!
 //! # Edges
 //! | where | what happens |
@@ -41,10 +41,10 @@ pub use reflectance::{
     HALFWAY_MIN, diffuse_term, face_forward, half_vector, interpolated_normal, power, reflect, side_normal,
     specular_blinn_phong, specular_exponent, specular_phong, specular_term,
 };
-pub use scene::{Coefficients, Light, Place, Surface, View, rgb};
+pub use scene::{Coefficients, Eye, Light, Place, SurfacePoint, rgb};
 pub use shade::{
-    COINCIDENT, Incidence, Irradiance, Terms, incidence, irradiance, light_contribution, light_terms, reflected, shade,
-    view_vector,
+    COINCIDENT, Incidence, Irradiance, LightTerms, incidence, irradiance, light_contribution, light_terms, reflected,
+    shade, view_vector,
 };
 pub use transcendental::Transcendental;
 pub use vector::Real;

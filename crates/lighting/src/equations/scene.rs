@@ -10,7 +10,7 @@ use crate::{Cone, DirectionalLight, GlobalAmbient, Material, PointLight, SpotLig
 
 /// A point of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Surface<T> {
+pub struct SurfacePoint<T> {
     /// p, finite.
     pub position: [T; 3],
     /// n, unit length, on the side that is seen.
@@ -169,14 +169,14 @@ impl GlobalAmbient {
 
 /// Where the viewer is, in the space of the evaluation.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum View<T> {
+pub enum Eye<T> {
     /// The eye is at this point; v points from the surface to it.
     Local([T; 3]),
     /// v is this unit vector everywhere.
     Infinite([T; 3]),
 }
 
-impl<T: Real> View<T> {
+impl<T: Real> Eye<T> {
     /// The viewer in eye space: the eye at the origin, or v = (0, 0, 1).
     pub fn in_eye_space(viewer: Viewer) -> Self {
         let (zero, one) = (T::zero(), T::one());

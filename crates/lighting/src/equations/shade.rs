@@ -3,7 +3,7 @@
 use super::Real;
 use super::falloff::{attenuation, range_window, spot_factor};
 use super::reflectance::{diffuse_term, specular_term};
-use super::scene::{Coefficients, Light, Place, Surface, View};
+use super::scene::{Coefficients, Eye, Light, Place, SurfacePoint};
 use super::vector::{add, dot, length, mul, neg, scale, toward};
 use crate::Reflectance;
 
@@ -35,7 +35,7 @@ pub struct Irradiance<T> {
 
 /// What one light adds to a point, term by term. Their sum is [`light_contribution`].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Terms<T> {
+pub struct LightTerms<T> {
     /// ka·La, weakened where the light attenuates its ambient.
     pub ambient: [T; 3],
     /// att·spot·kd·Ld·max(n·l, 0).
@@ -46,7 +46,7 @@ pub struct Terms<T> {
 
 /// Direction and strength of a light at a point. Where the light is at the point itself ([`COINCIDENT`]) l is n and the
 /// distance 0.
-pub fn incidence<T: Real>(surface: &Surface<T>, light: &Light<T>) -> Incidence<T> {
+pub fn incidence<T: Real>(surface: &SurfacePoint<T>, light: &Light<T>) -> Incidence<T> {
     let (l, att) = match light.place {
         Place::Directional(l) => (l, T::one()),
         Place::Point(position) => {
@@ -64,18 +64,18 @@ pub fn incidence<T: Real>(surface: &Surface<T>, light: &Light<T>) -> Incidence<T
 }
 
 /// v: the unit vector from the surface toward the viewer. Where a local eye is at the surface itself v is n.
-pub fn view_vector<T: Real>(surface: &Surface<T>, view: &View<T>) -> [T; 3] {
+pub fn view_vector<T: Real>(surface: &SurfacePoint<T>, view: &Eye<T>) -> [T; 3] {
     match *view {
-        View::Local(eye) => toward(surface.position, eye).0.unwrap_or(surface.normal),
-        View::Infinite(v) => v,
+        Eye::Local(eye) => toward(surface.position, eye).0.unwrap_or(surface.normal),
+        Eye::Infinite(v) => v,
     }
 }
 
 /// What one light brings to a point whose material has this shininess.
 pub fn irradiance<T: Real>(
-    surface: &Surface<T>,
+    surface: &SurfacePoint<T>,
     light: &Light<T>,
-    view: &View<T>,
+    view: &Eye<T>,
     reflectance: Reflectance,
     shininess: T,
 ) -> Irradiance<T> {
@@ -92,12 +92,12 @@ pub fn irradiance<T: Real>(
 
 /// What a material gives back of what lights bring: `ka·ambient + kd·diffuse + ks·specular`.
 pub fn reflected<T: Real>(irradiance: &Irradiance<T>, material: &Coefficients<T>) -> [T; 3] {
-    let Terms { ambient, diffuse, specular } = reflected_terms(irradiance, material);
+    let LightTerms { ambient, diffuse, specular } = reflected_terms(irradiance, material);
     add(ambient, add(diffuse, specular))
 }
 
-fn reflected_terms<T: Real>(irradiance: &Irradiance<T>, material: &Coefficients<T>) -> Terms<T> {
-    Terms {
+fn reflected_terms<T: Real>(irradiance: &Irradiance<T>, material: &Coefficients<T>) -> LightTerms<T> {
+    LightTerms {
         ambient: mul(material.ka, irradiance.ambient),
         diffuse: mul(material.kd, irradiance.diffuse),
         specular: mul(material.ks, irradiance.specular),
@@ -106,21 +106,21 @@ fn reflected_terms<T: Real>(irradiance: &Irradiance<T>, material: &Coefficients<
 
 /// The ambient, diffuse and specular term that one light adds at a point.
 pub fn light_terms<T: Real>(
-    surface: &Surface<T>,
+    surface: &SurfacePoint<T>,
     material: &Coefficients<T>,
     light: &Light<T>,
-    view: &View<T>,
+    view: &Eye<T>,
     reflectance: Reflectance,
-) -> Terms<T> {
+) -> LightTerms<T> {
     reflected_terms(&irradiance(surface, light, view, reflectance, material.shininess), material)
 }
 
 /// What one light adds at a point: the summand of the equation.
 pub fn light_contribution<T: Real>(
-    surface: &Surface<T>,
+    surface: &SurfacePoint<T>,
     material: &Coefficients<T>,
     light: &Light<T>,
-    view: &View<T>,
+    view: &Eye<T>,
     reflectance: Reflectance,
 ) -> [T; 3] {
     reflected(&irradiance(surface, light, view, reflectance, material.shininess), material)
@@ -131,11 +131,11 @@ pub fn light_contribution<T: Real>(
 /// Never NaN, infinite or negative where the components that the arguments came from pass `validate()`, positions are
 /// finite and `surface.normal` has unit length (in `f32` for up to 10⁸ lights at the largest values).
 pub fn shade<T: Real>(
-    surface: &Surface<T>,
+    surface: &SurfacePoint<T>,
     material: &Coefficients<T>,
     lights: &[Light<T>],
     global_ambient: [T; 3],
-    view: &View<T>,
+    view: &Eye<T>,
     reflectance: Reflectance,
 ) -> [T; 3] {
     let unlit = add(material.ke, mul(material.ka, global_ambient));

@@ -3,7 +3,7 @@
 use halfway_lighting::Faces;
 use halfway_lighting::bounds::MARGIN;
 use halfway_lighting::equations::vector::{length, normalize, sub};
-use halfway_lighting::equations::{COINCIDENT, Surface, View};
+use halfway_lighting::equations::{COINCIDENT, Eye, SurfacePoint};
 use proptest::prelude::*;
 
 use crate::support::{Kind, Scene, around, cases, exceeds, scene, source};
@@ -26,12 +26,12 @@ proptest! {
         }
         let light = source.light::<f64>();
         let normal = normalize(axis.map(f64::from)).expect("not 0");
-        let surface = Surface { position: scene.center.map(f64::from), normal };
+        let surface = SurfacePoint { position: scene.center.map(f64::from), normal };
         let terms = scene.terms(&surface, &light);
         let bounds = scene.receiver::<f64>().bounds(&light);
         prop_assert!(exceeds(&terms, &bounds, &light).is_none());
         // Where the light counts as being at the point, or the eye is there, the bounds are those of any l or v.
-        let eye_inside = matches!(scene.view, View::Local(eye) if eye == scene.center);
+        let eye_inside = matches!(scene.view, Eye::Local(eye) if eye == scene.center);
         let [center, position] = [scene.center, source.position].map(|p| p.map(f64::from));
         if length(sub(position, center)) <= 1.001 * f64::from(COINCIDENT) * length(center) || eye_inside {
             return Ok(());

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use bevy_color::LinearRgba;
 use halfway_lighting::bounds::{DEFAULT_TOLERANCE, NormalCone, Patch, Receiver, Selected, linear_tolerance};
-use halfway_lighting::equations::{Coefficients, Light, Surface, View, light_terms};
+use halfway_lighting::equations::{Coefficients, Eye, Light, SurfacePoint, light_terms};
 use halfway_lighting::{Attenuation, Encoding, Faces, Material, PointLight, Reflectance};
 
 use crate::support::direction;
@@ -102,7 +102,7 @@ fn needed(patches: &[Patch<f32>], lights: &[Light<f32>], reflectance: Reflectanc
     let mut selected = Selected::default();
     let mut sums = [0usize; 2];
     for patch in patches {
-        Receiver::new(patch, &material(0.8), &View::Local(EYE), reflectance).select(
+        Receiver::new(patch, &material(0.8), &Eye::Local(EYE), reflectance).select(
             (0..).zip(lights),
             tolerance(),
             &mut selected,
@@ -172,24 +172,27 @@ fn bounds_are_near_the_largest_term() {
 }
 
 /// A point and normal of a patch from two numbers in [0, 1).
-type Points = fn(&Patch<f32>, f64, f64) -> Surface<f64>;
+type Points = fn(&Patch<f32>, f64, f64) -> SurfacePoint<f64>;
 
-fn on_sphere(patch: &Patch<f32>, a: f64, b: f64) -> Surface<f64> {
+fn on_sphere(patch: &Patch<f32>, a: f64, b: f64) -> SurfacePoint<f64> {
     let normal = direction(a, b);
-    Surface { position: [0, 1, 2].map(|i| f64::from(patch.center[i]) + normal[i] * f64::from(patch.radius)), normal }
+    SurfacePoint {
+        position: [0, 1, 2].map(|i| f64::from(patch.center[i]) + normal[i] * f64::from(patch.radius)),
+        normal,
+    }
 }
 
-fn on_square(patch: &Patch<f32>, a: f64, b: f64) -> Surface<f64> {
+fn on_square(patch: &Patch<f32>, a: f64, b: f64) -> SurfacePoint<f64> {
     let size = f64::from(patch.radius) * core::f64::consts::SQRT_2;
     let [x, y, z] = patch.center.map(f64::from);
-    Surface { position: [x + (a - 0.5) * size, y, z + (b - 0.5) * size], normal: [0.0, 1.0, 0.0] }
+    SurfacePoint { position: [x + (a - 0.5) * size, y, z + (b - 0.5) * size], normal: [0.0, 1.0, 0.0] }
 }
 
 /// Adds bound and largest term of the light where the bound is above the tolerance.
 fn gather(patch: &Patch<f32>, light: &Light<f32>, points: Points, pairs: &mut [Vec<(f64, f64)>; 2]) {
     const STEPS: u32 = 24;
     let reflectance = Reflectance::BlinnPhong;
-    let bounds = Receiver::new(patch, &material(0.8), &View::Local(EYE), reflectance).bounds(light);
+    let bounds = Receiver::new(patch, &material(0.8), &Eye::Local(EYE), reflectance).bounds(light);
     let bounds = [bounds.diffuse[0], bounds.specular[0]].map(f64::from);
     if bounds.iter().all(|&bound| bound <= DEFAULT_TOLERANCE) {
         return;
@@ -197,9 +200,9 @@ fn gather(patch: &Patch<f32>, light: &Light<f32>, points: Points, pairs: &mut [V
     let mut largest = [0f64; 2];
     for i in 0..STEPS * STEPS {
         let [a, b] = [i % STEPS, i / STEPS].map(|k| f64::from(k) / f64::from(STEPS - 1));
-        let Surface { position, normal } = points(patch, a, b);
-        let surface = Surface { position: position.map(|x| x as f32), normal: normal.map(|x| x as f32) };
-        let terms = light_terms(&surface, &material(0.8), light, &View::Local(EYE), reflectance);
+        let SurfacePoint { position, normal } = points(patch, a, b);
+        let surface = SurfacePoint { position: position.map(|x| x as f32), normal: normal.map(|x| x as f32) };
+        let terms = light_terms(&surface, &material(0.8), light, &Eye::Local(EYE), reflectance);
         largest = [largest[0].max(f64::from(terms.diffuse[0])), largest[1].max(f64::from(terms.specular[0]))];
     }
     for term in 0..2 {
@@ -218,7 +221,7 @@ fn times() {
         let lights = lights(range);
         for reflectance in [Reflectance::BlinnPhong, Reflectance::Phong] {
             let receivers =
-                || patches.iter().map(|patch| Receiver::new(patch, &material(0.8), &View::Local(EYE), reflectance));
+                || patches.iter().map(|patch| Receiver::new(patch, &material(0.8), &Eye::Local(EYE), reflectance));
             let bounds = least_time(|| {
                 for receiver in receivers() {
                     for light in &lights {

@@ -6,7 +6,7 @@ use bevy_color::LinearRgba;
 use halfway_lighting::bounds::{NormalCone, Patch, Receiver, TermBounds};
 use halfway_lighting::equations::vector::{add, cross, dot, length, normalize, scale, sub};
 use halfway_lighting::equations::{
-    Coefficients, Light, Place, Real, Surface, Terms, View, incidence, light_terms, view_vector,
+    Coefficients, Eye, Light, LightTerms, Place, Real, SurfacePoint, incidence, light_terms, view_vector,
 };
 use halfway_lighting::{Attenuation, Cone, DirectionalLight, Faces, Material, PointLight, Reflectance, SpotLight};
 use proptest::prelude::*;
@@ -49,7 +49,7 @@ pub(crate) struct Scene {
     pub(crate) thickness: f32,
     pub(crate) faces: Faces,
     pub(crate) material: Material,
-    pub(crate) view: View<f32>,
+    pub(crate) view: Eye<f32>,
     pub(crate) reflectance: Reflectance,
 }
 
@@ -66,16 +66,16 @@ impl Scene {
         Receiver::new(&patch, &Coefficients::from(&self.material), &self.view(), self.reflectance)
     }
 
-    fn view<T: Real>(&self) -> View<T> {
+    fn view<T: Real>(&self) -> Eye<T> {
         let of = |a: [f32; 3]| a.map(|x| T::of(f64::from(x)));
         match self.view {
-            View::Local(eye) => View::Local(of(eye)),
-            View::Infinite(v) => View::Infinite(normalize(of(v)).expect("not 0")),
+            Eye::Local(eye) => Eye::Local(of(eye)),
+            Eye::Infinite(v) => Eye::Infinite(normalize(of(v)).expect("not 0")),
         }
     }
 
     /// The exact terms at a point.
-    pub(crate) fn terms(&self, surface: &Surface<f64>, light: &Light<f64>) -> Terms<f64> {
+    pub(crate) fn terms(&self, surface: &SurfacePoint<f64>, light: &Light<f64>) -> LightTerms<f64> {
         light_terms(surface, &Coefficients::from(&self.material), light, &self.view(), self.reflectance)
     }
 
@@ -83,13 +83,13 @@ impl Scene {
     ///
     /// Half of the points are those nearest to the light or the eye, and half of the normals are turned as far as the
     /// cone allows toward l, h, or the normal that mirrors l into v: where the terms are largest.
-    pub(crate) fn sample(&self, light: &Light<f64>, u: [f64; 6]) -> Surface<f64> {
+    pub(crate) fn sample(&self, light: &Light<f64>, u: [f64; 6]) -> SurfacePoint<f64> {
         let center = self.center.map(f64::from);
         // Inside the sphere also after rounding.
         let radius = f64::from(self.radius) * (1.0 - 1e-9);
         let target = match (light.place, self.view()) {
             (Place::Point(light), _) if u[0] < 0.35 => normalize(sub(light, center)),
-            (_, View::Local(eye)) if u[0] < 0.5 => normalize(sub(eye, center)),
+            (_, Eye::Local(eye)) if u[0] < 0.5 => normalize(sub(eye, center)),
             _ => None,
         };
         let outward = target.unwrap_or_else(|| direction(u[1], u[2]));
@@ -97,7 +97,7 @@ impl Scene {
         let offset = self.flattened(scale(outward, radius * share));
         let position = add(center, offset);
         let normal = self.normal(position, light, [u[3], u[4], u[5]]);
-        Surface { position, normal }
+        SurfacePoint { position, normal }
     }
 
     /// An offset from the centre brought into the patch's thickness.
@@ -115,7 +115,7 @@ impl Scene {
             Faces::Back => -1.0,
             Faces::Both => [1.0, -1.0][usize::from(u[2] < 0.5)],
         };
-        let probe = Surface { position, normal: free };
+        let probe = SurfacePoint { position, normal: free };
         let (l, v) = (incidence(&probe, light).l, view_vector(&probe, &self.view()));
         let wish = match u[0] {
             u if u < 0.25 => l,
@@ -150,7 +150,7 @@ pub(crate) fn direction(a: f64, b: f64) -> [f64; 3] {
 }
 
 /// What exceeds its bound, in words, or `None`. `f32` counts numbers below its smallest normal one as 0.
-pub(crate) fn exceeds<T: Real>(terms: &Terms<f64>, bounds: &TermBounds<T>, light: &Light<f64>) -> Option<String> {
+pub(crate) fn exceeds<T: Real>(terms: &LightTerms<f64>, bounds: &TermBounds<T>, light: &Light<f64>) -> Option<String> {
     // An ambient that is not attenuated is no part of the bounds.
     let ambient = if light.attenuate_ambient { terms.ambient } else { [0.0; 3] };
     let rows = [
@@ -233,16 +233,16 @@ pub(crate) fn scene() -> impl Strategy<Value = Scene> {
         Material { ambient, diffuse, specular, emission: LinearRgba::BLACK, shininess, opacity: 1.0 }
     });
     let view = prop_oneof![
-        1 => any_direction().prop_map(View::Infinite),
-        3 => (any_direction(), distance()).prop_map(|(way, d)| View::Local(way.map(|x| x * d))),
+        1 => any_direction().prop_map(Eye::Infinite),
+        3 => (any_direction(), distance()).prop_map(|(way, d)| Eye::Local(way.map(|x| x * d))),
     ];
     let sphere = ([-1e2f32..1e2, -1e2f32..1e2, -1e2f32..1e2], prop_oneof![1 => Just(0.0), 8 => magnitude(-2.0, 2.0)]);
     let thickness = prop_oneof![1 => Just(0.0), 1 => Just(1.0), 3 => 0f32..1.0];
     (sphere, cone, thickness, faces, material, view, reflectance).prop_map(
         |((center, radius), cone, thickness, faces, material, view, reflectance)| {
             let view = match view {
-                View::Local(eye) => View::Local(placed(eye, center, radius)),
-                infinite @ View::Infinite(_) => infinite,
+                Eye::Local(eye) => Eye::Local(placed(eye, center, radius)),
+                infinite @ Eye::Infinite(_) => infinite,
             };
             Scene { center, radius, cone, thickness, faces, material, view, reflectance }
         },

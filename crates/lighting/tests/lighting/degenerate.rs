@@ -3,17 +3,17 @@
 use core::f32::consts::PI;
 
 use bevy_color::LinearRgba;
-use halfway_lighting::equations::{Coefficients, Light, Place, Surface, View, light_contribution, shade};
+use halfway_lighting::equations::{Coefficients, Eye, Light, Place, SurfacePoint, light_contribution, shade};
 use halfway_lighting::homogeneous::{LightPlace, from_homogeneous};
 use halfway_lighting::{Attenuation, Cone, DirectionalLight, Material, PointLight, Reflectance, SpotLight};
 
 use crate::support::{ALL_REFLECTANCES, Pcg, close3, distinct_material, shade_dark};
 
-const VIEW: View<f64> = View::Local([0.0; 3]);
+const VIEW: Eye<f64> = Eye::Local([0.0; 3]);
 
-fn surfaces() -> impl Iterator<Item = Surface<f64>> {
+fn surfaces() -> impl Iterator<Item = SurfacePoint<f64>> {
     let mut rng = Pcg::new(3);
-    (0..300).map(move |_| Surface {
+    (0..300).map(move |_| SurfacePoint {
         position: [rng.between(-2.0, 2.0), rng.between(-2.0, 2.0), rng.between(-6.0, -1.0)],
         normal: rng.direction(),
     })

@@ -4,7 +4,8 @@ use core::f32::consts::FRAC_PI_2;
 
 use bevy_color::LinearRgba;
 use halfway_lighting::equations::{
-    Coefficients, ConeTerms, Light, Place, Surface, View, interpolated_normal, normal_matrix, shade, transform_normal,
+    Coefficients, ConeTerms, Eye, Light, Place, SurfacePoint, interpolated_normal, normal_matrix, shade,
+    transform_normal,
 };
 use halfway_lighting::{Attenuation, Cone, DirectionalLight, Material, PointLight, Reflectance, SpotLight};
 
@@ -18,9 +19,9 @@ const KS: f32 = 0.5;
 /// What one light makes of a point, as `kd·diffuse + ks·specular` with every colour white.
 struct Row {
     name: &'static str,
-    surface: Surface<f64>,
+    surface: SurfacePoint<f64>,
     light: Light<f64>,
-    view: View<f64>,
+    view: Eye<f64>,
     shininess: f32,
     reflectances: &'static [Reflectance],
     diffuse: f64,
@@ -29,8 +30,8 @@ struct Row {
 
 const UP: [f64; 3] = [0.0, 0.0, 1.0];
 const DOWN: [f64; 3] = [0.0, 0.0, -1.0];
-const AT_ORIGIN: Surface<f64> = Surface { position: [0.0; 3], normal: UP };
-const FROM_ABOVE: View<f64> = View::Infinite(UP);
+const AT_ORIGIN: SurfacePoint<f64> = SurfacePoint { position: [0.0; 3], normal: UP };
+const FROM_ABOVE: Eye<f64> = Eye::Infinite(UP);
 
 /// A light straight above, seen from straight above: every row changes what it is about.
 fn row(name: &'static str) -> Row {
@@ -72,7 +73,7 @@ fn rows() -> Vec<Row> {
         Row {
             shininess: 0.0,
             light: toward(grazing),
-            view: View::Infinite(grazing),
+            view: Eye::Infinite(grazing),
             diffuse: grazing[2],
             ..row("0⁰: shininess 0 where r·v < 0")
         },
@@ -82,14 +83,14 @@ fn rows() -> Vec<Row> {
         },
         Row {
             light: toward(grazing),
-            view: View::Infinite(grazing.map(|x| -x)),
+            view: Eye::Infinite(grazing.map(|x| -x)),
             reflectances: &BLINN,
             diffuse: grazing[2],
             specular: 0.0,
             ..row("h = 0 where l = −v")
         },
         Row {
-            surface: Surface { normal: [0.0, 0.0, 1.0 + 1e-6], ..AT_ORIGIN },
+            surface: SurfacePoint { normal: [0.0, 0.0, 1.0 + 1e-6], ..AT_ORIGIN },
             shininess: 1e5,
             diffuse: 1.0 + 1e-6,
             ..row("a cosine above 1 under a high shininess")
@@ -113,16 +114,16 @@ fn rows() -> Vec<Row> {
             ..row("a light on the surface: the cap where a = 0")
         },
         Row { light: point(Attenuation::NONE, DOWN), ..dark("a light inside the surface") },
-        Row { view: View::Local([0.0; 3]), ..row("an eye on the surface") },
-        Row { light: toward(behind), view: View::Infinite(grazing), ..dark("n·l < 0 with n·h > 0") },
+        Row { view: Eye::Local([0.0; 3]), ..row("an eye on the surface") },
+        Row { light: toward(behind), view: Eye::Infinite(grazing), ..dark("n·l < 0 with n·h > 0") },
         Row { light: toward([1.0, 0.0, 0.0]), shininess: 0.0, ..dark("n·l = 0 with shininess 0") },
         Row { shininess: 1e4, ..row("the peak of a shininess of 10⁴") },
         Row { light: point(Attenuation::NONE, [0.0, 0.0, 1e-12]), ..row("a light 10⁻¹² away") },
         Row { light: point(Attenuation::NONE, [0.0, 0.0, 1e18]), ..row("a light 10¹⁸ away") },
         Row {
-            surface: Surface { position: [1e7, -1e7, 0.0], normal: UP },
+            surface: SurfacePoint { position: [1e7, -1e7, 0.0], normal: UP },
             light: point(Attenuation::NONE, [1e7, -1e7, 2.0]),
-            view: View::Local([1e7, -1e7, 3.0]),
+            view: Eye::Local([1e7, -1e7, 3.0]),
             ..row("10⁷ units from the origin")
         },
     ]
@@ -148,14 +149,14 @@ fn every_edge_has_its_value() {
     }
 }
 
-fn surface_in_f32(surface: &Surface<f64>) -> Surface<f32> {
-    Surface { position: to_f32(surface.position), normal: to_f32(surface.normal) }
+fn surface_in_f32(surface: &SurfacePoint<f64>) -> SurfacePoint<f32> {
+    SurfacePoint { position: to_f32(surface.position), normal: to_f32(surface.normal) }
 }
 
-fn view_in_f32(view: &View<f64>) -> View<f32> {
+fn view_in_f32(view: &Eye<f64>) -> Eye<f32> {
     match *view {
-        View::Local(eye) => View::Local(to_f32(eye)),
-        View::Infinite(v) => View::Infinite(to_f32(v)),
+        Eye::Local(eye) => Eye::Local(to_f32(eye)),
+        Eye::Infinite(v) => Eye::Infinite(to_f32(v)),
     }
 }
 

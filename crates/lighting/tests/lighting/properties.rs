@@ -10,7 +10,7 @@ use core::f32::consts::{FRAC_PI_2, PI};
 use bevy_color::LinearRgba;
 use halfway_lighting::equations::vector::{dot, length, normalize, scale, sub};
 use halfway_lighting::equations::{
-    ATTENUATION_MAX, COINCIDENT, Coefficients, HALFWAY_MIN, Light, Real, Surface, View, rgb, shade,
+    ATTENUATION_MAX, COINCIDENT, Coefficients, Eye, HALFWAY_MIN, Light, Real, SurfacePoint, rgb, shade,
 };
 use halfway_lighting::{
     Attenuation, Cone, DirectionalLight, Material, PointLight, Reflectance, SpotLight, matched_shininess,
@@ -32,7 +32,7 @@ struct Case {
     direction: [f32; 3],
     position: [f32; 3],
     normal: [f32; 3],
-    view: View<f32>,
+    view: Eye<f32>,
     reflectance: Reflectance,
     ga: [f32; 3],
 }
@@ -125,7 +125,7 @@ fn wild() -> impl Strategy<Value = Case> {
             move |(material, (light, ([a, b, c], range, attenuate_ambient)), kind, seen, reflectance, aim)| {
                 let attenuation = Attenuation::new(a, b, if a + b + c == 0.0 { 1.0 } else { c });
                 let (position, light_at, eye_at, normal, v) = seen;
-                let view = if eye_at.1 == 3 { View::Infinite(v) } else { View::Local(place(position, eye_at)) };
+                let view = if eye_at.1 == 3 { Eye::Infinite(v) } else { Eye::Local(place(position, eye_at)) };
                 Case {
                     material,
                     light: PointLight { attenuation, range, attenuate_ambient, ..light },
@@ -159,7 +159,7 @@ fn ordinary() -> impl Strategy<Value = Case> {
                 direction: core::array::from_fn(|i| position[i] - place[i] + nudge[i]),
                 position,
                 normal,
-                view: View::Local(eye),
+                view: Eye::Local(eye),
                 reflectance,
                 ga: [0.1; 3],
             }
@@ -192,10 +192,10 @@ impl Case {
     fn evaluated<T: Real>(&self) -> [f64; 3] {
         let of = |a: [f32; 3]| a.map(|x| T::of(x.into()));
         let unit = |a: [f32; 3]| normalize(of(a)).expect("a direction");
-        let surface = Surface { position: of(self.position), normal: unit(self.normal) };
+        let surface = SurfacePoint { position: of(self.position), normal: unit(self.normal) };
         let view = match self.view {
-            View::Local(eye) => View::Local(of(eye)),
-            View::Infinite(v) => View::Infinite(unit(v)),
+            Eye::Local(eye) => Eye::Local(of(eye)),
+            Eye::Infinite(v) => Eye::Infinite(unit(v)),
         };
         let coefficients = Coefficients::from(&self.material);
         shade(&surface, &coefficients, &[self.light::<T>()], of(self.ga), &view, self.reflectance)
@@ -255,8 +255,8 @@ impl Rounding {
         let p = to_f64(case.position);
         let toward = |q: [f32; 3]| normalize(sub(to_f64(q), p)).unwrap_or(n);
         let v = match case.view {
-            View::Local(eye) => toward(eye),
-            View::Infinite(v) => unit(v),
+            Eye::Local(eye) => toward(eye),
+            Eye::Infinite(v) => unit(v),
         };
         let l = match case.kind {
             Kind::Directional => scale(unit(case.direction), -1.0),

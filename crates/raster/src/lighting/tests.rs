@@ -5,7 +5,7 @@ use crate::lanes::MOST_LANES;
 use crate::width::{VectorWidth, with_vectors};
 use halfway_lighting::Reflectance;
 use halfway_lighting::equations::{
-    self, Coefficients, ConeTerms, Light, Place, Surface, View, face_forward, vector::normalize,
+    self, Coefficients, ConeTerms, Eye, Light, Place, SurfacePoint, face_forward, vector::normalize,
 };
 
 /// One lane's input.
@@ -121,12 +121,12 @@ fn expected(case: &Case) -> [f64; 3] {
         ke: f(SIDE.base),
         shininess: f64::from(case.exponent),
     };
-    let view = if case.local_viewer { View::Local([0.0; 3]) } else { View::Infinite([0.0, 0.0, 1.0]) };
+    let view = if case.local_viewer { Eye::Local([0.0; 3]) } else { Eye::Infinite([0.0, 0.0, 1.0]) };
     let reflectance = match case.highlight {
         Highlight::Phong => Reflectance::Phong,
         Highlight::BlinnPhong => Reflectance::BlinnPhong,
     };
-    let surface = Surface { position: f(case.p), normal: f(case.n) };
+    let surface = SurfacePoint { position: f(case.p), normal: f(case.n) };
     equations::shade(&surface, &material, &[source], [0.0; 3], &view, reflectance)
 }
 

@@ -3,7 +3,7 @@
 use crate::common::{Scene, Shading, at, draw, lens, pieces};
 use halfway_lighting::Reflectance;
 use halfway_lighting::equations::{
-    Coefficients, ConeTerms, Light, Place, Surface, View, normal_matrix, shade, transform_normal, vector,
+    Coefficients, ConeTerms, Eye, Light, Place, SurfacePoint, normal_matrix, shade, transform_normal, vector,
 };
 use halfway_mesh::{Mesh, UvSphere};
 use halfway_raster::{
@@ -163,13 +163,13 @@ impl Case {
             ke: kept(base, side.base),
             shininess: f64::from(side.exponent),
         };
-        let view = if self.local_viewer { View::Local([0.0; 3]) } else { View::Infinite([0.0, 0.0, 1.0]) };
+        let view = if self.local_viewer { Eye::Local([0.0; 3]) } else { Eye::Infinite([0.0, 0.0, 1.0]) };
         let reflectance = match self.scene.draws[0].highlight {
             Highlight::Phong => Reflectance::Phong,
             Highlight::BlinnPhong => Reflectance::BlinnPhong,
         };
         let normal = if back { vector::neg(normal) } else { normal };
-        shade(&Surface { position, normal }, &material, &self.sources(), [0.0; 3], &view, reflectance)
+        shade(&SurfacePoint { position, normal }, &material, &self.sources(), [0.0; 3], &view, reflectance)
     }
 
     /// All of them in eye space.

@@ -14,16 +14,16 @@ use halfway_mesh::{Mesh, Mesh3d, SpawnOrder};
 
 use super::error::OracleError;
 use super::solid::{Color, Looks, Solid};
-use super::view::{View, affine};
+use super::view::{PictureView, affine};
 
 /// [`Shown`] asks a world for no resource, so that there is nothing it could lack.
 const ALWAYS: &str = "queries can be had of every world";
 
 /// What is drawn, in eye space.
 #[derive(Debug)]
-pub(super) struct Scene {
-    pub(super) view: View,
-    pub(super) viewer: equations::View<f64>,
+pub(super) struct OracleScene {
+    pub(super) view: PictureView,
+    pub(super) viewer: equations::Eye<f64>,
     pub(super) background: Color,
     pub(super) samples: Samples,
     /// Ga, and La of the lights that do not attenuate it.
@@ -33,13 +33,13 @@ pub(super) struct Scene {
     pub(super) solids: Vec<Solid>,
 }
 
-impl Scene {
+impl OracleScene {
     pub(super) fn gather(world: &mut World, size: UVec2) -> Result<Self, OracleError> {
         require_propagation(world)?;
         let seen = see(world, size)?;
         let (ambient, lights) = lights(world, &seen.view)?;
         let solids = solids(world, &seen)?;
-        let viewer = equations::View::in_eye_space(seen.camera.viewer);
+        let viewer = equations::Eye::in_eye_space(seen.camera.viewer);
         let Camera { background, samples, .. } = seen.camera;
         Ok(Self { view: seen.view, viewer, background: rgb(background), samples, ambient, lights, solids })
     }
@@ -58,7 +58,7 @@ fn require_propagation(world: &mut World) -> Result<(), OracleError> {
 /// The camera, and what it says of objects that say nothing themselves.
 struct Seen {
     camera: Camera,
-    view: View,
+    view: PictureView,
     shading: Shading,
     reflectance: Reflectance,
 }
@@ -75,13 +75,13 @@ fn see(world: &mut World, size: UVec2) -> Result<Seen, OracleError> {
     camera.validate().map_err(|source| OracleError::Invalid { entity: label(entity, name), source })?;
     Ok(Seen {
         camera: *camera,
-        view: View::new(camera, transform, size).ok_or_else(|| bad_transform(entity, name, transform))?,
+        view: PictureView::new(camera, transform, size).ok_or_else(|| bad_transform(entity, name, transform))?,
         shading: shading.copied().unwrap_or_default(),
         reflectance: reflectance.copied().unwrap_or_default(),
     })
 }
 
-fn lights(world: &mut World, view: &View) -> Result<(Color, Vec<Light<f64>>), OracleError> {
+fn lights(world: &mut World, view: &PictureView) -> Result<(Color, Vec<Light<f64>>), OracleError> {
     let global = world.get_resource::<GlobalAmbient>().copied().unwrap_or_default();
     global.validate().map_err(|source| OracleError::Invalid { entity: "resource".into(), source })?;
 

@@ -2,7 +2,7 @@
 
 use halfway_lighting::Faces;
 
-use super::gather::Scene;
+use super::gather::OracleScene;
 use super::raster::Hit;
 use super::solid::Color;
 
@@ -24,7 +24,7 @@ fn hides(a: f64, b: f64) -> bool {
 }
 
 impl Layers {
-    pub(super) fn add(&mut self, scene: &Scene, hit: Hit) {
+    pub(super) fn add(&mut self, scene: &OracleScene, hit: Hit) {
         if scene.solids[hit.solid].blend {
             self.blended.push(hit);
         } else if self.opaque.is_none_or(|known| hides(hit.depth, known.depth)) {
@@ -37,7 +37,7 @@ impl Layers {
     }
 
     /// What is seen, in the order in which it is drawn: the opaque hit, then the blended ones before it.
-    pub(super) fn visible(&self, scene: &Scene) -> impl Iterator<Item = &Hit> {
+    pub(super) fn visible(&self, scene: &OracleScene) -> impl Iterator<Item = &Hit> {
         let before = |hit: &&Hit| self.opaque.is_none_or(|opaque| hides(hit.depth, opaque.depth));
         let mut blended: Vec<&Hit> = self.blended.iter().filter(before).collect();
         // Of a two-sided object the far side comes first. Stable: in one pass triangles stay in their order.
@@ -46,7 +46,7 @@ impl Layers {
     }
 
     /// I of everything on the ray, one over the other; each is clamped to 1 first where `clamp` says so.
-    pub(super) fn color(&self, scene: &Scene, clamp: bool) -> Color {
+    pub(super) fn color(&self, scene: &OracleScene, clamp: bool) -> Color {
         let written = |i: Color| if clamp { i.map(|channel| channel.min(1.0)) } else { i };
         self.visible(scene).fold(written(scene.background), |behind, hit| {
             let solid = &scene.solids[hit.solid];

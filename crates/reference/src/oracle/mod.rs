@@ -27,7 +27,7 @@ pub use mode::Mode;
 pub use possible::{ColorRange, Possible};
 pub use probe::{Nearest, Seen};
 
-use gather::Scene;
+use gather::OracleScene;
 use raster::Tiles;
 
 /// A scene, ready to be drawn in f64.
@@ -43,7 +43,7 @@ use raster::Tiles;
 ///   the order of the mesh. Each gives opacity·I + (1 − opacity)·what is behind.
 #[derive(Debug)]
 pub struct Oracle {
-    scene: Scene,
+    scene: OracleScene,
     size: UVec2,
     supersampling: u32,
     clamp: bool,
@@ -72,7 +72,7 @@ impl Oracle {
         if u64::from(width) * u64::from(height) > Self::MAX_PIXELS {
             return Err(OracleError::TooLarge { width, height, limit: Self::MAX_PIXELS });
         }
-        let scene = Scene::gather(world, size)?;
+        let scene = OracleScene::gather(world, size)?;
         Ok(Self { scene, size, supersampling: 1, clamp: false, tiles: OnceLock::new() })
     }
 

@@ -2,7 +2,7 @@
 
 use bevy_math::{DVec2, DVec3};
 
-use super::gather::Scene;
+use super::gather::OracleScene;
 
 /// A point of an object that a ray meets.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,7 +60,7 @@ pub(super) const TILE: u32 = 32;
 const MARGIN: f64 = 1e-3;
 
 impl Tiles {
-    pub(super) fn new(scene: &Scene) -> Self {
+    pub(super) fn new(scene: &OracleScene) -> Self {
         let size = scene.view.size();
         let count = |pixels: f64| (pixels / f64::from(TILE)).ceil() as usize;
         let (columns, rows) = (count(size.x), count(size.y));
@@ -83,7 +83,7 @@ impl Tiles {
         tiles
     }
 
-    fn add(&mut self, scene: &Scene, solid: usize, index: u32, hull: &[DVec3]) {
+    fn add(&mut self, scene: &OracleScene, solid: usize, index: u32, hull: &[DVec3]) {
         let Some([low, high]) = reach(scene, hull) else { return };
         let number = self.primitives.len() as u32;
         self.primitives.push(Primitive { solid, index, low, high });
@@ -139,7 +139,7 @@ impl Tiles {
 
 /// The corners of the box, in pixels and inside the picture, that holds what lies in the hull of some points and beyond
 /// the near plane. `None` where the picture shows nothing of it.
-fn reach(scene: &Scene, hull: &[DVec3]) -> Option<[DVec2; 2]> {
+fn reach(scene: &OracleScene, hull: &[DVec3]) -> Option<[DVec2; 2]> {
     let (near, size) = (scene.view.near, scene.view.size());
     let beyond = |p: &DVec3| -p.z >= near;
     let mut low = DVec2::INFINITY;
@@ -164,7 +164,7 @@ fn reach(scene: &Scene, hull: &[DVec3]) -> Option<[DVec2; 2]> {
 }
 
 /// A triangle in eye space, ready to be met by rays.
-pub(super) struct Edges {
+pub(super) struct RayTriangle {
     corners: [DVec3; 3],
     /// Normals of the planes through the eye and the edge opposite to each corner. The edge that two triangles share has
     /// exactly opposite ones.
@@ -179,7 +179,7 @@ pub(super) struct Met {
     pub(super) counter_clockwise: bool,
 }
 
-impl Edges {
+impl RayTriangle {
     pub(super) fn new(corners: [DVec3; 3]) -> Self {
         let [a, b, c] = corners;
         Self { corners, normals: [b.cross(c), c.cross(a), a.cross(b)] }
@@ -215,12 +215,12 @@ impl Primitive {
     }
 }
 
-impl Scene {
+impl OracleScene {
     /// What meets rays for a triangle: its hit where a side that is shown lies beyond the near plane.
     pub(super) fn triangle(&self, primitive: &Primitive) -> impl Fn(DVec3) -> Option<Hit> {
         let &Primitive { solid: number, index, .. } = primitive;
         let solid = &self.solids[number];
-        let edges = Edges::new(solid.triangle(index));
+        let edges = RayTriangle::new(solid.triangle(index));
         move |ray| {
             let Met { weights, depth, counter_clockwise } = edges.meet(ray)?;
             let front = counter_clockwise != solid.mirrored;

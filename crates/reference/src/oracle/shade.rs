@@ -3,13 +3,13 @@
 use bevy_math::DVec3;
 use halfway_lighting::Frequency;
 use halfway_lighting::equations::vector::{add, mul};
-use halfway_lighting::equations::{Surface, interpolated_normal, light_terms, side_normal};
+use halfway_lighting::equations::{SurfacePoint, interpolated_normal, light_terms, side_normal};
 
-use super::gather::Scene;
+use super::gather::OracleScene;
 use super::raster::{Hit, HitPoint};
 use super::solid::{Color, Solid};
 
-impl Scene {
+impl OracleScene {
     /// I of the side that is seen: emission and ambient, and the terms of the lights where they are evaluated.
     pub(super) fn value(&self, hit: &Hit) -> Color {
         let solid = &self.solids[hit.solid];
@@ -54,7 +54,7 @@ impl Scene {
     ///
     /// An ambient colour that attenuates goes with the diffuse term; one that does not is in the scene's ambient.
     fn lit(&self, solid: &Solid, front: bool, p: DVec3, n: [f64; 3], at: Frequency) -> Color {
-        let surface = Surface { position: p.to_array(), normal: side_normal(n, front) };
+        let surface = SurfacePoint { position: p.to_array(), normal: side_normal(n, front) };
         let material = &solid.side(front).coefficients;
         self.lights.iter().fold([0.0; 3], |mut i, light| {
             let terms = light_terms(&surface, material, light, &self.viewer, solid.reflectance);

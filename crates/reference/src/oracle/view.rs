@@ -10,7 +10,7 @@ use halfway_lighting::equations::Transcendental;
 /// Eye space is right-handed and has world units: the eye at the origin, looking along −Z. Depth is the distance along
 /// the view, −z.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct View {
+pub(super) struct PictureView {
     eye_from_world: DMat3,
     position: DVec3,
     /// Half the picture's width and height at depth 1.
@@ -19,7 +19,7 @@ pub(super) struct View {
     pub(super) near: f64,
 }
 
-impl View {
+impl PictureView {
     /// The view of a camera; `None` where its transform gives it no place or direction.
     pub(super) fn new(camera: &Camera, transform: &GlobalTransform, size: UVec2) -> Option<Self> {
         let world_from_camera = affine(transform);

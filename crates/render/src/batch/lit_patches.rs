@@ -235,7 +235,7 @@ impl LitPatches {
             }
         }
         let patch = patch.in_eye_space(model_view, normal_matrix, reflecting.faces);
-        let eye = equations::View::in_eye_space(shared.viewer);
+        let eye = equations::Eye::in_eye_space(shared.viewer);
         let reflector = reflecting.reflector(key.terms);
         self.lists.select(shared.lights, &patch, &reflector, &eye, shared.encoding);
         let key = if shared.costs.lights_at_fixed_places

@@ -1,6 +1,6 @@
 //! Which adapter to draw with.
 
-use crate::device::gpu::Gpu;
+use crate::device::gpu::{Gpu, describe_adapter};
 use crate::device::instance::instance;
 use crate::error::RenderError;
 use bevy_ecs::prelude::{ReflectResource, Resource};
@@ -110,10 +110,14 @@ impl AdapterChoice {
     }
 }
 
-/// One line for people: the adapter's name, its backend, and whether it is software.
-pub fn describe_adapter(info: &wgpu::AdapterInfo) -> String {
-    let software = if info.device_type == wgpu::DeviceType::Cpu { ", software" } else { "" };
-    format!("{} ({}{software})", info.name, info.backend)
+impl Gpu {
+    /// Opens an adapter that needs no window, the one that [`AdapterChoice::default`] finds.
+    ///
+    /// # Errors
+    /// As [`AdapterChoice::open`].
+    pub fn open_headless() -> Result<Self, RenderError> {
+        AdapterChoice::default().open()
+    }
 }
 
 /// The variable that says which backends may be asked.

@@ -1,6 +1,5 @@
 //! The adapter, its device and its queue.
 
-use crate::device::choice::{AdapterChoice, describe_adapter};
 use crate::device::costs::Costs;
 use crate::device::provoking_vertex::ProvokingVertex;
 use crate::error::RenderError;
@@ -48,14 +47,6 @@ struct Loss {
 }
 
 impl Gpu {
-    /// Opens an adapter that needs no window, the one that [`AdapterChoice::default`] finds.
-    ///
-    /// # Errors
-    /// As [`AdapterChoice::open`].
-    pub fn open_headless() -> Result<Self, RenderError> {
-        AdapterChoice::default().open()
-    }
-
     pub(super) fn of_adapter(instance: wgpu::Instance, adapter: wgpu::Adapter) -> Result<Self, RenderError> {
         let wanted = wgpu::Features::FLOAT32_BLENDABLE
             | wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES
@@ -233,6 +224,12 @@ impl Gpu {
     pub fn describe(&self) -> String {
         describe_adapter(&self.adapter.get_info())
     }
+}
+
+/// One line for people: the adapter's name, its backend, and whether it is software.
+pub fn describe_adapter(info: &wgpu::AdapterInfo) -> String {
+    let software = if info.device_type == wgpu::DeviceType::Cpu { ", software" } else { "" };
+    format!("{} ({}{software})", info.name, info.backend)
 }
 
 fn lock(notices: &Mutex<Notices>) -> MutexGuard<'_, Notices> {

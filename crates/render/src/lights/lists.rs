@@ -6,7 +6,7 @@ use crate::shaders::light_slots::{COUNTED_LIGHTS, Highlights, Lists, filled_up};
 use crate::shaders::records::{LightRecord, RecordLists};
 use bevy_math::Vec3;
 use halfway_lighting::bounds::{DEFAULT_TOLERANCE, Patch, Receiver, Selected, linear_tolerance};
-use halfway_lighting::equations::{Coefficients, View};
+use halfway_lighting::equations::{Coefficients, Eye};
 use halfway_lighting::{Encoding, Frequency, Reflectance, Terms};
 
 /// The lists of a frame.
@@ -82,7 +82,7 @@ impl LightLists {
         lights: &Lights,
         patch: &Patch<f32>,
         reflector: &Reflector,
-        view: &View<f32>,
+        view: &Eye<f32>,
         encoding: Option<Encoding>,
     ) {
         let receiver = Receiver::new(patch, &reflector.larger_side(), view, reflector.reflectance);

@@ -7,7 +7,7 @@ use crate::pipelines::key::PipelineKey;
 use crate::shaders::light_slots::{Highlights, Lists};
 use crate::shaders::records::{INSTANCE, INSTANCE_BYTES};
 use crate::shaders::text::Shader;
-use crate::target::frame::{DEPTH_FORMAT, Output};
+use crate::target::frame::{DEPTH_FORMAT, ShaderOutput};
 use halfway_lighting::Frequency;
 
 const POSITION: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![6 => Float32x3];
@@ -106,7 +106,7 @@ fn entry_points(key: &DrawKey) -> (&'static str, &'static str) {
     }
 }
 
-fn constants(key: &DrawKey, output: Output) -> Vec<(&'static str, f64)> {
+fn constants(key: &DrawKey, output: ShaderOutput) -> Vec<(&'static str, f64)> {
     let ([directional, points, spots], highlights, listed) = match key.lists {
         Lists::Counted(counts, highlights) => (counts, highlights, false),
         Lists::Listed => ([0; 3], Highlights::All, true),

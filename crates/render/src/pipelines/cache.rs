@@ -9,7 +9,7 @@ use crate::frame::report::FrameReport;
 use crate::pipelines::compile::{Builder, Compile, build};
 use crate::pipelines::key::PipelineKey;
 use crate::shaders::text::{Shaders, Text};
-use crate::target::frame::{Delivery, Output, Target};
+use crate::target::frame::{Delivery, ShaderOutput, Target};
 use bevy_ecs::prelude::*;
 use bevy_platform::collections::{HashMap, HashSet};
 use std::sync::Arc;
@@ -34,7 +34,7 @@ pub(crate) struct Pipelines {
     /// The number of the frame.
     frame: u64,
     /// What the frame draws into.
-    output: Output,
+    output: ShaderOutput,
     costs: Costs,
     /// No specialised pipeline can make room in this frame.
     full: bool,
@@ -86,7 +86,7 @@ enum VariantState {
 
 impl Pipelines {
     /// Begins a frame, and takes in what has been built beside the frames.
-    fn begin(&mut self, gpu: &Gpu, output: Output, compile: Compile) {
+    fn begin(&mut self, gpu: &Gpu, output: ShaderOutput, compile: Compile) {
         self.frame += 1;
         (self.output, self.costs) = (output, gpu.costs());
         (self.full, self.last) = (false, None);

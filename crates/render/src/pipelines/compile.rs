@@ -109,7 +109,7 @@ mod tests {
     use super::*;
     use crate::batch::key::DrawKey;
     use crate::batch::key::tests::key;
-    use crate::target::frame::Output;
+    use crate::target::frame::ShaderOutput;
 
     #[test]
     fn what_cannot_be_built_comes_back_as_an_error() {
@@ -117,8 +117,8 @@ mod tests {
         let shaders = Arc::default();
         let builder = Builder::start(&gpu, &shaders).unwrap();
         // No adapter takes three samples a pixel.
-        let right = PipelineKey { draw: key(), output: Output::default() };
-        let wrong = PipelineKey { output: Output { samples: 3, ..right.output }, ..right };
+        let right = PipelineKey { draw: key(), output: ShaderOutput::default() };
+        let wrong = PipelineKey { output: ShaderOutput { samples: 3, ..right.output }, ..right };
         assert!(builder.ask(wrong) && builder.ask(right));
         let mut built = Vec::new();
         while built.len() < 2 {
@@ -139,7 +139,7 @@ mod tests {
         let builder = Builder::start(&gpu, &shaders).unwrap();
         for squarings in 0..16 {
             let draw = DrawKey { squarings: Some(squarings), ..key() };
-            assert!(builder.ask(PipelineKey { draw, output: Output::default() }));
+            assert!(builder.ask(PipelineKey { draw, output: ShaderOutput::default() }));
         }
         drop(builder);
         assert_eq!(Arc::strong_count(&shaders), 1, "the thread shares the shaders as long as it lives");

@@ -3,19 +3,19 @@
 use crate::batch::key::DrawKey;
 use crate::shaders::light_slots::{COUNTED_LIGHTS, Lists};
 use crate::shaders::text::Text;
-use crate::target::frame::Output;
+use crate::target::frame::ShaderOutput;
 use std::fmt;
 
 /// All that a pipeline is specialised for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct PipelineKey {
     pub(crate) draw: DrawKey,
-    pub(crate) output: Output,
+    pub(crate) output: ShaderOutput,
 }
 
 impl fmt::Display for PipelineKey {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Output { format, encoded, samples } = self.output;
+        let ShaderOutput { format, encoded, samples } = self.output;
         write!(f, "{}{} {format:?} x{samples}", self.draw, if encoded { " encoded" } else { "" })
     }
 }

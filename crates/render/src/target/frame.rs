@@ -4,6 +4,7 @@ use crate::device::gpu::Gpu;
 use crate::error::RenderError;
 use crate::frame::report::FrameReport;
 use crate::frame::times::FrameTimes;
+use crate::target::format::{Pixels, headless_format, is_float};
 use crate::target::surface::{Lost, SurfaceLost, SurfaceTarget};
 use crate::target::texture::TextureTarget;
 use crate::view::camera::{PictureSize, View};
@@ -28,19 +29,6 @@ impl Default for Headless {
     fn default() -> Self {
         Self { size: UVec2::new(1280, 720), pixels: Pixels::default() }
     }
-}
-
-/// What a pixel of a headless picture holds.
-#[derive(Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[reflect(Clone, Debug, Default, PartialEq, Hash)]
-pub enum Pixels {
-    /// 8 bits a channel, encoded as the camera says.
-    #[default]
-    Byte,
-    /// Linear I in 32-bit floating point, before the intensity policy. An adapter may be unable to blend them, or to take
-    /// four samples of them: then a frame with [`Blend`] objects, or with [`Samples::Four`], is
-    /// [`RenderError::FloatTarget`], and others are drawn.
-    Float,
 }
 
 /// What the frame draws into.
@@ -69,7 +57,7 @@ struct Configuration {
 
 /// What the shaders write.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) struct Output {
+pub(crate) struct ShaderOutput {
     pub(crate) format: wgpu::TextureFormat,
     /// The format takes bytes as they are, and the shaders write them encoded as sRGB.
     pub(crate) encoded: bool,
@@ -79,7 +67,7 @@ pub(crate) struct Output {
 
 /// The picture of this frame.
 pub(crate) struct FramePicture {
-    pub(crate) output: Output,
+    pub(crate) output: ShaderOutput,
     pub(crate) view: wgpu::TextureView,
     pub(crate) delivery: Delivery,
 }
@@ -95,14 +83,14 @@ pub(crate) enum Delivery {
     Encode,
 }
 
-impl Default for Output {
+impl Default for ShaderOutput {
     /// Bytes as they are, one sample a pixel.
     fn default() -> Self {
         Self { format: wgpu::TextureFormat::Rgba8Unorm, encoded: false, samples: 1 }
     }
 }
 
-impl Output {
+impl ShaderOutput {
     /// What the bytes hold; `None` for floating point.
     pub(crate) fn encoding(&self) -> Option<Encoding> {
         let is_srgb = self.encoded || self.format.is_srgb();
@@ -211,54 +199,12 @@ pub(crate) fn prepare(
     }
     let Some(view) = given.or_else(|| target.picture().map(view_of)) else { return };
     let encoded = camera.encoding == Encoding::Srgb && !format.is_srgb() && !is_float(format);
-    let output = Output { format, encoded, samples: camera.samples.count() };
+    let output = ShaderOutput { format, encoded, samples: camera.samples.count() };
     target.frame = Some(FramePicture { output, view, delivery });
 }
 
 fn view_of(texture: &wgpu::Texture) -> wgpu::TextureView {
     texture.create_view(&wgpu::TextureViewDescriptor::default())
-}
-
-fn headless_format(
-    gpu: &Gpu,
-    pixels: Pixels,
-    samples: Samples,
-    blends: bool,
-    encodes: bool,
-) -> Result<wgpu::TextureFormat, RenderError> {
-    match pixels {
-        Pixels::Byte if encodes => Ok(wgpu::TextureFormat::Rgba8UnormSrgb),
-        Pixels::Byte => Ok(wgpu::TextureFormat::Rgba8Unorm),
-        Pixels::Float => match what_floats_lack(gpu, samples, blends) {
-            None => Ok(wgpu::TextureFormat::Rgba32Float),
-            Some(cannot) => Err(RenderError::FloatTarget { cannot: cannot.into() }),
-        },
-    }
-}
-
-pub(crate) fn is_float(format: wgpu::TextureFormat) -> bool {
-    matches!(format, wgpu::TextureFormat::Rgba32Float | wgpu::TextureFormat::Rgba16Float)
-}
-
-/// What the device cannot do with 32-bit floats, of what the frame needs.
-fn what_floats_lack(gpu: &Gpu, samples: Samples, blends: bool) -> Option<&'static str> {
-    use wgpu::TextureFormatFeatureFlags as Flags;
-    let format = wgpu::TextureFormat::Rgba32Float;
-    let device = gpu.device.features();
-    // The adapter may say more than WebGPU grants, but a device has to have been asked for it.
-    let can = if device.contains(wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES) {
-        gpu.adapter.get_texture_format_features(format)
-    } else {
-        format.guaranteed_format_features(device)
-    };
-    if !can.allowed_usages.contains(wgpu::TextureUsages::RENDER_ATTACHMENT) {
-        return Some("draw them");
-    }
-    if blends && !can.flags.contains(Flags::BLENDABLE) {
-        return Some("blend them");
-    }
-    let four = Flags::MULTISAMPLE_X4 | Flags::MULTISAMPLE_RESOLVE;
-    (samples == Samples::Four && !can.flags.contains(four)).then_some("take four samples of them")
 }
 
 impl Attachments {

@@ -2,7 +2,7 @@
 
 use crate::device::gpu::Gpu;
 use crate::error::RenderError;
-use crate::target::frame::is_float;
+use crate::target::format::is_float;
 use bevy_ecs::prelude::Resource;
 use bevy_math::UVec2;
 use halfway_lighting::{Camera, Encoding, Samples};

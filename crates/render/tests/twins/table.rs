@@ -4,7 +4,7 @@
 //! with, so a row without its twin does not compile.
 
 use halfway_lighting::Reflectance;
-use halfway_lighting::equations::{self, Coefficients, Incidence, Irradiance, View};
+use halfway_lighting::equations::{self, Coefficients, Eye, Incidence, Irradiance};
 
 use crate::adapter::Kind;
 use crate::inputs::{self, Input, N, P, SHININESS, cone, light, surface, wide};
@@ -149,7 +149,7 @@ fn of_irradiance(x: &[f32], expected: &[f64], reflectance: Reflectance, shared: 
     let light = light(x);
     let surface = surface(x);
     let Incidence { l, weight } = incidence(&surface, &light);
-    let v = view_vector(&surface, &View::Local([0.0; 3]));
+    let v = view_vector(&surface, &Eye::Local([0.0; 3]));
     let n = surface.normal;
     let of_weight = of_weight(x, true, true);
     let s = specular_term(reflectance, n, l, v, f64::from(x[SHININESS]));
@@ -213,10 +213,10 @@ pub(crate) fn rows() -> Vec<Row> {
             |x| (&surface(x), &without_range(x)),
             |x, _| [6.0 * ULP, 6.0 * ULP, 6.0 * ULP, of_weight(x, false, false)].to_vec()),
         row!(view_vector("v(i, 0), v(i, 3)") -> Vector, NOTHING, inputs::vectors(),
-            |x| (&equations::Surface { position: wide(x), normal: wide(&x[3..]) }, &View::Local([0.0; 3])),
+            |x| (&equations::SurfacePoint { position: wide(x), normal: wide(&x[3..]) }, &Eye::Local([0.0; 3])),
             |_, e| each(e, 5.0 * ULP)),
         row!(view_vector("v(i, 0), v(i, 3)") -> Vector, &[("LOCAL_VIEWER", 0.0)], inputs::vectors(),
-            |x| (&equations::Surface { position: wide(x), normal: wide(&x[3..]) }, &View::Infinite([0.0, 0.0, 1.0])),
+            |x| (&equations::SurfacePoint { position: wide(x), normal: wide(&x[3..]) }, &Eye::Infinite([0.0, 0.0, 1.0])),
             |_, e| each(e, 0.0)),
         row!(diffuse_term("v(i, 0), v(i, 3)") -> Scalar, NOTHING, inputs::highlights(),
             |x| (wide(x), wide(&x[3..])), |_, e| each(e, 3.0 * ULP)),
@@ -242,12 +242,12 @@ pub(crate) fn rows() -> Vec<Row> {
         row!(irradiance("light(i, 0), incidence(light(i, 0), true, v(i, 23), v(i, 26)), v(i, 26), \
                 view_vector(v(i, 23), v(i, 26)), s(i, 29), Terms(true, true)") -> Irradiance,
             NOTHING, inputs::lit(inputs::coincident()),
-            |x| (&surface(x), &light(x), &View::Local([0.0; 3]), Reflectance::BlinnPhong, f64::from(x[SHININESS])),
+            |x| (&surface(x), &light(x), &Eye::Local([0.0; 3]), Reflectance::BlinnPhong, f64::from(x[SHININESS])),
             |x, e| of_irradiance(x, e, Reflectance::BlinnPhong, false)),
         row!(irradiance("light(i, 0), incidence(light(i, 0), true, v(i, 23), v(i, 26)), v(i, 26), \
                 view_vector(v(i, 23), v(i, 26)), s(i, 29), Terms(true, true)") -> Irradiance,
             &[("BLINN_PHONG", 0.0), ("SHARED_COLOR", 1.0)], inputs::lit(inputs::coincident()),
-            |x| (&surface(x), &shared(x), &View::Local([0.0; 3]), Reflectance::Phong, f64::from(x[SHININESS])),
+            |x| (&surface(x), &shared(x), &Eye::Local([0.0; 3]), Reflectance::Phong, f64::from(x[SHININESS])),
             |x, e| of_irradiance(x, e, Reflectance::Phong, true)),
         row!(reflected("Irradiance(v(i, 0), v(i, 3), v(i, 6)), \
                 Material(vec3f(), 0.0, v(i, 12), 0.0, v(i, 15), 0.0, v(i, 9), 0.0)") -> Vector, NOTHING, inputs::reflections(),

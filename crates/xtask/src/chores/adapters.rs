@@ -6,9 +6,9 @@ use std::process::Command;
 use clap::Args;
 
 use crate::cargo::{cargo, not_started, root, step, written};
-use crate::chores::test::counted;
 use crate::failure::{Failure, Result};
 use crate::setup::{DRIVER, OPENGL, SWIFTSHADER, Setup, swiftshader};
+use crate::tally::counted;
 
 /// Run the picture tests and verify the example scenes on every adapter that a bare Debian can have
 ///

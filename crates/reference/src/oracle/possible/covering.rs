@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use halfway_lighting::Faces;
 
 use super::footprint::Footprint;
-use crate::oracle::gather::Scene;
+use crate::oracle::gather::OracleScene;
 
 /// Triangles that hang together within a disc: neighbours share an edge that comes into it.
 ///
@@ -13,7 +13,7 @@ use crate::oracle::gather::Scene;
 /// does not pass its centre. So where all edges inside are shared by two triangles, what covers the centre cannot uncover
 /// it: how many triangles wind one way around the centre, less those that wind the other way, does not change.
 #[derive(Debug)]
-pub(super) struct Covering {
+pub(super) struct CoveringGroup {
     /// Numbers of footprints.
     pub(super) members: Vec<usize>,
     /// Whether one of the members that are shown covers the centre, whatever the rounding.
@@ -33,7 +33,7 @@ struct Uses {
 }
 
 /// The coverings of a disc.
-pub(super) fn coverings(scene: &Scene, footprints: &[Footprint]) -> Vec<Covering> {
+pub(super) fn coverings(scene: &OracleScene, footprints: &[Footprint]) -> Vec<CoveringGroup> {
     let mut edges: HashMap<SharedEdge, Uses> = HashMap::new();
     for (number, footprint) in footprints.iter().enumerate() {
         let group = group(scene, footprints, footprint.solid);
@@ -76,7 +76,7 @@ struct Rim {
     is_unbalanced: bool,
 }
 
-fn covering(scene: &Scene, footprints: &[Footprint], rims: &[Rim], members: Vec<usize>) -> Covering {
+fn covering(scene: &OracleScene, footprints: &[Footprint], rims: &[Rim], members: Vec<usize>) -> CoveringGroup {
     let is_open = members.iter().any(|member| rims[*member].is_open);
     let is_balanced = !members.iter().any(|member| rims[*member].is_unbalanced);
     let at_centre: Vec<&Footprint> = members.iter().map(|m| &footprints[*m]).filter(|it| it.at_centre).collect();
@@ -88,12 +88,12 @@ fn covering(scene: &Scene, footprints: &[Footprint], rims: &[Rim], members: Vec<
     let one_sided =
         members.iter().all(|m| footprints[*m].counter_clockwise == footprints[members[0]].counter_clockwise);
     let is_certain = !is_open && (by_turns || by_number);
-    Covering { members, is_certain, is_single: one_sided && is_certain && at_centre.len() == 1 }
+    CoveringGroup { members, is_certain, is_single: one_sided && is_certain && at_centre.len() == 1 }
 }
 
 /// Triangles of one number hang together as those of one mesh: those of opaque objects that show the same sides and have
 /// equal transforms, so that a renderer takes equal corners to equal places; or those of one blended object.
-fn group(scene: &Scene, footprints: &[Footprint], solid: usize) -> usize {
+fn group(scene: &OracleScene, footprints: &[Footprint], solid: usize) -> usize {
     let own = &scene.solids[solid];
     let is_like = |number: usize| {
         let other = &scene.solids[number];

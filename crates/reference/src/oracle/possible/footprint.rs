@@ -3,10 +3,10 @@
 use bevy_math::{DVec2, DVec3};
 use halfway_lighting::Frequency;
 
-use crate::oracle::gather::Scene;
-use crate::oracle::raster::{Edges, Primitive};
+use crate::oracle::gather::OracleScene;
+use crate::oracle::raster::{Primitive, RayTriangle};
 use crate::oracle::solid::Solid;
-use crate::oracle::view::View;
+use crate::oracle::view::PictureView;
 
 /// A small convex area of the picture, in pixels.
 pub(super) struct Zone {
@@ -54,25 +54,25 @@ impl Zone {
 
     /// How far a point before the eye lies beyond a side, in pixels, times its depth: linear in space, so that an edge is
     /// cut there without a division by depths near 0.
-    fn beyond(&self, view: &View, side: DVec2, p: DVec3) -> f64 {
+    fn beyond(&self, view: &PictureView, side: DVec2, p: DVec3) -> f64 {
         view.pixel_by_depth(p, self.centre).dot(side) + self.reach * p.z
     }
 
     /// Whether what is left of a shape inside the sides reaches the area.
-    fn meets(&self, view: &View, outline: &[Corner]) -> bool {
+    fn meets(&self, view: &PictureView, outline: &[FootprintCorner]) -> bool {
         !outline.is_empty() && (!self.round || distance(view, outline, self.centre) <= self.reach)
     }
 }
 
 /// A corner of a part of a triangle.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Corner {
+pub(super) struct FootprintCorner {
     pub(super) p: DVec3,
     /// The weights of the triangle's corners.
     pub(super) weights: [f64; 3],
 }
 
-impl Corner {
+impl FootprintCorner {
     pub(super) fn between(&self, other: &Self, share: f64) -> Self {
         let weights = std::array::from_fn(|i| self.weights[i] + share * (other.weights[i] - self.weights[i]));
         Self { p: self.p + share * (other.p - self.p), weights }
@@ -98,7 +98,7 @@ pub(super) struct Footprint {
     /// So thin that vertices moved by the disc's radius may turn it over.
     pub(super) thin: bool,
     /// What lies within the polygon around the disc.
-    pub(super) outline: Vec<Corner>,
+    pub(super) outline: Vec<FootprintCorner>,
     /// The least and the greatest 1/depth within the disc, widened by what rounding may do to them.
     pub(super) nearness: [f64; 2],
     /// The triangle's corners, for comparison: of equal ones the bits are equal.
@@ -111,7 +111,7 @@ pub(super) struct Footprint {
 
 impl Footprint {
     /// What is seen of a triangle within the disc `zone`, of either side, shown or not; `None` where there is nothing.
-    pub(super) fn new(scene: &Scene, primitive: &Primitive, zone: &Zone) -> Option<Self> {
+    pub(super) fn new(scene: &OracleScene, primitive: &Primitive, zone: &Zone) -> Option<Self> {
         let (view, solid) = (&scene.view, &scene.solids[primitive.solid]);
         let corners = solid.triangle(primitive.index);
         let outline = clipped(view, &whole(corners), zone);
@@ -121,12 +121,12 @@ impl Footprint {
         let [a, b, c] = corners;
         let counter_clockwise = (b - a).cross(c - a).dot(a) < 0.0;
         let ray = view.ray(zone.centre.x, zone.centre.y);
-        let met = Edges::new(corners).meet(ray).filter(|met| met.depth >= view.near);
+        let met = RayTriangle::new(corners).meet(ray).filter(|met| met.depth >= view.near);
         let edge = |i: usize| {
             let ends = [whole(corners)[i], whole(corners)[(i + 1) % 3]];
             zone.meets(view, &clipped(view, &ends, zone))
         };
-        let near = |corner: &Corner| corner.depth() <= view.near * (1.0 + 1e-9);
+        let near = |corner: &FootprintCorner| corner.depth() <= view.near * (1.0 + 1e-9);
         Some(Self {
             solid: primitive.solid,
             triangle: primitive.index,
@@ -143,17 +143,17 @@ impl Footprint {
     }
 
     /// What lies within another area around the same point, to be shaded there.
-    pub(super) fn within(&self, scene: &Scene, zone: &Zone) -> Vec<Corner> {
+    pub(super) fn within(&self, scene: &OracleScene, zone: &Zone) -> Vec<FootprintCorner> {
         clipped(&scene.view, &self.whole(scene), zone)
     }
 
     /// All of the triangle.
-    pub(super) fn whole(&self, scene: &Scene) -> Vec<Corner> {
+    pub(super) fn whole(&self, scene: &OracleScene) -> Vec<FootprintCorner> {
         whole(scene.solids[self.solid].triangle(self.triangle)).to_vec()
     }
 
     /// Whether two of them are the same triangle of space, drawn twice, so that their depths are equal to the bit.
-    pub(super) fn coincides(&self, other: &Self, scene: &Scene) -> bool {
+    pub(super) fn coincides(&self, other: &Self, scene: &OracleScene) -> bool {
         let place = |it: &Self| {
             let solid = &scene.solids[it.solid];
             // For flat shading corners may come in another order, which rounds depths within the triangle otherwise.
@@ -163,18 +163,18 @@ impl Footprint {
     }
 }
 
-fn whole(corners: [DVec3; 3]) -> [Corner; 3] {
+fn whole(corners: [DVec3; 3]) -> [FootprintCorner; 3] {
     let mut number = 0;
     corners.map(|p| {
         let mut weights = [0.0; 3];
         weights[number] = 1.0;
         number += 1;
-        Corner { p, weights }
+        FootprintCorner { p, weights }
     })
 }
 
 /// The part of a convex outline beyond the near plane and inside the sides of a zone (Sutherland and Hodgman 1974).
-fn clipped(view: &View, outline: &[Corner], zone: &Zone) -> Vec<Corner> {
+fn clipped(view: &PictureView, outline: &[FootprintCorner], zone: &Zone) -> Vec<FootprintCorner> {
     let mut rest = cut(outline, |corner| corner.p.z + view.near);
     for side in &zone.sides {
         if rest.is_empty() {
@@ -186,7 +186,7 @@ fn clipped(view: &View, outline: &[Corner], zone: &Zone) -> Vec<Corner> {
 }
 
 /// What is left of a convex outline where `beyond`, linear in space, is not above 0.
-fn cut(outline: &[Corner], beyond: impl Fn(&Corner) -> f64) -> Vec<Corner> {
+fn cut(outline: &[FootprintCorner], beyond: impl Fn(&FootprintCorner) -> f64) -> Vec<FootprintCorner> {
     let mut rest = Vec::with_capacity(outline.len() + 1);
     for (i, from) in outline.iter().enumerate() {
         let to = &outline[(i + 1) % outline.len()];
@@ -202,7 +202,7 @@ fn cut(outline: &[Corner], beyond: impl Fn(&Corner) -> f64) -> Vec<Corner> {
 }
 
 /// How far a point of the picture lies outside a convex outline, or a line, in pixels.
-fn distance(view: &View, outline: &[Corner], point: DVec2) -> f64 {
+fn distance(view: &PictureView, outline: &[FootprintCorner], point: DVec2) -> f64 {
     let pixels: Vec<DVec2> = outline.iter().map(|corner| view.pixel(corner.p) - point).collect();
     let edges = || (0..pixels.len()).map(|i| (pixels[i], pixels[(i + 1) % pixels.len()]));
     let turns = |sign: f64| edges().all(|(a, b)| sign * a.perp_dot(b) > 0.0);
@@ -219,7 +219,7 @@ fn distance(view: &View, outline: &[Corner], point: DVec2) -> f64 {
 }
 
 /// Whether the height of a triangle on the picture is at most twice `reach`.
-fn is_thin(view: &View, corners: [DVec3; 3], reach: f64) -> bool {
+fn is_thin(view: &PictureView, corners: [DVec3; 3], reach: f64) -> bool {
     if corners.iter().any(|corner| -corner.z < view.near) {
         return false;
     }
@@ -234,7 +234,7 @@ const ROUNDINGS: f64 = 4.0 * f32::EPSILON as f64;
 
 /// The least and the greatest 1/depth of an outline, widened by the roundings of f32: those of the vertices, whose depths
 /// are sums of larger terms, and those of the interpolation between them.
-fn nearness(view: &View, solid: &Solid, triangle: u32, outline: &[Corner]) -> [f64; 2] {
+fn nearness(view: &PictureView, solid: &Solid, triangle: u32, outline: &[FootprintCorner]) -> [f64; 2] {
     let inverse = || outline.iter().map(|corner| corner.depth().recip());
     let z = solid.eye_from_model.matrix3.row(2).abs();
     let rounding = solid.vertices(triangle).map(|vertex| {

@@ -2,18 +2,18 @@
 
 use halfway_lighting::Faces;
 
-use super::covering::{Covering, coverings};
+use super::covering::{CoveringGroup, coverings};
 use super::footprint::{Footprint, Zone};
 use super::range::{ColorRange, Possible};
-use super::values::Values;
-use crate::oracle::gather::Scene;
+use super::values::SideColors;
+use crate::oracle::gather::OracleScene;
 
 /// A side of a triangle that may be seen.
 struct Layer {
     /// The footprint's number, which is its place in the order of drawing among those of its object.
     footprint: usize,
     front: bool,
-    values: Values,
+    values: SideColors,
 }
 
 /// Blended layers of which at most one lies over the sampling point.
@@ -36,22 +36,22 @@ pub(super) struct Stack {
 const MOST_COMBINATIONS: usize = 256;
 
 impl Stack {
-    pub(super) fn new(scene: &Scene, footprints: Vec<Footprint>, shading: &[&Zone]) -> Self {
+    pub(super) fn new(scene: &OracleScene, footprints: Vec<Footprint>, shading: &[&Zone]) -> Self {
         let coverings = coverings(scene, &footprints);
-        let is_blended = |covering: &&Covering| scene.solids[footprints[covering.members[0]].solid].blend;
-        let (blended, opaque): (Vec<&Covering>, Vec<&Covering>) = coverings.iter().partition(is_blended);
+        let is_blended = |covering: &&CoveringGroup| scene.solids[footprints[covering.members[0]].solid].blend;
+        let (blended, opaque): (Vec<&CoveringGroup>, Vec<&CoveringGroup>) = coverings.iter().partition(is_blended);
         // The farthest point of each surface that cannot be missed.
-        let farthest = |covering: &&Covering| {
+        let farthest = |covering: &&CoveringGroup| {
             let shown = covering.members.iter().map(|member| &footprints[*member]).filter(|it| is_shown(scene, it));
             shown.map(|footprint| footprint.nearness[0]).fold(f64::INFINITY, f64::min)
         };
         let certain: Vec<f64> = opaque.iter().filter(|it| it.is_certain).map(farthest).collect();
         let cover = certain.iter().copied().fold(0.0, f64::max);
         let layer = |footprint: usize, front: bool| {
-            let values = Values::new(scene, &footprints[footprint], front, shading);
+            let values = SideColors::new(scene, &footprints[footprint], front, shading);
             Layer { footprint, front, values }
         };
-        let layers = |covering: &&Covering| -> Vec<Layer> {
+        let layers = |covering: &&CoveringGroup| -> Vec<Layer> {
             let visible = covering.members.iter().copied().filter(|m| {
                 let it = &footprints[*m];
                 let is_first = || !footprints[..*m].iter().any(|earlier| is_hidden_by(scene, it, earlier));
@@ -70,7 +70,7 @@ impl Stack {
     }
 
     /// The colours of all combinations.
-    pub(super) fn possible(&self, scene: &Scene, clamp: bool) -> Possible {
+    pub(super) fn possible(&self, scene: &OracleScene, clamp: bool) -> Possible {
         let written =
             |range: &ColorRange| range.through(range, |channel, _| if clamp { channel.min(1.0) } else { channel });
         let mut ranges: Vec<ColorRange> = Vec::new();
@@ -93,14 +93,14 @@ impl Stack {
 
     /// Of each choice the blended layers that may lie over an opaque one, or over the background, and whether perhaps none
     /// does.
-    fn seen_over(&self, scene: &Scene, opaque: Option<&Layer>) -> Vec<(Vec<&Layer>, bool)> {
+    fn seen_over(&self, scene: &OracleScene, opaque: Option<&Layer>) -> Vec<(Vec<&Layer>, bool)> {
         self.blended.iter().map(|choice| self.before(scene, choice, opaque)).collect()
     }
 
     /// The colours of all combinations of blended layers over what is behind them.
     fn over(
         &self,
-        scene: &Scene,
+        scene: &OracleScene,
         seen: &[(Vec<&Layer>, bool)],
         behind: ColorRange,
         written: &impl Fn(&ColorRange) -> ColorRange,
@@ -139,7 +139,7 @@ impl Stack {
     /// All combinations in one range: each layer may be missed.
     fn over_at_once(
         &self,
-        scene: &Scene,
+        scene: &OracleScene,
         behind: ColorRange,
         seen: &[(Vec<&Layer>, bool)],
         blend: impl Fn(&ColorRange, &Layer) -> ColorRange,
@@ -150,7 +150,7 @@ impl Stack {
     }
 
     /// Which layers of a choice may lie before an opaque one, and whether perhaps none does.
-    fn before<'a>(&self, scene: &Scene, choice: &'a Choice, opaque: Option<&Layer>) -> (Vec<&'a Layer>, bool) {
+    fn before<'a>(&self, scene: &OracleScene, choice: &'a Choice, opaque: Option<&Layer>) -> (Vec<&'a Layer>, bool) {
         let Some(opaque) = opaque.map(|layer| &self.footprints[layer.footprint]) else {
             return (choice.layers.iter().collect(), !choice.is_certain);
         };
@@ -164,20 +164,20 @@ impl Stack {
     }
 
     /// The order of drawing: by object; of a two-sided one the back first; then by triangle.
-    fn order(&self, scene: &Scene, layer: &Layer) -> (usize, bool, u32) {
+    fn order(&self, scene: &OracleScene, layer: &Layer) -> (usize, bool, u32) {
         let footprint = &self.footprints[layer.footprint];
         let in_two_passes = scene.solids[footprint.solid].faces == Faces::Both;
         (footprint.solid, layer.front && in_two_passes, footprint.triangle)
     }
 }
 
-fn is_shown(scene: &Scene, footprint: &Footprint) -> bool {
+fn is_shown(scene: &OracleScene, footprint: &Footprint) -> bool {
     scene.solids[footprint.solid].side(footprint.front).shown
 }
 
 /// Whether an opaque triangle takes the place of another one: the same of an object with an equal mesh and the same
 /// transform that was spawned before. Of others that coincide either may be drawn first.
-fn is_hidden_by(scene: &Scene, footprint: &Footprint, earlier: &Footprint) -> bool {
+fn is_hidden_by(scene: &OracleScene, footprint: &Footprint, earlier: &Footprint) -> bool {
     let [solid, first] = [footprint, earlier].map(|it| &scene.solids[it.solid]);
     let are_twins = || solid.mesh.positions() == first.mesh.positions() && solid.mesh.indices() == first.mesh.indices();
     let are_the_same = footprint.triangle == earlier.triangle && footprint.coincides(earlier, scene);
@@ -186,7 +186,7 @@ fn is_hidden_by(scene: &Scene, footprint: &Footprint, earlier: &Footprint) -> bo
 
 /// The sides that may be seen: the one that is turned to the eye, and of a thin triangle at a silhouette, which rounding
 /// may turn over, both; if they are shown.
-fn sides(scene: &Scene, footprint: &Footprint, is_certain: bool) -> impl Iterator<Item = bool> {
+fn sides(scene: &OracleScene, footprint: &Footprint, is_certain: bool) -> impl Iterator<Item = bool> {
     let solid = &scene.solids[footprint.solid];
     let may_turn = footprint.thin && !is_certain;
     let front = footprint.front;

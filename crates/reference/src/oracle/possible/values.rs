@@ -1,15 +1,15 @@
 //! What a triangle gives back within a small area of the picture.
 
-use super::footprint::{Corner, Footprint, Zone};
+use super::footprint::{Footprint, FootprintCorner, Zone};
 use super::range::ColorRange;
-use crate::oracle::gather::Scene;
+use crate::oracle::gather::OracleScene;
 use crate::oracle::raster::{Hit, HitPoint};
 use crate::oracle::solid::Color;
 use halfway_lighting::Frequency;
 
 /// The colours of one side of a triangle near a point of the picture.
 #[derive(Clone, Debug)]
-pub(super) struct Values {
+pub(super) struct SideColors {
     pub(super) range: ColorRange,
     /// Whether they change by much from one place to the next.
     pub(super) jumps: bool,
@@ -22,13 +22,13 @@ const JUMP: f64 = 0.125;
 /// What is left out by a triangle that counts as covering a square, as a share.
 const ROUNDING: f64 = 1e-9;
 
-impl Values {
+impl SideColors {
     /// The colours of a side within the last of some areas, or within the first of them if the triangle covers the last.
     ///
     /// They are found at the corners of the part of the triangle that lies within, and in its middle. What is interpolated
     /// between vertices is extreme at corners; a jump along a straight line has corners on both sides; and what curves in
     /// between does so by less than the bars of a judge, the area being a small part of a pixel.
-    pub(super) fn new(scene: &Scene, footprint: &Footprint, front: bool, shading: &[&Zone]) -> Self {
+    pub(super) fn new(scene: &OracleScene, footprint: &Footprint, front: bool, shading: &[&Zone]) -> Self {
         let mut outline = match shading {
             [_] => footprint.outline.clone(),
             [first, .., last] => {
@@ -44,7 +44,7 @@ impl Values {
             outline.clone_from(&footprint.outline);
         }
         outline.push(middle(&outline));
-        let color = |corner: &Corner| color(scene, footprint, front, corner);
+        let color = |corner: &FootprintCorner| color(scene, footprint, front, corner);
         let colors: Vec<Color> = outline.iter().map(color).collect();
         let range = ColorRange::of(colors.iter().copied());
         let jumps =
@@ -53,19 +53,19 @@ impl Values {
     }
 }
 
-fn color(scene: &Scene, footprint: &Footprint, front: bool, corner: &Corner) -> Color {
+fn color(scene: &OracleScene, footprint: &Footprint, front: bool, corner: &FootprintCorner) -> Color {
     let place = HitPoint::Triangle(footprint.triangle, corner.weights);
     scene.value(&Hit { solid: footprint.solid, depth: corner.depth(), front, place })
 }
 
-fn middle(outline: &[Corner]) -> Corner {
+fn middle(outline: &[FootprintCorner]) -> FootprintCorner {
     let share = 1.0 / outline.len() as f64;
     let weights = std::array::from_fn(|i| share * outline.iter().map(|corner| corner.weights[i]).sum::<f64>());
-    Corner { p: share * outline.iter().map(|corner| corner.p).sum::<bevy_math::DVec3>(), weights }
+    FootprintCorner { p: share * outline.iter().map(|corner| corner.p).sum::<bevy_math::DVec3>(), weights }
 }
 
 /// Whether an outline fills the square of a zone.
-fn covers(scene: &Scene, outline: &[Corner], zone: &Zone) -> bool {
+fn covers(scene: &OracleScene, outline: &[FootprintCorner], zone: &Zone) -> bool {
     let [low, high] = zone.bounds();
     let pixels: Vec<_> = outline.iter().map(|corner| scene.view.pixel(corner.p) - low).collect();
     let twice_area: f64 = (0..pixels.len()).map(|i| pixels[i].perp_dot(pixels[(i + 1) % pixels.len()])).sum();
@@ -74,7 +74,12 @@ fn covers(scene: &Scene, outline: &[Corner], zone: &Zone) -> bool {
 }
 
 /// Whether the way between the two places that differ most holds a jump.
-fn jumps(outline: &[Corner], colors: &[Color], range: &ColorRange, color: impl Fn(&Corner) -> Color) -> bool {
+fn jumps(
+    outline: &[FootprintCorner],
+    colors: &[Color],
+    range: &ColorRange,
+    color: impl Fn(&FootprintCorner) -> Color,
+) -> bool {
     let span = |k: &usize| range.high[*k] - range.low[*k];
     let channel = [0, 1, 2].into_iter().max_by(|a, b| span(a).total_cmp(&span(b))).unwrap_or(0);
     let whole = span(&channel);

@@ -15,12 +15,12 @@ fn frame(
     compile: Compile,
     keys: &[DrawKey],
 ) -> (usize, Vec<DrawKey>, FrameReport) {
-    frame_into(Output::default(), pipelines, gpu, compile, keys)
+    frame_into(ShaderOutput::default(), pipelines, gpu, compile, keys)
 }
 
 /// The same, drawn into something else.
 fn frame_into(
-    output: Output,
+    output: ShaderOutput,
     pipelines: &mut Pipelines,
     gpu: &Gpu,
     compile: Compile,
@@ -61,7 +61,7 @@ fn what_cannot_be_built_is_reported_and_not_tried_again() {
     let gpu = Gpu::open_headless().unwrap();
     let mut pipelines = Pipelines::default();
     // No adapter takes three samples a pixel.
-    let wrong = Output { samples: 3, ..Output::default() };
+    let wrong = ShaderOutput { samples: 3, ..ShaderOutput::default() };
     let (own, _, report) = frame(&mut pipelines, &gpu, Compile::Now, &[key()]);
     assert_eq!((own, report.pipelines_live, report.errors), (1, 1, vec![]));
     // The first frame tries its own, the second the generic one in its place, which fails as well, in every frame.
@@ -161,7 +161,7 @@ fn both_passes_get_room_in_the_same_frame() {
     let gpu = Gpu::open_headless().unwrap();
     let mut pipelines = Pipelines::default();
     let mut draw = |keys: &[DrawKey]| {
-        pipelines.begin(&gpu, Output::default(), Compile::Now);
+        pipelines.begin(&gpu, ShaderOutput::default(), Compile::Now);
         keys.iter().filter(|&&key| pipelines.admit(key) == key).count()
     };
     let all: Vec<_> = (0..MOST_SPECIAL as u16).map(numbered).collect();
@@ -180,7 +180,7 @@ fn the_one_unused_for_longest_makes_room() {
     let gpu = Gpu::open_headless().unwrap();
     let mut pipelines = Pipelines::default();
     let mut draws = |keys: &[u16]| {
-        pipelines.begin(&gpu, Output::default(), Compile::Now);
+        pipelines.begin(&gpu, ShaderOutput::default(), Compile::Now);
         keys.iter().filter(|&&number| pipelines.admit(numbered(number)) == numbered(number)).count()
     };
     let all: Vec<u16> = (0..MOST_SPECIAL as u16).collect();

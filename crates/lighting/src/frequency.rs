@@ -1,0 +1,17 @@
+//! How often a term is evaluated.
+
+use bevy_reflect::Reflect;
+
+/// Where a term of the lights is evaluated.
+#[derive(Reflect, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[reflect(Clone, Debug, PartialEq, Hash)]
+pub enum Frequency {
+    /// Nowhere: the term is left out.
+    Never,
+    /// Once a triangle, at its centroid, with its geometric normal turned to the side seen.
+    Triangle,
+    /// At each vertex, interpolated perspective-correctly.
+    Vertex,
+    /// At each fragment, with the interpolated normal.
+    Fragment,
+}
