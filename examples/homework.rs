@@ -10,7 +10,7 @@
 //! brighter, forty times.
 
 use halfway::lighting::equations::vector::normalize;
-use halfway::lighting::equations::{Coefficients, Eye, SurfacePoint, interpolated_normal, shade};
+use halfway::lighting::equations::{Coefficients, Eye, ShadedPoint, interpolated_normal, shade};
 use halfway::prelude::*;
 
 const V1: [f64; 3] = [-80.0, 0.0, 58.0];
@@ -29,7 +29,7 @@ fn colors() -> Option<Colors> {
     // Without highlights it makes no difference where the viewer is.
     let view = Eye::Infinite([0.0, 0.0, 1.0]);
     let color = |position, normal| {
-        shade(&SurfacePoint { position, normal }, &red, &[light], [0.0; 3], &view, Reflectance::Phong)
+        shade(&ShadedPoint { position, normal }, &red, &[light], [0.0; 3], &view, Reflectance::Phong)
     };
     let (n1, n2) = (normalize(N1)?, normalize(N2)?);
     let (c1, c2) = (color(V1, n1), color(V2, n2));

@@ -38,10 +38,10 @@
 //!
 //! # A shaded point
 //! ```
-//! use halfway_lighting::equations::{Coefficients, Eye, SurfacePoint, shade};
+//! use halfway_lighting::equations::{Coefficients, Eye, ShadedPoint, shade};
 //! use halfway_lighting::{GlobalAmbient, Material, PointLight, Reflectance, Viewer};
 //!
-//! let surface = SurfacePoint { position: [0.0, 0.0, -5.0], normal: [0.0, 0.0, 1.0] };
+//! let surface = ShadedPoint { position: [0.0, 0.0, -5.0], normal: [0.0, 0.0, 1.0] };
 //! let lights = [PointLight::white().at([1.0, 2.0, 0.0])];
 //! let view = Eye::in_eye_space(Viewer::Local);
 //! let ambient = GlobalAmbient::default().ga();

@@ -41,7 +41,7 @@ pub use reflectance::{
     HALFWAY_MIN, diffuse_term, face_forward, half_vector, interpolated_normal, power, reflect, side_normal,
     specular_blinn_phong, specular_exponent, specular_phong, specular_term,
 };
-pub use scene::{Coefficients, Eye, Light, Place, SurfacePoint, rgb};
+pub use scene::{Coefficients, Eye, Light, Place, ShadedPoint, rgb};
 pub use shade::{
     COINCIDENT, Incidence, Irradiance, LightTerms, incidence, irradiance, light_contribution, light_terms, reflected,
     shade, view_vector,

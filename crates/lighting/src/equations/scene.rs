@@ -10,7 +10,7 @@ use crate::{Cone, DirectionalLight, GlobalAmbient, Material, PointLight, SpotLig
 
 /// A point of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SurfacePoint<T> {
+pub struct ShadedPoint<T> {
     /// p, finite.
     pub position: [T; 3],
     /// n, unit length, on the side that is seen.

@@ -3,7 +3,7 @@
 use super::Real;
 use super::falloff::{attenuation, range_window, spot_factor};
 use super::reflectance::{diffuse_term, specular_term};
-use super::scene::{Coefficients, Eye, Light, Place, SurfacePoint};
+use super::scene::{Coefficients, Eye, Light, Place, ShadedPoint};
 use super::vector::{add, dot, length, mul, neg, scale, toward};
 use crate::Reflectance;
 
@@ -46,7 +46,7 @@ pub struct LightTerms<T> {
 
 /// Direction and strength of a light at a point. Where the light is at the point itself ([`COINCIDENT`]) l is n and the
 /// distance 0.
-pub fn incidence<T: Real>(surface: &SurfacePoint<T>, light: &Light<T>) -> Incidence<T> {
+pub fn incidence<T: Real>(surface: &ShadedPoint<T>, light: &Light<T>) -> Incidence<T> {
     let (l, att) = match light.place {
         Place::Directional(l) => (l, T::one()),
         Place::Point(position) => {
@@ -64,7 +64,7 @@ pub fn incidence<T: Real>(surface: &SurfacePoint<T>, light: &Light<T>) -> Incide
 }
 
 /// v: the unit vector from the surface toward the viewer. Where a local eye is at the surface itself v is n.
-pub fn view_vector<T: Real>(surface: &SurfacePoint<T>, view: &Eye<T>) -> [T; 3] {
+pub fn view_vector<T: Real>(surface: &ShadedPoint<T>, view: &Eye<T>) -> [T; 3] {
     match *view {
         Eye::Local(eye) => toward(surface.position, eye).0.unwrap_or(surface.normal),
         Eye::Infinite(v) => v,
@@ -73,7 +73,7 @@ pub fn view_vector<T: Real>(surface: &SurfacePoint<T>, view: &Eye<T>) -> [T; 3] 
 
 /// What one light brings to a point whose material has this shininess.
 pub fn irradiance<T: Real>(
-    surface: &SurfacePoint<T>,
+    surface: &ShadedPoint<T>,
     light: &Light<T>,
     view: &Eye<T>,
     reflectance: Reflectance,
@@ -106,7 +106,7 @@ fn reflected_terms<T: Real>(irradiance: &Irradiance<T>, material: &Coefficients<
 
 /// The ambient, diffuse and specular term that one light adds at a point.
 pub fn light_terms<T: Real>(
-    surface: &SurfacePoint<T>,
+    surface: &ShadedPoint<T>,
     material: &Coefficients<T>,
     light: &Light<T>,
     view: &Eye<T>,
@@ -117,7 +117,7 @@ pub fn light_terms<T: Real>(
 
 /// What one light adds at a point: the summand of the equation.
 pub fn light_contribution<T: Real>(
-    surface: &SurfacePoint<T>,
+    surface: &ShadedPoint<T>,
     material: &Coefficients<T>,
     light: &Light<T>,
     view: &Eye<T>,
@@ -131,7 +131,7 @@ pub fn light_contribution<T: Real>(
 /// Never NaN, infinite or negative where the components that the arguments came from pass `validate()`, positions are
 /// finite and `surface.normal` has unit length (in `f32` for up to 10⁸ lights at the largest values).
 pub fn shade<T: Real>(
-    surface: &SurfacePoint<T>,
+    surface: &ShadedPoint<T>,
     material: &Coefficients<T>,
     lights: &[Light<T>],
     global_ambient: [T; 3],

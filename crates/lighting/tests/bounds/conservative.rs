@@ -4,7 +4,7 @@ use bevy_color::LinearRgba;
 use proptest::prelude::*;
 
 use halfway_lighting::bounds::{NormalCone, Patch, Receiver};
-use halfway_lighting::equations::{Coefficients, Eye, Light, SurfacePoint, light_terms};
+use halfway_lighting::equations::{Coefficients, Eye, Light, ShadedPoint, light_terms};
 use halfway_lighting::{Attenuation, Faces, Material, PointLight, Reflectance};
 
 use crate::support::{around, cases, exceeds, samples, scene, source};
@@ -61,7 +61,7 @@ fn bounds_hold_at_the_edges() {
                 let bounds =
                     Receiver::new(&patch, &coefficients, &Eye::Local(eye), reflectance).bounds(&light.at(place));
                 let light: Light<f64> = light.at(place.map(f64::from));
-                let surface = SurfacePoint { position: center.map(f64::from), normal: up.map(f64::from) };
+                let surface = ShadedPoint { position: center.map(f64::from), normal: up.map(f64::from) };
                 let view = Eye::Local(eye.map(f64::from));
                 let terms = light_terms(&surface, &Coefficients::from(&material), &light, &view, reflectance);
                 let excess = exceeds(&terms, &bounds, &light);
@@ -89,7 +89,7 @@ fn bounds_hold_where_factors_vanish() {
         let (view, reflectance) = (Eye::Infinite([0.0, 0.0, 1.0]), Reflectance::BlinnPhong);
         let bounds = Receiver::new(&patch, &Coefficients::from(&material), &view, reflectance).bounds(&light.at(place));
         let light: Light<f64> = light.at(place.map(f64::from));
-        let surface = SurfacePoint { position: [0.0; 3], normal };
+        let surface = ShadedPoint { position: [0.0; 3], normal };
         let view = Eye::Infinite([0.0, 0.0, 1.0]);
         let terms = light_terms(&surface, &Coefficients::from(&material), &light, &view, reflectance);
         assert!(terms.diffuse[0] > 0.0);

@@ -3,7 +3,7 @@
 use halfway_lighting::Faces;
 use halfway_lighting::bounds::MARGIN;
 use halfway_lighting::equations::vector::{length, normalize, sub};
-use halfway_lighting::equations::{COINCIDENT, Eye, SurfacePoint};
+use halfway_lighting::equations::{COINCIDENT, Eye, ShadedPoint};
 use proptest::prelude::*;
 
 use crate::support::{Kind, Scene, around, cases, exceeds, scene, source};
@@ -26,7 +26,7 @@ proptest! {
         }
         let light = source.light::<f64>();
         let normal = normalize(axis.map(f64::from)).expect("not 0");
-        let surface = SurfacePoint { position: scene.center.map(f64::from), normal };
+        let surface = ShadedPoint { position: scene.center.map(f64::from), normal };
         let terms = scene.terms(&surface, &light);
         let bounds = scene.receiver::<f64>().bounds(&light);
         prop_assert!(exceeds(&terms, &bounds, &light).is_none());

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use bevy_color::LinearRgba;
 use halfway_lighting::bounds::{DEFAULT_TOLERANCE, NormalCone, Patch, Receiver, Selected, linear_tolerance};
-use halfway_lighting::equations::{Coefficients, Eye, Light, SurfacePoint, light_terms};
+use halfway_lighting::equations::{Coefficients, Eye, Light, ShadedPoint, light_terms};
 use halfway_lighting::{Attenuation, Encoding, Faces, Material, PointLight, Reflectance};
 
 use crate::support::direction;
@@ -172,20 +172,20 @@ fn bounds_are_near_the_largest_term() {
 }
 
 /// A point and normal of a patch from two numbers in [0, 1).
-type Points = fn(&Patch<f32>, f64, f64) -> SurfacePoint<f64>;
+type Points = fn(&Patch<f32>, f64, f64) -> ShadedPoint<f64>;
 
-fn on_sphere(patch: &Patch<f32>, a: f64, b: f64) -> SurfacePoint<f64> {
+fn on_sphere(patch: &Patch<f32>, a: f64, b: f64) -> ShadedPoint<f64> {
     let normal = direction(a, b);
-    SurfacePoint {
+    ShadedPoint {
         position: [0, 1, 2].map(|i| f64::from(patch.center[i]) + normal[i] * f64::from(patch.radius)),
         normal,
     }
 }
 
-fn on_square(patch: &Patch<f32>, a: f64, b: f64) -> SurfacePoint<f64> {
+fn on_square(patch: &Patch<f32>, a: f64, b: f64) -> ShadedPoint<f64> {
     let size = f64::from(patch.radius) * core::f64::consts::SQRT_2;
     let [x, y, z] = patch.center.map(f64::from);
-    SurfacePoint { position: [x + (a - 0.5) * size, y, z + (b - 0.5) * size], normal: [0.0, 1.0, 0.0] }
+    ShadedPoint { position: [x + (a - 0.5) * size, y, z + (b - 0.5) * size], normal: [0.0, 1.0, 0.0] }
 }
 
 /// Adds bound and largest term of the light where the bound is above the tolerance.
@@ -200,8 +200,8 @@ fn gather(patch: &Patch<f32>, light: &Light<f32>, points: Points, pairs: &mut [V
     let mut largest = [0f64; 2];
     for i in 0..STEPS * STEPS {
         let [a, b] = [i % STEPS, i / STEPS].map(|k| f64::from(k) / f64::from(STEPS - 1));
-        let SurfacePoint { position, normal } = points(patch, a, b);
-        let surface = SurfacePoint { position: position.map(|x| x as f32), normal: normal.map(|x| x as f32) };
+        let ShadedPoint { position, normal } = points(patch, a, b);
+        let surface = ShadedPoint { position: position.map(|x| x as f32), normal: normal.map(|x| x as f32) };
         let terms = light_terms(&surface, &material(0.8), light, &Eye::Local(EYE), reflectance);
         largest = [largest[0].max(f64::from(terms.diffuse[0])), largest[1].max(f64::from(terms.specular[0]))];
     }

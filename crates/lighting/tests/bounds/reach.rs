@@ -2,7 +2,7 @@
 
 use bevy_color::LinearRgba;
 use halfway_lighting::bounds::reach;
-use halfway_lighting::equations::{Light, SurfacePoint, incidence};
+use halfway_lighting::equations::{Light, ShadedPoint, incidence};
 use halfway_lighting::{Attenuation, DirectionalLight, PointLight};
 use proptest::prelude::*;
 
@@ -10,7 +10,7 @@ use crate::support::{Kind, cases, source};
 
 /// att·(Ld + Ls), and La where attenuated, at a distance: the largest channel.
 fn brightness(light: &Light<f64>, d: f64) -> f64 {
-    let surface = SurfacePoint { position: [d, 0.0, 0.0], normal: [-1.0, 0.0, 0.0] };
+    let surface = ShadedPoint { position: [d, 0.0, 0.0], normal: [-1.0, 0.0, 0.0] };
     let weight = incidence(&surface, light).weight;
     let ambient = f64::from(u8::from(light.attenuate_ambient));
     (0..3).map(|c| weight * (ambient * light.la[c] + light.ld[c] + light.ls[c])).fold(0.0, f64::max)

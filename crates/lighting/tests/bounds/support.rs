@@ -6,7 +6,7 @@ use bevy_color::LinearRgba;
 use halfway_lighting::bounds::{NormalCone, Patch, Receiver, TermBounds};
 use halfway_lighting::equations::vector::{add, cross, dot, length, normalize, scale, sub};
 use halfway_lighting::equations::{
-    Coefficients, Eye, Light, LightTerms, Place, Real, SurfacePoint, incidence, light_terms, view_vector,
+    Coefficients, Eye, Light, LightTerms, Place, Real, ShadedPoint, incidence, light_terms, view_vector,
 };
 use halfway_lighting::{Attenuation, Cone, DirectionalLight, Faces, Material, PointLight, Reflectance, SpotLight};
 use proptest::prelude::*;
@@ -75,7 +75,7 @@ impl Scene {
     }
 
     /// The exact terms at a point.
-    pub(crate) fn terms(&self, surface: &SurfacePoint<f64>, light: &Light<f64>) -> LightTerms<f64> {
+    pub(crate) fn terms(&self, surface: &ShadedPoint<f64>, light: &Light<f64>) -> LightTerms<f64> {
         light_terms(surface, &Coefficients::from(&self.material), light, &self.view(), self.reflectance)
     }
 
@@ -83,7 +83,7 @@ impl Scene {
     ///
     /// Half of the points are those nearest to the light or the eye, and half of the normals are turned as far as the
     /// cone allows toward l, h, or the normal that mirrors l into v: where the terms are largest.
-    pub(crate) fn sample(&self, light: &Light<f64>, u: [f64; 6]) -> SurfacePoint<f64> {
+    pub(crate) fn sample(&self, light: &Light<f64>, u: [f64; 6]) -> ShadedPoint<f64> {
         let center = self.center.map(f64::from);
         // Inside the sphere also after rounding.
         let radius = f64::from(self.radius) * (1.0 - 1e-9);
@@ -97,7 +97,7 @@ impl Scene {
         let offset = self.flattened(scale(outward, radius * share));
         let position = add(center, offset);
         let normal = self.normal(position, light, [u[3], u[4], u[5]]);
-        SurfacePoint { position, normal }
+        ShadedPoint { position, normal }
     }
 
     /// An offset from the centre brought into the patch's thickness.
@@ -115,7 +115,7 @@ impl Scene {
             Faces::Back => -1.0,
             Faces::Both => [1.0, -1.0][usize::from(u[2] < 0.5)],
         };
-        let probe = SurfacePoint { position, normal: free };
+        let probe = ShadedPoint { position, normal: free };
         let (l, v) = (incidence(&probe, light).l, view_vector(&probe, &self.view()));
         let wish = match u[0] {
             u if u < 0.25 => l,

@@ -3,7 +3,7 @@
 use core::f32::consts::PI;
 
 use bevy_color::LinearRgba;
-use halfway_lighting::equations::{Coefficients, Eye, Light, Place, SurfacePoint, light_contribution, shade};
+use halfway_lighting::equations::{Coefficients, Eye, Light, Place, ShadedPoint, light_contribution, shade};
 use halfway_lighting::homogeneous::{LightPlace, from_homogeneous};
 use halfway_lighting::{Attenuation, Cone, DirectionalLight, Material, PointLight, Reflectance, SpotLight};
 
@@ -11,9 +11,9 @@ use crate::support::{ALL_REFLECTANCES, Pcg, close3, distinct_material, shade_dar
 
 const VIEW: Eye<f64> = Eye::Local([0.0; 3]);
 
-fn surfaces() -> impl Iterator<Item = SurfacePoint<f64>> {
+fn surfaces() -> impl Iterator<Item = ShadedPoint<f64>> {
     let mut rng = Pcg::new(3);
-    (0..300).map(move |_| SurfacePoint {
+    (0..300).map(move |_| ShadedPoint {
         position: [rng.between(-2.0, 2.0), rng.between(-2.0, 2.0), rng.between(-6.0, -1.0)],
         normal: rng.direction(),
     })

@@ -4,7 +4,7 @@ use core::f32::consts::FRAC_PI_2;
 
 use bevy_color::LinearRgba;
 use halfway_lighting::equations::{
-    Coefficients, ConeTerms, Eye, Light, Place, SurfacePoint, interpolated_normal, normal_matrix, shade,
+    Coefficients, ConeTerms, Eye, Light, Place, ShadedPoint, interpolated_normal, normal_matrix, shade,
     transform_normal,
 };
 use halfway_lighting::{Attenuation, Cone, DirectionalLight, Material, PointLight, Reflectance, SpotLight};
@@ -19,7 +19,7 @@ const KS: f32 = 0.5;
 /// What one light makes of a point, as `kd·diffuse + ks·specular` with every colour white.
 struct Row {
     name: &'static str,
-    surface: SurfacePoint<f64>,
+    surface: ShadedPoint<f64>,
     light: Light<f64>,
     view: Eye<f64>,
     shininess: f32,
@@ -30,7 +30,7 @@ struct Row {
 
 const UP: [f64; 3] = [0.0, 0.0, 1.0];
 const DOWN: [f64; 3] = [0.0, 0.0, -1.0];
-const AT_ORIGIN: SurfacePoint<f64> = SurfacePoint { position: [0.0; 3], normal: UP };
+const AT_ORIGIN: ShadedPoint<f64> = ShadedPoint { position: [0.0; 3], normal: UP };
 const FROM_ABOVE: Eye<f64> = Eye::Infinite(UP);
 
 /// A light straight above, seen from straight above: every row changes what it is about.
@@ -90,7 +90,7 @@ fn rows() -> Vec<Row> {
             ..row("h = 0 where l = −v")
         },
         Row {
-            surface: SurfacePoint { normal: [0.0, 0.0, 1.0 + 1e-6], ..AT_ORIGIN },
+            surface: ShadedPoint { normal: [0.0, 0.0, 1.0 + 1e-6], ..AT_ORIGIN },
             shininess: 1e5,
             diffuse: 1.0 + 1e-6,
             ..row("a cosine above 1 under a high shininess")
@@ -121,7 +121,7 @@ fn rows() -> Vec<Row> {
         Row { light: point(Attenuation::NONE, [0.0, 0.0, 1e-12]), ..row("a light 10⁻¹² away") },
         Row { light: point(Attenuation::NONE, [0.0, 0.0, 1e18]), ..row("a light 10¹⁸ away") },
         Row {
-            surface: SurfacePoint { position: [1e7, -1e7, 0.0], normal: UP },
+            surface: ShadedPoint { position: [1e7, -1e7, 0.0], normal: UP },
             light: point(Attenuation::NONE, [1e7, -1e7, 2.0]),
             view: Eye::Local([1e7, -1e7, 3.0]),
             ..row("10⁷ units from the origin")
@@ -149,8 +149,8 @@ fn every_edge_has_its_value() {
     }
 }
 
-fn surface_in_f32(surface: &SurfacePoint<f64>) -> SurfacePoint<f32> {
-    SurfacePoint { position: to_f32(surface.position), normal: to_f32(surface.normal) }
+fn surface_in_f32(surface: &ShadedPoint<f64>) -> ShadedPoint<f32> {
+    ShadedPoint { position: to_f32(surface.position), normal: to_f32(surface.normal) }
 }
 
 fn view_in_f32(view: &Eye<f64>) -> Eye<f32> {

@@ -2,7 +2,7 @@
 
 use bevy_color::LinearRgba;
 use halfway_lighting::equations::vector::normalize;
-use halfway_lighting::equations::{Coefficients, Eye, SurfacePoint, interpolated_normal, shade};
+use halfway_lighting::equations::{Coefficients, Eye, ShadedPoint, interpolated_normal, shade};
 use halfway_lighting::{DirectionalLight, Material, Reflectance};
 
 const V1: [f64; 3] = [-80.0, 0.0, 58.0];
@@ -21,7 +21,7 @@ fn by_the_library() -> Vec<([f64; 3], [f64; 3])> {
     let light = DirectionalLight::from_color(LinearRgba::rgb(1.0, 0.5, 0.5)).along(L.map(|x| -x)).expect("a direction");
     let red = Coefficients::from(&Material::matte(LinearRgba::RED));
     let color = |position, normal| {
-        let surface = SurfacePoint { position, normal };
+        let surface = ShadedPoint { position, normal };
         shade(&surface, &red, &[light], [0.0; 3], &Eye::Infinite([0.0, 0.0, 1.0]), Reflectance::Phong)
     };
     let [n1, n2] = [N1, N2].map(|n| normalize(n).expect("a normal"));

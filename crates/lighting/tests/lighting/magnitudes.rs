@@ -1,7 +1,7 @@
 //! The ends of the number range: never NaN, infinite or negative.
 
 use bevy_color::LinearRgba;
-use halfway_lighting::equations::{Coefficients, Eye, Real, SurfacePoint, shade};
+use halfway_lighting::equations::{Coefficients, Eye, Real, ShadedPoint, shade};
 use halfway_lighting::{Attenuation, CHANNEL_MAX, Cone, Material, PointLight, Reflectance, SpotLight};
 
 use crate::support::ALL_REFLECTANCES;
@@ -43,7 +43,7 @@ fn the_ends_of_f32_stay_finite_and_non_negative() {
         let spot = SpotLight { light, cone: Cone { cutoff: 0.0, inner: Some(0.0), exponent: f32::MAX } };
         for &p in &points {
             for &q in &points {
-                let surface = SurfacePoint { position: p, normal: [0.0, 0.0, 1.0] };
+                let surface = ShadedPoint { position: p, normal: [0.0, 0.0, 1.0] };
                 let lights = [light.at(q), spot.at(q, [0.0, 0.0, -f32::MAX]).expect("a direction")];
                 for shininess in [0.0, 1.0, f32::MAX] {
                     let coefficients = Coefficients::from(&Material { shininess, ..material });
@@ -68,7 +68,7 @@ fn a_hundred_thousand_lights_at_the_limit_stay_finite() {
         ..PointLight::from_color(brightest)
     };
     let material = Coefficients::from(&Material { specular: brightest, ..Material::matte(brightest) });
-    let surface = SurfacePoint { position: [0f32; 3], normal: [0.0, 0.0, 1.0] };
+    let surface = ShadedPoint { position: [0f32; 3], normal: [0.0, 0.0, 1.0] };
     let lights = vec![light.at([0.0; 3]); 100_000];
     let got = shade(&surface, &material, &lights, [0.0; 3], &Eye::Infinite([0.0, 0.0, 1.0]), Reflectance::Phong);
     check("all at the lit point", got);

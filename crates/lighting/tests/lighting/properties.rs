@@ -10,7 +10,7 @@ use core::f32::consts::{FRAC_PI_2, PI};
 use bevy_color::LinearRgba;
 use halfway_lighting::equations::vector::{dot, length, normalize, scale, sub};
 use halfway_lighting::equations::{
-    ATTENUATION_MAX, COINCIDENT, Coefficients, Eye, HALFWAY_MIN, Light, Real, SurfacePoint, rgb, shade,
+    ATTENUATION_MAX, COINCIDENT, Coefficients, Eye, HALFWAY_MIN, Light, Real, ShadedPoint, rgb, shade,
 };
 use halfway_lighting::{
     Attenuation, Cone, DirectionalLight, Material, PointLight, Reflectance, SpotLight, matched_shininess,
@@ -192,7 +192,7 @@ impl Case {
     fn evaluated<T: Real>(&self) -> [f64; 3] {
         let of = |a: [f32; 3]| a.map(|x| T::of(x.into()));
         let unit = |a: [f32; 3]| normalize(of(a)).expect("a direction");
-        let surface = SurfacePoint { position: of(self.position), normal: unit(self.normal) };
+        let surface = ShadedPoint { position: of(self.position), normal: unit(self.normal) };
         let view = match self.view {
             Eye::Local(eye) => Eye::Local(of(eye)),
             Eye::Infinite(v) => Eye::Infinite(unit(v)),

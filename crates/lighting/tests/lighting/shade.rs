@@ -4,7 +4,7 @@ use core::f64::consts::FRAC_1_SQRT_2;
 
 use bevy_color::LinearRgba;
 use halfway_lighting::equations::{
-    Coefficients, Eye, Incidence, Light, Place, SurfacePoint, incidence, light_contribution, light_terms, shade,
+    Coefficients, Eye, Incidence, Light, Place, ShadedPoint, incidence, light_contribution, light_terms, shade,
     view_vector,
 };
 use halfway_lighting::{
@@ -14,7 +14,7 @@ use halfway_lighting::{
 use crate::support::{close, close3, distinct_material};
 
 /// A point at the origin facing +Z.
-const SURFACE: SurfacePoint<f64> = SurfacePoint { position: [0.0; 3], normal: [0.0, 0.0, 1.0] };
+const SURFACE: ShadedPoint<f64> = ShadedPoint { position: [0.0; 3], normal: [0.0, 0.0, 1.0] };
 const VIEW: Eye<f64> = Eye::Infinite([0.0, 0.0, 1.0]);
 
 /// At (3, 0, 4): d = 5, l = (0.6, 0, 0.8), n·l = 0.8, r·v = 0.8, n·h = 3/√10; attenuation 1/(1 + 5·0.2 + 25·0.08) =
@@ -61,7 +61,7 @@ fn one_light_by_hand() {
 fn attenuated_ambient_is_opengls() {
     let material = distinct_material(2.0);
     let coefficients = Coefficients::from(&material);
-    let away = SurfacePoint { normal: [0.0, 0.0, -1.0], ..SURFACE };
+    let away = ShadedPoint { normal: [0.0, 0.0, -1.0], ..SURFACE };
     let full = [0.125 * 0.5, 0.25 * 0.25, 0.375 * 0.125];
     for (attenuate_ambient, share) in [(false, 1.0), (true, 0.25)] {
         let light = PointLight { attenuate_ambient, ..light() };
@@ -109,7 +109,7 @@ fn lights_add_up_in_any_number() {
 
 #[test]
 fn the_viewer_is_local_or_infinite() {
-    let off_axis = SurfacePoint { position: [3.0, 0.0, -4.0], ..SURFACE };
+    let off_axis = ShadedPoint { position: [3.0, 0.0, -4.0], ..SURFACE };
     close3(view_vector(&off_axis, &Eye::in_eye_space(Viewer::Local)), [-0.6, 0.0, 0.8], 1e-15, "toward the eye");
     assert_eq!(view_vector(&off_axis, &Eye::in_eye_space(Viewer::Infinite)), [0.0, 0.0, 1.0]);
     let eye = Eye::Local([3.0, 5.0, -4.0]);
@@ -123,7 +123,7 @@ fn eye_and_world_space_agree() {
     // A rigid change of space: a quarter turn about Y and a shift.
     let eye_from_world = |[x, y, z]: [f64; 3]| [z + 1.0, y - 2.0, -x + 0.5];
     let turned = |[x, y, z]: [f64; 3]| [z, y, -x];
-    let surface = SurfacePoint { position: [0.5, 0.25, -3.0], normal: [0.0, FRAC_1_SQRT_2, FRAC_1_SQRT_2] };
+    let surface = ShadedPoint { position: [0.5, 0.25, -3.0], normal: [0.0, FRAC_1_SQRT_2, FRAC_1_SQRT_2] };
     let (position, direction, eye) = ([1.0, 2.0, 1.0], [-0.5, -1.75, -4.0], [0.3, 1.0, 2.0]);
     let spot = SpotLight { light: light(), cone: Cone { cutoff: 0.7, inner: Some(0.1), exponent: 3.0 } };
     let coefficients = Coefficients::from(&distinct_material(12.0));
@@ -135,7 +135,7 @@ fn eye_and_world_space_agree() {
         Reflectance::BlinnPhong,
     );
     let in_eye_space = light_contribution(
-        &SurfacePoint { position: eye_from_world(surface.position), normal: turned(surface.normal) },
+        &ShadedPoint { position: eye_from_world(surface.position), normal: turned(surface.normal) },
         &coefficients,
         &spot.at(eye_from_world(position), turned(direction)).expect("a direction"),
         &Eye::Local(eye_from_world(eye)),

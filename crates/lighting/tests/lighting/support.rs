@@ -1,7 +1,7 @@
 //! Vectors, scenes and random numbers for the tests.
 
 use bevy_color::LinearRgba;
-use halfway_lighting::equations::{Coefficients, Eye, Light, Real, SurfacePoint, shade};
+use halfway_lighting::equations::{Coefficients, Eye, Light, Real, ShadedPoint, shade};
 use halfway_lighting::{Material, Reflectance};
 
 pub(crate) const ALL_REFLECTANCES: [Reflectance; 3] =
@@ -48,7 +48,7 @@ pub(crate) fn distinct_material(shininess: f32) -> Material {
 
 /// [`shade`] without global ambient, for lights and materials already evaluated.
 pub(crate) fn shade_dark<T: Real>(
-    surface: &SurfacePoint<T>,
+    surface: &ShadedPoint<T>,
     material: &Material,
     lights: &[Light<T>],
     view: &Eye<T>,

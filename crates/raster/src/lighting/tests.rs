@@ -5,7 +5,7 @@ use crate::lanes::MOST_LANES;
 use crate::width::{VectorWidth, with_vectors};
 use halfway_lighting::Reflectance;
 use halfway_lighting::equations::{
-    self, Coefficients, ConeTerms, Eye, Light, Place, SurfacePoint, face_forward, vector::normalize,
+    self, Coefficients, ConeTerms, Eye, Light, Place, ShadedPoint, face_forward, vector::normalize,
 };
 
 /// One lane's input.
@@ -126,7 +126,7 @@ fn expected(case: &Case) -> [f64; 3] {
         Highlight::Phong => Reflectance::Phong,
         Highlight::BlinnPhong => Reflectance::BlinnPhong,
     };
-    let surface = SurfacePoint { position: f(case.p), normal: f(case.n) };
+    let surface = ShadedPoint { position: f(case.p), normal: f(case.n) };
     equations::shade(&surface, &material, &[source], [0.0; 3], &view, reflectance)
 }
 

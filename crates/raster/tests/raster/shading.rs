@@ -3,7 +3,7 @@
 use crate::common::{Scene, Shading, at, draw, lens, pieces};
 use halfway_lighting::Reflectance;
 use halfway_lighting::equations::{
-    Coefficients, ConeTerms, Eye, Light, Place, SurfacePoint, normal_matrix, shade, transform_normal, vector,
+    Coefficients, ConeTerms, Eye, Light, Place, ShadedPoint, normal_matrix, shade, transform_normal, vector,
 };
 use halfway_mesh::{Mesh, UvSphere};
 use halfway_raster::{
@@ -169,7 +169,7 @@ impl Case {
             Highlight::BlinnPhong => Reflectance::BlinnPhong,
         };
         let normal = if back { vector::neg(normal) } else { normal };
-        shade(&SurfacePoint { position, normal }, &material, &self.sources(), [0.0; 3], &view, reflectance)
+        shade(&ShadedPoint { position, normal }, &material, &self.sources(), [0.0; 3], &view, reflectance)
     }
 
     /// All of them in eye space.

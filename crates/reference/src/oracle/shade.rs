@@ -3,7 +3,7 @@
 use bevy_math::DVec3;
 use halfway_lighting::Frequency;
 use halfway_lighting::equations::vector::{add, mul};
-use halfway_lighting::equations::{SurfacePoint, interpolated_normal, light_terms, side_normal};
+use halfway_lighting::equations::{ShadedPoint, interpolated_normal, light_terms, side_normal};
 
 use super::gather::OracleScene;
 use super::raster::{Hit, HitPoint};
@@ -54,7 +54,7 @@ impl OracleScene {
     ///
     /// An ambient colour that attenuates goes with the diffuse term; one that does not is in the scene's ambient.
     fn lit(&self, solid: &Solid, front: bool, p: DVec3, n: [f64; 3], at: Frequency) -> Color {
-        let surface = SurfacePoint { position: p.to_array(), normal: side_normal(n, front) };
+        let surface = ShadedPoint { position: p.to_array(), normal: side_normal(n, front) };
         let material = &solid.side(front).coefficients;
         self.lights.iter().fold([0.0; 3], |mut i, light| {
             let terms = light_terms(&surface, material, light, &self.viewer, solid.reflectance);

@@ -239,6 +239,17 @@ fn with_four_samples_each_may_see_its_own() {
 }
 
 #[test]
+fn with_four_samples_the_centre_alone_shows_nothing() {
+    let mut stage = Stage::new();
+    *stage.camera() = Camera { samples: Samples::Four, ..*stage.camera() };
+    // Between the samples at 3/8 and 5/8 of the pixel's width: only the oracle's own picture meets it.
+    stage.add(panel(CENTRE - 0.01 * PIXEL, CENTRE + 0.01 * PIXEL, -9.0, 9.0, 1.0), glow(1.0, 1.0, 1.0));
+    let found = possible(&mut stage, 8, 3);
+    assert_shows("the background", &found, &[[0.0; 3]]);
+    assert!(found.is_edge, "a picture without it would be compared with one that has it");
+}
+
+#[test]
 fn every_pixel_may_show_what_the_oracle_draws() {
     let mut stage = Stage::new();
     stage.world.spawn((PointLight::white(), GlobalTransform::from_xyz(1.0, 3.0, 2.0)));

@@ -1,6 +1,6 @@
 //! What the functions are called with: every edge of their definitions, and numbers over the whole range.
 
-use halfway_lighting::equations::{ConeTerms, Light, Place, SurfacePoint};
+use halfway_lighting::equations::{ConeTerms, Light, Place, ShadedPoint};
 
 use crate::adapter::INPUT;
 
@@ -138,8 +138,8 @@ pub(crate) fn cone(x: &[f32]) -> ConeTerms<f64> {
     ConeTerms { direction: wide(&x[12..]), cos_cutoff: x[19].into(), cos_inner, exponent: x[20].into() }
 }
 
-pub(crate) fn surface(x: &[f32]) -> SurfacePoint<f64> {
-    SurfacePoint { position: wide(&x[P..]), normal: wide(&x[N..]) }
+pub(crate) fn surface(x: &[f32]) -> ShadedPoint<f64> {
+    ShadedPoint { position: wide(&x[P..]), normal: wide(&x[N..]) }
 }
 
 fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {

@@ -9,8 +9,10 @@ use super::source::Crate;
 use crate::failure::Result;
 
 /// Names that mean the same wherever they stand, each with its reason.
-const ALLOWED: [(&str, &str); 2] = [
+const ALLOWED: [(&str, &str); 4] = [
+    ("Cone", "the cone of a spot light, and the surface: both are called so, and refused input names the first"),
     ("Failure", "what a program prints and its exit code: the command's and the chores'"),
+    ("Irradiance", "the rasterizer's twin of the equations'"),
     ("Options", "what one chore of xtask is given; always written with its chore, `demo::Options`"),
 ];
 

@@ -51,11 +51,16 @@ impl Oracle {
             }
             Samples::Four => {
                 let shading = [&Zone::disc(centre, radius), &Zone::square(centre, 0.5 + radius)];
-                let sample = |at: [f64; 2]| {
-                    let disc = Zone::disc(corner + DVec2::from_array(at), radius);
+                let at = |at: DVec2| {
+                    let disc = Zone::disc(at, radius);
                     self.stack(&disc, &shading).possible(&self.scene, self.clamp)
                 };
-                mean(&FOUR.map(sample))
+                let samples = FOUR.map(|sample| at(corner + DVec2::from_array(sample)));
+                // The oracle's own picture shows the centre, where something may lie that no sample meets.
+                let centre = at(centre);
+                let is_edge = centre.is_edge || centre.ranges != samples[0].ranges;
+                let possible = mean(&samples);
+                Possible { is_edge: possible.is_edge || is_edge, ..possible }
             }
         }
     }
