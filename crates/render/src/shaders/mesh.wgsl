@@ -162,6 +162,11 @@ fn fs_flat(in: Flat) -> @location(0) vec4f {
 
 // ---- every term at the vertices (Gouraud) ------------------------------------------------------
 
+// No shade is below 0. Across a triangle seen edge-on an adapter may extrapolate, and so leave the range of the vertices.
+fn interpolated(color: vec3f) -> vec3f {
+    return max(color, vec3f());
+}
+
 struct Gouraud {
     @invariant @builtin(position) clip: vec4f,
     @location(0) @interpolate(perspective, centroid) color: vec3f,
@@ -177,7 +182,7 @@ fn vs_gouraud(object: Object, @location(6) position: vec3f, @location(7) normal:
 
 @fragment
 fn fs_gouraud(in: Gouraud) -> @location(0) vec4f {
-    return shaded(in.color, record_of(in.record), true);
+    return shaded(interpolated(in.color), record_of(in.record), true);
 }
 
 struct GouraudBoth {
@@ -198,7 +203,7 @@ fn vs_gouraud_both(object: Object, @location(6) position: vec3f, @location(7) no
 
 @fragment
 fn fs_gouraud_both(in: GouraudBoth, @builtin(front_facing) front: bool) -> @location(0) vec4f {
-    return shaded(select(in.back, in.front, front), record_of(in.record), front);
+    return shaded(interpolated(select(in.back, in.front, front)), record_of(in.record), front);
 }
 
 // ---- every term at the fragments (Phong) -------------------------------------------------------
@@ -273,8 +278,8 @@ fn fs_mixed(in: Mixed, @builtin(front_facing) front: bool) -> @location(0) vec4f
     let record = record_of(in.record);
     if TWO_SIDED && !front {
         let terms = fragment_terms(in.p, -n, draws[record].back.shininess, record);
-        return shaded(in.back + reflected(terms, draws[record].back), record, false);
+        return shaded(interpolated(in.back) + reflected(terms, draws[record].back), record, false);
     }
     let terms = fragment_terms(in.p, n, draws[record].front.shininess, record);
-    return shaded(in.front + reflected(terms, draws[record].front), record, true);
+    return shaded(interpolated(in.front) + reflected(terms, draws[record].front), record, true);
 }
