@@ -1,9 +1,12 @@
-//! What the fuzz targets share: it is what the tests of past failures do too, `crates/mesh/tests/past_failures.rs`.
+//! What the fuzz targets share: it is what the tests of past failures do too, `crates/mesh/tests/past_failures.rs` and
+//! `crates/scene/tests/past_failures.rs`.
 
 #[path = "../../crates/mesh/tests/common/mod.rs"]
 mod common;
 #[path = "../../crates/mesh/tests/common/counting.rs"]
 mod counting;
+#[path = "../../crates/scene/tests/common/fuzzed.rs"]
+mod fuzzed;
 #[path = "../../crates/mesh/tests/common/targets.rs"]
 mod targets;
 
@@ -18,4 +21,12 @@ static ALLOCATOR: Counting = Counting::new();
 /// The reader broke a promise: it panicked, gave a model that is not sound, or took more memory than the bytes warrant.
 pub fn feed(target: &str, bytes: &[u8]) {
     targets::feed(target, bytes, &ALLOCATOR);
+}
+
+/// Feeds the reader of scene files.
+///
+/// # Panics
+/// As [`feed`].
+pub fn feed_scene(bytes: &[u8]) {
+    fuzzed::feed(bytes);
 }

@@ -21,6 +21,10 @@ fn feed_all(folder: &Path) -> usize {
     for target in fs::read_dir(folder).unwrap() {
         let target = target.unwrap();
         let name = target.file_name().into_string().unwrap();
+        // Another crate's reader, which feeds its own.
+        if name == "scene" {
+            continue;
+        }
         for file in fs::read_dir(target.path()).unwrap() {
             let file = file.unwrap().path();
             // Shown where the test fails.

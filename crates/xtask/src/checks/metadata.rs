@@ -36,6 +36,21 @@ pub(crate) struct Dependency {
 /// # Errors
 /// Cargo cannot read the manifests.
 pub(crate) fn packages(root: &Path) -> Result<Vec<Package>> {
+    metadata(root, read)
+}
+
+/// The folder that cargo builds into.
+///
+/// # Errors
+/// Cargo cannot read the manifests.
+pub(crate) fn target_folder(root: &Path) -> Result<PathBuf> {
+    metadata(root, |json| {
+        let metadata: Value = serde_json::from_slice(json).ok()?;
+        Some(metadata["target_directory"].as_str()?.into())
+    })
+}
+
+fn metadata<T>(root: &Path, read: impl Fn(&[u8]) -> Option<T>) -> Result<T> {
     let mut command = cargo(["metadata", "--format-version", "1", "--no-deps"]);
     let output = command.current_dir(root).output().map_err(|error| not_started(&command, &error))?;
     if !output.status.success() {

@@ -4,7 +4,7 @@ pub(crate) mod circles;
 pub(crate) mod commits;
 pub(crate) mod doors;
 pub(crate) mod lengths;
-mod metadata;
+pub(crate) mod metadata;
 pub(crate) mod msrv;
 pub(crate) mod names;
 pub(crate) mod package;

@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-use super::program;
+use super::program::{self, Program};
 use crate::cargo::root;
 use crate::failure::Result;
 use crate::setup::Setup;
@@ -34,7 +34,7 @@ pub(crate) struct Options {
 /// Sets up, builds, measures and writes the page.
 pub(crate) fn run(options: &Options) -> Result {
     let &Options { setup, quick, scaling } = options;
-    program::run("measuring", setup, &["-p", "halfway_chart"], arguments(quick, scaling))?;
+    program::run("measuring", setup, Program::Binary("halfway-chart"), arguments(quick, scaling))?;
     let page = if scaling { "scaling.html" } else { "index.html" };
     eprintln!("\nthe charts: {}", root().join(FOLDER).join(page).display());
     Ok(())

@@ -17,14 +17,12 @@ const MOST_MEMORY: &str = "-rss_limit_mb=2048";
 const MOST_TIME: &str = "-timeout=10";
 /// Where Linux keeps files in memory.
 const MEMORY: &str = "/dev/shm";
-/// Where inputs go that once failed, a folder for each target, and the test that reads them.
-const PAST_FAILURES: &str = "crates/mesh/tests/past_failures";
-const TEST: &str = "cargo test -p halfway_mesh --test past_failures";
 
-/// Feed the readers of model files what a fuzzer makes up, and see that they bear it
+/// Feed the readers of model and scene files what a fuzzer makes up, and see that they bear it
 ///
 /// Nothing may panic, overflow, hang, or take memory out of proportion, and what is read must be sound. A target for
-/// each format, one for material libraries (mtl) and one for the parts of binary glTF (`glb_chunks`). Prints how often
+/// each format of models, one for scene files (scene), for material libraries (mtl) and for the parts of binary glTF
+/// (`glb_chunks`). Prints how often
 /// each was run; a failing input is kept, and how to try it again and where to put it as a test is printed.
 /// cargo-fuzz and a C++ compiler are installed first where they are missing.
 #[derive(Args, Debug)]
@@ -140,10 +138,16 @@ fn input(said: &str) -> Option<&str> {
 
 fn advice(target: &str, input: &str) -> String {
     let again = written(&fuzz("run", &[target.into(), input.into()]));
+    let (krate, folder) = past_failures(target);
     format!(
-        "{target} failed by {input}\n  again:   {again}\n  a test:  copy it to {PAST_FAILURES}/{target}/ under a name \
-         that says what is wrong with it, and run {TEST}"
+        "{target} failed by {input}\n  again:   {again}\n  a test:  copy it to crates/{krate}/tests/past_failures{folder} \
+         under a name that says what is wrong with it, and run cargo test -p halfway_{krate} --test past_failures"
     )
+}
+
+/// The crate with the test of inputs that once failed, and the folder among them for those of a target.
+fn past_failures(target: &str) -> (&'static str, String) {
+    if target == "scene" { ("scene", String::new()) } else { ("mesh", format!("/{target}")) }
 }
 
 /// What a run counted.
@@ -217,6 +221,13 @@ mod tests {
         assert_eq!(input(said), Some("/a/crash-1"));
         let advice = advice("smf", "/a/crash-1");
         assert!(advice.contains("fuzz run --sanitizer none smf /a/crash-1\n"), "{advice}");
-        assert!(root().join("crates/mesh/tests/past_failures.rs").is_file());
+        for target in ["smf", "scene"] {
+            let (krate, folder) = past_failures(target);
+            let test = root().join(format!("crates/{krate}/tests/past_failures.rs"));
+            assert!(test.is_file(), "{}", test.display());
+            assert!(
+                super::advice(target, "/a/crash-1").contains(&format!("crates/{krate}/tests/past_failures{folder} "))
+            );
+        }
     }
 }

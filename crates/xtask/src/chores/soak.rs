@@ -4,7 +4,7 @@ use std::ffi::OsString;
 
 use clap::Args;
 
-use super::program;
+use super::program::{self, Program};
 use crate::failure::Result;
 use crate::setup::Setup;
 
@@ -24,5 +24,5 @@ pub(crate) struct Options {
 
 /// Sets up, builds and runs.
 pub(crate) fn run(options: &Options) -> Result {
-    program::run("soak", options.setup, &["--example", "soak"], &options.arguments)
+    program::run("soak", options.setup, Program::Example("soak"), &options.arguments)
 }

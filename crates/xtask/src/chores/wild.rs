@@ -4,7 +4,7 @@ use std::ffi::OsString;
 
 use clap::Args;
 
-use super::program;
+use super::program::{self, Program};
 use crate::failure::Result;
 use crate::setup::Setup;
 
@@ -25,5 +25,5 @@ pub(crate) struct Options {
 
 /// Sets up, builds and starts the program.
 pub(crate) fn run(options: &Options) -> Result {
-    program::run("random scenes", options.setup, &["-p", "halfway_wild"], &options.arguments)
+    program::run("random scenes", options.setup, Program::Binary("halfway-wild"), &options.arguments)
 }

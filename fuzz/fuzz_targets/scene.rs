@@ -1,0 +1,4 @@
+//! Scene files.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| halfway_fuzz::feed_scene(bytes));
