@@ -166,6 +166,27 @@ fn a_window_whose_size_changes_without_end_keeps_drawing() {
 }
 
 #[test]
+fn a_window_follows_the_scale_of_its_screen() {
+    let screen = Screen::open();
+    let teller = screen.tell_resolution(None, 96);
+    let mut viewer = Viewer::open(&screen);
+    let first = viewer.shown("Phong, Blinn–Phong", None);
+    viewer.resize(600, 400);
+    let before = viewer.shown("Phong, Blinn–Phong", Some(&first));
+    for _ in 0..3 {
+        screen.tell_resolution(Some(teller), 192);
+        eventually("the same picture, twice as large", || {
+            let picture = viewer.picture().filter(|picture| (picture.width, picture.height) == (1200, 800))?;
+            same_framing(&before, &picture).then_some(())
+        });
+        screen.tell_resolution(Some(teller), 96);
+        eventually("the first picture comes back", || (viewer.picture()? == before).then_some(()));
+    }
+    viewer.request_close();
+    assert_eq!(viewer.end().code(), Some(0));
+}
+
+#[test]
 fn nothing_is_drawn_while_nothing_can_be_seen() {
     let screen = Screen::open();
     let mut viewer = Viewer::open(&screen);

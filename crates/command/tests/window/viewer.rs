@@ -9,7 +9,8 @@ use std::time::Duration;
 use x11rb::connection::Connection;
 use x11rb::protocol::xproto::{
     AtomEnum, ClientMessageEvent, ConfigureWindowAux, ConnectionExt, CreateWindowAux, EventMask, ImageFormat,
-    InputFocus, KEY_PRESS_EVENT, KEY_RELEASE_EVENT, KeyButMask, KeyPressEvent, Keysym, MapState, Window, WindowClass,
+    InputFocus, KEY_PRESS_EVENT, KEY_RELEASE_EVENT, KeyButMask, KeyPressEvent, Keysym, MapState, PropMode, Window,
+    WindowClass,
 };
 use x11rb::rust_connection::RustConnection;
 use x11rb::{CURRENT_TIME, NONE};
@@ -179,6 +180,33 @@ impl Screen {
 
     pub(crate) fn destroy(&self, window: Window) {
         self.connection.destroy_window(window).expect("the display is there").check().expect("the window is there");
+    }
+
+    /// Tells the programs on the screen how many dots an inch it has, as a desktop does (XSETTINGS 0.5): first before they
+    /// start, which gives the window that tells it, and then by that window.
+    pub(crate) fn tell_resolution(&self, teller: Option<Window>, dots: u32) -> Window {
+        let connection = &self.connection;
+        let teller = teller.unwrap_or_else(|| {
+            let window = connection.generate_id().expect("there are ids");
+            let class = WindowClass::INPUT_OUTPUT;
+            let made = connection.create_window(0, window, self.root, 0, 0, 1, 1, 0, class, 0, &CreateWindowAux::new());
+            made.expect("the display is there").check().expect("a window is made");
+            let owned = connection.set_selection_owner(window, self.atom("_XSETTINGS_S0"), CURRENT_TIME);
+            owned.expect("the display is there").check().expect("nothing else tells it");
+            window
+        });
+        // In the order of this machine: a header with the number of settings, which is 1; a whole number, its name, and it.
+        let mut settings = vec![u8::from(cfg!(target_endian = "big")), 0, 0, 0];
+        settings.extend([0, 1].map(u32::to_ne_bytes).as_flattened());
+        settings.extend([0, 0]);
+        settings.extend(7u16.to_ne_bytes());
+        settings.extend(b"Xft/DPI\0");
+        settings.extend([0, 1024 * dots].map(u32::to_ne_bytes).as_flattened());
+        let name = self.atom("_XSETTINGS_SETTINGS");
+        let length = settings.len() as u32;
+        let told = connection.change_property(PropMode::REPLACE, teller, name, name, 8, length, &settings);
+        told.expect("the display is there").check().expect("the window is there");
+        teller
     }
 
     pub(crate) fn atom(&self, name: &str) -> u32 {
