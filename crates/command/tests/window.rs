@@ -14,7 +14,8 @@ use std::process::Stdio;
 use std::thread::sleep;
 use std::time::Duration;
 
-use window::viewer::{BETWEEN_LOOKS, Screen, Viewer, device_loser, eventually, same_framing, view};
+use window::viewer::{BETWEEN_LOOKS, Manager, Screen, Viewer, device_loser, eventually, same_framing, view};
+use x11rb::CURRENT_TIME;
 use x11rb::protocol::xproto::Keysym;
 
 const ESCAPE: Keysym = 0xff1b;
@@ -182,6 +183,38 @@ fn a_window_follows_the_scale_of_its_screen() {
         screen.tell_resolution(Some(teller), 96);
         eventually("the first picture comes back", || (viewer.picture()? == before).then_some(()));
     }
+    viewer.request_close();
+    assert_eq!(viewer.end().code(), Some(0));
+}
+
+#[test]
+fn a_window_manager_minimises_it_and_fills_the_screen_with_it() {
+    const ICONIC: u32 = 3;
+    const REMOVE: u32 = 0;
+    const ADD: u32 = 1;
+    let screen = Screen::open();
+    let _manager = Manager::start(&screen);
+    let mut viewer = Viewer::open(&screen);
+    // Within the screen, frame and all, so that all of it can be looked at, and as wide for its height as the screen.
+    viewer.resize(500, 400);
+    let before = viewer.shown("Phong, Blinn–Phong", None);
+    viewer.ask_manager("WM_CHANGE_STATE", [ICONIC, 0, 0, 0, 0]);
+    eventually("nothing is drawn", || {
+        let ticks = viewer.cpu_ticks();
+        sleep(4 * BETWEEN_LOOKS);
+        (viewer.picture().is_none() && viewer.cpu_ticks() == ticks).then_some(())
+    });
+    viewer.ask_manager("_NET_ACTIVE_WINDOW", [2, CURRENT_TIME, 0, 0, 0]);
+    eventually("the picture comes back", || (viewer.picture()? == before).then_some(()));
+
+    let fullscreen = screen.atom("_NET_WM_STATE_FULLSCREEN");
+    viewer.ask_manager("_NET_WM_STATE", [ADD, fullscreen, 0, 2, 0]);
+    eventually("the model fills as much of another height", || {
+        let picture = viewer.picture().filter(|picture| picture.height != before.height)?;
+        same_framing(&before, &picture).then_some(())
+    });
+    viewer.ask_manager("_NET_WM_STATE", [REMOVE, fullscreen, 0, 2, 0]);
+    eventually("the first picture comes back", || (viewer.picture()? == before).then_some(()));
     viewer.request_close();
     assert_eq!(viewer.end().code(), Some(0));
 }

@@ -92,6 +92,12 @@ pub(crate) const WINDOW_LIST: Need = Need {
 pub(crate) const VIRTUAL_SCREEN: Need =
     Need { missing: || programs::find("Xvfb").is_none().then(|| "the virtual screen Xvfb".into()), ..SCREEN };
 
+/// A window manager, for the tests of the window on the virtual screen.
+pub(crate) const WINDOW_MANAGER: Need = Need {
+    missing: || programs::find("openbox").is_none().then(|| "the window manager openbox".into()),
+    packages: Packages { apt: &["openbox"], dnf: &["openbox"], pacman: &["openbox"] },
+};
+
 /// What windows on an X display load when they open.
 pub(crate) const X11_WINDOWS: Need = Need {
     missing: || {

@@ -226,6 +226,34 @@ impl Screen {
     }
 }
 
+/// A window manager, until it is dropped.
+pub(crate) struct Manager(Child);
+
+impl Manager {
+    /// Starts one, which changes nothing where the screen has one already.
+    pub(crate) fn start(screen: &Screen) -> Self {
+        let mut program = Command::new("openbox");
+        program.env("DISPLAY", &screen.name).stdin(Stdio::null()).stderr(Stdio::null());
+        let process = program.spawn().unwrap_or_else(|error| {
+            panic!("no window manager for the test: openbox does not start ({error}). Install it (Debian and Ubuntu: apt-get install openbox)")
+        });
+        let manager = Self(process);
+        let check = screen.atom("_NET_SUPPORTING_WM_CHECK");
+        eventually("the screen has a window manager", || {
+            let request = screen.connection.get_property(false, screen.root, check, AtomEnum::WINDOW, 0, 1).ok()?;
+            (request.reply().ok()?.value_len == 1).then_some(())
+        });
+        manager
+    }
+}
+
+impl Drop for Manager {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
 impl Drop for Screen {
     fn drop(&mut self) {
         if let Some(server) = &mut self.server {
@@ -340,6 +368,15 @@ impl<'a> Viewer<'a> {
         // Behind the name, which may have spaces, the twelfth and thirteenth.
         let (_, behind) = status.rsplit_once(')').expect("a name in brackets");
         behind.split_whitespace().skip(11).take(2).map(|ticks| ticks.parse::<u64>().expect("a number")).sum()
+    }
+
+    /// Asks the window manager for something of this window, by the name of the message (ICCCM 4.1.4, EWMH).
+    pub(crate) fn ask_manager(&self, request: &str, data: [u32; 5]) {
+        let Screen { connection, root, .. } = self.screen;
+        let message = ClientMessageEvent::new(32, self.window, self.screen.atom(request), data);
+        let mask = EventMask::SUBSTRUCTURE_REDIRECT | EventMask::SUBSTRUCTURE_NOTIFY;
+        let sent = connection.send_event(false, *root, mask, message);
+        sent.expect("the display is there").check().expect("the root takes messages");
     }
 
     /// What a window manager sends when the close button is clicked.
