@@ -2,7 +2,8 @@
 //! what it was running (on Linux; so a busy machine disturbs less), with two the shortest.
 //!
 //! `cargo run --release -p halfway_raster --example time [FRAMES [FOLDER]]`; pictures go into the folder, unless it is `-`.
-//! Only what has the words of `ONLY` in its line is timed, such as `ONLY="S1 avx2 1"`.
+//! Only what has the words of `ONLY` in its line is timed, such as `ONLY="S1 avx2 1"`, and of the shadings those that it
+//! names, if any, as in `ONLY="S1 avx2 1 Phong"`.
 
 mod common;
 
@@ -16,7 +17,14 @@ fn main() -> Result<(), Box<dyn Error>> {
     let frames: u32 = arguments.next().map_or(Ok(200), |argument| argument.parse())?;
     let folder = arguments.next().filter(|folder| folder != "-");
     let only = std::env::var("ONLY").unwrap_or_default();
-    println!("{:12}{:>8}{:>8} {:?}", "scene", "width", "threads", Shading::ALL);
+    let named = |shading: &Shading| only.split_whitespace().any(|word| word == format!("{shading:?}"));
+    let mut shadings: Vec<_> = Shading::ALL.into_iter().filter(named).collect();
+    let only: Vec<_> =
+        only.split_whitespace().filter(|word| !Shading::ALL.iter().any(|s| format!("{s:?}") == **word)).collect();
+    if shadings.is_empty() {
+        shadings.extend(Shading::ALL);
+    }
+    println!("{:12}{:>8}{:>8} {shadings:?}", "scene", "width", "threads");
     for (small, samples, name) in
         [(false, SampleCount::One, "S1"), (false, SampleCount::Four, "S1x4"), (true, SampleCount::One, "S4")]
     {
@@ -24,11 +32,11 @@ fn main() -> Result<(), Box<dyn Error>> {
             for threads in [1, 2] {
                 let mut rasterizer = Rasterizer::new(RasterOptions { width: Some(width), threads: Some(threads) })?;
                 let line = format!("{name:12}{:>8}{threads:>8}", width.to_string());
-                if !only.split_whitespace().all(|word| line.split_whitespace().any(|found| found == word)) {
+                if !only.iter().all(|&word| line.split_whitespace().any(|found| found == word)) {
                     continue;
                 }
                 print!("{line}");
-                for shading in Shading::ALL {
+                for &shading in &shadings {
                     let mut scene = sphere(small, shading)?;
                     scene.samples = samples;
                     let mut bytes = vec![0; 4 * scene.size[0] as usize * scene.size[1] as usize];

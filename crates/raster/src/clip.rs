@@ -215,7 +215,7 @@ fn planes(corners: &[Corner; 3], first: [i64; 2], (x, y): ([i64; 3], [i64; 3]), 
     let exact =
         |axis: usize| corners.map(|corner| f64::from(corner.screen[axis]) - first[axis] as f64 / f64::from(GRID));
     let on_grid = |v: [i64; 3]| v.map(|v| v as f64 / f64::from(GRID));
-    let gradient = Gradient::<f64>::new(exact(0), exact(1), (on_grid(x), on_grid(y)), positive);
+    let gradient = Gradient::new(exact(0), exact(1), (on_grid(x), on_grid(y)), positive);
     let lead = [0, 1, 2].map(|k| &corners[k].lead[side]);
     let inverse_w = lead.map(|lead| lead[0]);
     Planes {

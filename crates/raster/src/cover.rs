@@ -8,11 +8,33 @@ use crate::lanes::{
 use crate::pass::SampleCount;
 use crate::planes::{Planes, Slopes};
 use crate::state::{Stage, State};
-use crate::triangle::Batch;
+use crate::triangle::{Batch, LaneSlopes, TINY};
+use crate::vertices::GRID;
 use fearless_simd::{i32x4, prelude::*};
 
 /// Pixels of a tile.
 pub(crate) const PIXELS: usize = TILE * TILE;
+
+/// Pixels of a tiny triangle's box, at most.
+const TINY_PIXELS: usize = TINY * TINY;
+/// Their columns and rows.
+const TINY_PLACES: [[f32; TINY_PIXELS]; 2] = {
+    let (mut places, mut k) = ([[0.0; TINY_PIXELS]; 2], 0);
+    while k < TINY_PIXELS {
+        (places[0][k], places[1][k]) = ((k % TINY) as f32, (k / TINY) as f32);
+        k += 1;
+    }
+    places
+};
+/// The way from the first to them in the tile's lists.
+const TINY_AT: [usize; TINY_PIXELS] = {
+    let (mut at, mut k) = ([0; TINY_PIXELS], 0);
+    while k < TINY_PIXELS {
+        at[k] = k / TINY * TILE + k % TINY;
+        k += 1;
+    }
+    at
+};
 
 /// Where the four samples lie, in sixteenths of a pixel from its center.
 const PLACES: [[i32; 2]; 4] = [[-2, -6], [6, -2], [-6, 2], [2, 6]];
@@ -73,39 +95,23 @@ impl Edges {
             across: each!(k in 3 => batch.across[k][lane]),
             down: each!(k in 3 => batch.down[k][lane]),
             bounds: each!(k in 4 => batch.bounds[k][lane]),
-            center: each!(k in 3 => batch.edge[k][lane] >> 8),
-            at: [[0; 4]; 3],
+            ..Self::default()
         };
+        let [left, _, top, _] = edges.bounds;
         for k in 0..3 {
+            let (across, down) = (edges.across[k], edges.down[k]);
+            let edge = batch.edge[k][lane] - GRID * (across * left + down * top);
+            edges.center[k] = edge >> 8;
             match samples {
                 SampleCount::One => edges.at[k][0] = edges.center[k],
                 SampleCount::Four => {
-                    for (at, [dx, dy]) in edges.at[k].iter_mut().zip(sample_offsets(samples)) {
-                        *at = (batch.edge[k][lane] + edges.across[k] * dx + edges.down[k] * dy) >> 8;
+                    for (at, [dx, dy]) in edges.at[k].iter_mut().zip(GRID_PLACES) {
+                        *at = (edge + across * dx + down * dy) >> 8;
                     }
                 }
             }
         }
         edges
-    }
-}
-
-impl Edges {
-    /// Whether a triangle of few pixels covers none: often so, and found out fast.
-    #[inline(always)]
-    pub(crate) fn miss_all(&self) -> bool {
-        let [left, right, top, bottom] = self.bounds;
-        if right - left > 1 || bottom - top > 1 {
-            return false;
-        }
-        let mut miss = -1;
-        for j in [top, bottom] {
-            for i in [left, right] {
-                let [a, b, c] = each!(k in 3 => self.at[k][0] + self.across[k] * i + self.down[k] * j);
-                miss &= a | b | c;
-            }
-        }
-        miss < 0
     }
 }
 
@@ -175,39 +181,33 @@ impl Nearest {
         }
     }
 
-    /// Draws a triangle with one sample a pixel, pixel by pixel.
+    /// Draws a triangle of few pixels with one sample each: those of `pixels`, counted from `first`.
     #[inline(always)]
-    pub(crate) fn cover_few<S: Simd>(&mut self, simd: S, edges: &Edges, planes: &Planes, shader: i32, kept: Kept) {
-        let [left, right, top, bottom] = edges.bounds;
-        let (base, dx, dy) = vectors(simd, &planes.lead);
-        let mut row_edges = each!(k in 3 => edges.at[k][0] + edges.across[k] * left + edges.down[k] * top);
-        for j in top..=bottom {
-            let row = dy.mul_add_precise(f32x4::simd_from(simd, j as f32), base);
-            let mut e = row_edges;
-            for i in left..=right {
-                if e[0] | e[1] | e[2] >= 0 {
-                    let v = dx.mul_add_precise(f32x4::simd_from(simd, i as f32), row);
-                    let depth = min_one(max_one(v[0], planes.range[0]), planes.range[1]);
-                    let pixel = (j as usize * TILE + i as usize) & (PIXELS - 1);
-                    if depth > self.depth[0][pixel] {
-                        self.depth[0][pixel] = depth;
-                        self.shader[0][pixel] = shader;
-                        if kept.lead {
-                            for c in 0..3 {
-                                self.lead[0][c][pixel] = v[c + 1];
-                            }
-                        }
-                        if kept.second || kept.face {
-                            self.keep_more(simd, planes, (0, pixel), [i as f32, j as f32], kept);
-                        }
-                    }
+    pub(crate) fn cover_tiny<S: Simd>(
+        &mut self,
+        simd: S,
+        (pixels, first): (i32, [i32; 2]),
+        slopes: &LaneSlopes<S>,
+        [least, most]: [f32; 2],
+        shader: i32,
+        keeps_lead: bool,
+    ) {
+        let first = first[1] as usize * TILE + first[0] as usize;
+        let (depths, shaders, [a, b, c]) = (&mut self.depth[0], &mut self.shader[0], &mut self.lead[0]);
+        let mut left = pixels as u32;
+        while left != 0 {
+            let bit = left.trailing_zeros() as usize % TINY_PIXELS;
+            left &= left - 1;
+            let [x, y] = each!(axis in 2 => f32x4::simd_from(simd, TINY_PLACES[axis][bit]));
+            let v = slopes.dx.mul_add_precise(x, slopes.dy.mul_add_precise(y, slopes.base));
+            let depth = min_one(max_one(v[0], least), most);
+            let pixel = (first + TINY_AT[bit]) % PIXELS;
+            if depth > depths[pixel] {
+                depths[pixel] = depth;
+                shaders[pixel] = shader;
+                if keeps_lead {
+                    (a[pixel], b[pixel], c[pixel]) = (v[1], v[2], v[3]);
                 }
-                for k in 0..3 {
-                    e[k] += edges.across[k];
-                }
-            }
-            for k in 0..3 {
-                row_edges[k] += edges.down[k];
             }
         }
     }
@@ -234,36 +234,55 @@ impl Nearest {
         let [left, right, top, bottom] = edges.bounds;
         let count = lanes::<S>() as i32;
         let shader = splat_i(simd, shader);
+        let first = left.min(TILE as i32 - count);
+        let steps = counting_i(simd);
+        let mut row_edges: [I<S>; 3] = each!(k in 3 => {
+            let at = edges.at[k][0] + edges.across[k] * first + edges.down[k] * top;
+            steps * splat_i(simd, edges.across[k]) + splat_i(simd, at)
+        });
         for j in top..=bottom {
-            let mut i = left.min(TILE as i32 - count);
-            while i <= right {
-                let at = (j as usize * TILE + i as usize) & (PIXELS - 1);
-                let covered = covered(simd, edges, i, j);
-                let depth = depth(simd, planes, i, j);
-                let before = load(simd, &self.depth[0], at);
-                let nearer = covered & depth.simd_gt(before);
-                if nearer.any_true() {
-                    store::<S>(nearer.select(depth, before), &mut self.depth[0], at);
-                    store_i::<S>(nearer.select(shader, load_i(simd, &self.shader[0], at)), &mut self.shader[0], at);
-                    let x = counting(simd) + splat(simd, i as f32);
-                    let y = splat(simd, j as f32);
-                    for c in 0..3 {
-                        if kept.lead {
-                            put(simd, &mut self.lead[0][c], at, nearer, plane(simd, &planes.lead, c + 1, x, y));
-                        }
-                        if kept.second {
-                            put(simd, &mut self.second[0][c], at, nearer, plane(simd, &planes.second, c + 1, x, y));
-                        }
-                        if kept.face {
-                            put(simd, &mut self.face[0][c], at, nearer, splat(simd, planes.face[c]));
-                        }
+            let (mut i, mut e) = (first, row_edges);
+            loop {
+                let covered = (e[0] | e[1] | e[2]).simd_ge(splat_i(simd, 0));
+                if covered.any_true() {
+                    let at = (j as usize * TILE + i as usize) & (PIXELS - 1);
+                    let [x, y] = [counting(simd) + splat(simd, i as f32), splat(simd, j as f32)];
+                    let depth = clamped(simd, plane(simd, &planes.lead, 0, x, y), planes);
+                    let before = load(simd, &self.depth[0], at);
+                    let nearer = covered & depth.simd_gt(before);
+                    if nearer.any_true() {
+                        store::<S>(nearer.select(depth, before), &mut self.depth[0], at);
+                        store_i::<S>(nearer.select(shader, load_i(simd, &self.shader[0], at)), &mut self.shader[0], at);
+                        self.keep(simd, planes, at, [x, y], nearer, kept);
                     }
                 }
                 i += count;
-                // The last vector of a row may begin earlier, so that it ends with the tile.
-                if i <= right {
-                    i = i.min(TILE as i32 - count);
+                if i > right {
+                    break;
                 }
+                // The last vector of a row may begin earlier, so that it ends with the tile.
+                i = i.min(TILE as i32 - count);
+                for k in 0..3 {
+                    e[k] = row_edges[k] + splat_i(simd, edges.across[k] * (i - first));
+                }
+            }
+            for k in 0..3 {
+                row_edges[k] += splat_i(simd, edges.down[k]);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn keep<S: Simd>(&mut self, simd: S, planes: &Planes, at: usize, [x, y]: [F<S>; 2], shown: M<S>, kept: Kept) {
+        for c in 0..3 {
+            if kept.lead {
+                put(simd, &mut self.lead[0][c], at, shown, plane(simd, &planes.lead, c + 1, x, y));
+            }
+            if kept.second {
+                put(simd, &mut self.second[0][c], at, shown, plane(simd, &planes.second, c + 1, x, y));
+            }
+            if kept.face {
+                put(simd, &mut self.face[0][c], at, shown, splat(simd, planes.face[c]));
             }
         }
     }
@@ -334,12 +353,6 @@ pub(crate) fn covered<S: Simd>(simd: S, edges: &Edges, i: i32, j: i32) -> M<S> {
 }
 
 /// 1/w, kept between the corners'.
-#[inline(always)]
-fn depth<S: Simd>(simd: S, planes: &Planes, i: i32, j: i32) -> F<S> {
-    let x = counting(simd) + splat(simd, i as f32);
-    clamped(simd, plane(simd, &planes.lead, 0, x, splat(simd, j as f32)), planes)
-}
-
 #[inline(always)]
 pub(crate) fn clamped<S: Simd>(simd: S, inverse_w: F<S>, planes: &Planes) -> F<S> {
     let [least, most] = planes.range;

@@ -17,11 +17,15 @@ pub(crate) fn srgb_encoded<S: Simd>(simd: S, intensity: F<S>) -> F<S> {
     linear.simd_le(splat(simd, 0.003_130_8)).select(linear * splat(simd, 12.92), curved)
 }
 
-/// Four bytes a lane: red, green, blue and 255.
+/// Four bytes a lane, in memory: red, green, blue and 255.
 #[inline(always)]
 pub(crate) fn bytes<S: Simd>(simd: S, color: V3<S>, format: PixelFormat) -> I<S> {
     let [red, green, blue] = each!(c in 3 => byte(simd, color[c], format));
-    red | (green << 8) | (blue << 16) | splat_i(simd, 0xff << 24)
+    if cfg!(target_endian = "big") {
+        (red << 24) | (green << 16) | (blue << 8) | splat_i(simd, 0xff)
+    } else {
+        red | (green << 8) | (blue << 16) | splat_i(simd, 0xff << 24)
+    }
 }
 
 #[inline(always)]

@@ -18,6 +18,10 @@ macro_rules! each {
     ($k:ident in 4 => $e:expr) => {
         [{ let $k = 0_usize; $e }, { let $k = 1_usize; $e }, { let $k = 2_usize; $e }, { let $k = 3_usize; $e }]
     };
+    ($k:ident in 6 => $e:expr) => {{
+        let [a, b, c] = each!($k in 3 => $e);
+        [a, b, c, { let $k = 3_usize; $e }, { let $k = 4_usize; $e }, { let $k = 5_usize; $e }]
+    }};
 }
 pub(crate) use each;
 
@@ -73,6 +77,18 @@ pub(crate) fn store<S: Simd>(x: F<S>, to: &mut [f32], at: usize) {
 #[inline(always)]
 pub(crate) fn store_i<S: Simd>(x: I<S>, to: &mut [i32], at: usize) {
     x.store_slice(&mut to[at..at + lanes::<S>()]);
+}
+
+/// Four numbers a lane, side by side, from `at` on.
+#[inline(always)]
+pub(crate) fn store_fours<S: Simd>([a, b, c, d]: [F<S>; 4], to: &mut [[f32; 4]], at: usize) {
+    let to = &mut to.as_flattened_mut()[4 * at..4 * (at + lanes::<S>())];
+    let ((ac, more_ac), (bd, more_bd)) = (a.interleave(c), b.interleave(d));
+    for (k, (ac, bd)) in [(ac, bd), (more_ac, more_bd)].into_iter().enumerate() {
+        let (low, high) = ac.interleave(bd);
+        store::<S>(low, to, 2 * k * lanes::<S>());
+        store::<S>(high, to, (2 * k + 1) * lanes::<S>());
+    }
 }
 
 /// The vectors from `at` on, of one list a coordinate.

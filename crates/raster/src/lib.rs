@@ -51,6 +51,7 @@ mod clip;
 mod cover;
 mod encode;
 mod error;
+mod faces;
 mod lanes;
 mod lighting;
 mod pass;

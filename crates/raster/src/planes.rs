@@ -1,6 +1,8 @@
 //! Numbers that are linear over the picture, such as 1/w and a color over w, from their values at three corners.
 
-use crate::lanes::{Simd, each, f32x4, max_one, min_one};
+use crate::lanes::Simd;
+use crate::state::{Stage, State};
+use crate::triangle::LaneSlopes;
 use fearless_simd::prelude::*;
 
 /// Four numbers as functions of the tile's pixels (i, j): `base + dx·i + dy·j`.
@@ -24,64 +26,21 @@ pub(crate) struct Planes {
     pub(crate) range: [f32; 2],
 }
 
-/// The corners' places in a form that makes slopes.
+/// The corners' places in a form that makes slopes, in f64: for triangles that reach far beyond the tile.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Gradient<T> {
-    x: [T; 3],
-    y: [T; 3],
+pub(crate) struct Gradient {
+    x: [f64; 3],
+    y: [f64; 3],
     /// 1 over twice the area.
-    inverse: T,
+    inverse: f64,
 }
 
 /// A triangle flatter than this, in pixels, takes its slopes from the corners on the grid, so that it covers no pixel that
-/// lies far outside of what slopes were made from.
-const FLATTEST: f32 = 1.0 / 32.0;
+/// lies far outside of what slopes were made from; and so does one that the rounding to the grid has turned over.
+pub(crate) const FLATTEST: f32 = 1.0 / 32.0;
 
-impl Gradient<f32> {
-    /// From the corners in pixels from the tile's first.
-    #[inline(always)]
-    pub(crate) fn new(x: [f32; 3], y: [f32; 3]) -> Self {
-        let area = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
-        Self { x, y, inverse: 1.0 / area }
-    }
-
-    /// Whether the triangle is neither flat nor turned over by the rounding to the grid, where its area's sign is given.
-    /// If it is, slopes are made from the corners on the grid.
-    #[inline(always)]
-    pub(crate) fn is_sound(&self, positive: bool) -> bool {
-        let longest = max_one(extent(self.x), extent(self.y));
-        let inverse = if positive { self.inverse } else { -self.inverse };
-        inverse > 0.0 && inverse * (longest * FLATTEST) <= 1.0
-    }
-
-    /// The slopes of four numbers.
-    #[inline(always)]
-    pub(crate) fn slopes<S: Simd>(&self, simd: S, values: [&[f32; 4]; 3]) -> Slopes {
-        let v = each!(k in 3 => f32x4::from_slice(simd, values[k]));
-        let (d1, d2) = (v[1] - v[0], v[2] - v[0]);
-        let [x0, x1, x2] = self.x;
-        let [y0, y1, y2] = self.y;
-        let dx = (d1 * (y2 - y0) - d2 * (y1 - y0)) * self.inverse;
-        let dy = (d2 * (x1 - x0) - d1 * (x2 - x0)) * self.inverse;
-        let base = v[0] - dx * x0 - dy * y0;
-        Slopes { base: array(base), dx: array(dx), dy: array(dy) }
-    }
-}
-
-#[inline(always)]
-fn extent(v: [f32; 3]) -> f32 {
-    max_one(max_one(v[0], v[1]), v[2]) - min_one(min_one(v[0], v[1]), v[2])
-}
-
-#[inline(always)]
-fn array<S: Simd>(v: f32x4<S>) -> [f32; 4] {
-    let mut out = [0.0; 4];
-    v.store_slice(&mut out);
-    out
-}
-
-impl Gradient<f64> {
-    /// The same in f64, for triangles that reach far beyond the tile.
+impl Gradient {
+    /// From the corners in pixels from the tile's first, exactly and on the grid, and the sign of the area on the picture.
     pub(crate) fn new(x: [f64; 3], y: [f64; 3], on_grid: ([f64; 3], [f64; 3]), positive: bool) -> Self {
         let area = |x: [f64; 3], y: [f64; 3]| (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
         let extent =
@@ -113,8 +72,19 @@ impl Gradient<f64> {
 }
 
 impl Slopes {
-    /// The same everywhere.
-    pub(crate) fn constant(value: [f32; 3]) -> Self {
-        Self { base: [0.0, value[0], value[1], value[2]], ..Self::default() }
+    pub(crate) fn of_lane<S: Simd>(slopes: &LaneSlopes<S>) -> Self {
+        Self { base: slopes.base.to_array(), dx: slopes.dx.to_array(), dy: slopes.dy.to_array() }
+    }
+}
+
+impl Planes {
+    /// Takes over what a triangle has of its own: its color where the draw is flat, else its normal where it may be needed.
+    #[inline(always)]
+    pub(crate) fn set_face(&mut self, [_, x, y, z]: &[f32; 4], state: &State) {
+        if state.stage == Stage::Flat {
+            self.lead.base[1..].copy_from_slice(&[*x, *y, *z]);
+        } else if state.opposite_normals {
+            self.face = [*x, *y, *z];
+        }
     }
 }

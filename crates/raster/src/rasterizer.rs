@@ -148,11 +148,8 @@ impl<'a> Bands<'a> {
         match self {
             Self::Bytes(bands) => {
                 let Ok(mut band) = bands[row as usize].lock() else { return };
-                for (to, from) in band.chunks_exact_mut(4 * width).zip(worker.bytes.chunks_exact(TILE)) {
-                    let to = &mut to[4 * left..4 * (left + across)];
-                    for (to, from) in to.chunks_exact_mut(4).zip(from) {
-                        to.copy_from_slice(&from.to_le_bytes());
-                    }
+                for (to, from) in band.chunks_exact_mut(4 * width).zip(worker.bytes.chunks_exact(4 * TILE)) {
+                    to[4 * left..4 * (left + across)].copy_from_slice(&from[..4 * across]);
                 }
             }
             Self::Floats(bands) => {

@@ -2,10 +2,10 @@
 
 use crate::bins::TILE;
 use crate::cover::{CENTROID_SHIFT, CENTROIDS, Nearest, SHADER_BITS};
-use crate::encode::{cleared, kept};
+use crate::encode::{bytes, cleared, kept};
 use crate::lanes::{
-    F, Simd, V3, add, counting, dot, each, fma, lanes, load, load_i, load3, neg, safe_normalize, scale, select3, splat,
-    splat_i, splat3, store,
+    F, I, Simd, V3, add, counting, dot, each, fma, lanes, load, load_i, load3, neg, safe_normalize, scale, select3,
+    splat, splat_i, splat3, store,
 };
 use crate::lighting::{Points, added, reflected, to_viewer};
 use crate::pass::{Pass, SampleCount};
@@ -90,6 +90,21 @@ impl<S: Simd> Fragments<S> {
     }
 }
 
+/// A shader that gives all its pixels one color, and what that is encoded to.
+#[derive(Clone, Copy)]
+pub(crate) struct Even<S: Simd> {
+    shader: i32,
+    bytes: I<S>,
+}
+
+impl<S: Simd> Even<S> {
+    /// What is not drawn.
+    #[inline(always)]
+    pub(crate) fn clear(simd: S, pass: &Pass) -> Self {
+        Self { shader: 0, bytes: bytes(simd, cleared(simd, pass.clear, pass.pixels), pass.pixels) }
+    }
+}
+
 impl Nearest {
     /// Puts colors, as the target keeps them, in the place of the leading numbers.
     #[inline(always)]
@@ -97,26 +112,56 @@ impl Nearest {
         let clear = cleared(simd, look.pass.clear, look.pass.pixels);
         for at in (0..rows * TILE).step_by(lanes::<S>()) {
             match look.pass.samples {
-                SampleCount::One => self.shade_one(simd, look, at, clear),
+                SampleCount::One => {
+                    let color = self.shade_one(simd, look, at, clear);
+                    self.put(simd, (0, at), color, look);
+                }
                 SampleCount::Four => self.shade_four(simd, look, at, clear),
             }
         }
     }
 
+    /// The color of pixels with one sample each, which nothing is blended over.
     #[inline(always)]
-    fn shade_one<S: Simd>(&mut self, simd: S, look: &Look, at: usize, clear: V3<S>) {
-        let mut left = (!load_i(simd, &self.shader[0], at).simd_eq(splat_i(simd, 0))).to_bitmask();
+    pub(crate) fn shade_one<S: Simd>(&self, simd: S, look: &Look, at: usize, clear: V3<S>) -> V3<S> {
+        let shaders = load_i(simd, &self.shader[0], at);
+        let mut left = (!shaders.simd_eq(splat_i(simd, 0))).to_bitmask();
         let mut color = clear;
         while left != 0 {
             let shader = self.shader[0][at + left.trailing_zeros() as usize];
-            let same = load_i(simd, &self.shader[0], at).simd_eq(splat_i(simd, shader));
+            let same = shaders.simd_eq(splat_i(simd, shader));
             left &= !same.to_bitmask();
             let place = pixels(simd, at);
             // What is not drawn has no w; its lanes must not divide by 0.
             let inverse_w = same.select(load(simd, &self.depth[0], at), splat(simd, 1.0));
             color = select3::<S>(same, self.color(simd, look, shader, ((0, at), place, inverse_w)), color);
         }
-        self.put(simd, (0, at), color, look);
+        color
+    }
+
+    /// The same as bytes. `even` are shaders that have been met; what is all of one of them is not computed again.
+    #[inline(always)]
+    pub(crate) fn bytes_of_one<S: Simd>(
+        &self,
+        simd: S,
+        look: &Look,
+        at: usize,
+        clear: V3<S>,
+        even: &mut [Even<S>; 2],
+    ) -> I<S> {
+        let shaders = load_i(simd, &self.shader[0], at);
+        for Even { shader, bytes } in even.iter() {
+            if shaders.simd_eq(splat_i(simd, *shader)).all_true() {
+                return *bytes;
+            }
+        }
+        let bytes = bytes(simd, self.shade_one(simd, look, at, clear), look.pass.pixels);
+        let shader = self.shader[0][at];
+        let one = shader != 0 && state_of(look.states, shader).0.stage == Stage::Unlit;
+        if one && shaders.simd_eq(splat_i(simd, shader)).all_true() {
+            even[1] = Even { shader, bytes };
+        }
+        bytes
     }
 
     #[inline(always)]

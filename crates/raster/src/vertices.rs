@@ -1,7 +1,10 @@
 //! A piece's vertices: transformed, lit where the draw lights vertices, and put onto the picture's grid.
 
 use crate::bins::TILE;
-use crate::lanes::{I, Simd, V3, each, fma, lanes, load3, max, min, safe_normalize, splat, splat_i, store, store_i};
+use crate::lanes::{
+    F, I, Simd, V3, each, fma, lanes, load, load3, max, min, safe_normalize, splat, splat_i, store, store_fours,
+    store_i,
+};
 use crate::lighting::{Points, reflected, to_viewer};
 use crate::pass::{InstanceData, Pass};
 use crate::pieces::{Piece, Pieces};
@@ -64,8 +67,8 @@ pub(crate) struct Vertices {
     pub(crate) inverse_w: List,
     /// In steps of the grid.
     pub(crate) grid: [[i32; SLOTS]; 2],
-    /// From the tile's center, in steps of the grid: x in the lower 16 bits and y in the upper.
-    pub(crate) packed: [i32; SLOTS],
+    /// x and y from the tile's center, in 65,536ths of a step of the grid: rounded to whole steps they are `grid`.
+    pub(crate) places: [[i32; 2]; SLOTS],
     pub(crate) codes: [i32; SLOTS],
     /// All codes together.
     pub(crate) any_code: i32,
@@ -87,7 +90,7 @@ impl Vertices {
             screen: [[0.0; SLOTS]; 2],
             inverse_w: [0.0; SLOTS],
             grid: [[0; SLOTS]; 2],
-            packed: [0; SLOTS],
+            places: [[0; 2]; SLOTS],
             codes: [0; SLOTS],
             any_code: 0,
             raw: [[0.0; SLOTS]; 9],
@@ -97,7 +100,7 @@ impl Vertices {
         }
     }
 
-    /// Fills them for a tile.
+    /// Fills them for a tile; returns whether the piece may show in it.
     #[inline(always)]
     pub(crate) fn fill<S: Simd>(
         &mut self,
@@ -106,34 +109,75 @@ impl Vertices {
         instance: &InstanceData,
         (screen, tile): (&Screen, [u32; 2]),
         (pass, state): (&Pass, &State),
-    ) {
-        let mut any_code = splat_i(simd, 0);
+    ) -> bool {
         let center = tile.map(|place| (place as i32 * TILE as i32 + TILE as i32 / 2) * GRID);
-        for at in (0..piece.vertex_count as usize).step_by(lanes::<S>()) {
-            let from = piece.first_vertex as usize + at;
-            let p = load3(simd, &mesh.positions, from);
-            let p = transformed(simd, &instance.eye_from_model, p);
-            any_code |= self.project(simd, at, p, screen, center);
-            if matches!(state.stage, Stage::Vertex | Stage::Fragment | Stage::Mixed) {
-                let n = load3(simd, &mesh.normals, from);
+        if !self.place(simd, (mesh, piece), instance, screen, center) {
+            return false;
+        }
+        if matches!(state.stage, Stage::Vertex | Stage::Fragment | Stage::Mixed) {
+            for at in (0..piece.vertex_count as usize).step_by(lanes::<S>()) {
+                let n = load3(simd, &mesh.normals, piece.first_vertex as usize + at);
                 let n = safe_normalize(simd, turned(simd, &instance.normal, n));
-                self.shade(simd, at, p, n, pass, state);
+                self.shade(simd, at, load3(simd, &self.eye, at), n, pass, state);
+            }
+        }
+        self.gather(simd, piece.vertex_count as usize, state);
+        true
+    }
+
+    /// Puts a piece's vertices onto the picture; returns whether they may lie around pixels of the tile.
+    #[inline(always)]
+    fn place<S: Simd>(
+        &mut self,
+        simd: S,
+        (mesh, piece): (&Pieces, &Piece),
+        instance: &InstanceData,
+        screen: &Screen,
+        center: [i32; 2],
+    ) -> bool {
+        let mut any_code = splat_i(simd, 0);
+        let (mut low, mut high) = ([splat_i(simd, i32::MAX); 2], [splat_i(simd, i32::MIN); 2]);
+        for at in (0..piece.vertex_count as usize).step_by(lanes::<S>()) {
+            let p = load3(simd, &mesh.positions, piece.first_vertex as usize + at);
+            let p = transformed(simd, &instance.eye_from_model, p);
+            let (code, grid) = self.project(simd, at, p, screen, center);
+            any_code |= code;
+            for axis in 0..2 {
+                low[axis] = SimdBase::min(low[axis], grid[axis]);
+                high[axis] = SimdBase::max(high[axis], grid[axis]);
             }
         }
         self.any_code = any_code.as_slice().iter().fold(0, |all, code| all | code);
-        self.gather(piece.vertex_count as usize, state);
+        // What has to be clipped may lie anywhere.
+        if self.any_code & CLIPPED != 0 {
+            return true;
+        }
+        let mut meets = true;
+        for axis in 0..2 {
+            let [first, last] = each!(end in 2 => center[axis] + (end as i32 * TILE as i32 - TILE as i32 / 2) * GRID);
+            meets &= high[axis].simd_ge(splat_i(simd, first)).any_true();
+            meets &= low[axis].simd_le(splat_i(simd, last)).any_true();
+        }
+        meets
     }
 
-    /// Stores the place on the screen; returns the codes.
+    /// Stores the place on the screen; returns the codes and the place on the grid.
     #[inline(always)]
-    fn project<S: Simd>(&mut self, simd: S, at: usize, p: V3<S>, screen: &Screen, center: [i32; 2]) -> I<S> {
+    fn project<S: Simd>(
+        &mut self,
+        simd: S,
+        at: usize,
+        p: V3<S>,
+        screen: &Screen,
+        center: [i32; 2],
+    ) -> (I<S>, [I<S>; 2]) {
         let w = -p[2];
         let in_front = w.simd_ge(splat(simd, screen.near));
         let one = splat(simd, 1.0);
         let inverse_w = one / in_front.select(w, one);
         let zero = splat_i(simd, 0);
         let mut code = in_front.select(zero, splat_i(simd, TOO_NEAR));
-        let mut relative = [zero; 2];
+        let (mut relative, mut on_grid) = ([zero; 2], [zero; 2]);
         for axis in 0..2 {
             let x = fma::<S>(p[axis] * inverse_w, splat(simd, screen.scale[axis]), splat(simd, screen.center[axis]));
             let (low, high) = (splat(simd, SCREEN_LOW), splat(simd, SCREEN_HIGH));
@@ -141,20 +185,28 @@ impl Vertices {
             code |= x.simd_ge(low).select(zero, splat_i(simd, 2 << (2 * axis)));
             code |= x.simd_le(high).select(zero, splat_i(simd, 4 << (2 * axis)));
             let inside = min::<S>(max::<S>(x, low), high);
-            let grid: I<S> = (inside * splat(simd, GRID as f32)).round_ties_even().to_int();
-            relative[axis] = grid - splat_i(simd, center[axis]);
-            let far = relative[axis].simd_gt(splat_i(simd, 32_767)) | relative[axis].simd_lt(splat_i(simd, -32_768));
+            let steps = inside * splat(simd, GRID as f32);
+            let whole = steps.round_ties_even();
+            let grid: I<S> = whole.to_int();
+            // Less than half a step, so that rounding gives the whole steps again.
+            let part = min::<S>((steps - whole) * splat(simd, 65_536.0), splat(simd, 32_767.0));
+            let from_center = grid - splat_i(simd, center[axis]);
+            relative[axis] = (from_center << 16) + part.round_ties_even().to_int::<I<S>>();
+            let far = from_center.simd_gt(splat_i(simd, 32_766)) | from_center.simd_lt(splat_i(simd, -32_767));
             code |= far.select(splat_i(simd, FAR_AWAY), zero);
             store::<S>(inside, &mut self.screen[axis], at);
             store_i::<S>(grid, &mut self.grid[axis], at);
+            on_grid[axis] = grid;
         }
         for axis in 0..3 {
             store::<S>(p[axis], &mut self.eye[axis], at);
         }
         store::<S>(inverse_w, &mut self.inverse_w, at);
-        store_i::<S>((relative[0] & splat_i(simd, 0xffff)) | (relative[1] << 16), &mut self.packed, at);
+        let (low, high) = relative[0].interleave(relative[1]);
+        store_i::<S>(low, self.places.as_flattened_mut(), 2 * at);
+        store_i::<S>(high, self.places.as_flattened_mut(), 2 * at + lanes::<S>());
         store_i::<S>(code, &mut self.codes, at);
-        code
+        (code, on_grid)
     }
 
     #[inline(always)]
@@ -183,27 +235,32 @@ impl Vertices {
 
     /// Brings each vertex's numbers together.
     #[inline(always)]
-    fn gather(&mut self, count: usize, state: &State) {
+    fn gather<S: Simd>(&mut self, simd: S, count: usize, state: &State) {
         self.sides_lead = state.stage == Stage::Vertex;
-        let (raw, i) = (&self.raw, &self.inverse_w);
-        match state.stage {
-            Stage::Unlit | Stage::Flat => {
-                for (to, &i) in self.lead[0][..count].iter_mut().zip(i) {
-                    *to = [i, 0.0, 0.0, 0.0];
+        let Self { raw, inverse_w, lead: [lead, lead_of_backs], second: [second, second_of_backs], .. } = self;
+        for at in (0..count).step_by(lanes::<S>()) {
+            let i = load(simd, inverse_w, at);
+            let normal = each!(k in 3 => &raw[k]);
+            let front = each!(k in 3 => &raw[3 + k]);
+            let back = each!(k in 3 => &raw[6 + k]);
+            match state.stage {
+                Stage::Unlit | Stage::Flat => {
+                    let zero = splat(simd, 0.0);
+                    store_fours::<S>([i, zero, zero, zero], &mut **lead, at);
                 }
-            }
-            Stage::Fragment => over_w(&mut self.lead[0][..count], i, &raw[..3]),
-            Stage::Vertex => {
-                over_w(&mut self.lead[0][..count], i, &raw[3..6]);
-                if state.backs {
-                    over_w(&mut self.lead[1][..count], i, &raw[6..]);
+                Stage::Fragment => over_w(simd, i, normal, lead, at),
+                Stage::Vertex => {
+                    over_w(simd, i, front, lead, at);
+                    if state.backs {
+                        over_w(simd, i, back, lead_of_backs, at);
+                    }
                 }
-            }
-            Stage::Mixed => {
-                over_w(&mut self.lead[0][..count], i, &raw[..3]);
-                over_w(&mut self.second[0][..count], i, &raw[3..6]);
-                if state.backs {
-                    over_w(&mut self.second[1][..count], i, &raw[6..]);
+                Stage::Mixed => {
+                    over_w(simd, i, normal, lead, at);
+                    over_w(simd, i, front, second, at);
+                    if state.backs {
+                        over_w(simd, i, back, second_of_backs, at);
+                    }
                 }
             }
         }
@@ -211,12 +268,9 @@ impl Vertices {
 }
 
 #[inline(always)]
-fn over_w(to: &mut [[f32; 4]], inverse_w: &List, raw: &[List]) {
-    let [a, b, c] = raw else { return };
-    for (v, to) in to.iter_mut().enumerate() {
-        let i = inverse_w[v];
-        *to = [i, a[v] * i, b[v] * i, c[v] * i];
-    }
+fn over_w<S: Simd>(simd: S, inverse_w: F<S>, raw: [&List; 3], to: &mut Attributes, at: usize) {
+    let [a, b, c] = each!(k in 3 => load(simd, raw[k], at) * inverse_w);
+    store_fours::<S>([inverse_w, a, b, c], to, at);
 }
 
 /// Points through rows.

@@ -139,13 +139,13 @@ const HASHES: [u64; 10] = [
     0xc943_811b_9387_2d2d,
     0x07d0_5f52_2d48_715a,
     0x1225_8e91_e8b8_1f69,
-    0x2dfc_0686_9e3a_563d,
+    0x24b7_6c37_0b6c_1f94,
     0x78b8_ffb5_4a67_0c06,
     0x1c00_d1df_9a5b_7cf8,
     0x032b_3a5e_db3e_d1bf,
-    0x70dc_fd88_d261_d80c,
+    0xf8dc_2795_641c_69ef,
     0xee28_0cf3_c93a_3f5d,
-    0x4ae6_21af_038f_78d8,
+    0xc689_cc7a_930f_cf2f,
 ];
 
 #[test]
