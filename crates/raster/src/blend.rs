@@ -100,7 +100,7 @@ impl Nearest {
             second: if state.stage == Stage::Mixed { three(simd, &planes.second, x, y) } else { [splat(simd, 0.0); 3] },
             face: splat3(simd, planes.face),
         };
-        let color = kept(simd, fragments.color(simd, look, state, back), look.pass.pixels);
+        let color = kept(simd, fragments.color_apart(simd, look, state, back), look.pass.pixels);
         let opacity = splat(simd, state.side(look.pass, back).opacity);
         for sample in 0..look.pass.samples.count() {
             let at = j as usize * TILE + i as usize;

@@ -228,26 +228,31 @@ impl Nearest {
         }
     }
 
-    /// The same row by row, as many pixels at once as there are lanes.
+    /// The same for a triangle of any size: in strips as wide as there are lanes, row by row.
     #[inline(always)]
-    pub(crate) fn cover_rows<S: Simd>(&mut self, simd: S, edges: &Edges, planes: &Planes, shader: i32, kept: Kept) {
+    pub(crate) fn cover_strips<S: Simd>(&mut self, simd: S, edges: &Edges, planes: &Planes, shader: i32, kept: Kept) {
         let [left, right, top, bottom] = edges.bounds;
         let count = lanes::<S>() as i32;
         let shader = splat_i(simd, shader);
-        let first = left.min(TILE as i32 - count);
-        let steps = counting_i(simd);
-        let mut row_edges: [I<S>; 3] = each!(k in 3 => {
-            let at = edges.at[k][0] + edges.across[k] * first + edges.down[k] * top;
-            steps * splat_i(simd, edges.across[k]) + splat_i(simd, at)
-        });
-        for j in top..=bottom {
-            let (mut i, mut e) = (first, row_edges);
-            loop {
-                let covered = (e[0] | e[1] | e[2]).simd_ge(splat_i(simd, 0));
+        let lead = &planes.lead;
+        let [base, dx, dy] = [splat(simd, lead.base[0]), splat(simd, lead.dx[0]), splat(simd, lead.dy[0])];
+        let zero = splat_i(simd, 0);
+        let mut next = left;
+        while next <= right {
+            // The last strip may begin earlier, so that it ends with the tile.
+            let i = next.min(TILE as i32 - count);
+            next = i + count;
+            let mut e: [I<S>; 3] = each!(k in 3 => {
+                let at = edges.at[k][0] + edges.across[k] * i + edges.down[k] * top;
+                counting_i(simd) * splat_i(simd, edges.across[k]) + splat_i(simd, at)
+            });
+            let x = counting(simd) + splat(simd, i as f32);
+            let mut y = splat(simd, top as f32);
+            for j in top..=bottom {
+                let covered = (e[0] | e[1] | e[2]).simd_ge(zero);
                 if covered.any_true() {
                     let at = (j as usize * TILE + i as usize) & (PIXELS - 1);
-                    let [x, y] = [counting(simd) + splat(simd, i as f32), splat(simd, j as f32)];
-                    let depth = clamped(simd, plane(simd, &planes.lead, 0, x, y), planes);
+                    let depth = clamped(simd, fma::<S>(dx, x, fma::<S>(dy, y, base)), planes);
                     let before = load(simd, &self.depth[0], at);
                     let nearer = covered & depth.simd_gt(before);
                     if nearer.any_true() {
@@ -256,18 +261,10 @@ impl Nearest {
                         self.keep(simd, planes, at, [x, y], nearer, kept);
                     }
                 }
-                i += count;
-                if i > right {
-                    break;
-                }
-                // The last vector of a row may begin earlier, so that it ends with the tile.
-                i = i.min(TILE as i32 - count);
+                y += splat(simd, 1.0);
                 for k in 0..3 {
-                    e[k] = row_edges[k] + splat_i(simd, edges.across[k] * (i - first));
+                    e[k] += splat_i(simd, edges.down[k]);
                 }
-            }
-            for k in 0..3 {
-                row_edges[k] += splat_i(simd, edges.down[k]);
             }
         }
     }

@@ -55,7 +55,7 @@ impl Faces {
                 break;
             }
             let n = if back { neg::<S>(n) } else { n };
-            let points = Points { p, n, v: to_viewer(simd, p, n, pass.local_viewer) };
+            let points = Points::new(simd, p, n, to_viewer(simd, p, n, pass.local_viewer));
             let terms = state.vertex_terms(simd, pass, &points, back);
             self.store(simd, usize::from(back), reflected(simd, &terms, state.side(pass, back)));
         }

@@ -2,13 +2,12 @@
 //! their names. Eye space, linear RGB. The test beside it holds it to the equations in f64.
 
 use crate::lanes::{
-    F, SMALLEST_SQUARE, Simd, V3, add, add_scaled, dot, fma, max, min, neg, saturate, scale, select3, splat, splat3,
-    sub,
+    F, I, Simd, V3, add, add_scaled, dot, fma, max, min, neg, saturate, scale, select3, splat, splat_i, splat3, sub,
 };
 use crate::pass::{Highlight, LightData, LightRange, ShadedTerms, SideData};
 use crate::power::{Exponent, power};
 use fearless_simd::prelude::*;
-use halfway_lighting::equations::{ATTENUATION_MAX, HALFWAY_MIN};
+use halfway_lighting::equations::{ATTENUATION_MAX, COINCIDENT, HALFWAY_MIN};
 
 /// Points of a surface, on the side that is seen.
 #[derive(Clone, Copy)]
@@ -18,6 +17,17 @@ pub(crate) struct Points<S: Simd> {
     pub(crate) n: V3<S>,
     /// Toward the viewer, unit length.
     pub(crate) v: V3<S>,
+    /// The square of a distance up to which it is to be looked at more closely.
+    coincident: F<S>,
+}
+
+impl<S: Simd> Points<S> {
+    #[inline(always)]
+    pub(crate) fn new(simd: S, p: V3<S>, n: V3<S>, v: V3<S>) -> Self {
+        // A little more than what counts as the point itself.
+        let share = splat(simd, 1.01 * COINCIDENT * COINCIDENT);
+        Self { p, n, v, coincident: max::<S>(dot::<S>(p, p) * share, splat(simd, LEAST_SQUARE)) }
+    }
 }
 
 /// What reaches points, before the material: sums over lights of color·att·spot·factor.
@@ -44,11 +54,11 @@ impl<S: Simd> Irradiance<S> {
     }
 }
 
-/// `1 / max(a + b·d + c·d², 10⁻⁶)`.
+/// `max(a + b·d + c·d², 10⁻⁶)`, what attenuation is 1 over; at most 10³⁰, that it may be multiplied.
 #[inline(always)]
-pub(crate) fn attenuation<S: Simd>(simd: S, [a, b, c]: [f32; 3], d: F<S>) -> F<S> {
+pub(crate) fn attenuation_divisor<S: Simd>(simd: S, [a, b, c]: [f32; 3], d: F<S>) -> F<S> {
     let divisor = fma::<S>(fma::<S>(splat(simd, c), d, splat(simd, b)), d, splat(simd, a));
-    splat(simd, 1.0) / max::<S>(divisor, splat(simd, 1.0 / ATTENUATION_MAX))
+    min::<S>(max::<S>(divisor, splat(simd, 1.0 / ATTENUATION_MAX)), splat(simd, 1e30))
 }
 
 /// `clamp(1 − (d/R)⁴, 0, 1)²`.
@@ -89,26 +99,34 @@ pub(crate) fn specular_blinn_phong<S: Simd>(simd: S, n: V3<S>, l: V3<S>, v: V3<S
     squared.simd_gt(splat(simd, SMALLEST)).select(s, splat(simd, 0.0))
 }
 
-/// Adds one light that arrives from l with the strength `arriving`, att·spot.
+/// A light as it arrives at points.
+#[derive(Clone, Copy)]
+struct Incidence<S: Simd> {
+    l: V3<S>,
+    n_dot_l: F<S>,
+    /// att·spot.
+    weight: F<S>,
+}
+
+/// Adds what arrives of a light.
 #[inline(always)]
-pub(crate) fn add_light<S: Simd>(
+fn add_light<S: Simd>(
     simd: S,
     sum: &mut Irradiance<S>,
     light: &LightData,
-    l: V3<S>,
-    arriving: F<S>,
+    incident: &Incidence<S>,
     points: &Points<S>,
     gloss: Gloss,
     terms: ShadedTerms,
 ) {
     let Points { n, v, .. } = *points;
+    let Incidence { l, n_dot_l, weight } = *incident;
     let zero = splat(simd, 0.0);
-    let n_dot_l = dot::<S>(n, l);
     if terms.diffuse {
-        let factor = arriving * max::<S>(n_dot_l, zero);
+        let factor = weight * max::<S>(n_dot_l, zero);
         sum.diffuse = add_scaled::<S>(sum.diffuse, splat3(simd, light.diffuse), factor);
-        if light.ambient.iter().any(|&la| la > 0.0) {
-            sum.ambient = add_scaled::<S>(sum.ambient, splat3(simd, light.ambient), arriving);
+        if has_ambient(light) {
+            sum.ambient = add_scaled::<S>(sum.ambient, splat3(simd, light.ambient), weight);
         }
     }
     if terms.specular {
@@ -116,29 +134,93 @@ pub(crate) fn add_light<S: Simd>(
             Highlight::Phong => specular_phong(simd, n, l, v, gloss.exponent),
             Highlight::BlinnPhong => specular_blinn_phong(simd, n, l, v, gloss.exponent),
         };
-        let factor = n_dot_l.simd_gt(zero).select(arriving * s, zero);
+        let factor = n_dot_l.simd_gt(zero).select(weight * s, zero);
         sum.specular = add_scaled::<S>(sum.specular, splat3(simd, light.specular), factor);
     }
 }
 
-/// l and att·spot of a point light, or of a spot where `cone` is set.
 #[inline(always)]
-pub(crate) fn finite_light<S: Simd>(simd: S, light: &LightData, cone: bool, points: &Points<S>) -> (V3<S>, F<S>) {
-    let to_light = sub::<S>(splat3(simd, light.position), points.p);
-    let squared = dot::<S>(to_light, to_light);
-    let at_surface = squared.simd_lt(splat(simd, SMALLEST_SQUARE));
-    let d = max::<S>(squared, splat(simd, SMALLEST_SQUARE)).sqrt();
-    let inverse = splat(simd, 1.0) / d;
-    // A light on the surface has no direction: l falls back to n.
-    let l = select3::<S>(at_surface, points.n, scale::<S>(to_light, inverse));
-    let mut arriving = attenuation(simd, light.attenuation, d);
+fn has_ambient(light: &LightData) -> bool {
+    light.ambient[0] + light.ambient[1] + light.ambient[2] > 0.0
+}
+
+/// Whether none of the points takes anything from a light that is so far to their fronts.
+#[inline(always)]
+fn is_behind_all<S: Simd>(simd: S, n_dot_l: F<S>, light: &LightData, terms: ShadedTerms) -> bool {
+    !(terms.diffuse && has_ambient(light)) && n_dot_l.simd_gt(splat(simd, 0.0)).all_false()
+}
+
+/// A point light, or a spot where `cone` is set; `None` where it is behind all points.
+#[inline(always)]
+fn finite_light<S: Simd>(
+    simd: S,
+    light: &LightData,
+    cone: bool,
+    points: &Points<S>,
+    terms: ShadedTerms,
+) -> Option<Incidence<S>> {
+    let mut to_light = sub::<S>(splat3(simd, light.position), points.p);
+    let mut squared = dot::<S>(to_light, to_light);
+    let ordinary = squared.simd_gt(points.coincident) & squared.simd_lt(splat(simd, LARGEST_SQUARE));
+    let mut stretch = None;
+    if ordinary.any_false() {
+        let (away, unit) = extraordinary(simd, light.position, points);
+        (to_light, squared, stretch) = (away, dot::<S>(away, away), Some(unit));
+    }
+    let n_dot_to_light = dot::<S>(points.n, to_light);
+    if is_behind_all(simd, n_dot_to_light, light, terms) {
+        return None;
+    }
+    let length = squared.sqrt();
+    let d = stretch.map_or(length, |unit| min::<S>(length * unit, splat(simd, f32::MAX)));
+    let divisor = attenuation_divisor(simd, light.attenuation, d);
+    // One division for both; where the product is infinite nothing arrives.
+    let both = splat(simd, 1.0) / (length * divisor);
+    let inverse = divisor * both;
+    let l = scale::<S>(to_light, inverse);
+    let mut weight = length * both;
     if light.inverse_range > 0.0 {
-        arriving *= range_window(simd, d, light.inverse_range);
+        weight *= range_window(simd, d, light.inverse_range);
     }
     if cone {
-        arriving *= spot_factor(simd, l, light);
+        weight *= spot_factor(simd, l, light);
     }
-    (l, arriving)
+    Some(Incidence { l, n_dot_l: n_dot_to_light * inverse, weight })
+}
+
+/// Squares of distances from here on are not computed as they are, nor those below the least.
+const LARGEST_SQUARE: f32 = (1_u128 << 120) as f32;
+const LEAST_SQUARE: f32 = 1.0 / (1_u64 << 60) as f32;
+
+/// What squares cannot tell: the way to a light that is far off, very near, or at the point itself, where it is n; and
+/// what its length is to be multiplied by. Ordinary distances come out as elsewhere, since powers of two round nothing.
+#[cold]
+fn extraordinary<S: Simd>(simd: S, position: [f32; 3], points: &Points<S>) -> (V3<S>, F<S>) {
+    simd.vectorize(
+        #[inline(always)]
+        || {
+            let half = splat(simd, 0.5);
+            // Half of it, since the whole may be infinite.
+            let (to_light, unit) =
+                brought_near(simd, sub::<S>(scale::<S>(splat3(simd, position), half), scale::<S>(points.p, half)));
+            let (p, unit_of_p) = brought_near(simd, points.p);
+            let d = dot::<S>(to_light, to_light).sqrt() * unit;
+            let at_point = d.simd_le(dot::<S>(p, p).sqrt() * splat(simd, 0.5 * COINCIDENT) * unit_of_p);
+            let stretch = at_point.select(splat(simd, 0.0), min::<S>(unit * splat(simd, 2.0), splat(simd, f32::MAX)));
+            (select3::<S>(at_point, points.n, to_light), stretch)
+        },
+    )
+}
+
+/// A vector over a power of two, so that its largest coordinate is from 1 to 4 (or small, of the smallest); and that
+/// power.
+#[inline(always)]
+fn brought_near<S: Simd>(simd: S, a: V3<S>) -> (V3<S>, F<S>) {
+    let largest = max::<S>(max::<S>(a[0].abs(), a[1].abs()), a[2].abs());
+    let bits: I<S> = largest.bitcast();
+    let exponent = SimdBase::min(SimdBase::max(bits >> 23, splat_i(simd, 1)), splat_i(simd, 253));
+    let over: F<S> = ((splat_i(simd, 254) - exponent) << 23).bitcast();
+    (scale::<S>(a, over), (exponent << 23).bitcast())
 }
 
 /// v: toward the eye, or (0, 0, 1) for an infinite viewer. An eye on the surface looks along n.
@@ -147,13 +229,37 @@ pub(crate) fn to_viewer<S: Simd>(simd: S, p: V3<S>, n: V3<S>, local_viewer: bool
     if !local_viewer {
         return splat3(simd, [0.0, 0.0, 1.0]);
     }
-    let squared = dot::<S>(p, p);
-    let inverse = splat(simd, 1.0) / max::<S>(squared, splat(simd, SMALLEST_SQUARE)).sqrt();
-    select3::<S>(squared.simd_lt(splat(simd, SMALLEST_SQUARE)), n, neg::<S>(scale::<S>(p, inverse)))
+    let (mut p, mut squared) = (p, dot::<S>(p, p));
+    let ordinary = squared.simd_gt(splat(simd, LEAST_SQUARE)) & squared.simd_lt(splat(simd, LARGEST_SQUARE));
+    if ordinary.any_false() {
+        (p, _) = brought_near(simd, p);
+        let at_eye = dot::<S>(p, p).simd_eq(splat(simd, 0.0));
+        p = select3::<S>(at_eye, neg::<S>(n), p);
+        squared = dot::<S>(p, p);
+    }
+    scale::<S>(p, splat(simd, -1.0) / squared.sqrt())
 }
 
-/// What two ranges of lights bring to points, the second without highlights. A function of its own in each width: it is
-/// most of the code.
+/// What two ranges of lights bring to points, the second without highlights. It is most of the code; see [`gathered`].
+#[inline(always)]
+pub(crate) fn gathered_here<S: Simd>(
+    simd: S,
+    lights: (&[LightData], &[u32]),
+    ranges: [LightRange; 2],
+    points: &Points<S>,
+    gloss: Gloss,
+    terms: ShadedTerms,
+) -> Irradiance<S> {
+    let mut sum = Irradiance::none(simd);
+    let mut terms = terms;
+    for range in ranges {
+        add_listed(simd, &mut sum, lights, range, points, gloss, terms);
+        terms.specular = false;
+    }
+    sum
+}
+
+/// The same, as a function of its own in each width.
 pub(crate) fn gathered<S: Simd>(
     simd: S,
     lights: (&[LightData], &[u32]),
@@ -164,15 +270,7 @@ pub(crate) fn gathered<S: Simd>(
 ) -> Irradiance<S> {
     simd.vectorize(
         #[inline(always)]
-        || {
-            let mut sum = Irradiance::none(simd);
-            let mut terms = terms;
-            for range in ranges {
-                add_listed(simd, &mut sum, lights, range, points, gloss, terms);
-                terms.specular = false;
-            }
-            sum
-        },
+        || gathered_here(simd, lights, ranges, points, gloss, terms),
     )
 }
 
@@ -192,14 +290,21 @@ fn add_listed<S: Simd>(
     }
     let [directional, finite, spots] = range.counts.map(|count| count as usize);
     let numbers = &lists[range.start as usize..][..directional + finite + spots];
-    for (place, &number) in numbers.iter().enumerate() {
+    let (far, near) = numbers.split_at(directional);
+    for &number in far {
         let light = &lights[number as usize];
-        let (l, arriving) = if place < directional {
-            (splat3(simd, light.position), splat(simd, 1.0))
-        } else {
-            finite_light(simd, light, place >= directional + finite, points)
-        };
-        add_light(simd, sum, light, l, arriving, points, gloss, terms);
+        let l = splat3(simd, light.position);
+        let n_dot_l = dot::<S>(points.n, l);
+        if !is_behind_all(simd, n_dot_l, light, terms) {
+            let incident = Incidence { l, n_dot_l, weight: splat(simd, 1.0) };
+            add_light(simd, sum, light, &incident, points, gloss, terms);
+        }
+    }
+    for (place, &number) in near.iter().enumerate() {
+        let light = &lights[number as usize];
+        if let Some(incident) = finite_light(simd, light, place >= finite, points, terms) {
+            add_light(simd, sum, light, &incident, points, gloss, terms);
+        }
     }
 }
 

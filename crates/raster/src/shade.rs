@@ -36,16 +36,17 @@ pub(crate) struct Fragments<S: Simd> {
 }
 
 impl<S: Simd> Fragments<S> {
-    /// Their colors, all of one state and side.
-    pub(crate) fn color(&self, simd: S, look: &Look, state: &State, back: bool) -> V3<S> {
+    /// Their colors, all of one state and side, by a function of its own in each width.
+    pub(crate) fn color_apart(&self, simd: S, look: &Look, state: &State, back: bool) -> V3<S> {
         simd.vectorize(
             #[inline(always)]
-            || self.shaded(simd, look, state, back),
+            || self.color(simd, look, state, back),
         )
     }
 
+    /// Their colors; most of the code of drawing, and fastest where it is inlined.
     #[inline(always)]
-    fn shaded(&self, simd: S, look: &Look, state: &State, back: bool) -> V3<S> {
+    pub(crate) fn color(&self, simd: S, look: &Look, state: &State, back: bool) -> V3<S> {
         let side = state.side(look.pass, back);
         match state.stage {
             Stage::Unlit => splat3(simd, side.base),
@@ -74,7 +75,7 @@ impl<S: Simd> Fragments<S> {
         let p = [way[0] * w, way[1] * w, -w];
         // The way through the pixel, not p: it has a direction however far p is.
         let v = to_viewer(simd, [way[0], way[1], splat(simd, -1.0)], n, look.pass.local_viewer);
-        Points { p, n, v }
+        Points::new(simd, p, n, v)
     }
 
     /// The interpolated normal on the side that is seen. Where it vanishes the triangle's own takes its place.
@@ -113,7 +114,7 @@ impl Nearest {
         for at in (0..rows * TILE).step_by(lanes::<S>()) {
             match look.pass.samples {
                 SampleCount::One => {
-                    let color = self.shade_one(simd, look, at, clear);
+                    let color = self.shade_one_apart(simd, look, at, clear);
                     self.put(simd, (0, at), color, look);
                 }
                 SampleCount::Four => self.shade_four(simd, look, at, clear),
@@ -121,9 +122,16 @@ impl Nearest {
         }
     }
 
-    /// The color of pixels with one sample each, which nothing is blended over.
+    pub(crate) fn shade_one_apart<S: Simd>(&self, simd: S, look: &Look, at: usize, clear: V3<S>) -> V3<S> {
+        simd.vectorize(
+            #[inline(always)]
+            || self.shade_one(simd, look, at, clear),
+        )
+    }
+
+    /// The color of pixels with one sample each.
     #[inline(always)]
-    pub(crate) fn shade_one<S: Simd>(&self, simd: S, look: &Look, at: usize, clear: V3<S>) -> V3<S> {
+    fn shade_one<S: Simd>(&self, simd: S, look: &Look, at: usize, clear: V3<S>) -> V3<S> {
         let shaders = load_i(simd, &self.shader[0], at);
         let mut left = (!shaders.simd_eq(splat_i(simd, 0))).to_bitmask();
         let mut color = clear;
@@ -134,7 +142,9 @@ impl Nearest {
             let place = pixels(simd, at);
             // What is not drawn has no w; its lanes must not divide by 0.
             let inverse_w = same.select(load(simd, &self.depth[0], at), splat(simd, 1.0));
-            color = select3::<S>(same, self.color(simd, look, shader, ((0, at), place, inverse_w)), color);
+            let (state, back) = state_of(look.states, shader);
+            let fragments = self.fragments(simd, state, (0, at), place, inverse_w);
+            color = select3::<S>(same, fragments.color(simd, look, state, back), color);
         }
         color
     }
@@ -192,30 +202,31 @@ impl Nearest {
                     }
                 }
                 let inverse_w = fresh.select(load(simd, &self.inverse_w[sample], at), splat(simd, 1.0));
-                color = select3::<S>(fresh, self.color(simd, look, shader, ((sample, at), place, inverse_w)), color);
+                let (state, back) = state_of(look.states, shader);
+                let fragments = self.fragments(simd, state, (sample, at), place, inverse_w);
+                color = select3::<S>(fresh, fragments.color_apart(simd, look, state, back), color);
             }
             self.put(simd, (sample, at), color, look);
         }
     }
 
     #[inline(always)]
-    fn color<S: Simd>(
+    fn fragments<S: Simd>(
         &self,
         simd: S,
-        look: &Look,
-        shader: i32,
-        ((sample, at), place, inverse_w): ((usize, usize), [F<S>; 2], F<S>),
-    ) -> V3<S> {
-        let (state, back) = state_of(look.states, shader);
+        state: &State,
+        (sample, at): (usize, usize),
+        place: [F<S>; 2],
+        inverse_w: F<S>,
+    ) -> Fragments<S> {
         let zero = [splat(simd, 0.0); 3];
-        let fragments = Fragments {
+        Fragments {
             place,
             inverse_w,
             lead: load3(simd, &self.lead[sample], at),
             second: if state.stage == Stage::Mixed { load3(simd, &self.second[sample], at) } else { zero },
             face: if state.opposite_normals { load3(simd, &self.face[sample], at) } else { zero },
-        };
-        fragments.color(simd, look, state, back)
+        }
     }
 
     #[inline(always)]

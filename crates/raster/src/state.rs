@@ -1,7 +1,7 @@
 //! What shading takes from draws and surfaces, looked up by the number that a pixel keeps.
 
 use crate::lanes::Simd;
-use crate::lighting::{Gloss, Irradiance, Points, gathered};
+use crate::lighting::{Gloss, Irradiance, Points, gathered, gathered_here};
 use crate::pass::{DrawCall, Highlight, LeftOut, Pass, ShadedTerms, SideData, SurfaceData};
 use crate::power::Exponent;
 
@@ -91,7 +91,7 @@ impl State {
     ) -> Irradiance<S> {
         let surface = &pass.surfaces[self.surface as usize];
         let ranges = [surface.fragment, surface.fragment_diffuse];
-        gathered(simd, (pass.lights, pass.lists), ranges, points, self.gloss(back), self.fragment)
+        gathered_here(simd, (pass.lights, pass.lists), ranges, points, self.gloss(back), self.fragment)
     }
 
     /// The material of a side.

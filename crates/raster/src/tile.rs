@@ -234,7 +234,7 @@ impl Worker {
         let mut even = [Even::clear(simd, pass); 2];
         for at in (0..(last_row as usize + 1) * TILE).step_by(lanes::<S>()) {
             if pass.pixels == PixelFormat::Floats {
-                let color = kept(simd, self.nearest.shade_one(simd, look, at, clear), pass.pixels);
+                let color = kept(simd, self.nearest.shade_one_apart(simd, look, at, clear), pass.pixels);
                 put(simd, &mut self.bytes, &mut self.floats, at, color, pass.pixels);
             } else {
                 put_bytes::<S>(self.nearest.bytes_of_one(simd, look, at, clear, &mut even), &mut self.bytes, at);
@@ -288,7 +288,7 @@ fn draw<S: Simd>(simd: S, nearest: &mut Nearest, edges: &Edges, planes: &Planes,
     let (shader, kept) = (shader_of(work.job.state, back), Kept::of(work.state));
     match look.pass.samples {
         _ if work.blend => nearest.blend(simd, edges, planes, shader, look),
-        SampleCount::One => nearest.cover_rows(simd, edges, planes, shader, kept),
+        SampleCount::One => nearest.cover_strips(simd, edges, planes, shader, kept),
         SampleCount::Four => nearest.cover_four(simd, edges, planes, shader, kept),
     }
 }

@@ -224,7 +224,7 @@ impl Vertices {
                 break;
             }
             let n = if back { crate::lanes::neg::<S>(n) } else { n };
-            let points = Points { p, n, v: to_viewer(simd, p, n, pass.local_viewer) };
+            let points = Points::new(simd, p, n, to_viewer(simd, p, n, pass.local_viewer));
             let terms = state.vertex_terms(simd, pass, &points, back);
             let color = reflected(simd, &terms, state.side(pass, back));
             for c in 0..3 {

@@ -133,7 +133,7 @@ fn expected(case: &Case) -> [f64; 3] {
 /// What the twin makes of a case, in every lane.
 fn shaded<S: Simd>(simd: S, case: &Case) -> [[f32; MOST_LANES]; 3] {
     let (p, n) = (splat3(simd, case.p), splat3(simd, case.n));
-    let points = Points { p, n, v: to_viewer(simd, p, n, case.local_viewer) };
+    let points = Points::new(simd, p, n, to_viewer(simd, p, n, case.local_viewer));
     let exponent = Exponent::new(case.exponent);
     let exponent = if case.highlight == Highlight::BlinnPhong { exponent.halved() } else { exponent };
     let gloss = Gloss { highlight: case.highlight, exponent };

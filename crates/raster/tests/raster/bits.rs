@@ -142,10 +142,10 @@ const HASHES: [u64; 10] = [
     0x24b7_6c37_0b6c_1f94,
     0x78b8_ffb5_4a67_0c06,
     0x1c00_d1df_9a5b_7cf8,
-    0x032b_3a5e_db3e_d1bf,
-    0xf8dc_2795_641c_69ef,
-    0xee28_0cf3_c93a_3f5d,
-    0xc689_cc7a_930f_cf2f,
+    0xff48_1d21_deb8_0ee6,
+    0x36f9_073c_35ef_96b5,
+    0x74f3_f8fb_9b59_2d5c,
+    0x841e_22fb_3a42_b195,
 ];
 
 #[test]
