@@ -1,14 +1,17 @@
-//! How long scenes S1 and S4 take, by shading, width and threads, in milliseconds a frame: with one thread the mean of
-//! what it was running (on Linux; so a busy machine disturbs less), with two the shortest.
+//! How long scenes S1, S2 and S4, and a model, take by shading, width and threads, in milliseconds a frame: with one
+//! thread the mean of what it was running (on Linux; so a busy machine disturbs less), with two the shortest.
 //!
 //! `cargo run --release -p halfway_raster --example time [FRAMES [FOLDER]]`; pictures go into the folder, unless it is `-`.
 //! Only what has the words of `ONLY` in its line is timed, such as `ONLY="S1 avx2 1"`, and of the shadings those that it
-//! names, if any, as in `ONLY="S1 avx2 1 Phong"`.
+//! names, if any, as in `ONLY="S1 avx2 1 Phong"`. `MODEL` is the path of a model that is drawn, too, large and small.
 
 mod common;
 
-use common::{Shading, sphere};
-use halfway_raster::{Output, RasterOptions, Rasterizer, SampleCount, VectorWidth};
+use common::{Scene, Shading, draw, lens, pieces, sphere};
+use halfway_mesh::{Mesh, UvSphere};
+use halfway_raster::{
+    InstanceData, Output, RasterError, RasterOptions, Rasterizer, SampleCount, TriangleOrder, VectorWidth,
+};
 use std::error::Error;
 use std::time::Instant;
 
@@ -25,9 +28,23 @@ fn main() -> Result<(), Box<dyn Error>> {
         shadings.extend(Shading::ALL);
     }
     println!("{:12}{:>8}{:>8} {shadings:?}", "scene", "width", "threads");
-    for (small, samples, name) in
-        [(false, SampleCount::One, "S1"), (false, SampleCount::Four, "S1x4"), (true, SampleCount::One, "S4")]
-    {
+    let model = std::env::var_os("MODEL").map(|path| halfway_mesh::load(path.as_ref())).transpose()?;
+    for name in ["S1", "S1x4", "S2", "S4", "model", "small_model"] {
+        if name.ends_with("model") && model.is_none() {
+            continue;
+        }
+        let scene_of = |shading| {
+            let mut scene = match (name, &model) {
+                ("S2", _) => spheres(shading)?,
+                ("model", Some(model)) => turntable(&model.parts[0].mesh, [1280, 720], shading)?,
+                ("small_model", Some(model)) => turntable(&model.parts[0].mesh, [320, 180], shading)?,
+                _ => sphere(name == "S4", shading)?,
+            };
+            if name == "S1x4" {
+                scene.samples = SampleCount::Four;
+            }
+            Ok::<_, RasterError>(scene)
+        };
         for width in VectorWidth::available() {
             for threads in [1, 2] {
                 let mut rasterizer = Rasterizer::new(RasterOptions { width: Some(width), threads: Some(threads) })?;
@@ -37,8 +54,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                 }
                 print!("{line}");
                 for &shading in &shadings {
-                    let mut scene = sphere(small, shading)?;
-                    scene.samples = samples;
+                    let scene = scene_of(shading)?;
                     let mut bytes = vec![0; 4 * scene.size[0] as usize * scene.size[1] as usize];
                     let mut shortest = f64::INFINITY;
                     let first = running();
@@ -58,6 +74,55 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
     }
     Ok(())
+}
+
+/// 10,000 spheres of 224 triangles under one light, seen from afar.
+fn spheres(shading: Shading) -> Result<Scene, RasterError> {
+    let mut scene = sphere(true, shading)?;
+    scene.size = [1280, 720];
+    scene.lens = lens(scene.size, 45.0);
+    let mesh = pieces(&UvSphere { radius: 1.0, segments: 16, rings: 8 }.into(), TriangleOrder::Clustered)?;
+    // The eye at (0, 60, 160) looks at the origin.
+    let length = 60.0_f32.hypot(160.0);
+    let (sin, cos) = (60.0 / length, 160.0 / length);
+    scene.instances.clear();
+    for i in 0..10_000_u16 {
+        let (x, z) = ((f32::from(i % 100) - 49.5) * 2.5, (f32::from(i / 100) - 49.5) * 2.5);
+        let (turn_sin, turn_cos) = (0.01 * f32::from(i % 97)).sin_cos();
+        let rows = [
+            [turn_cos, 0.0, turn_sin, x],
+            [sin * turn_sin, cos, -sin * turn_cos, -sin * z],
+            [-cos * turn_sin, sin, cos * turn_cos, cos * z - length],
+        ];
+        let column = |c: usize| [rows[0][c], rows[1][c], rows[2][c]];
+        let normal = [column(0), column(1), column(2)];
+        scene.instances.push(InstanceData { eye_from_model: rows, normal, surface: u32::from(i % 10) });
+    }
+    scene.surfaces = vec![scene.surfaces[0]; 10];
+    scene.draws = vec![draw(&mesh, 10_000, shading)];
+    scene.meshes = vec![mesh];
+    Ok(scene)
+}
+
+/// A model under the lights of S1, as large as the picture.
+fn turntable(mesh: &Mesh, size: [u32; 2], shading: Shading) -> Result<Scene, RasterError> {
+    let mut scene = sphere(false, shading)?;
+    (scene.size, scene.lens) = (size, lens(size, 45.0));
+    let bounds = mesh.bounds();
+    let center = bounds.center().to_array();
+    let scale = 1.2 / bounds.radius();
+    let row = |axis: usize| {
+        let mut row = [0.0; 4];
+        (row[axis], row[3]) = (scale, -scale * center[axis]);
+        row
+    };
+    let mut rows = [row(0), row(1), row(2)];
+    rows[2][3] -= 3.3;
+    scene.instances = vec![InstanceData { eye_from_model: rows, ..scene.instances[0] }];
+    let mesh = pieces(mesh, TriangleOrder::Clustered)?;
+    scene.draws = vec![draw(&mesh, 1, shading)];
+    scene.meshes = vec![mesh];
+    Ok(scene)
 }
 
 /// For how many seconds this thread has been running.

@@ -91,6 +91,17 @@ pub(crate) fn store_fours<S: Simd>([a, b, c, d]: [F<S>; 4], to: &mut [[f32; 4]],
     }
 }
 
+#[inline(always)]
+pub(crate) fn store_fours_i<S: Simd>([a, b, c, d]: [I<S>; 4], to: &mut [[i32; 4]], at: usize) {
+    let to = &mut to.as_flattened_mut()[4 * at..4 * (at + lanes::<S>())];
+    let ((ac, more_ac), (bd, more_bd)) = (a.interleave(c), b.interleave(d));
+    for (k, (ac, bd)) in [(ac, bd), (more_ac, more_bd)].into_iter().enumerate() {
+        let (low, high) = ac.interleave(bd);
+        store_i::<S>(low, to, 2 * k * lanes::<S>());
+        store_i::<S>(high, to, (2 * k + 1) * lanes::<S>());
+    }
+}
+
 /// The vectors from `at` on, of one list a coordinate.
 #[inline(always)]
 pub(crate) fn load3<S: Simd>(simd: S, from: &[impl AsRef<[f32]>; 3], at: usize) -> V3<S> {

@@ -174,40 +174,69 @@ impl Nearest {
         bytes
     }
 
+    /// Whether all samples of pixels from `at` on show what their first ones do.
+    #[inline(always)]
+    fn is_even<S: Simd>(&self, simd: S, at: usize) -> bool {
+        let shader = load_i(simd, &self.shader[0], at);
+        let triangle = load_i(simd, &self.triangle[0], at);
+        let none = shader.simd_eq(splat_i(simd, 0));
+        let mut same = none | !none;
+        for sample in 1..4 {
+            same &= shader.simd_eq(load_i(simd, &self.shader[sample], at));
+            same &= triangle.simd_eq(load_i(simd, &self.triangle[sample], at)) | none;
+        }
+        same.all_true()
+    }
+
     #[inline(always)]
     fn shade_four<S: Simd>(&mut self, simd: S, look: &Look, at: usize, clear: V3<S>) {
+        if self.is_even(simd, at) {
+            let none = load_i(simd, &self.shader[0], at).simd_eq(splat_i(simd, 0));
+            let color = if none.all_true() { clear } else { self.shade_samples(simd, look, (0, at), clear) };
+            for sample in 0..4 {
+                self.put(simd, (sample, at), color, look);
+            }
+            return;
+        }
         for sample in 0..4 {
-            let triangle = load_i(simd, &self.triangle[sample], at);
-            let mut left = (!load_i(simd, &self.shader[sample], at).simd_eq(splat_i(simd, 0))).to_bitmask();
-            let mut color = clear;
-            // What another sample of the pixel has shaded is taken over.
-            for before in 0..sample {
-                let lit = !load_i(simd, &self.shader[before], at).simd_eq(splat_i(simd, 0));
-                let same = triangle.simd_eq(load_i(simd, &self.triangle[before], at)) & lit;
-                let other = load3(simd, &self.lead[before], at);
-                let here = fearless_simd::SimdMask::from_bitmask(simd, left);
-                color = select3::<S>(same & here, other, color);
-                left &= !same.to_bitmask();
-            }
-            while left != 0 {
-                let shader = self.shader[sample][at + left.trailing_zeros() as usize] & SHADER_BITS;
-                let all = load_i(simd, &self.shader[sample], at);
-                let same = (all & splat_i(simd, SHADER_BITS)).simd_eq(splat_i(simd, shader));
-                let fresh = same & fearless_simd::SimdMask::from_bitmask(simd, left);
-                left &= !same.to_bitmask();
-                let mut place = pixels(simd, at);
-                for axis in 0..2 {
-                    for lane in 0..lanes::<S>() {
-                        place[axis][lane] += CENTROIDS[(all[lane] >> CENTROID_SHIFT) as usize & 15][axis];
-                    }
-                }
-                let inverse_w = fresh.select(load(simd, &self.inverse_w[sample], at), splat(simd, 1.0));
-                let (state, back) = state_of(look.states, shader);
-                let fragments = self.fragments(simd, state, (sample, at), place, inverse_w);
-                color = select3::<S>(fresh, fragments.color_apart(simd, look, state, back), color);
-            }
+            let color = self.shade_samples(simd, look, (sample, at), clear);
             self.put(simd, (sample, at), color, look);
         }
+    }
+
+    /// The color of one sample each, those before being shaded.
+    #[inline(always)]
+    fn shade_samples<S: Simd>(&self, simd: S, look: &Look, (sample, at): (usize, usize), clear: V3<S>) -> V3<S> {
+        let triangle = load_i(simd, &self.triangle[sample], at);
+        let mut left = (!load_i(simd, &self.shader[sample], at).simd_eq(splat_i(simd, 0))).to_bitmask();
+        let mut color = clear;
+        // What another sample of the pixel has shaded is taken over.
+        for before in 0..sample {
+            let lit = !load_i(simd, &self.shader[before], at).simd_eq(splat_i(simd, 0));
+            let same = triangle.simd_eq(load_i(simd, &self.triangle[before], at)) & lit;
+            let other = load3(simd, &self.lead[before], at);
+            let here = fearless_simd::SimdMask::from_bitmask(simd, left);
+            color = select3::<S>(same & here, other, color);
+            left &= !same.to_bitmask();
+        }
+        while left != 0 {
+            let shader = self.shader[sample][at + left.trailing_zeros() as usize] & SHADER_BITS;
+            let all = load_i(simd, &self.shader[sample], at);
+            let same = (all & splat_i(simd, SHADER_BITS)).simd_eq(splat_i(simd, shader));
+            let fresh = same & fearless_simd::SimdMask::from_bitmask(simd, left);
+            left &= !same.to_bitmask();
+            let mut place = pixels(simd, at);
+            for axis in 0..2 {
+                for lane in 0..lanes::<S>() {
+                    place[axis][lane] += CENTROIDS[(all[lane] >> CENTROID_SHIFT) as usize & 15][axis];
+                }
+            }
+            let inverse_w = fresh.select(load(simd, &self.inverse_w[sample], at), splat(simd, 1.0));
+            let (state, back) = state_of(look.states, shader);
+            let fragments = self.fragments(simd, state, (sample, at), place, inverse_w);
+            color = select3::<S>(fresh, fragments.color_apart(simd, look, state, back), color);
+        }
+        color
     }
 
     #[inline(always)]

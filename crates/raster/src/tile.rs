@@ -184,9 +184,14 @@ impl Worker {
             slopes.base += f32x4::load_array_ref(simd, &self.faces.each[usize::from(back)][lane]);
         }
         let first = [self.batch.bounds[0][lane], self.batch.bounds[2][lane]];
-        let place = (self.batch.pixels[lane], first);
-        let shader = shader_of(work.job.state, back);
-        self.nearest.cover_tiny(simd, place, &slopes, range(corners), shader, work.state.stage != Stage::Unlit);
+        let centers = self.batch.pixels[lane];
+        let (shader, keeps_lead) = (shader_of(work.job.state, back), work.state.stage != Stage::Unlit);
+        if work.covering.samples == SampleCount::One {
+            self.nearest.cover_tiny(simd, (centers, first), &slopes, range(corners), shader, keeps_lead);
+        } else {
+            let place = (centers, self.batch.samples[lane], first);
+            self.nearest.cover_tiny_four(simd, place, &slopes, range(corners), shader, keeps_lead);
+        }
     }
 
     /// A larger one.
@@ -311,10 +316,7 @@ impl<'a> Work<'a> {
                 clockwise: draw.clockwise,
                 samples: pass.samples,
                 last,
-                find_tiny: pass.samples == SampleCount::One
-                    && !blend
-                    && state.stage != Stage::Mixed
-                    && !state.opposite_normals,
+                find_tiny: !blend && state.stage != Stage::Mixed && !state.opposite_normals,
             },
             blend,
         }

@@ -1,7 +1,10 @@
 //! Triangles of a piece, as many at once as there are lanes: which pixels of the tile they may cover, their edges, and how
 //! numbers change over them.
 
-use crate::lanes::{F, I, M, MOST_LANES, Simd, each, f32x4, lanes, load_i, splat, splat_i, store, store_i};
+use crate::cover::GRID_PLACES;
+use crate::lanes::{
+    F, I, M, MOST_LANES, Simd, each, f32x4, lanes, load_i, splat, splat_i, store, store_fours_i, store_i,
+};
 use crate::pass::{LeftOut, SampleCount};
 use crate::pieces::PIECE_TRIANGLES;
 use crate::planes::FLATTEST;
@@ -73,8 +76,10 @@ pub(crate) struct Batch {
     pub(crate) down: [Lanes; 3],
     /// First and last column, first and last row of pixels that may be covered.
     pub(crate) bounds: [Lanes; 4],
-    /// Of tiny triangles the pixels that are covered: bit [`TINY`]·row + column from the first that may be.
+    /// Of tiny triangles the pixels whose center is covered: bit [`TINY`]·row + column from the first that may be.
     pub(crate) pixels: Lanes,
+    /// With four samples the pixels whose samples are covered, by sample.
+    pub(crate) samples: [[i32; 4]; MOST_LANES],
     /// How numbers change over triangles: see [`Batch::slopes`].
     weights: [[f32; MOST_LANES]; 6],
 }
@@ -148,7 +153,7 @@ impl Batch {
             self.set_edges(simd, &outlines);
             let mut covers = outlines.meet;
             if outlines.tiny.any_true() {
-                covers &= self.find_pixels(simd, &outlines);
+                covers &= self.find_pixels(simd, &outlines, covering.samples);
             }
             self.tiny = (covers & outlines.tiny).to_bitmask();
             self.small = (covers & !outlines.tiny).to_bitmask();
@@ -225,11 +230,28 @@ impl Batch {
 
     /// Finds the pixels that tiny triangles cover; returns which of all cover some, as far as that is known.
     #[inline(always)]
-    fn find_pixels<S: Simd>(&mut self, simd: S, outlines: &Outlines<S>) -> M<S> {
+    fn find_pixels<S: Simd>(&mut self, simd: S, outlines: &Outlines<S>, samples: SampleCount) -> M<S> {
+        let zero = splat_i(simd, 0);
+        let pixels = self.covered(simd, outlines, [0; 2]);
+        store_i::<S>(pixels, &mut self.pixels, 0);
+        let mut any = pixels;
+        if samples == SampleCount::Four {
+            let by_sample = each!(k in 4 => self.covered(simd, outlines, GRID_PLACES[k]));
+            any = by_sample[0] | by_sample[1] | by_sample[2] | by_sample[3];
+            store_fours_i::<S>(by_sample, &mut self.samples, 0);
+        }
+        !outlines.tiny | any.simd_gt(zero)
+    }
+
+    /// The pixels that tiny triangles cover at a place in each, given from its center.
+    #[inline(always)]
+    fn covered<S: Simd>(&self, simd: S, outlines: &Outlines<S>, [x, y]: [i32; 2]) -> I<S> {
         let Outlines { first, last, tiny, .. } = *outlines;
         let across = each!(k in 3 => load_i(simd, &self.across[k], 0));
         let down = each!(k in 3 => load_i(simd, &self.down[k], 0));
-        let mut row = each!(k in 3 => load_i(simd, &self.edge[k], 0) >> 8);
+        let mut row = each!(k in 3 => {
+            (load_i(simd, &self.edge[k], 0) + across[k] * splat_i(simd, x) + down[k] * splat_i(simd, y)) >> 8
+        });
         // Below 0 in columns and rows that are beyond the last.
         let columns = last[0] - first[0];
         let mut rows = last[1] - first[1];
@@ -257,8 +279,7 @@ impl Batch {
             }
             rows -= one;
         }
-        store_i::<S>(pixels, &mut self.pixels, 0);
-        !tiny | pixels.simd_gt(zero)
+        pixels
     }
 
     /// Prepares [`Batch::slopes`].
