@@ -163,22 +163,26 @@ impl Nearest {
         }
     }
 
-    /// Empties a tile.
+    /// Makes room for a tile.
     #[expect(clippy::large_stack_arrays, reason = "48 KiB, once for each list")]
-    pub(crate) fn clear(&mut self, samples: SampleCount) {
+    pub(crate) fn prepare(&mut self, samples: SampleCount) {
         let count = samples.count();
         self.depth.resize(count, [0.0; PIXELS]);
         self.shader.resize(count, [0; PIXELS]);
-        self.depth.as_flattened_mut().fill(0.0);
-        self.shader.as_flattened_mut().fill(0);
         for list in [&mut self.lead, &mut self.second, &mut self.face] {
             list.resize(count, [[0.0; PIXELS]; 3]);
         }
         if samples == SampleCount::Four {
             self.inverse_w.resize(count, [0.0; PIXELS]);
             self.triangle.resize(count, [0; PIXELS]);
-            self.triangles = 0;
         }
+    }
+
+    /// Empties a tile.
+    pub(crate) fn clear(&mut self) {
+        self.depth.as_flattened_mut().fill(0.0);
+        self.shader.as_flattened_mut().fill(0);
+        self.triangles = 0;
     }
 
     /// Draws a triangle of few pixels with one sample each: those of `pixels`, counted from `first`.

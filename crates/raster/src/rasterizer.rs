@@ -2,7 +2,7 @@
 
 use crate::bins::{Bins, TILE};
 use crate::check::check;
-use crate::error::RasterError;
+use crate::error::{LARGEST_SIDE, RasterError};
 use crate::lanes::Simd;
 use crate::pass::{Output, Pass};
 use crate::tile::{Scene, Worker};
@@ -76,17 +76,20 @@ impl Rasterizer {
         let scene = Scene { pass, bins: &self.bins, screen: &screen };
         let tiles = Tiles { columns: self.bins.tiles[0], count: (self.bins.tiles[0] * self.bins.tiles[1]) as usize };
         let bands = Bands::new(pass, output);
-        let next = AtomicUsize::new(0);
+        let amount = pass.size[0] as usize * pass.size[1] as usize / 8 + 16 * self.bins.jobs.len();
+        let threads = if amount > WORTH_A_THREAD { self.threads.min(tiles.count) } else { 1 };
+        for worker in self.workers[..threads].iter_mut().filter_map(|worker| worker.get_mut().ok()) {
+            worker.prepare(pass);
+        }
+        let (next, workers) = (AtomicUsize::new(0), &self.workers[..threads]);
         let work = || {
             // As many as there are threads, so that one is free.
-            let Some(mut worker) = self.workers.iter().find_map(|worker| worker.try_lock().ok()) else { return };
-            worker.prepare(pass.pixels);
+            let Some(mut worker) = workers.iter().find_map(|worker| worker.try_lock().ok()) else { return };
             with_vectors!(self.level, simd => tiles.draw(simd, &mut worker, &scene, &next, &bands));
         };
-        let amount = pass.size[0] as usize * pass.size[1] as usize / 8 + 16 * self.bins.jobs.len();
         match &self.pool {
-            Some(pool) if amount > WORTH_A_THREAD && tiles.count > 1 => pool.in_place_scope(|scope| {
-                for _ in 1..self.threads.min(tiles.count) {
+            Some(pool) if threads > 1 => pool.in_place_scope(|scope| {
+                for _ in 1..threads {
                     scope.spawn(|_| work());
                 }
                 work();
@@ -125,18 +128,21 @@ impl Tiles {
     }
 }
 
-/// The picture, a row of tiles at a time.
+/// The most rows of tiles.
+const MOST_BANDS: usize = LARGEST_SIDE as usize / TILE;
+
+/// The picture, a row of tiles at a time, in an array so that no frame allocates one.
 enum Bands<'a> {
-    Bytes(Vec<Mutex<&'a mut [u8]>>),
-    Floats(Vec<Mutex<&'a mut [f32]>>),
+    Bytes([Mutex<&'a mut [u8]>; MOST_BANDS]),
+    Floats([Mutex<&'a mut [f32]>; MOST_BANDS]),
 }
 
 impl<'a> Bands<'a> {
     fn new(pass: &Pass, output: Output<'a>) -> Self {
         let band = 4 * pass.size[0] as usize * TILE;
         match output {
-            Output::Bytes(bytes) => Self::Bytes(bytes.chunks_mut(band).map(Mutex::new).collect()),
-            Output::Floats(floats) => Self::Floats(floats.chunks_mut(band).map(Mutex::new).collect()),
+            Output::Bytes(bytes) => Self::Bytes(cut(bytes, band)),
+            Output::Floats(floats) => Self::Floats(cut(floats, band)),
         }
     }
 
@@ -160,4 +166,9 @@ impl<'a> Bands<'a> {
             }
         }
     }
+}
+
+fn cut<T>(picture: &mut [T], band: usize) -> [Mutex<&mut [T]>; MOST_BANDS] {
+    let mut bands = picture.chunks_mut(band);
+    std::array::from_fn(|_| Mutex::new(bands.next().unwrap_or_default()))
 }

@@ -80,7 +80,7 @@ impl Worker {
             return;
         }
         self.is_clear = false;
-        self.nearest.clear(pass.samples);
+        self.nearest.clear();
         let mut shaded = false;
         for number in jobs {
             let blend = number >= bins.first_blended;
@@ -255,10 +255,11 @@ impl Worker {
         }
     }
 
-    /// Makes room for a tile's pixels.
-    pub(crate) fn prepare(&mut self, pixels: PixelFormat) {
+    /// Makes room for a tile.
+    pub(crate) fn prepare(&mut self, pass: &Pass) {
         self.is_clear = false;
-        match pixels {
+        self.nearest.prepare(pass.samples);
+        match pass.pixels {
             PixelFormat::Floats => self.floats.resize(4 * PIXELS, 1.0),
             _ => self.bytes.resize(4 * PIXELS, 0),
         }
