@@ -221,6 +221,18 @@ fn the_edges_are_those_of_the_equations() {
         local_viewer: true,
     };
     let at = |position, attenuation| LightData { position, attenuation, ..straight.light };
+    let near = |share: f32| {
+        // The eye looks along the normal, which the light's direction is not.
+        let light = at([2.0 * share, 0.0, -2.0 + 1e-12], [0.5, 1.0, 1.0]);
+        Case { kind: Kind::Point, light, n: [0.6, 0.0, 0.8], ..straight }
+    };
+    let sized = |size: f32| Case {
+        kind: Kind::Point,
+        p: [0.0, 0.0, -2.0 * size],
+        n: [0.0, 0.6, 0.8],
+        light: at([0.5 * size, size, -size], [1.0, 0.0, 0.0]),
+        ..straight
+    };
     let sideways = face_forward([1.0_f32, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 0.0, 0.0]);
     let cases = [
         ("0⁰", Case { exponent: 0.0, n: sideways, light: at([1.0, 0.0, 0.0], [1.0, 0.0, 0.0]), ..straight }),
@@ -229,6 +241,29 @@ fn the_edges_are_those_of_the_equations() {
         ("a = 0 and d = 0", Case { kind: Kind::Point, light: at([0.0, 0.0, -2.0], [0.0, 0.0, 1.0]), ..straight }),
         ("the eye on the surface", Case { p: [0.0; 3], ..straight }),
         ("a light behind", Case { light: at([0.0, 0.0, -1.0], [1.0, 0.0, 0.0]), ..straight }),
+        ("a light 10⁻⁶ of the way to the eye from the point", near(1e-6)),
+        ("a light 10⁻⁵ of the way from it", near(1e-5)),
+        ("a light 10⁻²⁵ from a point at 10⁻²⁵", sized(1e-25)),
+        ("the same of 10⁻¹⁸", sized(1e-18)),
+        ("the same of 10¹⁸", sized(1e18)),
+        ("the same of 10²⁵", sized(1e25)),
+        ("the same of 10³⁸", sized(1e38)),
+        (
+            "a light 10³⁰ away that fades",
+            Case { kind: Kind::Point, light: at([1e30, 2e30, 2e30], [1.0, 0.1, 0.01]), ..straight },
+        ),
+        (
+            "a spot 10²⁵ away",
+            Case {
+                kind: Kind::Spot,
+                light: LightData {
+                    direction: [0.0, -0.6, -0.8],
+                    cos_cutoff: 0.5,
+                    ..at([0.0, 6e24, 8e24], [1.0, 0.0, 0.0])
+                },
+                ..straight
+            },
+        ),
         (
             "a cutoff of 0",
             Case {

@@ -19,14 +19,15 @@ fn point([x, y]: Corner) -> [f32; 3] {
     [x as f32 / half - 1.0, 1.0 - y as f32 / half, -1.0]
 }
 
-/// Half-transparent white triangles over black: 0.5 where one of them covers a pixel, 0.75 where two do.
-fn scene(triangles: &[[[f32; 3]; 3]], samples: SampleCount) -> Scene {
+/// White triangles over black. Half-transparent ones make 0.5 where one of them covers a sample, 0.75 where two do; opaque
+/// ones, which are drawn in other ways, 1 where any does.
+fn scene(triangles: &[[[f32; 3]; 3]], samples: SampleCount, blend: bool) -> Scene {
     let positions = triangles.concat();
     let indices: Vec<_> = (0..positions.len() as u32).collect();
     let mesh = Pieces::new(&positions, &[], &indices, &[], TriangleOrder::Kept).expect("finite corners");
     let white = SideData { base: [1.0; 3], opacity: 0.5, ..SideData::default() };
     let mut call = draw(&mesh, 1, Shading::Constant);
-    (call.left_out, call.blend) = (LeftOut::Neither, true);
+    (call.left_out, call.blend) = (LeftOut::Neither, blend);
     Scene {
         size: [SIDE; 2],
         samples,
@@ -67,35 +68,46 @@ fn covers(corners: [Corner; 3], [x, y]: Corner) -> bool {
         })
 }
 
-/// How often triangles cover a pixel's samples: what the picture must show.
-fn expected(triangles: &[[Corner; 3]], samples: SampleCount, x: i64, y: i64) -> f32 {
+/// Whether a triangle covers a point.
+type Rule = fn([Corner; 3], Corner) -> bool;
+
+/// What the picture must show of a pixel.
+fn expected(rule: Rule, triangles: &[[Corner; 3]], samples: SampleCount, blend: bool, x: i64, y: i64) -> f32 {
     let places: &[Corner] = match samples {
         SampleCount::One => &[[0, 0]],
         SampleCount::Four => &[[-32, -96], [96, -32], [-96, 32], [32, 96]],
     };
+    let opacity = if blend { 0.5 } else { 1.0 };
     let shown = |place: &Corner| {
         let point = [x * GRID + GRID / 2 + place[0], y * GRID + GRID / 2 + place[1]];
-        triangles.iter().filter(|triangle| covers(**triangle, point)).fold(0.0, |color, _| color + 0.5 * (1.0 - color))
+        let covering = triangles.iter().filter(|triangle| rule(**triangle, point));
+        covering.fold(0.0, |color, _| color + opacity * (1.0 - color))
     };
     places.iter().map(shown).sum::<f32>() / places.len() as f32
 }
 
-fn check(triangles: &[[Corner; 3]], samples: SampleCount) -> Result<(), TestCaseError> {
+/// Draws triangles in every way, and compares each pixel with what the exact rule says of it.
+fn check(triangles: &[[Corner; 3]]) -> Result<(), TestCaseError> {
+    for samples in [SampleCount::One, SampleCount::Four] {
+        for blend in [false, true] {
+            check_by(covers, triangles, samples, blend)?;
+        }
+    }
+    Ok(())
+}
+
+fn check_by(rule: Rule, triangles: &[[Corner; 3]], samples: SampleCount, blend: bool) -> Result<(), TestCaseError> {
     let points: Vec<_> = triangles.iter().map(|triangle| triangle.map(point)).collect();
+    let place = |at: usize| (at as i64 % i64::from(SIDE), at as i64 / i64::from(SIDE));
+    let expected: Vec<_> = (0..(SIDE * SIDE) as usize)
+        .map(|at| expected(rule, triangles, samples, blend, place(at).0, place(at).1))
+        .collect();
     for width in VectorWidth::available() {
-        let found = picture(&scene(&points, samples), width);
-        for (place, found) in found.into_iter().enumerate() {
-            let (x, y) = (place as i64 % i64::from(SIDE), place as i64 / i64::from(SIDE));
-            let expected = expected(triangles, samples, x, y);
-            prop_assert_eq!(
-                found.to_bits(),
-                expected.to_bits(),
-                "pixel ({}, {}) on {} with {:?}",
-                x,
-                y,
-                width,
-                samples
-            );
+        let found = picture(&scene(&points, samples, blend), width);
+        for (at, (found, expected)) in found.iter().zip(&expected).enumerate() {
+            let what = if blend { "blended" } else { "opaque" };
+            let pixel = place(at);
+            prop_assert_eq!(found.to_bits(), expected.to_bits(), "{:?}, {}, {:?}, {}", pixel, width, samples, what);
         }
     }
     Ok(())
@@ -119,6 +131,7 @@ fn triangle() -> impl Strategy<Value = [Corner; 3]> {
     prop_oneof![
         [corner(), corner(), corner()],
         corner().prop_flat_map(move |a| [Just(a).boxed(), near(a, 900).boxed(), near(a, 900).boxed()]),
+        corner().prop_flat_map(move |a| [Just(a).boxed(), near(a, 300).boxed(), near(a, 300).boxed()]),
         corner().prop_flat_map(move |a| [Just(a).boxed(), near(a, 8_000).boxed(), near(a, 3).boxed()]),
         [corner(), corner()].prop_flat_map(move |[a, b]| [Just(a).boxed(), Just(b).boxed(), near(b, 300).boxed()]),
     ]
@@ -129,16 +142,21 @@ proptest! {
 
     #[test]
     fn a_triangle_covers_what_the_fill_rule_says(triangle in triangle()) {
-        check(&[triangle], SampleCount::One)?;
-        check(&[triangle], SampleCount::Four)?;
+        check(&[triangle])?;
+    }
+
+    #[test]
+    fn many_triangles_cover_what_the_fill_rule_says(triangles in prop::collection::vec(triangle(), 2..70)) {
+        // More than one vector of them, and more than one piece.
+        check_by(covers, &triangles, SampleCount::One, false)?;
+        check_by(covers, &triangles, SampleCount::Four, false)?;
     }
 
     #[test]
     fn of_adjacent_triangles_one_covers_each_pixel(a in corner(), b in corner(), c in corner(), inner in corner()) {
         // Three triangles around a point, which may lie outside: then they overlap, as the rule says where.
         let fan = [[a, b, inner], [b, c, inner], [c, a, inner]];
-        check(&fan, SampleCount::One)?;
-        check(&fan, SampleCount::Four)?;
+        check(&fan)?;
     }
 
     #[test]
@@ -151,8 +169,8 @@ proptest! {
         let sum = split[0] + split[1] + split[2] + 1e-3;
         let inside = [0, 1, 2].map(|k| (a[k] * split[0] + b[k] * split[1] + c[k] * (split[2] + 1e-3)) / sum);
         let width = VectorWidth::available().next().expect("there is one");
-        let whole = picture(&scene(&[[a, b, c]], SampleCount::One), width);
-        let parts = picture(&scene(&[[a, b, inside], [b, c, inside], [c, a, inside]], SampleCount::One), width);
+        let whole = picture(&scene(&[[a, b, c]], SampleCount::One, true), width);
+        let parts = picture(&scene(&[[a, b, inside], [b, c, inside], [c, a, inside]], SampleCount::One, true), width);
         // The point is rounded, so that a part seen edge-on may turn over, and overlap another.
         let seen = [a, b, c].map(|p| p.map(f64::from));
         prop_assume!(determinant(seen).abs() > 0.05);
@@ -172,16 +190,34 @@ fn determinant([a, b, c]: [[f64; 3]; 3]) -> f64 {
     a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0])
 }
 
+/// Two halves of the square from pixel (1, 1) to (3, 3), whose edges run through centers: left and top are its own.
+fn halves_of_a_square() -> [[Corner; 3]; 2] {
+    let corner = |x: i64, y: i64| [x * GRID + GRID / 2, y * GRID + GRID / 2];
+    [[corner(1, 1), corner(3, 1), corner(1, 3)], [corner(3, 1), corner(3, 3), corner(1, 3)]]
+}
+
 #[test]
 fn the_fill_rule_itself_is_exact_on_a_square() {
-    // Two halves of the square from pixel (1, 1) to (3, 3), whose edges run through centers: left and top are its own.
-    let corner = |x: i64, y: i64| [x * GRID + GRID / 2, y * GRID + GRID / 2];
-    let halves = [[corner(1, 1), corner(3, 1), corner(1, 3)], [corner(3, 1), corner(3, 3), corner(1, 3)]];
     for y in 0..5 {
         for x in 0..5 {
             let inside = (1..3).contains(&x) && (1..3).contains(&y);
-            let expected = if inside { 0.5 } else { 0.0 };
-            assert!((self::expected(&halves, SampleCount::One, x, y) - expected).abs() < 1e-9, "({x}, {y})");
+            let found = expected(covers, &halves_of_a_square(), SampleCount::One, true, x, y);
+            assert!((found - if inside { 0.5 } else { 0.0 }).abs() < 1e-9, "({x}, {y})");
+        }
+    }
+}
+
+#[test]
+fn the_check_finds_wrong_rules() {
+    // The right and bottom edges own their points; no edge does; corners lie a step of the grid off.
+    let turned: Rule = |corners, point| covers(corners.map(|[x, y]| [-x, -y]), [-point[0], -point[1]]);
+    let none: Rule =
+        |corners, point| covers(corners, point) && covers(corners.map(|[x, y]| [-x, -y]), [-point[0], -point[1]]);
+    let off: Rule = |corners, point| covers(corners.map(|[x, y]| [x + 1, y]), point);
+    for (name, rule) in [("turned", turned), ("none", none), ("off", off)] {
+        for blend in [false, true] {
+            let found = check_by(rule, &halves_of_a_square(), SampleCount::One, blend);
+            assert!(found.is_err(), "{name}, {blend}");
         }
     }
 }
