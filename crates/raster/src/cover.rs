@@ -232,7 +232,60 @@ impl Nearest {
         }
     }
 
-    /// The same for a triangle of any size: in strips as wide as there are lanes, row by row.
+    /// Draws a lane's triangle that is not tiny: in strips as wide as there are lanes, row by row.
+    #[inline(always)]
+    pub(crate) fn cover_small<S: Simd>(
+        &mut self,
+        simd: S,
+        (batch, lane): (&Batch, usize),
+        slopes: &LaneSlopes<S>,
+        range: [f32; 2],
+        shader: i32,
+        keeps_lead: bool,
+    ) {
+        let [left, right, top, bottom] = each!(k in 4 => batch.bounds[k][lane]);
+        let count = lanes::<S>() as i32;
+        let shader = splat_i(simd, shader);
+        let lead = Slopes::of_lane(slopes);
+        let (least, most) = (splat(simd, range[0]), splat(simd, range[1]));
+        let (depths, shaders, leads) = (&mut self.depth[0], &mut self.shader[0], &mut self.lead[0]);
+        let mut next = left;
+        while next <= right {
+            // The last strip may begin earlier, so that it ends with the tile.
+            let i = next.min(TILE as i32 - count);
+            next = i + count;
+            let steps = counting_i(simd) + splat_i(simd, i - left);
+            let mut e: [I<S>; 3] = each!(k in 3 => {
+                steps * splat_i(simd, batch.across[k][lane]) + splat_i(simd, batch.edge[k][lane] >> 8)
+            });
+            let x = counting(simd) + splat(simd, i as f32);
+            let mut y = splat(simd, top as f32);
+            let mut place = top as usize * TILE + i as usize;
+            for _ in top..=bottom {
+                let covered = (e[0] | e[1] | e[2]).simd_ge(splat_i(simd, 0));
+                if covered.any_true() {
+                    let place = place & (PIXELS - 1);
+                    let depth = min::<S>(max::<S>(plane(simd, &lead, 0, x, y), least), most);
+                    let before = load(simd, depths, place);
+                    let nearer = covered & depth.simd_gt(before);
+                    store::<S>(nearer.select(depth, before), depths, place);
+                    store_i::<S>(nearer.select(shader, load_i(simd, shaders, place)), shaders, place);
+                    if keeps_lead {
+                        for c in 0..3 {
+                            put(simd, &mut leads[c], place, nearer, plane(simd, &lead, c + 1, x, y));
+                        }
+                    }
+                }
+                place += TILE;
+                y += splat(simd, 1.0);
+                for k in 0..3 {
+                    e[k] += splat_i(simd, batch.down[k][lane]);
+                }
+            }
+        }
+    }
+
+    /// The same for any triangle.
     #[inline(always)]
     pub(crate) fn cover_strips<S: Simd>(&mut self, simd: S, edges: &Edges, planes: &Planes, shader: i32, kept: Kept) {
         let [left, right, top, bottom] = edges.bounds;

@@ -134,6 +134,8 @@ impl Worker {
             self.batch.fill(simd, &self.corners, at, triangles.len(), &work.covering);
             let (tiny, small, others) = (self.batch.tiny, self.batch.small, self.batch.others);
             let mut left = tiny | small | others;
+            let one = work.covering.is_plain && work.covering.samples == SampleCount::One;
+            let plain = if one { tiny | small } else { tiny };
             if left == 0 {
                 continue;
             }
@@ -147,8 +149,8 @@ impl Worker {
             while left != 0 {
                 let lane = left.trailing_zeros() as usize;
                 left &= left - 1;
-                if tiny >> lane & 1 != 0 {
-                    self.tiny(simd, work, triangles[lane], lane);
+                if plain >> lane & 1 != 0 {
+                    self.plain(simd, work, triangles[lane], lane, tiny >> lane & 1 != 0);
                 } else if small >> lane & 1 != 0 {
                     self.small(simd, look, work, triangles[lane], lane);
                 } else {
@@ -171,9 +173,10 @@ impl Worker {
         });
     }
 
-    /// A triangle of few pixels, of which it covers some.
+    /// A triangle of few pixels, of which it covers some, or a larger one with one sample a pixel; it leaves nothing but
+    /// its depth and the leading numbers.
     #[inline(always)]
-    fn tiny<S: Simd>(&mut self, simd: S, work: &Work, triangle: [u8; 3], lane: usize) {
+    fn plain<S: Simd>(&mut self, simd: S, work: &Work, triangle: [u8; 3], lane: usize, tiny: bool) {
         let lane = lane % MOST_LANES;
         let back = self.batch.backs >> lane & 1 != 0;
         let numbers = each!(k in 3 => usize::from(triangle[k]));
@@ -183,9 +186,13 @@ impl Worker {
         if work.state.stage == Stage::Flat {
             slopes.base += f32x4::load_array_ref(simd, &self.faces.each[usize::from(back)][lane]);
         }
+        let (shader, keeps_lead) = (shader_of(work.job.state, back), work.state.stage != Stage::Unlit);
+        if !tiny {
+            self.nearest.cover_small(simd, (&self.batch, lane), &slopes, range(corners), shader, keeps_lead);
+            return;
+        }
         let first = [self.batch.bounds[0][lane], self.batch.bounds[2][lane]];
         let centers = self.batch.pixels[lane];
-        let (shader, keeps_lead) = (shader_of(work.job.state, back), work.state.stage != Stage::Unlit);
         if work.covering.samples == SampleCount::One {
             self.nearest.cover_tiny(simd, (centers, first), &slopes, range(corners), shader, keeps_lead);
         } else {
@@ -194,7 +201,7 @@ impl Worker {
         }
     }
 
-    /// A larger one.
+    /// One that is not so plain.
     fn small<S: Simd>(&mut self, simd: S, look: &Look, work: &Work, triangle: [u8; 3], lane: usize) {
         simd.vectorize(
             #[inline(always)]
@@ -317,7 +324,7 @@ impl<'a> Work<'a> {
                 clockwise: draw.clockwise,
                 samples: pass.samples,
                 last,
-                find_tiny: !blend && state.stage != Stage::Mixed && !state.opposite_normals,
+                is_plain: !blend && state.stage != Stage::Mixed && !state.opposite_normals,
             },
             blend,
         }

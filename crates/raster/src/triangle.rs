@@ -102,8 +102,9 @@ pub(crate) struct Covering {
     pub(crate) samples: SampleCount,
     /// The last column and row of the tile that are in the picture.
     pub(crate) last: [i32; 2],
-    /// Whether triangles of few pixels are to be told from others.
-    pub(crate) find_tiny: bool,
+    /// Whether triangles leave nothing but their depth and the leading numbers; those of few pixels are told from others
+    /// then.
+    pub(crate) is_plain: bool,
 }
 
 impl Covering {
@@ -194,7 +195,7 @@ impl Batch {
         self.others |= (meets & large).to_bitmask();
         self.backs = (!front).to_bitmask();
         let meet = meets & shown & !large;
-        let tiny = if covering.find_tiny {
+        let tiny = if covering.is_plain {
             let box_side = SimdBase::max(last[0] - first[0], last[1] - first[1]);
             meet & box_side.simd_lt(splat_i(simd, TINY as i32))
         } else {
