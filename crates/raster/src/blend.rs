@@ -1,11 +1,13 @@
 //! Fragments that are laid over what is there, in the order of drawing.
 
 use crate::bins::TILE;
-use crate::cover::{CENTROIDS, Edges, Nearest, centroid, clamped, covered, plane, samples};
+use crate::cover::{Edges, Nearest, clamped, covered, plane};
 use crate::encode::kept;
+use crate::four::{centroid, samples};
 use crate::lanes::{F, M, Simd, V3, counting, each, fma, lanes, load, splat, splat3, store};
 use crate::pass::SampleCount;
 use crate::planes::{Planes, Slopes};
+use crate::samples::CENTROIDS;
 use crate::shade::{Fragments, Look, state_of};
 use crate::state::Stage;
 use fearless_simd::prelude::*;

@@ -1,9 +1,10 @@
 //! Triangles that reach far beyond a tile, or behind the eye: few, and so one by one, in 64 bits.
 
 use crate::bins::TILE;
-use crate::cover::{Edges, sample_offsets};
+use crate::cover::Edges;
 use crate::pass::LeftOut;
 use crate::planes::{Gradient, Planes};
+use crate::samples::sample_offsets;
 use crate::triangle::Covering;
 use crate::vertices::{CLIPPED, GRID, SCREEN_HIGH, SCREEN_LOW, Screen, TOO_NEAR, Vertices};
 

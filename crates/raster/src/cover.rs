@@ -6,19 +6,20 @@ use crate::lanes::{
     splat_i, store, store_i,
 };
 use crate::pass::SampleCount;
-use crate::planes::{Planes, Slopes};
+use crate::planes::{LaneSlopes, Planes, Slopes};
+use crate::samples::GRID_PLACES;
 use crate::state::{Stage, State};
-use crate::triangle::{Batch, LaneSlopes, TINY};
+use crate::triangle::{Batch, TINY};
 use crate::vertices::GRID;
-use fearless_simd::{i32x4, mask32x4, prelude::*};
+use fearless_simd::prelude::*;
 
 /// Pixels of a tile.
 pub(crate) const PIXELS: usize = TILE * TILE;
 
 /// Pixels of a tiny triangle's box, at most.
-const TINY_PIXELS: usize = TINY * TINY;
+pub(crate) const TINY_PIXELS: usize = TINY * TINY;
 /// Their columns and rows.
-const TINY_PLACES: [[f32; TINY_PIXELS]; 2] = {
+pub(crate) const TINY_PLACES: [[f32; TINY_PIXELS]; 2] = {
     let (mut places, mut k) = ([[0.0; TINY_PIXELS]; 2], 0);
     while k < TINY_PIXELS {
         (places[0][k], places[1][k]) = ((k % TINY) as f32, (k / TINY) as f32);
@@ -27,7 +28,7 @@ const TINY_PLACES: [[f32; TINY_PIXELS]; 2] = {
     places
 };
 /// The way from the first to them in the tile's lists.
-const TINY_AT: [usize; TINY_PIXELS] = {
+pub(crate) const TINY_AT: [usize; TINY_PIXELS] = {
     let (mut at, mut k) = ([0; TINY_PIXELS], 0);
     while k < TINY_PIXELS {
         at[k] = k / TINY * TILE + k % TINY;
@@ -35,44 +36,6 @@ const TINY_AT: [usize; TINY_PIXELS] = {
     }
     at
 };
-
-/// Where the four samples lie, in sixteenths of a pixel from its center.
-const PLACES: [[i32; 2]; 4] = [[-2, -6], [6, -2], [-6, 2], [2, 6]];
-
-/// The same in steps of the grid.
-pub(crate) const GRID_PLACES: [[i32; 2]; 4] = [[-32, -96], [96, -32], [-96, 32], [32, 96]];
-
-/// The same in pixels, by axis.
-const OFFSETS: [[f32; 4]; 2] = [[-0.125, 0.375, -0.375, 0.125], [-0.375, -0.125, 0.125, 0.375]];
-
-/// The places of samples in steps of the grid; of one sample the center.
-pub(crate) fn sample_offsets(samples: SampleCount) -> [[i32; 2]; 4] {
-    match samples {
-        SampleCount::One => [[0; 2]; 4],
-        SampleCount::Four => GRID_PLACES,
-    }
-}
-
-/// By the samples that are covered, from 0 (the center itself is) to 15: their mean, in pixels from the center.
-pub(crate) const CENTROIDS: [[f32; 2]; 16] = centroids();
-
-const fn centroids() -> [[f32; 2]; 16] {
-    let mut means = [[0.0; 2]; 16];
-    let mut mask = 1;
-    while mask < 15 {
-        let (mut sum, mut count, mut sample) = ([0, 0], 0, 0);
-        while sample < 4 {
-            if mask >> sample & 1 == 1 {
-                sum = [sum[0] + PLACES[sample][0], sum[1] + PLACES[sample][1]];
-                count += 1;
-            }
-            sample += 1;
-        }
-        means[mask] = [sum[0] as f32 / (16 * count) as f32, sum[1] as f32 / (16 * count) as f32];
-        mask += 1;
-    }
-    means
-}
 
 /// Three edge functions over a tile: a pixel is covered where none is below 0.
 #[derive(Clone, Copy, Debug, Default)]
@@ -124,7 +87,7 @@ pub(crate) struct Nearest {
     pub(crate) shader: Vec<[i32; PIXELS]>,
     /// With four samples, which triangle it is.
     pub(crate) triangle: Vec<[i32; PIXELS]>,
-    triangles: i32,
+    pub(crate) triangles: i32,
     /// 1/w where it is shaded, with four samples.
     pub(crate) inverse_w: Vec<[f32; PIXELS]>,
     /// The leading numbers, in the end the color.
@@ -217,7 +180,14 @@ impl Nearest {
     }
 
     #[inline(always)]
-    fn keep_more<S: Simd>(&mut self, simd: S, planes: &Planes, at: (usize, usize), [i, j]: [f32; 2], kept: Kept) {
+    pub(crate) fn keep_more<S: Simd>(
+        &mut self,
+        simd: S,
+        planes: &Planes,
+        at: (usize, usize),
+        [i, j]: [f32; 2],
+        kept: Kept,
+    ) {
         let (sample, pixel) = at;
         if kept.second {
             let v = value(simd, &planes.second, i, j);
@@ -340,161 +310,7 @@ impl Nearest {
             }
         }
     }
-
-    /// Draws a triangle of few pixels with four samples each: those whose bits are set in `samples`, counted from `first`.
-    /// It is shaded once a pixel, at the center or, where that is not covered, at the centroid of the samples that are.
-    #[inline(always)]
-    pub(crate) fn cover_tiny_four<S: Simd>(
-        &mut self,
-        simd: S,
-        (centers, samples, first): (i32, [i32; 4], [i32; 2]),
-        slopes: &LaneSlopes<S>,
-        [least, most]: [f32; 2],
-        shader: i32,
-        keeps_lead: bool,
-    ) {
-        self.triangles += 1;
-        let first = first[1] as usize * TILE + first[0] as usize;
-        let each_sample = i32x4::load_array_ref(simd, &samples);
-        let [base, dx, dy] = each!(k in 3 => {
-            f32x4::simd_from(simd, [slopes.base, slopes.dx, slopes.dy][k][0])
-        });
-        let [x, y] = each!(axis in 2 => f32x4::load_array_ref(simd, &OFFSETS[axis]));
-        let base = dx.mul_add_precise(x, dy.mul_add_precise(y, base));
-        let mut left = (samples[0] | samples[1] | samples[2] | samples[3]) as u32;
-        while left != 0 {
-            let bit = left.trailing_zeros() as usize % TINY_PIXELS;
-            left &= left - 1;
-            let bits = i32x4::simd_from(simd, 1 << bit);
-            let covered = (each_sample & bits).simd_eq(bits);
-            let [x, y] = each!(axis in 2 => TINY_PLACES[axis][bit]);
-            let depth =
-                dx.mul_add_precise(f32x4::simd_from(simd, x), dy.mul_add_precise(f32x4::simd_from(simd, y), base));
-            let depth = clamped_four(simd, depth, [least, most]);
-            let pixel = (first + TINY_AT[bit]) % PIXELS;
-            let mask = self.nearer_of_four(simd, pixel, covered, depth);
-            if mask == 0 {
-                continue;
-            }
-            let all = covered.to_bitmask() as usize % 16;
-            let place = if all == 15 || centers >> bit & 1 != 0 { 0 } else { all };
-            let [x, y] = [x + CENTROIDS[place][0], y + CENTROIDS[place][1]];
-            let v = slopes.dx.mul_add_precise(
-                f32x4::simd_from(simd, x),
-                slopes.dy.mul_add_precise(f32x4::simd_from(simd, y), slopes.base),
-            );
-            let inverse_w = min_one(max_one(v[0], least), most);
-            self.keep_samples(
-                pixel,
-                mask,
-                shader | (place as i32) << CENTROID_SHIFT,
-                inverse_w,
-                keeps_lead.then_some(v),
-            );
-        }
-    }
-
-    /// Replaces a pixel's depths where these are nearer; returns which are.
-    #[inline(always)]
-    fn nearer_of_four<S: Simd>(&mut self, simd: S, pixel: usize, covered: mask32x4<S>, depth: f32x4<S>) -> usize {
-        let at = &mut self.depth.as_flattened_mut()[4 * pixel..4 * pixel + 4];
-        let before = f32x4::from_slice(simd, at);
-        let nearer = covered & depth.simd_gt(before);
-        nearer.select(depth, before).store_slice(at);
-        nearer.to_bitmask() as usize % 16
-    }
-
-    /// Puts what a triangle leaves into some of a pixel's samples.
-    #[inline(always)]
-    fn keep_samples<S: Simd>(
-        &mut self,
-        pixel: usize,
-        mask: usize,
-        shader: i32,
-        inverse_w: f32,
-        lead: Option<f32x4<S>>,
-    ) {
-        let pixel = pixel % PIXELS;
-        let Self { shader: shaders, triangle, inverse_w: inverses, lead: leads, triangles, .. } = self;
-        let (Ok(shaders), Ok(triangle), Ok(inverses), Ok(leads)) = (
-            <&mut [_; 4]>::try_from(&mut shaders[..]),
-            <&mut [_; 4]>::try_from(&mut triangle[..]),
-            <&mut [_; 4]>::try_from(&mut inverses[..]),
-            <&mut [_; 4]>::try_from(&mut leads[..]),
-        ) else {
-            return;
-        };
-        let mut left = mask;
-        while left != 0 {
-            let sample = left.trailing_zeros() as usize % 4;
-            left &= left - 1;
-            shaders[sample][pixel] = shader;
-            triangle[sample][pixel] = *triangles;
-            inverses[sample][pixel] = inverse_w;
-            if let Some(v) = lead {
-                for c in 0..3 {
-                    leads[sample][c][pixel] = v[c + 1];
-                }
-            }
-        }
-    }
-
-    /// The same for a triangle of any size.
-    #[inline(always)]
-    pub(crate) fn cover_four<S: Simd>(&mut self, simd: S, edges: &Edges, planes: &Planes, shader: i32, kept: Kept) {
-        let [left, right, top, bottom] = edges.bounds;
-        self.triangles += 1;
-        for j in top..=bottom {
-            let mut next = left;
-            while next <= right {
-                let first = next.min(TILE as i32 - lanes::<S>() as i32);
-                // Pixels of which some sample is covered, without those that the strip before has had.
-                let mut covered =
-                    covered_by_any(simd, edges, first, j).to_bitmask() >> (next - first) << (next - first);
-                next = first + lanes::<S>() as i32;
-                while covered != 0 {
-                    let i = first + covered.trailing_zeros() as i32;
-                    covered &= covered - 1;
-                    self.cover_pixel(simd, edges, planes, shader, kept, [i, j]);
-                }
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn cover_pixel<S: Simd>(
-        &mut self,
-        simd: S,
-        edges: &Edges,
-        planes: &Planes,
-        shader: i32,
-        kept: Kept,
-        [i, j]: [i32; 2],
-    ) {
-        let pixel = (j as usize * TILE + i as usize) % PIXELS;
-        let (covered, depth) = samples(simd, edges, planes, i, j);
-        let mask = self.nearer_of_four(simd, pixel, covered, depth);
-        if mask == 0 {
-            return;
-        }
-        let place = centroid(edges, i, j, covered.to_bitmask() as usize % 16);
-        let [x, y] = [i as f32 + CENTROIDS[place][0], j as f32 + CENTROIDS[place][1]];
-        let v = value(simd, &planes.lead, x, y);
-        let inverse_w = min_one(max_one(v[0], planes.range[0]), planes.range[1]);
-        let shader = shader | (place as i32) << CENTROID_SHIFT;
-        self.keep_samples(pixel, mask, shader, inverse_w, kept.lead.then_some(v));
-        if kept.second || kept.face {
-            for sample in (0..4).filter(|sample| mask >> sample & 1 != 0) {
-                self.keep_more(simd, planes, (sample, pixel), [x, y], kept);
-            }
-        }
-    }
 }
-
-/// Where the number of the centroid begins among a shader's bits.
-pub(crate) const CENTROID_SHIFT: i32 = 28;
-/// The bits of a shader below it.
-pub(crate) const SHADER_BITS: i32 = (1 << CENTROID_SHIFT) - 1;
 
 /// Replaces the lanes of a mask.
 #[inline(always)]
@@ -514,20 +330,6 @@ pub(crate) fn covered<S: Simd>(simd: S, edges: &Edges, i: i32, j: i32) -> M<S> {
     let inside = (a | b | c).simd_ge(splat_i(simd, 0));
     let column = steps + splat_i(simd, i);
     inside & column.simd_ge(splat_i(simd, left)) & column.simd_le(splat_i(simd, right))
-}
-
-/// Pixels of which some sample is covered, from (i, j) on.
-#[inline(always)]
-fn covered_by_any<S: Simd>(simd: S, edges: &Edges, i: i32, j: i32) -> M<S> {
-    let grown = each!(k in 3 => counting_i(simd) * splat_i(simd, edges.across[k]));
-    let mut outside = splat_i(simd, -1);
-    for sample in 0..4 {
-        let [a, b, c]: [I<S>; 3] = each!(k in 3 => {
-            grown[k] + splat_i(simd, edges.at[k][sample] + edges.across[k] * i + edges.down[k] * j)
-        });
-        outside &= a | b | c;
-    }
-    outside.simd_ge(splat_i(simd, 0))
 }
 
 /// 1/w, kept between the corners'.
@@ -552,35 +354,7 @@ fn vectors<S: Simd>(simd: S, slopes: &Slopes) -> (f32x4<S>, f32x4<S>, f32x4<S>) 
 
 /// All four numbers at a place of the tile.
 #[inline(always)]
-fn value<S: Simd>(simd: S, slopes: &Slopes, x: f32, y: f32) -> f32x4<S> {
+pub(crate) fn value<S: Simd>(simd: S, slopes: &Slopes, x: f32, y: f32) -> f32x4<S> {
     let (base, dx, dy) = vectors(simd, slopes);
     dx.mul_add_precise(f32x4::simd_from(simd, x), dy.mul_add_precise(f32x4::simd_from(simd, y), base))
-}
-
-/// Which samples of a pixel are covered, and 1/w at each.
-#[inline(always)]
-pub(crate) fn samples<S: Simd>(simd: S, edges: &Edges, planes: &Planes, i: i32, j: i32) -> (mask32x4<S>, f32x4<S>) {
-    let [a, b, c] = each!(k in 3 => {
-        i32x4::from_slice(simd, &edges.at[k]) + (edges.across[k] * i + edges.down[k] * j)
-    });
-    let covered = (a | b | c).simd_ge(i32x4::simd_from(simd, 0));
-    let [x, y] = each!(axis in 2 => f32x4::from_slice(simd, &OFFSETS[axis]));
-    let [base, dx, dy] = [planes.lead.base[0], planes.lead.dx[0], planes.lead.dy[0]];
-    let row = f32x4::simd_from(simd, dy).mul_add_precise(y + j as f32, f32x4::simd_from(simd, base));
-    let depth = f32x4::simd_from(simd, dx).mul_add_precise(x + i as f32, row);
-    (covered, clamped_four(simd, depth, planes.range))
-}
-
-#[inline(always)]
-fn clamped_four<S: Simd>(simd: S, depth: f32x4<S>, range: [f32; 2]) -> f32x4<S> {
-    let [least, most] = each!(k in 2 => f32x4::simd_from(simd, range[k]));
-    let depth = depth.simd_gt(least).select(depth, least);
-    depth.simd_lt(most).select(depth, most)
-}
-
-/// The number of the place where a pixel is shaded: 0 where its center is covered, else the samples that are.
-#[inline(always)]
-pub(crate) fn centroid(edges: &Edges, i: i32, j: i32, mask: usize) -> usize {
-    let [a, b, c] = each!(k in 3 => edges.center[k] + edges.across[k] * i + edges.down[k] * j);
-    if mask == 15 || a | b | c >= 0 { 0 } else { mask }
 }

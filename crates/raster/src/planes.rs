@@ -1,8 +1,7 @@
 //! Numbers that are linear over the picture, such as 1/w and a color over w, from their values at three corners.
 
-use crate::lanes::Simd;
+use crate::lanes::{Simd, f32x4};
 use crate::state::{Stage, State};
-use crate::triangle::LaneSlopes;
 use fearless_simd::prelude::*;
 
 /// Four numbers as functions of the tile's pixels (i, j): `base + dx·i + dy·j`.
@@ -11,6 +10,15 @@ pub(crate) struct Slopes {
     pub(crate) base: [f32; 4],
     pub(crate) dx: [f32; 4],
     pub(crate) dy: [f32; 4],
+}
+
+/// Four numbers over a triangle: `base` at the tile's first pixel, or of tiny ones at the first that may be covered,
+/// growing by `dx` and `dy` from pixel to pixel.
+#[derive(Clone, Copy)]
+pub(crate) struct LaneSlopes<S: Simd> {
+    pub(crate) base: f32x4<S>,
+    pub(crate) dx: f32x4<S>,
+    pub(crate) dy: f32x4<S>,
 }
 
 /// What is interpolated over a triangle.

@@ -1,14 +1,16 @@
 //! Shading of what is nearest in a tile, a vector of pixels at a time.
 
 use crate::bins::TILE;
-use crate::cover::{CENTROID_SHIFT, CENTROIDS, Nearest, SHADER_BITS};
+use crate::cover::Nearest;
 use crate::encode::{bytes, cleared, kept};
+use crate::four::{CENTROID_SHIFT, SHADER_BITS};
 use crate::lanes::{
     F, I, Simd, V3, add, counting, dot, each, fma, lanes, load, load_i, load3, neg, safe_normalize, scale, select3,
     splat, splat_i, splat3, store,
 };
 use crate::lighting::{Points, added, reflected, to_viewer};
 use crate::pass::{Pass, SampleCount};
+use crate::samples::CENTROIDS;
 use crate::state::{Stage, State};
 use crate::vertices::Screen;
 use fearless_simd::prelude::*;

@@ -1,13 +1,13 @@
 //! Triangles of a piece, as many at once as there are lanes: which pixels of the tile they may cover, their edges, and how
 //! numbers change over them.
 
-use crate::cover::GRID_PLACES;
 use crate::lanes::{
     F, I, M, MOST_LANES, Simd, each, f32x4, lanes, load_i, splat, splat_i, store, store_fours_i, store_i,
 };
 use crate::pass::{LeftOut, SampleCount};
 use crate::pieces::PIECE_TRIANGLES;
-use crate::planes::FLATTEST;
+use crate::planes::{FLATTEST, LaneSlopes};
+use crate::samples::GRID_PLACES;
 use crate::vertices::{CLIPPED, GRID, Vertices};
 use fearless_simd::prelude::*;
 
@@ -82,15 +82,6 @@ pub(crate) struct Batch {
     pub(crate) samples: [[i32; 4]; MOST_LANES],
     /// How numbers change over triangles: see [`Batch::slopes`].
     weights: [[f32; MOST_LANES]; 6],
-}
-
-/// Four numbers over a triangle: `base` at the tile's first pixel, or of tiny ones at the first that may be covered,
-/// growing by `dx` and `dy` from pixel to pixel.
-#[derive(Clone, Copy)]
-pub(crate) struct LaneSlopes<S: Simd> {
-    pub(crate) base: f32x4<S>,
-    pub(crate) dx: f32x4<S>,
-    pub(crate) dy: f32x4<S>,
 }
 
 /// What a batch has to know of the draw and the tile.

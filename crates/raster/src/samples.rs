@@ -1,0 +1,41 @@
+//! Where a pixel's samples lie.
+
+use crate::pass::SampleCount;
+
+/// Where the four samples lie, in sixteenths of a pixel from its center.
+const PLACES: [[i32; 2]; 4] = [[-2, -6], [6, -2], [-6, 2], [2, 6]];
+
+/// The same in steps of the grid.
+pub(crate) const GRID_PLACES: [[i32; 2]; 4] = [[-32, -96], [96, -32], [-96, 32], [32, 96]];
+
+/// The same in pixels, by axis.
+pub(crate) const OFFSETS: [[f32; 4]; 2] = [[-0.125, 0.375, -0.375, 0.125], [-0.375, -0.125, 0.125, 0.375]];
+
+/// The places of samples in steps of the grid; of one sample the center.
+pub(crate) fn sample_offsets(samples: SampleCount) -> [[i32; 2]; 4] {
+    match samples {
+        SampleCount::One => [[0; 2]; 4],
+        SampleCount::Four => GRID_PLACES,
+    }
+}
+
+/// By the samples that are covered, from 0 (the center itself is) to 15: their mean, in pixels from the center.
+pub(crate) const CENTROIDS: [[f32; 2]; 16] = centroids();
+
+const fn centroids() -> [[f32; 2]; 16] {
+    let mut means = [[0.0; 2]; 16];
+    let mut mask = 1;
+    while mask < 15 {
+        let (mut sum, mut count, mut sample) = ([0, 0], 0, 0);
+        while sample < 4 {
+            if mask >> sample & 1 == 1 {
+                sum = [sum[0] + PLACES[sample][0], sum[1] + PLACES[sample][1]];
+                count += 1;
+            }
+            sample += 1;
+        }
+        means[mask] = [sum[0] as f32 / (16 * count) as f32, sum[1] as f32 / (16 * count) as f32];
+        mask += 1;
+    }
+    means
+}
