@@ -103,6 +103,14 @@ impl Pieces {
         Ok(pieces)
     }
 
+    /// The bytes of memory that its lists take.
+    pub fn bytes(&self) -> u64 {
+        let numbers: usize = self.positions.iter().chain(&self.normals).map(Vec::len).sum();
+        let [numbers, triangles, pieces] =
+            [4 * numbers, 3 * self.triangles.len(), size_of::<Piece>() * self.each.len()];
+        (numbers + triangles + pieces) as u64
+    }
+
     /// How many triangles.
     pub fn triangle_count(&self) -> usize {
         self.triangles.len()
