@@ -118,7 +118,7 @@ fn conform(title: &str, rows: &[Row]) {
         worst.note(name, of_floats, [raw, srgb]);
     }
     let ways = if stage.costs().shaders_encode { "software" } else { "hardware" };
-    worst.print(title, rows.len(), &format!("{}, in the ways of {ways}", stage.gpu().describe()));
+    worst.print(title, rows.len(), &format!("{}, in the ways of {ways}", stage.adapter().describe()));
     println!(
         "  {} pipelines; {without_floats} rows of blended objects not in floating point",
         stage.report().pipelines

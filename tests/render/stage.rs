@@ -4,7 +4,7 @@ use crate::render::scene::{Kind, Lamp, On, Scene, Thing};
 use halfway::prelude::*;
 use halfway::reference::Oracle;
 use halfway::reference::metrics::Bars;
-use halfway::render::{Costs, Gpu, RenderError, wgpu};
+use halfway::render::{Adapter, Costs, RenderError};
 use image::{Rgba32FImage, RgbaImage};
 use std::sync::OnceLock;
 use std::time::Duration;
@@ -69,26 +69,26 @@ impl Stage {
         self.world().resource_mut::<Headless>().size = UVec2::new(width, height);
     }
 
-    /// The device that has drawn.
-    pub(crate) fn gpu(&self) -> &Gpu {
-        self.app.world().resource::<Gpu>()
+    /// What has drawn.
+    pub(crate) fn adapter(&self) -> Adapter {
+        Adapter::of(self.app.world()).expect("a frame has been drawn")
     }
 
     /// `bars` for the adapter's grid.
     pub(crate) fn on_grid(&self, bars: Bars) -> Bars {
         // One adapter draws all tests of a process.
         static BITS: OnceLock<u32> = OnceLock::new();
-        bars.on_grid(*BITS.get_or_init(|| self.gpu().sub_pixel_bits().unwrap_or_else(|error| panic!("{error}"))))
+        bars.on_grid(*BITS.get_or_init(|| self.adapter().sub_pixel_bits().unwrap_or_else(|error| panic!("{error}"))))
     }
 
     /// Whether a floating-point picture may show blended objects.
     pub(crate) fn blends_floats(&self) -> bool {
-        self.gpu().device.features().contains(wgpu::Features::FLOAT32_BLENDABLE)
+        self.adapter().blends_floats()
     }
 
     /// What was taken to be cheap.
     pub(crate) fn costs(&self) -> Costs {
-        self.gpu().costs()
+        self.adapter().costs()
     }
 
     pub(crate) fn report(&self) -> &FrameReport {

@@ -2,14 +2,14 @@
 
 use clap::Args;
 use clap::builder::NonEmptyStringValueParser;
-use halfway::render::{AdapterChoice, RenderError, describe_adapter};
+use halfway::render::AdapterChoice;
 
 use crate::failure::Failure;
 
 #[derive(Args, Clone, Debug)]
 pub(crate) struct AdapterArgs {
-    /// The graphics adapter: a part of its name or its backend's, as `halfway adapters` lists them, or both, such as
-    /// vulkan:llvmpipe [default: `HALFWAY_ADAPTER`, then `WGPU_BACKEND` and `WGPU_ADAPTER_NAME`; else hardware
+    /// What draws: cpu, or cpu:avx2, say, for the CPU without a driver; or a graphics adapter, by a part of its name or its
+    /// backend's, as `halfway adapters` lists them, or both, such as vulkan:llvmpipe [default: `HALFWAY_ADAPTER`, then `WGPU_BACKEND` and `WGPU_ADAPTER_NAME`; else hardware
     /// first]
     #[arg(id = "adapter", long = "adapter", value_name = "NAME", value_parser = NonEmptyStringValueParser::new())]
     name: Option<String>,
@@ -27,13 +27,8 @@ impl AdapterArgs {
 }
 
 pub(crate) fn run() -> Result<(), Failure> {
-    let adapters = AdapterChoice::default().list();
-    if adapters.is_empty() {
-        let error = AdapterChoice::default().open().err().unwrap_or(RenderError::NoAdapter);
-        return Err(error.into());
-    }
-    for adapter in &adapters {
-        println!("{}", describe_adapter(adapter));
+    for adapter in AdapterChoice::default().list()? {
+        println!("{adapter}");
     }
     Ok(())
 }

@@ -49,7 +49,11 @@ impl From<halfway::render::RenderError> for Failure {
     fn from(error: halfway::render::RenderError) -> Self {
         use halfway::render::RenderError as E;
         let code = match error {
-            E::NoAdapter | E::NoAdapterAmong { .. } | E::NoSuchAdapter { .. } | E::NoDevice { .. } => 3,
+            E::NoAdapter
+            | E::NoAdapterAmong { .. }
+            | E::NoSuchAdapter { .. }
+            | E::NoDevice { .. }
+            | E::NoVectors { .. } => 3,
             E::Device(_) => 1,
             _ => 2,
         };

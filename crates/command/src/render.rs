@@ -7,7 +7,7 @@ use clap::Args;
 use halfway::prelude::*;
 use halfway::record::{Recording, ReferenceDrawing, record, record_with};
 use halfway::reference::Mode;
-use halfway::render::{Gpu, RenderError};
+use halfway::render::Adapter;
 
 use crate::failure::Failure;
 use crate::input::SceneInput;
@@ -50,40 +50,32 @@ pub(crate) struct RenderArgs {
 
 /// What draws the frames.
 enum Drawer {
-    Adapter(Gpu),
+    Adapter(Adapter),
     Reference(ReferenceDrawing),
 }
 
 impl Drawer {
-    /// The adapter, unless the command line wants the reference renderer or there is none.
+    /// The adapter, unless the command line wants the reference renderer.
     fn choose(args: &RenderArgs) -> Result<Self, Failure> {
-        use RenderError as E;
         let mode = if args.surface { Mode::Surface } else { Mode::Mesh };
         let reference = ReferenceDrawing { mode, supersampling: args.supersample };
         if args.reference {
             return Ok(Self::Reference(reference));
         }
-        match args.look.adapter.choice().open() {
-            Ok(gpu) => Ok(Self::Adapter(gpu)),
-            Err(error @ (E::NoAdapter | E::NoAdapterAmong { .. } | E::NoDevice { .. })) => {
-                eprintln!(
-                    "warning: no graphics adapter: drawn by the reference renderer on the CPU, exactly and slowly"
-                );
-                eprintln!("note: {error}");
-                Ok(Self::Reference(reference))
-            }
-            Err(error) => Err(error.into()),
-        }
+        Ok(Self::Adapter(args.look.adapter.choice().open()?))
     }
 
     fn app(&self, size: UVec2, levels: LevelsOfDetail) -> App {
         let mut app = App::new();
         match self {
-            Self::Adapter(gpu) => {
-                app.add_plugins(HalfwayPlugins::headless(size)).insert_resource(gpu.clone()).insert_resource(levels)
+            Self::Adapter(adapter) => {
+                app.add_plugins(HalfwayPlugins::headless(size)).insert_resource(levels);
+                adapter.clone().insert_into(app.world_mut());
             }
-            Self::Reference(_) => app.add_plugins(HalfwayPlugins::reference()),
-        };
+            Self::Reference(_) => {
+                app.add_plugins(HalfwayPlugins::reference());
+            }
+        }
         app
     }
 

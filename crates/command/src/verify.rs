@@ -44,12 +44,13 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
         eprintln!("note: judged with one sample a pixel, since adapters differ in where they take four");
     }
     input.scene.samples = 1;
-    let gpu = args.look.adapter.choice().open()?;
-    let device = gpu.describe();
-    let bits = gpu.sub_pixel_bits()?;
+    let adapter = args.look.adapter.choice().open()?;
+    let device = adapter.describe();
+    let bits = adapter.sub_pixel_bits()?;
     let mut app = App::new();
     // The oracle knows no levels of detail.
-    app.add_plugins(HalfwayPlugins::headless(size)).insert_resource(gpu).insert_resource(LevelsOfDetail::OFF);
+    app.add_plugins(HalfwayPlugins::headless(size)).insert_resource(LevelsOfDetail::OFF);
+    adapter.insert_into(app.world_mut());
     input.spawn(&mut app)?;
     let encoding = input.scene.output;
     // The frames below are of one moment.

@@ -3,6 +3,7 @@
 use bevy_ecs::prelude::Entity;
 use bevy_transform::components::GlobalTransform;
 use halfway_lighting::InvalidValue;
+use halfway_raster::RasterError;
 use thiserror::Error;
 
 /// Why a frame could not be drawn as asked.
@@ -35,6 +36,14 @@ pub enum RenderError {
         /// The adapter's name.
         adapter: String,
         /// What the driver said.
+        reason: String,
+    },
+    /// The vectors that the CPU is to draw with are unknown, or it does not have them.
+    #[error("{asked_by}: {reason}")]
+    NoVectors {
+        /// The environment variable `HALFWAY_SIMD`, or the adapter's name.
+        asked_by: String,
+        /// What was found, and what there is.
         reason: String,
     },
     /// The environment variable `HALFWAY_COSTS` has a value that means nothing.
@@ -100,6 +109,14 @@ pub enum RenderError {
         /// The adapter's limit.
         limit: u64,
     },
+    /// The system refuses memory.
+    #[error("{bytes} bytes of memory for {what} were refused")]
+    Memory {
+        /// What it is for.
+        what: String,
+        /// How much was asked for.
+        bytes: u64,
+    },
     /// The adapter cannot draw this scene into 32-bit floating point.
     #[error(
         "the picture is to hold 32-bit floats, and the adapter cannot {cannot}; expected another adapter, a picture of 8 \
@@ -139,6 +156,18 @@ pub enum RenderError {
     /// The driver failed.
     #[error("the graphics device failed: {0}")]
     Device(String),
+    /// The CPU refused to draw the frame.
+    #[error("the CPU could not draw the frame: {0}")]
+    Cpu(String),
+}
+
+impl From<RasterError> for RenderError {
+    fn from(error: RasterError) -> Self {
+        match error {
+            RasterError::Memory { what, bytes } => Self::Memory { what: what.into(), bytes },
+            other => Self::Cpu(other.to_string()),
+        }
+    }
 }
 
 fn listed(adapters: &[String]) -> String {

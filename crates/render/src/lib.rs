@@ -1,4 +1,4 @@
-//! How halfway draws: WGSL, pipelines, passes and targets on wgpu.
+//! How halfway draws: batches, and what draws them, wgpu by its shaders or the CPU without a driver.
 //!
 //! [`RenderPlugin`] adds the way of a frame, [`RenderSet`] by [`RenderSet`], to a schedule of any
 //! `bevy_app` App. The target is a texture ([`Headless`]) unless a window brings a surface
@@ -6,6 +6,7 @@
 //! [`FrameTimes`] says where its time went on the CPU, and [`GpuTimer`] how much of it the GPU took.
 
 mod batch;
+mod cpu;
 mod device;
 mod draw;
 mod error;
@@ -18,9 +19,11 @@ mod shaders;
 mod target;
 mod view;
 
+pub use device::adapter::Adapter;
 pub use device::choice::AdapterChoice;
 pub use device::costs::Costs;
-pub use device::gpu::{Gpu, describe_adapter};
+pub use device::cpu::Cpu;
+pub use device::gpu::Gpu;
 pub use device::gpu_timer::GpuTimer;
 pub use draw::pass::encode_frame;
 pub use error::RenderError;
@@ -32,9 +35,10 @@ pub use lights::gather::Lights;
 pub use lights::terms::Chosen;
 pub use pipelines::compile::Compile;
 pub use plugin::RenderPlugin;
-pub use target::format::Pixels;
+pub use target::canvas::{Canvas, CanvasTarget};
+pub use target::format::{Picture, Pixels};
 pub use target::frame::Headless;
-pub use target::picture::{PendingPicture, Picture, render_picture};
+pub use target::picture::{PendingPicture, render_picture};
 pub use target::surface::{SurfaceLost, SurfaceTarget};
 pub use target::texture::TextureTarget;
 pub use view::camera::{Projection, View};

@@ -2,7 +2,12 @@
 
 use crate::batch::batches::{self, Batches};
 use crate::batch::lit_patches::{self, LitPatches};
+use crate::cpu::draw as on_canvas;
+use crate::cpu::meshes::{self as mesh_pieces, MeshPieces};
+use crate::cpu::pass::{self as lists, PassLists};
+use crate::device::adapter::Adapter;
 use crate::device::choice::AdapterChoice;
+use crate::device::cpu::Cpu;
 use crate::device::gpu::Gpu;
 use crate::draw::meshes::{self as mesh_buffers, MeshBuffers};
 use crate::draw::upload::{self, Buffers};
@@ -17,7 +22,8 @@ use crate::lights::gather::{self, Lights};
 use crate::lights::terms::{self, Chosen};
 use crate::pipelines::cache::{self, Pipelines};
 use crate::pipelines::compile::Compile;
-use crate::target::frame::{self, Headless, Target};
+use crate::target::canvas::Canvas;
+use crate::target::frame::{self, FrameValues, Headless, Target};
 use crate::view::camera::{self, PictureSize, View};
 use crate::view::matrices::{self, ModelView, NormalMatrix, Visible};
 use bevy_app::{App, Plugin, PostUpdate};
@@ -54,6 +60,8 @@ impl Plugin for RenderPlugin {
             .init_resource::<Headless>()
             .init_resource::<FrameReport>()
             .init_resource::<Target>()
+            .init_resource::<Canvas>()
+            .init_resource::<FrameValues>()
             .init_resource::<PictureSize>()
             .init_resource::<View>()
             .init_resource::<Visible>()
@@ -65,7 +73,9 @@ impl Plugin for RenderPlugin {
             .init_resource::<Geometries>()
             .init_resource::<MeshBuffers>()
             .init_resource::<Buffers>()
-            .init_resource::<Pipelines>();
+            .init_resource::<Pipelines>()
+            .init_resource::<MeshPieces>()
+            .init_resource::<PassLists>();
         register_types(app);
         self.add_systems(app);
         self.require_components(app);
@@ -95,23 +105,32 @@ impl RenderPlugin {
         app.configure_sets(self.schedule, order.chain().after(TransformSystems::Propagate)).add_systems(
             self.schedule,
             (
-                (frame::measure, camera::update, camera::require_propagation, open_gpu).chain().in_set(View),
+                (frame::measure, camera::update, camera::require_propagation, open, replaced::forget)
+                    .chain()
+                    .in_set(View),
                 matrices::select.in_set(Select),
                 matrices::compute.in_set(Matrices),
                 (terms::choose, meshes::forget_removed, meshes::lay_out).chain().in_set(Choose),
                 gather::gather.in_set(Illuminate),
             ),
         );
-        // What draws the batches: wgpu.
+        // What draws the batches: wgpu, or the CPU.
         let on_gpu = (
-            (replaced::forget, frame::prepare).chain().in_set(View).after(open_gpu),
+            frame::prepare.in_set(View).after(replaced::forget),
             (cache::begin, lit_patches::illuminate::<Pipelines>).chain().in_set(Illuminate).after(gather::gather),
             batches::batch::<Pipelines>.in_set(Batch),
             (mesh_buffers::upload, upload::build_pipelines, upload::upload).chain().in_set(Upload),
             pass::draw.in_set(Draw),
             pass::present.in_set(Deliver),
         );
-        app.add_systems(self.schedule, on_gpu.run_if(can_draw));
+        let on_cpu = (
+            on_canvas::prepare.in_set(View).after(replaced::forget),
+            lit_patches::illuminate::<Cpu>.in_set(Illuminate).after(gather::gather),
+            batches::batch::<Cpu>.in_set(Batch),
+            (mesh_pieces::make_ready, lists::fill).chain().in_set(Upload),
+            on_canvas::draw.in_set(Draw),
+        );
+        app.add_systems(self.schedule, (on_gpu.run_if(gpu_draws), on_cpu.run_if(cpu_draws)));
     }
 }
 
@@ -138,11 +157,12 @@ fn register_types(app: &mut App) {
         .register_type::<Chosen>();
 }
 
-/// Opens an adapter for headless pictures unless there is one that works. What fails is in the report, every frame
-/// anew, so that an adapter that appears later is found. A device that is lost is replaced once a report has said so.
-fn open_gpu(world: &mut World) {
+/// Opens what draws headless pictures unless there is something that can. What fails is in the report, every frame anew, so
+/// that an adapter that appears later is found. A device that is lost is replaced once a report has said so.
+fn open(world: &mut World) {
     let lost = match world.get_resource::<Gpu>() {
         Some(gpu) if !gpu.is_lost() => return,
+        None if world.contains_resource::<Cpu>() => return,
         there => there.cloned(),
     };
     if let Some(loss) = lost.as_ref().and_then(Gpu::take_loss) {
@@ -150,14 +170,22 @@ fn open_gpu(world: &mut World) {
         return;
     }
     match world.resource::<AdapterChoice>().open() {
-        Ok(gpu) => {
-            log::info!("drawing on {}", gpu.describe());
-            world.insert_resource(if let Some(lost) = &lost { gpu.in_place_of(lost) } else { gpu });
+        Ok(adapter) => {
+            log::info!("drawing on {}", adapter.describe());
+            match (adapter, &lost) {
+                (Adapter::Gpu(gpu), Some(lost)) => Adapter::Gpu(gpu.in_place_of(lost)),
+                (adapter, _) => adapter,
+            }
+            .insert_into(world);
         }
         Err(error) => world.resource_mut::<FrameReport>().errors.push(error),
     }
 }
 
-fn can_draw(gpu: Option<Res<Gpu>>) -> bool {
+fn gpu_draws(gpu: Option<Res<Gpu>>) -> bool {
     gpu.is_some_and(|gpu| !gpu.is_lost())
+}
+
+fn cpu_draws(gpu: Option<Res<Gpu>>, cpu: Option<Res<Cpu>>) -> bool {
+    gpu.is_none() && cpu.is_some()
 }

@@ -8,7 +8,7 @@ use std::time::Duration;
 use halfway::prelude::*;
 use halfway::reference::metrics::{Bars, Verdict, judge};
 use halfway::reference::{Image, Oracle};
-use halfway::render::{Gpu, RenderError};
+use halfway::render::{Adapter, RenderError};
 use halfway::scene::{SceneFile, spawn};
 use serde_json::Value;
 
@@ -22,7 +22,7 @@ use crate::shrink::shrink;
 /// hardly anything but slopes. A byte may be off by one step; where something is blended by one step more for each blended
 /// object, since each layer is rounded to bytes. Scenes with four samples a pixel are drawn and judged with one, unless asked for.
 pub struct Judge {
-    gpu: Gpu,
+    adapter: Adapter,
     base_dir: PathBuf,
     grid: u32,
     four: bool,
@@ -76,9 +76,9 @@ impl fmt::Display for Finding {
 }
 
 impl Judge {
-    /// Judges what `gpu` draws. Paths of scenes are relative to `base_dir`.
-    pub fn new(gpu: Gpu, base_dir: impl Into<PathBuf>) -> Self {
-        Self { gpu, base_dir: base_dir.into(), grid: 8, four: false, fault: None }
+    /// Judges what `adapter` draws. Paths of scenes are relative to `base_dir`.
+    pub fn new(adapter: Adapter, base_dir: impl Into<PathBuf>) -> Self {
+        Self { adapter, base_dir: base_dir.into(), grid: 8, four: false, fault: None }
     }
 
     /// Judges an adapter that puts vertices on a grid of so many bits, 4 to 8, which is Vulkan's `subPixelPrecisionBits`; 8
@@ -137,7 +137,8 @@ impl Judge {
             fault(&mut drawn);
         }
         let mut renderer = App::new();
-        renderer.add_plugins(HalfwayPlugins::headless(size)).insert_resource(self.gpu.clone());
+        renderer.add_plugins(HalfwayPlugins::headless(size));
+        self.adapter.clone().insert_into(renderer.world_mut());
         // The oracle knows no levels of detail.
         renderer.insert_resource(LevelsOfDetail::OFF);
         self.set_up(&mut renderer, &drawn)?;

@@ -30,8 +30,8 @@ struct Arguments {
     /// The number of the first one
     #[arg(long, value_name = "N", default_value_t = 0)]
     first: u64,
-    /// The graphics adapter: a part of its name or its backend's, as `halfway adapters` lists them, or both, such as
-    /// gl:llvmpipe
+    /// What draws: cpu, or a graphics adapter by a part of its name or its backend's, as `halfway adapters` lists them, or
+    /// both, such as gl:llvmpipe
     #[arg(long, value_name = "NAME", value_parser = NonEmptyStringValueParser::new())]
     adapter: Option<String>,
     /// The bits of the grid of a pixel that the adapter puts vertices on; some have 4
@@ -72,9 +72,9 @@ struct Worst {
 /// How many scenes failed.
 fn run(arguments: &Arguments) -> Result<u64, (u8, String)> {
     let choice = AdapterChoice { name: arguments.adapter.clone() };
-    let gpu = choice.open().map_err(|error| (3, error.to_string()))?;
-    println!("{}, seed {}", gpu.describe(), arguments.seed);
-    let judge = Judge::new(gpu, "").with_grid(arguments.grid).with_four_samples(arguments.four);
+    let adapter = choice.open().map_err(|error| (3, error.to_string()))?;
+    println!("{}, seed {}", adapter.describe(), arguments.seed);
+    let judge = Judge::new(adapter, "").with_grid(arguments.grid).with_four_samples(arguments.four);
     let start = Instant::now();
     let (mut worst, mut failed) = (Worst::default(), 0);
     for number in arguments.first..arguments.first.saturating_add(arguments.scenes) {

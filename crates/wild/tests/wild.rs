@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use halfway::render::Gpu;
+use halfway::render::AdapterChoice;
 use halfway::scene::{MaterialEntry, SceneFile};
 use halfway_wild::{Fault, Finding, Judge, scene, written};
 use serde_json::Value;
@@ -12,7 +12,7 @@ use serde_json::Value;
 const KEPT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/wild");
 
 fn judge() -> Judge {
-    Judge::new(Gpu::open_headless().unwrap_or_else(|error| panic!("{error}")), KEPT)
+    Judge::new(AdapterChoice::default().open().unwrap_or_else(|error| panic!("{error}")), KEPT)
 }
 
 fn kept(folder: &Path) -> Vec<(PathBuf, Value)> {

@@ -5,7 +5,7 @@ use crate::input::Forward;
 use crate::orbit_camera::DragArea;
 use bevy_ecs::prelude::*;
 use bevy_math::{UVec2, Vec2};
-use halfway_render::{AdapterChoice, Gpu, SurfaceLost, SurfaceTarget, wgpu};
+use halfway_render::{Adapter, AdapterChoice, Gpu, SurfaceLost, SurfaceTarget, wgpu};
 use std::sync::Arc;
 use std::time::Duration;
 use winit::dpi::LogicalSize;
@@ -110,8 +110,11 @@ impl Open {
 /// Opens an adapter that can draw in the window and the window's surface, and puts them into `world`.
 fn open_gpu(window: &Arc<Window>, display: &OwnedDisplayHandle, world: &mut World) -> Result<(), WindowError> {
     let choice = world.get_resource_or_init::<AdapterChoice>().clone();
-    let (mut gpu, surface) = choice.open_for(display, |instance| make_surface(instance, window))?;
-    log::info!("drawing on {}", gpu.describe());
+    let (adapter, surface) = choice.open_for(display, |instance| make_surface(instance, window))?;
+    log::info!("drawing on {}", adapter.describe());
+    let (Adapter::Gpu(mut gpu), Some(surface)) = (adapter, surface) else {
+        return Err(WindowError::Surface("the CPU cannot draw in windows yet".into()));
+    };
     if let Some(lost) = world.get_resource::<Gpu>().filter(|gpu| gpu.is_lost()) {
         gpu = gpu.in_place_of(lost);
     }

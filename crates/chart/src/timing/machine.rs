@@ -1,13 +1,13 @@
 //! What was measured on.
 
-use halfway::render::{FrameReport, Gpu};
+use halfway::render::{Adapter, Cpu, FrameReport};
 
 /// The machine and the programs that figures come from. What cannot be found out is `unknown`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Machine {
-    /// The adapter's name, as its driver tells it.
+    /// The adapter's name, as its driver tells it; of the CPU without a driver its vectors.
     pub adapter: String,
-    /// The interface that it is driven through, such as `vulkan`.
+    /// The interface that it is driven through, such as `vulkan`, or `cpu`.
     pub backend: String,
     /// Whether the adapter draws on the CPU.
     pub software: bool,
@@ -24,16 +24,22 @@ pub struct Machine {
 }
 
 impl Machine {
-    /// This machine, drawing on `gpu`.
-    pub fn new(gpu: &Gpu) -> Self {
-        let info = gpu.adapter.get_info();
+    /// This machine, drawing on `adapter`.
+    pub fn new(adapter: &Adapter) -> Self {
         let known = |text: String| if text.is_empty() { UNKNOWN.to_owned() } else { text };
+        let [name, backend, driver, driver_version] = match adapter {
+            Adapter::Gpu(gpu) => {
+                let info = gpu.adapter.get_info();
+                [info.name, info.backend.to_string(), info.driver, info.driver_info]
+            }
+            Adapter::Cpu(cpu) => [cpu.vectors(), Cpu::NAME.into(), "halfway".into(), env!("CARGO_PKG_VERSION").into()],
+        };
         Self {
-            adapter: known(info.name),
-            backend: info.backend.to_string(),
-            software: gpu.is_software(),
-            driver: known(info.driver),
-            driver_version: known(info.driver_info),
+            adapter: known(name),
+            backend,
+            software: adapter.is_software(),
+            driver: known(driver),
+            driver_version: known(driver_version),
             halfway: env!("CARGO_PKG_VERSION"),
             cpu: cpu_model(&std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default()),
             cores: std::thread::available_parallelism().map_or(0, Into::into),

@@ -3,11 +3,11 @@
 use std::time::{Duration, Instant};
 
 use halfway::prelude::App;
-use halfway::render::{FrameReport, Gpu, RenderError, wgpu};
+use halfway::render::{Adapter, FrameReport, RenderError};
 
 /// What the time of a [`frame`] is.
 pub const FRAME_TIME: &str = "A frame is App::update, which moves everything, prepares, encodes and submits the draws, \
-                              and the wait until the device has finished them; start-up and reading the picture back are not in it.";
+                              and the wait until the device, if one draws, has finished them; start-up and reading the picture back are not in it.";
 
 /// The frames that a turn of [`in_turns`] times.
 const TIMED: usize = 2;
@@ -28,8 +28,7 @@ pub fn frame(app: &mut App) -> Result<(), RenderError> {
     if let Some(error) = world.get_resource::<FrameReport>().and_then(|report| report.errors.first()) {
         return Err(error.clone());
     }
-    let device = &world.get_resource::<Gpu>().ok_or(RenderError::NoAdapter)?.device;
-    device.poll(wgpu::PollType::wait_indefinitely()).map(drop).map_err(|error| RenderError::Device(error.to_string()))
+    Adapter::of(world).ok_or(RenderError::NoAdapter)?.finish()
 }
 
 /// Runs frames until they are alike: the first ones build pipelines, upload meshes and wait for levels of detail. Alike are

@@ -1,7 +1,7 @@
 //! `halfway bench features`: what each feature of lighting costs, once a vertex and once a pixel.
 
 use halfway::prelude::*;
-use halfway::render::Gpu;
+use halfway::render::Adapter;
 use halfway_chart::timing::{FRAME_TIME, Machine, Spread, median, median_ratio, settle};
 use serde_json::json;
 
@@ -28,11 +28,11 @@ pub(super) fn run(args: &BenchArgs) -> Result<(), Failure> {
         return Err("bench features: expected no option but --adapter, --rounds and --json".to_owned().into());
     }
     let features = Feature::all();
-    // One device for all, so that two dozen of them need not share the machine.
-    let gpu = args.adapter.choice().open()?;
-    let [vertex, fragment] = FeatureStage::ALL.map(|stage| measure(&features, stage, &gpu, args.rounds));
+    // One for all, so that two dozen of them need not share the machine.
+    let adapter = args.adapter.choice().open()?;
+    let [vertex, fragment] = FeatureStage::ALL.map(|stage| measure(&features, stage, &adapter, args.rounds));
     let (vertex, fragment) = (vertex?, fragment?);
-    let machine = Machine::new(&gpu);
+    let machine = Machine::new(&adapter);
     let rows: Vec<_> = features.iter().zip(vertex.iter().zip(&fragment)).collect();
     if args.json {
         print_json(args, &machine, &rows);
@@ -43,8 +43,8 @@ pub(super) fn run(args: &BenchArgs) -> Result<(), Failure> {
 }
 
 /// Every feature at one stage, all in turns.
-fn measure(features: &[Feature], stage: FeatureStage, gpu: &Gpu, rounds: u32) -> Result<Vec<Cost>, Failure> {
-    let mut apps: Vec<App> = features.iter().map(|feature| app(*feature, stage, gpu)).collect();
+fn measure(features: &[Feature], stage: FeatureStage, adapter: &Adapter, rounds: u32) -> Result<Vec<Cost>, Failure> {
+    let mut apps: Vec<App> = features.iter().map(|feature| app(*feature, stage, adapter)).collect();
     for app in &mut apps {
         settle(app)?;
     }
@@ -68,9 +68,9 @@ fn measure(features: &[Feature], stage: FeatureStage, gpu: &Gpu, rounds: u32) ->
     Ok(costs.collect())
 }
 
-fn app(feature: Feature, stage: FeatureStage, gpu: &Gpu) -> App {
+fn app(feature: Feature, stage: FeatureStage, adapter: &Adapter) -> App {
     let mut app = App::new();
-    app.insert_resource(gpu.clone());
+    adapter.clone().insert_into(app.world_mut());
     app.add_plugins((HalfwayPlugins::headless(stage.size()), feature.at(stage)));
     finish(&mut app);
     app

@@ -1,7 +1,7 @@
 //! `halfway bench s1` to `s4`: the table of one scene.
 
 use halfway::prelude::*;
-use halfway::render::Gpu;
+use halfway::render::{Adapter, RenderError};
 use halfway_chart::timing::{FRAME_TIME, Machine, Spread, median_ratio, settle};
 use serde_json::json;
 
@@ -31,7 +31,7 @@ pub(super) fn run(args: &BenchArgs, timed: &Timed) -> Result<(), Failure> {
         settle(app)?;
     }
     let times = cpu::timed(&mut apps.iter_mut().collect::<Vec<_>>(), args.rounds)?;
-    let machine = Machine::new(apps[0].world().resource::<Gpu>());
+    let machine = Machine::new(&Adapter::of(apps[0].world()).ok_or(RenderError::NoAdapter)?);
     let reports = apps.iter().map(|app| app.world().resource::<FrameReport>().clone());
     let mut rows = Vec::new();
     for ((mode, report), (own, cpu)) in BenchShading::ALL.into_iter().zip(reports).zip(&times) {

@@ -31,6 +31,16 @@ pub(crate) struct IndexedDraw {
     pub(crate) first_instance: u32,
 }
 
+impl IndexedDraw {
+    pub(crate) fn indices(&self) -> Range<u32> {
+        self.first_index..self.first_index + self.index_count
+    }
+
+    pub(crate) fn instances(&self) -> Range<u32> {
+        self.first_instance..self.first_instance + self.instance_count
+    }
+}
+
 /// Draws one after the other that share their state.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct DrawGroup {
@@ -90,13 +100,18 @@ impl Draws {
         &self.groups
     }
 
+    /// The draws of a group.
+    pub(crate) fn of(&self, group: &DrawGroup) -> &[IndexedDraw] {
+        self.each.get(group.draws.clone()).unwrap_or_default()
+    }
+
     pub(crate) fn commands(&self, group: &DrawGroup) -> GroupCommands<'_> {
         let Range { start, end } = group.draws;
         if self.is_one_command(|| end - start) {
             let offset = (start * size_of::<IndexedDraw>()) as u64;
             GroupCommands::Multi { offset, count: (end - start) as u32 }
         } else {
-            GroupCommands::Each(self.each.get(start..end).unwrap_or_default())
+            GroupCommands::Each(self.of(group))
         }
     }
 

@@ -14,7 +14,7 @@ use crate::lights::lists::LightLists;
 use crate::lights::terms::Chosen;
 use crate::shaders::light_slots::Lists;
 use crate::shaders::records::{DrawRecord, InstanceRecord, RecordLists};
-use crate::target::frame::Target;
+use crate::target::frame::FrameValues;
 use crate::view::camera::View;
 use crate::view::matrices::{ModelView, NormalMatrix, Visible};
 use bevy_asset::AssetId;
@@ -83,15 +83,15 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
     view: Res<View>,
     lights: Res<Lights>,
     allowed: Res<LevelsOfDetail>,
-    target: Res<Target>,
+    values: Res<FrameValues>,
     mut backend: ResMut<B>,
     mut lit: ResMut<LitPatches>,
     mut report: ResMut<FrameReport>,
 ) {
     let lit = &mut *lit;
     lit.begin(&lights);
-    let (Some(camera), Some(frame)) = (&view.camera, &target.frame) else { return };
-    let (encoding, viewer, costs) = (frame.output.encoding(), camera.viewer, backend.costs());
+    let (Some(camera), Some(values)) = (&view.camera, values.0) else { return };
+    let (encoding, viewer, costs) = (values.encoding(), camera.viewer, backend.costs());
     let shared = Shared { lights: &lights, allowed: &allowed, encoding, viewer, costs };
     for &entity in &visible.0 {
         let Ok((mesh, material, back, reflectance, faces, blend, model_view, normal_matrix, chosen, name)) =

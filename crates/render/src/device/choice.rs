@@ -1,5 +1,7 @@
 //! Which adapter to draw with.
 
+use crate::device::adapter::Adapter;
+use crate::device::cpu::Cpu;
 use crate::device::gpu::{Gpu, describe_adapter};
 use crate::device::instance::instance;
 use crate::error::RenderError;
@@ -7,7 +9,7 @@ use bevy_ecs::prelude::{ReflectResource, Resource};
 use bevy_reflect::Reflect;
 use bevy_reflect::std_traits::ReflectDefault;
 
-/// Which graphics adapter to draw with. Insert it before the first frame; an open [`Gpu`] stays.
+/// What to draw with: which graphics adapter, or the CPU. Insert it before the first frame; an open [`Gpu`] or [`Cpu`] stays.
 ///
 /// The first of these that is given decides:
 ///
@@ -18,7 +20,10 @@ use bevy_reflect::std_traits::ReflectDefault;
 /// 4. nothing by name: a hardware adapter of Vulkan, Metal or DirectX 12, else a software one; where none of these
 ///    answers, one of OpenGL.
 ///
-/// A name is a part, in upper or lower case, of the adapter's name or of its backend's (`vulkan`, `metal`, `dx12`, `gl`
+/// The name `cpu` stands for the CPU without a driver ([`Cpu`]), `cpu:avx512`, `cpu:avx2`, `cpu:neon` and `cpu:plain` for the
+/// CPU with these vectors. Where nothing is given and no adapter answers, the CPU draws.
+///
+/// Any other name is a part, in upper or lower case, of the adapter's name or of its backend's (`vulkan`, `metal`, `dx12`, `gl`
 /// or `opengl`), or both with a colon between: `vulkan:llvmpipe`, `gl:llvmpipe`. The name of a backend in full stands for
 /// the backend only. Of several adapters that fit, hardware goes before software. `VK_DRIVER_FILES` says which Vulkan
 /// drivers there are to choose from, whatever names them. OpenGL is asked only where the name can mean it and nothing of
@@ -36,18 +41,54 @@ impl AdapterChoice {
         Self { name: Some(name.into()) }
     }
 
-    /// Opens the adapter, for pictures without a window.
+    /// The CPU without a driver.
+    pub fn cpu() -> Self {
+        Self::named(Cpu::NAME)
+    }
+
+    /// Opens what draws, for pictures without a window.
+    ///
+    /// # Errors
+    /// [`RenderError::NoAdapterAmong`], [`RenderError::NoSuchAdapter`], [`RenderError::NoDevice`] or
+    /// [`RenderError::NoVectors`], each with what to do about it.
+    pub fn open(&self) -> Result<Adapter, RenderError> {
+        if let Some(cpu) = self.open_cpu(variable) {
+            return cpu.map(Adapter::Cpu);
+        }
+        match self.open_gpu() {
+            Err(RenderError::NoAdapter) => Cpu::open().map(Adapter::Cpu),
+            opened => opened.map(Adapter::Gpu),
+        }
+    }
+
+    /// Opens a graphics adapter, for pictures without a window; never the CPU without a driver.
     ///
     /// # Errors
     /// [`RenderError::NoAdapter`], [`RenderError::NoAdapterAmong`], [`RenderError::NoSuchAdapter`] or
     /// [`RenderError::NoDevice`], each with what to do about it.
-    pub fn open(&self) -> Result<Gpu, RenderError> {
+    pub fn open_gpu(&self) -> Result<Gpu, RenderError> {
         let (instance, adapter) = self.find()?;
         Gpu::of_adapter(instance, adapter)
     }
 
-    /// Opens the adapter with a surface that it can present to. `display` is the display of the surface's window, which
-    /// OpenGL has to know; `make_surface` makes the surface from an instance, and may be called once a backend.
+    /// The CPU, if the name asks for it.
+    fn open_cpu(&self, variable: impl Fn(&str) -> Option<String>) -> Option<Result<Cpu, RenderError>> {
+        let name = self.given(variable)?.to_lowercase();
+        match name.split_once(':') {
+            None if name == Cpu::NAME => Some(Cpu::open()),
+            Some((Cpu::NAME, vectors)) => Some(Cpu::open_with(vectors.trim())),
+            _ => None,
+        }
+    }
+
+    /// The name that is given here or, before wgpu's own, by the environment.
+    fn given(&self, variable: impl Fn(&str) -> Option<String>) -> Option<String> {
+        self.name.clone().filter(|name| !name.is_empty()).or_else(|| variable("HALFWAY_ADAPTER"))
+    }
+
+    /// Opens what draws in a window: a graphics adapter with a surface that it can present to, or the CPU, which needs none.
+    /// `display` is the display of the surface's window, which OpenGL has to know; `make_surface` makes the surface from an
+    /// instance, and may be called once a backend.
     ///
     /// # Errors
     /// As [`open`](Self::open), and what `make_surface` could not do.
@@ -55,7 +96,10 @@ impl AdapterChoice {
         &self,
         display: &(impl wgpu::wgt::WgpuHasDisplayHandle + Clone),
         mut make_surface: impl FnMut(&wgpu::Instance) -> Result<wgpu::Surface<'static>, E>,
-    ) -> Result<(Gpu, wgpu::Surface<'static>), E> {
+    ) -> Result<(Adapter, Option<wgpu::Surface<'static>>), E> {
+        if let Some(cpu) = self.open_cpu(variable) {
+            return Ok((Adapter::Cpu(cpu?), None));
+        }
         let wanted = self.wanted(variable);
         let mut refused = None;
         for &backends in &wanted.rounds {
@@ -63,7 +107,7 @@ impl AdapterChoice {
             match make_surface(&instance) {
                 Ok(surface) => {
                     if let Some(adapter) = wanted.pick(&instance, backends, Some(&surface)) {
-                        return Ok((Gpu::of_adapter(instance, adapter)?, surface));
+                        return Ok((Adapter::Gpu(Gpu::of_adapter(instance, adapter)?), Some(surface)));
                     }
                 }
                 // Without any driver there is no surface either, and the driver is what to say something about.
@@ -71,20 +115,35 @@ impl AdapterChoice {
                 Err(_) => {}
             }
         }
-        Err(refused.unwrap_or_else(|| wanted.missing().into()))
+        match (refused, wanted.missing()) {
+            (Some(error), _) => Err(error),
+            (None, RenderError::NoAdapter) => Ok((Adapter::Cpu(Cpu::open()?), None)),
+            (None, missing) => Err(missing.into()),
+        }
     }
 
-    /// All adapters that there are, or that `WGPU_BACKEND` allows; the one that would be opened comes first. OpenGL is
-    /// asked, too.
-    pub fn list(&self) -> Vec<wgpu::AdapterInfo> {
-        let mut all: Vec<_> = self.find().ok().map(|(_, adapter)| adapter.get_info()).into_iter().collect();
+    /// All adapters that there are, or that `WGPU_BACKEND` allows, and the CPU, a line each; what would be opened comes
+    /// first. OpenGL is asked, too.
+    ///
+    /// # Errors
+    /// As [`open`](Self::open) where what would be opened is not there.
+    pub fn list(&self) -> Result<Vec<String>, RenderError> {
+        let first = match self.open_cpu(variable) {
+            Some(cpu) => cpu?.describe(),
+            None => match self.find() {
+                Ok((_, adapter)) => describe_adapter(&adapter.get_info()),
+                Err(RenderError::NoAdapter) => Cpu::open()?.describe(),
+                Err(missing) => return Err(missing),
+            },
+        };
         let rounds = AdapterChoice::default().wanted(|name| variable(name).filter(|_| name == BACKEND)).rounds;
-        for info in infos(&rounds) {
-            if !all.contains(&info) {
-                all.push(info);
+        let mut all = vec![first];
+        for adapter in there(&rounds) {
+            if !all.contains(&adapter) {
+                all.push(adapter);
             }
         }
-        all
+        Ok(all)
     }
 
     fn find(&self) -> Result<(wgpu::Instance, wgpu::Adapter), RenderError> {
@@ -98,7 +157,7 @@ impl AdapterChoice {
     }
 
     fn wanted(&self, variable: impl Fn(&str) -> Option<String>) -> Wanted {
-        if let Some(text) = self.name.clone().filter(|name| !name.is_empty()).or_else(|| variable("HALFWAY_ADAPTER")) {
+        if let Some(text) = self.given(&variable) {
             let name = AdapterName::new(&text);
             let rounds = ROUNDS.map(|round| round & name.backends()).into_iter().filter(|round| !round.is_empty());
             return Wanted { rounds: rounds.collect(), name: Some(name), limited: None };
@@ -111,12 +170,12 @@ impl AdapterChoice {
 }
 
 impl Gpu {
-    /// Opens an adapter that needs no window, the one that [`AdapterChoice::default`] finds.
+    /// Opens a graphics adapter that needs no window, the one that [`AdapterChoice::default`] finds.
     ///
     /// # Errors
-    /// As [`AdapterChoice::open`].
+    /// As [`AdapterChoice::open_gpu`].
     pub fn open_headless() -> Result<Self, RenderError> {
-        AdapterChoice::default().open()
+        AdapterChoice::default().open_gpu()
     }
 }
 
@@ -166,8 +225,7 @@ impl Wanted {
             (Some(name), limited) => {
                 // What a name may be chosen from; the limit goes for a name of wgpu's own only.
                 let rounds = if limited.is_some() { &self.rounds[..] } else { &ROUNDS };
-                let there = infos(rounds).iter().map(describe_adapter).collect();
-                RenderError::NoSuchAdapter { wanted: name.0.clone(), there }
+                RenderError::NoSuchAdapter { wanted: name.0.clone(), there: there(rounds) }
             }
             (None, Some(backends)) => RenderError::NoAdapterAmong { backends: backends.clone() },
             (None, None) => RenderError::NoAdapter,
@@ -175,10 +233,11 @@ impl Wanted {
     }
 }
 
-/// The adapters of these backends, in the order in which they are asked.
-fn infos(rounds: &[wgpu::Backends]) -> Vec<wgpu::AdapterInfo> {
+/// A line for each adapter of these backends, in the order in which they are asked, and for the CPU.
+fn there(rounds: &[wgpu::Backends]) -> Vec<String> {
     let of = |&backends: &wgpu::Backends| enumerate(&instance(backends, None), backends);
-    rounds.iter().flat_map(of).map(|adapter| adapter.get_info()).collect()
+    let adapters = rounds.iter().flat_map(of).map(|adapter| describe_adapter(&adapter.get_info()));
+    adapters.chain(Cpu::open().ok().map(|cpu| cpu.describe())).collect()
 }
 
 fn enumerate(instance: &wgpu::Instance, backends: wgpu::Backends) -> Vec<wgpu::Adapter> {

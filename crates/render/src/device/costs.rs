@@ -55,6 +55,16 @@ impl Costs {
         maps_meshes: false,
     };
 
+    /// Of the CPU without a driver ([`Cpu`](crate::Cpu)): its shading reads materials and lights where they are, so that
+    /// what would start a draw elsewhere is free. Of one mesh, instances of one material go together.
+    pub const CPU: Self = Self {
+        shaders_encode: true,
+        lights_at_fixed_places: false,
+        records_of_one_command: usize::MAX,
+        multi_draw: None,
+        maps_meshes: true,
+    };
+
     /// Of this adapter, or what the environment says of it.
     pub(crate) fn of(adapter: &wgpu::Adapter) -> Result<Self, RenderError> {
         match std::env::var_os(VARIABLE) {

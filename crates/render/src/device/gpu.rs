@@ -227,7 +227,7 @@ impl Gpu {
 }
 
 /// One line for people: the adapter's name, its backend, and whether it is software.
-pub fn describe_adapter(info: &wgpu::AdapterInfo) -> String {
+pub(crate) fn describe_adapter(info: &wgpu::AdapterInfo) -> String {
     let software = if info.device_type == wgpu::DeviceType::Cpu { ", software" } else { "" };
     format!("{} ({}{software})", info.name, info.backend)
 }

@@ -1,7 +1,9 @@
-//! The adapter and its device.
+//! What draws: an adapter and its device, or the CPU.
 
+pub(crate) mod adapter;
 pub(crate) mod choice;
 pub(crate) mod costs;
+pub(crate) mod cpu;
 pub(crate) mod gpu;
 pub(crate) mod gpu_timer;
 mod instance;

@@ -2,10 +2,11 @@
 
 use crate::batch::batches::Batches;
 use crate::device::gpu::Gpu;
+use crate::draw::flat::FlatMesh;
 use crate::error::RenderError;
 use crate::frame::report::FrameReport;
 use crate::geometry::detail::Detail;
-use crate::geometry::meshes::{Form, Geometries, Geometry, Layout};
+use crate::geometry::meshes::{Form, Geometries, Geometry};
 use crate::geometry::workshop::is_same;
 use bevy_asset::AssetId;
 use bevy_ecs::prelude::*;
@@ -81,24 +82,23 @@ impl MeshBuffers {
         if there.is_some_and(|there| Arc::ptr_eq(&there.detail, &geometry.detail)) {
             return Ok(0);
         }
-        if let Some(Layout::Flat(flat)) = &mut geometry.layout {
-            gpu.provoking_vertex().place(&mut flat.indices);
-        }
-        let (buffer, bytes) = match (&geometry.layout, there) {
-            // The vertices of levels are those of the mesh.
-            (Some(Layout::Smooth(indices)), Some(there)) => there.with_indices(gpu, indices, &geometry.detail)?,
-            (Some(Layout::Smooth(indices)), None) => {
-                let source = &geometry.source;
-                let vertices = (source.positions(), bytemuck::cast_slice(source.normals()));
-                MeshBuffer::new(gpu, vertices, indices, geometry)?
-            }
-            (Some(Layout::Flat(flat)), _) => {
+        let Some(indices) = &geometry.indices else { return Ok(0) };
+        let source = &geometry.source;
+        let (buffer, bytes) = match there {
+            _ if key.1.flat => {
+                let mut flat = FlatMesh::new(source.positions(), indices.as_chunks().0);
+                gpu.provoking_vertex().place(&mut flat.indices);
                 let vertices = (&flat.positions[..], bytemuck::cast_slice(&flat.attributes));
                 MeshBuffer::new(gpu, vertices, &flat.indices, geometry)?
             }
-            (None, _) => return Ok(0),
+            // The vertices of levels are those of the mesh.
+            Some(there) => there.with_indices(gpu, indices, &geometry.detail)?,
+            None => {
+                let vertices = (source.positions(), bytemuck::cast_slice(source.normals()));
+                MeshBuffer::new(gpu, vertices, indices, geometry)?
+            }
         };
-        geometry.layout = None;
+        geometry.indices = None;
         self.meshes.insert(key, buffer);
         Ok(bytes)
     }

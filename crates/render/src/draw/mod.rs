@@ -1,5 +1,6 @@
 //! How wgpu draws batches: what draws read is uploaded, and the pass is encoded, submitted and presented.
 
+pub(crate) mod flat;
 pub(crate) mod meshes;
 pub(crate) mod pass;
 pub(crate) mod replaced;

@@ -111,9 +111,7 @@ fn record(
         match (batches.draws.commands(group), buffers.draws()) {
             (GroupCommands::Each(draws), _) => {
                 for draw in draws {
-                    let indices = draw.first_index..draw.first_index + draw.index_count;
-                    let instances = draw.first_instance..draw.first_instance + draw.instance_count;
-                    pass.draw_indexed(indices, 0, instances);
+                    pass.draw_indexed(draw.indices(), 0, draw.instances());
                 }
             }
             (GroupCommands::Multi { offset, count }, Some(draws)) => {

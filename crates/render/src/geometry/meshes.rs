@@ -1,8 +1,7 @@
-//! Meshes laid out for drawing: shared vertices for smooth shading, one vertex a triangle for flat.
+//! Meshes laid out for drawing: in patches, and with levels of detail.
 
 use crate::frame::report::FrameReport;
 use crate::geometry::detail::{Detail, LevelsOfDetail, MeshTriangles};
-use crate::geometry::flat::FlatMesh;
 use crate::geometry::workshop::{Workshop, is_same};
 use crate::lights::terms::Chosen;
 use crate::view::matrices::Visible;
@@ -21,16 +20,8 @@ pub(crate) struct Geometry {
     pub(crate) source: Mesh,
     /// Some interpolated normal may vanish, so that Phong shading needs the geometric one at hand.
     pub(crate) opposite_normals: bool,
-    /// Until what draws it has taken it.
-    pub(crate) layout: Option<Layout>,
-}
-
-/// Vertices, and which of them make triangles, in the order in which they are drawn.
-pub(crate) enum Layout {
-    /// The vertices of the mesh, and their numbers.
-    Smooth(Vec<u32>),
-    /// Vertices and numbers of their own.
-    Flat(FlatMesh),
+    /// Which vertices make triangles, in the order in which they are drawn; until what draws it has taken it.
+    pub(crate) indices: Option<Vec<u32>>,
 }
 
 /// How a mesh is laid out for drawing.
@@ -87,12 +78,8 @@ impl Geometries {
             None if form.ordered => MeshTriangles::in_order(mesh),
             None => MeshTriangles::in_patches(mesh),
         };
-        let layout = if form.flat {
-            Layout::Flat(FlatMesh::new(mesh.positions(), &corners))
-        } else {
-            Layout::Smooth(corners.into_flattened())
-        };
-        let geometry = Geometry { detail, source: mesh.clone(), opposite_normals, layout: Some(layout) };
+        let indices = Some(corners.into_flattened());
+        let geometry = Geometry { detail, source: mesh.clone(), opposite_normals, indices };
         self.meshes.insert((id, form), geometry);
     }
 }

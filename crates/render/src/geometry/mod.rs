@@ -1,7 +1,6 @@
 //! Meshes as they are drawn: in patches, and in levels of detail.
 
 pub(crate) mod detail;
-pub(crate) mod flat;
 pub(crate) mod meshes;
 pub(crate) mod patches;
 pub(crate) mod workshop;

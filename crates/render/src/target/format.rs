@@ -4,7 +4,8 @@ use crate::device::gpu::Gpu;
 use crate::error::RenderError;
 use bevy_reflect::Reflect;
 use bevy_reflect::std_traits::ReflectDefault;
-use halfway_lighting::Samples;
+use halfway_lighting::{Encoding, Samples};
+use image::{Rgba32FImage, RgbaImage};
 
 /// What a pixel of a headless picture holds.
 #[derive(Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -17,6 +18,43 @@ pub enum Pixels {
     /// four samples of them: then a frame with [`Blend`](halfway_lighting::Blend) objects, or with [`Samples::Four`], is
     /// [`RenderError::FloatTarget`], and others are drawn.
     Float,
+}
+
+/// A picture, top row first.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Picture {
+    /// 8 bits a channel, encoded as the camera says.
+    Byte(RgbaImage),
+    /// Linear I, before the intensity policy.
+    Float(Rgba32FImage),
+}
+
+impl Picture {
+    /// Width and height in pixels.
+    pub fn dimensions(&self) -> (u32, u32) {
+        match self {
+            Self::Byte(image) => image.dimensions(),
+            Self::Float(image) => image.dimensions(),
+        }
+    }
+}
+
+/// What the values of a target's pixels are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum PixelValues {
+    Bytes(Encoding),
+    /// Linear I.
+    Floats,
+}
+
+impl PixelValues {
+    /// What the bytes hold; `None` for floating point.
+    pub(crate) fn encoding(self) -> Option<Encoding> {
+        match self {
+            Self::Bytes(encoding) => Some(encoding),
+            Self::Floats => None,
+        }
+    }
 }
 
 /// The format of a picture that is read back.

@@ -4,7 +4,8 @@ use crate::device::gpu::Gpu;
 use crate::error::RenderError;
 use crate::frame::report::FrameReport;
 use crate::frame::times::FrameTimes;
-use crate::target::format::{Pixels, headless_format, is_float};
+use crate::target::canvas::CanvasTarget;
+use crate::target::format::{PixelValues, Pixels, headless_format, is_float};
 use crate::target::surface::{Lost, SurfaceLost, SurfaceTarget};
 use crate::target::texture::TextureTarget;
 use crate::view::camera::{PictureSize, View};
@@ -30,6 +31,11 @@ impl Default for Headless {
         Self { size: UVec2::new(1280, 720), pixels: Pixels::default() }
     }
 }
+
+/// What the pixels hold that the frame draws; `None` where there is nothing to draw into.
+/// Holds after [`RenderSet::View`](crate::RenderSet::View).
+#[derive(Resource, Clone, Copy, Debug, Default)]
+pub(crate) struct FrameValues(pub(crate) Option<PixelValues>);
 
 /// What the frame draws into.
 #[derive(Resource, Default)]
@@ -91,10 +97,12 @@ impl Default for ShaderOutput {
 }
 
 impl ShaderOutput {
-    /// What the bytes hold; `None` for floating point.
-    pub(crate) fn encoding(&self) -> Option<Encoding> {
-        let is_srgb = self.encoded || self.format.is_srgb();
-        (!is_float(self.format)).then_some(if is_srgb { Encoding::Srgb } else { Encoding::Raw })
+    fn values(&self) -> PixelValues {
+        match is_float(self.format) {
+            true => PixelValues::Floats,
+            false if self.encoded || self.format.is_srgb() => PixelValues::Bytes(Encoding::Srgb),
+            false => PixelValues::Bytes(Encoding::Raw),
+        }
     }
 }
 
@@ -119,15 +127,19 @@ impl Target {
     }
 }
 
-/// Learns the size before the view needs it.
+/// Learns the size before the view needs it. What the pixels hold is not known yet.
 pub(crate) fn measure(
     headless: Res<Headless>,
     surface: Option<Res<SurfaceTarget>>,
+    canvas: Option<Res<CanvasTarget>>,
     texture: Option<Res<TextureTarget>>,
     mut size: ResMut<PictureSize>,
+    mut values: ResMut<FrameValues>,
 ) {
-    let without_texture = || surface.map_or(headless.size, |surface| surface.size());
-    size.0 = texture.map_or_else(without_texture, |texture| texture.size);
+    values.0 = None;
+    let texture = texture.map(|texture| texture.size);
+    let window = surface.map(|surface| surface.size()).or(canvas.map(|canvas| canvas.size));
+    size.0 = texture.or(window).unwrap_or(headless.size);
 }
 
 /// Makes the attachments that the camera and the target ask for, and acquires the surface's picture.
@@ -142,6 +154,7 @@ pub(crate) fn prepare(
     blended: Query<Entity, (With<Blend>, With<Mesh3d>)>,
     shown: Shown,
     mut target: ResMut<Target>,
+    mut values: ResMut<FrameValues>,
     mut report: ResMut<FrameReport>,
     mut times: ResMut<FrameTimes>,
     mut commands: Commands,
@@ -200,6 +213,7 @@ pub(crate) fn prepare(
     let Some(view) = given.or_else(|| target.picture().map(view_of)) else { return };
     let encoded = camera.encoding == Encoding::Srgb && !format.is_srgb() && !is_float(format);
     let output = ShaderOutput { format, encoded, samples: camera.samples.count() };
+    values.0 = Some(output.values());
     target.frame = Some(FramePicture { output, view, delivery });
 }
 

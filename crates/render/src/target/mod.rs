@@ -1,5 +1,6 @@
 //! Where pictures go, and how they are read back.
 
+pub(crate) mod canvas;
 pub(crate) mod format;
 pub(crate) mod frame;
 pub(crate) mod picture;

@@ -3,34 +3,67 @@
 use crate::device::gpu::Gpu;
 use crate::error::RenderError;
 use crate::frame::report::FrameReport;
+use crate::target::canvas::{Canvas, CanvasTarget};
+use crate::target::format::Picture;
 use crate::target::frame::Target;
 use bevy_app::App;
 use bevy_ecs::prelude::World;
 use image::{Rgba, Rgba32FImage, RgbaImage};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
-/// A picture, top row first.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Picture {
-    /// 8 bits a channel, encoded as the camera says.
-    Byte(RgbaImage),
-    /// Linear I, before the intensity policy.
-    Float(Rgba32FImage),
+/// A picture on its way from what has drawn it. Poll it with [`PendingPicture::try_take`] while other frames
+/// are drawn, or wait for it with [`PendingPicture::wait`].
+pub struct PendingPicture(Pending);
+
+enum Pending {
+    /// The GPU copies it.
+    Copied(ReadBack),
+    /// The CPU has drawn it; until it is taken.
+    There(Option<Picture>),
 }
 
-impl Picture {
-    /// Width and height in pixels.
-    pub fn dimensions(&self) -> (u32, u32) {
-        match self {
-            Self::Byte(image) => image.dimensions(),
-            Self::Float(image) => image.dimensions(),
+impl PendingPicture {
+    /// Starts to copy the newest headless picture; later frames do not change what arrives.
+    ///
+    /// # Errors
+    /// [`RenderError::NoPicture`] before the first headless frame or while a window is the target;
+    /// [`RenderError::TooLarge`] or [`RenderError::Memory`] where there is no room for the copy.
+    pub fn request(world: &World) -> Result<Self, RenderError> {
+        if let (Some(gpu), Some(target)) = (world.get_resource::<Gpu>(), world.get_resource::<Target>()) {
+            let texture = target.picture().ok_or(RenderError::NoPicture)?;
+            return Ok(Self(Pending::Copied(ReadBack::start(gpu, texture)?)));
+        }
+        let canvas = world.get_resource::<Canvas>().filter(|_| !world.contains_resource::<CanvasTarget>());
+        let picture = canvas.ok_or(RenderError::NoPicture)?.picture()?;
+        Ok(Self(Pending::There(Some(picture))))
+    }
+
+    /// The picture if it has arrived; `None` while it has not, and after it was taken.
+    ///
+    /// # Errors
+    /// [`RenderError::DeviceLost`] or [`RenderError::Device`] when the device was lost or failed on the way.
+    pub fn try_take(&mut self) -> Result<Option<Picture>, RenderError> {
+        match &mut self.0 {
+            Pending::Copied(copy) => copy.try_take(),
+            Pending::There(picture) => Ok(picture.take()),
+        }
+    }
+
+    /// Blocks until the picture has arrived.
+    ///
+    /// # Errors
+    /// [`RenderError::DeviceLost`] or [`RenderError::Device`] when the device was lost or failed on the way;
+    /// [`RenderError::NoPicture`] where it was taken.
+    pub fn wait(self) -> Result<Picture, RenderError> {
+        match self.0 {
+            Pending::Copied(copy) => copy.wait(),
+            Pending::There(picture) => picture.ok_or(RenderError::NoPicture),
         }
     }
 }
 
-/// A picture on its way from the GPU. Poll it with [`PendingPicture::try_take`] while other frames
-/// are drawn, or wait for it with [`PendingPicture::wait`].
-pub struct PendingPicture {
+/// A texture that is copied into memory.
+struct ReadBack {
     /// The device that it comes from, which another may have replaced by now.
     gpu: Gpu,
     buffer: wgpu::Buffer,
@@ -41,16 +74,8 @@ pub struct PendingPicture {
     mapped: Receiver<Result<(), wgpu::BufferAsyncError>>,
 }
 
-impl PendingPicture {
-    /// Starts to copy the newest headless picture; later frames do not change what arrives.
-    ///
-    /// # Errors
-    /// [`RenderError::NoPicture`] before the first headless frame or while a window is the target.
-    pub fn request(world: &World) -> Result<Self, RenderError> {
-        let (Some(gpu), Some(target)) = (world.get_resource::<Gpu>(), world.get_resource::<Target>()) else {
-            return Err(RenderError::NoPicture);
-        };
-        let texture = target.picture().ok_or(RenderError::NoPicture)?;
+impl ReadBack {
+    fn start(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Self, RenderError> {
         let (width, height, format) = (texture.width(), texture.height(), texture.format());
         let pixel_bytes = format.block_copy_size(None).ok_or(RenderError::NoPicture)?;
         let row_bytes = (width * pixel_bytes).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
@@ -86,11 +111,7 @@ impl PendingPicture {
         Ok(Self { gpu: gpu.clone(), buffer, width, height, row_bytes, format, mapped })
     }
 
-    /// The picture if it has arrived; `None` while it has not, and after it was taken.
-    ///
-    /// # Errors
-    /// [`RenderError::DeviceLost`] or [`RenderError::Device`] when the device was lost or failed on the way.
-    pub fn try_take(&mut self) -> Result<Option<Picture>, RenderError> {
+    fn try_take(&mut self) -> Result<Option<Picture>, RenderError> {
         self.gpu.poll(wgpu::PollType::Poll)?;
         match self.mapped.try_recv() {
             Ok(Ok(())) => self.read().map(Some),
@@ -99,11 +120,7 @@ impl PendingPicture {
         }
     }
 
-    /// Blocks until the picture has arrived.
-    ///
-    /// # Errors
-    /// [`RenderError::DeviceLost`] or [`RenderError::Device`] when the device was lost or failed on the way.
-    pub fn wait(self) -> Result<Picture, RenderError> {
+    fn wait(self) -> Result<Picture, RenderError> {
         let failed = |error: &dyn std::fmt::Display| RenderError::Device(error.to_string());
         self.gpu.poll(wgpu::PollType::wait_indefinitely())?;
         self.mapped.recv().map_err(|error| failed(&error))?.map_err(|error| failed(&error))?;
@@ -126,7 +143,7 @@ impl PendingPicture {
     }
 }
 
-fn float<'a>(pending: &PendingPicture, rows: impl Iterator<Item = &'a [u8]>) -> Picture {
+fn float<'a>(pending: &ReadBack, rows: impl Iterator<Item = &'a [u8]>) -> Picture {
     let mut image = Rgba32FImage::new(pending.width, pending.height);
     for (out, bytes) in image.rows_mut().zip(rows) {
         for (pixel, bytes) in out.zip(bytes.chunks_exact(size_of::<[f32; 4]>())) {

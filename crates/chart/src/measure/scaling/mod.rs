@@ -5,7 +5,7 @@ mod scenery;
 mod slopes;
 
 use halfway::prelude::*;
-use halfway::render::Gpu;
+use halfway::render::AdapterChoice;
 
 use super::{MeasureError, MeasureProgress};
 use crate::timing::{Machine, Spread, TimedLook, in_turns, settle};
@@ -92,8 +92,8 @@ impl ScalingPlan {
 /// # Errors
 /// The first frame that could not be drawn.
 pub fn sweep(plan: ScalingPlan, progress: &mut MeasureProgress<'_>) -> Result<(Vec<Curve>, Machine), MeasureError> {
-    let gpu = Gpu::open_headless()?;
-    let mut sceneries = LOOKS.map(|look| ScalingScene::new(look, &gpu));
+    let adapter = AdapterChoice::default().open()?;
+    let mut sceneries = LOOKS.map(|look| ScalingScene::new(look, &adapter));
     let mut all = Vec::new();
     for growth in Growth::ALL {
         let mut curves = LOOKS.map(|look| Curve { growth, look, samples: Vec::new(), is_cut: false });
@@ -104,7 +104,7 @@ pub fn sweep(plan: ScalingPlan, progress: &mut MeasureProgress<'_>) -> Result<(V
         }
         all.extend(curves);
     }
-    Ok((all, Machine::new(&gpu)))
+    Ok((all, Machine::new(&adapter)))
 }
 
 /// Takes one step on every curve that is not cut.

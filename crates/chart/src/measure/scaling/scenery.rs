@@ -3,7 +3,7 @@
 use std::f32::consts::TAU;
 
 use halfway::prelude::*;
-use halfway::render::Gpu;
+use halfway::render::Adapter;
 
 use super::Growth;
 use super::growth::PIXELS;
@@ -41,11 +41,11 @@ const GROUND: u32 = 100;
 const TILE: u32 = 5;
 
 impl ScalingScene {
-    /// Without a scene, drawing on `gpu`, which others may share.
-    pub(super) fn new(look: TimedLook, gpu: &Gpu) -> Self {
+    /// Without a scene, drawing on `adapter`, which others may share.
+    pub(super) fn new(look: TimedLook, adapter: &Adapter) -> Self {
         let mut app = App::new();
-        app.insert_resource(gpu.clone())
-            .insert_resource(GlobalAmbient(LinearRgba::rgb(0.1, 0.1, 0.1)))
+        adapter.clone().insert_into(app.world_mut());
+        app.insert_resource(GlobalAmbient(LinearRgba::rgb(0.1, 0.1, 0.1)))
             .add_plugins(HalfwayPlugins::headless(UVec2::ONE))
             .add_systems(Update, turn);
         app.finish();

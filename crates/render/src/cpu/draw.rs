@@ -1,0 +1,128 @@
+//! View and Draw: the canvas is made ready, and the pass is drawn into it.
+
+use crate::batch::backend::Backend;
+use crate::batch::key::DrawKey;
+use crate::cpu::meshes::MeshPieces;
+use crate::cpu::pass::PassLists;
+use crate::device::costs::Costs;
+use crate::device::cpu::Cpu;
+use crate::error::RenderError;
+use crate::frame::report::FrameReport;
+use crate::target::canvas::{Canvas, CanvasTarget};
+use crate::target::format::{PixelValues, Pixels};
+use crate::target::frame::{FrameValues, Headless};
+use crate::target::texture::TextureTarget;
+use crate::view::camera::{PictureSize, View};
+use bevy_color::LinearRgba;
+use bevy_ecs::prelude::*;
+use halfway_lighting::{Encoding, Frequency, Samples, Viewer};
+use halfway_raster::{LARGEST_SIDE, Lens, Pass, PixelFormat, SampleCount};
+
+impl Backend for Cpu {
+    fn costs(&self) -> Costs {
+        Costs::CPU
+    }
+
+    /// The same for all draws of which only a shader would be specialised for the difference.
+    fn admit(&mut self, key: DrawKey) -> DrawKey {
+        DrawKey {
+            local_viewer: false,
+            attenuated_ambient: key.terms.diffuse != Frequency::Never,
+            shared_color: false,
+            ranged: key.is_lit(),
+            squarings: None,
+            ..key
+        }
+    }
+
+    fn looks_up(&mut self, _: DrawKey) -> bool {
+        true
+    }
+}
+
+/// Makes the memory ready that the frame is drawn into.
+#[expect(clippy::too_many_arguments, reason = "a system takes each resource as a parameter")]
+pub(crate) fn prepare(
+    headless: Res<Headless>,
+    window: Option<Res<CanvasTarget>>,
+    texture: Option<Res<TextureTarget>>,
+    view: Res<View>,
+    size: Res<PictureSize>,
+    mut canvas: ResMut<Canvas>,
+    mut values: ResMut<FrameValues>,
+    mut report: ResMut<FrameReport>,
+) {
+    canvas.end(false);
+    // The view has said so.
+    if size.0.min_element() == 0 {
+        return;
+    }
+    if let Some(texture) = texture {
+        let reason = "the CPU draws, and the texture is a device's; expected a `Gpu` in the world".into();
+        report.errors.push(RenderError::BadTarget { format: format!("{:?}", texture.format), reason });
+        return;
+    }
+    if size.0.max_element() > LARGEST_SIDE {
+        report.errors.push(RenderError::TooLarge {
+            what: "the picture's longer side, in pixels,".into(),
+            needed: size.0.max_element().into(),
+            limit: LARGEST_SIDE.into(),
+        });
+        return;
+    }
+    let is_float = window.is_none() && headless.pixels == Pixels::Float;
+    if let Err(error) = canvas.begin(size.0, is_float) {
+        report.errors.push(error);
+        return;
+    }
+    let encoding = view.camera.unwrap_or_default().encoding;
+    values.0 = Some(if is_float { PixelValues::Floats } else { PixelValues::Bytes(encoding) });
+}
+
+/// Draws the frame.
+#[expect(clippy::too_many_arguments, reason = "a system takes each resource as a parameter")]
+pub(crate) fn draw(
+    cpu: Res<Cpu>,
+    view: Res<View>,
+    size: Res<PictureSize>,
+    values: Res<FrameValues>,
+    lists: Res<PassLists>,
+    meshes: Res<MeshPieces>,
+    mut canvas: ResMut<Canvas>,
+    mut report: ResMut<FrameReport>,
+) {
+    let (Some(values), Some(camera)) = (values.0, view.camera) else { return };
+    let LinearRgba { red, green, blue, .. } = camera.background;
+    let pieces: Vec<_> = lists.meshes.iter().filter_map(|&(id, form)| meshes.get(id, form)).collect();
+    let pass = Pass {
+        size: size.0.to_array(),
+        samples: match camera.samples {
+            Samples::One => SampleCount::One,
+            Samples::Four => SampleCount::Four,
+        },
+        pixels: match values {
+            PixelValues::Bytes(Encoding::Srgb) => PixelFormat::SrgbBytes,
+            PixelValues::Bytes(Encoding::Raw) => PixelFormat::RawBytes,
+            PixelValues::Floats => PixelFormat::Floats,
+        },
+        clear: [red, green, blue],
+        lens: lens(&view),
+        local_viewer: camera.viewer == Viewer::Local,
+        lights: &lists.lights,
+        lists: &lists.lists,
+        surfaces: &lists.surfaces,
+        instances: &lists.instances,
+        meshes: &pieces,
+        draws: &lists.draws,
+    };
+    let drawn = cpu.rasterizer().draw(&pass, canvas.output());
+    canvas.end(drawn.is_ok());
+    report.errors.extend(drawn.err().map(RenderError::from));
+}
+
+/// The view's projection, in its unit.
+fn lens(view: &View) -> Lens {
+    // What underflows would be refused.
+    let near = (view.projection.near * view.unit() as f32).max(f32::MIN_POSITIVE);
+    Lens { scale: view.projection.scale, near }
+}

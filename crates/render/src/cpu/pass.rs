@@ -1,0 +1,155 @@
+//! Upload: what the draws read, as the rasterizer takes it.
+
+use crate::batch::batches::Batches;
+use crate::batch::draws::DrawState;
+use crate::batch::key::{Cull, DrawKey};
+use crate::batch::lit_patches::LitPatches;
+use crate::cpu::meshes::MeshPieces;
+use crate::geometry::meshes::Form;
+use crate::lights::gather::Lights;
+use crate::lights::terms::{by_fragment_shader, by_vertex_shader};
+use crate::shaders::light_slots::COUNTED_LIGHTS;
+use crate::shaders::records::{DrawRecord, InstanceRecord, LightRecord, MaterialRecord};
+use bevy_asset::AssetId;
+use bevy_ecs::prelude::*;
+use halfway_lighting::Frequency;
+use halfway_mesh::Mesh;
+use halfway_raster::{
+    DrawCall, Highlight, InstanceData, LeftOut, LightData, LightRange, ShadedTerms, SideData, SurfaceData,
+};
+
+/// The lists of a pass. Their memory is kept from frame to frame.
+#[derive(Resource, Default)]
+pub(crate) struct PassLists {
+    pub(crate) lights: Vec<LightData>,
+    pub(crate) lists: Vec<u32>,
+    pub(crate) surfaces: Vec<SurfaceData>,
+    pub(crate) instances: Vec<InstanceData>,
+    pub(crate) meshes: Vec<(AssetId<Mesh>, Form)>,
+    pub(crate) draws: Vec<DrawCall>,
+}
+
+pub(crate) fn fill(
+    lights: Res<Lights>,
+    lit: Res<LitPatches>,
+    batches: Res<Batches>,
+    meshes: Res<MeshPieces>,
+    mut pass: ResMut<PassLists>,
+) {
+    pass.fill(&lights, &lit, &batches, &meshes);
+}
+
+impl PassLists {
+    fn fill(&mut self, lights: &Lights, lit: &LitPatches, batches: &Batches, meshes: &MeshPieces) {
+        self.lights.clear();
+        self.lights.extend(lights.records.iter().map(light));
+        self.lists.clear();
+        self.lists.extend(&lit.lists.numbers);
+        // So few are all shaded everywhere, and have no lists.
+        let all = (lights.records.len() <= COUNTED_LIGHTS as usize).then(|| {
+            let start = self.lists.len() as u32;
+            self.lists.extend(0..lights.records.len() as u32);
+            LightRange { counts: lights.counts, start }
+        });
+        self.surfaces.clear();
+        self.surfaces.extend(lit.records.iter().map(|record| surface(record, all)));
+        self.instances.clear();
+        self.instances.extend(batches.instances.iter().map(instance));
+        self.meshes.clear();
+        self.draws.clear();
+        for group in batches.draws.groups() {
+            let DrawState { key, mesh, form, record, .. } = group.state;
+            if meshes.get(mesh, form).is_none() {
+                continue;
+            }
+            if self.meshes.last() != Some(&(mesh, form)) {
+                self.meshes.push((mesh, form));
+            }
+            let call = DrawCall { mesh: self.meshes.len() as u32 - 1, ..call(&key) };
+            for draw in batches.draws.of(group) {
+                let instances = draw.instances();
+                if !key.per_instance {
+                    for instance in &mut self.instances[instances.start as usize..instances.end as usize] {
+                        instance.surface = record;
+                    }
+                }
+                self.draws.push(DrawCall { indices: draw.indices(), instances, ..call.clone() });
+            }
+        }
+    }
+}
+
+fn call(key: &DrawKey) -> DrawCall {
+    let terms = |[diffuse, specular]: [bool; 2]| ShadedTerms { diffuse, specular };
+    DrawCall {
+        vertex: terms(by_vertex_shader(key.terms)),
+        fragment: terms(by_fragment_shader(key.terms)),
+        flat: key.terms.has(Frequency::Triangle),
+        highlight: if key.blinn_phong { Highlight::BlinnPhong } else { Highlight::Phong },
+        left_out: match key.cull {
+            Cull::Back => LeftOut::Back,
+            Cull::Front => LeftOut::Front,
+            Cull::None => LeftOut::Neither,
+        },
+        clockwise: key.clockwise,
+        opposite_normals: key.geometric_fallback,
+        blend: key.blend,
+        ..DrawCall::default()
+    }
+}
+
+/// The largest number of f32 in the place of a larger one, which the rasterizer refuses.
+fn finite(value: f32) -> f32 {
+    value.clamp(f32::MIN, f32::MAX)
+}
+
+/// A matrix that leaves f32 shows nothing.
+fn instance(record: &InstanceRecord) -> InstanceData {
+    let InstanceRecord { rows, normal, record } = *record;
+    let is_finite = rows.iter().flatten().chain(normal.iter().flatten()).all(|value| value.is_finite());
+    let (eye_from_model, normal) = if is_finite { (rows, normal) } else { ([[0.0; 4]; 3], [[0.0; 3]; 3]) };
+    InstanceData { eye_from_model, normal, surface: record }
+}
+
+fn surface(record: &DrawRecord, all: Option<LightRange>) -> SurfaceData {
+    let [front, back] = [&record.front, &record.back].map(side);
+    if let Some(all) = all {
+        return SurfaceData { front, back, vertex: all, fragment: all, ..SurfaceData::default() };
+    }
+    let range =
+        |[directional, points, spots, start]: [u32; 4]| LightRange { counts: [directional, points, spots], start };
+    SurfaceData {
+        front,
+        back,
+        vertex: range(record.lists.vertex),
+        vertex_diffuse: range(record.lists.vertex_diffuse),
+        fragment: range(record.lists.fragment),
+        fragment_diffuse: range(record.lists.fragment_diffuse),
+    }
+}
+
+fn side(record: &MaterialRecord) -> SideData {
+    SideData {
+        base: record.base.map(finite),
+        diffuse: record.diffuse,
+        specular: record.specular,
+        ambient: record.ambient,
+        exponent: finite(record.shininess),
+        opacity: record.opacity,
+    }
+}
+
+fn light(record: &LightRecord) -> LightData {
+    LightData {
+        position: record.position,
+        inverse_range: finite(record.inverse_range),
+        attenuation: [record.constant, record.linear, record.quadratic],
+        direction: record.direction,
+        cos_cutoff: record.cos_cutoff,
+        exponent: record.exponent,
+        inner_fade: [record.inner_scale, record.inner_offset].map(finite),
+        ambient: record.ambient.map(finite),
+        diffuse: record.diffuse.map(finite),
+        specular: record.specular.map(finite),
+    }
+}

@@ -1,0 +1,91 @@
+//! What draws: a graphics adapter, or the CPU.
+
+use crate::device::costs::Costs;
+use crate::device::cpu::Cpu;
+use crate::device::gpu::Gpu;
+use crate::error::RenderError;
+use bevy_ecs::prelude::World;
+
+/// What draws, opened. [`AdapterChoice::open`](crate::AdapterChoice::open) opens it, and the world holds it as the resource
+/// [`Gpu`] or [`Cpu`].
+#[derive(Clone)]
+pub enum Adapter {
+    /// A graphics adapter, by its driver; a software one, too.
+    Gpu(Gpu),
+    /// The CPU by itself.
+    Cpu(Cpu),
+}
+
+impl Adapter {
+    /// What draws the frames of this world; `None` while nothing does.
+    pub fn of(world: &World) -> Option<Self> {
+        let gpu = world.get_resource::<Gpu>().cloned().map(Self::Gpu);
+        gpu.or_else(|| world.get_resource::<Cpu>().cloned().map(Self::Cpu))
+    }
+
+    /// Has it draw the frames of this world from the next one on.
+    pub fn insert_into(self, world: &mut World) {
+        match self {
+            Self::Gpu(gpu) => world.insert_resource(gpu),
+            Self::Cpu(cpu) => {
+                world.remove_resource::<Gpu>();
+                world.insert_resource(cpu);
+            }
+        }
+    }
+
+    /// One line for people: its name, how it is driven, and whether it is software.
+    pub fn describe(&self) -> String {
+        match self {
+            Self::Gpu(gpu) => gpu.describe(),
+            Self::Cpu(cpu) => cpu.describe(),
+        }
+    }
+
+    /// Whether it draws on the CPU.
+    pub fn is_software(&self) -> bool {
+        match self {
+            Self::Gpu(gpu) => gpu.is_software(),
+            Self::Cpu(_) => true,
+        }
+    }
+
+    /// What is taken to be cheap on it.
+    pub fn costs(&self) -> Costs {
+        match self {
+            Self::Gpu(gpu) => gpu.costs(),
+            Self::Cpu(_) => Costs::CPU,
+        }
+    }
+
+    /// Whether blended objects can be drawn into 32-bit floating point.
+    pub fn blends_floats(&self) -> bool {
+        match self {
+            Self::Gpu(gpu) => gpu.device.features().contains(wgpu::Features::FLOAT32_BLENDABLE),
+            Self::Cpu(_) => true,
+        }
+    }
+
+    /// The bits of the grid within a pixel to which it rounds the places of vertices.
+    ///
+    /// # Errors
+    /// [`RenderError::Device`] when the device fails by which they are measured.
+    pub fn sub_pixel_bits(&self) -> Result<u32, RenderError> {
+        match self {
+            Self::Gpu(gpu) => gpu.sub_pixel_bits(),
+            Self::Cpu(_) => Ok(Cpu::SUB_PIXEL_BITS),
+        }
+    }
+
+    /// Waits until it has finished what it was given.
+    ///
+    /// # Errors
+    /// [`RenderError::DeviceLost`] or [`RenderError::Device`].
+    pub fn finish(&self) -> Result<(), RenderError> {
+        match self {
+            Self::Gpu(gpu) => gpu.poll(wgpu::PollType::wait_indefinitely()),
+            // A frame that it draws is finished.
+            Self::Cpu(_) => Ok(()),
+        }
+    }
+}
