@@ -239,6 +239,14 @@ fn the_edges_are_those_of_the_equations() {
         ("l = −v", Case { light: at([0.0, 0.0, -1.0], [1.0, 0.0, 0.0]), ..straight }),
         ("d = 0", Case { kind: Kind::Point, light: at([0.0, 0.0, -2.0], [0.5, 1.0, 1.0]), ..straight }),
         ("a = 0 and d = 0", Case { kind: Kind::Point, light: at([0.0, 0.0, -2.0], [0.0, 0.0, 1.0]), ..straight }),
+        (
+            "a light nearer than rounding tells",
+            Case { kind: Kind::Point, n: [0.0, 0.6, 0.8], light: at([3e-6, 0.0, -2.0], [0.5, 1.0, 1.0]), ..straight },
+        ),
+        (
+            "one a little farther",
+            Case { kind: Kind::Point, n: [0.6, 0.0, 0.8], light: at([5e-6, 0.0, -2.0], [0.5, 1.0, 1.0]), ..straight },
+        ),
         ("the eye on the surface", Case { p: [0.0; 3], ..straight }),
         ("a light behind", Case { light: at([0.0, 0.0, -1.0], [1.0, 0.0, 0.0]), ..straight }),
         ("a light 10⁻⁶ of the way to the eye from the point", near(1e-6)),
