@@ -35,7 +35,13 @@ impl WindowError {
             self,
             Self::NoDisplay
                 | Self::Display(_)
-                | Self::Gpu(E::NoAdapter | E::NoAdapterAmong { .. } | E::NoSuchAdapter { .. } | E::NoDevice { .. })
+                | Self::Gpu(
+                    E::NoAdapter
+                        | E::NoAdapterAmong { .. }
+                        | E::NoSuchAdapter { .. }
+                        | E::NoDevice { .. }
+                        | E::NoVectors { .. }
+                )
         );
         AppExit::from_code(if missing { 3 } else { 1 })
     }

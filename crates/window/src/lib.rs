@@ -27,6 +27,7 @@
 //! }
 //! ```
 
+mod buffer;
 mod display;
 mod error;
 mod input;

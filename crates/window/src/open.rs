@@ -1,11 +1,12 @@
 //! Opening the window, and what to draw with in it.
 
+use crate::buffer::WindowBuffer;
 use crate::error::{WindowError, reason};
 use crate::input::Forward;
 use crate::orbit_camera::DragArea;
 use bevy_ecs::prelude::*;
 use bevy_math::{UVec2, Vec2};
-use halfway_render::{Adapter, AdapterChoice, Gpu, SurfaceLost, SurfaceTarget, wgpu};
+use halfway_render::{Adapter, AdapterChoice, Canvas, CanvasTarget, Gpu, SurfaceLost, SurfaceTarget, wgpu};
 use std::sync::Arc;
 use std::time::Duration;
 use winit::dpi::LogicalSize;
@@ -22,6 +23,8 @@ const MOST_LOSSES: u32 = 10;
 
 /// The window of a running App.
 pub(crate) struct Open {
+    /// Where the CPU draws; goes before the window.
+    buffer: Option<WindowBuffer>,
     pub(crate) window: Arc<Window>,
     display: OwnedDisplayHandle,
     pub(crate) input: Forward,
@@ -30,7 +33,7 @@ pub(crate) struct Open {
 }
 
 impl Open {
-    /// Opens a window, an adapter that can draw in it and its surface, and puts them into `world`.
+    /// Opens a window and what can draw in it, and puts that into `world`.
     pub(crate) fn new(
         event_loop: &ActiveEventLoop,
         title: &str,
@@ -47,9 +50,9 @@ impl Open {
         })?;
         let window = Arc::new(window);
         let display = event_loop.owned_display_handle();
-        open_gpu(&window, &display, world)?;
+        let buffer = open_adapter(&window, &display, world)?;
         let entity = world.spawn(WinitWindow(Arc::clone(&window))).id();
-        let open = Self { window, display, input: Forward::new(entity), entity, losses: 0 };
+        let open = Self { buffer, window, display, input: Forward::new(entity), entity, losses: 0 };
         open.follow_size(world);
         Ok(open)
     }
@@ -67,14 +70,25 @@ impl Open {
         if let Some(mut target) = world.get_resource_mut::<SurfaceTarget>() {
             target.resize(size);
         }
+        if let Some(mut target) = world.get_resource_mut::<CanvasTarget>() {
+            target.size = size;
+        }
         if size.min_element() > 0 {
             let logical = self.window.inner_size().to_logical::<f32>(self.window.scale_factor());
             world.insert_resource(DragArea(Vec2::new(logical.width, logical.height)));
         }
     }
 
-    /// Whether the newest frame went to the display. A surface or a device that it found lost is made anew.
+    /// Whether the newest frame went to the display, where what the CPU has drawn goes by now. A surface or a device that it
+    /// found lost is made anew.
     pub(crate) fn settle(&mut self, world: &mut World) -> Result<bool, WindowError> {
+        if let Some(buffer) = &mut self.buffer {
+            let Some((size, picture)) = world.get_resource::<Canvas>().and_then(Canvas::bytes) else {
+                return Ok(false);
+            };
+            self.window.pre_present_notify();
+            return buffer.show(size, picture).map(|()| true);
+        }
         let surface_lost = world.remove_resource::<SurfaceLost>().is_some();
         let device_lost = world.get_resource::<Gpu>().is_some_and(Gpu::is_lost);
         if surface_lost || device_lost {
@@ -89,7 +103,7 @@ impl Open {
                     let surface = make_surface(&gpu.instance, &self.window)?;
                     world.insert_resource(SurfaceTarget::new(&gpu, surface, physical_size(&self.window))?);
                 }
-                None => open_gpu(&self.window, &self.display, world)?,
+                None => self.buffer = open_adapter(&self.window, &self.display, world)?,
             }
             return Ok(false);
         }
@@ -103,24 +117,33 @@ impl Open {
     /// Lets go of the surface and then of the window, while the display is still connected.
     pub(crate) fn close(self, world: &mut World) {
         world.remove_resource::<SurfaceTarget>();
+        world.remove_resource::<CanvasTarget>();
         world.despawn(self.entity);
     }
 }
 
-/// Opens an adapter that can draw in the window and the window's surface, and puts them into `world`.
-fn open_gpu(window: &Arc<Window>, display: &OwnedDisplayHandle, world: &mut World) -> Result<(), WindowError> {
+/// Opens what can draw in the window and puts it into `world`: an adapter with the window's surface, or the CPU, which draws
+/// for the buffer that is returned.
+fn open_adapter(
+    window: &Arc<Window>,
+    display: &OwnedDisplayHandle,
+    world: &mut World,
+) -> Result<Option<WindowBuffer>, WindowError> {
     let choice = world.get_resource_or_init::<AdapterChoice>().clone();
     let (adapter, surface) = choice.open_for(display, |instance| make_surface(instance, window))?;
     log::info!("drawing on {}", adapter.describe());
-    let (Adapter::Gpu(mut gpu), Some(surface)) = (adapter, surface) else {
-        return Err(WindowError::Surface("the CPU cannot draw in windows yet".into()));
+    let (Adapter::Gpu(mut gpu), Some(surface)) = (adapter.clone(), surface) else {
+        let buffer = WindowBuffer::new(display, window)?;
+        world.insert_resource(CanvasTarget { size: physical_size(window) });
+        adapter.insert_into(world);
+        return Ok(Some(buffer));
     };
     if let Some(lost) = world.get_resource::<Gpu>().filter(|gpu| gpu.is_lost()) {
         gpu = gpu.in_place_of(lost);
     }
     world.insert_resource(SurfaceTarget::new(&gpu, surface, physical_size(window))?);
     world.insert_resource(gpu);
-    Ok(())
+    Ok(None)
 }
 
 /// Nine tenths of the display's interval; of 60 Hz where the display does not say.

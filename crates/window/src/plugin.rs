@@ -17,15 +17,15 @@ use halfway_render::{GpuTimer, RenderPlugin, RenderSet, SurfaceTarget};
 /// Runs the App in a window: one `App::update` a frame, as fast as the display shows them.
 ///
 /// What the App draws goes to the window instead of a headless picture; the adapter is open before
-/// the first update, so `Startup` systems find [`Gpu`](halfway_render::Gpu), [`SurfaceTarget`] and
-/// the entity of the [`WinitWindow`]. Keys, mouse buttons, wheel and pointer reach `bevy_input`, its
+/// the first update, so `Startup` systems find [`Gpu`](halfway_render::Gpu) and [`SurfaceTarget`], or
+/// [`Cpu`](halfway_render::Cpu) and [`CanvasTarget`](halfway_render::CanvasTarget), and the entity of the [`WinitWindow`]. Keys, mouse buttons, wheel and pointer reach `bevy_input`, its
 /// `MouseMotion` in logical pixels. While the window is minimised or covered, the App is not
 /// updated, and nothing is drawn. Pipelines are built beside the frames, unless
 /// [`Compile`](halfway_render::Compile) says otherwise.
 ///
 /// The App ends when the window is closed ([`AppExit::Success`](bevy_app::AppExit), after a last
 /// update that sees the message) or when it sends an `AppExit` itself. Where there is no display, or
-/// nothing to draw with, the run ends at once with exit code 3 and a message that says what to
+/// the adapter that is asked for, the run ends at once with exit code 3 and a message that says what to
 /// do. Errors of a frame are logged once each. All messages go to the log, or to the standard error
 /// output where no logger shows errors.
 ///

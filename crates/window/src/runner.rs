@@ -109,7 +109,6 @@ impl Runner {
         }
         let start = Instant::now();
         self.app.update();
-        let took = start.elapsed();
         if let Some(exit) = self.app.should_exit() {
             return self.end(event_loop, exit);
         }
@@ -118,6 +117,7 @@ impl Runner {
             Ok(presented) => presented,
             Err(error) => return self.end(event_loop, failed(&error)),
         };
+        let took = start.elapsed();
         if took < self.pace {
             event_loop.set_control_flow(ControlFlow::WaitUntil(start + self.pace));
         } else {
@@ -126,7 +126,7 @@ impl Runner {
         }
         if presented {
             self.frames += 1;
-            // The first frame builds the pipelines and is no measure of the others.
+            // The first frame builds pipelines and takes up meshes, and is no measure of the others.
             if self.frames > 1 {
                 self.app.world_mut().get_resource_or_init::<FrameTime>().push(took);
             }
