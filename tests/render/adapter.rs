@@ -1,27 +1,30 @@
 //! What is measured of the adapter, and what the environment says of it. `cargo xtask adapters` runs these on each.
 
-use halfway::render::{Costs, Gpu};
+use halfway::render::{Adapter, AdapterChoice, Costs};
 
-fn gpu() -> Gpu {
-    Gpu::open_headless().unwrap_or_else(|error| panic!("{error}"))
+fn adapter() -> Adapter {
+    AdapterChoice::default().open().unwrap_or_else(|error| panic!("{error}"))
 }
 
 #[test]
 fn the_grid_is_as_fine_as_the_driver_says() {
-    let gpu = gpu();
-    let bits = gpu.sub_pixel_bits().unwrap_or_else(|error| panic!("{error}"));
-    // `subPixelPrecisionBits` of either.
-    let said = [("llvmpipe", 8), ("SwiftShader", 4)].into_iter().find(|(name, _)| gpu.describe().contains(name));
+    let adapter = adapter();
+    let bits = adapter.sub_pixel_bits().unwrap_or_else(|error| panic!("{error}"));
+    // `subPixelPrecisionBits` of either, and the rasterizer's own.
+    let known = [("llvmpipe", 8), ("SwiftShader", 4), ("(cpu", 8)];
+    let said = known.into_iter().find(|(name, _)| adapter.describe().contains(name));
     match said {
         Some((name, said)) => assert_eq!(bits, said, "{name}"),
         None => assert!(bits >= 4, "{bits} bits; Vulkan grants 4"),
     }
-    assert_eq!(gpu.sub_pixel_bits(), Ok(bits), "measured again");
+    assert_eq!(adapter.sub_pixel_bits(), Ok(bits), "measured again");
 }
 
 #[test]
 fn the_environment_says_what_is_cheap() {
-    let gpu = gpu();
+    let Adapter::Gpu(gpu) = adapter() else {
+        return assert_eq!(adapter().costs(), Costs::CPU, "the CPU has one way");
+    };
     let is_software = match std::env::var("HALFWAY_COSTS").as_deref() {
         Ok("software") => true,
         Ok("hardware") => false,

@@ -29,8 +29,9 @@ fn a_hundred_equal_objects_are_one_draw() {
     assert_eq!((report.objects, report.visible, report.draws, report.materials, report.lights), (100, 100, 1, 1, 2));
     assert_eq!(report.triangles, 100 * 2 * 8 * 3);
     assert_eq!(report.matrices, 100);
-    assert_eq!(report.pipelines, 1);
     assert_eq!(report.errors, []);
+    // The CPU has none.
+    assert_eq!(report.pipelines, u32::from(!stage.is_on_cpu()));
 }
 
 #[test]
@@ -121,7 +122,9 @@ fn an_equal_frame_computes_and_uploads_nothing() {
     }
     stage.set(&scene);
     let first = stage.float();
-    assert!(stage.report().bytes_uploaded > 100 * INSTANCE_BYTES);
+    // The CPU reads instances where they are.
+    let instances = if stage.is_on_cpu() { 0 } else { 100 };
+    assert!(stage.report().bytes_uploaded > instances * INSTANCE_BYTES);
     let pipelines = stage.report().pipelines;
     for frame in 0..3 {
         let again = stage.float();

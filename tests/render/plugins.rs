@@ -10,7 +10,7 @@ use bevy_transform::systems::{
 };
 use halfway::prelude::*;
 use halfway::reference::{Oracle, OracleError};
-use halfway::render::{Gpu, RenderError};
+use halfway::render::{Adapter, RenderError};
 use image::Rgba32FImage;
 
 const SIZE: UVec2 = UVec2::new(24, 24);
@@ -99,17 +99,17 @@ fn plugins_may_come_in_any_order_before_and_after_the_scene() {
     let mut of_cuboid = ball();
     of_cuboid.things[0].mesh = cuboid.clone();
     let expected_cuboid = Stage::new(SIZE.x, SIZE.y).draw(&of_cuboid);
-    // One device for all, as opening it takes longest.
-    let mut gpu = None;
+    // One adapter for all, as opening it takes longest.
+    let mut adapter: Option<Adapter> = None;
     for (number, order) in orders(PLUGINS.len()).into_iter().enumerate() {
         let (mut app, row) = app_in(&order, number % (PLUGINS.len() + 1));
-        if let Some(gpu) = &gpu {
-            app.insert_resource(Gpu::clone(gpu));
+        if let Some(adapter) = &adapter {
+            adapter.clone().insert_into(app.world_mut());
         }
         app.finish();
         app.cleanup();
         assert_identical(&row, &expected, &float(&mut app));
-        gpu.get_or_insert_with(|| app.world().resource::<Gpu>().clone());
+        adapter = adapter.or_else(|| Adapter::of(app.world()));
 
         // The assets that the systems hold are those that the renderer watches.
         let world = app.world_mut();

@@ -18,6 +18,8 @@ const ROOMS: &[&str] = &[
 /// Public components and resources that are not reflected, and why.
 const NOT_REFLECTED: &[(&str, &str)] = &[
     ("Gpu", "holds the adapter and the device"),
+    ("Cpu", "holds threads and their memory"),
+    ("Canvas", "has no public field"),
     ("GpuTimer", "holds queries on the device"),
     ("SurfaceTarget", "holds the surface of a window"),
     ("SurfaceLost", "a message to the owner of the window"),

@@ -74,6 +74,11 @@ impl Stage {
         Adapter::of(self.app.world()).expect("a frame has been drawn")
     }
 
+    /// Whether the CPU has drawn, without a driver.
+    pub(crate) fn is_on_cpu(&self) -> bool {
+        matches!(self.adapter(), Adapter::Cpu(_))
+    }
+
     /// `bars` for the adapter's grid.
     pub(crate) fn on_grid(&self, bars: Bars) -> Bars {
         // One adapter draws all tests of a process.

@@ -16,7 +16,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 #[derive(Debug, Parser)]
 #[command(name = "halfway-chart", version, max_term_width = 100)]
 #[command(
-    after_help = "Exit codes: 0 done; 1 it failed; 2 the command line cannot be used; 3 there is no graphics adapter."
+    after_help = "Exit codes: 0 done; 1 it failed; 2 the command line cannot be used; 3 the adapter that is asked for is not there."
 )]
 struct Arguments {
     /// Fewer tessellations, rounds, frames and pixels

@@ -34,8 +34,8 @@ use failure::Failure;
     version,
     max_term_width = 100,
     after_help = "Exit codes: 0 done; 1 the graphics device \
-    failed; 2 the input or the command line cannot be used; 3 there is no graphics adapter; 4 pictures differ by more than they \
-    may; 130 stopped by Ctrl-C or SIGTERM."
+    failed; 2 the input or the command line cannot be used; 3 the adapter that is asked for is not there; 4 pictures differ by more \
+    than they may; 130 stopped by Ctrl-C or SIGTERM."
 )]
 struct Cli {
     #[command(subcommand)]
@@ -57,7 +57,7 @@ enum Command {
     /// Figures are of the errors of A, with B as what is expected, on the pixels that both cover. Exit code 4 where a pixel
     /// differs by more than --max allows.
     Compare(compare::CompareArgs),
-    /// Draw a scene with the graphics adapter and with the reference renderer, and judge the one by the other
+    /// Draw a scene with the adapter and with the reference renderer, and judge the one by the other
     ///
     /// Pixels on edges, where rounding decides which side is seen, are told apart. Exit code 4 where another differs by
     /// more than --max allows.
@@ -71,7 +71,7 @@ enum Command {
     Convert(convert::ConvertArgs),
     /// Time a benchmark scene in every shading, beside a constant colour; or what features cost
     Bench(bench::BenchArgs),
-    /// List the graphics adapters, the one that is used first; exit code 3 where there is none
+    /// List what can draw, graphics adapters and the CPU, the one that is used first
     Adapters,
     /// Print the JSON schema of scene files
     Schema,

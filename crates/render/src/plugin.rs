@@ -22,7 +22,7 @@ use crate::lights::gather::{self, Lights};
 use crate::lights::terms::{self, Chosen};
 use crate::pipelines::cache::{self, Pipelines};
 use crate::pipelines::compile::Compile;
-use crate::target::canvas::Canvas;
+use crate::target::canvas::{Canvas, CanvasTarget};
 use crate::target::frame::{self, FrameValues, Headless, Target};
 use crate::view::camera::{self, PictureSize, View};
 use crate::view::matrices::{self, ModelView, NormalMatrix, Visible};
@@ -147,6 +147,7 @@ fn complete(objects: Query<Entity, Incomplete>, mut commands: Commands) {
 fn register_types(app: &mut App) {
     app.register_type::<AdapterChoice>()
         .register_type::<Headless>()
+        .register_type::<CanvasTarget>()
         .register_type::<Compile>()
         .register_type::<LevelsOfDetail>()
         .register_type::<FrameReport>()

@@ -11,15 +11,13 @@ use halfway::render::AdapterChoice;
 use halfway_wild::{Judge, scene, written};
 use serde_json::Value;
 
-/// Draws random scenes with the graphics adapter and judges each by the oracle; makes what fails small and prints it.
+/// Draws random scenes with the adapter and judges each by the oracle; makes what fails small and prints it.
 ///
 /// The same seed means the same scenes on every machine. A failure is written as a scene file, which `halfway verify` takes.
 #[derive(Debug, Parser)]
 #[command(name = "halfway-wild", version, max_term_width = 100)]
-#[command(
-    after_help = "Exit codes: 0 done; 1 a file could not be written; 2 the command line cannot be used; 3 there is \
-    no graphics adapter; 4 a scene failed."
-)]
+#[command(after_help = "Exit codes: 0 done; 1 a file could not be written; 2 the command line cannot be used; 3 the \
+    adapter that is asked for is not there; 4 a scene failed.")]
 struct Arguments {
     /// Which scenes
     #[arg(long, value_name = "N", default_value_t = 1)]

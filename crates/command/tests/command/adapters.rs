@@ -7,7 +7,7 @@ use std::process::{Command, Output};
 /// Runs the command with these variables, and without all others that choose an adapter or a session.
 fn run(folder: &Path, set: &[(&str, &str)], arguments: &[&str]) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_halfway"));
-    for variable in ["HALFWAY_ADAPTER", "WGPU_BACKEND", "WGPU_ADAPTER_NAME"] {
+    for variable in ["HALFWAY_ADAPTER", "HALFWAY_SIMD", "WGPU_BACKEND", "WGPU_ADAPTER_NAME"] {
         command.env_remove(variable);
     }
     for variable in ["XDG_RUNTIME_DIR", "WAYLAND_DISPLAY", "WAYLAND_SOCKET", "DISPLAY"] {
@@ -110,8 +110,7 @@ fn opengl_is_tried_before_giving_up() {
         assert!(output.status.success(), "{output:?}");
         assert!(!String::from_utf8_lossy(&output.stderr).contains("reference renderer"), "{output:?}");
     } else {
-        assert_eq!(output.status.code(), Some(3), "{said}{error}");
-        assert!(error.contains("OpenGL driver answered"), "{error}");
+        assert!(said.ends_with("(cpu, software)\n"), "{said}{error}");
     }
     // A limit is not said to be more than it is.
     let output = run(&folder, &[("WGPU_BACKEND", "metal")], &["adapters"]);

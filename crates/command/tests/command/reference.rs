@@ -8,27 +8,77 @@ use std::process::Command;
 const NO_BACKEND: &str = if cfg!(target_vendor = "apple") { "dx12" } else { "metal" };
 
 #[test]
-fn without_an_adapter_the_reference_renderer_draws_and_says_so() {
+fn the_reference_renderer_draws_only_where_it_is_asked_to() {
     let folder = folder("no_adapter");
     let teapot = asset("assets/teapot.obj");
     let without_adapter = |arguments: &[&str]| {
         Command::new(env!("CARGO_BIN_EXE_halfway"))
             .args(arguments)
             .current_dir(&folder)
+            .env_remove("HALFWAY_ADAPTER")
             .env("WGPU_BACKEND", NO_BACKEND)
             .output()
             .expect("the command was built with this test")
     };
-    let output = without_adapter(&["render", &teapot, "--size", "64x48", "-o", "fallback.png"]);
-    let error = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{error}");
-    assert!(error.contains("no graphics adapter: drawn by the reference renderer on the CPU"), "{error}");
-    let output = without_adapter(&["render", &teapot, "--size", "64x48", "-o", "reference.png", "--reference"]);
-    assert!(output.status.success() && output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
-    let [a, b] = ["fallback.png", "reference.png"].map(|name| fs::read(folder.join(name)).expect("it was drawn"));
-    assert_eq!(a, b);
-    for arguments in [&["adapters"][..], &["verify", &teapot]] {
-        assert_eq!(without_adapter(arguments).status.code(), Some(3), "{arguments:?}");
+    // What is asked for is not there.
+    for arguments in [&["render", &teapot, "-o", "a.png"][..], &["adapters"], &["verify", &teapot]] {
+        let output = without_adapter(arguments);
+        assert_eq!(output.status.code(), Some(3), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+    }
+    assert!(!folder.join("a.png").exists());
+    for name in ["--reference", "--adapter=cpu"] {
+        let output = without_adapter(&["render", &teapot, "--size", "64x48", "-o", &format!("{name}.png"), name]);
+        assert!(output.status.success() && output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
+        assert!(folder.join(format!("{name}.png")).exists(), "{name}");
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn without_a_driver_the_cpu_draws() {
+    let folder = folder("no_driver");
+    let teapot = asset("assets/teapot.obj");
+    let without_driver = |arguments: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_halfway"));
+        for variable in ["HALFWAY_ADAPTER", "WGPU_BACKEND", "WGPU_ADAPTER_NAME", "HALFWAY_SIMD"] {
+            command.env_remove(variable);
+        }
+        // Neither Vulkan nor OpenGL finds any.
+        for variable in ["VK_DRIVER_FILES", "VK_ICD_FILENAMES", "__EGL_VENDOR_LIBRARY_DIRS"] {
+            command.env(variable, "/dev/null");
+        }
+        let output = command.args(arguments).current_dir(&folder).output().expect("the command was built");
+        assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8_lossy(&output.stdout).into_owned()
+    };
+    let listed = without_driver(&["adapters"]);
+    assert!(listed.trim().ends_with("(cpu, software)") && listed.lines().count() == 1, "{listed}");
+    let verdict = without_driver(&["verify", &teapot, "--size", "64x48", "--json"]);
+    let verdict: serde_json::Value = serde_json::from_str(&verdict).expect("JSON");
+    assert_eq!(verdict["device"], listed.trim());
+    without_driver(&["render", &teapot, "--size", "64x48", "-o", "a.png"]);
+    without_driver(&["render", &teapot, "--size", "64x48", "-o", "b.png", "--adapter", "cpu:plain"]);
+    let [a, b] = ["a.png", "b.png"].map(|name| fs::read(folder.join(name)).expect("it was drawn"));
+    assert_eq!(a, b, "the same bits with all vectors");
+}
+
+#[test]
+fn vectors_that_this_cpu_lacks_are_refused() {
+    let folder = folder("no_vectors");
+    let teapot = asset("assets/teapot.obj");
+    let refused = |variable: &str, adapter: &str| {
+        let output = Command::new(env!("CARGO_BIN_EXE_halfway"))
+            .args(["render", &teapot, "-o", "a.png", "--adapter", adapter])
+            .current_dir(&folder)
+            .env("HALFWAY_SIMD", variable)
+            .output()
+            .expect("the command was built with this test");
+        assert_eq!(output.status.code(), Some(3), "{variable} {adapter}");
+        String::from_utf8_lossy(&output.stderr).into_owned()
+    };
+    for (variable, adapter, says) in [("wide", "cpu", "HALFWAY_SIMD: "), ("", "cpu:wide", "the adapter cpu:wide: ")] {
+        let error = refused(variable, adapter);
+        assert!(error.contains(says) && error.contains("\"wide\"") && error.contains("plain"), "{error}");
     }
 }
 

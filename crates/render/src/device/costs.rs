@@ -56,11 +56,11 @@ impl Costs {
     };
 
     /// Of the CPU without a driver ([`Cpu`](crate::Cpu)): its shading reads materials and lights where they are, so that
-    /// what would start a draw elsewhere is free. Of one mesh, instances of one material go together.
+    /// what would start a draw elsewhere is free.
     pub const CPU: Self = Self {
         shaders_encode: true,
         lights_at_fixed_places: false,
-        records_of_one_command: usize::MAX,
+        records_of_one_command: 2,
         multi_draw: None,
         maps_meshes: true,
     };

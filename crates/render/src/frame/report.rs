@@ -45,9 +45,10 @@ pub struct FrameReport {
     /// Distinct materials (front and back together) in the picture.
     pub materials: u32,
     /// Bytes sent to the GPU: meshes, the view, instances, materials, lights and their lists, and draws that a multi-draw
-    /// reads. 0 for a frame equal to the last.
+    /// reads. The [`Cpu`](crate::Cpu) reads all but meshes where they are: there, the bytes of those that were made ready.
+    /// 0 for a frame equal to the last.
     pub bytes_uploaded: u64,
-    /// Pipelines built since the device was opened; each is one variant of the shader.
+    /// Pipelines built since the device was opened; each is one variant of the shader. The [`Cpu`](crate::Cpu) has none.
     pub pipelines: u32,
     /// Pipelines that are there now: those built, less the specialised ones that were given up.
     pub pipelines_live: u32,
