@@ -198,7 +198,7 @@ fn refusal(reasons: &[String], names: &[&str], manager: Option<Manager>, why_not
     format!("missing:\n{}\nNothing was installed: {why_not}. {remedy}", listed(reasons))
 }
 
-/// Asks the built command for the adapters that it can draw with, and prints them.
+/// Asks the built command for what it can draw with, prints it, and sees that a driver is there; the CPU draws without.
 ///
 /// # Errors
 /// There is none: a driver that looked usable is not. Where set-up may install, the software driver is tried first.
@@ -217,7 +217,7 @@ pub(crate) fn adapters(setup: Setup) -> Result {
     Err(Failure::new("no graphics adapter, even with the software driver; VK_LOADER_DEBUG=all tells what it tries"))
 }
 
-/// Whether the command finds an adapter; its list goes to the standard error output.
+/// Whether the command finds an adapter by a driver; its list goes to the standard error output.
 fn list_adapters() -> Result<bool> {
     const NONE: i32 = 3;
     let mut command = cargo(["run", "--release", "--quiet", "--bin", "halfway", "--", "adapters"]);
@@ -225,8 +225,9 @@ fn list_adapters() -> Result<bool> {
     match output.status.code() {
         Some(0) => {
             eprintln!("\nadapters:");
-            String::from_utf8_lossy(&output.stdout).lines().for_each(|line| eprintln!("   {line}"));
-            Ok(true)
+            let said = String::from_utf8_lossy(&output.stdout);
+            said.lines().for_each(|line| eprintln!("   {line}"));
+            Ok(said.lines().any(has_driver))
         }
         Some(NONE) => Ok(false),
         _ => {
@@ -236,9 +237,20 @@ fn list_adapters() -> Result<bool> {
     }
 }
 
+/// Whether a line of the list is of an adapter, and not of the CPU without a driver.
+fn has_driver(line: &str) -> bool {
+    !line.contains("(cpu,")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_cpu_is_no_driver() {
+        assert!(has_driver("llvmpipe (LLVM 15.0.6, 256 bits) (vulkan, software)"));
+        assert!(!has_driver("avx2 (cpu, software)"));
+    }
 
     const MET: Need = Need { missing: || None, ..DRIVER };
     const UNMET: Need = Need { missing: || Some("a thing".into()), ..SCREEN };

@@ -12,9 +12,9 @@ use crate::tally::counted;
 
 /// Run the picture tests and verify the example scenes on every adapter that a bare Debian can have
 ///
-/// These are lavapipe (Vulkan), lavapipe in the ways of hardware, llvmpipe through OpenGL, and `SwiftShader`, the software
-/// Vulkan driver of chromium. On each: the conformance suite, all three shadings with few and many lights, and
-/// `halfway verify` over examples/scenes. Each suite prints the worst figures, from which the table in docs/accuracy.md is.
+/// These are lavapipe (Vulkan), lavapipe in the ways of hardware, llvmpipe through OpenGL, `SwiftShader`, the software
+/// Vulkan driver of chromium, and the CPU without a driver. On each: the conformance suite, all three shadings with few and
+/// many lights, and `halfway verify` over examples/scenes; on the CPU all picture tests that are not about wgpu. Each suite prints the worst figures, from which the table in docs/accuracy.md is.
 /// What is missing is installed first, as for `cargo xtask test`, of which this is a part.
 #[derive(Args, Debug)]
 #[command(verbatim_doc_comment)]
@@ -52,21 +52,56 @@ pub(crate) fn try_all() -> Result {
     if failed.is_empty() { Ok(()) } else { Err(Failure::new(failed.join("\n"))) }
 }
 
-/// The tests of the program `render` that each adapter runs, by parts of their names. Lavapipe runs all, in `cargo xtask test`.
+/// The tests of the program `render` that each driver runs, by parts of their names. Lavapipe runs all, in `cargo xtask test`.
 const TESTS: [&str; 4] = ["render::adapter::", "render::conformance::", "render::costs::", "render::light_counts::"];
+
+/// The tests that the CPU leaves out, and why.
+const OF_WGPU: [(&str, &str); 12] = [
+    ("render::compile::", "pipelines are wgpu's"),
+    ("render::pipelines::", "pipelines are wgpu's"),
+    ("render::counters::pipelines_do_not_grow", "pipelines are wgpu's"),
+    ("render::counters::what_a_draw_does_not_use", "pipelines are wgpu's"),
+    ("render::counters::a_change_uploads", "the CPU reads where it is what wgpu sends"),
+    ("render::costs::", "the CPU has one way"),
+    ("render::multi_draw::", "the CPU starts no commands"),
+    ("render::devices::", "a device is wgpu's"),
+    ("render::engine::", "an engine's texture is a device's"),
+    ("render::floats::a_device_that_cannot", "a device is wgpu's"),
+    ("render::timing::the_gpu_is_timed", "there is no GPU to time"),
+    ("render::timing::frames_that_nobody_waits_for", "there is no GPU to time"),
+];
 
 /// An adapter, and how a program is made to draw with it.
 struct Adapter {
     name: &'static str,
+    tests: Tests,
     variables: Vec<(&'static str, String)>,
     /// Parts of the line that `halfway adapters` prints of it.
     says: [&'static str; 2],
 }
 
+/// The tests of the program `render` that an adapter runs.
+enum Tests {
+    /// Those of [`TESTS`].
+    Few,
+    /// All but those of [`OF_WGPU`].
+    AllButWgpu,
+}
+
+impl Tests {
+    fn arguments(&self) -> Vec<&'static str> {
+        match self {
+            Self::Few => TESTS.to_vec(),
+            Self::AllButWgpu => OF_WGPU.iter().flat_map(|(name, _)| ["--skip", *name]).collect(),
+        }
+    }
+}
+
 /// Every variable that chooses an adapter or its ways.
-const CHOICES: [&str; 7] = [
+const CHOICES: [&str; 8] = [
     "HALFWAY_ADAPTER",
     "HALFWAY_COSTS",
+    "HALFWAY_SIMD",
     "VK_DRIVER_FILES",
     "VK_ICD_FILENAMES",
     "WGPU_ADAPTER_NAME",
@@ -79,14 +114,16 @@ fn all() -> Result<Vec<Adapter>> {
     let swiftshader = swiftshader().ok_or_else(|| Failure::new("SwiftShader is missing"))?;
     let lavapipe = || set("HALFWAY_ADAPTER", "vulkan:llvmpipe");
     Ok(vec![
-        Adapter { name: "lavapipe", variables: vec![lavapipe()], says: ["llvmpipe", "(vulkan"] },
+        Adapter { name: "lavapipe", tests: Tests::Few, variables: vec![lavapipe()], says: ["llvmpipe", "(vulkan"] },
         Adapter {
             name: "lavapipe in the ways of hardware",
+            tests: Tests::Few,
             variables: vec![lavapipe(), set("HALFWAY_COSTS", "hardware")],
             says: ["llvmpipe", "(vulkan"],
         },
         Adapter {
             name: "llvmpipe through OpenGL",
+            tests: Tests::Few,
             variables: vec![
                 set("WGPU_BACKEND", "gl"),
                 set("EGL_PLATFORM", "surfaceless"),
@@ -99,8 +136,15 @@ fn all() -> Result<Vec<Adapter>> {
         },
         Adapter {
             name: "SwiftShader",
+            tests: Tests::Few,
             variables: vec![set("VK_DRIVER_FILES", &swiftshader.to_string_lossy())],
             says: ["SwiftShader", "(vulkan"],
+        },
+        Adapter {
+            name: "the CPU without a driver",
+            tests: Tests::AllButWgpu,
+            variables: vec![set("HALFWAY_ADAPTER", "cpu")],
+            says: ["", "(cpu"],
         },
     ])
 }
@@ -134,7 +178,7 @@ impl Adapter {
 
     fn test(&self) -> Result {
         let words = ["test", "--release", "--workspace", "--test", "render", "--", "--show-output"];
-        let mut command = cargo(words.into_iter().chain(TESTS));
+        let mut command = cargo(words.into_iter().chain(self.tests.arguments()));
         let (tally, outcome) = counted(self.name, self.lend(&mut command))?;
         eprintln!("{tally}");
         outcome?;
@@ -175,7 +219,8 @@ mod tests {
 
     #[test]
     fn an_adapter_is_chosen_by_its_own_variables_alone() {
-        let adapter = Adapter { name: "a", variables: vec![("WGPU_BACKEND", "gl".into())], says: ["", ""] };
+        let adapter =
+            Adapter { name: "a", tests: Tests::Few, variables: vec![("WGPU_BACKEND", "gl".into())], says: ["", ""] };
         let mut command = Command::new("program");
         adapter.lend(&mut command);
         let set: Vec<_> =
