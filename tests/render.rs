@@ -18,6 +18,7 @@ mod render {
     mod conformance;
     mod costs;
     mod counters;
+    mod cpu;
     mod culling;
     mod degenerate;
     mod devices;

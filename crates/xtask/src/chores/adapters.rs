@@ -56,7 +56,7 @@ pub(crate) fn try_all() -> Result {
 const TESTS: [&str; 4] = ["render::adapter::", "render::conformance::", "render::costs::", "render::light_counts::"];
 
 /// The tests that the CPU leaves out, and why.
-const OF_WGPU: [(&str, &str); 12] = [
+const OF_WGPU: [(&str, &str); 14] = [
     ("render::compile::", "pipelines are wgpu's"),
     ("render::pipelines::", "pipelines are wgpu's"),
     ("render::counters::pipelines_do_not_grow", "pipelines are wgpu's"),
@@ -65,6 +65,8 @@ const OF_WGPU: [(&str, &str); 12] = [
     ("render::costs::", "the CPU has one way"),
     ("render::multi_draw::", "the CPU starts no commands"),
     ("render::devices::", "a device is wgpu's"),
+    ("render::cpu::what_draws_may_change", "it takes a device to change to"),
+    ("render::cpu::a_device_s_texture", "a device is wgpu's"),
     ("render::engine::", "an engine's texture is a device's"),
     ("render::floats::a_device_that_cannot", "a device is wgpu's"),
     ("render::timing::the_gpu_is_timed", "there is no GPU to time"),
