@@ -156,7 +156,10 @@ fn objects_from_before_the_renderer_get_what_they_lack() {
     let late = app.world_mut().spawn((Mesh3d(mesh), Material::BRASS)).id();
     for _ in 0..2 {
         float(&mut app);
-        assert_eq!(app.world().resource::<FrameReport>().draws, 2);
+        // Two materials, which the CPU looks up.
+        let costs = Adapter::of(app.world()).expect("a frame has been drawn").costs();
+        let draws = if costs.records_of_one_command > 2 { 2 } else { 1 };
+        assert_eq!(app.world().resource::<FrameReport>().draws, draws);
     }
     assert_eq!(app.world().get::<Material>(early), Some(&Material::DEFAULT));
     assert_eq!(app.world().get::<Material>(late), Some(&Material::BRASS), "its own stays");

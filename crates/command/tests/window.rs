@@ -10,7 +10,7 @@ mod window {
 }
 
 use std::io::{Read, Write};
-use std::process::Stdio;
+use std::process::{Command, Stdio};
 use std::thread::sleep;
 use std::time::Duration;
 
@@ -22,8 +22,22 @@ const ESCAPE: Keysym = 0xff1b;
 
 #[test]
 fn keys_choose_the_shading_and_the_size_is_followed() {
+    follows_keys_and_size(view());
+}
+
+#[test]
+fn without_a_driver_the_cpu_draws_in_the_window() {
+    let mut program = view();
+    for variable in ["VK_DRIVER_FILES", "VK_ICD_FILENAMES", "__EGL_VENDOR_LIBRARY_DIRS"] {
+        program.env(variable, "/dev/null");
+    }
+    program.args(["--adapter", "cpu"]);
+    follows_keys_and_size(program);
+}
+
+fn follows_keys_and_size(program: Command) {
     let screen = Screen::open();
-    let mut viewer = Viewer::open(&screen);
+    let mut viewer = Viewer::run(&screen, program);
     let phong = viewer.shown("Phong, Blinn–Phong", None);
     // A clear colour and an unlit outline would have two.
     assert!(phong.colours() > 50, "{} colours", phong.colours());

@@ -27,9 +27,9 @@ fn the_reference_renderer_draws_only_where_it_is_asked_to() {
     }
     assert!(!folder.join("a.png").exists());
     for name in ["--reference", "--adapter=cpu"] {
-        let output = without_adapter(&["render", &teapot, "--size", "64x48", "-o", &format!("{name}.png"), name]);
+        let output = without_adapter(&["render", &teapot, "--size", "64x48", "-o", &format!("a{name}.png"), name]);
         assert!(output.status.success() && output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
-        assert!(folder.join(format!("{name}.png")).exists(), "{name}");
+        assert!(folder.join(format!("a{name}.png")).exists(), "{name}");
     }
 }
 
