@@ -5,8 +5,8 @@ use crate::cover::Nearest;
 use crate::encode::{bytes, cleared, kept};
 use crate::four::{CENTROID_SHIFT, SHADER_BITS};
 use crate::lanes::{
-    F, I, Simd, V3, add, counting, dot, each, fma, lanes, load, load_i, load3, neg, safe_normalize, scale, select3,
-    splat, splat_i, splat3, store,
+    F, I, Simd, V3, add, counting, dot, each, fma, lanes, load, load_i, load3, max, neg, safe_normalize, scale,
+    select3, splat, splat_i, splat3, store,
 };
 use crate::lighting::{Points, added, reflected, to_viewer};
 use crate::pass::{Pass, SampleCount};
@@ -53,16 +53,22 @@ impl<S: Simd> Fragments<S> {
         match state.stage {
             Stage::Unlit => splat3(simd, side.base),
             Stage::Flat => self.lead,
-            Stage::Vertex => scale::<S>(self.lead, splat(simd, 1.0) / self.inverse_w),
+            Stage::Vertex => self.interpolated(simd, self.lead),
             Stage::Fragment | Stage::Mixed => {
                 let terms = state.fragment_terms(simd, look.pass, &self.points(simd, look, state, back), back);
                 if state.stage == Stage::Fragment {
                     return reflected(simd, &terms, side);
                 }
-                let vertex = scale::<S>(self.second, splat(simd, 1.0) / self.inverse_w);
-                add::<S>(vertex, added(simd, &terms, side))
+                add::<S>(self.interpolated(simd, self.second), added(simd, &terms, side))
             }
         }
+    }
+
+    /// Colors over w as colors. None is below 0; across a triangle seen edge-on slopes leave the range of its corners.
+    #[inline(always)]
+    fn interpolated(&self, simd: S, over_w: V3<S>) -> V3<S> {
+        let colors = scale::<S>(over_w, splat(simd, 1.0) / self.inverse_w);
+        each!(c in 3 => max::<S>(colors[c], splat(simd, 0.0)))
     }
 
     #[inline(always)]
