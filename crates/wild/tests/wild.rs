@@ -8,11 +8,21 @@ use halfway::scene::{MaterialEntry, SceneFile};
 use halfway_wild::{Fault, Finding, Judge, scene, written};
 use serde_json::Value;
 
-/// Scenes that failed once, small. Those in the folder `known` inside still do.
+/// Scenes that failed once, small. Those in the folder `known` inside still do, those in `known/cpu` on the CPU.
 const KEPT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/wild");
 
+/// Of what draws by default.
 fn judge() -> Judge {
-    Judge::new(AdapterChoice::default().open().unwrap_or_else(|error| panic!("{error}")), KEPT)
+    judge_of(&AdapterChoice::default())
+}
+
+fn judge_of(choice: &AdapterChoice) -> Judge {
+    Judge::new(choice.open().unwrap_or_else(|error| panic!("{error}")), KEPT)
+}
+
+/// Of what draws by default, and of the CPU.
+fn judges() -> [(&'static str, Judge); 2] {
+    [("by default", judge()), ("on the CPU", judge_of(&AdapterChoice::cpu()))]
 }
 
 fn kept(folder: &Path) -> Vec<(PathBuf, Value)> {
@@ -29,14 +39,15 @@ fn kept(folder: &Path) -> Vec<(PathBuf, Value)> {
 
 #[test]
 fn a_few_dozen_scenes_are_right() {
-    let judge = judge();
-    let failures = (0..40).filter_map(|number| {
-        let scene = scene(SEED, number);
-        let finding = judge.judge(&scene).err()?;
-        Some(format!("scene {number}: {finding}\n{}", written(&judge.shrunk(&scene, &finding, 100))))
-    });
-    let failures: Vec<String> = failures.collect();
-    assert!(failures.is_empty(), "{} scenes of seed {SEED} failed:\n{}", failures.len(), failures.join("\n"));
+    for (by, judge) in judges() {
+        let failures = (0..40).filter_map(|number| {
+            let scene = scene(SEED, number);
+            let finding = judge.judge(&scene).err()?;
+            Some(format!("scene {number}: {finding}\n{}", written(&judge.shrunk(&scene, &finding, 100))))
+        });
+        let failures: Vec<String> = failures.collect();
+        assert!(failures.is_empty(), "{by} {} scenes of seed {SEED} failed:\n{}", failures.len(), failures.join("\n"));
+    }
 }
 
 /// A seed of which no scene is known to fail.
@@ -44,23 +55,27 @@ const SEED: u64 = 1;
 
 #[test]
 fn scenes_that_failed_once_are_right() {
-    let judge = judge();
-    let wrong = kept(Path::new(KEPT))
-        .into_iter()
-        .filter_map(|(file, scene)| judge.judge(&scene).err().map(|finding| format!("{}: {finding}", file.display())));
-    let wrong: Vec<String> = wrong.collect();
-    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    for (by, judge) in judges() {
+        let wrong = kept(Path::new(KEPT)).into_iter().filter_map(|(file, scene)| {
+            judge.judge(&scene).err().map(|finding| format!("{} {by}: {finding}", file.display()))
+        });
+        let wrong: Vec<String> = wrong.collect();
+        assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    }
 }
 
-/// What is mended moves one folder up.
+/// What is mended moves up, to the scenes that are right.
 #[test]
 fn known_failures_fail() {
-    let judge = judge();
-    for (file, scene) in kept(&Path::new(KEPT).join("known")) {
-        match judge.judge(&scene) {
-            Err(Finding::NoScene(problem)) => panic!("{}: {problem}", file.display()),
-            Err(_) => {}
-            Ok(_) => panic!("{}: mended", file.display()),
+    for (folder, judge) in [("known", judge()), ("known/cpu", judge_of(&AdapterChoice::cpu()))] {
+        let scenes = kept(&Path::new(KEPT).join(folder));
+        assert!(!scenes.is_empty(), "nothing is known: remove {folder} here");
+        for (file, scene) in scenes {
+            match judge.judge(&scene) {
+                Err(Finding::NoScene(problem)) => panic!("{}: {problem}", file.display()),
+                Err(_) => {}
+                Ok(_) => panic!("{}: mended", file.display()),
+            }
         }
     }
 }

@@ -7,7 +7,8 @@ use halfway::render::{Adapter, FrameReport, RenderError};
 
 /// What the time of a [`frame`] is.
 pub const FRAME_TIME: &str = "A frame is App::update, which moves everything, prepares, encodes and submits the draws, \
-                              and the wait until the device, if one draws, has finished them; start-up and reading the picture back are not in it.";
+                              and the wait until the device, if one draws, has finished them; start-up and reading the \
+                              picture back are not in it.";
 
 /// The frames that a turn of [`in_turns`] times.
 const TIMED: usize = 2;
