@@ -91,6 +91,9 @@ impl Planes {
     pub(crate) fn set_face(&mut self, [_, x, y, z]: &[f32; 4], state: &State) {
         if state.stage == Stage::Flat {
             self.lead.base[1..].copy_from_slice(&[*x, *y, *z]);
+            // Corners that clipping has made hold a normal, which flat shading leaves to whatever was drawn before.
+            self.lead.dx[1..].fill(0.0);
+            self.lead.dy[1..].fill(0.0);
         } else if state.opposite_normals {
             self.face = [*x, *y, *z];
         }

@@ -172,6 +172,33 @@ fn ten_pictures_have_the_same_bits_on_every_width_and_with_any_threads() {
     assert_eq!(found[0].2, HASHES, "all widths agree, but not with what they were: {:#018x?}", found[0].2);
 }
 
+/// A ball that the near plane cuts open, seen from both sides.
+fn cut_open(shading: Shading, samples: SampleCount) -> Scene {
+    let mut scene = small(shading);
+    (scene.samples, scene.pixels) = (samples, PixelFormat::Floats);
+    // Through triangles, and not along a row of vertices.
+    scene.lens.near = 3.1;
+    scene.draws[0].left_out = LeftOut::Neither;
+    scene
+}
+
+#[test]
+fn no_picture_depends_on_those_before_it() {
+    let cut =
+        Shading::ALL.map(|shading| [SampleCount::One, SampleCount::Four].map(|samples| cut_open(shading, samples)));
+    let scenes: Vec<_> = scenes().into_iter().map(|(_, scene)| scene).chain(cut.into_iter().flatten()).collect();
+    let new = || Rasterizer::new(RasterOptions { threads: Some(1), ..RasterOptions::default() }).expect("threads");
+    let alone: Vec<_> = scenes.iter().map(|scene| hash_of_picture(scene, &mut new())).collect();
+    for (before, first) in scenes.iter().enumerate() {
+        let mut rasterizer = new();
+        for (after, second) in scenes.iter().enumerate() {
+            hash_of_picture(first, &mut rasterizer);
+            let found = hash_of_picture(second, &mut rasterizer);
+            assert_eq!(found, alone[after], "picture {after} is another after picture {before}");
+        }
+    }
+}
+
 #[test]
 fn pictures_differ_where_scenes_do() {
     let mut rasterizer = Rasterizer::new(RasterOptions::default()).expect("threads");
