@@ -1,7 +1,7 @@
 //! Fragments that are laid over what is there, in the order of drawing.
 
 use crate::bins::TILE;
-use crate::cover::{Edges, Nearest, clamped, covered, plane};
+use crate::cover::{EdgeFunctions, TileBuffer, clamped, covered, plane};
 use crate::encode::kept;
 use crate::four::{centroid, samples};
 use crate::lanes::{F, M, Simd, V3, counting, each, fma, lanes, load, splat, splat3, store};
@@ -19,10 +19,10 @@ struct Shown<S: Simd> {
     place: [F<S>; 2],
 }
 
-impl Nearest {
+impl TileBuffer {
     /// Blends a triangle over colors.
     #[inline(always)]
-    pub(crate) fn blend<S: Simd>(&mut self, simd: S, edges: &Edges, planes: &Planes, shader: i32, look: &Look) {
+    pub(crate) fn blend<S: Simd>(&mut self, simd: S, edges: &EdgeFunctions, planes: &Planes, shader: i32, look: &Look) {
         let [left, right, top, bottom] = edges.bounds;
         for j in top..=bottom {
             let mut done = left;
@@ -44,7 +44,7 @@ impl Nearest {
     }
 
     #[inline(always)]
-    fn shown_in_one<S: Simd>(&self, simd: S, edges: &Edges, planes: &Planes, [i, j]: [i32; 2]) -> Shown<S> {
+    fn shown_in_one<S: Simd>(&self, simd: S, edges: &EdgeFunctions, planes: &Planes, [i, j]: [i32; 2]) -> Shown<S> {
         let place = [counting(simd) + splat(simd, i as f32), splat(simd, j as f32)];
         let depth = clamped(simd, plane(simd, &planes.lead, 0, place[0], place[1]), planes);
         let at = j as usize * TILE + i as usize;
@@ -53,7 +53,7 @@ impl Nearest {
     }
 
     #[inline(always)]
-    fn shown_in_four<S: Simd>(&self, simd: S, edges: &Edges, planes: &Planes, [i, j]: [i32; 2]) -> Shown<S> {
+    fn shown_in_four<S: Simd>(&self, simd: S, edges: &EdgeFunctions, planes: &Planes, [i, j]: [i32; 2]) -> Shown<S> {
         let [left, right, ..] = edges.bounds;
         let mut bits = [0_u64; 4];
         let mut place = [counting(simd) + splat(simd, i as f32), splat(simd, j as f32)];

@@ -1,7 +1,7 @@
 //! Triangles that reach far beyond a tile, or behind the eye: few, and so one by one, in 64 bits.
 
 use crate::bins::TILE;
-use crate::cover::Edges;
+use crate::cover::EdgeFunctions;
 use crate::pass::LeftOut;
 use crate::planes::{Gradient, Planes};
 use crate::samples::sample_offsets;
@@ -19,7 +19,7 @@ pub(crate) struct Corner {
 }
 
 /// A triangle that is ready to be drawn: its edges, its planes, whether it shows its back.
-pub(crate) type Ready = (Edges, Planes, bool);
+pub(crate) type Ready = (EdgeFunctions, Planes, bool);
 
 /// A polygon gets a corner more from each plane that cuts it.
 const MOST_CORNERS: usize = 3 + 5;
@@ -173,9 +173,9 @@ fn set_up(corners: [Corner; 3], tile: [u32; 2], covering: &Covering) -> Option<R
     Some((edges, planes(&corners, first, (x, y), area > 0, front), !front))
 }
 
-fn edges(x: [i64; 3], y: [i64; 3], covering: &Covering) -> Option<Edges> {
+fn edges(x: [i64; 3], y: [i64; 3], covering: &Covering) -> Option<EdgeFunctions> {
     let reach = i64::from(covering.reach());
-    let mut edges = Edges::default();
+    let mut edges = EdgeFunctions::default();
     for (axis, v) in [x, y].into_iter().enumerate() {
         let (low, high) = (v[0].min(v[1]).min(v[2]), v[0].max(v[1]).max(v[2]));
         let first = ((low - reach + i64::from(GRID) - 1) >> 8).max(0);

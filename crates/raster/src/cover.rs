@@ -39,7 +39,7 @@ pub(crate) const TINY_AT: [usize; TINY_PIXELS] = {
 
 /// Three edge functions over a tile: a pixel is covered where none is below 0.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Edges {
+pub(crate) struct EdgeFunctions {
     /// At the samples of the first pixel.
     pub(crate) at: [[i32; 4]; 3],
     /// At its center.
@@ -50,7 +50,7 @@ pub(crate) struct Edges {
     pub(crate) bounds: [i32; 4],
 }
 
-impl Edges {
+impl EdgeFunctions {
     /// Those of one lane.
     #[inline(always)]
     pub(crate) fn of_lane(batch: &Batch, lane: usize, samples: SampleCount) -> Self {
@@ -80,7 +80,7 @@ impl Edges {
 
 /// The nearest that has been drawn of a tile. With four samples each list holds all pixels' first samples, then all
 /// second ones, and so on; the depths of a pixel's samples lie side by side.
-pub(crate) struct Nearest {
+pub(crate) struct TileBuffer {
     /// 1/w, 0 where nothing is.
     pub(crate) depth: Vec<[f32; PIXELS]>,
     /// What shades it: 0 for nothing, else 2 + 2·state + 1 for backs; in the upper bits 2²⁸·the centroid's number.
@@ -112,7 +112,7 @@ impl Kept {
     }
 }
 
-impl Nearest {
+impl TileBuffer {
     pub(crate) fn new() -> Self {
         Self {
             depth: Vec::new(),
@@ -257,7 +257,14 @@ impl Nearest {
 
     /// The same for any triangle.
     #[inline(always)]
-    pub(crate) fn cover_strips<S: Simd>(&mut self, simd: S, edges: &Edges, planes: &Planes, shader: i32, kept: Kept) {
+    pub(crate) fn cover_strips<S: Simd>(
+        &mut self,
+        simd: S,
+        edges: &EdgeFunctions,
+        planes: &Planes,
+        shader: i32,
+        kept: Kept,
+    ) {
         let [left, right, top, bottom] = edges.bounds;
         let count = lanes::<S>() as i32;
         let shader = splat_i(simd, shader);
@@ -320,7 +327,7 @@ fn put<S: Simd>(simd: S, list: &mut [f32], at: usize, mask: M<S>, value: F<S>) {
 
 /// The lanes that an edge function leaves, from pixel (i, j) on.
 #[inline(always)]
-pub(crate) fn covered<S: Simd>(simd: S, edges: &Edges, i: i32, j: i32) -> M<S> {
+pub(crate) fn covered<S: Simd>(simd: S, edges: &EdgeFunctions, i: i32, j: i32) -> M<S> {
     let [left, right, ..] = edges.bounds;
     let steps = counting_i(simd);
     let [a, b, c]: [I<S>; 3] = each!(k in 3 => {

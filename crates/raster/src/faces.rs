@@ -11,11 +11,11 @@ use crate::vertices::{transformed, turned};
 use fearless_simd::prelude::*;
 
 /// Of each lane's triangle 0 and its own normal, or 0 and its color where the draw is flat, front and back.
-pub(crate) struct Faces {
+pub(crate) struct LaneFaces {
     pub(crate) each: [[[f32; 4]; MOST_LANES]; 2],
 }
 
-impl Faces {
+impl LaneFaces {
     pub(crate) fn new() -> Self {
         Self { each: [[[0.0; 4]; MOST_LANES]; 2] }
     }

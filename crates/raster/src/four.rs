@@ -1,7 +1,7 @@
 //! Coverage with four samples a pixel, and what a triangle leaves in them.
 
 use crate::bins::TILE;
-use crate::cover::{Edges, Kept, Nearest, PIXELS, TINY_AT, TINY_PIXELS, TINY_PLACES, value};
+use crate::cover::{EdgeFunctions, Kept, PIXELS, TINY_AT, TINY_PIXELS, TINY_PLACES, TileBuffer, value};
 use crate::lanes::{I, M, Simd, counting_i, each, f32x4, lanes, max_one, min_one, splat_i};
 use crate::planes::{LaneSlopes, Planes};
 use crate::samples::{CENTROIDS, OFFSETS};
@@ -12,7 +12,7 @@ pub(crate) const CENTROID_SHIFT: i32 = 28;
 /// The bits of a shader below it.
 pub(crate) const SHADER_BITS: i32 = (1 << CENTROID_SHIFT) - 1;
 
-impl Nearest {
+impl TileBuffer {
     /// Draws a triangle of few pixels with four samples each: those whose bits are set in `samples`, counted from `first`.
     /// It is shaded once a pixel, at the center or, where that is not covered, at the centroid of the samples that are.
     #[inline(always)]
@@ -113,7 +113,14 @@ impl Nearest {
 
     /// The same for a triangle of any size.
     #[inline(always)]
-    pub(crate) fn cover_four<S: Simd>(&mut self, simd: S, edges: &Edges, planes: &Planes, shader: i32, kept: Kept) {
+    pub(crate) fn cover_four<S: Simd>(
+        &mut self,
+        simd: S,
+        edges: &EdgeFunctions,
+        planes: &Planes,
+        shader: i32,
+        kept: Kept,
+    ) {
         let [left, right, top, bottom] = edges.bounds;
         self.triangles += 1;
         for j in top..=bottom {
@@ -137,7 +144,7 @@ impl Nearest {
     fn cover_pixel<S: Simd>(
         &mut self,
         simd: S,
-        edges: &Edges,
+        edges: &EdgeFunctions,
         planes: &Planes,
         shader: i32,
         kept: Kept,
@@ -165,7 +172,7 @@ impl Nearest {
 
 /// Pixels of which some sample is covered, from (i, j) on.
 #[inline(always)]
-fn covered_by_any<S: Simd>(simd: S, edges: &Edges, i: i32, j: i32) -> M<S> {
+fn covered_by_any<S: Simd>(simd: S, edges: &EdgeFunctions, i: i32, j: i32) -> M<S> {
     let grown = each!(k in 3 => counting_i(simd) * splat_i(simd, edges.across[k]));
     let mut outside = splat_i(simd, -1);
     for sample in 0..4 {
@@ -179,7 +186,13 @@ fn covered_by_any<S: Simd>(simd: S, edges: &Edges, i: i32, j: i32) -> M<S> {
 
 /// Which samples of a pixel are covered, and 1/w at each.
 #[inline(always)]
-pub(crate) fn samples<S: Simd>(simd: S, edges: &Edges, planes: &Planes, i: i32, j: i32) -> (mask32x4<S>, f32x4<S>) {
+pub(crate) fn samples<S: Simd>(
+    simd: S,
+    edges: &EdgeFunctions,
+    planes: &Planes,
+    i: i32,
+    j: i32,
+) -> (mask32x4<S>, f32x4<S>) {
     let [a, b, c] = each!(k in 3 => {
         i32x4::from_slice(simd, &edges.at[k]) + (edges.across[k] * i + edges.down[k] * j)
     });
@@ -200,7 +213,7 @@ fn clamped_four<S: Simd>(simd: S, depth: f32x4<S>, range: [f32; 2]) -> f32x4<S> 
 
 /// The number of the place where a pixel is shaded: 0 where its center is covered, else the samples that are.
 #[inline(always)]
-pub(crate) fn centroid(edges: &Edges, i: i32, j: i32, mask: usize) -> usize {
+pub(crate) fn centroid(edges: &EdgeFunctions, i: i32, j: i32, mask: usize) -> usize {
     let [a, b, c] = each!(k in 3 => edges.center[k] + edges.across[k] * i + edges.down[k] * j);
     if mask == 15 || a | b | c >= 0 { 0 } else { mask }
 }

@@ -1,7 +1,7 @@
 //! Shading of what is nearest in a tile, a vector of pixels at a time.
 
 use crate::bins::TILE;
-use crate::cover::Nearest;
+use crate::cover::TileBuffer;
 use crate::encode::{bytes, cleared, kept};
 use crate::four::{CENTROID_SHIFT, SHADER_BITS};
 use crate::lanes::{
@@ -114,7 +114,7 @@ impl<S: Simd> Even<S> {
     }
 }
 
-impl Nearest {
+impl TileBuffer {
     /// Puts colors, as the target keeps them, in the place of the leading numbers.
     #[inline(always)]
     pub(crate) fn shade<S: Simd>(&mut self, simd: S, look: &Look, rows: usize) {

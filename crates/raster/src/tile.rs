@@ -2,9 +2,9 @@
 
 use crate::bins::{Bins, Job, TILE};
 use crate::clip::each_part;
-use crate::cover::{Edges, Kept, Nearest, PIXELS};
+use crate::cover::{EdgeFunctions, Kept, PIXELS, TileBuffer};
 use crate::encode::{bytes, cleared, kept};
-use crate::faces::Faces;
+use crate::faces::LaneFaces;
 use crate::lanes::{I, MOST_LANES, Simd, V3, each, f32x4, lanes, max_one, min_one};
 use crate::pass::{InstanceData, Pass, PixelFormat, SampleCount};
 use crate::pieces::{Piece, Pieces};
@@ -20,8 +20,8 @@ pub(crate) struct Worker {
     vertices: Vertices,
     corners: Corners,
     batch: Batch,
-    faces: Faces,
-    nearest: Nearest,
+    faces: LaneFaces,
+    nearest: TileBuffer,
     /// Whether the pixels are all of the clear color.
     is_clear: bool,
     /// The tile's pixels as bytes.
@@ -56,8 +56,8 @@ impl Worker {
             vertices: Vertices::new(),
             corners: Corners::new(),
             batch: Batch::default(),
-            faces: Faces::new(),
-            nearest: Nearest::new(),
+            faces: LaneFaces::new(),
+            nearest: TileBuffer::new(),
             is_clear: false,
             bytes: Vec::new(),
             floats: Vec::new(),
@@ -222,7 +222,7 @@ impl Worker {
                         Slopes::of_lane(&self.batch.slopes(simd, lane, each!(k in 3 => &second[numbers[k]])));
                 }
                 planes.set_face(&self.faces.each[usize::from(back)][lane], work.state);
-                let edges = Edges::of_lane(&self.batch, lane, look.pass.samples);
+                let edges = EdgeFunctions::of_lane(&self.batch, lane, look.pass.samples);
                 draw(simd, &mut self.nearest, &edges, &planes, back, look, work);
             },
         );
@@ -297,7 +297,15 @@ fn range([a, b, c]: [&[f32; 4]; 3]) -> [f32; 2] {
 }
 
 #[inline(always)]
-fn draw<S: Simd>(simd: S, nearest: &mut Nearest, edges: &Edges, planes: &Planes, back: bool, look: &Look, work: &Work) {
+fn draw<S: Simd>(
+    simd: S,
+    nearest: &mut TileBuffer,
+    edges: &EdgeFunctions,
+    planes: &Planes,
+    back: bool,
+    look: &Look,
+    work: &Work,
+) {
     let (shader, kept) = (shader_of(work.job.state, back), Kept::of(work.state));
     match look.pass.samples {
         _ if work.blend => nearest.blend(simd, edges, planes, shader, look),
