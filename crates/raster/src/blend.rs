@@ -4,7 +4,7 @@ use crate::bins::TILE;
 use crate::cover::{EdgeFunctions, TileBuffer, clamped, covered, plane};
 use crate::encode::kept;
 use crate::four::{centroid, samples};
-use crate::lanes::{F, M, Simd, V3, counting, each, fma, lanes, load, splat, splat3, store};
+use crate::lanes::{F, M, Simd, V3, counting, each, fma, lanes, load, replace, splat, splat3};
 use crate::pass::SampleCount;
 use crate::planes::{Planes, Slopes};
 use crate::samples::CENTROIDS;
@@ -110,7 +110,7 @@ impl TileBuffer {
             for c in 0..3 {
                 let before = load(simd, &self.lead[sample][c], at);
                 let over = fma::<S>(opacity, color[c] - before, before);
-                store::<S>(show.select(over, before), &mut self.lead[sample][c], at);
+                replace::<S>(simd, show, over, &mut self.lead[sample][c], at);
             }
         }
     }

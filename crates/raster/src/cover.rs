@@ -2,8 +2,8 @@
 
 use crate::bins::TILE;
 use crate::lanes::{
-    F, I, M, Simd, counting, counting_i, each, f32x4, fma, lanes, load, load_i, max, max_one, min, min_one, splat,
-    splat_i, store, store_i,
+    F, I, M, Simd, counting, counting_i, each, f32x4, fma, lanes, load, load_i, max, max_one, min, min_one, replace,
+    splat, splat_i, store_i,
 };
 use crate::pass::SampleCount;
 use crate::planes::{LaneSlopes, Planes, Slopes};
@@ -238,11 +238,11 @@ impl TileBuffer {
                     let depth = min::<S>(max::<S>(plane(simd, &lead, 0, x, y), least), most);
                     let before = load(simd, depths, place);
                     let nearer = covered & depth.simd_gt(before);
-                    store::<S>(nearer.select(depth, before), depths, place);
+                    replace::<S>(simd, nearer, depth, depths, place);
                     store_i::<S>(nearer.select(shader, load_i(simd, shaders, place)), shaders, place);
                     if keeps_lead {
                         for c in 0..3 {
-                            put(simd, &mut leads[c], place, nearer, plane(simd, &lead, c + 1, x, y));
+                            replace::<S>(simd, nearer, plane(simd, &lead, c + 1, x, y), &mut leads[c], place);
                         }
                     }
                 }
@@ -290,7 +290,7 @@ impl TileBuffer {
                     let before = load(simd, &self.depth[0], at);
                     let nearer = covered & depth.simd_gt(before);
                     if nearer.any_true() {
-                        store::<S>(nearer.select(depth, before), &mut self.depth[0], at);
+                        replace::<S>(simd, nearer, depth, &mut self.depth[0], at);
                         store_i::<S>(nearer.select(shader, load_i(simd, &self.shader[0], at)), &mut self.shader[0], at);
                         self.keep(simd, planes, at, [x, y], nearer, kept);
                     }
@@ -307,22 +307,16 @@ impl TileBuffer {
     fn keep<S: Simd>(&mut self, simd: S, planes: &Planes, at: usize, [x, y]: [F<S>; 2], shown: M<S>, kept: Kept) {
         for c in 0..3 {
             if kept.lead {
-                put(simd, &mut self.lead[0][c], at, shown, plane(simd, &planes.lead, c + 1, x, y));
+                replace::<S>(simd, shown, plane(simd, &planes.lead, c + 1, x, y), &mut self.lead[0][c], at);
             }
             if kept.second {
-                put(simd, &mut self.second[0][c], at, shown, plane(simd, &planes.second, c + 1, x, y));
+                replace::<S>(simd, shown, plane(simd, &planes.second, c + 1, x, y), &mut self.second[0][c], at);
             }
             if kept.face {
-                put(simd, &mut self.face[0][c], at, shown, splat(simd, planes.face[c]));
+                replace::<S>(simd, shown, splat(simd, planes.face[c]), &mut self.face[0][c], at);
             }
         }
     }
-}
-
-/// Replaces the lanes of a mask.
-#[inline(always)]
-fn put<S: Simd>(simd: S, list: &mut [f32], at: usize, mask: M<S>, value: F<S>) {
-    store::<S>(mask.select(value, load(simd, list, at)), list, at);
 }
 
 /// The lanes that an edge function leaves, from pixel (i, j) on.

@@ -72,7 +72,10 @@ impl TileBuffer {
         let at = &mut self.depth.as_flattened_mut()[4 * pixel..4 * pixel + 4];
         let before = f32x4::from_slice(simd, at);
         let nearer = covered & depth.simd_gt(before);
-        nearer.select(depth, before).store_slice(at);
+        // As integers, as in [`replace`](crate::lanes::replace).
+        let [depth, before]: [i32x4<S>; 2] = [depth.bitcast(), before.bitcast()];
+        let kept: f32x4<S> = nearer.select(depth, before).bitcast();
+        kept.store_slice(at);
         nearer.to_bitmask() as usize % 16
     }
 

@@ -79,6 +79,14 @@ pub(crate) fn store_i<S: Simd>(x: I<S>, to: &mut [i32], at: usize) {
     x.store_slice(&mut to[at..at + lanes::<S>()]);
 }
 
+/// Replaces the lanes of a mask. As integers: of floats LLVM makes a masked store, which many CPUs do slowly (AMD's in more
+/// than ten steps), and which what is loaded next from there has to wait for.
+#[inline(always)]
+pub(crate) fn replace<S: Simd>(simd: S, mask: M<S>, x: F<S>, to: &mut [f32], at: usize) {
+    let before: I<S> = load(simd, to, at).bitcast();
+    store::<S>(mask.select(x.bitcast::<I<S>>(), before).bitcast(), to, at);
+}
+
 /// Four numbers a lane, side by side, from `at` on.
 #[inline(always)]
 pub(crate) fn store_fours<S: Simd>([a, b, c, d]: [F<S>; 4], to: &mut [[f32; 4]], at: usize) {
