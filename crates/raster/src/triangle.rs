@@ -8,7 +8,7 @@ use crate::pass::{LeftOut, SampleCount};
 use crate::pieces::PIECE_TRIANGLES;
 use crate::planes::{FLATTEST, LaneSlopes};
 use crate::samples::GRID_PLACES;
-use crate::vertices::{CLIPPED, GRID, Vertices};
+use crate::vertices::{CLIPPED, FAR_AWAY, GRID, Vertices};
 use fearless_simd::prelude::*;
 
 /// The longest side of a triangle's box on the grid that 32 bits take without care.
@@ -127,18 +127,21 @@ impl Batch {
     pub(crate) fn fill<S: Simd>(&mut self, simd: S, corners: &Corners, at: usize, count: usize, covering: &Covering) {
         self.others = 0;
         let mut usable = M::<S>::from_bitmask(simd, (1 << count) - 1);
+        let mut far_away = M::<S>::splat(simd, false);
         if corners.any_code {
             let zero = splat_i(simd, 0);
-            let clipped = load_i(simd, &corners.code_or, at).simd_gt(zero);
+            let code = load_i(simd, &corners.code_or, at);
+            let clipped = (code & splat_i(simd, CLIPPED)).simd_gt(zero);
             let gone = (load_i(simd, &corners.code_and, at) & splat_i(simd, CLIPPED)).simd_gt(zero);
             self.others = (clipped & !gone & usable).to_bitmask();
             usable &= !clipped;
+            far_away = (code & splat_i(simd, FAR_AWAY)).simd_gt(zero);
         }
         let places = each!(k in 3 => {
             let list = corners.places[k].as_flattened();
             load_i(simd, list, 2 * at).deinterleave(load_i(simd, list, 2 * at + lanes::<S>()))
         });
-        let outlines = self.find(simd, &places, usable, covering);
+        let outlines = self.find(simd, &places, (usable, far_away), covering);
         let meet = outlines.meet.to_bitmask();
         (self.tiny, self.small) = (0, 0);
         if meet != 0 {
@@ -157,7 +160,13 @@ impl Batch {
 
     /// Tells which triangles show their fronts and may cover pixels.
     #[inline(always)]
-    fn find<S: Simd>(&mut self, simd: S, places: &[(I<S>, I<S>); 3], usable: M<S>, covering: &Covering) -> Outlines<S> {
+    fn find<S: Simd>(
+        &mut self,
+        simd: S,
+        places: &[(I<S>, I<S>); 3],
+        (usable, far_away): (M<S>, M<S>),
+        covering: &Covering,
+    ) -> Outlines<S> {
         // From the center of the tile's first pixel; what is within a step of the grid is rounded away.
         let (half, from_center) = (splat_i(simd, 0x8000), splat_i(simd, 32 * GRID - GRID / 2));
         let x = each!(k in 3 => ((places[k].0 + half) >> 16) + from_center);
@@ -165,7 +174,8 @@ impl Batch {
         let low = [least::<S>(x), least::<S>(y)];
         let high = [most::<S>(x), most::<S>(y)];
         let side = SimdBase::max(high[0] - low[0], high[1] - low[1]);
-        let large = side.simd_gt(splat_i(simd, SMALL));
+        // Corners far away meet the tile in the same columns and rows, but their edges are others.
+        let large = side.simd_gt(splat_i(simd, SMALL)) | far_away;
         let reach = covering.reach();
         let first = each!(axis in 2 => {
             SimdBase::max((low[axis] + splat_i(simd, GRID - 1 - reach)) >> 8, splat_i(simd, 0))

@@ -22,8 +22,8 @@ pub(crate) const SCREEN_HIGH: f32 = 24_574.0;
 pub(crate) const CLIPPED: i32 = 0b1_1111;
 /// It is nearer than the near plane, or behind the eye.
 pub(crate) const TOO_NEAR: i32 = 1;
-/// It is too far from the tile for 16 bits.
-const FAR_AWAY: i32 = 0b10_0000;
+/// It is too far from the tile for 16 bits, and stands in [`Vertices::places`] nearer than it is, on the same side.
+pub(crate) const FAR_AWAY: i32 = 0b10_0000;
 
 /// How eye space falls onto the picture and its tiles.
 #[derive(Clone, Copy, Debug)]
@@ -191,9 +191,9 @@ impl Vertices {
             // Less than half a step, so that rounding gives the whole steps again.
             let part = min::<S>((steps - whole) * splat(simd, 65_536.0), splat(simd, 32_767.0));
             let from_center = grid - splat_i(simd, center[axis]);
-            relative[axis] = (from_center << 16) + part.round_ties_even().to_int::<I<S>>();
-            let far = from_center.simd_gt(splat_i(simd, 32_766)) | from_center.simd_lt(splat_i(simd, -32_767));
-            code |= far.select(splat_i(simd, FAR_AWAY), zero);
+            let near = SimdBase::max(SimdBase::min(from_center, splat_i(simd, 32_766)), splat_i(simd, -32_767));
+            relative[axis] = (near << 16) + part.round_ties_even().to_int::<I<S>>();
+            code |= near.simd_eq(from_center).select(zero, splat_i(simd, FAR_AWAY));
             store::<S>(inside, &mut self.screen[axis], at);
             store_i::<S>(grid, &mut self.grid[axis], at);
             on_grid[axis] = grid;
