@@ -44,6 +44,7 @@
 )]
 #![expect(clippy::too_many_arguments, reason = "vectors are passed in registers, and not in structs in memory")]
 
+mod bands;
 mod bins;
 mod blend;
 mod check;
@@ -68,6 +69,7 @@ mod triangle;
 mod vertices;
 mod width;
 
+pub use bands::ClearTiles;
 pub use error::{LARGEST_SIDE, RasterError};
 pub use pass::{
     DrawCall, Highlight, InstanceData, LeftOut, Lens, LightData, LightRange, Output, Pass, PixelFormat, SampleCount,

@@ -1,8 +1,9 @@
 //! What draws passes, and hands their tiles to threads.
 
-use crate::bins::{Bins, TILE};
+use crate::bands::{Bands, ClearTiles};
+use crate::bins::Bins;
 use crate::check::check;
-use crate::error::{LARGEST_SIDE, RasterError};
+use crate::error::RasterError;
 use crate::lanes::Simd;
 use crate::pass::{Output, Pass};
 use crate::tile::{Scene, Worker};
@@ -30,6 +31,8 @@ pub struct Rasterizer {
     pool: Option<rayon::ThreadPool>,
     bins: Bins,
     workers: Vec<Mutex<Worker>>,
+    /// For memory of which nothing is known.
+    fresh: ClearTiles,
 }
 
 /// A pass of less work than this many triangles and pixels is drawn by the calling thread: to wake another takes longer.
@@ -52,7 +55,8 @@ impl Rasterizer {
         });
         let pool = pool.transpose()?;
         let workers = (0..threads).map(|_| Mutex::new(Worker::new())).collect();
-        Ok(Self { width, level, threads, pool, bins: Bins::default(), workers })
+        let (bins, fresh) = (Bins::default(), ClearTiles::default());
+        Ok(Self { width, level, threads, pool, bins, workers, fresh })
     }
 
     /// The vectors it draws with.
@@ -70,12 +74,26 @@ impl Rasterizer {
     /// # Errors
     /// Whatever is wrong with the pass or the output; nothing is drawn then.
     pub fn draw(&mut self, pass: &Pass, output: Output) -> Result<(), RasterError> {
+        let mut fresh = std::mem::take(&mut self.fresh);
+        fresh.forget();
+        let drawn = self.draw_again(pass, output, &mut fresh);
+        self.fresh = fresh;
+        drawn
+    }
+
+    /// The same into memory that holds what was drawn into it last with these `clear_tiles`, or anything while they are
+    /// new. Of what shows nothing but the clear color, then and now, nothing is written.
+    ///
+    /// # Errors
+    /// As of [`Rasterizer::draw`].
+    pub fn draw_again(&mut self, pass: &Pass, output: Output, clear_tiles: &mut ClearTiles) -> Result<(), RasterError> {
         check(pass, &output)?;
         self.bins.fill(pass)?;
         let screen = Screen::new(pass);
         let scene = Scene { pass, bins: &self.bins, screen: &screen };
-        let tiles = Tiles { columns: self.bins.tiles[0], count: (self.bins.tiles[0] * self.bins.tiles[1]) as usize };
-        let bands = Bands::new(pass, output);
+        let tiles = Tiles { rows: self.bins.tiles[1], count: (self.bins.tiles[0] * self.bins.tiles[1]) as usize };
+        clear_tiles.prepare(pass, tiles.count)?;
+        let bands = Bands::new(pass, output, clear_tiles);
         let amount = pass.size[0] as usize * pass.size[1] as usize / 8 + 16 * self.bins.jobs.len();
         let threads = if amount > WORTH_A_THREAD { self.threads.min(tiles.count) } else { 1 };
         for worker in self.workers[..threads].iter_mut().filter_map(|worker| worker.get_mut().ok()) {
@@ -108,12 +126,12 @@ impl fmt::Debug for Rasterizer {
 
 #[derive(Clone, Copy)]
 struct Tiles {
-    columns: u32,
+    rows: u32,
     count: usize,
 }
 
 impl Tiles {
-    /// Draws tile after tile while there are any.
+    /// Draws tile after tile while there are any, column by column: so threads are at different rows of tiles.
     #[inline(always)]
     fn draw<S: Simd>(self, simd: S, worker: &mut Worker, scene: &Scene, next: &AtomicUsize, bands: &Bands) {
         loop {
@@ -121,54 +139,8 @@ impl Tiles {
             if number >= self.count {
                 return;
             }
-            let tile = [number as u32 % self.columns, number as u32 / self.columns];
-            worker.draw(simd, scene, tile);
-            bands.put(worker, tile, scene.pass);
+            let tile = [number as u32 / self.rows, number as u32 % self.rows];
+            worker.draw(simd, scene, tile, bands);
         }
     }
-}
-
-/// The most rows of tiles.
-const MOST_BANDS: usize = LARGEST_SIDE as usize / TILE;
-
-/// The picture, a row of tiles at a time, in an array so that no frame allocates one.
-enum Bands<'a> {
-    Bytes([Mutex<&'a mut [u8]>; MOST_BANDS]),
-    Floats([Mutex<&'a mut [f32]>; MOST_BANDS]),
-}
-
-impl<'a> Bands<'a> {
-    fn new(pass: &Pass, output: Output<'a>) -> Self {
-        let band = 4 * pass.size[0] as usize * TILE;
-        match output {
-            Output::Bytes(bytes) => Self::Bytes(cut(bytes, band)),
-            Output::Floats(floats) => Self::Floats(cut(floats, band)),
-        }
-    }
-
-    /// Copies a tile's pixels into its place.
-    fn put(&self, worker: &Worker, [column, row]: [u32; 2], pass: &Pass) {
-        let width = pass.size[0] as usize;
-        let left = column as usize * TILE;
-        let across = TILE.min(width - left);
-        match self {
-            Self::Bytes(bands) => {
-                let Ok(mut band) = bands[row as usize].lock() else { return };
-                for (to, from) in band.chunks_exact_mut(4 * width).zip(worker.bytes.chunks_exact(4 * TILE)) {
-                    to[4 * left..4 * (left + across)].copy_from_slice(&from[..4 * across]);
-                }
-            }
-            Self::Floats(bands) => {
-                let Ok(mut band) = bands[row as usize].lock() else { return };
-                for (to, from) in band.chunks_exact_mut(4 * width).zip(worker.floats.chunks_exact(4 * TILE)) {
-                    to[4 * left..4 * (left + across)].copy_from_slice(&from[..4 * across]);
-                }
-            }
-        }
-    }
-}
-
-fn cut<T>(picture: &mut [T], band: usize) -> [Mutex<&mut [T]>; MOST_BANDS] {
-    let mut bands = picture.chunks_mut(band);
-    std::array::from_fn(|_| Mutex::new(bands.next().unwrap_or_default()))
 }

@@ -1,8 +1,9 @@
 //! A tile from its pieces to its pixels.
 
+use crate::bands::{Bands, Own, Rows, make_room};
 use crate::bins::{Bins, Job, TILE};
 use crate::clip::each_part;
-use crate::cover::{EdgeFunctions, Kept, PIXELS, TileBuffer};
+use crate::cover::{EdgeFunctions, Kept, TileBuffer};
 use crate::encode::{bytes, cleared, kept};
 use crate::faces::LaneFaces;
 use crate::lanes::{I, MOST_LANES, Simd, V3, each, f32x4, lanes, max_one, min_one};
@@ -22,12 +23,8 @@ pub(crate) struct Worker {
     batch: Batch,
     faces: LaneFaces,
     nearest: TileBuffer,
-    /// Whether the pixels are all of the clear color.
-    is_clear: bool,
-    /// The tile's pixels as bytes.
-    pub(crate) bytes: Vec<u8>,
-    /// Or as numbers, four a pixel.
-    pub(crate) floats: Vec<f32>,
+    /// Room for the tile's pixels.
+    own: Own,
 }
 
 /// A frame as tiles see it.
@@ -58,28 +55,29 @@ impl Worker {
             batch: Batch::default(),
             faces: LaneFaces::new(),
             nearest: TileBuffer::new(),
-            is_clear: false,
-            bytes: Vec::new(),
-            floats: Vec::new(),
+            own: Own::default(),
         }
     }
 
-    /// Draws a tile into `bytes` or `floats`.
-    pub(crate) fn draw<S: Simd>(&mut self, simd: S, scene: &Scene, tile: [u32; 2]) {
+    /// Draws a tile into its place in the picture.
+    pub(crate) fn draw<S: Simd>(&mut self, simd: S, scene: &Scene, tile: [u32; 2], bands: &Bands) {
         let Scene { pass, bins, screen } = *scene;
         let look = Look { pass, states: &bins.states, screen, tile };
         let last = [0, 1].map(|axis| (pass.size[axis] - tile[axis] * TILE as u32).min(TILE as u32) as i32 - 1);
         let mut jobs = bins.of_tile(tile[0], tile[1]).peekable();
-        if jobs.peek().is_none() {
-            if !std::mem::replace(&mut self.is_clear, true) {
-                simd.vectorize(
-                    #[inline(always)]
-                    || self.fill_with_clear(simd, pass),
-                );
+        let is_clear = jobs.peek().is_none();
+        let was_clear = bands.set_clear(tile, is_clear);
+        if is_clear {
+            if !was_clear {
+                bands.fill(tile, &mut self.own, |rows| {
+                    simd.vectorize(
+                        #[inline(always)]
+                        || fill_with_clear(simd, pass, last[1], rows),
+                    );
+                });
             }
             return;
         }
-        self.is_clear = false;
         self.nearest.clear();
         let mut shaded = false;
         for number in jobs {
@@ -100,20 +98,23 @@ impl Worker {
                 );
             }
         }
-        if !shaded && pass.samples == SampleCount::One {
-            simd.vectorize(
-                #[inline(always)]
-                || self.shade_and_encode(simd, &look, last[1]),
-            );
-            return;
-        }
-        if !shaded {
+        let at_once = !shaded && pass.samples == SampleCount::One;
+        if !shaded && !at_once {
             self.shade(simd, &look, last[1]);
         }
-        simd.vectorize(
-            #[inline(always)]
-            || self.encode(simd, pass, last[1]),
-        );
+        let Self { nearest, own, .. } = self;
+        bands.fill(tile, own, |rows| {
+            simd.vectorize(
+                #[inline(always)]
+                || {
+                    if at_once {
+                        shade_and_encode(simd, nearest, &look, last[1], rows);
+                    } else {
+                        encode(simd, nearest, pass, last[1], rows);
+                    }
+                },
+            );
+        });
     }
 
     fn shade<S: Simd>(&mut self, simd: S, look: &Look, last_row: i32) {
@@ -228,66 +229,62 @@ impl Worker {
         );
     }
 
-    /// Makes the tile's pixels of its colors.
-    #[inline(always)]
-    fn encode<S: Simd>(&mut self, simd: S, pass: &Pass, last_row: i32) {
-        let count = (last_row as usize + 1) * TILE;
-        for at in (0..count).step_by(lanes::<S>()) {
-            let color = self.nearest.resolved(simd, at, pass.samples);
-            put(simd, &mut self.bytes, &mut self.floats, at, color, pass.pixels);
-        }
-    }
-
-    /// Makes them of what is nearest, where each pixel has one sample and nothing is blended over it.
-    #[inline(always)]
-    fn shade_and_encode<S: Simd>(&mut self, simd: S, look: &Look, last_row: i32) {
-        let pass = look.pass;
-        let clear = cleared(simd, pass.clear, pass.pixels);
-        let mut even = [Even::clear(simd, pass); 2];
-        for at in (0..(last_row as usize + 1) * TILE).step_by(lanes::<S>()) {
-            if pass.pixels == PixelFormat::Floats {
-                let color = kept(simd, self.nearest.shade_one_apart(simd, look, at, clear), pass.pixels);
-                put(simd, &mut self.bytes, &mut self.floats, at, color, pass.pixels);
-            } else {
-                put_bytes::<S>(self.nearest.bytes_of_one(simd, look, at, clear, &mut even), &mut self.bytes, at);
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn fill_with_clear<S: Simd>(&mut self, simd: S, pass: &Pass) {
-        let color = cleared(simd, pass.clear, pass.pixels);
-        for at in (0..PIXELS).step_by(lanes::<S>()) {
-            put(simd, &mut self.bytes, &mut self.floats, at, color, pass.pixels);
-        }
-    }
-
     /// Makes room for a tile.
     pub(crate) fn prepare(&mut self, pass: &Pass) {
-        self.is_clear = false;
         self.nearest.prepare(pass.samples);
-        match pass.pixels {
-            PixelFormat::Floats => self.floats.resize(4 * PIXELS, 1.0),
-            _ => self.bytes.resize(4 * PIXELS, 0),
+        make_room(&mut self.own, pass.pixels);
+    }
+}
+
+/// Makes a tile's pixels of its colors.
+#[inline(always)]
+fn encode<S: Simd>(simd: S, nearest: &TileBuffer, pass: &Pass, last_row: i32, rows: &mut Rows) {
+    for at in (0..(last_row as usize + 1) * TILE).step_by(lanes::<S>()) {
+        put(simd, rows, at, nearest.resolved(simd, at, pass.samples), pass.pixels);
+    }
+}
+
+/// Makes them of what is nearest, where each pixel has one sample and nothing is blended over it.
+#[inline(always)]
+fn shade_and_encode<S: Simd>(simd: S, nearest: &TileBuffer, look: &Look, last_row: i32, rows: &mut Rows) {
+    let pass = look.pass;
+    let clear = cleared(simd, pass.clear, pass.pixels);
+    let mut even = [Even::clear(simd, pass); 2];
+    for at in (0..(last_row as usize + 1) * TILE).step_by(lanes::<S>()) {
+        if pass.pixels == PixelFormat::Floats {
+            put(simd, rows, at, kept(simd, nearest.shade_one_apart(simd, look, at, clear), pass.pixels), pass.pixels);
+        } else {
+            put_bytes::<S>(rows, at, nearest.bytes_of_one(simd, look, at, clear, &mut even));
         }
     }
 }
 
 #[inline(always)]
-fn put<S: Simd>(simd: S, to_bytes: &mut [u8], to_floats: &mut [f32], at: usize, color: V3<S>, pixels: PixelFormat) {
+fn fill_with_clear<S: Simd>(simd: S, pass: &Pass, last_row: i32, rows: &mut Rows) {
+    let color = cleared(simd, pass.clear, pass.pixels);
+    for at in (0..(last_row as usize + 1) * TILE).step_by(lanes::<S>()) {
+        put(simd, rows, at, color, pass.pixels);
+    }
+}
+
+#[inline(always)]
+fn put<S: Simd>(simd: S, rows: &mut Rows, at: usize, color: V3<S>, pixels: PixelFormat) {
     if pixels == PixelFormat::Floats {
+        let place = rows.place(at);
         for lane in 0..lanes::<S>() {
-            let place = 4 * (at + lane);
-            to_floats[place..place + 4].copy_from_slice(&[color[0][lane], color[1][lane], color[2][lane], 1.0]);
+            let place = place + 4 * lane;
+            let values = [color[0][lane], color[1][lane], color[2][lane], 1.0];
+            rows.values.floats[place..place + 4].copy_from_slice(&values);
         }
     } else {
-        put_bytes::<S>(bytes(simd, color, pixels), to_bytes, at);
+        put_bytes::<S>(rows, at, bytes(simd, color, pixels));
     }
 }
 
 #[inline(always)]
-fn put_bytes<S: Simd>(pixels: I<S>, to: &mut [u8], at: usize) {
-    pixels.bitcast::<S::u8s>().store_slice(&mut to[4 * at..4 * (at + lanes::<S>())]);
+fn put_bytes<S: Simd>(rows: &mut Rows, at: usize, pixels: I<S>) {
+    let place = rows.place(at);
+    pixels.bitcast::<S::u8s>().store_slice(&mut rows.values.bytes[place..place + 4 * lanes::<S>()]);
 }
 
 /// The least and the greatest 1/w of corners.

@@ -2,8 +2,8 @@
 
 use crate::common::{Scene, Shading, at, draw, lens, sphere};
 use halfway_raster::{
-    DrawCall, LARGEST_SIDE, LeftOut, Output, Pieces, PixelFormat, RasterError, RasterOptions, Rasterizer, SampleCount,
-    SideData, SurfaceData, TriangleOrder, VectorWidth,
+    ClearTiles, DrawCall, LARGEST_SIDE, LeftOut, Output, Pieces, PixelFormat, RasterError, RasterOptions, Rasterizer,
+    SampleCount, SideData, SurfaceData, TriangleOrder, VectorWidth,
 };
 
 /// Squares across the whole view at these depths, each of a color and an opacity.
@@ -247,5 +247,66 @@ fn what_collapses_draws_nothing_or_itself_and_is_finite() {
             scene.draws[0].left_out = left_out;
             assert!(floats(&scene).as_flattened().iter().all(|x| x.is_finite() && *x >= 0.0), "{rows:?}");
         }
+    }
+}
+
+/// One square in the middle of some pixels, on a clear color.
+fn square_on(clear: [f32; 3], size: [u32; 2], pixels: PixelFormat, half: f32) -> Scene {
+    let mut scene = squares(&[(20.0, RED, 1.0)], false);
+    (scene.clear, scene.size, scene.pixels) = (clear, size, pixels);
+    let corners = [[-half, -half, 0.0], [half, -half, 0.0], [half, half, 0.0], [-half, half, 0.0]];
+    scene.meshes = vec![Pieces::new(&corners, &[], &[0, 1, 2, 0, 2, 3], &[], TriangleOrder::Kept).expect("sound")];
+    scene
+}
+
+/// Draws scenes after each other into one memory, each of a row by itself, and compares each with it drawn alone.
+#[test]
+fn pictures_drawn_over_each_other_are_those_drawn_alone() {
+    use PixelFormat::{Floats, RawBytes, SrgbBytes};
+    let scenes = [
+        // A square that grows, goes and moves out of tiles; another color, size and format.
+        square_on([0.0, 0.5, 0.25], [300, 200], SrgbBytes, 1.0),
+        square_on([0.0, 0.5, 0.25], [300, 200], SrgbBytes, 8.0),
+        square_on([0.0, 0.5, 0.25], [300, 200], SrgbBytes, 0.0),
+        square_on([0.0, 0.5, 0.25], [300, 200], SrgbBytes, 1.0),
+        square_on([0.0, 0.5, 0.75], [300, 200], SrgbBytes, 1.0),
+        square_on([0.0, 0.5, 0.75], [300, 200], RawBytes, 1.0),
+        square_on([0.0, 0.5, 0.75], [200, 300], RawBytes, 1.0),
+        square_on([0.0, 0.5, 0.75], [200, 300], Floats, 1.0),
+        square_on([0.0, 0.5, 0.75], [200, 300], RawBytes, 0.0),
+    ];
+    for threads in [1, 3] {
+        let mut rasterizer = Rasterizer::new(RasterOptions { width: None, threads: Some(threads) }).expect("threads");
+        let mut clear_tiles = ClearTiles::default();
+        let (mut bytes, mut floats) = (vec![0; 4 * 60_000], vec![0.0; 4 * 60_000]);
+        let (mut alone, mut floats_alone) = (bytes.clone(), floats.clone());
+        for (number, scene) in scenes.iter().enumerate() {
+            let [output, fresh] = if scene.pixels == Floats {
+                [Output::Floats(&mut floats), Output::Floats(&mut floats_alone)]
+            } else {
+                [Output::Bytes(&mut bytes), Output::Bytes(&mut alone)]
+            };
+            let drawn = scene.with_pass(|pass| rasterizer.draw_again(pass, output, &mut clear_tiles));
+            drawn.expect("a sound pass");
+            scene.with_pass(|pass| rasterizer.draw(pass, fresh)).expect("a sound pass");
+            assert!(bytes == alone && floats == floats_alone, "scene {number}, {threads} threads");
+        }
+    }
+}
+
+#[test]
+fn tiles_that_stay_clear_are_not_written_again() {
+    let scene = square_on([0.0; 3], [256, 192], PixelFormat::RawBytes, 1.0);
+    let mut rasterizer = Rasterizer::new(RasterOptions::default()).expect("threads");
+    let mut clear_tiles = ClearTiles::default();
+    let mut bytes = vec![0; 4 * 256 * 192];
+    for frame in 0..2 {
+        bytes.fill(7);
+        let output = Output::Bytes(&mut bytes);
+        let drawn = scene.with_pass(|pass| rasterizer.draw_again(pass, output, &mut clear_tiles));
+        drawn.expect("a sound pass");
+        // Four by three tiles, of which the square meets the two in the middle.
+        let left_alone = bytes.iter().filter(|&&byte| byte == 7).count();
+        assert_eq!(left_alone, if frame == 0 { 0 } else { 4 * 64 * 64 * 10 });
     }
 }

@@ -115,7 +115,8 @@ pub(crate) fn draw(
         meshes: &pieces,
         draws: &lists.draws,
     };
-    let drawn = cpu.rasterizer().draw(&pass, canvas.output());
+    let (output, clear_tiles) = canvas.output();
+    let drawn = cpu.rasterizer().draw_again(&pass, output, clear_tiles);
     canvas.end(drawn.is_ok());
     report.errors.extend(drawn.err().map(RenderError::from));
 }

@@ -5,6 +5,7 @@ use crate::target::format::Picture;
 use bevy_ecs::prelude::{ReflectResource, Resource};
 use bevy_math::UVec2;
 use bevy_reflect::Reflect;
+use halfway_raster::{ClearTiles, Output};
 use image::{Rgba32FImage, RgbaImage};
 
 /// While this resource is there, what the CPU draws has this size and is for a window, and not for
@@ -23,6 +24,7 @@ pub struct Canvas {
     /// One of them is empty.
     bytes: Vec<u8>,
     floats: Vec<f32>,
+    clear_tiles: ClearTiles,
     /// Whether it holds a frame.
     drawn: bool,
 }
@@ -43,6 +45,10 @@ impl Canvas {
     /// [`RenderError::Memory`]
     pub(crate) fn begin(&mut self, size: UVec2, is_float: bool) -> Result<(), RenderError> {
         self.drawn = false;
+        if size != self.size {
+            // The memory, too, may be another.
+            self.clear_tiles = ClearTiles::default();
+        }
         self.size = size;
         let count = CHANNELS * size.x as usize * size.y as usize;
         if is_float {
@@ -54,13 +60,11 @@ impl Canvas {
         }
     }
 
-    /// What to draw into.
-    pub(crate) fn output(&mut self) -> halfway_raster::Output<'_> {
-        if self.bytes.is_empty() {
-            halfway_raster::Output::Floats(&mut self.floats)
-        } else {
-            halfway_raster::Output::Bytes(&mut self.bytes)
-        }
+    /// What to draw into, and what is clear of it.
+    pub(crate) fn output(&mut self) -> (Output<'_>, &mut ClearTiles) {
+        let output =
+            if self.bytes.is_empty() { Output::Floats(&mut self.floats) } else { Output::Bytes(&mut self.bytes) };
+        (output, &mut self.clear_tiles)
     }
 
     /// Says whether the frame has been drawn.
