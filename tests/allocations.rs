@@ -5,7 +5,7 @@
 #![allow(unsafe_code, reason = "an allocator is unsafe by its trait; this one only counts and hands on")]
 
 use halfway::prelude::*;
-use halfway::render::{Gpu, wgpu};
+use halfway::render::{AdapterChoice, Gpu, wgpu};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
@@ -68,7 +68,7 @@ const SLACK: usize = 4;
 /// An App with `count` cubes in rows, all of them in the picture, in a few materials.
 fn crowd(count: usize) -> App {
     let mut app = App::new();
-    app.add_plugins(HalfwayPlugins::headless(UVec2::splat(32)));
+    app.add_plugins(HalfwayPlugins::headless(UVec2::splat(32))).insert_resource(AdapterChoice::gpu());
     let world = app.world_mut();
     let side = (count as f32).sqrt().ceil();
     world.spawn((Camera::default(), Transform::from_xyz(0.0, 0.0, 2.0 * side)));

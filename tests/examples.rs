@@ -37,6 +37,10 @@ fn run(name: &str, file: &Path, more: &[&str]) -> Output {
     let size = format!("{}x{}", SIZE.0, SIZE.1);
     let mut command = Command::new(binary(name));
     command.arg("--headless").arg(file).args(["--size", &size]).args(more);
+    // Bytes that are uploaded are counted there.
+    if std::env::var_os("HALFWAY_ADAPTER").is_none() {
+        command.env("HALFWAY_ADAPTER", "gpu");
+    }
     command.output().expect("the example can be started")
 }
 

@@ -2,8 +2,13 @@
 
 use halfway::render::{Adapter, AdapterChoice, Costs};
 
+/// What the environment names, else a graphics adapter, which most of these tests are about.
+pub(crate) fn choice() -> AdapterChoice {
+    if std::env::var_os("HALFWAY_ADAPTER").is_some() { AdapterChoice::default() } else { AdapterChoice::gpu() }
+}
+
 fn adapter() -> Adapter {
-    AdapterChoice::default().open().unwrap_or_else(|error| panic!("{error}"))
+    choice().open().unwrap_or_else(|error| panic!("{error}"))
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! An App that draws scenes, one after the other.
 
+use crate::render::adapter::choice;
 use crate::render::scene::{Kind, Lamp, On, Scene, Thing};
 use halfway::prelude::*;
 use halfway::reference::Oracle;
@@ -25,6 +26,7 @@ impl Stage {
         app.add_plugins(HalfwayPlugins::headless(UVec2::new(width, height)));
         app.world_mut().resource_mut::<Headless>().pixels = Pixels::Float;
         app.insert_resource(LevelsOfDetail::OFF);
+        app.insert_resource(choice());
         Self { app, spawned: Vec::new(), meshes: Vec::new() }
     }
 

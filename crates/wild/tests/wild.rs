@@ -11,18 +11,19 @@ use serde_json::Value;
 /// Scenes that failed once, small. Those in the folder `known` inside still do, those in `known/cpu` on the CPU.
 const KEPT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/wild");
 
-/// Of what draws by default.
+/// Of what the environment names, else of a graphics adapter.
 fn judge() -> Judge {
-    judge_of(&AdapterChoice::default())
+    let named = std::env::var_os("HALFWAY_ADAPTER").is_some();
+    judge_of(&if named { AdapterChoice::default() } else { AdapterChoice::gpu() })
 }
 
 fn judge_of(choice: &AdapterChoice) -> Judge {
     Judge::new(choice.open().unwrap_or_else(|error| panic!("{error}")), KEPT)
 }
 
-/// Of what draws by default, and of the CPU.
+/// Of both.
 fn judges() -> [(&'static str, Judge); 2] {
-    [("by default", judge()), ("on the CPU", judge_of(&AdapterChoice::cpu()))]
+    [("by a driver", judge()), ("on the CPU", judge_of(&AdapterChoice::cpu()))]
 }
 
 fn kept(folder: &Path) -> Vec<(PathBuf, Value)> {

@@ -28,7 +28,7 @@ fn is_timed(row: &serde_json::Value) {
 #[test]
 fn a_benchmark_prints_a_row_for_each_shading() {
     let folder = folder("bench");
-    let value = json_of(&folder, &["bench", "s4", "--rounds", "1", "--cold", "--json"]);
+    let value = json_of(&folder, &["bench", "s4", "--adapter", "gpu", "--rounds", "1", "--cold", "--json"]);
     assert_eq!(value["size"], serde_json::json!([256, 256]));
     let rows = value["rows"].as_array().expect("rows");
     let shadings: Vec<_> = rows.iter().map(|row| row["shading"].as_str().unwrap_or("")).collect();
@@ -61,7 +61,8 @@ fn any_scene_or_model_is_timed() {
     let folder = folder("bench_files");
     for (file, objects) in [("examples/scenes/brass_teapot.json", 1), ("assets/cube.smf", 1)] {
         let file = asset(file);
-        let value = json_of(&folder, &["bench", &file, "--size", "48x32", "--rounds", "1", "--json"]);
+        let bench = ["bench", &file, "--adapter", "gpu", "--size", "48x32", "--rounds", "1", "--json"];
+        let value = json_of(&folder, &bench);
         assert!(value["scene"].as_str().is_some_and(|name| file.ends_with(name)), "{value}");
         assert_eq!(value["size"], serde_json::json!([48, 32]));
         let rows = value["rows"].as_array().expect("rows");

@@ -22,10 +22,18 @@ pub(crate) const BETWEEN_LOOKS: Duration = Duration::from_millis(50);
 /// Displays have one focus; the tests that open windows take turns.
 static TURN: Mutex<()> = Mutex::new(());
 
+/// Has a graphics adapter draw unless the environment names something else: surfaces and devices are what may be lost.
+fn by_a_driver(command: &mut Command) {
+    if std::env::var_os("HALFWAY_ADAPTER").is_none() {
+        command.env("HALFWAY_ADAPTER", "gpu");
+    }
+}
+
 /// The command that shows the teapot, on whatever X display it will be told.
 pub(crate) fn view() -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_halfway"));
     command.args(["view", concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/teapot.obj")]);
+    by_a_driver(&mut command);
     command.env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET").stdin(Stdio::null());
     command
 }
@@ -36,6 +44,7 @@ pub(crate) fn device_loser() -> Command {
     let program = test.ancestors().nth(2).expect("tests lie in target/PROFILE/deps").join("examples/lose_device");
     assert!(program.is_file(), "{} is missing; run `cargo build --examples` with the same profile", program.display());
     let mut command = Command::new(program);
+    by_a_driver(&mut command);
     command.env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET").stdin(Stdio::null());
     command
 }

@@ -8,6 +8,7 @@ use crate::error::RenderError;
 use bevy_ecs::prelude::{ReflectResource, Resource};
 use bevy_reflect::Reflect;
 use bevy_reflect::std_traits::ReflectDefault;
+use std::path::Path;
 
 /// What to draw with: which graphics adapter, or the CPU. Insert it before the first frame; an open [`Gpu`] or [`Cpu`] stays.
 ///
@@ -17,11 +18,13 @@ use bevy_reflect::std_traits::ReflectDefault;
 /// 2. the environment variable `HALFWAY_ADAPTER`, a name as here;
 /// 3. wgpu's variables `WGPU_BACKEND`, the backends to ask (`vulkan`, `gl`, `metal`, `dx12`; several with commas), and
 ///    `WGPU_ADAPTER_NAME`, a name as here;
-/// 4. nothing by name: a hardware adapter of Vulkan, Metal or DirectX 12, else a software one; where none of these
-///    answers, one of OpenGL.
+/// 4. `VK_DRIVER_FILES`, or `VK_ICD_FILENAMES`, which name drivers: an adapter of theirs, also a software one;
+/// 5. nothing: a hardware adapter of Vulkan, Metal or DirectX 12; where none of these answers, one of OpenGL; and where
+///    there is no hardware, the CPU, which is faster than software drivers. On Linux drivers are asked only where the
+///    kernel shows a graphics card (`/dev/dri/renderD128`, say).
 ///
 /// The name `cpu` stands for the CPU without a driver ([`Cpu`]), `cpu:avx512`, `cpu:avx2`, `cpu:neon` and `cpu:plain` for the
-/// CPU with these vectors. Where nothing is given and no adapter answers, the CPU draws.
+/// CPU with these vectors. The name `gpu` stands for any graphics adapter, hardware first, else a software one.
 ///
 /// Any other name is a part, in upper or lower case, of the adapter's name or of its backend's (`vulkan`, `metal`, `dx12`, `gl`
 /// or `opengl`), or both with a colon between: `vulkan:llvmpipe`, `gl:llvmpipe`. The name of a backend in full stands for
@@ -46,6 +49,11 @@ impl AdapterChoice {
         Self::named(Cpu::NAME)
     }
 
+    /// A graphics adapter, also a software one.
+    pub fn gpu() -> Self {
+        Self::named(ANY)
+    }
+
     /// Opens what draws, for pictures without a window.
     ///
     /// # Errors
@@ -55,19 +63,21 @@ impl AdapterChoice {
         if let Some(cpu) = self.open_cpu(variable) {
             return cpu.map(Adapter::Cpu);
         }
-        match self.open_gpu() {
+        match self.wanted(variable).or_the_cpu(self, variable).find() {
             Err(RenderError::NoAdapter) => Cpu::open().map(Adapter::Cpu),
-            opened => opened.map(Adapter::Gpu),
+            Err(missing) => Err(missing),
+            Ok((instance, adapter)) => Gpu::of_adapter(instance, adapter).map(Adapter::Gpu),
         }
     }
 
-    /// Opens a graphics adapter, for pictures without a window; never the CPU without a driver.
+    /// Opens a graphics adapter, for pictures without a window: a software one where there is no other, and never the CPU
+    /// without a driver.
     ///
     /// # Errors
     /// [`RenderError::NoAdapter`], [`RenderError::NoAdapterAmong`], [`RenderError::NoSuchAdapter`] or
     /// [`RenderError::NoDevice`], each with what to do about it.
     pub fn open_gpu(&self) -> Result<Gpu, RenderError> {
-        let (instance, adapter) = self.find()?;
+        let (instance, adapter) = self.wanted(variable).find()?;
         Gpu::of_adapter(instance, adapter)
     }
 
@@ -100,18 +110,23 @@ impl AdapterChoice {
         if let Some(cpu) = self.open_cpu(variable) {
             return Ok((Adapter::Cpu(cpu?), None));
         }
-        let wanted = self.wanted(variable);
+        let wanted = self.wanted(variable).or_the_cpu(self, variable);
         let mut refused = None;
         for &backends in &wanted.rounds {
             let instance = instance(backends, Some(Box::new(display.clone())));
             match make_surface(&instance) {
                 Ok(surface) => {
                     if let Some(adapter) = wanted.pick(&instance, backends, Some(&surface)) {
+                        if !wanted.takes(&adapter) {
+                            break;
+                        }
                         return Ok((Adapter::Gpu(Gpu::of_adapter(instance, adapter)?), Some(surface)));
                     }
                 }
                 // Without any driver there is no surface either, and the driver is what to say something about.
-                Err(error) if !enumerate(&instance, backends).is_empty() => refused = Some(error),
+                Err(error) if enumerate(&instance, backends).iter().any(|there| wanted.takes(there)) => {
+                    refused = Some(error);
+                }
                 Err(_) => {}
             }
         }
@@ -130,7 +145,7 @@ impl AdapterChoice {
     pub fn list(&self) -> Result<Vec<String>, RenderError> {
         let first = match self.open_cpu(variable) {
             Some(cpu) => cpu?.describe(),
-            None => match self.find() {
+            None => match self.wanted(variable).or_the_cpu(self, variable).find() {
                 Ok((_, adapter)) => describe_adapter(&adapter.get_info()),
                 Err(RenderError::NoAdapter) => Cpu::open()?.describe(),
                 Err(missing) => return Err(missing),
@@ -146,26 +161,20 @@ impl AdapterChoice {
         Ok(all)
     }
 
-    fn find(&self) -> Result<(wgpu::Instance, wgpu::Adapter), RenderError> {
-        let wanted = self.wanted(variable);
-        let found = wanted.rounds.iter().find_map(|&backends| {
-            let instance = instance(backends, None);
-            let adapter = wanted.pick(&instance, backends, None)?;
-            Some((instance, adapter))
-        });
-        found.ok_or_else(|| wanted.missing())
-    }
-
     fn wanted(&self, variable: impl Fn(&str) -> Option<String>) -> Wanted {
-        if let Some(text) = self.given(&variable) {
+        let given = self.given(&variable);
+        if given.as_deref().is_some_and(|text| text.eq_ignore_ascii_case(ANY)) {
+            return Wanted { name: None, rounds: ROUNDS.to_vec(), limited: None, hardware: false };
+        }
+        if let Some(text) = given {
             let name = AdapterName::new(&text);
             let rounds = ROUNDS.map(|round| round & name.backends()).into_iter().filter(|round| !round.is_empty());
-            return Wanted { rounds: rounds.collect(), name: Some(name), limited: None };
+            return Wanted { rounds: rounds.collect(), name: Some(name), limited: None, hardware: false };
         }
         let limited = variable(BACKEND);
         let rounds = limited.as_deref().map_or(ROUNDS.to_vec(), |list| vec![wgpu::Backends::from_comma_list(list)]);
         let name = variable("WGPU_ADAPTER_NAME").map(|text| AdapterName::new(&text));
-        Wanted { name, rounds, limited }
+        Wanted { name, rounds, limited, hardware: false }
     }
 }
 
@@ -182,6 +191,25 @@ impl Gpu {
 /// The variable that says which backends may be asked.
 const BACKEND: &str = "WGPU_BACKEND";
 
+/// Whether there may be a graphics card: on Linux, whether the kernel shows one among its devices. These are the nodes of its
+/// own drivers, of NVIDIA's, of WSL, and of the makers of phones' and boards' chips.
+fn may_have_hardware(devices: &Path) -> bool {
+    const NODES: [&str; 7] = ["nvidia", "dxg", "kgsl", "mali", "pvr", "galcore", "vchiq"];
+    let names = |folder: &Path| -> Vec<String> {
+        let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+        entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect()
+    };
+    !cfg!(target_os = "linux")
+        || names(devices).iter().any(|name| NODES.iter().any(|node| name.starts_with(node)))
+        || names(&devices.join("dri")).iter().any(|name| name.starts_with("renderD"))
+}
+
+/// The name of any graphics adapter.
+const ANY: &str = "gpu";
+
+/// The variables that say which Vulkan drivers there are.
+const DRIVERS: [&str; 2] = ["VK_DRIVER_FILES", "VK_ICD_FILENAMES"];
+
 /// What is asked, and, where that gives nothing, what then.
 const ROUNDS: [wgpu::Backends; 2] = [wgpu::Backends::PRIMARY, wgpu::Backends::GL];
 
@@ -197,9 +225,33 @@ struct Wanted {
     rounds: Vec<wgpu::Backends>,
     /// What `WGPU_BACKEND` limits it to.
     limited: Option<String>,
+    /// Only hardware will do.
+    hardware: bool,
 }
 
 impl Wanted {
+    /// Instead of a software adapter that nobody asks for the CPU is to draw.
+    fn or_the_cpu(self, choice: &AdapterChoice, variable: impl Fn(&str) -> Option<String>) -> Self {
+        let named = choice.given(&variable).is_some() || self.name.is_some() || self.limited.is_some();
+        let hardware = !named && !DRIVERS.iter().any(|name| variable(name).is_some());
+        // Asking would load what software drivers there are, which takes longer than a first frame.
+        let rounds = if hardware && !may_have_hardware(Path::new("/dev")) { Vec::new() } else { self.rounds };
+        Self { hardware, rounds, ..self }
+    }
+
+    fn takes(&self, adapter: &wgpu::Adapter) -> bool {
+        !self.hardware || adapter.get_info().device_type != wgpu::DeviceType::Cpu
+    }
+
+    fn find(&self) -> Result<(wgpu::Instance, wgpu::Adapter), RenderError> {
+        let found = self.rounds.iter().find_map(|&backends| {
+            let instance = instance(backends, None);
+            let adapter = self.pick(&instance, backends, None)?;
+            Some((instance, adapter))
+        });
+        found.filter(|(_, adapter)| self.takes(adapter)).ok_or_else(|| self.missing())
+    }
+
     fn pick(
         &self,
         instance: &wgpu::Instance,
@@ -346,6 +398,42 @@ mod tests {
     }
 
     #[test]
+    fn a_software_adapter_is_taken_only_where_it_is_asked_for() {
+        let hardware = |own: Option<&str>, set: &[&str]| {
+            let choice = AdapterChoice { name: own.map(str::to_owned) };
+            let variable = |name: &str| set.contains(&name).then(|| "A".to_owned());
+            choice.wanted(variable).or_the_cpu(&choice, variable).hardware
+        };
+        assert!(hardware(None, &[]));
+        assert!(!hardware(Some("llvmpipe"), &[]));
+        assert!(!hardware(Some("GPU"), &[]));
+        for name in ["HALFWAY_ADAPTER", "WGPU_BACKEND", "WGPU_ADAPTER_NAME", "VK_DRIVER_FILES", "VK_ICD_FILENAMES"] {
+            assert!(!hardware(None, &[name]), "{name}");
+        }
+        assert!(!AdapterChoice::default().wanted(|_| None).hardware, "`open_gpu` takes what there is");
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn the_kernel_tells_of_graphics_cards() {
+        let folder = std::env::temp_dir().join(format!("halfway_devices_{}", std::process::id()));
+        let with = |node: &str| {
+            let path = folder.join(node);
+            std::fs::create_dir_all(&path).expect("a folder of its own");
+            let found = may_have_hardware(&folder);
+            std::fs::remove_dir_all(&folder).expect("it was made");
+            found
+        };
+        assert!(!may_have_hardware(&folder), "a folder that is not there");
+        for node in ["null", "dri/card0", "dri/by-path", "fb0"] {
+            assert!(!with(node), "{node}");
+        }
+        for node in ["dri/renderD128", "nvidia0", "nvidiactl", "dxg", "mali0", "kgsl-3d0"] {
+            assert!(with(node), "{node}");
+        }
+    }
+
+    #[test]
     fn who_says_more_nearly_goes_first() {
         let wanted = |own: Option<&str>, set: &[(&str, &str)]| {
             let choice = AdapterChoice { name: own.map(str::to_owned) };
@@ -362,7 +450,8 @@ mod tests {
         assert_eq!(wanted(None, &all[2..]), (named("c"), both.clone()));
         assert_eq!(wanted(None, &all[1..2]), (None, vec![Backends::GL]));
         assert_eq!(wanted(None, &[]), (None, both.clone()));
-        assert_eq!(wanted(Some(""), &[]), (None, both));
+        assert_eq!(wanted(Some(""), &[]), (None, both.clone()));
+        assert_eq!(wanted(Some("gpu"), &all), (None, both));
         // What a name leaves out is not asked.
         assert_eq!(wanted(Some("gl:a"), &[]).1, [Backends::GL]);
         assert_eq!(wanted(Some("vulkan"), &[]).1, [Backends::VULKAN]);

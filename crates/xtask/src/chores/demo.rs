@@ -1,5 +1,6 @@
 //! `cargo xtask demo`.
 
+use std::env;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
@@ -24,7 +25,7 @@ const SIZE: &str = "640x360";
 pub(crate) struct Options {
     #[command(flatten)]
     setup: Setup,
-    /// Draw by a graphics driver; where there is none, install the software one of Vulkan
+    /// Draw by a graphics driver, also a software one; where there is none, install that of Vulkan
     #[arg(long)]
     driver: bool,
     /// Record, even where a display is
@@ -47,7 +48,11 @@ pub(crate) fn run(options: &Options) -> Result {
     if options.driver {
         adapters(options.setup)?;
     }
-    if display.is_some() { show(model) } else { record(model) }
+    let mut command = example(model);
+    if options.driver && env::var_os("HALFWAY_ADAPTER").is_none() {
+        command.env("HALFWAY_ADAPTER", "gpu");
+    }
+    if display.is_some() { show(command) } else { record(command) }
 }
 
 /// The model's absolute path: what runs later runs in the workspace's root.
@@ -73,20 +78,19 @@ fn example(model: Option<PathBuf>) -> Command {
     command
 }
 
-fn show(model: Option<PathBuf>) -> Result {
+fn show(mut command: Command) -> Result {
     eprintln!(
         "\nA window opens. Drag to look around; 1, 2, 3: flat, Gouraud, Phong; B: reflectance; Escape closes it."
     );
-    step("moving lights", &mut example(model))
+    step("moving lights", &mut command)
 }
 
-fn record(model: Option<PathBuf>) -> Result {
+fn record(mut command: Command) -> Result {
     let folder = root().join("out");
     std::fs::create_dir_all(&folder).map_err(|error| Failure::new(format!("{}: {error}", folder.display())))?;
     let animation = folder.join(format!("{EXAMPLE}.png"));
     let sheet = folder.join(format!("{EXAMPLE}_sheet.png"));
     eprintln!("\nNo display answers, or none was asked for: the lights are recorded.");
-    let mut command = example(model);
     command.arg("--headless").arg(&animation).arg("--contact-sheet").arg(&sheet);
     // It prints its files' names too, but not what they are.
     step("moving lights", command.args(["--frames", FRAMES, "--size", SIZE]).stdout(Stdio::null()))?;
