@@ -10,22 +10,22 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// The most rows of tiles.
 const MOST_BANDS: usize = LARGEST_SIDE as usize / TILE;
 
-/// Values a pixel.
+/// PixelData a pixel.
 const CHANNELS: usize = 4;
 
-/// Values of pixels: one of both lists is empty.
+/// PixelData of pixels: one of both lists is empty.
 #[derive(Default)]
-pub(crate) struct Values<B, F> {
+pub(crate) struct PixelData<B, F> {
     pub(crate) bytes: B,
     pub(crate) floats: F,
 }
 
 /// A thread's own memory of one tile.
-pub(crate) type Own = Values<Vec<u8>, Vec<f32>>;
+pub(crate) type Own = PixelData<Vec<u8>, Vec<f32>>;
 
 /// Where the pixels of a tile go.
 pub(crate) struct Rows<'a> {
-    pub(crate) values: Values<&'a mut [u8], &'a mut [f32]>,
+    pub(crate) values: PixelData<&'a mut [u8], &'a mut [f32]>,
     /// Pixels from the first of a row to the first of the next.
     stride: usize,
 }
@@ -40,7 +40,7 @@ impl Rows<'_> {
 
 /// The picture; in an array, so that no frame allocates one.
 pub(crate) struct Bands<'a> {
-    each: [Mutex<Values<&'a mut [u8], &'a mut [f32]>>; MOST_BANDS],
+    each: [Mutex<PixelData<&'a mut [u8], &'a mut [f32]>>; MOST_BANDS],
     width: usize,
     clear: &'a ClearTiles,
     columns: usize,
@@ -57,7 +57,7 @@ impl<'a> Bands<'a> {
         let (mut bytes, mut floats) = (bytes.chunks_mut(band), floats.chunks_mut(band));
         let mut next = |_| {
             let (bytes, floats) = (bytes.next().unwrap_or_default(), floats.next().unwrap_or_default());
-            Mutex::new(Values { bytes, floats })
+            Mutex::new(PixelData { bytes, floats })
         };
         Self { each: std::array::from_fn(&mut next), width, clear, columns: width.div_ceil(TILE) }
     }
@@ -71,12 +71,12 @@ impl<'a> Bands<'a> {
         if across == TILE
             && let Ok(mut band) = band.try_lock()
         {
-            let Values { bytes, floats } = &mut *band;
-            let values = Values { bytes: from(bytes, CHANNELS * left), floats: from(floats, CHANNELS * left) };
+            let PixelData { bytes, floats } = &mut *band;
+            let values = PixelData { bytes: from(bytes, CHANNELS * left), floats: from(floats, CHANNELS * left) };
             put(&mut Rows { values, stride: self.width });
             return;
         }
-        put(&mut Rows { values: Values { bytes: &mut own.bytes, floats: &mut own.floats }, stride: TILE });
+        put(&mut Rows { values: PixelData { bytes: &mut own.bytes, floats: &mut own.floats }, stride: TILE });
         let Ok(mut band) = band.lock() else { return };
         let places = CHANNELS * left..CHANNELS * (left + across);
         for (to, from) in rows(band.bytes, self.width).zip(own.bytes.chunks_exact(CHANNELS * TILE)) {
