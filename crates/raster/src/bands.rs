@@ -10,10 +10,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// The most rows of tiles.
 const MOST_BANDS: usize = LARGEST_SIDE as usize / TILE;
 
-/// PixelData a pixel.
+/// Values a pixel.
 const CHANNELS: usize = 4;
 
-/// PixelData of pixels: one of both lists is empty.
+/// Values of pixels: one of both lists is empty.
 #[derive(Default)]
 pub(crate) struct PixelData<B, F> {
     pub(crate) bytes: B,
