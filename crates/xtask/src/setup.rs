@@ -28,22 +28,35 @@ pub(crate) struct Need {
     packages: Packages,
 }
 
-/// A driver to draw with; the software one will do.
-pub(crate) const DRIVER: Need = Need {
-    missing: || {
-        // A backend chosen by name is the user's to care for; whether it works is seen after the build.
-        let chosen = std::env::var("WGPU_BACKEND").unwrap_or_default().to_lowercase();
-        if !chosen.is_empty() && !chosen.contains("vulkan") && !chosen.contains("vk") {
-            return None;
-        }
-        Drivers::here().usable().err().map(|problem| problem.to_string())
-    },
+/// A driver of Vulkan; the software one will do.
+pub(crate) const VULKAN: Need = Need {
+    missing: || Drivers::here().usable().err().map(|problem| problem.to_string()),
     packages: Packages {
         apt: &["libvulkan1", "mesa-vulkan-drivers"],
         dnf: &["vulkan-loader", "mesa-vulkan-drivers"],
         pacman: &["vulkan-icd-loader", "vulkan-swrast"],
     },
 };
+
+/// A driver to draw with: one of Vulkan, unless the environment chooses something else.
+pub(crate) const DRIVER: Need =
+    Need { missing: || if is_chosen(variable) { None } else { (VULKAN.missing)() }, ..VULKAN };
+
+/// An environment variable that says something, in lower case.
+fn variable(name: &str) -> Option<String> {
+    std::env::var(name).ok().filter(|value| !value.is_empty()).map(|value| value.to_lowercase())
+}
+
+/// Whether the environment chooses what Vulkan has no part in: the CPU, or another backend. That is the user's to care
+/// for; whether it works is seen after the build.
+fn is_chosen(variable: impl Fn(&str) -> Option<String>) -> bool {
+    let is_vulkan = |backends: &str| backends.contains("vulkan") || backends.contains("vk");
+    match variable("HALFWAY_ADAPTER") {
+        // A part of an adapter's name may be that of one behind Vulkan.
+        Some(name) => ["cpu", "gl", "opengl", "metal", "dx12"].contains(&name.split(':').next().unwrap_or_default()),
+        None => variable("WGPU_BACKEND").is_some_and(|backends| !is_vulkan(&backends)),
+    }
+}
 
 /// The software driver of OpenGL, to be drawn with without a display.
 pub(crate) const OPENGL: Need = Need {
@@ -198,7 +211,8 @@ fn refusal(reasons: &[String], names: &[&str], manager: Option<Manager>, why_not
     format!("missing:\n{}\nNothing was installed: {why_not}. {remedy}", listed(reasons))
 }
 
-/// Asks the built command for what it can draw with, prints it, and sees that a driver is there; the CPU draws without.
+/// Asks the built command for what it can draw with, prints it, and sees that a driver is there, or what the environment
+/// chooses; the CPU draws without.
 ///
 /// # Errors
 /// There is none: a driver that looked usable is not. Where set-up may install, the software driver is tried first.
@@ -217,7 +231,7 @@ pub(crate) fn adapters(setup: Setup) -> Result {
     Err(Failure::new("no graphics adapter, even with the software driver; VK_LOADER_DEBUG=all tells what it tries"))
 }
 
-/// Whether the command finds an adapter by a driver; its list goes to the standard error output.
+/// Whether the command finds an adapter by a driver, or the one that is chosen; its list goes to the standard error output.
 fn list_adapters() -> Result<bool> {
     const NONE: i32 = 3;
     let mut command = cargo(["run", "--release", "--quiet", "--bin", "halfway", "--", "adapters"]);
@@ -227,7 +241,7 @@ fn list_adapters() -> Result<bool> {
             eprintln!("\nadapters:");
             let said = String::from_utf8_lossy(&output.stdout);
             said.lines().for_each(|line| eprintln!("   {line}"));
-            Ok(said.lines().any(has_driver))
+            Ok(is_chosen(variable) || said.lines().any(has_driver))
         }
         Some(NONE) => Ok(false),
         _ => {
@@ -250,6 +264,25 @@ mod tests {
     fn the_cpu_is_no_driver() {
         assert!(has_driver("llvmpipe (LLVM 15.0.6, 256 bits) (vulkan, software)"));
         assert!(!has_driver("avx2 (cpu, software)"));
+    }
+
+    #[test]
+    fn what_the_environment_chooses_needs_no_vulkan() {
+        let rows: [(&[(&str, &str)], bool); 9] = [
+            (&[], false),
+            (&[("HALFWAY_ADAPTER", "cpu")], true),
+            (&[("HALFWAY_ADAPTER", "cpu:avx2")], true),
+            (&[("HALFWAY_ADAPTER", "gl:llvmpipe")], true),
+            (&[("HALFWAY_ADAPTER", "llvmpipe")], false),
+            (&[("HALFWAY_ADAPTER", "vulkan:llvmpipe"), ("WGPU_BACKEND", "gl")], false),
+            (&[("WGPU_BACKEND", "gl")], true),
+            (&[("WGPU_BACKEND", "gl,vulkan")], false),
+            (&[("WGPU_BACKEND", "vk")], false),
+        ];
+        for (variables, chosen) in rows {
+            let of = |name: &str| variables.iter().find(|(key, _)| *key == name).map(|(_, value)| (*value).to_owned());
+            assert_eq!(is_chosen(of), chosen, "{variables:?}");
+        }
     }
 
     const MET: Need = Need { missing: || None, ..DRIVER };

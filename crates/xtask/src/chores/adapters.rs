@@ -7,7 +7,7 @@ use clap::Args;
 
 use crate::cargo::{cargo, not_started, root, step, written};
 use crate::failure::{Failure, Result};
-use crate::setup::{DRIVER, OPENGL, SWIFTSHADER, Setup, swiftshader};
+use crate::setup::{OPENGL, SWIFTSHADER, Setup, VULKAN, swiftshader};
 use crate::tally::counted;
 
 /// Run the picture tests and verify the example scenes on every adapter that a bare Debian can have
@@ -29,13 +29,13 @@ pub(crate) fn run(options: &Options) -> Result {
     if !cfg!(target_os = "linux") {
         return Err(Failure::new("the adapters are those of Linux: here the tests run on the system's own"));
     }
-    options.setup.meet(&[DRIVER, OPENGL, SWIFTSHADER])?;
+    options.setup.meet(&NEEDS)?;
     step("build", &mut cargo(["test", "--release", "--workspace", "--test", "render", "--no-run"]))?;
     try_all()
 }
 
 /// What the adapters need beyond the driver.
-pub(crate) const NEEDS: [crate::setup::Need; 2] = [OPENGL, SWIFTSHADER];
+pub(crate) const NEEDS: [crate::setup::Need; 3] = [VULKAN, OPENGL, SWIFTSHADER];
 
 /// Tries each adapter, and says in the end what failed on which.
 ///

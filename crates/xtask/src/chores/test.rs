@@ -10,7 +10,7 @@ use crate::cargo::{cargo, duration, step};
 use crate::chores::adapters as each_adapter;
 use crate::failure::{Failure, Result};
 use crate::machine::programs;
-use crate::setup::{DRIVER, SCREEN, Setup, WINDOW_MANAGER, X11_WINDOWS, adapters};
+use crate::setup::{SCREEN, Setup, WINDOW_MANAGER, X11_WINDOWS, adapters};
 use crate::tally::counted;
 
 /// Run every test, those that need a graphics adapter or a window included
@@ -30,7 +30,7 @@ pub(crate) struct Options {
 pub(crate) fn run(options: &Options) -> Result {
     let setup = options.setup;
     let start = Instant::now();
-    setup.meet(&[&[DRIVER, SCREEN, WINDOW_MANAGER, X11_WINDOWS][..], &each_adapter::NEEDS].concat())?;
+    setup.meet(&[&[SCREEN, WINDOW_MANAGER, X11_WINDOWS][..], &each_adapter::NEEDS].concat())?;
     // Without a choice of targets these are all tests of libraries, programs, `tests/` and the documentation; the
     // examples are built beside them as programs, which `tests/` runs.
     step("build", &mut cargo(["test", "--release", "--workspace", "--no-run"]))?;
