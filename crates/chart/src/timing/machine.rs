@@ -85,6 +85,7 @@ pub fn counters(report: &FrameReport) -> Vec<(&'static str, u64)> {
         ("patches", report.patches.into()),
         ("patches_culled", report.patches_culled.into()),
         ("lights_assigned", report.lights_assigned),
+        ("light_pairs", report.light_pairs),
         ("terms_shaded", report.terms_shaded),
         ("draws", report.draws.into()),
         ("triangles", report.triangles),

@@ -21,8 +21,9 @@ pub(crate) struct BenchArgs {
     /// s2: 10,000 turning spheres of 224 triangles each, 1 light, 1280 × 720;
     /// s3: 400 spheres on a plane, 256 moving lights of range 12, 1280 × 720;
     /// s4: one sphere of 3,968 triangles, 1 light, 256 × 256;
-    /// features: what each feature of lighting costs once a vertex and once a pixel, beside one directional light
-    #[arg(value_name = "s1|s2|s3|s4|features|SCENE|MODEL", verbatim_doc_comment)]
+    /// features: what each feature of lighting costs once a vertex and once a pixel, beside one directional light;
+    /// lights: what a light costs the CPU for each patch that it touches, and one of 20,000 that touches nothing
+    #[arg(value_name = "s1|s2|s3|s4|features|lights|SCENE|MODEL", verbatim_doc_comment)]
     #[arg(value_parser = OsStringValueParser::new().map(|text| Subject::named(&text)))]
     pub(super) subject: Subject,
     #[command(flatten)]
@@ -54,6 +55,7 @@ pub(crate) struct BenchArgs {
 pub(super) enum Subject {
     Scene(BenchmarkScene),
     Features,
+    Lights,
     /// A scene file or a model.
     File(PathBuf),
 }
@@ -66,6 +68,7 @@ impl Subject {
             Some("s3") => Self::Scene(BenchmarkScene::S3),
             Some("s4") => Self::Scene(BenchmarkScene::S4),
             Some("features") => Self::Features,
+            Some("lights") => Self::Lights,
             _ => Self::File(text.into()),
         }
     }
@@ -75,6 +78,7 @@ impl Subject {
         match self {
             Self::Scene(scene) => format!("{scene:?}").to_lowercase().into(),
             Self::Features => "features".into(),
+            Self::Lights => "lights".into(),
             Self::File(file) => file.into(),
         }
     }

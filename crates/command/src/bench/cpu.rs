@@ -34,10 +34,19 @@ impl CpuTimes {
 
     /// What the renderer takes itself: without the set that submits, which a software adapter may use to draw.
     pub(super) fn own_ms(&self) -> f64 {
-        self.median_ms(|times| times.total().saturating_sub(times.of(RenderSet::Draw)))
+        median(&self.own_of_each_ms())
+    }
+
+    /// The same, frame by frame.
+    pub(super) fn own_of_each_ms(&self) -> Vec<f64> {
+        self.each_ms(|times| times.total().saturating_sub(times.of(RenderSet::Draw)))
     }
 
     fn median_ms(&self, of: impl Fn(&SetTimes) -> Duration) -> f64 {
-        median(&self.0.iter().map(|times| of(times).as_secs_f64() * 1e3).collect::<Vec<_>>())
+        median(&self.each_ms(of))
+    }
+
+    fn each_ms(&self, of: impl Fn(&SetTimes) -> Duration) -> Vec<f64> {
+        self.0.iter().map(|times| of(times).as_secs_f64() * 1e3).collect()
     }
 }

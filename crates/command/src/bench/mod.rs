@@ -1,10 +1,12 @@
-//! `halfway bench`: benchmark scenes, each shading beside a constant colour in the same run; and what features cost.
+//! `halfway bench`: benchmark scenes, each shading beside a constant colour in the same run; and what features and lights
+//! cost.
 
 mod app;
 mod args;
 mod cpu;
 mod facts;
 mod features;
+mod lights;
 mod own_process;
 mod scenes;
 
@@ -18,6 +20,7 @@ use args::Subject;
 pub(crate) fn run(args: &BenchArgs) -> Result<(), Failure> {
     let timed = match &args.subject {
         Subject::Features => return features::run(args),
+        Subject::Lights => return lights::run(args),
         Subject::Scene(scene) => Timed::Made(*scene),
         Subject::File(file) => {
             if args.octahedra {

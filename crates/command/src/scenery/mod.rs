@@ -14,6 +14,7 @@
 //! What single [`features`] cost is another, neutral scene's.
 
 pub(crate) mod features;
+pub(crate) mod many_lights;
 
 use std::f32::consts::TAU;
 

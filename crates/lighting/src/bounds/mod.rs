@@ -53,14 +53,18 @@
 //! ```
 
 mod angle;
+mod near;
 mod patch;
 mod reach;
 mod receiver;
 mod select;
 mod tolerance;
+mod tree;
 
+pub use near::{NearLights, Region};
 pub use patch::{NormalCone, Patch};
 pub use reach::reach;
 pub use receiver::{MARGIN, Receiver, TermBounds};
 pub use select::Selected;
 pub use tolerance::{DEFAULT_TOLERANCE, linear_tolerance};
+pub use tree::LightTree;

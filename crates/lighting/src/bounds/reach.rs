@@ -36,7 +36,7 @@ pub fn reach<T: Real>(light: &Light<T>, epsilon: T) -> T {
 }
 
 /// The largest channel of Ld + Ls, and La where it is attenuated.
-fn brightest<T: Real>(light: &Light<T>) -> f64 {
+pub(super) fn brightest<T: Real>(light: &Light<T>) -> f64 {
     let channel = |i: usize| {
         let ambient = if light.attenuate_ambient { to_f64(light.la[i]) } else { 0.0 };
         ambient + to_f64(light.ld[i]) + to_f64(light.ls[i])

@@ -35,20 +35,20 @@ impl<T: Real> TermBounds<T> {
 /// A [`Patch`] made ready for many lights: everything about it that does not depend on the light.
 #[derive(Clone, Copy, Debug)]
 pub struct Receiver<T> {
-    center: [T; 3],
-    radius: T,
+    pub(super) center: [T; 3],
+    pub(super) radius: T,
     /// A light no farther than this from a point of the patch may count as being there.
-    coincident: T,
-    half_thickness: T,
-    normals: Cap<T>,
-    both_sides: bool,
-    view: Cap<T>,
-    ka: [T; 3],
-    kd: [T; 3],
-    ks: [T; 3],
+    pub(super) coincident: T,
+    pub(super) half_thickness: T,
+    pub(super) normals: Cap<T>,
+    pub(super) both_sides: bool,
+    pub(super) view: Cap<T>,
+    pub(super) ka: [T; 3],
+    pub(super) kd: [T; 3],
+    pub(super) ks: [T; 3],
     /// Of the specular term.
-    exponent: T,
-    lobe: Lobe<T>,
+    pub(super) exponent: T,
+    pub(super) lobe: Lobe<T>,
 }
 
 /// A light as it arrives at the points of a patch.
@@ -63,7 +63,7 @@ struct Arrival<T> {
 
 /// What the specular term's cosine is taken of.
 #[derive(Clone, Copy, Debug)]
-enum Lobe<T> {
+pub(super) enum Lobe<T> {
     /// n and h.
     Halfway { view_chord: T },
     /// r and v. `spread` is 2α + av.
@@ -127,6 +127,14 @@ impl<T: Real> Receiver<T> {
         Some(bounds)
     }
 
+    /// Whether its numbers are far from the ends of their range, so that none of what is computed of them and of a light,
+    /// whose squared distance is a normal number and not near the largest, is infinite or no number.
+    pub(super) fn is_moderate(&self) -> bool {
+        let most = T::max_value().sqrt().sqrt();
+        let lengths = [self.center[0], self.center[1], self.center[2], self.radius, self.exponent];
+        lengths.iter().all(|length| length.abs() < most)
+    }
+
     /// `None` where att·spot is 0 all over the patch.
     fn arrival(&self, light: &Light<T>) -> Option<Arrival<T>> {
         let arrival = match light.place {
@@ -174,9 +182,8 @@ impl<T: Real> Receiver<T> {
     /// that is positive, and as large as D + r where it is negative.
     fn slab(&self, offset: [T; 3], square: T, distance: T) -> (T, Angle<T>) {
         let k = self.normals.axis;
-        // Neither a ball, nor any normal, nor squares beyond the number range.
-        let flat = self.half_thickness < self.radius && k != [T::zero(); 3];
-        if !(flat && square < T::max_value() * T::of(0.25)) {
+        // Nor squares beyond the number range.
+        if !(self.is_flat() && square < T::max_value() * T::of(0.25)) {
             return (T::zero(), Angle::zero());
         }
         let height = dot(offset, k);
@@ -192,6 +199,11 @@ impl<T: Real> Receiver<T> {
         // Also where the quotient is 0/0.
         let rise = if cos < T::one() { Angle::of_cos(cos) } else { Angle::zero() };
         (nearest, rise)
+    }
+
+    /// Whether the thickness says anything: of neither a ball nor any normal.
+    pub(super) fn is_flat(&self) -> bool {
+        self.half_thickness < self.radius && self.normals.axis != [T::zero(); 3]
     }
 
     /// The largest n·l, at most 0 where no normal faces the light.

@@ -6,6 +6,7 @@
 mod conservative;
 mod exact;
 mod many_lights;
+mod near;
 mod reach;
 mod select;
 mod support;

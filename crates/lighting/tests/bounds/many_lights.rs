@@ -14,7 +14,7 @@ const EYE: [f32; 3] = [0.0, 40.0, 100.0];
 const LIGHTS: u32 = 256;
 
 /// Uniform in [0, 1) by PCG's hash.
-fn random(i: u32, k: u32) -> f32 {
+pub(crate) fn random(i: u32, k: u32) -> f32 {
     let s = (i * 8 + k).wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
     let w = ((s >> ((s >> 28) + 4)) ^ s).wrapping_mul(277_803_737);
     (((w >> 22) ^ w) >> 8) as f32 / 16_777_216.0
@@ -245,7 +245,7 @@ fn times() {
 }
 
 /// The least of fifty runs in milliseconds, which other work on the machine disturbs least.
-fn least_time(mut run: impl FnMut()) -> f64 {
+pub(crate) fn least_time(mut run: impl FnMut()) -> f64 {
     let mut time = || {
         let start = Instant::now();
         run();

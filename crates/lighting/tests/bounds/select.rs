@@ -40,11 +40,11 @@ fn by_sorting(scene: &Scene, lights: &[Light<f32>], tolerance: [f64; 3]) -> (Vec
     (list(false), list(true), left_out)
 }
 
-fn lights(scene: &Scene, sources: &[Source]) -> Vec<Light<f32>> {
+pub(crate) fn lights(scene: &Scene, sources: &[Source]) -> Vec<Light<f32>> {
     sources.iter().map(|&source| around(scene, source).light()).collect()
 }
 
-fn some_tolerance() -> impl Strategy<Value = [f64; 3]> {
+pub(crate) fn some_tolerance() -> impl Strategy<Value = [f64; 3]> {
     let channel = prop_oneof![1 => Just(0.0), 1 => Just(f64::INFINITY), 8 => (-4f64..6.0).prop_map(|x| 10f64.powf(x))];
     (channel.clone(), channel.clone(), channel, any::<bool>())
         .prop_map(|(r, g, b, gray)| if gray { [r; 3] } else { [r, g, b] })

@@ -180,7 +180,7 @@ fn colour() -> impl Strategy<Value = LinearRgba> {
     [number(), number(), number()].prop_map(|[r, g, b]| LinearRgba::rgb(r, g, b))
 }
 
-fn any_direction() -> impl Strategy<Value = [f32; 3]> {
+pub(crate) fn any_direction() -> impl Strategy<Value = [f32; 3]> {
     (0f64..1.0, 0f64..1.0).prop_map(|(a, b)| direction(a, b).map(|x| x as f32))
 }
 

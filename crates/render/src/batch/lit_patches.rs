@@ -10,7 +10,7 @@ use crate::geometry::detail::{Demand, LevelsOfDetail};
 use crate::geometry::meshes::{Form, Geometries, Geometry};
 use crate::geometry::patches::MeshPatch;
 use crate::lights::gather::Lights;
-use crate::lights::lists::LightLists;
+use crate::lights::lists::{LightLists, Listing};
 use crate::lights::terms::Chosen;
 use crate::shaders::light_slots::Lists;
 use crate::shaders::records::{DrawRecord, InstanceRecord, RecordLists};
@@ -35,6 +35,8 @@ pub(crate) struct LitPatches {
     pub(crate) records: Vec<DrawRecord>,
     pub(crate) lists: LightLists,
     pub(crate) table: ObjectTable,
+    /// Which of some patches are seen.
+    seen: Vec<usize>,
 }
 
 /// Neighbouring patches of an object that are drawn alike.
@@ -89,7 +91,7 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
     mut report: ResMut<FrameReport>,
 ) {
     let lit = &mut *lit;
-    lit.begin(&lights);
+    lit.begin(&lights, lights.is_changed());
     let (Some(camera), Some(values)) = (&view.camera, values.0) else { return };
     let (encoding, viewer, costs) = (values.encoding(), camera.viewer, backend.costs());
     let shared = Shared { lights: &lights, allowed: &allowed, encoding, viewer, costs };
@@ -140,6 +142,7 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
     report.materials = lit.table.materials_in_use();
     report.lights_assigned = lit.lists.assigned;
     report.terms_shaded = lit.lists.shaded;
+    report.light_pairs = lit.lists.take_pairs();
     report.left_out = lit.lists.left_out;
 }
 
@@ -160,11 +163,11 @@ struct LitObject<'a> {
 }
 
 impl LitPatches {
-    fn begin(&mut self, lights: &Lights) {
+    fn begin(&mut self, lights: &Lights, changed: bool) {
         self.runs.clear();
         self.instances.clear();
         self.records.clear();
-        self.lists.begin(lights);
+        self.lists.begin(lights, changed);
         self.table.begin(lights.ambient);
     }
 
@@ -190,25 +193,42 @@ impl LitPatches {
         let patches = geometry.detail.patches(model_view, view, demand);
         report.triangles_in += geometry.source.triangle_count() as u64;
         self.instances.push(InstanceRecord::new(model_view, normal_matrix, reflecting.faces, view.unit() as f32));
+        // Where all lights are compiled in, no patch has lists.
+        let admitted = if key.lists == Lists::Listed { *key } else { backend.admit(*key) };
+        let listing = (admitted.lists == Lists::Listed).then(|| {
+            let eye = equations::Eye::in_eye_space(shared.viewer);
+            reflecting.reflector(key.terms).listing(shared.lights.ambient, eye, shared.encoding)
+        });
         // The object as a whole has been found to be seen.
         let whole = patches.len() == 1;
         let mut run: Option<OpenRun> = None;
-        for patch in patches {
+        for together in patches.chunks(TOGETHER) {
+            let is_seen =
+                |patch: &&MeshPatch| whole || patch.is_seen(model_view, normal_matrix, view, reflecting.faces);
+            self.seen.clear();
+            self.seen.extend((0..).zip(together).filter(|(_, patch)| is_seen(patch)).map(|(i, _)| i));
             if !whole {
-                report.patches += 1;
-                if !patch.is_seen(model_view, normal_matrix, view, reflecting.faces) {
-                    report.patches_culled += 1;
-                    continue;
-                }
+                report.patches += together.len() as u32;
+                report.patches_culled += (together.len() - self.seen.len()) as u32;
             }
-            let (key, lights, lists) = self.lit(object, patch, shared, backend);
-            let record = self.table.number(&mut self.records, object.material, lists);
-            let next = OpenRun { key, lights, record, indices: patch.indices.clone() };
-            match &mut run {
-                Some(run) if run.goes_on_with(&next) => run.indices.end = next.indices.end,
-                _ => {
-                    if let Some(run) = run.replace(next) {
-                        self.add_run(object, run);
+            if let Some(listing) = &listing {
+                let spheres = self.seen.iter().map(|&i| together[i].sphere(model_view));
+                self.lists.look_around(listing, spheres);
+            }
+            for place in 0..self.seen.len() {
+                let patch = &together[self.seen[place]];
+                let (key, lights, lists) = match &listing {
+                    Some(listing) => self.lit(object, patch, listing, shared, backend),
+                    None => (admitted, 0, RecordLists::default()),
+                };
+                let record = self.table.number(&mut self.records, object.material, lists);
+                let next = OpenRun { key, lights, record, indices: patch.indices.clone() };
+                match &mut run {
+                    Some(run) if run.goes_on_with(&next) => run.indices.end = next.indices.end,
+                    _ => {
+                        if let Some(run) = run.replace(next) {
+                            self.add_run(object, run);
+                        }
                     }
                 }
             }
@@ -223,23 +243,15 @@ impl LitPatches {
         &mut self,
         object: &LitObject,
         patch: &MeshPatch,
+        listing: &Listing,
         shared: Shared,
         backend: &mut impl Backend,
     ) -> (DrawKey, u32, RecordLists) {
         let LitObject { reflecting, key, model_view, normal_matrix, .. } = object;
-        let counted = key.lists != Lists::Listed;
-        if counted {
-            let admitted = backend.admit(*key);
-            if admitted.lists != Lists::Listed {
-                return (admitted, 0, RecordLists::default());
-            }
-        }
         let patch = patch.in_eye_space(model_view, normal_matrix, reflecting.faces);
-        let eye = equations::Eye::in_eye_space(shared.viewer);
-        let reflector = reflecting.reflector(key.terms);
-        self.lists.select(shared.lights, &patch, &reflector, &eye, shared.encoding);
+        self.lists.select(shared.lights, &patch, listing);
         let key = if shared.costs.lights_at_fixed_places
-            && !counted
+            && key.lists == Lists::Listed
             && let Some(bound) = self.lists.bind(shared.lights, key.takes_powers())
         {
             let counted = DrawKey { lists: bound.lists(), ..*key };
@@ -266,6 +278,9 @@ impl LitPatches {
         }
     }
 }
+
+/// So many patches that lie next to each other look for their lights together.
+const TOGETHER: usize = 32;
 
 /// A part that may go on with the next patch.
 struct OpenRun {

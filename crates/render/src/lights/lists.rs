@@ -5,7 +5,9 @@ use crate::lights::terms::{by_fragment_shader, by_vertex_shader};
 use crate::shaders::light_slots::{COUNTED_LIGHTS, Highlights, Lists, filled_up};
 use crate::shaders::records::{LightRecord, RecordLists};
 use bevy_math::Vec3;
-use halfway_lighting::bounds::{DEFAULT_TOLERANCE, Patch, Receiver, Selected, linear_tolerance};
+use halfway_lighting::bounds::{
+    DEFAULT_TOLERANCE, LightTree, NearLights, Patch, Receiver, Region, Selected, linear_tolerance,
+};
 use halfway_lighting::equations::{Coefficients, Eye};
 use halfway_lighting::{Encoding, Frequency, Reflectance, Terms};
 
@@ -23,6 +25,9 @@ pub(crate) struct LightLists {
     last_bound: Option<BoundLights>,
     /// The lists made last. Neighbouring patches often need the same.
     last: Option<(RecordLists, usize)>,
+    /// The lights of the frame, and those near the patches at hand.
+    tree: LightTree,
+    near: NearLights,
     selected: Selected<f32>,
     /// How many terms of lights the lists name, over all patches.
     pub(crate) assigned: u64,
@@ -49,7 +54,7 @@ const _: () = assert!(SET_ALIGNMENT * size_of::<LightRecord>() == 256, "a LightR
 /// A software adapter reads lights at fixed places faster, but starts a draw for each set.
 const MOST_BOUND: usize = 1 << 16;
 
-/// What a patch does with light.
+/// What an object does with light.
 pub(crate) struct Reflector {
     /// The sides that are seen; twice the same where one is.
     pub(crate) sides: [Coefficients<f32>; 2],
@@ -58,8 +63,22 @@ pub(crate) struct Reflector {
     pub(crate) terms: Terms,
 }
 
+/// What the light lists of an object's patches are made by.
+pub(crate) struct Listing {
+    /// No smaller than either side's.
+    material: Coefficients<f32>,
+    reflectance: Reflectance,
+    view: Eye<f32>,
+    /// What may be left out of a patch, in linear intensity.
+    tolerance: [f64; 3],
+}
+
 impl LightLists {
-    pub(crate) fn begin(&mut self, lights: &Lights) {
+    /// Starts a frame; `changed` says whether the lights have, since the last.
+    pub(crate) fn begin(&mut self, lights: &Lights, changed: bool) {
+        if changed {
+            self.tree.rebuild(&lights.sources);
+        }
         self.numbers.clear();
         self.bound.clear();
         if lights.records.len() <= COUNTED_LIGHTS as usize {
@@ -75,24 +94,34 @@ impl LightLists {
         self.left_out = 0.0;
     }
 
-    /// Selects the lights that `patch` needs: those left out change no channel of a pixel by more than half an 8-bit
-    /// step together. A picture in floating point, which has no `encoding`, keeps all that reach the patch at all.
-    pub(crate) fn select(
-        &mut self,
-        lights: &Lights,
-        patch: &Patch<f32>,
-        reflector: &Reflector,
-        view: &Eye<f32>,
-        encoding: Option<Encoding>,
-    ) {
-        let receiver = Receiver::new(patch, &reflector.larger_side(), view, reflector.reflectance);
-        let base = reflector.unlit(lights.ambient).to_array();
-        let tolerance = base.map(|at_least| {
-            encoding.map_or(0.0, |encoding| linear_tolerance(encoding, DEFAULT_TOLERANCE, at_least.into()))
+    /// Looks for the lights near patches in these spheres, of an object with this listing.
+    pub(crate) fn look_around(&mut self, listing: &Listing, spheres: impl Iterator<Item = (Vec3, f32)> + Clone) {
+        let middle = |low: Vec3, high: Vec3| 0.5 * low + 0.5 * high;
+        let all = |of: fn(Vec3, Vec3) -> Vec3| spheres.clone().map(|(center, _)| center).reduce(of).unwrap_or_default();
+        let center = middle(all(Vec3::min), all(Vec3::max));
+        let reach = |(at, radius): (Vec3, f32)| at.distance(center) + radius;
+        let Coefficients { ka, kd, ks, .. } = listing.material;
+        self.near.begin(Region {
+            center: center.to_array(),
+            radius: spheres.map(reach).fold(0.0, f32::max) * (1.0 + 1e-5),
+            brightest: [ka, kd, ks].into_iter().flatten().fold(0.0, f32::max),
+            tolerance: listing.tolerance.into_iter().fold(f64::INFINITY, f64::min),
         });
-        receiver.select((0..).zip(&lights.sources), tolerance, &mut self.selected);
+    }
+
+    /// Selects the lights that `patch`, one of those last looked around, needs: those left out change no channel of a
+    /// pixel by more than half an 8-bit step together. A picture in floating point, which has no encoding, keeps all that
+    /// reach the patch at all.
+    pub(crate) fn select(&mut self, lights: &Lights, patch: &Patch<f32>, listing: &Listing) {
+        let receiver = Receiver::new(patch, &listing.material, &listing.view, listing.reflectance);
+        self.near.select(&self.tree, &lights.sources, &receiver, listing.tolerance, &mut self.selected);
         self.left_out = self.selected.left_out.into_iter().fold(self.left_out, f64::max);
         self.assigned += (self.selected.diffuse.len() + self.selected.specular.len()) as u64;
+    }
+
+    /// How many pairs of a patch and a light have been looked at since this was last asked.
+    pub(crate) fn take_pairs(&mut self) -> u64 {
+        self.near.take_pairs()
     }
 
     /// Binds what was selected at fixed places; `None` where it is too much. Of each kind the lights with highlights come
@@ -216,6 +245,14 @@ impl RecordLists {
 }
 
 impl Reflector {
+    /// For a picture of this encoding, which has none in floating point.
+    pub(crate) fn listing(&self, ambient: Vec3, view: Eye<f32>, encoding: Option<Encoding>) -> Listing {
+        let tolerance = self.unlit(ambient).to_array().map(|at_least| {
+            encoding.map_or(0.0, |encoding| linear_tolerance(encoding, DEFAULT_TOLERANCE, at_least.into()))
+        });
+        Listing { material: self.larger_side(), reflectance: self.reflectance, view, tolerance }
+    }
+
     /// Coefficients that are nowhere below either side's, so that bounds hold for both.
     fn larger_side(&self) -> Coefficients<f32> {
         let [front, back] = &self.sides;
@@ -248,7 +285,7 @@ mod tests {
     fn each_bound_set_begins_where_any_adapter_can_bind_it() {
         let lights = Lights { records: vec![LightRecord::BLACK; 40], counts: [4, 20, 16], ..Lights::default() };
         let mut lists = LightLists::default();
-        lists.begin(&lights);
+        lists.begin(&lights, true);
         // Sets of 1 to 24 lights, one after the other, from all kinds.
         for count in 1..=24 {
             lists.selected.diffuse = (40 - count..40).collect();

@@ -1,0 +1,247 @@
+//! Many lights, found by where they are.
+
+use super::near::Region;
+use super::reach::brightest;
+use crate::equations::{COINCIDENT, Light, Place, attenuation};
+
+/// How many lights a leaf holds at most, and of how many nodes one above is made.
+const LEAF: usize = 16;
+const BRANCHES: usize = 8;
+
+/// What distances are shortened by and sums raised by, relative to themselves: more than all rounding on the way, and
+/// than what the bounds widen by.
+const SLACK: f32 = 1e-3;
+
+/// Lights in a hierarchy of boxes, so that those which reach a region are found without looking at the others.
+///
+/// [`NearLights`](super::NearLights) takes from it the lights that a region may need and what all the others add at most: nothing where they
+/// are out of their range, and otherwise so little that it can be told from a bound for many of them. Directional lights
+/// reach everything.
+///
+/// Made anew for each frame by [`LightTree::rebuild`], in a time that is as good as linear in the lights; its memory is
+/// kept.
+#[derive(Clone, Debug, Default)]
+pub struct LightTree {
+    /// Those that have no place.
+    everywhere: Vec<u32>,
+    /// Those that have one, in an order in which neighbours are neighbours in space.
+    leaves: Vec<Leaf>,
+    /// Level upon level, the leaves' first; each node of those above has up to eight below it.
+    levels: Vec<Vec<Node>>,
+    keys: Vec<(u32, u32)>,
+}
+
+/// A light, as far as is known without its patch.
+#[derive(Clone, Copy, Debug)]
+struct Leaf {
+    number: u32,
+    position: [f32; 3],
+    falloff: Falloff,
+}
+
+/// Lights that lie together.
+#[derive(Clone, Copy, Debug)]
+struct Node {
+    /// A box around them.
+    low: [f32; 3],
+    high: [f32; 3],
+    falloff: Falloff,
+    count: u32,
+}
+
+/// What lights add at a distance at most.
+#[derive(Clone, Copy, Debug)]
+struct Falloff {
+    /// The largest; infinite where one has none.
+    range: f32,
+    /// The least numbers.
+    attenuation: [f32; 3],
+    /// The sum of their colours' brightest channels.
+    colour: f32,
+}
+
+impl Falloff {
+    fn of(light: &Light<f32>) -> Self {
+        Self {
+            range: light.range.unwrap_or(f32::INFINITY),
+            attenuation: light.attenuation,
+            colour: brightest(light) as f32 * (1.0 + SLACK),
+        }
+    }
+
+    fn join(&mut self, other: &Self) {
+        self.range = self.range.max(other.range);
+        self.attenuation = [0, 1, 2].map(|k| self.attenuation[k].min(other.attenuation[k]));
+        self.colour += other.colour;
+    }
+}
+
+/// A region as lights are looked for around it.
+struct Search {
+    center: [f32; 3],
+    /// With the distance from which a light counts as being at a point of it.
+    radius: f32,
+    brightest: f32,
+    /// What each light may add unseen.
+    quota: f64,
+}
+
+/// What is to be done with lights.
+enum Verdict {
+    /// They add nothing.
+    Nothing,
+    /// They add so little at most that they need not be looked at.
+    Little(f64),
+    Open,
+}
+
+impl Search {
+    /// Of lights in a box.
+    fn verdict(&self, low: [f32; 3], high: [f32; 3], falloff: &Falloff, count: u32) -> Verdict {
+        let beside = |k: usize| (low[k] - self.center[k]).max(self.center[k] - high[k]).max(0.0);
+        let [x, y, z] = [beside(0), beside(1), beside(2)];
+        let distance = (x * x + y * y + z * z).sqrt() * (1.0 - SLACK) - self.radius;
+        if distance > falloff.range {
+            return Verdict::Nothing;
+        }
+        // Nothing is known where a square left the number range.
+        if !(distance > 0.0 && distance < f32::INFINITY) {
+            return Verdict::Open;
+        }
+        let weight = attenuation(falloff.attenuation, distance).max(f32::MIN_POSITIVE) * (1.0 + SLACK);
+        let most = f64::from(self.brightest * falloff.colour * weight);
+        if most <= self.quota * f64::from(count) { Verdict::Little(most) } else { Verdict::Open }
+    }
+}
+
+impl LightTree {
+    /// Takes these lights in place of those it had.
+    pub fn rebuild(&mut self, lights: &[Light<f32>]) {
+        self.everywhere.clear();
+        self.leaves.clear();
+        self.keys.clear();
+        let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+        for (light, number) in lights.iter().zip(0..) {
+            match light.place {
+                Place::Directional(_) => self.everywhere.push(number),
+                Place::Point(at) => {
+                    low = [0, 1, 2].map(|k| low[k].min(at[k]));
+                    high = [0, 1, 2].map(|k| high[k].max(at[k]));
+                    self.keys.push((0, number));
+                }
+            }
+        }
+        let cells = [0, 1, 2].map(|k| 1023.0 / (high[k] - low[k]).max(f32::MIN_POSITIVE));
+        for (key, number) in &mut self.keys {
+            let (Place::Point(at) | Place::Directional(at)) = lights[*number as usize].place;
+            let cell = |k: usize| spread(((at[k] - low[k]) * cells[k]) as u32) << k;
+            *key = cell(0) | cell(1) | cell(2);
+        }
+        self.keys.sort_unstable();
+        self.leaves.extend(self.keys.iter().map(|&(_, number)| {
+            let light = &lights[number as usize];
+            let (Place::Point(position) | Place::Directional(position)) = light.place;
+            Leaf { number, position, falloff: Falloff::of(light) }
+        }));
+        self.build_levels();
+    }
+
+    fn build_levels(&mut self) {
+        let Self { leaves, levels, .. } = self;
+        let mut height = 0;
+        loop {
+            if levels.len() == height {
+                levels.push(Vec::new());
+            }
+            let (below, above) = levels.split_at_mut(height);
+            let above = &mut above[0];
+            above.clear();
+            match below.last() {
+                None => above.extend(leaves.chunks(LEAF).map(Node::of_leaves)),
+                Some(nodes) => above.extend(nodes.chunks(BRANCHES).map(Node::of_nodes)),
+            }
+            height += 1;
+            if above.len() <= 1 {
+                break;
+            }
+        }
+        levels.truncate(height);
+    }
+
+    /// The numbers of the lights that may reach a region, in any order, without some that add no more than `unseen` of its
+    /// tolerance together; and what those add at most.
+    pub(super) fn find(&self, region: &Region, unseen: f64, numbers: &mut Vec<u32>) -> f64 {
+        let quota = unseen * region.tolerance / self.leaves.len().max(1) as f64;
+        numbers.extend(&self.everywhere);
+        let [x, y, z] = region.center;
+        let far = x.abs() + y.abs() + z.abs() + region.radius;
+        let radius = (region.radius + COINCIDENT * far) * (1.0 + SLACK);
+        let search = Search { center: region.center, radius, brightest: region.brightest, quota };
+        let mut spent = 0.0;
+        if let Some(top) = self.levels.len().checked_sub(1) {
+            self.visit(&search, top, 0..self.levels[top].len(), numbers, &mut spent);
+        }
+        spent * (1.0 + f64::from(SLACK))
+    }
+
+    fn visit(
+        &self,
+        search: &Search,
+        level: usize,
+        nodes: core::ops::Range<usize>,
+        numbers: &mut Vec<u32>,
+        spent: &mut f64,
+    ) {
+        for (place, node) in nodes.clone().zip(&self.levels[level][nodes]) {
+            match search.verdict(node.low, node.high, &node.falloff, node.count) {
+                Verdict::Nothing => {}
+                Verdict::Little(most) => *spent += most,
+                Verdict::Open if level > 0 => {
+                    let start = place * BRANCHES;
+                    let below = start..(start + BRANCHES).min(self.levels[level - 1].len());
+                    self.visit(search, level - 1, below, numbers, spent);
+                }
+                Verdict::Open => {
+                    for leaf in &self.leaves[place * LEAF..place * LEAF + node.count as usize] {
+                        match search.verdict(leaf.position, leaf.position, &leaf.falloff, 1) {
+                            Verdict::Nothing => {}
+                            Verdict::Little(most) => *spent += most,
+                            Verdict::Open => numbers.push(leaf.number),
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+impl Node {
+    fn of_leaves(leaves: &[Leaf]) -> Self {
+        let node = |leaf: &Leaf| Self { low: leaf.position, high: leaf.position, falloff: leaf.falloff, count: 1 };
+        Self::joined(leaves.iter().map(node))
+    }
+
+    fn of_nodes(nodes: &[Self]) -> Self {
+        Self::joined(nodes.iter().copied())
+    }
+
+    fn joined(mut nodes: impl Iterator<Item = Self>) -> Self {
+        let falloff = Falloff { range: 0.0, attenuation: [0.0; 3], colour: 0.0 };
+        let mut all = nodes.next().unwrap_or(Self { low: [0.0; 3], high: [0.0; 3], falloff, count: 0 });
+        for node in nodes {
+            all.low = [0, 1, 2].map(|k| all.low[k].min(node.low[k]));
+            all.high = [0, 1, 2].map(|k| all.high[k].max(node.high[k]));
+            all.falloff.join(&node.falloff);
+            all.count += node.count;
+        }
+        all
+    }
+}
+
+/// The ten lowest bits with two zeros between each.
+fn spread(bits: u32) -> u32 {
+    let bits = (bits | bits << 16) & 0x0300_00ff;
+    let bits = (bits | bits << 8) & 0x0300_f00f;
+    let bits = (bits | bits << 4) & 0x030c_30c3;
+    (bits | bits << 2) & 0x0924_9249
+}
