@@ -43,8 +43,13 @@ impl Shown<'_, '_> {
     /// The same as [`is_shown`](Self::is_shown), for many entities: where nothing is [`Visibility::Hidden`], it looks at
     /// none of them.
     pub fn by_entity(&self) -> impl Fn(Entity) -> bool {
-        let hides = self.visibilities.iter().any(|&visibility| visibility == Visibility::Hidden);
+        let hides = self.hides_any();
         move |entity| !hides || self.is_shown(entity)
+    }
+
+    /// Whether any entity is [`Visibility::Hidden`]. Where none is, all are shown.
+    pub fn hides_any(&self) -> bool {
+        self.visibilities.iter().any(|&visibility| visibility == Visibility::Hidden)
     }
 
     /// Whether the entity is visible by its [`Visibility`] and those above it.

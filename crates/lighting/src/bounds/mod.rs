@@ -57,14 +57,16 @@ mod near;
 mod patch;
 mod reach;
 mod receiver;
+mod region;
 mod select;
 mod tolerance;
 mod tree;
 
-pub use near::{NearLights, Region};
+pub use near::NearLights;
 pub use patch::{NormalCone, Patch};
 pub use reach::reach;
 pub use receiver::{MARGIN, Receiver, TermBounds};
+pub use region::Region;
 pub use select::Selected;
 pub use tolerance::{DEFAULT_TOLERANCE, linear_tolerance};
 pub use tree::LightTree;

@@ -1,6 +1,6 @@
 //! Many lights, found by where they are.
 
-use super::near::Region;
+use super::Region;
 use super::reach::brightest;
 use crate::equations::{COINCIDENT, Light, Place, attenuation};
 
@@ -25,15 +25,15 @@ pub struct LightTree {
     /// Those that have no place.
     everywhere: Vec<u32>,
     /// Those that have one, in an order in which neighbours are neighbours in space.
-    leaves: Vec<Leaf>,
+    leaves: Vec<LightLeaf>,
     /// Level upon level, the leaves' first; each node of those above has up to eight below it.
-    levels: Vec<Vec<Node>>,
+    levels: Vec<Vec<LightNode>>,
     keys: Vec<(u32, u32)>,
 }
 
 /// A light, as far as is known without its patch.
 #[derive(Clone, Copy, Debug)]
-struct Leaf {
+struct LightLeaf {
     number: u32,
     position: [f32; 3],
     falloff: Falloff,
@@ -41,7 +41,7 @@ struct Leaf {
 
 /// Lights that lie together.
 #[derive(Clone, Copy, Debug)]
-struct Node {
+struct LightNode {
     /// A box around them.
     low: [f32; 3],
     high: [f32; 3],
@@ -77,7 +77,7 @@ impl Falloff {
 }
 
 /// A region as lights are looked for around it.
-struct Search {
+struct LightSearch {
     center: [f32; 3],
     /// With the distance from which a light counts as being at a point of it.
     radius: f32,
@@ -87,7 +87,7 @@ struct Search {
 }
 
 /// What is to be done with lights.
-enum Verdict {
+enum Visit {
     /// They add nothing.
     Nothing,
     /// They add so little at most that they need not be looked at.
@@ -95,22 +95,22 @@ enum Verdict {
     Open,
 }
 
-impl Search {
+impl LightSearch {
     /// Of lights in a box.
-    fn verdict(&self, low: [f32; 3], high: [f32; 3], falloff: &Falloff, count: u32) -> Verdict {
+    fn visit_to(&self, low: [f32; 3], high: [f32; 3], falloff: &Falloff, count: u32) -> Visit {
         let beside = |k: usize| (low[k] - self.center[k]).max(self.center[k] - high[k]).max(0.0);
         let [x, y, z] = [beside(0), beside(1), beside(2)];
         let distance = (x * x + y * y + z * z).sqrt() * (1.0 - SLACK) - self.radius;
         if distance > falloff.range {
-            return Verdict::Nothing;
+            return Visit::Nothing;
         }
         // Nothing is known where a square left the number range.
         if !(distance > 0.0 && distance < f32::INFINITY) {
-            return Verdict::Open;
+            return Visit::Open;
         }
         let weight = attenuation(falloff.attenuation, distance).max(f32::MIN_POSITIVE) * (1.0 + SLACK);
         let most = f64::from(self.brightest * falloff.colour * weight);
-        if most <= self.quota * f64::from(count) { Verdict::Little(most) } else { Verdict::Open }
+        if most <= self.quota * f64::from(count) { Visit::Little(most) } else { Visit::Open }
     }
 }
 
@@ -141,7 +141,7 @@ impl LightTree {
         self.leaves.extend(self.keys.iter().map(|&(_, number)| {
             let light = &lights[number as usize];
             let (Place::Point(position) | Place::Directional(position)) = light.place;
-            Leaf { number, position, falloff: Falloff::of(light) }
+            LightLeaf { number, position, falloff: Falloff::of(light) }
         }));
         self.build_levels();
     }
@@ -157,8 +157,8 @@ impl LightTree {
             let above = &mut above[0];
             above.clear();
             match below.last() {
-                None => above.extend(leaves.chunks(LEAF).map(Node::of_leaves)),
-                Some(nodes) => above.extend(nodes.chunks(BRANCHES).map(Node::of_nodes)),
+                None => above.extend(leaves.chunks(LEAF).map(LightNode::of_leaves)),
+                Some(nodes) => above.extend(nodes.chunks(BRANCHES).map(LightNode::of_nodes)),
             }
             height += 1;
             if above.len() <= 1 {
@@ -176,7 +176,7 @@ impl LightTree {
         let [x, y, z] = region.center;
         let far = x.abs() + y.abs() + z.abs() + region.radius;
         let radius = (region.radius + COINCIDENT * far) * (1.0 + SLACK);
-        let search = Search { center: region.center, radius, brightest: region.brightest, quota };
+        let search = LightSearch { center: region.center, radius, brightest: region.brightest, quota };
         let mut spent = 0.0;
         if let Some(top) = self.levels.len().checked_sub(1) {
             self.visit(&search, top, 0..self.levels[top].len(), numbers, &mut spent);
@@ -186,27 +186,27 @@ impl LightTree {
 
     fn visit(
         &self,
-        search: &Search,
+        search: &LightSearch,
         level: usize,
         nodes: core::ops::Range<usize>,
         numbers: &mut Vec<u32>,
         spent: &mut f64,
     ) {
         for (place, node) in nodes.clone().zip(&self.levels[level][nodes]) {
-            match search.verdict(node.low, node.high, &node.falloff, node.count) {
-                Verdict::Nothing => {}
-                Verdict::Little(most) => *spent += most,
-                Verdict::Open if level > 0 => {
+            match search.visit_to(node.low, node.high, &node.falloff, node.count) {
+                Visit::Nothing => {}
+                Visit::Little(most) => *spent += most,
+                Visit::Open if level > 0 => {
                     let start = place * BRANCHES;
                     let below = start..(start + BRANCHES).min(self.levels[level - 1].len());
                     self.visit(search, level - 1, below, numbers, spent);
                 }
-                Verdict::Open => {
+                Visit::Open => {
                     for leaf in &self.leaves[place * LEAF..place * LEAF + node.count as usize] {
-                        match search.verdict(leaf.position, leaf.position, &leaf.falloff, 1) {
-                            Verdict::Nothing => {}
-                            Verdict::Little(most) => *spent += most,
-                            Verdict::Open => numbers.push(leaf.number),
+                        match search.visit_to(leaf.position, leaf.position, &leaf.falloff, 1) {
+                            Visit::Nothing => {}
+                            Visit::Little(most) => *spent += most,
+                            Visit::Open => numbers.push(leaf.number),
                         }
                     }
                 }
@@ -215,9 +215,9 @@ impl LightTree {
     }
 }
 
-impl Node {
-    fn of_leaves(leaves: &[Leaf]) -> Self {
-        let node = |leaf: &Leaf| Self { low: leaf.position, high: leaf.position, falloff: leaf.falloff, count: 1 };
+impl LightNode {
+    fn of_leaves(leaves: &[LightLeaf]) -> Self {
+        let node = |leaf: &LightLeaf| Self { low: leaf.position, high: leaf.position, falloff: leaf.falloff, count: 1 };
         Self::joined(leaves.iter().map(node))
     }
 

@@ -8,9 +8,11 @@ use bevy_color::LinearRgba;
 use bevy_ecs::prelude::*;
 use bevy_math::{DVec3, Vec3};
 use bevy_transform::components::GlobalTransform;
+use halfway_lighting::equations::vector::normalize_or_zero;
 use halfway_lighting::equations::{self, Light, Place};
 use halfway_lighting::{
-    DirectionalLight, GlobalAmbient, InvalidValue, PointLight, Shown, SpotLight, light_direction, light_position,
+    Attenuation, DirectionalLight, GlobalAmbient, InvalidValue, PointLight, Shown, SpotLight, light_direction,
+    light_position,
 };
 
 /// The scene's lights, sorted by kind. Holds after [`RenderSet::Illuminate`](crate::RenderSet::Illuminate).
@@ -22,6 +24,8 @@ pub struct Lights {
     pub(crate) records: Vec<LightRecord>,
     /// The same lights, in the same order, as the equations take them.
     pub(crate) sources: Vec<Light<f32>>,
+    /// And where they are in the world.
+    places: Vec<WorldPlace>,
     /// How many directional, point and spot lights, in this order.
     pub(crate) counts: [u32; 3],
     /// Whether any has a specular color.
@@ -32,33 +36,91 @@ pub struct Lights {
     pub(crate) shared_color: bool,
     /// Whether any has a range.
     pub(crate) ranged: bool,
+    made_of: Option<MadeOf>,
+}
+
+/// What a frame's lights were made of. Where the next finds the same, and no light has changed, they are as they were.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct MadeOf {
+    /// How many entities have a light of each kind. One that goes makes them fewer, and one that comes has changed.
+    entities: [usize; 3],
+    ambient: LinearRgba,
+    /// The view's, and its unit of length.
+    view: (u64, i32),
+}
+
+/// The numbers of a light that depend on where it is looked at from and in which unit of length, in world space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct WorldPlace {
+    /// Of a point or spot.
+    position: Vec3,
+    /// The way that a directional or spot light travels.
+    direction: Vec3,
+    attenuation: [f32; 3],
+    range: Option<f32>,
 }
 
 type LightQuery<'w, 's, L> = Query<'w, 's, (Entity, &'static L, &'static GlobalTransform, Option<&'static Name>)>;
+type AnyLight = Or<(With<DirectionalLight>, With<PointLight>, With<SpotLight>)>;
+type AnyChange = Or<(Changed<DirectionalLight>, Changed<PointLight>, Changed<SpotLight>, Changed<GlobalTransform>)>;
 
 #[expect(clippy::too_many_arguments, reason = "a system takes each resource as a parameter")]
 pub(crate) fn gather(
     directional: LightQuery<DirectionalLight>,
     points: LightQuery<PointLight>,
     spots: LightQuery<SpotLight>,
+    changed: Query<(), (AnyLight, AnyChange)>,
     shown: Shown,
     ambient: Res<GlobalAmbient>,
     view: Res<View>,
     mut lights: ResMut<Lights>,
     mut report: ResMut<FrameReport>,
 ) {
-    let mut gathered = Gathered { view: &view, ambient: Vec3::ZERO, lights: Default::default() };
-    let errors = &mut report.errors;
-    match ambient.validate() {
-        Ok(()) => gathered.ambient = rgb(ambient.0),
-        Err(source) => errors.push(RenderError::Invalid { entity: "resource".into(), source }),
+    let made_of = MadeOf {
+        entities: [directional.iter().len(), points.iter().len(), spots.iter().len()],
+        ambient: ambient.0,
+        view: (view.epoch, view.unit_exponent),
+    };
+    let keep = lights.made_of.filter(|_| changed.is_empty() && !shown.hides_any());
+    if keep != Some(made_of) {
+        let lights = &mut *lights;
+        if keep.map(|before| MadeOf { view: made_of.view, ..before }) != Some(made_of) {
+            let refused = report.errors.len();
+            lights.begin(rgb(ambient.0));
+            if let Err(source) = ambient.validate() {
+                lights.begin(Vec3::ZERO);
+                report.errors.push(RenderError::Invalid { entity: "resource".into(), source });
+            }
+            let (is_shown, errors) = (shown.by_entity(), &mut report.errors);
+            each(&directional, &is_shown, errors, |light, at| {
+                directional_light(light, at).map(|made| lights.add(made))
+            });
+            each(&points, &is_shown, errors, |light, at| point_light(light, at).map(|made| lights.add(made)));
+            // Those without a cone are points.
+            let mut with_cones = Vec::new();
+            each(&spots, &is_shown, errors, |spot, at| {
+                let made = spot_light(spot, at)?;
+                if made.source.cone.is_some() {
+                    with_cones.push(made);
+                } else {
+                    lights.add(made);
+                }
+                Ok(())
+            });
+            for made in with_cones {
+                lights.add(made);
+            }
+            // What is refused is told in each frame anew, and what is hidden is looked at in each.
+            let is_whole = report.errors.len() == refused && !shown.hides_any();
+            lights.made_of = is_whole.then_some(made_of);
+            lights.sum_up();
+        }
+        if let Some(before) = &mut lights.made_of {
+            *before = made_of;
+        }
+        lights.place(&view);
     }
-    let is_shown = shown.by_entity();
-    each(&directional, &is_shown, errors, |light, at| gathered.directional(light, at));
-    each(&points, &is_shown, errors, |light, at| gathered.point(light, at));
-    each(&spots, &is_shown, errors, |spot, at| gathered.spot(spot, at));
-    report.lights = gathered.lights.iter().map(|of_kind| of_kind.len() as u32).sum();
-    lights.set_if_neq(gathered.into_lights());
+    report.lights = lights.counts.iter().sum();
 }
 
 /// Visits lights that are shown in a fixed order, so that sums repeat, and reports those that are invalid.
@@ -77,71 +139,98 @@ fn each<L: Component>(
     }
 }
 
-struct Gathered<'a> {
-    view: &'a View,
-    ambient: Vec3,
-    /// Directional, point and spot lights.
-    lights: [Vec<Light<f64>>; 3],
+/// A light as it is, still in world space.
+struct Made {
+    place: WorldPlace,
+    source: Light<f64>,
 }
 
-impl Gathered<'_> {
-    fn directional(&mut self, light: &DirectionalLight, at: &GlobalTransform) -> Result<(), InvalidValue> {
-        light.validate()?;
-        self.add(light.along(self.direction(at)?)?);
-        Ok(())
+fn directional_light(light: &DirectionalLight, at: &GlobalTransform) -> Result<Made, InvalidValue> {
+    light.validate()?;
+    let direction = light_direction(at)?;
+    let source = light.along(direction.as_dvec3().to_array())?;
+    Ok(Made {
+        place: WorldPlace { position: Vec3::ZERO, direction, attenuation: [1.0, 0.0, 0.0], range: None },
+        source,
+    })
+}
+
+fn point_light(light: &PointLight, at: &GlobalTransform) -> Result<Made, InvalidValue> {
+    light.validate()?;
+    let position = light_position(at)?;
+    let source = light.at(position.as_dvec3().to_array());
+    Ok(Made { place: WorldPlace::new(light, position, Vec3::ZERO), source })
+}
+
+fn spot_light(spot: &SpotLight, at: &GlobalTransform) -> Result<Made, InvalidValue> {
+    spot.validate()?;
+    let position = light_position(at)?;
+    let direction = if spot.cone.is_none() { Vec3::NEG_Z } else { light_direction(at)? };
+    let source = spot.at(position.as_dvec3().to_array(), direction.as_dvec3().to_array())?;
+    Ok(Made { place: WorldPlace::new(&spot.light, position, direction), source })
+}
+
+impl WorldPlace {
+    fn new(light: &PointLight, position: Vec3, direction: Vec3) -> Self {
+        let Attenuation { constant, linear, quadratic } = light.attenuation;
+        Self { position, direction, attenuation: [constant, linear, quadratic], range: light.range }
+    }
+}
+
+impl Lights {
+    /// Forgets all lights.
+    fn begin(&mut self, ambient: Vec3) {
+        self.ambient = ambient;
+        self.records.clear();
+        self.sources.clear();
+        self.places.clear();
+        self.counts = [0; 3];
     }
 
-    fn point(&mut self, light: &PointLight, at: &GlobalTransform) -> Result<(), InvalidValue> {
-        light.validate()?;
-        self.add(light.at(self.position(at)?));
-        Ok(())
-    }
-
-    fn spot(&mut self, spot: &SpotLight, at: &GlobalTransform) -> Result<(), InvalidValue> {
-        spot.validate()?;
-        let position = self.position(at)?;
-        self.add(if spot.cone.is_none() { spot.light.at(position) } else { spot.at(position, self.direction(at)?)? });
-        Ok(())
-    }
-
-    fn add(&mut self, light: Light<f64>) {
-        if !light.attenuate_ambient {
-            self.ambient += Vec3::from_array(light.la.map(|channel| channel as f32));
+    fn add(&mut self, Made { place, source }: Made) {
+        if !source.attenuate_ambient {
+            self.ambient += Vec3::from_array(source.la.map(|channel| channel as f32));
         }
-        let kind = match (light.place, light.cone) {
+        let kind = match (source.place, source.cone) {
             (Place::Directional(_), _) => 0,
             (Place::Point(_), None) => 1,
             (Place::Point(_), Some(_)) => 2,
         };
-        self.lights[kind].push(light);
+        self.counts[kind] += 1;
+        self.records.push(LightRecord::from(&source));
+        self.sources.push(source.cast());
+        self.places.push(place);
     }
 
-    fn position(&self, at: &GlobalTransform) -> Result<[f64; 3], InvalidValue> {
-        let world = light_position(at)?.as_dvec3();
-        Ok(self.view.eye_from_world.transform_point3(world).to_array())
+    fn sum_up(&mut self) {
+        self.specular = self.records.iter().any(LightRecord::is_specular);
+        self.attenuated_ambient = self.records.iter().any(LightRecord::attenuates_ambient);
+        self.shared_color = self.records.iter().all(LightRecord::shares_color);
+        self.ranged = self.records.iter().any(LightRecord::is_ranged);
     }
 
-    fn direction(&self, at: &GlobalTransform) -> Result<[f64; 3], InvalidValue> {
-        let world: DVec3 = light_direction(at)?.as_dvec3();
-        Ok((self.view.eye_from_world.matrix3 * world).to_array())
-    }
-
-    fn into_lights(self) -> Lights {
-        let counts = self.lights.each_ref().map(|of_kind| of_kind.len() as u32);
-        let lights = self.lights.concat();
+    /// Puts every light where the view sees it.
+    fn place(&mut self, view: &View) {
         // The shaders' unit, or a longer one.
-        let unit = self.view.unit().recip();
-        let near = |light| LightRecord::from(&brought_near(light, FARTHEST, unit));
-        let records: Vec<_> = lights.iter().map(near).collect();
-        Lights {
-            ambient: self.ambient,
-            sources: lights.iter().map(|light| brought_near(light, FAR, 1.0).cast()).collect(),
-            counts,
-            specular: records.iter().any(LightRecord::is_specular),
-            attenuated_ambient: records.iter().any(LightRecord::attenuates_ambient),
-            shared_color: records.iter().all(LightRecord::shares_color),
-            ranged: records.iter().any(LightRecord::is_ranged),
-            records,
+        let unit = view.unit().recip();
+        for ((record, source), place) in self.records.iter_mut().zip(&mut self.sources).zip(&self.places) {
+            let direction = normalize_or_zero((view.eye_from_world.matrix3 * place.direction.as_dvec3()).to_array());
+            if let Place::Directional(_) = source.place {
+                let toward = direction.map(|x| -x as f32);
+                (source.place, record.position) = (Place::Directional(toward), toward);
+                continue;
+            }
+            let position = view.eye_from_world.transform_point3(place.position.as_dvec3());
+            let near = place.brought_near(position, FARTHEST, unit);
+            record.place(near.position, near.attenuation, near.range);
+            let near = place.brought_near(position, FAR, 1.0);
+            source.place = Place::Point(near.position.map(|x| x as f32));
+            source.attenuation = near.attenuation.map(|x| x as f32);
+            source.range = near.range.map(|x| x as f32);
+            if let Some(cone) = &mut source.cone {
+                cone.direction = direction.map(|x| x as f32);
+                record.direction = cone.direction;
+            }
         }
     }
 }
@@ -152,18 +241,25 @@ const FARTHEST: f64 = 9e18;
 /// The distance beyond which bounds, which take no squares of it, could leave f32.
 const FAR: f64 = 1e37;
 
-/// The same light, its lengths measured in a unit of `least` world units, or in a longer one where it would be farther than
-/// `farthest` of them. The direction is kept, so that near the eye, where what it lights is seen, it lights the same.
-fn brought_near(light: &Light<f64>, farthest: f64, least: f64) -> Light<f64> {
-    let Place::Point(position) = light.place else { return *light };
-    let position = DVec3::from_array(position);
-    let unit = (position.length() / farthest).max(least);
-    let [constant, linear, quadratic] = light.attenuation;
-    Light {
-        place: Place::Point((position / unit).to_array()),
-        attenuation: [constant, linear * unit, quadratic * unit * unit].map(|value| value.min(f64::from(f32::MAX))),
-        range: light.range.map(|range| range / unit),
-        ..*light
+/// Where a point or spot light is seen, and how it falls off, in a unit of length.
+struct Near {
+    position: [f64; 3],
+    attenuation: [f64; 3],
+    range: Option<f64>,
+}
+
+impl WorldPlace {
+    /// At a position in eye space, the lengths measured in a unit of `least` world units, or in a longer one where it would
+    /// be farther than `farthest` of them. The direction is kept, so that near the eye, where what it lights is seen, it
+    /// lights the same.
+    fn brought_near(&self, position: DVec3, farthest: f64, least: f64) -> Near {
+        let unit = (position.length() / farthest).max(least);
+        let [constant, linear, quadratic] = self.attenuation.map(f64::from);
+        Near {
+            position: (position / unit).to_array(),
+            attenuation: [constant, linear * unit, quadratic * unit * unit].map(|value| value.min(f64::from(f32::MAX))),
+            range: self.range.map(|range| f64::from(range) / unit),
+        }
     }
 }
 

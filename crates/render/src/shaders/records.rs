@@ -153,20 +153,10 @@ impl MaterialRecord {
 impl From<&Light<f64>> for LightRecord {
     /// Whatever leaves the range of f32 becomes the largest number in it.
     fn from(light: &Light<f64>) -> Self {
-        let number = |value: f64| value.min(f64::from(f32::MAX)) as f32;
         let vector = |v: [f64; 3]| v.map(|x| x as f32);
-        let [constant, linear, quadratic] = light.attenuation.map(number);
         let (Place::Point(position) | Place::Directional(position)) = light.place;
-        let mut record = Self {
-            position: vector(position),
-            inverse_range: light.range.map_or(0.0, |range| number(range.recip())),
-            diffuse: vector(light.ld),
-            specular: vector(light.ls),
-            constant,
-            linear,
-            quadratic,
-            ..Self::default()
-        };
+        let mut record = Self { diffuse: vector(light.ld), specular: vector(light.ls), ..Self::default() };
+        record.place(position, light.attenuation, light.range);
         if light.attenuate_ambient {
             record.ambient = vector(light.la);
         }
@@ -177,6 +167,20 @@ impl From<&Light<f64>> for LightRecord {
             (record.inner_scale, record.inner_offset) = inner_fade(cone);
         }
         record
+    }
+}
+
+/// The nearest number of f32, or the largest.
+fn number(value: f64) -> f32 {
+    value.min(f64::from(f32::MAX)) as f32
+}
+
+impl LightRecord {
+    /// Puts it somewhere, or toward somewhere, with its falloff in the same unit of length.
+    pub(crate) fn place(&mut self, position: [f64; 3], attenuation: [f64; 3], range: Option<f64>) {
+        self.position = position.map(|x| x as f32);
+        [self.constant, self.linear, self.quadratic] = attenuation.map(number);
+        self.inverse_range = range.map_or(0.0, |range| number(range.recip()));
     }
 }
 

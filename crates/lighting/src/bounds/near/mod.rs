@@ -1,11 +1,13 @@
 //! The lights near a region, side by side, for the patches that lie in it.
 
 mod chunk;
+#[expect(clippy::inline_always, reason = "what is not inlined is not compiled for the CPU's vectors")]
 mod power;
+#[expect(clippy::inline_always, reason = "what is not inlined is not compiled for the CPU's vectors")]
 mod wide;
 
 use super::select::{Selected, Term};
-use super::{LightTree, Receiver};
+use super::{LightTree, Receiver, Region};
 use crate::equations::Light;
 use chunk::{CHUNK, Chunk};
 use fearless_simd::Level;
@@ -38,23 +40,6 @@ struct Pack {
     chunks: Vec<Chunk>,
     /// What all others add to any point of the region at most, together.
     spent: f64,
-}
-
-/// A sphere that holds patches, and what they do with light.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Region {
-    /// The middle of the sphere, in the space of the evaluation.
-    pub center: [f32; 3],
-    /// Its radius.
-    pub radius: f32,
-    /// The largest coefficient of any patch in it: ambient, diffuse or specular, of any channel.
-    pub brightest: f32,
-    /// The least tolerance of any patch in it, in any channel.
-    pub tolerance: f64,
-}
-
-impl Region {
-    const EMPTY: Self = Self { center: [0.0; 3], radius: 0.0, brightest: 0.0, tolerance: 0.0 };
 }
 
 impl Default for NearLights {

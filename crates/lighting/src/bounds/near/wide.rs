@@ -5,6 +5,7 @@
 
 use super::chunk::{CHUNK, Chunk};
 use super::power::{self, POWER_ERROR};
+use crate::bounds::angle::Angle;
 use crate::bounds::receiver::{Lobe, MARGIN, Receiver};
 use crate::equations::{ATTENUATION_MAX, power};
 use fearless_simd::prelude::*;
@@ -110,7 +111,7 @@ const SLACK: f32 = 32.0 * f32::EPSILON;
 
 /// An angle in [0, π] as cosine and sine.
 #[derive(Clone, Copy)]
-struct Angle<S: Simd> {
+struct WideAngle<S: Simd> {
     cos: F<S>,
     sin: F<S>,
 }
@@ -168,14 +169,14 @@ fn scale<S: Simd>(a: V3<S>, s: F<S>) -> V3<S> {
     [a[0] * s, a[1] * s, a[2] * s]
 }
 
-impl<S: Simd> Angle<S> {
+impl<S: Simd> WideAngle<S> {
     #[inline(always)]
     fn splat(simd: S, cos: f32, sin: f32) -> Self {
         Self { cos: splat(simd, cos), sin: splat(simd, sin) }
     }
 
     #[inline(always)]
-    fn of(simd: S, angle: crate::bounds::angle::Angle<f32>) -> Self {
+    fn of(simd: S, angle: Angle<f32>) -> Self {
         Self::splat(simd, angle.cos, angle.sin)
     }
 
@@ -231,10 +232,10 @@ impl<S: Simd> Angle<S> {
 }
 
 /// The lights as they arrive at the points of the patch.
-struct Arrival<S: Simd> {
+struct WideArrival<S: Simd> {
     axis: V3<S>,
-    spread: Angle<S>,
-    rise: Angle<S>,
+    spread: WideAngle<S>,
+    rise: WideAngle<S>,
     /// Of those from which nothing arrives 0.
     weight: F<S>,
     odd: M<S>,
@@ -243,7 +244,7 @@ struct Arrival<S: Simd> {
 #[inline(always)]
 fn bounds<S: Simd>(simd: S, receiver: &Receiver<f32>, lights: &Chunk, tolerance: [f32; 3]) -> Found {
     let zero = splat(simd, 0.0);
-    let Arrival { axis, spread, rise, weight, odd } = arrival(simd, receiver, lights);
+    let WideArrival { axis, spread, rise, weight, odd } = arrival(simd, receiver, lights);
     let odd = odd.to_bitmask() as u32;
     let arrives = weight.simd_gt(zero);
     if !arrives.any_true() {
@@ -274,7 +275,7 @@ fn bounds<S: Simd>(simd: S, receiver: &Receiver<f32>, lights: &Chunk, tolerance:
 }
 
 #[inline(always)]
-fn arrival<S: Simd>(simd: S, receiver: &Receiver<f32>, lights: &Chunk) -> Arrival<S> {
+fn arrival<S: Simd>(simd: S, receiver: &Receiver<f32>, lights: &Chunk) -> WideArrival<S> {
     let (zero, one) = (splat(simd, 0.0), splat(simd, 1.0));
     let (radius, coincident) = (splat(simd, receiver.radius), splat(simd, receiver.coincident));
     let place = load3(simd, &lights.place);
@@ -289,7 +290,7 @@ fn arrival<S: Simd>(simd: S, receiver: &Receiver<f32>, lights: &Chunk) -> Arriva
     let in_range = (square * splat(simd, 1.0 - SLACK * 4.0)).simd_le(end * end);
     let distance = square.sqrt();
     let axis = scale::<S>(offset, one / distance);
-    let spread = Angle::subtended(simd, radius, distance);
+    let spread = WideAngle::subtended(simd, radius, distance);
     let beyond_sphere = distance * splat(simd, 1.0 - SLACK) - splat(simd, receiver.radius * (1.0 + SLACK));
     let (beyond_slab, rise) = slab(simd, receiver, offset, distance);
     let nearest = max::<S>(max::<S>(beyond_sphere, beyond_slab), zero);
@@ -311,21 +312,21 @@ fn arrival<S: Simd>(simd: S, receiver: &Receiver<f32>, lights: &Chunk) -> Arriva
         everywhere.select(zero, is_point.select(axis[1], place[1])),
         everywhere.select(zero, is_point.select(axis[2], place[2])),
     ];
-    let spread = Angle::select(is_point, spread, Angle::splat(simd, 1.0, 0.0));
-    let spread = Angle::select(everywhere, Angle::splat(simd, -1.0, 0.0), spread);
-    let rise = Angle::select(is_point, rise, Angle::splat(simd, 1.0, 0.0));
-    let rise = Angle::select(everywhere, Angle::splat(simd, 1.0, 0.0), rise);
+    let spread = WideAngle::select(is_point, spread, WideAngle::splat(simd, 1.0, 0.0));
+    let spread = WideAngle::select(everywhere, WideAngle::splat(simd, -1.0, 0.0), spread);
+    let rise = WideAngle::select(is_point, rise, WideAngle::splat(simd, 1.0, 0.0));
+    let rise = WideAngle::select(everywhere, WideAngle::splat(simd, 1.0, 0.0), rise);
     let weight = is_point.select(weight, one);
     let weight = if lights.has_cones { through_cones(simd, lights, axis, spread, weight) } else { weight };
-    Arrival { axis, spread, rise, weight, odd: is_point & !safe }
+    WideArrival { axis, spread, rise, weight, odd: is_point & !safe }
 }
 
 /// The weights of lights, in their cones.
 #[inline(always)]
-fn through_cones<S: Simd>(simd: S, lights: &Chunk, axis: V3<S>, spread: Angle<S>, weight: F<S>) -> F<S> {
+fn through_cones<S: Simd>(simd: S, lights: &Chunk, axis: V3<S>, spread: WideAngle<S>, weight: F<S>) -> F<S> {
     let zero = splat(simd, 0.0);
     let from = [-axis[0], -axis[1], -axis[2]];
-    let cos = Angle::between(from, load3(simd, &lights.direction)).cos_within(simd, spread);
+    let cos = WideAngle::between(from, load3(simd, &lights.direction)).cos_within(simd, spread);
     let (cutoff, inner) = (load(simd, &lights.cos_cutoff), load(simd, &lights.cos_inner));
     let inside = cos.simd_ge(cutoff) & weight.simd_gt(zero);
     let factor = if lights.has_exponents {
@@ -347,9 +348,9 @@ fn through_cones<S: Simd>(simd: S, lights: &Chunk, axis: V3<S>, spread: Angle<S>
 }
 
 #[inline(always)]
-fn slab<S: Simd>(simd: S, receiver: &Receiver<f32>, offset: V3<S>, distance: F<S>) -> (F<S>, Angle<S>) {
+fn slab<S: Simd>(simd: S, receiver: &Receiver<f32>, offset: V3<S>, distance: F<S>) -> (F<S>, WideAngle<S>) {
     let (zero, one) = (splat(simd, 0.0), splat(simd, 1.0));
-    let level = Angle::splat(simd, 1.0, 0.0);
+    let level = WideAngle::splat(simd, 1.0, 0.0);
     if !receiver.is_flat() {
         return (zero, level);
     }
@@ -365,20 +366,20 @@ fn slab<S: Simd>(simd: S, receiver: &Receiver<f32>, offset: V3<S>, distance: F<S
     let top = height + half_thickness + blur;
     let cos = top / top.simd_lt(zero).select(distance + radius + blur, nearest);
     let sin = max::<S>((one - cos) * (one + cos), zero).sqrt();
-    (nearest, Angle::select(cos.simd_lt(one), Angle { cos, sin }, level))
+    (nearest, WideAngle::select(cos.simd_lt(one), WideAngle { cos, sin }, level))
 }
 
 #[inline(always)]
-fn facing<S: Simd>(simd: S, receiver: &Receiver<f32>, axis: V3<S>, spread: Angle<S>, rise: Angle<S>) -> F<S> {
-    let normals = Angle::of(simd, receiver.normals.spread);
-    let angle = Angle::between(splat3(simd, receiver.normals.axis), axis).side(receiver);
+fn facing<S: Simd>(simd: S, receiver: &Receiver<f32>, axis: V3<S>, spread: WideAngle<S>, rise: WideAngle<S>) -> F<S> {
+    let normals = WideAngle::of(simd, receiver.normals.spread);
+    let angle = WideAngle::between(splat3(simd, receiver.normals.axis), axis).side(receiver);
     let by_sphere = angle.cos_within(simd, normals.plus(simd, spread));
     min::<S>(min::<S>(by_sphere, rise.cos_within(simd, normals)), splat(simd, 1.0))
 }
 
 /// The cosines that the highlights are powers of.
 #[inline(always)]
-fn highlight<S: Simd>(simd: S, receiver: &Receiver<f32>, axis: V3<S>, l_spread: Angle<S>) -> F<S> {
+fn highlight<S: Simd>(simd: S, receiver: &Receiver<f32>, axis: V3<S>, l_spread: WideAngle<S>) -> F<S> {
     let k = splat3(simd, receiver.normals.axis);
     let view = splat3(simd, receiver.view.axis);
     match receiver.lobe {
@@ -386,16 +387,16 @@ fn highlight<S: Simd>(simd: S, receiver: &Receiver<f32>, axis: V3<S>, l_spread: 
             let sum = [axis[0] + view[0], axis[1] + view[1], axis[2] + view[2]];
             let length = dot::<S>(sum, sum).sqrt();
             let moved = l_spread.chord(simd) + splat(simd, view_chord) + splat(simd, SLACK);
-            let spread = Angle::subtended(simd, moved, length);
+            let spread = WideAngle::subtended(simd, moved, length);
             let h = scale::<S>(sum, splat(simd, 1.0) / max::<S>(length, splat(simd, SLACK)));
-            let angle = Angle::between(k, h).side(receiver);
-            angle.cos_within(simd, Angle::of(simd, receiver.normals.spread).plus(simd, spread))
+            let angle = WideAngle::between(k, h).side(receiver);
+            angle.cos_within(simd, WideAngle::of(simd, receiver.normals.spread).plus(simd, spread))
         }
         Lobe::Mirror { spread } => {
             let nl = dot::<S>(k, axis);
             let twice = nl + nl;
             let r = [k[0] * twice - axis[0], k[1] * twice - axis[1], k[2] * twice - axis[2]];
-            Angle::between(r, view).cos_within(simd, Angle::of(simd, spread).plus(simd, l_spread))
+            WideAngle::between(r, view).cos_within(simd, WideAngle::of(simd, spread).plus(simd, l_spread))
         }
     }
 }
