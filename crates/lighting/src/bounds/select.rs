@@ -160,11 +160,15 @@ impl<T: Real> Selected<T> {
                 }
                 continue;
             }
+            let strong = [self.diffuse.len(), self.specular.len()];
             for item in kept {
                 self.list(item.term).push(item.light);
             }
-            self.diffuse.sort_unstable();
-            self.specular.sort_unstable();
+            for (list, strong) in [(&mut self.diffuse, strong[0]), (&mut self.specular, strong[1])] {
+                if list.len() > strong {
+                    list.sort_unstable();
+                }
+            }
             break true;
         };
         self.weak = weak;

@@ -28,7 +28,8 @@ pub struct LightTree {
     leaves: Vec<LightLeaf>,
     /// Level upon level, the leaves' first; each node of those above has up to eight below it.
     levels: Vec<Vec<LightNode>>,
-    keys: Vec<(u32, u32)>,
+    /// Places on a curve, and the numbers of the lights.
+    keys: Vec<u64>,
 }
 
 /// A light, as far as is known without its patch.
@@ -77,11 +78,10 @@ impl Falloff {
 }
 
 /// A region as lights are looked for around it.
-struct LightSearch {
-    center: [f32; 3],
-    /// With the distance from which a light counts as being at a point of it.
-    radius: f32,
-    brightest: f32,
+struct LightSearch<'a> {
+    region: &'a Region,
+    /// The distance from which a light may count as being at a point of it, and what its corners are rounded by.
+    margin: f32,
     /// What each light may add unseen.
     quota: f64,
 }
@@ -95,12 +95,12 @@ enum Visit {
     Open,
 }
 
-impl LightSearch {
+impl LightSearch<'_> {
     /// Of lights in a box.
     fn visit_to(&self, low: [f32; 3], high: [f32; 3], falloff: &Falloff, count: u32) -> Visit {
-        let beside = |k: usize| (low[k] - self.center[k]).max(self.center[k] - high[k]).max(0.0);
+        let beside = |k: usize| (low[k] - self.region.high[k]).max(self.region.low[k] - high[k]).max(0.0);
         let [x, y, z] = [beside(0), beside(1), beside(2)];
-        let distance = (x * x + y * y + z * z).sqrt() * (1.0 - SLACK) - self.radius;
+        let distance = (x * x + y * y + z * z).sqrt() * (1.0 - SLACK) - self.margin;
         if distance > falloff.range {
             return Visit::Nothing;
         }
@@ -109,7 +109,7 @@ impl LightSearch {
             return Visit::Open;
         }
         let weight = attenuation(falloff.attenuation, distance).max(f32::MIN_POSITIVE) * (1.0 + SLACK);
-        let most = f64::from(self.brightest * falloff.colour * weight);
+        let most = f64::from(self.region.brightest * falloff.colour * weight);
         if most <= self.quota * f64::from(count) { Visit::Little(most) } else { Visit::Open }
     }
 }
@@ -123,22 +123,23 @@ impl LightTree {
         let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
         for (light, number) in lights.iter().zip(0..) {
             match light.place {
-                Place::Directional(_) => self.everywhere.push(number),
+                Place::Directional(_) => self.everywhere.push(number as u32),
                 Place::Point(at) => {
                     low = [0, 1, 2].map(|k| low[k].min(at[k]));
                     high = [0, 1, 2].map(|k| high[k].max(at[k]));
-                    self.keys.push((0, number));
+                    self.keys.push(number);
                 }
             }
         }
         let cells = [0, 1, 2].map(|k| 1023.0 / (high[k] - low[k]).max(f32::MIN_POSITIVE));
-        for (key, number) in &mut self.keys {
-            let (Place::Point(at) | Place::Directional(at)) = lights[*number as usize].place;
-            let cell = |k: usize| spread(((at[k] - low[k]) * cells[k]) as u32) << k;
-            *key = cell(0) | cell(1) | cell(2);
+        for key in &mut self.keys {
+            let (Place::Point(at) | Place::Directional(at)) = lights[*key as usize].place;
+            let cell = |k: usize| u64::from(spread(((at[k] - low[k]) * cells[k]) as u32)) << k;
+            *key |= (cell(0) | cell(1) | cell(2)) << 32;
         }
         self.keys.sort_unstable();
-        self.leaves.extend(self.keys.iter().map(|&(_, number)| {
+        self.leaves.extend(self.keys.iter().map(|&key| {
+            let number = key as u32;
             let light = &lights[number as usize];
             let (Place::Point(position) | Place::Directional(position)) = light.place;
             LightLeaf { number, position, falloff: Falloff::of(light) }
@@ -173,10 +174,8 @@ impl LightTree {
     pub(super) fn find(&self, region: &Region, unseen: f64, numbers: &mut Vec<u32>) -> f64 {
         let quota = unseen * region.tolerance / self.leaves.len().max(1) as f64;
         numbers.extend(&self.everywhere);
-        let [x, y, z] = region.center;
-        let far = x.abs() + y.abs() + z.abs() + region.radius;
-        let radius = (region.radius + COINCIDENT * far) * (1.0 + SLACK);
-        let search = LightSearch { center: region.center, radius, brightest: region.brightest, quota };
+        let margin = (COINCIDENT + 4.0 * f32::EPSILON) * region.farthest() * (1.0 + SLACK);
+        let search = LightSearch { region, margin, quota };
         let mut spent = 0.0;
         if let Some(top) = self.levels.len().checked_sub(1) {
             self.visit(&search, top, 0..self.levels[top].len(), numbers, &mut spent);

@@ -14,13 +14,9 @@ fn region(scene: &Scene, (way, room): ([f32; 3], f32), tolerance: [f64; 3]) -> R
     let offset = room * scene.radius.max(1e-3);
     let Material { ambient, diffuse, specular, .. } = scene.material;
     let brightest = [ambient, diffuse, specular].iter().flat_map(|it| [it.red, it.green, it.blue]).fold(0.0, f32::max);
-    Region {
-        center: [0, 1, 2].map(|k| scene.center[k] + way[k] * offset),
-        // More than the centre is rounded by.
-        radius: (scene.radius + offset) * 1.001 + 1e-4,
-        brightest,
-        tolerance: tolerance.into_iter().fold(f64::INFINITY, f64::min),
-    }
+    let tolerance = tolerance.into_iter().fold(f64::INFINITY, f64::min);
+    let aside = [0, 1, 2].map(|k| scene.center[k] + way[k] * offset);
+    Region { brightest, tolerance, ..Region::EMPTY }.with(scene.center, scene.radius).with(aside, scene.radius)
 }
 
 /// The lists of a patch by way of a tree, and how many pairs were looked at.
@@ -76,9 +72,9 @@ fn floor() -> Vec<(Region, Vec<Patch<f32>>)> {
     (0..64)
         .map(|i| {
             let (x, z) = (i % 8 * 16, i / 8 * 16);
-            let center = [x as f32 - 56.0, 0.0, z as f32 - 56.0];
-            let patches = (0..256).map(|k| patch(x + k % 16, z + k / 16)).collect();
-            (Region { center, radius: 11.4, brightest: 1.0, tolerance: TOLERANCE }, patches)
+            let patches: Vec<_> = (0..256).map(|k| patch(x + k % 16, z + k / 16)).collect();
+            let nowhere = Region { brightest: 1.0, tolerance: TOLERANCE, ..Region::EMPTY };
+            (patches.iter().fold(nowhere, |region, patch| region.with(patch.center, patch.radius)), patches)
         })
         .collect()
 }
@@ -133,13 +129,31 @@ fn where_the_weak_are_too_many_each_is_looked_at() {
     // All fit, the thousand unseen; the thousand fit unseen, but not all ten beside them.
     for (share, pairs, kept) in [(100.0, 10, 0), (0.99, 1010, 1), (0.74, 1010, 6)] {
         let tolerance = sum * share;
-        let region = Region { center: [0.0; 3], radius: 1.0, brightest: 1.0, tolerance };
+        let region = Region { brightest: 1.0, tolerance, ..Region::EMPTY }.with(patch.center, patch.radius);
         near.begin(region);
         let (mut selected, mut plain) = (Selected::default(), Selected::default());
         near.select(&tree, &lights, &receiver, [tolerance; 3], &mut selected);
         receiver.select((0..).zip(&lights), [tolerance; 3], &mut plain);
         assert_eq!((&selected.diffuse, &selected.specular), (&plain.diffuse, &plain.specular), "{share}");
         assert_eq!((near.take_pairs(), selected.diffuse.len()), (pairs, kept), "{share}");
+    }
+}
+
+#[test]
+fn patches_without_bounds_are_reached_by_all_lights() {
+    let lights: Vec<Light<f32>> = (0..40).map(|i| lamp([i as f32, 0.0, 0.0], Some(2.0))).collect();
+    let mut tree = LightTree::default();
+    tree.rebuild(&lights);
+    let material = Coefficients::from(&Material::BRASS);
+    for (center, radius) in [([0.0; 3], f32::INFINITY), ([0.0; 3], f32::NAN), ([f32::NAN, 0.0, 0.0], 1.0)] {
+        let patch = Patch { center, radius, normals: None, half_thickness: radius, faces: Faces::Front };
+        let receiver = Receiver::new(&patch, &material, &Eye::Local([0.0; 3]), Reflectance::BlinnPhong);
+        let (mut near, mut selected, mut plain) = (NearLights::default(), Selected::default(), Selected::default());
+        near.begin(Region { brightest: 1.0, tolerance: 0.0, ..Region::EMPTY }.with(center, radius));
+        near.select(&tree, &lights, &receiver, [0.0; 3], &mut selected);
+        receiver.select((0..).zip(&lights), [0.0; 3], &mut plain);
+        assert_eq!((&selected.diffuse, &selected.specular), (&plain.diffuse, &plain.specular), "{patch:?}");
+        assert_eq!(near.take_pairs(), 40);
     }
 }
 

@@ -210,25 +210,30 @@ impl Lights {
     }
 
     /// Puts every light where the view sees it.
+    #[expect(clippy::float_cmp, reason = "a unit that nothing was done to is 1 exactly")]
     fn place(&mut self, view: &View) {
         // The shaders' unit, or a longer one.
         let unit = view.unit().recip();
+        let toward = |direction: Vec3| {
+            let direction = (view.eye_from_world.matrix3 * direction.as_dvec3()).to_array();
+            normalize_or_zero(direction).map(|x| x as f32)
+        };
         for ((record, source), place) in self.records.iter_mut().zip(&mut self.sources).zip(&self.places) {
-            let direction = normalize_or_zero((view.eye_from_world.matrix3 * place.direction.as_dvec3()).to_array());
             if let Place::Directional(_) = source.place {
-                let toward = direction.map(|x| -x as f32);
-                (source.place, record.position) = (Place::Directional(toward), toward);
+                let from = toward(place.direction).map(|x| -x);
+                (source.place, record.position) = (Place::Directional(from), from);
                 continue;
             }
             let position = view.eye_from_world.transform_point3(place.position.as_dvec3());
             let near = place.brought_near(position, FARTHEST, unit);
             record.place(near.position, near.attenuation, near.range);
-            let near = place.brought_near(position, FAR, 1.0);
+            // In the unit of the world, or a longer one; which is mostly the same.
+            let near = if near.unit == 1.0 { near } else { place.brought_near(position, FAR, 1.0) };
             source.place = Place::Point(near.position.map(|x| x as f32));
             source.attenuation = near.attenuation.map(|x| x as f32);
             source.range = near.range.map(|x| x as f32);
             if let Some(cone) = &mut source.cone {
-                cone.direction = direction.map(|x| x as f32);
+                cone.direction = toward(place.direction);
                 record.direction = cone.direction;
             }
         }
@@ -243,6 +248,8 @@ const FAR: f64 = 1e37;
 
 /// Where a point or spot light is seen, and how it falls off, in a unit of length.
 struct Near {
+    /// In world units.
+    unit: f64,
     position: [f64; 3],
     attenuation: [f64; 3],
     range: Option<f64>,
@@ -256,6 +263,7 @@ impl WorldPlace {
         let unit = (position.length() / farthest).max(least);
         let [constant, linear, quadratic] = self.attenuation.map(f64::from);
         Near {
+            unit,
             position: (position / unit).to_array(),
             attenuation: [constant, linear * unit, quadratic * unit * unit].map(|value| value.min(f64::from(f32::MAX))),
             range: self.range.map(|range| f64::from(range) / unit),

@@ -95,18 +95,14 @@ impl LightLists {
     }
 
     /// Looks for the lights near patches in these spheres, of an object with this listing.
-    pub(crate) fn look_around(&mut self, listing: &Listing, spheres: impl Iterator<Item = (Vec3, f32)> + Clone) {
-        let middle = |low: Vec3, high: Vec3| 0.5 * low + 0.5 * high;
-        let all = |of: fn(Vec3, Vec3) -> Vec3| spheres.clone().map(|(center, _)| center).reduce(of).unwrap_or_default();
-        let center = middle(all(Vec3::min), all(Vec3::max));
-        let reach = |(at, radius): (Vec3, f32)| at.distance(center) + radius;
+    pub(crate) fn look_around(&mut self, listing: &Listing, spheres: impl Iterator<Item = (Vec3, f32)>) {
         let Coefficients { ka, kd, ks, .. } = listing.material;
-        self.near.begin(Region {
-            center: center.to_array(),
-            radius: spheres.map(reach).fold(0.0, f32::max) * (1.0 + 1e-5),
+        let nowhere = Region {
             brightest: [ka, kd, ks].into_iter().flatten().fold(0.0, f32::max),
             tolerance: listing.tolerance.into_iter().fold(f64::INFINITY, f64::min),
-        });
+            ..Region::EMPTY
+        };
+        self.near.begin(spheres.fold(nowhere, |region, (center, radius)| region.with(center.to_array(), radius)));
     }
 
     /// Selects the lights that `patch`, one of those last looked around, needs: those left out change no channel of a
@@ -134,7 +130,7 @@ impl LightLists {
         let (highlit, rest) = self.set.split_at(specular.len());
         let [highlit, rest] = [highlit, rest].map(|numbers| split(numbers, lights.counts));
         let needed = highlit.map(|of_kind| of_kind.len() as u32);
-        let counts = filled_up([0, 1, 2].map(|kind| needed[kind] + rest[kind].len() as u32))?;
+        let counts = filled_up([0, 1, 2].map(|kind| needed[kind] + rest[kind].len() as u32), lights.counts)?;
         let highlights = if take_powers { Highlights::at_least(needed, counts) } else { Highlights::All };
         if let Some(last) = self.last_bound
             && self.last_set == self.set
@@ -203,7 +199,11 @@ impl LightLists {
 
 /// The lights that `others` lack; both ascend.
 fn without<'a>(lights: &'a [u32], others: &'a [u32]) -> impl Iterator<Item = &'a u32> {
-    lights.iter().filter(|light| others.binary_search(light).is_err())
+    let mut others = others.iter().peekable();
+    lights.iter().filter(move |light| {
+        while others.next_if(|other| other < light).is_some() {}
+        others.peek() != Some(light)
+    })
 }
 
 /// Appends lights, which are sorted by kind; how many of each, and where they begin.

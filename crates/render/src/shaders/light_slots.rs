@@ -57,17 +57,18 @@ impl Highlights {
 }
 
 /// The numbers of directional, point and spot lights that have pipelines of their own where patches are lit by few of many lights.
-/// A patch with other numbers is filled up with black ones; one with more reads lists.
-const STEPS: [&[u32]; 3] = [&[0, 1, 2, 4, 8], &[0, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32], &[0, 1, 2, 4, 8, 16]];
+/// A patch with other numbers is filled up with black ones, up to what the scene has of the kind; one with more reads lists.
+const STEPS: [&[u32]; 3] = [&[0, 1, 2, 4, 8, 12, 16], &[0, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32], &[0, 1, 2, 4, 8, 16]];
 
-/// The numbers of lights of each kind to fill `counts` up to; `None` where they are too many.
-pub(crate) fn filled_up(counts: [u32; 3]) -> Option<[u32; 3]> {
+/// The numbers of lights of each kind to fill `counts` up to, of a scene with so many in `all`, which no patch exceeds; `None`
+/// where they are too many.
+pub(crate) fn filled_up(counts: [u32; 3], all: [u32; 3]) -> Option<[u32; 3]> {
     let mut filled = [0; 3];
-    for ((filled, steps), count) in filled.iter_mut().zip(STEPS).zip(counts) {
-        *filled = *steps.iter().find(|&&step| step >= count)?;
+    for (((filled, steps), count), all) in filled.iter_mut().zip(STEPS).zip(counts).zip(all) {
+        *filled = all.min(*steps.iter().find(|&&step| step >= count)?);
     }
     Some(filled)
 }
 
 /// The most lights that are bound at fixed places.
-pub(crate) const BOUND_LIGHTS: u32 = 8 + 32 + 16;
+pub(crate) const BOUND_LIGHTS: u32 = 16 + 32 + 16;

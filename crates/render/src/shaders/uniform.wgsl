@@ -2,16 +2,19 @@
 // records.wgsl.
 
 @group(0) @binding(1) var<uniform> draws: array<Draw, 1>;
-@group(0) @binding(2) var<uniform> lights: array<Light, 56>;
+@group(0) @binding(2) var<uniform> lights: array<Light, 64>;
 
 // The terms of the i-th of `count` lights of one kind.
 fn of_first(terms: Terms, i: u32, count: u32) -> Terms {
     return Terms(terms.diffuse, terms.specular && i < HIGHLIGHTS * count / 2u);
 }
 
-fn add_directional(p: vec3f, n: vec3f, v: vec3f, shininess: f32, terms: Terms) -> Irradiance {
-    var sum = Irradiance();
-    for (var i = 0u; i < DIRECTIONAL; i++) {
+// Adds the directional lights of the numbers `start` to `start` + 7.
+fn add_directional(
+    before: Irradiance, start: u32, p: vec3f, n: vec3f, v: vec3f, shininess: f32, terms: Terms,
+) -> Irradiance {
+    var sum = before;
+    for (var i = start; i < min(DIRECTIONAL, start + 8u); i++) {
         let incident = Incidence(lights[i].position, 1.0);
         sum = plus(sum, irradiance(lights[i], incident, n, v, shininess, of_first(terms, i, DIRECTIONAL)));
     }
