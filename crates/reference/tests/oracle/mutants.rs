@@ -283,6 +283,10 @@ fn an_outline_moved_by_a_quarter_of_a_pixel_is_found() {
     }
 }
 
+/// By how much an exponent has to be off, as a factor, to be found on a grid of four bits: on every slope the colours within
+/// 1/16 of a pixel are right there, and an exponent that is off by less changes none of these pictures by more.
+const COARSE_EXPONENT: f32 = 1.04;
+
 #[test]
 fn an_exponent_one_hundredth_off_is_found() {
     for shading in [Shading::Gouraud, Shading::Phong] {
@@ -292,9 +296,12 @@ fn an_exponent_one_hundredth_off_is_found() {
             let verdict = float(&oracle(&mut balls(looks(1.0), shading, Mesh::clone)), &picture);
             assert!(!verdict.is_within(), "{shading:?}, {shininess}: {verdict}");
             // What is as small as a coarse grid moves things can be found only on a fine one.
-            let picture = oracle(&mut balls(looks(1.1), shading, Mesh::clone)).draw();
-            let verdict = coarse(&oracle(&mut balls(looks(1.0), shading, Mesh::clone)), &picture);
-            assert!(!verdict.is_within(), "{shading:?}, {shininess}, on a grid of four bits: {verdict}");
+            for (factor, is_found) in [(1.01, false), (COARSE_EXPONENT, true)] {
+                let picture = oracle(&mut balls(looks(factor), shading, Mesh::clone)).draw();
+                let verdict = coarse(&oracle(&mut balls(looks(1.0), shading, Mesh::clone)), &picture);
+                println!("{shading:?}, {shininess} times {factor}, on a grid of four bits: {verdict}");
+                assert_eq!(!verdict.is_within(), is_found, "{shading:?}, {shininess} times {factor}: {verdict}");
+            }
         }
     }
 }
@@ -426,6 +433,27 @@ fn four_samples(oracle: &Oracle, extrapolated: bool) -> Image {
         std::array::from_fn(|k| samples.iter().map(|color| color[k]).sum::<f64>() / 4.0)
     };
     Image::new(SIZE, SIZE, all_pixels().map(pixel).collect())
+}
+
+#[test]
+fn what_only_the_centres_meet_is_found_with_four_samples() {
+    // A bar from top to bottom between the samples of column 48: the oracle's own picture, of the centres, shows it.
+    let mut truth = Stage::new();
+    *truth.camera() = Camera { samples: Samples::Four, ..*truth.camera() };
+    let half = SIZE as f32 / 2.0;
+    let [left, right] = [48.49, 48.51].map(|x| (x - half) / half);
+    truth.add(panel(left, right, -9.0, 9.0, 1.0), glow(1.0, 0.8, 0.6));
+    truth.add(wall(30.0, 8.0), glow(0.2, 0.3, 0.4));
+    let judged = oracle(&mut truth);
+    let (of_centres, right) = (judged.draw(), four_samples(&judged, false));
+    let (bar, wall) = (of_centres.pixel(48, 40), right.pixel(48, 40));
+    assert!(bar[0] > wall[0] + 0.5, "the centres meet the bar and the samples do not");
+    let verdict = float(&judged, &right);
+    assert!(verdict.is_within(), "{verdict}");
+    assert_caught("the bar where no sample meets it", &mut truth, &of_centres);
+    assert_caught("the bar in one pixel", &mut truth, &with(&right, [((48, 40), bar)]));
+    let quarter = std::array::from_fn(|k| 0.75 * wall[k] + 0.25 * bar[k]);
+    assert_caught("the bar in one sample", &mut truth, &with(&right, [((48, 40), quarter)]));
 }
 
 #[test]

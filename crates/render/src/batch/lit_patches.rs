@@ -35,8 +35,6 @@ pub(crate) struct LitPatches {
     pub(crate) records: Vec<DrawRecord>,
     pub(crate) lists: LightLists,
     pub(crate) table: ObjectTable,
-    /// Which of some patches are seen.
-    seen: Vec<usize>,
 }
 
 /// Neighbouring patches of an object that are drawn alike.
@@ -95,6 +93,7 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
     let (Some(camera), Some(values)) = (&view.camera, values.0) else { return };
     let (encoding, viewer, costs) = (values.encoding(), camera.viewer, backend.costs());
     let shared = Shared { lights: &lights, allowed: &allowed, encoding, viewer, costs };
+    let mut seen = Vec::new();
     for &entity in &visible.0 {
         let Ok((mesh, material, back, reflectance, faces, blend, model_view, normal_matrix, chosen, name)) =
             objects.get(entity)
@@ -137,7 +136,7 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
             model_view,
             normal_matrix,
         };
-        lit.add(&object, &view, shared, &mut *backend, &mut report);
+        lit.add(&object, &mut seen, &view, shared, &mut *backend, &mut report);
     }
     report.materials = lit.table.materials_in_use();
     report.lights_assigned = lit.lists.assigned;
@@ -171,10 +170,11 @@ impl LitPatches {
         self.table.begin(lights.ambient);
     }
 
-    /// Adds what is seen of an object: its patches, neighbours with equal light lists joined.
-    fn add(
+    /// Adds what is seen of an object: its patches, neighbours with equal light lists joined. `seen` is room for them.
+    fn add<'a>(
         &mut self,
-        object: &LitObject,
+        object: &LitObject<'a>,
+        seen: &mut Vec<&'a MeshPatch>,
         view: &View,
         shared: Shared,
         backend: &mut impl Backend,
@@ -199,24 +199,21 @@ impl LitPatches {
             let eye = equations::Eye::in_eye_space(shared.viewer);
             reflecting.reflector(key.terms).listing(shared.lights.ambient, eye, shared.encoding)
         });
-        // The object as a whole has been found to be seen.
-        let whole = patches.len() == 1;
+        seen.clear();
+        if let [whole] = patches {
+            // The object has been found to be seen.
+            seen.push(whole);
+        } else {
+            seen.extend(patches.iter().filter(|it| it.is_seen(model_view, normal_matrix, view, reflecting.faces)));
+            report.patches += patches.len() as u32;
+            report.patches_culled += (patches.len() - seen.len()) as u32;
+        }
         let mut run: Option<OpenRun> = None;
-        for together in patches.chunks(TOGETHER) {
-            let is_seen =
-                |patch: &&MeshPatch| whole || patch.is_seen(model_view, normal_matrix, view, reflecting.faces);
-            self.seen.clear();
-            self.seen.extend((0..).zip(together).filter(|(_, patch)| is_seen(patch)).map(|(i, _)| i));
-            if !whole {
-                report.patches += together.len() as u32;
-                report.patches_culled += (together.len() - self.seen.len()) as u32;
-            }
+        for together in seen.chunks(TOGETHER) {
             if let Some(listing) = &listing {
-                let spheres = self.seen.iter().map(|&i| together[i].sphere(model_view));
-                self.lists.look_around(listing, spheres);
+                self.lists.look_around(listing, together.iter().map(|patch| patch.sphere(model_view)));
             }
-            for place in 0..self.seen.len() {
-                let patch = &together[self.seen[place]];
+            for patch in together {
                 let (key, lights, lists) = match &listing {
                     Some(listing) => self.lit(object, patch, listing, shared, backend),
                     None => (admitted, 0, RecordLists::default()),

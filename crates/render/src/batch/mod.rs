@@ -2,6 +2,7 @@
 
 pub(crate) mod backend;
 pub(crate) mod batches;
+pub(crate) mod drawn_meshes;
 pub(crate) mod draws;
 pub(crate) mod key;
 pub(crate) mod lit_patches;

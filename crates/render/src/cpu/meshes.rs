@@ -1,31 +1,17 @@
 //! Upload: meshes as the rasterizer takes them.
 
 use crate::batch::batches::Batches;
-use crate::error::RenderError;
+use crate::batch::drawn_meshes::DrawnMeshes;
 use crate::frame::report::FrameReport;
-use crate::geometry::detail::Detail;
 use crate::geometry::meshes::{Form, Geometries, Geometry};
-use crate::geometry::workshop::is_same;
 use bevy_asset::AssetId;
 use bevy_ecs::prelude::*;
-use bevy_platform::collections::HashMap;
 use halfway_mesh::Mesh;
 use halfway_raster::{Pieces, RasterError, TriangleOrder};
-use std::sync::Arc;
 
 /// The meshes that have been drawn, in pieces, until they change or go.
 #[derive(Resource, Default)]
-pub(crate) struct MeshPieces {
-    meshes: HashMap<(AssetId<Mesh>, Form), MadeReady>,
-    /// Of the geometries when these were last looked through.
-    forgotten: u64,
-}
-
-struct MadeReady {
-    pieces: Pieces,
-    source: Mesh,
-    detail: Arc<Detail>,
-}
+pub(crate) struct MeshPieces(DrawnMeshes<Pieces>);
 
 /// Cuts the meshes that are drawn and not there yet. What the memory is refused for is not drawn, and its error is in the
 /// report, every frame anew.
@@ -35,47 +21,16 @@ pub(crate) fn make_ready(
     mut meshes: ResMut<MeshPieces>,
     mut report: ResMut<FrameReport>,
 ) {
-    if meshes.forgotten != geometries.forgotten {
-        meshes.forgotten = geometries.forgotten;
-        meshes.meshes.retain(|&(id, form), _| geometries.get(id, form).is_some());
-    }
-    let mut last = None;
-    for group in batches.draws.groups() {
-        let key = (group.state.mesh, group.state.form);
-        if last.replace(key) == Some(key) {
-            continue;
-        }
-        let Some(geometry) = geometries.get_mut(key.0, key.1) else { continue };
-        match meshes.ensure(key, geometry) {
-            Ok(bytes) => report.bytes_uploaded += bytes,
-            Err(error) => {
-                meshes.meshes.remove(&key);
-                if !report.errors.contains(&error) {
-                    report.errors.push(error);
-                }
-            }
-        }
-    }
+    meshes.0.make_ready(&batches, &mut geometries, &mut report, |geometry, indices, form, _| {
+        let pieces = pieces(geometry, indices, form)?;
+        let bytes = pieces.bytes();
+        Ok((pieces, bytes))
+    });
 }
 
 impl MeshPieces {
     pub(crate) fn get(&self, id: AssetId<Mesh>, form: Form) -> Option<&Pieces> {
-        self.meshes.get(&(id, form)).map(|mesh| &mesh.pieces)
-    }
-
-    /// Cuts the mesh unless it is there. Returns the bytes made.
-    fn ensure(&mut self, key: (AssetId<Mesh>, Form), geometry: &mut Geometry) -> Result<u64, RenderError> {
-        let there = self.meshes.get(&key).filter(|there| is_same(&there.source, &geometry.source));
-        if there.is_some_and(|there| Arc::ptr_eq(&there.detail, &geometry.detail)) {
-            return Ok(0);
-        }
-        let Some(indices) = &geometry.indices else { return Ok(0) };
-        let pieces = pieces(geometry, indices, key.1).map_err(RenderError::from)?;
-        geometry.indices = None;
-        let bytes = pieces.bytes();
-        let (source, detail) = (geometry.source.clone(), Arc::clone(&geometry.detail));
-        self.meshes.insert(key, MadeReady { pieces, source, detail });
-        Ok(bytes)
+        self.0.get(id, form)
     }
 }
 

@@ -1,27 +1,20 @@
 //! Upload: meshes on the GPU.
 
 use crate::batch::batches::Batches;
+use crate::batch::drawn_meshes::DrawnMeshes;
 use crate::device::gpu::Gpu;
 use crate::draw::flat::FlatMesh;
 use crate::error::RenderError;
 use crate::frame::report::FrameReport;
-use crate::geometry::detail::Detail;
-use crate::geometry::meshes::{Form, Geometries, Geometry};
-use crate::geometry::workshop::is_same;
+use crate::geometry::meshes::{Form, Geometries};
 use bevy_asset::AssetId;
 use bevy_ecs::prelude::*;
 use bevy_math::Vec3;
-use bevy_platform::collections::HashMap;
 use halfway_mesh::Mesh;
-use std::sync::Arc;
 
 /// The buffers of the meshes that have been drawn, until they change or go.
 #[derive(Resource, Default)]
-pub(crate) struct MeshBuffers {
-    meshes: HashMap<(AssetId<Mesh>, Form), MeshBuffer>,
-    /// Of the geometries when the buffers were last looked through.
-    forgotten: u64,
-}
+pub(crate) struct MeshBuffers(DrawnMeshes<MeshBuffer>);
 
 /// The buffers of one mesh for one way of shading.
 pub(crate) struct MeshBuffer {
@@ -30,8 +23,6 @@ pub(crate) struct MeshBuffer {
     pub(crate) attributes: wgpu::Buffer,
     pub(crate) indices: wgpu::Buffer,
     pub(crate) index_format: wgpu::IndexFormat,
-    source: Mesh,
-    detail: Arc<Detail>,
 }
 
 /// Uploads the meshes that are drawn and not there yet, as far as they are not. What is too large is not drawn, and its
@@ -43,74 +34,34 @@ pub(crate) fn upload(
     mut buffers: ResMut<MeshBuffers>,
     mut report: ResMut<FrameReport>,
 ) {
-    if buffers.forgotten != geometries.forgotten {
-        buffers.forgotten = geometries.forgotten;
-        buffers.meshes.retain(|&(id, form), _| geometries.get(id, form).is_some());
-    }
-    let mut last = None;
-    for group in batches.draws.groups() {
-        let key = (group.state.mesh, group.state.form);
-        if last.replace(key) == Some(key) {
-            continue;
-        }
-        let Some(geometry) = geometries.get_mut(key.0, key.1) else { continue };
-        match buffers.ensure(&gpu, key, geometry) {
-            Ok(bytes) => report.bytes_uploaded += bytes,
-            Err(error) => {
-                buffers.meshes.remove(&key);
-                if !report.errors.contains(&error) {
-                    report.errors.push(error);
-                }
+    buffers.0.make_ready(&batches, &mut geometries, &mut report, |geometry, indices, form, there| {
+        let source = &geometry.source;
+        match there {
+            _ if form.flat => {
+                let mut flat = FlatMesh::new(source.positions(), indices.as_chunks().0);
+                gpu.provoking_vertex().place(&mut flat.indices);
+                MeshBuffer::new(&gpu, (&flat.positions, bytemuck::cast_slice(&flat.attributes)), &flat.indices)
             }
+            // The vertices of levels are those of the mesh.
+            Some(there) => there.with_indices(&gpu, indices),
+            None => MeshBuffer::new(&gpu, (source.positions(), bytemuck::cast_slice(source.normals())), indices),
         }
-    }
+    });
 }
 
 impl MeshBuffers {
     pub(crate) fn get(&self, id: AssetId<Mesh>, form: Form) -> Option<&MeshBuffer> {
-        self.meshes.get(&(id, form))
+        self.0.get(id, form)
     }
 
     #[cfg(test)]
     pub(crate) fn len(&self) -> usize {
-        self.meshes.len()
-    }
-
-    /// Uploads the mesh unless it is there. Returns the bytes sent.
-    fn ensure(&mut self, gpu: &Gpu, key: (AssetId<Mesh>, Form), geometry: &mut Geometry) -> Result<u64, RenderError> {
-        let there = self.meshes.get(&key).filter(|there| is_same(&there.source, &geometry.source));
-        if there.is_some_and(|there| Arc::ptr_eq(&there.detail, &geometry.detail)) {
-            return Ok(0);
-        }
-        let Some(indices) = &geometry.indices else { return Ok(0) };
-        let source = &geometry.source;
-        let (buffer, bytes) = match there {
-            _ if key.1.flat => {
-                let mut flat = FlatMesh::new(source.positions(), indices.as_chunks().0);
-                gpu.provoking_vertex().place(&mut flat.indices);
-                let vertices = (&flat.positions[..], bytemuck::cast_slice(&flat.attributes));
-                MeshBuffer::new(gpu, vertices, &flat.indices, geometry)?
-            }
-            // The vertices of levels are those of the mesh.
-            Some(there) => there.with_indices(gpu, indices, &geometry.detail)?,
-            None => {
-                let vertices = (source.positions(), bytemuck::cast_slice(source.normals()));
-                MeshBuffer::new(gpu, vertices, indices, geometry)?
-            }
-        };
-        geometry.indices = None;
-        self.meshes.insert(key, buffer);
-        Ok(bytes)
+        self.0.len()
     }
 }
 
 impl MeshBuffer {
-    fn new(
-        gpu: &Gpu,
-        (positions, attributes): (&[Vec3], &[u8]),
-        indices: &[u32],
-        geometry: &Geometry,
-    ) -> Result<(Self, u64), RenderError> {
+    fn new(gpu: &Gpu, (positions, attributes): (&[Vec3], &[u8]), indices: &[u32]) -> Result<(Self, u64), RenderError> {
         let short = positions.len() < usize::from(u16::MAX);
         let index_format = if short { wgpu::IndexFormat::Uint16 } else { wgpu::IndexFormat::Uint32 };
         let buffers = Self {
@@ -118,15 +69,13 @@ impl MeshBuffer {
             attributes: buffer(gpu, "attributes", attributes, wgpu::BufferUsages::VERTEX)?,
             indices: index_buffer(gpu, indices, index_format)?,
             index_format,
-            source: geometry.source.clone(),
-            detail: Arc::clone(&geometry.detail),
         };
         let bytes = buffers.positions.size() + buffers.attributes.size() + buffers.indices.size();
         Ok((buffers, bytes))
     }
 
     /// The same vertices, and other triangles.
-    fn with_indices(&self, gpu: &Gpu, indices: &[u32], detail: &Arc<Detail>) -> Result<(Self, u64), RenderError> {
+    fn with_indices(&self, gpu: &Gpu, indices: &[u32]) -> Result<(Self, u64), RenderError> {
         let indices = index_buffer(gpu, indices, self.index_format)?;
         let bytes = indices.size();
         let buffers = Self {
@@ -134,8 +83,6 @@ impl MeshBuffer {
             attributes: self.attributes.clone(),
             indices,
             index_format: self.index_format,
-            source: self.source.clone(),
-            detail: Arc::clone(detail),
         };
         Ok((buffers, bytes))
     }

@@ -1,0 +1,85 @@
+//! Upload: what a backend has made of the meshes that are drawn.
+
+use crate::batch::batches::Batches;
+use crate::error::RenderError;
+use crate::frame::report::FrameReport;
+use crate::geometry::detail::Detail;
+use crate::geometry::meshes::{Form, Geometries, Geometry};
+use crate::geometry::workshop::is_same;
+use bevy_asset::AssetId;
+use bevy_platform::collections::HashMap;
+use halfway_mesh::Mesh;
+use std::sync::Arc;
+
+/// Something of a backend's for each mesh that has been drawn, until the mesh changes or goes.
+pub(crate) struct DrawnMeshes<T> {
+    meshes: HashMap<(AssetId<Mesh>, Form), DrawnMesh<T>>,
+    /// Of the geometries when these were last looked through.
+    forgotten: u64,
+}
+
+struct DrawnMesh<T> {
+    made: T,
+    source: Mesh,
+    detail: Arc<Detail>,
+}
+
+impl<T> Default for DrawnMeshes<T> {
+    fn default() -> Self {
+        Self { meshes: HashMap::default(), forgotten: 0 }
+    }
+}
+
+impl<T> DrawnMeshes<T> {
+    pub(crate) fn get(&self, id: AssetId<Mesh>, form: Form) -> Option<&T> {
+        self.meshes.get(&(id, form)).map(|mesh| &mesh.made)
+    }
+
+    #[cfg(test)]
+    pub(crate) fn len(&self) -> usize {
+        self.meshes.len()
+    }
+
+    /// Forgets meshes that are gone, and makes what is missing or out of date for those that are drawn: `make` takes the
+    /// mesh, its indices, its form, and what was made of the same mesh with other triangles; it says how many bytes it has
+    /// made. Where it fails the mesh is not drawn, and its error is in the report, every frame anew.
+    pub(crate) fn make_ready(
+        &mut self,
+        batches: &Batches,
+        geometries: &mut Geometries,
+        report: &mut FrameReport,
+        make: impl Fn(&Geometry, &[u32], Form, Option<&T>) -> Result<(T, u64), RenderError>,
+    ) {
+        if self.forgotten != geometries.forgotten {
+            self.forgotten = geometries.forgotten;
+            self.meshes.retain(|&(id, form), _| geometries.get(id, form).is_some());
+        }
+        let mut last = None;
+        for group in batches.draws.groups() {
+            let key = (group.state.mesh, group.state.form);
+            if last.replace(key) == Some(key) {
+                continue;
+            }
+            let Some(geometry) = geometries.get_mut(key.0, key.1) else { continue };
+            let there = self.meshes.get(&key).filter(|there| is_same(&there.source, &geometry.source));
+            if there.is_some_and(|there| Arc::ptr_eq(&there.detail, &geometry.detail)) {
+                continue;
+            }
+            let Some(indices) = &geometry.indices else { continue };
+            match make(geometry, indices, key.1, there.map(|there| &there.made)) {
+                Ok((made, bytes)) => {
+                    report.bytes_uploaded += bytes;
+                    geometry.indices = None;
+                    let (source, detail) = (geometry.source.clone(), Arc::clone(&geometry.detail));
+                    self.meshes.insert(key, DrawnMesh { made, source, detail });
+                }
+                Err(error) => {
+                    self.meshes.remove(&key);
+                    if !report.errors.contains(&error) {
+                        report.errors.push(error);
+                    }
+                }
+            }
+        }
+    }
+}
