@@ -25,7 +25,7 @@ pub struct Lights {
     /// The same lights, in the same order, as the equations take them.
     pub(crate) sources: Vec<Light<f32>>,
     /// And where they are in the world.
-    places: Vec<WorldPlace>,
+    pub(super) places: Vec<WorldPlace>,
     /// How many directional, point and spot lights, in this order.
     pub(crate) counts: [u32; 3],
     /// Whether any has a specular color.
@@ -36,12 +36,12 @@ pub struct Lights {
     pub(crate) shared_color: bool,
     /// Whether any has a range.
     pub(crate) ranged: bool,
-    made_of: Option<MadeOf>,
+    pub(super) made_of: Option<MadeOf>,
 }
 
 /// What a frame's lights were made of. Where the next finds the same, and no light has changed, they are as they were.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct MadeOf {
+pub(super) struct MadeOf {
     /// How many entities have a light of each kind. One that goes makes them fewer, and one that comes has changed.
     entities: [usize; 3],
     ambient: LinearRgba,
@@ -51,7 +51,7 @@ struct MadeOf {
 
 /// The numbers of a light that depend on where it is looked at from and in which unit of length, in world space.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct WorldPlace {
+pub(super) struct WorldPlace {
     /// Of a point or spot.
     position: Vec3,
     /// The way that a directional or spot light travels.
