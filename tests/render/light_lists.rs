@@ -315,3 +315,48 @@ fn lights_beyond_the_reach_of_squares_keep_their_direction() {
     failures.draw("far lights", &mut stage, &scene, FLOAT);
     failures.finish();
 }
+
+#[test]
+fn lights_are_kept_from_frame_to_frame_until_something_changes() {
+    let mut stage = Stage::new(48, 32);
+    stage.set(&hall(12, Shading::Phong));
+    let mut before = stage.float();
+    let first = |world: &mut World| {
+        let mut lights = world.query_filtered::<Entity, With<PointLight>>();
+        lights.iter(world).min().expect("there are some")
+    };
+    let changes: [(&str, fn(&mut World, Entity)); 10] = [
+        ("the camera moves", |world, _| {
+            let mut cameras = world.query_filtered::<&mut Transform, With<Camera>>();
+            cameras.single_mut(world).expect("one").translation.x += 1.0;
+        }),
+        ("one moves", |world, light| world.get_mut::<Transform>(light).expect("it has one").translation.y += 0.5),
+        ("one shines brighter", |world, light| {
+            world.get_mut::<PointLight>(light).expect("it is one").diffuse = LinearRgba::WHITE;
+        }),
+        ("one is hidden", |world, light| drop(world.entity_mut(light).insert(Visibility::Hidden))),
+        ("it is shown again", |world, light| drop(world.entity_mut(light).insert(Visibility::Visible))),
+        ("more ambient light", |world, _| world.resource_mut::<GlobalAmbient>().0 = LinearRgba::gray(0.2)),
+        ("one is gone, and another comes", |world, light| {
+            world.despawn(light);
+            world.spawn((PointLight::white(), Transform::from_xyz(1.0, 2.0, 3.0)));
+        }),
+        ("one is no light any more", |world, light| drop(world.entity_mut(light).remove::<PointLight>())),
+        ("all spots open", |world, _| {
+            let mut spots = world.query::<&mut SpotLight>();
+            spots.iter_mut(world).for_each(|mut spot| spot.cone = Cone::new(std::f32::consts::PI));
+        }),
+        ("one is gone", |world, light| drop(world.despawn(light))),
+    ];
+    for (row, change) in changes {
+        let light = first(stage.world());
+        change(stage.world(), light);
+        let kept = stage.float();
+        assert!(difference(&before, &kept) > 0.0, "{row}: nothing changes");
+        let world = stage.world();
+        let mut lights = world.query_filtered::<&mut GlobalTransform, Or<(With<PointLight>, With<SpotLight>)>>();
+        lights.iter_mut(world).for_each(|mut at| at.set_changed());
+        assert_eq!(difference(&kept, &stage.float()), 0.0, "{row}: taken up again they are others");
+        before = kept;
+    }
+}
