@@ -334,19 +334,27 @@ fn lights_are_kept_from_frame_to_frame_until_something_changes() {
         ("one shines brighter", |world, light| {
             world.get_mut::<PointLight>(light).expect("it is one").diffuse = LinearRgba::WHITE;
         }),
-        ("one is hidden", |world, light| drop(world.entity_mut(light).insert(Visibility::Hidden))),
-        ("it is shown again", |world, light| drop(world.entity_mut(light).insert(Visibility::Visible))),
+        ("one is hidden", |world, light| {
+            world.entity_mut(light).insert(Visibility::Hidden);
+        }),
+        ("it is shown again", |world, light| {
+            world.entity_mut(light).insert(Visibility::Visible);
+        }),
         ("more ambient light", |world, _| world.resource_mut::<GlobalAmbient>().0 = LinearRgba::gray(0.2)),
         ("one is gone, and another comes", |world, light| {
             world.despawn(light);
             world.spawn((PointLight::white(), Transform::from_xyz(1.0, 2.0, 3.0)));
         }),
-        ("one is no light any more", |world, light| drop(world.entity_mut(light).remove::<PointLight>())),
+        ("one is no light any more", |world, light| {
+            world.entity_mut(light).remove::<PointLight>();
+        }),
         ("all spots open", |world, _| {
             let mut spots = world.query::<&mut SpotLight>();
             spots.iter_mut(world).for_each(|mut spot| spot.cone = Cone::new(std::f32::consts::PI));
         }),
-        ("one is gone", |world, light| drop(world.despawn(light))),
+        ("one is gone", |world, light| {
+            world.despawn(light);
+        }),
     ];
     for (row, change) in changes {
         let light = first(stage.world());

@@ -13,7 +13,7 @@ use chunk::{CHUNK, Chunk};
 use fearless_simd::Level;
 use wide::{BLUR, Found};
 
-/// Those of many lights that a region may need ([`LightTree::near`]), made ready for its patches.
+/// Those of the lights of a [`LightTree`] that a region may need, made ready for its patches.
 ///
 /// Made once and filled again and again; its memory is kept.
 #[derive(Clone, Debug)]
