@@ -236,7 +236,7 @@ impl Wanted {
         let hardware = !named && !DRIVERS.iter().any(|name| variable(name).is_some());
         // Asking would load what software drivers there are, which takes longer than a first frame.
         let rounds = if hardware && !may_have_hardware(Path::new("/dev")) { Vec::new() } else { self.rounds };
-        Self { hardware, rounds, ..self }
+        Self { rounds, hardware, ..self }
     }
 
     fn takes(&self, adapter: &wgpu::Adapter) -> bool {
