@@ -23,7 +23,7 @@ macro_rules! beside {
                 Attenuation BackMaterial Blend Camera Cone DirectionalLight Encoding Faces Frequency GlobalAmbient
                 Intensity LightingPlugin Material PointLight Reflectance Samples Shading SpotLight Terms Viewer Visibility
                 Cuboid Mesh Mesh3d MeshPlugin Plane Teapot UvSphere
-                Compile FrameReport Headless LevelsOfDetail Picture Pixels RenderPlugin RenderSet HalfwayPlugins
+                Compile FrameReport FullDetail Headless LevelsOfDetail Picture Pixels RenderPlugin RenderSet HalfwayPlugins
                 App AppExit Startup Update PostUpdate Entity ChildOf World Name Color LinearRgba Srgba
                 EulerRot Mat3 Mat4 Quat UVec2 Vec2 Vec3 Vec4 GlobalTransform Transform TransformPlugin Fixed Real Virtual
             }

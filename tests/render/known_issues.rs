@@ -1,7 +1,7 @@
 //! What is known to be wrong. Each test asserts what happens now, and fails when that is mended: then its case moves to
 //! where the right behaviour is tested.
 
-use crate::render::scene::{Scene, Thing, glowing};
+use crate::render::scene::{Scene, Thing, glowing, rotated};
 use crate::render::stage::Stage;
 use halfway::prelude::*;
 
@@ -33,4 +33,26 @@ fn a_plane_seen_from_lower_than_a_millionth_of_its_size_loses_coverage() {
     assert_eq!(missing(1e-5), 0, "from a hundred-thousandth of its size the floor fills the picture");
     let lost: usize = [3e-7, 1e-7, 1e-8].into_iter().map(missing).sum();
     assert!(lost > 0, "mended: the floor fills the picture from a hundred-millionth of its size");
+}
+
+/// Levels of detail bound how far points move on the picture, and not how far in depth beyond that: of two spheres one of
+/// which is 0.1 % larger, the inner one shows in places where both are drawn coarser. `FullDetail` keeps them as they are.
+#[test]
+fn a_shell_close_outside_another_shows_it_when_both_are_coarser() {
+    let mut stage = Stage::new(128, 128);
+    let ball = Mesh::from(UvSphere::new(1.0, 256, 128));
+    let inner = Thing::new(ball.clone()).of(glowing(1.0, 0.0, 0.0));
+    let outer = Thing::new(ball).of(glowing(0.0, 1.0, 0.0)).at(rotated(0.5, 0.6, 0.7).with_scale(Vec3::splat(1.001)));
+    let mut shown = |levels: LevelsOfDetail| -> usize {
+        let inner_pixels = |distance: f32| {
+            let scene = Scene::seen_from(Vec3::new(0.2, 0.35, 0.9).normalize() * distance, Vec3::ZERO);
+            stage.set(&scene.with(inner.clone()).with(outer.clone()));
+            stage.levels(levels);
+            stage.float().pixels().filter(|pixel| pixel.0[0] > 0.5).count()
+        };
+        [4.0, 8.0, 12.0].into_iter().map(inner_pixels).sum()
+    };
+    assert_eq!(shown(LevelsOfDetail::OFF), 0);
+    let wrong = shown(LevelsOfDetail::default());
+    assert!(wrong > 0, "mended: a shell hides what is close inside");
 }

@@ -6,7 +6,6 @@ use crate::render::stage::Stage;
 use halfway::mesh::{HeightField, Tessellation, Torus, tessellate};
 use halfway::prelude::*;
 use halfway::reference::{Image, Oracle};
-use std::time::Duration;
 
 fn sphere(segments: u32) -> Mesh {
     UvSphere::new(1.0, segments, segments / 2).into()
@@ -49,7 +48,10 @@ fn farther_spheres_are_drawn_with_fewer_triangles() {
 fn smaller_tolerances_keep_more_triangles() {
     let mut stage = Stage::new(64, 64);
     let scene = one(Thing::new(sphere(256)).shaded(Shading::Phong).faces(Faces::Both), 6.0);
-    let mut drawn = |pixels, shading| triangles(&mut stage, &scene, LevelsOfDetail { pixels, shading }).0;
+    let mut drawn = |pixels, shading| {
+        let levels = LevelsOfDetail { pixels, shading, ..LevelsOfDetail::default() };
+        triangles(&mut stage, &scene, levels).0
+    };
     let by_pixels = [4.0, 0.5, 0.05, 0.005, 0.0].map(|pixels| drawn(pixels, 1.0));
     println!("by pixels: {by_pixels:?}");
     assert!(by_pixels.is_sorted() && by_pixels[0] < by_pixels[2] && by_pixels[2] < by_pixels[4], "{by_pixels:?}");
@@ -89,6 +91,23 @@ fn blended_and_stretched_objects_keep_all_triangles() {
         let whole = if blend { 2 * modelled } else { modelled };
         assert!(if all { drawn == whole } else { drawn < modelled / 4 }, "{row}: {drawn} of {modelled}");
     }
+}
+
+#[test]
+fn an_object_of_full_detail_keeps_all_triangles() {
+    let mut stage = Stage::new(48, 48);
+    stage.set(&one(Thing::new(sphere(128)).faces(Faces::Both), 40.0));
+    stage.levels(LevelsOfDetail::default());
+    let (drawn, modelled) = (stage.report().triangles, stage.report().triangles_in);
+    assert!(drawn < modelled / 4, "{drawn} of {modelled}");
+    let world = stage.world();
+    let object = world.query_filtered::<Entity, With<Mesh3d>>().single(world).expect("one object");
+    world.entity_mut(object).insert(FullDetail);
+    stage.frame();
+    assert_eq!(stage.report().triangles, modelled);
+    stage.world().entity_mut(object).remove::<FullDetail>();
+    stage.frame();
+    assert_eq!(stage.report().triangles, drawn);
 }
 
 #[test]
@@ -146,24 +165,24 @@ fn a_picture_of_one_frame_never_waits() {
 }
 
 #[test]
-fn levels_are_made_of_what_is_seen_again() {
+fn the_second_frame_that_sees_a_mesh_has_its_levels() {
     let mut stage = Stage::new(48, 48);
     stage.world().insert_resource(LevelsOfDetail::default());
     let (scene, other) = (one(Thing::new(sphere(64)), 40.0), one(Thing::new(Cuboid::default()), 40.0));
     stage.set(&scene);
     stage.frame();
-    let first = stage.report().triangles;
-    // Time enough to make levels, if they were asked for.
+    let whole = stage.report().triangles_in;
+    assert_eq!((stage.report().triangles, stage.report().levels_pending), (whole, 1));
     stage.set(&other);
-    for _ in 0..100 {
-        std::thread::sleep(Duration::from_millis(5));
-        stage.frame();
-    }
-    stage.set(&scene);
     stage.frame();
-    assert_eq!(stage.report().triangles, first, "levels were made of a mesh that was seen in one frame");
-    stage.levels(LevelsOfDetail::default());
-    assert!(stage.report().triangles < first);
+    assert_eq!(stage.report().levels_pending, 0, "nobody waits for what is not seen");
+    // Without a window, whatever the machine: recordings repeat.
+    for _ in 0..2 {
+        stage.set(&scene);
+        stage.frame();
+        assert!(stage.report().triangles < whole / 2, "{} of {whole} triangles", stage.report().triangles);
+        assert_eq!(stage.report().levels_pending, 0);
+    }
 }
 
 #[test]
@@ -203,13 +222,16 @@ fn meshes() -> [(&'static str, Mesh, f32); 4] {
     ]
 }
 
-/// A stricter tolerance of shading than the default, the default, and one that levels meet of what is curved here more and
-/// there less.
+/// The default, a wider tolerance of shading, and one that levels meet of what is curved here more and there less.
 const LEVELS: [LevelsOfDetail; 3] = [
-    LevelsOfDetail { pixels: 0.5, shading: 1.0 / 64.0 },
-    LevelsOfDetail { pixels: 0.5, shading: 0.1 },
-    LevelsOfDetail { pixels: 0.5, shading: 1.0 / 4.0 },
+    LevelsOfDetail { pixels: 0.5, shading: 4.0 / 255.0, interpolation: 0.1 },
+    LevelsOfDetail { pixels: 0.5, shading: 0.1, interpolation: 0.1 },
+    LevelsOfDetail { pixels: 0.5, shading: 1.0 / 4.0, interpolation: 1.0 / 4.0 },
 ];
+
+/// Flat triangles that are smaller than a pixel may face as none of the mesh's does, and change by this part of the
+/// largest value that the terms have.
+const FLAT_CHANGE: f64 = 0.1;
 
 /// What the oracle shows near a pixel.
 struct Near {
@@ -310,7 +332,8 @@ fn figures(picture: &Image, fine: &Image, allowed: [f64; 3]) -> Figures {
 }
 
 /// The promise of [`LevelsOfDetail`]: no point moves by more than `pixels`, half a pixel, so that what is shown is what the
-/// whole mesh shows within that distance, but for `shading` of the largest value of every light's terms. The oracle is
+/// whole mesh shows within that distance, but for `shading`, and under Gouraud shading for `interpolation` of the largest
+/// value of every light's terms, which an estimate is held to; or [`FLAT_CHANGE`]. The oracle is
 /// asked at every third of a pixel, so that two thirds stand for the half; a few pixels at outlines of one part before
 /// another may show what it has not been asked for, the last before the horizon, which is within a pixel. Where a pixel
 /// and all within one about it is covered there is no hole, and where nothing is there is no speck.
@@ -343,8 +366,14 @@ fn pictures_keep_within_the_bounds(levels: LevelsOfDetail, shadings: &[(&str, Op
                 let fine = Oracle::new(stage.world(), UVec2::splat(SIZE * SAMPLES)).expect("a scene").draw();
                 // The point light is √29 from the origin.
                 let largest = largest_terms(&scene, 29f32.sqrt() - radius);
-                // Constant colours move, but do not change; the float bar stays.
-                let allowed = largest.map(|largest| f64::from(levels.shading) * largest + FLOAT_SLACK);
+                let change = match shading {
+                    Some(Shading::Flat) => largest.map(|largest| FLAT_CHANGE * largest),
+                    // Constant colours move, but do not change; the float bar stays.
+                    None => [0.0; 3],
+                    Some(Shading::Gouraud) => largest.map(|largest| f64::from(levels.interpolation) * largest),
+                    Some(_) => [f64::from(levels.shading); 3],
+                };
+                let allowed = change.map(|change| change + FLOAT_SLACK);
                 let Figures { mut plain, excess: [mut two_thirds, mut one], holes, specks } =
                     figures(&picture, &fine, allowed);
                 let inside = plain.len() / 3;
@@ -372,16 +401,15 @@ fn pictures_that_are_too_coarse_are_found_out() {
     let mut scene = one(Thing::new(sphere(256)).of(material()).shaded(Shading::Gouraud), 2.4);
     scene.camera.background = LinearRgba::rgb(BACKGROUND[0], BACKGROUND[1], BACKGROUND[2]);
     stage.set(&scene);
-    // Far beyond half a pixel and a tenth.
-    stage.levels(LevelsOfDetail { pixels: 12.0, shading: 10.0 });
+    // Far beyond half a pixel and four steps.
+    stage.levels(LevelsOfDetail { pixels: 12.0, shading: 10.0, interpolation: 10.0 });
     let picture = Image::from_float(&stage.float());
     let fine = Oracle::new(stage.world(), UVec2::splat(SIZE * SAMPLES)).expect("a scene").draw();
-    let shading = f64::from(LevelsOfDetail::default().shading);
-    let allowed = largest_terms(&scene, 29f32.sqrt() - 1.0).map(|largest| shading * largest + FLOAT_SLACK);
+    let allowed = [f64::from(LevelsOfDetail::default().shading) + FLOAT_SLACK; 3];
     let Figures { excess: [_, mut excess], .. } = figures(&picture, &fine, allowed);
     let (worst, most) = worst_and_most(&mut excess);
     println!("{} triangles: {worst:.2} {most:.2} of what is allowed", stage.report().triangles);
-    assert!(worst > 2.0 && most > 1.0, "{worst:.2} and {most:.2} of what is allowed");
+    assert!(worst > 1.5 && most > 1.0, "{worst:.2} and {most:.2} of what is allowed");
 }
 
 #[test]

@@ -1,9 +1,12 @@
 //! `halfway info`.
 
 use std::path::PathBuf;
+use std::sync::atomic::AtomicBool;
 
 use clap::Args;
-use halfway::mesh::{AlphaMode, Mesh, Meshlets, Model, SourceLightKind, SourceMaterial, SourceProjection};
+use halfway::mesh::{
+    AlphaMode, Mesh, Meshlets, Model, PatchHierarchy, SourceLightKind, SourceMaterial, SourceProjection,
+};
 
 use crate::failure::Failure;
 
@@ -68,10 +71,12 @@ fn print_mesh(mesh: &Mesh) {
 }
 
 fn print_levels(mesh: &Mesh) {
-    println!("  levels     triangles, error, error and spread of the normals");
-    for level in [mesh.finest_level()].iter().chain(&mesh.levels()) {
-        let [error, spread] = [level.normal_error, level.normal_spread].map(f32::to_degrees);
-        println!("             {}, {:.2e}, {error:.2}°, {spread:.2}°", level.triangle_count(), level.error);
+    let Some(hierarchy) = mesh.patch_hierarchy(&AtomicBool::new(false)) else { return };
+    let PatchHierarchy { patches, groups, .. } = &hierarchy;
+    println!("  levels     {} patches, {} groups of them", patches.len(), groups.len());
+    let radius = mesh.bounds().radius();
+    for error in (2..13).rev().map(|exponent| radius * 0.5_f32.powi(exponent)) {
+        println!("             {} triangles within {error:.2e}", hierarchy.triangles_within(error));
     }
 }
 

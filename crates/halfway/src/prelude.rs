@@ -15,7 +15,8 @@ pub use halfway_lighting::{
 };
 pub use halfway_mesh::{Cuboid, Mesh, Mesh3d, MeshPlugin, Plane, Teapot, UvSphere};
 pub use halfway_render::{
-    Compile, FrameReport, Headless, LevelsOfDetail, Picture, Pixels, RenderPlugin, RenderSet, render_picture,
+    Compile, FrameReport, FullDetail, Headless, LevelsOfDetail, Picture, Pixels, RenderPlugin, RenderSet,
+    render_picture,
 };
 pub use halfway_scene::import::{ModelMaterial, model_light};
 #[cfg(feature = "window")]

@@ -55,7 +55,9 @@ pub use model::{
 pub use normals::{NormalReport, NormalWeighting, Normals, face_normal};
 #[cfg(feature = "prepare")]
 pub use prepare::{BoundingSphere, DirectionCone, Meshlet, Meshlets, SimplifiedMesh};
-pub use prepare::{DistanceBounds, Level, MeshReport, RepairReport, Weld, WeldReport};
+pub use prepare::{
+    DistanceBounds, HierarchyPatch, MeshReport, PatchGroup, PatchHierarchy, RepairReport, Weld, WeldReport,
+};
 pub use problems::Problems;
 pub use subdivide::Subdivision;
 pub use surfaces::{

@@ -166,8 +166,7 @@ pub struct FrameToDraw {
 }
 
 /// Runs `app` frame by frame and writes what it draws. Time moves on by exactly 1/rate a frame, so that recordings
-/// repeat; to the byte with [`LevelsOfDetail::OFF`](halfway_render::LevelsOfDetail::OFF), for levels of detail are used
-/// from whichever frame on they are made. `progress` is told how many frames are done of how many, and may stop the work.
+/// repeat, to the byte on the same adapter. `progress` is told how many frames are done of how many, and may stop the work.
 ///
 /// # Errors
 /// The first thing that kept a frame from being drawn or written.

@@ -15,7 +15,7 @@ use crate::draw::{pass, replaced};
 use crate::frame::report::FrameReport;
 use crate::frame::sets::RenderSet;
 use crate::frame::times;
-use crate::geometry::detail::LevelsOfDetail;
+use crate::geometry::allowed::{FullDetail, LevelsOfDetail};
 use crate::geometry::meshes::{self, Geometries};
 use crate::geometry::workshop::Workshop;
 use crate::lights::gather::{self, Lights};
@@ -149,6 +149,7 @@ fn register_types(app: &mut App) {
         .register_type::<Headless>()
         .register_type::<CanvasTarget>()
         .register_type::<Compile>()
+        .register_type::<FullDetail>()
         .register_type::<LevelsOfDetail>()
         .register_type::<FrameReport>()
         .register_type::<View>()

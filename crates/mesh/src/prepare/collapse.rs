@@ -3,13 +3,10 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use bevy_math::{DVec3, Vec3};
-use rayon::prelude::*;
+use bevy_math::DVec3;
 
 use super::nearest::nearest_on;
 use super::quadric::ErrorQuadric;
-use super::stand_ins::StandIns;
-use crate::Mesh;
 
 /// Vertices with more triangles stay: they are looked at with each of their neighbours.
 const MOST_AROUND: usize = 64;
@@ -24,16 +21,26 @@ const EDGE_WEIGHT: f64 = 1e-3;
 /// How much of a loss the distance of the vertex that goes from the triangles that stay is.
 const GAP_WEIGHT: f64 = 2.0;
 
-/// Triangles that vanish one after the other.
-pub(super) struct Collapse<'a> {
-    places: &'a [u32],
+/// Triangles and the vertices that they have, numbered among themselves.
+#[derive(Default)]
+pub(super) struct LocalMesh {
     /// Of each vertex, in a cube from −1 to 1.
-    positions: Vec<DVec3>,
-    normals: &'a [Vec3],
+    pub(super) positions: Vec<DVec3>,
+    pub(super) normals: Vec<DVec3>,
+    /// Of each vertex, the one whose position it has.
+    pub(super) places: Vec<u32>,
+    /// Of each vertex, whether its place must stay.
+    pub(super) stays: Vec<bool>,
+    /// Each between three places.
+    pub(super) triangles: Vec<[u32; 3]>,
+}
+
+/// Triangles that vanish one after the other.
+pub(super) struct Collapse {
+    /// Its triangles are by vertices; those that are gone are `GONE`.
+    mesh: LocalMesh,
     /// Of each place.
     quadrics: Vec<ErrorQuadric>,
-    /// By vertices; those that are gone are `GONE`.
-    triangles: Vec<[u32; 3]>,
     /// The numbers of the triangles around each place; some may be gone.
     fans: Vec<Vec<u32>>,
     alive: usize,
@@ -45,8 +52,6 @@ pub(super) struct Collapse<'a> {
     changed: Vec<bool>,
     /// Whether each place is in line.
     is_waiting: Vec<bool>,
-    /// Of each vertex, the one onto which it has collapsed; itself if none.
-    targets: Vec<u32>,
 }
 
 /// A normal that changes by so much, as a difference of unit vectors, counts twice, and more than that the cube of it:
@@ -89,55 +94,43 @@ impl Moves {
     }
 }
 
-impl<'a> Collapse<'a> {
-    pub(super) fn new(mesh: &'a Mesh, stand_ins: &'a StandIns) -> Self {
-        let triangles = stand_ins.triangles(mesh);
-        let (min, max) = (mesh.bounds().min.as_dvec3(), mesh.bounds().max.as_dvec3());
-        let (center, unit) = (0.5 * (min + max), (0.5 * (max - min)).max_element());
-        let unit = if unit > 0.0 { unit } else { 1.0 };
-        let position = |&place: &u32| (mesh.positions()[place as usize].as_dvec3() - center) / unit;
-        let positions: Vec<DVec3> = stand_ins.places.iter().map(position).collect();
-        let mut fans = vec![Vec::new(); positions.len()];
-        for (number, triangle) in (0..).zip(&triangles) {
+impl Collapse {
+    pub(super) fn new(mesh: LocalMesh) -> Self {
+        let count = mesh.positions.len();
+        let mut fans = vec![Vec::new(); count];
+        for (number, triangle) in (0..).zip(&mesh.triangles) {
             for &vertex in triangle {
-                fans[stand_ins.places[vertex as usize] as usize].push(number);
+                fans[mesh.places[vertex as usize] as usize].push(number);
             }
         }
         let mut collapse = Self {
-            places: &stand_ins.places,
-            quadrics: vec![ErrorQuadric::NONE; positions.len()],
-            positions,
-            normals: mesh.normals(),
-            alive: triangles.len(),
-            triangles,
+            quadrics: vec![ErrorQuadric::NONE; count],
+            alive: mesh.triangles.len(),
+            mesh,
             fans,
             waiting: BinaryHeap::new(),
-            best: vec![u32::MAX; stand_ins.places.len()],
-            changed: vec![false; stand_ins.places.len()],
-            is_waiting: vec![true; stand_ins.places.len()],
-            targets: (0..stand_ins.places.len() as u32).collect(),
+            best: vec![u32::MAX; count],
+            changed: vec![false; count],
+            is_waiting: vec![false; count],
         };
         collapse.add_quadrics();
-        let first = (0..collapse.fans.len() as u32).into_par_iter();
-        let first: Vec<_> = first.map(|place| collapse.best(place)).collect();
-        collapse.is_waiting = first.iter().map(Option::is_some).collect();
-        collapse.best = first.iter().map(|best| best.map_or(u32::MAX, |(_, target)| target)).collect();
-        let in_line = |(place, best): (u32, Option<(f32, u32)>)| best.map(|(cost, _)| Reverse((cost.to_bits(), place)));
-        collapse.waiting = (0..).zip(first).filter_map(in_line).collect();
+        for place in 0..count as u32 {
+            collapse.put_in_line(place);
+        }
         collapse
     }
 
-    pub(super) fn triangle_count(&self) -> usize {
-        self.alive
+    pub(super) fn triangles(&self) -> impl Iterator<Item = [u32; 3]> {
+        self.mesh.triangles.iter().copied().filter(|&triangle| triangle != GONE)
     }
 
-    pub(super) fn triangles(&self) -> Vec<[u32; 3]> {
-        self.triangles.iter().copied().filter(|&triangle| triangle != GONE).collect()
-    }
-
-    /// Of each vertex, the one onto which it has collapsed; itself if none.
-    pub(super) fn into_targets(self) -> Vec<u32> {
-        self.targets
+    /// Puts a place in line unless it stays.
+    fn put_in_line(&mut self, place: u32) {
+        if let Some((cost, target)) = self.best(place) {
+            self.best[place as usize] = target;
+            self.is_waiting[place as usize] = true;
+            self.waiting.push(Reverse((cost.to_bits(), place)));
+        }
     }
 
     /// Collapses vertices onto others until at most `target` triangles are left or no vertex may collapse any more.
@@ -149,25 +142,23 @@ impl<'a> Collapse<'a> {
             let target = self.best[place as usize];
             if !has_changed && self.may_collapse(place, target) {
                 self.collapse(place, target);
-            } else if let Some((cost, target)) = self.best(place) {
-                self.best[place as usize] = target;
-                self.is_waiting[place as usize] = true;
-                self.waiting.push(Reverse((cost.to_bits(), place)));
+            } else {
+                self.put_in_line(place);
             }
         }
     }
 
     fn place(&self, vertex: u32) -> u32 {
-        self.places[vertex as usize]
+        self.mesh.places[vertex as usize]
     }
 
     fn position(&self, vertex: u32) -> DVec3 {
-        self.positions[vertex as usize]
+        self.mesh.positions[vertex as usize]
     }
 
     /// The corners at a place.
     fn corners(&self, place: u32) -> impl Iterator<Item = FanCorner> + Clone {
-        let fan = self.fans[place as usize].iter().map(|&number| self.triangles[number as usize]);
+        let fan = self.fans[place as usize].iter().map(|&number| self.mesh.triangles[number as usize]);
         fan.filter(|&triangle| triangle != GONE).map(move |[a, b, c]| {
             if self.place(a) == place {
                 [a, b, c]
@@ -181,15 +172,15 @@ impl<'a> Collapse<'a> {
 
     /// Planes of the triangles, and across them along borders and seams.
     fn add_quadrics(&mut self) {
-        for number in 0..self.triangles.len() {
-            let triangle = self.triangles[number];
+        for number in 0..self.mesh.triangles.len() {
+            let triangle = self.mesh.triangles[number];
             let [a, b, c] = triangle.map(|vertex| self.position(vertex));
             let n = (b - a).cross(c - a);
             let area = 0.5 * n.length();
             let Some(n) = n.try_normalize() else { continue };
             let face = ErrorQuadric::plane(n, a, area);
             for vertex in triangle {
-                self.quadrics[self.places[vertex as usize] as usize] += face;
+                self.quadrics[self.mesh.places[vertex as usize] as usize] += face;
             }
             for [i, j] in [[0, 1], [1, 2], [2, 0]] {
                 let [from, to] = [triangle[i], triangle[j]];
@@ -201,7 +192,7 @@ impl<'a> Collapse<'a> {
                 let across =
                     ErrorQuadric::plane(side.cross(n).normalize_or_zero(), self.position(from), side.length_squared());
                 for vertex in [from, to] {
-                    self.quadrics[self.places[vertex as usize] as usize] += across;
+                    self.quadrics[self.mesh.places[vertex as usize] as usize] += across;
                 }
             }
         }
@@ -209,7 +200,7 @@ impl<'a> Collapse<'a> {
 
     /// The neighbour onto which a place collapses best, and what that loses.
     fn best(&self, place: u32) -> Option<(f32, u32)> {
-        if self.fans[place as usize].len() > MOST_AROUND {
+        if self.mesh.stays[place as usize] || self.fans[place as usize].len() > MOST_AROUND {
             return None;
         }
         let fan = self.fan(place);
@@ -309,7 +300,7 @@ impl<'a> Collapse<'a> {
     }
 
     fn normal(&self, vertex: u32) -> DVec3 {
-        self.normals[vertex as usize].as_dvec3()
+        self.mesh.normals[vertex as usize]
     }
 
     /// Which vertex of the target each vertex of the fan's place becomes: the one that it shares an edge with. None if
@@ -350,26 +341,23 @@ impl<'a> Collapse<'a> {
     fn collapse(&mut self, place: u32, target: u32) {
         let fan = self.fan(place);
         let Some(moves) = self.moves(target, &fan) else { return };
-        for (from, to) in moves.iter() {
-            self.targets[from as usize] = to;
-        }
         let numbers = std::mem::take(&mut self.fans[place as usize]);
         for number in numbers {
-            let triangle = self.triangles[number as usize];
+            let triangle = self.mesh.triangles[number as usize];
             if triangle == GONE {
                 continue;
             }
             if triangle.iter().any(|&vertex| self.place(vertex) == target) {
-                self.triangles[number as usize] = GONE;
+                self.mesh.triangles[number as usize] = GONE;
                 self.alive -= 1;
             } else {
-                self.triangles[number as usize] = triangle.map(|vertex| moves.target(vertex).unwrap_or(vertex));
+                self.mesh.triangles[number as usize] = triangle.map(|vertex| moves.target(vertex).unwrap_or(vertex));
                 self.fans[target as usize].push(number);
             }
         }
         let quadric = self.quadrics[place as usize];
         self.quadrics[target as usize] += quadric;
-        let triangles = &self.triangles;
+        let triangles = &self.mesh.triangles;
         self.fans[target as usize].retain(|&number| triangles[number as usize] != GONE);
         for &[_, b, c] in &fan {
             for vertex in [b, c] {
@@ -378,7 +366,7 @@ impl<'a> Collapse<'a> {
                 if !std::mem::replace(&mut self.is_waiting[near], true) {
                     self.waiting.push(Reverse((0, near as u32)));
                 }
-                let triangles = &self.triangles;
+                let triangles = &self.mesh.triangles;
                 self.fans[near].retain(|&number| triangles[number as usize] != GONE);
             }
         }

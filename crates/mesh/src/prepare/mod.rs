@@ -6,16 +6,18 @@
 
 mod collapse;
 mod components;
-mod deviation;
 mod distance;
 #[cfg(feature = "prepare")]
 mod enclose;
-mod levels;
+mod hierarchy;
 #[cfg(feature = "prepare")]
 mod meshlets;
 mod nearest;
+mod neighbours;
 #[cfg(feature = "prepare")]
 mod order;
+mod overlay;
+mod patches;
 mod quadric;
 mod repair;
 mod report;
@@ -27,7 +29,7 @@ mod weld;
 pub use distance::DistanceBounds;
 #[cfg(feature = "prepare")]
 pub use enclose::{BoundingSphere, DirectionCone};
-pub use levels::Level;
+pub use hierarchy::{HierarchyPatch, PatchGroup, PatchHierarchy};
 #[cfg(feature = "prepare")]
 pub use meshlets::{Meshlet, Meshlets};
 pub use repair::RepairReport;

@@ -3,10 +3,6 @@
 use super::weld::places;
 use crate::Mesh;
 
-/// Positions no further apart than this part of the longest edge of the box are one place: some bits of an `f32`, by
-/// which exporters and seams of revolution miss each other.
-const SNAP: f64 = 1e-6;
-
 /// Numbers of normals, texture coordinates, colours and tangents no further apart than this are equal.
 const EQUAL: f32 = 1e-4;
 
@@ -15,7 +11,7 @@ const COMPARED: usize = 64;
 
 /// Which vertex each vertex is taken for, by number.
 pub(super) struct StandIns {
-    /// The vertex whose position it has.
+    /// The first vertex with its position, to the bit but for the sign of 0.
     pub(super) places: Vec<u32>,
     /// The vertex that is used in its stead: one of the same place with the same attributes.
     pub(super) vertices: Vec<u32>,
@@ -23,29 +19,39 @@ pub(super) struct StandIns {
 
 impl StandIns {
     pub(super) fn new(mesh: &Mesh) -> Self {
-        let size = mesh.bounds().max.as_dvec3() - mesh.bounds().min.as_dvec3();
-        let places = places(mesh.positions(), (SNAP * size.max_element()) as f32);
-        let mut at_place: Vec<Vec<u32>> = vec![Vec::new(); places.len()];
+        let places = places(mesh.positions(), 0.0);
+        // The vertices of each place that are no stand-ins of others: the first, and what follows each.
+        let mut following = vec![u32::MAX; places.len()];
         let vertices = (0..).zip(&places).map(|(vertex, &place)| {
-            let others = &mut at_place[place as usize];
-            let equal = others.iter().take(COMPARED).find(|&&other| mesh.attributes_agree(vertex, other));
-            equal.copied().unwrap_or_else(|| {
-                others.push(vertex);
-                vertex
-            })
+            if vertex == place {
+                return vertex;
+            }
+            let mut other = place;
+            for _ in 0..COMPARED {
+                if mesh.attributes_agree(vertex, other) {
+                    return other;
+                }
+                let next = following[other as usize];
+                if next == u32::MAX {
+                    following[other as usize] = vertex;
+                    return vertex;
+                }
+                other = next;
+            }
+            vertex
         });
         let vertices = vertices.collect();
         Self { places, vertices }
     }
 
-    /// The triangles between stand-ins that have three places.
-    pub(super) fn triangles(&self, mesh: &Mesh) -> Vec<[u32; 3]> {
+    /// Those of some triangles that have three places, between stand-ins.
+    pub(super) fn triangles<'a>(&'a self, triangles: &'a [[u32; 3]]) -> impl Iterator<Item = [u32; 3]> + 'a {
         let has_three_places = |triangle: &[u32; 3]| {
             let [a, b, c] = triangle.map(|vertex| self.places[vertex as usize]);
             a != b && b != c && c != a
         };
-        let stand_ins = mesh.triangles().map(|triangle| triangle.map(|vertex| self.vertices[vertex as usize]));
-        stand_ins.filter(has_three_places).collect()
+        let stand_ins = triangles.iter().map(|triangle| triangle.map(|vertex| self.vertices[vertex as usize]));
+        stand_ins.filter(has_three_places)
     }
 }
 

@@ -6,9 +6,10 @@ use crate::batch::object::{Circumstances, Reflecting, Shared};
 use crate::batch::table::ObjectTable;
 use crate::error::{RenderError, label};
 use crate::frame::report::FrameReport;
-use crate::geometry::detail::{Demand, LevelsOfDetail};
+use crate::geometry::allowed::{Allowed, Demand, FullDetail, LevelsOfDetail};
+use crate::geometry::detail::Choice;
 use crate::geometry::meshes::{Form, Geometries, Geometry};
-use crate::geometry::patches::MeshPatch;
+use crate::geometry::patches::{MeshPatch, Sight};
 use crate::lights::gather::Lights;
 use crate::lights::lists::{LightLists, Listing};
 use crate::lights::terms::Chosen;
@@ -35,6 +36,7 @@ pub(crate) struct LitPatches {
     pub(crate) records: Vec<DrawRecord>,
     pub(crate) lists: LightLists,
     pub(crate) table: ObjectTable,
+    choice: Choice,
 }
 
 /// Neighbouring patches of an object that are drawn alike.
@@ -68,6 +70,7 @@ type ObjectQuery<'w, 's> = Query<
         Option<&'static Reflectance>,
         Option<&'static Faces>,
         Has<Blend>,
+        Has<FullDetail>,
         &'static ModelView,
         &'static NormalMatrix,
         &'static Chosen,
@@ -95,7 +98,7 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
     let shared = Shared { lights: &lights, allowed: &allowed, encoding, viewer, costs };
     let mut seen = Vec::new();
     for &entity in &visible.0 {
-        let Ok((mesh, material, back, reflectance, faces, blend, model_view, normal_matrix, chosen, name)) =
+        let Ok((mesh, material, back, reflectance, faces, blend, full, model_view, normal_matrix, chosen, name)) =
             objects.get(entity)
         else {
             continue;
@@ -121,7 +124,7 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
             opposite_normals: geometry.opposite_normals,
         };
         let key = reflecting.key(look, circumstances, shared);
-        let (material, exponent) = (look.material, look.exponent);
+        let material = look.material;
         let sphere = geometry.detail.whole.sphere(model_view);
         let object = LitObject {
             depth: -sphere.0.z,
@@ -129,12 +132,12 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
             reflecting,
             key,
             material,
-            exponent,
             mesh: mesh.0.id(),
             form,
             geometry,
             model_view,
             normal_matrix,
+            full: full || blend,
         };
         lit.add(&object, &mut seen, &view, shared, &mut *backend, &mut report);
     }
@@ -151,7 +154,6 @@ struct LitObject<'a> {
     /// The key that fits best.
     key: DrawKey,
     material: u32,
-    exponent: f32,
     depth: f32,
     twins_before: u32,
     mesh: AssetId<Mesh>,
@@ -159,6 +161,8 @@ struct LitObject<'a> {
     geometry: &'a Geometry,
     model_view: &'a ModelView,
     normal_matrix: &'a NormalMatrix,
+    /// Its triangles are drawn as they are.
+    full: bool,
 }
 
 impl LitPatches {
@@ -180,33 +184,38 @@ impl LitPatches {
         backend: &mut impl Backend,
         report: &mut FrameReport,
     ) {
-        let LitObject { reflecting, key, geometry, model_view, normal_matrix, .. } = object;
+        let LitObject { ref reflecting, ref key, geometry, model_view, normal_matrix, .. } = *object;
+        let detail = &geometry.detail;
+        let reflector = reflecting.reflector(key.terms);
+        let Shared { allowed: levels, lights, encoding, .. } = shared;
         let demand = Demand {
-            allowed: shared.allowed,
-            terms: key.terms,
+            levels,
             listed: key.lists == Lists::Listed,
             blinn_phong: key.blinn_phong,
             local_viewer: key.local_viewer,
-            exponent: object.exponent,
-            lights: shared.lights,
+            reflector: &reflector,
+            lights,
+            encoding,
+            model_view,
+            sphere: detail.whole.sphere(model_view),
         };
-        let patches = geometry.detail.patches(model_view, view, demand);
+        let is_whole = object.full || !detail.has_levels();
+        let allowed = if is_whole { Allowed::NOTHING } else { Allowed::new(demand) };
+        let sight = Sight::new(model_view, view, reflecting.faces, &detail.whole);
         report.triangles_in += geometry.source.triangle_count() as u64;
         self.instances.push(InstanceRecord::new(model_view, normal_matrix, reflecting.faces, view.unit() as f32));
         // Where all lights are compiled in, no patch has lists.
         let admitted = if key.lists == Lists::Listed { *key } else { backend.admit(*key) };
         let listing = (admitted.lists == Lists::Listed).then(|| {
             let eye = equations::Eye::in_eye_space(shared.viewer);
-            reflecting.reflector(key.terms).listing(shared.lights.ambient, eye, shared.encoding)
+            reflector.listing(shared.lights.ambient, eye, shared.encoding)
         });
         seen.clear();
-        if let [whole] = patches {
-            // The object has been found to be seen.
-            seen.push(whole);
-        } else {
-            seen.extend(patches.iter().filter(|it| it.is_seen(model_view, normal_matrix, view, reflecting.faces)));
-            report.patches += patches.len() as u32;
-            report.patches_culled += (patches.len() - seen.len()) as u32;
+        let looked_at = detail.each_seen(&allowed, &sight, &mut self.choice, |patch| seen.push(patch));
+        // What is whole has been found to be seen, and is not counted.
+        if looked_at > 0 {
+            report.patches += looked_at;
+            report.patches_culled += looked_at - seen.len() as u32;
         }
         let mut run: Option<OpenRun> = None;
         for together in seen.chunks(TOGETHER) {
@@ -245,7 +254,8 @@ impl LitPatches {
         backend: &mut impl Backend,
     ) -> (DrawKey, u32, RecordLists) {
         let LitObject { reflecting, key, model_view, normal_matrix, .. } = object;
-        let patch = patch.in_eye_space(model_view, normal_matrix, reflecting.faces);
+        let flat = object.form.flat;
+        let patch = patch.in_eye_space(model_view, normal_matrix, reflecting.faces, flat);
         self.lists.select(shared.lights, &patch, listing);
         let key = if shared.costs.lights_at_fixed_places
             && key.lists == Lists::Listed

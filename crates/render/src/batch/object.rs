@@ -2,7 +2,7 @@
 
 use crate::batch::key::{Cull, DrawKey};
 use crate::device::costs::Costs;
-use crate::geometry::detail::LevelsOfDetail;
+use crate::geometry::allowed::LevelsOfDetail;
 use crate::lights::gather::Lights;
 use crate::lights::lists::Reflector;
 use crate::shaders::light_slots::{Highlights, Lists};
@@ -34,8 +34,6 @@ pub(crate) struct Appearance {
     reflects: [bool; 3],
     /// log₂ of the exponent where it is a power of two, the same on both sides.
     squarings: Option<u8>,
-    /// The larger exponent of its sides.
-    pub(crate) exponent: f32,
 }
 
 /// What every object's key and lists take from the frame.
@@ -76,7 +74,6 @@ impl Reflecting<'_> {
             invalid,
             reflects: [any(|side| side.ka), any(|side| side.kd), any(|side| side.ks)],
             squarings: self.squarings(),
-            exponent: self.exponents().into_iter().fold(0.0, f32::max),
         }
     }
 

@@ -37,7 +37,7 @@ impl MeshPieces {
 /// Draws begin and end where patches do.
 fn pieces(geometry: &Geometry, indices: &[u32], form: Form) -> Result<Pieces, RasterError> {
     let Geometry { source, detail, .. } = geometry;
-    let cuts: Vec<_> = detail.patches.iter().map(|patch| patch.indices.clone()).collect();
+    let cuts: Vec<_> = detail.patches().iter().map(|patch| patch.indices.clone()).collect();
     let order = if form.ordered { TriangleOrder::Kept } else { TriangleOrder::Clustered };
     let [positions, normals] = [source.positions(), source.normals()].map(bytemuck::cast_slice);
     Pieces::new(positions, normals, indices, &cuts, order)

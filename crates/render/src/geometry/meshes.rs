@@ -1,9 +1,13 @@
 //! Meshes laid out for drawing: in patches, and with levels of detail.
 
 use crate::frame::report::FrameReport;
-use crate::geometry::detail::{Detail, LevelsOfDetail, MeshTriangles};
+use crate::geometry::allowed::LevelsOfDetail;
+use crate::geometry::detail::{Detail, MeshTriangles};
 use crate::geometry::workshop::{Workshop, is_same};
 use crate::lights::terms::Chosen;
+use crate::target::canvas::CanvasTarget;
+use crate::target::surface::SurfaceTarget;
+use crate::target::texture::TextureTarget;
 use crate::view::matrices::Visible;
 use bevy_asset::{AssetId, Assets};
 use bevy_ecs::prelude::*;
@@ -84,17 +88,24 @@ impl Geometries {
     }
 }
 
+/// What is drawn into where it is not a picture that is read back.
+type OtherTargets<'w> = (Option<Res<'w, SurfaceTarget>>, Option<Res<'w, CanvasTarget>>, Option<Res<'w, TextureTarget>>);
+
 /// Lays out the meshes of visible objects that are not yet, for the way they are shaded.
+#[expect(clippy::too_many_arguments, reason = "a system takes each resource as a parameter")]
 pub(crate) fn lay_out(
     meshes: Res<Assets<Mesh>>,
     objects: Query<(&Mesh3d, &Chosen, Has<Blend>)>,
     visible: Res<Visible>,
     allowed: Res<LevelsOfDetail>,
+    (surface, canvas, texture): OtherTargets,
     mut workshop: ResMut<Workshop>,
     mut geometries: ResMut<Geometries>,
     mut report: ResMut<FrameReport>,
 ) {
     workshop.collect();
+    // Nobody watches the frames, but somebody may compare them.
+    let waits = surface.is_none() && canvas.is_none() && texture.is_none();
     let mut last = None;
     for (Mesh3d(handle), chosen, blend) in objects.iter_many(&visible.0).flatten() {
         let wanted = (handle.id(), Form::new(chosen.0, blend));
@@ -102,8 +113,11 @@ pub(crate) fn lay_out(
             continue;
         }
         let Some(mesh) = meshes.get(handle) else { continue };
-        let levels =
-            if wanted.1.ordered || *allowed == LevelsOfDetail::OFF { None } else { workshop.levels(wanted.0, mesh) };
+        let levels = if wanted.1.ordered || *allowed == LevelsOfDetail::OFF {
+            None
+        } else {
+            workshop.levels(wanted.0, mesh, waits)
+        };
         geometries.ensure(wanted, mesh, levels);
     }
     report.levels_pending = workshop.pending();

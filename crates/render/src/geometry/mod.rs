@@ -1,5 +1,6 @@
 //! Meshes as they are drawn: in patches, and in levels of detail.
 
+pub(crate) mod allowed;
 pub(crate) mod detail;
 pub(crate) mod meshes;
 pub(crate) mod patches;

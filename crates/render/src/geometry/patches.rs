@@ -1,5 +1,5 @@
-//! Patches: large meshes in pieces that lie close together, so that each can have light lists of its own and be left out
-//! when it is not seen.
+//! Patches: large meshes in pieces that lie close together and face alike, so that each can have light lists of its own and
+//! be left out when it is not seen.
 
 use crate::view::camera::View;
 use crate::view::matrices::{ModelView, NormalMatrix};
@@ -9,10 +9,6 @@ use halfway_lighting::bounds::{self, NormalCone};
 use halfway_mesh::{Bounds, Mesh, face_normal};
 use std::ops::Range;
 
-/// A mesh of up to this many triangles is one patch: cutting it would cost more draws than it saves.
-const WHOLE: usize = 4096;
-/// How many triangles a patch has at most. 64 to 256 serve; fewer cut the light lists shorter and cost more draws.
-const PATCH: usize = 32;
 /// Normals spread wider than this from their mean, in radians, bound nothing. Below π/2 those that are interpolated stay
 /// inside the cone of the vertices'.
 const WIDEST: f32 = 1.5;
@@ -26,54 +22,166 @@ pub(crate) struct MeshPatch {
     pub(crate) indices: Range<u32>,
     center: Vec3,
     radius: f32,
-    /// Of the normals of vertices and faces; `None` where they are spread too wide.
-    cone: Option<PatchCone>,
-    /// How far any vertex is from the plane through the centre across the cone's axis.
-    half_thickness: f32,
+    facing: Facing,
+    /// Of the normals of its triangles; `None` where they are spread too wide.
+    faces: Option<PatchCone>,
+    /// Of the normals of its vertices; `None` where they are spread too wide.
+    normals: Option<PatchCone>,
 }
 
-/// The mean of some normals, and how far the farthest is from it in radians.
+/// Which way triangles face: from where none of them shows its front, or none its back.
+///
+/// A triangle shows its front to the eye at e where n·(e − p) > 0, n its normal and p any of its points. With c the
+/// centre of the patch and v = e − c, that is n·v + n·(c − p). The largest n·v of all triangles is a convex function of v,
+/// twice as large for twice the v; so where v = Σ wᵢ dᵢ with no wᵢ below 0, it is at most Σ wᵢ times its value for dᵢ. It
+/// is known for 18 directions d, the corners and the middles of edges of an octahedron, of which the three around v
+/// serve. A cone around the normals is wider: it is as round as their farthest one is far.
+#[derive(Clone, Debug, PartialEq)]
+struct Facing {
+    /// The largest n·d of all triangles for each of [`Facing::DIRECTIONS`].
+    most: [f32; 18],
+    /// The largest n·(c − p) of all, and the largest −n·(c − p).
+    beyond: [f32; 2],
+}
+
+impl Facing {
+    /// Numbered by the signs of their coordinates, 1 where they are negative: ±x, ±y, ±z; then ±x ± y, ±x ± z, ±y ± z.
+    const DIRECTIONS: [Vec3; 18] = {
+        const fn d(x: i32, y: i32, z: i32) -> Vec3 {
+            Vec3::new(x as f32, y as f32, z as f32)
+        }
+        [
+            d(1, 0, 0),
+            d(-1, 0, 0),
+            d(0, 1, 0),
+            d(0, -1, 0),
+            d(0, 0, 1),
+            d(0, 0, -1),
+            d(1, 1, 0),
+            d(1, -1, 0),
+            d(-1, 1, 0),
+            d(-1, -1, 0),
+            d(1, 0, 1),
+            d(1, 0, -1),
+            d(-1, 0, 1),
+            d(-1, 0, -1),
+            d(0, 1, 1),
+            d(0, 1, -1),
+            d(0, -1, 1),
+            d(0, -1, -1),
+        ]
+    };
+
+    /// Of triangles that may face anywhere.
+    const UNKNOWN: Self = Self { most: [f32::INFINITY; 18], beyond: [f32::INFINITY; 2] };
+
+    /// Of triangles with these normals, whose corners are so far from the centre of the patch.
+    fn new(triangles: impl Iterator<Item = (Vec3, [Vec3; 3])>) -> Self {
+        let mut facing = Self { most: [f32::NEG_INFINITY; 18], beyond: [f32::NEG_INFINITY; 2] };
+        for (n, offsets) in triangles {
+            for (most, d) in facing.most.iter_mut().zip(Self::DIRECTIONS) {
+                *most = most.max(n.dot(d));
+            }
+            for height in offsets.map(|offset| n.dot(offset)) {
+                facing.beyond = [facing.beyond[0].max(-height), facing.beyond[1].max(height)];
+            }
+        }
+        facing
+    }
+
+    /// Of all of these, around centres that are so far from the centre of all.
+    fn around<'a>(parts: impl Iterator<Item = (&'a Self, f32)>) -> Self {
+        let mut facing = Self { most: [f32::NEG_INFINITY; 18], beyond: [f32::NEG_INFINITY; 2] };
+        for (part, away) in parts {
+            facing.most = std::array::from_fn(|i| facing.most[i].max(part.most[i]));
+            facing.beyond = std::array::from_fn(|i| facing.beyond[i].max(part.beyond[i] + away));
+        }
+        facing
+    }
+
+    /// Whether no triangle turns its front, or its `back`, to an eye that is so far from the centre of the patch.
+    fn hides(&self, eye: Vec3, back: bool) -> bool {
+        let v = if back { -eye } else { eye };
+        let [x, y, z] = v.to_array().map(|at| usize::from(at < 0.0));
+        let Vec3 { x: a, y: b, z: c } = v.abs();
+        let [of_x, of_y, of_z] = [x, 2 + y, 4 + z].map(|i| self.most[i]);
+        let [of_xy, of_xz, of_yz] = [6 + 2 * x + y, 10 + 2 * x + z, 14 + 2 * y + z].map(|i| self.most[i]);
+        let most = if a >= b + c {
+            (a - b - c) * of_x + b * of_xy + c * of_xz
+        } else if b >= a + c {
+            (b - a - c) * of_y + a * of_xy + c * of_yz
+        } else if c >= a + b {
+            (c - a - b) * of_z + a * of_xz + b * of_yz
+        } else {
+            0.5 * ((a + b - c) * of_xy + (a + c - b) * of_xz + (b + c - a) * of_yz)
+        };
+        most + self.beyond[usize::from(back)] < -ANGLE_SLACK * (a + b + c)
+    }
+}
+
+/// The mean of some normals, and how far the farthest is from it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct PatchCone {
     axis: Vec3,
+    /// In radians.
     half_angle: f32,
+    /// How far any vertex is from the plane through the patch's centre across the axis.
+    half_thickness: f32,
 }
 
-/// Puts triangles of a mesh in an order in which neighbours in the list are neighbours in space, and cuts them into
-/// patches, the first of which begins at `first` in the index list. Few triangles are one patch, in their order.
-pub(crate) fn cut(mesh: &Mesh, triangles: &mut [[u32; 3]], first: u32) -> Vec<MeshPatch> {
-    if triangles.len() <= WHOLE {
-        return vec![MeshPatch::new(mesh, triangles, first)];
+impl PatchCone {
+    fn new(normals: &[Vec3], offsets: impl Iterator<Item = Vec3>) -> Option<Self> {
+        let axis = normals.iter().sum::<Vec3>().normalize_or_zero();
+        let least = normals.iter().map(|n| n.dot(axis)).fold(1.0, f32::min);
+        let half_angle = least.clamp(-1.0, 1.0).acos() + ANGLE_SLACK;
+        if axis == Vec3::ZERO || half_angle >= WIDEST {
+            return None;
+        }
+        let farthest = offsets.map(|offset| offset.dot(axis).abs()).fold(0.0, f32::max);
+        Some(Self { axis, half_angle, half_thickness: farthest * (1.0 + 1e-5) })
     }
-    let bounds = mesh.bounds();
-    let positions = mesh.positions();
-    // Stable: what is at one place keeps its order.
-    triangles.sort_by_cached_key(|corners| {
-        let [a, b, c] = corners.map(|i| positions[i as usize] / 3.0);
-        place_on_curve(a + b + c, &bounds)
-    });
-    (first..).step_by(3 * PATCH).zip(triangles.chunks(PATCH)).map(|(at, run)| MeshPatch::new(mesh, run, at)).collect()
 }
 
-/// The mean radius of patches, in the mesh's units.
-pub(crate) fn mean_radius(patches: &[MeshPatch]) -> f32 {
-    patches.iter().map(|patch| patch.radius).sum::<f32>() / patches.len().max(1) as f32
+/// From where, and which sides of an object are seen: what tells whether a patch of it shows.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Sight<'a> {
+    model_view: &'a ModelView,
+    view: &'a View,
+    /// The eye in model space, and whether back faces are drawn rather than front faces; `None` where both are or the
+    /// transform has no inverse.
+    eye: Option<(Vec3, bool)>,
+    /// None of it is beside the picture.
+    is_inside: bool,
 }
 
-/// Where a point of the box is on the Z-order curve (Morton 1966) through 1024³ cells.
-fn place_on_curve(p: Vec3, bounds: &Bounds) -> u32 {
-    let extent = (bounds.max - bounds.min).max_element().max(f32::MIN_POSITIVE);
-    let cell = (p - bounds.min) / extent * 1024.0;
-    // Casts take what is no number, or beside the box by rounding, into the range.
-    [cell.x, cell.y, cell.z].iter().enumerate().map(|(axis, cell)| spread((*cell as u32).min(1023)) << axis).sum()
-}
+impl<'a> Sight<'a> {
+    /// Of an object; `whole` is all of it.
+    pub(crate) fn new(model_view: &'a ModelView, view: &'a View, faces: Faces, whole: &MeshPatch) -> Self {
+        let side = match faces {
+            Faces::Both => None,
+            Faces::Front => Some(false),
+            Faces::Back => Some(true),
+        };
+        let model_from_eye = model_view.eye_from_model.inverse();
+        let eye = Vec3::from(model_from_eye.translation);
+        let eye = side.filter(|_| eye.is_finite()).map(|back| (eye, back));
+        let (center, radius) = whole.sphere(model_view);
+        Self { model_view, view, eye, is_inside: view.projection.holds(center, radius) }
+    }
 
-/// The ten lowest bits with two zeros between each.
-fn spread(bits: u32) -> u32 {
-    let bits = (bits | bits << 16) & 0x0300_00ff;
-    let bits = (bits | bits << 8) & 0x0300_f00f;
-    let bits = (bits | bits << 4) & 0x030c_30c3;
-    (bits | bits << 2) & 0x0924_9249
+    /// An upper bound of how many pixels a way of a unit of the mesh takes, anywhere in the sphere around a patch where
+    /// the picture shows it; no less for a patch whose sphere holds another's. A way of length e at (x, y, −z) in eye
+    /// space moves its end by at most f·e/z·√(1 + (x² + y²)/z²), f pixels being the way of a point at depth 1 that moves
+    /// by 1.
+    pub(crate) fn pixels_per_unit(&self, patch: &MeshPatch) -> f32 {
+        let View { projection, pixels_at_unit_depth, .. } = self.view;
+        let (center, radius) = patch.sphere(self.model_view);
+        let [x, y] = projection.scale;
+        let nearest = (-center.z - radius).max(projection.near);
+        let aside2 = (center.truncate().length() + radius).powi(2) / (nearest * nearest);
+        let slope2 = aside2.min(1.0 / (x * x) + 1.0 / (y * y));
+        pixels_at_unit_depth * self.model_view.largest_scale() * (1.0 + slope2).sqrt() / nearest
+    }
 }
 
 impl MeshPatch {
@@ -82,22 +190,24 @@ impl MeshPatch {
         let vertices = || triangles.as_flattened().iter().map(|&i| i as usize);
         let points = || vertices().map(|i| mesh.positions()[i]);
         let center = Bounds::from_points(points()).map_or(Vec3::ZERO, |bounds| bounds.center());
+        let offsets = || points().map(|p| p - center);
         let faces = triangles.iter().filter_map(|corners| {
-            let [a, b, c] = corners.map(|i| mesh.positions()[i as usize]);
-            face_normal(a, b, c)
+            let corners = corners.map(|i| mesh.positions()[i as usize]);
+            let n = face_normal(corners[0], corners[1], corners[2])?;
+            Some((n, corners.map(|p| p - center)))
         });
-        let normals: Vec<Vec3> = vertices().map(|i| mesh.normals()[i]).chain(faces).collect();
-        let axis = normals.iter().sum::<Vec3>().normalize_or_zero();
-        let least = normals.iter().map(|n| n.dot(axis)).fold(1.0, f32::min);
-        let half_angle = least.clamp(-1.0, 1.0).acos() + ANGLE_SLACK;
-        let cone = (axis != Vec3::ZERO && half_angle < WIDEST).then_some(PatchCone { axis, half_angle });
-        let farthest = |of: &dyn Fn(Vec3) -> f32| points().map(|p| of(p - center)).fold(0.0, f32::max) * (1.0 + 1e-5);
+        let faces: Vec<(Vec3, [Vec3; 3])> = faces.collect();
+        let facing = Facing::new(faces.iter().copied());
+        let faces: Vec<Vec3> = faces.into_iter().map(|(n, _)| n).collect();
+        let normals: Vec<Vec3> = vertices().map(|i| mesh.normals()[i]).collect();
+        let radius = offsets().map(Vec3::length).fold(0.0, f32::max) * (1.0 + 1e-5);
         Self {
             indices: first..first + 3 * triangles.len() as u32,
             center,
-            radius: farthest(&|offset| offset.length()),
-            half_thickness: if cone.is_some() { farthest(&|offset| offset.dot(axis).abs()) } else { f32::INFINITY },
-            cone,
+            radius,
+            facing,
+            faces: PatchCone::new(&faces, offsets()),
+            normals: PatchCone::new(&normals, offsets()),
         }
     }
 
@@ -105,12 +215,25 @@ impl MeshPatch {
     pub(crate) fn whole(mesh: &Mesh) -> Self {
         let center = mesh.bounds().center();
         let farthest = mesh.positions().iter().map(|p| p.distance(center)).fold(0.0, f32::max);
+        let indices = 0..mesh.indices().len() as u32;
+        Self { indices, center, radius: farthest * (1.0 + 1e-5), facing: Facing::UNKNOWN, faces: None, normals: None }
+    }
+
+    /// What is known of all of these together, one or more, which follow each other; and its sphere is no smaller than to
+    /// hold those of `others`.
+    pub(crate) fn around<'a>(patches: &'a [Self], others: impl Iterator<Item = &'a Self> + Clone) -> Self {
+        let spheres = || patches.iter().chain(others.clone());
+        let corners = spheres().flat_map(|patch| [patch.center - patch.radius, patch.center + patch.radius]);
+        let center = Bounds::from_points(corners).map_or(Vec3::ZERO, |bounds| bounds.center());
+        let reach = spheres().map(|patch| patch.center.distance(center) + patch.radius).fold(0.0, f32::max);
+        let ends = patches.first().zip(patches.last()).map_or(0..0, |(a, b)| a.indices.start..b.indices.end);
         Self {
-            indices: 0..mesh.indices().len() as u32,
+            indices: ends,
             center,
-            radius: farthest * (1.0 + 1e-5),
-            cone: None,
-            half_thickness: f32::INFINITY,
+            radius: reach * (1.0 + 1e-5),
+            facing: Facing::around(patches.iter().map(|patch| (&patch.facing, patch.center.distance(center)))),
+            faces: None,
+            normals: None,
         }
     }
 
@@ -126,52 +249,37 @@ impl MeshPatch {
 
     /// Whether any of it may show: it reaches into the frustum, and not all its triangles turn the side away that is
     /// drawn. Never false for one that shows.
-    pub(crate) fn is_seen(
-        &self,
-        model_view: &ModelView,
-        normal_matrix: &NormalMatrix,
-        view: &View,
-        faces: Faces,
-    ) -> bool {
-        let (center, radius) = self.sphere(model_view);
-        if !view.projection.sees(center, radius) {
-            return false;
+    pub(crate) fn is_seen(&self, sight: &Sight) -> bool {
+        if !sight.is_inside {
+            let (center, radius) = self.sphere(sight.model_view);
+            if !sight.view.projection.sees(center, radius) {
+                return false;
+            }
         }
-        let side = match faces {
-            Faces::Both => return true,
-            Faces::Front => 1.0,
-            Faces::Back => -1.0,
-        };
-        let Some(cone) = self.cone.filter(|_| model_view.keeps_angles()) else { return true };
-        // A triangle with normal n at p shows its back where n·p ≥ 0, with the eye at the origin. Over the sphere and the
-        // cone n·p is at least D·cos(γ + α) − r, γ the angle between the axis and the way to the centre; that is
-        // positive only for γ + α < π/2.
-        let axis = (normal_matrix.0 * cone.axis).normalize_or_zero() * side;
-        let along = axis.dot(center);
-        let across = (center.length_squared() - along * along).max(0.0).sqrt();
-        let (sin, cos) = cone.half_angle.sin_cos();
-        along * cos - across * sin <= radius * (1.0 + 1e-5)
+        sight.eye.is_none_or(|(eye, back)| !self.facing.hides(eye - self.center, back))
     }
 
-    /// What bounds of lights know of it, in eye space. The cone of the normals is kept only where the transform turns and
-    /// scales all alike.
+    /// What bounds of lights know of it, in eye space: with the normals of its triangles where `flat`, else of its
+    /// vertices. The cone of the normals is kept only where the transform turns and scales all alike.
     pub(crate) fn in_eye_space(
         &self,
         model_view: &ModelView,
         normal_matrix: &NormalMatrix,
         faces: Faces,
+        flat: bool,
     ) -> bounds::Patch<f32> {
         let scale = model_view.largest_scale();
         let (center, radius) = self.sphere(model_view);
-        let cone = self.cone.filter(|_| model_view.keeps_angles());
+        let cone = if flat { self.faces } else { self.normals };
+        let cone = cone.filter(|_| model_view.keeps_angles());
         bounds::Patch {
             center: center.to_array(),
             radius,
-            normals: cone.map(|PatchCone { axis, half_angle }| NormalCone {
+            normals: cone.map(|PatchCone { axis, half_angle, .. }| NormalCone {
                 axis: (normal_matrix.0 * axis).to_array(),
                 half_angle,
             }),
-            half_thickness: if cone.is_some() { self.half_thickness * scale } else { f32::INFINITY },
+            half_thickness: cone.map_or(f32::INFINITY, |cone| cone.half_thickness * scale),
             faces,
         }
     }
@@ -180,12 +288,12 @@ impl MeshPatch {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::detail::MeshTriangles;
     use halfway_mesh::{Plane, UvSphere};
 
     fn cut_whole(mesh: &Mesh) -> (Vec<[u32; 3]>, Vec<MeshPatch>) {
-        let mut triangles: Vec<_> = mesh.triangles().collect();
-        let patches = cut(mesh, &mut triangles, 0);
-        (triangles, patches)
+        let MeshTriangles { corners, detail } = MeshTriangles::in_patches(mesh);
+        (corners, detail.patches().to_vec())
     }
 
     #[test]
@@ -210,12 +318,16 @@ mod tests {
             for patch in &patches {
                 assert_eq!(patch.indices.start, end);
                 end = patch.indices.end;
-                let cone = patch.cone.expect("normals that lie together");
-                for &i in &triangles.as_flattened()[patch.indices.start as usize..end as usize] {
-                    let (p, n) = (mesh.positions()[i as usize], mesh.normals()[i as usize]);
-                    assert!(p.distance(patch.center) <= patch.radius);
-                    assert!((p - patch.center).dot(cone.axis).abs() <= patch.half_thickness);
-                    assert!(n.dot(cone.axis).clamp(-1.0, 1.0).acos() <= cone.half_angle);
+                let [faces, normals] = [patch.faces, patch.normals].map(|cone| cone.expect("they lie together"));
+                let is_in = |cone: PatchCone, n: Vec3| n.dot(cone.axis).clamp(-1.0, 1.0).acos() <= cone.half_angle;
+                for corners in &triangles[patch.indices.start as usize / 3..end as usize / 3] {
+                    for i in corners.map(|i| i as usize) {
+                        let offset = mesh.positions()[i] - patch.center;
+                        assert!(offset.length() <= patch.radius && is_in(normals, mesh.normals()[i]));
+                        assert!([faces, normals].iter().all(|cone| offset.dot(cone.axis).abs() <= cone.half_thickness));
+                    }
+                    let [a, b, c] = corners.map(|i| mesh.positions()[i as usize]);
+                    assert!(face_normal(a, b, c).is_none_or(|n| is_in(faces, n)));
                 }
             }
             assert_eq!(end as usize, 3 * triangles.len());
@@ -225,9 +337,8 @@ mod tests {
     #[test]
     fn patches_are_small() {
         let (_, patches) = cut_whole(&Mesh::from(Plane { size: 64.0, divisions: 64 }));
-        // 32 triangles are 16 cells of edge 1: a square of 4 × 4, with half a diagonal of 2.8. On the curve one cut
-        // elsewhere has at most two of these.
+        // 64 triangles are 32 cells of edge 1: at most 4 × 8 of them, with half a diagonal of 4.5, or 11 × 3.
         assert!(patches.iter().all(|patch| patch.radius < 6.0), "{patches:?}");
-        assert!(patches.iter().all(|patch| patch.half_thickness == 0.0));
+        assert!(patches.iter().all(|patch| patch.normals.is_some_and(|cone| cone.half_thickness == 0.0)));
     }
 }

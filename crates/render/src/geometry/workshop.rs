@@ -1,4 +1,4 @@
-//! The thread that makes levels of detail beside the frames.
+//! What makes levels of detail: a thread beside the frames, or, where nobody watches them, the frame itself.
 
 use crate::error::{RenderError, panic_message};
 use crate::geometry::detail::MeshTriangles;
@@ -6,9 +6,10 @@ use bevy_asset::AssetId;
 use bevy_ecs::prelude::Resource;
 use bevy_platform::collections::HashMap;
 use halfway_mesh::Mesh;
-use std::panic::catch_unwind;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// Meshes with fewer triangles have no levels.
 const FEWEST: usize = 64;
@@ -26,7 +27,7 @@ pub(crate) struct Workshop {
     thread: Option<Thread>,
     /// How many meshes have been sent to the thread and have not come back.
     on_their_way: usize,
-    make: fn(&Mesh) -> MeshTriangles,
+    make: Make,
     /// What went wrong beside the frames, until it is reported.
     pub(crate) failures: Vec<RenderError>,
 }
@@ -36,6 +37,9 @@ impl Default for Workshop {
         Self::making(MeshTriangles::in_levels)
     }
 }
+
+/// Makes the levels of a mesh, unless it is told to stop.
+type Make = fn(&Mesh, &AtomicBool) -> Option<MeshTriangles>;
 
 struct Order {
     source: Mesh,
@@ -57,18 +61,28 @@ enum OrderState {
 struct Thread {
     wanted: Sender<(AssetId<Mesh>, Mesh)>,
     made: Mutex<Receiver<Made>>,
+    /// What it is doing is no longer wanted.
+    stop: Arc<AtomicBool>,
+}
+
+/// Nobody waits for the thread to end.
+impl Drop for Thread {
+    fn drop(&mut self) {
+        self.stop.store(true, Ordering::Relaxed);
+    }
 }
 
 /// A mesh and its levels, or what went wrong.
 type Made = (AssetId<Mesh>, Mesh, Result<MeshTriangles, String>);
 
 impl Workshop {
-    fn making(make: fn(&Mesh) -> MeshTriangles) -> Self {
+    fn making(make: Make) -> Self {
         Self { orders: HashMap::default(), frame: 0, thread: None, on_their_way: 0, make, failures: Vec::new() }
     }
 
-    /// The levels of `mesh` if they are made. Asks for them if another frame has wanted them before.
-    pub(crate) fn levels(&mut self, id: AssetId<Mesh>, mesh: &Mesh) -> Option<&MeshTriangles> {
+    /// The levels of `mesh` if they are made. Asks for them if another frame has wanted them before, and then waits for them
+    /// if it `waits`.
+    pub(crate) fn levels(&mut self, id: AssetId<Mesh>, mesh: &Mesh, waits: bool) -> Option<&MeshTriangles> {
         if mesh.triangle_count() < FEWEST {
             return None;
         }
@@ -78,6 +92,15 @@ impl Workshop {
             *order = Order::new(mesh, *frame);
         }
         let before = std::mem::replace(&mut order.wanted, *frame);
+        if matches!(order.state, OrderState::Seen) && before < *frame && waits {
+            order.state = match made(*make, mesh, &AtomicBool::new(false)) {
+                Ok(triangles) => triangles.map_or(OrderState::Refused, OrderState::Made),
+                Err(reason) => {
+                    failures.push(no_levels(id, reason));
+                    OrderState::Refused
+                }
+            };
+        }
         if matches!(order.state, OrderState::Seen) && before < *frame && *on_their_way < MOST_ON_THEIR_WAY {
             if thread.is_none() {
                 *thread = Thread::start(*make);
@@ -150,22 +173,34 @@ fn no_levels(id: AssetId<Mesh>, reason: String) -> RenderError {
     RenderError::NoLevels { mesh: format!("mesh {id}"), reason }
 }
 
+/// What is made of a mesh, `None` where it was told to stop, or what went wrong.
+fn made(make: Make, mesh: &Mesh, stop: &AtomicBool) -> Result<Option<MeshTriangles>, String> {
+    // What was being made is dropped, and the flag is as good as before.
+    catch_unwind(AssertUnwindSafe(|| make(mesh, stop))).map_err(|panic| panic_message(&*panic))
+}
+
 impl Thread {
     /// `None` where the system gives no thread.
-    fn start(make: fn(&Mesh) -> MeshTriangles) -> Option<Self> {
+    fn start(make: Make) -> Option<Self> {
         let (wanted, wishes) = channel::<(AssetId<Mesh>, Mesh)>();
-        let (sender, made) = channel();
+        let (sender, receiver) = channel();
+        let stop = Arc::new(AtomicBool::new(false));
+        let stopped = Arc::clone(&stop);
         let work = move || {
             // Ends when the workshop is gone.
             for (id, mesh) in wishes {
-                let triangles = catch_unwind(|| make(&mesh)).map_err(|panic| panic_message(&*panic));
+                let triangles = match made(make, &mesh, &stopped) {
+                    Ok(Some(triangles)) => Ok(triangles),
+                    Ok(None) => break,
+                    Err(reason) => Err(reason),
+                };
                 if sender.send((id, mesh, triangles)).is_err() {
                     break;
                 }
             }
         };
         std::thread::Builder::new().name("levels of detail".into()).spawn(work).ok()?;
-        Some(Self { wanted, made: Mutex::new(made) })
+        Some(Self { wanted, made: Mutex::new(receiver), stop })
     }
 }
 
@@ -181,16 +216,17 @@ mod tests {
         let whole = Mesh::from(UvSphere::new(1.0, 24, 12));
         let mut assets = Assets::<Mesh>::default();
         let handles = [&broken, &whole].map(|mesh| assets.add(mesh.clone()));
-        let mut workshop = Workshop::making(|mesh| {
+        let mut workshop = Workshop::making(|mesh, stop| {
             assert!(mesh != &Mesh::from(UvSphere::new(1.0, 16, 8)), "this mesh is broken");
-            MeshTriangles::in_levels(mesh)
+            MeshTriangles::in_levels(mesh, stop)
         });
         let mut failures = Vec::new();
         let mut frame = |workshop: &mut Workshop| {
             workshop.collect();
             failures.append(&mut workshop.failures);
             let [first, second] = &handles;
-            let made = [(first, &broken), (second, &whole)].map(|(at, mesh)| workshop.levels(at.id(), mesh).is_some());
+            let made =
+                [(first, &broken), (second, &whole)].map(|(at, mesh)| workshop.levels(at.id(), mesh, false).is_some());
             (made, workshop.pending())
         };
         assert_eq!(frame(&mut workshop), ([false, false], 2), "seen once");

@@ -8,7 +8,7 @@ use bevy_math::Vec3;
 use halfway_lighting::bounds::{
     DEFAULT_TOLERANCE, LightTree, NearLights, Patch, Receiver, Region, Selected, linear_tolerance,
 };
-use halfway_lighting::equations::{Coefficients, Eye};
+use halfway_lighting::equations::{Coefficients, Eye, specular_exponent};
 use halfway_lighting::{Encoding, Frequency, Reflectance, Terms};
 
 /// The lists of a frame.
@@ -254,7 +254,7 @@ impl Reflector {
     }
 
     /// Coefficients that are nowhere below either side's, so that bounds hold for both.
-    fn larger_side(&self) -> Coefficients<f32> {
+    pub(crate) fn larger_side(&self) -> Coefficients<f32> {
         let [front, back] = &self.sides;
         let larger = |a: [f32; 3], b: [f32; 3], term: Frequency| {
             if term == Frequency::Never { [0.0; 3] } else { [0, 1, 2].map(|k| a[k].max(b[k])) }
@@ -270,8 +270,14 @@ impl Reflector {
         }
     }
 
+    /// The smaller and the larger specular exponent of both sides.
+    pub(crate) fn exponents(&self) -> [f32; 2] {
+        let [a, b] = [0, 1].map(|side: usize| specular_exponent(self.reflectance, self.sides[side].shininess));
+        [a.min(b), a.max(b)]
+    }
+
     /// What every point of both sides has without lights.
-    fn unlit(&self, ambient: Vec3) -> Vec3 {
+    pub(crate) fn unlit(&self, ambient: Vec3) -> Vec3 {
         let [front, back] = self.sides.map(|side| Vec3::from_array(side.ke) + Vec3::from_array(side.ka) * ambient);
         front.min(back)
     }

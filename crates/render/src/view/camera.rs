@@ -73,6 +73,17 @@ impl Projection {
         };
         depth + radius >= self.near && side(x, center.x) && side(y, center.y)
     }
+
+    /// Whether no part of a sphere in eye space is beside the picture or before the near plane. Never true for one of
+    /// which a part is.
+    pub(crate) fn holds(&self, center: Vec3, radius: f32) -> bool {
+        let [x, y] = self.scale;
+        let depth = -center.z;
+        let side = |scale: f32, offset: f32| {
+            scale * offset.abs() - depth <= -radius * (scale * scale + 1.0).sqrt() * (1.0 + 1e-5)
+        };
+        depth - radius * (1.0 + 1e-5) >= self.near && side(x, center.x) && side(y, center.y)
+    }
 }
 
 type CameraQuery<'w, 's> = Query<

@@ -1,0 +1,78 @@
+//! Patches: runs of triangles that lie close together and face alike.
+
+use std::ops::Range;
+
+use bevy_math::Vec3;
+
+use crate::Mesh;
+
+/// From so many patches of triangles down, they are also parted by the way they face: of more than these, borders between
+/// what faces apart would run all over the mesh.
+const PARTED_BY_FACING: usize = 16;
+
+/// Normals whose parts along an axis differ by more than this are parted there rather than by place: those of the sides
+/// of a thin sheet or of an edge, but not those of what is only a little uneven.
+const FACING_APART: f32 = 0.6;
+
+/// A triangle among others.
+#[derive(Clone, Copy)]
+struct Site {
+    /// Its centre.
+    place: Vec3,
+    /// The mean normal of its corners: those of its own plane would part what is only noisy.
+    facing: Vec3,
+    number: u32,
+}
+
+impl Mesh {
+    /// Puts triangles of the mesh in an order in which neighbours in the list lie close together and face alike, and cuts
+    /// them into patches of up to `most` triangles (at least 1), all but one of them full. Within a patch they keep their
+    /// order.
+    ///
+    /// Triangles are halved across the longest side of the box around their centres until a patch is left, as in a k-d
+    /// tree; a few patches' triangles that face apart are halved by the longest side of the box around their normals
+    /// instead.
+    pub fn cut_into_patches(&self, triangles: &mut [[u32; 3]], most: usize) -> Vec<Range<usize>> {
+        let most = most.max(1);
+        let site = |(number, corners): (u32, &[u32; 3])| {
+            let mean = |of: &[Vec3]| corners.iter().map(|&i| of[i as usize] * (1.0 / 3.0)).sum::<Vec3>();
+            Site { place: mean(self.positions()), facing: mean(self.normals()).normalize_or_zero(), number }
+        };
+        let mut sites: Vec<Site> = (0..).zip(triangles.iter()).map(site).collect();
+        let mut patches = Vec::with_capacity(triangles.len().div_ceil(most));
+        part(&mut sites, 0, most, &mut patches);
+        let before = triangles.to_vec();
+        for (triangle, site) in triangles.iter_mut().zip(&sites) {
+            *triangle = before[site.number as usize];
+        }
+        patches
+    }
+}
+
+/// Cuts triangles of which `before` come before them in the list.
+fn part(sites: &mut [Site], before: usize, most: usize, patches: &mut Vec<Range<usize>>) {
+    if sites.len() <= most {
+        sites.sort_unstable_by_key(|site| site.number);
+        patches.push(before..before + sites.len());
+        return;
+    }
+    let size = |of: fn(&Site) -> Vec3| {
+        let range = |(low, high): (Vec3, Vec3), site: &Site| (low.min(of(site)), high.max(of(site)));
+        // Halved first, so that no finite box overflows.
+        let (low, high) = sites.iter().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), range);
+        high * 0.5 - low * 0.5
+    };
+    let by_facing = if sites.len() <= PARTED_BY_FACING * most { size(|site| site.facing) } else { Vec3::ZERO };
+    let (of, axis): (fn(&Site) -> Vec3, usize) = if by_facing.max_element() > 0.5 * FACING_APART {
+        (|site| site.facing, by_facing.max_position())
+    } else {
+        (|site| site.place, size(|site| site.place).max_position())
+    };
+    // Whole patches on the first side, so that only the last one of all is not full.
+    let half = (sites.len() / 2).next_multiple_of(most).min(sites.len() - 1);
+    let order = |a: &Site, b: &Site| of(a)[axis].total_cmp(&of(b)[axis]).then(a.number.cmp(&b.number));
+    sites.select_nth_unstable_by(half, order);
+    let (first, second) = sites.split_at_mut(half);
+    part(first, before, most, patches);
+    part(second, before + half, most, patches);
+}

@@ -1,0 +1,283 @@
+//! How coarse an object may be drawn.
+
+use crate::lights::gather::Lights;
+use crate::lights::lists::Reflector;
+use crate::lights::terms::by_vertex_shader;
+use crate::view::matrices::ModelView;
+use bevy_ecs::prelude::{Component, ReflectComponent, ReflectResource, Resource};
+use bevy_math::{DVec3, Vec3};
+use bevy_reflect::Reflect;
+use bevy_reflect::std_traits::ReflectDefault;
+use halfway_lighting::bounds::linear_tolerance;
+use halfway_lighting::equations::{Light, Place, attenuation, range_window};
+use halfway_lighting::{Encoding, Frequency, Terms};
+
+/// How coarse a mesh may be drawn. Patches of it are drawn with fewer triangles where
+///
+/// - no point of its surface moves by more than `pixels` on the picture, and
+/// - either no edge is longer than a pixel, or turned normals change what is shown by no more than `shading`, all lights and
+///   terms together.
+///
+/// How far points move and normals turn is bounded, patch by patch ([`halfway_mesh::PatchGroup`]). A normal that turns by δ
+/// changes a term with exponent n (1 for diffuse) by no more than
+///
+/// - √n·((n − 1)/n)^((n − 1)/2)·δ, its steepest slope, of its largest value, twice that for Phong's reflection vector,
+/// - and a highlight by what is cut off where n·l falls below 0: sinⁿ(β + δ) of its largest value, β half the angle
+///   between light and eye; −cosⁿ 2β for Phong's.
+///
+/// Where a term is shaded at the vertices, it also may change by no more than `interpolation` of its largest value. To the
+/// first of the above ½·n·ω² + 6·w² is added, an estimate of the second-order error of interpolation: ω = R + ½(w + u) is how far n and h turn against each other within a triangle, R the spread of its normals,
+/// w = e/(√3·d) and u its size as seen from the nearest light and from a local viewer (e the longest edge, within a circle
+/// of e/√3, Jung 1901); 6·w² is for attenuation, up to the inverse square.
+///
+/// Flat shading shows the triangles themselves, so that only the length of edges counts; likewise for objects with more
+/// than eight lights, and for vertices lit by spots, whose rims are sharp.
+///
+/// Coarser patches are made in the background once a mesh has been seen in two frames; until then it is drawn as it is.
+/// Without a window, the second frame waits for them: so a picture of one frame never has any, and a recording repeats to
+/// the byte. Blended objects, whose triangles are drawn in the order of their mesh, and objects that are scaled differently
+/// along different axes keep all triangles, as do those with [`FullDetail`].
+#[derive(Resource, Reflect, Clone, Copy, Debug, PartialEq)]
+#[reflect(Resource, Clone, Debug, Default, PartialEq)]
+pub struct LevelsOfDetail {
+    /// How far a point may move, in pixels. Default 0.5; 0 draws every mesh as it is.
+    pub pixels: f32,
+    /// How much turned normals may change what is shown, as a part of white in the picture's encoding. Default 4/255.
+    pub shading: f32,
+    /// How much a term that is shaded at the vertices may change between them, as a part of its largest value. Default 0.1.
+    pub interpolation: f32,
+}
+
+impl LevelsOfDetail {
+    /// Every mesh as it is.
+    pub const OFF: Self = Self { pixels: 0.0, shading: 0.0, interpolation: 0.0 };
+}
+
+impl Default for LevelsOfDetail {
+    fn default() -> Self {
+        Self { pixels: 0.5, shading: 4.0 / 255.0, interpolation: 0.1 }
+    }
+}
+
+/// Draws an object as its mesh is, whatever [`LevelsOfDetail`] allows.
+#[derive(Component, Reflect, Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[reflect(Component, Clone, Debug, Default, PartialEq)]
+pub struct FullDetail;
+
+/// How far a group's parts are off; see [`halfway_mesh::PatchGroup`].
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct GroupErrors {
+    pub(crate) error: f32,
+    pub(crate) normal_error: f32,
+    pub(crate) normal_spread: f32,
+    pub(crate) longest_edge: f32,
+    /// They are too large for short light lists.
+    pub(crate) spoils_lists: bool,
+}
+
+/// An object whose detail is chosen.
+#[derive(Clone, Copy)]
+pub(crate) struct Demand<'a> {
+    pub(crate) levels: &'a LevelsOfDetail,
+    /// Its patches have light lists of their own.
+    pub(crate) listed: bool,
+    pub(crate) blinn_phong: bool,
+    pub(crate) local_viewer: bool,
+    pub(crate) reflector: &'a Reflector,
+    pub(crate) lights: &'a Lights,
+    pub(crate) encoding: Option<Encoding>,
+    pub(crate) model_view: &'a ModelView,
+    /// Around all of it, in eye space.
+    pub(crate) sphere: (Vec3, f32),
+}
+
+/// What one object may be drawn with.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Allowed {
+    pixels: f32,
+    shading: Shading,
+    /// Its patches have light lists of their own.
+    listed: bool,
+}
+
+/// What is shown besides outlines.
+#[derive(Clone, Copy, Debug)]
+enum Shading {
+    /// A constant color.
+    None,
+    /// Triangles that may not be told apart.
+    Edges,
+    /// Terms that may change; those at vertices by so much of their largest values.
+    Terms([TermChange; 2], f32),
+}
+
+/// What a turned normal changes of all lights' diffuse or specular terms, as parts of what is allowed.
+#[derive(Clone, Copy, Debug, Default)]
+struct TermChange {
+    /// The sum of the largest values.
+    largest: f32,
+    /// A highlight that is cut off.
+    cut: f32,
+    exponent: f32,
+    /// How far h or the reflected vector turns with the normal.
+    turn: f32,
+    /// Of a triangle of a unit of the mesh, as seen from the nearest light and from the eye; `None` where it is not shaded at
+    /// vertices.
+    by_vertices: Option<[f32; 2]>,
+}
+
+/// What is cut off of highlights is found for normals that turn by up to this, in radians: 3°.
+const TURNED: f32 = 0.05;
+
+impl Allowed {
+    /// The mesh as it is.
+    pub(crate) const NOTHING: Self = Self { pixels: 0.0, shading: Shading::Edges, listed: false };
+
+    pub(crate) fn new(demand: Demand) -> Self {
+        let Demand { levels, listed, lights, model_view, reflector: &Reflector { terms, .. }, .. } = demand;
+        if levels.pixels <= 0.0 || !model_view.keeps_angles() {
+            return Self::NOTHING;
+        }
+        let has_sharp_vertices = by_vertex_shader(terms).contains(&true) && lights.counts[2] > 0;
+        let shading = if terms == Terms::NONE {
+            Shading::None
+        } else if terms.has(Frequency::Triangle) || listed || has_sharp_vertices {
+            Shading::Edges
+        } else {
+            Shading::Terms(demand.changes(), levels.interpolation)
+        };
+        Self { pixels: levels.pixels, shading, listed }
+    }
+
+    pub(crate) fn is_nothing(&self) -> bool {
+        self.pixels <= 0.0
+    }
+
+    /// The most pixels that a unit of the mesh may take where a group's parts will do. It is no more for a group than for
+    /// one whose parts it joins, as its errors are no less.
+    pub(crate) fn pixels_per_unit(&self, group: &GroupErrors) -> f32 {
+        if self.listed && group.spoils_lists {
+            return -1.0;
+        }
+        // Without an error it is infinite.
+        let by_error = self.pixels / group.error;
+        let keeps_shading = match &self.shading {
+            Shading::None => true,
+            Shading::Edges => false,
+            Shading::Terms(changes, interpolation) => {
+                changes.iter().map(|change| change.of(group)).sum::<f32>() <= 1.0
+                    && changes.iter().all(|change| change.at_vertices(group) <= *interpolation)
+            }
+        };
+        if keeps_shading { by_error } else { by_error.min(1.0 / group.longest_edge) }
+    }
+}
+
+impl Demand<'_> {
+    /// What turned normals change of the object.
+    fn changes(&self) -> [TermChange; 2] {
+        let &Self { reflector, lights, model_view, sphere: (center, radius), .. } = self;
+        let side = reflector.larger_side();
+        let unlit = reflector.unlit(lights.ambient).to_array();
+        let allowed = unlit.map(|at_least| self.intensity(at_least));
+        let [smaller, larger] = reflector.exponents();
+        // Sums over the lights, by channel: diffuse, specular, and highlights that are cut off.
+        let mut sums = [[0.0_f32; 3]; 3];
+        let mut nearest_light = 0.0_f32;
+        let scale = model_view.largest_scale();
+        let inverse = |distance: f32| if distance > radius { scale / (distance - radius) } else { f32::INFINITY };
+        for light in &lights.sources {
+            let weight = match light.place {
+                Place::Point(position) => {
+                    let distance = center.as_dvec3().distance(Vec3::from(position).as_dvec3()) as f32;
+                    nearest_light = nearest_light.max(inverse(distance));
+                    let nearest = (distance - radius).max(0.0);
+                    attenuation(light.attenuation, nearest)
+                        * light.range.map_or(1.0, |range| range_window(nearest, range))
+                }
+                Place::Directional(_) => 1.0,
+            };
+            let cut = self.cut(light, smaller);
+            for k in [0, 1, 2] {
+                sums[0][k] += weight * side.kd[k] * light.ld[k];
+                sums[1][k] += weight * side.ks[k] * light.ls[k];
+                sums[2][k] += weight * side.ks[k] * light.ls[k] * cut;
+            }
+        }
+        // Of the channel of which it is the largest part.
+        let part = |sum: [f32; 3]| [0, 1, 2].map(|k| if sum[k] > 0.0 { sum[k] / allowed[k] } else { 0.0 });
+        let [diffuse, specular, cut] = sums.map(|sum| part(sum).into_iter().fold(0.0, f32::max));
+        let eye = if self.local_viewer { inverse(center.length()) } else { 0.0 };
+        let by_vertices = |at| (at == Frequency::Vertex).then_some([nearest_light, eye]);
+        let Terms { diffuse: diffuse_at, specular: specular_at } = reflector.terms;
+        let turn = if self.blinn_phong { 1.0 } else { 2.0 };
+        [
+            TermChange { largest: diffuse, cut: 0.0, exponent: 1.0, turn: 1.0, by_vertices: by_vertices(diffuse_at) },
+            TermChange { largest: specular, cut, exponent: larger, turn, by_vertices: by_vertices(specular_at) },
+        ]
+    }
+
+    /// The change of an intensity of at least this that is allowed. Pictures in floating point are held to those of
+    /// bytes that are not encoded.
+    fn intensity(&self, at_least: f32) -> f32 {
+        let encoding = self.encoding.unwrap_or(Encoding::Raw);
+        linear_tolerance(encoding, self.levels.shading.into(), at_least.into()) as f32
+    }
+
+    /// Where n·l is 0, h is no nearer to n than v and l are to each other: n·h ≤ sin β, 2β their angle. The reflected vector
+    /// is −l there.
+    fn cut(&self, light: &Light<f32>, exponent: f32) -> f32 {
+        let (center, radius) = self.sphere;
+        let center = center.as_dvec3();
+        let subtended =
+            |distance: f64| if distance > f64::from(radius) { (f64::from(radius) / distance).asin() } else { 4.0 };
+        let (to_light, by_light) = match light.place {
+            Place::Directional(toward) => (Vec3::from(toward).as_dvec3(), 0.0),
+            Place::Point(position) => {
+                let offset = Vec3::from(position).as_dvec3() - center;
+                (offset.normalize_or_zero(), subtended(offset.length()))
+            }
+        };
+        let (to_eye, by_eye) =
+            if self.local_viewer { (-center.normalize_or_zero(), subtended(center.length())) } else { (DVec3::Z, 0.0) };
+        let between = (to_light.dot(to_eye).clamp(-1.0, 1.0).acos() + by_light + by_eye).min(std::f64::consts::PI);
+        let turned = f64::from(TURNED);
+        let cosine = if self.blinn_phong { (0.5 * between).sin() + turned } else { 2.0 * turned - between.cos() };
+        cosine.clamp(0.0, 1.0).powf(f64::from(exponent)) as f32
+    }
+}
+
+impl TermChange {
+    /// What turned normals change where a group's parts are drawn, as a part of what is allowed.
+    fn of(&self, group: &GroupErrors) -> f32 {
+        if self.largest == 0.0 {
+            return 0.0;
+        }
+        let cut = match group.normal_error {
+            0.0 => 0.0,
+            turned if turned <= TURNED => self.cut,
+            _ => self.largest,
+        };
+        self.largest * self.turned(group) + cut
+    }
+
+    /// By which part of its largest value a term changes that is shaded at the vertices; 0 for others.
+    fn at_vertices(&self, group: &GroupErrors) -> f32 {
+        self.by_vertices.map_or(0.0, |[light, eye]| {
+            let size = group.longest_edge / 3f32.sqrt();
+            let (w, u) = (size * light, size * eye);
+            let turned = self.turn * (group.normal_spread + 0.5 * (w + u));
+            self.turned(group) + 0.5 * self.exponent.max(1.0) * turned * turned + 6.0 * w * w
+        })
+    }
+
+    /// The same of what turned normals change.
+    fn turned(&self, group: &GroupErrors) -> f32 {
+        steepest(self.exponent.max(1.0)) * self.turn * group.normal_error
+    }
+}
+
+/// The steepest slope of cosⁿ f is √n·((n − 1)/n)^((n − 1)/2): √n times 1 at n = 1, and falling to √(n/e).
+fn steepest(n: f32) -> f32 {
+    n.sqrt() * ((n - 1.0) / n).powf(0.5 * (n - 1.0))
+}
