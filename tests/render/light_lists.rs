@@ -276,7 +276,7 @@ fn lights_that_cannot_reach_are_not_assigned() {
             let aside: [(&str, fn(Vec3) -> Lamp); 4] = [
                 ("lights behind the plane", |at| Lamp::point(ranged(0.4, 30.0), at.with_y(-at.y))),
                 ("suns from below", |at| Lamp::directional(DirectionalLight::white(), at)),
-                ("lights out of range", |at| Lamp::point(ranged(0.4, 3.5), at)),
+                ("lights out of range", |at| Lamp::point(ranged(0.4, 3.0), at)),
                 ("spots that point away", |at| {
                     Lamp::spot(SpotLight { light: ranged(0.4, 30.0), cone: Cone::new(0.6) }, at, Vec3::Y)
                 }),

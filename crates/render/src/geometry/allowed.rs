@@ -26,9 +26,10 @@ use halfway_lighting::{Encoding, Frequency, Terms};
 ///   between light and eye; −cosⁿ 2β for Phong's.
 ///
 /// Where a term is shaded at the vertices, it also may change by no more than `interpolation` of its largest value. To the
-/// first of the above ½·n·ω² + 6·w² is added, an estimate of the second-order error of interpolation: ω = R + ½(w + u) is how far n and h turn against each other within a triangle, R the spread of its normals,
-/// w = e/(√3·d) and u its size as seen from the nearest light and from a local viewer (e the longest edge, within a circle
-/// of e/√3, Jung 1901); 6·w² is for attenuation, up to the inverse square.
+/// first of the above ½·n·ω² + 6·w² is added, an estimate of the second-order error of interpolation: ω = R + ½(w + u) is
+/// how far n and h turn against each other within a triangle, R the spread of its normals, w = e/(√3·d) and u its size as
+/// seen from the nearest light and from a local viewer (e the longest edge, within a circle of e/√3, Jung 1901); 6·w² is
+/// for attenuation, up to the inverse square.
 ///
 /// Flat shading shows the triangles themselves, so that only the length of edges counts; likewise for objects with more
 /// than eight lights, and for vertices lit by spots, whose rims are sharp.
