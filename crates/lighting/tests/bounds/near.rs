@@ -157,7 +157,7 @@ fn patches_without_bounds_are_reached_by_all_lights() {
 }
 
 #[test]
-#[ignore = "prints times: cargo test --release -p halfway_lighting --test bounds -- --ignored --nocapture near::times"]
+#[ignore = "prints times: cargo test --release --workspace --test bounds -- --ignored --nocapture near::times"]
 fn times() {
     let patches = floor();
     let eye = Eye::Local([0.0, 50.0, 0.0]);

@@ -34,8 +34,8 @@ use halfway_lighting::{Encoding, Frequency, Terms};
 /// Flat shading shows the triangles themselves, so that only the length of edges counts; likewise for objects with more
 /// than eight lights, and for vertices lit by spots, whose rims are sharp.
 ///
-/// Coarser patches are made in the background once a mesh has been seen in two frames; until then it is drawn as it is.
-/// Without a window, the second frame waits for them: so a picture of one frame never has any, and a recording repeats to
+/// With a window, coarser patches are made in the background once a mesh has been seen in two frames; until then it is drawn
+/// as it is. Without one, the second frame waits for them: so a picture of one frame never has any, and a recording repeats to
 /// the byte. Blended objects, whose triangles are drawn in the order of their mesh, and objects that are scaled differently
 /// along different axes keep all triangles, as do those with [`FullDetail`].
 #[derive(Resource, Reflect, Clone, Copy, Debug, PartialEq)]
