@@ -29,7 +29,7 @@ fn main() -> AppExit {
         .add_plugins((TaskPoolPlugin::default(), MeshPlugin, LightingPlugin))
         .add_plugins(RenderPlugin { schedule: MyFrame.intern() })
         // Levels of detail would come in beside the frames, and count among their bytes.
-        .insert_resource(LevelsOfDetail::OFF)
+        .insert_resource(ViewTolerance(Tolerance::EXACT))
         .init_resource::<StaticTransformOptimizations>()
         .add_systems(
             MyFrame,

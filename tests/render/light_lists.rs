@@ -5,7 +5,7 @@ use crate::render::random::Random;
 use crate::render::scene::{Lamp, Scene, Thing, material, other_material, rotated};
 use crate::render::stage::Stage;
 use halfway::lighting::Frequency;
-use halfway::lighting::bounds::{DEFAULT_TOLERANCE, linear_tolerance};
+use halfway::lighting::bounds::{STEP, linear_tolerance};
 use halfway::prelude::*;
 
 /// Seen from straight above, so that every patch of a floor about the origin with this edge shows.
@@ -73,7 +73,7 @@ fn lists_change_no_picture_by_more_than_a_step() {
                 // and of white at most.
                 let ambient = &scene.things[0].material.ambient;
                 let known = [ambient.red, ambient.green, ambient.blue].map(|ka| 0.05 * f64::from(ka) + 0.03);
-                let most = known.map(|known| linear_tolerance(encoding, DEFAULT_TOLERANCE, known));
+                let most = known.map(|known| linear_tolerance(encoding, HALF_A_STEP, known));
                 let most = most.into_iter().fold(0.0, f64::max);
                 failures.unless(left_out <= most, || format!("{row}: {left_out} left out, over {most}"));
             }
@@ -108,7 +108,7 @@ fn lists_grow_with_what_lights_touch() {
         assert_eq!((errors, patches, patches_culled, lights), (vec![], size * size / 32, 0, size * size / 16));
         let of_each = lights_assigned as f64 / f64::from(lights);
         println!("{lights} lights, {pixels:?}: {of_each:.2} terms each in {patches} patches, {left_out:.1e} left out");
-        let most = linear_tolerance(Encoding::Srgb, DEFAULT_TOLERANCE, 0.0);
+        let most = linear_tolerance(Encoding::Srgb, HALF_A_STEP, 0.0);
         assert!(left_out <= if pixels == Pixels::Float { 0.0 } else { most }, "{lights}: {left_out} left out");
         // Of each light those patches that lie in a square with one that it reaches, of 32 or, where the curve turns, 64.
         let looked_at = light_pairs as f64 / f64::from(lights);

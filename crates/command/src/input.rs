@@ -41,6 +41,10 @@ impl SceneInput {
             scene.reflectance = reflectance;
             scene.objects.iter_mut().for_each(|object| object.reflectance = None);
         }
+        if let Some(tolerance) = args.tolerance.given() {
+            scene.tolerance = Some(tolerance.into());
+            scene.objects.iter_mut().for_each(|object| object.tolerance = None);
+        }
         if let Some(samples) = args.samples {
             scene.samples = samples;
         }

@@ -9,6 +9,7 @@ use halfway::record::parse_size;
 use halfway::scene::ShadingEntry;
 
 use crate::adapters::AdapterArgs;
+use crate::tolerance::ToleranceArgs;
 
 /// How the scene is drawn; what is given here wins over the scene file.
 #[derive(Args, Clone, Debug)]
@@ -26,6 +27,8 @@ pub(crate) struct LookArgs {
     #[arg(long, value_parser = one_of(&SAMPLES))]
     pub(crate) samples: Option<u32>,
     #[command(flatten)]
+    pub(crate) tolerance: ToleranceArgs,
+    #[command(flatten)]
     pub(crate) adapter: AdapterArgs,
 }
 
@@ -40,10 +43,11 @@ pub(crate) struct SizeArgs {
 /// Values of an option: what is typed, what the help says, and what it means.
 type Values<T, const N: usize> = [(&'static str, &'static str, T); N];
 
-const SHADINGS: Values<ShadingEntry, 3> = [
+const SHADINGS: Values<ShadingEntry, 4> = [
     ("flat", "Once a triangle", ShadingEntry::Flat),
     ("gouraud", "Once a vertex", ShadingEntry::Gouraud),
     ("phong", "Once a pixel", ShadingEntry::Phong),
+    ("auto", "As phong within the tolerance, wherever that is cheapest", ShadingEntry::Auto),
 ];
 const REFLECTANCES: Values<Reflectance, 3> = [
     ("phong", "(v·r)^α", Reflectance::Phong),

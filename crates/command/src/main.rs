@@ -8,13 +8,13 @@ mod failure;
 mod figures;
 mod info;
 mod input;
-mod levels;
 mod look;
 mod picture;
 mod progress;
 mod render;
 mod scenery;
 mod steps;
+mod tolerance;
 mod turntable;
 mod verify;
 #[cfg(feature = "window")]

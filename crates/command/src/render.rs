@@ -11,7 +11,6 @@ use halfway::render::Adapter;
 
 use crate::failure::Failure;
 use crate::input::SceneInput;
-use crate::levels::LevelsArgs;
 use crate::look::{LookArgs, SizeArgs};
 use crate::progress::Progress;
 use crate::turntable::Turntable;
@@ -20,8 +19,6 @@ use crate::turntable::Turntable;
 pub(crate) struct RenderArgs {
     #[command(flatten)]
     look: LookArgs,
-    #[command(flatten)]
-    levels: LevelsArgs,
     /// The picture: .png or .exr; with --frames an animated PNG, or one file a frame where the name has a {}
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
@@ -65,11 +62,11 @@ impl Drawer {
         Ok(Self::Adapter(args.look.adapter.choice().open()?))
     }
 
-    fn app(&self, size: UVec2, levels: LevelsOfDetail) -> App {
+    fn app(&self, size: UVec2) -> App {
         let mut app = App::new();
         match self {
             Self::Adapter(adapter) => {
-                app.add_plugins(HalfwayPlugins::headless(size)).insert_resource(levels);
+                app.add_plugins(HalfwayPlugins::headless(size));
                 adapter.clone().insert_into(app.world_mut());
             }
             Self::Reference(_) => {
@@ -110,7 +107,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         ..Recording::new(args.output.clone())
     };
     let drawer = Drawer::choose(args)?;
-    let mut app = drawer.app(size, args.levels.allowed());
+    let mut app = drawer.app(size);
     let spawned = input.spawn(&mut app)?;
     if args.frames.is_some() {
         // A full turn in 120 frames.

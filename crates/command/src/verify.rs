@@ -39,6 +39,9 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
     if let Some(file) = &args.picture {
         return judge_picture(args, input, file);
     }
+    let tolerance = args.look.tolerance.or(Tolerance::EXACT);
+    input.scene.tolerance = Some(tolerance.into());
+    input.scene.objects.iter_mut().for_each(|object| object.tolerance = None);
     let size = input.resize(args.size);
     if input.scene.samples != 1 {
         eprintln!("note: judged with one sample a pixel, since adapters differ in where they take four");
@@ -48,8 +51,7 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
     let device = adapter.describe();
     let bits = adapter.sub_pixel_bits()?;
     let mut app = App::new();
-    // The oracle knows no levels of detail.
-    app.add_plugins(HalfwayPlugins::headless(size)).insert_resource(LevelsOfDetail::OFF);
+    app.add_plugins(HalfwayPlugins::headless(size));
     adapter.insert_into(app.world_mut());
     input.spawn(&mut app)?;
     let encoding = input.scene.output;

@@ -5,21 +5,18 @@ use halfway::prelude::*;
 
 use crate::failure::Failure;
 use crate::input::SceneInput;
-use crate::levels::LevelsArgs;
 use crate::look::LookArgs;
 
 #[derive(Args, Debug)]
 pub(crate) struct ViewArgs {
     #[command(flatten)]
     look: LookArgs,
-    #[command(flatten)]
-    levels: LevelsArgs,
 }
 
 pub(crate) fn run(args: &ViewArgs) -> Result<(), Failure> {
     let input = SceneInput::read(&args.look)?;
     let mut app = App::new();
-    app.add_plugins(HalfwayPlugins).insert_resource(WindowTitle(input.name())).insert_resource(args.levels.allowed());
+    app.add_plugins(HalfwayPlugins).insert_resource(WindowTitle(input.name()));
     app.insert_resource(args.look.adapter.choice());
     input.spawn(&mut app)?;
     match app.run() {

@@ -25,7 +25,8 @@
 //!
 //! # What is here
 //! - Components: the lights, [`Material`] (with [presets](Material::PRESETS)) and [`BackMaterial`], [`Shading`],
-//!   [`Reflectance`], [`Faces`], [`Blend`], [`Visibility`]; the resource [`GlobalAmbient`]; [`LightingPlugin`]. A light stands where
+//!   [`Reflectance`], [`Faces`], [`Blend`], [`Visibility`], [`Tolerance`]; the resources [`GlobalAmbient`] and
+//!   [`ViewTolerance`]; [`LightingPlugin`]. A light stands where
 //!   its entity's `GlobalTransform` puts it and shines along the local −Z axis. Every value has a `validate()` whose
 //!   [`InvalidValue`] names type, field, value and what was expected.
 //! - [`equations`]: the equation and its parts as pure functions, in `f32` or `f64`, defined at every edge.
@@ -69,6 +70,7 @@ mod presets;
 mod propagation;
 mod range;
 mod shading;
+mod tolerance;
 mod visibility;
 
 pub use camera::{Camera, Encoding, Intensity, Samples};
@@ -83,4 +85,5 @@ pub use plugin::LightingPlugin;
 pub use propagation::{Propagation, propagation};
 pub use range::{CHANNEL_MAX, Range};
 pub use shading::{Blend, Faces, Reflectance, Shading, Terms, Viewer};
+pub use tolerance::{Tolerance, ViewTolerance};
 pub use visibility::{Shown, Visibility};

@@ -4,11 +4,11 @@ use bevy_app::{App, Plugin};
 
 use crate::{
     BackMaterial, Blend, Camera, DirectionalLight, Faces, GlobalAmbient, Material, PointLight, Reflectance, Shading,
-    SpotLight, Terms, Visibility,
+    SpotLight, Terms, Tolerance, ViewTolerance, Visibility,
 };
 
-/// Puts the resources of lighting into an [`App`]: [`GlobalAmbient`] with its default, unless one is there already; and
-/// registers the components for reflection.
+/// Puts the resources of lighting into an [`App`]: [`GlobalAmbient`] and [`ViewTolerance`] with their defaults, unless they
+/// are there already; and registers the components for reflection.
 ///
 /// Works alone; drawing is another plugin's work. May be added more than once.
 #[derive(Clone, Copy, Debug, Default)]
@@ -17,6 +17,9 @@ pub struct LightingPlugin;
 impl Plugin for LightingPlugin {
     fn build(&self, app: &mut App) {
         app.init_resource::<GlobalAmbient>()
+            .init_resource::<ViewTolerance>()
+            .register_type::<ViewTolerance>()
+            .register_type::<Tolerance>()
             .register_type::<GlobalAmbient>()
             .register_type::<PointLight>()
             .register_type::<SpotLight>()

@@ -87,8 +87,10 @@ fn check_surface(index: usize, surface: &SurfaceData, pass: &Pass) -> Result<(),
     };
     range("vertex", &surface.vertex)?;
     range("vertex_diffuse", &surface.vertex_diffuse)?;
+    range("vertex_specular", &surface.vertex_specular)?;
     range("fragment", &surface.fragment)?;
-    range("fragment_diffuse", &surface.fragment_diffuse)
+    range("fragment_diffuse", &surface.fragment_diffuse)?;
+    range("fragment_specular", &surface.fragment_specular)
 }
 
 fn check_instance(index: usize, instance: &InstanceData, pass: &Pass) -> Result<(), RasterError> {

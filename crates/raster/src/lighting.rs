@@ -240,21 +240,20 @@ pub(crate) fn to_viewer<S: Simd>(simd: S, p: V3<S>, n: V3<S>, local_viewer: bool
     scale::<S>(p, splat(simd, -1.0) / squared.sqrt())
 }
 
-/// What two ranges of lights bring to points, the second without highlights. It is most of the code; see [`gathered`].
+/// What three ranges of lights bring to points: with all terms, without highlights, and with nothing else. It is most of the code; see [`gathered`].
 #[inline(always)]
 pub(crate) fn gathered_here<S: Simd>(
     simd: S,
     lights: (&[LightData], &[u32]),
-    ranges: [LightRange; 2],
+    ranges: [LightRange; 3],
     points: &Points<S>,
     gloss: Gloss,
     terms: ShadedTerms,
 ) -> Irradiance<S> {
     let mut sum = Irradiance::none(simd);
-    let mut terms = terms;
-    for range in ranges {
+    let [diffuse, specular] = [ShadedTerms { specular: false, ..terms }, ShadedTerms { diffuse: false, ..terms }];
+    for (range, terms) in ranges.into_iter().zip([terms, diffuse, specular]) {
         add_listed(simd, &mut sum, lights, range, points, gloss, terms);
-        terms.specular = false;
     }
     sum
 }
@@ -263,7 +262,7 @@ pub(crate) fn gathered_here<S: Simd>(
 pub(crate) fn gathered<S: Simd>(
     simd: S,
     lights: (&[LightData], &[u32]),
-    ranges: [LightRange; 2],
+    ranges: [LightRange; 3],
     points: &Points<S>,
     gloss: Gloss,
     terms: ShadedTerms,

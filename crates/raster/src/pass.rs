@@ -173,10 +173,26 @@ pub struct SurfaceData {
     pub vertex: LightRange,
     /// More of them, whose highlights are left out.
     pub vertex_diffuse: LightRange,
+    /// More of them, of which nothing but their highlights is shaded.
+    pub vertex_specular: LightRange,
     /// Lights of the draw's fragment terms.
     pub fragment: LightRange,
     /// More of them, whose highlights are left out.
     pub fragment_diffuse: LightRange,
+    /// More of them, of which nothing but their highlights is shaded.
+    pub fragment_specular: LightRange,
+}
+
+impl SurfaceData {
+    /// The lights of the vertex terms: with all, with the diffuse alone, with the highlight alone.
+    pub(crate) fn vertex_ranges(&self) -> [LightRange; 3] {
+        [self.vertex, self.vertex_diffuse, self.vertex_specular]
+    }
+
+    /// The same of the fragment terms.
+    pub(crate) fn fragment_ranges(&self) -> [LightRange; 3] {
+        [self.fragment, self.fragment_diffuse, self.fragment_specular]
+    }
 }
 
 /// Where a mesh stands.

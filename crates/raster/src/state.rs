@@ -2,7 +2,7 @@
 
 use crate::lanes::Simd;
 use crate::lighting::{Gloss, Irradiance, Points, gathered, gathered_here};
-use crate::pass::{DrawCall, Highlight, LeftOut, Pass, ShadedTerms, SideData, SurfaceData};
+use crate::pass::{DrawCall, Highlight, LeftOut, LightRange, Pass, ShadedTerms, SideData, SurfaceData};
 use crate::power::Exponent;
 
 /// Where a draw's terms are shaded.
@@ -38,12 +38,13 @@ pub(crate) struct State {
 
 impl State {
     pub(crate) fn new(draw: &DrawCall, surface: u32, data: &SurfaceData) -> Self {
-        let lit = |terms: ShadedTerms, all: bool, diffuse: bool| {
-            let any = all && !terms.is_empty() || diffuse && terms.diffuse;
-            if any { terms } else { ShadedTerms::default() }
+        let lit = |terms: ShadedTerms, [all, diffuse, specular]: [LightRange; 3]| {
+            let has_diffuse = terms.diffuse && !(all.is_empty() && diffuse.is_empty());
+            let has_specular = terms.specular && !(all.is_empty() && specular.is_empty());
+            ShadedTerms { diffuse: has_diffuse, specular: has_specular }
         };
-        let vertex = lit(draw.vertex, !data.vertex.is_empty(), !data.vertex_diffuse.is_empty());
-        let fragment = lit(draw.fragment, !data.fragment.is_empty(), !data.fragment_diffuse.is_empty());
+        let vertex = lit(draw.vertex, data.vertex_ranges());
+        let fragment = lit(draw.fragment, data.fragment_ranges());
         let stage = match (vertex.is_empty(), fragment.is_empty()) {
             (true, true) => Stage::Unlit,
             (false, true) if draw.flat => Stage::Flat,
@@ -76,8 +77,7 @@ impl State {
     #[inline(always)]
     pub(crate) fn vertex_terms<S: Simd>(&self, simd: S, pass: &Pass, points: &Points<S>, back: bool) -> Irradiance<S> {
         let surface = &pass.surfaces[self.surface as usize];
-        let ranges = [surface.vertex, surface.vertex_diffuse];
-        gathered(simd, (pass.lights, pass.lists), ranges, points, self.gloss(back), self.vertex)
+        gathered(simd, (pass.lights, pass.lists), surface.vertex_ranges(), points, self.gloss(back), self.vertex)
     }
 
     /// What the lights of the fragment terms bring to points.
@@ -90,8 +90,14 @@ impl State {
         back: bool,
     ) -> Irradiance<S> {
         let surface = &pass.surfaces[self.surface as usize];
-        let ranges = [surface.fragment, surface.fragment_diffuse];
-        gathered_here(simd, (pass.lights, pass.lists), ranges, points, self.gloss(back), self.fragment)
+        gathered_here(
+            simd,
+            (pass.lights, pass.lists),
+            surface.fragment_ranges(),
+            points,
+            self.gloss(back),
+            self.fragment,
+        )
     }
 
     /// The material of a side.

@@ -30,7 +30,6 @@ pub use error::RenderError;
 pub use frame::report::FrameReport;
 pub use frame::sets::RenderSet;
 pub use frame::times::{FrameTimes, SetTimes};
-pub use geometry::allowed::{FullDetail, LevelsOfDetail};
 pub use lights::gather::Lights;
 pub use lights::terms::Chosen;
 pub use pipelines::compile::Compile;

@@ -15,7 +15,6 @@ use crate::draw::{pass, replaced};
 use crate::frame::report::FrameReport;
 use crate::frame::sets::RenderSet;
 use crate::frame::times;
-use crate::geometry::allowed::{FullDetail, LevelsOfDetail};
 use crate::geometry::meshes::{self, Geometries};
 use crate::geometry::workshop::Workshop;
 use crate::lights::gather::{self, Lights};
@@ -68,7 +67,7 @@ impl Plugin for RenderPlugin {
             .init_resource::<Lights>()
             .init_resource::<LitPatches>()
             .init_resource::<Batches>()
-            .init_resource::<LevelsOfDetail>()
+            .init_resource::<halfway_lighting::ViewTolerance>()
             .init_resource::<Workshop>()
             .init_resource::<Geometries>()
             .init_resource::<MeshBuffers>()
@@ -149,8 +148,6 @@ fn register_types(app: &mut App) {
         .register_type::<Headless>()
         .register_type::<CanvasTarget>()
         .register_type::<Compile>()
-        .register_type::<FullDetail>()
-        .register_type::<LevelsOfDetail>()
         .register_type::<FrameReport>()
         .register_type::<View>()
         .register_type::<Visible>()

@@ -18,7 +18,7 @@ use crate::locate::{line_and_column, place_of};
 use crate::mesh::MeshEntry;
 use crate::object::ObjectEntry;
 use crate::read::{Given, JsonObject, Spoken, object_or_null, objects, objects_or_null, word, write_word};
-use crate::view::{CameraEntry, ShadingEntry};
+use crate::view::{CameraEntry, ShadingEntry, ToleranceEntry};
 
 /// A scene as it stands in a scene file. Every key may be left out; the defaults are [`SceneFile::default`].
 ///
@@ -63,6 +63,9 @@ pub struct SceneFile {
     /// The shading of objects that name none.
     #[serde(deserialize_with = "word")]
     pub shading: ShadingEntry,
+    /// The tolerance of objects that name none; null: one step and half a pixel.
+    #[serde(deserialize_with = "object_or_null")]
+    pub tolerance: Option<ToleranceEntry>,
     /// The reflectance of objects that name none.
     #[serde(deserialize_with = "word", serialize_with = "write_word")]
     #[schemars(with = "Spoken<Reflectance>")]
@@ -91,6 +94,7 @@ impl Default for SceneFile {
             ambient: GlobalAmbient::default().0.to_f32_array_no_alpha(),
             viewer: Viewer::default(),
             shading: ShadingEntry::default(),
+            tolerance: None,
             reflectance: Reflectance::default(),
             camera: None,
             lights: None,
@@ -201,6 +205,7 @@ impl SceneFile {
         }
         color("ambient", &self.ambient)?;
         self.shading.check().within("shading")?;
+        self.tolerance.as_ref().map_or(Ok(()), ToleranceEntry::check).within("tolerance")?;
         self.camera.as_ref().map_or(Ok(()), CameraEntry::check).within("camera")?;
         for (i, object) in self.objects.iter().enumerate() {
             object.check().within_item("objects", i)?;

@@ -45,7 +45,7 @@ pub use mesh::{BoxEntry, InlineMesh, MeshEntry, PlaneEntry, TeapotEntry, UvSpher
 pub use object::{ObjectEntry, TransformEntry, TransformMatrix, TransformParts};
 pub use schema::json_schema;
 pub use spawn::{Spawned, spawn};
-pub use view::{AutoShading, CameraEntry, ShadingEntry};
+pub use view::{AutoShading, CameraEntry, ShadingEntry, ToleranceEntry};
 
 #[cfg(test)]
 mod tests;

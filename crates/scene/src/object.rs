@@ -10,8 +10,10 @@ use serde::{Deserialize, Serialize};
 use crate::check::{Check, KeyProblem, Within, finite};
 use crate::material::MaterialEntry;
 use crate::mesh::MeshEntry;
-use crate::read::{JsonObject, Spoken, given, given_word, object, word, word_or_null, write_word, write_word_or_null};
-use crate::view::ShadingEntry;
+use crate::read::{
+    JsonObject, Spoken, given, given_word, object, object_or_null, word, word_or_null, write_word, write_word_or_null,
+};
+use crate::view::{ShadingEntry, ToleranceEntry};
 
 /// A mesh somewhere in the scene, with a material.
 #[derive(Serialize, Deserialize, JsonSchema, Clone, Debug, PartialEq)]
@@ -47,6 +49,9 @@ pub struct ObjectEntry {
     /// The shading of this object; null: the scene's.
     #[serde(default, deserialize_with = "word_or_null")]
     pub shading: Option<ShadingEntry>,
+    /// The tolerance of this object; null: the scene's.
+    #[serde(default, deserialize_with = "object_or_null")]
+    pub tolerance: Option<ToleranceEntry>,
     /// The reflectance of this object; null: the scene's.
     #[serde(default, deserialize_with = "word_or_null", serialize_with = "write_word_or_null")]
     #[schemars(with = "Option<Spoken<Reflectance>>")]
@@ -121,6 +126,7 @@ impl ObjectEntry {
             back_material: None,
             faces: None,
             shading: None,
+            tolerance: None,
             reflectance: None,
             blend: None,
         }
@@ -132,6 +138,7 @@ impl ObjectEntry {
         for (key, material) in [("material", &self.material), ("back_material", &self.back_material)] {
             material.as_ref().map_or(Ok(()), MaterialEntry::check).within(key)?;
         }
+        self.tolerance.as_ref().map_or(Ok(()), ToleranceEntry::check).within("tolerance")?;
         self.shading.map_or(Ok(()), ShadingEntry::check).within("shading")
     }
 }

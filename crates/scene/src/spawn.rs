@@ -10,7 +10,7 @@ use bevy_color::{ColorToComponents, LinearRgba};
 use bevy_ecs::prelude::*;
 use bevy_math::{DMat3, DQuat, Mat4, Vec3};
 use bevy_transform::components::Transform;
-use halfway_lighting::{BackMaterial, Blend, GlobalAmbient, Shading};
+use halfway_lighting::{BackMaterial, Blend, GlobalAmbient, Tolerance, ViewTolerance};
 use halfway_lighting::{Camera, Samples};
 use halfway_mesh::{Bounds, Mesh, Mesh3d};
 
@@ -24,7 +24,7 @@ use crate::material::MaterialEntry;
 use crate::models::{ObjectShape, ShapePart, Shapes};
 use crate::object::ObjectEntry;
 use crate::placement::Placement;
-use crate::view::{CameraEntry, ShadingEntry};
+use crate::view::CameraEntry;
 
 /// The entities of a scene that was spawned.
 #[derive(Clone, Debug)]
@@ -40,7 +40,8 @@ pub struct Spawned {
     pub warnings: Vec<String>,
 }
 
-/// Puts a scene into a world: camera, objects, lights, and the [`GlobalAmbient`] resource.
+/// Puts a scene into a world: camera, objects, lights, and the [`GlobalAmbient`] resource; and [`ViewTolerance`],
+/// where the scene has one.
 ///
 /// Paths in the scene are relative to `base_dir`, the folder of the scene file. The size of the picture is not the
 /// world's business: it is for whoever makes the target.
@@ -71,6 +72,9 @@ pub fn spawn(scene: &SceneFile, base_dir: &Path, world: &mut World) -> Result<Sp
         .collect::<Result<Vec<_>, SceneError>>()?;
 
     world.insert_resource(GlobalAmbient(LinearRgba::from_f32_array_no_alpha(scene.ambient)));
+    if let Some(entry) = scene.shading.tolerance(scene.tolerance) {
+        world.insert_resource(ViewTolerance(entry.into()));
+    }
     let camera = spawn_camera(scene, &objects, world);
     let mut handles = Handles::new();
     let frames = objects
@@ -102,7 +106,7 @@ fn spawn_camera(scene: &SceneFile, objects: &[Object], world: &mut World) -> Ent
         encoding: scene.output,
         intensity: scene.intensity,
     };
-    let view = (shading(scene.shading), scene.reflectance);
+    let view = (scene.shading.shading(), scene.reflectance);
     world.spawn((Name::new("camera"), camera, camera_transform(&entry), view)).id()
 }
 
@@ -142,11 +146,6 @@ fn camera_transform(entry: &CameraEntry) -> Transform {
     let rotation =
         entry.axes().map_or(DQuat::IDENTITY, |[right, up, back]| DQuat::from_mat3(&DMat3::from_cols(right, up, back)));
     Transform::from_translation(entry.position.into()).with_rotation(rotation.normalize().as_quat())
-}
-
-/// Validation has refused what there is no component for.
-fn shading(entry: ShadingEntry) -> Shading {
-    entry.shading().unwrap_or_default()
 }
 
 /// Spawns an object and gives the entity of its frame.
@@ -202,7 +201,11 @@ fn dress(object: &ObjectEntry, part: &ShapePart, mesh: Handle<Mesh>, entity: &mu
         entity.insert(BackMaterial(back));
     }
     if let Some(entry) = object.shading {
-        entity.insert(shading(entry));
+        entity.insert(entry.shading());
+    }
+    let tolerance = object.shading.map_or(object.tolerance, |entry| entry.tolerance(object.tolerance));
+    if let Some(entry) = tolerance {
+        entity.insert(Tolerance::from(entry));
     }
     if let Some(reflectance) = object.reflectance {
         entity.insert(reflectance);

@@ -1,7 +1,7 @@
 //! The keys of a scene file that say how its picture is seen and written.
 
 use bevy_math::{DVec3, Vec3};
-use halfway_lighting::{Camera, Encoding, Faces, Intensity, Range, Reflectance, Shading, Viewer};
+use halfway_lighting::{Camera, Encoding, Faces, Intensity, Range, Reflectance, Shading, Tolerance, Viewer};
 use schemars::JsonSchema;
 use serde::de::MapAccess;
 use serde::{Deserialize, Serialize};
@@ -94,17 +94,19 @@ pub enum ShadingEntry {
     /// At every fragment; normals are interpolated.
     #[default]
     Phong,
-    /// The cheapest of these whose error stays within a tolerance. This version knows it, refuses it, and does not have it in
-    /// the schema.
-    #[schemars(skip)]
-    Auto(AutoShading),
+    /// As `phong`, within the tolerance, wherever that is cheapest.
+    Auto,
+    /// The same with a tolerance of its own.
+    #[serde(rename = "auto")]
+    AutoWithin(AutoShading),
 }
 
 /// The value of `{"auto": …}`.
-#[derive(Serialize, Deserialize, Clone, Copy, Debug, PartialEq)]
+#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq)]
 #[serde(default, deny_unknown_fields)]
 pub struct AutoShading {
-    /// The largest error, in steps of 1/255 of the output. Above 0.
+    /// The `steps` of a tolerance, 0 or more.
+    #[schemars(range(min = 0))]
     pub tolerance: f32,
 }
 
@@ -120,11 +122,11 @@ impl JsonObject for AutoShading {
 
 impl Word for ShadingEntry {
     const WORDS: &'static [(&'static str, Self)] =
-        &[("flat", Self::Flat), ("gouraud", Self::Gouraud), ("phong", Self::Phong)];
+        &[("flat", Self::Flat), ("gouraud", Self::Gouraud), ("phong", Self::Phong), ("auto", Self::Auto)];
     const OBJECT: Option<(&'static str, &'static str)> = Some(("auto", "{\"auto\": {\"tolerance\": 1.0}}"));
 
     fn from_member<'de, A: MapAccess<'de>>(map: &mut A) -> Result<Self, A::Error> {
-        map.next_value().map(|Given(auto)| Self::Auto(auto))
+        map.next_value().map(|Given(auto)| Self::AutoWithin(auto))
     }
 }
 
@@ -133,28 +135,72 @@ impl JsonObject for CameraEntry {
 }
 
 impl ShadingEntry {
-    /// The component, or `None` where there is none yet.
-    pub(crate) fn shading(self) -> Option<Shading> {
+    /// The component.
+    pub(crate) fn shading(self) -> Shading {
         match self {
-            Self::Flat => Some(Shading::Flat),
-            Self::Gouraud => Some(Shading::Gouraud),
-            Self::Phong => Some(Shading::Phong),
-            Self::Auto(_) => None,
+            Self::Flat => Shading::Flat,
+            Self::Gouraud => Shading::Gouraud,
+            Self::Phong => Shading::Phong,
+            Self::Auto | Self::AutoWithin(_) => Shading::Auto,
+        }
+    }
+
+    /// The tolerance that it brings along, beside one that is given.
+    pub(crate) fn tolerance(self, given: Option<ToleranceEntry>) -> Option<ToleranceEntry> {
+        match self {
+            Self::AutoWithin(AutoShading { tolerance: steps }) => {
+                Some(ToleranceEntry { steps, ..given.unwrap_or_default() })
+            }
+            _ => given,
         }
     }
 
     pub(crate) fn check(self) -> Check {
         match self {
-            Self::Flat | Self::Gouraud | Self::Phong => Ok(()),
-            Self::Auto(AutoShading { tolerance }) => {
-                in_range("auto.tolerance", tolerance, Range::POSITIVE)?;
-                Err(KeyProblem::new(
-                    "auto",
-                    "not yet: this version does not choose the shading by itself; \
-                     expected \"flat\", \"gouraud\" or \"phong\"",
-                ))
-            }
+            Self::Flat | Self::Gouraud | Self::Phong | Self::Auto => Ok(()),
+            Self::AutoWithin(AutoShading { tolerance }) => in_range("auto.tolerance", tolerance, Range::NON_NEGATIVE),
         }
+    }
+}
+
+/// `tolerance`: how far a picture may be from everything at full detail with all lights, and under `auto` from Phong shading.
+#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq)]
+#[serde(default, deny_unknown_fields)]
+pub struct ToleranceEntry {
+    /// How far a channel may be off, in steps of 1/255 of the output; 0 or more.
+    #[schemars(range(min = 0))]
+    pub steps: f32,
+    /// How far a point may move on the picture, in pixels; 0 or more, 0 for every mesh as it is.
+    #[schemars(range(min = 0))]
+    pub pixels: f32,
+}
+
+impl Default for ToleranceEntry {
+    fn default() -> Self {
+        Tolerance::DEFAULT.into()
+    }
+}
+
+impl From<Tolerance> for ToleranceEntry {
+    fn from(Tolerance { steps, pixels }: Tolerance) -> Self {
+        Self { steps, pixels }
+    }
+}
+
+impl From<ToleranceEntry> for Tolerance {
+    fn from(ToleranceEntry { steps, pixels }: ToleranceEntry) -> Self {
+        Self { steps, pixels }
+    }
+}
+
+impl JsonObject for ToleranceEntry {
+    const EXPECTED: &'static str = "an object such as {\"steps\": 1.0, \"pixels\": 0.5}";
+}
+
+impl ToleranceEntry {
+    pub(crate) fn check(&self) -> Check {
+        in_range("steps", self.steps, Range::NON_NEGATIVE)?;
+        in_range("pixels", self.pixels, Range::NON_NEGATIVE)
     }
 }
 

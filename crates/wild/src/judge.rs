@@ -140,7 +140,7 @@ impl Judge {
         renderer.add_plugins(HalfwayPlugins::headless(size));
         self.adapter.clone().insert_into(renderer.world_mut());
         // The oracle knows no levels of detail.
-        renderer.insert_resource(LevelsOfDetail::OFF);
+        renderer.insert_resource(ViewTolerance(Tolerance::EXACT));
         self.set_up(&mut renderer, &drawn)?;
         let mut pictures = Pictures { renderer, oracle: App::new(), size, encoding };
         pictures.oracle.add_plugins(HalfwayPlugins::reference());

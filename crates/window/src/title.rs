@@ -90,6 +90,7 @@ fn shading_name(shading: Shading) -> &'static str {
         Shading::Flat => "flat",
         Shading::Gouraud => "Gouraud",
         Shading::Phong => "Phong",
+        Shading::Auto => "Auto",
         _ => "other shading",
     }
 }

@@ -42,6 +42,7 @@ pub fn shading_name(shading: Shading) -> &'static str {
         Shading::Flat => "flat",
         Shading::Gouraud => "Gouraud",
         Shading::Phong => "Phong",
+        Shading::Auto => "Auto",
         _ => "another",
     }
 }

@@ -134,7 +134,8 @@ impl SceneApp {
     pub fn with_adapter(size: UVec2) -> Self {
         let mut app = App::new();
         // What is measured is the shading of the tessellation that was asked for.
-        app.add_plugins(HalfwayPlugins::headless(size)).insert_resource(LevelsOfDetail::OFF);
+        app.add_plugins(HalfwayPlugins::headless(size))
+            .insert_resource(ViewTolerance(Tolerance { pixels: 0.0, ..Tolerance::DEFAULT }));
         Self::new(app, size)
     }
 

@@ -35,7 +35,7 @@ impl Timed {
     pub(super) fn app(&self, args: &BenchArgs, mode: BenchShading) -> Result<App, Failure> {
         let mut app = App::new();
         app.add_plugins(HalfwayPlugins::headless(self.size(args)));
-        app.insert_resource(args.levels.allowed()).insert_resource(args.adapter.choice());
+        app.insert_resource(args.adapter.choice());
         let look = mode.look();
         match self {
             Self::Made(scene) => {
@@ -48,6 +48,8 @@ impl Timed {
                 shade(app.world_mut(), look);
             }
         }
+        // Whatever the scene says.
+        app.insert_resource(ViewTolerance(args.tolerance.or(Tolerance::DEFAULT)));
         finish(&mut app);
         Ok(app)
     }

@@ -9,9 +9,9 @@ use halfway::prelude::*;
 use halfway_chart::timing::TimedLook;
 
 use crate::adapters::AdapterArgs;
-use crate::levels::LevelsArgs;
 use crate::look::SizeArgs;
 use crate::scenery::BenchmarkScene;
+use crate::tolerance::ToleranceArgs;
 
 #[derive(Args, Debug)]
 pub(crate) struct BenchArgs {
@@ -34,7 +34,7 @@ pub(crate) struct BenchArgs {
     #[arg(long)]
     pub(super) octahedra: bool,
     #[command(flatten)]
-    pub(super) levels: LevelsArgs,
+    pub(super) tolerance: ToleranceArgs,
     /// Rounds; each times two frames of everything that is compared, in turn
     #[arg(long, default_value_t = 25, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     pub(super) rounds: u32,
@@ -91,10 +91,11 @@ pub(crate) enum BenchShading {
     Flat,
     Gouraud,
     Phong,
+    Auto,
 }
 
 impl BenchShading {
-    pub(super) const ALL: [Self; 4] = [Self::Constant, Self::Flat, Self::Gouraud, Self::Phong];
+    pub(super) const ALL: [Self; 5] = [Self::Constant, Self::Flat, Self::Gouraud, Self::Phong, Self::Auto];
 
     pub(super) fn name(self) -> &'static str {
         match self {
@@ -102,6 +103,7 @@ impl BenchShading {
             Self::Flat => "flat",
             Self::Gouraud => "gouraud",
             Self::Phong => "phong",
+            Self::Auto => "auto",
         }
     }
 
@@ -111,6 +113,7 @@ impl BenchShading {
             Self::Flat => TimedLook::Shaded(Shading::Flat),
             Self::Gouraud => TimedLook::Shaded(Shading::Gouraud),
             Self::Phong => TimedLook::Shaded(Shading::Phong),
+            Self::Auto => TimedLook::Shaded(Shading::Auto),
         }
     }
 }

@@ -19,7 +19,12 @@ const ROWS: [ManyLights; 3] = [
 ];
 
 pub(super) fn run(args: &BenchArgs) -> Result<(), Failure> {
-    if args.size.size.is_some() || args.octahedra || args.levels.is_given() || args.cold || args.once.is_some() {
+    if args.size.size.is_some()
+        || args.octahedra
+        || args.tolerance.given().is_some()
+        || args.cold
+        || args.once.is_some()
+    {
         return Err("bench lights: expected no option but --adapter, --rounds and --json".to_owned().into());
     }
     let adapter = args.adapter.choice().open()?;

@@ -56,7 +56,7 @@ fn command(program: &std::path::Path, args: &BenchArgs, mode: BenchShading, cold
     if args.octahedra {
         command.arg("--octahedra");
     }
-    command.args(args.levels.arguments()).args(args.adapter.arguments());
+    command.args(args.tolerance.arguments()).args(args.adapter.arguments());
     if cold {
         // Mesa's drivers compile anew then; others keep no such files, or do not let them be left aside.
         command.env("MESA_SHADER_CACHE_DISABLE", "true");

@@ -11,7 +11,7 @@ use super::cpu::{self, CpuTimes, OWN_TIME};
 use super::facts::{counters, machine, print_facts, spread};
 use super::own_process::{FirstFrame, first_frame};
 use crate::failure::Failure;
-use crate::levels;
+use crate::tolerance;
 
 /// What was measured of one shading.
 struct Row {
@@ -57,7 +57,7 @@ fn print_table(args: &BenchArgs, timed: &Timed, machine: &Machine, rows: &[Row])
     let size = timed.size(args);
     let octahedra = if args.octahedra { ", spheres as octahedra" } else { "" };
     println!("scene: {}{octahedra}, {} × {} pixels, {} rounds", timed.name(), size.x, size.y, args.rounds);
-    println!("levels of detail: {}", levels::describe(args.levels.allowed()));
+    println!("tolerance: {}", tolerance::describe(args.tolerance.or(Tolerance::DEFAULT)));
     print_facts(machine);
     println!("\n{FRAME_TIME}\n{OWN_TIME}\n");
     let cold = if args.cold { ["first frame, no shaders kept, ms | ", "---|"] } else { [""; 2] };
@@ -81,7 +81,7 @@ fn print_table(args: &BenchArgs, timed: &Timed, machine: &Machine, rows: &[Row])
 
 fn print_json(args: &BenchArgs, timed: &Timed, machine: &Machine, rows: &[Row]) {
     let size = timed.size(args);
-    let levels = args.levels.allowed();
+    let Tolerance { steps, pixels } = args.tolerance.or(Tolerance::DEFAULT);
     let rows: Vec<_> = rows
         .iter()
         .map(|row| {
@@ -107,7 +107,7 @@ fn print_json(args: &BenchArgs, timed: &Timed, machine: &Machine, rows: &[Row]) 
             "scene": timed.name(),
             "octahedra": args.octahedra,
             "size": size.to_array(),
-            "levels": { "pixels": levels.pixels, "shading": levels.shading },
+            "tolerance": { "steps": steps, "pixels": pixels },
             "rounds": args.rounds,
             "machine": self::machine(machine),
             "frame": FRAME_TIME,

@@ -221,7 +221,7 @@ impl Plugin for FeatureScene {
     fn build(&self, app: &mut App) {
         let scene = *self;
         app.insert_resource(GlobalAmbient(LinearRgba::rgb(0.1, 0.1, 0.1)))
-            .insert_resource(LevelsOfDetail::OFF)
+            .insert_resource(ViewTolerance(Tolerance { pixels: 0.0, ..Tolerance::DEFAULT }))
             .add_systems(Startup, move |mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>| {
                 scene.spawn(&mut commands, meshes.add(scene.stage.mesh()));
             });

@@ -30,7 +30,7 @@
 //! rounding adds to a term is not in the bound.
 //!
 //! ```
-//! use halfway_lighting::bounds::{DEFAULT_TOLERANCE, NormalCone, Patch, Receiver, Selected, linear_tolerance};
+//! use halfway_lighting::bounds::{NormalCone, Patch, Receiver, STEP, Selected, linear_tolerance};
 //! use halfway_lighting::equations::{Coefficients, Light, Eye};
 //! use halfway_lighting::{Encoding, Faces, Material, PointLight, Reflectance, Viewer};
 //!
@@ -46,7 +46,7 @@
 //! let material = Coefficients::from(&Material::BRASS);
 //! let receiver = Receiver::new(&tile, &material, &Eye::in_eye_space(Viewer::Local), Reflectance::BlinnPhong);
 //!
-//! let tolerance = [linear_tolerance(Encoding::Srgb, DEFAULT_TOLERANCE, 0.0); 3];
+//! let tolerance = [linear_tolerance(Encoding::Srgb, 0.5 * STEP, 0.0); 3];
 //! let mut selected = Selected::default();
 //! receiver.select((0..).zip(&lights), tolerance, &mut selected);
 //! assert_eq!(selected.diffuse, [0]);
@@ -59,8 +59,10 @@ mod reach;
 mod receiver;
 mod region;
 mod select;
+mod slopes;
 mod tolerance;
 mod tree;
+mod vertex;
 
 pub use near::NearLights;
 pub use patch::{NormalCone, Patch};
@@ -68,5 +70,7 @@ pub use reach::reach;
 pub use receiver::{MARGIN, Receiver, TermBounds};
 pub use region::Region;
 pub use select::Selected;
-pub use tolerance::{DEFAULT_TOLERANCE, linear_tolerance};
+pub use slopes::Slopes;
+pub use tolerance::{STEP, linear_tolerance};
 pub use tree::LightTree;
+pub use vertex::{Grain, TermChange, VertexChange, VertexShading};

@@ -2,8 +2,8 @@
 
 use crate::Encoding;
 
-/// The change of a channel that may be left out, in the picture's encoding: half of an 8-bit step, 1/512 of white.
-pub const DEFAULT_TOLERANCE: f64 = 1.0 / 512.0;
+/// A step of an 8-bit picture: 1/255 of white.
+pub const STEP: f64 = 1.0 / 255.0;
 
 /// The largest ΔI, in linear intensity, that changes a channel by at most `tolerance` in `encoding`, where the channel
 /// keeps at least the intensity `at_least` without it: emission and ambient, say; 0 where nothing is known.

@@ -11,3 +11,4 @@ mod reach;
 mod select;
 mod support;
 mod tolerance;
+mod vertex;

@@ -4,7 +4,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use bevy_color::LinearRgba;
-use halfway_lighting::bounds::{DEFAULT_TOLERANCE, NormalCone, Patch, Receiver, Selected, linear_tolerance};
+use halfway_lighting::bounds::{NormalCone, Patch, Receiver, STEP, Selected, linear_tolerance};
 use halfway_lighting::equations::{Coefficients, Eye, Light, ShadedPoint, light_terms};
 use halfway_lighting::{Attenuation, Encoding, Faces, Material, PointLight, Reflectance};
 
@@ -12,6 +12,7 @@ use crate::support::direction;
 
 const EYE: [f32; 3] = [0.0, 40.0, 100.0];
 const LIGHTS: u32 = 256;
+const HALF_A_STEP: f64 = 0.5 * STEP;
 
 /// Uniform in [0, 1) by PCG's hash.
 pub(crate) fn random(i: u32, k: u32) -> f32 {
@@ -94,7 +95,7 @@ fn material(shade: f32) -> Coefficients<f32> {
 
 /// A tolerance with 0.05 of ambient light known.
 fn tolerance() -> [f64; 3] {
-    [linear_tolerance(Encoding::Srgb, DEFAULT_TOLERANCE, 0.05 * 0.6); 3]
+    [linear_tolerance(Encoding::Srgb, HALF_A_STEP, 0.05 * 0.6); 3]
 }
 
 /// The mean numbers of diffuse and of specular terms that a patch needs.
@@ -157,7 +158,7 @@ fn bounds_are_near_the_largest_term() {
             ratios.sort_by(f64::total_cmp);
             let at = |share: f64| ratios[((ratios.len() - 1) as f64 * share) as usize];
             let quantiles = [0.0, 0.5, 0.9, 1.0].map(at);
-            let visible = pairs.iter().filter(|(_, largest)| *largest > DEFAULT_TOLERANCE).count();
+            let visible = pairs.iter().filter(|(_, largest)| *largest > HALF_A_STEP).count();
             println!(
                 "{name}, {term}: {} bounds and {visible} terms are visible; bound/largest: least, median, 90 %, most \
                 {quantiles:.3?}",
@@ -194,7 +195,7 @@ fn gather(patch: &Patch<f32>, light: &Light<f32>, points: Points, pairs: &mut [V
     let reflectance = Reflectance::BlinnPhong;
     let bounds = Receiver::new(patch, &material(0.8), &Eye::Local(EYE), reflectance).bounds(light);
     let bounds = [bounds.diffuse[0], bounds.specular[0]].map(f64::from);
-    if bounds.iter().all(|&bound| bound <= DEFAULT_TOLERANCE) {
+    if bounds.iter().all(|&bound| bound <= HALF_A_STEP) {
         return;
     }
     let mut largest = [0f64; 2];
@@ -206,7 +207,7 @@ fn gather(patch: &Patch<f32>, light: &Light<f32>, points: Points, pairs: &mut [V
         largest = [largest[0].max(f64::from(terms.diffuse[0])), largest[1].max(f64::from(terms.specular[0]))];
     }
     for term in 0..2 {
-        if bounds[term] > DEFAULT_TOLERANCE {
+        if bounds[term] > HALF_A_STEP {
             pairs[term].push((bounds[term], largest[term]));
         }
     }

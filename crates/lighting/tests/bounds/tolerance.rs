@@ -1,7 +1,7 @@
 //! A change of a linear intensity within the tolerance is one within the tolerance in the picture.
 
 use halfway_lighting::Encoding;
-use halfway_lighting::bounds::{DEFAULT_TOLERANCE, linear_tolerance};
+use halfway_lighting::bounds::{STEP, linear_tolerance};
 use proptest::prelude::*;
 
 use crate::support::cases;
@@ -35,16 +35,17 @@ proptest! {
 /// The closed forms, and that more is allowed where more is known.
 #[test]
 fn the_worst_place_is_black() {
-    assert_eq!(linear_tolerance(Encoding::Raw, DEFAULT_TOLERANCE, 0.0), 1.0 / 512.0);
-    let black = linear_tolerance(Encoding::Srgb, DEFAULT_TOLERANCE, 0.0);
+    const HALF_A_STEP: f64 = 0.5 * STEP;
+    assert_eq!(linear_tolerance(Encoding::Raw, HALF_A_STEP, 0.0), 1.0 / 510.0);
+    let black = linear_tolerance(Encoding::Srgb, HALF_A_STEP, 0.0);
     assert!((black / (1.0 / 512.0 / 12.92) - 1.0).abs() < 1e-12, "{black}");
     let mut last = black;
     for step in 1..100 {
-        let allowed = linear_tolerance(Encoding::Srgb, DEFAULT_TOLERANCE, f64::from(step) * 0.01);
+        let allowed = linear_tolerance(Encoding::Srgb, HALF_A_STEP, f64::from(step) * 0.01);
         assert!(allowed > last, "{allowed} after {last} at {step} %");
         last = allowed;
     }
-    assert_eq!(linear_tolerance(Encoding::Srgb, DEFAULT_TOLERANCE, 1.0), f64::INFINITY);
+    assert_eq!(linear_tolerance(Encoding::Srgb, HALF_A_STEP, 1.0), f64::INFINITY);
     assert_eq!(linear_tolerance(Encoding::Srgb, 0.0, 0.5), 0.0);
     assert_eq!(linear_tolerance(Encoding::Srgb, f64::NAN, 0.5), 0.0);
 }

@@ -138,7 +138,7 @@ fn shaded<S: Simd>(simd: S, case: &Case) -> [[f32; MOST_LANES]; 3] {
     let exponent = if case.highlight == Highlight::BlinnPhong { exponent.halved() } else { exponent };
     let gloss = Gloss { highlight: case.highlight, exponent };
     let counts = [Kind::Directional, Kind::Point, Kind::Spot].map(|kind| u32::from(kind == case.kind));
-    let ranges = [LightRange { counts, start: 0 }, LightRange::default()];
+    let ranges = [LightRange { counts, start: 0 }, LightRange::default(), LightRange::default()];
     let terms = gathered(simd, (&[case.light], &[0]), ranges, &points, gloss, ShadedTerms::BOTH);
     let color = reflected(simd, &terms, &SIDE);
     let mut lanes = [[0.0; MOST_LANES]; 3];

@@ -179,7 +179,7 @@ fn solid(
         reflectance: reflectance.copied().unwrap_or(seen.reflectance),
         faces: faces.copied().unwrap_or_default(),
         blend: blend.is_some(),
-        terms,
+        terms: terms.at_fragments(),
     };
     Ok(Solid::new(entity, mesh.clone(), seen.view.eye_from_model(&world_from_model), &looks))
 }

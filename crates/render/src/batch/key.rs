@@ -1,6 +1,7 @@
 //! What a draw is specialised for.
 
-use crate::shaders::light_slots::Lists;
+use crate::lights::terms::by_fragment_shader;
+use crate::shaders::light_slots::{Counted, Lists};
 use halfway_lighting::{Frequency, Terms};
 use std::fmt;
 
@@ -69,6 +70,25 @@ impl DrawKey {
         self.terms != Terms::NONE
     }
 
+    /// The same with these terms, in place of more. Switches that then make no difference are set one way, so that they
+    /// make no variants.
+    #[must_use]
+    pub(crate) fn with_terms(self, terms: Terms) -> Self {
+        let (lit, specular) = (terms != Terms::NONE, terms.specular != Frequency::Never);
+        Self {
+            terms,
+            lists: if lit { self.lists } else { Lists::Counted(Counted::NONE) },
+            blinn_phong: self.blinn_phong || !specular,
+            local_viewer: self.local_viewer && specular,
+            attenuated_ambient: self.attenuated_ambient && terms.diffuse != Frequency::Never,
+            shared_color: self.shared_color && specular,
+            ranged: self.ranged && lit,
+            squarings: self.squarings.filter(|_| specular),
+            geometric_fallback: self.geometric_fallback && by_fragment_shader(terms).contains(&true),
+            ..self
+        }
+    }
+
     /// The key that draws the same without knowing the lights, the colors, the exponent and the mesh.
     pub(crate) fn generic(self) -> Self {
         Self {
@@ -77,7 +97,7 @@ impl DrawKey {
             attenuated_ambient: self.terms.diffuse != Frequency::Never,
             ranged: self.is_lit(),
             squarings: None,
-            geometric_fallback: self.terms.has(Frequency::Fragment),
+            geometric_fallback: by_fragment_shader(self.terms).contains(&true),
             ..self
         }
     }
@@ -126,7 +146,7 @@ pub(crate) mod tests {
     pub(crate) fn key() -> DrawKey {
         DrawKey {
             blend: false,
-            lists: Lists::Counted([0, 1, 0], Highlights::All),
+            lists: Lists::Counted(Counted::new([0, 1, 0], Highlights::All)),
             terms: Terms::both(Frequency::Fragment),
             per_instance: false,
             blinn_phong: true,

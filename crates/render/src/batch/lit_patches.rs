@@ -6,12 +6,13 @@ use crate::batch::object::{Circumstances, Reflecting, Shared};
 use crate::batch::table::ObjectTable;
 use crate::error::{RenderError, label};
 use crate::frame::report::FrameReport;
-use crate::geometry::allowed::{Allowed, Demand, FullDetail, LevelsOfDetail};
+use crate::geometry::allowed::{Allowed, Demand, geometry_steps};
 use crate::geometry::detail::Choice;
 use crate::geometry::meshes::{Form, Geometries, Geometry};
 use crate::geometry::patches::{MeshPatch, Sight};
 use crate::lights::gather::Lights;
 use crate::lights::lists::{LightLists, Listing};
+use crate::lights::places::PlacedPatch;
 use crate::lights::terms::Chosen;
 use crate::shaders::light_slots::Lists;
 use crate::shaders::records::{DrawRecord, InstanceRecord, RecordLists};
@@ -21,7 +22,7 @@ use crate::view::matrices::{ModelView, NormalMatrix, Visible};
 use bevy_asset::AssetId;
 use bevy_ecs::component::Mutable;
 use bevy_ecs::prelude::*;
-use halfway_lighting::{BackMaterial, Blend, Faces, Material, Reflectance, equations};
+use halfway_lighting::{BackMaterial, Blend, Faces, Material, Reflectance, Tolerance, ViewTolerance, equations};
 use halfway_mesh::{Mesh, Mesh3d};
 use std::cmp::Ordering;
 use std::ops::Range;
@@ -70,7 +71,7 @@ type ObjectQuery<'w, 's> = Query<
         Option<&'static Reflectance>,
         Option<&'static Faces>,
         Has<Blend>,
-        Has<FullDetail>,
+        Option<&'static Tolerance>,
         &'static ModelView,
         &'static NormalMatrix,
         &'static Chosen,
@@ -85,7 +86,7 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
     visible: Res<Visible>,
     view: Res<View>,
     lights: Res<Lights>,
-    allowed: Res<LevelsOfDetail>,
+    of_view: Res<ViewTolerance>,
     values: Res<FrameValues>,
     mut backend: ResMut<B>,
     mut lit: ResMut<LitPatches>,
@@ -95,15 +96,16 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
     lit.begin(&lights, lights.is_changed());
     let (Some(camera), Some(values)) = (&view.camera, values.0) else { return };
     let (encoding, viewer, costs) = (values.encoding(), camera.viewer, backend.costs());
-    let shared = Shared { lights: &lights, allowed: &allowed, encoding, viewer, costs };
+    let shared = Shared { lights: &lights, encoding, viewer, costs };
     let mut seen = Vec::new();
     for &entity in &visible.0 {
-        let Ok((mesh, material, back, reflectance, faces, blend, full, model_view, normal_matrix, chosen, name)) =
+        let Ok((mesh, material, back, reflectance, faces, blend, tolerance, model_view, normal_matrix, chosen, name)) =
             objects.get(entity)
         else {
             continue;
         };
-        let form = Form::new(chosen.0, blend);
+        let terms = if blend { chosen.0.at_fragments() } else { chosen.0 };
+        let form = Form::new(terms, blend);
         let Some(geometry) = geometries.get(mesh.0.id(), form) else { continue };
         let material = material.unwrap_or(&Material::DEFAULT);
         let reflecting = Reflecting {
@@ -117,12 +119,13 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
             report.errors.push(RenderError::Invalid { entity: label(entity, name), source: source.clone() });
             continue;
         }
-        let circumstances = Circumstances {
-            terms: chosen.0,
-            blend,
-            mirrored: model_view.mirrored,
-            opposite_normals: geometry.opposite_normals,
-        };
+        let tolerance = tolerance.copied().unwrap_or(of_view.0);
+        if let Err(source) = tolerance.validate() {
+            report.errors.push(RenderError::Invalid { entity: label(entity, name), source });
+            continue;
+        }
+        let circumstances =
+            Circumstances { terms, blend, mirrored: model_view.mirrored, opposite_normals: geometry.opposite_normals };
         let key = reflecting.key(look, circumstances, shared);
         let material = look.material;
         let sphere = geometry.detail.whole.sphere(model_view);
@@ -137,7 +140,7 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
             geometry,
             model_view,
             normal_matrix,
-            full: full || blend,
+            tolerance: if blend { Tolerance { pixels: 0.0, ..tolerance } } else { tolerance },
         };
         lit.add(&object, &mut seen, &view, shared, &mut *backend, &mut report);
     }
@@ -161,8 +164,7 @@ struct LitObject<'a> {
     geometry: &'a Geometry,
     model_view: &'a ModelView,
     normal_matrix: &'a NormalMatrix,
-    /// Its triangles are drawn as they are.
-    full: bool,
+    tolerance: Tolerance,
 }
 
 impl LitPatches {
@@ -187,10 +189,10 @@ impl LitPatches {
         let LitObject { ref reflecting, ref key, geometry, model_view, normal_matrix, .. } = *object;
         let detail = &geometry.detail;
         let reflector = reflecting.reflector(key.terms);
-        let Shared { allowed: levels, lights, encoding, .. } = shared;
+        let Shared { lights, encoding, .. } = shared;
         let demand = Demand {
-            levels,
-            listed: key.lists == Lists::Listed,
+            tolerance: object.tolerance,
+            listed: Lists::new(lights.counts) == Lists::Listed,
             blinn_phong: key.blinn_phong,
             local_viewer: key.local_viewer,
             reflector: &reflector,
@@ -199,8 +201,9 @@ impl LitPatches {
             model_view,
             sphere: detail.whole.sphere(model_view),
         };
-        let is_whole = object.full || !detail.has_levels();
-        let allowed = if is_whole { Allowed::NOTHING } else { Allowed::new(demand) };
+        let allowed = if detail.has_levels() { Allowed::new(demand) } else { Allowed::NOTHING };
+        let for_geometry = if allowed.is_nothing() { 0.0 } else { geometry_steps(object.tolerance) };
+        let steps = f64::from(object.tolerance.steps) - for_geometry;
         let sight = Sight::new(model_view, view, reflecting.faces, &detail.whole);
         report.triangles_in += geometry.source.triangle_count() as u64;
         self.instances.push(InstanceRecord::new(model_view, normal_matrix, reflecting.faces, view.unit() as f32));
@@ -208,7 +211,7 @@ impl LitPatches {
         let admitted = if key.lists == Lists::Listed { *key } else { backend.admit(*key) };
         let listing = (admitted.lists == Lists::Listed).then(|| {
             let eye = equations::Eye::in_eye_space(shared.viewer);
-            reflector.listing(shared.lights.ambient, eye, shared.encoding)
+            reflector.listing(reflecting.faces, shared.lights.ambient, eye, (encoding, steps))
         });
         seen.clear();
         let looked_at = detail.each_seen(&allowed, &sight, &mut self.choice, |patch| seen.push(patch));
@@ -224,7 +227,7 @@ impl LitPatches {
             }
             for patch in together {
                 let (key, lights, lists) = match &listing {
-                    Some(listing) => self.lit(object, patch, listing, shared, backend),
+                    Some(listing) => self.lit(object, patch, listing, (&sight, shared), backend),
                     None => (admitted, 0, RecordLists::default()),
                 };
                 let record = self.table.number(&mut self.records, object.material, lists);
@@ -250,28 +253,36 @@ impl LitPatches {
         object: &LitObject,
         patch: &MeshPatch,
         listing: &Listing,
-        shared: Shared,
+        (sight, shared): (&Sight, Shared),
         backend: &mut impl Backend,
     ) -> (DrawKey, u32, RecordLists) {
         let LitObject { reflecting, key, model_view, normal_matrix, .. } = object;
         let flat = object.form.flat;
-        let patch = patch.in_eye_space(model_view, normal_matrix, reflecting.faces, flat);
-        self.lists.select(shared.lights, &patch, listing);
+        let placed = PlacedPatch {
+            patch: &patch.in_eye_space(model_view, normal_matrix, reflecting.faces, flat),
+            grain: patch.grain(model_view),
+            pixels_per_vertex: patch.pixels_per_vertex(sight),
+        };
+        self.lists.select(shared.lights, &placed, listing, key.terms);
+        let key = key.with_terms(self.lists.terms(key.terms));
+        if !key.is_lit() {
+            return (backend.admit(key), 0, RecordLists::default());
+        }
         let key = if shared.costs.lights_at_fixed_places
             && key.lists == Lists::Listed
-            && let Some(bound) = self.lists.bind(shared.lights, key.takes_powers())
+            && let Some(bound) = self.lists.bind(shared.lights, key.terms, key.takes_powers())
         {
-            let counted = DrawKey { lists: bound.lists(), ..*key };
+            let counted = DrawKey { lists: bound.lists, ..key.with_terms(bound.terms) };
             if backend.admit(counted) == counted {
-                self.lists.count_bound(bound, key.terms);
+                self.lists.count_bound(bound);
                 return (counted, bound.start, RecordLists::default());
             }
             // One with lists that is not generic either would take up room and time of those that are to draw.
             key.generic()
         } else {
-            backend.admit(*key)
+            backend.admit(key)
         };
-        (key, 0, self.lists.list(shared.lights, key.terms))
+        (key, 0, self.lists.list(shared.lights))
     }
 
     fn add_run(&mut self, object: &LitObject, OpenRun { key, lights, record, indices }: OpenRun) {

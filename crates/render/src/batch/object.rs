@@ -2,10 +2,9 @@
 
 use crate::batch::key::{Cull, DrawKey};
 use crate::device::costs::Costs;
-use crate::geometry::allowed::LevelsOfDetail;
 use crate::lights::gather::Lights;
 use crate::lights::lists::Reflector;
-use crate::shaders::light_slots::{Highlights, Lists};
+use crate::shaders::light_slots::Lists;
 use crate::shaders::records::{DrawRecord, MaterialRecord};
 use bevy_math::Vec3;
 use halfway_lighting::equations::{Coefficients, specular_exponent};
@@ -40,7 +39,6 @@ pub(crate) struct Appearance {
 #[derive(Clone, Copy)]
 pub(crate) struct Shared<'a> {
     pub(crate) lights: &'a Lights,
-    pub(crate) allowed: &'a LevelsOfDetail,
     /// What the bytes of the picture hold; `None` for floating point.
     pub(crate) encoding: Option<Encoding>,
     pub(crate) viewer: Viewer,
@@ -126,22 +124,21 @@ impl Reflecting<'_> {
             diffuse: used(reflects_diffuse || attenuated_ambient, circumstances.terms.diffuse),
             specular: used(lights.specular && reflects_specular, circumstances.terms.specular),
         };
-        let (lit, specular) = (terms != Terms::NONE, terms.specular != Frequency::Never);
-        // Switches that make no difference are set one way, so that they make no variants.
-        DrawKey {
+        let key = DrawKey {
             blend: circumstances.blend,
-            lists: if lit { Lists::new(lights.counts) } else { Lists::counted([0; 3], Highlights::All) },
+            lists: if terms.has(Frequency::Auto) { Lists::Listed } else { Lists::new(lights.counts) },
             terms,
             per_instance: false,
-            blinn_phong: self.reflectance != Reflectance::Phong || !specular,
-            local_viewer: viewer == Viewer::Local && specular,
-            attenuated_ambient: attenuated_ambient && terms.diffuse != Frequency::Never,
-            shared_color: lights.shared_color && specular,
-            ranged: lights.ranged && lit,
-            squarings: look.squarings.filter(|_| specular),
-            geometric_fallback: circumstances.opposite_normals && terms.has(Frequency::Fragment),
+            blinn_phong: self.reflectance != Reflectance::Phong,
+            local_viewer: viewer == Viewer::Local,
+            attenuated_ambient,
+            shared_color: lights.shared_color,
+            ranged: lights.ranged,
+            squarings: look.squarings,
+            geometric_fallback: circumstances.opposite_normals,
             cull: if self.faces == Faces::Both { Cull::None } else { Cull::Back },
             clockwise: circumstances.mirrored != (self.faces == Faces::Back),
-        }
+        };
+        key.with_terms(terms)
     }
 }

@@ -22,7 +22,7 @@ pub(crate) struct ObjectTable {
     material_numbers: HashMap<[u32; size_of::<DrawRecord>() / 4], u32>,
     /// Of each material, what the frame has of it.
     used: Vec<Used>,
-    numbers: HashMap<(u32, [u32; 16]), u32>,
+    numbers: HashMap<(u32, [u32; size_of::<RecordLists>() / 4]), u32>,
     calls: HashMap<Call, u32>,
     /// How many opaque objects there are with a bounding sphere, by its bits.
     twins: HashMap<[u32; 4], u32>,

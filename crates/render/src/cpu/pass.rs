@@ -9,7 +9,7 @@ use crate::geometry::meshes::Form;
 use crate::lights::gather::Lights;
 use crate::lights::terms::{by_fragment_shader, by_vertex_shader};
 use crate::shaders::light_slots::COUNTED_LIGHTS;
-use crate::shaders::records::{DrawRecord, InstanceRecord, LightRecord, MaterialRecord};
+use crate::shaders::records::{DrawRecord, InstanceRecord, LightRecord, MaterialRecord, RecordLists};
 use bevy_asset::AssetId;
 use bevy_ecs::prelude::*;
 use halfway_lighting::Frequency;
@@ -45,7 +45,7 @@ impl PassLists {
         self.lights.extend(lights.records.iter().map(light));
         self.lists.clear();
         self.lists.extend(&lit.lists.numbers);
-        // So few are all shaded everywhere, and have no lists.
+        // Draws without lists shade all of so few.
         let all = (lights.records.len() <= COUNTED_LIGHTS as usize).then(|| {
             let start = self.lists.len() as u32;
             self.lists.extend(0..lights.records.len() as u32);
@@ -113,7 +113,7 @@ fn instance(record: &InstanceRecord) -> InstanceData {
 
 fn surface(record: &DrawRecord, all: Option<LightRange>) -> SurfaceData {
     let [front, back] = [&record.front, &record.back].map(side);
-    if let Some(all) = all {
+    if let Some(all) = all.filter(|_| record.lists == RecordLists::default()) {
         return SurfaceData { front, back, vertex: all, fragment: all, ..SurfaceData::default() };
     }
     let range =
@@ -123,8 +123,10 @@ fn surface(record: &DrawRecord, all: Option<LightRange>) -> SurfaceData {
         back,
         vertex: range(record.lists.vertex),
         vertex_diffuse: range(record.lists.vertex_diffuse),
+        vertex_specular: range(record.lists.vertex_specular),
         fragment: range(record.lists.fragment),
         fragment_diffuse: range(record.lists.fragment_diffuse),
+        fragment_specular: range(record.lists.fragment_specular),
     }
 }
 

@@ -1,69 +1,41 @@
-//! How coarse an object may be drawn.
+//! How coarse an object may be drawn: by a group's triangles where
+//!
+//! - no point of its surface moves by more than the tolerance's pixels on the picture, and
+//! - either no edge is longer than twice as much, or turned normals change what is shown by no more than half of the
+//!   tolerance's steps, all lights and terms together.
+//!
+//! How far points move and normals turn is bounded, patch by patch ([`halfway_mesh::PatchGroup`]). A normal that turns by δ
+//! changes a term with exponent n (1 for diffuse) by no more than
+//!
+//! - √n·((n − 1)/n)^((n − 1)/2)·δ, its steepest slope, of its largest value, twice that for Phong's reflection vector,
+//! - and a highlight by what is cut off where n·l falls below 0: sinⁿ(β + δ) of its largest value, β half the angle
+//!   between light and eye; −cosⁿ 2β for Phong's.
+//!
+//! Of a term that is shaded at the vertices, ½·n·ω² + 6·w² of its largest value are added, an estimate of the second-order
+//! error of interpolation: ω = R + ½(w + u) is how far n and h turn against each other within a triangle, R the spread of its
+//! normals, w = e/(√3·d) and u its size as seen from the nearest light and from a local viewer (e the longest edge, within a
+//! circle of e/√3, Jung 1901); 6·w² is for attenuation, up to the inverse square.
+//!
+//! Flat shading shows the triangles themselves, so that only the length of edges counts; likewise for objects with more
+//! than eight lights, and for vertices lit by spots, whose rims are sharp.
+//!
+//! With a window, coarser patches are made in the background once a mesh has been seen in two frames; until then it is drawn
+//! as it is. Without one, the second frame waits for them: so a picture of one frame never has any, and a recording repeats to
+//! the byte. Blended objects, whose triangles are drawn in the order of their mesh, and objects that are scaled differently
+//! along different axes keep all triangles.
 
 use crate::lights::gather::Lights;
 use crate::lights::lists::Reflector;
-use crate::lights::terms::by_vertex_shader;
 use crate::view::matrices::ModelView;
-use bevy_ecs::prelude::{Component, ReflectComponent, ReflectResource, Resource};
 use bevy_math::{DVec3, Vec3};
-use bevy_reflect::Reflect;
-use bevy_reflect::std_traits::ReflectDefault;
-use halfway_lighting::bounds::linear_tolerance;
+use halfway_lighting::bounds::{STEP, linear_tolerance};
 use halfway_lighting::equations::{Light, Place, attenuation, range_window};
-use halfway_lighting::{Encoding, Frequency, Terms};
+use halfway_lighting::{Encoding, Frequency, Terms, Tolerance};
 
-/// How coarse a mesh may be drawn. Patches of it are drawn with fewer triangles where
-///
-/// - no point of its surface moves by more than `pixels` on the picture, and
-/// - either no edge is longer than a pixel, or turned normals change what is shown by no more than `shading`, all lights and
-///   terms together.
-///
-/// How far points move and normals turn is bounded, patch by patch ([`halfway_mesh::PatchGroup`]). A normal that turns by δ
-/// changes a term with exponent n (1 for diffuse) by no more than
-///
-/// - √n·((n − 1)/n)^((n − 1)/2)·δ, its steepest slope, of its largest value, twice that for Phong's reflection vector,
-/// - and a highlight by what is cut off where n·l falls below 0: sinⁿ(β + δ) of its largest value, β half the angle
-///   between light and eye; −cosⁿ 2β for Phong's.
-///
-/// Where a term is shaded at the vertices, it also may change by no more than `interpolation` of its largest value. To the
-/// first of the above ½·n·ω² + 6·w² is added, an estimate of the second-order error of interpolation: ω = R + ½(w + u) is
-/// how far n and h turn against each other within a triangle, R the spread of its normals, w = e/(√3·d) and u its size as
-/// seen from the nearest light and from a local viewer (e the longest edge, within a circle of e/√3, Jung 1901); 6·w² is
-/// for attenuation, up to the inverse square.
-///
-/// Flat shading shows the triangles themselves, so that only the length of edges counts; likewise for objects with more
-/// than eight lights, and for vertices lit by spots, whose rims are sharp.
-///
-/// With a window, coarser patches are made in the background once a mesh has been seen in two frames; until then it is drawn
-/// as it is. Without one, the second frame waits for them: so a picture of one frame never has any, and a recording repeats to
-/// the byte. Blended objects, whose triangles are drawn in the order of their mesh, and objects that are scaled differently
-/// along different axes keep all triangles, as do those with [`FullDetail`].
-#[derive(Resource, Reflect, Clone, Copy, Debug, PartialEq)]
-#[reflect(Resource, Clone, Debug, Default, PartialEq)]
-pub struct LevelsOfDetail {
-    /// How far a point may move, in pixels. Default 0.5; 0 draws every mesh as it is.
-    pub pixels: f32,
-    /// How much turned normals may change what is shown, as a part of white in the picture's encoding. Default 4/255.
-    pub shading: f32,
-    /// How much a term that is shaded at the vertices may change between them, as a part of its largest value. Default 0.1.
-    pub interpolation: f32,
+/// What coarser triangles may take of the steps of a tolerance: half, unless every mesh is drawn as it is.
+pub(crate) fn geometry_steps(tolerance: Tolerance) -> f64 {
+    if tolerance.pixels > 0.0 { 0.5 * f64::from(tolerance.steps) } else { 0.0 }
 }
-
-impl LevelsOfDetail {
-    /// Every mesh as it is.
-    pub const OFF: Self = Self { pixels: 0.0, shading: 0.0, interpolation: 0.0 };
-}
-
-impl Default for LevelsOfDetail {
-    fn default() -> Self {
-        Self { pixels: 0.5, shading: 4.0 / 255.0, interpolation: 0.1 }
-    }
-}
-
-/// Draws an object as its mesh is, whatever [`LevelsOfDetail`] allows.
-#[derive(Component, Reflect, Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[reflect(Component, Clone, Debug, Default, PartialEq)]
-pub struct FullDetail;
 
 /// How far a group's parts are off; see [`halfway_mesh::PatchGroup`].
 #[derive(Clone, Copy, Debug)]
@@ -79,7 +51,7 @@ pub(crate) struct GroupErrors {
 /// An object whose detail is chosen.
 #[derive(Clone, Copy)]
 pub(crate) struct Demand<'a> {
-    pub(crate) levels: &'a LevelsOfDetail,
+    pub(crate) tolerance: Tolerance,
     /// Its patches have light lists of their own.
     pub(crate) listed: bool,
     pub(crate) blinn_phong: bool,
@@ -108,8 +80,8 @@ enum Shading {
     None,
     /// Triangles that may not be told apart.
     Edges,
-    /// Terms that may change; those at vertices by so much of their largest values.
-    Terms([TermChange; 2], f32),
+    /// Terms that may change.
+    Terms([TermChange; 2]),
 }
 
 /// What a turned normal changes of all lights' diffuse or specular terms, as parts of what is allowed.
@@ -135,19 +107,19 @@ impl Allowed {
     pub(crate) const NOTHING: Self = Self { pixels: 0.0, shading: Shading::Edges, listed: false };
 
     pub(crate) fn new(demand: Demand) -> Self {
-        let Demand { levels, listed, lights, model_view, reflector: &Reflector { terms, .. }, .. } = demand;
-        if levels.pixels <= 0.0 || !model_view.keeps_angles() {
+        let Demand { tolerance, listed, lights, model_view, reflector: &Reflector { terms, .. }, .. } = demand;
+        if tolerance.pixels <= 0.0 || !model_view.keeps_angles() {
             return Self::NOTHING;
         }
-        let has_sharp_vertices = by_vertex_shader(terms).contains(&true) && lights.counts[2] > 0;
+        let has_sharp_vertices = terms.has(Frequency::Vertex) && lights.counts[2] > 0;
         let shading = if terms == Terms::NONE {
             Shading::None
         } else if terms.has(Frequency::Triangle) || listed || has_sharp_vertices {
             Shading::Edges
         } else {
-            Shading::Terms(demand.changes(), levels.interpolation)
+            Shading::Terms(demand.changes())
         };
-        Self { pixels: levels.pixels, shading, listed }
+        Self { pixels: tolerance.pixels, shading, listed }
     }
 
     pub(crate) fn is_nothing(&self) -> bool {
@@ -165,12 +137,11 @@ impl Allowed {
         let keeps_shading = match &self.shading {
             Shading::None => true,
             Shading::Edges => false,
-            Shading::Terms(changes, interpolation) => {
-                changes.iter().map(|change| change.of(group)).sum::<f32>() <= 1.0
-                    && changes.iter().all(|change| change.at_vertices(group) <= *interpolation)
+            Shading::Terms(changes) => {
+                changes.iter().map(|change| change.of(group) + change.at_vertices(group)).sum::<f32>() <= 1.0
             }
         };
-        if keeps_shading { by_error } else { by_error.min(1.0 / group.longest_edge) }
+        if keeps_shading { by_error } else { by_error.min(2.0 * self.pixels / group.longest_edge) }
     }
 }
 
@@ -222,7 +193,7 @@ impl Demand<'_> {
     /// bytes that are not encoded.
     fn intensity(&self, at_least: f32) -> f32 {
         let encoding = self.encoding.unwrap_or(Encoding::Raw);
-        linear_tolerance(encoding, self.levels.shading.into(), at_least.into()) as f32
+        linear_tolerance(encoding, geometry_steps(self.tolerance) * STEP, at_least.into()) as f32
     }
 
     /// Where n·l is 0, h is no nearer to n than v and l are to each other: n·h ≤ sin β, 2β their angle. The reflected vector
@@ -262,13 +233,14 @@ impl TermChange {
         self.largest * self.turned(group) + cut
     }
 
-    /// By which part of its largest value a term changes that is shaded at the vertices; 0 for others.
+    /// What interpolation adds to that of a term that is shaded at the vertices; 0 for others.
     fn at_vertices(&self, group: &GroupErrors) -> f32 {
-        self.by_vertices.map_or(0.0, |[light, eye]| {
+        let by_vertices = self.by_vertices.filter(|_| self.largest > 0.0);
+        by_vertices.map_or(0.0, |[light, eye]| {
             let size = group.longest_edge / 3f32.sqrt();
             let (w, u) = (size * light, size * eye);
             let turned = self.turn * (group.normal_spread + 0.5 * (w + u));
-            self.turned(group) + 0.5 * self.exponent.max(1.0) * turned * turned + 6.0 * w * w
+            self.largest * (0.5 * self.exponent.max(1.0) * turned * turned + 6.0 * w * w)
         })
     }
 

@@ -1,7 +1,6 @@
 //! Meshes laid out for drawing: in patches, and with levels of detail.
 
 use crate::frame::report::FrameReport;
-use crate::geometry::allowed::LevelsOfDetail;
 use crate::geometry::detail::{Detail, MeshTriangles};
 use crate::geometry::workshop::{Workshop, is_same};
 use crate::lights::terms::Chosen;
@@ -12,7 +11,7 @@ use crate::view::matrices::Visible;
 use bevy_asset::{AssetId, Assets};
 use bevy_ecs::prelude::*;
 use bevy_platform::collections::HashMap;
-use halfway_lighting::{Blend, Frequency, Terms};
+use halfway_lighting::{Blend, Frequency, Terms, Tolerance, ViewTolerance};
 use halfway_mesh::{Mesh, Mesh3d};
 use std::sync::Arc;
 
@@ -95,9 +94,9 @@ type OtherTargets<'w> = (Option<Res<'w, SurfaceTarget>>, Option<Res<'w, CanvasTa
 #[expect(clippy::too_many_arguments, reason = "a system takes each resource as a parameter")]
 pub(crate) fn lay_out(
     meshes: Res<Assets<Mesh>>,
-    objects: Query<(&Mesh3d, &Chosen, Has<Blend>)>,
+    objects: Query<(&Mesh3d, &Chosen, Has<Blend>, Option<&Tolerance>)>,
     visible: Res<Visible>,
-    allowed: Res<LevelsOfDetail>,
+    of_view: Res<ViewTolerance>,
     (surface, canvas, texture): OtherTargets,
     mut workshop: ResMut<Workshop>,
     mut geometries: ResMut<Geometries>,
@@ -107,17 +106,14 @@ pub(crate) fn lay_out(
     // Nobody watches the frames, but somebody may compare them.
     let waits = surface.is_none() && canvas.is_none() && texture.is_none();
     let mut last = None;
-    for (Mesh3d(handle), chosen, blend) in objects.iter_many(&visible.0).flatten() {
+    for (Mesh3d(handle), chosen, blend, tolerance) in objects.iter_many(&visible.0).flatten() {
         let wanted = (handle.id(), Form::new(chosen.0, blend));
         if last.replace(wanted) == Some(wanted) {
             continue;
         }
         let Some(mesh) = meshes.get(handle) else { continue };
-        let levels = if wanted.1.ordered || *allowed == LevelsOfDetail::OFF {
-            None
-        } else {
-            workshop.levels(wanted.0, mesh, waits)
-        };
+        let pixels = tolerance.map_or(of_view.0.pixels, |tolerance| tolerance.pixels);
+        let levels = if wanted.1.ordered || pixels <= 0.0 { None } else { workshop.levels(wanted.0, mesh, waits) };
         geometries.ensure(wanted, mesh, levels);
     }
     report.levels_pending = workshop.pending();

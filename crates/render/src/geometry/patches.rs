@@ -5,7 +5,7 @@ use crate::view::camera::View;
 use crate::view::matrices::{ModelView, NormalMatrix};
 use bevy_math::Vec3;
 use halfway_lighting::Faces;
-use halfway_lighting::bounds::{self, NormalCone};
+use halfway_lighting::bounds::{self, Grain, NormalCone};
 use halfway_mesh::{Bounds, Mesh, face_normal};
 use std::ops::Range;
 
@@ -27,6 +27,11 @@ pub(crate) struct MeshPatch {
     faces: Option<PatchCone>,
     /// Of the normals of its vertices; `None` where they are spread too wide.
     normals: Option<PatchCone>,
+    /// How finely it is cut.
+    grain: Grain<f32>,
+    /// The sum of the areas of its triangles, and how many vertices they have.
+    area: f32,
+    vertices: u32,
 }
 
 /// Which way triangles face: from where none of them shows its front, or none its back.
@@ -199,6 +204,11 @@ impl MeshPatch {
         let faces: Vec<(Vec3, [Vec3; 3])> = faces.collect();
         let facing = Facing::new(faces.iter().copied());
         let faces: Vec<Vec3> = faces.into_iter().map(|(n, _)| n).collect();
+        let area = triangles.iter().map(|corners| {
+            let [a, b, c] = corners.map(|i| mesh.positions()[i as usize]);
+            0.5 * (b - a).cross(c - a).length()
+        });
+        let area = area.sum();
         let normals: Vec<Vec3> = vertices().map(|i| mesh.normals()[i]).collect();
         let radius = offsets().map(Vec3::length).fold(0.0, f32::max) * (1.0 + 1e-5);
         Self {
@@ -208,6 +218,9 @@ impl MeshPatch {
             facing,
             faces: PatchCone::new(&faces, offsets()),
             normals: PatchCone::new(&normals, offsets()),
+            grain: grain(mesh, triangles),
+            area,
+            vertices: count_of(vertices()),
         }
     }
 
@@ -216,7 +229,17 @@ impl MeshPatch {
         let center = mesh.bounds().center();
         let farthest = mesh.positions().iter().map(|p| p.distance(center)).fold(0.0, f32::max);
         let indices = 0..mesh.indices().len() as u32;
-        Self { indices, center, radius: farthest * (1.0 + 1e-5), facing: Facing::UNKNOWN, faces: None, normals: None }
+        Self {
+            indices,
+            center,
+            radius: farthest * (1.0 + 1e-5),
+            facing: Facing::UNKNOWN,
+            faces: None,
+            normals: None,
+            grain: Grain::none(),
+            area: 0.0,
+            vertices: 0,
+        }
     }
 
     /// What is known of all of these together, one or more, which follow each other; and its sphere is no smaller than to
@@ -234,7 +257,30 @@ impl MeshPatch {
             facing: Facing::around(patches.iter().map(|patch| (&patch.facing, patch.center.distance(center)))),
             faces: None,
             normals: None,
+            grain: Grain::none(),
+            area: 0.0,
+            vertices: 0,
         }
+    }
+
+    /// How finely it is cut, in eye space.
+    pub(crate) fn grain(&self, model_view: &ModelView) -> Grain<f32> {
+        // What the transform rounds is less than that.
+        let corners = self.grain.corners * model_view.largest_scale() * (1.0 + 1e-5);
+        Grain { corners, ..self.grain }
+    }
+
+    /// About how many pixels its triangles cover for each of its vertices, where nothing hides them.
+    pub(crate) fn pixels_per_vertex(&self, sight: &Sight) -> f32 {
+        let View { projection, pixels_at_unit_depth, .. } = sight.view;
+        let (center, _) = self.sphere(sight.model_view);
+        let depth = (-center.z).max(projection.near);
+        let pixels = sight.model_view.largest_scale() * pixels_at_unit_depth / depth;
+        let facing = sight
+            .eye
+            .zip(self.faces)
+            .map_or(0.5, |((eye, _), cone)| (eye - self.center).normalize_or_zero().dot(cone.axis).abs());
+        self.area * facing * pixels * pixels / (self.vertices.max(1) as f32)
     }
 
     /// The radius of the sphere around it, in the mesh's units.
@@ -283,6 +329,20 @@ impl MeshPatch {
             faces,
         }
     }
+}
+
+fn grain(mesh: &Mesh, triangles: &[[u32; 3]]) -> Grain<f32> {
+    triangles.iter().fold(Grain::none(), |grain, corners| {
+        let of = |values: &[Vec3]| corners.map(|i| values[i as usize].to_array());
+        grain.with(of(mesh.positions()), of(mesh.normals()))
+    })
+}
+
+fn count_of(vertices: impl Iterator<Item = usize>) -> u32 {
+    let mut numbers: Vec<usize> = vertices.collect();
+    numbers.sort_unstable();
+    numbers.dedup();
+    numbers.len() as u32
 }
 
 #[cfg(test)]

@@ -1,15 +1,15 @@
 //! Light lists: which of many lights each patch needs, term by term.
 
 use crate::lights::gather::Lights;
-use crate::lights::terms::{by_fragment_shader, by_vertex_shader};
-use crate::shaders::light_slots::{COUNTED_LIGHTS, Highlights, Lists, filled_up};
+use crate::lights::places::{Placed, PlacedPatch, Places, StageLights, next};
+use crate::shaders::light_slots::{
+    BOUND_LIGHTS, COUNTED_LIGHTS, Counted, Highlights, Lists, filled_up, filled_up_roughly,
+};
 use crate::shaders::records::{LightRecord, RecordLists};
 use bevy_math::Vec3;
-use halfway_lighting::bounds::{
-    DEFAULT_TOLERANCE, LightTree, NearLights, Patch, Receiver, Region, Selected, linear_tolerance,
-};
+use halfway_lighting::bounds::{LightTree, NearLights, Receiver, Region, STEP, Selected, linear_tolerance};
 use halfway_lighting::equations::{Coefficients, Eye, specular_exponent};
-use halfway_lighting::{Encoding, Frequency, Reflectance, Terms};
+use halfway_lighting::{Encoding, Faces, Frequency, Reflectance, Terms};
 
 /// The lists of a frame.
 #[derive(Debug, Default)]
@@ -18,10 +18,10 @@ pub(crate) struct LightLists {
     pub(crate) numbers: Vec<u32>,
     /// Lights to be bound at fixed places, set after set: first all of a scene with few, at number 0.
     pub(crate) bound: Vec<LightRecord>,
-    /// The numbers of a set of lights to be bound, those with highlights first.
-    set: Vec<u32>,
+    /// The set of lights that are to be bound.
+    set: BoundSet,
     /// The set bound last.
-    last_set: Vec<u32>,
+    last_set: BoundSet,
     last_bound: Option<BoundLights>,
     /// The lists made last. Neighbouring patches often need the same.
     last: Option<(RecordLists, usize)>,
@@ -29,6 +29,7 @@ pub(crate) struct LightLists {
     tree: LightTree,
     near: NearLights,
     selected: Selected<f32>,
+    pub(crate) placed: Placed,
     /// How many terms of lights the lists name, over all patches.
     pub(crate) assigned: u64,
     /// How many terms are shaded at each point, over all patches.
@@ -42,9 +43,18 @@ pub(crate) struct LightLists {
 pub(crate) struct BoundLights {
     /// The number of the first: a multiple of [`SET_ALIGNMENT`].
     pub(crate) start: u32,
-    /// How many of each kind it was filled up to, and how many of these have highlights.
-    counts: [u32; 3],
-    highlights: Highlights,
+    pub(crate) lists: Lists,
+    /// Where their terms are shaded.
+    pub(crate) terms: Terms,
+}
+
+/// Which lights are bound together, those with highlights first: by number, and at the vertices with which terms where the
+/// others are shaded at the fragments.
+#[derive(Debug, Default, PartialEq)]
+struct BoundSet {
+    /// Those of the fragment shader, or of all.
+    lights: Vec<u32>,
+    at_vertices: Vec<(u32, [bool; 2])>,
 }
 
 /// Sets begin at numbers that are multiples of this, and so at offsets that are multiples of 256: any adapter can bind them.
@@ -71,6 +81,7 @@ pub(crate) struct Listing {
     view: Eye<f32>,
     /// What may be left out of a patch, in linear intensity.
     tolerance: [f64; 3],
+    pub(crate) places: Option<Places>,
 }
 
 impl LightLists {
@@ -92,6 +103,7 @@ impl LightLists {
         self.assigned = 0;
         self.shaded = 0;
         self.left_out = 0.0;
+        self.placed.begin();
     }
 
     /// Looks for the lights near patches in these spheres, of an object with this listing.
@@ -106,13 +118,31 @@ impl LightLists {
     }
 
     /// Selects the lights that `patch`, one of those last looked around, needs: those left out change no channel of a
-    /// pixel by more than half an 8-bit step together. A picture in floating point, which has no encoding, keeps all that
-    /// reach the patch at all.
-    pub(crate) fn select(&mut self, lights: &Lights, patch: &Patch<f32>, listing: &Listing) {
-        let receiver = Receiver::new(patch, &listing.material, &listing.view, listing.reflectance);
+    /// pixel by more than the listing's tolerance together. And says where their terms are shaded.
+    pub(crate) fn select(&mut self, lights: &Lights, placed: &PlacedPatch, listing: &Listing, terms: Terms) {
+        let receiver = Receiver::new(placed.patch, &listing.material, &listing.view, listing.reflectance);
         self.near.select(&self.tree, &lights.sources, &receiver, listing.tolerance, &mut self.selected);
         self.left_out = self.selected.left_out.into_iter().fold(self.left_out, f64::max);
         self.assigned += (self.selected.diffuse.len() + self.selected.specular.len()) as u64;
+        match &listing.places {
+            Some(places) => self.placed.place(places, placed, terms, &lights.sources, &self.selected),
+            None => self.placed.as_said(&self.selected, terms),
+        }
+    }
+
+    /// Where the terms of the patch last selected for are shaded, of an object whose terms are these.
+    pub(crate) fn terms(&self, terms: Terms) -> Terms {
+        let Placed { vertex, fragment, .. } = &self.placed;
+        let of = |term, vertex: &[u32], fragment: &[u32]| match (term, vertex.is_empty(), fragment.is_empty()) {
+            (Frequency::Auto, true, true) => Frequency::Never,
+            (Frequency::Auto, false, true) => Frequency::Vertex,
+            (Frequency::Auto, true, false) => Frequency::Fragment,
+            (term, ..) => term,
+        };
+        Terms {
+            diffuse: of(terms.diffuse, &vertex.diffuse, &fragment.diffuse),
+            specular: of(terms.specular, &vertex.specular, &fragment.specular),
+        }
     }
 
     /// How many pairs of a patch and a light have been looked at since this was last asked.
@@ -120,21 +150,24 @@ impl LightLists {
         self.near.take_pairs()
     }
 
-    /// Binds what was selected at fixed places; `None` where it is too much. Of each kind the lights with highlights come
-    /// first, and the others' are left out as far as [`Highlights`] can say; or none, unless highlights `take_powers`: a few
-    /// squarings cost less than more pipelines. A light that is needed for its highlight alone is shaded with both terms.
-    pub(crate) fn bind(&mut self, lights: &Lights, take_powers: bool) -> Option<BoundLights> {
-        let Selected { diffuse, specular, .. } = &self.selected;
-        self.set.clear();
-        self.set.extend(specular.iter().chain(without(diffuse, specular)));
-        let (highlit, rest) = self.set.split_at(specular.len());
-        let [highlit, rest] = [highlit, rest].map(|numbers| split(numbers, lights.counts));
-        let needed = highlit.map(|of_kind| of_kind.len() as u32);
-        let counts = filled_up([0, 1, 2].map(|kind| needed[kind] + rest[kind].len() as u32), lights.counts)?;
-        let highlights = if take_powers { Highlights::at_least(needed, counts) } else { Highlights::All };
+    /// Binds what was selected at fixed places, for a draw with these terms; `None` where it is too much. Of each kind the
+    /// lights with highlights come first, and the others' are left out as far as [`Highlights`] can say; or none, unless
+    /// highlights `take_powers`: a few squarings cost less than more pipelines. A light that is needed for its highlight
+    /// alone is shaded with both terms.
+    pub(crate) fn bind(&mut self, lights: &Lights, terms: Terms, take_powers: bool) -> Option<BoundLights> {
+        let both_stages = !self.placed.vertex.is_empty() && !self.placed.fragment.is_empty();
+        let (lists, terms) = if both_stages && terms.has(Frequency::Auto) {
+            self.split(lights, terms, take_powers)?
+        } else {
+            let stage = if self.placed.fragment.is_empty() { &self.placed.vertex } else { &self.placed.fragment };
+            let Selected { diffuse, specular, .. } = &self.selected;
+            let [diffuse, specular] = if both_stages { [diffuse, specular] } else { [&stage.diffuse, &stage.specular] };
+            self.set.at_vertices.clear();
+            (Lists::Counted(self.set.collect(diffuse, specular, lights.counts, take_powers)?), terms)
+        };
         if let Some(last) = self.last_bound
             && self.last_set == self.set
-            && (last.counts, last.highlights) == (counts, highlights)
+            && (last.lists, last.terms) == (lists, terms)
         {
             return Some(last);
         }
@@ -142,35 +175,104 @@ impl LightLists {
             return None;
         }
         self.bound.resize(self.bound.len().next_multiple_of(SET_ALIGNMENT), LightRecord::default());
-        let bound = BoundLights { start: self.bound.len() as u32, counts, highlights };
-        for ((highlit, rest), count) in highlit.into_iter().zip(rest).zip(counts) {
-            let end = self.bound.len() + count as usize;
-            self.bound.extend(highlit.iter().chain(rest).map(|&light| lights.records[light as usize]));
-            self.bound.resize(end, LightRecord::BLACK);
+        let bound = BoundLights { start: self.bound.len() as u32, lists, terms };
+        let records = |light: &u32| lights.records[*light as usize];
+        let [(vertex, _), (fragment, _)] = lists.of_stages();
+        append_bound(&mut self.bound, self.set.lights.iter().map(|light| (*light, records(light))), fragment, lights);
+        let at_vertices = self.set.at_vertices.iter().map(|&(light, [diffuse, specular])| {
+            let record = records(&light);
+            let black = [0.0; 3];
+            let ambient = if diffuse { record.ambient } else { black };
+            let record = LightRecord {
+                ambient,
+                diffuse: if diffuse { record.diffuse } else { black },
+                specular: if specular { record.specular } else { black },
+                ..record
+            };
+            (light, record)
+        });
+        if !self.set.at_vertices.is_empty() {
+            append_bound(&mut self.bound, at_vertices, vertex, lights);
         }
         std::mem::swap(&mut self.set, &mut self.last_set);
         self.last_bound = Some(bound);
         Some(bound)
     }
 
+    /// Collects lights of which some terms are shaded at the vertices and others at the fragments. All that the fragment
+    /// shader takes have their diffuse terms there, or none has; what is shaded there is not shaded at the vertices.
+    fn split(&mut self, lights: &Lights, terms: Terms, take_powers: bool) -> Option<(Lists, Terms)> {
+        let Placed { vertex, fragment, .. } = &self.placed;
+        let fragment_counted = self.set.collect(&fragment.diffuse, &fragment.specular, lights.counts, take_powers)?;
+        let has_diffuse = !fragment.diffuse.is_empty();
+        let has_specular = !fragment.specular.is_empty();
+        let at_vertices = &mut self.set.at_vertices;
+        at_vertices.clear();
+        let (mut diffuse, mut specular) = (&vertex.diffuse[..], &vertex.specular[..]);
+        while let Some(light) = next(&mut diffuse, &mut specular) {
+            let place = self.set.lights.iter().position(|&at_fragments| at_fragments == light.number);
+            let is_highlit = place.is_some_and(|place| {
+                has_specular && is_highlit(&self.set.lights, place, fragment_counted, lights.counts)
+            });
+            let left = [light.has_diffuse && !(has_diffuse && place.is_some()), light.has_specular && !is_highlit];
+            if left != [false; 2] {
+                at_vertices.push((light.number, left));
+            }
+        }
+        let any = |term: usize| at_vertices.iter().any(|(_, terms)| terms[term]);
+        let frequency = |term, at_vertices: bool, at_fragments: bool| match (at_vertices, at_fragments) {
+            _ if term != Frequency::Auto => term,
+            (true, true) => Frequency::Auto,
+            (true, false) => Frequency::Vertex,
+            (false, true) => Frequency::Fragment,
+            (false, false) => Frequency::Never,
+        };
+        let terms = Terms {
+            diffuse: frequency(terms.diffuse, any(0), has_diffuse),
+            specular: frequency(terms.specular, any(1), has_specular),
+        };
+        if at_vertices.is_empty() {
+            return Some((Lists::Counted(fragment_counted), terms));
+        }
+        let mut counts = [0; 3];
+        for (light, _) in at_vertices.iter() {
+            counts[kind(*light, lights.counts)] += 1;
+        }
+        let vertex = Counted::new(filled_up_roughly(counts, lights.counts)?, Highlights::All);
+        let fits = vertex.len() + fragment_counted.len() <= BOUND_LIGHTS;
+        fits.then_some((Lists::Split { vertex, fragment: fragment_counted }, terms))
+    }
+
     /// Counts what a patch shades of the lights that are bound for it.
-    pub(crate) fn count_bound(&mut self, bound: BoundLights, terms: Terms) {
-        let lights = |share: Highlights| bound.counts.into_iter().map(|count| u64::from(share.of(count))).sum::<u64>();
-        self.shaded += u64::from(terms.diffuse != Frequency::Never) * lights(Highlights::All);
-        self.shaded += u64::from(terms.specular != Frequency::Never) * lights(bound.highlights);
+    pub(crate) fn count_bound(&mut self, bound: BoundLights) {
+        let [vertex, fragment] = bound.lists.of_stages().map(|(counted, _)| {
+            let lights =
+                |share: Highlights| counted.counts.map(|count| u64::from(share.of(count.into()))).iter().sum::<u64>();
+            [lights(Highlights::All), lights(counted.highlights)]
+        });
+        for (term, frequency) in [bound.terms.diffuse, bound.terms.specular].into_iter().enumerate() {
+            self.shaded += match frequency {
+                Frequency::Never => 0,
+                Frequency::Triangle | Frequency::Vertex => vertex[term],
+                Frequency::Fragment => fragment[term],
+                Frequency::Auto => vertex[term] + fragment[term],
+            };
+        }
     }
 
     /// The lists of what was selected: appended, unless they are what was appended last.
-    pub(crate) fn list(&mut self, Lights { counts, .. }: &Lights, terms: Terms) -> RecordLists {
+    pub(crate) fn list(&mut self, Lights { counts, .. }: &Lights) -> RecordLists {
         let start = self.numbers.len();
-        let (by_vertex, by_fragment) = (by_vertex_shader(terms), by_fragment_shader(terms));
-        let [vertex, vertex_diffuse] = self.append_terms(*counts, by_vertex);
-        let [fragment, fragment_diffuse] = self.append_terms(*counts, by_fragment);
-        let lists = RecordLists { vertex, vertex_diffuse, fragment, fragment_diffuse };
-        let lights = |[directional, points, spots, _]: [u32; 4]| u64::from(directional + points + spots);
-        let count = |terms: [bool; 2]| terms.map(u64::from).iter().sum::<u64>();
-        self.shaded += lights(vertex) * count(by_vertex) + lights(fragment) * count(by_fragment);
-        self.shaded += lights(vertex_diffuse) + lights(fragment_diffuse);
+        let [vertex, vertex_diffuse, vertex_specular] = append_stage(&mut self.numbers, *counts, &self.placed.vertex);
+        let [fragment, fragment_diffuse, fragment_specular] =
+            append_stage(&mut self.numbers, *counts, &self.placed.fragment);
+        let lists =
+            RecordLists { vertex, vertex_diffuse, vertex_specular, fragment, fragment_diffuse, fragment_specular };
+        let Placed { vertex, fragment, .. } = &self.placed;
+        self.shaded += [vertex, fragment]
+            .into_iter()
+            .map(|stage| (stage.diffuse.len() + stage.specular.len()) as u64)
+            .sum::<u64>();
         if let Some((last, last_start)) = self.last
             && last.starting_at(0, last_start) == lists.starting_at(0, start)
             && self.numbers[last_start..start] == self.numbers[start..]
@@ -181,20 +283,61 @@ impl LightLists {
         self.last = Some((lists, start));
         lists
     }
+}
 
-    /// The lights with all terms that one shader evaluates, and those with the diffuse alone where it evaluates both.
-    fn append_terms(&mut self, counts: [u32; 3], [has_diffuse, has_specular]: [bool; 2]) -> [[u32; 4]; 2] {
-        let Selected { diffuse, specular, .. } = &self.selected;
-        match (has_diffuse, has_specular) {
-            (false, false) => [[0; 4]; 2],
-            (true, false) => [append(&mut self.numbers, counts, diffuse.iter().copied()), [0; 4]],
-            (false, true) => [append(&mut self.numbers, counts, specular.iter().copied()), [0; 4]],
-            (true, true) => {
-                let both = append(&mut self.numbers, counts, specular.iter().copied());
-                [both, append(&mut self.numbers, counts, without(diffuse, specular).copied())]
-            }
-        }
+impl BoundSet {
+    /// Collects the lights of one stage, those with highlights first; how many of each kind they are filled up to. `None`
+    /// where they are too many.
+    fn collect(&mut self, diffuse: &[u32], specular: &[u32], all: [u32; 3], take_powers: bool) -> Option<Counted> {
+        self.lights.clear();
+        self.lights.extend(specular.iter().chain(without(diffuse, specular)));
+        let (highlit, rest) = self.lights.split_at(specular.len());
+        let [highlit, rest] = [highlit, rest].map(|numbers| split(numbers, all));
+        let needed = highlit.map(|of_kind| of_kind.len() as u32);
+        let counts = filled_up([0, 1, 2].map(|kind| needed[kind] + rest[kind].len() as u32), all)?;
+        let highlights = if take_powers { Highlights::at_least(needed, counts) } else { Highlights::All };
+        Some(Counted::new(counts, highlights))
     }
+}
+
+/// Appends lights kind by kind, in their order, and fills each kind up.
+fn append_bound(
+    bound: &mut Vec<LightRecord>,
+    of: impl Iterator<Item = (u32, LightRecord)> + Clone,
+    counted: Counted,
+    lights: &Lights,
+) {
+    for (number, count) in counted.counts.into_iter().enumerate() {
+        let end = bound.len() + usize::from(count);
+        bound.extend(of.clone().filter(|(light, _)| kind(*light, lights.counts) == number).map(|(_, record)| record));
+        bound.resize(end, LightRecord::BLACK);
+    }
+}
+
+/// 0 of a directional light, 1 of a point, 2 of a spot.
+fn kind(light: u32, [directional, points, _]: [u32; 3]) -> usize {
+    usize::from(light >= directional) + usize::from(light >= directional + points)
+}
+
+/// Whether the light at a place among those bound has its highlight there.
+fn is_highlit(bound: &[u32], place: usize, counted: Counted, all: [u32; 3]) -> bool {
+    let of_kind = kind(bound[place], all);
+    let before = bound[..place].iter().filter(|&&light| kind(light, all) == of_kind).count() as u32;
+    before < counted.highlights.of(counted.counts[of_kind].into())
+}
+
+/// The lists of one stage: lights with both terms, with the diffuse alone, and with the specular alone.
+fn append_stage(
+    numbers: &mut Vec<u32>,
+    counts: [u32; 3],
+    StageLights { diffuse, specular }: &StageLights,
+) -> [[u32; 4]; 3] {
+    let both = specular.iter().filter(|light| diffuse.binary_search(light).is_ok());
+    [
+        append(numbers, counts, both.copied()),
+        append(numbers, counts, without(diffuse, specular).copied()),
+        append(numbers, counts, without(specular, diffuse).copied()),
+    ]
 }
 
 /// The lights that `others` lack; both ascend.
@@ -221,12 +364,6 @@ fn split(numbers: &[u32], [directional, points, _]: [u32; 3]) -> [&[u32]; 3] {
     [&numbers[..first_point], &numbers[first_point..first_spot], &numbers[first_spot..]]
 }
 
-impl BoundLights {
-    pub(crate) fn lists(self) -> Lists {
-        Lists::counted(self.counts, self.highlights)
-    }
-}
-
 impl RecordLists {
     /// The same lists, had what was appended from `from` on been appended from `to` on.
     fn starting_at(self, to: usize, from: usize) -> Self {
@@ -234,23 +371,33 @@ impl RecordLists {
             let first = if x + y + z == 0 { 0 } else { first - from as u32 + to as u32 };
             [x, y, z, first]
         };
-        let Self { vertex, vertex_diffuse, fragment, fragment_diffuse } = self;
         Self {
-            vertex: moved(vertex),
-            vertex_diffuse: moved(vertex_diffuse),
-            fragment: moved(fragment),
-            fragment_diffuse: moved(fragment_diffuse),
+            vertex: moved(self.vertex),
+            vertex_diffuse: moved(self.vertex_diffuse),
+            vertex_specular: moved(self.vertex_specular),
+            fragment: moved(self.fragment),
+            fragment_diffuse: moved(self.fragment_diffuse),
+            fragment_specular: moved(self.fragment_specular),
         }
     }
 }
 
 impl Reflector {
-    /// For a picture of this encoding, which has none in floating point.
-    pub(crate) fn listing(&self, ambient: Vec3, view: Eye<f32>, encoding: Option<Encoding>) -> Listing {
+    /// For a picture of this encoding, which has none in floating point, within so many steps.
+    pub(crate) fn listing(
+        &self,
+        faces: Faces,
+        ambient: Vec3,
+        view: Eye<f32>,
+        (encoding, steps): (Option<Encoding>, f64),
+    ) -> Listing {
+        let unlit = self.unlit_sides(ambient);
+        let places = Places::new(self.sides, self.terms, self.reflectance, faces, unlit, view, (encoding, steps));
+        let for_lights = if places.is_some() { 0.5 * steps } else { steps };
         let tolerance = self.unlit(ambient).to_array().map(|at_least| {
-            encoding.map_or(0.0, |encoding| linear_tolerance(encoding, DEFAULT_TOLERANCE, at_least.into()))
+            encoding.map_or(0.0, |encoding| linear_tolerance(encoding, for_lights * STEP, at_least.into()))
         });
-        Listing { material: self.larger_side(), reflectance: self.reflectance, view, tolerance }
+        Listing { material: self.larger_side(), reflectance: self.reflectance, view, tolerance, places }
     }
 
     /// Coefficients that are nowhere below either side's, so that bounds hold for both.
@@ -278,8 +425,12 @@ impl Reflector {
 
     /// What every point of both sides has without lights.
     pub(crate) fn unlit(&self, ambient: Vec3) -> Vec3 {
-        let [front, back] = self.sides.map(|side| Vec3::from_array(side.ke) + Vec3::from_array(side.ka) * ambient);
+        let [front, back] = self.unlit_sides(ambient).map(Vec3::from_array);
         front.min(back)
+    }
+
+    fn unlit_sides(&self, ambient: Vec3) -> [[f32; 3]; 2] {
+        self.sides.map(|side| (Vec3::from_array(side.ke) + Vec3::from_array(side.ka) * ambient).to_array())
     }
 }
 
@@ -296,7 +447,9 @@ mod tests {
         for count in 1..=24 {
             lists.selected.diffuse = (40 - count..40).collect();
             lists.selected.specular = (40 - count / 2..40).collect();
-            let bound = lists.bind(&lights, true).expect("so few lights fit");
+            let terms = Terms::both(Frequency::Fragment);
+            lists.placed.as_said(&lists.selected, terms);
+            let bound = lists.bind(&lights, terms, true).expect("so few lights fit");
             let offset = bound.start as usize * size_of::<LightRecord>();
             assert!(offset > 0 && offset.is_multiple_of(256), "the set of {count} lights begins at {offset}");
         }

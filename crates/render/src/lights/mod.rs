@@ -2,4 +2,5 @@
 
 pub(crate) mod gather;
 pub(crate) mod lists;
+pub(crate) mod places;
 pub(crate) mod terms;

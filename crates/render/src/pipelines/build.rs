@@ -4,7 +4,7 @@ use crate::batch::key::{Cull, DrawKey};
 use crate::device::gpu::Gpu;
 use crate::lights::terms::{by_fragment_shader, by_vertex_shader};
 use crate::pipelines::key::PipelineKey;
-use crate::shaders::light_slots::{Highlights, Lists};
+use crate::shaders::light_slots::{Counted, Lists};
 use crate::shaders::records::{INSTANCE, INSTANCE_BYTES};
 use crate::shaders::text::Shader;
 use crate::target::frame::{DEPTH_FORMAT, ShaderOutput};
@@ -18,7 +18,8 @@ impl Shader {
     pub(crate) fn build(&self, gpu: &Gpu, pipeline: PipelineKey) -> wgpu::RenderPipeline {
         let PipelineKey { draw: key, output } = pipeline;
         let constants = constants(&key, output);
-        let compilation_options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
+        let [vertex_options, fragment_options] =
+            constants.each_ref().map(|constants| wgpu::PipelineCompilationOptions { constants, ..Default::default() });
         let buffer = |attributes, stride, step_mode| {
             Some(wgpu::VertexBufferLayout { array_stride: stride, step_mode, attributes })
         };
@@ -41,7 +42,7 @@ impl Shader {
             vertex: wgpu::VertexState {
                 module: &self.module,
                 entry_point: Some(vertex),
-                compilation_options: compilation_options.clone(),
+                compilation_options: vertex_options,
                 buffers: &buffers,
             },
             primitive: wgpu::PrimitiveState {
@@ -64,7 +65,7 @@ impl Shader {
             fragment: Some(wgpu::FragmentState {
                 module: &self.module,
                 entry_point: Some(fragment),
-                compilation_options,
+                compilation_options: fragment_options,
                 targets: &[Some(wgpu::ColorTargetState {
                     format: output.format,
                     blend: key.blend.then_some(OVER),
@@ -96,7 +97,9 @@ fn entry_points(key: &DrawKey) -> (&'static str, &'static str) {
     if key.terms.has(Frequency::Triangle) {
         return ("vs_flat", "fs_flat");
     }
-    match (key.terms.has(Frequency::Vertex), key.terms.has(Frequency::Fragment)) {
+    let [by_vertices, by_fragments] =
+        [by_vertex_shader(key.terms), by_fragment_shader(key.terms)].map(|terms| terms.contains(&true));
+    match (by_vertices, by_fragments) {
         (false, false) if is_one_sided => ("vs_unlit", "fs_unlit"),
         (false, false) => ("vs_unlit_both", "fs_unlit_both"),
         (true, false) if is_one_sided => ("vs_gouraud", "fs_gouraud"),
@@ -106,11 +109,20 @@ fn entry_points(key: &DrawKey) -> (&'static str, &'static str) {
     }
 }
 
-fn constants(key: &DrawKey, output: ShaderOutput) -> Vec<(&'static str, f64)> {
-    let ([directional, points, spots], highlights, listed) = match key.lists {
-        Lists::Counted(counts, highlights) => (counts, highlights, false),
-        Lists::Listed => ([0; 3], Highlights::All, true),
-    };
+/// Those of the vertex shader and of the fragment shader.
+fn constants(key: &DrawKey, output: ShaderOutput) -> [Vec<(&'static str, f64)>; 2] {
+    let [vertex, fragment] = key.lists.of_stages();
+    // Of lights that are split, terms that belong to the other stage are black.
+    let shared_color = key.shared_color && !matches!(key.lists, Lists::Split { .. });
+    let of_vertices = DrawKey { shared_color, ..*key };
+    [stage_constants(&of_vertices, output, vertex), stage_constants(key, output, fragment)]
+}
+
+fn stage_constants(
+    key: &DrawKey,
+    output: ShaderOutput,
+    (Counted { counts: [directional, points, spots], highlights }, first): (Counted, u32),
+) -> Vec<(&'static str, f64)> {
     let flag = |on: bool| f64::from(u8::from(on));
     let [vertex_diffuse, vertex_specular] = by_vertex_shader(key.terms).map(flag);
     let [fragment_diffuse, fragment_specular] = by_fragment_shader(key.terms).map(flag);
@@ -131,10 +143,11 @@ fn constants(key: &DrawKey, output: ShaderOutput) -> Vec<(&'static str, f64)> {
         ("ENCODED", flag(output.encoded)),
         ("GEOMETRIC_FALLBACK", flag(key.geometric_fallback)),
         ("PER_INSTANCE", flag(key.per_instance)),
-        ("LISTED", flag(listed)),
+        ("LISTED", flag(key.lists == Lists::Listed)),
         ("DIRECTIONAL", directional.into()),
         ("POINTS", points.into()),
         ("SPOTS", spots.into()),
         ("HIGHLIGHTS", highlights.halves().into()),
+        ("FIRST", first.into()),
     ]
 }

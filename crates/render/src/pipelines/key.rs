@@ -26,8 +26,8 @@ impl Text {
         match key.lists {
             _ if key.per_instance => Self::Listed,
             Lists::Listed => Self::Listed,
-            Lists::Counted(counts, _) if counts.iter().sum::<u8>() <= COUNTED_LIGHTS as u8 => Self::Few,
-            Lists::Counted(..) => Self::Many,
+            lists if lists.of_stages().iter().all(|(counted, _)| counted.len() <= COUNTED_LIGHTS) => Self::Few,
+            Lists::Counted(..) | Lists::Split { .. } => Self::Many,
         }
     }
 }

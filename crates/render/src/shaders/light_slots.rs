@@ -6,11 +6,37 @@ pub(crate) const COUNTED_LIGHTS: u32 = 8;
 /// How the lights reach the shader.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Lists {
-    /// These numbers of directional, point and spot lights are bound, in this order; the second field says how many of
-    /// them have highlights.
-    Counted([u8; 3], Highlights),
+    /// These are bound, for both stages.
+    Counted(Counted),
+    /// These are bound, the fragment shader's before the vertex shader's.
+    Split {
+        /// Those of the vertex shader.
+        vertex: Counted,
+        /// Those of the fragment shader.
+        fragment: Counted,
+    },
     /// All are bound, and the record's lists name some.
     Listed,
+}
+
+/// Lights at fixed places: so many directional, point and spot lights, in this order, and how many of them have highlights.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct Counted {
+    pub(crate) counts: [u8; 3],
+    pub(crate) highlights: Highlights,
+}
+
+impl Counted {
+    pub(crate) const NONE: Self = Self { counts: [0; 3], highlights: Highlights::All };
+
+    pub(crate) fn new(counts: [u32; 3], highlights: Highlights) -> Self {
+        Self { counts: counts.map(|n| n as u8), highlights }
+    }
+
+    /// How many lights.
+    pub(crate) fn len(self) -> u32 {
+        self.counts.map(u32::from).iter().sum()
+    }
 }
 
 /// How many of the lights that are bound have specular terms: the first of each kind. Few choices, since each makes
@@ -26,11 +52,20 @@ pub(crate) enum Highlights {
 impl Lists {
     /// For a scene with these numbers of directional, point and spot lights.
     pub(crate) fn new(counts: [u32; 3]) -> Self {
-        if counts.iter().sum::<u32>() <= COUNTED_LIGHTS { Self::counted(counts, Highlights::All) } else { Self::Listed }
+        if counts.iter().sum::<u32>() <= COUNTED_LIGHTS {
+            Self::Counted(Counted::new(counts, Highlights::All))
+        } else {
+            Self::Listed
+        }
     }
 
-    pub(crate) fn counted(counts: [u32; 3], highlights: Highlights) -> Self {
-        Self::Counted(counts.map(|n| n as u8), highlights)
+    /// What the vertex shader and the fragment shader know of the lights: which are bound for it, and from which on.
+    pub(crate) fn of_stages(self) -> [(Counted, u32); 2] {
+        match self {
+            Self::Counted(counted) => [(counted, 0); 2],
+            Self::Split { vertex, fragment } => [(vertex, fragment.len()), (fragment, 0)],
+            Self::Listed => [(Counted::NONE, 0); 2],
+        }
     }
 }
 
@@ -68,6 +103,19 @@ pub(crate) fn filled_up(counts: [u32; 3], all: [u32; 3]) -> Option<[u32; 3]> {
         *filled = all.min(*steps.iter().find(|&&step| step >= count)?);
     }
     Some(filled)
+}
+
+/// The same for lights that are shaded at the vertices beside others: fewer steps, as there are fewer vertices than pixels where
+/// that is worth it, and each makes pipelines of its own.
+pub(crate) fn filled_up_roughly(counts: [u32; 3], all: [u32; 3]) -> Option<[u32; 3]> {
+    let mut filled = [0; 3];
+    for ((filled, count), all) in filled.iter_mut().zip(counts).zip(all) {
+        *filled = match count {
+            0 => 0,
+            count => all.min(count.next_power_of_two().max(4)),
+        };
+    }
+    (filled.iter().sum::<u32>() <= BOUND_LIGHTS).then_some(filled)
 }
 
 /// The most lights that are bound at fixed places.

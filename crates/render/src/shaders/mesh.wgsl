@@ -41,8 +41,9 @@ fn vertex_terms(p: vec3f, n: vec3f, shininess: f32, record: u32) -> Irradiance {
     if !LISTED {
         return add_counted(p, n, shininess, terms);
     }
-    let sum = add_listed(Irradiance(), p, n, shininess, draws[record].vertex, terms);
-    return add_listed(sum, p, n, shininess, draws[record].vertex_diffuse, Terms(VERTEX_DIFFUSE, false));
+    var sum = add_listed(Irradiance(), p, n, shininess, draws[record].vertex, terms);
+    sum = add_listed(sum, p, n, shininess, draws[record].vertex_diffuse, Terms(VERTEX_DIFFUSE, false));
+    return add_listed(sum, p, n, shininess, draws[record].vertex_specular, Terms(false, VERTEX_SPECULAR));
 }
 
 fn fragment_terms(p: vec3f, n: vec3f, shininess: f32, record: u32) -> Irradiance {
@@ -50,8 +51,9 @@ fn fragment_terms(p: vec3f, n: vec3f, shininess: f32, record: u32) -> Irradiance
     if !LISTED {
         return add_counted(p, n, shininess, terms);
     }
-    let sum = add_listed(Irradiance(), p, n, shininess, draws[record].fragment, terms);
-    return add_listed(sum, p, n, shininess, draws[record].fragment_diffuse, Terms(FRAGMENT_DIFFUSE, false));
+    var sum = add_listed(Irradiance(), p, n, shininess, draws[record].fragment, terms);
+    sum = add_listed(sum, p, n, shininess, draws[record].fragment_diffuse, Terms(FRAGMENT_DIFFUSE, false));
+    return add_listed(sum, p, n, shininess, draws[record].fragment_specular, Terms(false, FRAGMENT_SPECULAR));
 }
 
 // I = ke + ka·(Ga + Σ La) + Σ …, from what arrives.

@@ -101,7 +101,7 @@ pub(crate) struct DrawRecord {
     pub(crate) front: MaterialRecord,
     pub(crate) back: MaterialRecord,
     pub(crate) lists: RecordLists,
-    pub(crate) padding: [u32; 16],
+    pub(crate) padding: [u32; 8],
 }
 
 pub(crate) const RECORD_BYTES: u64 = size_of::<DrawRecord>() as u64;
@@ -114,8 +114,11 @@ pub(crate) struct RecordLists {
     pub(crate) vertex: [u32; 4],
     /// Lights without their specular terms.
     pub(crate) vertex_diffuse: [u32; 4],
+    /// Lights with nothing but their specular terms.
+    pub(crate) vertex_specular: [u32; 4],
     pub(crate) fragment: [u32; 4],
     pub(crate) fragment_diffuse: [u32; 4],
+    pub(crate) fragment_specular: [u32; 4],
 }
 
 impl InstanceRecord {

@@ -11,6 +11,7 @@ override DIRECTIONAL: u32 = 0;
 override POINTS: u32 = 0;
 override SPOTS: u32 = 0;
 override HIGHLIGHTS: u32 = 2;          // of each kind, the first so many halves have specular terms
+override FIRST: u32 = 0;               // those of the stage begin here
 
 struct View {
     scale: vec2f,        // x and y of clip_from_eye
@@ -24,9 +25,11 @@ struct Draw {
     back: Material,
     vertex: vec4u,
     vertex_diffuse: vec4u,    // these lights' specular terms are left out
+    vertex_specular: vec4u,   // and of these all others
     fragment: vec4u,
     fragment_diffuse: vec4u,
-    padding: array<vec4u, 4>,
+    fragment_specular: vec4u,
+    padding: array<vec4u, 2>,
 }
 
 @group(0) @binding(0) var<uniform> view: View;

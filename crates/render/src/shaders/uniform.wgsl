@@ -9,14 +9,14 @@ fn of_first(terms: Terms, i: u32, count: u32) -> Terms {
     return Terms(terms.diffuse, terms.specular && i < HIGHLIGHTS * count / 2u);
 }
 
-// Adds the directional lights of the numbers `start` to `start` + 7.
+// Adds the directional lights of the numbers `start` to `start` + 7. Numbers count from the stage's first.
 fn add_directional(
     before: Irradiance, start: u32, p: vec3f, n: vec3f, v: vec3f, shininess: f32, terms: Terms,
 ) -> Irradiance {
     var sum = before;
     for (var i = start; i < min(DIRECTIONAL, start + 8u); i++) {
-        let incident = Incidence(lights[i].position, 1.0);
-        sum = plus(sum, irradiance(lights[i], incident, n, v, shininess, of_first(terms, i, DIRECTIONAL)));
+        let incident = Incidence(lights[FIRST + i].position, 1.0);
+        sum = plus(sum, irradiance(lights[FIRST + i], incident, n, v, shininess, of_first(terms, i, DIRECTIONAL)));
     }
     return sum;
 }
@@ -30,8 +30,8 @@ fn add_four(
 ) -> Irradiance {
     var sum = before;
     for (var i = first + start; i < first + min(count, start + 4u); i++) {
-        let incident = incidence(lights[i], cone, p, n);
-        sum = plus(sum, irradiance(lights[i], incident, n, v, shininess, of_first(terms, i - first, count)));
+        let incident = incidence(lights[FIRST + i], cone, p, n);
+        sum = plus(sum, irradiance(lights[FIRST + i], incident, n, v, shininess, of_first(terms, i - first, count)));
     }
     return sum;
 }

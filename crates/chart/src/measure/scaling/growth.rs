@@ -1,6 +1,6 @@
 //! What grows, and in which steps.
 
-use halfway::prelude::LevelsOfDetail;
+use halfway::prelude::Tolerance;
 
 use super::ScalingPlan;
 
@@ -62,8 +62,8 @@ impl Growth {
     }
 
     /// How coarse meshes may be drawn: by default, but where it is triangles that grow, as they are.
-    pub fn levels(self) -> LevelsOfDetail {
-        if self == Self::Triangles { LevelsOfDetail::OFF } else { LevelsOfDetail::default() }
+    pub fn tolerance(self) -> Tolerance {
+        if self == Self::Triangles { Tolerance { pixels: 0.0, ..Tolerance::DEFAULT } } else { Tolerance::DEFAULT }
     }
 
     /// The counts to measure at: the first, the powers of ten and the steps between them, the last. A mesh or a picture

@@ -67,7 +67,7 @@ impl ScalingScene {
         }
         let size = if growth == Growth::Pixels { picture(count) } else { UVec2::splat(size) };
         world.resource_mut::<Headless>().size = size;
-        world.insert_resource(growth.levels());
+        world.insert_resource(ViewTolerance(growth.tolerance()));
         let whole = count as u32;
         match growth {
             Growth::Triangles => return self.one_mesh(count),

@@ -1,0 +1,76 @@
+//! `--tolerance`: how far a picture may be off.
+
+use clap::Args;
+use halfway::prelude::*;
+
+#[derive(Args, Clone, Copy, Debug)]
+pub(crate) struct ToleranceArgs {
+    /// How far the picture may be from everything at full detail with all lights (under --shading auto from Phong shading):
+    /// steps of 1/255, and how many pixels a point may move (0: every mesh as it is); exact: not at all
+    /// [default: the scene's; 1,0.5]
+    #[arg(long, value_name = "STEPS[,PIXELS]|exact", value_parser = parse)]
+    tolerance: Option<Tolerance>,
+}
+
+impl ToleranceArgs {
+    /// As asked for, or this.
+    pub(crate) fn or(self, other: Tolerance) -> Tolerance {
+        self.tolerance.unwrap_or(other)
+    }
+
+    /// What was asked for.
+    pub(crate) fn given(self) -> Option<Tolerance> {
+        self.tolerance
+    }
+
+    /// The arguments that mean the same, for another process.
+    pub(crate) fn arguments(self) -> Vec<String> {
+        let text = |Tolerance { steps, pixels }| format!("{steps},{pixels}");
+        self.tolerance.map_or_else(Vec::new, |tolerance| vec!["--tolerance".to_owned(), text(tolerance)])
+    }
+}
+
+/// In a few words.
+pub(crate) fn describe(tolerance: Tolerance) -> String {
+    let Tolerance { steps, pixels } = tolerance;
+    if tolerance == Tolerance::EXACT { "exact".to_owned() } else { format!("{steps} steps of 255, {pixels} pixels") }
+}
+
+fn parse(text: &str) -> Result<Tolerance, String> {
+    if text == "exact" {
+        return Ok(Tolerance::EXACT);
+    }
+    let (steps, pixels) = text.split_once(',').unwrap_or((text, "0.5"));
+    let number = |text: &str| text.parse::<f32>().ok();
+    let tolerance = number(steps).zip(number(pixels)).map(|(steps, pixels)| Tolerance { steps, pixels });
+    tolerance
+        .filter(|tolerance| tolerance.validate().is_ok())
+        .ok_or_else(|| "expected exact, or steps and pixels, 0 or more, such as 1 or 2,0.5".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tolerances_by_steps_and_pixels() {
+        assert_eq!(parse("exact"), Ok(Tolerance::EXACT));
+        assert_eq!(parse("0,0"), Ok(Tolerance::EXACT));
+        assert_eq!(parse("1"), Ok(Tolerance::DEFAULT));
+        assert_eq!(parse("2.5,0"), Ok(Tolerance::steps(2.5)));
+        for bad in ["", "on", "-1", "1,-1", "inf", "NaN,1", "1px", "1,", ",1", "1,2,3", "Exact "] {
+            assert!(parse(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn another_process_hears_the_same() {
+        for text in ["exact", "0.1", "3,0.25"] {
+            let given = ToleranceArgs { tolerance: parse(text).ok() };
+            let [option, value] = &given.arguments()[..] else { panic!("an option and its value") };
+            assert_eq!((option.as_str(), parse(value).ok()), ("--tolerance", given.given()), "{text}");
+        }
+        let none = ToleranceArgs { tolerance: None };
+        assert_eq!((none.arguments(), none.or(Tolerance::CLOSE)), (Vec::new(), Tolerance::CLOSE));
+    }
+}

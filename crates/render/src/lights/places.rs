@@ -1,0 +1,273 @@
+//! Where the terms of each light are shaded, patch by patch: at the vertices where that is within the tolerance, and at the
+//! fragments elsewhere.
+
+use crate::lights::terms::{by_fragment_shader, by_vertex_shader};
+use halfway_lighting::bounds::{Grain, Patch, STEP, Selected, Slopes, TermChange, VertexShading, linear_tolerance};
+use halfway_lighting::equations::{Coefficients, Eye, Light, specular_exponent};
+use halfway_lighting::{Encoding, Faces, Frequency, Reflectance, Terms};
+
+/// The lights whose diffuse terms, and those whose specular terms, one stage shades. Ascending.
+#[derive(Debug, Default)]
+pub(crate) struct StageLights {
+    pub(crate) diffuse: Vec<u32>,
+    pub(crate) specular: Vec<u32>,
+}
+
+/// Where the terms of a patch's lights are shaded.
+#[derive(Debug, Default)]
+pub(crate) struct Placed {
+    pub(crate) vertex: StageLights,
+    pub(crate) fragment: StageLights,
+    /// The most that any channel of any patch of the frame may be off by, in steps of the picture.
+    pub(crate) spent: f64,
+    /// Those that may move to the vertices, for one patch after the other.
+    movable: Vec<Movable>,
+}
+
+/// What an object's terms are placed by.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Places {
+    sides: [Side; 2],
+    is_two_sided: bool,
+    /// Whether its diffuse and its specular terms are placed light by light.
+    placed: [bool; 2],
+    view: Eye<f32>,
+    reflectance: Reflectance,
+    encoding: Encoding,
+    /// How far a channel may be off, in the picture's encoding.
+    tolerance: f64,
+}
+
+/// One side of a surface.
+#[derive(Clone, Copy, Debug)]
+struct Side {
+    coefficients: Coefficients<f32>,
+    slopes: Slopes<f32>,
+    faces: Faces,
+    /// What every point of it has without lights.
+    unlit: [f32; 3],
+}
+
+/// A patch as it is looked at.
+pub(crate) struct PlacedPatch<'a> {
+    pub(crate) patch: &'a Patch<f32>,
+    pub(crate) grain: Grain<f32>,
+    /// How many pixels it may cover for each of its vertices.
+    pub(crate) pixels_per_vertex: f32,
+}
+
+/// A term that may be shaded at the vertices.
+#[derive(Clone, Copy, Debug)]
+struct Movable {
+    light: u32,
+    is_diffuse: bool,
+    brighter: [f64; 3],
+    darker: [f64; 3],
+    share: f64,
+}
+
+/// Where a patch covers fewer pixels for each vertex, its vertices cost as much as its pixels.
+const FEWEST_PIXELS: f32 = 1.5;
+
+impl Places {
+    /// Of an object with these sides and terms; `None` where none of its terms is placed light by light.
+    pub(crate) fn new(
+        [front, back]: [Coefficients<f32>; 2],
+        terms: Terms,
+        reflectance: Reflectance,
+        faces: Faces,
+        unlit: [[f32; 3]; 2],
+        view: Eye<f32>,
+        (encoding, steps): (Option<Encoding>, f64),
+    ) -> Option<Self> {
+        let placed = [terms.diffuse, terms.specular].map(|term| term == Frequency::Auto);
+        if placed == [false; 2] {
+            return None;
+        }
+        let side = |coefficients: Coefficients<f32>, faces, unlit| Side {
+            coefficients,
+            slopes: Slopes::new(specular_exponent(reflectance, coefficients.shininess)),
+            faces,
+            unlit,
+        };
+        let first = if faces == Faces::Back { Faces::Back } else { Faces::Front };
+        Some(Self {
+            sides: [side(front, first, unlit[0]), side(back, Faces::Back, unlit[1])],
+            is_two_sided: faces == Faces::Both,
+            placed,
+            view,
+            reflectance,
+            encoding: encoding.unwrap_or(Encoding::Raw),
+            tolerance: steps * STEP,
+        })
+    }
+
+    fn sides(&self) -> &[Side] {
+        &self.sides[..1 + usize::from(self.is_two_sided)]
+    }
+}
+
+impl Placed {
+    pub(crate) fn begin(&mut self) {
+        self.spent = 0.0;
+    }
+
+    /// Places what was selected where `terms` says, whatever the light.
+    pub(crate) fn as_said(&mut self, selected: &Selected<f32>, terms: Terms) {
+        let [vertex, fragment] = [by_vertex_shader(terms), by_fragment_shader(terms)];
+        for (stage, [diffuse, specular]) in [(&mut self.vertex, vertex), (&mut self.fragment, fragment)] {
+            stage.set(if diffuse { &selected.diffuse } else { &[] }, if specular { &selected.specular } else { &[] });
+        }
+    }
+
+    /// Places what was selected of these lights for a patch: at the vertices as much as the tolerance allows, the terms
+    /// first that change least by it.
+    pub(crate) fn place(
+        &mut self,
+        places: &Places,
+        patch: &PlacedPatch,
+        terms: Terms,
+        lights: &[Light<f32>],
+        selected: &Selected<f32>,
+    ) {
+        self.as_said(selected, terms.at_fragments());
+        self.movable.clear();
+        if patch.pixels_per_vertex < FEWEST_PIXELS || places.tolerance <= 0.0 {
+            return;
+        }
+        let Some([brighter, darker]) = self.movable(places, patch, lights, selected) else { return };
+        let shares = |change: [f64; 3], room: [f64; 3]| {
+            (0..3).map(|c| if change[c] > 0.0 { change[c] / room[c] } else { 0.0 }).fold(0.0, f64::max)
+        };
+        for item in &mut self.movable {
+            item.share = shares(item.brighter, brighter).max(shares(item.darker, darker));
+        }
+        self.movable.sort_unstable_by(|a, b| a.share.total_cmp(&b.share));
+        let mut spent = [[0.0; 3]; 2];
+        for item in &self.movable {
+            let with = |spent: [f64; 3], more: [f64; 3]| [0, 1, 2].map(|c| spent[c] + more[c]);
+            let sum = [with(spent[0], item.brighter), with(spent[1], item.darker)];
+            if (0..3).all(|c| sum[0][c] <= brighter[c] && sum[1][c] <= darker[c]) {
+                spent = sum;
+                self.vertex.list(item.is_diffuse).push(item.light);
+            }
+        }
+        for is_diffuse in [true, false] {
+            if places.placed[usize::from(!is_diffuse)] {
+                let moved = self.vertex.list(is_diffuse);
+                moved.sort_unstable();
+                self.fragment.list(is_diffuse).retain(|light| moved.binary_search(light).is_err());
+            }
+        }
+        let most = shares(spent[0], brighter).max(shares(spent[1], darker));
+        self.spent = self.spent.max(most * places.tolerance / STEP);
+    }
+
+    /// Collects what may move, and returns by how much a channel may come out brighter, and darker; `None` where nothing
+    /// is known of the patch.
+    fn movable(
+        &mut self,
+        places: &Places,
+        PlacedPatch { patch, grain, .. }: &PlacedPatch,
+        lights: &[Light<f32>],
+        selected: &Selected<f32>,
+    ) -> Option<[[f64; 3]; 2]> {
+        let mut shadings = [None, None];
+        for (shading, side) in shadings.iter_mut().zip(places.sides()) {
+            let patch = Patch { faces: side.faces, ..**patch };
+            *shading = Some(VertexShading::new(&patch, grain, side.slopes, &places.view, places.reflectance)?);
+        }
+        let mut least = [0, 1].map(|i: usize| places.sides[i].unlit.map(f64::from));
+        let (mut diffuse, mut specular) = (&selected.diffuse[..], &selected.specular[..]);
+        // Both lists ascend: they are walked side by side.
+        while let Some(light) = next(&mut diffuse, &mut specular) {
+            let (number, of_light) = (light.number, &lights[light.number as usize]);
+            let mut changes = [[Some([[0.0_f64; 3]; 2]); 2]; 2];
+            for (i, side) in places.sides().iter().enumerate() {
+                let change = shadings[i].as_ref().and_then(|shading: &VertexShading<f32>| shading.change(of_light));
+                let Some(change) = change else {
+                    changes[i] = [None; 2];
+                    continue;
+                };
+                let Coefficients { ka, kd, ks, .. } = side.coefficients;
+                if light.has_diffuse {
+                    let mut sum = [[0.0; 3]; 3];
+                    add(&mut sum, change.diffuse, kd, of_light.ld);
+                    if of_light.attenuate_ambient {
+                        add(&mut sum, change.ambient, ka, of_light.la);
+                    }
+                    changes[i][0] = Some([sum[0], sum[1]]);
+                    least[i] = [0, 1, 2].map(|c| least[i][c] + sum[2][c]);
+                }
+                if light.has_specular {
+                    let mut sum = [[0.0; 3]; 3];
+                    add(&mut sum, change.specular, ks, of_light.ls);
+                    changes[i][1] = Some([sum[0], sum[1]]);
+                    least[i] = [0, 1, 2].map(|c| least[i][c] + sum[2][c]);
+                }
+            }
+            for (term, has) in [light.has_diffuse, light.has_specular].into_iter().enumerate() {
+                let [Some(front), Some(back)] = [changes[0][term], changes[1][term]] else { continue };
+                if has && places.placed[term] {
+                    let larger = |i: usize| [0, 1, 2].map(|c| front[i][c].max(back[i][c]));
+                    let (brighter, darker) = (larger(0), larger(1));
+                    self.movable.push(Movable { light: number, is_diffuse: term == 0, brighter, darker, share: 0.0 });
+                }
+            }
+        }
+        let sides = places.sides().len();
+        let room = [0, 1, 2].map(|c| {
+            let at_least = least[..sides].iter().map(|least| least[c]).fold(f64::INFINITY, f64::min);
+            linear_tolerance(places.encoding, places.tolerance, at_least)
+        });
+        Some([room, [0, 1, 2].map(|c| (room[c] - selected.left_out[c]).max(0.0))])
+    }
+}
+
+/// Brighter, darker and least of a change, by its colours.
+fn add<T: Into<f64> + Copy>(sum: &mut [[f64; 3]; 3], change: TermChange<f32>, coefficient: [T; 3], color: [T; 3]) {
+    for (sum, factor) in sum.iter_mut().zip([change.brighter, change.darker, change.least]) {
+        for c in 0..3 {
+            let product: f64 = coefficient[c].into() * color[c].into();
+            // Black stays black, also where nothing is known of the factor.
+            if product > 0.0 {
+                sum[c] += product * f64::from(factor);
+            }
+        }
+    }
+}
+
+/// A light of two lists.
+pub(crate) struct NextLight {
+    pub(crate) number: u32,
+    pub(crate) has_diffuse: bool,
+    pub(crate) has_specular: bool,
+}
+
+/// The next light of two ascending lists.
+pub(crate) fn next(diffuse: &mut &[u32], specular: &mut &[u32]) -> Option<NextLight> {
+    let number = [diffuse.first(), specular.first()].into_iter().flatten().copied().min()?;
+    let take = |list: &mut &[u32]| {
+        let has = list.first() == Some(&number);
+        *list = &list[usize::from(has)..];
+        has
+    };
+    Some(NextLight { number, has_diffuse: take(diffuse), has_specular: take(specular) })
+}
+
+impl StageLights {
+    fn set(&mut self, diffuse: &[u32], specular: &[u32]) {
+        for (list, lights) in [(&mut self.diffuse, diffuse), (&mut self.specular, specular)] {
+            list.clear();
+            list.extend_from_slice(lights);
+        }
+    }
+
+    fn list(&mut self, is_diffuse: bool) -> &mut Vec<u32> {
+        if is_diffuse { &mut self.diffuse } else { &mut self.specular }
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.diffuse.is_empty() && self.specular.is_empty()
+    }
+}
