@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use halfway::prelude::*;
-use halfway::reference::metrics::{Bars, Scale, Verdict, difference, judge};
+use halfway::reference::metrics::{Bars, FINENESS, Scale, Verdict, difference, judge, judge_moved};
 use halfway::reference::{Image, Oracle};
 use halfway::render::RenderError;
 
@@ -62,14 +62,26 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
 
     let progress = Progress::of_tiles();
     let max = f64::from(args.max);
-    let bars = Bars { most: max, worst: max, equal: 0.0, ..Bars::bytes(encoding) };
-    let picture = draw(&mut app, size, Pixels::Byte)?;
-    let bytes = Drawn::new(&mut app, &picture, size, encoding, (0, &progress))?;
+    let steps = f64::from(tolerance.steps);
+    let pixels = f64::from(tolerance.pixels);
+    let bars = Bars { most: max, worst: max, equal: 0.0, ..Bars::bytes(encoding) }.within(steps);
+    let draw = |app: &mut App, values| {
+        if pixels > 0.0 {
+            // The second frame has coarser triangles.
+            draw(app, size, values)?;
+        }
+        draw(app, size, values)
+    };
+    let picture = draw(&mut app, Pixels::Byte)?;
+    let bytes = Drawn::new(&mut app, &picture, (size, pixels), encoding, (0, &progress))?;
     let of_bytes = bytes.judged(bars.on_grid(bits))?;
-    let float = match draw(&mut app, size, Pixels::Float) {
+    let float = match draw(&mut app, Pixels::Float) {
         // The bytes are judged all the same.
         Err(RenderError::FloatTarget { cannot }) => Err(cannot),
-        drawn => Ok(Drawn::new(&mut app, &drawn?, size, encoding, (1, &progress))?.judged(Bars::FLOAT.on_grid(bits))?),
+        drawn => {
+            let bars = Bars::FLOAT.within(steps).on_grid(bits);
+            Ok(Drawn::new(&mut app, &drawn?, (size, pixels), encoding, (1, &progress))?.judged(bars)?)
+        }
     };
     drop(progress);
     if let Err(cannot) = &float {
@@ -130,7 +142,7 @@ fn judge_picture(args: &VerifyArgs, mut input: SceneInput, file: &Path) -> Resul
     let expected = oracle
         .draw_with(&|done, of| progress.tile(0, 1, done, of))
         .map_err(|stopped| Failure::new(STOPPED, stopped))?;
-    let drawn = Drawn { oracle, actual: Image::from_decoded(&picture, encoding), expected };
+    let drawn = Drawn { oracle, actual: Image::from_decoded(&picture, encoding), expected, moved: None };
     let found = drawn.judged(bars)?;
     drop(progress);
     if let Some(file) = &args.output {
@@ -171,13 +183,15 @@ struct Drawn {
     oracle: Oracle,
     actual: Image,
     expected: Image,
+    /// How far what is drawn may be moved on the picture, and the oracle's finer picture.
+    moved: Option<(f64, Image)>,
 }
 
 impl Drawn {
     fn new(
         app: &mut App,
         picture: &Picture,
-        size: UVec2,
+        (size, pixels): (UVec2, f64),
         encoding: Encoding,
         (index, progress): (u32, &Progress),
     ) -> Result<Self, Failure> {
@@ -189,11 +203,21 @@ impl Drawn {
         let expected = oracle
             .draw_with(&|done, of| progress.tile(index, 2, done, of))
             .map_err(|stopped| Failure::new(STOPPED, stopped))?;
-        Ok(Self { oracle, actual, expected })
+        let moved = if pixels > 0.0 {
+            let fine = Oracle::new(app.world_mut(), size * FINENESS)?.with_clamping(is_clamped);
+            Some((pixels, fine.draw()))
+        } else {
+            None
+        };
+        Ok(Self { oracle, actual, expected, moved })
     }
 
     fn judged(&self, bars: Bars) -> Result<Verdict, Failure> {
-        judge(&self.oracle, &self.expected, &self.actual, bars).map_err(text)
+        match &self.moved {
+            Some((pixels, fine)) => judge_moved(&self.oracle, (&self.expected, fine), *pixels, &self.actual, bars),
+            None => judge(&self.oracle, &self.expected, &self.actual, bars),
+        }
+        .map_err(text)
     }
 }
 

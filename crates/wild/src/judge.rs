@@ -6,10 +6,10 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use halfway::prelude::*;
-use halfway::reference::metrics::{Bars, Verdict, judge};
+use halfway::reference::metrics::{Bars, FINENESS, Verdict, judge, judge_moved};
 use halfway::reference::{Image, Oracle};
 use halfway::render::{Adapter, RenderError};
-use halfway::scene::{SceneFile, spawn};
+use halfway::scene::{SceneFile, ShadingEntry, spawn};
 use serde_json::Value;
 
 use crate::shrink::shrink;
@@ -26,6 +26,7 @@ pub struct Judge {
     base_dir: PathBuf,
     grid: u32,
     four: bool,
+    tolerance: Option<Tolerance>,
     fault: Option<Fault>,
 }
 
@@ -78,7 +79,7 @@ impl fmt::Display for Finding {
 impl Judge {
     /// Judges what `adapter` draws. Paths of scenes are relative to `base_dir`.
     pub fn new(adapter: Adapter, base_dir: impl Into<PathBuf>) -> Self {
-        Self { adapter, base_dir: base_dir.into(), grid: 8, four: false, fault: None }
+        Self { adapter, base_dir: base_dir.into(), grid: 8, four: false, tolerance: None, fault: None }
     }
 
     /// Judges an adapter that puts vertices on a grid of so many bits, 4 to 8, which is Vulkan's `subPixelPrecisionBits`; 8
@@ -93,6 +94,12 @@ impl Judge {
     #[must_use]
     pub fn with_four_samples(self, four: bool) -> Self {
         Self { four, ..self }
+    }
+
+    /// Has everything drawn by [`Shading::Auto`] within this tolerance, and judged by Phong shading and the tolerance.
+    #[must_use]
+    pub fn with_tolerance(self, tolerance: Tolerance) -> Self {
+        Self { tolerance: Some(tolerance), ..self }
     }
 
     /// Gives the renderer another scene than the oracle.
@@ -132,24 +139,30 @@ impl Judge {
         let steps = 1.0 + blended as f64 + (255.0 * offset).floor();
         let bytes = Bars { most: steps, worst: steps, equal: 0.0, ..Bars::bytes(encoding) };
 
-        let mut drawn = scene.clone();
+        let (mut drawn, mut judged) = (scene.clone(), scene.clone());
+        if self.tolerance.is_some() {
+            shade(&mut drawn, ShadingEntry::Auto);
+            shade(&mut judged, ShadingEntry::Phong);
+        }
+        let tolerance = self.tolerance.unwrap_or(Tolerance::EXACT);
+        let [float, bytes] = [float, bytes].map(|bars| bars.within(tolerance.steps.into()));
         if let Some(fault) = self.fault {
             fault(&mut drawn);
         }
         let mut renderer = App::new();
         renderer.add_plugins(HalfwayPlugins::headless(size));
         self.adapter.clone().insert_into(renderer.world_mut());
-        // The oracle knows no levels of detail.
-        renderer.insert_resource(ViewTolerance(Tolerance::EXACT));
         self.set_up(&mut renderer, &drawn)?;
-        let mut pictures = Pictures { renderer, oracle: App::new(), size, encoding };
+        renderer.insert_resource(ViewTolerance(tolerance));
+        let pixels = tolerance.pixels.into();
+        let mut pictures = Pictures { renderer, oracle: App::new(), size, encoding, pixels };
         pictures.oracle.add_plugins(HalfwayPlugins::reference());
-        self.set_up(&mut pictures.oracle, scene)?;
+        self.set_up(&mut pictures.oracle, &judged)?;
         pictures.oracle.update();
 
         let float = pictures.judged(Pixels::Float, float)?;
         let bytes = pictures.judged(Pixels::Byte, bytes)?;
-        if float.worst > offset || float.bad > 0 {
+        if float.worst > offset + float.allowed || float.bad > 0 {
             Err(Finding::Float(Box::new(float)))
         } else if !bytes.is_within() {
             Err(Finding::Bytes(Box::new(bytes)))
@@ -167,24 +180,44 @@ impl Judge {
     }
 }
 
+/// Shades all of a scene alike.
+fn shade(scene: &mut SceneFile, shading: ShadingEntry) {
+    scene.shading = shading;
+    scene.objects.iter_mut().for_each(|object| object.shading = None);
+}
+
 /// One scene in two worlds.
 struct Pictures {
     renderer: App,
     oracle: App,
     size: UVec2,
     encoding: Encoding,
+    /// How far what is drawn may be moved on the picture.
+    pixels: f64,
 }
 
 impl Pictures {
     fn judged(&mut self, pixels: Pixels, bars: Bars) -> Result<Verdict, Finding> {
         self.renderer.insert_resource(Headless { size: self.size, pixels });
+        if self.pixels > 0.0 {
+            // The second frame has coarser triangles.
+            render_picture(&mut self.renderer).map_err(refused::<RenderError>)?;
+        }
         let actual = match render_picture(&mut self.renderer).map_err(refused::<RenderError>)? {
             Picture::Byte(image) => Image::from_bytes(&image, self.encoding),
             Picture::Float(image) => Image::from_float(&image),
         };
-        let oracle = Oracle::new(self.oracle.world_mut(), self.size).map_err(refused)?;
-        let oracle = oracle.with_clamping(bars.are_clamped());
-        judge(&oracle, &oracle.draw(), &actual, bars).map_err(refused)
+        let mut oracle = |size| {
+            let oracle = Oracle::new(self.oracle.world_mut(), size).map_err(refused)?;
+            Ok(oracle.with_clamping(bars.are_clamped()))
+        };
+        let of_size = oracle(self.size)?;
+        let expected = of_size.draw();
+        if self.pixels > 0.0 {
+            let fine = oracle(self.size * FINENESS)?.draw();
+            return judge_moved(&of_size, (&expected, &fine), self.pixels, &actual, bars).map_err(refused);
+        }
+        judge(&of_size, &expected, &actual, bars).map_err(refused)
     }
 }
 

@@ -6,6 +6,7 @@ use std::time::Instant;
 
 use clap::Parser;
 use clap::builder::NonEmptyStringValueParser;
+use halfway::lighting::Tolerance;
 use halfway::output::write_text;
 use halfway::render::AdapterChoice;
 use halfway_wild::{Judge, scene, written};
@@ -38,12 +39,24 @@ struct Arguments {
     /// Draw scenes with four samples a pixel as they are, not with one
     #[arg(long)]
     four: bool,
+    /// Draw everything by automatic shading within so many steps of 255 and so many pixels, and judge it by Phong shading
+    #[arg(long, value_name = "STEPS[,PIXELS]", value_parser = tolerance)]
+    tolerance: Option<Tolerance>,
     /// Judge a failure at most so often to make it small
     #[arg(long, value_name = "N", default_value_t = 500)]
     trials: usize,
     /// The folder for the scenes that failed
     #[arg(short, long, value_name = "FOLDER", default_value = "out/wild")]
     output: PathBuf,
+}
+
+fn tolerance(text: &str) -> Result<Tolerance, String> {
+    let (steps, pixels) = text.split_once(',').unwrap_or((text, "0"));
+    let numbers = steps.parse().ok().zip(pixels.parse().ok());
+    let tolerance = numbers.map(|(steps, pixels)| Tolerance { steps, pixels });
+    tolerance
+        .filter(|tolerance| tolerance.validate().is_ok())
+        .ok_or_else(|| "expected numbers such as 1 or 2,0.5".into())
 }
 
 fn main() -> ExitCode {
@@ -72,7 +85,10 @@ fn run(arguments: &Arguments) -> Result<u64, (u8, String)> {
     let choice = AdapterChoice { name: arguments.adapter.clone() };
     let adapter = choice.open().map_err(|error| (3, error.to_string()))?;
     println!("{}, seed {}", adapter.describe(), arguments.seed);
-    let judge = Judge::new(adapter, "").with_grid(arguments.grid).with_four_samples(arguments.four);
+    let mut judge = Judge::new(adapter, "").with_grid(arguments.grid).with_four_samples(arguments.four);
+    if let Some(tolerance) = arguments.tolerance {
+        judge = judge.with_tolerance(tolerance);
+    }
     let start = Instant::now();
     let (mut worst, mut failed) = (Worst::default(), 0);
     for number in arguments.first..arguments.first.saturating_add(arguments.scenes) {

@@ -55,6 +55,7 @@
 mod angle;
 mod near;
 mod patch;
+mod quick;
 mod reach;
 mod receiver;
 mod region;

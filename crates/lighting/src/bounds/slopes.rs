@@ -1,5 +1,6 @@
 //! How steep and how bent the powers of a cosine are.
 
+use super::quick::power_within;
 use crate::equations::{Real, power};
 
 /// Bounds of the derivatives of max(cos f, 0)ⁿ by f, over all angles from some f₀ on.
@@ -44,7 +45,7 @@ impl<T: Real> Slopes<T> {
         }
         let c = c.max(zero).min(one);
         if n < T::of(2.0) {
-            let largest = power(c, n);
+            let [_, largest] = power_within(c, n);
             let steepest = if n == zero {
                 zero
             } else if n < one {
@@ -55,7 +56,7 @@ impl<T: Real> Slopes<T> {
             let bent = if n == one || n == zero { n } else { T::infinity() };
             return [steepest, bent, bent, largest];
         }
-        let lower = power(c, n - T::of(2.0));
+        let [_, lower] = power_within(c, n - T::of(2.0));
         let squared = (one - c) * (one + c);
         let at_c = [n * lower * c * squared.sqrt(), n * (n - one) * lower * squared, n * lower * c * (one - c)];
         let of = |i: usize| if c > self.peaks[i][0] { self.peaks[i][1] } else { at_c[i] };

@@ -1,12 +1,11 @@
 //! What is changed by shading a light's terms at the vertices of triangles, beside shading them at each point.
 
 use super::angle::{Angle, Cap, slack};
+use super::quick::power_within;
 use super::slopes::Slopes;
 use super::{Patch, Receiver};
 use crate::equations::vector::{dot, length, neg, sub};
-use crate::equations::{
-    ATTENUATION_MAX, Coefficients, Eye, Light, Place, Real, attenuation, power, range_window, reflect,
-};
+use crate::equations::{ATTENUATION_MAX, Coefficients, Eye, Light, Place, Real, attenuation, range_window, reflect};
 use crate::{Faces, Reflectance};
 
 /// How finely a patch is cut into triangles: of each of the two, the largest of all its triangles.
@@ -250,7 +249,7 @@ impl<T: Real> VertexShading<T> {
         let Weight { largest: a, slope, bend, nearness, .. } = weight;
         let spot = Weight {
             largest: a * largest,
-            least: weight.least * power(farthest, cone.exponent),
+            least: weight.least * power_within(farthest, cone.exponent)[0],
             slope: slope * largest + a * steepest * nearness,
             bend: bend * largest
                 + T::of(2.0) * slope * steepest * nearness
@@ -356,8 +355,11 @@ impl<T: Real> VertexShading<T> {
         };
         let angle = Angle::between(axis, other);
         let [steepest, falling, rising, peak] = self.slopes.from(angle.cos_within(spread).min(T::one()));
-        let lowest =
-            if least_facing < zero { zero } else { power(angle.plus(spread).cos - slack(), self.slopes.exponent()) };
+        let [lowest, _] = if least_facing < zero {
+            [zero; 2]
+        } else {
+            power_within(angle.plus(spread).cos - slack(), self.slopes.exponent())
+        };
         let range = largest * peak - least * lowest;
         let first = largest * steepest * speed + slope * r * peak;
         let extra = T::of(2.0) * slope * r * steepest * speed + bend * r * r * peak;
@@ -376,7 +378,7 @@ impl<T: Real> VertexShading<T> {
             } else {
                 (facing_span + seen) / sum
             };
-            let cut = if cut.is_nan() { peak } else { power(cut, self.slopes.exponent()).min(peak) };
+            let cut = if cut.is_nan() { peak } else { power_within(cut, self.slopes.exponent())[1].min(peak) };
             change = change.map(|change| change.max(largest * cut));
         }
         let [brighter, darker] = change;

@@ -250,3 +250,28 @@ fn half_a_bound_is_exceeded() {
     println!("{exceeded:?}");
     assert!(exceeded.iter().all(|&times| times > 0), "{exceeded:?}");
 }
+
+/// Prints what one light costs for one patch.
+#[test]
+#[ignore = "it prints times"]
+fn times() {
+    let mut random = Random(7);
+    let cases: Vec<Case> = (0..2000).map(|_| Case { shininess: 32.0, ..Case::random(&mut random) }).collect();
+    let made: Vec<_> = cases.iter().filter_map(|case| Some((case.shading::<f32>()?, case.light.cast::<f32>()))).collect();
+    for _ in 0..3 {
+        let start = std::time::Instant::now();
+        for _ in 0..100 {
+            for (shading, light) in &made {
+                std::hint::black_box(shading.change(light));
+            }
+        }
+        println!("{:.1} ns a change", start.elapsed().as_secs_f64() * 1e7 / made.len() as f64);
+        let start = std::time::Instant::now();
+        for _ in 0..20 {
+            for case in &cases {
+                std::hint::black_box(case.shading::<f32>());
+            }
+        }
+        println!("{:.1} ns a patch", start.elapsed().as_secs_f64() * 1e9 / 20.0 / cases.len() as f64);
+    }
+}

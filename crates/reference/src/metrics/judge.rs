@@ -40,6 +40,8 @@ pub struct Bars {
     /// Where a triangle's own colour changes by more than this share of the range within the disc of [`EDGE_RADIUS`], any
     /// of the colours there is right; on a gentler slope only the one at the centre.
     pub steep: f64,
+    /// What was allowed to be left out, in steps of 1/255 of the picture: `most` and `worst` are on top of it.
+    pub steps: f64,
 }
 
 /// What errors are counted in.
@@ -55,7 +57,7 @@ impl Bars {
     /// For pictures in 32-bit floating point: 2·10⁻⁴ of the range for 99.9 %, 2·10⁻³ for all. Single precision over a
     /// few hundred operations, and attributes interpolated between vertices that were snapped.
     pub const FLOAT: Self =
-        Self { measure: Measure::Range, most: 2e-4, worst: 2e-3, equal: 0.0, layer: 0.0, steep: STEEP };
+        Self { measure: Measure::Range, most: 2e-4, worst: 2e-3, equal: 0.0, layer: 0.0, steep: STEEP, steps: 0.0 };
 
     /// For pictures of 8 bits: 1 step anywhere, and 99 % equal. A value near the middle between two steps may be
     /// rounded to either. Adapters may round values of the sRGB curve less exactly (llvmpipe to steps up to 0.66 away),
@@ -64,7 +66,15 @@ impl Bars {
     /// Half a step more for each blended layer: a picture of bytes is rounded whenever something is blended over it, to at
     /// most half a step away, and the layers above let no more of that through.
     pub const fn bytes(encoding: Encoding) -> Self {
-        Self { measure: Measure::Steps(encoding), most: 1.0, worst: 1.0, equal: 0.99, layer: 0.5, steep: STEEP }
+        Self {
+            measure: Measure::Steps(encoding),
+            most: 1.0,
+            worst: 1.0,
+            equal: 0.99,
+            layer: 0.5,
+            steep: STEEP,
+            steps: 0.0,
+        }
     }
 
     /// For a drawer that rounds vertices to a grid of so many bits within a pixel. One of fewer than 8 moves what is
@@ -89,6 +99,12 @@ impl Bars {
         }
     }
 
+    /// For a picture that may be off by so many steps besides; how many pixels are equal then says nothing.
+    #[must_use]
+    pub fn within(self, steps: f64) -> Self {
+        if steps > 0.0 { Self { steps, equal: 0.0, ..self } } else { self }
+    }
+
     /// Whether such pictures hold no intensity above 1, so that the oracle has to
     /// [clamp](Oracle::with_clamping) too.
     pub fn are_clamped(&self) -> bool {
@@ -105,6 +121,8 @@ impl Bars {
 pub struct Verdict {
     /// What it was judged by; errors are in its measure.
     pub bars: Bars,
+    /// [`Bars::steps`] in that measure.
+    pub allowed: f64,
     /// The least error that 99.9 % of the channels do not exceed.
     pub most: f64,
     /// The largest error.
@@ -131,8 +149,8 @@ pub struct Verdict {
 impl Verdict {
     /// Whether the picture keeps to its bars and has no bad pixel.
     pub fn is_within(&self) -> bool {
-        let Self { bars, most, worst, equal, .. } = *self;
-        most <= bars.most && worst <= bars.worst && equal >= bars.equal && self.bad == 0
+        let Self { bars, allowed, most, worst, equal, .. } = *self;
+        most <= bars.most + allowed && worst <= bars.worst + allowed && equal >= bars.equal && self.bad == 0
     }
 }
 
@@ -147,13 +165,60 @@ impl Verdict {
 /// # Errors
 /// [`SizeMismatch`].
 pub fn judge(oracle: &Oracle, expected: &Image, actual: &Image, bars: Bars) -> Result<Verdict, SizeMismatch> {
-    judge_with(|x, y| oracle.possible(x, y, EDGE_RADIUS), oracle.samples(), expected, actual, bars)
+    judge_with(|x, y| oracle.possible(x, y, EDGE_RADIUS), oracle.samples(), (expected, None), actual, bars)
+}
+
+/// [`judge`] for a drawer that may move what it draws by so many pixels on the picture: each pixel is right that shows, give
+/// or take the bars, what lies between the oracle's colours within that distance and half a pixel of its middle. `fine` is
+/// the oracle's picture with [`FINENESS`] times as many columns and rows, in which these are found; as it has gaps of a
+/// part of a pixel, it says less than all that is right.
+///
+/// # Errors
+/// [`SizeMismatch`].
+pub fn judge_moved(
+    oracle: &Oracle,
+    (expected, fine): (&Image, &Image),
+    pixels: f64,
+    actual: &Image,
+    bars: Bars,
+) -> Result<Verdict, SizeMismatch> {
+    let (width, height) = expected.dimensions();
+    if fine.dimensions() != (FINENESS * width, FINENESS * height) {
+        return Err(SizeMismatch { actual: fine.dimensions(), expected: (FINENESS * width, FINENESS * height) });
+    }
+    let ranges = ranges_within(fine, pixels + 0.5);
+    let possible = |x, y| oracle.possible(x, y, EDGE_RADIUS);
+    judge_with(possible, oracle.samples(), (expected, Some(&ranges)), actual, bars)
+}
+
+/// How much finer the picture of [`judge_moved`] is.
+pub const FINENESS: u32 = 4;
+
+/// Of each pixel the colours within so many pixels of its middle.
+fn ranges_within(fine: &Image, radius: f64) -> Vec<ColorRange> {
+    let (width, height) = fine.dimensions();
+    let (columns, rows) = (width / FINENESS, height / FINENESS);
+    let of_pixel = |i: u32| {
+        let middle = [i % columns, i / columns].map(|at| (f64::from(at) + 0.5) * f64::from(FINENESS));
+        let reach = radius * f64::from(FINENESS);
+        let along = |middle: f64, size: u32| {
+            let [first, end] = [(middle - reach).floor().max(0.0), (middle + reach).ceil()];
+            first as u32..(end as u32).min(size)
+        };
+        let near = along(middle[1], height).flat_map(|y| along(middle[0], width).map(move |x| (x, y)));
+        let near = near.filter(|&(x, y)| {
+            let [dx, dy] = [(x, middle[0]), (y, middle[1])].map(|(at, middle)| f64::from(at) + 0.5 - middle);
+            dx * dx + dy * dy <= reach * reach
+        });
+        ColorRange::of(near.map(|(x, y)| fine.pixel(x, y)))
+    };
+    (0..columns * rows).into_par_iter().map(of_pixel).collect()
 }
 
 fn judge_with(
     possible: impl Fn(u32, u32) -> Possible + Sync,
     samples: Samples,
-    expected: &Image,
+    (expected, moved): (&Image, Option<&[ColorRange]>),
     actual: &Image,
     bars: Bars,
 ) -> Result<Verdict, SizeMismatch> {
@@ -166,9 +231,12 @@ fn judge_with(
         if is.iter().any(|channel| !(channel.is_finite() && *channel >= 0.0)) {
             return Finding::Bad(at, is);
         }
-        let errors: [f64; 3] = std::array::from_fn(|k| ruler.error(is[k], should[k]));
+        let errors: [f64; 3] = match moved {
+            Some(ranges) => ruler.errors_outside(is, &ranges[i]),
+            None => std::array::from_fn(|k| ruler.error(is[k], should[k])),
+        };
         // An error that is no number is over the bar too.
-        let is_over = errors.iter().any(|error| error.is_nan() || *error > bars.most);
+        let is_over = errors.iter().any(|error| error.is_nan() || *error > bars.most + ruler.allowed);
         let counted = |should, errors| {
             Finding::Counted(at, [is, should].map(|pixel: [f64; 3]| pixel.map(|channel| ruler.value(channel))), errors)
         };
@@ -178,7 +246,7 @@ fn judge_with(
             let has_choice = ruler.has_choice(&possible);
             let (nearest, errors) = if has_choice { ruler.nearest(is, &possible) } else { (should, errors) };
             let is_within = |bar: f64| errors.iter().all(|error| *error <= bar);
-            if !is_within(bars.worst) {
+            if !is_within(bars.worst + ruler.allowed) {
                 let is_layered = is_within(ruler.bar_through(&possible, samples));
                 return if is_layered { Finding::Layered } else { counted(nearest, errors) };
             }
@@ -197,7 +265,7 @@ fn judge_with(
     for finding in findings {
         tally.add(finding);
     }
-    Ok(tally.verdict(bars, expected.pixels().len()))
+    Ok(tally.verdict(bars, ruler.allowed, expected.pixels().len()))
 }
 
 /// How a pixel did.
@@ -221,6 +289,8 @@ struct Ruler {
     range: f64,
     /// The least expected value, in the same unit.
     darkest: f64,
+    /// [`Bars::steps`] in the unit of the bars.
+    allowed: f64,
 }
 
 impl Ruler {
@@ -235,7 +305,11 @@ impl Ruler {
             Measure::Range => (brightest - range).max(0.0),
             Measure::Steps(_) => 0.0,
         };
-        Self { bars, range, darkest }
+        let allowed = match bars.measure {
+            Measure::Range => bars.steps / 255.0 / range,
+            Measure::Steps(_) => bars.steps,
+        };
+        Self { bars, range, darkest, allowed }
     }
 
     /// An intensity as errors are shown: linear, or the nearest whole step.
@@ -262,7 +336,7 @@ impl Ruler {
     /// once more.
     fn bar_through(&self, possible: &Possible, samples: Samples) -> f64 {
         let roundings = possible.layers + usize::from(samples == Samples::Four && possible.layers > 0);
-        self.bars.worst + self.bars.layer * roundings as f64
+        self.bars.worst + self.allowed + self.bars.layer * roundings as f64
     }
 
     /// Whether a pixel lies on an edge or a steep slope, where more than one colour is right.
@@ -355,11 +429,12 @@ impl Tally {
         }
     }
 
-    fn verdict(mut self, bars: Bars, of: usize) -> Verdict {
+    fn verdict(mut self, bars: Bars, allowed: f64, of: usize) -> Verdict {
         self.errors.sort_unstable_by(f64::total_cmp);
         let share = |count: usize, of: usize, none: f64| if of == 0 { none } else { count as f64 / of as f64 };
         Verdict {
             bars,
+            allowed,
             most: percentile(&self.errors, 99.9),
             worst: self.worst,
             at: self.at,

@@ -37,7 +37,7 @@ pub use coverage::Coverage;
 pub use difference::difference;
 #[cfg(feature = "flip")]
 pub use flip::{Flip, PIXELS_PER_DEGREE, flip};
-pub use judge::{Bars, EDGE_RADIUS, Measure, Verdict, judge};
+pub use judge::{Bars, EDGE_RADIUS, FINENESS, Measure, Verdict, judge, judge_moved};
 pub use report::report_failure;
 pub use scale::{Scale, Unit};
 pub use statistics::{Errors, PERCENTILES, Statistics, Worst};

@@ -22,6 +22,33 @@ pub(crate) struct Placed {
     pub(crate) spent: f64,
     /// Those that may move to the vertices, for one patch after the other.
     movable: Vec<Movable>,
+    rooms: Rooms,
+}
+
+/// [`linear_tolerance`] for intensities from 0 to 1, as a table: the entry i is that of (i/256)², and no more than those of all
+/// above.
+#[derive(Debug, Default)]
+struct Rooms {
+    of: Option<(Encoding, f64)>,
+    table: Vec<f64>,
+}
+
+impl Rooms {
+    const STEPS: f64 = 256.0;
+
+    fn begin(&mut self, encoding: Encoding, tolerance: f64) {
+        if self.of != Some((encoding, tolerance)) {
+            let entry = |i: u32| linear_tolerance(encoding, tolerance, (f64::from(i) / Self::STEPS).powi(2));
+            self.table.clear();
+            self.table.extend((0..=Self::STEPS as u32).map(entry));
+            self.of = Some((encoding, tolerance));
+        }
+    }
+
+    /// For a channel that has at least this intensity.
+    fn at(&self, at_least: f64) -> f64 {
+        self.table[(at_least.clamp(0.0, 1.0).sqrt() * Self::STEPS) as usize]
+    }
 }
 
 /// What an object's terms are placed by.
@@ -177,6 +204,7 @@ impl Placed {
             let patch = Patch { faces: side.faces, ..**patch };
             *shading = Some(VertexShading::new(&patch, grain, side.slopes, &places.view, places.reflectance)?);
         }
+        self.rooms.begin(places.encoding, places.tolerance);
         let mut least = [0, 1].map(|i: usize| places.sides[i].unlit.map(f64::from));
         let (mut diffuse, mut specular) = (&selected.diffuse[..], &selected.specular[..]);
         // Both lists ascend: they are walked side by side.
@@ -218,7 +246,7 @@ impl Placed {
         let sides = places.sides().len();
         let room = [0, 1, 2].map(|c| {
             let at_least = least[..sides].iter().map(|least| least[c]).fold(f64::INFINITY, f64::min);
-            linear_tolerance(places.encoding, places.tolerance, at_least)
+            self.rooms.at(at_least)
         });
         Some([room, [0, 1, 2].map(|c| (room[c] - selected.left_out[c]).max(0.0))])
     }

@@ -28,7 +28,7 @@ fn pixels<const N: usize>(is_edge: bool, greys: [[f64; 2]; N]) -> impl Fn(u32, u
 }
 
 fn float(surroundings: impl Fn(u32, u32) -> Possible + Sync, actual: &Image) -> Verdict {
-    judge_with(surroundings, Samples::One, &ramp(), actual, Bars::FLOAT).expect("one size")
+    judge_with(surroundings, Samples::One, (&ramp(), None), actual, Bars::FLOAT).expect("one size")
 }
 
 fn nothing_is_asked(x: u32, y: u32) -> Possible {
@@ -73,7 +73,7 @@ fn a_steep_slope_has_many_right_values_and_a_gentle_one_has_one() {
 #[test]
 fn of_four_samples_the_centre_alone_is_not_right_beside_an_edge() {
     let judged = |samples: Samples, picture: &Image| {
-        judge_with(pixels(true, [[0.4, 0.4]]), samples, &ramp(), picture, Bars::FLOAT).expect("one size")
+        judge_with(pixels(true, [[0.4, 0.4]]), samples, (&ramp(), None), picture, Bars::FLOAT).expect("one size")
     };
     assert!(judged(Samples::One, &ramp()).is_within());
     assert!(!judged(Samples::Four, &ramp()).is_within(), "every pixel of the ramp has others beside it");
@@ -102,8 +102,8 @@ fn bad_numbers_are_never_within() {
     }
     // An oracle that knows no value has no picture to judge by.
     let unknown = with(&ramp(), &[((7, 2), [f64::NAN; 3])]);
-    let verdict =
-        judge_with(pixels(false, [[0.0, 0.0]]), Samples::One, &unknown, &ramp(), Bars::FLOAT).expect("one size");
+    let verdict = judge_with(pixels(false, [[0.0, 0.0]]), Samples::One, (&unknown, None), &ramp(), Bars::FLOAT)
+        .expect("one size");
     assert!(!verdict.is_within() && verdict.worst.is_infinite(), "{verdict}");
 }
 
@@ -117,7 +117,7 @@ fn bytes_may_be_one_step_off_on_a_hundredth() {
         Image::new(SIZE, SIZE, (0..SIZE * SIZE).map(pixel).collect())
     };
     let judged = |actual: &Image| {
-        judge_with(pixels(false, [[0.5, 0.5]]), Samples::One, &expected, actual, Bars::bytes(encoding))
+        judge_with(pixels(false, [[0.5, 0.5]]), Samples::One, (&expected, None), actual, Bars::bytes(encoding))
             .expect("one size")
     };
     let (few, many, far) = (judged(&off(1, 101)), judged(&off(1, 50)), judged(&off(2, 400)));
@@ -132,8 +132,8 @@ fn right_background_does_not_flatter() {
     let expected = ramp().with_coverage(covered);
     // A wrong pixel of the object, and a right and a wrong one of the background.
     let actual = with(&ramp(), &[((2, 2), [0.5; 3]), ((30, 30), [0.1; 3])]);
-    let verdict =
-        judge_with(pixels(false, [[0.0, 0.0]]), Samples::One, &expected, &actual, Bars::FLOAT).expect("one size");
+    let verdict = judge_with(pixels(false, [[0.0, 0.0]]), Samples::One, (&expected, None), &actual, Bars::FLOAT)
+        .expect("one size");
     let counted = f64::from(4 * SIZE + 1) / f64::from(SIZE * SIZE);
     assert_eq!((verdict.counted, verdict.at.map(|worst| worst.at)), (counted, Some((30, 30))));
     assert!((verdict.equal - f64::from(4 * SIZE - 1) / f64::from(4 * SIZE + 1)).abs() < 1e-12);
@@ -143,8 +143,9 @@ fn right_background_does_not_flatter() {
 fn pictures_of_one_color_are_judged_by_their_brightness() {
     let one = |value: f64| Image::new(2, 2, vec![[value; 3]; 4]);
     for (expected, off, relative) in [(0.5, 0.5005, 1e-3), (0.0, 1e-3, 1e-3)] {
-        let verdict = judge_with(pixels(false, [[0.0, 0.0]]), Samples::One, &one(expected), &one(off), Bars::FLOAT)
-            .expect("one size");
+        let verdict =
+            judge_with(pixels(false, [[0.0, 0.0]]), Samples::One, (&one(expected), None), &one(off), Bars::FLOAT)
+                .expect("one size");
         assert!((verdict.worst - relative).abs() < 1e-9, "{verdict}");
     }
 }

@@ -22,7 +22,7 @@ pub struct Possible {
 }
 
 impl ColorRange {
-    pub(super) fn of(colors: impl IntoIterator<Item = [f64; 3]>) -> Self {
+    pub(crate) fn of(colors: impl IntoIterator<Item = [f64; 3]>) -> Self {
         let none = Self { low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3] };
         colors.into_iter().fold(none, |range, color| range.with(&Self { low: color, high: color }))
     }
