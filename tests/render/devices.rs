@@ -38,7 +38,7 @@ fn stages() -> Vec<(String, Stage)> {
     {
         let mut stage = Stage::new(24, 16);
         stage.world().insert_resource(compile);
-        stage.world().insert_resource(LevelsOfDetail::default());
+        stage.world().insert_resource(ViewTolerance::default());
         stage.world().init_resource::<GpuTimer>();
         let mut scene = scene(lights);
         scene.camera.samples = samples;
@@ -50,7 +50,7 @@ fn stages() -> Vec<(String, Stage)> {
 
 /// The picture once everything has settled.
 fn settled(stage: &mut Stage) -> image::RgbaImage {
-    stage.levels(LevelsOfDetail::default());
+    stage.levels(Tolerance::DEFAULT);
     stage.compile();
     stage.bytes()
 }

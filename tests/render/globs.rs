@@ -21,9 +21,9 @@ macro_rules! beside {
 
             names! {
                 Attenuation BackMaterial Blend Camera Cone DirectionalLight Encoding Faces Frequency GlobalAmbient
-                Intensity LightingPlugin Material PointLight Reflectance Samples Shading SpotLight Terms Viewer Visibility
+                Intensity LightingPlugin Material PointLight Reflectance Samples Shading SpotLight Terms Tolerance ViewTolerance Viewer Visibility
                 Cuboid Mesh Mesh3d MeshPlugin Plane Teapot UvSphere
-                Compile FrameReport FullDetail Headless LevelsOfDetail Picture Pixels RenderPlugin RenderSet HalfwayPlugins
+                Compile FrameReport Headless Picture Pixels RenderPlugin RenderSet HalfwayPlugins
                 App AppExit Startup Update PostUpdate Entity ChildOf World Name Color LinearRgba Srgba
                 EulerRot Mat3 Mat4 Quat UVec2 Vec2 Vec3 Vec4 GlobalTransform Transform TransformPlugin Fixed Real Virtual
             }

@@ -2,7 +2,7 @@
 //! where the right behaviour is tested.
 
 use crate::render::scene::{Scene, Thing, glowing, rotated};
-use crate::render::stage::Stage;
+use crate::render::stage::{FULL, Stage};
 use halfway::prelude::*;
 
 /// A floor of edge 1, seen from above its middle at a share of its size, looking down at it.
@@ -36,14 +36,14 @@ fn a_plane_seen_from_lower_than_a_millionth_of_its_size_loses_coverage() {
 }
 
 /// Levels of detail bound how far points move on the picture, and not how far in depth beyond that: of two spheres one of
-/// which is 0.1 % larger, the inner one shows in places where both are drawn coarser. `FullDetail` keeps them as they are.
+/// which is 0.1 % larger, the inner one shows in places where both are drawn coarser. A tolerance of 0 pixels keeps them as they are.
 #[test]
 fn a_shell_close_outside_another_shows_it_when_both_are_coarser() {
     let mut stage = Stage::new(128, 128);
     let ball = Mesh::from(UvSphere::new(1.0, 256, 128));
     let inner = Thing::new(ball.clone()).of(glowing(1.0, 0.0, 0.0));
     let outer = Thing::new(ball).of(glowing(0.0, 1.0, 0.0)).at(rotated(0.5, 0.6, 0.7).with_scale(Vec3::splat(1.001)));
-    let mut shown = |levels: LevelsOfDetail| -> usize {
+    let mut shown = |levels: Tolerance| -> usize {
         let inner_pixels = |distance: f32| {
             let scene = Scene::seen_from(Vec3::new(0.2, 0.35, 0.9).normalize() * distance, Vec3::ZERO);
             stage.set(&scene.with(inner.clone()).with(outer.clone()));
@@ -52,7 +52,7 @@ fn a_shell_close_outside_another_shows_it_when_both_are_coarser() {
         };
         [4.0, 8.0, 12.0].into_iter().map(inner_pixels).sum()
     };
-    assert_eq!(shown(LevelsOfDetail::OFF), 0);
-    let wrong = shown(LevelsOfDetail::default());
+    assert_eq!(shown(FULL), 0);
+    let wrong = shown(Tolerance::DEFAULT);
     assert!(wrong > 0, "mended: a shell hides what is close inside");
 }

@@ -1,8 +1,8 @@
 //! Levels of detail: fewer triangles where they do not show, and a picture that stays within the stated bounds.
 
 use crate::render::compare::{Failures, assert_identical, difference};
-use crate::render::scene::{Kind, Lamp, Scene, Thing, directional_light, glowing, material, point_light, rotated};
-use crate::render::stage::Stage;
+use crate::render::scene::{Lamp, Scene, Thing, directional_light, glowing, material, point_light, rotated};
+use crate::render::stage::{FULL, Stage};
 use halfway::mesh::{HeightField, Tessellation, Torus, tessellate};
 use halfway::prelude::*;
 use halfway::reference::{Image, Oracle};
@@ -21,7 +21,7 @@ fn one(thing: Thing, distance: f32) -> Scene {
 }
 
 /// Triangles drawn of those that were modelled, once the levels are made.
-fn triangles(stage: &mut Stage, scene: &Scene, levels: LevelsOfDetail) -> (u64, u64) {
+fn triangles(stage: &mut Stage, scene: &Scene, levels: Tolerance) -> (u64, u64) {
     stage.set(scene);
     stage.levels(levels);
     (stage.report().triangles, stage.report().triangles_in)
@@ -30,11 +30,11 @@ fn triangles(stage: &mut Stage, scene: &Scene, levels: LevelsOfDetail) -> (u64, 
 #[test]
 fn farther_spheres_are_drawn_with_fewer_triangles() {
     let mut stage = Stage::new(64, 64);
-    for shading in [Shading::Gouraud, Shading::Phong] {
+    for shading in [Shading::Gouraud, Shading::Auto] {
         let mut before = u64::MAX;
         for distance in [4.0, 16.0, 64.0] {
             let thing = Thing::new(sphere(256)).shaded(shading).faces(Faces::Both);
-            let (drawn, modelled) = triangles(&mut stage, &one(thing, distance), LevelsOfDetail::default());
+            let (drawn, modelled) = triangles(&mut stage, &one(thing, distance), Tolerance::DEFAULT);
             println!("{shading:?}, distance {distance}: {drawn} of {modelled} triangles");
             assert_eq!(modelled, 256 * 127 * 2);
             // A level of half the triangles is twice as far off: at four times the distance two levels more will do.
@@ -48,15 +48,12 @@ fn farther_spheres_are_drawn_with_fewer_triangles() {
 fn smaller_tolerances_keep_more_triangles() {
     let mut stage = Stage::new(64, 64);
     let scene = one(Thing::new(sphere(256)).shaded(Shading::Phong).faces(Faces::Both), 6.0);
-    let mut drawn = |pixels, shading| {
-        let levels = LevelsOfDetail { pixels, shading, ..LevelsOfDetail::default() };
-        triangles(&mut stage, &scene, levels).0
-    };
-    let by_pixels = [4.0, 0.5, 0.05, 0.005, 0.0].map(|pixels| drawn(pixels, 1.0));
+    let mut drawn = |pixels, steps| triangles(&mut stage, &scene, Tolerance { steps, pixels }).0;
+    let by_pixels = [4.0, 0.5, 0.05, 0.005, 0.0].map(|pixels| drawn(pixels, 255.0));
     println!("by pixels: {by_pixels:?}");
     assert!(by_pixels.is_sorted() && by_pixels[0] < by_pixels[2] && by_pixels[2] < by_pixels[4], "{by_pixels:?}");
     assert_eq!(by_pixels[4], 256 * 127 * 2, "a tolerance of 0");
-    let by_shading = [1.0, 0.1, 0.01, 0.001, 0.0].map(|shading| drawn(4.0, shading));
+    let by_shading = [255.0, 64.0, 16.0, 1.0, 0.0].map(|steps| drawn(4.0, steps));
     println!("by shading: {by_shading:?}");
     assert!(by_shading.is_sorted() && by_shading[0] < by_shading[4], "{by_shading:?}");
 }
@@ -64,12 +61,12 @@ fn smaller_tolerances_keep_more_triangles() {
 #[test]
 fn switched_off_every_mesh_is_drawn_as_it_is() {
     let mut stage = Stage::new(64, 64);
-    let scene = one(Thing::new(sphere(128)).shaded(Shading::Phong).faces(Faces::Both), 40.0);
+    let scene = one(Thing::new(sphere(128)).shaded(Shading::Auto).faces(Faces::Both), 40.0);
     let plain = stage.draw(&scene);
-    let (drawn, modelled) = triangles(&mut stage, &scene, LevelsOfDetail::default());
+    let (drawn, modelled) = triangles(&mut stage, &scene, Tolerance::DEFAULT);
     assert!(drawn < modelled / 4, "{drawn} of {modelled}");
     // Levels that have been made stay unused.
-    let (drawn, modelled) = triangles(&mut stage, &scene, LevelsOfDetail::OFF);
+    let (drawn, modelled) = triangles(&mut stage, &scene, FULL);
     assert_eq!(drawn, modelled);
     assert_identical("off again", &plain, &stage.float());
 }
@@ -86,7 +83,8 @@ fn blended_and_stretched_objects_keep_all_triangles() {
     for (row, thing, all) in rows {
         let mut stage = Stage::new(48, 48);
         let blend = thing.blend;
-        let (drawn, modelled) = triangles(&mut stage, &one(thing.faces(Faces::Both), 40.0), LevelsOfDetail::default());
+        let (drawn, modelled) =
+            triangles(&mut stage, &one(thing.faces(Faces::Both).shaded(Shading::Auto), 40.0), Tolerance::DEFAULT);
         // Blended ones are drawn twice, far sides first.
         let whole = if blend { 2 * modelled } else { modelled };
         assert!(if all { drawn == whole } else { drawn < modelled / 4 }, "{row}: {drawn} of {modelled}");
@@ -94,18 +92,18 @@ fn blended_and_stretched_objects_keep_all_triangles() {
 }
 
 #[test]
-fn an_object_of_full_detail_keeps_all_triangles() {
+fn an_object_has_a_tolerance_of_its_own() {
     let mut stage = Stage::new(48, 48);
-    stage.set(&one(Thing::new(sphere(128)).faces(Faces::Both), 40.0));
-    stage.levels(LevelsOfDetail::default());
+    stage.set(&one(Thing::new(sphere(128)).shaded(Shading::Auto).faces(Faces::Both), 40.0));
+    stage.levels(Tolerance::DEFAULT);
     let (drawn, modelled) = (stage.report().triangles, stage.report().triangles_in);
     assert!(drawn < modelled / 4, "{drawn} of {modelled}");
     let world = stage.world();
     let object = world.query_filtered::<Entity, With<Mesh3d>>().single(world).expect("one object");
-    world.entity_mut(object).insert(FullDetail);
+    world.entity_mut(object).insert(FULL);
     stage.frame();
     assert_eq!(stage.report().triangles, modelled);
-    stage.world().entity_mut(object).remove::<FullDetail>();
+    stage.world().entity_mut(object).remove::<Tolerance>();
     stage.frame();
     assert_eq!(stage.report().triangles, drawn);
 }
@@ -113,9 +111,9 @@ fn an_object_of_full_detail_keeps_all_triangles() {
 #[test]
 fn a_static_scene_uploads_nothing_once_its_levels_are_there() {
     let mut stage = Stage::new(48, 48);
-    for shading in [Shading::Flat, Shading::Gouraud, Shading::Phong] {
+    for shading in [Shading::Flat, Shading::Gouraud, Shading::Phong, Shading::Auto] {
         stage.set(&one(Thing::new(sphere(128)).shaded(shading), 30.0));
-        stage.levels(LevelsOfDetail::default());
+        stage.levels(Tolerance::DEFAULT);
         let first = stage.float();
         for frame in 0..3 {
             let again = stage.float();
@@ -130,9 +128,9 @@ fn a_static_scene_uploads_nothing_once_its_levels_are_there() {
 fn a_changed_mesh_gets_levels_of_its_own() {
     let mut stage = Stage::new(48, 48);
     let (ball, teapot) = (sphere(128), Mesh::from(Teapot::new(16)));
-    let scene = one(Thing::new(ball.clone()).faces(Faces::Both), 40.0);
+    let scene = one(Thing::new(ball.clone()).shaded(Shading::Auto).faces(Faces::Both), 40.0);
     stage.set(&scene);
-    stage.levels(LevelsOfDetail::default());
+    stage.levels(Tolerance::DEFAULT);
     let of_ball = stage.float();
     let handle = stage.handle(&ball);
     stage.world().resource_mut::<Assets<Mesh>>().insert(handle.id(), teapot.clone()).expect("the handle is alive");
@@ -141,14 +139,14 @@ fn a_changed_mesh_gets_levels_of_its_own() {
     assert_eq!(stage.report().triangles, teapot.triangle_count() as u64);
     assert!(stage.report().levels_pending > 0);
     assert!(difference(&of_ball, &first) > 0.1);
-    stage.levels(LevelsOfDetail::default());
+    stage.levels(Tolerance::DEFAULT);
     let (drawn, modelled) = (stage.report().triangles, stage.report().triangles_in);
     assert_eq!(modelled, teapot.triangle_count() as u64);
     assert!(drawn < modelled, "{drawn} of {modelled}");
     let changed = stage.float();
     let mut fresh = Stage::new(48, 48);
-    fresh.set(&one(Thing::new(teapot).faces(Faces::Both), 40.0));
-    fresh.levels(LevelsOfDetail::default());
+    fresh.set(&one(Thing::new(teapot).shaded(Shading::Auto).faces(Faces::Both), 40.0));
+    fresh.levels(Tolerance::DEFAULT);
     assert_identical("as if it had always been the other mesh", &fresh.float(), &changed);
 }
 
@@ -158,7 +156,7 @@ fn a_picture_of_one_frame_never_waits() {
         let scene = one(Thing::new(sphere(128)).shaded(shading), 30.0);
         let plain = Stage::new(48, 48).draw(&scene);
         let mut stage = Stage::new(48, 48);
-        stage.world().insert_resource(LevelsOfDetail::default());
+        stage.world().insert_resource(ViewTolerance::default());
         let picture = stage.draw(&scene);
         assert_identical(&format!("{shading:?}"), &plain, &picture);
     }
@@ -167,8 +165,9 @@ fn a_picture_of_one_frame_never_waits() {
 #[test]
 fn the_second_frame_that_sees_a_mesh_has_its_levels() {
     let mut stage = Stage::new(48, 48);
-    stage.world().insert_resource(LevelsOfDetail::default());
-    let (scene, other) = (one(Thing::new(sphere(64)), 40.0), one(Thing::new(Cuboid::default()), 40.0));
+    stage.world().insert_resource(ViewTolerance::default());
+    let (scene, other) =
+        (one(Thing::new(sphere(64)).shaded(Shading::Auto), 40.0), one(Thing::new(Cuboid::default()), 40.0));
     stage.set(&scene);
     stage.frame();
     let whole = stage.report().triangles_in;
@@ -188,7 +187,7 @@ fn the_second_frame_that_sees_a_mesh_has_its_levels() {
 #[test]
 fn what_is_gone_is_not_waited_for() {
     let mut stage = Stage::new(48, 48);
-    stage.world().insert_resource(LevelsOfDetail::default());
+    stage.world().insert_resource(ViewTolerance::default());
     stage.set(&one(Thing::new(sphere(64)), 4.0));
     stage.frame();
     // Its asset lives on, as the stage keeps its handle. It was seen in one frame, so that no levels are being made.
@@ -222,16 +221,9 @@ fn meshes() -> [(&'static str, Mesh, f32); 4] {
     ]
 }
 
-/// The default, a wider tolerance of shading, and one that levels meet of what is curved here more and there less.
-const LEVELS: [LevelsOfDetail; 3] = [
-    LevelsOfDetail { pixels: 0.5, shading: 4.0 / 255.0, interpolation: 0.1 },
-    LevelsOfDetail { pixels: 0.5, shading: 0.1, interpolation: 0.1 },
-    LevelsOfDetail { pixels: 0.5, shading: 1.0 / 4.0, interpolation: 1.0 / 4.0 },
-];
-
-/// Flat triangles that are smaller than a pixel may face as none of the mesh's does, and change by this part of the
-/// largest value that the terms have.
-const FLAT_CHANGE: f64 = 0.1;
+/// The default, and two that coarser patches meet of what is curved here more and there less.
+const TOLERANCES: [Tolerance; 3] =
+    [Tolerance::DEFAULT, Tolerance { steps: 16.0, pixels: 0.5 }, Tolerance { steps: 64.0, pixels: 0.5 }];
 
 /// What the oracle shows near a pixel.
 struct Near {
@@ -261,31 +253,6 @@ fn near(fine: &Image, x: u32, y: u32, reach: i64) -> Near {
         near.high = [0, 1, 2].map(|k| near.high[k].max(pixel[k]));
     }
     near
-}
-
-/// The sum over lights of the largest diffuse and the largest specular value, a channel each; `nearest` is how near a
-/// point light may be.
-fn largest_terms(scene: &Scene, nearest: f32) -> [f64; 3] {
-    let material = &scene.things[0].material;
-    let mut sum = [0.0; 3];
-    for lamp in &scene.lamps {
-        let (diffuse, specular, attenuation) = match &lamp.kind {
-            Kind::Directional(light) => (light.diffuse, light.specular, 1.0),
-            Kind::Point(light) => {
-                let Attenuation { constant, linear, quadratic } = light.attenuation;
-                (light.diffuse, light.specular, 1.0 / (constant + nearest * (linear + nearest * quadratic)))
-            }
-            Kind::Spot(_) => unreachable!("no spots in these scenes"),
-        };
-        let pairs = [(material.diffuse, diffuse), (material.specular, specular)];
-        for (surface, light) in pairs {
-            let [surface, light] = [surface, light].map(|c| [c.red, c.green, c.blue]);
-            for k in 0..3 {
-                sum[k] += f64::from(surface[k] * light[k] * attenuation);
-            }
-        }
-    }
-    sum
 }
 
 /// Figures of one picture.
@@ -331,19 +298,19 @@ fn figures(picture: &Image, fine: &Image, allowed: [f64; 3]) -> Figures {
     figures
 }
 
-/// The promise of [`LevelsOfDetail`]: no point moves by more than `pixels`, half a pixel, so that what is shown is what the
-/// whole mesh shows within that distance, but for `shading`, and under Gouraud shading for `interpolation` of the largest
-/// value of every light's terms, which an estimate is held to; or [`FLAT_CHANGE`]. The oracle is
-/// asked at every third of a pixel, so that two thirds stand for the half; a few pixels at outlines of one part before
-/// another may show what it has not been asked for, the last before the horizon, which is within a pixel. Where a pixel
-/// and all within one about it is covered there is no hole, and where nothing is there is no speck.
-fn pictures_keep_within_the_bounds(levels: LevelsOfDetail, shadings: &[(&str, Option<Shading>, Reflectance)]) {
+/// The promise of [`Tolerance`]: no point moves by more than `pixels`, half a pixel, so that what is shown is what the
+/// whole mesh shows within that distance and the half pixel of sampling, but for `steps`, of which coarser triangles take half
+/// and what is shaded at the vertices the rest. The oracle is asked at every third of a pixel. What has a constant colour moves
+/// only by the half pixel, for which two thirds stand; a few pixels at outlines of one part before another may show what it has
+/// not been asked for, the last before the horizon, which is within a pixel. Where a pixel and all within one about it is
+/// covered there is no hole, and where nothing is there is no speck.
+fn pictures_keep_within_the_bounds(tolerance: Tolerance, shadings: &[(&str, Option<Shading>, Reflectance)]) {
     let mut stage = Stage::new(SIZE, SIZE);
     let mut failures = Failures::default();
     for (name, mesh, radius) in meshes() {
         for (shown, shading, reflectance) in shadings {
             for distance in [2.4, 4.5, 8.0, 14.0].map(|distance| distance * radius) {
-                let row = format!("{name}, {shown}, from {distance:.1}, {:.3}", levels.shading);
+                let row = format!("{name}, {shown}, from {distance:.1}, {} steps", tolerance.steps);
                 let mut thing = Thing::new(mesh.clone()).reflecting(*reflectance);
                 match shading {
                     Some(shading) => thing = thing.of(material()).shaded(*shading),
@@ -352,10 +319,10 @@ fn pictures_keep_within_the_bounds(levels: LevelsOfDetail, shadings: &[(&str, Op
                 let mut scene = one(thing, distance);
                 scene.camera.background = LinearRgba::rgb(BACKGROUND[0], BACKGROUND[1], BACKGROUND[2]);
                 stage.set(&scene);
-                stage.levels(levels);
+                stage.levels(tolerance);
                 let picture = stage.float();
                 let drawn = stage.report().triangles;
-                stage.levels(LevelsOfDetail::OFF);
+                stage.levels(FULL);
                 if stage.report().triangles == drawn {
                     // No level will do; what the whole mesh shows is other tests' affair.
                     println!("{row}: as it is");
@@ -364,16 +331,9 @@ fn pictures_keep_within_the_bounds(levels: LevelsOfDetail, shadings: &[(&str, Op
                 }
                 let picture = Image::from_float(&picture);
                 let fine = Oracle::new(stage.world(), UVec2::splat(SIZE * SAMPLES)).expect("a scene").draw();
-                // The point light is √29 from the origin.
-                let largest = largest_terms(&scene, 29f32.sqrt() - radius);
-                let change = match shading {
-                    Some(Shading::Flat) => largest.map(|largest| FLAT_CHANGE * largest),
-                    // Constant colours move, but do not change; the float bar stays.
-                    None => [0.0; 3],
-                    Some(Shading::Gouraud) => largest.map(|largest| f64::from(levels.interpolation) * largest),
-                    Some(_) => [f64::from(levels.shading); 3],
-                };
-                let allowed = change.map(|change| change + FLOAT_SLACK);
+                // Constant colours move, but do not change; the float bar stays.
+                let steps = if shading.is_some() { f64::from(tolerance.steps) } else { 0.0 };
+                let allowed = [steps / 255.0 + FLOAT_SLACK; 3];
                 let Figures { mut plain, excess: [mut two_thirds, mut one], holes, specks } =
                     figures(&picture, &fine, allowed);
                 let inside = plain.len() / 3;
@@ -387,7 +347,9 @@ fn pictures_keep_within_the_bounds(levels: LevelsOfDetail, shadings: &[(&str, Op
                 );
                 failures.unless(inside > 20, || format!("{row}: {inside} pixels inside"));
                 failures.unless(one.0 <= 1.0, || format!("{row}: {:.2} of what is allowed", one.0));
-                failures.unless(two_thirds.1 <= 1.0, || format!("{row}: 99.9 % in {:.2} of it", two_thirds.1));
+                failures.unless(shading.is_some() || two_thirds.1 <= 1.0, || {
+                    format!("{row}: 99.9 % in {:.2} of it", two_thirds.1)
+                });
                 failures.unless(holes == 0 && specks == 0, || format!("{row}: {holes} holes, {specks} specks"));
             }
         }
@@ -402,10 +364,10 @@ fn pictures_that_are_too_coarse_are_found_out() {
     scene.camera.background = LinearRgba::rgb(BACKGROUND[0], BACKGROUND[1], BACKGROUND[2]);
     stage.set(&scene);
     // Far beyond half a pixel and four steps.
-    stage.levels(LevelsOfDetail { pixels: 12.0, shading: 10.0, interpolation: 10.0 });
+    stage.levels(Tolerance { steps: 2550.0, pixels: 12.0 });
     let picture = Image::from_float(&stage.float());
     let fine = Oracle::new(stage.world(), UVec2::splat(SIZE * SAMPLES)).expect("a scene").draw();
-    let allowed = [f64::from(LevelsOfDetail::default().shading) + FLOAT_SLACK; 3];
+    let allowed = [4.0 / 255.0 + FLOAT_SLACK; 3];
     let Figures { excess: [_, mut excess], .. } = figures(&picture, &fine, allowed);
     let (worst, most) = worst_and_most(&mut excess);
     println!("{} triangles: {worst:.2} {most:.2} of what is allowed", stage.report().triangles);
@@ -415,13 +377,15 @@ fn pictures_that_are_too_coarse_are_found_out() {
 #[test]
 fn pictures_of_constant_colour_keep_their_outlines() {
     let rows = [("constant", None, Reflectance::BlinnPhong)];
-    pictures_keep_within_the_bounds(LevelsOfDetail::default(), &rows);
+    pictures_keep_within_the_bounds(Tolerance::DEFAULT, &rows);
 }
 
 #[test]
-fn flat_pictures_keep_within_the_bounds() {
-    let rows = [("flat", Some(Shading::Flat), Reflectance::BlinnPhong)];
-    pictures_keep_within_the_bounds(LevelsOfDetail::default(), &rows);
+fn flat_pictures_show_every_triangle() {
+    let mut stage = Stage::new(48, 48);
+    let flat = Thing::new(sphere(128)).shaded(Shading::Flat).faces(Faces::Both);
+    let (drawn, modelled) = triangles(&mut stage, &one(flat, 40.0), Tolerance::DRAFT);
+    assert_eq!(drawn, modelled);
 }
 
 #[test]
@@ -430,8 +394,8 @@ fn gouraud_pictures_keep_within_the_bounds() {
         ("Gouraud, Phong", Some(Shading::Gouraud), Reflectance::Phong),
         ("Gouraud, Blinn–Phong", Some(Shading::Gouraud), Reflectance::BlinnPhong),
     ];
-    for levels in LEVELS {
-        pictures_keep_within_the_bounds(levels, &rows);
+    for tolerance in TOLERANCES {
+        pictures_keep_within_the_bounds(tolerance, &rows);
     }
 }
 
@@ -441,7 +405,18 @@ fn phong_pictures_keep_within_the_bounds() {
         ("Phong, Phong", Some(Shading::Phong), Reflectance::Phong),
         ("Phong, Blinn–Phong", Some(Shading::Phong), Reflectance::BlinnPhong),
     ];
-    for levels in LEVELS {
-        pictures_keep_within_the_bounds(levels, &rows);
+    for tolerance in TOLERANCES {
+        pictures_keep_within_the_bounds(tolerance, &rows);
+    }
+}
+
+#[test]
+fn auto_pictures_keep_within_the_bounds() {
+    let rows = [
+        ("Auto, Phong", Some(Shading::Auto), Reflectance::Phong),
+        ("Auto, Blinn–Phong", Some(Shading::Auto), Reflectance::BlinnPhong),
+    ];
+    for tolerance in TOLERANCES {
+        pictures_keep_within_the_bounds(tolerance, &rows);
     }
 }

@@ -144,7 +144,7 @@ fn resources_are_changed_through_the_registry() {
     let rows: [(&str, &str, &dyn PartialReflect); 4] = [
         ("GlobalAmbient", ".0.red", &0.75f32),
         ("Headless", ".size.x", &40u32),
-        ("LevelsOfDetail", ".pixels", &0.0f32),
+        ("ViewTolerance", ".0.pixels", &0.0f32),
         ("Compile", "", &Compile::Beside),
     ];
     for (name, path, value) in rows {
@@ -162,6 +162,6 @@ fn resources_are_changed_through_the_registry() {
     let world = app.world();
     assert_eq!(world.resource::<GlobalAmbient>().0.red, 0.75);
     assert_eq!(world.resource::<Headless>().size, UVec2::new(40, 8));
-    assert_eq!(world.resource::<LevelsOfDetail>().pixels, 0.0);
+    assert_eq!(world.resource::<ViewTolerance>().0.pixels, 0.0);
     assert_eq!(*world.resource::<Compile>(), Compile::Beside);
 }

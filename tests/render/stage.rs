@@ -10,6 +10,9 @@ use image::{Rgba32FImage, RgbaImage};
 use std::sync::OnceLock;
 use std::time::Duration;
 
+/// Every mesh as it is, and lights left out within half a step.
+pub(crate) const FULL: Tolerance = Tolerance::steps(0.5);
+
 /// An App with the facade's plugins and a headless target, on which scenes replace each other.
 pub(crate) struct Stage {
     pub(crate) app: App,
@@ -25,7 +28,7 @@ impl Stage {
         let mut app = App::new();
         app.add_plugins(HalfwayPlugins::headless(UVec2::new(width, height)));
         app.world_mut().resource_mut::<Headless>().pixels = Pixels::Float;
-        app.insert_resource(LevelsOfDetail::OFF);
+        app.insert_resource(ViewTolerance(FULL));
         app.insert_resource(choice());
         Self { app, spawned: Vec::new(), meshes: Vec::new() }
     }
@@ -35,8 +38,8 @@ impl Stage {
     }
 
     /// Lets meshes be drawn at these levels of detail, and draws what stands until all its levels are made.
-    pub(crate) fn levels(&mut self, levels: LevelsOfDetail) {
-        self.world().insert_resource(levels);
+    pub(crate) fn levels(&mut self, tolerance: Tolerance) {
+        self.world().insert_resource(ViewTolerance(tolerance));
         self.wait_for(|report| report.levels_pending);
         // Of a mesh that was there before none is pending, even if it is the first frame that shows it at this level.
         self.frame();

@@ -257,7 +257,8 @@ fn half_a_bound_is_exceeded() {
 fn times() {
     let mut random = Random(7);
     let cases: Vec<Case> = (0..2000).map(|_| Case { shininess: 32.0, ..Case::random(&mut random) }).collect();
-    let made: Vec<_> = cases.iter().filter_map(|case| Some((case.shading::<f32>()?, case.light.cast::<f32>()))).collect();
+    let made: Vec<_> =
+        cases.iter().filter_map(|case| Some((case.shading::<f32>()?, case.light.cast::<f32>()))).collect();
     for _ in 0..3 {
         let start = std::time::Instant::now();
         for _ in 0..100 {

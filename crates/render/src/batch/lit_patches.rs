@@ -6,7 +6,7 @@ use crate::batch::object::{Circumstances, Reflecting, Shared};
 use crate::batch::table::ObjectTable;
 use crate::error::{RenderError, label};
 use crate::frame::report::FrameReport;
-use crate::geometry::allowed::{Allowed, Demand, geometry_steps};
+use crate::geometry::allowed::{Allowed, Demand, SAMPLED, geometry_steps};
 use crate::geometry::detail::Choice;
 use crate::geometry::meshes::{Form, Geometries, Geometry};
 use crate::geometry::patches::{MeshPatch, Sight};
@@ -262,6 +262,7 @@ impl LitPatches {
             patch: &patch.in_eye_space(model_view, normal_matrix, reflecting.faces, flat),
             grain: patch.grain(model_view),
             pixels_per_vertex: patch.pixels_per_vertex(sight),
+            by_corners: patch.is_coarse_within(sight, object.tolerance.pixels + SAMPLED),
         };
         self.lists.select(shared.lights, &placed, listing, key.terms);
         let key = key.with_terms(self.lists.terms(key.terms));

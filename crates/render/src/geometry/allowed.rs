@@ -1,8 +1,12 @@
 //! How coarse an object may be drawn: by a group's triangles where
 //!
 //! - no point of its surface moves by more than the tolerance's pixels on the picture, and
-//! - either no edge is longer than twice as much, or turned normals change what is shown by no more than half of the
-//!   tolerance's steps, all lights and terms together.
+//! - turned normals change what is shown by no more than half of the tolerance's steps, all lights and terms together; or no
+//!   edge is longer than those pixels and half a pixel of sampling, and no point of a triangle shows more or less than its
+//!   corners do by more than that.
+//!
+//! Corners are points of the mesh with its normals. What is interpolated between shades at corners never is more or less than
+//! they: so Gouraud shading keeps to this however its normals turn, and `Auto` shades such patches at the vertices.
 //!
 //! How far points move and normals turn is bounded, patch by patch ([`halfway_mesh::PatchGroup`]). A normal that turns by δ
 //! changes a term with exponent n (1 for diffuse) by no more than
@@ -11,13 +15,12 @@
 //! - and a highlight by what is cut off where n·l falls below 0: sinⁿ(β + δ) of its largest value, β half the angle
 //!   between light and eye; −cosⁿ 2β for Phong's.
 //!
-//! Of a term that is shaded at the vertices, ½·n·ω² + 6·w² of its largest value are added, an estimate of the second-order
-//! error of interpolation: ω = R + ½(w + u) is how far n and h turn against each other within a triangle, R the spread of its
+//! Between corners a term may be off by ½·n·ω² + 6·w² of its largest value, an estimate of the second order: ω = R + ½(w + u) is how far n and h turn against each other within a triangle, R the spread of its
 //! normals, w = e/(√3·d) and u its size as seen from the nearest light and from a local viewer (e the longest edge, within a
 //! circle of e/√3, Jung 1901); 6·w² is for attenuation, up to the inverse square.
 //!
-//! Flat shading shows the triangles themselves, so that only the length of edges counts; likewise for objects with more
-//! than eight lights, and for vertices lit by spots, whose rims are sharp.
+//! Flat shading shows the triangles themselves, and keeps them all. Of more than eight lights only the length of edges counts,
+//! or that no normal turns; likewise for vertices lit by spots, whose rims are sharp.
 //!
 //! With a window, coarser patches are made in the background once a mesh has been seen in two frames; until then it is drawn
 //! as it is. Without one, the second frame waits for them: so a picture of one frame never has any, and a recording repeats to
@@ -69,6 +72,8 @@ pub(crate) struct Demand<'a> {
 pub(crate) struct Allowed {
     pixels: f32,
     shading: Shading,
+    /// Everything is shaded at corners, where edges are no longer than what is allowed.
+    by_corners: bool,
     /// Its patches have light lists of their own.
     listed: bool,
 }
@@ -78,8 +83,10 @@ pub(crate) struct Allowed {
 enum Shading {
     /// A constant color.
     None,
-    /// Triangles that may not be told apart.
-    Edges,
+    /// Terms of more lights than are looked at here: no normal may turn.
+    Same,
+    /// Terms of which nothing is known.
+    Unknown,
     /// Terms that may change.
     Terms([TermChange; 2]),
 }
@@ -94,32 +101,42 @@ struct TermChange {
     exponent: f32,
     /// How far h or the reflected vector turns with the normal.
     turn: f32,
-    /// Of a triangle of a unit of the mesh, as seen from the nearest light and from the eye; `None` where it is not shaded at
-    /// vertices.
-    by_vertices: Option<[f32; 2]>,
+    /// The angle of a triangle of a unit of the mesh, as seen from the nearest light and from the eye.
+    seen_from: [f32; 2],
+    /// It is shaded at the vertices.
+    by_vertices: bool,
 }
+
+/// No mesh is drawn so small.
+const NEVER: f32 = -1.0;
+
+/// How far from a pixel's middle it may be sampled.
+pub(crate) const SAMPLED: f32 = 0.5;
 
 /// What is cut off of highlights is found for normals that turn by up to this, in radians: 3°.
 const TURNED: f32 = 0.05;
 
 impl Allowed {
     /// The mesh as it is.
-    pub(crate) const NOTHING: Self = Self { pixels: 0.0, shading: Shading::Edges, listed: false };
+    pub(crate) const NOTHING: Self = Self { pixels: 0.0, shading: Shading::Unknown, by_corners: false, listed: false };
 
     pub(crate) fn new(demand: Demand) -> Self {
         let Demand { tolerance, listed, lights, model_view, reflector: &Reflector { terms, .. }, .. } = demand;
         if tolerance.pixels <= 0.0 || !model_view.keeps_angles() {
             return Self::NOTHING;
         }
-        let has_sharp_vertices = terms.has(Frequency::Vertex) && lights.counts[2] > 0;
-        let shading = if terms == Terms::NONE {
-            Shading::None
-        } else if terms.has(Frequency::Triangle) || listed || has_sharp_vertices {
-            Shading::Edges
-        } else {
-            Shading::Terms(demand.changes())
+        if terms.has(Frequency::Triangle) {
+            return Self::NOTHING;
+        }
+        let by_vertices = terms.has(Frequency::Vertex);
+        let shading = match terms {
+            Terms::NONE => Shading::None,
+            _ if by_vertices && (listed || lights.counts[2] > 0) => Shading::Unknown,
+            _ if listed => Shading::Same,
+            _ => Shading::Terms(demand.changes()),
         };
-        Self { pixels: tolerance.pixels, shading, listed }
+        let by_corners = !terms.has(Frequency::Fragment);
+        Self { pixels: tolerance.pixels, shading, by_corners, listed }
     }
 
     pub(crate) fn is_nothing(&self) -> bool {
@@ -130,18 +147,30 @@ impl Allowed {
     /// one whose parts it joins, as its errors are no less.
     pub(crate) fn pixels_per_unit(&self, group: &GroupErrors) -> f32 {
         if self.listed && group.spoils_lists {
-            return -1.0;
+            return NEVER;
         }
         // Without an error it is infinite.
         let by_error = self.pixels / group.error;
+        let sum = |changes: &[TermChange; 2], of: fn(&TermChange, &GroupErrors) -> f32| -> f32 {
+            changes.iter().map(|change| of(change, group)).sum()
+        };
         let keeps_shading = match &self.shading {
             Shading::None => true,
-            Shading::Edges => false,
-            Shading::Terms(changes) => {
-                changes.iter().map(|change| change.of(group) + change.at_vertices(group)).sum::<f32>() <= 1.0
-            }
+            Shading::Unknown => false,
+            Shading::Same => group.normal_error <= 0.0,
+            Shading::Terms(changes) => sum(changes, TermChange::turned) <= 1.0,
         };
-        if keeps_shading { by_error } else { by_error.min(2.0 * self.pixels / group.longest_edge) }
+        let between_corners = || match &self.shading {
+            Shading::Terms(changes) => sum(changes, TermChange::between_corners) <= 1.0,
+            _ => false,
+        };
+        if keeps_shading {
+            by_error
+        } else if self.by_corners || between_corners() {
+            by_error.min((self.pixels + SAMPLED) / group.longest_edge)
+        } else {
+            NEVER
+        }
     }
 }
 
@@ -180,12 +209,27 @@ impl Demand<'_> {
         let part = |sum: [f32; 3]| [0, 1, 2].map(|k| if sum[k] > 0.0 { sum[k] / allowed[k] } else { 0.0 });
         let [diffuse, specular, cut] = sums.map(|sum| part(sum).into_iter().fold(0.0, f32::max));
         let eye = if self.local_viewer { inverse(center.length()) } else { 0.0 };
-        let by_vertices = |at| (at == Frequency::Vertex).then_some([nearest_light, eye]);
+        let seen_from = [nearest_light, eye];
+        let by_vertices = |at| at == Frequency::Vertex;
         let Terms { diffuse: diffuse_at, specular: specular_at } = reflector.terms;
         let turn = if self.blinn_phong { 1.0 } else { 2.0 };
         [
-            TermChange { largest: diffuse, cut: 0.0, exponent: 1.0, turn: 1.0, by_vertices: by_vertices(diffuse_at) },
-            TermChange { largest: specular, cut, exponent: larger, turn, by_vertices: by_vertices(specular_at) },
+            TermChange {
+                largest: diffuse,
+                cut: 0.0,
+                exponent: 1.0,
+                turn: 1.0,
+                seen_from,
+                by_vertices: by_vertices(diffuse_at),
+            },
+            TermChange {
+                largest: specular,
+                cut,
+                exponent: larger,
+                turn,
+                seen_from,
+                by_vertices: by_vertices(specular_at),
+            },
         ]
     }
 
@@ -220,8 +264,9 @@ impl Demand<'_> {
 }
 
 impl TermChange {
-    /// What turned normals change where a group's parts are drawn, as a part of what is allowed.
-    fn of(&self, group: &GroupErrors) -> f32 {
+    /// What turned normals change where a group's parts are drawn, as a part of what is allowed; of a term that is shaded at
+    /// the vertices, with what interpolation adds.
+    fn turned(&self, group: &GroupErrors) -> f32 {
         if self.largest == 0.0 {
             return 0.0;
         }
@@ -230,23 +275,21 @@ impl TermChange {
             turned if turned <= TURNED => self.cut,
             _ => self.largest,
         };
-        self.largest * self.turned(group) + cut
+        let interpolated = if self.by_vertices { self.interpolated(group) } else { 0.0 };
+        self.largest * steepest(self.exponent.max(1.0)) * self.turn * group.normal_error + cut + interpolated
     }
 
-    /// What interpolation adds to that of a term that is shaded at the vertices; 0 for others.
-    fn at_vertices(&self, group: &GroupErrors) -> f32 {
-        let by_vertices = self.by_vertices.filter(|_| self.largest > 0.0);
-        by_vertices.map_or(0.0, |[light, eye]| {
-            let size = group.longest_edge / 3f32.sqrt();
-            let (w, u) = (size * light, size * eye);
-            let turned = self.turn * (group.normal_spread + 0.5 * (w + u));
-            self.largest * (0.5 * self.exponent.max(1.0) * turned * turned + 6.0 * w * w)
-        })
+    /// By how much a point of a triangle may lie outside of what its corners show, as a part of what is allowed.
+    fn between_corners(&self, group: &GroupErrors) -> f32 {
+        if self.largest == 0.0 { 0.0 } else { self.cut + self.interpolated(group) }
     }
 
-    /// The same of what turned normals change.
-    fn turned(&self, group: &GroupErrors) -> f32 {
-        steepest(self.exponent.max(1.0)) * self.turn * group.normal_error
+    /// What second-order terms add between the corners of a triangle.
+    fn interpolated(&self, group: &GroupErrors) -> f32 {
+        let size = group.longest_edge / 3f32.sqrt();
+        let [w, u] = self.seen_from.map(|inverse| size * inverse);
+        let turned = self.turn * (group.normal_spread + 0.5 * (w + u));
+        self.largest * (0.5 * self.exponent.max(1.0) * turned * turned + 6.0 * w * w)
     }
 }
 

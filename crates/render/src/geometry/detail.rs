@@ -117,6 +117,11 @@ impl Detail {
         for (group, radius) in groups.iter().zip(radii) {
             detail.add_group(group, radius > largest);
         }
+        for (patch, &part_of) in detail.patches.iter_mut().zip(&detail.part_of) {
+            if let Some(group) = detail.groups.get(part_of as usize) {
+                patch.longest_edge = group.errors.longest_edge;
+            }
+        }
         // What nothing stands for is looked at some patches at a time.
         if let Some(DetailGroup { joins, .. }) = detail.groups.pop() {
             let ends = joins.clone().step_by(LOOKED_AT).map(|first| first..joins.end.min(first + LOOKED_AT as u32));

@@ -29,6 +29,8 @@ pub(crate) struct MeshPatch {
     normals: Option<PatchCone>,
     /// How finely it is cut.
     grain: Grain<f32>,
+    /// Its longest edge; of a patch of the mesh itself infinite, as nobody asks.
+    pub(crate) longest_edge: f32,
     /// The sum of the areas of its triangles, and how many vertices they have.
     area: f32,
     vertices: u32,
@@ -219,6 +221,7 @@ impl MeshPatch {
             faces: PatchCone::new(&faces, offsets()),
             normals: PatchCone::new(&normals, offsets()),
             grain: grain(mesh, triangles),
+            longest_edge: f32::INFINITY,
             area,
             vertices: count_of(vertices()),
         }
@@ -237,6 +240,7 @@ impl MeshPatch {
             faces: None,
             normals: None,
             grain: Grain::none(),
+            longest_edge: f32::INFINITY,
             area: 0.0,
             vertices: 0,
         }
@@ -258,6 +262,7 @@ impl MeshPatch {
             faces: None,
             normals: None,
             grain: Grain::none(),
+            longest_edge: f32::INFINITY,
             area: 0.0,
             vertices: 0,
         }
@@ -268,6 +273,11 @@ impl MeshPatch {
         // What the transform rounds is less than that.
         let corners = self.grain.corners * model_view.largest_scale() * (1.0 + 1e-5);
         Grain { corners, ..self.grain }
+    }
+
+    /// Whether it is coarser than the mesh, and no edge of it is longer on the picture than this, in pixels.
+    pub(crate) fn is_coarse_within(&self, sight: &Sight, pixels: f32) -> bool {
+        self.longest_edge.is_finite() && self.longest_edge * sight.pixels_per_unit(self) <= pixels
     }
 
     /// About how many pixels its triangles cover for each of its vertices, where nothing hides them.

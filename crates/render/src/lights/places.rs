@@ -81,6 +81,8 @@ pub(crate) struct PlacedPatch<'a> {
     pub(crate) grain: Grain<f32>,
     /// How many pixels it may cover for each of its vertices.
     pub(crate) pixels_per_vertex: f32,
+    /// What its corners show is as good as what is between them.
+    pub(crate) by_corners: bool,
 }
 
 /// A term that may be shaded at the vertices.
@@ -158,6 +160,11 @@ impl Placed {
         selected: &Selected<f32>,
     ) {
         self.as_said(selected, terms.at_fragments());
+        if patch.by_corners {
+            let at_vertices = |term| if term == Frequency::Auto { Frequency::Vertex } else { term };
+            self.as_said(selected, terms.map(at_vertices));
+            return;
+        }
         self.movable.clear();
         if patch.pixels_per_vertex < FEWEST_PIXELS || places.tolerance <= 0.0 {
             return;
