@@ -9,6 +9,7 @@
 
 mod render {
     mod adapter;
+    mod auto;
     mod blend;
     mod changes;
     mod closed_forms;

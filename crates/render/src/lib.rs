@@ -19,6 +19,7 @@ mod shaders;
 mod target;
 mod view;
 
+pub use batch::false_colors::FalseColors;
 pub use device::adapter::Adapter;
 pub use device::choice::AdapterChoice;
 pub use device::costs::Costs;

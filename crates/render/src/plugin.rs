@@ -1,6 +1,7 @@
 //! The plugin and the way of one frame.
 
 use crate::batch::batches::{self, Batches};
+use crate::batch::false_colors::FalseColors;
 use crate::batch::lit_patches::{self, LitPatches};
 use crate::cpu::draw as on_canvas;
 use crate::cpu::meshes::{self as mesh_pieces, MeshPieces};
@@ -67,7 +68,7 @@ impl Plugin for RenderPlugin {
             .init_resource::<Lights>()
             .init_resource::<LitPatches>()
             .init_resource::<Batches>()
-            .init_resource::<halfway_lighting::ViewTolerance>()
+            .init_resource::<FalseColors>()
             .init_resource::<Workshop>()
             .init_resource::<Geometries>()
             .init_resource::<MeshBuffers>()
@@ -148,6 +149,7 @@ fn register_types(app: &mut App) {
         .register_type::<Headless>()
         .register_type::<CanvasTarget>()
         .register_type::<Compile>()
+        .register_type::<FalseColors>()
         .register_type::<FrameReport>()
         .register_type::<View>()
         .register_type::<Visible>()

@@ -1,4 +1,4 @@
-//! The viewer's keys: shading frequency, reflectance, close.
+//! The viewer's keys: shading frequency, reflectance, tolerance, false colours, close.
 
 use crate::keys;
 use crate::orbit_camera::modified;
@@ -8,14 +8,16 @@ use bevy_ecs::prelude::*;
 use bevy_input::keyboard::{KeyCode, KeyboardInput};
 use bevy_input::{ButtonInput, InputPlugin, InputSystems};
 use halfway_lighting::Camera;
-use halfway_lighting::{Reflectance, Shading};
-use halfway_render::ModelView;
+use halfway_lighting::{Reflectance, Shading, Tolerance, ViewTolerance};
+use halfway_render::{FalseColors, ModelView};
 
 /// Keys to compare shadings with, in `PreUpdate`:
 ///
 /// | key | what it does |
 /// |---|---|
-/// | 1, 2, 3 | flat, Gouraud, Phong shading |
+/// | 1, 2, 3, 4 | flat, Gouraud, Phong, automatic shading |
+/// | T | the tolerance: exact, ½, 1, 2, 4, 8 steps, and again; of pixels nothing changes |
+/// | C | false colours on and off ([`FalseColors`]) |
 /// | B | switches between Phong and Blinn–Phong reflectance |
 /// | Escape, Q | closes: [`AppExit::Success`] |
 ///
@@ -35,7 +37,7 @@ impl Plugin for ViewerKeysPlugin {
             app.add_plugins(InputPlugin);
         }
         app.init_resource::<Pressed>();
-        let systems = (read, (shading, reflectance, close)).chain();
+        let systems = (read, (shading, reflectance, tolerance, false_colors, close)).chain();
         app.add_systems(PreUpdate, systems.after(InputSystems));
     }
 
@@ -88,7 +90,7 @@ where
 }
 
 fn shading(pressed: Res<Pressed>, mut choosers: Choosers<Shading>, mut commands: Commands) {
-    let keys = [('1', Shading::Flat), ('2', Shading::Gouraud), ('3', Shading::Phong)];
+    let keys = [('1', Shading::Flat), ('2', Shading::Gouraud), ('3', Shading::Phong), ('4', Shading::Auto)];
     for (_, shading) in keys.into_iter().filter(|&(key, _)| pressed.has(key)) {
         choose(shading, &mut choosers, &mut commands);
     }
@@ -123,6 +125,22 @@ fn shown_blinn(choosers: &Choosers<Reflectance>) -> Option<Reflectance> {
         return Some(view).filter(|&view| view != Reflectance::Phong);
     }
     shown.find(|&shown| shown != Reflectance::Phong)
+}
+
+/// The steps that T goes through.
+const STEPS: [f32; 6] = [0.0, 0.5, 1.0, 2.0, 4.0, 8.0];
+
+fn tolerance(pressed: Res<Pressed>, of_view: Option<ResMut<ViewTolerance>>, mut own: Query<&mut Tolerance>) {
+    let Some(mut of_view) = of_view.filter(|_| pressed.has('t')) else { return };
+    let steps = STEPS.into_iter().find(|&steps| steps > of_view.0.steps).unwrap_or(STEPS[0]);
+    of_view.0.steps = steps;
+    own.iter_mut().for_each(|mut own| own.steps = steps);
+}
+
+fn false_colors(pressed: Res<Pressed>, shown: Option<ResMut<FalseColors>>) {
+    if let Some(mut shown) = shown.filter(|_| pressed.has('c')) {
+        shown.0 = !shown.0;
+    }
 }
 
 fn close(pressed: Res<Pressed>, mut exits: MessageWriter<AppExit>) {

@@ -87,6 +87,8 @@ pub fn counters(report: &FrameReport) -> Vec<(&'static str, u64)> {
         ("lights_assigned", report.lights_assigned),
         ("light_pairs", report.light_pairs),
         ("terms_shaded", report.terms_shaded),
+        ("terms_at_vertices", report.terms_at_vertices),
+        ("terms_at_fragments", report.terms_at_fragments),
         ("draws", report.draws.into()),
         ("triangles", report.triangles),
         ("matrices", report.matrices.into()),

@@ -18,12 +18,13 @@ pub(crate) struct BenchArgs {
     /// What is timed: a scene file or a model, its camera turning by 1° a frame; or one of these
     ///
     /// s1: one sphere of 261,120 triangles, 4 lights, 1280 × 720;
+    /// s1x16: the same under 16 lights;
     /// s2: 10,000 turning spheres of 224 triangles each, 1 light, 1280 × 720;
     /// s3: 400 spheres on a plane, 256 moving lights of range 12, 1280 × 720;
     /// s4: one sphere of 3,968 triangles, 1 light, 256 × 256;
     /// features: what each feature of lighting costs once a vertex and once a pixel, beside one directional light;
     /// lights: what a light costs the CPU for each patch that it touches, and one of 20,000 that touches nothing
-    #[arg(value_name = "s1|s2|s3|s4|features|lights|SCENE|MODEL", verbatim_doc_comment)]
+    #[arg(value_name = "s1|s1x16|s2|s3|s4|features|lights|SCENE|MODEL", verbatim_doc_comment)]
     #[arg(value_parser = OsStringValueParser::new().map(|text| Subject::named(&text)))]
     pub(super) subject: Subject,
     #[command(flatten)]
@@ -64,6 +65,7 @@ impl Subject {
     fn named(text: &OsStr) -> Self {
         match text.to_str() {
             Some("s1") => Self::Scene(BenchmarkScene::S1),
+            Some("s1x16") => Self::Scene(BenchmarkScene::S1x16),
             Some("s2") => Self::Scene(BenchmarkScene::S2),
             Some("s3") => Self::Scene(BenchmarkScene::S3),
             Some("s4") => Self::Scene(BenchmarkScene::S4),

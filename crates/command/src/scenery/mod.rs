@@ -7,6 +7,7 @@
 //! | | what stands | lights besides ambient | camera | pixels |
 //! |---|---|---|---|---|
 //! | S1 | one sphere, 512 × 256 | directional 0.6 from (1, 1, 1), three tinted points of 0.5 | (0, 0, 3) | 1280 × 720 |
+//! | S1×16 | the same | each of them four times, turned about +Y by 0°, 90°, 180° and 270°, at a quarter of its intensity | (0, 0, 3) | 1280 × 720 |
 //! | S2 | 10,000 spheres of 16 × 8 in 10 colours, 2.5 apart, all turning | directional 0.9 | (0, 60, 160) | 1280 × 720 |
 //! | S3 | 400 spheres on a plane of 200 | directional 0.15, 256 circling points of 2.0 and range 12 | (0, 40, 100) | 1280 × 720 |
 //! | S4 | one sphere, 64 × 32 | directional 0.9 | (0, 0, 3) | 256 × 256 |
@@ -26,6 +27,8 @@ use halfway_chart::timing::TimedLook;
 pub(crate) enum BenchmarkScene {
     /// One mesh of 261,120 triangles, four lights.
     S1,
+    /// The same mesh, sixteen lights.
+    S1x16,
     /// 10,000 moving objects, 2.24 million triangles, one light.
     S2,
     /// 256 moving lights over 401 objects.
@@ -61,7 +64,8 @@ impl Plugin for Benchmark {
             .add_systems(Startup, move |mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>| {
                 let mut stage = Scenery { commands: &mut commands, meshes: &mut meshes, look };
                 match scene {
-                    BenchmarkScene::S1 => stage.one_mesh(),
+                    BenchmarkScene::S1 => stage.one_mesh(1),
+                    BenchmarkScene::S1x16 => stage.one_mesh(4),
                     BenchmarkScene::S2 => stage.many_objects(if octahedra { (4, 2) } else { (16, 8) }),
                     BenchmarkScene::S3 => stage.many_lights(),
                     BenchmarkScene::S4 => stage.small(),
@@ -113,30 +117,37 @@ struct Scenery<'a, 'w, 's> {
 }
 
 impl Scenery<'_, '_, '_> {
-    fn one_mesh(&mut self) {
+    /// Each light stands `times` times around the mesh, with as much less intensity.
+    fn one_mesh(&mut self, times: u8) {
         self.camera(Vec3::new(0.0, 0.0, 3.0));
-        self.sun(0.6);
+        let share = f32::from(times).recip();
+        let turns = (0..times).map(|i| Quat::from_rotation_y(TAU * f32::from(i) * share));
+        for turn in turns.clone() {
+            self.sun(0.6 * share, turn);
+        }
         let tinted = [
             ([2.0, 0.0, 2.0], [1.0, 0.9, 0.8]),
             ([-2.0, 1.0, 1.5], [0.8, 0.9, 1.0]),
             ([0.0, -2.0, 2.0], [0.9, 1.0, 0.9]),
         ];
         for (position, [red, green, blue]) in tinted {
-            let light = PointLight::from_color(LinearRgba::rgb(red, green, blue) * 0.5);
-            self.commands.spawn((light, Transform::from_translation(position.into())));
+            for turn in turns.clone() {
+                let light = PointLight::from_color(LinearRgba::rgb(red, green, blue) * (0.5 * share));
+                self.commands.spawn((light, Transform::from_translation(turn * Vec3::from(position))));
+            }
         }
         self.object(UvSphere::new(1.0, 512, 256), RED, Vec3::ZERO);
     }
 
     fn small(&mut self) {
         self.camera(Vec3::new(0.0, 0.0, 3.0));
-        self.sun(0.9);
+        self.sun(0.9, Quat::IDENTITY);
         self.object(UvSphere::new(1.0, 64, 32), RED, Vec3::ZERO);
     }
 
     fn many_objects(&mut self, (segments, rings): (u32, u32)) {
         self.camera(Vec3::new(0.0, 60.0, 160.0));
-        self.sun(0.9);
+        self.sun(0.9, Quat::IDENTITY);
         let sphere = self.meshes.add(UvSphere::new(1.0, segments, rings));
         for i in 0..10_000_u16 {
             let (column, row) = (f32::from(i % 100), f32::from(i / 100));
@@ -155,7 +166,7 @@ impl Scenery<'_, '_, '_> {
 
     fn many_lights(&mut self) {
         self.camera(Vec3::new(0.0, 40.0, 100.0));
-        self.sun(0.15);
+        self.sun(0.15, Quat::IDENTITY);
         self.object(Plane { size: 200.0, divisions: 64 }, grey(0.6), Vec3::ZERO);
         let sphere = self.meshes.add(UvSphere::new(1.5, 32, 16));
         for i in 0..400_u16 {
@@ -180,8 +191,8 @@ impl Scenery<'_, '_, '_> {
         self.commands.spawn((camera, Transform::from_translation(position).looking_at(Vec3::ZERO, Vec3::Y)));
     }
 
-    fn sun(&mut self, intensity: f32) {
-        let from = Transform::from_xyz(1.0, 1.0, 1.0).looking_at(Vec3::ZERO, Vec3::Y);
+    fn sun(&mut self, intensity: f32, turn: Quat) {
+        let from = Transform::from_translation(turn * Vec3::ONE).looking_at(Vec3::ZERO, Vec3::Y);
         self.commands.spawn((DirectionalLight::from_color(grey(intensity)), from));
     }
 

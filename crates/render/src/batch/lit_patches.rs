@@ -1,6 +1,7 @@
 //! Illuminate: what is seen of each object, patch by patch, with its material and the lights that it needs.
 
 use crate::batch::backend::Backend;
+use crate::batch::false_colors::FalseColors;
 use crate::batch::key::DrawKey;
 use crate::batch::object::{Circumstances, Reflecting, Shared};
 use crate::batch::table::ObjectTable;
@@ -13,16 +14,16 @@ use crate::geometry::patches::{MeshPatch, Sight};
 use crate::lights::gather::Lights;
 use crate::lights::lists::{LightLists, Listing};
 use crate::lights::places::PlacedPatch;
-use crate::lights::terms::Chosen;
+use crate::lights::terms::{Chosen, by_fragment_shader, by_vertex_shader};
 use crate::shaders::light_slots::Lists;
-use crate::shaders::records::{DrawRecord, InstanceRecord, RecordLists};
+use crate::shaders::records::{DrawRecord, InstanceRecord, MaterialRecord, RecordLists};
 use crate::target::frame::FrameValues;
 use crate::view::camera::View;
 use crate::view::matrices::{ModelView, NormalMatrix, Visible};
 use bevy_asset::AssetId;
 use bevy_ecs::component::Mutable;
 use bevy_ecs::prelude::*;
-use halfway_lighting::{BackMaterial, Blend, Faces, Material, Reflectance, Tolerance, ViewTolerance, equations};
+use halfway_lighting::{BackMaterial, Blend, Faces, Material, Reflectance, Terms, Tolerance, ViewTolerance, equations};
 use halfway_mesh::{Mesh, Mesh3d};
 use std::cmp::Ordering;
 use std::ops::Range;
@@ -87,6 +88,7 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
     view: Res<View>,
     lights: Res<Lights>,
     of_view: Res<ViewTolerance>,
+    false_colors: Res<FalseColors>,
     values: Res<FrameValues>,
     mut backend: ResMut<B>,
     mut lit: ResMut<LitPatches>,
@@ -96,7 +98,7 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
     lit.begin(&lights, lights.is_changed());
     let (Some(camera), Some(values)) = (&view.camera, values.0) else { return };
     let (encoding, viewer, costs) = (values.encoding(), camera.viewer, backend.costs());
-    let shared = Shared { lights: &lights, encoding, viewer, costs };
+    let shared = Shared { lights: &lights, encoding, viewer, costs, false_colors: false_colors.0 };
     let mut seen = Vec::new();
     for &entity in &visible.0 {
         let Ok((mesh, material, back, reflectance, faces, blend, tolerance, model_view, normal_matrix, chosen, name)) =
@@ -149,6 +151,9 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
     report.terms_shaded = lit.lists.shaded;
     report.light_pairs = lit.lists.take_pairs();
     report.left_out = lit.lists.left_out;
+    report.terms_at_vertices = lit.lists.placed.at_vertices;
+    report.terms_at_fragments = lit.lists.placed.at_fragments;
+    report.steps_spent = lit.lists.placed.spent;
 }
 
 /// An object whose patches are being lit.
@@ -230,7 +235,11 @@ impl LitPatches {
                     Some(listing) => self.lit(object, patch, listing, (&sight, shared), backend),
                     None => (admitted, 0, RecordLists::default()),
                 };
-                let record = self.table.number(&mut self.records, object.material, lists);
+                let (key, lights, record) = if shared.false_colors {
+                    self.false_colored(object, patch, key, listing.is_some(), backend)
+                } else {
+                    (key, lights, self.table.number(&mut self.records, object.material, lists))
+                };
                 let next = OpenRun { key, lights, record, indices: patch.indices.clone() };
                 match &mut run {
                     Some(run) if run.goes_on_with(&next) => run.indices.end = next.indices.end,
@@ -245,6 +254,30 @@ impl LitPatches {
         if let Some(run) = run {
             self.add_run(object, run);
         }
+    }
+
+    /// What draws a patch in the colour of its terms, in place of what would draw it by `key`.
+    fn false_colored(
+        &mut self,
+        object: &LitObject,
+        patch: &MeshPatch,
+        key: DrawKey,
+        is_listed: bool,
+        backend: &mut impl Backend,
+    ) -> (DrawKey, u32, u32) {
+        let [at_vertices, at_fragments] = if is_listed {
+            self.lists.placed.terms()
+        } else {
+            [by_vertex_shader(key.terms), by_fragment_shader(key.terms)].map(|terms| terms.map(u64::from).iter().sum())
+        };
+        let base = FalseColors::color(at_vertices, at_fragments, patch.longest_edge.is_finite());
+        let side = MaterialRecord::plain(base);
+        let colored = DrawRecord { front: side, back: side, ..DrawRecord::default() };
+        if self.records.last() != Some(&colored) {
+            self.records.push(colored);
+        }
+        let key = backend.admit(DrawKey { blend: object.key.blend, ..key.with_terms(Terms::NONE) });
+        (key, 0, self.records.len() as u32 - 1)
     }
 
     /// The key that draws a patch, the lights that are bound for it, and its lists.

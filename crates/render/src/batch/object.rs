@@ -43,6 +43,7 @@ pub(crate) struct Shared<'a> {
     pub(crate) encoding: Option<Encoding>,
     pub(crate) viewer: Viewer,
     pub(crate) costs: Costs,
+    pub(crate) false_colors: bool,
 }
 
 /// What an object's key takes from its place, its mesh and its shading.

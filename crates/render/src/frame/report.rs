@@ -37,6 +37,14 @@ pub struct FrameReport {
     /// Terms that are shaded at each point of an object or patch with light lists, summed over these: those in the
     /// lists, and what a list is filled up with where a shader takes only some numbers of terms.
     pub terms_shaded: u64,
+    /// Terms in those lists that are shaded at the vertices, or once a triangle, summed over objects and patches.
+    pub terms_at_vertices: u64,
+    /// Terms in those lists that are shaded at the fragments, summed over objects and patches.
+    pub terms_at_fragments: u64,
+    /// The most that shading terms at the vertices under [`Shading::Auto`](halfway_lighting::Shading::Auto) may have changed
+    /// any channel of any pixel, in steps of 1/255 of the picture: the largest sum of bounds. What is left out of the lists is
+    /// in it where terms are shaded at the vertices.
+    pub steps_spent: f64,
     /// The most that the terms left out of the lists could have added anywhere, in linear intensity; 0 where none was.
     pub left_out: f64,
     /// Draw commands: a multi-draw is one, however much it draws ([`Gpu::multi_draw`](crate::Gpu::multi_draw)).

@@ -128,6 +128,7 @@ impl LightLists {
             Some(places) => self.placed.place(places, placed, terms, &lights.sources, &self.selected),
             None => self.placed.as_said(&self.selected, terms),
         }
+        self.placed.count();
     }
 
     /// Where the terms of the patch last selected for are shaded, of an object whose terms are these.

@@ -20,6 +20,9 @@ pub(crate) struct Placed {
     pub(crate) fragment: StageLights,
     /// The most that any channel of any patch of the frame may be off by, in steps of the picture.
     pub(crate) spent: f64,
+    /// How many terms are shaded where, over all patches.
+    pub(crate) at_vertices: u64,
+    pub(crate) at_fragments: u64,
     /// Those that may move to the vertices, for one patch after the other.
     movable: Vec<Movable>,
     rooms: Rooms,
@@ -139,6 +142,19 @@ impl Places {
 impl Placed {
     pub(crate) fn begin(&mut self) {
         self.spent = 0.0;
+        (self.at_vertices, self.at_fragments) = (0, 0);
+    }
+
+    /// Counts what was placed last.
+    pub(crate) fn count(&mut self) {
+        let [at_vertices, at_fragments] = self.terms();
+        self.at_vertices += at_vertices;
+        self.at_fragments += at_fragments;
+    }
+
+    /// How many terms of the patch placed last are shaded at the vertices and at the fragments.
+    pub(crate) fn terms(&self) -> [u64; 2] {
+        [&self.vertex, &self.fragment].map(|stage| (stage.diffuse.len() + stage.specular.len()) as u64)
     }
 
     /// Places what was selected where `terms` says, whatever the light.
@@ -193,7 +209,9 @@ impl Placed {
                 self.fragment.list(is_diffuse).retain(|light| moved.binary_search(light).is_err());
             }
         }
-        let most = shares(spent[0], brighter).max(shares(spent[1], darker));
+        let left_out = selected.left_out;
+        let darker_with = [0, 1, 2].map(|c| if spent[1][c] > 0.0 { spent[1][c] + left_out[c] } else { 0.0 });
+        let most = shares(spent[0], brighter).max(shares(darker_with, brighter));
         self.spent = self.spent.max(most * places.tolerance / STEP);
     }
 

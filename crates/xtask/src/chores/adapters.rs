@@ -54,7 +54,8 @@ pub(crate) fn try_all() -> Result {
 }
 
 /// The tests of the program `render` that each driver runs, by parts of their names. Lavapipe runs all, in `cargo xtask test`.
-const TESTS: [&str; 4] = ["render::adapter::", "render::conformance::", "render::costs::", "render::light_counts::"];
+const TESTS: [&str; 5] =
+    ["render::adapter::", "render::auto::", "render::conformance::", "render::costs::", "render::light_counts::"];
 
 /// The tests that the CPU leaves out, and why.
 const LEFT_OUT: [(&str, &str); 15] = [
