@@ -57,6 +57,8 @@ fn scenes() -> Vec<(&'static str, Scene)> {
     let mut infinite = scene(thing()).lit(sun());
     infinite.camera.viewer = Viewer::Infinite;
     let inside = Thing::new(ring()).of(material()).back(other_material()).faces(Faces::Both);
+    // The far side covers fewer pixels.
+    let far = Thing::new(Mesh::from(UvSphere::new(1.0, 80, 40))).of(material());
     vec![
         ("a directional light", scene(thing()).lit(sun())),
         ("an infinite viewer", infinite),
@@ -70,7 +72,7 @@ fn scenes() -> Vec<(&'static str, Scene)> {
         ("a narrow spot", scene(thing()).lit(spot(0.3, None, 0.0)).lit(sun())),
         ("an inner cone", scene(thing()).lit(spot(0.5, Some(0.2), 2.0)).lit(sun())),
         ("both sides", scene(inside).lit(sun()).lit(Lamp::point(white(0.5), -at))),
-        ("the back", scene(thing().back(other_material()).faces(Faces::Back)).lit(sun())),
+        ("the back", scene(far.back(other_material()).faces(Faces::Back)).lit(sun())),
         ("a mirrored ring", scene(Thing::new(ring()).of(material()).at(scaled(-1.0, 1.0, 1.0))).lit(sun())),
         ("a turned ring", scene(Thing::new(ring()).of(material()).at(rotated(0.4, 0.5, 0.6))).lit(sun())),
         ("many lights", many),
