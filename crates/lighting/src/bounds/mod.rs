@@ -53,8 +53,13 @@
 //! ```
 
 mod angle;
+mod chunk;
+#[expect(clippy::inline_always, reason = "what is not inlined is not compiled for the CPU's vectors")]
+mod lanes;
 mod near;
 mod patch;
+#[expect(clippy::inline_always, reason = "what is not inlined is not compiled for the CPU's vectors")]
+mod power;
 mod quick;
 mod reach;
 mod receiver;
@@ -74,4 +79,4 @@ pub use select::Selected;
 pub use slopes::Slopes;
 pub use tolerance::{STEP, linear_tolerance};
 pub use tree::LightTree;
-pub use vertex::{Grain, TermChange, VertexChange, VertexShading};
+pub use vertex::{Grain, TermChange, VertexChange, VertexChanges, VertexShading};

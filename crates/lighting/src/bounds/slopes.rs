@@ -35,6 +35,11 @@ impl<T: Real> Slopes<T> {
         self.exponent
     }
 
+    /// Where its products have their peaks, and these.
+    pub(super) fn peaks(&self) -> [[T; 2]; 3] {
+        self.peaks
+    }
+
     /// For cosines of at most `c`: the largest size of the first derivative; of −n·cⁿ⁻¹, by which the second one may fall;
     /// the most by which it may rise; and the largest power itself. The second derivative is bounded for n ≥ 2 alone, or
     /// where n is 1, and the first for n ≥ 1: elsewhere they are infinite.

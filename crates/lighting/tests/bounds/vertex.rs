@@ -1,6 +1,8 @@
 //! What shading terms at vertices changes: no sampled point of a triangle is off by more than is said.
 
-use halfway_lighting::bounds::{Grain, NormalCone, Patch, Slopes, TermChange, VertexShading};
+use halfway_lighting::bounds::{
+    Grain, NormalCone, Patch, Slopes, TermChange, VertexChange, VertexChanges, VertexShading,
+};
 use halfway_lighting::equations::vector::{add, cross, dot, length, normalize, scale, sub};
 use halfway_lighting::equations::{
     Coefficients, ConeTerms, Eye, Light, Place, Real, ShadedPoint, light_terms, specular_exponent,
@@ -169,9 +171,11 @@ impl Case {
 
     /// What exceeds its bound, in words, with `factor` of each bound counted; else the largest changes.
     fn check<T: Real>(&self, steps: u32, factor: f64) -> Result<Option<[f64; 3]>, String> {
-        let Some(change) = self.shading::<T>().and_then(|shading| shading.change(&self.light.cast::<T>())) else {
-            return Ok(None);
-        };
+        let change = self.shading::<T>().and_then(|shading| shading.change(&self.light.cast::<T>()));
+        change.map(|change| self.check_change(change, steps, factor)).transpose()
+    }
+
+    fn check_change<T: Real>(&self, change: VertexChange<T>, steps: u32, factor: f64) -> Result<[f64; 3], String> {
         let wide = |change: TermChange<T>| {
             [change.brighter, change.darker, change.least].map(|x| x.to_f64().expect("a number"))
         };
@@ -201,7 +205,7 @@ impl Case {
                 }
             }
         }
-        Ok(Some(share))
+        Ok(share)
     }
 }
 
@@ -235,6 +239,36 @@ fn no_point_is_off_by_more_than_is_said() {
     assert!(said > cases, "of most nothing is said");
 }
 
+/// Eight lights at once: no point is off by more, and where the plain text says nothing, neither do they.
+#[test]
+fn bounds_on_lanes_hold_too() {
+    let (mut random, mut changes) = (Random(77), VertexChanges::default());
+    let (mut said, mut largest) = (0, 0.0f64);
+    for number in 0..count(40_000) {
+        let case = Case::random(&mut random);
+        let Some(shading) = case.shading::<f32>() else { continue };
+        // The light of this case among others, so that it comes to lie in any lane.
+        let own = number % 11;
+        let lights: Vec<Light<f32>> = (0..11)
+            .map(|i| if i == own { case.light.cast() } else { Case::random(&mut random).light.cast() })
+            .collect();
+        changes.begin();
+        let found = changes.find(&shading, &lights, &[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10])[own as usize];
+        let plain = shading.change(&lights[own as usize]);
+        assert_eq!(found.is_some(), plain.is_some(), "case {number}: {case:#?}");
+        let Some((found, plain)) = found.zip(plain) else { continue };
+        said += 1;
+        case.check_change(found, 8, 1.0).unwrap_or_else(|text| panic!("case {number}: {text}\n{case:#?}"));
+        for (found, plain) in [(found.diffuse, plain.diffuse), (found.specular, plain.specular)] {
+            for (found, plain) in [(found.brighter, plain.brighter), (found.darker, plain.darker)] {
+                largest = largest.max(f64::from((found - plain).abs()) / f64::from(plain.max(1e-5)));
+            }
+        }
+    }
+    println!("{said} said; off from the plain text by {largest:.1e}");
+    assert!(said > 100 && largest < 2e-2, "off by {largest:e}");
+}
+
 /// The same check finds bounds that are too small.
 #[test]
 fn half_a_bound_is_exceeded() {
@@ -259,6 +293,7 @@ fn times() {
     let cases: Vec<Case> = (0..2000).map(|_| Case { shininess: 32.0, ..Case::random(&mut random) }).collect();
     let made: Vec<_> =
         cases.iter().filter_map(|case| Some((case.shading::<f32>()?, case.light.cast::<f32>()))).collect();
+    let mut changes = VertexChanges::default();
     for _ in 0..3 {
         let start = std::time::Instant::now();
         for _ in 0..100 {
@@ -267,6 +302,17 @@ fn times() {
             }
         }
         println!("{:.1} ns a change", start.elapsed().as_secs_f64() * 1e7 / made.len() as f64);
+        for lights in [4, 8] {
+            let of_patch: Vec<Light<f32>> =
+                made.iter().take(lights).map(|(_, light)| Light { cone: None, ..*light }).collect();
+            let numbers: Vec<u32> = (0..lights as u32).collect();
+            changes.begin();
+            let start = std::time::Instant::now();
+            for (shading, _) in &made {
+                std::hint::black_box(changes.find(shading, &of_patch, &numbers));
+            }
+            println!("{:.1} ns for {lights} lights at once", start.elapsed().as_secs_f64() * 1e9 / made.len() as f64);
+        }
         let start = std::time::Instant::now();
         for _ in 0..20 {
             for case in &cases {

@@ -2,7 +2,9 @@
 //! fragments elsewhere.
 
 use crate::lights::terms::{by_fragment_shader, by_vertex_shader};
-use halfway_lighting::bounds::{Grain, Patch, STEP, Selected, Slopes, TermChange, VertexShading, linear_tolerance};
+use halfway_lighting::bounds::{
+    Grain, Patch, STEP, Selected, Slopes, TermChange, VertexChange, VertexChanges, VertexShading, linear_tolerance,
+};
 use halfway_lighting::equations::{Coefficients, Eye, Light, specular_exponent};
 use halfway_lighting::{Encoding, Faces, Frequency, Reflectance, Terms};
 
@@ -25,6 +27,10 @@ pub(crate) struct Placed {
     pub(crate) at_fragments: u64,
     /// Those that may move to the vertices, for one patch after the other.
     movable: Vec<Movable>,
+    /// The lights of the patch at hand, and what shading them at the vertices changes of each side.
+    numbers: Vec<u32>,
+    found: [Vec<Option<VertexChange<f32>>>; 2],
+    changes: VertexChanges,
     rooms: Rooms,
 }
 
@@ -141,6 +147,7 @@ impl Places {
 
 impl Placed {
     pub(crate) fn begin(&mut self) {
+        self.changes.begin();
         self.spent = 0.0;
         (self.at_vertices, self.at_fragments) = (0, 0);
     }
@@ -231,32 +238,46 @@ impl Placed {
         }
         self.rooms.begin(places.encoding, places.tolerance);
         let mut least = [0, 1].map(|i: usize| places.sides[i].unlit.map(f64::from));
-        let (mut diffuse, mut specular) = (&selected.diffuse[..], &selected.specular[..]);
+        let lists = || [&selected.diffuse[..], &selected.specular[..]];
+        let [mut diffuse, mut specular] = lists();
+        self.numbers.clear();
         // Both lists ascend: they are walked side by side.
         while let Some(light) = next(&mut diffuse, &mut specular) {
+            self.numbers.push(light.number);
+        }
+        for (found, shading) in self.found.iter_mut().zip(&shadings) {
+            found.clear();
+            if let Some(shading) = shading {
+                found.extend_from_slice(self.changes.find(shading, lights, &self.numbers));
+            }
+        }
+        let [mut diffuse, mut specular] = lists();
+        for place in 0..self.numbers.len() {
+            let Some(light) = next(&mut diffuse, &mut specular) else { break };
             let (number, of_light) = (light.number, &lights[light.number as usize]);
             let mut changes = [[Some([[0.0_f64; 3]; 2]); 2]; 2];
             for (i, side) in places.sides().iter().enumerate() {
-                let change = shadings[i].as_ref().and_then(|shading: &VertexShading<f32>| shading.change(of_light));
-                let Some(change) = change else {
+                let Some(change) = self.found[i][place] else {
                     changes[i] = [None; 2];
                     continue;
                 };
                 let Coefficients { ka, kd, ks, .. } = side.coefficients;
+                let mut took = |term: usize, sum: [[f64; 3]; 3]| {
+                    changes[i][term] = Some([sum[0], sum[1]]);
+                    least[i] = [0, 1, 2].map(|c| least[i][c] + sum[2][c]);
+                };
                 if light.has_diffuse {
                     let mut sum = [[0.0; 3]; 3];
                     add(&mut sum, change.diffuse, kd, of_light.ld);
                     if of_light.attenuate_ambient {
                         add(&mut sum, change.ambient, ka, of_light.la);
                     }
-                    changes[i][0] = Some([sum[0], sum[1]]);
-                    least[i] = [0, 1, 2].map(|c| least[i][c] + sum[2][c]);
+                    took(0, sum);
                 }
                 if light.has_specular {
                     let mut sum = [[0.0; 3]; 3];
                     add(&mut sum, change.specular, ks, of_light.ls);
-                    changes[i][1] = Some([sum[0], sum[1]]);
-                    least[i] = [0, 1, 2].map(|c| least[i][c] + sum[2][c]);
+                    took(1, sum);
                 }
             }
             for (term, has) in [light.has_diffuse, light.has_specular].into_iter().enumerate() {

@@ -42,12 +42,18 @@ pub(super) const NOT_THE_FORMAT: &[Bad] = &[
     (
         r#"{"shading": "smooth"}"#,
         (1, 13),
-        "`shading`: unknown value `smooth`, expected \"flat\", \"gouraud\", \"phong\" or {",
+        "`shading`: unknown value `smooth`, expected \"flat\", \"gouraud\", \"phong\", \"auto\" or {",
     ),
     (r#"{"output": 3}"#, (1, 12), "`output`: is a value of the wrong type: integer `3`, expected \"srgb\" or \"raw\""),
     (r#"{"output": {"srgb": null}}"#, (1, 12), "`output`: is a value of the wrong type: object, expected \"srgb\""),
     (r#"{"shading": {"flat": null}}"#, (1, 14), "`shading.flat`: unknown key `flat`, expected \"flat\", \"gouraud\", "),
-    (r#"{"shading": "auto"}"#, (1, 13), "`shading`: unknown value `auto`, expected \"flat\", \"gouraud\", "),
+    (r#"{"shading": "Auto"}"#, (1, 13), "`shading`: unknown value `Auto`, expected \"flat\", \"gouraud\", "),
+    (
+        r#"{"tolerance": 1}"#,
+        (1, 15),
+        "`tolerance`: is a value of the wrong type: integer `1`, expected an object such as",
+    ),
+    (r#"{"tolerance": {"step": 1}}"#, (1, 16), "`tolerance.step`: unknown key `step`, expected `steps`"),
     (r#"{"shading": {}}"#, (1, 13), "`shading`: is empty; expected \"flat\", "),
     (
         r#"{"shading": {"auto": [1]}}"#,

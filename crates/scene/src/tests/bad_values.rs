@@ -19,15 +19,12 @@ pub(super) const OUT_OF_RANGE: &[Bad] = &[
     (r#"{"intensity": "renormalise"}"#, (1, 15), "`intensity`: not yet: "),
     (r#"{"intensity": "aces"}"#, (1, 15), "`intensity`: not yet: "),
     (
-        r#"{"shading": {"auto": {"tolerance": 2}}}"#,
-        (1, 22),
-        "`shading.auto`: not yet: this version does not choose the shading by itself; ",
-    ),
-    (
-        r#"{"shading": {"auto": {"tolerance": 0}}}"#,
+        r#"{"shading": {"auto": {"tolerance": -1}}}"#,
         (1, 36),
-        "`shading.auto.tolerance`: is 0; expected a finite number above 0",
+        "`shading.auto.tolerance`: is -1; expected a finite number, 0 or more",
     ),
+    (r#"{"tolerance": {"steps": -1}}"#, (1, 25), "`tolerance.steps`: is -1; expected a finite number, 0 or more"),
+    (r#"{"tolerance": {"pixels": -0.5}}"#, (1, 26), "`tolerance.pixels`: is -0.5; expected a finite number, 0 or more"),
     (r#"{"camera": {"fov_y_deg": 0}}"#, (1, 26), "`camera.fov_y_deg`: is 0; expected degrees above 0 and below 180"),
     (
         r#"{"camera": {"fov_y_deg": 180}}"#,
@@ -218,9 +215,9 @@ pub(super) const OUT_OF_RANGE: &[Bad] = &[
         "`objects[0].material.shininess`: is -1; expected a finite number, 0 or more",
     ),
     (
-        r#"{"objects": [{"mesh": {"box": {}}, "shading": {"auto": {}}}]}"#,
-        (1, 56),
-        "`objects[0].shading.auto`: not yet: ",
+        r#"{"objects": [{"mesh": {"box": {}}, "tolerance": {"steps": -2}}]}"#,
+        (1, 59),
+        "`objects[0].tolerance.steps`: is -2; expected a finite number, 0 or more",
     ),
     (
         r#"{"objects": [{"mesh": {"box": {}}, "transform": {"rotation": [0, 90, 0, 0]}}]}"#,

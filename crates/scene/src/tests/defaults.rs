@@ -81,7 +81,7 @@ fn defaults_agree_with_those_of_the_components() {
     assert_eq!(scene.output, camera.encoding);
     assert_eq!(scene.viewer, camera.viewer);
     assert_eq!(scene.reflectance, Reflectance::default());
-    assert_eq!(scene.shading.shading(), Some(Shading::default()));
+    assert_eq!(scene.shading.shading(), Shading::default());
 }
 
 /// Every key at a value that is not its default.

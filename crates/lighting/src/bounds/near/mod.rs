@@ -1,15 +1,12 @@
 //! The lights near a region, side by side, for the patches that lie in it.
 
-mod chunk;
-#[expect(clippy::inline_always, reason = "what is not inlined is not compiled for the CPU's vectors")]
-mod power;
 #[expect(clippy::inline_always, reason = "what is not inlined is not compiled for the CPU's vectors")]
 mod wide;
 
+use super::chunk::{CHUNK, Chunk};
 use super::select::{Selected, Term};
 use super::{LightTree, Receiver, Region};
 use crate::equations::Light;
-use chunk::{CHUNK, Chunk};
 use fearless_simd::Level;
 use wide::{BLUR, Found};
 

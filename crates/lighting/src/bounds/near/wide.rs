@@ -3,17 +3,15 @@
 //!
 //! Lanes whose squares leave the range of numbers are told apart, and are for the plain text.
 
-use super::chunk::{CHUNK, Chunk};
-use super::power::{self, POWER_ERROR};
-use crate::bounds::angle::Angle;
+use crate::bounds::chunk::{CHUNK, Chunk};
+use crate::bounds::lanes::{
+    F, M, SLACK, V3, WideAngle, cross, dot, load, load3, max, min, scale, splat, splat3, stored,
+};
+use crate::bounds::power::{self, POWER_ERROR};
 use crate::bounds::receiver::{Lobe, MARGIN, Receiver};
 use crate::equations::{ATTENUATION_MAX, power};
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, Simd, f32x8, mask32x8};
-
-type F<S> = f32x8<S>;
-type M<S> = mask32x8<S>;
-type V3<S> = [F<S>; 3];
+use fearless_simd::{Level, Simd};
 
 /// What the lights of a chunk add to a patch.
 #[derive(Clone, Copy, Debug)]
@@ -104,131 +102,6 @@ fn find_with<S: Simd>(
             }
         },
     );
-}
-
-/// 32 ε, as in [`slack`].
-const SLACK: f32 = 32.0 * f32::EPSILON;
-
-/// An angle in [0, π] as cosine and sine.
-#[derive(Clone, Copy)]
-struct WideAngle<S: Simd> {
-    cos: F<S>,
-    sin: F<S>,
-}
-
-#[inline(always)]
-fn splat<S: Simd>(simd: S, x: f32) -> F<S> {
-    F::<S>::splat(simd, x)
-}
-
-#[inline(always)]
-fn splat3<S: Simd>(simd: S, v: [f32; 3]) -> V3<S> {
-    [splat(simd, v[0]), splat(simd, v[1]), splat(simd, v[2])]
-}
-
-#[inline(always)]
-fn load<S: Simd>(simd: S, from: &[f32; CHUNK]) -> F<S> {
-    F::<S>::from_slice(simd, from)
-}
-
-#[inline(always)]
-fn load3<S: Simd>(simd: S, from: &[[f32; CHUNK]; 3]) -> V3<S> {
-    [load(simd, &from[0]), load(simd, &from[1]), load(simd, &from[2])]
-}
-
-#[inline(always)]
-fn stored<S: Simd>(x: F<S>) -> [f32; CHUNK] {
-    let mut to = [0.0; CHUNK];
-    x.store_slice(&mut to);
-    to
-}
-
-/// Of numbers, the larger; the sign of a zero does not matter here.
-#[inline(always)]
-fn max<S: Simd>(a: F<S>, b: F<S>) -> F<S> {
-    SimdBase::max(a, b)
-}
-
-#[inline(always)]
-fn min<S: Simd>(a: F<S>, b: F<S>) -> F<S> {
-    SimdBase::min(a, b)
-}
-
-#[inline(always)]
-fn dot<S: Simd>(a: V3<S>, b: V3<S>) -> F<S> {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-#[inline(always)]
-fn cross<S: Simd>(a: V3<S>, b: V3<S>) -> V3<S> {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-#[inline(always)]
-fn scale<S: Simd>(a: V3<S>, s: F<S>) -> V3<S> {
-    [a[0] * s, a[1] * s, a[2] * s]
-}
-
-impl<S: Simd> WideAngle<S> {
-    #[inline(always)]
-    fn splat(simd: S, cos: f32, sin: f32) -> Self {
-        Self { cos: splat(simd, cos), sin: splat(simd, sin) }
-    }
-
-    #[inline(always)]
-    fn of(simd: S, angle: Angle<f32>) -> Self {
-        Self::splat(simd, angle.cos, angle.sin)
-    }
-
-    #[inline(always)]
-    fn select(mask: M<S>, a: Self, b: Self) -> Self {
-        Self { cos: mask.select(a.cos, b.cos), sin: mask.select(a.sin, b.sin) }
-    }
-
-    #[inline(always)]
-    fn subtended(simd: S, opposite: F<S>, hypotenuse: F<S>) -> Self {
-        let one = splat(simd, 1.0);
-        let widened = opposite * splat(simd, 1.0 + SLACK);
-        let sin = widened / hypotenuse;
-        let cos = ((one - sin) * (one + sin)).sqrt();
-        Self::select(widened.simd_lt(hypotenuse), Self { cos, sin }, Self::splat(simd, -1.0, 0.0))
-    }
-
-    #[inline(always)]
-    fn between(a: V3<S>, b: V3<S>) -> Self {
-        let across = cross::<S>(a, b);
-        Self { cos: dot::<S>(a, b), sin: dot::<S>(across, across).sqrt() }
-    }
-
-    #[inline(always)]
-    fn plus(self, simd: S, other: Self) -> Self {
-        let zero = splat(simd, 0.0);
-        let sum = Self {
-            cos: self.cos * other.cos - self.sin * other.sin,
-            sin: max::<S>(self.sin * other.cos + self.cos * other.sin, zero),
-        };
-        Self::select((self.cos + other.cos).simd_le(zero), Self::splat(simd, -1.0, 0.0), sum)
-    }
-
-    #[inline(always)]
-    fn cos_within(self, simd: S, other: Self) -> F<S> {
-        let difference = self.cos * other.cos + self.sin * other.sin + splat(simd, SLACK);
-        self.cos.simd_ge(other.cos).select(splat(simd, 1.0), difference)
-    }
-
-    #[inline(always)]
-    fn chord(self, simd: S) -> F<S> {
-        let one = splat(simd, 1.0);
-        let small = self.sin / ((one + self.cos) * splat(simd, 0.5)).sqrt();
-        let large = ((one - self.cos) * splat(simd, 2.0)).sqrt();
-        self.cos.simd_gt(splat(simd, 0.0)).select(small, large)
-    }
-
-    /// To the nearer side, where both are seen.
-    #[inline(always)]
-    fn side(self, receiver: &Receiver<f32>) -> Self {
-        if receiver.both_sides { Self { cos: self.cos.abs(), ..self } } else { self }
-    }
 }
 
 /// The lights as they arrive at the points of the patch.

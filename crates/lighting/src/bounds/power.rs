@@ -56,7 +56,7 @@ fn exp2<S: Simd>(simd: S, y: f32x8<S>) -> f32x8<S> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bounds::near::chunk::CHUNK;
+    use crate::bounds::chunk::CHUNK;
     use fearless_simd::{Level, dispatch};
 
     fn powers(x: [f32; CHUNK], e: f32) -> [f32; CHUNK] {

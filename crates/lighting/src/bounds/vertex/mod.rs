@@ -1,5 +1,8 @@
 //! What is changed by shading a light's terms at the vertices of triangles, beside shading them at each point.
 
+#[expect(clippy::inline_always, reason = "what is not inlined is not compiled for the CPU's vectors")]
+mod wide;
+
 use super::angle::{Angle, Cap, slack};
 use super::quick::power_within;
 use super::slopes::Slopes;
@@ -7,6 +10,8 @@ use super::{Patch, Receiver};
 use crate::equations::vector::{dot, length, neg, sub};
 use crate::equations::{ATTENUATION_MAX, Coefficients, Eye, Light, Place, Real, attenuation, range_window, reflect};
 use crate::{Faces, Reflectance};
+
+pub use wide::VertexChanges;
 
 /// How finely a patch is cut into triangles: of each of the two, the largest of all its triangles.
 #[derive(Clone, Copy, Debug, PartialEq)]
