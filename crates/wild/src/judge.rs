@@ -9,7 +9,7 @@ use halfway::prelude::*;
 use halfway::reference::metrics::{Bars, FINENESS, Verdict, judge, judge_moved};
 use halfway::reference::{Image, Oracle};
 use halfway::render::{Adapter, RenderError};
-use halfway::scene::{SceneFile, ShadingEntry, spawn};
+use halfway::scene::{MeshEntry, PlaneEntry, SceneFile, ShadingEntry, TeapotEntry, UvSphereEntry, spawn};
 use serde_json::Value;
 
 use crate::shrink::shrink;
@@ -55,6 +55,8 @@ pub struct Figures {
     pub float: Verdict,
     /// In bytes.
     pub bytes: Verdict,
+    /// How many terms of lights were shaded at vertices, of those in lists.
+    pub terms_at_vertices: u64,
 }
 
 impl Finding {
@@ -96,7 +98,8 @@ impl Judge {
         Self { four, ..self }
     }
 
-    /// Has everything drawn by [`Shading::Auto`] within this tolerance, and judged by Phong shading and the tolerance.
+    /// Has everything drawn by [`Shading::Auto`] within this tolerance, and judged by Phong shading and the tolerance. Spheres,
+    /// planes and teapots are made finer, so that they have patches.
     #[must_use]
     pub fn with_tolerance(self, tolerance: Tolerance) -> Self {
         Self { tolerance: Some(tolerance), ..self }
@@ -143,6 +146,7 @@ impl Judge {
         if self.tolerance.is_some() {
             shade(&mut drawn, ShadingEntry::Auto);
             shade(&mut judged, ShadingEntry::Phong);
+            [&mut drawn, &mut judged].into_iter().for_each(refine);
         }
         let tolerance = self.tolerance.unwrap_or(Tolerance::EXACT);
         let [float, bytes] = [float, bytes].map(|bars| bars.within(tolerance.steps.into()));
@@ -167,7 +171,8 @@ impl Judge {
         } else if !bytes.is_within() {
             Err(Finding::Bytes(Box::new(bytes)))
         } else {
-            Ok(Figures { float, bytes })
+            let terms_at_vertices = pictures.renderer.world().resource::<FrameReport>().terms_at_vertices;
+            Ok(Figures { float, bytes, terms_at_vertices })
         }
     }
 
@@ -184,6 +189,20 @@ impl Judge {
 fn shade(scene: &mut SceneFile, shading: ShadingEntry) {
     scene.shading = shading;
     scene.objects.iter_mut().for_each(|object| object.shading = None);
+}
+
+/// Makes meshes so fine that there is something to choose, patch by patch.
+fn refine(scene: &mut SceneFile) {
+    for object in &mut scene.objects {
+        match &mut object.mesh {
+            MeshEntry::UvSphere(UvSphereEntry { segments, rings, .. }) => {
+                (*segments, *rings) = ((*segments).max(128), (*rings).max(64));
+            }
+            MeshEntry::Plane(PlaneEntry { divisions, .. }) => *divisions = (*divisions).max(64),
+            MeshEntry::Teapot(TeapotEntry { divisions }) => *divisions = (*divisions).max(14),
+            _ => {}
+        }
+    }
 }
 
 /// One scene in two worlds.

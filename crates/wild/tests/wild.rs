@@ -3,8 +3,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use halfway::prelude::Tolerance;
 use halfway::render::AdapterChoice;
-use halfway::scene::{MaterialEntry, SceneFile};
+use halfway::scene::{MaterialEntry, SceneFile, ShadingEntry};
 use halfway_wild::{Fault, Finding, Judge, scene, written};
 use serde_json::Value;
 
@@ -49,6 +50,36 @@ fn a_few_dozen_scenes_are_right() {
         let failures: Vec<String> = failures.collect();
         assert!(failures.is_empty(), "{by} {} scenes of seed {SEED} failed:\n{}", failures.len(), failures.join("\n"));
     }
+}
+
+/// What is drawn within a tolerance keeps to it, and uses it. `halfway-wild --tolerance` tries more.
+#[test]
+fn automatic_shading_keeps_to_its_tolerance() {
+    let tolerances = [(0.5, 0.0), (1.0, 0.0), (2.0, 0.0), (4.0, 0.0), (1.0, 0.5), (8.0, 1.0)];
+    for (steps, pixels) in tolerances {
+        let tolerance = Tolerance { steps, pixels };
+        for (by, judge) in judges() {
+            let judge = judge.with_tolerance(tolerance);
+            let (mut used, mut failures) = (0, Vec::new());
+            for number in 0..16 {
+                match judge.judge(&scene(SEED, number)) {
+                    Ok(figures) => used += u32::from(figures.terms_at_vertices > 0),
+                    Err(finding) => failures.push(format!("scene {number}: {finding}")),
+                }
+            }
+            assert!(failures.is_empty(), "{tolerance:?} {by}:\n{}", failures.join("\n"));
+            assert!(used >= 3, "{tolerance:?} {by}: in {used} scenes anything is shaded at vertices");
+        }
+    }
+}
+
+/// Gouraud shading in the place of what was chosen is found.
+#[test]
+fn a_choice_that_is_too_cheap_is_found() {
+    let judge = judge_of(&AdapterChoice::cpu()).with_tolerance(Tolerance::steps(1.0));
+    let judge = judge.with_fault(|scene| scene.shading = ShadingEntry::Gouraud);
+    let found = (0..16).filter(|&number| judge.judge(&scene(SEED, number)).is_err()).count();
+    assert!(found >= 4, "found in {found} of 16 scenes");
 }
 
 /// A seed of which no scene is known to fail.

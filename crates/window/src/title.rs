@@ -4,7 +4,7 @@ use crate::short_numbers::{bytes, count, milliseconds, per_second};
 use bevy_ecs::prelude::*;
 use bevy_reflect::Reflect;
 use bevy_reflect::std_traits::ReflectDefault;
-use halfway_lighting::{Reflectance, Shading};
+use halfway_lighting::{Reflectance, Shading, ViewTolerance};
 use halfway_render::{FrameReport, FrameTimes, GpuTimer, ModelView, View};
 use std::time::Duration;
 
@@ -45,6 +45,8 @@ struct Status<'a> {
     rate: Option<f64>,
     shading: Option<&'static str>,
     reflectance: Option<&'static str>,
+    /// The steps that automatic shading keeps to.
+    steps: Option<f32>,
 }
 
 impl Status<'_> {
@@ -58,6 +60,8 @@ impl Status<'_> {
         parts.extend(
             self.shading.zip(self.reflectance).map(|(shading, reflectance)| format!("{shading}, {reflectance}")),
         );
+        let steps = self.steps.filter(|_| self.shading == Some("Auto"));
+        parts.extend(steps.map(|steps| format!("within {steps} of 255 steps")));
         let errors = self.report.map_or(0, |report| report.errors.len() as u64);
         parts.extend((errors > 0).then(|| count(errors, "error")));
         [names.join(" – "), parts.join(" · ")]
@@ -117,6 +121,7 @@ pub(crate) fn title(
     times: Option<Res<FrameTimes>>,
     gpu: Option<Res<GpuTimer>>,
     view: Option<Res<View>>,
+    tolerance: Option<Res<ViewTolerance>>,
     objects: Query<(Option<&Shading>, Option<&Reflectance>), With<ModelView>>,
 ) -> String {
     let shadings = |view: &View| {
@@ -136,6 +141,7 @@ pub(crate) fn title(
         rate,
         shading: view.as_deref().map(shadings),
         reflectance: view.as_deref().map(reflectances),
+        steps: tolerance.map(|tolerance| tolerance.0.steps),
     }
     .text()
 }
@@ -172,6 +178,7 @@ mod tests {
             rate: Some(59.94),
             shading: Some("Phong"),
             reflectance: Some("Blinn–Phong"),
+            steps: Some(2.0),
         };
         let counted = "12 draws · 1.2 M triangles · 4 lights · 3 pipelines · 0 B";
         let shaded = "Phong, Blinn–Phong";
@@ -196,6 +203,10 @@ mod tests {
                 "12 draws · 1.2 M triangles · 5.6 k patches culled · 4 lights · 1 term listed · 1 mesh awaiting levels · \
                  3 pipelines · 6 pipelines pending · 0 B"
                     .into(),
+            ),
+            (
+                Status { shading: Some("Auto"), reflectance: Some("Phong"), steps: Some(0.5), ..Status::default() },
+                "Auto, Phong · within 0.5 of 255 steps".into(),
             ),
             (Status { program: "halfway", ..Status::default() }, "halfway".into()),
             (Status::default(), String::new()),

@@ -181,8 +181,9 @@ mod tests {
             (KeyCode::Digit1, "1", Shading::Flat),
             (KeyCode::Digit2, "2", Shading::Gouraud),
             (KeyCode::Numpad3, "3", Shading::Phong),
+            (KeyCode::Digit4, "4", Shading::Auto),
         ];
-        for before in [Shading::Flat, Shading::Gouraud, Shading::Phong] {
+        for before in [Shading::Flat, Shading::Gouraud, Shading::Phong, Shading::Auto] {
             for (key_code, text, expected) in rows {
                 let mut app = app();
                 let bare_camera = app.world_mut().spawn(Camera::default()).id();
@@ -232,6 +233,23 @@ mod tests {
                     assert_eq!(app.world().get::<Reflectance>(entity), Some(&expected), "{name}");
                 }
             }
+        }
+    }
+
+    #[test]
+    fn t_goes_through_the_steps_of_the_tolerance() {
+        let mut app = app();
+        app.insert_resource(ViewTolerance::default()).insert_resource(FalseColors::default());
+        let own = app.world_mut().spawn(Tolerance { steps: 3.0, pixels: 2.0 }).id();
+        for steps in [2.0, 4.0, 8.0, 0.0, 0.5, 1.0] {
+            press(&mut app, KeyCode::KeyT, "t");
+            assert_eq!(app.world().resource::<ViewTolerance>().0, Tolerance { steps, pixels: 0.5 });
+            assert_eq!(app.world().get::<Tolerance>(own), Some(&Tolerance { steps, pixels: 2.0 }));
+        }
+        assert!(!app.world().resource::<FalseColors>().0);
+        for shown in [true, false] {
+            press(&mut app, KeyCode::KeyC, "c");
+            assert_eq!(app.world().resource::<FalseColors>().0, shown);
         }
     }
 
