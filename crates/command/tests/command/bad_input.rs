@@ -64,7 +64,7 @@ fn bad_input_is_named_and_ends_with_exit_code_2() {
         (&["render", "size.json", "-o", "a.png"], &["size.json:2:", "size[0]"]),
         (&["render", "sphere.json", "-o", "a.png"], &["sphere.json:2:", "segments"]),
         (&["render", "unknown.json", "-o", "a.png"], &["unknown.json:3:", "shadig"]),
-        (&["render", "auto.json", "-o", "a.png"], &["shading.auto", "not yet"]),
+        (&["render", "auto.json", "-o", "a.png"], &["shading.auto.tolerance", "is -1", "0 or more"]),
         (&["render", "tone.json", "-o", "a.png"], &["intensity", "not yet"]),
         (&["render", "model.json", "-o", "a.png"], &["model.json", "objects[0].mesh.path", "nowhere.obj"]),
         (&["render", "fine.json", "-o", "a.bmp"], &["a.bmp", ".png or .exr"]),
@@ -158,7 +158,7 @@ const SCENES: &[(&str, &str)] = &[
     ("size.json", "{\n\"size\": [0, 4]}"),
     ("sphere.json", "{\n\"objects\": [{\"mesh\": {\"uv_sphere\": {\"segments\": 4000000000}}}]}"),
     ("unknown.json", "{\n\"objects\": [],\n\"shadig\": \"flat\"}"),
-    ("auto.json", r#"{"shading": {"auto": {"tolerance": 1.0}}}"#),
+    ("auto.json", r#"{"shading": {"auto": {"tolerance": -1.0}}}"#),
     ("tone.json", r#"{"intensity": "aces"}"#),
     ("model.json", r#"{"objects": [{"mesh": {"path": "nowhere.obj"}}]}"#),
 ];

@@ -32,7 +32,7 @@ fn a_benchmark_prints_a_row_for_each_shading() {
     assert_eq!(value["size"], serde_json::json!([256, 256]));
     let rows = value["rows"].as_array().expect("rows");
     let shadings: Vec<_> = rows.iter().map(|row| row["shading"].as_str().unwrap_or("")).collect();
-    assert_eq!(shadings, ["constant", "flat", "gouraud", "phong"]);
+    assert_eq!(shadings, ["constant", "flat", "gouraud", "phong", "auto"]);
     for row in rows {
         is_timed(row);
         for figure in ["ratio_to_constant", "first_frame_ms", "first_frame_cold_ms"] {
@@ -43,14 +43,16 @@ fn a_benchmark_prints_a_row_for_each_shading() {
         for (count, expected) in counts {
             assert_eq!(row["report"][count], expected, "{count} in {row}");
         }
-        assert_eq!((&row["report"]["lights_assigned"], &row["report"]["left_out"]), (&0.into(), &0.0.into()), "{row}");
+        // Of one light nothing is left out, and only what is shaded automatically has lists.
+        let lists = u64::from(row["shading"] == "auto") * 2;
+        assert_eq!((&row["report"]["lights_assigned"], &row["report"]["left_out"]), (&lists.into(), &0.0.into()), "{row}");
         let sets = row["cpu_ms"].as_object().expect("the time of each set");
         assert!(sets.len() == 10 && sets.values().all(|ms| ms.as_f64().is_some_and(|ms| ms >= 0.0)), "{row}");
         assert!(row["cpu_ms"]["total"].as_f64() <= row["frame_ms_spread"]["max"].as_f64(), "{row}");
     }
     let table = succeeds(&folder, &["bench", "s4", "--rounds", "1"]);
     for text in
-        ["256 × 256 pixels", "detail: within 0.5 pixels", "driver: ", "App::update", "own CPU, ms", "| phong | "]
+        ["256 × 256 pixels", "tolerance: 1 steps of 255, 0.5 pixels", "driver: ", "App::update", "own CPU, ms", "| phong | "]
     {
         assert!(table.contains(text), "{text} is missing in:\n{table}");
     }
@@ -66,7 +68,7 @@ fn any_scene_or_model_is_timed() {
         assert!(value["scene"].as_str().is_some_and(|name| file.ends_with(name)), "{value}");
         assert_eq!(value["size"], serde_json::json!([48, 32]));
         let rows = value["rows"].as_array().expect("rows");
-        assert_eq!(rows.len(), 4);
+        assert_eq!(rows.len(), 5);
         for row in rows {
             is_timed(row);
             let counts = ["objects_drawn", "draws"].map(|count| row["report"][count].as_u64());
@@ -82,17 +84,17 @@ fn any_scene_or_model_is_timed() {
 }
 
 #[test]
-fn levels_of_detail_are_for_whoever_asks() {
-    let folder = folder("levels");
-    let bench = |levels: &[&str]| {
-        json_of(&folder, &[&["bench", "s4", "--size", "16x16", "--rounds", "1", "--json"], levels].concat())
+fn a_tolerance_is_for_whoever_asks() {
+    let folder = folder("tolerance");
+    let bench = |tolerance: &[&str]| {
+        json_of(&folder, &[&["bench", "s4", "--size", "16x16", "--rounds", "1", "--json"], tolerance].concat())
     };
     let drawn = |value: &serde_json::Value| -> Vec<u64> {
         let rows = value["rows"].as_array().expect("rows");
         rows.iter().map(|row| row["report"]["triangles"].as_u64().expect("a count")).collect()
     };
-    let [off, default, coarse] = [&["--levels", "off"][..], &[], &["--levels", "4"]].map(bench);
-    assert_eq!((&off["levels"]["pixels"], &coarse["levels"]["pixels"]), (&0.0.into(), &4.0.into()));
+    let [off, default, coarse] = [&["--tolerance", "exact"][..], &[], &["--tolerance", "1,4"]].map(bench);
+    assert_eq!((&off["tolerance"]["pixels"], &coarse["tolerance"]["pixels"]), (&0.0.into(), &4.0.into()));
     let [off, default, coarse] = [off, default, coarse].map(|value| drawn(&value));
     assert!(coarse.iter().zip(&default).all(|(coarse, default)| coarse <= default), "{default:?}, {coarse:?}");
     assert!(default.iter().zip(&off).all(|(default, off)| default <= off), "{off:?}, {default:?}");
@@ -100,13 +102,13 @@ fn levels_of_detail_are_for_whoever_asks() {
     assert!(default[0] < off[0] / 2, "{off:?}, {default:?}");
 
     let render = ["render", &asset("assets/teapot.obj"), "--size", "32x32", "-o", "turn.png"];
-    succeeds(&folder, &[&render[..], &["--frames", "0..3", "--levels", "2.5"]].concat());
-    succeeds(&folder, &[&render[..], &["--levels", "off"]].concat());
+    succeeds(&folder, &[&render[..], &["--frames", "0..3", "--tolerance", "2.5"]].concat());
+    succeeds(&folder, &[&render[..], &["--tolerance", "exact"]].concat());
     for bad in ["on", "-1", "inf", ""] {
-        let levels = format!("--levels={bad}");
-        let output = halfway(&folder, &[&render[..], &[&levels]].concat());
+        let tolerance = format!("--tolerance={bad}");
+        let output = halfway(&folder, &[&render[..], &[&tolerance]].concat());
         assert_eq!(output.status.code(), Some(2), "{bad}");
-        assert!(String::from_utf8_lossy(&output.stderr).contains("--levels <PIXELS|off>"), "{output:?}");
+        assert!(String::from_utf8_lossy(&output.stderr).contains("--tolerance <STEPS[,PIXELS]|exact>"), "{output:?}");
     }
 }
 

@@ -38,7 +38,7 @@ fn the_worst_place_is_black() {
     const HALF_A_STEP: f64 = 0.5 * STEP;
     assert_eq!(linear_tolerance(Encoding::Raw, HALF_A_STEP, 0.0), 1.0 / 510.0);
     let black = linear_tolerance(Encoding::Srgb, HALF_A_STEP, 0.0);
-    assert!((black / (1.0 / 512.0 / 12.92) - 1.0).abs() < 1e-12, "{black}");
+    assert!((black / (1.0 / 510.0 / 12.92) - 1.0).abs() < 1e-12, "{black}");
     let mut last = black;
     for step in 1..100 {
         let allowed = linear_tolerance(Encoding::Srgb, HALF_A_STEP, f64::from(step) * 0.01);
