@@ -1,6 +1,5 @@
 //! Figures as SVG, with text as text.
 
-use std::fmt::Write as _;
 use std::ops::Range;
 
 use plotters::coord::Shift;
@@ -13,7 +12,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, IntoFont, TextStyle};
 use thiserror::Error;
 
-use super::{Axis, Figure, Marker, Panel, Point, Series, Style, Tick};
+use super::{Axis, Figure, Marker, Panel, Point, Series, Stroke, Style, Tick};
 
 /// How large a figure is drawn, in pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,7 +64,7 @@ pub fn figure(figure: &Figure, size: Size) -> Result<String> {
 }
 
 /// Draws one panel of a figure alone, for a page that can be pointed at: over each point lies an invisible circle of the
-/// class `hit`, with the point's label as `data-label` and the number of its card, if it has one, as `data-card`.
+/// class `hit`, with the point's label as `data-label`.
 ///
 /// # Errors
 /// What the drawing library has to say; it has no reason to fail on text in memory.
@@ -105,11 +104,7 @@ fn on_canvas<T>((width, height): (u32, u32), draw: impl FnOnce(&Area<'_>) -> Res
 
 fn hit((point, (x, y)): (&Point, Pixel)) -> String {
     let label = escaped(&point.label);
-    let mut circle = format!("<circle class=\"hit\" cx=\"{x}\" cy=\"{y}\" r=\"8\" data-label=\"{label}\"");
-    if let Some(card) = point.card {
-        let _ = write!(circle, " data-card=\"{card}\"");
-    }
-    circle + "/>\n"
+    format!("<circle class=\"hit\" cx=\"{x}\" cy=\"{y}\" r=\"8\" data-label=\"{label}\"/>\n")
 }
 
 /// Text as HTML and SVG, in elements and in quoted attributes.
@@ -207,7 +202,14 @@ fn panel<'a>(
     for series in &panel.series {
         let points: Vec<_> = figure.drawn(series).map(|point| (point, at(point))).collect();
         line(root, points.iter().map(|(_, at)| *at).collect(), series.style)?;
-        points.iter().try_for_each(|(_, at)| mark(root, *at, series.style))?;
+        for (point, at) in &points {
+            let style = if point.faded { series.style.faded() } else { series.style };
+            if let Some((low, high)) = point.quartiles.filter(|(low, _)| figure.x.shows(*low)) {
+                let [low, high] = [low, high].map(|x| (chart.backend_coord(&(figure.x.position(x), y.0)).0, at.1));
+                root.draw(&PathElement::new(vec![low, high], color(style).stroke_width(1)))?;
+            }
+            mark(root, *at, style)?;
+        }
         placed.extend(points);
     }
     // Lines of 15 pixels, the last at the bottom of the plot's right edge.
@@ -231,6 +233,7 @@ fn write(root: &Area<'_>, text: &str, at: Pixel, size: u32, (h, v): (HPos, VPos)
 fn line(root: &Area<'_>, points: Vec<Pixel>, style: Style) -> Result {
     let ink = color(style).stroke_width(2);
     match style.stroke.pattern() {
+        _ if style.stroke == Stroke::Nothing => {}
         None => root.draw(&PathElement::new(points, ink))?,
         Some((dash, gap)) => root.draw(&DashedPathElement::new(points, dash, gap, ink))?,
     }
@@ -248,6 +251,8 @@ fn mark(root: &Area<'_>, (x, y): Pixel, style: Style) -> Result {
         }
         Marker::Square => &[(-4, -4), (4, -4), (4, 4), (-4, 4)],
         Marker::Triangle => &[(0, -5), (5, 4), (-5, 4)],
+        Marker::Diamond => &[(0, -5), (5, 0), (0, 5), (-5, 0)],
+        Marker::Wedge => &[(0, 5), (5, -4), (-5, -4)],
     };
     let mut outline: Vec<Pixel> = corners.iter().map(|(dx, dy)| (x + dx, y + dy)).collect();
     root.draw(&Polygon::new(outline.clone(), fill))?;
@@ -294,7 +299,6 @@ mod tests {
         let svg = panel_with_hits(&example, &example.panels[0], Size { width: 300, row: 280 }).unwrap();
         assert!(svg.starts_with("<svg width=\"300\" height=\"280\"") && svg.ends_with("</svg>\n"), "{svg}");
         assert_eq!(svg.matches("class=\"hit\"").count(), 4);
-        assert_eq!(svg.matches("data-card=\"7\"").count(), 4);
         assert!(svg.contains("data-label=\"&lt;1&gt; &amp; 0.01\""));
     }
 

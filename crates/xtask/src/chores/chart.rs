@@ -14,10 +14,11 @@ const PICTURE: &str = "docs/pictures/chart.svg";
 
 /// Measure what shading costs and what it loses, and write a page of charts to out/chart/
 ///
-/// Error against time, rates of convergence, how steady a moving highlight is, and how the time of a frame grows
-/// with triangles, objects, lights and pixels. Writes a page that opens offline, out/chart/index.html, with every
-/// table as CSV and every chart as SVG beside it, and makes docs/pictures/chart.svg again. docs/charts.md tells
-/// what is measured and how.
+/// Error against time of every method on every scene, rates of convergence, how steady a moving highlight is, and how
+/// the time of a frame grows with triangles, objects, lights and pixels. Writes a page that opens offline,
+/// out/chart/index.html, with chart.json, every table as CSV and every chart as SVG beside it, and makes
+/// docs/pictures/chart.svg again. An interrupted run goes on where it stopped when it is started again.
+/// docs/charts.md tells what is measured and how.
 #[derive(Args, Debug)]
 #[command(verbatim_doc_comment)]
 pub(crate) struct Options {
@@ -34,14 +35,14 @@ pub(crate) struct Options {
 /// Sets up, builds, measures and writes the page.
 pub(crate) fn run(options: &Options) -> Result {
     let &Options { setup, quick, scaling } = options;
-    program::run("measuring", setup, Program::Binary("halfway-chart"), arguments(quick, scaling))?;
+    program::run("measuring", setup, Program::Binary("halfway"), arguments(quick, scaling))?;
     let page = if scaling { "scaling.html" } else { "index.html" };
     eprintln!("\nthe charts: {}", root().join(FOLDER).join(page).display());
     Ok(())
 }
 
 fn arguments(quick: bool, scaling: bool) -> Vec<&'static str> {
-    let mut arguments = vec!["--output", FOLDER];
+    let mut arguments = vec!["chart", "--output", FOLDER];
     arguments.extend(quick.then_some("--quick"));
     arguments.extend(scaling.then_some("--scaling"));
     if !quick && !scaling {
@@ -63,7 +64,7 @@ mod tests {
             (false, false, "--small-chart docs/pictures/chart.svg"),
         ];
         for (quick, scaling, end) in rows {
-            assert_eq!(arguments(quick, scaling).join(" "), format!("--output out/chart {end}"));
+            assert_eq!(arguments(quick, scaling).join(" "), format!("chart --output out/chart {end}"));
         }
     }
 }

@@ -1,0 +1,124 @@
+//! What is charted.
+
+use halfway::prelude::*;
+
+/// How finely a scene's surfaces are drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Detail {
+    /// Surfaces cut into so many cells, every triangle drawn; what a cell is, is the scene's.
+    Cells(u32),
+    /// Meshes as they are, drawn as coarsely as so many times the default of [`LevelsOfDetail`] allows; 0 draws all.
+    Levels(f32),
+}
+
+impl Detail {
+    /// As the command line takes it.
+    pub fn id(self) -> String {
+        match self {
+            Self::Cells(cells) => cells.to_string(),
+            Self::Levels(0.0) => "full".to_owned(),
+            Self::Levels(times) => format!("levels-{times}"),
+        }
+    }
+
+    /// In words.
+    pub fn words(self) -> String {
+        match self {
+            Self::Cells(cells) => format!("{cells} cells"),
+            Self::Levels(0.0) => "every triangle".to_owned(),
+            Self::Levels(1.0) => "levels of detail".to_owned(),
+            Self::Levels(times) => format!("levels {times} × as coarse"),
+        }
+    }
+
+    pub(super) fn levels(self) -> LevelsOfDetail {
+        match self {
+            Self::Cells(_) | Self::Levels(0.0) => LevelsOfDetail::OFF,
+            Self::Levels(times) => {
+                let LevelsOfDetail { pixels, shading, interpolation } = LevelsOfDetail::default();
+                LevelsOfDetail {
+                    pixels: pixels * times,
+                    shading: shading * times,
+                    interpolation: interpolation * times,
+                }
+            }
+        }
+    }
+}
+
+/// While this resource is there nothing of the scene moves, so that all pictures show the same moment: its first.
+#[derive(Resource, Clone, Copy, Debug, Default)]
+pub struct Still;
+
+/// Why a scene could not be set up, in words.
+pub type SceneProblem = String;
+
+/// Puts a scene, its surfaces in this detail, into an App that has halfway's plugins.
+pub type BuildScene = Box<dyn Fn(&mut App, Detail) -> Result<(), SceneProblem>>;
+
+/// Something to look at, and how finely it can be drawn.
+pub struct ChartedScene {
+    /// As the command line takes it: lower case, no spaces, unless it is a file's.
+    pub name: String,
+    /// What there is to see, in a line.
+    pub about: String,
+    /// What errors are errors from, in a line: the true surface, or the mesh with every triangle.
+    pub truth: String,
+    /// From coarse to fine; not empty.
+    pub details: Vec<Detail>,
+    /// What the oracle draws to compare with; as fine as any of `details`, or finer.
+    pub true_detail: Detail,
+    /// How the scene reflects, where the scene does not say so itself.
+    pub reflectance: Option<Reflectance>,
+    /// Width and height of its pictures in pixels.
+    pub size: UVec2,
+    /// Puts it into an App.
+    pub build: BuildScene,
+}
+
+impl std::fmt::Debug for ChartedScene {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("ChartedScene").field("name", &self.name).field("details", &self.details).finish_non_exhaustive()
+    }
+}
+
+impl ChartedScene {
+    /// A scene of surfaces that are known by formula, in square pictures, all of it made at once by `spawn`.
+    pub fn of_surfaces(
+        name: &str,
+        about: &str,
+        details: impl IntoIterator<Item = u32>,
+        spawn: impl Fn(&mut World, u32) + 'static,
+    ) -> Self {
+        let details: Vec<Detail> = details.into_iter().map(Detail::Cells).collect();
+        Self {
+            name: name.to_owned(),
+            about: about.to_owned(),
+            truth: "the true surface, with its own normal at every pixel".to_owned(),
+            true_detail: details.last().copied().unwrap_or(Detail::Cells(1)),
+            details,
+            reflectance: Some(Reflectance::BlinnPhong),
+            size: UVec2::splat(640),
+            build: Box::new(move |app, detail| {
+                if let Detail::Cells(cells) = detail {
+                    spawn(app.world_mut(), cells);
+                }
+                Ok(())
+            }),
+        }
+    }
+
+    /// A scene of meshes, drawn with levels of detail.
+    pub fn of_meshes(name: &str, about: &str, build: BuildScene) -> Self {
+        Self {
+            name: name.to_owned(),
+            about: about.to_owned(),
+            truth: "the mesh with every triangle, its normals interpolated at every pixel".to_owned(),
+            details: [16.0, 4.0, 1.0, 0.0].map(Detail::Levels).into(),
+            true_detail: Detail::Levels(0.0),
+            reflectance: None,
+            size: UVec2::splat(640),
+            build,
+        }
+    }
+}
