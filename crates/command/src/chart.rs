@@ -37,7 +37,7 @@ pub(crate) struct ChartArgs {
     /// Only this method, by the name that the page gives it, such as gouraud or phong-infinite-viewer
     #[arg(long, value_name = "NAME")]
     method: Option<String>,
-    /// Only this detail, by the name that the page gives it: a number of cells, full, or levels-4, say
+    /// Only this detail, by the name that the page gives it: a number of cells, 1-of-16, levels or full, say
     #[arg(long, value_name = "NAME")]
     detail: Option<String>,
     /// What draws, as `halfway adapters` lists them; several times for several [default: what the other commands draw with]
@@ -88,7 +88,7 @@ pub(crate) fn run(args: &ChartArgs) -> Result<(), Failure> {
     // All of it is on the page now.
     let _ = fs::remove_file(unfinished);
     if !everything {
-        println!("{}", fronts.advice());
+        fronts.scenes.iter().flat_map(|scene| fronts.advice(scene)).for_each(|advice| println!("{advice}"));
     }
     Ok(())
 }

@@ -7,8 +7,12 @@ use halfway::prelude::*;
 pub enum Detail {
     /// Surfaces cut into so many cells, every triangle drawn; what a cell is, is the scene's.
     Cells(u32),
-    /// Meshes as they are, drawn as coarsely as so many times the default of [`LevelsOfDetail`] allows; 0 draws all.
-    Levels(f32),
+    /// Meshes with one of so many of their triangles left, and those drawn.
+    Simplified(u32),
+    /// Meshes as they are, drawn as coarsely as [`LevelsOfDetail`] allows by default.
+    Levels,
+    /// Every triangle.
+    Full,
 }
 
 impl Detail {
@@ -16,8 +20,9 @@ impl Detail {
     pub fn id(self) -> String {
         match self {
             Self::Cells(cells) => cells.to_string(),
-            Self::Levels(0.0) => "full".to_owned(),
-            Self::Levels(times) => format!("levels-{times}"),
+            Self::Simplified(to) => format!("1-of-{to}"),
+            Self::Levels => "levels".to_owned(),
+            Self::Full => "full".to_owned(),
         }
     }
 
@@ -25,23 +30,16 @@ impl Detail {
     pub fn words(self) -> String {
         match self {
             Self::Cells(cells) => format!("{cells} cells"),
-            Self::Levels(0.0) => "every triangle".to_owned(),
-            Self::Levels(1.0) => "levels of detail".to_owned(),
-            Self::Levels(times) => format!("levels {times} × as coarse"),
+            Self::Simplified(to) => format!("simplified to 1 of {to} triangles"),
+            Self::Levels => "levels of detail".to_owned(),
+            Self::Full => "every triangle".to_owned(),
         }
     }
 
     pub(super) fn levels(self) -> LevelsOfDetail {
         match self {
-            Self::Cells(_) | Self::Levels(0.0) => LevelsOfDetail::OFF,
-            Self::Levels(times) => {
-                let LevelsOfDetail { pixels, shading, interpolation } = LevelsOfDetail::default();
-                LevelsOfDetail {
-                    pixels: pixels * times,
-                    shading: shading * times,
-                    interpolation: interpolation * times,
-                }
-            }
+            Self::Levels => LevelsOfDetail::default(),
+            Self::Cells(_) | Self::Simplified(_) | Self::Full => LevelsOfDetail::OFF,
         }
     }
 }
@@ -108,14 +106,20 @@ impl ChartedScene {
         }
     }
 
-    /// A scene of meshes, drawn with levels of detail.
+    /// A scene of meshes, simplified, drawn with levels of detail, or as they are.
     pub fn of_meshes(name: &str, about: &str, build: BuildScene) -> Self {
         Self {
             name: name.to_owned(),
             about: about.to_owned(),
             truth: "the mesh with every triangle, its normals interpolated at every pixel".to_owned(),
-            details: [16.0, 4.0, 1.0, 0.0].map(Detail::Levels).into(),
-            true_detail: Detail::Levels(0.0),
+            details: vec![
+                Detail::Simplified(64),
+                Detail::Simplified(16),
+                Detail::Simplified(4),
+                Detail::Levels,
+                Detail::Full,
+            ],
+            true_detail: Detail::Full,
             reflectance: None,
             size: UVec2::splat(640),
             build,

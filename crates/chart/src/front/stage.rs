@@ -1,5 +1,7 @@
 //! A scene in an App.
 
+use std::collections::HashMap;
+
 use halfway::prelude::*;
 use halfway::reference::{Image, Mode, Oracle};
 use halfway::render::Adapter;
@@ -8,6 +10,27 @@ use super::errors::{Drawn, Truth};
 use super::{ChartedScene, Detail, Method, Still};
 use crate::measure::MeasureError;
 use crate::timing::settle;
+
+/// The meshes of one scene, simplified: found once for all of its Apps, which make them in the same order.
+#[derive(Default)]
+pub(super) struct SimplifiedMeshes {
+    by_detail: HashMap<u32, Vec<Mesh>>,
+}
+
+impl SimplifiedMeshes {
+    /// Puts simplified meshes in the place of those of the world, where the detail is made of such.
+    fn simplify(&mut self, world: &mut World, detail: Detail) {
+        let Detail::Simplified(to) = detail else { return };
+        let mut assets = world.resource_mut::<Assets<Mesh>>();
+        let simplified = self.by_detail.entry(to).or_insert_with(|| {
+            let left = |mesh: &Mesh| mesh.triangle_count().div_ceil(to as usize);
+            assets.iter().map(|(_, mesh)| mesh.simplified(left(mesh), f64::INFINITY).mesh).collect()
+        });
+        for ((_, mesh), simplified) in assets.iter_mut().zip(simplified) {
+            mesh.clone_from(simplified);
+        }
+    }
+}
 
 /// One scene at one detail, at its first moment until it is told to [`move_on`](Stage::move_on).
 pub(super) struct Stage {
@@ -22,23 +45,30 @@ impl Stage {
         method: Method,
         size: UVec2,
         adapter: &Adapter,
+        meshes: &mut SimplifiedMeshes,
     ) -> Result<Self, MeasureError> {
         let mut app = App::new();
         adapter.clone().insert_into(app.world_mut());
         app.add_plugins(HalfwayPlugins::headless(size)).insert_resource(detail.levels());
-        let mut stage = Self::new(app, scene, detail)?;
+        let mut stage = Self::new(app, scene, detail, meshes)?;
         method.apply(stage.app.world_mut());
         settle(&mut stage.app)?;
         Ok(stage)
     }
 
-    fn new(mut app: App, scene: &ChartedScene, detail: Detail) -> Result<Self, MeasureError> {
+    fn new(
+        mut app: App,
+        scene: &ChartedScene,
+        detail: Detail,
+        meshes: &mut SimplifiedMeshes,
+    ) -> Result<Self, MeasureError> {
         app.insert_resource(Still);
         (scene.build)(&mut app, detail).map_err(MeasureError::Scene)?;
         app.finish();
         app.cleanup();
         // Spawns what systems spawn.
         app.update();
+        meshes.simplify(app.world_mut(), detail);
         if let Some(reflectance) = scene.reflectance {
             let world = app.world_mut();
             let objects: Vec<Entity> = world.query_filtered::<Entity, With<Mesh3d>>().iter(world).collect();
@@ -53,18 +83,15 @@ impl Stage {
     pub(super) fn truth(scene: &ChartedScene, size: UVec2, samples: u32) -> Result<(Truth, Encoding), MeasureError> {
         let mut app = App::new();
         app.add_plugins(HalfwayPlugins::reference());
-        let mut stage = Self::new(app, scene, scene.true_detail)?;
+        let mut stage = Self::new(app, scene, scene.true_detail, &mut SimplifiedMeshes::default())?;
         let world = stage.app.world_mut();
         let encoding =
             world.query::<&Camera>().iter(world).next().map_or_else(Encoding::default, |camera| camera.encoding);
         // Everything is in its place once transforms have been carried over.
         stage.app.update();
-        let oracle = || -> Result<Oracle, MeasureError> {
-            Ok(Oracle::new(stage.app.world_mut(), size)?.with_mode(Mode::Surface))
-        };
-        let mut oracle = oracle;
-        let center = oracle()?.draw();
-        let average = oracle()?.with_supersampling(samples).with_clamping(true).draw();
+        let oracle = Oracle::new(stage.app.world_mut(), size)?.with_mode(Mode::Surface);
+        let center = oracle.draw();
+        let average = oracle.with_supersampling(samples).with_clamping(true).draw();
         Ok((Truth { center, average }, encoding))
     }
 

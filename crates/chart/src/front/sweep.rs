@@ -10,10 +10,10 @@ use image::RgbImage;
 use rayon::prelude::*;
 
 use super::errors::{Drawn, PointErrors, Truth};
-use super::stage::Stage;
+use super::stage::{SimplifiedMeshes, Stage};
 use super::{ChartedScene, Detail, FrontPoint, Kept, Method};
 use crate::measure::{MeasureError, MeasureProgress};
-use crate::page::small_data_uri;
+use crate::page::data_uri;
 use crate::timing::{Spread, in_turns, ratios};
 
 /// How much is measured.
@@ -21,12 +21,14 @@ use crate::timing::{Spread, in_turns, ratios};
 pub struct FrontPlan {
     /// By what the sides of pictures are divided.
     pub smaller: u32,
-    /// The most details of a scene, the finest of them left out.
+    /// The most details of a scene, the coarsest and the finest among them.
     pub details: usize,
     /// Every method, or the few that tell most.
     pub all_methods: bool,
-    /// How often every method is timed in turn.
+    /// How often every method is timed in turn, at most.
     pub rounds: u32,
+    /// The time in milliseconds that the timed frames of one method may take at one detail; 3 rounds are made at least.
+    pub budget_ms: f64,
     /// Samples along each side of a pixel, for the truth about its average.
     pub samples: u32,
     /// What is left out.
@@ -70,6 +72,8 @@ pub struct MeasuredScene {
 
 /// How many Apps take turns: enough that the reference frame costs little, few enough for the memory of a small machine.
 const TOGETHER: usize = 8;
+/// The fewest rounds that a median is taken of, however long a frame takes: one that is disturbed then leaves it alone.
+const LEAST: u32 = 3;
 /// The longer side that small pictures have at most, in pixels.
 const SMALL: u32 = 240;
 
@@ -104,10 +108,13 @@ impl Task<'_> {
 impl FrontPlan {
     /// The details of a scene that are measured.
     pub fn details_of(&self, scene: &ChartedScene) -> Vec<Detail> {
-        let asked = |detail: &&Detail| self.only.detail.as_ref().is_none_or(|only| *only == detail.id());
-        // All of those that the command line asks for, whatever the plan.
-        let most = if self.only.detail.is_some() { usize::MAX } else { self.details };
-        scene.details.iter().take(most).filter(asked).copied().collect()
+        let all = &scene.details;
+        if let Some(only) = &self.only.detail {
+            return all.iter().copied().filter(|detail| detail.id() == *only).collect();
+        }
+        let count = self.details.clamp(1, all.len().max(1));
+        let place = |i: usize| i * (all.len().saturating_sub(1)) / (count - 1).max(1);
+        (0..count).filter_map(|i| all.get(place(i)).copied()).collect()
     }
 
     /// The methods that a scene is drawn with.
@@ -222,25 +229,26 @@ struct Judged {
     size: UVec2,
     /// What one sample covers, by adapter and detail.
     covered: HashMap<(String, String), Vec<bool>>,
+    meshes: SimplifiedMeshes,
 }
 
 impl Judged {
     fn new(plan: &FrontPlan, scene: &ChartedScene) -> Result<Self, MeasureError> {
         let size = plan.size_of(scene);
         let (truth, encoding) = Stage::truth(scene, size, plan.samples)?;
-        Ok(Self { truth, encoding, size, covered: HashMap::new() })
+        Ok(Self { truth, encoding, size, covered: HashMap::new(), meshes: SimplifiedMeshes::default() })
     }
 
     /// What it should look like, small.
     fn picture(&self) -> Result<String, MeasureError> {
-        small_data_uri(&reduced(&self.truth.average).to_bytes(self.encoding)).map_err(MeasureError::Picture)
+        data_uri(&reduced(&self.truth.average).to_bytes(self.encoding)).map_err(MeasureError::Picture)
     }
 
     /// The coarsest detail in a constant colour.
-    fn reference(&self, scene: &ChartedScene, adapter: &ChartedAdapter) -> Result<Stage, MeasureError> {
+    fn reference(&mut self, scene: &ChartedScene, adapter: &ChartedAdapter) -> Result<Stage, MeasureError> {
         let coarsest =
             *scene.details.first().ok_or_else(|| MeasureError::Scene(format!("{}: no details", scene.name)))?;
-        let mut stage = Stage::drawn(scene, coarsest, Method::CONSTANT, self.size, &adapter.adapter)?;
+        let mut stage = Stage::drawn(scene, coarsest, Method::CONSTANT, self.size, &adapter.adapter, &mut self.meshes)?;
         stage.move_on()?;
         Ok(stage)
     }
@@ -250,7 +258,8 @@ impl Judged {
         if let Some(covered) = self.covered.get(&key) {
             return Ok(covered.clone());
         }
-        let stage = Stage::drawn(task.scene, task.detail, Method::CONSTANT, self.size, &adapter.adapter)?;
+        let stage =
+            Stage::drawn(task.scene, task.detail, Method::CONSTANT, self.size, &adapter.adapter, &mut self.meshes)?;
         Ok(self.covered.entry(key).or_insert(stage.coverage()?).clone())
     }
 
@@ -267,14 +276,14 @@ impl Judged {
         let mut stages = Vec::new();
         let mut drawn = Vec::new();
         for &Task { scene, detail, method } in tasks {
-            let mut stage = Stage::drawn(scene, detail, method, self.size, &adapter.adapter)?;
+            let mut stage = Stage::drawn(scene, detail, method, self.size, &adapter.adapter, &mut self.meshes)?;
             drawn.push(stage.pictures(method, &covered, self.encoding)?);
             stage.move_on()?;
             stages.push(stage);
         }
         let mut apps = vec![reference.app()];
         apps.extend(stages.iter_mut().map(Stage::app));
-        let times = in_turns(&mut apps, plan.rounds)?;
+        let times = in_time(&mut apps, plan)?;
         let judged = drawn.par_iter().map(|drawn| self.judge(drawn)).collect::<Result<Vec<_>, _>>()?;
         let timed = times[1..].iter().map(|own| (Spread::of(own), ratios(own, &times[0])));
         let found = tasks.iter().zip(&stages).zip(timed).zip(judged);
@@ -294,9 +303,23 @@ impl Judged {
         // Steps of the largest error of the small picture, so that all of it is seen.
         let difference = metrics::difference(&small, &small_truth, self.encoding, Scale::default())?;
         let pictures: [RgbImage; 2] = [small.to_bytes(self.encoding), difference];
-        let [picture, difference] = pictures.map(|picture| small_data_uri(&picture));
+        let [picture, difference] = pictures.map(|picture| data_uri(&picture));
         Ok((errors, [picture.map_err(MeasureError::Picture)?, difference.map_err(MeasureError::Picture)?]))
     }
+}
+
+/// The times of as many rounds as the plan has time for.
+fn in_time(apps: &mut [&mut App], plan: &FrontPlan) -> Result<Vec<Vec<f64>>, MeasureError> {
+    let first = plan.rounds.min(LEAST);
+    let mut times = in_turns(apps, first)?;
+    let round =
+        times.iter().map(|own| own.iter().sum::<f64>() / f64::from(first.max(1))).fold(f64::MIN_POSITIVE, f64::max);
+    let more = (plan.budget_ms / round) as u32;
+    let more = in_turns(apps, more.min(plan.rounds).saturating_sub(first))?;
+    for (own, more) in times.iter_mut().zip(more) {
+        own.extend(more);
+    }
+    Ok(times)
 }
 
 /// The picture with squares of pixels averaged, so that no side is longer than [`SMALL`]. What is left over at the right

@@ -29,8 +29,10 @@
     ];
     const state = { scene: [...sections.keys()][0], backend: data.points[0]?.backend, y: 0, x: 0, words: '', off: new Set(), view: null };
 
+    // The charts that scripts leave alone are of the same kind.
+    const space = document.querySelector('svg').namespaceURI;
     const svg = (tag, attributes, ...children) => {
-      const made = document.createElementNS('http://www.w3.org/2000/svg', tag);
+      const made = document.createElementNS(space, tag);
       for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
       made.append(...children);
       return made;

@@ -6,7 +6,7 @@ mod picture;
 
 pub use csv::csv;
 pub use html::html;
-pub use picture::small_data_uri;
+pub use picture::data_uri;
 
 use crate::figure::Figure;
 

@@ -26,6 +26,13 @@ pub struct Fronts {
     pub scenes: Vec<MeasuredScene>,
 }
 
+/// What the page is about.
+pub(super) const LEAD: &str = "Flat shading evaluates the lighting once a triangle, Gouraud shading once a vertex, Phong \
+                               shading once a pixel, and mixtures each term at a place of its own. Each is drawn at \
+                               several details, timed, and compared with the truth. Down is more accurate, left is faster. \
+                               Point at a point to see its picture, the truth’s, the difference and every figure; click to \
+                               keep them.";
+
 /// The points of one scene on one adapter.
 struct Panels<'a> {
     points: Vec<&'a FrontPoint>,
@@ -63,7 +70,10 @@ impl Fronts {
         let names: Vec<&str> = self.scenes.iter().map(|scene| scene.name.as_str()).collect();
         let page = Page {
             title: format!("What a millisecond buys: {}", names.join(", ")),
-            lead: self.advice(),
+            lead: match &self.scenes[..] {
+                [one] => self.advice(one).join(" "),
+                _ => LEAD.to_owned(),
+            },
             facts: self.facts(),
             sections: self.sections(),
             points: Some(self.on_page()),
@@ -76,17 +86,15 @@ impl Fronts {
         Ok(files)
     }
 
-    /// What to choose, in words: a sentence for each scene and adapter.
-    pub fn advice(&self) -> String {
-        let told = self.scenes.iter().flat_map(|scene| {
-            self.machines.iter().map(|(backend, _)| {
-                let choices = Panels::of(scene, backend).choices();
-                let choices =
-                    if choices.is_empty() { "nothing errs by 8 steps or less".to_owned() } else { choices.join("; ") };
-                format!("{} on {backend}, by the RMS error of covered pixels: {choices}.", scene.name)
-            })
+    /// What to choose for a scene, in words: a sentence for each adapter.
+    pub fn advice(&self, scene: &MeasuredScene) -> Vec<String> {
+        let told = self.machines.iter().map(|(backend, _)| {
+            let choices = Panels::of(scene, backend).choices();
+            let none = || "nothing errs by 8 steps of 255 or less".to_owned();
+            let choices = if choices.is_empty() { none() } else { choices.join("; ") };
+            format!("What to choose for {} on {backend}, by RMS error of covered pixels: {choices}.", scene.name)
         });
-        told.collect::<Vec<_>>().join(" ")
+        told.collect()
     }
 
     /// What was measured on what.
@@ -128,7 +136,7 @@ impl Fronts {
                     self.plan.samples
                 ),
                 format!(
-                    "Times are medians over {} rounds, of two frames each, in which the methods take turns, each round begun by another \
+                    "Times are medians over up to {} rounds, of two frames each, in which the methods take turns, each round begun by another \
                      one; bars reach from quartile to quartile. 1 is the reference frame: the scene’s coarsest detail in a constant \
                      colour, on the same adapter, in the same turns. {FRAME_TIME}",
                     self.plan.rounds
@@ -153,8 +161,9 @@ impl Fronts {
             text.push(if self.machines.len() > 1 { format!("On {backend}: {sentence}") } else { sentence });
             tables.extend(panels.tables(backend));
         }
+        text.extend(self.advice(scene));
         Section {
-            title: format!("What a millisecond buys: {}", scene.name),
+            title: scene.name.clone(),
             scene: Some(scene.name.clone()),
             text,
             files: files(&[("chart", &format!("front-{}", stem(&scene.name)))], &[("every point", "points")])
@@ -414,7 +423,13 @@ fn panel(panels: &Panels<'_>, area: Area, title: String) -> Panel {
         let quartiles = Some((point.ratio.lower_quartile, point.ratio.upper_quartile));
         Point { quartiles, faded, ..Point::new(point.ratio.median, front.error(i), label) }
     };
-    let line = front.members.iter().map(|&i| Point { quartiles: None, ..at(i, false) }).collect();
+    // In steps: a time buys the least error of what takes no longer.
+    let mut line: Vec<Point> = Vec::new();
+    for &i in &front.members {
+        let point = Point { quartiles: None, ..at(i, false) };
+        let corner = line.last().map(|last| Point { x: point.x, ..last.clone() });
+        line.extend(corner.into_iter().chain([point]));
+    }
     let line = Series { name: "front".to_owned(), style: super::charts::gray(0x55), points: line };
     let families = Family::ALL.into_iter().map(|family| {
         let here = (0..panels.points.len()).filter(|&i| panels.points[i].family == family.name());

@@ -2,6 +2,7 @@
 
 use super::Report;
 use super::charts::order;
+use super::fronts::LEAD;
 use super::tables::files;
 use crate::measure::convergence::{FITTED, QUANTITIES};
 use crate::measure::highlight::Unsteadiness;
@@ -15,11 +16,7 @@ impl Report {
         sections.extend([self.convergence_section(), self.highlight_section(), self.scaling.section()]);
         Page {
             title: "What a millisecond buys".to_owned(),
-            lead: "Flat shading evaluates the lighting once a triangle, Gouraud shading once a vertex, Phong shading once \
-                   a pixel, and mixtures each term at a place of its own. Each is drawn at several details, timed, and \
-                   compared with the truth. Down is more accurate, left is faster. Point at a point to see its picture, \
-                   the truth’s, the difference and every figure; click to keep them."
-                .to_owned(),
+            lead: LEAD.to_owned(),
             facts: self.facts(),
             sections,
             points: Some(self.fronts.on_page()),
