@@ -6,6 +6,7 @@
 //! sweeps in [`mod@measure`], the charts in
 //! [`figure`], the page in [`page`].
 
+pub mod failures;
 pub mod figure;
 pub mod front;
 pub mod measure;

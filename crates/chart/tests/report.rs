@@ -262,6 +262,11 @@ fn the_page_holds_all_and_fetches_nothing() {
     ] {
         assert!(page.contains(part), "{part}");
     }
+    for failure in &report().failures {
+        assert!(page.contains(&format!("href=\"failure-{}.html\"", failure.id)), "{}", failure.id);
+        let own = file(&format!("failure-{}.html", failure.id));
+        assert!(own.contains(failure.test) && own.contains("data:image/png") && own.contains("<svg"), "{}", failure.id);
+    }
     // Two pictures for each of the 26 points, and one of the truth for each scene.
     assert_eq!(page.matches("data:image/jpeg;base64,").count(), 54);
     let page = page.replace("xmlns=\"http://www.w3.org/2000/svg\"", "");

@@ -61,13 +61,16 @@ fn section(section: &Section) -> Result<String, SvgError> {
     let figures = section.figures.iter().enumerate().map(|(i, (_, figure))| self::figure(figure, i == 0));
     let figures = figures.collect::<Result<String, _>>()?;
     let tables = each(&section.tables, table);
+    let pictures = each(&section.pictures, |(caption, source)| {
+        format!("<figure><img src=\"{source}\" alt=\"\"><figcaption>{}</figcaption></figure>\n", escaped(caption))
+    });
     let files: Vec<_> = section
         .files
         .iter()
         .map(|(what, file)| format!("<a href=\"{}\">{}</a>", escaped(file), escaped(what)))
         .collect();
     Ok(format!(
-        "<section{}>\n<h2>{}</h2>\n{text}{}{figures}{tables}<p class=\"files\">{}</p>\n</section>\n",
+        "<section{}>\n<h2>{}</h2>\n{text}<div class=\"pictures\">{pictures}</div>{}{figures}{tables}<p class=\"files\">{}</p>\n</section>\n",
         each(&section.scene, |scene| format!(" data-scene=\"{}\"", escaped(scene))),
         escaped(&section.title),
         buttons(&section.figures),
@@ -145,6 +148,7 @@ mod tests {
             sections: vec![Section {
                 title: "One".to_owned(),
                 scene: None,
+                pictures: vec![("Seen".to_owned(), "data:,".to_owned())],
                 text: vec!["Text.".to_owned()],
                 figures: vec![
                     ("a".to_owned(), example()),
@@ -180,6 +184,8 @@ mod tests {
         assert_eq!(html.matches("class=\"hit\"").count(), 16);
         // Names of namespaces are no addresses.
         let html = html.replace("xmlns=\"http://www.w3.org/2000/svg\"", "");
+        // This one is a part of the page itself.
+        let html = html.replace("url(#inside)", "");
         for outside in ["http:", "https:", "src=\"//", "@import", "url("] {
             assert!(!html.contains(outside), "{outside}");
         }

@@ -6,7 +6,7 @@ mod picture;
 
 pub use csv::csv;
 pub use html::html;
-pub use picture::data_uri;
+pub use picture::{data_uri, exact_data_uri};
 
 use crate::figure::Figure;
 
@@ -35,6 +35,8 @@ pub struct Section {
     pub scene: Option<String>,
     /// What it shows, and how that was measured: paragraphs.
     pub text: Vec<String>,
+    /// Captions and pictures, the latter as `data:` addresses.
+    pub pictures: Vec<(String, String)>,
     /// The same chart of several quantities, of which one is shown at a time, each with the name of its button.
     pub figures: Vec<(String, Figure)>,
     /// Figures as numbers.

@@ -126,6 +126,7 @@ impl Fronts {
         Section {
             title: "How error and time are measured".to_owned(),
             scene: None,
+            pictures: Vec::new(),
             text: vec![
                 format!(
                     "Errors are those of the 8-bit picture that is timed, in steps of 1/255, against the reference renderer’s in \
@@ -165,6 +166,7 @@ impl Fronts {
         Section {
             title: scene.name.clone(),
             scene: Some(scene.name.clone()),
+            pictures: Vec::new(),
             text,
             files: files(&[("chart", &format!("front-{}", stem(&scene.name)))], &[("every point", "points")])
                 .into_iter()

@@ -1,6 +1,7 @@
 //! Everything that is measured, and the files that tell it.
 
 mod charts;
+mod failing;
 mod fronts;
 mod pages;
 mod plan;
@@ -10,6 +11,7 @@ mod tables;
 use halfway::output::OutputError;
 use thiserror::Error;
 
+use crate::failures::{self, FailurePage};
 use crate::figure::Figure;
 use crate::figure::svg::{self, Size, SvgError};
 use crate::front::{ChartedAdapter, ChartedScene, Kept};
@@ -48,6 +50,8 @@ pub struct Report {
     pub convergence: Vec<Convergence>,
     /// The moving highlight.
     pub energies: Energies,
+    /// Where methods fail.
+    pub failures: Vec<FailurePage>,
     /// How the time of a frame grows; also tells what drew.
     pub scaling: Scaling,
 }
@@ -71,8 +75,9 @@ pub fn measure(
     let fronts = Fronts::measure(&plan.fronts, scenes, adapters, kept, &mut progress)?;
     let convergence = convergence::sweep(plan.convergence, &mut progress)?;
     let energies = highlight::sweep(plan.highlight, &mut progress)?;
+    let failures = failures::all(|page| progress.advance(1, page.title))?;
     let scaling = Scaling::measure(plan.scaling, &mut progress)?;
-    Ok(Report { plan: plan.clone(), fronts, convergence, energies, scaling })
+    Ok(Report { plan: plan.clone(), fronts, convergence, energies, failures, scaling })
 }
 
 /// A figure as SVG, named by its identifier.
@@ -93,6 +98,7 @@ impl Report {
         for (_, figure) in page.sections.iter().flat_map(|section| &section.figures) {
             files.push(figure_file(figure)?);
         }
+        files.extend(failing::files(&self.failures)?);
         Ok(files)
     }
 }

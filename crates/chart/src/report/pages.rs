@@ -2,6 +2,7 @@
 
 use super::Report;
 use super::charts::order;
+use super::failing;
 use super::fronts::LEAD;
 use super::tables::files;
 use crate::measure::convergence::{FITTED, QUANTITIES};
@@ -13,7 +14,12 @@ impl Report {
     /// The page.
     pub(super) fn page(&self) -> Page {
         let mut sections = self.fronts.sections();
-        sections.extend([self.convergence_section(), self.highlight_section(), self.scaling.section()]);
+        sections.extend([
+            failing::section(&self.failures),
+            self.convergence_section(),
+            self.highlight_section(),
+            self.scaling.section(),
+        ]);
         Page {
             title: "What a millisecond buys".to_owned(),
             lead: LEAD.to_owned(),
@@ -39,6 +45,7 @@ impl Report {
         Section {
             title: "Rates of convergence".to_owned(),
             scene: None,
+            pictures: Vec::new(),
             text: vec![
                 "Both pictures are the reference renderer’s, in double precision, so that what is seen is what the method \
                  loses and not how it was implemented."
@@ -89,6 +96,7 @@ impl Report {
         Section {
             title: "A moving highlight".to_owned(),
             scene: None,
+            pictures: Vec::new(),
             text: vec![format!(
                 "A light moves slowly across a {}, which shows its highlight only (no ambient, no diffuse; shininess \
                  32). On the true surface the sum of all the light in a frame, its energy, hardly changes from one frame \

@@ -1,5 +1,6 @@
 //! How much is measured.
 
+use crate::failures;
 use crate::front::{ChartedScene, FrontFilter, FrontPlan};
 use crate::measure::{convergence, highlight, scaling};
 
@@ -64,7 +65,7 @@ impl ReportPlan {
 
     /// The units that [`measure`](super::measure) will report of these scenes on so many adapters.
     pub fn units(&self, scenes: &[ChartedScene], adapters: usize) -> u64 {
-        let own = self.convergence.units() + self.highlight.units() + self.scaling.units();
+        let own = self.convergence.units() + self.highlight.units() + self.scaling.units() + failures::PAGES;
         self.fronts.units(scenes, adapters) + own
     }
 }

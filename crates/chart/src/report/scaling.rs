@@ -59,6 +59,7 @@ impl Scaling {
         Section {
             title: "Scaling".to_owned(),
             scene: None,
+            pictures: Vec::new(),
             text: vec![
                 format!(
                     "One thing at a time grows by powers of ten, and the time of a frame with it. {FRAME_TIME} Points are \
