@@ -6,7 +6,9 @@ use std::sync::OnceLock;
 
 use halfway::prelude::*;
 use halfway::render::AdapterChoice;
-use halfway_chart::front::{ChartedAdapter, ChartedScene, FrontFilter, FrontPlan, FrontPoint, Kept, Method, scenes};
+use halfway_chart::front::{
+    ChartedAdapter, ChartedScene, FrontFilter, FrontPlan, FrontPoint, KeptResults, Method, scenes,
+};
 use halfway_chart::measure::highlight::{self, unsteadiness};
 use halfway_chart::measure::scaling::{self, Growth, LOOKS};
 use halfway_chart::measure::{MeasureProgress, SHADINGS, convergence};
@@ -57,7 +59,7 @@ fn report() -> &'static Report {
             assert!(done >= last, "progress never goes back");
             last = done;
         };
-        let report = measure(&SMALLEST, &charted(), &adapters(), &mut Kept::default(), tell);
+        let report = measure(&SMALLEST, &charted(), &adapters(), &mut KeptResults::default(), tell);
         assert_eq!(last, SMALLEST.units(&charted(), 1), "all that was announced was done");
         report.expect("everything can be measured")
     })
@@ -133,8 +135,8 @@ fn what_is_kept_is_not_measured_again() {
     let (scenes, adapters) = ([scenes::sphere()], adapters());
     let only = FrontFilter { method: Some("gouraud".to_owned()), detail: None };
     let plan = FrontPlan { only, ..SMALLEST.fronts };
-    let mut kept = Kept::default();
-    let run = |scenes: &[ChartedScene], kept: &mut Kept| {
+    let mut kept = KeptResults::default();
+    let run = |scenes: &[ChartedScene], kept: &mut KeptResults| {
         let mut done = 0;
         let fronts =
             Fronts::measure(&plan, scenes, &adapters, kept, &mut MeasureProgress::new(&mut |now, _| done = now));
@@ -149,8 +151,14 @@ fn what_is_kept_is_not_measured_again() {
     assert_eq!(again.scenes[0].points, first.scenes[0].points);
     let broken = ChartedScene { build: Box::new(|_, _| Err("gone".to_owned())), ..scenes::sphere() };
     assert!(
-        Fronts::measure(&plan, &[broken], &adapters, &mut Kept::default(), &mut MeasureProgress::new(&mut |_, _| ()))
-            .is_err()
+        Fronts::measure(
+            &plan,
+            &[broken],
+            &adapters,
+            &mut KeptResults::default(),
+            &mut MeasureProgress::new(&mut |_, _| ())
+        )
+        .is_err()
     );
 }
 

@@ -8,7 +8,7 @@ use clap::builder::NonEmptyStringValueParser;
 use halfway::output::write_text;
 use halfway::prelude::*;
 use halfway::render::AdapterChoice;
-use halfway_chart::front::{ChartedAdapter, ChartedScene, FrontFilter, Kept, Method, scenes};
+use halfway_chart::front::{ChartedAdapter, ChartedScene, FrontFilter, KeptResults, Method, scenes};
 use halfway_chart::measure::{MeasureError, MeasureProgress};
 use halfway_chart::timing::{Machine, TimedLook};
 use halfway_chart::{Fronts, NamedFile, ReportError, ReportPlan, Scaling, measure};
@@ -20,9 +20,9 @@ use crate::scenery::{Benchmark, BenchmarkScene};
 
 #[derive(Args, Debug)]
 pub(crate) struct ChartArgs {
-    /// What is charted: a scene file, a model, or a scene of the project's by its name (sphere, sphere-by-phong, teapot, teapot-by-phong,
-    /// machine-part, terrain, scan, moving-lights, s3) [default: all of the project's, and with them rates of convergence,
-    /// a moving highlight, and how the time of a frame grows]
+    /// What is charted: a scene file, a model, or a scene of the project's by its name (sphere, sphere-by-phong, teapot,
+    /// teapot-by-phong, machine-part, terrain, scan, moving-lights, s3) [default: all of the project's, and with them rates
+    /// of convergence, a moving highlight, and how the time of a frame grows]
     #[arg(value_name = "SCENE|MODEL")]
     inputs: Vec<PathBuf>,
     /// The folder for the page and what belongs to it
@@ -65,7 +65,7 @@ pub(crate) fn run(args: &ChartArgs) -> Result<(), Failure> {
     let adapters = adapters(&args.adapters)?;
     let unfinished = args.output.join(UNFINISHED);
     let machines: Vec<String> = adapters.iter().map(|one| format!("{:?}", Machine::new(&one.adapter))).collect();
-    let mut kept = Kept::open(&unfinished, &machines.join(", "))?;
+    let mut kept = KeptResults::open(&unfinished, &machines.join(", "))?;
     let everything = args.inputs.is_empty() && args.method.is_none() && args.detail.is_none();
     let units =
         if everything { plan.units(&scenes, adapters.len()) } else { plan.fronts.units(&scenes, adapters.len()) };
@@ -117,7 +117,7 @@ fn of_file(file: &Path) -> Result<ChartedScene, Failure> {
     // What is wrong with it is said now, and not once measuring has begun.
     input.spawn(App::new().add_plugins(HalfwayPlugins::reference()))?;
     let about = format!("the scene of {}, at its first moment", input.name());
-    let mut scene = ChartedScene::of_meshes(
+    let scene = ChartedScene::of_meshes(
         &file.to_string_lossy(),
         &about,
         Box::new(move |app, _| {
@@ -127,11 +127,7 @@ fn of_file(file: &Path) -> Result<ChartedScene, Failure> {
                 .map_err(|failure| failure.error.map_or_else(String::new, |error| error.to_string()))
         }),
     );
-    scene.size = size;
-    scene.truth =
-        "the scene with every triangle of its meshes, or the true surface where one is known, shaded at every pixel"
-            .to_owned();
-    Ok(scene)
+    Ok(ChartedScene { size, ..scene })
 }
 
 /// The third benchmark scene, whose lights move.

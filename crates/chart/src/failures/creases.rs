@@ -51,9 +51,9 @@ pub(super) fn page() -> Result<FailurePage, MeasureError> {
     Ok(FailurePage {
         id: "creases",
         title: "Mean normals round off what is sharp",
-        cause: "A vertex on a sharp edge has one normal, the mean of both sides; interpolated, it shades flat faces as if they were \
-                bent. Flat shading keeps the edge, and facets what is round.",
-        remedy: "Split vertices where the angle between faces is larger than a crease angle (`Normals::Creased`), or by \
+        cause: "A vertex on a sharp edge has one normal, the mean of both sides; interpolated, it shades flat faces \
+                as if they were bent. Flat shading keeps the edge, and facets what is round.",
+        remedy: "Split vertices where the angle between faces is larger than a crease angle (Normals::Creased), or by \
                  smoothing groups.",
         test: "mean_normals_are_wrong_at_creases",
         figure: Figure {

@@ -45,8 +45,8 @@ pub(super) fn page() -> Result<FailurePage, MeasureError> {
     Ok(FailurePage {
         id: "diagonals",
         title: "The diagonal of a quad is seen",
-        cause: "A quad is drawn as two triangles, and each interpolates three of its four vertices: along the diagonal it depends on \
-                two of them alone. With long thin triangles values are carried far across the surface.",
+        cause: "A quad is drawn as two triangles, and each interpolates three of its four vertices: along the \
+                diagonal it depends on two of them alone..",
         remedy: "Shade at pixels, or cut quads finer, or along the diagonal whose ends are more alike.",
         test: "gouraud_depends_on_the_diagonal_and_phong_does_not",
         figure: Figure {

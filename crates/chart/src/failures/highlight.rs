@@ -53,8 +53,8 @@ pub(super) fn page() -> Result<FailurePage, MeasureError> {
     Ok(FailurePage {
         id: "highlight",
         title: "Highlights between vertices are lost",
-        cause: "Gouraud shading evaluates the highlight at vertices only: one that lies between them, and is smaller than a cell, \
-                is not met at all. One that meets a vertex is spread over the cells around it, so that a moving one flickers.",
+        cause: "Gouraud shading evaluates the highlight at vertices only: one that lies between them, and is smaller \
+                than a cell, is not met at all. One that meets a vertex is spread over the cells around it, so that a moving one flickers.",
         remedy: "Shade highlights at pixels (Phong, or diffuse at vertices and specular at pixels), or use cells that are \
                  smaller than the highlight.",
         test: "sharp_highlights_between_vertices_are_lost",

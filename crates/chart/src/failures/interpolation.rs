@@ -6,7 +6,6 @@ use halfway::reference::{Image, Interpolation, PolygonCorner};
 
 use super::{FailurePage, SIZE, series, shown};
 use crate::figure::{Axis, AxisScale, Figure, Panel};
-use crate::measure::MeasureError;
 
 /// A strip from left to right whose right end is `ratio` times as far away; values go from 0 to 1 along it.
 fn receding(ratio: f64) -> [PolygonCorner<1>; 4] {
@@ -48,11 +47,11 @@ fn stripes(how: Interpolation) -> Image {
     Image::new(SIZE.x, SIZE.y, (0..SIZE.x * SIZE.y).map(pixel).collect())
 }
 
-pub(super) fn page() -> Result<FailurePage, MeasureError> {
+pub(super) fn page() -> FailurePage {
     let ratios: Vec<f64> = (0..=24).map(|i| 10f64.powf(f64::from(i) / 12.0)).collect();
     let errors = [Interpolation::Screen, Interpolation::ScanLine].map(|how| {
         let points: Vec<_> = ratios.iter().map(|&ratio| (ratio, error(how, ratio))).collect();
-        series(how.name(), if how == Interpolation::Screen { 0 } else { 1 }, &points, false)
+        series(how.name(), usize::from(how == Interpolation::ScanLine), &points, false)
     });
     let turned = [Interpolation::Screen, Interpolation::ScanLine, Interpolation::Perspective].into_iter().enumerate();
     let turned = turned.map(|(kind, how)| {
@@ -66,12 +65,12 @@ pub(super) fn page() -> Result<FailurePage, MeasureError> {
         series,
     };
     let [right, screen, scan] = &Interpolation::ALL.map(stripes);
-    Ok(FailurePage {
+    FailurePage {
         id: "interpolation",
         title: "Interpolation on the picture is not interpolation in space",
-        cause: "Halfway on the picture is not halfway on a surface that recedes. The published scan-line form is linear on the picture as well, \
-                and of polygons with more than three corners it depends on how they are turned.",
-        remedy: "Interpolate value/w and 1/w, as this project and all graphics hardware do; split polygons into triangles.",
+        cause: "Halfway on the picture is not halfway on a surface that recedes. The published scan-line form is \
+                linear on the picture as well, and of polygons with more than three corners it depends on how they are turned.",
+        remedy: "Interpolate value/w and 1/w, as this project does; split polygons into triangles.",
         test: "interpolation_on_the_picture_is_off_by_depth_and_rotation",
         figure: Figure {
             id: "failure-interpolation".to_owned(),
@@ -89,7 +88,7 @@ pub(super) fn page() -> Result<FailurePage, MeasureError> {
             ("linear on the picture", screen),
             ("along edges, then along the line", scan),
         ]),
-    })
+    }
 }
 
 #[cfg(test)]

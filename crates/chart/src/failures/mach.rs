@@ -39,8 +39,8 @@ pub(super) fn page() -> Result<FailurePage, MeasureError> {
     Ok(FailurePage {
         id: "mach-bands",
         title: "Bands where slopes jump",
-        cause: "Flat shading jumps from triangle to triangle; Gouraud shading is continuous, but its slope jumps at every edge, \
-                and the eye exaggerates both (E. Mach, 1865).",
+        cause: "Flat shading jumps from triangle to triangle; Gouraud shading is continuous, but its slope jumps at \
+                every edge, and the eye exaggerates both (E. Mach, 1865).",
         remedy: "Interpolate normals, not intensities; or use more triangles, whose jumps are smaller.",
         test: "slopes_jump_under_gouraud_and_hardly_under_phong",
         figure: Figure {

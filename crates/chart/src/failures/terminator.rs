@@ -10,7 +10,7 @@ use crate::measure::MeasureError;
 /// Bands of the sphere; a cell is 180°/8 wide.
 const LEVEL: u32 = 8;
 
-/// Lit from the right and a little from behind: the terminator is at 100° from the light's side, not on a meridian.
+/// Lit from the right and a little from the viewer's side, so that the terminator lies on no meridian.
 fn pictures() -> Result<[Image; 4], MeasureError> {
     four(|world, shading| {
         camera(world, Vec3::new(0.0, 0.0, 2.9), Vec3::Y);
@@ -34,8 +34,8 @@ pub(super) fn page() -> Result<FailurePage, MeasureError> {
     Ok(FailurePage {
         id: "terminator",
         title: "Light leaks over the terminator",
-        cause: "max(n·l, 0) has a corner where light turns to shadow. A vertex on the lit side lights all of its cells, also where they lie \
-                in the dark: Gouraud shading cuts the corner off, and the terminator follows the edges of the mesh.",
+        cause: "max(n·l, 0) has a corner where light turns to shadow. A vertex on the lit side lights all of its \
+                cells, also where they lie in the dark: Gouraud shading cuts the corner off, and the terminator follows the edges of the mesh.",
         remedy: "Shade at pixels, where the corner is met; it is the diffuse term that needs it, not the highlight.",
         test: "gouraud_lights_what_is_in_the_dark",
         figure: Figure {

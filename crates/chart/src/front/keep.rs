@@ -11,12 +11,12 @@ use serde_json::Value;
 
 /// Results by their keys; in memory, and in a file if there is one.
 #[derive(Debug, Default)]
-pub struct Kept {
+pub struct KeptResults {
     found: HashMap<String, Value>,
     file: Option<File>,
 }
 
-impl Kept {
+impl KeptResults {
     /// What the file holds, if it was written for the same `run`: the program and the machine, in words. A file of another
     /// run is begun anew. What follows a line that was not finished is measured again.
     ///
@@ -72,20 +72,20 @@ mod tests {
     fn what_was_kept_is_found_again_up_to_a_half_written_line() {
         let folder = std::env::temp_dir().join(format!("halfway-kept-{}", std::process::id()));
         let file = folder.join("deep").join("kept.jsonl");
-        let mut kept = Kept::open(&file, "this run").unwrap();
+        let mut kept = KeptResults::open(&file, "this run").unwrap();
         kept.keep("a", &1.25).unwrap();
         kept.keep("b", &vec!["x"]).unwrap();
         drop(kept);
         let text = fs::read_to_string(&file).unwrap();
         fs::write(&file, text + "[\"c\", [1, 2").unwrap();
-        let kept = Kept::open(&file, "this run").unwrap();
+        let kept = KeptResults::open(&file, "this run").unwrap();
         assert_eq!(kept.find::<f64>("a"), Some(1.25));
         assert_eq!(kept.find::<Vec<String>>("b"), Some(vec!["x".to_owned()]));
         assert_eq!((kept.find::<f64>("b"), kept.find::<f64>("c")), (None, None));
         drop(kept);
         // Another machine's figures are not this one's.
-        assert_eq!(Kept::open(&file, "another run").unwrap().find::<f64>("a"), None);
-        assert_eq!(Kept::open(&file, "this run").unwrap().find::<f64>("a"), None, "and they are gone");
+        assert_eq!(KeptResults::open(&file, "another run").unwrap().find::<f64>("a"), None);
+        assert_eq!(KeptResults::open(&file, "this run").unwrap().find::<f64>("a"), None, "and they are gone");
         fs::remove_dir_all(folder).unwrap();
     }
 }

@@ -12,9 +12,9 @@ mod stage;
 mod sweep;
 
 pub use errors::{Area, AreaErrors, ErrorFigures, PointErrors};
-pub use keep::Kept;
+pub use keep::KeptResults;
 pub use method::{Family, Method, Shade};
-pub use pareto::{BOUGHT_RATIOS, Choice, ERROR_STEPS, Front};
+pub use pareto::{BOUGHT_RATIOS, BestWithin, ERROR_STEPS, Front};
 pub use point::FrontPoint;
-pub use scene::{BuildScene, ChartedScene, Detail, SceneProblem, Still};
+pub use scene::{BuildScene, ChartedScene, SceneDetail, SceneProblem, Still};
 pub use sweep::{ChartedAdapter, FrontFilter, FrontPlan, MeasuredScene, sweep};

@@ -18,7 +18,7 @@ pub struct Front {
 
 /// What a table says: the best for a limit, or that there is none.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Choice {
+pub struct BestWithin {
     /// The greatest error, or the longest time, that was allowed.
     pub limit: f64,
     /// The place of the best point.
@@ -47,18 +47,18 @@ impl Front {
     }
 
     /// For each of [`ERROR_STEPS`] the fastest point that errs no more.
-    pub fn least_times(&self) -> [Choice; ERROR_STEPS.len()] {
+    pub fn least_times(&self) -> [BestWithin; ERROR_STEPS.len()] {
         ERROR_STEPS.map(|limit| {
             let best = self.members.iter().copied().find(|&i| self.errors[i] <= limit);
-            Choice { limit, best }
+            BestWithin { limit, best }
         })
     }
 
     /// For each of [`BOUGHT_RATIOS`] the point of the least error that takes no longer.
-    pub fn least_errors(&self, points: &[&FrontPoint]) -> [Choice; BOUGHT_RATIOS.len()] {
+    pub fn least_errors(&self, points: &[&FrontPoint]) -> [BestWithin; BOUGHT_RATIOS.len()] {
         BOUGHT_RATIOS.map(|limit| {
             let best = self.members.iter().copied().rev().find(|&i| points[i].ratio.median <= limit);
-            Choice { limit, best }
+            BestWithin { limit, best }
         })
     }
 
@@ -157,8 +157,8 @@ mod tests {
         assert_eq!(found, [Some(0), Some(2), Some(2), Some(3), Some(3), Some(3)]);
         assert_eq!(
             front.sentence(&all),
-            "Nothing beats flat (8 cells) at 1.00 × the reference frame, 5.00 steps off; then gouraud (8 cells) at 1.50 × the \
-             reference frame, 2.00 steps off; then phong (8 cells) at 3.00 × the reference frame, 0.40 steps off."
+            "Nothing beats flat (8 cells) at 1.00 × the reference frame, 5.00 steps off; then gouraud (8 cells) at \
+             1.50 × the reference frame, 2.00 steps off; then phong (8 cells) at 3.00 × the reference frame, 0.40 steps off."
         );
     }
 

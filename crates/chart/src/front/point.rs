@@ -18,7 +18,7 @@ pub struct FrontPoint {
     pub family: String,
     /// The error that it was told to keep to, in steps of 255.
     pub tolerance: Option<f64>,
-    /// The scene's detail, as the command line takes it ([`Detail::id`](super::Detail::id)).
+    /// The scene's detail, as the command line takes it ([`SceneDetail::id`](super::SceneDetail::id)).
     pub detail: String,
     /// The detail in words.
     pub detail_words: String,

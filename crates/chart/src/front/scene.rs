@@ -4,7 +4,7 @@ use halfway::prelude::*;
 
 /// How finely a scene's surfaces are drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Detail {
+pub enum SceneDetail {
     /// Surfaces cut into so many cells, every triangle drawn; what a cell is, is the scene's.
     Cells(u32),
     /// Meshes with one of so many of their triangles left, and those drawn.
@@ -15,7 +15,7 @@ pub enum Detail {
     Full,
 }
 
-impl Detail {
+impl SceneDetail {
     /// As the command line takes it.
     pub fn id(self) -> String {
         match self {
@@ -52,7 +52,7 @@ pub struct Still;
 pub type SceneProblem = String;
 
 /// Puts a scene, its surfaces in this detail, into an App that has halfway's plugins.
-pub type BuildScene = Box<dyn Fn(&mut App, Detail) -> Result<(), SceneProblem>>;
+pub type BuildScene = Box<dyn Fn(&mut App, SceneDetail) -> Result<(), SceneProblem>>;
 
 /// Something to look at, and how finely it can be drawn.
 pub struct ChartedScene {
@@ -63,9 +63,9 @@ pub struct ChartedScene {
     /// What errors are errors from, in a line: the true surface, or the mesh with every triangle.
     pub truth: String,
     /// From coarse to fine; not empty.
-    pub details: Vec<Detail>,
+    pub details: Vec<SceneDetail>,
     /// What the oracle draws to compare with; as fine as any of `details`, or finer.
-    pub true_detail: Detail,
+    pub true_detail: SceneDetail,
     /// How the scene reflects, where the scene does not say so itself.
     pub reflectance: Option<Reflectance>,
     /// Width and height of its pictures in pixels.
@@ -88,17 +88,17 @@ impl ChartedScene {
         details: impl IntoIterator<Item = u32>,
         spawn: impl Fn(&mut World, u32) + 'static,
     ) -> Self {
-        let details: Vec<Detail> = details.into_iter().map(Detail::Cells).collect();
+        let details: Vec<SceneDetail> = details.into_iter().map(SceneDetail::Cells).collect();
         Self {
             name: name.to_owned(),
             about: about.to_owned(),
             truth: "the true surface, with its own normal at every pixel".to_owned(),
-            true_detail: details.last().copied().unwrap_or(Detail::Cells(1)),
+            true_detail: details.last().copied().unwrap_or(SceneDetail::Cells(1)),
             details,
             reflectance: Some(Reflectance::BlinnPhong),
             size: UVec2::splat(640),
             build: Box::new(move |app, detail| {
-                if let Detail::Cells(cells) = detail {
+                if let SceneDetail::Cells(cells) = detail {
                     spawn(app.world_mut(), cells);
                 }
                 Ok(())
@@ -111,15 +111,16 @@ impl ChartedScene {
         Self {
             name: name.to_owned(),
             about: about.to_owned(),
-            truth: "the mesh with every triangle, its normals interpolated at every pixel".to_owned(),
+            truth: "every triangle of the meshes, shaded at every pixel, or the true surface where one is known"
+                .to_owned(),
             details: vec![
-                Detail::Simplified(64),
-                Detail::Simplified(16),
-                Detail::Simplified(4),
-                Detail::Levels,
-                Detail::Full,
+                SceneDetail::Simplified(64),
+                SceneDetail::Simplified(16),
+                SceneDetail::Simplified(4),
+                SceneDetail::Levels,
+                SceneDetail::Full,
             ],
-            true_detail: Detail::Full,
+            true_detail: SceneDetail::Full,
             reflectance: None,
             size: UVec2::splat(640),
             build,

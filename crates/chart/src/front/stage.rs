@@ -7,7 +7,7 @@ use halfway::reference::{Image, Mode, Oracle};
 use halfway::render::Adapter;
 
 use super::errors::{Drawn, Truth};
-use super::{ChartedScene, Detail, Method, Still};
+use super::{ChartedScene, Method, SceneDetail, Still};
 use crate::measure::MeasureError;
 use crate::timing::settle;
 
@@ -19,8 +19,8 @@ pub(super) struct SimplifiedMeshes {
 
 impl SimplifiedMeshes {
     /// Puts simplified meshes in the place of those of the world, where the detail is made of such.
-    fn simplify(&mut self, world: &mut World, detail: Detail) {
-        let Detail::Simplified(to) = detail else { return };
+    fn simplify(&mut self, world: &mut World, detail: SceneDetail) {
+        let SceneDetail::Simplified(to) = detail else { return };
         let mut assets = world.resource_mut::<Assets<Mesh>>();
         let simplified = self.by_detail.entry(to).or_insert_with(|| {
             let left = |mesh: &Mesh| mesh.triangle_count().div_ceil(to as usize);
@@ -32,16 +32,16 @@ impl SimplifiedMeshes {
     }
 }
 
-/// One scene at one detail, at its first moment until it is told to [`move_on`](Stage::move_on).
-pub(super) struct Stage {
+/// One scene at one detail, at its first moment until it is told to [`move_on`](SceneStage::move_on).
+pub(super) struct SceneStage {
     app: App,
 }
 
-impl Stage {
+impl SceneStage {
     /// To be drawn by `adapter` with this method.
     pub(super) fn drawn(
         scene: &ChartedScene,
-        detail: Detail,
+        detail: SceneDetail,
         method: Method,
         size: UVec2,
         adapter: &Adapter,
@@ -59,7 +59,7 @@ impl Stage {
     fn new(
         mut app: App,
         scene: &ChartedScene,
-        detail: Detail,
+        detail: SceneDetail,
         meshes: &mut SimplifiedMeshes,
     ) -> Result<Self, MeasureError> {
         app.insert_resource(Still);
@@ -121,8 +121,8 @@ impl Stage {
             camera.background = LinearRgba::BLACK;
             camera.samples = Samples::One;
         }
-        let picture = self.picture(Pixels::Byte, Encoding::Raw)?;
-        Ok(picture.pixels().iter().map(|pixel| *pixel != [0.0; 3]).collect())
+        let picture = self.picture(Pixels::Byte, Encoding::Raw)?.with_background([0.0; 3]);
+        Ok(picture.covered().unwrap_or_default().to_vec())
     }
 
     fn picture(&mut self, pixels: Pixels, encoding: Encoding) -> Result<Image, MeasureError> {

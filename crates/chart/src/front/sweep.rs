@@ -10,8 +10,8 @@ use image::RgbImage;
 use rayon::prelude::*;
 
 use super::errors::{Drawn, PointErrors, Truth};
-use super::stage::{SimplifiedMeshes, Stage};
-use super::{ChartedScene, Detail, FrontPoint, Kept, Method};
+use super::stage::{SceneStage, SimplifiedMeshes};
+use super::{ChartedScene, FrontPoint, KeptResults, Method, SceneDetail};
 use crate::measure::{MeasureError, MeasureProgress};
 use crate::page::data_uri;
 use crate::timing::{Spread, in_turns, ratios};
@@ -40,7 +40,7 @@ pub struct FrontPlan {
 pub struct FrontFilter {
     /// The method of this name ([`Method::id`]).
     pub method: Option<String>,
-    /// The detail of this name ([`Detail::id`]).
+    /// The detail of this name ([`SceneDetail::id`]).
     pub detail: Option<String>,
 }
 
@@ -81,7 +81,7 @@ const SMALL: u32 = 240;
 #[derive(Clone, Copy)]
 struct Task<'a> {
     scene: &'a ChartedScene,
-    detail: Detail,
+    detail: SceneDetail,
     method: Method,
 }
 
@@ -107,7 +107,7 @@ impl Task<'_> {
 
 impl FrontPlan {
     /// The details of a scene that are measured.
-    pub fn details_of(&self, scene: &ChartedScene) -> Vec<Detail> {
+    pub fn details_of(&self, scene: &ChartedScene) -> Vec<SceneDetail> {
         let all = &scene.details;
         if let Some(only) = &self.only.detail {
             return all.iter().copied().filter(|detail| detail.id() == *only).collect();
@@ -154,7 +154,7 @@ pub fn sweep(
     plan: &FrontPlan,
     scenes: &[ChartedScene],
     adapters: &[ChartedAdapter],
-    kept: &mut Kept,
+    kept: &mut KeptResults,
     progress: &mut MeasureProgress<'_>,
 ) -> Result<Vec<MeasuredScene>, MeasureError> {
     scenes.iter().map(|scene| of_scene(plan, scene, adapters, kept, progress)).collect()
@@ -164,20 +164,19 @@ fn of_scene(
     plan: &FrontPlan,
     scene: &ChartedScene,
     adapters: &[ChartedAdapter],
-    kept: &mut Kept,
+    kept: &mut KeptResults,
     progress: &mut MeasureProgress<'_>,
 ) -> Result<MeasuredScene, MeasureError> {
     progress.begin(&format!("{}, the truth", scene.name));
     let size = plan.size_of(scene);
     let mut judged = None;
     let key = format!("truth {} {size} {}", scene.name, plan.samples);
-    let picture = match kept.find(&key) {
-        Some(picture) => picture,
-        None => {
-            let picture = needed(&mut judged, plan, scene)?.picture()?;
-            kept.keep(&key, &picture).map_err(MeasureError::Keep)?;
-            picture
-        }
+    let picture = if let Some(picture) = kept.find(&key) {
+        picture
+    } else {
+        let picture = needed(&mut judged, plan, scene)?.picture()?;
+        kept.keep(&key, &picture).map_err(MeasureError::Keep)?;
+        picture
     };
     progress.advance(1, &scene.name);
     let mut points = Vec::new();
@@ -235,7 +234,7 @@ struct Judged {
 impl Judged {
     fn new(plan: &FrontPlan, scene: &ChartedScene) -> Result<Self, MeasureError> {
         let size = plan.size_of(scene);
-        let (truth, encoding) = Stage::truth(scene, size, plan.samples)?;
+        let (truth, encoding) = SceneStage::truth(scene, size, plan.samples)?;
         Ok(Self { truth, encoding, size, covered: HashMap::new(), meshes: SimplifiedMeshes::default() })
     }
 
@@ -245,10 +244,11 @@ impl Judged {
     }
 
     /// The coarsest detail in a constant colour.
-    fn reference(&mut self, scene: &ChartedScene, adapter: &ChartedAdapter) -> Result<Stage, MeasureError> {
+    fn reference(&mut self, scene: &ChartedScene, adapter: &ChartedAdapter) -> Result<SceneStage, MeasureError> {
         let coarsest =
             *scene.details.first().ok_or_else(|| MeasureError::Scene(format!("{}: no details", scene.name)))?;
-        let mut stage = Stage::drawn(scene, coarsest, Method::CONSTANT, self.size, &adapter.adapter, &mut self.meshes)?;
+        let mut stage =
+            SceneStage::drawn(scene, coarsest, Method::CONSTANT, self.size, &adapter.adapter, &mut self.meshes)?;
         stage.move_on()?;
         Ok(stage)
     }
@@ -258,8 +258,14 @@ impl Judged {
         if let Some(covered) = self.covered.get(&key) {
             return Ok(covered.clone());
         }
-        let stage =
-            Stage::drawn(task.scene, task.detail, Method::CONSTANT, self.size, &adapter.adapter, &mut self.meshes)?;
+        let stage = SceneStage::drawn(
+            task.scene,
+            task.detail,
+            Method::CONSTANT,
+            self.size,
+            &adapter.adapter,
+            &mut self.meshes,
+        )?;
         Ok(self.covered.entry(key).or_insert(stage.coverage()?).clone())
     }
 
@@ -269,20 +275,20 @@ impl Judged {
         plan: &FrontPlan,
         tasks: &[Task<'_>],
         adapter: &ChartedAdapter,
-        reference: &mut Stage,
+        reference: &mut SceneStage,
     ) -> Result<Vec<FrontPoint>, MeasureError> {
         let Some(first) = tasks.first() else { return Ok(Vec::new()) };
         let covered = self.covered(*first, adapter)?;
         let mut stages = Vec::new();
         let mut drawn = Vec::new();
         for &Task { scene, detail, method } in tasks {
-            let mut stage = Stage::drawn(scene, detail, method, self.size, &adapter.adapter, &mut self.meshes)?;
+            let mut stage = SceneStage::drawn(scene, detail, method, self.size, &adapter.adapter, &mut self.meshes)?;
             drawn.push(stage.pictures(method, &covered, self.encoding)?);
             stage.move_on()?;
             stages.push(stage);
         }
         let mut apps = vec![reference.app()];
-        apps.extend(stages.iter_mut().map(Stage::app));
+        apps.extend(stages.iter_mut().map(SceneStage::app));
         let times = in_time(&mut apps, plan)?;
         let judged = drawn.par_iter().map(|drawn| self.judge(drawn)).collect::<Result<Vec<_>, _>>()?;
         let timed = times[1..].iter().map(|own| (Spread::of(own), ratios(own, &times[0])));

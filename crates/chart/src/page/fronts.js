@@ -27,7 +27,10 @@
       ['time of a frame (reference frame = 1)', (p) => p.ratio, (p) => p.ratio_quartiles],
       ['time of a frame (ms)', (p) => p.ms, (p) => p.ms_quartiles],
     ];
-    const state = { scene: [...sections.keys()][0], backend: data.points[0]?.backend, y: 0, x: 0, words: '', off: new Set(), view: null };
+    // What is chosen: the scene and adapter, the places of both measures, words to be found, families that are left out; and
+    // the ends of both axes, as logarithms, where they are not those of all points.
+    const first = { scene: [...sections.keys()][0], backend: data.points[0]?.backend, y: 0, x: 0 };
+    const state = { ...first, words: '', off: new Set(), view: null };
 
     // The charts that scripts leave alone are of the same kind.
     const space = document.querySelector('svg').namespaceURI;
@@ -38,7 +41,8 @@
       return made;
     };
     const choice = (name, options, set) => {
-      const select = element('select', '', ...options.map(([text, value]) => Object.assign(element('option', text), { value })));
+      const option = ([text, value]) => Object.assign(element('option', text), { value });
+      const select = element('select', '', ...options.map(option));
       select.name = name.toLowerCase();
       select.addEventListener('change', () => { set(select.value); state.view = null; draw(); });
       return element('label', name + ' ', select);
@@ -80,7 +84,8 @@
       };
       const [own, difference] = data.pictures[i];
       const scene = data.scenes.find(({ name }) => name === point.scene);
-      const pictures = element('div', '', picture('as drawn', own), picture('the truth', scene.picture), picture('difference', difference));
+      const three = [['as drawn', own], ['the truth', scene.picture], ['difference', difference]];
+      const pictures = element('div', '', ...three.map(([caption, source]) => picture(caption, source)));
       pictures.className = 'pictures';
       const quartiles = ([low, high], digits) => `${low.toFixed(digits)} … ${high.toFixed(digits)}`;
       const rows = [
@@ -92,7 +97,8 @@
           [`${area}, ꟻLIP`, number(e.flip)],
         ]),
       ];
-      const list = element('dl', '', ...rows.map(([name, text]) => element('div', '', element('dt', name), element('dd', text))));
+      const row = ([name, text]) => element('div', '', element('dt', name), element('dd', text));
+      const list = element('dl', '', ...rows.map(row));
       const title = `${point.words}, ${point.detail}, ${point.triangles} triangles`;
       return [element('h3', title), pictures, list, element('code', point.command)];
     };
@@ -111,8 +117,10 @@
       const [[x0, x1], [y0, y1]] = state.view;
       const px = (x) => box.left + ((Math.log10(x) - x0) / (x1 - x0)) * (box.right - box.left);
       const py = (y) => box.bottom - ((Math.log10(y) - y0) / (y1 - y0)) * (box.bottom - box.top);
-      const root = svg('svg', { viewBox: `0 0 ${width} ${height}`, width, height, class: 'front', role: 'img', 'aria-label': 'error against time' });
-      root.append(svg('clipPath', { id: 'inside' }, svg('rect', { x: box.left, y: box.top, width: box.right - box.left, height: box.bottom - box.top })));
+      const told = { class: 'front', role: 'img', 'aria-label': 'error against time' };
+      const root = svg('svg', { viewBox: `0 0 ${width} ${height}`, width, height, ...told });
+      const plot = { x: box.left, y: box.top, width: box.right - box.left, height: box.bottom - box.top };
+      root.append(svg('clipPath', { id: 'inside' }, svg('rect', plot)));
       const text = (label, x, y, extra) => {
         const made = svg('text', { x, y, ...extra });
         made.textContent = label;
@@ -120,15 +128,18 @@
       };
       for (const [at, label] of ticks(x0, x1)) {
         const x = px(10 ** at);
-        root.append(svg('line', { class: 'grid', x1: x, x2: x, y1: box.top, y2: box.bottom }), text(label, x, box.bottom + 15, { 'text-anchor': 'middle' }));
+        root.append(svg('line', { class: 'grid', x1: x, x2: x, y1: box.top, y2: box.bottom }));
+        root.append(text(label, x, box.bottom + 15, { 'text-anchor': 'middle' }));
       }
       for (const [at, label] of ticks(y0, y1)) {
         const y = py(10 ** at);
-        root.append(svg('line', { class: 'grid', x1: box.left, x2: box.right, y1: y, y2: y }), text(label, box.left - 6, y + 4, { 'text-anchor': 'end' }));
+        root.append(svg('line', { class: 'grid', x1: box.left, x2: box.right, y1: y, y2: y }));
+        root.append(text(label, box.left - 6, y + 4, { 'text-anchor': 'end' }));
       }
+      const upright = `translate(13 ${(box.top + box.bottom) / 2}) rotate(-90)`;
       root.append(
         text(times[state.x][0], (box.left + box.right) / 2, height - 8, { 'text-anchor': 'middle' }),
-        text(measures[state.y][0], 0, 0, { 'text-anchor': 'middle', transform: `translate(13 ${(box.top + box.bottom) / 2}) rotate(-90)` }),
+        text(measures[state.y][0], 0, 0, { 'text-anchor': 'middle', transform: upright }),
       );
       const inside = svg('g', { 'clip-path': 'url(#inside)' });
       root.append(inside);
@@ -140,7 +151,8 @@
         const [color, path] = mark(entry.point.family);
         const [low, high] = times[state.x][2](entry.point);
         const y = py(entry.y);
-        const group = svg('g', { class: best.includes(entry) ? 'best' : 'beaten', 'data-method': entry.point.method, tabindex: 0 },
+        const standing = best.includes(entry) ? 'best' : 'beaten';
+        const group = svg('g', { class: standing, 'data-method': entry.point.method, tabindex: 0 },
           svg('line', { x1: px(low), x2: px(high), y1: y, y2: y, stroke: color }),
           svg('path', { d: path, transform: `translate(${px(entry.x)} ${y})`, fill: color }),
           svg('circle', { class: 'hit', cx: px(entry.x), cy: y, r: 9 }));
@@ -162,7 +174,8 @@
     const zoomable = (root, box) => {
       const share = (event) => {
         const { left, top } = root.getBoundingClientRect();
-        return [(event.clientX - left - box.left) / (box.right - box.left), (event.clientY - top - box.top) / (box.bottom - box.top)];
+        const along = (event.clientX - left - box.left) / (box.right - box.left);
+        return [along, (event.clientY - top - box.top) / (box.bottom - box.top)];
       };
       root.addEventListener('wheel', (event) => {
         event.preventDefault();
@@ -186,13 +199,17 @@
 
     const table = (points) => {
       const best = front(points);
-      const head = ['method', 'detail', 'triangles', 'ms', '× reference', 'RMS', '95 %', 'max', 'ꟻLIP', 'whole RMS', 'whole max', 'front'];
+      const figures = ['triangles', 'ms', '× reference', 'RMS', '95 %', 'max', 'ꟻLIP', 'whole RMS', 'whole max'];
+      const head = ['method', 'detail', ...figures, 'front'];
       const rows = points.map((entry) => {
         const { point: p } = entry;
-        const cells = [p.words, p.detail, p.triangles, p.ms.toFixed(3), p.ratio.toFixed(2), ...[p.rms, p.p95, p.max, p.flip, p.whole.rms, p.whole.max].map(number), best.includes(entry) ? 'yes' : 'no'];
+        const errors = [p.rms, p.p95, p.max, p.flip, p.whole.rms, p.whole.max].map(number);
+        const timed = [p.triangles, p.ms.toFixed(3), p.ratio.toFixed(2)];
+        const cells = [p.words, p.detail, ...timed, ...errors, best.includes(entry) ? 'yes' : 'no'];
         return element('tr', '', ...cells.map((text) => element('td', String(text))));
       });
-      const made = element('table', '', element('thead', '', element('tr', '', ...head.map((name) => element('th', name)))), element('tbody', '', ...rows));
+      const names = element('tr', '', ...head.map((name) => element('th', name)));
+      const made = element('table', '', element('thead', '', names), element('tbody', '', ...rows));
       for (const row of made.rows) for (const cell of [...row.cells].slice(0, 2)) cell.className = 'name';
       return made;
     };
@@ -221,7 +238,8 @@
       const box = Object.assign(element('input'), { type: 'checkbox', checked: true, name: 'family', value: name });
       box.addEventListener('change', () => { state.off[box.checked ? 'delete' : 'add'](name); draw(); });
       const [color, path] = mark(name);
-      return element('label', '', box, svg('svg', { viewBox: '-6 -6 12 12', width: 12, height: 12 }, svg('path', { d: path, fill: color })), ' ' + name);
+      const swatch = svg('svg', { viewBox: '-6 -6 12 12', width: 12, height: 12 }, svg('path', { d: path, fill: color }));
+      return element('label', '', box, swatch, ' ' + name);
     };
     const words = Object.assign(element('input'), { type: 'search', name: 'words', placeholder: 'infinite, 4 samples …' });
     words.addEventListener('input', () => { state.words = words.value; draw(); });
@@ -231,9 +249,10 @@
       return made;
     };
     const backends = [...new Set(data.points.map(({ backend }) => backend))];
+    const adapter = choice('Adapter', backends.map((name) => [name, name]), (name) => { state.backend = name; });
     controls.append(
       choice('Scene', [...sections.keys()].map((name) => [name, name]), (name) => { state.scene = name; }),
-      ...(backends.length > 1 ? [choice('Adapter', backends.map((name) => [name, name]), (name) => { state.backend = name; })] : []),
+      ...(backends.length > 1 ? [adapter] : []),
       choice('Error', measures.map(([name], i) => [name, i]), (i) => { state.y = Number(i); }),
       choice('Time', times.map(([name], i) => [name, i]), (i) => { state.x = Number(i); }),
       element('label', 'Words ', words),

@@ -34,7 +34,8 @@ pub fn html(page: &Page) -> Result<String, SvgError> {
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{title}</title>\n\
          <link rel=\"icon\" href=\"data:,\">\n<style>\n{STYLE}</style>\n</head>\n<body>\n\
          <p id=\"problem\" role=\"alert\" hidden></p>\n<script>\n{GUARD}\n</script>\n\
-         <header>\n<h1>{title}</h1>\n<p>{lead}</p>\n<dl>{facts}</dl>\n</header>\n<main>\n<div id=\"controls\" hidden></div>\n{sections}</main>\n\
+         <header>\n<h1>{title}</h1>\n<p>{lead}</p>\n<dl>{facts}</dl>\n</header>\n\
+         <main>\n<div id=\"controls\" hidden></div>\n{sections}</main>\n\
          <aside id=\"card\" hidden></aside>\n\
          {points}<script>\n{script}</script>\n</body>\n</html>\n",
         lead = escaped(&page.lead),
@@ -70,7 +71,8 @@ fn section(section: &Section) -> Result<String, SvgError> {
         .map(|(what, file)| format!("<a href=\"{}\">{}</a>", escaped(file), escaped(what)))
         .collect();
     Ok(format!(
-        "<section{}>\n<h2>{}</h2>\n{text}<div class=\"pictures\">{pictures}</div>{}{figures}{tables}<p class=\"files\">{}</p>\n</section>\n",
+        "<section{}>\n<h2>{}</h2>\n{text}<div class=\"pictures\">{pictures}</div>{}{figures}{tables}\
+         <p class=\"files\">{}</p>\n</section>\n",
         each(&section.scene, |scene| format!(" data-scene=\"{}\"", escaped(scene))),
         escaped(&section.title),
         buttons(&section.figures),

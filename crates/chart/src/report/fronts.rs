@@ -8,8 +8,8 @@ use super::{NamedFile, ReportError, figure_file};
 use crate::figure::svg::{self, Size};
 use crate::figure::{Axis, AxisScale, Figure, Marker, Panel, Point, Series, Stroke, Style};
 use crate::front::{
-    Area, AreaErrors, ChartedAdapter, ChartedScene, Choice, Family, Front, FrontPlan, FrontPoint, Kept, MeasuredScene,
-    sweep,
+    Area, AreaErrors, BestWithin, ChartedAdapter, ChartedScene, Family, Front, FrontPlan, FrontPoint, KeptResults,
+    MeasuredScene, sweep,
 };
 use crate::measure::{MeasureError, MeasureProgress};
 use crate::page::{Page, PageTable, Section, csv, html};
@@ -54,7 +54,7 @@ impl Fronts {
         plan: &FrontPlan,
         scenes: &[ChartedScene],
         adapters: &[ChartedAdapter],
-        kept: &mut Kept,
+        kept: &mut KeptResults,
         progress: &mut MeasureProgress<'_>,
     ) -> Result<Self, MeasureError> {
         let scenes = sweep(plan, scenes, adapters, kept, progress)?;
@@ -129,21 +129,21 @@ impl Fronts {
             pictures: Vec::new(),
             text: vec![
                 format!(
-                    "Errors are those of the 8-bit picture that is timed, in steps of 1/255, against the reference renderer’s in \
-                     double precision: over the pixels that both cover, or over the whole picture, silhouettes included and \
-                     nothing made equal first, where the truth about a pixel is the mean of {0} × {0} samples. What is drawn with \
-                     one sample a pixel is judged by its middle inside of surfaces. Errors of a picture in floating point stand \
-                     beside.",
+                    "Errors are those of the 8-bit picture that is timed, in steps of 1/255, against the reference \
+                     renderer’s in double precision: over the pixels that both cover, or over the whole picture, \
+                     silhouettes included and nothing made equal first, where the truth about a pixel is the mean of \
+                     {0} × {0} samples. What is drawn with one sample a pixel is judged by its middle inside of \
+                     surfaces. Errors of a picture in floating point stand beside.",
                     self.plan.samples
                 ),
                 format!(
-                    "Times are medians over up to {} rounds, of two frames each, in which the methods take turns, each round begun by another \
-                     one; bars reach from quartile to quartile. 1 is the reference frame: the scene’s coarsest detail in a constant \
-                     colour, on the same adapter, in the same turns. {FRAME_TIME}",
+                    "Times are medians over up to {} rounds, of two frames each, in which the methods take turns, \
+                     each round begun by another one; bars reach from quartile to quartile. 1 is the reference frame: \
+                     the scene’s coarsest detail in a constant colour, on the same adapter, in the same turns. {FRAME_TIME}",
                     self.plan.rounds
                 ),
-                "The line joins what nothing beats: no other point is as fast and errs as little. What is pale is beaten by a point of \
-                 the line. Points whose bars overlap are ties: another run may choose the other one."
+                "The line joins what nothing beats: no other point is as fast and errs as little. What is pale is \
+                 beaten by a point of the line. Points whose bars overlap are ties: another run may choose the other one."
                     .to_owned(),
             ],
             figures: Vec::new(),
@@ -359,7 +359,7 @@ impl<'a> Panels<'a> {
         let choices = self.covered.least_times();
         let runs = choices.chunk_by(|a, b| a.best == b.best);
         let told = runs.filter_map(|run| {
-            let Choice { limit, best } = *run.last()?;
+            let BestWithin { limit, best } = *run.last()?;
             let point = self.points[best?];
             let FrontPoint { words, detail_words, ms, .. } = point;
             Some(format!("at most {limit} of 255 steps: {words}, {detail_words}, {:.2} ms", ms.median))

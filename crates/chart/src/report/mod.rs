@@ -14,7 +14,7 @@ use thiserror::Error;
 use crate::failures::{self, FailurePage};
 use crate::figure::Figure;
 use crate::figure::svg::{self, Size, SvgError};
-use crate::front::{ChartedAdapter, ChartedScene, Kept};
+use crate::front::{ChartedAdapter, ChartedScene, KeptResults};
 use crate::measure::convergence::{self, Convergence};
 use crate::measure::highlight::{self, Energies};
 use crate::measure::{MeasureError, MeasureProgress};
@@ -68,7 +68,7 @@ pub fn measure(
     plan: &ReportPlan,
     scenes: &[ChartedScene],
     adapters: &[ChartedAdapter],
-    kept: &mut Kept,
+    kept: &mut KeptResults,
     tell: &mut dyn FnMut(u64, &str),
 ) -> Result<Report, ReportError> {
     let mut progress = MeasureProgress::new(tell);

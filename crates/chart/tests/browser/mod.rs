@@ -99,7 +99,8 @@ fn points_are_filtered_zoomed_and_sorted() {
          set('words', '');
          set('scene', 'teapot-by-phong');
          facts.teapot = points().length;
-         facts.seen = [...document.querySelectorAll('section[data-scene]')].filter((s) => !s.hidden).map((s) => s.dataset.scene);
+         const seen = [...document.querySelectorAll('section[data-scene]')].filter((section) => !section.hidden);
+         facts.seen = seen.map((section) => section.dataset.scene);
          const label = () => [...document.querySelectorAll('svg.front > text')].pop().textContent;
          facts.first = label().startsWith('RMS error of covered');
          set('error', '7');
@@ -112,7 +113,8 @@ fn points_are_filtered_zoomed_and_sorted() {
          facts.whole = place() === before;
          const head = [...document.querySelectorAll('.points th')].find((head) => head.textContent === 'RMS');
          head.click();
-         const column = () => [...document.querySelectorAll('.points tbody tr')].map((row) => Number(row.cells[head.cellIndex].textContent));
+         const rows = () => [...document.querySelectorAll('.points tbody tr')];
+         const column = () => rows().map((row) => Number(row.cells[head.cellIndex].textContent));
          const sorted = (values) => values.every((value, i) => i === 0 || values[i - 1] <= value);
          facts.up = sorted(column());
          head.click();

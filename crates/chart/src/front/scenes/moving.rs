@@ -4,7 +4,7 @@ use std::f32::consts::TAU;
 
 use halfway::prelude::*;
 
-use super::super::{ChartedScene, Detail, Still};
+use super::super::{ChartedScene, SceneDetail, Still};
 
 /// Five teapots on a floor among lights that circle them, one of them below each: what the example `moving_lights` shows.
 pub fn moving_lights() -> ChartedScene {
@@ -14,7 +14,7 @@ pub fn moving_lights() -> ChartedScene {
     ChartedScene {
         build: Box::new(|app, detail| {
             app.add_systems(Update, turn.run_if(not(resource_exists::<Still>)));
-            if let Detail::Cells(cells) = detail {
+            if let SceneDetail::Cells(cells) = detail {
                 spawn(app.world_mut(), cells);
             }
             Ok(())
