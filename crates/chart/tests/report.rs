@@ -7,7 +7,7 @@ use std::sync::OnceLock;
 use halfway::prelude::*;
 use halfway::render::AdapterChoice;
 use halfway_chart::front::{
-    ChartedAdapter, ChartedScene, FrontFilter, FrontPlan, FrontPoint, KeptResults, Method, scenes,
+    ChartedAdapter, ChartedScene, FrontFilter, FrontPlan, FrontPoint, KeptResults, Method, Over, scenes,
 };
 use halfway_chart::measure::highlight::{self, unsteadiness};
 use halfway_chart::measure::scaling::{self, Growth, LOOKS};
@@ -23,7 +23,7 @@ const SMALLEST: ReportPlan = ReportPlan {
         rounds: 1,
         budget_ms: 1.0,
         samples: 2,
-        only: FrontFilter { method: None, detail: None },
+        only: FrontFilter { methods: Vec::new(), detail: None },
     },
     convergence: convergence::ConvergencePlan { size: 48, levels: 2 },
     highlight: highlight::HighlightPlan { size: 32, level: 8, frames: 2 },
@@ -133,7 +133,7 @@ fn errors_are_of_the_method_and_not_of_the_truth() {
 #[test]
 fn what_is_kept_is_not_measured_again() {
     let (scenes, adapters) = ([scenes::sphere()], adapters());
-    let only = FrontFilter { method: Some("gouraud".to_owned()), detail: None };
+    let only = FrontFilter { methods: vec!["gouraud".to_owned()], detail: None };
     let plan = FrontPlan { only, ..SMALLEST.fronts };
     let mut kept = KeptResults::default();
     let run = |scenes: &[ChartedScene], kept: &mut KeptResults| {
@@ -145,6 +145,13 @@ fn what_is_kept_is_not_measured_again() {
     };
     let first = run(&scenes, &mut kept).expect("the sphere can be measured");
     assert_eq!(first.scenes[0].points.len(), 2);
+    // What is known stands where it belongs among what is not.
+    let all = FrontPlan { only: FrontFilter::default(), ..plan.clone() };
+    let again = Fronts::measure(&all, &scenes, &adapters, &mut kept, &mut MeasureProgress::new(&mut |_, _| ()));
+    let again = again.expect("the sphere can be measured").scenes.remove(0).points;
+    let names: Vec<String> = Method::few(None).into_iter().map(Method::id).collect();
+    assert!(again.chunks(names.len()).all(|points| points.iter().map(|point| &point.method).eq(&names)));
+    assert!(first.scenes[0].points.iter().all(|point| again.contains(point)));
     // A scene that can no longer be set up is known all the same.
     let broken = ChartedScene { build: Box::new(|_, _| Err("gone".to_owned())), ..scenes::sphere() };
     let again = run(&[broken], &mut kept).expect("nothing is drawn");
@@ -240,6 +247,26 @@ fn tables_have_every_row() {
     assert_eq!(file("scaling.csv").lines().count(), 1 + steps * LOOKS.len());
 }
 
+/// Near and far lights differ by less the farther away the near one is; from 1000 radii on by nothing that is seen.
+#[test]
+fn a_far_light_may_stand_for_one_that_is_far_enough() {
+    let over = report().over.iter().find(|measured| measured.over == Over::Distance).expect("the distance was changed");
+    let error = |step: usize, method: &str| {
+        let (_, points) = &over.steps[step];
+        let point = points.iter().find(|point| point.method == method).expect("the method was measured");
+        point.errors.covered.steps.rms
+    };
+    let last = over.steps.len() - 1;
+    assert!(over.steps[last].0 >= 1000.0);
+    assert!(error(0, "phong-far-lights") > 10.0 * error(0, "phong"), "1.5 radii: {}", error(0, "phong-far-lights"));
+    let [near, far] = ["phong", "phong-far-lights"].map(|method| error(last, method));
+    assert!((near - far).abs() < 0.1, "{near}, {far}");
+    // No figure is left out, and the CSV has a row for each.
+    let points: usize = report().over.iter().flat_map(|measured| &measured.steps).map(|(_, points)| points.len()).sum();
+    assert_eq!(rows("over.csv").len(), points);
+    assert!(points >= 4 * 4 * 4);
+}
+
 #[test]
 fn charts_show_every_series() {
     let mut charts = ["front-sphere", "front-teapot-by-phong", "convergence", "highlight", "scaling"]
@@ -270,6 +297,7 @@ fn the_page_holds_all_and_fetches_nothing() {
     ] {
         assert!(page.contains(part), "{part}");
     }
+    assert!(page.contains("id=\"over-error\"") && page.contains("id=\"over-time\" hidden"));
     for failure in &report().failures {
         assert!(page.contains(&format!("href=\"failure-{}.html\"", failure.id)), "{}", failure.id);
         let own = file(&format!("failure-{}.html", failure.id));

@@ -34,9 +34,10 @@ pub(crate) struct ChartArgs {
     /// Only how the time of a frame grows with triangles, objects, lights and pixels; the page is scaling.html
     #[arg(long, conflicts_with_all = ["inputs", "small_chart", "method", "detail"])]
     scaling: bool,
-    /// Only this method, by the name that the page gives it, such as gouraud or phong-infinite-viewer
-    #[arg(long, value_name = "NAME")]
-    method: Option<String>,
+    /// Only this method, by the name that the page gives it, such as gouraud or phong-infinite-viewer; several times for
+    /// several
+    #[arg(id = "method", long = "method", value_name = "NAME")]
+    methods: Vec<String>,
     /// Only this detail, by the name that the page gives it: a number of cells, 1-of-16, levels or full, say
     #[arg(long, value_name = "NAME")]
     detail: Option<String>,
@@ -53,7 +54,7 @@ const UNFINISHED: &str = "unfinished.jsonl";
 
 pub(crate) fn run(args: &ChartArgs) -> Result<(), Failure> {
     let mut plan = if args.quick { ReportPlan::QUICK } else { ReportPlan::FULL };
-    plan.fronts.only = FrontFilter { method: args.method.clone(), detail: args.detail.clone() };
+    plan.fronts.only = FrontFilter { methods: args.methods.clone(), detail: args.detail.clone() };
     if args.scaling {
         let bar = progress_bar(plan.scaling.units());
         let found = Scaling::measure(plan.scaling, &mut MeasureProgress::new(&mut tell(&bar)));
@@ -66,7 +67,7 @@ pub(crate) fn run(args: &ChartArgs) -> Result<(), Failure> {
     let unfinished = args.output.join(UNFINISHED);
     let machines: Vec<String> = adapters.iter().map(|one| format!("{:?}", Machine::new(&one.adapter))).collect();
     let mut kept = KeptResults::open(&unfinished, &machines.join(", "))?;
-    let everything = args.inputs.is_empty() && args.method.is_none() && args.detail.is_none();
+    let everything = args.inputs.is_empty() && args.methods.is_empty() && args.detail.is_none();
     let units =
         if everything { plan.units(&scenes, adapters.len()) } else { plan.fronts.units(&scenes, adapters.len()) };
     let bar = progress_bar(units);
@@ -145,7 +146,8 @@ fn s3() -> ChartedScene {
 /// Whether every name of the command line is one of something that can be measured.
 fn check_filter(plan: &ReportPlan, scenes: &[ChartedScene]) -> Result<(), Failure> {
     for scene in scenes {
-        if plan.fronts.methods_of(scene).is_empty() {
+        let known = plan.fronts.methods_of(scene).len();
+        if known < plan.fronts.only.methods.len().max(1) {
             let names: Vec<String> = Method::all(scene.reflectance).into_iter().map(Method::id).collect();
             return Err(format!("--method: {} is drawn with {}", scene.name, names.join(", ")).into());
         }

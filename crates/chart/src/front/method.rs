@@ -35,6 +35,9 @@ pub struct Method {
     pub reflectance: Option<Reflectance>,
     /// Whether the viewer is infinitely far away for the highlights, whatever the scene says.
     pub infinite_viewer: bool,
+    /// Whether point lights shine as if they were infinitely far away, from where they are as seen from the origin. Only
+    /// tried where the distance of a light is what is changed.
+    pub far_lights: bool,
     /// Samples a pixel.
     pub samples: Samples,
 }
@@ -125,7 +128,7 @@ impl Method {
 
     /// With one sample, and with the scene's reflectance and viewer.
     pub const fn new(shade: Shade) -> Self {
-        Self { shade, reflectance: None, infinite_viewer: false, samples: Samples::One }
+        Self { shade, reflectance: None, infinite_viewer: false, far_lights: false, samples: Samples::One }
     }
 
     /// Every method worth trying on a scene: flat, Gouraud and Phong with either viewer and either number of samples, every
@@ -171,6 +174,7 @@ impl Method {
             Some(Reflectance::BlinnPhongMatched) => "-by-blinn-phong-matched",
         };
         id += if self.infinite_viewer { "-infinite-viewer" } else { "" };
+        id += if self.far_lights { "-far-lights" } else { "" };
         id + if self.samples == Samples::Four { "-4-samples" } else { "" }
     }
 
@@ -184,6 +188,7 @@ impl Method {
             Some(Reflectance::BlinnPhongMatched) => ", matched Blinn–Phong for Phong",
         };
         words += if self.infinite_viewer { ", infinite viewer" } else { "" };
+        words += if self.far_lights { ", far lights" } else { "" };
         words + if self.samples == Samples::Four { ", 4 samples" } else { "" }
     }
 
@@ -205,12 +210,26 @@ impl Method {
                 object.insert(reflectance);
             }
         }
+        if self.far_lights {
+            put_lights_far_away(world);
+        }
         for mut camera in world.query::<&mut Camera>().iter_mut(world) {
             camera.samples = self.samples;
             if self.infinite_viewer {
                 camera.viewer = Viewer::Infinite;
             }
         }
+    }
+}
+
+fn put_lights_far_away(world: &mut World) {
+    let mut near = world.query::<(Entity, &PointLight, &Transform)>();
+    let near: Vec<_> = near.iter(world).map(|(entity, light, place)| (entity, *light, *place)).collect();
+    for (entity, light, place) in near {
+        let PointLight { ambient, diffuse, specular, .. } = light;
+        let far = DirectionalLight { ambient, diffuse, specular };
+        let toward = place.looking_at(Vec3::ZERO, Vec3::Y);
+        world.entity_mut(entity).remove::<PointLight>().insert((far, toward));
     }
 }
 

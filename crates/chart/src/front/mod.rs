@@ -4,6 +4,7 @@
 mod errors;
 mod keep;
 mod method;
+mod over;
 mod pareto;
 mod point;
 mod scene;
@@ -14,6 +15,7 @@ mod sweep;
 pub use errors::{Area, AreaErrors, ErrorFigures, PointErrors};
 pub use keep::KeptResults;
 pub use method::{Family, Method, Shade};
+pub use over::{MeasuredOver, Over};
 pub use pareto::{BOUGHT_RATIOS, BestWithin, ERROR_STEPS, Front};
 pub use point::FrontPoint;
 pub use scene::{BuildScene, ChartedScene, SceneDetail, SceneProblem, Still};

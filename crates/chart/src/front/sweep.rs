@@ -38,8 +38,8 @@ pub struct FrontPlan {
 /// What is measured of all that there is; all of it by default.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FrontFilter {
-    /// The method of this name ([`Method::id`]).
-    pub method: Option<String>,
+    /// The methods of these names ([`Method::id`]); all for none.
+    pub methods: Vec<String>,
     /// The detail of this name ([`SceneDetail::id`]).
     pub detail: Option<String>,
 }
@@ -120,11 +120,13 @@ impl FrontPlan {
     /// The methods that a scene is drawn with.
     pub fn methods_of(&self, scene: &ChartedScene) -> Vec<Method> {
         let every = Method::all(scene.reflectance);
-        match &self.only.method {
-            Some(only) => every.into_iter().filter(|method| method.id() == *only).collect(),
-            None if self.all_methods => every,
-            None => Method::few(scene.reflectance),
+        if self.only.methods.is_empty() {
+            return if self.all_methods { every } else { Method::few(scene.reflectance) };
         }
+        let far = every.iter().map(|method| Method { far_lights: true, ..*method });
+        let all: Vec<Method> = every.iter().copied().chain(far).collect();
+        // In the order in which they are asked for.
+        self.only.methods.iter().filter_map(|only| all.iter().find(|method| method.id() == *only)).copied().collect()
     }
 
     /// The units of [`MeasureProgress`] that [`sweep`] will report.
@@ -205,6 +207,14 @@ fn of_scene(
             }
         }
     }
+    // What was known already came first.
+    let methods: Vec<String> = plan.methods_of(scene).into_iter().map(Method::id).collect();
+    let details: Vec<String> = plan.details_of(scene).into_iter().map(SceneDetail::id).collect();
+    let place = |list: &[String], name: &String| list.iter().position(|other| other == name);
+    points.sort_by_key(|point: &FrontPoint| {
+        let adapter = adapters.iter().position(|adapter| adapter.name == point.backend);
+        (adapter, place(&details, &point.detail), place(&methods, &point.method))
+    });
     let ChartedScene { name, about, truth, .. } = scene;
     Ok(MeasuredScene { name: name.clone(), about: about.clone(), truth: truth.clone(), picture, size, points })
 }

@@ -444,7 +444,7 @@ fn panel(panels: &Panels<'_>, area: Area, title: String) -> Panel {
 }
 
 /// Colours that colour-blind readers tell apart (Okabe and Ito, "Color Universal Design", 2008), with markers of their own.
-fn style(family: Family) -> Style {
+pub(super) fn style(family: Family) -> Style {
     let (color, marker) = match family {
         Family::Constant => ([0x8a, 0x8a, 0x8a], Marker::Diamond),
         Family::Flat => ([0xd5, 0x5e, 0x00], Marker::Square),

@@ -3,6 +3,7 @@
 mod charts;
 mod failing;
 mod fronts;
+mod over;
 mod pages;
 mod plan;
 mod scaling;
@@ -14,7 +15,7 @@ use thiserror::Error;
 use crate::failures::{self, FailurePage};
 use crate::figure::Figure;
 use crate::figure::svg::{self, Size, SvgError};
-use crate::front::{ChartedAdapter, ChartedScene, KeptResults};
+use crate::front::{ChartedAdapter, ChartedScene, KeptResults, MeasuredOver};
 use crate::measure::convergence::{self, Convergence};
 use crate::measure::highlight::{self, Energies};
 use crate::measure::{MeasureError, MeasureProgress};
@@ -50,6 +51,8 @@ pub struct Report {
     pub convergence: Vec<Convergence>,
     /// The moving highlight.
     pub energies: Energies,
+    /// Error and time over shininess, lights and distance.
+    pub over: Vec<MeasuredOver>,
     /// Where methods fail.
     pub failures: Vec<FailurePage>,
     /// How the time of a frame grows; also tells what drew.
@@ -75,9 +78,10 @@ pub fn measure(
     let fronts = Fronts::measure(&plan.fronts, scenes, adapters, kept, &mut progress)?;
     let convergence = convergence::sweep(plan.convergence, &mut progress)?;
     let energies = highlight::sweep(plan.highlight, &mut progress)?;
+    let over = MeasuredOver::all(&plan.fronts, adapters, kept, &mut progress)?;
     let failures = failures::all(|page| progress.advance(1, page.title))?;
     let scaling = Scaling::measure(plan.scaling, &mut progress)?;
-    Ok(Report { plan: plan.clone(), fronts, convergence, energies, failures, scaling })
+    Ok(Report { plan: plan.clone(), fronts, over, convergence, energies, failures, scaling })
 }
 
 /// A figure as SVG, named by its identifier.

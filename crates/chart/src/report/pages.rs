@@ -4,6 +4,7 @@ use super::Report;
 use super::charts::order;
 use super::failing;
 use super::fronts::LEAD;
+use super::over;
 use super::tables::files;
 use crate::measure::convergence::{FITTED, QUANTITIES};
 use crate::measure::highlight::Unsteadiness;
@@ -15,6 +16,7 @@ impl Report {
     pub(super) fn page(&self) -> Page {
         let mut sections = self.fronts.sections();
         sections.extend([
+            over::section(&self.over),
             failing::section(&self.failures),
             self.convergence_section(),
             self.highlight_section(),

@@ -1,7 +1,7 @@
 //! How much is measured.
 
 use crate::failures;
-use crate::front::{ChartedScene, FrontFilter, FrontPlan};
+use crate::front::{ChartedScene, FrontFilter, FrontPlan, MeasuredOver};
 use crate::measure::{convergence, highlight, scaling};
 
 /// How much is measured of everything.
@@ -27,7 +27,7 @@ impl ReportPlan {
             rounds: 25,
             budget_ms: 2000.0,
             samples: 4,
-            only: FrontFilter { method: None, detail: None },
+            only: FrontFilter { methods: Vec::new(), detail: None },
         },
         convergence: convergence::ConvergencePlan { size: 768, levels: 5 },
         highlight: highlight::HighlightPlan { size: 256, level: 8, frames: 120 },
@@ -49,7 +49,7 @@ impl ReportPlan {
             rounds: 15,
             budget_ms: 200.0,
             samples: 2,
-            only: FrontFilter { method: None, detail: None },
+            only: FrontFilter { methods: Vec::new(), detail: None },
         },
         convergence: convergence::ConvergencePlan { size: 384, levels: 4 },
         highlight: highlight::HighlightPlan { size: 128, level: 8, frames: 60 },
@@ -66,6 +66,6 @@ impl ReportPlan {
     /// The units that [`measure`](super::measure) will report of these scenes on so many adapters.
     pub fn units(&self, scenes: &[ChartedScene], adapters: usize) -> u64 {
         let own = self.convergence.units() + self.highlight.units() + self.scaling.units() + failures::PAGES;
-        self.fronts.units(scenes, adapters) + own
+        self.fronts.units(scenes, adapters) + MeasuredOver::units(&self.fronts, adapters) + own
     }
 }
