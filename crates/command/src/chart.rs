@@ -32,7 +32,7 @@ pub(crate) struct ChartArgs {
     #[arg(long)]
     quick: bool,
     /// Only how the time of a frame grows with triangles, objects, lights and pixels; the page is scaling.html
-    #[arg(long, conflicts_with_all = ["inputs", "small_chart", "method", "detail"])]
+    #[arg(long, conflicts_with_all = ["inputs", "small_chart", "tables", "method", "detail"])]
     scaling: bool,
     /// Only this method, by the name that the page gives it, such as gouraud or phong-infinite-viewer; several times for
     /// several
@@ -47,6 +47,9 @@ pub(crate) struct ChartArgs {
     /// Also write the fronts of sphere, teapot and scan in small, an SVG file
     #[arg(long, value_name = "FILE")]
     small_chart: Option<PathBuf>,
+    /// Also write what wins where, and what each error costs, for every scene, a Markdown file
+    #[arg(long, value_name = "FILE")]
+    tables: Option<PathBuf>,
 }
 
 /// What is measured while a run goes on, so that an interrupted one resumes; gone at its end.
@@ -85,6 +88,9 @@ pub(crate) fn run(args: &ChartArgs) -> Result<(), Failure> {
     write_all(&args.output, files)?;
     if let Some(file) = &args.small_chart {
         write_and_tell(file, &fronts.small_chart(&["sphere", "teapot", "scan"])?)?;
+    }
+    if let Some(file) = &args.tables {
+        write_and_tell(file, &fronts.markdown())?;
     }
     // All of it is on the page now.
     let _ = fs::remove_file(unfinished);
@@ -140,7 +146,7 @@ fn s3() -> ChartedScene {
         app.add_plugins(Benchmark { scene, look, octahedra: false });
         Ok(())
     });
-    ChartedScene { size: UVec2::new(960, 540), ..ChartedScene::of_meshes("s3", about, build) }
+    ChartedScene { size: UVec2::new(640, 360), ..ChartedScene::of_meshes("s3", about, build) }
 }
 
 /// Whether every name of the command line is one of something that can be measured.

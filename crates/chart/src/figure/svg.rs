@@ -42,8 +42,10 @@ type Pixel = (i32, i32);
 const INK: RGBColor = RGBColor(0x2b, 0x2b, 0x2b);
 const GRID: RGBColor = RGBColor(0xe6, 0xe6, 0xe6);
 const FONT: &str = "system-ui, sans-serif";
-/// What title and legend take at the top.
+/// What the title and one line of legend take at the top.
 const HEAD: u32 = 64;
+/// What another line of legend takes.
+const LEGEND_LINE: u32 = 20;
 /// Half the width of a marker.
 const MARKER: i32 = 4;
 /// The length of line that stands for a series in the legend.
@@ -55,9 +57,11 @@ const SWATCH: i32 = 36;
 /// What the drawing library has to say; it has no reason to fail on text in memory.
 pub fn figure(figure: &Figure, size: Size) -> Result<String> {
     let rows = figure.panels.len().div_ceil(figure.columns).max(1);
-    on_canvas((size.width, HEAD + rows as u32 * size.row), |root| {
-        head(figure, root)?;
-        let body = root.split_vertically(HEAD).1.split_evenly((rows, figure.columns));
+    let legend = legend_lines(figure, size.width);
+    let top = HEAD + LEGEND_LINE * legend.len().saturating_sub(1) as u32;
+    on_canvas((size.width, top + rows as u32 * size.row), |root| {
+        head(figure, &legend, root)?;
+        let body = root.split_vertically(top).1.split_evenly((rows, figure.columns));
         figure.panels.iter().zip(body).try_for_each(|(content, area)| panel(figure, content, root, &area).map(drop))
     })
     .map(|(svg, ())| svg)
@@ -116,18 +120,38 @@ pub fn escaped(text: &str) -> String {
     escaped
 }
 
-fn head(figure: &Figure, root: &Area<'_>) -> Result {
+/// What a series takes in the legend. An SVG file does not say how wide its letters are; most are narrower than this.
+fn advance(series: &Series) -> i32 {
+    SWATCH + 8 + 8 * series.name.chars().count() as i32 + 22
+}
+
+/// The legend in as many lines as its entries need in this width, at least one entry in each.
+fn legend_lines(figure: &Figure, width: u32) -> Vec<Vec<&Series>> {
+    let mut lines: Vec<Vec<&Series>> = Vec::new();
+    let mut room = 0;
+    for series in figure.legend() {
+        room -= advance(series);
+        match lines.last_mut() {
+            Some(line) if room >= 0 => line.push(series),
+            _ => {
+                room = width as i32 - advance(series);
+                lines.push(vec![series]);
+            }
+        }
+    }
+    lines
+}
+
+fn head(figure: &Figure, legend: &[Vec<&Series>], root: &Area<'_>) -> Result {
     let middle = root.dim_in_pixel().0 as i32 / 2;
     write(root, &figure.title, (middle, 20), 16, (HPos::Center, VPos::Center))?;
-    let legend = figure.legend();
-    // An SVG file does not say how wide its letters are; most are narrower than this.
-    let advance = |series: &Series| SWATCH + 8 + 8 * series.name.chars().count() as i32 + 22;
-    let mut x = middle - legend.iter().map(|series| advance(series)).sum::<i32>() / 2 + 11;
-    for series in legend {
-        const Y: i32 = 47;
-        piece(root, (x, Y), series.style)?;
-        write(root, &series.name, (x + SWATCH + 8, Y), 13, (HPos::Left, VPos::Center))?;
-        x += advance(series);
+    for (line, y) in legend.iter().zip((47..).step_by(LEGEND_LINE as usize)) {
+        let mut x = middle - line.iter().map(|series| advance(series)).sum::<i32>() / 2 + 11;
+        for series in line {
+            piece(root, (x, y), series.style)?;
+            write(root, &series.name, (x + SWATCH + 8, y), 13, (HPos::Left, VPos::Center))?;
+            x += advance(series);
+        }
     }
     Ok(())
 }
@@ -291,6 +315,19 @@ mod tests {
             assert!(svg.contains(label), "{label:?}");
         }
         assert!(!svg.contains("NaN"));
+    }
+
+    #[test]
+    fn legends_take_the_lines_that_they_need() {
+        let example = example();
+        let names = |width| -> Vec<Vec<String>> {
+            let lines = legend_lines(&example, width);
+            lines.iter().map(|line| line.iter().map(|series| series.name.clone()).collect()).collect()
+        };
+        assert_eq!(names(800), [["one & all", "other"]]);
+        assert_eq!(names(150), [["one & all"], ["other"]]);
+        let svg = figure(&example, Size { width: 150, row: 300 }).unwrap();
+        assert!(svg.starts_with("<svg width=\"150\" height=\"384\""), "{}", &svg[..80]);
     }
 
     #[test]

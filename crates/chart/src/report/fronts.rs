@@ -213,6 +213,25 @@ impl Fronts {
         Ok(svg::figure(&figure, Size { width: 900, row: 330 })?)
     }
 
+    /// Who wins where, and both tables, for every scene, in Markdown.
+    pub fn markdown(&self) -> String {
+        let mut text =
+            String::from("# Fronts\n\nMade by `cargo xtask chart`; [charts.md](charts.md) says what is measured.\n\n");
+        text += &self.facts().iter().map(|(name, value)| format!("{name}: {value}")).collect::<Vec<_>>().join("; ");
+        text += ".\n";
+        for scene in &self.scenes {
+            let section = self.section(scene);
+            text += &format!("\n## {}\n", scene.name);
+            section.text.iter().for_each(|paragraph| text += &format!("\n{paragraph}\n"));
+            for PageTable { caption, header, rows, .. } in &section.tables {
+                let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
+                text += &format!("\n{caption}:\n\n{}|{}\n", line(header), "---|".repeat(header.len()));
+                rows.iter().for_each(|row| text += &line(row));
+            }
+        }
+        text
+    }
+
     /// `chart.json`, and the points as CSV.
     pub(super) fn tables(&self) -> Vec<NamedFile> {
         let json = json!({

@@ -11,13 +11,15 @@ use crate::setup::Setup;
 const FOLDER: &str = "out/chart";
 /// The README's chart, made again by all but quick runs.
 const PICTURE: &str = "docs/pictures/chart.svg";
+/// Who wins where, likewise.
+const TABLES: &str = "docs/fronts.md";
 
 /// Measure what shading costs and what it loses, and write a page of charts to out/chart/
 ///
 /// Error against time of every method on every scene, rates of convergence, how steady a moving highlight is, and how
 /// the time of a frame grows with triangles, objects, lights and pixels. Writes a page that opens offline,
 /// out/chart/index.html, with chart.json, every table as CSV and every chart as SVG beside it, and makes
-/// docs/pictures/chart.svg again. An interrupted run goes on where it stopped when it is started again.
+/// docs/pictures/chart.svg and docs/fronts.md again. An interrupted run goes on where it stopped when it is started again.
 /// docs/charts.md tells what is measured and how.
 #[derive(Args, Debug)]
 #[command(verbatim_doc_comment)]
@@ -46,7 +48,7 @@ fn arguments(quick: bool, scaling: bool) -> Vec<&'static str> {
     arguments.extend(quick.then_some("--quick"));
     arguments.extend(scaling.then_some("--scaling"));
     if !quick && !scaling {
-        arguments.extend(["--small-chart", PICTURE]);
+        arguments.extend(["--small-chart", PICTURE, "--tables", TABLES]);
     }
     arguments
 }
@@ -61,7 +63,7 @@ mod tests {
             (true, false, "--quick"),
             (false, true, "--scaling"),
             (true, true, "--quick --scaling"),
-            (false, false, "--small-chart docs/pictures/chart.svg"),
+            (false, false, "--small-chart docs/pictures/chart.svg --tables docs/fronts.md"),
         ];
         for (quick, scaling, end) in rows {
             assert_eq!(arguments(quick, scaling).join(" "), format!("chart --output out/chart {end}"));
