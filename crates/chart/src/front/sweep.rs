@@ -87,7 +87,7 @@ struct Task<'a> {
 
 impl Task<'_> {
     /// What is known of its point before it is measured.
-    fn point(self, adapter: &ChartedAdapter) -> FrontPoint {
+    fn point(self, plan: &FrontPlan, adapter: &ChartedAdapter) -> FrontPoint {
         let Self { scene, detail, method } = self;
         let command = ["halfway chart", &scene.name, "--detail", &detail.id(), "--method", &method.id()].join(" ");
         FrontPoint {
@@ -99,7 +99,7 @@ impl Task<'_> {
             detail: detail.id(),
             detail_words: detail.words(),
             backend: adapter.name.clone(),
-            command: format!("{command} --adapter {}", adapter.name),
+            command: format!("{command} --adapter {}{}", adapter.name, if plan.smaller > 1 { " --quick" } else { "" }),
             ..FrontPoint::default()
         }
     }
@@ -306,7 +306,7 @@ impl Judged {
         let points = found.map(|(((task, stage), (ms, ratio)), (errors, pictures))| {
             let [picture, difference] = pictures;
             let triangles = stage.triangles();
-            FrontPoint { triangles, ms, ratio, errors, picture, difference, ..task.point(adapter) }
+            FrontPoint { triangles, ms, ratio, errors, picture, difference, ..task.point(plan, adapter) }
         });
         Ok(points.collect())
     }

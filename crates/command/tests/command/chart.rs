@@ -41,7 +41,7 @@ fn one_point_is_measured_again_by_its_command() {
     let names: Vec<_> = chart["points"].as_array().expect("points").iter().map(|point| &point["method"]).collect();
     assert_eq!(names, ["gouraud", "flat"]);
     let command = chart["points"][0]["command"].as_str().expect("a command");
-    assert_eq!(command, "halfway chart sphere --detail 16 --method gouraud --adapter cpu");
+    assert_eq!(command, "halfway chart sphere --detail 16 --method gouraud --adapter cpu --quick");
     let tables = fs::read_to_string(folder.join("t.md")).expect("the tables were written");
     assert!(tables.contains("## sphere") && tables.contains("| 0.5 steps |"), "{tables}");
 }
