@@ -136,10 +136,16 @@ impl Figure {
         let all = || self.shown().map(|(_, point)| point);
         let own = || panel.series.iter().flat_map(|series| self.drawn(series));
         let x = match panel.x_label {
-            None => self.x.range(all().map(|point| point.x)),
-            Some(_) => self.x.range(own().map(|point| point.x)),
+            None => self.x.range(all().flat_map(|point| self.reach(point))),
+            Some(_) => self.x.range(own().flat_map(|point| self.reach(point))),
         };
         [x, self.y.range(all().map(|point| point.y))]
+    }
+
+    /// Where a point and its quartiles stand along the horizontal axis.
+    fn reach(&self, point: &Point) -> impl Iterator<Item = f64> {
+        let (low, high) = point.quartiles.unwrap_or((point.x, point.x));
+        [low, point.x, high].into_iter().filter(|x| self.x.shows(*x))
     }
 
     /// Every point that can be drawn, with its series. A logarithmic axis has no place for 0.

@@ -67,10 +67,16 @@ impl Front {
         self.errors[place]
     }
 
-    /// Who wins where, in a sentence, coarse errors first: neighbours on the front of one family are told together.
-    /// Empty for no points.
+    /// Who wins where, in a sentence, coarse errors first: neighbours on the front of one family are told together, and
+    /// points that err less than a fifth less than the one before are left out. Empty for no points.
     pub fn sentence(&self, points: &[&FrontPoint]) -> String {
-        let runs: Vec<&[usize]> = self.members.chunk_by(|&a, &b| points[a].family == points[b].family).collect();
+        let mut told: Vec<usize> = Vec::new();
+        for &i in &self.members {
+            if told.last().is_none_or(|&last| self.errors[i] <= 0.8 * self.errors[last]) {
+                told.push(i);
+            }
+        }
+        let runs: Vec<&[usize]> = told.chunk_by(|&a, &b| points[a].family == points[b].family).collect();
         let part = |run: &&[usize]| {
             let (first, last) = (run[0], run[run.len() - 1]);
             let time = |i: usize| format!("{:.2}", points[i].ratio.median);
@@ -159,6 +165,24 @@ mod tests {
             front.sentence(&all),
             "Nothing beats flat (8 cells) at 1.00 × the reference frame, 5.00 steps off; then gouraud (8 cells) at \
              1.50 × the reference frame, 2.00 steps off; then phong (8 cells) at 3.00 × the reference frame, 0.40 steps off."
+        );
+    }
+
+    #[test]
+    fn what_is_hardly_better_is_not_told() {
+        let all = [
+            point("flat", 1.0, 5.0),
+            point("gouraud", 1.5, 4.9),
+            point("phong-a", 2.0, 2.0),
+            point("phong-b", 3.0, 1.0),
+        ];
+        let all: Vec<&FrontPoint> = all.iter().collect();
+        let front = Front::of(&all, rms);
+        assert_eq!(front.members.len(), 4);
+        assert_eq!(
+            front.sentence(&all),
+            "Nothing beats flat (8 cells) at 1.00 × the reference frame, 5.00 steps off; then phong from 2.00 to 3.00 ×, \
+             2.00 to 1.00 steps off."
         );
     }
 

@@ -215,21 +215,21 @@ impl Fronts {
 
     /// Who wins where, and both tables, for every scene, in Markdown.
     pub fn markdown(&self) -> String {
-        let mut text =
-            String::from("# Fronts\n\nMade by `cargo xtask chart`; [charts.md](charts.md) says what is measured.\n\n");
-        text += &self.facts().iter().map(|(name, value)| format!("{name}: {value}")).collect::<Vec<_>>().join("; ");
-        text += ".\n";
+        let facts: Vec<String> = self.facts().iter().map(|(name, value)| format!("{name}: {value}")).collect();
+        let head = "# Fronts\n\nMade by `cargo xtask chart`; [charts.md](charts.md) says what is measured.";
+        let mut blocks = vec![head.to_owned(), facts.join("; ") + "."];
         for scene in &self.scenes {
             let section = self.section(scene);
-            text += &format!("\n## {}\n", scene.name);
-            section.text.iter().for_each(|paragraph| text += &format!("\n{paragraph}\n"));
+            blocks.push(format!("## {}", scene.name));
+            blocks.extend(section.text);
             for PageTable { caption, header, rows, .. } in &section.tables {
-                let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
-                text += &format!("\n{caption}:\n\n{}|{}\n", line(header), "---|".repeat(header.len()));
-                rows.iter().for_each(|row| text += &line(row));
+                let line = |cells: &Vec<String>| format!("| {} |", cells.join(" | "));
+                let rule = format!("|{}", "---|".repeat(header.len()));
+                let lines = [line(header), rule].into_iter().chain(rows.iter().map(line));
+                blocks.extend([format!("{caption}:"), lines.collect::<Vec<_>>().join("\n")]);
             }
         }
-        text
+        blocks.join("\n\n") + "\n"
     }
 
     /// `chart.json`, and the points as CSV.

@@ -99,6 +99,7 @@ impl Report {
         let page = self.page();
         let mut files = vec![("index.html".to_owned(), html(&page)?)];
         files.extend(self.tables());
+        files.push(("over.csv".to_owned(), over::csv(&self.over)));
         for (_, figure) in page.sections.iter().flat_map(|section| &section.figures) {
             files.push(figure_file(figure)?);
         }

@@ -1,6 +1,6 @@
 //! The report as CSV files.
 
-use super::{NamedFile, Report, over};
+use super::{NamedFile, Report};
 use crate::measure::convergence::QUANTITIES;
 use crate::measure::highlight::{Unsteadiness, unsteadiness};
 use crate::measure::{SHADINGS, shading_name};
@@ -10,7 +10,6 @@ impl Report {
     /// Every table.
     pub(super) fn tables(&self) -> Vec<NamedFile> {
         let own = [
-            ("over.csv".to_owned(), over::csv(&self.over)),
             ("convergence.csv".to_owned(), self.convergence_csv()),
             ("slopes.csv".to_owned(), self.slopes_csv()),
             ("highlight.csv".to_owned(), self.highlight_csv()),
