@@ -19,14 +19,14 @@ const TABLES: &str = "docs/fronts.md";
 /// Error against time of every method on every scene, rates of convergence, how steady a moving highlight is, and how
 /// the time of a frame grows with triangles, objects, lights and pixels. Writes a page that opens offline,
 /// out/chart/index.html, with chart.json, every table as CSV and every chart as SVG beside it, and makes
-/// docs/pictures/chart.svg and docs/fronts.md again. An interrupted run goes on where it stopped when it is started again.
-/// docs/charts.md tells what is measured and how.
+/// docs/pictures/chart.svg and docs/fronts.md again. An interrupted run goes on where it stopped when it is
+/// started again. docs/charts.md tells what is measured and how.
 #[derive(Args, Debug)]
 #[command(verbatim_doc_comment)]
 pub(crate) struct Options {
     #[command(flatten)]
     setup: Setup,
-    /// Fewer tessellations, rounds, frames and pixels, in less than two minutes; docs/ stays as it is
+    /// Fewer methods, details, rounds and pixels, in less than two minutes; docs/ stays as it is
     #[arg(long)]
     quick: bool,
     /// Only how the time of a frame grows, on out/chart/scaling.html; docs/ stays as it is
