@@ -16,9 +16,9 @@ use crate::tally::counted;
 /// Run every test, those that need a graphics adapter or a window included
 ///
 /// Documentation examples included, in the release profile, with a summary at the end. No test is skipped for want of
-/// an adapter or a screen: what they need and the machine lacks (Vulkan drivers, OpenGL, the virtual screen Xvfb, the
-/// window manager openbox, the browser chromium) is installed first, by apt-get where it may be used; otherwise nothing is built, and the
-/// remedy is printed.
+/// an adapter, a screen or a browser: what they need and the machine lacks (Vulkan drivers, OpenGL, the virtual screen
+/// Xvfb, the window manager openbox, the browser chromium) is installed first, by apt-get where it may be used;
+/// otherwise nothing is built, and the remedy is printed.
 #[derive(Args, Debug)]
 #[command(verbatim_doc_comment)]
 pub(crate) struct Options {
