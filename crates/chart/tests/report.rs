@@ -4,14 +4,27 @@ mod browser;
 
 use std::sync::OnceLock;
 
+use halfway::prelude::*;
+use halfway::render::AdapterChoice;
+use halfway_chart::front::{
+    ChartedAdapter, ChartedScene, FrontFilter, FrontPlan, FrontPoint, KeptResults, Method, Over, scenes,
+};
 use halfway_chart::measure::highlight::{self, unsteadiness};
 use halfway_chart::measure::scaling::{self, Growth, LOOKS};
-use halfway_chart::measure::{MeasureProgress, SHADINGS, accuracy, convergence};
-use halfway_chart::{Report, ReportPlan, measure};
+use halfway_chart::measure::{MeasureProgress, SHADINGS, convergence};
+use halfway_chart::{Fronts, Report, ReportPlan, measure};
 
 /// Two levels, two rounds, two frames of very small pictures.
 const SMALLEST: ReportPlan = ReportPlan {
-    accuracy: accuracy::AccuracyPlan { size: 48, levels: 2, rounds: 1 },
+    fronts: FrontPlan {
+        smaller: 12,
+        details: 2,
+        all_methods: false,
+        rounds: 1,
+        budget_ms: 1.0,
+        samples: 2,
+        only: FrontFilter { methods: Vec::new(), detail: None },
+    },
     convergence: convergence::ConvergencePlan { size: 48, levels: 2 },
     highlight: highlight::HighlightPlan { size: 32, level: 8, frames: 2 },
     // No curve is cut, so that the number of points does not depend on the machine.
@@ -28,18 +41,34 @@ const SMALLEST: ReportPlan = ReportPlan {
 const STEPS: [&[f64]; Growth::ALL.len()] =
     [&[1e3, 1e4], &[1e1, 1e2, 1e3], &[1e1, 1e2, 1e3], &[1.0, 1e1, 1e2], &[1.0, 3.0], &[4096.0, 1e4, 82944.0]];
 
+fn charted() -> Vec<ChartedScene> {
+    vec![scenes::sphere(), scenes::teapot_by_phong()]
+}
+
+fn adapters() -> Vec<ChartedAdapter> {
+    let adapter = AdapterChoice::default().open().expect("an adapter");
+    vec![ChartedAdapter { name: "the adapter".to_owned(), adapter }]
+}
+
 /// Measured once for all tests.
 fn report() -> &'static Report {
     static REPORT: OnceLock<Report> = OnceLock::new();
     REPORT.get_or_init(|| {
         let mut last = 0;
-        let report = measure(SMALLEST, &mut |done, _| {
+        let tell = &mut |done, _: &str| {
             assert!(done >= last, "progress never goes back");
             last = done;
-        });
-        assert_eq!(last, SMALLEST.units(), "all that was announced was done");
+        };
+        let report = measure(&SMALLEST, &charted(), &adapters(), &mut KeptResults::default(), tell);
+        assert_eq!(last, SMALLEST.units(&charted(), 1), "all that was announced was done");
         report.expect("everything can be measured")
     })
+}
+
+/// The points of a scene of the report.
+fn points(scene: &str) -> &'static [FrontPoint] {
+    let found = report().fronts.scenes.iter().find(|measured| measured.name == scene);
+    &found.expect("the scene was measured").points
 }
 
 fn file(name: &str) -> String {
@@ -61,19 +90,114 @@ fn rows(name: &str) -> Vec<Vec<String>> {
 
 #[test]
 fn every_point_is_measured_and_finite() {
-    let accuracy = &report().accuracy;
-    // 2 objects, 2 levels, 3 shadings, 2 reflectances with 2 viewers each.
-    assert_eq!(accuracy.len(), 2 * 2 * 3 * 4);
-    for measured in accuracy {
-        let name = accuracy::describe(measured);
-        let errors = &measured.comparison.linear.all;
-        assert!(measured.ratio.is_finite() && measured.ratio > 0.0, "{name}");
-        assert!(errors.rmse.is_finite() && errors.rmse > 0.0 && errors.rmse <= errors.max(), "{name}");
-        assert!(measured.flip.is_finite() && measured.flip >= 0.0, "{name}");
-        assert_eq!(measured.comparison.not_finite, None, "{name}");
-        let coverage = measured.comparison.coverage.expect("both pictures know what they cover");
-        // A mesh of chords lies inside a sphere, and near a teapot.
-        assert!(coverage.both > 10 * coverage.only_actual, "{name}: {coverage:?}");
+    // Two details of six methods, and of seven where Blinn's formula may stand for Phong's.
+    assert_eq!((points("sphere").len(), points("teapot-by-phong").len()), (12, 14));
+    for point in points("sphere").iter().chain(points("teapot-by-phong")) {
+        let name = point.describe();
+        assert!(point.ratio.median.is_finite() && point.ratio.min > 0.0 && point.ms.min > 0.0, "{name}");
+        assert!(point.ratio.lower_quartile <= point.ratio.median && point.triangles > 0, "{name}");
+        for area in [&point.errors.covered, &point.errors.whole] {
+            for errors in [area.steps, area.linear] {
+                assert!(errors.rms > 0.0 && errors.rms <= errors.max && errors.p95 <= errors.max, "{name}: {errors:?}");
+            }
+            assert!((0.0..=1.0).contains(&area.flip), "{name}");
+        }
+    }
+}
+
+/// Both from the finer of two details: a mesh of 256 meridians.
+#[test]
+fn errors_are_of_the_method_and_not_of_the_truth() {
+    let fine = |method: Method| {
+        let found = points("sphere").iter().rfind(|point| point.method == method.id());
+        found.expect("the method was measured").errors
+    };
+    let [flat, gouraud, phong, ..] = [Shading::Flat, Shading::Gouraud, Shading::Phong].map(|shading| {
+        fine(
+            Method::few(None)
+                .into_iter()
+                .find(|m| m.id() == Method::new(halfway_chart::front::Shade::At(shading)).id())
+                .unwrap(),
+        )
+    });
+    // Phong shading of so fine a mesh keeps to half a step nearly everywhere, flat shading does not.
+    assert!(phong.covered.steps.p95 < 1.0 && flat.covered.steps.rms > phong.covered.steps.rms, "{flat:?}, {phong:?}");
+    assert!(gouraud.covered.steps.rms <= flat.covered.steps.rms);
+    // One sample a pixel is wrong at the silhouette, whatever the shading; four are less so.
+    let smooth =
+        fine(Method { samples: Samples::Four, ..Method::new(halfway_chart::front::Shade::At(Shading::Phong)) });
+    assert!(phong.whole.steps.rms > 2.0 * phong.covered.steps.rms, "{phong:?}");
+    assert!(smooth.whole.steps.rms < phong.whole.steps.rms, "{smooth:?}, {phong:?}");
+}
+
+#[test]
+fn what_is_kept_is_not_measured_again() {
+    let (scenes, adapters) = ([scenes::sphere()], adapters());
+    let only = FrontFilter { methods: vec!["gouraud".to_owned()], detail: None };
+    let plan = FrontPlan { only, ..SMALLEST.fronts };
+    let mut kept = KeptResults::default();
+    let run = |scenes: &[ChartedScene], kept: &mut KeptResults| {
+        let mut done = 0;
+        let fronts =
+            Fronts::measure(&plan, scenes, &adapters, kept, &mut MeasureProgress::new(&mut |now, _| done = now));
+        assert_eq!(done, plan.units(scenes, 1));
+        fronts
+    };
+    let first = run(&scenes, &mut kept).expect("the sphere can be measured");
+    assert_eq!(first.scenes[0].points.len(), 2);
+    // What is known stands where it belongs among what is not.
+    let all = FrontPlan { only: FrontFilter::default(), ..plan.clone() };
+    let again = Fronts::measure(&all, &scenes, &adapters, &mut kept, &mut MeasureProgress::new(&mut |_, _| ()));
+    let again = again.expect("the sphere can be measured").scenes.remove(0).points;
+    let names: Vec<String> = Method::few(None).into_iter().map(Method::id).collect();
+    assert!(again.chunks(names.len()).all(|points| points.iter().map(|point| &point.method).eq(&names)));
+    assert!(first.scenes[0].points.iter().all(|point| again.contains(point)));
+    // A scene that can no longer be set up is known all the same.
+    let broken = ChartedScene { build: Box::new(|_, _| Err("gone".to_owned())), ..scenes::sphere() };
+    let again = run(&[broken], &mut kept).expect("nothing is drawn");
+    assert_eq!(again.scenes[0].points, first.scenes[0].points);
+    let broken = ChartedScene { build: Box::new(|_, _| Err("gone".to_owned())), ..scenes::sphere() };
+    assert!(
+        Fronts::measure(
+            &plan,
+            &[broken],
+            &adapters,
+            &mut KeptResults::default(),
+            &mut MeasureProgress::new(&mut |_, _| ())
+        )
+        .is_err()
+    );
+}
+
+#[test]
+fn chart_json_has_every_point_by_its_keys() {
+    let json: serde_json::Value = serde_json::from_str(&file("chart.json")).expect("JSON");
+    let points = json["points"].as_array().expect("points");
+    assert_eq!(points.len(), 26);
+    for point in points {
+        for key in ["scene", "method", "tessellation", "backend"] {
+            assert!(point[key].is_string(), "{key}: {point}");
+        }
+        for key in ["ms", "rms", "max", "flip", "p95", "ratio"] {
+            assert!(point[key].as_f64().is_some_and(f64::is_finite), "{key}: {point}");
+        }
+        assert!(point["tolerance"].is_null() && point["front"].is_boolean(), "{point}");
+        assert!(point["whole"]["rms"].is_number() && point["float"]["rms"].is_number());
+    }
+    for scene in ["sphere", "teapot-by-phong"] {
+        let mut front: Vec<[f64; 2]> = Vec::new();
+        for point in points.iter().filter(|point| point["scene"] == scene) {
+            let here = ["ratio", "rms"].map(|key| point[key].as_f64().unwrap());
+            if point["front"] == true {
+                front.push(here);
+            }
+        }
+        assert!(!front.is_empty());
+        // Nothing of the scene is faster than one of the front and errs less.
+        for point in points.iter().filter(|point| point["scene"] == scene) {
+            let [time, error] = ["ratio", "rms"].map(|key| point[key].as_f64().unwrap());
+            assert!(front.iter().all(|[t, e]| time >= *t || error >= *e), "{point}");
+        }
     }
 }
 
@@ -114,26 +238,42 @@ fn scaling_has_a_page_of_its_own() {
 
 #[test]
 fn tables_have_every_row() {
-    assert_eq!(rows("error.csv").len(), 48);
+    assert_eq!(file("points.csv").lines().count(), 1 + 26);
     // 2 objects, 2 materials, 3 shadings; 2 levels, or 3 quantities.
     assert_eq!((rows("convergence.csv").len(), rows("slopes.csv").len()), (24, 36));
     assert_eq!((rows("highlight.csv").len(), rows("unsteadiness.csv").len()), (2, 3));
     let steps: usize = STEPS.iter().map(|steps| steps.len()).sum();
     // One growth has a comma in its name.
     assert_eq!(file("scaling.csv").lines().count(), 1 + steps * LOOKS.len());
-    for row in rows("error.csv") {
-        for number in &row[6..] {
-            assert!(number.parse::<f64>().is_ok_and(f64::is_finite), "{row:?}");
-        }
-    }
+}
+
+/// Near and far lights differ by less the farther away the near one is; from 1000 radii on by nothing that is seen.
+#[test]
+fn a_far_light_may_stand_for_one_that_is_far_enough() {
+    let over = report().over.iter().find(|measured| measured.over == Over::Distance).expect("the distance was changed");
+    let error = |step: usize, method: &str| {
+        let (_, points) = &over.steps[step];
+        let point = points.iter().find(|point| point.method == method).expect("the method was measured");
+        point.errors.covered.steps.rms
+    };
+    let last = over.steps.len() - 1;
+    assert!(over.steps[last].0 >= 1000.0);
+    assert!(error(0, "phong-far-lights") > 10.0 * error(0, "phong"), "1.5 radii: {}", error(0, "phong-far-lights"));
+    let [near, far] = ["phong", "phong-far-lights"].map(|method| error(last, method));
+    assert!((near - far).abs() < 0.1, "{near}, {far}");
+    // No figure is left out, and the CSV has a row for each.
+    let points: usize = report().over.iter().flat_map(|measured| &measured.steps).map(|(_, points)| points.len()).sum();
+    assert_eq!(rows("over.csv").len(), points);
+    // Four families of four methods at 4 + 4 + 4 + 4 steps.
+    assert_eq!(points, 4 * 16);
 }
 
 #[test]
 fn charts_show_every_series() {
-    let mut charts = ["error-rms", "error-max", "error-flip", "convergence", "highlight", "scaling"]
+    let mut charts = ["front-sphere", "front-teapot-by-phong", "convergence", "highlight", "scaling"]
         .map(|id| file(&format!("{id}.svg")))
         .to_vec();
-    charts.push(report().small_chart().expect("the small chart can be drawn"));
+    charts.push(report().fronts.small_chart(&["sphere"]).expect("the small chart can be drawn"));
     for svg in charts {
         assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
         for series in ["flat", "Gouraud", "Phong"] {
@@ -147,17 +287,25 @@ fn charts_show_every_series() {
 fn the_page_holds_all_and_fetches_nothing() {
     let page = file("index.html");
     for part in [
-        "id=\"error-rms\"",
-        "id=\"error-flip\" hidden",
+        "data-scene=\"sphere\"",
+        "data-scene=\"teapot-by-phong\"",
+        "id=\"front-sphere\"",
         "id=\"convergence\"",
         "id=\"highlight\"",
         "id=\"scaling\"",
-        "error.csv",
+        "points.csv",
+        "chart.json",
     ] {
         assert!(page.contains(part), "{part}");
     }
-    // Two pictures for each of the 48 points.
-    assert_eq!(page.matches("data:image/png;base64,").count(), 96);
+    assert!(page.contains("id=\"over-error\"") && page.contains("id=\"over-time\" hidden"));
+    for failure in &report().failures {
+        assert!(page.contains(&format!("href=\"failure-{}.html\"", failure.id)), "{}", failure.id);
+        let own = file(&format!("failure-{}.html", failure.id));
+        assert!(own.contains(failure.test) && own.contains("data:image/png") && own.contains("<svg"), "{}", failure.id);
+    }
+    // Two pictures for each of the 26 points, and one of the truth for each scene.
+    assert_eq!(page.matches("data:image/jpeg;base64,").count(), 54);
     let page = page.replace("xmlns=\"http://www.w3.org/2000/svg\"", "");
     assert!(!page.contains("http:") && !page.contains("https:") && !page.contains("src=\"//"));
 }

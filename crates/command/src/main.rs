@@ -2,6 +2,7 @@
 
 mod adapters;
 mod bench;
+mod chart;
 mod compare;
 mod convert;
 mod failure;
@@ -71,6 +72,11 @@ enum Command {
     Convert(convert::ConvertArgs),
     /// Time a benchmark scene in every shading, beside a constant colour; or what features cost
     Bench(bench::BenchArgs),
+    /// Chart error against time of every method on a scene, and say what to choose; or of all scenes of the project's
+    ///
+    /// Writes a page that opens offline, index.html, and beside it chart.json, tables and drawings. Each file appears only
+    /// when it is complete. An interrupted run goes on where it stopped when it is started again.
+    Chart(chart::ChartArgs),
     /// List what can draw, graphics adapters and the CPU, the one that is used first
     Adapters,
     /// Print the JSON schema of scene files
@@ -110,6 +116,7 @@ fn main() -> ExitCode {
         Command::Info(args) => info::run(&args),
         Command::Convert(args) => convert::run(&args),
         Command::Bench(args) => bench::run(&args),
+        Command::Chart(args) => chart::run(&args),
         Command::Adapters => adapters::run(),
         Command::Schema => {
             print!("{}", halfway::scene::json_schema());

@@ -4,6 +4,7 @@ mod command {
     mod adapters;
     mod bad_input;
     mod bench;
+    mod chart;
     mod models;
     mod pictures;
     mod reference;

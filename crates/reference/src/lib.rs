@@ -7,9 +7,11 @@
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 mod image;
+mod interpolation;
 pub mod metrics;
 mod oracle;
 mod surface;
 
 pub use image::Image;
+pub use interpolation::{Interpolation, PolygonCorner};
 pub use oracle::{ColorRange, Mode, Nearest, Oracle, OracleError, Possible, Seen, Stopped};

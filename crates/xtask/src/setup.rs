@@ -80,6 +80,16 @@ pub(crate) fn swiftshader() -> Option<PathBuf> {
     folders.map(|folder| PathBuf::from(folder).join("vk_swiftshader_icd.json")).into_iter().find(|path| path.is_file())
 }
 
+/// The browser that opens the page of the charts.
+pub(crate) const BROWSER: Need = Need {
+    missing: || {
+        let names = ["chromium", "chromium-browser", "google-chrome"];
+        let there = names.iter().any(|name| programs::find(name).is_some());
+        (!there).then(|| "chromium, for the tests of the page with the charts".into())
+    },
+    packages: Packages { apt: &["chromium"], dnf: &["chromium"], pacman: &["chromium"] },
+};
+
 /// A compiler for the parts of dependencies that are written in C++.
 pub(crate) const COMPILER: Need = Need {
     missing: || programs::find("c++").is_none().then(|| "a C++ compiler".into()),

@@ -10,7 +10,7 @@ pub use axis::{Axis, AxisScale, Tick};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
     /// Names the SVG file and the chart's place on the page: lower case, no spaces.
-    pub id: &'static str,
+    pub id: String,
     /// What is charted, in a line.
     pub title: String,
     /// The horizontal axis of every panel.
@@ -56,8 +56,17 @@ pub struct Point {
     pub y: f64,
     /// What the point is, in a line.
     pub label: String,
-    /// The number of its card among those of the page, which tells and shows more; `None` where the label is all.
-    pub card: Option<usize>,
+    /// From where to where half of the values lie that `x` is the median of, where it is one.
+    pub quartiles: Option<(f64, f64)>,
+    /// Whether another point is better in everything: it is drawn pale.
+    pub faded: bool,
+}
+
+impl Point {
+    /// A point without quartiles.
+    pub fn new(x: f64, y: f64, label: String) -> Self {
+        Self { x, y, label, quartiles: None, faded: false }
+    }
 }
 
 /// How a series looks. Colour, marker and line all differ between series, so that each is told by any of them.
@@ -82,6 +91,12 @@ pub enum Marker {
     Square,
     /// ▲
     Triangle,
+    /// ◆
+    Diamond,
+    /// ▼
+    Wedge,
+    /// ★ of four points.
+    Star,
 }
 
 /// How a line is drawn.
@@ -93,13 +108,23 @@ pub enum Stroke {
     Dash,
     /// In dots.
     Dot,
+    /// Not at all: points alone.
+    Nothing,
+}
+
+impl Style {
+    /// The same in a colour that stands back.
+    pub(crate) fn faded(self) -> Self {
+        // Three quarters of the way to white.
+        Self { color: self.color.map(|channel| 255 - (255 - channel) / 4), ..self }
+    }
 }
 
 impl Stroke {
     /// The lengths of ink and gap in pixels; `None` without gaps.
     pub(crate) fn pattern(self) -> Option<(u32, u32)> {
         match self {
-            Self::Solid => None,
+            Self::Solid | Self::Nothing => None,
             Self::Dash => Some((8, 4)),
             Self::Dot => Some((2, 3)),
         }
@@ -113,10 +138,16 @@ impl Figure {
         let all = || self.shown().map(|(_, point)| point);
         let own = || panel.series.iter().flat_map(|series| self.drawn(series));
         let x = match panel.x_label {
-            None => self.x.range(all().map(|point| point.x)),
-            Some(_) => self.x.range(own().map(|point| point.x)),
+            None => self.x.range(all().flat_map(|point| self.reach(point))),
+            Some(_) => self.x.range(own().flat_map(|point| self.reach(point))),
         };
         [x, self.y.range(all().map(|point| point.y))]
+    }
+
+    /// Where a point and its quartiles stand along the horizontal axis.
+    fn reach(&self, point: &Point) -> impl Iterator<Item = f64> {
+        let (low, high) = point.quartiles.unwrap_or((point.x, point.x));
+        [low, point.x, high].into_iter().filter(|x| self.x.shows(*x))
     }
 
     /// Every point that can be drawn, with its series. A logarithmic axis has no place for 0.
@@ -149,7 +180,7 @@ pub(crate) mod tests {
     /// Two panels of two series; one point, at 0, has no place on the logarithmic axis.
     pub(crate) fn example() -> Figure {
         let style = |color, marker, stroke| Style { color, marker: Some(marker), filled: true, stroke };
-        let point = |x, y| Point { x, y, label: format!("<{x}> & {y}"), card: Some(7) };
+        let point = |x, y| Point { quartiles: Some((0.9 * x, 1.1 * x)), ..Point::new(x, y, format!("<{x}> & {y}")) };
         let panel = |title: &str, factor: f64| Panel {
             title: title.to_owned(),
             x_label: None,
@@ -168,7 +199,7 @@ pub(crate) mod tests {
             ],
         };
         Figure {
-            id: "example",
+            id: "example".to_owned(),
             title: "An <example>".to_owned(),
             x: Axis::new("time", AxisScale::Log),
             y: Axis::new("error", AxisScale::Log),

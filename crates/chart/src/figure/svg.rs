@@ -1,6 +1,5 @@
 //! Figures as SVG, with text as text.
 
-use std::fmt::Write as _;
 use std::ops::Range;
 
 use plotters::coord::Shift;
@@ -13,7 +12,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, IntoFont, TextStyle};
 use thiserror::Error;
 
-use super::{Axis, Figure, Marker, Panel, Point, Series, Style, Tick};
+use super::{Axis, Figure, Marker, Panel, Point, Series, Stroke, Style, Tick};
 
 /// How large a figure is drawn, in pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,8 +42,10 @@ type Pixel = (i32, i32);
 const INK: RGBColor = RGBColor(0x2b, 0x2b, 0x2b);
 const GRID: RGBColor = RGBColor(0xe6, 0xe6, 0xe6);
 const FONT: &str = "system-ui, sans-serif";
-/// What title and legend take at the top.
+/// What the title and one line of legend take at the top.
 const HEAD: u32 = 64;
+/// What another line of legend takes.
+const LEGEND_LINE: u32 = 20;
 /// Half the width of a marker.
 const MARKER: i32 = 4;
 /// The length of line that stands for a series in the legend.
@@ -56,16 +57,18 @@ const SWATCH: i32 = 36;
 /// What the drawing library has to say; it has no reason to fail on text in memory.
 pub fn figure(figure: &Figure, size: Size) -> Result<String> {
     let rows = figure.panels.len().div_ceil(figure.columns).max(1);
-    on_canvas((size.width, HEAD + rows as u32 * size.row), |root| {
-        head(figure, root)?;
-        let body = root.split_vertically(HEAD).1.split_evenly((rows, figure.columns));
+    let legend = legend_lines(figure, size.width);
+    let top = HEAD + LEGEND_LINE * legend.len().saturating_sub(1) as u32;
+    on_canvas((size.width, top + rows as u32 * size.row), |root| {
+        head(figure, &legend, root)?;
+        let body = root.split_vertically(top).1.split_evenly((rows, figure.columns));
         figure.panels.iter().zip(body).try_for_each(|(content, area)| panel(figure, content, root, &area).map(drop))
     })
     .map(|(svg, ())| svg)
 }
 
 /// Draws one panel of a figure alone, for a page that can be pointed at: over each point lies an invisible circle of the
-/// class `hit`, with the point's label as `data-label` and the number of its card, if it has one, as `data-card`.
+/// class `hit`, with the point's label as `data-label`.
 ///
 /// # Errors
 /// What the drawing library has to say; it has no reason to fail on text in memory.
@@ -105,11 +108,7 @@ fn on_canvas<T>((width, height): (u32, u32), draw: impl FnOnce(&Area<'_>) -> Res
 
 fn hit((point, (x, y)): (&Point, Pixel)) -> String {
     let label = escaped(&point.label);
-    let mut circle = format!("<circle class=\"hit\" cx=\"{x}\" cy=\"{y}\" r=\"8\" data-label=\"{label}\"");
-    if let Some(card) = point.card {
-        let _ = write!(circle, " data-card=\"{card}\"");
-    }
-    circle + "/>\n"
+    format!("<circle class=\"hit\" cx=\"{x}\" cy=\"{y}\" r=\"8\" data-label=\"{label}\"/>\n")
 }
 
 /// Text as HTML and SVG, in elements and in quoted attributes.
@@ -121,18 +120,38 @@ pub fn escaped(text: &str) -> String {
     escaped
 }
 
-fn head(figure: &Figure, root: &Area<'_>) -> Result {
+/// What a series takes in the legend. An SVG file does not say how wide its letters are; most are narrower than this.
+fn advance(series: &Series) -> i32 {
+    SWATCH + 8 + 8 * series.name.chars().count() as i32 + 22
+}
+
+/// The legend in as many lines as its entries need in this width, at least one entry in each.
+fn legend_lines(figure: &Figure, width: u32) -> Vec<Vec<&Series>> {
+    let mut lines: Vec<Vec<&Series>> = Vec::new();
+    let mut room = 0;
+    for series in figure.legend() {
+        room -= advance(series);
+        match lines.last_mut() {
+            Some(line) if room >= 0 => line.push(series),
+            _ => {
+                room = width as i32 - advance(series);
+                lines.push(vec![series]);
+            }
+        }
+    }
+    lines
+}
+
+fn head(figure: &Figure, legend: &[Vec<&Series>], root: &Area<'_>) -> Result {
     let middle = root.dim_in_pixel().0 as i32 / 2;
     write(root, &figure.title, (middle, 20), 16, (HPos::Center, VPos::Center))?;
-    let legend = figure.legend();
-    // An SVG file does not say how wide its letters are; most are narrower than this.
-    let advance = |series: &Series| SWATCH + 8 + 8 * series.name.chars().count() as i32 + 22;
-    let mut x = middle - legend.iter().map(|series| advance(series)).sum::<i32>() / 2 + 11;
-    for series in legend {
-        const Y: i32 = 47;
-        piece(root, (x, Y), series.style)?;
-        write(root, &series.name, (x + SWATCH + 8, Y), 13, (HPos::Left, VPos::Center))?;
-        x += advance(series);
+    for (line, y) in legend.iter().zip((47..).step_by(LEGEND_LINE as usize)) {
+        let mut x = middle - line.iter().map(|series| advance(series)).sum::<i32>() / 2 + 11;
+        for series in line {
+            piece(root, (x, y), series.style)?;
+            write(root, &series.name, (x + SWATCH + 8, y), 13, (HPos::Left, VPos::Center))?;
+            x += advance(series);
+        }
     }
     Ok(())
 }
@@ -207,7 +226,14 @@ fn panel<'a>(
     for series in &panel.series {
         let points: Vec<_> = figure.drawn(series).map(|point| (point, at(point))).collect();
         line(root, points.iter().map(|(_, at)| *at).collect(), series.style)?;
-        points.iter().try_for_each(|(_, at)| mark(root, *at, series.style))?;
+        for (point, at) in &points {
+            let style = if point.faded { series.style.faded() } else { series.style };
+            if let Some((low, high)) = point.quartiles.filter(|(low, _)| figure.x.shows(*low)) {
+                let [low, high] = [low, high].map(|x| (chart.backend_coord(&(figure.x.position(x), y.0)).0, at.1));
+                root.draw(&PathElement::new(vec![low, high], color(style).stroke_width(1)))?;
+            }
+            mark(root, *at, style)?;
+        }
         placed.extend(points);
     }
     // Lines of 15 pixels, the last at the bottom of the plot's right edge.
@@ -231,6 +257,7 @@ fn write(root: &Area<'_>, text: &str, at: Pixel, size: u32, (h, v): (HPos, VPos)
 fn line(root: &Area<'_>, points: Vec<Pixel>, style: Style) -> Result {
     let ink = color(style).stroke_width(2);
     match style.stroke.pattern() {
+        _ if style.stroke == Stroke::Nothing => {}
         None => root.draw(&PathElement::new(points, ink))?,
         Some((dash, gap)) => root.draw(&DashedPathElement::new(points, dash, gap, ink))?,
     }
@@ -248,6 +275,9 @@ fn mark(root: &Area<'_>, (x, y): Pixel, style: Style) -> Result {
         }
         Marker::Square => &[(-4, -4), (4, -4), (4, 4), (-4, 4)],
         Marker::Triangle => &[(0, -5), (5, 4), (-5, 4)],
+        Marker::Diamond => &[(0, -5), (5, 0), (0, 5), (-5, 0)],
+        Marker::Wedge => &[(0, 5), (5, -4), (-5, -4)],
+        Marker::Star => &[(0, -6), (2, -2), (6, 0), (2, 2), (0, 6), (-2, 2), (-6, 0), (-2, -2)],
     };
     let mut outline: Vec<Pixel> = corners.iter().map(|(dx, dy)| (x + dx, y + dy)).collect();
     root.draw(&Polygon::new(outline.clone(), fill))?;
@@ -289,12 +319,24 @@ mod tests {
     }
 
     #[test]
+    fn legends_take_the_lines_that_they_need() {
+        let example = example();
+        let names = |width| -> Vec<Vec<String>> {
+            let lines = legend_lines(&example, width);
+            lines.iter().map(|line| line.iter().map(|series| series.name.clone()).collect()).collect()
+        };
+        assert_eq!(names(800), [["one & all", "other"]]);
+        assert_eq!(names(150), [["one & all"], ["other"]]);
+        let svg = figure(&example, Size { width: 150, row: 300 }).unwrap();
+        assert!(svg.starts_with("<svg width=\"150\" height=\"384\""), "{}", &svg[..80]);
+    }
+
+    #[test]
     fn every_point_of_a_panel_can_be_hit() {
         let example = example();
         let svg = panel_with_hits(&example, &example.panels[0], Size { width: 300, row: 280 }).unwrap();
         assert!(svg.starts_with("<svg width=\"300\" height=\"280\"") && svg.ends_with("</svg>\n"), "{svg}");
         assert_eq!(svg.matches("class=\"hit\"").count(), 4);
-        assert_eq!(svg.matches("data-card=\"7\"").count(), 4);
         assert!(svg.contains("data-label=\"&lt;1&gt; &amp; 0.01\""));
     }
 

@@ -124,7 +124,7 @@ impl ConvergencePlan {
 /// # Errors
 /// The first picture that could not be drawn.
 pub fn sweep(plan: ConvergencePlan, progress: &mut MeasureProgress<'_>) -> Result<Vec<Convergence>, MeasureError> {
-    let mut stage = SceneApp::without_adapter(UVec2::splat(plan.size));
+    let mut stage = SceneApp::new(UVec2::splat(plan.size));
     let mut all = Vec::new();
     for object in ChartObject::ALL {
         let levels = (0..plan.levels).map(|i| object.level(i));

@@ -67,7 +67,7 @@ impl HighlightPlan {
 /// # Errors
 /// The first frame that could not be drawn.
 pub fn sweep(plan: HighlightPlan, progress: &mut MeasureProgress<'_>) -> Result<Energies, MeasureError> {
-    let mut stage = SceneApp::without_adapter(UVec2::splat(plan.size));
+    let mut stage = SceneApp::new(UVec2::splat(plan.size));
     let mut energies = Energies { truth: Vec::new(), shaded: [const { Vec::new() }; SHADINGS.len()] };
     for frame in 0..plan.frames {
         let light = light(frame, plan.frames);

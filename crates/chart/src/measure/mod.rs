@@ -1,6 +1,5 @@
 //! The sweeps.
 
-pub mod accuracy;
 pub mod convergence;
 mod fit;
 pub mod highlight;
@@ -34,6 +33,15 @@ pub enum MeasureError {
     /// Pictures of different sizes; the adapter drew what was not asked for.
     #[error(transparent)]
     Size(#[from] SizeMismatch),
+    /// A scene cannot be set up, or not as asked.
+    #[error("{0}")]
+    Scene(String),
+    /// What was measured could not be kept.
+    #[error("what was measured cannot be kept: {0}")]
+    Keep(String),
+    /// A picture could not be put on the page.
+    #[error("a picture for the page: {0}")]
+    Picture(image::ImageError),
 }
 
 /// The name of a shading, as a reader knows it.

@@ -46,7 +46,7 @@ impl ChartObject {
     }
 
     /// Where a camera of 45° sees all of the object, and little else.
-    fn camera(self) -> Transform {
+    pub(crate) fn camera(self) -> Transform {
         match self {
             Self::Sphere => Transform::from_xyz(0.0, 0.0, 2.9),
             // The spout is farther from the axis than the handle.
@@ -130,23 +130,10 @@ pub struct SceneApp {
 }
 
 impl SceneApp {
-    /// A stage whose pictures, of `size` pixels, an adapter draws, every mesh as it is.
-    pub fn with_adapter(size: UVec2) -> Self {
-        let mut app = App::new();
-        // What is measured is the shading of the tessellation that was asked for.
-        app.add_plugins(HalfwayPlugins::headless(size))
-            .insert_resource(ViewTolerance(Tolerance { pixels: 0.0, ..Tolerance::DEFAULT }));
-        Self::new(app, size)
-    }
-
     /// A stage for the oracle, which needs no adapter.
-    pub fn without_adapter(size: UVec2) -> Self {
+    pub fn new(size: UVec2) -> Self {
         let mut app = App::new();
-        app.add_plugins(HalfwayPlugins::headless(size).disable::<RenderPlugin>());
-        Self::new(app, size)
-    }
-
-    fn new(mut app: App, size: UVec2) -> Self {
+        app.add_plugins(HalfwayPlugins::reference());
         app.insert_resource(GlobalAmbient(LinearRgba::rgb(0.15, 0.15, 0.15)));
         app.finish();
         app.cleanup();
@@ -177,26 +164,6 @@ impl SceneApp {
         };
     }
 
-    /// What the adapter draws, in linear intensity.
-    ///
-    /// # Errors
-    /// What the frame could not do.
-    pub fn draw(&mut self) -> Result<Image, MeasureError> {
-        self.set_pixels(Pixels::Float);
-        let picture = render_picture(&mut self.app);
-        self.set_pixels(Pixels::Byte);
-        let image = match picture? {
-            Picture::Float(image) => Image::from_float(&image),
-            Picture::Byte(image) => Image::from_bytes(&image, Encoding::Srgb),
-        };
-        // Every scene's ambient term is above 0, the background is black.
-        Ok(image.with_background([0.0; 3]))
-    }
-
-    fn set_pixels(&mut self, pixels: Pixels) {
-        self.app.world_mut().resource_mut::<Headless>().pixels = pixels;
-    }
-
     /// What the oracle draws.
     ///
     /// # Errors
@@ -204,11 +171,6 @@ impl SceneApp {
     pub fn oracle(&mut self, mode: Mode) -> Result<Image, MeasureError> {
         self.app.update();
         Ok(Oracle::new(self.app.world_mut(), self.size)?.with_mode(mode).draw())
-    }
-
-    /// The App, to be timed.
-    pub(super) fn app(&mut self) -> &mut App {
-        &mut self.app
     }
 }
 

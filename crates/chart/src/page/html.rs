@@ -1,11 +1,18 @@
 //! The page as HTML.
 
-use super::{Card, Page, PageTable, Section};
+use super::{Page, PageTable, Section};
 use crate::figure::svg::{self, Size, SvgError, escaped};
 use crate::figure::{Figure, Series};
 
 const STYLE: &str = include_str!("page.css");
-const SCRIPT: &str = include_str!("page.js");
+/// One function, so that the parts share what they define and the page nothing.
+const SCRIPT: [&str; 5] = [
+    "'use strict';\n(() => {\n",
+    include_str!("card.js"),
+    include_str!("fronts.js"),
+    include_str!("page.js"),
+    "})();\n",
+];
 /// Before everything else, so that it hears of every failure.
 const GUARD: &str = "window.addEventListener('error', (event) => {
   const problem = document.getElementById('problem');
@@ -27,12 +34,16 @@ pub fn html(page: &Page) -> Result<String, SvgError> {
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{title}</title>\n\
          <link rel=\"icon\" href=\"data:,\">\n<style>\n{STYLE}</style>\n</head>\n<body>\n\
          <p id=\"problem\" role=\"alert\" hidden></p>\n<script>\n{GUARD}\n</script>\n\
-         <header>\n<h1>{title}</h1>\n<p>{lead}</p>\n<dl>{facts}</dl>\n</header>\n<main>\n{sections}</main>\n\
+         <header>\n<h1>{title}</h1>\n<p>{lead}</p>\n<dl>{facts}</dl>\n</header>\n\
+         <main>\n<div id=\"controls\" hidden></div>\n{sections}</main>\n\
          <aside id=\"card\" hidden></aside>\n\
-         <script type=\"application/json\" id=\"cards\">{cards}</script>\n\
-         <script>\n{SCRIPT}</script>\n</body>\n</html>\n",
+         {points}<script>\n{script}</script>\n</body>\n</html>\n",
         lead = escaped(&page.lead),
-        cards = in_script(&cards(&page.cards)),
+        points = each(&page.points, |points| format!(
+            "<script type=\"application/json\" id=\"points\">{}</script>\n",
+            in_script(&points.to_string())
+        )),
+        script = SCRIPT.concat(),
     ))
 }
 
@@ -46,26 +57,23 @@ fn in_script(json: &str) -> String {
     json.replace('<', "\\u003c")
 }
 
-fn cards(cards: &[Card]) -> String {
-    let cards = cards.iter().map(|card| {
-        let Card { title, rows, pictures } = card;
-        serde_json::json!({ "title": title, "rows": rows, "pictures": pictures })
-    });
-    serde_json::Value::Array(cards.collect()).to_string()
-}
-
 fn section(section: &Section) -> Result<String, SvgError> {
     let text = each(&section.text, |text| format!("<p>{}</p>\n", escaped(text)));
     let figures = section.figures.iter().enumerate().map(|(i, (_, figure))| self::figure(figure, i == 0));
     let figures = figures.collect::<Result<String, _>>()?;
     let tables = each(&section.tables, table);
+    let pictures = each(&section.pictures, |(caption, source)| {
+        format!("<figure><img src=\"{source}\" alt=\"\"><figcaption>{}</figcaption></figure>\n", escaped(caption))
+    });
     let files: Vec<_> = section
         .files
         .iter()
         .map(|(what, file)| format!("<a href=\"{}\">{}</a>", escaped(file), escaped(what)))
         .collect();
     Ok(format!(
-        "<section>\n<h2>{}</h2>\n{text}{}{figures}{tables}<p class=\"files\">{}</p>\n</section>\n",
+        "<section{}>\n<h2>{}</h2>\n{text}<div class=\"pictures\">{pictures}</div>{}{figures}{tables}\
+         <p class=\"files\">{}</p>\n</section>\n",
+        each(&section.scene, |scene| format!(" data-scene=\"{}\"", escaped(scene))),
         escaped(&section.title),
         buttons(&section.figures),
         files.join(" · ")
@@ -86,7 +94,7 @@ fn buttons(figures: &[(String, Figure)]) -> String {
             escaped(name)
         )
     });
-    format!("<fieldset><legend>Shown</legend>{buttons}</fieldset>\n")
+    format!("<fieldset class=\"shown\"><legend>Shown</legend>{buttons}</fieldset>\n")
 }
 
 fn figure(figure: &Figure, shown: bool) -> Result<String, SvgError> {
@@ -141,8 +149,13 @@ mod tests {
             facts: vec![("adapter".to_owned(), "\"llvmpipe\"".to_owned())],
             sections: vec![Section {
                 title: "One".to_owned(),
+                scene: None,
+                pictures: vec![("Seen".to_owned(), "data:,".to_owned())],
                 text: vec!["Text.".to_owned()],
-                figures: vec![("a".to_owned(), example()), ("b".to_owned(), Figure { id: "second", ..example() })],
+                figures: vec![
+                    ("a".to_owned(), example()),
+                    ("b".to_owned(), Figure { id: "second".to_owned(), ..example() }),
+                ],
                 tables: vec![PageTable {
                     caption: "Numbers".to_owned(),
                     names: 1,
@@ -151,11 +164,7 @@ mod tests {
                 }],
                 files: vec![("data".to_owned(), "a.csv".to_owned())],
             }],
-            cards: vec![Card {
-                title: "</script><b>".to_owned(),
-                rows: vec![("a".to_owned(), "b".to_owned())],
-                pictures: vec![("drawn".to_owned(), "data:,".to_owned())],
-            }],
+            points: None,
         }
     }
 
@@ -177,19 +186,23 @@ mod tests {
         assert_eq!(html.matches("class=\"hit\"").count(), 16);
         // Names of namespaces are no addresses.
         let html = html.replace("xmlns=\"http://www.w3.org/2000/svg\"", "");
+        // This one is a part of the page itself.
+        let html = html.replace("url(#inside)", "");
         for outside in ["http:", "https:", "src=\"//", "@import", "url("] {
             assert!(!html.contains(outside), "{outside}");
         }
-        // Cards cannot end the script they stand in.
-        assert!(!html.contains("</script><b>"));
         assert_eq!(html.matches("<script").count(), html.matches("</script>").count());
     }
 
     #[test]
-    fn cards_are_json() {
-        let cards: serde_json::Value = serde_json::from_str(&in_script(&cards(&page().cards))).unwrap();
-        assert_eq!(cards[0]["title"], "</script><b>");
-        assert_eq!(cards[0]["pictures"][0][1], "data:,");
+    fn points_cannot_end_the_script_they_stand_in() {
+        let points = serde_json::json!({ "points": [{ "words": "</script><b>" }] });
+        let html = html(&Page { points: Some(points.clone()), ..page() }).unwrap();
+        assert!(!html.contains("</script><b>"));
+        assert_eq!(html.matches("<script").count(), html.matches("</script>").count());
+        let (_, rest) = html.split_once("id=\"points\">").unwrap();
+        let (json, _) = rest.split_once("</script>").unwrap();
+        assert_eq!(serde_json::from_str::<serde_json::Value>(json).unwrap(), points);
     }
 
     #[test]

@@ -6,7 +6,7 @@ mod picture;
 
 pub use csv::csv;
 pub use html::html;
-pub use picture::data_uri;
+pub use picture::{data_uri, exact_data_uri};
 
 use crate::figure::Figure;
 
@@ -21,8 +21,9 @@ pub struct Page {
     pub facts: Vec<(String, String)>,
     /// The chapters.
     pub sections: Vec<Section>,
-    /// What points show, by [`Point::card`](crate::figure::Point::card).
-    pub cards: Vec<Card>,
+    /// The points of the sections with scenes, their pictures and their scenes: what the page's script draws again, to be
+    /// zoomed and filtered.
+    pub points: Option<serde_json::Value>,
 }
 
 /// A chapter.
@@ -30,8 +31,12 @@ pub struct Page {
 pub struct Section {
     /// Its heading.
     pub title: String,
+    /// The scene whose points it shows, if it does; where scripts run one of these sections is shown at a time.
+    pub scene: Option<String>,
     /// What it shows, and how that was measured: paragraphs.
     pub text: Vec<String>,
+    /// Captions and pictures, the latter as `data:` addresses.
+    pub pictures: Vec<(String, String)>,
     /// The same chart of several quantities, of which one is shown at a time, each with the name of its button.
     pub figures: Vec<(String, Figure)>,
     /// Figures as numbers.
@@ -51,15 +56,4 @@ pub struct PageTable {
     pub header: Vec<String>,
     /// As many cells in each as in the header.
     pub rows: Vec<Vec<String>>,
-}
-
-/// What a point tells when it is pointed at.
-#[derive(Clone, Debug)]
-pub struct Card {
-    /// What the point is.
-    pub title: String,
-    /// Names and values.
-    pub rows: Vec<(String, String)>,
-    /// Captions and pictures, the latter as `data:` addresses.
-    pub pictures: Vec<(String, String)>,
 }

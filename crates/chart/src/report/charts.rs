@@ -1,42 +1,11 @@
 //! What is charted of the report.
 
-use halfway::prelude::{Reflectance, Shading, Viewer};
+use halfway::prelude::Shading;
 
 use super::Report;
 use crate::figure::{Axis, AxisScale, Figure, Marker, Panel, Point, Series, Stroke, Style};
-use crate::measure::accuracy::{AccuracyVariant, Measured, describe};
 use crate::measure::convergence::{Convergence, ConvergenceSurface, Refinement};
 use crate::measure::{ChartObject, SHADINGS, shading_name};
-
-/// A measure of error that the main chart can show.
-#[derive(Clone, Copy)]
-pub(super) struct Quantity {
-    /// The chart's identifier.
-    id: &'static str,
-    /// The name of its button.
-    pub(super) name: &'static str,
-    /// The axis.
-    label: &'static str,
-    value: fn(&Measured) -> f64,
-}
-
-pub(super) const QUANTITIES: [Quantity; 3] = [
-    Quantity {
-        id: "error-rms",
-        name: "RMS error",
-        label: "RMS error (linear, white = 1)",
-        value: |measured| measured.comparison.linear.all.rmse,
-    },
-    Quantity {
-        id: "error-max",
-        name: "largest error",
-        label: "largest error (linear, white = 1)",
-        value: |measured| measured.comparison.linear.all.max(),
-    },
-    Quantity { id: "error-flip", name: "ꟻLIP", label: "mean ꟻLIP (0 … 1)", value: |measured| measured.flip },
-];
-
-const TIME: &str = "time of a frame (constant colour = 1)";
 
 /// Colours that colour-blind readers tell apart (Okabe and Ito, "Color Universal Design", 2008), with markers and strokes
 /// of their own.
@@ -55,57 +24,6 @@ pub(super) fn gray(level: u8) -> Style {
 }
 
 impl Report {
-    /// Error against time: a row of panels an object, a column a variant.
-    pub(super) fn main_figure(&self, quantity: Quantity) -> Figure {
-        let panels = ChartObject::ALL.into_iter().flat_map(|object| {
-            AccuracyVariant::ALL.into_iter().map(move |variant| {
-                let [reflectance, viewer] = variant.names();
-                self.main_panel(format!("{}, {reflectance}, {viewer}", object.name()), object, variant, quantity)
-            })
-        });
-        Figure {
-            id: quantity.id,
-            title: format!(
-                "{}, {} tessellations from coarse to fine",
-                capital(quantity.name),
-                self.plan.accuracy.levels
-            ),
-            x: Axis::new(TIME, AxisScale::Log),
-            y: Axis::new(quantity.label, AxisScale::Log),
-            columns: AccuracyVariant::ALL.len(),
-            panels: panels.collect(),
-        }
-    }
-
-    /// The RMS error of both objects under one variant, for a narrow page.
-    pub(super) fn small_figure(&self) -> Figure {
-        let variant = AccuracyVariant { reflectance: Reflectance::BlinnPhong, viewer: Viewer::Local };
-        let panel = |object: ChartObject| self.main_panel(object.name().to_owned(), object, variant, QUANTITIES[0]);
-        Figure {
-            id: "chart",
-            title: format!("Error against time at {} tessellations, from coarse to fine", self.plan.accuracy.levels),
-            columns: 2,
-            panels: ChartObject::ALL.map(panel).into(),
-            ..self.main_figure(QUANTITIES[0])
-        }
-    }
-
-    fn main_panel(&self, title: String, object: ChartObject, variant: AccuracyVariant, quantity: Quantity) -> Panel {
-        let series = SHADINGS.map(|shading| {
-            let here = |measured: &&Measured| {
-                measured.object == object && measured.variant == variant && measured.shading == shading
-            };
-            // The cards of the page are those of the measurements, in their order.
-            let points =
-                self.accuracy.iter().enumerate().filter(|(_, measured)| here(measured)).map(|(i, measured)| {
-                    let y = (quantity.value)(measured);
-                    Point { x: measured.ratio, y, label: describe(measured), card: Some(i) }
-                });
-            Series { name: shading_name(shading).to_owned(), style: style(shading), points: points.collect() }
-        });
-        Panel { title, x_label: None, notes: Vec::new(), series: series.into() }
-    }
-
     /// Error against edge length: a row of panels an object, a column a material.
     pub(super) fn convergence_figure(&self) -> Figure {
         let panels = ChartObject::ALL.into_iter().flat_map(|object| {
@@ -127,7 +45,7 @@ impl Report {
             })
         });
         Figure {
-            id: "convergence",
+            id: "convergence".to_owned(),
             title: "Error of the shading method as the mesh is refined".to_owned(),
             x: Axis::new("longest edge (the sphere's radius is 1)", AxisScale::Log),
             y: Axis::new("error (linear, white = 1)", AxisScale::Log),
@@ -143,7 +61,7 @@ impl Report {
         let series = |name: &str, style: Style, energies: &[f64]| {
             let points = energies.iter().enumerate().map(|(frame, energy)| {
                 let y = energy / mean;
-                Point { x: frame as f64, y, label: format!("{name}, frame {frame}: {y:.3}"), card: None }
+                Point::new(frame as f64, y, format!("{name}, frame {frame}: {y:.3}"))
             });
             Series { name: name.to_owned(), style: Style { marker: None, ..style }, points: points.collect() }
         };
@@ -152,7 +70,7 @@ impl Report {
             shaded.map(|(shading, energies)| series(shading_name(*shading), style(*shading), energies)).collect();
         all.push(series("true surface", gray(0x22), truth));
         Figure {
-            id: "highlight",
+            id: "highlight".to_owned(),
             title: "Energy of a highlight while its light moves".to_owned(),
             x: Axis::new("frame", AxisScale::Linear),
             y: Axis::new("energy (mean of the true surface = 1)", AxisScale::Linear),
@@ -175,7 +93,7 @@ fn convergence_series(found: &Convergence) -> [Series; 2] {
         let points = found.levels.iter().map(|level| {
             let y = error(level);
             let label = format!("{name}, {what}: {y:.3e} with {} triangles", level.triangles);
-            Point { x: level.edge, y, label, card: None }
+            Point::new(level.edge, y, label)
         });
         Series { name: format!("{name}, {what}"), style, points: points.collect() }
     };
@@ -190,9 +108,4 @@ fn convergence_series(found: &Convergence) -> [Series; 2] {
 pub(super) fn order(order: Option<f64>) -> String {
     // What rounds to 0 has no sign.
     order.map_or_else(|| "–".to_owned(), |order| format!("{:.2}", if order.abs() < 0.005 { 0.0 } else { order }))
-}
-
-fn capital(text: &str) -> String {
-    let mut characters = text.chars();
-    characters.next().map(|first| first.to_uppercase().collect::<String>() + characters.as_str()).unwrap_or_default()
 }

@@ -1,6 +1,9 @@
 //! Everything that is measured, and the files that tell it.
 
 mod charts;
+mod failing;
+mod fronts;
+mod over;
 mod pages;
 mod plan;
 mod scaling;
@@ -9,14 +12,16 @@ mod tables;
 use halfway::output::OutputError;
 use thiserror::Error;
 
+use crate::failures::{self, FailurePage};
 use crate::figure::Figure;
 use crate::figure::svg::{self, Size, SvgError};
-use crate::measure::accuracy::{self, Measured};
+use crate::front::{ChartedAdapter, ChartedScene, KeptResults, MeasuredOver};
 use crate::measure::convergence::{self, Convergence};
 use crate::measure::highlight::{self, Energies};
 use crate::measure::{MeasureError, MeasureProgress};
 use crate::page::html;
 
+pub use fronts::Fronts;
 pub use plan::ReportPlan;
 pub use scaling::Scaling;
 
@@ -30,9 +35,6 @@ pub enum ReportError {
     /// A chart could not be drawn.
     #[error(transparent)]
     Svg(#[from] SvgError),
-    /// A picture could not be put on the page.
-    #[error("a picture for the page: {0}")]
-    Picture(#[from] image::ImageError),
     /// A file could not be written.
     #[error(transparent)]
     Output(#[from] OutputError),
@@ -44,11 +46,15 @@ pub struct Report {
     /// How much was measured.
     pub plan: ReportPlan,
     /// Error and time.
-    pub accuracy: Vec<Measured>,
+    pub fronts: Fronts,
     /// Rates of convergence.
     pub convergence: Vec<Convergence>,
     /// The moving highlight.
     pub energies: Energies,
+    /// Error and time over shininess, lights and distance.
+    pub over: Vec<MeasuredOver>,
+    /// Where methods fail.
+    pub failures: Vec<FailurePage>,
     /// How the time of a frame grows; also tells what drew.
     pub scaling: Scaling,
 }
@@ -56,17 +62,26 @@ pub struct Report {
 /// A file's name and what is in it.
 pub type NamedFile = (String, String);
 
-/// Measures everything; `tell` hears of [`ReportPlan::units`] done so far, and of what is being done.
+/// Measures everything; `tell` hears of [`ReportPlan::units`] done so far, and of what is being done. What `kept` has is not
+/// measured again.
 ///
 /// # Errors
 /// The first picture that could not be drawn.
-pub fn measure(plan: ReportPlan, tell: &mut dyn FnMut(u64, &str)) -> Result<Report, ReportError> {
+pub fn measure(
+    plan: &ReportPlan,
+    scenes: &[ChartedScene],
+    adapters: &[ChartedAdapter],
+    kept: &mut KeptResults,
+    tell: &mut dyn FnMut(u64, &str),
+) -> Result<Report, ReportError> {
     let mut progress = MeasureProgress::new(tell);
-    let accuracy = accuracy::sweep(plan.accuracy, &mut progress)?;
+    let fronts = Fronts::measure(&plan.fronts, scenes, adapters, kept, &mut progress)?;
     let convergence = convergence::sweep(plan.convergence, &mut progress)?;
     let energies = highlight::sweep(plan.highlight, &mut progress)?;
+    let over = MeasuredOver::all(&plan.fronts, adapters, kept, &mut progress)?;
+    let failures = failures::all(|page| progress.advance(1, page.title))?;
     let scaling = Scaling::measure(plan.scaling, &mut progress)?;
-    Ok(Report { plan, accuracy, convergence, energies, scaling })
+    Ok(Report { plan: plan.clone(), fronts, over, convergence, energies, failures, scaling })
 }
 
 /// A figure as SVG, named by its identifier.
@@ -81,20 +96,14 @@ impl Report {
     /// # Errors
     /// What could not be drawn or encoded.
     pub fn files(&self) -> Result<Vec<NamedFile>, ReportError> {
-        let page = self.page()?;
+        let page = self.page();
         let mut files = vec![("index.html".to_owned(), html(&page)?)];
         files.extend(self.tables());
+        files.push(("over.csv".to_owned(), over::csv(&self.over)));
         for (_, figure) in page.sections.iter().flat_map(|section| &section.figures) {
             files.push(figure_file(figure)?);
         }
+        files.extend(failing::files(&self.failures)?);
         Ok(files)
-    }
-
-    /// The main chart in small, as SVG 800 pixels wide: one reflectance, one viewer.
-    ///
-    /// # Errors
-    /// What the drawing library has to say.
-    pub fn small_chart(&self) -> Result<String, ReportError> {
-        Ok(svg::figure(&self.small_figure(), Size { width: 800, row: 330 })?)
     }
 }

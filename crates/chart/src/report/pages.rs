@@ -1,77 +1,53 @@
 //! What the page says.
 
-use super::charts::{self, order};
+use super::Report;
+use super::charts::order;
+use super::failing;
+use super::fronts::LEAD;
+use super::over;
 use super::tables::files;
-use super::{Report, ReportError};
-use crate::measure::accuracy::{Measured, describe};
 use crate::measure::convergence::{FITTED, QUANTITIES};
 use crate::measure::highlight::Unsteadiness;
 use crate::measure::{SHADINGS, shading_name};
-use crate::page::{Card, Page, PageTable, Section, data_uri};
+use crate::page::{Page, PageTable, Section};
 
 impl Report {
     /// The page.
-    ///
-    /// # Errors
-    /// A picture that could not be encoded.
-    pub(super) fn page(&self) -> Result<Page, ReportError> {
-        Ok(Page {
-            title: "What shading costs, and what it loses".to_owned(),
-            lead: "Flat shading evaluates the lighting once a triangle, Gouraud shading once a vertex, Phong shading once \
-                   a pixel. Each chart compares the three with the true surface: the sphere, and the teapot’s Bézier \
-                   patches, with their exact normal at every pixel. Down is more accurate; in the first chart, left is \
-                   faster. Point at a point to see its picture and its figures, click to keep them."
-                .to_owned(),
+    pub(super) fn page(&self) -> Page {
+        let mut sections = self.fronts.sections();
+        sections.extend([
+            over::section(&self.over),
+            failing::section(&self.failures),
+            self.convergence_section(),
+            self.highlight_section(),
+            self.scaling.section(),
+        ]);
+        Page {
+            title: "What a millisecond buys".to_owned(),
+            lead: LEAD.to_owned(),
             facts: self.facts(),
-            sections: vec![
-                self.main_section(),
-                self.convergence_section(),
-                self.highlight_section(),
-                self.scaling.section(),
-            ],
-            cards: self.accuracy.iter().map(card).collect::<Result<_, _>>()?,
-        })
+            sections,
+            points: Some(self.fronts.on_page()),
+        }
     }
 
     fn facts(&self) -> Vec<(String, String)> {
-        let plan = self.plan;
+        let plan = &self.plan;
         let fact = |name: &str, value: String| (name.to_owned(), value);
-        let mut facts = self.scaling.machine.facts();
+        let mut facts = self.fronts.facts();
         facts.extend([
-            fact("timed pictures", format!("{0} × {0} pixels", plan.accuracy.size)),
-            fact("rounds", plan.accuracy.rounds.to_string()),
             fact("convergence", format!("{0} × {0} pixels", plan.convergence.size)),
             fact("highlight", format!("{} frames of {1} × {1} pixels", plan.highlight.frames, plan.highlight.size)),
         ]);
         facts
     }
 
-    fn main_section(&self) -> Section {
-        let figures = charts::QUANTITIES.map(|quantity| (quantity.name.to_owned(), self.main_figure(quantity)));
-        Section {
-            title: "Error against time".to_owned(),
-            text: vec![
-                "Each line joins the tessellations of one shading, from coarse to fine. The error is that of the \
-                 adapter’s picture against the true surface’s, on the pixels that both cover; pixels at the outline that \
-                 only one of them covers are counted apart, and are in the point’s figures. The time is that of a \
-                 frame, as a multiple of a frame of the same mesh in one constant colour, measured in turns with it; the \
-                 median of all rounds. Such ratios carry over to other machines far better than milliseconds, which the figures of each \
-                 point and the CSV file also give."
-                    .to_owned(),
-            ],
-            files: files(&figures.iter().map(|(name, figure)| (name.as_str(), figure.id)).collect::<Vec<_>>(), &[(
-                "all figures",
-                "error",
-            )]),
-            figures: figures.into(),
-            tables: Vec::new(),
-        }
-    }
-
     fn convergence_section(&self) -> Section {
         let figure = self.convergence_figure();
         Section {
             title: "Rates of convergence".to_owned(),
+            scene: None,
+            pictures: Vec::new(),
             text: vec![
                 "Both pictures are the reference renderer’s, in double precision, so that what is seen is what the method \
                  loses and not how it was implemented."
@@ -86,7 +62,7 @@ impl Report {
                      and the other in the other, however fine the mesh."
                 ),
             ],
-            files: files(&[("chart", figure.id)], &[("errors", "convergence"), ("slopes", "slopes")]),
+            files: files(&[("chart", &figure.id)], &[("errors", "convergence"), ("slopes", "slopes")]),
             figures: vec![(String::new(), figure)],
             tables: vec![self.slopes()],
         }
@@ -121,6 +97,8 @@ impl Report {
         });
         Section {
             title: "A moving highlight".to_owned(),
+            scene: None,
+            pictures: Vec::new(),
             text: vec![format!(
                 "A light moves slowly across a {}, which shows its highlight only (no ambient, no diffuse; shininess \
                  32). On the true surface the sum of all the light in a frame, its energy, hardly changes from one frame \
@@ -128,7 +106,7 @@ impl Report {
                  flickers.",
                 self.coarse_sphere()
             )],
-            files: files(&[("chart", figure.id)], &[("energies", "highlight"), ("numbers", "unsteadiness")]),
+            files: files(&[("chart", &figure.id)], &[("energies", "highlight"), ("numbers", "unsteadiness")]),
             figures: vec![(String::new(), figure)],
             tables: vec![PageTable {
                 caption:
@@ -140,27 +118,4 @@ impl Report {
             }],
         }
     }
-}
-
-fn card(measured: &Measured) -> Result<Card, ReportError> {
-    let comparison = &measured.comparison;
-    let coverage = comparison.coverage.unwrap_or_default();
-    let row = |name: &str, value: String| (name.to_owned(), value);
-    Ok(Card {
-        title: describe(measured),
-        rows: vec![
-            row("time", format!("{:.2} × constant", measured.ratio)),
-            row("frame", format!("{:.2} ms", measured.frame_ms)),
-            row("RMS error", format!("{:.2e}", comparison.linear.all.rmse)),
-            row("in 8-bit steps", format!("{:.2}", comparison.steps.all.rmse)),
-            row("largest error", format!("{:.2e}", comparison.linear.all.max())),
-            row("in 8-bit steps", format!("{:.0}", comparison.steps.all.max())),
-            row("mean ꟻLIP", format!("{:.4}", measured.flip)),
-            row("outline differs", format!("{} of {} pixels", coverage.different(), comparison.counted)),
-        ],
-        pictures: vec![
-            ("as drawn".to_owned(), data_uri(&measured.picture)?),
-            ("difference from the true surface".to_owned(), data_uri(&measured.difference)?),
-        ],
-    })
 }

@@ -1,12 +1,14 @@
 //! How much is measured.
 
-use crate::measure::{accuracy, convergence, highlight, scaling};
+use crate::failures;
+use crate::front::{ChartedScene, FrontFilter, FrontPlan, MeasuredOver};
+use crate::measure::{convergence, highlight, scaling};
 
 /// How much is measured of everything.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct ReportPlan {
     /// Of error and time.
-    pub accuracy: accuracy::AccuracyPlan,
+    pub fronts: FrontPlan,
     /// Of the rates of convergence.
     pub convergence: convergence::ConvergencePlan,
     /// Of the moving highlight.
@@ -18,7 +20,15 @@ pub struct ReportPlan {
 impl ReportPlan {
     /// What the project's figures come from: minutes on two cores without a GPU.
     pub const FULL: Self = Self {
-        accuracy: accuracy::AccuracyPlan { size: 640, levels: 5, rounds: 25 },
+        fronts: FrontPlan {
+            smaller: 1,
+            details: 5,
+            all_methods: true,
+            rounds: 25,
+            budget_ms: 2000.0,
+            samples: 4,
+            only: FrontFilter { methods: Vec::new(), detail: None },
+        },
         convergence: convergence::ConvergencePlan { size: 768, levels: 5 },
         highlight: highlight::HighlightPlan { size: 256, level: 8, frames: 120 },
         scaling: scaling::ScalingPlan {
@@ -32,7 +42,15 @@ impl ReportPlan {
     };
     /// The same with fewer levels, rounds, frames and pixels: for a look, and for CI.
     pub const QUICK: Self = Self {
-        accuracy: accuracy::AccuracyPlan { size: 320, levels: 3, rounds: 15 },
+        fronts: FrontPlan {
+            smaller: 2,
+            details: 3,
+            all_methods: false,
+            rounds: 15,
+            budget_ms: 200.0,
+            samples: 2,
+            only: FrontFilter { methods: Vec::new(), detail: None },
+        },
         convergence: convergence::ConvergencePlan { size: 384, levels: 4 },
         highlight: highlight::HighlightPlan { size: 128, level: 8, frames: 60 },
         scaling: scaling::ScalingPlan {
@@ -45,8 +63,9 @@ impl ReportPlan {
         },
     };
 
-    /// The units that [`measure`](super::measure) will report.
-    pub fn units(self) -> u64 {
-        self.accuracy.units() + self.convergence.units() + self.highlight.units() + self.scaling.units()
+    /// The units that [`measure`](super::measure) will report of these scenes on so many adapters.
+    pub fn units(&self, scenes: &[ChartedScene], adapters: usize) -> u64 {
+        let own = self.convergence.units() + self.highlight.units() + self.scaling.units() + failures::PAGES;
+        self.fronts.units(scenes, adapters) + MeasuredOver::units(&self.fronts, adapters) + own
     }
 }

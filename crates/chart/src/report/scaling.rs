@@ -42,7 +42,7 @@ impl Scaling {
                 .to_owned(),
             facts: self.machine.facts(),
             sections: vec![self.section()],
-            cards: Vec::new(),
+            points: None,
         };
         let mut files = vec![("scaling.html".to_owned(), html(&page)?), figure_file(&self.figure())?];
         files.extend(self.tables());
@@ -58,6 +58,8 @@ impl Scaling {
         let figure = self.figure();
         Section {
             title: "Scaling".to_owned(),
+            scene: None,
+            pictures: Vec::new(),
             text: vec![
                 format!(
                     "One thing at a time grows by powers of ten, and the time of a frame with it. {FRAME_TIME} Points are \
@@ -76,7 +78,7 @@ impl Scaling {
                  decade’s is off by more than 0.25. A decade counts as far as it was measured."
                     .to_owned(),
             ],
-            files: files(&[("chart", figure.id)], &[("times", "scaling"), ("slopes", "scaling-slopes")]),
+            files: files(&[("chart", &figure.id)], &[("times", "scaling"), ("slopes", "scaling-slopes")]),
             figures: vec![(String::new(), figure)],
             tables: vec![self.slope_table(), self.law_table()],
         }
@@ -85,7 +87,7 @@ impl Scaling {
     /// A panel for each growth.
     fn figure(&self) -> Figure {
         Figure {
-            id: "scaling",
+            id: "scaling".to_owned(),
             title: "Time of a frame against what is in it".to_owned(),
             x: Axis::new("count", AxisScale::Log),
             y: Axis::new("frame, ms", AxisScale::Log),
@@ -227,7 +229,7 @@ fn series(curve: &Curve) -> Series {
             sample.count,
             curve.growth.counted()
         );
-        Point { x: sample.count, y: median, label, card: None }
+        Point::new(sample.count, median, label)
     });
     Series { name: name.to_owned(), style, points: points.collect() }
 }
@@ -241,8 +243,7 @@ fn proportion(curves: &[&Curve]) -> Option<Series> {
     let start = samples().map(|sample| sample.count).fold(f64::INFINITY, f64::min);
     let each = top.frame_ms.median / top.count;
     let end = samples().map(|sample| sample.count).fold(0.0, f64::max).min(top.count);
-    let points =
-        [start.max(least / each), end].map(|x| Point { x, y: each * x, label: "in proportion".to_owned(), card: None });
+    let points = [start.max(least / each), end].map(|x| Point::new(x, each * x, "in proportion".to_owned()));
     let style = Style { stroke: Stroke::Solid, ..gray(0xb8) };
     Some(Series { name: "in proportion".to_owned(), style, points: points.into() })
 }

@@ -1,7 +1,6 @@
 //! The report as CSV files.
 
 use super::{NamedFile, Report};
-use crate::measure::accuracy::Measured;
 use crate::measure::convergence::QUANTITIES;
 use crate::measure::highlight::{Unsteadiness, unsteadiness};
 use crate::measure::{SHADINGS, shading_name};
@@ -11,41 +10,17 @@ impl Report {
     /// Every table.
     pub(super) fn tables(&self) -> Vec<NamedFile> {
         let own = [
-            ("error.csv".to_owned(), self.error_csv()),
             ("convergence.csv".to_owned(), self.convergence_csv()),
             ("slopes.csv".to_owned(), self.slopes_csv()),
             ("highlight.csv".to_owned(), self.highlight_csv()),
             ("unsteadiness.csv".to_owned(), self.unsteadiness_csv()),
         ];
-        own.into_iter().chain(self.scaling.tables()).collect()
+        self.fronts.tables().into_iter().chain(own).chain(self.scaling.tables()).collect()
     }
 
     /// How unsteady each of [`SHADINGS`] is, where that can be said.
     pub(super) fn unsteadiness(&self) -> [Option<Unsteadiness>; SHADINGS.len()] {
         self.energies.shaded.each_ref().map(|energies| unsteadiness(energies, &self.energies.truth))
-    }
-
-    fn error_csv(&self) -> String {
-        let header = [
-            "object",
-            "level",
-            "triangles",
-            "shading",
-            "reflectance",
-            "viewer",
-            "frame (ms)",
-            "constant colour (ms)",
-            "time (constant colour = 1)",
-            "largest error (linear)",
-            "RMS error (linear)",
-            "largest error (8-bit steps)",
-            "RMS error (8-bit steps)",
-            "mean ꟻLIP",
-            "covered by both (pixels)",
-            "covered by the mesh only (pixels)",
-            "covered by the surface only (pixels)",
-        ];
-        csv(header, self.accuracy.iter().map(error_row))
     }
 
     fn convergence_csv(&self) -> String {
@@ -110,31 +85,6 @@ impl Report {
         });
         csv(["shading", "RMS (mean true energy = 1)", "worst (mean true energy = 1)", "worst frame"], rows)
     }
-}
-
-fn error_row(measured: &Measured) -> [String; 17] {
-    let [reflectance, viewer] = measured.variant.names();
-    let comparison = &measured.comparison;
-    let coverage = comparison.coverage.unwrap_or_default();
-    [
-        measured.object.name().to_owned(),
-        measured.level.to_string(),
-        measured.triangles.to_string(),
-        shading_name(measured.shading).to_owned(),
-        reflectance.to_owned(),
-        viewer.to_owned(),
-        number(measured.frame_ms),
-        number(measured.constant_ms),
-        number(measured.ratio),
-        number(comparison.linear.all.max()),
-        number(comparison.linear.all.rmse),
-        number(comparison.steps.all.max()),
-        number(comparison.steps.all.rmse),
-        number(measured.flip),
-        coverage.both.to_string(),
-        coverage.only_actual.to_string(),
-        coverage.only_expected.to_string(),
-    ]
 }
 
 /// Five significant digits.

@@ -8,4 +8,4 @@ mod turns;
 
 pub use look::TimedLook;
 pub use machine::{Machine, counters};
-pub use turns::{FRAME_TIME, Spread, frame, in_turns, in_turns_with, median, median_ratio, settle};
+pub use turns::{FRAME_TIME, Spread, frame, in_turns, in_turns_with, median, median_ratio, ratios, settle};

@@ -4,6 +4,7 @@ use std::time::{Duration, Instant};
 
 use halfway::prelude::App;
 use halfway::render::{Adapter, FrameReport, RenderError};
+use serde::{Deserialize, Serialize};
 
 /// What the time of a [`frame`] is.
 pub const FRAME_TIME: &str = "A frame is App::update, which moves everything, prepares, encodes and submits the draws, \
@@ -65,8 +66,8 @@ pub fn settle(app: &mut App) -> Result<(), RenderError> {
 /// The times of frames in milliseconds, a list for each App, two frames a round.
 ///
 /// All take turns within a round, so that what else the machine does meets all alike, and the i-th times belong
-/// together. The first frame of each turn is not timed: it warms the caches that the others have cooled. [`settle`] the
-/// Apps first.
+/// together. Each round begins with another App, so that none always comes after the same one. The first frame of each
+/// turn is not timed: it warms the caches that the others have cooled. [`settle`] the Apps first.
 ///
 /// # Errors
 /// What [`frame`] says.
@@ -84,8 +85,9 @@ pub fn in_turns_with(
     mut note: impl FnMut(usize, &App),
 ) -> Result<Vec<Vec<f64>>, RenderError> {
     let mut times = vec![Vec::with_capacity(rounds as usize * TIMED); apps.len()];
-    for _ in 0..rounds {
-        for (i, (app, times)) in apps.iter_mut().zip(&mut times).enumerate() {
+    for round in 0..rounds as usize {
+        for i in order(round, apps.len()) {
+            let (app, times) = (&mut apps[i], &mut times[i]);
             frame(app)?;
             for _ in 0..TIMED {
                 let start = Instant::now();
@@ -98,6 +100,11 @@ pub fn in_turns_with(
     Ok(times)
 }
 
+/// Whose turn it is, in this round of so many Apps.
+fn order(round: usize, apps: usize) -> impl Iterator<Item = usize> {
+    (0..apps).map(move |i| (i + round) % apps)
+}
+
 /// The middle value; the upper of two, 0 of none.
 pub fn median(values: &[f64]) -> f64 {
     Spread::of(values).median
@@ -106,12 +113,17 @@ pub fn median(values: &[f64]) -> f64 {
 /// The median over the rounds of a time as a multiple of another one of the same round: what slows the machine down for a
 /// while slows both. 0 for none.
 pub fn median_ratio(times: &[f64], to: &[f64]) -> f64 {
-    median(&times.iter().zip(to).map(|(time, to)| time / to).collect::<Vec<_>>())
+    ratios(times, to).median
+}
+
+/// How the ratios of [`median_ratio`] lie.
+pub fn ratios(times: &[f64], to: &[f64]) -> Spread {
+    Spread::of(&times.iter().zip(to).map(|(time, to)| time / to).collect::<Vec<_>>())
 }
 
 /// How values lie, in their unit; all 0 of none. Of two middle values the upper one is the median, and so with the
 /// quartiles.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Spread {
     /// The least.
     pub min: f64,
@@ -156,6 +168,13 @@ mod tests {
         assert_eq!(spread, expected);
         assert_eq!(median(&[4.0, 1.0, 3.0, 2.0]).to_bits(), 3f64.to_bits(), "the upper of two");
         assert_eq!(Spread::of(&[]), Spread::default());
+    }
+
+    #[test]
+    fn each_round_begins_with_another() {
+        let rounds: Vec<Vec<usize>> = (0..4).map(|round| order(round, 3).collect()).collect();
+        assert_eq!(rounds, [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 1, 2]]);
+        assert_eq!(order(7, 0).count(), 0);
     }
 
     #[test]

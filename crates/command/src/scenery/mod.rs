@@ -20,6 +20,7 @@ pub(crate) mod many_lights;
 use std::f32::consts::TAU;
 
 use halfway::prelude::*;
+use halfway_chart::front::Still;
 use halfway_chart::timing::TimedLook;
 
 /// Which scene.
@@ -71,7 +72,7 @@ impl Plugin for Benchmark {
                     BenchmarkScene::S4 => stage.small(),
                 }
             })
-            .add_systems(Update, (turn, circle, count).chain());
+            .add_systems(Update, (turn, circle, count).chain().run_if(not(resource_exists::<Still>)));
     }
 }
 

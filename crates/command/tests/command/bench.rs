@@ -45,15 +45,24 @@ fn a_benchmark_prints_a_row_for_each_shading() {
         }
         // Of one light nothing is left out, and only what is shaded automatically has lists.
         let lists = u64::from(row["shading"] == "auto") * 2;
-        assert_eq!((&row["report"]["lights_assigned"], &row["report"]["left_out"]), (&lists.into(), &0.0.into()), "{row}");
+        assert_eq!(
+            (&row["report"]["lights_assigned"], &row["report"]["left_out"]),
+            (&lists.into(), &0.0.into()),
+            "{row}"
+        );
         let sets = row["cpu_ms"].as_object().expect("the time of each set");
         assert!(sets.len() == 10 && sets.values().all(|ms| ms.as_f64().is_some_and(|ms| ms >= 0.0)), "{row}");
         assert!(row["cpu_ms"]["total"].as_f64() <= row["frame_ms_spread"]["max"].as_f64(), "{row}");
     }
     let table = succeeds(&folder, &["bench", "s4", "--rounds", "1"]);
-    for text in
-        ["256 × 256 pixels", "tolerance: 1 steps of 255, 0.5 pixels", "driver: ", "App::update", "own CPU, ms", "| phong | "]
-    {
+    for text in [
+        "256 × 256 pixels",
+        "tolerance: 1 steps of 255, 0.5 pixels",
+        "driver: ",
+        "App::update",
+        "own CPU, ms",
+        "| phong | ",
+    ] {
         assert!(table.contains(text), "{text} is missing in:\n{table}");
     }
 }

@@ -30,16 +30,41 @@ pub struct Flip {
 /// # Errors
 /// [`SizeMismatch`].
 pub fn flip(actual: &Image, expected: &Image, encoding: Encoding) -> Result<Flip, SizeMismatch> {
+    Ok(figures(map(actual, expected, encoding)?))
+}
+
+/// The same over the pixels that both pictures cover, where both know. The others are made equal first: an eye sees more
+/// than one pixel at once, and would see them, too.
+///
+/// # Errors
+/// [`SizeMismatch`].
+pub fn flip_of_covered(actual: &Image, expected: &Image, encoding: Encoding) -> Result<Flip, SizeMismatch> {
+    same_size(actual, expected)?;
+    let Some((a, b)) = actual.covered().zip(expected.covered()) else { return flip(actual, expected, encoding) };
+    let both: Vec<bool> = a.iter().zip(b).map(|(a, b)| *a && *b).collect();
+    let own = both.iter().zip(actual.pixels().iter().zip(expected.pixels()));
+    let alike = own.map(|(both, (own, other))| if *both { *own } else { *other }).collect();
+    let (width, height) = actual.dimensions();
+    let values = map(&Image::new(width, height, alike), expected, encoding)?;
+    Ok(figures(values.into_iter().zip(both).filter(|(_, both)| *both).map(|(value, _)| value).collect()))
+}
+
+/// A value a pixel, row by row.
+fn map(actual: &Image, expected: &Image, encoding: Encoding) -> Result<Vec<f64>, SizeMismatch> {
     same_size(actual, expected)?;
     let (width, height) = actual.dimensions();
     if width == 0 || height == 0 {
-        return Ok(Flip { mean: 0.0, max: 0.0, percentiles: [0.0; 4] });
+        return Ok(Vec::new());
     }
     let picture = |bytes: &RgbImage| nv_flip::FlipImageRgb8::with_data(width, height, bytes.as_raw());
     let [actual, expected] = [actual, expected].map(|image| picture(&image.to_bytes(encoding)));
     let map = nv_flip::flip(expected, actual, PIXELS_PER_DEGREE);
-    let mut values: Vec<f64> = map.to_vec().into_iter().map(f64::from).collect();
+    Ok(map.to_vec().into_iter().map(f64::from).collect())
+}
+
+/// All 0 of none.
+fn figures(mut values: Vec<f64>) -> Flip {
     let percentiles = percentiles(&mut values);
-    let mean = values.iter().sum::<f64>() / values.len() as f64;
-    Ok(Flip { mean, max: values.last().copied().unwrap_or(0.0), percentiles })
+    let mean = values.iter().sum::<f64>() / values.len().max(1) as f64;
+    Flip { mean, max: values.last().copied().unwrap_or(0.0), percentiles }
 }

@@ -11,19 +11,22 @@ use crate::setup::Setup;
 const FOLDER: &str = "out/chart";
 /// The README's chart, made again by all but quick runs.
 const PICTURE: &str = "docs/pictures/chart.svg";
+/// Who wins where, likewise.
+const TABLES: &str = "docs/fronts.md";
 
 /// Measure what shading costs and what it loses, and write a page of charts to out/chart/
 ///
-/// Error against time, rates of convergence, how steady a moving highlight is, and how the time of a frame grows
-/// with triangles, objects, lights and pixels. Writes a page that opens offline, out/chart/index.html, with every
-/// table as CSV and every chart as SVG beside it, and makes docs/pictures/chart.svg again. docs/charts.md tells
-/// what is measured and how.
+/// Error against time of every method on every scene, rates of convergence, how steady a moving highlight is, and how
+/// the time of a frame grows with triangles, objects, lights and pixels. Writes a page that opens offline,
+/// out/chart/index.html, with chart.json, every table as CSV and every chart as SVG beside it, and makes
+/// docs/pictures/chart.svg and docs/fronts.md again. An interrupted run goes on where it stopped when it is
+/// started again. docs/charts.md tells what is measured and how.
 #[derive(Args, Debug)]
 #[command(verbatim_doc_comment)]
 pub(crate) struct Options {
     #[command(flatten)]
     setup: Setup,
-    /// Fewer tessellations, rounds, frames and pixels, in less than two minutes; docs/ stays as it is
+    /// Fewer methods, details, rounds and pixels, in less than two minutes; docs/ stays as it is
     #[arg(long)]
     quick: bool,
     /// Only how the time of a frame grows, on out/chart/scaling.html; docs/ stays as it is
@@ -34,18 +37,18 @@ pub(crate) struct Options {
 /// Sets up, builds, measures and writes the page.
 pub(crate) fn run(options: &Options) -> Result {
     let &Options { setup, quick, scaling } = options;
-    program::run("measuring", setup, Program::Binary("halfway-chart"), arguments(quick, scaling))?;
+    program::run("measuring", setup, Program::Binary("halfway"), arguments(quick, scaling))?;
     let page = if scaling { "scaling.html" } else { "index.html" };
     eprintln!("\nthe charts: {}", root().join(FOLDER).join(page).display());
     Ok(())
 }
 
 fn arguments(quick: bool, scaling: bool) -> Vec<&'static str> {
-    let mut arguments = vec!["--output", FOLDER];
+    let mut arguments = vec!["chart", "--output", FOLDER];
     arguments.extend(quick.then_some("--quick"));
     arguments.extend(scaling.then_some("--scaling"));
     if !quick && !scaling {
-        arguments.extend(["--small-chart", PICTURE]);
+        arguments.extend(["--small-chart", PICTURE, "--tables", TABLES]);
     }
     arguments
 }
@@ -60,10 +63,10 @@ mod tests {
             (true, false, "--quick"),
             (false, true, "--scaling"),
             (true, true, "--quick --scaling"),
-            (false, false, "--small-chart docs/pictures/chart.svg"),
+            (false, false, "--small-chart docs/pictures/chart.svg --tables docs/fronts.md"),
         ];
         for (quick, scaling, end) in rows {
-            assert_eq!(arguments(quick, scaling).join(" "), format!("--output out/chart {end}"));
+            assert_eq!(arguments(quick, scaling).join(" "), format!("chart --output out/chart {end}"));
         }
     }
 }

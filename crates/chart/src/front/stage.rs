@@ -1,0 +1,151 @@
+//! A scene in an App.
+
+use std::collections::HashMap;
+
+use halfway::prelude::*;
+use halfway::reference::{Image, Mode, Oracle};
+use halfway::render::Adapter;
+
+use super::errors::{Drawn, Truth};
+use super::{ChartedScene, Method, SceneDetail, Still};
+use crate::measure::MeasureError;
+use crate::timing::settle;
+
+/// The meshes of one scene, simplified: found once for all of its Apps, which make them in the same order.
+#[derive(Default)]
+pub(super) struct SimplifiedMeshes {
+    by_detail: HashMap<u32, Vec<Mesh>>,
+}
+
+impl SimplifiedMeshes {
+    /// Puts simplified meshes in the place of those of the world, where the detail is made of such.
+    fn simplify(&mut self, world: &mut World, detail: SceneDetail) {
+        let SceneDetail::Simplified(to) = detail else { return };
+        let mut assets = world.resource_mut::<Assets<Mesh>>();
+        let simplified = self.by_detail.entry(to).or_insert_with(|| {
+            let left = |mesh: &Mesh| mesh.triangle_count().div_ceil(to as usize);
+            assets.iter().map(|(_, mesh)| mesh.simplified(left(mesh), f64::INFINITY).mesh).collect()
+        });
+        for ((_, mesh), simplified) in assets.iter_mut().zip(simplified) {
+            mesh.clone_from(simplified);
+        }
+    }
+}
+
+/// One scene at one detail, at its first moment until it is told to [`move_on`](SceneStage::move_on).
+pub(super) struct SceneStage {
+    app: App,
+}
+
+impl SceneStage {
+    /// To be drawn by `adapter` with this method.
+    pub(super) fn drawn(
+        scene: &ChartedScene,
+        detail: SceneDetail,
+        method: Method,
+        size: UVec2,
+        adapter: &Adapter,
+        meshes: &mut SimplifiedMeshes,
+    ) -> Result<Self, MeasureError> {
+        let mut app = App::new();
+        adapter.clone().insert_into(app.world_mut());
+        app.add_plugins(HalfwayPlugins::headless(size))
+            .insert_resource(ViewTolerance(detail.tolerance(method.tolerance())));
+        let mut stage = Self::new(app, scene, detail, meshes)?;
+        method.apply(stage.app.world_mut());
+        settle(&mut stage.app)?;
+        Ok(stage)
+    }
+
+    fn new(
+        mut app: App,
+        scene: &ChartedScene,
+        detail: SceneDetail,
+        meshes: &mut SimplifiedMeshes,
+    ) -> Result<Self, MeasureError> {
+        app.insert_resource(Still);
+        (scene.build)(&mut app, detail).map_err(MeasureError::Scene)?;
+        app.finish();
+        app.cleanup();
+        // Spawns what systems spawn.
+        app.update();
+        meshes.simplify(app.world_mut(), detail);
+        if let Some(reflectance) = scene.reflectance {
+            let world = app.world_mut();
+            let objects: Vec<Entity> = world.query_filtered::<Entity, With<Mesh3d>>().iter(world).collect();
+            for object in objects {
+                world.entity_mut(object).insert(reflectance);
+            }
+        }
+        Ok(Self { app })
+    }
+
+    /// What every pixel of the scene should show, by `samples` × `samples` of them for its average.
+    pub(super) fn truth(scene: &ChartedScene, size: UVec2, samples: u32) -> Result<(Truth, Encoding), MeasureError> {
+        let mut app = App::new();
+        app.add_plugins(HalfwayPlugins::reference());
+        let mut stage = Self::new(app, scene, scene.true_detail, &mut SimplifiedMeshes::default())?;
+        let world = stage.app.world_mut();
+        let encoding =
+            world.query::<&Camera>().iter(world).next().map_or_else(Encoding::default, |camera| camera.encoding);
+        // Everything is in its place once transforms have been carried over.
+        stage.app.update();
+        let oracle = Oracle::new(stage.app.world_mut(), size)?.with_mode(Mode::Surface);
+        let center = oracle.draw();
+        let average = oracle.with_supersampling(samples).with_clamping(true).draw();
+        Ok((Truth { center, average }, encoding))
+    }
+
+    /// Both pictures of the scene as it stands, told what one sample covers.
+    pub(super) fn pictures(
+        &mut self,
+        method: Method,
+        covered: &[bool],
+        encoding: Encoding,
+    ) -> Result<Drawn, MeasureError> {
+        let [floats, bytes] = [Pixels::Float, Pixels::Byte].map(|pixels| self.picture(pixels, encoding));
+        let told = |image: Image| image.with_coverage(covered.to_vec());
+        Ok(Drawn { bytes: told(bytes?), floats: told(floats?), one_sample: method.samples == Samples::One })
+    }
+
+    /// Which pixels show an object. Nothing else can be drawn afterwards.
+    pub(super) fn coverage(mut self) -> Result<Vec<bool>, MeasureError> {
+        let world = self.app.world_mut();
+        world.insert_resource(GlobalAmbient(LinearRgba::BLACK));
+        for mut material in world.query::<&mut Material>().iter_mut(world) {
+            *material = Material::emissive(LinearRgba::WHITE);
+        }
+        for mut material in world.query::<&mut BackMaterial>().iter_mut(world) {
+            material.0 = Material::emissive(LinearRgba::WHITE);
+        }
+        for mut camera in world.query::<&mut Camera>().iter_mut(world) {
+            camera.background = LinearRgba::BLACK;
+            camera.samples = Samples::One;
+        }
+        let picture = self.picture(Pixels::Byte, Encoding::Raw)?.with_background([0.0; 3]);
+        Ok(picture.covered().unwrap_or_default().to_vec())
+    }
+
+    fn picture(&mut self, pixels: Pixels, encoding: Encoding) -> Result<Image, MeasureError> {
+        self.app.world_mut().resource_mut::<Headless>().pixels = pixels;
+        Ok(match render_picture(&mut self.app)? {
+            Picture::Float(image) => Image::from_float(&image),
+            Picture::Byte(image) => Image::from_bytes(&image, encoding),
+        })
+    }
+
+    /// Lets the scene move, if anything of it does, and makes it ready to be timed.
+    pub(super) fn move_on(&mut self) -> Result<(), MeasureError> {
+        self.app.world_mut().remove_resource::<Still>();
+        Ok(settle(&mut self.app)?)
+    }
+
+    /// The triangles of its last frame.
+    pub(super) fn triangles(&self) -> u64 {
+        self.app.world().get_resource::<FrameReport>().map_or(0, |report| report.triangles)
+    }
+
+    pub(super) fn app(&mut self) -> &mut App {
+        &mut self.app
+    }
+}
