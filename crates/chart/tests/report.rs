@@ -90,8 +90,8 @@ fn rows(name: &str) -> Vec<Vec<String>> {
 
 #[test]
 fn every_point_is_measured_and_finite() {
-    // Two details of six methods, and of seven where Blinn's formula may stand for Phong's.
-    assert_eq!((points("sphere").len(), points("teapot-by-phong").len()), (12, 14));
+    // Two details of seven methods, and of eight where Blinn's formula may stand for Phong's.
+    assert_eq!((points("sphere").len(), points("teapot-by-phong").len()), (14, 16));
     for point in points("sphere").iter().chain(points("teapot-by-phong")) {
         let name = point.describe();
         assert!(point.ratio.median.is_finite() && point.ratio.min > 0.0 && point.ms.min > 0.0, "{name}");
@@ -173,7 +173,7 @@ fn what_is_kept_is_not_measured_again() {
 fn chart_json_has_every_point_by_its_keys() {
     let json: serde_json::Value = serde_json::from_str(&file("chart.json")).expect("JSON");
     let points = json["points"].as_array().expect("points");
-    assert_eq!(points.len(), 26);
+    assert_eq!(points.len(), 30);
     for point in points {
         for key in ["scene", "method", "tessellation", "backend"] {
             assert!(point[key].is_string(), "{key}: {point}");
@@ -238,7 +238,7 @@ fn scaling_has_a_page_of_its_own() {
 
 #[test]
 fn tables_have_every_row() {
-    assert_eq!(file("points.csv").lines().count(), 1 + 26);
+    assert_eq!(file("points.csv").lines().count(), 1 + 30);
     // 2 objects, 2 materials, 3 shadings; 2 levels, or 3 quantities.
     assert_eq!((rows("convergence.csv").len(), rows("slopes.csv").len()), (24, 36));
     assert_eq!((rows("highlight.csv").len(), rows("unsteadiness.csv").len()), (2, 3));
@@ -304,8 +304,8 @@ fn the_page_holds_all_and_fetches_nothing() {
         let own = file(&format!("failure-{}.html", failure.id));
         assert!(own.contains(failure.test) && own.contains("data:image/png") && own.contains("<svg"), "{}", failure.id);
     }
-    // Two pictures for each of the 26 points, and one of the truth for each scene.
-    assert_eq!(page.matches("data:image/jpeg;base64,").count(), 54);
+    // Two pictures for each of the 30 points, and one of the truth for each scene.
+    assert_eq!(page.matches("data:image/jpeg;base64,").count(), 62);
     let page = page.replace("xmlns=\"http://www.w3.org/2000/svg\"", "");
     assert!(!page.contains("http:") && !page.contains("https:") && !page.contains("src=\"//"));
 }

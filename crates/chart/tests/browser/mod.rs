@@ -73,10 +73,10 @@ fn a_point_that_is_clicked_shows_its_pictures() {
          facts.title = card.querySelector('h3').textContent.split(',')[0];
          facts.command = card.querySelector('code').textContent.startsWith('halfway chart sphere --detail');",
     );
-    // Two details of six methods.
+    // Two details of seven methods.
     let jpeg = "data:image/jpeg";
     let expected = serde_json::json!({
-        "points": 12, "best": true, "wide": true, "scrolls": false, "card": true, "pictures": [jpeg, jpeg, jpeg],
+        "points": 14, "best": true, "wide": true, "scrolls": false, "card": true, "pictures": [jpeg, jpeg, jpeg],
         "title": "Gouraud", "command": true,
     });
     assert_eq!(facts, expected);
@@ -121,7 +121,7 @@ fn points_are_filtered_zoomed_and_sorted() {
          facts.down = sorted(column().reverse());",
     );
     let expected = serde_json::json!({
-        "flat": 0, "rest": 10, "infinite": ["phong-infinite-viewer", "phong-infinite-viewer"], "teapot": 12,
+        "flat": 0, "rest": 12, "infinite": ["phong-infinite-viewer", "phong-infinite-viewer"], "teapot": 14,
         "seen": ["teapot-by-phong"], "first": true, "flip": "mean ꟻLIP of the whole picture", "zoomed": true, "whole": true,
         "up": true, "down": true,
     });
