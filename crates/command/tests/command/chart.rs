@@ -19,8 +19,8 @@ fn a_model_is_charted_and_what_to_choose_is_said() {
     assert!(said.contains("charted/index.html") && said.contains("What to choose for "), "{said}");
     let chart = json(&folder.join("charted/chart.json"));
     let points = chart["points"].as_array().expect("points");
-    // Three details of six methods.
-    assert_eq!(points.len(), 18);
+    // Three details of seven methods.
+    assert_eq!(points.len(), 21);
     assert!(points.iter().all(|point| point["backend"] == "cpu" && point["scene"] == model.as_str()));
     assert!(points.iter().any(|point| point["front"] == true));
     // The model itself, under Phong shading, is what errors are errors from.
@@ -89,7 +89,7 @@ fn an_interrupted_run_goes_on_where_it_stopped() {
     succeeds(&folder, &arguments);
     let chart = json(&folder.join("chart/chart.json"));
     let points = chart["points"].as_array().expect("points");
-    assert_eq!(points.len(), 3 * 3 * 6);
+    assert_eq!(points.len(), 3 * 3 * 7);
     for line in known {
         // To the last digit: a frame does not take the same time twice.
         assert!(
