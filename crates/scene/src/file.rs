@@ -205,7 +205,7 @@ impl SceneFile {
         }
         color("ambient", &self.ambient)?;
         self.shading.check().within("shading")?;
-        self.tolerance.as_ref().map_or(Ok(()), ToleranceEntry::check).within("tolerance")?;
+        self.tolerance.map_or(Ok(()), ToleranceEntry::check).within("tolerance")?;
         self.camera.as_ref().map_or(Ok(()), CameraEntry::check).within("camera")?;
         for (i, object) in self.objects.iter().enumerate() {
             object.check().within_item("objects", i)?;

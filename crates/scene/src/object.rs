@@ -138,7 +138,7 @@ impl ObjectEntry {
         for (key, material) in [("material", &self.material), ("back_material", &self.back_material)] {
             material.as_ref().map_or(Ok(()), MaterialEntry::check).within(key)?;
         }
-        self.tolerance.as_ref().map_or(Ok(()), ToleranceEntry::check).within("tolerance")?;
+        self.tolerance.map_or(Ok(()), ToleranceEntry::check).within("tolerance")?;
         self.shading.map_or(Ok(()), ShadingEntry::check).within("shading")
     }
 }

@@ -29,7 +29,7 @@ use crate::view::CameraEntry;
 /// The entities of a scene that was spawned.
 #[derive(Clone, Debug)]
 pub struct Spawned {
-    /// The camera, with the scene's [`Shading`] and [`Reflectance`](halfway_lighting::Reflectance).
+    /// The camera, with the scene's [`Shading`](halfway_lighting::Shading) and [`Reflectance`](halfway_lighting::Reflectance).
     pub camera: Entity,
     /// The entity of every object of the file, in its order: it carries the object's `Name` and its frame. A shape of
     /// one part has its mesh on it, a model of several parts has one child for each.

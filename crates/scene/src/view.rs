@@ -198,7 +198,7 @@ impl JsonObject for ToleranceEntry {
 }
 
 impl ToleranceEntry {
-    pub(crate) fn check(&self) -> Check {
+    pub(crate) fn check(self) -> Check {
         in_range("steps", self.steps, Range::NON_NEGATIVE)?;
         in_range("pixels", self.pixels, Range::NON_NEGATIVE)
     }

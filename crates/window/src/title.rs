@@ -114,6 +114,7 @@ fn common(mut names: impl Iterator<Item = &'static str>, view: &'static str) -> 
 }
 
 /// The title of a window of `program` as it is now, after frames at `rate` a second.
+#[expect(clippy::too_many_arguments, reason = "a system takes each resource as a parameter")]
 pub(crate) fn title(
     In((program, rate)): In<(String, Option<f64>)>,
     name: Option<Res<WindowTitle>>,

@@ -76,7 +76,7 @@ pub use reach::reach;
 pub use receiver::{MARGIN, Receiver, TermBounds};
 pub use region::Region;
 pub use select::Selected;
-pub use slopes::Slopes;
+pub use slopes::PowerSlopes;
 pub use tolerance::{STEP, linear_tolerance};
 pub use tree::LightTree;
 pub use vertex::{Grain, TermChange, VertexChange, VertexChanges, VertexShading};

@@ -8,13 +8,13 @@ use crate::equations::{Real, power};
 /// With c = cos f and s = sin f, the first is −n·cⁿ⁻¹·s, and the second n·(n − 1)·cⁿ⁻²·s² − n·cⁿ. Each product has one peak;
 /// before it the bound is the peak's value, behind it the value at f₀.
 #[derive(Clone, Copy, Debug)]
-pub struct Slopes<T> {
+pub struct PowerSlopes<T> {
     exponent: T,
     /// The cosines at which n·cⁿ⁻¹·s, n·(n − 1)·cⁿ⁻²·s² and n·cⁿ⁻¹·(1 − c) have their peaks, and these.
     peaks: [[T; 2]; 3],
 }
 
-impl<T: Real> Slopes<T> {
+impl<T: Real> PowerSlopes<T> {
     /// Of this exponent, 0 or more.
     pub fn new(exponent: T) -> Self {
         let (n, one, two) = (exponent, T::one(), T::of(2.0));

@@ -1,7 +1,7 @@
 //! What shading terms at vertices changes: no sampled point of a triangle is off by more than is said.
 
 use halfway_lighting::bounds::{
-    Grain, NormalCone, Patch, Slopes, TermChange, VertexChange, VertexChanges, VertexShading,
+    Grain, NormalCone, Patch, PowerSlopes, TermChange, VertexChange, VertexChanges, VertexShading,
 };
 use halfway_lighting::equations::vector::{add, cross, dot, length, normalize, scale, sub};
 use halfway_lighting::equations::{
@@ -11,7 +11,7 @@ use halfway_lighting::{Faces, Reflectance};
 
 type V = [f64; 3];
 
-/// Numbers that look random: SplitMix64 (Steele, Lea and Flood 2014).
+/// Numbers that look random: `SplitMix64` (Steele, Lea and Flood 2014).
 struct Random(u64);
 
 impl Random {
@@ -156,7 +156,7 @@ impl Case {
             Eye::Local(eye) => Eye::Local(of(eye)),
             Eye::Infinite(v) => Eye::Infinite(of(v)),
         };
-        let slopes = Slopes::new(T::of(specular_exponent(self.reflectance, self.shininess)));
+        let slopes = PowerSlopes::new(T::of(specular_exponent(self.reflectance, self.shininess)));
         VertexShading::new(&patch, &grain, slopes, &view, self.reflectance)
     }
 
@@ -195,8 +195,9 @@ impl Case {
                         let name = ["ambient", "diffuse", "specular"][k];
                         return Err(format!("{name}: off by {off:e}; +{brighter:e} −{darker:e} at {b:?}"));
                     }
-                    if !(exact[k].min(interpolated[k]) >= least - room) {
-                        return Err(format!("term {k}: {:e}, and at least {least:e}", exact[k].min(interpolated[k])));
+                    let smaller = exact[k].min(interpolated[k]);
+                    if smaller.is_nan() || smaller < least - room {
+                        return Err(format!("term {k}: {smaller:e}, and at least {least:e}"));
                     }
                     let bound = if off > 0.0 { brighter } else { darker };
                     if bound > 0.0 {

@@ -1,7 +1,7 @@
 //! Light lists: which of many lights each patch needs, term by term.
 
 use crate::lights::gather::Lights;
-use crate::lights::places::{Placed, PlacedPatch, Places, StageLights, next};
+use crate::lights::places::{PlacedPatch, PlacedTerms, Places, StageLights, next};
 use crate::shaders::light_slots::{
     BOUND_LIGHTS, COUNTED_LIGHTS, Counted, Highlights, Lists, filled_up, filled_up_roughly,
 };
@@ -29,7 +29,7 @@ pub(crate) struct LightLists {
     tree: LightTree,
     near: NearLights,
     selected: Selected<f32>,
-    pub(crate) placed: Placed,
+    pub(crate) placed: PlacedTerms,
     /// How many terms of lights the lists name, over all patches.
     pub(crate) assigned: u64,
     /// How many terms are shaded at each point, over all patches.
@@ -133,7 +133,7 @@ impl LightLists {
 
     /// Where the terms of the patch last selected for are shaded, of an object whose terms are these.
     pub(crate) fn terms(&self, terms: Terms) -> Terms {
-        let Placed { vertex, fragment, .. } = &self.placed;
+        let PlacedTerms { vertex, fragment, .. } = &self.placed;
         let of = |term, vertex: &[u32], fragment: &[u32]| match (term, vertex.is_empty(), fragment.is_empty()) {
             (Frequency::Auto, true, true) => Frequency::Never,
             (Frequency::Auto, false, true) => Frequency::Vertex,
@@ -203,7 +203,7 @@ impl LightLists {
     /// Collects lights of which some terms are shaded at the vertices and others at the fragments. All that the fragment
     /// shader takes have their diffuse terms there, or none has; what is shaded there is not shaded at the vertices.
     fn split(&mut self, lights: &Lights, terms: Terms, take_powers: bool) -> Option<(Lists, Terms)> {
-        let Placed { vertex, fragment, .. } = &self.placed;
+        let PlacedTerms { vertex, fragment, .. } = &self.placed;
         let fragment_counted = self.set.collect(&fragment.diffuse, &fragment.specular, lights.counts, take_powers)?;
         let has_diffuse = !fragment.diffuse.is_empty();
         let has_specular = !fragment.specular.is_empty();
@@ -269,7 +269,7 @@ impl LightLists {
             append_stage(&mut self.numbers, *counts, &self.placed.fragment);
         let lists =
             RecordLists { vertex, vertex_diffuse, vertex_specular, fragment, fragment_diffuse, fragment_specular };
-        let Placed { vertex, fragment, .. } = &self.placed;
+        let PlacedTerms { vertex, fragment, .. } = &self.placed;
         self.shaded += [vertex, fragment]
             .into_iter()
             .map(|stage| (stage.diffuse.len() + stage.specular.len()) as u64)

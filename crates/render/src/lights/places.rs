@@ -3,7 +3,7 @@
 
 use crate::lights::terms::{by_fragment_shader, by_vertex_shader};
 use halfway_lighting::bounds::{
-    Grain, Patch, STEP, Selected, Slopes, TermChange, VertexChange, VertexChanges, VertexShading, linear_tolerance,
+    Grain, Patch, PowerSlopes, STEP, Selected, TermChange, VertexChange, VertexChanges, VertexShading, linear_tolerance,
 };
 use halfway_lighting::equations::{Coefficients, Eye, Light, specular_exponent};
 use halfway_lighting::{Encoding, Faces, Frequency, Reflectance, Terms};
@@ -17,7 +17,7 @@ pub(crate) struct StageLights {
 
 /// Where the terms of a patch's lights are shaded.
 #[derive(Debug, Default)]
-pub(crate) struct Placed {
+pub(crate) struct PlacedTerms {
     pub(crate) vertex: StageLights,
     pub(crate) fragment: StageLights,
     /// The most that any channel of any patch of the frame may be off by, in steps of the picture.
@@ -78,7 +78,7 @@ pub(crate) struct Places {
 #[derive(Clone, Copy, Debug)]
 struct Side {
     coefficients: Coefficients<f32>,
-    slopes: Slopes<f32>,
+    slopes: PowerSlopes<f32>,
     faces: Faces,
     /// What every point of it has without lights.
     unlit: [f32; 3],
@@ -124,7 +124,7 @@ impl Places {
         }
         let side = |coefficients: Coefficients<f32>, faces, unlit| Side {
             coefficients,
-            slopes: Slopes::new(specular_exponent(reflectance, coefficients.shininess)),
+            slopes: PowerSlopes::new(specular_exponent(reflectance, coefficients.shininess)),
             faces,
             unlit,
         };
@@ -141,11 +141,11 @@ impl Places {
     }
 
     fn sides(&self) -> &[Side] {
-        &self.sides[..1 + usize::from(self.is_two_sided)]
+        &self.sides[..=usize::from(self.is_two_sided)]
     }
 }
 
-impl Placed {
+impl PlacedTerms {
     pub(crate) fn begin(&mut self) {
         self.changes.begin();
         self.spent = 0.0;

@@ -5,7 +5,7 @@ mod wide;
 
 use super::angle::{Angle, Cap, slack};
 use super::quick::power_within;
-use super::slopes::Slopes;
+use super::slopes::PowerSlopes;
 use super::{Patch, Receiver};
 use crate::equations::vector::{dot, length, neg, sub};
 use crate::equations::{ATTENUATION_MAX, Coefficients, Eye, Light, Place, Real, attenuation, range_window, reflect};
@@ -127,7 +127,7 @@ pub struct VertexChange<T> {
 #[derive(Clone, Copy, Debug)]
 pub struct VertexShading<T> {
     receiver: Receiver<T>,
-    slopes: Slopes<T>,
+    slopes: PowerSlopes<T>,
     is_mirror: bool,
     sin_r: T,
     cos_r: T,
@@ -152,7 +152,8 @@ struct Weight<T> {
     is_spot: bool,
 }
 
-/// For a way p + u·t toward a light at distance d, l′ has the size u_t/d, and l″ u_t·√(u_t² + 4·u_r²)/d² ≤ 2/√3·‖u‖²/d².
+/// For a way p + u·s at distance d of a light, with a along the light's direction and t across it of u, l′ has the size t/d, and
+/// l″ t·√(t² + 4·a²)/d² ≤ 2/√3·‖u‖²/d².
 const TURNING: f64 = 1.154_700_6;
 
 impl<T: Real> VertexShading<T> {
@@ -161,7 +162,7 @@ impl<T: Real> VertexShading<T> {
     pub fn new(
         patch: &Patch<T>,
         grain: &Grain<T>,
-        slopes: Slopes<T>,
+        slopes: PowerSlopes<T>,
         view: &Eye<T>,
         reflectance: Reflectance,
     ) -> Option<Self> {
@@ -180,7 +181,8 @@ impl<T: Real> VertexShading<T> {
             Eye::Infinite(_) => T::zero(),
             Eye::Local(eye) => {
                 let nearest = length(sub(eye, patch.center)) * (T::one() - slack()) - patch.radius;
-                if !(nearest > grain.corners) {
+                // Also where it is no number.
+                if nearest <= grain.corners || nearest.is_nan() {
                     return None;
                 }
                 grain.corners / nearest
@@ -245,7 +247,7 @@ impl<T: Real> VertexShading<T> {
         if cone.exponent == zero {
             return Some((l, weight));
         }
-        let slopes = Slopes::new(cone.exponent);
+        let slopes = PowerSlopes::new(cone.exponent);
         let [steepest, falling, rising, largest] = slopes.from(nearest);
         if !falling.is_finite() {
             return None;
@@ -272,7 +274,7 @@ impl<T: Real> VertexShading<T> {
         let (l, distance) = Cap::toward(center, radius, position, offset, dot(offset, offset));
         let nearest = distance * (T::one() - slack()) - radius * (T::one() + slack());
         let farthest = (distance + radius) * (T::one() + slack());
-        if !(nearest > coincident) {
+        if nearest <= coincident || nearest.is_nan() {
             return None;
         }
         let [a, b, c] = light.attenuation;

@@ -137,7 +137,7 @@ struct WideWeight<S: Simd> {
 #[inline(always)]
 fn found<S: Simd>(simd: S, shading: &VertexShading<f32>, lights: &Chunk) -> WideChanges {
     let (zero, one) = (splat(simd, 0.0), splat(simd, 1.0));
-    let (l, spread, weight, said, odd) = arrival(simd, shading, lights);
+    let WideIncidence { l, spread, weight, said, odd } = arrival(simd, shading, lights);
     let normals = &shading.receiver.normals;
     let by_weight = splat(simd, 0.5 * shading.corners * shading.corners) * weight.bend;
     let ambient = limited(simd, [by_weight, by_weight, weight.least], weight.largest - weight.least, weight.largest);
@@ -156,13 +156,19 @@ fn found<S: Simd>(simd: S, shading: &VertexShading<f32>, lights: &Chunk) -> Wide
     }
 }
 
-/// The directions, how far they spread, the weights; of which something can be said, and which are for the plain text.
+/// Lights as they arrive at the points of a patch.
+struct WideIncidence<S: Simd> {
+    l: V3<S>,
+    spread: WideAngle<S>,
+    weight: WideWeight<S>,
+    /// Something can be said of these.
+    said: M<S>,
+    /// And these are for the plain text.
+    odd: M<S>,
+}
+
 #[inline(always)]
-fn arrival<S: Simd>(
-    simd: S,
-    shading: &VertexShading<f32>,
-    lights: &Chunk,
-) -> (V3<S>, WideAngle<S>, WideWeight<S>, M<S>, M<S>) {
+fn arrival<S: Simd>(simd: S, shading: &VertexShading<f32>, lights: &Chunk) -> WideIncidence<S> {
     let (zero, one) = (splat(simd, 0.0), splat(simd, 1.0));
     let receiver = &shading.receiver;
     let radius = splat(simd, receiver.radius);
@@ -227,7 +233,7 @@ fn arrival<S: Simd>(
     let l = [0, 1, 2].map(|k| is_point.select(axis[k], place[k]));
     let spread = WideAngle::subtended(simd, radius, distance);
     let spread = WideAngle::select(is_point, spread, WideAngle::splat(simd, 1.0, 0.0));
-    (l, spread, weight, said | !is_point, is_point & !safe)
+    WideIncidence { l, spread, weight, said: said | !is_point, odd: is_point & !safe }
 }
 
 /// Brighter and darker by no more than `largest`, raised by what rounding may add, and the least lowered.
@@ -329,7 +335,7 @@ fn specular<S: Simd>(
     limited(simd, [brighter, darker, least * lowest], range, largest)
 }
 
-/// [`Slopes::from`](crate::bounds::Slopes) for exponents from 2 on.
+/// [`PowerSlopes::from`](crate::bounds::PowerSlopes) for exponents from 2 on.
 #[inline(always)]
 fn slopes<S: Simd>(simd: S, shading: &VertexShading<f32>, c: F<S>) -> [F<S>; 4] {
     let (zero, one) = (splat(simd, 0.0), splat(simd, 1.0));
