@@ -107,7 +107,7 @@ fn multi_draw_changes_no_pixel() {
 /// Spheres nearby and much farther, so that `levels` of them are drawn.
 fn in_levels(levels: u8, change: impl Fn(u8, Thing) -> Thing) -> Scene {
     let mut scene = lit(Scene::seen_from(Vec3::ZERO, Vec3::NEG_Z));
-    scene.view_shading = Some(Shading::Phong);
+    scene.view_shading = Some(Shading::Gouraud);
     for i in 0..3 * levels {
         let distance = 3.0 * 6f32.powi((i / 3).into());
         let at = Vec3::new(0.2 * f32::from(i % 3) - 0.2, 0.0, -1.0) * distance;
@@ -138,7 +138,7 @@ fn a_draw_is_a_command() {
     ];
     for (row, scene, direct, multi) in rows {
         stage.set(&scene);
-        stage.levels(Tolerance { steps: 8.0, ..Tolerance::DEFAULT });
+        stage.levels(Tolerance::DEFAULT);
         for (wanted, draws) in [(false, direct), (true, multi), (false, direct)] {
             let expected = if set_multi_draw(&mut stage, wanted) { draws } else { direct };
             let report = stage.frame();
@@ -151,7 +151,7 @@ fn a_draw_is_a_command() {
 fn few_draws_are_a_command_each() {
     let mut stage = Stage::new(64, 48);
     stage.set(&in_levels(3, |_, thing| thing));
-    stage.levels(Tolerance { steps: 8.0, ..Tolerance::DEFAULT });
+    stage.levels(Tolerance::DEFAULT);
     // Three draws; and a single one may be read as well.
     for (from, draws) in [(0, 1), (1, 1), (2, 1), (3, 1), (4, 3), (u32::MAX, 3)] {
         let expected = if set_multi_draw_from(&mut stage, Some(from)) { draws } else { 3 };
