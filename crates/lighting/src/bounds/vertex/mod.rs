@@ -120,10 +120,6 @@ pub struct VertexChange<T> {
 /// | specular, where n·l changes sign | A·min(S, gⁿ), if that is more | it is cut off there, where its cosine is at most g: of h, (x + N·v)/‖l + v‖ with x the span of n·l |
 ///
 /// No change is larger than the difference between the term's largest value and its smallest.
-///
-/// The words are those of Barrera, Hast and Bengtsson (2006) and of Hu, Yuan, Wang, Yang and Bao (2022, an L∞ bound of
-/// interpolated Lambert and Blinn–Phong): both bound second derivatives over a triangle. Two-sided changes, many lights,
-/// local viewers, attenuation, cones and the gates are not in either.
 #[derive(Clone, Copy, Debug)]
 pub struct VertexShading<T> {
     receiver: Receiver<T>,
