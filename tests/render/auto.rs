@@ -8,9 +8,17 @@ use crate::render::stage::Stage;
 use halfway::lighting::Frequency;
 use halfway::mesh::{Tessellation, Torus, tessellate};
 use halfway::prelude::*;
+use halfway::render::{Costs, VertexPrices};
 
 /// Steps of tolerance that are tried.
 const STEPS: [f32; 5] = [0.5, 1.0, 2.0, 4.0, 8.0];
+
+/// Where everything goes to the vertices that may, whatever it costs.
+fn stage(width: u32, height: u32) -> Stage {
+    let mut stage = Stage::new(width, height);
+    stage.world().insert_resource(VertexPrices::FREE);
+    stage
+}
 
 fn ball() -> Mesh {
     UvSphere::new(1.0, 192, 96).into()
@@ -81,7 +89,7 @@ fn scenes() -> Vec<(&'static str, Scene)> {
 
 #[test]
 fn auto_is_phong_within_the_tolerance() {
-    let (mut stage, mut failures) = (Stage::new(112, 96), Failures::default());
+    let (mut stage, mut failures) = (stage(112, 96), Failures::default());
     for (name, scene) in scenes() {
         let (mut at_vertices, mut at_fragments) = (0, u64::MAX);
         for steps in STEPS {
@@ -109,7 +117,7 @@ fn auto_is_phong_within_the_tolerance() {
 /// What judges the rows above finds a picture that is off by a little more: Gouraud shading of the same.
 #[test]
 fn gouraud_is_not_phong_within_the_tolerance() {
-    let mut stage = Stage::new(112, 96);
+    let mut stage = stage(112, 96);
     let coarse = || Thing::new(Mesh::from(UvSphere::new(1.0, 48, 24))).of(material());
     let mut gouraud = scene(coarse()).lit(sun());
     gouraud.view_shading = Some(Shading::Gouraud);
@@ -130,7 +138,7 @@ fn gouraud_is_not_phong_within_the_tolerance() {
 
 #[test]
 fn an_exact_tolerance_draws_phong() {
-    let mut stage = Stage::new(96, 80);
+    let mut stage = stage(96, 80);
     stage.world().insert_resource(ViewTolerance(Tolerance::EXACT));
     for (name, auto) in scenes() {
         let mut phong = auto.clone();
@@ -146,7 +154,7 @@ fn an_exact_tolerance_draws_phong() {
 
 #[test]
 fn what_is_blended_or_stretched_is_shaded_at_fragments() {
-    let mut stage = Stage::new(64, 64);
+    let mut stage = stage(64, 64);
     stage.world().insert_resource(ViewTolerance(Tolerance::steps(8.0)));
     for (name, thing) in [
         ("blended", Thing::new(ball()).of(material()).blended(0.5)),
@@ -160,7 +168,7 @@ fn what_is_blended_or_stretched_is_shaded_at_fragments() {
 
 #[test]
 fn an_object_s_tolerance_wins_over_the_view_s() {
-    let mut stage = Stage::new(96, 80);
+    let mut stage = stage(96, 80);
     stage.world().insert_resource(ViewTolerance(Tolerance::EXACT));
     let auto = scene(Thing::new(ball()).of(material())).lit(sun());
     let exact = stage.draw(&auto);
@@ -180,7 +188,7 @@ fn an_object_s_tolerance_wins_over_the_view_s() {
 
 #[test]
 fn one_term_may_be_placed_and_the_other_said() {
-    let (mut stage, mut failures) = (Stage::new(112, 96), Failures::default());
+    let (mut stage, mut failures) = (stage(112, 96), Failures::default());
     stage.world().insert_resource(ViewTolerance(Tolerance::steps(2.0)));
     for (diffuse, specular) in [(Frequency::Auto, Frequency::Fragment), (Frequency::Fragment, Frequency::Auto)] {
         let thing = Thing::new(ball()).of(material()).terms(diffuse, specular);
@@ -193,8 +201,8 @@ fn one_term_may_be_placed_and_the_other_said() {
 
 #[test]
 fn false_colors_show_where_terms_are_shaded() {
-    let mut stage = Stage::new(96, 80);
-    stage.world().insert_resource(ViewTolerance(Tolerance::steps(2.0)));
+    let mut stage = stage(96, 80);
+    stage.world().insert_resource(ViewTolerance(Tolerance::steps(1.0)));
     stage.world().insert_resource(halfway::render::FalseColors(true));
     let auto = scene(Thing::new(ball()).of(material())).lit(sun());
     let picture = stage.draw(&auto);
@@ -216,7 +224,7 @@ fn false_colors_show_where_terms_are_shaded() {
 /// Lights and camera move on: what was chosen in one frame does not stay for the next.
 #[test]
 fn moving_lights_stay_within_the_tolerance() {
-    let (mut stage, mut failures) = (Stage::new(96, 80), Failures::default());
+    let (mut stage, mut failures) = (stage(96, 80), Failures::default());
     stage.world().insert_resource(ViewTolerance(Tolerance::steps(1.0)));
     for frame in 0..24_u8 {
         let turn = f32::from(frame) * 0.27;
@@ -226,4 +234,34 @@ fn moving_lights_stay_within_the_tolerance() {
         failures.draw(&format!("frame {frame}"), &mut stage, &moved, FLOAT.within(1.0));
     }
     failures.finish();
+}
+
+/// What a patch covers decides: the same ball is looked at light by light in a large picture, and only a few of its patches
+/// in a small one; and nowhere what costs more whatever it covers.
+#[test]
+fn what_costs_more_than_it_saves_stays_at_the_fragments() {
+    let mut auto = scene(Thing::new(ball()).of(material())).lit(sun());
+    for place in [Vec3::new(1.6, 1.4, 2.0), Vec3::new(-1.0, 2.4, 1.0), Vec3::new(0.3, -1.0, 3.0)] {
+        auto.lamps.push(Lamp::point(white(0.3), place));
+    }
+    let mut phong = auto.clone();
+    phong.view_shading = Some(Shading::Phong);
+    let look = |size: u32, prices: VertexPrices| {
+        let mut stage = Stage::new(size, size);
+        stage.world().insert_resource(prices);
+        let expected = stage.draw(&phong);
+        let picture = stage.draw(&auto);
+        let FrameReport { patches, patches_culled, light_pairs, terms_at_vertices, .. } = *stage.report();
+        let seen = u64::from(patches - patches_culled);
+        (terms_at_vertices, light_pairs, seen, difference(&expected, &picture))
+    };
+    let software = Costs::SOFTWARE.vertices;
+    let (at_vertices, pairs, seen, _) = look(1024, software);
+    assert!(at_vertices > 0 && pairs >= 4 * seen, "{at_vertices} at vertices, {pairs} pairs of {seen} patches");
+    let (at_vertices, pairs, seen, off) = look(96, software);
+    assert!(pairs <= seen / 2, "{pairs} pairs of {seen} patches");
+    assert_eq!((at_vertices, off), (0, 0.0));
+    assert_eq!(Costs::CPU.vertices, VertexPrices::NEVER);
+    let (at_vertices, pairs, _, off) = look(1024, VertexPrices::NEVER);
+    assert_eq!((at_vertices, pairs, off), (0, 0, 0.0));
 }

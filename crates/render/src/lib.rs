@@ -22,7 +22,7 @@ mod view;
 pub use batch::false_colors::FalseColors;
 pub use device::adapter::Adapter;
 pub use device::choice::AdapterChoice;
-pub use device::costs::Costs;
+pub use device::costs::{Costs, VertexPrices};
 pub use device::cpu::Cpu;
 pub use device::gpu::Gpu;
 pub use device::gpu_timer::GpuTimer;

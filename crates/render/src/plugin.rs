@@ -8,6 +8,7 @@ use crate::cpu::meshes::{self as mesh_pieces, MeshPieces};
 use crate::cpu::pass::{self as lists, PassLists};
 use crate::device::adapter::Adapter;
 use crate::device::choice::AdapterChoice;
+use crate::device::costs::VertexPrices;
 use crate::device::cpu::Cpu;
 use crate::device::gpu::Gpu;
 use crate::draw::meshes::{self as mesh_buffers, MeshBuffers};
@@ -155,6 +156,7 @@ fn register_types(app: &mut App) {
         .register_type::<Visible>()
         .register_type::<ModelView>()
         .register_type::<NormalMatrix>()
+        .register_type::<VertexPrices>()
         .register_type::<Chosen>();
 }
 

@@ -3,7 +3,8 @@
 use crate::batch::backend::Backend;
 use crate::batch::draws::{DrawState, Draws};
 use crate::batch::key::DrawKey;
-use crate::batch::lit_patches::{LitPatches, LitRun};
+use crate::batch::lit_patches::LitPatches;
+use crate::batch::lit_runs::LitRun;
 use crate::frame::report::FrameReport;
 use crate::shaders::records::InstanceRecord;
 use bevy_ecs::component::Mutable;

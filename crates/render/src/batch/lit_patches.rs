@@ -3,17 +3,20 @@
 use crate::batch::backend::Backend;
 use crate::batch::false_colors::FalseColors;
 use crate::batch::key::DrawKey;
+use crate::batch::lit_runs::{LitRun, OpenRun};
 use crate::batch::object::{Circumstances, Reflecting, Shared};
 use crate::batch::table::ObjectTable;
+use crate::device::costs::VertexPrices;
 use crate::error::{RenderError, label};
 use crate::frame::report::FrameReport;
 use crate::geometry::allowed::{Allowed, Demand, SAMPLED, geometry_steps};
 use crate::geometry::detail::Choice;
 use crate::geometry::meshes::{Form, Geometries, Geometry};
 use crate::geometry::patches::{MeshPatch, Sight};
+use crate::lights::gains::Extent;
 use crate::lights::gather::Lights;
 use crate::lights::lists::{LightLists, Listing};
-use crate::lights::places::PlacedPatch;
+use crate::lights::places::{Place, PlacedPatch, Spending};
 use crate::lights::terms::{Chosen, by_fragment_shader, by_vertex_shader};
 use crate::shaders::light_slots::Lists;
 use crate::shaders::records::{DrawRecord, InstanceRecord, MaterialRecord, RecordLists};
@@ -23,10 +26,10 @@ use crate::view::matrices::{ModelView, NormalMatrix, Visible};
 use bevy_asset::AssetId;
 use bevy_ecs::component::Mutable;
 use bevy_ecs::prelude::*;
-use halfway_lighting::{BackMaterial, Blend, Faces, Material, Reflectance, Terms, Tolerance, ViewTolerance, equations};
+use halfway_lighting::{
+    BackMaterial, Blend, Faces, Frequency, Material, Reflectance, Terms, Tolerance, ViewTolerance, equations,
+};
 use halfway_mesh::{Mesh, Mesh3d};
-use std::cmp::Ordering;
-use std::ops::Range;
 
 /// What is seen, in the order of the objects. Holds after [`RenderSet::Illuminate`](crate::RenderSet::Illuminate).
 #[derive(Resource, Debug, Default)]
@@ -39,27 +42,6 @@ pub(crate) struct LitPatches {
     pub(crate) lists: LightLists,
     pub(crate) table: ObjectTable,
     choice: Choice,
-}
-
-/// Neighbouring patches of an object that are drawn alike.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct LitRun {
-    pub(crate) blend: bool,
-    /// The number of its key, mesh and form.
-    pub(crate) call: u32,
-    /// 0, and 1 for the second pass of an object that is drawn in two: its near side.
-    pub(crate) pass: u32,
-    /// How many opaque objects that were spawned before have its bounding sphere; such may coincide, and the first is to
-    /// win. 0 for blended ones.
-    pub(crate) twins_before: u32,
-    /// The first of its indices, and the first behind them.
-    pub(crate) indices: (u32, u32),
-    /// The first of the lights that are bound for it at fixed places.
-    pub(crate) lights: u32,
-    pub(crate) record: u32,
-    /// Distance of the object's centre along the view; nearer opaque objects first, farther blended ones first.
-    pub(crate) depth: f32,
-    pub(crate) instance: u32,
 }
 
 type ObjectQuery<'w, 's> = Query<
@@ -89,6 +71,7 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
     lights: Res<Lights>,
     of_view: Res<ViewTolerance>,
     false_colors: Res<FalseColors>,
+    prices: Option<Res<VertexPrices>>,
     values: Res<FrameValues>,
     mut backend: ResMut<B>,
     mut lit: ResMut<LitPatches>,
@@ -98,7 +81,8 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
     lit.begin(&lights, lights.is_changed());
     let (Some(camera), Some(values)) = (&view.camera, values.0) else { return };
     let (encoding, viewer, costs) = (values.encoding(), camera.viewer, backend.costs());
-    let shared = Shared { lights: &lights, encoding, viewer, costs, false_colors: false_colors.0 };
+    let prices = prices.map_or(costs.vertices, |prices| *prices);
+    let shared = Shared { lights: &lights, encoding, viewer, costs, prices, false_colors: false_colors.0 };
     let mut seen = Vec::new();
     for &entity in &visible.0 {
         let Ok((mesh, material, back, reflectance, faces, blend, tolerance, model_view, normal_matrix, chosen, name)) =
@@ -172,6 +156,40 @@ struct LitObject<'a> {
     tolerance: Tolerance,
 }
 
+impl LitObject<'_> {
+    /// Where those terms of a patch may be shaded that are placed light by light, and how much of it there is to shade.
+    fn place(&self, patch: &MeshPatch, sight: &Sight, prices: &VertexPrices) -> (Place, Extent) {
+        if !self.key.terms.has(Frequency::Auto) {
+            return (Place::Either, Extent::default());
+        }
+        let extent = patch.extent(sight);
+        let place = if patch.is_coarse_within(sight, self.tolerance.pixels + SAMPLED) {
+            Place::Corners
+        } else if prices.may_save(extent.pixels, extent.vertices) {
+            Place::Either
+        } else {
+            Place::Fragments
+        };
+        (place, extent)
+    }
+
+    /// What bounds of lights take of a patch.
+    fn placed<R>(
+        &self,
+        patch: &MeshPatch,
+        (place, extent): (Place, Extent),
+        with: impl FnOnce(&PlacedPatch) -> R,
+    ) -> R {
+        let Self { model_view, normal_matrix, reflecting, form, .. } = self;
+        with(&PlacedPatch {
+            patch: &patch.in_eye_space(model_view, normal_matrix, reflecting.faces, form.flat),
+            grain: patch.grain(model_view),
+            place,
+            extent,
+        })
+    }
+}
+
 impl LitPatches {
     fn begin(&mut self, lights: &Lights, changed: bool) {
         self.runs.clear();
@@ -214,9 +232,12 @@ impl LitPatches {
         self.instances.push(InstanceRecord::new(model_view, normal_matrix, reflecting.faces, view.unit() as f32));
         // Where all lights are compiled in, no patch has lists.
         let admitted = if key.lists == Lists::Listed { *key } else { backend.admit(*key) };
+        let compiled_in = Lists::new(lights.counts) != Lists::Listed;
         let listing = (admitted.lists == Lists::Listed).then(|| {
             let eye = equations::Eye::in_eye_space(shared.viewer);
-            reflector.listing(reflecting.faces, shared.lights.ambient, eye, (encoding, steps))
+            let compiled_in = compiled_in.then_some(lights.records.len());
+            let spending = Spending { encoding, steps, prices: shared.prices, compiled_in };
+            reflector.listing(reflecting.faces, shared.lights.ambient, eye, spending)
         });
         seen.clear();
         let looked_at = detail.each_seen(&allowed, &sight, &mut self.choice, |patch| seen.push(patch));
@@ -225,15 +246,29 @@ impl LitPatches {
             report.patches += looked_at;
             report.patches_culled += looked_at - seen.len() as u32;
         }
+        let prices = match &listing {
+            Some(listing) if key.terms.has(Frequency::Auto) && self.pays(object, seen, listing, (&sight, shared)) => {
+                &shared.prices
+            }
+            _ => &VertexPrices::NEVER,
+        };
         let mut run: Option<OpenRun> = None;
         for together in seen.chunks(TOGETHER) {
-            if let Some(listing) = &listing {
-                self.lists.look_around(listing, together.iter().map(|patch| patch.sphere(model_view)));
-            }
+            let mut has_looked_around = false;
             for patch in together {
-                let (key, lights, lists) = match &listing {
-                    Some(listing) => self.lit(object, patch, listing, (&sight, shared), backend),
-                    None => (admitted, 0, RecordLists::default()),
+                let (key, lights, lists) = if let Some(listing) = &listing {
+                    let place = object.place(patch, &sight, prices);
+                    if let Some(key) = self.unlisted(object, place.0, shared, backend) {
+                        (key, 0, RecordLists::default())
+                    } else {
+                        if !has_looked_around {
+                            self.lists.look_around(listing, together.iter().map(|patch| patch.sphere(model_view)));
+                            has_looked_around = true;
+                        }
+                        self.lit(object, (patch, place), listing, shared, backend)
+                    }
+                } else {
+                    (admitted, 0, RecordLists::default())
                 };
                 let (key, lights, record) = if shared.false_colors {
                     self.false_colored(object, patch, key, listing.is_some(), backend)
@@ -280,24 +315,73 @@ impl LitPatches {
         (key, 0, self.records.len() as u32 - 1)
     }
 
+    /// Whether it pays to place terms light by light, as far as some of the patches tell.
+    fn pays(
+        &mut self,
+        object: &LitObject,
+        seen: &[&MeshPatch],
+        listing: &Listing,
+        (sight, shared): (&Sight, Shared),
+    ) -> bool {
+        if listing.places.is_none() {
+            return false;
+        }
+        if seen.len() < FEW_PATCHES {
+            return true;
+        }
+        let mut gains = 0.0;
+        for patch in seen.iter().step_by(LOOKED_AT_FIRST) {
+            let place = object.place(patch, sight, &shared.prices);
+            if place.0 == Place::Either {
+                self.lists.look_around(listing, std::iter::once(patch.sphere(object.model_view)));
+                gains += object.placed(patch, place, |placed| {
+                    let gain = self.lists.select(shared.lights, placed, listing, object.key.terms);
+                    gain.max(-shared.prices.look * shared.lights.records.len() as f32)
+                });
+            }
+        }
+        gains >= 0.0
+    }
+
+    /// The key that draws a patch under all lights of a scene with few, where its terms have one place whatever the
+    /// light: to look at each would cost more than it saves. `None` where the patch has lists.
+    fn unlisted(
+        &mut self,
+        object: &LitObject,
+        place: Place,
+        Shared { lights, .. }: Shared,
+        backend: &mut impl Backend,
+    ) -> Option<DrawKey> {
+        let lists = Lists::new(lights.counts);
+        if place == Place::Either || !object.key.terms.has(Frequency::Auto) || lists == Lists::Listed {
+            return None;
+        }
+        let key = DrawKey { lists, ..object.key }.with_terms(place.of(object.key.terms));
+        let admitted = backend.admit(key);
+        if admitted.lists == Lists::Listed {
+            return None;
+        }
+        self.lists.placed.count_all(admitted.terms, lights.records.len());
+        Some(admitted)
+    }
+
     /// The key that draws a patch, the lights that are bound for it, and its lists.
     fn lit(
         &mut self,
         object: &LitObject,
-        patch: &MeshPatch,
+        (patch, place): (&MeshPatch, (Place, Extent)),
         listing: &Listing,
-        (sight, shared): (&Sight, Shared),
+        shared: Shared,
         backend: &mut impl Backend,
     ) -> (DrawKey, u32, RecordLists) {
-        let LitObject { reflecting, key, model_view, normal_matrix, .. } = object;
-        let flat = object.form.flat;
-        let placed = PlacedPatch {
-            patch: &patch.in_eye_space(model_view, normal_matrix, reflecting.faces, flat),
-            grain: patch.grain(model_view),
-            pixels_per_vertex: patch.pixels_per_vertex(sight),
-            by_corners: patch.is_coarse_within(sight, object.tolerance.pixels + SAMPLED),
-        };
-        self.lists.select(shared.lights, &placed, listing, key.terms);
+        let LitObject { key, .. } = object;
+        let gain = object.placed(patch, place, |placed| self.lists.select(shared.lights, placed, listing, key.terms));
+        if gain < 0.0
+            && let Some(key) = self.unlisted(object, Place::Fragments, shared, backend)
+        {
+            return (key, 0, RecordLists::default());
+        }
+        self.lists.count();
         let key = key.with_terms(self.lists.terms(key.terms));
         if !key.is_lit() {
             return (backend.admit(key), 0, RecordLists::default());
@@ -331,47 +415,9 @@ impl LitPatches {
     }
 }
 
+/// Of objects with so many patches in sight one in so many is looked at, whether placing terms pays.
+const FEW_PATCHES: usize = 64;
+const LOOKED_AT_FIRST: usize = 16;
+
 /// So many patches that lie next to each other look for their lights together.
 const TOGETHER: usize = 32;
-
-/// A part that may go on with the next patch.
-struct OpenRun {
-    key: DrawKey,
-    lights: u32,
-    record: u32,
-    indices: Range<u32>,
-}
-
-/// Triangles between patches of a run that are not seen are drawn with it if they are no more than this: that costs less
-/// than another draw.
-const JOINED: u32 = 128;
-
-impl OpenRun {
-    fn goes_on_with(&self, next: &Self) -> bool {
-        (self.key, self.lights, self.record) == (next.key, next.lights, next.record)
-            && next.indices.start - self.indices.end <= 3 * JOINED
-    }
-}
-
-impl LitRun {
-    /// But for their records, which may be looked up.
-    pub(crate) fn is_of_one_state(&self, other: &Self) -> bool {
-        let state = |item: &Self| (item.blend, item.call, item.lights);
-        state(self) == state(other)
-    }
-
-    pub(crate) fn by_state(&self, other: &Self) -> Ordering {
-        let state = |item: &Self| (item.twins_before, item.call, item.indices, item.lights, item.record);
-        state(self).cmp(&state(other)).then_with(|| self.by_nearness(other))
-    }
-
-    pub(crate) fn by_nearness(&self, other: &Self) -> Ordering {
-        self.depth.total_cmp(&other.depth).then_with(|| self.instance.cmp(&other.instance))
-    }
-
-    /// Far ones first; of one instance the far side first, and then by triangle.
-    pub(crate) fn by_depth(&self, other: &Self) -> Ordering {
-        let order = |item: &Self| (item.instance, item.pass, item.indices);
-        other.depth.total_cmp(&self.depth).then_with(|| order(self).cmp(&order(other)))
-    }
-}

@@ -7,5 +7,6 @@ pub(crate) mod draws;
 pub(crate) mod false_colors;
 pub(crate) mod key;
 pub(crate) mod lit_patches;
+pub(crate) mod lit_runs;
 pub(crate) mod object;
 pub(crate) mod table;

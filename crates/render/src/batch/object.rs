@@ -1,7 +1,7 @@
 //! What one object is drawn with: its key, its material record, and what light lists have to know of it.
 
 use crate::batch::key::{Cull, DrawKey};
-use crate::device::costs::Costs;
+use crate::device::costs::{Costs, VertexPrices};
 use crate::lights::gather::Lights;
 use crate::lights::lists::Reflector;
 use crate::shaders::light_slots::Lists;
@@ -43,6 +43,7 @@ pub(crate) struct Shared<'a> {
     pub(crate) encoding: Option<Encoding>,
     pub(crate) viewer: Viewer,
     pub(crate) costs: Costs,
+    pub(crate) prices: VertexPrices,
     pub(crate) false_colors: bool,
 }
 

@@ -1,13 +1,15 @@
 //! What is cheap on an adapter.
 
 use crate::error::RenderError;
+use bevy_ecs::prelude::{ReflectResource, Resource};
+use bevy_reflect::Reflect;
 
 /// What is cheap on the adapter, and so by which of two ways a frame is drawn: the one place where the renderer tells
 /// software adapters, which draw on the CPU, from hardware. Either way gives the same picture, but for rounding.
 ///
 /// Taken from the adapter when it is opened, unless the environment variable `HALFWAY_COSTS` says `software` or `hardware`;
 /// [`Gpu::set_costs`](crate::Gpu::set_costs) sets it later. So the ways of hardware can be tried on a software adapter.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Costs {
     /// Shaders write the sRGB curve where nothing blends and a pixel has one sample; else the target's format does. A
     /// software adapter decodes and encodes all 16 pixels of a block to write some of them.
@@ -24,6 +26,38 @@ pub struct Costs {
     /// The CPU writes meshes directly into the buffers that are drawn from. Elsewhere than on a software adapter, memory
     /// that both reach is slow for one of them.
     pub maps_meshes: bool,
+    /// What shading at the vertices saves and costs, for [`Shading::Auto`](halfway_lighting::Shading::Auto).
+    pub vertices: VertexPrices,
+}
+
+/// What it costs to shade the lights of a patch at its vertices, in what a light costs at a pixel: for
+/// [`Shading::Auto`](halfway_lighting::Shading::Auto), which moves terms to the vertices, and leaves lights out of a patch
+/// that are compiled in, where that is within the tolerance and saves more than it costs.
+///
+/// As a resource it stands for the adapter's own, in [`Costs`].
+#[derive(Resource, Reflect, Clone, Copy, Debug, PartialEq)]
+#[reflect(Resource, Clone, Debug, PartialEq)]
+pub struct VertexPrices {
+    /// A light at a vertex.
+    pub light: f32,
+    /// That there is any light at a pixel: its normal, and the way to the eye.
+    pub pixel: f32,
+    /// To bound what a light changes of a patch.
+    pub look: f32,
+    /// To draw a patch with lights of its own.
+    pub draw: f32,
+}
+
+impl VertexPrices {
+    /// Whatever the tolerance allows is shaded at the vertices, though that may be dearer.
+    pub const FREE: Self = Self { light: 0.0, pixel: 0.0, look: 0.0, draw: 0.0 };
+    /// Nothing is, but what is coarser than its mesh.
+    pub const NEVER: Self = Self { light: f32::INFINITY, pixel: 0.0, look: f32::INFINITY, draw: f32::INFINITY };
+
+    /// Whether a patch of so many pixels and vertices may save anything.
+    pub(crate) fn may_save(&self, pixels: f32, vertices: f32) -> bool {
+        *self != Self::NEVER && pixels * (1.0 + self.pixel) >= vertices * self.light + self.look
+    }
 }
 
 /// What an adapter is taken for of which nothing is known: [`Costs::HARDWARE`].
@@ -41,6 +75,7 @@ impl Costs {
         records_of_one_command: 512,
         multi_draw: None,
         maps_meshes: true,
+        vertices: VertexPrices { light: 3.0, pixel: 0.5, look: 8.0, draw: 900.0 },
     };
 
     /// Of a graphics card.
@@ -53,6 +88,7 @@ impl Costs {
         records_of_one_command: 2,
         multi_draw: Some(128),
         maps_meshes: false,
+        vertices: VertexPrices::NEVER,
     };
 
     /// Of the CPU without a driver ([`Cpu`](crate::Cpu)): its shading reads materials and lights where they are, so that
@@ -63,6 +99,7 @@ impl Costs {
         records_of_one_command: 2,
         multi_draw: None,
         maps_meshes: true,
+        vertices: VertexPrices::NEVER,
     };
 
     /// Of this adapter, or what the environment says of it.

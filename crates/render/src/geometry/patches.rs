@@ -1,6 +1,7 @@
 //! Patches: large meshes in pieces that lie close together and face alike, so that each can have light lists of its own and
 //! be left out when it is not seen.
 
+use crate::lights::gains::Extent;
 use crate::view::camera::View;
 use crate::view::matrices::{ModelView, NormalMatrix};
 use bevy_math::Vec3;
@@ -280,8 +281,8 @@ impl MeshPatch {
         self.longest_edge.is_finite() && self.longest_edge * sight.pixels_per_unit(self) <= pixels
     }
 
-    /// About how many pixels its triangles cover for each of its vertices, where nothing hides them.
-    pub(crate) fn pixels_per_vertex(&self, sight: &Sight) -> f32 {
+    /// About how many pixels its triangles cover, where nothing hides them; and its vertices.
+    pub(crate) fn extent(&self, sight: &Sight) -> Extent {
         let View { projection, pixels_at_unit_depth, .. } = sight.view;
         let (center, _) = self.sphere(sight.model_view);
         let depth = (-center.z).max(projection.near);
@@ -290,7 +291,7 @@ impl MeshPatch {
             .eye
             .zip(self.faces)
             .map_or(0.5, |((eye, _), cone)| (eye - self.center).normalize_or_zero().dot(cone.axis).abs());
-        self.area * facing * pixels * pixels / (self.vertices.max(1) as f32)
+        Extent { pixels: self.area * facing * pixels * pixels, vertices: self.vertices as f32 }
     }
 
     /// The radius of the sphere around it, in the mesh's units.

@@ -1,7 +1,7 @@
 //! Light lists: which of many lights each patch needs, term by term.
 
 use crate::lights::gather::Lights;
-use crate::lights::places::{PlacedPatch, PlacedTerms, Places, StageLights, next};
+use crate::lights::places::{PlacedPatch, PlacedTerms, Places, Spending, StageLights, next};
 use crate::shaders::light_slots::{
     BOUND_LIGHTS, COUNTED_LIGHTS, Counted, Highlights, Lists, filled_up, filled_up_roughly,
 };
@@ -9,7 +9,7 @@ use crate::shaders::records::{LightRecord, RecordLists};
 use bevy_math::Vec3;
 use halfway_lighting::bounds::{LightTree, NearLights, Receiver, Region, STEP, Selected, linear_tolerance};
 use halfway_lighting::equations::{Coefficients, Eye, specular_exponent};
-use halfway_lighting::{Encoding, Faces, Frequency, Reflectance, Terms};
+use halfway_lighting::{Faces, Frequency, Reflectance, Terms};
 
 /// The lists of a frame.
 #[derive(Debug, Default)]
@@ -118,16 +118,21 @@ impl LightLists {
     }
 
     /// Selects the lights that `patch`, one of those last looked around, needs: those left out change no channel of a
-    /// pixel by more than the listing's tolerance together. And says where their terms are shaded.
-    pub(crate) fn select(&mut self, lights: &Lights, placed: &PlacedPatch, listing: &Listing, terms: Terms) {
+    /// pixel by more than the listing's tolerance together. And says where their terms are shaded. Returns what that saves, in
+    /// lights at a pixel; below 0 where nothing is at the vertices for that.
+    pub(crate) fn select(&mut self, lights: &Lights, placed: &PlacedPatch, listing: &Listing, terms: Terms) -> f32 {
         let receiver = Receiver::new(placed.patch, &listing.material, &listing.view, listing.reflectance);
         self.near.select(&self.tree, &lights.sources, &receiver, listing.tolerance, &mut self.selected);
-        self.left_out = self.selected.left_out.into_iter().fold(self.left_out, f64::max);
-        self.assigned += (self.selected.diffuse.len() + self.selected.specular.len()) as u64;
         match &listing.places {
             Some(places) => self.placed.place(places, placed, terms, &lights.sources, &self.selected),
-            None => self.placed.as_said(&self.selected, terms),
+            None => self.placed.as_said(&self.selected, placed.place.of(terms)),
         }
+    }
+
+    /// Counts what was selected last.
+    pub(crate) fn count(&mut self) {
+        self.left_out = self.selected.left_out.into_iter().fold(self.left_out, f64::max);
+        self.assigned += (self.selected.diffuse.len() + self.selected.specular.len()) as u64;
         self.placed.count();
     }
 
@@ -384,16 +389,10 @@ impl RecordLists {
 }
 
 impl Reflector {
-    /// For a picture of this encoding, which has none in floating point, within so many steps.
-    pub(crate) fn listing(
-        &self,
-        faces: Faces,
-        ambient: Vec3,
-        view: Eye<f32>,
-        (encoding, steps): (Option<Encoding>, f64),
-    ) -> Listing {
+    pub(crate) fn listing(&self, faces: Faces, ambient: Vec3, view: Eye<f32>, spending: Spending) -> Listing {
         let unlit = self.unlit_sides(ambient);
-        let places = Places::new(self.sides, self.terms, self.reflectance, faces, unlit, view, (encoding, steps));
+        let places = Places::new(self.sides, self.terms, self.reflectance, faces, unlit, view, spending);
+        let Spending { encoding, steps, .. } = spending;
         let for_lights = if places.is_some() { 0.5 * steps } else { steps };
         let tolerance = self.unlit(ambient).to_array().map(|at_least| {
             encoding.map_or(0.0, |encoding| linear_tolerance(encoding, for_lights * STEP, at_least.into()))

@@ -1,5 +1,6 @@
 //! The lights of a frame, the terms that are shaded of them, and which of them each patch needs.
 
+pub(crate) mod gains;
 pub(crate) mod gather;
 pub(crate) mod lists;
 pub(crate) mod places;

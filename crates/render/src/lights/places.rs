@@ -1,6 +1,8 @@
 //! Where the terms of each light are shaded, patch by patch: at the vertices where that is within the tolerance, and at the
 //! fragments elsewhere.
 
+use crate::device::costs::VertexPrices;
+use crate::lights::gains::{Extent, Movable};
 use crate::lights::terms::{by_fragment_shader, by_vertex_shader};
 use halfway_lighting::bounds::{
     Grain, Patch, PowerSlopes, STEP, Selected, TermChange, VertexChange, VertexChanges, VertexShading, linear_tolerance,
@@ -25,6 +27,8 @@ pub(crate) struct PlacedTerms {
     /// How many terms are shaded where, over all patches.
     pub(crate) at_vertices: u64,
     pub(crate) at_fragments: u64,
+    /// The most that any channel of the last patch may be off by, in steps.
+    last_spent: f64,
     /// Those that may move to the vertices, for one patch after the other.
     movable: Vec<Movable>,
     /// The lights of the patch at hand, and what shading them at the vertices changes of each side.
@@ -72,6 +76,21 @@ pub(crate) struct Places {
     encoding: Encoding,
     /// How far a channel may be off, in the picture's encoding.
     tolerance: f64,
+    prices: VertexPrices,
+    /// How many lights are compiled in for a patch without lists; `None` where each has some.
+    compiled_in: Option<usize>,
+}
+
+/// What an object's patches may change of the picture, and at which prices.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Spending {
+    /// What the bytes of the picture hold; `None` for floating point.
+    pub(crate) encoding: Option<Encoding>,
+    /// In steps of 1/255 of the picture.
+    pub(crate) steps: f64,
+    pub(crate) prices: VertexPrices,
+    /// How many lights are compiled in for a patch without lists; `None` where each has some.
+    pub(crate) compiled_in: Option<usize>,
 }
 
 /// One side of a surface.
@@ -88,24 +107,30 @@ struct Side {
 pub(crate) struct PlacedPatch<'a> {
     pub(crate) patch: &'a Patch<f32>,
     pub(crate) grain: Grain<f32>,
-    /// How many pixels it may cover for each of its vertices.
-    pub(crate) pixels_per_vertex: f32,
-    /// What its corners show is as good as what is between them.
-    pub(crate) by_corners: bool,
+    pub(crate) place: Place,
+    pub(crate) extent: Extent,
 }
 
-/// A term that may be shaded at the vertices.
-#[derive(Clone, Copy, Debug)]
-struct Movable {
-    light: u32,
-    is_diffuse: bool,
-    brighter: [f64; 3],
-    darker: [f64; 3],
-    share: f64,
+/// Where those terms of a patch may be shaded that are placed light by light.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Place {
+    /// At the vertices: what its corners show is as good as what is between them.
+    Corners,
+    /// At the fragments: its vertices cost as much as its pixels.
+    Fragments,
+    /// Light by light.
+    Either,
 }
 
-/// Where a patch covers fewer pixels for each vertex, its vertices cost as much as its pixels.
-const FEWEST_PIXELS: f32 = 1.5;
+impl Place {
+    /// Where they are, all in one place.
+    pub(crate) fn of(self, terms: Terms) -> Terms {
+        match self {
+            Self::Corners => terms.map(|term| if term == Frequency::Auto { Frequency::Vertex } else { term }),
+            Self::Fragments | Self::Either => terms.at_fragments(),
+        }
+    }
+}
 
 impl Places {
     /// Of an object with these sides and terms; `None` where none of its terms is placed light by light.
@@ -116,10 +141,10 @@ impl Places {
         faces: Faces,
         unlit: [[f32; 3]; 2],
         view: Eye<f32>,
-        (encoding, steps): (Option<Encoding>, f64),
+        Spending { encoding, steps, prices, compiled_in }: Spending,
     ) -> Option<Self> {
         let placed = [terms.diffuse, terms.specular].map(|term| term == Frequency::Auto);
-        if placed == [false; 2] {
+        if placed == [false; 2] || prices == VertexPrices::NEVER {
             return None;
         }
         let side = |coefficients: Coefficients<f32>, faces, unlit| Side {
@@ -137,6 +162,8 @@ impl Places {
             reflectance,
             encoding: encoding.unwrap_or(Encoding::Raw),
             tolerance: steps * STEP,
+            prices,
+            compiled_in,
         })
     }
 
@@ -157,6 +184,14 @@ impl PlacedTerms {
         let [at_vertices, at_fragments] = self.terms();
         self.at_vertices += at_vertices;
         self.at_fragments += at_fragments;
+        self.spent = self.spent.max(self.last_spent);
+    }
+
+    /// Counts a patch of which all of so many lights are shaded where `terms` says.
+    pub(crate) fn count_all(&mut self, terms: Terms, lights: usize) {
+        let count = |at: [bool; 2]| at.map(u64::from).iter().sum::<u64>() * lights as u64;
+        self.at_vertices += count(by_vertex_shader(terms));
+        self.at_fragments += count(by_fragment_shader(terms));
     }
 
     /// How many terms of the patch placed last are shaded at the vertices and at the fragments.
@@ -164,16 +199,19 @@ impl PlacedTerms {
         [&self.vertex, &self.fragment].map(|stage| (stage.diffuse.len() + stage.specular.len()) as u64)
     }
 
-    /// Places what was selected where `terms` says, whatever the light.
-    pub(crate) fn as_said(&mut self, selected: &Selected<f32>, terms: Terms) {
+    /// Places what was selected where `terms` says, whatever the light. Saves nothing.
+    pub(crate) fn as_said(&mut self, selected: &Selected<f32>, terms: Terms) -> f32 {
+        self.last_spent = 0.0;
         let [vertex, fragment] = [by_vertex_shader(terms), by_fragment_shader(terms)];
         for (stage, [diffuse, specular]) in [(&mut self.vertex, vertex), (&mut self.fragment, fragment)] {
             stage.set(if diffuse { &selected.diffuse } else { &[] }, if specular { &selected.specular } else { &[] });
         }
+        0.0
     }
 
     /// Places what was selected of these lights for a patch: at the vertices as much as the tolerance allows, the terms
-    /// first that change least by it.
+    /// first that change least by it. Returns what that saves, in lights at a pixel; below 0 where all are at the
+    /// fragments for that.
     pub(crate) fn place(
         &mut self,
         places: &Places,
@@ -181,18 +219,16 @@ impl PlacedTerms {
         terms: Terms,
         lights: &[Light<f32>],
         selected: &Selected<f32>,
-    ) {
-        self.as_said(selected, terms.at_fragments());
-        if patch.by_corners {
-            let at_vertices = |term| if term == Frequency::Auto { Frequency::Vertex } else { term };
-            self.as_said(selected, terms.map(at_vertices));
-            return;
+    ) -> f32 {
+        self.as_said(selected, patch.place.of(terms));
+        if patch.place != Place::Either || places.tolerance <= 0.0 {
+            return 0.0;
         }
         self.movable.clear();
-        if patch.pixels_per_vertex < FEWEST_PIXELS || places.tolerance <= 0.0 {
-            return;
-        }
-        let Some([brighter, darker]) = self.movable(places, patch, lights, selected) else { return };
+        self.numbers.clear();
+        let Some([brighter, darker]) = self.movable(places, patch, lights, selected) else {
+            return self.gain_of_all(places, patch.extent);
+        };
         let shares = |change: [f64; 3], room: [f64; 3]| {
             (0..3).map(|c| if change[c] > 0.0 { change[c] / room[c] } else { 0.0 }).fold(0.0, f64::max)
         };
@@ -201,25 +237,43 @@ impl PlacedTerms {
         }
         self.movable.sort_unstable_by(|a, b| a.share.total_cmp(&b.share));
         let mut spent = [[0.0; 3]; 2];
+        let mut gain = 0.0;
         for item in &self.movable {
             let with = |spent: [f64; 3], more: [f64; 3]| [0, 1, 2].map(|c| spent[c] + more[c]);
             let sum = [with(spent[0], item.brighter), with(spent[1], item.darker)];
             if (0..3).all(|c| sum[0][c] <= brighter[c] && sum[1][c] <= darker[c]) {
                 spent = sum;
-                self.vertex.list(item.is_diffuse).push(item.light);
+                gain += item.gain;
+                for term in [0, 1] {
+                    if item.terms[term] {
+                        self.vertex.list(term).push(item.light);
+                    }
+                }
             }
         }
-        for is_diffuse in [true, false] {
-            if places.placed[usize::from(!is_diffuse)] {
-                let moved = self.vertex.list(is_diffuse);
+        for term in [0, 1] {
+            if places.placed[term] {
+                let moved = self.vertex.list(term);
                 moved.sort_unstable();
-                self.fragment.list(is_diffuse).retain(|light| moved.binary_search(light).is_err());
+                self.fragment.list(term).retain(|light| moved.binary_search(light).is_err());
             }
+        }
+        gain += self.gain_of_all(places, patch.extent);
+        if gain < 0.0 {
+            self.as_said(selected, terms.at_fragments());
+            return gain;
         }
         let left_out = selected.left_out;
         let darker_with = [0, 1, 2].map(|c| if spent[1][c] > 0.0 { spent[1][c] + left_out[c] } else { 0.0 });
         let most = shares(spent[0], brighter).max(shares(darker_with, brighter));
-        self.spent = self.spent.max(most * places.tolerance / STEP);
+        self.last_spent = most * places.tolerance / STEP;
+        gain
+    }
+
+    /// What is saved of a patch beside what each moved term saves, less what it took to find that.
+    fn gain_of_all(&self, places: &Places, extent: Extent) -> f32 {
+        let is_emptied = self.fragment.is_empty() && places.placed == [true; 2];
+        places.prices.of_all(extent, self.numbers.len(), is_emptied, places.compiled_in)
     }
 
     /// Collects what may move, and returns by how much a channel may come out brighter, and darker; `None` where nothing
@@ -227,7 +281,7 @@ impl PlacedTerms {
     fn movable(
         &mut self,
         places: &Places,
-        PlacedPatch { patch, grain, .. }: &PlacedPatch,
+        PlacedPatch { patch, grain, extent, .. }: &PlacedPatch,
         lights: &[Light<f32>],
         selected: &Selected<f32>,
     ) -> Option<[[f64; 3]; 2]> {
@@ -280,14 +334,14 @@ impl PlacedTerms {
                     took(1, sum);
                 }
             }
-            for (term, has) in [light.has_diffuse, light.has_specular].into_iter().enumerate() {
-                let [Some(front), Some(back)] = [changes[0][term], changes[1][term]] else { continue };
-                if has && places.placed[term] {
-                    let larger = |i: usize| [0, 1, 2].map(|c| front[i][c].max(back[i][c]));
-                    let (brighter, darker) = (larger(0), larger(1));
-                    self.movable.push(Movable { light: number, is_diffuse: term == 0, brighter, darker, share: 0.0 });
-                }
-            }
+            let has = [light.has_diffuse, light.has_specular];
+            let change = |term: usize| {
+                let [Some(front), Some(back)] = [changes[0][term], changes[1][term]] else { return None };
+                let larger = |i: usize| [0, 1, 2].map(|c| front[i][c].max(back[i][c]));
+                (has[term] && places.placed[term]).then(|| [larger(0), larger(1)])
+            };
+            let prices = &places.prices;
+            self.movable.extend(prices.movable(number, has, [change(0), change(1)], *extent).into_iter().flatten());
         }
         let sides = places.sides().len();
         let room = [0, 1, 2].map(|c| {
@@ -337,8 +391,9 @@ impl StageLights {
         }
     }
 
-    fn list(&mut self, is_diffuse: bool) -> &mut Vec<u32> {
-        if is_diffuse { &mut self.diffuse } else { &mut self.specular }
+    /// The list of the diffuse terms, 0, or of the specular ones, 1.
+    fn list(&mut self, term: usize) -> &mut Vec<u32> {
+        if term == 0 { &mut self.diffuse } else { &mut self.specular }
     }
 
     pub(crate) fn is_empty(&self) -> bool {

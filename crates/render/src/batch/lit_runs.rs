@@ -1,0 +1,68 @@
+//! Runs: neighbouring patches of an object that are drawn alike, and the order in which they are drawn.
+
+use crate::batch::key::DrawKey;
+use std::cmp::Ordering;
+use std::ops::Range;
+
+/// Neighbouring patches of an object that are drawn alike.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LitRun {
+    pub(crate) blend: bool,
+    /// The number of its key, mesh and form.
+    pub(crate) call: u32,
+    /// 0, and 1 for the second pass of an object that is drawn in two: its near side.
+    pub(crate) pass: u32,
+    /// How many opaque objects that were spawned before have its bounding sphere; such may coincide, and the first is to
+    /// win. 0 for blended ones.
+    pub(crate) twins_before: u32,
+    /// The first of its indices, and the first behind them.
+    pub(crate) indices: (u32, u32),
+    /// The first of the lights that are bound for it at fixed places.
+    pub(crate) lights: u32,
+    pub(crate) record: u32,
+    /// Distance of the object's centre along the view; nearer opaque objects first, farther blended ones first.
+    pub(crate) depth: f32,
+    pub(crate) instance: u32,
+}
+
+/// A part that may go on with the next patch.
+pub(super) struct OpenRun {
+    pub(super) key: DrawKey,
+    pub(super) lights: u32,
+    pub(super) record: u32,
+    pub(super) indices: Range<u32>,
+}
+
+/// Triangles between patches of a run that are not seen are drawn with it if they are no more than this: that costs less
+/// than another draw.
+const JOINED: u32 = 128;
+
+impl OpenRun {
+    pub(super) fn goes_on_with(&self, next: &Self) -> bool {
+        (self.key, self.lights, self.record) == (next.key, next.lights, next.record)
+            && next.indices.start - self.indices.end <= 3 * JOINED
+    }
+}
+
+impl LitRun {
+    /// But for their records, which may be looked up.
+    pub(crate) fn is_of_one_state(&self, other: &Self) -> bool {
+        let state = |item: &Self| (item.blend, item.call, item.lights);
+        state(self) == state(other)
+    }
+
+    pub(crate) fn by_state(&self, other: &Self) -> Ordering {
+        let state = |item: &Self| (item.twins_before, item.call, item.indices, item.lights, item.record);
+        state(self).cmp(&state(other)).then_with(|| self.by_nearness(other))
+    }
+
+    pub(crate) fn by_nearness(&self, other: &Self) -> Ordering {
+        self.depth.total_cmp(&other.depth).then_with(|| self.instance.cmp(&other.instance))
+    }
+
+    /// Far ones first; of one instance the far side first, and then by triangle.
+    pub(crate) fn by_depth(&self, other: &Self) -> Ordering {
+        let order = |item: &Self| (item.instance, item.pass, item.indices);
+        other.depth.total_cmp(&self.depth).then_with(|| order(self).cmp(&order(other)))
+    }
+}

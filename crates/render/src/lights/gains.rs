@@ -1,0 +1,76 @@
+//! What is saved where terms move to the vertices.
+
+use crate::device::costs::VertexPrices;
+
+/// How much of a patch there is to shade.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Extent {
+    /// About how many pixels it covers, where nothing hides them.
+    pub(crate) pixels: f32,
+    pub(crate) vertices: f32,
+}
+
+/// Terms of a light that may be shaded at the vertices: one of them, or both together.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Movable {
+    pub(super) light: u32,
+    /// Diffuse and specular.
+    pub(super) terms: [bool; 2],
+    pub(super) brighter: [f64; 3],
+    pub(super) darker: [f64; 3],
+    /// The largest part of what is allowed that it takes; found later.
+    pub(super) share: f64,
+    /// What is saved at the pixels, less what it costs at the vertices, in lights at a pixel.
+    pub(super) gain: f32,
+}
+
+/// What the diffuse term of a light costs without the other, the specular one without the other, and both: most of it is
+/// where the light is. Of the other where only one is left the rest is saved.
+const ONE_TERM: [f32; 2] = [0.8, 0.9];
+/// What a light costs that is compiled in and does not show: it is found to be behind.
+const UNSEEN_LIGHT: f32 = 0.5;
+
+impl VertexPrices {
+    /// The terms of a light, of those that a patch `has`, that may move by these changes to their own gain: each by
+    /// itself where that saves anything, else both together.
+    pub(super) fn movable(
+        &self,
+        light: u32,
+        has: [bool; 2],
+        changes: [Option<[[f64; 3]; 2]>; 2],
+        Extent { pixels, vertices }: Extent,
+    ) -> [Option<Movable>; 2] {
+        let item = |terms: [bool; 2], [brighter, darker]: [[f64; 3]; 2], saved: f32, cost: f32| {
+            let gain = saved * pixels - cost * self.light * vertices;
+            (gain >= 0.0).then_some(Movable { light, terms, brighter, darker, share: 0.0, gain })
+        };
+        let one = |term: usize, saved: f32| {
+            let terms = [term == 0, term == 1];
+            changes[term].and_then(|change| item(terms, change, saved, ONE_TERM[term]))
+        };
+        if has != [true; 2] {
+            return [one(0, ONE_TERM[0]), one(1, ONE_TERM[1])];
+        }
+        let apart = [one(0, 1.0 - ONE_TERM[1]), one(1, 1.0 - ONE_TERM[0])];
+        match changes {
+            [Some(diffuse), Some(specular)] if apart.iter().any(Option::is_none) => {
+                let sum = [0, 1].map(|side| [0, 1, 2].map(|c| diffuse[side][c] + specular[side][c]));
+                [item([true; 2], sum, 1.0, 1.0), None]
+            }
+            _ => apart,
+        }
+    }
+
+    /// What is saved of a patch beside what each moved term saves, less what it took to find that: of so many lights that
+    /// were looked at, with nothing left at the fragments or something.
+    pub(super) fn of_all(&self, extent: Extent, looked_at: usize, is_emptied: bool, compiled_in: Option<usize>) -> f32 {
+        let emptied = if is_emptied { self.pixel } else { 0.0 };
+        match compiled_in {
+            Some(lights) => {
+                let unseen = lights.saturating_sub(looked_at) as f32;
+                extent.pixels * (emptied + UNSEEN_LIGHT * unseen) - lights as f32 * self.look - self.draw
+            }
+            None => extent.pixels * emptied - looked_at as f32 * self.look,
+        }
+    }
+}
