@@ -16,7 +16,7 @@ use crate::geometry::patches::{MeshPatch, Sight};
 use crate::lights::gains::Extent;
 use crate::lights::gather::Lights;
 use crate::lights::lists::{LightLists, Listing};
-use crate::lights::places::{Place, PlacedPatch, Spending};
+use crate::lights::places::{PlacedPatch, ShadedAt, Spending};
 use crate::lights::terms::{Chosen, by_fragment_shader, by_vertex_shader};
 use crate::shaders::light_slots::Lists;
 use crate::shaders::records::{DrawRecord, InstanceRecord, MaterialRecord, RecordLists};
@@ -158,17 +158,17 @@ struct LitObject<'a> {
 
 impl LitObject<'_> {
     /// Where those terms of a patch may be shaded that are placed light by light, and how much of it there is to shade.
-    fn place(&self, patch: &MeshPatch, sight: &Sight, prices: &VertexPrices) -> (Place, Extent) {
+    fn place(&self, patch: &MeshPatch, sight: &Sight, prices: &VertexPrices) -> (ShadedAt, Extent) {
         if !self.key.terms.has(Frequency::Auto) {
-            return (Place::Either, Extent::default());
+            return (ShadedAt::Either, Extent::default());
         }
         let extent = patch.extent(sight);
         let place = if patch.is_coarse_within(sight, self.tolerance.pixels + SAMPLED) {
-            Place::Corners
+            ShadedAt::Corners
         } else if prices.may_save(extent.pixels, extent.vertices) {
-            Place::Either
+            ShadedAt::Either
         } else {
-            Place::Fragments
+            ShadedAt::Fragments
         };
         (place, extent)
     }
@@ -177,7 +177,7 @@ impl LitObject<'_> {
     fn placed<R>(
         &self,
         patch: &MeshPatch,
-        (place, extent): (Place, Extent),
+        (place, extent): (ShadedAt, Extent),
         with: impl FnOnce(&PlacedPatch) -> R,
     ) -> R {
         let Self { model_view, normal_matrix, reflecting, form, .. } = self;
@@ -332,7 +332,7 @@ impl LitPatches {
         let mut gains = 0.0;
         for patch in seen.iter().step_by(LOOKED_AT_FIRST) {
             let place = object.place(patch, sight, &shared.prices);
-            if place.0 == Place::Either {
+            if place.0 == ShadedAt::Either {
                 self.lists.look_around(listing, std::iter::once(patch.sphere(object.model_view)));
                 gains += object.placed(patch, place, |placed| {
                     let gain = self.lists.select(shared.lights, placed, listing, object.key.terms);
@@ -348,12 +348,12 @@ impl LitPatches {
     fn unlisted(
         &mut self,
         object: &LitObject,
-        place: Place,
+        place: ShadedAt,
         Shared { lights, .. }: Shared,
         backend: &mut impl Backend,
     ) -> Option<DrawKey> {
         let lists = Lists::new(lights.counts);
-        if place == Place::Either || !object.key.terms.has(Frequency::Auto) || lists == Lists::Listed {
+        if place == ShadedAt::Either || !object.key.terms.has(Frequency::Auto) || lists == Lists::Listed {
             return None;
         }
         let key = DrawKey { lists, ..object.key }.with_terms(place.of(object.key.terms));
@@ -369,7 +369,7 @@ impl LitPatches {
     fn lit(
         &mut self,
         object: &LitObject,
-        (patch, place): (&MeshPatch, (Place, Extent)),
+        (patch, place): (&MeshPatch, (ShadedAt, Extent)),
         listing: &Listing,
         shared: Shared,
         backend: &mut impl Backend,
@@ -377,7 +377,7 @@ impl LitPatches {
         let LitObject { key, .. } = object;
         let gain = object.placed(patch, place, |placed| self.lists.select(shared.lights, placed, listing, key.terms));
         if gain < 0.0
-            && let Some(key) = self.unlisted(object, Place::Fragments, shared, backend)
+            && let Some(key) = self.unlisted(object, ShadedAt::Fragments, shared, backend)
         {
             return (key, 0, RecordLists::default());
         }

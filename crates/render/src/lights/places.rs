@@ -107,13 +107,13 @@ struct Side {
 pub(crate) struct PlacedPatch<'a> {
     pub(crate) patch: &'a Patch<f32>,
     pub(crate) grain: Grain<f32>,
-    pub(crate) place: Place,
+    pub(crate) place: ShadedAt,
     pub(crate) extent: Extent,
 }
 
 /// Where those terms of a patch may be shaded that are placed light by light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Place {
+pub(crate) enum ShadedAt {
     /// At the vertices: what its corners show is as good as what is between them.
     Corners,
     /// At the fragments: its vertices cost as much as its pixels.
@@ -122,7 +122,7 @@ pub(crate) enum Place {
     Either,
 }
 
-impl Place {
+impl ShadedAt {
     /// Where they are, all in one place.
     pub(crate) fn of(self, terms: Terms) -> Terms {
         match self {
@@ -221,7 +221,7 @@ impl PlacedTerms {
         selected: &Selected<f32>,
     ) -> f32 {
         self.as_said(selected, patch.place.of(terms));
-        if patch.place != Place::Either || places.tolerance <= 0.0 {
+        if patch.place != ShadedAt::Either || places.tolerance <= 0.0 {
             return 0.0;
         }
         self.movable.clear();
