@@ -9,7 +9,7 @@ use crate::error::{RenderError, label};
 use crate::frame::report::FrameReport;
 use crate::geometry::allowed::{Allowed, Demand, SAMPLED, geometry_steps};
 use crate::geometry::detail::Choice;
-use crate::geometry::meshes::{Form, Geometries, Geometry};
+use crate::geometry::meshes::{Form, Geometries, Geometry, are_colors_drawn};
 use crate::geometry::patches::{MeshPatch, Sight};
 use crate::lights::gather::Lights;
 use crate::lights::lists::{LightLists, Listing};
@@ -20,10 +20,13 @@ use crate::shaders::records::{DrawRecord, InstanceRecord, MaterialRecord, Record
 use crate::target::frame::FrameValues;
 use crate::view::camera::View;
 use crate::view::matrices::{ModelView, NormalMatrix, Visible};
-use bevy_asset::AssetId;
+use bevy_asset::{AssetId, Assets};
 use bevy_ecs::component::Mutable;
 use bevy_ecs::prelude::*;
-use halfway_lighting::{BackMaterial, Blend, Faces, Material, Reflectance, Terms, Tolerance, ViewTolerance, equations};
+use bevy_math::Vec3;
+use halfway_lighting::{
+    BackMaterial, Blend, Faces, Material, Reflectance, Terms, Tolerance, VertexColors, ViewTolerance, equations,
+};
 use halfway_mesh::{Mesh, Mesh3d};
 use std::cmp::Ordering;
 use std::ops::Range;
@@ -72,9 +75,9 @@ type ObjectQuery<'w, 's> = Query<
         Option<&'static Reflectance>,
         Option<&'static Faces>,
         Has<Blend>,
+        Option<&'static VertexColors>,
         Option<&'static Tolerance>,
-        &'static ModelView,
-        &'static NormalMatrix,
+        (&'static ModelView, &'static NormalMatrix),
         &'static Chosen,
         Option<&'static Name>,
     ),
@@ -83,6 +86,7 @@ type ObjectQuery<'w, 's> = Query<
 #[expect(clippy::too_many_arguments, reason = "a system takes each resource as a parameter")]
 pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
     objects: ObjectQuery,
+    meshes: Res<Assets<Mesh>>,
     geometries: Res<Geometries>,
     visible: Res<Visible>,
     view: Res<View>,
@@ -101,13 +105,16 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
     let shared = Shared { lights: &lights, encoding, viewer, costs, false_colors: false_colors.0 };
     let mut seen = Vec::new();
     for &entity in &visible.0 {
-        let Ok((mesh, material, back, reflectance, faces, blend, tolerance, model_view, normal_matrix, chosen, name)) =
+        let Ok((mesh, material, back, reflectance, faces, blend, colors, tolerance, placed, chosen, name)) =
             objects.get(entity)
         else {
             continue;
         };
-        let terms = if blend { chosen.0.at_fragments() } else { chosen.0 };
-        let form = Form::new(terms, blend);
+        let (model_view, normal_matrix) = placed;
+        let colored = meshes.get(&mesh.0).is_some_and(|mesh| are_colors_drawn(mesh, colors));
+        // Of blended patches all is drawn at once, and of products of colors and light there is no bound.
+        let terms = if blend || colored { chosen.0.at_fragments() } else { chosen.0 };
+        let form = Form::new(terms, blend, colored);
         let Some(geometry) = geometries.get(mesh.0.id(), form) else { continue };
         let material = material.unwrap_or(&Material::DEFAULT);
         let reflecting = Reflecting {
@@ -115,6 +122,7 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
             back: back.map_or(material, |back| &back.0),
             reflectance: reflectance.copied().unwrap_or(view.reflectance),
             faces: faces.copied().unwrap_or_default(),
+            colored,
         };
         let look = lit.table.look(&reflecting);
         if let Some(source) = &look.invalid {
@@ -216,7 +224,9 @@ impl LitPatches {
         let admitted = if key.lists == Lists::Listed { *key } else { backend.admit(*key) };
         let listing = (admitted.lists == Lists::Listed).then(|| {
             let eye = equations::Eye::in_eye_space(shared.viewer);
-            reflector.listing(reflecting.faces, shared.lights.ambient, eye, (encoding, steps))
+            // A color may be black: then there is no ambient light that could hide what is left out. None is above 1.
+            let ambient = if key.colored { Vec3::ZERO } else { shared.lights.ambient };
+            reflector.listing(reflecting.faces, ambient, eye, (encoding, steps))
         });
         seen.clear();
         let looked_at = detail.each_seen(&allowed, &sight, &mut self.choice, |patch| seen.push(patch));
@@ -276,7 +286,8 @@ impl LitPatches {
         if self.records.last() != Some(&colored) {
             self.records.push(colored);
         }
-        let key = backend.admit(DrawKey { blend: object.key.blend, ..key.with_terms(Terms::NONE) });
+        let plain = DrawKey { colored: false, ..key };
+        let key = backend.admit(DrawKey { blend: object.key.blend, ..plain.with_terms(Terms::NONE) });
         (key, 0, self.records.len() as u32 - 1)
     }
 
