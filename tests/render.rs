@@ -14,6 +14,7 @@ mod render {
     mod changes;
     mod closed_forms;
     mod coincident;
+    mod colors;
     mod compare;
     mod compile;
     mod conformance;

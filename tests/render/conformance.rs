@@ -4,6 +4,7 @@
 //! (`conformance/axes.rs`), and one for every feature beside the axes (`conformance/features.rs`).
 
 mod axes;
+pub(crate) mod colors;
 mod features;
 
 use crate::render::compare::{BLENDED, FLOAT, Failures, SELECTED, SRGB};
@@ -134,4 +135,9 @@ fn every_value_and_every_pair_of_values_conforms() {
 #[test]
 fn every_feature_conforms() {
     conform("features", &features::rows());
+}
+
+#[test]
+fn every_way_to_shade_colors_of_vertices_conforms() {
+    conform("colours of vertices", &colors::rows());
 }

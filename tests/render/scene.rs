@@ -51,6 +51,7 @@ pub(crate) struct Thing {
     pub(crate) terms: Option<Terms>,
     pub(crate) reflectance: Option<Reflectance>,
     pub(crate) faces: Option<Faces>,
+    pub(crate) colors: Option<VertexColors>,
     pub(crate) blend: bool,
 }
 
@@ -133,6 +134,7 @@ impl Thing {
             terms: None,
             reflectance: None,
             faces: None,
+            colors: None,
             blend: false,
         }
     }

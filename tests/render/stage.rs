@@ -168,6 +168,9 @@ impl Stage {
         if let Some(faces) = thing.faces {
             entity.insert(faces);
         }
+        if let Some(colors) = thing.colors {
+            entity.insert(colors);
+        }
         if thing.blend {
             entity.insert(Blend);
         }

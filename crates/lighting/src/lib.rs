@@ -25,7 +25,7 @@
 //!
 //! # What is here
 //! - Components: the lights, [`Material`] (with [presets](Material::PRESETS)) and [`BackMaterial`], [`Shading`],
-//!   [`Reflectance`], [`Faces`], [`Blend`], [`Visibility`], [`Tolerance`]; the resources [`GlobalAmbient`] and
+//!   [`Reflectance`], [`Faces`], [`Blend`], [`Visibility`], [`Tolerance`], [`VertexColors`]; the resources [`GlobalAmbient`] and
 //!   [`ViewTolerance`]; [`LightingPlugin`]. A light stands where
 //!   its entity's `GlobalTransform` puts it and shines along the local −Z axis. Every value has a `validate()` whose
 //!   [`InvalidValue`] names type, field, value and what was expected.
@@ -71,6 +71,7 @@ mod propagation;
 mod range;
 mod shading;
 mod tolerance;
+mod vertex_colors;
 mod visibility;
 
 pub use camera::{Camera, Encoding, Intensity, Samples};
@@ -86,4 +87,5 @@ pub use propagation::{Propagation, propagation};
 pub use range::{CHANNEL_MAX, Range};
 pub use shading::{Blend, Faces, Reflectance, Shading, Terms, Viewer};
 pub use tolerance::{Tolerance, ViewTolerance};
+pub use vertex_colors::VertexColors;
 pub use visibility::{Shown, Visibility};

@@ -4,7 +4,7 @@ use bevy_app::{App, Plugin};
 
 use crate::{
     BackMaterial, Blend, Camera, DirectionalLight, Faces, GlobalAmbient, Material, PointLight, Reflectance, Shading,
-    SpotLight, Terms, Tolerance, ViewTolerance, Visibility,
+    SpotLight, Terms, Tolerance, VertexColors, ViewTolerance, Visibility,
 };
 
 /// Puts the resources of lighting into an [`App`]: [`GlobalAmbient`] and [`ViewTolerance`] with their defaults, unless they
@@ -32,6 +32,7 @@ impl Plugin for LightingPlugin {
             .register_type::<Reflectance>()
             .register_type::<Faces>()
             .register_type::<Blend>()
+            .register_type::<VertexColors>()
             .register_type::<Visibility>();
     }
 

@@ -24,8 +24,9 @@ pub enum Shading {
     #[default]
     Phong,
     /// Phong, within the [`Tolerance`](crate::Tolerance): each term of each light is shaded at the vertices of a patch of
-    /// the surface where that changes no more, and at each fragment elsewhere. Blended objects, and those that are scaled
-    /// differently along different axes, are shaded at each fragment.
+    /// the surface where that changes no more, and at each fragment elsewhere. Blended objects, those
+    /// whose vertices have colours that count, and those that are scaled differently along different axes, are shaded at
+    /// each fragment.
     Auto,
 }
 

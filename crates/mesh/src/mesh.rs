@@ -267,6 +267,11 @@ impl Mesh {
         self.data.colors.as_deref()
     }
 
+    /// The colours as they are drawn: each number taken into 0 to 1, as glTF 2.0 §3.7.2.1 has it for `COLOR_0`.
+    pub fn drawn_colors(&self) -> Option<Vec<Vec4>> {
+        self.colors().map(|colors| colors.iter().map(|color| color.clamp(Vec4::ZERO, Vec4::ONE)).collect())
+    }
+
     /// The tangents of the vertices, one a vertex; see [`with_tangents`](Self::with_tangents).
     pub fn tangents(&self) -> Option<&[Vec4]> {
         self.data.tangents.as_deref()

@@ -4,7 +4,7 @@ use crate::bins::TILE;
 use crate::cover::{EdgeFunctions, TileBuffer, clamped, covered, plane};
 use crate::encode::kept;
 use crate::four::{centroid, samples};
-use crate::lanes::{F, M, Simd, V3, counting, each, fma, lanes, load, replace, splat, splat3};
+use crate::lanes::{F, M, Simd, V3, counting, each, fma, lanes, load, replace, saturate, splat, splat3};
 use crate::pass::SampleCount;
 use crate::planes::{Planes, Slopes};
 use crate::samples::CENTROIDS;
@@ -100,10 +100,14 @@ impl TileBuffer {
             inverse_w: clamped(simd, plane(simd, &planes.lead, 0, x, y), planes),
             lead: three(simd, &planes.lead, x, y),
             second: if state.stage == Stage::Mixed { three(simd, &planes.second, x, y) } else { [splat(simd, 0.0); 3] },
+            paint: if state.shades_paint() { three(simd, &planes.paint, x, y) } else { [splat(simd, 0.0); 3] },
             face: splat3(simd, planes.face),
         };
         let color = kept(simd, fragments.color_apart(simd, look, state, back), look.pass.pixels);
-        let opacity = splat(simd, state.side(look.pass, back).opacity);
+        let mut opacity = splat(simd, state.side(look.pass, back).opacity);
+        if state.colored {
+            opacity *= saturate(simd, plane(simd, &planes.paint, 0, x, y) / fragments.inverse_w);
+        }
         for sample in 0..look.pass.samples.count() {
             let at = j as usize * TILE + i as usize;
             let show = shown.masks[sample] & new;

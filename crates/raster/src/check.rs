@@ -25,6 +25,10 @@ pub(crate) fn check(pass: &Pass, output: &Output) -> Result<(), RasterError> {
         if draw.mesh as usize >= pass.meshes.len() {
             return beyond("draw", index, "mesh", u64::from(draw.mesh) + 1, pass.meshes.len());
         }
+        let mesh = pass.meshes[draw.mesh as usize];
+        if draw.colored && !mesh.has_colors() {
+            return beyond("draw", index, "colors", mesh.triangle_count() as u64, 0);
+        }
         if draw.instances.end as usize > pass.instances.len() {
             return beyond("draw", index, "instances", u64::from(draw.instances.end), pass.instances.len());
         }
@@ -70,10 +74,11 @@ fn check_light(index: usize, light: &LightData) -> Result<(), RasterError> {
 }
 
 fn check_surface(index: usize, surface: &SurfaceData, pass: &Pass) -> Result<(), RasterError> {
-    for SideData { base, diffuse, specular, ambient, exponent, opacity } in [&surface.front, &surface.back] {
+    for SideData { base, diffuse, specular, emission, ambient, exponent, opacity } in [&surface.front, &surface.back] {
         from_zero("surface", index, "base", base)?;
         from_zero("surface", index, "diffuse", diffuse)?;
         from_zero("surface", index, "specular", specular)?;
+        from_zero("surface", index, "emission", emission)?;
         from_zero("surface", index, "ambient", ambient)?;
         from_zero("surface", index, "exponent", &[*exponent])?;
         if !(0.0..=1.0).contains(opacity) {

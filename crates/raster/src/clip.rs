@@ -16,6 +16,7 @@ pub(crate) struct Corner {
     /// By side, as in [`Vertices::lead`].
     lead: [[f32; 4]; 2],
     second: [[f32; 4]; 2],
+    paint: [f32; 4],
 }
 
 /// A triangle that is ready to be drawn: its edges, its planes, whether it shows its back.
@@ -35,7 +36,7 @@ pub(crate) fn each_part(
     let numbers = triangle.map(usize::from);
     let code = numbers.iter().fold(0, |code, &v| code | vertices.codes[v]);
     if code & CLIPPED == 0 {
-        if let Some(ready) = set_up(numbers.map(|v| Corner::of(vertices, v)), tile, covering) {
+        if let Some(ready) = set_up(&numbers.map(|v| Corner::of(vertices, v)), tile, covering) {
             draw(ready);
         }
         return;
@@ -48,7 +49,7 @@ pub(crate) fn each_part(
         *corner = Corner::between(vertices, numbers, *weights, screen);
     }
     for k in 2..polygon.count {
-        if let Some(ready) = set_up([placed[0], placed[k - 1], placed[k]], tile, covering) {
+        if let Some(ready) = set_up(&[placed[0], placed[k - 1], placed[k]], tile, covering) {
             draw(ready);
         }
     }
@@ -61,6 +62,7 @@ impl Corner {
             grid: [vertices.grid[0][v], vertices.grid[1][v]],
             lead: [vertices.lead[0][v], vertices.lead[usize::from(vertices.sides_lead)][v]],
             second: [vertices.second[0][v], vertices.second[1][v]],
+            paint: vertices.paint[v],
         }
     }
 
@@ -88,6 +90,7 @@ impl Corner {
             grid: on_screen.map(|v| (v * GRID as f32).round_ties_even() as i32),
             lead: if vertices.sides_lead { of_colors } else { [of_normal; 2] },
             second: of_colors,
+            paint: [0, 1, 2, 3].map(|k| (mean(&vertices.raw[9 + k]) * inverse_w) as f32),
         }
     }
 }
@@ -154,10 +157,10 @@ impl Polygon {
 }
 
 /// Edges and planes of a triangle of any size; `None` where it does not show.
-fn set_up(corners: [Corner; 3], tile: [u32; 2], covering: &Covering) -> Option<Ready> {
+fn set_up(corners: &[Corner; 3], tile: [u32; 2], covering: &Covering) -> Option<Ready> {
     let first = tile.map(|place| i64::from(place) * (TILE as i64 * i64::from(GRID)) + i64::from(GRID / 2));
-    let x = corners.map(|corner| i64::from(corner.grid[0]) - first[0]);
-    let y = corners.map(|corner| i64::from(corner.grid[1]) - first[1]);
+    let x = corners.each_ref().map(|corner| i64::from(corner.grid[0]) - first[0]);
+    let y = corners.each_ref().map(|corner| i64::from(corner.grid[1]) - first[1]);
     let area = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
     let front = (area > 0) == covering.clockwise;
     let shown = match covering.left_out {
@@ -170,7 +173,7 @@ fn set_up(corners: [Corner; 3], tile: [u32; 2], covering: &Covering) -> Option<R
     }
     let order = if area > 0 { [0, 1, 2] } else { [0, 2, 1] };
     let edges = edges(order.map(|k| x[k]), order.map(|k| y[k]), covering)?;
-    Some((edges, planes(&corners, first, (x, y), area > 0, front), !front))
+    Some((edges, planes(corners, first, (x, y), area > 0, front), !front))
 }
 
 fn edges(x: [i64; 3], y: [i64; 3], covering: &Covering) -> Option<EdgeFunctions> {
@@ -222,6 +225,7 @@ fn planes(corners: &[Corner; 3], first: [i64; 2], (x, y): ([i64; 3], [i64; 3]), 
     Planes {
         lead: gradient.slopes(lead),
         second: gradient.slopes([0, 1, 2].map(|k| &corners[k].second[side])),
+        paint: gradient.slopes([0, 1, 2].map(|k| &corners[k].paint)),
         face: [0.0; 3],
         range: [inverse_w.into_iter().fold(f32::INFINITY, f32::min), inverse_w.into_iter().fold(0.0, f32::max)],
     }

@@ -93,14 +93,18 @@ pub(crate) struct TileBuffer {
     /// The leading numbers, in the end the color.
     pub(crate) lead: Vec<[[f32; PIXELS]; 3]>,
     pub(crate) second: Vec<[[f32; PIXELS]; 3]>,
+    /// Of colored draws the color over w; empty where the pass has none.
+    pub(crate) paint: Vec<[[f32; PIXELS]; 3]>,
     pub(crate) face: Vec<[[f32; PIXELS]; 3]>,
 }
 
 /// Which of its numbers a triangle leaves behind.
 #[derive(Clone, Copy, Debug, Default)]
+#[expect(clippy::struct_excessive_bools, reason = "each is one list of the tile's buffer")]
 pub(crate) struct Kept {
     pub(crate) lead: bool,
     pub(crate) second: bool,
+    pub(crate) paint: bool,
     pub(crate) face: bool,
 }
 
@@ -108,7 +112,12 @@ impl Kept {
     /// What shading takes.
     #[inline(always)]
     pub(crate) fn of(state: &State) -> Self {
-        Self { lead: state.stage != Stage::Unlit, second: state.stage == Stage::Mixed, face: state.opposite_normals }
+        Self {
+            lead: state.stage != Stage::Unlit,
+            second: state.stage == Stage::Mixed,
+            paint: state.shades_paint(),
+            face: state.opposite_normals,
+        }
     }
 }
 
@@ -122,18 +131,22 @@ impl TileBuffer {
             inverse_w: Vec::new(),
             lead: Vec::new(),
             second: Vec::new(),
+            paint: Vec::new(),
             face: Vec::new(),
         }
     }
 
     /// Makes room for a tile.
     #[expect(clippy::large_stack_arrays, reason = "48 KiB, once for each list")]
-    pub(crate) fn prepare(&mut self, samples: SampleCount) {
+    pub(crate) fn prepare(&mut self, samples: SampleCount, painted: bool) {
         let count = samples.count();
         self.depth.resize(count, [0.0; PIXELS]);
         self.shader.resize(count, [0; PIXELS]);
         for list in [&mut self.lead, &mut self.second, &mut self.face] {
             list.resize(count, [[0.0; PIXELS]; 3]);
+        }
+        if painted {
+            self.paint.resize(count, [[0.0; PIXELS]; 3]);
         }
         if samples == SampleCount::Four {
             self.inverse_w.resize(count, [0.0; PIXELS]);
@@ -193,6 +206,12 @@ impl TileBuffer {
             let v = value(simd, &planes.second, i, j);
             for c in 0..3 {
                 self.second[sample][c][pixel] = v[c + 1];
+            }
+        }
+        if kept.paint {
+            let v = value(simd, &planes.paint, i, j);
+            for c in 0..3 {
+                self.paint[sample][c][pixel] = v[c + 1];
             }
         }
         if kept.face {
@@ -311,6 +330,9 @@ impl TileBuffer {
             }
             if kept.second {
                 replace::<S>(simd, shown, plane(simd, &planes.second, c + 1, x, y), &mut self.second[0][c], at);
+            }
+            if kept.paint {
+                replace::<S>(simd, shown, plane(simd, &planes.paint, c + 1, x, y), &mut self.paint[0][c], at);
             }
             if kept.face {
                 replace::<S>(simd, shown, splat(simd, planes.face[c]), &mut self.face[0][c], at);

@@ -75,6 +75,6 @@ pub use pass::{
     DrawCall, Highlight, InstanceData, LeftOut, Lens, LightData, LightRange, Output, Pass, PixelFormat, SampleCount,
     ShadedTerms, SideData, SurfaceData,
 };
-pub use pieces::{Pieces, TriangleOrder};
+pub use pieces::{Pieces, TriangleOrder, VertexLists};
 pub use rasterizer::{RasterOptions, Rasterizer};
 pub use width::{VectorWidth, WIDTH_VARIABLE};

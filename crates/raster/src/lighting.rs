@@ -2,7 +2,8 @@
 //! their names. Eye space, linear RGB. The test beside it holds it to the equations in f64.
 
 use crate::lanes::{
-    F, I, Simd, V3, add, add_scaled, dot, fma, max, min, neg, saturate, scale, select3, splat, splat_i, splat3, sub,
+    F, I, Simd, V3, add, add_scaled, dot, each, fma, max, min, neg, saturate, scale, select3, splat, splat_i, splat3,
+    sub,
 };
 use crate::pass::{Highlight, LightData, LightRange, ShadedTerms, SideData};
 use crate::power::{Exponent, power};
@@ -323,6 +324,23 @@ pub(crate) fn added<S: Simd>(simd: S, arriving: &Irradiance<S>, side: &SideData)
         sum[c] = fma::<S>(arriving.specular[c], splat(simd, side.specular[c]), diffuse);
     }
     sum
+}
+
+/// I of surfaces with a color: ke + color·(ambient and diffuse terms) + the specular ones.
+#[inline(always)]
+pub(crate) fn tinted<S: Simd>(simd: S, arriving: &Irradiance<S>, side: &SideData, color: V3<S>) -> V3<S> {
+    let terms = tinted_terms(simd, arriving, side, color);
+    each!(c in 3 => fma::<S>(color[c], splat(simd, side.base[c]), terms[c] + splat(simd, side.emission[c])))
+}
+
+/// The part of it that the lights of one list add.
+#[inline(always)]
+pub(crate) fn tinted_terms<S: Simd>(simd: S, arriving: &Irradiance<S>, side: &SideData, color: V3<S>) -> V3<S> {
+    each!(c in 3 => {
+        let ambient = arriving.ambient[c] * splat(simd, side.ambient[c]);
+        let diffuse = fma::<S>(arriving.diffuse[c], splat(simd, side.diffuse[c]), ambient);
+        fma::<S>(color[c], diffuse, arriving.specular[c] * splat(simd, side.specular[c]))
+    })
 }
 
 #[cfg(test)]

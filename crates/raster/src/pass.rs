@@ -154,6 +154,8 @@ pub struct SideData {
     pub diffuse: [f32; 3],
     /// ks.
     pub specular: [f32; 3],
+    /// ke of draws that are `colored`, whose colors do not multiply it; of others it is part of the base, and this 0.
+    pub emission: [f32; 3],
     /// ka, for the lights that attenuate their ambient.
     pub ambient: [f32; 3],
     /// The exponent of the highlight.
@@ -272,6 +274,8 @@ pub struct DrawCall {
     pub clockwise: bool,
     /// Interpolated normals may vanish; where they do the triangle's own takes their place.
     pub opposite_normals: bool,
+    /// The mesh's colors multiply base, diffuse and ambient, and the opacity.
+    pub colored: bool,
     /// Fragments are laid over what is there by their opacity, and leave the depth as it is.
     pub blend: bool,
 }

@@ -19,6 +19,8 @@ pub struct Pieces {
     pub(crate) positions: [Vec<f32>; 3],
     /// The same of the normals.
     pub(crate) normals: [Vec<f32>; 3],
+    /// The same of red, green, blue and opacity; empty where there are none.
+    pub(crate) colors: [Vec<f32>; 4],
     /// Corners as numbers of the piece's vertices.
     pub(crate) triangles: Vec<[u8; 3]>,
     index_count: u32,
@@ -60,6 +62,15 @@ pub enum TriangleOrder {
     Kept,
 }
 
+/// What a mesh's vertices have beside their positions: lists of one entry a position, or empty ones.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct VertexLists<'a> {
+    /// Unit length; draws that are unlit or flat do without.
+    pub normals: &'a [[f32; 3]],
+    /// Linear red, green, blue and opacity, 0 to 1 each, for draws that are [`colored`](crate::DrawCall::colored).
+    pub colors: &'a [[f32; 4]],
+}
+
 impl Pieces {
     /// Cuts a mesh. `cuts` are the runs of indices that draws name, in ascending order and without gaps from 0 to the
     /// end of the list; an empty slice means that the whole list is one run. Shading takes `normals` as they are: unit
@@ -75,11 +86,26 @@ impl Pieces {
         cuts: &[Range<u32>],
         order: TriangleOrder,
     ) -> Result<Self, RasterError> {
-        check(positions, normals, indices)?;
+        Self::with_lists(positions, VertexLists { normals, ..VertexLists::default() }, indices, cuts, order)
+    }
+
+    /// The same with all that vertices may have.
+    ///
+    /// # Errors
+    /// As of [`Pieces::new`]; and a color out of its range, or not one a position.
+    pub fn with_lists(
+        positions: &[[f32; 3]],
+        lists: VertexLists,
+        indices: &[u32],
+        cuts: &[Range<u32>],
+        order: TriangleOrder,
+    ) -> Result<Self, RasterError> {
+        check(positions, lists.normals, indices)?;
+        check_colors(positions.len(), lists.colors)?;
         let whole = 0..indices.len() as u32;
         let cuts = if cuts.is_empty() { std::slice::from_ref(&whole) } else { cuts };
         let mut pieces = Self { index_count: indices.len() as u32, ..Self::default() };
-        let mut builder = Builder::new(positions, normals, indices)?;
+        let mut builder = Builder::new(positions, lists, indices)?;
         let mut end = 0;
         for (index, cut) in cuts.iter().enumerate() {
             if cut.start != end || cut.end < cut.start || cut.end % 3 != 0 || cut.end as usize > indices.len() {
@@ -105,10 +131,14 @@ impl Pieces {
 
     /// The bytes of memory that its lists take.
     pub fn bytes(&self) -> u64 {
-        let numbers: usize = self.positions.iter().chain(&self.normals).map(Vec::len).sum();
+        let numbers: usize = self.positions.iter().chain(&self.normals).chain(&self.colors).map(Vec::len).sum();
         let [numbers, triangles, pieces] =
             [4 * numbers, 3 * self.triangles.len(), size_of::<Piece>() * self.each.len()];
         (numbers + triangles + pieces) as u64
+    }
+
+    pub(crate) fn has_colors(&self) -> bool {
+        !self.colors[0].is_empty()
     }
 
     /// How many triangles.
@@ -155,9 +185,23 @@ fn check(positions: &[[f32; 3]], normals: &[[f32; 3]], indices: &[u32]) -> Resul
     }
 }
 
+fn check_colors(positions: usize, colors: &[[f32; 4]]) -> Result<(), RasterError> {
+    if !colors.is_empty() && colors.len() != positions {
+        let (reaches, available) = (colors.len() as u64, positions as u64);
+        return Err(RasterError::Reference { what: "mesh", index: 0, field: "colors", reaches, available });
+    }
+    for (index, color) in colors.iter().enumerate() {
+        if let Some(&value) = color.iter().find(|x| !(0.0..=1.0).contains(*x)) {
+            let (value, expected) = (f64::from(value), "0 to 1");
+            return Err(RasterError::Number { what: "color", index, field: "a channel", value, expected });
+        }
+    }
+    Ok(())
+}
+
 struct Builder<'a> {
     positions: &'a [[f32; 3]],
-    normals: &'a [[f32; 3]],
+    lists: VertexLists<'a>,
     indices: &'a [u32],
     /// Of each vertex its number in the piece that is being made, and which piece that is.
     local: Vec<(u32, u8)>,
@@ -173,11 +217,11 @@ fn reserve<T>(list: &mut Vec<T>, more: usize, what: &'static str) -> Result<(), 
 }
 
 impl<'a> Builder<'a> {
-    fn new(positions: &'a [[f32; 3]], normals: &'a [[f32; 3]], indices: &'a [u32]) -> Result<Self, RasterError> {
+    fn new(positions: &'a [[f32; 3]], lists: VertexLists<'a>, indices: &'a [u32]) -> Result<Self, RasterError> {
         let mut local = Vec::new();
         reserve(&mut local, positions.len(), "a mesh's pieces")?;
         local.resize(positions.len(), (u32::MAX, 0));
-        Ok(Self { positions, normals, indices, local, used: Vec::with_capacity(PIECE_VERTICES), order: Vec::new() })
+        Ok(Self { positions, lists, indices, local, used: Vec::with_capacity(PIECE_VERTICES), order: Vec::new() })
     }
 
     fn corners(&self, triangle: u32) -> [u32; 3] {
@@ -247,7 +291,14 @@ impl<'a> Builder<'a> {
                 // The rest repeats the last vertex, so that nothing there is out of the ordinary.
                 let vertex = self.used[k.min(self.used.len() - 1)] as usize;
                 pieces.positions[axis].push(self.positions[vertex][axis]);
-                pieces.normals[axis].push(self.normals.get(vertex).map_or(0.0, |normal| normal[axis]));
+                pieces.normals[axis].push(self.lists.normals.get(vertex).map_or(0.0, |normal| normal[axis]));
+            }
+        }
+        if !self.lists.colors.is_empty() {
+            for channel in 0..4 {
+                reserve(&mut pieces.colors[channel], padded, "a mesh's pieces")?;
+                let used = (0..padded).map(|k| self.used[k.min(self.used.len() - 1)] as usize);
+                pieces.colors[channel].extend(used.map(|vertex| self.lists.colors[vertex][channel]));
             }
         }
         let (center, radius) = sphere(self.used.iter().map(|&vertex| self.positions[vertex as usize]));

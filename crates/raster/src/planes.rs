@@ -28,6 +28,8 @@ pub(crate) struct Planes {
     pub(crate) lead: Slopes,
     /// Nothing, and three numbers over w.
     pub(crate) second: Slopes,
+    /// Of colored draws the opacity and the color, over w.
+    pub(crate) paint: Slopes,
     /// The triangle's own normal.
     pub(crate) face: [f32; 3],
     /// The least and greatest 1/w of its corners.
@@ -86,10 +88,16 @@ impl Slopes {
 }
 
 impl Planes {
-    /// Takes over what a triangle has of its own: its color where the draw is flat, else its normal where it may be needed.
+    /// Takes over what a triangle has of its own: its opacity and color where the draw is flat, else its normal where it may be needed.
     #[inline(always)]
-    pub(crate) fn set_face(&mut self, [_, x, y, z]: &[f32; 4], state: &State) {
+    pub(crate) fn set_face(&mut self, [first, x, y, z]: &[f32; 4], state: &State) {
         if state.stage == Stage::Flat {
+            if state.colored {
+                // One opacity over w everywhere.
+                let Slopes { base, dx, dy } = self.lead;
+                let opacity = |number: f32| [first * number, 0.0, 0.0, 0.0];
+                self.paint = Slopes { base: opacity(base[0]), dx: opacity(dx[0]), dy: opacity(dy[0]) };
+            }
             self.lead.base[1..].copy_from_slice(&[*x, *y, *z]);
             // Corners that clipping has made hold a normal, which flat shading leaves to whatever was drawn before.
             self.lead.dx[1..].fill(0.0);

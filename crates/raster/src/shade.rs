@@ -5,10 +5,10 @@ use crate::cover::TileBuffer;
 use crate::encode::{bytes, cleared, kept};
 use crate::four::{CENTROID_SHIFT, SHADER_BITS};
 use crate::lanes::{
-    F, I, Simd, V3, add, counting, dot, each, fma, lanes, load, load_i, load3, max, neg, safe_normalize, scale,
+    F, I, Simd, V3, add, counting, dot, each, fma, lanes, load, load_i, load3, max, min, neg, safe_normalize, scale,
     select3, splat, splat_i, splat3, store,
 };
-use crate::lighting::{Points, added, reflected, to_viewer};
+use crate::lighting::{Irradiance, Points, added, reflected, tinted, to_viewer};
 use crate::pass::{Pass, SampleCount};
 use crate::samples::CENTROIDS;
 use crate::state::{Stage, State};
@@ -34,6 +34,8 @@ pub(crate) struct Fragments<S: Simd> {
     pub(crate) inverse_w: F<S>,
     pub(crate) lead: V3<S>,
     pub(crate) second: V3<S>,
+    /// The vertices' color, over w.
+    pub(crate) paint: V3<S>,
     pub(crate) face: V3<S>,
 }
 
@@ -50,6 +52,9 @@ impl<S: Simd> Fragments<S> {
     #[inline(always)]
     pub(crate) fn color(&self, simd: S, look: &Look, state: &State, back: bool) -> V3<S> {
         let side = state.side(look.pass, back);
+        if state.shades_paint() {
+            return self.painted(simd, look, state, back);
+        }
         match state.stage {
             Stage::Unlit => splat3(simd, side.base),
             Stage::Flat => self.lead,
@@ -62,6 +67,23 @@ impl<S: Simd> Fragments<S> {
                 add::<S>(self.interpolated(simd, self.second), added(simd, &terms, side))
             }
         }
+    }
+
+    /// The colors of what the vertices' colors have part in.
+    #[inline(always)]
+    fn painted(&self, simd: S, look: &Look, state: &State, back: bool) -> V3<S> {
+        let side = state.side(look.pass, back);
+        let color = self.interpolated(simd, self.paint);
+        let color = each!(c in 3 => min::<S>(color[c], splat(simd, 1.0)));
+        if state.stage == Stage::Unlit {
+            return tinted(simd, &Irradiance::none(simd), side, color);
+        }
+        let terms = state.fragment_terms(simd, look.pass, &self.points(simd, look, state, back), back);
+        let shade = tinted(simd, &terms, side, color);
+        if state.stage == Stage::Fragment {
+            return shade;
+        }
+        add::<S>(self.interpolated(simd, self.second), shade)
     }
 
     /// Colors over w as colors. None is below 0; across a triangle seen edge-on slopes leave the range of its corners.
@@ -175,7 +197,7 @@ impl TileBuffer {
         }
         let bytes = bytes(simd, self.shade_one(simd, look, at, clear), look.pass.pixels);
         let shader = self.shader[0][at];
-        let one = shader != 0 && state_of(look.states, shader).0.stage == Stage::Unlit;
+        let one = shader != 0 && state_of(look.states, shader).0.is_even();
         if one && shaders.simd_eq(splat_i(simd, shader)).all_true() {
             even[1] = Even { shader, bytes };
         }
@@ -262,6 +284,7 @@ impl TileBuffer {
             inverse_w,
             lead: load3(simd, &self.lead[sample], at),
             second: if state.stage == Stage::Mixed { load3(simd, &self.second[sample], at) } else { zero },
+            paint: if state.shades_paint() { load3(simd, &self.paint[sample], at) } else { zero },
             face: if state.opposite_normals { load3(simd, &self.face[sample], at) } else { zero },
         }
     }

@@ -32,6 +32,8 @@ pub(crate) struct State {
     pub(crate) opposite_normals: bool,
     /// Whether backs are drawn.
     pub(crate) backs: bool,
+    /// Whether the vertices' colors count.
+    pub(crate) colored: bool,
     /// Exponents of the highlights of front and back, halved for Blinn–Phong.
     exponents: [Exponent; 2],
 }
@@ -46,6 +48,8 @@ impl State {
         let vertex = lit(draw.vertex, data.vertex_ranges());
         let fragment = lit(draw.fragment, data.fragment_ranges());
         let stage = match (vertex.is_empty(), fragment.is_empty()) {
+            // A flat triangle has the color of one point, whatever light there is.
+            (true, true) if draw.flat && draw.colored => Stage::Flat,
             (true, true) => Stage::Unlit,
             (false, true) if draw.flat => Stage::Flat,
             (false, true) => Stage::Vertex,
@@ -64,6 +68,7 @@ impl State {
             highlight: draw.highlight,
             opposite_normals: draw.opposite_normals && matches!(stage, Stage::Fragment | Stage::Mixed),
             backs: draw.left_out != LeftOut::Back,
+            colored: draw.colored,
             exponents: [exponent(&data.front), exponent(&data.back)],
         }
     }
@@ -98,6 +103,17 @@ impl State {
             self.gloss(back),
             self.fragment,
         )
+    }
+
+    /// Whether fragments take the vertices' colors: where no color has been shaded before them.
+    #[inline(always)]
+    pub(crate) fn shades_paint(&self) -> bool {
+        self.colored && matches!(self.stage, Stage::Unlit | Stage::Fragment | Stage::Mixed)
+    }
+
+    /// Whether all its pixels have one color.
+    pub(crate) fn is_even(&self) -> bool {
+        self.stage == Stage::Unlit && !self.colored
     }
 
     /// The material of a side.

@@ -222,6 +222,10 @@ impl Worker {
                     planes.second =
                         Slopes::of_lane(&self.batch.slopes(simd, lane, each!(k in 3 => &second[numbers[k]])));
                 }
+                if work.state.colored {
+                    planes.paint =
+                        Slopes::of_lane(&self.batch.slopes(simd, lane, each!(k in 3 => &v.paint[numbers[k]])));
+                }
                 planes.set_face(&self.faces.each[usize::from(back)][lane], work.state);
                 let edges = EdgeFunctions::of_lane(&self.batch, lane, look.pass.samples);
                 draw(simd, &mut self.nearest, &edges, &planes, back, look, work);
@@ -231,7 +235,7 @@ impl Worker {
 
     /// Makes room for a tile.
     pub(crate) fn prepare(&mut self, pass: &Pass) {
-        self.nearest.prepare(pass.samples);
+        self.nearest.prepare(pass.samples, pass.draws.iter().any(|draw| draw.colored));
         make_room(&mut self.own, pass.pixels);
     }
 }
@@ -329,7 +333,7 @@ impl<'a> Work<'a> {
                 clockwise: draw.clockwise,
                 samples: pass.samples,
                 last,
-                is_plain: !blend && state.stage != Stage::Mixed && !state.opposite_normals,
+                is_plain: !blend && state.stage != Stage::Mixed && !state.opposite_normals && !state.colored,
             },
             blend,
         }

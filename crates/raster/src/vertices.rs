@@ -5,7 +5,7 @@ use crate::lanes::{
     F, I, Simd, V3, each, fma, lanes, load, load3, max, min, safe_normalize, splat, splat_i, store, store_fours,
     store_i,
 };
-use crate::lighting::{Points, reflected, to_viewer};
+use crate::lighting::{Points, reflected, tinted, tinted_terms, to_viewer};
 use crate::pass::{InstanceData, Pass};
 use crate::pieces::{Piece, Pieces};
 use crate::state::{Stage, State};
@@ -72,14 +72,16 @@ pub(crate) struct Vertices {
     pub(crate) codes: [i32; SLOTS],
     /// All codes together.
     pub(crate) any_code: i32,
-    /// Normal, color of the front, color of the back.
-    pub(crate) raw: [List; 9],
+    /// Normal, color of the front, color of the back; and of colored draws the vertices' own, opacity first.
+    pub(crate) raw: [List; 13],
     /// 1/w and the first three interpolated numbers over w, of front and back.
     pub(crate) lead: [Box<Attributes>; 2],
     /// Whether the leading numbers are colors, which the sides have of their own.
     pub(crate) sides_lead: bool,
     /// Nothing and three more of them.
     pub(crate) second: [Box<Attributes>; 2],
+    /// Of colored draws the opacity and the color, over w.
+    pub(crate) paint: Box<Attributes>,
 }
 
 impl Vertices {
@@ -93,10 +95,11 @@ impl Vertices {
             places: [[0; 2]; SLOTS],
             codes: [0; SLOTS],
             any_code: 0,
-            raw: [[0.0; SLOTS]; 9],
+            raw: [[0.0; SLOTS]; 13],
             lead: [none(), none()],
             sides_lead: false,
             second: [none(), none()],
+            paint: none(),
         }
     }
 
@@ -113,6 +116,17 @@ impl Vertices {
         let center = tile.map(|place| (place as i32 * TILE as i32 + TILE as i32 / 2) * GRID);
         if !self.place(simd, (mesh, piece), instance, screen, center) {
             return false;
+        }
+        if state.colored {
+            for at in (0..piece.vertex_count as usize).step_by(lanes::<S>()) {
+                let first = piece.first_vertex as usize + at;
+                let color = each!(k in 4 => load(simd, &mesh.colors[k], first));
+                for k in 0..4 {
+                    store::<S>(color[(k + 3) % 4], &mut self.raw[9 + k], at);
+                }
+                let i = load(simd, &self.inverse_w, at);
+                store_fours::<S>(each!(k in 4 => color[(k + 3) % 4] * i), &mut self.paint[..], at);
+            }
         }
         if matches!(state.stage, Stage::Vertex | Stage::Fragment | Stage::Mixed) {
             for at in (0..piece.vertex_count as usize).step_by(lanes::<S>()) {
@@ -226,7 +240,15 @@ impl Vertices {
             let n = if back { crate::lanes::neg::<S>(n) } else { n };
             let points = Points::new(simd, p, n, to_viewer(simd, p, n, pass.local_viewer));
             let terms = state.vertex_terms(simd, pass, &points, back);
-            let color = reflected(simd, &terms, state.side(pass, back));
+            let side = state.side(pass, back);
+            let color = if state.colored {
+                let own = each!(k in 3 => load(simd, &self.raw[10 + k], at));
+                // At the fragments there is a base already.
+                let shade = if state.stage == Stage::Vertex { tinted } else { tinted_terms };
+                shade(simd, &terms, side, own)
+            } else {
+                reflected(simd, &terms, side)
+            };
             for c in 0..3 {
                 store::<S>(color[c], &mut self.raw[3 + 3 * usize::from(back) + c], at);
             }

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use bevy_math::{Vec2, Vec3};
+use bevy_math::{Vec2, Vec3, Vec4};
 use halfway_mesh::{Cuboid, Format, Mesh, MeshError, NormalWeighting, Normals, Plane, SurfaceError, Teapot, UvSphere};
 use schemars::JsonSchema;
 use serde::de::{Deserializer, Error, MapAccess, Visitor};
@@ -111,6 +111,9 @@ pub struct InlineMesh {
     /// u, v of every vertex, (0, 0) being the top left of the image; null: none.
     #[serde(default)]
     pub uvs: Option<Vec<f32>>,
+    /// Red, green, blue and opacity of every vertex, linear, drawn as if taken into 0 to 1; null: none.
+    #[serde(default)]
+    pub colors: Option<Vec<f32>>,
     /// The vertices of every triangle, counted from 0, counter-clockwise seen from the front.
     pub indices: Vec<u32>,
 }
@@ -185,7 +188,7 @@ impl InlineMesh {
             return Err(KeyProblem::new("indices", "is empty; expected at least one triangle"));
         }
         finite("positions", &self.positions)?;
-        for (key, values, each) in [("normals", &self.normals, 3), ("uvs", &self.uvs, 2)] {
+        for (key, values, each) in [("normals", &self.normals, 3), ("uvs", &self.uvs, 2), ("colors", &self.colors, 4)] {
             let Some(values) = values else { continue };
             if values.len() != each * vertices {
                 let message =
@@ -205,12 +208,14 @@ impl InlineMesh {
     pub(crate) fn mesh(&self) -> Result<Mesh, MeshError> {
         let triples = |values: &[f32]| values.as_chunks().0.iter().map(|&v| Vec3::from_array(v)).collect();
         let pairs = |values: &[f32]| values.as_chunks().0.iter().map(|&v| Vec2::from_array(v)).collect();
-        Mesh::from_parts(
+        let mesh = Mesh::from_parts(
             triples(&self.positions),
             self.normals.as_deref().map(triples),
             self.uvs.as_deref().map(pairs),
             self.indices.clone(),
-        )
+        )?;
+        let colors = |values: &Vec<f32>| values.as_chunks().0.iter().map(|&v| Vec4::from_array(v)).collect();
+        self.colors.as_ref().map(colors).map_or(Ok(mesh.clone()), |colors| mesh.with_colors(colors))
     }
 }
 

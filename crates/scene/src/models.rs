@@ -107,14 +107,8 @@ impl<'a> Shapes<'a> {
     fn model(&mut self, model: Model, path: &Path, normals: Normals, index: usize) -> Result<ObjectShape, SceneError> {
         let file = path.display();
         self.warnings.extend(model.warnings.iter().map(|warning| format!("{file}: {warning}")));
-        let with_colors = model.parts.iter().filter(|part| part.mesh.colors().is_some()).count();
-        for (count, what) in [
-            (with_colors, "parts have colors at their vertices, which are not drawn"),
-            (model.cameras.len(), "cameras are not used; a scene has its own"),
-        ] {
-            if count > 0 {
-                self.warnings.push(format!("{file}: {count} {what}"));
-            }
+        if !model.cameras.is_empty() {
+            self.warnings.push(format!("{file}: {} cameras are not used; a scene has its own", model.cameras.len()));
         }
         let mut materials = Vec::with_capacity(model.materials.len());
         for material in &model.materials {

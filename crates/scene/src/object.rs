@@ -1,7 +1,7 @@
 //! The objects of a scene file.
 
 use bevy_math::{DVec4, Mat4, Quat, Vec3};
-use halfway_lighting::{Faces, Reflectance};
+use halfway_lighting::{Faces, Reflectance, VertexColors};
 use halfway_mesh::Normals;
 use schemars::JsonSchema;
 use serde::de::{Deserializer, Error};
@@ -56,6 +56,10 @@ pub struct ObjectEntry {
     #[serde(default, deserialize_with = "word_or_null", serialize_with = "write_word_or_null")]
     #[schemars(with = "Option<Spoken<Reflectance>>")]
     pub reflectance: Option<Reflectance>,
+    /// What becomes of the colors at the mesh's vertices, if it has any.
+    #[serde(default, deserialize_with = "word", serialize_with = "write_word")]
+    #[schemars(with = "Spoken<VertexColors>")]
+    pub vertex_colors: VertexColors,
     /// Whether the material's opacity lets what is behind show through. Left out: no, except for parts with a blended
     /// material of the model's own.
     #[serde(default, deserialize_with = "given", skip_serializing_if = "Option::is_none")]
@@ -128,6 +132,7 @@ impl ObjectEntry {
             shading: None,
             tolerance: None,
             reflectance: None,
+            vertex_colors: VertexColors::default(),
             blend: None,
         }
     }

@@ -10,7 +10,7 @@ use bevy_color::{ColorToComponents, LinearRgba};
 use bevy_ecs::prelude::*;
 use bevy_math::{DMat3, DQuat, Mat4, Vec3};
 use bevy_transform::components::Transform;
-use halfway_lighting::{BackMaterial, Blend, GlobalAmbient, Tolerance, ViewTolerance};
+use halfway_lighting::{BackMaterial, Blend, GlobalAmbient, Tolerance, VertexColors, ViewTolerance};
 use halfway_lighting::{Camera, Samples};
 use halfway_mesh::{Bounds, Mesh, Mesh3d};
 
@@ -209,6 +209,10 @@ fn dress(object: &ObjectEntry, part: &ShapePart, mesh: Handle<Mesh>, entity: &mu
     }
     if let Some(reflectance) = object.reflectance {
         entity.insert(reflectance);
+    }
+    // Said only where it is not so anyway.
+    if object.vertex_colors != VertexColors::default() {
+        entity.insert(object.vertex_colors);
     }
     if object.blend.unwrap_or_else(|| own.is_some_and(|own| own.blend)) {
         entity.insert(Blend);

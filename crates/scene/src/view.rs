@@ -1,7 +1,9 @@
 //! The keys of a scene file that say how its picture is seen and written.
 
 use bevy_math::{DVec3, Vec3};
-use halfway_lighting::{Camera, Encoding, Faces, Intensity, Range, Reflectance, Shading, Tolerance, Viewer};
+use halfway_lighting::{
+    Camera, Encoding, Faces, Intensity, Range, Reflectance, Shading, Tolerance, VertexColors, Viewer,
+};
 use schemars::JsonSchema;
 use serde::de::MapAccess;
 use serde::{Deserialize, Serialize};
@@ -81,6 +83,19 @@ impl ComponentWord for Faces {
                                    under a mirroring transform.";
     const MEANINGS: &'static [&'static str] =
         &["The front.", "The back, lit with the flipped normal and the back material, if any.", "Both."];
+}
+
+impl Word for VertexColors {
+    const WORDS: &'static [(&'static str, Self)] = &[("multiply", Self::Multiply), ("ignore", Self::Ignore)];
+}
+
+impl ComponentWord for VertexColors {
+    const NAME: &'static str = "VertexColorsEntry";
+    const MEANING: &'static str = "`vertex_colors`: what becomes of the colors at a mesh's vertices.";
+    const MEANINGS: &'static [&'static str] = &[
+        "They multiply the ambient and diffuse reflectance, and the opacity where the object is blended, on both sides.",
+        "Nothing.",
+    ];
 }
 
 /// `shading`: how often a surface is shaded.

@@ -7,7 +7,7 @@ use bevy_transform::TransformPlugin;
 use halfway_mesh::MeshPlugin;
 use halfway_scene::{SceneFile, spawn};
 
-/// A triangle with colors and an opacity (OBJ), and one with a camera (glTF).
+/// A triangle with an opacity (OBJ), and one with a camera (glTF).
 fn write_models(name: &str) -> PathBuf {
     let dir = std::env::temp_dir().join(format!("halfway-scene-{name}-{}", std::process::id()));
     std::fs::create_dir_all(&dir).unwrap();
@@ -27,7 +27,7 @@ fn write_models(name: &str) -> PathBuf {
 }
 
 #[test]
-fn vertex_colors_opacities_and_cameras_that_are_not_shown_are_warned_of() {
+fn opacities_and_cameras_that_are_not_shown_are_warned_of() {
     let dir = write_models("unshown");
     let warnings = |object: &str| {
         let scene = SceneFile::from_json(&format!("{{\"objects\": [{{{object}}}]}}"), "test").unwrap();
@@ -37,12 +37,11 @@ fn vertex_colors_opacities_and_cameras_that_are_not_shown_are_warned_of() {
     };
     let at = |file: &str, what: &str| format!("{}: {what}", dir.join(file).display());
     let glass = r#""mesh": {"path": "glass.obj"}"#;
-    let colors = at("glass.obj", "1 parts have colors at their vertices, which are not drawn");
     let opacity = "objects[0]: 1 parts have an opacity below 1, which is not shown without \"blend\": true";
-    assert_eq!(warnings(glass), [colors.as_str(), opacity]);
+    assert_eq!(warnings(glass), [opacity]);
     // Whoever decides about blending or the material is not told.
     for decided in [r#""blend": true"#, r#""blend": false"#, r#""material": "jade""#] {
-        assert_eq!(warnings(&format!("{glass}, {decided}")), [colors.as_str()], "{decided}");
+        assert_eq!(warnings(&format!("{glass}, {decided}")), [""; 0], "{decided}");
     }
     let camera = at("seen.gltf", "1 cameras are not used; a scene has its own");
     assert_eq!(warnings(r#""mesh": {"path": "seen.gltf"}"#), [camera]);

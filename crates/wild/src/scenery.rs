@@ -67,6 +67,7 @@ fn object(random: &mut Random, unit: f64) -> Value {
     object.perhaps(random, 60, "faces", |random| random.of(&["front", "back", "both", "both"]).into());
     object.perhaps(random, 25, "shading", looks::shading);
     object.perhaps(random, 25, "reflectance", looks::reflectance);
+    object.perhaps(random, 10, "vertex_colors", |random| random.of(&["multiply", "ignore"]).into());
     object.perhaps(random, 22, "blend", |_| json!(true));
     object.into()
 }

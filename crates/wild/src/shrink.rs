@@ -220,7 +220,7 @@ fn drop_triangles(mesh: &mut Value, gone: std::ops::Range<usize>) {
     used.dedup();
     let renamed = kept.iter().map(|vertex| Value::from(used.partition_point(|other| other < vertex)));
     inline.insert("indices".into(), renamed.collect());
-    for (key, each) in [("positions", 3), ("normals", 3), ("uvs", 2)] {
+    for (key, each) in [("positions", 3), ("normals", 3), ("uvs", 2), ("colors", 4)] {
         keep_vertices(inline, key, each, &used);
     }
 }

@@ -10,7 +10,7 @@ use halfway::lighting::Frequency;
 use halfway::prelude::*;
 
 /// A coarse sphere on a floor, whose parts face everywhere.
-fn still_life() -> Scene {
+pub(super) fn still_life() -> Scene {
     let mut scene = Scene::seen_from(Vec3::new(0.4, 1.4, 3.2), Vec3::new(0.0, -0.1, 0.0))
         .ambient(0.15)
         .with(Thing::new(UvSphere::new(0.8, 12, 6)))
@@ -21,7 +21,7 @@ fn still_life() -> Scene {
     scene
 }
 
-fn point(at: Vec3) -> Lamp {
+pub(super) fn point(at: Vec3) -> Lamp {
     Lamp::point(point_light(), at)
 }
 
@@ -34,7 +34,7 @@ fn sun(along: Vec3) -> Lamp {
 }
 
 /// `count` lights of all kinds around the scene, which share its brightness.
-fn lights(count: usize) -> Scene {
+pub(super) fn lights(count: usize) -> Scene {
     let mut scene = still_life();
     let share = 2.0 / count as f32;
     let dim = |colour: LinearRgba| LinearRgba::rgb(colour.red * share, colour.green * share, colour.blue * share);

@@ -4,7 +4,7 @@ use bevy_color::LinearRgba;
 
 use super::Real;
 use super::falloff::ConeTerms;
-use super::vector::normalize;
+use super::vector::{mul, normalize};
 use crate::invalid::{Fields, InvalidValue, Problem};
 use crate::{Cone, DirectionalLight, GlobalAmbient, Material, PointLight, SpotLight, Viewer};
 
@@ -41,6 +41,14 @@ impl<T: Real> From<&Material> for Coefficients<T> {
             ke: rgb(material.emission),
             shininess: real(material.shininess),
         }
+    }
+}
+
+impl<T: Real> Coefficients<T> {
+    /// The same where the surface has this color: ka and kd times it, each channel by itself.
+    #[must_use]
+    pub fn tinted(self, color: [T; 3]) -> Self {
+        Self { ka: mul(self.ka, color), kd: mul(self.kd, color), ..self }
     }
 }
 

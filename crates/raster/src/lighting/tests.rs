@@ -90,6 +90,7 @@ const SIDE: SideData = SideData {
     specular: [0.4, 0.6, 0.8],
     ambient: [0.3, 0.2, 0.1],
     exponent: 0.0,
+    emission: [0.0; 3],
     opacity: 1.0,
 };
 

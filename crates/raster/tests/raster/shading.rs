@@ -60,6 +60,7 @@ fn case(shading: Shading, highlight: Highlight) -> Case {
         ambient: [0.5, 0.4, 0.3],
         exponent: 20.0,
         opacity: 1.0,
+        emission: [0.0; 3],
     };
     let all = LightRange { counts: [1, 1, 1], start: 0 };
     let mut call = draw(&ready, 1, shading);

@@ -8,7 +8,8 @@ use bevy_transform::components::{GlobalTransform, Transform};
 use halfway_lighting::equations::{self, Light, rgb, vector::add};
 use halfway_lighting::{
     BackMaterial, Blend, Camera, DirectionalLight, Faces, GlobalAmbient, InvalidValue, Material, PointLight,
-    Propagation, Reflectance, Samples, Shading, Shown, SpotLight, Terms, light_direction, light_position, propagation,
+    Propagation, Reflectance, Samples, Shading, Shown, SpotLight, Terms, VertexColors, light_direction, light_position,
+    propagation,
 };
 use halfway_mesh::{Mesh, Mesh3d, SpawnOrder};
 
@@ -136,6 +137,7 @@ type Object<'a> = (
     Option<&'a Reflectance>,
     Option<&'a Faces>,
     Option<&'a Blend>,
+    Option<&'a VertexColors>,
 );
 
 fn solids(world: &mut World, seen: &Seen) -> Result<Vec<Solid>, OracleError> {
@@ -156,7 +158,7 @@ fn solids(world: &mut World, seen: &Seen) -> Result<Vec<Solid>, OracleError> {
 }
 
 fn solid(
-    (entity, mesh, transform, _, name, material, back, shading, terms, reflectance, faces, blend): Object,
+    (entity, mesh, transform, _, name, material, back, shading, terms, reflectance, faces, blend, colors): Object,
     meshes: Option<&Assets<Mesh>>,
     seen: &Seen,
 ) -> Result<Solid, OracleError> {
@@ -180,6 +182,7 @@ fn solid(
         faces: faces.copied().unwrap_or_default(),
         blend: blend.is_some(),
         terms: terms.at_fragments(),
+        colored: colors.copied().unwrap_or_default() == VertexColors::Multiply,
     };
     Ok(Solid::new(entity, mesh.clone(), seen.view.eye_from_model(&world_from_model), &looks))
 }

@@ -39,7 +39,7 @@ impl Oracle {
         let nearest = layers.visible(&self.scene).min_by(|a, b| a.depth.total_cmp(&b.depth));
         let nearest = nearest.map(|hit| Nearest {
             object: self.scene.solids[hit.solid].entity,
-            triangle: hit.triangle(),
+            triangle: hit.on_triangle().map(|(triangle, _)| triangle),
             front: hit.front,
             depth: hit.depth,
             position: self.scene.view.world_from_point(self.scene.view.ray(x, y) * hit.depth),

@@ -26,10 +26,10 @@ pub(super) enum HitPoint {
 }
 
 impl Hit {
-    /// The triangle, unless it is the surface itself that was met.
-    pub(super) fn triangle(&self) -> Option<u32> {
+    /// The triangle and the weights of its corners, unless it is the surface itself that was met.
+    pub(super) fn on_triangle(&self) -> Option<(u32, [f64; 3])> {
         match self.place {
-            HitPoint::Triangle(triangle, _) => Some(triangle),
+            HitPoint::Triangle(triangle, weights) => Some((triangle, weights)),
             HitPoint::Surface { .. } => None,
         }
     }

@@ -3,7 +3,7 @@
 use bevy_math::DVec3;
 use halfway_lighting::Frequency;
 use halfway_lighting::equations::vector::{add, mul};
-use halfway_lighting::equations::{ShadedPoint, interpolated_normal, light_terms, side_normal};
+use halfway_lighting::equations::{Coefficients, ShadedPoint, interpolated_normal, light_terms, side_normal};
 
 use super::gather::OracleScene;
 use super::raster::{Hit, HitPoint};
@@ -14,16 +14,25 @@ impl OracleScene {
     pub(super) fn value(&self, hit: &Hit) -> Color {
         let solid = &self.solids[hit.solid];
         let side = solid.side(hit.front);
-        let unlit = add(side.coefficients.ke, mul(side.coefficients.ka, self.ambient));
+        let material = side.coefficients.tinted(solid.color(hit.on_triangle()).truncate().to_array());
+        let unlit = add(material.ke, mul(material.ka, self.ambient));
         let lit = match hit.place {
-            HitPoint::Triangle(triangle, weights) => self.on_triangle(solid, hit.front, triangle, weights),
-            HitPoint::Surface { p, n } => self.lit(solid, hit.front, p, n.to_array(), Frequency::Fragment),
+            HitPoint::Triangle(triangle, weights) => self.on_triangle(solid, hit.front, &material, triangle, weights),
+            HitPoint::Surface { p, n } => self.lit(solid, hit.front, &material, p, n.to_array(), Frequency::Fragment),
         };
         add(unlit, lit)
     }
 
-    /// What the lights add at a point of a triangle. What is evaluated at the triangle or at its vertices is remembered.
-    fn on_triangle(&self, solid: &Solid, front: bool, triangle: u32, weights: [f64; 3]) -> Color {
+    /// What the lights add at a point of a triangle, whose material there is given. What is evaluated at the triangle or at
+    /// its vertices is remembered.
+    fn on_triangle(
+        &self,
+        solid: &Solid,
+        front: bool,
+        material: &Coefficients<f64>,
+        triangle: u32,
+        weights: [f64; 3],
+    ) -> Color {
         let shaded = &solid.side(front).shaded;
         let corners = solid.triangle(triangle);
         // Triangles without area have no normal, and are not drawn.
@@ -31,13 +40,15 @@ impl OracleScene {
         let mut i = [0.0; 3];
         if solid.terms.has(Frequency::Triangle) {
             let centroid = (corners[0] + corners[1] + corners[2]) / 3.0;
-            let of_triangle = || self.lit(solid, front, centroid, geometric(), Frequency::Triangle);
+            let of_triangle = || self.lit(solid, front, material, centroid, geometric(), Frequency::Triangle);
             i = add(i, *shaded[triangle as usize].get_or_init(of_triangle));
         }
         if solid.terms.has(Frequency::Vertex) {
             let of_vertex = |number: usize| {
                 let (p, n) = (solid.corners[number], solid.normals[number].to_array());
-                *shaded[number].get_or_init(|| self.lit(solid, front, p, n, Frequency::Vertex))
+                let color = solid.colors.as_ref().map_or(DVec3::ONE, |colors| colors[number].truncate());
+                let material = || solid.side(front).coefficients.tinted(color.to_array());
+                *shaded[number].get_or_init(|| self.lit(solid, front, &material(), p, n, Frequency::Vertex))
             };
             let of_vertices = solid.vertices(triangle).map(|number| DVec3::from_array(of_vertex(number)));
             i = add(i, mixed(of_vertices, weights).to_array());
@@ -45,7 +56,7 @@ impl OracleScene {
         if solid.terms.has(Frequency::Fragment) {
             let n = mixed(solid.vertices(triangle).map(|number| solid.normals[number]), weights).to_array();
             let n = interpolated_normal(n, geometric());
-            i = add(i, self.lit(solid, front, mixed(corners, weights), n, Frequency::Fragment));
+            i = add(i, self.lit(solid, front, material, mixed(corners, weights), n, Frequency::Fragment));
         }
         i
     }
@@ -53,9 +64,16 @@ impl OracleScene {
     /// What those terms of the lights add at a point of one side that have this frequency; `n` is the normal of the front.
     ///
     /// An ambient colour that attenuates goes with the diffuse term; one that does not is in the scene's ambient.
-    fn lit(&self, solid: &Solid, front: bool, p: DVec3, n: [f64; 3], at: Frequency) -> Color {
+    fn lit(
+        &self,
+        solid: &Solid,
+        front: bool,
+        material: &Coefficients<f64>,
+        p: DVec3,
+        n: [f64; 3],
+        at: Frequency,
+    ) -> Color {
         let surface = ShadedPoint { position: p.to_array(), normal: side_normal(n, front) };
-        let material = &solid.side(front).coefficients;
         self.lights.iter().fold([0.0; 3], |mut i, light| {
             let terms = light_terms(&surface, material, light, &self.viewer, solid.reflectance);
             if solid.terms.diffuse == at {

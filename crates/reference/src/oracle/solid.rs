@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use bevy_ecs::entity::Entity;
-use bevy_math::{DAffine3, DMat3, DVec3};
+use bevy_math::{DAffine3, DMat3, DVec3, DVec4};
 use halfway_lighting::equations::vector::{length, normalize};
 use halfway_lighting::equations::{Coefficients, normal_matrix, transform_normal};
 use halfway_lighting::{Faces, Frequency, Material, Reflectance, Terms};
@@ -24,6 +24,8 @@ pub(super) struct Looks {
     pub(super) faces: Faces,
     pub(super) blend: bool,
     pub(super) terms: Terms,
+    /// Whether the colours at the vertices, if there are any, count.
+    pub(super) colored: bool,
 }
 
 /// Where the surface itself is met, all that is evaluated anywhere is evaluated at the point that is seen.
@@ -56,6 +58,8 @@ pub(super) struct Solid {
     pub(super) mirrored: bool,
     pub(super) corners: Vec<DVec3>,
     pub(super) normals: Vec<DVec3>,
+    /// The colours of the vertices, where they count.
+    pub(super) colors: Option<Vec<DVec4>>,
     /// Front and back.
     pub(super) sides: [Side; 2],
     pub(super) faces: Faces,
@@ -91,6 +95,7 @@ impl Solid {
         let mirrored = determinant < -FLAT;
         let normal_matrix = signed_cofactors(&m, determinant, mirrored);
         let terms = looks.terms;
+        let colors = if looks.colored { mesh.drawn_colors() } else { None };
         let evaluations = match (terms.has(Frequency::Triangle), terms.has(Frequency::Vertex)) {
             (true, _) => mesh.triangle_count(),
             (false, true) => mesh.positions().len(),
@@ -109,6 +114,7 @@ impl Solid {
             mirrored,
             corners: mesh.positions().par_iter().map(|p| eye_from_model.transform_point3(p.as_dvec3())).collect(),
             normals: mesh.normals().par_iter().map(|n| turned(normal_matrix, n.as_dvec3())).collect(),
+            colors: colors.map(|colors| colors.iter().map(|color| color.as_dvec4()).collect()),
             sides: [side(&looks.front, looks.faces.shows_front()), side(&looks.back, looks.faces.shows_back())],
             faces: looks.faces,
             reflectance: looks.reflectance,
@@ -127,11 +133,13 @@ impl Solid {
         };
     }
 
-    /// The surface behind the mesh, unless it is unknown or the transform flattens it, so that no ray leads back to it.
+    /// The surface behind the mesh, unless it is unknown, the mesh has colours, which the surface does not, or the
+    /// transform flattens it, so that no ray leads back to it.
     fn smooth(&self) -> Option<Smooth> {
         let surface = self.mesh.surface()?;
         let is_flat = unit_determinant(&self.eye_from_model.matrix3).abs() <= FLAT;
-        (!is_flat).then(|| Smooth { traced: Traced::new(surface), model_from_eye: self.eye_from_model.inverse() })
+        (!is_flat && self.colors.is_none())
+            .then(|| Smooth { traced: Traced::new(surface), model_from_eye: self.eye_from_model.inverse() })
     }
 
     /// A unit normal in eye space; 0 where the transform leaves none.
@@ -147,6 +155,19 @@ impl Solid {
     pub(super) fn vertices(&self, triangle: u32) -> [usize; 3] {
         let first = 3 * triangle as usize;
         [0, 1, 2].map(|corner| self.mesh.indices()[first + corner] as usize)
+    }
+
+    /// The colour and opacity that the vertices give a point of a triangle, by the weights of its corners: under flat shading the mean of its corners'.
+    pub(super) fn color(&self, place: Option<(u32, [f64; 3])>) -> DVec4 {
+        let (Some(colors), Some((triangle, weights))) = (&self.colors, place) else { return DVec4::ONE };
+        let [u, v, w] = if self.terms.has(Frequency::Triangle) { [1.0 / 3.0; 3] } else { weights };
+        let [a, b, c] = self.vertices(triangle).map(|number| colors[number]);
+        a * u + b * v + c * w
+    }
+
+    /// The opacity of a side at a point; 1 where the object is not blended.
+    pub(super) fn opacity(&self, front: bool, place: Option<(u32, [f64; 3])>) -> f64 {
+        if self.blend { self.side(front).opacity * self.color(place).w } else { 1.0 }
     }
 
     /// A triangle's corners in eye space.

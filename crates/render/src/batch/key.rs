@@ -28,6 +28,8 @@ pub(crate) struct DrawKey {
     pub(crate) cull: Cull,
     /// Front faces wind clockwise: the transform mirrors, or only back faces are shown.
     pub(crate) clockwise: bool,
+    /// The mesh's colors multiply the ambient and diffuse reflectance, and the opacity.
+    pub(crate) colored: bool,
 }
 
 /// Which faces the rasteriser drops.
@@ -55,6 +57,7 @@ impl fmt::Display for DrawKey {
             (self.geometric_fallback, "geometric_fallback"),
             (self.clockwise, "clockwise"),
             (self.blend, "blend"),
+            (self.colored, "colored"),
         ] {
             if on {
                 write!(f, " {name}")?;
@@ -70,10 +73,18 @@ impl DrawKey {
         self.terms != Terms::NONE
     }
 
+    /// Whether its vertices have more than positions.
+    pub(crate) fn reads_attributes(&self) -> bool {
+        self.is_lit() || self.colored
+    }
+
     /// The same with these terms, in place of more. Switches that then make no difference are set one way, so that they
     /// make no variants.
     #[must_use]
     pub(crate) fn with_terms(self, terms: Terms) -> Self {
+        // The color of a flat triangle is of one point, whatever light there is.
+        let is_flat = self.colored && self.terms.has(Frequency::Triangle);
+        let terms = if is_flat { Terms { diffuse: Frequency::Triangle, ..terms } } else { terms };
         let (lit, specular) = (terms != Terms::NONE, terms.specular != Frequency::Never);
         Self {
             terms,
@@ -158,6 +169,7 @@ pub(crate) mod tests {
             geometric_fallback: false,
             cull: Cull::Back,
             clockwise: false,
+            colored: false,
         }
     }
 

@@ -11,7 +11,7 @@ use crate::error::{RenderError, label};
 use crate::frame::report::FrameReport;
 use crate::geometry::allowed::{Allowed, Demand, SAMPLED, geometry_steps};
 use crate::geometry::detail::Choice;
-use crate::geometry::meshes::{Form, Geometries, Geometry};
+use crate::geometry::meshes::{Form, Geometries, Geometry, are_colors_drawn};
 use crate::geometry::patches::{MeshPatch, Sight};
 use crate::lights::gains::Extent;
 use crate::lights::gather::Lights;
@@ -23,11 +23,13 @@ use crate::shaders::records::{DrawRecord, InstanceRecord, MaterialRecord, Record
 use crate::target::frame::FrameValues;
 use crate::view::camera::View;
 use crate::view::matrices::{ModelView, NormalMatrix, Visible};
-use bevy_asset::AssetId;
+use bevy_asset::{AssetId, Assets};
 use bevy_ecs::component::Mutable;
 use bevy_ecs::prelude::*;
+use bevy_math::Vec3;
 use halfway_lighting::{
-    BackMaterial, Blend, Faces, Frequency, Material, Reflectance, Terms, Tolerance, ViewTolerance, equations,
+    BackMaterial, Blend, Faces, Frequency, Material, Reflectance, Terms, Tolerance, VertexColors, ViewTolerance,
+    equations,
 };
 use halfway_mesh::{Mesh, Mesh3d};
 
@@ -54,9 +56,9 @@ type ObjectQuery<'w, 's> = Query<
         Option<&'static Reflectance>,
         Option<&'static Faces>,
         Has<Blend>,
+        Option<&'static VertexColors>,
         Option<&'static Tolerance>,
-        &'static ModelView,
-        &'static NormalMatrix,
+        (&'static ModelView, &'static NormalMatrix),
         &'static Chosen,
         Option<&'static Name>,
     ),
@@ -65,6 +67,7 @@ type ObjectQuery<'w, 's> = Query<
 #[expect(clippy::too_many_arguments, reason = "a system takes each resource as a parameter")]
 pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
     objects: ObjectQuery,
+    meshes: Res<Assets<Mesh>>,
     geometries: Res<Geometries>,
     visible: Res<Visible>,
     view: Res<View>,
@@ -85,13 +88,16 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
     let shared = Shared { lights: &lights, encoding, viewer, costs, prices, false_colors: false_colors.0 };
     let mut seen = Vec::new();
     for &entity in &visible.0 {
-        let Ok((mesh, material, back, reflectance, faces, blend, tolerance, model_view, normal_matrix, chosen, name)) =
+        let Ok((mesh, material, back, reflectance, faces, blend, colors, tolerance, placed, chosen, name)) =
             objects.get(entity)
         else {
             continue;
         };
-        let terms = if blend { chosen.0.at_fragments() } else { chosen.0 };
-        let form = Form::new(terms, blend);
+        let (model_view, normal_matrix) = placed;
+        let colored = meshes.get(&mesh.0).is_some_and(|mesh| are_colors_drawn(mesh, colors));
+        // Of blended patches all is drawn at once, and of products of colors and light there is no bound.
+        let terms = if blend || colored { chosen.0.at_fragments() } else { chosen.0 };
+        let form = Form::new(terms, blend, colored);
         let Some(geometry) = geometries.get(mesh.0.id(), form) else { continue };
         let material = material.unwrap_or(&Material::DEFAULT);
         let reflecting = Reflecting {
@@ -99,6 +105,7 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
             back: back.map_or(material, |back| &back.0),
             reflectance: reflectance.copied().unwrap_or(view.reflectance),
             faces: faces.copied().unwrap_or_default(),
+            colored,
         };
         let look = lit.table.look(&reflecting);
         if let Some(source) = &look.invalid {
@@ -237,7 +244,9 @@ impl LitPatches {
             let eye = equations::Eye::in_eye_space(shared.viewer);
             let compiled_in = compiled_in.then_some(lights.records.len());
             let spending = Spending { encoding, steps, prices: shared.prices, compiled_in };
-            reflector.listing(reflecting.faces, shared.lights.ambient, eye, spending)
+            // A color may be black: then there is no ambient light that could hide what is left out. None is above 1.
+            let ambient = if key.colored { Vec3::ZERO } else { shared.lights.ambient };
+            reflector.listing(reflecting.faces, ambient, eye, spending)
         });
         seen.clear();
         let looked_at = detail.each_seen(&allowed, &sight, &mut self.choice, |patch| seen.push(patch));
@@ -311,7 +320,8 @@ impl LitPatches {
         if self.records.last() != Some(&colored) {
             self.records.push(colored);
         }
-        let key = backend.admit(DrawKey { blend: object.key.blend, ..key.with_terms(Terms::NONE) });
+        let plain = DrawKey { colored: false, ..key };
+        let key = backend.admit(DrawKey { blend: object.key.blend, ..plain.with_terms(Terms::NONE) });
         (key, 0, self.records.len() as u32 - 1)
     }
 

@@ -17,10 +17,12 @@ pub(crate) struct Reflecting<'a> {
     pub(crate) back: &'a Material,
     pub(crate) reflectance: Reflectance,
     pub(crate) faces: Faces,
+    /// The mesh has colors that count.
+    pub(crate) colored: bool,
 }
 
 /// The same as a key: the materials' bits, and the rest.
-pub(crate) type ReflectingBits = ([MaterialBits; 2], Reflectance, Faces);
+pub(crate) type ReflectingBits = ([MaterialBits; 2], Reflectance, Faces, bool);
 type MaterialBits = [u32; size_of::<Material>() / 4];
 
 /// What follows from them, whatever the object's place and shading.
@@ -58,7 +60,7 @@ pub(crate) struct Circumstances {
 
 impl Reflecting<'_> {
     pub(crate) fn bits(&self) -> ReflectingBits {
-        ([self.front, self.back].map(|material| bytemuck::cast(*material)), self.reflectance, self.faces)
+        ([self.front, self.back].map(|material| bytemuck::cast(*material)), self.reflectance, self.faces, self.colored)
     }
 
     /// Checks the components; `number` gives the record its number.
@@ -104,10 +106,15 @@ impl Reflecting<'_> {
     /// Seen only from behind, the back is what the shader lights as front; see
     /// [`InstanceRecord::new`](crate::shaders::records::InstanceRecord::new).
     fn record(&self, ambient: Vec3) -> DrawRecord {
-        let record =
-            |side: &Material| MaterialRecord::new(&Coefficients::from(side), side.opacity, self.reflectance, ambient);
-        let [front, back] = self.sides().map(record);
-        DrawRecord { front, back, ..DrawRecord::default() }
+        let sides = self.coefficients();
+        let record = |at: usize| {
+            // What colors multiply must not be in one sum with what they do not.
+            let material = if self.colored { Coefficients { ke: [0.0; 3], ..sides[at] } } else { sides[at] };
+            MaterialRecord::new(&material, self.sides()[at].opacity, self.reflectance, ambient)
+        };
+        let emission = if self.colored { sides.map(|side| side.ke) } else { [[0.0; 3]; 2] };
+        let [front, back] = [0, 1].map(record);
+        DrawRecord { front, back, ..DrawRecord::with_emission(emission) }
     }
 
     /// What light lists have to know, where these terms are shaded.
@@ -140,7 +147,8 @@ impl Reflecting<'_> {
             geometric_fallback: circumstances.opposite_normals,
             cull: if self.faces == Faces::Both { Cull::None } else { Cull::Back },
             clockwise: circumstances.mirrored != (self.faces == Faces::Back),
+            colored: self.colored,
         };
-        key.with_terms(terms)
+        DrawKey { terms: circumstances.terms, ..key }.with_terms(terms)
     }
 }

@@ -7,7 +7,7 @@ use crate::geometry::meshes::{Form, Geometries, Geometry};
 use bevy_asset::AssetId;
 use bevy_ecs::prelude::*;
 use halfway_mesh::Mesh;
-use halfway_raster::{Pieces, RasterError, TriangleOrder};
+use halfway_raster::{Pieces, RasterError, TriangleOrder, VertexLists};
 
 /// The meshes that have been drawn, in pieces, until they change or go.
 #[derive(Resource, Default)]
@@ -40,5 +40,7 @@ fn pieces(geometry: &Geometry, indices: &[u32], form: Form) -> Result<Pieces, Ra
     let cuts: Vec<_> = detail.patches().iter().map(|patch| patch.indices.clone()).collect();
     let order = if form.ordered { TriangleOrder::Kept } else { TriangleOrder::Clustered };
     let [positions, normals] = [source.positions(), source.normals()].map(bytemuck::cast_slice);
-    Pieces::new(positions, normals, indices, &cuts, order)
+    let colors = source.drawn_colors().filter(|_| form.colored).unwrap_or_default();
+    let lists = VertexLists { normals, colors: bytemuck::cast_slice(&colors) };
+    Pieces::with_lists(positions, lists, indices, &cuts, order)
 }

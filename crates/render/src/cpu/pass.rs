@@ -93,6 +93,7 @@ fn call(key: &DrawKey) -> DrawCall {
         },
         clockwise: key.clockwise,
         opposite_normals: key.geometric_fallback,
+        colored: key.colored,
         blend: key.blend,
         ..DrawCall::default()
     }
@@ -112,7 +113,8 @@ fn instance(record: &InstanceRecord) -> InstanceData {
 }
 
 fn surface(record: &DrawRecord, all: Option<LightRange>) -> SurfaceData {
-    let [front, back] = [&record.front, &record.back].map(side);
+    let front = side(&record.front, record.front_emission);
+    let back = side(&record.back, record.back_emission);
     if let Some(all) = all.filter(|_| record.lists == RecordLists::default()) {
         return SurfaceData { front, back, vertex: all, fragment: all, ..SurfaceData::default() };
     }
@@ -130,11 +132,12 @@ fn surface(record: &DrawRecord, all: Option<LightRange>) -> SurfaceData {
     }
 }
 
-fn side(record: &MaterialRecord) -> SideData {
+fn side(record: &MaterialRecord, emission: [f32; 3]) -> SideData {
     SideData {
         base: record.base.map(finite),
         diffuse: record.diffuse,
         specular: record.specular,
+        emission,
         ambient: record.ambient,
         exponent: finite(record.shininess),
         opacity: record.opacity,

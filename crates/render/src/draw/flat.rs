@@ -1,6 +1,6 @@
 //! Meshes for flat shading: one vertex a triangle carries its shade.
 
-use bevy_math::Vec3;
+use bevy_math::{Vec3, Vec4};
 use halfway_mesh::face_normal;
 
 /// A mesh whose every triangle has a vertex of its own in first place: that provoking vertex carries
@@ -10,6 +10,8 @@ pub(crate) struct FlatMesh {
     pub(crate) positions: Vec<Vec3>,
     /// Face normal, centroid.
     pub(crate) attributes: Vec<[Vec3; 2]>,
+    /// Of each provoking vertex the mean color of its triangle's corners, where they have any.
+    pub(crate) colors: Option<Vec<Vec4>>,
     pub(crate) indices: Vec<u32>,
     /// Whether a vertex provokes a triangle already.
     taken: Vec<bool>,
@@ -20,10 +22,11 @@ pub(crate) struct FlatMesh {
 const VERTEX_MEMORY: usize = 256;
 
 impl FlatMesh {
-    pub(crate) fn new(corners: &[Vec3], triangles: &[[u32; 3]]) -> Self {
+    pub(crate) fn new((corners, colors): (&[Vec3], Option<&[Vec4]>), triangles: &[[u32; 3]]) -> Self {
         let mut flat = Self {
             positions: corners.to_vec(),
             attributes: vec![[Vec3::ZERO; 2]; corners.len()],
+            colors: colors.map(<[Vec4]>::to_vec),
             indices: Vec::with_capacity(3 * triangles.len()),
             taken: vec![false; corners.len()],
         };
@@ -48,6 +51,10 @@ impl FlatMesh {
             let provoking = used[0] as usize;
             flat.taken[provoking] = true;
             flat.attributes[provoking] = shaded_point(vertices.map(|vertex| corners[vertex as usize]));
+            if let (Some(means), Some(colors)) = (&mut flat.colors, colors) {
+                let [a, b, c] = vertices.map(|vertex| colors[vertex as usize]);
+                means[provoking] = (a + b + c) / 3.0;
+            }
             flat.indices.extend(used);
         }
         flat
@@ -56,6 +63,9 @@ impl FlatMesh {
     fn repeat(&mut self, vertex: u32) -> u32 {
         self.positions.push(self.positions[vertex as usize]);
         self.attributes.push([Vec3::ZERO; 2]);
+        if let Some(colors) = &mut self.colors {
+            colors.push(Vec4::ONE);
+        }
         self.taken.push(false);
         self.positions.len() as u32 - 1
     }
@@ -77,7 +87,7 @@ mod tests {
     #[test]
     fn every_flat_triangle_has_its_own_provoking_vertex_and_keeps_its_corners() {
         let mesh = Mesh::from(UvSphere { radius: 1.0, segments: 16, rings: 8 });
-        let flat = FlatMesh::new(mesh.positions(), mesh.indices().as_chunks().0);
+        let flat = FlatMesh::new((mesh.positions(), None), mesh.indices().as_chunks().0);
         let mut provoking = HashSet::new();
         for (corners, triangle) in flat.indices.chunks_exact(3).zip(mesh.triangles()) {
             assert!(provoking.insert(corners[0]), "vertex {} provokes two triangles", corners[0]);
@@ -100,7 +110,7 @@ mod tests {
     fn a_grid_larger_than_the_vertex_memory_needs_one_vertex_a_triangle() {
         // 512 quads a row: the upper row of vertices of each row of quads has been forgotten by then.
         let mesh = Mesh::from(UvSphere { radius: 1.0, segments: 512, rings: 16 });
-        let flat = FlatMesh::new(mesh.positions(), mesh.indices().as_chunks().0);
+        let flat = FlatMesh::new((mesh.positions(), None), mesh.indices().as_chunks().0);
         assert!(flat.positions.len() <= mesh.triangle_count() + 2 * 513, "{} vertices", flat.positions.len());
     }
 }

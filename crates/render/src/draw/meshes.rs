@@ -9,7 +9,7 @@ use crate::frame::report::FrameReport;
 use crate::geometry::meshes::{Form, Geometries};
 use bevy_asset::AssetId;
 use bevy_ecs::prelude::*;
-use bevy_math::Vec3;
+use bevy_math::{Vec3, Vec4};
 use halfway_mesh::Mesh;
 
 /// The buffers of the meshes that have been drawn, until they change or go.
@@ -21,6 +21,8 @@ pub(crate) struct MeshBuffer {
     pub(crate) positions: wgpu::Buffer,
     /// Smooth: normals. Flat: face normal and centroid of the triangle whose provoking vertex this is.
     pub(crate) attributes: wgpu::Buffer,
+    /// Where they are drawn; flat: that of the centroid, as above.
+    pub(crate) colors: Option<wgpu::Buffer>,
     pub(crate) indices: wgpu::Buffer,
     pub(crate) index_format: wgpu::IndexFormat,
 }
@@ -36,15 +38,20 @@ pub(crate) fn upload(
 ) {
     buffers.0.make_ready(&batches, &mut geometries, &mut report, |geometry, indices, form, there| {
         let source = &geometry.source;
+        let colors = source.drawn_colors().filter(|_| form.colored);
         match there {
             _ if form.flat => {
-                let mut flat = FlatMesh::new(source.positions(), indices.as_chunks().0);
+                let mut flat = FlatMesh::new((source.positions(), colors.as_deref()), indices.as_chunks().0);
                 gpu.provoking_vertex().place(&mut flat.indices);
-                MeshBuffer::new(&gpu, (&flat.positions, bytemuck::cast_slice(&flat.attributes)), &flat.indices)
+                let attributes = bytemuck::cast_slice(&flat.attributes);
+                MeshBuffer::new(&gpu, (&flat.positions, attributes, flat.colors.as_deref()), &flat.indices)
             }
             // The vertices of levels are those of the mesh.
             Some(there) => there.with_indices(&gpu, indices),
-            None => MeshBuffer::new(&gpu, (source.positions(), bytemuck::cast_slice(source.normals())), indices),
+            None => {
+                let attributes = bytemuck::cast_slice(source.normals());
+                MeshBuffer::new(&gpu, (source.positions(), attributes, colors.as_deref()), indices)
+            }
         }
     });
 }
@@ -61,16 +68,24 @@ impl MeshBuffers {
 }
 
 impl MeshBuffer {
-    fn new(gpu: &Gpu, (positions, attributes): (&[Vec3], &[u8]), indices: &[u32]) -> Result<(Self, u64), RenderError> {
+    fn new(
+        gpu: &Gpu,
+        (positions, attributes, colors): (&[Vec3], &[u8], Option<&[Vec4]>),
+        indices: &[u32],
+    ) -> Result<(Self, u64), RenderError> {
+        let colors =
+            colors.map(|colors| buffer(gpu, "colors", bytemuck::cast_slice(colors), wgpu::BufferUsages::VERTEX));
         let short = positions.len() < usize::from(u16::MAX);
         let index_format = if short { wgpu::IndexFormat::Uint16 } else { wgpu::IndexFormat::Uint32 };
         let buffers = Self {
             positions: buffer(gpu, "positions", bytemuck::cast_slice(positions), wgpu::BufferUsages::VERTEX)?,
             attributes: buffer(gpu, "attributes", attributes, wgpu::BufferUsages::VERTEX)?,
+            colors: colors.transpose()?,
             indices: index_buffer(gpu, indices, index_format)?,
             index_format,
         };
-        let bytes = buffers.positions.size() + buffers.attributes.size() + buffers.indices.size();
+        let colors = buffers.colors.as_ref().map_or(0, wgpu::Buffer::size);
+        let bytes = buffers.positions.size() + buffers.attributes.size() + colors + buffers.indices.size();
         Ok((buffers, bytes))
     }
 
@@ -81,6 +96,7 @@ impl MeshBuffer {
         let buffers = Self {
             positions: self.positions.clone(),
             attributes: self.attributes.clone(),
+            colors: self.colors.clone(),
             indices,
             index_format: self.index_format,
         };

@@ -104,8 +104,11 @@ fn record(
         }
         pass.set_bind_group(0, bindings, offsets.as_slice());
         pass.set_vertex_buffer(1, mesh.positions.slice(..));
-        if state.key.is_lit() {
+        if state.key.reads_attributes() {
             pass.set_vertex_buffer(2, mesh.attributes.slice(..));
+        }
+        if let Some(colors) = mesh.colors.as_ref().filter(|_| state.key.colored) {
+            pass.set_vertex_buffer(3, colors.slice(..));
         }
         pass.set_index_buffer(mesh.indices.slice(..), mesh.index_format);
         match (batches.draws.commands(group), buffers.draws()) {

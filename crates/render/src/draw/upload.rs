@@ -9,7 +9,7 @@ use crate::frame::report::FrameReport;
 use crate::lights::gather::Lights;
 use crate::pipelines::cache::Pipelines;
 use crate::shaders::records::{LightRecord, RECORD_BYTES, ViewRecord};
-use crate::shaders::text::{BOUND_LIGHT_BYTES, Text};
+use crate::shaders::text::{BOUND_LIGHT_BYTES, LightText, Text};
 use crate::view::camera::View;
 use bevy_ecs::prelude::*;
 
@@ -143,11 +143,11 @@ impl Buffers {
         let record = state.record * RECORD_BYTES as u32;
         let lights = state.lights * size_of::<LightRecord>() as u32;
         let Groups { few, many, one, all } = &self.groups;
-        let (group, offsets) = match Text::of(&state.key) {
-            Text::Few => (few, Offsets::Two([record, lights])),
-            Text::Many => (many, Offsets::Two([record, lights])),
-            Text::Listed if state.key.per_instance => (all, Offsets::One([0])),
-            Text::Listed => (one, Offsets::One([record])),
+        let (group, offsets) = match Text::of(&state.key).lights {
+            LightText::Few => (few, Offsets::Two([record, lights])),
+            LightText::Many => (many, Offsets::Two([record, lights])),
+            LightText::Listed if state.key.per_instance => (all, Offsets::One([0])),
+            LightText::Listed => (one, Offsets::One([record])),
         };
         Some((group.as_ref()?, offsets))
     }
@@ -161,11 +161,12 @@ impl Buffers {
         (lit, batches): (&LitPatches, &Batches),
     ) -> Result<u64, RenderError> {
         let view = ViewRecord::from(view);
-        let listed = if batches.draws.groups().iter().any(|group| Text::of(&group.state.key) == Text::Listed) {
-            lights.records.as_slice()
-        } else {
-            &[]
-        };
+        let listed =
+            if batches.draws.groups().iter().any(|group| Text::of(&group.state.key).lights == LightText::Listed) {
+                lights.records.as_slice()
+            } else {
+                &[]
+            };
         let bound = bytemuck::cast_slice(&lit.lists.bound);
         let sent = [
             self.view.set(gpu, bytemuck::bytes_of(&view), 0)?,
@@ -217,12 +218,12 @@ impl Buffers {
             }
         };
         let Groups { few, many, one, all } = &mut self.groups;
-        for (group, text) in [(few, Text::Few), (many, Text::Many)] {
+        for (group, text) in [(few, LightText::Few), (many, LightText::Many)] {
             make(group, text, &[binding(1, records, RECORD_BYTES), binding(2, bound, BOUND_LIGHT_BYTES)]);
         }
         for (group, bytes) in [(one, RECORD_BYTES), (all, records.size())] {
             let [lights, lists] = [binding(2, lights, lights.size()), binding(3, lists, lists.size())];
-            make(group, Text::Listed, &[binding(1, records, bytes), lights, lists]);
+            make(group, LightText::Listed, &[binding(1, records, bytes), lights, lists]);
         }
         Ok(())
     }

@@ -11,7 +11,7 @@ use crate::view::matrices::Visible;
 use bevy_asset::{AssetId, Assets};
 use bevy_ecs::prelude::*;
 use bevy_platform::collections::HashMap;
-use halfway_lighting::{Blend, Frequency, Terms, Tolerance, ViewTolerance};
+use halfway_lighting::{Blend, Frequency, Terms, Tolerance, VertexColors, ViewTolerance};
 use halfway_mesh::{Mesh, Mesh3d};
 use std::sync::Arc;
 
@@ -34,13 +34,20 @@ pub(crate) struct Form {
     pub(crate) flat: bool,
     /// In one piece, with the triangles in the order of the mesh. Else in patches, in the patches' order.
     pub(crate) ordered: bool,
+    /// With the colors of the vertices.
+    pub(crate) colored: bool,
 }
 
 impl Form {
     /// Blended triangles are drawn in the order of the mesh.
-    pub(crate) fn new(terms: Terms, blend: bool) -> Self {
-        Self { flat: terms.has(Frequency::Triangle), ordered: blend }
+    pub(crate) fn new(terms: Terms, blend: bool, colored: bool) -> Self {
+        Self { flat: terms.has(Frequency::Triangle), ordered: blend, colored }
     }
+}
+
+/// Whether an object draws the colors of its mesh.
+pub(crate) fn are_colors_drawn(mesh: &Mesh, colors: Option<&VertexColors>) -> bool {
+    mesh.colors().is_some() && colors != Some(&VertexColors::Ignore)
 }
 
 /// All meshes that have been drawn, until their assets change or go.
@@ -90,11 +97,15 @@ impl Geometries {
 /// What is drawn into where it is not a picture that is read back.
 type OtherTargets<'w> = (Option<Res<'w, SurfaceTarget>>, Option<Res<'w, CanvasTarget>>, Option<Res<'w, TextureTarget>>);
 
+/// What decides how an object's mesh is laid out.
+type LaidOut =
+    (&'static Mesh3d, &'static Chosen, Has<Blend>, Option<&'static VertexColors>, Option<&'static Tolerance>);
+
 /// Lays out the meshes of visible objects that are not yet, for the way they are shaded.
 #[expect(clippy::too_many_arguments, reason = "a system takes each resource as a parameter")]
 pub(crate) fn lay_out(
     meshes: Res<Assets<Mesh>>,
-    objects: Query<(&Mesh3d, &Chosen, Has<Blend>, Option<&Tolerance>)>,
+    objects: Query<LaidOut>,
     visible: Res<Visible>,
     of_view: Res<ViewTolerance>,
     (surface, canvas, texture): OtherTargets,
@@ -106,14 +117,16 @@ pub(crate) fn lay_out(
     // Nobody watches the frames, but somebody may compare them.
     let waits = surface.is_none() && canvas.is_none() && texture.is_none();
     let mut last = None;
-    for (Mesh3d(handle), chosen, blend, tolerance) in objects.iter_many(&visible.0).flatten() {
-        let wanted = (handle.id(), Form::new(chosen.0, blend));
+    for (Mesh3d(handle), chosen, blend, colors, tolerance) in objects.iter_many(&visible.0).flatten() {
+        let Some(mesh) = meshes.get(handle) else { continue };
+        let wanted = (handle.id(), Form::new(chosen.0, blend, are_colors_drawn(mesh, colors)));
         if last.replace(wanted) == Some(wanted) {
             continue;
         }
-        let Some(mesh) = meshes.get(handle) else { continue };
         let pixels = tolerance.map_or(of_view.0.pixels, |tolerance| tolerance.pixels);
-        let levels = if wanted.1.ordered || pixels <= 0.0 { None } else { workshop.levels(wanted.0, mesh, waits) };
+        // Levels know nothing of colors.
+        let has_levels = !wanted.1.ordered && !wanted.1.colored && pixels > 0.0;
+        let levels = if has_levels { workshop.levels(wanted.0, mesh, waits) } else { None };
         geometries.ensure(wanted, mesh, levels);
     }
     report.levels_pending = workshop.pending();

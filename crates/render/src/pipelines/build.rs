@@ -12,6 +12,7 @@ use halfway_lighting::Frequency;
 
 const POSITION: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![6 => Float32x3];
 const NORMAL: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![7 => Float32x3];
+const COLOR: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![10 => Float32x4];
 const FACE: [wgpu::VertexAttribute; 2] = wgpu::vertex_attr_array![7 => Float32x3, 8 => Float32x3];
 
 impl Shader {
@@ -25,15 +26,19 @@ impl Shader {
         };
         // Unlit draws need no normal matrix, and a software adapter pays for every attribute it fetches.
         let unlit = [INSTANCE[0], INSTANCE[1], INSTANCE[2], INSTANCE[6]];
-        let instance = if key.is_lit() { &INSTANCE[..] } else { &unlit[..] };
+        let has_attributes = key.reads_attributes();
+        let instance = if has_attributes { &INSTANCE[..] } else { &unlit[..] };
         let mut buffers = vec![
             buffer(instance, INSTANCE_BYTES, wgpu::VertexStepMode::Instance),
             buffer(&POSITION, 12, wgpu::VertexStepMode::Vertex),
         ];
         if key.terms.has(Frequency::Triangle) {
             buffers.push(buffer(&FACE, 24, wgpu::VertexStepMode::Vertex));
-        } else if key.is_lit() {
+        } else if has_attributes {
             buffers.push(buffer(&NORMAL, 12, wgpu::VertexStepMode::Vertex));
+        }
+        if key.colored {
+            buffers.push(buffer(&COLOR, 16, wgpu::VertexStepMode::Vertex));
         }
         let (vertex, fragment) = entry_points(&key);
         gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
@@ -100,6 +105,8 @@ fn entry_points(key: &DrawKey) -> (&'static str, &'static str) {
     let [by_vertices, by_fragments] =
         [by_vertex_shader(key.terms), by_fragment_shader(key.terms)].map(|terms| terms.contains(&true));
     match (by_vertices, by_fragments) {
+        (_, false) if key.colored => ("vs_gouraud", "fs_gouraud"),
+        (_, true) if key.colored => ("vs_mixed", "fs_mixed"),
         (false, false) if is_one_sided => ("vs_unlit", "fs_unlit"),
         (false, false) => ("vs_unlit_both", "fs_unlit_both"),
         (true, false) if is_one_sided => ("vs_gouraud", "fs_gouraud"),

@@ -8,7 +8,7 @@ use crate::error::RenderError;
 use crate::frame::report::FrameReport;
 use crate::pipelines::compile::{Builder, Compile, build};
 use crate::pipelines::key::PipelineKey;
-use crate::shaders::text::{Shaders, Text};
+use crate::shaders::text::{LightText, Shaders};
 use crate::target::frame::{Delivery, ShaderOutput, Target};
 use bevy_ecs::prelude::*;
 use bevy_platform::collections::{HashMap, HashSet};
@@ -129,8 +129,8 @@ impl Pipelines {
     }
 
     /// The layout of the bindings that such pipelines need; `None` before the first is built.
-    pub(crate) fn bindings(&self, text: Text) -> Option<&wgpu::BindGroupLayout> {
-        self.shaders.get(text).map(|shader| &shader.bindings)
+    pub(crate) fn bindings(&self, lights: LightText) -> Option<&wgpu::BindGroupLayout> {
+        self.shaders.any(lights).map(|shader| &shader.bindings)
     }
 
     /// The pipeline that draws this into what the frame draws into.

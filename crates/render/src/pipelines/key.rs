@@ -2,7 +2,7 @@
 
 use crate::batch::key::DrawKey;
 use crate::shaders::light_slots::{COUNTED_LIGHTS, Lists};
-use crate::shaders::text::Text;
+use crate::shaders::text::{LightText, SurfaceText, Text};
 use crate::target::frame::ShaderOutput;
 use std::fmt;
 
@@ -23,11 +23,12 @@ impl fmt::Display for PipelineKey {
 impl Text {
     /// The text whose pipelines such draws take.
     pub(crate) fn of(key: &DrawKey) -> Self {
-        match key.lists {
-            _ if key.per_instance => Self::Listed,
-            Lists::Listed => Self::Listed,
-            lists if lists.of_stages().iter().all(|(counted, _)| counted.len() <= COUNTED_LIGHTS) => Self::Few,
-            Lists::Counted(..) | Lists::Split { .. } => Self::Many,
-        }
+        let lights = match key.lists {
+            _ if key.per_instance => LightText::Listed,
+            Lists::Listed => LightText::Listed,
+            lists if lists.of_stages().iter().all(|(counted, _)| counted.len() <= COUNTED_LIGHTS) => LightText::Few,
+            Lists::Counted(..) | Lists::Split { .. } => LightText::Many,
+        };
+        Self { lights, surface: if key.colored { SurfaceText::Colored } else { SurfaceText::Plain } }
     }
 }

@@ -101,7 +101,11 @@ pub(crate) struct DrawRecord {
     pub(crate) front: MaterialRecord,
     pub(crate) back: MaterialRecord,
     pub(crate) lists: RecordLists,
-    pub(crate) padding: [u32; 8],
+    /// ke, where it is not part of the base.
+    pub(crate) front_emission: [f32; 3],
+    pub(crate) padding0: f32,
+    pub(crate) back_emission: [f32; 3],
+    pub(crate) padding1: f32,
 }
 
 pub(crate) const RECORD_BYTES: u64 = size_of::<DrawRecord>() as u64;
@@ -134,6 +138,13 @@ impl InstanceRecord {
             normal: (normal_matrix.0 * side).to_cols_array_2d(),
             record: 0,
         }
+    }
+}
+
+impl DrawRecord {
+    /// One of nothing but the sides' emission.
+    pub(crate) fn with_emission([front_emission, back_emission]: [[f32; 3]; 2]) -> Self {
+        Self { front_emission, back_emission, ..Self::default() }
     }
 }
 

@@ -29,7 +29,8 @@ struct Draw {
     fragment: vec4u,
     fragment_diffuse: vec4u,
     fragment_specular: vec4u,
-    padding: array<vec4u, 2>,
+    front_emission: vec3f,    // of colored draws, in which it is not part of the base
+    back_emission: vec3f,
 }
 
 @group(0) @binding(0) var<uniform> view: View;

@@ -8,13 +8,29 @@ use std::sync::OnceLock;
 /// How the text reads records and lights. Each is a text of its own, since a driver spends time and memory on what a
 /// pipeline leaves unused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) enum Text {
+pub(crate) enum LightText {
     /// From uniform buffers, up to [`COUNTED_LIGHTS`](crate::shaders::light_slots::COUNTED_LIGHTS).
     Few,
     /// From uniform buffers, up to [`BOUND_LIGHTS`].
     Many,
     /// From storage, any number.
     Listed,
+}
+
+/// A text of the GPU's: how it reads lights, and what it knows of surfaces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct Text {
+    pub(crate) lights: LightText,
+    pub(crate) surface: SurfaceText,
+}
+
+/// What a text knows of surfaces. What has more than a material takes a text of its own, so that nothing else pays for it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum SurfaceText {
+    /// Materials.
+    Plain,
+    /// Materials, and colors of the vertices.
+    Colored,
 }
 
 /// The lighting text, and the layout that goes with it.
@@ -24,27 +40,46 @@ pub(crate) struct Shader {
     pub(crate) layout: wgpu::PipelineLayout,
 }
 
-/// The texts, each made when a pipeline first needs it, on whichever thread that is.
+/// The texts, each made when a pipeline first needs it, on whichever thread that is: by lights, then by surface.
 #[derive(Default)]
-pub(crate) struct Shaders([OnceLock<Shader>; 3]);
+pub(crate) struct Shaders([[OnceLock<Shader>; SurfaceText::ALL.len()]; 3]);
 
 impl Shaders {
-    pub(crate) fn get(&self, text: Text) -> Option<&Shader> {
-        self.0[text as usize].get()
+    /// A text that reads lights so, once there is one. The layouts of all of them are the same.
+    pub(crate) fn any(&self, lights: LightText) -> Option<&Shader> {
+        self.0[lights as usize].iter().find_map(OnceLock::get)
     }
 
     pub(crate) fn get_or_make(&self, gpu: &Gpu, text: Text) -> &Shader {
-        self.0[text as usize].get_or_init(|| Shader::new(gpu, text))
+        self.0[text.lights as usize][text.surface as usize].get_or_init(|| Shader::new(gpu, text))
     }
 }
 
 /// The bytes of lights at fixed places.
 pub(crate) const BOUND_LIGHT_BYTES: u64 = BOUND_LIGHTS as u64 * size_of::<LightRecord>() as u64;
 
+impl SurfaceText {
+    /// All of them.
+    pub(crate) const ALL: [Self; 2] = [Self::Plain, Self::Colored];
+
+    fn file(self) -> &'static str {
+        match self {
+            Self::Plain => include_str!("plain.wgsl"),
+            Self::Colored => include_str!("colored.wgsl"),
+        }
+    }
+}
+
 impl Text {
     /// The files that it is put together of, end to end. Each needs only those before it, so that it is valid WGSL with
     /// them; `lighting.wgsl` needs none.
-    pub(crate) fn files(self) -> &'static [&'static str] {
+    pub(crate) fn files(self) -> Vec<&'static str> {
+        [self.lights.files(), &[self.surface.file()]].concat()
+    }
+}
+
+impl LightText {
+    fn files(self) -> &'static [&'static str] {
         const LIGHTING: &str = include_str!("lighting.wgsl");
         const RECORDS: &str = include_str!("records.wgsl");
         const UNIFORM: &str = include_str!("uniform.wgsl");
@@ -59,7 +94,7 @@ impl Text {
 
 impl Shader {
     fn new(gpu: &Gpu, text: Text) -> Self {
-        let storage = text == Text::Listed;
+        let storage = text.lights == LightText::Listed;
         let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("lighting"),
             source: wgpu::ShaderSource::Wgsl(gpu.provoking_vertex().text(&text.files().concat()).into()),

@@ -58,6 +58,10 @@ fn inline(random: &mut Random, (mut positions, indices): Written) -> Value {
     inline.perhaps(random, 10, "uvs", |random| {
         (0..2 * positions.len()).map(|_| short(random.unit())).collect::<Vec<f64>>().into()
     });
+    inline.perhaps(random, 25, "colors", |random| {
+        // Some beyond what is drawn.
+        (0..4 * positions.len()).map(|_| short(random.between(-0.1, 1.1))).collect::<Vec<f64>>().into()
+    });
     inline.set("positions", positions.concat().into());
     let inline = Value::from(inline);
     json!({ "inline": inline })

@@ -106,12 +106,14 @@ impl Stack {
         written: &impl Fn(&ColorRange) -> ColorRange,
     ) -> Vec<ColorRange> {
         let blend = |behind: &ColorRange, layer: &Layer| {
-            let opacity = scene.solids[self.footprints[layer.footprint].solid].side(layer.front).opacity;
             let over = written(&layer.values.range);
-            behind.through(
-                &over,
-                |behind, over| if opacity < 1.0 { opacity * over + (1.0 - opacity) * behind } else { over },
-            )
+            let [least, greatest] = layer.values.opacity.map(|opacity| {
+                behind.through(
+                    &over,
+                    |behind, over| if opacity < 1.0 { opacity * over + (1.0 - opacity) * behind } else { over },
+                )
+            });
+            least.with(&greatest)
         };
         let combinations = seen.iter().try_fold(1_usize, |product, (layers, may_be_missed)| {
             let ways = layers.len() + usize::from(*may_be_missed);

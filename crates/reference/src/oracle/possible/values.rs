@@ -11,6 +11,8 @@ use halfway_lighting::Frequency;
 #[derive(Clone, Debug)]
 pub(super) struct SideColors {
     pub(super) range: ColorRange,
+    /// The least and the greatest opacity.
+    pub(super) opacity: [f64; 2],
     /// Whether they change by much from one place to the next.
     pub(super) jumps: bool,
 }
@@ -49,7 +51,11 @@ impl SideColors {
         let range = ColorRange::of(colors.iter().copied());
         let jumps =
             scene.solids[footprint.solid].terms.has(Frequency::Fragment) && jumps(&outline, &colors, &range, color);
-        Self { range, jumps }
+        let solid = &scene.solids[footprint.solid];
+        let opacity = |corner: &FootprintCorner| solid.opacity(front, Some((footprint.triangle, corner.weights)));
+        let opacities = || outline.iter().map(opacity);
+        let opacity = [opacities().fold(f64::INFINITY, f64::min), opacities().fold(0.0, f64::max)];
+        Self { range, opacity, jumps }
     }
 }
 

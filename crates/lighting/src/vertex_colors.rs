@@ -1,0 +1,27 @@
+//! What becomes of the colours that a mesh has at its vertices.
+
+use bevy_ecs::component::Component;
+use bevy_ecs::reflect::ReflectComponent;
+use bevy_reflect::Reflect;
+use bevy_reflect::std_traits::ReflectDefault;
+
+/// What an object does with the colours at the vertices of its mesh. Of a mesh without them it says nothing.
+///
+/// A colour is linear RGB and an opacity, each taken into 0 to 1 as glTF 2.0 §3.7.2.1 has it for `COLOR_0`. Emission and
+/// specular reflectance are the material's alone.
+///
+/// - Gouraud: each vertex is shaded with its own colour; intensities are interpolated, and so is the opacity.
+/// - Phong: the colour is interpolated, perspective-correctly, to each fragment.
+/// - Flat: the mean of the three corners' colours, at the centroid.
+/// - [`Frequency::Auto`](crate::Frequency::Auto) is [`Frequency::Fragment`](crate::Frequency::Fragment): under Gouraud
+///   shading it is the products of colour and light that are interpolated, for which there is no bound.
+#[derive(Component, Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[reflect(Component, Clone, Debug, Default, PartialEq, Hash)]
+pub enum VertexColors {
+    /// They multiply the ambient and diffuse reflectance, and the opacity where the object is blended
+    /// ([`Blend`](crate::Blend)); on both sides.
+    #[default]
+    Multiply,
+    /// They do nothing, and cost nothing.
+    Ignore,
+}

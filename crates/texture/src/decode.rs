@@ -1,0 +1,85 @@
+//! From the bytes of a file to texels in linear light.
+
+use std::fs::File;
+use std::io::{Cursor, Read};
+use std::path::Path;
+
+use image::{DynamicImage, ImageDecoder, ImageReader, Limits};
+
+use crate::error::TextureError;
+use crate::texels::{TexelImage, check_size};
+
+/// What the numbers of an image mean.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum TexelMeaning {
+    /// A color: red, green and blue are encoded by the sRGB curve, and decoded here; alpha is not.
+    #[default]
+    Color,
+    /// Data, such as normals: all numbers stand as they are.
+    Data,
+}
+
+/// The most bytes that are read of a file.
+const LONGEST_FILE: u64 = 1 << 28;
+
+/// The image in a PNG or JPEG file.
+///
+/// # Errors
+/// The file cannot be read or is too long, or what [`decode`] refuses.
+pub fn load(path: &Path, meaning: TexelMeaning) -> Result<TexelImage, TextureError> {
+    let image = || path.display().to_string();
+    let read = |reason: std::io::Error| TextureError::Read { image: image(), reason: reason.to_string() };
+    let mut bytes = Vec::new();
+    File::open(path).map_err(read)?.take(LONGEST_FILE + 1).read_to_end(&mut bytes).map_err(read)?;
+    if bytes.len() as u64 > LONGEST_FILE {
+        return Err(TextureError::TooLong { image: image(), limit: LONGEST_FILE });
+    }
+    decode(&bytes, &image(), meaning)
+}
+
+/// The image in the bytes of a PNG or JPEG file, told apart by how they begin. `name` is what errors call it.
+///
+/// Grey becomes red, green and blue alike; without an alpha channel alpha is 1; palettes and the inks of JPEG become the
+/// colors they stand for. Values of 8 and 16 bits are taken over 255 and 65535.
+///
+/// # Errors
+/// Bytes that are neither, an image that is broken, empty or too large, or memory that is refused. The size is checked before
+/// memory is taken for it.
+pub fn decode(bytes: &[u8], name: &str, meaning: TexelMeaning) -> Result<TexelImage, TextureError> {
+    let broken = |reason: String| TextureError::Decode { image: name.into(), reason };
+    let reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format().map_err(|e| broken(e.to_string()))?;
+    let mut decoder = reader.into_decoder().map_err(|error| broken(error.to_string()))?;
+    let (width, height) = decoder.dimensions();
+    check_size(name, width, height)?;
+    let mut limits = Limits::default();
+    limits.max_alloc = Some(decoder.total_bytes().saturating_mul(2).saturating_add(1 << 24));
+    decoder.set_limits(limits).map_err(|error| broken(error.to_string()))?;
+    let image = DynamicImage::from_decoder(decoder).map_err(|error| broken(error.to_string()))?;
+    let mut texels = Vec::new();
+    let count = width as usize * height as usize;
+    let refused = |_| TextureError::Memory { image: name.into(), bytes: 16 * count as u64 };
+    texels.try_reserve_exact(count).map_err(refused)?;
+    let color = meaning == TexelMeaning::Color;
+    if image.color().bytes_per_pixel() / image.color().channel_count() > 1 {
+        let linear = |value: u16| f64::from(value) / 65535.0;
+        let curved = |value: u16| if color { srgb_decoded(linear(value)) } else { linear(value) };
+        texels.extend(image.to_rgba16().pixels().map(|pixel| {
+            let [r, g, b, a] = pixel.0;
+            [curved(r) as f32, curved(g) as f32, curved(b) as f32, linear(a) as f32]
+        }));
+    } else {
+        let linear: [f32; 256] = std::array::from_fn(|value| (value as f64 / 255.0) as f32);
+        let table: [f32; 256] = std::array::from_fn(|value| srgb_decoded(value as f64 / 255.0) as f32);
+        let curved = |value: u8| if color { table[usize::from(value)] } else { linear[usize::from(value)] };
+        texels.extend(image.to_rgba8().pixels().map(|pixel| {
+            let [r, g, b, a] = pixel.0;
+            [curved(r), curved(g), curved(b), linear[usize::from(a)]]
+        }));
+    }
+    Ok(TexelImage::checked(width, height, texels))
+}
+
+/// The intensity that a number of the sRGB curve stands for (IEC 61966-2-1).
+fn srgb_decoded(encoded: f64) -> f64 {
+    if encoded <= 0.04045 { encoded / 12.92 } else { libm::pow((encoded + 0.055) / 1.055, 2.4) }
+}

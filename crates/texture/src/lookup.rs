@@ -1,0 +1,180 @@
+//! The filters: what an image has at a point, given its footprint.
+//!
+//! | where | what happens |
+//! |---|---|
+//! | u or v is no finite number | taken for 0 |
+//! | a footprint without an end | the last level |
+//! | a footprint that is no number | the image is enlarged |
+//! | a level of one texel along an axis | that texel, whatever lies beyond |
+
+use std::fmt::Debug;
+
+use num_traits::Float;
+
+use crate::pyramid::{Level, Pyramid};
+use crate::sampling::{LevelFilter, Sampling, TexelFilter, Wrap};
+
+/// The numbers that filters run in: `f32` and `f64`.
+pub trait Number: Float + Debug + Send + Sync + 'static {
+    /// The number of this type nearest to `value`.
+    fn of(value: f64) -> Self;
+    /// log₂, equal to the bit on every machine.
+    #[must_use]
+    fn binary_logarithm(self) -> Self;
+}
+
+impl Number for f32 {
+    fn of(value: f64) -> Self {
+        value as f32
+    }
+
+    fn binary_logarithm(self) -> Self {
+        libm::log2f(self)
+    }
+}
+
+impl Number for f64 {
+    fn of(value: f64) -> Self {
+        value
+    }
+
+    fn binary_logarithm(self) -> Self {
+        libm::log2(self)
+    }
+}
+
+/// D = log₂ of the longer side of a footprint, in texels of an image of this size: `footprint` has how (u, v) changes from a
+/// pixel to the next along x, and along y.
+pub fn level<T: Number>(size: [u32; 2], footprint: [[T; 2]; 2]) -> T {
+    let [width, height] = size.map(|side| T::of(side.into()));
+    let [x, y] = footprint.map(|[u, v]| (u * width) * (u * width) + (v * height) * (v * height));
+    T::of(0.5) * x.max(y).binary_logarithm()
+}
+
+/// What an image has at a point, by its [`Sampling`].
+pub fn filtered<T: Number>(pyramid: &Pyramid, sampling: &Sampling, uv: [T; 2], footprint: [[T; 2]; 2]) -> [T; 4] {
+    let d = level(pyramid.size(), footprint);
+    at_level(pyramid, sampling, uv, d)
+}
+
+/// The same at a point of this D.
+pub fn at_level<T: Number>(pyramid: &Pyramid, sampling: &Sampling, uv: [T; 2], d: T) -> [T; 4] {
+    let Sampling { wrap, magnify, minify, levels } = *sampling;
+    let uv = uv.map(|x| if x.is_finite() { x } else { T::zero() });
+    let last = T::of((pyramid.levels().len() - 1) as f64);
+    // What is no number enlarges.
+    if d.is_nan() || d <= T::zero() {
+        return in_level(pyramid, 0, wrap, magnify, uv);
+    }
+    let number = |d: T| d.to_usize().unwrap_or_default();
+    match levels {
+        LevelFilter::None => in_level(pyramid, 0, wrap, minify, uv),
+        LevelFilter::Nearest => in_level(pyramid, number((d + T::of(0.5)).floor().min(last)), wrap, minify, uv),
+        LevelFilter::Linear => {
+            let d = d.min(last);
+            let finer = d.floor();
+            let part = d - finer;
+            let a = in_level(pyramid, number(finer), wrap, minify, uv);
+            if part == T::zero() {
+                return a;
+            }
+            let b = in_level(pyramid, number(finer) + 1, wrap, minify, uv);
+            std::array::from_fn(|channel| a[channel] + part * (b[channel] - a[channel]))
+        }
+    }
+}
+
+/// What one level has at a point.
+pub fn in_level<T: Number>(
+    pyramid: &Pyramid,
+    level: usize,
+    wrap: [Wrap; 2],
+    filter: TexelFilter,
+    uv: [T; 2],
+) -> [T; 4] {
+    let Level { width, height, start } = pyramid.levels()[level];
+    let columns = taps(filter, wrap[0], uv[0], width);
+    let rows = taps(filter, wrap[1], uv[1], height);
+    let mut sum = [T::zero(); 4];
+    for (y, of_row) in rows.iter() {
+        for (x, of_column) in columns.iter() {
+            let texel = pyramid.texels()[start + y * width as usize + x];
+            for (sum, number) in sum.iter_mut().zip(texel) {
+                *sum = *sum + of_row * of_column * T::of(number.into());
+            }
+        }
+    }
+    sum
+}
+
+/// The texels along an axis that a filter takes, and their weights.
+struct Taps<T> {
+    each: [(usize, T); 4],
+    count: usize,
+}
+
+impl<T: Copy> Taps<T> {
+    fn iter(&self) -> impl Iterator<Item = (usize, T)> + '_ {
+        self.each[..self.count].iter().copied()
+    }
+}
+
+fn taps<T: Number>(filter: TexelFilter, wrap: Wrap, u: T, side: u32) -> Taps<T> {
+    let texels = wrapped(wrap, u, T::of(side.into()));
+    if filter == TexelFilter::Nearest {
+        let at = wrapped_index(Wrap::Clamp, texels.floor().to_i64().unwrap_or(0), side);
+        return Taps { each: [(at, T::one()); 4], count: 1 };
+    }
+    let x = texels - T::of(0.5);
+    let (first, f) = (x.floor().to_i64().unwrap_or(0), x - x.floor());
+    let (weights, count) = weights(filter, f);
+    let first = if count == 2 { first } else { first - 1 };
+    let each = std::array::from_fn(|k| (wrapped_index(wrap, first + k as i64, side), weights[k]));
+    Taps { each, count }
+}
+
+/// The weights of the texels around a point at the part `f` of the way between two, and how many there are.
+fn weights<T: Number>(filter: TexelFilter, f: T) -> ([T; 4], usize) {
+    let cubic = |[c3, c2, c1, c0]: [f64; 4]| ((T::of(c3) * f + T::of(c2)) * f + T::of(c1)) * f + T::of(c0);
+    let sixth = |c: [f64; 4]| cubic(c) / T::of(6.0);
+    let half = |c: [f64; 4]| cubic(c) * T::of(0.5);
+    match filter {
+        TexelFilter::Nearest => ([T::one(), T::zero(), T::zero(), T::zero()], 1),
+        TexelFilter::Bilinear => ([T::one() - f, f, T::zero(), T::zero()], 2),
+        TexelFilter::BSpline => {
+            let of = [[-1.0, 3.0, -3.0, 1.0], [3.0, -6.0, 0.0, 4.0], [-3.0, 3.0, 3.0, 1.0], [1.0, 0.0, 0.0, 0.0]];
+            (of.map(sixth), 4)
+        }
+        TexelFilter::CatmullRom => {
+            let of = [[-1.0, 2.0, -1.0, 0.0], [3.0, -5.0, 0.0, 2.0], [-3.0, 4.0, 1.0, 0.0], [1.0, -1.0, 0.0, 0.0]];
+            (of.map(half), 4)
+        }
+    }
+}
+
+/// A coordinate in texels: taken into the image, or where it ends to within two texels of it, as far as filters reach.
+fn wrapped<T: Number>(wrap: Wrap, u: T, side: T) -> T {
+    let (one, two) = (T::one(), T::of(2.0));
+    match wrap {
+        Wrap::Repeat => (u - u.floor()) * side,
+        Wrap::Mirror => {
+            let there_and_back = u - two * (u / two).floor();
+            side * if there_and_back > one { two - there_and_back } else { there_and_back }
+        }
+        Wrap::Clamp => (u * side).max(-two).min(side + two),
+    }
+}
+
+/// The texel that a number stands for that may lie beyond the image.
+fn wrapped_index(wrap: Wrap, at: i64, side: u32) -> usize {
+    let side = i64::from(side);
+    let index = match wrap {
+        Wrap::Repeat => at.rem_euclid(side),
+        Wrap::Mirror => {
+            let there_and_back = at.rem_euclid(2 * side);
+            there_and_back.min(2 * side - 1 - there_and_back)
+        }
+        Wrap::Clamp => at.clamp(0, side - 1),
+    };
+    index as usize
+}

@@ -1,0 +1,77 @@
+//! An image of four numbers a texel.
+
+use crate::error::TextureError;
+use crate::limits::{LONGEST_SIDE, MOST_TEXELS};
+
+/// Red, green, blue and alpha in linear light, or four numbers that are no color, row by row from the top. All are finite.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TexelImage {
+    width: u32,
+    height: u32,
+    texels: Vec<[f32; 4]>,
+}
+
+impl TexelImage {
+    /// An image of these texels.
+    ///
+    /// # Errors
+    /// No texels, too many ([`LONGEST_SIDE`], [`MOST_TEXELS`]), another number of them than `width`·`height`, or one that is
+    /// not finite.
+    pub fn new(width: u32, height: u32, texels: Vec<[f32; 4]>) -> Result<Self, TextureError> {
+        check_size(IN_CODE, width, height)?;
+        if texels.len() as u64 != u64::from(width) * u64::from(height) {
+            return Err(TextureError::Count { width, height, found: texels.len() });
+        }
+        let wrong = |texel: &[f32; 4]| texel.iter().copied().find(|number| !number.is_finite());
+        if let Some((at, value)) = texels.iter().enumerate().find_map(|(at, texel)| Some((at as u32, wrong(texel)?))) {
+            return Err(TextureError::NotFinite { image: IN_CODE.into(), x: at % width, y: at / width, value });
+        }
+        Ok(Self { width, height, texels })
+    }
+
+    /// An image whose texel in column `x` of row `y` is `texel(x, y)`.
+    ///
+    /// # Errors
+    /// As of [`TexelImage::new`].
+    pub fn from_fn(width: u32, height: u32, texel: impl Fn(u32, u32) -> [f32; 4]) -> Result<Self, TextureError> {
+        check_size(IN_CODE, width, height)?;
+        Self::new(
+            width,
+            height,
+            (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| texel(x, y)).collect(),
+        )
+    }
+
+    /// What is known to be right.
+    pub(crate) fn checked(width: u32, height: u32, texels: Vec<[f32; 4]>) -> Self {
+        Self { width, height, texels }
+    }
+
+    /// Columns and rows.
+    pub fn size(&self) -> [u32; 2] {
+        [self.width, self.height]
+    }
+
+    /// The texels, row by row.
+    pub fn texels(&self) -> &[[f32; 4]] {
+        &self.texels
+    }
+
+    pub(crate) fn into_texels(self) -> Vec<[f32; 4]> {
+        self.texels
+    }
+}
+
+/// What images are called in errors that come from no file.
+const IN_CODE: &str = "the image";
+
+pub(crate) fn check_size(image: &str, width: u32, height: u32) -> Result<(), TextureError> {
+    let image = || image.to_owned();
+    if width == 0 || height == 0 {
+        return Err(TextureError::Empty { image: image(), width, height });
+    }
+    if width.max(height) > LONGEST_SIDE || u64::from(width) * u64::from(height) > MOST_TEXELS {
+        return Err(TextureError::TooLarge { image: image(), width, height });
+    }
+    Ok(())
+}

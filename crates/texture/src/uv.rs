@@ -1,0 +1,47 @@
+//! Where on an image a surface's coordinates lie.
+
+use bevy_reflect::Reflect;
+use bevy_reflect::std_traits::ReflectDefault;
+
+use crate::lookup::Number;
+
+/// An affine map of texture coordinates: scaled, then turned, then moved, as `KHR_texture_transform` has it. The default
+/// leaves them as they are.
+#[derive(Reflect, Clone, Copy, Debug, PartialEq)]
+#[reflect(Clone, Debug, Default, PartialEq)]
+pub struct UvTransform {
+    /// Moved by, in widths and heights of the image. Finite. Default (0, 0).
+    pub offset: [f32; 2],
+    /// Turned by, in radians, counter-clockwise as the image is seen. Finite. Default 0.
+    pub rotation: f32,
+    /// Stretched by. Finite. Default (1, 1).
+    pub scale: [f32; 2],
+}
+
+impl Default for UvTransform {
+    fn default() -> Self {
+        Self { offset: [0.0; 2], rotation: 0.0, scale: [1.0; 2] }
+    }
+}
+
+impl UvTransform {
+    /// Whether all its numbers are finite.
+    pub fn is_finite(&self) -> bool {
+        let Self { offset: [x, y], rotation, scale: [a, b] } = self;
+        [x, y, rotation, a, b].into_iter().all(|number| number.is_finite())
+    }
+
+    /// The rows of the map: u' = r₀·(u, v, 1), v' = r₁·(u, v, 1). From `KHR_texture_transform`: translation · rotation · scale,
+    /// with u' = cos·u + sin·v and v' = −sin·u + cos·v for the rotation, since v runs downward.
+    pub fn rows(&self) -> [[f64; 3]; 2] {
+        let [[x, y], [a, b]] = [self.offset, self.scale].map(|pair| pair.map(f64::from));
+        let angle = f64::from(self.rotation);
+        let (sin, cos) = (libm::sin(angle), libm::cos(angle));
+        [[cos * a, sin * b, x], [-sin * a, cos * b, y]]
+    }
+
+    /// A point through [`rows`](Self::rows).
+    pub fn apply<T: Number>(rows: &[[T; 3]; 2], uv: [T; 2]) -> [T; 2] {
+        rows.map(|[a, b, c]| a * uv[0] + b * uv[1] + c)
+    }
+}
