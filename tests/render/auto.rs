@@ -65,6 +65,8 @@ fn scenes() -> Vec<(&'static str, Scene)> {
     let mut infinite = scene(thing()).lit(sun());
     infinite.camera.viewer = Viewer::Infinite;
     let inside = Thing::new(ring()).of(material()).back(other_material()).faces(Faces::Both);
+    // In bytes most of it is white whatever else happens, in floating point it is not.
+    let bright = Thing::new(ball()).of(Material { emission: LinearRgba::rgb(0.9, 0.8, 0.7), ..material() });
     // The far side covers fewer pixels.
     let far = Thing::new(Mesh::from(UvSphere::new(1.0, 80, 40))).of(material());
     vec![
@@ -84,6 +86,7 @@ fn scenes() -> Vec<(&'static str, Scene)> {
         ("a mirrored ring", scene(Thing::new(ring()).of(material()).at(scaled(-1.0, 1.0, 1.0))).lit(sun())),
         ("a turned ring", scene(Thing::new(ring()).of(material()).at(rotated(0.4, 0.5, 0.6))).lit(sun())),
         ("many lights", many),
+        ("brighter than white", scene(bright).lit(sun())),
     ]
 }
 

@@ -29,9 +29,10 @@
 
 use crate::lights::gather::Lights;
 use crate::lights::lists::Reflector;
+use crate::lights::places::tolerated;
 use crate::view::matrices::ModelView;
 use bevy_math::{DVec3, Vec3};
-use halfway_lighting::bounds::{STEP, linear_tolerance};
+use halfway_lighting::bounds::STEP;
 use halfway_lighting::equations::{Light, Place, attenuation, range_window};
 use halfway_lighting::{Encoding, Frequency, Terms, Tolerance};
 
@@ -233,11 +234,9 @@ impl Demand<'_> {
         ]
     }
 
-    /// The change of an intensity of at least this that is allowed. Pictures in floating point are held to those of
-    /// bytes that are not encoded.
+    /// The change of an intensity of at least this that is allowed.
     fn intensity(&self, at_least: f32) -> f32 {
-        let encoding = self.encoding.unwrap_or(Encoding::Raw);
-        linear_tolerance(encoding, geometry_steps(self.tolerance) * STEP, at_least.into()) as f32
+        tolerated(self.encoding, geometry_steps(self.tolerance) * STEP, at_least.into()) as f32
     }
 
     /// Where n·l is 0, h is no nearer to n than v and l are to each other: n·h ≤ sin β, 2β their angle. The reflected vector

@@ -38,20 +38,26 @@ pub(crate) struct PlacedTerms {
     rooms: Rooms,
 }
 
-/// [`linear_tolerance`] for intensities from 0 to 1, as a table: the entry i is that of (i/256)², and no more than those of all
+/// How far a channel that has at least this intensity may be off, in linear intensity. Pictures in floating point are held to
+/// those of bytes that are not encoded, and are not clamped at white.
+pub(crate) fn tolerated(encoding: Option<Encoding>, tolerance: f64, at_least: f64) -> f64 {
+    encoding.map_or(tolerance, |encoding| linear_tolerance(encoding, tolerance, at_least))
+}
+
+/// [`tolerated`] for intensities from 0 to 1, as a table: the entry i is that of (i/256)², and no more than those of all
 /// above.
 #[derive(Debug, Default)]
 struct Rooms {
-    of: Option<(Encoding, f64)>,
+    of: Option<(Option<Encoding>, f64)>,
     table: Vec<f64>,
 }
 
 impl Rooms {
     const STEPS: f64 = 256.0;
 
-    fn begin(&mut self, encoding: Encoding, tolerance: f64) {
+    fn begin(&mut self, encoding: Option<Encoding>, tolerance: f64) {
         if self.of != Some((encoding, tolerance)) {
-            let entry = |i: u32| linear_tolerance(encoding, tolerance, (f64::from(i) / Self::STEPS).powi(2));
+            let entry = |i: u32| tolerated(encoding, tolerance, (f64::from(i) / Self::STEPS).powi(2));
             self.table.clear();
             self.table.extend((0..=Self::STEPS as u32).map(entry));
             self.of = Some((encoding, tolerance));
@@ -73,7 +79,7 @@ pub(crate) struct Places {
     placed: [bool; 2],
     view: Eye<f32>,
     reflectance: Reflectance,
-    encoding: Encoding,
+    encoding: Option<Encoding>,
     /// How far a channel may be off, in the picture's encoding.
     tolerance: f64,
     prices: VertexPrices,
@@ -160,7 +166,7 @@ impl Places {
             placed,
             view,
             reflectance,
-            encoding: encoding.unwrap_or(Encoding::Raw),
+            encoding,
             tolerance: steps * STEP,
             prices,
             compiled_in,
