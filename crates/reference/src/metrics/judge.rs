@@ -170,8 +170,8 @@ pub fn judge(oracle: &Oracle, expected: &Image, actual: &Image, bars: Bars) -> R
 
 /// [`judge`] for a drawer that may move what it draws by so many pixels on the picture: each pixel is right that shows, give
 /// or take the bars, what lies between the oracle's colours within that distance and half a pixel of its middle. `fine` is
-/// the oracle's picture with [`FINENESS`] times as many columns and rows, in which these are found; as it has gaps of a
-/// part of a pixel, it says less than all that is right.
+/// the oracle's picture with [`FINENESS`] times as many columns and rows, in which these are found, and in `expected`, which
+/// shows what is at the middle itself; as they have gaps of a part of a pixel, they say less than all that is right.
 ///
 /// # Errors
 /// [`SizeMismatch`].
@@ -186,7 +186,7 @@ pub fn judge_moved(
     if fine.dimensions() != (FINENESS * width, FINENESS * height) {
         return Err(SizeMismatch { actual: fine.dimensions(), expected: (FINENESS * width, FINENESS * height) });
     }
-    let ranges = ranges_within(fine, pixels + 0.5);
+    let ranges = ranges_within(expected, fine, pixels + 0.5);
     let possible = |x, y| oracle.possible(x, y, EDGE_RADIUS);
     judge_with(possible, oracle.samples(), (expected, Some(&ranges)), actual, bars)
 }
@@ -194,8 +194,8 @@ pub fn judge_moved(
 /// How much finer the picture of [`judge_moved`] is.
 pub const FINENESS: u32 = 4;
 
-/// Of each pixel the colours within so many pixels of its middle.
-fn ranges_within(fine: &Image, radius: f64) -> Vec<ColorRange> {
+/// Of each pixel the colours within so many pixels of its middle, which lies between pixels of `fine`.
+fn ranges_within(expected: &Image, fine: &Image, radius: f64) -> Vec<ColorRange> {
     let (width, height) = fine.dimensions();
     let (columns, rows) = (width / FINENESS, height / FINENESS);
     let of_pixel = |i: u32| {
@@ -210,7 +210,8 @@ fn ranges_within(fine: &Image, radius: f64) -> Vec<ColorRange> {
             let [dx, dy] = [(x, middle[0]), (y, middle[1])].map(|(at, middle)| f64::from(at) + 0.5 - middle);
             dx * dx + dy * dy <= reach * reach
         });
-        ColorRange::of(near.map(|(x, y)| fine.pixel(x, y)))
+        let near = near.map(|(x, y)| fine.pixel(x, y));
+        ColorRange::of(near.chain([expected.pixels()[i as usize]]))
     };
     (0..columns * rows).into_par_iter().map(of_pixel).collect()
 }

@@ -149,3 +149,41 @@ fn pictures_of_one_color_are_judged_by_their_brightness() {
         assert!((verdict.worst - relative).abs() < 1e-9, "{verdict}");
     }
 }
+
+/// The ramp, with so many columns and rows for each of its own.
+fn fine_ramp() -> Image {
+    let size = FINENESS * SIZE;
+    let at = |i: u32| (f64::from(i % size) + 0.5) / f64::from(FINENESS) - 0.5;
+    Image::new(size, size, (0..size * size).map(|i| [at(i) / f64::from(SIZE - 1); 3]).collect())
+}
+
+fn moved_by(pixels: f64, expected: &Image, actual: &Image) -> Verdict {
+    let ranges = ranges_within(expected, &fine_ramp(), pixels + 0.5);
+    let surroundings = |_, _| Possible { is_edge: false, ranges: Vec::new(), layers: 0 };
+    judge_with(surroundings, Samples::One, (expected, Some(&ranges)), actual, Bars::FLOAT).expect("one size")
+}
+
+#[test]
+fn what_is_moved_is_right_within_so_many_pixels_and_not_farther() {
+    let along = |by: f64| {
+        let last = f64::from(SIZE - 1);
+        let pixels = (0..SIZE * SIZE).map(|i| [(f64::from(i % SIZE) + by).clamp(0.0, last) / last; 3]);
+        Image::new(SIZE, SIZE, pixels.collect())
+    };
+    // Half a pixel of sampling, less the gap between pixels of the fine picture.
+    for (pixels, by, is_right) in [(0.5, 0.7, true), (0.5, 1.2, false), (2.0, 2.2, true), (2.0, -2.7, false)] {
+        let verdict = moved_by(pixels, &ramp(), &along(by));
+        assert_eq!(verdict.is_within(), is_right, "{by} of {pixels} pixels: {verdict}");
+    }
+    // One pixel that shows what is nowhere near.
+    let verdict = moved_by(2.0, &ramp(), &with(&ramp(), &[((20, 7), [0.9; 3])]));
+    assert!(!verdict.is_within() && verdict.at.is_some_and(|worst| worst.at == (20, 7)), "{verdict}");
+}
+
+#[test]
+fn what_shows_at_the_middle_alone_is_right() {
+    // Thinner than the gaps of the fine picture.
+    let sliver = with(&ramp(), &[((11, 30), [0.9; 3])]);
+    let verdict = moved_by(0.5, &sliver, &sliver);
+    assert!(verdict.is_within(), "{verdict}");
+}
