@@ -13,6 +13,7 @@ use bevy_transform::components::Transform;
 use halfway_lighting::{BackMaterial, Blend, GlobalAmbient, Tolerance, VertexColors, ViewTolerance};
 use halfway_lighting::{Camera, Samples};
 use halfway_mesh::{Bounds, Mesh, Mesh3d};
+use halfway_texture::{ColorMap, TexelMeaning, Texture};
 
 use crate::defaults::{default_lights, framing_camera};
 use crate::error::SceneError;
@@ -63,6 +64,9 @@ pub fn spawn(scene: &SceneFile, base_dir: &Path, world: &mut World) -> Result<Sp
     if !world.contains_resource::<Assets<Mesh>>() {
         return Err(SceneError::NoMeshAssets);
     }
+    if scene.objects.iter().any(|object| object.color_map.is_some()) && !world.contains_resource::<Assets<Texture>>() {
+        return Err(SceneError::NoTextureAssets);
+    }
     let mut shapes = Shapes::new(base_dir);
     let objects = scene
         .objects
@@ -83,7 +87,9 @@ pub fn spawn(scene: &SceneFile, base_dir: &Path, world: &mut World) -> Result<Sp
         .map(|(i, (object, shape))| spawn_object(object, i, shape, &mut handles, world))
         .collect::<Vec<_>>();
     let lights = spawn_lights(scene, camera, &objects, &frames, world);
-    Ok(Spawned { camera, objects: frames, lights, warnings: shapes.warnings })
+    let mut warnings = shapes.warnings;
+    hang_maps(scene, base_dir, &frames, &mut warnings, world);
+    Ok(Spawned { camera, objects: frames, lights, warnings })
 }
 
 type Object<'a> = (&'a ObjectEntry, Rc<ObjectShape>);
@@ -216,6 +222,42 @@ fn dress(object: &ObjectEntry, part: &ShapePart, mesh: Handle<Mesh>, entity: &mu
     }
     if object.blend.unwrap_or_else(|| own.is_some_and(|own| own.blend)) {
         entity.insert(Blend);
+    }
+}
+
+/// Gives objects, or all parts of their models, their images. Each file is read once; what cannot be read is a warning, and a
+/// checker is shown in its place.
+fn hang_maps(scene: &SceneFile, base_dir: &Path, frames: &[Entity], warnings: &mut Vec<String>, world: &mut World) {
+    let mut handles: HashMap<&Path, Handle<Texture>> = HashMap::new();
+    for (index, (object, &frame)) in scene.objects.iter().zip(frames).enumerate() {
+        let Some(entry) = &object.color_map else { continue };
+        let texture = handles.entry(&entry.path).or_insert_with(|| {
+            let loaded = halfway_texture::load(&base_dir.join(&entry.path), TexelMeaning::Color);
+            let texture = loaded.map_or_else(
+                |error| {
+                    warnings.push(format!("objects[{index}].color_map: {error}; a checker is shown"));
+                    Texture::missing()
+                },
+                Texture::from,
+            );
+            world.resource_mut::<Assets<Texture>>().add(texture)
+        });
+        let map = ColorMap { texture: texture.clone(), sampling: entry.sampling(), transform: entry.transform() };
+        let mut below = vec![frame];
+        let (mut shown, mut without) = (0, 0);
+        while let Some(entity) = below.pop() {
+            below.extend(world.get::<Children>(entity).iter().flat_map(|children| children.iter()));
+            if let Some(Mesh3d(mesh)) = world.get::<Mesh3d>(entity) {
+                let has_uvs = world.resource::<Assets<Mesh>>().get(mesh).is_some_and(|mesh| mesh.uvs().is_some());
+                (shown, without) = (shown + 1, without + usize::from(!has_uvs));
+                world.entity_mut(entity).insert(map.clone());
+            }
+        }
+        if without > 0 {
+            warnings.push(format!(
+                "objects[{index}].color_map: {without} of {shown} meshes have no texture coordinates, and do not show it"
+            ));
+        }
     }
 }
 
