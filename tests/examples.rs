@@ -65,6 +65,21 @@ fn colors(picture: &RgbImage) -> usize {
 }
 
 #[test]
+fn textures() {
+    let file = folder("textures").join("textures.png");
+    draw("textures", &file, &[]);
+    let picture = image::open(&file).expect("a picture").to_rgb8();
+    let (width, height) = picture.dimensions();
+    // Without smaller images the far end of a floor is a pattern, with them one color.
+    let spread = |from: f32| {
+        let row = (from * height as f32) as u32;
+        let reds: Vec<u8> = (0..width / 12).map(|x| picture.get_pixel(width * 5 / 12 + x / 2, row).0[2]).collect();
+        reds.iter().max().zip(reds.iter().min()).map_or(0, |(most, least)| most - least)
+    };
+    assert!(spread(0.4) > 60 && spread(0.615) < 20, "{} and {}", spread(0.4), spread(0.615));
+}
+
+#[test]
 fn teapots() {
     let file = folder("teapots").join("teapots.png");
     let printed = draw("teapots", &file, &[]);

@@ -34,6 +34,7 @@ mod render {
     mod levels;
     mod light_counts;
     mod light_lists;
+    mod maps;
     mod multi_draw;
     mod order;
     mod picture;

@@ -6,6 +6,7 @@
 mod axes;
 pub(crate) mod colors;
 mod features;
+pub(crate) mod maps;
 
 use crate::render::compare::{BLENDED, FLOAT, Failures, SELECTED, SRGB};
 use crate::render::scene::Scene;
@@ -140,4 +141,9 @@ fn every_feature_conforms() {
 #[test]
 fn every_way_to_shade_colors_of_vertices_conforms() {
     conform("colours of vertices", &colors::rows());
+}
+
+#[test]
+fn every_way_to_shade_and_to_filter_images_conforms() {
+    conform("images", &maps::rows());
 }

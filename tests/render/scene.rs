@@ -3,6 +3,7 @@
 use halfway::lighting::Frequency;
 use halfway::lighting::rotation_along;
 use halfway::prelude::*;
+use halfway::texture::{Sampling, TexelImage, UvTransform};
 
 /// Everything that decides a picture, but for its size.
 #[derive(Clone)]
@@ -39,6 +40,14 @@ pub(crate) enum On {
     Thing(usize),
 }
 
+/// An image on a thing.
+#[derive(Clone)]
+pub(crate) struct Map {
+    pub(crate) image: TexelImage,
+    pub(crate) sampling: Sampling,
+    pub(crate) transform: UvTransform,
+}
+
 #[derive(Clone)]
 pub(crate) struct Thing {
     pub(crate) name: Option<String>,
@@ -52,6 +61,7 @@ pub(crate) struct Thing {
     pub(crate) reflectance: Option<Reflectance>,
     pub(crate) faces: Option<Faces>,
     pub(crate) colors: Option<VertexColors>,
+    pub(crate) map: Option<Map>,
     pub(crate) blend: bool,
 }
 
@@ -135,6 +145,7 @@ impl Thing {
             reflectance: None,
             faces: None,
             colors: None,
+            map: None,
             blend: false,
         }
     }

@@ -1,11 +1,12 @@
 //! An App that draws scenes, one after the other.
 
 use crate::render::adapter::choice;
-use crate::render::scene::{Kind, Lamp, On, Scene, Thing};
+use crate::render::scene::{Kind, Lamp, Map, On, Scene, Thing};
 use halfway::prelude::*;
 use halfway::reference::Oracle;
 use halfway::reference::metrics::Bars;
 use halfway::render::{Adapter, Costs, RenderError};
+use halfway::texture::{ColorMap, Texture};
 use image::{Rgba32FImage, RgbaImage};
 use std::sync::OnceLock;
 use std::time::Duration;
@@ -148,6 +149,10 @@ impl Stage {
         for frame in parents {
             parent = Some(self.child(*frame, parent));
         }
+        let map = thing.map.as_ref().map(|Map { image, sampling, transform }| {
+            let texture = self.world().resource_mut::<Assets<Texture>>().add(Texture::from(image.clone()));
+            ColorMap { texture, sampling: *sampling, transform: *transform }
+        });
         let entity = self.child((*own, Mesh3d(handle), thing.material), parent);
         let mut entity = self.world().entity_mut(entity);
         if let Some(name) = &thing.name {
@@ -167,6 +172,9 @@ impl Stage {
         }
         if let Some(faces) = thing.faces {
             entity.insert(faces);
+        }
+        if let Some(map) = map {
+            entity.insert(map);
         }
         if let Some(colors) = thing.colors {
             entity.insert(colors);

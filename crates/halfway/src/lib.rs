@@ -36,6 +36,7 @@ pub use halfway_record::output;
 pub use halfway_reference as reference;
 pub use halfway_render as render;
 pub use halfway_scene as scene;
+pub use halfway_texture as texture;
 #[cfg(feature = "window")]
 pub use halfway_window as window;
 

@@ -8,6 +8,7 @@ use bevy_transform::TransformPlugin;
 use halfway_lighting::LightingPlugin;
 use halfway_mesh::MeshPlugin;
 use halfway_render::RenderPlugin;
+use halfway_texture::TexturePlugin;
 
 use crate::demo::Demo;
 use halfway_record::HeadlessPlugin;
@@ -63,7 +64,7 @@ impl HalfwayPlugins {
     /// }
     /// ```
     pub fn reference() -> PluginGroupBuilder {
-        PluginGroupBuilder::start::<Self>().add(FoundationPlugin).add(MeshPlugin).add(LightingPlugin)
+        PluginGroupBuilder::start::<Self>().add(FoundationPlugin).add(MeshPlugin).add(LightingPlugin).add(TexturePlugin)
     }
 
     /// The group for a demo program: a window, or, with `--headless OUT.png` on the command line, pictures on disk.

@@ -37,6 +37,7 @@ mod normals;
 mod numbering;
 mod prepare;
 mod problems;
+mod source_map;
 mod subdivide;
 mod surfaces;
 mod tangents;
@@ -59,6 +60,7 @@ pub use prepare::{
     DistanceBounds, HierarchyPatch, MeshReport, PatchGroup, PatchHierarchy, RepairReport, Weld, WeldReport,
 };
 pub use problems::Problems;
+pub use source_map::{SourceLevels, SourceMap, SourceWrap};
 pub use subdivide::Subdivision;
 pub use surfaces::{
     BezierPatch, Capsule, Cone, Cuboid, Cylinder, Disc, Ellipsoid, HeightField, Hyperboloid, HyperboloidSheet,

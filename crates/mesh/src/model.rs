@@ -2,7 +2,7 @@
 
 use bevy_math::Mat4;
 
-use crate::{Bounds, Mesh};
+use crate::{Bounds, Mesh, SourceMap};
 
 /// The content of a model file: meshes placed in the world, and the materials and lights that the file describes.
 ///
@@ -59,6 +59,14 @@ pub enum SourceMaterial {
 }
 
 impl SourceMaterial {
+    /// The image whose color multiplies the diffuse or base color.
+    pub fn color_map(&self) -> Option<&SourceMap> {
+        match self {
+            Self::Mtl(mtl) => mtl.color_map.as_ref(),
+            Self::MetallicRoughness(gltf) => gltf.color_map.as_ref(),
+        }
+    }
+
     /// The material's name in the file; empty where it has none.
     pub fn name(&self) -> &str {
         match self {
@@ -90,10 +98,12 @@ pub struct MtlMaterial {
     pub tr: Option<f32>,
     /// `illum`, the number of the illumination model.
     pub illum: Option<u8>,
+    /// `map_Kd`, whose color multiplies `Kd`.
+    pub color_map: Option<SourceMap>,
 }
 
 /// A metallic-roughness material of glTF 2.0 (§3.9.2): the factors as they stand, finite but not limited to their
-/// usual ranges. Textures are not read.
+/// usual ranges. Of textures only the base color is read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MetallicRoughness {
     /// The material's name.
@@ -110,6 +120,8 @@ pub struct MetallicRoughness {
     pub double_sided: bool,
     /// `alphaMode` and `alphaCutoff`.
     pub alpha: AlphaMode,
+    /// `baseColorTexture`, whose color multiplies the base color.
+    pub color_map: Option<SourceMap>,
 }
 
 /// What the alpha of a glTF material does.

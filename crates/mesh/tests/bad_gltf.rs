@@ -315,8 +315,8 @@ const ROWS: &[Row] = &[
     (
         "required transform of textures",
         "{\"version\":\"2.0\"}",
-        "{\"version\":\"2.0\"},\"extensionsRequired\":[\"KHR_texture_transform\"]",
-        ": the extension KHR_texture_transform is required, which is not supported",
+        "{\"version\":\"2.0\"},\"extensionsRequired\":[\"KHR_texture_basisu\"]",
+        ": the extension KHR_texture_basisu is required, which is not supported",
     ),
     ("old version", "\"2.0\"", "\"1.0\"", "asset.version: version \"1.0\"; version \"2.0\" is expected"),
     ("no asset", "\"asset\":{\"version\":\"2.0\"},", "", "JSON: missing field `asset`"),

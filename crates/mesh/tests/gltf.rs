@@ -43,6 +43,7 @@ fn check_triangle(model: &Model) {
             emissive: [0.0; 3],
             double_sided: false,
             alpha: AlphaMode::Opaque,
+            color_map: None,
         })]
     );
     let bounds = model.bounds().unwrap();
@@ -211,6 +212,7 @@ fn materials_keep_their_factors() {
         emissive: [0.0; 3],
         double_sided: false,
         alpha: AlphaMode::Opaque,
+        color_map: None,
     };
     let expected = [
         default.clone(),
@@ -270,7 +272,7 @@ fn what_is_skipped_is_said() {
     let json = with(&[
         (
             "{\"version\":\"2.0\"}",
-            "{\"version\":\"2.0\"},\"extensionsUsed\":[\"KHR_materials_unlit\",\"KHR_texture_transform\"],\"cameras\":[{\"type\":\"orthographic\",\"orthographic\":{\"xmag\":1,\"ymag\":1,\"zfar\":10,\"znear\":0}}]",
+            "{\"version\":\"2.0\"},\"extensionsUsed\":[\"KHR_materials_unlit\",\"KHR_texture_basisu\"],\"cameras\":[{\"type\":\"orthographic\",\"orthographic\":{\"xmag\":1,\"ymag\":1,\"zfar\":10,\"znear\":0}}]",
         ),
         ("\"scenes\":[{\"nodes\":[0]}]", "\"scenes\":[{\"nodes\":[0]},{\"nodes\":[]}]"),
         // Attributes of the application's own pass.
@@ -280,7 +282,7 @@ fn what_is_skipped_is_said() {
         load_glb(&json, &triangle_data()).unwrap().warnings,
         [
             "the extension KHR_materials_unlit is skipped",
-            "the extension KHR_texture_transform is skipped",
+            "the extension KHR_texture_basisu is skipped",
             "only the default scene of 2 is read",
             "the morph targets of 1 primitives are skipped",
         ]

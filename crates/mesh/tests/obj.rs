@@ -96,6 +96,7 @@ fn every_statement_of_a_material_is_kept() {
         d: Some(0.75),
         tr: Some(0.5),
         illum: Some(2),
+        color_map: None,
     };
     let nothing = MtlMaterial { name: "nothing".to_owned(), ..MtlMaterial::default() };
     assert_eq!(model.materials, [SourceMaterial::Mtl(all), SourceMaterial::Mtl(nothing)]);
@@ -197,12 +198,12 @@ fn what_is_skipped_is_said() {
     }
     let model = load_with_mtl(
         &format!("mtllib model.mtl\n{SQUARE}f 1 2 3\n"),
-        "newmtl a\nmap_Kd a.png\nmap_Kd b.png\nd -halo 0.5\nKd spectral a.rfl\n",
+        "newmtl a\nmap_Ks a.png\nmap_Ks b.png\nd -halo 0.5\nKd spectral a.rfl\n",
     );
     assert_eq!(
         model.warnings,
         [
-            "model.mtl:2: the texture `map_Kd` is skipped (and 1 more such lines)",
+            "model.mtl:2: the texture `map_Ks` is skipped (and 1 more such lines)",
             "model.mtl:4: `d -halo` is skipped",
             "model.mtl:5: `Kd spectral` is skipped",
         ]

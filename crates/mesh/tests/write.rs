@@ -100,6 +100,7 @@ fn scene() -> Model {
             emissive: [0.0, 0.25, 0.1],
             double_sided: true,
             alpha: AlphaMode::Mask { cutoff: 0.3 },
+            color_map: None,
         }),
         SourceMaterial::Mtl(MtlMaterial {
             name: String::new(),

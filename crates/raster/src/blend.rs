@@ -1,7 +1,7 @@
 //! Fragments that are laid over what is there, in the order of drawing.
 
 use crate::bins::TILE;
-use crate::cover::{EdgeFunctions, TileBuffer, clamped, covered, plane};
+use crate::cover::{EdgeFunctions, TileBuffer, clamped, covered, map_numbers, plane};
 use crate::encode::kept;
 use crate::four::{centroid, samples};
 use crate::lanes::{F, M, Simd, V3, counting, each, fma, lanes, load, replace, saturate, splat, splat3};
@@ -99,7 +99,12 @@ impl TileBuffer {
             place: shown.place,
             inverse_w: clamped(simd, plane(simd, &planes.lead, 0, x, y), planes),
             lead: three(simd, &planes.lead, x, y),
-            second: if state.stage == Stage::Mixed { three(simd, &planes.second, x, y) } else { [splat(simd, 0.0); 3] },
+            second: if state.stage == Stage::Mixed || state.keeps_parts() {
+                three(simd, &planes.second, x, y)
+            } else {
+                [splat(simd, 0.0); 3]
+            },
+            map: state.map.map_or([splat(simd, 0.0); 3], |map| map_numbers(simd, planes, map.size, [x, y])),
             paint: if state.shades_paint() { three(simd, &planes.paint, x, y) } else { [splat(simd, 0.0); 3] },
             face: splat3(simd, planes.face),
         };
@@ -107,6 +112,9 @@ impl TileBuffer {
         let mut opacity = splat(simd, state.side(look.pass, back).opacity);
         if state.colored {
             opacity *= saturate(simd, plane(simd, &planes.paint, 0, x, y) / fragments.inverse_w);
+        }
+        if let Some(map) = &state.map {
+            opacity *= fragments.texels(simd, look, map)[3];
         }
         for sample in 0..look.pass.samples.count() {
             let at = j as usize * TILE + i as usize;

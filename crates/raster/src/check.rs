@@ -21,6 +21,9 @@ pub(crate) fn check(pass: &Pass, output: &Output) -> Result<(), RasterError> {
     for (index, instance) in pass.instances.iter().enumerate() {
         check_instance(index, instance, pass)?;
     }
+    for (index, map) in pass.maps.iter().enumerate() {
+        finite("map", index, "rows", map.rows.as_flattened())?;
+    }
     for (index, draw) in pass.draws.iter().enumerate() {
         if draw.mesh as usize >= pass.meshes.len() {
             return beyond("draw", index, "mesh", u64::from(draw.mesh) + 1, pass.meshes.len());
@@ -28,6 +31,14 @@ pub(crate) fn check(pass: &Pass, output: &Output) -> Result<(), RasterError> {
         let mesh = pass.meshes[draw.mesh as usize];
         if draw.colored && !mesh.has_colors() {
             return beyond("draw", index, "colors", mesh.triangle_count() as u64, 0);
+        }
+        if let Some(map) = draw.map {
+            if map.map as usize >= pass.maps.len() {
+                return beyond("draw", index, "map", u64::from(map.map) + 1, pass.maps.len());
+            }
+            if !mesh.has_uvs() {
+                return beyond("draw", index, "texture coordinates", mesh.triangle_count() as u64, 0);
+            }
         }
         if draw.instances.end as usize > pass.instances.len() {
             return beyond("draw", index, "instances", u64::from(draw.instances.end), pass.instances.len());

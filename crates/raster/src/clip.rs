@@ -17,6 +17,7 @@ pub(crate) struct Corner {
     lead: [[f32; 4]; 2],
     second: [[f32; 4]; 2],
     paint: [f32; 4],
+    map: [f32; 4],
 }
 
 /// A triangle that is ready to be drawn: its edges, its planes, whether it shows its back.
@@ -63,6 +64,7 @@ impl Corner {
             lead: [vertices.lead[0][v], vertices.lead[usize::from(vertices.sides_lead)][v]],
             second: [vertices.second[0][v], vertices.second[1][v]],
             paint: vertices.paint[v],
+            map: vertices.map[v],
         }
     }
 
@@ -83,13 +85,16 @@ impl Corner {
             let [a, b, c] = [0, 1, 2].map(|k| (mean(&vertices.raw[first + k]) * inverse_w) as f32);
             [inverse_w as f32, a, b, c]
         };
+        let over_w = |list: usize| (mean(&vertices.raw[list]) * inverse_w) as f32;
         let of_normal = four(0);
         let of_colors = [four(3), four(6)];
+        let of_plain = [four(13), four(16)];
         Self {
             screen: on_screen,
             grid: on_screen.map(|v| (v * GRID as f32).round_ties_even() as i32),
             lead: if vertices.sides_lead { of_colors } else { [of_normal; 2] },
-            second: of_colors,
+            second: if vertices.sides_lead { of_plain } else { of_colors },
+            map: [over_w(19), over_w(20), 0.0, 0.0],
             paint: [0, 1, 2, 3].map(|k| (mean(&vertices.raw[9 + k]) * inverse_w) as f32),
         }
     }
@@ -226,6 +231,7 @@ fn planes(corners: &[Corner; 3], first: [i64; 2], (x, y): ([i64; 3], [i64; 3]), 
         lead: gradient.slopes(lead),
         second: gradient.slopes([0, 1, 2].map(|k| &corners[k].second[side])),
         paint: gradient.slopes([0, 1, 2].map(|k| &corners[k].paint)),
+        map: gradient.slopes([0, 1, 2].map(|k| &corners[k].map)),
         face: [0.0; 3],
         range: [inverse_w.into_iter().fold(f32::INFINITY, f32::min), inverse_w.into_iter().fold(0.0, f32::max)],
     }

@@ -95,6 +95,8 @@ pub(crate) struct TileBuffer {
     pub(crate) second: Vec<[[f32; PIXELS]; 3]>,
     /// Of colored draws the color over w; empty where the pass has none.
     pub(crate) paint: Vec<[[f32; PIXELS]; 3]>,
+    /// Of draws with an image the coordinates on it over w, and the square of the footprint's longer side in texels.
+    pub(crate) map: Vec<[[f32; PIXELS]; 3]>,
     pub(crate) face: Vec<[[f32; PIXELS]; 3]>,
 }
 
@@ -106,6 +108,8 @@ pub(crate) struct Kept {
     pub(crate) second: bool,
     pub(crate) paint: bool,
     pub(crate) face: bool,
+    /// The size of the image, where there is one.
+    pub(crate) map: Option<[f32; 2]>,
 }
 
 impl Kept {
@@ -114,9 +118,10 @@ impl Kept {
     pub(crate) fn of(state: &State) -> Self {
         Self {
             lead: state.stage != Stage::Unlit,
-            second: state.stage == Stage::Mixed,
+            second: state.stage == Stage::Mixed || state.keeps_parts(),
             paint: state.shades_paint(),
             face: state.opposite_normals,
+            map: state.map.map(|map| map.size),
         }
     }
 }
@@ -132,18 +137,22 @@ impl TileBuffer {
             lead: Vec::new(),
             second: Vec::new(),
             paint: Vec::new(),
+            map: Vec::new(),
             face: Vec::new(),
         }
     }
 
     /// Makes room for a tile.
     #[expect(clippy::large_stack_arrays, reason = "48 KiB, once for each list")]
-    pub(crate) fn prepare(&mut self, samples: SampleCount, painted: bool) {
+    pub(crate) fn prepare(&mut self, samples: SampleCount, painted: bool, mapped: bool) {
         let count = samples.count();
         self.depth.resize(count, [0.0; PIXELS]);
         self.shader.resize(count, [0; PIXELS]);
         for list in [&mut self.lead, &mut self.second, &mut self.face] {
             list.resize(count, [[0.0; PIXELS]; 3]);
+        }
+        if mapped {
+            self.map.resize(count, [[0.0; PIXELS]; 3]);
         }
         if painted {
             self.paint.resize(count, [[0.0; PIXELS]; 3]);
@@ -212,6 +221,13 @@ impl TileBuffer {
             let v = value(simd, &planes.paint, i, j);
             for c in 0..3 {
                 self.paint[sample][c][pixel] = v[c + 1];
+            }
+        }
+        if let Some(size) = kept.map {
+            let (x, y) = (splat(simd, i), splat(simd, j));
+            let of_map = map_numbers(simd, planes, size, [x, y]);
+            for c in 0..3 {
+                self.map[sample][c][pixel] = of_map[c][0];
             }
         }
         if kept.face {
@@ -324,6 +340,12 @@ impl TileBuffer {
 
     #[inline(always)]
     fn keep<S: Simd>(&mut self, simd: S, planes: &Planes, at: usize, [x, y]: [F<S>; 2], shown: M<S>, kept: Kept) {
+        if let Some(size) = kept.map {
+            let of_map = map_numbers(simd, planes, size, [x, y]);
+            for c in 0..3 {
+                replace::<S>(simd, shown, of_map[c], &mut self.map[0][c], at);
+            }
+        }
         for c in 0..3 {
             if kept.lead {
                 replace::<S>(simd, shown, plane(simd, &planes.lead, c + 1, x, y), &mut self.lead[0][c], at);
@@ -360,6 +382,24 @@ pub(crate) fn covered<S: Simd>(simd: S, edges: &EdgeFunctions, i: i32, j: i32) -
 pub(crate) fn clamped<S: Simd>(simd: S, inverse_w: F<S>, planes: &Planes) -> F<S> {
     let [least, most] = planes.range;
     min::<S>(max::<S>(inverse_w, splat(simd, least)), splat(simd, most))
+}
+
+/// (u, v)/w on an image of this size at places of the tile, and the square of the footprint's longer side in texels.
+///
+/// u/w, v/w and 1/w are linear over the picture: by the rule of quotients ∂u = w·(∂(u/w) − u·∂(1/w)).
+#[inline(always)]
+pub(crate) fn map_numbers<S: Simd>(simd: S, planes: &Planes, size: [f32; 2], [x, y]: [F<S>; 2]) -> [F<S>; 3] {
+    let over_w = each!(k in 2 => plane(simd, &planes.map, k, x, y));
+    let w = splat(simd, 1.0) / plane(simd, &planes.lead, 0, x, y);
+    let (mut along_x, mut along_y) = (splat(simd, 0.0), splat(simd, 0.0));
+    for k in 0..2 {
+        let (u, texels) = (over_w[k] * w, w * splat(simd, size[k]));
+        let dx = (splat(simd, planes.map.dx[k]) - u * splat(simd, planes.lead.dx[0])) * texels;
+        let dy = (splat(simd, planes.map.dy[k]) - u * splat(simd, planes.lead.dy[0])) * texels;
+        along_x = fma::<S>(dx, dx, along_x);
+        along_y = fma::<S>(dy, dy, along_y);
+    }
+    [over_w[0], over_w[1], max::<S>(along_x, along_y)]
 }
 
 /// One of the numbers at places of the tile.

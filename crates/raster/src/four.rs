@@ -165,7 +165,7 @@ impl TileBuffer {
         let inverse_w = min_one(max_one(v[0], planes.range[0]), planes.range[1]);
         let shader = shader | (place as i32) << CENTROID_SHIFT;
         self.keep_samples(pixel, mask, shader, inverse_w, kept.lead.then_some(v));
-        if kept.second || kept.paint || kept.face {
+        if kept.second || kept.paint || kept.face || kept.map.is_some() {
             for sample in (0..4).filter(|sample| mask >> sample & 1 != 0) {
                 self.keep_more(simd, planes, (sample, pixel), [x, y], kept);
             }

@@ -27,6 +27,7 @@
 //!             surface: 0,
 //!         }],
 //!         meshes: &[&mesh],
+//!         maps: &[],
 //!         draws: &[DrawCall { indices: 0..3, instances: 0..1, ..DrawCall::default() }],
 //!     },
 //!     Output::Bytes(&mut bytes),
@@ -72,8 +73,8 @@ mod width;
 pub use bands::ClearTiles;
 pub use error::{LARGEST_SIDE, RasterError};
 pub use pass::{
-    DrawCall, Highlight, InstanceData, LeftOut, Lens, LightData, LightRange, Output, Pass, PixelFormat, SampleCount,
-    ShadedTerms, SideData, SurfaceData,
+    DrawCall, Highlight, InstanceData, LeftOut, Lens, LightData, LightRange, MapCall, MapData, Output, Pass,
+    PixelFormat, SampleCount, ShadedTerms, SideData, SurfaceData,
 };
 pub use pieces::{Pieces, TriangleOrder, VertexLists};
 pub use rasterizer::{RasterOptions, Rasterizer};

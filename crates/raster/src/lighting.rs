@@ -343,5 +343,30 @@ pub(crate) fn tinted_terms<S: Simd>(simd: S, arriving: &Irradiance<S>, side: &Si
     })
 }
 
+/// The part of a sum that an image multiplies: color·(ambient and diffuse terms), with the base where there is one yet.
+#[inline(always)]
+pub(crate) fn tinted_part<S: Simd>(
+    simd: S,
+    arriving: &Irradiance<S>,
+    side: &SideData,
+    color: V3<S>,
+    base: bool,
+) -> V3<S> {
+    each!(c in 3 => {
+        let ambient = arriving.ambient[c] * splat(simd, side.ambient[c]);
+        let diffuse = fma::<S>(arriving.diffuse[c], splat(simd, side.diffuse[c]), ambient);
+        color[c] * if base { diffuse + splat(simd, side.base[c]) } else { diffuse }
+    })
+}
+
+/// The part that it does not: the specular terms, with the emission where there is none yet.
+#[inline(always)]
+pub(crate) fn plain_part<S: Simd>(simd: S, arriving: &Irradiance<S>, side: &SideData, emission: bool) -> V3<S> {
+    each!(c in 3 => {
+        let specular = arriving.specular[c] * splat(simd, side.specular[c]);
+        if emission { specular + splat(simd, side.emission[c]) } else { specular }
+    })
+}
+
 #[cfg(test)]
 mod tests;

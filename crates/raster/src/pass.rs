@@ -1,6 +1,7 @@
 //! What is drawn: plain data, borrowed for one picture.
 
 use crate::Pieces;
+use halfway_texture::{Pyramid, Sampling};
 use std::ops::Range;
 
 /// All of a picture. Eye space is right-handed, the eye at the origin looking along −z; colors are linear RGB.
@@ -28,6 +29,8 @@ pub struct Pass<'a> {
     pub instances: &'a [InstanceData],
     /// The meshes.
     pub meshes: &'a [&'a Pieces],
+    /// The images on surfaces.
+    pub maps: &'a [MapData],
     /// What is drawn, first to last. Of opaque fragments in equal depth the first drawn stays. Blended ones are drawn
     /// over all opaque ones, in this order.
     pub draws: &'a [DrawCall],
@@ -154,7 +157,7 @@ pub struct SideData {
     pub diffuse: [f32; 3],
     /// ks.
     pub specular: [f32; 3],
-    /// ke of draws that are `colored`, whose colors do not multiply it; of others it is part of the base, and this 0.
+    /// ke of draws that are `colored` or have a `map`, which do not multiply it; of others it is part of the base, and this 0.
     pub emission: [f32; 3],
     /// ka, for the lights that attenuate their ambient.
     pub ambient: [f32; 3],
@@ -195,6 +198,24 @@ impl SurfaceData {
     pub(crate) fn fragment_ranges(&self) -> [LightRange; 3] {
         [self.fragment, self.fragment_diffuse, self.fragment_specular]
     }
+}
+
+/// An image, and where on it texture coordinates lie.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MapData {
+    /// The image.
+    pub pyramid: Pyramid,
+    /// Coordinates on it are the products of these rows with (u, v, 1).
+    pub rows: [[f32; 3]; 2],
+}
+
+/// An image that a draw looks up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MapCall {
+    /// Its number among [`Pass::maps`].
+    pub map: u32,
+    /// How it is looked up.
+    pub sampling: Sampling,
 }
 
 /// Where a mesh stands.
@@ -276,6 +297,9 @@ pub struct DrawCall {
     pub opposite_normals: bool,
     /// The mesh's colors multiply base, diffuse and ambient, and the opacity.
     pub colored: bool,
+    /// An image whose color multiplies the same at each fragment. Of the draw's two terms none is shaded both at the
+    /// vertices and at the fragments then.
+    pub map: Option<MapCall>,
     /// Fragments are laid over what is there by their opacity, and leave the depth as it is.
     pub blend: bool,
 }

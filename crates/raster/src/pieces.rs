@@ -21,6 +21,8 @@ pub struct Pieces {
     pub(crate) normals: [Vec<f32>; 3],
     /// The same of red, green, blue and opacity; empty where there are none.
     pub(crate) colors: [Vec<f32>; 4],
+    /// The same of texture coordinates.
+    pub(crate) uvs: [Vec<f32>; 2],
     /// Corners as numbers of the piece's vertices.
     pub(crate) triangles: Vec<[u8; 3]>,
     index_count: u32,
@@ -69,6 +71,8 @@ pub struct VertexLists<'a> {
     pub normals: &'a [[f32; 3]],
     /// Linear red, green, blue and opacity, 0 to 1 each, for draws that are [`colored`](crate::DrawCall::colored).
     pub colors: &'a [[f32; 4]],
+    /// Texture coordinates, for draws with a [`map`](crate::DrawCall::map).
+    pub uvs: &'a [[f32; 2]],
 }
 
 impl Pieces {
@@ -101,7 +105,7 @@ impl Pieces {
         order: TriangleOrder,
     ) -> Result<Self, RasterError> {
         check(positions, lists.normals, indices)?;
-        check_colors(positions.len(), lists.colors)?;
+        check_paint(positions.len(), &lists)?;
         let whole = 0..indices.len() as u32;
         let cuts = if cuts.is_empty() { std::slice::from_ref(&whole) } else { cuts };
         let mut pieces = Self { index_count: indices.len() as u32, ..Self::default() };
@@ -131,7 +135,8 @@ impl Pieces {
 
     /// The bytes of memory that its lists take.
     pub fn bytes(&self) -> u64 {
-        let numbers: usize = self.positions.iter().chain(&self.normals).chain(&self.colors).map(Vec::len).sum();
+        let numbers: usize =
+            self.positions.iter().chain(&self.normals).chain(&self.colors).chain(&self.uvs).map(Vec::len).sum();
         let [numbers, triangles, pieces] =
             [4 * numbers, 3 * self.triangles.len(), size_of::<Piece>() * self.each.len()];
         (numbers + triangles + pieces) as u64
@@ -139,6 +144,10 @@ impl Pieces {
 
     pub(crate) fn has_colors(&self) -> bool {
         !self.colors[0].is_empty()
+    }
+
+    pub(crate) fn has_uvs(&self) -> bool {
+        !self.uvs[0].is_empty()
     }
 
     /// How many triangles.
@@ -185,10 +194,18 @@ fn check(positions: &[[f32; 3]], normals: &[[f32; 3]], indices: &[u32]) -> Resul
     }
 }
 
-fn check_colors(positions: usize, colors: &[[f32; 4]]) -> Result<(), RasterError> {
-    if !colors.is_empty() && colors.len() != positions {
-        let (reaches, available) = (colors.len() as u64, positions as u64);
-        return Err(RasterError::Reference { what: "mesh", index: 0, field: "colors", reaches, available });
+fn check_paint(positions: usize, VertexLists { colors, uvs, .. }: &VertexLists) -> Result<(), RasterError> {
+    for (field, count) in [("colors", colors.len()), ("texture coordinates", uvs.len())] {
+        if count != 0 && count != positions {
+            let (reaches, available) = (count as u64, positions as u64);
+            return Err(RasterError::Reference { what: "mesh", index: 0, field, reaches, available });
+        }
+    }
+    for (index, uv) in uvs.iter().enumerate() {
+        if let Some(&value) = uv.iter().find(|x| !x.is_finite()) {
+            let (what, field, value) = ("texture coordinate", "a coordinate", f64::from(value));
+            return Err(RasterError::Number { what, index, field, value, expected: "a finite number" });
+        }
     }
     for (index, color) in colors.iter().enumerate() {
         if let Some(&value) = color.iter().find(|x| !(0.0..=1.0).contains(*x)) {
@@ -299,6 +316,13 @@ impl<'a> Builder<'a> {
                 reserve(&mut pieces.colors[channel], padded, "a mesh's pieces")?;
                 let used = (0..padded).map(|k| self.used[k.min(self.used.len() - 1)] as usize);
                 pieces.colors[channel].extend(used.map(|vertex| self.lists.colors[vertex][channel]));
+            }
+        }
+        if !self.lists.uvs.is_empty() {
+            for axis in 0..2 {
+                reserve(&mut pieces.uvs[axis], padded, "a mesh's pieces")?;
+                let used = (0..padded).map(|k| self.used[k.min(self.used.len() - 1)] as usize);
+                pieces.uvs[axis].extend(used.map(|vertex| self.lists.uvs[vertex][axis]));
             }
         }
         let (center, radius) = sphere(self.used.iter().map(|&vertex| self.positions[vertex as usize]));

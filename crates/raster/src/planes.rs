@@ -30,6 +30,8 @@ pub(crate) struct Planes {
     pub(crate) second: Slopes,
     /// Of colored draws the opacity and the color, over w.
     pub(crate) paint: Slopes,
+    /// Of draws with an image the coordinates on it, over w, and two zeros.
+    pub(crate) map: Slopes,
     /// The triangle's own normal.
     pub(crate) face: [f32; 3],
     /// The least and greatest 1/w of its corners.
@@ -90,8 +92,11 @@ impl Slopes {
 impl Planes {
     /// Takes over what a triangle has of its own: its opacity and color where the draw is flat, else its normal where it may be needed.
     #[inline(always)]
-    pub(crate) fn set_face(&mut self, [first, x, y, z]: &[f32; 4], state: &State) {
+    pub(crate) fn set_face(&mut self, [first, x, y, z]: &[f32; 4], plain: &[f32; 4], state: &State) {
         if state.stage == Stage::Flat {
+            if state.map.is_some() {
+                self.second = Slopes { base: *plain, ..Slopes::default() };
+            }
             if state.colored {
                 // One opacity over w everywhere.
                 let Slopes { base, dx, dy } = self.lead;

@@ -5,16 +5,17 @@ use crate::cover::TileBuffer;
 use crate::encode::{bytes, cleared, kept};
 use crate::four::{CENTROID_SHIFT, SHADER_BITS};
 use crate::lanes::{
-    F, I, Simd, V3, add, counting, dot, each, fma, lanes, load, load_i, load3, max, min, neg, safe_normalize, scale,
-    select3, splat, splat_i, splat3, store,
+    F, I, Simd, V3, add, counting, dot, each, fma, lanes, load, load_i, load3, max, min, neg, safe_normalize, saturate,
+    scale, select3, splat, splat_i, splat3, store,
 };
-use crate::lighting::{Irradiance, Points, added, reflected, tinted, to_viewer};
+use crate::lighting::{Irradiance, Points, added, plain_part, reflected, tinted, tinted_part, to_viewer};
 use crate::pass::{Pass, SampleCount};
 use crate::samples::CENTROIDS;
-use crate::state::{Stage, State};
+use crate::state::{Stage, State, StateMap};
 use crate::vertices::Screen;
 use fearless_simd::prelude::*;
 use halfway_lighting::equations::NORMAL_MIN;
+use halfway_texture::lookup::{self, Number};
 
 /// What shading a tile takes from the frame.
 #[derive(Clone, Copy)]
@@ -36,6 +37,8 @@ pub(crate) struct Fragments<S: Simd> {
     pub(crate) second: V3<S>,
     /// The vertices' color, over w.
     pub(crate) paint: V3<S>,
+    /// Of draws with an image the coordinates on it, over w, and the square of the footprint's longer side in texels.
+    pub(crate) map: V3<S>,
     pub(crate) face: V3<S>,
 }
 
@@ -52,6 +55,11 @@ impl<S: Simd> Fragments<S> {
     #[inline(always)]
     pub(crate) fn color(&self, simd: S, look: &Look, state: &State, back: bool) -> V3<S> {
         let side = state.side(look.pass, back);
+        if let Some(map) = &state.map {
+            let [r, g, b, _] = self.texels(simd, look, map);
+            let [tinted, plain] = self.parts(simd, look, state, back);
+            return each!(c in 3 => fma::<S>([r, g, b][c], tinted[c], plain[c]));
+        }
         if state.shades_paint() {
             return self.painted(simd, look, state, back);
         }
@@ -84,6 +92,51 @@ impl<S: Simd> Fragments<S> {
             return shade;
         }
         add::<S>(self.interpolated(simd, self.second), shade)
+    }
+
+    /// What the image has at each pixel, each number in 0 to 1.
+    #[inline(always)]
+    pub(crate) fn texels(&self, simd: S, look: &Look, map: &StateMap) -> [F<S>; 4] {
+        let w = splat(simd, 1.0) / self.inverse_w;
+        let (u, v) = (self.map[0] * w, self.map[1] * w);
+        let pyramid = &look.pass.maps[map.call.map as usize].pyramid;
+        let mut texels = [splat(simd, 0.0); 4];
+        for lane in 0..lanes::<S>() {
+            let d = 0.5 * self.map[2][lane].binary_logarithm();
+            let texel = lookup::at_level(pyramid, &map.call.sampling, [u[lane], v[lane]], d);
+            for c in 0..4 {
+                texels[c][lane] = texel[c];
+            }
+        }
+        each!(c in 4 => saturate(simd, texels[c]))
+    }
+
+    /// What the image multiplies, and what it does not.
+    #[inline(always)]
+    fn parts(&self, simd: S, look: &Look, state: &State, back: bool) -> [V3<S>; 2] {
+        match state.stage {
+            Stage::Flat => return [self.lead, self.second],
+            Stage::Vertex => return [self.interpolated(simd, self.lead), self.interpolated(simd, self.second)],
+            Stage::Unlit | Stage::Fragment | Stage::Mixed => {}
+        }
+        let side = state.side(look.pass, back);
+        let color = if state.colored {
+            let color = self.interpolated(simd, self.paint);
+            each!(c in 3 => min::<S>(color[c], splat(simd, 1.0)))
+        } else {
+            [splat(simd, 1.0); 3]
+        };
+        let terms = if state.stage == Stage::Unlit {
+            Irradiance::none(simd)
+        } else {
+            state.fragment_terms(simd, look.pass, &self.points(simd, look, state, back), back)
+        };
+        let mut parts = [tinted_part(simd, &terms, side, color, true), plain_part(simd, &terms, side, true)];
+        if state.stage == Stage::Mixed {
+            let of_vertices = usize::from(!state.vertex.diffuse);
+            parts[of_vertices] = add::<S>(parts[of_vertices], self.interpolated(simd, self.second));
+        }
+        parts
     }
 
     /// Colors over w as colors. None is below 0; across a triangle seen edge-on slopes leave the range of its corners.
@@ -283,7 +336,12 @@ impl TileBuffer {
             place,
             inverse_w,
             lead: load3(simd, &self.lead[sample], at),
-            second: if state.stage == Stage::Mixed { load3(simd, &self.second[sample], at) } else { zero },
+            second: if state.stage == Stage::Mixed || state.keeps_parts() {
+                load3(simd, &self.second[sample], at)
+            } else {
+                zero
+            },
+            map: if state.map.is_some() { load3(simd, &self.map[sample], at) } else { zero },
             paint: if state.shades_paint() { load3(simd, &self.paint[sample], at) } else { zero },
             face: if state.opposite_normals { load3(simd, &self.face[sample], at) } else { zero },
         }

@@ -2,7 +2,9 @@
 
 use crate::lanes::Simd;
 use crate::lighting::{Gloss, Irradiance, Points, gathered, gathered_here};
-use crate::pass::{DrawCall, Highlight, LeftOut, LightRange, Pass, ShadedTerms, SideData, SurfaceData};
+use crate::pass::{
+    DrawCall, Highlight, LeftOut, LightRange, MapCall, MapData, Pass, ShadedTerms, SideData, SurfaceData,
+};
 use crate::power::Exponent;
 
 /// Where a draw's terms are shaded.
@@ -20,6 +22,16 @@ pub(crate) enum Stage {
     Mixed,
 }
 
+/// An image of a draw.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct StateMap {
+    pub(crate) call: MapCall,
+    /// Where on it texture coordinates lie.
+    pub(crate) rows: [[f32; 3]; 2],
+    /// Its columns and rows.
+    pub(crate) size: [f32; 2],
+}
+
 /// A surface in a draw.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct State {
@@ -34,12 +46,14 @@ pub(crate) struct State {
     pub(crate) backs: bool,
     /// Whether the vertices' colors count.
     pub(crate) colored: bool,
+    /// The image that is looked up.
+    pub(crate) map: Option<StateMap>,
     /// Exponents of the highlights of front and back, halved for Blinn–Phong.
     exponents: [Exponent; 2],
 }
 
 impl State {
-    pub(crate) fn new(draw: &DrawCall, surface: u32, data: &SurfaceData) -> Self {
+    pub(crate) fn new(draw: &DrawCall, surface: u32, data: &SurfaceData, maps: &[MapData]) -> Self {
         let lit = |terms: ShadedTerms, [all, diffuse, specular]: [LightRange; 3]| {
             let has_diffuse = terms.diffuse && !(all.is_empty() && diffuse.is_empty());
             let has_specular = terms.specular && !(all.is_empty() && specular.is_empty());
@@ -49,7 +63,7 @@ impl State {
         let fragment = lit(draw.fragment, data.fragment_ranges());
         let stage = match (vertex.is_empty(), fragment.is_empty()) {
             // A flat triangle has the color of one point, whatever light there is.
-            (true, true) if draw.flat && draw.colored => Stage::Flat,
+            (true, true) if draw.flat && (draw.colored || draw.map.is_some()) => Stage::Flat,
             (true, true) => Stage::Unlit,
             (false, true) if draw.flat => Stage::Flat,
             (false, true) => Stage::Vertex,
@@ -69,6 +83,10 @@ impl State {
             opposite_normals: draw.opposite_normals && matches!(stage, Stage::Fragment | Stage::Mixed),
             backs: draw.left_out != LeftOut::Back,
             colored: draw.colored,
+            map: draw.map.and_then(|call| {
+                let MapData { pyramid, rows } = maps.get(call.map as usize)?;
+                Some(StateMap { call, rows: *rows, size: pyramid.size().map(|side| side as f32) })
+            }),
             exponents: [exponent(&data.front), exponent(&data.back)],
         }
     }
@@ -113,7 +131,19 @@ impl State {
 
     /// Whether all its pixels have one color.
     pub(crate) fn is_even(&self) -> bool {
-        self.stage == Stage::Unlit && !self.colored
+        self.stage == Stage::Unlit && !self.is_painted()
+    }
+
+    /// Whether anything but the material says what ambient and diffuse light is given back.
+    #[inline(always)]
+    pub(crate) fn is_painted(&self) -> bool {
+        self.colored || self.map.is_some()
+    }
+
+    /// Whether vertices keep two sums: what the image multiplies, and what it does not.
+    #[inline(always)]
+    pub(crate) fn keeps_parts(&self) -> bool {
+        self.map.is_some() && matches!(self.stage, Stage::Flat | Stage::Vertex)
     }
 
     /// The material of a side.

@@ -7,7 +7,7 @@ use crate::cover::{EdgeFunctions, Kept, TileBuffer};
 use crate::encode::{bytes, cleared, kept};
 use crate::faces::LaneFaces;
 use crate::lanes::{I, MOST_LANES, Simd, V3, each, f32x4, lanes, max_one, min_one};
-use crate::pass::{InstanceData, Pass, PixelFormat, SampleCount};
+use crate::pass::{DrawCall, InstanceData, Pass, PixelFormat, SampleCount};
 use crate::pieces::{Piece, Pieces};
 use crate::planes::{Planes, Slopes};
 use crate::shade::{Even, Look, shader_of};
@@ -166,7 +166,7 @@ impl Worker {
         let (faces, nearest) = (&self.faces, &mut self.nearest);
         let place = (look.tile, &work.covering);
         each_part(&self.vertices, triangle, look.screen, place, |(edges, mut planes, back)| {
-            planes.set_face(&faces.each[usize::from(back)][lane], work.state);
+            planes.set_face(&faces.each[usize::from(back)][lane], &faces.plain[usize::from(back)][lane], work.state);
             simd.vectorize(
                 #[inline(always)]
                 || draw(simd, nearest, &edges, &planes, back, look, work),
@@ -217,16 +217,20 @@ impl Worker {
                     range: range(corners),
                     ..Planes::default()
                 };
-                if work.state.stage == Stage::Mixed {
+                if work.state.stage == Stage::Mixed || work.state.keeps_parts() {
                     let second = &v.second[usize::from(back)];
                     planes.second =
                         Slopes::of_lane(&self.batch.slopes(simd, lane, each!(k in 3 => &second[numbers[k]])));
+                }
+                if work.state.map.is_some() {
+                    planes.map = Slopes::of_lane(&self.batch.slopes(simd, lane, each!(k in 3 => &v.map[numbers[k]])));
                 }
                 if work.state.colored {
                     planes.paint =
                         Slopes::of_lane(&self.batch.slopes(simd, lane, each!(k in 3 => &v.paint[numbers[k]])));
                 }
-                planes.set_face(&self.faces.each[usize::from(back)][lane], work.state);
+                let (each, plain) = (&self.faces.each[usize::from(back)], &self.faces.plain[usize::from(back)]);
+                planes.set_face(&each[lane], &plain[lane], work.state);
                 let edges = EdgeFunctions::of_lane(&self.batch, lane, look.pass.samples);
                 draw(simd, &mut self.nearest, &edges, &planes, back, look, work);
             },
@@ -235,7 +239,8 @@ impl Worker {
 
     /// Makes room for a tile.
     pub(crate) fn prepare(&mut self, pass: &Pass) {
-        self.nearest.prepare(pass.samples, pass.draws.iter().any(|draw| draw.colored));
+        let any = |has: fn(&DrawCall) -> bool| pass.draws.iter().any(has);
+        self.nearest.prepare(pass.samples, any(|draw| draw.colored), any(|draw| draw.map.is_some()));
         make_room(&mut self.own, pass.pixels);
     }
 }
@@ -333,7 +338,7 @@ impl<'a> Work<'a> {
                 clockwise: draw.clockwise,
                 samples: pass.samples,
                 last,
-                is_plain: !blend && state.stage != Stage::Mixed && !state.opposite_normals && !state.colored,
+                is_plain: !blend && state.stage != Stage::Mixed && !state.opposite_normals && !state.is_painted(),
             },
             blend,
         }

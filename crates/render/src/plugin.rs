@@ -33,6 +33,7 @@ use bevy_ecs::schedule::{InternedScheduleLabel, ScheduleLabel};
 use bevy_transform::TransformSystems;
 use halfway_lighting::{LightingPlugin, Material};
 use halfway_mesh::{Mesh3d, MeshPlugin};
+use halfway_texture::TexturePlugin;
 
 /// Draws every entity with a [`Mesh3d`] through the world's [`Camera`](halfway_lighting::Camera), once a run of its schedule.
 ///
@@ -56,7 +57,7 @@ impl Default for RenderPlugin {
 
 impl Plugin for RenderPlugin {
     fn build(&self, app: &mut App) {
-        app.add_plugins((MeshPlugin, LightingPlugin))
+        app.add_plugins((MeshPlugin, LightingPlugin, TexturePlugin))
             .init_resource::<AdapterChoice>()
             .init_resource::<Headless>()
             .init_resource::<FrameReport>()
@@ -120,7 +121,7 @@ impl RenderPlugin {
             frame::prepare.in_set(View).after(replaced::forget),
             (cache::begin, lit_patches::illuminate::<Pipelines>).chain().in_set(Illuminate).after(gather::gather),
             batches::batch::<Pipelines>.in_set(Batch),
-            (mesh_buffers::upload, upload::build_pipelines, upload::upload).chain().in_set(Upload),
+            (mesh_buffers::upload, upload::build_pipelines, upload::upload, upload::upload_maps).chain().in_set(Upload),
             pass::draw.in_set(Draw),
             pass::present.in_set(Deliver),
         );

@@ -101,6 +101,9 @@ pub enum SceneError {
     /// The world has no `Assets<Mesh>` to put meshes into.
     #[error("the world has no `Assets<Mesh>`; add `MeshPlugin` before a scene is spawned")]
     NoMeshAssets,
+    /// Some object has an image, and the world has no `Assets<Texture>` to keep it in.
+    #[error("the world has no Assets<Texture>, which the images of objects need; add TexturePlugin")]
+    NoTextureAssets,
 }
 
 impl SceneError {

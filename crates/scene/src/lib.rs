@@ -15,6 +15,7 @@
 //! ```
 
 mod check;
+mod color_map;
 mod defaults;
 mod error;
 mod fields;

@@ -6,7 +6,11 @@ use std::rc::Rc;
 
 use bevy_math::Mat4;
 use bevy_transform::components::Transform;
-use halfway_mesh::{Cuboid, Mesh, Model, NormalReport, Normals, Plane, SourceLight, SourceMaterial, Teapot, UvSphere};
+use halfway_mesh::{
+    Cuboid, Mesh, Model, NormalReport, Normals, Plane, SourceLevels, SourceLight, SourceMap, SourceMaterial,
+    SourceWrap, Teapot, UvSphere,
+};
+use halfway_texture::{LevelFilter, Sampling, TexelFilter, TexelMeaning, Texture, UvTransform, Wrap};
 
 use crate::error::SceneError;
 use crate::import::{ModelMaterial, model_light};
@@ -27,6 +31,16 @@ pub(crate) struct ShapePart {
     pub(crate) object_from_part: Mat4,
     /// The model's own material.
     pub(crate) own: Option<ModelMaterial>,
+    /// The image of the model's own material.
+    pub(crate) map: Option<ModelMap>,
+}
+
+/// An image of a model's material, decoded.
+#[derive(Clone)]
+pub(crate) struct ModelMap {
+    pub(crate) texture: Texture,
+    pub(crate) sampling: Sampling,
+    pub(crate) transform: UvTransform,
 }
 
 /// A light that came with a model, where it stands inside the object.
@@ -100,7 +114,7 @@ impl<'a> Shapes<'a> {
         };
         let (mesh, report) = mesh.with_normals(object.normals);
         self.warn_of_normals(&format!("objects[{index}]"), report);
-        let part = ShapePart { name: String::new(), mesh, object_from_part: Mat4::IDENTITY, own: None };
+        let part = ShapePart { name: String::new(), mesh, object_from_part: Mat4::IDENTITY, own: None, map: None };
         Ok(ObjectShape { parts: vec![part], lights: Vec::new() })
     }
 
@@ -110,6 +124,12 @@ impl<'a> Shapes<'a> {
         if !model.cameras.is_empty() {
             self.warnings.push(format!("{file}: {} cameras are not used; a scene has its own", model.cameras.len()));
         }
+        let mut images = HashMap::new();
+        let maps: Vec<_> = model
+            .materials
+            .iter()
+            .map(|source| self.map(source.color_map()?, &file.to_string(), &mut images))
+            .collect();
         let mut materials = Vec::with_capacity(model.materials.len());
         for material in &model.materials {
             let at = format!("{file}: material {:?}", material.name());
@@ -128,6 +148,7 @@ impl<'a> Shapes<'a> {
                 mesh,
                 object_from_part: part.world_from_part,
                 own: part.material.and_then(|material| materials.get(material).copied()),
+                map: part.material.and_then(|material| maps.get(material).cloned().flatten()),
             });
         }
         Ok(ObjectShape { parts, lights })
@@ -141,6 +162,46 @@ impl<'a> Shapes<'a> {
             }
             Err(source) => Err(SceneError::ModelValue { key: mesh_path(index), at, source }),
         }
+    }
+
+    /// A material's image, each decoded once; a checker in its place where it is broken or missing.
+    fn map(&mut self, source: &SourceMap, file: &str, images: &mut HashMap<*const u8, Texture>) -> Option<ModelMap> {
+        let texture = images.entry(source.bytes.as_ptr()).or_insert_with(|| {
+            // Of an image that could not be read the model has warned.
+            if source.bytes.is_empty() {
+                return Texture::missing();
+            }
+            let decoded = halfway_texture::decode(&source.bytes, &source.name, TexelMeaning::Color);
+            decoded.map_or_else(
+                |error| {
+                    self.warnings.push(format!("{file}: {error}; a checker is shown"));
+                    Texture::missing()
+                },
+                Texture::from,
+            )
+        });
+        let filter = |smooth| if smooth { TexelFilter::Bilinear } else { TexelFilter::Nearest };
+        let SourceMap { smooth, smooth_levels, offset, rotation, scale, .. } = *source;
+        let transform = UvTransform { offset, rotation, scale };
+        if transform.wrong().is_some() {
+            self.warnings.push(format!("{file}: {} is skipped, since it lies at no finite place", source.name));
+            return None;
+        }
+        let sampling = Sampling {
+            wrap: source.wrap.map(|wrap| match wrap {
+                SourceWrap::Repeat => Wrap::Repeat,
+                SourceWrap::Mirror => Wrap::Mirror,
+                SourceWrap::Clamp => Wrap::Clamp,
+            }),
+            magnify: filter(smooth),
+            minify: filter(smooth_levels),
+            levels: match source.levels {
+                SourceLevels::None => LevelFilter::None,
+                SourceLevels::Nearest => LevelFilter::Nearest,
+                SourceLevels::Linear => LevelFilter::Linear,
+            },
+        };
+        Some(ModelMap { texture: texture.clone(), sampling, transform })
     }
 
     fn warn_of_normals(&mut self, at: &str, report: NormalReport) {

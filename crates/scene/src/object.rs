@@ -8,6 +8,7 @@ use serde::de::{Deserializer, Error};
 use serde::{Deserialize, Serialize};
 
 use crate::check::{Check, KeyProblem, Within, finite};
+use crate::color_map::ColorMapEntry;
 use crate::material::MaterialEntry;
 use crate::mesh::MeshEntry;
 use crate::read::{
@@ -60,6 +61,10 @@ pub struct ObjectEntry {
     #[serde(default, deserialize_with = "word", serialize_with = "write_word")]
     #[schemars(with = "Spoken<VertexColors>")]
     pub vertex_colors: VertexColors,
+    /// An image whose color multiplies ambient and diffuse light, and whose alpha the opacity where the object is blended;
+    /// null: none.
+    #[serde(default, deserialize_with = "object_or_null")]
+    pub color_map: Option<ColorMapEntry>,
     /// Whether the material's opacity lets what is behind show through. Left out: no, except for parts with a blended
     /// material of the model's own.
     #[serde(default, deserialize_with = "given", skip_serializing_if = "Option::is_none")]
@@ -133,6 +138,7 @@ impl ObjectEntry {
             tolerance: None,
             reflectance: None,
             vertex_colors: VertexColors::default(),
+            color_map: None,
             blend: None,
         }
     }
@@ -143,6 +149,7 @@ impl ObjectEntry {
         for (key, material) in [("material", &self.material), ("back_material", &self.back_material)] {
             material.as_ref().map_or(Ok(()), MaterialEntry::check).within(key)?;
         }
+        self.color_map.as_ref().map_or(Ok(()), ColorMapEntry::check).within("color_map")?;
         self.tolerance.map_or(Ok(()), ToleranceEntry::check).within("tolerance")?;
         self.shading.map_or(Ok(()), ShadingEntry::check).within("shading")
     }

@@ -13,6 +13,7 @@ use bevy_transform::components::Transform;
 use halfway_lighting::{BackMaterial, Blend, GlobalAmbient, Tolerance, VertexColors, ViewTolerance};
 use halfway_lighting::{Camera, Samples};
 use halfway_mesh::{Bounds, Mesh, Mesh3d};
+use halfway_texture::{ColorMap, TexelMeaning, Texture};
 
 use crate::defaults::{default_lights, framing_camera};
 use crate::error::SceneError;
@@ -21,7 +22,7 @@ use crate::light::{AttachEntry, LightEntry};
 use crate::light_component::LightComponent;
 use crate::light_place::place;
 use crate::material::MaterialEntry;
-use crate::models::{ObjectShape, ShapePart, Shapes};
+use crate::models::{ModelMap, ObjectShape, ShapePart, Shapes};
 use crate::object::ObjectEntry;
 use crate::placement::Placement;
 use crate::view::CameraEntry;
@@ -49,6 +50,8 @@ pub struct Spawned {
 /// - Where the scene has no camera, one is made that frames all objects ([`framing_camera`]).
 /// - Where an object has no material, its model's own materials are used, translated by
 ///   [`import`](crate::import), with their double-sidedness and blending unless the object says otherwise.
+/// - With a model's own materials come their images, where the world has `Assets<Texture>`. What cannot be read is a
+///   warning, and a checker in its place.
 /// - Where the scene has no `lights`, the models' own lights shine (`KHR_lights_punctual`), attached to their object;
 ///   where there are none either, the [`default_lights`]. An empty list of lights is a list: nothing shines.
 /// - A transform that shears becomes a parent and a child, since a `Transform` cannot hold it.
@@ -56,12 +59,16 @@ pub struct Spawned {
 /// Equal shapes share their meshes, and so do the parts of a model that show the same mesh of its file.
 ///
 /// # Errors
-/// What [`SceneFile::validate`] refuses, models that cannot be loaded, and [`SceneError::NoMeshAssets`]. Nothing is
+/// What [`SceneFile::validate`] refuses, models that cannot be loaded, [`SceneError::NoMeshAssets`]
+/// and [`SceneError::NoTextureAssets`]. Nothing is
 /// spawned then.
 pub fn spawn(scene: &SceneFile, base_dir: &Path, world: &mut World) -> Result<Spawned, SceneError> {
     scene.validate()?;
     if !world.contains_resource::<Assets<Mesh>>() {
         return Err(SceneError::NoMeshAssets);
+    }
+    if scene.objects.iter().any(|object| object.color_map.is_some()) && !world.contains_resource::<Assets<Texture>>() {
+        return Err(SceneError::NoTextureAssets);
     }
     let mut shapes = Shapes::new(base_dir);
     let objects = scene
@@ -76,14 +83,16 @@ pub fn spawn(scene: &SceneFile, base_dir: &Path, world: &mut World) -> Result<Sp
         world.insert_resource(ViewTolerance(entry.into()));
     }
     let camera = spawn_camera(scene, &objects, world);
-    let mut handles = Handles::new();
+    let (mut handles, mut textures) = (Handles::new(), TextureHandles::new());
     let frames = objects
         .iter()
         .enumerate()
-        .map(|(i, (object, shape))| spawn_object(object, i, shape, &mut handles, world))
+        .map(|(i, (object, shape))| spawn_object(object, i, shape, (&mut handles, &mut textures), world))
         .collect::<Vec<_>>();
     let lights = spawn_lights(scene, camera, &objects, &frames, world);
-    Ok(Spawned { camera, objects: frames, lights, warnings: shapes.warnings })
+    let mut warnings = shapes.warnings;
+    hang_maps(scene, base_dir, &frames, &mut warnings, world);
+    Ok(Spawned { camera, objects: frames, lights, warnings })
 }
 
 type Object<'a> = (&'a ObjectEntry, Rc<ObjectShape>);
@@ -91,6 +100,9 @@ type Object<'a> = (&'a ObjectEntry, Rc<ObjectShape>);
 /// The handle of every mesh that has been added, by where its data is: meshes that share data share a handle. All of
 /// them outlive this map, in the shapes.
 type Handles = HashMap<*const Vec3, Handle<Mesh>>;
+
+/// The same of textures.
+type TextureHandles = HashMap<*const [f32; 4], Handle<Texture>>;
 
 fn spawn_camera(scene: &SceneFile, objects: &[Object], world: &mut World) -> Entity {
     let entry = scene.camera.unwrap_or_else(|| {
@@ -153,7 +165,7 @@ fn spawn_object(
     object: &ObjectEntry,
     index: usize,
     shape: &ObjectShape,
-    handles: &mut Handles,
+    (handles, textures): (&mut Handles, &mut TextureHandles),
     world: &mut World,
 ) -> Entity {
     let name = object.name.clone().unwrap_or_else(|| format!("objects[{index}]"));
@@ -171,6 +183,9 @@ fn spawn_object(
             spawn_frame(&Placement::of(&part.object_from_part), Some(frame), &name, world)
         };
         dress(object, part, mesh, &mut world.entity_mut(entity));
+        if object.material.is_none() && object.color_map.is_none() {
+            hang_own_map(part, textures, entity, world);
+        }
     }
     frame
 }
@@ -216,6 +231,50 @@ fn dress(object: &ObjectEntry, part: &ShapePart, mesh: Handle<Mesh>, entity: &mu
     }
     if object.blend.unwrap_or_else(|| own.is_some_and(|own| own.blend)) {
         entity.insert(Blend);
+    }
+}
+
+/// Gives a part the image of its model's material, where the world keeps images.
+fn hang_own_map(part: &ShapePart, textures: &mut TextureHandles, entity: Entity, world: &mut World) {
+    let Some(ModelMap { texture, sampling, transform }) = &part.map else { return };
+    let Some(mut assets) = world.get_resource_mut::<Assets<Texture>>() else { return };
+    let handle = textures.entry(texture.0.texels().as_ptr()).or_insert_with(|| assets.add(texture.clone())).clone();
+    world.entity_mut(entity).insert(ColorMap { texture: handle, sampling: *sampling, transform: *transform });
+}
+
+/// Gives objects, or all parts of their models, their images. Each file is read once; what cannot be read is a warning, and a
+/// checker is shown in its place.
+fn hang_maps(scene: &SceneFile, base_dir: &Path, frames: &[Entity], warnings: &mut Vec<String>, world: &mut World) {
+    let mut handles: HashMap<&Path, Handle<Texture>> = HashMap::new();
+    for (index, (object, &frame)) in scene.objects.iter().zip(frames).enumerate() {
+        let Some(entry) = &object.color_map else { continue };
+        let texture = handles.entry(&entry.path).or_insert_with(|| {
+            let loaded = halfway_texture::load(&base_dir.join(&entry.path), TexelMeaning::Color);
+            let texture = loaded.map_or_else(
+                |error| {
+                    warnings.push(format!("objects[{index}].color_map: {error}; a checker is shown"));
+                    Texture::missing()
+                },
+                Texture::from,
+            );
+            world.resource_mut::<Assets<Texture>>().add(texture)
+        });
+        let map = ColorMap { texture: texture.clone(), sampling: entry.sampling(), transform: entry.transform() };
+        let mut below = vec![frame];
+        let (mut shown, mut without) = (0, 0);
+        while let Some(entity) = below.pop() {
+            below.extend(world.get::<Children>(entity).iter().flat_map(|children| children.iter()));
+            if let Some(Mesh3d(mesh)) = world.get::<Mesh3d>(entity) {
+                let has_uvs = world.resource::<Assets<Mesh>>().get(mesh).is_some_and(|mesh| mesh.uvs().is_some());
+                (shown, without) = (shown + 1, without + usize::from(!has_uvs));
+                world.entity_mut(entity).insert(map.clone());
+            }
+        }
+        if without > 0 {
+            warnings.push(format!(
+                "objects[{index}].color_map: {without} of {shown} meshes have no texture coordinates, and do not show it"
+            ));
+        }
     }
 }
 

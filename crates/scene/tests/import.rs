@@ -32,6 +32,7 @@ fn bare() -> MetallicRoughness {
         emissive: [0.0; 3],
         double_sided: false,
         alpha: AlphaMode::Opaque,
+        color_map: None,
     }
 }
 

@@ -25,10 +25,11 @@ impl Default for UvTransform {
 }
 
 impl UvTransform {
-    /// Whether all its numbers are finite.
-    pub fn is_finite(&self) -> bool {
-        let Self { offset: [x, y], rotation, scale: [a, b] } = self;
-        [x, y, rotation, a, b].into_iter().all(|number| number.is_finite())
+    /// The first of its numbers that is not finite, with the name of its field.
+    pub fn wrong(&self) -> Option<(&'static str, f32)> {
+        let Self { offset: [x, y], rotation, scale: [a, b] } = *self;
+        let numbers = [("offset", x), ("offset", y), ("rotation", rotation), ("scale", a), ("scale", b)];
+        numbers.into_iter().find(|(_, number)| !number.is_finite())
     }
 
     /// The rows of the map: u' = r₀·(u, v, 1), v' = r₁·(u, v, 1). From `KHR_texture_transform`: translation · rotation · scale,

@@ -50,6 +50,7 @@ impl Scene {
             surfaces: &self.surfaces,
             instances: &self.instances,
             meshes: &meshes,
+            maps: &[],
             draws: &self.draws,
         })
     }

@@ -7,11 +7,12 @@ use bevy_math::UVec2;
 use bevy_transform::components::{GlobalTransform, Transform};
 use halfway_lighting::equations::{self, Light, rgb, vector::add};
 use halfway_lighting::{
-    BackMaterial, Blend, Camera, DirectionalLight, Faces, GlobalAmbient, InvalidValue, Material, PointLight,
+    BackMaterial, Blend, Camera, DirectionalLight, Faces, Fields, GlobalAmbient, InvalidValue, Material, PointLight,
     Propagation, Reflectance, Samples, Shading, Shown, SpotLight, Terms, VertexColors, light_direction, light_position,
     propagation,
 };
 use halfway_mesh::{Mesh, Mesh3d, SpawnOrder};
+use halfway_texture::{ColorMap, Pyramid, Texture};
 
 use super::error::OracleError;
 use super::solid::{Color, Looks, Solid};
@@ -138,6 +139,7 @@ type Object<'a> = (
     Option<&'a Faces>,
     Option<&'a Blend>,
     Option<&'a VertexColors>,
+    Option<&'a ColorMap>,
 );
 
 fn solids(world: &mut World, seen: &Seen) -> Result<Vec<Solid>, OracleError> {
@@ -145,7 +147,7 @@ fn solids(world: &mut World, seen: &Seen) -> Result<Vec<Solid>, OracleError> {
     let mut shown = SystemState::<Shown>::new(world);
     let shown = shown.get(world).expect(ALWAYS);
     let is_shown = shown.by_entity();
-    let meshes = world.get_resource::<Assets<Mesh>>();
+    let meshes = (world.get_resource::<Assets<Mesh>>(), world.get_resource::<Assets<Texture>>());
     let mut objects: Vec<_> = query.iter(world).filter(|(entity, ..)| is_shown(*entity)).collect();
     objects.sort_unstable_by_key(|(entity, _, _, order, ..)| (**order, *entity));
     let solids = objects.into_iter().map(|object| solid(object, meshes, seen));
@@ -158,8 +160,8 @@ fn solids(world: &mut World, seen: &Seen) -> Result<Vec<Solid>, OracleError> {
 }
 
 fn solid(
-    (entity, mesh, transform, _, name, material, back, shading, terms, reflectance, faces, blend, colors): Object,
-    meshes: Option<&Assets<Mesh>>,
+    (entity, mesh, transform, _, name, material, back, shading, terms, reflectance, faces, blend, colors, map): Object,
+    (meshes, textures): (Option<&Assets<Mesh>>, Option<&Assets<Texture>>),
     seen: &Seen,
 ) -> Result<Solid, OracleError> {
     let mesh = meshes.and_then(|meshes| meshes.get(&mesh.0));
@@ -174,6 +176,7 @@ fn solid(
         .validate()
         .and_then(|()| back.map_or(Ok(()), BackMaterial::validate))
         .and_then(|()| terms.validate())
+        .and_then(|()| map.map_or(Ok(()), check_map))
         .map_err(|source| OracleError::Invalid { entity: label(entity, name), source })?;
     let looks = Looks {
         front,
@@ -182,9 +185,19 @@ fn solid(
         faces: faces.copied().unwrap_or_default(),
         blend: blend.is_some(),
         terms: terms.at_fragments(),
+        map: map.map(|ColorMap { texture, sampling, transform }| {
+            let there = textures.and_then(|textures| textures.get(texture));
+            (there.map_or_else(Pyramid::missing, |texture| texture.0.clone()), *sampling, *transform)
+        }),
         colored: colors.copied().unwrap_or_default() == VertexColors::Multiply,
     };
     Ok(Solid::new(entity, mesh.clone(), seen.view.eye_from_model(&world_from_model), &looks))
+}
+
+fn check_map(map: &ColorMap) -> Result<(), InvalidValue> {
+    map.transform.wrong().map_or(Ok(()), |(field, value)| {
+        Fields::of("ColorMap").inside("transform.").number(field, value, false, "finite numbers")
+    })
 }
 
 fn bad_transform(entity: Entity, name: Option<&Name>, transform: &GlobalTransform) -> OracleError {

@@ -49,8 +49,7 @@ impl Layers {
     pub(super) fn color(&self, scene: &OracleScene, clamp: bool) -> Color {
         let written = |i: Color| if clamp { i.map(|channel| channel.min(1.0)) } else { i };
         self.visible(scene).fold(written(scene.background), |behind, hit| {
-            let solid = &scene.solids[hit.solid];
-            let opacity = solid.opacity(hit.front, hit.on_triangle());
+            let opacity = scene.opacity(hit);
             let over = written(scene.value(hit));
             [0, 1, 2].map(|k| if opacity < 1.0 { opacity * over[k] + (1.0 - opacity) * behind[k] } else { over[k] })
         })

@@ -8,6 +8,7 @@ use halfway_lighting::equations::vector::{length, normalize};
 use halfway_lighting::equations::{Coefficients, normal_matrix, transform_normal};
 use halfway_lighting::{Faces, Frequency, Material, Reflectance, Terms};
 use halfway_mesh::Mesh;
+use halfway_texture::{Pyramid, Sampling, UvTransform};
 use rayon::prelude::*;
 
 use super::mode::Mode;
@@ -26,6 +27,8 @@ pub(super) struct Looks {
     pub(super) terms: Terms,
     /// Whether the colours at the vertices, if there are any, count.
     pub(super) colored: bool,
+    /// The image on it, and how its mesh's coordinates lie there.
+    pub(super) map: Option<(Pyramid, Sampling, UvTransform)>,
 }
 
 /// Where the surface itself is met, all that is evaluated anywhere is evaluated at the point that is seen.
@@ -36,6 +39,22 @@ fn at_the_point(frequency: Frequency) -> Frequency {
     }
 }
 
+/// A part of I: what an image multiplies, and what it does not.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Parts {
+    pub(super) tinted: Color,
+    pub(super) plain: Color,
+}
+
+/// An image on an object.
+#[derive(Debug)]
+pub(super) struct SolidMap {
+    pub(super) pyramid: Pyramid,
+    pub(super) sampling: Sampling,
+    /// Where the vertices lie on it.
+    pub(super) uvs: Vec<[f64; 2]>,
+}
+
 /// One side of an object.
 #[derive(Debug)]
 pub(super) struct Side {
@@ -43,7 +62,7 @@ pub(super) struct Side {
     pub(super) opacity: f64,
     pub(super) shown: bool,
     /// What the vertices, or the triangles, have been found to give back; filled as they are seen.
-    pub(super) shaded: Vec<OnceLock<Color>>,
+    pub(super) shaded: Vec<OnceLock<Parts>>,
 }
 
 /// A mesh in eye space, with what it takes to shade it.
@@ -60,6 +79,7 @@ pub(super) struct Solid {
     pub(super) normals: Vec<DVec3>,
     /// The colours of the vertices, where they count.
     pub(super) colors: Option<Vec<DVec4>>,
+    pub(super) map: Option<SolidMap>,
     /// Front and back.
     pub(super) sides: [Side; 2],
     pub(super) faces: Faces,
@@ -96,6 +116,11 @@ impl Solid {
         let normal_matrix = signed_cofactors(&m, determinant, mirrored);
         let terms = looks.terms;
         let colors = if looks.colored { mesh.drawn_colors() } else { None };
+        let map = looks.map.as_ref().zip(mesh.uvs()).map(|((pyramid, sampling, transform), uvs)| {
+            let rows = transform.rows();
+            let uvs = uvs.iter().map(|uv| UvTransform::apply(&rows, uv.to_array().map(f64::from))).collect();
+            SolidMap { pyramid: pyramid.clone(), sampling: *sampling, uvs }
+        });
         let evaluations = match (terms.has(Frequency::Triangle), terms.has(Frequency::Vertex)) {
             (true, _) => mesh.triangle_count(),
             (false, true) => mesh.positions().len(),
@@ -115,6 +140,7 @@ impl Solid {
             corners: mesh.positions().par_iter().map(|p| eye_from_model.transform_point3(p.as_dvec3())).collect(),
             normals: mesh.normals().par_iter().map(|n| turned(normal_matrix, n.as_dvec3())).collect(),
             colors: colors.map(|colors| colors.iter().map(|color| color.as_dvec4()).collect()),
+            map,
             sides: [side(&looks.front, looks.faces.shows_front()), side(&looks.back, looks.faces.shows_back())],
             faces: looks.faces,
             reflectance: looks.reflectance,
@@ -133,12 +159,12 @@ impl Solid {
         };
     }
 
-    /// The surface behind the mesh, unless it is unknown, the mesh has colours, which the surface does not, or the
-    /// transform flattens it, so that no ray leads back to it.
+    /// The surface behind the mesh, unless it is unknown, the mesh has colours or an image, which the surface does
+    /// not, or the transform flattens it, so that no ray leads back to it.
     fn smooth(&self) -> Option<Smooth> {
         let surface = self.mesh.surface()?;
         let is_flat = unit_determinant(&self.eye_from_model.matrix3).abs() <= FLAT;
-        (!is_flat && self.colors.is_none())
+        (!is_flat && self.colors.is_none() && self.map.is_none())
             .then(|| Smooth { traced: Traced::new(surface), model_from_eye: self.eye_from_model.inverse() })
     }
 
@@ -163,11 +189,6 @@ impl Solid {
         let [u, v, w] = if self.terms.has(Frequency::Triangle) { [1.0 / 3.0; 3] } else { weights };
         let [a, b, c] = self.vertices(triangle).map(|number| colors[number]);
         a * u + b * v + c * w
-    }
-
-    /// The opacity of a side at a point; 1 where the object is not blended.
-    pub(super) fn opacity(&self, front: bool, place: Option<(u32, [f64; 3])>) -> f64 {
-        if self.blend { self.side(front).opacity * self.color(place).w } else { 1.0 }
     }
 
     /// A triangle's corners in eye space.

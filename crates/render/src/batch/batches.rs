@@ -74,9 +74,13 @@ impl Batches {
             self.instances.push(InstanceRecord { record, ..seen.instances[run.instance as usize] });
         }
         let LitRun { call, indices: (first, end), lights, record, .. } = runs[0];
-        let (key, mesh, form) = seen.table.called[call as usize];
+        let (key, mesh, form, map) = seen.table.called[call as usize];
         let key = DrawKey { per_instance, ..key };
         let record = if per_instance { 0 } else { record };
-        self.draws.push(DrawState { key, mesh, form, record, lights }, first..end, start..self.instances.len() as u32);
+        self.draws.push(
+            DrawState { key, mesh, form, record, lights, map },
+            first..end,
+            start..self.instances.len() as u32,
+        );
     }
 }

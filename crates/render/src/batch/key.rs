@@ -3,6 +3,7 @@
 use crate::lights::terms::by_fragment_shader;
 use crate::shaders::light_slots::{Counted, Lists};
 use halfway_lighting::{Frequency, Terms};
+use halfway_texture::Sampling;
 use std::fmt;
 
 /// All of a draw that its pipeline is specialised for. What a draw does not use is not in its shader.
@@ -30,6 +31,8 @@ pub(crate) struct DrawKey {
     pub(crate) clockwise: bool,
     /// The mesh's colors multiply the ambient and diffuse reflectance, and the opacity.
     pub(crate) colored: bool,
+    /// How the image is looked up that multiplies the same.
+    pub(crate) mapped: Option<Sampling>,
 }
 
 /// Which faces the rasteriser drops.
@@ -63,6 +66,9 @@ impl fmt::Display for DrawKey {
                 write!(f, " {name}")?;
             }
         }
+        if let Some(sampling) = &self.mapped {
+            write!(f, " mapped={sampling:?}")?;
+        }
         self.squarings.map_or(Ok(()), |squarings| write!(f, " squarings={squarings}"))
     }
 }
@@ -75,7 +81,12 @@ impl DrawKey {
 
     /// Whether its vertices have more than positions.
     pub(crate) fn reads_attributes(&self) -> bool {
-        self.is_lit() || self.colored
+        self.is_lit() || self.is_painted()
+    }
+
+    /// Whether anything but the material says what ambient and diffuse light it gives back.
+    pub(crate) fn is_painted(&self) -> bool {
+        self.colored || self.mapped.is_some()
     }
 
     /// The same with these terms, in place of more. Switches that then make no difference are set one way, so that they
@@ -83,7 +94,7 @@ impl DrawKey {
     #[must_use]
     pub(crate) fn with_terms(self, terms: Terms) -> Self {
         // The color of a flat triangle is of one point, whatever light there is.
-        let is_flat = self.colored && self.terms.has(Frequency::Triangle);
+        let is_flat = self.is_painted() && self.terms.has(Frequency::Triangle);
         let terms = if is_flat { Terms { diffuse: Frequency::Triangle, ..terms } } else { terms };
         let (lit, specular) = (terms != Terms::NONE, terms.specular != Frequency::Never);
         Self {
@@ -170,6 +181,7 @@ pub(crate) mod tests {
             cull: Cull::Back,
             clockwise: false,
             colored: false,
+            mapped: None,
         }
     }
 

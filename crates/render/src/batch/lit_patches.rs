@@ -5,13 +5,13 @@ use crate::batch::false_colors::FalseColors;
 use crate::batch::key::DrawKey;
 use crate::batch::lit_runs::{LitRun, OpenRun};
 use crate::batch::object::{Circumstances, Reflecting, Shared};
-use crate::batch::table::ObjectTable;
+use crate::batch::table::{MapUse, ObjectTable};
 use crate::device::costs::VertexPrices;
 use crate::error::{RenderError, label};
 use crate::frame::report::FrameReport;
 use crate::geometry::allowed::{Allowed, Demand, SAMPLED, geometry_steps};
 use crate::geometry::detail::Choice;
-use crate::geometry::meshes::{Form, Geometries, Geometry, are_colors_drawn};
+use crate::geometry::meshes::{Form, Geometries, Geometry, Paint};
 use crate::geometry::patches::{MeshPatch, Sight};
 use crate::lights::gains::Extent;
 use crate::lights::gather::Lights;
@@ -28,10 +28,11 @@ use bevy_ecs::component::Mutable;
 use bevy_ecs::prelude::*;
 use bevy_math::Vec3;
 use halfway_lighting::{
-    BackMaterial, Blend, Faces, Frequency, Material, Reflectance, Terms, Tolerance, VertexColors, ViewTolerance,
-    equations,
+    BackMaterial, Blend, Faces, Fields, Frequency, Material, Problem, Reflectance, Terms, Tolerance, VertexColors,
+    ViewTolerance, equations,
 };
 use halfway_mesh::{Mesh, Mesh3d};
+use halfway_texture::ColorMap;
 
 /// What is seen, in the order of the objects. Holds after [`RenderSet::Illuminate`](crate::RenderSet::Illuminate).
 #[derive(Resource, Debug, Default)]
@@ -56,7 +57,7 @@ type ObjectQuery<'w, 's> = Query<
         Option<&'static Reflectance>,
         Option<&'static Faces>,
         Has<Blend>,
-        Option<&'static VertexColors>,
+        (Option<&'static VertexColors>, Option<&'static ColorMap>),
         Option<&'static Tolerance>,
         (&'static ModelView, &'static NormalMatrix),
         &'static Chosen,
@@ -88,16 +89,21 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
     let shared = Shared { lights: &lights, encoding, viewer, costs, prices, false_colors: false_colors.0 };
     let mut seen = Vec::new();
     for &entity in &visible.0 {
-        let Ok((mesh, material, back, reflectance, faces, blend, colors, tolerance, placed, chosen, name)) =
+        let Ok((mesh, material, back, reflectance, faces, blend, paint, tolerance, placed, chosen, name)) =
             objects.get(entity)
         else {
             continue;
         };
         let (model_view, normal_matrix) = placed;
-        let colored = meshes.get(&mesh.0).is_some_and(|mesh| are_colors_drawn(mesh, colors));
+        let paint = meshes.get(&mesh.0).map_or(Paint::default(), |mesh| Paint::new(mesh, paint.0, paint.1));
+        if let Some((field, value)) = paint.map.and_then(|map| map.transform.wrong()) {
+            let source = Fields::of("ColorMap").inside("transform.").error(field, wrong_number(value));
+            report.errors.push(RenderError::Invalid { entity: label(entity, name), source });
+            continue;
+        }
         // Of blended patches all is drawn at once, and of products of colors and light there is no bound.
-        let terms = if blend || colored { chosen.0.at_fragments() } else { chosen.0 };
-        let form = Form::new(terms, blend, colored);
+        let terms = if blend || paint.is_any() { chosen.0.at_fragments() } else { chosen.0 };
+        let form = Form::new(terms, blend, &paint);
         let Some(geometry) = geometries.get(mesh.0.id(), form) else { continue };
         let material = material.unwrap_or(&Material::DEFAULT);
         let reflecting = Reflecting {
@@ -105,7 +111,8 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
             back: back.map_or(material, |back| &back.0),
             reflectance: reflectance.copied().unwrap_or(view.reflectance),
             faces: faces.copied().unwrap_or_default(),
-            colored,
+            colored: paint.colored,
+            mapped: paint.map.map(|map| map.sampling),
         };
         let look = lit.table.look(&reflecting);
         if let Some(source) = &look.invalid {
@@ -128,6 +135,7 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
             reflecting,
             key,
             material,
+            map: paint.map.map_or(0, |map| lit.table.map(MapUse::new(map))),
             mesh: mesh.0.id(),
             form,
             geometry,
@@ -155,6 +163,7 @@ struct LitObject<'a> {
     material: u32,
     depth: f32,
     twins_before: u32,
+    map: u32,
     mesh: AssetId<Mesh>,
     form: Form,
     geometry: &'a Geometry,
@@ -245,7 +254,7 @@ impl LitPatches {
             let compiled_in = compiled_in.then_some(lights.records.len());
             let spending = Spending { encoding, steps, prices: shared.prices, compiled_in };
             // A color may be black: then there is no ambient light that could hide what is left out. None is above 1.
-            let ambient = if key.colored { Vec3::ZERO } else { shared.lights.ambient };
+            let ambient = if key.is_painted() { Vec3::ZERO } else { shared.lights.ambient };
             reflector.listing(reflecting.faces, ambient, eye, spending)
         });
         seen.clear();
@@ -320,7 +329,7 @@ impl LitPatches {
         if self.records.last() != Some(&colored) {
             self.records.push(colored);
         }
-        let plain = DrawKey { colored: false, ..key };
+        let plain = DrawKey { colored: false, mapped: None, ..key };
         let key = backend.admit(DrawKey { blend: object.key.blend, ..plain.with_terms(Terms::NONE) });
         (key, 0, self.records.len() as u32 - 1)
     }
@@ -414,15 +423,19 @@ impl LitPatches {
     }
 
     fn add_run(&mut self, object: &LitObject, OpenRun { key, lights, record, indices }: OpenRun) {
-        let LitObject { depth, twins_before, .. } = *object;
+        let LitObject { depth, twins_before, map, .. } = *object;
         for (pass, key) in (0..).zip(key.passes()) {
-            let call = self.table.call((key, object.mesh, object.form));
+            let call = self.table.call((key, object.mesh, object.form, if key.mapped.is_some() { map } else { 0 }));
             let indices = (indices.start, indices.end);
             let instance = self.instances.len() as u32 - 1;
             let blend = key.blend;
             self.runs.push(LitRun { blend, call, pass, twins_before, indices, lights, record, depth, instance });
         }
     }
+}
+
+fn wrong_number(value: f32) -> Problem {
+    Problem::Number { value, expected: "finite numbers" }
 }
 
 /// Of objects with so many patches in sight one in so many is looked at, whether placing terms pays.

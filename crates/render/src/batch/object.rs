@@ -9,6 +9,7 @@ use crate::shaders::records::{DrawRecord, MaterialRecord};
 use bevy_math::Vec3;
 use halfway_lighting::equations::{Coefficients, specular_exponent};
 use halfway_lighting::{Encoding, Faces, Frequency, InvalidValue, Material, Reflectance, Terms, Viewer};
+use halfway_texture::Sampling;
 
 /// The components that say how an object reflects light.
 #[derive(Clone, Copy, Debug)]
@@ -19,6 +20,8 @@ pub(crate) struct Reflecting<'a> {
     pub(crate) faces: Faces,
     /// The mesh has colors that count.
     pub(crate) colored: bool,
+    /// How an image is looked up that multiplies what they do.
+    pub(crate) mapped: Option<Sampling>,
 }
 
 /// The same as a key: the materials' bits, and the rest.
@@ -60,7 +63,17 @@ pub(crate) struct Circumstances {
 
 impl Reflecting<'_> {
     pub(crate) fn bits(&self) -> ReflectingBits {
-        ([self.front, self.back].map(|material| bytemuck::cast(*material)), self.reflectance, self.faces, self.colored)
+        (
+            [self.front, self.back].map(|material| bytemuck::cast(*material)),
+            self.reflectance,
+            self.faces,
+            self.is_painted(),
+        )
+    }
+
+    /// Whether what multiplies ambient and diffuse light is not in the material alone.
+    fn is_painted(&self) -> bool {
+        self.colored || self.mapped.is_some()
     }
 
     /// Checks the components; `number` gives the record its number.
@@ -109,10 +122,10 @@ impl Reflecting<'_> {
         let sides = self.coefficients();
         let record = |at: usize| {
             // What colors multiply must not be in one sum with what they do not.
-            let material = if self.colored { Coefficients { ke: [0.0; 3], ..sides[at] } } else { sides[at] };
+            let material = if self.is_painted() { Coefficients { ke: [0.0; 3], ..sides[at] } } else { sides[at] };
             MaterialRecord::new(&material, self.sides()[at].opacity, self.reflectance, ambient)
         };
-        let emission = if self.colored { sides.map(|side| side.ke) } else { [[0.0; 3]; 2] };
+        let emission = if self.is_painted() { sides.map(|side| side.ke) } else { [[0.0; 3]; 2] };
         let [front, back] = [0, 1].map(record);
         DrawRecord { front, back, ..DrawRecord::with_emission(emission) }
     }
@@ -148,6 +161,7 @@ impl Reflecting<'_> {
             cull: if self.faces == Faces::Both { Cull::None } else { Cull::Back },
             clockwise: circumstances.mirrored != (self.faces == Faces::Back),
             colored: self.colored,
+            mapped: self.mapped,
         };
         DrawKey { terms: circumstances.terms, ..key }.with_terms(terms)
     }

@@ -4,10 +4,12 @@ use crate::batch::key::DrawKey;
 use crate::batch::object::{Appearance, Reflecting, ReflectingBits};
 use crate::geometry::meshes::Form;
 use crate::shaders::records::{DrawRecord, RecordLists};
-use bevy_asset::AssetId;
+use bevy_asset::{AssetId, Assets};
 use bevy_math::Vec3;
 use bevy_platform::collections::HashMap;
 use halfway_mesh::Mesh;
+use halfway_texture::{ColorMap, Pyramid, Texture, UvTransform};
+use std::sync::OnceLock;
 
 /// What repeats among objects, numbered, so that objects compare by small integers.
 #[derive(Debug, Default)]
@@ -27,6 +29,37 @@ pub(crate) struct ObjectTable {
     /// How many opaque objects there are with a bounding sphere, by its bits.
     twins: HashMap<[u32; 4], u32>,
     pub(crate) called: Vec<Call>,
+    map_numbers: HashMap<(AssetId<Texture>, [u32; 6]), u32>,
+    /// The images of the frame with where they lie, each once.
+    pub(crate) maps: Vec<MapUse>,
+}
+
+/// An image, and where on it a mesh's coordinates lie.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct MapUse {
+    pub(crate) texture: AssetId<Texture>,
+    transform: UvTransform,
+}
+
+impl MapUse {
+    pub(crate) fn new(map: &ColorMap) -> Self {
+        Self { texture: map.texture.id(), transform: map.transform }
+    }
+
+    pub(crate) fn rows(&self) -> [[f32; 3]; 2] {
+        self.transform.rows().map(|row| row.map(|number| number as f32))
+    }
+
+    /// The image, or what stands for it while it is not there.
+    pub(crate) fn pyramid(&self, textures: &Assets<Texture>) -> Pyramid {
+        textures.get(self.texture).map_or_else(missing, |texture| texture.0.clone())
+    }
+}
+
+/// One for all images that are missing.
+fn missing() -> Pyramid {
+    static MISSING: OnceLock<Pyramid> = OnceLock::new();
+    MISSING.get_or_init(Pyramid::missing).clone()
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -36,8 +69,8 @@ struct Used {
     plain: Option<u32>,
 }
 
-/// How something is drawn, and the triangles of which mesh in which form.
-pub(crate) type Call = (DrawKey, AssetId<Mesh>, Form);
+/// How something is drawn, the triangles of which mesh in which form, and the number of its image, from 1 on; 0 for none.
+pub(crate) type Call = (DrawKey, AssetId<Mesh>, Form, u32);
 
 impl ObjectTable {
     /// Up to this many looks are remembered however few are asked for.
@@ -58,6 +91,8 @@ impl ObjectTable {
         self.calls.clear();
         self.twins.clear();
         self.called.clear();
+        self.map_numbers.clear();
+        self.maps.clear();
     }
 
     /// What an object looks like, remembered by its components' values.
@@ -98,6 +133,14 @@ impl ObjectTable {
         let number = self.twins.entry([center.x, center.y, center.z, radius].map(f32::to_bits)).or_default();
         *number += 1;
         *number - 1
+    }
+
+    /// The number of an image in its place, from 1 on.
+    pub(crate) fn map(&mut self, of: MapUse) -> u32 {
+        *self.map_numbers.entry((of.texture, bytemuck::cast(of.rows()))).or_insert_with(|| {
+            self.maps.push(of);
+            self.maps.len() as u32
+        })
     }
 
     pub(crate) fn call(&mut self, call: Call) -> u32 {

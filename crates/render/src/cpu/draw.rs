@@ -113,6 +113,7 @@ pub(crate) fn draw(
         surfaces: &lists.surfaces,
         instances: &lists.instances,
         meshes: &pieces,
+        maps: &lists.maps,
         draws: &lists.draws,
     };
     let (output, clear_tiles) = canvas.output();

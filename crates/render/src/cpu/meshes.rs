@@ -41,6 +41,10 @@ fn pieces(geometry: &Geometry, indices: &[u32], form: Form) -> Result<Pieces, Ra
     let order = if form.ordered { TriangleOrder::Kept } else { TriangleOrder::Clustered };
     let [positions, normals] = [source.positions(), source.normals()].map(bytemuck::cast_slice);
     let colors = source.drawn_colors().filter(|_| form.colored).unwrap_or_default();
-    let lists = VertexLists { normals, colors: bytemuck::cast_slice(&colors) };
+    let lists = VertexLists {
+        normals,
+        colors: bytemuck::cast_slice(&colors),
+        uvs: source.uvs().filter(|_| form.mapped).map_or(&[], bytemuck::cast_slice),
+    };
     Pieces::with_lists(positions, lists, indices, &cuts, order)
 }

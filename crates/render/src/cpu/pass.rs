@@ -10,13 +10,15 @@ use crate::lights::gather::Lights;
 use crate::lights::terms::{by_fragment_shader, by_vertex_shader};
 use crate::shaders::light_slots::COUNTED_LIGHTS;
 use crate::shaders::records::{DrawRecord, InstanceRecord, LightRecord, MaterialRecord, RecordLists};
-use bevy_asset::AssetId;
+use bevy_asset::{AssetId, Assets};
 use bevy_ecs::prelude::*;
 use halfway_lighting::Frequency;
 use halfway_mesh::Mesh;
 use halfway_raster::{
-    DrawCall, Highlight, InstanceData, LeftOut, LightData, LightRange, ShadedTerms, SideData, SurfaceData,
+    DrawCall, Highlight, InstanceData, LeftOut, LightData, LightRange, MapCall, MapData, ShadedTerms, SideData,
+    SurfaceData,
 };
+use halfway_texture::Texture;
 
 /// The lists of a pass. Their memory is kept from frame to frame.
 #[derive(Resource, Default)]
@@ -27,6 +29,7 @@ pub(crate) struct PassLists {
     pub(crate) instances: Vec<InstanceData>,
     pub(crate) meshes: Vec<(AssetId<Mesh>, Form)>,
     pub(crate) draws: Vec<DrawCall>,
+    pub(crate) maps: Vec<MapData>,
 }
 
 pub(crate) fn fill(
@@ -34,8 +37,11 @@ pub(crate) fn fill(
     lit: Res<LitPatches>,
     batches: Res<Batches>,
     meshes: Res<MeshPieces>,
+    textures: Res<Assets<Texture>>,
     mut pass: ResMut<PassLists>,
 ) {
+    pass.maps.clear();
+    pass.maps.extend(lit.table.maps.iter().map(|of| MapData { pyramid: of.pyramid(&textures), rows: of.rows() }));
     pass.fill(&lights, &lit, &batches, &meshes);
 }
 
@@ -58,14 +64,14 @@ impl PassLists {
         self.meshes.clear();
         self.draws.clear();
         for group in batches.draws.groups() {
-            let DrawState { key, mesh, form, record, .. } = group.state;
+            let DrawState { key, mesh, form, record, map, .. } = group.state;
             if meshes.get(mesh, form).is_none() {
                 continue;
             }
             if self.meshes.last() != Some(&(mesh, form)) {
                 self.meshes.push((mesh, form));
             }
-            let call = DrawCall { mesh: self.meshes.len() as u32 - 1, ..call(&key) };
+            let call = DrawCall { mesh: self.meshes.len() as u32 - 1, ..call(&key, map) };
             for draw in batches.draws.of(group) {
                 let instances = draw.instances();
                 if !key.per_instance {
@@ -79,7 +85,7 @@ impl PassLists {
     }
 }
 
-fn call(key: &DrawKey) -> DrawCall {
+fn call(key: &DrawKey, map: u32) -> DrawCall {
     let terms = |[diffuse, specular]: [bool; 2]| ShadedTerms { diffuse, specular };
     DrawCall {
         vertex: terms(by_vertex_shader(key.terms)),
@@ -94,6 +100,7 @@ fn call(key: &DrawKey) -> DrawCall {
         clockwise: key.clockwise,
         opposite_normals: key.geometric_fallback,
         colored: key.colored,
+        map: key.mapped.map(|sampling| MapCall { map: map.saturating_sub(1), sampling }),
         blend: key.blend,
         ..DrawCall::default()
     }

@@ -1,6 +1,6 @@
 //! Meshes for flat shading: one vertex a triangle carries its shade.
 
-use bevy_math::{Vec3, Vec4};
+use bevy_math::{Vec2, Vec3, Vec4};
 use halfway_mesh::face_normal;
 
 /// A mesh whose every triangle has a vertex of its own in first place: that provoking vertex carries
@@ -12,6 +12,8 @@ pub(crate) struct FlatMesh {
     pub(crate) attributes: Vec<[Vec3; 2]>,
     /// Of each provoking vertex the mean color of its triangle's corners, where they have any.
     pub(crate) colors: Option<Vec<Vec4>>,
+    /// Of each vertex its own texture coordinates, where they have any.
+    pub(crate) uvs: Option<Vec<Vec2>>,
     pub(crate) indices: Vec<u32>,
     /// Whether a vertex provokes a triangle already.
     taken: Vec<bool>,
@@ -22,11 +24,15 @@ pub(crate) struct FlatMesh {
 const VERTEX_MEMORY: usize = 256;
 
 impl FlatMesh {
-    pub(crate) fn new((corners, colors): (&[Vec3], Option<&[Vec4]>), triangles: &[[u32; 3]]) -> Self {
+    pub(crate) fn new(
+        (corners, colors, uvs): (&[Vec3], Option<&[Vec4]>, Option<&[Vec2]>),
+        triangles: &[[u32; 3]],
+    ) -> Self {
         let mut flat = Self {
             positions: corners.to_vec(),
             attributes: vec![[Vec3::ZERO; 2]; corners.len()],
             colors: colors.map(<[Vec4]>::to_vec),
+            uvs: uvs.map(<[Vec2]>::to_vec),
             indices: Vec::with_capacity(3 * triangles.len()),
             taken: vec![false; corners.len()],
         };
@@ -66,6 +72,9 @@ impl FlatMesh {
         if let Some(colors) = &mut self.colors {
             colors.push(Vec4::ONE);
         }
+        if let Some(uvs) = &mut self.uvs {
+            uvs.push(uvs[vertex as usize]);
+        }
         self.taken.push(false);
         self.positions.len() as u32 - 1
     }
@@ -87,7 +96,7 @@ mod tests {
     #[test]
     fn every_flat_triangle_has_its_own_provoking_vertex_and_keeps_its_corners() {
         let mesh = Mesh::from(UvSphere { radius: 1.0, segments: 16, rings: 8 });
-        let flat = FlatMesh::new((mesh.positions(), None), mesh.indices().as_chunks().0);
+        let flat = FlatMesh::new((mesh.positions(), None, None), mesh.indices().as_chunks().0);
         let mut provoking = HashSet::new();
         for (corners, triangle) in flat.indices.chunks_exact(3).zip(mesh.triangles()) {
             assert!(provoking.insert(corners[0]), "vertex {} provokes two triangles", corners[0]);
@@ -110,7 +119,7 @@ mod tests {
     fn a_grid_larger_than_the_vertex_memory_needs_one_vertex_a_triangle() {
         // 512 quads a row: the upper row of vertices of each row of quads has been forgotten by then.
         let mesh = Mesh::from(UvSphere { radius: 1.0, segments: 512, rings: 16 });
-        let flat = FlatMesh::new((mesh.positions(), None), mesh.indices().as_chunks().0);
+        let flat = FlatMesh::new((mesh.positions(), None, None), mesh.indices().as_chunks().0);
         assert!(flat.positions.len() <= mesh.triangle_count() + 2 * 513, "{} vertices", flat.positions.len());
     }
 }

@@ -9,7 +9,7 @@ use crate::frame::report::FrameReport;
 use crate::geometry::meshes::{Form, Geometries};
 use bevy_asset::AssetId;
 use bevy_ecs::prelude::*;
-use bevy_math::{Vec3, Vec4};
+use bevy_math::{Vec2, Vec3, Vec4};
 use halfway_mesh::Mesh;
 
 /// The buffers of the meshes that have been drawn, until they change or go.
@@ -23,6 +23,8 @@ pub(crate) struct MeshBuffer {
     pub(crate) attributes: wgpu::Buffer,
     /// Where they are drawn; flat: that of the centroid, as above.
     pub(crate) colors: Option<wgpu::Buffer>,
+    /// Texture coordinates, where an image is drawn.
+    pub(crate) uvs: Option<wgpu::Buffer>,
     pub(crate) indices: wgpu::Buffer,
     pub(crate) index_format: wgpu::IndexFormat,
 }
@@ -38,23 +40,31 @@ pub(crate) fn upload(
 ) {
     buffers.0.make_ready(&batches, &mut geometries, &mut report, |geometry, indices, form, there| {
         let source = &geometry.source;
-        let colors = source.drawn_colors().filter(|_| form.colored);
+        // With an image go colors, white where there are none.
+        let white = || vec![Vec4::ONE; source.positions().len()];
+        let colors = source.drawn_colors().filter(|_| form.colored).or_else(|| form.mapped.then(white));
+        let uvs = source.uvs().filter(|_| form.mapped);
         match there {
             _ if form.flat => {
-                let mut flat = FlatMesh::new((source.positions(), colors.as_deref()), indices.as_chunks().0);
+                let vertices = (source.positions(), colors.as_deref(), uvs);
+                let mut flat = FlatMesh::new(vertices, indices.as_chunks().0);
                 gpu.provoking_vertex().place(&mut flat.indices);
                 let attributes = bytemuck::cast_slice(&flat.attributes);
-                MeshBuffer::new(&gpu, (&flat.positions, attributes, flat.colors.as_deref()), &flat.indices)
+                let vertices = (&flat.positions[..], attributes, flat.colors.as_deref(), flat.uvs.as_deref());
+                MeshBuffer::new(&gpu, vertices, &flat.indices)
             }
             // The vertices of levels are those of the mesh.
             Some(there) => there.with_indices(&gpu, indices),
             None => {
                 let attributes = bytemuck::cast_slice(source.normals());
-                MeshBuffer::new(&gpu, (source.positions(), attributes, colors.as_deref()), indices)
+                MeshBuffer::new(&gpu, (source.positions(), attributes, colors.as_deref(), uvs), indices)
             }
         }
     });
 }
+
+/// Positions, attributes, colors and texture coordinates.
+type VertexSlices<'a> = (&'a [Vec3], &'a [u8], Option<&'a [Vec4]>, Option<&'a [Vec2]>);
 
 impl MeshBuffers {
     pub(crate) fn get(&self, id: AssetId<Mesh>, form: Form) -> Option<&MeshBuffer> {
@@ -70,22 +80,24 @@ impl MeshBuffers {
 impl MeshBuffer {
     fn new(
         gpu: &Gpu,
-        (positions, attributes, colors): (&[Vec3], &[u8], Option<&[Vec4]>),
+        (positions, attributes, colors, uvs): VertexSlices,
         indices: &[u32],
     ) -> Result<(Self, u64), RenderError> {
-        let colors =
-            colors.map(|colors| buffer(gpu, "colors", bytemuck::cast_slice(colors), wgpu::BufferUsages::VERTEX));
+        let list = |label, bytes: &[u8]| buffer(gpu, label, bytes, wgpu::BufferUsages::VERTEX);
+        let colors = colors.map(|colors| list("colors", bytemuck::cast_slice(colors)));
+        let uvs = uvs.map(|uvs| list("texture coordinates", bytemuck::cast_slice(uvs)));
         let short = positions.len() < usize::from(u16::MAX);
         let index_format = if short { wgpu::IndexFormat::Uint16 } else { wgpu::IndexFormat::Uint32 };
         let buffers = Self {
             positions: buffer(gpu, "positions", bytemuck::cast_slice(positions), wgpu::BufferUsages::VERTEX)?,
             attributes: buffer(gpu, "attributes", attributes, wgpu::BufferUsages::VERTEX)?,
             colors: colors.transpose()?,
+            uvs: uvs.transpose()?,
             indices: index_buffer(gpu, indices, index_format)?,
             index_format,
         };
-        let colors = buffers.colors.as_ref().map_or(0, wgpu::Buffer::size);
-        let bytes = buffers.positions.size() + buffers.attributes.size() + colors + buffers.indices.size();
+        let more = buffers.colors.iter().chain(&buffers.uvs).map(wgpu::Buffer::size).sum::<u64>();
+        let bytes = buffers.positions.size() + buffers.attributes.size() + more + buffers.indices.size();
         Ok((buffers, bytes))
     }
 
@@ -97,6 +109,7 @@ impl MeshBuffer {
             positions: self.positions.clone(),
             attributes: self.attributes.clone(),
             colors: self.colors.clone(),
+            uvs: self.uvs.clone(),
             indices,
             index_format: self.index_format,
         };

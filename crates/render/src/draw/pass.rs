@@ -107,8 +107,13 @@ fn record(
         if state.key.reads_attributes() {
             pass.set_vertex_buffer(2, mesh.attributes.slice(..));
         }
-        if let Some(colors) = mesh.colors.as_ref().filter(|_| state.key.colored) {
+        if let Some(colors) = mesh.colors.as_ref().filter(|_| state.key.is_painted()) {
             pass.set_vertex_buffer(3, colors.slice(..));
+        }
+        if state.key.mapped.is_some() {
+            let (Some(uvs), Some(map)) = (&mesh.uvs, buffers.maps.group(state.map)) else { continue };
+            pass.set_vertex_buffer(4, uvs.slice(..));
+            pass.set_bind_group(1, map, &[]);
         }
         pass.set_index_buffer(mesh.indices.slice(..), mesh.index_format);
         match (batches.draws.commands(group), buffers.draws()) {

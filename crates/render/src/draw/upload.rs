@@ -4,6 +4,7 @@ use crate::batch::batches::Batches;
 use crate::batch::draws::DrawState;
 use crate::batch::lit_patches::LitPatches;
 use crate::device::gpu::Gpu;
+use crate::draw::maps::Maps;
 use crate::error::RenderError;
 use crate::frame::report::FrameReport;
 use crate::lights::gather::Lights;
@@ -11,7 +12,9 @@ use crate::pipelines::cache::Pipelines;
 use crate::shaders::records::{LightRecord, RECORD_BYTES, ViewRecord};
 use crate::shaders::text::{BOUND_LIGHT_BYTES, LightText, Text};
 use crate::view::camera::View;
+use bevy_asset::Assets;
 use bevy_ecs::prelude::*;
+use halfway_texture::Texture;
 
 /// A GPU buffer with the bytes it holds, so that equal bytes are not sent again.
 struct Mirrored {
@@ -84,6 +87,7 @@ pub(crate) struct Buffers {
     instances: Mirrored,
     draws: Mirrored,
     groups: Groups,
+    pub(crate) maps: Maps,
 }
 
 /// Offsets of a draw's record, and of its lights where they are at fixed places.
@@ -124,6 +128,7 @@ impl Default for Buffers {
             instances: Mirrored::new("the instances", Usage::VERTEX),
             draws: Mirrored::new("the draws", Usage::INDIRECT),
             groups: Groups::default(),
+            maps: Maps::default(),
         }
     }
 }
@@ -267,4 +272,16 @@ pub(crate) fn upload(
             batches.draws.clear();
         }
     }
+}
+
+/// Sends the images that the draws read.
+pub(crate) fn upload_maps(
+    gpu: Res<Gpu>,
+    lit: Res<LitPatches>,
+    textures: Res<Assets<Texture>>,
+    pipelines: Res<Pipelines>,
+    mut buffers: ResMut<Buffers>,
+    mut report: ResMut<FrameReport>,
+) {
+    buffers.maps.send(&gpu, &pipelines, &lit.table.maps, &textures, &mut report);
 }

@@ -13,6 +13,7 @@ use bevy_ecs::prelude::*;
 use bevy_platform::collections::HashMap;
 use halfway_lighting::{Blend, Frequency, Terms, Tolerance, VertexColors, ViewTolerance};
 use halfway_mesh::{Mesh, Mesh3d};
+use halfway_texture::ColorMap;
 use std::sync::Arc;
 
 /// One mesh, laid out for one way of shading.
@@ -29,6 +30,7 @@ pub(crate) struct Geometry {
 
 /// How a mesh is laid out for drawing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[expect(clippy::struct_excessive_bools, reason = "each is one independent choice")]
 pub(crate) struct Form {
     /// For flat shading.
     pub(crate) flat: bool,
@@ -36,18 +38,36 @@ pub(crate) struct Form {
     pub(crate) ordered: bool,
     /// With the colors of the vertices.
     pub(crate) colored: bool,
+    /// With their texture coordinates.
+    pub(crate) mapped: bool,
 }
 
 impl Form {
     /// Blended triangles are drawn in the order of the mesh.
-    pub(crate) fn new(terms: Terms, blend: bool, colored: bool) -> Self {
-        Self { flat: terms.has(Frequency::Triangle), ordered: blend, colored }
+    pub(crate) fn new(terms: Terms, blend: bool, paint: &Paint) -> Self {
+        let (colored, mapped) = (paint.colored, paint.map.is_some());
+        Self { flat: terms.has(Frequency::Triangle), ordered: blend, colored, mapped }
     }
 }
 
-/// Whether an object draws the colors of its mesh.
-pub(crate) fn are_colors_drawn(mesh: &Mesh, colors: Option<&VertexColors>) -> bool {
-    mesh.colors().is_some() && colors != Some(&VertexColors::Ignore)
+/// What beside an object's material says what ambient and diffuse light it gives back.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Paint<'a> {
+    /// The colors of the vertices.
+    pub(crate) colored: bool,
+    /// An image, where the mesh has coordinates for it.
+    pub(crate) map: Option<&'a ColorMap>,
+}
+
+impl<'a> Paint<'a> {
+    pub(crate) fn new(mesh: &Mesh, colors: Option<&VertexColors>, map: Option<&'a ColorMap>) -> Self {
+        let colored = mesh.colors().is_some() && colors != Some(&VertexColors::Ignore);
+        Self { colored, map: map.filter(|_| mesh.uvs().is_some()) }
+    }
+
+    pub(crate) fn is_any(&self) -> bool {
+        self.colored || self.map.is_some()
+    }
 }
 
 /// All meshes that have been drawn, until their assets change or go.
@@ -98,8 +118,14 @@ impl Geometries {
 type OtherTargets<'w> = (Option<Res<'w, SurfaceTarget>>, Option<Res<'w, CanvasTarget>>, Option<Res<'w, TextureTarget>>);
 
 /// What decides how an object's mesh is laid out.
-type LaidOut =
-    (&'static Mesh3d, &'static Chosen, Has<Blend>, Option<&'static VertexColors>, Option<&'static Tolerance>);
+type LaidOut = (
+    &'static Mesh3d,
+    &'static Chosen,
+    Has<Blend>,
+    Option<&'static VertexColors>,
+    Option<&'static ColorMap>,
+    Option<&'static Tolerance>,
+);
 
 /// Lays out the meshes of visible objects that are not yet, for the way they are shaded.
 #[expect(clippy::too_many_arguments, reason = "a system takes each resource as a parameter")]
@@ -117,15 +143,16 @@ pub(crate) fn lay_out(
     // Nobody watches the frames, but somebody may compare them.
     let waits = surface.is_none() && canvas.is_none() && texture.is_none();
     let mut last = None;
-    for (Mesh3d(handle), chosen, blend, colors, tolerance) in objects.iter_many(&visible.0).flatten() {
+    for (Mesh3d(handle), chosen, blend, colors, map, tolerance) in objects.iter_many(&visible.0).flatten() {
         let Some(mesh) = meshes.get(handle) else { continue };
-        let wanted = (handle.id(), Form::new(chosen.0, blend, are_colors_drawn(mesh, colors)));
+        let paint = Paint::new(mesh, colors, map);
+        let wanted = (handle.id(), Form::new(chosen.0, blend, &paint));
         if last.replace(wanted) == Some(wanted) {
             continue;
         }
         let pixels = tolerance.map_or(of_view.0.pixels, |tolerance| tolerance.pixels);
-        // Levels know nothing of colors.
-        let has_levels = !wanted.1.ordered && !wanted.1.colored && pixels > 0.0;
+        // Levels know nothing of colors and of images.
+        let has_levels = !wanted.1.ordered && !paint.is_any() && pixels > 0.0;
         let levels = if has_levels { workshop.levels(wanted.0, mesh, waits) } else { None };
         geometries.ensure(wanted, mesh, levels);
     }

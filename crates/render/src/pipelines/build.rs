@@ -9,10 +9,12 @@ use crate::shaders::records::{INSTANCE, INSTANCE_BYTES};
 use crate::shaders::text::Shader;
 use crate::target::frame::{DEPTH_FORMAT, ShaderOutput};
 use halfway_lighting::Frequency;
+use halfway_texture::Sampling;
 
 const POSITION: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![6 => Float32x3];
 const NORMAL: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![7 => Float32x3];
 const COLOR: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![10 => Float32x4];
+const UV: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![11 => Float32x2];
 const FACE: [wgpu::VertexAttribute; 2] = wgpu::vertex_attr_array![7 => Float32x3, 8 => Float32x3];
 
 impl Shader {
@@ -37,8 +39,11 @@ impl Shader {
         } else if has_attributes {
             buffers.push(buffer(&NORMAL, 12, wgpu::VertexStepMode::Vertex));
         }
-        if key.colored {
+        if key.is_painted() {
             buffers.push(buffer(&COLOR, 16, wgpu::VertexStepMode::Vertex));
+        }
+        if key.mapped.is_some() {
+            buffers.push(buffer(&UV, 8, wgpu::VertexStepMode::Vertex));
         }
         let (vertex, fragment) = entry_points(&key);
         gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
@@ -105,8 +110,8 @@ fn entry_points(key: &DrawKey) -> (&'static str, &'static str) {
     let [by_vertices, by_fragments] =
         [by_vertex_shader(key.terms), by_fragment_shader(key.terms)].map(|terms| terms.contains(&true));
     match (by_vertices, by_fragments) {
-        (_, false) if key.colored => ("vs_gouraud", "fs_gouraud"),
-        (_, true) if key.colored => ("vs_mixed", "fs_mixed"),
+        (_, false) if key.is_painted() => ("vs_gouraud", "fs_gouraud"),
+        (_, true) if key.is_painted() => ("vs_mixed", "fs_mixed"),
         (false, false) if is_one_sided => ("vs_unlit", "fs_unlit"),
         (false, false) => ("vs_unlit_both", "fs_unlit_both"),
         (true, false) if is_one_sided => ("vs_gouraud", "fs_gouraud"),
@@ -133,7 +138,7 @@ fn stage_constants(
     let flag = |on: bool| f64::from(u8::from(on));
     let [vertex_diffuse, vertex_specular] = by_vertex_shader(key.terms).map(flag);
     let [fragment_diffuse, fragment_specular] = by_fragment_shader(key.terms).map(flag);
-    vec![
+    let constants = vec![
         ("VERTEX_DIFFUSE", vertex_diffuse),
         ("VERTEX_SPECULAR", vertex_specular),
         ("FRAGMENT_DIFFUSE", fragment_diffuse),
@@ -156,5 +161,17 @@ fn stage_constants(
         ("SPOTS", spots.into()),
         ("HIGHLIGHTS", highlights.halves().into()),
         ("FIRST", first.into()),
+    ];
+    constants.into_iter().chain(key.mapped.into_iter().flat_map(map_constants)).collect()
+}
+
+/// How an image is looked up, by the numbers of mapped.wgsl.
+fn map_constants(Sampling { wrap: [u, v], magnify, minify, levels }: Sampling) -> [(&'static str, f64); 5] {
+    [
+        ("MAGNIFY", f64::from(magnify as u8)),
+        ("MINIFY", f64::from(minify as u8)),
+        ("LEVELS", f64::from(levels as u8)),
+        ("WRAP_U", f64::from(u as u8)),
+        ("WRAP_V", f64::from(v as u8)),
     ]
 }

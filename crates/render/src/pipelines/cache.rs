@@ -133,6 +133,11 @@ impl Pipelines {
         self.shaders.any(lights).map(|shader| &shader.bindings)
     }
 
+    /// The layout of an image's bindings; `None` before the first pipeline that has one.
+    pub(crate) fn map_bindings(&self) -> Option<&wgpu::BindGroupLayout> {
+        self.shaders.map_bindings()
+    }
+
     /// The pipeline that draws this into what the frame draws into.
     fn key(&self, draw: DrawKey) -> PipelineKey {
         PipelineKey { draw, output: self.output }

@@ -29,6 +29,11 @@ impl Text {
             lists if lists.of_stages().iter().all(|(counted, _)| counted.len() <= COUNTED_LIGHTS) => LightText::Few,
             Lists::Counted(..) | Lists::Split { .. } => LightText::Many,
         };
-        Self { lights, surface: if key.colored { SurfaceText::Colored } else { SurfaceText::Plain } }
+        let surface = match (key.mapped, key.colored) {
+            (Some(_), _) => SurfaceText::Mapped,
+            (None, true) => SurfaceText::Colored,
+            (None, false) => SurfaceText::Plain,
+        };
+        Self { lights, surface }
     }
 }

@@ -31,12 +31,16 @@ pub(crate) enum SurfaceText {
     Plain,
     /// Materials, and colors of the vertices.
     Colored,
+    /// Materials, an image, and colors of the vertices, white where there are none.
+    Mapped,
 }
 
 /// The lighting text, and the layout that goes with it.
 pub(crate) struct Shader {
     pub(crate) module: wgpu::ShaderModule,
     pub(crate) bindings: wgpu::BindGroupLayout,
+    /// Those of an image.
+    pub(crate) map_bindings: Option<wgpu::BindGroupLayout>,
     pub(crate) layout: wgpu::PipelineLayout,
 }
 
@@ -50,6 +54,12 @@ impl Shaders {
         self.0[lights as usize].iter().find_map(OnceLock::get)
     }
 
+    /// The layout of an image's bindings, once a text has it.
+    pub(crate) fn map_bindings(&self) -> Option<&wgpu::BindGroupLayout> {
+        let mut mapped = self.0.iter().filter_map(|of| of[SurfaceText::Mapped as usize].get());
+        mapped.find_map(|shader| shader.map_bindings.as_ref())
+    }
+
     pub(crate) fn get_or_make(&self, gpu: &Gpu, text: Text) -> &Shader {
         self.0[text.lights as usize][text.surface as usize].get_or_init(|| Shader::new(gpu, text))
     }
@@ -60,12 +70,13 @@ pub(crate) const BOUND_LIGHT_BYTES: u64 = BOUND_LIGHTS as u64 * size_of::<LightR
 
 impl SurfaceText {
     /// All of them.
-    pub(crate) const ALL: [Self; 2] = [Self::Plain, Self::Colored];
+    pub(crate) const ALL: [Self; 3] = [Self::Plain, Self::Colored, Self::Mapped];
 
     fn file(self) -> &'static str {
         match self {
             Self::Plain => include_str!("plain.wgsl"),
             Self::Colored => include_str!("colored.wgsl"),
+            Self::Mapped => include_str!("mapped.wgsl"),
         }
     }
 }
@@ -120,11 +131,39 @@ impl Shader {
             label: Some("draw"),
             entries: &[vec![entry(0, uniform, 16)], entries].concat(),
         });
+        let map_bindings = (text.surface == SurfaceText::Mapped).then(|| map_bindings(gpu));
+        let both = [Some(&bindings), map_bindings.as_ref()];
         let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("draw"),
-            bind_group_layouts: &[Some(&bindings)],
+            bind_group_layouts: if map_bindings.is_some() { &both } else { &both[..1] },
             ..Default::default()
         });
-        Self { module, bindings, layout }
+        Self { module, bindings, map_bindings, layout }
     }
+}
+
+fn map_bindings(gpu: &Gpu) -> wgpu::BindGroupLayout {
+    let image = wgpu::BindGroupLayoutEntry {
+        binding: 0,
+        visibility: wgpu::ShaderStages::FRAGMENT,
+        ty: wgpu::BindingType::Texture {
+            // The filters are the shader's, so that they are the same everywhere.
+            sample_type: wgpu::TextureSampleType::Float { filterable: false },
+            view_dimension: wgpu::TextureViewDimension::D2,
+            multisampled: false,
+        },
+        count: None,
+    };
+    let placing = wgpu::BindGroupLayoutEntry {
+        binding: 1,
+        visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
+        ty: wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Uniform,
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        },
+        count: None,
+    };
+    gpu.device
+        .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("a map"), entries: &[image, placing] })
 }

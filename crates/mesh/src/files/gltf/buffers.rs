@@ -29,10 +29,7 @@ pub(super) fn resolve<'a>(
         .map(|buffer| {
             let bytes = match buffer.source() {
                 Source::Bin => Cow::Borrowed(binary_chunk(&buffer, &mut binary)?),
-                Source::Uri(uri) => Cow::Owned(match uri.strip_prefix("data:") {
-                    Some(data) => data_uri(&buffer, data)?,
-                    None => file(&buffer, uri, around)?,
-                }),
+                Source::Uri(uri) => Cow::Owned(from_uri(&name(&buffer), uri, around)?),
             };
             if bytes.len() < buffer.length() {
                 return Err(Fault::element(
@@ -52,6 +49,14 @@ pub(super) fn resolve<'a>(
         .collect()
 }
 
+/// The bytes that a URI stands for; `name` is the element that has it.
+pub(super) fn from_uri(name: &str, uri: &str, around: ModelFolder) -> Result<Vec<u8>, Fault> {
+    match uri.strip_prefix("data:") {
+        Some(data) => data_uri(name, data),
+        None => file(name, uri, around),
+    }
+}
+
 fn name(buffer: &Buffer) -> String {
     format!("buffers[{}]", buffer.index())
 }
@@ -64,19 +69,19 @@ fn binary_chunk<'a>(buffer: &Buffer, binary: &mut Option<&'a [u8]>) -> Result<&'
     })
 }
 
-fn data_uri(buffer: &Buffer, data: &str) -> Result<Vec<u8>, Fault> {
+fn data_uri(name: &str, data: &str) -> Result<Vec<u8>, Fault> {
     let (head, body) = data.split_once(',').unwrap_or((data, ""));
     if !head.ends_with(";base64") {
         let expected = "a data uri in base64 is";
-        return Err(Fault::element(name(buffer), "another data uri", expected));
+        return Err(Fault::element(name.to_owned(), "another data uri", expected));
     }
-    BASE64.decode(body).map_err(|error| Fault::element(name(buffer), error.to_string(), "base64 is"))
+    BASE64.decode(body).map_err(|error| Fault::element(name.to_owned(), error.to_string(), "base64 is"))
 }
 
-fn file(buffer: &Buffer, uri: &str, around: ModelFolder) -> Result<Vec<u8>, Fault> {
+fn file(name: &str, uri: &str, around: ModelFolder) -> Result<Vec<u8>, Fault> {
     let refused = || {
         let expected = "a file in the folder of the model, or in one inside it, is";
-        Fault::element(name(buffer), format!("uri {:?}", abridged(uri, "")), expected)
+        Fault::element(name.to_owned(), format!("uri {:?}", abridged(uri, "")), expected)
     };
     let decoded = percent_decoded(uri).ok_or_else(refused)?;
     // A colon makes a scheme, or a drive; a backslash parts folders on some systems and not on others.

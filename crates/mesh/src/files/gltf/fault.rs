@@ -27,6 +27,16 @@ impl Fault {
         Self::Element { element: element.into(), found: found.into(), expected: expected.into() }
     }
 
+    /// Without the element: for what is only a warning.
+    pub(super) fn reason(self) -> String {
+        match self {
+            Self::Element { found, expected, .. } => format!("{found}; {expected} expected"),
+            Self::Mesh { source, .. } => source.to_string(),
+            Self::RequiredExtension(extension) => extension,
+            Self::Elsewhere(error) => error.to_string(),
+        }
+    }
+
     pub(super) fn at(self, path: &Path) -> LoadError {
         let path = path.to_owned();
         match self {

@@ -4,10 +4,11 @@ use gltf::Document;
 use gltf::material::AlphaMode as GltfAlphaMode;
 
 use super::fault::{Fault, check_finite};
+use super::images::Images;
 use crate::{AlphaMode, MetallicRoughness, SourceMaterial};
 
 /// All materials of the document, in its order.
-pub(super) fn materials(document: &Document) -> Result<Vec<SourceMaterial>, Fault> {
+pub(super) fn materials(document: &Document, images: &mut Images) -> Result<Vec<SourceMaterial>, Fault> {
     document
         .materials()
         .enumerate()
@@ -25,6 +26,7 @@ pub(super) fn materials(document: &Document) -> Result<Vec<SourceMaterial>, Faul
                     GltfAlphaMode::Mask => AlphaMode::Mask { cutoff: material.alpha_cutoff().unwrap_or(0.5) },
                     GltfAlphaMode::Blend => AlphaMode::Blend,
                 },
+                color_map: pbr.base_color_texture().and_then(|info| images.map(index, &info)),
             };
             check(index, &found)?;
             Ok(SourceMaterial::MetallicRoughness(found))

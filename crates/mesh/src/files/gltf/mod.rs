@@ -6,6 +6,7 @@
 mod accessor;
 mod buffers;
 mod fault;
+mod images;
 mod material;
 mod primitive;
 mod scene;
@@ -19,6 +20,7 @@ use gltf::{Document, Glb, Gltf};
 
 use self::accessor::Accessors;
 use self::fault::Fault;
+use self::images::Images;
 use self::primitive::Primitives;
 use super::source::{ModelFolder, Source};
 use super::{Format, LoadError};
@@ -41,8 +43,13 @@ fn read(bytes: &[u8], is_binary: bool, around: ModelFolder) -> Result<Model, Fau
     let binary = container.as_ref().and_then(|glb| glb.bin.as_deref());
     let buffers = buffers::resolve(&document, binary, around)?;
     let mut warnings = Vec::new();
-    warn_of_skipped(&document, &mut warnings);
-    let materials = material::materials(&document)?;
+    let mut images = Images::new(&buffers, around);
+    let materials = material::materials(&document, &mut images)?;
+    let Images { warnings: of_images, mut used, .. } = images;
+    used.sort_unstable();
+    used.dedup();
+    warn_of_skipped(&document, used.len(), &mut warnings);
+    warnings.extend(of_images);
     let is_quantized = document.extensions_used().any(|extension| extension == QUANTIZATION);
     let mut primitives = Primitives::new(Accessors::new(&buffers, is_quantized));
     let scene::Contents { parts, lights, cameras, mended } = scene::read(&document, &mut primitives)?;
@@ -164,7 +171,7 @@ fn invalid(error: &gltf::Error) -> Fault {
     }
 }
 
-fn warn_of_skipped(document: &Document, warnings: &mut Vec<String>) {
+fn warn_of_skipped(document: &Document, used_textures: usize, warnings: &mut Vec<String>) {
     for extension in document.extensions_used() {
         if !ENABLED_EXTENSIONS.contains(&extension) && extension != QUANTIZATION {
             warnings.push(format!("the extension {extension} is skipped"));
@@ -173,7 +180,7 @@ fn warn_of_skipped(document: &Document, warnings: &mut Vec<String>) {
     let counts = [
         ("animations", document.animations().len()),
         ("skins", document.skins().len()),
-        ("textures", document.textures().len()),
+        ("textures", document.textures().len() - used_textures),
     ];
     for (what, count) in counts {
         if count > 0 {

@@ -289,7 +289,7 @@ impl Obj {
                     continue;
                 };
                 match around.open(&library) {
-                    Ok(reader) => warnings.extend(mtl::parse(reader, &mut materials)?),
+                    Ok(reader) => warnings.extend(mtl::parse(reader, around, &mut materials)?),
                     Err(error) => warnings.push(error.to_string()),
                 }
             }

@@ -359,5 +359,6 @@ fn metallic_roughness(mtl: &MtlMaterial) -> MetallicRoughness {
         emissive: mtl.ke.unwrap_or([0.0; 3]).map(|x| x.clamp(0.0, 1.0)),
         double_sided: false,
         alpha: if opacity < 1.0 { AlphaMode::Blend } else { AlphaMode::Opaque },
+        color_map: None,
     }
 }

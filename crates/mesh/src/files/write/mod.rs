@@ -29,7 +29,7 @@ pub fn write(path: &Path, model: &Model) -> Result<Vec<String>, WriteError> {
     if model.parts.is_empty() {
         return Err(WriteError::NoParts { path: path.to_owned() });
     }
-    match Format::of(path) {
+    let mut lost = match Format::of(path) {
         Some(Format::Smf) => smf::write(path, model),
         Some(Format::Obj) => obj::write(path, model),
         Some(Format::Glb) => glb::write(path, model, false),
@@ -37,7 +37,9 @@ pub fn write(path: &Path, model: &Model) -> Result<Vec<String>, WriteError> {
             let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
             Err(WriteError::UnknownExtension { path: path.to_owned(), extension })
         }
-    }
+    }?;
+    lost.extend(lost_images(model));
+    Ok(lost)
 }
 
 /// Writes a model into a GLB file with integers of 16 bits (`KHR_mesh_quantization`), which takes about half the room.
@@ -56,5 +58,13 @@ pub fn write_quantised(path: &Path, model: &Model) -> Result<(f64, Vec<String>),
         return Err(WriteError::NotQuantised { path: path.to_owned() });
     }
     let moved = model.parts.iter().map(|part| quantise::Grid::of(&part.mesh).largest_error()).fold(0.0, f64::max);
-    Ok((moved, glb::write(path, model, true)?))
+    let mut lost = glb::write(path, model, true)?;
+    lost.extend(lost_images(model));
+    Ok((moved, lost))
+}
+
+/// What is said of images that materials refer to.
+fn lost_images(model: &Model) -> Option<String> {
+    let count = model.materials.iter().filter(|material| material.color_map().is_some()).count();
+    (count > 0).then(|| format!("{count} materials lose their images"))
 }

@@ -49,10 +49,10 @@ impl SideColors {
         let color = |corner: &FootprintCorner| color(scene, footprint, front, corner);
         let colors: Vec<Color> = outline.iter().map(color).collect();
         let range = ColorRange::of(colors.iter().copied());
-        let jumps =
-            scene.solids[footprint.solid].terms.has(Frequency::Fragment) && jumps(&outline, &colors, &range, color);
         let solid = &scene.solids[footprint.solid];
-        let opacity = |corner: &FootprintCorner| solid.opacity(front, Some((footprint.triangle, corner.weights)));
+        let jumps =
+            (solid.terms.has(Frequency::Fragment) || solid.map.is_some()) && jumps(&outline, &colors, &range, color);
+        let opacity = |corner: &FootprintCorner| scene.opacity(&hit(footprint, front, corner));
         let opacities = || outline.iter().map(opacity);
         let opacity = [opacities().fold(f64::INFINITY, f64::min), opacities().fold(0.0, f64::max)];
         Self { range, opacity, jumps }
@@ -60,8 +60,12 @@ impl SideColors {
 }
 
 fn color(scene: &OracleScene, footprint: &Footprint, front: bool, corner: &FootprintCorner) -> Color {
+    scene.value(&hit(footprint, front, corner))
+}
+
+fn hit(footprint: &Footprint, front: bool, corner: &FootprintCorner) -> Hit {
     let place = HitPoint::Triangle(footprint.triangle, corner.weights);
-    scene.value(&Hit { solid: footprint.solid, depth: corner.depth(), front, place })
+    Hit { solid: footprint.solid, depth: corner.depth(), front, place }
 }
 
 fn middle(outline: &[FootprintCorner]) -> FootprintCorner {

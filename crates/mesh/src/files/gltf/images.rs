@@ -1,0 +1,97 @@
+//! The images of base color textures.
+
+use std::borrow::Cow;
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use gltf::image::Source;
+use gltf::texture::{Info, MagFilter, MinFilter, WrappingMode};
+
+use super::buffers::from_uri;
+use super::fault::Fault;
+use crate::files::source::ModelFolder;
+use crate::{SourceLevels, SourceMap, SourceWrap};
+
+/// Reads each image that is asked for once; what cannot be read is a warning.
+pub(super) struct Images<'a> {
+    buffers: &'a [Cow<'a, [u8]>],
+    around: ModelFolder<'a>,
+    read: HashMap<usize, Arc<[u8]>>,
+    pub(super) warnings: Vec<String>,
+    /// The textures that have been asked for.
+    pub(super) used: Vec<usize>,
+}
+
+impl<'a> Images<'a> {
+    pub(super) fn new(buffers: &'a [Cow<'a, [u8]>], around: ModelFolder<'a>) -> Self {
+        Self { buffers, around, read: HashMap::new(), warnings: Vec::new(), used: Vec::new() }
+    }
+
+    /// The base color texture of a material.
+    pub(super) fn map(&mut self, material: usize, info: &Info) -> Option<SourceMap> {
+        let (texture, transform) = (info.texture(), info.texture_transform());
+        let set = transform.as_ref().and_then(gltf::texture::TextureTransform::tex_coord).unwrap_or(info.tex_coord());
+        if set != 0 {
+            self.warnings.push(format!(
+                "materials[{material}]: the base color texture is skipped, since it takes the texture coordinates {set}"
+            ));
+            return None;
+        }
+        self.used.push(texture.index());
+        let image = texture.source();
+        let name = match image.source() {
+            Source::Uri { uri, .. } if !uri.starts_with("data:") => uri.to_owned(),
+            _ => format!("images[{}]", image.index()),
+        };
+        let bytes = match self.read.get(&image.index()) {
+            Some(bytes) => Arc::clone(bytes),
+            None => self.bytes(&name, &image),
+        };
+        let sampler = texture.sampler();
+        let wrap = |mode| match mode {
+            WrappingMode::Repeat => SourceWrap::Repeat,
+            WrappingMode::MirroredRepeat => SourceWrap::Mirror,
+            WrappingMode::ClampToEdge => SourceWrap::Clamp,
+        };
+        let (smooth_levels, levels) = match sampler.min_filter() {
+            Some(MinFilter::Nearest) => (false, SourceLevels::None),
+            Some(MinFilter::Linear) => (true, SourceLevels::None),
+            Some(MinFilter::NearestMipmapNearest) => (false, SourceLevels::Nearest),
+            Some(MinFilter::LinearMipmapNearest) => (true, SourceLevels::Nearest),
+            Some(MinFilter::NearestMipmapLinear) => (false, SourceLevels::Linear),
+            Some(MinFilter::LinearMipmapLinear) | None => (true, SourceLevels::Linear),
+        };
+        let mut map = SourceMap {
+            wrap: [wrap(sampler.wrap_s()), wrap(sampler.wrap_t())],
+            smooth: sampler.mag_filter() != Some(MagFilter::Nearest),
+            smooth_levels,
+            levels,
+            ..SourceMap::new(name, bytes)
+        };
+        if let Some(transform) = transform {
+            (map.offset, map.rotation, map.scale) = (transform.offset(), transform.rotation(), transform.scale());
+        }
+        Some(map)
+    }
+
+    fn bytes(&mut self, name: &str, image: &gltf::Image) -> Arc<[u8]> {
+        let read = match image.source() {
+            Source::View { view, .. } => {
+                let bytes = self.buffers.get(view.buffer().index());
+                let end = view.offset().checked_add(view.length());
+                let part = bytes.zip(end).and_then(|(bytes, end)| bytes.get(view.offset()..end));
+                part.map(<[u8]>::to_vec).ok_or_else(|| "its buffer view reaches beyond its buffer".to_owned())
+            }
+            Source::Uri { uri, .. } => from_uri(name, uri, self.around).map_err(Fault::reason),
+        };
+        let bytes: Arc<[u8]> = read.map_or_else(
+            |reason| {
+                self.warnings.push(format!("{name}: the image cannot be read: {reason}"));
+                Arc::from([])
+            },
+            Into::into,
+        );
+        self.read.insert(image.index(), Arc::clone(&bytes));
+        bytes
+    }
+}

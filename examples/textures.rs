@@ -1,0 +1,71 @@
+//! One checker on a floor that is tilted away and on a ball, by eight filters: from left to right nearest, bilinear, B-spline
+//! and Catmull–Rom; above without smaller images, below with them.
+//!
+//! ```text
+//! cargo run --release --example textures
+//! cargo run --release --example textures -- --headless textures.png
+//! ```
+
+use halfway::prelude::*;
+use halfway::texture::{LevelFilter, TexelFilter, TexelImage, TextureError, UvTransform};
+
+/// The filters of the panels, row by row.
+const PANELS: [Sampling; 8] = {
+    const fn panel(texels: TexelFilter, levels: LevelFilter) -> Sampling {
+        Sampling { wrap: Sampling::NEAREST.wrap, magnify: texels, minify: texels, levels }
+    }
+    [
+        panel(TexelFilter::Nearest, LevelFilter::None),
+        panel(TexelFilter::Bilinear, LevelFilter::None),
+        panel(TexelFilter::BSpline, LevelFilter::None),
+        panel(TexelFilter::CatmullRom, LevelFilter::None),
+        panel(TexelFilter::Nearest, LevelFilter::Nearest),
+        panel(TexelFilter::Bilinear, LevelFilter::Linear),
+        panel(TexelFilter::BSpline, LevelFilter::Linear),
+        panel(TexelFilter::CatmullRom, LevelFilter::Linear),
+    ]
+};
+
+fn main() -> AppExit {
+    App::new().add_plugins(HalfwayPlugins::from_args()).add_systems(Startup, scene).run()
+}
+
+/// Squares of eight texels, in four colors.
+fn checker() -> Result<TexelImage, TextureError> {
+    TexelImage::from_fn(32, 32, |x, y| {
+        let colors = [[0.9, 0.85, 0.7, 1.0], [0.05, 0.1, 0.3, 1.0], [0.5, 0.05, 0.05, 1.0], [0.9, 0.85, 0.7, 1.0]];
+        colors[(x / 8 % 2 + 2 * (y / 8 % 2)) as usize]
+    })
+}
+
+fn scene(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>, mut textures: ResMut<Assets<Texture>>) -> Result {
+    let texture = textures.add(Texture::from(checker()?));
+    commands.spawn((
+        Camera { fov_y: 0.6, background: LinearRgba::rgb(0.02, 0.03, 0.05), ..Camera::default() },
+        Transform::from_xyz(0.0, 0.0, 10.0),
+    ));
+    commands.spawn((DirectionalLight::white(), Transform::from_xyz(0.3, 1.0, 0.6).looking_at(Vec3::ZERO, Vec3::Y)));
+    let floor = meshes.add(Plane { size: 2.0, divisions: 1 });
+    let ball = meshes.add(UvSphere::new(0.42, 64, 32));
+    for (number, sampling) in PANELS.into_iter().enumerate() {
+        let (column, row) = ((number % 4) as f32, (number / 4) as f32);
+        let at = Vec3::new(2.35 * (column - 1.5), 1.1 - 2.5 * row, 0.0);
+        let transform = UvTransform { scale: [4.0, 40.0], ..UvTransform::default() };
+        commands.spawn((
+            Mesh3d(floor.clone()),
+            Material::matte(LinearRgba::WHITE),
+            ColorMap { texture: texture.clone(), sampling, transform },
+            // Long, and tilted away.
+            Transform::from_translation(at - Vec3::new(0.0, 0.3, 7.0))
+                .with_rotation(Quat::from_rotation_x(0.12 - 0.12 * row))
+                .with_scale(Vec3::new(1.05, 1.0, 9.0)),
+        ));
+        commands.spawn((
+            Mesh3d(ball.clone()),
+            Material::plastic(LinearRgba::WHITE),
+            ColorMap { texture: texture.clone(), sampling, transform: UvTransform::default() },
+            Transform::from_translation(at + Vec3::new(0.0, 0.75, 0.0) - Vec3::new(0.0, 1.55, -2.5) * row),
+        ));
+    }
+    Ok(())
+}
