@@ -49,22 +49,24 @@ fn scene(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>, mut textures:
     let ball = meshes.add(UvSphere::new(0.42, 64, 32));
     for (number, sampling) in PANELS.into_iter().enumerate() {
         let (column, row) = ((number % 4) as f32, (number / 4) as f32);
-        let at = Vec3::new(2.35 * (column - 1.5), 1.1 - 2.5 * row, 0.0);
+        let x = 2.35 * (column - 1.5);
         let transform = UvTransform { scale: [4.0, 40.0], ..UvTransform::default() };
+        // Long, and seen from a few degrees above.
+        let floor_at = Vec3::new(x, 2.0 - 5.4 * row, -7.0);
+        let tilt = (floor_at.y / 17.0).atan() + 0.085;
         commands.spawn((
             Mesh3d(floor.clone()),
             Material::matte(LinearRgba::WHITE),
             ColorMap { texture: texture.clone(), sampling, transform },
-            // Long, and tilted away.
-            Transform::from_translation(at - Vec3::new(0.0, 0.3, 7.0))
-                .with_rotation(Quat::from_rotation_x(0.12 - 0.12 * row))
+            Transform::from_translation(floor_at)
+                .with_rotation(Quat::from_rotation_x(tilt))
                 .with_scale(Vec3::new(1.05, 1.0, 9.0)),
         ));
         commands.spawn((
             Mesh3d(ball.clone()),
             Material::plastic(LinearRgba::WHITE),
             ColorMap { texture: texture.clone(), sampling, transform: UvTransform::default() },
-            Transform::from_translation(at + Vec3::new(0.0, 0.75, 0.0) - Vec3::new(0.0, 1.55, -2.5) * row),
+            Transform::from_xyz(x, 2.4 - 2.97 * row, 0.0),
         ));
     }
     Ok(())
