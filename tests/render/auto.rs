@@ -268,3 +268,53 @@ fn what_costs_more_than_it_saves_stays_at_the_fragments() {
     let (at_vertices, pairs, _, off) = look(1024, VertexPrices::NEVER);
     assert_eq!((at_vertices, pairs, off), (0, 0, 0.0));
 }
+
+/// A run of patches goes on over those between that do not show, and not over triangles for which coarser or finer ones stand:
+/// these would be drawn too, under the lights of their neighbours.
+#[test]
+fn coarser_patches_take_no_triangles_of_others_along() {
+    let mut stage = stage(244, 220);
+    let matte = Material { ambient: LinearRgba::BLACK, ..Material::matte(LinearRgba::rgb(0.1, 0.8, 0.75)) };
+    let turned = Quat::from_xyzw(-0.901526, -0.370284, 0.155512, 0.161112).normalize();
+    let at = Transform::from_xyz(0.4133, 0.1513, 2.201).with_rotation(turned).with_scale(Vec3::splat(1.374));
+    let ball = Mesh::from(UvSphere::new(0.9491, 128, 64));
+    let mut auto = scene(Thing::new(ball).of(matte).faces(Faces::Back).at(at));
+    let mut lamp = |at: [f32; 3], color: [f32; 3], [constant, linear, quadratic]: [f32; 3]| {
+        let [r, g, b] = color;
+        let light = PointLight {
+            attenuation: Attenuation::new(constant, linear, quadratic),
+            ..PointLight::from_color(LinearRgba::rgb(r, g, b))
+        };
+        auto.lamps.push(Lamp::point(light, at.into()));
+    };
+    lamp([-1.326, 2.664, 3.913], [0.2841; 3], [0.2766, 0.139, 0.06707]);
+    lamp([-3.371, -1.57, -2.153], [0.0, 0.2473, 0.0], [0.0, 0.0, 0.07057]);
+    lamp([1.684, 1.187, 1.192], [0.3588, 0.2444, 0.04505], [1.0, 0.0, 0.0]);
+    let (target, up) = (Vec3::new(0.07936, -0.3024, 0.07684), Vec3::new(0.4675, 0.2478, -0.8486));
+    auto.eye = Transform::from_xyz(-3.047, -5.34, 1.129).looking_at(target, up);
+    stage.set(&auto);
+    for (steps, pixels) in [(1.0, 0.1), (1.0, 0.5), (2.0, 0.5), (4.0, 1.0)] {
+        let tolerance = Tolerance { steps, pixels };
+        stage.levels(tolerance);
+        let FrameReport { triangles, patches, patches_culled, .. } = *stage.report();
+        assert!(patches_culled > 0, "some are hidden");
+        println!("{steps} steps, {pixels} pixels: {triangles} triangles of {patches} patches, {patches_culled} hidden");
+        let picture = stage.float();
+        stage.world().insert_resource(ViewTolerance(Tolerance::EXACT));
+        let exact = stage.float();
+        for (x, y, pixel) in picture.enumerate_pixels() {
+            let near = |k: usize| {
+                let around =
+                    (-2..=2).flat_map(|dy: i64| (-2..=2).map(move |dx: i64| (i64::from(x) + dx, i64::from(y) + dy)));
+                let inside = around.filter(|&(x, y)| (0..244).contains(&x) && (0..220).contains(&y));
+                let values = inside.map(|(x, y)| exact.get_pixel(x as u32, y as u32).0[k]);
+                values.fold([f32::MAX, f32::MIN], |[low, high], value| [low.min(value), high.max(value)])
+            };
+            for k in 0..3 {
+                let [low, high] = near(k);
+                let off = (low - pixel.0[k]).max(pixel.0[k] - high);
+                assert!(off <= tolerance.steps / 255.0, "({x}, {y}) {k}: {} of {low} to {high}", pixel.0[k]);
+            }
+        }
+    }
+}

@@ -11,6 +11,7 @@ const ROOMS: &[&str] = &[
     "lighting",
     "mesh",
     "render",
+    "texture",
     #[cfg(feature = "window")]
     "window",
 ];

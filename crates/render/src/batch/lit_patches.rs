@@ -155,6 +155,9 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
     report.steps_spent = lit.lists.placed.spent;
 }
 
+/// A patch that is drawn, and its stretch: see [`Detail::each_seen`](crate::geometry::detail::Detail::each_seen).
+type SeenPatch<'a> = (&'a MeshPatch, u32);
+
 /// An object whose patches are being lit.
 struct LitObject<'a> {
     reflecting: Reflecting<'a>,
@@ -219,7 +222,7 @@ impl LitPatches {
     fn add<'a>(
         &mut self,
         object: &LitObject<'a>,
-        seen: &mut Vec<&'a MeshPatch>,
+        seen: &mut Vec<SeenPatch<'a>>,
         view: &View,
         shared: Shared,
         backend: &mut impl Backend,
@@ -258,7 +261,8 @@ impl LitPatches {
             reflector.listing(reflecting.faces, ambient, eye, spending)
         });
         seen.clear();
-        let looked_at = detail.each_seen(&allowed, &sight, &mut self.choice, |patch| seen.push(patch));
+        let looked_at =
+            detail.each_seen(&allowed, &sight, &mut self.choice, |patch, stretch| seen.push((patch, stretch)));
         // What is whole has been found to be seen, and is not counted.
         if looked_at > 0 {
             report.patches += looked_at;
@@ -273,14 +277,14 @@ impl LitPatches {
         let mut run: Option<OpenRun> = None;
         for together in seen.chunks(TOGETHER) {
             let mut has_looked_around = false;
-            for patch in together {
+            for &(patch, stretch) in together {
                 let (key, lights, lists) = if let Some(listing) = &listing {
                     let place = object.place(patch, &sight, prices);
                     if let Some(key) = self.unlisted(object, place.0, shared, backend) {
                         (key, 0, RecordLists::default())
                     } else {
                         if !has_looked_around {
-                            self.lists.look_around(listing, together.iter().map(|patch| patch.sphere(model_view)));
+                            self.lists.look_around(listing, together.iter().map(|(patch, _)| patch.sphere(model_view)));
                             has_looked_around = true;
                         }
                         self.lit(object, (patch, place), listing, shared, backend)
@@ -293,7 +297,7 @@ impl LitPatches {
                 } else {
                     (key, lights, self.table.number(&mut self.records, object.material, lists))
                 };
-                let next = OpenRun { key, lights, record, indices: patch.indices.clone() };
+                let next = OpenRun { key, lights, record, indices: patch.indices.clone(), stretch };
                 match &mut run {
                     Some(run) if run.goes_on_with(&next) => run.indices.end = next.indices.end,
                     _ => {
@@ -338,7 +342,7 @@ impl LitPatches {
     fn pays(
         &mut self,
         object: &LitObject,
-        seen: &[&MeshPatch],
+        seen: &[SeenPatch],
         listing: &Listing,
         (sight, shared): (&Sight, Shared),
     ) -> bool {
@@ -349,7 +353,7 @@ impl LitPatches {
             return true;
         }
         let mut gains = 0.0;
-        for patch in seen.iter().step_by(LOOKED_AT_FIRST) {
+        for (patch, _) in seen.iter().step_by(LOOKED_AT_FIRST) {
             let place = object.place(patch, sight, &shared.prices);
             if place.0 == ShadedAt::Either {
                 self.lists.look_around(listing, std::iter::once(patch.sphere(object.model_view)));
@@ -422,7 +426,7 @@ impl LitPatches {
         (key, 0, self.lists.list(shared.lights))
     }
 
-    fn add_run(&mut self, object: &LitObject, OpenRun { key, lights, record, indices }: OpenRun) {
+    fn add_run(&mut self, object: &LitObject, OpenRun { key, lights, record, indices, .. }: OpenRun) {
         let LitObject { depth, twins_before, map, .. } = *object;
         for (pass, key) in (0..).zip(key.passes()) {
             let call = self.table.call((key, object.mesh, object.form, if key.mapped.is_some() { map } else { 0 }));

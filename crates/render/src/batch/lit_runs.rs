@@ -31,6 +31,8 @@ pub(super) struct OpenRun {
     pub(super) lights: u32,
     pub(super) record: u32,
     pub(super) indices: Range<u32>,
+    /// Between its patches and others of the stretch there are only triangles that do not show.
+    pub(super) stretch: u32,
 }
 
 /// Triangles between patches of a run that are not seen are drawn with it if they are no more than this: that costs less
@@ -39,7 +41,7 @@ const JOINED: u32 = 128;
 
 impl OpenRun {
     pub(super) fn goes_on_with(&self, next: &Self) -> bool {
-        (self.key, self.lights, self.record) == (next.key, next.lights, next.record)
+        (self.key, self.lights, self.record, self.stretch) == (next.key, next.lights, next.record, next.stretch)
             && next.indices.start - self.indices.end <= 3 * JOINED
     }
 }

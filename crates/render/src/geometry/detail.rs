@@ -167,30 +167,40 @@ impl Detail {
         self.part_of.iter().any(|&part_of| part_of != FINEST)
     }
 
-    /// Visits the patches that are drawn of an object and may show, in the order of their triangles, and returns how many
+    /// Visits the patches that are drawn of an object and may show, in the order of their triangles, each with the number of
+    /// its stretch: between two patches of one stretch there are only triangles that do not show. Returns how many patches
     /// were looked at or left out with others.
     pub(crate) fn each_seen<'a>(
         &'a self,
         allowed: &Allowed,
         sight: &Sight,
         Choice { will_do }: &mut Choice,
-        mut each: impl FnMut(&'a MeshPatch),
+        mut each: impl FnMut(&'a MeshPatch, u32),
     ) -> u32 {
         self.choose(allowed, sight, will_do);
+        let (mut stretch, mut end) = (0, 0);
+        let mut stretch_of = |patch: &MeshPatch| {
+            // What lies between are triangles for which others stand.
+            stretch += u32::from(patch.indices.start != end);
+            end = patch.indices.end;
+            stretch
+        };
         // The object as a whole has been found to be seen.
         let mut looked_at = 0;
         for (group, _) in self.groups.iter().zip(&*will_do).filter(|(_, will_do)| !**will_do) {
             let joins = group.joins.start as usize..group.joins.end as usize;
             let drawn = |at: &usize| will_do.get(self.part_of[*at] as usize).is_none_or(|will_do| *will_do);
             if self.is_whole {
-                joins.filter(drawn).for_each(|at| each(&self.patches[at]));
+                joins.filter(drawn).map(|at| &self.patches[at]).for_each(|patch| each(patch, stretch_of(patch)));
                 continue;
             }
             let is_seen = group.joined.is_seen(sight);
             for at in joins.filter(drawn) {
                 looked_at += 1;
-                if is_seen && self.patches[at].is_seen(sight) {
-                    each(&self.patches[at]);
+                let patch = &self.patches[at];
+                let stretch = stretch_of(patch);
+                if is_seen && patch.is_seen(sight) {
+                    each(patch, stretch);
                 }
             }
         }
