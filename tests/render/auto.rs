@@ -275,7 +275,7 @@ fn what_costs_more_than_it_saves_stays_at_the_fragments() {
 fn coarser_patches_take_no_triangles_of_others_along() {
     let mut stage = stage(244, 220);
     let matte = Material { ambient: LinearRgba::BLACK, ..Material::matte(LinearRgba::rgb(0.1, 0.8, 0.75)) };
-    let turned = Quat::from_xyzw(-0.901526, -0.370284, 0.155512, 0.161112).normalize();
+    let turned = Quat::from_xyzw(-0.901_526, -0.370_284, 0.155_512, 0.161_112).normalize();
     let at = Transform::from_xyz(0.4133, 0.1513, 2.201).with_rotation(turned).with_scale(Vec3::splat(1.374));
     let ball = Mesh::from(UvSphere::new(0.9491, 128, 64));
     let mut auto = scene(Thing::new(ball).of(matte).faces(Faces::Back).at(at));
@@ -290,7 +290,7 @@ fn coarser_patches_take_no_triangles_of_others_along() {
     lamp([-1.326, 2.664, 3.913], [0.2841; 3], [0.2766, 0.139, 0.06707]);
     lamp([-3.371, -1.57, -2.153], [0.0, 0.2473, 0.0], [0.0, 0.0, 0.07057]);
     lamp([1.684, 1.187, 1.192], [0.3588, 0.2444, 0.04505], [1.0, 0.0, 0.0]);
-    let (target, up) = (Vec3::new(0.07936, -0.3024, 0.07684), Vec3::new(0.4675, 0.2478, -0.8486));
+    let (target, up) = (Vec3::new(0.07936, -0.3024, 0.076_84), Vec3::new(0.4675, 0.2478, -0.8486));
     auto.eye = Transform::from_xyz(-3.047, -5.34, 1.129).looking_at(target, up);
     stage.set(&auto);
     for (steps, pixels) in [(1.0, 0.1), (1.0, 0.5), (2.0, 0.5), (4.0, 1.0)] {
