@@ -76,7 +76,7 @@ fn textures() {
         let reds: Vec<u8> = (0..width / 12).map(|x| picture.get_pixel(width * 5 / 12 + x / 2, row).0[2]).collect();
         reds.iter().max().zip(reds.iter().min()).map_or(0, |(most, least)| most - least)
     };
-    assert!(spread(0.4) > 60 && spread(0.615) < 20, "{} and {}", spread(0.4), spread(0.615));
+    assert!(spread(0.28) > 60 && spread(0.785) < 20, "{} and {}", spread(0.28), spread(0.785));
 }
 
 #[test]
