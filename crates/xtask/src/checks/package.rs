@@ -69,14 +69,15 @@ fn faults(package: &Package) -> Vec<String> {
     faults
 }
 
-/// Unpacks every package, each into the folder that it brings, and names these.
+/// Unpacks every package, each into the folder that it brings, and names these. Files are as new as that, whatever their
+/// package says: else what was built of older ones would be taken for built of these.
 fn unpack(folder: &Path) -> Result<Vec<PathBuf>> {
     let packed = folder.join("package");
     let mut folders = Vec::new();
     for entry in fs::read_dir(&packed).map_err(failed(&packed))? {
         let path = entry.map_err(failed(&packed))?.path();
         if path.extension().is_some_and(|end| end == "crate") {
-            step("unpacking", Command::new("tar").arg("-xzf").arg(&path).current_dir(folder))?;
+            step("unpacking", Command::new("tar").arg("-xzmf").arg(&path).current_dir(folder))?;
             folders.push(folder.join(path.file_stem().unwrap_or_default()));
         }
     }
