@@ -313,7 +313,12 @@ fn coarser_patches_take_no_triangles_of_others_along() {
             for k in 0..3 {
                 let [low, high] = near(k);
                 let off = (low - pixel.0[k]).max(pixel.0[k] - high);
-                assert!(off <= tolerance.steps / 255.0, "({x}, {y}) {k}: {} of {low} to {high}", pixel.0[k]);
+                // Beside black, grids of pixels differ in what they cover.
+                assert!(
+                    low == 0.0 || off <= tolerance.steps / 255.0,
+                    "({x}, {y}) {k}: {} of {low} to {high}",
+                    pixel.0[k]
+                );
             }
         }
     }

@@ -92,19 +92,25 @@ impl Worst {
     }
 }
 
-/// Draws every row on one stage, and compares its three pictures with the oracle's.
 fn conform(title: &str, rows: &[Row]) {
+    conform_within(title, rows, 0.0);
+}
+
+/// Draws every row on one stage, and compares its three pictures with the oracle's: on an adapter whose grid within a pixel
+/// is coarse within so many steps besides.
+fn conform_within(title: &str, rows: &[Row], steps_on_coarse_grid: f64) {
     let mut stage = Stage::new(SIZE.x, SIZE.y);
     let mut failures = Failures::default();
     let mut worst = Worst::default();
     let mut without_floats = 0;
     stage.frame();
+    let besides = if stage.grid_bits() < 8 { steps_on_coarse_grid } else { 0.0 };
     for Row { name, scene, float, raw, srgb } in rows {
         stage.set(scene);
         // An adapter may be unable to blend 32-bit floats, as OpenGL is.
         let of_floats = if stage.blends_floats() || !scene.things.iter().any(|thing| thing.blend) {
             let picture = stage.float();
-            let verdict = failures.compare(name, &mut stage, &picture, *float);
+            let verdict = failures.compare(name, &mut stage, &picture, float.within(besides));
             failures.unless(verdict.counted + verdict.edges > 0.02, || format!("{name} shows next to nothing"));
             Some(verdict)
         } else {
@@ -115,7 +121,7 @@ fn conform(title: &str, rows: &[Row]) {
         let [raw, srgb] = [(Encoding::Raw, raw), (Encoding::Srgb, &srgb)].map(|(encoding, bars)| {
             stage.encode(encoding);
             let picture = stage.bytes();
-            failures.compare_bytes(&format!("{name}, {encoding:?} bytes"), &mut stage, &picture, *bars)
+            failures.compare_bytes(&format!("{name}, {encoding:?} bytes"), &mut stage, &picture, bars.within(besides))
         });
         worst.note(name, of_floats, [raw, srgb]);
     }
@@ -145,5 +151,6 @@ fn every_way_to_shade_colors_of_vertices_conforms() {
 
 #[test]
 fn every_way_to_shade_and_to_filter_images_conforms() {
-    conform("images", &maps::rows());
+    // Vertices that are rounded to 1/16 pixel turn the planes of u and v: SwiftShader is off by up to 1.2e-2 of the range.
+    conform_within("images", &maps::rows(), 2.0);
 }

@@ -85,11 +85,16 @@ impl Stage {
         matches!(self.adapter(), Adapter::Cpu(_))
     }
 
-    /// `bars` for the adapter's grid.
-    pub(crate) fn on_grid(&self, bars: Bars) -> Bars {
+    /// The bits of the adapter's grid within a pixel.
+    pub(crate) fn grid_bits(&self) -> u32 {
         // One adapter draws all tests of a process.
         static BITS: OnceLock<u32> = OnceLock::new();
-        bars.on_grid(*BITS.get_or_init(|| self.adapter().sub_pixel_bits().unwrap_or_else(|error| panic!("{error}"))))
+        *BITS.get_or_init(|| self.adapter().sub_pixel_bits().unwrap_or_else(|error| panic!("{error}")))
+    }
+
+    /// `bars` for the adapter's grid.
+    pub(crate) fn on_grid(&self, bars: Bars) -> Bars {
+        bars.on_grid(self.grid_bits())
     }
 
     /// Whether a floating-point picture may show blended objects.
