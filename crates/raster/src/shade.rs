@@ -23,6 +23,8 @@ pub(crate) struct Look<'a> {
     pub(crate) pass: &'a Pass<'a>,
     pub(crate) states: &'a [State],
     pub(crate) screen: &'a Screen,
+    /// Whether anything in the tile [shades apart](State::shades_apart).
+    pub(crate) painted: bool,
     /// Column and row of the tile.
     pub(crate) tile: [u32; 2],
 }
@@ -47,22 +49,21 @@ impl<S: Simd> Fragments<S> {
     pub(crate) fn color_apart(&self, simd: S, look: &Look, state: &State, back: bool) -> V3<S> {
         simd.vectorize(
             #[inline(always)]
-            || self.color(simd, look, state, back),
+            || {
+                if state.shades_apart() {
+                    self.painted(simd, look, state, back)
+                } else {
+                    self.color(simd, look, state, back)
+                }
+            },
         )
     }
 
-    /// Their colors; most of the code of drawing, and fastest where it is inlined.
+    /// Their colors where only the material says how they give light back; most of the code of drawing, and fastest where it
+    /// is inlined.
     #[inline(always)]
     pub(crate) fn color(&self, simd: S, look: &Look, state: &State, back: bool) -> V3<S> {
         let side = state.side(look.pass, back);
-        if let Some(map) = &state.map {
-            let [r, g, b, _] = self.texels(simd, look, map);
-            let [tinted, plain] = self.parts(simd, look, state, back);
-            return each!(c in 3 => fma::<S>([r, g, b][c], tinted[c], plain[c]));
-        }
-        if state.shades_paint() {
-            return self.painted(simd, look, state, back);
-        }
         match state.stage {
             Stage::Unlit => splat3(simd, side.base),
             Stage::Flat => self.lead,
@@ -77,10 +78,15 @@ impl<S: Simd> Fragments<S> {
         }
     }
 
-    /// The colors of what the vertices' colors have part in.
+    /// The colors of what vertices' colors or an image have part in.
     #[inline(always)]
     fn painted(&self, simd: S, look: &Look, state: &State, back: bool) -> V3<S> {
         let side = state.side(look.pass, back);
+        if let Some(map) = &state.map {
+            let [r, g, b, _] = self.texels(simd, look, map);
+            let [tinted, plain] = self.parts(simd, look, state, back);
+            return each!(c in 3 => fma::<S>([r, g, b][c], tinted[c], plain[c]));
+        }
         let color = self.interpolated(simd, self.paint);
         let color = each!(c in 3 => min::<S>(color[c], splat(simd, 1.0)));
         if state.stage == Stage::Unlit {
@@ -208,13 +214,19 @@ impl TileBuffer {
     pub(crate) fn shade_one_apart<S: Simd>(&self, simd: S, look: &Look, at: usize, clear: V3<S>) -> V3<S> {
         simd.vectorize(
             #[inline(always)]
-            || self.shade_one(simd, look, at, clear),
+            || {
+                if look.painted {
+                    self.shade_one::<S, true>(simd, look, at, clear)
+                } else {
+                    self.shade_one::<S, false>(simd, look, at, clear)
+                }
+            },
         )
     }
 
-    /// The color of pixels with one sample each.
+    /// The color of pixels with one sample each. Tiles that are not `PAINTED` have nothing in the way of what is drawn most.
     #[inline(always)]
-    fn shade_one<S: Simd>(&self, simd: S, look: &Look, at: usize, clear: V3<S>) -> V3<S> {
+    fn shade_one<S: Simd, const PAINTED: bool>(&self, simd: S, look: &Look, at: usize, clear: V3<S>) -> V3<S> {
         let shaders = load_i(simd, &self.shader[0], at);
         let mut left = (!shaders.simd_eq(splat_i(simd, 0))).to_bitmask();
         let mut color = clear;
@@ -227,14 +239,19 @@ impl TileBuffer {
             let inverse_w = same.select(load(simd, &self.depth[0], at), splat(simd, 1.0));
             let (state, back) = state_of(look.states, shader);
             let fragments = self.fragments(simd, state, (0, at), place, inverse_w);
-            color = select3::<S>(same, fragments.color(simd, look, state, back), color);
+            let shade = if PAINTED {
+                fragments.color_apart(simd, look, state, back)
+            } else {
+                fragments.color(simd, look, state, back)
+            };
+            color = select3::<S>(same, shade, color);
         }
         color
     }
 
     /// The same as bytes. `even` are shaders that have been met; what is all of one of them is not computed again.
     #[inline(always)]
-    pub(crate) fn bytes_of_one<S: Simd>(
+    pub(crate) fn bytes_of_one<S: Simd, const PAINTED: bool>(
         &self,
         simd: S,
         look: &Look,
@@ -248,7 +265,12 @@ impl TileBuffer {
                 return *bytes;
             }
         }
-        let bytes = bytes(simd, self.shade_one(simd, look, at, clear), look.pass.pixels);
+        let color = if PAINTED {
+            self.shade_one_apart(simd, look, at, clear)
+        } else {
+            self.shade_one::<S, false>(simd, look, at, clear)
+        };
+        let bytes = bytes(simd, color, look.pass.pixels);
         let shader = self.shader[0][at];
         let one = shader != 0 && state_of(look.states, shader).0.is_even();
         if one && shaders.simd_eq(splat_i(simd, shader)).all_true() {

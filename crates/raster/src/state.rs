@@ -129,6 +129,12 @@ impl State {
         self.colored && matches!(self.stage, Stage::Unlit | Stage::Fragment | Stage::Mixed)
     }
 
+    /// Whether more than the material says at the fragments how light is given back.
+    #[inline(always)]
+    pub(crate) fn shades_apart(&self) -> bool {
+        self.map.is_some() || self.shades_paint()
+    }
+
     /// Whether all its pixels have one color.
     pub(crate) fn is_even(&self) -> bool {
         self.stage == Stage::Unlit && !self.is_painted()

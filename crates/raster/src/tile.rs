@@ -62,7 +62,7 @@ impl Worker {
     /// Draws a tile into its place in the picture.
     pub(crate) fn draw<S: Simd>(&mut self, simd: S, scene: &Scene, tile: [u32; 2], bands: &Bands) {
         let Scene { pass, bins, screen } = *scene;
-        let look = Look { pass, states: &bins.states, screen, tile };
+        let mut look = Look { pass, states: &bins.states, screen, painted: false, tile };
         let last = [0, 1].map(|axis| (pass.size[axis] - tile[axis] * TILE as u32).min(TILE as u32) as i32 - 1);
         let mut jobs = bins.of_tile(tile[0], tile[1]).peekable();
         let is_clear = jobs.peek().is_none();
@@ -87,6 +87,7 @@ impl Worker {
                 shaded = true;
             }
             let work = Work::of(scene, number, last, blend);
+            look.painted |= work.state.shades_apart();
             let shows = simd.vectorize(
                 #[inline(always)]
                 || self.vertices.fill(simd, (work.mesh, work.piece), work.instance, (screen, tile), (pass, work.state)),
@@ -259,11 +260,18 @@ fn shade_and_encode<S: Simd>(simd: S, nearest: &TileBuffer, look: &Look, last_ro
     let pass = look.pass;
     let clear = cleared(simd, pass.clear, pass.pixels);
     let mut even = [Even::clear(simd, pass); 2];
-    for at in (0..(last_row as usize + 1) * TILE).step_by(lanes::<S>()) {
-        if pass.pixels == PixelFormat::Floats {
+    let places = (0..(last_row as usize + 1) * TILE).step_by(lanes::<S>());
+    if pass.pixels == PixelFormat::Floats {
+        for at in places {
             put(simd, rows, at, kept(simd, nearest.shade_one_apart(simd, look, at, clear), pass.pixels), pass.pixels);
-        } else {
-            put_bytes::<S>(rows, at, nearest.bytes_of_one(simd, look, at, clear, &mut even));
+        }
+    } else if look.painted {
+        for at in places {
+            put_bytes::<S>(rows, at, nearest.bytes_of_one::<S, true>(simd, look, at, clear, &mut even));
+        }
+    } else {
+        for at in places {
+            put_bytes::<S>(rows, at, nearest.bytes_of_one::<S, false>(simd, look, at, clear, &mut even));
         }
     }
 }
