@@ -47,9 +47,10 @@ pub(crate) struct Gradient {
     inverse: f64,
 }
 
-/// A triangle flatter than this, in pixels, takes its slopes from the corners on the grid, so that it covers no pixel that
-/// lies far outside of what slopes were made from; and so does one that the rounding to the grid has turned over.
-pub(crate) const FLATTEST: f32 = 1.0 / 32.0;
+/// A triangle flatter than this, in pixels, takes its slopes from the corners on the grid, and so does one that the rounding to
+/// the grid has turned over. A covered pixel lies at most one step of the grid outside of the exact triangle; so what is
+/// interpolated leaves the range of its corners by half of it at most.
+pub(crate) const FLATTEST: f32 = 1.0 / 128.0;
 
 impl Gradient {
     /// From the corners in pixels from the tile's first, exactly and on the grid, and the sign of the area on the picture.

@@ -141,7 +141,7 @@ const HASHES: [u64; 10] = [
     0x1225_8e91_e8b8_1f69,
     0x24b7_6c37_0b6c_1f94,
     0x78b8_ffb5_4a67_0c06,
-    0x1c00_d1df_9a5b_7cf8,
+    0xf6f5_606d_9594_d0df,
     0xff48_1d21_deb8_0ee6,
     0x36f9_073c_35ef_96b5,
     0x74f3_f8fb_9b59_2d5c,

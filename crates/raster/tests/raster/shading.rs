@@ -7,8 +7,8 @@ use halfway_lighting::equations::{
 };
 use halfway_mesh::{Mesh, UvSphere};
 use halfway_raster::{
-    Highlight, InstanceData, LeftOut, LightData, LightRange, Output, PixelFormat, RasterOptions, Rasterizer,
-    SampleCount, ShadedTerms, SideData, SurfaceData, TriangleOrder,
+    Highlight, InstanceData, LeftOut, Lens, LightData, LightRange, Output, Pieces, PixelFormat, RasterOptions,
+    Rasterizer, SampleCount, ShadedTerms, SideData, SurfaceData, TriangleOrder, VertexLists,
 };
 
 type V = [f64; 3];
@@ -346,4 +346,35 @@ fn the_check_finds_a_light_that_is_left_out() {
     case.scene.surfaces[0].vertex.counts = [1, 1, 0];
     let picture = case.picture();
     case.judge("without a light", &picture);
+}
+
+#[test]
+fn a_sliver_has_the_colors_of_its_corners_and_not_of_the_grids() {
+    // A 64th of a pixel high, its corners nearly half a step of the grid away from it; eye space with z = −1.
+    let (side, rows) = (64.0, [20.494_2, 20.509_7, 20.494_2]);
+    let eye = |[x, y]: [f64; 2]| [(x / 32.0 - 1.0) as f32, (1.0 - y / 32.0) as f32, -1.0];
+    let positions = [eye([4.1, rows[0]]), eye([32.3, rows[1]]), eye([59.7, rows[2]])];
+    let colors = [0.0, 1.0, 0.0].map(|grey: f32| [grey, grey, grey, 1.0]);
+    let lists = VertexLists { colors: &colors, ..VertexLists::default() };
+    let mesh = Pieces::with_lists(&positions, lists, &[0, 1, 2], &[], TriangleOrder::Clustered).expect("a sound mesh");
+    let mut call = draw(&mesh, 1, Shading::Constant);
+    (call.colored, call.left_out) = (true, LeftOut::Neither);
+    let mut scene = case(Shading::Constant, Highlight::Phong).scene;
+    (scene.size, scene.lens) = ([side as u32; 2], Lens { scale: [1.0; 2], near: 0.1 });
+    let white = SideData { base: [1.0; 3], opacity: 1.0, ..SideData::default() };
+    (scene.surfaces[0].front, scene.surfaces[0].back) = (white, white);
+    (scene.instances, scene.draws, scene.meshes) = (vec![at([0.0; 3], 0)], vec![call], vec![mesh]);
+    let mut floats = vec![0.0; 4 * 64 * 64];
+    let mut rasterizer = Rasterizer::new(RasterOptions::default()).expect("threads");
+    scene.with_pass(|pass| rasterizer.draw(pass, Output::Floats(&mut floats))).expect("a sound pass");
+
+    // How far a pixel's middle is from one side of the long edge to the corner opposite of it.
+    let [a, b, c] = positions.map(f);
+    let height = |p: V| (c[0] - a[0]) * (p[1] - a[1]) - (c[1] - a[1]) * (p[0] - a[0]);
+    for column in 20..45 {
+        let expected = height(f(eye([f64::from(column) + 0.5, 20.5]))) / height(b);
+        let found = f64::from(floats[4 * (20 * 64 + column as usize)]);
+        // Places are kept to 2⁻¹⁶ of a pixel: a thousandth of the height.
+        assert!((found - expected).abs() < 2e-3, "column {column}: {found} for {expected}");
+    }
 }
