@@ -158,8 +158,8 @@ impl Verdict {
 ///
 /// Of a pixel whose error is over `bars.most` the oracle is asked which colours it [may show](Oracle::possible) with
 /// vertices moved by less than [`EDGE_RADIUS`]; with four samples a pixel, also of one beside which something else is seen. On an edge (several triangles, or a jump in the colour of one) and on a
-/// slope of more than 4 % of the range within that radius, each of these colours, give or take `bars.worst`, is right, and
-/// the pixel is counted apart; the error of another one is its distance from the nearest of them. Where blended layers are
+/// slope of more than 4 % of the range within that radius, each of these colours and that at the middle, give or take
+/// `bars.worst`, is right, and the pixel is counted apart; the error of another one is its distance from the nearest of them. Where blended layers are
 /// seen, `bars.worst` is larger by `bars.layer` for each. No share of pixels is excused.
 ///
 /// # Errors
@@ -245,7 +245,14 @@ fn judge_with(
         if is_over || (samples == Samples::Four && ruler.differs_beside(expected, at)) {
             let possible = possible(at.0, at.1);
             let has_choice = ruler.has_choice(&possible);
-            let (nearest, errors) = if has_choice { ruler.nearest(is, &possible) } else { (should, errors) };
+            let (nearest, errors) = if has_choice {
+                let of_choice = ruler.nearest(is, &possible);
+                // What one sample shows at the middle itself is right, also where it is too small to be found around it.
+                let is_nearer = samples == Samples::One && largest(&errors) < largest(&of_choice.1);
+                if is_nearer { (should, errors) } else { of_choice }
+            } else {
+                (should, errors)
+            };
             let is_within = |bar: f64| errors.iter().all(|error| *error <= bar);
             if !is_within(bars.worst + ruler.allowed) {
                 let is_layered = is_within(ruler.bar_through(&possible, samples));
@@ -267,6 +274,11 @@ fn judge_with(
         tally.add(finding);
     }
     Ok(tally.verdict(bars, ruler.allowed, expected.pixels().len()))
+}
+
+/// The largest of the channels' errors.
+fn largest(errors: &[f64; 3]) -> f64 {
+    errors.iter().copied().fold(0.0, f64::max)
 }
 
 /// How a pixel did.
@@ -349,7 +361,6 @@ impl Ruler {
 
     /// The colour that a pixel may show and that is nearest to what it shows, and the errors of the channels.
     fn nearest(&self, actual: [f64; 3], possible: &Possible) -> ([f64; 3], [f64; 3]) {
-        let largest = |errors: &[f64; 3]| errors.iter().copied().fold(0.0, f64::max);
         let of_ranges = possible.ranges.iter().map(|range| {
             let inside = std::array::from_fn(|k| actual[k].max(range.low[k]).min(range.high[k]));
             (inside, self.errors_outside(actual, range))

@@ -62,6 +62,15 @@ fn either_side_of_an_edge_is_right_and_nothing_else() {
 }
 
 #[test]
+fn at_an_edge_the_middle_is_right_too_by_its_own_bar() {
+    let middle = ramp().pixel(3, 5)[0];
+    for (off, is_right) in [(1e-3, true), (3e-3, false)] {
+        let verdict = float(pixels(true, [[0.7, 0.7]]), &with(&ramp(), &[((3, 5), [middle + off; 3])]));
+        assert_eq!(verdict.is_within(), is_right, "{off}: {verdict}");
+    }
+}
+
+#[test]
 fn a_steep_slope_has_many_right_values_and_a_gentle_one_has_one() {
     let found = with(&ramp(), &[((3, 5), [0.09; 3])]);
     for (is_edge, low, within) in [(false, 0.045, true), (false, 0.065, false), (true, 0.065, true)] {
