@@ -269,6 +269,30 @@ fn what_costs_more_than_it_saves_stays_at_the_fragments() {
     assert_eq!((at_vertices, pairs, off), (0, 0, 0.0));
 }
 
+#[test]
+fn prices_that_are_none_are_told_and_not_taken() {
+    for (wrong, message) in [
+        (
+            VertexPrices { light: -1.0, ..VertexPrices::FREE },
+            "VertexPrices.light: the value is -1.0; expected 0 or more",
+        ),
+        (
+            VertexPrices { draw: f32::NAN, ..VertexPrices::FREE },
+            "VertexPrices.draw: the value is NaN; expected 0 or more",
+        ),
+    ] {
+        let mut stage = Stage::new(64, 64);
+        let ball = scene(Thing::new(ball()).of(material())).lit(sun());
+        let expected = stage.draw(&ball);
+        stage.world().insert_resource(wrong);
+        let errors: Vec<_> = stage.frame().errors.iter().map(ToString::to_string).collect();
+        assert!(errors.len() == 1 && errors[0].contains(message), "{errors:?}");
+        stage.world().insert_resource(VertexPrices::NEVER);
+        assert_eq!(difference(&expected, &stage.draw(&ball)), 0.0);
+        assert_eq!(stage.report().errors, []);
+    }
+}
+
 /// A run of patches goes on over those between that do not show, and not over triangles for which coarser or finer ones stand:
 /// these would be drawn too, under the lights of their neighbours.
 #[test]

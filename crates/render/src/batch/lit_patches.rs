@@ -85,8 +85,13 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
     lit.begin(&lights, lights.is_changed());
     let (Some(camera), Some(values)) = (&view.camera, values.0) else { return };
     let (encoding, viewer, costs) = (values.encoding(), camera.viewer, backend.costs());
-    let prices = prices.map_or(costs.vertices, |prices| *prices);
-    let shared = Shared { lights: &lights, encoding, viewer, costs, prices, false_colors: false_colors.0 };
+    let mut vertex_prices = prices.map_or(costs.vertices, |prices| *prices);
+    if let Err(source) = vertex_prices.validate() {
+        report.errors.push(RenderError::Invalid { entity: "resource".into(), source });
+        vertex_prices = costs.vertices;
+    }
+    let shared =
+        Shared { lights: &lights, encoding, viewer, costs, prices: vertex_prices, false_colors: false_colors.0 };
     let mut seen = Vec::new();
     for &entity in &visible.0 {
         let Ok((mesh, material, back, reflectance, faces, blend, paint, tolerance, placed, chosen, name)) =

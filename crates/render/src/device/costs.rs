@@ -3,6 +3,7 @@
 use crate::error::RenderError;
 use bevy_ecs::prelude::{ReflectResource, Resource};
 use bevy_reflect::Reflect;
+use halfway_lighting::{Fields, InvalidValue};
 
 /// What is cheap on the adapter, and so by which of two ways a frame is drawn: the one place where the renderer tells
 /// software adapters, which draw on the CPU, from hardware. Either way gives the same picture, but for rounding.
@@ -34,7 +35,8 @@ pub struct Costs {
 /// [`Shading::Auto`](halfway_lighting::Shading::Auto), which moves terms to the vertices, and leaves lights out of a patch
 /// that are compiled in, where that is within the tolerance and saves more than it costs.
 ///
-/// As a resource it stands for the adapter's own, in [`Costs`].
+/// As a resource it stands for the adapter's own, in [`Costs`]. Prices are 0 or more, also infinite; of one that is not,
+/// [`FrameReport::errors`](crate::FrameReport) tells, and the adapter's own are taken.
 #[derive(Resource, Reflect, Clone, Copy, Debug, PartialEq)]
 #[reflect(Resource, Clone, Debug, PartialEq)]
 pub struct VertexPrices {
@@ -53,6 +55,17 @@ impl VertexPrices {
     pub const FREE: Self = Self { light: 0.0, pixel: 0.0, look: 0.0, draw: 0.0 };
     /// Nothing is, but what is coarser than its mesh.
     pub const NEVER: Self = Self { light: f32::INFINITY, pixel: 0.0, look: f32::INFINITY, draw: f32::INFINITY };
+
+    /// Expects each price to be 0 or more.
+    ///
+    /// # Errors
+    /// One is negative or not a number.
+    pub fn validate(&self) -> Result<(), InvalidValue> {
+        let Self { light, pixel, look, draw } = *self;
+        [("light", light), ("pixel", pixel), ("look", look), ("draw", draw)]
+            .into_iter()
+            .try_for_each(|(name, price)| Fields::of("VertexPrices").number(name, price, price >= 0.0, "0 or more"))
+    }
 
     /// Whether a patch of so many pixels and vertices may save anything.
     pub(crate) fn may_save(&self, pixels: f32, vertices: f32) -> bool {
