@@ -28,19 +28,25 @@
 
 mod decode;
 mod error;
+mod halves;
 mod limits;
 pub mod lookup;
 mod map;
 mod pyramid;
+mod ripmap;
 mod sampling;
+mod sums;
 mod texels;
 mod uv;
 
 pub use decode::{TexelMeaning, decode, load};
 pub use error::TextureError;
+pub use halves::Level;
 pub use limits::{LONGEST_SIDE, MOST_TEXELS};
 pub use map::{ColorMap, Texture, TexturePlugin};
-pub use pyramid::{Level, Pyramid};
+pub use pyramid::Pyramid;
+pub use ripmap::Ripmap;
 pub use sampling::{LevelFilter, Sampling, TexelFilter, Wrap};
+pub use sums::SummedAreas;
 pub use texels::TexelImage;
 pub use uv::UvTransform;

@@ -208,7 +208,16 @@ fn crc(bytes: &[u8]) -> u32 {
 fn any_sampling() -> impl Strategy<Value = Sampling> {
     let filter = || prop::sample::select(FILTERS.to_vec());
     let wrap = || prop::sample::select(WRAPS.to_vec());
-    let levels = prop::sample::select(vec![LevelFilter::None, LevelFilter::Nearest, LevelFilter::Linear]);
+    let levels = prop::sample::select(vec![
+        LevelFilter::None,
+        LevelFilter::Nearest,
+        LevelFilter::Linear,
+        LevelFilter::Ripmap,
+        LevelFilter::SummedArea,
+        LevelFilter::Anisotropic2,
+        LevelFilter::Anisotropic16,
+        LevelFilter::Elliptical,
+    ]);
     (wrap(), wrap(), filter(), filter(), levels).prop_map(|(u, v, magnify, minify, levels)| Sampling {
         wrap: [u, v],
         magnify,
