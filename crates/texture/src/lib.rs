@@ -6,6 +6,7 @@
 //! - [`Sampling`]: what is beyond the image ([`Wrap`]), which filter enlarges it and which reduces it ([`TexelFilter`],
 //!   [`LevelFilter`]).
 //! - [`lookup`]: the filters as functions, in `f32` or `f64`.
+//! - [`FootprintTruth`]: the mean over a pixel's footprint, integrated, which judges the filters.
 //! - [`UvTransform`]: where on the image a surface's coordinates lie.
 //! - [`Texture`], [`ColorMap`]: the asset, and the component that puts one onto an object.
 //!
@@ -37,6 +38,7 @@ mod ripmap;
 mod sampling;
 mod sums;
 mod texels;
+mod truth;
 mod uv;
 
 pub use decode::{TexelMeaning, decode, load};
@@ -49,4 +51,5 @@ pub use ripmap::Ripmap;
 pub use sampling::{LevelFilter, Sampling, TexelFilter, Wrap};
 pub use sums::SummedAreas;
 pub use texels::TexelImage;
+pub use truth::{FootprintTruth, PictureMap};
 pub use uv::UvTransform;
