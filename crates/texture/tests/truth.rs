@@ -92,10 +92,8 @@ fn by_cutting(pyramid: &Pyramid, wrap: Wrap, map: &PictureMap, [x, y]: [f64; 2])
     let corners = pixel.map(|corner| map.at(corner).expect("in front"));
     let range = |axis: usize, side: f64| {
         let all = corners.map(|corner| corner[axis] * side);
-        (
-            all.iter().copied().fold(f64::INFINITY, f64::min).floor() as i64,
-            all.iter().copied().fold(f64::NEG_INFINITY, f64::max).ceil() as i64,
-        )
+        let (low, high) = all.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(*x), b.max(*x)));
+        low.floor() as i64 - 1..high.ceil() as i64 + 1
     };
     let index = |at: i64, side: i64| match wrap {
         Wrap::Repeat => at.rem_euclid(side),
@@ -106,9 +104,9 @@ fn by_cutting(pyramid: &Pyramid, wrap: Wrap, map: &PictureMap, [x, y]: [f64; 2])
     let [p, q, w] = map.rows;
     let line = |p: [f64; 3], edge: f64, sign: f64| -> [f64; 3] { std::array::from_fn(|k| sign * (p[k] - edge * w[k])) };
     let mut sum = [0.0; 4];
-    for row in range(1, height).0..range(1, height).1 {
+    for row in range(1, height) {
         let strip = cut(&cut(&pixel, line(q, row as f64 / height, 1.0)), line(q, (row + 1) as f64 / height, -1.0));
-        for column in range(0, width).0..range(0, width).1 {
+        for column in range(0, width) {
             let left = cut(&strip, line(p, column as f64 / width, 1.0));
             let part = area(&cut(&left, line(p, (column + 1) as f64 / width, -1.0)));
             let [i, j] = [index(column, width as i64), index(row, height as i64)];
@@ -120,7 +118,7 @@ fn by_cutting(pyramid: &Pyramid, wrap: Wrap, map: &PictureMap, [x, y]: [f64; 2])
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(100))]
+    #![proptest_config(ProptestConfig { max_shrink_iters: 0, ..ProptestConfig::with_cases(40) })]
 
     /// Any projective map, any way to wrap, against the pixel cut along the texels' edges.
     #[test]
@@ -133,7 +131,8 @@ proptest! {
         let map = PictureMap { rows: [u, v, [w[0], w[1], 1.0]] };
         let truth = FootprintTruth::new(&pyramid);
         // w from 0.3 to 1.7: texels of one pixel differ in size by up to 180 times.
-        let found = truth.mean([wrap; 2], &map, [0.0, 0.0], 1e-6).expect("in front");
+        // What halves may differ by is not the error, which the halves share: some tens of it were seen.
+        let found = truth.mean([wrap; 2], &map, [0.0, 0.0], 1e-7).expect("in front");
         let expected = by_cutting(&pyramid, wrap, &map, [0.0, 0.0]);
         for k in 0..4 {
             prop_assert!((found[k] - expected[k]).abs() < 1e-5, "{found:?} {expected:?}");
