@@ -6,6 +6,7 @@
 //! - [`Sampling`]: what is beyond the image ([`Wrap`]), which filter enlarges it and which reduces it ([`TexelFilter`],
 //!   [`LevelFilter`]).
 //! - [`lookup`]: the filters as functions, in `f32` or `f64`.
+//! - [`environment`]: light from all directions: equirectangular, mirror-ball and cube maps.
 //! - [`FootprintTruth`]: the mean over a pixel's footprint, integrated, which judges the filters.
 //! - [`UvTransform`]: where on the image a surface's coordinates lie.
 //! - [`Texture`], [`ColorMap`]: the asset, and the component that puts one onto an object.
@@ -28,6 +29,7 @@
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 mod decode;
+pub mod environment;
 mod error;
 mod halves;
 mod limits;

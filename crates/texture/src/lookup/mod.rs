@@ -28,6 +28,18 @@ pub trait Number: Float + Debug + Send + Sync + 'static {
     /// log₂, equal to the bit on every machine.
     #[must_use]
     fn binary_logarithm(self) -> Self;
+    /// e to this power, equal to the bit on every machine.
+    #[must_use]
+    fn exponential(self) -> Self;
+    /// The sine, equal to the bit on every machine.
+    #[must_use]
+    fn sine(self) -> Self;
+    /// The cosine, likewise.
+    #[must_use]
+    fn cosine(self) -> Self;
+    /// The angle of the point (`x`, self), in −π to π, likewise.
+    #[must_use]
+    fn arc_tangent(self, x: Self) -> Self;
 }
 
 impl Number for f32 {
@@ -38,6 +50,22 @@ impl Number for f32 {
     fn binary_logarithm(self) -> Self {
         libm::log2f(self)
     }
+
+    fn exponential(self) -> Self {
+        libm::expf(self)
+    }
+
+    fn sine(self) -> Self {
+        libm::sinf(self)
+    }
+
+    fn cosine(self) -> Self {
+        libm::cosf(self)
+    }
+
+    fn arc_tangent(self, x: Self) -> Self {
+        libm::atan2f(self, x)
+    }
 }
 
 impl Number for f64 {
@@ -47,6 +75,22 @@ impl Number for f64 {
 
     fn binary_logarithm(self) -> Self {
         libm::log2(self)
+    }
+
+    fn exponential(self) -> Self {
+        libm::exp(self)
+    }
+
+    fn sine(self) -> Self {
+        libm::sin(self)
+    }
+
+    fn cosine(self) -> Self {
+        libm::cos(self)
+    }
+
+    fn arc_tangent(self, x: Self) -> Self {
+        libm::atan2(self, x)
     }
 }
 
