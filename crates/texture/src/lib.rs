@@ -8,6 +8,7 @@
 //! - [`lookup`]: the filters as functions, in `f32` or `f64`.
 //! - [`environment`]: light from all directions: equirectangular, mirror-ball and cube maps.
 //! - [`FootprintTruth`]: the mean over a pixel's footprint, integrated, which judges the filters.
+//! - [`noise`]: gradient noise in space, and solids of it, faded with distance.
 //! - [`UvTransform`]: where on the image a surface's coordinates lie.
 //! - [`Texture`], [`ColorMap`]: the asset, and the component that puts one onto an object.
 //!
@@ -35,6 +36,7 @@ mod halves;
 mod limits;
 pub mod lookup;
 mod map;
+pub mod noise;
 mod pyramid;
 mod ripmap;
 mod sampling;
