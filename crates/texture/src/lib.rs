@@ -9,6 +9,7 @@
 //! - [`environment`]: light from all directions: equirectangular, mirror-ball and cube maps.
 //! - [`FootprintTruth`]: the mean over a pixel's footprint, integrated, which judges the filters.
 //! - [`noise`]: gradient noise in space, and solids of it, faded with distance.
+//! - [`normals`]: normals of heights, and what their roughness makes of highlights from afar.
 //! - [`UvTransform`]: where on the image a surface's coordinates lie.
 //! - [`Texture`], [`ColorMap`]: the asset, and the component that puts one onto an object.
 //!
@@ -37,6 +38,7 @@ mod limits;
 pub mod lookup;
 mod map;
 pub mod noise;
+pub mod normals;
 mod pyramid;
 mod ripmap;
 mod sampling;
