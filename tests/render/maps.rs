@@ -7,7 +7,7 @@ use crate::render::stage::Stage;
 use halfway::prelude::*;
 use halfway::reference::Image;
 use halfway::reference::metrics::judge;
-use halfway::texture::{Pyramid, TexelImage, UvTransform};
+use halfway::texture::{LevelFilter, Pyramid, TexelImage, UvTransform};
 
 const SHADINGS: [Shading; 3] = [Shading::Flat, Shading::Gouraud, Shading::Phong];
 
@@ -93,4 +93,22 @@ fn coordinates_that_are_no_numbers_are_refused_by_name() {
     stage.set(&scene(Shading::Phong, Some(map(Sampling::default(), transform))));
     let errors: Vec<String> = stage.frame().errors.iter().map(ToString::to_string).collect();
     assert!(errors.len() == 1 && errors[0].contains("ColorMap.transform.rotation: the value is NaN"), "{errors:?}");
+}
+
+#[test]
+fn filters_by_the_footprints_shape_are_drawn_as_trilinear() {
+    let mut stage = Stage::new(64, 48);
+    let drawn = |stage: &mut Stage, levels| {
+        let sampling = Sampling { levels, ..Sampling::default() };
+        let transform = UvTransform { scale: [6.0, 2.0], ..UvTransform::default() };
+        let picture = stage.draw(&scene(Shading::Phong, Some(map(sampling, transform))));
+        (picture, stage.oracle().draw())
+    };
+    let (trilinear, judged) = drawn(&mut stage, LevelFilter::Linear);
+    for levels in [LevelFilter::Ripmap, LevelFilter::SummedArea, LevelFilter::Anisotropic8, LevelFilter::Elliptical] {
+        let (picture, truth) = drawn(&mut stage, levels);
+        assert_eq!(picture, trilinear, "{levels:?}");
+        // The oracle takes them as they are.
+        assert_ne!(truth.pixels(), judged.pixels(), "{levels:?}");
+    }
 }

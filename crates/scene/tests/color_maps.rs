@@ -19,7 +19,7 @@ fn an_image_is_read_and_an_unreadable_one_is_a_warning_and_a_checker() {
     image::RgbImage::from_pixel(5, 3, image::Rgb([255, 0, 0])).save(dir.join("red.png")).unwrap();
     std::fs::write(dir.join("broken.png"), b"no image").unwrap();
     for (file, says) in
-        [("red.png", None), ("broken.png", Some("broken.png: is no PNG")), ("none.png", Some("none.png: cannot"))]
+        [("red.png", None), ("broken.png", Some("broken.png: is no image")), ("none.png", Some("none.png: cannot"))]
     {
         let mut app = App::new();
         app.add_plugins((MeshPlugin, TexturePlugin, TransformPlugin));

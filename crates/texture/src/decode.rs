@@ -22,7 +22,7 @@ pub enum TexelMeaning {
 /// The most bytes that are read of a file.
 const LONGEST_FILE: u64 = 1 << 28;
 
-/// The image in a PNG or JPEG file.
+/// The image in a PNG, JPEG, Radiance HDR or EXR file.
 ///
 /// # Errors
 /// The file cannot be read or is too long, or what [`decode`] refuses.
@@ -37,14 +37,16 @@ pub fn load(path: &Path, meaning: TexelMeaning) -> Result<TexelImage, TextureErr
     decode(&bytes, &image(), meaning)
 }
 
-/// The image in the bytes of a PNG or JPEG file, told apart by how they begin. `name` is what errors call it.
+/// The image in the bytes of a PNG, JPEG, Radiance HDR or EXR file, told apart by how they begin. `name` is what errors call
+/// it.
 ///
 /// Grey becomes red, green and blue alike; without an alpha channel alpha is 1; palettes and the inks of JPEG become the
-/// colors they stand for. Values of 8 and 16 bits are taken over 255 and 65535.
+/// colors they stand for. Values of 8 and 16 bits are taken over 255 and 65535; those of HDR and EXR are floats, linear
+/// already, and stand as they are, whatever `meaning` says.
 ///
 /// # Errors
-/// Bytes that are neither, an image that is broken, empty or too large, or memory that is refused. The size is checked before
-/// memory is taken for it.
+/// Bytes that are none of these, NaN or an infinite number in a texel, an image that is broken, empty or too large, or memory
+/// that is refused. The size is checked before memory is taken for it.
 pub fn decode(bytes: &[u8], name: &str, meaning: TexelMeaning) -> Result<TexelImage, TextureError> {
     let broken = |reason: String| TextureError::Decode { image: name.into(), reason };
     let reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format().map_err(|e| broken(e.to_string()))?;
@@ -59,6 +61,11 @@ pub fn decode(bytes: &[u8], name: &str, meaning: TexelMeaning) -> Result<TexelIm
     let count = width as usize * height as usize;
     let refused = |_| TextureError::Memory { image: name.into(), bytes: 16 * count as u64 };
     texels.try_reserve_exact(count).map_err(refused)?;
+    if matches!(image, DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_)) {
+        let floats = image.into_rgba32f();
+        texels.extend(floats.pixels().map(|pixel| pixel.0));
+        return TexelImage::new(width, height, texels).map_err(|error| error.named(name));
+    }
     let color = meaning == TexelMeaning::Color;
     if image.color().bytes_per_pixel() / image.color().channel_count() > 1 {
         let linear = |value: u16| f64::from(value) / 65535.0;

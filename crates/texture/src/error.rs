@@ -25,7 +25,7 @@ pub enum TextureError {
         limit: u64,
     },
     /// The bytes are no image, or a broken one.
-    #[error("{image}: is no PNG or JPEG image that can be read: {reason}")]
+    #[error("{image}: is no image that can be read: {reason}")]
     Decode {
         /// The file.
         image: String,
@@ -76,6 +76,14 @@ pub enum TextureError {
         /// What was found.
         value: f32,
     },
+    /// Images that do not make up an environment.
+    #[error("images of {found} texels for an environment; {expected} expected")]
+    Environment {
+        /// What is expected of its shape, in words.
+        expected: &'static str,
+        /// The sizes of the images.
+        found: String,
+    },
     /// Not one texel for each place.
     #[error("{found} texels for an image of {width} × {height}")]
     Count {
@@ -86,4 +94,14 @@ pub enum TextureError {
         /// How many texels were given.
         found: usize,
     },
+}
+
+impl TextureError {
+    /// The same of an image that has a name, where it says which texel is wrong.
+    pub(crate) fn named(self, name: &str) -> Self {
+        match self {
+            Self::NotFinite { x, y, value, .. } => Self::NotFinite { image: name.into(), x, y, value },
+            other => other,
+        }
+    }
 }

@@ -6,6 +6,10 @@
 //! - [`Sampling`]: what is beyond the image ([`Wrap`]), which filter enlarges it and which reduces it ([`TexelFilter`],
 //!   [`LevelFilter`]).
 //! - [`lookup`]: the filters as functions, in `f32` or `f64`.
+//! - [`environment`]: light from all directions: equirectangular, mirror-ball and cube maps.
+//! - [`FootprintTruth`]: the mean over a pixel's footprint, integrated, which judges the filters.
+//! - [`noise`]: gradient noise in space, and solids of it, faded with distance.
+//! - [`normals`]: normals of heights, and what their roughness makes of highlights from afar.
 //! - [`UvTransform`]: where on the image a surface's coordinates lie.
 //! - [`Texture`], [`ColorMap`]: the asset, and the component that puts one onto an object.
 //!
@@ -27,20 +31,31 @@
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 mod decode;
+pub mod environment;
 mod error;
+mod halves;
 mod limits;
 pub mod lookup;
 mod map;
+pub mod noise;
+pub mod normals;
 mod pyramid;
+mod ripmap;
 mod sampling;
+mod sums;
 mod texels;
+mod truth;
 mod uv;
 
 pub use decode::{TexelMeaning, decode, load};
 pub use error::TextureError;
+pub use halves::Level;
 pub use limits::{LONGEST_SIDE, MOST_TEXELS};
 pub use map::{ColorMap, Texture, TexturePlugin};
-pub use pyramid::{Level, Pyramid};
+pub use pyramid::Pyramid;
+pub use ripmap::Ripmap;
 pub use sampling::{LevelFilter, Sampling, TexelFilter, Wrap};
+pub use sums::SummedAreas;
 pub use texels::TexelImage;
+pub use truth::{FootprintTruth, PictureMap};
 pub use uv::UvTransform;

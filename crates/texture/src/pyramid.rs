@@ -1,19 +1,11 @@
 //! An image and its halves.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
+use crate::halves::{Level, half, lower, narrower};
+use crate::ripmap::Ripmap;
+use crate::sums::SummedAreas;
 use crate::texels::TexelImage;
-
-/// One image of a pyramid.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Level {
-    /// Texels in a row, at least 1.
-    pub width: u32,
-    /// Rows, at least 1.
-    pub height: u32,
-    /// The number of its first texel in [`Pyramid::texels`].
-    pub start: usize,
-}
 
 /// An image, and images of half its width and height (rounded down, at least 1), and so on down to one texel: 4/3 of the
 /// image's memory, a little more for odd sizes. Its clones share their texels.
@@ -21,10 +13,25 @@ pub struct Level {
 /// Each level is made of the one before it, in linear light: a texel is the mean of what lies under it, by area. Of even
 /// sizes these are four texels; of odd ones three in a row count, two of them in part. So no level is brighter or darker than
 /// the image as a whole, none leaves the range of its texels, and none depends on what lies beyond the image.
-#[derive(Clone, Debug, PartialEq)]
+///
+/// What else some filters need, [`Ripmap`] and [`SummedAreas`], is made when it is first asked for, and shared by the clones.
+#[derive(Clone, Debug)]
 pub struct Pyramid {
     levels: Arc<[Level]>,
     texels: Arc<[[f32; 4]]>,
+    more: Arc<More>,
+}
+
+#[derive(Debug, Default)]
+struct More {
+    ripmap: OnceLock<Ripmap>,
+    sums: OnceLock<SummedAreas>,
+}
+
+impl PartialEq for Pyramid {
+    fn eq(&self, other: &Self) -> bool {
+        self.levels == other.levels && self.texels == other.texels
+    }
 }
 
 impl Pyramid {
@@ -35,15 +42,13 @@ impl Pyramid {
         let mut texels = image.into_texels();
         while width.max(height) > 1 {
             let before = levels[levels.len() - 1];
-            (width, height) = ((width / 2).max(1), (height / 2).max(1));
+            (width, height) = (half(width), half(height));
             let start = texels.len();
-            let narrower = halved(&texels[before.start..], [before.width, before.height], width);
-            let turned = transposed(&narrower, width, before.height);
-            let lower = halved(&turned, [before.height, width], height);
-            texels.extend(transposed(&lower, height, width));
+            let slim = narrower(&texels[before.start..], [before.width, before.height], width);
+            texels.extend(lower(&slim, [width, before.height], height));
             levels.push(Level { width, height, start });
         }
-        Self { levels: levels.into(), texels: texels.into() }
+        Self { levels: levels.into(), texels: texels.into(), more: Arc::default() }
     }
 
     /// What stands for an image that is missing or broken: a checker of magenta and black, 8 × 8.
@@ -76,36 +81,18 @@ impl Pyramid {
         &self.texels[start..start + width as usize * height as usize]
     }
 
+    /// The image and its halves along each axis: 4 times the image's memory beside the pyramid's, kept from the first call on.
+    pub fn ripmap(&self) -> &Ripmap {
+        self.more.ripmap.get_or_init(|| Ripmap::new(&self.texels, self.size()))
+    }
+
+    /// The sums of the image's texels: twice the image's memory beside the pyramid's, kept from the first call on.
+    pub fn summed_areas(&self) -> &SummedAreas {
+        self.more.sums.get_or_init(|| SummedAreas::new(&self.texels, self.size()))
+    }
+
     /// Whether the two are clones of each other.
     pub fn is_same(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.texels, &other.texels)
     }
-}
-
-/// Rows of `width` texels from rows of `size[0]`, each texel the mean of what lies under it.
-fn halved(texels: &[[f32; 4]], size: [u32; 2], width: u32) -> Vec<[f32; 4]> {
-    let [from, height] = size.map(|side| side as usize);
-    let width = width as usize;
-    let share = from as f64 / width as f64;
-    let mut means = Vec::with_capacity(width * height);
-    for row in texels[..from * height].chunks_exact(from) {
-        for x in 0..width {
-            // From share·x to share·(x + 1), in whole numbers: over `width`.
-            let (low, high) = (x * from, (x + 1) * from);
-            let mut sum = [0.0_f64; 4];
-            for (at, texel) in row.iter().enumerate().take(high.div_ceil(width)).skip(low / width) {
-                let covered = ((at + 1) * width).min(high) - (at * width).max(low);
-                for (sum, number) in sum.iter_mut().zip(texel) {
-                    *sum += covered as f64 * f64::from(*number);
-                }
-            }
-            means.push(sum.map(|sum| (sum / (share * width as f64)) as f32));
-        }
-    }
-    means
-}
-
-fn transposed(texels: &[[f32; 4]], width: u32, height: u32) -> Vec<[f32; 4]> {
-    let (width, height) = (width as usize, height as usize);
-    (0..width).flat_map(|x| (0..height).map(move |y| (x, y))).map(|(x, y)| texels[y * width + x]).collect()
 }

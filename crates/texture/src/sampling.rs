@@ -32,23 +32,71 @@ pub enum TexelFilter {
     CatmullRom,
 }
 
-/// Which levels of the pyramid a point whose footprint is larger than a texel takes.
+/// What is taken of an image at a point whose footprint is larger than a texel.
+///
+/// The first three go by D, the level of a square footprint. The others go by the footprint's shape: the ellipse of the
+/// points a·x + b·y with x² + y² ≤ 1, where a and b say how (u, v), in texels, change from a pixel to the next along x and
+/// along y. Its semiaxes are σ₁ ≥ σ₂, the singular values of the matrix (a b). Where σ₁ ≤ 1 the image is enlarged.
+///
+/// The renderers draw the others as [`Linear`](Self::Linear), and say so in the log; the reference renderer takes them as
+/// they are.
 #[derive(Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[reflect(Clone, Debug, Default, PartialEq, Hash)]
 pub enum LevelFilter {
     /// The image itself, whose texels are then skipped.
     None,
-    /// The one nearest to D (Williams 1983).
+    /// The level nearest to D (Williams 1983).
     Nearest,
-    /// The two around D, weighted by the distance from it.
+    /// The two levels around D, weighted by the distance from it.
     #[default]
     Linear,
+    /// The images of a [`Ripmap`](crate::Ripmap) around log₂ of √(aᵤ² + bᵤ²) along u and of √(aᵥ² + bᵥ²) along v: the sides of
+    /// a rectangle along the axes that is as spread out as the footprint.
+    Ripmap,
+    /// The mean of that rectangle, at least a texel wide and high, by [`SummedAreas`](crate::SummedAreas).
+    SummedArea,
+    /// Up to 2 probes along the ellipse's long axis: N = min(σ₁/max(σ₂, 1), 2), the level is log₂(σ₁/N) by
+    /// [`Linear`](Self::Linear), and the probes lie σ₁/N apart: one in the middle, and pairs around it, of which the outermost
+    /// has what is left of the weight N. With N growing, pairs come in with weight 0, so that nothing jumps.
+    Anisotropic2,
+    /// Up to 4 probes' weight, likewise.
+    Anisotropic4,
+    /// Up to 8 probes' weight, likewise.
+    Anisotropic8,
+    /// Up to 16 probes' weight, likewise.
+    Anisotropic16,
+    /// All texels in the ellipse, weighted by a Gaussian: the elliptical weighted average of Heckbert 1989, in the two levels
+    /// around log₂ of the short semiaxis. That is lengthened where it is less than 1/16 of the long one or than a texel.
+    Elliptical,
+}
+
+impl LevelFilter {
+    /// Itself where it goes by D alone, else [`Linear`](Self::Linear): what stands for it where only D is known.
+    #[must_use]
+    pub fn by_level(self) -> Self {
+        match self {
+            Self::None | Self::Nearest | Self::Linear => self,
+            _ => Self::Linear,
+        }
+    }
+
+    /// N at most, of those with probes.
+    pub(crate) fn most_probes(self) -> Option<u8> {
+        match self {
+            Self::Anisotropic2 => Some(2),
+            Self::Anisotropic4 => Some(4),
+            Self::Anisotropic8 => Some(8),
+            Self::Anisotropic16 => Some(16),
+            _ => None,
+        }
+    }
 }
 
 /// How an image is looked up: a value of each point and its footprint.
 ///
 /// D = log₂ of the longer side of the footprint in texels. Where D ≤ 0 the image is enlarged, by `magnify`. Elsewhere it is
-/// reduced: `levels` says which levels count, and `minify` how each of them is looked up. The default is trilinear.
+/// reduced: `levels` says what is taken of it, and `minify` how its levels are looked up between texels; summed areas and
+/// ellipses need no such filter. The default is trilinear.
 #[derive(Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[reflect(Clone, Debug, Default, PartialEq, Hash)]
 pub struct Sampling {

@@ -176,7 +176,7 @@ fn files_become_linear_light() {
 fn what_cannot_be_an_image_is_refused_by_name() {
     let whole = png(RgbImage::from_fn(40, 40, |x, y| Rgb([x as u8 * 6, y as u8 * 6, (x * y) as u8])));
     for (bytes, says) in
-        [(&b"not an image"[..], "note.png: is no PNG"), (&whole[..whole.len() / 2], "note.png: "), (&[], "note.png")]
+        [(&b"not an image"[..], "note.png: is no image"), (&whole[..whole.len() / 2], "note.png: "), (&[], "note.png")]
     {
         let error = decode(bytes, "note.png", TexelMeaning::Color).expect_err("it is none").to_string();
         assert!(error.starts_with(says), "{error}");
@@ -208,7 +208,16 @@ fn crc(bytes: &[u8]) -> u32 {
 fn any_sampling() -> impl Strategy<Value = Sampling> {
     let filter = || prop::sample::select(FILTERS.to_vec());
     let wrap = || prop::sample::select(WRAPS.to_vec());
-    let levels = prop::sample::select(vec![LevelFilter::None, LevelFilter::Nearest, LevelFilter::Linear]);
+    let levels = prop::sample::select(vec![
+        LevelFilter::None,
+        LevelFilter::Nearest,
+        LevelFilter::Linear,
+        LevelFilter::Ripmap,
+        LevelFilter::SummedArea,
+        LevelFilter::Anisotropic2,
+        LevelFilter::Anisotropic16,
+        LevelFilter::Elliptical,
+    ]);
     (wrap(), wrap(), filter(), filter(), levels).prop_map(|(u, v, magnify, minify, levels)| Sampling {
         wrap: [u, v],
         magnify,

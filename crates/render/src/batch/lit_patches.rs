@@ -4,7 +4,7 @@ use crate::batch::backend::Backend;
 use crate::batch::false_colors::FalseColors;
 use crate::batch::key::DrawKey;
 use crate::batch::lit_runs::{LitRun, OpenRun};
-use crate::batch::object::{Circumstances, Reflecting, Shared};
+use crate::batch::object::{Circumstances, Reflecting, Shared, sampling_drawn};
 use crate::batch::table::{MapUse, ObjectTable};
 use crate::device::costs::VertexPrices;
 use crate::error::{RenderError, label};
@@ -117,7 +117,7 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
             reflectance: reflectance.copied().unwrap_or(view.reflectance),
             faces: faces.copied().unwrap_or_default(),
             colored: paint.colored,
-            mapped: paint.map.map(|map| map.sampling),
+            mapped: paint.map.map(|map| sampling_drawn(map.sampling)),
         };
         let look = lit.table.look(&reflecting);
         if let Some(source) = &look.invalid {

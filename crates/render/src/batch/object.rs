@@ -10,6 +10,7 @@ use bevy_math::Vec3;
 use halfway_lighting::equations::{Coefficients, specular_exponent};
 use halfway_lighting::{Encoding, Faces, Frequency, InvalidValue, Material, Reflectance, Terms, Viewer};
 use halfway_texture::Sampling;
+use std::sync::Once;
 
 /// The components that say how an object reflects light.
 #[derive(Clone, Copy, Debug)]
@@ -59,6 +60,16 @@ pub(crate) struct Circumstances {
     pub(crate) blend: bool,
     pub(crate) mirrored: bool,
     pub(crate) opposite_normals: bool,
+}
+
+/// How an image is looked up here: filters that go by the footprint's shape are not drawn, and trilinear stands for them.
+pub(crate) fn sampling_drawn(sampling: Sampling) -> Sampling {
+    static SAID: Once = Once::new();
+    let levels = sampling.levels.by_level();
+    if levels != sampling.levels {
+        SAID.call_once(|| log::warn!("LevelFilter::{:?} is not drawn; {levels:?} stands for it", sampling.levels));
+    }
+    Sampling { levels, ..sampling }
 }
 
 impl Reflecting<'_> {

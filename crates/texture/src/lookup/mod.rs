@@ -7,11 +7,18 @@
 //! | a footprint that is no number | the image is enlarged |
 //! | a level of one texel along an axis | that texel, whatever lies beyond |
 
+mod axes;
+mod ellipse;
+mod footprint;
+mod probes;
+
 use std::fmt::Debug;
 
 use num_traits::Float;
 
-use crate::pyramid::{Level, Pyramid};
+use self::footprint::FootprintShape;
+use crate::halves::Level;
+use crate::pyramid::Pyramid;
 use crate::sampling::{LevelFilter, Sampling, TexelFilter, Wrap};
 
 /// The numbers that filters run in: `f32` and `f64`.
@@ -21,6 +28,18 @@ pub trait Number: Float + Debug + Send + Sync + 'static {
     /// log₂, equal to the bit on every machine.
     #[must_use]
     fn binary_logarithm(self) -> Self;
+    /// e to this power, equal to the bit on every machine.
+    #[must_use]
+    fn exponential(self) -> Self;
+    /// The sine, equal to the bit on every machine.
+    #[must_use]
+    fn sine(self) -> Self;
+    /// The cosine, likewise.
+    #[must_use]
+    fn cosine(self) -> Self;
+    /// The angle of the point (`x`, self), in −π to π, likewise.
+    #[must_use]
+    fn arc_tangent(self, x: Self) -> Self;
 }
 
 impl Number for f32 {
@@ -30,6 +49,22 @@ impl Number for f32 {
 
     fn binary_logarithm(self) -> Self {
         libm::log2f(self)
+    }
+
+    fn exponential(self) -> Self {
+        libm::expf(self)
+    }
+
+    fn sine(self) -> Self {
+        libm::sinf(self)
+    }
+
+    fn cosine(self) -> Self {
+        libm::cosf(self)
+    }
+
+    fn arc_tangent(self, x: Self) -> Self {
+        libm::atan2f(self, x)
     }
 }
 
@@ -41,6 +76,22 @@ impl Number for f64 {
     fn binary_logarithm(self) -> Self {
         libm::log2(self)
     }
+
+    fn exponential(self) -> Self {
+        libm::exp(self)
+    }
+
+    fn sine(self) -> Self {
+        libm::sin(self)
+    }
+
+    fn cosine(self) -> Self {
+        libm::cos(self)
+    }
+
+    fn arc_tangent(self, x: Self) -> Self {
+        libm::atan2(self, x)
+    }
 }
 
 /// D = log₂ of the longer side of a footprint, in texels of an image of this size: `footprint` has how (u, v) changes from a
@@ -51,37 +102,60 @@ pub fn level<T: Number>(size: [u32; 2], footprint: [[T; 2]; 2]) -> T {
     T::of(0.5) * x.max(y).binary_logarithm()
 }
 
-/// What an image has at a point, by its [`Sampling`].
+/// What an image has at a point, by its [`Sampling`]; `footprint` as of [`level`].
 pub fn filtered<T: Number>(pyramid: &Pyramid, sampling: &Sampling, uv: [T; 2], footprint: [[T; 2]; 2]) -> [T; 4] {
-    let d = level(pyramid.size(), footprint);
-    at_level(pyramid, sampling, uv, d)
+    if sampling.levels == sampling.levels.by_level() {
+        return at_level(pyramid, sampling, uv, level(pyramid.size(), footprint));
+    }
+    let shape = FootprintShape::new(pyramid.size(), footprint);
+    let uv = uv.map(finite);
+    if !shape.is_finite() {
+        return at_level(pyramid, sampling, uv, level(pyramid.size(), footprint));
+    }
+    if shape.long <= T::one() {
+        return in_level(pyramid, 0, sampling.wrap, sampling.magnify, uv);
+    }
+    match sampling.levels {
+        LevelFilter::Ripmap => axes::in_ripmap(pyramid.ripmap(), *sampling, uv, &shape),
+        LevelFilter::SummedArea => axes::mean(pyramid.summed_areas(), pyramid.size(), sampling.wrap, uv, &shape),
+        LevelFilter::Elliptical => ellipse::mean(pyramid, sampling.wrap, uv, &shape),
+        filter => probes::mean(pyramid, *sampling, uv, &shape, filter.most_probes().unwrap_or(1)),
+    }
 }
 
-/// The same at a point of this D.
+/// The same at a point of this D; filters that go by the footprint's shape are [`LevelFilter::Linear`] here.
 pub fn at_level<T: Number>(pyramid: &Pyramid, sampling: &Sampling, uv: [T; 2], d: T) -> [T; 4] {
     let Sampling { wrap, magnify, minify, levels } = *sampling;
-    let uv = uv.map(|x| if x.is_finite() { x } else { T::zero() });
+    let uv = uv.map(finite);
     let last = T::of((pyramid.levels().len() - 1) as f64);
     // What is no number enlarges.
     if d.is_nan() || d <= T::zero() {
         return in_level(pyramid, 0, wrap, magnify, uv);
     }
     let number = |d: T| d.to_usize().unwrap_or_default();
-    match levels {
+    match levels.by_level() {
         LevelFilter::None => in_level(pyramid, 0, wrap, minify, uv),
         LevelFilter::Nearest => in_level(pyramid, number((d + T::of(0.5)).floor().min(last)), wrap, minify, uv),
-        LevelFilter::Linear => {
-            let d = d.min(last);
-            let finer = d.floor();
-            let part = d - finer;
-            let a = in_level(pyramid, number(finer), wrap, minify, uv);
-            if part == T::zero() {
-                return a;
-            }
-            let b = in_level(pyramid, number(finer) + 1, wrap, minify, uv);
-            std::array::from_fn(|channel| a[channel] + part * (b[channel] - a[channel]))
-        }
+        _ => between_levels(pyramid, wrap, minify, uv, d),
     }
+}
+
+/// The two levels around D, weighted by the distance from it; the first of all where D ≤ 0.
+fn between_levels<T: Number>(pyramid: &Pyramid, wrap: [Wrap; 2], filter: TexelFilter, uv: [T; 2], d: T) -> [T; 4] {
+    let d = d.max(T::zero()).min(T::of((pyramid.levels().len() - 1) as f64));
+    let (finer, part) = (d.floor(), d - d.floor());
+    let finer = finer.to_usize().unwrap_or_default();
+    let a = in_level(pyramid, finer, wrap, filter, uv);
+    if part == T::zero() { a } else { mixed(a, in_level(pyramid, finer + 1, wrap, filter, uv), part) }
+}
+
+fn finite<T: Number>(x: T) -> T {
+    if x.is_finite() { x } else { T::zero() }
+}
+
+/// The part `part` of the way from `a` to `b`.
+fn mixed<T: Number>(a: [T; 4], b: [T; 4], part: T) -> [T; 4] {
+    std::array::from_fn(|channel| a[channel] + part * (b[channel] - a[channel]))
 }
 
 /// What one level has at a point.
@@ -92,13 +166,24 @@ pub fn in_level<T: Number>(
     filter: TexelFilter,
     uv: [T; 2],
 ) -> [T; 4] {
-    let Level { width, height, start } = pyramid.levels()[level];
+    let Level { width, height, .. } = pyramid.levels()[level];
+    in_image(pyramid.level(level), [width, height], wrap, filter, uv)
+}
+
+/// The same of texels that are no level of a pyramid.
+fn in_image<T: Number>(
+    texels: &[[f32; 4]],
+    [width, height]: [u32; 2],
+    wrap: [Wrap; 2],
+    filter: TexelFilter,
+    uv: [T; 2],
+) -> [T; 4] {
     let columns = taps(filter, wrap[0], uv[0], width);
     let rows = taps(filter, wrap[1], uv[1], height);
     let mut sum = [T::zero(); 4];
     for (y, of_row) in rows.iter() {
         for (x, of_column) in columns.iter() {
-            let texel = pyramid.texels()[start + y * width as usize + x];
+            let texel = texels[y * width as usize + x];
             for (sum, number) in sum.iter_mut().zip(texel) {
                 *sum = *sum + of_row * of_column * T::of(number.into());
             }
@@ -166,7 +251,7 @@ fn wrapped<T: Number>(wrap: Wrap, u: T, side: T) -> T {
 }
 
 /// The texel that a number stands for that may lie beyond the image.
-fn wrapped_index(wrap: Wrap, at: i64, side: u32) -> usize {
+pub(crate) fn wrapped_index(wrap: Wrap, at: i64, side: u32) -> usize {
     let side = i64::from(side);
     let index = match wrap {
         Wrap::Repeat => at.rem_euclid(side),

@@ -1,0 +1,118 @@
+//! What a matt surface receives from an environment.
+
+use std::f64::consts::PI;
+
+use rayon::prelude::*;
+
+use super::directions::unit;
+use super::{Environment, density, direction};
+use crate::error::TextureError;
+use crate::lookup::Number;
+
+impl Environment {
+    /// The mean light that a matt surface receives: (1/π)∫ L(ω) max(n·ω, 0) dω for each normal n, in the environment's shape
+    /// and `size` texels along its height. A constant light stays as it is.
+    ///
+    /// Each texel of a level of at most 64 rows counts as all of its solid angle in its middle; the sum of the weights is
+    /// made 1. Takes time in proportion to both sizes' squares.
+    ///
+    /// # Errors
+    /// As of [`Environment::from_fn`].
+    pub fn convolved(&self, size: u32) -> Result<Self, TextureError> {
+        let texels = self.texels_of(64);
+        Self::from_fn(self.shape, size, |n| {
+            let (mut sum, mut weights) = ([0.0; 4], 0.0);
+            for (d, solid_angle, color) in &texels {
+                let weight = solid_angle * (n[0] * d[0] + n[1] * d[1] + n[2] * d[2]).max(0.0);
+                weights += weight;
+                (0..4).for_each(|k| sum[k] += weight * color[k]);
+            }
+            sum.map(|sum| (sum / weights.max(f64::MIN_POSITIVE)) as f32)
+        })
+    }
+
+    /// The nine coefficients of its light, over a level of at most 256 rows.
+    pub fn harmonics(&self) -> Harmonics {
+        let texels = self.texels_of(256);
+        let weights: f64 = texels.iter().map(|(_, solid_angle, _)| solid_angle).sum();
+        let add = |mut sums: [[f64; 4]; 9], (d, solid_angle, color): &([f64; 3], f64, [f64; 4])| {
+            for (sum, value) in sums.iter_mut().zip(basis(*d)) {
+                (0..4).for_each(|k| sum[k] += solid_angle * value * color[k]);
+            }
+            sums
+        };
+        let sums = texels.iter().fold([[0.0; 4]; 9], add);
+        Harmonics { coefficients: sums.map(|sum| sum.map(|sum| sum * 4.0 * PI / weights)) }
+    }
+
+    /// Directions, solid angles and colors of the texels of the first level with no more rows than this.
+    fn texels_of(&self, rows: u32) -> Vec<([f64; 3], f64, [f64; 4])> {
+        let levels = self.images[0].levels();
+        let number = levels.iter().position(|level| level.height <= rows).unwrap_or(levels.len() - 1);
+        let (level, shape) = (levels[number], self.shape);
+        let of_face = |face: usize| {
+            let texels = self.images[face].level(number).par_iter().enumerate();
+            texels.map(move |(at, texel)| {
+                let [x, y] = [at % level.width as usize, at / level.width as usize].map(|at| at as f64 + 0.5);
+                let uv = [x / f64::from(level.width), y / f64::from(level.height)];
+                let solid_angle = density(shape, uv) / (f64::from(level.width) * f64::from(level.height));
+                (unit(direction(shape, face, uv)), solid_angle, texel.map(f64::from))
+            })
+        };
+        (0..self.images.len()).into_par_iter().flat_map(of_face).collect()
+    }
+}
+
+/// Light in spherical harmonics up to order 2, for matt surfaces: nine colors in place of an image.
+///
+/// From Ramamoorthi and Hanrahan, "An Efficient Representation for Irradiance Environment Maps", 2001. What a surface receives
+/// is nearly all in these: of one far light, the worst case, the largest error is 3/32 of what a surface that faces it
+/// receives; of none it is more.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Harmonics {
+    /// L₀₀, L₁₋₁, L₁₀, L₁₁, L₂₋₂, L₂₋₁, L₂₀, L₂₁, L₂₂, each with four numbers as texels have them.
+    pub coefficients: [[f64; 4]; 9],
+}
+
+impl Harmonics {
+    /// Adds a far light that would give a surface facing it `color` of mean light.
+    pub fn add_far_light(&mut self, direction: [f64; 3], color: [f64; 4]) {
+        for (coefficient, value) in self.coefficients.iter_mut().zip(basis(unit(direction))) {
+            (0..4).for_each(|k| coefficient[k] += PI * value * color[k]);
+        }
+    }
+
+    /// The mean light that a matt surface of this normal receives, as [`Environment::convolved`] has it. May be below 0 by the
+    /// error.
+    pub fn mean_light<T: Number>(&self, normal: [T; 3]) -> [T; 4] {
+        // Aₗ/π of the clamped cosine: 1, 2/3, 1/4.
+        const SHARES: [f64; 9] = [1.0, 2.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0, 0.25, 0.25, 0.25, 0.25, 0.25];
+        let basis = basis(unit(normal));
+        let mut sum = [T::zero(); 4];
+        for ((coefficient, share), value) in self.coefficients.iter().zip(SHARES).zip(basis) {
+            for (sum, number) in sum.iter_mut().zip(coefficient) {
+                *sum = *sum + T::of(share * number) * value;
+            }
+        }
+        sum
+    }
+}
+
+/// The real spherical harmonics of order 0 to 2 in a direction of length 1.
+fn basis<T: Number>([x, y, z]: [T; 3]) -> [T; 9] {
+    let of = |square: f64| T::of((square / PI).sqrt());
+    let (c0, c1, c2) = (of(0.25), of(0.75), of(3.75));
+    let [c3, c4] = [of(5.0 / 16.0), of(15.0 / 16.0)];
+    let one = T::one();
+    [
+        c0,
+        c1 * y,
+        c1 * z,
+        c1 * x,
+        c2 * x * y,
+        c2 * y * z,
+        c3 * (T::of(3.0) * z * z - one),
+        c2 * x * z,
+        c4 * (x * x - y * y),
+    ]
+}

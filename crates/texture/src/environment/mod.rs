@@ -1,0 +1,230 @@
+//! Light that arrives from all directions, in an image.
+
+mod diffuse;
+mod directions;
+
+use std::f64::consts::PI;
+
+use rayon::prelude::*;
+
+pub use self::diffuse::Harmonics;
+pub use self::directions::{
+    EnvironmentShape, from_cube, from_equirectangular, from_mirror_ball, on_cube, on_equirectangular, on_mirror_ball,
+};
+use self::directions::{FACES, unit};
+use crate::error::TextureError;
+use crate::lookup::{Number, in_level, wrapped_index};
+use crate::pyramid::Pyramid;
+use crate::sampling::{TexelFilter, Wrap};
+use crate::texels::TexelImage;
+
+/// An image of all directions, with its pyramid: one image, or the six of a cube map.
+///
+/// Its levels are looked up bilinearly. No seam is seen but the mirroring ball's: an equirectangular image goes on at its other
+/// side, and across a pole on the other side of it; a cube map goes on at the neighbouring face, and in its corners, where only
+/// three texels meet, the mean of the three is taken for the fourth.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Environment {
+    shape: EnvironmentShape,
+    images: Vec<Pyramid>,
+}
+
+impl Environment {
+    /// Of one image, or of six of one size.
+    ///
+    /// # Errors
+    /// Another number of images; images of a cube that are not square, or of several sizes; a mirroring ball's that is not
+    /// square.
+    pub fn new(shape: EnvironmentShape, images: Vec<TexelImage>) -> Result<Self, TextureError> {
+        let count = if shape == EnvironmentShape::Cube { FACES } else { 1 };
+        let [width, height] = images.first().map_or([0; 2], TexelImage::size);
+        let square = shape == EnvironmentShape::Equirectangular || width == height;
+        if images.len() != count || !square || images.iter().any(|image| image.size() != [width, height]) {
+            let sizes = images.iter().map(|image| format!("{} × {}", image.size()[0], image.size()[1]));
+            let found = sizes.collect::<Vec<_>>().join(", ");
+            return Err(TextureError::Environment { expected: shape.expected(), found });
+        }
+        Ok(Self { shape, images: images.into_iter().map(Pyramid::new).collect() })
+    }
+
+    /// An environment whose texel in each direction, of length 1, is `color` of it: the middle of the texel stands for the
+    /// whole. Of `size` texels along the height of an equirectangular image, or along each side of the others.
+    ///
+    /// # Errors
+    /// As of [`TexelImage::new`].
+    pub fn from_fn(
+        shape: EnvironmentShape,
+        size: u32,
+        color: impl Fn([f64; 3]) -> [f32; 4] + Sync,
+    ) -> Result<Self, TextureError> {
+        let (width, count) = match shape {
+            EnvironmentShape::Equirectangular => (size.saturating_mul(2), 1),
+            EnvironmentShape::MirrorBall => (size, 1),
+            EnvironmentShape::Cube => (size, FACES),
+        };
+        crate::texels::check_size("the environment", width, size)?;
+        let image = |face: usize| {
+            let texel = |at: usize| {
+                let [x, y] = [at % width as usize, at / width as usize].map(|at| at as f64 + 0.5);
+                color(unit(direction(shape, face, [x / f64::from(width), y / f64::from(size)])))
+            };
+            let texels = (0..width as usize * size as usize).into_par_iter().map(texel).collect();
+            TexelImage::new(width, size, texels)
+        };
+        Self::new(shape, (0..count).map(image).collect::<Result<_, _>>()?)
+    }
+
+    /// The same light in another shape, or size: the level whose texels are nearest to the new ones' solid angle, looked up at
+    /// each of their middles.
+    ///
+    /// # Errors
+    /// As of [`TexelImage::new`].
+    pub fn to_shape(&self, shape: EnvironmentShape, size: u32) -> Result<Self, TextureError> {
+        let level = (texel_angle(shape, size) / self.angle()).binary_logarithm().max(0.0);
+        Self::from_fn(shape, size, |direction| self.at(direction, level).map(|number| number as f32))
+    }
+
+    /// Its shape.
+    pub fn shape(&self) -> EnvironmentShape {
+        self.shape
+    }
+
+    /// Its image, or the six of a cube map, with their pyramids.
+    pub fn images(&self) -> &[Pyramid] {
+        &self.images
+    }
+
+    /// Columns and rows of its image, or of each.
+    pub fn size(&self) -> [u32; 2] {
+        self.images[0].size()
+    }
+
+    /// The side of a square of the mean solid angle of its texels, in radians.
+    pub fn angle(&self) -> f64 {
+        texel_angle(self.shape, self.size()[1])
+    }
+
+    /// The light from a direction, of any length, between the two levels around `level`.
+    pub fn at<T: Number>(&self, direction: [T; 3], level: T) -> [T; 4] {
+        let last = T::of((self.images[0].levels().len() - 1) as f64);
+        let d = if level.is_nan() { T::zero() } else { level.max(T::zero()).min(last) };
+        let (finer, part) = (d.floor(), d - d.floor());
+        let finer = finer.to_usize().unwrap_or_default();
+        let direction = unit(direction);
+        let a = self.in_level(direction, finer);
+        if part == T::zero() {
+            return a;
+        }
+        let b = self.in_level(direction, finer + 1);
+        std::array::from_fn(|k| a[k] + part * (b[k] - a[k]))
+    }
+
+    /// The light that a surface of this shininess α mirrors, arriving around the reflected direction: from the level whose
+    /// texels are as wide as the lobe.
+    ///
+    /// The lobe (r·l)^α, normalized over the hemisphere by (α + 1)/2π, has E[sin²θ] = 2/(α + 3), and so a variance of 1/(α + 3)
+    /// along each of two axes. A level of texels of the angle s, looked up bilinearly, has weights that are a box of the
+    /// variance s²/12 beside a tent of s²/6: s²/4 in all. Both are alike where s = 2/√(α + 3), and D = log₂(s/[`angle`]).
+    /// Of a Blinn–Phong exponent β, α is about β/4.
+    ///
+    /// [`angle`]: Self::angle
+    pub fn glossy<T: Number>(&self, reflected: [T; 3], shininess: T) -> [T; 4] {
+        let s = T::of(2.0) / (shininess.max(T::zero()) + T::of(3.0)).sqrt();
+        self.at(reflected, (s / T::of(self.angle())).binary_logarithm())
+    }
+
+    fn in_level<T: Number>(&self, direction: [T; 3], level: usize) -> [T; 4] {
+        match self.shape {
+            EnvironmentShape::Cube => self.in_cube_level(direction, level),
+            EnvironmentShape::Equirectangular => self.in_equirectangular_level(direction, level),
+            EnvironmentShape::MirrorBall => {
+                in_level(&self.images[0], level, [Wrap::Clamp; 2], TexelFilter::Bilinear, on_mirror_ball(direction))
+            }
+        }
+    }
+
+    fn in_equirectangular_level<T: Number>(&self, direction: [T; 3], level: usize) -> [T; 4] {
+        let pyramid = &self.images[0];
+        let at = pyramid.levels()[level];
+        let texels = pyramid.level(level);
+        bilinear(on_equirectangular(direction), [at.width, at.height], |[x, y]| {
+            let height = i64::from(at.height);
+            // Beyond a pole lies the other side of it, half a turn on.
+            let beyond = y < 0 || y >= height;
+            let row = wrapped_index(Wrap::Mirror, y, at.height);
+            let column = wrapped_index(Wrap::Repeat, if beyond { x + i64::from(at.width / 2) } else { x }, at.width);
+            texels[row * at.width as usize + column].map(|number| T::of(number.into()))
+        })
+    }
+
+    fn in_cube_level<T: Number>(&self, direction: [T; 3], level: usize) -> [T; 4] {
+        let (face, uv) = on_cube(direction);
+        let side = self.images[0].levels()[level].width;
+        let inside = |at: i64| (0..i64::from(side)).contains(&at);
+        let texel = |face: usize, [x, y]: [i64; 2]| {
+            self.images[face].level(level)[y as usize * side as usize + x as usize].map(|number| T::of(number.into()))
+        };
+        // Beyond an edge lies the texel of the next face that the place of this texel's middle, on this face's plane, is seen
+        // through: that on the other side of the edge, for any size.
+        let across = |[x, y]: [i64; 2]| {
+            let middle = [x, y].map(|at| (at as f64 + 0.5) / f64::from(side));
+            let (face, uv) = on_cube(from_cube(face, middle));
+            texel(face, uv.map(|u| ((u * f64::from(side)) as i64).clamp(0, i64::from(side) - 1)))
+        };
+        bilinear(uv, [side; 2], |[x, y]| match (inside(x), inside(y)) {
+            (true, true) => texel(face, [x, y]),
+            (true, false) | (false, true) => across([x, y]),
+            (false, false) => {
+                let [i, j] = [x, y].map(|at| at.clamp(0, i64::from(side) - 1));
+                let three = [texel(face, [i, j]), across([x, j]), across([i, y])];
+                std::array::from_fn(|k| (three[0][k] + three[1][k] + three[2][k]) / T::of(3.0))
+            }
+        })
+    }
+}
+
+/// The mean of four texels, by the part of the way from each middle to the next.
+fn bilinear<T: Number>(uv: [T; 2], size: [u32; 2], texel: impl Fn([i64; 2]) -> [T; 4]) -> [T; 4] {
+    let [x, y] = [0, 1].map(|axis| uv[axis] * T::of(size[axis].into()) - T::of(0.5));
+    let ([i, j], [f, g]) = ([x, y].map(|x| x.floor().to_i64().unwrap_or(0)), [x - x.floor(), y - y.floor()]);
+    let row = |j: i64| {
+        let [a, b] = [texel([i, j]), texel([i + 1, j])];
+        let row: [T; 4] = std::array::from_fn(|k| a[k] + f * (b[k] - a[k]));
+        row
+    };
+    let [a, b] = [row(j), row(j + 1)];
+    std::array::from_fn(|k| a[k] + g * (b[k] - a[k]))
+}
+
+/// The direction of a place, not of length 1 on a cube.
+fn direction(shape: EnvironmentShape, face: usize, uv: [f64; 2]) -> [f64; 3] {
+    match shape {
+        EnvironmentShape::Equirectangular => from_equirectangular(uv),
+        EnvironmentShape::MirrorBall => from_mirror_ball(uv),
+        EnvironmentShape::Cube => from_cube(face, uv),
+    }
+}
+
+/// How much of the sphere a texel's middle stands for, in steradians per unit of u·v.
+fn density(shape: EnvironmentShape, [u, v]: [f64; 2]) -> f64 {
+    let [s, t] = [2.0 * u - 1.0, 2.0 * v - 1.0];
+    match shape {
+        EnvironmentShape::Equirectangular => 2.0 * PI * PI * libm::sin(PI * v),
+        EnvironmentShape::MirrorBall => 16.0 * f64::from(u8::from(s * s + t * t < 1.0)),
+        EnvironmentShape::Cube => {
+            let r = (1.0 + s * s + t * t).sqrt();
+            4.0 / (r * r * r)
+        }
+    }
+}
+
+/// The side of a square of the mean solid angle of the texels of an environment so many texels high.
+fn texel_angle(shape: EnvironmentShape, size: u32) -> f64 {
+    let size = f64::from(size);
+    let texels = match shape {
+        EnvironmentShape::Equirectangular => 2.0 * size * size,
+        EnvironmentShape::MirrorBall => 0.25 * PI * size * size,
+        EnvironmentShape::Cube => 6.0 * size * size,
+    };
+    (4.0 * PI / texels).sqrt()
+}

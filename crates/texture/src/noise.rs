@@ -1,0 +1,142 @@
+//! Noise in space, and solids made of it.
+//!
+//! Everything is a function of a point and of how wide a part of space is seen there, `width`: how far the point moves from a
+//! pixel to the next, in units of the noise's cells. What changes faster than a pixel can show is faded to its mean.
+
+use crate::lookup::Number;
+
+/// Three numbers that look random, of three: `pcg3d` of Jarzynski and Olano, "Hash Functions for GPU Rendering", 2020.
+/// Additions and products of 32 bits, which are the same on every machine and in WGSL.
+pub fn hash([x, y, z]: [u32; 3]) -> [u32; 3] {
+    let [mut x, mut y, mut z] = [x, y, z].map(|v| v.wrapping_mul(1_664_525).wrapping_add(1_013_904_223));
+    let stir = |x: &mut u32, y: &mut u32, z: &mut u32| {
+        *x = x.wrapping_add(y.wrapping_mul(*z));
+        *y = y.wrapping_add(z.wrapping_mul(*x));
+        *z = z.wrapping_add(x.wrapping_mul(*y));
+    };
+    stir(&mut x, &mut y, &mut z);
+    [x, y, z] = [x, y, z].map(|v| v ^ v >> 16);
+    stir(&mut x, &mut y, &mut z);
+    [x, y, z]
+}
+
+/// Gradient noise of Perlin, "Improving Noise", 2002: 0 at whole numbers, within −1 to 1, its mean 0. Each cell's corners
+/// have one of the twelve directions to the edges of a cube (four of them twice), by [`hash`]; between them they are mixed by
+/// 6t⁵ − 15t⁴ + 10t³. Of points without a number, 0.
+pub fn gradient<T: Number>(p: [T; 3]) -> T {
+    let floor = p.map(T::floor);
+    let Some(cell) = whole(floor) else { return T::zero() };
+    let f = [p[0] - floor[0], p[1] - floor[1], p[2] - floor[2]];
+    let corner = |k: usize| {
+        let offset = [k & 1, k >> 1 & 1, k >> 2];
+        let [h, ..] = hash(std::array::from_fn(|axis| cell[axis].wrapping_add(offset[axis] as u32)));
+        let d: [T; 3] = std::array::from_fn(|axis| f[axis] - T::of(offset[axis] as f64));
+        toward(h >> 28, d)
+    };
+    let [s, t, r] = f.map(faded_in);
+    let mix = |a: T, b: T, part: T| a + part * (b - a);
+    let row = |k: usize| mix(corner(k), corner(k + 1), s);
+    mix(mix(row(0), row(2), t), mix(row(4), row(6), t), r)
+}
+
+/// The product of one of sixteen directions with a vector.
+fn toward<T: Number>(number: u32, [x, y, z]: [T; 3]) -> T {
+    let u = if number < 8 { x } else { y };
+    let v = match number {
+        0..=3 => y,
+        12 | 14 => x,
+        _ => z,
+    };
+    let signed = |x: T, bit: u32| if number & bit == 0 { x } else { -x };
+    signed(u, 1) + signed(v, 2)
+}
+
+fn faded_in<T: Number>(t: T) -> T {
+    t * t * t * (t * (t * T::of(6.0) - T::of(15.0)) + T::of(10.0))
+}
+
+/// The cell of a point, modulo 2³². Nothing for points that have none.
+fn whole<T: Number>(floor: [T; 3]) -> Option<[u32; 3]> {
+    let of = |x: T| x.to_i64().map(|number| number as u32);
+    Some([of(floor[0])?, of(floor[1])?, of(floor[2])?])
+}
+
+/// How much of noise is left that is seen by parts so wide, in its cells: all up to ¼, nothing from ¾ on, 3t² − 2t³ between
+/// (Ebert et al., *Texturing and Modeling*, 2003, on fading before aliasing).
+pub fn left<T: Number>(width: T) -> T {
+    let t = ((width - T::of(0.25)) * T::of(2.0)).max(T::zero()).min(T::one());
+    T::one() - t * t * (T::of(3.0) - T::of(2.0) * t)
+}
+
+/// The most octaves of a sum.
+pub const MOST_OCTAVES: u32 = 16;
+
+/// A fractal sum: Σ 2⁻ᵏ·noise(2ᵏ·p) over so many octaves, at most [`MOST_OCTAVES`], each faded by [`left`] of 2ᵏ·`width`; those
+/// that are gone are not evaluated. About −1 to 1, and within −2 to 2.
+pub fn fractal<T: Number>(p: [T; 3], octaves: u32, width: T) -> T {
+    let (mut sum, mut frequency, mut amplitude) = (T::zero(), T::one(), T::one());
+    for octave in 0..octaves.min(MOST_OCTAVES) {
+        let weight = left(frequency * width.abs());
+        // What is no number is gone, too.
+        if weight.is_nan() || weight <= T::zero() {
+            break;
+        }
+        // Octaves of one origin would all be 0 there.
+        let offset = T::of(f64::from(octave) * 0.37);
+        sum = sum + weight * amplitude * gradient(p.map(|x| x * frequency + offset));
+        frequency = frequency + frequency;
+        amplitude = T::of(0.5) * amplitude;
+    }
+    sum
+}
+
+/// Marble: veins across x, one a unit, bent by a fractal sum of so many octaves. 0 to 1, its mean about ½: ½ + ½ sin 2π(x +
+/// sum).
+pub fn marble<T: Number>(p: [T; 3], octaves: u32, width: T) -> T {
+    wave(p[0] + fractal(p, octaves, width), width)
+}
+
+/// Wood: rings around the y axis, one a unit, made uneven by noise that is ten times as long along the axis. 0 to 1.
+pub fn wood<T: Number>([x, y, z]: [T; 3], width: T) -> T {
+    let grain = gradient([x, y * T::of(0.1), z]) * T::of(0.3) * left(width.abs());
+    wave((x * x + z * z).sqrt() + grain, width)
+}
+
+/// ½ + ½ sin 2πt, of which a part so wide is seen: times sin(πw)/(πw), the mean of a wave over a box, until that is 0 at w = 1.
+fn wave<T: Number>(t: T, width: T) -> T {
+    let half = T::of(0.5);
+    let angle = T::of(std::f64::consts::PI) * width.abs();
+    let contrast = if width.is_nan() || width.abs() >= T::one() {
+        T::zero()
+    } else if angle > T::of(1e-3) {
+        angle.sine() / angle
+    } else {
+        T::one()
+    };
+    let t = t - t.floor();
+    if contrast > T::zero() && t.is_finite() {
+        half + half * contrast * (T::of(std::f64::consts::TAU) * t).sine()
+    } else {
+        half
+    }
+}
+
+/// A checker of cubes of side 1: 0 or 1, or the mean over a box of these widths along the axes, exactly.
+pub fn checker<T: Number>(p: [T; 3], widths: [T; 3]) -> T {
+    let half = T::of(0.5);
+    let product = (0..3).fold(T::one(), |product, axis| product * square_wave(p[axis], widths[axis].abs()));
+    if product.is_finite() { half - half * product } else { half }
+}
+
+/// The mean of a wave over a box: 1 from 0 to 1, −1 from 1 to 2, and so on.
+fn square_wave<T: Number>(x: T, width: T) -> T {
+    let (one, two) = (T::one(), T::of(2.0));
+    let period = |x: T| x - two * (x / two).floor();
+    if width < T::of(1e-6) {
+        return if period(x) < one { one } else { -one };
+    }
+    // Its integral: a triangle of the height 1.
+    let integral = |x: T| one - (period(x) - one).abs();
+    let half = T::of(0.5) * width;
+    (integral(x + half) - integral(x - half)) / width
+}
