@@ -4,14 +4,15 @@
 //! [`ReportPlan`] says how much is measured, [`measure()`] does it, [`Report`] holds what was found, and [`Report::files`]
 //! makes a page, tables and drawings of it. The parts can be had alone: what a millisecond buys in [`front`] and [`Fronts`],
 //! the other sweeps in [`mod@measure`], the charts in
-//! [`figure`], the page in [`page`].
+//! [`figure`], [`filters`] of images, the page in [`page`].
 
 pub mod failures;
 pub mod figure;
+pub mod filters;
 pub mod front;
 pub mod measure;
 pub mod page;
 mod report;
 pub mod timing;
 
-pub use report::{Fronts, NamedFile, Report, ReportError, ReportPlan, Scaling, measure};
+pub use report::{Filters, Fronts, NamedFile, Report, ReportError, ReportPlan, Scaling, measure};

@@ -8,10 +8,11 @@ use clap::builder::NonEmptyStringValueParser;
 use halfway::output::write_text;
 use halfway::prelude::*;
 use halfway::render::AdapterChoice;
+use halfway_chart::filters::FilterPlan;
 use halfway_chart::front::{ChartedAdapter, ChartedScene, FrontFilter, KeptResults, Method, scenes};
 use halfway_chart::measure::{MeasureError, MeasureProgress};
 use halfway_chart::timing::{Machine, TimedLook};
-use halfway_chart::{Fronts, NamedFile, ReportError, ReportPlan, Scaling, measure};
+use halfway_chart::{Filters, Fronts, NamedFile, ReportError, ReportPlan, Scaling, measure};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::failure::Failure;
@@ -34,6 +35,9 @@ pub(crate) struct ChartArgs {
     /// Only how the time of a frame grows with triangles, objects, lights and pixels; the page is scaling.html
     #[arg(long, conflicts_with_all = ["inputs", "small_chart", "tables", "method", "detail"])]
     scaling: bool,
+    /// Only what filters of images cost and lose; the page is filters.html
+    #[arg(long, conflicts_with_all = ["inputs", "small_chart", "scaling", "method", "detail", "adapter"])]
+    filters: bool,
     /// Only this method, by the name that the page gives it, such as gouraud or phong-infinite-viewer; several times for
     /// several
     #[arg(id = "method", long = "method", value_name = "NAME")]
@@ -47,7 +51,8 @@ pub(crate) struct ChartArgs {
     /// Also write the fronts of sphere, teapot and scan in small, an SVG file
     #[arg(long, value_name = "FILE")]
     small_chart: Option<PathBuf>,
-    /// Also write what wins where, and what each error costs, for every scene, a Markdown file
+    /// Also write what wins where, and what each error costs, for every scene (with --filters, for every image), a Markdown
+    /// file
     #[arg(long, value_name = "FILE")]
     tables: Option<PathBuf>,
 }
@@ -58,6 +63,9 @@ const UNFINISHED: &str = "unfinished.jsonl";
 pub(crate) fn run(args: &ChartArgs) -> Result<(), Failure> {
     let mut plan = if args.quick { ReportPlan::QUICK } else { ReportPlan::FULL };
     plan.fronts.only = FrontFilter { methods: args.methods.clone(), detail: args.detail.clone() };
+    if args.filters {
+        return filters(args);
+    }
     if args.scaling {
         let bar = progress_bar(plan.scaling.units());
         let found = Scaling::measure(plan.scaling, &mut MeasureProgress::new(&mut tell(&bar)));
@@ -98,6 +106,17 @@ pub(crate) fn run(args: &ChartArgs) -> Result<(), Failure> {
         fronts.scenes.iter().flat_map(|scene| fronts.advice(scene)).for_each(|advice| println!("{advice}"));
     }
     Ok(())
+}
+
+/// Measures filters of images alone.
+fn filters(args: &ChartArgs) -> Result<(), Failure> {
+    let plan = if args.quick { FilterPlan::QUICK } else { FilterPlan::FULL };
+    let bar = progress_bar(plan.units());
+    let found = Filters::measure(plan, &mut MeasureProgress::new(&mut tell(&bar)));
+    bar.finish_and_clear();
+    let found = found.map_err(ReportError::from)?;
+    write_all(&args.output, found.files()?)?;
+    args.tables.as_ref().map_or(Ok(()), |file| write_and_tell(file, &found.markdown()))
 }
 
 /// The scenes that the command line means.

@@ -81,6 +81,7 @@ mod tests {
             "docs --no-install",
             "chart --quick --no-install",
             "chart --scaling",
+            "chart --filters",
             "fuzz smf --seconds 60 obj --no-install",
             "readme --list",
             "screen cargo test --release --test window",

@@ -3,7 +3,7 @@
 use halfway::reference::metrics::PERCENTILES;
 use serde_json::{Value, json};
 
-use super::tables::{files, number};
+use super::tables::{capital, files, number};
 use super::{NamedFile, ReportError, figure_file};
 use crate::figure::svg::{self, Size};
 use crate::figure::{Axis, AxisScale, Figure, Marker, Panel, Point, Series, Stroke, Style};
@@ -473,12 +473,6 @@ pub(super) fn style(family: Family) -> Style {
         Family::Auto => ([0xe6, 0x9f, 0x00], Marker::Star),
     };
     Style { color, marker: Some(marker), filled: true, stroke: Stroke::Nothing }
-}
-
-/// The text with its first letter as at the beginning of a sentence.
-fn capital(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map(|first| first.to_uppercase().collect::<String>() + letters.as_str()).unwrap_or_default()
 }
 
 /// A scene's name as a part of a file's: what may trouble a file system is a hyphen.

@@ -2,6 +2,7 @@
 
 mod charts;
 mod failing;
+mod filters;
 mod fronts;
 mod over;
 mod pages;
@@ -21,6 +22,7 @@ use crate::measure::highlight::{self, Energies};
 use crate::measure::{MeasureError, MeasureProgress};
 use crate::page::html;
 
+pub use filters::Filters;
 pub use fronts::Fronts;
 pub use plan::ReportPlan;
 pub use scaling::Scaling;

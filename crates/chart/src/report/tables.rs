@@ -101,6 +101,12 @@ pub(super) fn number(value: f64) -> String {
     }
 }
 
+/// The text with its first letter as at the beginning of a sentence.
+pub(super) fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map(|first| first.to_uppercase().collect::<String>() + letters.as_str()).unwrap_or_default()
+}
+
 /// Links to charts as SVG and to tables as CSV.
 pub(super) fn files(charts: &[(&str, &str)], tables: &[(&str, &str)]) -> Vec<(String, String)> {
     let link =

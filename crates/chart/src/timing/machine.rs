@@ -41,25 +41,41 @@ impl Machine {
             driver: known(driver),
             driver_version: known(driver_version),
             halfway: env!("CARGO_PKG_VERSION"),
-            cpu: cpu_model(&std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default()),
-            cores: std::thread::available_parallelism().map_or(0, Into::into),
+            cpu: this_cpu(),
+            cores: cores(),
         }
     }
 
     /// Names and values, for people.
     pub fn facts(&self) -> Vec<(String, String)> {
         let software = if self.software { ", software" } else { "" };
-        let cores = if self.cores == 0 { UNKNOWN.to_owned() } else { self.cores.to_string() };
-        [
+        let own = [
             ("adapter", format!("{} ({}{software})", self.adapter, self.backend)),
             ("driver", format!("{} {}", self.driver, self.driver_version)),
-            ("halfway", self.halfway.to_owned()),
-            ("CPU", self.cpu.clone()),
-            ("CPU cores", cores),
-        ]
-        .map(|(name, value)| (name.to_owned(), value))
-        .into()
+        ];
+        own.map(|(name, value)| (name.to_owned(), value))
+            .into_iter()
+            .chain(processor(self.halfway, self.cpu.clone(), self.cores))
+            .collect()
     }
+
+    /// Names and values of what runs without an adapter.
+    pub fn processor() -> Vec<(String, String)> {
+        processor(env!("CARGO_PKG_VERSION"), this_cpu(), cores()).into()
+    }
+}
+
+fn processor(halfway: &str, cpu: String, cores: usize) -> [(String, String); 3] {
+    let cores = if cores == 0 { UNKNOWN.to_owned() } else { cores.to_string() };
+    [("halfway", halfway.to_owned()), ("CPU", cpu), ("CPU cores", cores)].map(|(name, value)| (name.to_owned(), value))
+}
+
+fn this_cpu() -> String {
+    cpu_model(&std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default())
+}
+
+fn cores() -> usize {
+    std::thread::available_parallelism().map_or(0, Into::into)
 }
 
 const UNKNOWN: &str = "unknown";

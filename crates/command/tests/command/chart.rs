@@ -54,6 +54,7 @@ fn what_cannot_be_charted_is_refused_before_anything_is_measured() {
         (&["chart", "sphere", "--method", "cel"], "gouraud"),
         (&["chart", "sphere", "--detail", "17"], "8, 16, 32"),
         (&["chart", "--scaling", "sphere"], "--scaling"),
+        (&["chart", "--filters", "sphere"], "--filters"),
     ];
     for (arguments, told) in rows {
         let output = halfway(&folder, arguments);

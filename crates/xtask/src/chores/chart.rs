@@ -13,6 +13,8 @@ const FOLDER: &str = "out/chart";
 const PICTURE: &str = "docs/pictures/chart.svg";
 /// Who wins where, likewise.
 const TABLES: &str = "docs/fronts.md";
+/// What filters of images cost and lose; made again by their own runs but quick ones.
+const FILTER_TABLES: &str = "docs/filters.md";
 
 /// Measure what shading costs and what it loses, and write a page of charts to out/chart/
 ///
@@ -32,23 +34,48 @@ pub(crate) struct Options {
     /// Only how the time of a frame grows, on out/chart/scaling.html; docs/ stays as it is
     #[arg(long)]
     scaling: bool,
+    /// Only what filters of images cost and lose, on out/chart/filters.html; makes docs/filters.md again, but with --quick
+    #[arg(long, conflicts_with = "scaling")]
+    filters: bool,
 }
 
 /// Sets up, builds, measures and writes the page.
 pub(crate) fn run(options: &Options) -> Result {
-    let &Options { setup, quick, scaling } = options;
-    program::run("measuring", setup, Program::Binary("halfway"), arguments(quick, scaling))?;
-    let page = if scaling { "scaling.html" } else { "index.html" };
+    let &Options { setup, quick, scaling, filters } = options;
+    let part = match (scaling, filters) {
+        (true, _) => Part::Scaling,
+        (_, true) => Part::Filters,
+        _ => Part::All,
+    };
+    program::run("measuring", setup, Program::Binary("halfway"), arguments(quick, part))?;
+    let page = match part {
+        Part::All => "index.html",
+        Part::Scaling => "scaling.html",
+        Part::Filters => "filters.html",
+    };
     eprintln!("\nthe charts: {}", root().join(FOLDER).join(page).display());
     Ok(())
 }
 
-fn arguments(quick: bool, scaling: bool) -> Vec<&'static str> {
+/// What is measured.
+#[derive(Clone, Copy)]
+enum Part {
+    All,
+    Scaling,
+    Filters,
+}
+
+fn arguments(quick: bool, part: Part) -> Vec<&'static str> {
     let mut arguments = vec!["chart", "--output", FOLDER];
     arguments.extend(quick.then_some("--quick"));
-    arguments.extend(scaling.then_some("--scaling"));
-    if !quick && !scaling {
-        arguments.extend(["--small-chart", PICTURE, "--tables", TABLES]);
+    let (own, of_docs): (&[&str], &[&str]) = match part {
+        Part::All => (&[], &["--small-chart", PICTURE, "--tables", TABLES]),
+        Part::Scaling => (&["--scaling"], &[]),
+        Part::Filters => (&["--filters"], &["--tables", FILTER_TABLES]),
+    };
+    arguments.extend(own);
+    if !quick {
+        arguments.extend(of_docs);
     }
     arguments
 }
@@ -60,13 +87,15 @@ mod tests {
     #[test]
     fn quick_runs_leave_the_documentation_alone() {
         let rows = [
-            (true, false, "--quick"),
-            (false, true, "--scaling"),
-            (true, true, "--quick --scaling"),
-            (false, false, "--small-chart docs/pictures/chart.svg --tables docs/fronts.md"),
+            (true, Part::All, "--quick"),
+            (false, Part::Scaling, "--scaling"),
+            (true, Part::Scaling, "--quick --scaling"),
+            (true, Part::Filters, "--quick --filters"),
+            (false, Part::Filters, "--filters --tables docs/filters.md"),
+            (false, Part::All, "--small-chart docs/pictures/chart.svg --tables docs/fronts.md"),
         ];
-        for (quick, scaling, end) in rows {
-            assert_eq!(arguments(quick, scaling).join(" "), format!("chart --output out/chart {end}"));
+        for (quick, part, end) in rows {
+            assert_eq!(arguments(quick, part).join(" "), format!("chart --output out/chart {end}"));
         }
     }
 }

@@ -1,0 +1,127 @@
+//! Filters of images against the integrated footprint: error, shimmer, time and memory.
+
+mod scenery;
+mod sweep;
+
+use halfway::texture::{LevelFilter, Sampling, TexelFilter};
+
+use crate::timing::Spread;
+
+pub use scenery::{ChartedImage, FilterView};
+pub use sweep::sweep;
+
+/// How much of the filters is measured.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FilterPlan {
+    /// Columns and rows of the pictures.
+    pub size: [u32; 2],
+    /// Frames of the moving camera, 2 or more.
+    pub frames: u32,
+    /// Rounds in which the filters take turns while they are timed.
+    pub rounds: u32,
+    /// How far the mean over a part of a footprint may be from that of its halves, before these are halved again.
+    pub tolerance: f64,
+}
+
+impl FilterPlan {
+    /// Many minutes on two cores, most of them for the truth near the horizon.
+    pub const FULL: Self = Self { size: [160, 120], frames: 6, rounds: 25, tolerance: 1e-4 };
+    /// The same with fewer pixels, frames and rounds: for a look.
+    pub const QUICK: Self = Self { size: [96, 72], frames: 4, rounds: 7, tolerance: 1e-4 };
+
+    /// The units that [`sweep`] reports: a truth each, and one for the timing of each image.
+    pub fn units(&self) -> u64 {
+        let views = FilterView::ALL.len() + FilterView::MOVING.len() * self.frames as usize;
+        (ChartedImage::ALL.len() * (views + 1)) as u64
+    }
+}
+
+/// A way to look an image up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FilterMethod {
+    /// What it is called.
+    pub name: &'static str,
+    /// What it is.
+    pub sampling: Sampling,
+    /// The memory that it reads, in multiples of the image's.
+    pub memory: f64,
+}
+
+const fn method(name: &'static str, texels: TexelFilter, levels: LevelFilter, memory: f64) -> FilterMethod {
+    let sampling = Sampling { wrap: Sampling::NEAREST.wrap, magnify: texels, minify: texels, levels };
+    FilterMethod { name, sampling, memory }
+}
+
+const PYRAMID: f64 = 4.0 / 3.0;
+
+/// The filters that are charted. The second is the one whose time is 1.
+pub const FILTERS: [FilterMethod; 13] = {
+    use LevelFilter as L;
+    use TexelFilter as T;
+    [
+        method("nearest", T::Nearest, L::None, 1.0),
+        method("bilinear", T::Bilinear, L::None, 1.0),
+        method("bilinear, nearest level", T::Bilinear, L::Nearest, PYRAMID),
+        method("trilinear", T::Bilinear, L::Linear, PYRAMID),
+        method("B-spline, two levels", T::BSpline, L::Linear, PYRAMID),
+        method("Catmull–Rom, two levels", T::CatmullRom, L::Linear, PYRAMID),
+        method("ripmap", T::Bilinear, L::Ripmap, 4.0),
+        method("summed areas", T::Bilinear, L::SummedArea, 3.0),
+        method("2 probes", T::Bilinear, L::Anisotropic2, PYRAMID),
+        method("4 probes", T::Bilinear, L::Anisotropic4, PYRAMID),
+        method("8 probes", T::Bilinear, L::Anisotropic8, PYRAMID),
+        method("16 probes", T::Bilinear, L::Anisotropic16, PYRAMID),
+        method("elliptical mean", T::Bilinear, L::Elliptical, PYRAMID),
+    ]
+};
+
+/// The place in [`FILTERS`] of the one whose time is 1.
+pub const BILINEAR: usize = 1;
+
+/// What was found of one filter on one image.
+#[derive(Clone, Debug, Default)]
+pub struct FilterFigures {
+    /// The RMS error of each of [`FilterView::ALL`], in steps of 1/255 of the sRGB curve, not rounded.
+    pub rms_by_view: Vec<f64>,
+    /// The same over all of them.
+    pub rms: f64,
+    /// The mean of ꟻLIP over all of them.
+    pub flip: f64,
+    /// The RMS of what changes from a frame of the moving camera to the next, less what changes in the truth, in such steps.
+    pub shimmer: f64,
+    /// A lookup's time, in nanoseconds.
+    pub ns: Spread,
+    /// The same over the bilinear filter's of the same round.
+    pub ratio: Spread,
+    /// What the steepest turned view looks like, as a `data:` address.
+    pub picture: String,
+}
+
+/// What was found of one image.
+#[derive(Clone, Debug)]
+pub struct MeasuredFilters {
+    /// The image.
+    pub image: ChartedImage,
+    /// What the truth of the steepest turned view looks like, as a `data:` address.
+    pub truth: String,
+    /// For each of [`FILTERS`].
+    pub figures: Vec<FilterFigures>,
+}
+
+impl MeasuredFilters {
+    /// The places in [`FILTERS`] that nothing is both as fast as and errs as little, by the figure that `error` tells, the
+    /// fastest first.
+    pub fn front(&self, error: impl Fn(&FilterFigures) -> f64) -> Vec<usize> {
+        let time = |i: usize| self.figures[i].ratio.median;
+        let error = |i: usize| error(&self.figures[i]);
+        let mut order: Vec<usize> = (0..self.figures.len()).collect();
+        order.sort_by(|&a, &b| time(a).total_cmp(&time(b)).then(error(a).total_cmp(&error(b))));
+        let mut least = f64::INFINITY;
+        order.retain(|&i| {
+            let nearer = error(i) < least;
+            least = least.min(error(i));
+            nearer
+        });
+        order
+    }
+}
