@@ -7,7 +7,7 @@
 //!   [`LevelFilter`]).
 //! - [`lookup`]: the filters as functions, in `f32` or `f64`.
 //! - [`UvTransform`]: where on the image a surface's coordinates lie.
-//! - [`Texture`], [`ColorMap`]: the asset, and the component that puts one onto an object.
+//! - [`Texture`], [`Maps`]: the asset, and the component that puts some onto an object, one for each [`MapKind`].
 //!
 //! (u, v) = (0, 0) is the image's top left corner, (1, 1) its bottom right. Texel (i, j) of a w × h image has its center at
 //! ((i + ½)/w, (j + ½)/h). No GPU, no window is touched; files only by [`load`].
@@ -30,7 +30,7 @@ mod decode;
 mod error;
 mod limits;
 pub mod lookup;
-mod map;
+mod maps;
 mod pyramid;
 mod sampling;
 mod texels;
@@ -39,7 +39,7 @@ mod uv;
 pub use decode::{TexelMeaning, decode, load};
 pub use error::TextureError;
 pub use limits::{LONGEST_SIDE, MOST_TEXELS};
-pub use map::{ColorMap, Texture, TexturePlugin};
+pub use maps::{Channel, MapKind, Maps, SurfaceMap, Texture, TexturePlugin, UvSet, WrongMap};
 pub use pyramid::{Level, Pyramid};
 pub use sampling::{LevelFilter, Sampling, TexelFilter, Wrap};
 pub use texels::TexelImage;
