@@ -38,6 +38,10 @@ fn checker() -> Result<TexelImage, TextureError> {
     })
 }
 
+fn map(texture: &Handle<Texture>, sampling: Sampling, transform: UvTransform) -> Maps {
+    Maps::new(MapKind::Color, SurfaceMap { sampling, transform, ..SurfaceMap::from(texture.clone()) })
+}
+
 fn scene(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>, mut textures: ResMut<Assets<Texture>>) -> Result {
     let texture = textures.add(Texture::from(checker()?));
     commands.spawn((
@@ -57,7 +61,7 @@ fn scene(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>, mut textures:
         commands.spawn((
             Mesh3d(floor.clone()),
             Material::matte(LinearRgba::WHITE),
-            ColorMap { texture: texture.clone(), sampling, transform },
+            map(&texture, sampling, transform),
             Transform::from_translation(floor_at)
                 .with_rotation(Quat::from_rotation_x(tilt))
                 .with_scale(Vec3::new(1.05, 1.0, 9.0)),
@@ -65,7 +69,7 @@ fn scene(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>, mut textures:
         commands.spawn((
             Mesh3d(ball.clone()),
             Material::plastic(LinearRgba::WHITE),
-            ColorMap { texture: texture.clone(), sampling, transform: UvTransform::default() },
+            map(&texture, sampling, UvTransform::default()),
             Transform::from_xyz(x, 2.4 - 2.97 * row, 0.0),
         ));
     }

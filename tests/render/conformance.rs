@@ -154,3 +154,8 @@ fn every_way_to_shade_and_to_filter_images_conforms() {
     // Vertices that are rounded to 1/16 pixel turn the planes of u and v: SwiftShader is off by up to 1.2e-2 of the range.
     conform_within("images", &maps::rows(), 2.0);
 }
+
+#[test]
+fn every_kind_of_image_conforms() {
+    conform_within("kinds of images", &maps::rows_of_kinds(), 2.0);
+}

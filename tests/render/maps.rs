@@ -12,7 +12,8 @@ use halfway::texture::{LevelFilter, Pyramid, TexelImage, UvTransform};
 const SHADINGS: [Shading; 3] = [Shading::Flat, Shading::Gouraud, Shading::Phong];
 
 fn scene(shading: Shading, map: Option<Map>) -> Scene {
-    let thing = Thing { map, ..Thing::new(UvSphere::new(1.0, 24, 12)) };
+    let maps = map.into_iter().map(|map| (MapKind::Color, map)).collect();
+    let thing = Thing { maps, ..Thing::new(UvSphere::new(1.0, 24, 12)) };
     let mut scene = Scene::seen_from(Vec3::new(0.4, 1.0, 3.0), Vec3::ZERO)
         .ambient(0.2)
         .with(thing)
@@ -45,7 +46,7 @@ fn an_image_of_one_color_is_another_material() {
     let own = Material { ambient: times(material().ambient), diffuse: times(material().diffuse), ..material() };
     let mut stage = Stage::new(64, 48);
     for shading in SHADINGS {
-        let map = Map { image: even.clone(), sampling: Sampling::default(), transform: UvTransform::default() };
+        let map = Map::new(even.clone());
         let mapped = stage.draw(&scene(shading, Some(map)));
         let mut plain = scene(shading, None);
         plain.things[0].material = own;
@@ -79,10 +80,10 @@ fn a_picture_of_another_filter_place_or_image_is_found_out() {
 fn an_image_that_is_not_there_is_drawn_as_a_checker() {
     let mut stage = Stage::new(64, 48);
     let things = stage.set(&scene(Shading::Phong, None));
-    stage.world().entity_mut(things[0]).insert(ColorMap::from(Handle::<Texture>::default()));
+    stage.world().entity_mut(things[0]).insert(Maps::new(MapKind::Color, Handle::<Texture>::default()));
     let missing = stage.float();
     let texture = stage.world().resource_mut::<Assets<Texture>>().add(Texture(Pyramid::missing()));
-    stage.world().entity_mut(things[0]).insert(ColorMap::from(texture));
+    stage.world().entity_mut(things[0]).insert(Maps::new(MapKind::Color, texture));
     assert_eq!(missing, stage.float());
 }
 
@@ -92,7 +93,122 @@ fn coordinates_that_are_no_numbers_are_refused_by_name() {
     let transform = UvTransform { rotation: f32::NAN, ..UvTransform::default() };
     stage.set(&scene(Shading::Phong, Some(map(Sampling::default(), transform))));
     let errors: Vec<String> = stage.frame().errors.iter().map(ToString::to_string).collect();
-    assert!(errors.len() == 1 && errors[0].contains("ColorMap.transform.rotation: the value is NaN"), "{errors:?}");
+    assert!(errors.len() == 1 && errors[0].contains("Maps.color.transform.rotation: the value is NaN"), "{errors:?}");
+}
+
+#[test]
+fn an_uncut_picture_of_a_mask_is_found_out() {
+    let mut stage = Stage::new(64, 48);
+    for shading in SHADINGS {
+        let holes = TexelImage::from_fn(8, 8, |x, y| [1.0, 1.0, 1.0, ((x + y) % 2) as f32]).expect("a small image");
+        let mut right = scene(shading, Some(Map::new(holes)));
+        let uncut = stage.draw(&right);
+        right.things[0].mask = Some(0.5);
+        stage.set(&right);
+        stage.frame();
+        let truth = stage.oracle();
+        let verdict = judge(&truth, &truth.draw(), &Image::from_float(&uncut), FLOAT).expect("one size");
+        assert!(!verdict.is_within(), "{shading:?}: {verdict}");
+        let cut = stage.float();
+        // Rounded vertices turn the planes of u and v, as in the conformance suite.
+        let bars = if stage.grid_bits() < 8 { FLOAT.within(2.0) } else { FLOAT };
+        let verdict = judge(&truth, &truth.draw(), &Image::from_float(&cut), bars).expect("one size");
+        assert!(verdict.is_within(), "{shading:?}: {verdict}");
+    }
+}
+
+/// A wave along both axes, from 0 to 1.
+fn wave(u: f32, v: f32) -> f32 {
+    let cycles = 1.5 * std::f32::consts::TAU;
+    0.5 + 0.25 * ((cycles * u).sin() + (cycles * v + 1.0).cos())
+}
+
+#[test]
+fn a_displaced_mesh_converges_to_the_bumped_plane() {
+    // Seen from far above, so that what is raised hardly moves; within the rim, where normals are one-sided.
+    let seen = |mesh: Mesh, maps: Vec<(MapKind, Map)>| {
+        let thing = Thing { maps, ..Thing::new(mesh) }.of(Material::matte(LinearRgba::WHITE));
+        let light = DirectionalLight { ambient: LinearRgba::BLACK, ..DirectionalLight::white() };
+        let mut scene = Scene::in_eye_space().with(thing).lit(Lamp::directional(light, Vec3::new(-0.6, -1.0, -0.4)));
+        scene.eye = Transform::from_xyz(0.0, 60.0, 0.0).looking_at(Vec3::ZERO, Vec3::NEG_Z);
+        scene.camera.fov_y = 0.02;
+        scene.view_shading = Some(Shading::Phong);
+        scene
+    };
+    let height = 0.05;
+    let size = 128;
+    let at = |x: u32| (x as f32 + 0.5) / size as f32;
+    let image = TexelImage::from_fn(size, size, |x, y| [wave(at(x), at(y)), 0.0, 0.0, 1.0]).expect("a small image");
+    let bumps = vec![(MapKind::Height, Map { amount: height, ..Map::new(image) })];
+    let plane = |divisions| Mesh::from(Plane { size: 2.0, divisions });
+    let mut stage = Stage::new(64, 48);
+    let bumped = stage.draw(&seen(plane(1), bumps));
+    let flat = stage.draw(&seen(plane(1), Vec::new()));
+    let rms = |a: &image::Rgba32FImage| {
+        let sum: f64 = a.iter().zip(bumped.iter()).map(|(a, b)| f64::from(a - b).powi(2)).sum();
+        (sum / a.len() as f64).sqrt()
+    };
+    let errors = [16, 32, 64].map(|divisions| {
+        let fine = plane(divisions);
+        let uvs = fine.uvs().expect("a plane has coordinates").to_vec();
+        let (raised, _) = fine.displaced(|vertex| height * wave(uvs[vertex].x, uvs[vertex].y)).expect("a mesh");
+        rms(&stage.draw(&seen(raised, Vec::new())))
+    });
+    let plain = rms(&flat);
+    assert!(plain > 0.02, "the bumps are seen: {plain}");
+    assert!(errors[1] < 0.4 * errors[0] && errors[2] < 0.4 * errors[1], "{errors:?}, {plain} without bumps");
+    assert!(errors[2] < 0.01 * plain, "{errors:?}, {plain} without bumps");
+}
+
+#[test]
+fn normals_of_an_image_lean_as_its_coordinates_run_also_where_they_are_mirrored() {
+    // Two squares, on which u grows away from the middle, and v downward.
+    let columns = [-1.0_f32, 0.0, 1.0];
+    let positions: Vec<Vec3> =
+        columns.iter().flat_map(|&x| [Vec3::new(x, -0.5, 0.0), Vec3::new(x, 0.5, 0.0)]).collect();
+    let uvs = positions.iter().map(|p| Vec2::new(p.x.abs(), 0.5 - p.y)).collect();
+    let indices = vec![0, 2, 3, 0, 3, 1, 2, 4, 5, 2, 5, 3];
+    let mesh = Mesh::from_parts(positions, None, Some(uvs), indices).expect("two squares");
+    let to_light = Vec3::new(0.5, 0.3, 1.0).normalize();
+    let mut stage = Stage::new(64, 48);
+    for (texel, lean) in [([0.75, 0.5], Vec3::X), ([0.5, 0.75], Vec3::Y)] {
+        let even = TexelImage::from_fn(1, 1, |_, _| [texel[0], texel[1], 0.9, 1.0]).expect("a texel");
+        for (scale, mirror) in [(1.0, 1.0), (1.0, -1.0), (0.5, 1.0)] {
+            let map = Map { amount: scale, ..Map::new(even.clone()) };
+            let mut thing = Thing { maps: vec![(MapKind::Normal, map)], ..Thing::new(mesh.clone()) };
+            thing = thing.of(Material::matte(LinearRgba::WHITE)).at(Transform::from_scale(Vec3::new(mirror, 1.0, 1.0)));
+            let light = DirectionalLight { ambient: LinearRgba::BLACK, ..DirectionalLight::white() };
+            let mut scene = Scene::seen_from(Vec3::new(0.0, 0.0, 3.0), Vec3::ZERO).with(thing);
+            scene = scene.lit(Lamp::directional(light, -to_light));
+            scene.view_shading = Some(Shading::Phong);
+            let picture = stage.draw(&scene);
+            for (pixel, side) in [(20, -1.0), (44, 1.0)] {
+                let lean = Vec3::new(side * lean.x, lean.y, lean.z) * 0.5 * scale;
+                let expected = (lean + Vec3::Z * 0.8).normalize().dot(to_light);
+                let found = picture.get_pixel(pixel, 24).0[0];
+                assert!(
+                    (found - expected).abs() < 1e-5,
+                    "{texel:?}, {scale}, {mirror}, {side}: {found}, not {expected}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_relief_does_nothing_where_vertices_or_triangles_are_lit() {
+    let mut stage = Stage::new(64, 48);
+    for kind in [MapKind::Normal, MapKind::Height] {
+        for shading in SHADINGS {
+            let mut with = scene(shading, None);
+            let without = stage.draw(&with);
+            let map = map(Sampling::default(), UvTransform::default());
+            with.things[0].maps = vec![(kind, Map { amount: 0.3, ..map })];
+            let with = stage.draw(&with);
+            let most = with.iter().zip(without.iter()).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+            assert_eq!(most < 1e-5, shading != Shading::Phong, "{kind:?}, {shading:?}: {most:e}");
+        }
+    }
 }
 
 #[test]

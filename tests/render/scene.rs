@@ -3,7 +3,7 @@
 use halfway::lighting::Frequency;
 use halfway::lighting::rotation_along;
 use halfway::prelude::*;
-use halfway::texture::{Sampling, TexelImage, UvTransform};
+use halfway::texture::{Channel, Sampling, TexelImage, UvSet, UvTransform};
 
 /// Everything that decides a picture, but for its size.
 #[derive(Clone)]
@@ -46,6 +46,17 @@ pub(crate) struct Map {
     pub(crate) image: TexelImage,
     pub(crate) sampling: Sampling,
     pub(crate) transform: UvTransform,
+    pub(crate) uv_set: UvSet,
+    pub(crate) channel: Channel,
+    pub(crate) amount: f32,
+}
+
+impl Map {
+    /// The whole image.
+    pub(crate) fn new(image: TexelImage) -> Self {
+        let (sampling, transform) = (Sampling::default(), UvTransform::default());
+        Self { image, sampling, transform, uv_set: UvSet::First, channel: Channel::Red, amount: 1.0 }
+    }
 }
 
 #[derive(Clone)]
@@ -61,7 +72,8 @@ pub(crate) struct Thing {
     pub(crate) reflectance: Option<Reflectance>,
     pub(crate) faces: Option<Faces>,
     pub(crate) colors: Option<VertexColors>,
-    pub(crate) map: Option<Map>,
+    pub(crate) maps: Vec<(MapKind, Map)>,
+    pub(crate) mask: Option<f32>,
     pub(crate) blend: bool,
 }
 
@@ -145,7 +157,8 @@ impl Thing {
             reflectance: None,
             faces: None,
             colors: None,
-            map: None,
+            maps: Vec::new(),
+            mask: None,
             blend: false,
         }
     }

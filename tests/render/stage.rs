@@ -6,7 +6,6 @@ use halfway::prelude::*;
 use halfway::reference::Oracle;
 use halfway::reference::metrics::Bars;
 use halfway::render::{Adapter, Costs, RenderError};
-use halfway::texture::{ColorMap, Texture};
 use image::{Rgba32FImage, RgbaImage};
 use std::sync::OnceLock;
 use std::time::Duration;
@@ -154,10 +153,13 @@ impl Stage {
         for frame in parents {
             parent = Some(self.child(*frame, parent));
         }
-        let map = thing.map.as_ref().map(|Map { image, sampling, transform }| {
+        let mut maps = Maps::default();
+        for (kind, Map { image, sampling, transform, uv_set, channel, amount }) in &thing.maps {
             let texture = self.world().resource_mut::<Assets<Texture>>().add(Texture::from(image.clone()));
-            ColorMap { texture, sampling: *sampling, transform: *transform }
-        });
+            let (sampling, transform) = (*sampling, *transform);
+            let map = SurfaceMap { texture, sampling, uv_set: *uv_set, transform, channel: *channel, amount: *amount };
+            maps.set(*kind, Some(map));
+        }
         let entity = self.child((*own, Mesh3d(handle), thing.material), parent);
         let mut entity = self.world().entity_mut(entity);
         if let Some(name) = &thing.name {
@@ -178,8 +180,11 @@ impl Stage {
         if let Some(faces) = thing.faces {
             entity.insert(faces);
         }
-        if let Some(map) = map {
-            entity.insert(map);
+        if maps.iter().next().is_some() {
+            entity.insert(maps);
+        }
+        if let Some(cutoff) = thing.mask {
+            entity.insert(Mask(cutoff));
         }
         if let Some(colors) = thing.colors {
             entity.insert(colors);

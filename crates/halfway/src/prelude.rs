@@ -10,12 +10,12 @@ pub use bevy_time::{Fixed, Real, Time, Virtual};
 pub use bevy_transform::prelude::{GlobalTransform, Transform, TransformPlugin};
 pub use halfway_lighting::{
     Attenuation, BackMaterial, Blend, Camera, Cone, DirectionalLight, Encoding, Faces, Frequency, GlobalAmbient,
-    Intensity, LightingPlugin, Material, PointLight, Reflectance, Samples, Shading, SpotLight, Terms, Tolerance,
+    Intensity, LightingPlugin, Mask, Material, PointLight, Reflectance, Samples, Shading, SpotLight, Terms, Tolerance,
     VertexColors, ViewTolerance, Viewer, Visibility,
 };
 pub use halfway_mesh::{Cuboid, Mesh, Mesh3d, MeshPlugin, Plane, Teapot, UvSphere};
 pub use halfway_render::{Compile, FrameReport, Headless, Picture, Pixels, RenderPlugin, RenderSet, render_picture};
 pub use halfway_scene::import::{ModelMaterial, model_light};
-pub use halfway_texture::{ColorMap, Sampling, Texture, TexturePlugin};
+pub use halfway_texture::{MapKind, Maps, Sampling, SurfaceMap, Texture, TexturePlugin};
 #[cfg(feature = "window")]
 pub use halfway_window::{OrbitCamera, OrbitCameraPlugin, ViewerKeysPlugin, WindowPlugin, WindowTitle};

@@ -25,7 +25,7 @@
 //!
 //! # What is here
 //! - Components: the lights, [`Material`] (with [presets](Material::PRESETS)) and [`BackMaterial`], [`Shading`],
-//!   [`Reflectance`], [`Faces`], [`Blend`], [`Visibility`], [`Tolerance`], [`VertexColors`]; the resources [`GlobalAmbient`] and
+//!   [`Reflectance`], [`Faces`], [`Blend`], [`Mask`], [`Visibility`], [`Tolerance`], [`VertexColors`]; the resources [`GlobalAmbient`] and
 //!   [`ViewTolerance`]; [`LightingPlugin`]. A light stands where
 //!   its entity's `GlobalTransform` puts it and shines along the local −Z axis. Every value has a `validate()` whose
 //!   [`InvalidValue`] names type, field, value and what was expected.
@@ -85,7 +85,7 @@ pub use place::{light_direction, light_position, rotation_along};
 pub use plugin::LightingPlugin;
 pub use propagation::{Propagation, propagation};
 pub use range::{CHANNEL_MAX, Range};
-pub use shading::{Blend, Faces, Reflectance, Shading, Terms, Viewer};
+pub use shading::{Blend, Faces, Mask, Reflectance, Shading, Terms, Viewer};
 pub use tolerance::{Tolerance, ViewTolerance};
 pub use vertex_colors::VertexColors;
 pub use visibility::{Shown, Visibility};

@@ -3,8 +3,8 @@
 use bevy_app::{App, Plugin};
 
 use crate::{
-    BackMaterial, Blend, Camera, DirectionalLight, Faces, GlobalAmbient, Material, PointLight, Reflectance, Shading,
-    SpotLight, Terms, Tolerance, VertexColors, ViewTolerance, Visibility,
+    BackMaterial, Blend, Camera, DirectionalLight, Faces, GlobalAmbient, Mask, Material, PointLight, Reflectance,
+    Shading, SpotLight, Terms, Tolerance, VertexColors, ViewTolerance, Visibility,
 };
 
 /// Puts the resources of lighting into an [`App`]: [`GlobalAmbient`] and [`ViewTolerance`] with their defaults, unless they
@@ -32,6 +32,7 @@ impl Plugin for LightingPlugin {
             .register_type::<Reflectance>()
             .register_type::<Faces>()
             .register_type::<Blend>()
+            .register_type::<Mask>()
             .register_type::<VertexColors>()
             .register_type::<Visibility>();
     }

@@ -146,6 +146,31 @@ impl Faces {
 #[reflect(Component, Clone, Debug, Default, PartialEq, Hash)]
 pub struct Blend;
 
+/// Marks a surface as cut out: it is not there where its opacity is below this number, and there as a whole elsewhere, or
+/// blended where it has [`Blend`].
+///
+/// The opacity is the material's, times that of the vertices' colours and of images, where there are any. A finite number,
+/// 0 or more; 0 cuts nothing away. The default is 0.5, as in glTF 2.0 (§3.9.4).
+#[derive(Component, Reflect, Clone, Copy, Debug, PartialEq)]
+#[reflect(Component, Clone, Debug, Default, PartialEq)]
+pub struct Mask(pub f32);
+
+impl Default for Mask {
+    fn default() -> Self {
+        Self(0.5)
+    }
+}
+
+impl Mask {
+    /// Expects a finite number, 0 or more.
+    ///
+    /// # Errors
+    /// It is not so.
+    pub fn validate(&self) -> Result<(), InvalidValue> {
+        Fields::of("Mask").non_negative("0", self.0)
+    }
+}
+
 /// Where the viewer is for the highlights.
 #[derive(Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[reflect(Clone, Debug, Default, PartialEq, Hash)]

@@ -60,7 +60,7 @@ pub use prepare::{
     DistanceBounds, HierarchyPatch, MeshReport, PatchGroup, PatchHierarchy, RepairReport, Weld, WeldReport,
 };
 pub use problems::Problems;
-pub use source_map::{SourceLevels, SourceMap, SourceWrap};
+pub use source_map::{SourceChannel, SourceLevels, SourceMap, SourceMapKind, SourceMaps, SourceWrap};
 pub use subdivide::Subdivision;
 pub use surfaces::{
     BezierPatch, Capsule, Cone, Cuboid, Cylinder, Disc, Ellipsoid, HeightField, Hyperboloid, HyperboloidSheet,

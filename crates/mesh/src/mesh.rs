@@ -28,6 +28,7 @@ struct MeshData {
     positions: Vec<Vec3>,
     normals: Vec<Vec3>,
     uvs: Option<Vec<Vec2>>,
+    second_uvs: Option<Vec<Vec2>>,
     colors: Option<Vec<Vec4>>,
     tangents: Option<Vec<Vec4>>,
     indices: Vec<u32>,
@@ -165,7 +166,17 @@ impl Mesh {
     pub(crate) fn checked(positions: Vec<Vec3>, normals: Vec<Vec3>, uvs: Option<Vec<Vec2>>, indices: Vec<u32>) -> Self {
         let bounds =
             Bounds::from_points(positions.iter().copied()).unwrap_or(Bounds { min: Vec3::ZERO, max: Vec3::ZERO });
-        let data = MeshData { positions, normals, uvs, colors: None, tangents: None, indices, bounds, surface: None };
+        let data = MeshData {
+            positions,
+            normals,
+            uvs,
+            second_uvs: None,
+            colors: None,
+            tangents: None,
+            indices,
+            bounds,
+            surface: None,
+        };
         Self { data: Arc::new(data) }
     }
 
@@ -178,6 +189,15 @@ impl Mesh {
         check_attribute("colour", vertices, colors.iter().map(|c| c.truncate().to_array()))?;
         check_attribute("opacity", vertices, colors.iter().map(|c| [c.w, 0.0, 0.0]))?;
         Ok(self.changed(|data| data.colors = Some(colors)))
+    }
+
+    /// The mesh with a second pair of texture coordinates a vertex, beside the first.
+    ///
+    /// # Errors
+    /// Not one pair a vertex, or one that is not finite.
+    pub fn with_second_uvs(self, uvs: Vec<Vec2>) -> Result<Self, MeshError> {
+        check_attribute("uv", self.positions().len(), uvs.iter().map(|uv| [uv.x, uv.y, 0.0]))?;
+        Ok(self.changed(|data| data.second_uvs = Some(uvs)))
     }
 
     /// The mesh with more vertices, each in the middle of two old ones in all that it has, and these triangles.
@@ -193,7 +213,10 @@ impl Mesh {
         let normals = extend(self.normals(), pairs.clone(), |a, b| (a + b).try_normalize().unwrap_or(a));
         let uvs = self.uvs().map(|all| extend(all, pairs.clone(), Vec2::midpoint));
         let mesh = Self::checked(positions, normals, uvs, indices);
-        mesh.changed(|data| data.colors = self.colors().map(|all| extend(all, pairs, Vec4::midpoint)))
+        mesh.changed(|data| {
+            data.second_uvs = self.uv_set(1).map(|all| extend(all, pairs.clone(), Vec2::midpoint));
+            data.colors = self.colors().map(|all| extend(all, pairs, Vec4::midpoint));
+        })
     }
 
     /// Takes normals that are known to be good. Tangents, which belong to the old normals, are dropped.
@@ -206,8 +229,9 @@ impl Mesh {
 
     /// Takes positions that are known to be good, as many as before.
     pub(crate) fn with_given_positions(self, positions: Vec<Vec3>) -> Self {
-        let MeshData { normals, uvs, colors, tangents, indices, .. } = Arc::unwrap_or_clone(self.data);
+        let MeshData { normals, uvs, second_uvs, colors, tangents, indices, .. } = Arc::unwrap_or_clone(self.data);
         Self::checked(positions, normals, uvs, indices).changed(|data| {
+            data.second_uvs = second_uvs;
             data.colors = colors;
             data.tangents = tangents;
         })
@@ -240,6 +264,7 @@ impl Mesh {
         let uvs = self.uvs().map(|all| pick(all, vertices));
         let mesh = Self::checked(pick(self.positions(), vertices), pick(self.normals(), vertices), uvs, indices);
         mesh.changed(|data| {
+            data.second_uvs = self.uv_set(1).map(|all| pick(all, vertices));
             data.colors = self.colors().map(|all| pick(all, vertices));
             data.tangents = self.tangents().map(|all| pick(all, vertices));
             data.surface = self.surface().cloned();
@@ -260,6 +285,15 @@ impl Mesh {
     /// bottom right, as in glTF.
     pub fn uvs(&self) -> Option<&[Vec2]> {
         self.data.uvs.as_deref()
+    }
+
+    /// One of the sets of texture coordinates: number 0 is [`uvs`](Self::uvs), number 1 the second; there are no others.
+    pub fn uv_set(&self, number: usize) -> Option<&[Vec2]> {
+        match number {
+            0 => self.uvs(),
+            1 => self.data.second_uvs.as_deref(),
+            _ => None,
+        }
     }
 
     /// The colours of the vertices, one a vertex: linear RGB and opacity, finite but not limited to 0 … 1.

@@ -2,7 +2,7 @@
 
 use bevy_math::Mat4;
 
-use crate::{Bounds, Mesh, SourceMap};
+use crate::{Bounds, Mesh, SourceMaps};
 
 /// The content of a model file: meshes placed in the world, and the materials and lights that the file describes.
 ///
@@ -59,11 +59,11 @@ pub enum SourceMaterial {
 }
 
 impl SourceMaterial {
-    /// The image whose color multiplies the diffuse or base color.
-    pub fn color_map(&self) -> Option<&SourceMap> {
+    /// The images that it refers to.
+    pub fn maps(&self) -> &SourceMaps {
         match self {
-            Self::Mtl(mtl) => mtl.color_map.as_ref(),
-            Self::MetallicRoughness(gltf) => gltf.color_map.as_ref(),
+            Self::Mtl(mtl) => &mtl.maps,
+            Self::MetallicRoughness(gltf) => &gltf.maps,
         }
     }
 
@@ -77,7 +77,7 @@ impl SourceMaterial {
 }
 
 /// A material of a Wavefront MTL file: the statements as they stand, finite but not limited to their usual ranges.
-/// `None` where the file says nothing. Textures (`map_…`) are not read.
+/// `None` where the file says nothing.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MtlMaterial {
     /// `newmtl`.
@@ -98,12 +98,12 @@ pub struct MtlMaterial {
     pub tr: Option<f32>,
     /// `illum`, the number of the illumination model.
     pub illum: Option<u8>,
-    /// `map_Kd`, whose color multiplies `Kd`.
-    pub color_map: Option<SourceMap>,
+    /// `map_Kd map_Ks map_Ke map_d map_Ns norm map_Bump`.
+    pub maps: SourceMaps,
 }
 
 /// A metallic-roughness material of glTF 2.0 (§3.9.2): the factors as they stand, finite but not limited to their
-/// usual ranges. Of textures only the base color is read.
+/// usual ranges. Of textures that of metal and roughness is not read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MetallicRoughness {
     /// The material's name.
@@ -120,8 +120,8 @@ pub struct MetallicRoughness {
     pub double_sided: bool,
     /// `alphaMode` and `alphaCutoff`.
     pub alpha: AlphaMode,
-    /// `baseColorTexture`, whose color multiplies the base color.
-    pub color_map: Option<SourceMap>,
+    /// `baseColorTexture`, `emissiveTexture`, `occlusionTexture` and `normalTexture`.
+    pub maps: SourceMaps,
 }
 
 /// What the alpha of a glTF material does.

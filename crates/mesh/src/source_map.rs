@@ -1,5 +1,6 @@
 //! Images that materials refer to.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// An image that a material refers to: the bytes of its file, not decoded, and how the material looks it up.
@@ -18,12 +19,78 @@ pub struct SourceMap {
     pub smooth_levels: bool,
     /// Which smaller images stand for the image there.
     pub levels: SourceLevels,
+    /// The number of the set of texture coordinates that it takes, 0 or 1.
+    pub uv_set: usize,
     /// Texture coordinates are moved by this, after `rotation` and `scale`; (0, 0) is the image's top left corner.
     pub offset: [f32; 2],
     /// Turned by, in radians, counter-clockwise as the image is seen; after `scale`.
     pub rotation: f32,
     /// Stretched by.
     pub scale: [f32; 2],
+    /// The number of a texel that counts where one does; `None` where the file does not say.
+    pub channel: Option<SourceChannel>,
+    /// How much it counts: the strength of an occlusion, the scale of a normal map, the height of a bump map. Otherwise 1.
+    pub amount: f32,
+}
+
+/// What an image says of a material.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum SourceMapKind {
+    /// `map_Kd`, `baseColorTexture`: its color multiplies the diffuse or base color.
+    Color,
+    /// `map_Ks`: its color multiplies `Ks`.
+    Specular,
+    /// `map_Ke`, `emissiveTexture`: its color multiplies the emission.
+    Emission,
+    /// `map_d`: its number multiplies the opacity.
+    Opacity,
+    /// `map_Ns`: its number multiplies `Ns`.
+    Shininess,
+    /// `occlusionTexture`: its number multiplies ambient light.
+    Occlusion,
+    /// `norm`, `normalTexture`: its colors are normals in the space of tangents.
+    Normal,
+    /// `map_Bump`: its numbers are heights.
+    Height,
+}
+
+/// The images of a material, one of each kind at most.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SourceMaps(BTreeMap<SourceMapKind, SourceMap>);
+
+impl SourceMaps {
+    /// The image of a kind.
+    pub fn get(&self, kind: SourceMapKind) -> Option<&SourceMap> {
+        self.0.get(&kind)
+    }
+
+    /// Puts an image in the place of one of its kind.
+    pub fn insert(&mut self, kind: SourceMapKind, map: SourceMap) {
+        self.0.insert(kind, map);
+    }
+
+    /// Those that are there.
+    pub fn iter(&self) -> impl Iterator<Item = (SourceMapKind, &SourceMap)> {
+        self.0.iter().map(|(kind, map)| (*kind, map))
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+}
+
+/// One of the four numbers of a texel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SourceChannel {
+    /// The first.
+    Red,
+    /// The second.
+    Green,
+    /// The third.
+    Blue,
+    /// The fourth.
+    Alpha,
 }
 
 /// What is beyond an image.
@@ -60,9 +127,12 @@ impl SourceMap {
             smooth: true,
             smooth_levels: true,
             levels: SourceLevels::Linear,
+            uv_set: 0,
             offset: [0.0; 2],
             rotation: 0.0,
             scale: [1.0; 2],
+            channel: None,
+            amount: 1.0,
         }
     }
 }

@@ -19,7 +19,15 @@ impl Mesh {
     /// # Errors
     /// The mesh has no texture coordinates.
     pub fn with_tangents(self) -> Result<Self, MeshError> {
-        let uvs = self.uvs().ok_or(MeshError::NoUvs { what: "a tangent" })?;
+        self.with_tangents_of(0)
+    }
+
+    /// The same by one of the [sets](Self::uv_set) of texture coordinates.
+    ///
+    /// # Errors
+    /// The mesh does not have it.
+    pub fn with_tangents_of(self, set: usize) -> Result<Self, MeshError> {
+        let uvs = self.uv_set(set).ok_or(MeshError::NoUvs { what: "a tangent" })?;
         let tangents = Corners::tangents(&self, uvs);
         let vertices = Numbering::new(tangents.len(), |corner| {
             let [x, y, z, w] = tangents[corner].to_array().map(f32::to_bits);

@@ -7,8 +7,8 @@ use base64::engine::general_purpose::STANDARD;
 use bevy_math::{Mat4, Quat, Vec2, Vec3, Vec4};
 use common::{Folder, TRIANGLE_JSON, glb, triangle_data};
 use halfway_mesh::{
-    AlphaMode, LoadError, MetallicRoughness, Model, SourceCamera, SourceLightKind, SourceMaterial, SourceProjection,
-    load,
+    AlphaMode, LoadError, MetallicRoughness, Model, SourceCamera, SourceLightKind, SourceMaps, SourceMaterial,
+    SourceProjection, load,
 };
 
 fn load_glb(json: &str, data: &[u8]) -> Result<Model, LoadError> {
@@ -43,7 +43,7 @@ fn check_triangle(model: &Model) {
             emissive: [0.0; 3],
             double_sided: false,
             alpha: AlphaMode::Opaque,
-            color_map: None,
+            maps: SourceMaps::default(),
         })]
     );
     let bounds = model.bounds().unwrap();
@@ -212,7 +212,7 @@ fn materials_keep_their_factors() {
         emissive: [0.0; 3],
         double_sided: false,
         alpha: AlphaMode::Opaque,
-        color_map: None,
+        maps: SourceMaps::default(),
     };
     let expected = [
         default.clone(),
@@ -438,10 +438,13 @@ fn colours_and_tangents_are_kept() {
         (("COLOR_0", "VEC4", U8, true, 4, &bytes), [red, Vec4::new(0., 0.2, 0., 1.), Vec4::new(0., 0., 1., 0.)]),
     ];
     for (color, expected) in rows {
-        let second = ("TEXCOORD_1", "VEC2", F32, false, 8, &positions[..24]);
-        let model = attributes("", &[position, color, second]).unwrap();
+        let [second, third] = ["TEXCOORD_1", "TEXCOORD_2"].map(|name| (name, "VEC2", F32, false, 8, &positions[..24]));
+        let model = attributes("", &[position, color, second, third]).unwrap();
+        let coordinates = model.parts[0].mesh.uv_set(1).unwrap();
+        assert_eq!(coordinates, [Vec2::ZERO, Vec2::X, Vec2::ZERO]);
         assert_eq!(model.parts[0].mesh.colors(), Some(&expected[..]), "{}", color.1);
-        let warning = "of 1 primitives only the first texture coordinates and colours are read".to_owned();
+        let warning =
+            "of 1 primitives only the first two texture coordinates and the first colours are read".to_owned();
         assert!(model.warnings.contains(&warning), "{:?}", model.warnings);
     }
     let tangents = floats(&[1., 0., 0., 1., 1., 0., 0., -1., 0., 1., 0., 1.]);

@@ -4,7 +4,7 @@ mod common;
 
 use bevy_math::{Vec2, Vec3, Vec4};
 use common::Folder;
-use halfway_mesh::{Model, MtlMaterial, SourceMaterial, load};
+use halfway_mesh::{Model, MtlMaterial, SourceMaps, SourceMaterial, load};
 
 const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
@@ -96,7 +96,7 @@ fn every_statement_of_a_material_is_kept() {
         d: Some(0.75),
         tr: Some(0.5),
         illum: Some(2),
-        color_map: None,
+        maps: SourceMaps::default(),
     };
     let nothing = MtlMaterial { name: "nothing".to_owned(), ..MtlMaterial::default() };
     assert_eq!(model.materials, [SourceMaterial::Mtl(all), SourceMaterial::Mtl(nothing)]);
@@ -198,12 +198,12 @@ fn what_is_skipped_is_said() {
     }
     let model = load_with_mtl(
         &format!("mtllib model.mtl\n{SQUARE}f 1 2 3\n"),
-        "newmtl a\nmap_Ks a.png\nmap_Ks b.png\nd -halo 0.5\nKd spectral a.rfl\n",
+        "newmtl a\nmap_Ka a.png\nmap_Ka b.png\nd -halo 0.5\nKd spectral a.rfl\n",
     );
     assert_eq!(
         model.warnings,
         [
-            "model.mtl:2: the texture `map_Ks` is skipped (and 1 more such lines)",
+            "model.mtl:2: the texture `map_Ka` is skipped (and 1 more such lines)",
             "model.mtl:4: `d -halo` is skipped",
             "model.mtl:5: `Kd spectral` is skipped",
         ]

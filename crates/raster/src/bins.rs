@@ -86,7 +86,7 @@ impl Bins {
             if range.len() > 1 && placed.tiles(mesh.center, mesh.radius).is_none() {
                 continue;
             }
-            let state = State::new(draw, instance.surface, &pass.surfaces[instance.surface as usize], pass.maps);
+            let state = State::new(draw, instance.surface, &pass.surfaces[instance.surface as usize]);
             if self.states.last() != Some(&state) {
                 reserve(&mut self.states, 1)?;
                 self.states.push(state);

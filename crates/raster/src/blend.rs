@@ -1,14 +1,15 @@
 //! Fragments that are laid over what is there, in the order of drawing.
 
 use crate::bins::TILE;
-use crate::cover::{EdgeFunctions, TileBuffer, clamped, covered, map_numbers, plane};
+use crate::cover::{EdgeFunctions, TileBuffer, clamped, covered, plane};
 use crate::encode::kept;
 use crate::four::{centroid, samples};
-use crate::lanes::{F, M, Simd, V3, counting, each, fma, lanes, load, replace, saturate, splat, splat3};
+use crate::lanes::{F, M, Simd, V3, counting, each, fma, lanes, load, replace, saturate, splat, splat_i, splat3};
+use crate::look::Look;
 use crate::pass::SampleCount;
 use crate::planes::{Planes, Slopes};
 use crate::samples::CENTROIDS;
-use crate::shade::{Fragments, Look, state_of};
+use crate::shade::{Fragments, state_of};
 use crate::state::Stage;
 use fearless_simd::prelude::*;
 
@@ -99,22 +100,27 @@ impl TileBuffer {
             place: shown.place,
             inverse_w: clamped(simd, plane(simd, &planes.lead, 0, x, y), planes),
             lead: three(simd, &planes.lead, x, y),
-            second: if state.stage == Stage::Mixed || state.keeps_parts() {
-                three(simd, &planes.second, x, y)
+            second: if state.stage == Stage::Mixed { three(simd, &planes.second, x, y) } else { [splat(simd, 0.0); 3] },
+            mapped: if state.maps.is_some() {
+                let number = self.mapped_triangles.len() as i32 - 1;
+                shown.any.select(splat_i(simd, number), splat_i(simd, -1))
             } else {
-                [splat(simd, 0.0); 3]
+                splat_i(simd, -1)
             },
-            map: state.map.map_or([splat(simd, 0.0); 3], |map| map_numbers(simd, planes, map.size, [x, y])),
+            triangles: &self.mapped_triangles,
             paint: if state.shades_paint() { three(simd, &planes.paint, x, y) } else { [splat(simd, 0.0); 3] },
             face: splat3(simd, planes.face),
         };
         let color = kept(simd, fragments.color_apart(simd, look, state, back), look.pass.pixels);
         let mut opacity = splat(simd, state.side(look.pass, back).opacity);
-        if state.colored {
+        if state.paints() {
             opacity *= saturate(simd, plane(simd, &planes.paint, 0, x, y) / fragments.inverse_w);
         }
-        if let Some(map) = &state.map {
-            opacity *= fragments.texels(simd, look, map)[3];
+        let mut new = new;
+        if state.maps.is_some() {
+            let of_maps = fragments.of_maps();
+            opacity = of_maps.opacities(simd, look.pass, state, back);
+            new &= of_maps.are_there(simd, look.pass, state, back);
         }
         for sample in 0..look.pass.samples.count() {
             let at = j as usize * TILE + i as usize;

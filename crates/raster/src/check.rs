@@ -1,7 +1,8 @@
 //! Whether a pass can be drawn: references within their lists, numbers finite and in their ranges.
 
 use crate::error::{LARGEST_SIDE, RasterError};
-use crate::pass::{InstanceData, LightData, LightRange, Output, Pass, SideData, SurfaceData};
+use crate::pass::{DrawCall, InstanceData, LightData, LightRange, Output, Pass, SideData, SurfaceData};
+use halfway_texture::MapKind;
 
 /// Checks all of a pass but what drawing it finds out.
 pub(crate) fn check(pass: &Pass, output: &Output) -> Result<(), RasterError> {
@@ -23,6 +24,7 @@ pub(crate) fn check(pass: &Pass, output: &Output) -> Result<(), RasterError> {
     }
     for (index, map) in pass.maps.iter().enumerate() {
         finite("map", index, "rows", map.rows.as_flattened())?;
+        finite("map", index, "amount", &[map.amount])?;
     }
     for (index, draw) in pass.draws.iter().enumerate() {
         if draw.mesh as usize >= pass.meshes.len() {
@@ -32,19 +34,29 @@ pub(crate) fn check(pass: &Pass, output: &Output) -> Result<(), RasterError> {
         if draw.colored && !mesh.has_colors() {
             return beyond("draw", index, "colors", mesh.triangle_count() as u64, 0);
         }
-        if let Some(map) = draw.map {
-            if map.map as usize >= pass.maps.len() {
-                return beyond("draw", index, "map", u64::from(map.map) + 1, pass.maps.len());
-            }
-            if !mesh.has_uvs() {
-                return beyond("draw", index, "texture coordinates", mesh.triangle_count() as u64, 0);
-            }
-        }
+        check_maps(index, draw, pass)?;
         if draw.instances.end as usize > pass.instances.len() {
             return beyond("draw", index, "instances", u64::from(draw.instances.end), pass.instances.len());
         }
     }
     Ok(())
+}
+
+fn check_maps(index: usize, draw: &DrawCall, pass: &Pass) -> Result<(), RasterError> {
+    let mesh = pass.meshes[draw.mesh as usize];
+    let triangles = mesh.triangle_count() as u64;
+    for map in draw.maps.iter().flatten() {
+        if map.map as usize >= pass.maps.len() {
+            return beyond("draw", index, "map", u64::from(map.map) + 1, pass.maps.len());
+        }
+        if !mesh.has_uvs() {
+            return beyond("draw", index, "texture coordinates", triangles, 0);
+        }
+    }
+    if draw.maps[MapKind::Normal as usize].is_some() && !draw.flat && !mesh.has_tangents() {
+        return beyond("draw", index, "tangents", triangles, 0);
+    }
+    draw.mask.map_or(Ok(()), |cutoff| finite("draw", index, "mask", &[cutoff]))
 }
 
 fn check_size(pass: &Pass, output: &Output) -> Result<(), RasterError> {

@@ -3,7 +3,7 @@
 use crate::bins::TILE;
 use crate::cover::EdgeFunctions;
 use crate::pass::LeftOut;
-use crate::planes::{Gradient, Planes};
+use crate::planes::{CutCorner, Gradient, Planes};
 use crate::samples::sample_offsets;
 use crate::triangle::Covering;
 use crate::vertices::{CLIPPED, GRID, SCREEN_HIGH, SCREEN_LOW, Screen, TOO_NEAR, Vertices};
@@ -17,11 +17,22 @@ pub(crate) struct Corner {
     lead: [[f32; 4]; 2],
     second: [[f32; 4]; 2],
     paint: [f32; 4],
-    map: [f32; 4],
+    /// As a mean of the triangle's corners.
+    weights: [f64; 3],
 }
 
-/// A triangle that is ready to be drawn: its edges, its planes, whether it shows its back.
-pub(crate) type Ready = (EdgeFunctions, Planes, bool);
+/// A triangle that is ready to be drawn.
+pub(crate) struct Ready {
+    pub(crate) edges: EdgeFunctions,
+    pub(crate) planes: Planes,
+    /// Whether it shows its back.
+    pub(crate) back: bool,
+    pub(crate) gradient: Gradient,
+    pub(crate) corners: [CutCorner; 3],
+}
+
+/// The weights of the triangle's own corners.
+const UNITS: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 /// A polygon gets a corner more from each plane that cuts it.
 const MOST_CORNERS: usize = 3 + 5;
@@ -37,7 +48,7 @@ pub(crate) fn each_part(
     let numbers = triangle.map(usize::from);
     let code = numbers.iter().fold(0, |code, &v| code | vertices.codes[v]);
     if code & CLIPPED == 0 {
-        if let Some(ready) = set_up(&numbers.map(|v| Corner::of(vertices, v)), tile, covering) {
+        if let Some(ready) = set_up(&[0, 1, 2].map(|k| Corner::of(vertices, numbers[k], UNITS[k])), tile, covering) {
             draw(ready);
         }
         return;
@@ -57,21 +68,21 @@ pub(crate) fn each_part(
 }
 
 impl Corner {
-    fn of(vertices: &Vertices, v: usize) -> Self {
+    fn of(vertices: &Vertices, v: usize, weights: [f64; 3]) -> Self {
         Self {
+            weights,
             screen: [vertices.screen[0][v], vertices.screen[1][v]],
             grid: [vertices.grid[0][v], vertices.grid[1][v]],
             lead: [vertices.lead[0][v], vertices.lead[usize::from(vertices.sides_lead)][v]],
             second: [vertices.second[0][v], vertices.second[1][v]],
             paint: vertices.paint[v],
-            map: vertices.map[v],
         }
     }
 
     /// A mean of a triangle's corners.
     fn between(vertices: &Vertices, numbers: [usize; 3], weights: [f64; 3], screen: &Screen) -> Self {
         if let Some(only) = weights.iter().position(|&weight| weight >= 1.0) {
-            return Self::of(vertices, numbers[only]);
+            return Self::of(vertices, numbers[only], UNITS[only]);
         }
         let mean = |list: &[f32]| -> f64 { (0..3).map(|k| weights[k] * f64::from(list[numbers[k]])).sum() };
         let [x, y, z] = [0, 1, 2].map(|axis| mean(&vertices.eye[axis]));
@@ -85,16 +96,14 @@ impl Corner {
             let [a, b, c] = [0, 1, 2].map(|k| (mean(&vertices.raw[first + k]) * inverse_w) as f32);
             [inverse_w as f32, a, b, c]
         };
-        let over_w = |list: usize| (mean(&vertices.raw[list]) * inverse_w) as f32;
         let of_normal = four(0);
         let of_colors = [four(3), four(6)];
-        let of_plain = [four(13), four(16)];
         Self {
             screen: on_screen,
             grid: on_screen.map(|v| (v * GRID as f32).round_ties_even() as i32),
             lead: if vertices.sides_lead { of_colors } else { [of_normal; 2] },
-            second: if vertices.sides_lead { of_plain } else { of_colors },
-            map: [over_w(19), over_w(20), 0.0, 0.0],
+            second: of_colors,
+            weights,
             paint: [0, 1, 2, 3].map(|k| (mean(&vertices.raw[9 + k]) * inverse_w) as f32),
         }
     }
@@ -178,7 +187,9 @@ fn set_up(corners: &[Corner; 3], tile: [u32; 2], covering: &Covering) -> Option<
     }
     let order = if area > 0 { [0, 1, 2] } else { [0, 2, 1] };
     let edges = edges(order.map(|k| x[k]), order.map(|k| y[k]), covering)?;
-    Some((edges, planes(corners, first, (x, y), area > 0, front), !front))
+    let (planes, gradient) = planes(corners, first, (x, y), area > 0, front);
+    let of_corners = corners.each_ref().map(|corner| (corner.lead[0][0], corner.weights));
+    Some(Ready { edges, planes, back: !front, gradient, corners: of_corners })
 }
 
 fn edges(x: [i64; 3], y: [i64; 3], covering: &Covering) -> Option<EdgeFunctions> {
@@ -219,7 +230,13 @@ fn edges(x: [i64; 3], y: [i64; 3], covering: &Covering) -> Option<EdgeFunctions>
 
 const LARGEST_EDGE: i64 = (1 << 30) - 1;
 
-fn planes(corners: &[Corner; 3], first: [i64; 2], (x, y): ([i64; 3], [i64; 3]), positive: bool, front: bool) -> Planes {
+fn planes(
+    corners: &[Corner; 3],
+    first: [i64; 2],
+    (x, y): ([i64; 3], [i64; 3]),
+    positive: bool,
+    front: bool,
+) -> (Planes, Gradient) {
     let side = usize::from(!front);
     let exact =
         |axis: usize| corners.map(|corner| f64::from(corner.screen[axis]) - first[axis] as f64 / f64::from(GRID));
@@ -227,12 +244,12 @@ fn planes(corners: &[Corner; 3], first: [i64; 2], (x, y): ([i64; 3], [i64; 3]), 
     let gradient = Gradient::new(exact(0), exact(1), (on_grid(x), on_grid(y)), positive);
     let lead = [0, 1, 2].map(|k| &corners[k].lead[side]);
     let inverse_w = lead.map(|lead| lead[0]);
-    Planes {
+    let planes = Planes {
         lead: gradient.slopes(lead),
         second: gradient.slopes([0, 1, 2].map(|k| &corners[k].second[side])),
         paint: gradient.slopes([0, 1, 2].map(|k| &corners[k].paint)),
-        map: gradient.slopes([0, 1, 2].map(|k| &corners[k].map)),
         face: [0.0; 3],
         range: [inverse_w.into_iter().fold(f32::INFINITY, f32::min), inverse_w.into_iter().fold(0.0, f32::max)],
-    }
+    };
+    (planes, gradient)
 }

@@ -5,6 +5,9 @@ use crate::lanes::{
     F, I, M, Simd, counting, counting_i, each, f32x4, fma, lanes, load, load_i, max, max_one, min, min_one, replace,
     splat, splat_i, store_i,
 };
+use crate::look::Look;
+use crate::mapped::MappedTriangle;
+use crate::mapped_pixels::MappedPixels;
 use crate::pass::SampleCount;
 use crate::planes::{LaneSlopes, Planes, Slopes};
 use crate::samples::GRID_PLACES;
@@ -95,33 +98,41 @@ pub(crate) struct TileBuffer {
     pub(crate) second: Vec<[[f32; PIXELS]; 3]>,
     /// Of colored draws the color over w; empty where the pass has none.
     pub(crate) paint: Vec<[[f32; PIXELS]; 3]>,
-    /// Of draws with an image the coordinates on it over w, and the square of the footprint's longer side in texels.
-    pub(crate) map: Vec<[[f32; PIXELS]; 3]>,
+    /// The tile's triangles of draws with images or a mask.
+    pub(crate) mapped_triangles: Vec<MappedTriangle>,
+    /// Which of them is nearest; empty where the pass has none.
+    pub(crate) mapped: Vec<[i32; PIXELS]>,
     pub(crate) face: Vec<[[f32; PIXELS]; 3]>,
 }
 
 /// Which of its numbers a triangle leaves behind.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Default)]
 #[expect(clippy::struct_excessive_bools, reason = "each is one list of the tile's buffer")]
-pub(crate) struct Kept {
+pub(crate) struct Kept<'a> {
     pub(crate) lead: bool,
     pub(crate) second: bool,
     pub(crate) paint: bool,
     pub(crate) face: bool,
-    /// The size of the image, where there is one.
-    pub(crate) map: Option<[f32; 2]>,
+    /// The number of the tile's mapped triangle, where it is one.
+    pub(crate) mapped: Option<i32>,
+    /// What says where a mask leaves anything, where there is one.
+    pub(crate) mask: Option<(&'a Look<'a>, &'a State, bool)>,
 }
 
-impl Kept {
+impl<'a> Kept<'a> {
     /// What shading takes.
     #[inline(always)]
-    pub(crate) fn of(state: &State) -> Self {
+    pub(crate) fn of(look: &'a Look<'a>, state: &'a State, back: bool, mapped: Option<i32>) -> Self {
+        if let Some(maps) = &state.maps {
+            return Self { mapped, mask: maps.is_masked().then_some((look, state, back)), ..Self::default() };
+        }
         Self {
             lead: state.stage != Stage::Unlit,
-            second: state.stage == Stage::Mixed || state.keeps_parts(),
+            second: state.stage == Stage::Mixed,
             paint: state.shades_paint(),
             face: state.opposite_normals,
-            map: state.map.map(|map| map.size),
+            mapped: None,
+            mask: None,
         }
     }
 }
@@ -137,7 +148,8 @@ impl TileBuffer {
             lead: Vec::new(),
             second: Vec::new(),
             paint: Vec::new(),
-            map: Vec::new(),
+            mapped_triangles: Vec::new(),
+            mapped: Vec::new(),
             face: Vec::new(),
         }
     }
@@ -152,7 +164,7 @@ impl TileBuffer {
             list.resize(count, [[0.0; PIXELS]; 3]);
         }
         if mapped {
-            self.map.resize(count, [[0.0; PIXELS]; 3]);
+            self.mapped.resize(count, [0; PIXELS]);
         }
         if painted {
             self.paint.resize(count, [[0.0; PIXELS]; 3]);
@@ -168,6 +180,7 @@ impl TileBuffer {
         self.depth.as_flattened_mut().fill(0.0);
         self.shader.as_flattened_mut().fill(0);
         self.triangles = 0;
+        self.mapped_triangles.clear();
     }
 
     /// Draws a triangle of few pixels with one sample each: those of `pixels`, counted from `first`.
@@ -223,12 +236,8 @@ impl TileBuffer {
                 self.paint[sample][c][pixel] = v[c + 1];
             }
         }
-        if let Some(size) = kept.map {
-            let (x, y) = (splat(simd, i), splat(simd, j));
-            let of_map = map_numbers(simd, planes, size, [x, y]);
-            for c in 0..3 {
-                self.map[sample][c][pixel] = of_map[c][0];
-            }
+        if let Some(number) = kept.mapped {
+            self.mapped[sample][pixel] = number;
         }
         if kept.face {
             for c in 0..3 {
@@ -323,7 +332,10 @@ impl TileBuffer {
                     let at = (j as usize * TILE + i as usize) & (PIXELS - 1);
                     let depth = clamped(simd, fma::<S>(dx, x, fma::<S>(dy, y, base)), planes);
                     let before = load(simd, &self.depth[0], at);
-                    let nearer = covered & depth.simd_gt(before);
+                    let mut nearer = covered & depth.simd_gt(before);
+                    if kept.mask.is_some() {
+                        nearer &= self.left_by_mask(simd, kept, [x, y], depth, nearer);
+                    }
                     if nearer.any_true() {
                         replace::<S>(simd, nearer, depth, &mut self.depth[0], at);
                         store_i::<S>(nearer.select(shader, load_i(simd, &self.shader[0], at)), &mut self.shader[0], at);
@@ -338,13 +350,28 @@ impl TileBuffer {
         }
     }
 
+    /// Where a mask leaves something of some pixels; everywhere where there is none.
+    #[inline(never)]
+    pub(crate) fn left_by_mask<S: Simd>(
+        &self,
+        simd: S,
+        kept: Kept,
+        place: [F<S>; 2],
+        inverse_w: F<S>,
+        shown: M<S>,
+    ) -> M<S> {
+        let (Some((look, state, back)), Some(number)) = (kept.mask, kept.mapped) else { return shown };
+        let of = shown.select(splat_i(simd, number), splat_i(simd, -1));
+        let inverse_w = shown.select(inverse_w, splat(simd, 1.0));
+        let pixels = MappedPixels { triangles: &self.mapped_triangles, of, place, inverse_w };
+        pixels.are_there(simd, look.pass, state, back)
+    }
+
     #[inline(always)]
     fn keep<S: Simd>(&mut self, simd: S, planes: &Planes, at: usize, [x, y]: [F<S>; 2], shown: M<S>, kept: Kept) {
-        if let Some(size) = kept.map {
-            let of_map = map_numbers(simd, planes, size, [x, y]);
-            for c in 0..3 {
-                replace::<S>(simd, shown, of_map[c], &mut self.map[0][c], at);
-            }
+        if let Some(number) = kept.mapped {
+            let before = load_i(simd, &self.mapped[0], at);
+            store_i::<S>(shown.select(splat_i(simd, number), before), &mut self.mapped[0], at);
         }
         for c in 0..3 {
             if kept.lead {
@@ -382,24 +409,6 @@ pub(crate) fn covered<S: Simd>(simd: S, edges: &EdgeFunctions, i: i32, j: i32) -
 pub(crate) fn clamped<S: Simd>(simd: S, inverse_w: F<S>, planes: &Planes) -> F<S> {
     let [least, most] = planes.range;
     min::<S>(max::<S>(inverse_w, splat(simd, least)), splat(simd, most))
-}
-
-/// (u, v)/w on an image of this size at places of the tile, and the square of the footprint's longer side in texels.
-///
-/// u/w, v/w and 1/w are linear over the picture: by the rule of quotients ∂u = w·(∂(u/w) − u·∂(1/w)).
-#[inline(always)]
-pub(crate) fn map_numbers<S: Simd>(simd: S, planes: &Planes, size: [f32; 2], [x, y]: [F<S>; 2]) -> [F<S>; 3] {
-    let over_w = each!(k in 2 => plane(simd, &planes.map, k, x, y));
-    let w = splat(simd, 1.0) / plane(simd, &planes.lead, 0, x, y);
-    let (mut along_x, mut along_y) = (splat(simd, 0.0), splat(simd, 0.0));
-    for k in 0..2 {
-        let (u, texels) = (over_w[k] * w, w * splat(simd, size[k]));
-        let dx = (splat(simd, planes.map.dx[k]) - u * splat(simd, planes.lead.dx[0])) * texels;
-        let dy = (splat(simd, planes.map.dy[k]) - u * splat(simd, planes.lead.dy[0])) * texels;
-        along_x = fma::<S>(dx, dx, along_x);
-        along_y = fma::<S>(dy, dy, along_y);
-    }
-    [over_w[0], over_w[1], max::<S>(along_x, along_y)]
 }
 
 /// One of the numbers at places of the tile.

@@ -3,7 +3,8 @@
 use crate::lanes::{
     F, MOST_LANES, Simd, V3, add, cross, each, load, max, neg, safe_normalize, scale, splat, store_fours, sub,
 };
-use crate::lighting::{Points, plain_part, reflected, tinted, tinted_part, to_viewer};
+use crate::lighting::{Points, reflected, tinted, to_viewer};
+use crate::mapped::FlatParts;
 use crate::pass::{InstanceData, Pass};
 use crate::pieces::{Piece, Pieces};
 use crate::state::{Stage, State};
@@ -14,13 +15,13 @@ use fearless_simd::prelude::*;
 /// stands the vertices' mean opacity where they have colors.
 pub(crate) struct LaneFaces {
     pub(crate) each: [[[f32; 4]; MOST_LANES]; 2],
-    /// Of flat draws with an image 0 and what it does not multiply.
-    pub(crate) plain: [[[f32; 4]; MOST_LANES]; 2],
+    /// Of flat draws with images or a mask.
+    pub(crate) parts: FlatParts,
 }
 
 impl LaneFaces {
     pub(crate) fn new() -> Self {
-        Self { each: [[[0.0; 4]; MOST_LANES]; 2], plain: [[[0.0; 4]; MOST_LANES]; 2] }
+        Self { each: [[[0.0; 4]; MOST_LANES]; 2], parts: FlatParts::new() }
     }
 
     /// The lanes' triangles' own normals, or their colors where the draw is flat.
@@ -63,12 +64,8 @@ impl LaneFaces {
             let terms = state.vertex_terms(simd, pass, &points, back);
             let side = state.side(pass, back);
             let [r, g, b, opacity] = own;
-            if state.map.is_some() {
-                let plain = plain_part(simd, &terms, side, true);
-                let of_side = &mut self.plain[usize::from(back)];
-                store_fours::<S>([splat(simd, 0.0), plain[0], plain[1], plain[2]], of_side, 0);
-                let color = if state.colored { [r, g, b] } else { [splat(simd, 1.0); 3] };
-                self.store(simd, usize::from(back), tinted_part(simd, &terms, side, color, true), opacity);
+            if state.maps.is_some() {
+                self.parts.store(simd, &terms, side, back, state.colored.then_some(own));
                 continue;
             }
             let color =

@@ -2,7 +2,7 @@
 
 use crate::bins::TILE;
 use crate::cover::{EdgeFunctions, Kept, PIXELS, TINY_AT, TINY_PIXELS, TINY_PLACES, TileBuffer, value};
-use crate::lanes::{I, M, Simd, counting_i, each, f32x4, lanes, max_one, min_one, splat_i};
+use crate::lanes::{I, M, Simd, counting_i, each, f32x4, lanes, max_one, min_one, splat, splat_i};
 use crate::planes::{LaneSlopes, Planes};
 use crate::samples::{CENTROIDS, OFFSETS};
 use fearless_simd::{i32x4, mask32x4, prelude::*};
@@ -155,17 +155,24 @@ impl TileBuffer {
     ) {
         let pixel = (j as usize * TILE + i as usize) % PIXELS;
         let (covered, depth) = samples(simd, edges, planes, i, j);
-        let mask = self.nearer_of_four(simd, pixel, covered, depth);
-        if mask == 0 {
-            return;
-        }
         let place = centroid(edges, i, j, covered.to_bitmask() as usize % 16);
         let [x, y] = [i as f32 + CENTROIDS[place][0], j as f32 + CENTROIDS[place][1]];
         let v = value(simd, &planes.lead, x, y);
         let inverse_w = min_one(max_one(v[0], planes.range[0]), planes.range[1]);
+        if kept.mask.is_some() {
+            let first = counting_i(simd).simd_eq(splat_i(simd, 0));
+            let place = [splat(simd, x), splat(simd, y)];
+            if !self.left_by_mask(simd, kept, place, splat(simd, inverse_w), first).any_true() {
+                return;
+            }
+        }
+        let mask = self.nearer_of_four(simd, pixel, covered, depth);
+        if mask == 0 {
+            return;
+        }
         let shader = shader | (place as i32) << CENTROID_SHIFT;
         self.keep_samples(pixel, mask, shader, inverse_w, kept.lead.then_some(v));
-        if kept.second || kept.paint || kept.face || kept.map.is_some() {
+        if kept.second || kept.paint || kept.face || kept.mapped.is_some() {
             for sample in (0..4).filter(|sample| mask >> sample & 1 != 0) {
                 self.keep_more(simd, planes, (sample, pixel), [x, y], kept);
             }

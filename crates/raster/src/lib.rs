@@ -45,6 +45,7 @@
 )]
 #![expect(clippy::too_many_arguments, reason = "vectors are passed in registers, and not in structs in memory")]
 
+mod attributes;
 mod bands;
 mod bins;
 mod blend;
@@ -57,6 +58,10 @@ mod faces;
 mod four;
 mod lanes;
 mod lighting;
+mod look;
+mod mapped;
+mod mapped_pixels;
+mod mapped_vertices;
 mod pass;
 mod pieces;
 mod planes;

@@ -2,8 +2,8 @@
 //! their names. Eye space, linear RGB. The test beside it holds it to the equations in f64.
 
 use crate::lanes::{
-    F, I, Simd, V3, add, add_scaled, dot, each, fma, max, min, neg, saturate, scale, select3, splat, splat_i, splat3,
-    sub,
+    F, I, M, Simd, V3, add, add_scaled, dot, each, fma, max, min, neg, saturate, scale, select3, splat, splat_i,
+    splat3, sub,
 };
 use crate::pass::{Highlight, LightData, LightRange, ShadedTerms, SideData};
 use crate::power::{Exponent, power};
@@ -40,14 +40,35 @@ pub(crate) struct Irradiance<S: Simd> {
 }
 
 /// What the terms of one side's lights take from the surface.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Gloss {
     pub(crate) highlight: Highlight,
     /// Of the material; Blinn–Phong takes it halved.
     pub(crate) exponent: Exponent,
 }
 
+impl Gloss {
+    /// One of this exponent.
+    pub(crate) fn new(highlight: Highlight, exponent: f32) -> Self {
+        let exponent = match highlight {
+            Highlight::Phong => Exponent::new(exponent),
+            Highlight::BlinnPhong => Exponent::new(exponent).halved(),
+        };
+        Self { highlight, exponent }
+    }
+}
+
 impl<S: Simd> Irradiance<S> {
+    /// Another where `mask` says so.
+    #[inline(always)]
+    pub(crate) fn or(self, mask: M<S>, other: &Self) -> Self {
+        Self {
+            ambient: select3::<S>(mask, other.ambient, self.ambient),
+            diffuse: select3::<S>(mask, other.diffuse, self.diffuse),
+            specular: select3::<S>(mask, other.specular, self.specular),
+        }
+    }
+
     #[inline(always)]
     pub(crate) fn none(simd: S) -> Self {
         let zero = [splat(simd, 0.0); 3];
@@ -343,9 +364,9 @@ pub(crate) fn tinted_terms<S: Simd>(simd: S, arriving: &Irradiance<S>, side: &Si
     })
 }
 
-/// The part of a sum that an image multiplies: color·(ambient and diffuse terms), with the base where there is one yet.
+/// The ambient part of a surface with a color, with the base where `base` says so.
 #[inline(always)]
-pub(crate) fn tinted_part<S: Simd>(
+pub(crate) fn ambient_part<S: Simd>(
     simd: S,
     arriving: &Irradiance<S>,
     side: &SideData,
@@ -354,18 +375,20 @@ pub(crate) fn tinted_part<S: Simd>(
 ) -> V3<S> {
     each!(c in 3 => {
         let ambient = arriving.ambient[c] * splat(simd, side.ambient[c]);
-        let diffuse = fma::<S>(arriving.diffuse[c], splat(simd, side.diffuse[c]), ambient);
-        color[c] * if base { diffuse + splat(simd, side.base[c]) } else { diffuse }
+        color[c] * if base { ambient + splat(simd, side.base[c]) } else { ambient }
     })
 }
 
-/// The part that it does not: the specular terms, with the emission where there is none yet.
+/// Its diffuse part.
 #[inline(always)]
-pub(crate) fn plain_part<S: Simd>(simd: S, arriving: &Irradiance<S>, side: &SideData, emission: bool) -> V3<S> {
-    each!(c in 3 => {
-        let specular = arriving.specular[c] * splat(simd, side.specular[c]);
-        if emission { specular + splat(simd, side.emission[c]) } else { specular }
-    })
+pub(crate) fn diffuse_part<S: Simd>(simd: S, arriving: &Irradiance<S>, side: &SideData, color: V3<S>) -> V3<S> {
+    each!(c in 3 => color[c] * (arriving.diffuse[c] * splat(simd, side.diffuse[c])))
+}
+
+/// Its specular part.
+#[inline(always)]
+pub(crate) fn specular_part<S: Simd>(simd: S, arriving: &Irradiance<S>, side: &SideData) -> V3<S> {
+    each!(c in 3 => arriving.specular[c] * splat(simd, side.specular[c]))
 }
 
 #[cfg(test)]

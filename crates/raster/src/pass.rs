@@ -1,7 +1,7 @@
 //! What is drawn: plain data, borrowed for one picture.
 
 use crate::Pieces;
-use halfway_texture::{Pyramid, Sampling};
+use halfway_texture::{Channel, MapKind, Pyramid, Sampling, UvSet};
 use std::ops::Range;
 
 /// All of a picture. Eye space is right-handed, the eye at the origin looking along −z; colors are linear RGB.
@@ -157,7 +157,7 @@ pub struct SideData {
     pub diffuse: [f32; 3],
     /// ks.
     pub specular: [f32; 3],
-    /// ke of draws that are `colored` or have a `map`, which do not multiply it; of others it is part of the base, and this 0.
+    /// ke of draws that are `colored` or have `maps` or a `mask`, apart from what colors multiply; of others it is part of the base, and this 0.
     pub emission: [f32; 3],
     /// ka, for the lights that attenuate their ambient.
     pub ambient: [f32; 3],
@@ -207,6 +207,8 @@ pub struct MapData {
     pub pyramid: Pyramid,
     /// Coordinates on it are the products of these rows with (u, v, 1).
     pub rows: [[f32; 3]; 2],
+    /// How much it counts; see [`SurfaceMap::amount`](halfway_texture::SurfaceMap::amount).
+    pub amount: f32,
 }
 
 /// An image that a draw looks up.
@@ -216,6 +218,10 @@ pub struct MapCall {
     pub map: u32,
     /// How it is looked up.
     pub sampling: Sampling,
+    /// By which coordinates.
+    pub uv_set: UvSet,
+    /// The number that counts where one does.
+    pub channel: Channel,
 }
 
 /// Where a mesh stands.
@@ -297,11 +303,22 @@ pub struct DrawCall {
     pub opposite_normals: bool,
     /// The mesh's colors multiply base, diffuse and ambient, and the opacity.
     pub colored: bool,
-    /// An image whose color multiplies the same at each fragment. Of the draw's two terms none is shaded both at the
-    /// vertices and at the fragments then.
-    pub map: Option<MapCall>,
+    /// Images, each in the slot of its kind. Of the draw's two terms none is shaded both at the vertices and at the fragments
+    /// then; nor where there is a `mask`.
+    pub maps: [Option<MapCall>; MapKind::COUNT],
+    /// Fragments of a lower opacity are not there.
+    pub mask: Option<f32>,
+    /// The surface is lit inside out, which turns the tangents of a normal map.
+    pub inside_out: bool,
     /// Fragments are laid over what is there by their opacity, and leave the depth as it is.
     pub blend: bool,
+}
+
+impl DrawCall {
+    /// Whether it has images or a mask.
+    pub(crate) fn is_mapped(&self) -> bool {
+        self.mask.is_some() || self.maps.iter().any(Option::is_some)
+    }
 }
 
 /// Where the picture goes: 4 values a pixel, row by row from the top.

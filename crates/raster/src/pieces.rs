@@ -21,8 +21,10 @@ pub struct Pieces {
     pub(crate) normals: [Vec<f32>; 3],
     /// The same of red, green, blue and opacity; empty where there are none.
     pub(crate) colors: [Vec<f32>; 4],
-    /// The same of texture coordinates.
-    pub(crate) uvs: [Vec<f32>; 2],
+    /// The same of texture coordinates of both sets.
+    pub(crate) uvs: [Vec<f32>; 4],
+    /// The same of tangents.
+    pub(crate) tangents: [Vec<f32>; 4],
     /// Corners as numbers of the piece's vertices.
     pub(crate) triangles: Vec<[u8; 3]>,
     index_count: u32,
@@ -71,8 +73,10 @@ pub struct VertexLists<'a> {
     pub normals: &'a [[f32; 3]],
     /// Linear red, green, blue and opacity, 0 to 1 each, for draws that are [`colored`](crate::DrawCall::colored).
     pub colors: &'a [[f32; 4]],
-    /// Texture coordinates, for draws with a [`map`](crate::DrawCall::map).
-    pub uvs: &'a [[f32; 2]],
+    /// Texture coordinates of both sets, for draws with [`maps`](crate::DrawCall::maps).
+    pub uvs: &'a [[f32; 4]],
+    /// Tangents, unit length, and 1 or −1 after them, for draws with a normal map.
+    pub tangents: &'a [[f32; 4]],
 }
 
 impl Pieces {
@@ -135,8 +139,9 @@ impl Pieces {
 
     /// The bytes of memory that its lists take.
     pub fn bytes(&self) -> u64 {
-        let numbers: usize =
-            self.positions.iter().chain(&self.normals).chain(&self.colors).chain(&self.uvs).map(Vec::len).sum();
+        let vectors = self.positions.iter().chain(&self.normals);
+        let fours = self.colors.iter().chain(&self.uvs).chain(&self.tangents);
+        let numbers: usize = vectors.chain(fours).map(Vec::len).sum();
         let [numbers, triangles, pieces] =
             [4 * numbers, 3 * self.triangles.len(), size_of::<Piece>() * self.each.len()];
         (numbers + triangles + pieces) as u64
@@ -148,6 +153,10 @@ impl Pieces {
 
     pub(crate) fn has_uvs(&self) -> bool {
         !self.uvs[0].is_empty()
+    }
+
+    pub(crate) fn has_tangents(&self) -> bool {
+        !self.tangents[0].is_empty()
     }
 
     /// How many triangles.
@@ -194,16 +203,18 @@ fn check(positions: &[[f32; 3]], normals: &[[f32; 3]], indices: &[u32]) -> Resul
     }
 }
 
-fn check_paint(positions: usize, VertexLists { colors, uvs, .. }: &VertexLists) -> Result<(), RasterError> {
-    for (field, count) in [("colors", colors.len()), ("texture coordinates", uvs.len())] {
+fn check_paint(positions: usize, VertexLists { colors, uvs, tangents, .. }: &VertexLists) -> Result<(), RasterError> {
+    let lists = [("colors", colors.len()), ("texture coordinates", uvs.len()), ("tangents", tangents.len())];
+    for (field, count) in lists {
         if count != 0 && count != positions {
             let (reaches, available) = (count as u64, positions as u64);
             return Err(RasterError::Reference { what: "mesh", index: 0, field, reaches, available });
         }
     }
-    for (index, uv) in uvs.iter().enumerate() {
-        if let Some(&value) = uv.iter().find(|x| !x.is_finite()) {
-            let (what, field, value) = ("texture coordinate", "a coordinate", f64::from(value));
+    let coordinates = uvs.iter().enumerate().map(|numbered| ("texture coordinate", numbered));
+    for (what, (index, four)) in coordinates.chain(tangents.iter().enumerate().map(|numbered| ("tangent", numbered))) {
+        if let Some(&value) = four.iter().find(|x| !x.is_finite()) {
+            let (field, value) = ("a coordinate", f64::from(value));
             return Err(RasterError::Number { what, index, field, value, expected: "a finite number" });
         }
     }
@@ -311,18 +322,12 @@ impl<'a> Builder<'a> {
                 pieces.normals[axis].push(self.lists.normals.get(vertex).map_or(0.0, |normal| normal[axis]));
             }
         }
-        if !self.lists.colors.is_empty() {
-            for channel in 0..4 {
-                reserve(&mut pieces.colors[channel], padded, "a mesh's pieces")?;
+        let VertexLists { colors, uvs, tangents, .. } = self.lists;
+        for (list, to) in [(colors, &mut pieces.colors), (uvs, &mut pieces.uvs), (tangents, &mut pieces.tangents)] {
+            for (axis, to) in to.iter_mut().enumerate().filter(|_| !list.is_empty()) {
+                reserve(to, padded, "a mesh's pieces")?;
                 let used = (0..padded).map(|k| self.used[k.min(self.used.len() - 1)] as usize);
-                pieces.colors[channel].extend(used.map(|vertex| self.lists.colors[vertex][channel]));
-            }
-        }
-        if !self.lists.uvs.is_empty() {
-            for axis in 0..2 {
-                reserve(&mut pieces.uvs[axis], padded, "a mesh's pieces")?;
-                let used = (0..padded).map(|k| self.used[k.min(self.used.len() - 1)] as usize);
-                pieces.uvs[axis].extend(used.map(|vertex| self.lists.uvs[vertex][axis]));
+                to.extend(used.map(|vertex| list[vertex][axis]));
             }
         }
         let (center, radius) = sphere(self.used.iter().map(|&vertex| self.positions[vertex as usize]));

@@ -30,13 +30,14 @@ pub(crate) struct Planes {
     pub(crate) second: Slopes,
     /// Of colored draws the opacity and the color, over w.
     pub(crate) paint: Slopes,
-    /// Of draws with an image the coordinates on it, over w, and two zeros.
-    pub(crate) map: Slopes,
     /// The triangle's own normal.
     pub(crate) face: [f32; 3],
     /// The least and greatest 1/w of its corners.
     pub(crate) range: [f32; 2],
 }
+
+/// A corner of what a triangle was cut to: 1/w, and the weights of the triangle's own.
+pub(crate) type CutCorner = (f32, [f64; 3]);
 
 /// The corners' places in a form that makes slopes, in f64: for triangles that reach far beyond the tile.
 #[derive(Clone, Copy, Debug)]
@@ -93,12 +94,9 @@ impl Slopes {
 impl Planes {
     /// Takes over what a triangle has of its own: its opacity and color where the draw is flat, else its normal where it may be needed.
     #[inline(always)]
-    pub(crate) fn set_face(&mut self, [first, x, y, z]: &[f32; 4], plain: &[f32; 4], state: &State) {
+    pub(crate) fn set_face(&mut self, [first, x, y, z]: &[f32; 4], state: &State) {
         if state.stage == Stage::Flat {
-            if state.map.is_some() {
-                self.second = Slopes { base: *plain, ..Slopes::default() };
-            }
-            if state.colored {
+            if state.paints() {
                 // One opacity over w everywhere.
                 let Slopes { base, dx, dy } = self.lead;
                 let opacity = |number: f32| [first * number, 0.0, 0.0, 0.0];

@@ -5,33 +5,22 @@ use crate::cover::TileBuffer;
 use crate::encode::{bytes, cleared, kept};
 use crate::four::{CENTROID_SHIFT, SHADER_BITS};
 use crate::lanes::{
-    F, I, Simd, V3, add, counting, dot, each, fma, lanes, load, load_i, load3, max, min, neg, safe_normalize, saturate,
-    scale, select3, splat, splat_i, splat3, store,
+    F, I, M, Simd, V3, add, counting, dot, each, fma, lanes, load, load_i, load3, max, min, neg, safe_normalize, scale,
+    select3, splat, splat_i, splat3, store,
 };
-use crate::lighting::{Irradiance, Points, added, plain_part, reflected, tinted, tinted_part, to_viewer};
+use crate::lighting::{Irradiance, Points, added, reflected, tinted, to_viewer};
+use crate::look::Look;
+use crate::mapped::MappedTriangle;
+use crate::mapped_pixels::MappedPixels;
 use crate::pass::{Pass, SampleCount};
 use crate::samples::CENTROIDS;
-use crate::state::{Stage, State, StateMap};
-use crate::vertices::Screen;
+use crate::state::{Stage, State};
 use fearless_simd::prelude::*;
 use halfway_lighting::equations::NORMAL_MIN;
-use halfway_texture::lookup::{self, Number};
-
-/// What shading a tile takes from the frame.
-#[derive(Clone, Copy)]
-pub(crate) struct Look<'a> {
-    pub(crate) pass: &'a Pass<'a>,
-    pub(crate) states: &'a [State],
-    pub(crate) screen: &'a Screen,
-    /// Whether anything in the tile [shades apart](State::shades_apart).
-    pub(crate) painted: bool,
-    /// Column and row of the tile.
-    pub(crate) tile: [u32; 2],
-}
 
 /// What is interpolated in some pixels.
 #[derive(Clone, Copy)]
-pub(crate) struct Fragments<S: Simd> {
+pub(crate) struct Fragments<'a, S: Simd> {
     /// In pixels from the tile's first.
     pub(crate) place: [F<S>; 2],
     pub(crate) inverse_w: F<S>,
@@ -39,12 +28,13 @@ pub(crate) struct Fragments<S: Simd> {
     pub(crate) second: V3<S>,
     /// The vertices' color, over w.
     pub(crate) paint: V3<S>,
-    /// Of draws with an image the coordinates on it, over w, and the square of the footprint's longer side in texels.
-    pub(crate) map: V3<S>,
+    /// Of draws with images or a mask the numbers of their triangles, −1 for others, and all of the tile's.
+    pub(crate) mapped: I<S>,
+    pub(crate) triangles: &'a [MappedTriangle],
     pub(crate) face: V3<S>,
 }
 
-impl<S: Simd> Fragments<S> {
+impl<S: Simd> Fragments<'_, S> {
     /// Their colors, all of one state and side, by a function of its own in each width.
     pub(crate) fn color_apart(&self, simd: S, look: &Look, state: &State, back: bool) -> V3<S> {
         simd.vectorize(
@@ -82,10 +72,8 @@ impl<S: Simd> Fragments<S> {
     #[inline(always)]
     fn painted(&self, simd: S, look: &Look, state: &State, back: bool) -> V3<S> {
         let side = state.side(look.pass, back);
-        if let Some(map) = &state.map {
-            let [r, g, b, _] = self.texels(simd, look, map);
-            let [tinted, plain] = self.parts(simd, look, state, back);
-            return each!(c in 3 => fma::<S>([r, g, b][c], tinted[c], plain[c]));
+        if state.maps.is_some() {
+            return self.of_maps().colors(simd, look, state, back);
         }
         let color = self.interpolated(simd, self.paint);
         let color = each!(c in 3 => min::<S>(color[c], splat(simd, 1.0)));
@@ -100,49 +88,10 @@ impl<S: Simd> Fragments<S> {
         add::<S>(self.interpolated(simd, self.second), shade)
     }
 
-    /// What the image has at each pixel, each number in 0 to 1.
+    /// What images have part in.
     #[inline(always)]
-    pub(crate) fn texels(&self, simd: S, look: &Look, map: &StateMap) -> [F<S>; 4] {
-        let w = splat(simd, 1.0) / self.inverse_w;
-        let (u, v) = (self.map[0] * w, self.map[1] * w);
-        let pyramid = &look.pass.maps[map.call.map as usize].pyramid;
-        let mut texels = [splat(simd, 0.0); 4];
-        for lane in 0..lanes::<S>() {
-            let d = 0.5 * self.map[2][lane].binary_logarithm();
-            let texel = lookup::at_level(pyramid, &map.call.sampling, [u[lane], v[lane]], d);
-            for c in 0..4 {
-                texels[c][lane] = texel[c];
-            }
-        }
-        each!(c in 4 => saturate(simd, texels[c]))
-    }
-
-    /// What the image multiplies, and what it does not.
-    #[inline(always)]
-    fn parts(&self, simd: S, look: &Look, state: &State, back: bool) -> [V3<S>; 2] {
-        match state.stage {
-            Stage::Flat => return [self.lead, self.second],
-            Stage::Vertex => return [self.interpolated(simd, self.lead), self.interpolated(simd, self.second)],
-            Stage::Unlit | Stage::Fragment | Stage::Mixed => {}
-        }
-        let side = state.side(look.pass, back);
-        let color = if state.colored {
-            let color = self.interpolated(simd, self.paint);
-            each!(c in 3 => min::<S>(color[c], splat(simd, 1.0)))
-        } else {
-            [splat(simd, 1.0); 3]
-        };
-        let terms = if state.stage == Stage::Unlit {
-            Irradiance::none(simd)
-        } else {
-            state.fragment_terms(simd, look.pass, &self.points(simd, look, state, back), back)
-        };
-        let mut parts = [tinted_part(simd, &terms, side, color, true), plain_part(simd, &terms, side, true)];
-        if state.stage == Stage::Mixed {
-            let of_vertices = usize::from(!state.vertex.diffuse);
-            parts[of_vertices] = add::<S>(parts[of_vertices], self.interpolated(simd, self.second));
-        }
-        parts
+    pub(crate) fn of_maps(&self) -> MappedPixels<'_, S> {
+        MappedPixels { triangles: self.triangles, of: self.mapped, place: self.place, inverse_w: self.inverse_w }
     }
 
     /// Colors over w as colors. None is below 0; across a triangle seen edge-on slopes leave the range of its corners.
@@ -238,7 +187,7 @@ impl TileBuffer {
             // What is not drawn has no w; its lanes must not divide by 0.
             let inverse_w = same.select(load(simd, &self.depth[0], at), splat(simd, 1.0));
             let (state, back) = state_of(look.states, shader);
-            let fragments = self.fragments(simd, state, (0, at), place, inverse_w);
+            let fragments = self.fragments(simd, (state, same), (0, at), place, inverse_w);
             let shade = if PAINTED {
                 fragments.color_apart(simd, look, state, back)
             } else {
@@ -338,7 +287,7 @@ impl TileBuffer {
             }
             let inverse_w = fresh.select(load(simd, &self.inverse_w[sample], at), splat(simd, 1.0));
             let (state, back) = state_of(look.states, shader);
-            let fragments = self.fragments(simd, state, (sample, at), place, inverse_w);
+            let fragments = self.fragments(simd, (state, fresh), (sample, at), place, inverse_w);
             color = select3::<S>(fresh, fragments.color_apart(simd, look, state, back), color);
         }
         color
@@ -348,22 +297,23 @@ impl TileBuffer {
     fn fragments<S: Simd>(
         &self,
         simd: S,
-        state: &State,
+        (state, shown): (&State, M<S>),
         (sample, at): (usize, usize),
         place: [F<S>; 2],
         inverse_w: F<S>,
-    ) -> Fragments<S> {
+    ) -> Fragments<'_, S> {
         let zero = [splat(simd, 0.0); 3];
         Fragments {
             place,
             inverse_w,
             lead: load3(simd, &self.lead[sample], at),
-            second: if state.stage == Stage::Mixed || state.keeps_parts() {
-                load3(simd, &self.second[sample], at)
+            second: if state.stage == Stage::Mixed { load3(simd, &self.second[sample], at) } else { zero },
+            mapped: if state.maps.is_some() {
+                shown.select(load_i(simd, &self.mapped[sample], at), splat_i(simd, -1))
             } else {
-                zero
+                splat_i(simd, -1)
             },
-            map: if state.map.is_some() { load3(simd, &self.map[sample], at) } else { zero },
+            triangles: &self.mapped_triangles,
             paint: if state.shades_paint() { load3(simd, &self.paint[sample], at) } else { zero },
             face: if state.opposite_normals { load3(simd, &self.face[sample], at) } else { zero },
         }

@@ -2,10 +2,8 @@
 
 use crate::lanes::Simd;
 use crate::lighting::{Gloss, Irradiance, Points, gathered, gathered_here};
-use crate::pass::{
-    DrawCall, Highlight, LeftOut, LightRange, MapCall, MapData, Pass, ShadedTerms, SideData, SurfaceData,
-};
-use crate::power::Exponent;
+use crate::pass::{DrawCall, Highlight, LeftOut, LightRange, MapCall, Pass, ShadedTerms, SideData, SurfaceData};
+use halfway_texture::MapKind;
 
 /// Where a draw's terms are shaded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,14 +20,31 @@ pub(crate) enum Stage {
     Mixed,
 }
 
-/// An image of a draw.
+/// What a draw's fragments take from images.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct StateMap {
-    pub(crate) call: MapCall,
-    /// Where on it texture coordinates lie.
-    pub(crate) rows: [[f32; 3]; 2],
-    /// Its columns and rows.
-    pub(crate) size: [f32; 2],
+pub(crate) struct StateMaps {
+    pub(crate) calls: [Option<MapCall>; MapKind::COUNT],
+    pub(crate) mask: Option<f32>,
+    /// Factors of tangents, and of w.
+    pub(crate) signs: [f32; 2],
+}
+
+impl StateMaps {
+    /// `None` where the draw has neither images nor a mask.
+    pub(crate) fn of(draw: &DrawCall) -> Option<Self> {
+        let sign = |negative: bool| if negative { -1.0 } else { 1.0 };
+        let signs = [sign(draw.inside_out), sign(draw.clockwise)];
+        draw.is_mapped().then_some(Self { calls: draw.maps, mask: draw.mask, signs })
+    }
+
+    pub(crate) fn has(&self, kind: MapKind) -> bool {
+        self.calls[kind as usize].is_some()
+    }
+
+    /// Whether something of it may be cut out.
+    pub(crate) fn is_masked(&self) -> bool {
+        self.mask.is_some()
+    }
 }
 
 /// A surface in a draw.
@@ -46,14 +61,14 @@ pub(crate) struct State {
     pub(crate) backs: bool,
     /// Whether the vertices' colors count.
     pub(crate) colored: bool,
-    /// The image that is looked up.
-    pub(crate) map: Option<StateMap>,
-    /// Exponents of the highlights of front and back, halved for Blinn–Phong.
-    exponents: [Exponent; 2],
+    /// Images and a mask.
+    pub(crate) maps: Option<StateMaps>,
+    /// How front and back take light.
+    glosses: [Gloss; 2],
 }
 
 impl State {
-    pub(crate) fn new(draw: &DrawCall, surface: u32, data: &SurfaceData, maps: &[MapData]) -> Self {
+    pub(crate) fn new(draw: &DrawCall, surface: u32, data: &SurfaceData) -> Self {
         let lit = |terms: ShadedTerms, [all, diffuse, specular]: [LightRange; 3]| {
             let has_diffuse = terms.diffuse && !(all.is_empty() && diffuse.is_empty());
             let has_specular = terms.specular && !(all.is_empty() && specular.is_empty());
@@ -63,16 +78,12 @@ impl State {
         let fragment = lit(draw.fragment, data.fragment_ranges());
         let stage = match (vertex.is_empty(), fragment.is_empty()) {
             // A flat triangle has the color of one point, whatever light there is.
-            (true, true) if draw.flat && (draw.colored || draw.map.is_some()) => Stage::Flat,
+            (true, true) if draw.flat && (draw.colored || draw.is_mapped()) => Stage::Flat,
             (true, true) => Stage::Unlit,
             (false, true) if draw.flat => Stage::Flat,
             (false, true) => Stage::Vertex,
             (true, false) => Stage::Fragment,
             (false, false) => Stage::Mixed,
-        };
-        let exponent = |side: &SideData| match draw.highlight {
-            Highlight::Phong => Exponent::new(side.exponent),
-            Highlight::BlinnPhong => Exponent::new(side.exponent).halved(),
         };
         Self {
             stage,
@@ -83,17 +94,14 @@ impl State {
             opposite_normals: draw.opposite_normals && matches!(stage, Stage::Fragment | Stage::Mixed),
             backs: draw.left_out != LeftOut::Back,
             colored: draw.colored,
-            map: draw.map.and_then(|call| {
-                let MapData { pyramid, rows } = maps.get(call.map as usize)?;
-                Some(StateMap { call, rows: *rows, size: pyramid.size().map(|side| side as f32) })
-            }),
-            exponents: [exponent(&data.front), exponent(&data.back)],
+            maps: StateMaps::of(draw),
+            glosses: [&data.front, &data.back].map(|side| Gloss::new(draw.highlight, side.exponent)),
         }
     }
 
     /// How a side takes light.
     pub(crate) fn gloss(&self, back: bool) -> Gloss {
-        Gloss { highlight: self.highlight, exponent: self.exponents[usize::from(back)] }
+        self.glosses[usize::from(back)]
     }
 
     /// What the lights of the vertex terms bring to points.
@@ -112,27 +120,38 @@ impl State {
         points: &Points<S>,
         back: bool,
     ) -> Irradiance<S> {
-        let surface = &pass.surfaces[self.surface as usize];
-        gathered_here(
-            simd,
-            (pass.lights, pass.lists),
-            surface.fragment_ranges(),
-            points,
-            self.gloss(back),
-            self.fragment,
-        )
+        self.fragment_terms_of(simd, pass, points, self.gloss(back))
     }
 
-    /// Whether fragments take the vertices' colors: where no color has been shaded before them.
+    /// The same for another exponent.
+    #[inline(always)]
+    pub(crate) fn fragment_terms_of<S: Simd>(
+        &self,
+        simd: S,
+        pass: &Pass,
+        points: &Points<S>,
+        gloss: Gloss,
+    ) -> Irradiance<S> {
+        let surface = &pass.surfaces[self.surface as usize];
+        gathered_here(simd, (pass.lights, pass.lists), surface.fragment_ranges(), points, gloss, self.fragment)
+    }
+
+    /// Whether the vertices' colors go a way of their own, which they do unless images have part in it.
+    #[inline(always)]
+    pub(crate) fn paints(&self) -> bool {
+        self.colored && self.maps.is_none()
+    }
+
+    /// Whether fragments take them: where no color has been shaded before them.
     #[inline(always)]
     pub(crate) fn shades_paint(&self) -> bool {
-        self.colored && matches!(self.stage, Stage::Unlit | Stage::Fragment | Stage::Mixed)
+        self.paints() && matches!(self.stage, Stage::Unlit | Stage::Fragment | Stage::Mixed)
     }
 
     /// Whether more than the material says at the fragments how light is given back.
     #[inline(always)]
     pub(crate) fn shades_apart(&self) -> bool {
-        self.map.is_some() || self.shades_paint()
+        self.maps.is_some() || self.shades_paint()
     }
 
     /// Whether all its pixels have one color.
@@ -143,13 +162,7 @@ impl State {
     /// Whether anything but the material says what ambient and diffuse light is given back.
     #[inline(always)]
     pub(crate) fn is_painted(&self) -> bool {
-        self.colored || self.map.is_some()
-    }
-
-    /// Whether vertices keep two sums: what the image multiplies, and what it does not.
-    #[inline(always)]
-    pub(crate) fn keeps_parts(&self) -> bool {
-        self.map.is_some() && matches!(self.stage, Stage::Flat | Stage::Vertex)
+        self.colored || self.maps.is_some()
     }
 
     /// The material of a side.

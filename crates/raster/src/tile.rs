@@ -2,15 +2,17 @@
 
 use crate::bands::{Bands, Own, Rows, make_room};
 use crate::bins::{Bins, Job, TILE};
-use crate::clip::each_part;
+use crate::clip::{Ready, each_part};
 use crate::cover::{EdgeFunctions, Kept, TileBuffer};
 use crate::encode::{bytes, cleared, kept};
 use crate::faces::LaneFaces;
 use crate::lanes::{I, MOST_LANES, Simd, V3, each, f32x4, lanes, max_one, min_one};
+use crate::look::Look;
+use crate::mapped::MappedTriangle;
 use crate::pass::{DrawCall, InstanceData, Pass, PixelFormat, SampleCount};
 use crate::pieces::{Piece, Pieces};
 use crate::planes::{Planes, Slopes};
-use crate::shade::{Even, Look, shader_of};
+use crate::shade::{Even, shader_of};
 use crate::state::{Stage, State};
 use crate::triangle::{Batch, Corners, Covering};
 use crate::vertices::{Screen, Vertices};
@@ -164,10 +166,23 @@ impl Worker {
 
     /// A triangle that is large, or has to be clipped.
     fn other<S: Simd>(&mut self, simd: S, look: &Look, work: &Work, triangle: [u8; 3], lane: usize) {
-        let (faces, nearest) = (&self.faces, &mut self.nearest);
+        let (faces, nearest, vertices) = (&self.faces, &mut self.nearest, &self.vertices);
         let place = (look.tile, &work.covering);
-        each_part(&self.vertices, triangle, look.screen, place, |(edges, mut planes, back)| {
-            planes.set_face(&faces.each[usize::from(back)][lane], &faces.plain[usize::from(back)][lane], work.state);
+        each_part(vertices, triangle, look.screen, place, |mut ready| {
+            let back = ready.back;
+            ready.planes.set_face(&faces.each[usize::from(back)][lane], work.state);
+            if work.state.maps.is_some() {
+                let mut mapped = MappedTriangle::large(
+                    vertices,
+                    (triangle, back),
+                    (work.state, &ready.planes),
+                    &ready.gradient,
+                    &ready.corners,
+                );
+                faces.parts.set(&mut mapped, back, lane);
+                nearest.mapped_triangles.push(mapped);
+            }
+            let Ready { edges, planes, .. } = ready;
             simd.vectorize(
                 #[inline(always)]
                 || draw(simd, nearest, &edges, &planes, back, look, work),
@@ -218,20 +233,23 @@ impl Worker {
                     range: range(corners),
                     ..Planes::default()
                 };
-                if work.state.stage == Stage::Mixed || work.state.keeps_parts() {
+                if work.state.stage == Stage::Mixed && work.state.maps.is_none() {
                     let second = &v.second[usize::from(back)];
                     planes.second =
                         Slopes::of_lane(&self.batch.slopes(simd, lane, each!(k in 3 => &second[numbers[k]])));
                 }
-                if work.state.map.is_some() {
-                    planes.map = Slopes::of_lane(&self.batch.slopes(simd, lane, each!(k in 3 => &v.map[numbers[k]])));
-                }
-                if work.state.colored {
+                if work.state.paints() {
                     planes.paint =
                         Slopes::of_lane(&self.batch.slopes(simd, lane, each!(k in 3 => &v.paint[numbers[k]])));
                 }
-                let (each, plain) = (&self.faces.each[usize::from(back)], &self.faces.plain[usize::from(back)]);
-                planes.set_face(&each[lane], &plain[lane], work.state);
+                planes.set_face(&self.faces.each[usize::from(back)][lane], work.state);
+                if work.state.maps.is_some() {
+                    let batch = &self.batch;
+                    let slopes = |values: [&[f32; 4]; 3]| Slopes::of_lane(&batch.slopes(simd, lane, values));
+                    let mut mapped = MappedTriangle::small(v, (numbers, back), (work.state, &planes), slopes);
+                    self.faces.parts.set(&mut mapped, back, lane);
+                    self.nearest.mapped_triangles.push(mapped);
+                }
                 let edges = EdgeFunctions::of_lane(&self.batch, lane, look.pass.samples);
                 draw(simd, &mut self.nearest, &edges, &planes, back, look, work);
             },
@@ -241,7 +259,7 @@ impl Worker {
     /// Makes room for a tile.
     pub(crate) fn prepare(&mut self, pass: &Pass) {
         let any = |has: fn(&DrawCall) -> bool| pass.draws.iter().any(has);
-        self.nearest.prepare(pass.samples, any(|draw| draw.colored), any(|draw| draw.map.is_some()));
+        self.nearest.prepare(pass.samples, any(|draw| draw.colored), any(DrawCall::is_mapped));
         make_room(&mut self.own, pass.pixels);
     }
 }
@@ -320,7 +338,8 @@ fn draw<S: Simd>(
     look: &Look,
     work: &Work,
 ) {
-    let (shader, kept) = (shader_of(work.job.state, back), Kept::of(work.state));
+    let mapped = (nearest.mapped_triangles.len() as i32).checked_sub(1);
+    let (shader, kept) = (shader_of(work.job.state, back), Kept::of(look, work.state, back, mapped));
     match look.pass.samples {
         _ if work.blend => nearest.blend(simd, edges, planes, shader, look),
         SampleCount::One => nearest.cover_strips(simd, edges, planes, shader, kept),

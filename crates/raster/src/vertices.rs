@@ -1,14 +1,15 @@
 //! A piece's vertices: transformed, lit where the draw lights vertices, and put onto the picture's grid.
 
+use crate::attributes::{Attributes, MappedVertices, SLOTS};
 use crate::bins::TILE;
 use crate::lanes::{
     F, I, Simd, V3, each, fma, lanes, load, load3, max, min, safe_normalize, splat, splat_i, store, store_fours,
     store_i,
 };
-use crate::lighting::{Irradiance, Points, plain_part, reflected, tinted, tinted_part, tinted_terms, to_viewer};
-use crate::pass::{InstanceData, Pass, SideData};
+use crate::lighting::{Points, reflected, tinted, tinted_terms, to_viewer};
+use crate::pass::{InstanceData, Pass};
 use crate::pieces::{Piece, Pieces};
-use crate::state::{Stage, State, StateMap};
+use crate::state::{Stage, State};
 use fearless_simd::prelude::*;
 
 /// Steps of the grid in a pixel.
@@ -51,13 +52,8 @@ impl Screen {
     }
 }
 
-/// A piece has fewer vertices; so many that a number of 8 bits is always in range.
-const SLOTS: usize = 256;
-
 /// A number a vertex.
 type List = [f32; SLOTS];
-/// Four numbers a vertex.
-type Attributes = [[f32; 4]; SLOTS];
 
 /// What is known of a piece's vertices.
 pub(crate) struct Vertices {
@@ -72,9 +68,8 @@ pub(crate) struct Vertices {
     pub(crate) codes: [i32; SLOTS],
     /// All codes together.
     pub(crate) any_code: i32,
-    /// Normal, color of the front, color of the back; of painted draws the vertices' own, opacity first. Of
-    /// draws with an image what it does not multiply, front and back, and the coordinates on it.
-    pub(crate) raw: [List; 21],
+    /// Normal, color of the front, color of the back; of painted draws the vertices' own, opacity first.
+    pub(crate) raw: [List; 13],
     /// 1/w and the first three interpolated numbers over w, of front and back.
     pub(crate) lead: [Box<Attributes>; 2],
     /// Whether the leading numbers are colors, which the sides have of their own.
@@ -83,12 +78,11 @@ pub(crate) struct Vertices {
     pub(crate) second: [Box<Attributes>; 2],
     /// Of colored draws the opacity and the color, over w.
     pub(crate) paint: Box<Attributes>,
-    /// Of draws with an image the coordinates on it, over w.
-    pub(crate) map: Box<Attributes>,
+    /// Of draws with images or a mask all that they take.
+    pub(crate) mapped: MappedVertices,
 }
 
 impl Vertices {
-    #[expect(clippy::large_stack_arrays, reason = "21 KiB, once for each thread")]
     pub(crate) fn new() -> Self {
         let none = || Box::new([[0.0; 4]; SLOTS]);
         Self {
@@ -99,12 +93,12 @@ impl Vertices {
             places: [[0; 2]; SLOTS],
             codes: [0; SLOTS],
             any_code: 0,
-            raw: [[0.0; SLOTS]; 21],
+            raw: [[0.0; SLOTS]; 13],
             lead: [none(), none()],
             sides_lead: false,
             second: [none(), none()],
             paint: none(),
-            map: none(),
+            mapped: MappedVertices::new(),
         }
     }
 
@@ -122,21 +116,10 @@ impl Vertices {
         if !self.place(simd, (mesh, piece), instance, screen, center) {
             return false;
         }
-        if let Some(StateMap { rows, .. }) = &state.map {
-            for at in (0..piece.vertex_count as usize).step_by(lanes::<S>()) {
-                let first = piece.first_vertex as usize + at;
-                let uv = each!(k in 2 => load(simd, &mesh.uvs[k], first));
-                let [u, v] = each!(k in 2 => {
-                    let [a, b, c] = each!(j in 3 => splat(simd, rows[k][j]));
-                    fma::<S>(a, uv[0], fma::<S>(b, uv[1], c))
-                });
-                store::<S>(u, &mut self.raw[19], at);
-                store::<S>(v, &mut self.raw[20], at);
-                let (i, zero) = (load(simd, &self.inverse_w, at), splat(simd, 0.0));
-                store_fours::<S>([u * i, v * i, zero, zero], &mut self.map[..], at);
-            }
+        if state.maps.is_some() {
+            self.fill_mapped(simd, (mesh, piece), instance, (pass, state));
         }
-        if state.colored {
+        if state.paints() {
             for at in (0..piece.vertex_count as usize).step_by(lanes::<S>()) {
                 let first = piece.first_vertex as usize + at;
                 let color = each!(k in 4 => load(simd, &mesh.colors[k], first));
@@ -147,7 +130,7 @@ impl Vertices {
                 store_fours::<S>(each!(k in 4 => color[(k + 3) % 4] * i), &mut self.paint[..], at);
             }
         }
-        if matches!(state.stage, Stage::Vertex | Stage::Fragment | Stage::Mixed) {
+        if state.maps.is_none() && matches!(state.stage, Stage::Vertex | Stage::Fragment | Stage::Mixed) {
             for at in (0..piece.vertex_count as usize).step_by(lanes::<S>()) {
                 let n = load3(simd, &mesh.normals, piece.first_vertex as usize + at);
                 let n = safe_normalize(simd, turned(simd, &instance.normal, n));
@@ -260,10 +243,6 @@ impl Vertices {
             let points = Points::new(simd, p, n, to_viewer(simd, p, n, pass.local_viewer));
             let terms = state.vertex_terms(simd, pass, &points, back);
             let side = state.side(pass, back);
-            if state.map.is_some() {
-                self.shade_parts(simd, at, &terms, side, back, state);
-                continue;
-            }
             let color = if state.colored {
                 let own = each!(k in 3 => load(simd, &self.raw[10 + k], at));
                 // At the fragments there is a base already.
@@ -278,43 +257,21 @@ impl Vertices {
         }
     }
 
-    /// What an image multiplies, and what it does not. Of a mixed draw's two terms one is here.
-    #[inline(always)]
-    fn shade_parts<S: Simd>(
-        &mut self,
-        simd: S,
-        at: usize,
-        terms: &Irradiance<S>,
-        side: &SideData,
-        back: bool,
-        state: &State,
-    ) {
-        let own =
-            if state.colored { each!(k in 3 => load(simd, &self.raw[10 + k], at)) } else { [splat(simd, 1.0); 3] };
-        let whole = state.stage == Stage::Vertex;
-        let tinted = tinted_part(simd, terms, side, own, whole);
-        let plain = plain_part(simd, terms, side, whole);
-        let first = 3 * usize::from(back);
-        let first_sum = if whole || state.vertex.diffuse { tinted } else { plain };
-        for c in 0..3 {
-            store::<S>(first_sum[c], &mut self.raw[3 + first + c], at);
-            store::<S>(plain[c], &mut self.raw[13 + first + c], at);
-        }
-    }
-
     /// Brings each vertex's numbers together.
     #[inline(always)]
     fn gather<S: Simd>(&mut self, simd: S, count: usize, state: &State) {
-        self.sides_lead = state.stage == Stage::Vertex;
+        self.sides_lead = state.stage == Stage::Vertex && state.maps.is_none();
         let Self { raw, inverse_w, lead: [lead, lead_of_backs], second: [second, second_of_backs], .. } = self;
         for at in (0..count).step_by(lanes::<S>()) {
             let i = load(simd, inverse_w, at);
             let normal = each!(k in 3 => &raw[k]);
             let front = each!(k in 3 => &raw[3 + k]);
             let back = each!(k in 3 => &raw[6 + k]);
-            let plain = each!(k in 3 => &raw[13 + k]);
-            let plain_of_back = each!(k in 3 => &raw[16 + k]);
             match state.stage {
+                _ if state.maps.is_some() => {
+                    let zero = splat(simd, 0.0);
+                    store_fours::<S>([i, zero, zero, zero], &mut **lead, at);
+                }
                 Stage::Unlit | Stage::Flat => {
                     let zero = splat(simd, 0.0);
                     store_fours::<S>([i, zero, zero, zero], &mut **lead, at);
@@ -324,10 +281,6 @@ impl Vertices {
                     over_w(simd, i, front, lead, at);
                     if state.backs {
                         over_w(simd, i, back, lead_of_backs, at);
-                    }
-                    if state.map.is_some() {
-                        over_w(simd, i, plain, second, at);
-                        over_w(simd, i, plain_of_back, second_of_backs, at);
                     }
                 }
                 Stage::Mixed => {

@@ -15,7 +15,6 @@
 //! ```
 
 mod check;
-mod color_map;
 mod defaults;
 mod error;
 mod fields;
@@ -26,6 +25,7 @@ mod light;
 mod light_component;
 mod light_place;
 mod locate;
+mod maps;
 mod material;
 mod mesh;
 mod models;

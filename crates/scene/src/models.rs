@@ -7,10 +7,12 @@ use std::rc::Rc;
 use bevy_math::Mat4;
 use bevy_transform::components::Transform;
 use halfway_mesh::{
-    Cuboid, Mesh, Model, NormalReport, Normals, Plane, SourceLevels, SourceLight, SourceMap, SourceMaterial,
-    SourceWrap, Teapot, UvSphere,
+    Cuboid, Mesh, Model, NormalReport, Normals, Plane, SourceChannel, SourceLevels, SourceLight, SourceMap,
+    SourceMapKind, SourceMaterial, SourceWrap, Teapot, UvSphere,
 };
-use halfway_texture::{LevelFilter, Sampling, TexelFilter, TexelMeaning, Texture, UvTransform, Wrap};
+use halfway_texture::{
+    Channel, LevelFilter, MapKind, Sampling, TexelFilter, TexelMeaning, Texture, UvSet, UvTransform, Wrap,
+};
 
 use crate::error::SceneError;
 use crate::import::{ModelMaterial, model_light};
@@ -31,16 +33,20 @@ pub(crate) struct ShapePart {
     pub(crate) object_from_part: Mat4,
     /// The model's own material.
     pub(crate) own: Option<ModelMaterial>,
-    /// The image of the model's own material.
-    pub(crate) map: Option<ModelMap>,
+    /// The images of the model's own material that its mesh can show.
+    pub(crate) maps: Vec<ModelMap>,
 }
 
 /// An image of a model's material, decoded.
 #[derive(Clone)]
 pub(crate) struct ModelMap {
+    pub(crate) kind: MapKind,
     pub(crate) texture: Texture,
     pub(crate) sampling: Sampling,
+    pub(crate) uv_set: UvSet,
     pub(crate) transform: UvTransform,
+    pub(crate) channel: Channel,
+    pub(crate) amount: f32,
 }
 
 /// A light that came with a model, where it stands inside the object.
@@ -88,7 +94,8 @@ impl<'a> Shapes<'a> {
             return;
         }
         let own = shape.parts.iter().filter_map(|part| part.own.as_ref());
-        let count = own.filter(|own| own.material.opacity < 1.0 && !own.blend).count();
+        let is_hidden = |own: &&ModelMaterial| own.material.opacity < 1.0 && !own.blend && own.mask.is_none();
+        let count = own.filter(is_hidden).count();
         if count > 0 {
             self.warnings.push(format!(
                 "objects[{index}]: {count} parts have an opacity below 1, which is not shown without \"blend\": true"
@@ -114,7 +121,8 @@ impl<'a> Shapes<'a> {
         };
         let (mesh, report) = mesh.with_normals(object.normals);
         self.warn_of_normals(&format!("objects[{index}]"), report);
-        let part = ShapePart { name: String::new(), mesh, object_from_part: Mat4::IDENTITY, own: None, map: None };
+        let part =
+            ShapePart { name: String::new(), mesh, object_from_part: Mat4::IDENTITY, own: None, maps: Vec::new() };
         Ok(ObjectShape { parts: vec![part], lights: Vec::new() })
     }
 
@@ -124,12 +132,7 @@ impl<'a> Shapes<'a> {
         if !model.cameras.is_empty() {
             self.warnings.push(format!("{file}: {} cameras are not used; a scene has its own", model.cameras.len()));
         }
-        let mut images = HashMap::new();
-        let maps: Vec<_> = model
-            .materials
-            .iter()
-            .map(|source| self.map(source.color_map()?, &file.to_string(), &mut images))
-            .collect();
+        let maps = self.all_maps(&model, &file.to_string());
         let mut materials = Vec::with_capacity(model.materials.len());
         for material in &model.materials {
             let at = format!("{file}: material {:?}", material.name());
@@ -143,13 +146,16 @@ impl<'a> Shapes<'a> {
         for part in model.parts {
             let (mesh, report) = part.mesh.with_normals(normals);
             self.warn_of_normals(&format!("{file}: part {:?}", part.name), report);
-            parts.push(ShapePart {
-                name: part.name,
-                mesh,
-                object_from_part: part.world_from_part,
-                own: part.material.and_then(|material| materials.get(material).copied()),
-                map: part.material.and_then(|material| maps.get(material).cloned().flatten()),
-            });
+            let own = part.material.and_then(|material| materials.get(material).copied());
+            let maps = part.material.and_then(|material| maps.get(material)).cloned().unwrap_or_default();
+            let (shown, hidden): (Vec<_>, Vec<_>) =
+                maps.into_iter().partition(|map| mesh.uv_set(map.uv_set as usize).is_some());
+            if !hidden.is_empty() {
+                let names: Vec<_> = hidden.iter().map(|map| map.kind.name()).collect();
+                let (name, maps) = (&part.name, names.join(", "));
+                self.warnings.push(format!("{file}: part {name:?} has no texture coordinates for its images: {maps}"));
+            }
+            parts.push(ShapePart { name: part.name, mesh, object_from_part: part.world_from_part, own, maps: shown });
         }
         Ok(ObjectShape { parts, lights })
     }
@@ -164,14 +170,42 @@ impl<'a> Shapes<'a> {
         }
     }
 
+    /// The images of each material.
+    fn all_maps(&mut self, model: &Model, file: &str) -> Vec<Vec<ModelMap>> {
+        let mut images = HashMap::new();
+        let mut of = |source: &SourceMaterial| {
+            let maps = source.maps();
+            let is_black = match source {
+                SourceMaterial::Mtl(mtl) => mtl.ke == Some([0.0; 3]),
+                SourceMaterial::MetallicRoughness(gltf) => gltf.emissive == [0.0; 3],
+            };
+            let mut warn = |what: &str| self.warnings.push(format!("{file}: material {:?}: {what}", source.name()));
+            if maps.get(SourceMapKind::Emission).is_some() && is_black {
+                warn("its emission is black, and so the image of its emission shows nothing");
+            }
+            if maps.get(SourceMapKind::Normal).is_some() && maps.get(SourceMapKind::Height).is_some() {
+                warn("of its normal map and its bump map only the normal map is shown");
+            }
+            let kinds = maps.iter().map(|(kind, map)| (map_kind(kind), map));
+            kinds.filter_map(|(kind, map)| self.map(kind, map, file, &mut images)).collect()
+        };
+        model.materials.iter().map(&mut of).collect()
+    }
+
     /// A material's image, each decoded once; a checker in its place where it is broken or missing.
-    fn map(&mut self, source: &SourceMap, file: &str, images: &mut HashMap<*const u8, Texture>) -> Option<ModelMap> {
-        let texture = images.entry(source.bytes.as_ptr()).or_insert_with(|| {
+    fn map(
+        &mut self,
+        kind: MapKind,
+        source: &SourceMap,
+        file: &str,
+        images: &mut HashMap<(*const u8, TexelMeaning), Texture>,
+    ) -> Option<ModelMap> {
+        let texture = images.entry((source.bytes.as_ptr(), kind.meaning())).or_insert_with(|| {
             // Of an image that could not be read the model has warned.
             if source.bytes.is_empty() {
                 return Texture::missing();
             }
-            let decoded = halfway_texture::decode(&source.bytes, &source.name, TexelMeaning::Color);
+            let decoded = halfway_texture::decode(&source.bytes, &source.name, kind.meaning());
             decoded.map_or_else(
                 |error| {
                     self.warnings.push(format!("{file}: {error}; a checker is shown"));
@@ -180,28 +214,31 @@ impl<'a> Shapes<'a> {
                 Texture::from,
             )
         });
-        let filter = |smooth| if smooth { TexelFilter::Bilinear } else { TexelFilter::Nearest };
-        let SourceMap { smooth, smooth_levels, offset, rotation, scale, .. } = *source;
-        let transform = UvTransform { offset, rotation, scale };
+        let transform = UvTransform { offset: source.offset, rotation: source.rotation, scale: source.scale };
         if transform.wrong().is_some() {
             self.warnings.push(format!("{file}: {} is skipped, since it lies at no finite place", source.name));
             return None;
         }
-        let sampling = Sampling {
-            wrap: source.wrap.map(|wrap| match wrap {
-                SourceWrap::Repeat => Wrap::Repeat,
-                SourceWrap::Mirror => Wrap::Mirror,
-                SourceWrap::Clamp => Wrap::Clamp,
-            }),
-            magnify: filter(smooth),
-            minify: filter(smooth_levels),
-            levels: match source.levels {
-                SourceLevels::None => LevelFilter::None,
-                SourceLevels::Nearest => LevelFilter::Nearest,
-                SourceLevels::Linear => LevelFilter::Linear,
-            },
-        };
-        Some(ModelMap { texture: texture.clone(), sampling, transform })
+        let given = source.channel.map(|channel| match channel {
+            SourceChannel::Red => Channel::Red,
+            SourceChannel::Green => Channel::Green,
+            SourceChannel::Blue => Channel::Blue,
+            SourceChannel::Alpha => Channel::Alpha,
+        });
+        // Programs write the opacity either into a grey image or into the alpha of one with colors.
+        let has_alpha = || texture.0.level(0).iter().any(|texel| texel[3] < 1.0);
+        let is_alpha = || kind == MapKind::Opacity && has_alpha();
+        let channel = given.unwrap_or_else(|| if is_alpha() { Channel::Alpha } else { Channel::Red });
+        let amount = if kind.is_relief() { source.amount } else { source.amount.clamp(0.0, 1.0) };
+        Some(ModelMap {
+            kind,
+            texture: texture.clone(),
+            sampling: sampling(source),
+            uv_set: if source.uv_set == 0 { UvSet::First } else { UvSet::Second },
+            transform,
+            channel,
+            amount,
+        })
     }
 
     fn warn_of_normals(&mut self, at: &str, report: NormalReport) {
@@ -215,6 +252,37 @@ impl<'a> Shapes<'a> {
                 self.warnings.push(format!("{at}: {count} {what}"));
             }
         }
+    }
+}
+
+fn map_kind(kind: SourceMapKind) -> MapKind {
+    match kind {
+        SourceMapKind::Color => MapKind::Color,
+        SourceMapKind::Specular => MapKind::Specular,
+        SourceMapKind::Emission => MapKind::Emission,
+        SourceMapKind::Opacity => MapKind::Opacity,
+        SourceMapKind::Shininess => MapKind::Shininess,
+        SourceMapKind::Occlusion => MapKind::Occlusion,
+        SourceMapKind::Normal => MapKind::Normal,
+        SourceMapKind::Height => MapKind::Height,
+    }
+}
+
+fn sampling(source: &SourceMap) -> Sampling {
+    let filter = |smooth| if smooth { TexelFilter::Bilinear } else { TexelFilter::Nearest };
+    Sampling {
+        wrap: source.wrap.map(|wrap| match wrap {
+            SourceWrap::Repeat => Wrap::Repeat,
+            SourceWrap::Mirror => Wrap::Mirror,
+            SourceWrap::Clamp => Wrap::Clamp,
+        }),
+        magnify: filter(source.smooth),
+        minify: filter(source.smooth_levels),
+        levels: match source.levels {
+            SourceLevels::None => LevelFilter::None,
+            SourceLevels::Nearest => LevelFilter::Nearest,
+            SourceLevels::Linear => LevelFilter::Linear,
+        },
     }
 }
 

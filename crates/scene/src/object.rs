@@ -8,7 +8,7 @@ use serde::de::{Deserializer, Error};
 use serde::{Deserialize, Serialize};
 
 use crate::check::{Check, KeyProblem, Within, finite};
-use crate::color_map::ColorMapEntry;
+use crate::maps::MapsEntry;
 use crate::material::MaterialEntry;
 use crate::mesh::MeshEntry;
 use crate::read::{
@@ -61,10 +61,14 @@ pub struct ObjectEntry {
     #[serde(default, deserialize_with = "word", serialize_with = "write_word")]
     #[schemars(with = "Spoken<VertexColors>")]
     pub vertex_colors: VertexColors,
-    /// An image whose color multiplies ambient and diffuse light, and whose alpha the opacity where the object is blended;
-    /// null: none.
+    /// The images on the object; null: the model's own where there is no `material`.
     #[serde(default, deserialize_with = "object_or_null")]
-    pub color_map: Option<ColorMapEntry>,
+    pub maps: Option<MapsEntry>,
+    /// The object is not there where its opacity is below this number, 0 or more; 0 cuts nothing away. Left out: no, except
+    /// for parts with a masked material of the model's own.
+    #[serde(default, deserialize_with = "given", skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "f32", default)]
+    pub mask: Option<f32>,
     /// Whether the material's opacity lets what is behind show through. Left out: no, except for parts with a blended
     /// material of the model's own.
     #[serde(default, deserialize_with = "given", skip_serializing_if = "Option::is_none")]
@@ -138,7 +142,8 @@ impl ObjectEntry {
             tolerance: None,
             reflectance: None,
             vertex_colors: VertexColors::default(),
-            color_map: None,
+            maps: None,
+            mask: None,
             blend: None,
         }
     }
@@ -149,7 +154,10 @@ impl ObjectEntry {
         for (key, material) in [("material", &self.material), ("back_material", &self.back_material)] {
             material.as_ref().map_or(Ok(()), MaterialEntry::check).within(key)?;
         }
-        self.color_map.as_ref().map_or(Ok(()), ColorMapEntry::check).within("color_map")?;
+        self.maps.as_ref().map_or(Ok(()), MapsEntry::check).within("maps")?;
+        if let Some(mask) = self.mask.filter(|mask| !(0.0..=f32::MAX).contains(mask)) {
+            return Err(KeyProblem::new("mask", format!("is {mask:?}; expected a finite number, 0 or more")));
+        }
         self.tolerance.map_or(Ok(()), ToleranceEntry::check).within("tolerance")?;
         self.shading.map_or(Ok(()), ShadingEntry::check).within("shading")
     }

@@ -10,10 +10,10 @@ use bevy_color::{ColorToComponents, LinearRgba};
 use bevy_ecs::prelude::*;
 use bevy_math::{DMat3, DQuat, Mat4, Vec3};
 use bevy_transform::components::Transform;
-use halfway_lighting::{BackMaterial, Blend, GlobalAmbient, Tolerance, VertexColors, ViewTolerance};
+use halfway_lighting::{BackMaterial, Blend, GlobalAmbient, Mask, Tolerance, VertexColors, ViewTolerance};
 use halfway_lighting::{Camera, Samples};
 use halfway_mesh::{Bounds, Mesh, Mesh3d};
-use halfway_texture::{ColorMap, TexelMeaning, Texture};
+use halfway_texture::{Maps, SurfaceMap, TexelMeaning, Texture, UvSet};
 
 use crate::defaults::{default_lights, framing_camera};
 use crate::error::SceneError;
@@ -49,7 +49,7 @@ pub struct Spawned {
 ///
 /// - Where the scene has no camera, one is made that frames all objects ([`framing_camera`]).
 /// - Where an object has no material, its model's own materials are used, translated by
-///   [`import`](crate::import), with their double-sidedness and blending unless the object says otherwise.
+///   [`import`](crate::import), with their double-sidedness, blending and masks unless the object says otherwise.
 /// - With a model's own materials come their images, where the world has `Assets<Texture>`. What cannot be read is a
 ///   warning, and a checker in its place.
 /// - Where the scene has no `lights`, the models' own lights shine (`KHR_lights_punctual`), attached to their object;
@@ -67,7 +67,7 @@ pub fn spawn(scene: &SceneFile, base_dir: &Path, world: &mut World) -> Result<Sp
     if !world.contains_resource::<Assets<Mesh>>() {
         return Err(SceneError::NoMeshAssets);
     }
-    if scene.objects.iter().any(|object| object.color_map.is_some()) && !world.contains_resource::<Assets<Texture>>() {
+    if scene.objects.iter().any(|object| object.maps.is_some()) && !world.contains_resource::<Assets<Texture>>() {
         return Err(SceneError::NoTextureAssets);
     }
     let mut shapes = Shapes::new(base_dir);
@@ -183,8 +183,8 @@ fn spawn_object(
             spawn_frame(&Placement::of(&part.object_from_part), Some(frame), &name, world)
         };
         dress(object, part, mesh, &mut world.entity_mut(entity));
-        if object.material.is_none() && object.color_map.is_none() {
-            hang_own_map(part, textures, entity, world);
+        if object.material.is_none() && object.maps.is_none() {
+            hang_own_maps(part, textures, entity, world);
         }
     }
     frame
@@ -232,47 +232,74 @@ fn dress(object: &ObjectEntry, part: &ShapePart, mesh: Handle<Mesh>, entity: &mu
     if object.blend.unwrap_or_else(|| own.is_some_and(|own| own.blend)) {
         entity.insert(Blend);
     }
+    // What asks for blending does not ask to be cut out.
+    let of_model = own.and_then(|own| own.mask).filter(|_| object.blend != Some(true));
+    if let Some(cutoff) = object.mask.or(of_model).filter(|cutoff| *cutoff > 0.0) {
+        entity.insert(Mask(cutoff));
+    }
 }
 
-/// Gives a part the image of its model's material, where the world keeps images.
-fn hang_own_map(part: &ShapePart, textures: &mut TextureHandles, entity: Entity, world: &mut World) {
-    let Some(ModelMap { texture, sampling, transform }) = &part.map else { return };
+/// Gives a part the images of its model's material, where the world keeps images.
+fn hang_own_maps(part: &ShapePart, textures: &mut TextureHandles, entity: Entity, world: &mut World) {
     let Some(mut assets) = world.get_resource_mut::<Assets<Texture>>() else { return };
-    let handle = textures.entry(texture.0.texels().as_ptr()).or_insert_with(|| assets.add(texture.clone())).clone();
-    world.entity_mut(entity).insert(ColorMap { texture: handle, sampling: *sampling, transform: *transform });
+    let mut maps = Maps::default();
+    for ModelMap { kind, texture, sampling, uv_set, transform, channel, amount } in &part.maps {
+        let handle = textures.entry(texture.0.texels().as_ptr()).or_insert_with(|| assets.add(texture.clone()));
+        let map = SurfaceMap {
+            texture: handle.clone(),
+            sampling: *sampling,
+            uv_set: *uv_set,
+            transform: *transform,
+            channel: *channel,
+            amount: *amount,
+        };
+        maps.set(*kind, Some(map));
+    }
+    if maps.iter().next().is_some() {
+        world.entity_mut(entity).insert(maps);
+    }
 }
 
-/// Gives objects, or all parts of their models, their images. Each file is read once; what cannot be read is a warning, and a
-/// checker is shown in its place.
+/// The textures of a scene's own images, by path and by what their numbers mean.
+type SceneTextures<'a> = HashMap<(&'a Path, TexelMeaning), Handle<Texture>>;
+
+/// Gives objects, or all parts of their models, their images. Each file is read once for each meaning; what cannot be read is
+/// a warning, and a checker is shown in its place.
 fn hang_maps(scene: &SceneFile, base_dir: &Path, frames: &[Entity], warnings: &mut Vec<String>, world: &mut World) {
-    let mut handles: HashMap<&Path, Handle<Texture>> = HashMap::new();
+    let mut handles = SceneTextures::new();
     for (index, (object, &frame)) in scene.objects.iter().zip(frames).enumerate() {
-        let Some(entry) = &object.color_map else { continue };
-        let texture = handles.entry(&entry.path).or_insert_with(|| {
-            let loaded = halfway_texture::load(&base_dir.join(&entry.path), TexelMeaning::Color);
-            let texture = loaded.map_or_else(
-                |error| {
-                    warnings.push(format!("objects[{index}].color_map: {error}; a checker is shown"));
-                    Texture::missing()
-                },
-                Texture::from,
-            );
-            world.resource_mut::<Assets<Texture>>().add(texture)
-        });
-        let map = ColorMap { texture: texture.clone(), sampling: entry.sampling(), transform: entry.transform() };
+        let Some(entries) = &object.maps else { continue };
+        let mut maps = Maps::default();
+        for (kind, entry) in entries.iter() {
+            let texture = handles.entry((&entry.path, kind.meaning())).or_insert_with(|| {
+                let loaded = halfway_texture::load(&base_dir.join(&entry.path), kind.meaning());
+                let texture = loaded.map_or_else(
+                    |error| {
+                        let kind = kind.name();
+                        warnings.push(format!("objects[{index}].maps.{kind}: {error}; a checker is shown"));
+                        Texture::missing()
+                    },
+                    Texture::from,
+                );
+                world.resource_mut::<Assets<Texture>>().add(texture)
+            });
+            maps.set(kind, Some(entry.on(texture.clone())));
+        }
         let mut below = vec![frame];
         let (mut shown, mut without) = (0, 0);
         while let Some(entity) = below.pop() {
             below.extend(world.get::<Children>(entity).iter().flat_map(|children| children.iter()));
             if let Some(Mesh3d(mesh)) = world.get::<Mesh3d>(entity) {
-                let has_uvs = world.resource::<Assets<Mesh>>().get(mesh).is_some_and(|mesh| mesh.uvs().is_some());
-                (shown, without) = (shown + 1, without + usize::from(!has_uvs));
-                world.entity_mut(entity).insert(map.clone());
+                let mesh = world.resource::<Assets<Mesh>>().get(mesh);
+                let has = |set: UvSet| mesh.is_some_and(|mesh| mesh.uv_set(set as usize).is_some());
+                let has_all = maps.iter().all(|(_, map)| has(map.uv_set));
+                (shown, without) = (shown + 1, without + usize::from(!has_all));
+                world.entity_mut(entity).insert(maps.clone());
             }
         }
         if without > 0 {
             warnings.push(format!(
-                "objects[{index}].color_map: {without} of {shown} meshes have no texture coordinates, and do not show it"
+                "objects[{index}].maps: {without} of {shown} meshes have no texture coordinates for all of them, and do not show those"
             ));
         }
     }

@@ -7,7 +7,7 @@ use core::f32::consts::{FRAC_1_PI, FRAC_PI_4};
 use bevy_color::LinearRgba;
 use bevy_math::Mat4;
 use halfway_lighting::{Attenuation, Cone, DirectionalLight, Material, PointLight, SpotLight};
-use halfway_mesh::{AlphaMode, MetallicRoughness, MtlMaterial, SourceLight, SourceLightKind};
+use halfway_mesh::{AlphaMode, MetallicRoughness, MtlMaterial, SourceLight, SourceLightKind, SourceMaps};
 use halfway_scene::LightComponent;
 use halfway_scene::import::{
     RADIANCE_SCALE, SHININESS_MAX, Warning, from_metallic_roughness, from_mtl, from_punctual, shininess_from_roughness,
@@ -32,7 +32,7 @@ fn bare() -> MetallicRoughness {
         emissive: [0.0; 3],
         double_sided: false,
         alpha: AlphaMode::Opaque,
-        color_map: None,
+        maps: SourceMaps::default(),
     }
 }
 
@@ -262,8 +262,8 @@ fn metallic_roughness_is_approximated_as_documented() {
     let alphas = [
         (AlphaMode::Opaque, 1.0),
         (AlphaMode::Blend, 0.5),
-        (AlphaMode::Mask { cutoff: 0.5 }, 1.0),
-        (AlphaMode::Mask { cutoff: 0.6 }, 0.0),
+        (AlphaMode::Mask { cutoff: 0.5 }, 0.5),
+        (AlphaMode::Mask { cutoff: 0.6 }, 0.5),
     ];
     for (alpha, opacity) in alphas {
         let got = from_metallic_roughness(&MetallicRoughness { alpha, ..base.clone() }).expect("valid");

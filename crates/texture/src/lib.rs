@@ -11,7 +11,7 @@
 //! - [`noise`]: gradient noise in space, and solids of it, faded with distance.
 //! - [`normals`]: normals of heights, and what their roughness makes of highlights from afar.
 //! - [`UvTransform`]: where on the image a surface's coordinates lie.
-//! - [`Texture`], [`ColorMap`]: the asset, and the component that puts one onto an object.
+//! - [`Texture`], [`Maps`]: the asset, and the component that puts some onto an object, one for each [`MapKind`].
 //!
 //! (u, v) = (0, 0) is the image's top left corner, (1, 1) its bottom right. Texel (i, j) of a w × h image has its center at
 //! ((i + ½)/w, (j + ½)/h). No GPU, no window is touched; files only by [`load`].
@@ -36,7 +36,7 @@ mod error;
 mod halves;
 mod limits;
 pub mod lookup;
-mod map;
+mod maps;
 pub mod noise;
 pub mod normals;
 mod pyramid;
@@ -51,7 +51,7 @@ pub use decode::{TexelMeaning, decode, load};
 pub use error::TextureError;
 pub use halves::Level;
 pub use limits::{LONGEST_SIDE, MOST_TEXELS};
-pub use map::{ColorMap, Texture, TexturePlugin};
+pub use maps::{Channel, MapKind, Maps, SurfaceMap, Texture, TexturePlugin, UvSet, WrongMap};
 pub use pyramid::Pyramid;
 pub use ripmap::Ripmap;
 pub use sampling::{LevelFilter, Sampling, TexelFilter, Wrap};

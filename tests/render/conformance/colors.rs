@@ -28,9 +28,11 @@ fn lit() -> Scene {
     with_colors(still_life().lit(point(Vec3::new(1.2, 1.6, 1.8))))
 }
 
-type Change = (&'static str, fn(&mut Scene));
+/// What a row changes of a scene.
+pub(super) type Change = (&'static str, fn(&mut Scene));
 
-const SHADINGS: [Change; 6] = [
+/// The ways to shade.
+pub(super) const SHADINGS: [Change; 6] = [
     ("flat", |scene| scene.view_shading = Some(Shading::Flat)),
     ("gouraud", |scene| scene.view_shading = Some(Shading::Gouraud)),
     ("phong", |scene| scene.view_shading = Some(Shading::Phong)),

@@ -1,12 +1,11 @@
 //! The rows of objects with an image.
 
 use super::Row;
-use super::colors::colored;
+use super::colors::{Change, SHADINGS, colored};
 use super::features::{lights, point, still_life};
 use crate::render::scene::{Map, Scene, Thing, other_material, point_light};
-use halfway::lighting::Frequency;
 use halfway::prelude::*;
-use halfway::texture::{LevelFilter, Sampling, TexelFilter, TexelImage, UvTransform, Wrap};
+use halfway::texture::{Channel, LevelFilter, Sampling, TexelFilter, TexelImage, UvSet, UvTransform, Wrap};
 
 /// An image of an odd size that changes smoothly, in which no two channels are alike.
 fn image() -> TexelImage {
@@ -19,31 +18,16 @@ fn image() -> TexelImage {
 }
 
 pub(crate) fn map(sampling: Sampling, transform: UvTransform) -> Map {
-    Map { image: image(), sampling, transform }
+    Map { sampling, transform, ..Map::new(image()) }
 }
 
 fn mapped(sampling: Sampling, scale: f32) -> Scene {
     let transform = UvTransform { offset: [0.13, -0.21], rotation: 0.4, scale: [scale, 0.8 * scale] };
     let mut scene = still_life().lit(point(Vec3::new(1.2, 1.6, 1.8)));
     for thing in &mut scene.things {
-        thing.map = Some(map(sampling, transform));
+        thing.maps = vec![(MapKind::Color, map(sampling, transform))];
     }
     scene
-}
-
-type Change = (&'static str, fn(&mut Scene));
-
-const SHADINGS: [Change; 6] = [
-    ("flat", |scene| scene.view_shading = Some(Shading::Flat)),
-    ("gouraud", |scene| scene.view_shading = Some(Shading::Gouraud)),
-    ("phong", |scene| scene.view_shading = Some(Shading::Phong)),
-    ("automatic", |scene| scene.view_shading = Some(Shading::Auto)),
-    ("diffuse at vertices", |scene| terms(scene, Frequency::Vertex, Frequency::Fragment)),
-    ("specular at vertices", |scene| terms(scene, Frequency::Fragment, Frequency::Vertex)),
-];
-
-fn terms(scene: &mut Scene, diffuse: Frequency, specular: Frequency) {
-    scene.things.iter_mut().for_each(|thing| thing.terms = Some(Terms { diffuse, specular }));
 }
 
 const CHANGES: [Change; 7] = [
@@ -100,4 +84,96 @@ pub(super) fn rows() -> Vec<Row> {
         .into_iter()
         .map(|(name, sampling, scale)| Row::new(format!("image, {name}"), mapped(sampling, scale)));
     shaded.chain(filtered).collect()
+}
+
+/// A mesh with a second set of coordinates beside the first, turned and moved.
+fn with_second_uvs(mesh: &Mesh) -> Mesh {
+    let uvs = mesh.uvs().expect("a surface has coordinates");
+    let second = uvs.iter().map(|uv| Vec2::new(0.8 * uv.y + 0.1, 0.7 * uv.x - 0.3)).collect();
+    mesh.clone().with_second_uvs(second).expect("one a vertex")
+}
+
+/// A scene whose things have these images, the first set of coordinates under one, the second under the next.
+fn with_maps(kinds: &[(MapKind, f32)]) -> Scene {
+    let mut scene = still_life().lit(point(Vec3::new(1.2, 1.6, 1.8)));
+    for thing in &mut scene.things {
+        thing.mesh = with_second_uvs(&thing.mesh);
+        for (number, (kind, amount)) in kinds.iter().enumerate() {
+            let k = number as f32;
+            let transform = UvTransform {
+                offset: [0.13 + 0.2 * k, -0.21],
+                rotation: 0.4 - 0.3 * k,
+                scale: [1.3 + 0.2 * k, 0.9 - 0.1 * k],
+            };
+            let channel = [Channel::Red, Channel::Green, Channel::Blue, Channel::Alpha][number % 4];
+            let uv_set = if number % 2 == 0 { UvSet::First } else { UvSet::Second };
+            let map = Map { uv_set, channel, amount: *amount, ..map(Sampling::default(), transform) };
+            thing.maps.push((*kind, map));
+        }
+        // So that none is black.
+        thing.material.emission = LinearRgba::rgb(0.1, 0.2, 0.15);
+    }
+    scene
+}
+
+/// Every kind by itself, and together.
+fn kinds() -> Vec<(&'static str, Vec<(MapKind, f32)>)> {
+    let all = [
+        (MapKind::Color, 0.9),
+        (MapKind::Specular, 1.0),
+        (MapKind::Emission, 1.0),
+        (MapKind::Opacity, 0.8),
+        (MapKind::Shininess, 0.9),
+        (MapKind::Occlusion, 0.7),
+        (MapKind::Normal, 0.6),
+    ];
+    let heights = (MapKind::Height, 0.04);
+    let each = all.into_iter().chain([heights]).map(|one| (one.0.name(), vec![one]));
+    each.chain([("all", all.to_vec()), ("all with heights", [&all[..6], &[heights]].concat())]).collect()
+}
+
+const CIRCUMSTANCES: [Change; 8] = [
+    ("one light", |_| ()),
+    ("20 lights", |scene| scene.lamps = lights(20).lamps),
+    ("colours, ambient that attenuates", CHANGES[3].1),
+    ("both sides, blended", CHANGES[4].1),
+    ("backs, mirrored and stretched", |scene| {
+        scene.ambient = LinearRgba::rgb(0.5, 0.5, 0.5);
+        for thing in &mut scene.things {
+            thing.faces = Some(Faces::Back);
+            thing.frames.push(Transform::from_scale(Vec3::new(-0.9, 1.2, 0.7)));
+        }
+    }),
+    ("mirrored and stretched", |scene| {
+        scene.things.iter_mut().for_each(|thing| thing.frames.push(Transform::from_scale(Vec3::new(0.8, -1.1, 1.3))));
+    }),
+    ("through the near plane", |scene| scene.camera.near = 2.6),
+    ("masked, matched", |scene| {
+        scene.view_reflectance = Some(Reflectance::BlinnPhongMatched);
+        for thing in &mut scene.things {
+            thing.material.opacity = 0.9;
+            thing.mask = Some(0.6);
+        }
+    }),
+];
+
+/// Every kind of image under every way to shade.
+pub(super) fn rows_of_kinds() -> Vec<Row> {
+    let mut rows = Vec::new();
+    for (name, kinds) in kinds() {
+        for (number, (what, change)) in CIRCUMSTANCES.iter().enumerate() {
+            for (shading, shade) in SHADINGS {
+                // Each by itself in one case, and in all others where it makes a difference.
+                let turns = kinds.iter().any(|(kind, _)| kind.is_relief() || *kind == MapKind::Shininess);
+                if number > 0 && !(turns && shading == "phong") {
+                    continue;
+                }
+                let mut scene = with_maps(&kinds);
+                change(&mut scene);
+                shade(&mut scene);
+                rows.push(Row::new(format!("{name}, {shading}, {what}"), scene));
+            }
+        }
+    }
+    rows
 }

@@ -23,12 +23,14 @@
 //! | distances beyond the number range | the direction is kept, the distance is the largest finite number |
 //! | an inner cone equal to the cutoff | a hard edge, no division by 0: [`spot_factor`] |
 //! | an interpolated normal ≈ 0 | the geometric normal: [`interpolated_normal`] |
+//! | a relief on a normal ≈ 0, or along ways that are one | no relief: [`mapped_normal`], [`bumped_normal`] |
 //! | a singular or mirroring matrix | [`normal_matrix`] by cofactors, with the sign of the determinant |
 
 mod encoding;
 mod falloff;
 mod normal;
 mod reflectance;
+mod relief;
 mod scene;
 mod shade;
 mod transcendental;
@@ -41,6 +43,7 @@ pub use reflectance::{
     HALFWAY_MIN, diffuse_term, face_forward, half_vector, interpolated_normal, power, reflect, side_normal,
     specular_blinn_phong, specular_exponent, specular_phong, specular_term,
 };
+pub use relief::{bumped_normal, mapped_normal};
 pub use scene::{Coefficients, Eye, Light, Place, ShadedPoint, rgb};
 pub use shade::{
     COINCIDENT, Incidence, Irradiance, LightTerms, incidence, irradiance, light_contribution, light_terms, reflected,

@@ -64,6 +64,7 @@ impl Mesh {
         let [a, b] = [a, b].map(|vertex| vertex as usize);
         near(self.normals()[a].to_array(), self.normals()[b].to_array())
             && self.uvs().is_none_or(|all| near(all[a].to_array(), all[b].to_array()))
+            && self.uv_set(1).is_none_or(|all| near(all[a].to_array(), all[b].to_array()))
             && self.colors().is_none_or(|all| near(all[a].to_array(), all[b].to_array()))
             && self.tangents().is_none_or(|all| near(all[a].to_array(), all[b].to_array()))
     }

@@ -43,7 +43,7 @@ pub struct WeldReport {
 }
 
 /// The words of a vertex: its place, then normal, texture coordinates, colour and tangent.
-type VertexKey = [u32; 14];
+type VertexKey = [u32; 16];
 
 impl Mesh {
     /// The mesh with vertices that `weld` takes for one made one, and without the triangles that this collapses.
@@ -91,7 +91,7 @@ impl Mesh {
     }
 
     fn vertex_key(&self, vertex: usize, places: &[u32], word: impl Fn(f32) -> u32) -> VertexKey {
-        let mut key = [0; 14];
+        let mut key = [0; 16];
         key[0] = places[vertex];
         key[1..4].copy_from_slice(&self.normals()[vertex].to_array().map(&word));
         if let Some(uvs) = self.uvs() {
@@ -102,6 +102,9 @@ impl Mesh {
         }
         if let Some(tangents) = self.tangents() {
             key[10..14].copy_from_slice(&tangents[vertex].to_array().map(&word));
+        }
+        if let Some(uvs) = self.uv_set(1) {
+            key[14..16].copy_from_slice(&uvs[vertex].to_array().map(&word));
         }
         key
     }

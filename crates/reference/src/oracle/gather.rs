@@ -7,14 +7,15 @@ use bevy_math::UVec2;
 use bevy_transform::components::{GlobalTransform, Transform};
 use halfway_lighting::equations::{self, Light, rgb, vector::add};
 use halfway_lighting::{
-    BackMaterial, Blend, Camera, DirectionalLight, Faces, Fields, GlobalAmbient, InvalidValue, Material, PointLight,
-    Propagation, Reflectance, Samples, Shading, Shown, SpotLight, Terms, VertexColors, light_direction, light_position,
-    propagation,
+    BackMaterial, Blend, Camera, DirectionalLight, Faces, Fields, GlobalAmbient, InvalidValue, Mask, Material,
+    PointLight, Propagation, Reflectance, Samples, Shading, Shown, SpotLight, Terms, VertexColors, light_direction,
+    light_position, propagation,
 };
 use halfway_mesh::{Mesh, Mesh3d, SpawnOrder};
-use halfway_texture::{ColorMap, Pyramid, Texture};
+use halfway_texture::{Maps, Pyramid, SurfaceMap, Texture};
 
 use super::error::OracleError;
+use super::maps::MapLooks;
 use super::solid::{Color, Looks, Solid};
 use super::view::{PictureView, affine};
 
@@ -139,7 +140,7 @@ type Object<'a> = (
     Option<&'a Faces>,
     Option<&'a Blend>,
     Option<&'a VertexColors>,
-    Option<&'a ColorMap>,
+    (Option<&'a Maps>, Option<&'a Mask>),
 );
 
 fn solids(world: &mut World, seen: &Seen) -> Result<Vec<Solid>, OracleError> {
@@ -160,7 +161,7 @@ fn solids(world: &mut World, seen: &Seen) -> Result<Vec<Solid>, OracleError> {
 }
 
 fn solid(
-    (entity, mesh, transform, _, name, material, back, shading, terms, reflectance, faces, blend, colors, map): Object,
+    (entity, mesh, transform, _, name, material, back, shading, terms, reflectance, faces, blend, colors, (maps, mask)): Object,
     (meshes, textures): (Option<&Assets<Mesh>>, Option<&Assets<Texture>>),
     seen: &Seen,
 ) -> Result<Solid, OracleError> {
@@ -176,7 +177,8 @@ fn solid(
         .validate()
         .and_then(|()| back.map_or(Ok(()), BackMaterial::validate))
         .and_then(|()| terms.validate())
-        .and_then(|()| map.map_or(Ok(()), check_map))
+        .and_then(|()| maps.map_or(Ok(()), check_maps))
+        .and_then(|()| mask.map_or(Ok(()), Mask::validate))
         .map_err(|source| OracleError::Invalid { entity: label(entity, name), source })?;
     let looks = Looks {
         front,
@@ -185,18 +187,24 @@ fn solid(
         faces: faces.copied().unwrap_or_default(),
         blend: blend.is_some(),
         terms: terms.at_fragments(),
-        map: map.map(|ColorMap { texture, sampling, transform }| {
-            let there = textures.and_then(|textures| textures.get(texture));
-            (there.map_or_else(Pyramid::missing, |texture| texture.0.clone()), *sampling, *transform)
+        maps: maps.map_or_else(Default::default, |maps| {
+            let looks = |map: &SurfaceMap| {
+                let there = textures.and_then(|textures| textures.get(&map.texture));
+                let pyramid = there.map_or_else(Pyramid::missing, |texture| texture.0.clone());
+                MapLooks { pyramid, map: map.clone() }
+            };
+            maps.shown([0, 1].map(|set| mesh.uv_set(set).is_some())).map(|map| map.map(looks))
         }),
+        mask: mask.map(|mask| mask.0.into()),
         colored: colors.copied().unwrap_or_default() == VertexColors::Multiply,
     };
     Ok(Solid::new(entity, mesh.clone(), seen.view.eye_from_model(&world_from_model), &looks))
 }
 
-fn check_map(map: &ColorMap) -> Result<(), InvalidValue> {
-    map.transform.wrong().map_or(Ok(()), |(field, value)| {
-        Fields::of("ColorMap").inside("transform.").number(field, value, false, "finite numbers")
+fn check_maps(maps: &Maps) -> Result<(), InvalidValue> {
+    maps.wrong().map_or(Ok(()), |wrong| {
+        let field = format!("{}.{}", wrong.kind.name(), wrong.field);
+        Fields::of("Maps").number(&field, wrong.value, false, wrong.expected)
     })
 }
 

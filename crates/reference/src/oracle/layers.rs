@@ -25,6 +25,9 @@ fn hides(a: f64, b: f64) -> bool {
 
 impl Layers {
     pub(super) fn add(&mut self, scene: &OracleScene, hit: Hit) {
+        if scene.is_cut(&hit) {
+            return;
+        }
         if scene.solids[hit.solid].blend {
             self.blended.push(hit);
         } else if self.opaque.is_none_or(|known| hides(hit.depth, known.depth)) {

@@ -1,60 +1,54 @@
 //! I at a point of an object.
 
 use bevy_math::DVec3;
-use halfway_lighting::Frequency;
-use halfway_lighting::equations::vector::{add, mul};
-use halfway_lighting::equations::{Coefficients, ShadedPoint, interpolated_normal, light_terms, side_normal};
-use halfway_texture::lookup;
+use halfway_lighting::equations::vector::{add, mul, scale};
+use halfway_lighting::equations::{
+    Coefficients, ShadedPoint, interpolated_normal, light_terms, side_normal, specular_exponent,
+};
+use halfway_lighting::{Frequency, Reflectance};
+use halfway_texture::MapKind;
 
 use super::gather::OracleScene;
 use super::raster::{Hit, HitPoint};
 use super::solid::{Color, Parts, Solid};
 
 impl OracleScene {
-    /// I of the side that is seen: emission and ambient, and the terms of the lights where they are evaluated. An image
-    /// multiplies the ambient and diffuse terms at the point itself.
+    /// I of the side that is seen: emission and ambient, and the terms of the lights where they are evaluated. Images
+    /// multiply each of them at the point itself.
     pub(super) fn value(&self, hit: &Hit) -> Color {
         let solid = &self.solids[hit.solid];
         let side = solid.side(hit.front);
         let material = side.coefficients.tinted(solid.color(hit.on_triangle()).truncate().to_array());
-        let unlit = Parts { tinted: mul(material.ka, self.ambient), plain: material.ke };
+        let unlit = Parts { ambient: mul(material.ka, self.ambient), ..Parts::default() };
         let lit = match hit.place {
-            HitPoint::Triangle(triangle, weights) => self.on_triangle(solid, hit.front, &material, triangle, weights),
+            HitPoint::Triangle(triangle, weights) => self.on_triangle(solid, hit, &material, triangle, weights),
             HitPoint::Surface { p, n } => self.lit(solid, hit.front, &material, p, n.to_array(), Frequency::Fragment),
         };
-        let Parts { tinted, plain } = unlit.plus(lit);
-        let [r, g, b, _] = self.mapped(hit);
-        add(mul(tinted, [r, g, b]), plain)
+        let Parts { ambient, diffuse, specular } = unlit.plus(lit);
+        let color = |kind: MapKind| {
+            let [r, g, b, _] = self.factor(hit, kind);
+            [r, g, b]
+        };
+        let occlusion = self.factor_of_one(hit, MapKind::Occlusion);
+        let tinted = mul(color(MapKind::Color), add(scale(ambient, occlusion), diffuse));
+        let plain = add(mul(color(MapKind::Specular), specular), mul(color(MapKind::Emission), material.ke));
+        add(tinted, plain)
+    }
+
+    /// The opacity of what is seen, whether or not it counts.
+    pub(super) fn opacity_there(&self, hit: &Hit) -> f64 {
+        let solid = &self.solids[hit.solid];
+        solid.side(hit.front).opacity * solid.color(hit.on_triangle()).w * self.mapped_opacity(hit)
     }
 
     /// The opacity of what is seen; 1 where the object is not blended.
     pub(super) fn opacity(&self, hit: &Hit) -> f64 {
-        let solid = &self.solids[hit.solid];
-        if !solid.blend {
-            return 1.0;
-        }
-        solid.side(hit.front).opacity * solid.color(hit.on_triangle()).w * self.mapped(hit)[3]
+        if self.solids[hit.solid].blend { self.opacity_there(hit) } else { 1.0 }
     }
 
-    /// What the image has at the point that is seen, each number in 0 to 1; 1 where there is none.
-    ///
-    /// The footprint is a pixel's. On a triangle u = Σ uᵢVᵢ/Σ Vᵢ, Vᵢ the volume of the ray with the edge opposite to a corner,
-    /// which is linear over the picture: the derivative follows by the rule of quotients.
-    fn mapped(&self, hit: &Hit) -> [f64; 4] {
-        let solid = &self.solids[hit.solid];
-        let (Some(map), Some((triangle, weights))) = (&solid.map, hit.on_triangle()) else { return [1.0; 4] };
-        let [a, b, c] = solid.triangle(triangle);
-        let uvs = solid.vertices(triangle).map(|number| map.uvs[number]);
-        let uv = [0, 1].map(|k| (0..3).map(|i| weights[i] * uvs[i][k]).sum::<f64>());
-        let ray = mixed([a, b, c], weights) / hit.depth;
-        let normals = [b.cross(c), c.cross(a), a.cross(b)];
-        let sum: f64 = normals.iter().map(|n| n.dot(ray)).sum();
-        let first = self.view.ray(0.0, 0.0);
-        let footprint = [self.view.ray(1.0, 0.0), self.view.ray(0.0, 1.0)].map(|next| {
-            let grown = normals.map(|n| n.dot(next - first));
-            [0, 1].map(|k| (0..3).map(|i| (uvs[i][k] - uv[k]) * grown[i]).sum::<f64>() / sum)
-        });
-        lookup::filtered(&map.pyramid, &map.sampling, uv, footprint).map(|number| number.clamp(0.0, 1.0))
+    /// Whether the mask of an object has cut out what a ray has met.
+    pub(super) fn is_cut(&self, hit: &Hit) -> bool {
+        self.solids[hit.solid].mask.is_some_and(|cutoff| self.opacity_there(hit) < cutoff)
     }
 
     /// What the lights add at a point of a triangle, whose material there is given. What is evaluated at the triangle or at
@@ -62,11 +56,12 @@ impl OracleScene {
     fn on_triangle(
         &self,
         solid: &Solid,
-        front: bool,
+        hit: &Hit,
         material: &Coefficients<f64>,
         triangle: u32,
         weights: [f64; 3],
     ) -> Parts {
+        let front = hit.front;
         let shaded = &solid.side(front).shaded;
         let corners = solid.triangle(triangle);
         // Triangles without area have no normal, and are not drawn.
@@ -88,12 +83,22 @@ impl OracleScene {
             let mean = |of: fn(&Parts) -> Color| {
                 mixed(of_vertices.each_ref().map(|parts| DVec3::from_array(of(parts))), weights).to_array()
             };
-            i = i.plus(Parts { tinted: mean(|parts| parts.tinted), plain: mean(|parts| parts.plain) });
+            i = i.plus(Parts {
+                ambient: mean(|parts| parts.ambient),
+                diffuse: mean(|parts| parts.diffuse),
+                specular: mean(|parts| parts.specular),
+            });
         }
         if solid.terms.has(Frequency::Fragment) {
             let n = mixed(solid.vertices(triangle).map(|number| solid.normals[number]), weights).to_array();
-            let n = interpolated_normal(n, geometric());
-            i = i.plus(self.lit(solid, front, material, mixed(corners, weights), n, Frequency::Fragment));
+            let n = self.relief(hit, n, interpolated_normal(n, geometric()));
+            let mut material = *material;
+            if solid.has_shininess_map() {
+                // It multiplies the exponent, which is matched before.
+                let exponent = specular_exponent(solid.reflectance, material.shininess);
+                material.shininess = exponent * self.factor_of_one(hit, MapKind::Shininess);
+            }
+            i = i.plus(self.lit(solid, front, &material, mixed(corners, weights), n, Frequency::Fragment));
         }
         i
     }
@@ -110,17 +115,23 @@ impl OracleScene {
         n: [f64; 3],
         at: Frequency,
     ) -> Parts {
+        let reflectance = match solid.reflectance {
+            Reflectance::BlinnPhongMatched if at == Frequency::Fragment && solid.has_shininess_map() => {
+                Reflectance::BlinnPhong
+            }
+            reflectance => reflectance,
+        };
         let surface = ShadedPoint { position: p.to_array(), normal: side_normal(n, front) };
         self.lights.iter().fold(Parts::default(), |mut i, light| {
-            let terms = light_terms(&surface, material, light, &self.viewer, solid.reflectance);
+            let terms = light_terms(&surface, material, light, &self.viewer, reflectance);
             if solid.terms.diffuse == at {
-                i.tinted = add(i.tinted, terms.diffuse);
+                i.diffuse = add(i.diffuse, terms.diffuse);
                 if light.attenuate_ambient {
-                    i.tinted = add(i.tinted, terms.ambient);
+                    i.ambient = add(i.ambient, terms.ambient);
                 }
             }
             if solid.terms.specular == at {
-                i.plain = add(i.plain, terms.specular);
+                i.specular = add(i.specular, terms.specular);
             }
             i
         })
@@ -129,7 +140,11 @@ impl OracleScene {
 
 impl Parts {
     fn plus(self, other: Self) -> Self {
-        Self { tinted: add(self.tinted, other.tinted), plain: add(self.plain, other.plain) }
+        Self {
+            ambient: add(self.ambient, other.ambient),
+            diffuse: add(self.diffuse, other.diffuse),
+            specular: add(self.specular, other.specular),
+        }
     }
 }
 

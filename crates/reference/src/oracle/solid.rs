@@ -8,9 +8,10 @@ use halfway_lighting::equations::vector::{length, normalize};
 use halfway_lighting::equations::{Coefficients, normal_matrix, transform_normal};
 use halfway_lighting::{Faces, Frequency, Material, Reflectance, Terms};
 use halfway_mesh::Mesh;
-use halfway_texture::{Pyramid, Sampling, UvTransform};
+use halfway_texture::MapKind;
 use rayon::prelude::*;
 
+use super::maps::{MapLooks, MapSlots, SolidMaps, prepared};
 use super::mode::Mode;
 use crate::surface::Traced;
 
@@ -27,8 +28,10 @@ pub(super) struct Looks {
     pub(super) terms: Terms,
     /// Whether the colours at the vertices, if there are any, count.
     pub(super) colored: bool,
-    /// The image on it, and how its mesh's coordinates lie there.
-    pub(super) map: Option<(Pyramid, Sampling, UvTransform)>,
+    /// The images that its mesh shows.
+    pub(super) maps: MapSlots<MapLooks>,
+    /// The opacity below which it is not there.
+    pub(super) mask: Option<f64>,
 }
 
 /// Where the surface itself is met, all that is evaluated anywhere is evaluated at the point that is seen.
@@ -39,20 +42,12 @@ fn at_the_point(frequency: Frequency) -> Frequency {
     }
 }
 
-/// A part of I: what an image multiplies, and what it does not.
+/// A part of I, by what images multiply.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Parts {
-    pub(super) tinted: Color,
-    pub(super) plain: Color,
-}
-
-/// An image on an object.
-#[derive(Debug)]
-pub(super) struct SolidMap {
-    pub(super) pyramid: Pyramid,
-    pub(super) sampling: Sampling,
-    /// Where the vertices lie on it.
-    pub(super) uvs: Vec<[f64; 2]>,
+    pub(super) ambient: Color,
+    pub(super) diffuse: Color,
+    pub(super) specular: Color,
 }
 
 /// One side of an object.
@@ -79,7 +74,9 @@ pub(super) struct Solid {
     pub(super) normals: Vec<DVec3>,
     /// The colours of the vertices, where they count.
     pub(super) colors: Option<Vec<DVec4>>,
-    pub(super) map: Option<SolidMap>,
+    pub(super) maps: Option<SolidMaps>,
+    /// The opacity below which it is not there.
+    pub(super) mask: Option<f64>,
     /// Front and back.
     pub(super) sides: [Side; 2],
     pub(super) faces: Faces,
@@ -110,17 +107,14 @@ fn unit_determinant(m: &DMat3) -> f64 {
 
 impl Solid {
     pub(super) fn new(entity: Entity, mesh: Mesh, eye_from_model: DAffine3, looks: &Looks) -> Self {
+        let mesh = prepared(mesh, &looks.maps);
         let m = eye_from_model.matrix3;
         let determinant = unit_determinant(&m);
         let mirrored = determinant < -FLAT;
         let normal_matrix = signed_cofactors(&m, determinant, mirrored);
         let terms = looks.terms;
         let colors = if looks.colored { mesh.drawn_colors() } else { None };
-        let map = looks.map.as_ref().zip(mesh.uvs()).map(|((pyramid, sampling, transform), uvs)| {
-            let rows = transform.rows();
-            let uvs = uvs.iter().map(|uv| UvTransform::apply(&rows, uv.to_array().map(f64::from))).collect();
-            SolidMap { pyramid: pyramid.clone(), sampling: *sampling, uvs }
-        });
+        let maps = SolidMaps::new(&mesh, &looks.maps, &eye_from_model, mirrored);
         let evaluations = match (terms.has(Frequency::Triangle), terms.has(Frequency::Vertex)) {
             (true, _) => mesh.triangle_count(),
             (false, true) => mesh.positions().len(),
@@ -140,7 +134,8 @@ impl Solid {
             corners: mesh.positions().par_iter().map(|p| eye_from_model.transform_point3(p.as_dvec3())).collect(),
             normals: mesh.normals().par_iter().map(|n| turned(normal_matrix, n.as_dvec3())).collect(),
             colors: colors.map(|colors| colors.iter().map(|color| color.as_dvec4()).collect()),
-            map,
+            maps,
+            mask: looks.mask,
             sides: [side(&looks.front, looks.faces.shows_front()), side(&looks.back, looks.faces.shows_back())],
             faces: looks.faces,
             reflectance: looks.reflectance,
@@ -159,18 +154,23 @@ impl Solid {
         };
     }
 
-    /// The surface behind the mesh, unless it is unknown, the mesh has colours or an image, which the surface does
+    /// The surface behind the mesh, unless it is unknown, the mesh has colours or images, which the surface does
     /// not, or the transform flattens it, so that no ray leads back to it.
     fn smooth(&self) -> Option<Smooth> {
         let surface = self.mesh.surface()?;
         let is_flat = unit_determinant(&self.eye_from_model.matrix3).abs() <= FLAT;
-        (!is_flat && self.colors.is_none() && self.map.is_none())
+        (!is_flat && self.colors.is_none() && self.maps.is_none())
             .then(|| Smooth { traced: Traced::new(surface), model_from_eye: self.eye_from_model.inverse() })
     }
 
     /// A unit normal in eye space; 0 where the transform leaves none.
     pub(super) fn turned(&self, n: DVec3) -> DVec3 {
         turned(self.normal_matrix, n)
+    }
+
+    /// Whether an image changes the exponent of highlights.
+    pub(super) fn has_shininess_map(&self) -> bool {
+        self.maps.as_ref().is_some_and(|maps| maps.has(MapKind::Shininess))
     }
 
     pub(super) fn side(&self, front: bool) -> &Side {

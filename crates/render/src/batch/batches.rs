@@ -74,11 +74,11 @@ impl Batches {
             self.instances.push(InstanceRecord { record, ..seen.instances[run.instance as usize] });
         }
         let LitRun { call, indices: (first, end), lights, record, .. } = runs[0];
-        let (key, mesh, form, map) = seen.table.called[call as usize];
+        let (key, mesh, form, maps) = seen.table.called[call as usize];
         let key = DrawKey { per_instance, ..key };
         let record = if per_instance { 0 } else { record };
         self.draws.push(
-            DrawState { key, mesh, form, record, lights, map },
+            DrawState { key, mesh, form, record, lights, maps },
             first..end,
             start..self.instances.len() as u32,
         );

@@ -17,8 +17,8 @@ pub(crate) struct DrawState {
     pub(crate) record: u32,
     /// The first of the lights that are bound at fixed places.
     pub(crate) lights: u32,
-    /// The number of its image, from 1 on; 0 for none.
-    pub(crate) map: u32,
+    /// The number of its set of images, from 1 on; 0 for none.
+    pub(crate) maps: u32,
 }
 
 /// One draw, laid out as commands read it from a buffer.

@@ -3,8 +3,9 @@
 use crate::lights::terms::by_fragment_shader;
 use crate::shaders::light_slots::{Counted, Lists};
 use halfway_lighting::{Frequency, Terms};
-use halfway_texture::Sampling;
+use halfway_texture::{Channel, MapKind, Sampling, SurfaceMap, UvSet};
 use std::fmt;
+use std::sync::Once;
 
 /// All of a draw that its pipeline is specialised for. What a draw does not use is not in its shader.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -31,8 +32,69 @@ pub(crate) struct DrawKey {
     pub(crate) clockwise: bool,
     /// The mesh's colors multiply the ambient and diffuse reflectance, and the opacity.
     pub(crate) colored: bool,
-    /// How the image is looked up that multiplies the same.
-    pub(crate) mapped: Option<Sampling>,
+    /// How the images are looked up.
+    pub(crate) maps: MapLooks,
+    /// What has too low an opacity is not there.
+    pub(crate) masked: bool,
+    /// The surface is lit inside out; known only where tangents count.
+    pub(crate) inside_out: bool,
+}
+
+/// How an image is looked up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct MapLook {
+    pub(crate) sampling: Sampling,
+    pub(crate) uv_set: UvSet,
+    pub(crate) channel: Channel,
+}
+
+impl MapLook {
+    /// As maps.wgsl takes it; never all of sixteen bits.
+    pub(crate) fn bits(self) -> u32 {
+        let Sampling { wrap: [u, v], magnify, minify, levels } = self.sampling;
+        let fields = [magnify as u32, minify as u32, levels as u32, u as u32, v as u32, self.channel as u32];
+        let fields = fields.into_iter().enumerate();
+        fields.fold((self.uv_set as u32) << 12, |bits, (place, field)| bits | field << (2 * place))
+    }
+}
+
+impl From<&SurfaceMap> for MapLook {
+    fn from(map: &SurfaceMap) -> Self {
+        Self { sampling: sampling_drawn(map.sampling), uv_set: map.uv_set, channel: map.channel }
+    }
+}
+
+/// How an image is looked up here: filters that go by the footprint's shape are not drawn, and trilinear stands for them.
+fn sampling_drawn(sampling: Sampling) -> Sampling {
+    static SAID: Once = Once::new();
+    let levels = sampling.levels.by_level();
+    if levels != sampling.levels {
+        SAID.call_once(|| log::warn!("LevelFilter::{:?} is not drawn; {levels:?} stands for it", sampling.levels));
+    }
+    Sampling { levels, ..sampling }
+}
+
+/// How the images of a draw are looked up, each in the slot of its kind.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub(crate) struct MapLooks(pub(crate) [Option<MapLook>; MapKind::COUNT]);
+
+impl MapLooks {
+    pub(crate) fn has(&self, kind: MapKind) -> bool {
+        self.0[kind as usize].is_some()
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.0.iter().all(Option::is_none)
+    }
+}
+
+/// Each kind with its bits, as in `maps=Color:1,Normal:21`.
+impl fmt::Display for MapLooks {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let looks = MapKind::ALL.iter().zip(&self.0).filter_map(|(kind, look)| Some((kind.name(), (*look)?.bits())));
+        let each: Vec<String> = looks.map(|(name, bits)| format!("{name}:{bits}")).collect();
+        write!(f, "maps={}", each.join(","))
+    }
 }
 
 /// Which faces the rasteriser drops.
@@ -61,13 +123,15 @@ impl fmt::Display for DrawKey {
             (self.clockwise, "clockwise"),
             (self.blend, "blend"),
             (self.colored, "colored"),
+            (self.masked, "masked"),
+            (self.inside_out, "inside_out"),
         ] {
             if on {
                 write!(f, " {name}")?;
             }
         }
-        if let Some(sampling) = &self.mapped {
-            write!(f, " mapped={sampling:?}")?;
+        if !self.maps.is_empty() {
+            write!(f, " {}", self.maps)?;
         }
         self.squarings.map_or(Ok(()), |squarings| write!(f, " squarings={squarings}"))
     }
@@ -86,7 +150,12 @@ impl DrawKey {
 
     /// Whether anything but the material says what ambient and diffuse light it gives back.
     pub(crate) fn is_painted(&self) -> bool {
-        self.colored || self.mapped.is_some()
+        self.colored || self.is_mapped()
+    }
+
+    /// Whether images, or a mask, have part in its fragments.
+    pub(crate) fn is_mapped(&self) -> bool {
+        self.masked || !self.maps.is_empty()
     }
 
     /// The same with these terms, in place of more. Switches that then make no difference are set one way, so that they
@@ -105,8 +174,9 @@ impl DrawKey {
             attenuated_ambient: self.attenuated_ambient && terms.diffuse != Frequency::Never,
             shared_color: self.shared_color && specular,
             ranged: self.ranged && lit,
-            squarings: self.squarings.filter(|_| specular),
+            squarings: self.squarings.filter(|_| specular && !self.maps.has(MapKind::Shininess)),
             geometric_fallback: self.geometric_fallback && by_fragment_shader(terms).contains(&true),
+            inside_out: self.inside_out && self.maps.has(MapKind::Normal),
             ..self
         }
     }
@@ -181,7 +251,9 @@ pub(crate) mod tests {
             cull: Cull::Back,
             clockwise: false,
             colored: false,
-            mapped: None,
+            maps: MapLooks::default(),
+            masked: false,
+            inside_out: false,
         }
     }
 

@@ -2,17 +2,17 @@
 
 use crate::batch::backend::Backend;
 use crate::batch::false_colors::FalseColors;
-use crate::batch::key::DrawKey;
+use crate::batch::key::{DrawKey, MapLook, MapLooks};
 use crate::batch::lit_runs::{LitRun, OpenRun};
-use crate::batch::object::{Circumstances, Reflecting, Shared, sampling_drawn};
-use crate::batch::table::{MapUse, ObjectTable};
+use crate::batch::object::{Circumstances, Reflecting, Shared};
+use crate::batch::table::{MapsUse, ObjectTable};
 use crate::device::costs::VertexPrices;
 use crate::error::{RenderError, label};
 use crate::frame::report::FrameReport;
 use crate::geometry::allowed::{Allowed, Demand, SAMPLED, geometry_steps};
 use crate::geometry::detail::Choice;
-use crate::geometry::meshes::{Form, Geometries, Geometry, Paint};
-use crate::geometry::patches::{MeshPatch, Sight};
+use crate::geometry::meshes::{Form, Geometries, Geometry, Paint, PaintComponents};
+use crate::geometry::patches::{MeshPatch, PatchNormals, Sight};
 use crate::lights::gains::Extent;
 use crate::lights::gather::Lights;
 use crate::lights::lists::{LightLists, Listing};
@@ -28,11 +28,11 @@ use bevy_ecs::component::Mutable;
 use bevy_ecs::prelude::*;
 use bevy_math::Vec3;
 use halfway_lighting::{
-    BackMaterial, Blend, Faces, Fields, Frequency, Material, Problem, Reflectance, Terms, Tolerance, VertexColors,
-    ViewTolerance, equations,
+    BackMaterial, Blend, Faces, Fields, Frequency, InvalidValue, Mask, Material, Problem, Reflectance, Terms,
+    Tolerance, VertexColors, ViewTolerance, equations,
 };
 use halfway_mesh::{Mesh, Mesh3d};
-use halfway_texture::ColorMap;
+use halfway_texture::{Maps, WrongMap};
 
 /// What is seen, in the order of the objects. Holds after [`RenderSet::Illuminate`](crate::RenderSet::Illuminate).
 #[derive(Resource, Debug, Default)]
@@ -57,7 +57,7 @@ type ObjectQuery<'w, 's> = Query<
         Option<&'static Reflectance>,
         Option<&'static Faces>,
         Has<Blend>,
-        (Option<&'static VertexColors>, Option<&'static ColorMap>),
+        PaintComponents,
         Option<&'static Tolerance>,
         (&'static ModelView, &'static NormalMatrix),
         &'static Chosen,
@@ -94,15 +94,14 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
         Shared { lights: &lights, encoding, viewer, costs, prices: vertex_prices, false_colors: false_colors.0 };
     let mut seen = Vec::new();
     for &entity in &visible.0 {
-        let Ok((mesh, material, back, reflectance, faces, blend, paint, tolerance, placed, chosen, name)) =
+        let Ok((mesh, material, back, reflectance, faces, blend, components, tolerance, placed, chosen, name)) =
             objects.get(entity)
         else {
             continue;
         };
         let (model_view, normal_matrix) = placed;
-        let paint = meshes.get(&mesh.0).map_or(Paint::default(), |mesh| Paint::new(mesh, paint.0, paint.1));
-        if let Some((field, value)) = paint.map.and_then(|map| map.transform.wrong()) {
-            let source = Fields::of("ColorMap").inside("transform.").error(field, wrong_number(value));
+        let paint = meshes.get(&mesh.0).map_or(Paint::default(), |mesh| Paint::new(mesh, components));
+        if let Some(source) = wrong_paint(components) {
             report.errors.push(RenderError::Invalid { entity: label(entity, name), source });
             continue;
         }
@@ -117,7 +116,8 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
             reflectance: reflectance.copied().unwrap_or(view.reflectance),
             faces: faces.copied().unwrap_or_default(),
             colored: paint.colored,
-            mapped: paint.map.map(|map| sampling_drawn(map.sampling)),
+            maps: MapLooks(paint.maps.map(|map| map.map(MapLook::from))),
+            masked: paint.mask.is_some(),
         };
         let look = lit.table.look(&reflecting);
         if let Some(source) = &look.invalid {
@@ -140,7 +140,11 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
             reflecting,
             key,
             material,
-            map: paint.map.map_or(0, |map| lit.table.map(MapUse::new(map))),
+            maps: paint
+                .is_mapped()
+                .then(|| MapsUse::new(&paint.maps, paint.mask.unwrap_or(0.0)))
+                .map_or(0, |of| lit.table.maps(&of)),
+            has_relief: paint.has_relief(),
             mesh: mesh.0.id(),
             form,
             geometry,
@@ -171,7 +175,9 @@ struct LitObject<'a> {
     material: u32,
     depth: f32,
     twins_before: u32,
-    map: u32,
+    maps: u32,
+    /// Normals may be any.
+    has_relief: bool,
     mesh: AssetId<Mesh>,
     form: Form,
     geometry: &'a Geometry,
@@ -205,8 +211,13 @@ impl LitObject<'_> {
         with: impl FnOnce(&PlacedPatch) -> R,
     ) -> R {
         let Self { model_view, normal_matrix, reflecting, form, .. } = self;
+        let normals = match (form.flat, self.has_relief) {
+            (true, _) => PatchNormals::Faces,
+            (false, true) => PatchNormals::Any,
+            (false, false) => PatchNormals::Vertices,
+        };
         with(&PlacedPatch {
-            patch: &patch.in_eye_space(model_view, normal_matrix, reflecting.faces, form.flat),
+            patch: &patch.in_eye_space(model_view, normal_matrix, reflecting.faces, normals),
             grain: patch.grain(model_view),
             place,
             extent,
@@ -338,7 +349,7 @@ impl LitPatches {
         if self.records.last() != Some(&colored) {
             self.records.push(colored);
         }
-        let plain = DrawKey { colored: false, mapped: None, ..key };
+        let plain = DrawKey { colored: false, maps: MapLooks::default(), masked: false, ..key };
         let key = backend.admit(DrawKey { blend: object.key.blend, ..plain.with_terms(Terms::NONE) });
         (key, 0, self.records.len() as u32 - 1)
     }
@@ -432,9 +443,9 @@ impl LitPatches {
     }
 
     fn add_run(&mut self, object: &LitObject, OpenRun { key, lights, record, indices, .. }: OpenRun) {
-        let LitObject { depth, twins_before, map, .. } = *object;
+        let LitObject { depth, twins_before, maps, .. } = *object;
         for (pass, key) in (0..).zip(key.passes()) {
-            let call = self.table.call((key, object.mesh, object.form, if key.mapped.is_some() { map } else { 0 }));
+            let call = self.table.call((key, object.mesh, object.form, if key.is_mapped() { maps } else { 0 }));
             let indices = (indices.start, indices.end);
             let instance = self.instances.len() as u32 - 1;
             let blend = key.blend;
@@ -443,8 +454,13 @@ impl LitPatches {
     }
 }
 
-fn wrong_number(value: f32) -> Problem {
-    Problem::Number { value, expected: "finite numbers" }
+/// The first number of an object's images or mask that cannot be used.
+fn wrong_paint((_, maps, mask): (Option<&VertexColors>, Option<&Maps>, Option<&Mask>)) -> Option<InvalidValue> {
+    let of_maps = maps.and_then(Maps::wrong).map(|WrongMap { kind, field, value, expected }| {
+        let field = format!("{}.{field}", kind.name());
+        Fields::of("Maps").error(&field, Problem::Number { value, expected })
+    });
+    of_maps.or_else(|| mask.and_then(|mask| mask.validate().err()))
 }
 
 /// Of objects with so many patches in sight one in so many is looked at, whether placing terms pays.

@@ -1,6 +1,6 @@
 //! What one object is drawn with: its key, its material record, and what light lists have to know of it.
 
-use crate::batch::key::{Cull, DrawKey};
+use crate::batch::key::{Cull, DrawKey, MapLooks};
 use crate::device::costs::{Costs, VertexPrices};
 use crate::lights::gather::Lights;
 use crate::lights::lists::Reflector;
@@ -9,8 +9,7 @@ use crate::shaders::records::{DrawRecord, MaterialRecord};
 use bevy_math::Vec3;
 use halfway_lighting::equations::{Coefficients, specular_exponent};
 use halfway_lighting::{Encoding, Faces, Frequency, InvalidValue, Material, Reflectance, Terms, Viewer};
-use halfway_texture::Sampling;
-use std::sync::Once;
+use halfway_texture::MapKind;
 
 /// The components that say how an object reflects light.
 #[derive(Clone, Copy, Debug)]
@@ -21,8 +20,10 @@ pub(crate) struct Reflecting<'a> {
     pub(crate) faces: Faces,
     /// The mesh has colors that count.
     pub(crate) colored: bool,
-    /// How an image is looked up that multiplies what they do.
-    pub(crate) mapped: Option<Sampling>,
+    /// How images are looked up.
+    pub(crate) maps: MapLooks,
+    /// What has too low an opacity is not there.
+    pub(crate) masked: bool,
 }
 
 /// The same as a key: the materials' bits, and the rest.
@@ -62,16 +63,6 @@ pub(crate) struct Circumstances {
     pub(crate) opposite_normals: bool,
 }
 
-/// How an image is looked up here: filters that go by the footprint's shape are not drawn, and trilinear stands for them.
-pub(crate) fn sampling_drawn(sampling: Sampling) -> Sampling {
-    static SAID: Once = Once::new();
-    let levels = sampling.levels.by_level();
-    if levels != sampling.levels {
-        SAID.call_once(|| log::warn!("LevelFilter::{:?} is not drawn; {levels:?} stands for it", sampling.levels));
-    }
-    Sampling { levels, ..sampling }
-}
-
 impl Reflecting<'_> {
     pub(crate) fn bits(&self) -> ReflectingBits {
         (
@@ -84,7 +75,7 @@ impl Reflecting<'_> {
 
     /// Whether what multiplies ambient and diffuse light is not in the material alone.
     fn is_painted(&self) -> bool {
-        self.colored || self.mapped.is_some()
+        self.colored || self.masked || !self.maps.is_empty()
     }
 
     /// Checks the components; `number` gives the record its number.
@@ -143,7 +134,14 @@ impl Reflecting<'_> {
 
     /// What light lists have to know, where these terms are shaded.
     pub(crate) fn reflector(&self, terms: Terms) -> Reflector {
-        Reflector { sides: self.coefficients(), reflectance: self.reflectance, terms }
+        let mut sides = self.coefficients();
+        if self.maps.has(MapKind::Shininess) {
+            // An image lowers it, and what has a lower one is brighter everywhere.
+            for side in &mut sides {
+                side.shininess = 0.0;
+            }
+        }
+        Reflector { sides, reflectance: self.reflectance, terms }
     }
 
     /// The draw. A term that the material or the lights leave black is not in it.
@@ -172,7 +170,9 @@ impl Reflecting<'_> {
             cull: if self.faces == Faces::Both { Cull::None } else { Cull::Back },
             clockwise: circumstances.mirrored != (self.faces == Faces::Back),
             colored: self.colored,
-            mapped: self.mapped,
+            maps: self.maps,
+            masked: self.masked,
+            inside_out: self.faces == Faces::Back,
         };
         DrawKey { terms: circumstances.terms, ..key }.with_terms(terms)
     }

@@ -8,7 +8,7 @@ use bevy_asset::{AssetId, Assets};
 use bevy_math::Vec3;
 use bevy_platform::collections::HashMap;
 use halfway_mesh::Mesh;
-use halfway_texture::{ColorMap, Pyramid, Texture, UvTransform};
+use halfway_texture::{MapKind, Pyramid, SurfaceMap, Texture, UvTransform};
 use std::sync::OnceLock;
 
 /// What repeats among objects, numbered, so that objects compare by small integers.
@@ -29,23 +29,20 @@ pub(crate) struct ObjectTable {
     /// How many opaque objects there are with a bounding sphere, by its bits.
     twins: HashMap<[u32; 4], u32>,
     pub(crate) called: Vec<Call>,
-    map_numbers: HashMap<(AssetId<Texture>, [u32; 6]), u32>,
-    /// The images of the frame with where they lie, each once.
-    pub(crate) maps: Vec<MapUse>,
+    map_numbers: HashMap<MapsBits, u32>,
+    /// The sets of images on objects of the frame, each once.
+    pub(crate) maps: Vec<MapsUse>,
 }
 
-/// An image, and where on it a mesh's coordinates lie.
+/// An image, where on it a mesh's coordinates lie, and how much it counts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct MapUse {
     pub(crate) texture: AssetId<Texture>,
     transform: UvTransform,
+    pub(crate) amount: f32,
 }
 
 impl MapUse {
-    pub(crate) fn new(map: &ColorMap) -> Self {
-        Self { texture: map.texture.id(), transform: map.transform }
-    }
-
     pub(crate) fn rows(&self) -> [[f32; 3]; 2] {
         self.transform.rows().map(|row| row.map(|number| number as f32))
     }
@@ -53,6 +50,28 @@ impl MapUse {
     /// The image, or what stands for it while it is not there.
     pub(crate) fn pyramid(&self, textures: &Assets<Texture>) -> Pyramid {
         textures.get(self.texture).map_or_else(missing, |texture| texture.0.clone())
+    }
+}
+
+/// The images of an object, each in the slot of its kind, and the opacity below which it is not there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct MapsUse {
+    pub(crate) slots: [Option<MapUse>; MapKind::COUNT],
+    pub(crate) cutoff: f32,
+}
+
+/// The same as a key.
+type MapsBits = ([Option<(AssetId<Texture>, [u32; 6], u32)>; MapKind::COUNT], u32);
+
+impl MapsUse {
+    pub(crate) fn new(maps: &[Option<&SurfaceMap>; MapKind::COUNT], cutoff: f32) -> Self {
+        let of = |map: &SurfaceMap| MapUse { texture: map.texture.id(), transform: map.transform, amount: map.amount };
+        Self { slots: maps.map(|map| map.map(of)), cutoff }
+    }
+
+    fn bits(&self) -> MapsBits {
+        let bits = |of: MapUse| (of.texture, bytemuck::cast(of.rows()), of.amount.to_bits());
+        (self.slots.map(|slot| slot.map(bits)), self.cutoff.to_bits())
     }
 }
 
@@ -69,7 +88,7 @@ struct Used {
     plain: Option<u32>,
 }
 
-/// How something is drawn, the triangles of which mesh in which form, and the number of its image, from 1 on; 0 for none.
+/// How something is drawn, the triangles of which mesh in which form, and the number of its set of images, from 1 on; 0 for none.
 pub(crate) type Call = (DrawKey, AssetId<Mesh>, Form, u32);
 
 impl ObjectTable {
@@ -135,10 +154,10 @@ impl ObjectTable {
         *number - 1
     }
 
-    /// The number of an image in its place, from 1 on.
-    pub(crate) fn map(&mut self, of: MapUse) -> u32 {
-        *self.map_numbers.entry((of.texture, bytemuck::cast(of.rows()))).or_insert_with(|| {
-            self.maps.push(of);
+    /// The number of a set of images, from 1 on.
+    pub(crate) fn maps(&mut self, of: &MapsUse) -> u32 {
+        *self.map_numbers.entry(of.bits()).or_insert_with(|| {
+            self.maps.push(*of);
             self.maps.len() as u32
         })
     }

@@ -3,7 +3,7 @@
 use crate::batch::batches::Batches;
 use crate::batch::drawn_meshes::DrawnMeshes;
 use crate::frame::report::FrameReport;
-use crate::geometry::meshes::{Form, Geometries, Geometry};
+use crate::geometry::meshes::{Form, Geometries, Geometry, both_uvs};
 use bevy_asset::AssetId;
 use bevy_ecs::prelude::*;
 use halfway_mesh::Mesh;
@@ -36,15 +36,17 @@ impl MeshPieces {
 
 /// Draws begin and end where patches do.
 fn pieces(geometry: &Geometry, indices: &[u32], form: Form) -> Result<Pieces, RasterError> {
-    let Geometry { source, detail, .. } = geometry;
+    let Geometry { drawn: source, detail, .. } = geometry;
     let cuts: Vec<_> = detail.patches().iter().map(|patch| patch.indices.clone()).collect();
     let order = if form.ordered { TriangleOrder::Kept } else { TriangleOrder::Clustered };
     let [positions, normals] = [source.positions(), source.normals()].map(bytemuck::cast_slice);
     let colors = source.drawn_colors().filter(|_| form.colored).unwrap_or_default();
+    let uvs = if form.mapped { both_uvs(source) } else { Vec::new() };
     let lists = VertexLists {
         normals,
         colors: bytemuck::cast_slice(&colors),
-        uvs: source.uvs().filter(|_| form.mapped).map_or(&[], bytemuck::cast_slice),
+        uvs: bytemuck::cast_slice(&uvs),
+        tangents: source.tangents().filter(|_| form.tangents.is_some()).map_or(&[], bytemuck::cast_slice),
     };
     Pieces::with_lists(positions, lists, indices, &cuts, order)
 }

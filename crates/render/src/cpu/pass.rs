@@ -2,8 +2,9 @@
 
 use crate::batch::batches::Batches;
 use crate::batch::draws::DrawState;
-use crate::batch::key::{Cull, DrawKey};
+use crate::batch::key::{Cull, DrawKey, MapLook};
 use crate::batch::lit_patches::LitPatches;
+use crate::batch::table::{MapUse, MapsUse};
 use crate::cpu::meshes::MeshPieces;
 use crate::geometry::meshes::Form;
 use crate::lights::gather::Lights;
@@ -18,7 +19,7 @@ use halfway_raster::{
     DrawCall, Highlight, InstanceData, LeftOut, LightData, LightRange, MapCall, MapData, ShadedTerms, SideData,
     SurfaceData,
 };
-use halfway_texture::Texture;
+use halfway_texture::{MapKind, Texture};
 
 /// The lists of a pass. Their memory is kept from frame to frame.
 #[derive(Resource, Default)]
@@ -30,6 +31,8 @@ pub(crate) struct PassLists {
     pub(crate) meshes: Vec<(AssetId<Mesh>, Form)>,
     pub(crate) draws: Vec<DrawCall>,
     pub(crate) maps: Vec<MapData>,
+    /// Of each set of images the number of the first, and the cutoff.
+    sets: Vec<(u32, f32)>,
 }
 
 pub(crate) fn fill(
@@ -40,12 +43,37 @@ pub(crate) fn fill(
     textures: Res<Assets<Texture>>,
     mut pass: ResMut<PassLists>,
 ) {
-    pass.maps.clear();
-    pass.maps.extend(lit.table.maps.iter().map(|of| MapData { pyramid: of.pyramid(&textures), rows: of.rows() }));
+    pass.fill_maps(&lit.table.maps, &textures);
     pass.fill(&lights, &lit, &batches, &meshes);
 }
 
 impl PassLists {
+    /// The images of all sets, one after the other, and where those of each begin.
+    fn fill_maps(&mut self, sets: &[MapsUse], textures: &Assets<Texture>) {
+        self.maps.clear();
+        self.sets.clear();
+        for set in sets {
+            self.sets.push((self.maps.len() as u32, set.cutoff));
+            let data = |of: &MapUse| MapData { pyramid: of.pyramid(textures), rows: of.rows(), amount: of.amount };
+            self.maps.extend(set.slots.iter().flatten().map(data));
+        }
+    }
+
+    /// How a draw looks its images up, whose numbers follow each other in the order of their kinds; and its mask.
+    fn map_calls(&self, key: &DrawKey, of: &MapsUse, number: u32) -> ([Option<MapCall>; MapKind::COUNT], Option<f32>) {
+        let Some((first, cutoff)) = (number as usize).checked_sub(1).and_then(|number| self.sets.get(number)) else {
+            return Default::default();
+        };
+        let mut next = *first;
+        let calls = std::array::from_fn(|slot| {
+            of.slots[slot]?;
+            let map = next;
+            next += 1;
+            key.maps.0[slot].map(|MapLook { sampling, uv_set, channel }| MapCall { map, sampling, uv_set, channel })
+        });
+        (calls, key.masked.then_some(*cutoff))
+    }
+
     fn fill(&mut self, lights: &Lights, lit: &LitPatches, batches: &Batches, meshes: &MeshPieces) {
         self.lights.clear();
         self.lights.extend(lights.records.iter().map(light));
@@ -64,14 +92,21 @@ impl PassLists {
         self.meshes.clear();
         self.draws.clear();
         for group in batches.draws.groups() {
-            let DrawState { key, mesh, form, record, map, .. } = group.state;
+            let DrawState { key, mesh, form, record, maps, .. } = group.state;
             if meshes.get(mesh, form).is_none() {
                 continue;
             }
             if self.meshes.last() != Some(&(mesh, form)) {
                 self.meshes.push((mesh, form));
             }
-            let call = DrawCall { mesh: self.meshes.len() as u32 - 1, ..call(&key, map) };
+            let call = DrawCall { mesh: self.meshes.len() as u32 - 1, ..call(&key) };
+            let call = match lit.table.maps.get((maps as usize).wrapping_sub(1)) {
+                Some(of) if key.is_mapped() => {
+                    let (maps, mask) = self.map_calls(&key, of, maps);
+                    DrawCall { maps, mask, inside_out: key.inside_out, ..call }
+                }
+                _ => call,
+            };
             for draw in batches.draws.of(group) {
                 let instances = draw.instances();
                 if !key.per_instance {
@@ -85,7 +120,7 @@ impl PassLists {
     }
 }
 
-fn call(key: &DrawKey, map: u32) -> DrawCall {
+fn call(key: &DrawKey) -> DrawCall {
     let terms = |[diffuse, specular]: [bool; 2]| ShadedTerms { diffuse, specular };
     DrawCall {
         vertex: terms(by_vertex_shader(key.terms)),
@@ -100,7 +135,6 @@ fn call(key: &DrawKey, map: u32) -> DrawCall {
         clockwise: key.clockwise,
         opposite_normals: key.geometric_fallback,
         colored: key.colored,
-        map: key.mapped.map(|sampling| MapCall { map: map.saturating_sub(1), sampling }),
         blend: key.blend,
         ..DrawCall::default()
     }

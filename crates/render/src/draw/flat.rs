@@ -1,6 +1,6 @@
 //! Meshes for flat shading: one vertex a triangle carries its shade.
 
-use bevy_math::{Vec2, Vec3, Vec4};
+use bevy_math::{Vec3, Vec4};
 use halfway_mesh::face_normal;
 
 /// A mesh whose every triangle has a vertex of its own in first place: that provoking vertex carries
@@ -13,7 +13,7 @@ pub(crate) struct FlatMesh {
     /// Of each provoking vertex the mean color of its triangle's corners, where they have any.
     pub(crate) colors: Option<Vec<Vec4>>,
     /// Of each vertex its own texture coordinates, where they have any.
-    pub(crate) uvs: Option<Vec<Vec2>>,
+    pub(crate) uvs: Option<Vec<Vec4>>,
     pub(crate) indices: Vec<u32>,
     /// Whether a vertex provokes a triangle already.
     taken: Vec<bool>,
@@ -25,14 +25,14 @@ const VERTEX_MEMORY: usize = 256;
 
 impl FlatMesh {
     pub(crate) fn new(
-        (corners, colors, uvs): (&[Vec3], Option<&[Vec4]>, Option<&[Vec2]>),
+        (corners, colors, uvs): (&[Vec3], Option<&[Vec4]>, Option<&[Vec4]>),
         triangles: &[[u32; 3]],
     ) -> Self {
         let mut flat = Self {
             positions: corners.to_vec(),
             attributes: vec![[Vec3::ZERO; 2]; corners.len()],
             colors: colors.map(<[Vec4]>::to_vec),
-            uvs: uvs.map(<[Vec2]>::to_vec),
+            uvs: uvs.map(<[Vec4]>::to_vec),
             indices: Vec::with_capacity(3 * triangles.len()),
             taken: vec![false; corners.len()],
         };

@@ -1,6 +1,6 @@
 //! Upload: the images that draws read, on the GPU.
 
-use crate::batch::table::MapUse;
+use crate::batch::table::{MapUse, MapsUse};
 use crate::device::gpu::Gpu;
 use crate::error::RenderError;
 use crate::frame::report::FrameReport;
@@ -8,14 +8,19 @@ use crate::pipelines::cache::Pipelines;
 use bevy_asset::{AssetId, Assets};
 use bevy_platform::collections::HashMap;
 use bytemuck::{Pod, Zeroable};
-use halfway_texture::{Level, Pyramid, Texture};
+use halfway_texture::{Level, MapKind, Pyramid, Texture};
 
 /// The images that have been drawn, until they change or go, and the bindings of the frame's uses of them.
 #[derive(Default)]
 pub(crate) struct Maps {
     textures: HashMap<AssetId<Texture>, MapTexture>,
-    groups: Vec<(MapUse, Pyramid, wgpu::BindGroup)>,
+    groups: Vec<(MapsUse, Pyramids, wgpu::BindGroup)>,
+    /// What is bound where there is no image.
+    none: Option<wgpu::TextureView>,
 }
+
+/// The images of a set, as they were when it was bound.
+type Pyramids = [Option<Pyramid>; MapKind::COUNT];
 
 struct MapTexture {
     pyramid: Pyramid,
@@ -29,22 +34,28 @@ impl Maps {
         &mut self,
         gpu: &Gpu,
         pipelines: &Pipelines,
-        used: &[MapUse],
+        used: &[MapsUse],
         textures: &Assets<Texture>,
         report: &mut FrameReport,
     ) {
-        self.textures.retain(|&id, _| textures.contains(id) || used.iter().any(|of| of.texture == id));
+        self.textures.retain(|&id, _| {
+            textures.contains(id) || used.iter().any(|of| of.slots.iter().flatten().any(|of| of.texture == id))
+        });
         for (number, of) in used.iter().enumerate() {
-            let pyramid = of.pyramid(textures);
-            let is_there = |(known, made, _): &(MapUse, Pyramid, _)| known == of && made.is_same(&pyramid);
+            let pyramids = of.slots.map(|slot| slot.map(|of| of.pyramid(textures)));
+            let is_same = |a: &Pyramids| {
+                let both = a.iter().flatten().zip(pyramids.iter().flatten());
+                both.into_iter().all(|(a, b)| a.is_same(b))
+            };
+            let is_there = |(known, made, _): &(MapsUse, Pyramids, _)| known == of && is_same(made);
             if self.groups.get(number).is_some_and(is_there) {
                 continue;
             }
             self.groups.truncate(number);
-            match self.bind(gpu, pipelines, of, &pyramid) {
+            match self.bind(gpu, pipelines, of, &pyramids) {
                 Ok(Some((group, bytes))) => {
                     report.bytes_uploaded += bytes;
-                    self.groups.push((*of, pyramid, group));
+                    self.groups.push((*of, pyramids, group));
                 }
                 Ok(None) => return,
                 Err(error) => {
@@ -55,7 +66,7 @@ impl Maps {
         }
     }
 
-    /// The bindings of a use, by its number from 1 on.
+    /// The bindings of a set, by its number from 1 on.
     pub(crate) fn group(&self, number: u32) -> Option<&wgpu::BindGroup> {
         self.groups.get((number as usize).checked_sub(1)?).map(|(.., group)| group)
     }
@@ -65,45 +76,72 @@ impl Maps {
         &mut self,
         gpu: &Gpu,
         pipelines: &Pipelines,
-        of: &MapUse,
-        pyramid: &Pyramid,
+        of: &MapsUse,
+        pyramids: &Pyramids,
     ) -> Result<Option<(wgpu::BindGroup, u64)>, RenderError> {
         let Some(layout) = pipelines.map_bindings() else { return Ok(None) };
-        let mut bytes = PLACING_BYTES;
-        let is_there = self.textures.get(&of.texture).is_some_and(|there| there.pyramid.is_same(pyramid));
-        if !is_there {
-            bytes += 16 * pyramid.texels().len() as u64;
-            let view = sent(gpu, pyramid)?;
-            self.textures.insert(of.texture, MapTexture { pyramid: pyramid.clone(), view });
+        let mut bytes = PLACINGS_BYTES;
+        let mut record = PlacingsRecord { cutoff: [of.cutoff, 0.0, 0.0, 0.0], ..PlacingsRecord::default() };
+        let mut views = Vec::with_capacity(MapKind::COUNT);
+        for (slot, (of, pyramid)) in of.slots.iter().zip(pyramids).enumerate() {
+            let (Some(of), Some(pyramid)) = (of, pyramid) else {
+                views.push(self.none(gpu)?);
+                continue;
+            };
+            record.each[slot] = PlacingRecord::new(of, pyramid, packed_size(gpu, pyramid)[0]);
+            let (view, sent) = self.view(gpu, of, pyramid)?;
+            bytes += sent;
+            views.push(view);
         }
-        let Some(MapTexture { view, .. }) = self.textures.get(&of.texture) else { return Ok(None) };
         let descriptor = wgpu::BufferDescriptor {
-            label: Some("where a map lies"),
-            size: PLACING_BYTES,
+            label: Some("where maps lie"),
+            size: PLACINGS_BYTES,
             usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         };
-        let rows = gpu.device.create_buffer(&descriptor);
-        gpu.queue.write_buffer(
-            &rows,
-            0,
-            bytemuck::bytes_of(&PlacingRecord::new(of, pyramid, packed_size(gpu, pyramid)[0])),
-        );
-        let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("a map"),
-            layout,
-            entries: &[
-                wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(view) },
-                wgpu::BindGroupEntry { binding: 1, resource: rows.as_entire_binding() },
-            ],
-        });
+        let placings = gpu.device.create_buffer(&descriptor);
+        gpu.queue.write_buffer(&placings, 0, bytemuck::bytes_of(&record));
+        let image = |(slot, view)| wgpu::BindGroupEntry {
+            binding: slot as u32 + 1,
+            resource: wgpu::BindingResource::TextureView(view),
+        };
+        let first = wgpu::BindGroupEntry { binding: 0, resource: placings.as_entire_binding() };
+        let entries: Vec<_> = std::iter::once(first).chain(views.iter().enumerate().map(image)).collect();
+        let group =
+            gpu.device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some("maps"), layout, entries: &entries });
         Ok(Some((group, bytes)))
+    }
+
+    /// An image on the GPU, and how many bytes had to be sent.
+    fn view(&mut self, gpu: &Gpu, of: &MapUse, pyramid: &Pyramid) -> Result<(wgpu::TextureView, u64), RenderError> {
+        if let Some(there) = self.textures.get(&of.texture).filter(|there| there.pyramid.is_same(pyramid)) {
+            return Ok((there.view.clone(), 0));
+        }
+        let view = sent(gpu, pyramid)?;
+        self.textures.insert(of.texture, MapTexture { pyramid: pyramid.clone(), view: view.clone() });
+        Ok((view, 16 * pyramid.texels().len() as u64))
+    }
+
+    fn none(&mut self, gpu: &Gpu) -> Result<wgpu::TextureView, RenderError> {
+        if let Some(view) = &self.none {
+            return Ok(view.clone());
+        }
+        let view = sent(gpu, &Pyramid::missing())?;
+        Ok(self.none.insert(view).clone())
     }
 }
 
-/// Where a mesh's coordinates lie on an image, and where its levels are; `Placing` in mapped.wgsl.
+/// Where a mesh's coordinates lie on images; `Placings` in maps.wgsl.
 #[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub(crate) struct PlacingsRecord {
+    pub(crate) cutoff: [f32; 4],
+    pub(crate) each: [PlacingRecord; MapKind::COUNT],
+}
+
+/// Where they lie on one, how much it counts, and where its levels are; `Placing` in maps.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub(crate) struct PlacingRecord {
     pub(crate) row0: [f32; 4],
     pub(crate) row1: [f32; 4],
@@ -112,11 +150,12 @@ pub(crate) struct PlacingRecord {
 }
 
 /// How many bytes it has.
-pub(crate) const PLACING_BYTES: u64 = size_of::<PlacingRecord>() as u64;
+const PLACINGS_BYTES: u64 = size_of::<PlacingsRecord>() as u64;
 
 impl PlacingRecord {
     fn new(of: &MapUse, pyramid: &Pyramid, width: u32) -> Self {
-        let [row0, row1] = of.rows().map(|[a, b, c]| [a, b, c, 0.0]);
+        let [[a, b, c], [d, e, f]] = of.rows();
+        let (row0, row1) = ([a, b, c, of.amount], [d, e, f, 0.0]);
         let mut level = [[0; 4]; 14];
         for (record, Level { width, height, start }) in level.iter_mut().zip(pyramid.levels()) {
             *record = [*start as u32, *width, *height, 0];

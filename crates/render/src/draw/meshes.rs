@@ -6,10 +6,10 @@ use crate::device::gpu::Gpu;
 use crate::draw::flat::FlatMesh;
 use crate::error::RenderError;
 use crate::frame::report::FrameReport;
-use crate::geometry::meshes::{Form, Geometries};
+use crate::geometry::meshes::{Form, Geometries, both_uvs};
 use bevy_asset::AssetId;
 use bevy_ecs::prelude::*;
-use bevy_math::{Vec2, Vec3, Vec4};
+use bevy_math::{Vec3, Vec4};
 use halfway_mesh::Mesh;
 
 /// The buffers of the meshes that have been drawn, until they change or go.
@@ -23,8 +23,10 @@ pub(crate) struct MeshBuffer {
     pub(crate) attributes: wgpu::Buffer,
     /// Where they are drawn; flat: that of the centroid, as above.
     pub(crate) colors: Option<wgpu::Buffer>,
-    /// Texture coordinates, where an image is drawn.
+    /// Texture coordinates of both sets, where images are drawn.
     pub(crate) uvs: Option<wgpu::Buffer>,
+    /// Where there is a normal map.
+    pub(crate) tangents: Option<wgpu::Buffer>,
     pub(crate) indices: wgpu::Buffer,
     pub(crate) index_format: wgpu::IndexFormat,
 }
@@ -39,32 +41,37 @@ pub(crate) fn upload(
     mut report: ResMut<FrameReport>,
 ) {
     buffers.0.make_ready(&batches, &mut geometries, &mut report, |geometry, indices, form, there| {
-        let source = &geometry.source;
-        // With an image go colors, white where there are none.
+        let source = &geometry.drawn;
+        // With images go colors, white where there are none.
         let white = || vec![Vec4::ONE; source.positions().len()];
         let colors = source.drawn_colors().filter(|_| form.colored).or_else(|| form.mapped.then(white));
-        let uvs = source.uvs().filter(|_| form.mapped);
+        let uvs = form.mapped.then(|| both_uvs(source));
+        let tangents = source.tangents().filter(|_| form.tangents.is_some());
         match there {
             _ if form.flat => {
-                let vertices = (source.positions(), colors.as_deref(), uvs);
+                let vertices = (source.positions(), colors.as_deref(), uvs.as_deref());
                 let mut flat = FlatMesh::new(vertices, indices.as_chunks().0);
                 gpu.provoking_vertex().place(&mut flat.indices);
                 let attributes = bytemuck::cast_slice(&flat.attributes);
-                let vertices = (&flat.positions[..], attributes, flat.colors.as_deref(), flat.uvs.as_deref());
+                let vertices = (&flat.positions[..], attributes, flat.colors.as_deref(), flat.uvs.as_deref(), None);
                 MeshBuffer::new(&gpu, vertices, &flat.indices)
             }
             // The vertices of levels are those of the mesh.
             Some(there) => there.with_indices(&gpu, indices),
             None => {
                 let attributes = bytemuck::cast_slice(source.normals());
-                MeshBuffer::new(&gpu, (source.positions(), attributes, colors.as_deref(), uvs), indices)
+                MeshBuffer::new(
+                    &gpu,
+                    (source.positions(), attributes, colors.as_deref(), uvs.as_deref(), tangents),
+                    indices,
+                )
             }
         }
     });
 }
 
-/// Positions, attributes, colors and texture coordinates.
-type VertexSlices<'a> = (&'a [Vec3], &'a [u8], Option<&'a [Vec4]>, Option<&'a [Vec2]>);
+/// Positions, attributes, colors, texture coordinates and tangents.
+type VertexSlices<'a> = (&'a [Vec3], &'a [u8], Option<&'a [Vec4]>, Option<&'a [Vec4]>, Option<&'a [Vec4]>);
 
 impl MeshBuffers {
     pub(crate) fn get(&self, id: AssetId<Mesh>, form: Form) -> Option<&MeshBuffer> {
@@ -80,12 +87,13 @@ impl MeshBuffers {
 impl MeshBuffer {
     fn new(
         gpu: &Gpu,
-        (positions, attributes, colors, uvs): VertexSlices,
+        (positions, attributes, colors, uvs, tangents): VertexSlices,
         indices: &[u32],
     ) -> Result<(Self, u64), RenderError> {
         let list = |label, bytes: &[u8]| buffer(gpu, label, bytes, wgpu::BufferUsages::VERTEX);
         let colors = colors.map(|colors| list("colors", bytemuck::cast_slice(colors)));
         let uvs = uvs.map(|uvs| list("texture coordinates", bytemuck::cast_slice(uvs)));
+        let tangents = tangents.map(|tangents| list("tangents", bytemuck::cast_slice(tangents)));
         let short = positions.len() < usize::from(u16::MAX);
         let index_format = if short { wgpu::IndexFormat::Uint16 } else { wgpu::IndexFormat::Uint32 };
         let buffers = Self {
@@ -93,10 +101,12 @@ impl MeshBuffer {
             attributes: buffer(gpu, "attributes", attributes, wgpu::BufferUsages::VERTEX)?,
             colors: colors.transpose()?,
             uvs: uvs.transpose()?,
+            tangents: tangents.transpose()?,
             indices: index_buffer(gpu, indices, index_format)?,
             index_format,
         };
-        let more = buffers.colors.iter().chain(&buffers.uvs).map(wgpu::Buffer::size).sum::<u64>();
+        let more =
+            buffers.colors.iter().chain(&buffers.uvs).chain(&buffers.tangents).map(wgpu::Buffer::size).sum::<u64>();
         let bytes = buffers.positions.size() + buffers.attributes.size() + more + buffers.indices.size();
         Ok((buffers, bytes))
     }
@@ -110,6 +120,7 @@ impl MeshBuffer {
             attributes: self.attributes.clone(),
             colors: self.colors.clone(),
             uvs: self.uvs.clone(),
+            tangents: self.tangents.clone(),
             indices,
             index_format: self.index_format,
         };

@@ -110,10 +110,12 @@ fn record(
         if let Some(colors) = mesh.colors.as_ref().filter(|_| state.key.is_painted()) {
             pass.set_vertex_buffer(3, colors.slice(..));
         }
-        if state.key.mapped.is_some() {
-            let (Some(uvs), Some(map)) = (&mesh.uvs, buffers.maps.group(state.map)) else { continue };
+        if state.key.is_mapped() {
+            let (Some(uvs), Some(maps)) = (&mesh.uvs, buffers.maps.group(state.maps)) else { continue };
             pass.set_vertex_buffer(4, uvs.slice(..));
-            pass.set_bind_group(1, map, &[]);
+            // Where there are no tangents none are looked at.
+            pass.set_vertex_buffer(5, mesh.tangents.as_ref().unwrap_or(uvs).slice(..));
+            pass.set_bind_group(1, maps, &[]);
         }
         pass.set_index_buffer(mesh.indices.slice(..), mesh.index_format);
         match (batches.draws.commands(group), buffers.draws()) {

@@ -10,10 +10,11 @@ use crate::target::texture::TextureTarget;
 use crate::view::matrices::Visible;
 use bevy_asset::{AssetId, Assets};
 use bevy_ecs::prelude::*;
+use bevy_math::{Vec2, Vec4};
 use bevy_platform::collections::HashMap;
-use halfway_lighting::{Blend, Frequency, Terms, Tolerance, VertexColors, ViewTolerance};
+use halfway_lighting::{Blend, Frequency, Mask, Terms, Tolerance, VertexColors, ViewTolerance};
 use halfway_mesh::{Mesh, Mesh3d};
-use halfway_texture::ColorMap;
+use halfway_texture::{MapKind, Maps, SurfaceMap, UvSet};
 use std::sync::Arc;
 
 /// One mesh, laid out for one way of shading.
@@ -22,6 +23,8 @@ pub(crate) struct Geometry {
     pub(crate) detail: Arc<Detail>,
     /// What it was made of; a mesh is immutable and shares its data, so the same data is the same mesh.
     pub(crate) source: Mesh,
+    /// What is drawn: the same, with tangents where they were asked for.
+    pub(crate) drawn: Mesh,
     /// Some interpolated normal may vanish, so that Phong shading needs the geometric one at hand.
     pub(crate) opposite_normals: bool,
     /// Which vertices make triangles, in the order in which they are drawn; until what draws it has taken it.
@@ -38,35 +41,59 @@ pub(crate) struct Form {
     pub(crate) ordered: bool,
     /// With the colors of the vertices.
     pub(crate) colored: bool,
-    /// With their texture coordinates.
+    /// With their texture coordinates, and what else images or a mask take.
     pub(crate) mapped: bool,
+    /// With tangents by this set of coordinates.
+    pub(crate) tangents: Option<UvSet>,
 }
 
 impl Form {
     /// Blended triangles are drawn in the order of the mesh.
     pub(crate) fn new(terms: Terms, blend: bool, paint: &Paint) -> Self {
-        let (colored, mapped) = (paint.colored, paint.map.is_some());
-        Self { flat: terms.has(Frequency::Triangle), ordered: blend, colored, mapped }
+        let flat = terms.has(Frequency::Triangle);
+        let tangents = paint.maps[MapKind::Normal as usize].filter(|_| !flat).map(|map| map.uv_set);
+        Self { flat, ordered: blend, colored: paint.colored, mapped: paint.is_mapped(), tangents }
     }
 }
 
-/// What beside an object's material says what ambient and diffuse light it gives back.
+/// What beside an object's material says how light is given back, and where there is anything.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Paint<'a> {
     /// The colors of the vertices.
     pub(crate) colored: bool,
-    /// An image, where the mesh has coordinates for it.
-    pub(crate) map: Option<&'a ColorMap>,
+    /// Images, where the mesh has coordinates for them.
+    pub(crate) maps: [Option<&'a SurfaceMap>; MapKind::COUNT],
+    /// The opacity below which there is nothing.
+    pub(crate) mask: Option<f32>,
 }
 
+/// The components that paint an object.
+pub(crate) type PaintComponents = (Option<&'static VertexColors>, Option<&'static Maps>, Option<&'static Mask>);
+
 impl<'a> Paint<'a> {
-    pub(crate) fn new(mesh: &Mesh, colors: Option<&VertexColors>, map: Option<&'a ColorMap>) -> Self {
+    pub(crate) fn new(
+        mesh: &Mesh,
+        (colors, maps, mask): (Option<&VertexColors>, Option<&'a Maps>, Option<&Mask>),
+    ) -> Self {
         let colored = mesh.colors().is_some() && colors != Some(&VertexColors::Ignore);
-        Self { colored, map: map.filter(|_| mesh.uvs().is_some()) }
+        let has_uvs = [0, 1].map(|set| mesh.uv_set(set).is_some());
+        let maps = maps.map_or_else(Default::default, |maps| maps.shown(has_uvs));
+        // No opacity is below 0.
+        Self { colored, maps, mask: mask.map(|mask| mask.0).filter(|cutoff| *cutoff > 0.0) }
     }
 
     pub(crate) fn is_any(&self) -> bool {
-        self.colored || self.map.is_some()
+        self.colored || self.is_mapped()
+    }
+
+    /// Whether there are images or a mask.
+    pub(crate) fn is_mapped(&self) -> bool {
+        self.mask.is_some() || self.maps.iter().any(Option::is_some)
+    }
+
+    /// Whether an image turns normals.
+    pub(crate) fn has_relief(&self) -> bool {
+        [MapKind::Normal, MapKind::Height].into_iter().any(|kind| self.maps[kind as usize].is_some())
     }
 }
 
@@ -101,15 +128,20 @@ impl Geometries {
         if there.is_some_and(|there| levels.is_none_or(|levels| Arc::ptr_eq(&levels.detail, &there.detail))) {
             return;
         }
+        // Tangents split vertices, and nothing else changes.
+        let dressed = form.tangents.filter(|_| mesh.tangents().is_none());
+        let dressed = dressed.and_then(|set| mesh.clone().with_tangents_of(set as usize).ok());
+        let drawn = dressed.as_ref().unwrap_or(mesh);
         let opposite_normals =
             there.map_or_else(|| !form.flat && has_opposite_normals(mesh), |there| there.opposite_normals);
         let MeshTriangles { corners, detail } = match levels {
             Some(levels) => levels.clone(),
-            None if form.ordered => MeshTriangles::in_order(mesh),
-            None => MeshTriangles::in_patches(mesh),
+            None if form.ordered => MeshTriangles::in_order(drawn),
+            None => MeshTriangles::in_patches(drawn),
         };
         let indices = Some(corners.into_flattened());
-        let geometry = Geometry { detail, source: mesh.clone(), opposite_normals, indices };
+        let drawn = drawn.clone();
+        let geometry = Geometry { detail, source: mesh.clone(), drawn, opposite_normals, indices };
         self.meshes.insert((id, form), geometry);
     }
 }
@@ -118,14 +150,7 @@ impl Geometries {
 type OtherTargets<'w> = (Option<Res<'w, SurfaceTarget>>, Option<Res<'w, CanvasTarget>>, Option<Res<'w, TextureTarget>>);
 
 /// What decides how an object's mesh is laid out.
-type LaidOut = (
-    &'static Mesh3d,
-    &'static Chosen,
-    Has<Blend>,
-    Option<&'static VertexColors>,
-    Option<&'static ColorMap>,
-    Option<&'static Tolerance>,
-);
+type LaidOut = (&'static Mesh3d, &'static Chosen, Has<Blend>, PaintComponents, Option<&'static Tolerance>);
 
 /// Lays out the meshes of visible objects that are not yet, for the way they are shaded.
 #[expect(clippy::too_many_arguments, reason = "a system takes each resource as a parameter")]
@@ -143,9 +168,9 @@ pub(crate) fn lay_out(
     // Nobody watches the frames, but somebody may compare them.
     let waits = surface.is_none() && canvas.is_none() && texture.is_none();
     let mut last = None;
-    for (Mesh3d(handle), chosen, blend, colors, map, tolerance) in objects.iter_many(&visible.0).flatten() {
+    for (Mesh3d(handle), chosen, blend, paint, tolerance) in objects.iter_many(&visible.0).flatten() {
         let Some(mesh) = meshes.get(handle) else { continue };
-        let paint = Paint::new(mesh, colors, map);
+        let paint = Paint::new(mesh, paint);
         let wanted = (handle.id(), Form::new(chosen.0, blend, &paint));
         if last.replace(wanted) == Some(wanted) {
             continue;
@@ -177,6 +202,16 @@ pub(crate) fn forget_removed(
     let after = geometries.meshes.len();
     geometries.forgotten += (before - after) as u64;
     geometries.looked = (after, meshes.len());
+}
+
+/// The coordinates of both sets, zeros where there are none.
+pub(crate) fn both_uvs(mesh: &Mesh) -> Vec<Vec4> {
+    let of = |set: usize, vertex: usize| mesh.uv_set(set).map_or(Vec2::ZERO, |uvs| uvs[vertex]);
+    let both = |vertex| {
+        let ([u, v], [s, t]) = (of(0, vertex).to_array(), of(1, vertex).to_array());
+        Vec4::new(u, v, s, t)
+    };
+    (0..mesh.positions().len()).map(both).collect()
 }
 
 /// Whether any triangle's normals can cancel under interpolation; those of coarser levels, which do so only where a

@@ -316,18 +316,22 @@ impl MeshPatch {
         sight.eye.is_none_or(|(eye, back)| !self.facing.hides(eye - self.center, back))
     }
 
-    /// What bounds of lights know of it, in eye space: with the normals of its triangles where `flat`, else of its
-    /// vertices. The cone of the normals is kept only where the transform turns and scales all alike.
+    /// What bounds of lights know of it, in eye space: with these normals.
+    /// The cone of the normals is kept only where the transform turns and scales all alike.
     pub(crate) fn in_eye_space(
         &self,
         model_view: &ModelView,
         normal_matrix: &NormalMatrix,
         faces: Faces,
-        flat: bool,
+        normals: PatchNormals,
     ) -> bounds::Patch<f32> {
         let scale = model_view.largest_scale();
         let (center, radius) = self.sphere(model_view);
-        let cone = if flat { self.faces } else { self.normals };
+        let cone = match normals {
+            PatchNormals::Faces => self.faces,
+            PatchNormals::Vertices => self.normals,
+            PatchNormals::Any => None,
+        };
         let cone = cone.filter(|_| model_view.keeps_angles());
         bounds::Patch {
             center: center.to_array(),
@@ -340,6 +344,17 @@ impl MeshPatch {
             faces,
         }
     }
+}
+
+/// The normals that a patch is lit with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum PatchNormals {
+    /// Those of its triangles.
+    Faces,
+    /// Those of its vertices.
+    Vertices,
+    /// Any: images turn them.
+    Any,
 }
 
 fn grain(mesh: &Mesh, triangles: &[[u32; 3]]) -> Grain<f32> {

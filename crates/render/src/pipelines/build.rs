@@ -9,12 +9,13 @@ use crate::shaders::records::{INSTANCE, INSTANCE_BYTES};
 use crate::shaders::text::Shader;
 use crate::target::frame::{DEPTH_FORMAT, ShaderOutput};
 use halfway_lighting::Frequency;
-use halfway_texture::Sampling;
+use halfway_texture::MapKind;
 
 const POSITION: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![6 => Float32x3];
 const NORMAL: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![7 => Float32x3];
 const COLOR: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![10 => Float32x4];
-const UV: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![11 => Float32x2];
+const UV: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![11 => Float32x4];
+const TANGENT: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![12 => Float32x4];
 const FACE: [wgpu::VertexAttribute; 2] = wgpu::vertex_attr_array![7 => Float32x3, 8 => Float32x3];
 
 impl Shader {
@@ -42,8 +43,11 @@ impl Shader {
         if key.is_painted() {
             buffers.push(buffer(&COLOR, 16, wgpu::VertexStepMode::Vertex));
         }
-        if key.mapped.is_some() {
-            buffers.push(buffer(&UV, 8, wgpu::VertexStepMode::Vertex));
+        if key.is_mapped() {
+            buffers.push(buffer(&UV, 16, wgpu::VertexStepMode::Vertex));
+            if !key.terms.has(Frequency::Triangle) {
+                buffers.push(buffer(&TANGENT, 16, wgpu::VertexStepMode::Vertex));
+            }
         }
         let (vertex, fragment) = entry_points(&key);
         gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
@@ -162,16 +166,23 @@ fn stage_constants(
         ("HIGHLIGHTS", highlights.halves().into()),
         ("FIRST", first.into()),
     ];
-    constants.into_iter().chain(key.mapped.into_iter().flat_map(map_constants)).collect()
+    if key.is_mapped() { constants.into_iter().chain(map_constants(key)).collect() } else { constants }
 }
 
-/// How an image is looked up, by the numbers of mapped.wgsl.
-fn map_constants(Sampling { wrap: [u, v], magnify, minify, levels }: Sampling) -> [(&'static str, f64); 5] {
-    [
-        ("MAGNIFY", f64::from(magnify as u8)),
-        ("MINIFY", f64::from(minify as u8)),
-        ("LEVELS", f64::from(levels as u8)),
-        ("WRAP_U", f64::from(u as u8)),
-        ("WRAP_V", f64::from(v as u8)),
-    ]
+/// How images are looked up, by the names of maps.wgsl.
+fn map_constants(key: &DrawKey) -> impl Iterator<Item = (&'static str, f64)> {
+    const NAMES: [&str; MapKind::COUNT] = [
+        "COLOR_MAP",
+        "SPECULAR_MAP",
+        "EMISSION_MAP",
+        "OPACITY_MAP",
+        "SHININESS_MAP",
+        "OCCLUSION_MAP",
+        "NORMAL_MAP",
+        "HEIGHT_MAP",
+    ];
+    let sign = |negative: bool| if negative { -1.0 } else { 1.0 };
+    let maps = NAMES.into_iter().zip(key.maps.0).filter_map(|(name, look)| Some((name, f64::from(look?.bits()))));
+    let signs = [("TANGENT_SIGN", sign(key.inside_out)), ("BITANGENT_SIGN", sign(key.clockwise))];
+    maps.chain(signs).chain([("MASKED", f64::from(u8::from(key.masked)))])
 }

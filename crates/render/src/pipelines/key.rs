@@ -29,10 +29,10 @@ impl Text {
             lists if lists.of_stages().iter().all(|(counted, _)| counted.len() <= COUNTED_LIGHTS) => LightText::Few,
             Lists::Counted(..) | Lists::Split { .. } => LightText::Many,
         };
-        let surface = match (key.mapped, key.colored) {
-            (Some(_), _) => SurfaceText::Mapped,
-            (None, true) => SurfaceText::Colored,
-            (None, false) => SurfaceText::Plain,
+        let surface = match (key.is_mapped(), key.colored) {
+            (true, _) => SurfaceText::Mapped,
+            (false, true) => SurfaceText::Colored,
+            (false, false) => SurfaceText::Plain,
         };
         Self { lights, surface }
     }

@@ -1,189 +1,78 @@
-// The entry points of draws with an image, whose color multiplies the ambient and diffuse terms at each fragment, and whose
-// alpha the opacity; and so do colors of the vertices. Needs mesh.wgsl.
-//
-// Terms of the vertices are interpolated in two sums: what the image multiplies, and what it does not.
+// The entry points of draws with images, or of which a mask cuts something out. Images count at each fragment: what they
+// multiply apart is interpolated apart. Colors of the vertices multiply where light is evaluated. Needs maps.wgsl.
 
-// As in halfway_texture: filters 0 nearest, 1 bilinear, 2 B-spline, 3 Catmull-Rom; levels 0 none, 1 the nearest, 2 two of
-// them; beyond the image 0 the image again, 1 mirrored, 2 its edge.
-override MAGNIFY: u32 = 1;
-override MINIFY: u32 = 1;
-override LEVELS: u32 = 2;
-override WRAP_U: u32 = 0;
-override WRAP_V: u32 = 0;
-
-// Where the mesh's coordinates lie on the image, and where its levels are. All of them lie in one texture without levels,
-// one after the other, in rows as wide as the texture: software adapters load from one level for four pixels at once.
-struct Placing {
-    row0: vec4f,
-    row1: vec4f,
-    levels: vec4u,                  // how many, and the width of the texture
-    level: array<vec4u, 14>,        // the number of the first texel, columns, rows
-}
-
-@group(1) @binding(0) var image: texture_2d<f32>;
-@group(1) @binding(1) var<uniform> placing: Placing;
-
-fn placed(uv: vec2f) -> vec2f {
-    return vec2f(dot(placing.row0.xy, uv) + placing.row0.z, dot(placing.row1.xy, uv) + placing.row1.z);
-}
-
-// ---- the image at a point: twins of halfway_texture::lookup -------------------------------------
-
-// A coordinate in texels: taken into the image, or where it ends to within two texels of it.
-fn wrapped(u: f32, side: f32, wrap: u32) -> f32 {
-    if wrap == 0u {
-        return (u - floor(u)) * side;
-    }
-    if wrap == 1u {
-        let there_and_back = u - 2.0 * floor(0.5 * u);
-        return side * select(there_and_back, 2.0 - there_and_back, there_and_back > 1.0);
-    }
-    return clamp(u * side, -2.0, side + 2.0);
-}
-
-fn wrapped_index(at: i32, side: i32, wrap: u32) -> i32 {
-    if wrap == 0u {
-        return (at % side + side) % side;
-    }
-    if wrap == 1u {
-        let period = 2 * side;
-        let there_and_back = (at % period + period) % period;
-        return min(there_and_back, period - 1 - there_and_back);
-    }
-    return clamp(at, 0, side - 1);
-}
-
-// The weights of the texels around a point, at the part f of the way between two of them.
-fn texel_weights(f: f32, filter_kind: u32) -> vec4f {
-    let g = 1.0 - f;
-    if filter_kind == 2u {
-        return vec4f(g * g * g, (3.0 * f - 6.0) * f * f + 4.0, ((-3.0 * f + 3.0) * f + 3.0) * f + 1.0, f * f * f) / 6.0;
-    }
-    if filter_kind == 3u {
-        return 0.5 * vec4f(
-            ((2.0 - f) * f - 1.0) * f, (3.0 * f - 5.0) * f * f + 2.0, ((4.0 - 3.0 * f) * f + 1.0) * f, (f - 1.0) * f * f,
-        );
-    }
-    return vec4f(0.0, g, f, 0.0);
-}
-
-fn texel_of(level: vec4u, at: vec2i) -> vec4f {
-    let number = level.x + u32(at.y) * level.y + u32(at.x);
-    return textureLoad(image, vec2u(number % placing.levels.y, number / placing.levels.y), 0);
-}
-
-fn in_level(uv: vec2f, number: u32, filter_kind: u32) -> vec4f {
-    let level = placing.level[number];
-    let size = vec2i(level.yz);
-    let texels = vec2f(wrapped(uv.x, f32(size.x), WRAP_U), wrapped(uv.y, f32(size.y), WRAP_V));
-    if filter_kind == 0u {
-        return texel_of(level, clamp(vec2i(floor(texels)), vec2i(0), size - 1));
-    }
-    let first = floor(texels - 0.5);
-    let part = texels - 0.5 - first;
-    let columns = texel_weights(part.x, filter_kind);
-    let rows = texel_weights(part.y, filter_kind);
-    var low = 0;
-    var high = 4;
-    if filter_kind == 1u {
-        low = 1;
-        high = 3;
-    }
-    var sum = vec4f();
-    for (var y = low; y < high; y++) {
-        let row = wrapped_index(i32(first.y) + y - 1, size.y, WRAP_V);
-        for (var x = low; x < high; x++) {
-            let column = wrapped_index(i32(first.x) + x - 1, size.x, WRAP_U);
-            sum += rows[y] * columns[x] * texel_of(level, vec2i(column, row));
-        }
-    }
-    return sum;
-}
-
-// D = log2 of the longer side of the footprint: `at` is (u, v, w), w the distance along the view. (u, v)/w and 1/w are linear
-// over the picture, so that their differences are their derivatives; the rule of quotients has those of u and v.
-fn footprint_level(at: vec3f) -> f32 {
-    let over_w = vec3f(at.xy, 1.0) / at.z;
-    let dx = dpdx(over_w);
-    let dy = dpdy(over_w);
-    let size = vec2f(placing.level[0].yz) * at.z;
-    let x = (dx.xy - at.xy * dx.z) * size;
-    let y = (dy.xy - at.xy * dy.z) * size;
-    return 0.5 * log2(max(dot(x, x), dot(y, y)));
-}
-
-fn filtered(uv: vec2f, d: f32) -> vec4f {
-    if !(d > 0.0) {
-        return in_level(uv, 0u, MAGNIFY);
-    }
-    if LEVELS == 0u {
-        return in_level(uv, 0u, MINIFY);
-    }
-    let last = f32(placing.levels.x - 1u);
-    if LEVELS == 1u {
-        return in_level(uv, u32(min(floor(d + 0.5), last)), MINIFY);
-    }
-    let level = min(d, last);
-    let finer = floor(level);
-    let a = in_level(uv, u32(finer), MINIFY);
-    if level == finer {
-        return a;
-    }
-    return mix(a, in_level(uv, u32(finer) + 1u, MINIFY), level - finer);
-}
-
-fn mapped(uv: vec2f, at: vec3f) -> vec4f {
-    return clamp(filtered(uv, footprint_level(at)), vec4f(), vec4f(1.0));
-}
-
-// ---- what is shaded ------------------------------------------------------------------------------
-
-// What the image multiplies, with the opacity, and what it does not.
 struct Parts {
-    tinted: vec4f,
-    plain: vec3f,
+    ambient: vec3f,
+    diffuse: vec3f,
+    specular: vec3f,
 }
 
-fn tinted_part(arriving: Irradiance, material: Material) -> vec3f {
-    var sum = material.diffuse * arriving.diffuse;
+fn ambient_part(arriving: Irradiance, material: Material) -> vec3f {
     if ATTENUATED_AMBIENT {
-        sum += material.ambient * arriving.ambient;
+        return material.ambient * arriving.ambient;
     }
-    return sum;
+    return vec3f();
 }
 
-fn plain_part(arriving: Irradiance, material: Material) -> vec3f {
+fn specular_part(arriving: Irradiance, material: Material) -> vec3f {
     if SPECULAR {
         return material.specular * arriving.specular;
     }
     return vec3f();
 }
 
-fn parts(arriving: Irradiance, material: Material, emission: vec3f, color: vec4f) -> Parts {
-    let tinted = color.rgb * (material.base + tinted_part(arriving, material));
-    return Parts(vec4f(tinted, material.opacity * color.a), emission + plain_part(arriving, material));
+// The base is ka times the ambient light that nothing attenuates.
+fn parts(arriving: Irradiance, material: Material, color: vec3f) -> Parts {
+    let ambient = color * (material.base + ambient_part(arriving, material));
+    return Parts(ambient, color * material.diffuse * arriving.diffuse, specular_part(arriving, material));
 }
 
 fn front_parts(p: vec3f, n: vec3f, color: vec4f, record: u32) -> Parts {
-    let arriving = vertex_terms(p, n, draws[record].front.shininess, record);
-    return parts(arriving, draws[record].front, draws[record].front_emission, color);
+    return parts(vertex_terms(p, n, draws[record].front.shininess, record), draws[record].front, color.rgb);
 }
 
 fn back_parts(p: vec3f, n: vec3f, color: vec4f, record: u32) -> Parts {
-    let arriving = vertex_terms(p, n, draws[record].back.shininess, record);
-    return parts(arriving, draws[record].back, draws[record].back_emission, color);
+    return parts(vertex_terms(p, n, draws[record].back.shininess, record), draws[record].back, color.rgb);
 }
 
-fn output(tinted: vec4f, plain: vec3f, texel: vec4f) -> vec4f {
-    let shade = texel.rgb * tinted.rgb + plain;
-    return vec4f(written(shade), select(1.0, tinted.a * texel.a, BLEND));
+// I and the opacity, from the parts, and from the opacity that the vertices' colors have.
+fn output(sums: Parts, alpha: f32, record: u32, front: bool, c: Coordinates) -> vec4f {
+    var opacity = clamp(alpha, 0.0, 1.0) * select(draws[record].back.opacity, draws[record].front.opacity, front);
+    var emission = select(draws[record].back_emission, draws[record].front_emission, front);
+    var ambient = sums.ambient;
+    var specular = sums.specular;
+    if OCCLUSION_MAP != NO_MAP {
+        ambient *= channel_of(OCCLUSION_MAP, factor(occlusion_image, 5u, OCCLUSION_MAP, c));
+    }
+    var tinted = ambient + sums.diffuse;
+    if COLOR_MAP != NO_MAP {
+        let texel = factor(color_image, 0u, COLOR_MAP, c);
+        tinted *= texel.rgb;
+        if OPACITY_MAP == NO_MAP {
+            opacity *= texel.a;
+        }
+    }
+    if SPECULAR_MAP != NO_MAP {
+        specular *= factor(specular_image, 1u, SPECULAR_MAP, c).rgb;
+    }
+    if EMISSION_MAP != NO_MAP {
+        emission *= factor(emission_image, 2u, EMISSION_MAP, c).rgb;
+    }
+    if OPACITY_MAP != NO_MAP {
+        opacity *= channel_of(OPACITY_MAP, factor(opacity_image, 3u, OPACITY_MAP, c));
+    }
+    if MASKED && opacity < placings.cutoff.x {
+        discard;
+    }
+    return vec4f(written(tinted + specular + emission), select(1.0, opacity, BLEND));
 }
 
 struct Vertex {
     @location(6) position: vec3f,
     @location(7) normal: vec3f,
     @location(10) color: vec4f,
-    @location(11) uv: vec2f,
+    @location(11) uv: vec4f,         // of both sets
+    @location(12) tangent: vec4f,
 }
 
 // ---- flat ----------------------------------------------------------------------------------------
@@ -193,15 +82,18 @@ struct FlatVertex {
     @location(7) normal: vec3f,
     @location(8) centroid: vec3f,
     @location(10) color: vec4f,
-    @location(11) uv: vec2f,
+    @location(11) uv: vec4f,
 }
 
 struct Flat {
     @invariant @builtin(position) clip: vec4f,
-    @location(0) @interpolate(flat, first) tinted: vec4f,
-    @location(1) @interpolate(flat, first) plain: vec3f,
-    @location(2) @interpolate(perspective, centroid) uv: vec2f,
-    @location(3) @interpolate(perspective, center) at: vec3f,
+    @location(0) @interpolate(flat, first) ambient: vec4f,    // and the opacity of the vertices
+    @location(1) @interpolate(flat, first) diffuse: vec3f,
+    @location(2) @interpolate(flat, first) specular: vec3f,
+    @location(3) @interpolate(perspective, centroid) uv: vec4f,
+    @location(4) @interpolate(perspective, center) at: vec4f,
+    @location(5) @interpolate(perspective, center) middle: vec3f,
+    @location(6) @interpolate(flat, first) record: vec2u,     // and whether it shows its front
 }
 
 @vertex
@@ -209,32 +101,40 @@ fn vs_flat(object: Object, vertex: FlatVertex) -> Flat {
     let p = eye_position(object, vertex.centroid);
     let n = eye_normal(object, vertex.normal);
     let record = record_of(object.record);
-    var shade: Parts;
-    if !TWO_SIDED || dot(n, p) <= 0.0 {
-        shade = front_parts(p, n, vertex.color, record);
+    let front = !TWO_SIDED || dot(n, p) <= 0.0;
+    var sums: Parts;
+    if front {
+        sums = front_parts(p, n, vertex.color, record);
     } else {
-        shade = back_parts(p, -n, vertex.color, record);
+        sums = back_parts(p, -n, vertex.color, record);
     }
     let corner = eye_position(object, vertex.position);
-    let uv = placed(vertex.uv);
-    return Flat(clip_position(corner), shade.tinted, shade.plain, uv, vec3f(uv, -corner.z));
+    let uv = vertex.uv;
+    let ambient = vec4f(sums.ambient, vertex.color.a);
+    let sides = vec2u(object.record, u32(front));
+    return Flat(clip_position(corner), ambient, sums.diffuse, sums.specular, uv, uv, corner, sides);
 }
 
 @fragment
 fn fs_flat(in: Flat) -> @location(0) vec4f {
-    return output(in.tinted, in.plain, mapped(in.uv, in.at));
+    let sums = Parts(in.ambient.rgb, in.diffuse, in.specular);
+    return output(sums, in.ambient.a, record_of(in.record.x), in.record.y == 1u, coordinates(in.uv, in.at, -in.middle.z));
 }
 
 // ---- no term at the fragments: Gouraud, or no lights ----------------------------------------------
 
 struct Gouraud {
     @invariant @builtin(position) clip: vec4f,
-    @location(0) @interpolate(perspective, centroid) front_tinted: vec4f,
-    @location(1) @interpolate(perspective, centroid) front_plain: vec3f,
-    @location(2) @interpolate(perspective, centroid) back_tinted: vec4f,
-    @location(3) @interpolate(perspective, centroid) back_plain: vec3f,
-    @location(4) @interpolate(perspective, centroid) uv: vec2f,
-    @location(5) @interpolate(perspective, center) at: vec3f,
+    @location(0) @interpolate(perspective, centroid) ambient: vec4f,    // and the opacity of the vertices
+    @location(1) @interpolate(perspective, centroid) diffuse: vec3f,
+    @location(2) @interpolate(perspective, centroid) specular: vec3f,
+    @location(3) @interpolate(perspective, centroid) back_ambient: vec3f,
+    @location(4) @interpolate(perspective, centroid) back_diffuse: vec3f,
+    @location(5) @interpolate(perspective, centroid) back_specular: vec3f,
+    @location(6) @interpolate(perspective, centroid) uv: vec4f,
+    @location(7) @interpolate(perspective, center) at: vec4f,
+    @location(8) @interpolate(perspective, center) middle: vec3f,
+    @location(9) @interpolate(flat, either) record: u32,
 }
 
 @vertex
@@ -247,18 +147,23 @@ fn vs_gouraud(object: Object, vertex: Vertex) -> Gouraud {
     if TWO_SIDED {
         back = back_parts(p, -n, vertex.color, record);
     }
-    let uv = placed(vertex.uv);
-    let at = vec3f(uv, -p.z);
-    return Gouraud(clip_position(p), front.tinted, front.plain, back.tinted, back.plain, uv, at);
+    let uv = vertex.uv;
+    let ambient = vec4f(front.ambient, vertex.color.a);
+    return Gouraud(
+        clip_position(p), ambient, front.diffuse, front.specular, back.ambient, back.diffuse, back.specular, uv, uv, p,
+        object.record,
+    );
 }
 
 @fragment
 fn fs_gouraud(in: Gouraud, @builtin(front_facing) front: bool) -> @location(0) vec4f {
-    let texel = mapped(in.uv, in.at);
     let is_front = front || !TWO_SIDED;
-    let tinted = select(in.back_tinted, in.front_tinted, is_front);
-    let plain = select(in.back_plain, in.front_plain, is_front);
-    return output(vec4f(interpolated(tinted.rgb), clamp(tinted.a, 0.0, 1.0)), interpolated(plain), texel);
+    let sums = Parts(
+        interpolated(select(in.back_ambient, in.ambient.rgb, is_front)),
+        interpolated(select(in.back_diffuse, in.diffuse, is_front)),
+        interpolated(select(in.back_specular, in.specular, is_front)),
+    );
+    return output(sums, in.ambient.a, record_of(in.record), is_front, coordinates(in.uv, in.at, -in.middle.z));
 }
 
 // ---- some term at the fragments: Phong, or mixed ---------------------------------------------------
@@ -270,17 +175,25 @@ struct Mixed {
     @location(2) @interpolate(perspective, centroid) color: vec4f,
     @location(3) @interpolate(perspective, centroid) front: vec3f,   // the terms of the vertices, of either side
     @location(4) @interpolate(perspective, centroid) back: vec3f,
-    @location(5) @interpolate(perspective, centroid) uv: vec2f,
-    @location(6) @interpolate(perspective, center) at: vec3f,
-    @location(7) @interpolate(flat, either) record: u32,
+    @location(5) @interpolate(perspective, centroid) front_ambient: vec3f,
+    @location(6) @interpolate(perspective, centroid) back_ambient: vec3f,
+    @location(7) @interpolate(perspective, centroid) frame: vec4f,   // the tangent and w, or what a rise of 1 becomes
+    @location(8) @interpolate(perspective, centroid) uv: vec4f,
+    @location(9) @interpolate(perspective, center) at: vec4f,
+    @location(10) @interpolate(perspective, center) middle: vec3f,
+    @location(11) @interpolate(flat, either) record: u32,
 }
 
-// Of two terms one is here: the image multiplies it, or it does not.
+// Of two terms one is here: the diffuse, with what is attenuated of the ambient one, or the specular.
 fn of_vertices(terms: Irradiance, material: Material, color: vec3f) -> vec3f {
     if VERTEX_DIFFUSE {
-        return color * tinted_part(terms, material);
+        return color * material.diffuse * terms.diffuse;
     }
-    return plain_part(terms, material);
+    return specular_part(terms, material);
+}
+
+fn eye_direction(object: Object, direction: vec3f) -> vec3f {
+    return vec3f(dot(object.row0.xyz, direction), dot(object.row1.xyz, direction), dot(object.row2.xyz, direction));
 }
 
 @vertex
@@ -291,40 +204,72 @@ fn vs_mixed(object: Object, vertex: Vertex) -> Mixed {
     let color = vertex.color;
     var front = vec3f();
     var back = vec3f();
+    var front_ambient = vec3f();
+    var back_ambient = vec3f();
     if VERTEX_DIFFUSE || VERTEX_SPECULAR {
         let terms = vertex_terms(p, n, draws[record].front.shininess, record);
         front = of_vertices(terms, draws[record].front, color.rgb);
+        if VERTEX_DIFFUSE {
+            front_ambient = color.rgb * ambient_part(terms, draws[record].front);
+        }
         if TWO_SIDED {
             let behind = vertex_terms(p, -n, draws[record].back.shininess, record);
             back = of_vertices(behind, draws[record].back, color.rgb);
+            if VERTEX_DIFFUSE {
+                back_ambient = color.rgb * ambient_part(behind, draws[record].back);
+            }
         }
     }
-    let uv = placed(vertex.uv);
-    return Mixed(clip_position(p), p, n, color, front, back, uv, vec3f(uv, -p.z), object.record);
+    var frame = vec4f();
+    if NORMAL_MAP != NO_MAP {
+        let t = TANGENT_SIGN * normalize_or_zero(eye_direction(object, vertex.tangent.xyz));
+        frame = vec4f(t, BITANGENT_SIGN * vertex.tangent.w);
+    } else if HEIGHT_MAP != NO_MAP {
+        frame = vec4f(eye_direction(object, vertex.normal), 0.0);
+    }
+    let uv = vertex.uv;
+    return Mixed(
+        clip_position(p), p, n, color, front, back, front_ambient, back_ambient, frame, uv, uv, p, object.record,
+    );
 }
 
 @fragment
 fn fs_mixed(in: Mixed, @builtin(front_facing) front: bool) -> @location(0) vec4f {
-    let texel = mapped(in.uv, in.at);
-    let n = fragment_normal(in.p, in.n, front);
+    let c = coordinates(in.uv, in.at, -in.middle.z);
     let record = record_of(in.record);
     let color = clamp(in.color, vec4f(), vec4f(1.0));
+    let is_front = front || !TWO_SIDED;
+    var n = fragment_normal(in.p, in.n, front);
+    if NORMAL_MAP != NO_MAP {
+        let texel = filtered(normal_image, 6u, NORMAL_MAP, c);
+        n = mapped_normal(in.n, in.frame.xyz, in.frame.w, texel.xyz, placings.each[6].row0.w, n);
+    } else if HEIGHT_MAP != NO_MAP {
+        let along = gradient(height_image, 7u, HEIGHT_MAP, place_on(7u, HEIGHT_MAP, c), level_on(7u, HEIGHT_MAP, c));
+        let right = way_on(7u, of_set(HEIGHT_MAP, dpdx(in.at)));
+        let down = way_on(7u, of_set(HEIGHT_MAP, dpdy(in.at)));
+        let rises = placings.each[7].row0.w * vec2f(dot(along, right), dot(along, down));
+        n = bumped_normal(in.n, in.frame.xyz, dpdx(in.middle), dpdy(in.middle), rises, n);
+    }
     var material = draws[record].front;
-    var emission = draws[record].front_emission;
-    var interpolated_terms = interpolated(in.front);
-    var side = n;
-    if TWO_SIDED && !front {
+    var terms_of_vertices = interpolated(in.front);
+    var ambient_of_vertices = interpolated(in.front_ambient);
+    if !is_front {
         material = draws[record].back;
-        emission = draws[record].back_emission;
-        interpolated_terms = interpolated(in.back);
-        side = -n;
+        terms_of_vertices = interpolated(in.back);
+        ambient_of_vertices = interpolated(in.back_ambient);
+        n = -n;
     }
-    let terms = fragment_terms(in.p, side, material.shininess, record);
-    var shade = parts(terms, material, emission, color);
+    var exponent = material.shininess;
+    if SHININESS_MAP != NO_MAP {
+        exponent *= channel_of(SHININESS_MAP, factor(shininess_image, 4u, SHININESS_MAP, c));
+    }
+    let terms = fragment_terms(in.p, n, exponent, record);
+    var sums = parts(terms, material, color.rgb);
     if VERTEX_DIFFUSE {
-        shade.tinted += vec4f(interpolated_terms, 0.0);
+        sums.ambient += ambient_of_vertices;
+        sums.diffuse += terms_of_vertices;
     } else {
-        shade.plain += interpolated_terms;
+        sums.specular += terms_of_vertices;
     }
-    return output(shade.tinted, shade.plain, texel);
+    return output(sums, color.a, record, is_front, c);
 }

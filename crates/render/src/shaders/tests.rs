@@ -1,7 +1,7 @@
 //! The texts are valid file by file, and the records lie as the texts read them.
 
 use crate::device::provoking_vertex::ProvokingVertex;
-use crate::draw::maps::PlacingRecord;
+use crate::draw::maps::{PlacingRecord, PlacingsRecord};
 use crate::shaders::light_slots::BOUND_LIGHTS;
 use crate::shaders::records::{DrawRecord, INSTANCE, InstanceRecord, LightRecord, MaterialRecord, ViewRecord};
 use crate::shaders::text::{LightText, SurfaceText, Text};
@@ -164,6 +164,7 @@ fn where_an_image_lies_is_read_as_it_is_written() {
     let text = Text { lights: LightText::Few, surface: SurfaceText::Mapped };
     let module = valid(&text.files().concat()).expect("a valid text");
     assert_eq!(members(&module, "Placing"), fields!(PlacingRecord { row0, row1, levels, level }));
+    assert_eq!(members(&module, "Placings"), fields!(PlacingsRecord { cutoff, each }));
 }
 
 #[test]

@@ -3,6 +3,7 @@
 use crate::device::gpu::Gpu;
 use crate::shaders::light_slots::BOUND_LIGHTS;
 use crate::shaders::records::{LightRecord, RECORD_BYTES};
+use halfway_texture::MapKind;
 use std::sync::OnceLock;
 
 /// How the text reads records and lights. Each is a text of its own, since a driver spends time and memory on what a
@@ -31,7 +32,7 @@ pub(crate) enum SurfaceText {
     Plain,
     /// Materials, and colors of the vertices.
     Colored,
-    /// Materials, an image, and colors of the vertices, white where there are none.
+    /// Materials, images, a mask, and colors of the vertices, white where there are none.
     Mapped,
 }
 
@@ -39,7 +40,7 @@ pub(crate) enum SurfaceText {
 pub(crate) struct Shader {
     pub(crate) module: wgpu::ShaderModule,
     pub(crate) bindings: wgpu::BindGroupLayout,
-    /// Those of an image.
+    /// Those of images.
     pub(crate) map_bindings: Option<wgpu::BindGroupLayout>,
     pub(crate) layout: wgpu::PipelineLayout,
 }
@@ -54,7 +55,7 @@ impl Shaders {
         self.0[lights as usize].iter().find_map(OnceLock::get)
     }
 
-    /// The layout of an image's bindings, once a text has it.
+    /// The layout of the bindings of images, once a text has it.
     pub(crate) fn map_bindings(&self) -> Option<&wgpu::BindGroupLayout> {
         let mut mapped = self.0.iter().filter_map(|of| of[SurfaceText::Mapped as usize].get());
         mapped.find_map(|shader| shader.map_bindings.as_ref())
@@ -72,11 +73,11 @@ impl SurfaceText {
     /// All of them.
     pub(crate) const ALL: [Self; 3] = [Self::Plain, Self::Colored, Self::Mapped];
 
-    fn file(self) -> &'static str {
+    fn files(self) -> &'static [&'static str] {
         match self {
-            Self::Plain => include_str!("plain.wgsl"),
-            Self::Colored => include_str!("colored.wgsl"),
-            Self::Mapped => include_str!("mapped.wgsl"),
+            Self::Plain => &[include_str!("plain.wgsl")],
+            Self::Colored => &[include_str!("colored.wgsl")],
+            Self::Mapped => &[include_str!("maps.wgsl"), include_str!("mapped.wgsl")],
         }
     }
 }
@@ -85,7 +86,7 @@ impl Text {
     /// The files that it is put together of, end to end. Each needs only those before it, so that it is valid WGSL with
     /// them; `lighting.wgsl` needs none.
     pub(crate) fn files(self) -> Vec<&'static str> {
-        [self.lights.files(), &[self.surface.file()]].concat()
+        [self.lights.files(), self.surface.files()].concat()
     }
 }
 
@@ -143,8 +144,18 @@ impl Shader {
 }
 
 fn map_bindings(gpu: &Gpu) -> wgpu::BindGroupLayout {
-    let image = wgpu::BindGroupLayoutEntry {
+    let placings = wgpu::BindGroupLayoutEntry {
         binding: 0,
+        visibility: wgpu::ShaderStages::FRAGMENT,
+        ty: wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Uniform,
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        },
+        count: None,
+    };
+    let image = |slot: usize| wgpu::BindGroupLayoutEntry {
+        binding: slot as u32 + 1,
         visibility: wgpu::ShaderStages::FRAGMENT,
         ty: wgpu::BindingType::Texture {
             // The filters are the shader's, so that they are the same everywhere.
@@ -154,16 +165,6 @@ fn map_bindings(gpu: &Gpu) -> wgpu::BindGroupLayout {
         },
         count: None,
     };
-    let placing = wgpu::BindGroupLayoutEntry {
-        binding: 1,
-        visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
-        ty: wgpu::BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Uniform,
-            has_dynamic_offset: false,
-            min_binding_size: None,
-        },
-        count: None,
-    };
-    gpu.device
-        .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("a map"), entries: &[image, placing] })
+    let entries: Vec<_> = std::iter::once(placings).chain((0..MapKind::COUNT).map(image)).collect();
+    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("maps"), entries: &entries })
 }

@@ -1,7 +1,7 @@
 //! The material of a model, whichever format it came in.
 
-use halfway_lighting::{Faces, InvalidValue, Material};
-use halfway_mesh::{AlphaMode, MetallicRoughness, MtlMaterial, SourceMaterial};
+use halfway_lighting::{Faces, InvalidValue, Mask, Material};
+use halfway_mesh::{AlphaMode, MetallicRoughness, MtlMaterial, SourceMapKind, SourceMaterial};
 
 use super::metallic_roughness::from_metallic_roughness;
 use super::mtl::from_mtl;
@@ -15,6 +15,9 @@ pub struct ModelMaterial {
     pub faces: Faces,
     /// Whether the file asks for blending. An MTL file cannot; whoever shows it has to.
     pub blend: bool,
+    /// The opacity below which the surface is not there, where the file says so: glTF's `alphaCutoff`; of an MTL material with
+    /// a `map_d` 0.5, since such images mostly cut something out.
+    pub mask: Option<f32>,
 }
 
 impl ModelMaterial {
@@ -32,7 +35,8 @@ impl ModelMaterial {
     fn of_mtl(mtl: &MtlMaterial) -> Result<(Self, Vec<String>), InvalidValue> {
         let (material, warnings) = from_mtl(mtl)?;
         let warnings = warnings.iter().map(ToString::to_string).collect();
-        Ok((Self { material, faces: Faces::Front, blend: false }, warnings))
+        let mask = mtl.maps.get(SourceMapKind::Opacity).map(|_| Mask::default().0);
+        Ok((Self { material, faces: Faces::Front, blend: false, mask }, warnings))
     }
 
     fn of_gltf(gltf: &MetallicRoughness) -> Result<Self, InvalidValue> {
@@ -40,8 +44,11 @@ impl ModelMaterial {
         Ok(Self {
             material,
             faces: if gltf.double_sided { Faces::Both } else { Faces::Front },
-            // What a mask cuts away has opacity 0, which shows only where it is blended.
-            blend: gltf.alpha == AlphaMode::Blend || material.opacity == 0.0,
+            blend: gltf.alpha == AlphaMode::Blend,
+            mask: match gltf.alpha {
+                AlphaMode::Mask { cutoff } => Some(cutoff),
+                AlphaMode::Opaque | AlphaMode::Blend => None,
+            },
         })
     }
 }

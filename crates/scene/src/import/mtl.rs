@@ -2,7 +2,7 @@
 
 use bevy_color::LinearRgba;
 use halfway_lighting::{Fields, InvalidValue, Material};
-use halfway_mesh::MtlMaterial;
+use halfway_mesh::{MtlMaterial, SourceMapKind};
 
 use super::warning::Warning;
 
@@ -20,8 +20,8 @@ const OPACITY_SLACK: f32 = 0.015;
 /// |---|---|---|---|
 /// | `Ka` | ambient | 0.2 grey | negative, NaN, above 10¹² |
 /// | `Kd` | diffuse | 0.8 grey | same |
-/// | `Ks` | specular | black: no highlight | same |
-/// | `Ke` | emission | black | same |
+/// | `Ks` | specular | black: no highlight; white with a `map_Ks` | same |
+/// | `Ke` | emission | black; white with a `map_Ke` | same |
 /// | `Ns` | shininess | 32, with a warning where there is a highlight | negative, not finite |
 /// | `d` | opacity; above 1 taken as 1 with a warning | 1 − `Tr` | negative, not finite |
 /// | `Tr` | 1 − opacity; above 1 taken as 1 with a warning | 0 | negative, not finite |
@@ -45,11 +45,13 @@ pub fn from_mtl(mtl: &MtlMaterial) -> Result<(Material, Vec<Warning>), InvalidVa
     check(mtl)?;
     let mut warnings = Vec::new();
     let color = |key: Option<[f32; 3]>, missing| key.map_or(missing, |[r, g, b]| LinearRgba::rgb(r, g, b));
+    // An image without a factor is to be seen.
+    let mapped = |kind, missing| if mtl.maps.get(kind).is_some() { LinearRgba::WHITE } else { missing };
     let mut material = Material {
         ambient: color(mtl.ka, Material::DEFAULT.ambient),
         diffuse: color(mtl.kd, Material::DEFAULT.diffuse),
-        specular: color(mtl.ks, Material::DEFAULT.specular),
-        emission: color(mtl.ke, Material::DEFAULT.emission),
+        specular: color(mtl.ks, mapped(SourceMapKind::Specular, Material::DEFAULT.specular)),
+        emission: color(mtl.ke, mapped(SourceMapKind::Emission, Material::DEFAULT.emission)),
         shininess: mtl.ns.unwrap_or(Material::DEFAULT.shininess),
         opacity: opacity(mtl, &mut warnings),
     };

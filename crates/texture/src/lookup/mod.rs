@@ -18,6 +18,7 @@ use num_traits::Float;
 
 use self::footprint::FootprintShape;
 use crate::halves::Level;
+use crate::maps::Channel;
 use crate::pyramid::Pyramid;
 use crate::sampling::{LevelFilter, Sampling, TexelFilter, Wrap};
 
@@ -40,6 +41,9 @@ pub trait Number: Float + Debug + Send + Sync + 'static {
     /// The angle of the point (`x`, self), in −π to π, likewise.
     #[must_use]
     fn arc_tangent(self, x: Self) -> Self;
+    /// 2 to this power, equal to the bit on every machine.
+    #[must_use]
+    fn binary_power(self) -> Self;
 }
 
 impl Number for f32 {
@@ -66,6 +70,10 @@ impl Number for f32 {
     fn arc_tangent(self, x: Self) -> Self {
         libm::atan2f(self, x)
     }
+
+    fn binary_power(self) -> Self {
+        libm::exp2f(self)
+    }
 }
 
 impl Number for f64 {
@@ -91,6 +99,10 @@ impl Number for f64 {
 
     fn arc_tangent(self, x: Self) -> Self {
         libm::atan2(self, x)
+    }
+
+    fn binary_power(self) -> Self {
+        libm::exp2(self)
     }
 }
 
@@ -156,6 +168,26 @@ fn finite<T: Number>(x: T) -> T {
 /// The part `part` of the way from `a` to `b`.
 fn mixed<T: Number>(a: [T; 4], b: [T; 4], part: T) -> [T; 4] {
     std::array::from_fn(|channel| a[channel] + part * (b[channel] - a[channel]))
+}
+
+/// How one number of an image changes along u and along v at a point of this D, per unit of u and v: the difference half a
+/// texel of the level to either side. In one level and with a bilinear filter that is the derivative of the quadratic
+/// B-spline through the texels, which has no steps.
+pub fn gradient<T: Number>(pyramid: &Pyramid, sampling: &Sampling, uv: [T; 2], d: T, channel: Channel) -> [T; 2] {
+    let reduced = sampling.levels != LevelFilter::None && d > T::zero();
+    let last = T::of((pyramid.levels().len() - 1) as f64);
+    let texel = if reduced { d.min(last).binary_power() } else { T::one() };
+    let number = |uv: [T; 2]| at_level(pyramid, sampling, uv, d)[channel as usize];
+    let sides = pyramid.size();
+    std::array::from_fn(|axis| {
+        let across = texel / T::of(sides[axis].into());
+        let half = |sign: f64| {
+            let mut there = uv;
+            there[axis] = there[axis] + T::of(sign) * across;
+            number(there)
+        };
+        (half(0.5) - half(-0.5)) / across
+    })
 }
 
 /// What one level has at a point.

@@ -1,16 +1,49 @@
-//! The images of base color textures.
+//! The images of textures.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
 use std::sync::Arc;
 
 use gltf::image::Source;
+use gltf::json::extensions::texture::TextureTransform;
 use gltf::texture::{Info, MagFilter, MinFilter, WrappingMode};
+use serde_json::Value;
 
 use super::buffers::from_uri;
 use super::fault::Fault;
 use crate::files::source::ModelFolder;
 use crate::{SourceLevels, SourceMap, SourceWrap};
+
+/// The extension that says where texture coordinates lie on an image.
+pub(super) const TRANSFORM: &str = "KHR_texture_transform";
+
+/// How a material looks an image up.
+pub(super) struct Lookup {
+    pub(super) set: u32,
+    pub(super) transform: Option<TexturePlace>,
+    pub(super) amount: f32,
+}
+
+/// Where texture coordinates lie on an image, and which they are where the extension says so.
+pub(super) struct TexturePlace {
+    offset: [f32; 2],
+    rotation: f32,
+    scale: [f32; 2],
+    set: Option<u32>,
+}
+
+impl TexturePlace {
+    pub(super) fn of_info(info: &Info) -> Option<Self> {
+        let of = info.texture_transform()?;
+        Some(Self { offset: of.offset(), rotation: of.rotation(), scale: of.scale(), set: of.tex_coord() })
+    }
+
+    /// Of textures whose transform the library leaves to others.
+    pub(super) fn of_value(value: &Value) -> Option<Self> {
+        let TextureTransform { offset, rotation, scale, tex_coord, .. } = serde_json::from_value(value.clone()).ok()?;
+        Some(Self { offset: offset.0, rotation: rotation.0, scale: scale.0, set: tex_coord })
+    }
+}
 
 /// Reads each image that is asked for once; what cannot be read is a warning.
 pub(super) struct Images<'a> {
@@ -27,13 +60,17 @@ impl<'a> Images<'a> {
         Self { buffers, around, read: HashMap::new(), warnings: Vec::new(), used: Vec::new() }
     }
 
-    /// The base color texture of a material.
-    pub(super) fn map(&mut self, material: usize, info: &Info) -> Option<SourceMap> {
-        let (texture, transform) = (info.texture(), info.texture_transform());
-        let set = transform.as_ref().and_then(gltf::texture::TextureTransform::tex_coord).unwrap_or(info.tex_coord());
-        if set != 0 {
+    /// A texture of a material, and what it is to that.
+    pub(super) fn map(
+        &mut self,
+        (material, field): (usize, &str),
+        texture: &gltf::Texture,
+        Lookup { set, transform, amount }: &Lookup,
+    ) -> Option<SourceMap> {
+        let set = transform.as_ref().and_then(|placed| placed.set).unwrap_or(*set);
+        if set > 1 {
             self.warnings.push(format!(
-                "materials[{material}]: the base color texture is skipped, since it takes the texture coordinates {set}"
+                "materials[{material}]: the {field} texture is skipped, since it takes the texture coordinates {set}"
             ));
             return None;
         }
@@ -66,10 +103,12 @@ impl<'a> Images<'a> {
             smooth: sampler.mag_filter() != Some(MagFilter::Nearest),
             smooth_levels,
             levels,
+            uv_set: set as usize,
+            amount: *amount,
             ..SourceMap::new(name, bytes)
         };
-        if let Some(transform) = transform {
-            (map.offset, map.rotation, map.scale) = (transform.offset(), transform.rotation(), transform.scale());
+        if let Some(TexturePlace { offset, rotation, scale, .. }) = *transform {
+            (map.offset, map.rotation, map.scale) = (offset, rotation, scale);
         }
         Some(map)
     }

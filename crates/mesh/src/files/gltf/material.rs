@@ -2,10 +2,11 @@
 
 use gltf::Document;
 use gltf::material::AlphaMode as GltfAlphaMode;
+use gltf::texture::Info;
 
 use super::fault::{Fault, check_finite};
-use super::images::Images;
-use crate::{AlphaMode, MetallicRoughness, SourceMaterial};
+use super::images::{Images, Lookup, TRANSFORM, TexturePlace};
+use crate::{AlphaMode, MetallicRoughness, SourceMapKind, SourceMaps, SourceMaterial};
 
 /// All materials of the document, in its order.
 pub(super) fn materials(document: &Document, images: &mut Images) -> Result<Vec<SourceMaterial>, Fault> {
@@ -26,7 +27,7 @@ pub(super) fn materials(document: &Document, images: &mut Images) -> Result<Vec<
                     GltfAlphaMode::Mask => AlphaMode::Mask { cutoff: material.alpha_cutoff().unwrap_or(0.5) },
                     GltfAlphaMode::Blend => AlphaMode::Blend,
                 },
-                color_map: pbr.base_color_texture().and_then(|info| images.map(index, &info)),
+                maps: maps(index, &material, images),
             };
             check(index, &found)?;
             Ok(SourceMaterial::MetallicRoughness(found))
@@ -34,17 +35,48 @@ pub(super) fn materials(document: &Document, images: &mut Images) -> Result<Vec<
         .collect()
 }
 
+fn maps(index: usize, material: &gltf::Material, images: &mut Images) -> SourceMaps {
+    let plain = |info: &Info| Lookup { set: info.tex_coord(), transform: TexturePlace::of_info(info), amount: 1.0 };
+    let (base, emission) = (material.pbr_metallic_roughness().base_color_texture(), material.emissive_texture());
+    let mut found = SourceMaps::default();
+    let mut add = |kind, field, texture: gltf::Texture, lookup: Lookup| {
+        if let Some(map) = images.map((index, field), &texture, &lookup) {
+            found.insert(kind, map);
+        }
+    };
+    if let Some(info) = base {
+        add(SourceMapKind::Color, "base color", info.texture(), plain(&info));
+    }
+    if let Some(info) = emission {
+        add(SourceMapKind::Emission, "emissive", info.texture(), plain(&info));
+    }
+    if let Some(info) = material.occlusion_texture() {
+        let transform = info.extension_value(TRANSFORM).and_then(TexturePlace::of_value);
+        let lookup = Lookup { set: info.tex_coord(), transform, amount: info.strength() };
+        add(SourceMapKind::Occlusion, "occlusion", info.texture(), lookup);
+    }
+    if let Some(info) = material.normal_texture() {
+        let transform = info.extension_value(TRANSFORM).and_then(TexturePlace::of_value);
+        let lookup = Lookup { set: info.tex_coord(), transform, amount: info.scale() };
+        add(SourceMapKind::Normal, "normal", info.texture(), lookup);
+    }
+    found
+}
+
 fn check(index: usize, material: &MetallicRoughness) -> Result<(), Fault> {
     let cutoff = match material.alpha {
         AlphaMode::Mask { cutoff } => cutoff,
         _ => 0.0,
     };
-    let fields: [(&str, &[f32]); 5] = [
+    let amount = |kind| material.maps.get(kind).map_or(1.0, |map| map.amount);
+    let fields: [(&str, &[f32]); 7] = [
         ("baseColorFactor", &material.base_color),
         ("metallicFactor", &[material.metallic]),
         ("roughnessFactor", &[material.roughness]),
         ("emissiveFactor", &material.emissive),
         ("alphaCutoff", &[cutoff]),
+        ("occlusionTexture.strength", &[amount(SourceMapKind::Occlusion)]),
+        ("normalTexture.scale", &[amount(SourceMapKind::Normal)]),
     ];
     fields.iter().try_for_each(|(field, numbers)| check_finite(&|| format!("materials[{index}].{field}"), numbers))
 }

@@ -12,8 +12,8 @@ use super::fault::Fault;
 use crate::numbering::Numbering;
 use crate::{Mesh, MeshError};
 
-/// Bytes of a vertex (position, normal, uv, colour, tangent) and of an index in a mesh.
-const VERTEX: usize = 64;
+/// Bytes of a vertex (position, normal, two uvs, colour, tangent) and of an index in a mesh.
+const VERTEX: usize = 72;
 const INDEX: usize = 4;
 
 /// Makes meshes of primitives, each once, however many nodes show it.
@@ -54,7 +54,7 @@ impl<'a> Primitives<'a> {
         }
         if self.with_more > 0 {
             warnings.push(format!(
-                "of {} primitives only the first texture coordinates and colours are read",
+                "of {} primitives only the first two texture coordinates and the first colours are read",
                 self.with_more
             ));
         }
@@ -105,14 +105,15 @@ impl<'a> Primitives<'a> {
         };
         let normals = attribute(Semantic::Normals, &accessor::NORMAL, "normal")?;
         let uvs = attribute(Semantic::TexCoords(0), &accessor::TEXCOORD, "uv")?;
+        let second_uvs = attribute(Semantic::TexCoords(1), &accessor::TEXCOORD, "uv")?;
         let colors = attribute(Semantic::Colors(0), &accessor::COLOR, "colour")?;
         // Without normals of the file its tangents belong to others.
         let tangents = attribute(Semantic::Tangents, &accessor::TANGENT, "tangent")?.filter(|_| normals.is_some());
         self.without_normals += usize::from(normals.is_none());
         self.with_targets += usize::from(primitive.morph_targets().len() > 0);
-        let is_more = |semantic| matches!(semantic, Semantic::TexCoords(1..) | Semantic::Colors(1..));
+        let is_more = |semantic| matches!(semantic, Semantic::TexCoords(2..) | Semantic::Colors(1..));
         self.with_more += usize::from(primitive.attributes().any(|(semantic, _)| is_more(semantic)));
-        Ok(Attributes { normals, uvs, colors, tangents })
+        Ok(Attributes { normals, uvs, second_uvs, colors, tangents })
     }
 
     fn make(&mut self, element: &str, primitive: &Primitive<'a>) -> Result<Mesh, Fault> {
@@ -134,7 +135,8 @@ impl<'a> Primitives<'a> {
         };
         self.accessors.spend(&|| element.to_owned(), used * VERTEX + indices.len() * INDEX)?;
 
-        let Attributes { normals, uvs, colors, tangents } = self.attributes(element, primitive, vertices)?;
+        let Attributes { normals, uvs, second_uvs, colors, tangents } =
+            self.attributes(element, primitive, vertices)?;
         let (mesh, report) = Mesh::from_parts_reported(
             positions.floats(&which, Vec3::from_array),
             normals.map(|normals| normals.floats(&which, Vec3::from_array)),
@@ -145,6 +147,10 @@ impl<'a> Primitives<'a> {
         if report.replaced > 0 {
             self.warnings.push(format!("{element}: {} normals of zero length are replaced", report.replaced));
         }
+        let mesh = match second_uvs.map(|uvs| uvs.floats(&which, Vec2::from_array)) {
+            Some(uvs) => mesh.with_second_uvs(uvs).map_err(invalid)?,
+            None => mesh,
+        };
         let mesh = match colors.map(|colors| rgba(&colors, &which)) {
             Some(colors) => mesh.with_colors(colors).map_err(invalid)?,
             None => mesh,
@@ -162,6 +168,7 @@ impl<'a> Primitives<'a> {
 struct Attributes<'a> {
     normals: Option<Items<'a>>,
     uvs: Option<Items<'a>>,
+    second_uvs: Option<Items<'a>>,
     colors: Option<Items<'a>>,
     tangents: Option<Items<'a>>,
 }

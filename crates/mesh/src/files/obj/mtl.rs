@@ -1,19 +1,21 @@
 //! Wavefront MTL: the statements that describe a material's reflectance.
 
 use std::collections::HashMap;
+use std::iter::Peekable;
 use std::sync::Arc;
 
 use crate::files::LoadError;
 use crate::files::source::{ModelFolder, Reader};
 use crate::files::text::{Skipped, Statement, Statements, abridged};
-use crate::{MtlMaterial, SourceMap, SourceMaterial, SourceWrap};
+use crate::{MtlMaterial, SourceChannel, SourceMap, SourceMapKind, SourceMaterial, SourceWrap};
 
 /// Appends the materials of an MTL file; returns what was skipped.
 ///
 /// - `Ka Kd Ks Ke`: three finite numbers, or one for all three; spectra (`spectral`, `xyz`) are skipped with a warning.
 /// - `Ns d Tr`: one finite number; `d -halo` is skipped with a warning.
 /// - `illum`: a number from 0 to 255.
-/// - `map_Kd`: options `-s -o -clamp`, and a file; others are skipped with a warning. What cannot be read is a warning.
+/// - `map_Kd map_Ks map_Ke map_d map_Ns norm map_Bump` (also `map_bump`, `bump`): options `-s -o -clamp -imfchan`, of bumps
+///   `-bm`, and a file; others are skipped with a warning. What cannot be read is a warning.
 /// - Other textures are skipped with a warning, everything else in silence.
 pub(super) fn parse(
     reader: Reader,
@@ -32,11 +34,13 @@ pub(super) fn parse(
             }
             let begun = MtlMaterial { name: statement.rest.to_owned(), ..MtlMaterial::default() };
             materials.extend(material.replace(begun).map(SourceMaterial::Mtl));
-        } else if statement.keyword == "map_Kd" {
+        } else if let Some(kind) = map_kind(statement.keyword) {
             let Some(material) = &mut material else {
                 return Err(statement.unexpected("`newmtl` and a name before it is"));
             };
-            material.color_map = color_map(&statement, around, &mut images, &mut skipped).or(material.color_map.take());
+            if let Some(map) = map(&statement, kind, around, &mut images, &mut skipped) {
+                material.maps.insert(kind, map);
+            }
         } else if is_texture(statement.keyword) {
             skipped.add(statement.line, format!("the texture `{}` is skipped", statement.keyword));
         } else if matches!(statement.keyword, "Ka" | "Kd" | "Ks" | "Ke" | "Ns" | "d" | "Tr" | "illum") {
@@ -51,46 +55,111 @@ pub(super) fn parse(
     Ok(skipped.warnings(&path))
 }
 
+/// What the file's statements call the images that are read.
+fn map_kind(keyword: &str) -> Option<SourceMapKind> {
+    Some(match keyword {
+        "map_Kd" => SourceMapKind::Color,
+        "map_Ks" => SourceMapKind::Specular,
+        "map_Ke" => SourceMapKind::Emission,
+        "map_d" => SourceMapKind::Opacity,
+        "map_Ns" => SourceMapKind::Shininess,
+        "norm" => SourceMapKind::Normal,
+        "map_Bump" | "map_bump" | "bump" => SourceMapKind::Height,
+        _ => return None,
+    })
+}
+
+/// The options of an image.
+struct MapOptions {
+    scale: [f32; 2],
+    offset: [f32; 2],
+    clamp: bool,
+    amount: f32,
+    channel: Option<SourceChannel>,
+}
+
+impl MapOptions {
+    /// Takes them from the words of a statement.
+    fn read<'a>(
+        words: &mut Peekable<impl Iterator<Item = &'a str>>,
+        statement: &Statement,
+        kind: SourceMapKind,
+        skipped: &mut Skipped,
+    ) -> Self {
+        let mut options = Self { scale: [1.0; 2], offset: [0.0; 2], clamp: false, amount: 1.0, channel: None };
+        while let Some(option) = words.next_if(|word| word.starts_with('-') && word.parse::<f32>().is_err()) {
+            let mut numbers: Vec<f32> = Vec::new();
+            let most = match option {
+                "-s" | "-o" | "-t" => 3,
+                "-mm" => 2,
+                "-bm" | "-boost" | "-texres" => 1,
+                _ => 0,
+            };
+            while let Some(number) = words.peek().filter(|_| numbers.len() < most).and_then(|word| word.parse().ok()) {
+                numbers.push(number);
+                words.next();
+            }
+            let is_finite = numbers.iter().all(|number| number.is_finite());
+            let channel = |word: Option<&str>| match word {
+                Some("r") => Some(SourceChannel::Red),
+                Some("g") => Some(SourceChannel::Green),
+                Some("b") => Some(SourceChannel::Blue),
+                Some("m") => Some(SourceChannel::Alpha),
+                _ => None,
+            };
+            let is_known = match (option, &numbers[..]) {
+                ("-s" | "-o", [first, rest @ ..]) if is_finite => {
+                    let default = if option == "-s" { 1.0 } else { 0.0 };
+                    let pair = [*first, rest.first().copied().unwrap_or(default)];
+                    if option == "-s" {
+                        options.scale = pair;
+                    } else {
+                        options.offset = pair;
+                    }
+                    true
+                }
+                ("-bm", [amount]) if is_finite && kind == SourceMapKind::Height => {
+                    options.amount = *amount;
+                    true
+                }
+                ("-clamp", _) => {
+                    options.clamp = words.next() == Some("on");
+                    true
+                }
+                ("-imfchan", _) => {
+                    options.channel = channel(words.next());
+                    options.channel.is_some()
+                }
+                _ => {
+                    if most == 0 {
+                        words.next();
+                    }
+                    false
+                }
+            };
+            if !is_known {
+                let what = format!("the option `{}` of `{}` is skipped", abridged(option, ""), statement.keyword);
+                skipped.add(statement.line, what);
+            }
+        }
+        options
+    }
+}
+
 /// The image of a statement. v runs upward in the file, downward in a mesh.
-fn color_map(
+fn map(
     statement: &Statement,
+    kind: SourceMapKind,
     around: ModelFolder,
     images: &mut HashMap<String, Arc<[u8]>>,
     skipped: &mut Skipped,
 ) -> Option<SourceMap> {
     let mut words = statement.words().peekable();
-    let (mut scale, mut offset, mut clamp) = ([1.0_f32; 2], [0.0_f32; 2], false);
-    while let Some(option) = words.next_if(|word| word.starts_with('-') && word.parse::<f32>().is_err()) {
-        let mut numbers = Vec::new();
-        let most = match option {
-            "-s" | "-o" | "-t" => 3,
-            "-mm" => 2,
-            "-bm" | "-boost" | "-texres" => 1,
-            _ => 0,
-        };
-        while let Some(number) = words.peek().filter(|_| numbers.len() < most).and_then(|word| word.parse().ok()) {
-            numbers.push(number);
-            words.next();
-        }
-        let finite = |number: &f32| number.is_finite();
-        match (option, &numbers[..]) {
-            ("-s" | "-o", [first, rest @ ..]) if numbers.iter().all(finite) => {
-                let default = if option == "-s" { 1.0 } else { 0.0 };
-                let pair = [*first, rest.first().copied().unwrap_or(default)];
-                if option == "-s" { scale = pair } else { offset = pair }
-            }
-            ("-clamp", _) => clamp = words.next() == Some("on"),
-            _ => {
-                if most == 0 {
-                    words.next();
-                }
-                skipped.add(statement.line, format!("the option `{}` of `map_Kd` is skipped", abridged(option, "")));
-            }
-        }
-    }
+    let MapOptions { scale, offset, clamp, amount, channel } = MapOptions::read(&mut words, statement, kind, skipped);
+    let (line, keyword) = (statement.line, statement.keyword);
     let name = words.collect::<Vec<_>>().join(" ").replace('\\', "/");
     if name.is_empty() {
-        skipped.add(statement.line, "`map_Kd` without a file is skipped");
+        skipped.add(line, format!("`{keyword}` without a file is skipped"));
         return None;
     }
     let bytes = images.entry(name.clone()).or_insert_with(|| {
@@ -99,12 +168,12 @@ fn color_map(
         match read {
             Some(Ok(bytes)) => bytes.into(),
             Some(Err(error)) => {
-                skipped.add(statement.line, format!("the texture of `map_Kd` cannot be read: {error}"));
+                skipped.add(line, format!("the texture of `{keyword}` cannot be read: {error}"));
                 Arc::from([])
             }
             None => {
                 let name = abridged(&name, "");
-                skipped.add(statement.line, format!("the texture {name} is outside the folder of the model, not read"));
+                skipped.add(line, format!("the texture {name} is outside the folder of the model, not read"));
                 Arc::from([])
             }
         }
@@ -115,13 +184,15 @@ fn color_map(
         wrap: [wrap; 2],
         offset: [offset[0], 1.0 - scale[1] - offset[1]],
         scale,
+        amount,
+        channel,
         ..SourceMap::new(name, Arc::clone(bytes))
     })
 }
 
 fn is_texture(keyword: &str) -> bool {
     let is_map = keyword.strip_prefix("map_").is_some_and(|rest| rest.len() < 20);
-    is_map || matches!(keyword, "bump" | "disp" | "decal" | "refl" | "norm")
+    is_map || matches!(keyword, "disp" | "decal" | "refl")
 }
 
 fn set(material: &mut MtlMaterial, statement: &Statement, skipped: &mut Skipped) -> Result<(), LoadError> {

@@ -11,7 +11,7 @@ use super::file::{WriteError, replace};
 use super::quantise::{Grid, signed, unsigned};
 use crate::{
     AlphaMode, Mesh, MetallicRoughness, Model, MtlMaterial, Part, SourceCamera, SourceLight, SourceLightKind,
-    SourceMaterial, SourceProjection,
+    SourceMaps, SourceMaterial, SourceProjection,
 };
 
 const FLOAT: u32 = 5126;
@@ -108,8 +108,8 @@ impl Document {
         attributes.insert("POSITION".to_owned(), json!(positions));
         let normals = self.floats("VEC3", mesh.normals().iter().map(Vec3::to_array));
         attributes.insert("NORMAL".to_owned(), json!(normals));
-        if let Some(uvs) = mesh.uvs() {
-            attributes.insert("TEXCOORD_0".to_owned(), json!(self.floats("VEC2", uvs.iter().map(Vec2::to_array))));
+        for (set, uvs) in (0..2).filter_map(|set| Some((set, mesh.uv_set(set)?))) {
+            attributes.insert(format!("TEXCOORD_{set}"), json!(self.floats("VEC2", uvs.iter().map(Vec2::to_array))));
         }
         if let Some(colors) = mesh.colors() {
             attributes.insert("COLOR_0".to_owned(), json!(self.floats("VEC4", colors.iter().map(Vec4::to_array))));
@@ -140,14 +140,14 @@ impl Document {
             let tangents = tangents.iter().map(|t| direction(t.truncate().to_array(), signed(t.w)));
             attributes.insert("TANGENT".to_owned(), json!(self.shorts(SHORT, "VEC4", tangents, true)));
         }
-        if let Some(uvs) = mesh.uvs() {
+        for (set, uvs) in (0..2).filter_map(|set| Some((set, mesh.uv_set(set)?))) {
             let unit = uvs.iter().all(|uv| uv.min_element() >= 0.0 && uv.max_element() <= 1.0);
             let coordinates = if unit {
                 self.shorts(UNSIGNED_SHORT, "VEC2", uvs.iter().map(|uv| uv.to_array().map(unsigned)), true)
             } else {
                 self.floats("VEC2", uvs.iter().map(Vec2::to_array))
             };
-            attributes.insert("TEXCOORD_0".to_owned(), json!(coordinates));
+            attributes.insert(format!("TEXCOORD_{set}"), json!(coordinates));
         }
         if let Some(colors) = mesh.colors() {
             let unit = colors.iter().all(|c| c.min_element() >= 0.0 && c.max_element() <= 1.0);
@@ -359,6 +359,6 @@ fn metallic_roughness(mtl: &MtlMaterial) -> MetallicRoughness {
         emissive: mtl.ke.unwrap_or([0.0; 3]).map(|x| x.clamp(0.0, 1.0)),
         double_sided: false,
         alpha: if opacity < 1.0 { AlphaMode::Blend } else { AlphaMode::Opaque },
-        color_map: None,
+        maps: SourceMaps::default(),
     }
 }

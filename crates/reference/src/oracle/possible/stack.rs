@@ -5,7 +5,7 @@ use halfway_lighting::Faces;
 use super::covering::{CoveringGroup, coverings};
 use super::footprint::{Footprint, Zone};
 use super::range::{ColorRange, Possible};
-use super::values::SideColors;
+use super::values::{SideColors, cuts};
 use crate::oracle::gather::OracleScene;
 
 /// A side of a triangle that may be seen.
@@ -37,7 +37,9 @@ const MOST_COMBINATIONS: usize = 256;
 
 impl Stack {
     pub(super) fn new(scene: &OracleScene, footprints: Vec<Footprint>, shading: &[&Zone]) -> Self {
-        let coverings = coverings(scene, &footprints);
+        let mut coverings = coverings(scene, &footprints);
+        coverings.iter_mut().for_each(|covering| cut(scene, &footprints, covering, shading));
+        coverings.retain(|covering| !covering.members.is_empty());
         let is_blended = |covering: &&CoveringGroup| scene.solids[footprints[covering.members[0]].solid].blend;
         let (blended, opaque): (Vec<&CoveringGroup>, Vec<&CoveringGroup>) = coverings.iter().partition(is_blended);
         // The farthest point of each surface that cannot be missed.
@@ -170,6 +172,17 @@ impl Stack {
         let footprint = &self.footprints[layer.footprint];
         let in_two_passes = scene.solids[footprint.solid].faces == Faces::Both;
         (footprint.solid, layer.front && in_two_passes, footprint.triangle)
+    }
+}
+
+/// Leaves out what a mask has certainly cut out of a covering; what it may have cut out covers nothing for certain.
+fn cut(scene: &OracleScene, footprints: &[Footprint], covering: &mut CoveringGroup, shading: &[&Zone]) {
+    let ways: Vec<[bool; 2]> =
+        covering.members.iter().map(|member| cuts(scene, &footprints[*member], shading)).collect();
+    if ways.iter().any(|[may_be_cut, _]| *may_be_cut) {
+        (covering.is_certain, covering.is_single) = (false, false);
+        let mut ways = ways.iter();
+        covering.members.retain(|_| ways.next().is_some_and(|[_, may_be_there]| *may_be_there));
     }
 }
 

@@ -31,32 +31,53 @@ impl SideColors {
     /// between vertices is extreme at corners; a jump along a straight line has corners on both sides; and what curves in
     /// between does so by less than the bars of a judge, the area being a small part of a pixel.
     pub(super) fn new(scene: &OracleScene, footprint: &Footprint, front: bool, shading: &[&Zone]) -> Self {
-        let mut outline = match shading {
-            [_] => footprint.outline.clone(),
-            [first, .., last] => {
-                let whole = footprint.within(scene, last);
-                if covers(scene, &whole, last) { footprint.within(scene, first) } else { whole }
-            }
-            [] => Vec::new(),
-        };
-        if footprint.thin {
-            // Across it a renderer's slopes come from rounded corners alone: none of its colours is wrong.
-            outline = footprint.whole(scene);
-        } else if outline.is_empty() {
-            outline.clone_from(&footprint.outline);
-        }
-        outline.push(middle(&outline));
+        let outline = outline(scene, footprint, shading);
         let color = |corner: &FootprintCorner| color(scene, footprint, front, corner);
         let colors: Vec<Color> = outline.iter().map(color).collect();
         let range = ColorRange::of(colors.iter().copied());
         let solid = &scene.solids[footprint.solid];
         let jumps =
-            (solid.terms.has(Frequency::Fragment) || solid.map.is_some()) && jumps(&outline, &colors, &range, color);
-        let opacity = |corner: &FootprintCorner| scene.opacity(&hit(footprint, front, corner));
-        let opacities = || outline.iter().map(opacity);
-        let opacity = [opacities().fold(f64::INFINITY, f64::min), opacities().fold(0.0, f64::max)];
+            (solid.terms.has(Frequency::Fragment) || solid.maps.is_some()) && jumps(&outline, &colors, &range, color);
+        let opacity = extremes(&outline, |corner| scene.opacity(&hit(footprint, front, corner)));
         Self { range, opacity, jumps }
     }
+}
+
+/// The corners of the part of a triangle in which it is shaded, and its middle.
+fn outline(scene: &OracleScene, footprint: &Footprint, shading: &[&Zone]) -> Vec<FootprintCorner> {
+    let mut outline = match shading {
+        [_] => footprint.outline.clone(),
+        [first, .., last] => {
+            let whole = footprint.within(scene, last);
+            if covers(scene, &whole, last) { footprint.within(scene, first) } else { whole }
+        }
+        [] => Vec::new(),
+    };
+    if footprint.thin {
+        // Across it a renderer's slopes come from rounded corners alone: none of its colours is wrong.
+        outline = footprint.whole(scene);
+    } else if outline.is_empty() {
+        outline.clone_from(&footprint.outline);
+    }
+    outline.push(middle(&outline));
+    outline
+}
+
+/// Whether a mask may have cut a triangle out at a point near by, and whether it may not.
+pub(super) fn cuts(scene: &OracleScene, footprint: &Footprint, shading: &[&Zone]) -> [bool; 2] {
+    let Some(cutoff) = scene.solids[footprint.solid].mask else { return [false, true] };
+    let outline = outline(scene, footprint, shading);
+    let there = |corner: &FootprintCorner| scene.opacity_there(&hit(footprint, footprint.front, corner));
+    let [least, greatest] = extremes(&outline, there);
+    [least < cutoff + CUT, greatest >= cutoff - CUT]
+}
+
+/// Opacities this near to a cutoff may be on either side of it: above what filters in f32 are off by, some 10⁻⁵.
+const CUT: f64 = 5e-5;
+
+fn extremes(outline: &[FootprintCorner], number: impl Fn(&FootprintCorner) -> f64) -> [f64; 2] {
+    let numbers = || outline.iter().map(&number);
+    [numbers().fold(f64::INFINITY, f64::min), numbers().fold(0.0, f64::max)]
 }
 
 fn color(scene: &OracleScene, footprint: &Footprint, front: bool, corner: &FootprintCorner) -> Color {

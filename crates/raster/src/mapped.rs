@@ -1,0 +1,140 @@
+//! Triangles of draws with images, or of which a mask cuts something out. What they have is kept once a triangle and not once a
+//! pixel, so that other draws do not pay for it.
+
+use crate::attributes::{FRAME, GROUPS, OF_VERTICES, PARTS};
+use crate::lanes::{F, MOST_LANES, Simd, V3, each, splat, store_fours};
+use crate::lighting::{Irradiance, ambient_part, diffuse_part, specular_part};
+use crate::pass::SideData;
+use crate::planes::{CutCorner, Gradient, Planes, Slopes};
+use crate::state::{Stage, State};
+use crate::vertices::Vertices;
+
+/// I by what images multiply: the ambient, the diffuse and the specular part.
+pub(crate) type PartsOf = [[f32; 3]; 3];
+
+/// What a triangle's pixels take.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct MappedTriangle {
+    /// 1/w, by base, dx and dy.
+    pub(crate) inverse_w: [f32; 3],
+    pub(crate) groups: [Slopes; GROUPS],
+    /// Its own normal.
+    pub(crate) face: [f32; 3],
+    /// Of flat ones the parts, and the opacity of the vertices.
+    pub(crate) parts: PartsOf,
+    pub(crate) alpha: f32,
+}
+
+impl MappedTriangle {
+    /// One that lies near the tile, from the slopes of four numbers by their values at the corners.
+    #[inline(always)]
+    pub(crate) fn small(
+        vertices: &Vertices,
+        (numbers, back): ([usize; 3], bool),
+        (state, planes): (&State, &Planes),
+        mut slopes: impl FnMut([&[f32; 4]; 3]) -> Slopes,
+    ) -> Self {
+        let mut groups = [Slopes::default(); GROUPS];
+        for (number, group) in groups.iter_mut().enumerate().take(groups_of(state)) {
+            let side = back && is_of_side(state, number);
+            *group = slopes(numbers.map(|vertex| vertices.mapped.of(side, number, vertex)));
+        }
+        Self::with(&groups, planes)
+    }
+
+    /// Any other, by the corners that it was cut to.
+    pub(crate) fn large(
+        vertices: &Vertices,
+        (triangle, back): ([u8; 3], bool),
+        (state, planes): (&State, &Planes),
+        gradient: &Gradient,
+        corners: &[CutCorner; 3],
+    ) -> Self {
+        let mut groups = [Slopes::default(); GROUPS];
+        for (number, group) in groups.iter_mut().enumerate().take(groups_of(state)) {
+            let side = back && is_of_side(state, number);
+            let values = corners.map(|(inverse_w, weights)| {
+                let mut sum = [0.0_f64; 4];
+                for (corner, weight) in triangle.into_iter().zip(weights) {
+                    let vertex = usize::from(corner);
+                    let w = 1.0 / f64::from(vertices.inverse_w[vertex]);
+                    let over_w = vertices.mapped.of(side, number, vertex);
+                    for (sum, number) in sum.iter_mut().zip(over_w) {
+                        *sum += weight * w * f64::from(*number);
+                    }
+                }
+                sum.map(|number| (number * f64::from(inverse_w)) as f32)
+            });
+            *group = gradient.slopes(values.each_ref());
+        }
+        Self::with(&groups, planes)
+    }
+
+    fn with(groups: &[Slopes; GROUPS], planes: &Planes) -> Self {
+        let Slopes { base, dx, dy } = &planes.lead;
+        Self { inverse_w: [base[0], dx[0], dy[0]], groups: *groups, face: planes.face, ..Self::default() }
+    }
+}
+
+/// How many groups a state's triangles take.
+fn groups_of(state: &State) -> usize {
+    match state.stage {
+        Stage::Unlit | Stage::Flat => 2,
+        Stage::Vertex => PARTS + 3,
+        Stage::Fragment => FRAME + 1,
+        Stage::Mixed => GROUPS,
+    }
+}
+
+/// The parts of flat triangles, one a lane, front and back.
+pub(crate) struct FlatParts {
+    /// Ambient, diffuse, specular: a number that is the opacity of the vertices with the first, and three.
+    pub(crate) each: [[[[f32; 4]; MOST_LANES]; 3]; 2],
+}
+
+impl FlatParts {
+    pub(crate) fn new() -> Self {
+        Self { each: [[[[0.0; 4]; MOST_LANES]; 3]; 2] }
+    }
+
+    #[inline(always)]
+    pub(crate) fn store<S: Simd>(
+        &mut self,
+        simd: S,
+        terms: &Irradiance<S>,
+        side: &SideData,
+        back: bool,
+        own: Option<[F<S>; 4]>,
+    ) {
+        let one = splat(simd, 1.0);
+        let [r, g, b, alpha] = own.unwrap_or([one; 4]);
+        let parts = parts_of(simd, terms, side, [r, g, b]);
+        for (part, to) in parts.into_iter().zip(&mut self.each[usize::from(back)]) {
+            store_fours::<S>([alpha, part[0], part[1], part[2]], to, 0);
+        }
+    }
+
+    pub(crate) fn set(&self, triangle: &mut MappedTriangle, back: bool, lane: usize) {
+        let each = &self.each[usize::from(back)];
+        triangle.alpha = each[0][lane][0];
+        triangle.parts = each!(part in 3 => each!(c in 3 => each[part][lane][c + 1]));
+    }
+}
+
+#[inline(always)]
+pub(crate) fn parts_of<S: Simd>(simd: S, terms: &Irradiance<S>, side: &SideData, color: V3<S>) -> [V3<S>; 3] {
+    [
+        ambient_part(simd, terms, side, color, true),
+        diffuse_part(simd, terms, side, color),
+        specular_part(simd, terms, side),
+    ]
+}
+
+/// Which groups a state's sides have of their own.
+fn is_of_side(state: &State, group: usize) -> bool {
+    match state.stage {
+        Stage::Vertex => group >= PARTS,
+        Stage::Mixed => group >= OF_VERTICES,
+        Stage::Unlit | Stage::Flat | Stage::Fragment => false,
+    }
+}

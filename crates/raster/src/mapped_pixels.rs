@@ -1,0 +1,251 @@
+//! Pixels of draws with images or a mask.
+
+use crate::attributes::{AMBIENT_OF_VERTICES, COLOR, FRAME, NORMAL, OF_VERTICES, PARTS, UVS};
+use crate::bins::TILE;
+use crate::lanes::{F, I, M, Simd, V3, each, lanes, splat, splat_i, splat3};
+use crate::lighting::{Gloss, Irradiance, Points, to_viewer};
+use crate::look::Look;
+use crate::mapped::{MappedTriangle, PartsOf};
+use crate::pass::{MapCall, Pass, SideData};
+use crate::planes::Slopes;
+use crate::state::{Stage, State, StateMaps};
+use fearless_simd::prelude::*;
+use halfway_lighting::equations::{NORMAL_MIN, bumped_normal, mapped_normal};
+use halfway_texture::{MapKind, UvTransform, lookup};
+
+/// A pixel of a mapped triangle.
+struct MappedPixel<'a> {
+    triangle: &'a MappedTriangle,
+    maps: &'a StateMaps,
+    pass: &'a Pass<'a>,
+    /// In pixels from the tile's first.
+    place: [f32; 2],
+    w: f32,
+}
+
+/// Where a pixel lies on an image, and by how much that changes to the next, along x and along y.
+struct OnImage {
+    uv: [f32; 2],
+    footprint: [[f32; 2]; 2],
+    d: f32,
+}
+
+impl MappedPixel<'_> {
+    /// Four numbers.
+    fn group(&self, group: usize) -> [f32; 4] {
+        let Slopes { base, dx, dy } = &self.triangle.groups[group];
+        let [x, y] = self.place;
+        each!(k in 4 => (base[k] + dx[k] * x + dy[k] * y) * self.w)
+    }
+
+    fn three(&self, group: usize) -> [f32; 3] {
+        let [a, b, c, _] = self.group(group);
+        [a, b, c]
+    }
+
+    /// u/w, v/w and 1/w are linear over the picture: by the rule of quotients ∂u = w·(∂(u/w) − u·∂(1/w)).
+    fn on_image(&self, call: &MapCall) -> OnImage {
+        let data = &self.pass.maps[call.map as usize];
+        let Slopes { dx, dy, .. } = &self.triangle.groups[UVS];
+        let all = self.group(UVS);
+        let first = 2 * call.uv_set as usize;
+        let uv = [all[first], all[first + 1]];
+        let [_, wx, wy] = self.triangle.inverse_w;
+        let ways = [(dx, wx), (dy, wy)].map(|(slope, of_w)| {
+            let way = each!(k in 2 => self.w * (slope[first + k] - uv[k] * of_w));
+            each!(k in 2 => data.rows[k][0] * way[0] + data.rows[k][1] * way[1])
+        });
+        let uv = UvTransform::apply(&data.rows, uv);
+        OnImage { uv, footprint: ways, d: lookup::level(data.pyramid.size(), ways) }
+    }
+
+    /// What the filter makes of an image's texels, each number in 0 to 1.
+    fn texel(&self, call: &MapCall) -> [f32; 4] {
+        let OnImage { uv, d, .. } = self.on_image(call);
+        let data = &self.pass.maps[call.map as usize];
+        lookup::at_level(&data.pyramid, &call.sampling, uv, d).map(|number| number.clamp(0.0, 1.0))
+    }
+
+    /// What an image multiplies by: 1 where there is none.
+    fn factor(&self, kind: MapKind) -> [f32; 4] {
+        let Some(call) = &self.maps.calls[kind as usize] else { return [1.0; 4] };
+        let amount = self.pass.maps[call.map as usize].amount;
+        self.texel(call).map(|number| 1.0 + amount * (number - 1.0))
+    }
+
+    fn factor_of_one(&self, kind: MapKind) -> f32 {
+        self.maps.calls[kind as usize].map_or(1.0, |call| self.factor(kind)[call.channel as usize])
+    }
+
+    /// The opacity, without the material's.
+    fn opacity(&self, state: &State) -> f32 {
+        let of_vertices = if !state.colored {
+            1.0
+        } else if state.stage == Stage::Flat {
+            self.triangle.alpha
+        } else {
+            self.group(COLOR)[3].clamp(0.0, 1.0)
+        };
+        let has_own = self.maps.has(MapKind::Opacity);
+        of_vertices * if has_own { self.factor_of_one(MapKind::Opacity) } else { self.factor(MapKind::Color)[3] }
+    }
+
+    /// The interpolated normal as images turn it, of the front; `way` leads from the eye through the pixel, `steps` to the next.
+    fn normal(&self, state: &State, way: [f32; 3], steps: [f32; 2]) -> [f32; 3] {
+        let n = self.three(NORMAL);
+        let length = (n[0] * n[0] + n[1] * n[1] + n[2] * n[2]).sqrt();
+        let is_short = state.opposite_normals && length <= NORMAL_MIN;
+        let otherwise = if is_short { self.triangle.face } else { n.map(|x| x / length.max(f32::MIN_POSITIVE)) };
+        if let Some(call) = &self.maps.calls[MapKind::Normal as usize] {
+            let [r, g, b, _] = self.texel(call);
+            let [x, y, z, w] = self.group(FRAME);
+            let amount = self.pass.maps[call.map as usize].amount;
+            return mapped_normal(n, [x, y, z], w, [r, g, b], amount, otherwise);
+        }
+        let Some(call) = &self.maps.calls[MapKind::Height as usize] else { return otherwise };
+        let OnImage { uv, footprint, d } = self.on_image(call);
+        let data = &self.pass.maps[call.map as usize];
+        let [along_u, along_v] = lookup::gradient(&data.pyramid, &call.sampling, uv, d, call.channel);
+        let rises = footprint.map(|[u, v]| data.amount * (along_u * u + along_v * v));
+        // p = way·w, and ∂w = −w²·∂(1/w).
+        let [_, wx, wy] = self.triangle.inverse_w;
+        let along = [(0, wx), (1, wy)].map(|(axis, of_w)| {
+            let grown = -self.w * self.w * of_w;
+            let mut way = way.map(|x| x * grown);
+            way[axis] += steps[axis] * self.w;
+            way
+        });
+        bumped_normal(n, self.three(FRAME), along, rises, otherwise)
+    }
+}
+
+/// Pixels of mapped draws of one state: each names its triangle, or −1.
+pub(crate) struct MappedPixels<'a, S: Simd> {
+    pub(crate) triangles: &'a [MappedTriangle],
+    pub(crate) of: I<S>,
+    pub(crate) place: [F<S>; 2],
+    pub(crate) inverse_w: F<S>,
+}
+
+impl<S: Simd> MappedPixels<'_, S> {
+    fn pixel<'a>(&'a self, lane: usize, pass: &'a Pass<'a>, maps: &'a StateMaps) -> Option<MappedPixel<'a>> {
+        let triangle = self.triangles.get(usize::try_from(self.of[lane]).ok()?)?;
+        let place = [self.place[0][lane], self.place[1][lane]];
+        Some(MappedPixel { triangle, maps, pass, place, w: 1.0 / self.inverse_w[lane] })
+    }
+
+    /// Their opacities, the material's among them; 0 where there is no triangle.
+    #[inline(never)]
+    pub(crate) fn opacities(&self, simd: S, pass: &Pass, state: &State, back: bool) -> F<S> {
+        let mut opacities = splat(simd, 0.0);
+        let Some(maps) = &state.maps else { return opacities };
+        for lane in 0..lanes::<S>() {
+            if let Some(pixel) = self.pixel(lane, pass, maps) {
+                opacities[lane] = state.side(pass, back).opacity * pixel.opacity(state);
+            }
+        }
+        opacities
+    }
+
+    /// Whether the mask leaves them, where there is one.
+    pub(crate) fn are_there(&self, simd: S, pass: &Pass, state: &State, back: bool) -> M<S> {
+        let cutoff = state.maps.and_then(|maps| maps.mask).unwrap_or(f32::NEG_INFINITY);
+        self.opacities(simd, pass, state, back).simd_ge(splat(simd, cutoff))
+    }
+
+    /// Their colors.
+    #[inline(never)]
+    pub(crate) fn colors(&self, simd: S, look: &Look, state: &State, back: bool) -> V3<S> {
+        simd.vectorize(
+            #[inline(always)]
+            || self.colors_here(simd, look, state, back),
+        )
+    }
+
+    #[inline(always)]
+    fn colors_here(&self, simd: S, look: &Look, state: &State, back: bool) -> V3<S> {
+        let Some(maps) = &state.maps else { return splat3(simd, [0.0; 3]) };
+        let at_fragments = matches!(state.stage, Stage::Fragment | Stage::Mixed);
+        let lit = if at_fragments { self.lit(simd, look, state, maps, back) } else { Irradiance::none(simd) };
+        let side = state.side(look.pass, back);
+        let mut colors = splat3(simd, [0.0; 3]);
+        for lane in 0..lanes::<S>() {
+            let Some(pixel) = self.pixel(lane, look.pass, maps) else { continue };
+            let of_lights = [lit.ambient, lit.diffuse, lit.specular].map(|of| each!(c in 3 => of[c][lane]));
+            let [ambient, diffuse, specular] = parts(&pixel, state, side, of_lights);
+            let [color, shiny, glow] =
+                [MapKind::Color, MapKind::Specular, MapKind::Emission].map(|kind| pixel.factor(kind));
+            let occlusion = pixel.factor_of_one(MapKind::Occlusion);
+            for c in 0..3 {
+                let tinted = color[c] * (occlusion * ambient[c] + diffuse[c]);
+                colors[c][lane] = tinted + shiny[c] * specular[c] + glow[c] * side.emission[c];
+            }
+        }
+        colors
+    }
+
+    /// What lights bring to the pixels.
+    #[inline(always)]
+    fn lit(&self, simd: S, look: &Look, state: &State, maps: &StateMaps, back: bool) -> Irradiance<S> {
+        let w = splat(simd, 1.0) / self.inverse_w;
+        let way = each!(axis in 2 => {
+            let first = splat(simd, look.tile[axis] as f32 * TILE as f32);
+            let pixel = self.place[axis] + first;
+            pixel * splat(simd, look.screen.way_step[axis]) + splat(simd, look.screen.way_start[axis])
+        });
+        let mut n = splat3(simd, [0.0, 0.0, 1.0]);
+        let mut shares = splat(simd, 1.0);
+        for lane in 0..lanes::<S>() {
+            let Some(pixel) = self.pixel(lane, look.pass, maps) else { continue };
+            let turned = pixel.normal(state, [way[0][lane], way[1][lane], -1.0], look.screen.way_step);
+            for axis in 0..3 {
+                n[axis][lane] = if back { -turned[axis] } else { turned[axis] };
+            }
+            shares[lane] = pixel.factor_of_one(MapKind::Shininess);
+        }
+        let v = to_viewer(simd, [way[0], way[1], splat(simd, -1.0)], n, look.pass.local_viewer);
+        let points = Points::new(simd, [way[0] * w, way[1] * w, -w], n, v);
+        if !maps.has(MapKind::Shininess) {
+            return state.fragment_terms(simd, look.pass, &points, back);
+        }
+        // One exponent after the other.
+        let mut sum = Irradiance::none(simd);
+        let mut left = (!self.of.simd_lt(splat_i(simd, 0))).to_bitmask();
+        while left != 0 {
+            let share = shares[left.trailing_zeros() as usize];
+            let same = shares.simd_eq(splat(simd, share));
+            left &= !same.to_bitmask();
+            let exponent = state.side(look.pass, back).exponent * share;
+            let gloss = Gloss::new(state.highlight, exponent);
+            sum = sum.or(same, &state.fragment_terms_of(simd, look.pass, &points, gloss));
+        }
+        sum
+    }
+}
+
+/// The ambient, diffuse and specular part of a pixel; `lit` is what lights bring to it there.
+fn parts(pixel: &MappedPixel, state: &State, side: &SideData, lit: PartsOf) -> PartsOf {
+    // Across a triangle seen edge-on slopes leave the range of its corners.
+    let interpolated = |group| pixel.three(group).map(|x| x.max(0.0));
+    match state.stage {
+        Stage::Flat => return pixel.triangle.parts,
+        Stage::Vertex => return each!(part in 3 => interpolated(PARTS + part)),
+        Stage::Unlit | Stage::Fragment | Stage::Mixed => {}
+    }
+    let color = if state.colored { pixel.three(COLOR).map(|x| x.clamp(0.0, 1.0)) } else { [1.0; 3] };
+    let [mut ambient, mut diffuse, mut specular] = [
+        each!(c in 3 => color[c] * (side.base[c] + side.ambient[c] * lit[0][c])),
+        each!(c in 3 => color[c] * side.diffuse[c] * lit[1][c]),
+        each!(c in 3 => side.specular[c] * lit[2][c]),
+    ];
+    if state.stage == Stage::Mixed {
+        let of_vertices = interpolated(OF_VERTICES);
+        let to = if state.vertex.diffuse { &mut diffuse } else { &mut specular };
+        *to = each!(c in 3 => to[c] + of_vertices[c]);
+        if state.vertex.diffuse {
+            let of_vertices = interpolated(AMBIENT_OF_VERTICES);
+            ambient = each!(c in 3 => ambient[c] + of_vertices[c]);
+        }
+    }
+    [ambient, diffuse, specular]
+}
