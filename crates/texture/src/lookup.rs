@@ -11,9 +11,8 @@ use std::fmt::Debug;
 
 use num_traits::Float;
 
-use crate::maps::Channel;
 use crate::pyramid::{Level, Pyramid};
-use crate::sampling::{LevelFilter, Sampling, TexelFilter, Wrap};
+use crate::sampling::{Channel, LevelFilter, Sampling, TexelFilter, Wrap};
 
 /// The numbers that filters run in: `f32` and `f64`.
 pub trait Number: Float + Debug + Send + Sync + 'static {
