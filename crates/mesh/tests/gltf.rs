@@ -441,7 +441,7 @@ fn colours_and_tangents_are_kept() {
         let [second, third] = ["TEXCOORD_1", "TEXCOORD_2"].map(|name| (name, "VEC2", F32, false, 8, &positions[..24]));
         let model = attributes("", &[position, color, second, third]).unwrap();
         let coordinates = model.parts[0].mesh.uv_set(1).unwrap();
-        assert_eq!(coordinates, [Vec2::ZERO, Vec2::X, Vec2::ZERO]);
+        assert_eq!(coordinates, [Vec2::ZERO, Vec2::Y, Vec2::ZERO]);
         assert_eq!(model.parts[0].mesh.colors(), Some(&expected[..]), "{}", color.1);
         let warning =
             "of 1 primitives only the first two texture coordinates and the first colours are read".to_owned();

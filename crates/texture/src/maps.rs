@@ -10,7 +10,7 @@ use bevy_reflect::{Reflect, TypePath};
 
 use crate::decode::TexelMeaning;
 use crate::pyramid::Pyramid;
-use crate::sampling::Sampling;
+use crate::sampling::{Channel, Sampling};
 use crate::texels::TexelImage;
 use crate::uv::UvTransform;
 
@@ -113,21 +113,6 @@ pub enum UvSet {
     First,
     /// The second.
     Second,
-}
-
-/// The number of a texel that counts where one does.
-#[derive(Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[reflect(Clone, Debug, Default, PartialEq, Hash)]
-pub enum Channel {
-    /// The first; of a grey image any of three.
-    #[default]
-    Red,
-    /// The second.
-    Green,
-    /// The third.
-    Blue,
-    /// The fourth.
-    Alpha,
 }
 
 /// An image on a surface.

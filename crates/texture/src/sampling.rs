@@ -119,3 +119,18 @@ impl Sampling {
         levels: LevelFilter::None,
     };
 }
+
+/// The number of a texel that counts where one does.
+#[derive(Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[reflect(Clone, Debug, Default, PartialEq, Hash)]
+pub enum Channel {
+    /// The first; of a grey image any of three.
+    #[default]
+    Red,
+    /// The second.
+    Green,
+    /// The third.
+    Blue,
+    /// The fourth.
+    Alpha,
+}

@@ -8,6 +8,7 @@ mod draw;
 mod error;
 mod gather;
 mod layers;
+mod mapped;
 mod maps;
 mod mode;
 mod possible;

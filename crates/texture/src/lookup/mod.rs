@@ -18,9 +18,8 @@ use num_traits::Float;
 
 use self::footprint::FootprintShape;
 use crate::halves::Level;
-use crate::maps::Channel;
 use crate::pyramid::Pyramid;
-use crate::sampling::{LevelFilter, Sampling, TexelFilter, Wrap};
+use crate::sampling::{Channel, LevelFilter, Sampling, TexelFilter, Wrap};
 
 /// The numbers that filters run in: `f32` and `f64`.
 pub trait Number: Float + Debug + Send + Sync + 'static {

@@ -1,0 +1,88 @@
+//! What the images on an object have where it is seen.
+
+use bevy_math::{DVec3, DVec4};
+use halfway_lighting::equations::{bumped_normal, mapped_normal};
+use halfway_texture::{MapKind, lookup};
+
+use super::gather::OracleScene;
+use super::maps::SolidMap;
+use super::raster::Hit;
+use super::solid::{Color, Solid};
+
+/// Where on an image a hit lies: u and v, and by how much they change from a pixel to the next, along x and along y.
+struct PointOnMap {
+    uv: [f64; 2],
+    footprint: [[f64; 2]; 2],
+}
+
+impl OracleScene {
+    /// What the image of a kind multiplies by, channel by channel and, of the color, the opacity: 1 where there is none.
+    pub(super) fn factor(&self, hit: &Hit, kind: MapKind) -> [f64; 4] {
+        let Some((map, place)) = self.looked_up(hit, kind) else { return [1.0; 4] };
+        let texel = lookup::filtered(&map.pyramid, &map.sampling, place.uv, place.footprint);
+        texel.map(|number| 1.0 + map.amount * (number.clamp(0.0, 1.0) - 1.0))
+    }
+
+    /// The same of a kind of which one number counts.
+    pub(super) fn factor_of_one(&self, hit: &Hit, kind: MapKind) -> f64 {
+        let channel = self.solids[hit.solid].maps.as_ref().and_then(|maps| maps.slots[kind as usize].as_ref());
+        channel.map_or(1.0, |map| self.factor(hit, kind)[map.channel as usize])
+    }
+
+    /// What images multiply the opacity by.
+    pub(super) fn mapped_opacity(&self, hit: &Hit) -> f64 {
+        let maps = self.solids[hit.solid].maps.as_ref();
+        match maps.map(|maps| maps.slots[MapKind::Opacity as usize].is_some()) {
+            Some(true) => self.factor_of_one(hit, MapKind::Opacity),
+            _ => self.factor(hit, MapKind::Color)[3],
+        }
+    }
+
+    /// The normal of the front as the images turn it: from the interpolated one, and what stands for it where it vanishes or
+    /// nothing turns it.
+    pub(super) fn relief(&self, hit: &Hit, n: Color, otherwise: Color) -> Color {
+        let solid = &self.solids[hit.solid];
+        let (Some(maps), Some((triangle, weights))) = (&solid.maps, hit.on_triangle()) else { return otherwise };
+        let vertices = solid.vertices(triangle);
+        if let Some((map, place)) = self.looked_up(hit, MapKind::Normal) {
+            let texel = lookup::filtered(&map.pyramid, &map.sampling, place.uv, place.footprint);
+            let [r, g, b, _] = texel.map(|number| number.clamp(0.0, 1.0));
+            let t: DVec4 = (0..3).map(|i| maps.tangents[vertices[i]] * weights[i]).sum();
+            return mapped_normal(n, t.truncate().to_array(), t.w, [r, g, b], map.amount, otherwise);
+        }
+        let Some((map, place)) = self.looked_up(hit, MapKind::Height) else { return otherwise };
+        let d = lookup::level(map.pyramid.size(), place.footprint);
+        let [along_u, along_v] = lookup::gradient(&map.pyramid, &map.sampling, place.uv, d, map.channel);
+        let [a, b, c] = solid.triangle(triangle);
+        let uvs = vertices.map(|number| map.uvs[number]);
+        let rise = |k: usize| map.amount * (along_u * (uvs[k][0] - uvs[0][0]) + along_v * (uvs[k][1] - uvs[0][1]));
+        let m: DVec3 = (0..3).map(|i| maps.rises[vertices[i]] * weights[i]).sum();
+        bumped_normal(n, m.to_array(), [(b - a).to_array(), (c - a).to_array()], [rise(1), rise(2)], otherwise)
+    }
+
+    /// The image of a kind, and where on it a hit lies.
+    fn looked_up(&self, hit: &Hit, kind: MapKind) -> Option<(&SolidMap, PointOnMap)> {
+        let solid = &self.solids[hit.solid];
+        let map = solid.maps.as_ref()?.slots[kind as usize].as_ref()?;
+        let (triangle, weights) = hit.on_triangle()?;
+        Some((map, self.place(solid, map, triangle, weights, hit.depth)))
+    }
+
+    /// The footprint is a pixel's. On a triangle u = Σ uᵢVᵢ/Σ Vᵢ, Vᵢ the volume of the ray with the edge opposite to a corner,
+    /// which is linear over the picture: the derivative follows by the rule of quotients.
+    fn place(&self, solid: &Solid, map: &SolidMap, triangle: u32, weights: [f64; 3], depth: f64) -> PointOnMap {
+        let [a, b, c] = solid.triangle(triangle);
+        let uvs = solid.vertices(triangle).map(|number| map.uvs[number]);
+        let uv = [0, 1].map(|k| (0..3).map(|i| weights[i] * uvs[i][k]).sum::<f64>());
+        let [u, v, w] = weights;
+        let ray = (a * u + b * v + c * w) / depth;
+        let normals = [b.cross(c), c.cross(a), a.cross(b)];
+        let sum: f64 = normals.iter().map(|n| n.dot(ray)).sum();
+        let first = self.view.ray(0.0, 0.0);
+        let footprint = [self.view.ray(1.0, 0.0), self.view.ray(0.0, 1.0)].map(|next| {
+            let grown = normals.map(|n| n.dot(next - first));
+            [0, 1].map(|k| (0..3).map(|i| (uvs[i][k] - uv[k]) * grown[i]).sum::<f64>() / sum)
+        });
+        PointOnMap { uv, footprint }
+    }
+}
