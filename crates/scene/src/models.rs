@@ -177,7 +177,7 @@ impl<'a> Shapes<'a> {
             let maps = source.maps();
             let is_black = match source {
                 SourceMaterial::Mtl(mtl) => mtl.ke == Some([0.0; 3]),
-                SourceMaterial::MetallicRoughness(gltf) => gltf.emissive == [0.0; 3],
+                SourceMaterial::MetallicRoughness(gltf) => gltf.emissive.iter().all(|channel| *channel == 0.0),
             };
             let mut warn = |what: &str| self.warnings.push(format!("{file}: material {:?}: {what}", source.name()));
             if maps.get(SourceMapKind::Emission).is_some() && is_black {

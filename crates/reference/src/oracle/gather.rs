@@ -15,7 +15,7 @@ use halfway_mesh::{Mesh, Mesh3d, SpawnOrder};
 use halfway_texture::{Maps, Pyramid, SurfaceMap, Texture};
 
 use super::error::OracleError;
-use super::maps::MapLooks;
+use super::maps::ReadMap;
 use super::solid::{Color, Looks, Solid};
 use super::view::{PictureView, affine};
 
@@ -191,7 +191,7 @@ fn solid(
             let looks = |map: &SurfaceMap| {
                 let there = textures.and_then(|textures| textures.get(&map.texture));
                 let pyramid = there.map_or_else(Pyramid::missing, |texture| texture.0.clone());
-                MapLooks { pyramid, map: map.clone() }
+                ReadMap { pyramid, map: map.clone() }
             };
             maps.shown([0, 1].map(|set| mesh.uv_set(set).is_some())).map(|map| map.map(looks))
         }),

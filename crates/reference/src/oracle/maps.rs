@@ -6,7 +6,7 @@ use halfway_texture::{Channel, MapKind, Pyramid, Sampling, SurfaceMap, UvTransfo
 
 /// What the scene says of an image on an object.
 #[derive(Clone, Debug)]
-pub(super) struct MapLooks {
+pub(super) struct ReadMap {
     pub(super) pyramid: Pyramid,
     pub(super) map: SurfaceMap,
 }
@@ -36,9 +36,9 @@ pub(super) struct SolidMaps {
 }
 
 /// The mesh with what its images take besides coordinates: tangents, where there is a normal map and it has none.
-pub(super) fn prepared(mesh: Mesh, looks: &MapSlots<MapLooks>) -> Mesh {
+pub(super) fn prepared(mesh: Mesh, looks: &MapSlots<ReadMap>) -> Mesh {
     match &looks[MapKind::Normal as usize] {
-        Some(MapLooks { map, .. }) if mesh.tangents().is_none() => {
+        Some(ReadMap { map, .. }) if mesh.tangents().is_none() => {
             mesh.clone().with_tangents_of(map.uv_set as usize).unwrap_or(mesh)
         }
         _ => mesh,
@@ -49,14 +49,14 @@ impl SolidMaps {
     /// `None` where the mesh shows none.
     pub(super) fn new(
         mesh: &Mesh,
-        looks: &MapSlots<MapLooks>,
+        looks: &MapSlots<ReadMap>,
         eye_from_model: &DAffine3,
         mirrored: bool,
     ) -> Option<Self> {
         if looks.iter().all(Option::is_none) {
             return None;
         }
-        let slot = |MapLooks { pyramid, map }: &MapLooks| {
+        let slot = |ReadMap { pyramid, map }: &ReadMap| {
             let rows = map.transform.rows();
             let uvs = mesh.uv_set(map.uv_set as usize).unwrap_or_default().iter();
             SolidMap {

@@ -11,7 +11,7 @@ use halfway_mesh::Mesh;
 use halfway_texture::MapKind;
 use rayon::prelude::*;
 
-use super::maps::{MapLooks, MapSlots, SolidMaps, prepared};
+use super::maps::{MapSlots, ReadMap, SolidMaps, prepared};
 use super::mode::Mode;
 use crate::surface::Traced;
 
@@ -29,7 +29,7 @@ pub(super) struct Looks {
     /// Whether the colours at the vertices, if there are any, count.
     pub(super) colored: bool,
     /// The images that its mesh shows.
-    pub(super) maps: MapSlots<MapLooks>,
+    pub(super) maps: MapSlots<ReadMap>,
     /// The opacity below which it is not there.
     pub(super) mask: Option<f64>,
 }

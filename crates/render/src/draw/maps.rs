@@ -12,7 +12,7 @@ use halfway_texture::{Level, MapKind, Pyramid, Texture};
 
 /// The images that have been drawn, until they change or go, and the bindings of the frame's uses of them.
 #[derive(Default)]
-pub(crate) struct Maps {
+pub(crate) struct MapTextures {
     textures: HashMap<AssetId<Texture>, MapTexture>,
     groups: Vec<(MapsUse, Pyramids, wgpu::BindGroup)>,
     /// What is bound where there is no image.
@@ -27,7 +27,7 @@ struct MapTexture {
     view: wgpu::TextureView,
 }
 
-impl Maps {
+impl MapTextures {
     /// Sends the images that the frame shows and that are not there. What is too large is not drawn, and its error is in the
     /// report, every frame anew.
     pub(crate) fn send(

@@ -4,7 +4,7 @@ use crate::batch::batches::Batches;
 use crate::batch::draws::DrawState;
 use crate::batch::lit_patches::LitPatches;
 use crate::device::gpu::Gpu;
-use crate::draw::maps::Maps;
+use crate::draw::maps::MapTextures;
 use crate::error::RenderError;
 use crate::frame::report::FrameReport;
 use crate::lights::gather::Lights;
@@ -87,7 +87,7 @@ pub(crate) struct Buffers {
     instances: Mirrored,
     draws: Mirrored,
     groups: Groups,
-    pub(crate) maps: Maps,
+    pub(crate) maps: MapTextures,
 }
 
 /// Offsets of a draw's record, and of its lights where they are at fixed places.
@@ -128,7 +128,7 @@ impl Default for Buffers {
             instances: Mirrored::new("the instances", Usage::VERTEX),
             draws: Mirrored::new("the draws", Usage::INDIRECT),
             groups: Groups::default(),
-            maps: Maps::default(),
+            maps: MapTextures::default(),
         }
     }
 }

@@ -38,7 +38,9 @@ const MOST_COMBINATIONS: usize = 256;
 impl Stack {
     pub(super) fn new(scene: &OracleScene, footprints: Vec<Footprint>, shading: &[&Zone]) -> Self {
         let mut coverings = coverings(scene, &footprints);
-        coverings.iter_mut().for_each(|covering| cut(scene, &footprints, covering, shading));
+        for covering in &mut coverings {
+            cut(scene, &footprints, covering, shading);
+        }
         coverings.retain(|covering| !covering.members.is_empty());
         let is_blended = |covering: &&CoveringGroup| scene.solids[footprints[covering.members[0]].solid].blend;
         let (blended, opaque): (Vec<&CoveringGroup>, Vec<&CoveringGroup>) = coverings.iter().partition(is_blended);
