@@ -34,7 +34,7 @@ pub(crate) struct Options {
     /// Only how the time of a frame grows, on out/chart/scaling.html; docs/ stays as it is
     #[arg(long)]
     scaling: bool,
-    /// Only what filters of images cost and lose, on out/chart/filters.html; makes docs/filters.md again, but with --quick
+    /// Only what filters of images cost and lose, on out/chart/filters.html; in full also docs/filters.md
     #[arg(long, conflicts_with = "scaling")]
     filters: bool,
 }
