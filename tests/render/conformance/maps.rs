@@ -116,21 +116,17 @@ fn with_maps(kinds: &[(MapKind, f32)]) -> Scene {
     scene
 }
 
-/// Every kind by itself, and together.
-fn kinds() -> Vec<(&'static str, Vec<(MapKind, f32)>)> {
-    let all = [
-        (MapKind::Color, 0.9),
-        (MapKind::Specular, 1.0),
-        (MapKind::Emission, 1.0),
-        (MapKind::Opacity, 0.8),
-        (MapKind::Shininess, 0.9),
-        (MapKind::Occlusion, 0.7),
-        (MapKind::Normal, 0.6),
-    ];
-    let heights = (MapKind::Height, 0.04);
-    let each = all.into_iter().chain([heights]).map(|one| (one.0.name(), vec![one]));
-    each.chain([("all", all.to_vec()), ("all with heights", [&all[..6], &[heights]].concat())]).collect()
-}
+/// Every kind but heights, which are not beside normals.
+const ALL: [(MapKind, f32); 7] = [
+    (MapKind::Color, 0.9),
+    (MapKind::Specular, 1.0),
+    (MapKind::Emission, 1.0),
+    (MapKind::Opacity, 0.8),
+    (MapKind::Shininess, 0.9),
+    (MapKind::Occlusion, 0.7),
+    (MapKind::Normal, 0.6),
+];
+const HEIGHTS: (MapKind, f32) = (MapKind::Height, 0.04);
 
 const CIRCUMSTANCES: [Change; 8] = [
     ("one light", |_| ()),
@@ -157,10 +153,19 @@ const CIRCUMSTANCES: [Change; 8] = [
     }),
 ];
 
-/// Every kind of image under every way to shade.
+/// Every kind of image by itself under every way to shade.
 pub(super) fn rows_of_kinds() -> Vec<Row> {
+    rows_of(ALL.into_iter().chain([HEIGHTS]).map(|one| (one.0.name(), vec![one])))
+}
+
+/// All kinds together.
+pub(super) fn rows_of_all_kinds() -> Vec<Row> {
+    rows_of([("all", ALL.to_vec()), ("all with heights", [&ALL[..6], &[HEIGHTS]].concat())].into_iter())
+}
+
+fn rows_of(each: impl Iterator<Item = (&'static str, Vec<(MapKind, f32)>)>) -> Vec<Row> {
     let mut rows = Vec::new();
-    for (name, kinds) in kinds() {
+    for (name, kinds) in each {
         for (number, (what, change)) in CIRCUMSTANCES.iter().enumerate() {
             for (shading, shade) in SHADINGS {
                 // Each by itself in one case, and in all others where it makes a difference.

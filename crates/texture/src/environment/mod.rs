@@ -122,8 +122,8 @@ impl Environment {
     /// The light that a surface of this shininess α mirrors, arriving around the reflected direction: from the level whose
     /// texels are as wide as the lobe.
     ///
-    /// The lobe (r·l)^α, normalized over the hemisphere by (α + 1)/2π, has E[sin²θ] = 2/(α + 3), and so a variance of 1/(α + 3)
-    /// along each of two axes. A level of texels of the angle s, looked up bilinearly, has weights that are a box of the
+    /// The lobe (r·l)^α, normalized over the hemisphere by (α + 1)/2π, has the mean 2/(α + 3) of sin²θ, and so a variance of
+    /// 1/(α + 3) along each of two axes. A level of texels of the angle s, looked up bilinearly, has weights that are a box of the
     /// variance s²/12 beside a tent of s²/6: s²/4 in all. Both are alike where s = 2/√(α + 3), and D = log₂(s/[`angle`]).
     /// Of a Blinn–Phong exponent β, α is about β/4.
     ///
