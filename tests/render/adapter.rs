@@ -11,6 +11,16 @@ fn adapter() -> Adapter {
     choice().open().unwrap_or_else(|error| panic!("{error}"))
 }
 
+// `cargo xtask adapters` says what it means to test; the programs it runs choose by the variables that it sets.
+#[test]
+fn what_draws_is_what_is_tested() {
+    let tested = std::env::var("HALFWAY_TESTED_ADAPTER").unwrap_or_default();
+    let said = adapter().describe();
+    for part in tested.split_whitespace() {
+        assert!(said.contains(part), "{tested} is to be tested, and {said} draws");
+    }
+}
+
 #[test]
 fn the_grid_is_as_fine_as_the_driver_says() {
     let adapter = adapter();

@@ -24,7 +24,8 @@ use std::path::Path;
 ///    kernel shows a graphics card (`/dev/dri/renderD128`, say).
 ///
 /// The name `cpu` stands for the CPU without a driver ([`Cpu`]), `cpu:avx512`, `cpu:avx2`, `cpu:neon` and `cpu:plain` for the
-/// CPU with these vectors. The name `gpu` stands for any graphics adapter, hardware first, else a software one.
+/// CPU with these vectors. The name `gpu` stands for any graphics adapter, hardware first, else a software one; wgpu's
+/// variables limit which.
 ///
 /// Any other name is a part, in upper or lower case, of the adapter's name or of its backend's (`vulkan`, `metal`, `dx12`, `gl`
 /// or `opengl`), or both with a colon between: `vulkan:llvmpipe`, `gl:llvmpipe`. The name of a backend in full stands for
@@ -162,11 +163,7 @@ impl AdapterChoice {
     }
 
     fn wanted(&self, variable: impl Fn(&str) -> Option<String>) -> Wanted {
-        let given = self.given(&variable);
-        if given.as_deref().is_some_and(|text| text.eq_ignore_ascii_case(ANY)) {
-            return Wanted { name: None, rounds: ROUNDS.to_vec(), limited: None, hardware: false };
-        }
-        if let Some(text) = given {
+        if let Some(text) = self.given(&variable).filter(|text| !text.eq_ignore_ascii_case(ANY)) {
             let name = AdapterName::new(&text);
             let rounds = ROUNDS.map(|round| round & name.backends()).into_iter().filter(|round| !round.is_empty());
             return Wanted { rounds: rounds.collect(), name: Some(name), limited: None, hardware: false };
@@ -451,7 +448,10 @@ mod tests {
         assert_eq!(wanted(None, &all[1..2]), (None, vec![Backends::GL]));
         assert_eq!(wanted(None, &[]), (None, both.clone()));
         assert_eq!(wanted(Some(""), &[]), (None, both.clone()));
-        assert_eq!(wanted(Some("gpu"), &all), (None, both));
+        // Any graphics adapter: which of them, wgpu's variables say.
+        assert_eq!(wanted(Some("gpu"), &all), (named("c"), vec![Backends::GL]));
+        assert_eq!(wanted(None, &[("HALFWAY_ADAPTER", "GPU"), all[1]]), (None, vec![Backends::GL]));
+        assert_eq!(wanted(Some("gpu"), &[]), (None, both));
         // What a name leaves out is not asked.
         assert_eq!(wanted(Some("gl:a"), &[]).1, [Backends::GL]);
         assert_eq!(wanted(Some("vulkan"), &[]).1, [Backends::VULKAN]);

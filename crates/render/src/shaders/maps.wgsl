@@ -73,14 +73,21 @@ fn wrapped(u: f32, side: f32, wrap: u32) -> f32 {
     return clamp(u * side, -2.0, side + 2.0);
 }
 
+// Of 0 and above alone: the remainder of negative numbers is not one number on all drivers.
+fn remainder(at: i32, side: i32) -> i32 {
+    if at < 0 {
+        return side - 1 - (-1 - at) % side;
+    }
+    return at % side;
+}
+
 fn wrapped_index(at: i32, side: i32, wrap: u32) -> i32 {
     if wrap == 0u {
-        return (at % side + side) % side;
+        return remainder(at, side);
     }
     if wrap == 1u {
-        let period = 2 * side;
-        let there_and_back = (at % period + period) % period;
-        return min(there_and_back, period - 1 - there_and_back);
+        let there_and_back = remainder(at, 2 * side);
+        return min(there_and_back, 2 * side - 1 - there_and_back);
     }
     return clamp(at, 0, side - 1);
 }

@@ -105,8 +105,12 @@ impl Tests {
     }
 }
 
+/// What the tests are to draw with, as parts of what it says of itself: they fail where it is something else.
+const TESTED: &str = "HALFWAY_TESTED_ADAPTER";
+
 /// Every variable that chooses an adapter or its ways.
-const CHOICES: [&str; 8] = [
+const CHOICES: [&str; 9] = [
+    TESTED,
     "HALFWAY_ADAPTER",
     "HALFWAY_COSTS",
     "HALFWAY_SIMD",
@@ -162,6 +166,7 @@ impl Adapter {
         for choice in CHOICES {
             command.env_remove(choice);
         }
+        command.env(TESTED, self.says.join(" "));
         command.envs(self.variables.iter().map(|(name, value)| (name, value)))
     }
 
@@ -239,12 +244,12 @@ mod tests {
     #[test]
     fn an_adapter_is_chosen_by_its_own_variables_alone() {
         let adapter =
-            Adapter { name: "a", tests: Tests::Few, variables: vec![("WGPU_BACKEND", "gl".into())], says: ["", ""] };
+            Adapter { name: "a", tests: Tests::Few, variables: vec![("WGPU_BACKEND", "gl".into())], says: ["a", "(gl"] };
         let mut command = Command::new("program");
         adapter.lend(&mut command);
         let set: Vec<_> =
             command.get_envs().filter_map(|(name, value)| Some((name.to_str()?, value?.to_str()?))).collect();
-        assert_eq!(set, [("WGPU_BACKEND", "gl")]);
+        assert_eq!(set, [(TESTED, "a (gl"), ("WGPU_BACKEND", "gl")]);
         assert!(command.get_envs().any(|(name, value)| name == "HALFWAY_ADAPTER" && value.is_none()));
     }
 }
