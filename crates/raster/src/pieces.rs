@@ -28,9 +28,17 @@ pub struct Pieces {
     /// Corners as numbers of the piece's vertices.
     pub(crate) triangles: Vec<[u8; 3]>,
     index_count: u32,
-    /// A sphere around all.
+    /// Of all.
+    pub(crate) extent: Extent,
+}
+
+/// Where points lie, in model space: in a sphere, and in a box with the same center.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Extent {
     pub(crate) center: [f32; 3],
     pub(crate) radius: f32,
+    /// Half the box's sides.
+    pub(crate) half: [f32; 3],
 }
 
 /// Up to 64 triangles that lie close together.
@@ -41,9 +49,7 @@ pub(crate) struct Piece {
     pub(crate) first_vertex: u32,
     pub(crate) vertex_count: u32,
     pub(crate) triangles: Range<u32>,
-    /// A sphere around it, in model space.
-    pub(crate) center: [f32; 3],
-    pub(crate) radius: f32,
+    pub(crate) extent: Extent,
     /// Of its face normals the axis, and the sine and cosine of the largest angle to it; `None` where they spread wide.
     pub(crate) cone: Option<FaceCone>,
 }
@@ -133,7 +139,7 @@ impl Pieces {
                 available,
             });
         }
-        (pieces.center, pieces.radius) = sphere(positions.iter().copied());
+        pieces.extent = Extent::of(positions.iter().copied());
         Ok(pieces)
     }
 
@@ -330,7 +336,7 @@ impl<'a> Builder<'a> {
                 to.extend(used.map(|vertex| list[vertex][axis]));
             }
         }
-        let (center, radius) = sphere(self.used.iter().map(|&vertex| self.positions[vertex as usize]));
+        let extent = Extent::of(self.used.iter().map(|&vertex| self.positions[vertex as usize]));
         let end = pieces.triangles.len() as u32;
         reserve(&mut pieces.each, 1, "a mesh's pieces")?;
         pieces.each.push(Piece {
@@ -338,8 +344,7 @@ impl<'a> Builder<'a> {
             first_vertex: first_vertex as u32,
             vertex_count: self.used.len() as u32,
             triangles: end - of.len() as u32..end,
-            center,
-            radius,
+            extent,
             cone: cone(self.order[of].iter().map(|&triangle| self.points(triangle))),
         });
         self.used.clear();
@@ -347,25 +352,30 @@ impl<'a> Builder<'a> {
     }
 }
 
-/// A sphere around the center of the box of some points.
-fn sphere(points: impl Iterator<Item = [f32; 3]> + Clone) -> ([f32; 3], f32) {
-    let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
-    for point in points.clone() {
-        for axis in 0..3 {
-            low[axis] = low[axis].min(point[axis]);
-            high[axis] = high[axis].max(point[axis]);
+impl Extent {
+    /// That of some points. Lengths are rounded up.
+    pub(crate) fn of(points: impl Iterator<Item = [f32; 3]> + Clone) -> Self {
+        let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+        for point in points.clone() {
+            for axis in 0..3 {
+                low[axis] = low[axis].min(point[axis]);
+                high[axis] = high[axis].max(point[axis]);
+            }
+        }
+        if low[0] > high[0] {
+            return Self::default();
+        }
+        let center = [0, 1, 2].map(|axis| 0.5 * low[axis] + 0.5 * high[axis]);
+        let from_center = |p: [f32; 3]| [0, 1, 2].map(|axis| f64::from(p[axis]) - f64::from(center[axis]));
+        let rounded_up = |length: f64| (length * (1.0 + 1e-6)).min(f64::from(f32::MAX)) as f32;
+        let distance = |p| from_center(p).map(|x| x * x).iter().sum::<f64>().sqrt();
+        let [below, above] = [low, high].map(from_center);
+        Self {
+            center,
+            radius: rounded_up(points.map(distance).fold(0.0, f64::max)),
+            half: [0, 1, 2].map(|axis| rounded_up(above[axis].max(-below[axis]))),
         }
     }
-    if low[0] > high[0] {
-        return ([0.0; 3], 0.0);
-    }
-    let center = [0, 1, 2].map(|axis| 0.5 * low[axis] + 0.5 * high[axis]);
-    let distance = |p: [f32; 3]| {
-        let [x, y, z] = [0, 1, 2].map(|axis| f64::from(p[axis]) - f64::from(center[axis]));
-        (x * x + y * y + z * z).sqrt()
-    };
-    let radius = points.map(distance).fold(0.0, f64::max) * (1.0 + 1e-6);
-    (center, radius.min(f64::from(f32::MAX)) as f32)
 }
 
 /// The cone of the normals of some triangles, without those that have none.
@@ -457,10 +467,10 @@ mod tests {
         // 64 triangles are 32 cells of edge 1: at most 4 × 8 of them, with half a diagonal of 4.5, or 11 × 3.
         let pieces = cut(&Mesh::from(Plane { size: 64.0, divisions: 64 }));
         assert_eq!(pieces.each.len(), 2 * 64 * 64 / PIECE_TRIANGLES);
-        let largest = pieces.each.iter().map(|piece| piece.radius).fold(0.0, f32::max);
+        let largest = pieces.each.iter().map(|piece| piece.extent.radius).fold(0.0, f32::max);
         assert!(largest < 6.0, "{largest}");
         let sphere = cut(&Mesh::from(UvSphere { radius: 1.0, segments: 512, rings: 256 }));
-        let largest = sphere.each.iter().map(|piece| piece.radius).fold(0.0, f32::max);
+        let largest = sphere.each.iter().map(|piece| piece.extent.radius).fold(0.0, f32::max);
         assert!(sphere.each.len() < 4_200 && largest < 0.08, "{} pieces, {largest}", sphere.each.len());
     }
 }
