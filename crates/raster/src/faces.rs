@@ -1,93 +1,155 @@
-//! What triangles have of their own, as many at once as there are lanes: their normals, or what flat shading makes of them.
+//! What triangles have of their own: their normals, or what flat shading makes of them.
 
 use crate::lanes::{
-    F, MOST_LANES, Simd, V3, add, cross, each, load, max, neg, safe_normalize, scale, splat, store_fours, sub,
+    F, MOST_LANES, Simd, V3, add, cross, each, lanes, load, max, neg, safe_normalize, scale, splat, store_fours, sub,
 };
 use crate::lighting::{Points, reflected, tinted, to_viewer};
 use crate::mapped::FlatParts;
 use crate::pass::{InstanceData, Pass};
-use crate::pieces::{Piece, Pieces};
+use crate::pieces::{PIECE_TRIANGLES, Piece, Pieces};
 use crate::state::{Stage, State};
 use crate::vertices::{transformed, turned};
 use fearless_simd::prelude::*;
 
-/// Of each lane's triangle 0 and its own normal, or 0 and its color where the draw is flat, front and back. In place of 0
+/// Of each triangle of a piece 0 and its own normal, or 0 and its color where the draw is flat, front and back. In place of 0
 /// stands the vertices' mean opacity where they have colors.
-pub(crate) struct LaneFaces {
-    pub(crate) each: [[[f32; 4]; MOST_LANES]; 2],
+pub(crate) struct Faces {
+    pub(crate) each: [[[f32; 4]; PIECE_TRIANGLES]; 2],
     /// Of flat draws with images or a mask.
     pub(crate) parts: FlatParts,
 }
 
-impl LaneFaces {
-    pub(crate) fn new() -> Self {
-        Self { each: [[[0.0; 4]; MOST_LANES]; 2], parts: FlatParts::new() }
+/// The numbers of some triangles of a piece, at most so many as there are lanes.
+pub(crate) struct Together {
+    numbers: [u8; MOST_LANES],
+    count: usize,
+}
+
+impl Together {
+    /// Takes the first out of a set, bit k being the k-th triangle.
+    #[inline(always)]
+    fn first_of<S: Simd>(set: &mut u64) -> Self {
+        let mut these = Self { numbers: [0; MOST_LANES], count: 0 };
+        while *set != 0 && these.count < lanes::<S>() {
+            these.numbers[these.count] = set.trailing_zeros() as u8;
+            these.count += 1;
+            *set &= *set - 1;
+        }
+        these
     }
 
-    /// The lanes' triangles' own normals, or their colors where the draw is flat.
+    #[inline(always)]
+    fn each(&self) -> impl Iterator<Item = (usize, usize)> {
+        self.numbers[..self.count].iter().map(|&number| usize::from(number) % PIECE_TRIANGLES).enumerate()
+    }
+}
+
+/// Puts numbers that stand in lanes where their triangles have their place.
+#[inline(always)]
+pub(crate) fn spread<S: Simd>(numbers: [F<S>; 4], of: &Together, to: &mut [[f32; 4]; PIECE_TRIANGLES]) {
+    let mut fours = [[0.0; 4]; MOST_LANES];
+    store_fours::<S>(numbers, &mut fours, 0);
+    for (lane, number) in of.each() {
+        to[number] = fours[lane];
+    }
+}
+
+impl Faces {
+    pub(crate) fn new() -> Self {
+        Self { each: [[[0.0; 4]; PIECE_TRIANGLES]; 2], parts: FlatParts::new() }
+    }
+
+    /// The own normals of triangles, or their colors where the draw is flat. `fronts` and `backs` are those that may show
+    /// that side.
     #[inline(always)]
     pub(crate) fn fill<S: Simd>(
         &mut self,
         simd: S,
-        triangles: &[[u8; 3]],
         (mesh, piece): (&Pieces, &Piece),
         instance: &InstanceData,
         (pass, state): (&Pass, &State),
-        backs: bool,
+        [fronts, backs]: [u64; 2],
     ) {
-        let mut corners = [[[0.0; MOST_LANES]; 3]; 3];
-        for (lane, triangle) in triangles.iter().enumerate() {
-            for k in 0..3 {
-                let vertex = piece.first_vertex as usize + usize::from(triangle[k]);
-                for axis in 0..3 {
-                    corners[k][axis][lane] = mesh.positions[axis][vertex];
+        if state.stage != Stage::Flat {
+            let mut left = fronts | backs;
+            while left != 0 {
+                let these = Together::first_of::<S>(&mut left);
+                let n = unit_normal(simd, corners(simd, &these, (mesh, piece)), instance);
+                for side in &mut self.each {
+                    spread::<S>([splat(simd, 0.0), n[0], n[1], n[2]], &these, side);
                 }
             }
-        }
-        let corners = each!(k in 3 => each!(axis in 3 => load(simd, &corners[k][axis], 0)));
-        let n = safe_normalize(simd, turned(simd, &instance.normal, face_normal(simd, corners)));
-        if state.stage != Stage::Flat {
-            self.store(simd, 0, n, splat(simd, 0.0));
-            self.store(simd, 1, n, splat(simd, 0.0));
             return;
         }
-        let [a, b, c] = corners;
-        let middle = scale::<S>(add::<S>(add::<S>(a, b), c), splat(simd, 1.0 / 3.0));
-        let p = transformed(simd, &instance.eye_from_model, middle);
-        let own = if state.colored { mean_color(simd, triangles, (mesh, piece)) } else { [splat(simd, 0.0); 4] };
-        for back in [false, true] {
-            if back && !(backs && state.backs) {
-                break;
+        for (back, mut left) in [(false, fronts), (true, if state.backs { backs } else { 0 })] {
+            while left != 0 {
+                let these = Together::first_of::<S>(&mut left);
+                self.light(simd, &these, (mesh, piece), instance, (pass, state), back);
             }
-            let n = if back { neg::<S>(n) } else { n };
-            let points = Points::new(simd, p, n, to_viewer(simd, p, n, pass.local_viewer));
-            let terms = state.vertex_terms(simd, pass, &points, back);
-            let side = state.side(pass, back);
-            let [r, g, b, opacity] = own;
-            if state.maps.is_some() {
-                self.parts.store(simd, &terms, side, back, state.colored.then_some(own));
-                continue;
-            }
-            let color =
-                if state.colored { tinted(simd, &terms, side, [r, g, b]) } else { reflected(simd, &terms, side) };
-            self.store(simd, usize::from(back), color, opacity);
         }
     }
 
+    /// The colors of one side of flat triangles.
     #[inline(always)]
-    fn store<S: Simd>(&mut self, _: S, side: usize, v: V3<S>, first: F<S>) {
-        store_fours::<S>([first, v[0], v[1], v[2]], &mut self.each[side], 0);
+    fn light<S: Simd>(
+        &mut self,
+        simd: S,
+        these: &Together,
+        place: (&Pieces, &Piece),
+        instance: &InstanceData,
+        (pass, state): (&Pass, &State),
+        back: bool,
+    ) {
+        let corners = corners(simd, these, place);
+        let n = unit_normal(simd, corners, instance);
+        let [a, b, c] = corners;
+        let middle = scale::<S>(add::<S>(add::<S>(a, b), c), splat(simd, 1.0 / 3.0));
+        let p = transformed(simd, &instance.eye_from_model, middle);
+        let n = if back { neg::<S>(n) } else { n };
+        let points = Points::new(simd, p, n, to_viewer(simd, p, n, pass.local_viewer));
+        let terms = state.vertex_terms(simd, pass, &points, back);
+        let side = state.side(pass, back);
+        let own = state.colored.then(|| mean_color(simd, these, place));
+        if state.maps.is_some() {
+            self.parts.store(simd, &terms, side, back, own, these);
+            return;
+        }
+        let (color, opacity) = match own {
+            Some([r, g, b, opacity]) => (tinted(simd, &terms, side, [r, g, b]), opacity),
+            None => (reflected(simd, &terms, side), splat(simd, 0.0)),
+        };
+        spread::<S>([opacity, color[0], color[1], color[2]], these, &mut self.each[usize::from(back)]);
     }
+}
+
+#[inline(always)]
+fn corners<S: Simd>(simd: S, these: &Together, (mesh, piece): (&Pieces, &Piece)) -> [V3<S>; 3] {
+    let mut corners = [[[0.0; MOST_LANES]; 3]; 3];
+    for (lane, number) in these.each() {
+        let triangle = mesh.triangles[piece.triangles.start as usize + number];
+        for k in 0..3 {
+            let vertex = piece.first_vertex as usize + usize::from(triangle[k]);
+            for axis in 0..3 {
+                corners[k][axis][lane] = mesh.positions[axis][vertex];
+            }
+        }
+    }
+    each!(k in 3 => each!(axis in 3 => load(simd, &corners[k][axis], 0)))
+}
+
+#[inline(always)]
+fn unit_normal<S: Simd>(simd: S, corners: [V3<S>; 3], instance: &InstanceData) -> V3<S> {
+    safe_normalize(simd, turned(simd, &instance.normal, face_normal(simd, corners)))
 }
 
 /// The means of the colors of triangles' corners.
 #[inline(always)]
-fn mean_color<S: Simd>(simd: S, triangles: &[[u8; 3]], (mesh, piece): (&Pieces, &Piece)) -> [F<S>; 4] {
+fn mean_color<S: Simd>(simd: S, these: &Together, (mesh, piece): (&Pieces, &Piece)) -> [F<S>; 4] {
     let mut sums = [[0.0; MOST_LANES]; 4];
-    for (lane, triangle) in triangles.iter().enumerate() {
-        for corner in triangle {
+    for (lane, number) in these.each() {
+        for corner in mesh.triangles[piece.triangles.start as usize + number] {
             for channel in 0..4 {
-                sums[channel][lane] += mesh.colors[channel][piece.first_vertex as usize + usize::from(*corner)];
+                sums[channel][lane] += mesh.colors[channel][piece.first_vertex as usize + usize::from(corner)];
             }
         }
     }

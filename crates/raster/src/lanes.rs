@@ -34,6 +34,8 @@ pub(crate) type M<S> = <S as Simd>::mask32s;
 /// A lane's vector in each.
 pub(crate) type V3<S> = [F<S>; 3];
 
+/// The narrowest there is.
+pub(crate) const LEAST_LANES: usize = 4;
 /// The widest there is.
 pub(crate) const MOST_LANES: usize = 16;
 

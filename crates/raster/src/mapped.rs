@@ -2,9 +2,11 @@
 //! pixel, so that other draws do not pay for it.
 
 use crate::attributes::{FRAME, GROUPS, OF_VERTICES, PARTS};
-use crate::lanes::{F, MOST_LANES, Simd, V3, each, splat, store_fours};
+use crate::faces::{Together, spread};
+use crate::lanes::{F, Simd, V3, each, splat};
 use crate::lighting::{Irradiance, ambient_part, diffuse_part, specular_part};
 use crate::pass::SideData;
+use crate::pieces::PIECE_TRIANGLES;
 use crate::planes::{CutCorner, Gradient, Planes, Slopes};
 use crate::state::{Stage, State};
 use crate::vertices::Vertices;
@@ -89,12 +91,12 @@ fn groups_of(state: &State) -> usize {
 /// The parts of flat triangles, one a lane, front and back.
 pub(crate) struct FlatParts {
     /// Ambient, diffuse, specular: a number that is the opacity of the vertices with the first, and three.
-    pub(crate) each: [[[[f32; 4]; MOST_LANES]; 3]; 2],
+    pub(crate) each: [[[[f32; 4]; PIECE_TRIANGLES]; 3]; 2],
 }
 
 impl FlatParts {
     pub(crate) fn new() -> Self {
-        Self { each: [[[[0.0; 4]; MOST_LANES]; 3]; 2] }
+        Self { each: [[[[0.0; 4]; PIECE_TRIANGLES]; 3]; 2] }
     }
 
     #[inline(always)]
@@ -105,19 +107,20 @@ impl FlatParts {
         side: &SideData,
         back: bool,
         own: Option<[F<S>; 4]>,
+        of: &Together,
     ) {
         let one = splat(simd, 1.0);
         let [r, g, b, alpha] = own.unwrap_or([one; 4]);
         let parts = parts_of(simd, terms, side, [r, g, b]);
         for (part, to) in parts.into_iter().zip(&mut self.each[usize::from(back)]) {
-            store_fours::<S>([alpha, part[0], part[1], part[2]], to, 0);
+            spread::<S>([alpha, part[0], part[1], part[2]], of, to);
         }
     }
 
-    pub(crate) fn set(&self, triangle: &mut MappedTriangle, back: bool, lane: usize) {
+    pub(crate) fn set(&self, triangle: &mut MappedTriangle, back: bool, number: usize) {
         let each = &self.each[usize::from(back)];
-        triangle.alpha = each[0][lane][0];
-        triangle.parts = each!(part in 3 => each!(c in 3 => each[part][lane][c + 1]));
+        triangle.alpha = each[0][number][0];
+        triangle.parts = each!(part in 3 => each!(c in 3 => each[part][number][c + 1]));
     }
 }
 

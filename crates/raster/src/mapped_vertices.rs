@@ -1,17 +1,17 @@
 //! The vertices of draws with images or a mask.
 
 use crate::attributes::{AMBIENT_OF_VERTICES, COLOR, FRAME, NORMAL, OF_VERTICES, PARTS, UVS};
-use crate::lanes::{F, Simd, V3, each, lanes, load, load3, neg, safe_normalize, splat, store_fours};
+use crate::lanes::{F, Simd, V3, each, load, load3, neg, safe_normalize, splat, store_fours};
 use crate::lighting::{Points, ambient_part, diffuse_part, specular_part, to_viewer};
 use crate::mapped::parts_of;
 use crate::pass::{InstanceData, Pass};
 use crate::pieces::{Piece, Pieces};
 use crate::state::{Stage, State};
-use crate::vertices::{Vertices, turned};
+use crate::vertices::{Vertices, places_of, turned};
 use halfway_texture::MapKind;
 
 impl Vertices {
-    /// Fills what a mapped draw takes of a piece, whose vertices are placed.
+    /// Fills what a mapped draw takes of some groups of a piece's vertices, which are placed.
     #[inline(never)]
     pub(crate) fn fill_mapped<S: Simd>(
         &mut self,
@@ -19,12 +19,13 @@ impl Vertices {
         (mesh, piece): (&Pieces, &Piece),
         instance: &InstanceData,
         (pass, state): (&Pass, &State),
+        groups: u32,
     ) {
         simd.vectorize(
             #[inline(always)]
             || {
                 self.mapped.prepare();
-                for at in (0..piece.vertex_count as usize).step_by(lanes::<S>()) {
+                for at in places_of::<S>(groups) {
                     self.fill_some(simd, at, (mesh, piece.first_vertex as usize + at), instance, (pass, state));
                 }
             },

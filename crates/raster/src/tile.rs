@@ -5,12 +5,12 @@ use crate::bins::{Bins, Job, TILE};
 use crate::clip::{Ready, each_part};
 use crate::cover::{EdgeFunctions, Kept, TileBuffer};
 use crate::encode::{bytes, cleared, kept};
-use crate::faces::LaneFaces;
-use crate::lanes::{I, MOST_LANES, Simd, V3, each, f32x4, lanes, max_one, min_one};
+use crate::faces::Faces;
+use crate::lanes::{I, LEAST_LANES, Simd, V3, each, f32x4, lanes, max_one, min_one};
 use crate::look::Look;
 use crate::mapped::MappedTriangle;
 use crate::pass::{DrawCall, InstanceData, Pass, PixelFormat, SampleCount};
-use crate::pieces::{Piece, Pieces};
+use crate::pieces::{PIECE_TRIANGLES, Piece, Pieces};
 use crate::planes::{Planes, Slopes};
 use crate::shade::{Even, shader_of};
 use crate::state::{Stage, State};
@@ -22,8 +22,9 @@ use fearless_simd::prelude::*;
 pub(crate) struct Worker {
     vertices: Vertices,
     corners: Corners,
-    batch: Batch,
-    faces: LaneFaces,
+    /// The triangles of a piece, as many together as there are lanes.
+    batches: Box<[Batch; PIECE_TRIANGLES / LEAST_LANES]>,
+    faces: Faces,
     nearest: TileBuffer,
     /// Room for the tile's pixels.
     own: Own,
@@ -54,8 +55,8 @@ impl Worker {
         Self {
             vertices: Vertices::new(),
             corners: Corners::new(),
-            batch: Batch::default(),
-            faces: LaneFaces::new(),
+            batches: Box::default(),
+            faces: Faces::new(),
             nearest: TileBuffer::new(),
             own: Own::default(),
         }
@@ -92,7 +93,7 @@ impl Worker {
             look.painted |= work.state.shades_apart();
             let shows = simd.vectorize(
                 #[inline(always)]
-                || self.vertices.fill(simd, (work.mesh, work.piece), work.instance, (screen, tile), (pass, work.state)),
+                || self.vertices.place(simd, (work.mesh, work.piece), work.instance, (screen, tile)),
             );
             if shows {
                 simd.vectorize(
@@ -127,50 +128,61 @@ impl Worker {
         );
     }
 
-    /// Draws a piece's triangles.
+    /// Draws a piece's triangles. What none of them shows is not lit.
     #[inline(always)]
     fn triangles<S: Simd>(&mut self, simd: S, look: &Look, work: &Work) {
         let range = work.piece.triangles.start as usize..work.piece.triangles.end as usize;
         let triangles = &work.mesh.triangles[range];
-        self.corners.fill(triangles, &self.vertices);
-        for at in (0..triangles.len()).step_by(lanes::<S>()) {
-            let triangles = &triangles[at..triangles.len().min(at + lanes::<S>())];
-            self.batch.fill(simd, &self.corners, at, triangles.len(), &work.covering);
-            let (tiny, small, others) = (self.batch.tiny, self.batch.small, self.batch.others);
-            let mut left = tiny | small | others;
-            let one = work.covering.is_plain && work.covering.samples == SampleCount::One;
-            let plain = if one { tiny | small } else { tiny };
-            if left == 0 {
-                continue;
-            }
-            if work.state.stage == Stage::Flat || work.state.opposite_normals {
-                // Which side the others show is not known yet.
-                let backs = self.batch.backs & left | others;
-                let place = (work.mesh, work.piece);
-                self.faces.fill(simd, triangles, place, work.instance, (look.pass, work.state), backs != 0);
-            }
-            // In their order, which decides where surfaces blend or lie in one depth.
-            while left != 0 {
-                let lane = left.trailing_zeros() as usize;
-                left &= left - 1;
-                if plain >> lane & 1 != 0 {
-                    self.plain(simd, work, triangles[lane], lane, tiny >> lane & 1 != 0);
-                } else if small >> lane & 1 != 0 {
-                    self.small(simd, look, work, triangles[lane], lane);
-                } else {
-                    self.other(simd, look, work, triangles[lane], lane);
-                }
+        let (shown, [fronts, backs]) = self.find_shown(simd, work, triangles);
+        if shown == 0 {
+            return;
+        }
+        let (place, state) = ((work.mesh, work.piece), (look.pass, work.state));
+        if work.state.stage == Stage::Flat || work.state.opposite_normals {
+            self.faces.fill(simd, place, work.instance, state, [fronts, backs]);
+        }
+        self.vertices.light(simd, place, work.instance, state, groups_of::<S>(triangles, shown));
+        let one = work.covering.is_plain && work.covering.samples == SampleCount::One;
+        // In their order, which decides where surfaces blend or lie in one depth.
+        let mut left = shown;
+        while left != 0 {
+            let number = left.trailing_zeros() as usize % PIECE_TRIANGLES;
+            left &= left - 1;
+            let (batch, bit) = (&self.batches[number / lanes::<S>()], 1 << (number % lanes::<S>()));
+            let (tiny, small) = (batch.tiny & bit != 0, batch.small & bit != 0);
+            if tiny || one && small {
+                self.plain(simd, work, triangles[number], number, tiny);
+            } else if small {
+                self.small(simd, look, work, triangles[number], number);
+            } else {
+                self.other(simd, look, work, triangles[number], number);
             }
         }
     }
 
+    /// Finds which of a piece's triangles may show anything, and which of them their fronts and backs.
+    #[inline(always)]
+    fn find_shown<S: Simd>(&mut self, simd: S, work: &Work, triangles: &[[u8; 3]]) -> (u64, [u64; 2]) {
+        self.corners.fill(triangles, &self.vertices);
+        let (mut shown, mut fronts, mut backs) = (0, 0, 0);
+        for (at, batch) in (0..triangles.len()).step_by(lanes::<S>()).zip(&mut *self.batches) {
+            batch.fill(simd, &self.corners, at, (triangles.len() - at).min(lanes::<S>()), &work.covering);
+            let here = batch.tiny | batch.small | batch.others;
+            shown |= here << at;
+            // Which side the others show is not known yet.
+            fronts |= (here & !batch.backs | batch.others) << at;
+            backs |= (here & batch.backs | batch.others) << at;
+        }
+        (shown, [fronts, backs])
+    }
+
     /// A triangle that is large, or has to be clipped.
-    fn other<S: Simd>(&mut self, simd: S, look: &Look, work: &Work, triangle: [u8; 3], lane: usize) {
+    fn other<S: Simd>(&mut self, simd: S, look: &Look, work: &Work, triangle: [u8; 3], number: usize) {
         let (faces, nearest, vertices) = (&self.faces, &mut self.nearest, &self.vertices);
         let place = (look.tile, &work.covering);
         each_part(vertices, triangle, look.screen, place, |mut ready| {
             let back = ready.back;
-            ready.planes.set_face(&faces.each[usize::from(back)][lane], work.state);
+            ready.planes.set_face(&faces.each[usize::from(back)][number], work.state);
             if work.state.maps.is_some() {
                 let mut mapped = MappedTriangle::large(
                     vertices,
@@ -179,7 +191,7 @@ impl Worker {
                     &ready.gradient,
                     &ready.corners,
                 );
-                faces.parts.set(&mut mapped, back, lane);
+                faces.parts.set(&mut mapped, back, number);
                 nearest.mapped_triangles.push(mapped);
             }
             let Ready { edges, planes, .. } = ready;
@@ -193,64 +205,62 @@ impl Worker {
     /// A triangle of few pixels, of which it covers some, or a larger one with one sample a pixel; it leaves nothing but
     /// its depth and the leading numbers.
     #[inline(always)]
-    fn plain<S: Simd>(&mut self, simd: S, work: &Work, triangle: [u8; 3], lane: usize, tiny: bool) {
-        let lane = lane % MOST_LANES;
-        let back = self.batch.backs >> lane & 1 != 0;
+    fn plain<S: Simd>(&mut self, simd: S, work: &Work, triangle: [u8; 3], number: usize, tiny: bool) {
+        let (batch, lane) = (&self.batches[number / lanes::<S>()], number % lanes::<S>());
+        let back = batch.backs >> lane & 1 != 0;
         let numbers = each!(k in 3 => usize::from(triangle[k]));
         let lead = &self.vertices.lead[usize::from(back && self.vertices.sides_lead)];
         let corners = each!(k in 3 => &lead[numbers[k]]);
-        let mut slopes = self.batch.slopes(simd, lane, corners);
+        let mut slopes = batch.slopes(simd, lane, corners);
         if work.state.stage == Stage::Flat {
-            slopes.base += f32x4::load_array_ref(simd, &self.faces.each[usize::from(back)][lane]);
+            slopes.base += f32x4::load_array_ref(simd, &self.faces.each[usize::from(back)][number]);
         }
         let (shader, keeps_lead) = (shader_of(work.job.state, back), work.state.stage != Stage::Unlit);
         if !tiny {
-            self.nearest.cover_small(simd, (&self.batch, lane), &slopes, range(corners), shader, keeps_lead);
+            self.nearest.cover_small(simd, (batch, lane), &slopes, range(corners), shader, keeps_lead);
             return;
         }
-        let first = [self.batch.bounds[0][lane], self.batch.bounds[2][lane]];
-        let centers = self.batch.pixels[lane];
+        let first = [batch.bounds[0][lane], batch.bounds[2][lane]];
+        let centers = batch.pixels[lane];
         if work.covering.samples == SampleCount::One {
             self.nearest.cover_tiny(simd, (centers, first), &slopes, range(corners), shader, keeps_lead);
         } else {
-            let place = (centers, self.batch.samples[lane], first);
+            let place = (centers, batch.samples[lane], first);
             self.nearest.cover_tiny_four(simd, place, &slopes, range(corners), shader, keeps_lead);
         }
     }
 
     /// One that is not so plain.
-    fn small<S: Simd>(&mut self, simd: S, look: &Look, work: &Work, triangle: [u8; 3], lane: usize) {
+    fn small<S: Simd>(&mut self, simd: S, look: &Look, work: &Work, triangle: [u8; 3], number: usize) {
         simd.vectorize(
             #[inline(always)]
             || {
-                let back = self.batch.backs >> lane & 1 != 0;
+                let (batch, lane) = (&self.batches[number / lanes::<S>()], number % lanes::<S>());
+                let back = batch.backs >> lane & 1 != 0;
                 let numbers = each!(k in 3 => usize::from(triangle[k]));
                 let v = &self.vertices;
                 let lead = &v.lead[usize::from(back && v.sides_lead)];
                 let corners = each!(k in 3 => &lead[numbers[k]]);
                 let mut planes = Planes {
-                    lead: Slopes::of_lane(&self.batch.slopes(simd, lane, corners)),
+                    lead: Slopes::of_lane(&batch.slopes(simd, lane, corners)),
                     range: range(corners),
                     ..Planes::default()
                 };
                 if work.state.stage == Stage::Mixed && work.state.maps.is_none() {
                     let second = &v.second[usize::from(back)];
-                    planes.second =
-                        Slopes::of_lane(&self.batch.slopes(simd, lane, each!(k in 3 => &second[numbers[k]])));
+                    planes.second = Slopes::of_lane(&batch.slopes(simd, lane, each!(k in 3 => &second[numbers[k]])));
                 }
                 if work.state.paints() {
-                    planes.paint =
-                        Slopes::of_lane(&self.batch.slopes(simd, lane, each!(k in 3 => &v.paint[numbers[k]])));
+                    planes.paint = Slopes::of_lane(&batch.slopes(simd, lane, each!(k in 3 => &v.paint[numbers[k]])));
                 }
-                planes.set_face(&self.faces.each[usize::from(back)][lane], work.state);
+                planes.set_face(&self.faces.each[usize::from(back)][number], work.state);
                 if work.state.maps.is_some() {
-                    let batch = &self.batch;
                     let slopes = |values: [&[f32; 4]; 3]| Slopes::of_lane(&batch.slopes(simd, lane, values));
                     let mut mapped = MappedTriangle::small(v, (numbers, back), (work.state, &planes), slopes);
-                    self.faces.parts.set(&mut mapped, back, lane);
+                    self.faces.parts.set(&mut mapped, back, number);
                     self.nearest.mapped_triangles.push(mapped);
                 }
-                let edges = EdgeFunctions::of_lane(&self.batch, lane, look.pass.samples);
+                let edges = EdgeFunctions::of_lane(batch, lane, look.pass.samples);
                 draw(simd, &mut self.nearest, &edges, &planes, back, look, work);
             },
         );
@@ -320,6 +330,19 @@ fn put<S: Simd>(simd: S, rows: &mut Rows, at: usize, color: V3<S>, pixels: Pixel
 fn put_bytes<S: Simd>(rows: &mut Rows, at: usize, pixels: I<S>) {
     let place = rows.place(at);
     pixels.bitcast::<S::u8s>().store_slice(&mut rows.values.bytes[place..place + 4 * lanes::<S>()]);
+}
+
+/// The groups of vertices, so many as there are lanes each, that some triangles have corners in.
+#[inline(always)]
+fn groups_of<S: Simd>(triangles: &[[u8; 3]], shown: u64) -> u32 {
+    let (mut left, mut groups) = (shown, 0);
+    while left != 0 {
+        for corner in triangles[left.trailing_zeros() as usize] {
+            groups |= 1 << (usize::from(corner) / lanes::<S>());
+        }
+        left &= left - 1;
+    }
+    groups
 }
 
 /// The least and the greatest 1/w of corners.

@@ -102,26 +102,25 @@ impl Vertices {
         }
     }
 
-    /// Fills them for a tile; returns whether the piece may show in it.
+    /// Fills what shading takes, of the groups of vertices that some triangle that shows has: bit k is that of the k-th so
+    /// many as there are lanes.
     #[inline(always)]
-    pub(crate) fn fill<S: Simd>(
+    pub(crate) fn light<S: Simd>(
         &mut self,
         simd: S,
         (mesh, piece): (&Pieces, &Piece),
         instance: &InstanceData,
-        (screen, tile): (&Screen, [u32; 2]),
         (pass, state): (&Pass, &State),
-    ) -> bool {
-        let center = tile.map(|place| (place as i32 * TILE as i32 + TILE as i32 / 2) * GRID);
-        if !self.place(simd, (mesh, piece), instance, screen, center) {
-            return false;
-        }
+        groups: u32,
+    ) {
+        self.sides_lead = state.stage == Stage::Vertex && state.maps.is_none();
         if state.maps.is_some() {
-            self.fill_mapped(simd, (mesh, piece), instance, (pass, state));
+            self.fill_mapped(simd, (mesh, piece), instance, (pass, state), groups);
         }
-        if state.paints() {
-            for at in (0..piece.vertex_count as usize).step_by(lanes::<S>()) {
-                let first = piece.first_vertex as usize + at;
+        let lit = state.maps.is_none() && matches!(state.stage, Stage::Vertex | Stage::Fragment | Stage::Mixed);
+        for at in places_of::<S>(groups) {
+            let first = piece.first_vertex as usize + at;
+            if state.paints() {
                 let color = each!(k in 4 => load(simd, &mesh.colors[k], first));
                 for k in 0..4 {
                     store::<S>(color[(k + 3) % 4], &mut self.raw[9 + k], at);
@@ -129,28 +128,24 @@ impl Vertices {
                 let i = load(simd, &self.inverse_w, at);
                 store_fours::<S>(each!(k in 4 => color[(k + 3) % 4] * i), &mut self.paint[..], at);
             }
-        }
-        if state.maps.is_none() && matches!(state.stage, Stage::Vertex | Stage::Fragment | Stage::Mixed) {
-            for at in (0..piece.vertex_count as usize).step_by(lanes::<S>()) {
-                let n = load3(simd, &mesh.normals, piece.first_vertex as usize + at);
-                let n = safe_normalize(simd, turned(simd, &instance.normal, n));
+            if lit {
+                let n = safe_normalize(simd, turned(simd, &instance.normal, load3(simd, &mesh.normals, first)));
                 self.shade(simd, at, load3(simd, &self.eye, at), n, pass, state);
             }
+            self.gather(simd, at, state);
         }
-        self.gather(simd, piece.vertex_count as usize, state);
-        true
     }
 
     /// Puts a piece's vertices onto the picture; returns whether they may lie around pixels of the tile.
     #[inline(always)]
-    fn place<S: Simd>(
+    pub(crate) fn place<S: Simd>(
         &mut self,
         simd: S,
         (mesh, piece): (&Pieces, &Piece),
         instance: &InstanceData,
-        screen: &Screen,
-        center: [i32; 2],
+        (screen, tile): (&Screen, [u32; 2]),
     ) -> bool {
+        let center = tile.map(|place| (place as i32 * TILE as i32 + TILE as i32 / 2) * GRID);
         let mut any_code = splat_i(simd, 0);
         let (mut low, mut high) = ([splat_i(simd, i32::MAX); 2], [splat_i(simd, i32::MIN); 2]);
         for at in (0..piece.vertex_count as usize).step_by(lanes::<S>()) {
@@ -259,40 +254,50 @@ impl Vertices {
 
     /// Brings each vertex's numbers together.
     #[inline(always)]
-    fn gather<S: Simd>(&mut self, simd: S, count: usize, state: &State) {
-        self.sides_lead = state.stage == Stage::Vertex && state.maps.is_none();
+    fn gather<S: Simd>(&mut self, simd: S, at: usize, state: &State) {
         let Self { raw, inverse_w, lead: [lead, lead_of_backs], second: [second, second_of_backs], .. } = self;
-        for at in (0..count).step_by(lanes::<S>()) {
-            let i = load(simd, inverse_w, at);
-            let normal = each!(k in 3 => &raw[k]);
-            let front = each!(k in 3 => &raw[3 + k]);
-            let back = each!(k in 3 => &raw[6 + k]);
-            match state.stage {
-                _ if state.maps.is_some() => {
-                    let zero = splat(simd, 0.0);
-                    store_fours::<S>([i, zero, zero, zero], &mut **lead, at);
+        let i = load(simd, inverse_w, at);
+        let normal = each!(k in 3 => &raw[k]);
+        let front = each!(k in 3 => &raw[3 + k]);
+        let back = each!(k in 3 => &raw[6 + k]);
+        match state.stage {
+            _ if state.maps.is_some() => over_w_alone(simd, i, lead, at),
+            Stage::Unlit | Stage::Flat => over_w_alone(simd, i, lead, at),
+            Stage::Fragment => over_w(simd, i, normal, lead, at),
+            Stage::Vertex => {
+                over_w(simd, i, front, lead, at);
+                if state.backs {
+                    over_w(simd, i, back, lead_of_backs, at);
                 }
-                Stage::Unlit | Stage::Flat => {
-                    let zero = splat(simd, 0.0);
-                    store_fours::<S>([i, zero, zero, zero], &mut **lead, at);
-                }
-                Stage::Fragment => over_w(simd, i, normal, lead, at),
-                Stage::Vertex => {
-                    over_w(simd, i, front, lead, at);
-                    if state.backs {
-                        over_w(simd, i, back, lead_of_backs, at);
-                    }
-                }
-                Stage::Mixed => {
-                    over_w(simd, i, normal, lead, at);
-                    over_w(simd, i, front, second, at);
-                    if state.backs {
-                        over_w(simd, i, back, second_of_backs, at);
-                    }
+            }
+            Stage::Mixed => {
+                over_w(simd, i, normal, lead, at);
+                over_w(simd, i, front, second, at);
+                if state.backs {
+                    over_w(simd, i, back, second_of_backs, at);
                 }
             }
         }
     }
+}
+
+/// Where groups of vertices begin.
+#[inline(always)]
+pub(crate) fn places_of<S: Simd>(groups: u32) -> impl Iterator<Item = usize> {
+    let mut left = groups;
+    std::iter::from_fn(move || {
+        let group = left.trailing_zeros() as usize;
+        (left != 0).then(|| {
+            left &= left - 1;
+            group * lanes::<S>()
+        })
+    })
+}
+
+#[inline(always)]
+fn over_w_alone<S: Simd>(simd: S, inverse_w: F<S>, to: &mut Attributes, at: usize) {
+    let zero = splat(simd, 0.0);
+    store_fours::<S>([inverse_w, zero, zero, zero], to, at);
 }
 
 #[inline(always)]
