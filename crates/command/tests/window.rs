@@ -1,12 +1,14 @@
 //! The window as people meet it: it opens, shows the model, follows keys and size, and closes.
 //!
 //! It opens on the X display that `DISPLAY` names, or, where none is named, on a virtual screen (Xvfb) that the test
-//! starts. Where neither can be had, the tests fail; `cargo xtask test` sees to it that one can.
+//! starts. Where neither can be had, the tests fail; `cargo xtask test` sees to it that one can. The Wayland display of one
+//! test is a window on that.
 
 #![cfg(target_os = "linux")]
 
 mod window {
     pub(crate) mod viewer;
+    pub(crate) mod wayland;
 }
 
 use std::io::{Read, Write};
@@ -15,6 +17,7 @@ use std::thread::sleep;
 use std::time::Duration;
 
 use window::viewer::{BETWEEN_LOOKS, Manager, Screen, Viewer, device_loser, eventually, same_framing, view};
+use window::wayland::Compositor;
 use x11rb::CURRENT_TIME;
 use x11rb::protocol::xproto::Keysym;
 
@@ -33,6 +36,28 @@ fn without_a_driver_the_cpu_draws_in_the_window() {
     }
     program.args(["--adapter", "cpu"]);
     follows_keys_and_size(program);
+}
+
+// Of one scene and size the CPU makes the same bits everywhere; a window on X and one on Wayland are to show them. The size
+// leaves out the middle of the screen, where the pointer rests.
+#[test]
+fn a_window_on_wayland_shows_what_one_on_x_does() {
+    let screen = Screen::open();
+    let program = || {
+        let mut program = view();
+        program.args(["--adapter", "cpu"]);
+        program
+    };
+    let on_x = {
+        let mut viewer = Viewer::run(&screen, program());
+        viewer.resize(600, 400);
+        eventually("the window takes the size", || viewer.picture().filter(|shown| shown.width == 600));
+        viewer.shown("Phong, Blinn–Phong", None)
+    };
+    assert!((on_x.width, on_x.height) == (600, 400) && on_x.colours() > 50, "{} colours", on_x.colours());
+    let compositor = Compositor::start(&screen, 600, 400);
+    let mut on_wayland = compositor.run(program());
+    eventually("the same picture on Wayland", || (on_wayland.picture()? == on_x).then_some(()));
 }
 
 fn follows_keys_and_size(program: Command) {

@@ -121,6 +121,12 @@ pub(crate) const WINDOW_MANAGER: Need = Need {
     packages: Packages { apt: &["openbox"], dnf: &["openbox"], pacman: &["openbox"] },
 };
 
+/// A Wayland display in a window of the virtual screen, for the tests of the window.
+pub(crate) const COMPOSITOR: Need = Need {
+    missing: || programs::find("weston").is_none().then(|| "the Wayland compositor weston".into()),
+    packages: Packages { apt: &["weston"], dnf: &["weston"], pacman: &["weston"] },
+};
+
 /// What windows on an X display load when they open.
 pub(crate) const X11_WINDOWS: Need = Need {
     missing: || {

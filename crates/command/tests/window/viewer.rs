@@ -107,9 +107,9 @@ impl Picture {
 
 /// An X display, to which the test itself is connected.
 pub(crate) struct Screen {
-    connection: RustConnection,
-    root: Window,
-    name: String,
+    pub(super) connection: RustConnection,
+    pub(super) root: Window,
+    pub(super) name: String,
     server: Option<Child>,
     _turn: MutexGuard<'static, ()>,
 }
@@ -174,6 +174,16 @@ impl Screen {
             }
         }
         None
+    }
+
+    /// What a window shows. `None` while it is not all on the screen, or its size changes at this moment.
+    pub(crate) fn picture_of(&self, window: Window) -> Option<Picture> {
+        const COLOUR: u32 = 0x00ff_ffff;
+        let size = self.connection.get_geometry(window).ok()?.reply().ok()?;
+        let (width, height) = (size.width, size.height);
+        let image = self.connection.get_image(ImageFormat::Z_PIXMAP, window, 0, 0, width, height, COLOUR);
+        let bytes = image.ok()?.reply().ok()?.data;
+        (bytes.len() == 4 * usize::from(width) * usize::from(height)).then_some(Picture { width, height, bytes })
     }
 
     /// A window over all of the screen, that no window manager touches.
@@ -320,15 +330,8 @@ impl<'a> Viewer<'a> {
         String::from_utf8(request.reply().ok()?.value).ok()
     }
 
-    /// `None` while the window is not all on the screen, or its size changes at this moment.
     pub(crate) fn picture(&self) -> Option<Picture> {
-        const COLOUR: u32 = 0x00ff_ffff;
-        let connection = &self.screen.connection;
-        let size = connection.get_geometry(self.window).ok()?.reply().ok()?;
-        let (width, height) = (size.width, size.height);
-        let image = connection.get_image(ImageFormat::Z_PIXMAP, self.window, 0, 0, width, height, COLOUR);
-        let bytes = image.ok()?.reply().ok()?.data;
-        (bytes.len() == 4 * usize::from(width) * usize::from(height)).then_some(Picture { width, height, bytes })
+        self.screen.picture_of(self.window)
     }
 
     /// Gives the window the focus and a key to press and release.

@@ -10,15 +10,15 @@ use crate::cargo::{cargo, duration, step};
 use crate::chores::adapters as each_adapter;
 use crate::failure::{Failure, Result};
 use crate::machine::programs;
-use crate::setup::{BROWSER, SCREEN, Setup, WINDOW_MANAGER, X11_WINDOWS, adapters};
+use crate::setup::{BROWSER, COMPOSITOR, SCREEN, Setup, WAYLAND_WINDOWS, WINDOW_MANAGER, X11_WINDOWS, adapters};
 use crate::tally::counted;
 
 /// Run every test, those that need a graphics adapter or a window included
 ///
 /// Documentation examples included, in the release profile, with a summary at the end. No test is skipped for want of
 /// an adapter, a screen or a browser: what they need and the machine lacks (Vulkan drivers, OpenGL, the virtual screen
-/// Xvfb, the window manager openbox, the browser chromium) is installed first, by apt-get where it may be used;
-/// otherwise nothing is built, and the remedy is printed.
+/// Xvfb, the window manager openbox, the Wayland compositor weston, the browser chromium) is installed first, by
+/// apt-get where it may be used; otherwise nothing is built, and the remedy is printed.
 #[derive(Args, Debug)]
 #[command(verbatim_doc_comment)]
 pub(crate) struct Options {
@@ -30,7 +30,10 @@ pub(crate) struct Options {
 pub(crate) fn run(options: &Options) -> Result {
     let setup = options.setup;
     let start = Instant::now();
-    setup.meet(&[&[SCREEN, WINDOW_MANAGER, X11_WINDOWS, BROWSER][..], &each_adapter::NEEDS].concat())?;
+    setup.meet(
+        &[&[SCREEN, WINDOW_MANAGER, X11_WINDOWS, COMPOSITOR, WAYLAND_WINDOWS, BROWSER][..], &each_adapter::NEEDS]
+            .concat(),
+    )?;
     // Without a choice of targets these are all tests of libraries, programs, `tests/` and the documentation; the
     // examples are built beside them as programs, which `tests/` runs.
     step("build", &mut cargo(["test", "--release", "--workspace", "--no-run"]))?;
