@@ -1,11 +1,13 @@
 //! `halfway compare`.
 
-use std::path::PathBuf;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use halfway::prelude::*;
 use halfway::reference::Image;
-use halfway::reference::metrics::{Flip, PERCENTILES, PIXELS_PER_DEGREE, Scale, compare, difference, flip};
+use halfway::reference::metrics::{Flip, PERCENTILES, PIXELS_PER_DEGREE, Rows, Scale, compare, difference, flip};
+use image::DynamicImage;
 
 use crate::failure::{DIFFERENT, Failure};
 use crate::{figures, picture};
@@ -36,8 +38,9 @@ pub(crate) struct CompareArgs {
 
 pub(crate) fn run(args: &CompareArgs) -> Result<(), Failure> {
     let encoding = if args.raw { Encoding::Raw } else { Encoding::Srgb };
-    let (actual, expected) = (picture::read(&args.a, encoding)?, picture::read(&args.b, encoding)?);
-    let (actual, expected) = told_apart(actual, expected, args.background, encoding);
+    let mut actual = Decoded::read(&args.a, encoding)?;
+    let mut expected = Decoded::read(&args.b, encoding)?;
+    tell_apart(&mut actual, &mut expected, args.background);
     let named = |error| Failure::from(format!("{} and {}: {error}", args.a.display(), args.b.display()));
     let comparison = compare(&actual, &expected, encoding).map_err(named)?;
     let perceived = flip(&actual, &expected, encoding).map_err(named)?;
@@ -60,16 +63,72 @@ pub(crate) fn run(args: &CompareArgs) -> Result<(), Failure> {
     }
 }
 
-/// Both pictures with what they cover, where that can be told.
-fn told_apart(a: Image, b: Image, background: Option<[f64; 3]>, encoding: Encoding) -> (Image, Image) {
-    if let Some(background) = background {
-        let bytes = bytes_of(background, encoding);
-        return (without(a, bytes, encoding), without(b, bytes, encoding));
+/// A picture as its file has it, of which some rows at a time become intensities: the largest would take 6 GB as those.
+struct Decoded {
+    picture: DynamicImage,
+    encoding: Encoding,
+    background: Option<Background>,
+}
+
+/// What covers nothing.
+enum Background {
+    /// What has exactly these intensities.
+    Exactly([f64; 3]),
+    /// What has these bytes, as bytes.
+    AsBytes([u8; 3]),
+}
+
+impl Decoded {
+    fn read(file: &Path, encoding: Encoding) -> Result<Self, Failure> {
+        Ok(Self { picture: picture::decoded(file)?, encoding, background: None })
     }
-    match [corners(&a), corners(&b)] {
-        // Pictures that were written with different precision may show the same background a step apart.
-        [Some(of_a), Some(of_b)] if is_near(of_a, of_b, encoding) => (a.with_background(of_a), b.with_background(of_b)),
-        _ => (a, b),
+
+    /// The color that the four corners share.
+    #[expect(
+        clippy::float_cmp,
+        reason = "nothing was computed between the corners: a background is one colour exactly"
+    )]
+    fn corners(&self) -> Option<[f64; 3]> {
+        let (width, height) = self.dimensions();
+        let (right, bottom) = (width.checked_sub(1)?, height.checked_sub(1)?);
+        let [top, bottom] = [self.rows(0..1), self.rows(bottom..height)];
+        let first = top.pixel(0, 0);
+        let share = [top.pixel(right, 0), bottom.pixel(0, 0), bottom.pixel(right, 0)].iter().all(|it| *it == first);
+        share.then_some(first)
+    }
+}
+
+impl Rows for Decoded {
+    fn dimensions(&self) -> (u32, u32) {
+        (self.picture.width(), self.picture.height())
+    }
+
+    fn rows(&self, rows: Range<u32>) -> Image {
+        let cut = self.picture.crop_imm(0, rows.start, self.picture.width(), rows.end - rows.start);
+        let image = Image::from_decoded(&cut, self.encoding);
+        match self.background {
+            None => image,
+            Some(Background::Exactly(color)) => image.with_background(color),
+            Some(Background::AsBytes(bytes)) => {
+                let covered = image.to_bytes(self.encoding).pixels().map(|pixel| pixel.0 != bytes).collect();
+                image.with_coverage(covered)
+            }
+        }
+    }
+}
+
+/// Tells both pictures what they cover, where that can be told.
+fn tell_apart(a: &mut Decoded, b: &mut Decoded, background: Option<[f64; 3]>) {
+    if let Some(background) = background {
+        let bytes = bytes_of(background, a.encoding);
+        (a.background, b.background) = (Some(Background::AsBytes(bytes)), Some(Background::AsBytes(bytes)));
+        return;
+    }
+    // Pictures that were written with different precision may show the same background a step apart.
+    if let [Some(of_a), Some(of_b)] = [a.corners(), b.corners()]
+        && is_near(of_a, of_b, a.encoding)
+    {
+        (a.background, b.background) = (Some(Background::Exactly(of_a)), Some(Background::Exactly(of_b)));
     }
 }
 
@@ -79,21 +138,6 @@ fn bytes_of(colour: [f64; 3], encoding: Encoding) -> [u8; 3] {
 
 fn is_near(a: [f64; 3], b: [f64; 3], encoding: Encoding) -> bool {
     bytes_of(a, encoding).iter().zip(bytes_of(b, encoding)).all(|(a, b)| a.abs_diff(b) <= 1)
-}
-
-/// The picture with all pixels of a colour as background.
-fn without(image: Image, background: [u8; 3], encoding: Encoding) -> Image {
-    let covered = image.to_bytes(encoding).pixels().map(|pixel| pixel.0 != background).collect();
-    image.with_coverage(covered)
-}
-
-/// The colour that the four corners share.
-#[expect(clippy::float_cmp, reason = "nothing was computed between the corners: a background is one colour exactly")]
-fn corners(image: &Image) -> Option<[f64; 3]> {
-    let (right, bottom) = (image.dimensions().0.checked_sub(1)?, image.dimensions().1.checked_sub(1)?);
-    let first = image.pixel(0, 0);
-    let share = [(right, 0), (0, bottom), (right, bottom)].iter().all(|&(x, y)| image.pixel(x, y) == first);
-    share.then_some(first)
 }
 
 fn print_flip(it: Flip) {

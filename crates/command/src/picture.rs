@@ -3,17 +3,10 @@
 use std::path::Path;
 
 use halfway::prelude::*;
-use halfway::reference::Image;
 use halfway::scene::SceneFile;
 use image::{DynamicImage, ImageReader, Limits};
 
 use crate::failure::Failure;
-
-/// Reads a PNG of 8 or 16 bits, whose values are decoded, or an EXR, whose intensities stand as they are. Alpha is dropped;
-/// of an animation it is the first frame.
-pub(crate) fn read(file: &Path, encoding: Encoding) -> Result<Image, Failure> {
-    Ok(Image::from_decoded(&decoded(file)?, encoding))
-}
 
 /// Reads a PNG or an EXR as it is; of an animation it is the first frame.
 pub(crate) fn decoded(file: &Path) -> Result<DynamicImage, Failure> {

@@ -1,5 +1,7 @@
 //! Pictures as linear intensities.
 
+use std::ops::Range;
+
 use halfway_lighting::Encoding;
 use image::{DynamicImage, Rgb, RgbImage, Rgba32FImage, RgbaImage};
 
@@ -86,6 +88,21 @@ impl Image {
     pub fn pixel(&self, x: u32, y: u32) -> [f64; 3] {
         assert!(x < self.width && y < self.height, "({x}, {y}) lies outside {} × {}", self.width, self.height);
         self.pixels[y as usize * self.width as usize + x as usize]
+    }
+
+    /// Some rows as a picture of their own.
+    ///
+    /// # Panics
+    /// They lie outside.
+    #[must_use]
+    pub fn cut(&self, rows: Range<u32>) -> Self {
+        let [start, end] = [rows.start, rows.end].map(|row| row as usize * self.width as usize);
+        Self {
+            width: self.width,
+            height: rows.end - rows.start,
+            pixels: self.pixels[start..end].to_vec(),
+            covered: self.covered.as_ref().map(|covered| covered[start..end].to_vec()),
+        }
     }
 
     /// Whether each pixel shows an object, where that is known.

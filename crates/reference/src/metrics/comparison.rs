@@ -4,8 +4,10 @@ use halfway_lighting::Encoding;
 use image::RgbImage;
 use thiserror::Error;
 
+use super::bands::{Band, Bands, Rows};
 use super::coverage::{Coverage, Kind, Pair, coverage, pairs};
-use super::statistics::Errors;
+use super::ranks::{PASSES, Ranks, nearest_rank};
+use super::statistics::{Errors, PERCENTILES, Tally, Worst};
 use crate::Image;
 
 /// Two pictures that cannot be compared.
@@ -73,28 +75,136 @@ pub struct NotFinite {
     pub expected: [f64; 3],
 }
 
-/// Measures how far `actual` is from `expected`; `encoding` says what the bytes of an 8-bit picture mean.
+/// Measures how far `actual` is from `expected`; `encoding` says what the bytes of an 8-bit picture mean. The pictures are
+/// gone through some rows at a time, several times.
 ///
 /// # Errors
 /// [`SizeMismatch`].
-pub fn compare(actual: &Image, expected: &Image, encoding: Encoding) -> Result<Comparison, SizeMismatch> {
-    same_size(actual, expected)?;
-    let bytes = [actual.to_bytes(encoding), expected.to_bytes(encoding)];
-    let counted = || pairs(actual, expected).filter(|pair| pair.kind == Kind::Counted);
-    let count = counted().count();
-    let equal = counted().filter(|pair| step(&bytes, pair.at) == 0).count();
-    Ok(Comparison {
-        size: actual.dimensions(),
-        encoding,
-        counted: count,
-        coverage: coverage(actual, expected),
-        not_finite: not_finite(actual, expected),
-        range: range(expected),
-        linear: Errors::of(counted().map(|pair| (pair.at, [pair.actual, pair.expected]))),
-        steps: Errors::of(counted().map(|pair| (pair.at, in_steps(&bytes, pair.at)))),
-        equal: if count == 0 { 1.0 } else { equal as f64 / count as f64 },
-        anywhere: anywhere(&bytes, pairs(actual, expected)),
+pub fn compare(actual: &dyn Rows, expected: &dyn Rows, encoding: Encoding) -> Result<Comparison, SizeMismatch> {
+    let bands = Bands::of(actual, expected)?;
+    let mut seen = Sight::new(encoding);
+    bands.each().for_each(|band| seen.take(&band));
+    Ok(seen.comparison(&bands))
+}
+
+/// What one look at all pixels tells.
+struct Sight {
+    encoding: Encoding,
+    counted: usize,
+    equal: usize,
+    coverage: Option<Coverage>,
+    not_finite: Option<NotFinite>,
+    brightest: f64,
+    darkest: f64,
+    linear: [Tally; 3],
+    steps: [Tally; 3],
+    /// How many channels are so many steps off.
+    by_step: [[u64; 256]; 3],
+    anywhere: Difference,
+}
+
+impl Sight {
+    fn new(encoding: Encoding) -> Self {
+        Self {
+            encoding,
+            counted: 0,
+            equal: 0,
+            coverage: None,
+            not_finite: None,
+            brightest: f64::NEG_INFINITY,
+            darkest: f64::INFINITY,
+            linear: [Tally::default(); 3],
+            steps: [Tally::default(); 3],
+            by_step: [[0; 256]; 3],
+            anywhere: Difference::default(),
+        }
+    }
+
+    fn take(&mut self, band: &Band) {
+        let bytes = [&band.actual, &band.expected].map(|image| image.to_bytes(self.encoding));
+        if let Some(here) = coverage(band) {
+            self.coverage.get_or_insert_default().append(&here);
+        }
+        for channel in band.expected.pixels().iter().flatten().filter(|channel| channel.is_finite()) {
+            self.brightest = self.brightest.max(*channel);
+            self.darkest = self.darkest.min(*channel);
+        }
+        for pair in pairs(band) {
+            let Pair { at, actual, expected, kind } = pair;
+            let steps = steps(&bytes, (at.0, at.1 - band.first));
+            if kind == Kind::NotFinite {
+                let first = NotFinite { count: 0, first: at, actual, expected };
+                self.not_finite.get_or_insert(first).count += 1;
+                continue;
+            }
+            let largest = largest(steps);
+            if largest > self.anywhere.steps {
+                self.anywhere = Difference { steps: largest, at };
+            }
+            if kind != Kind::Counted {
+                continue;
+            }
+            self.counted += 1;
+            self.equal += usize::from(largest == 0);
+            for channel in 0..3 {
+                let here = |actual, expected| Worst { at, channel, actual, expected };
+                let [own, other] = steps[channel];
+                self.linear[channel].push(here(actual[channel], expected[channel]));
+                self.steps[channel].push(here(f64::from(own), f64::from(other)));
+                self.by_step[channel][usize::from(own.abs_diff(other))] += 1;
+            }
+        }
+    }
+
+    fn comparison(self, bands: &Bands) -> Comparison {
+        let by_step = self.by_step.map(|counts| step_percentiles(&counts));
+        let all_steps = std::array::from_fn(|step| self.by_step.iter().map(|counts| counts[step]).sum());
+        let (linear, all_linear) = linear_percentiles(bands);
+        Comparison {
+            size: bands.size,
+            encoding: self.encoding,
+            counted: self.counted,
+            coverage: self.coverage,
+            not_finite: self.not_finite,
+            range: (self.brightest - self.darkest).max(0.0),
+            linear: Errors::of(&self.linear, linear, all_linear),
+            steps: Errors::of(&self.steps, by_step, step_percentiles(&all_steps)),
+            equal: if self.counted == 0 { 1.0 } else { self.equal as f64 / self.counted as f64 },
+            anywhere: self.anywhere,
+        }
+    }
+}
+
+fn step_percentiles(counts: &[u64; 256]) -> [f64; 4] {
+    let values = counts.iter().sum();
+    PERCENTILES.map(|share| {
+        let mut rank = nearest_rank(values, share);
+        let found = counts.iter().position(|count| {
+            let here = rank < *count;
+            rank = rank.saturating_sub(*count);
+            here
+        });
+        found.unwrap_or(0) as f64
     })
+}
+
+/// The percentiles of the linear errors that count: of each channel, and of all.
+fn linear_percentiles(bands: &Bands) -> ([[f64; 4]; 3], [f64; 4]) {
+    let mut ranks = [const { () }; 4].map(|()| Ranks::new());
+    for _ in 0..PASSES {
+        for band in bands.each() {
+            for Pair { actual, expected, .. } in pairs(&band).filter(|pair| pair.kind == Kind::Counted) {
+                for channel in 0..3 {
+                    let error = (actual[channel] - expected[channel]).abs();
+                    ranks[channel].push(error);
+                    ranks[3].push(error);
+                }
+            }
+        }
+        ranks.iter_mut().for_each(Ranks::next_pass);
+    }
+    let [red, green, blue, all] = ranks.map(|ranks| ranks.percentiles());
+    ([red, green, blue], all)
 }
 
 impl Comparison {
@@ -121,29 +231,13 @@ pub(super) fn range(image: &Image) -> f64 {
     finite().reduce(f64::max).zip(finite().reduce(f64::min)).map_or(0.0, |(high, low)| high - low)
 }
 
-/// The largest channel's difference at a pixel.
-pub(super) fn step([a, b]: &[RgbImage; 2], (x, y): (u32, u32)) -> u8 {
+/// By channel the bytes at a pixel.
+pub(super) fn steps([a, b]: &[RgbImage; 2], (x, y): (u32, u32)) -> [[u8; 2]; 3] {
     let (a, b) = (a.get_pixel(x, y).0, b.get_pixel(x, y).0);
-    (0..3).map(|k| a[k].abs_diff(b[k])).max().unwrap_or(0)
+    [0, 1, 2].map(|k| [a[k], b[k]])
 }
 
-fn in_steps(bytes: &[RgbImage; 2], (x, y): (u32, u32)) -> [[f64; 3]; 2] {
-    bytes.each_ref().map(|image| image.get_pixel(x, y).0.map(f64::from))
-}
-
-fn anywhere(bytes: &[RgbImage; 2], pairs: impl Iterator<Item = Pair>) -> Difference {
-    let mut largest = Difference::default();
-    for pair in pairs.filter(|pair| pair.kind != Kind::NotFinite) {
-        let steps = step(bytes, pair.at);
-        if steps > largest.steps {
-            largest = Difference { steps, at: pair.at };
-        }
-    }
-    largest
-}
-
-fn not_finite(actual: &Image, expected: &Image) -> Option<NotFinite> {
-    let mut bad = pairs(actual, expected).filter(|pair| pair.kind == Kind::NotFinite);
-    let Pair { at: first, actual, expected, .. } = bad.next()?;
-    Some(NotFinite { count: 1 + bad.count(), first, actual, expected })
+/// The largest channel's difference.
+pub(super) fn largest(steps: [[u8; 2]; 3]) -> u8 {
+    steps.into_iter().map(|[a, b]| a.abs_diff(b)).max().unwrap_or(0)
 }

@@ -1,6 +1,6 @@
 //! Which pixels two pictures cover, and which of them count.
 
-use crate::Image;
+use super::bands::Band;
 
 /// How many finite pixels show an object, and how many the background. Only where both pictures know.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -18,6 +18,15 @@ pub struct Coverage {
 }
 
 impl Coverage {
+    /// Adds what is known of rows below.
+    pub(super) fn append(&mut self, below: &Self) {
+        self.both += below.both;
+        self.neither += below.neither;
+        self.only_actual += below.only_actual;
+        self.only_expected += below.only_expected;
+        self.first_difference = self.first_difference.or(below.first_difference);
+    }
+
     /// Pixels that exactly one of the pictures covers.
     pub fn different(&self) -> usize {
         self.only_actual + self.only_expected
@@ -49,14 +58,16 @@ impl Kind {
 /// A pixel of two pictures of one size.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pair {
+    /// Column and row of the whole picture.
     pub(super) at: (u32, u32),
     pub(super) actual: [f64; 3],
     pub(super) expected: [f64; 3],
     pub(super) kind: Kind,
 }
 
-/// The pixels of two pictures of one size, row by row.
-pub(super) fn pairs<'a>(actual: &'a Image, expected: &'a Image) -> impl Iterator<Item = Pair> + Clone + 'a {
+/// The pixels of a band, row by row.
+pub(super) fn pairs(band: &Band) -> impl Iterator<Item = Pair> + Clone + '_ {
+    let Band { first, actual, expected } = band;
     let width = actual.dimensions().0.max(1) as usize;
     let covered = actual.covered().zip(expected.covered());
     actual.pixels().iter().zip(expected.pixels()).enumerate().map(move |(i, (&actual, &expected))| {
@@ -68,15 +79,15 @@ pub(super) fn pairs<'a>(actual: &'a Image, expected: &'a Image) -> impl Iterator
             Some((true, false)) => Kind::OnlyActual,
             Some((false, true)) => Kind::OnlyExpected,
         };
-        Pair { at: ((i % width) as u32, (i / width) as u32), actual, expected, kind }
+        Pair { at: ((i % width) as u32, first + (i / width) as u32), actual, expected, kind }
     })
 }
 
-/// The figures of the finite pixels, where both pictures know what they cover.
-pub(super) fn coverage(actual: &Image, expected: &Image) -> Option<Coverage> {
-    actual.covered().zip(expected.covered())?;
+/// The figures of a band's finite pixels, where both pictures know what they cover.
+pub(super) fn coverage(band: &Band) -> Option<Coverage> {
+    band.actual.covered().zip(band.expected.covered())?;
     let mut coverage = Coverage::default();
-    for Pair { at, kind, .. } in pairs(actual, expected) {
+    for Pair { at, kind, .. } in pairs(band) {
         match kind {
             Kind::Counted => coverage.both += 1,
             Kind::Background => coverage.neither += 1,

@@ -3,13 +3,13 @@
 use halfway_lighting::Encoding;
 use image::RgbImage;
 
+use super::bands::{Band, Bands, Rows};
 use super::canvas::{below_one_another, enlarged};
-use super::comparison::{SizeMismatch, same_size, step};
+use super::comparison::{SizeMismatch, largest, steps};
 use super::coverage::{Kind, pairs};
 use super::legend::legend;
 use super::scale::{COVERAGE, LegendContent, NOT_FINITE, Scale, Unit, color, round_up};
 use super::statistics::percentile;
-use crate::Image;
 
 /// Draws the error of every pixel through the colour map "magma" (black is none, pale yellow the upper end), with a
 /// legend below. Where the pictures differ in coverage the pixel is green, where either is not finite light blue. Small
@@ -18,21 +18,24 @@ use crate::Image;
 /// # Errors
 /// [`SizeMismatch`].
 pub fn difference(
-    actual: &Image,
-    expected: &Image,
+    actual: &dyn Rows,
+    expected: &dyn Rows,
     encoding: Encoding,
     scale: Scale,
 ) -> Result<RgbImage, SizeMismatch> {
-    same_size(actual, expected)?;
-    let errors = errors(actual, expected, encoding, scale.unit);
-    let kinds: Vec<Kind> = pairs(actual, expected).map(|pair| pair.kind).collect();
+    let bands = Bands::of(actual, expected)?;
+    let (mut kinds, mut errors) = (Vec::new(), Vec::new());
+    for band in bands.each() {
+        kinds.extend(pairs(&band).map(|pair| pair.kind));
+        extend_errors(&mut errors, &band, encoding, scale.unit);
+    }
     let upper = scale.upper.filter(|upper| *upper > 0.0).unwrap_or_else(|| upper(&errors, &kinds, scale.unit));
     let pixels = kinds.iter().zip(&errors).flat_map(|(kind, error)| match kind {
         Kind::OnlyActual | Kind::OnlyExpected => COVERAGE.0,
         Kind::NotFinite => NOT_FINITE.0,
         Kind::Counted | Kind::Background => color(error / upper).0,
     });
-    let (width, height) = actual.dimensions();
+    let (width, height) = bands.size;
     let picture = RgbImage::from_raw(width, height, pixels.collect()).unwrap_or_default();
     let has = |wanted: &[Kind]| kinds.iter().any(|kind| wanted.contains(kind));
     let shown = LegendContent {
@@ -47,16 +50,17 @@ pub fn difference(
     Ok(below_one_another(&[picture, legend], 0))
 }
 
-/// The error of every pixel, row by row; of pixels that are not finite it means nothing.
-fn errors(actual: &Image, expected: &Image, encoding: Encoding, unit: Unit) -> Vec<f64> {
+/// Adds the error of every pixel of a band, row by row; of pixels that are not finite it means nothing.
+fn extend_errors(errors: &mut Vec<f64>, band: &Band, encoding: Encoding, unit: Unit) {
     match unit {
         Unit::Steps => {
-            let bytes = [actual.to_bytes(encoding), expected.to_bytes(encoding)];
-            pairs(actual, expected).map(|pair| f64::from(step(&bytes, pair.at))).collect()
+            let bytes = [&band.actual, &band.expected].map(|image| image.to_bytes(encoding));
+            let places = pairs(band).map(|pair| (pair.at.0, pair.at.1 - band.first));
+            errors.extend(places.map(|at| f64::from(largest(steps(&bytes, at)))));
         }
         Unit::Linear => {
             let largest = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| (a[k] - b[k]).abs()).fold(0.0, f64::max);
-            pairs(actual, expected).map(|pair| largest(pair.actual, pair.expected)).collect()
+            errors.extend(pairs(band).map(|pair| largest(pair.actual, pair.expected)));
         }
     }
 }

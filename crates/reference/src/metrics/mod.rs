@@ -18,6 +18,7 @@
 //! # Ok::<(), metrics::SizeMismatch>(())
 //! ```
 
+mod bands;
 mod canvas;
 mod comparison;
 mod coverage;
@@ -26,12 +27,14 @@ mod difference;
 mod flip;
 mod judge;
 mod legend;
+mod ranks;
 mod report;
 mod scale;
 mod statistics;
 mod table;
 mod triptych;
 
+pub use bands::Rows;
 pub use comparison::{Comparison, Difference, NotFinite, SizeMismatch, compare};
 pub use coverage::Coverage;
 pub use difference::difference;

@@ -3,6 +3,8 @@
 use std::cmp::Ordering;
 use std::fmt;
 
+use super::ranks::nearest_rank;
+
 /// The channels' names, in their order.
 pub(super) const CHANNELS: [&str; 3] = ["red", "green", "blue"];
 
@@ -70,43 +72,35 @@ impl Statistics {
     }
 }
 
-impl Errors {
-    /// The figures of the pairs of finite values that `counted` yields, each with its place.
-    pub(super) fn of(counted: impl Iterator<Item = ((u32, u32), [[f64; 3]; 2])>) -> Self {
-        let mut channels = [const { Sample::new() }; 3];
-        for (at, [actual, expected]) in counted {
-            for (channel, sample) in channels.iter_mut().enumerate() {
-                sample.push(Worst { at, channel, actual: actual[channel], expected: expected[channel] });
-            }
-        }
-        let mut all = Sample::new();
-        for sample in &channels {
-            all.append(sample);
-        }
-        Self { channels: channels.map(Sample::finish), all: all.finish() }
-    }
-}
-
-/// Errors with their signs, as they come in.
-struct Sample {
-    errors: Vec<f64>,
+/// Errors in all figures but the percentiles, as they come in.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Tally {
+    count: u64,
+    sum: f64,
+    absolute: f64,
+    squares: f64,
     worst: Option<Worst>,
 }
 
-impl Sample {
-    const fn new() -> Self {
-        Self { errors: Vec::new(), worst: None }
-    }
-
-    fn push(&mut self, here: Worst) {
-        self.errors.push(here.actual - here.expected);
-        if self.worst.is_none_or(|worst| here.error() > worst.error()) {
+impl Tally {
+    /// Takes the values at a place.
+    pub(super) fn push(&mut self, here: Worst) {
+        let error = here.actual - here.expected;
+        self.count += 1;
+        self.sum += error;
+        self.absolute += error.abs();
+        self.squares += error * error;
+        if self.worst.is_none_or(|worst| error.abs() > worst.error()) {
             self.worst = Some(here);
         }
     }
 
+    /// Takes what another one has.
     fn append(&mut self, other: &Self) {
-        self.errors.extend_from_slice(&other.errors);
+        self.count += other.count;
+        self.sum += other.sum;
+        self.absolute += other.absolute;
+        self.squares += other.squares;
         // Of equal errors the first, row by row.
         let before = |a: Worst, b: Worst| match b.error().total_cmp(&a.error()) {
             Ordering::Greater => true,
@@ -120,25 +114,29 @@ impl Sample {
         }
     }
 
-    fn finish(mut self) -> Statistics {
-        let count = self.errors.len().max(1) as f64;
-        let bias = self.errors.iter().sum::<f64>() / count;
-        let rmse = (self.errors.iter().map(|error| error * error).sum::<f64>() / count).sqrt();
-        self.errors.iter_mut().for_each(|error| *error = error.abs());
-        let mean = self.errors.iter().sum::<f64>() / count;
-        Statistics { worst: self.worst, mean, bias, rmse, percentiles: percentiles(&mut self.errors) }
+    fn statistics(&self, percentiles: [f64; 4]) -> Statistics {
+        let count = self.count.max(1) as f64;
+        Statistics {
+            worst: self.worst,
+            mean: self.absolute / count,
+            bias: self.sum / count,
+            rmse: (self.squares / count).sqrt(),
+            percentiles,
+        }
     }
 }
 
-/// The nearest rank of each of [`PERCENTILES`]; 0 where there are no values. Sorts them.
-pub(super) fn percentiles(values: &mut [f64]) -> [f64; 4] {
-    values.sort_unstable_by(f64::total_cmp);
-    PERCENTILES.map(|share| percentile(values, share))
+impl Errors {
+    /// The figures of the three channels, with the percentiles of each and of all.
+    pub(super) fn of(channels: &[Tally; 3], percentiles: [[f64; 4]; 3], of_all: [f64; 4]) -> Self {
+        let mut all = Tally::default();
+        channels.iter().for_each(|channel| all.append(channel));
+        let channel = |k: usize| channels[k].statistics(percentiles[k]);
+        Self { channels: [channel(0), channel(1), channel(2)], all: all.statistics(of_all) }
+    }
 }
 
 /// The least of the sorted values that `share` per cent of them do not exceed; 0 where there are none.
 pub(super) fn percentile(sorted: &[f64], share: f64) -> f64 {
-    // The product may end a little above a whole number that it stands for.
-    let rank = (sorted.len() as f64 * share / 100.0 - 1e-6).ceil().max(1.0);
-    sorted.get(rank as usize - 1).copied().unwrap_or(0.0)
+    sorted.get(nearest_rank(sorted.len() as u64, share) as usize).copied().unwrap_or(0.0)
 }
