@@ -1,5 +1,5 @@
 //! Twins: the functions of lighting.wgsl, run on the adapter, against those of the same name in
-//! `halfway_lighting::equations` in f64; and those of maps.wgsl, against `halfway_texture`.
+//! `halfway_lighting::equations` in f64; those of maps.wgsl, against `halfway_texture` too; and sums of terms.
 
 mod adapter;
 mod derivatives;
@@ -13,6 +13,7 @@ mod place_rows;
 #[path = "../../src/draw/placings.rs"]
 mod placings;
 mod table;
+mod terms;
 
 use halfway_render::{Gpu, wgpu::naga};
 use std::collections::BTreeSet;

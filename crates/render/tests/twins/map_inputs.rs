@@ -3,7 +3,7 @@
 use crate::images::{FILTERS, HEIGHT, IMAGES, Look, WRAPS};
 use crate::inputs::{Input, Random, input, many};
 
-/// Each of 0 to count − 1.
+/// One of 0 to count − 1.
 fn below(random: &mut Random, count: usize) -> f32 {
     random.between(0.0, count as f32).floor().min(count as f32 - 1.0)
 }

@@ -152,8 +152,9 @@ pub(crate) fn texel_rows() -> Vec<Row> {
 const OF_WEIGHT: f64 = 8.0 * ULP;
 /// No filter's weights sum up to more in magnitude, along both axes: 1.25² of Catmull-Rom.
 pub(crate) const GROSS: f64 = 1.6;
-/// Each of 16 products of weights is off by 2 · 1.25 · 8 ULP in all rows or columns together, 4 times: 80; their sum by half a
-/// ULP of 1.6 a texel, 13; mixing two levels by 3.
+/// The weights of a row are off by 4 · 8 ULP together, and so are those of a column; each counts as often as the magnitudes of
+/// the others sum up to, 1.25: their products are off by 80 ULP. Sixteen sums of numbers up to 1.6 are off by 13 ULP, products by
+/// 2, mixing two levels by 5.
 const OF_SUM: f64 = 100.0 * ULP;
 /// By how much of the largest texel a filter changes on the way of a texel along one axis: Catmull-Rom's slopes, 3 in all,
 /// by 1.25.
@@ -162,8 +163,8 @@ const SLOPE: f64 = 4.0;
 // ---- the image at a point -------------------------------------------------------------------------
 
 /// How far a value may be off whose place is known to 3 ULP of the side, and further to `blur` texels of the image, along each
-/// axis: by the slope of the filters without steps, and by what is around, where they have steps. 3 ULP of the side and 2 texels more,
-/// of a level of two texels or more, are less than 9 ULP of the image; of one texel it does not matter.
+/// axis: by the slope of the filters without steps, and by what is around, where they have steps. 3 ULP of the side and 2
+/// texels more, of a level of two texels or more, are less than 9 ULP of the image; of one texel it does not matter.
 pub(crate) fn of_place(slot: usize, uv: [f64; 2], blur: [f64; 2], at: impl Fn([f64; 2]) -> [f64; 4]) -> [f64; 4] {
     let size = IMAGES[slot].size().map(f64::from);
     let off: [f64; 2] = std::array::from_fn(|k| 3.0 * ULP * (size[k] + 2.0) + blur[k]);
