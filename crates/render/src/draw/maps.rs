@@ -2,13 +2,13 @@
 
 use crate::batch::table::{MapUse, MapsUse};
 use crate::device::gpu::Gpu;
+use crate::draw::placings::{PlacingRecord, PlacingsRecord, packed, packed_size};
 use crate::error::RenderError;
 use crate::frame::report::FrameReport;
 use crate::pipelines::cache::Pipelines;
 use bevy_asset::{AssetId, Assets};
 use bevy_platform::collections::HashMap;
-use bytemuck::{Pod, Zeroable};
-use halfway_texture::{Level, MapKind, Pyramid, Texture};
+use halfway_texture::{MapKind, Pyramid, Texture};
 
 /// The images that have been drawn, until they change or go, and the bindings of the frame's uses of them.
 #[derive(Default)]
@@ -80,6 +80,7 @@ impl MapTextures {
         pyramids: &Pyramids,
     ) -> Result<Option<(wgpu::BindGroup, u64)>, RenderError> {
         let Some(layout) = pipelines.map_bindings() else { return Ok(None) };
+        let longest = gpu.device.limits().max_texture_dimension_2d;
         let mut bytes = PLACINGS_BYTES;
         let mut record = PlacingsRecord { cutoff: [of.cutoff, 0.0, 0.0, 0.0], ..PlacingsRecord::default() };
         let mut views = Vec::with_capacity(MapKind::COUNT);
@@ -88,7 +89,7 @@ impl MapTextures {
                 views.push(self.none(gpu)?);
                 continue;
             };
-            record.each[slot] = PlacingRecord::new(of, pyramid, packed_size(gpu, pyramid)[0]);
+            record.each[slot] = PlacingRecord::new(of.rows(), of.amount, pyramid, packed_size(pyramid, longest)[0]);
             let (view, sent) = self.view(gpu, of, pyramid)?;
             bytes += sent;
             views.push(view);
@@ -131,81 +132,17 @@ impl MapTextures {
     }
 }
 
-/// Where a mesh's coordinates lie on images; `Placings` in maps.wgsl.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub(crate) struct PlacingsRecord {
-    pub(crate) cutoff: [f32; 4],
-    pub(crate) each: [PlacingRecord; MapKind::COUNT],
-}
-
-/// Where they lie on one, how much it counts, and where its levels are; `Placing` in maps.wgsl.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub(crate) struct PlacingRecord {
-    pub(crate) row0: [f32; 4],
-    pub(crate) row1: [f32; 4],
-    pub(crate) levels: [u32; 4],
-    pub(crate) level: [[u32; 4]; 14],
-}
-
-/// How many bytes it has.
+/// How many bytes the record of where maps lie has.
 const PLACINGS_BYTES: u64 = size_of::<PlacingsRecord>() as u64;
-
-impl PlacingRecord {
-    fn new(of: &MapUse, pyramid: &Pyramid, width: u32) -> Self {
-        let [[a, b, c], [d, e, f]] = of.rows();
-        let (row0, row1) = ([a, b, c, of.amount], [d, e, f, 0.0]);
-        let mut level = [[0; 4]; 14];
-        for (record, Level { width, height, start }) in level.iter_mut().zip(pyramid.levels()) {
-            *record = [*start as u32, *width, *height, 0];
-        }
-        Self { row0, row1, levels: [pyramid.levels().len() as u32, width, 0, 0], level }
-    }
-}
-
-/// Columns and rows of the texture that holds all levels, one after the other.
-fn packed_size(gpu: &Gpu, pyramid: &Pyramid) -> [u32; 2] {
-    let count = pyramid.texels().len() as u32;
-    let width = count.min(gpu.device.limits().max_texture_dimension_2d);
-    [width, count.div_ceil(width)]
-}
 
 /// All levels of a pyramid in a texture of 32-bit floats.
 fn sent(gpu: &Gpu, pyramid: &Pyramid) -> Result<wgpu::TextureView, RenderError> {
-    let [width, height] = packed_size(gpu, pyramid);
     let limit = gpu.device.limits().max_texture_dimension_2d;
-    if height > limit {
+    let size = packed_size(pyramid, limit);
+    if size[1] > limit {
         let what = "the texels of an image with its pyramid, in rows of the longest side of a texture,".into();
-        return Err(RenderError::TooLarge { what, needed: height.into(), limit: limit.into() });
+        return Err(RenderError::TooLarge { what, needed: size[1].into(), limit: limit.into() });
     }
-    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("a map"),
-        size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: wgpu::TextureFormat::Rgba32Float,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-        view_formats: &[],
-    });
-    let write = |y: u32, texels: &[[f32; 4]], rows: u32| {
-        let to = wgpu::TexelCopyTextureInfo {
-            texture: &texture,
-            mip_level: 0,
-            origin: wgpu::Origin3d { x: 0, y, z: 0 },
-            aspect: wgpu::TextureAspect::All,
-        };
-        let size = wgpu::Extent3d { width: width.min(texels.len() as u32), height: rows, depth_or_array_layers: 1 };
-        let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(16 * width), rows_per_image: None };
-        gpu.queue.write_texture(to, bytemuck::cast_slice(texels), layout, size);
-    };
-    // The last row may be a part.
-    let whole = pyramid.texels().len() as u32 / width;
-    let (rows, rest) = pyramid.texels().split_at((whole * width) as usize);
-    write(0, rows, whole);
-    if !rest.is_empty() {
-        write(whole, rest, 1);
-    }
+    let texture = packed(&gpu.device, &gpu.queue, pyramid, size);
     Ok(texture.create_view(&wgpu::TextureViewDescriptor::default()))
 }

@@ -4,5 +4,6 @@ pub(crate) mod flat;
 pub(crate) mod maps;
 pub(crate) mod meshes;
 pub(crate) mod pass;
+pub(crate) mod placings;
 pub(crate) mod replaced;
 pub(crate) mod upload;

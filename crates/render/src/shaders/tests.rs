@@ -1,7 +1,7 @@
 //! The texts are valid file by file, and the records lie as the texts read them.
 
 use crate::device::provoking_vertex::ProvokingVertex;
-use crate::draw::maps::{PlacingRecord, PlacingsRecord};
+use crate::draw::placings::{PlacingRecord, PlacingsRecord};
 use crate::shaders::light_slots::BOUND_LIGHTS;
 use crate::shaders::records::{DrawRecord, INSTANCE, InstanceRecord, LightRecord, MaterialRecord, ViewRecord};
 use crate::shaders::text::{LightText, SurfaceText, Text};

@@ -41,7 +41,9 @@ fn call(@builtin(global_invocation_id) id: vec3u) {
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Kind {
     Scalar,
+    Pair,
     Vector,
+    Texel,
     /// A vector of three times the same.
     Repeated,
     Incidence,
@@ -53,7 +55,9 @@ impl Kind {
         match self {
             Self::Scalar => &["r"],
             Self::Repeated => &["r.x"],
+            Self::Pair => &["r.x", "r.y"],
             Self::Vector => &["r.x", "r.y", "r.z"],
+            Self::Texel => &["r.x", "r.y", "r.z", "r.w"],
             Self::Incidence => &["r.l.x", "r.l.y", "r.l.z", "r.weight"],
             Self::Irradiance => &[
                 "r.ambient.x",
@@ -70,10 +74,43 @@ impl Kind {
     }
 }
 
+/// What a text reads in its group 1.
+pub(crate) struct Bound {
+    pub(crate) layout: wgpu::BindGroupLayout,
+    pub(crate) group: wgpu::BindGroup,
+}
+
 /// What `call` gives for each input, with `lighting` as the text and these values of its overrides.
 pub(crate) fn results(
     gpu: &Gpu,
     lighting: &str,
+    called: (&str, Kind),
+    constants: &[(&str, f64)],
+    inputs: &[[f32; INPUT]],
+) -> Vec<[f32; RESULT]> {
+    results_with(gpu, (lighting, None), called, constants, inputs)
+}
+
+/// The layout of the inputs and the results.
+fn numbers_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+    let entry = |binding, read_only| wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::COMPUTE,
+        ty: wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Storage { read_only },
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        },
+        count: None,
+    };
+    let entries = [entry(0, true), entry(1, false)];
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: None, entries: &entries })
+}
+
+/// The same of a text that may read something in its group 1.
+pub(crate) fn results_with(
+    gpu: &Gpu,
+    (lighting, bound): (&str, Option<&Bound>),
     (call, kind): (&str, Kind),
     constants: &[(&str, f64)],
     inputs: &[[f32; INPUT]],
@@ -86,9 +123,16 @@ pub(crate) fn results(
         label: Some(call),
         source: wgpu::ShaderSource::Wgsl(format!("{lighting}{text}").into()),
     });
+    let numbers = numbers_layout(device);
+    let both = [Some(&numbers), bound.map(|bound| &bound.layout)];
+    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some(call),
+        bind_group_layouts: if bound.is_some() { &both } else { &both[..1] },
+        ..Default::default()
+    });
     let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
         label: Some(call),
-        layout: None,
+        layout: Some(&layout),
         module: &module,
         entry_point: Some("call"),
         compilation_options: wgpu::PipelineCompilationOptions { constants, ..Default::default() },
@@ -110,7 +154,7 @@ pub(crate) fn results(
     gpu.queue.write_buffer(&given, 0, bytes);
     let bindings = device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: None,
-        layout: &pipeline.get_bind_group_layout(0),
+        layout: &numbers,
         entries: &[
             wgpu::BindGroupEntry { binding: 0, resource: given.as_entire_binding() },
             wgpu::BindGroupEntry { binding: 1, resource: made.as_entire_binding() },
@@ -121,6 +165,9 @@ pub(crate) fn results(
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
         pass.set_pipeline(&pipeline);
         pass.set_bind_group(0, &bindings, &[]);
+        if let Some(bound) = bound {
+            pass.set_bind_group(1, &bound.group, &[]);
+        }
         pass.dispatch_workgroups(inputs.len().div_ceil(64) as u32, 1, 1);
     }
     encoder.copy_buffer_to_buffer(&made, 0, &read, 0, size as u64);

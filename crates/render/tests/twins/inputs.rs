@@ -146,7 +146,7 @@ fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-fn many(
+pub(crate) fn many(
     edges: impl IntoIterator<Item = Input>,
     count: usize,
     mut random: impl FnMut(&mut Random) -> Input,

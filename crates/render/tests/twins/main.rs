@@ -1,9 +1,19 @@
 //! Twins: the functions of lighting.wgsl, run on the adapter, against those of the same name in
-//! `halfway_lighting::equations` in f64.
+//! `halfway_lighting::equations` in f64; those of maps.wgsl, against `halfway_texture` too; and sums of terms.
 
 mod adapter;
+mod derivatives;
+mod images;
 mod inputs;
+mod map_inputs;
+mod map_rows;
+mod maps;
+mod normal_rows;
+mod place_rows;
+#[path = "../../src/draw/placings.rs"]
+mod placings;
 mod table;
+mod terms;
 
 use halfway_render::{Gpu, wgpu::naga};
 use std::collections::BTreeSet;
@@ -13,7 +23,11 @@ const LIGHTING: &str = include_str!("../../src/shaders/lighting.wgsl");
 
 /// What is wrong with the first result that is too far from its twin.
 fn too_far(gpu: &Gpu, lighting: &str, row: &Row) -> Option<String> {
-    let results = adapter::results(gpu, lighting, (row.call, row.kind), row.constants, &row.inputs);
+    far_of(row, adapter::results(gpu, lighting, (row.call, row.kind), row.constants, &row.inputs))
+}
+
+/// The same of results that are there.
+fn far_of(row: &Row, results: Vec<[f32; adapter::RESULT]>) -> Option<String> {
     row.inputs.iter().zip(results).find_map(|(input, result)| {
         let expected = (row.twin)(input);
         let allowed = (row.allowed)(input, &expected);

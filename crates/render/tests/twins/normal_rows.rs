@@ -1,0 +1,76 @@
+//! The table of what maps.wgsl does to normals: twins of `halfway_lighting::equations`.
+
+use halfway_lighting::equations::vector::{add, cross, dot, length, scale, sub};
+use halfway_lighting::equations::{NORMAL_MIN, bumped_normal, mapped_normal};
+
+use crate::adapter::Kind;
+use crate::inputs::wide;
+use crate::map_inputs as inputs;
+use crate::map_rows::{ULP, row};
+use crate::table::Row;
+
+/// n, t, w, the texel, the scale and what counts otherwise.
+fn mapped(x: &[f32]) -> [f64; 3] {
+    mapped_normal(wide(x), wide(&x[3..]), x[6].into(), wide(&x[7..]), x[10].into(), wide(&x[11..]))
+}
+
+/// The texel's numbers are off by a ULP, and each of the three parts of the sum by five roundings; what is left of the sum is
+/// brought to length 1.
+fn of_mapped(x: &[f32], _: &[f64]) -> Vec<f64> {
+    let (n, t, w, s) = (wide::<3>(x), wide::<3>(&x[3..]), f64::from(x[6]), f64::from(x[10]));
+    let [x, y, z] = wide::<3>(&x[7..]).map(|c| 2.0 * c - 1.0);
+    let parts = [scale(t, x * s), scale(cross(n, t), w * y * s), scale(n, z)];
+    let left = length(add(add(parts[0], parts[1]), parts[2]));
+    let gross = length(t) * s.abs() + length(n) * length(t) * (w * s).abs() + length(n);
+    if length(n) <= f64::from(NORMAL_MIN) || left == 0.0 {
+        return vec![0.0; 3];
+    }
+    vec![6.0 * ULP * gross / left + 5.0 * ULP; 3]
+}
+
+/// n, m, both ways, both rises and what counts otherwise.
+fn bumped(x: &[f32]) -> [f64; 3] {
+    bumped_normal(wide(x), wide(&x[3..]), [wide(&x[6..]), wide(&x[9..])], wide(&x[12..]), wide(&x[14..]))
+}
+
+/// n and m over the length of n are off by 5 ULP, and what is cross and dot of them by as many more; the area, relative to
+/// itself, by 10 ULP of the product of both ways; so g, and so what is left of the normal, which is brought to length 1.
+fn of_bumped(x: &[f32], _: &[f64]) -> Vec<f64> {
+    let (n, m, e1, e2) = (wide::<3>(x), wide::<3>(&x[3..]), wide::<3>(&x[6..]), wide::<3>(&x[9..]));
+    let rises = wide::<2>(&x[12..]);
+    let size = length(n);
+    let (unit, up) = (scale(n, 1.0 / size), scale(m, 1.0 / size));
+    let area = dot(unit, cross(e1, e2));
+    if size <= f64::from(NORMAL_MIN) || area == 0.0 {
+        return vec![0.0; 3];
+    }
+    let g = add(scale(cross(e2, unit), rises[0] / area), scale(cross(unit, e1), rises[1] / area));
+    let left = length(sub(scale(unit, 1.0 + dot(g, up)), scale(g, dot(unit, up))));
+    if left == 0.0 {
+        return vec![0.0; 3];
+    }
+    let gross = (length(e2) * rises[0].abs() + length(e1) * rises[1].abs()) / area.abs();
+    let of_area = 10.0 * ULP * length(e1) * length(e2) / area.abs();
+    let of_g = gross * (of_area + 10.0 * ULP);
+    let of_sum = 2.0 * length(up) * (of_g + 10.0 * ULP * gross) + 10.0 * ULP;
+    vec![of_sum / left + 5.0 * ULP; 3]
+}
+
+pub(crate) fn normal_rows() -> Vec<Row> {
+    vec![
+        row(
+            ("mapped_normal", "mapped_normal(v(i, 0), v(i, 3), s(i, 6), v(i, 7), s(i, 10), v(i, 11))"),
+            Kind::Vector,
+            inputs::mapped_normals(),
+            |x| mapped(x).to_vec(),
+            of_mapped,
+        ),
+        row(
+            ("bumped_normal", "bumped_normal(v(i, 0), v(i, 3), v(i, 6), v(i, 9), v(i, 12).xy, v(i, 14))"),
+            Kind::Vector,
+            inputs::bumped_normals(),
+            |x| bumped(x).to_vec(),
+            of_bumped,
+        ),
+    ]
+}
