@@ -7,9 +7,9 @@ use bevy_math::UVec2;
 use bevy_transform::components::{GlobalTransform, Transform};
 use halfway_lighting::equations::{self, Light, rgb, vector::add};
 use halfway_lighting::{
-    BackMaterial, Blend, Camera, DirectionalLight, Faces, Fields, GlobalAmbient, Intensity, InvalidValue, Mask, Material,
-    PointLight, Propagation, Reflectance, Samples, Shading, Shown, SpotLight, Terms, VertexColors, light_direction,
-    light_position, propagation,
+    BackMaterial, Blend, Camera, DirectionalLight, Faces, Fields, GlobalAmbient, Intensity, InvalidValue, Mask,
+    Material, PointLight, Propagation, Reflectance, Samples, Shading, Shown, SpotLight, Terms, VertexColors,
+    light_direction, light_position, propagation,
 };
 use halfway_mesh::{Mesh, Mesh3d, SpawnOrder};
 use halfway_texture::{Maps, Pyramid, SurfaceMap, Texture};

@@ -18,7 +18,9 @@ pub(super) fn judge_divided(
     bars: Bars,
 ) -> Result<Verdict, SizeMismatch> {
     same_size(actual, expected)?;
-    let Some(divisor) = expected.divisor() else { return judge_with(possible, samples, (expected, moved), actual, bars) };
+    let Some(divisor) = expected.divisor() else {
+        return judge_with(possible, samples, (expected, moved), actual, bars);
+    };
     let possible = |x, y| possible(x, y).mapped(|channel| channel / divisor);
     let factor = divided_like(&possible, (expected, moved), divisor.recip(), actual, bars);
     // A factor that was found is known to some 10⁻⁴, which takes a hundredth of the values across the middle of a step.
@@ -40,16 +42,21 @@ fn divided_like(
     actual: &Image,
     bars: Bars,
 ) -> f64 {
-    let factor = factor_between(expected, actual, bars);
-    // Rounding to bytes blurs the factor by so much.
-    let blurred = matches!(bars.measure, Measure::Steps(_)) && (factor - 1.0).abs() < BLUR;
-    if blurred || !factor.is_finite() || factor <= 0.0 {
+    let bright = bright(expected, actual, bars);
+    let ruler = Ruler::new(expected, bars);
+    // Rounding to bytes blurs the factor: where 1 explains them, it is 1.
+    let is_explained = |(a, b): &&(f64, f64)| ruler.error(*b, *a) <= bars.most + ruler.allowed;
+    let explained = bright.iter().filter(is_explained).count() as f64;
+    let factor = factor_between(bright.clone());
+    if explained >= MOST_EXPLAINED * bright.len() as f64 && matches!(bars.measure, Measure::Steps(_))
+        || !factor.is_finite()
+        || factor <= 0.0
+    {
         return 1.0;
     }
     // The actual divisor as a part of the expected one.
     let found = factor.recip();
     let off = within(bars);
-    let ruler = Ruler::new(expected, bars);
     let width = expected.dimensions().0.max(1) as usize;
     if (found - 1.0).abs() <= off {
         return factor;
@@ -70,16 +77,16 @@ fn divided_like(
     let pixels = 0..expected.pixels().len();
     // Some pixel shows it, or nothing exceeds 1, and no pixel cannot but exceed it.
     let [low, high] = [found * (1.0 - off), found * (1.0 + off)];
-    let is_shown = || pixels.clone().into_par_iter().any(|i| brightness(i).iter().any(|[a, b]| *a <= high && *b >= low));
+    let is_shown =
+        || pixels.clone().into_par_iter().any(|i| brightness(i).iter().any(|[a, b]| *a <= high && *b >= low));
     let may_exceed = |i: &usize| largest(expected.pixels()[*i]) > high;
-    let is_exceeded = || {
-        pixels.clone().into_par_iter().filter(may_exceed).any(|i| brightness(i).iter().all(|[low, _]| *low > high))
-    };
+    let is_exceeded =
+        || pixels.clone().into_par_iter().filter(may_exceed).any(|i| brightness(i).iter().all(|[low, _]| *low > high));
     if ((low..=high).contains(&one) || is_shown()) && !is_exceeded() { factor } else { 1.0 }
 }
 
-/// A factor of bytes that is nearer to 1 says nothing: it would move values by an eighth of a step.
-const BLUR: f64 = 5e-4;
+/// The share of bright channels that an error of the bars explains.
+const MOST_EXPLAINED: f64 = 0.98;
 /// Of darker channels the quotient says little, as a share of the expected picture's brightness.
 const DARKEST: f64 = 0.25;
 /// Quotients that are farther from the median are of other things, as a share.
@@ -97,22 +104,28 @@ fn largest(pixel: [f64; 3]) -> f64 {
     pixel.into_iter().fold(0.0, f64::max)
 }
 
-/// The factor by which one picture is brighter than another where most of both is alike: the median quotient of bright
-/// channels, and the least squares of what lies near it. 1 where nothing is bright.
-fn factor_between(expected: &Image, actual: &Image, bars: Bars) -> f64 {
+/// Bright channels, as they are expected and as they are: each expected value once, as a large patch of one color is rounded
+/// alike everywhere; and none that was clamped, where there are others.
+fn bright(expected: &Image, actual: &Image, bars: Bars) -> Vec<(f64, f64)> {
     let least = DARKEST * expected.largest();
     let clamped = if matches!(bars.measure, Measure::Steps(_)) { 1.0 } else { f64::INFINITY };
     let channels = expected.pixels().iter().flatten().zip(actual.pixels().iter().flatten());
-    let bright: Vec<(f64, f64)> =
-        channels.map(|(a, b)| (*a, *b)).filter(|(a, b)| *a > 0.0 && *a >= least && b.is_finite() && *b >= 0.0).collect();
-    // What was clamped says nothing, where there is something else.
-    let mut known: Vec<(f64, f64)> = bright.iter().copied().filter(|(_, b)| *b < clamped).collect();
-    if known.is_empty() {
-        known = bright;
+    let is_bright = |(a, b): &(f64, f64)| *a > 0.0 && *a >= least && b.is_finite() && *b >= 0.0;
+    let mut bright: Vec<(f64, f64)> = channels.map(|(a, b)| (*a, *b)).filter(is_bright).collect();
+    if bright.iter().any(|(_, b)| *b < clamped) {
+        bright.retain(|(_, b)| *b < clamped);
     }
-    known.sort_unstable_by(|a, b| (a.1 / a.0).total_cmp(&(b.1 / b.0)));
-    let Some(median) = known.get(known.len() / 2).map(|(a, b)| b / a) else { return 1.0 };
-    let near = known.iter().filter(|(a, b)| (b / a - median).abs() <= STRAY * median);
+    bright.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    bright.dedup_by_key(|(a, _)| a.to_bits());
+    bright
+}
+
+/// The factor by which one picture is brighter than another where most of both is alike: the median quotient of bright
+/// channels, and the least squares of what lies near it. 1 where nothing is bright.
+fn factor_between(mut bright: Vec<(f64, f64)>) -> f64 {
+    bright.sort_unstable_by(|a, b| (a.1 / a.0).total_cmp(&(b.1 / b.0)));
+    let Some(median) = bright.get(bright.len() / 2).map(|(a, b)| b / a) else { return 1.0 };
+    let near = bright.iter().filter(|(a, b)| (b / a - median).abs() <= STRAY * median);
     let (products, squares) = near.fold((0.0, 0.0), |(ab, aa), (a, b)| (ab + a * b, aa + a * a));
     if squares > 0.0 { products / squares } else { 1.0 }
 }
