@@ -10,10 +10,10 @@ use bevy_reflect::Reflect;
 use bevy_reflect::std_traits::ReflectDefault;
 use bevy_transform::components::Transform;
 
-use crate::{Intensity, Viewer};
 use crate::equations::{Transcendental, srgb_encoded};
 use crate::invalid::{Fields, InvalidValue};
 use crate::range::Range;
+use crate::{Intensity, Viewer};
 
 /// A perspective camera at its entity's transform, looking along its local −Z with +Y up.
 ///

@@ -81,9 +81,7 @@ impl Intensity {
         let fields = Fields::of("Intensity");
         match self {
             Self::Clamp | Self::Aces => Ok(()),
-            Self::Renormalize { smoothing } => {
-                fields.within("Renormalize.smoothing", smoothing, Self::SMOOTHING_RANGE)
-            }
+            Self::Renormalize { smoothing } => fields.within("Renormalize.smoothing", smoothing, Self::SMOOTHING_RANGE),
             Self::Reinhard { white } => fields.within("Reinhard.white", white, Self::WHITE_RANGE),
         }
     }

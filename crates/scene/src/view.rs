@@ -1,9 +1,7 @@
 //! The keys of a scene file that say how its picture is seen and written.
 
 use bevy_math::{DVec3, Vec3};
-use halfway_lighting::{
-    Camera, Encoding, Faces, Range, Reflectance, Shading, Tolerance, VertexColors, Viewer,
-};
+use halfway_lighting::{Camera, Encoding, Faces, Range, Reflectance, Shading, Tolerance, VertexColors, Viewer};
 use schemars::JsonSchema;
 use serde::de::MapAccess;
 use serde::{Deserialize, Serialize};

@@ -40,7 +40,7 @@ pub(crate) const POLICIES: [(&str, Intensity); 5] = [
     ("aces", Intensity::Aces),
 ];
 
-pub(super) fn rows() -> Vec<Row> {
+pub(super) fn rows(samples: Samples) -> Vec<Row> {
     let scenes: [(&str, fn() -> Scene); 4] = [
         ("bright", bright),
         ("bright and blended", bright_and_blended),
@@ -49,19 +49,17 @@ pub(super) fn rows() -> Vec<Row> {
     ];
     let mut rows = Vec::new();
     for (name, scene) in scenes {
-        for samples in [Samples::One, Samples::Four] {
-            // The smooth one comes after a picture with the divisor that it has alone.
-            for (policy, intensity) in POLICIES {
-                let mut scene = scene();
-                (scene.camera.intensity, scene.camera.samples) = (intensity, samples);
-                if samples == Samples::Four {
-                    // Adapters differ in where they shade a pixel that is covered in part; a facet has one color.
-                    scene.view_shading = Some(Shading::Flat);
-                }
-                let row = Row::new(format!("{policy}, {name}, {samples:?}"), scene);
-                // Of four samples the oracle judges by what may be shown.
-                rows.push(Row { raw: if samples == Samples::Four { BLENDED } else { row.raw }, ..row });
+        // The smooth one comes after a picture with the divisor that it has alone.
+        for (policy, intensity) in POLICIES {
+            let mut scene = scene();
+            (scene.camera.intensity, scene.camera.samples) = (intensity, samples);
+            if samples == Samples::Four {
+                // Adapters differ in where they shade a pixel that is covered in part; a facet has one color.
+                scene.view_shading = Some(Shading::Flat);
             }
+            let row = Row::new(format!("{policy}, {name}, {samples:?}"), scene);
+            // Of four samples the oracle judges by what may be shown.
+            rows.push(Row { raw: if samples == Samples::Four { BLENDED } else { row.raw }, ..row });
         }
     }
     rows

@@ -243,8 +243,12 @@ mod tests {
 
     #[test]
     fn an_adapter_is_chosen_by_its_own_variables_alone() {
-        let adapter =
-            Adapter { name: "a", tests: Tests::Few, variables: vec![("WGPU_BACKEND", "gl".into())], says: ["a", "(gl"] };
+        let adapter = Adapter {
+            name: "a",
+            tests: Tests::Few,
+            variables: vec![("WGPU_BACKEND", "gl".into())],
+            says: ["a", "(gl"],
+        };
         let mut command = Command::new("program");
         adapter.lend(&mut command);
         let set: Vec<_> =
