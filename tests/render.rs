@@ -40,6 +40,7 @@ mod render {
     mod picture;
     mod pipelines;
     mod plugins;
+    mod policies;
     mod properties;
     mod random;
     mod reflection;

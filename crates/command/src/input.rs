@@ -48,6 +48,9 @@ impl SceneInput {
         if let Some(samples) = args.samples {
             scene.samples = samples;
         }
+        if let Some(intensity) = args.intensity {
+            scene.intensity = intensity;
+        }
         Ok(input)
     }
 

@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use halfway::prelude::{Reflectance, UVec2};
+use halfway::prelude::{Intensity, Reflectance, UVec2};
 use halfway::record::parse_size;
-use halfway::scene::ShadingEntry;
+use halfway::scene::{IntensityEntry, ReinhardEntry, RenormaliseEntry, ShadingEntry};
 
 use crate::adapters::AdapterArgs;
 use crate::tolerance::ToleranceArgs;
@@ -26,6 +26,10 @@ pub(crate) struct LookArgs {
     /// Coverage samples a pixel: 1, or 4 for smooth edges [default: the scene's; 1 for a model]
     #[arg(long, value_parser = one_of(&SAMPLES))]
     pub(crate) samples: Option<u32>,
+    /// What becomes of intensities above 1: clamp, renormalise, reinhard or aces; renormalise with the share of the last
+    /// frame's divisor that stays, reinhard with the intensity that becomes 1 [default: the scene's; clamp for a model]
+    #[arg(long, value_name = "clamp|renormalise[=SHARE]|reinhard[=WHITE]|aces", value_parser = parse_intensity)]
+    pub(crate) intensity: Option<IntensityEntry>,
     #[command(flatten)]
     pub(crate) tolerance: ToleranceArgs,
     #[command(flatten)]
@@ -65,4 +69,48 @@ where
         let value = values.iter().find(|(name, ..)| *name == text);
         value.map(|(.., value)| value.clone()).ok_or("not one of the values")
     })
+}
+
+fn parse_intensity(text: &str) -> Result<IntensityEntry, String> {
+    let (word, number) = match text.split_once('=') {
+        Some((word, number)) => (word, Some(number.parse::<f32>().map_err(|_| EXPECTED.to_owned())?)),
+        None => (text, None),
+    };
+    let entry = match (word, number) {
+        ("clamp", None) => IntensityEntry::Clamp,
+        ("renormalise", None) => IntensityEntry::Renormalise,
+        ("renormalise", Some(smoothing)) => IntensityEntry::RenormaliseSlowly(RenormaliseEntry { smoothing }),
+        ("reinhard", None) => IntensityEntry::Reinhard,
+        ("reinhard", Some(white)) => IntensityEntry::ReinhardTo(ReinhardEntry { white }),
+        ("aces", None) => IntensityEntry::Aces,
+        _ => return Err(EXPECTED.to_owned()),
+    };
+    Intensity::from(entry).validate().map(|()| entry).map_err(|error| error.problem.to_string())
+}
+
+const EXPECTED: &str =
+    "expected clamp, renormalise, reinhard or aces, the second and third also with a number, as reinhard=4";
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn policies_with_and_without_their_numbers() {
+        for (text, expected) in [
+            ("clamp", Intensity::Clamp),
+            ("renormalise", Intensity::Renormalize { smoothing: 0.0 }),
+            ("renormalise=0.9", Intensity::Renormalize { smoothing: 0.9 }),
+            ("reinhard", Intensity::Reinhard { white: 4.0 }),
+            ("reinhard=2.5", Intensity::Reinhard { white: 2.5 }),
+            ("aces", Intensity::Aces),
+        ] {
+            assert_eq!(parse_intensity(text).map(Intensity::from), Ok(expected), "{text}");
+        }
+        for bad in ["", "tone", "aces=1", "clamp=1", "reinhard=", "reinhard=x", "Clamp"] {
+            assert_eq!(parse_intensity(bad), Err(EXPECTED.to_owned()), "{bad}");
+        }
+        assert!(parse_intensity("reinhard=0.5").is_err_and(|error| error.contains("1 or more")));
+        assert!(parse_intensity("renormalise=1").is_err_and(|error| error.contains("0 to below 1")));
+    }
 }

@@ -50,7 +50,7 @@ enum Command {
     /// Show a scene or a model in a window
     ///
     /// Left drag turns, right drag pans, the wheel zooms; 1, 2, 3 switch flat, Gouraud and Phong, B the reflectance,
-    /// Home resets, Escape closes.
+    /// I the intensity policy, Home resets, Escape closes.
     #[cfg(feature = "window")]
     View(view::ViewArgs),
     /// Say how far one picture is from another, and draw where

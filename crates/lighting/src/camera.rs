@@ -10,10 +10,10 @@ use bevy_reflect::Reflect;
 use bevy_reflect::std_traits::ReflectDefault;
 use bevy_transform::components::Transform;
 
-use crate::Viewer;
 use crate::equations::{Transcendental, srgb_encoded};
 use crate::invalid::{Fields, InvalidValue};
 use crate::range::Range;
+use crate::{Intensity, Viewer};
 
 /// A perspective camera at its entity's transform, looking along its local −Z with +Y up.
 ///
@@ -107,17 +107,6 @@ impl Encoding {
     }
 }
 
-/// What becomes of intensities above 1.
-#[derive(Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[reflect(Clone, Debug, Default, PartialEq, Hash)]
-#[non_exhaustive]
-pub enum Intensity {
-    /// min(I, 1) a channel, as each surface is written and before it is blended. Floating-point
-    /// pictures are not clamped.
-    #[default]
-    Clamp,
-}
-
 impl Camera {
     /// Checks every field against its range.
     ///
@@ -127,7 +116,8 @@ impl Camera {
         let fields = Fields::of("Camera");
         fields.within("fov_y", self.fov_y, Self::FIELD_OF_VIEW)?;
         fields.positive("near", self.near)?;
-        fields.color("background", self.background)
+        fields.color("background", self.background)?;
+        self.intensity.validate()
     }
 
     const FIELD_OF_VIEW: Range = Range::new(Excluded(0.0), Excluded(PI), "an angle above 0 and below π radians");

@@ -75,6 +75,20 @@ pub enum RasterError {
         /// One more than the last.
         end: u32,
     },
+    /// The memory of a finished picture has another length or format than that of what was drawn.
+    #[error("the finished picture holds {found} values of its format, but {expected} were drawn, four a pixel")]
+    Finish {
+        /// How many were drawn.
+        expected: usize,
+        /// How many it holds.
+        found: usize,
+    },
+    /// A policy makes no finished picture.
+    #[error("no picture can be finished so: {reason}")]
+    Policy {
+        /// What is wrong with it.
+        reason: String,
+    },
     /// A width was asked for that this CPU does not have, or whose name is unknown.
     #[error("this CPU cannot draw with {asked:?}; it has {available}")]
     Width {

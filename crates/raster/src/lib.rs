@@ -65,6 +65,7 @@ mod mapped_vertices;
 mod pass;
 mod pieces;
 mod planes;
+mod policy;
 mod power;
 mod rasterizer;
 mod samples;

@@ -69,6 +69,31 @@ impl Rasterizer {
         self.threads
     }
 
+    /// The proof that this CPU has those vectors.
+    pub(crate) fn level(&self) -> Level {
+        self.level
+    }
+
+    /// Has a function called with each of some parts, by all threads.
+    pub(crate) fn each<T: Send>(&self, parts: impl Iterator<Item = T> + Send, work: impl Fn(T) + Sync) {
+        let parts = Mutex::new(parts);
+        let next = || parts.lock().ok()?.next();
+        let work = || {
+            while let Some(part) = next() {
+                work(part);
+            }
+        };
+        match &self.pool {
+            Some(pool) => pool.in_place_scope(|scope| {
+                for _ in 1..self.threads {
+                    scope.spawn(|_| work());
+                }
+                work();
+            }),
+            None => work(),
+        }
+    }
+
     /// Draws a pass into memory that holds four values a pixel: red, green, blue, alpha.
     ///
     /// # Errors

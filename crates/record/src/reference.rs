@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 
 use bevy_app::App;
+use bevy_ecs::resource::Resource;
 use halfway_lighting::Samples;
 use halfway_reference::{Mode, Oracle};
 use halfway_render::{Picture, Pixels};
@@ -35,6 +36,10 @@ pub struct ReferenceDrawing {
     pub supersampling: Option<u32>,
 }
 
+/// What the last picture of the App was divided by, where it was.
+#[derive(Resource)]
+struct LastDivisor(f64);
+
 impl ReferenceDrawing {
     /// Runs the App once and draws what is there then. `progress` is told how many tiles of the picture are done of how
     /// many, from any thread, and may stop the work.
@@ -56,8 +61,13 @@ impl ReferenceDrawing {
         let oracle = Oracle::new(app.world_mut(), frame.size)?
             .with_mode(self.mode)
             .with_supersampling(supersampling)
-            .with_clamping(frame.pixels == Pixels::Byte);
+            .with_clamping(frame.pixels == Pixels::Byte)
+            .after(app.world().get_resource::<LastDivisor>().map(|last| last.0));
         let image = oracle.draw_with(progress).map_err(|_| RecordError::Stopped(frame.number))?;
+        app.world_mut().remove_resource::<LastDivisor>();
+        if let Some(divisor) = image.divisor() {
+            app.insert_resource(LastDivisor(divisor));
+        }
         Ok(match frame.pixels {
             Pixels::Byte => Picture::Byte(DynamicImage::from(image.to_bytes(camera.encoding)).into_rgba8()),
             Pixels::Float => Picture::Float(image.to_float()),

@@ -13,6 +13,7 @@ pub struct Image {
     height: u32,
     pixels: Vec<[f64; 3]>,
     covered: Option<Vec<bool>>,
+    divisor: Option<f64>,
 }
 
 impl Image {
@@ -22,7 +23,7 @@ impl Image {
     /// There are not `width`·`height` pixels.
     pub fn new(width: u32, height: u32, pixels: Vec<[f64; 3]>) -> Self {
         assert_eq!(pixels.len(), width as usize * height as usize, "one colour a pixel");
-        Self { width, height, pixels, covered: None }
+        Self { width, height, pixels, covered: None, divisor: None }
     }
 
     /// The same picture, told which pixels show an object.
@@ -33,6 +34,37 @@ impl Image {
     pub fn with_coverage(self, covered: Vec<bool>) -> Self {
         assert_eq!(covered.len(), self.pixels.len(), "one entry a pixel");
         Self { covered: Some(covered), ..self }
+    }
+
+    /// The same picture, all of it divided by a number, which it keeps: by
+    /// [`Intensity::Renormalize`](halfway_lighting::Intensity::Renormalize).
+    #[must_use]
+    pub fn divided(self, divisor: f64) -> Self {
+        let by = divisor / self.divisor.unwrap_or(1.0);
+        Self { divisor: Some(divisor), ..self }.scaled(by.recip())
+    }
+
+    /// What all of it was divided by, if so.
+    pub fn divisor(&self) -> Option<f64> {
+        self.divisor
+    }
+
+    /// The same picture, brighter or darker.
+    #[must_use]
+    pub(crate) fn scaled(self, factor: f64) -> Self {
+        self.mapped(|channel| channel * factor)
+    }
+
+    /// The same picture with each channel put through a function.
+    #[must_use]
+    pub(crate) fn mapped(mut self, of: impl Fn(f64) -> f64) -> Self {
+        self.pixels.iter_mut().flatten().for_each(|channel| *channel = of(*channel));
+        self
+    }
+
+    /// The largest channel that is a number; 0 where there is none above.
+    pub fn largest(&self) -> f64 {
+        self.pixels.iter().flatten().copied().fold(0.0, f64::max)
     }
 
     /// The same picture, in which every pixel of exactly this colour counts as background.

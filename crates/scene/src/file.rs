@@ -6,12 +6,13 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use bevy_color::ColorToComponents;
-use halfway_lighting::{Camera, Encoding, GlobalAmbient, Intensity, Reflectance, Viewer};
+use halfway_lighting::{Camera, Encoding, GlobalAmbient, Reflectance, Viewer};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::check::{Check, KeyProblem, Within, color, count};
 use crate::error::SceneError;
+use crate::intensity::IntensityEntry;
 use crate::json;
 use crate::light::{AttachEntry, LightEntry};
 use crate::locate::{line_and_column, place_of};
@@ -47,9 +48,8 @@ pub struct SceneFile {
     #[schemars(with = "Spoken<Encoding>")]
     pub output: Encoding,
     /// What becomes of intensities above 1.
-    #[serde(deserialize_with = "word", serialize_with = "write_word")]
-    #[schemars(with = "Spoken<Intensity>")]
-    pub intensity: Intensity,
+    #[serde(deserialize_with = "word")]
+    pub intensity: IntensityEntry,
     /// Coverage samples a pixel: 1, or 4 for smooth edges.
     #[schemars(extend("enum" = [1, 4]))]
     pub samples: u32,
@@ -89,7 +89,7 @@ impl Default for SceneFile {
             size: [1280, 720],
             background: Camera::default().background.to_f32_array_no_alpha(),
             output: Encoding::default(),
-            intensity: Intensity::default(),
+            intensity: IntensityEntry::default(),
             samples: 1,
             ambient: GlobalAmbient::default().0.to_f32_array_no_alpha(),
             viewer: Viewer::default(),
@@ -204,6 +204,7 @@ impl SceneFile {
             return Err(KeyProblem::new("samples", format!("is {}; expected 1 or 4", self.samples)));
         }
         color("ambient", &self.ambient)?;
+        self.intensity.check().within("intensity")?;
         self.shading.check().within("shading")?;
         self.tolerance.map_or(Ok(()), ToleranceEntry::check).within("tolerance")?;
         self.camera.as_ref().map_or(Ok(()), CameraEntry::check).within("camera")?;

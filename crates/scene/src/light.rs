@@ -126,9 +126,9 @@ pub enum AttachEntry {
 
 impl Word for AttachEntry {
     const WORDS: &'static [(&'static str, Self)] = &[("world", Self::World), ("camera", Self::Camera)];
-    const OBJECT: Option<(&'static str, &'static str)> = Some(("object", "{\"object\": \"name\"}"));
+    const OBJECTS: &'static [(&'static str, &'static str)] = &[("object", "{\"object\": \"name\"}")];
 
-    fn from_member<'de, A: MapAccess<'de>>(map: &mut A) -> Result<Self, A::Error> {
+    fn from_member<'de, A: MapAccess<'de>>(_key: &str, map: &mut A) -> Result<Self, A::Error> {
         map.next_value().map(Self::Object)
     }
 }

@@ -20,28 +20,23 @@ pub(crate) trait JsonObject {
     const EXPECTED: &'static str;
 }
 
-/// A value that JSON has as one of a few words; one of its kinds may be an object with one key instead.
+/// A value that JSON has as one of a few words; some of its kinds may be an object with one key instead.
 pub(crate) trait Word: Clone + PartialEq + fmt::Debug + 'static {
     /// The words and their values.
     const WORDS: &'static [(&'static str, Self)];
-    /// The key of the object, and an example of the object.
-    const OBJECT: Option<(&'static str, &'static str)> = None;
+    /// The key of each object, and an example of the object.
+    const OBJECTS: &'static [(&'static str, &'static str)] = &[];
 
-    /// The words and the object in a sentence; follows "expected".
+    /// The words and the objects in a sentence; follows "expected".
     fn expected() -> String {
         let mut ways: Vec<String> = Self::WORDS.iter().map(|(word, _)| format!("{word:?}")).collect();
-        ways.extend(Self::OBJECT.map(|(_, example)| example.to_owned()));
+        ways.extend(Self::OBJECTS.iter().map(|(_, example)| (*example).to_owned()));
         let last = ways.pop().unwrap_or_default();
         if ways.is_empty() { last } else { format!("{} or {last}", ways.join(", ")) }
     }
 
-    /// Why a word that is not in the table is refused, where there is more to say than that it is unknown.
-    fn refused(_word: &str) -> Option<&'static str> {
-        None
-    }
-
-    /// The value with the object's key, whose own value `map` has next.
-    fn from_member<'de, A: MapAccess<'de>>(_map: &mut A) -> Result<Self, A::Error> {
+    /// The value with the object's `key`, one of those in the table, whose own value `map` has next.
+    fn from_member<'de, A: MapAccess<'de>>(_key: &str, _map: &mut A) -> Result<Self, A::Error> {
         Err(A::Error::custom(format_args!("expected {}", Self::expected())))
     }
 }
@@ -201,18 +196,19 @@ impl<'de, T: Word> Visitor<'de> for WordVisitor<T> {
     }
 
     fn visit_str<E: Error>(self, word: &str) -> Result<T, E> {
-        match (T::WORDS.iter().find(|(known, _)| *known == word), T::refused(word)) {
-            (Some((_, value)), _) => Ok(value.clone()),
-            (None, Some(why)) => Err(E::custom(why)),
-            (None, None) => Err(E::custom(format_args!("unknown variant `{word}`, expected {}", T::expected()))),
+        match T::WORDS.iter().find(|(known, _)| *known == word) {
+            Some((_, value)) => Ok(value.clone()),
+            None => Err(E::custom(format_args!("unknown variant `{word}`, expected {}", T::expected()))),
         }
     }
 
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<T, A::Error> {
-        let Some((expected, _)) = T::OBJECT else { return Err(A::Error::invalid_type(Unexpected::Map, &self)) };
+        if T::OBJECTS.is_empty() {
+            return Err(A::Error::invalid_type(Unexpected::Map, &self));
+        }
         match map.next_key::<String>()? {
-            Some(key) if key == expected => {
-                let value = T::from_member(&mut map)?;
+            Some(key) if T::OBJECTS.iter().any(|(expected, _)| key == *expected) => {
+                let value = T::from_member(&key, &mut map)?;
                 no_more(&mut map, &T::expected())?;
                 Ok(value)
             }

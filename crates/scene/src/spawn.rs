@@ -116,7 +116,7 @@ fn spawn_camera(scene: &SceneFile, objects: &[Object], world: &mut World) -> Ent
         viewer: scene.viewer,
         samples: if scene.samples == 4 { Samples::Four } else { Samples::One },
         encoding: scene.output,
-        intensity: scene.intensity,
+        intensity: scene.intensity.into(),
     };
     let view = (scene.shading.shading(), scene.reflectance);
     world.spawn((Name::new("camera"), camera, camera_transform(&entry), view)).id()

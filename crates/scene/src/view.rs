@@ -1,9 +1,7 @@
 //! The keys of a scene file that say how its picture is seen and written.
 
 use bevy_math::{DVec3, Vec3};
-use halfway_lighting::{
-    Camera, Encoding, Faces, Intensity, Range, Reflectance, Shading, Tolerance, VertexColors, Viewer,
-};
+use halfway_lighting::{Camera, Encoding, Faces, Range, Reflectance, Shading, Tolerance, VertexColors, Viewer};
 use schemars::JsonSchema;
 use serde::de::MapAccess;
 use serde::{Deserialize, Serialize};
@@ -22,26 +20,6 @@ impl ComponentWord for Encoding {
         "Intensities encoded with the sRGB curve, as displays expect.",
         "Intensities as they are, the textbook's way.",
     ];
-}
-
-impl Word for Intensity {
-    const WORDS: &'static [(&'static str, Self)] = &[("clamp", Self::Clamp)];
-
-    fn expected() -> String {
-        "\"clamp\" (or \"renormalise\", \"reinhard\", \"aces\", which are not yet drawn)".to_owned()
-    }
-
-    fn refused(word: &str) -> Option<&'static str> {
-        matches!(word, "renormalise" | "reinhard" | "aces")
-            .then_some("not yet: this version knows the intensity policy \"clamp\" only")
-    }
-}
-
-impl ComponentWord for Intensity {
-    const NAME: &'static str = "IntensityEntry";
-    const MEANING: &'static str = "`intensity`: what becomes of intensities above 1. This version draws `clamp`; the \
-                                   others are words that it knows and refuses, and are not in the schema.";
-    const MEANINGS: &'static [&'static str] = &["min(I, 1) for every channel."];
 }
 
 impl Word for Viewer {
@@ -138,9 +116,9 @@ impl JsonObject for AutoShading {
 impl Word for ShadingEntry {
     const WORDS: &'static [(&'static str, Self)] =
         &[("flat", Self::Flat), ("gouraud", Self::Gouraud), ("phong", Self::Phong), ("auto", Self::Auto)];
-    const OBJECT: Option<(&'static str, &'static str)> = Some(("auto", "{\"auto\": {\"tolerance\": 1.0}}"));
+    const OBJECTS: &'static [(&'static str, &'static str)] = &[("auto", "{\"auto\": {\"tolerance\": 1.0}}")];
 
-    fn from_member<'de, A: MapAccess<'de>>(map: &mut A) -> Result<Self, A::Error> {
+    fn from_member<'de, A: MapAccess<'de>>(_key: &str, map: &mut A) -> Result<Self, A::Error> {
         map.next_value().map(|Given(auto)| Self::AutoWithin(auto))
     }
 }

@@ -29,6 +29,7 @@ pub fn scene(seed: u64, number: u64) -> Value {
     scene.perhaps(random, 30, "viewer", |random| random.of(&["local", "infinite"]).into());
     scene.perhaps(random, 80, "shading", looks::shading);
     scene.perhaps(random, 70, "reflectance", looks::reflectance);
+    scene.perhaps(random, 35, "intensity", looks::intensity);
     scene.into()
 }
 

@@ -5,7 +5,7 @@
 //!
 //! - [`OrbitCameraPlugin`]: mouse and keys move every [`OrbitCamera`] around its target.
 //! - [`ViewerKeysPlugin`]: 1, 2 and 3 choose flat, Gouraud and Phong shading, B the reflectance,
-//!   Escape and Q close.
+//!   I the intensity policy, Escape and Q close.
 //!
 //! ```no_run
 //! use bevy_app::{App, AppExit, Startup};

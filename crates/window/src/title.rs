@@ -4,7 +4,7 @@ use crate::short_numbers::{bytes, count, milliseconds, per_second};
 use bevy_ecs::prelude::*;
 use bevy_reflect::Reflect;
 use bevy_reflect::std_traits::ReflectDefault;
-use halfway_lighting::{Reflectance, Shading, ViewTolerance};
+use halfway_lighting::{Intensity, Reflectance, Shading, ViewTolerance};
 use halfway_render::{FrameReport, FrameTimes, GpuTimer, ModelView, View};
 use std::time::Duration;
 
@@ -45,6 +45,8 @@ struct Status<'a> {
     rate: Option<f64>,
     shading: Option<&'static str>,
     reflectance: Option<&'static str>,
+    /// What becomes of intensities above 1, unless they are clamped.
+    intensity: Option<&'static str>,
     /// The steps that automatic shading keeps to.
     steps: Option<f32>,
 }
@@ -60,6 +62,7 @@ impl Status<'_> {
         parts.extend(
             self.shading.zip(self.reflectance).map(|(shading, reflectance)| format!("{shading}, {reflectance}")),
         );
+        parts.extend(self.intensity.map(str::to_owned));
         let steps = self.steps.filter(|_| self.shading == Some("Auto"));
         parts.extend(steps.map(|steps| format!("within {steps} of 255 steps")));
         let errors = self.report.map_or(0, |report| report.errors.len() as u64);
@@ -107,6 +110,17 @@ fn reflectance_name(reflectance: Reflectance) -> &'static str {
     }
 }
 
+fn intensity_name(policy: Intensity) -> Option<&'static str> {
+    match policy {
+        Intensity::Clamp => None,
+        Intensity::Renormalize { smoothing } if smoothing > 0.0 => Some("renormalised smoothly"),
+        Intensity::Renormalize { .. } => Some("renormalised"),
+        Intensity::Reinhard { .. } => Some("Reinhard"),
+        Intensity::Aces => Some("ACES"),
+        _ => Some("other policy"),
+    }
+}
+
 /// The one name of all the objects, "mixed" where they differ, the view's where there are none.
 fn common(mut names: impl Iterator<Item = &'static str>, view: &'static str) -> &'static str {
     let Some(first) = names.next() else { return view };
@@ -142,6 +156,7 @@ pub(crate) fn title(
         rate,
         shading: view.as_deref().map(shadings),
         reflectance: view.as_deref().map(reflectances),
+        intensity: view.as_deref().and_then(|view| intensity_name(view.camera?.intensity)),
         steps: tolerance.map(|tolerance| tolerance.0.steps),
     }
     .text()

@@ -1,4 +1,4 @@
-//! The viewer's keys: shading frequency, reflectance, tolerance, false colours, close.
+//! The viewer's keys: shading frequency, reflectance, intensity policy, tolerance, false colours, close.
 
 use crate::keys;
 use crate::orbit_camera::modified;
@@ -7,7 +7,7 @@ use bevy_ecs::component::Mutable;
 use bevy_ecs::prelude::*;
 use bevy_input::keyboard::{KeyCode, KeyboardInput};
 use bevy_input::{ButtonInput, InputPlugin, InputSystems};
-use halfway_lighting::Camera;
+use halfway_lighting::{Camera, Intensity};
 use halfway_lighting::{Reflectance, Shading, Tolerance, ViewTolerance};
 use halfway_render::{FalseColors, ModelView};
 
@@ -19,6 +19,7 @@ use halfway_render::{FalseColors, ModelView};
 /// | T | the tolerance: exact, ½, 1, 2, 4, 8 steps, and again; of pixels nothing changes |
 /// | C | false colours on and off ([`FalseColors`]) |
 /// | B | switches between Phong and Blinn–Phong reflectance |
+/// | I | what becomes of intensities above 1: clamp, renormalise, renormalise smoothly, Reinhard, ACES, and again |
 /// | Escape, Q | closes: [`AppExit::Success`] |
 ///
 /// A choice is set on every camera and on every object that has a choice of its own. B goes to Phong
@@ -37,7 +38,7 @@ impl Plugin for ViewerKeysPlugin {
             app.add_plugins(InputPlugin);
         }
         app.init_resource::<Pressed>();
-        let systems = (read, (shading, reflectance, tolerance, false_colors, close)).chain();
+        let systems = (read, (shading, reflectance, intensity, tolerance, false_colors, close)).chain();
         app.add_systems(PreUpdate, systems.after(InputSystems));
     }
 
@@ -125,6 +126,29 @@ fn shown_blinn(choosers: &Choosers<Reflectance>) -> Option<Reflectance> {
         return Some(view).filter(|&view| view != Reflectance::Phong);
     }
     shown.find(|&shown| shown != Reflectance::Phong)
+}
+
+/// The policies that I goes through.
+const POLICIES: [Intensity; 5] = [
+    Intensity::Clamp,
+    Intensity::Renormalize { smoothing: 0.0 },
+    // At 60 frames a second a change has come to 1/e of what is left in a third of a second.
+    Intensity::Renormalize { smoothing: 0.95 },
+    Intensity::Reinhard { white: Intensity::WHITE },
+    Intensity::Aces,
+];
+
+/// Sets the next policy on every camera; from one that is not in the list the first of its kind is taken for it.
+fn intensity(pressed: Res<Pressed>, mut cameras: Query<&mut Camera>) {
+    if !pressed.has('i') {
+        return;
+    }
+    for mut camera in &mut cameras {
+        let kind = std::mem::discriminant(&camera.intensity);
+        let same = POLICIES.iter().position(|policy| *policy == camera.intensity);
+        let here = same.or_else(|| POLICIES.iter().position(|policy| std::mem::discriminant(policy) == kind));
+        camera.intensity = POLICIES[here.map_or(0, |here| (here + 1) % POLICIES.len())];
+    }
 }
 
 /// The steps that T goes through.
@@ -251,6 +275,20 @@ mod tests {
             press(&mut app, KeyCode::KeyC, "c");
             assert_eq!(app.world().resource::<FalseColors>().0, shown);
         }
+    }
+
+    #[test]
+    fn i_goes_through_the_policies() {
+        let mut app = app();
+        let camera = app.world_mut().spawn(Camera::default()).id();
+        for expected in [1, 2, 3, 4, 0, 1] {
+            press(&mut app, KeyCode::KeyI, "i");
+            let found = app.world().get::<Camera>(camera).unwrap().intensity;
+            assert_eq!((found, found.validate()), (POLICIES[expected], Ok(())));
+        }
+        app.world_mut().get_mut::<Camera>(camera).unwrap().intensity = Intensity::Reinhard { white: 9.0 };
+        press(&mut app, KeyCode::KeyI, "i");
+        assert_eq!(app.world().get::<Camera>(camera).unwrap().intensity, Intensity::Aces);
     }
 
     #[test]

@@ -69,6 +69,7 @@ pub(super) fn page() -> Result<FailurePage, MeasureError> {
                 series: lines.map(|(name, kind, image)| series(name, kind, &column(image), false)).into(),
             }],
         },
+        others: Vec::new(),
         pictures: shown([("mean normals", mean), ("creased at 40°", creased), ("the surface’s own", own)]),
     })
 }

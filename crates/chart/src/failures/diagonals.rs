@@ -62,6 +62,7 @@ pub(super) fn page() -> Result<FailurePage, MeasureError> {
                 series: lines.map(|(name, kind, image)| series(name, kind, &row(image, SIZE.y / 2), false)).into(),
             }],
         },
+        others: Vec::new(),
         pictures: shown([
             ("Gouraud, rising diagonal", rising),
             ("Gouraud, falling diagonal", falling),

@@ -66,6 +66,7 @@ pub(super) fn page() -> Result<FailurePage, MeasureError> {
             columns: 3,
             panels,
         },
+        others: Vec::new(),
         pictures: shown([
             ("flat, 16 meridians, shininess 100", flat),
             ("Gouraud", gouraud),

@@ -83,6 +83,7 @@ pub(super) fn page() -> FailurePage {
                 panel("middle of a square with corners 1, 0, 1, 0", "angle (degrees)", turned.collect()),
             ],
         },
+        others: Vec::new(),
         pictures: shown([
             ("perspective-correct, 6 : 1 in depth", right),
             ("linear on the picture", screen),

@@ -1,12 +1,14 @@
 //! Where methods fail: a page for each way, with pictures, a plot, the cause, the remedy, and the test that keeps it.
 //!
-//! All is drawn by the oracle, so that what is seen is what a method loses and not how it was implemented.
+//! All is drawn by the oracle, so that what is seen is what a method loses and not how it was implemented; what policies of
+//! intensity cost is timed on an adapter.
 
 mod creases;
 mod diagonals;
 mod highlight;
 mod interpolation;
 mod mach;
+mod saturation;
 mod terminator;
 
 use halfway::prelude::*;
@@ -31,19 +33,21 @@ pub struct FailurePage {
     pub test: &'static str,
     /// How much, over what it depends on.
     pub figure: Figure,
+    /// More of it.
+    pub others: Vec<Figure>,
     /// Captions and pictures.
     pub pictures: Vec<(&'static str, RgbImage)>,
 }
 
 /// How many pages there are, for whoever is told of progress.
-pub const PAGES: u64 = 6;
+pub const PAGES: u64 = 7;
 
 /// Every page; `done` is told after each.
 ///
 /// # Errors
 /// The first picture that could not be drawn.
 pub fn all(mut done: impl FnMut(&FailurePage)) -> Result<Vec<FailurePage>, MeasureError> {
-    let drawn = [highlight::page, mach::page, terminator::page, creases::page, diagonals::page];
+    let drawn = [highlight::page, mach::page, terminator::page, creases::page, diagonals::page, saturation::page];
     let pages = drawn.into_iter().map(|page| page()).chain(std::iter::once_with(|| Ok(interpolation::page())));
     pages.map(|page| page.inspect(&mut done)).collect()
 }
@@ -51,14 +55,20 @@ pub fn all(mut done: impl FnMut(&FailurePage)) -> Result<Vec<FailurePage>, Measu
 /// Width and height of the pictures.
 const SIZE: UVec2 = UVec2::splat(256);
 
-/// A scene drawn by the oracle.
-fn drawn(mode: Mode, spawn: impl FnOnce(&mut World)) -> Result<Image, MeasureError> {
+/// A scene for the oracle.
+fn set_up(spawn: impl FnOnce(&mut World)) -> App {
     let mut app = App::new();
     app.add_plugins(HalfwayPlugins::reference()).insert_resource(GlobalAmbient(LinearRgba::BLACK));
     app.finish();
     app.cleanup();
     spawn(app.world_mut());
     app.update();
+    app
+}
+
+/// A scene drawn by the oracle.
+fn drawn(mode: Mode, spawn: impl FnOnce(&mut World)) -> Result<Image, MeasureError> {
+    let mut app = set_up(spawn);
     Ok(Oracle::new(app.world_mut(), SIZE)?.with_mode(mode).draw())
 }
 

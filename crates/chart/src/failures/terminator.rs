@@ -46,6 +46,7 @@ pub(super) fn page() -> Result<FailurePage, MeasureError> {
             columns: 1,
             panels: vec![panel],
         },
+        others: Vec::new(),
         pictures: shown([("flat", flat), ("Gouraud", gouraud), ("Phong", phong), ("true sphere", truth)]),
     })
 }

@@ -2,6 +2,7 @@
 
 use super::{NamedFile, ReportError, figure_file};
 use crate::failures::FailurePage;
+use crate::figure::Figure;
 use crate::measure::MeasureError;
 use crate::page::{Page, Section, exact_data_uri, html};
 
@@ -10,7 +11,9 @@ pub(super) fn files(pages: &[FailurePage]) -> Result<Vec<NamedFile>, ReportError
     let mut files = Vec::new();
     for failure in pages {
         files.push((name(failure), html(&page(failure)?)?));
-        files.push(figure_file(&failure.figure)?);
+        for figure in figures(failure) {
+            files.push(figure_file(figure)?);
+        }
     }
     Ok(files)
 }
@@ -33,7 +36,7 @@ pub(super) fn section(pages: &[FailurePage]) -> Section {
 }
 
 fn page(failure: &FailurePage) -> Result<Page, ReportError> {
-    let FailurePage { title, cause, remedy, test, figure, pictures, .. } = failure;
+    let FailurePage { title, cause, remedy, test, pictures, .. } = failure;
     let uri = |picture| exact_data_uri(picture).map_err(MeasureError::Picture);
     let pictures = pictures.iter().map(|(caption, picture)| Ok(((*caption).to_owned(), uri(picture)?)));
     Ok(Page {
@@ -45,15 +48,19 @@ fn page(failure: &FailurePage) -> Result<Page, ReportError> {
             scene: None,
             text: Vec::new(),
             pictures: pictures.collect::<Result<_, MeasureError>>()?,
-            figures: vec![(String::new(), figure.clone())],
+            figures: figures(failure).map(|figure| (String::new(), figure.clone())).collect(),
             tables: Vec::new(),
-            files: vec![
-                ("chart (SVG)".to_owned(), format!("{}.svg", figure.id)),
-                ("all charts".to_owned(), "index.html".to_owned()),
-            ],
+            files: figures(failure)
+                .map(|figure| ("chart (SVG)".to_owned(), format!("{}.svg", figure.id)))
+                .chain([("all charts".to_owned(), "index.html".to_owned())])
+                .collect(),
         }],
         points: None,
     })
+}
+
+fn figures(failure: &FailurePage) -> impl Iterator<Item = &Figure> {
+    std::iter::once(&failure.figure).chain(&failure.others)
 }
 
 fn name(failure: &FailurePage) -> String {

@@ -33,6 +33,7 @@ mod reflectance;
 mod relief;
 mod scene;
 mod shade;
+mod tone;
 mod transcendental;
 pub mod vector;
 
@@ -49,5 +50,6 @@ pub use shade::{
     COINCIDENT, Incidence, Irradiance, LightTerms, incidence, irradiance, light_contribution, light_terms, reflected,
     shade, view_vector,
 };
+pub use tone::{ACES_WHITE, aces, divisor, reinhard};
 pub use transcendental::Transcendental;
 pub use vector::Real;

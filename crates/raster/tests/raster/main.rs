@@ -5,4 +5,5 @@ mod bits;
 mod common;
 mod coverage;
 mod pass;
+mod policy;
 mod shading;

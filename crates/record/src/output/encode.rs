@@ -4,7 +4,7 @@ use halfway_lighting::Encoding;
 use halfway_render::Picture;
 use image::{Rgb, Rgb32FImage, RgbImage};
 
-/// The clamp policy: min(I, 1), with 0 for what is no intensity.
+/// min(I, 1), with 0 for what is no intensity.
 fn clamp(intensity: f32) -> f32 {
     if intensity.is_nan() { 0.0 } else { intensity.clamp(0.0, 1.0) }
 }
@@ -15,7 +15,7 @@ pub(super) fn quantise(intensity: f32, encoding: Encoding, most: u16) -> u16 {
     (encoding.encode(clamped) * f64::from(most)).round() as u16
 }
 
-/// The picture with 8 bits a channel, without its alpha: as it is if it was drawn so, else by the clamp policy and
+/// The picture with 8 bits a channel, without its alpha: as it is if it was drawn so, else clamped and by
 /// `encoding`.
 pub fn to_bytes(picture: &Picture, encoding: Encoding) -> RgbImage {
     let (width, height) = picture.dimensions();

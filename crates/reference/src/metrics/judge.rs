@@ -4,6 +4,8 @@
 //! a grid, so that either side may win a pixel whose centre lies beside an edge. Of a pixel that is over the bar the
 //! oracle says which colours it may show, and it is right if it shows one of them.
 
+mod divisor;
+
 use std::fmt;
 
 use halfway_lighting::{Encoding, Samples};
@@ -14,6 +16,7 @@ use super::comparison::{SizeMismatch, range, same_size};
 use super::statistics::{Worst, percentile};
 use crate::oracle::{ColorRange, Possible};
 use crate::{Image, Oracle};
+use divisor::judge_divided;
 
 /// Within this many pixels of an edge a pixel may belong to either side: vertices are snapped to a grid of this width or
 /// a finer one (four bits, the least that Vulkan grants; eight are usual).
@@ -162,10 +165,14 @@ impl Verdict {
 /// `bars.worst`, is right, and the pixel is counted apart; the error of another one is its distance from the nearest of them. Where blended layers are
 /// seen, `bars.worst` is larger by `bars.layer` for each. No share of pixels is excused.
 ///
+/// Where the expected picture has been [divided](Image::divided), the brightest pixel may be one of those. The one number
+/// that `actual` was divided by is found, and has to be the largest channel of a picture that may be shown; by that number
+/// the expected picture is divided instead.
+///
 /// # Errors
 /// [`SizeMismatch`].
 pub fn judge(oracle: &Oracle, expected: &Image, actual: &Image, bars: Bars) -> Result<Verdict, SizeMismatch> {
-    judge_with(|x, y| oracle.possible(x, y, EDGE_RADIUS), oracle.samples(), (expected, None), actual, bars)
+    judge_divided(|x, y| oracle.possible(x, y, EDGE_RADIUS), oracle.samples(), (expected, None), actual, bars)
 }
 
 /// [`judge`] for a drawer that may move what it draws by so many pixels on the picture: each pixel is right that shows, give
@@ -186,9 +193,10 @@ pub fn judge_moved(
     if fine.dimensions() != (FINENESS * width, FINENESS * height) {
         return Err(SizeMismatch { actual: fine.dimensions(), expected: (FINENESS * width, FINENESS * height) });
     }
-    let ranges = ranges_within(expected, fine, pixels + 0.5);
+    let alike = expected.divisor().map(|divisor| fine.clone().divided(divisor));
+    let ranges = ranges_within(expected, alike.as_ref().unwrap_or(fine), pixels + 0.5);
     let possible = |x, y| oracle.possible(x, y, EDGE_RADIUS);
-    judge_with(possible, oracle.samples(), (expected, Some(&ranges)), actual, bars)
+    judge_divided(possible, oracle.samples(), (expected, Some(&ranges)), actual, bars)
 }
 
 /// How much finer the picture of [`judge_moved`] is.

@@ -48,7 +48,7 @@ impl Oracle {
                 }
             })
             .collect::<Result<_, _>>()?;
-        Ok(self.put_together(&parts))
+        Ok(self.under_policy(self.put_together(&parts)))
     }
 
     fn part(&self, tile: usize) -> Part {

@@ -7,9 +7,9 @@ use bevy_math::UVec2;
 use bevy_transform::components::{GlobalTransform, Transform};
 use halfway_lighting::equations::{self, Light, rgb, vector::add};
 use halfway_lighting::{
-    BackMaterial, Blend, Camera, DirectionalLight, Faces, Fields, GlobalAmbient, InvalidValue, Mask, Material,
-    PointLight, Propagation, Reflectance, Samples, Shading, Shown, SpotLight, Terms, VertexColors, light_direction,
-    light_position, propagation,
+    BackMaterial, Blend, Camera, DirectionalLight, Faces, Fields, GlobalAmbient, Intensity, InvalidValue, Mask,
+    Material, PointLight, Propagation, Reflectance, Samples, Shading, Shown, SpotLight, Terms, VertexColors,
+    light_direction, light_position, propagation,
 };
 use halfway_mesh::{Mesh, Mesh3d, SpawnOrder};
 use halfway_texture::{Maps, Pyramid, SurfaceMap, Texture};
@@ -29,6 +29,7 @@ pub(super) struct OracleScene {
     pub(super) viewer: equations::Eye<f64>,
     pub(super) background: Color,
     pub(super) samples: Samples,
+    pub(super) intensity: Intensity,
     /// Ga, and La of the lights that do not attenuate it.
     pub(super) ambient: Color,
     pub(super) lights: Vec<Light<f64>>,
@@ -43,8 +44,8 @@ impl OracleScene {
         let (ambient, lights) = lights(world, &seen.view)?;
         let solids = solids(world, &seen)?;
         let viewer = equations::Eye::in_eye_space(seen.camera.viewer);
-        let Camera { background, samples, .. } = seen.camera;
-        Ok(Self { view: seen.view, viewer, background: rgb(background), samples, ambient, lights, solids })
+        let Camera { background, samples, intensity, .. } = seen.camera;
+        Ok(Self { view: seen.view, viewer, background: rgb(background), samples, intensity, ambient, lights, solids })
     }
 }
 

@@ -22,7 +22,8 @@ use std::sync::OnceLock;
 
 use bevy_ecs::world::World;
 use bevy_math::UVec2;
-use halfway_lighting::Samples;
+use halfway_lighting::equations::divisor;
+use halfway_lighting::{Intensity, Samples};
 
 pub use error::{OracleError, Stopped};
 pub use mode::Mode;
@@ -32,6 +33,8 @@ pub use probe::{Nearest, Seen};
 use gather::OracleScene;
 use raster::Tiles;
 
+use crate::Image;
+
 /// A scene, ready to be drawn in f64.
 ///
 /// What is drawn where:
@@ -40,6 +43,7 @@ use raster::Tiles;
 ///   without area are not drawn.
 /// - Opaque surfaces at equal depth (to 10⁻⁹ of it): the one that was spawned first, then the one that comes first in the
 ///   mesh.
+/// - What the camera's [`Intensity`] makes of the finished picture is done last, after samples are averaged.
 /// - Blended objects are drawn over the opaque ones from back to front by the view depth of the middle of their bounds,
 ///   those of equal depth (in f32) as they were spawned; of a two-sided one the back faces, then the front faces; then in
 ///   the order of the mesh. Each gives opacity·I + (1 − opacity)·what is behind.
@@ -49,6 +53,8 @@ pub struct Oracle {
     size: UVec2,
     supersampling: u32,
     clamp: bool,
+    /// The divisor of the frame before.
+    before: Option<f64>,
     /// Found when they are first needed: they depend on the mode.
     tiles: OnceLock<Tiles>,
 }
@@ -75,7 +81,7 @@ impl Oracle {
             return Err(OracleError::TooLarge { width, height, limit: Self::MAX_PIXELS });
         }
         let scene = OracleScene::gather(world, size)?;
-        Ok(Self { scene, size, supersampling: 1, clamp: false, tiles: OnceLock::new() })
+        Ok(Self { scene, size, supersampling: 1, clamp: false, before: None, tiles: OnceLock::new() })
     }
 
     /// What is drawn of each object; [`Mode::Mesh`] unless said.
@@ -96,10 +102,30 @@ impl Oracle {
     }
 
     /// Whether each surface, and the background, is clamped to 1 before it is blended, as 8-bit pictures are; not unless
-    /// said.
+    /// said, and never where the camera's [`Intensity`] acts on the finished picture.
     #[must_use]
     pub fn with_clamping(self, clamp: bool) -> Self {
-        Self { clamp, ..self }
+        Self { clamp: clamp && !self.scene.intensity.acts_on_pictures(), ..self }
+    }
+
+    /// Draws the frame after one that was divided by `before`, which counts under [`Intensity::Renormalize`] with
+    /// smoothing; unless said there is none before.
+    #[must_use]
+    pub fn after(self, before: Option<f64>) -> Self {
+        Self { before, ..self }
+    }
+
+    /// The finished picture, as the camera's policy has it.
+    fn under_policy(&self, image: Image) -> Image {
+        match self.scene.intensity {
+            Intensity::Clamp => image,
+            Intensity::Renormalize { smoothing } => {
+                let (largest, plain) = (image.largest(), 0.0);
+                let by = divisor(largest, self.before.unwrap_or(plain), self.before.map_or(0.0, |_| smoothing.into()));
+                image.divided(by)
+            }
+            policy => image.mapped(|channel| policy.toned(channel)),
+        }
     }
 
     /// Coverage samples a pixel of the pictures that are judged, as the camera says.

@@ -10,7 +10,7 @@ use super::raster::{Hit, Primitive};
 /// What is seen at a point of the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Seen {
-    /// I, linear RGB, unclamped unless the oracle clamps.
+    /// I, linear RGB, unclamped unless the oracle clamps, and before a policy that acts on the finished picture.
     pub color: [f64; 3],
     /// The nearest thing; `None` where there is only background.
     pub nearest: Option<Nearest>,

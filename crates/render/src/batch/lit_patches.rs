@@ -124,11 +124,12 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
             report.errors.push(RenderError::Invalid { entity: label(entity, name), source: source.clone() });
             continue;
         }
-        let tolerance = tolerance.copied().unwrap_or(of_view.0);
+        let mut tolerance = tolerance.copied().unwrap_or(of_view.0);
         if let Err(source) = tolerance.validate() {
             report.errors.push(RenderError::Invalid { entity: label(entity, name), source });
             continue;
         }
+        tolerance.steps *= values.share() as f32;
         let circumstances =
             Circumstances { terms, blend, mirrored: model_view.mirrored, opposite_normals: geometry.opposite_normals };
         let key = reflecting.key(look, circumstances, shared);
@@ -161,7 +162,7 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
     report.left_out = lit.lists.left_out;
     report.terms_at_vertices = lit.lists.placed.at_vertices;
     report.terms_at_fragments = lit.lists.placed.at_fragments;
-    report.steps_spent = lit.lists.placed.spent;
+    report.steps_spent = lit.lists.placed.spent / values.share();
 }
 
 /// A patch that is drawn, and its stretch: see [`Detail::each_seen`](crate::geometry::detail::Detail::each_seen).

@@ -15,7 +15,7 @@ use crate::target::texture::TextureTarget;
 use crate::view::camera::{PictureSize, View};
 use bevy_color::LinearRgba;
 use bevy_ecs::prelude::*;
-use halfway_lighting::{Encoding, Frequency, Samples, Viewer};
+use halfway_lighting::{Encoding, Frequency, Intensity, Samples, Viewer};
 use halfway_raster::{LARGEST_SIDE, Lens, Pass, PixelFormat, SampleCount};
 
 impl Backend for Cpu {
@@ -71,12 +71,13 @@ pub(crate) fn prepare(
         return;
     }
     let is_float = window.is_none() && headless.pixels == Pixels::Float;
-    if let Err(error) = canvas.begin(size.0, is_float) {
+    let camera = view.camera.unwrap_or_default();
+    if let Err(error) = canvas.begin(size.0, is_float, camera.intensity.acts_on_pictures()) {
         report.errors.push(error);
         return;
     }
-    let encoding = view.camera.unwrap_or_default().encoding;
-    values.0 = Some(if is_float { PixelValues::Floats } else { PixelValues::Bytes(encoding) });
+    let written = if is_float { PixelValues::Floats } else { PixelValues::Bytes(camera.encoding) };
+    values.0 = Some(written.under(camera.intensity));
 }
 
 /// Draws the frame.
@@ -103,7 +104,7 @@ pub(crate) fn draw(
         pixels: match values {
             PixelValues::Bytes(Encoding::Srgb) => PixelFormat::SrgbBytes,
             PixelValues::Bytes(Encoding::Raw) => PixelFormat::RawBytes,
-            PixelValues::Floats => PixelFormat::Floats,
+            PixelValues::Floats | PixelValues::Toned { .. } => PixelFormat::Floats,
         },
         clear: [red, green, blue],
         lens: lens(&view),
@@ -117,7 +118,14 @@ pub(crate) fn draw(
         draws: &lists.draws,
     };
     let (output, clear_tiles) = canvas.output();
-    let drawn = cpu.rasterizer().draw_again(&pass, output, clear_tiles);
+    let mut rasterizer = cpu.rasterizer();
+    let drawn = rasterizer.draw_again(&pass, output, clear_tiles);
+    let drawn = drawn.and_then(|()| canvas.finish(&rasterizer, camera.intensity, camera.encoding));
+    report.picture_passes = match camera.intensity {
+        Intensity::Clamp => 0,
+        Intensity::Renormalize { .. } => 2,
+        _ => 1,
+    };
     canvas.end(drawn.is_ok());
     report.errors.extend(drawn.err().map(RenderError::from));
 }

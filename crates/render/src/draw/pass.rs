@@ -35,8 +35,11 @@ pub(crate) fn draw(
     let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
     {
         let timing = timer.as_mut().and_then(|timer| timer.begin(&gpu));
-        let mut pass = begin(&mut encoder, frame, attachments, view.camera.unwrap_or_default(), timing);
+        let [first, last] = around(timing, frame.finished.is_some());
+        let mut pass = begin(&mut encoder, frame, attachments, view.camera.unwrap_or_default(), first);
         record(&mut pass, &batches, &meshes, &pipelines, &buffers);
+        drop(pass);
+        finish(&mut encoder, &target, frame, last);
     }
     if let Some(mut timer) = timer {
         timer.end(&mut encoder);
@@ -45,12 +48,37 @@ pub(crate) fn draw(
     report.errors.extend(gpu.take_failure());
 }
 
+type TimestampWrites<'a> = Option<wgpu::RenderPassTimestampWrites<'a>>;
+
+/// What the first pass of a frame is to write, and the last one where that is another.
+fn around(timing: TimestampWrites<'_>, others_follow: bool) -> [TimestampWrites<'_>; 2] {
+    match timing {
+        Some(both) if others_follow => {
+            let first = wgpu::RenderPassTimestampWrites { end_of_pass_write_index: None, ..both.clone() };
+            [Some(first), Some(wgpu::RenderPassTimestampWrites { beginning_of_pass_write_index: None, ..both })]
+        }
+        only => [only, None],
+    }
+}
+
+/// The passes over the finished picture, where the camera's policy takes any.
+fn finish(
+    encoder: &mut wgpu::CommandEncoder,
+    target: &Target,
+    frame: &FramePicture,
+    timestamp_writes: TimestampWrites<'_>,
+) {
+    if let (Some(passes), Some(finished)) = (&target.passes, &frame.finished) {
+        passes.record(encoder, finished, timestamp_writes);
+    }
+}
+
 fn begin<'a>(
     encoder: &'a mut wgpu::CommandEncoder,
     frame: &FramePicture,
     attachments: &Attachments,
     camera: Camera,
-    timestamp_writes: Option<wgpu::RenderPassTimestampWrites<'_>>,
+    timestamp_writes: TimestampWrites<'_>,
 ) -> wgpu::RenderPass<'a> {
     let LinearRgba { red, green, blue, .. } = camera.background;
     let [r, g, b] = [red, green, blue].map(|linear| {
@@ -162,17 +190,20 @@ pub fn encode_frame(world: &World, encoder: &mut wgpu::CommandEncoder) -> Result
     let ready = || {
         let target = world.get_resource::<Target>()?;
         let frame = target.frame.as_ref().filter(|frame| frame.delivery == Delivery::Encode)?;
-        Some((frame, target.attachments()?, world.get_resource::<View>()?.camera.unwrap_or_default()))
+        Some((target, frame, target.attachments()?, world.get_resource::<View>()?.camera.unwrap_or_default()))
     };
     let made = || {
         let (batches, meshes) = (world.get_resource::<Batches>()?, world.get_resource::<MeshBuffers>()?);
         Some((batches, meshes, world.get_resource::<Pipelines>()?, world.get_resource::<Buffers>()?))
     };
-    let (Some((frame, attachments, camera)), Some((batches, meshes, pipelines, buffers))) = (ready(), made()) else {
+    let (Some((target, frame, attachments, camera)), Some((batches, meshes, pipelines, buffers))) = (ready(), made())
+    else {
         let first = world.get_resource::<FrameReport>().and_then(|report| report.errors.first());
         return Err(first.cloned().unwrap_or(RenderError::NoFrame));
     };
     let mut pass = begin(encoder, frame, attachments, camera, None);
     record(&mut pass, batches, meshes, pipelines, buffers);
+    drop(pass);
+    finish(encoder, target, frame, None);
     Ok(())
 }

@@ -51,6 +51,9 @@ pub struct FrameReport {
     pub draws: u32,
     /// Triangles in those draws, before culling of faces.
     pub triangles: u64,
+    /// Passes over the finished picture, by an [`Intensity`](halfway_lighting::Intensity) that acts on it: of
+    /// [`Cpu`](crate::Cpu) over its memory. 0 under [`Intensity::Clamp`](halfway_lighting::Intensity::Clamp).
+    pub picture_passes: u32,
     /// Model-view and normal matrices computed; 0 where nothing moved.
     pub matrices: u32,
     /// Distinct materials (front and back together) in the picture.

@@ -3,6 +3,7 @@
 use crate::device::provoking_vertex::ProvokingVertex;
 use crate::draw::placings::{PlacingRecord, PlacingsRecord};
 use crate::shaders::light_slots::BOUND_LIGHTS;
+use crate::shaders::picture::{PICTURE_FILES, PicturePolicyRecord};
 use crate::shaders::records::{DrawRecord, INSTANCE, InstanceRecord, LightRecord, MaterialRecord, ViewRecord};
 use crate::shaders::text::{LightText, SurfaceText, Text};
 use bytemuck::Zeroable;
@@ -33,6 +34,10 @@ fn each_file_is_valid_with_those_before_it() {
             valid(&files[..count].concat()).unwrap_or_else(|error| panic!("{text:?}, {count} files: {error}"));
             used.insert(files[count - 1]);
         }
+    }
+    for count in 1..=PICTURE_FILES.len() {
+        valid(&PICTURE_FILES[..count].concat()).unwrap_or_else(|error| panic!("picture, {count} files: {error}"));
+        used.insert(PICTURE_FILES[count - 1]);
     }
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/src/shaders");
     for entry in std::fs::read_dir(folder).expect("the folder of the texts") {
@@ -165,6 +170,15 @@ fn where_an_image_lies_is_read_as_it_is_written() {
     let module = valid(&text.files().concat()).expect("a valid text");
     assert_eq!(members(&module, "Placing"), fields!(PlacingRecord { row0, row1, levels, level }));
     assert_eq!(members(&module, "Placings"), fields!(PlacingsRecord { cutoff, each }));
+}
+
+#[test]
+fn a_policy_is_read_as_it_is_written() {
+    let module = valid(&PICTURE_FILES.concat()).expect("a valid text");
+    assert_eq!(
+        members(&module, "PicturePolicy"),
+        fields!(PicturePolicyRecord { smoothing, per_white, curve, encoded })
+    );
 }
 
 #[test]

@@ -5,7 +5,8 @@ use crate::target::format::Picture;
 use bevy_ecs::prelude::{ReflectResource, Resource};
 use bevy_math::UVec2;
 use bevy_reflect::Reflect;
-use halfway_raster::{ClearTiles, Output};
+use halfway_lighting::{Encoding, Intensity};
+use halfway_raster::{ClearTiles, Output, PixelFormat, RasterError, Rasterizer};
 use image::{Rgba32FImage, RgbaImage};
 
 /// While this resource is there, what the CPU draws has this size and is for a window, and not for
@@ -24,6 +25,10 @@ pub struct Canvas {
     /// One of them is empty.
     bytes: Vec<u8>,
     floats: Vec<f32>,
+    /// What a policy makes the picture of, where it acts on the finished one; else empty.
+    drawn_floats: Vec<f32>,
+    /// What the last picture was divided by, where it was.
+    divisor: Option<f32>,
     clear_tiles: ClearTiles,
     /// Whether it holds a frame.
     drawn: bool,
@@ -43,14 +48,23 @@ impl Canvas {
     ///
     /// # Errors
     /// [`RenderError::Memory`]
-    pub(crate) fn begin(&mut self, size: UVec2, is_float: bool) -> Result<(), RenderError> {
+    pub(crate) fn begin(&mut self, size: UVec2, is_float: bool, is_toned: bool) -> Result<(), RenderError> {
         self.drawn = false;
-        if size != self.size {
+        if size != self.size || is_toned == self.drawn_floats.is_empty() {
             // The memory, too, may be another.
             self.clear_tiles = ClearTiles::default();
+            self.divisor = None;
+        }
+        if is_float == self.floats.is_empty() {
+            self.divisor = None;
         }
         self.size = size;
         let count = CHANNELS * size.x as usize * size.y as usize;
+        if is_toned {
+            resize(&mut self.drawn_floats, count)?;
+        } else {
+            self.drawn_floats = Vec::new();
+        }
         if is_float {
             self.bytes = Vec::new();
             resize(&mut self.floats, count)
@@ -62,9 +76,34 @@ impl Canvas {
 
     /// What to draw into, and what is clear of it.
     pub(crate) fn output(&mut self) -> (Output<'_>, &mut ClearTiles) {
-        let output =
-            if self.bytes.is_empty() { Output::Floats(&mut self.floats) } else { Output::Bytes(&mut self.bytes) };
+        let output = match (self.drawn_floats.is_empty(), self.bytes.is_empty()) {
+            (false, _) => Output::Floats(&mut self.drawn_floats),
+            (true, true) => Output::Floats(&mut self.floats),
+            (true, false) => Output::Bytes(&mut self.bytes),
+        };
         (output, &mut self.clear_tiles)
+    }
+
+    /// Makes the picture of what was drawn, where a policy acts on it.
+    ///
+    /// # Errors
+    /// What the rasterizer cannot do.
+    pub(crate) fn finish(
+        &mut self,
+        rasterizer: &Rasterizer,
+        policy: Intensity,
+        encoding: Encoding,
+    ) -> Result<(), RasterError> {
+        if self.drawn_floats.is_empty() {
+            return Ok(());
+        }
+        let (output, format) = match (self.bytes.is_empty(), encoding) {
+            (true, _) => (Output::Floats(&mut self.floats), PixelFormat::Floats),
+            (false, Encoding::Srgb) => (Output::Bytes(&mut self.bytes), PixelFormat::SrgbBytes),
+            (false, Encoding::Raw) => (Output::Bytes(&mut self.bytes), PixelFormat::RawBytes),
+        };
+        self.divisor = rasterizer.finish(&self.drawn_floats, policy, self.divisor, output, format)?;
+        Ok(())
     }
 
     /// Says whether the frame has been drawn.

@@ -4,7 +4,7 @@ use crate::device::gpu::Gpu;
 use crate::error::RenderError;
 use bevy_reflect::Reflect;
 use bevy_reflect::std_traits::ReflectDefault;
-use halfway_lighting::{Encoding, Samples};
+use halfway_lighting::{Encoding, Intensity, Samples};
 use image::{Rgba32FImage, RgbaImage};
 
 /// What a pixel of a headless picture holds.
@@ -14,7 +14,7 @@ pub enum Pixels {
     /// 8 bits a channel, encoded as the camera says.
     #[default]
     Byte,
-    /// Linear I in 32-bit floating point, before the intensity policy. An adapter may be unable to blend them, or to take
+    /// Linear I in 32-bit floating point; not clamped, but after a policy that acts on the finished picture. An adapter may be unable to blend them, or to take
     /// four samples of them: then a frame with [`Blend`](halfway_lighting::Blend) objects, or with [`Samples::Four`], is
     /// [`RenderError::FloatTarget`], and others are drawn.
     Float,
@@ -25,7 +25,7 @@ pub enum Pixels {
 pub enum Picture {
     /// 8 bits a channel, encoded as the camera says.
     Byte(RgbaImage),
-    /// Linear I, before the intensity policy.
+    /// Linear I, as [`Pixels::Float`] has it.
     Float(Rgba32FImage),
 }
 
@@ -40,11 +40,16 @@ impl Picture {
 }
 
 /// What the values of a target's pixels are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum PixelValues {
     Bytes(Encoding),
     /// Linear I.
     Floats,
+    /// Linear I, of which a policy makes the picture.
+    Toned {
+        /// What changes I by a step changes the picture by no more than a step over this number.
+        share: f64,
+    },
 }
 
 impl PixelValues {
@@ -52,8 +57,43 @@ impl PixelValues {
     pub(crate) fn encoding(self) -> Option<Encoding> {
         match self {
             Self::Bytes(encoding) => Some(encoding),
-            Self::Floats => None,
+            Self::Floats | Self::Toned { .. } => None,
         }
+    }
+
+    /// How much of a tolerance in steps of the picture is left for the values.
+    pub(crate) fn share(self) -> f64 {
+        match self {
+            Self::Bytes(_) | Self::Floats => 1.0,
+            Self::Toned { share } => share,
+        }
+    }
+
+    /// What is drawn for such a picture.
+    pub(crate) fn under(self, policy: Intensity) -> Self {
+        // Nothing is known of how dark it becomes, so that the curve of bytes may be as steep as it is at 0.
+        let steepest = match self {
+            Self::Bytes(Encoding::Srgb) => 12.92,
+            _ => 1.0,
+        };
+        if policy.acts_on_pictures() { Self::Toned { share: 1.0 / (steepest * policy.steepest()) } } else { self }
+    }
+}
+
+/// The format that a scene is drawn into before passes over the finished picture: 32-bit floats, or where the adapter cannot
+/// do with them what the frame needs, and bytes are made of them, 16-bit ones.
+pub(super) fn drawn_format(
+    gpu: &Gpu,
+    pixels: Pixels,
+    samples: Samples,
+    blends: bool,
+) -> Result<wgpu::TextureFormat, RenderError> {
+    let full = wgpu::TextureFormat::Rgba32Float;
+    let half = wgpu::TextureFormat::Rgba16Float;
+    match floats_lack(gpu, full, samples, blends) {
+        None => Ok(full),
+        Some(_) if pixels == Pixels::Byte && floats_lack(gpu, half, samples, blends).is_none() => Ok(half),
+        Some(cannot) => Err(RenderError::FloatTarget { cannot: cannot.into() }),
     }
 }
 
@@ -68,7 +108,7 @@ pub(super) fn headless_format(
     match pixels {
         Pixels::Byte if encodes => Ok(wgpu::TextureFormat::Rgba8UnormSrgb),
         Pixels::Byte => Ok(wgpu::TextureFormat::Rgba8Unorm),
-        Pixels::Float => match what_floats_lack(gpu, samples, blends) {
+        Pixels::Float => match floats_lack(gpu, wgpu::TextureFormat::Rgba32Float, samples, blends) {
             None => Ok(wgpu::TextureFormat::Rgba32Float),
             Some(cannot) => Err(RenderError::FloatTarget { cannot: cannot.into() }),
         },
@@ -80,17 +120,11 @@ pub(super) fn is_float(format: wgpu::TextureFormat) -> bool {
     matches!(format, wgpu::TextureFormat::Rgba32Float | wgpu::TextureFormat::Rgba16Float)
 }
 
-/// What the device cannot do with 32-bit floats, of what the frame needs.
-fn what_floats_lack(gpu: &Gpu, samples: Samples, blends: bool) -> Option<&'static str> {
+/// What the device cannot do with floats of a format, of what the frame needs.
+fn floats_lack(gpu: &Gpu, format: wgpu::TextureFormat, samples: Samples, blends: bool) -> Option<&'static str> {
     use wgpu::TextureFormatFeatureFlags as Flags;
-    let format = wgpu::TextureFormat::Rgba32Float;
-    let device = gpu.device.features();
     // The adapter may say more than WebGPU grants, but a device has to have been asked for it.
-    let can = if device.contains(wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES) {
-        gpu.adapter.get_texture_format_features(format)
-    } else {
-        format.guaranteed_format_features(device)
-    };
+    let can = gpu.format_features(format);
     if !can.allowed_usages.contains(wgpu::TextureUsages::RENDER_ATTACHMENT) {
         return Some("draw them");
     }

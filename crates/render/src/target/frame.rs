@@ -4,8 +4,10 @@ use crate::device::gpu::Gpu;
 use crate::error::RenderError;
 use crate::frame::report::FrameReport;
 use crate::frame::times::FrameTimes;
+use crate::shaders::picture::PicturePolicyRecord;
 use crate::target::canvas::CanvasTarget;
-use crate::target::format::{PixelValues, Pixels, headless_format, is_float};
+use crate::target::format::{PixelValues, Pixels, drawn_format, headless_format, is_float};
+use crate::target::policy::PicturePasses;
 use crate::target::surface::{Lost, SurfaceLost, SurfaceTarget};
 use crate::target::texture::TextureTarget;
 use crate::view::camera::{PictureSize, View};
@@ -13,7 +15,7 @@ use bevy_ecs::prelude::*;
 use bevy_math::UVec2;
 use bevy_reflect::Reflect;
 use bevy_reflect::std_traits::ReflectDefault;
-use halfway_lighting::{Blend, Encoding, Samples, Shown};
+use halfway_lighting::{Blend, Camera, Encoding, Samples, Shown};
 use halfway_mesh::Mesh3d;
 
 /// The headless target: pictures of this size, to be read back. The default target.
@@ -41,6 +43,8 @@ pub(crate) struct FrameValues(pub(crate) Option<PixelValues>);
 #[derive(Resource, Default)]
 pub(crate) struct Target {
     attachments: Option<Attachments>,
+    /// Where the camera's policy acts on the finished picture.
+    pub(crate) passes: Option<PicturePasses>,
     pub(crate) frame: Option<FramePicture>,
 }
 
@@ -57,6 +61,8 @@ pub(crate) struct Attachments {
 struct Configuration {
     size: UVec2,
     format: wgpu::TextureFormat,
+    /// What the scene is drawn into: the same, unless passes over the finished picture follow.
+    drawn: wgpu::TextureFormat,
     samples: Samples,
     headless: bool,
 }
@@ -74,7 +80,10 @@ pub(crate) struct ShaderOutput {
 /// The picture of this frame.
 pub(crate) struct FramePicture {
     pub(crate) output: ShaderOutput,
+    /// What the scene is drawn into.
     pub(crate) view: wgpu::TextureView,
+    /// What the passes over the finished picture write, where there are any.
+    pub(crate) finished: Option<wgpu::TextureView>,
     pub(crate) delivery: Delivery,
 }
 
@@ -176,18 +185,29 @@ pub(crate) fn prepare(
         return;
     }
     let blends = blended.iter().any(shown.by_entity());
+    // Before passes over the finished picture, surfaces are blended and samples averaged elsewhere.
+    let pixels = if texture.is_none() && surface.is_none() { headless.pixels } else { Pixels::Byte };
+    let drawn = camera.intensity.acts_on_pictures().then(|| drawn_format(&gpu, pixels, camera.samples, blends));
+    let drawn = match drawn.transpose() {
+        Ok(drawn) => drawn,
+        Err(error) => {
+            report.errors.push(error);
+            return;
+        }
+    };
+    let (samples, blends) = if drawn.is_some() { (Samples::One, false) } else { (camera.samples, blends) };
     // Blending and resolving need linear values, which only the format gives.
-    let shaders_may = gpu.costs().shaders_encode && camera.samples == Samples::One;
+    let shaders_may = gpu.costs().shaders_encode && samples == Samples::One;
     let format_encodes = |blends: bool| camera.encoding == Encoding::Srgb && (blends || !shaders_may);
     let (format, given, delivery) = match (texture, surface) {
         (Some(texture), _) => {
-            if let Err(error) = texture.check(&gpu, &camera, blends) {
+            if let Err(error) = texture.check(&gpu, &Camera { samples, ..camera }, blends) {
                 report.errors.push(error);
                 return;
             }
             (texture.format, Some(texture.view.clone()), Delivery::Encode)
         }
-        (None, None) => match headless_format(&gpu, headless.pixels, camera.samples, blends, format_encodes(blends)) {
+        (None, None) => match headless_format(&gpu, headless.pixels, samples, blends, format_encodes(blends)) {
             Ok(format) => (format, None, Delivery::Read),
             Err(error) => {
                 report.errors.push(error);
@@ -206,15 +226,55 @@ pub(crate) fn prepare(
             }
         }
     };
-    let made_as = Configuration { size: size.0, format, samples: camera.samples, headless: given.is_none() };
-    if target.attachments.as_ref().is_none_or(|attachments| attachments.made_as != made_as) {
-        target.attachments = Some(Attachments::new(&gpu, made_as));
-    }
+    let output = target.attach(&gpu, &camera, size.0, (format, drawn), given.is_none());
+    values.0 = Some(output.values().under(camera.intensity));
     let Some(view) = given.or_else(|| target.picture().map(view_of)) else { return };
-    let encoded = camera.encoding == Encoding::Srgb && !format.is_srgb() && !is_float(format);
-    let output = ShaderOutput { format, encoded, samples: camera.samples.count() };
-    values.0 = Some(output.values());
-    target.frame = Some(FramePicture { output, view, delivery });
+    report.bytes_uploaded += target.begin(&gpu, &camera, (output, drawn), view, delivery);
+    report.picture_passes = target.passes.as_ref().map_or(0, PicturePasses::count);
+}
+
+impl Target {
+    /// Makes the textures of a configuration, unless they are there; returns what is written into the target.
+    fn attach(
+        &mut self,
+        gpu: &Gpu,
+        camera: &Camera,
+        size: UVec2,
+        (format, drawn): (wgpu::TextureFormat, Option<wgpu::TextureFormat>),
+        headless: bool,
+    ) -> ShaderOutput {
+        let drawn = drawn.unwrap_or(format);
+        let made_as = Configuration { size, format, drawn, samples: camera.samples, headless };
+        if self.attachments.as_ref().is_none_or(|attachments| attachments.made_as != made_as) {
+            self.attachments = Some(Attachments::new(gpu, made_as));
+        }
+        let encoded = camera.encoding == Encoding::Srgb && !format.is_srgb() && !is_float(format);
+        ShaderOutput { format, encoded, samples: camera.samples.count() }
+    }
+
+    /// Begins the frame that comes into `view`: by the scene's pass, or by passes over the finished picture, whose bytes
+    /// sent are returned.
+    fn begin(
+        &mut self,
+        gpu: &Gpu,
+        camera: &Camera,
+        (output, drawn): (ShaderOutput, Option<wgpu::TextureFormat>),
+        view: wgpu::TextureView,
+        delivery: Delivery,
+    ) -> u64 {
+        let before = self.passes.take();
+        let record = PicturePolicyRecord::new(camera.intensity, output.encoded);
+        let (Some(drawn), Some(record), Some(attachments)) = (drawn, record, self.attachments()) else {
+            self.frame = Some(FramePicture { output, view, finished: None, delivery });
+            return 0;
+        };
+        let formats = [drawn, output.format];
+        let (passes, sent) = PicturePasses::prepare(before, gpu, attachments.made_as.size, formats, record);
+        let output = ShaderOutput { format: drawn, encoded: false, ..output };
+        self.frame = Some(FramePicture { output, view: passes.drawn().clone(), finished: Some(view), delivery });
+        self.passes = Some(passes);
+        sent
+    }
 }
 
 fn view_of(texture: &wgpu::Texture) -> wgpu::TextureView {
@@ -223,7 +283,7 @@ fn view_of(texture: &wgpu::Texture) -> wgpu::TextureView {
 
 impl Attachments {
     fn new(gpu: &Gpu, made_as: Configuration) -> Self {
-        let Configuration { size, format, samples, headless } = made_as;
+        let Configuration { size, format, drawn, samples, headless } = made_as;
         let texture = |label, format, sample_count, usage| {
             gpu.device.create_texture(&wgpu::TextureDescriptor {
                 label: Some(label),
@@ -241,7 +301,7 @@ impl Attachments {
         Self {
             made_as,
             picture: headless.then(|| texture("picture", format, 1, attachment | wgpu::TextureUsages::COPY_SRC)),
-            multisampled: (samples == Samples::Four).then(|| view(texture("samples", format, 4, attachment))),
+            multisampled: (samples == Samples::Four).then(|| view(texture("samples", drawn, 4, attachment))),
             depth: view(texture("depth", DEPTH_FORMAT, samples.count(), attachment)),
         }
     }

@@ -4,5 +4,6 @@ pub(crate) mod canvas;
 pub(crate) mod format;
 pub(crate) mod frame;
 pub(crate) mod picture;
+pub(crate) mod policy;
 pub(crate) mod surface;
 pub(crate) mod texture;

@@ -37,8 +37,8 @@ pub struct TextureTarget {
     /// world's [`Gpu`].
     pub view: wgpu::TextureView,
     /// The format of the view: `Rgba8Unorm`, `Bgra8Unorm`, either of them as sRGB, `Rgba16Float` or `Rgba32Float`. Bytes
-    /// hold what the camera's encoding says, floating point linear I, before the intensity policy. Under
-    /// [`Encoding::Srgb`] what is blended, or averaged of four samples, needs an sRGB format or floating point; under
+    /// hold what the camera's encoding says, floating point linear I as [`Pixels::Float`](crate::Pixels::Float) has it. Under
+    /// [`Encoding::Srgb`] and [`Intensity::Clamp`](halfway_lighting::Intensity::Clamp) what is blended, or averaged of four samples, needs an sRGB format or floating point; under
     /// [`Encoding::Raw`] no sRGB format will do.
     pub format: wgpu::TextureFormat,
     /// Width and height of the view in pixels.

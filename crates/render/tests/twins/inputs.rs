@@ -326,6 +326,26 @@ pub(crate) fn intensities() -> Vec<Input> {
     steps.chain([0.003_130_8, 0.003_130_9, 1e-30]).map(|x| input(&[x])).collect()
 }
 
+/// Intensities of all magnitudes, and around where ACES' curve reaches 1.
+pub(crate) fn bright() -> Vec<Input> {
+    let edges = [0.0, 1.0, 7.0, 7.2, 7.25, 7.3, 8.0, 9.0, 1e18, 3e38].map(|x| input(&[x]));
+    many(edges, 1000, |random| input(&[random.magnitude(-6.0, 3.0)]))
+}
+
+/// Intensities with 1/w² of a white point w of 1 and more, and none.
+pub(crate) fn white_points() -> Vec<Input> {
+    let edges = [0.0, 1.0, 1e18, 3e38].into_iter().flat_map(|x: f32| [0.0, 0.0625, 1.0].map(|w| input(&[x, w])));
+    many(edges, 1000, |random| input(&[random.magnitude(-6.0, 6.0), random.magnitude(-6.0, 0.0)]))
+}
+
+/// A largest channel, the divisor before and the share of it that stays.
+pub(crate) fn divisors() -> Vec<Input> {
+    let edges = [[0.0, 1.0, 0.0], [0.5, 9.0, 0.5], [1.0, 1.0, 0.9], [3e38, 1.0, 0.0]].map(|x: [f32; 3]| input(&x));
+    many(edges, 1000, |random| {
+        input(&[random.magnitude(-2.0, 6.0), 1.0 + random.magnitude(-2.0, 6.0), random.between(0.0, 0.999)])
+    })
+}
+
 /// What lights bring, and a material's ambient, diffuse and specular colour and exponent.
 pub(crate) fn reflections() -> Vec<Input> {
     many([], 300, |random| std::array::from_fn(|_| random.between(0.0, 2.0)))

@@ -1,4 +1,4 @@
-//! Twins: the functions of lighting.wgsl, run on the adapter, against those of the same name in
+//! Twins: the functions of lighting.wgsl and tone.wgsl, run on the adapter, against those of the same name in
 //! `halfway_lighting::equations` in f64; those of maps.wgsl, against `halfway_texture` too; and sums of terms.
 
 mod adapter;
@@ -19,7 +19,9 @@ use halfway_render::{Gpu, wgpu::naga};
 use std::collections::BTreeSet;
 use table::{Row, constants, described, rows};
 
-const LIGHTING: &str = include_str!("../../src/shaders/lighting.wgsl");
+/// Both texts of functions alone.
+const LIGHTING: &str =
+    concat!(include_str!("../../src/shaders/lighting.wgsl"), include_str!("../../src/shaders/tone.wgsl"));
 
 /// What is wrong with the first result that is too far from its twin.
 fn too_far(gpu: &Gpu, lighting: &str, row: &Row) -> Option<String> {
@@ -57,7 +59,7 @@ fn each_function_gives_what_its_twin_gives() {
 }
 
 /// Faults: the function whose rows find it, what is right, and what is written instead.
-const FAULTS: [(&str, &str, &str); 22] = [
+const FAULTS: [(&str, &str, &str); 27] = [
     ("power", "select(0.0, 1.0, e == 0.0)", "0.0"),
     ("power", "i < squarings", "i <= squarings"),
     ("attenuation", "d * light.quadratic", "light.quadratic"),
@@ -80,6 +82,11 @@ const FAULTS: [(&str, &str, &str); 22] = [
     ("attenuation", "ATTENUATION_MAX: f32 = 1e6", "ATTENUATION_MAX: f32 = 1.001e6"),
     ("incidence", "COINCIDENT: f32 = 2e-6", "COINCIDENT: f32 = 2e-5"),
     ("interpolated_normal", "NORMAL_MIN: f32 = 1e-6", "NORMAL_MIN: f32 = 1e-5"),
+    ("divisor", "max(largest, 1.0)", "largest"),
+    ("divisor", "smoothing * (before - plain)", "smoothing * before"),
+    ("reinhard", "i * per_white", "per_white"),
+    ("aces", "2.43 * i + 0.59", "2.43 * i + 0.5901"),
+    ("aces", "ACES_WHITE: f32 = 8.0", "ACES_WHITE: f32 = 7.0"),
 ];
 
 #[test]

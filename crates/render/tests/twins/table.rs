@@ -185,9 +185,9 @@ fn arriving(x: &[f32]) -> Irradiance<f64> {
 
 use equations::vector::{add, dot, length, normalize_or_zero};
 use equations::{
-    attenuation, diffuse_term, half_vector, incidence, interpolated_normal, irradiance, power, range_window, reflect,
-    reflected, specular_blinn_phong, specular_phong, specular_term, spot_factor, srgb_encoded, transform_normal,
-    view_vector,
+    aces, attenuation, diffuse_term, divisor, half_vector, incidence, interpolated_normal, irradiance, power,
+    range_window, reflect, reflected, reinhard, specular_blinn_phong, specular_phong, specular_term, spot_factor,
+    srgb_encoded, transform_normal, view_vector,
 };
 
 #[rustfmt::skip]
@@ -261,6 +261,16 @@ pub(crate) fn rows() -> Vec<Row> {
         // The polynomial is 6.8·10⁻⁶ from the curve, and q is known to 3 ULP.
         row!(srgb_encoded("vec3f(s(i, 0))") -> Repeated, NOTHING, inputs::intensities(),
             |x| (f64::from(x[0])), |_, e| each(e, 6.8e-6 + 6.0 * ULP)),
+        // A difference, a product and a sum, of numbers up to the larger of the two.
+        row!(divisor("s(i, 0), s(i, 1), s(i, 2)") -> Scalar, NOTHING, inputs::divisors(),
+            |x| (f64::from(x[0]), f64::from(x[1]), f64::from(x[2])),
+            |x, e| each(e, 3.0 * ULP * f64::from(x[0].max(x[1]).max(1.0)))),
+        // A quotient of 2.5 ULP and four operations.
+        row!(reinhard("vec3f(s(i, 0)), s(i, 1)") -> Repeated, NOTHING, inputs::white_points(),
+            |x| (f64::from(x[0]), f64::from(x[1])), |_, e| each(e, 6.0 * ULP * e[0] + LEAST)),
+        // A quotient and eight operations, with constants that are rounded.
+        row!(aces("vec3f(s(i, 0))") -> Repeated, NOTHING, inputs::bright(),
+            |x| (f64::from(x[0])), |_, e| each(e, 10.0 * ULP * e[0] + LEAST)),
     ]
 }
 
@@ -287,7 +297,7 @@ pub(crate) fn constants() -> Vec<(&'static str, f32)> {
     macro_rules! named {
         ($($name:ident),*) => { vec![$((stringify!($name), equations::$name)),*] };
     }
-    let mut constants = named![ATTENUATION_MAX, COINCIDENT, HALFWAY_MIN, NORMAL_MIN];
+    let mut constants = named![ACES_WHITE, ATTENUATION_MAX, COINCIDENT, HALFWAY_MIN, NORMAL_MIN];
     constants.push(("MIN_POSITIVE", f32::MIN_POSITIVE));
     constants
 }

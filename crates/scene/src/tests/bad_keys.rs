@@ -37,7 +37,18 @@ pub(super) const NOT_THE_FORMAT: &[Bad] = &[
     (
         r#"{"intensity": "aces2"}"#,
         (1, 15),
-        "`intensity`: unknown value `aces2`, expected \"clamp\" (or \"renormalise\", ",
+        "`intensity`: unknown value `aces2`, expected \"clamp\", \"renormalise\", \"reinhard\", \"aces\", {\"renormalise\": {",
+    ),
+    (r#"{"intensity": {"aces": {}}}"#, (1, 16), "`intensity.aces`: unknown key `aces`, expected \"clamp\", "),
+    (
+        r#"{"intensity": {"reinhard": 4}}"#,
+        (1, 28),
+        "`intensity.reinhard`: is a value of the wrong type: integer `4`, expected an object such as {\"white\": 4}",
+    ),
+    (
+        r#"{"intensity": {"reinhard": {"smoothing": 0.5}}}"#,
+        (1, 29),
+        "`intensity.reinhard.smoothing`: unknown key `smoothing`, expected `white`",
     ),
     (
         r#"{"shading": "smooth"}"#,

@@ -12,12 +12,15 @@ pub(super) const OUT_OF_RANGE: &[Bad] = &[
     (r#"{"ambient": [0, 0, 1e39]}"#, (1, 20), "`ambient[2]`: is inf; expected a number from 0 to 1e12"),
     (r#"{"samples": 2}"#, (1, 13), "`samples`: is 2; expected 1 or 4"),
     (
-        r#"{"intensity": "reinhard"}"#,
-        (1, 15),
-        "`intensity`: not yet: this version knows the intensity policy \"clamp\" only",
+        r#"{"intensity": {"reinhard": {"white": 0.5}}}"#,
+        (1, 38),
+        "`intensity.reinhard.white`: is 0.5; expected a finite number, 1 or more",
     ),
-    (r#"{"intensity": "renormalise"}"#, (1, 15), "`intensity`: not yet: "),
-    (r#"{"intensity": "aces"}"#, (1, 15), "`intensity`: not yet: "),
+    (
+        r#"{"intensity": {"renormalise": {"smoothing": 1}}}"#,
+        (1, 45),
+        "`intensity.renormalise.smoothing`: is 1; expected a number from 0 to below 1",
+    ),
     (
         r#"{"shading": {"auto": {"tolerance": -1}}}"#,
         (1, 36),
@@ -85,12 +88,12 @@ pub(super) const OUT_OF_RANGE: &[Bad] = &[
     ),
     (
         r#"{"lights": [{"kind": "spot", "cutoff_deg": 91}]}"#,
-        (1, 44),
+        (1, 45),
         "`lights[0].cutoff_deg`: is 91; expected degrees from 0 to 90, or 180 for no cone",
     ),
     (
         r#"{"lights": [{"kind": "spot", "cutoff_deg": -1}]}"#,
-        (1, 44),
+        (1, 45),
         "`lights[0].cutoff_deg`: is -1; expected degrees from 0 to 90",
     ),
     (
@@ -156,7 +159,7 @@ pub(super) const OUT_OF_RANGE: &[Bad] = &[
     ),
     (
         r#"{"objects": [{"mesh": {"box": {"size": [1, 0, 1]}}}]}"#,
-        (1, 44),
+        (1, 45),
         "`objects[0].mesh.box.size[1]`: is 0; a length from",
     ),
     (

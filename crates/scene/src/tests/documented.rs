@@ -231,9 +231,6 @@ fn every_word_of_the_schema_is_accepted() {
         }
     }
     assert!(tried > 20, "{tried} words");
-    for refused in ["reinhard", "aces", "renormalise"] {
-        assert!(!json_schema().contains(&format!("\"{refused}\"")), "{refused} is refused, and in the schema");
-    }
 }
 
 /// A page that says something else is found out: the comparison itself can fail.

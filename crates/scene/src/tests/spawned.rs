@@ -13,7 +13,7 @@ use halfway_lighting::{
     BackMaterial, Blend, Cone, DirectionalLight, Faces, GlobalAmbient, Material, PointLight, Reflectance, Shading,
     SpotLight, Viewer, light_direction,
 };
-use halfway_lighting::{Camera, Encoding, Samples};
+use halfway_lighting::{Camera, Encoding, Intensity, Samples};
 use halfway_mesh::{Mesh, Mesh3d, MeshPlugin};
 
 use crate::{SceneError, SceneFile, Spawned, spawn};
@@ -74,6 +74,27 @@ fn the_camera_carries_the_view() {
     assert_close(world_from_eye.transform_vector3(Vec3::NEG_Z), Vec3::NEG_X);
     assert_close(world_from_eye.transform_vector3(Vec3::Y), Vec3::Y);
     assert_eq!(world_from_eye.w_axis.truncate(), Vec3::new(3.0, 1.0, 0.0));
+}
+
+#[test]
+fn the_camera_carries_the_intensity_policy() {
+    for (given, expected) in [
+        ("\"clamp\"", Intensity::Clamp),
+        ("\"renormalise\"", Intensity::Renormalize { smoothing: 0.0 }),
+        ("{\"renormalise\": {}}", Intensity::Renormalize { smoothing: 0.0 }),
+        ("{\"renormalise\": {\"smoothing\": 0.75}}", Intensity::Renormalize { smoothing: 0.75 }),
+        ("\"reinhard\"", Intensity::Reinhard { white: 4.0 }),
+        ("{\"reinhard\": {}}", Intensity::Reinhard { white: 4.0 }),
+        ("{\"reinhard\": {\"white\": 2.5}}", Intensity::Reinhard { white: 2.5 }),
+        ("\"aces\"", Intensity::Aces),
+    ] {
+        let text = format!("{{\"intensity\": {given}}}");
+        let (app, camera) = spawned(&text);
+        assert_eq!(get::<Camera>(&app, camera.camera).unwrap().intensity, expected, "{text}");
+        let scene = SceneFile::from_json(&text, "test").unwrap();
+        let again = SceneFile::from_json(&serde_json::to_string(&scene).unwrap(), "written").unwrap();
+        assert_eq!(again, scene, "{text}");
+    }
 }
 
 #[test]

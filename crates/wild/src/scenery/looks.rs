@@ -29,6 +29,18 @@ pub(super) fn reflectance(random: &mut Random) -> Value {
     random.of(&["phong", "blinn_phong", "blinn_phong_matched"]).into()
 }
 
+/// What becomes of intensities above 1.
+pub(super) fn intensity(random: &mut Random) -> Value {
+    match random.whole(0, 6) {
+        0 => json!("clamp"),
+        1 => json!("renormalise"),
+        2 => json!({"renormalise": {"smoothing": short(random.between(0.0, 0.99))}}),
+        3 => json!("reinhard"),
+        4 => json!({"reinhard": {"white": short(1.0 + random.magnitude(-2, 3))}}),
+        _ => json!("aces"),
+    }
+}
+
 pub(super) fn material(random: &mut Random) -> Value {
     if random.percent(25) {
         return random.of(&PRESETS).into();

@@ -40,8 +40,16 @@ impl Oracle {
     /// - Where the camera takes four samples a pixel, each of them has a disc of its own. A triangle is shaded once, anywhere in the part of
     ///   the pixel that it covers, or at the centre if it covers the pixel.
     ///
+    /// The camera's [`Intensity`](halfway_lighting::Intensity) has acted on them, but for a divisor.
+    ///
     /// For [`Mode::Mesh`](super::Mode::Mesh). Surfaces that are drawn by their formula are not known here.
     pub fn possible(&self, x: u32, y: u32, radius: f64) -> Possible {
+        let policy = self.scene.intensity;
+        // Curves grow with every channel, so that ends stay ends.
+        self.drawn_there(x, y, radius).mapped(|channel| policy.toned(channel))
+    }
+
+    fn drawn_there(&self, x: u32, y: u32, radius: f64) -> Possible {
         let corner = DVec2::new(f64::from(x), f64::from(y));
         let centre = corner + 0.5;
         match self.samples() {

@@ -38,9 +38,22 @@ impl ColorRange {
         Self { low, high }
     }
 
+    /// Each end put through a function that grows with its channel.
+    pub(crate) fn mapped(&self, grows: impl Fn(f64) -> f64) -> Self {
+        Self { low: self.low.map(&grows), high: self.high.map(&grows) }
+    }
+
     /// Each end put through a function that grows with every channel of what goes in.
     pub(super) fn through(&self, other: &Self, grows: impl Fn(f64, f64) -> f64) -> Self {
         let ends = |a: [f64; 3], b: [f64; 3]| std::array::from_fn(|k| grows(a[k], b[k]));
         Self { low: ends(self.low, other.low), high: ends(self.high, other.high) }
+    }
+}
+
+impl Possible {
+    /// Each end put through a function that grows with its channel.
+    pub(crate) fn mapped(mut self, grows: impl Fn(f64) -> f64) -> Self {
+        self.ranges.iter_mut().for_each(|range| *range = range.mapped(&grows));
+        self
     }
 }
