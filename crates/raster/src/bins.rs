@@ -2,7 +2,7 @@
 
 use crate::error::RasterError;
 use crate::pass::{DrawCall, InstanceData, LeftOut, Pass};
-use crate::pieces::{Extent, Piece};
+use crate::pieces::{Piece, PieceExtent};
 use crate::state::State;
 use std::ops::Range;
 
@@ -221,7 +221,7 @@ impl Placed {
     }
 
     /// The tiles that points of an extent may be in; `None` where they are out of the picture.
-    fn tiles(&self, extent: &Extent) -> Option<[u16; 4]> {
+    fn tiles(&self, extent: &PieceExtent) -> Option<[u16; 4]> {
         let [x, y, z] = self.place(extent.center);
         let radius = extent.radius * self.stretch * 1.0001;
         // Along each axis of eye space the box or the sphere ends first. A flat box has no room for how vertices are rounded.
@@ -317,7 +317,7 @@ mod tests {
                 [a, b, c, to[row] - away * (a * middle[0] + b * middle[1] + c * middle[2])]
             });
             let placed = placed(rows);
-            let tiles = placed.tiles(&Extent::of(points.iter().copied()));
+            let tiles = placed.tiles(&PieceExtent::of(points.iter().copied()));
             for point in points {
                 let Some([column, row]) = tile_of(&placed, point) else { continue };
                 let listed = tiles.is_some_and(|[left, right, top, bottom]| {
@@ -333,9 +333,9 @@ mod tests {
     fn boxes_leave_out_tiles_that_spheres_meet() {
         let placed = placed([[1.0, 0.0, 0.0, 0.02], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, -4.0]]);
         let plate = [[0.0, -1.0, -1.0], [0.0, 1.0, -1.0], [0.0, 1.0, 1.0], [0.0, -1.0, 1.0]];
-        let extent = Extent::of(plate.into_iter());
+        let extent = PieceExtent::of(plate.into_iter());
         assert_eq!(placed.tiles(&extent), Some([10, 10, 2, 8]));
-        let ball = Extent { half: [extent.radius; 3], ..extent };
+        let ball = PieceExtent { half: [extent.radius; 3], ..extent };
         assert_eq!(placed.tiles(&ball).map(|[left, right, ..]| right - left), Some(11));
     }
 }

@@ -1,8 +1,7 @@
 //! What triangles have of their own: their normals, or what flat shading makes of them.
 
-use crate::lanes::{
-    F, MOST_LANES, Simd, V3, add, cross, each, lanes, load, max, neg, safe_normalize, scale, splat, store_fours, sub,
-};
+use crate::lane_triangles::{LaneTriangles, spread};
+use crate::lanes::{F, MOST_LANES, Simd, V3, add, cross, each, load, max, neg, safe_normalize, scale, splat, sub};
 use crate::lighting::{Points, reflected, tinted, to_viewer};
 use crate::mapped::FlatParts;
 use crate::pass::{InstanceData, Pass};
@@ -13,48 +12,13 @@ use fearless_simd::prelude::*;
 
 /// Of each triangle of a piece 0 and its own normal, or 0 and its color where the draw is flat, front and back. In place of 0
 /// stands the vertices' mean opacity where they have colors.
-pub(crate) struct Faces {
+pub(crate) struct PieceFaces {
     pub(crate) each: [[[f32; 4]; PIECE_TRIANGLES]; 2],
     /// Of flat draws with images or a mask.
     pub(crate) parts: FlatParts,
 }
 
-/// The numbers of some triangles of a piece, at most so many as there are lanes.
-pub(crate) struct Together {
-    numbers: [u8; MOST_LANES],
-    count: usize,
-}
-
-impl Together {
-    /// Takes the first out of a set, bit k being the k-th triangle.
-    #[inline(always)]
-    fn first_of<S: Simd>(set: &mut u64) -> Self {
-        let mut these = Self { numbers: [0; MOST_LANES], count: 0 };
-        while *set != 0 && these.count < lanes::<S>() {
-            these.numbers[these.count] = set.trailing_zeros() as u8;
-            these.count += 1;
-            *set &= *set - 1;
-        }
-        these
-    }
-
-    #[inline(always)]
-    fn each(&self) -> impl Iterator<Item = (usize, usize)> {
-        self.numbers[..self.count].iter().map(|&number| usize::from(number) % PIECE_TRIANGLES).enumerate()
-    }
-}
-
-/// Puts numbers that stand in lanes where their triangles have their place.
-#[inline(always)]
-pub(crate) fn spread<S: Simd>(numbers: [F<S>; 4], of: &Together, to: &mut [[f32; 4]; PIECE_TRIANGLES]) {
-    let mut fours = [[0.0; 4]; MOST_LANES];
-    store_fours::<S>(numbers, &mut fours, 0);
-    for (lane, number) in of.each() {
-        to[number] = fours[lane];
-    }
-}
-
-impl Faces {
+impl PieceFaces {
     pub(crate) fn new() -> Self {
         Self { each: [[[0.0; 4]; PIECE_TRIANGLES]; 2], parts: FlatParts::new() }
     }
@@ -73,7 +37,7 @@ impl Faces {
         if state.stage != Stage::Flat {
             let mut left = fronts | backs;
             while left != 0 {
-                let these = Together::first_of::<S>(&mut left);
+                let these = LaneTriangles::first_of::<S>(&mut left);
                 let n = unit_normal(simd, corners(simd, &these, (mesh, piece)), instance);
                 for side in &mut self.each {
                     spread::<S>([splat(simd, 0.0), n[0], n[1], n[2]], &these, side);
@@ -83,7 +47,7 @@ impl Faces {
         }
         for (back, mut left) in [(false, fronts), (true, if state.backs { backs } else { 0 })] {
             while left != 0 {
-                let these = Together::first_of::<S>(&mut left);
+                let these = LaneTriangles::first_of::<S>(&mut left);
                 self.light(simd, &these, (mesh, piece), instance, (pass, state), back);
             }
         }
@@ -94,7 +58,7 @@ impl Faces {
     fn light<S: Simd>(
         &mut self,
         simd: S,
-        these: &Together,
+        these: &LaneTriangles,
         place: (&Pieces, &Piece),
         instance: &InstanceData,
         (pass, state): (&Pass, &State),
@@ -123,7 +87,7 @@ impl Faces {
 }
 
 #[inline(always)]
-fn corners<S: Simd>(simd: S, these: &Together, (mesh, piece): (&Pieces, &Piece)) -> [V3<S>; 3] {
+fn corners<S: Simd>(simd: S, these: &LaneTriangles, (mesh, piece): (&Pieces, &Piece)) -> [V3<S>; 3] {
     let mut corners = [[[0.0; MOST_LANES]; 3]; 3];
     for (lane, number) in these.each() {
         let triangle = mesh.triangles[piece.triangles.start as usize + number];
@@ -144,7 +108,7 @@ fn unit_normal<S: Simd>(simd: S, corners: [V3<S>; 3], instance: &InstanceData) -
 
 /// The means of the colors of triangles' corners.
 #[inline(always)]
-fn mean_color<S: Simd>(simd: S, these: &Together, (mesh, piece): (&Pieces, &Piece)) -> [F<S>; 4] {
+fn mean_color<S: Simd>(simd: S, these: &LaneTriangles, (mesh, piece): (&Pieces, &Piece)) -> [F<S>; 4] {
     let mut sums = [[0.0; MOST_LANES]; 4];
     for (lane, number) in these.each() {
         for corner in mesh.triangles[piece.triangles.start as usize + number] {

@@ -56,6 +56,7 @@ mod encode;
 mod error;
 mod faces;
 mod four;
+mod lane_triangles;
 mod lanes;
 mod lighting;
 mod look;

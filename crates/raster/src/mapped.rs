@@ -2,7 +2,7 @@
 //! pixel, so that other draws do not pay for it.
 
 use crate::attributes::{FRAME, GROUPS, OF_VERTICES, PARTS};
-use crate::faces::{Together, spread};
+use crate::lane_triangles::{LaneTriangles, spread};
 use crate::lanes::{F, Simd, V3, each, splat};
 use crate::lighting::{Irradiance, ambient_part, diffuse_part, specular_part};
 use crate::pass::SideData;
@@ -107,7 +107,7 @@ impl FlatParts {
         side: &SideData,
         back: bool,
         own: Option<[F<S>; 4]>,
-        of: &Together,
+        of: &LaneTriangles,
     ) {
         let one = splat(simd, 1.0);
         let [r, g, b, alpha] = own.unwrap_or([one; 4]);

@@ -29,12 +29,12 @@ pub struct Pieces {
     pub(crate) triangles: Vec<[u8; 3]>,
     index_count: u32,
     /// Of all.
-    pub(crate) extent: Extent,
+    pub(crate) extent: PieceExtent,
 }
 
 /// Where points lie, in model space: in a sphere, and in a box with the same center.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Extent {
+pub(crate) struct PieceExtent {
     pub(crate) center: [f32; 3],
     pub(crate) radius: f32,
     /// Half the box's sides.
@@ -49,7 +49,7 @@ pub(crate) struct Piece {
     pub(crate) first_vertex: u32,
     pub(crate) vertex_count: u32,
     pub(crate) triangles: Range<u32>,
-    pub(crate) extent: Extent,
+    pub(crate) extent: PieceExtent,
     /// Of its face normals the axis, and the sine and cosine of the largest angle to it; `None` where they spread wide.
     pub(crate) cone: Option<FaceCone>,
 }
@@ -139,7 +139,7 @@ impl Pieces {
                 available,
             });
         }
-        pieces.extent = Extent::of(positions.iter().copied());
+        pieces.extent = PieceExtent::of(positions.iter().copied());
         Ok(pieces)
     }
 
@@ -336,7 +336,7 @@ impl<'a> Builder<'a> {
                 to.extend(used.map(|vertex| list[vertex][axis]));
             }
         }
-        let extent = Extent::of(self.used.iter().map(|&vertex| self.positions[vertex as usize]));
+        let extent = PieceExtent::of(self.used.iter().map(|&vertex| self.positions[vertex as usize]));
         let end = pieces.triangles.len() as u32;
         reserve(&mut pieces.each, 1, "a mesh's pieces")?;
         pieces.each.push(Piece {
@@ -352,7 +352,7 @@ impl<'a> Builder<'a> {
     }
 }
 
-impl Extent {
+impl PieceExtent {
     /// That of some points. Lengths are rounded up.
     pub(crate) fn of(points: impl Iterator<Item = [f32; 3]> + Clone) -> Self {
         let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);

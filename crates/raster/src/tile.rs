@@ -5,7 +5,7 @@ use crate::bins::{Bins, Job, TILE};
 use crate::clip::{Ready, each_part};
 use crate::cover::{EdgeFunctions, Kept, TileBuffer};
 use crate::encode::{bytes, cleared, kept};
-use crate::faces::Faces;
+use crate::faces::PieceFaces;
 use crate::lanes::{I, LEAST_LANES, Simd, V3, each, f32x4, lanes, max_one, min_one};
 use crate::look::Look;
 use crate::mapped::MappedTriangle;
@@ -24,7 +24,7 @@ pub(crate) struct Worker {
     corners: Corners,
     /// The triangles of a piece, as many together as there are lanes.
     batches: Box<[Batch; PIECE_TRIANGLES / LEAST_LANES]>,
-    faces: Faces,
+    faces: PieceFaces,
     nearest: TileBuffer,
     /// Room for the tile's pixels.
     own: Own,
@@ -56,7 +56,7 @@ impl Worker {
             vertices: Vertices::new(),
             corners: Corners::new(),
             batches: Box::default(),
-            faces: Faces::new(),
+            faces: PieceFaces::new(),
             nearest: TileBuffer::new(),
             own: Own::default(),
         }

@@ -134,6 +134,7 @@ impl Image {
             height: rows.end - rows.start,
             pixels: self.pixels[start..end].to_vec(),
             covered: self.covered.as_ref().map(|covered| covered[start..end].to_vec()),
+            divisor: self.divisor,
         }
     }
 

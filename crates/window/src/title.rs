@@ -194,6 +194,7 @@ mod tests {
             rate: Some(59.94),
             shading: Some("Phong"),
             reflectance: Some("Blinn–Phong"),
+            intensity: None,
             steps: Some(2.0),
         };
         let counted = "12 draws · 1.2 M triangles · 4 lights · 3 pipelines · 0 B";
@@ -224,6 +225,7 @@ mod tests {
                 Status { shading: Some("Auto"), reflectance: Some("Phong"), steps: Some(0.5), ..Status::default() },
                 "Auto, Phong · within 0.5 of 255 steps".into(),
             ),
+            (Status { intensity: Some("ACES"), ..Status::default() }, "ACES".into()),
             (Status { program: "halfway", ..Status::default() }, "halfway".into()),
             (Status::default(), String::new()),
         ];

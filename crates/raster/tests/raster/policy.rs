@@ -108,7 +108,7 @@ fn what_cannot_be_finished_is_refused() {
     let rasterizer = Rasterizer::new(RasterOptions::default()).expect("threads");
     let (mut few, mut floats) = ([0_u8; 4], [0.0; 8]);
     let aces = Intensity::Aces;
-    let finish = |policy, output, format| rasterizer.finish(&[0.0; 8], policy, None, output, format);
+    let finish = |policy, output: Output, format| rasterizer.finish(&[0.0; 8], policy, None, output, format);
     let lengths = RasterError::Finish { expected: 8, found: 4 };
     assert_eq!(finish(aces, Output::Bytes(&mut few), PixelFormat::RawBytes), Err(lengths));
     let formats = finish(aces, Output::Floats(&mut floats), PixelFormat::RawBytes);

@@ -75,10 +75,9 @@ fn wrapped(u: f32, side: f32, wrap: u32) -> f32 {
 
 // Of 0 and above alone: the remainder of negative numbers is not one number on all drivers.
 fn remainder(at: i32, side: i32) -> i32 {
-    if at < 0 {
-        return side - 1 - (-1 - at) % side;
-    }
-    return at % side;
+    let below = at < 0;
+    let rest = select(at, -1 - at, below) % side;
+    return select(rest, side - 1 - rest, below);
 }
 
 fn wrapped_index(at: i32, side: i32, wrap: u32) -> i32 {
