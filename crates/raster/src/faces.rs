@@ -51,6 +51,9 @@ impl LaneFaces {
             self.store(simd, 1, n, splat(simd, 0.0));
             return;
         }
+        if state.maps.is_some() {
+            store_fours::<S>([n[0], n[1], n[2], splat(simd, 0.0)], &mut self.parts.normals, 0);
+        }
         let [a, b, c] = corners;
         let middle = scale::<S>(add::<S>(add::<S>(a, b), c), splat(simd, 1.0 / 3.0));
         let p = transformed(simd, &instance.eye_from_model, middle);

@@ -23,6 +23,8 @@ pub(crate) struct MappedTriangle {
     /// Of flat ones the parts, and the opacity of the vertices.
     pub(crate) parts: PartsOf,
     pub(crate) alpha: f32,
+    /// And their color.
+    pub(crate) color: [f32; 3],
 }
 
 impl MappedTriangle {
@@ -79,6 +81,7 @@ impl MappedTriangle {
 /// How many groups a state's triangles take.
 fn groups_of(state: &State) -> usize {
     match state.stage {
+        Stage::Unlit | Stage::Vertex if state.maps.is_some_and(|maps| maps.surrounded) => GROUPS,
         Stage::Unlit | Stage::Flat => 2,
         Stage::Vertex => PARTS + 3,
         Stage::Fragment => FRAME + 1,
@@ -90,11 +93,15 @@ fn groups_of(state: &State) -> usize {
 pub(crate) struct FlatParts {
     /// Ambient, diffuse, specular: a number that is the opacity of the vertices with the first, and three.
     pub(crate) each: [[[[f32; 4]; MOST_LANES]; 3]; 2],
+    /// The colors of the vertices.
+    colors: [[f32; 4]; MOST_LANES],
+    /// Their own normals, of the front.
+    pub(crate) normals: [[f32; 4]; MOST_LANES],
 }
 
 impl FlatParts {
     pub(crate) fn new() -> Self {
-        Self { each: [[[[0.0; 4]; MOST_LANES]; 3]; 2] }
+        Self { each: [[[[0.0; 4]; MOST_LANES]; 3]; 2], colors: [[0.0; 4]; MOST_LANES], normals: [[0.0; 4]; MOST_LANES] }
     }
 
     #[inline(always)]
@@ -109,12 +116,17 @@ impl FlatParts {
         let one = splat(simd, 1.0);
         let [r, g, b, alpha] = own.unwrap_or([one; 4]);
         let parts = parts_of(simd, terms, side, [r, g, b]);
+        store_fours::<S>([r, g, b, alpha], &mut self.colors, 0);
         for (part, to) in parts.into_iter().zip(&mut self.each[usize::from(back)]) {
             store_fours::<S>([alpha, part[0], part[1], part[2]], to, 0);
         }
     }
 
-    pub(crate) fn set(&self, triangle: &mut MappedTriangle, back: bool, lane: usize) {
+    pub(crate) fn set(&self, (triangle, state): (&mut MappedTriangle, &State), back: bool, lane: usize) {
+        if state.stage == Stage::Flat {
+            triangle.face = each!(axis in 3 => self.normals[lane][axis]);
+            triangle.color = each!(c in 3 => self.colors[lane][c]);
+        }
         let each = &self.each[usize::from(back)];
         triangle.alpha = each[0][lane][0];
         triangle.parts = each!(part in 3 => each!(c in 3 => each[part][lane][c + 1]));
@@ -133,7 +145,7 @@ pub(crate) fn parts_of<S: Simd>(simd: S, terms: &Irradiance<S>, side: &SideData,
 /// Which groups a state's sides have of their own.
 fn is_of_side(state: &State, group: usize) -> bool {
     match state.stage {
-        Stage::Vertex => group >= PARTS,
+        Stage::Vertex => (PARTS..PARTS + 3).contains(&group),
         Stage::Mixed => group >= OF_VERTICES,
         Stage::Unlit | Stage::Flat | Stage::Fragment => false,
     }

@@ -88,7 +88,7 @@ impl MapTextures {
                 views.push(self.none(gpu)?);
                 continue;
             };
-            record.each[slot] = PlacingRecord::new(of, pyramid, packed_size(gpu, pyramid)[0]);
+            record.each[slot] = PlacingRecord::new(of, pyramid, packed_size(gpu, pyramid.texels().len())[0]);
             let (view, sent) = self.view(gpu, of, pyramid)?;
             bytes += sent;
             views.push(view);
@@ -117,7 +117,7 @@ impl MapTextures {
         if let Some(there) = self.textures.get(&of.texture).filter(|there| there.pyramid.is_same(pyramid)) {
             return Ok((there.view.clone(), 0));
         }
-        let view = sent(gpu, pyramid)?;
+        let view = sent(gpu, pyramid.texels(), "an image with its pyramid")?;
         self.textures.insert(of.texture, MapTexture { pyramid: pyramid.clone(), view: view.clone() });
         Ok((view, 16 * pyramid.texels().len() as u64))
     }
@@ -126,7 +126,7 @@ impl MapTextures {
         if let Some(view) = &self.none {
             return Ok(view.clone());
         }
-        let view = sent(gpu, &Pyramid::missing())?;
+        let view = sent(gpu, Pyramid::missing().texels(), "an image with its pyramid")?;
         Ok(self.none.insert(view).clone())
     }
 }
@@ -165,18 +165,18 @@ impl PlacingRecord {
 }
 
 /// Columns and rows of the texture that holds all levels, one after the other.
-fn packed_size(gpu: &Gpu, pyramid: &Pyramid) -> [u32; 2] {
-    let count = pyramid.texels().len() as u32;
+pub(crate) fn packed_size(gpu: &Gpu, texels: usize) -> [u32; 2] {
+    let count = texels as u32;
     let width = count.min(gpu.device.limits().max_texture_dimension_2d);
     [width, count.div_ceil(width)]
 }
 
-/// All levels of a pyramid in a texture of 32-bit floats.
-fn sent(gpu: &Gpu, pyramid: &Pyramid) -> Result<wgpu::TextureView, RenderError> {
-    let [width, height] = packed_size(gpu, pyramid);
+/// Texels of all levels in a texture of 32-bit floats; `of` says what they are of.
+pub(crate) fn sent(gpu: &Gpu, texels: &[[f32; 4]], of: &str) -> Result<wgpu::TextureView, RenderError> {
+    let [width, height] = packed_size(gpu, texels.len());
     let limit = gpu.device.limits().max_texture_dimension_2d;
     if height > limit {
-        let what = "the texels of an image with its pyramid, in rows of the longest side of a texture,".into();
+        let what = format!("the texels of {of}, in rows of the longest side of a texture,");
         return Err(RenderError::TooLarge { what, needed: height.into(), limit: limit.into() });
     }
     let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
@@ -201,8 +201,8 @@ fn sent(gpu: &Gpu, pyramid: &Pyramid) -> Result<wgpu::TextureView, RenderError> 
         gpu.queue.write_texture(to, bytemuck::cast_slice(texels), layout, size);
     };
     // The last row may be a part.
-    let whole = pyramid.texels().len() as u32 / width;
-    let (rows, rest) = pyramid.texels().split_at((whole * width) as usize);
+    let whole = texels.len() as u32 / width;
+    let (rows, rest) = texels.split_at((whole * width) as usize);
     write(0, rows, whole);
     if !rest.is_empty() {
         write(whole, rest, 1);

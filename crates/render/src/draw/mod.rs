@@ -5,4 +5,5 @@ pub(crate) mod maps;
 pub(crate) mod meshes;
 pub(crate) mod pass;
 pub(crate) mod replaced;
+pub(crate) mod surroundings;
 pub(crate) mod upload;

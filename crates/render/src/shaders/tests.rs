@@ -2,9 +2,10 @@
 
 use crate::device::provoking_vertex::ProvokingVertex;
 use crate::draw::maps::{PlacingRecord, PlacingsRecord};
+use crate::draw::surroundings::SurroundingsRecord;
 use crate::shaders::light_slots::BOUND_LIGHTS;
 use crate::shaders::records::{DrawRecord, INSTANCE, InstanceRecord, LightRecord, MaterialRecord, ViewRecord};
-use crate::shaders::text::{LightText, SurfaceText, Text};
+use crate::shaders::text::{LightText, SKY, SurfaceText, Text};
 use bytemuck::Zeroable;
 use std::mem::offset_of;
 use wgpu::naga::valid::{Capabilities, ValidationFlags, Validator};
@@ -27,10 +28,10 @@ fn valid(text: &str) -> Result<naga::Module, String> {
 #[test]
 fn each_file_is_valid_with_those_before_it() {
     let mut used = std::collections::HashSet::new();
-    for text in texts() {
-        let files = text.files();
+    let of_draws = texts().map(|text| text.files());
+    for files in of_draws.chain([SKY.to_vec()]) {
         for count in 1..=files.len() {
-            valid(&files[..count].concat()).unwrap_or_else(|error| panic!("{text:?}, {count} files: {error}"));
+            valid(&files[..count].concat()).unwrap_or_else(|error| panic!("{count} files: {error}"));
             used.insert(files[count - 1]);
         }
     }
@@ -165,6 +166,26 @@ fn where_an_image_lies_is_read_as_it_is_written() {
     let module = valid(&text.files().concat()).expect("a valid text");
     assert_eq!(members(&module, "Placing"), fields!(PlacingRecord { row0, row1, levels, level }));
     assert_eq!(members(&module, "Placings"), fields!(PlacingsRecord { cutoff, each }));
+}
+
+#[test]
+fn an_environment_is_read_as_it_is_written() {
+    let record = fields!(SurroundingsRecord {
+        row0,
+        row1,
+        row2,
+        mean,
+        strength,
+        first_angle,
+        sky_level,
+        width,
+        way,
+        levels,
+        level
+    });
+    for text in [Text { lights: LightText::Few, surface: SurfaceText::Surrounded }.files(), SKY.to_vec()] {
+        assert_eq!(members(&valid(&text.concat()).expect("a valid text"), "Surroundings"), record);
+    }
 }
 
 #[test]
