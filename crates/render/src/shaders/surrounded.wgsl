@@ -1,5 +1,5 @@
 // The entry points of draws in an environment, with images, a mask, or without. What it adds is evaluated at each fragment,
-// whatever the shading. Needs parts.wgsl and surroundings.wgsl.
+// whatever the shading. The way to the viewer is the pixel's center's. Needs parts.wgsl and surroundings.wgsl.
 
 // The sums with what the environment adds at a fragment whose normal, of the side that is seen, is n.
 fn surrounded(sums: Parts, p: vec3f, n: vec3f, color: vec3f, record: u32, front: bool, c: Coordinates) -> Parts {
@@ -20,16 +20,14 @@ fn surrounded(sums: Parts, p: vec3f, n: vec3f, color: vec3f, record: u32, front:
 
 struct Flat {
     @invariant @builtin(position) clip: vec4f,
-    @location(0) @interpolate(flat, first) ambient: vec3f,
-    @location(1) @interpolate(flat, first) diffuse: vec3f,
-    @location(2) @interpolate(flat, first) specular: vec3f,
-    @location(3) @interpolate(flat, first) color: vec4f,
-    @location(4) @interpolate(flat, first) n: vec3f,          // of the side that is seen
-    @location(5) @interpolate(perspective, centroid) p: vec3f,
-    @location(6) @interpolate(perspective, centroid) uv: vec4f,
-    @location(7) @interpolate(perspective, center) at: vec4f,
-    @location(8) @interpolate(perspective, center) middle: vec3f,
-    @location(9) @interpolate(flat, first) record: vec2u,     // and whether it shows its front
+    @location(0) @interpolate(flat, first) ambient: vec4f,    // and the opacity of the vertices
+    @location(1) @interpolate(flat, first) diffuse: vec4f,    // and their red
+    @location(2) @interpolate(flat, first) specular: vec4f,   // green
+    @location(3) @interpolate(flat, first) n: vec4f,          // blue; n is of the side that is seen
+    @location(4) @interpolate(perspective, centroid) uv: vec4f,
+    @location(5) @interpolate(perspective, center) at: vec4f,
+    @location(6) @interpolate(perspective, center) middle: vec4f,    // and w
+    @location(7) @interpolate(flat, first) record: vec2u,     // and whether it shows its front
 }
 
 @vertex
@@ -48,18 +46,21 @@ fn vs_flat(object: Object, vertex: FlatVertex) -> Flat {
     let corner = eye_position(object, vertex.position);
     let uv = vertex.uv;
     let sides = vec2u(object.record, u32(front));
+    let color = vertex.color;
     return Flat(
-        clip_position(corner), sums.ambient, sums.diffuse, sums.specular, vertex.color, n, corner, uv, uv, corner, sides,
+        clip_position(corner), vec4f(sums.ambient, color.a), vec4f(sums.diffuse, color.r), vec4f(sums.specular, color.g),
+        vec4f(n, color.b), uv, uv, vec4f(corner, -corner.z), sides,
     );
 }
 
 @fragment
 fn fs_flat(in: Flat) -> @location(0) vec4f {
-    let c = coordinates(in.uv, in.at, -in.middle.z);
+    let c = coordinates(in.uv, in.at, in.middle.w);
     let record = record_of(in.record.x);
     let front = in.record.y == 1u;
-    let lit = Parts(in.ambient, in.diffuse, in.specular);
-    return output(surrounded(lit, in.p, in.n, in.color.rgb, record, front, c), in.color.a, record, front, c);
+    let color = vec3f(in.diffuse.a, in.specular.a, in.n.a);
+    let lit = Parts(in.ambient.rgb, in.diffuse.rgb, in.specular.rgb);
+    return output(surrounded(lit, in.middle.xyz, in.n.xyz, color, record, front, c), in.ambient.a, record, front, c);
 }
 
 // ---- no term at the fragments: Gouraud, or no lights ----------------------------------------------
@@ -73,12 +74,11 @@ struct Gouraud {
     @location(4) @interpolate(perspective, centroid) back_diffuse: vec3f,
     @location(5) @interpolate(perspective, centroid) back_specular: vec3f,
     @location(6) @interpolate(perspective, centroid) color: vec4f,
-    @location(7) @interpolate(perspective, centroid) p: vec3f,
-    @location(8) @interpolate(perspective, centroid) n: vec3f,
-    @location(9) @interpolate(perspective, centroid) uv: vec4f,
-    @location(10) @interpolate(perspective, center) at: vec4f,
-    @location(11) @interpolate(perspective, center) middle: vec3f,
-    @location(12) @interpolate(flat, either) record: u32,
+    @location(7) @interpolate(perspective, centroid) n: vec3f,
+    @location(8) @interpolate(perspective, centroid) uv: vec4f,
+    @location(9) @interpolate(perspective, center) at: vec4f,
+    @location(10) @interpolate(perspective, center) middle: vec3f,
+    @location(11) @interpolate(flat, either) record: u32,
 }
 
 @vertex
@@ -94,7 +94,7 @@ fn vs_gouraud(object: Object, vertex: Vertex) -> Gouraud {
     let uv = vertex.uv;
     return Gouraud(
         clip_position(p), front.ambient, front.diffuse, front.specular, back.ambient, back.diffuse, back.specular,
-        vertex.color, p, n, uv, uv, p, object.record,
+        vertex.color, n, uv, uv, p, object.record,
     );
 }
 
@@ -107,10 +107,10 @@ fn fs_gouraud(in: Gouraud, @builtin(front_facing) front: bool) -> @location(0) v
         interpolated(select(in.back_diffuse, in.diffuse, is_front)),
         interpolated(select(in.back_specular, in.specular, is_front)),
     );
-    let n = fragment_normal(in.p, in.n, front);
+    let n = fragment_normal(in.middle, in.n, front);
     let record = record_of(in.record);
     let color = clamp(in.color, vec4f(), vec4f(1.0));
-    let sums = surrounded(lit, in.p, select(-n, n, is_front), color.rgb, record, is_front, c);
+    let sums = surrounded(lit, in.middle, select(-n, n, is_front), color.rgb, record, is_front, c);
     return output(sums, color.a, record, is_front, c);
 }
 
