@@ -5,6 +5,7 @@
 
 mod axes;
 pub(crate) mod colors;
+pub(crate) mod environment;
 mod features;
 pub(crate) mod maps;
 pub(crate) mod policies;
@@ -14,7 +15,7 @@ use crate::render::scene::Scene;
 use crate::render::stage::Stage;
 use halfway::prelude::*;
 use halfway::reference::Image;
-use halfway::reference::metrics::{Bars, Verdict, compare};
+use halfway::reference::metrics::{Bars, Verdict, compare, judge};
 
 /// Small, and no multiple of anything: rows of pixels are padded on their way back.
 const SIZE: UVec2 = UVec2::new(76, 60);
@@ -222,3 +223,42 @@ fn all_kinds_of_images_at_once_conform() {
 
 /// In steps of 1/255, the root of the mean square: what `SwiftShader` needs is 0.9.
 const MOST_OFF_AS_A_WHOLE: f64 = 1.5;
+
+#[test]
+fn every_way_to_be_lit_by_an_environment_conforms() {
+    conform("environment", &environment::rows());
+}
+
+/// Known issue: llvmpipe (LLVM 15.0.6) under Vulkan crashes where a draw reads both an image and an environment; why is not
+/// known. Under OpenGL it draws them.
+#[test]
+fn environments_conform_on_objects_with_images() {
+    let mut stage = Stage::new(8, 8);
+    stage.frame();
+    let drawn_by = stage.adapter().describe().to_string();
+    if drawn_by.contains("llvmpipe") && drawn_by.contains("vulkan") {
+        println!("not drawn: {drawn_by} would crash");
+        return;
+    }
+    // As images do.
+    conform_within("environment and images", &environment::rows_of_maps(), 2.0);
+}
+
+/// A planted fault: an environment brighter by a twentieth is found in every row of one shading.
+#[test]
+fn an_environment_that_is_a_twentieth_brighter_is_found() {
+    let mut stage = Stage::new(SIZE.x, SIZE.y);
+    for Row { name, scene, float, .. } in environment::rows().iter().filter(|row| row.name.contains(", phong,")) {
+        let mut brighter = scene.clone();
+        brighter.environment.as_mut().expect("one").strength *= 1.05;
+        if scene.things.iter().any(|thing| thing.blend) {
+            continue;
+        }
+        let picture = stage.draw(&brighter);
+        stage.set(scene);
+        stage.frame();
+        let oracle = stage.oracle();
+        let verdict = judge(&oracle, &oracle.draw(), &Image::from_float(&picture), stage.on_grid(*float));
+        assert!(!verdict.expect("pictures of one size").is_within(), "{name}: not found");
+    }
+}

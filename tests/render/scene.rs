@@ -3,6 +3,7 @@
 use halfway::lighting::Frequency;
 use halfway::lighting::rotation_along;
 use halfway::prelude::*;
+use halfway::texture::environment::EnvironmentMap;
 use halfway::texture::{Channel, Sampling, TexelImage, UvSet, UvTransform};
 
 /// Everything that decides a picture, but for its size.
@@ -16,6 +17,16 @@ pub(crate) struct Scene {
     pub(crate) ambient: LinearRgba,
     pub(crate) lamps: Vec<Lamp>,
     pub(crate) things: Vec<Thing>,
+    pub(crate) environment: Option<Around>,
+}
+
+/// An environment by a light of each direction.
+#[derive(Clone)]
+pub(crate) struct Around {
+    pub(crate) map: EnvironmentMap,
+    pub(crate) strength: f32,
+    pub(crate) rotation: f32,
+    pub(crate) sky: bool,
 }
 
 #[derive(Clone, Debug)]
@@ -88,6 +99,7 @@ impl Scene {
             ambient: LinearRgba::BLACK,
             lamps: Vec::new(),
             things: Vec::new(),
+            environment: None,
         }
     }
 

@@ -1,11 +1,12 @@
 //! An App that draws scenes, one after the other.
 
 use crate::render::adapter::choice;
-use crate::render::scene::{Kind, Lamp, Map, On, Scene, Thing};
+use crate::render::scene::{Around, Kind, Lamp, Map, On, Scene, Thing};
 use halfway::prelude::*;
 use halfway::reference::Oracle;
 use halfway::reference::metrics::Bars;
 use halfway::render::{Adapter, Costs, RenderError};
+use halfway::texture::environment::{EnvironmentLight, EnvironmentMap};
 use image::{Rgba32FImage, RgbaImage};
 use std::sync::OnceLock;
 use std::time::Duration;
@@ -129,6 +130,10 @@ impl Stage {
         let things: Vec<Entity> = scene.things.iter().map(|thing| self.thing(thing)).collect();
         for lamp in &scene.lamps {
             self.lamp(lamp, camera, &things);
+        }
+        if let Some(Around { map, strength, rotation, sky }) = scene.environment.clone() {
+            let map = self.world().resource_mut::<Assets<EnvironmentMap>>().add(map);
+            self.spawn(EnvironmentLight { map, strength, rotation, sky });
         }
         things
     }

@@ -18,6 +18,9 @@ pub(crate) const FRAME: usize = 3;
 pub(crate) const OF_VERTICES: usize = 4;
 pub(crate) const AMBIENT_OF_VERTICES: usize = 5;
 
+/// Of surrounded draws whose light is shaded at the vertices, or that have none: the normal.
+pub(crate) const MIRROR_NORMAL: usize = 5;
+
 /// The numbers of a piece's vertices, by side and group.
 pub(crate) struct MappedVertices(Vec<Attributes>);
 

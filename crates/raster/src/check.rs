@@ -1,7 +1,9 @@
 //! Whether a pass can be drawn: references within their lists, numbers finite and in their ranges.
 
 use crate::error::{LARGEST_SIDE, RasterError};
-use crate::pass::{DrawCall, InstanceData, LightData, LightRange, Output, Pass, SideData, SurfaceData};
+use crate::pass::{
+    DrawCall, InstanceData, LightData, LightRange, Output, Pass, SideData, SurfaceData, SurroundingsData,
+};
 use halfway_texture::MapKind;
 
 /// Checks all of a pass but what drawing it finds out.
@@ -26,6 +28,12 @@ pub(crate) fn check(pass: &Pass, output: &Output) -> Result<(), RasterError> {
         finite("map", index, "rows", map.rows.as_flattened())?;
         finite("map", index, "amount", &[map.amount])?;
     }
+    if let Some(SurroundingsData { strength, rows, mean, sky, .. }) = pass.surroundings {
+        from_zero("surroundings", 0, "strength", &[*strength])?;
+        finite("surroundings", 0, "rows", rows.as_flattened())?;
+        finite("surroundings", 0, "mean", mean.as_flattened())?;
+        from_zero("surroundings", 0, "sky", &[sky.unwrap_or_default()])?;
+    }
     for (index, draw) in pass.draws.iter().enumerate() {
         if draw.mesh as usize >= pass.meshes.len() {
             return beyond("draw", index, "mesh", u64::from(draw.mesh) + 1, pass.meshes.len());
@@ -35,6 +43,9 @@ pub(crate) fn check(pass: &Pass, output: &Output) -> Result<(), RasterError> {
             return beyond("draw", index, "colors", mesh.triangle_count() as u64, 0);
         }
         check_maps(index, draw, pass)?;
+        if draw.surrounded && pass.surroundings.is_none() {
+            return beyond("draw", index, "surroundings", 1, 0);
+        }
         if draw.instances.end as usize > pass.instances.len() {
             return beyond("draw", index, "instances", u64::from(draw.instances.end), pass.instances.len());
         }

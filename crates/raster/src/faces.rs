@@ -69,6 +69,9 @@ impl PieceFaces {
         let [a, b, c] = corners;
         let middle = scale::<S>(add::<S>(add::<S>(a, b), c), splat(simd, 1.0 / 3.0));
         let p = transformed(simd, &instance.eye_from_model, middle);
+        if state.maps.is_some() {
+            spread::<S>([n[0], n[1], n[2], splat(simd, 0.0)], these, &mut self.parts.normals);
+        }
         let n = if back { neg::<S>(n) } else { n };
         let points = Points::new(simd, p, n, to_viewer(simd, p, n, pass.local_viewer));
         let terms = state.vertex_terms(simd, pass, &points, back);

@@ -28,6 +28,7 @@
 //!         }],
 //!         meshes: &[&mesh],
 //!         maps: &[],
+//!         surroundings: None,
 //!         draws: &[DrawCall { indices: 0..3, instances: 0..1, ..DrawCall::default() }],
 //!     },
 //!     Output::Bytes(&mut bytes),
@@ -72,6 +73,7 @@ mod rasterizer;
 mod samples;
 mod shade;
 mod state;
+mod surroundings;
 mod tile;
 mod triangle;
 mod vertices;
@@ -81,7 +83,7 @@ pub use bands::ClearTiles;
 pub use error::{LARGEST_SIDE, RasterError};
 pub use pass::{
     DrawCall, Highlight, InstanceData, LeftOut, Lens, LightData, LightRange, MapCall, MapData, Output, Pass,
-    PixelFormat, SampleCount, ShadedTerms, SideData, SurfaceData,
+    PixelFormat, SampleCount, ShadedTerms, SideData, SurfaceData, SurroundingsData,
 };
 pub use pieces::{Pieces, TriangleOrder, VertexLists};
 pub use rasterizer::{RasterOptions, Rasterizer};

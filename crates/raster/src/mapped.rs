@@ -25,6 +25,8 @@ pub(crate) struct MappedTriangle {
     /// Of flat ones the parts, and the opacity of the vertices.
     pub(crate) parts: PartsOf,
     pub(crate) alpha: f32,
+    /// And their color.
+    pub(crate) color: [f32; 3],
 }
 
 impl MappedTriangle {
@@ -81,6 +83,7 @@ impl MappedTriangle {
 /// How many groups a state's triangles take.
 fn groups_of(state: &State) -> usize {
     match state.stage {
+        Stage::Unlit | Stage::Vertex if state.maps.is_some_and(|maps| maps.surrounded) => GROUPS,
         Stage::Unlit | Stage::Flat => 2,
         Stage::Vertex => PARTS + 3,
         Stage::Fragment => FRAME + 1,
@@ -92,11 +95,19 @@ fn groups_of(state: &State) -> usize {
 pub(crate) struct FlatParts {
     /// Ambient, diffuse, specular: a number that is the opacity of the vertices with the first, and three.
     pub(crate) each: [[[[f32; 4]; PIECE_TRIANGLES]; 3]; 2],
+    /// The colors of the vertices.
+    colors: [[f32; 4]; PIECE_TRIANGLES],
+    /// Their own normals, of the front.
+    pub(crate) normals: [[f32; 4]; PIECE_TRIANGLES],
 }
 
 impl FlatParts {
     pub(crate) fn new() -> Self {
-        Self { each: [[[[0.0; 4]; PIECE_TRIANGLES]; 3]; 2] }
+        Self {
+            each: [[[[0.0; 4]; PIECE_TRIANGLES]; 3]; 2],
+            colors: [[0.0; 4]; PIECE_TRIANGLES],
+            normals: [[0.0; 4]; PIECE_TRIANGLES],
+        }
     }
 
     #[inline(always)]
@@ -112,12 +123,17 @@ impl FlatParts {
         let one = splat(simd, 1.0);
         let [r, g, b, alpha] = own.unwrap_or([one; 4]);
         let parts = parts_of(simd, terms, side, [r, g, b]);
+        spread::<S>([r, g, b, alpha], of, &mut self.colors);
         for (part, to) in parts.into_iter().zip(&mut self.each[usize::from(back)]) {
             spread::<S>([alpha, part[0], part[1], part[2]], of, to);
         }
     }
 
-    pub(crate) fn set(&self, triangle: &mut MappedTriangle, back: bool, number: usize) {
+    pub(crate) fn set(&self, (triangle, state): (&mut MappedTriangle, &State), back: bool, number: usize) {
+        if state.stage == Stage::Flat {
+            triangle.face = each!(axis in 3 => self.normals[number][axis]);
+            triangle.color = each!(c in 3 => self.colors[number][c]);
+        }
         let each = &self.each[usize::from(back)];
         triangle.alpha = each[0][number][0];
         triangle.parts = each!(part in 3 => each!(c in 3 => each[part][number][c + 1]));
@@ -136,7 +152,7 @@ pub(crate) fn parts_of<S: Simd>(simd: S, terms: &Irradiance<S>, side: &SideData,
 /// Which groups a state's sides have of their own.
 fn is_of_side(state: &State, group: usize) -> bool {
     match state.stage {
-        Stage::Vertex => group >= PARTS,
+        Stage::Vertex => (PARTS..PARTS + 3).contains(&group),
         Stage::Mixed => group >= OF_VERTICES,
         Stage::Unlit | Stage::Flat | Stage::Fragment => false,
     }

@@ -1,6 +1,6 @@
 //! Pixels of draws with images or a mask.
 
-use crate::attributes::{AMBIENT_OF_VERTICES, COLOR, FRAME, NORMAL, OF_VERTICES, PARTS, UVS};
+use crate::attributes::{AMBIENT_OF_VERTICES, COLOR, FRAME, MIRROR_NORMAL, NORMAL, OF_VERTICES, PARTS, UVS};
 use crate::bins::TILE;
 use crate::lanes::{F, I, M, Simd, V3, each, lanes, splat, splat_i, splat3};
 use crate::lighting::{Gloss, Irradiance, Points, to_viewer};
@@ -14,12 +14,12 @@ use halfway_lighting::equations::{NORMAL_MIN, bumped_normal, mapped_normal};
 use halfway_texture::{MapKind, UvTransform, lookup};
 
 /// A pixel of a mapped triangle.
-struct MappedPixel<'a> {
-    triangle: &'a MappedTriangle,
+pub(crate) struct MappedPixel<'a> {
+    pub(crate) triangle: &'a MappedTriangle,
     maps: &'a StateMaps,
     pass: &'a Pass<'a>,
     /// In pixels from the tile's first.
-    place: [f32; 2],
+    pub(crate) place: [f32; 2],
     w: f32,
 }
 
@@ -38,7 +38,7 @@ impl MappedPixel<'_> {
         each!(k in 4 => (base[k] + dx[k] * x + dy[k] * y) * self.w)
     }
 
-    fn three(&self, group: usize) -> [f32; 3] {
+    pub(crate) fn three(&self, group: usize) -> [f32; 3] {
         let [a, b, c, _] = self.group(group);
         [a, b, c]
     }
@@ -73,7 +73,7 @@ impl MappedPixel<'_> {
         self.texel(call).map(|number| 1.0 + amount * (number - 1.0))
     }
 
-    fn factor_of_one(&self, kind: MapKind) -> f32 {
+    pub(crate) fn factor_of_one(&self, kind: MapKind) -> f32 {
         self.maps.calls[kind as usize].map_or(1.0, |call| self.factor(kind)[call.channel as usize])
     }
 
@@ -90,12 +90,20 @@ impl MappedPixel<'_> {
         of_vertices * if has_own { self.factor_of_one(MapKind::Opacity) } else { self.factor(MapKind::Color)[3] }
     }
 
-    /// The interpolated normal as images turn it, of the front; `way` leads from the eye through the pixel, `steps` to the next.
-    fn normal(&self, state: &State, way: [f32; 3], steps: [f32; 2]) -> [f32; 3] {
-        let n = self.three(NORMAL);
+    /// The interpolated normal as images turn it where light is shaded at the fragments, or the triangle's under flat shading; of
+    /// the front. `way` leads from the eye through the pixel, `steps` to the next.
+    pub(crate) fn normal(&self, state: &State, way: [f32; 3], steps: [f32; 2]) -> [f32; 3] {
+        let n = match state.stage {
+            Stage::Flat => return self.triangle.face,
+            Stage::Unlit | Stage::Vertex => self.three(MIRROR_NORMAL),
+            Stage::Fragment | Stage::Mixed => self.three(NORMAL),
+        };
         let length = (n[0] * n[0] + n[1] * n[1] + n[2] * n[2]).sqrt();
         let is_short = state.opposite_normals && length <= NORMAL_MIN;
         let otherwise = if is_short { self.triangle.face } else { n.map(|x| x / length.max(f32::MIN_POSITIVE)) };
+        if matches!(state.stage, Stage::Unlit | Stage::Vertex) {
+            return otherwise;
+        }
         if let Some(call) = &self.maps.calls[MapKind::Normal as usize] {
             let [r, g, b, _] = self.texel(call);
             let [x, y, z, w] = self.group(FRAME);
@@ -172,7 +180,14 @@ impl<S: Simd> MappedPixels<'_, S> {
         for lane in 0..lanes::<S>() {
             let Some(pixel) = self.pixel(lane, look.pass, maps) else { continue };
             let of_lights = [lit.ambient, lit.diffuse, lit.specular].map(|of| each!(c in 3 => of[c][lane]));
-            let [ambient, diffuse, specular] = parts(&pixel, state, side, of_lights);
+            let [mut ambient, diffuse, mut specular] = parts(&pixel, state, side, of_lights);
+            if maps.surrounded
+                && let Some(around) = look.pass.surroundings
+            {
+                let [of_normal, of_mirror] = pixel.surrounded(around, look, state, back);
+                ambient = each!(c in 3 => ambient[c] + of_normal[c]);
+                specular = each!(c in 3 => specular[c] + of_mirror[c]);
+            }
             let [color, shiny, glow] =
                 [MapKind::Color, MapKind::Specular, MapKind::Emission].map(|kind| pixel.factor(kind));
             let occlusion = pixel.factor_of_one(MapKind::Occlusion);

@@ -1,6 +1,6 @@
 //! The vertices of draws with images or a mask.
 
-use crate::attributes::{AMBIENT_OF_VERTICES, COLOR, FRAME, NORMAL, OF_VERTICES, PARTS, UVS};
+use crate::attributes::{AMBIENT_OF_VERTICES, COLOR, FRAME, MIRROR_NORMAL, NORMAL, OF_VERTICES, PARTS, UVS};
 use crate::lanes::{F, Simd, V3, each, load, load3, neg, safe_normalize, splat, store_fours};
 use crate::lighting::{Points, ambient_part, diffuse_part, specular_part, to_viewer};
 use crate::mapped::parts_of;
@@ -54,12 +54,15 @@ impl Vertices {
         put(self.mapped.group(false, UVS), uvs);
         put(self.mapped.group(false, COLOR), color);
         let Some(maps) = &state.maps else { return };
-        if matches!(state.stage, Stage::Unlit | Stage::Flat) {
+        if state.stage == Stage::Flat || state.stage == Stage::Unlit && !maps.surrounded {
             return;
         }
         let model_n = load3(simd, &mesh.normals, first);
         let n = safe_normalize(simd, turned(simd, &instance.normal, model_n));
-        if state.stage != Stage::Vertex {
+        if maps.surrounded && matches!(state.stage, Stage::Unlit | Stage::Vertex) {
+            put(self.mapped.group(false, MIRROR_NORMAL), [n[0], n[1], n[2], zero]);
+        }
+        if matches!(state.stage, Stage::Fragment | Stage::Mixed) {
             put(self.mapped.group(false, NORMAL), [n[0], n[1], n[2], zero]);
             let direction = |v: V3<S>| {
                 each!(axis in 3 => {
@@ -78,7 +81,7 @@ impl Vertices {
                 put(self.mapped.group(false, FRAME), [m[0], m[1], m[2], zero]);
             }
         }
-        if state.stage == Stage::Fragment {
+        if matches!(state.stage, Stage::Fragment | Stage::Unlit) {
             return;
         }
         let p = load3(simd, &self.eye, at);

@@ -1,6 +1,7 @@
 //! What is drawn: plain data, borrowed for one picture.
 
 use crate::Pieces;
+use halfway_texture::environment::EnvironmentMap;
 use halfway_texture::{Channel, MapKind, Pyramid, Sampling, UvSet};
 use std::ops::Range;
 
@@ -31,9 +32,18 @@ pub struct Pass<'a> {
     pub meshes: &'a [&'a Pieces],
     /// The images on surfaces.
     pub maps: &'a [MapData],
+    /// The environment.
+    pub surroundings: Option<&'a SurroundingsData>,
     /// What is drawn, first to last. Of opaque fragments in equal depth the first drawn stays. Blended ones are drawn
     /// over all opaque ones, in this order.
     pub draws: &'a [DrawCall],
+}
+
+impl Pass<'_> {
+    /// Whether the environment is seen where nothing is drawn.
+    pub(crate) fn shows_sky(&self) -> bool {
+        self.surroundings.is_some_and(|around| around.sky.is_some())
+    }
 }
 
 /// How many points a pixel takes.
@@ -211,6 +221,21 @@ pub struct MapData {
     pub amount: f32,
 }
 
+/// An environment, as it lies around the eye.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SurroundingsData {
+    /// Its light.
+    pub map: EnvironmentMap,
+    /// What multiplies it.
+    pub strength: f32,
+    /// The rows of the rotation from eye space to the environment.
+    pub rows: [[f32; 3]; 3],
+    /// The polynomial of [`mean_light`](halfway_lighting::equations::mean_light).
+    pub mean: [[f32; 3]; 9],
+    /// The level that is seen where nothing is drawn, in place of the clear color.
+    pub sky: Option<f32>,
+}
+
 /// An image that a draw looks up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MapCall {
@@ -310,14 +335,16 @@ pub struct DrawCall {
     pub mask: Option<f32>,
     /// The surface is lit inside out, which turns the tangents of a normal map.
     pub inside_out: bool,
+    /// The environment lights it. Of the draw's two terms none is shaded both at the vertices and at the fragments then.
+    pub surrounded: bool,
     /// Fragments are laid over what is there by their opacity, and leave the depth as it is.
     pub blend: bool,
 }
 
 impl DrawCall {
-    /// Whether it has images or a mask.
+    /// Whether it has images, a mask or an environment.
     pub(crate) fn is_mapped(&self) -> bool {
-        self.mask.is_some() || self.maps.iter().any(Option::is_some)
+        self.surrounded || self.mask.is_some() || self.maps.iter().any(Option::is_some)
     }
 }
 

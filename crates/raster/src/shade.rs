@@ -15,6 +15,7 @@ use crate::mapped_pixels::MappedPixels;
 use crate::pass::{Pass, SampleCount};
 use crate::samples::CENTROIDS;
 use crate::state::{Stage, State};
+use crate::surroundings::behind;
 use fearless_simd::prelude::*;
 use halfway_lighting::equations::NORMAL_MIN;
 
@@ -152,10 +153,10 @@ impl TileBuffer {
         for at in (0..rows * TILE).step_by(lanes::<S>()) {
             match look.pass.samples {
                 SampleCount::One => {
-                    let color = self.shade_one_apart(simd, look, at, clear);
+                    let color = self.shade_one_apart(simd, look, at, behind(simd, look, at, clear));
                     self.put(simd, (0, at), color, look);
                 }
-                SampleCount::Four => self.shade_four(simd, look, at, clear),
+                SampleCount::Four => self.shade_four(simd, look, at, behind(simd, look, at, clear)),
             }
         }
     }

@@ -27,6 +27,8 @@ pub(crate) struct StateMaps {
     pub(crate) mask: Option<f32>,
     /// Factors of tangents, and of w.
     pub(crate) signs: [f32; 2],
+    /// Whether the environment lights it.
+    pub(crate) surrounded: bool,
 }
 
 impl StateMaps {
@@ -34,7 +36,7 @@ impl StateMaps {
     pub(crate) fn of(draw: &DrawCall) -> Option<Self> {
         let sign = |negative: bool| if negative { -1.0 } else { 1.0 };
         let signs = [sign(draw.inside_out), sign(draw.clockwise)];
-        draw.is_mapped().then_some(Self { calls: draw.maps, mask: draw.mask, signs })
+        draw.is_mapped().then_some(Self { calls: draw.maps, mask: draw.mask, signs, surrounded: draw.surrounded })
     }
 
     pub(crate) fn has(&self, kind: MapKind) -> bool {
@@ -70,6 +72,10 @@ pub(crate) struct State {
 impl State {
     pub(crate) fn new(draw: &DrawCall, surface: u32, data: &SurfaceData) -> Self {
         let lit = |terms: ShadedTerms, [all, diffuse, specular]: [LightRange; 3]| {
+            // The environment takes normals as lights would have them.
+            if draw.surrounded {
+                return terms;
+            }
             let has_diffuse = terms.diffuse && !(all.is_empty() && diffuse.is_empty());
             let has_specular = terms.specular && !(all.is_empty() && specular.is_empty());
             ShadedTerms { diffuse: has_diffuse, specular: has_specular }
@@ -91,7 +97,8 @@ impl State {
             vertex,
             fragment,
             highlight: draw.highlight,
-            opposite_normals: draw.opposite_normals && matches!(stage, Stage::Fragment | Stage::Mixed),
+            opposite_normals: draw.opposite_normals
+                && (matches!(stage, Stage::Fragment | Stage::Mixed) || draw.surrounded && stage != Stage::Flat),
             backs: draw.left_out != LeftOut::Back,
             colored: draw.colored,
             maps: StateMaps::of(draw),

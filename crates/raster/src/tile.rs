@@ -14,6 +14,7 @@ use crate::pieces::{PIECE_TRIANGLES, Piece, Pieces};
 use crate::planes::{Planes, Slopes};
 use crate::shade::{Even, shader_of};
 use crate::state::{Stage, State};
+use crate::surroundings::behind;
 use crate::triangle::{Batch, Corners, Covering};
 use crate::vertices::{Screen, Vertices};
 use fearless_simd::prelude::*;
@@ -69,13 +70,13 @@ impl Worker {
         let last = [0, 1].map(|axis| (pass.size[axis] - tile[axis] * TILE as u32).min(TILE as u32) as i32 - 1);
         let mut jobs = bins.of_tile(tile[0], tile[1]).peekable();
         let is_clear = jobs.peek().is_none();
-        let was_clear = bands.set_clear(tile, is_clear);
+        let was_clear = bands.set_clear(tile, is_clear && !pass.shows_sky());
         if is_clear {
             if !was_clear {
                 bands.fill(tile, &mut self.own, |rows| {
                     simd.vectorize(
                         #[inline(always)]
-                        || fill_with_clear(simd, pass, last[1], rows),
+                        || fill_with_clear(simd, &look, last[1], rows),
                     );
                 });
             }
@@ -191,7 +192,7 @@ impl Worker {
                     &ready.gradient,
                     &ready.corners,
                 );
-                faces.parts.set(&mut mapped, back, number);
+                faces.parts.set((&mut mapped, work.state), back, number);
                 nearest.mapped_triangles.push(mapped);
             }
             let Ready { edges, planes, .. } = ready;
@@ -257,7 +258,7 @@ impl Worker {
                 if work.state.maps.is_some() {
                     let slopes = |values: [&[f32; 4]; 3]| Slopes::of_lane(&batch.slopes(simd, lane, values));
                     let mut mapped = MappedTriangle::small(v, (numbers, back), (work.state, &planes), slopes);
-                    self.faces.parts.set(&mut mapped, back, number);
+                    self.faces.parts.set((&mut mapped, work.state), back, number);
                     self.nearest.mapped_triangles.push(mapped);
                 }
                 let edges = EdgeFunctions::of_lane(batch, lane, look.pass.samples);
@@ -289,9 +290,10 @@ fn shade_and_encode<S: Simd>(simd: S, nearest: &TileBuffer, look: &Look, last_ro
     let clear = cleared(simd, pass.clear, pass.pixels);
     let mut even = [Even::clear(simd, pass); 2];
     let places = (0..(last_row as usize + 1) * TILE).step_by(lanes::<S>());
-    if pass.pixels == PixelFormat::Floats {
+    if pass.pixels == PixelFormat::Floats || pass.shows_sky() {
         for at in places {
-            put(simd, rows, at, kept(simd, nearest.shade_one_apart(simd, look, at, clear), pass.pixels), pass.pixels);
+            let color = nearest.shade_one_apart(simd, look, at, behind(simd, look, at, clear));
+            put(simd, rows, at, kept(simd, color, pass.pixels), pass.pixels);
         }
     } else if look.painted {
         for at in places {
@@ -305,10 +307,11 @@ fn shade_and_encode<S: Simd>(simd: S, nearest: &TileBuffer, look: &Look, last_ro
 }
 
 #[inline(always)]
-fn fill_with_clear<S: Simd>(simd: S, pass: &Pass, last_row: i32, rows: &mut Rows) {
+fn fill_with_clear<S: Simd>(simd: S, look: &Look, last_row: i32, rows: &mut Rows) {
+    let pass = look.pass;
     let color = cleared(simd, pass.clear, pass.pixels);
     for at in (0..(last_row as usize + 1) * TILE).step_by(lanes::<S>()) {
-        put(simd, rows, at, color, pass.pixels);
+        put(simd, rows, at, behind(simd, look, at, color), pass.pixels);
     }
 }
 

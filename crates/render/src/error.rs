@@ -93,6 +93,11 @@ pub enum RenderError {
     /// More than one camera is in the world.
     #[error("the scene has {0} cameras and only one can be drawn; keep one `Camera` component")]
     ManyCameras(usize),
+    /// More than one environment lights the scene.
+    #[error(
+        "the scene has {0} environments and only one can light it: that of the first entity does; keep one `EnvironmentLight`"
+    )]
+    ManyEnvironments(usize),
     /// An object's mesh handle leads to no mesh.
     #[error("{entity}: its mesh is not in `Assets<Mesh>` (was it removed, or never added?)")]
     MissingMesh {

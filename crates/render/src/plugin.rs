@@ -20,6 +20,7 @@ use crate::frame::times;
 use crate::geometry::meshes::{self, Geometries};
 use crate::geometry::workshop::Workshop;
 use crate::lights::gather::{self, Lights};
+use crate::lights::surroundings::{self, Surroundings};
 use crate::lights::terms::{self, Chosen};
 use crate::pipelines::cache::{self, Pipelines};
 use crate::pipelines::compile::Compile;
@@ -68,6 +69,7 @@ impl Plugin for RenderPlugin {
             .init_resource::<View>()
             .init_resource::<Visible>()
             .init_resource::<Lights>()
+            .init_resource::<Surroundings>()
             .init_resource::<LitPatches>()
             .init_resource::<Batches>()
             .init_resource::<FalseColors>()
@@ -110,7 +112,7 @@ impl RenderPlugin {
                 (frame::measure, camera::update, camera::require_propagation, open, replaced::forget)
                     .chain()
                     .in_set(View),
-                matrices::select.in_set(Select),
+                (matrices::select, surroundings::gather).in_set(Select),
                 matrices::compute.in_set(Matrices),
                 (terms::choose, meshes::forget_removed, meshes::lay_out).chain().in_set(Choose),
                 gather::gather.in_set(Illuminate),
@@ -121,7 +123,15 @@ impl RenderPlugin {
             frame::prepare.in_set(View).after(replaced::forget),
             (cache::begin, lit_patches::illuminate::<Pipelines>).chain().in_set(Illuminate).after(gather::gather),
             batches::batch::<Pipelines>.in_set(Batch),
-            (mesh_buffers::upload, upload::build_pipelines, upload::upload, upload::upload_maps).chain().in_set(Upload),
+            (
+                mesh_buffers::upload,
+                upload::build_pipelines,
+                upload::upload,
+                upload::upload_maps,
+                upload::upload_surroundings,
+            )
+                .chain()
+                .in_set(Upload),
             pass::draw.in_set(Draw),
             pass::present.in_set(Deliver),
         );

@@ -9,6 +9,7 @@ use bevy_reflect::std_traits::ReflectDefault;
 use bevy_reflect::{Reflect, TypePath};
 
 use crate::decode::TexelMeaning;
+use crate::environment::{EnvironmentLight, EnvironmentMap};
 use crate::pyramid::Pyramid;
 use crate::sampling::{Channel, Sampling};
 use crate::texels::TexelImage;
@@ -224,7 +225,20 @@ impl Maps {
     }
 }
 
-/// Registers [`Texture`] as an asset, and [`Maps`] for reflection. May be added late and more than once: textures that
+/// Makes a type an asset. What is there already stays.
+fn add_asset<T: Asset>(app: &mut App) {
+    // As of meshes: `init_asset` replaces what is there.
+    if !app.world().contains_resource::<Messages<AssetEvent<T>>>() {
+        let early = app.world_mut().remove_resource::<Assets<T>>();
+        app.init_asset::<T>();
+        if let Some(early) = early {
+            app.world().resource::<AssetServer>().register_asset(&early);
+            app.insert_resource(early);
+        }
+    }
+}
+
+/// Registers [`Texture`] and [`EnvironmentMap`] as assets, and [`Maps`] and [`EnvironmentLight`] for reflection. May be added late and more than once: textures that
 /// the app has already stay. Adds `bevy_asset`'s `AssetPlugin` where the app does not have it yet.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct TexturePlugin;
@@ -234,16 +248,9 @@ impl Plugin for TexturePlugin {
         if !app.world().contains_resource::<AssetServer>() {
             app.add_plugins(AssetPlugin::default());
         }
-        app.register_type::<Maps>();
-        // As of meshes: `init_asset` replaces what is there.
-        if !app.world().contains_resource::<Messages<AssetEvent<Texture>>>() {
-            let early = app.world_mut().remove_resource::<Assets<Texture>>();
-            app.init_asset::<Texture>();
-            if let Some(early) = early {
-                app.world().resource::<AssetServer>().register_asset(&early);
-                app.insert_resource(early);
-            }
-        }
+        app.register_type::<Maps>().register_type::<EnvironmentLight>();
+        add_asset::<Texture>(app);
+        add_asset::<EnvironmentMap>(app);
     }
 
     fn is_unique(&self) -> bool {

@@ -2,9 +2,10 @@
 
 #![allow(clippy::float_cmp, reason = "what is exact is compared exactly")]
 
+use bevy_asset::Handle;
 use halfway_texture::environment::{
-    Environment, EnvironmentShape, Harmonics, from_cube, from_equirectangular, from_mirror_ball, on_cube,
-    on_equirectangular, on_mirror_ball,
+    Environment, EnvironmentLight, EnvironmentMap, EnvironmentShape, Harmonics, from_cube, from_equirectangular,
+    from_mirror_ball, on_cube, on_equirectangular, on_mirror_ball,
 };
 use halfway_texture::{TexelImage, TexelMeaning, TextureError, decode};
 use image::{DynamicImage, ImageFormat, Rgb32FImage};
@@ -319,4 +320,103 @@ fn floating_point_files_are_read_and_what_is_no_number_is_refused() {
             decode(&file(&broken, ImageFormat::OpenExr), "sky.exr", TexelMeaning::Color).expect_err("it is refused");
         assert!(error.to_string().starts_with("sky.exr: texel (2, 1) holds"), "{error}");
     }
+}
+
+/// A cube map of so many texels a side, in which all directions differ.
+fn waves(size: u32) -> Environment {
+    let color =
+        |[x, y, z]: [f64; 3]| [(3.0 * x).sin(), y - z, (2.0 * y).cos() + x * z, 1.0].map(|number| number as f32);
+    Environment::from_fn(EnvironmentShape::Cube, size, color).unwrap()
+}
+
+/// Directions over the sphere, along axes, through seams and through corners.
+fn all_directions() -> Vec<[f64; 3]> {
+    let steps = (-4..=4).map(|step| f64::from(step) / 4.0);
+    let grid =
+        steps.clone().flat_map(|x| steps.clone().flat_map(move |y| [-1.0, -0.999, -0.3, 0.5, 1.0].map(|z| [x, y, z])));
+    grid.flat_map(|[x, y, z]| [[x, y, z], [y, z, x], [z, x, y]]).collect()
+}
+
+#[test]
+fn faces_with_borders_are_looked_up_as_cube_maps_are() {
+    for size in [1, 2, 5, 16] {
+        let cube = waves(size);
+        let map = EnvironmentMap::new(&cube).unwrap();
+        assert_eq!(map.angle(), cube.angle());
+        for direction in all_directions() {
+            for level in [-1.0, 0.0, 0.4, 1.0, 2.7, 9.0] {
+                let (expected, found) = (cube.at(direction, level), map.at(direction, level));
+                for k in 0..3 {
+                    let off = (expected[k] - found[k]).abs();
+                    assert!(off < 1e-12, "{size}, {direction:?}, level {level}: {found:?} for {expected:?}");
+                }
+            }
+        }
+    }
+}
+
+/// On either side of a seam the same is seen: a step of 10⁻⁹ across changes no more than that many texels do.
+#[test]
+fn no_seam_of_a_cube_is_seen_on_any_level() {
+    let map = EnvironmentMap::new(&waves(8)).unwrap();
+    for level in [0.0, 0.5, 1.0, 2.0, 3.0] {
+        for t in [-1.0, -0.9, -0.37, 0.0, 0.5, 1.0] {
+            for [a, b] in [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]] {
+                let of = |d: [f64; 3]| map.at(d, level);
+                for turn in 0..3 {
+                    let turned = |[x, y, z]: [f64; 3]| [[x, y, z], [z, x, y], [y, z, x]][turn];
+                    let [one, other] = [of(turned([a * (1.0 + 1e-9), b, t])), of(turned([a, b * (1.0 + 1e-9), t]))];
+                    (0..3).for_each(|k| assert!((one[k] - other[k]).abs() < 1e-6, "{one:?} beside {other:?} at {t}"));
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn the_polynomial_is_that_of_the_harmonics() {
+    let harmonics = waves(16).harmonics();
+    let c = harmonics.polynomial();
+    for [x, y, z] in all_directions() {
+        let length = (x * x + y * y + z * z).sqrt();
+        let [x, y, z] = [x, y, z].map(|number| number / length);
+        let terms = [1.0, y, z, x, x * y, y * z, 3.0 * z * z - 1.0, x * z, x * x - y * y];
+        let expected = harmonics.mean_light([x, y, z]);
+        for k in 0..3 {
+            let found: f64 = (0..9).map(|i| c[i][k] * terms[i]).sum();
+            assert!((found - expected[k]).abs() < 1e-12, "{found} for {}", expected[k]);
+        }
+    }
+}
+
+#[test]
+fn other_shapes_are_drawn_as_cubes_of_as_fine_texels() {
+    for (shape, size, side) in [
+        (EnvironmentShape::Equirectangular, 64, 32),
+        (EnvironmentShape::MirrorBall, 64, 23),
+        (EnvironmentShape::Cube, 64, 64),
+        (EnvironmentShape::Equirectangular, 1, 1),
+    ] {
+        let of = |[x, y, _]: [f64; 3]| [x as f32, y as f32, 0.5, 1.0];
+        let map = EnvironmentMap::new(&Environment::from_fn(shape, size, of).unwrap()).unwrap();
+        assert_eq!(map.levels()[0].side, side, "{shape:?}");
+        assert!(map.levels().iter().all(|level| level.side > 0));
+    }
+    let light = EnvironmentLight::from(Handle::default());
+    assert_eq!(light.wrong(), None);
+    for strength in [f32::NAN, -1.0, f32::INFINITY] {
+        let wrong = EnvironmentLight { strength, ..light.clone() }.wrong();
+        assert_eq!(wrong.map(|wrong| wrong.field), Some("strength"));
+    }
+    let wrong = EnvironmentLight { rotation: f32::NAN, ..light }.wrong();
+    assert_eq!(wrong.map(|wrong| wrong.field), Some("rotation"));
+}
+
+/// Turned by a quarter, what lay at +X is seen at −Z.
+#[test]
+fn environments_turn_counter_clockwise_as_seen_from_above() {
+    let light = EnvironmentLight { rotation: std::f32::consts::FRAC_PI_2, ..EnvironmentLight::from(Handle::default()) };
+    let rows = light.environment_from_world();
+    let found = rows.map(|[x, y, z]| x * 0.0 + y * 0.0 - z);
+    assert!((found[0] - 1.0).abs() < 1e-6 && found[1].abs() < 1e-6 && found[2].abs() < 1e-6, "{found:?}");
 }

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! [`shade`] is the whole of it, [`light_contribution`] one summand, [`light_terms`] its three terms, [`irradiance`] those
-//! before the material; the rest are the factors. All vectors have unit length unless said, all colours are linear RGB, angles are in radians. What goes in
+//! before the material; the rest are the factors. [`surroundings`] is what an environment adds. All vectors have unit length unless said, all colours are linear RGB, angles are in radians. What goes in
 //! is made from the components: `Coefficients::from(&material)`, [`PointLight::at`](crate::PointLight::at),
 //! [`SpotLight::at`](crate::SpotLight::at), [`DirectionalLight::along`](crate::DirectionalLight::along),
 //! [`Eye::in_eye_space`].
@@ -27,6 +27,7 @@
 //! | a singular or mirroring matrix | [`normal_matrix`] by cofactors, with the sign of the determinant |
 
 mod encoding;
+mod environment;
 mod falloff;
 mod normal;
 mod reflectance;
@@ -38,6 +39,7 @@ mod transcendental;
 pub mod vector;
 
 pub use encoding::srgb_encoded;
+pub use environment::{lobe_angle, lobe_exponent, mean_light, mirrored, surroundings};
 pub use falloff::{ATTENUATION_MAX, ConeTerms, attenuation, range_window, spot_factor};
 pub use normal::{NORMAL_MIN, normal_matrix, transform_normal};
 pub use reflectance::{

@@ -51,6 +51,7 @@ impl Scene {
             instances: &self.instances,
             meshes: &meshes,
             maps: &[],
+            surroundings: None,
             draws: &self.draws,
         })
     }

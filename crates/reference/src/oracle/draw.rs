@@ -60,8 +60,12 @@ impl Oracle {
         let share = 1.0 / f64::from(n * n);
         for sample in 0..n * n {
             let offset = [sample % n, sample / n].map(|i| (f64::from(i) + 0.5) / f64::from(n));
-            for (layers, (sum, covered)) in self.layers(tile, &part, offset).iter().zip(&mut part.pixels) {
-                let color = layers.color(&self.scene, self.clamp);
+            for (number, layers) in self.layers(tile, &part, offset).iter().enumerate() {
+                let (row, column) = (number as u32 / width, number as u32 % width);
+                let [x, y] = [origin[0] + column, origin[1] + row].map(f64::from);
+                let behind = self.scene.behind(self.scene.view.ray(x + offset[0], y + offset[1]));
+                let color = layers.color(&self.scene, behind, self.clamp);
+                let (sum, covered) = &mut part.pixels[number];
                 *sum = [0, 1, 2].map(|k| sum[k] + share * color[k]);
                 *covered |= !layers.is_empty();
             }

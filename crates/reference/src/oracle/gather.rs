@@ -17,10 +17,11 @@ use halfway_texture::{Maps, Pyramid, SurfaceMap, Texture};
 use super::error::OracleError;
 use super::maps::ReadMap;
 use super::solid::{Color, Looks, Solid};
+use super::surroundings::Surroundings;
 use super::view::{PictureView, affine};
 
 /// [`Shown`] asks a world for no resource, so that there is nothing it could lack.
-const ALWAYS: &str = "queries can be had of every world";
+pub(super) const ALWAYS: &str = "queries can be had of every world";
 
 /// What is drawn, in eye space.
 #[derive(Debug)]
@@ -33,6 +34,7 @@ pub(super) struct OracleScene {
     /// Ga, and La of the lights that do not attenuate it.
     pub(super) ambient: Color,
     pub(super) lights: Vec<Light<f64>>,
+    pub(super) surroundings: Option<Surroundings>,
     /// In the order in which they are drawn: opaque ones as they were spawned, then blended ones, the farthest first.
     pub(super) solids: Vec<Solid>,
 }
@@ -42,10 +44,12 @@ impl OracleScene {
         require_propagation(world)?;
         let seen = see(world, size)?;
         let (ambient, lights) = lights(world, &seen.view)?;
+        let surroundings = Surroundings::gather(world, &seen.view)?;
         let solids = solids(world, &seen)?;
         let viewer = equations::Eye::in_eye_space(seen.camera.viewer);
         let Camera { background, samples, intensity, .. } = seen.camera;
-        Ok(Self { view: seen.view, viewer, background: rgb(background), samples, intensity, ambient, lights, solids })
+        let background = rgb(background);
+        Ok(Self { view: seen.view, viewer, background, samples, intensity, ambient, lights, surroundings, solids })
     }
 }
 
@@ -215,6 +219,6 @@ fn bad_transform(entity: Entity, name: Option<&Name>, transform: &GlobalTransfor
 }
 
 /// An entity's name for an error: its `Name`, or its number.
-fn label(entity: Entity, name: Option<&Name>) -> String {
+pub(super) fn label(entity: Entity, name: Option<&Name>) -> String {
     name.map_or_else(|| format!("entity {entity}"), |name| format!("\"{name}\""))
 }

@@ -48,10 +48,10 @@ impl Layers {
         self.opaque.iter().chain(blended)
     }
 
-    /// I of everything on the ray, one over the other; each is clamped to 1 first where `clamp` says so.
-    pub(super) fn color(&self, scene: &OracleScene, clamp: bool) -> Color {
+    /// I of everything on the ray before what is `behind`, one over the other; each is clamped to 1 first where `clamp` says so.
+    pub(super) fn color(&self, scene: &OracleScene, behind: Color, clamp: bool) -> Color {
         let written = |i: Color| if clamp { i.map(|channel| channel.min(1.0)) } else { i };
-        self.visible(scene).fold(written(scene.background), |behind, hit| {
+        self.visible(scene).fold(written(behind), |behind, hit| {
             let opacity = scene.opacity(hit);
             let over = written(scene.value(hit));
             [0, 1, 2].map(|k| if opacity < 1.0 { opacity * over[k] + (1.0 - opacity) * behind[k] } else { over[k] })

@@ -16,6 +16,7 @@ mod probe;
 mod raster;
 mod shade;
 mod solid;
+mod surroundings;
 mod view;
 
 use std::sync::OnceLock;

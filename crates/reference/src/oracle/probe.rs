@@ -44,7 +44,7 @@ impl Oracle {
             depth: hit.depth,
             position: self.scene.view.world_from_point(self.scene.view.ray(x, y) * hit.depth),
         });
-        Seen { color: layers.color(&self.scene, self.clamp), nearest }
+        Seen { color: layers.color(&self.scene, self.scene.behind(self.scene.view.ray(x, y)), self.clamp), nearest }
     }
 
     /// Where a point of the world lies on the picture, or beside it, in pixels from its top left corner; `None` before

@@ -24,7 +24,9 @@ impl OracleScene {
             HitPoint::Triangle(triangle, weights) => self.on_triangle(solid, hit, &material, triangle, weights),
             HitPoint::Surface { p, n } => self.lit(solid, hit.front, &material, p, n.to_array(), Frequency::Fragment),
         };
-        let Parts { ambient, diffuse, specular } = unlit.plus(lit);
+        let [of_normal, of_mirror] = self.surrounded(hit, &material);
+        let around = Parts { ambient: of_normal, diffuse: [0.0; 3], specular: of_mirror };
+        let Parts { ambient, diffuse, specular } = unlit.plus(lit).plus(around);
         let color = |kind: MapKind| {
             let [r, g, b, _] = self.factor(hit, kind);
             [r, g, b]

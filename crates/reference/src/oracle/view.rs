@@ -56,6 +56,16 @@ impl PictureView {
         self.eye_from_world * world
     }
 
+    /// The axes of eye space in the world.
+    pub(super) fn world_from_eye(&self) -> DMat3 {
+        self.eye_from_world.transpose()
+    }
+
+    /// The height of the picture's middle pixel, seen from the eye, in radians.
+    pub(super) fn pixel_angle(&self) -> f64 {
+        2.0 * self.half.y / self.size.y
+    }
+
     pub(super) fn world_from_point(&self, eye: DVec3) -> DVec3 {
         self.eye_from_world.transpose() * eye + self.position
     }

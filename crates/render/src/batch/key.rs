@@ -38,6 +38,8 @@ pub(crate) struct DrawKey {
     pub(crate) masked: bool,
     /// The surface is lit inside out; known only where tangents count.
     pub(crate) inside_out: bool,
+    /// An environment lights it.
+    pub(crate) surrounded: bool,
 }
 
 /// How an image is looked up.
@@ -125,6 +127,7 @@ impl fmt::Display for DrawKey {
             (self.colored, "colored"),
             (self.masked, "masked"),
             (self.inside_out, "inside_out"),
+            (self.surrounded, "surrounded"),
         ] {
             if on {
                 write!(f, " {name}")?;
@@ -153,15 +156,22 @@ impl DrawKey {
         self.colored || self.is_mapped()
     }
 
-    /// Whether images, or a mask, have part in its fragments.
+    /// Whether images, a mask or an environment have part in its fragments.
     pub(crate) fn is_mapped(&self) -> bool {
-        self.masked || !self.maps.is_empty()
+        self.surrounded || self.masked || !self.maps.is_empty()
+    }
+
+    /// Whether fragments take the normal that is interpolated.
+    fn interpolates_normals(&self, terms: Terms) -> bool {
+        by_fragment_shader(terms).contains(&true) || self.surrounded && !terms.has(Frequency::Triangle)
     }
 
     /// The same with these terms, in place of more. Switches that then make no difference are set one way, so that they
     /// make no variants.
     #[must_use]
     pub(crate) fn with_terms(self, terms: Terms) -> Self {
+        // What an environment adds takes the normal and the exponent as lights would have them.
+        let terms = if self.surrounded { self.terms } else { terms };
         // The color of a flat triangle is of one point, whatever light there is.
         let is_flat = self.is_painted() && self.terms.has(Frequency::Triangle);
         let terms = if is_flat { Terms { diffuse: Frequency::Triangle, ..terms } } else { terms };
@@ -169,13 +179,13 @@ impl DrawKey {
         Self {
             terms,
             lists: if lit { self.lists } else { Lists::Counted(Counted::NONE) },
-            blinn_phong: self.blinn_phong || !specular,
-            local_viewer: self.local_viewer && specular,
+            blinn_phong: self.blinn_phong || !(specular || self.surrounded),
+            local_viewer: self.local_viewer && (specular || self.surrounded),
             attenuated_ambient: self.attenuated_ambient && terms.diffuse != Frequency::Never,
             shared_color: self.shared_color && specular,
             ranged: self.ranged && lit,
             squarings: self.squarings.filter(|_| specular && !self.maps.has(MapKind::Shininess)),
-            geometric_fallback: self.geometric_fallback && by_fragment_shader(terms).contains(&true),
+            geometric_fallback: self.geometric_fallback && self.interpolates_normals(terms),
             inside_out: self.inside_out && self.maps.has(MapKind::Normal),
             ..self
         }
@@ -189,7 +199,7 @@ impl DrawKey {
             attenuated_ambient: self.terms.diffuse != Frequency::Never,
             ranged: self.is_lit(),
             squarings: None,
-            geometric_fallback: by_fragment_shader(self.terms).contains(&true),
+            geometric_fallback: self.interpolates_normals(self.terms),
             ..self
         }
     }
@@ -254,6 +264,7 @@ pub(crate) mod tests {
             maps: MapLooks::default(),
             masked: false,
             inside_out: false,
+            surrounded: false,
         }
     }
 

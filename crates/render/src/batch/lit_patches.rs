@@ -17,6 +17,7 @@ use crate::lights::gains::Extent;
 use crate::lights::gather::Lights;
 use crate::lights::lists::{LightLists, Listing};
 use crate::lights::places::{PlacedPatch, ShadedAt, Spending};
+use crate::lights::surroundings::Surroundings;
 use crate::lights::terms::{Chosen, by_fragment_shader, by_vertex_shader};
 use crate::shaders::light_slots::Lists;
 use crate::shaders::records::{DrawRecord, InstanceRecord, MaterialRecord, RecordLists};
@@ -77,6 +78,7 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
     false_colors: Res<FalseColors>,
     prices: Option<Res<VertexPrices>>,
     values: Res<FrameValues>,
+    surroundings: Res<Surroundings>,
     mut backend: ResMut<B>,
     mut lit: ResMut<LitPatches>,
     mut report: ResMut<FrameReport>,
@@ -100,7 +102,8 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
             continue;
         };
         let (model_view, normal_matrix) = placed;
-        let paint = meshes.get(&mesh.0).map_or(Paint::default(), |mesh| Paint::new(mesh, components));
+        let paint =
+            meshes.get(&mesh.0).map_or(Paint::default(), |mesh| Paint::new(mesh, components, surroundings.are_there()));
         if let Some(source) = wrong_paint(components) {
             report.errors.push(RenderError::Invalid { entity: label(entity, name), source });
             continue;
@@ -118,6 +121,7 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
             colored: paint.colored,
             maps: MapLooks(paint.maps.map(|map| map.map(MapLook::from))),
             masked: paint.mask.is_some(),
+            surrounded: paint.surrounded,
         };
         let look = lit.table.look(&reflecting);
         if let Some(source) = &look.invalid {
@@ -350,7 +354,7 @@ impl LitPatches {
         if self.records.last() != Some(&colored) {
             self.records.push(colored);
         }
-        let plain = DrawKey { colored: false, maps: MapLooks::default(), masked: false, ..key };
+        let plain = DrawKey { colored: false, maps: MapLooks::default(), masked: false, surrounded: false, ..key };
         let key = backend.admit(DrawKey { blend: object.key.blend, ..plain.with_terms(Terms::NONE) });
         (key, 0, self.records.len() as u32 - 1)
     }

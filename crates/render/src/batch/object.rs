@@ -24,6 +24,8 @@ pub(crate) struct Reflecting<'a> {
     pub(crate) maps: MapLooks,
     /// What has too low an opacity is not there.
     pub(crate) masked: bool,
+    /// An environment lights it.
+    pub(crate) surrounded: bool,
 }
 
 /// The same as a key: the materials' bits, and the rest.
@@ -75,7 +77,7 @@ impl Reflecting<'_> {
 
     /// Whether what multiplies ambient and diffuse light is not in the material alone.
     fn is_painted(&self) -> bool {
-        self.colored || self.masked || !self.maps.is_empty()
+        self.surrounded || self.colored || self.masked || !self.maps.is_empty()
     }
 
     /// Checks the components; `number` gives the record its number.
@@ -173,6 +175,7 @@ impl Reflecting<'_> {
             maps: self.maps,
             masked: self.masked,
             inside_out: self.faces == Faces::Back,
+            surrounded: self.surrounded,
         };
         DrawKey { terms: circumstances.terms, ..key }.with_terms(terms)
     }

@@ -115,6 +115,7 @@ pub(crate) fn draw(
         instances: &lists.instances,
         meshes: &pieces,
         maps: &lists.maps,
+        surroundings: lists.surroundings.as_ref(),
         draws: &lists.draws,
     };
     let (output, clear_tiles) = canvas.output();

@@ -8,6 +8,7 @@ use crate::batch::table::{MapUse, MapsUse};
 use crate::cpu::meshes::MeshPieces;
 use crate::geometry::meshes::Form;
 use crate::lights::gather::Lights;
+use crate::lights::surroundings::{PlacedEnvironment, Surroundings};
 use crate::lights::terms::{by_fragment_shader, by_vertex_shader};
 use crate::shaders::light_slots::COUNTED_LIGHTS;
 use crate::shaders::records::{DrawRecord, InstanceRecord, LightRecord, MaterialRecord, RecordLists};
@@ -17,7 +18,7 @@ use halfway_lighting::Frequency;
 use halfway_mesh::Mesh;
 use halfway_raster::{
     DrawCall, Highlight, InstanceData, LeftOut, LightData, LightRange, MapCall, MapData, ShadedTerms, SideData,
-    SurfaceData,
+    SurfaceData, SurroundingsData,
 };
 use halfway_texture::{MapKind, Texture};
 
@@ -31,6 +32,7 @@ pub(crate) struct PassLists {
     pub(crate) meshes: Vec<(AssetId<Mesh>, Form)>,
     pub(crate) draws: Vec<DrawCall>,
     pub(crate) maps: Vec<MapData>,
+    pub(crate) surroundings: Option<SurroundingsData>,
     /// Of each set of images the number of the first, and the cutoff.
     sets: Vec<(u32, f32)>,
 }
@@ -41,8 +43,10 @@ pub(crate) fn fill(
     batches: Res<Batches>,
     meshes: Res<MeshPieces>,
     textures: Res<Assets<Texture>>,
+    surroundings: Res<Surroundings>,
     mut pass: ResMut<PassLists>,
 ) {
+    pass.surroundings = surroundings.0.as_ref().map(surroundings_data);
     pass.fill_maps(&lit.table.maps, &textures);
     pass.fill(&lights, &lit, &batches, &meshes);
 }
@@ -103,7 +107,7 @@ impl PassLists {
             let call = match lit.table.maps.get((maps as usize).wrapping_sub(1)) {
                 Some(of) if key.is_mapped() => {
                     let (maps, mask) = self.map_calls(&key, of, maps);
-                    DrawCall { maps, mask, inside_out: key.inside_out, ..call }
+                    DrawCall { maps, mask, inside_out: key.inside_out, surrounded: key.surrounded, ..call }
                 }
                 _ => call,
             };
@@ -183,6 +187,11 @@ fn side(record: &MaterialRecord, emission: [f32; 3]) -> SideData {
         exponent: finite(record.shininess),
         opacity: record.opacity,
     }
+}
+
+fn surroundings_data(placed: &PlacedEnvironment) -> SurroundingsData {
+    let PlacedEnvironment { map, strength, rows, mean, sky } = placed;
+    SurroundingsData { map: map.clone(), strength: *strength, rows: *rows, mean: *mean, sky: *sky }
 }
 
 fn light(record: &LightRecord) -> LightData {

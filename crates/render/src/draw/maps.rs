@@ -89,7 +89,8 @@ impl MapTextures {
                 views.push(self.none(gpu)?);
                 continue;
             };
-            record.each[slot] = PlacingRecord::new(of.rows(), of.amount, pyramid, packed_size(pyramid, longest)[0]);
+            record.each[slot] =
+                PlacingRecord::new(of.rows(), of.amount, pyramid, packed_size(pyramid.texels(), longest)[0]);
             let (view, sent) = self.view(gpu, of, pyramid)?;
             bytes += sent;
             views.push(view);
@@ -118,7 +119,7 @@ impl MapTextures {
         if let Some(there) = self.textures.get(&of.texture).filter(|there| there.pyramid.is_same(pyramid)) {
             return Ok((there.view.clone(), 0));
         }
-        let view = sent(gpu, pyramid)?;
+        let view = sent(gpu, pyramid.texels(), "an image with its pyramid")?;
         self.textures.insert(of.texture, MapTexture { pyramid: pyramid.clone(), view: view.clone() });
         Ok((view, 16 * pyramid.texels().len() as u64))
     }
@@ -127,7 +128,7 @@ impl MapTextures {
         if let Some(view) = &self.none {
             return Ok(view.clone());
         }
-        let view = sent(gpu, &Pyramid::missing())?;
+        let view = sent(gpu, Pyramid::missing().texels(), "an image with its pyramid")?;
         Ok(self.none.insert(view).clone())
     }
 }
@@ -135,14 +136,14 @@ impl MapTextures {
 /// How many bytes the record of where maps lie has.
 const PLACINGS_BYTES: u64 = size_of::<PlacingsRecord>() as u64;
 
-/// All levels of a pyramid in a texture of 32-bit floats.
-fn sent(gpu: &Gpu, pyramid: &Pyramid) -> Result<wgpu::TextureView, RenderError> {
+/// Texels of all levels in a texture of 32-bit floats; `of` says what they are of.
+pub(crate) fn sent(gpu: &Gpu, texels: &[[f32; 4]], of: &str) -> Result<wgpu::TextureView, RenderError> {
     let limit = gpu.device.limits().max_texture_dimension_2d;
-    let size = packed_size(pyramid, limit);
+    let size = packed_size(texels, limit);
     if size[1] > limit {
-        let what = "the texels of an image with its pyramid, in rows of the longest side of a texture,".into();
+        let what = format!("the texels of {of}, in rows of the longest side of a texture,");
         return Err(RenderError::TooLarge { what, needed: size[1].into(), limit: limit.into() });
     }
-    let texture = packed(&gpu.device, &gpu.queue, pyramid, size);
+    let texture = packed(&gpu.device, &gpu.queue, texels, size);
     Ok(texture.create_view(&wgpu::TextureViewDescriptor::default()))
 }

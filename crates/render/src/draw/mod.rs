@@ -6,4 +6,5 @@ pub(crate) mod meshes;
 pub(crate) mod pass;
 pub(crate) mod placings;
 pub(crate) mod replaced;
+pub(crate) mod surroundings;
 pub(crate) mod upload;

@@ -116,6 +116,11 @@ fn record(
     pipelines: &Pipelines,
     buffers: &Buffers,
 ) {
+    if let Some((pipeline, surroundings)) = buffers.surroundings.sky() {
+        pass.set_pipeline(pipeline);
+        pass.set_bind_group(2, surroundings, &[]);
+        pass.draw(0..3, 0..1);
+    }
     let Some(instances) = buffers.instances() else { return };
     pass.set_vertex_buffer(0, instances.slice(..));
     let mut last = None;
@@ -144,6 +149,10 @@ fn record(
             // Where there are no tangents none are looked at.
             pass.set_vertex_buffer(5, mesh.tangents.as_ref().unwrap_or(uvs).slice(..));
             pass.set_bind_group(1, maps, &[]);
+        }
+        if state.key.surrounded {
+            let Some(surroundings) = buffers.surroundings.group() else { continue };
+            pass.set_bind_group(2, surroundings, &[]);
         }
         pass.set_index_buffer(mesh.indices.slice(..), mesh.index_format);
         match (batches.draws.commands(group), buffers.draws()) {

@@ -35,17 +35,17 @@ impl PlacingRecord {
 }
 
 /// Columns and rows of the texture that holds all levels, one after the other, in rows of at most `longest` texels.
-pub(crate) fn packed_size(pyramid: &Pyramid, longest: u32) -> [u32; 2] {
-    let count = pyramid.texels().len() as u32;
+pub(crate) fn packed_size(texels: &[[f32; 4]], longest: u32) -> [u32; 2] {
+    let count = texels.len() as u32;
     let width = count.min(longest);
     [width, count.div_ceil(width)]
 }
 
-/// The texture of this size with all levels of a pyramid, in 32-bit floats.
+/// The texture of this size with the texels of all levels, in 32-bit floats.
 pub(crate) fn packed(
     device: &wgpu::Device,
     queue: &wgpu::Queue,
-    pyramid: &Pyramid,
+    texels: &[[f32; 4]],
     [width, height]: [u32; 2],
 ) -> wgpu::Texture {
     let texture = device.create_texture(&wgpu::TextureDescriptor {
@@ -70,8 +70,8 @@ pub(crate) fn packed(
         queue.write_texture(to, bytemuck::cast_slice(texels), layout, size);
     };
     // The last row may be a part.
-    let whole = pyramid.texels().len() as u32 / width;
-    let (rows, rest) = pyramid.texels().split_at((whole * width) as usize);
+    let whole = texels.len() as u32 / width;
+    let (rows, rest) = texels.split_at((whole * width) as usize);
     write(0, rows, whole);
     if !rest.is_empty() {
         write(whole, rest, 1);

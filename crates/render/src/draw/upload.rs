@@ -5,12 +5,15 @@ use crate::batch::draws::DrawState;
 use crate::batch::lit_patches::LitPatches;
 use crate::device::gpu::Gpu;
 use crate::draw::maps::MapTextures;
+use crate::draw::surroundings::SurroundingsOnGpu;
 use crate::error::RenderError;
 use crate::frame::report::FrameReport;
 use crate::lights::gather::Lights;
+use crate::lights::surroundings::Surroundings;
 use crate::pipelines::cache::Pipelines;
 use crate::shaders::records::{LightRecord, RECORD_BYTES, ViewRecord};
 use crate::shaders::text::{BOUND_LIGHT_BYTES, LightText, Text};
+use crate::target::frame::Target;
 use crate::view::camera::View;
 use bevy_asset::Assets;
 use bevy_ecs::prelude::*;
@@ -88,6 +91,7 @@ pub(crate) struct Buffers {
     draws: Mirrored,
     groups: Groups,
     pub(crate) maps: MapTextures,
+    pub(crate) surroundings: SurroundingsOnGpu,
 }
 
 /// Offsets of a draw's record, and of its lights where they are at fixed places.
@@ -129,6 +133,7 @@ impl Default for Buffers {
             draws: Mirrored::new("the draws", Usage::INDIRECT),
             groups: Groups::default(),
             maps: MapTextures::default(),
+            surroundings: SurroundingsOnGpu::default(),
         }
     }
 }
@@ -284,4 +289,17 @@ pub(crate) fn upload_maps(
     mut report: ResMut<FrameReport>,
 ) {
     buffers.maps.send(&gpu, &pipelines, &lit.table.maps, &textures, &mut report);
+}
+
+/// Sends the environment that the draws and the sky read.
+pub(crate) fn upload_surroundings(
+    gpu: Res<Gpu>,
+    surroundings: Res<Surroundings>,
+    view: Res<View>,
+    target: Res<Target>,
+    mut buffers: ResMut<Buffers>,
+    mut report: ResMut<FrameReport>,
+) {
+    let Some(frame) = &target.frame else { return };
+    buffers.surroundings.make_ready(&gpu, &surroundings, (&view, frame.output), &mut report);
 }

@@ -3,6 +3,7 @@
 use crate::frame::report::FrameReport;
 use crate::geometry::detail::{Detail, MeshTriangles};
 use crate::geometry::workshop::{Workshop, is_same};
+use crate::lights::surroundings::Surroundings;
 use crate::lights::terms::Chosen;
 use crate::target::canvas::CanvasTarget;
 use crate::target::surface::SurfaceTarget;
@@ -65,6 +66,8 @@ pub(crate) struct Paint<'a> {
     pub(crate) maps: [Option<&'a SurfaceMap>; MapKind::COUNT],
     /// The opacity below which there is nothing.
     pub(crate) mask: Option<f32>,
+    /// An environment lights it.
+    pub(crate) surrounded: bool,
 }
 
 /// The components that paint an object.
@@ -74,21 +77,22 @@ impl<'a> Paint<'a> {
     pub(crate) fn new(
         mesh: &Mesh,
         (colors, maps, mask): (Option<&VertexColors>, Option<&'a Maps>, Option<&Mask>),
+        surrounded: bool,
     ) -> Self {
         let colored = mesh.colors().is_some() && colors != Some(&VertexColors::Ignore);
         let has_uvs = [0, 1].map(|set| mesh.uv_set(set).is_some());
         let maps = maps.map_or_else(Default::default, |maps| maps.shown(has_uvs));
         // No opacity is below 0.
-        Self { colored, maps, mask: mask.map(|mask| mask.0).filter(|cutoff| *cutoff > 0.0) }
+        Self { colored, maps, mask: mask.map(|mask| mask.0).filter(|cutoff| *cutoff > 0.0), surrounded }
     }
 
     pub(crate) fn is_any(&self) -> bool {
         self.colored || self.is_mapped()
     }
 
-    /// Whether there are images or a mask.
+    /// Whether there are images, a mask or an environment.
     pub(crate) fn is_mapped(&self) -> bool {
-        self.mask.is_some() || self.maps.iter().any(Option::is_some)
+        self.surrounded || self.mask.is_some() || self.maps.iter().any(Option::is_some)
     }
 
     /// Whether an image turns normals.
@@ -160,6 +164,7 @@ pub(crate) fn lay_out(
     visible: Res<Visible>,
     of_view: Res<ViewTolerance>,
     (surface, canvas, texture): OtherTargets,
+    surroundings: Res<Surroundings>,
     mut workshop: ResMut<Workshop>,
     mut geometries: ResMut<Geometries>,
     mut report: ResMut<FrameReport>,
@@ -170,7 +175,7 @@ pub(crate) fn lay_out(
     let mut last = None;
     for (Mesh3d(handle), chosen, blend, paint, tolerance) in objects.iter_many(&visible.0).flatten() {
         let Some(mesh) = meshes.get(handle) else { continue };
-        let paint = Paint::new(mesh, paint);
+        let paint = Paint::new(mesh, paint, surroundings.are_there());
         let wanted = (handle.id(), Form::new(chosen.0, blend, &paint));
         if last.replace(wanted) == Some(wanted) {
             continue;

@@ -4,4 +4,5 @@ pub(crate) mod gains;
 pub(crate) mod gather;
 pub(crate) mod lists;
 pub(crate) mod places;
+pub(crate) mod surroundings;
 pub(crate) mod terms;

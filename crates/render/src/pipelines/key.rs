@@ -30,6 +30,7 @@ impl Text {
             Lists::Counted(..) | Lists::Split { .. } => LightText::Many,
         };
         let surface = match (key.is_mapped(), key.colored) {
+            _ if key.surrounded => SurfaceText::Surrounded,
             (true, _) => SurfaceText::Mapped,
             (false, true) => SurfaceText::Colored,
             (false, false) => SurfaceText::Plain,

@@ -2,10 +2,11 @@
 
 use crate::device::provoking_vertex::ProvokingVertex;
 use crate::draw::placings::{PlacingRecord, PlacingsRecord};
+use crate::draw::surroundings::SurroundingsRecord;
 use crate::shaders::light_slots::BOUND_LIGHTS;
 use crate::shaders::picture::{PICTURE_FILES, PicturePolicyRecord};
 use crate::shaders::records::{DrawRecord, INSTANCE, InstanceRecord, LightRecord, MaterialRecord, ViewRecord};
-use crate::shaders::text::{LightText, SurfaceText, Text};
+use crate::shaders::text::{LightText, SKY, SurfaceText, Text};
 use bytemuck::Zeroable;
 use std::mem::offset_of;
 use wgpu::naga::valid::{Capabilities, ValidationFlags, Validator};
@@ -28,10 +29,10 @@ fn valid(text: &str) -> Result<naga::Module, String> {
 #[test]
 fn each_file_is_valid_with_those_before_it() {
     let mut used = std::collections::HashSet::new();
-    for text in texts() {
-        let files = text.files();
+    let of_draws = texts().map(|text| text.files());
+    for files in of_draws.chain([SKY.to_vec()]) {
         for count in 1..=files.len() {
-            valid(&files[..count].concat()).unwrap_or_else(|error| panic!("{text:?}, {count} files: {error}"));
+            valid(&files[..count].concat()).unwrap_or_else(|error| panic!("{count} files: {error}"));
             used.insert(files[count - 1]);
         }
     }
@@ -179,6 +180,26 @@ fn a_policy_is_read_as_it_is_written() {
         members(&module, "PicturePolicy"),
         fields!(PicturePolicyRecord { smoothing, per_white, curve, encoded })
     );
+}
+
+#[test]
+fn an_environment_is_read_as_it_is_written() {
+    let record = fields!(SurroundingsRecord {
+        row0,
+        row1,
+        row2,
+        mean,
+        strength,
+        first_angle,
+        sky_level,
+        width,
+        way,
+        levels,
+        level
+    });
+    for text in [Text { lights: LightText::Few, surface: SurfaceText::Surrounded }.files(), SKY.to_vec()] {
+        assert_eq!(members(&valid(&text.concat()).expect("a valid text"), "Surroundings"), record);
+    }
 }
 
 #[test]

@@ -34,6 +34,8 @@ pub(crate) enum SurfaceText {
     Colored,
     /// Materials, images, a mask, and colors of the vertices, white where there are none.
     Mapped,
+    /// The same, in an environment.
+    Surrounded,
 }
 
 /// The lighting text, and the layout that goes with it.
@@ -57,8 +59,7 @@ impl Shaders {
 
     /// The layout of the bindings of images, once a text has it.
     pub(crate) fn map_bindings(&self) -> Option<&wgpu::BindGroupLayout> {
-        let mut mapped = self.0.iter().filter_map(|of| of[SurfaceText::Mapped as usize].get());
-        mapped.find_map(|shader| shader.map_bindings.as_ref())
+        self.0.iter().flatten().filter_map(OnceLock::get).find_map(|shader| shader.map_bindings.as_ref())
     }
 
     pub(crate) fn get_or_make(&self, gpu: &Gpu, text: Text) -> &Shader {
@@ -66,18 +67,27 @@ impl Shaders {
     }
 }
 
+const ENVIRONMENT: &str = include_str!("environment.wgsl");
+const SURROUNDINGS: &str = include_str!("surroundings.wgsl");
+
+/// The files of the sky's text.
+pub(crate) const SKY: [&str; 4] = [include_str!("lighting.wgsl"), ENVIRONMENT, SURROUNDINGS, include_str!("sky.wgsl")];
+
 /// The bytes of lights at fixed places.
 pub(crate) const BOUND_LIGHT_BYTES: u64 = BOUND_LIGHTS as u64 * size_of::<LightRecord>() as u64;
 
 impl SurfaceText {
     /// All of them.
-    pub(crate) const ALL: [Self; 3] = [Self::Plain, Self::Colored, Self::Mapped];
+    pub(crate) const ALL: [Self; 4] = [Self::Plain, Self::Colored, Self::Mapped, Self::Surrounded];
 
     fn files(self) -> &'static [&'static str] {
+        const MAPS: &str = include_str!("maps.wgsl");
+        const PARTS: &str = include_str!("parts.wgsl");
         match self {
             Self::Plain => &[include_str!("plain.wgsl")],
             Self::Colored => &[include_str!("colored.wgsl")],
-            Self::Mapped => &[include_str!("maps.wgsl"), include_str!("mapped.wgsl")],
+            Self::Mapped => &[MAPS, PARTS, include_str!("mapped.wgsl")],
+            Self::Surrounded => &[MAPS, PARTS, ENVIRONMENT, SURROUNDINGS, include_str!("surrounded.wgsl")],
         }
     }
 }
@@ -132,11 +142,14 @@ impl Shader {
             label: Some("draw"),
             entries: &[vec![entry(0, uniform, 16)], entries].concat(),
         });
-        let map_bindings = (text.surface == SurfaceText::Mapped).then(|| map_bindings(gpu));
-        let both = [Some(&bindings), map_bindings.as_ref()];
+        let is_surrounded = text.surface == SurfaceText::Surrounded;
+        let map_bindings = (is_surrounded || text.surface == SurfaceText::Mapped).then(|| map_bindings(gpu));
+        let surroundings = is_surrounded.then(|| surroundings_bindings(gpu));
+        let all = [Some(&bindings), map_bindings.as_ref(), surroundings.as_ref()];
+        let count = all.iter().flatten().count();
         let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("draw"),
-            bind_group_layouts: if map_bindings.is_some() { &both } else { &both[..1] },
+            bind_group_layouts: &all[..count],
             ..Default::default()
         });
         Self { module, bindings, map_bindings, layout }
@@ -144,18 +157,21 @@ impl Shader {
 }
 
 fn map_bindings(gpu: &Gpu) -> wgpu::BindGroupLayout {
-    let placings = wgpu::BindGroupLayoutEntry {
-        binding: 0,
-        visibility: wgpu::ShaderStages::FRAGMENT,
-        ty: wgpu::BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Uniform,
-            has_dynamic_offset: false,
-            min_binding_size: None,
-        },
-        count: None,
-    };
-    let image = |slot: usize| wgpu::BindGroupLayoutEntry {
-        binding: slot as u32 + 1,
+    let images = (1..).take(MapKind::COUNT).map(image_binding);
+    let entries: Vec<_> = std::iter::once(uniform_of_fragments()).chain(images).collect();
+    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("maps"), entries: &entries })
+}
+
+/// Those of the environment: how it is looked up, and its texels.
+pub(crate) fn surroundings_bindings(gpu: &Gpu) -> wgpu::BindGroupLayout {
+    let entries = [uniform_of_fragments(), image_binding(1)];
+    let descriptor = wgpu::BindGroupLayoutDescriptor { label: Some("surroundings"), entries: &entries };
+    gpu.device.create_bind_group_layout(&descriptor)
+}
+
+fn image_binding(binding: u32) -> wgpu::BindGroupLayoutEntry {
+    wgpu::BindGroupLayoutEntry {
+        binding,
         visibility: wgpu::ShaderStages::FRAGMENT,
         ty: wgpu::BindingType::Texture {
             // The filters are the shader's, so that they are the same everywhere.
@@ -164,7 +180,18 @@ fn map_bindings(gpu: &Gpu) -> wgpu::BindGroupLayout {
             multisampled: false,
         },
         count: None,
-    };
-    let entries: Vec<_> = std::iter::once(placings).chain((0..MapKind::COUNT).map(image)).collect();
-    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("maps"), entries: &entries })
+    }
+}
+
+fn uniform_of_fragments() -> wgpu::BindGroupLayoutEntry {
+    wgpu::BindGroupLayoutEntry {
+        binding: 0,
+        visibility: wgpu::ShaderStages::FRAGMENT,
+        ty: wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Uniform,
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        },
+        count: None,
+    }
 }

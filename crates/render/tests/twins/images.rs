@@ -33,7 +33,7 @@ pub(crate) static PLACINGS: LazyLock<PlacingsRecord> = LazyLock::new(|| {
     let each = std::array::from_fn(|slot| {
         let rows = [[0; 3]; 2].map(|row| row.map(|_| random.between(-2.0, 2.0)));
         let pyramid = &IMAGES[slot];
-        PlacingRecord::new(rows, random.between(-1.0, 2.0), pyramid, packed_size(pyramid, LONGEST)[0])
+        PlacingRecord::new(rows, random.between(-1.0, 2.0), pyramid, packed_size(pyramid.texels(), LONGEST)[0])
     });
     PlacingsRecord { cutoff: [0.5, 0.0, 0.0, 0.0], each }
 });
@@ -166,7 +166,7 @@ pub(crate) fn bound(device: &wgpu::Device, queue: &wgpu::Queue) -> Bound {
     let views: Vec<_> = IMAGES
         .iter()
         .map(|pyramid| {
-            let texture = packed(device, queue, pyramid, packed_size(pyramid, LONGEST));
+            let texture = packed(device, queue, pyramid.texels(), packed_size(pyramid.texels(), LONGEST));
             texture.create_view(&wgpu::TextureViewDescriptor::default())
         })
         .collect();

@@ -350,3 +350,26 @@ pub(crate) fn divisors() -> Vec<Input> {
 pub(crate) fn reflections() -> Vec<Input> {
     many([], 300, |random| std::array::from_fn(|_| random.between(0.0, 2.0)))
 }
+
+/// Coefficients of a polynomial of a normal, and the normal.
+pub(crate) fn harmonics() -> Vec<Input> {
+    let mut random = Random(23);
+    let mut one = || {
+        let coefficients = (0..9).flat_map(|_| [0; 3].map(|_| random.between(-1.0, 1.0))).collect::<Vec<_>>();
+        input(&[&coefficients[..], &random.direction()].concat())
+    };
+    (0..256).map(|_| one()).collect()
+}
+
+/// Directions of any length, along axes and along seams among them.
+pub(crate) fn directions() -> Vec<Input> {
+    let mut random = Random(29);
+    let steps = [-1.0, 0.0, 1.0];
+    let grid = steps.into_iter().flat_map(|x| steps.into_iter().flat_map(move |y| steps.map(|z| [x, y, z])));
+    let grid: Vec<_> = grid.map(|d| input(&d)).collect();
+    let mut any = || {
+        let size = random.magnitude(-3.0, 3.0);
+        input(&random.direction().map(|x| x * size))
+    };
+    grid.into_iter().chain((0..256).map(|_| any())).collect()
+}

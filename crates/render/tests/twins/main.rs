@@ -1,5 +1,6 @@
-//! Twins: the functions of lighting.wgsl and tone.wgsl, run on the adapter, against those of the same name in
-//! `halfway_lighting::equations` in f64; those of maps.wgsl, against `halfway_texture` too; and sums of terms.
+//! Twins: the functions of lighting.wgsl, tone.wgsl and environment.wgsl, run on the adapter, against those of the same name in
+//! `halfway_lighting::equations` and `halfway_texture::environment` in f64; those of maps.wgsl, against `halfway_texture` too; and
+//! sums of terms.
 
 mod adapter;
 mod derivatives;
@@ -19,9 +20,12 @@ use halfway_render::{Gpu, wgpu::naga};
 use std::collections::BTreeSet;
 use table::{Row, constants, described, rows};
 
-/// Both texts of functions alone.
-const LIGHTING: &str =
-    concat!(include_str!("../../src/shaders/lighting.wgsl"), include_str!("../../src/shaders/tone.wgsl"));
+/// The texts of functions alone.
+const LIGHTING: &str = concat!(
+    include_str!("../../src/shaders/lighting.wgsl"),
+    include_str!("../../src/shaders/tone.wgsl"),
+    include_str!("../../src/shaders/environment.wgsl"),
+);
 
 /// What is wrong with the first result that is too far from its twin.
 fn too_far(gpu: &Gpu, lighting: &str, row: &Row) -> Option<String> {
@@ -59,7 +63,13 @@ fn each_function_gives_what_its_twin_gives() {
 }
 
 /// Faults: the function whose rows find it, what is right, and what is written instead.
-const FAULTS: [(&str, &str, &str); 27] = [
+const FAULTS: [(&str, &str, &str); 33] = [
+    ("mirrored", "2.0 * dot(n, v) * n - v", "2.0 * dot(n, v) * n + v"),
+    ("lobe_exponent", "0.25 * exponent", "0.26 * exponent"),
+    ("lobe_angle", "sqrt(alpha + 3.0)", "sqrt(alpha + 2.0)"),
+    ("mean_light", "c[2] * n.z", "c[2] * n.x"),
+    ("mean_light", "n.x * n.x - n.y * n.y", "n.x * n.x + n.y * n.y"),
+    ("on_cube", "select(3.0, 2.0", "select(2.0, 3.0"),
     ("power", "select(0.0, 1.0, e == 0.0)", "0.0"),
     ("power", "i < squarings", "i <= squarings"),
     ("attenuation", "d * light.quadratic", "light.quadratic"),

@@ -40,6 +40,14 @@ impl Parts for [f64; 3] {
     }
 }
 
+/// The place, then the number of the face.
+impl Parts for (usize, [f64; 2]) {
+    fn parts(self) -> Vec<f64> {
+        let (face, [u, v]) = self;
+        vec![u, v, face as f64]
+    }
+}
+
 /// Where Rust says that there is no normal the shader has 0.
 impl Parts for Option<[f64; 3]> {
     fn parts(self) -> Vec<f64> {
@@ -185,10 +193,12 @@ fn arriving(x: &[f32]) -> Irradiance<f64> {
 
 use equations::vector::{add, dot, length, normalize_or_zero};
 use equations::{
-    aces, attenuation, diffuse_term, divisor, half_vector, incidence, interpolated_normal, irradiance, power,
-    range_window, reflect, reflected, reinhard, specular_blinn_phong, specular_phong, specular_term, spot_factor,
-    srgb_encoded, transform_normal, view_vector,
+    aces, attenuation, diffuse_term, divisor, half_vector, incidence, interpolated_normal, irradiance, lobe_angle,
+    lobe_exponent, mean_light, mirrored, power, range_window, reflect, reflected, reinhard, specular_blinn_phong,
+    specular_phong, specular_term, spot_factor, srgb_encoded, transform_normal, view_vector,
 };
+
+use halfway_texture::environment::on_cube;
 
 #[rustfmt::skip]
 pub(crate) fn rows() -> Vec<Row> {
@@ -271,6 +281,21 @@ pub(crate) fn rows() -> Vec<Row> {
         // A quotient and eight operations, with constants that are rounded.
         row!(aces("vec3f(s(i, 0))") -> Repeated, NOTHING, inputs::bright(),
             |x| (f64::from(x[0])), |_, e| each(e, 10.0 * ULP * e[0] + LEAST)),
+        row!(mirrored("v(i, 0), v(i, 6)") -> Vector, NOTHING, inputs::highlights(),
+            |x| (wide(x), wide(&x[6..])), |_, e| each(e, 6.0 * ULP)),
+        row!(lobe_exponent("false, s(i, 9)") -> Scalar, NOTHING, inputs::highlights(),
+            |x| (Reflectance::Phong, f64::from(x[9])), |_, e| each(e, 0.0)),
+        row!(lobe_exponent("true, s(i, 9)") -> Scalar, NOTHING, inputs::highlights(),
+            |x| (Reflectance::BlinnPhongMatched, f64::from(x[9])), |_, e| each(e, LEAST)),
+        // WGSL grants a square root what it grants 1/inverseSqrt: 2 ULP, and 2.5 more of each division.
+        row!(lobe_angle("s(i, 9)") -> Scalar, NOTHING, inputs::highlights(),
+            |x| (f64::from(x[9])), |_, e| each(e, 8.0 * ULP * e[0])),
+        row!(mean_light("array<vec3f, 9>(v(i, 0), v(i, 3), v(i, 6), v(i, 9), v(i, 12), v(i, 15), v(i, 18), v(i, 21), v(i, 24)), \
+                v(i, 27)") -> Vector, NOTHING, inputs::harmonics(),
+            |x| (&std::array::from_fn(|k| wide(&x[3 * k..])), wide(&x[27..])), |_, e| each(e, 40.0 * ULP)),
+        // A place is a quotient, of which half is taken after 1 is added.
+        row!(on_cube("v(i, 0)") -> Vector, NOTHING, inputs::directions(),
+            |x| (wide(x)), |_, e| vec![4.0 * ULP, 4.0 * ULP, 0.0][..e.len()].to_vec()),
     ]
 }
 

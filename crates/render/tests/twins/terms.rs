@@ -1,4 +1,4 @@
-//! Twins: the functions of colored.wgsl and mapped.wgsl that read no bindings, run on the adapter, against the sums of
+//! Twins: the functions of colored.wgsl and parts.wgsl that read no bindings, run on the adapter, against the sums of
 //! `halfway_lighting::equations` in f64.
 
 use halfway_lighting::equations::vector::mul;
@@ -21,7 +21,7 @@ macro_rules! shader {
 const BEFORE: [&str; 5] =
     [LIGHTING, shader!("records.wgsl"), shader!("uniform.wgsl"), shader!("few.wgsl"), shader!("mesh.wgsl")];
 const COLORED: &str = shader!("colored.wgsl");
-const MAPPED: &str = concat!(shader!("maps.wgsl"), shader!("mapped.wgsl"));
+const MAPPED: &str = concat!(shader!("maps.wgsl"), shader!("parts.wgsl"));
 
 /// The step of f32 at 1; each operation is right to half of it.
 const ULP: f64 = f32::EPSILON as f64;

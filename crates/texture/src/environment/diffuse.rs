@@ -85,8 +85,6 @@ impl Harmonics {
     /// The mean light that a matt surface of this normal receives, as [`Environment::convolved`] has it. May be below 0 by the
     /// error.
     pub fn mean_light<T: Number>(&self, normal: [T; 3]) -> [T; 4] {
-        // Aₗ/π of the clamped cosine: 1, 2/3, 1/4.
-        const SHARES: [f64; 9] = [1.0, 2.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0, 0.25, 0.25, 0.25, 0.25, 0.25];
         let basis = basis(unit(normal));
         let mut sum = [T::zero(); 4];
         for ((coefficient, share), value) in self.coefficients.iter().zip(SHARES).zip(basis) {
@@ -97,6 +95,22 @@ impl Harmonics {
         sum
     }
 }
+
+impl Harmonics {
+    /// The same as the coefficients of a polynomial of a normal (x, y, z) of length 1, for red, green and blue: of 1, y, z, x, xy, yz,
+    /// 3z² − 1, xz and x² − y².
+    pub fn polynomial(&self) -> [[f64; 3]; 9] {
+        // The squares of the harmonics' factors, times π.
+        const FACTORS: [f64; 9] = [0.25, 0.75, 0.75, 0.75, 3.75, 3.75, 5.0 / 16.0, 3.75, 15.0 / 16.0];
+        std::array::from_fn(|i| {
+            let factor = SHARES[i] * (FACTORS[i] / PI).sqrt();
+            std::array::from_fn(|k| factor * self.coefficients[i][k])
+        })
+    }
+}
+
+/// Aₗ/π of the clamped cosine: 1, 2/3, 1/4.
+const SHARES: [f64; 9] = [1.0, 2.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0, 0.25, 0.25, 0.25, 0.25, 0.25];
 
 /// The real spherical harmonics of order 0 to 2 in a direction of length 1.
 fn basis<T: Number>([x, y, z]: [T; 3]) -> [T; 9] {

@@ -2,6 +2,8 @@
 
 mod diffuse;
 mod directions;
+mod drawn;
+mod light;
 
 use std::f64::consts::PI;
 
@@ -12,6 +14,8 @@ pub use self::directions::{
     EnvironmentShape, from_cube, from_equirectangular, from_mirror_ball, on_cube, on_equirectangular, on_mirror_ball,
 };
 use self::directions::{FACES, unit};
+pub use self::drawn::{EnvironmentLevel, EnvironmentMap, MOST_FACE_TEXELS};
+pub use self::light::{EnvironmentLight, WrongEnvironment};
 use crate::error::TextureError;
 use crate::lookup::{Number, in_level, wrapped_index};
 use crate::pyramid::Pyramid;
@@ -160,10 +164,15 @@ impl Environment {
     fn in_cube_level<T: Number>(&self, direction: [T; 3], level: usize) -> [T; 4] {
         let (face, uv) = on_cube(direction);
         let side = self.images[0].levels()[level].width;
+        bilinear(uv, [side; 2], |at| self.cube_texel(level, face, at).map(|number| T::of(number.into())))
+    }
+
+    /// A texel of a cube map's level, on a face or at most one beyond its edge: there, that of the next face.
+    fn cube_texel(&self, level: usize, face: usize, [x, y]: [i64; 2]) -> [f32; 4] {
+        let side = self.images[0].levels()[level].width;
         let inside = |at: i64| (0..i64::from(side)).contains(&at);
-        let texel = |face: usize, [x, y]: [i64; 2]| {
-            self.images[face].level(level)[y as usize * side as usize + x as usize].map(|number| T::of(number.into()))
-        };
+        let texel =
+            |face: usize, [x, y]: [i64; 2]| self.images[face].level(level)[y as usize * side as usize + x as usize];
         // Beyond an edge lies the texel of the next face that the place of this texel's middle, on this face's plane, is seen
         // through: that on the other side of the edge, for any size.
         let across = |[x, y]: [i64; 2]| {
@@ -171,15 +180,15 @@ impl Environment {
             let (face, uv) = on_cube(from_cube(face, middle));
             texel(face, uv.map(|u| ((u * f64::from(side)) as i64).clamp(0, i64::from(side) - 1)))
         };
-        bilinear(uv, [side; 2], |[x, y]| match (inside(x), inside(y)) {
+        match (inside(x), inside(y)) {
             (true, true) => texel(face, [x, y]),
             (true, false) | (false, true) => across([x, y]),
             (false, false) => {
                 let [i, j] = [x, y].map(|at| at.clamp(0, i64::from(side) - 1));
                 let three = [texel(face, [i, j]), across([x, j]), across([i, y])];
-                std::array::from_fn(|k| (three[0][k] + three[1][k] + three[2][k]) / T::of(3.0))
+                std::array::from_fn(|k| (three[0][k] + three[1][k] + three[2][k]) / 3.0)
             }
-        })
+        }
     }
 }
 

@@ -52,16 +52,18 @@ impl Oracle {
     fn drawn_there(&self, x: u32, y: u32, radius: f64) -> Possible {
         let corner = DVec2::new(f64::from(x), f64::from(y));
         let centre = corner + 0.5;
+        // Shaded once a pixel, as everything is.
+        let behind = self.scene.behind(self.scene.view.ray(centre.x, centre.y));
         match self.samples() {
             Samples::One => {
                 let disc = Zone::disc(centre, radius);
-                self.stack(&disc, &[&disc]).possible(&self.scene, self.clamp)
+                self.stack(&disc, &[&disc]).possible(&self.scene, behind, self.clamp)
             }
             Samples::Four => {
                 let shading = [&Zone::disc(centre, radius), &Zone::square(centre, 0.5 + radius)];
                 let at = |at: DVec2| {
                     let disc = Zone::disc(at, radius);
-                    self.stack(&disc, &shading).possible(&self.scene, self.clamp)
+                    self.stack(&disc, &shading).possible(&self.scene, behind, self.clamp)
                 };
                 let samples = FOUR.map(|sample| at(corner + DVec2::from_array(sample)));
                 // The oracle's own picture shows the centre, where something may lie that no sample meets.

@@ -7,6 +7,7 @@ use super::footprint::{Footprint, Zone};
 use super::range::{ColorRange, Possible};
 use super::values::{SideColors, cuts};
 use crate::oracle::gather::OracleScene;
+use crate::oracle::solid::Color;
 
 /// A side of a triangle that may be seen.
 struct Layer {
@@ -73,15 +74,15 @@ impl Stack {
         Self { opaque: opaque_layers, is_bare: certain.is_empty(), blended: choices.collect(), footprints }
     }
 
-    /// The colours of all combinations.
-    pub(super) fn possible(&self, scene: &OracleScene, clamp: bool) -> Possible {
+    /// The colours of all combinations, before what is `behind` everything.
+    pub(super) fn possible(&self, scene: &OracleScene, behind_all: Color, clamp: bool) -> Possible {
         let written =
             |range: &ColorRange| range.through(range, |channel, _| if clamp { channel.min(1.0) } else { channel });
         let mut ranges: Vec<ColorRange> = Vec::new();
         let mut layers = 0;
         let behind = self.opaque.iter().map(Some).chain(self.is_bare.then_some(None));
         for opaque in behind {
-            let range = opaque.map_or_else(|| ColorRange::of([scene.background]), |layer| layer.values.range);
+            let range = opaque.map_or_else(|| ColorRange::of([behind_all]), |layer| layer.values.range);
             let seen = self.seen_over(scene, opaque);
             layers = layers.max(seen.iter().filter(|(layers, _)| !layers.is_empty()).count());
             for range in self.over(scene, &seen, written(&range), &written) {

@@ -1,0 +1,85 @@
+//! The environment: what it adds at a pixel, and what is seen of it where nothing is drawn.
+
+use crate::attributes::COLOR;
+use crate::bins::TILE;
+use crate::encode::kept;
+use crate::lanes::{Simd, V3, each, lanes, splat3};
+use crate::look::Look;
+use crate::mapped_pixels::MappedPixel;
+use crate::pass::{Highlight, SurroundingsData};
+use crate::state::{Stage, State};
+use crate::vertices::Screen;
+use halfway_lighting::Reflectance;
+use halfway_lighting::equations::vector::normalize_or_zero;
+use halfway_lighting::equations::{lobe_angle, lobe_exponent, mean_light, mirrored, surroundings};
+use halfway_texture::MapKind;
+
+impl SurroundingsData {
+    fn direction(&self, d: [f32; 3]) -> [f32; 3] {
+        self.rows.map(|[x, y, z]| x * d[0] + y * d[1] + z * d[2])
+    }
+}
+
+/// The way from the eye through a pixel of a tile, as far as depth 1.
+fn way(screen: &Screen, tile: [u32; 2], place: [f32; 2]) -> [f32; 3] {
+    let [x, y] = each!(axis in 2 => {
+        let pixel = place[axis] + tile[axis] as f32 * TILE as f32;
+        pixel * screen.way_step[axis] + screen.way_start[axis]
+    });
+    [x, y, -1.0]
+}
+
+impl MappedPixel<'_> {
+    /// What the environment adds to the ambient and to the specular part.
+    pub(crate) fn surrounded(
+        &self,
+        around: &SurroundingsData,
+        look: &Look,
+        state: &State,
+        back: bool,
+    ) -> [[f32; 3]; 2] {
+        let way = way(look.screen, look.tile, self.place);
+        let front = self.normal(state, way, look.screen.way_step);
+        let n = if back { front.map(|x| -x) } else { front };
+        let v = if look.pass.local_viewer { normalize_or_zero(way.map(|x| -x)) } else { [0.0, 0.0, 1.0] };
+        let side = state.side(look.pass, back);
+        let reflectance = match state.highlight {
+            Highlight::Phong => Reflectance::Phong,
+            Highlight::BlinnPhong => Reflectance::BlinnPhong,
+        };
+        let alpha = lobe_exponent(reflectance, side.exponent * self.factor_of_one(MapKind::Shininess));
+        let seen = around.map.at(around.direction(mirrored(n, v)), around.map.level_of(lobe_angle(alpha)));
+        let mean = mean_light(&around.mean, around.direction(n));
+        let color = match state.stage {
+            _ if !state.colored => [1.0; 3],
+            Stage::Flat => self.triangle.color,
+            _ => self.three(COLOR).map(|x| x.clamp(0.0, 1.0)),
+        };
+        let kd = each!(c in 3 => color[c] * side.diffuse[c]);
+        surroundings([kd, side.specular], around.strength, [mean, seen])
+    }
+}
+
+/// What is seen where nothing is drawn, from the pixel `at` of the tile on: the sky, where there is one, as the target keeps it, and
+/// else the clear color, which is given.
+#[inline(always)]
+pub(crate) fn behind<S: Simd>(simd: S, look: &Look, at: usize, clear: V3<S>) -> V3<S> {
+    match look.pass.surroundings {
+        Some(around) if around.sky.is_some() => sky(simd, look, around, at),
+        _ => clear,
+    }
+}
+
+#[inline(never)]
+fn sky<S: Simd>(simd: S, look: &Look, around: &SurroundingsData, at: usize) -> V3<S> {
+    let mut colors = splat3(simd, [0.0; 3]);
+    for lane in 0..lanes::<S>() {
+        let place = [(at + lane) % TILE, (at + lane) / TILE].map(|pixels| pixels as f32);
+        let direction = around.direction(way(look.screen, look.tile, place));
+        let color = around.map.at(direction, around.sky.unwrap_or_default());
+        for c in 0..3 {
+            colors[c][lane] = around.strength * color[c];
+        }
+    }
+    kept(simd, colors, look.pass.pixels)
+}

@@ -1,0 +1,148 @@
+//! An environment as it is drawn.
+
+use std::sync::Arc;
+
+use bevy_asset::Asset;
+use bevy_reflect::TypePath;
+
+use super::diffuse::Harmonics;
+use super::directions::{FACES, on_cube};
+use super::{Environment, EnvironmentShape, texel_angle};
+use crate::error::TextureError;
+use crate::lookup::Number;
+
+/// The longest side of a face that is drawn. Larger cube maps, and what a larger one would be made of, are taken smaller.
+pub const MOST_FACE_TEXELS: u32 = 1024;
+
+/// An environment as it is drawn, as an asset: a cube map with its levels, and nine harmonics. Its clones share their texels.
+///
+/// Each face has a border of one texel from its neighbours, so that looking it up takes four texels of one face, also at
+/// seams.
+#[derive(Asset, TypePath, Clone, Debug, PartialEq)]
+pub struct EnvironmentMap {
+    levels: Arc<[EnvironmentLevel]>,
+    texels: Arc<[[f32; 4]]>,
+    harmonics: Harmonics,
+    angle: f64,
+}
+
+/// A level of an [`EnvironmentMap`]: six faces, one after the other, each row by row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct EnvironmentLevel {
+    /// Texels along a face, without the border.
+    pub side: u32,
+    /// The number of the first texel among [`EnvironmentMap::texels`].
+    pub start: usize,
+}
+
+impl EnvironmentMap {
+    /// Makes an environment ready. A cube map stays as it is; of an equirectangular image, faces are half as wide as it is
+    /// high, of a mirroring ball's 1/√8: texels see about as much as before. No face is wider than [`MOST_FACE_TEXELS`].
+    ///
+    /// # Errors
+    /// As of [`TexelImage::new`](crate::TexelImage::new).
+    pub fn new(environment: &Environment) -> Result<Self, TextureError> {
+        let size = environment.size()[1];
+        let side = match environment.shape() {
+            EnvironmentShape::Cube => size,
+            EnvironmentShape::Equirectangular => size.div_ceil(2),
+            EnvironmentShape::MirrorBall => (f64::from(size) / 8.0_f64.sqrt()).ceil() as u32,
+        };
+        if environment.shape() == EnvironmentShape::Cube && side <= MOST_FACE_TEXELS {
+            return Ok(Self::of_cube(environment));
+        }
+        Ok(Self::of_cube(&environment.to_shape(EnvironmentShape::Cube, side.clamp(1, MOST_FACE_TEXELS))?))
+    }
+
+    fn of_cube(cube: &Environment) -> Self {
+        let (mut levels, mut texels) = (Vec::new(), Vec::new());
+        for (number, level) in cube.images()[0].levels().iter().enumerate() {
+            levels.push(EnvironmentLevel { side: level.width, start: texels.len() });
+            let bordered = -1..=i64::from(level.width);
+            for face in 0..FACES {
+                let rows = bordered.clone().flat_map(|y| bordered.clone().map(move |x| [x, y]));
+                texels.extend(rows.map(|at| cube.cube_texel(number, face, at)));
+            }
+        }
+        let (harmonics, angle) = (cube.harmonics(), texel_angle(EnvironmentShape::Cube, cube.size()[1]));
+        Self { levels: levels.into(), texels: texels.into(), harmonics, angle }
+    }
+
+    /// What stands for one that is missing or broken: squares of magenta and black.
+    pub fn missing() -> Self {
+        let is_odd = |d: [f64; 3]| d.iter().fold(0, |sum, x| sum + (4.0 * (x + 1.0)) as u32) % 2 == 1;
+        let color = |d: [f64; 3]| if is_odd(d) { [1.0, 0.0, 1.0, 1.0] } else { [0.0, 0.0, 0.0, 1.0] };
+        let cube = Environment::from_fn(EnvironmentShape::Cube, 32, color);
+        cube.map_or_else(|_| Self::empty(), |cube| Self::of_cube(&cube))
+    }
+
+    /// No light.
+    fn empty() -> Self {
+        let levels = [EnvironmentLevel { side: 1, start: 0 }];
+        let texels = vec![[0.0; 4]; 9 * FACES];
+        Self { levels: levels.into(), texels: texels.into(), harmonics: Harmonics::default(), angle: 1.0 }
+    }
+
+    /// The levels, the finest first, one texel a face last.
+    pub fn levels(&self) -> &[EnvironmentLevel] {
+        &self.levels
+    }
+
+    /// The texels of all levels with their borders, one after the other.
+    pub fn texels(&self) -> &[[f32; 4]] {
+        &self.texels
+    }
+
+    /// Its light for matt surfaces.
+    pub fn harmonics(&self) -> &Harmonics {
+        &self.harmonics
+    }
+
+    /// The side of a square of the mean solid angle of the first level's texels, in radians.
+    pub fn angle(&self) -> f64 {
+        self.angle
+    }
+
+    /// D: the level whose texels have this angle; below 0 where those of the first are wider.
+    pub fn level_of<T: Number>(&self, angle: T) -> T {
+        angle.binary_logarithm() - T::of(libm::log2(self.angle))
+    }
+
+    /// Whether the two are clones of each other.
+    pub fn is_same(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.texels, &other.texels)
+    }
+
+    /// The light from a direction, of any length, between the two levels around `level`.
+    pub fn at<T: Number>(&self, direction: [T; 3], level: T) -> [T; 3] {
+        let last = T::of((self.levels.len() - 1) as f64);
+        let d = if level.is_nan() { T::zero() } else { level.max(T::zero()).min(last) };
+        let (finer, part) = (d.floor(), d - d.floor());
+        let finer = finer.to_usize().unwrap_or_default();
+        let place = on_cube(direction);
+        let a = self.in_level(place, finer);
+        if part == T::zero() {
+            return a;
+        }
+        let b = self.in_level(place, finer + 1);
+        std::array::from_fn(|k| a[k] + part * (b[k] - a[k]))
+    }
+
+    fn in_level<T: Number>(&self, (face, uv): (usize, [T; 2]), number: usize) -> [T; 3] {
+        let EnvironmentLevel { side, start } = self.levels[number];
+        let width = side as usize + 2;
+        let first = start + face * width * width;
+        // The border's texel has the number 0.
+        let [x, y] = uv.map(|u| u * T::of(side.into()) + T::of(0.5));
+        let [i, j] = [x, y].map(|x| x.floor().to_usize().unwrap_or_default().min(side as usize));
+        let [f, g] = [(x, i), (y, j)].map(|(x, i)| x - T::of(i as f64));
+        let row = |j: usize| {
+            let [a, b] =
+                [0, 1].map(|next| self.texels[first + j * width + i + next].map(|number| T::of(number.into())));
+            let row: [T; 3] = std::array::from_fn(|k| a[k] + f * (b[k] - a[k]));
+            row
+        };
+        let [a, b] = [row(j), row(j + 1)];
+        std::array::from_fn(|k| a[k] + g * (b[k] - a[k]))
+    }
+}
