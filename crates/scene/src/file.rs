@@ -11,6 +11,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::check::{Check, KeyProblem, Within, color, count};
+use crate::environment::EnvironmentEntry;
 use crate::error::SceneError;
 use crate::intensity::IntensityEntry;
 use crate::json;
@@ -70,6 +71,9 @@ pub struct SceneFile {
     #[serde(deserialize_with = "word", serialize_with = "write_word")]
     #[schemars(with = "Spoken<Reflectance>")]
     pub reflectance: Reflectance,
+    /// Light from all directions; null or left out: none.
+    #[serde(deserialize_with = "object_or_null")]
+    pub environment: Option<EnvironmentEntry>,
     /// The camera; null or left out: one that frames everything.
     #[serde(deserialize_with = "object_or_null")]
     pub camera: Option<CameraEntry>,
@@ -96,6 +100,7 @@ impl Default for SceneFile {
             shading: ShadingEntry::default(),
             tolerance: None,
             reflectance: Reflectance::default(),
+            environment: None,
             camera: None,
             lights: None,
             objects: Vec::new(),
@@ -207,6 +212,7 @@ impl SceneFile {
         self.intensity.check().within("intensity")?;
         self.shading.check().within("shading")?;
         self.tolerance.map_or(Ok(()), ToleranceEntry::check).within("tolerance")?;
+        self.environment.as_ref().map_or(Ok(()), EnvironmentEntry::check).within("environment")?;
         self.camera.as_ref().map_or(Ok(()), CameraEntry::check).within("camera")?;
         for (i, object) in self.objects.iter().enumerate() {
             object.check().within_item("objects", i)?;

@@ -16,6 +16,7 @@
 
 mod check;
 mod defaults;
+mod environment;
 mod error;
 mod fields;
 mod file;
@@ -38,6 +39,7 @@ mod spawn;
 mod view;
 
 pub use defaults::{default_lights, framing_camera};
+pub use environment::EnvironmentEntry;
 pub use error::SceneError;
 pub use file::SceneFile;
 pub use intensity::{IntensityEntry, ReinhardEntry, RenormaliseEntry};

@@ -92,6 +92,9 @@ pub fn spawn(scene: &SceneFile, base_dir: &Path, world: &mut World) -> Result<Sp
     let lights = spawn_lights(scene, camera, &objects, &frames, world);
     let mut warnings = shapes.warnings;
     hang_maps(scene, base_dir, &frames, &mut warnings, world);
+    if let Some(environment) = &scene.environment {
+        environment.spawn(base_dir, &mut warnings, world);
+    }
     Ok(Spawned { camera, objects: frames, lights, warnings })
 }
 

@@ -28,6 +28,22 @@ pub(super) const OUT_OF_RANGE: &[Bad] = &[
     ),
     (r#"{"tolerance": {"steps": -1}}"#, (1, 25), "`tolerance.steps`: is -1; expected a finite number, 0 or more"),
     (r#"{"tolerance": {"pixels": -0.5}}"#, (1, 26), "`tolerance.pixels`: is -0.5; expected a finite number, 0 or more"),
+    (
+        r#"{"environment": {"paths": ["a.hdr"], "strength": -1}}"#,
+        (1, 50),
+        "`environment.strength`: is -1; expected a number from 0 to 1000000",
+    ),
+    (
+        r#"{"environment": {"paths": ["a.hdr"], "rotation_deg": 1e39}}"#,
+        (1, 54),
+        "`environment.rotation_deg`: is no finite number",
+    ),
+    (r#"{"environment": {"paths": []}}"#, (1, 27), "`environment.paths`: has 0 files; expected 1 for this shape"),
+    (
+        r#"{"environment": {"paths": ["a.hdr"], "shape": "cube"}}"#,
+        (1, 27),
+        "`environment.paths`: has 1 files; expected 6 for this shape",
+    ),
     (r#"{"camera": {"fov_y_deg": 0}}"#, (1, 26), "`camera.fov_y_deg`: is 0; expected degrees above 0 and below 180"),
     (
         r#"{"camera": {"fov_y_deg": 180}}"#,

@@ -5,12 +5,13 @@
 use crate::lookup::Number;
 
 /// How an image holds all directions.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum EnvironmentShape {
     /// Longitude along u, latitude along v: u = ½ + atan2(x, −z)/2π, v = acos(y)/π for a direction of length 1. What lies ahead
     /// is in the middle. Twice as wide as high where its texels are square on the equator.
     ///
     /// A texel at the latitude φ is cos φ times as wide as on the equator: near the poles they crowd.
+    #[default]
     Equirectangular,
     /// What a mirroring ball shows from far away, looked at along −Z: (2u − 1, 1 − 2v) are the first two coordinates of its
     /// normal, which is halfway between the direction and +Z (Blinn and Newell 1976; the sphere map of OpenGL 1.x). Square;
