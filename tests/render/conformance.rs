@@ -229,17 +229,8 @@ fn every_way_to_be_lit_by_an_environment_conforms() {
     conform("environment", &environment::rows());
 }
 
-/// Known issue: llvmpipe (LLVM 15.0.6) under Vulkan crashes where a draw reads both an image and an environment; why is not
-/// known. Under OpenGL it draws them.
 #[test]
 fn environments_conform_on_objects_with_images() {
-    let mut stage = Stage::new(8, 8);
-    stage.frame();
-    let drawn_by = stage.adapter().describe().to_string();
-    if drawn_by.contains("llvmpipe") && drawn_by.contains("vulkan") {
-        println!("not drawn: {drawn_by} would crash");
-        return;
-    }
     // As images do.
     conform_within("environment and images", &environment::rows_of_maps(), 2.0);
 }
