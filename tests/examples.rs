@@ -80,6 +80,21 @@ fn textures() {
 }
 
 #[test]
+fn environment() {
+    let file = folder("environment").join("environment.png");
+    draw("environment", &file, &[]);
+    let picture = picture(&file);
+    // Of each column the middle of the upper ball: what is seen in it grows with the exponent.
+    let spread = |column: u32| {
+        let x = SIZE.0 * (2 * column + 1) / 10 - 6;
+        let middle = imageops::crop_imm(&picture, x, SIZE.1 * 2 / 5 - 6, 12, 12).to_image();
+        let greens = || middle.pixels().map(|pixel| pixel.0[1]);
+        greens().max().zip(greens().min()).map_or(0, |(most, least)| most - least)
+    };
+    assert!(spread(0) < 40 && spread(4) > 60, "{} and {}", spread(0), spread(4));
+}
+
+#[test]
 fn teapots() {
     let file = folder("teapots").join("teapots.png");
     let printed = draw("teapots", &file, &[]);
