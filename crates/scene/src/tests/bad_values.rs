@@ -104,12 +104,12 @@ pub(super) const OUT_OF_RANGE: &[Bad] = &[
     ),
     (
         r#"{"lights": [{"kind": "spot", "cutoff_deg": 91}]}"#,
-        (1, 45),
+        (1, 44),
         "`lights[0].cutoff_deg`: is 91; expected degrees from 0 to 90, or 180 for no cone",
     ),
     (
         r#"{"lights": [{"kind": "spot", "cutoff_deg": -1}]}"#,
-        (1, 45),
+        (1, 44),
         "`lights[0].cutoff_deg`: is -1; expected degrees from 0 to 90",
     ),
     (
@@ -175,7 +175,7 @@ pub(super) const OUT_OF_RANGE: &[Bad] = &[
     ),
     (
         r#"{"objects": [{"mesh": {"box": {"size": [1, 0, 1]}}}]}"#,
-        (1, 45),
+        (1, 44),
         "`objects[0].mesh.box.size[1]`: is 0; a length from",
     ),
     (
