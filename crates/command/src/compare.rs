@@ -6,7 +6,9 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use halfway::prelude::*;
 use halfway::reference::Image;
-use halfway::reference::metrics::{Flip, PERCENTILES, PIXELS_PER_DEGREE, Rows, Scale, compare, difference, flip};
+use halfway::reference::metrics::{
+    Flip, PERCENTILES, PIXELS_PER_DEGREE, PictureRows, Scale, compare, difference, flip,
+};
 use image::DynamicImage;
 
 use crate::failure::{DIFFERENT, Failure};
@@ -98,7 +100,7 @@ impl Decoded {
     }
 }
 
-impl Rows for Decoded {
+impl PictureRows for Decoded {
     fn dimensions(&self) -> (u32, u32) {
         (self.picture.width(), self.picture.height())
     }

@@ -65,7 +65,7 @@ fn bad_input_is_named_and_ends_with_exit_code_2() {
         (&["render", "sphere.json", "-o", "a.png"], &["sphere.json:2:", "segments"]),
         (&["render", "unknown.json", "-o", "a.png"], &["unknown.json:3:", "shadig"]),
         (&["render", "auto.json", "-o", "a.png"], &["shading.auto.tolerance", "is -1", "0 or more"]),
-        (&["render", "tone.json", "-o", "a.png"], &["intensity", "not yet"]),
+        (&["render", "tone.json", "-o", "a.png"], &["intensity.reinhard.white", "1 or more"]),
         (&["render", "model.json", "-o", "a.png"], &["model.json", "objects[0].mesh.path", "nowhere.obj"]),
         (&["render", "fine.json", "-o", "a.bmp"], &["a.bmp", ".png or .exr"]),
         (&["render", "fine.json", "-o", "a.png", "--bits", "12"], &["a.png", "8 or 16"]),
@@ -159,7 +159,7 @@ const SCENES: &[(&str, &str)] = &[
     ("sphere.json", "{\n\"objects\": [{\"mesh\": {\"uv_sphere\": {\"segments\": 4000000000}}}]}"),
     ("unknown.json", "{\n\"objects\": [],\n\"shadig\": \"flat\"}"),
     ("auto.json", r#"{"shading": {"auto": {"tolerance": -1.0}}}"#),
-    ("tone.json", r#"{"intensity": "aces"}"#),
+    ("tone.json", r#"{"intensity": {"reinhard": {"white": 0.5}}}"#),
     ("model.json", r#"{"objects": [{"mesh": {"path": "nowhere.obj"}}]}"#),
 ];
 

@@ -2,19 +2,33 @@
 
 use std::ops::Range;
 
-use super::comparison::SizeMismatch;
+use thiserror::Error;
+
 use crate::Image;
+
+/// Two pictures that cannot be compared.
+#[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
+#[error(
+    "the actual picture is {} × {} pixels and the expected one {} × {}; only pictures of one size can be compared",
+    actual.0, actual.1, expected.0, expected.1
+)]
+pub struct SizeMismatch {
+    /// Width and height of the actual picture.
+    pub actual: (u32, u32),
+    /// Width and height of the expected picture.
+    pub expected: (u32, u32),
+}
 
 /// A picture whose rows can be had some at a time: an [`Image`], or what is read from a file and would take too much memory as
 /// one.
-pub trait Rows {
+pub trait PictureRows {
     /// Width and height in pixels.
     fn dimensions(&self) -> (u32, u32);
     /// The rows `rows.start` to `rows.end` − 1 as a picture of their own. What they cover is known of all rows or of none.
     fn rows(&self, rows: Range<u32>) -> Image;
 }
 
-impl Rows for Image {
+impl PictureRows for Image {
     fn dimensions(&self) -> (u32, u32) {
         self.dimensions()
     }
@@ -26,9 +40,9 @@ impl Rows for Image {
 
 /// Two pictures of one size.
 #[derive(Clone, Copy)]
-pub(super) struct Bands<'a> {
-    actual: &'a dyn Rows,
-    expected: &'a dyn Rows,
+pub(super) struct BandPairs<'a> {
+    actual: &'a dyn PictureRows,
+    expected: &'a dyn PictureRows,
     pub(super) size: (u32, u32),
 }
 
@@ -40,8 +54,8 @@ pub(super) struct Band {
     pub(super) expected: Image,
 }
 
-impl<'a> Bands<'a> {
-    pub(super) fn of(actual: &'a dyn Rows, expected: &'a dyn Rows) -> Result<Self, SizeMismatch> {
+impl<'a> BandPairs<'a> {
+    pub(super) fn of(actual: &'a dyn PictureRows, expected: &'a dyn PictureRows) -> Result<Self, SizeMismatch> {
         let (size, other) = (actual.dimensions(), expected.dimensions());
         if size == other {
             Ok(Self { actual, expected, size })

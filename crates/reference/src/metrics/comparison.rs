@@ -2,26 +2,12 @@
 
 use halfway_lighting::Encoding;
 use image::RgbImage;
-use thiserror::Error;
 
-use super::bands::{Band, Bands, Rows};
+use super::bands::{Band, BandPairs, PictureRows, SizeMismatch};
 use super::coverage::{Coverage, Kind, Pair, coverage, pairs};
-use super::ranks::{PASSES, Ranks, nearest_rank};
-use super::statistics::{Errors, PERCENTILES, Tally, Worst};
+use super::ranks::{PASSES, PERCENTILES, Ranks, nearest_rank};
+use super::statistics::{ErrorSums, Errors, Worst};
 use crate::Image;
-
-/// Two pictures that cannot be compared.
-#[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
-#[error(
-    "the actual picture is {} × {} pixels and the expected one {} × {}; only pictures of one size can be compared",
-    actual.0, actual.1, expected.0, expected.1
-)]
-pub struct SizeMismatch {
-    /// Width and height of the actual picture.
-    pub actual: (u32, u32),
-    /// Width and height of the expected picture.
-    pub expected: (u32, u32),
-}
 
 /// How far an actual picture is from an expected one.
 ///
@@ -80,8 +66,12 @@ pub struct NotFinite {
 ///
 /// # Errors
 /// [`SizeMismatch`].
-pub fn compare(actual: &dyn Rows, expected: &dyn Rows, encoding: Encoding) -> Result<Comparison, SizeMismatch> {
-    let bands = Bands::of(actual, expected)?;
+pub fn compare(
+    actual: &dyn PictureRows,
+    expected: &dyn PictureRows,
+    encoding: Encoding,
+) -> Result<Comparison, SizeMismatch> {
+    let bands = BandPairs::of(actual, expected)?;
     let mut seen = Sight::new(encoding);
     bands.each().for_each(|band| seen.take(&band));
     Ok(seen.comparison(&bands))
@@ -96,8 +86,8 @@ struct Sight {
     not_finite: Option<NotFinite>,
     brightest: f64,
     darkest: f64,
-    linear: [Tally; 3],
-    steps: [Tally; 3],
+    linear: [ErrorSums; 3],
+    steps: [ErrorSums; 3],
     /// How many channels are so many steps off.
     by_step: [[u64; 256]; 3],
     anywhere: Difference,
@@ -113,8 +103,8 @@ impl Sight {
             not_finite: None,
             brightest: f64::NEG_INFINITY,
             darkest: f64::INFINITY,
-            linear: [Tally::default(); 3],
-            steps: [Tally::default(); 3],
+            linear: [ErrorSums::default(); 3],
+            steps: [ErrorSums::default(); 3],
             by_step: [[0; 256]; 3],
             anywhere: Difference::default(),
         }
@@ -156,7 +146,7 @@ impl Sight {
         }
     }
 
-    fn comparison(self, bands: &Bands) -> Comparison {
+    fn comparison(self, bands: &BandPairs) -> Comparison {
         let by_step = self.by_step.map(|counts| step_percentiles(&counts));
         let all_steps = std::array::from_fn(|step| self.by_step.iter().map(|counts| counts[step]).sum());
         let (linear, all_linear) = linear_percentiles(bands);
@@ -189,7 +179,7 @@ fn step_percentiles(counts: &[u64; 256]) -> [f64; 4] {
 }
 
 /// The percentiles of the linear errors that count: of each channel, and of all.
-fn linear_percentiles(bands: &Bands) -> ([[f64; 4]; 3], [f64; 4]) {
+fn linear_percentiles(bands: &BandPairs) -> ([[f64; 4]; 3], [f64; 4]) {
     let mut ranks = [const { () }; 4].map(|()| Ranks::new());
     for _ in 0..PASSES {
         for band in bands.each() {

@@ -3,13 +3,13 @@
 use halfway_lighting::Encoding;
 use image::RgbImage;
 
-use super::bands::{Band, Bands, Rows};
+use super::bands::{Band, BandPairs, PictureRows, SizeMismatch};
 use super::canvas::{below_one_another, enlarged};
-use super::comparison::{SizeMismatch, largest, steps};
+use super::comparison::{largest, steps};
 use super::coverage::{Kind, pairs};
 use super::legend::legend;
+use super::ranks::percentile;
 use super::scale::{COVERAGE, LegendContent, NOT_FINITE, Scale, Unit, color, round_up};
-use super::statistics::percentile;
 
 /// Draws the error of every pixel through the colour map "magma" (black is none, pale yellow the upper end), with a
 /// legend below. Where the pictures differ in coverage the pixel is green, where either is not finite light blue. Small
@@ -18,12 +18,12 @@ use super::statistics::percentile;
 /// # Errors
 /// [`SizeMismatch`].
 pub fn difference(
-    actual: &dyn Rows,
-    expected: &dyn Rows,
+    actual: &dyn PictureRows,
+    expected: &dyn PictureRows,
     encoding: Encoding,
     scale: Scale,
 ) -> Result<RgbImage, SizeMismatch> {
-    let bands = Bands::of(actual, expected)?;
+    let bands = BandPairs::of(actual, expected)?;
     let (mut kinds, mut errors) = (Vec::new(), Vec::new());
     for band in bands.each() {
         kinds.extend(pairs(&band).map(|pair| pair.kind));

@@ -2,10 +2,9 @@
 
 use halfway_lighting::Encoding;
 
-use super::bands::{Bands, Rows};
-use super::comparison::{SizeMismatch, same_size};
-use super::ranks::nearest_rank;
-use super::statistics::PERCENTILES;
+use super::bands::{BandPairs, PictureRows, SizeMismatch};
+use super::comparison::same_size;
+use super::ranks::{PERCENTILES, nearest_rank};
 use crate::Image;
 
 /// How many pixels there are to a degree of what the viewer sees: 67 is a display of 0.7 m width and 3840 pixels seen from
@@ -30,7 +29,7 @@ pub struct Flip {
 ///
 /// # Errors
 /// [`SizeMismatch`].
-pub fn flip(actual: &dyn Rows, expected: &dyn Rows, encoding: Encoding) -> Result<Flip, SizeMismatch> {
+pub fn flip(actual: &dyn PictureRows, expected: &dyn PictureRows, encoding: Encoding) -> Result<Flip, SizeMismatch> {
     Ok(figures(map(actual, expected, encoding)?))
 }
 
@@ -55,13 +54,13 @@ pub fn flip_of_covered(actual: &Image, expected: &Image, encoding: Encoding) -> 
 const REACH: u32 = 16;
 
 /// A value a pixel, row by row.
-fn map(actual: &dyn Rows, expected: &dyn Rows, encoding: Encoding) -> Result<Vec<f32>, SizeMismatch> {
+fn map(actual: &dyn PictureRows, expected: &dyn PictureRows, encoding: Encoding) -> Result<Vec<f32>, SizeMismatch> {
     /// About 0.5 GB of what the method keeps of each.
     const PIXELS: u32 = 1 << 22;
-    Ok(map_by(&Bands::of(actual, expected)?, encoding, PIXELS))
+    Ok(map_by(&BandPairs::of(actual, expected)?, encoding, PIXELS))
 }
 
-fn map_by(bands: &Bands, encoding: Encoding, pixels: u32) -> Vec<f32> {
+fn map_by(bands: &BandPairs, encoding: Encoding, pixels: u32) -> Vec<f32> {
     let (width, height) = bands.size;
     let mut values = Vec::new();
     if width == 0 {
@@ -108,7 +107,7 @@ mod tests {
             Image::new(width, height, pixels.collect())
         };
         let (a, b) = (noise(), noise());
-        let bands = Bands::of(&a, &b).unwrap();
+        let bands = BandPairs::of(&a, &b).unwrap();
         let whole = map_by(&bands, Encoding::Srgb, width * height);
         for rows in [1, 7, 48] {
             assert!(map_by(&bands, Encoding::Srgb, width * rows) == whole, "bands of {rows} rows");

@@ -12,8 +12,10 @@ use halfway_lighting::{Encoding, Samples};
 use image::DynamicImage;
 use rayon::prelude::*;
 
-use super::comparison::{SizeMismatch, range, same_size};
-use super::statistics::{Worst, percentile};
+use super::bands::SizeMismatch;
+use super::comparison::{range, same_size};
+use super::ranks::percentile;
+use super::statistics::Worst;
 use crate::oracle::{ColorRange, Possible};
 use crate::{Image, Oracle};
 use divisor::judge_divided;

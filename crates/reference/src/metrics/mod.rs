@@ -34,15 +34,16 @@ mod statistics;
 mod table;
 mod triptych;
 
-pub use bands::Rows;
-pub use comparison::{Comparison, Difference, NotFinite, SizeMismatch, compare};
+pub use bands::{PictureRows, SizeMismatch};
+pub use comparison::{Comparison, Difference, NotFinite, compare};
 pub use coverage::Coverage;
 pub use difference::difference;
 #[cfg(feature = "flip")]
 pub use flip::{Flip, PIXELS_PER_DEGREE, flip, flip_of_covered};
 pub use judge::{Bars, EDGE_RADIUS, FINENESS, Measure, Verdict, judge, judge_moved};
+pub use ranks::PERCENTILES;
 pub use report::report_failure;
 pub use scale::{Scale, Unit};
-pub use statistics::{Errors, PERCENTILES, Statistics, Worst};
+pub use statistics::{Errors, Statistics, Worst};
 pub use table::Table;
 pub use triptych::triptych;

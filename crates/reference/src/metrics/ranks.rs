@@ -1,6 +1,7 @@
 //! The values at some ranks among many, found without keeping the values.
 
-use super::statistics::PERCENTILES;
+/// The shares of [`Statistics::percentiles`](super::Statistics::percentiles), in per cent.
+pub const PERCENTILES: [f64; 4] = [50.0, 95.0, 99.0, 99.9];
 
 /// Bits that a pass tells of the values at the ranks.
 const DIGIT: u32 = 13;
@@ -82,10 +83,14 @@ pub(super) fn nearest_rank(values: u64, share: f64) -> u64 {
     (values as f64 * share / 100.0 - 1e-6).ceil().max(1.0) as u64 - 1
 }
 
+/// The least of the sorted values that `share` per cent of them do not exceed; 0 where there are none.
+pub(super) fn percentile(sorted: &[f64], share: f64) -> f64 {
+    sorted.get(nearest_rank(sorted.len() as u64, share) as usize).copied().unwrap_or(0.0)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::metrics::statistics::percentile;
     use proptest::prelude::*;
 
     fn found(values: &[f64]) -> [f64; 4] {

@@ -3,13 +3,8 @@
 use std::cmp::Ordering;
 use std::fmt;
 
-use super::ranks::nearest_rank;
-
 /// The channels' names, in their order.
 pub(super) const CHANNELS: [&str; 3] = ["red", "green", "blue"];
-
-/// The shares of [`Statistics::percentiles`], in per cent.
-pub const PERCENTILES: [f64; 4] = [50.0, 95.0, 99.0, 99.9];
 
 /// The errors of the three channels, in one unit.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,7 +26,7 @@ pub struct Statistics {
     pub bias: f64,
     /// Root of the mean squared error.
     pub rmse: f64,
-    /// The least absolute error that [`PERCENTILES`] per cent of the values do not exceed.
+    /// The least absolute error that [`PERCENTILES`](super::PERCENTILES) per cent of the values do not exceed.
     pub percentiles: [f64; 4],
 }
 
@@ -74,7 +69,7 @@ impl Statistics {
 
 /// Errors in all figures but the percentiles, as they come in.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Tally {
+pub(super) struct ErrorSums {
     count: u64,
     sum: f64,
     absolute: f64,
@@ -82,7 +77,7 @@ pub(super) struct Tally {
     worst: Option<Worst>,
 }
 
-impl Tally {
+impl ErrorSums {
     /// Takes the values at a place.
     pub(super) fn push(&mut self, here: Worst) {
         let error = here.actual - here.expected;
@@ -128,15 +123,10 @@ impl Tally {
 
 impl Errors {
     /// The figures of the three channels, with the percentiles of each and of all.
-    pub(super) fn of(channels: &[Tally; 3], percentiles: [[f64; 4]; 3], of_all: [f64; 4]) -> Self {
-        let mut all = Tally::default();
+    pub(super) fn of(channels: &[ErrorSums; 3], percentiles: [[f64; 4]; 3], of_all: [f64; 4]) -> Self {
+        let mut all = ErrorSums::default();
         channels.iter().for_each(|channel| all.append(channel));
         let channel = |k: usize| channels[k].statistics(percentiles[k]);
         Self { channels: [channel(0), channel(1), channel(2)], all: all.statistics(of_all) }
     }
-}
-
-/// The least of the sorted values that `share` per cent of them do not exceed; 0 where there are none.
-pub(super) fn percentile(sorted: &[f64], share: f64) -> f64 {
-    sorted.get(nearest_rank(sorted.len() as u64, share) as usize).copied().unwrap_or(0.0)
 }

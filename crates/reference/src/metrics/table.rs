@@ -3,7 +3,8 @@
 use std::fmt;
 
 use super::comparison::Comparison;
-use super::statistics::{CHANNELS, Errors, PERCENTILES, Statistics};
+use super::ranks::PERCENTILES;
+use super::statistics::{CHANNELS, Errors, Statistics};
 
 /// Every figure of a [`Comparison`], in several lines.
 #[derive(Clone, Copy, Debug)]

@@ -3,8 +3,8 @@
 use halfway_lighting::Encoding;
 use image::RgbImage;
 
+use super::bands::SizeMismatch;
 use super::canvas::{PAPER, below_one_another, beside_one_another, enlarged, text_height, text_scale, write};
-use super::comparison::SizeMismatch;
 use super::difference::difference;
 use super::scale::Scale;
 use crate::Image;

@@ -1,5 +1,6 @@
 //! What keeps a scene from being drawn.
 
+use bevy_ecs::prelude::{Entity, Name};
 use halfway_lighting::InvalidValue;
 use thiserror::Error;
 
@@ -70,3 +71,11 @@ pub enum OracleError {
 #[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
 #[error("stopped")]
 pub struct Stopped;
+
+/// [`Shown`](halfway_lighting::Shown) asks a world for no resource, so that there is nothing it could lack.
+pub(super) const ALWAYS: &str = "queries can be had of every world";
+
+/// An entity's name for an error: its `Name`, or its number.
+pub(super) fn label(entity: Entity, name: Option<&Name>) -> String {
+    name.map_or_else(|| format!("entity {entity}"), |name| format!("\"{name}\""))
+}

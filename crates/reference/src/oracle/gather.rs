@@ -14,14 +14,11 @@ use halfway_lighting::{
 use halfway_mesh::{Mesh, Mesh3d, SpawnOrder};
 use halfway_texture::{Maps, Pyramid, SurfaceMap, Texture};
 
-use super::error::OracleError;
+use super::error::{ALWAYS, OracleError, label};
 use super::maps::ReadMap;
 use super::solid::{Color, Looks, Solid};
-use super::surroundings::Surroundings;
+use super::surroundings::OracleSurroundings;
 use super::view::{PictureView, affine};
-
-/// [`Shown`] asks a world for no resource, so that there is nothing it could lack.
-pub(super) const ALWAYS: &str = "queries can be had of every world";
 
 /// What is drawn, in eye space.
 #[derive(Debug)]
@@ -34,7 +31,7 @@ pub(super) struct OracleScene {
     /// Ga, and La of the lights that do not attenuate it.
     pub(super) ambient: Color,
     pub(super) lights: Vec<Light<f64>>,
-    pub(super) surroundings: Option<Surroundings>,
+    pub(super) surroundings: Option<OracleSurroundings>,
     /// In the order in which they are drawn: opaque ones as they were spawned, then blended ones, the farthest first.
     pub(super) solids: Vec<Solid>,
 }
@@ -44,7 +41,7 @@ impl OracleScene {
         require_propagation(world)?;
         let seen = see(world, size)?;
         let (ambient, lights) = lights(world, &seen.view)?;
-        let surroundings = Surroundings::gather(world, &seen.view)?;
+        let surroundings = OracleSurroundings::gather(world, &seen.view)?;
         let solids = solids(world, &seen)?;
         let viewer = equations::Eye::in_eye_space(seen.camera.viewer);
         let Camera { background, samples, intensity, .. } = seen.camera;
@@ -216,9 +213,4 @@ fn check_maps(maps: &Maps) -> Result<(), InvalidValue> {
 fn bad_transform(entity: Entity, name: Option<&Name>, transform: &GlobalTransform) -> OracleError {
     let found = format!("{:?}", transform.affine().to_cols_array());
     OracleError::BadTransform { entity: label(entity, name), found }
-}
-
-/// An entity's name for an error: its `Name`, or its number.
-pub(super) fn label(entity: Entity, name: Option<&Name>) -> String {
-    name.map_or_else(|| format!("entity {entity}"), |name| format!("\"{name}\""))
 }

@@ -16,6 +16,7 @@ mod probe;
 mod raster;
 mod shade;
 mod solid;
+mod surrounded;
 mod surroundings;
 mod view;
 

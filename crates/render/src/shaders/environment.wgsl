@@ -33,8 +33,7 @@ fn on_cube(d: vec3f) -> vec3f {
         place = vec3f(d.x, select(-d.z, d.z, d.y >= 0.0), a.y);
         face = select(3.0, 2.0, d.y >= 0.0);
     }
-    if place.z == 0.0 {
-        return vec3f(0.5, 0.5, face);
-    }
-    return vec3f(0.5 * (place.xy / place.z + 1.0), face);
+    // A vector of length 0 is in the middle.
+    let length = select(place.z, 1.0, place.z == 0.0);
+    return vec3f(0.5 * (place.xy / length + 1.0), face);
 }

@@ -46,10 +46,8 @@ fn surroundings_at(d: vec3f, level: f32) -> vec3f {
     let finer = floor(within);
     let place = on_cube(d);
     let a = surroundings_in_level(place, u32(finer));
-    if within == finer {
-        return a;
-    }
-    return mix(a, surroundings_in_level(place, u32(finer) + 1u), within - finer);
+    let b = surroundings_in_level(place, min(u32(finer) + 1u, around.levels.x - 1u));
+    return mix(a, b, within - finer);
 }
 
 // What it adds to the ambient, and to the specular part, before the material.
