@@ -49,6 +49,6 @@ fn the_environment_says_what_is_cheap() {
     // Multi-draw and mapping are for devices that can.
     assert!(gpu.costs().multi_draw.is_none() || gpu.costs().multi_draw == expected.multi_draw);
     assert!(expected.maps_meshes || !gpu.costs().maps_meshes);
-    let Costs { multi_draw, maps_meshes, .. } = gpu.costs();
-    assert_eq!(gpu.costs(), Costs { multi_draw, maps_meshes, ..expected });
+    let Costs { multi_draw, maps_meshes, images_in_environments, .. } = gpu.costs();
+    assert_eq!(gpu.costs(), Costs { multi_draw, maps_meshes, images_in_environments, ..expected });
 }

@@ -98,6 +98,12 @@ pub enum RenderError {
         "the scene has {0} environments and only one can light it: that of the first entity does; keep one `EnvironmentLight`"
     )]
     ManyEnvironments(usize),
+    /// Objects have images, and an environment lights the scene, on an adapter that crashes where a draw reads both.
+    #[error(
+        "{0} objects with images are drawn without the environment: llvmpipe through Vulkan crashes where a draw reads both; the \
+         CPU draws them (`--adapter cpu`), and so does OpenGL (`--adapter gl:llvmpipe`)"
+    )]
+    ImagesInEnvironment(usize),
     /// An object's mesh handle leads to no mesh.
     #[error("{entity}: its mesh is not in `Assets<Mesh>` (was it removed, or never added?)")]
     MissingMesh {

@@ -95,6 +95,7 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
     let shared =
         Shared { lights: &lights, encoding, viewer, costs, prices: vertex_prices, false_colors: false_colors.0 };
     let mut seen = Vec::new();
+    let mut without_environment = 0;
     for &entity in &visible.0 {
         let Ok((mesh, material, back, reflectance, faces, blend, components, tolerance, placed, chosen, name)) =
             objects.get(entity)
@@ -102,8 +103,12 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
             continue;
         };
         let (model_view, normal_matrix) = placed;
-        let paint =
+        let mut paint =
             meshes.get(&mesh.0).map_or(Paint::default(), |mesh| Paint::new(mesh, components, surroundings.are_there()));
+        if paint.surrounded && paint.has_images() && !costs.images_in_environments {
+            paint.surrounded = false;
+            without_environment += 1;
+        }
         if let Some(source) = wrong_paint(components) {
             report.errors.push(RenderError::Invalid { entity: label(entity, name), source });
             continue;
@@ -158,6 +163,9 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
             tolerance: if blend { Tolerance { pixels: 0.0, ..tolerance } } else { tolerance },
         };
         lit.add(&object, &mut seen, &view, shared, &mut *backend, &mut report);
+    }
+    if without_environment > 0 {
+        report.errors.push(RenderError::ImagesInEnvironment(without_environment));
     }
     report.materials = lit.table.materials_in_use();
     report.lights_assigned = lit.lists.assigned;

@@ -27,6 +27,8 @@ pub struct Costs {
     /// The CPU writes meshes directly into the buffers that are drawn from. Elsewhere than on a software adapter, memory
     /// that both reach is slow for one of them.
     pub maps_meshes: bool,
+    /// What has images may be lit by an environment. llvmpipe through Vulkan (Mesa 22.3) crashes in draws that read both.
+    pub images_in_environments: bool,
     /// What shading at the vertices saves and costs, for [`Shading::Auto`](halfway_lighting::Shading::Auto).
     pub vertices: VertexPrices,
 }
@@ -88,6 +90,7 @@ impl Costs {
         records_of_one_command: 512,
         multi_draw: None,
         maps_meshes: true,
+        images_in_environments: true,
         vertices: VertexPrices { light: 3.0, pixel: 0.5, look: 8.0, draw: 900.0 },
     };
 
@@ -101,6 +104,7 @@ impl Costs {
         records_of_one_command: 2,
         multi_draw: Some(128),
         maps_meshes: false,
+        images_in_environments: true,
         vertices: VertexPrices::NEVER,
     };
 
@@ -112,13 +116,14 @@ impl Costs {
         records_of_one_command: 2,
         multi_draw: None,
         maps_meshes: true,
+        images_in_environments: true,
         vertices: VertexPrices::NEVER,
     };
 
     /// Of this adapter, or what the environment says of it.
     pub(crate) fn of(adapter: &wgpu::Adapter) -> Result<Self, RenderError> {
         match std::env::var_os(VARIABLE) {
-            Some(value) if !value.is_empty() => Ok(Self::named(&value.to_string_lossy())?.without_slow(adapter)),
+            Some(value) if !value.is_empty() => Ok(Self::named(&value.to_string_lossy())?.as_able_as(adapter)),
             _ => Ok(Self::of_kind(adapter)),
         }
     }
@@ -126,13 +131,16 @@ impl Costs {
     /// Of this adapter, whatever the environment says.
     pub(crate) fn of_kind(adapter: &wgpu::Adapter) -> Self {
         let is_software = adapter.get_info().device_type == wgpu::DeviceType::Cpu;
-        if is_software { Self::SOFTWARE } else { Self::HARDWARE }.without_slow(adapter)
+        if is_software { Self::SOFTWARE } else { Self::HARDWARE }.as_able_as(adapter)
     }
 
-    /// Without the feature that is asked for here, wgpu writes a multi-draw out as single draws.
-    fn without_slow(self, adapter: &wgpu::Adapter) -> Self {
+    /// Without what this adapter cannot do. Without the feature that is asked for here, wgpu writes a multi-draw out as single
+    /// draws.
+    fn as_able_as(self, adapter: &wgpu::Adapter) -> Self {
         let has_multi_draw = adapter.features().contains(wgpu::Features::MULTI_DRAW_INDIRECT_COUNT);
-        Self { multi_draw: self.multi_draw.filter(|_| has_multi_draw), ..self }
+        let info = adapter.get_info();
+        let crashes = info.backend == wgpu::Backend::Vulkan && info.name.starts_with("llvmpipe");
+        Self { multi_draw: self.multi_draw.filter(|_| has_multi_draw), images_in_environments: !crashes, ..self }
     }
 
     fn named(name: &str) -> Result<Self, RenderError> {

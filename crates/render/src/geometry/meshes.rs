@@ -92,7 +92,11 @@ impl<'a> Paint<'a> {
 
     /// Whether there are images, a mask or an environment.
     pub(crate) fn is_mapped(&self) -> bool {
-        self.surrounded || self.mask.is_some() || self.maps.iter().any(Option::is_some)
+        self.surrounded || self.mask.is_some() || self.has_images()
+    }
+
+    pub(crate) fn has_images(&self) -> bool {
+        self.maps.iter().any(Option::is_some)
     }
 
     /// Whether an image turns normals.
