@@ -56,7 +56,7 @@ impl Intensity {
     pub fn toned(self, intensity: f64) -> f64 {
         match self {
             Self::Clamp | Self::Renormalize { .. } => intensity,
-            Self::Reinhard { white } => reinhard(intensity, f64::from(white).powi(-2)),
+            Self::Reinhard { white } => reinhard(intensity, (f64::from(white) * f64::from(white)).recip()),
             Self::Aces => aces(intensity),
         }
     }

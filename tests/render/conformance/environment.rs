@@ -68,7 +68,7 @@ const CHANGES: [Change; 14] = [
         scene.things.iter_mut().for_each(|thing| {
             thing.faces = Some(Faces::Back);
             thing.frames.push(Transform::from_scale(Vec3::new(-0.9, 1.2, 0.7)));
-        })
+        });
     }),
     ("through the near plane", |scene| scene.camera.near = 2.6),
 ];

@@ -180,7 +180,7 @@ fn step_percentiles(counts: &[u64; 256]) -> [f64; 4] {
 
 /// The percentiles of the linear errors that count: of each channel, and of all.
 fn linear_percentiles(bands: &BandPairs) -> ([[f64; 4]; 3], [f64; 4]) {
-    let mut ranks = [const { () }; 4].map(|()| Ranks::new());
+    let mut ranks: [Ranks; 4] = std::array::from_fn(|_| Ranks::new());
     for _ in 0..PASSES {
         for band in bands.each() {
             for Pair { actual, expected, .. } in pairs(&band).filter(|pair| pair.kind == Kind::Counted) {

@@ -125,7 +125,9 @@ impl Errors {
     /// The figures of the three channels, with the percentiles of each and of all.
     pub(super) fn of(channels: &[ErrorSums; 3], percentiles: [[f64; 4]; 3], of_all: [f64; 4]) -> Self {
         let mut all = ErrorSums::default();
-        channels.iter().for_each(|channel| all.append(channel));
+        for channel in channels {
+            all.append(channel);
+        }
         let channel = |k: usize| channels[k].statistics(percentiles[k]);
         Self { channels: [channel(0), channel(1), channel(2)], all: all.statistics(of_all) }
     }

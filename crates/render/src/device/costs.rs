@@ -11,6 +11,7 @@ use halfway_lighting::{Fields, InvalidValue};
 /// Taken from the adapter when it is opened, unless the environment variable `HALFWAY_COSTS` says `software` or `hardware`;
 /// [`Gpu::set_costs`](crate::Gpu::set_costs) sets it later. So the ways of hardware can be tried on a software adapter.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a way of drawing by itself")]
 pub struct Costs {
     /// Shaders write the sRGB curve where nothing blends and a pixel has one sample; else the target's format does. A
     /// software adapter decodes and encodes all 16 pixels of a block to write some of them.

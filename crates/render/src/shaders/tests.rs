@@ -29,7 +29,7 @@ fn valid(text: &str) -> Result<naga::Module, String> {
 #[test]
 fn each_file_is_valid_with_those_before_it() {
     let mut used = std::collections::HashSet::new();
-    let of_draws = texts().map(|text| text.files());
+    let of_draws = texts().map(Text::files);
     for files in of_draws.chain([SKY.to_vec()]) {
         for count in 1..=files.len() {
             valid(&files[..count].concat()).unwrap_or_else(|error| panic!("{count} files: {error}"));

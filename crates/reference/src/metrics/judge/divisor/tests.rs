@@ -92,7 +92,7 @@ fn on_an_edge_two_divisors_are_right_and_no_third() {
                 let grey = |color| ColorRange { low: color, high: color };
                 let is_edge = (x, y) == BRIGHT;
                 let both = [grey(without.pixel(x, y)), grey(whole.pixel(x, y))];
-                Possible { is_edge, ranges: both[..1 + usize::from(is_edge)].to_vec(), layers: 0 }
+                Possible { is_edge, ranges: both[..=usize::from(is_edge)].to_vec(), layers: 0 }
             };
             let expected = without.clone().divided(other);
             let judged = judge_divided(possible, Samples::One, (&expected, None), &actual, bars).expect("one size");
