@@ -38,8 +38,7 @@ fn without_a_driver_the_cpu_draws_in_the_window() {
     follows_keys_and_size(program);
 }
 
-// Of one scene and size the CPU makes the same bits everywhere; a window on X and one on Wayland are to show them. The size
-// leaves out the middle of the screen, where the pointer rests.
+// Of one scene and size the CPU makes the same bits everywhere; a window on X and one on Wayland are to show them.
 #[test]
 fn a_window_on_wayland_shows_what_one_on_x_does() {
     let screen = Screen::open();

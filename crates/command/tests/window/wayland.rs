@@ -63,6 +63,8 @@ impl<'a> Compositor<'a> {
     /// Starts a program that has no other display.
     pub(crate) fn run(&self, mut program: Command) -> Shown<'_> {
         program.env_remove("DISPLAY").env("WAYLAND_DISPLAY", Self::SOCKET).env("XDG_RUNTIME_DIR", self.folder.path());
+        // Without images of pointers none lies over the picture.
+        program.env("XCURSOR_PATH", self.folder.path());
         Shown { on: self, process: program.spawn().expect("the program starts") }
     }
 }
