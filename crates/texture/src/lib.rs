@@ -9,6 +9,7 @@
 //! - [`environment`]: light from all directions: equirectangular, mirror-ball and cube maps.
 //! - [`FootprintTruth`]: the mean over a pixel's footprint, integrated, which judges the filters.
 //! - [`noise`]: gradient noise in space, and solids of it, faded with distance.
+//! - [`solid`]: [`SolidTexture`], the component that cuts an object from such a solid.
 //! - [`normals`]: normals of heights, and what their roughness makes of highlights from afar.
 //! - [`UvTransform`]: where on the image a surface's coordinates lie.
 //! - [`Texture`], [`Maps`]: the asset, and the component that puts some onto an object, one for each [`MapKind`].
@@ -42,6 +43,7 @@ pub mod normals;
 mod pyramid;
 mod ripmap;
 mod sampling;
+pub mod solid;
 mod sums;
 mod texels;
 mod truth;
@@ -55,6 +57,7 @@ pub use maps::{MapKind, Maps, SurfaceMap, Texture, TexturePlugin, UvSet, WrongMa
 pub use pyramid::Pyramid;
 pub use ripmap::Ripmap;
 pub use sampling::{Channel, LevelFilter, Sampling, TexelFilter, Wrap};
+pub use solid::{SolidKind, SolidTexture, WrongSolid};
 pub use sums::SummedAreas;
 pub use texels::TexelImage;
 pub use truth::{FootprintTruth, PictureMap};

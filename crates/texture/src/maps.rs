@@ -12,6 +12,7 @@ use crate::decode::TexelMeaning;
 use crate::environment::{EnvironmentLight, EnvironmentMap};
 use crate::pyramid::Pyramid;
 use crate::sampling::{Channel, Sampling};
+use crate::solid::SolidTexture;
 use crate::texels::TexelImage;
 use crate::uv::UvTransform;
 
@@ -48,8 +49,8 @@ pub enum MapKind {
     Emission,
     /// Its number multiplies the opacity.
     Opacity,
-    /// Its number multiplies the exponent of highlights, a matched one after it is matched, where they are shaded at the
-    /// fragments; elsewhere it does nothing.
+    /// Its number multiplies the exponent of highlights, a matched one after it is matched: those of lights where they are
+    /// shaded at the fragments, and what an environment mirrors everywhere.
     Shininess,
     /// Its number multiplies the ambient terms: baked ambient occlusion.
     Occlusion,
@@ -177,7 +178,8 @@ pub struct WrongMap {
 ///
 /// Each counts at every fragment, whatever the shading: under Gouraud and flat shading the ambient, the diffuse and the
 /// specular terms are interpolated apart, so that each is multiplied by its own. What belongs to the evaluation of light
-/// (shininess, normals, heights) does nothing there, since it is the vertices and triangles that are lit.
+/// (shininess, normals, heights) does nothing there, since it is the vertices and triangles that are lit; but for what an
+/// environment mirrors, which takes the shininess at every fragment.
 #[derive(Component, Reflect, Clone, Debug, Default, PartialEq)]
 #[reflect(Component, Clone, Debug, Default, PartialEq)]
 pub struct Maps([Option<SurfaceMap>; MapKind::COUNT]);
@@ -238,8 +240,8 @@ fn add_asset<T: Asset>(app: &mut App) {
     }
 }
 
-/// Registers [`Texture`] and [`EnvironmentMap`] as assets, and [`Maps`] and [`EnvironmentLight`] for reflection. May be added late and more than once: textures that
-/// the app has already stay. Adds `bevy_asset`'s `AssetPlugin` where the app does not have it yet.
+/// Registers [`Texture`] and [`EnvironmentMap`] as assets, and [`Maps`], [`SolidTexture`] and [`EnvironmentLight`] for
+/// reflection. May be added late and more than once: textures that the app has already stay. Adds `bevy_asset`'s `AssetPlugin` where the app does not have it yet.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct TexturePlugin;
 
@@ -248,7 +250,7 @@ impl Plugin for TexturePlugin {
         if !app.world().contains_resource::<AssetServer>() {
             app.add_plugins(AssetPlugin::default());
         }
-        app.register_type::<Maps>().register_type::<EnvironmentLight>();
+        app.register_type::<Maps>().register_type::<SolidTexture>().register_type::<EnvironmentLight>();
         add_asset::<Texture>(app);
         add_asset::<EnvironmentMap>(app);
     }

@@ -20,10 +20,10 @@ pub fn hash([x, y, z]: [u32; 3]) -> [u32; 3] {
     [x, y, z]
 }
 
-/// Gradient noise of Perlin, "Improving Noise", 2002: 0 at whole numbers, within −1 to 1, its mean 0. Each cell's corners
+/// Gradient noise of Perlin, "Improving Noise", 2002: 0 at whole numbers, within −1.04 to 1.04, its mean 0. Each cell's corners
 /// have one of the twelve directions to the edges of a cube (four of them twice), by [`hash`]; between them they are mixed by
 /// 6t⁵ − 15t⁴ + 10t³. Of points without a number, 0.
-pub fn gradient<T: Number>(p: [T; 3]) -> T {
+pub fn gradient_noise<T: Number>(p: [T; 3]) -> T {
     let floor = p.map(T::floor);
     let Some(cell) = whole(floor) else { return T::zero() };
     let f = [p[0] - floor[0], p[1] - floor[1], p[2] - floor[2]];
@@ -72,7 +72,7 @@ pub fn left<T: Number>(width: T) -> T {
 pub const MOST_OCTAVES: u32 = 16;
 
 /// A fractal sum: Σ 2⁻ᵏ·noise(2ᵏ·p) over so many octaves, at most [`MOST_OCTAVES`], each faded by [`left`] of 2ᵏ·`width`; those
-/// that are gone are not evaluated. About −1 to 1, and within −2 to 2.
+/// that are gone are not evaluated. About −1 to 1, and within −2.08 to 2.08.
 pub fn fractal<T: Number>(p: [T; 3], octaves: u32, width: T) -> T {
     let (mut sum, mut frequency, mut amplitude) = (T::zero(), T::one(), T::one());
     for octave in 0..octaves.min(MOST_OCTAVES) {
@@ -83,7 +83,7 @@ pub fn fractal<T: Number>(p: [T; 3], octaves: u32, width: T) -> T {
         }
         // Octaves of one origin would all be 0 there.
         let offset = T::of(f64::from(octave) * 0.37);
-        sum = sum + weight * amplitude * gradient(p.map(|x| x * frequency + offset));
+        sum = sum + weight * amplitude * gradient_noise(p.map(|x| x * frequency + offset));
         frequency = frequency + frequency;
         amplitude = T::of(0.5) * amplitude;
     }
@@ -98,7 +98,7 @@ pub fn marble<T: Number>(p: [T; 3], octaves: u32, width: T) -> T {
 
 /// Wood: rings around the y axis, one a unit, made uneven by noise that is ten times as long along the axis. 0 to 1.
 pub fn wood<T: Number>([x, y, z]: [T; 3], width: T) -> T {
-    let grain = gradient([x, y * T::of(0.1), z]) * T::of(0.3) * left(width.abs());
+    let grain = gradient_noise([x, y * T::of(0.1), z]) * T::of(0.3) * left(width.abs());
     wave((x * x + z * z).sqrt() + grain, width)
 }
 
@@ -121,22 +121,29 @@ fn wave<T: Number>(t: T, width: T) -> T {
     }
 }
 
-/// A checker of cubes of side 1: 0 or 1, or the mean over a box of these widths along the axes, exactly.
+/// A checker of cubes of side 1: 0 or 1, or the mean over a box of these widths along the axes, exactly. Widths below
+/// [`LEAST_WIDTH`] count as that. So a plane that lies just between cubes is not one or the other by a rounding, but ½ all over.
 pub fn checker<T: Number>(p: [T; 3], widths: [T; 3]) -> T {
     let half = T::of(0.5);
     let product = (0..3).fold(T::one(), |product, axis| product * square_wave(p[axis], widths[axis].abs()));
     if product.is_finite() { half - half * product } else { half }
 }
 
+/// The narrowest box that [`checker`] takes the mean over, in cubes.
+pub const LEAST_WIDTH: f32 = 1e-3;
+
 /// The mean of a wave over a box: 1 from 0 to 1, −1 from 1 to 2, and so on.
 fn square_wave<T: Number>(x: T, width: T) -> T {
-    let (one, two) = (T::one(), T::of(2.0));
-    let period = |x: T| x - two * (x / two).floor();
-    if width < T::of(1e-6) {
-        return if period(x) < one { one } else { -one };
+    let (half, one, two) = (T::of(0.5), T::one(), T::of(2.0));
+    let width = width.max(T::of(LEAST_WIDTH.into()));
+    let period = |x: T| x - two * (x * half).floor();
+    if width <= one {
+        // The box meets one step at most: by how far it lies from it, which is exact where the step is far.
+        let step = (x + half).floor();
+        let sign = one - two * period(step);
+        return sign * ((x - step) / (half * width)).max(-one).min(one);
     }
     // Its integral: a triangle of the height 1.
     let integral = |x: T| one - (period(x) - one).abs();
-    let half = T::of(0.5) * width;
-    (integral(x + half) - integral(x - half)) / width
+    (integral(x + half * width) - integral(x - half * width)) / width
 }

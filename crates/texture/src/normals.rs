@@ -14,7 +14,7 @@ use crate::texels::TexelImage;
 /// ones turn bumps into dents.
 ///
 /// # Errors
-/// A strength that is not finite, or so large that slopes are not: [`TextureError::NotFinite`].
+/// A strength that is not finite: [`TextureError::NotFinite`].
 pub fn from_heights(heights: &TexelImage, wrap: [Wrap; 2], strength: f32) -> Result<TexelImage, TextureError> {
     let [width, height] = heights.size();
     let at = |x: i64, y: i64| {
@@ -68,7 +68,8 @@ pub struct SlopeSpread<T> {
 const STEEPEST: f64 = 16.0;
 
 impl NormalMoments {
-    /// Of an image of normals. Normals that point into the surface are taken for the steepest.
+    /// Of an image of normals. Slopes of normals that lie flat or point into the surface
+    /// are kept within the steepest.
     ///
     /// # Errors
     /// As of [`TexelImage::new`].

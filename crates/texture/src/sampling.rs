@@ -39,7 +39,7 @@ pub enum TexelFilter {
 /// along y. Its semiaxes are σ₁ ≥ σ₂, the singular values of the matrix (a b). Where σ₁ ≤ 1 the image is enlarged.
 ///
 /// The renderers draw the others as [`Linear`](Self::Linear), and say so in the log; the reference renderer takes them as
-/// they are.
+/// they are, but for heights, whose slopes go by D everywhere.
 #[derive(Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[reflect(Clone, Debug, Default, PartialEq, Hash)]
 pub enum LevelFilter {

@@ -57,6 +57,14 @@ impl TexelImage {
         &self.texels
     }
 
+    /// The same with 0 for numbers below it.
+    pub(crate) fn not_below_zero(mut self) -> Self {
+        for number in self.texels.as_flattened_mut() {
+            *number = number.max(0.0);
+        }
+        self
+    }
+
     pub(crate) fn into_texels(self) -> Vec<[f32; 4]> {
         self.texels
     }

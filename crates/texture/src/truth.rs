@@ -77,7 +77,7 @@ impl FootprintTruth {
     /// but for its texels all counting alike. It is halved across the direction along which w changes more. Where the mean of
     /// the halves differs from the cell's by more than `tolerance` in any number, each is halved again, up to 24 times. Under
     /// affine maps the first is exact. So that none agree by accident, texels of a cell that is not halved again differ in size
-    /// by a tenth at most. The result may be off by some tens of `tolerance`.
+    /// by a tenth at most. The result may be off by some hundreds of `tolerance`.
     pub fn mean(&self, wrap: [Wrap; 2], map: &PictureMap, pixel: [f64; 2], tolerance: f64) -> Option<[f64; 4]> {
         let [x, y] = pixel;
         let cell = Cell { low: [x - 0.5, y - 0.5], sides: [1.0; 2] };

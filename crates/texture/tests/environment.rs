@@ -294,6 +294,17 @@ fn images_that_make_no_environment_are_refused() {
 }
 
 #[test]
+fn there_is_no_light_below_zero() {
+    let image = TexelImage::from_fn(8, 4, |x, y| [-0.1 * x as f32, y as f32, -1.0, 1.0]).expect("a small image");
+    let environment = Environment::new(EnvironmentShape::Equirectangular, vec![image]).expect("any size");
+    let map = EnvironmentMap::new(&environment).expect("a small one");
+    let all = environment.images()[0].levels().len();
+    let texels = (0..all).flat_map(|level| environment.images()[0].level(level)).chain(map.texels());
+    assert!(texels.flatten().all(|number| *number >= 0.0));
+    assert!(environment.images()[0].level(0).iter().any(|texel| texel[1] > 2.0), "what is above stays");
+}
+
+#[test]
 fn floating_point_files_are_read_and_what_is_no_number_is_refused() {
     let image = Rgb32FImage::from_fn(4, 2, |x, y| image::Rgb([x as f32 * 3.0, y as f32 + 0.25, 1000.0]));
     let file = |image: &Rgb32FImage, format| {

@@ -2,7 +2,7 @@
 
 #![allow(clippy::float_cmp, reason = "what is exact is compared exactly")]
 
-use halfway_texture::noise::{checker, fractal, gradient, hash, left, marble, wood};
+use halfway_texture::noise::{checker, fractal, gradient_noise, hash, left, marble, wood};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
@@ -34,10 +34,10 @@ fn the_hash_is_the_published_one() {
 #[test]
 fn noise_is_zero_at_whole_numbers_and_the_same_everywhere() {
     for k in -50..50 {
-        assert_eq!(gradient([f64::from(k), f64::from(3 * k), f64::from(-k)]), 0.0);
+        assert_eq!(gradient_noise([f64::from(k), f64::from(3 * k), f64::from(-k)]), 0.0);
     }
     for bad in [f64::NAN, f64::INFINITY, 1e30] {
-        assert_eq!(gradient([bad, 0.5, 0.5]), 0.0);
+        assert_eq!(gradient_noise([bad, 0.5, 0.5]), 0.0);
     }
     // Its own value at a place, worked out from the formula: halfway in a cell all weights are ½.
     let mean = (0..8).map(|k| {
@@ -54,7 +54,7 @@ fn noise_is_zero_at_whole_numbers_and_the_same_everywhere() {
         };
         (if h & 1 == 0 { u } else { -u }) + (if h & 2 == 0 { v } else { -v })
     });
-    assert_eq!(gradient([0.5, 0.5, 0.5]), mean.sum::<f64>() / 8.0);
+    assert_eq!(gradient_noise([0.5, 0.5, 0.5]), mean.sum::<f64>() / 8.0);
 }
 
 #[test]
@@ -62,7 +62,7 @@ fn noise_has_the_mean_and_the_variance_that_are_said() {
     let count = 200_000;
     let (mut sum, mut squares, mut most) = (0.0, 0.0, 0.0_f64);
     for p in points(count) {
-        let value = gradient(p);
+        let value = gradient_noise(p);
         sum += value;
         squares += value * value;
         most = most.max(value.abs());
@@ -70,7 +70,10 @@ fn noise_has_the_mean_and_the_variance_that_are_said() {
     let (mean, variance) = (sum / f64::from(count), squares / f64::from(count));
     println!("gradient noise: mean {mean:.5}, standard deviation {:.4}, largest {most:.3}", variance.sqrt());
     // Values 1/√n apart: 0.27/√(200,000) is 0.0006, times five.
-    assert!(mean.abs() < 0.003 && (0.2..0.35).contains(&variance.sqrt()) && most <= 1.0);
+    assert!(mean.abs() < 0.003 && (0.2..0.35).contains(&variance.sqrt()) && most <= 1.04);
+    // One of the few cells in which it is more than 1.
+    let rare = gradient_noise([16.5, 36.45, 20.45]);
+    assert!((1.01..1.04).contains(&rare), "{rare}");
 }
 
 /// The power along a line of 256 cells, by the frequency: hardly any above 1 cycle a cell. A line through space also meets low
@@ -82,7 +85,7 @@ fn noise_lies_in_a_band() {
     let mut power = vec![0.0; SAMPLES / 2];
     for line in 0..4 {
         let values: Vec<f64> =
-            (0..SAMPLES).map(|k| gradient([k as f64 / 8.0 + 0.03, 17.4 + 31.7 * f64::from(line), 5.3])).collect();
+            (0..SAMPLES).map(|k| gradient_noise([k as f64 / 8.0 + 0.03, 17.4 + 31.7 * f64::from(line), 5.3])).collect();
         for (frequency, power) in power.iter_mut().enumerate() {
             let (mut re, mut im) = (0.0, 0.0);
             for (k, value) in values.iter().enumerate() {
@@ -168,9 +171,9 @@ proptest! {
     fn single_precision_is_near_double(p in prop::array::uniform3(-50.0..50.0_f32), width in 0.0..1.0_f32) {
         let q = p.map(f64::from);
         let pairs = [
-            (gradient(p), gradient(q), 1.0, 2e-5),
+            (gradient_noise(p), gradient_noise(q), 1.04, 2e-5),
             // 2⁵ times as steep as the first octave, at half the amplitude each.
-            (fractal(p, 6, width), fractal(q, 6, width.into()), 2.0, 2e-4),
+            (fractal(p, 6, width), fractal(q, 6, width.into()), 2.08, 2e-4),
             (marble(p, 6, width), marble(q, 6, width.into()), 1.0, 1e-3),
             (wood(p, width), wood(q, width.into()), 1.0, 1e-3),
             (checker(p, [width + 0.1; 3]), checker(q, [f64::from(width + 0.1); 3]), 1.0, 1e-3),
@@ -184,7 +187,7 @@ proptest! {
     /// Steady up to the second derivative: no cell is seen.
     #[test]
     fn cells_meet(x in -20_i32..20, y in -3.0..3.0_f64, z in -3.0..3.0_f64) {
-        let at = |offset: f64| gradient([f64::from(x) + offset, y, z]);
+        let at = |offset: f64| gradient_noise([f64::from(x) + offset, y, z]);
         let h = 1e-3;
         prop_assert!((at(1e-9) - at(-1e-9)).abs() < 1e-8);
         let [before, after] = [-1.0, 1.0].map(|side| (at(3.0 * side * h) - 2.0 * at(2.0 * side * h) + at(side * h)) / (h * h));

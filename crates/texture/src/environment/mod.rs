@@ -25,7 +25,7 @@ use crate::texels::TexelImage;
 /// An image of all directions, with its pyramid: one image, or the six of a cube map.
 ///
 /// Its levels are looked up bilinearly. No seam is seen but the mirroring ball's: an equirectangular image goes on at its other
-/// side, and across a pole on the other side of it; a cube map goes on at the neighbouring face, and in its corners, where only
+/// side, and across a pole on the other side of it, half a texel beside where its width is odd; a cube map goes on at the neighbouring face, and in its corners, where only
 /// three texels meet, the mean of the three is taken for the fourth.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Environment {
@@ -34,7 +34,7 @@ pub struct Environment {
 }
 
 impl Environment {
-    /// Of one image, or of six of one size.
+    /// Of one image, or of six of one size. There is no light below 0: what filters leave of it in files is taken for 0.
     ///
     /// # Errors
     /// Another number of images; images of a cube that are not square, or of several sizes; a mirroring ball's that is not
@@ -48,7 +48,7 @@ impl Environment {
             let found = sizes.collect::<Vec<_>>().join(", ");
             return Err(TextureError::Environment { expected: shape.expected(), found });
         }
-        Ok(Self { shape, images: images.into_iter().map(Pyramid::new).collect() })
+        Ok(Self { shape, images: images.into_iter().map(|image| Pyramid::new(image.not_below_zero())).collect() })
     }
 
     /// An environment whose texel in each direction, of length 1, is `color` of it: the middle of the texel stands for the
@@ -78,8 +78,8 @@ impl Environment {
         Self::new(shape, (0..count).map(image).collect::<Result<_, _>>()?)
     }
 
-    /// The same light in another shape, or size: the level whose texels are nearest to the new ones' solid angle, looked up at
-    /// each of their middles.
+    /// The same light in another shape, or size: the level, between two of them, whose texels have the new ones' solid angle,
+    /// looked up at each of their middles.
     ///
     /// # Errors
     /// As of [`TexelImage::new`].
