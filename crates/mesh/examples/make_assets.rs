@@ -9,6 +9,9 @@ use std::path::Path;
 use bevy_math::{Vec2, Vec3};
 use halfway_mesh::{Bounds, Mesh, Teapot};
 
+#[path = "make_assets/textured.rs"]
+mod textured;
+
 fn main() -> std::io::Result<()> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets");
     for (name, bytes) in assets() {
@@ -19,12 +22,17 @@ fn main() -> std::io::Result<()> {
 }
 
 /// Every file and its content.
-pub fn assets() -> [(&'static str, Vec<u8>); 4] {
+pub fn assets() -> [(&'static str, Vec<u8>); 9] {
     [
         ("cube.smf", CUBE.into()),
         ("teapot.mtl", BRASS.into()),
         ("teapot.obj", teapot_obj().into_bytes()),
         ("lantern.glb", lantern_glb()),
+        ("crate.mtl", textured::PLANKS.into()),
+        ("crate.obj", textured::crate_obj().into_bytes()),
+        ("crate.png", textured::crate_color()),
+        ("crate_height.png", textured::crate_height()),
+        ("ball.glb", textured::ball_glb()),
     ]
 }
 

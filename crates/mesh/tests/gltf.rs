@@ -290,6 +290,26 @@ fn what_is_skipped_is_said() {
 }
 
 #[test]
+fn a_texture_of_metal_and_roughness_is_skipped_by_name() {
+    let of_material = "\"metallicFactor\":0.25";
+    let json = with(&[
+        (of_material, "\"metallicRoughnessTexture\":{\"index\":1},\"metallicFactor\":0.25"),
+        (
+            "\"materials\":[",
+            "\"images\":[{\"uri\":\"unread.png\"}],\"textures\":[{\"source\":0},{\"source\":0}],\"materials\":[",
+        ),
+    ]);
+    assert_eq!(
+        load_glb(&json, &triangle_data()).unwrap().warnings,
+        [
+            // The one that no material names.
+            "textures are skipped (1)",
+            "materials[0]: the metallic-roughness texture is skipped; the factors alone count",
+        ]
+    );
+}
+
+#[test]
 fn matrices_may_be_off_by_rounding() {
     let node = "{\"name\":\"node\",\"mesh\":0,\"translation\":[0,0,5]}";
     let of = |last: &str| format!("{{\"mesh\":0,\"matrix\":[2,0,0,0, 0,2,0,0, 0,0,2,0, 1,2,3,{last}]}}");

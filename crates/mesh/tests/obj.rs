@@ -198,7 +198,7 @@ fn what_is_skipped_is_said() {
     }
     let model = load_with_mtl(
         &format!("mtllib model.mtl\n{SQUARE}f 1 2 3\n"),
-        "newmtl a\nmap_Ka a.png\nmap_Ka b.png\nd -halo 0.5\nKd spectral a.rfl\n",
+        "newmtl a\nmap_Ka a.png\nmap_Ka b.png\nd -halo 0.5\nKd spectral a.rfl\ndisp d.png\nmap_Pr r.png\n",
     );
     assert_eq!(
         model.warnings,
@@ -206,6 +206,8 @@ fn what_is_skipped_is_said() {
             "model.mtl:2: the texture `map_Ka` is skipped (and 1 more such lines)",
             "model.mtl:4: `d -halo` is skipped",
             "model.mtl:5: `Kd spectral` is skipped",
+            "model.mtl:6: the texture `disp` is skipped",
+            "model.mtl:7: the texture `map_Pr` is skipped",
         ]
     );
 }

@@ -7,6 +7,7 @@ use bevy_math::DVec3;
 
 use super::nearest::nearest_on;
 use super::quadric::ErrorQuadric;
+use super::triangle_fans::TriangleFans;
 
 /// Vertices with more triangles stay: they are looked at with each of their neighbours.
 const MOST_AROUND: usize = 64;
@@ -41,8 +42,9 @@ pub(super) struct Collapse {
     mesh: LocalMesh,
     /// Of each place.
     quadrics: Vec<ErrorQuadric>,
-    /// The numbers of the triangles around each place; some may be gone.
-    fans: Vec<Vec<u32>>,
+    /// Of each triangle, the places of its corners.
+    places: Vec<[u32; 3]>,
+    fans: TriangleFans,
     alive: usize,
     /// Places by what collapsing them onto their best neighbour loses.
     waiting: BinaryHeap<Reverse<(u32, u32)>>,
@@ -52,6 +54,8 @@ pub(super) struct Collapse {
     changed: Vec<bool>,
     /// Whether each place is in line.
     is_waiting: Vec<bool>,
+    /// What is around the place that is looked at, here only so that its memory is used again.
+    surroundings: Surroundings,
 }
 
 /// A normal that changes by so much, as a difference of unit vectors, counts twice, and more than that the cube of it:
@@ -66,8 +70,45 @@ fn spread2(normals: [DVec3; 3]) -> f64 {
 
 const GONE: [u32; 3] = [u32::MAX; 3];
 
-/// A corner of a fan: the triangle's vertex at the fan's place, and the two after it.
-type FanCorner = [u32; 3];
+/// A corner of a fan.
+#[derive(Clone, Copy)]
+struct FanCorner {
+    /// The triangle's vertex at the fan's place, and the two after it.
+    vertices: [u32; 3],
+    /// The places of those two.
+    places: [u32; 2],
+}
+
+impl FanCorner {
+    fn has(&self, place: u32) -> bool {
+        self.places.contains(&place)
+    }
+}
+
+/// The side of a fan's triangle across from the fan's place.
+struct FanSide {
+    corner: FanCorner,
+    ends: [DVec3; 2],
+    normals: [DVec3; 2],
+    /// From the first end to the second, and the square of its length.
+    side: DVec3,
+    length2: f64,
+    /// Across the triangle, as long as twice its area, and what the square of that counts for a turn.
+    across: DVec3,
+    turn2: f64,
+}
+
+/// What is around a place.
+#[derive(Default)]
+struct Surroundings {
+    fan: Vec<FanCorner>,
+    /// Of each corner of the fan, where they are asked for.
+    sides: Vec<FanSide>,
+    /// The neighbours, each once.
+    around: Vec<u32>,
+    /// What is lost at least by collapsing onto each neighbour.
+    targets: Vec<(f64, u32)>,
+}
 
 /// Vertices of the place that moves, and those that take their triangles. Most places have one vertex.
 #[derive(Default)]
@@ -77,10 +118,6 @@ struct Moves {
 }
 
 impl Moves {
-    fn iter(&self) -> impl Iterator<Item = (u32, u32)> {
-        self.first.into_iter().chain(self.others.iter().copied())
-    }
-
     fn push(&mut self, from: u32, to: u32) {
         match self.first {
             None => self.first = Some((from, to)),
@@ -90,33 +127,54 @@ impl Moves {
 
     /// The vertex that takes the triangles of this one, if there is one.
     fn target(&self, vertex: u32) -> Option<u32> {
-        self.iter().find(|(from, _)| *from == vertex).map(|(_, to)| to)
+        let (from, to) = self.first?;
+        let other = || self.others.iter().find(|(from, _)| *from == vertex).map(|&(_, to)| to);
+        if from == vertex { Some(to) } else { other() }
     }
+}
+
+/// Which vertex of the target each vertex of the fan's place becomes: the one that it shares an edge with. None if a
+/// vertex has none there, or two.
+fn moves(target: u32, fan: &[FanCorner]) -> Option<Moves> {
+    let mut moves = Moves::default();
+    for FanCorner { vertices: [a, b, c], places } in fan {
+        let to = match places.map(|place| place == target) {
+            [true, _] => *b,
+            [_, true] => *c,
+            _ => continue,
+        };
+        match moves.target(*a) {
+            None => moves.push(*a, to),
+            Some(other) if other != to => return None,
+            Some(_) => {}
+        }
+    }
+    fan.iter().all(|corner| moves.target(corner.vertices[0]).is_some()).then_some(moves)
 }
 
 impl Collapse {
     pub(super) fn new(mesh: LocalMesh) -> Self {
         let count = mesh.positions.len();
-        let mut fans = vec![Vec::new(); count];
-        for (number, triangle) in (0..).zip(&mesh.triangles) {
-            for &vertex in triangle {
-                fans[mesh.places[vertex as usize] as usize].push(number);
-            }
-        }
+        let of_corners = |triangle: &[u32; 3]| triangle.map(|vertex| mesh.places[vertex as usize]);
+        let places: Vec<[u32; 3]> = mesh.triangles.iter().map(of_corners).collect();
         let mut collapse = Self {
             quadrics: vec![ErrorQuadric::NONE; count],
             alive: mesh.triangles.len(),
             mesh,
-            fans,
+            fans: TriangleFans::new(&places, count),
+            places,
             waiting: BinaryHeap::new(),
             best: vec![u32::MAX; count],
             changed: vec![false; count],
             is_waiting: vec![false; count],
+            surroundings: Surroundings::default(),
         };
         collapse.add_quadrics();
+        let mut near = Surroundings::default();
         for place in 0..count as u32 {
-            collapse.put_in_line(place);
+            collapse.put_in_line(place, &mut near);
         }
+        collapse.surroundings = near;
         collapse
     }
 
@@ -125,8 +183,8 @@ impl Collapse {
     }
 
     /// Puts a place in line unless it stays.
-    fn put_in_line(&mut self, place: u32) {
-        if let Some((cost, target)) = self.best(place) {
+    fn put_in_line(&mut self, place: u32, near: &mut Surroundings) {
+        if let Some((cost, target)) = self.best(place, near) {
             self.best[place as usize] = target;
             self.is_waiting[place as usize] = true;
             self.waiting.push(Reverse((cost.to_bits(), place)));
@@ -139,12 +197,14 @@ impl Collapse {
             let Some(Reverse((_, place))) = self.waiting.pop() else { return };
             self.is_waiting[place as usize] = false;
             let has_changed = std::mem::take(&mut self.changed[place as usize]);
+            let mut near = std::mem::take(&mut self.surroundings);
             let target = self.best[place as usize];
-            if !has_changed && self.may_collapse(place, target) {
-                self.collapse(place, target);
+            if !has_changed && self.may_collapse(place, target, &mut near) {
+                self.collapse(place, target, &near);
             } else {
-                self.put_in_line(place);
+                self.put_in_line(place, &mut near);
             }
+            self.surroundings = near;
         }
     }
 
@@ -154,20 +214,6 @@ impl Collapse {
 
     fn position(&self, vertex: u32) -> DVec3 {
         self.mesh.positions[vertex as usize]
-    }
-
-    /// The corners at a place.
-    fn corners(&self, place: u32) -> impl Iterator<Item = FanCorner> + Clone {
-        let fan = self.fans[place as usize].iter().map(|&number| self.mesh.triangles[number as usize]);
-        fan.filter(|&triangle| triangle != GONE).map(move |[a, b, c]| {
-            if self.place(a) == place {
-                [a, b, c]
-            } else if self.place(b) == place {
-                [b, c, a]
-            } else {
-                [c, a, b]
-            }
-        })
     }
 
     /// Planes of the triangles, and across them along borders and seams.
@@ -184,7 +230,10 @@ impl Collapse {
             }
             for [i, j] in [[0, 1], [1, 2], [2, 0]] {
                 let [from, to] = [triangle[i], triangle[j]];
-                let is_shared = self.corners(self.place(to)).any(|[v, next, _]| v == to && next == from);
+                let is_shared = self.fans.of(self.place(to)).iter().any(|&other| {
+                    let [a, b, c] = self.mesh.triangles[other as usize];
+                    [[a, b], [b, c], [c, a]].contains(&[to, from])
+                });
                 if is_shared {
                     continue;
                 }
@@ -199,102 +248,124 @@ impl Collapse {
     }
 
     /// The neighbour onto which a place collapses best, and what that loses.
-    fn best(&self, place: u32) -> Option<(f32, u32)> {
-        if self.mesh.stays[place as usize] || self.fans[place as usize].len() > MOST_AROUND {
+    fn best(&self, place: u32, near: &mut Surroundings) -> Option<(f32, u32)> {
+        if self.mesh.stays[place as usize] || self.fans.of(place).len() > MOST_AROUND {
             return None;
         }
-        let fan = self.fan(place);
-        if fan.is_empty() {
+        self.look_around(place, near);
+        if near.fan.is_empty() {
             return None;
         }
-        let around = self.around(&fan);
         let p = self.position(place);
+        near.sides.clear();
+        near.sides.extend(near.fan.iter().map(|corner| self.side(p, corner)));
         let base = |&target: &u32| {
             let q = self.position(target);
             (self.quadrics[place as usize].distance(q) + EDGE_WEIGHT * p.distance_squared(q), target)
         };
-        let mut targets: Vec<(f64, u32)> = around.iter().map(base).collect();
+        near.targets.clear();
+        near.targets.extend(near.around.iter().map(base));
         // Those that promise least first: after them the others can be left sooner.
-        targets.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        near.targets.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let mut best: Option<(f64, u32)> = None;
-        for (base, target) in targets {
+        for &(base, target) in &near.targets {
             let most = best.map_or(f64::INFINITY, |(cost, _)| cost);
             if base >= most {
                 break;
             }
-            let Some(cost) = self.cost(place, (target, base), &fan, most) else { continue };
-            if self.keeps_topology(target, &fan, &around) {
+            let Some(cost) = self.cost(p, (target, base), near, most) else { continue };
+            if self.keeps_topology(target, near) {
                 best = Some((cost, target));
             }
         }
         best.map(|(cost, target)| (cost as f32, target))
     }
 
-    /// The corners at a place.
-    fn fan(&self, place: u32) -> Vec<FanCorner> {
-        let mut fan = Vec::with_capacity(self.fans[place as usize].len());
-        fan.extend(self.corners(place));
-        fan
+    /// Finds the fan and the neighbours of a place.
+    fn look_around(&self, place: u32, Surroundings { fan, around, .. }: &mut Surroundings) {
+        fan.clear();
+        around.clear();
+        for &number in self.fans.of(place) {
+            let ([a, b, c], [i, j, k]) = (self.mesh.triangles[number as usize], self.places[number as usize]);
+            let corner = if i == place {
+                FanCorner { vertices: [a, b, c], places: [j, k] }
+            } else if j == place {
+                FanCorner { vertices: [b, c, a], places: [k, i] }
+            } else {
+                FanCorner { vertices: [c, a, b], places: [i, j] }
+            };
+            for place in corner.places {
+                if !around.contains(&place) {
+                    around.push(place);
+                }
+            }
+            fan.push(corner);
+        }
     }
 
-    /// The neighbours of a place, in order.
-    fn around(&self, fan: &[FanCorner]) -> Vec<u32> {
-        let mut around = Vec::with_capacity(2 * fan.len());
-        around.extend(fan.iter().flat_map(|&[_, b, c]| [self.place(b), self.place(c)]));
-        around.sort_unstable();
-        around.dedup();
-        around
+    /// The side across from a place at `p`.
+    fn side(&self, p: DVec3, &corner: &FanCorner) -> FanSide {
+        let [_, b, c] = corner.vertices;
+        let ends = [b, c].map(|vertex| self.position(vertex));
+        let side = ends[1] - ends[0];
+        let across = side.cross(p - ends[0]);
+        FanSide {
+            corner,
+            ends,
+            normals: [b, c].map(|vertex| self.normal(vertex)),
+            side,
+            length2: side.length_squared(),
+            across,
+            turn2: TURN * TURN * across.length_squared(),
+        }
     }
 
     /// Whether what is best for a place still is where only what is further off than its neighbours has changed.
-    fn may_collapse(&self, place: u32, target: u32) -> bool {
-        let fan = self.fan(place);
-        self.keeps_topology(target, &fan, &self.around(&fan))
+    fn may_collapse(&self, place: u32, target: u32, near: &mut Surroundings) -> bool {
+        self.look_around(place, near);
+        self.keeps_topology(target, near)
     }
 
-    /// What collapsing a place onto a neighbour loses, unless it is no less than `most`, it turns a triangle over or a
-    /// seam would tear.
+    /// What collapsing a place at `p` onto a neighbour loses, unless it is no less than `most`, it turns a triangle over
+    /// or a seam would tear.
     ///
     /// A length, the sum of: how far the new position is from the planes of the original triangles, in the mean; how
     /// far the old position is from the new triangles, which the mean may hide; the spread of the new triangles'
     /// normals and the change of the normal at the old position (see [`SHARP_TURN`]), both times the longest edge. So
     /// what is small may be cut coarsely, and on a sphere all triangles become alike.
-    fn cost(&self, place: u32, (target, base): (u32, f64), fan: &[FanCorner], most: f64) -> Option<f64> {
-        let (p, q) = (self.position(place), self.position(target));
-        let moves = self.moves(target, fan)?;
-        let stays = |&&[_, b, c]: &&FanCorner| self.place(b) != target && self.place(c) != target;
+    fn cost(&self, p: DVec3, (target, base): (u32, f64), near: &Surroundings, most: f64) -> Option<f64> {
+        let q = self.position(target);
+        let moves = moves(target, &near.fan)?;
+        let moved = |side: &FanSide| self.normal(moves.target(side.corner.vertices[0]).unwrap_or(target));
+        let longest2 = |&FanSide { ends, length2, .. }: &FanSide| {
+            length2.max(q.distance_squared(ends[0])).max(q.distance_squared(ends[1]))
+        };
         let (mut bulge2, most_bulge2) = (0.0_f64, (most - base).powi(2));
-        for &[a, b, c] in fan.iter().filter(stays) {
-            let [p_b, p_c] = [b, c].map(|vertex| self.position(vertex));
-            let side = p_c - p_b;
-            let (before, after) = (side.cross(p - p_b), side.cross(q - p_b));
-            let dot = before.dot(after);
-            if dot <= 0.0 || dot * dot <= TURN * TURN * before.length_squared() * after.length_squared() {
+        for side in near.sides.iter().filter(|side| !side.corner.has(target)) {
+            let after = side.side.cross(q - side.ends[0]);
+            let dot = side.across.dot(after);
+            if dot <= 0.0 || dot * dot <= side.turn2 * after.length_squared() {
                 return None;
             }
-            let normals = [moves.target(a).unwrap_or(a), b, c].map(|vertex| self.normal(vertex));
-            let longest2 = side.length_squared().max(q.distance_squared(p_b)).max(q.distance_squared(p_c));
-            bulge2 = bulge2.max(spread2(normals) * longest2);
+            bulge2 = bulge2.max(spread2([moved(side), side.normals[0], side.normals[1]]) * longest2(side));
             if bulge2 >= most_bulge2 {
                 return None;
             }
         }
-        let (mut gap2, mut turn) = (f64::INFINITY, 0.0);
-        for &[a, b, c] in fan.iter().filter(stays) {
-            let [p_b, p_c] = [b, c].map(|vertex| self.position(vertex));
-            let (distance2, weights) = nearest_on(p, [q, p_b, p_c]);
+        let mut nearest: Option<(&FanSide, [f64; 3])> = None;
+        let mut gap2 = f64::INFINITY;
+        for side in near.sides.iter().filter(|side| !side.corner.has(target)) {
+            let (distance2, weights) = nearest_on(p, [q, side.ends[0], side.ends[1]]);
             if distance2 < gap2 {
-                let normals = [moves.target(a).unwrap_or(a), b, c].map(|vertex| self.normal(vertex));
-                let n: DVec3 = normals.into_iter().zip(weights).map(|(n, weight)| weight * n).sum();
-                let longest2 = p_b.distance_squared(p_c).max(q.distance_squared(p_b)).max(q.distance_squared(p_c));
-                let by = n.distance(self.normal(a));
-                (gap2, turn) = (distance2, by * (1.0 + (by / SHARP_TURN).powi(2)) * longest2.sqrt());
+                (gap2, nearest) = (distance2, Some((side, weights)));
             }
         }
         // An ear, or a piece of one triangle, would be gone.
-        if gap2.is_infinite() {
-            return None;
-        }
+        let (side, weights) = nearest?;
+        let normals = [moved(side), side.normals[0], side.normals[1]];
+        let n: DVec3 = normals.into_iter().zip(weights).map(|(n, weight)| weight * n).sum();
+        let by = n.distance(self.normal(side.corner.vertices[0]));
+        let turn = by * (1.0 + (by / SHARP_TURN).powi(2)) * longest2(side).sqrt();
         let loss = base + bulge2.sqrt() + GAP_WEIGHT * gap2.sqrt() + turn;
         (loss < most).then_some(loss)
     }
@@ -303,26 +374,10 @@ impl Collapse {
         self.mesh.normals[vertex as usize]
     }
 
-    /// Which vertex of the target each vertex of the fan's place becomes: the one that it shares an edge with. None if
-    /// a vertex has none there, or two.
-    fn moves(&self, target: u32, fan: &[FanCorner]) -> Option<Moves> {
-        let mut moves = Moves::default();
-        for &[a, b, c] in fan {
-            for to in [b, c].into_iter().filter(|&vertex| self.place(vertex) == target) {
-                match moves.target(a) {
-                    None => moves.push(a, to),
-                    Some(other) if other != to => return None,
-                    Some(_) => {}
-                }
-            }
-        }
-        fan.iter().all(|&[a, ..]| moves.target(a).is_some()).then_some(moves)
-    }
-
     /// Whether the surface stays one: the neighbours that both ends have are those of the triangles on their edge, one
     /// at a border and else two, and what is on a border moves along it.
-    fn keeps_topology(&self, target: u32, fan: &[FanCorner], around: &[u32]) -> bool {
-        let on_edge = fan.iter().filter(|&&[_, b, c]| self.place(b) == target || self.place(c) == target).count();
+    fn keeps_topology(&self, target: u32, Surroundings { fan, around, .. }: &Surroundings) -> bool {
+        let on_edge = fan.iter().filter(|corner| corner.has(target)).count();
         let is_closed = around.len() == fan.len();
         let is_open = around.len() == fan.len() + 1;
         if !(is_closed && on_edge == 2 || is_open && on_edge == 1) {
@@ -333,42 +388,32 @@ impl Collapse {
     }
 
     fn are_neighbours(&self, a: u32, b: u32) -> bool {
-        let [few, other] = if self.fans[a as usize].len() <= self.fans[b as usize].len() { [a, b] } else { [b, a] };
-        self.corners(few).any(|[_, x, y]| self.place(x) == other || self.place(y) == other)
+        let [few, other] = if self.fans.of(a).len() <= self.fans.of(b).len() { [a, b] } else { [b, a] };
+        self.fans.of(few).iter().any(|&number| self.places[number as usize].contains(&other))
     }
 
     /// Collapses a place onto a neighbour.
-    fn collapse(&mut self, place: u32, target: u32) {
-        let fan = self.fan(place);
-        let Some(moves) = self.moves(target, &fan) else { return };
-        let numbers = std::mem::take(&mut self.fans[place as usize]);
-        for number in numbers {
-            let triangle = self.mesh.triangles[number as usize];
-            if triangle == GONE {
-                continue;
-            }
-            if triangle.iter().any(|&vertex| self.place(vertex) == target) {
-                self.mesh.triangles[number as usize] = GONE;
+    fn collapse(&mut self, place: u32, target: u32, near: &Surroundings) {
+        let Some(moves) = moves(target, &near.fan) else { return };
+        for &number in self.fans.of(place) {
+            let (triangle, places) = (&mut self.mesh.triangles[number as usize], &mut self.places[number as usize]);
+            if places.contains(&target) {
+                (*triangle, *places) = (GONE, GONE);
                 self.alive -= 1;
             } else {
-                self.mesh.triangles[number as usize] = triangle.map(|vertex| moves.target(vertex).unwrap_or(vertex));
-                self.fans[target as usize].push(number);
+                *triangle = triangle.map(|vertex| moves.target(vertex).unwrap_or(vertex));
+                *places = places.map(|other| if other == place { target } else { other });
             }
         }
         let quadric = self.quadrics[place as usize];
         self.quadrics[target as usize] += quadric;
-        let triangles = &self.mesh.triangles;
-        self.fans[target as usize].retain(|&number| triangles[number as usize] != GONE);
-        for &[_, b, c] in &fan {
-            for vertex in [b, c] {
-                let near = self.place(vertex) as usize;
-                self.changed[near] = true;
-                if !std::mem::replace(&mut self.is_waiting[near], true) {
-                    self.waiting.push(Reverse((0, near as u32)));
-                }
-                let triangles = &self.mesh.triangles;
-                self.fans[near].retain(|&number| triangles[number as usize] != GONE);
+        self.fans.append(place, target);
+        for &near in &near.around {
+            self.changed[near as usize] = true;
+            if !std::mem::replace(&mut self.is_waiting[near as usize], true) {
+                self.waiting.push(Reverse((0, near)));
             }
+            self.fans.retain(near, |number| self.places[number as usize] != GONE);
         }
     }
 }

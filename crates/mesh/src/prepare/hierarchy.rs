@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use bevy_math::DVec3;
 
+use super::box_grid::not_less;
 use super::collapse::{Collapse, LocalMesh};
 use super::neighbours;
 use super::overlay::{Deviation, Surfaces, angle};
@@ -197,19 +198,13 @@ impl<'a> Maker<'a> {
 
     /// Joins what can be joined; `None` where it is to stop. Returns what is loose then, and whether anything was joined.
     fn join(&mut self, pool: Vec<Loose>, stop: &AtomicBool) -> Option<(Vec<Loose>, bool)> {
-        let places = |loose: &Loose| {
-            let places = loose.triangles.as_flattened().iter().map(|&vertex| self.stand_ins.places[vertex as usize]);
-            let mut places: Vec<u32> = places.collect();
-            places.sort_unstable();
-            places.dedup();
-            places
-        };
-        let touched = (0..).zip(&pool).flat_map(|(at, loose)| places(loose).into_iter().map(move |place| (place, at)));
+        let places: Vec<Vec<u32>> = pool.iter().map(|loose| self.places(loose)).collect();
+        let touched = (0..).zip(&places).flat_map(|(at, places)| places.iter().map(move |&place| (place, at)));
         let groups = neighbours::group(touched.collect(), pool.len());
         // Of each place the only group that has it.
         let mut owners = vec![NOBODY; self.stand_ins.places.len()];
         for (group, members) in (0..).zip(&groups) {
-            for place in members.iter().flat_map(|&at| places(&pool[at as usize])) {
+            for &place in members.iter().flat_map(|&at| &places[at as usize]) {
                 let owner = &mut owners[place as usize];
                 *owner = if *owner == NOBODY || *owner == group { group } else { SEVERAL };
             }
@@ -232,6 +227,15 @@ impl<'a> Maker<'a> {
         Some((next, joined))
     }
 
+    /// The places of a patch, in ascending order.
+    fn places(&self, loose: &Loose) -> Vec<u32> {
+        let places = loose.triangles.as_flattened().iter().map(|&vertex| self.stand_ins.places[vertex as usize]);
+        let mut places: Vec<u32> = places.collect();
+        places.sort_unstable();
+        places.dedup();
+        places
+    }
+
     /// Fewer triangles in the place of some patches, cut into patches.
     fn parts(&mut self, members: &[Loose], owners: &[u32]) -> Option<Vec<Loose>> {
         let before: usize = members.iter().map(|loose| loose.triangles.len()).sum();
@@ -247,7 +251,8 @@ impl<'a> Maker<'a> {
         let runs = self.mesh.cut_into_patches(&mut coarse, self.mesh.triangles_of_a_patch());
         let gather = |of: fn(&Loose) -> &Vec<u32>| {
             let mut all: Vec<u32> = members.iter().flat_map(of).copied().collect();
-            all.sort_unstable();
+            #[expect(clippy::stable_sort_primitive, reason = "it merges runs; those of each member are in order")]
+            all.sort();
             all.dedup();
             all
         };
@@ -263,13 +268,9 @@ impl<'a> Maker<'a> {
         let group = self.groups.len() as u32;
         self.add_group(members, &coarse, deviation);
         let age = 1 + members.iter().map(|loose| loose.age).max().unwrap_or(0);
-        let mut part_at = vec![0u32; coarse.len()];
-        for (part, run) in (0..).zip(&runs) {
-            part_at[run.clone()].fill(part);
-        }
-        let parts = runs.into_iter().map(|run| {
+        let parts = runs.iter().map(|run| {
             let number = self.patches.len() as u32;
-            let triangles = coarse[run].to_vec();
+            let triangles = coarse[run.clone()].to_vec();
             self.patches.push((triangles.clone(), Some(group)));
             Loose { number, triangles, part_of: Some(group), under: Vec::new(), covers: Vec::new(), base, age }
         });
@@ -283,15 +284,20 @@ impl<'a> Maker<'a> {
                 (part.base, part.age) = (deviation, 0);
             }
         } else {
-            for (coarse, fine) in overlay.pairs {
-                parts[part_at[coarse as usize] as usize].under.push(under[fine as usize]);
+            for (part, run) in parts.iter_mut().zip(&runs) {
+                let mut is_under = vec![false; under.len()];
+                // They are in the order of the coarse ones.
+                let [start, end] = [run.start, run.end]
+                    .map(|first| overlay.pairs.partition_point(|&(coarse, _)| (coarse as usize) < first));
+                for &(_, fine) in &overlay.pairs[start..end] {
+                    is_under[fine as usize] = true;
+                }
+                part.under
+                    .extend(under.iter().zip(is_under).filter(|(_, is_under)| *is_under).map(|(number, _)| number));
             }
             for (&vertex, home) in covers.iter().zip(overlay.homes) {
-                parts[part_at[home as usize] as usize].covers.push(vertex);
-            }
-            for part in &mut parts {
-                part.under.sort_unstable();
-                part.under.dedup();
+                let part = runs.partition_point(|run| run.end <= home as usize);
+                parts[part].covers.push(vertex);
             }
         }
         Some(parts)
@@ -330,22 +336,24 @@ impl<'a> Maker<'a> {
 
     fn add_group(&mut self, members: &[Loose], coarse: &[[u32; 3]], deviation: Deviation) {
         let normals = self.mesh.normals();
-        let spread = |triangle: &[u32; 3]| {
+        let mut spread = WidestAngle::default();
+        for triangle in coarse {
             let normals = triangle.map(|i| normals[i as usize].as_dvec3());
             let mean = normals.iter().sum::<DVec3>();
-            let angles = normals.map(|n| if mean == DVec3::ZERO { std::f64::consts::PI } else { angle(n, mean) });
-            angles.into_iter().fold(0.0, f64::max)
-        };
+            for n in normals {
+                spread.add(n, mean);
+            }
+        }
         let longest2 = |triangle: &[u32; 3]| {
             let [a, b, c] = triangle.map(|i| self.mesh.positions()[i as usize].as_dvec3());
             a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a))
         };
-        let most = |of: &dyn Fn(&[u32; 3]) -> f64| coarse.iter().map(of).fold(0.0, f64::max);
-        let [normal_spread, longest_edge] = [most(&spread), most(&longest2).sqrt()].map(rounded_up);
+        let longest_edge = coarse.iter().map(longest2).fold(0.0, f64::max).sqrt();
+        let [normal_spread, longest_edge] = [spread.angle, longest_edge].map(not_less);
         let mut group = PatchGroup {
             joins: 0..0,
-            error: rounded_up(deviation.distance),
-            normal_error: rounded_up(deviation.angle),
+            error: not_less(deviation.distance),
+            normal_error: not_less(deviation.angle),
             normal_spread,
             longest_edge: longest_edge.min(f32::MAX),
         };
@@ -386,6 +394,30 @@ impl<'a> Maker<'a> {
     }
 }
 
+/// The largest of angles.
+#[derive(Default)]
+struct WidestAngle {
+    angle: f64,
+    /// The square of a tangent: what is by far less than that of the angle is not the largest.
+    by_far2: f64,
+}
+
+impl WidestAngle {
+    /// Adds the angle between two vectors, π where the second is none.
+    fn add(&mut self, a: DVec3, b: DVec3) {
+        let (across2, along) = (a.cross(b).length_squared(), a.dot(b));
+        if along > 0.0 && across2 < self.by_far2 * along * along {
+            return;
+        }
+        let angle = if b == DVec3::ZERO { std::f64::consts::PI } else { angle(a, b) };
+        if angle > self.angle {
+            // From a right angle on all are looked at.
+            let tan = if angle < 1.5 { angle.tan() } else { 0.0 };
+            (self.angle, self.by_far2) = (angle, 0.999_999 * tan * tan);
+        }
+    }
+}
+
 /// Of no group, and of more than one.
 const NOBODY: u32 = u32::MAX;
 const SEVERAL: u32 = u32::MAX - 1;
@@ -417,12 +449,6 @@ fn open_border(mesh: &Mesh, stand_ins: &StandIns) -> Vec<bool> {
         }
     }
     stays
-}
-
-/// The least `f32` that is not less.
-fn rounded_up(x: f64) -> f32 {
-    let near = x as f32;
-    if f64::from(near) < x { near.next_up() } else { near }
 }
 
 impl PatchHierarchy {

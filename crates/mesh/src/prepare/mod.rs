@@ -4,6 +4,7 @@
 //! With the feature `prepare`, which takes a C++ compiler, also an order for the GPU's caches, meshlets and simplified
 //! meshes by meshoptimizer.
 
+mod box_grid;
 mod collapse;
 mod components;
 mod distance;
@@ -24,6 +25,7 @@ mod report;
 #[cfg(feature = "prepare")]
 mod simplify;
 mod stand_ins;
+mod triangle_fans;
 mod weld;
 
 pub use distance::DistanceBounds;

@@ -124,29 +124,33 @@ fn distance_squared(p: DVec3, triangle: TriangleCorners) -> f64 {
 
 /// The square of the distance of a point from a triangle, which may be degenerate, and the weights of its corners at
 /// the nearest point.
+#[inline]
 pub(super) fn nearest_on(p: DVec3, [a, b, c]: [DVec3; 3]) -> (f64, [f64; 3]) {
     let (ab, ac, ap) = (b - a, c - a, p - a);
     let n = ab.cross(ac);
     let n2 = n.length_squared();
-    let [v, w] = [ap.cross(ac).dot(n), ab.cross(ap).dot(n)];
+    let (v, w) = (ap.cross(ac).dot(n), ab.cross(ap).dot(n));
     let weights = [n2 - v - w, v, w];
-    if n2 > 0.0 && weights.iter().all(|&weight| weight >= 0.0) {
-        return (ap.dot(n).powi(2) / n2, weights.map(|weight| weight / n2));
+    if n2 > 0.0 && weights[0] >= 0.0 && v >= 0.0 && w >= 0.0 {
+        return (ap.dot(n).powi(2) / n2, [weights[0] / n2, v / n2, w / n2]);
     }
     // The nearest side is one that the point is beyond.
     let mut best = (f64::INFINITY, [1.0, 0.0, 0.0]);
-    for (i, [from, to]) in [[b, c], [c, a], [a, b]].into_iter().enumerate() {
-        if n2 > 0.0 && weights[i] >= 0.0 {
-            continue;
+    let mut look = |weight: f64, from: DVec3, to: DVec3, weights: fn(f64) -> [f64; 3]| {
+        if n2 > 0.0 && weight >= 0.0 {
+            return;
         }
         let side = to - from;
         let length2 = side.length_squared();
         let t = if length2 > 0.0 { ((p - from).dot(side) / length2).clamp(0.0, 1.0) } else { 0.0 };
         let distance2 = p.distance_squared(from + side * t);
         if distance2 < best.0 {
-            best = (distance2, [[0.0, 1.0 - t, t], [t, 0.0, 1.0 - t], [1.0 - t, t, 0.0]][i]);
+            best = (distance2, weights(t));
         }
-    }
+    };
+    look(weights[0], b, c, |t| [0.0, 1.0 - t, t]);
+    look(weights[1], c, a, |t| [t, 0.0, 1.0 - t]);
+    look(weights[2], a, b, |t| [1.0 - t, t, 0.0]);
     best
 }
 

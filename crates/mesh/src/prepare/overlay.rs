@@ -1,7 +1,8 @@
 //! How far coarse triangles are from the fine ones that they stand for: the largest differences, and not samples of them.
 
-use bevy_math::{DVec2, DVec3, UVec3};
+use bevy_math::{DVec2, DVec3, Vec3A};
 
+use super::box_grid::BoxGrid;
 use super::nearest::{TriangleCorners, nearest_on};
 use crate::Mesh;
 
@@ -50,7 +51,7 @@ pub(super) struct Surfaces<'a> {
 /// What is known of where the fine surface is.
 pub(super) struct Overlay {
     pub(super) deviation: Deviation,
-    /// Each coarse triangle and a fine one that lies over or near it.
+    /// Each coarse triangle and a fine one that lies over or near it, in the order of the coarse ones.
     pub(super) pairs: Vec<(u32, u32)>,
     /// For each covered vertex, a coarse triangle that lies nearest to it, or nearly.
     pub(super) homes: Vec<u32>,
@@ -82,46 +83,43 @@ impl Surfaces<'_> {
     ///
     /// `slots` has `u32::MAX` for every vertex of the mesh, before and after.
     pub(super) fn overlay(&self, slots: &mut [u32]) -> Overlay {
-        let frames: Vec<Option<Frame>> = self.coarse.iter().map(|&triangle| Frame::new(self.mesh, triangle)).collect();
-        let mut looks = vec![Look::default(); self.coarse.len()];
         let mut homes = Homes::new(self, slots);
-        let mut pairs = Vec::new();
-        let grid = Grid::new(&frames, self.mesh, self.coarse);
-        let mut near = Vec::new();
-        for (fine, &triangle) in (0..).zip(self.fine) {
-            let corners = self.mesh.corners(triangle);
-            let normals = self.mesh.corner_normals(triangle);
-            grid.near(&corners, &mut near);
-            for &coarse in &near {
-                let look = &mut looks[coarse as usize];
-                let Some(frame) = &frames[coarse as usize] else { continue };
-                if frame.look(&corners, &normals, look, |corner, distance| {
-                    homes.see(triangle[corner], coarse, distance);
-                }) {
-                    pairs.push((coarse, fine));
+        let fine: Vec<FineTriangle> =
+            self.fine.iter().map(|&triangle| homes.fine_triangle(self.mesh, triangle)).collect();
+        let boxes: Vec<(Vec3A, Vec3A)> = self.fine.iter().map(|&triangle| box_around(self.mesh, triangle)).collect();
+        let grid = BoxGrid::new(&boxes);
+        let mut pairs = Vec::with_capacity(6 * self.fine.len());
+        let (mut look, mut unseen) = (Look::default(), Deviation::default());
+        let mut longest_unseen = 0.0_f64;
+        for (number, &triangle) in (0..).zip(self.coarse) {
+            let before = pairs.len();
+            let frame = Frame::new(self.mesh, triangle);
+            let [low, high] = reached(self.mesh.corners(triangle), frame.as_ref());
+            let own = first_least(triangle);
+            let mut is_same = false;
+            look.begin();
+            grid.meeting(low, high, |at| {
+                let other = &fine[at as usize];
+                is_same |= other.first_least == own;
+                let Some(frame) = &frame else { return };
+                let normals = || self.mesh.corner_normals(self.fine[at as usize]);
+                if frame
+                    .look((at, other), normals, &mut look, |slot, distance| homes.see(slot, [1 + at, number], distance))
+                {
+                    pairs.push((number, at));
                 }
-            }
-        }
-        let mut deviation = Deviation::default();
-        let mut is_unseen = vec![false; self.coarse.len()];
-        let mut same = self.fine.iter().map(|&triangle| first_least(triangle)).collect::<Vec<_>>();
-        same.sort_unstable();
-        for (number, look) in looks.iter().enumerate() {
-            let triangle = self.coarse[number];
-            if same.binary_search(&first_least(triangle)).is_ok() {
+            });
+            if is_same || look.counts() {
                 continue;
             }
-            deviation = deviation.max(look.deviation().unwrap_or_else(|| {
-                is_unseen[number] = true;
-                self.by_corners(triangle)
-            }));
+            unseen = unseen.max(self.by_corners(triangle));
+            let over = pairs[before..].iter().map(|&(_, at)| longest_edge(fine[at as usize].corners));
+            longest_unseen = over.fold(longest_unseen, f64::max);
         }
-        // What lies over a triangle that is not covered is no further from a vertex than this.
-        let over = pairs.iter().filter(|(coarse, _)| is_unseen[*coarse as usize]);
-        let edges = over.map(|&(_, fine)| longest_edge(self.mesh.corners(self.fine[fine as usize])));
-        let from_vertex = edges.fold(0.0, f64::max) / 3f64.sqrt();
+        let mut deviation = look.deviation().max(unseen);
         let (farthest, homes) = homes.farthest(self);
-        deviation.distance = deviation.distance.max(farthest + from_vertex);
+        // What lies over a triangle that is not covered is no further from a vertex than its longest edge over √3.
+        deviation.distance = deviation.distance.max(farthest + longest_unseen / 3f64.sqrt());
         Overlay { deviation, pairs, homes }
     }
 
@@ -165,22 +163,57 @@ struct Frame {
     reach: f64,
 }
 
-/// What has been seen of the fine surface over a coarse triangle.
-#[derive(Clone, Copy, Default)]
+/// A triangle of the fine surface.
+struct FineTriangle {
+    corners: TriangleCorners,
+    /// The places of its corners in the list of covered vertices.
+    slots: [u32; 3],
+    first_least: [u32; 3],
+}
+
+/// What has been seen of the fine surface over coarse triangles.
+#[derive(Default)]
 struct Look {
-    /// The area of the parts, as a part of the triangle's.
-    area: f64,
+    /// Of the parts over this triangle the number of the fine triangle, and the area as a part of the coarse one's.
+    areas: Vec<(u32, f64)>,
+    over_this: Differences,
+    /// Over the triangles before that count.
+    most: Differences,
+    /// Corners of a part, before and after it is clipped.
+    parts: [Vec<PartCorner>; 2],
+}
+
+/// How far surfaces are apart at most.
+#[derive(Clone, Copy, Default)]
+struct Differences {
     distance: f64,
     /// The square of the sine of an angle that no normal is turned by more than, if less than 1.
     sine2: f64,
 }
 
 impl Look {
-    /// `None` where the parts do not fill the triangle once.
-    fn deviation(&self) -> Option<Deviation> {
-        let angle = if self.sine2 < 1.0 { self.sine2.sqrt().asin() } else { std::f64::consts::PI };
-        let fills = (self.area - 1.0).abs() <= COVERED;
-        fills.then_some(Deviation { distance: self.distance, angle })
+    /// Begins with a coarse triangle.
+    fn begin(&mut self) {
+        self.areas.clear();
+        self.over_this = self.most;
+    }
+
+    /// Whether the parts fill the triangle once, so that what was seen over it counts.
+    fn counts(&mut self) -> bool {
+        // In one order, so that sums are equal to the bit.
+        self.areas.sort_unstable_by_key(|&(fine, _)| fine);
+        let area: f64 = self.areas.iter().map(|(_, area)| area).sum();
+        let fills = (area - 1.0).abs() <= COVERED;
+        if fills {
+            self.most = self.over_this;
+        }
+        fills
+    }
+
+    fn deviation(&self) -> Deviation {
+        let Differences { distance, sine2 } = self.most;
+        let angle = if sine2 < 1.0 { sine2.sqrt().asin() } else { std::f64::consts::PI };
+        Deviation { distance, angle }
     }
 }
 
@@ -192,9 +225,6 @@ struct PartCorner {
     /// The number of the fine triangle's corner that it is; 3 if none.
     number: usize,
 }
-
-/// A triangle clipped by three lines has no more corners, and one more on the way.
-const MOST_CORNERS: usize = 7;
 
 impl Frame {
     /// `None` where the triangle has no area to speak of.
@@ -213,98 +243,131 @@ impl Frame {
         Some(Self { origin: a, axes, normals, mean_normal, reach: REACH * longest })
     }
 
-    /// Looks at a fine triangle, and returns whether it lies near this one. `see` gets each of its corners that
-    /// do, and how far off they are.
+    /// Looks at a fine triangle, and returns whether it lies near this one. `see` gets the slot of each of its corners
+    /// that do, and how far off they are.
     fn look(
         &self,
-        fine: &TriangleCorners,
-        normals: &[DVec3; 3],
+        (number, fine): (u32, &FineTriangle),
+        normals: impl Fn() -> [DVec3; 3],
         look: &mut Look,
-        mut see: impl FnMut(usize, f64),
+        mut see: impl FnMut(u32, f64),
     ) -> bool {
         let [x, y, z] = self.axes;
-        let offsets = fine.map(|p| p - self.origin);
-        let at = offsets.map(|offset| DVec2::new(offset.dot(x), offset.dot(y)));
-        let is_beside = |by: f64| SIDES.into_iter().any(|of| at.iter().all(|&at| of(at) <= -by));
-        if is_beside(NEAR) {
+        let [a, b, c] = fine.corners;
+        let offsets = [a - self.origin, b - self.origin, c - self.origin];
+        let along = |axis: DVec3| [offsets[0].dot(axis), offsets[1].dot(axis), offsets[2].dot(axis)];
+        let greatest = |[a, b, c]: [f64; 3]| a.max(b).max(c);
+        let xs = along(x);
+        if greatest(xs) <= -NEAR {
             return false;
         }
-        let heights = offsets.map(|offset| offset.dot(z));
+        let ys = along(y);
+        let at = [DVec2::new(xs[0], ys[0]), DVec2::new(xs[1], ys[1]), DVec2::new(xs[2], ys[2])];
+        let inside = greatest(xs).min(greatest(ys)).min(greatest([third(at[0]), third(at[1]), third(at[2])]));
+        if inside <= -NEAR {
+            return false;
+        }
+        let heights = along(z);
         if heights.iter().all(|&h| h > self.reach) || heights.iter().all(|&h| h < -self.reach) {
             return false;
         }
         // The last: facing the other way, or edge on.
-        if is_beside(0.0) || (at[1] - at[0]).perp_dot(at[2] - at[0]) <= 0.0 {
+        if inside <= 0.0 || (at[1] - at[0]).perp_dot(at[2] - at[0]) <= 0.0 {
             return true;
         }
-        let mut part = [PartCorner::default(); MOST_CORNERS];
-        for (number, weights) in [DVec2::ZERO, DVec2::X, DVec2::Y].into_iter().enumerate() {
-            part[number] = PartCorner { coarse: at[number], fine: weights, number };
-        }
-        let mut count = 3;
-        for side in SIDES {
-            if part[..count].iter().any(|corner| side(corner.coarse) < 0.0) {
-                count = clip(&mut part, count, side);
-            }
-        }
-        if count < 3 {
+        let Look { areas, over_this, parts, .. } = look;
+        let part = clipped(at, parts);
+        if part.len() < 3 {
             return true;
         }
-        let part = &part[..count];
         let mut area = 0.0;
-        let (mut most, mut least) = (0.0_f64, f64::INFINITY);
-        let mut before = part[count - 1].coarse;
-        for &PartCorner { coarse, fine, number } in part {
+        let mut before = part[part.len() - 1].coarse;
+        let [h, to_h1, to_h2] = [heights[0], heights[1] - heights[0], heights[2] - heights[0]];
+        for &PartCorner { coarse, fine: at, number } in part {
             area += before.perp_dot(coarse);
             before = coarse;
-            let height = heights[0] + fine.x * (heights[1] - heights[0]) + fine.y * (heights[2] - heights[0]);
-            look.distance = look.distance.max(height.abs());
-            let n = normals[0] + fine.x * (normals[1] - normals[0]) + fine.y * (normals[2] - normals[0]);
-            let [a, b, c] = self.normals;
-            let m = a + coarse.x * (b - a) + coarse.y * (c - a);
-            most = most.max(n.distance_squared(m));
-            least = least.min(n.dot(self.mean_normal));
-            if number < 3 {
-                see(number, height.abs());
+            let height = (h + at.x * to_h1 + at.y * to_h2).abs();
+            over_this.distance = over_this.distance.max(height);
+            if let Some(&slot) = fine.slots.get(number) {
+                see(slot, height);
             }
         }
-        look.area += area;
-        // |n| sin ∠(n, m) ≤ |n − m|, and both n − m and n are linear over the part.
-        look.sine2 = look.sine2.max(if least > 0.0 { most / (least * least) } else { f64::INFINITY });
+        areas.push((number, area));
+        over_this.sine2 = over_this.sine2.max(self.sine2(normals(), part));
         true
+    }
+
+    /// The square of the sine of an angle that no normal is turned by more than over a part.
+    fn sine2(&self, [n0, n1, n2]: [DVec3; 3], part: &[PartCorner]) -> f64 {
+        let (mut most, mut least) = (0.0_f64, f64::INFINITY);
+        let [a, b, c] = self.normals;
+        let (to_n1, to_n2, to_b, to_c) = (n1 - n0, n2 - n0, b - a, c - a);
+        for &PartCorner { coarse, fine, .. } in part {
+            let n = n0 + fine.x * to_n1 + fine.y * to_n2;
+            let m = a + coarse.x * to_b + coarse.y * to_c;
+            most = most.max(n.distance_squared(m));
+            least = least.min(n.dot(self.mean_normal));
+        }
+        // |n| sin ∠(n, m) ≤ |n − m|, and both n − m and n are linear over the part.
+        if least > 0.0 { most / (least * least) } else { f64::INFINITY }
     }
 }
 
-/// How far inside of each side of a coarse triangle a point is.
-const SIDES: [fn(DVec2) -> f64; 3] = [|at| at.x, |at| at.y, |at| 1.0 - at.x - at.y];
+/// How far inside of the third side of a coarse triangle a point is. Of the others its coordinates say it.
+fn third(at: DVec2) -> f64 {
+    1.0 - at.x - at.y
+}
 
-/// Keeps what is inside of one side, and returns how many corners that has.
-fn clip(part: &mut [PartCorner; MOST_CORNERS], count: usize, side: fn(DVec2) -> f64) -> usize {
-    let whole = *part;
-    let mut kept = 0;
-    let mut before = whole[count - 1];
-    for &corner in &whole[..count] {
-        let [depth_before, depth] = [before, corner].map(|corner| side(corner.coarse));
+/// The part of a fine triangle over a coarse one, from where its corners are over that.
+fn clipped(at: [DVec2; 3], parts: &mut [Vec<PartCorner>; 2]) -> &[PartCorner] {
+    parts[0].clear();
+    parts[0].extend([
+        PartCorner { coarse: at[0], fine: DVec2::ZERO, number: 0 },
+        PartCorner { coarse: at[1], fine: DVec2::X, number: 1 },
+        PartCorner { coarse: at[2], fine: DVec2::Y, number: 2 },
+    ]);
+    clip(parts, |at| at.x);
+    clip(parts, |at| at.y);
+    clip(parts, third);
+    &parts[0]
+}
+
+/// Keeps what is inside of one side of the first part; the second is for what was there before.
+fn clip([part, whole]: &mut [Vec<PartCorner>; 2], side: impl Fn(DVec2) -> f64) {
+    if part.iter().all(|corner| side(corner.coarse) >= 0.0) {
+        return;
+    }
+    std::mem::swap(part, whole);
+    part.clear();
+    let Some(&(mut before)) = whole.last() else { return };
+    let mut depth_before = side(before.coarse);
+    for &corner in &*whole {
+        let depth = side(corner.coarse);
         if (depth < 0.0) != (depth_before < 0.0) {
             let t = depth_before / (depth_before - depth);
             let [coarse, fine] = [before.coarse.lerp(corner.coarse, t), before.fine.lerp(corner.fine, t)];
-            part[kept] = PartCorner { coarse, fine, number: 3 };
-            kept += 1;
+            part.push(PartCorner { coarse, fine, number: 3 });
         }
         if depth >= 0.0 {
-            part[kept] = corner;
-            kept += 1;
+            part.push(corner);
         }
-        before = corner;
+        (before, depth_before) = (corner, depth);
     }
-    kept
 }
 
 /// Which coarse triangle each covered vertex is nearest to, by its place in the list of covered vertices.
 struct Homes<'a> {
     /// Of every vertex of the mesh that place; `u32::MAX` if it has none.
     slots: &'a mut [u32],
-    nearest: Vec<(f64, u32)>,
+    nearest: Vec<Nearest>,
+}
+
+/// The least distance of a vertex that has been seen.
+#[derive(Clone, Copy)]
+struct Nearest {
+    distance: f64,
+    /// The first fine triangle that has it, from 1 (0 where no fine one was asked), and the first coarse one.
+    seen: [u32; 2],
 }
 
 impl<'a> Homes<'a> {
@@ -312,130 +375,83 @@ impl<'a> Homes<'a> {
         for (slot, &vertex) in (0..).zip(surfaces.covered) {
             slots[vertex as usize] = slot;
         }
-        let mut homes = Self { nearest: vec![(f64::INFINITY, u32::MAX); surfaces.covered.len()], slots };
+        let unseen = Nearest { distance: f64::INFINITY, seen: [0, u32::MAX] };
+        let mut homes = Self { nearest: vec![unseen; surfaces.covered.len()], slots };
         for (number, triangle) in (0..).zip(surfaces.coarse) {
             for &vertex in triangle {
-                homes.see(vertex, number, 0.0);
+                homes.see(homes.slots[vertex as usize], [0, number], 0.0);
             }
         }
         homes
     }
 
-    fn see(&mut self, vertex: u32, triangle: u32, distance: f64) {
-        if let Some(nearest) = self.nearest.get_mut(self.slots[vertex as usize] as usize)
-            && distance < nearest.0
+    fn fine_triangle(&self, mesh: &Mesh, triangle: [u32; 3]) -> FineTriangle {
+        FineTriangle {
+            corners: mesh.corners(triangle),
+            slots: triangle.map(|vertex| self.slots[vertex as usize]),
+            first_least: first_least(triangle),
+        }
+    }
+
+    /// Takes note of a distance between a vertex and a fine and a coarse triangle.
+    fn see(&mut self, slot: u32, seen: [u32; 2], distance: f64) {
+        if let Some(nearest) = self.nearest.get_mut(slot as usize)
+            && (distance, seen) < (nearest.distance, nearest.seen)
         {
-            *nearest = (distance, triangle);
+            *nearest = Nearest { distance, seen };
         }
     }
 
     /// Compares the vertices that lie over no triangle with all, and returns how far the farthest of all is, and the
-    /// triangles.
+    /// coarse triangles.
     fn farthest(mut self, surfaces: &Surfaces) -> (f64, Vec<u32>) {
+        // Made when the first is asked for: most surfaces have few such vertices, or none.
+        let mut spheres: Vec<(DVec3, f64)> = Vec::new();
         for (&vertex, nearest) in surfaces.covered.iter().zip(&mut self.nearest) {
             self.slots[vertex as usize] = u32::MAX;
-            if nearest.1 != u32::MAX {
+            if nearest.seen[1] != u32::MAX {
                 continue;
             }
+            if spheres.is_empty() {
+                let corners = surfaces.coarse.iter().map(|&triangle| surfaces.mesh.corners(triangle));
+                spheres = corners.map(sphere_around).collect();
+            }
             let p = surfaces.mesh.positions()[vertex as usize].as_dvec3();
-            let mut least2 = f64::INFINITY;
-            for (number, &triangle) in (0..).zip(surfaces.coarse) {
-                let (distance2, _) = nearest_on(p, surfaces.mesh.corners(triangle));
+            let (mut least2, mut least) = (f64::INFINITY, f64::INFINITY);
+            for (number, &(center, radius)) in (0..).zip(&spheres) {
+                // Further off than the nearest, by more than rounding could change.
+                if p.distance_squared(center) > 1.001 * (radius + least).powi(2) {
+                    continue;
+                }
+                let (distance2, _) = nearest_on(p, surfaces.mesh.corners(surfaces.coarse[number as usize]));
                 if distance2 < least2 {
-                    least2 = distance2;
-                    *nearest = (distance2.sqrt(), number);
+                    (least2, least) = (distance2, distance2.sqrt());
+                    *nearest = Nearest { distance: least, seen: [0, number] };
                 }
             }
         }
-        let farthest = self.nearest.iter().map(|(distance, _)| *distance).fold(0.0, f64::max);
-        (farthest, self.nearest.iter().map(|(_, triangle)| *triangle).collect())
+        let farthest = self.nearest.iter().map(|nearest| nearest.distance).fold(0.0, f64::max);
+        (farthest, self.nearest.iter().map(|nearest| nearest.seen[1]).collect())
     }
 }
 
-/// Coarse triangles by place.
-struct Grid {
-    low: DVec3,
-    per_unit: DVec3,
-    cells: UVec3,
-    starts: Vec<u32>,
-    triangles: Vec<u32>,
-    /// The boxes around the triangles and what lies within reach of them.
-    boxes: Vec<(DVec3, DVec3)>,
+/// The centre of a triangle, and how far it reaches from there; infinitely far where rounding may take points on it for
+/// anywhere in its plane: with height h over a sliver whose area is a part r of its edge's square, by about 1e-16 h/r².
+fn sphere_around([a, b, c]: TriangleCorners) -> (DVec3, f64) {
+    let center = (a + b + c) / 3.0;
+    let radius2 = a.distance_squared(center).max(b.distance_squared(center)).max(c.distance_squared(center));
+    let is_sliver = (b - a).cross(c - a).length() <= 1e-4 * longest_edge([a, b, c]).powi(2);
+    (center, if is_sliver { f64::INFINITY } else { radius2.sqrt() })
 }
 
-/// Cells along an edge of the grid at most.
-const MOST_CELLS: u32 = 16;
-
-impl Grid {
-    fn new(frames: &[Option<Frame>], mesh: &Mesh, coarse: &[[u32; 3]]) -> Self {
-        let around = |(frame, &triangle): (&Option<Frame>, &[u32; 3])| {
-            let [a, b, c] = mesh.corners(triangle);
-            // Along its normal only.
-            let reach = frame.as_ref().map_or(DVec3::ZERO, |frame| frame.reach * frame.axes[2].abs());
-            (a.min(b).min(c) - reach, a.max(b).max(c) + reach)
-        };
-        let boxes: Vec<(DVec3, DVec3)> = frames.iter().zip(coarse).map(around).collect();
-        let join = |(low, high): (DVec3, DVec3), of: &(DVec3, DVec3)| (low.min(of.0), high.max(of.1));
-        let (low, high) = boxes.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), join);
-        let mean = boxes.iter().map(|(low, high)| (high - low).max_element()).sum::<f64>() / boxes.len().max(1) as f64;
-        let size = high - low;
-        let cells = if mean > 0.0 { (size / mean).ceil() } else { DVec3::ONE };
-        let cells = cells.clamp(DVec3::ONE, DVec3::splat(f64::from(MOST_CELLS))).as_uvec3();
-        let per_unit = DVec3::select(size.cmpgt(DVec3::ZERO), cells.as_dvec3() / size, DVec3::ZERO);
-        let mut grid = Self { low, per_unit, cells, starts: Vec::new(), triangles: Vec::new(), boxes };
-        let mut counts = vec![0; (cells.x * cells.y * cells.z) as usize + 1];
-        for &(low, high) in &grid.boxes {
-            grid.each_cell(low, high, |cell| counts[cell + 1] += 1);
-        }
-        for cell in 1..counts.len() {
-            counts[cell] += counts[cell - 1];
-        }
-        grid.triangles = vec![0; counts.last().map_or(0, |&count| count as usize)];
-        let mut next = counts.clone();
-        for (number, &(low, high)) in (0..).zip(&grid.boxes) {
-            let (next, triangles) = (&mut next, &mut grid.triangles);
-            each_cell(&(grid.low, grid.per_unit, grid.cells), low, high, |cell| {
-                triangles[next[cell] as usize] = number;
-                next[cell] += 1;
-            });
-        }
-        grid.starts = counts;
-        grid
-    }
-
-    fn each_cell(&self, low: DVec3, high: DVec3, each: impl FnMut(usize)) {
-        each_cell(&(self.low, self.per_unit, self.cells), low, high, each);
-    }
-
-    /// The coarse triangles whose boxes meet that of a fine one, each once.
-    fn near(&self, corners: &TriangleCorners, near: &mut Vec<u32>) {
-        let [a, b, c] = *corners;
-        let (low, high) = (a.min(b).min(c), a.max(b).max(c));
-        near.clear();
-        let mut cells = 0;
-        self.each_cell(low, high, |cell| {
-            cells += 1;
-            let all = &self.triangles[self.starts[cell] as usize..self.starts[cell + 1] as usize];
-            near.extend(all.iter().copied().filter(|&triangle| {
-                let (least, most) = &self.boxes[triangle as usize];
-                least.cmple(high).all() && most.cmpge(low).all()
-            }));
-        });
-        if cells > 1 {
-            near.sort_unstable();
-            near.dedup();
-        }
-    }
+/// The box around a triangle.
+fn box_around(mesh: &Mesh, triangle: [u32; 3]) -> (Vec3A, Vec3A) {
+    let [a, b, c] = triangle.map(|vertex| Vec3A::from(mesh.positions()[vertex as usize]));
+    (a.min(b).min(c), a.max(b).max(c))
 }
 
-fn each_cell((start, per_unit, cells): &(DVec3, DVec3, UVec3), low: DVec3, high: DVec3, mut each: impl FnMut(usize)) {
-    // Casts take what lies beside the grid into it.
-    let [from, to] = [low, high].map(|p| ((p - start) * per_unit).as_uvec3().min(cells - UVec3::ONE));
-    for z in from.z..=to.z {
-        for y in from.y..=to.y {
-            for x in from.x..=to.x {
-                each(((z * cells.y + y) * cells.x + x) as usize);
-            }
-        }
-    }
+/// The box around a coarse triangle and what lies within its reach, along its normal only.
+fn reached([a, b, c]: TriangleCorners, frame: Option<&Frame>) -> [DVec3; 2] {
+    let reach = frame.map_or(DVec3::ZERO, |frame| frame.reach * frame.axes[2].abs());
+    [a.min(b).min(c) - reach, a.max(b).max(c) + reach]
 }

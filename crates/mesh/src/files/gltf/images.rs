@@ -51,13 +51,19 @@ pub(super) struct Images<'a> {
     around: ModelFolder<'a>,
     read: HashMap<usize, Arc<[u8]>>,
     pub(super) warnings: Vec<String>,
-    /// The textures that have been asked for.
+    /// The textures that have been asked for, or warned of.
     pub(super) used: Vec<usize>,
 }
 
 impl<'a> Images<'a> {
     pub(super) fn new(buffers: &'a [Cow<'a, [u8]>], around: ModelFolder<'a>) -> Self {
         Self { buffers, around, read: HashMap::new(), warnings: Vec::new(), used: Vec::new() }
+    }
+
+    /// Warns of a texture of a material that is not read, and of what becomes of that.
+    pub(super) fn skip(&mut self, (material, field): (usize, &str), texture: &gltf::Texture, then: &str) {
+        self.used.push(texture.index());
+        self.warnings.push(format!("materials[{material}]: the {field} texture is skipped; {then}"));
     }
 
     /// A texture of a material, and what it is to that.

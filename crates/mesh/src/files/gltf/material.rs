@@ -38,6 +38,9 @@ pub(super) fn materials(document: &Document, images: &mut Images) -> Result<Vec<
 fn maps(index: usize, material: &gltf::Material, images: &mut Images) -> SourceMaps {
     let plain = |info: &Info| Lookup { set: info.tex_coord(), transform: TexturePlace::of_info(info), amount: 1.0 };
     let (base, emission) = (material.pbr_metallic_roughness().base_color_texture(), material.emissive_texture());
+    if let Some(info) = material.pbr_metallic_roughness().metallic_roughness_texture() {
+        images.skip((index, "metallic-roughness"), &info.texture(), "the factors alone count");
+    }
     let mut found = SourceMaps::default();
     let mut add = |kind, field, texture: gltf::Texture, lookup: Lookup| {
         if let Some(map) = images.map((index, field), &texture, &lookup) {
