@@ -35,7 +35,9 @@ mod object;
 mod placement;
 mod read;
 mod schema;
+mod solid;
 mod spawn;
+mod transform;
 mod view;
 
 pub use defaults::{default_lights, framing_camera};
@@ -47,9 +49,11 @@ pub use light::{AttachEntry, ConeEntry, LightEntry, LightKind};
 pub use light_component::LightComponent;
 pub use material::MaterialEntry;
 pub use mesh::{BoxEntry, InlineMesh, MeshEntry, PlaneEntry, TeapotEntry, UvSphereEntry};
-pub use object::{ObjectEntry, TransformEntry, TransformMatrix, TransformParts};
+pub use object::ObjectEntry;
 pub use schema::json_schema;
+pub use solid::SolidEntry;
 pub use spawn::{Spawned, spawn};
+pub use transform::{TransformEntry, TransformMatrix, TransformParts};
 pub use view::{AutoShading, CameraEntry, ShadingEntry, ToleranceEntry};
 
 #[cfg(test)]

@@ -71,7 +71,7 @@ impl JsonObject for MapsEntry {
 #[derive(Serialize, Deserialize, JsonSchema, Clone, Debug, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct MapEntry {
-    /// A PNG or JPEG file, relative to the scene file. Required.
+    /// A PNG, JPEG, HDR or EXR file, relative to the scene file. Required.
     pub path: PathBuf,
     /// What is beyond the image along u.
     #[serde(default, deserialize_with = "word", serialize_with = "write_word")]

@@ -186,6 +186,10 @@ fn spawn_object(
             spawn_frame(&Placement::of(&part.object_from_part), Some(frame), &name, world)
         };
         dress(object, part, mesh, &mut world.entity_mut(entity));
+        if let Some(solid) = &object.solid {
+            // All parts are cut from one.
+            world.entity_mut(entity).insert(solid.of_part(&part.object_from_part));
+        }
         if object.material.is_none() && object.maps.is_none() {
             hang_own_maps(part, textures, entity, world);
         }

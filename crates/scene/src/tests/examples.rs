@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use halfway_texture::TexturePlugin;
+
 use super::spawned::app;
 use crate::{SceneFile, json_schema, spawn};
 
@@ -32,6 +34,7 @@ fn every_example_can_be_spawned() {
     for file in examples() {
         let scene = SceneFile::read(&file).unwrap();
         let mut app = app();
+        app.add_plugins(TexturePlugin);
         let spawned = spawn(&scene, file.parent().unwrap(), app.world_mut()).unwrap();
         assert_eq!(spawned.objects.len(), scene.objects.len(), "{}", file.display());
         assert!(!spawned.lights.is_empty(), "{}", file.display());
