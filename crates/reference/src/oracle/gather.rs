@@ -12,7 +12,7 @@ use halfway_lighting::{
     light_direction, light_position, propagation,
 };
 use halfway_mesh::{Mesh, Mesh3d, SpawnOrder};
-use halfway_texture::{Maps, Pyramid, SurfaceMap, Texture};
+use halfway_texture::{Maps, Pyramid, SolidTexture, SurfaceMap, Texture};
 
 use super::error::{ALWAYS, OracleError, label};
 use super::maps::ReadMap;
@@ -142,7 +142,7 @@ type Object<'a> = (
     Option<&'a Faces>,
     Option<&'a Blend>,
     Option<&'a VertexColors>,
-    (Option<&'a Maps>, Option<&'a Mask>),
+    (Option<&'a Maps>, Option<&'a Mask>, Option<&'a SolidTexture>),
 );
 
 fn solids(world: &mut World, seen: &Seen) -> Result<Vec<Solid>, OracleError> {
@@ -163,7 +163,22 @@ fn solids(world: &mut World, seen: &Seen) -> Result<Vec<Solid>, OracleError> {
 }
 
 fn solid(
-    (entity, mesh, transform, _, name, material, back, shading, terms, reflectance, faces, blend, colors, (maps, mask)): Object,
+    (
+        entity,
+        mesh,
+        transform,
+        _,
+        name,
+        material,
+        back,
+        shading,
+        terms,
+        reflectance,
+        faces,
+        blend,
+        colors,
+        (maps, mask, cut_from),
+    ): Object,
     (meshes, textures): (Option<&Assets<Mesh>>, Option<&Assets<Texture>>),
     seen: &Seen,
 ) -> Result<Solid, OracleError> {
@@ -181,6 +196,7 @@ fn solid(
         .and_then(|()| terms.validate())
         .and_then(|()| maps.map_or(Ok(()), check_maps))
         .and_then(|()| mask.map_or(Ok(()), Mask::validate))
+        .and_then(|()| cut_from.map_or(Ok(()), check_solid))
         .map_err(|source| OracleError::Invalid { entity: label(entity, name), source })?;
     let looks = Looks {
         front,
@@ -198,6 +214,7 @@ fn solid(
             maps.shown([0, 1].map(|set| mesh.uv_set(set).is_some())).map(|map| map.map(looks))
         }),
         mask: mask.map(|mask| mask.0.into()),
+        cut_from: cut_from.copied(),
         colored: colors.copied().unwrap_or_default() == VertexColors::Multiply,
     };
     Ok(Solid::new(entity, mesh.clone(), seen.view.eye_from_model(&world_from_model), &looks))
@@ -208,6 +225,12 @@ fn check_maps(maps: &Maps) -> Result<(), InvalidValue> {
         let field = format!("{}.{}", wrong.kind.name(), wrong.field);
         Fields::of("Maps").number(&field, wrong.value, false, wrong.expected)
     })
+}
+
+fn check_solid(solid: &SolidTexture) -> Result<(), InvalidValue> {
+    solid
+        .wrong()
+        .map_or(Ok(()), |wrong| Fields::of("SolidTexture").number(wrong.field, wrong.value, false, wrong.expected))
 }
 
 fn bad_transform(entity: Entity, name: Option<&Name>, transform: &GlobalTransform) -> OracleError {

@@ -1,4 +1,4 @@
-//! What the images on an object have where it is seen.
+//! What the images on an object, and the solid that it is cut from, have where it is seen.
 
 use bevy_math::{DVec3, DVec4};
 use halfway_lighting::equations::{bumped_normal, mapped_normal};
@@ -68,12 +68,37 @@ impl OracleScene {
         Some((map, self.place(solid, map, triangle, weights, hit.depth)))
     }
 
+    /// What the solid that an object is cut from multiplies ambient and diffuse light by: 1 where there is none.
+    pub(super) fn cut_color(&self, hit: &Hit) -> Color {
+        let solid = &self.solids[hit.solid];
+        let (Some(cut_from), Some((triangle, weights))) = (&solid.cut_from, hit.on_triangle()) else { return [1.0; 3] };
+        let positions = solid.mesh.positions();
+        let places = solid.vertices(triangle).map(|number| positions[number].as_dvec3().to_array());
+        let (place, ways) = self.over_triangle(solid, places, triangle, weights, hit.depth);
+        cut_from.color_at(place, ways)
+    }
+
+    fn place(&self, solid: &Solid, map: &SolidMap, triangle: u32, weights: [f64; 3], depth: f64) -> PointOnMap {
+        let uvs = solid.vertices(triangle).map(|number| map.uvs[number]);
+        let (uv, footprint) = self.over_triangle(solid, uvs, triangle, weights, depth);
+        PointOnMap { uv, footprint }
+    }
+
+    /// Numbers at a point of a triangle, from those of its corners, and by how much they change from a pixel to the next,
+    /// along x and along y.
+    ///
     /// The footprint is a pixel's. On a triangle u = Σ uᵢVᵢ/Σ Vᵢ, Vᵢ the volume of the ray with the edge opposite to a corner,
     /// which is linear over the picture: the derivative follows by the rule of quotients.
-    fn place(&self, solid: &Solid, map: &SolidMap, triangle: u32, weights: [f64; 3], depth: f64) -> PointOnMap {
+    fn over_triangle<const N: usize>(
+        &self,
+        solid: &Solid,
+        of_corners: [[f64; N]; 3],
+        triangle: u32,
+        weights: [f64; 3],
+        depth: f64,
+    ) -> ([f64; N], [[f64; N]; 2]) {
         let [a, b, c] = solid.triangle(triangle);
-        let uvs = solid.vertices(triangle).map(|number| map.uvs[number]);
-        let uv = [0, 1].map(|k| (0..3).map(|i| weights[i] * uvs[i][k]).sum::<f64>());
+        let here: [f64; N] = std::array::from_fn(|k| (0..3).map(|i| weights[i] * of_corners[i][k]).sum::<f64>());
         let [u, v, w] = weights;
         let ray = (a * u + b * v + c * w) / depth;
         let normals = [b.cross(c), c.cross(a), a.cross(b)];
@@ -81,8 +106,8 @@ impl OracleScene {
         let first = self.view.ray(0.0, 0.0);
         let footprint = [self.view.ray(1.0, 0.0), self.view.ray(0.0, 1.0)].map(|next| {
             let grown = normals.map(|n| n.dot(next - first));
-            [0, 1].map(|k| (0..3).map(|i| (uvs[i][k] - uv[k]) * grown[i]).sum::<f64>() / sum)
+            std::array::from_fn(|k| (0..3).map(|i| (of_corners[i][k] - here[k]) * grown[i]).sum::<f64>() / sum)
         });
-        PointOnMap { uv, footprint }
+        (here, footprint)
     }
 }

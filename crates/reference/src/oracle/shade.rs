@@ -14,7 +14,7 @@ use super::solid::{Color, Parts, Solid};
 
 impl OracleScene {
     /// I of the side that is seen: emission and ambient, and the terms of the lights where they are evaluated. Images
-    /// multiply each of them at the point itself.
+    /// multiply each of them at the point itself, and so does a solid.
     pub(super) fn value(&self, hit: &Hit) -> Color {
         let solid = &self.solids[hit.solid];
         let side = solid.side(hit.front);
@@ -32,7 +32,7 @@ impl OracleScene {
             [r, g, b]
         };
         let occlusion = self.factor_of_one(hit, MapKind::Occlusion);
-        let tinted = mul(color(MapKind::Color), add(scale(ambient, occlusion), diffuse));
+        let tinted = mul(color(MapKind::Color), mul(self.cut_color(hit), add(scale(ambient, occlusion), diffuse)));
         let plain = add(mul(color(MapKind::Specular), specular), mul(color(MapKind::Emission), material.ke));
         add(tinted, plain)
     }

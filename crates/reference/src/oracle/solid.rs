@@ -8,7 +8,7 @@ use halfway_lighting::equations::vector::{length, normalize};
 use halfway_lighting::equations::{Coefficients, normal_matrix, transform_normal};
 use halfway_lighting::{Faces, Frequency, Material, Reflectance, Terms};
 use halfway_mesh::Mesh;
-use halfway_texture::MapKind;
+use halfway_texture::{MapKind, SolidTexture};
 use rayon::prelude::*;
 
 use super::maps::{MapSlots, ReadMap, SolidMaps, prepared};
@@ -32,6 +32,8 @@ pub(super) struct Looks {
     pub(super) maps: MapSlots<ReadMap>,
     /// The opacity below which it is not there.
     pub(super) mask: Option<f64>,
+    /// What it is cut from.
+    pub(super) cut_from: Option<SolidTexture>,
 }
 
 /// Where the surface itself is met, all that is evaluated anywhere is evaluated at the point that is seen.
@@ -77,6 +79,8 @@ pub(super) struct Solid {
     pub(super) maps: Option<SolidMaps>,
     /// The opacity below which it is not there.
     pub(super) mask: Option<f64>,
+    /// What it is cut from.
+    pub(super) cut_from: Option<SolidTexture>,
     /// Front and back.
     pub(super) sides: [Side; 2],
     pub(super) faces: Faces,
@@ -136,6 +140,7 @@ impl Solid {
             colors: colors.map(|colors| colors.iter().map(|color| color.as_dvec4()).collect()),
             maps,
             mask: looks.mask,
+            cut_from: looks.cut_from,
             sides: [side(&looks.front, looks.faces.shows_front()), side(&looks.back, looks.faces.shows_back())],
             faces: looks.faces,
             reflectance: looks.reflectance,
@@ -154,12 +159,13 @@ impl Solid {
         };
     }
 
-    /// The surface behind the mesh, unless it is unknown, the mesh has colours or images, which the surface does
+    /// The surface behind the mesh, unless it is unknown, the mesh has colours, images or a solid, which the surface does
     /// not, or the transform flattens it, so that no ray leads back to it.
     fn smooth(&self) -> Option<Smooth> {
         let surface = self.mesh.surface()?;
         let is_flat = unit_determinant(&self.eye_from_model.matrix3).abs() <= FLAT;
-        (!is_flat && self.colors.is_none() && self.maps.is_none())
+        let is_painted = self.colors.is_some() || self.maps.is_some() || self.cut_from.is_some();
+        (!is_flat && !is_painted)
             .then(|| Smooth { traced: Traced::new(surface), model_from_eye: self.eye_from_model.inverse() })
     }
 

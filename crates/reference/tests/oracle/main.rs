@@ -4,6 +4,7 @@ mod bits;
 mod blending;
 mod coverage;
 mod errors;
+mod four;
 mod mutants;
 mod possible;
 mod probes;

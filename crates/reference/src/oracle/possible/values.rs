@@ -29,38 +29,68 @@ impl SideColors {
     ///
     /// They are found at the corners of the part of the triangle that lies within, and in its middle. What is interpolated
     /// between vertices is extreme at corners; a jump along a straight line has corners on both sides; and what curves in
-    /// between does so by less than the bars of a judge, the area being a small part of a pixel.
+    /// between does so by less than the bars of a judge, the area being a small part of a pixel. Where it is larger (a pixel of
+    /// four samples, or a triangle that is seen edge-on), more points between are taken.
     pub(super) fn new(scene: &OracleScene, footprint: &Footprint, front: bool, shading: &[&Zone]) -> Self {
         let outline = outline(scene, footprint, shading);
         let color = |corner: &FootprintCorner| color(scene, footprint, front, corner);
         let colors: Vec<Color> = outline.iter().map(color).collect();
         let range = ColorRange::of(colors.iter().copied());
         let solid = &scene.solids[footprint.solid];
-        let jumps =
-            (solid.terms.has(Frequency::Fragment) || solid.maps.is_some()) && jumps(&outline, &colors, &range, color);
+        let is_textured = solid.maps.is_some() || solid.cut_from.is_some();
+        let jumps = (solid.terms.has(Frequency::Fragment) || is_textured) && jumps(&outline, &colors, &range, color);
         let opacity = extremes(&outline, |corner| scene.opacity(&hit(footprint, front, corner)));
         Self { range, opacity, jumps }
     }
 }
 
-/// The corners of the part of a triangle in which it is shaded, and its middle.
+/// The corners of the part of a triangle in which it is shaded, its middle, and where colours may curve over a large part more
+/// points of it.
 fn outline(scene: &OracleScene, footprint: &Footprint, shading: &[&Zone]) -> Vec<FootprintCorner> {
-    let mut outline = match shading {
-        [_] => footprint.outline.clone(),
+    let (mut outline, mut cuts) = match shading {
+        [_] => (footprint.outline.clone(), 1),
         [first, .., last] => {
             let whole = footprint.within(scene, last);
-            if covers(scene, &whole, last) { footprint.within(scene, first) } else { whole }
+            if covers(scene, &whole, last) { (footprint.within(scene, first), 1) } else { (whole, CUTS_OF_A_PIXEL) }
         }
-        [] => Vec::new(),
+        [] => (Vec::new(), 1),
     };
     if footprint.thin {
         // Across it a renderer's slopes come from rounded corners alone: none of its colours is wrong.
-        outline = footprint.whole(scene);
+        (outline, cuts) = (footprint.whole(scene), CUTS_OF_A_TRIANGLE);
     } else if outline.is_empty() {
-        outline.clone_from(&footprint.outline);
+        (outline, cuts) = (footprint.outline.clone(), 1);
     }
-    outline.push(middle(&outline));
-    outline
+    points(&outline, if curves(scene, footprint) { cuts } else { 1 })
+}
+
+/// Whether the colours of a triangle are more than linear in its corners'.
+fn curves(scene: &OracleScene, footprint: &Footprint) -> bool {
+    let solid = &scene.solids[footprint.solid];
+    solid.terms.has(Frequency::Fragment) || solid.maps.is_some() || scene.surroundings.is_some()
+}
+
+/// Into so many parts the way from the middle to each corner is cut where the area is about a pixel, and where it is a whole
+/// triangle. What mirrors an environment curves by up to 2 % of a picture's range within a pixel: cut in half, by a quarter of
+/// that.
+const CUTS_OF_A_PIXEL: usize = 4;
+const CUTS_OF_A_TRIANGLE: usize = 8;
+
+/// The corners of an outline, its middle, and points between: each triangle of the middle and a side has `cuts` rows of them.
+fn points(outline: &[FootprintCorner], cuts: usize) -> Vec<FootprintCorner> {
+    let middle = middle(outline);
+    let mut points = outline.to_vec();
+    points.push(middle);
+    for (i, from) in outline.iter().enumerate() {
+        let to = &outline[(i + 1) % outline.len()];
+        for row in 1..=cuts {
+            for column in (0..row).filter(|column| row < cuts || *column > 0) {
+                let on_side = from.between(to, column as f64 / row as f64);
+                points.push(middle.between(&on_side, row as f64 / cuts as f64));
+            }
+        }
+    }
+    points
 }
 
 /// Whether a mask may have cut a triangle out at a point near by, and whether it may not.

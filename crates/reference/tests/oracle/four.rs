@@ -1,0 +1,87 @@
+//! The judge of pictures with four samples a pixel, of what curves within a pixel: an environment in mirrors.
+
+use bevy_asset::Assets;
+use bevy_color::LinearRgba;
+use bevy_math::Vec3;
+use halfway_lighting::{Camera, Material, Samples, Shading};
+use halfway_mesh::{Mesh, UvSphere};
+use halfway_reference::metrics::{Bars, Verdict, judge};
+use halfway_reference::{Image, Oracle};
+use halfway_texture::environment::{Environment, EnvironmentLight, EnvironmentMap, EnvironmentShape};
+
+use crate::scene::Stage;
+
+const SIZE: u32 = 64;
+/// Where the four samples of a pixel lie.
+const FOUR: [[f64; 2]; 4] = [[0.375, 0.125], [0.875, 0.375], [0.125, 0.625], [0.625, 0.875]];
+
+/// A coarse ball of a mirror in light of so much strength, with four samples a pixel.
+fn mirror(strength: f32, shading: Shading) -> Stage {
+    let mut stage = Stage::new();
+    *stage.camera() = Camera { samples: Samples::Four, ..*stage.camera() };
+    let wave = |x: f64| 0.3 + 0.2 * (4.0 * x).sin();
+    let color = |[x, y, z]: [f64; 3]| [wave(x + y), wave(y - 0.5 * z), wave(z + 0.3), 1.0].map(|number| number as f32);
+    let cube = Environment::from_fn(EnvironmentShape::Cube, 16, color).expect("a small environment");
+    let mut maps = Assets::<EnvironmentMap>::default();
+    let map = maps.add(EnvironmentMap::new(&cube).expect("a small environment"));
+    stage.world.insert_resource(maps);
+    stage.world.spawn(EnvironmentLight { strength, sky: false, ..EnvironmentLight::from(map) });
+    let ball = Mesh::from(UvSphere::new(1.2, 12, 6));
+    let positions = ball.positions().iter().map(|p| *p - 2.2 * Vec3::Z).collect();
+    let ball = Mesh::from_parts(positions, Some(ball.normals().to_vec()), None, ball.indices().to_vec());
+    let specular = LinearRgba::rgb(0.9, 0.8, 0.7);
+    let material = Material { ambient: LinearRgba::BLACK, diffuse: LinearRgba::BLACK, specular, ..Material::DEFAULT };
+    stage.add(ball.expect("a ball"), (Material { shininess: 1e5, ..material }, shading));
+    stage
+}
+
+/// A picture of a drawer that is right: each triangle is shaded once a pixel, at the centre where it covers that, else in the
+/// middle of the samples that it covers; or everything at the pixel's first sample, whatever is there.
+fn drawn(oracle: &Oracle, at_first_sample: bool) -> Image {
+    let pixel = |x: u32, y: u32| {
+        let seen = |[dx, dy]: [f64; 2]| oracle.seen(f64::from(x) + dx, f64::from(y) + dy);
+        let triangle = |at: [f64; 2]| seen(at).nearest.map(|nearest| (nearest.object, nearest.triangle));
+        let shown = FOUR.map(triangle);
+        let of_sample = |number: usize| {
+            let of = shown[number];
+            if at_first_sample {
+                return seen(FOUR[0]).color;
+            }
+            if of == triangle([0.5; 2]) {
+                return seen([0.5; 2]).color;
+            }
+            let own: Vec<_> = FOUR.iter().zip(shown).filter(|(_, shown)| *shown == of).map(|(at, _)| at).collect();
+            let middle = [0, 1].map(|axis| own.iter().map(|at| at[axis]).sum::<f64>() / own.len() as f64);
+            seen(middle).color
+        };
+        let samples = [0, 1, 2, 3].map(of_sample);
+        std::array::from_fn(|k| samples.iter().map(|color| color[k]).sum::<f64>() / 4.0)
+    };
+    Image::new(SIZE, SIZE, (0..SIZE * SIZE).map(|i| pixel(i % SIZE, i / SIZE)).collect())
+}
+
+fn judged(truth: &mut Stage, actual: &Image) -> Verdict {
+    let oracle = truth.oracle(SIZE, SIZE);
+    judge(&oracle, &oracle.draw(), actual, Bars::FLOAT).expect("pictures of one size")
+}
+
+#[test]
+fn mirrored_environments_pass_with_four_samples_where_they_are_right() {
+    for shading in [Shading::Flat, Shading::Gouraud, Shading::Phong] {
+        let picture = drawn(&mirror(0.8, shading).oracle(SIZE, SIZE), false);
+        let verdict = judged(&mut mirror(0.8, shading), &picture);
+        assert!(verdict.is_within() && verdict.edges > 0.01, "{shading:?}: {verdict}");
+    }
+}
+
+#[test]
+fn faults_of_mirrored_environments_are_found_with_four_samples() {
+    for shading in [Shading::Flat, Shading::Gouraud, Shading::Phong] {
+        let brighter = drawn(&mirror(0.84, shading).oracle(SIZE, SIZE), false);
+        let verdict = judged(&mut mirror(0.8, shading), &brighter);
+        assert!(!verdict.is_within(), "a twentieth brighter, {shading:?}: {verdict}");
+        let jagged = drawn(&mirror(0.8, shading).oracle(SIZE, SIZE), true);
+        let verdict = judged(&mut mirror(0.8, shading), &jagged);
+        assert!(!verdict.is_within(), "one sample for all, {shading:?}: {verdict}");
+    }
+}
