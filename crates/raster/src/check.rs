@@ -4,7 +4,7 @@ use crate::error::{LARGEST_SIDE, RasterError};
 use crate::pass::{
     DrawCall, InstanceData, LightData, LightRange, Output, Pass, SideData, SurfaceData, SurroundingsData,
 };
-use halfway_texture::MapKind;
+use halfway_texture::{MapKind, SolidTexture};
 
 /// Checks all of a pass but what drawing it finds out.
 pub(crate) fn check(pass: &Pass, output: &Output) -> Result<(), RasterError> {
@@ -66,6 +66,9 @@ fn check_maps(index: usize, draw: &DrawCall, pass: &Pass) -> Result<(), RasterEr
     }
     if draw.maps[MapKind::Normal as usize].is_some() && !draw.flat && !mesh.has_tangents() {
         return beyond("draw", index, "tangents", triangles, 0);
+    }
+    if let Some(of) = draw.solid.as_ref().and_then(SolidTexture::wrong) {
+        return wrong("draw", index, of.field, of.value, of.expected);
     }
     draw.mask.map_or(Ok(()), |cutoff| finite("draw", index, "mask", &[cutoff]))
 }

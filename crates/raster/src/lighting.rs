@@ -172,7 +172,14 @@ fn is_behind_all<S: Simd>(simd: S, n_dot_l: F<S>, light: &LightData, terms: Shad
     !(terms.diffuse && has_ambient(light)) && n_dot_l.simd_gt(splat(simd, 0.0)).all_false()
 }
 
-/// A point light, or a spot where `cone` is set; `None` where it is behind all points.
+/// Whether the window of a range is 0 for all points, by the squares of their distances; roundings are far below a millionth.
+#[inline(always)]
+fn is_beyond_all<S: Simd>(simd: S, squared: F<S>, inverse_range: f32) -> bool {
+    let square_over_range = squared * splat(simd, inverse_range * inverse_range);
+    square_over_range.simd_lt(splat(simd, 1.0 + 1e-5)).all_false()
+}
+
+/// A point light, or a spot where `cone` is set; `None` where it is behind all points, or reaches none.
 #[inline(always)]
 fn finite_light<S: Simd>(
     simd: S,
@@ -188,6 +195,8 @@ fn finite_light<S: Simd>(
     if ordinary.any_false() {
         let (away, unit) = extraordinary(simd, light.position, points);
         (to_light, squared, stretch) = (away, dot::<S>(away, away), Some(unit));
+    } else if is_beyond_all(simd, squared, light.inverse_range) {
+        return None;
     }
     let n_dot_to_light = dot::<S>(points.n, to_light);
     if is_behind_all(simd, n_dot_to_light, light, terms) {

@@ -1,7 +1,7 @@
 //! Triangles of draws with images, or of which a mask cuts something out. What they have is kept once a triangle and not once a
 //! pixel, so that other draws do not pay for it.
 
-use crate::attributes::{FRAME, GROUPS, OF_VERTICES, PARTS};
+use crate::attributes::{FRAME, GROUPS, GROUPS_BUT_SOLID, OF_VERTICES, PARTS, PLACE};
 use crate::lane_triangles::{LaneTriangles, spread};
 use crate::lanes::{F, Simd, V3, each, splat};
 use crate::lighting::{Irradiance, ambient_part, diffuse_part, specular_part};
@@ -39,9 +39,9 @@ impl MappedTriangle {
         mut slopes: impl FnMut([&[f32; 4]; 3]) -> Slopes,
     ) -> Self {
         let mut groups = [Slopes::default(); GROUPS];
-        for (number, group) in groups.iter_mut().enumerate().take(groups_of(state)) {
+        for number in groups_of(state) {
             let side = back && is_of_side(state, number);
-            *group = slopes(numbers.map(|vertex| vertices.mapped.of(side, number, vertex)));
+            groups[number] = slopes(numbers.map(|vertex| vertices.mapped.of(side, number, vertex)));
         }
         Self::with(&groups, planes)
     }
@@ -55,7 +55,7 @@ impl MappedTriangle {
         corners: &[CutCorner; 3],
     ) -> Self {
         let mut groups = [Slopes::default(); GROUPS];
-        for (number, group) in groups.iter_mut().enumerate().take(groups_of(state)) {
+        for number in groups_of(state) {
             let side = back && is_of_side(state, number);
             let values = corners.map(|(inverse_w, weights)| {
                 let mut sum = [0.0_f64; 4];
@@ -69,7 +69,7 @@ impl MappedTriangle {
                 }
                 sum.map(|number| (number * f64::from(inverse_w)) as f32)
             });
-            *group = gradient.slopes(values.each_ref());
+            groups[number] = gradient.slopes(values.each_ref());
         }
         Self::with(&groups, planes)
     }
@@ -80,15 +80,18 @@ impl MappedTriangle {
     }
 }
 
-/// How many groups a state's triangles take.
-fn groups_of(state: &State) -> usize {
-    match state.stage {
-        Stage::Unlit | Stage::Vertex if state.maps.is_some_and(|maps| maps.surrounded) => GROUPS,
+/// The groups that a state's triangles take.
+fn groups_of(state: &State) -> impl Iterator<Item = usize> + use<> {
+    let (surrounded, solid) =
+        state.maps.as_ref().map_or((false, false), |maps| (maps.surrounded, maps.solid.is_some()));
+    let first = match state.stage {
+        Stage::Unlit | Stage::Vertex if surrounded => GROUPS_BUT_SOLID,
         Stage::Unlit | Stage::Flat => 2,
         Stage::Vertex => PARTS + 3,
         Stage::Fragment => FRAME + 1,
-        Stage::Mixed => GROUPS,
-    }
+        Stage::Mixed => GROUPS_BUT_SOLID,
+    };
+    (0..first).chain(solid.then_some(PLACE))
 }
 
 /// The parts of flat triangles, one a lane, front and back.
@@ -153,7 +156,7 @@ pub(crate) fn parts_of<S: Simd>(simd: S, terms: &Irradiance<S>, side: &SideData,
 fn is_of_side(state: &State, group: usize) -> bool {
     match state.stage {
         Stage::Vertex => (PARTS..PARTS + 3).contains(&group),
-        Stage::Mixed => group >= OF_VERTICES,
+        Stage::Mixed => (OF_VERTICES..GROUPS_BUT_SOLID).contains(&group),
         Stage::Unlit | Stage::Flat | Stage::Fragment => false,
     }
 }

@@ -1,6 +1,6 @@
 //! Pixels of draws with images or a mask.
 
-use crate::attributes::{AMBIENT_OF_VERTICES, COLOR, FRAME, MIRROR_NORMAL, NORMAL, OF_VERTICES, PARTS, UVS};
+use crate::attributes::{AMBIENT_OF_VERTICES, COLOR, FRAME, MIRROR_NORMAL, NORMAL, OF_VERTICES, PARTS, PLACE, UVS};
 use crate::bins::TILE;
 use crate::lanes::{F, I, M, Simd, V3, each, lanes, splat, splat_i, splat3};
 use crate::lighting::{Gloss, Irradiance, Points, to_viewer};
@@ -63,7 +63,8 @@ impl MappedPixel<'_> {
     fn texel(&self, call: &MapCall) -> [f32; 4] {
         let OnImage { uv, d, .. } = self.on_image(call);
         let data = &self.pass.maps[call.map as usize];
-        lookup::at_level(&data.pyramid, &call.sampling, uv, d).map(|number| number.clamp(0.0, 1.0))
+        // Sums of the largest texels may be no numbers.
+        lookup::at_level(&data.pyramid, &call.sampling, uv, d).map(|t| if t > 0.0 { t.min(1.0) } else { 0.0 })
     }
 
     /// What an image multiplies by: 1 where there is none.
@@ -75,6 +76,17 @@ impl MappedPixel<'_> {
 
     pub(crate) fn factor_of_one(&self, kind: MapKind) -> f32 {
         self.maps.calls[kind as usize].map_or(1.0, |call| self.factor(kind)[call.channel as usize])
+    }
+
+    /// What the solid multiplies by: 1 where there is none.
+    fn solid(&self) -> [f32; 3] {
+        let Some(solid) = &self.maps.solid else { return [1.0; 3] };
+        let p = self.three(PLACE);
+        let Slopes { dx, dy, .. } = &self.triangle.groups[PLACE];
+        let [_, wx, wy] = self.triangle.inverse_w;
+        // As of images.
+        let way = |slope: &[f32; 4], of_w: f32| each!(axis in 3 => self.w * (slope[axis] - p[axis] * of_w));
+        solid.color_at(p, [way(dx, wx), way(dy, wy)])
     }
 
     /// The opacity, without the material's.
@@ -191,8 +203,9 @@ impl<S: Simd> MappedPixels<'_, S> {
             let [color, shiny, glow] =
                 [MapKind::Color, MapKind::Specular, MapKind::Emission].map(|kind| pixel.factor(kind));
             let occlusion = pixel.factor_of_one(MapKind::Occlusion);
+            let cut = pixel.solid();
             for c in 0..3 {
-                let tinted = color[c] * (occlusion * ambient[c] + diffuse[c]);
+                let tinted = cut[c] * color[c] * (occlusion * ambient[c] + diffuse[c]);
                 colors[c][lane] = tinted + shiny[c] * specular[c] + glow[c] * side.emission[c];
             }
         }
@@ -227,9 +240,10 @@ impl<S: Simd> MappedPixels<'_, S> {
         let mut sum = Irradiance::none(simd);
         let mut left = (!self.of.simd_lt(splat_i(simd, 0))).to_bitmask();
         while left != 0 {
-            let share = shares[left.trailing_zeros() as usize];
+            let first = left.trailing_zeros();
+            let share = shares[first as usize];
             let same = shares.simd_eq(splat(simd, share));
-            left &= !same.to_bitmask();
+            left &= !(same.to_bitmask() | 1 << first);
             let exponent = state.side(look.pass, back).exponent * share;
             let gloss = Gloss::new(state.highlight, exponent);
             sum = sum.or(same, &state.fragment_terms_of(simd, look.pass, &points, gloss));

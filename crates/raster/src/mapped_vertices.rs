@@ -1,6 +1,6 @@
 //! The vertices of draws with images or a mask.
 
-use crate::attributes::{AMBIENT_OF_VERTICES, COLOR, FRAME, MIRROR_NORMAL, NORMAL, OF_VERTICES, PARTS, UVS};
+use crate::attributes::{AMBIENT_OF_VERTICES, COLOR, FRAME, MIRROR_NORMAL, NORMAL, OF_VERTICES, PARTS, PLACE, UVS};
 use crate::lanes::{F, Simd, V3, each, load, load3, neg, safe_normalize, splat, store_fours};
 use crate::lighting::{Points, ambient_part, diffuse_part, specular_part, to_viewer};
 use crate::mapped::parts_of;
@@ -54,6 +54,10 @@ impl Vertices {
         put(self.mapped.group(false, UVS), uvs);
         put(self.mapped.group(false, COLOR), color);
         let Some(maps) = &state.maps else { return };
+        if maps.solid.is_some() {
+            let [x, y, z] = load3(simd, &mesh.positions, first);
+            put(self.mapped.group(false, PLACE), [x, y, z, zero]);
+        }
         if state.stage == Stage::Flat || state.stage == Stage::Unlit && !maps.surrounded {
             return;
         }

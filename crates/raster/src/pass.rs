@@ -2,7 +2,7 @@
 
 use crate::Pieces;
 use halfway_texture::environment::EnvironmentMap;
-use halfway_texture::{Channel, MapKind, Pyramid, Sampling, UvSet};
+use halfway_texture::{Channel, MapKind, Pyramid, Sampling, SolidTexture, UvSet};
 use std::ops::Range;
 
 /// All of a picture. Eye space is right-handed, the eye at the origin looking along −z; colors are linear RGB.
@@ -167,7 +167,7 @@ pub struct SideData {
     pub diffuse: [f32; 3],
     /// ks.
     pub specular: [f32; 3],
-    /// ke of draws that are `colored` or have `maps` or a `mask`, apart from what colors multiply; of others it is part of the base, and this 0.
+    /// ke of draws that are `colored` or have `maps`, a `mask` or a `solid`, apart from what colors multiply; of others it is part of the base, and this 0.
     pub emission: [f32; 3],
     /// ka, for the lights that attenuate their ambient.
     pub ambient: [f32; 3],
@@ -333,6 +333,9 @@ pub struct DrawCall {
     pub maps: [Option<MapCall>; MapKind::COUNT],
     /// Fragments of a lower opacity are not there.
     pub mask: Option<f32>,
+    /// What the mesh is cut from, which multiplies base, diffuse and ambient at each pixel. As with `maps`, none of the draw's
+    /// two terms is shaded both at the vertices and at the fragments then.
+    pub solid: Option<SolidTexture>,
     /// The surface is lit inside out, which turns the tangents of a normal map.
     pub inside_out: bool,
     /// The environment lights it. Of the draw's two terms none is shaded both at the vertices and at the fragments then.
@@ -342,9 +345,9 @@ pub struct DrawCall {
 }
 
 impl DrawCall {
-    /// Whether it has images, a mask or an environment.
+    /// Whether it has images, a mask, a solid or an environment.
     pub(crate) fn is_mapped(&self) -> bool {
-        self.surrounded || self.mask.is_some() || self.maps.iter().any(Option::is_some)
+        self.surrounded || self.solid.is_some() || self.mask.is_some() || self.maps.iter().any(Option::is_some)
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::lanes::Simd;
 use crate::lighting::{Gloss, Irradiance, Points, gathered, gathered_here};
 use crate::pass::{DrawCall, Highlight, LeftOut, LightRange, MapCall, Pass, ShadedTerms, SideData, SurfaceData};
-use halfway_texture::MapKind;
+use halfway_texture::{MapKind, SolidTexture};
 
 /// Where a draw's terms are shaded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,16 +27,24 @@ pub(crate) struct StateMaps {
     pub(crate) mask: Option<f32>,
     /// Factors of tangents, and of w.
     pub(crate) signs: [f32; 2],
+    /// What it is cut from.
+    pub(crate) solid: Option<SolidTexture>,
     /// Whether the environment lights it.
     pub(crate) surrounded: bool,
 }
 
 impl StateMaps {
-    /// `None` where the draw has neither images nor a mask.
+    /// `None` where the draw has neither images nor a mask, nor a solid or an environment.
     pub(crate) fn of(draw: &DrawCall) -> Option<Self> {
         let sign = |negative: bool| if negative { -1.0 } else { 1.0 };
         let signs = [sign(draw.inside_out), sign(draw.clockwise)];
-        draw.is_mapped().then_some(Self { calls: draw.maps, mask: draw.mask, signs, surrounded: draw.surrounded })
+        draw.is_mapped().then_some(Self {
+            calls: draw.maps,
+            mask: draw.mask,
+            signs,
+            solid: draw.solid,
+            surrounded: draw.surrounded,
+        })
     }
 
     pub(crate) fn has(&self, kind: MapKind) -> bool {
