@@ -16,6 +16,6 @@ pub use halfway_lighting::{
 pub use halfway_mesh::{Cuboid, Mesh, Mesh3d, MeshPlugin, Plane, Teapot, UvSphere};
 pub use halfway_render::{Compile, FrameReport, Headless, Picture, Pixels, RenderPlugin, RenderSet, render_picture};
 pub use halfway_scene::import::{ModelMaterial, model_light};
-pub use halfway_texture::{MapKind, Maps, Sampling, SurfaceMap, Texture, TexturePlugin};
+pub use halfway_texture::{MapKind, Maps, Sampling, SolidKind, SolidTexture, SurfaceMap, Texture, TexturePlugin};
 #[cfg(feature = "window")]
 pub use halfway_window::{OrbitCamera, OrbitCameraPlugin, ViewerKeysPlugin, WindowPlugin, WindowTitle};

@@ -6,6 +6,7 @@
 //! [`FrameTimes`] says where its time went on the CPU, and [`GpuTimer`] how much of it the GPU took.
 
 mod batch;
+mod calibration;
 mod cpu;
 mod device;
 mod draw;
@@ -20,6 +21,7 @@ mod target;
 mod view;
 
 pub use batch::false_colors::FalseColors;
+pub use calibration::Calibration;
 pub use device::adapter::Adapter;
 pub use device::choice::AdapterChoice;
 pub use device::costs::{Costs, VertexPrices};
@@ -32,6 +34,7 @@ pub use frame::report::FrameReport;
 pub use frame::sets::RenderSet;
 pub use frame::times::{FrameTimes, SetTimes};
 pub use lights::gather::Lights;
+pub use lights::memory::Choosing;
 pub use lights::terms::Chosen;
 pub use pipelines::compile::Compile;
 pub use plugin::RenderPlugin;

@@ -20,6 +20,7 @@ use crate::frame::times;
 use crate::geometry::meshes::{self, Geometries};
 use crate::geometry::workshop::Workshop;
 use crate::lights::gather::{self, Lights};
+use crate::lights::memory::Choosing;
 use crate::lights::surroundings::{self, Surroundings};
 use crate::lights::terms::{self, Chosen};
 use crate::pipelines::cache::{self, Pipelines};
@@ -160,6 +161,7 @@ fn register_types(app: &mut App) {
     app.register_type::<AdapterChoice>()
         .register_type::<Headless>()
         .register_type::<CanvasTarget>()
+        .register_type::<Choosing>()
         .register_type::<Compile>()
         .register_type::<FalseColors>()
         .register_type::<FrameReport>()

@@ -3,7 +3,7 @@
 use crate::lights::terms::by_fragment_shader;
 use crate::shaders::light_slots::{Counted, Lists};
 use halfway_lighting::{Frequency, Terms};
-use halfway_texture::{Channel, MapKind, Sampling, SurfaceMap, UvSet};
+use halfway_texture::{Channel, MapKind, Sampling, SolidKind, SurfaceMap, UvSet};
 use std::fmt;
 use std::sync::Once;
 
@@ -38,6 +38,8 @@ pub(crate) struct DrawKey {
     pub(crate) masked: bool,
     /// The surface is lit inside out; known only where tangents count.
     pub(crate) inside_out: bool,
+    /// What fills the solid that it is cut from.
+    pub(crate) solid: Option<SolidKind>,
     /// An environment lights it.
     pub(crate) surrounded: bool,
 }
@@ -136,6 +138,9 @@ impl fmt::Display for DrawKey {
         if !self.maps.is_empty() {
             write!(f, " {}", self.maps)?;
         }
+        if let Some(solid) = self.solid {
+            write!(f, " solid={solid:?}")?;
+        }
         self.squarings.map_or(Ok(()), |squarings| write!(f, " squarings={squarings}"))
     }
 }
@@ -156,9 +161,9 @@ impl DrawKey {
         self.colored || self.is_mapped()
     }
 
-    /// Whether images, a mask or an environment have part in its fragments.
+    /// Whether images, a mask, a solid or an environment have part in its fragments.
     pub(crate) fn is_mapped(&self) -> bool {
-        self.surrounded || self.masked || !self.maps.is_empty()
+        self.surrounded || self.solid.is_some() || self.masked || !self.maps.is_empty()
     }
 
     /// Whether fragments take the normal that is interpolated.
@@ -264,6 +269,7 @@ pub(crate) mod tests {
             maps: MapLooks::default(),
             masked: false,
             inside_out: false,
+            solid: None,
             surrounded: false,
         }
     }

@@ -2,9 +2,10 @@
 
 use crate::batch::backend::Backend;
 use crate::batch::false_colors::FalseColors;
+use crate::batch::ignored::tell_ignored;
 use crate::batch::key::{DrawKey, MapLook, MapLooks};
 use crate::batch::lit_runs::{LitRun, OpenRun};
-use crate::batch::object::{Circumstances, Reflecting, Shared};
+use crate::batch::object::{Circumstances, Reflecting, Shared, wrong_paint};
 use crate::batch::table::{MapsUse, ObjectTable};
 use crate::device::costs::VertexPrices;
 use crate::error::{RenderError, label};
@@ -16,6 +17,7 @@ use crate::geometry::patches::{MeshPatch, PatchNormals, Sight};
 use crate::lights::gains::Extent;
 use crate::lights::gather::Lights;
 use crate::lights::lists::{LightLists, Listing};
+use crate::lights::memory::{ChoiceMemory, ChosenBy, PatchName, choosing};
 use crate::lights::places::{PlacedPatch, ShadedAt, Spending};
 use crate::lights::surroundings::Surroundings;
 use crate::lights::terms::{Chosen, by_fragment_shader, by_vertex_shader};
@@ -29,11 +31,9 @@ use bevy_ecs::component::Mutable;
 use bevy_ecs::prelude::*;
 use bevy_math::Vec3;
 use halfway_lighting::{
-    BackMaterial, Blend, Faces, Fields, Frequency, InvalidValue, Mask, Material, Problem, Reflectance, Terms,
-    Tolerance, VertexColors, ViewTolerance, equations,
+    BackMaterial, Blend, Faces, Frequency, Material, Reflectance, Terms, Tolerance, ViewTolerance, equations,
 };
 use halfway_mesh::{Mesh, Mesh3d};
-use halfway_texture::{Maps, WrongMap};
 
 /// What is seen, in the order of the objects. Holds after [`RenderSet::Illuminate`](crate::RenderSet::Illuminate).
 #[derive(Resource, Debug, Default)]
@@ -77,6 +77,7 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
     of_view: Res<ViewTolerance>,
     false_colors: Res<FalseColors>,
     prices: Option<Res<VertexPrices>>,
+    chosen_by: ChosenBy,
     values: Res<FrameValues>,
     surroundings: Res<Surroundings>,
     mut backend: ResMut<B>,
@@ -85,6 +86,7 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
 ) {
     let lit = &mut *lit;
     lit.begin(&lights, lights.is_changed());
+    lit.lists.memory.begin(choosing(chosen_by), lights.counts);
     let (Some(camera), Some(values)) = (&view.camera, values.0) else { return };
     let (encoding, viewer, costs) = (values.encoding(), camera.viewer, backend.costs());
     let mut vertex_prices = prices.map_or(costs.vertices, |prices| *prices);
@@ -105,7 +107,7 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
         let (model_view, normal_matrix) = placed;
         let mut paint =
             meshes.get(&mesh.0).map_or(Paint::default(), |mesh| Paint::new(mesh, components, surroundings.are_there()));
-        if paint.surrounded && paint.has_images() && !costs.images_in_environments {
+        if paint.surrounded && (paint.has_images() || paint.solid.is_some()) && !costs.images_in_environments {
             paint.surrounded = false;
             without_environment += 1;
         }
@@ -126,8 +128,10 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
             colored: paint.colored,
             maps: MapLooks(paint.maps.map(|map| map.map(MapLook::from))),
             masked: paint.mask.is_some(),
+            solid: paint.solid.map(|solid| solid.kind),
             surrounded: paint.surrounded,
         };
+        tell_ignored(&reflecting.maps, terms, paint.surrounded);
         let look = lit.table.look(&reflecting);
         if let Some(source) = &look.invalid {
             report.errors.push(RenderError::Invalid { entity: label(entity, name), source: source.clone() });
@@ -145,6 +149,7 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
         let material = look.material;
         let sphere = geometry.detail.whole.sphere(model_view);
         let object = LitObject {
+            entity,
             depth: -sphere.0.z,
             twins_before: if blend { 0 } else { lit.table.twins_before(sphere) },
             reflecting,
@@ -152,7 +157,7 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
             material,
             maps: paint
                 .is_mapped()
-                .then(|| MapsUse::new(&paint.maps, paint.mask.unwrap_or(0.0)))
+                .then(|| MapsUse::new(&paint.maps, paint.mask.unwrap_or(0.0), paint.solid.copied()))
                 .map_or(0, |of| lit.table.maps(&of)),
             has_relief: paint.has_relief(),
             mesh: mesh.0.id(),
@@ -175,6 +180,7 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
     report.terms_at_vertices = lit.lists.placed.at_vertices;
     report.terms_at_fragments = lit.lists.placed.at_fragments;
     report.steps_spent = lit.lists.placed.spent / values.share();
+    report.choices_changed = lit.lists.memory.changed;
 }
 
 /// A patch that is drawn, and its stretch: see [`Detail::each_seen`](crate::geometry::detail::Detail::each_seen).
@@ -182,6 +188,7 @@ type SeenPatch<'a> = (&'a MeshPatch, u32);
 
 /// An object whose patches are being lit.
 struct LitObject<'a> {
+    entity: Entity,
     reflecting: Reflecting<'a>,
     /// The key that fits best.
     key: DrawKey,
@@ -201,19 +208,29 @@ struct LitObject<'a> {
 
 impl LitObject<'_> {
     /// Where those terms of a patch may be shaded that are placed light by light, and how much of it there is to shade.
-    fn place(&self, patch: &MeshPatch, sight: &Sight, prices: &VertexPrices) -> (ShadedAt, Extent) {
+    fn place(
+        &self,
+        patch: &MeshPatch,
+        sight: &Sight,
+        prices: &VertexPrices,
+        memory: &ChoiceMemory,
+    ) -> (ShadedAt, Extent) {
         if !self.key.terms.has(Frequency::Auto) {
             return (ShadedAt::Either, Extent::default());
         }
         let extent = patch.extent(sight);
         let place = if patch.is_coarse_within(sight, self.tolerance.pixels + SAMPLED) {
             ShadedAt::Corners
-        } else if prices.may_save(extent.pixels, extent.vertices) {
+        } else if prices.may_save(extent, memory.before(self.name(patch))) {
             ShadedAt::Either
         } else {
             ShadedAt::Fragments
         };
         (place, extent)
+    }
+
+    fn name(&self, patch: &MeshPatch) -> PatchName {
+        (self.entity, patch.indices.start)
     }
 
     /// What bounds of lights take of a patch.
@@ -230,6 +247,7 @@ impl LitObject<'_> {
             (false, false) => PatchNormals::Vertices,
         };
         with(&PlacedPatch {
+            name: self.name(patch),
             patch: &patch.in_eye_space(model_view, normal_matrix, reflecting.faces, normals),
             grain: patch.grain(model_view),
             place,
@@ -297,18 +315,22 @@ impl LitPatches {
             report.patches += looked_at;
             report.patches_culled += looked_at - seen.len() as u32;
         }
-        let prices = match &listing {
-            Some(listing) if key.terms.has(Frequency::Auto) && self.pays(object, seen, listing, (&sight, shared)) => {
-                &shared.prices
-            }
-            _ => &VertexPrices::NEVER,
-        };
+        // Light by light; else all terms of a patch are in one place.
+        let places = listing.as_ref().filter(|listing| listing.places.is_some());
+        let pays = places.is_some_and(|listing| self.pays(object, seen, listing, (&sight, shared)));
+        let prices = if pays { &shared.prices } else { &VertexPrices::NEVER };
+        if places.is_some() && !pays {
+            self.lists.memory.note_object(object.entity);
+        }
         let mut run: Option<OpenRun> = None;
         for together in seen.chunks(TOGETHER) {
             let mut has_looked_around = false;
             for &(patch, stretch) in together {
                 let (key, lights, lists) = if let Some(listing) = &listing {
-                    let place = object.place(patch, &sight, prices);
+                    let place = object.place(patch, &sight, prices, &self.lists.memory);
+                    if listing.places.is_some() && place.0 == ShadedAt::Fragments {
+                        self.lists.memory.note_at_fragments(object.name(patch));
+                    }
                     if let Some(key) = self.unlisted(object, place.0, shared, backend) {
                         (key, 0, RecordLists::default())
                     } else {
@@ -362,7 +384,8 @@ impl LitPatches {
         if self.records.last() != Some(&colored) {
             self.records.push(colored);
         }
-        let plain = DrawKey { colored: false, maps: MapLooks::default(), masked: false, surrounded: false, ..key };
+        let unpainted = DrawKey { colored: false, maps: MapLooks::default(), masked: false, ..key };
+        let plain = DrawKey { solid: None, surrounded: false, ..unpainted };
         let key = backend.admit(DrawKey { blend: object.key.blend, ..plain.with_terms(Terms::NONE) });
         (key, 0, self.records.len() as u32 - 1)
     }
@@ -375,15 +398,12 @@ impl LitPatches {
         listing: &Listing,
         (sight, shared): (&Sight, Shared),
     ) -> bool {
-        if listing.places.is_none() {
-            return false;
-        }
         if seen.len() < FEW_PATCHES {
             return true;
         }
         let mut gains = 0.0;
         for (patch, _) in seen.iter().step_by(LOOKED_AT_FIRST) {
-            let place = object.place(patch, sight, &shared.prices);
+            let place = object.place(patch, sight, &shared.prices, &self.lists.memory);
             if place.0 == ShadedAt::Either {
                 self.lists.look_around(listing, std::iter::once(patch.sphere(object.model_view)));
                 gains += object.placed(patch, place, |placed| {
@@ -428,6 +448,9 @@ impl LitPatches {
     ) -> (DrawKey, u32, RecordLists) {
         let LitObject { key, .. } = object;
         let gain = object.placed(patch, place, |placed| self.lists.select(shared.lights, placed, listing, key.terms));
+        if listing.places.is_some() && place.0 == ShadedAt::Either {
+            self.lists.note(object.name(patch));
+        }
         if gain < 0.0
             && let Some(key) = self.unlisted(object, ShadedAt::Fragments, shared, backend)
         {
@@ -465,15 +488,6 @@ impl LitPatches {
             self.runs.push(LitRun { blend, call, pass, twins_before, indices, lights, record, depth, instance });
         }
     }
-}
-
-/// The first number of an object's images or mask that cannot be used.
-fn wrong_paint((_, maps, mask): (Option<&VertexColors>, Option<&Maps>, Option<&Mask>)) -> Option<InvalidValue> {
-    let of_maps = maps.and_then(Maps::wrong).map(|WrongMap { kind, field, value, expected }| {
-        let field = format!("{}.{field}", kind.name());
-        Fields::of("Maps").error(&field, Problem::Number { value, expected })
-    });
-    of_maps.or_else(|| mask.and_then(|mask| mask.validate().err()))
 }
 
 /// Of objects with so many patches in sight one in so many is looked at, whether placing terms pays.

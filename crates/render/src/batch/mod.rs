@@ -5,6 +5,7 @@ pub(crate) mod batches;
 pub(crate) mod drawn_meshes;
 pub(crate) mod draws;
 pub(crate) mod false_colors;
+pub(crate) mod ignored;
 pub(crate) mod key;
 pub(crate) mod lit_patches;
 pub(crate) mod lit_runs;

@@ -2,14 +2,17 @@
 
 use crate::batch::key::{Cull, DrawKey, MapLooks};
 use crate::device::costs::{Costs, VertexPrices};
+use crate::geometry::meshes::PaintOf;
 use crate::lights::gather::Lights;
 use crate::lights::lists::Reflector;
 use crate::shaders::light_slots::Lists;
 use crate::shaders::records::{DrawRecord, MaterialRecord};
 use bevy_math::Vec3;
 use halfway_lighting::equations::{Coefficients, specular_exponent};
-use halfway_lighting::{Encoding, Faces, Frequency, InvalidValue, Material, Reflectance, Terms, Viewer};
-use halfway_texture::MapKind;
+use halfway_lighting::{
+    Encoding, Faces, Fields, Frequency, InvalidValue, Material, Problem, Reflectance, Terms, Viewer,
+};
+use halfway_texture::{MapKind, Maps, SolidKind, SolidTexture, WrongMap};
 
 /// The components that say how an object reflects light.
 #[derive(Clone, Copy, Debug)]
@@ -24,6 +27,8 @@ pub(crate) struct Reflecting<'a> {
     pub(crate) maps: MapLooks,
     /// What has too low an opacity is not there.
     pub(crate) masked: bool,
+    /// What fills the solid that it is cut from.
+    pub(crate) solid: Option<SolidKind>,
     /// An environment lights it.
     pub(crate) surrounded: bool,
 }
@@ -77,7 +82,7 @@ impl Reflecting<'_> {
 
     /// Whether what multiplies ambient and diffuse light is not in the material alone.
     fn is_painted(&self) -> bool {
-        self.surrounded || self.colored || self.masked || !self.maps.is_empty()
+        self.surrounded || self.colored || self.masked || self.solid.is_some() || !self.maps.is_empty()
     }
 
     /// Checks the components; `number` gives the record its number.
@@ -175,8 +180,23 @@ impl Reflecting<'_> {
             maps: self.maps,
             masked: self.masked,
             inside_out: self.faces == Faces::Back,
+            solid: self.solid,
             surrounded: self.surrounded,
         };
         DrawKey { terms: circumstances.terms, ..key }.with_terms(terms)
     }
+}
+
+/// The first number of an object's images, mask or solid that cannot be used.
+pub(super) fn wrong_paint((_, maps, mask, solid): PaintOf) -> Option<InvalidValue> {
+    let of_maps = maps.and_then(Maps::wrong).map(|WrongMap { kind, field, value, expected }| {
+        let field = format!("{}.{field}", kind.name());
+        Fields::of("Maps").error(&field, Problem::Number { value, expected })
+    });
+    let of_solid = || {
+        let wrong = solid.and_then(SolidTexture::wrong)?;
+        let problem = Problem::Number { value: wrong.value, expected: wrong.expected };
+        Some(Fields::of("SolidTexture").error(wrong.field, problem))
+    };
+    of_maps.or_else(|| mask.and_then(|mask| mask.validate().err())).or_else(of_solid)
 }

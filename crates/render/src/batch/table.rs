@@ -8,7 +8,7 @@ use bevy_asset::{AssetId, Assets};
 use bevy_math::Vec3;
 use bevy_platform::collections::HashMap;
 use halfway_mesh::Mesh;
-use halfway_texture::{MapKind, Pyramid, SurfaceMap, Texture, UvTransform};
+use halfway_texture::{MapKind, Pyramid, SolidKind, SolidTexture, SurfaceMap, Texture, UvTransform};
 use std::sync::OnceLock;
 
 /// What repeats among objects, numbered, so that objects compare by small integers.
@@ -53,25 +53,31 @@ impl MapUse {
     }
 }
 
-/// The images of an object, each in the slot of its kind, and the opacity below which it is not there.
+/// The images of an object, each in the slot of its kind, the opacity below which it is not there, and what it is cut from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct MapsUse {
     pub(crate) slots: [Option<MapUse>; MapKind::COUNT],
     pub(crate) cutoff: f32,
+    pub(crate) solid: Option<SolidTexture>,
 }
 
 /// The same as a key.
-type MapsBits = ([Option<(AssetId<Texture>, [u32; 6], u32)>; MapKind::COUNT], u32);
+type MapsBits = ([Option<(AssetId<Texture>, [u32; 6], u32)>; MapKind::COUNT], u32, Option<SolidBits>);
+type SolidBits = (SolidKind, u32, [[u32; 4]; 3], [[u32; 3]; 2]);
 
 impl MapsUse {
-    pub(crate) fn new(maps: &[Option<&SurfaceMap>; MapKind::COUNT], cutoff: f32) -> Self {
+    pub(crate) fn new(maps: &[Option<&SurfaceMap>; MapKind::COUNT], cutoff: f32, solid: Option<SolidTexture>) -> Self {
         let of = |map: &SurfaceMap| MapUse { texture: map.texture.id(), transform: map.transform, amount: map.amount };
-        Self { slots: maps.map(|map| map.map(of)), cutoff }
+        Self { slots: maps.map(|map| map.map(of)), cutoff, solid }
     }
 
     fn bits(&self) -> MapsBits {
         let bits = |of: MapUse| (of.texture, bytemuck::cast(of.rows()), of.amount.to_bits());
-        (self.slots.map(|slot| slot.map(bits)), self.cutoff.to_bits())
+        let of_solid = |SolidTexture { kind, octaves, solid_from_object, colors }: SolidTexture| {
+            let rows = solid_from_object.map(|row| row.map(f32::to_bits));
+            (kind, octaves, rows, colors.map(|color| color.map(f32::to_bits)))
+        };
+        (self.slots.map(|slot| slot.map(bits)), self.cutoff.to_bits(), self.solid.map(of_solid))
     }
 }
 
@@ -162,7 +168,11 @@ impl ObjectTable {
         })
     }
 
+    /// The number of a call. Neighbours often have the same, and to compare is cheaper than to look up.
     pub(crate) fn call(&mut self, call: Call) -> u32 {
+        if self.called.last() == Some(&call) {
+            return self.called.len() as u32 - 1;
+        }
         *self.calls.entry(call).or_insert_with(|| {
             self.called.push(call);
             self.called.len() as u32 - 1

@@ -107,7 +107,8 @@ impl PassLists {
             let call = match lit.table.maps.get((maps as usize).wrapping_sub(1)) {
                 Some(of) if key.is_mapped() => {
                     let (maps, mask) = self.map_calls(&key, of, maps);
-                    DrawCall { maps, mask, inside_out: key.inside_out, surrounded: key.surrounded, ..call }
+                    let (solid, inside_out) = (of.solid, key.inside_out);
+                    DrawCall { maps, mask, solid, inside_out, surrounded: key.surrounded, ..call }
                 }
                 _ => call,
             };

@@ -39,7 +39,8 @@ pub struct Costs {
 /// that are compiled in, where that is within the tolerance and saves more than it costs.
 ///
 /// As a resource it stands for the adapter's own, in [`Costs`]. Prices are 0 or more, also infinite; of one that is not,
-/// [`FrameReport::errors`](crate::FrameReport) tells, and the adapter's own are taken.
+/// [`FrameReport::errors`](crate::FrameReport) tells, and the adapter's own are taken. [`Calibration`](crate::Calibration)
+/// measures them.
 #[derive(Resource, Reflect, Clone, Copy, Debug, PartialEq)]
 #[reflect(Resource, Clone, Debug, PartialEq)]
 pub struct VertexPrices {
@@ -51,28 +52,49 @@ pub struct VertexPrices {
     pub look: f32,
     /// To draw a patch with lights of its own.
     pub draw: f32,
+    /// A light's diffuse term where its specular one is shaded elsewhere, 0 to 1: most of what a light costs is where it
+    /// is, which one term needs as two do. Of a light without a specular term this is left to save.
+    pub diffuse_alone: f32,
+    /// Its specular term where its diffuse one is shaded elsewhere, 0 to 1.
+    pub specular_alone: f32,
 }
 
 impl VertexPrices {
     /// Whatever the tolerance allows is shaded at the vertices, though that may be dearer.
-    pub const FREE: Self = Self { light: 0.0, pixel: 0.0, look: 0.0, draw: 0.0 };
+    pub const FREE: Self = Self { light: 0.0, pixel: 0.0, look: 0.0, draw: 0.0, ..Self::BY_HAND };
     /// Nothing is, but what is coarser than its mesh.
-    pub const NEVER: Self = Self { light: f32::INFINITY, pixel: 0.0, look: f32::INFINITY, draw: f32::INFINITY };
+    pub const NEVER: Self =
+        Self { light: f32::INFINITY, pixel: 0.0, look: f32::INFINITY, draw: f32::INFINITY, ..Self::BY_HAND };
+    /// Of an adapter that draws on the CPU by a driver: from `bench` on one machine with llvmpipe.
+    const BY_HAND: Self =
+        Self { light: 3.0, pixel: 0.5, look: 8.0, draw: 900.0, diffuse_alone: 0.8, specular_alone: 0.9 };
 
-    /// Expects each price to be 0 or more.
-    ///
-    /// # Errors
-    /// One is negative or not a number.
-    pub fn validate(&self) -> Result<(), InvalidValue> {
-        let Self { light, pixel, look, draw } = *self;
-        [("light", light), ("pixel", pixel), ("look", look), ("draw", draw)]
-            .into_iter()
-            .try_for_each(|(name, price)| Fields::of("VertexPrices").number(name, price, price >= 0.0, "0 or more"))
+    /// Each with its name.
+    pub fn named(&self) -> [(&'static str, f32); 6] {
+        let Self { light, pixel, look, draw, diffuse_alone, specular_alone } = *self;
+        [
+            ("light", light),
+            ("pixel", pixel),
+            ("look", look),
+            ("draw", draw),
+            ("diffuse_alone", diffuse_alone),
+            ("specular_alone", specular_alone),
+        ]
     }
 
-    /// Whether a patch of so many pixels and vertices may save anything.
-    pub(crate) fn may_save(&self, pixels: f32, vertices: f32) -> bool {
-        *self != Self::NEVER && pixels * (1.0 + self.pixel) >= vertices * self.light + self.look
+    /// Expects each price to be 0 or more, and those of one term to be 1 or less.
+    ///
+    /// # Errors
+    /// One is not.
+    pub fn validate(&self) -> Result<(), InvalidValue> {
+        self.named().into_iter().try_for_each(|(name, price)| {
+            let fields = Fields::of("VertexPrices");
+            if name.ends_with("_alone") {
+                fields.number(name, price, (0.0..=1.0).contains(&price), "0 to 1")
+            } else {
+                fields.number(name, price, price >= 0.0, "0 or more")
+            }
+        })
     }
 }
 
@@ -92,7 +114,7 @@ impl Costs {
         multi_draw: None,
         maps_meshes: true,
         images_in_environments: true,
-        vertices: VertexPrices { light: 3.0, pixel: 0.5, look: 8.0, draw: 900.0 },
+        vertices: VertexPrices::BY_HAND,
     };
 
     /// Of a graphics card.

@@ -6,6 +6,8 @@ use crate::draw::placings::{PlacingRecord, PlacingsRecord, packed, packed_size};
 use crate::error::RenderError;
 use crate::frame::report::FrameReport;
 use crate::pipelines::cache::Pipelines;
+use crate::shaders::records::SolidRecord;
+use crate::shaders::text::SOLID_BINDING;
 use bevy_asset::{AssetId, Assets};
 use bevy_platform::collections::HashMap;
 use halfway_texture::{MapKind, Pyramid, Texture};
@@ -79,7 +81,7 @@ impl MapTextures {
         of: &MapsUse,
         pyramids: &Pyramids,
     ) -> Result<Option<(wgpu::BindGroup, u64)>, RenderError> {
-        let Some(layout) = pipelines.map_bindings() else { return Ok(None) };
+        let Some(layout) = pipelines.map_bindings(of.solid.is_some()) else { return Ok(None) };
         let longest = gpu.device.limits().max_texture_dimension_2d;
         let mut bytes = PLACINGS_BYTES;
         let mut record = PlacingsRecord { cutoff: [of.cutoff, 0.0, 0.0, 0.0], ..PlacingsRecord::default() };
@@ -95,20 +97,18 @@ impl MapTextures {
             bytes += sent;
             views.push(view);
         }
-        let descriptor = wgpu::BufferDescriptor {
-            label: Some("where maps lie"),
-            size: PLACINGS_BYTES,
-            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-            mapped_at_creation: false,
-        };
-        let placings = gpu.device.create_buffer(&descriptor);
-        gpu.queue.write_buffer(&placings, 0, bytemuck::bytes_of(&record));
+        let placings = uniform(gpu, "where maps lie", bytemuck::bytes_of(&record));
+        let solid = of.solid.map(|solid| uniform(gpu, "a solid", bytemuck::bytes_of(&SolidRecord::from(&solid))));
+        bytes += solid.as_ref().map_or(0, wgpu::Buffer::size);
         let image = |(slot, view)| wgpu::BindGroupEntry {
             binding: slot as u32 + 1,
             resource: wgpu::BindingResource::TextureView(view),
         };
         let first = wgpu::BindGroupEntry { binding: 0, resource: placings.as_entire_binding() };
-        let entries: Vec<_> = std::iter::once(first).chain(views.iter().enumerate().map(image)).collect();
+        let last = solid
+            .as_ref()
+            .map(|solid| wgpu::BindGroupEntry { binding: SOLID_BINDING, resource: solid.as_entire_binding() });
+        let entries: Vec<_> = std::iter::once(first).chain(views.iter().enumerate().map(image)).chain(last).collect();
         let group =
             gpu.device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some("maps"), layout, entries: &entries });
         Ok(Some((group, bytes)))
@@ -135,6 +135,18 @@ impl MapTextures {
 
 /// How many bytes the record of where maps lie has.
 const PLACINGS_BYTES: u64 = size_of::<PlacingsRecord>() as u64;
+
+/// A buffer with these bytes, which do not change.
+fn uniform(gpu: &Gpu, label: &str, bytes: &[u8]) -> wgpu::Buffer {
+    let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some(label),
+        size: bytes.len() as u64,
+        usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    });
+    gpu.queue.write_buffer(&buffer, 0, bytes);
+    buffer
+}
 
 /// Texels of all levels in a texture of 32-bit floats; `of` says what they are of.
 pub(crate) fn sent(gpu: &Gpu, texels: &[[f32; 4]], of: &str) -> Result<wgpu::TextureView, RenderError> {

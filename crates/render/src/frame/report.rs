@@ -41,6 +41,10 @@ pub struct FrameReport {
     pub terms_at_vertices: u64,
     /// Terms in those lists that are shaded at the fragments, summed over objects and patches.
     pub terms_at_fragments: u64,
+    /// Patches of which a term of a light went from the vertices to the fragments or back since the frame before, under
+    /// [`Shading::Auto`](halfway_lighting::Shading::Auto) and without another level of detail;
+    /// [`Choosing`](crate::Choosing) keeps them few.
+    pub choices_changed: u32,
     /// The most that shading terms at the vertices under [`Shading::Auto`](halfway_lighting::Shading::Auto) may have changed
     /// any channel of any pixel, in steps of 1/255 of the picture: the largest sum of bounds. What is left out of the lists is
     /// in it where terms are shaded at the vertices.

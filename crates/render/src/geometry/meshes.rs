@@ -15,7 +15,7 @@ use bevy_math::{Vec2, Vec4};
 use bevy_platform::collections::HashMap;
 use halfway_lighting::{Blend, Frequency, Mask, Terms, Tolerance, VertexColors, ViewTolerance};
 use halfway_mesh::{Mesh, Mesh3d};
-use halfway_texture::{MapKind, Maps, SurfaceMap, UvSet};
+use halfway_texture::{MapKind, Maps, SolidTexture, SurfaceMap, UvSet};
 use std::sync::Arc;
 
 /// One mesh, laid out for one way of shading.
@@ -66,33 +66,36 @@ pub(crate) struct Paint<'a> {
     pub(crate) maps: [Option<&'a SurfaceMap>; MapKind::COUNT],
     /// The opacity below which there is nothing.
     pub(crate) mask: Option<f32>,
+    /// What it is cut from.
+    pub(crate) solid: Option<&'a SolidTexture>,
     /// An environment lights it.
     pub(crate) surrounded: bool,
 }
 
 /// The components that paint an object.
-pub(crate) type PaintComponents = (Option<&'static VertexColors>, Option<&'static Maps>, Option<&'static Mask>);
+pub(crate) type PaintComponents =
+    (Option<&'static VertexColors>, Option<&'static Maps>, Option<&'static Mask>, Option<&'static SolidTexture>);
+
+/// The same of one object.
+pub(crate) type PaintOf<'a> = (Option<&'a VertexColors>, Option<&'a Maps>, Option<&'a Mask>, Option<&'a SolidTexture>);
 
 impl<'a> Paint<'a> {
-    pub(crate) fn new(
-        mesh: &Mesh,
-        (colors, maps, mask): (Option<&VertexColors>, Option<&'a Maps>, Option<&Mask>),
-        surrounded: bool,
-    ) -> Self {
+    pub(crate) fn new(mesh: &Mesh, (colors, maps, mask, solid): PaintOf<'a>, surrounded: bool) -> Self {
         let colored = mesh.colors().is_some() && colors != Some(&VertexColors::Ignore);
         let has_uvs = [0, 1].map(|set| mesh.uv_set(set).is_some());
         let maps = maps.map_or_else(Default::default, |maps| maps.shown(has_uvs));
         // No opacity is below 0.
-        Self { colored, maps, mask: mask.map(|mask| mask.0).filter(|cutoff| *cutoff > 0.0), surrounded }
+        let mask = mask.map(|mask| mask.0).filter(|cutoff| *cutoff > 0.0);
+        Self { colored, maps, mask, solid, surrounded }
     }
 
     pub(crate) fn is_any(&self) -> bool {
         self.colored || self.is_mapped()
     }
 
-    /// Whether there are images, a mask or an environment.
+    /// Whether there are images, a mask, a solid or an environment.
     pub(crate) fn is_mapped(&self) -> bool {
-        self.surrounded || self.mask.is_some() || self.has_images()
+        self.surrounded || self.mask.is_some() || self.solid.is_some() || self.has_images()
     }
 
     pub(crate) fn has_images(&self) -> bool {

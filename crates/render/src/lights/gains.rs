@@ -1,6 +1,7 @@
 //! What is saved where terms move to the vertices.
 
 use crate::device::costs::VertexPrices;
+use crate::lights::memory::{Before, CLEARLY};
 
 /// How much of a patch there is to shade.
 #[derive(Clone, Copy, Debug, Default)]
@@ -20,38 +21,48 @@ pub(super) struct Movable {
     pub(super) darker: [f64; 3],
     /// The largest part of what is allowed that it takes; found later.
     pub(super) share: f64,
+    /// Whether all of it was at the vertices in the frame before; `None` where that does not count.
+    pub(super) stays: Option<bool>,
     /// What is saved at the pixels, less what it costs at the vertices, in lights at a pixel.
     pub(super) gain: f32,
 }
 
-/// What the diffuse term of a light costs without the other, the specular one without the other, and both: most of it is
-/// where the light is. Of the other where only one is left the rest is saved.
-const ONE_TERM: [f32; 2] = [0.8, 0.9];
 /// What a light costs that is compiled in and does not show: it is found to be behind.
 const UNSEEN_LIGHT: f32 = 0.5;
 
 impl VertexPrices {
+    /// Whether a patch may save anything, and enough to go on with what was chosen before.
+    pub(crate) fn may_save(&self, Extent { pixels, vertices }: Extent, before: Before) -> bool {
+        let most = pixels * (1.0 + self.pixel);
+        *self != Self::NEVER && most - vertices * self.light - self.look >= before.least_gain(most).min(0.0)
+    }
+
     /// The terms of a light, of those that a patch `has`, that may move by these changes to their own gain: each by
-    /// itself where that saves anything, else both together.
+    /// itself where that saves anything, else both together. What was at the vertices before, where that counts, stays
+    /// unless it costs clearly more than it saves, and what was not comes if it saves clearly more.
     pub(super) fn movable(
         &self,
         light: u32,
         has: [bool; 2],
         changes: [Option<[[f64; 3]; 2]>; 2],
         Extent { pixels, vertices }: Extent,
+        was: Option<[bool; 2]>,
     ) -> [Option<Movable>; 2] {
+        let one_term = [self.diffuse_alone, self.specular_alone];
         let item = |terms: [bool; 2], [brighter, darker]: [[f64; 3]; 2], saved: f32, cost: f32| {
             let gain = saved * pixels - cost * self.light * vertices;
-            (gain >= 0.0).then_some(Movable { light, terms, brighter, darker, share: 0.0, gain })
+            let stays = was.map(|was| (0..2).all(|term| was[term] || !terms[term]));
+            let least = stays.map_or(0.0, |stays| if stays { -CLEARLY } else { CLEARLY }) * saved * pixels;
+            (gain >= least).then_some(Movable { light, terms, brighter, darker, share: 0.0, stays, gain })
         };
         let one = |term: usize, saved: f32| {
             let terms = [term == 0, term == 1];
-            changes[term].and_then(|change| item(terms, change, saved, ONE_TERM[term]))
+            changes[term].and_then(|change| item(terms, change, saved, one_term[term]))
         };
         if has != [true; 2] {
-            return [one(0, ONE_TERM[0]), one(1, ONE_TERM[1])];
+            return [one(0, one_term[0]), one(1, one_term[1])];
         }
-        let apart = [one(0, 1.0 - ONE_TERM[1]), one(1, 1.0 - ONE_TERM[0])];
+        let apart = [one(0, 1.0 - one_term[1]), one(1, 1.0 - one_term[0])];
         match changes {
             [Some(diffuse), Some(specular)] if apart.iter().any(Option::is_none) => {
                 let sum = [0, 1].map(|side| [0, 1, 2].map(|c| diffuse[side][c] + specular[side][c]));

@@ -1,6 +1,7 @@
 //! Light lists: which of many lights each patch needs, term by term.
 
 use crate::lights::gather::Lights;
+use crate::lights::memory::{ChoiceMemory, PatchName};
 use crate::lights::places::{PlacedPatch, PlacedTerms, Places, Spending, StageLights, next};
 use crate::shaders::light_slots::{
     BOUND_LIGHTS, COUNTED_LIGHTS, Counted, Highlights, Lists, filled_up, filled_up_roughly,
@@ -30,6 +31,7 @@ pub(crate) struct LightLists {
     near: NearLights,
     selected: Selected<f32>,
     pub(crate) placed: PlacedTerms,
+    pub(crate) memory: ChoiceMemory,
     /// How many terms of lights the lists name, over all patches.
     pub(crate) assigned: u64,
     /// How many terms are shaded at each point, over all patches.
@@ -124,9 +126,19 @@ impl LightLists {
         let receiver = Receiver::new(placed.patch, &listing.material, &listing.view, listing.reflectance);
         self.near.select(&self.tree, &lights.sources, &receiver, listing.tolerance, &mut self.selected);
         match &listing.places {
-            Some(places) => self.placed.place(places, placed, terms, &lights.sources, &self.selected),
+            Some(places) => {
+                let before = self.memory.before(placed.name);
+                self.placed.place(places, placed, terms, &lights.sources, &self.selected, before)
+            }
             None => self.placed.as_said(&self.selected, placed.place.of(terms)),
         }
+    }
+
+    /// Takes note of where the terms of the patch last selected for are shaded.
+    pub(crate) fn note(&mut self, name: PatchName) {
+        let PlacedTerms { vertex, fragment, .. } = &self.placed;
+        let [at_vertices, at_fragments] = [vertex, fragment].map(StageLights::lists);
+        self.memory.note(name, at_vertices, at_fragments);
     }
 
     /// Counts what was selected last.

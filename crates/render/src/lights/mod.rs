@@ -3,6 +3,7 @@
 pub(crate) mod gains;
 pub(crate) mod gather;
 pub(crate) mod lists;
+pub(crate) mod memory;
 pub(crate) mod places;
 pub(crate) mod surroundings;
 pub(crate) mod terms;

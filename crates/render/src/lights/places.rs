@@ -3,6 +3,7 @@
 
 use crate::device::costs::VertexPrices;
 use crate::lights::gains::{Extent, Movable};
+use crate::lights::memory::{Before, PatchName, ROOM_TO_COME};
 use crate::lights::terms::{by_fragment_shader, by_vertex_shader};
 use halfway_lighting::bounds::{
     Grain, Patch, PowerSlopes, STEP, Selected, TermChange, VertexChange, VertexChanges, VertexShading, linear_tolerance,
@@ -111,6 +112,7 @@ struct Side {
 
 /// A patch as it is looked at.
 pub(crate) struct PlacedPatch<'a> {
+    pub(crate) name: PatchName,
     pub(crate) patch: &'a Patch<f32>,
     pub(crate) grain: Grain<f32>,
     pub(crate) place: ShadedAt,
@@ -216,8 +218,8 @@ impl PlacedTerms {
     }
 
     /// Places what was selected of these lights for a patch: at the vertices as much as the tolerance allows, the terms
-    /// first that change least by it. Returns what that saves, in lights at a pixel; below 0 where all are at the
-    /// fragments for that.
+    /// first that change least by it, and before them those that were there `before`. Returns what that saves, in lights at
+    /// a pixel, less what it has to; below 0 where all are at the fragments for that.
     pub(crate) fn place(
         &mut self,
         places: &Places,
@@ -225,6 +227,7 @@ impl PlacedTerms {
         terms: Terms,
         lights: &[Light<f32>],
         selected: &Selected<f32>,
+        before: Before,
     ) -> f32 {
         self.as_said(selected, patch.place.of(terms));
         if patch.place != ShadedAt::Either || places.tolerance <= 0.0 {
@@ -232,7 +235,7 @@ impl PlacedTerms {
         }
         self.movable.clear();
         self.numbers.clear();
-        let Some([brighter, darker]) = self.movable(places, patch, lights, selected) else {
+        let Some([brighter, darker]) = self.movable(places, patch, lights, selected, before) else {
             return self.gain_of_all(places, patch.extent);
         };
         let shares = |change: [f64; 3], room: [f64; 3]| {
@@ -241,13 +244,15 @@ impl PlacedTerms {
         for item in &mut self.movable {
             item.share = shares(item.brighter, brighter).max(shares(item.darker, darker));
         }
-        self.movable.sort_unstable_by(|a, b| a.share.total_cmp(&b.share));
+        let comes = |item: &Movable| item.stays == Some(false);
+        self.movable.sort_unstable_by(|a, b| comes(a).cmp(&comes(b)).then(a.share.total_cmp(&b.share)));
         let mut spent = [[0.0; 3]; 2];
         let mut gain = 0.0;
         for item in &self.movable {
             let with = |spent: [f64; 3], more: [f64; 3]| [0, 1, 2].map(|c| spent[c] + more[c]);
             let sum = [with(spent[0], item.brighter), with(spent[1], item.darker)];
-            if (0..3).all(|c| sum[0][c] <= brighter[c] && sum[1][c] <= darker[c]) {
+            let part = if comes(item) { ROOM_TO_COME } else { 1.0 };
+            if (0..3).all(|c| sum[0][c] <= part * brighter[c] && sum[1][c] <= part * darker[c]) {
                 spent = sum;
                 gain += item.gain;
                 for term in [0, 1] {
@@ -265,6 +270,7 @@ impl PlacedTerms {
             }
         }
         gain += self.gain_of_all(places, patch.extent);
+        gain -= before.least_gain(patch.extent.pixels * (self.numbers.len() as f32 + places.prices.pixel));
         if gain < 0.0 {
             self.as_said(selected, terms.at_fragments());
             return gain;
@@ -290,6 +296,7 @@ impl PlacedTerms {
         PlacedPatch { patch, grain, extent, .. }: &PlacedPatch,
         lights: &[Light<f32>],
         selected: &Selected<f32>,
+        before: Before,
     ) -> Option<[[f64; 3]; 2]> {
         let mut shadings = [None, None];
         for (shading, side) in shadings.iter_mut().zip(places.sides()) {
@@ -346,8 +353,9 @@ impl PlacedTerms {
                 let larger = |i: usize| [0, 1, 2].map(|c| front[i][c].max(back[i][c]));
                 (has[term] && places.placed[term]).then(|| [larger(0), larger(1)])
             };
-            let prices = &places.prices;
-            self.movable.extend(prices.movable(number, has, [change(0), change(1)], *extent).into_iter().flatten());
+            let (prices, was) = (&places.prices, before.at_vertices(number));
+            let movable = prices.movable(number, has, [change(0), change(1)], *extent, was);
+            self.movable.extend(movable.into_iter().flatten());
         }
         let sides = places.sides().len();
         let room = [0, 1, 2].map(|c| {
@@ -400,6 +408,10 @@ impl StageLights {
     /// The list of the diffuse terms, 0, or of the specular ones, 1.
     fn list(&mut self, term: usize) -> &mut Vec<u32> {
         if term == 0 { &mut self.diffuse } else { &mut self.specular }
+    }
+
+    pub(crate) fn lists(&self) -> [&[u32]; 2] {
+        [&self.diffuse, &self.specular]
     }
 
     pub(crate) fn is_empty(&self) -> bool {

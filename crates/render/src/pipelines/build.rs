@@ -6,10 +6,12 @@ use crate::lights::terms::{by_fragment_shader, by_vertex_shader};
 use crate::pipelines::key::PipelineKey;
 use crate::shaders::light_slots::{Counted, Lists};
 use crate::shaders::records::{INSTANCE, INSTANCE_BYTES};
+use crate::shaders::template::EntryPoint;
 use crate::shaders::text::Shader;
 use crate::target::frame::{DEPTH_FORMAT, ShaderOutput};
 use halfway_lighting::Frequency;
 use halfway_texture::MapKind;
+use wgpu::naga::ShaderStage;
 
 const POSITION: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![6 => Float32x3];
 const NORMAL: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![7 => Float32x3];
@@ -21,9 +23,7 @@ const FACE: [wgpu::VertexAttribute; 2] = wgpu::vertex_attr_array![7 => Float32x3
 impl Shader {
     pub(crate) fn build(&self, gpu: &Gpu, pipeline: PipelineKey) -> wgpu::RenderPipeline {
         let PipelineKey { draw: key, output } = pipeline;
-        let constants = constants(&key, output);
-        let [vertex_options, fragment_options] =
-            constants.each_ref().map(|constants| wgpu::PipelineCompilationOptions { constants, ..Default::default() });
+        let [of_vertices, of_fragments] = constants(&key, output);
         let buffer = |attributes, stride, step_mode| {
             Some(wgpu::VertexBufferLayout { array_stride: stride, step_mode, attributes })
         };
@@ -50,13 +50,17 @@ impl Shader {
             }
         }
         let (vertex, fragment) = entry_points(&key);
+        let module =
+            |stage, name, constants: &_| self.template.shader(&gpu.device, EntryPoint { stage, name, constants });
+        let vertex = module(ShaderStage::Vertex, vertex, &of_vertices);
+        let fragment = module(ShaderStage::Fragment, fragment, &of_fragments);
         gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(&pipeline.to_string()),
             layout: Some(&self.layout),
             vertex: wgpu::VertexState {
-                module: &self.module,
-                entry_point: Some(vertex),
-                compilation_options: vertex_options,
+                module: &vertex,
+                entry_point: None,
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
                 buffers: &buffers,
             },
             primitive: wgpu::PrimitiveState {
@@ -77,9 +81,9 @@ impl Shader {
             }),
             multisample: wgpu::MultisampleState { count: output.samples, ..Default::default() },
             fragment: Some(wgpu::FragmentState {
-                module: &self.module,
-                entry_point: Some(fragment),
-                compilation_options: fragment_options,
+                module: &fragment,
+                entry_point: None,
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
                 targets: &[Some(wgpu::ColorTargetState {
                     format: output.format,
                     blend: key.blend.then_some(OVER),
@@ -107,6 +111,9 @@ const OVER: wgpu::BlendState = wgpu::BlendState {
 };
 
 fn entry_points(key: &DrawKey) -> (&'static str, &'static str) {
+    if key.solid.is_some() {
+        return solid_entry_points(key);
+    }
     let is_one_sided = key.cull == Cull::Back;
     if key.terms.has(Frequency::Triangle) {
         return ("vs_flat", "fs_flat");
@@ -122,6 +129,14 @@ fn entry_points(key: &DrawKey) -> (&'static str, &'static str) {
         (true, false) => ("vs_gouraud_both", "fs_gouraud_both"),
         (false, true) => ("vs_phong", "fs_phong"),
         (true, true) => ("vs_mixed", "fs_mixed"),
+    }
+}
+
+fn solid_entry_points(key: &DrawKey) -> (&'static str, &'static str) {
+    match by_fragment_shader(key.terms).contains(&true) {
+        _ if key.terms.has(Frequency::Triangle) => ("vs_solid_flat", "fs_solid_flat"),
+        false => ("vs_solid_gouraud", "fs_solid_gouraud"),
+        true => ("vs_solid_mixed", "fs_solid_mixed"),
     }
 }
 
@@ -184,5 +199,7 @@ fn map_constants(key: &DrawKey) -> impl Iterator<Item = (&'static str, f64)> {
     let sign = |negative: bool| if negative { -1.0 } else { 1.0 };
     let maps = NAMES.into_iter().zip(key.maps.0).filter_map(|(name, look)| Some((name, f64::from(look?.bits()))));
     let signs = [("TANGENT_SIGN", sign(key.inside_out)), ("BITANGENT_SIGN", sign(key.clockwise))];
-    maps.chain(signs).chain([("MASKED", f64::from(u8::from(key.masked)))])
+    // By its number in solids.wgsl.
+    let solid = key.solid.map(|kind| ("SOLID_KIND", f64::from(kind as u32)));
+    maps.chain(signs).chain([("MASKED", f64::from(u8::from(key.masked)))]).chain(solid)
 }

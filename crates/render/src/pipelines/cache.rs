@@ -134,8 +134,8 @@ impl Pipelines {
     }
 
     /// The layout of an image's bindings; `None` before the first pipeline that has one.
-    pub(crate) fn map_bindings(&self) -> Option<&wgpu::BindGroupLayout> {
-        self.shaders.map_bindings()
+    pub(crate) fn map_bindings(&self, has_solid: bool) -> Option<&wgpu::BindGroupLayout> {
+        self.shaders.map_bindings(has_solid)
     }
 
     /// The pipeline that draws this into what the frame draws into.

@@ -30,7 +30,9 @@ impl Text {
             Lists::Counted(..) | Lists::Split { .. } => LightText::Many,
         };
         let surface = match (key.is_mapped(), key.colored) {
+            _ if key.surrounded && key.solid.is_some() => SurfaceText::SolidSurrounded,
             _ if key.surrounded => SurfaceText::Surrounded,
+            _ if key.solid.is_some() => SurfaceText::Solid,
             (true, _) => SurfaceText::Mapped,
             (false, true) => SurfaceText::Colored,
             (false, false) => SurfaceText::Plain,

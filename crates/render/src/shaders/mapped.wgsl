@@ -13,8 +13,7 @@ struct Flat {
     @location(6) @interpolate(flat, first) record: vec2u,     // and whether it shows its front
 }
 
-@vertex
-fn vs_flat(object: Object, vertex: FlatVertex) -> Flat {
+fn flat_vertex(object: Object, vertex: FlatVertex) -> Flat {
     let p = eye_position(object, vertex.centroid);
     let n = eye_normal(object, vertex.normal);
     let record = record_of(object.record);
@@ -30,6 +29,11 @@ fn vs_flat(object: Object, vertex: FlatVertex) -> Flat {
     let ambient = vec4f(sums.ambient, vertex.color.a);
     let sides = vec2u(object.record, u32(front));
     return Flat(clip_position(corner), ambient, sums.diffuse, sums.specular, uv, uv, corner, sides);
+}
+
+@vertex
+fn vs_flat(object: Object, vertex: FlatVertex) -> Flat {
+    return flat_vertex(object, vertex);
 }
 
 @fragment
@@ -54,8 +58,7 @@ struct Gouraud {
     @location(9) @interpolate(flat, either) record: u32,
 }
 
-@vertex
-fn vs_gouraud(object: Object, vertex: Vertex) -> Gouraud {
+fn gouraud_vertex(object: Object, vertex: Vertex) -> Gouraud {
     let p = eye_position(object, vertex.position);
     let n = eye_normal(object, vertex.normal);
     let record = record_of(object.record);
@@ -70,6 +73,11 @@ fn vs_gouraud(object: Object, vertex: Vertex) -> Gouraud {
         clip_position(p), ambient, front.diffuse, front.specular, back.ambient, back.diffuse, back.specular, uv, uv, p,
         object.record,
     );
+}
+
+@vertex
+fn vs_gouraud(object: Object, vertex: Vertex) -> Gouraud {
+    return gouraud_vertex(object, vertex);
 }
 
 @fragment

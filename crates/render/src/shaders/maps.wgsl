@@ -202,8 +202,10 @@ fn way_on(slot: u32, way: vec2f) -> vec2f {
     return vec2f(dot(placings.each[slot].row0.xy, way), dot(placings.each[slot].row1.xy, way));
 }
 
+// What is beyond all numbers is taken for 0.
 fn place_on(slot: u32, look: u32, c: Coordinates) -> vec2f {
-    return way_on(slot, of_set(look, c.uv)) + vec2f(placings.each[slot].row0.z, placings.each[slot].row1.z);
+    let at = way_on(slot, of_set(look, c.uv)) + vec2f(placings.each[slot].row0.z, placings.each[slot].row1.z);
+    return select(vec2f(), at, abs(at) <= vec2f(3.4e38));
 }
 
 // D = log2 of the longer side of the footprint.
@@ -228,7 +230,9 @@ fn factor(image: texture_2d<f32>, slot: u32, look: u32, c: Coordinates) -> vec4f
 fn mapped_normal(n: vec3f, t: vec3f, w: f32, texel: vec3f, s: f32, otherwise: vec3f) -> vec3f {
     let x = 2.0 * texel - 1.0;
     let sum = t * (x.x * s) + cross(n, t) * (w * x.y * s) + n * x.z;
-    let turned = normalize_or_zero(sum);
+    // By its largest number first, so that squares stay numbers.
+    let largest = max(max(abs(sum.x), abs(sum.y)), abs(sum.z));
+    let turned = normalize_or_zero(sum / max(largest, 1e-30));
     return select(otherwise, turned, length(n) > NORMAL_MIN && dot(turned, turned) > 0.0);
 }
 

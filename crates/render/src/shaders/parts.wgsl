@@ -113,8 +113,7 @@ fn eye_direction(object: Object, direction: vec3f) -> vec3f {
     return vec3f(dot(object.row0.xyz, direction), dot(object.row1.xyz, direction), dot(object.row2.xyz, direction));
 }
 
-@vertex
-fn vs_mixed(object: Object, vertex: Vertex) -> Mixed {
+fn mixed_vertex(object: Object, vertex: Vertex) -> Mixed {
     let p = eye_position(object, vertex.position);
     let n = eye_normal(object, vertex.normal);
     let record = record_of(object.record);
@@ -148,6 +147,11 @@ fn vs_mixed(object: Object, vertex: Vertex) -> Mixed {
     return Mixed(
         clip_position(p), p, n, color, front, back, front_ambient, back_ambient, frame, uv, uv, p, object.record,
     );
+}
+
+@vertex
+fn vs_mixed(object: Object, vertex: Vertex) -> Mixed {
+    return mixed_vertex(object, vertex);
 }
 
 // What a fragment has before images multiply it.

@@ -6,6 +6,7 @@ use bevy_math::{Vec3, Vec3A};
 use bytemuck::{Pod, Zeroable};
 use halfway_lighting::equations::{Coefficients, ConeTerms, Light, Place, specular_exponent};
 use halfway_lighting::{Faces, Reflectance};
+use halfway_texture::SolidTexture;
 
 /// One instance in its vertex buffer: `eye_from_model` as rows, the normal matrix as columns, and the number of its
 /// record, which only draws of several records read.
@@ -106,6 +107,25 @@ pub(crate) struct DrawRecord {
     pub(crate) padding0: f32,
     pub(crate) back_emission: [f32; 3],
     pub(crate) padding1: f32,
+}
+
+/// What an object is cut from; `SolidData` in solid.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub(crate) struct SolidRecord {
+    pub(crate) rows: [[f32; 4]; 3],
+    /// The first color, and how many octaves.
+    pub(crate) first: [f32; 3],
+    pub(crate) octaves: u32,
+    /// The second color.
+    pub(crate) second: [f32; 4],
+}
+
+impl From<&SolidTexture> for SolidRecord {
+    fn from(solid: &SolidTexture) -> Self {
+        let [first, [r, g, b]] = solid.colors;
+        Self { rows: solid.solid_from_object, first, octaves: solid.octaves, second: [r, g, b, 0.0] }
+    }
 }
 
 pub(crate) const RECORD_BYTES: u64 = size_of::<DrawRecord>() as u64;

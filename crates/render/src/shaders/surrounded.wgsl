@@ -1,5 +1,6 @@
 // The entry points of draws in an environment, with images, a mask, or without. What it adds is evaluated at each fragment,
-// whatever the shading. The way to the viewer is the pixel's center's. Needs parts.wgsl and surroundings.wgsl.
+// whatever the shading. The way to the viewer is that of the point that is shaded, which lies in the triangle also where it covers a
+// part of a pixel of four samples. Needs parts.wgsl and surroundings.wgsl.
 
 // The sums with what the environment adds at a fragment whose normal, of the side that is seen, is n.
 fn surrounded(sums: Parts, p: vec3f, n: vec3f, color: vec3f, record: u32, front: bool, c: Coordinates) -> Parts {
@@ -28,10 +29,10 @@ struct Flat {
     @location(5) @interpolate(perspective, center) at: vec4f,
     @location(6) @interpolate(perspective, center) middle: vec4f,    // and w
     @location(7) @interpolate(flat, first) record: vec2u,     // and whether it shows its front
+    @location(8) @interpolate(perspective, centroid) p: vec3f,
 }
 
-@vertex
-fn vs_flat(object: Object, vertex: FlatVertex) -> Flat {
+fn flat_vertex(object: Object, vertex: FlatVertex) -> Flat {
     let p = eye_position(object, vertex.centroid);
     var n = eye_normal(object, vertex.normal);
     let record = record_of(object.record);
@@ -49,8 +50,13 @@ fn vs_flat(object: Object, vertex: FlatVertex) -> Flat {
     let color = vertex.color;
     return Flat(
         clip_position(corner), vec4f(sums.ambient, color.a), vec4f(sums.diffuse, color.r), vec4f(sums.specular, color.g),
-        vec4f(n, color.b), uv, uv, vec4f(corner, -corner.z), sides,
+        vec4f(n, color.b), uv, uv, vec4f(corner, -corner.z), sides, corner,
     );
+}
+
+@vertex
+fn vs_flat(object: Object, vertex: FlatVertex) -> Flat {
+    return flat_vertex(object, vertex);
 }
 
 @fragment
@@ -60,7 +66,7 @@ fn fs_flat(in: Flat) -> @location(0) vec4f {
     let front = in.record.y == 1u;
     let color = vec3f(in.diffuse.a, in.specular.a, in.n.a);
     let lit = Parts(in.ambient.rgb, in.diffuse.rgb, in.specular.rgb);
-    return output(surrounded(lit, in.middle.xyz, in.n.xyz, color, record, front, c), in.ambient.a, record, front, c);
+    return output(surrounded(lit, in.p, in.n.xyz, color, record, front, c), in.ambient.a, record, front, c);
 }
 
 // ---- no term at the fragments: Gouraud, or no lights ----------------------------------------------
@@ -79,10 +85,10 @@ struct Gouraud {
     @location(9) @interpolate(perspective, center) at: vec4f,
     @location(10) @interpolate(perspective, center) middle: vec3f,
     @location(11) @interpolate(flat, either) record: u32,
+    @location(14) @interpolate(perspective, centroid) p: vec3f,   // 12 and 13 are a solid's
 }
 
-@vertex
-fn vs_gouraud(object: Object, vertex: Vertex) -> Gouraud {
+fn gouraud_vertex(object: Object, vertex: Vertex) -> Gouraud {
     let p = eye_position(object, vertex.position);
     let n = eye_normal(object, vertex.normal);
     let record = record_of(object.record);
@@ -94,8 +100,13 @@ fn vs_gouraud(object: Object, vertex: Vertex) -> Gouraud {
     let uv = vertex.uv;
     return Gouraud(
         clip_position(p), front.ambient, front.diffuse, front.specular, back.ambient, back.diffuse, back.specular,
-        vertex.color, n, uv, uv, p, object.record,
+        vertex.color, n, uv, uv, p, object.record, p,
     );
+}
+
+@vertex
+fn vs_gouraud(object: Object, vertex: Vertex) -> Gouraud {
+    return gouraud_vertex(object, vertex);
 }
 
 @fragment
@@ -110,7 +121,7 @@ fn fs_gouraud(in: Gouraud, @builtin(front_facing) front: bool) -> @location(0) v
     let n = fragment_normal(in.middle, in.n, front);
     let record = record_of(in.record);
     let color = clamp(in.color, vec4f(), vec4f(1.0));
-    let sums = surrounded(lit, in.middle, select(-n, n, is_front), color.rgb, record, is_front, c);
+    let sums = surrounded(lit, in.p, select(-n, n, is_front), color.rgb, record, is_front, c);
     return output(sums, color.a, record, is_front, c);
 }
 

@@ -5,7 +5,10 @@ use crate::draw::placings::{PlacingRecord, PlacingsRecord};
 use crate::draw::surroundings::SurroundingsRecord;
 use crate::shaders::light_slots::BOUND_LIGHTS;
 use crate::shaders::picture::{PICTURE_FILES, PicturePolicyRecord};
-use crate::shaders::records::{DrawRecord, INSTANCE, InstanceRecord, LightRecord, MaterialRecord, ViewRecord};
+use crate::shaders::records::{
+    DrawRecord, INSTANCE, InstanceRecord, LightRecord, MaterialRecord, SolidRecord, ViewRecord,
+};
+use crate::shaders::template::{EntryPoint, Template};
 use crate::shaders::text::{LightText, SKY, SurfaceText, Text};
 use bytemuck::Zeroable;
 use std::mem::offset_of;
@@ -174,6 +177,14 @@ fn where_an_image_lies_is_read_as_it_is_written() {
 }
 
 #[test]
+fn a_solid_is_read_as_it_is_written() {
+    for surface in [SurfaceText::Solid, SurfaceText::SolidSurrounded] {
+        let module = valid(&Text { lights: LightText::Few, surface }.files().concat()).expect("a valid text");
+        assert_eq!(members(&module, "SolidData"), fields!(SolidRecord { rows, first, octaves, second }));
+    }
+}
+
+#[test]
 fn a_policy_is_read_as_it_is_written() {
     let module = valid(&PICTURE_FILES.concat()).expect("a valid text");
     assert_eq!(
@@ -256,4 +267,25 @@ fn lights_at_fixed_places_are_as_many_as_are_bound() {
         let size = module.types[lights.ty].inner.size(module.to_ctx()) as usize;
         assert_eq!(size, BOUND_LIGHTS as usize * size_of::<LightRecord>());
     }
+}
+
+/// What is called for images of kinds that a draw does not have is not in its module; what is for one that it has, is.
+#[test]
+fn what_constants_rule_out_is_not_in_a_module() {
+    let text = Text { lights: LightText::Few, surface: SurfaceText::Mapped };
+    let template = Template::new(&text.files().concat());
+    let functions = |constants: &[(&'static str, f64)]| {
+        let fragment = EntryPoint { stage: naga::ShaderStage::Fragment, name: "fs_mixed", constants };
+        let module = template.module_of(fragment);
+        Validator::new(ValidationFlags::all(), Capabilities::all()).validate(&module).expect("a valid module");
+        assert_eq!(module.entry_points.len(), 1);
+        module.functions.iter().filter_map(|(_, function)| function.name.clone()).collect::<Vec<_>>()
+    };
+    let has = |functions: &[String], name: &str| functions.iter().any(|function| function == name);
+    let none = functions(&[]);
+    assert!(!has(&none, "filtered") && !has(&none, "gradient") && !has(&none, "mapped_normal"), "{none:?}");
+    let color = functions(&[("COLOR_MAP", 0.0)]);
+    assert!(has(&color, "filtered") && has(&color, "factor") && !has(&color, "gradient"), "{color:?}");
+    let height = functions(&[("HEIGHT_MAP", 0.0)]);
+    assert!(has(&height, "gradient") && has(&height, "bumped_normal") && !has(&height, "mapped_normal"), "{height:?}");
 }

@@ -3,6 +3,7 @@
 use crate::device::gpu::Gpu;
 use crate::shaders::light_slots::BOUND_LIGHTS;
 use crate::shaders::records::{LightRecord, RECORD_BYTES};
+use crate::shaders::template::Template;
 use halfway_texture::MapKind;
 use std::sync::OnceLock;
 
@@ -36,11 +37,15 @@ pub(crate) enum SurfaceText {
     Mapped,
     /// The same, in an environment.
     Surrounded,
+    /// As [`Mapped`](Self::Mapped), and a solid.
+    Solid,
+    /// As [`Surrounded`](Self::Surrounded), and a solid.
+    SolidSurrounded,
 }
 
 /// The lighting text, and the layout that goes with it.
 pub(crate) struct Shader {
-    pub(crate) module: wgpu::ShaderModule,
+    pub(crate) template: Template,
     pub(crate) bindings: wgpu::BindGroupLayout,
     /// Those of images.
     pub(crate) map_bindings: Option<wgpu::BindGroupLayout>,
@@ -57,9 +62,11 @@ impl Shaders {
         self.0[lights as usize].iter().find_map(OnceLock::get)
     }
 
-    /// The layout of the bindings of images, once a text has it.
-    pub(crate) fn map_bindings(&self) -> Option<&wgpu::BindGroupLayout> {
-        self.0.iter().flatten().filter_map(OnceLock::get).find_map(|shader| shader.map_bindings.as_ref())
+    /// The layout of the bindings of images, and of a solid where there is one, once a text has it.
+    pub(crate) fn map_bindings(&self, has_solid: bool) -> Option<&wgpu::BindGroupLayout> {
+        let all = self.0.iter().flat_map(|shaders| SurfaceText::ALL.into_iter().zip(shaders));
+        let those = all.filter(|(text, _)| text.has_solid() == has_solid).filter_map(|(_, shader)| shader.get());
+        those.into_iter().find_map(|shader| shader.map_bindings.as_ref())
     }
 
     pub(crate) fn get_or_make(&self, gpu: &Gpu, text: Text) -> &Shader {
@@ -78,16 +85,36 @@ pub(crate) const BOUND_LIGHT_BYTES: u64 = BOUND_LIGHTS as u64 * size_of::<LightR
 
 impl SurfaceText {
     /// All of them.
-    pub(crate) const ALL: [Self; 4] = [Self::Plain, Self::Colored, Self::Mapped, Self::Surrounded];
+    pub(crate) const ALL: [Self; 6] =
+        [Self::Plain, Self::Colored, Self::Mapped, Self::Surrounded, Self::Solid, Self::SolidSurrounded];
+
+    fn has_solid(self) -> bool {
+        matches!(self, Self::Solid | Self::SolidSurrounded)
+    }
 
     fn files(self) -> &'static [&'static str] {
         const MAPS: &str = include_str!("maps.wgsl");
         const PARTS: &str = include_str!("parts.wgsl");
+        const MAPPED: &str = include_str!("mapped.wgsl");
+        const SURROUNDED: &str = include_str!("surrounded.wgsl");
+        const SOLIDS: &str = include_str!("solids.wgsl");
+        const SOLID: &str = include_str!("solid.wgsl");
         match self {
             Self::Plain => &[include_str!("plain.wgsl")],
             Self::Colored => &[include_str!("colored.wgsl")],
-            Self::Mapped => &[MAPS, PARTS, include_str!("mapped.wgsl")],
-            Self::Surrounded => &[MAPS, PARTS, ENVIRONMENT, SURROUNDINGS, include_str!("surrounded.wgsl")],
+            Self::Mapped => &[MAPS, PARTS, MAPPED],
+            Self::Surrounded => &[MAPS, PARTS, ENVIRONMENT, SURROUNDINGS, SURROUNDED],
+            Self::Solid => &[MAPS, PARTS, MAPPED, SOLIDS, SOLID, include_str!("solid_mapped.wgsl")],
+            Self::SolidSurrounded => &[
+                MAPS,
+                PARTS,
+                ENVIRONMENT,
+                SURROUNDINGS,
+                SURROUNDED,
+                SOLIDS,
+                SOLID,
+                include_str!("solid_surrounded.wgsl"),
+            ],
         }
     }
 }
@@ -117,10 +144,7 @@ impl LightText {
 impl Shader {
     fn new(gpu: &Gpu, text: Text) -> Self {
         let storage = text.lights == LightText::Listed;
-        let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some("lighting"),
-            source: wgpu::ShaderSource::Wgsl(gpu.provoking_vertex().text(&text.files().concat()).into()),
-        });
+        let template = Template::new(&gpu.provoking_vertex().text(&text.files().concat()));
         let entry = |binding, ty, size| wgpu::BindGroupLayoutEntry {
             binding,
             visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
@@ -142,8 +166,9 @@ impl Shader {
             label: Some("draw"),
             entries: &[vec![entry(0, uniform, 16)], entries].concat(),
         });
-        let is_surrounded = text.surface == SurfaceText::Surrounded;
-        let map_bindings = (is_surrounded || text.surface == SurfaceText::Mapped).then(|| map_bindings(gpu));
+        let is_surrounded = matches!(text.surface, SurfaceText::Surrounded | SurfaceText::SolidSurrounded);
+        let has_maps = !matches!(text.surface, SurfaceText::Plain | SurfaceText::Colored);
+        let map_bindings = has_maps.then(|| map_bindings(gpu, text.surface.has_solid()));
         let surroundings = is_surrounded.then(|| surroundings_bindings(gpu));
         let all = [Some(&bindings), map_bindings.as_ref(), surroundings.as_ref()];
         let count = all.iter().flatten().count();
@@ -152,19 +177,23 @@ impl Shader {
             bind_group_layouts: &all[..count],
             ..Default::default()
         });
-        Self { module, bindings, map_bindings, layout }
+        Self { template, bindings, map_bindings, layout }
     }
 }
 
-fn map_bindings(gpu: &Gpu) -> wgpu::BindGroupLayout {
+/// Where a solid is bound, behind the images.
+pub(crate) const SOLID_BINDING: u32 = MapKind::COUNT as u32 + 1;
+
+fn map_bindings(gpu: &Gpu, has_solid: bool) -> wgpu::BindGroupLayout {
     let images = (1..).take(MapKind::COUNT).map(image_binding);
-    let entries: Vec<_> = std::iter::once(uniform_of_fragments()).chain(images).collect();
+    let solid = has_solid.then(|| uniform_of_fragments(SOLID_BINDING));
+    let entries: Vec<_> = std::iter::once(uniform_of_fragments(0)).chain(images).chain(solid).collect();
     gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("maps"), entries: &entries })
 }
 
 /// Those of the environment: how it is looked up, and its texels.
 pub(crate) fn surroundings_bindings(gpu: &Gpu) -> wgpu::BindGroupLayout {
-    let entries = [uniform_of_fragments(), image_binding(1)];
+    let entries = [uniform_of_fragments(0), image_binding(1)];
     let descriptor = wgpu::BindGroupLayoutDescriptor { label: Some("surroundings"), entries: &entries };
     gpu.device.create_bind_group_layout(&descriptor)
 }
@@ -183,9 +212,9 @@ fn image_binding(binding: u32) -> wgpu::BindGroupLayoutEntry {
     }
 }
 
-fn uniform_of_fragments() -> wgpu::BindGroupLayoutEntry {
+fn uniform_of_fragments(binding: u32) -> wgpu::BindGroupLayoutEntry {
     wgpu::BindGroupLayoutEntry {
-        binding: 0,
+        binding,
         visibility: wgpu::ShaderStages::FRAGMENT,
         ty: wgpu::BindingType::Buffer {
             ty: wgpu::BufferBindingType::Uniform,

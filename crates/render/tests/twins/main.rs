@@ -1,6 +1,6 @@
 //! Twins: the functions of lighting.wgsl, tone.wgsl and environment.wgsl, run on the adapter, against those of the same name in
-//! `halfway_lighting::equations` and `halfway_texture::environment` in f64; those of maps.wgsl, against `halfway_texture` too; and
-//! sums of terms.
+//! `halfway_lighting::equations` and `halfway_texture::environment` in f64; those of maps.wgsl and solids.wgsl, against `halfway_texture` too;
+//! and sums of terms.
 
 mod adapter;
 mod derivatives;
@@ -13,6 +13,8 @@ mod normal_rows;
 mod place_rows;
 #[path = "../../src/draw/placings.rs"]
 mod placings;
+mod solid_rows;
+mod solids;
 mod table;
 mod terms;
 

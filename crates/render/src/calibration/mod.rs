@@ -1,0 +1,198 @@
+//! What drawing costs on an adapter, measured by drawing.
+
+mod scenery;
+
+use crate::device::adapter::Adapter;
+use crate::device::costs::VertexPrices;
+use crate::error::RenderError;
+use scenery::{Stages, Times};
+
+/// What drawing costs on an adapter, measured by drawing: small scenes that differ in one thing, in turns. Their frames take a
+/// second or two on the CPU and less on a graphics card.
+///
+/// ```no_run
+/// # use bevy_app::App;
+/// # use halfway_render::{AdapterChoice, Calibration, RenderError};
+/// # fn calibrated(app: &mut App) -> Result<(), RenderError> {
+/// let adapter = AdapterChoice::default().open()?;
+/// let Calibration { prices, .. } = Calibration::measure(&adapter)?;
+/// adapter.insert_into(app.world_mut());
+/// app.insert_resource(prices);
+/// # Ok(())
+/// # }
+/// ```
+///
+/// Pictures under [`Shading::Auto`](halfway_lighting::Shading::Auto) keep to the tolerance whatever the prices are, but they
+/// are not the same pictures to the byte: do without where they are to repeat on other machines.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Calibration {
+    /// What a light costs at a pixel, in nanoseconds of a frame: what the prices are multiples of.
+    pub unit_ns: f64,
+    /// What a vertex costs without lights, with its triangles, in nanoseconds of a frame.
+    pub vertex_ns: f64,
+    /// As they were found, also where they cannot be.
+    pub measured: VertexPrices,
+    /// What to draw by: those measured, or the adapter's own where these are not believed.
+    pub prices: VertexPrices,
+    /// Why those measured are not believed, in words; none where they are.
+    pub doubts: Vec<String>,
+    /// How long a frame takes by the prices measured, as a multiple of one by the adapter's own.
+    pub trial: f64,
+}
+
+/// What a price can be. What is outside has been disturbed.
+const BELIEVED: [(&str, f32, f32); 6] = [
+    ("light", 0.02, 500.0),
+    ("pixel", -0.5, 100.0),
+    ("look", 0.01, 1e5),
+    ("draw", -1.0, 1e7),
+    ("diffuse_alone", 0.05, 1.3),
+    ("specular_alone", 0.05, 1.3),
+];
+
+/// What a light can cost at a pixel, in nanoseconds.
+const BELIEVED_UNIT: [f64; 2] = [1e-4, 1e4];
+
+/// By how much longer a frame may take by prices that are believed than by the adapter's own: as much as the least times of the
+/// same frame differ on a machine that does something else as well.
+const MOST_LOST: f64 = 1.05;
+
+impl Calibration {
+    /// Draws on the adapter and times it. What else the machine does at that time makes it less exact; prices that cannot be
+    /// are not taken.
+    ///
+    /// # Errors
+    /// What the adapter could not draw.
+    pub fn measure(adapter: &Adapter) -> Result<Self, RenderError> {
+        let mut stages = Stages::new(adapter)?;
+        let times = stages.time()?;
+        let (unit_ns, vertex_ns, measured) = times.prices();
+        let own = adapter.costs().vertices;
+        let unlimited = Self::of(unit_ns, vertex_ns, measured, own, 1.0);
+        let trial = if unlimited.doubts.is_empty() { stages.trial(own, unlimited.prices)? } else { 1.0 };
+        Ok(Self::of(unit_ns, vertex_ns, measured, own, trial))
+    }
+
+    /// Judges what was measured, on an adapter with prices of its `own`.
+    fn of(unit_ns: f64, vertex_ns: f64, measured: VertexPrices, own: VertexPrices, trial: f64) -> Self {
+        let mut doubts = Vec::new();
+        let [least, most] = BELIEVED_UNIT;
+        if !(least..=most).contains(&unit_ns) {
+            doubts.push(format!("a light at a pixel: {unit_ns} ns; expected {least} to {most}"));
+        }
+        for ((name, price), (_, least, most)) in measured.named().into_iter().zip(BELIEVED) {
+            if !(least..=most).contains(&price) {
+                doubts.push(format!("{name}: {price} lights at a pixel; expected {least} to {most}"));
+            }
+        }
+        if trial.is_nan() || trial > MOST_LOST {
+            doubts.push(format!(
+                "a frame by these prices takes {trial:.2} times as long; expected no more than {MOST_LOST}"
+            ));
+        }
+        let prices = if doubts.is_empty() { within_range(measured) } else { own };
+        Self { unit_ns, vertex_ns, measured, prices, doubts, trial }
+    }
+}
+
+/// What noise may have put a little outside of what prices can be.
+fn within_range(
+    VertexPrices { light, pixel, look, draw, diffuse_alone, specular_alone }: VertexPrices,
+) -> VertexPrices {
+    VertexPrices {
+        light,
+        pixel: pixel.max(0.0),
+        look,
+        draw: draw.max(0.0),
+        diffuse_alone: diffuse_alone.min(1.0),
+        specular_alone: specular_alone.min(1.0),
+    }
+}
+
+impl Times {
+    /// What a light costs at a pixel and a vertex without lights, in nanoseconds; and the prices.
+    fn prices(&self) -> (f64, f64, VertexPrices) {
+        let unit = self.light_at_pixel;
+        let price = |ns: f64| (ns / unit) as f32;
+        let prices = VertexPrices {
+            light: price(self.light_at_vertex),
+            pixel: price(self.first_light_at_pixel - unit),
+            look: price(self.look),
+            draw: price(self.draw),
+            diffuse_alone: price(self.diffuse_at_pixel),
+            specular_alone: price(self.specular_at_pixel),
+        };
+        (unit, self.vertex, prices)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::device::costs::Costs;
+    use crate::device::cpu::Cpu;
+
+    const OWN: VertexPrices = Costs::SOFTWARE.vertices;
+    const FOUND: VertexPrices =
+        VertexPrices { light: 2.0, pixel: 0.8, look: 12.0, draw: 500.0, diffuse_alone: 0.7, specular_alone: 0.8 };
+
+    #[test]
+    fn prices_are_in_lights_at_a_pixel() {
+        let times = Times {
+            light_at_pixel: 2.0,
+            first_light_at_pixel: 3.0,
+            diffuse_at_pixel: 1.6,
+            specular_at_pixel: 1.8,
+            light_at_vertex: 7.0,
+            vertex: 30.0,
+            look: 24.0,
+            draw: 2600.0,
+        };
+        let (unit, vertex, prices) = times.prices();
+        assert_eq!((unit.to_bits(), vertex.to_bits()), (2f64.to_bits(), 30f64.to_bits()));
+        let expected =
+            VertexPrices { light: 3.5, pixel: 0.5, look: 12.0, draw: 1300.0, diffuse_alone: 0.8, specular_alone: 0.9 };
+        assert_eq!(prices, expected);
+    }
+
+    #[test]
+    fn what_cannot_be_is_not_believed() {
+        let believed = Calibration::of(2.0, 30.0, FOUND, OWN, 1.01);
+        assert_eq!((believed.prices, believed.doubts.len()), (FOUND, 0));
+        let rows = [
+            ("light", Calibration::of(2.0, 30.0, VertexPrices { light: -0.1, ..FOUND }, OWN, 1.0)),
+            ("pixel", Calibration::of(2.0, 30.0, VertexPrices { pixel: -2.0, ..FOUND }, OWN, 1.0)),
+            ("look", Calibration::of(2.0, 30.0, VertexPrices { look: 0.0, ..FOUND }, OWN, 1.0)),
+            ("draw", Calibration::of(2.0, 30.0, VertexPrices { draw: f32::INFINITY, ..FOUND }, OWN, 1.0)),
+            ("diffuse_alone", Calibration::of(2.0, 30.0, VertexPrices { diffuse_alone: f32::NAN, ..FOUND }, OWN, 1.0)),
+            ("specular_alone", Calibration::of(2.0, 30.0, VertexPrices { specular_alone: 1.5, ..FOUND }, OWN, 1.0)),
+            ("a light at a pixel", Calibration::of(0.0, 30.0, FOUND, OWN, 1.0)),
+            ("a light at a pixel", Calibration::of(f64::NAN, 30.0, FOUND, OWN, 1.0)),
+            ("a frame by these prices takes 1.06", Calibration::of(2.0, 30.0, FOUND, OWN, 1.06)),
+            ("a frame by these prices takes NaN", Calibration::of(2.0, 30.0, FOUND, OWN, f64::NAN)),
+        ];
+        for (name, found) in rows {
+            assert_eq!(found.prices, OWN, "{name}");
+            assert!(found.doubts.len() == 1 && found.doubts[0].starts_with(name), "{name}: {:?}", found.doubts);
+        }
+    }
+
+    #[test]
+    fn noise_does_not_make_prices_that_are_none() {
+        let found = VertexPrices { pixel: -0.3, draw: -0.5, diffuse_alone: 1.1, specular_alone: 1.19, ..FOUND };
+        let prices = Calibration::of(2.0, 30.0, found, OWN, 1.0).prices;
+        assert_eq!(prices, VertexPrices { pixel: 0.0, draw: 0.0, diffuse_alone: 1.0, specular_alone: 1.0, ..FOUND });
+        assert_eq!(prices.validate(), Ok(()));
+    }
+
+    /// Whatever the machine does meanwhile, what is found can be drawn by.
+    #[test]
+    fn the_cpu_is_measured() {
+        let adapter = Adapter::Cpu(Cpu::open().expect("threads"));
+        let found = Calibration::measure(&adapter).expect("it draws");
+        println!("{found:#?}");
+        assert_eq!(found.prices.validate(), Ok(()));
+        let own = found.prices == adapter.costs().vertices;
+        assert_eq!(own, !found.doubts.is_empty(), "{found:?}");
+    }
+}

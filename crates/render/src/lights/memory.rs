@@ -1,0 +1,265 @@
+//! What was chosen for each patch in the frame before: so that terms do not flicker under a slow light, and to count how many
+//! change their place.
+
+use crate::target::canvas::CanvasTarget;
+use crate::target::surface::SurfaceTarget;
+use crate::target::texture::TextureTarget;
+use bevy_ecs::prelude::{Entity, ReflectResource, Res, Resource};
+use bevy_platform::collections::HashMap;
+use bevy_reflect::Reflect;
+use std::ops::Range;
+
+/// Whether under [`Shading::Auto`](halfway_lighting::Shading::Auto) it counts where the terms of a patch were shaded in the
+/// frame before. While this resource is not there, the target decides: [`Choosing::Steadily`] for a window and an engine's
+/// texture, [`Choosing::Anew`] for headless pictures.
+///
+/// Either keeps to the tolerance in every frame by the same bounds.
+/// [`FrameReport::choices_changed`](crate::FrameReport::choices_changed) counts what changes.
+#[derive(Resource, Reflect, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[reflect(Resource, Clone, Debug, PartialEq, Hash)]
+pub enum Choosing {
+    /// Each frame chooses by itself: the same scene is the same picture to the byte, whatever was drawn before.
+    Anew,
+    /// A term stays where it was unless the other place is clearly better: it goes to the vertices where that saves a
+    /// tenth of its pixels more than it costs and leaves a tenth of the tolerance, and comes back where it costs a tenth
+    /// more than it saves, or where the bound of this frame does not allow it any more.
+    Steadily,
+}
+
+/// The part of what is shaded at the pixels by which the other place has to be better.
+pub(super) const CLEARLY: f32 = 0.1;
+
+/// The part of what is allowed that a term may fill up that comes to the vertices; one that stays there may fill all.
+pub(super) const ROOM_TO_COME: f64 = 0.9;
+
+/// What says whether choices are kept.
+pub(crate) type ChosenBy<'w> = (
+    Option<Res<'w, Choosing>>,
+    Option<Res<'w, SurfaceTarget>>,
+    Option<Res<'w, CanvasTarget>>,
+    Option<Res<'w, TextureTarget>>,
+);
+
+/// How this frame chooses.
+pub(crate) fn choosing((said, surface, canvas, texture): ChosenBy) -> Choosing {
+    let is_watched = surface.is_some() || canvas.is_some() || texture.is_some();
+    said.map_or(if is_watched { Choosing::Steadily } else { Choosing::Anew }, |said| *said)
+}
+
+/// Names a patch as long as its object stands and its mesh is laid out the same: by the first of its indices.
+pub(crate) type PatchName = (Entity, u32);
+
+/// In the place of a patch: all of an object of which no patch is looked at.
+const ALL: u32 = u32::MAX;
+
+/// Where the diffuse and the specular term of a light are shaded that were placed for a patch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct PlacedLight {
+    light: u32,
+    at_vertices: [bool; 2],
+    at_fragments: [bool; 2],
+}
+
+/// What was chosen in the frame before, and what is in this one.
+#[derive(Debug, Default)]
+pub(crate) struct ChoiceMemory {
+    before: FrameChoices,
+    now: FrameChoices,
+    is_steady: bool,
+    /// How many lights of each kind there are. With other numbers, a light's number means another.
+    counts: [u32; 3],
+    /// How many patches of this frame have a term in the other place than in the frame before.
+    pub(crate) changed: u32,
+}
+
+#[derive(Debug, Default)]
+struct FrameChoices {
+    /// The lights of each patch, in `lights`, ascending; none where all is at the fragments unseen.
+    patches: HashMap<PatchName, Range<usize>>,
+    lights: Vec<PlacedLight>,
+}
+
+/// What was chosen for a patch in the frame before, where that counts; of a patch that was not there, nothing.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Before<'a>(Option<&'a [PlacedLight]>);
+
+impl Before<'_> {
+    /// Which terms of a light were at the vertices; `None` where that does not count.
+    pub(crate) fn at_vertices(self, light: u32) -> Option<[bool; 2]> {
+        let lights = self.0?;
+        let place = lights.binary_search_by_key(&light, |placed| placed.light);
+        Some(place.map_or([false; 2], |place| lights[place].at_vertices))
+    }
+
+    /// Whether anything was at the vertices; `None` where that does not count.
+    pub(crate) fn is_moved(self) -> Option<bool> {
+        Some(self.0?.iter().any(|placed| placed.at_vertices != [false; 2]))
+    }
+
+    /// How much more than it costs moving terms has to save of a patch on which so much could be saved.
+    pub(crate) fn least_gain(self, of: f32) -> f32 {
+        let least = match self.is_moved() {
+            None => 0.0,
+            Some(true) => -CLEARLY * of,
+            Some(false) => CLEARLY * of,
+        };
+        if least.is_finite() { least } else { 0.0 }
+    }
+}
+
+impl FrameChoices {
+    fn get(&self, name: PatchName) -> Option<&[PlacedLight]> {
+        self.patches.get(&name).map(|range| &self.lights[range.clone()])
+    }
+}
+
+impl ChoiceMemory {
+    /// Begins a frame with so many lights of each kind.
+    pub(crate) fn begin(&mut self, choosing: Choosing, counts: [u32; 3]) {
+        std::mem::swap(&mut self.before, &mut self.now);
+        self.now.patches.clear();
+        self.now.lights.clear();
+        if self.counts != counts {
+            self.counts = counts;
+            self.before.patches.clear();
+        }
+        self.is_steady = choosing == Choosing::Steadily;
+        self.changed = 0;
+    }
+
+    /// What was chosen for a patch before, if that counts.
+    pub(crate) fn before(&self, (object, first): PatchName) -> Before<'_> {
+        let of = |first| self.before.get((object, first));
+        Before(if self.is_steady { of(first).or_else(|| of(ALL)) } else { None })
+    }
+
+    /// Takes note of where the terms of a patch are shaded: the lights whose diffuse and whose specular ones are at the
+    /// vertices, and those at the fragments, each list ascending.
+    pub(crate) fn note(&mut self, name: PatchName, at_vertices: [&[u32]; 2], at_fragments: [&[u32]; 2]) {
+        let start = self.now.lights.len();
+        let mut lists = [at_vertices, at_fragments];
+        while let Some(light) = lists.as_flattened().iter().filter_map(|list| list.first()).min().copied() {
+            let took = lists.each_mut().map(|stage| {
+                stage.each_mut().map(|list| {
+                    let has = list.first() == Some(&light);
+                    *list = &list[usize::from(has)..];
+                    has
+                })
+            });
+            self.now.lights.push(PlacedLight { light, at_vertices: took[0], at_fragments: took[1] });
+        }
+        let now = &self.now.lights[start..];
+        if self.before.get(name).is_some_and(|before| is_changed(before, now)) {
+            self.changed += 1;
+        }
+        self.now.patches.insert(name, start..self.now.lights.len());
+    }
+
+    /// Takes note of an object of which no patch is looked at: all its terms are at the fragments.
+    pub(crate) fn note_object(&mut self, object: Entity) {
+        self.now.patches.insert((object, ALL), 0..0);
+    }
+
+    /// Takes note of a patch that is not looked at: its terms are all at the fragments, whatever its lights.
+    pub(crate) fn note_at_fragments(&mut self, name: PatchName) {
+        self.changed += u32::from(Before(self.before.get(name)).is_moved() == Some(true));
+        if !self.now.patches.contains_key(&(name.0, ALL)) {
+            self.now.patches.insert(name, 0..0);
+        }
+    }
+}
+
+/// Whether a term that both have is in the other place.
+fn is_changed(before: &[PlacedLight], now: &[PlacedLight]) -> bool {
+    let both = |a: [bool; 2], b: [bool; 2]| (a[0] && b[0]) || (a[1] && b[1]);
+    now.iter().any(|now| {
+        let place = before.binary_search_by_key(&now.light, |placed| placed.light);
+        place.is_ok_and(|place| {
+            let before = before[place];
+            both(before.at_vertices, now.at_fragments) || both(before.at_fragments, now.at_vertices)
+        })
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use bevy_ecs::world::World;
+
+    const COUNTS: [u32; 3] = [1, 2, 0];
+
+    fn names() -> [PatchName; 2] {
+        let mut world = World::new();
+        [(world.spawn_empty().id(), 0), (world.spawn_empty().id(), 96)]
+    }
+
+    #[test]
+    fn a_term_in_the_other_place_is_counted_once_a_patch() {
+        let [name, other] = names();
+        let mut memory = ChoiceMemory::default();
+        memory.begin(Choosing::Anew, COUNTS);
+        memory.note(name, [&[0, 2], &[0]], [&[1], &[1, 2]]);
+        memory.note(other, [&[], &[]], [&[0], &[]]);
+        assert_eq!(memory.changed, 0, "what was not there has not changed");
+        let mut changed = |counts, vertices: [&[u32]; 2], fragments: [&[u32]; 2]| {
+            memory.begin(Choosing::Anew, counts);
+            memory.note(name, vertices, fragments);
+            memory.note(other, [&[], &[]], [&[0], &[]]);
+            memory.changed
+        };
+        assert_eq!(changed(COUNTS, [&[0, 2], &[0]], [&[1], &[1, 2]]), 0, "the same");
+        assert_eq!(changed(COUNTS, [&[0], &[0]], [&[1], &[]]), 0, "what is left out is in no place");
+        assert_eq!(changed(COUNTS, [&[], &[]], [&[0, 1], &[0]]), 1, "two terms of one patch");
+        assert_eq!(changed(COUNTS, [&[0, 1], &[0]], [&[], &[]]), 1, "and back");
+        assert_eq!(changed([0, 3, 0], [&[], &[]], [&[0, 1], &[0]]), 0, "other lights");
+    }
+
+    #[test]
+    fn what_is_not_looked_at_is_at_the_fragments() {
+        let [name, other] = names();
+        let mut memory = ChoiceMemory::default();
+        memory.begin(Choosing::Steadily, COUNTS);
+        assert_eq!(memory.before(name).is_moved(), None, "nothing is known of the first frame");
+        memory.note(name, [&[1], &[]], [&[], &[1]]);
+        memory.note_at_fragments(other);
+        memory.begin(Choosing::Steadily, COUNTS);
+        let before = memory.before(name);
+        assert_eq!((before.is_moved(), before.at_vertices(1)), (Some(true), Some([true, false])));
+        assert_eq!((before.at_vertices(0), before.at_vertices(2)), (Some([false; 2]), Some([false; 2])));
+        assert_eq!(memory.before(other).is_moved(), Some(false));
+        memory.note_object(name.0);
+        memory.note_at_fragments(name);
+        assert_eq!(memory.changed, 1);
+        memory.begin(Choosing::Steadily, COUNTS);
+        assert_eq!(memory.before((name.0, 7)).is_moved(), Some(false), "any patch of it");
+        assert_eq!(memory.before(other).is_moved(), None, "it was not there");
+        memory.begin(Choosing::Anew, COUNTS);
+        assert_eq!(memory.before(name).is_moved(), None, "it does not count");
+    }
+
+    #[test]
+    fn choices_are_kept_where_somebody_watches() {
+        let choosing = |world: &mut World| world.run_system_cached(|by: ChosenBy| choosing(by)).expect("it runs");
+        let mut world = World::new();
+        assert_eq!(choosing(&mut world), Choosing::Anew);
+        world.insert_resource(CanvasTarget { size: bevy_math::UVec2::ONE });
+        assert_eq!(choosing(&mut world), Choosing::Steadily);
+        world.insert_resource(Choosing::Anew);
+        assert_eq!(choosing(&mut world), Choosing::Anew);
+        world.remove_resource::<CanvasTarget>();
+        world.insert_resource(Choosing::Steadily);
+        assert_eq!(choosing(&mut world), Choosing::Steadily);
+    }
+
+    #[test]
+    fn what_was_moved_stays_for_less() {
+        let placed = |at_vertices| [PlacedLight { light: 0, at_vertices, at_fragments: [false; 2] }];
+        let (moved, left) = (placed([false, true]), placed([false; 2]));
+        let [none, moved, left] = [Before(None), Before(Some(&moved)), Before(Some(&left))];
+        let close = |a: f32, b: f32| assert!((a - b).abs() < 1e-6, "{a} {b}");
+        close(none.least_gain(50.0), 0.0);
+        close(moved.least_gain(50.0), -5.0);
+        close(left.least_gain(50.0), 5.0);
+        close(left.least_gain(f32::INFINITY), 0.0);
+    }
+}
