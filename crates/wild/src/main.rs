@@ -8,8 +8,10 @@ use clap::Parser;
 use clap::builder::NonEmptyStringValueParser;
 use halfway::lighting::Tolerance;
 use halfway::output::write_text;
-use halfway::render::AdapterChoice;
-use halfway_wild::{Judge, scene, written};
+use halfway::prelude::UVec2;
+use halfway::reference::metrics::Verdict;
+use halfway::render::{Adapter, AdapterChoice};
+use halfway_wild::{Animation, Finding, IMAGES, Judge, scene, written};
 use serde_json::Value;
 
 /// Draws random scenes with the adapter and judges each by the oracle; makes what fails small and prints it.
@@ -42,6 +44,10 @@ struct Arguments {
     /// Draw everything by automatic shading within so many steps of 255 and so many pixels, and judge it by Phong shading
     #[arg(long, value_name = "STEPS[,PIXELS]", value_parser = tolerance)]
     tolerance: Option<Tolerance>,
+    /// Draw no random scenes, but so many frames of an animation by automatic shading, each within another tolerance of ½ to
+    /// 8 steps, and judge each; it has 300
+    #[arg(long, value_name = "FRAMES", conflicts_with_all = ["seed", "scenes", "first", "grid", "four", "tolerance"])]
+    animation: Option<u32>,
     /// Judge a failure at most so often to make it small
     #[arg(long, value_name = "N", default_value_t = 500)]
     trials: usize,
@@ -84,8 +90,12 @@ struct Worst {
 fn run(arguments: &Arguments) -> Result<u64, (u8, String)> {
     let choice = AdapterChoice { name: arguments.adapter.clone() };
     let adapter = choice.open().map_err(|error| (3, error.to_string()))?;
+    if let Some(frames) = arguments.animation {
+        return animate(adapter, frames).map_err(|finding| (1, finding.to_string()));
+    }
     println!("{}, seed {}", adapter.describe(), arguments.seed);
-    let mut judge = Judge::new(adapter, "").with_grid(arguments.grid).with_four_samples(arguments.four);
+    write_images(&arguments.output).map_err(|error| (1, error))?;
+    let mut judge = Judge::new(adapter, &arguments.output).with_grid(arguments.grid).with_four_samples(arguments.four);
     if let Some(tolerance) = arguments.tolerance {
         judge = judge.with_tolerance(tolerance);
     }
@@ -114,6 +124,49 @@ fn run(arguments: &Arguments) -> Result<u64, (u8, String)> {
         worst.steps
     );
     Ok(failed)
+}
+
+/// How many frames of the animation failed.
+fn animate(adapter: Adapter, frames: u32) -> Result<u64, Finding> {
+    println!("{}, {frames} frames of the animation", adapter.describe());
+    let start = Instant::now();
+    let mut animation = Animation::new(adapter, UVec2::new(96, 64))?;
+    let mut failed = 0;
+    let mut all = Vec::new();
+    for frame in 0..frames {
+        match animation.judge_frame(frame) {
+            Ok(figures) => all.push(figures),
+            Err(finding) => {
+                failed += 1;
+                println!("frame {frame} fails: {finding}");
+            }
+        }
+    }
+    println!("\n| steps | frames | off by at most, steps | sum of bounds at most | terms at vertices, of all frames |");
+    println!("|---|---|---|---|---|");
+    for steps in Animation::STEPS {
+        let of = || all.iter().filter(|figures| figures.steps.to_bits() == steps.to_bits());
+        let off = |verdict: &Verdict| verdict.worst / verdict.allowed * f64::from(steps);
+        let worst = of().map(|figures| off(&figures.verdict)).fold(0.0, f64::max);
+        let spent = of().map(|figures| figures.spent).fold(0.0, f64::max);
+        let at_vertices: u64 = of().map(|figures| figures.terms_at_vertices).sum();
+        println!("| {steps} | {} | {worst:.2} | {spent:.2} | {at_vertices} |", of().count());
+    }
+    println!("\n{frames} frames in {:.0} s: {failed} failed", start.elapsed().as_secs_f64());
+    Ok(failed)
+}
+
+/// Puts the images that scenes name beside where those will lie.
+fn write_images(folder: &Path) -> Result<(), String> {
+    for (path, bytes) in IMAGES {
+        let path = folder.join(path);
+        let write = || {
+            std::fs::create_dir_all(path.parent().unwrap_or(folder))?;
+            std::fs::write(&path, bytes)
+        };
+        write().map_err(|error: std::io::Error| format!("{}: {error}", path.display()))?;
+    }
+    Ok(())
 }
 
 /// Prints a small scene and writes it.

@@ -1,4 +1,4 @@
-//! Draws scenes over the whole format of scene files, models in files excepted.
+//! Draws scenes over the whole format of scene files, models and images on objects excepted.
 //!
 //! Most values are ordinary, so that most scenes show something; each may be extreme, and any key may be left out.
 
@@ -6,10 +6,13 @@ mod light;
 mod looks;
 mod mesh;
 mod place;
+mod surroundings;
 
 use serde_json::{Map, Value, json};
 
 use crate::random::Random;
+
+pub use surroundings::IMAGES;
 
 /// Scene number `number` of a seed, as the JSON of a scene file: the same one on every machine.
 pub fn scene(seed: u64, number: u64) -> Value {
@@ -30,7 +33,29 @@ pub fn scene(seed: u64, number: u64) -> Value {
     scene.perhaps(random, 80, "shading", looks::shading);
     scene.perhaps(random, 70, "reflectance", looks::reflectance);
     scene.perhaps(random, 35, "intensity", looks::intensity);
+    scene.perhaps(random, 20, "environment", surroundings::environment);
+    // Last, so that all else is as it would be without; not in an environment, which some adapters leave out for solids.
+    if !scene.0.contains_key("environment")
+        && let Some(Value::Array(objects)) = scene.0.get_mut("objects")
+    {
+        cut(random, unit, objects);
+    }
     scene.into()
+}
+
+/// Cuts some objects from solids. One on top of another is cut from the same: the CPU may draw either first otherwise.
+fn cut(random: &mut Random, unit: f64, objects: &mut [Value]) {
+    for at in 0..objects.len() {
+        let is_twin = at > 0 && ["mesh", "transform"].iter().all(|key| objects[at][key] == objects[at - 1][key]);
+        let solid = if is_twin {
+            objects[at - 1].get("solid").cloned()
+        } else {
+            random.percent(8).then(|| looks::solid(random, unit))
+        };
+        if let Some(solid) = solid {
+            objects[at]["solid"] = solid;
+        }
+    }
 }
 
 fn objects(random: &mut Random, unit: f64) -> Vec<Value> {

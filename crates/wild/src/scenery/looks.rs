@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::{Object, short, shorts};
+use super::{Object, place, short, shorts};
 use crate::random::Random;
 
 /// A few of the presets; which one makes no difference to the code that draws it.
@@ -39,6 +39,22 @@ pub(super) fn intensity(random: &mut Random) -> Value {
         4 => json!({"reinhard": {"white": short(1.0 + random.magnitude(-2, 3))}}),
         _ => json!("aces"),
     }
+}
+
+/// What an object is cut from. Some cells a unit: finer ones would need more digits of a place than 32 bits have.
+pub(super) fn solid(random: &mut Random, unit: f64) -> Value {
+    let mut solid = Object::new();
+    solid.perhaps(random, 90, "kind", |random| random.of(&["checker", "marble", "wood", "noise"]).into());
+    solid.perhaps(random, 60, "octaves", |random| random.whole(1, 8).into());
+    let cells = random.magnitude(-2, 1) / unit;
+    let stretched = [0; 3].map(|_| cells * random.between(0.6, 1.4));
+    let moved = place::at_distance(random, 2.0);
+    solid.set(
+        "transform",
+        json!({"scale": shorts(stretched), "rotation": place::quaternion(random), "translation": shorts(moved)}),
+    );
+    solid.perhaps(random, 70, "colors", |random| json!([color(random, 1.0), color(random, 1.0)]));
+    solid.into()
 }
 
 pub(super) fn material(random: &mut Random) -> Value {

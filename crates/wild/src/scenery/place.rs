@@ -62,7 +62,7 @@ pub(super) fn transform(random: &mut Random, unit: f64) -> Value {
 }
 
 /// Six digits, so that its length is 1 as nearly as the format wants.
-fn quaternion(random: &mut Random) -> Value {
+pub(super) fn quaternion(random: &mut Random) -> Value {
     let ([x, y, z], share) = (random.direction(), random.between(-1.0, 1.0));
     let rest = (1.0 - share * share).sqrt();
     json!([x * rest, y * rest, z * rest, share].map(|c| (c * 1e6).round() / 1e6))
