@@ -4,7 +4,9 @@ use halfway::mesh::{Cylinder, NormalWeighting, Normals, ParametricSurface, Tesse
 use halfway::prelude::*;
 use halfway::reference::{Image, Mode};
 
-use super::{FailurePage, SIZE, camera, drawn, series, show, shown, sun};
+use super::plots::{series, shown};
+use super::stage::{SIZE, camera, drawn, show, sun};
+use super::{FailurePage, only};
 use crate::figure::{Axis, AxisScale, Figure, Panel};
 use crate::measure::MeasureError;
 
@@ -56,7 +58,7 @@ pub(super) fn page() -> Result<FailurePage, MeasureError> {
         remedy: "Split vertices where the angle between faces is larger than a crease angle (Normals::Creased), or by \
                  smoothing groups.",
         test: "mean_normals_are_wrong_at_creases",
-        figure: Figure {
+        figures: only(Figure {
             id: "failure-creases".to_owned(),
             title: "Intensity down the middle of a can, Phong shading".to_owned(),
             x: Axis::new("pixel", AxisScale::Linear),
@@ -68,8 +70,7 @@ pub(super) fn page() -> Result<FailurePage, MeasureError> {
                 notes: Vec::new(),
                 series: lines.map(|(name, kind, image)| series(name, kind, &column(image), false)).into(),
             }],
-        },
-        others: Vec::new(),
+        }),
         pictures: shown([("mean normals", mean), ("creased at 40°", creased), ("the surface’s own", own)]),
     })
 }

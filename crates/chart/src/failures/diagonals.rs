@@ -3,7 +3,9 @@
 use halfway::prelude::*;
 use halfway::reference::{Image, Mode};
 
-use super::{FailurePage, SIZE, camera, drawn, row, series, show, shown};
+use super::plots::{row, series, shown};
+use super::stage::{SIZE, camera, drawn, show};
+use super::{FailurePage, only};
 use crate::figure::{Axis, AxisScale, Figure, Panel};
 use crate::measure::MeasureError;
 
@@ -46,10 +48,10 @@ pub(super) fn page() -> Result<FailurePage, MeasureError> {
         id: "diagonals",
         title: "The diagonal of a quad is seen",
         cause: "A quad is drawn as two triangles, and each interpolates three of its four vertices: along the \
-                diagonal it depends on two of them alone..",
+                diagonal it depends on two of them alone.",
         remedy: "Shade at pixels, or cut quads finer, or along the diagonal whose ends are more alike.",
         test: "gouraud_depends_on_the_diagonal_and_phong_does_not",
-        figure: Figure {
+        figures: only(Figure {
             id: "failure-diagonals".to_owned(),
             title: "Intensity along the middle row of a square with a light near one corner".to_owned(),
             x: Axis::new("pixel", AxisScale::Linear),
@@ -61,8 +63,7 @@ pub(super) fn page() -> Result<FailurePage, MeasureError> {
                 notes: Vec::new(),
                 series: lines.map(|(name, kind, image)| series(name, kind, &row(image, SIZE.y / 2), false)).into(),
             }],
-        },
-        others: Vec::new(),
+        }),
         pictures: shown([
             ("Gouraud, rising diagonal", rising),
             ("Gouraud, falling diagonal", falling),

@@ -3,7 +3,9 @@
 use halfway::prelude::*;
 use halfway::reference::Image;
 
-use super::{FailurePage, camera, four, names, series, show, shown, sun};
+use super::plots::{names, series, shown};
+use super::stage::{camera, four, show, sun};
+use super::{FailurePage, only};
 use crate::figure::{Axis, AxisScale, Figure, Panel};
 use crate::measure::MeasureError;
 
@@ -58,15 +60,14 @@ pub(super) fn page() -> Result<FailurePage, MeasureError> {
         remedy: "Shade highlights at pixels (Phong, or diffuse at vertices and specular at pixels), or use cells that are \
                  smaller than the highlight.",
         test: "sharp_highlights_between_vertices_are_lost",
-        figure: Figure {
+        figures: only(Figure {
             id: "failure-highlight".to_owned(),
             title: "Light of a highlight in the middle of a cell, the true sphere’s being 1".to_owned(),
             x: Axis::new("shininess", AxisScale::Log),
             y: Axis::new("light (true = 1)", AxisScale::Linear),
             columns: 3,
             panels,
-        },
-        others: Vec::new(),
+        }),
         pictures: shown([
             ("flat, 16 meridians, shininess 100", flat),
             ("Gouraud", gouraud),

@@ -4,8 +4,11 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use halfway::reference::{Image, Interpolation, PolygonCorner};
 
-use super::{FailurePage, SIZE, series, shown};
+use super::plots::{series, shown};
+use super::stage::SIZE;
+use super::{FailurePage, only};
 use crate::figure::{Axis, AxisScale, Figure, Panel};
+use crate::measure::MeasureError;
 
 /// A strip from left to right whose right end is `ratio` times as far away; values go from 0 to 1 along it.
 fn receding(ratio: f64) -> [PolygonCorner<1>; 4] {
@@ -47,7 +50,8 @@ fn stripes(how: Interpolation) -> Image {
     Image::new(SIZE.x, SIZE.y, (0..SIZE.x * SIZE.y).map(pixel).collect())
 }
 
-pub(super) fn page() -> FailurePage {
+#[expect(clippy::unnecessary_wraps, reason = "as every page")]
+pub(super) fn page() -> Result<FailurePage, MeasureError> {
     let ratios: Vec<f64> = (0..=24).map(|i| 10f64.powf(f64::from(i) / 12.0)).collect();
     let errors = [Interpolation::Screen, Interpolation::ScanLine].map(|how| {
         let points: Vec<_> = ratios.iter().map(|&ratio| (ratio, error(how, ratio))).collect();
@@ -65,14 +69,14 @@ pub(super) fn page() -> FailurePage {
         series,
     };
     let [right, screen, scan] = &Interpolation::ALL.map(stripes);
-    FailurePage {
+    Ok(FailurePage {
         id: "interpolation",
         title: "Interpolation on the picture is not interpolation in space",
         cause: "Halfway on the picture is not halfway on a surface that recedes. The published scan-line form is \
                 linear on the picture as well, and of polygons with more than three corners it depends on how they are turned.",
         remedy: "Interpolate value/w and 1/w, as this project does; split polygons into triangles.",
         test: "interpolation_on_the_picture_is_off_by_depth_and_rotation",
-        figure: Figure {
+        figures: only(Figure {
             id: "failure-interpolation".to_owned(),
             title: "Error over depth, and change with rotation".to_owned(),
             x: Axis::new("", AxisScale::Linear),
@@ -82,14 +86,13 @@ pub(super) fn page() -> FailurePage {
                 panel("largest error along a receding strip", "depth of the far end (near end = 1)", errors.into()),
                 panel("middle of a square with corners 1, 0, 1, 0", "angle (degrees)", turned.collect()),
             ],
-        },
-        others: Vec::new(),
+        }),
         pictures: shown([
             ("perspective-correct, 6 : 1 in depth", right),
             ("linear on the picture", screen),
             ("along edges, then along the line", scan),
         ]),
-    }
+    })
 }
 
 #[cfg(test)]

@@ -3,7 +3,9 @@
 use halfway::prelude::*;
 use halfway::reference::Image;
 
-use super::{FailurePage, SIZE, camera, four, names, row, series, show, shown, sun};
+use super::plots::{names, row, series, shown};
+use super::stage::{SIZE, camera, four, show, sun};
+use super::{FailurePage, only};
 use crate::figure::{Axis, AxisScale, Figure, Panel};
 use crate::measure::MeasureError;
 
@@ -43,15 +45,14 @@ pub(super) fn page() -> Result<FailurePage, MeasureError> {
                 every edge, and the eye exaggerates both (E. Mach, 1865).",
         remedy: "Interpolate normals, not intensities; or use more triangles, whose jumps are smaller.",
         test: "slopes_jump_under_gouraud_and_hardly_under_phong",
-        figure: Figure {
+        figures: only(Figure {
             id: "failure-mach-bands".to_owned(),
             title: "Intensity along a row of pixels over a sphere of 16 meridians".to_owned(),
             x: Axis::new("pixel", AxisScale::Linear),
             y: Axis::new("intensity (linear)", AxisScale::Linear),
             columns: 1,
             panels: vec![panel],
-        },
-        others: Vec::new(),
+        }),
         pictures: shown([("flat", flat), ("Gouraud", gouraud), ("Phong", phong)]),
     })
 }

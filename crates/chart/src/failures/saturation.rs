@@ -4,7 +4,9 @@ use halfway::prelude::*;
 use halfway::reference::{Image, Mode, Oracle};
 use halfway::render::{Adapter, AdapterChoice};
 
-use super::{FailurePage, SIZE, camera, row, series, set_up, show, shown};
+use super::FailurePage;
+use super::plots::{row, series, shown};
+use super::stage::{SIZE, camera, set_up, show};
 use crate::figure::{Axis, AxisScale, Figure, Panel, Series};
 use crate::measure::MeasureError;
 use crate::timing::{in_turns, median, settle};
@@ -183,30 +185,42 @@ pub(super) fn page() -> Result<FailurePage, MeasureError> {
         remedy: "Light scenes so that nothing exceeds 1, where clamping costs nothing and changes nothing. For still \
                  pictures renormalise; for moving ones renormalise with smoothing, or take a curve.",
         test: "clamping_turns_hues_and_divisors_flicker",
-        figure: figure(
-            "-hue",
-            "How far hues are turned, across a sphere under an orange light of 3, 1.5, 0.6",
-            [linear("pixel"), linear("turned by (degrees)")],
-            panel(&middle, lines(&|image| turns(&raw, image))),
-        ),
-        others: vec![
-            figure(
-                "-contrast",
-                "The red of that row as it is shown",
-                [linear("pixel"), linear("red (linear)")],
-                panel(&middle, lines(&|image| row(image, SIZE.y / 2))),
+        figures: vec![
+            (
+                "hue",
+                figure(
+                    "-hue",
+                    "How far hues are turned, across a sphere under an orange light of 3, 1.5, 0.6",
+                    [linear("pixel"), linear("turned by (degrees)")],
+                    panel(&middle, lines(&|image| turns(&raw, image))),
+                ),
             ),
-            figure(
-                "-flicker",
-                "How a background of 0.25 is shown while a lamp passes the facets of a sphere",
-                [linear("frame"), linear("red (linear)")],
-                panel("60 frames, flat shading, shininess 200", flickers),
+            (
+                "contrast",
+                figure(
+                    "-contrast",
+                    "The red of that row as it is shown",
+                    [linear("pixel"), linear("red (linear)")],
+                    panel(&middle, lines(&|image| row(image, SIZE.y / 2))),
+                ),
             ),
-            figure(
-                "-cost",
-                "The time of a frame",
-                [Axis::new("pixels", AxisScale::Log), Axis::new("milliseconds", AxisScale::Log)],
-                panel("that sphere, on the adapter of this report", costs()?),
+            (
+                "flicker",
+                figure(
+                    "-flicker",
+                    "How a background of 0.25 is shown while a lamp passes the facets of a sphere",
+                    [linear("frame"), linear("red (linear)")],
+                    panel("60 frames, flat shading, shininess 200", flickers),
+                ),
+            ),
+            (
+                "time",
+                figure(
+                    "-cost",
+                    "The time of a frame",
+                    [Axis::new("pixels", AxisScale::Log), Axis::new("milliseconds", AxisScale::Log)],
+                    panel("that sphere, on the adapter of this report", costs()?),
+                ),
             ),
         ],
         pictures: shown([("clamp", clamp), ("renormalise", divided), ("Reinhard, white 4", reinhard), ("ACES", aces)]),

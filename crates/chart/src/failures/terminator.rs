@@ -3,7 +3,9 @@
 use halfway::prelude::*;
 use halfway::reference::Image;
 
-use super::{FailurePage, SIZE, camera, four, names, row, series, show, shown, sun};
+use super::plots::{names, row, series, shown};
+use super::stage::{SIZE, camera, four, show, sun};
+use super::{FailurePage, only};
 use crate::figure::{Axis, AxisScale, Figure, Panel};
 use crate::measure::MeasureError;
 
@@ -38,15 +40,14 @@ pub(super) fn page() -> Result<FailurePage, MeasureError> {
                 cells, also where they lie in the dark: Gouraud shading cuts the corner off, and the terminator follows the edges of the mesh.",
         remedy: "Shade at pixels, where the corner is met; it is the diffuse term that needs it, not the highlight.",
         test: "gouraud_lights_what_is_in_the_dark",
-        figure: Figure {
+        figures: only(Figure {
             id: "failure-terminator".to_owned(),
             title: "Intensity along a row of pixels across the terminator".to_owned(),
             x: Axis::new("pixel", AxisScale::Linear),
             y: Axis::new("intensity (linear)", AxisScale::Linear),
             columns: 1,
             panels: vec![panel],
-        },
-        others: Vec::new(),
+        }),
         pictures: shown([("flat", flat), ("Gouraud", gouraud), ("Phong", phong), ("true sphere", truth)]),
     })
 }

@@ -275,6 +275,13 @@ mod tests {
     }
 
     #[test]
+    fn automatic_shading_is_tried_within_these_tolerances() {
+        let tolerances = |methods: Vec<Method>| methods.into_iter().filter_map(Method::tolerance).collect::<Vec<_>>();
+        assert_eq!(tolerances(Method::all(None)), [0.5, 1.0, 2.0, 4.0, 8.0, 16.0]);
+        assert_eq!(tolerances(Method::few(None)), [1.0]);
+    }
+
+    #[test]
     fn mixtures_can_be_drawn() {
         for method in Method::all(None) {
             if let Shade::Mixed(terms) = method.shade {

@@ -31,7 +31,7 @@
     // What is chosen: the scene and adapter, the places of both measures, words to be found, families that are left out; and
     // the ends of both axes, as logarithms, where they are not those of all points.
     const first = { scene: [...sections.keys()][0], backend: data.points[0]?.backend, y: 0, x: 0 };
-    const state = { ...first, words: '', off: new Set(), view: null };
+    const state = { ...first, words: '', off: new Set(), view: null, zoomed: false };
 
     // The charts that scripts leave alone are of the same kind.
     const space = document.querySelector('svg').namespaceURI;
@@ -160,43 +160,69 @@
         pointable(group, () => content(entry));
         inside.append(group);
       }
-      zoomable(root, box);
+      state.box = box;
       return root;
     };
 
-    // The wheel zooms about the pointer, dragging moves, and so do the buttons above.
-    const zoom = (factor, fx = 0.5, fy = 0.5) => {
-      state.view = state.view.map(([low, high], axis) => {
-        const at = low + (axis ? 1 - fy : fx) * (high - low);
-        return [at - (at - low) * factor, at + (high - at) * factor];
-      });
+    // The wheel zooms about the pointer, dragging moves, two fingers do both, and so do the buttons above.
+    const plots = element('div');
+    plots.className = 'plot';
+    const look = (view) => {
+      Object.assign(state, { view, zoomed: true });
       draw();
     };
-    const zoomable = (root, box) => {
-      const share = (event) => {
-        const { left, top } = root.getBoundingClientRect();
-        const along = (event.clientX - left - box.left) / (box.right - box.left);
-        return [along, (event.clientY - top - box.top) / (box.bottom - box.top)];
-      };
-      root.addEventListener('wheel', (event) => {
-        event.preventDefault();
-        zoom(event.deltaY > 0 ? 1.25 : 0.8, ...share(event));
-      }, { passive: false });
-      root.addEventListener('pointerdown', (start) => {
-        if (start.target.closest('g[data-method]') || start.pointerType === 'touch') return;
-        const view = state.view;
-        const [sx, sy] = share(start);
-        const move = (event) => {
-          const [fx, fy] = share(event);
-          const by = [sx - fx, fy - sy];
-          state.view = view.map(([low, high], axis) => [low, high].map((end) => end + by[axis] * (high - low)));
-          draw();
-        };
-        const end = () => { removeEventListener('pointermove', move); removeEventListener('pointerup', end); };
-        addEventListener('pointermove', move);
-        addEventListener('pointerup', end);
-      });
+    const zoom = (factor, fx = 0.5, fy = 0.5) => look(state.view.map(([low, high], axis) => {
+      const at = low + (axis ? 1 - fy : fx) * (high - low);
+      return [at - (at - low) * factor, at + (high - at) * factor];
+    }));
+    // Where a place of the window is within the chart's axes, from 0 to 1 to the right and down.
+    const share = ([x, y]) => {
+      const { left, top } = plots.firstChild.getBoundingClientRect();
+      const { box } = state;
+      return [(x - left - box.left) / (box.right - box.left), (y - top - box.top) / (box.bottom - box.top)];
     };
+    plots.addEventListener('wheel', (event) => {
+      event.preventDefault();
+      zoom(event.deltaY > 0 ? 1.25 : 0.8, ...share([event.clientX, event.clientY]));
+    }, { passive: false });
+
+    // Pointers that are down, by their numbers; and, since the last of them came or went, their places and the view then.
+    const held = new Map();
+    const start = { places: [], view: null, moves: false };
+    const begin = () => Object.assign(start, { places: [...held.values()], view: state.view, moves: false });
+    const middle = (places) => [0, 1].map((k) => places.reduce((sum, place) => sum + place[k], 0) / places.length);
+    const apart = ([a, b]) => (b ? Math.max(Math.hypot(a[0] - b[0], a[1] - b[1]), 10) : 1);
+    const follow = () => {
+      const places = [...held.values()];
+      const factor = apart(start.places) / apart(places);
+      const [was, is] = [start.places, places].map((all) => share(middle(all)));
+      look(start.view.map(([low, high], axis) => {
+        const [before, now] = axis ? [1 - was[1], 1 - is[1]] : [was[0], is[0]];
+        const [at, size] = [low + before * (high - low), (high - low) * factor];
+        return [at - now * size, at + (1 - now) * size];
+      }));
+    };
+    plots.addEventListener('pointerdown', (event) => {
+      if (event.button !== 0 || (event.pointerType === 'mouse' && event.target.closest('g[data-method]'))) return;
+      // More fingers than two say nothing more.
+      if (held.size === 2) return;
+      held.set(event.pointerId, [event.clientX, event.clientY]);
+      begin();
+    });
+    addEventListener('pointermove', (event) => {
+      if (!held.has(event.pointerId)) return;
+      const [x, y] = held.get(event.pointerId);
+      // A tap may tremble.
+      if (held.size === 1 && !start.moves && Math.hypot(event.clientX - x, event.clientY - y) < 4) return;
+      start.moves = true;
+      held.set(event.pointerId, [event.clientX, event.clientY]);
+      // What was touched is drawn anew; events that a script has made up belong to no pointer that could be kept.
+      try { plots.setPointerCapture(event.pointerId); } catch { /* as before */ }
+      follow();
+    });
+    for (const end of ['pointerup', 'pointercancel']) {
+      addEventListener(end, (event) => { if (held.delete(event.pointerId)) begin(); });
+    }
 
     const table = (points) => {
       const best = front(points);
@@ -215,8 +241,6 @@
       return made;
     };
 
-    const plots = element('div');
-    plots.className = 'plot';
     const points = element('details', '', element('summary', 'every point in a table'));
     const rows = element('div');
     rows.className = 'table points';
@@ -230,6 +254,8 @@
       still.before(plots);
       section.append(points);
       const now = shown();
+      if (!state.view) state.zoomed = false;
+      plots.classList.toggle('zoomed', state.zoomed);
       plots.replaceChildren(chart(now));
       rows.replaceChildren(table(now));
     };

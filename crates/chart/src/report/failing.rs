@@ -11,7 +11,7 @@ pub(super) fn files(pages: &[FailurePage]) -> Result<Vec<NamedFile>, ReportError
     let mut files = Vec::new();
     for failure in pages {
         files.push((name(failure), html(&page(failure)?)?));
-        for figure in figures(failure) {
+        for (_, figure) in &failure.figures {
             files.push(figure_file(figure)?);
         }
     }
@@ -24,8 +24,8 @@ pub(super) fn section(pages: &[FailurePage]) -> Section {
         title: "Where methods fail".to_owned(),
         scene: None,
         text: vec![
-            "A page for each way, drawn by the reference renderer: pictures, how much, the cause, the remedy, and the test \
-             that keeps it."
+            "A page for each way: pictures, how much, the cause, the remedy, and the test that keeps it. What methods lose is \
+             drawn by the reference renderer, what rounding loses by the adapters of this report and by the CPU."
                 .to_owned(),
         ],
         pictures: Vec::new(),
@@ -48,10 +48,12 @@ fn page(failure: &FailurePage) -> Result<Page, ReportError> {
             scene: None,
             text: Vec::new(),
             pictures: pictures.collect::<Result<_, MeasureError>>()?,
-            figures: figures(failure).map(|figure| (String::new(), figure.clone())).collect(),
+            figures: failure.figures.iter().map(|(name, figure)| ((*name).to_owned(), figure.clone())).collect(),
             tables: Vec::new(),
-            files: figures(failure)
-                .map(|figure| ("chart (SVG)".to_owned(), format!("{}.svg", figure.id)))
+            files: failure
+                .figures
+                .iter()
+                .map(file)
                 .chain([("all charts".to_owned(), "index.html".to_owned())])
                 .collect(),
         }],
@@ -59,8 +61,10 @@ fn page(failure: &FailurePage) -> Result<Page, ReportError> {
     })
 }
 
-fn figures(failure: &FailurePage) -> impl Iterator<Item = &Figure> {
-    std::iter::once(&failure.figure).chain(&failure.others)
+/// A figure's file, by a name that no other of the page has.
+fn file((name, figure): &(&str, Figure)) -> (String, String) {
+    let what = if name.is_empty() { "chart (SVG)".to_owned() } else { format!("chart: {name} (SVG)") };
+    (what, format!("{}.svg", figure.id))
 }
 
 fn name(failure: &FailurePage) -> String {

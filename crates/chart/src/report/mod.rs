@@ -81,7 +81,7 @@ pub fn measure(
     let convergence = convergence::sweep(plan.convergence, &mut progress)?;
     let energies = highlight::sweep(plan.highlight, &mut progress)?;
     let over = MeasuredOver::all(&plan.fronts, adapters, kept, &mut progress)?;
-    let failures = failures::all(|page| progress.advance(1, page.title))?;
+    let failures = failures::all(adapters, |page| progress.advance(1, page.title))?;
     let scaling = Scaling::measure(plan.scaling, &mut progress)?;
     Ok(Report { plan: plan.clone(), fronts, over, convergence, energies, failures, scaling })
 }

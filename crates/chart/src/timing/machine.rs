@@ -105,6 +105,7 @@ pub fn counters(report: &FrameReport) -> Vec<(&'static str, u64)> {
         ("terms_shaded", report.terms_shaded),
         ("terms_at_vertices", report.terms_at_vertices),
         ("terms_at_fragments", report.terms_at_fragments),
+        ("choices_changed", report.choices_changed.into()),
         ("draws", report.draws.into()),
         ("triangles", report.triangles),
         ("matrices", report.matrices.into()),

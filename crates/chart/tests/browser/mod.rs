@@ -48,9 +48,15 @@ fn browser() -> &'static str {
 
 /// What a script found out on the page, as it wrote it.
 fn found(script: &str) -> serde_json::Value {
+    found_on("index.html", script)
+}
+
+/// The same on another page.
+fn found_on(page: &str, script: &str) -> serde_json::Value {
     let script = format!("const facts = {{}}; {script} document.body.dataset.facts = JSON.stringify(facts);");
-    let dom = opened(browser(), &super::file("index.html"), &script);
-    assert!(dom.contains("<p id=\"problem\" role=\"alert\" hidden=\"\"></p>"), "no script failed");
+    let dom = opened(browser(), &super::file(page), &script);
+    let problem = dom.lines().find(|line| line.contains("id=\"problem\"")).unwrap_or_default();
+    assert!(problem.contains("<p id=\"problem\" role=\"alert\" hidden=\"\"></p>"), "a script failed: {problem}");
     let (_, rest) = dom.split_once("data-facts=\"").expect("the script ran to its end");
     let (facts, _) = rest.split_once('"').expect("an attribute ends");
     serde_json::from_str(&facts.replace("&quot;", "\"")).expect("JSON")
@@ -126,6 +132,80 @@ fn points_are_filtered_zoomed_and_sorted() {
         "up": true, "down": true,
     });
     assert_eq!(facts, expected);
+}
+
+#[test]
+fn fingers_move_and_zoom_the_chart() {
+    let facts = found(
+        "const chart = () => document.querySelector('svg.front');
+         const points = () => [...document.querySelectorAll('svg.front g[data-method]')];
+         const places = () => points().map((point) =>
+           point.querySelector('path').getAttribute('transform').match(/-?[0-9][-0-9.e]*/g).map(Number));
+         const corner = chart().getBoundingClientRect();
+         const send = (kind, id, x, y) => chart().dispatchEvent(new PointerEvent(kind, {
+           pointerId: id, pointerType: 'touch', isPrimary: id === 1, button: kind === 'pointermove' ? -1 : 0, bubbles: true,
+           clientX: corner.left + x, clientY: corner.top + y }));
+         const far = (values) => Math.max(...values.map(Math.abs));
+         const apart = (a, b) => far(a.flatMap(([x, y], i) => [x - b[i][0], y - b[i][1]]));
+         facts.scrolls = getComputedStyle(chart().parentNode).touchAction;
+         const first = places();
+         // A tap that trembles leaves the chart as it is.
+         send('pointerdown', 1, 200, 120); send('pointermove', 1, 202, 121); send('pointerup', 1, 202, 121);
+         facts.tap = apart(places(), first);
+         // One finger moves what is under it along.
+         send('pointerdown', 1, 200, 120); send('pointermove', 1, 215, 125); send('pointermove', 1, 230, 105);
+         facts.moved = apart(places(), first.map(([x, y]) => [x + 30, y - 15])) < 1e-6;
+         send('pointerup', 1, 230, 105);
+         send('pointermove', 1, 300, 200);
+         facts.left = apart(places(), first.map(([x, y]) => [x + 30, y - 15])) < 1e-6;
+         facts.zoomed = getComputedStyle(chart().parentNode).touchAction;
+         document.querySelector('#controls button[title=\"the whole chart\"]').click();
+         facts.whole = apart(places(), first) < 1e-6;
+         // Two fingers, twice as far apart in the end, and their middle moved by (10, 20): from (220, 120) to (230, 140).
+         send('pointerdown', 1, 180, 120); send('pointerdown', 2, 260, 120);
+         send('pointermove', 1, 150, 140); send('pointermove', 2, 310, 140);
+         facts.pinched = apart(places(), first.map(([x, y]) => [230 + 2 * (x - 220), 140 + 2 * (y - 120)])) < 1e-6;
+         // The one that stays goes on alone, without a jump.
+         send('pointerup', 1, 150, 140);
+         const before = places();
+         send('pointermove', 2, 318, 140);
+         facts.alone = apart(places(), before.map(([x, y]) => [x + 8, y])) < 1e-6;
+         send('pointercancel', 2, 318, 140);
+         // A mouse drags on what is no point, and a finger that taps a point shows it.
+         points()[0].querySelector('.hit').dispatchEvent(new MouseEvent('click', { bubbles: true }));
+         facts.card = !document.getElementById('card').hidden;",
+    );
+    let expected = serde_json::json!({
+        "scrolls": "pan-y", "tap": 0, "moved": true, "left": true, "zoomed": "none", "whole": true, "pinched": true,
+        "alone": true, "card": true,
+    });
+    assert_eq!(facts, expected);
+}
+
+/// What a screen reader says of a control or a link tells it from every other.
+#[test]
+fn every_control_and_link_of_a_failure_has_a_name_of_its_own() {
+    let names = "const text = (element) => element.textContent.trim();
+         const twice = (names) => names.filter((name, i) => name === '' || names.indexOf(name) !== i);
+         const radios = [...document.querySelectorAll('input[type=radio]')];
+         facts.radios = radios.length;
+         facts.unnamed = twice(radios.map((radio) => [...radio.labels].map(text).join(' ')));
+         facts.links = twice([...document.querySelectorAll('a')].map(text));
+         facts.charts = [...document.querySelectorAll('.panel')].every((panel) => panel.ariaLabel !== '');
+         const shown = () => [...document.querySelectorAll('main section > figure')].filter((figure) => !figure.hidden);
+         facts.one = shown().length;
+         radios[radios.length - 1]?.click();
+         facts.chosen = radios.length === 0 || shown()[0].id === radios[radios.length - 1].value;";
+    // Every page with a choice, and one without.
+    let pages = || super::report().failures.iter();
+    let alone = pages().find(|failure| failure.figures.len() == 1);
+    for failure in pages().filter(|failure| failure.figures.len() > 1).chain(alone) {
+        let radios = if failure.figures.len() > 1 { failure.figures.len() } else { 0 };
+        let expected = serde_json::json!({
+            "radios": radios, "unnamed": [], "links": [], "charts": true, "one": 1, "chosen": true,
+        });
+        assert_eq!(found_on(&format!("failure-{}.html", failure.id), names), expected, "{}", failure.id);
+    }
 }
 
 #[test]

@@ -5,8 +5,8 @@ mod scan;
 mod surfaces;
 
 pub use moving::moving_lights;
-pub use scan::scan;
-pub use surfaces::{machine_part, sphere, sphere_by_phong, teapot, teapot_by_phong, terrain};
+pub use scan::{scan, stone_mesh};
+pub use surfaces::{machine_part, sphere, sphere_by_phong, teapot, teapot_by_phong, terrain, terrain_mesh};
 
 use super::ChartedScene;
 

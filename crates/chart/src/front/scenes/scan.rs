@@ -1,5 +1,6 @@
 //! A mesh like those that come from scanners.
 
+use halfway::mesh::MeshError;
 use halfway::prelude::*;
 
 use super::super::ChartedScene;
@@ -11,24 +12,33 @@ pub fn scan() -> ChartedScene {
     ChartedScene::of_meshes("scan", about, Box::new(|app, _| build(app.world_mut()).map_err(|error| error.to_string())))
 }
 
-fn build(world: &mut World) -> Result<(), halfway::mesh::MeshError> {
+fn build(world: &mut World) -> Result<(), MeshError> {
     world.insert_resource(GlobalAmbient(LinearRgba::rgb(0.12, 0.12, 0.12)));
     world.spawn((Camera::default(), Transform::from_xyz(0.0, 0.4, 3.1).looking_at(Vec3::ZERO, Vec3::Y)));
     world.spawn((DirectionalLight::white(), Transform::default().looking_to(Vec3::new(0.6, -0.7, -1.0), Vec3::Y)));
     let lamp = PointLight::from_color(LinearRgba::rgb(0.3, 0.25, 0.2));
     world.spawn((lamp, Transform::from_xyz(-1.5, 0.5, 1.5)));
-    let smooth = Mesh::from(UvSphere::new(1.0, 384, 192));
+    let mesh = world.resource_mut::<Assets<Mesh>>().add(stone_mesh(384, 192)?);
+    let stone = Material { shininess: 16.0, ..Material::matte(LinearRgba::rgb(0.5, 0.45, 0.38)) };
+    let stone = Material { specular: LinearRgba::rgb(0.2, 0.2, 0.2), ..stone };
+    world.spawn((Mesh3d(mesh), stone));
+    Ok(())
+}
+
+/// A stone of a radius of about 1 with the noise of a scanner: a [`UvSphere`] of so many segments and rings whose vertices
+/// lie off by hills of up to 0.1 and by noise of up to 0.001, with normals of the default weighting.
+///
+/// # Errors
+/// None for counts that [`UvSphere`] takes.
+pub fn stone_mesh(segments: u32, rings: u32) -> Result<Mesh, MeshError> {
+    let smooth = Mesh::from(UvSphere::new(1.0, segments, rings));
     let (mesh, _) = smooth.displaced(|i| {
         let p = smooth.positions()[i];
         let hills = (3.0 * p.x + 1.0).sin() * (4.0 * p.y).sin() + 0.4 * (9.0 * p.z + 5.0 * p.x).sin();
         // A scanner's noise is about a thousandth of what it sees, and the same at the vertices of one place.
         0.07 * hills + 0.002 * (random(place(p), 0) - 0.5)
     })?;
-    let mesh = world.resource_mut::<Assets<Mesh>>().add(mesh);
-    let stone = Material { shininess: 16.0, ..Material::matte(LinearRgba::rgb(0.5, 0.45, 0.38)) };
-    let stone = Material { specular: LinearRgba::rgb(0.2, 0.2, 0.2), ..stone };
-    world.spawn((Mesh3d(mesh), stone));
-    Ok(())
+    Ok(mesh)
 }
 
 /// A number of the place: the bits of its coordinates, mixed.

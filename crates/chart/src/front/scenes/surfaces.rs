@@ -81,11 +81,16 @@ pub fn terrain() -> ChartedScene {
         sun(world, Vec3::new(-1.0, 0.45, 0.2));
         let soil = Material::matte(LinearRgba::rgb(0.35, 0.42, 0.2));
         let soil = Material { specular: LinearRgba::rgb(0.2, 0.2, 0.15), shininess: 8.0, ..soil };
-        match HeightField::new(8.0, 8.0, SAMPLES, heights()) {
-            Ok(field) => show(world, cut(&field, cells, cells), soil, Transform::default()),
-            Err(error) => unreachable!("{error}"),
-        }
+        show(world, terrain_mesh(cells), soil, Transform::default());
     })
+}
+
+/// The mesh of [`terrain`], 8 × 8 units around the origin and up to 1.4 high and deep, of so many cells along each side.
+pub fn terrain_mesh(cells: u32) -> Mesh {
+    match HeightField::new(8.0, 8.0, SAMPLES, heights()) {
+        Ok(field) => cut(&field, cells, cells),
+        Err(error) => unreachable!("{error}"),
+    }
 }
 
 /// Along each side of the terrain.

@@ -1,0 +1,104 @@
+//! The order in which blended surfaces are drawn.
+
+use halfway::prelude::*;
+use halfway::reference::{Image, Mode};
+
+use super::plots::{figure, linear, panel, series, shown};
+use super::stage::{camera, compared, drawn, made, show};
+use super::{FailurePage, only};
+use crate::measure::MeasureError;
+
+/// The colours of the two squares; they differ by 1 in red and blue.
+const COLORS: [LinearRgba; 2] = [LinearRgba::rgb(1.0, 0.25, 0.0), LinearRgba::rgb(0.0, 0.25, 1.0)];
+const OPACITIES: [f32; 9] = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9];
+
+/// How two squares that pass through each other are given to be drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Squares {
+    /// Whole: neither is behind the other.
+    Crossing,
+    /// The same, the second one spawned first.
+    Swapped,
+    /// Cut where they cross: of the four halves each is behind or before the others.
+    Cut,
+}
+
+/// A part of a square from z = left to z = right along the diagonal x = z, or x = −z.
+fn part(rises: bool, [left, right]: [f32; 2]) -> Mesh {
+    let corner = |x: f32, y: f32| Vec3::new(x, y, if rises { x } else { -x });
+    let corners = [corner(left, -1.0), corner(right, -1.0), corner(right, 1.0), corner(left, 1.0)];
+    made(corners.to_vec(), None, vec![0, 1, 2, 0, 2, 3])
+}
+
+fn picture(squares: Squares, opacity: f32) -> Result<Image, MeasureError> {
+    drawn(Mode::Mesh, |world| {
+        camera(world, Vec3::new(0.0, 0.0, 4.5), Vec3::Y);
+        let order = if squares == Squares::Swapped { [1, 0] } else { [0, 1] };
+        let parts: &[[f32; 2]] = if squares == Squares::Cut { &[[-1.0, 0.0], [0.0, 1.0]] } else { &[[-1.0, 1.0]] };
+        for (which, ends) in order.into_iter().flat_map(|which| parts.iter().map(move |ends| (which, *ends))) {
+            let material = Material { opacity, ..Material::emissive(COLORS[which]) };
+            let object = show(world, part(which == 0, ends), material, Shading::Flat);
+            world.entity_mut(object).insert(Blend);
+        }
+    })
+}
+
+/// What drawing object by object makes of two blended squares that cross.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WrongOrder {
+    /// The share of pixels that are wrong, among those that show both.
+    pub share: f64,
+    /// By how much at most, linear.
+    pub most: f64,
+}
+
+/// Measures it against the same squares cut where they cross, for squares of this opacity, whose colours differ by 1.
+///
+/// # Errors
+/// What the oracle cannot draw.
+pub fn wrong_order(opacity: f32) -> Result<WrongOrder, MeasureError> {
+    let [first, second, truth] =
+        [Squares::Crossing, Squares::Swapped, Squares::Cut].map(|squares| picture(squares, opacity));
+    let (first, second, truth) = (first?, second?, truth?);
+    let differ = |a: &Image, b: &Image| {
+        let pixels = a.pixels().iter().zip(b.pixels());
+        pixels.filter(|(a, b)| a.iter().zip(*b).any(|(a, b)| (a - b).abs() > 1e-9)).count()
+    };
+    // Where both are seen, either order shows something else.
+    let share = differ(&first, &truth) as f64 / differ(&first, &second).max(1) as f64;
+    Ok(WrongOrder { share, most: compared(&first, &truth)?.linear.all.max() })
+}
+
+/// [`WrongOrder::most`] by formula: o·a + (1 − o)·o·b less o·b + (1 − o)·o·a is o²·(a − b).
+pub fn wrong_by(opacity: f64) -> f64 {
+    opacity * opacity
+}
+
+pub(super) fn page() -> Result<FailurePage, MeasureError> {
+    let points = OPACITIES.into_iter().map(|opacity| Ok((f64::from(opacity), wrong_order(opacity)?.most)));
+    let points = points.collect::<Result<Vec<_>, MeasureError>>()?;
+    let formula: Vec<_> = (0..=20).map(|i| f64::from(i) / 20.0).map(|opacity| (opacity, wrong_by(opacity))).collect();
+    Ok(FailurePage {
+        id: "blend-order",
+        title: "Blended objects that cross have no order",
+        cause: "Blended objects are drawn whole, from back to front by the middle of each. Of two that pass through each other \
+                each is in front somewhere: half of the pixels blend in the wrong order, wrong by o²·|a − b| for opacities o and \
+                colours a and b, and which half that is jumps as the camera passes.",
+        remedy: "Cut objects where they cross; where a mask will do, cut them out instead of blending (Mask).",
+        test: "crossing_objects_are_wrong_by_the_square_of_their_opacity",
+        figures: only(figure(
+            "blend-order",
+            "Largest error of two crossing squares whose colours differ by 1",
+            [linear("opacity"), linear("error (linear)")],
+            panel(
+                "wrong on half of the pixels",
+                vec![series("opacity²", 3, &formula, false), series("drawn object by object", 0, &points, true)],
+            ),
+        )),
+        pictures: shown([
+            ("by object", &picture(Squares::Crossing, 0.7)?),
+            ("the other first", &picture(Squares::Swapped, 0.7)?),
+            ("cut where they cross", &picture(Squares::Cut, 0.7)?),
+        ]),
+    })
+}

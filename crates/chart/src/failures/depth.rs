@@ -1,0 +1,144 @@
+//! How near two surfaces may be for the depth buffer to part them.
+
+use halfway::prelude::*;
+use halfway::reference::Image;
+use halfway::render::Adapter;
+
+use super::plots::{figure, log, panel, series, shown};
+use super::stage::{JudgedApp, SIZE, made, show};
+use super::{FailurePage, only};
+use crate::front::ChartedAdapter;
+use crate::measure::MeasureError;
+
+/// Gaps are powers of two as parts of the distance; the last leaves both at one place in f32.
+const LEAST_POWER: i32 = 4;
+const GAPS: u32 = 21;
+/// Pixels of a gap's column.
+const COLUMN: u32 = 4;
+/// Distances of the nearer surface over that of the near plane: powers of two, which f32 holds exactly.
+const DISTANCES: [i32; 9] = [1, 3, 5, 7, 9, 11, 13, 15, 17];
+
+/// Column i shows a surface at `distance` before another that is farther by 2⁻⁽ⁱ⁺⁴⁾ of it, which was spawned first and so
+/// wins where depths are equal.
+fn spawn(world: &mut World, distance: f32) {
+    let half = GAPS as f32;
+    // From −half to half across, −1 to 1 upward at distance 1: a column is two units wide.
+    let camera = Camera { fov_y: 2.0 * 1f32.atan(), near: 1.0, ..Camera::default() };
+    world.spawn((camera, Transform::default()));
+    let quad = |[left, right]: [f32; 2], depth: f32| {
+        [(left, -1.5), (right, -1.5), (right, 1.5), (left, 1.5)].map(|(x, y)| Vec3::new(x, y, -1.0) * depth)
+    };
+    let mesh = |quads: Vec<[Vec3; 4]>| {
+        let indices = (0..quads.len() as u32).flat_map(|i| [0, 1, 2, 0, 2, 3].map(|corner| 4 * i + corner));
+        let indices = indices.collect();
+        made(quads.into_iter().flatten().collect(), None, indices)
+    };
+    let behind = (0..GAPS).map(|i| {
+        let left = 2.0 * i as f32 - half;
+        quad([left, left + 2.0], distance * (1.0 + 2f32.powi(-(i as i32) - LEAST_POWER)))
+    });
+    let [green, red] = [LinearRgba::rgb(0.0, 1.0, 0.0), LinearRgba::rgb(1.0, 0.0, 0.0)].map(Material::emissive);
+    show(world, mesh(behind.collect()), red, Shading::Flat);
+    show(world, mesh(vec![quad([-half - 1.0, half + 1.0], distance)]), green, Shading::Flat);
+}
+
+/// The least gap, as a part of the distance, from which on the nearer of two surfaces hides the other, for each of these
+/// distances; the near plane is at distance 1, the other end at infinity. `None` where not even 1/16 is enough.
+///
+/// # Errors
+/// What cannot be drawn.
+pub fn parted(adapter: &Adapter, distances: &[f64]) -> Result<Vec<(f64, Option<f64>)>, MeasureError> {
+    let mut judged = JudgedApp::new(adapter, UVec2::new(COLUMN * GAPS, COLUMN), Pixels::Byte);
+    let gap = |&distance: &f64| {
+        judged.set(|world| spawn(world, distance as f32));
+        Ok((distance, least_parted(&judged.picture()?)))
+    };
+    distances.iter().map(gap).collect()
+}
+
+/// What a picture tells of that.
+fn least_parted(picture: &Image) -> Option<f64> {
+    let hides = |i: &u32| {
+        // Without the columns' edges.
+        let pixels = (1..COLUMN - 1).flat_map(|x| (0..COLUMN).map(move |y| (COLUMN * i + x, y)));
+        pixels.map(|(x, y)| picture.pixel(x, y)).all(|[red, green, _]| red < 0.5 && green > 0.5)
+    };
+    (0..GAPS).take_while(hides).last().map(|i| 2f64.powi(-(i as i32) - LEAST_POWER))
+}
+
+/// How depth is stored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DepthStored {
+    /// 1 at the near plane, 0 at infinity, in 32-bit floating point: as this project stores it.
+    ReversedFloat,
+    /// 0 at the near plane, 1 at infinity, in 32-bit floating point.
+    Float,
+    /// The same in 24 bits of fixed point.
+    Fixed24,
+}
+
+impl DepthStored {
+    /// What is stored for a distance, as whole numbers that count up.
+    fn of(self, distance: f64) -> i64 {
+        let float = |value: f64| i64::from((value as f32).to_bits());
+        match self {
+            Self::ReversedFloat => -float(distance.recip()),
+            Self::Float => float(1.0 - distance.recip()),
+            Self::Fixed24 => ((1.0 - distance.recip()) * f64::from((1 << 24) - 1)).round() as i64,
+        }
+    }
+
+    /// The least power of two that parts two surfaces at a distance, as a part of it, by arithmetic alone.
+    pub fn gap(self, distance: f64) -> f64 {
+        let parts = |power: &i32| self.of(distance * (1.0 + 2f64.powi(-power))) > self.of(distance);
+        (0..40).take_while(parts).last().map_or(1.0, |power| 2f64.powi(-power))
+    }
+}
+
+/// What two surfaces that pass through each other far away show where depth is stored so.
+fn crossing(stored: Option<DepthStored>) -> Image {
+    let pixel = |i: u32| {
+        let [x, y] = [i % SIZE.x, i / SIZE.x].map(|at| (f64::from(at) + 0.5) / f64::from(SIZE.x) - 0.5);
+        let [a, b] = [5e4 * (1.0 + 0.04 * y), 5e4 * (1.0 + 0.04 * y + 0.02 * x + 0.01 * y)];
+        let first = stored.map_or(a <= b, |stored| stored.of(a) <= stored.of(b));
+        if first { [0.75, 0.35, 0.05] } else { [0.1, 0.3, 0.6] }
+    };
+    Image::new(SIZE.x, SIZE.y, (0..SIZE.x * SIZE.y).map(pixel).collect())
+}
+
+pub(super) fn page(drawers: &[ChartedAdapter]) -> Result<FailurePage, MeasureError> {
+    let distances = DISTANCES.map(|power| 2f64.powi(power));
+    let mut lines = Vec::new();
+    for ChartedAdapter { name, adapter } in drawers {
+        let found = parted(adapter, &distances)?;
+        let points: Vec<_> = found.into_iter().filter_map(|(distance, gap)| Some((distance, gap?))).collect();
+        lines.push(series(&format!("{name}, measured"), 2 + lines.len(), &points, true));
+    }
+    for (name, kind, stored) in
+        [("standard, 24 bits", 0, DepthStored::Fixed24), ("standard, 32-bit float", 1, DepthStored::Float)]
+    {
+        let points = distances.map(|distance| (distance, stored.gap(distance)));
+        lines.push(series(name, kind, &points, true));
+    }
+    Ok(FailurePage {
+        id: "depth",
+        title: "Depth that is nearly all spent near the viewer",
+        cause: "1 − n/d is nearly 1 for all that is far: in 24 bits two surfaces at distance d are told apart from a gap of d²/n \
+                times 2⁻²⁴ on, 0.6 % at a hundred thousand times the near plane's distance n, and float spends its bits near 0, \
+                where nothing is.",
+        remedy: "Reversed depth, n/d, in floating point, as this project has it: gaps of about 2⁻²³ at any distance. Else move \
+                 the near plane away.",
+        test: "reversed_depth_parts_what_standard_depth_does_not",
+        figures: only(figure(
+            "depth",
+            "The least gap between two surfaces that the nearer one hides (powers of two)",
+            [log("distance (near plane = 1)"), log("gap (part of the distance)")],
+            panel("far end at infinity; standard depth by arithmetic", lines),
+        )),
+        pictures: shown([
+            ("crossing at 5·10⁴, standard in 24 bits", &crossing(Some(DepthStored::Fixed24))),
+            ("reversed float", &crossing(Some(DepthStored::ReversedFloat))),
+            ("exact", &crossing(None)),
+        ]),
+    })
+}

@@ -1,0 +1,119 @@
+//! Lights and viewers that are very near and very far, in 32 bits.
+
+use halfway::prelude::*;
+use halfway::reference::Mode;
+use halfway::render::Adapter;
+
+use super::plots::{figure, log, panel, series, shown};
+use super::stage::{JudgedApp, SIZE, camera_above, drawn_at, judged, lamp, show, square};
+use super::{FailurePage, only};
+use crate::front::ChartedAdapter;
+use crate::measure::MeasureError;
+
+/// What is moved away from a square of edge 6.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Distant {
+    /// A lamp, above the middle of what is seen; the viewer is 3 units away.
+    Light,
+    /// The viewer, who sees as much; a lamp is 1.234 units above.
+    Viewer,
+}
+
+/// Powers of ten.
+const POWERS: std::ops::RangeInclusive<i32> = -3..=7;
+/// What distances are multiplied by, of which the worst is told: how much rounding takes is a matter of chance.
+const NEAR_BY: [f64; 6] = [0.83, 0.91, 0.97, 1.07, 1.13, 1.21];
+/// Where the square is: no whole number, which f32 would hold exactly.
+const HEIGHT: f32 = 0.37;
+/// How far above it the lamp is, where the viewer is moved; no whole number, or both would be rounded alike.
+const LAMP: f32 = 1.234;
+/// What is judged; full light is 1.
+const LEAST: f64 = 0.05;
+const SMALL: UVec2 = UVec2::splat(48);
+
+fn distances() -> Vec<f64> {
+    POWERS.map(|power| 10f64.powi(power)).collect()
+}
+
+fn spawn(world: &mut World, distant: Distant, distance: f32) {
+    let [viewer, half, shift, light] = match distant {
+        // What a near lamp lights fills the picture.
+        Distant::Light => [3.0, (2.0 * distance).min(1.0), distance.min(1.0), distance],
+        Distant::Viewer => [distance, distance.min(1.0), 1.0, LAMP],
+    };
+    camera_above(world, viewer, half);
+    lamp(world, Vec3::new(0.3 * shift, 0.2 * shift, light));
+    let object = show(world, square(1, 1), Material::matte(LinearRgba::gray(0.9)), Shading::Phong);
+    world.entity_mut(object).insert(Transform::from_scale(Vec3::splat(3.0)));
+    for mut at in world.query::<&mut Transform>().iter_mut(world) {
+        at.translation.z += HEIGHT;
+    }
+}
+
+/// The largest error of this adapter as a part of the oracle's intensity at six distances about each power of ten, from 10⁻³ to
+/// 10⁷ units; 10⁻⁹ where there is none.
+///
+/// # Errors
+/// What cannot be drawn.
+pub fn errors(adapter: &Adapter, distant: Distant) -> Result<Vec<(f64, f64)>, MeasureError> {
+    let mut judged = JudgedApp::new(adapter, SMALL, Pixels::Float);
+    let mut worst = |distance: f64| {
+        // An error of 0 has no place on a logarithmic axis.
+        let mut worst = 1e-9;
+        for factor in NEAR_BY {
+            judged.set(|world| spawn(world, distant, (factor * distance) as f32));
+            worst = judged.relative_error(LEAST)?.max(worst);
+        }
+        Ok((distance, worst))
+    };
+    distances().into_iter().map(&mut worst).collect()
+}
+
+/// How far the oracle's picture is, at most and as a part of it, from what it is for a viewer 3 units away, who sees the same:
+/// what is lost by definition. A lamp counts as being on the surface where it is nearer than 2·10⁻⁶ of the viewer's distance
+/// ([`COINCIDENT`](halfway::lighting::equations::COINCIDENT)).
+///
+/// # Errors
+/// What the oracle cannot draw.
+pub fn by_definition(distance: f64) -> Result<f64, MeasureError> {
+    let draw = |distance| drawn_at(SMALL, Mode::Mesh, |world| spawn(world, Distant::Viewer, distance));
+    let (there, near) = (draw(distance as f32)?, draw(3.0)?);
+    let channels = there.pixels().iter().flatten().zip(near.pixels().iter().flatten());
+    Ok(channels.map(|(there, near)| (there / near - 1.0).abs()).fold(0.0, f64::max))
+}
+
+pub(super) fn page(drawers: &[ChartedAdapter]) -> Result<FailurePage, MeasureError> {
+    let mut lines = Vec::new();
+    for ChartedAdapter { name, adapter } in drawers {
+        for (words, distant) in [("the light", Distant::Light), ("the viewer", Distant::Viewer)] {
+            lines.push(series(&format!("{name}, {words}"), lines.len(), &errors(adapter, distant)?, true));
+        }
+    }
+    let far = distances().into_iter().filter(|distance| *distance >= 1.0);
+    let rule = far.map(|distance| Ok((distance, by_definition(distance)?)));
+    lines.push(series("by definition, viewer", 4, &rule.collect::<Result<Vec<_>, MeasureError>>()?, true));
+    let [drawn, oracle, off] =
+        &judged(drawers, (SIZE, Pixels::Float), 20.0, |world| spawn(world, Distant::Viewer, 1.13e5))?;
+    Ok(FailurePage {
+        id: "distances",
+        title: "A far viewer rounds what is near",
+        cause: "Points are lit in eye space, where a coordinate at distance D is known to about D·2⁻²⁴ in 32 bits: a lamp one \
+                unit from a surface is out of place by that much, and one very near it by that over its distance. Where that \
+                leaves no direction, from about 5·10⁵ times the lamp’s distance on, a lamp counts as being on the surface. A far \
+                lamp loses nothing.",
+        remedy: "Keep the viewer within about 10⁴ times the distance between a lamp and what it lights, where 8 bits do not show \
+                 it; a directional light has no place that could be rounded.",
+        test: "far_viewers_and_near_lights_lose_what_rounding_takes",
+        figures: only(figure(
+            "distances",
+            "Largest relative error against the oracle, floating-point target",
+            [log("distance from the surface (units)"), log("relative error")],
+            panel("diffuse light of a lamp; errors below 10⁻⁹ are drawn there", lines),
+        )),
+        pictures: shown([
+            ("viewer 113,000 units away, drawn", drawn),
+            ("the oracle", oracle),
+            ("20 times their difference", off),
+        ]),
+    })
+}

@@ -1,0 +1,115 @@
+//! What 8 bits make of many blended layers.
+
+use halfway::prelude::*;
+use halfway::render::Adapter;
+
+use super::plots::{figure, linear, panel, series, shown};
+use super::stage::{JudgedApp, camera_above, judged, made, show};
+use super::{FailurePage, only};
+use crate::front::ChartedAdapter;
+use crate::measure::MeasureError;
+
+/// The most layers.
+pub const LAYERS: u32 = 64;
+/// What the layers glow.
+const GLOW: [f32; 3] = [1.0, 0.6, 0.3];
+const OPACITIES: [f32; 3] = [0.5, 0.05, 0.005];
+/// Four pixels for each number of layers.
+const SIZE: UVec2 = UVec2::new(4 * LAYERS, 64);
+
+/// Layers on black; column i shows i + 1 of them.
+fn spawn(world: &mut World, opacity: f32) {
+    camera_above(world, 100.0, 0.25);
+    world.query::<&mut Camera>().iter_mut(world).for_each(|mut camera| camera.encoding = Encoding::Raw);
+    let quad = |layer: u32| {
+        let left = 2.0 * layer as f32 / LAYERS as f32 - 1.0;
+        let z = 1e-4 * layer as f32;
+        [(left, -1.0), (1.1, -1.0), (1.1, 1.0), (left, 1.0)].map(|(x, y)| Vec3::new(x, y, z))
+    };
+    let indices = (0..LAYERS).flat_map(|layer| [0, 1, 2, 0, 2, 3].map(|corner| 4 * layer + corner)).collect();
+    let mesh = made((0..LAYERS).flat_map(quad).collect(), None, indices);
+    let [red, green, blue] = GLOW;
+    let material = Material { opacity, ..Material::emissive(LinearRgba::rgb(red, green, blue)) };
+    let object = show(world, mesh, material, Shading::Flat);
+    world.entity_mut(object).insert(Blend);
+}
+
+/// What so many layers add up to, linear: c·(1 − (1 − o)ⁿ).
+pub fn exact(layers: u32, opacity: f32) -> [f64; 3] {
+    let shown = 1.0 - (1.0 - f64::from(opacity)).powi(layers as i32);
+    GLOW.map(|glow| f64::from(glow) * shown)
+}
+
+/// The largest error of a channel in steps of 1/255, on 8 bits, for 1 to 64 layers of this opacity.
+///
+/// # Errors
+/// What cannot be drawn.
+pub fn drawn(adapter: &Adapter, opacity: f32) -> Result<Vec<(f64, f64)>, MeasureError> {
+    let mut judged = JudgedApp::new(adapter, SIZE, Pixels::Byte);
+    judged.set(|world| spawn(world, opacity));
+    let picture = judged.picture()?;
+    let error = |layers: u32| {
+        let there = picture.pixel(4 * layers - 2, SIZE.y / 2);
+        (f64::from(layers), steps(there, exact(layers, opacity)))
+    };
+    Ok((1..=LAYERS).map(error).collect())
+}
+
+/// The same by arithmetic: each layer is blended exactly and rounded to the nearest step.
+pub fn rounded(opacity: f32) -> Vec<(f64, f64)> {
+    let o = f64::from(opacity);
+    let mut held = [0.0; 3];
+    let mut error = |layers: u32| {
+        for (held, glow) in held.iter_mut().zip(GLOW) {
+            *held = (255.0 * (o * f64::from(glow) + (1.0 - o) * *held)).round() / 255.0;
+        }
+        (f64::from(layers), steps(held, exact(layers, opacity)))
+    };
+    (1..=LAYERS).map(&mut error).collect()
+}
+
+fn steps(there: [f64; 3], exact: [f64; 3]) -> f64 {
+    there.into_iter().zip(exact).map(|(there, exact)| 255.0 * (there - exact).abs()).fold(0.0, f64::max)
+}
+
+/// The most that errors of `each` step a layer can add up to, in steps, after any number of layers: each·Σ (1 − o)ᵏ. Rounding to
+/// the nearest step errs by ½, an adapter that cuts off what is less than a step by 1.
+pub fn most(opacity: f64, each: f64) -> f64 {
+    each / opacity
+}
+
+pub(super) fn page(drawers: &[ChartedAdapter]) -> Result<FailurePage, MeasureError> {
+    let mut panels = Vec::new();
+    for opacity in OPACITIES {
+        let mut lines = Vec::new();
+        for ChartedAdapter { name, adapter } in drawers {
+            lines.push(series(name, lines.len(), &drawn(adapter, opacity)?, false));
+        }
+        lines.push(series("rounded after each layer, by arithmetic", 3, &rounded(opacity), false));
+        panels
+            .push(panel(&format!("opacity {opacity}: at most {} steps", most(f64::from(opacity), 0.5).round()), lines));
+    }
+    let [drawn, oracle, off] = &judged(drawers, (SIZE, Pixels::Byte), 10.0, |world| spawn(world, OPACITIES[2]))?;
+    let mut figure = figure(
+        "blended-layers",
+        "Largest error of a channel over the number of layers",
+        [linear("layers"), linear("error (steps of 1/255)")],
+        panel("", Vec::new()),
+    );
+    (figure.columns, figure.panels) = (3, panels);
+    Ok(FailurePage {
+        id: "blended-layers",
+        title: "Many thin layers stop in 8 bits",
+        cause: "An 8-bit target rounds after each layer, some adapters downward. A layer that adds less than half a step adds \
+                nothing: many thin layers stop short of what they should reach, by up to ½/o steps for an opacity of o, and blue \
+                of 0.3 under 0.005 never shows. The CPU without a driver keeps tiles in floating point and rounds once.",
+        remedy: "Blend into a floating-point target (Pixels::Float) and round once, or draw fewer layers of more opacity.",
+        test: "thin_layers_stop_short_by_what_roundings_add_up_to",
+        figures: only(figure),
+        pictures: shown([
+            ("1 to 64 layers of opacity 0.005 in 8 bits", drawn),
+            ("exact", oracle),
+            ("10 times their difference", off),
+        ]),
+    })
+}

@@ -1,0 +1,150 @@
+//! Long thin triangles.
+
+use halfway::mesh::{Cylinder, ParametricSurface, Tessellation};
+use halfway::prelude::*;
+use halfway::reference::{Image, Mode};
+
+use super::FailurePage;
+use super::plots::{figure, log, panel, series, shown};
+use super::stage::{camera, camera_above, compared, drawn, lamp, made, rms, show, square, sun};
+use crate::measure::MeasureError;
+
+/// The rows that 1024 cells of a square are in, and how many times as long as wide the cells are then.
+const ROWS: [(u32, f64); 5] = [(32, 1.0), (16, 4.0), (8, 16.0), (4, 64.0), (2, 256.0)];
+/// Bands of the lanterns.
+const BANDS: [u32; 7] = [2, 4, 8, 16, 32, 64, 128];
+/// Sides of the lanterns.
+const SIDES: u32 = 16;
+/// The lanterns' height; their radius is 1.
+const HEIGHT: f64 = 2.0;
+
+fn cells(rows: u32, shading: Shading) -> Result<Image, MeasureError> {
+    drawn(Mode::Mesh, |world| {
+        camera_above(world, 10.0, 0.99);
+        lamp(world, Vec3::new(0.3, 0.2, 1.0));
+        show(world, square(1024 / rows, rows), Material::matte(LinearRgba::gray(0.9)), shading);
+    })
+}
+
+/// The RMS error, linear, of Gouraud shading over a square of 1024 cells in so many rows under a lamp.
+///
+/// # Errors
+/// What the oracle cannot draw.
+pub fn stretched(rows: u32) -> Result<f64, MeasureError> {
+    rms(&cells(rows, Shading::Gouraud)?, &cells(rows, Shading::Phong)?)
+}
+
+/// Schwarz's lantern: a cylinder of radius 1 and height 2 about the y axis in `bands` rings of triangles, each ring turned
+/// by half a side against the next. Its vertices lie on the cylinder and have its normals.
+fn lantern(bands: u32) -> Mesh {
+    let vertex = |ring: u32, side: u32| {
+        let angle = std::f64::consts::TAU * (f64::from(side) + 0.5 * f64::from(ring % 2)) / f64::from(SIDES);
+        let (x, z) = angle.sin_cos();
+        Vec3::new(x as f32, (HEIGHT * (f64::from(ring) / f64::from(bands) - 0.5)) as f32, z as f32)
+    };
+    let positions: Vec<Vec3> = (0..=bands).flat_map(|ring| (0..SIDES).map(move |side| vertex(ring, side))).collect();
+    let normals = positions.iter().map(|p| Vec3::new(p.x, 0.0, p.z)).collect();
+    let triangles = (0..bands).flat_map(|ring| {
+        (0..SIDES).flat_map(move |side| {
+            let at = |ring: u32, side: u32| ring * SIDES + side % SIDES;
+            let (a, b) = (at(ring, side), at(ring, side + 1));
+            let (c, d) = (at(ring + 1, side), at(ring + 1, side + 1));
+            // The vertex above lies before this one or after it.
+            if ring % 2 == 0 { [a, b, c, b, d, c] } else { [a, d, c, a, b, d] }
+        })
+    });
+    made(positions, Some(normals), triangles.collect())
+}
+
+/// By how many degrees the faces of a lantern of so many bands are turned from the cylinder's normal at their middle.
+pub fn turned(bands: u32) -> f64 {
+    let mesh = lantern(bands);
+    let [a, b, c] = match mesh.triangles().next() {
+        Some(triangle) => triangle.map(|vertex| mesh.positions()[vertex as usize].as_dvec3()),
+        None => return 0.0,
+    };
+    let n = (b - a).cross(c - a);
+    n.y.abs().atan2(n.x.hypot(n.z)).to_degrees()
+}
+
+/// The same by formula: a face is as high as a band, and its base lies behind its tip by the sagitta 1 − cos(π/16).
+pub fn turned_by(bands: u32) -> f64 {
+    let sagitta = 1.0 - (std::f64::consts::PI / f64::from(SIDES)).cos();
+    (sagitta * f64::from(bands) / HEIGHT).atan().to_degrees()
+}
+
+fn column(world: &mut World, mesh: Mesh, shading: Shading) {
+    camera(world, Vec3::new(0.0, 0.0, 3.4), Vec3::Y);
+    sun(world, Vec3::new(0.3, 0.4, 1.0));
+    show(world, mesh, Material::matte(LinearRgba::gray(0.9)), shading);
+}
+
+fn lantern_picture(bands: u32, shading: Shading) -> Result<Image, MeasureError> {
+    drawn(Mode::Mesh, |world| column(world, lantern(bands), shading))
+}
+
+fn cylinder() -> Result<Image, MeasureError> {
+    let cylinder = Cylinder { radius: 1.0, height: HEIGHT as f32, capped: false };
+    let mesh = match cylinder.mesh(Tessellation::Count { rows: 1, columns: 64 }) {
+        Ok(mesh) => mesh,
+        Err(error) => unreachable!("a cylinder of these lengths can be cut: {error}"),
+    };
+    drawn(Mode::Surface, |world| column(world, mesh, Shading::Phong))
+}
+
+/// The error, linear, that 95 % of the pixels of a lantern keep to against the true cylinder.
+///
+/// # Errors
+/// What the oracle cannot draw.
+pub fn lantern_error(bands: u32, shading: Shading) -> Result<f64, MeasureError> {
+    const P95: usize = 1;
+    Ok(compared(&lantern_picture(bands, shading)?, &cylinder()?)?.linear.all.percentiles[P95])
+}
+
+pub(super) fn page() -> Result<FailurePage, MeasureError> {
+    let stretches = ROWS.into_iter().map(|(rows, aspect)| Ok((aspect, stretched(rows)?)));
+    let stretches = stretches.collect::<Result<Vec<_>, MeasureError>>()?;
+    let mut lanterns = Vec::new();
+    for (name, kind, shading) in [("flat", 0, Shading::Flat), ("Phong, the cylinder’s normals", 2, Shading::Phong)] {
+        let points = BANDS.into_iter().map(|bands| Ok((f64::from(bands), lantern_error(bands, shading)?)));
+        lanterns.push(series(name, kind, &points.collect::<Result<Vec<_>, MeasureError>>()?, true));
+    }
+    let [even, thin] = [32, 2].map(|rows| cells(rows, Shading::Gouraud));
+    let [flat, phong] = [Shading::Flat, Shading::Phong].map(|shading| lantern_picture(64, shading));
+    Ok(FailurePage {
+        id: "slivers",
+        title: "Long thin triangles are worse than their number says",
+        cause: "What is interpolated errs by the square of the longest edge: cells twice as long as wide for the same number err \
+                twice as much. And where thin triangles have wide angles their planes turn away from the surface: on a lantern \
+                (H. A. Schwarz, 1880) flat shading gets worse the finer it is cut.",
+        remedy: "Cells about as long as wide, with no angle near 180°; normals of the surface, not of the faces; shade at \
+                 pixels.",
+        test: "thin_triangles_err_by_their_length_and_lanterns_by_their_angles",
+        figures: vec![
+            (
+                "stretched cells",
+                figure(
+                    "slivers-stretched",
+                    "RMS error of Gouraud shading over a square of 1024 cells",
+                    [log("length of the cells (widths)"), log("RMS error (linear)")],
+                    panel("under a lamp; Phong shading is exact there", vec![series("Gouraud", 1, &stretches, true)]),
+                ),
+            ),
+            (
+                "Schwarz’s lantern",
+                figure(
+                    "slivers-lantern",
+                    "Error that 95 % of the pixels of a lantern of 16 sides keep to",
+                    [log("bands"), log("error (linear)")],
+                    panel("against the true cylinder", lanterns),
+                ),
+            ),
+        ],
+        pictures: shown([
+            ("Gouraud, 32 × 32 cells", &even?),
+            ("Gouraud, 512 × 2 cells", &thin?),
+            ("lantern of 64 bands, flat", &flat?),
+            ("the same, Phong", &phong?),
+        ]),
+    })
+}

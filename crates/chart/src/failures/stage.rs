@@ -1,0 +1,194 @@
+//! The scenes of the pages: set up, drawn by the oracle, and by what else draws.
+
+use bevy_ecs::query::QueryFilter;
+use halfway::prelude::*;
+use halfway::reference::metrics::{self, Comparison};
+use halfway::reference::{Image, Mode, Oracle};
+use halfway::render::{Adapter, AdapterChoice};
+
+use crate::front::ChartedAdapter;
+use crate::measure::{MeasureError, SHADINGS};
+
+/// Width and height of the pictures.
+pub(super) const SIZE: UVec2 = UVec2::splat(256);
+
+/// A scene for the oracle.
+pub(super) fn set_up(spawn: impl FnOnce(&mut World)) -> App {
+    let mut app = App::new();
+    app.add_plugins(HalfwayPlugins::reference()).insert_resource(GlobalAmbient(LinearRgba::BLACK));
+    app.finish();
+    app.cleanup();
+    spawn(app.world_mut());
+    app.update();
+    app
+}
+
+/// A scene drawn by the oracle.
+pub(super) fn drawn(mode: Mode, spawn: impl FnOnce(&mut World)) -> Result<Image, MeasureError> {
+    drawn_at(SIZE, mode, spawn)
+}
+
+/// The same in another size.
+pub(super) fn drawn_at(size: UVec2, mode: Mode, spawn: impl FnOnce(&mut World)) -> Result<Image, MeasureError> {
+    let mut app = set_up(spawn);
+    Ok(Oracle::new(app.world_mut(), size)?.with_mode(mode).draw())
+}
+
+/// A camera of 45° that looks at the origin.
+pub(super) fn camera(world: &mut World, from: Vec3, up: Vec3) {
+    world.spawn((Camera::default(), Transform::from_translation(from).looking_at(Vec3::ZERO, up)));
+}
+
+/// A camera on the z axis that looks at the origin and sees `half` to each side of it, above and below; what is nearer than a
+/// tenth of its distance is left out.
+pub(super) fn camera_above(world: &mut World, distance: f32, half: f32) {
+    let fov_y = (2.0 * (f64::from(half) / f64::from(distance)).atan()) as f32;
+    let camera = Camera { fov_y, near: 0.1 * distance, ..Camera::default() };
+    world.spawn((camera, Transform::from_xyz(0.0, 0.0, distance)));
+}
+
+/// A white light from a direction.
+pub(super) fn sun(world: &mut World, from: Vec3) {
+    world.spawn((DirectionalLight::white(), Transform::default().looking_to(-from, Vec3::Y)));
+}
+
+/// A white light that does not weaken with the distance.
+pub(super) fn lamp(world: &mut World, at: Vec3) {
+    let lamp = PointLight { attenuation: Attenuation::NONE, ..PointLight::white() };
+    world.spawn((lamp, Transform::from_translation(at)));
+}
+
+pub(super) fn show(world: &mut World, mesh: impl Into<Mesh>, material: Material, shading: Shading) -> Entity {
+    let mesh = world.resource_mut::<Assets<Mesh>>().add(mesh.into());
+    world.spawn((Mesh3d(mesh), material, shading, Transform::default())).id()
+}
+
+/// A mesh whose numbers this crate has made up itself.
+pub(super) fn made(positions: Vec<Vec3>, normals: Option<Vec<Vec3>>, indices: Vec<u32>) -> Mesh {
+    match Mesh::from_parts(positions, normals, None, indices) {
+        Ok(mesh) => mesh,
+        Err(error) => unreachable!("our own numbers are those of a mesh: {error}"),
+    }
+}
+
+/// The square from −1 to 1 in the plane z = 0, facing +z, of so many cells; each is split from lower left to upper right.
+pub(super) fn square(columns: u32, rows: u32) -> Mesh {
+    let at = |i: u32, of: u32| 2.0 * i as f32 / of as f32 - 1.0;
+    let corners = (0..=rows).flat_map(|j| (0..=columns).map(move |i| Vec3::new(at(i, columns), at(j, rows), 0.0)));
+    let positions: Vec<Vec3> = corners.collect();
+    let cells = (0..rows).flat_map(|j| (0..columns).map(move |i| j * (columns + 1) + i));
+    let triangles = cells.flat_map(|a| {
+        let (b, c) = (a + 1, a + columns + 1);
+        [a, b, c + 1, a, c + 1, c]
+    });
+    let normals = vec![Vec3::Z; positions.len()];
+    made(positions, Some(normals), triangles.collect())
+}
+
+/// The three shadings and the truth of one scene, in this order.
+pub(super) fn four(spawn: impl Fn(&mut World, Shading)) -> Result<[Image; 4], MeasureError> {
+    let [flat, gouraud, phong] = SHADINGS.map(|shading| drawn(Mode::Mesh, |world| spawn(world, shading)));
+    Ok([flat?, gouraud?, phong?, drawn(Mode::Surface, |world| spawn(world, Shading::Phong))?])
+}
+
+/// How far one picture is from another in linear intensity, on pixels that both cover.
+pub(super) fn compared(picture: &Image, truth: &Image) -> Result<Comparison, MeasureError> {
+    Ok(metrics::compare(picture, truth, Encoding::Raw)?)
+}
+
+/// The root of the mean squared difference of that.
+pub(super) fn rms(picture: &Image, truth: &Image) -> Result<f64, MeasureError> {
+    Ok(compared(picture, truth)?.linear.all.rmse)
+}
+
+/// All the light of a picture: the sum of its channels.
+pub(super) fn light(picture: &Image) -> f64 {
+    picture.pixels().iter().flatten().sum()
+}
+
+/// What draws beside the oracle: those that are charted, and the CPU without a driver, if it is not among them.
+///
+/// # Errors
+/// The CPU cannot draw with the vectors that are asked for.
+pub fn drawers(charted: &[ChartedAdapter]) -> Result<Vec<ChartedAdapter>, MeasureError> {
+    let mut drawers = charted.to_vec();
+    if !drawers.iter().any(|one| matches!(one.adapter, Adapter::Cpu(_))) {
+        let adapter = AdapterChoice::cpu().open()?;
+        drawers.push(ChartedAdapter { name: "cpu".to_owned(), adapter });
+    }
+    Ok(drawers)
+}
+
+/// Scenes that replace each other, drawn by an adapter and by the oracle, with every triangle and every light.
+pub(super) struct JudgedApp {
+    app: App,
+    size: UVec2,
+}
+
+impl JudgedApp {
+    pub(super) fn new(adapter: &Adapter, size: UVec2, pixels: Pixels) -> Self {
+        let mut app = App::new();
+        adapter.clone().insert_into(app.world_mut());
+        app.add_plugins(HalfwayPlugins::headless(size))
+            .insert_resource(ViewTolerance(Tolerance::EXACT))
+            .insert_resource(GlobalAmbient(LinearRgba::BLACK));
+        app.finish();
+        app.cleanup();
+        app.world_mut().resource_mut::<Headless>().pixels = pixels;
+        Self { app, size }
+    }
+
+    /// Replaces what stands.
+    pub(super) fn set(&mut self, spawn: impl FnOnce(&mut World)) {
+        let world = self.app.world_mut();
+        clear::<With<Camera>>(world);
+        clear::<With<Mesh3d>>(world);
+        clear::<Or<(With<PointLight>, With<SpotLight>, With<DirectionalLight>)>>(world);
+        spawn(world);
+    }
+
+    /// What the adapter draws.
+    pub(super) fn picture(&mut self) -> Result<Image, MeasureError> {
+        Ok(match render_picture(&mut self.app)? {
+            Picture::Float(image) => Image::from_float(&image),
+            Picture::Byte(image) => Image::from_bytes(&image, Encoding::Raw),
+        })
+    }
+
+    /// What the oracle draws of the same; after [`picture`](Self::picture), which puts everything in its place.
+    pub(super) fn truth(&mut self) -> Result<Image, MeasureError> {
+        Ok(Oracle::new(self.app.world_mut(), self.size)?.with_mode(Mode::Mesh).draw())
+    }
+
+    /// The largest error of a channel as a part of what it should be, over channels of more than `least`.
+    pub(super) fn relative_error(&mut self, least: f64) -> Result<f64, MeasureError> {
+        let (picture, truth) = (self.picture()?, self.truth()?);
+        let channels = picture.pixels().iter().flatten().zip(truth.pixels().iter().flatten());
+        let counted = channels.filter(|(_, should)| **should > least);
+        let largest = counted.map(|(is, should)| (is / should - 1.0).abs()).reduce(f64::max);
+        largest.ok_or_else(|| MeasureError::Scene("the picture shows nothing that could be judged".to_owned()))
+    }
+}
+
+/// A scene as the first of these draws it, as the oracle does, and their difference times a factor.
+pub(super) fn judged(
+    drawers: &[ChartedAdapter],
+    (size, pixels): (UVec2, Pixels),
+    factor: f64,
+    spawn: impl FnOnce(&mut World),
+) -> Result<[Image; 3], MeasureError> {
+    let drawer = drawers.first().ok_or_else(|| MeasureError::Scene("there is nothing that draws".to_owned()))?;
+    let mut judged = JudgedApp::new(&drawer.adapter, size, pixels);
+    judged.set(spawn);
+    let (drawn, truth) = (judged.picture()?, judged.truth()?);
+    let off = |(a, b): (&[f64; 3], &[f64; 3])| [0, 1, 2].map(|channel| factor * (a[channel] - b[channel]).abs());
+    let difference = Image::new(size.x, size.y, drawn.pixels().iter().zip(truth.pixels()).map(off).collect());
+    Ok([drawn, truth, difference])
+}
+
+fn clear<F: QueryFilter>(world: &mut World) {
+    let entities: Vec<Entity> = world.query_filtered::<Entity, F>().iter(world).collect();
+    for entity in entities {
+        world.despawn(entity);
+    }
+}
