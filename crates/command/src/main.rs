@@ -2,6 +2,7 @@
 
 mod adapters;
 mod bench;
+mod calibrate;
 mod chart;
 mod compare;
 mod convert;
@@ -11,6 +12,7 @@ mod info;
 mod input;
 mod look;
 mod picture;
+mod prices;
 mod progress;
 mod render;
 mod scenery;
@@ -72,6 +74,12 @@ enum Command {
     Convert(convert::ConvertArgs),
     /// Time a benchmark scene in every shading, beside a constant colour; or what features cost
     Bench(bench::BenchArgs),
+    /// Measure what lights cost on the adapter, at vertices and at pixels, for automatic shading
+    ///
+    /// What is found is kept on disk, in halfway under `$XDG_CACHE_HOME` or else ~/.cache, or in `$HALFWAY_CACHE`, a file for
+    /// each adapter and driver, for `view` and `bench`; what writes pictures never takes it, so that they are the same everywhere. The files may be
+    /// deleted. Nothing else should run meanwhile. Exit code 0 also where nothing could be kept.
+    Calibrate(calibrate::CalibrateArgs),
     /// Chart error against time of every method on a scene, and say what to choose; or of all scenes of the project's
     ///
     /// Writes a page that opens offline, index.html, and beside it chart.json, tables and drawings. Each file appears only
@@ -116,6 +124,7 @@ fn main() -> ExitCode {
         Command::Info(args) => info::run(&args),
         Command::Convert(args) => convert::run(&args),
         Command::Bench(args) => bench::run(&args),
+        Command::Calibrate(args) => calibrate::run(&args),
         Command::Chart(args) => chart::run(&args),
         Command::Adapters => adapters::run(),
         Command::Schema => {

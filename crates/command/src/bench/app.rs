@@ -6,6 +6,7 @@ use halfway_chart::timing::TimedLook;
 use super::args::{BenchArgs, BenchShading};
 use crate::failure::Failure;
 use crate::input::SceneInput;
+use crate::prices::PricesInUse;
 use crate::scenery::{Benchmark, BenchmarkScene};
 use crate::turntable::Turntable;
 
@@ -32,10 +33,11 @@ impl Timed {
         args.size.size.unwrap_or(own)
     }
 
-    pub(super) fn app(&self, args: &BenchArgs, mode: BenchShading) -> Result<App, Failure> {
+    pub(super) fn app(&self, args: &BenchArgs, mode: BenchShading, prices: &PricesInUse) -> Result<App, Failure> {
         let mut app = App::new();
         app.add_plugins(HalfwayPlugins::headless(self.size(args)));
         app.insert_resource(args.adapter.choice());
+        prices.insert_into(app.world_mut());
         let look = mode.look();
         match self {
             Self::Made(scene) => {

@@ -22,9 +22,11 @@ pub(crate) struct BenchArgs {
     /// s2: 10,000 turning spheres of 224 triangles each, 1 light, 1280 × 720;
     /// s3: 400 spheres on a plane, 256 moving lights of range 12, 1280 × 720;
     /// s4: one sphere of 3,968 triangles, 1 light, 256 × 256;
+    /// s5: 60 objects of five kinds, 2,393,700 triangles, 6 lights, 1280 × 720;
+    /// s6: one scan of 1,000,000 triangles with noise, 3 lights, 1280 × 720;
     /// features: what each feature of lighting costs once a vertex and once a pixel, beside one directional light;
     /// lights: what a light costs the CPU for each patch that it touches, and one of 20,000 that touches nothing
-    #[arg(value_name = "s1|s1x16|s2|s3|s4|features|lights|SCENE|MODEL", verbatim_doc_comment)]
+    #[arg(value_name = "s1|s1x16|s2|s3|s4|s5|s6|features|lights|SCENE|MODEL", verbatim_doc_comment)]
     #[arg(value_parser = OsStringValueParser::new().map(|text| Subject::named(&text)))]
     pub(super) subject: Subject,
     #[command(flatten)]
@@ -69,6 +71,8 @@ impl Subject {
             Some("s2") => Self::Scene(BenchmarkScene::S2),
             Some("s3") => Self::Scene(BenchmarkScene::S3),
             Some("s4") => Self::Scene(BenchmarkScene::S4),
+            Some("s5") => Self::Scene(BenchmarkScene::S5),
+            Some("s6") => Self::Scene(BenchmarkScene::S6),
             Some("features") => Self::Features,
             Some("lights") => Self::Lights,
             _ => Self::File(text.into()),

@@ -3,7 +3,7 @@
 use halfway::prelude::*;
 use halfway::render::{Adapter, RenderError};
 use halfway_chart::timing::{FRAME_TIME, Machine, Spread, median_ratio, settle};
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::app::Timed;
 use super::args::{BenchArgs, BenchShading};
@@ -11,6 +11,7 @@ use super::cpu::{self, CpuTimes, OWN_TIME};
 use super::facts::{counters, machine, print_facts, spread};
 use super::own_process::{FirstFrame, first_frame};
 use crate::failure::Failure;
+use crate::prices::PricesInUse;
 use crate::tolerance;
 
 /// What was measured of one shading.
@@ -25,13 +26,16 @@ struct Row {
 }
 
 pub(super) fn run(args: &BenchArgs, timed: &Timed) -> Result<(), Failure> {
-    let apps: Result<Vec<App>, Failure> = BenchShading::ALL.iter().map(|mode| timed.app(args, *mode)).collect();
+    let prices = PricesInUse::of(&args.adapter.choice().open()?);
+    let apps: Result<Vec<App>, Failure> =
+        BenchShading::ALL.iter().map(|mode| timed.app(args, *mode, &prices)).collect();
     let mut apps = apps?;
     for app in &mut apps {
         settle(app)?;
     }
     let times = cpu::timed(&mut apps.iter_mut().collect::<Vec<_>>(), args.rounds)?;
-    let machine = Machine::new(&Adapter::of(apps[0].world()).ok_or(RenderError::NoAdapter)?);
+    let adapter = Adapter::of(apps[0].world()).ok_or(RenderError::NoAdapter)?;
+    let machine = Machine::new(&adapter);
     let reports = apps.iter().map(|app| app.world().resource::<FrameReport>().clone());
     let mut rows = Vec::new();
     for ((mode, report), (own, cpu)) in BenchShading::ALL.into_iter().zip(reports).zip(&times) {
@@ -46,18 +50,19 @@ pub(super) fn run(args: &BenchArgs, timed: &Timed) -> Result<(), Failure> {
         });
     }
     if args.json {
-        print_json(args, timed, &machine, &rows);
+        print_json(args, timed, (&machine, &prices.json(&adapter)), &rows);
     } else {
-        print_table(args, timed, &machine, &rows);
+        print_table(args, timed, (&machine, &prices), &rows);
     }
     Ok(())
 }
 
-fn print_table(args: &BenchArgs, timed: &Timed, machine: &Machine, rows: &[Row]) {
+fn print_table(args: &BenchArgs, timed: &Timed, (machine, prices): (&Machine, &PricesInUse), rows: &[Row]) {
     let size = timed.size(args);
     let octahedra = if args.octahedra { ", spheres as octahedra" } else { "" };
     println!("scene: {}{octahedra}, {} × {} pixels, {} rounds", timed.name(), size.x, size.y, args.rounds);
     println!("tolerance: {}", tolerance::describe(args.tolerance.or(Tolerance::DEFAULT)));
+    println!("prices of automatic shading: {}", prices.describe());
     print_facts(machine);
     println!("\n{FRAME_TIME}\n{OWN_TIME}\n");
     let cold = if args.cold { ["first frame, no shaders kept, ms | ", "---|"] } else { [""; 2] };
@@ -79,7 +84,7 @@ fn print_table(args: &BenchArgs, timed: &Timed, machine: &Machine, rows: &[Row])
     }
 }
 
-fn print_json(args: &BenchArgs, timed: &Timed, machine: &Machine, rows: &[Row]) {
+fn print_json(args: &BenchArgs, timed: &Timed, (machine, prices): (&Machine, &Value), rows: &[Row]) {
     let size = timed.size(args);
     let Tolerance { steps, pixels } = args.tolerance.or(Tolerance::DEFAULT);
     let rows: Vec<_> = rows
@@ -109,6 +114,7 @@ fn print_json(args: &BenchArgs, timed: &Timed, machine: &Machine, rows: &[Row]) 
             "size": size.to_array(),
             "tolerance": { "steps": steps, "pixels": pixels },
             "rounds": args.rounds,
+            "prices": prices,
             "machine": self::machine(machine),
             "frame": FRAME_TIME,
             "rows": rows,

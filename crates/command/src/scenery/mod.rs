@@ -1,4 +1,4 @@
-//! The benchmark scenes: the same four everywhere, so that renderers can be compared.
+//! The benchmark scenes: the same everywhere, so that renderers can be compared.
 //!
 //! All colours are linear RGB; the material is Blinn–Phong with a white highlight of shininess 32 and an ambient colour
 //! equal to its diffuse one; the background is (0.01, 0.012, 0.02); the camera has a vertical field of view of 45° and
@@ -11,10 +11,13 @@
 //! | S2 | 10,000 spheres of 16 × 8 in 10 colours, 2.5 apart, all turning | directional 0.9 | (0, 60, 160) | 1280 × 720 |
 //! | S3 | 400 spheres on a plane of 200 | directional 0.15, 256 circling points of 2.0 and range 12 | (0, 40, 100) | 1280 × 720 |
 //! | S4 | one sphere, 64 × 32 | directional 0.9 | (0, 0, 3) | 256 × 256 |
+//! | S5 | 60 objects of five kinds (see [`gallery`]), 12 of each | directional 0.4 and 0.2, three circling points of 0.6, one spot | (0, 10, 19) | 1280 × 720 |
+//! | S6 | one scan of 1,000,000 triangles with noise, in half of the pixels, turning | those of S5 that are directional, one point of 0.3 | (0, 0, 2.5) | 1280 × 720 |
 //!
 //! What single [`features`] cost is another, neutral scene's.
 
 pub(crate) mod features;
+mod gallery;
 pub(crate) mod many_lights;
 
 use std::f32::consts::TAU;
@@ -36,6 +39,10 @@ pub(crate) enum BenchmarkScene {
     S3,
     /// One small sphere, one light.
     S4,
+    /// 60 objects of five kinds, six lights.
+    S5,
+    /// One mesh of a million triangles with a scanner's noise, three lights.
+    S6,
 }
 
 impl BenchmarkScene {
@@ -70,6 +77,8 @@ impl Plugin for Benchmark {
                     BenchmarkScene::S2 => stage.many_objects(if octahedra { (4, 2) } else { (16, 8) }),
                     BenchmarkScene::S3 => stage.many_lights(),
                     BenchmarkScene::S4 => stage.small(),
+                    BenchmarkScene::S5 => stage.gallery(),
+                    BenchmarkScene::S6 => stage.large_scan(),
                 }
             })
             .add_systems(Update, (turn, circle, count).chain().run_if(not(resource_exists::<Still>)));

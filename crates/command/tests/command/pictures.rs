@@ -1,6 +1,6 @@
 //! What `render` draws and writes, and what the command says of itself.
 
-use crate::command::{asset, folder, succeeds};
+use crate::command::{asset, folder, halfway, succeeds};
 use std::fs;
 
 #[test]
@@ -82,6 +82,44 @@ fn every_example_scene_renders() {
         count += 1;
     }
     assert!(count >= 5, "{count} scenes");
+}
+
+#[test]
+fn models_are_shown_with_their_images() {
+    let folder = folder("textured");
+    for (model, least) in [("assets/crate.obj", 100), ("assets/ball.glb", 100)] {
+        let arguments = ["render", &asset(model), "--size", "96x96", "--shading", "phong", "-o", "model.png"];
+        let output = halfway(&folder, &arguments);
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success() && !said.contains("warning"), "{model}: {said}");
+        let picture = image::open(folder.join("model.png")).expect("the picture was written").into_rgb8();
+        // Neighbours differ by more than a tenth where an image has edges; on smooth surfaces shading changes by less.
+        let differ = |x: u32, y: u32| {
+            let [a, b] = [x, x + 1].map(|x| picture.get_pixel(x, y).0.map(f64::from));
+            a.iter().zip(b).any(|(a, b)| (a - b).abs() > 0.05 * (a + b + 1.0))
+        };
+        let inner = (24..72).flat_map(|y| (24..71).map(move |x| (x, y)));
+        let edges = inner.filter(|(x, y)| differ(*x, *y)).count();
+        assert!(edges > least, "{model}: {edges} edges between colors");
+    }
+}
+
+#[test]
+fn an_image_that_does_nothing_is_told_once() {
+    let folder = folder("ignored");
+    let image = asset("assets/crate_height.png");
+    let object = |x: f32| {
+        let maps = format!(r#"{{"height": {{"path": {image:?}, "amount": 0.1}}}}"#);
+        format!(r#"{{"mesh": {{"plane": {{}}}}, "transform": {{"translation": [{x}, 0, 0]}}, "maps": {maps}}}"#)
+    };
+    for (shading, times) in [("gouraud", 1), ("flat", 1), ("phong", 0), ("auto", 0)] {
+        let scene = format!(r#"{{"shading": "{shading}", "objects": [{}, {}]}}"#, object(-1.2), object(1.2));
+        fs::write(folder.join("scene.json"), scene).expect("the folder can be written");
+        let output = halfway(&folder, &["render", "scene.json", "--size", "64x36", "-o", "scene.png"]);
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{said}");
+        assert_eq!(said.matches("height image does nothing").count(), times, "{shading}: {said}");
+    }
 }
 
 #[test]
