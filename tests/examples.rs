@@ -95,6 +95,51 @@ fn environment() {
 }
 
 #[test]
+fn solid_noise() {
+    let file = folder("solid_noise").join("solid_noise.png");
+    draw("solid_noise", &file, &[]);
+    let picture = picture(&file);
+    // The floor: near by two colors, toward the horizon one.
+    let spread = |row: u32| {
+        let greens = || (0..SIZE.0).map(|x| picture.get_pixel(x, row).0[1]);
+        greens().max().zip(greens().min()).map_or(0, |(most, least)| most - least)
+    };
+    let (near, far) = (spread(SIZE.1 - 3), spread(FAR_ROW));
+    assert!(near > 80 && far < 25, "{near} and {far}");
+}
+
+/// Of that picture: above all that stands on the floor, and below the horizon.
+const FAR_ROW: u32 = 14;
+
+#[test]
+fn bumps() {
+    let file = folder("bumps").join("bumps.png");
+    let printed = draw("bumps", &file, &[]);
+    let of = |name: &str| {
+        let line = printed.lines().find(|line| line.starts_with(name)).unwrap_or_else(|| panic!("{name}: {printed}"));
+        line.split_whitespace().last().and_then(|number| number.parse::<f64>().ok()).expect("a number")
+    };
+    let [none, bumps, normals] = ["no image", "bump map", "normal map"].map(of);
+    assert!(bumps < 0.6 * none && (normals / bumps - 1.0).abs() < 0.15, "{printed}");
+    picture(&file);
+}
+
+#[test]
+fn baked_occlusion() {
+    let file = folder("baked_occlusion").join("baked_occlusion.png");
+    let printed = draw("baked_occlusion", &file, &[]);
+    assert!(printed.contains("stone: 256 × 128 texels of 128 rays") && printed.contains("floor: 96 × 96"), "{printed}");
+    let picture = picture(&file);
+    // The right half is the left one, darker, and nowhere brighter by more than what parallax makes.
+    let light = |left: u32| {
+        let half = imageops::crop_imm(&picture, left, SIZE.1 / 4, SIZE.0 / 2, SIZE.1 / 2).to_image();
+        half.pixels().map(|pixel| u64::from(pixel.0[1])).sum::<u64>() / u64::from(SIZE.0 / 2 * SIZE.1 / 2)
+    };
+    let [without, with] = [light(0), light(SIZE.0 / 2)];
+    assert!(with + 10 < without, "{with}, {without} without");
+}
+
+#[test]
 fn teapots() {
     let file = folder("teapots").join("teapots.png");
     let printed = draw("teapots", &file, &[]);

@@ -12,6 +12,7 @@ mod render {
     mod auto;
     mod blend;
     mod changes;
+    mod choices;
     mod closed_forms;
     mod coincident;
     mod colors;
@@ -48,6 +49,7 @@ mod render {
     mod scene;
     mod sides;
     mod slivers;
+    mod solids;
     mod stage;
     mod surfaces;
     mod terms;

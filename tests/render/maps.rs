@@ -7,7 +7,7 @@ use crate::render::stage::Stage;
 use halfway::prelude::*;
 use halfway::reference::Image;
 use halfway::reference::metrics::judge;
-use halfway::texture::{LevelFilter, Pyramid, TexelImage, UvTransform};
+use halfway::texture::{LevelFilter, Pyramid, TexelFilter, TexelImage, UvTransform};
 
 const SHADINGS: [Shading; 3] = [Shading::Flat, Shading::Gouraud, Shading::Phong];
 
@@ -226,5 +226,20 @@ fn filters_by_the_footprints_shape_are_drawn_as_trilinear() {
         assert_eq!(picture, trilinear, "{levels:?}");
         // The oracle takes them as they are.
         assert_ne!(truth.pixels(), judged.pixels(), "{levels:?}");
+    }
+}
+
+/// Sums of such texels are beyond all numbers of single precision, and the difference of two sums is no number.
+#[test]
+fn the_largest_texels_end_in_a_picture() {
+    let mut stage = Stage::new(64, 48);
+    let largest = TexelImage::from_fn(16, 16, |_, _| [3.4e38; 4]).expect("a small image");
+    let sampling = Sampling { minify: TexelFilter::CatmullRom, ..Sampling::default() };
+    let transform = UvTransform { scale: [9.3, 5.7], ..UvTransform::default() };
+    for kind in MapKind::ALL {
+        let mut scene = scene(Shading::Phong, None);
+        scene.things[0].maps = vec![(kind, Map { sampling, transform, ..Map::new(largest.clone()) })];
+        let picture = stage.draw(&scene);
+        assert!(picture.iter().all(|number| !number.is_nan()), "{kind:?}");
     }
 }

@@ -85,6 +85,7 @@ pub(crate) struct Thing {
     pub(crate) colors: Option<VertexColors>,
     pub(crate) maps: Vec<(MapKind, Map)>,
     pub(crate) mask: Option<f32>,
+    pub(crate) solid: Option<SolidTexture>,
     pub(crate) blend: bool,
 }
 
@@ -171,6 +172,7 @@ impl Thing {
             colors: None,
             maps: Vec::new(),
             mask: None,
+            solid: None,
             blend: false,
         }
     }

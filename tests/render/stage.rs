@@ -5,7 +5,7 @@ use crate::render::scene::{Around, Kind, Lamp, Map, On, Scene, Thing};
 use halfway::prelude::*;
 use halfway::reference::Oracle;
 use halfway::reference::metrics::Bars;
-use halfway::render::{Adapter, Costs, RenderError};
+use halfway::render::{Adapter, AdapterChoice, Costs, RenderError};
 use halfway::texture::environment::{EnvironmentLight, EnvironmentMap};
 use image::{Rgba32FImage, RgbaImage};
 use std::sync::OnceLock;
@@ -26,11 +26,20 @@ pub(crate) struct Stage {
 impl Stage {
     /// A floating-point target on which meshes are drawn as they are.
     pub(crate) fn new(width: u32, height: u32) -> Self {
+        Self::drawn_by(choice(), width, height)
+    }
+
+    /// The same, drawn by the CPU whatever the other tests are drawn by.
+    pub(crate) fn on_the_cpu(width: u32, height: u32) -> Self {
+        Self::drawn_by(AdapterChoice::cpu(), width, height)
+    }
+
+    fn drawn_by(choice: AdapterChoice, width: u32, height: u32) -> Self {
         let mut app = App::new();
         app.add_plugins(HalfwayPlugins::headless(UVec2::new(width, height)));
         app.world_mut().resource_mut::<Headless>().pixels = Pixels::Float;
         app.insert_resource(ViewTolerance(FULL));
-        app.insert_resource(choice());
+        app.insert_resource(choice);
         Self { app, spawned: Vec::new(), meshes: Vec::new() }
     }
 
@@ -87,9 +96,10 @@ impl Stage {
 
     /// The bits of the adapter's grid within a pixel.
     pub(crate) fn grid_bits(&self) -> u32 {
-        // One adapter draws all tests of a process.
+        // One adapter draws all tests of a process, and some are drawn by the CPU in any case.
         static BITS: OnceLock<u32> = OnceLock::new();
-        *BITS.get_or_init(|| self.adapter().sub_pixel_bits().unwrap_or_else(|error| panic!("{error}")))
+        let bits = || self.adapter().sub_pixel_bits().unwrap_or_else(|error| panic!("{error}"));
+        if self.is_on_cpu() { bits() } else { *BITS.get_or_init(bits) }
     }
 
     /// `bars` for the adapter's grid.
@@ -190,6 +200,9 @@ impl Stage {
         }
         if let Some(cutoff) = thing.mask {
             entity.insert(Mask(cutoff));
+        }
+        if let Some(solid) = thing.solid {
+            entity.insert(solid);
         }
         if let Some(colors) = thing.colors {
             entity.insert(colors);

@@ -4,6 +4,7 @@ use super::Row;
 use super::colors::{Change, SHADINGS, colored};
 use super::features::{lights, point, still_life};
 use super::maps;
+use crate::render::compare::BLENDED;
 use crate::render::scene::{Around, Scene, other_material};
 use halfway::lighting::Frequency;
 use halfway::prelude::*;
@@ -103,6 +104,24 @@ pub(super) fn rows() -> Vec<Row> {
     empty.things.push(crate::render::scene::Thing::new(UvSphere::new(0.8, 12, 6)));
     empty.environment.as_mut().expect("one").sky = true;
     rows.push(Row::new("environment, next to nothing but sky", empty));
+    rows
+}
+
+/// Four samples a pixel, of which the sky is one, seen at its center: what mirrors most sharply, and what lies over edges.
+pub(super) fn rows_of_four() -> Vec<Row> {
+    let kept = ["all", "harmonics alone", "a mirror", "sky", "sky behind what blends", "one light", "backs"];
+    let changes = || CHANGES.into_iter().filter(|(what, _)| kept.contains(what));
+    let mut rows = Vec::new();
+    for (shading, shade) in SHADINGS.into_iter().take(3) {
+        for (what, change) in changes() {
+            let mut scene = surrounded();
+            change(&mut scene);
+            shade(&mut scene);
+            scene.camera.samples = Samples::Four;
+            // Which bytes are equal depends on where the samples lie.
+            rows.push(Row { raw: BLENDED, ..Row::new(format!("environment, four samples, {shading}, {what}"), scene) });
+        }
+    }
     rows
 }
 

@@ -3,6 +3,7 @@
 use super::Row;
 use super::colors::{Change, SHADINGS, colored};
 use super::features::{lights, point, still_life};
+use crate::render::compare::BLENDED;
 use crate::render::scene::{Map, Scene, Thing, other_material, point_light};
 use halfway::prelude::*;
 use halfway::texture::{Channel, LevelFilter, Sampling, TexelFilter, TexelImage, UvSet, UvTransform, Wrap};
@@ -161,6 +162,48 @@ pub(super) fn rows_of_kinds() -> Vec<Row> {
 /// All kinds together.
 pub(super) fn rows_of_all_kinds() -> Vec<Row> {
     rows_of([("all", ALL.to_vec()), ("all with heights", [&ALL[..6], &[HEIGHTS]].concat())].into_iter())
+}
+
+/// Masks with four samples a pixel: a fragment is cut as a whole, also where the mask's edge runs through the triangle's. By the
+/// alpha of a color, by an opacity beside other images, and in layers.
+pub(super) fn rows_of_masks_with_four_samples() -> Vec<Row> {
+    let kinds: [(&str, &[(MapKind, f32)]); 3] = [
+        ("color", &[(MapKind::Color, 0.9)]),
+        ("opacity", &[(MapKind::Opacity, 0.8)]),
+        ("opacity and color", &[(MapKind::Color, 0.9), (MapKind::Opacity, 1.0)]),
+    ];
+    let changes: [Change; 3] = [
+        ("one side", |_| ()),
+        ("both sides", |scene| {
+            for thing in &mut scene.things {
+                *thing = thing.clone().faces(Faces::Both).back(other_material());
+            }
+        }),
+        ("blended", |scene| {
+            for thing in &mut scene.things {
+                *thing = thing.clone().blended(0.9);
+            }
+        }),
+    ];
+    let mut rows = Vec::new();
+    for (kind, maps) in kinds {
+        for (what, change) in changes {
+            for (shading, shade) in SHADINGS.into_iter().take(3) {
+                let mut scene = with_maps(maps);
+                for thing in &mut scene.things {
+                    thing.material.opacity = 0.9;
+                    thing.mask = Some(if kind == "color" { 0.77 } else { 0.5 });
+                }
+                change(&mut scene);
+                shade(&mut scene);
+                scene.camera.samples = Samples::Four;
+                // Which bytes are equal depends on where the samples lie.
+                let row = Row::new(format!("mask, four samples, {kind}, {shading}, {what}"), scene);
+                rows.push(Row { raw: BLENDED, ..row });
+            }
+        }
+    }
+    rows
 }
 
 fn rows_of(each: impl Iterator<Item = (&'static str, Vec<(MapKind, f32)>)>) -> Vec<Row> {
