@@ -41,9 +41,8 @@ pub(crate) fn run(options: &Options) -> Result {
     let mut command = cargo(["test", "--release", "--workspace", "--no-fail-fast"]);
     give_own_screen(&mut command);
     // Without hardware the CPU would draw; it has its turn with the other adapters.
-    if env::var_os("HALFWAY_ADAPTER").is_none() {
-        command.env("HALFWAY_ADAPTER", "gpu");
-    }
+    let choice = env::var("HALFWAY_ADAPTER").unwrap_or_else(|_| "gpu".to_owned());
+    command.env("HALFWAY_ADAPTER", &choice);
     let tally = counted("tests", &mut command);
     eprintln!("\n── {}", duration(start.elapsed()));
     let (tally, outcome) = tally?;
@@ -53,7 +52,7 @@ pub(crate) fn run(options: &Options) -> Result {
         return Err(Failure::new("no test ran"));
     }
     // Elsewhere than on Linux there is the system's own.
-    if cfg!(target_os = "linux") { each_adapter::try_all() } else { Ok(()) }
+    if cfg!(target_os = "linux") { each_adapter::try_all(Some(&choice)) } else { Ok(()) }
 }
 
 /// Where the virtual screen is installed, the tests open their windows there, whatever display is at hand: none flashes
