@@ -17,6 +17,8 @@ fn main() -> AppExit {
         }
     });
     let mut app = App::new();
+    // Levels of detail would come in beside the frames, and one scene would have two pictures.
+    app.insert_resource(ViewTolerance(Tolerance::EXACT));
     app.add_plugins(HalfwayPlugins).add_systems(Startup, scene).add_systems(Update, lose);
     if std::env::args().any(|argument| argument == "--update-first") {
         app.update();

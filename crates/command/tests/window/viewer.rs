@@ -29,8 +29,16 @@ fn by_a_driver(command: &mut Command) {
     }
 }
 
-/// The command that shows the teapot, on whatever X display it will be told.
+/// The command that shows the teapot as it is, on whatever X display it will be told. Levels of detail would come in beside the
+/// frames, and one scene would have two pictures.
 pub(crate) fn view() -> Command {
+    let mut command = view_with_levels();
+    command.args(["--tolerance", "exact"]);
+    command
+}
+
+/// The command that shows the teapot within the tolerance that everybody starts with.
+pub(crate) fn view_with_levels() -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_halfway"));
     command.args(["view", concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/teapot.obj")]);
     by_a_driver(&mut command);
@@ -362,6 +370,14 @@ impl<'a> Viewer<'a> {
             let sent = connection.send_event(false, self.window, EventMask::NO_EVENT, event);
             sent.expect("the display is there").check().expect("the window takes keys");
         }
+    }
+
+    /// Gives the window a size, and waits until it shows a picture of that.
+    pub(crate) fn take_size(&self, width: u16, height: u16) {
+        self.resize(width.into(), height.into());
+        eventually("the window takes the size", || {
+            self.picture().filter(|shown| (shown.width, shown.height) == (width, height) && !shown.is_flat())
+        });
     }
 
     pub(crate) fn resize(&self, width: u32, height: u32) {
