@@ -15,4 +15,4 @@ pub mod page;
 mod report;
 pub mod timing;
 
-pub use report::{Filters, Fronts, NamedFile, Report, ReportError, ReportPlan, Scaling, measure};
+pub use report::{EarlierRun, Filters, Fronts, NamedFile, Report, ReportError, ReportPlan, Scaling, measure};

@@ -12,10 +12,10 @@ use halfway_chart::filters::FilterPlan;
 use halfway_chart::front::{ChartedAdapter, ChartedScene, FrontFilter, KeptResults, Method, scenes};
 use halfway_chart::measure::{MeasureError, MeasureProgress};
 use halfway_chart::timing::{Machine, TimedLook};
-use halfway_chart::{Filters, Fronts, NamedFile, ReportError, ReportPlan, Scaling, measure};
+use halfway_chart::{EarlierRun, Filters, Fronts, NamedFile, ReportError, ReportPlan, Scaling, measure};
 use indicatif::{ProgressBar, ProgressStyle};
 
-use crate::failure::Failure;
+use crate::failure::{DIFFERENT, Failure};
 use crate::input::SceneInput;
 use crate::scenery::{Benchmark, BenchmarkScene};
 
@@ -55,6 +55,10 @@ pub(crate) struct ChartArgs {
     /// file
     #[arg(long, value_name = "FILE")]
     tables: Option<PathBuf>,
+    /// Also compare the fronts with those of an earlier run, its chart.json: exit code 4 where a point is on the front of one
+    /// and clearly beaten in the other
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["scaling", "filters"])]
+    against: Option<PathBuf>,
 }
 
 /// What is measured while a run goes on, so that an interrupted one resumes; gone at its end.
@@ -72,6 +76,8 @@ pub(crate) fn run(args: &ChartArgs) -> Result<(), Failure> {
         bar.finish_and_clear();
         return write_all(&args.output, found.map_err(ReportError::from)?.files()?);
     }
+    // It may lie where this run writes.
+    let earlier = args.against.as_deref().map(earlier).transpose()?;
     let scenes = charted(&args.inputs)?;
     check_filter(&plan, &scenes)?;
     let adapters = adapters(&args.adapters)?;
@@ -105,7 +111,26 @@ pub(crate) fn run(args: &ChartArgs) -> Result<(), Failure> {
     if !everything {
         fronts.scenes.iter().flat_map(|scene| fronts.advice(scene)).for_each(|advice| println!("{advice}"));
     }
-    Ok(())
+    earlier.map_or(Ok(()), |earlier| agree(&fronts, &earlier))
+}
+
+/// The run that `--against` names.
+fn earlier(file: &Path) -> Result<EarlierRun, Failure> {
+    let told = |error: String| Failure::from(format!("{}: {error}", file.display()));
+    let text = fs::read_to_string(file).map_err(|error| told(error.to_string()))?;
+    EarlierRun::read(&text).map_err(told)
+}
+
+/// Says where the fronts of two runs differ by more than ties.
+fn agree(fronts: &Fronts, earlier: &EarlierRun) -> Result<(), Failure> {
+    let told = fronts.disagreements(earlier);
+    told.iter().for_each(|line| println!("{line}"));
+    if told.is_empty() {
+        println!("the fronts of both runs agree but for ties");
+        return Ok(());
+    }
+    let lines = format!("{} points are on the front of one run and clearly beaten in the other", told.len());
+    Err(Failure::new(DIFFERENT, lines))
 }
 
 /// Measures filters of images alone.

@@ -1,5 +1,7 @@
 //! The front: the points that nothing beats.
 
+use std::collections::HashMap;
+
 use super::FrontPoint;
 
 /// The errors whose least time is told, in steps of 1/255.
@@ -100,26 +102,26 @@ impl Front {
         }
     }
 
-    /// What the fronts of two runs over the same points disagree on: points that only one of them has on its front and that
-    /// are no tie. A tie is a point whose quartiles of time reach those of a point of the other's front that errs no more.
+    /// What the fronts of two runs disagree on, over the points that both measured: points that are on the front of one and
+    /// clearly beaten in the other. A point is clearly beaten where one that errs no more has its upper quartile of time
+    /// below that point's lower quartile; else the two are a tie.
     pub fn disagreement<'a>(
         own: &[&'a FrontPoint],
         other: &[&'a FrontPoint],
         error: impl Fn(&FrontPoint) -> f64 + Copy,
     ) -> Vec<&'a FrontPoint> {
-        let [front, theirs] = [own, other].map(|points| Self::of(points, error));
-        let same =
-            |a: &FrontPoint, b: &FrontPoint| (&a.method, &a.detail, &a.backend) == (&b.method, &b.detail, &b.backend);
-        let lost = |point: &&FrontPoint, front: &Self, points: &[&FrontPoint]| {
-            let mut members = front.members.iter().map(|&i| points[i]);
-            !members.any(|member| {
-                same(member, point)
-                    || error(member) <= error(point) && member.ratio.lower_quartile <= point.ratio.upper_quartile
-            })
+        let names = |point: &FrontPoint| (point.method.clone(), point.detail.clone(), point.backend.clone());
+        let by_name: HashMap<_, &FrontPoint> = other.iter().map(|point| (names(point), *point)).collect();
+        let both = own.iter().filter_map(|point| Some((*point, *by_name.get(&names(point))?)));
+        let (own, other): (Vec<&FrontPoint>, Vec<&FrontPoint>) = both.unzip();
+        let [front, theirs] = [&own, &other].map(|points| Self::of(points, error));
+        let is_beaten = |place: usize, points: &[&FrontPoint]| {
+            let point = points[place];
+            points.iter().any(|by| error(by) <= error(point) && by.ratio.upper_quartile < point.ratio.lower_quartile)
         };
         let mut found: Vec<&FrontPoint> = Vec::new();
-        found.extend(front.members.iter().map(|&i| own[i]).filter(|point| lost(point, &theirs, other)));
-        found.extend(theirs.members.iter().map(|&i| other[i]).filter(|point| lost(point, &front, own)));
+        found.extend(front.members.iter().filter(|&&place| is_beaten(place, &other)).map(|&place| own[place]));
+        found.extend(theirs.members.iter().filter(|&&place| is_beaten(place, &own)).map(|&place| other[place]));
         found
     }
 }
@@ -206,5 +208,17 @@ mod tests {
         assert!(Front::disagreement(&one, &two, rms).is_empty());
         let names: Vec<&str> = Front::disagreement(&one, &off, rms).iter().map(|point| point.method.as_str()).collect();
         assert_eq!(names, ["b"]);
+        // What beats a point by far in one run alone is no tie, however good it is.
+        let ahead = [point("a", 1.0, 5.0), point("b", 1.05, 2.0), point("c", 0.5, 0.5)];
+        let names = |own: &[&FrontPoint], other: &[&FrontPoint]| {
+            Front::disagreement(own, other, rms).iter().map(|point| point.method.clone()).collect::<Vec<_>>()
+        };
+        let ahead: Vec<&FrontPoint> = ahead.iter().collect();
+        assert_eq!(
+            (names(&one, &ahead), names(&ahead, &one)),
+            (vec!["a".into(), "b".into()], vec!["a".into(), "b".into()])
+        );
+        // Of what one run did not measure nothing is said.
+        assert!(names(&one, &ahead[..2]).is_empty());
     }
 }

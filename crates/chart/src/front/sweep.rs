@@ -54,7 +54,7 @@ pub struct ChartedAdapter {
 }
 
 /// One scene, what it should look like, and everything that was measured of it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct MeasuredScene {
     /// Its name.
     pub name: String,

@@ -1,6 +1,7 @@
 //! Everything that is measured, and the files that tell it.
 
 mod charts;
+mod earlier;
 mod failing;
 mod filters;
 mod fronts;
@@ -22,6 +23,7 @@ use crate::measure::highlight::{self, Energies};
 use crate::measure::{MeasureError, MeasureProgress};
 use crate::page::html;
 
+pub use earlier::EarlierRun;
 pub use filters::Filters;
 pub use fronts::Fronts;
 pub use plan::ReportPlan;

@@ -3,7 +3,7 @@
 use halfway::render::{Adapter, Cpu, FrameReport};
 
 /// The machine and the programs that figures come from. What cannot be found out is `unknown`.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Machine {
     /// The adapter's name, as its driver tells it; of the CPU without a driver its vectors.
     pub adapter: String,

@@ -44,6 +44,35 @@ fn one_point_is_measured_again_by_its_command() {
     assert_eq!(command, "halfway chart sphere --detail 16 --method gouraud --adapter cpu --quick");
     let tables = fs::read_to_string(folder.join("t.md")).expect("the tables were written");
     assert!(tables.contains("## sphere") && tables.contains("| 0.5 steps |"), "{tables}");
+    // An earlier run is compared; this one's file is where that one's was.
+    let again = format!("{line} --against point/chart.json");
+    let of_earlier = |with: &dyn Fn(&mut serde_json::Value)| {
+        let mut earlier = chart.clone();
+        with(&mut earlier);
+        fs::write(folder.join("point/chart.json"), earlier.to_string()).expect("it is written");
+        halfway(&folder, &again.split(' ').collect::<Vec<_>>())
+    };
+    // A run in which any time is a tie.
+    let output = of_earlier(&|earlier| {
+        for point in earlier["points"].as_array_mut().expect("points") {
+            point["ratio_quartiles"] = serde_json::json!([1e-3, 1e3]);
+        }
+    });
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert!(output.status.success() && said.contains("agree but for ties"), "{said}");
+    // One in which what errs least now was beaten in everything.
+    let output = of_earlier(&|earlier| {
+        for (place, time) in [(0, 1e3), (1, 1e-3)] {
+            let point = &mut earlier["points"][place];
+            point["ratio"] = time.into();
+            point["ratio_quartiles"] = serde_json::json!([time, time]);
+        }
+        for area in ["/rms", "/whole/rms"] {
+            *earlier["points"][1].pointer_mut(area).expect("an error") = 0.0.into();
+        }
+    });
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert!(output.status.code() == Some(4) && said.contains("sphere on cpu, covered pixels: Gouraud, "), "{said}");
 }
 
 #[test]
@@ -53,6 +82,7 @@ fn what_cannot_be_charted_is_refused_before_anything_is_measured() {
         (&["chart", "no_such_scene"][..], "no_such_scene"),
         (&["chart", "sphere", "--method", "cel"], "gouraud"),
         (&["chart", "sphere", "--detail", "17"], "8, 16, 32"),
+        (&["chart", "sphere", "--against", "no_such.json"], "no_such.json"),
         (&["chart", "--scaling", "sphere"], "--scaling"),
         (&["chart", "--filters", "sphere"], "--filters"),
     ];
