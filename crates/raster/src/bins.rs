@@ -1,8 +1,8 @@
 //! Which pieces show, and in which tiles of the picture.
 
 use crate::error::RasterError;
-use crate::pass::{DrawCall, InstanceData, LeftOut, Pass};
-use crate::pieces::{Piece, PieceExtent};
+use crate::pass::Pass;
+use crate::placed::Placed;
 use crate::state::State;
 use std::ops::Range;
 
@@ -38,24 +38,102 @@ pub(crate) struct Bins {
     listed: Vec<u32>,
     /// The jobs in many tiles.
     wide: Vec<u32>,
+    spans: Vec<Span>,
+    parts: Vec<Part>,
+}
+
+/// Pieces fewer than this are sorted by the calling thread: to wake another takes longer.
+const WORTH_PARTING: u64 = 4_000;
+
+/// The pieces of a draw's instances, one instance after the other.
+#[derive(Clone, Debug)]
+struct Span {
+    draw: u32,
+    pieces: Range<usize>,
+    /// How many pieces are in the spans before it.
+    start: u64,
+}
+
+/// What one thread finds of them.
+#[derive(Debug, Default)]
+pub(crate) struct Part {
+    /// Which pieces it looks at, counted over all spans.
+    of: Range<u64>,
+    states: Vec<State>,
+    jobs: Vec<Job>,
+    /// How many jobs do not blend; they come first.
+    opaque: u32,
+    /// Of each surface the last draw that showed it, and its state there.
+    known: Vec<(u32, u32)>,
+    refused: Option<RasterError>,
 }
 
 impl Bins {
-    /// Sorts a pass's pieces into tiles.
-    pub(crate) fn fill(&mut self, pass: &Pass) -> Result<(), RasterError> {
-        self.states.clear();
-        self.jobs.clear();
-        self.wide.clear();
+    /// Sorts a pass's pieces into tiles. `each` has a function called with each part, by so many threads.
+    pub(crate) fn fill<E>(&mut self, pass: &Pass, threads: usize, each: E) -> Result<(), RasterError>
+    where
+        E: FnOnce(&mut [Part], &(dyn Fn(&mut Part) + Sync)),
+    {
         self.tiles = pass.size.map(|side| side.div_ceil(TILE as u32));
+        let total = self.find_spans(pass)?;
+        let count = if total < WORTH_PARTING { 1 } else { threads.max(1) };
+        if self.parts.len() < count {
+            self.parts.resize_with(count, Part::default);
+        }
+        for (number, part) in self.parts[..count].iter_mut().enumerate() {
+            let end = |number: usize| total * number as u64 / count as u64;
+            part.of = end(number)..end(number + 1);
+        }
+        let spans = &self.spans;
+        let work = |part: &mut Part| part.refused = part.fill(pass, spans).err();
+        match &mut self.parts[..count] {
+            [part] => work(part),
+            parts => each(parts, &work),
+        }
+        self.join(count)?;
+        self.list()
+    }
+
+    /// The spans of all draws, what blends after the rest, and how many pieces they have.
+    fn find_spans(&mut self, pass: &Pass) -> Result<u64, RasterError> {
+        self.spans.clear();
+        reserve(&mut self.spans, pass.draws.len())?;
+        let mut total = 0;
         for blend in [false, true] {
-            if blend {
-                self.first_blended = self.jobs.len() as u32;
-            }
             for (number, draw) in pass.draws.iter().enumerate().filter(|(_, draw)| draw.blend == blend) {
-                self.add_draw(pass, number, draw)?;
+                let Range { start, end } = draw.indices;
+                let pieces = pass.meshes[draw.mesh as usize].of(&draw.indices);
+                let pieces = pieces.ok_or(RasterError::Cut { draw: number, start, end })?;
+                let count = pieces.len() as u64 * draw.instances.len() as u64;
+                self.spans.push(Span { draw: number as u32, pieces, start: total });
+                total += count;
             }
         }
-        self.list()
+        Ok(total)
+    }
+
+    /// Puts the parts one after the other.
+    fn join(&mut self, count: usize) -> Result<(), RasterError> {
+        self.states.clear();
+        self.jobs.clear();
+        self.first_blended = 0;
+        for part in &mut self.parts[..count] {
+            if let Some(refused) = part.refused.take() {
+                return Err(refused);
+            }
+            self.first_blended += part.opaque;
+            if self.jobs.is_empty() {
+                std::mem::swap(&mut self.states, &mut part.states);
+                std::mem::swap(&mut self.jobs, &mut part.jobs);
+                continue;
+            }
+            let before = self.states.len() as u32;
+            reserve(&mut self.states, part.states.len())?;
+            self.states.append(&mut part.states);
+            reserve(&mut self.jobs, part.jobs.len())?;
+            self.jobs.extend(part.jobs.iter().map(|job| Job { state: before + job.state, ..*job }));
+        }
+        Ok(())
     }
 
     /// The jobs of a tile, in the order of drawing.
@@ -76,38 +154,10 @@ impl Bins {
         .copied()
     }
 
-    fn add_draw(&mut self, pass: &Pass, number: usize, draw: &DrawCall) -> Result<(), RasterError> {
-        let mesh = pass.meshes[draw.mesh as usize];
-        let Range { start, end } = draw.indices;
-        let range = mesh.of(&draw.indices).ok_or(RasterError::Cut { draw: number, start, end })?;
-        for index in draw.instances.clone() {
-            let instance = &pass.instances[index as usize];
-            let placed = Placed::new(pass, instance, draw);
-            if range.len() > 1 && placed.tiles(&mesh.extent).is_none() {
-                continue;
-            }
-            let state = State::new(draw, instance.surface, &pass.surfaces[instance.surface as usize]);
-            if self.states.last() != Some(&state) {
-                reserve(&mut self.states, 1)?;
-                self.states.push(state);
-            }
-            let state = self.states.len() as u32 - 1;
-            reserve(&mut self.jobs, range.len())?;
-            for (piece, of) in range.clone().zip(&mesh.each[range.clone()]) {
-                if placed.turns_away(of) {
-                    continue;
-                }
-                if let Some(tiles) = placed.tiles(&of.extent) {
-                    self.jobs.push(Job { draw: number as u32, instance: index, piece: piece as u32, state, tiles });
-                }
-            }
-        }
-        Ok(())
-    }
-
     /// Makes the tiles' lists by counting.
     fn list(&mut self) -> Result<(), RasterError> {
         let tiles = (self.tiles[0] * self.tiles[1]) as usize;
+        self.wide.clear();
         self.starts.clear();
         reserve(&mut self.starts, tiles + 2)?;
         self.starts.resize(tiles + 2, 0);
@@ -139,6 +189,74 @@ impl Bins {
     }
 }
 
+impl Part {
+    fn fill(&mut self, pass: &Pass, spans: &[Span]) -> Result<(), RasterError> {
+        self.states.clear();
+        self.jobs.clear();
+        self.opaque = 0;
+        self.known.clear();
+        reserve(&mut self.known, pass.surfaces.len())?;
+        self.known.resize(pass.surfaces.len(), (u32::MAX, 0));
+        let Range { start, end } = self.of;
+        let first = spans.partition_point(|span| span.start <= start).saturating_sub(1);
+        for span in spans[first..].iter().take_while(|span| span.start < end) {
+            let draw = &pass.draws[span.draw as usize];
+            let (each, count) = (span.pieces.len() as u64, draw.instances.len() as u64);
+            let last = (end - span.start).min(each * count);
+            let mut next = start.saturating_sub(span.start);
+            while next < last {
+                let (instance, skipped) = (next / each, next % each);
+                let taken = (each - skipped).min(last - next);
+                let from = span.pieces.start + skipped as usize;
+                self.add(pass, span.draw, draw.instances.start + instance as u32, from..from + taken as usize)?;
+                next += taken;
+            }
+            if !draw.blend {
+                self.opaque = self.jobs.len() as u32;
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds what may be seen of some pieces of an instance.
+    fn add(&mut self, pass: &Pass, number: u32, index: u32, pieces: Range<usize>) -> Result<(), RasterError> {
+        let draw = &pass.draws[number as usize];
+        let mesh = pass.meshes[draw.mesh as usize];
+        let instance = &pass.instances[index as usize];
+        let placed = Placed::new(pass, instance, draw);
+        if pieces.len() > 1 && placed.tiles(&mesh.extent).is_none() {
+            return Ok(());
+        }
+        let state = self.state(pass, number, instance.surface)?;
+        reserve(&mut self.jobs, pieces.len())?;
+        for (piece, of) in pieces.clone().zip(&mesh.each[pieces]) {
+            if placed.turns_away(of) {
+                continue;
+            }
+            if let Some(tiles) = placed.tiles(&of.extent) {
+                self.jobs.push(Job { draw: number, instance: index, piece: piece as u32, state, tiles });
+            }
+        }
+        Ok(())
+    }
+
+    /// The number of a surface's state in a draw.
+    fn state(&mut self, pass: &Pass, number: u32, surface: u32) -> Result<u32, RasterError> {
+        let (of, state) = self.known[surface as usize];
+        if of == number {
+            return Ok(state);
+        }
+        let state = State::new(&pass.draws[number as usize], surface, &pass.surfaces[surface as usize]);
+        if self.states.last() != Some(&state) {
+            reserve(&mut self.states, 1)?;
+            self.states.push(state);
+        }
+        let state = self.states.len() as u32 - 1;
+        self.known[surface as usize] = (number, state);
+        Ok(state)
+    }
+}
+
 fn reserve<T>(list: &mut Vec<T>, more: usize) -> Result<(), RasterError> {
     list.try_reserve(more).map_err(|_| refused(more as u64 * size_of::<T>() as u64))
 }
@@ -163,179 +281,85 @@ impl Job {
     }
 }
 
-/// An instance's transform, ready to place spheres.
-struct Placed {
-    rows: [[f32; 4]; 3],
-    /// An upper bound of how much it stretches lengths.
-    stretch: f32,
-    /// 1 or −1, the side of a face's normal that is left out; 0 where that cannot be told for many faces at once.
-    left_out: f32,
-    near: f32,
-    scale: [f32; 2],
-    size: [f32; 2],
-}
-
-impl Placed {
-    fn new(pass: &Pass, instance: &InstanceData, draw: &DrawCall) -> Self {
-        let rows = instance.eye_from_model;
-        let column = |c: usize| [rows[0][c], rows[1][c], rows[2][c]].map(f64::from);
-        let (x, y, z) = (column(0), column(1), column(2));
-        let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-        let (xx, yy, zz) = (dot(x, x), dot(y, y), dot(z, z));
-        let largest = xx.max(yy).max(zz);
-        let right = dot(x, y).abs().max(dot(y, z).abs()).max(dot(z, x).abs()) <= 1e-6 * largest;
-        let even = right && xx.min(yy).min(zz) >= (1.0 - 1e-5) * largest;
-        let stretch = if right { largest * (1.0 + 4e-6) } else { xx + yy + zz };
-        let det = dot(x, [y[1] * z[2] - y[2] * z[1], y[2] * z[0] - y[0] * z[2], y[0] * z[1] - y[1] * z[0]]);
-        // The turned normal of a face is that of its front unless its winding is turned over, too.
-        let side = if (det < 0.0) == draw.clockwise { 1.0 } else { -1.0 };
-        let left_out = match draw.left_out {
-            LeftOut::Neither => 0.0,
-            LeftOut::Back => side,
-            LeftOut::Front => -side,
-        };
-        Self {
-            rows,
-            stretch: stretch.sqrt() as f32,
-            left_out: if even && largest > 0.0 { left_out } else { 0.0 },
-            near: pass.lens.near,
-            scale: pass.lens.scale,
-            size: pass.size.map(|side| side as f32),
-        }
-    }
-
-    fn place(&self, p: [f32; 3]) -> [f32; 3] {
-        self.rows.map(|row| row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + row[3])
-    }
-
-    /// Whether all faces of a piece show the side that is left out.
-    fn turns_away(&self, piece: &Piece) -> bool {
-        let Some(cone) = piece.cone.filter(|_| self.left_out != 0.0) else { return false };
-        let center = self.place(piece.extent.center);
-        let axis = self.rows.map(|row| row[0] * cone.axis[0] + row[1] * cone.axis[1] + row[2] * cone.axis[2]);
-        let along = (axis[0] * center[0] + axis[1] * center[1] + axis[2] * center[2]) * self.left_out / self.stretch;
-        let square = center[0] * center[0] + center[1] * center[1] + center[2] * center[2];
-        let across = (square - along * along).max(0.0).sqrt();
-        // Over the sphere and the cone n·p is at least D·cos(γ + α) − r; where that is above 0 all faces turn away.
-        along * cone.cos - across * cone.sin > piece.extent.radius * self.stretch * 1.0001
-    }
-
-    /// The tiles that points of an extent may be in; `None` where they are out of the picture.
-    fn tiles(&self, extent: &PieceExtent) -> Option<[u16; 4]> {
-        let [x, y, z] = self.place(extent.center);
-        let radius = extent.radius * self.stretch * 1.0001;
-        // Along each axis of eye space the box or the sphere ends first. A flat box has no room for how vertices are rounded.
-        let reach = self.rows.map(|row| {
-            let terms = [0, 1, 2].map(|k| (row[k].abs() * extent.half[k], row[k].abs() * extent.center[k].abs()));
-            let of_box = terms[0].0 + terms[1].0 + terms[2].0;
-            let rounding = 1e-6 * (terms[0].1 + terms[1].1 + terms[2].1 + row[3].abs());
-            radius.min(of_box * 1.0001) + rounding
-        });
-        let depth = Depth { middle: -z, reach: reach[2], radius };
-        if depth.middle + depth.reach < self.near {
-            return None;
-        }
-        let [left, right] = self.span(0, x, reach[0], &depth)?;
-        let [bottom, top] = self.span(1, y, reach[1], &depth)?;
-        let columns = tiles_of(0.5 + 0.5 * left, 0.5 + 0.5 * right, self.size[0])?;
-        let rows = tiles_of(0.5 - 0.5 * top, 0.5 - 0.5 * bottom, self.size[1])?;
-        Some([columns[0], columns[1], rows[0], rows[1]])
-    }
-
-    /// From where to where that reaches along an axis, as −1 to 1 over the picture.
-    fn span(&self, axis: usize, offset: f32, reach: f32, depth: &Depth) -> Option<[f32; 2]> {
-        let scale = self.scale[axis];
-        let (nearest, farthest) = (depth.middle - depth.reach, depth.middle + depth.reach);
-        if nearest > 1e-3 * depth.radius && nearest > 0.0 {
-            let (low, high) = (offset - reach, offset + reach);
-            let low = scale * low / if low < 0.0 { nearest } else { farthest };
-            let high = scale * high / if high < 0.0 { farthest } else { nearest };
-            return Some([low, high]);
-        }
-        // It surrounds the eye, or nearly: only the side planes can leave it out.
-        let beyond = scale * offset.abs() - depth.middle > depth.radius * (scale * scale + 1.0).sqrt() * 1.0001;
-        (!beyond).then_some([f32::NEG_INFINITY, f32::INFINITY])
-    }
-}
-
-/// How far from the eye something is: its middle, how far it reaches before and behind it, and in any direction.
-struct Depth {
-    middle: f32,
-    reach: f32,
-    radius: f32,
-}
-
-/// The tiles from `low` to `high`, given as shares of a side, with a pixel to spare.
-fn tiles_of(low: f32, high: f32, size: f32) -> Option<[u16; 2]> {
-    let (low, high) = (low * size - 1.0, high * size + 1.0);
-    if low >= size || high < 0.0 {
-        return None;
-    }
-    // What is no number reaches everywhere.
-    let first = if low > 0.0 { low } else { 0.0 };
-    let last = if high < size - 1.0 { high } else { size - 1.0 };
-    Some([first, last].map(|x| (x as u32 / TILE as u32) as u16))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use proptest::prelude::*;
+    use crate::pass::{DrawCall, LeftOut, Lens, PixelFormat, SampleCount, SideData, SurfaceData};
+    use crate::{InstanceData, Pieces, TriangleOrder};
 
-    const SIZE: [f32; 2] = [1280.0, 720.0];
-
-    fn placed(rows: [[f32; 4]; 3]) -> Placed {
-        let column = |k: usize| (0..3).map(|row| f64::from(rows[row][k]).powi(2)).sum::<f64>();
-        let stretch = (column(0) + column(1) + column(2)).sqrt() as f32;
-        Placed { rows, stretch, left_out: 0.0, near: 0.1, scale: [1.0, 16.0 / 9.0], size: SIZE }
-    }
-
-    /// The tile of a point as vertices are put onto the picture; `None` where it is before the near plane or out of sight.
-    fn tile_of(placed: &Placed, point: [f32; 3]) -> Option<[u16; 2]> {
-        let [x, y, z] =
-            placed.rows.map(|[a, b, c, d]| c.mul_add(point[2], b.mul_add(point[1], a.mul_add(point[0], d))));
-        let share = [placed.scale[0] * x / -z, -placed.scale[1] * y / -z].map(|at| 0.5 + 0.5 * at);
-        let inside = -z >= placed.near && share.iter().all(|at| (0.0..1.0).contains(at));
-        inside.then(|| [0, 1].map(|axis| (share[axis] * SIZE[axis]) as u16 / TILE as u16))
-    }
-
-    proptest! {
-        // Boxes from flat to wide, near and far from the origin of the model, under any transform.
-        #[test]
-        fn what_shows_in_a_tile_is_in_its_list(
-            middle in prop::array::uniform3(-1.0_f32..1.0),
-            away in prop::sample::select(vec![0.0_f32, 1.0, 100.0, 10_000.0]),
-            half in prop::array::uniform3(prop::sample::select(vec![0.0_f32, 0.001, 0.1, 2.0])),
-            points in prop::collection::vec(prop::array::uniform3(-1.0_f32..=1.0), 3..20),
-            rows in prop::array::uniform3(prop::array::uniform3(-1.5_f32..1.5)),
-            to in [-4.0_f32..4.0, -3.0..3.0, -9.0..-0.2],
-        ) {
-            let points = points.into_iter().map(|p| [0, 1, 2].map(|k| away * middle[k] + half[k] * p[k]));
-            let points: Vec<[f32; 3]> = points.collect();
-            let rows = [0, 1, 2].map(|row: usize| {
-                let [a, b, c] = rows[row];
-                [a, b, c, to[row] - away * (a * middle[0] + b * middle[1] + c * middle[2])]
-            });
-            let placed = placed(rows);
-            let tiles = placed.tiles(&PieceExtent::of(points.iter().copied()));
-            for point in points {
-                let Some([column, row]) = tile_of(&placed, point) else { continue };
-                let listed = tiles.is_some_and(|[left, right, top, bottom]| {
-                    (left..=right).contains(&column) && (top..=bottom).contains(&row)
-                });
-                prop_assert!(listed, "{point:?} is in {column}, {row}, and {tiles:?} are listed");
-            }
-        }
-    }
-
-    /// A plate that is seen edge-on stands in one column of tiles, and its sphere in many.
+    /// Whatever parts there are, jobs come in the order of drawing, with the states that they have in one part.
     #[test]
-    fn boxes_leave_out_tiles_that_spheres_meet() {
-        let placed = placed([[1.0, 0.0, 0.0, 0.02], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, -4.0]]);
-        let plate = [[0.0, -1.0, -1.0], [0.0, 1.0, -1.0], [0.0, 1.0, 1.0], [0.0, -1.0, 1.0]];
-        let extent = PieceExtent::of(plate.into_iter());
-        assert_eq!(placed.tiles(&extent), Some([10, 10, 2, 8]));
-        let ball = PieceExtent { half: [extent.radius; 3], ..extent };
-        assert_eq!(placed.tiles(&ball).map(|[left, right, ..]| right - left), Some(11));
+    fn parts_find_what_one_finds() {
+        let strip: Vec<[f32; 3]> = (0..102).map(|k| [0.01 * k as f32, (k % 2) as f32, 0.0]).collect();
+        let indices: Vec<u32> = (0..100).flat_map(|k| [k, k + 1, k + 2]).collect();
+        let mesh = Pieces::new(&strip, &[], &indices, &[], TriangleOrder::Clustered).unwrap();
+        assert!(mesh.each.len() > 1, "a span may end within an instance");
+        let instances: Vec<InstanceData> = (0..3_001_u32)
+            .map(|k| InstanceData {
+                eye_from_model: [
+                    [1.0, 0.0, 0.0, (k % 97) as f32 - 48.0],
+                    [0.0, 1.0, 0.0, (k % 41) as f32 - 20.0],
+                    [0.0, 0.0, 1.0, -30.0 - (k % 7) as f32],
+                ],
+                normal: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+                surface: k % 3,
+            })
+            .collect();
+        let surfaces = [1.0, 2.0, 4.0].map(|exponent| {
+            let side = SideData { exponent, ..SideData::default() };
+            SurfaceData { front: side, back: side, ..SurfaceData::default() }
+        });
+        let draw = |blend, instances, left_out| DrawCall {
+            indices: 0..indices.len() as u32,
+            instances,
+            blend,
+            left_out,
+            ..DrawCall::default()
+        };
+        let draws = [
+            draw(true, 0..145, LeftOut::Neither),
+            draw(false, 145..146, LeftOut::Back),
+            draw(false, 146..3_001, LeftOut::Neither),
+        ];
+        let pass = Pass {
+            size: [1280, 720],
+            samples: SampleCount::One,
+            pixels: PixelFormat::SrgbBytes,
+            clear: [0.0; 3],
+            lens: Lens { scale: [1.0, 16.0 / 9.0], near: 0.1 },
+            local_viewer: true,
+            lights: &[],
+            lists: &[],
+            surfaces: &surfaces,
+            instances: &instances,
+            meshes: &[&mesh],
+            maps: &[],
+            surroundings: None,
+            draws: &draws,
+        };
+        let filled = |threads| {
+            let mut bins = Bins::default();
+            // The second time in memory that the first has left behind.
+            for _ in 0..2 {
+                bins.fill(&pass, threads, |parts, work| {
+                    assert_eq!(parts.len(), threads);
+                    parts.iter_mut().rev().for_each(work);
+                })
+                .unwrap();
+            }
+            let of_tiles = (0..bins.tiles[0] * bins.tiles[1])
+                .map(|tile| bins.of_tile(tile % bins.tiles[0], tile / bins.tiles[0]).collect::<Vec<_>>());
+            let jobs = bins.jobs.iter().map(|job| (job.draw, job.instance, job.piece, bins.states[job.state as usize]));
+            (jobs.collect::<Vec<_>>(), of_tiles.collect::<Vec<_>>(), bins.first_blended, bins.states.len())
+        };
+        let one = filled(1);
+        assert!(one.0.len() > 1_000 && one.2 > 0 && one.2 < one.0.len() as u32, "{} jobs", one.0.len());
+        assert!(one.0.iter().all(|(_, instance, _, state)| state.surface == instance % 3));
+        // Three surfaces in three draws, of which one has a single instance.
+        assert_eq!(one.3, 3 + 1 + 3);
+        for threads in [2, 3, 7] {
+            let parts = filled(threads);
+            assert!((&parts.0, &parts.1, parts.2) == (&one.0, &one.1, one.2), "{threads} parts");
+        }
     }
 }

@@ -66,6 +66,7 @@ mod mapped_pixels;
 mod mapped_vertices;
 mod pass;
 mod pieces;
+mod placed;
 mod planes;
 mod policy;
 mod power;

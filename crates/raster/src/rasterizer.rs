@@ -113,7 +113,10 @@ impl Rasterizer {
     /// As of [`Rasterizer::draw`].
     pub fn draw_again(&mut self, pass: &Pass, output: Output, clear_tiles: &mut ClearTiles) -> Result<(), RasterError> {
         check(pass, &output)?;
-        self.bins.fill(pass)?;
+        let mut bins = std::mem::take(&mut self.bins);
+        let filled = bins.fill(pass, self.threads, |parts, work| self.each(parts.iter_mut(), work));
+        self.bins = bins;
+        filled?;
         let screen = Screen::new(pass);
         let scene = Scene { pass, bins: &self.bins, screen: &screen };
         let tiles = Tiles { rows: self.bins.tiles[1], count: (self.bins.tiles[0] * self.bins.tiles[1]) as usize };

@@ -1,0 +1,182 @@
+//! Where pieces of an instance lie: in which tiles, and whether all of their faces turn away.
+
+use crate::bins::TILE;
+use crate::pass::{DrawCall, InstanceData, LeftOut, Pass};
+use crate::pieces::{Piece, PieceExtent};
+
+/// An instance's transform, ready to place spheres.
+pub(crate) struct Placed {
+    rows: [[f32; 4]; 3],
+    /// An upper bound of how much it stretches lengths.
+    stretch: f32,
+    /// 1 or −1, the side of a face's normal that is left out; 0 where that cannot be told for many faces at once.
+    left_out: f32,
+    near: f32,
+    scale: [f32; 2],
+    size: [f32; 2],
+}
+
+impl Placed {
+    pub(crate) fn new(pass: &Pass, instance: &InstanceData, draw: &DrawCall) -> Self {
+        let rows = instance.eye_from_model;
+        let column = |c: usize| [rows[0][c], rows[1][c], rows[2][c]].map(f64::from);
+        let (x, y, z) = (column(0), column(1), column(2));
+        let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+        let (xx, yy, zz) = (dot(x, x), dot(y, y), dot(z, z));
+        let largest = xx.max(yy).max(zz);
+        let right = dot(x, y).abs().max(dot(y, z).abs()).max(dot(z, x).abs()) <= 1e-6 * largest;
+        let even = right && xx.min(yy).min(zz) >= (1.0 - 1e-5) * largest;
+        let stretch = if right { largest * (1.0 + 4e-6) } else { xx + yy + zz };
+        let det = dot(x, [y[1] * z[2] - y[2] * z[1], y[2] * z[0] - y[0] * z[2], y[0] * z[1] - y[1] * z[0]]);
+        // The turned normal of a face is that of its front unless its winding is turned over, too.
+        let side = if (det < 0.0) == draw.clockwise { 1.0 } else { -1.0 };
+        let left_out = match draw.left_out {
+            LeftOut::Neither => 0.0,
+            LeftOut::Back => side,
+            LeftOut::Front => -side,
+        };
+        Self {
+            rows,
+            stretch: stretch.sqrt() as f32,
+            left_out: if even && largest > 0.0 { left_out } else { 0.0 },
+            near: pass.lens.near,
+            scale: pass.lens.scale,
+            size: pass.size.map(|side| side as f32),
+        }
+    }
+
+    fn place(&self, p: [f32; 3]) -> [f32; 3] {
+        self.rows.map(|row| row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + row[3])
+    }
+
+    /// Whether all faces of a piece show the side that is left out.
+    pub(crate) fn turns_away(&self, piece: &Piece) -> bool {
+        let Some(cone) = piece.cone.filter(|_| self.left_out != 0.0) else { return false };
+        let center = self.place(piece.extent.center);
+        let axis = self.rows.map(|row| row[0] * cone.axis[0] + row[1] * cone.axis[1] + row[2] * cone.axis[2]);
+        let along = (axis[0] * center[0] + axis[1] * center[1] + axis[2] * center[2]) * self.left_out / self.stretch;
+        let square = center[0] * center[0] + center[1] * center[1] + center[2] * center[2];
+        let across = (square - along * along).max(0.0).sqrt();
+        // Over the sphere and the cone n·p is at least D·cos(γ + α) − r; where that is above 0 all faces turn away.
+        along * cone.cos - across * cone.sin > piece.extent.radius * self.stretch * 1.0001
+    }
+
+    /// The tiles that points of an extent may be in; `None` where they are out of the picture.
+    pub(crate) fn tiles(&self, extent: &PieceExtent) -> Option<[u16; 4]> {
+        let [x, y, z] = self.place(extent.center);
+        let radius = extent.radius * self.stretch * 1.0001;
+        // Along each axis of eye space the box or the sphere ends first. A flat box has no room for how vertices are rounded.
+        let reach = self.rows.map(|row| {
+            let terms = [0, 1, 2].map(|k| (row[k].abs() * extent.half[k], row[k].abs() * extent.center[k].abs()));
+            let of_box = terms[0].0 + terms[1].0 + terms[2].0;
+            let rounding = 1e-6 * (terms[0].1 + terms[1].1 + terms[2].1 + row[3].abs());
+            radius.min(of_box * 1.0001) + rounding
+        });
+        let depth = Depth { middle: -z, reach: reach[2], radius };
+        if depth.middle + depth.reach < self.near {
+            return None;
+        }
+        let [left, right] = self.span(0, x, reach[0], &depth)?;
+        let [bottom, top] = self.span(1, y, reach[1], &depth)?;
+        let columns = tiles_of(0.5 + 0.5 * left, 0.5 + 0.5 * right, self.size[0])?;
+        let rows = tiles_of(0.5 - 0.5 * top, 0.5 - 0.5 * bottom, self.size[1])?;
+        Some([columns[0], columns[1], rows[0], rows[1]])
+    }
+
+    /// From where to where that reaches along an axis, as −1 to 1 over the picture.
+    fn span(&self, axis: usize, offset: f32, reach: f32, depth: &Depth) -> Option<[f32; 2]> {
+        let scale = self.scale[axis];
+        let (nearest, farthest) = (depth.middle - depth.reach, depth.middle + depth.reach);
+        if nearest > 1e-3 * depth.radius && nearest > 0.0 {
+            let (low, high) = (offset - reach, offset + reach);
+            let low = scale * low / if low < 0.0 { nearest } else { farthest };
+            let high = scale * high / if high < 0.0 { farthest } else { nearest };
+            return Some([low, high]);
+        }
+        // It surrounds the eye, or nearly: only the side planes can leave it out.
+        let beyond = scale * offset.abs() - depth.middle > depth.radius * (scale * scale + 1.0).sqrt() * 1.0001;
+        (!beyond).then_some([f32::NEG_INFINITY, f32::INFINITY])
+    }
+}
+
+/// How far from the eye something is: its middle, how far it reaches before and behind it, and in any direction.
+struct Depth {
+    middle: f32,
+    reach: f32,
+    radius: f32,
+}
+
+/// The tiles from `low` to `high`, given as shares of a side, with a pixel to spare.
+fn tiles_of(low: f32, high: f32, size: f32) -> Option<[u16; 2]> {
+    let (low, high) = (low * size - 1.0, high * size + 1.0);
+    if low >= size || high < 0.0 {
+        return None;
+    }
+    // What is no number reaches everywhere.
+    let first = if low > 0.0 { low } else { 0.0 };
+    let last = if high < size - 1.0 { high } else { size - 1.0 };
+    Some([first, last].map(|x| (x as u32 / TILE as u32) as u16))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const SIZE: [f32; 2] = [1280.0, 720.0];
+
+    fn placed(rows: [[f32; 4]; 3]) -> Placed {
+        let column = |k: usize| (0..3).map(|row| f64::from(rows[row][k]).powi(2)).sum::<f64>();
+        let stretch = (column(0) + column(1) + column(2)).sqrt() as f32;
+        Placed { rows, stretch, left_out: 0.0, near: 0.1, scale: [1.0, 16.0 / 9.0], size: SIZE }
+    }
+
+    /// The tile of a point as vertices are put onto the picture; `None` where it is before the near plane or out of sight.
+    fn tile_of(placed: &Placed, point: [f32; 3]) -> Option<[u16; 2]> {
+        let [x, y, z] =
+            placed.rows.map(|[a, b, c, d]| c.mul_add(point[2], b.mul_add(point[1], a.mul_add(point[0], d))));
+        let share = [placed.scale[0] * x / -z, -placed.scale[1] * y / -z].map(|at| 0.5 + 0.5 * at);
+        let inside = -z >= placed.near && share.iter().all(|at| (0.0..1.0).contains(at));
+        inside.then(|| [0, 1].map(|axis| (share[axis] * SIZE[axis]) as u16 / TILE as u16))
+    }
+
+    proptest! {
+        // Boxes from flat to wide, near and far from the origin of the model, under any transform.
+        #[test]
+        fn what_shows_in_a_tile_is_in_its_list(
+            middle in prop::array::uniform3(-1.0_f32..1.0),
+            away in prop::sample::select(vec![0.0_f32, 1.0, 100.0, 10_000.0]),
+            half in prop::array::uniform3(prop::sample::select(vec![0.0_f32, 0.001, 0.1, 2.0])),
+            points in prop::collection::vec(prop::array::uniform3(-1.0_f32..=1.0), 3..20),
+            rows in prop::array::uniform3(prop::array::uniform3(-1.5_f32..1.5)),
+            to in [-4.0_f32..4.0, -3.0..3.0, -9.0..-0.2],
+        ) {
+            let points = points.into_iter().map(|p| [0, 1, 2].map(|k| away * middle[k] + half[k] * p[k]));
+            let points: Vec<[f32; 3]> = points.collect();
+            let rows = [0, 1, 2].map(|row: usize| {
+                let [a, b, c] = rows[row];
+                [a, b, c, to[row] - away * (a * middle[0] + b * middle[1] + c * middle[2])]
+            });
+            let placed = placed(rows);
+            let tiles = placed.tiles(&PieceExtent::of(points.iter().copied()));
+            for point in points {
+                let Some([column, row]) = tile_of(&placed, point) else { continue };
+                let listed = tiles.is_some_and(|[left, right, top, bottom]| {
+                    (left..=right).contains(&column) && (top..=bottom).contains(&row)
+                });
+                prop_assert!(listed, "{point:?} is in {column}, {row}, and {tiles:?} are listed");
+            }
+        }
+    }
+
+    /// A plate that is seen edge-on stands in one column of tiles, and its sphere in many.
+    #[test]
+    fn boxes_leave_out_tiles_that_spheres_meet() {
+        let placed = placed([[1.0, 0.0, 0.0, 0.02], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, -4.0]]);
+        let plate = [[0.0, -1.0, -1.0], [0.0, 1.0, -1.0], [0.0, 1.0, 1.0], [0.0, -1.0, 1.0]];
+        let extent = PieceExtent::of(plate.into_iter());
+        assert_eq!(placed.tiles(&extent), Some([10, 10, 2, 8]));
+        let ball = PieceExtent { half: [extent.radius; 3], ..extent };
+        assert_eq!(placed.tiles(&ball).map(|[left, right, ..]| right - left), Some(11));
+    }
+}
