@@ -17,7 +17,8 @@ use crate::tally::counted;
 /// many lights, and `halfway verify` over examples/scenes; on the CPU all picture tests that are not about wgpu. Each suite
 /// prints the worst figures, from which the table in docs/accuracy.md is.
 /// What is missing is installed first, as for `cargo xtask test`, of which this is a part; but there the drivers share the
-/// suite's rows with images, solids and environments among them, since they take minutes to compile their shaders.
+/// suite's rows with images, solids and environments among them, since they take minutes to compile their shaders. Here each
+/// draws all.
 #[derive(Args, Debug)]
 #[command(verbatim_doc_comment)]
 pub(crate) struct Options {
@@ -32,23 +33,29 @@ pub(crate) fn run(options: &Options) -> Result {
     }
     options.setup.meet(&NEEDS)?;
     step("build", &mut cargo(["test", "--release", "--workspace", "--test", "render", "--no-run"]))?;
-    try_all(None)
+    try_each(all()?)
 }
 
 /// What the adapters need beyond the driver.
 pub(crate) const NEEDS: [crate::setup::Need; 3] = [VULKAN, OPENGL, SWIFTSHADER];
 
-/// Tries each adapter, and says in the end what failed on which. Where all tests have just run with this choice of an adapter,
-/// they do not run again on the one that it opens, and the drivers that are left share the rows with textures among them.
+/// The adapters to try where all tests run on the one that this choice opens: they do not run again there, and the drivers that
+/// are left share the rows with textures among them; with the tests, where those take a share.
+///
+/// # Errors
+/// An adapter is not there, or the tests' share is not what leaves one for each.
+pub(crate) fn others(choice: &str) -> Result<Vec<Adapter>> {
+    let mut adapters = all()?;
+    let line = opened(halfway(&["adapters"]).env(CHOICE, choice))?;
+    leave_out_what_runs(&mut adapters, &line, std::env::var(SHARE).ok().as_deref())?;
+    Ok(adapters)
+}
+
+/// Tries each adapter, and says in the end what failed on which.
 ///
 /// # Errors
 /// An adapter is not there, a test fails, or a scene is not as the oracle draws it.
-pub(crate) fn try_all(all_ran_on: Option<&str>) -> Result {
-    let mut adapters = all()?;
-    if let Some(choice) = all_ran_on {
-        let line = opened(halfway(&["adapters"]).env(CHOICE, choice))?;
-        leave_out_what_ran(&mut adapters, &line);
-    }
+pub(crate) fn try_each(adapters: Vec<Adapter>) -> Result {
     let mut failed = Vec::new();
     for adapter in adapters {
         let found = adapter.is_there().and_then(|()| {
@@ -60,16 +67,23 @@ pub(crate) fn try_all(all_ran_on: Option<&str>) -> Result {
     if failed.is_empty() { Ok(()) } else { Err(Failure::new(failed.join("\n"))) }
 }
 
-/// Leaves out the tests of the adapter that a line of `halfway adapters` is about, and gives each other driver its share.
-fn leave_out_what_ran(adapters: &mut [Adapter], line: &str) {
+/// Leaves out the tests of the adapter that a line of `halfway adapters` is about, and gives each other driver its share: all of
+/// them together draw each row once, or what the `tests` leave them of it.
+fn leave_out_what_runs(adapters: &mut [Adapter], line: &str, tests: Option<&str>) -> Result {
     for adapter in adapters.iter_mut().filter(|adapter| adapter.is_chosen_alone() && adapter.is(line)) {
         adapter.tests = Tests::None;
     }
     let is_driver = |adapter: &Adapter| adapter.tests == Tests::Few;
-    let count = adapters.iter().filter(|adapter| is_driver(adapter)).count();
-    for (number, adapter) in (1..).zip(adapters.iter_mut().filter(|adapter| is_driver(adapter))) {
+    let of_tests = usize::from(tests.is_some());
+    let count = of_tests + adapters.iter().filter(|adapter| is_driver(adapter)).count();
+    if let Some(said) = tests.filter(|said| *said != format!("1/{count}")) {
+        let expected = format!("expected 1/{count}, a share for the tests and one for each other driver");
+        return Err(Failure::new(format!("{SHARE} is {said}; {expected}")));
+    }
+    for (number, adapter) in (1 + of_tests..).zip(adapters.iter_mut().filter(|adapter| is_driver(adapter))) {
         adapter.variables.push((SHARE, format!("{number}/{count}")));
     }
+    Ok(())
 }
 
 /// The tests of the program `render` that each driver runs, by parts of their names. Lavapipe runs all, in `cargo xtask test`.
@@ -105,7 +119,7 @@ const LEFT_OUT: [(&str, &str); 15] = [
 ];
 
 /// An adapter, and how a program is made to draw with it.
-struct Adapter {
+pub(crate) struct Adapter {
     name: &'static str,
     tests: Tests,
     variables: Vec<(&'static str, String)>,
@@ -325,11 +339,21 @@ mod tests {
             adapter("b", Tests::Few, CHOICE, ["b", "(vulkan"]),
             adapter("c", Tests::Most, CHOICE, ["", "(cpu"]),
         ];
-        leave_out_what_ran(&mut adapters, "a 1.0 (vulkan, software)");
+        leave_out_what_runs(&mut adapters, "a 1.0 (vulkan, software)", None).unwrap();
         assert_eq!(adapters.each_ref().map(|it| it.tests), [Tests::None, Tests::Few, Tests::Few, Tests::Most]);
         let share =
             |adapter: &Adapter| adapter.variables.iter().find(|(name, _)| *name == SHARE).map(|(_, it)| it.clone());
         assert_eq!(adapters.each_ref().map(share), [None, Some("1/2".into()), Some("2/2".into()), None]);
+
+        for adapter in &mut adapters {
+            adapter.variables.truncate(1);
+        }
+        leave_out_what_runs(&mut adapters, "a 1.0 (vulkan, software)", Some("1/3")).unwrap();
+        assert_eq!(adapters.each_ref().map(share), [None, Some("2/3".into()), Some("3/3".into()), None]);
+        for wrong in ["2/3", "1/2", "1/4", "a third"] {
+            let refused = leave_out_what_runs(&mut adapters, "a 1.0 (vulkan, software)", Some(wrong)).unwrap_err();
+            assert!(refused.to_string().contains("expected 1/3"), "{refused}");
+        }
     }
 
     #[test]
