@@ -116,6 +116,19 @@ mod tests {
         Fronts { plan: ReportPlan::QUICK.fronts, machines, scenes: vec![scene] }
     }
 
+    #[test]
+    fn what_takes_longer_has_more_milliseconds() {
+        let mut fronts = run([1.0, 2.0]);
+        // The machine was half as fast while the first was measured.
+        for (point, ms) in fronts.scenes[0].points.iter_mut().zip([20.0, 20.0]) {
+            point.ms.median = ms;
+        }
+        let advice = fronts.advice(&fronts.scenes[0]);
+        let choices =
+            "at most 8 of 255 steps: flat, 8 cells, 20.00 ms; at most 0.5 of 255 steps: phong, 8 cells, 40.00 ms.";
+        assert!(advice.len() == 1 && advice[0].ends_with(choices), "{advice:?}");
+    }
+
     fn written(fronts: &Fronts) -> String {
         fronts.tables().into_iter().find(|(name, _)| name == "chart.json").unwrap().1
     }

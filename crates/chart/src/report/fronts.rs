@@ -13,7 +13,7 @@ use crate::front::{
 };
 use crate::measure::{MeasureError, MeasureProgress};
 use crate::page::{Page, PageTable, Section, csv, html};
-use crate::timing::{FRAME_TIME, Machine};
+use crate::timing::{FRAME_TIME, Machine, Spread};
 
 /// The points of every scene, and what drew them.
 #[derive(Clone, Debug)]
@@ -36,6 +36,8 @@ pub(super) const LEAD: &str = "Flat shading evaluates the lighting once a triang
 /// The points of one scene on one adapter.
 struct Panels<'a> {
     points: Vec<&'a FrontPoint>,
+    /// The median of the reference frame's times in milliseconds, of which each point's turns had one.
+    reference_ms: f64,
     covered: Front,
     whole: Front,
 }
@@ -139,7 +141,7 @@ impl Fronts {
                 format!(
                     "Times are medians over up to {} rounds, of two frames each, in which the methods take turns, \
                      each round begun by another one; bars reach from quartile to quartile. 1 is the reference frame: \
-                     the scene’s coarsest detail in a constant colour, on the same adapter, in the same turns. {FRAME_TIME}",
+                     the scene’s coarsest detail in a constant colour, on the same adapter, in the same turns; milliseconds in the tables are multiples of its median. {FRAME_TIME}",
                     self.plan.rounds
                 ),
                 "The line joins what nothing beats: no other point is as fast and errs as little. What is pale is \
@@ -363,7 +365,8 @@ impl<'a> Panels<'a> {
     fn of(scene: &'a MeasuredScene, backend: &str) -> Self {
         let points: Vec<&FrontPoint> = scene.points.iter().filter(|point| point.backend == backend).collect();
         let [covered, whole] = [Area::Covered, Area::Whole].map(|area| Front::of(&points, error(area)));
-        Self { points, covered, whole }
+        let references: Vec<f64> = points.iter().map(|point| point.ms.median / point.ratio.median).collect();
+        Self { reference_ms: Spread::of(&references).median, points, covered, whole }
     }
 
     fn front(&self, area: Area) -> &Front {
@@ -373,6 +376,12 @@ impl<'a> Panels<'a> {
         }
     }
 
+    /// The milliseconds of what takes so much of the reference frame. Points are measured one after the other, while a machine may
+    /// become faster or slower: only times in one unit compare.
+    fn ms(&self, point: &FrontPoint) -> f64 {
+        point.ratio.median * self.reference_ms
+    }
+
     /// The fastest point for each error, those that serve for several errors told once, by the least of them.
     fn choices(&self) -> Vec<String> {
         let choices = self.covered.least_times();
@@ -380,8 +389,8 @@ impl<'a> Panels<'a> {
         let told = runs.filter_map(|run| {
             let BestWithin { limit, best } = *run.last()?;
             let point = self.points[best?];
-            let FrontPoint { words, detail_words, ms, .. } = point;
-            Some(format!("at most {limit} of 255 steps: {words}, {detail_words}, {:.2} ms", ms.median))
+            let FrontPoint { words, detail_words, .. } = point;
+            Some(format!("at most {limit} of 255 steps: {words}, {detail_words}, {:.2} ms", self.ms(point)))
         });
         told.collect()
     }
@@ -399,7 +408,10 @@ impl<'a> Panels<'a> {
                 let point = self.points[i];
                 format!(
                     "{:.2} × ({:.2} ms): {}, {}",
-                    point.ratio.median, point.ms.median, point.words, point.detail_words
+                    point.ratio.median,
+                    self.ms(point),
+                    point.words,
+                    point.detail_words
                 )
             })
         };
