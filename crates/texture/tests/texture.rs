@@ -1,14 +1,9 @@
-//! Images, pyramids and filters: exact cases, f32 against f64, and what is refused.
+//! Pyramids and filters: exact cases, and f32 against f64.
 
 #![allow(clippy::float_cmp, reason = "what is exact is compared exactly")]
 
-use halfway_texture::{
-    LONGEST_SIDE, LevelFilter, Pyramid, Sampling, TexelFilter, TexelImage, TexelMeaning, TextureError, UvTransform,
-    Wrap, decode, lookup,
-};
-use image::{DynamicImage, ImageFormat, Luma, Rgb, RgbImage, Rgba};
+use halfway_texture::{LevelFilter, Pyramid, Sampling, TexelFilter, TexelImage, UvTransform, Wrap, lookup};
 use proptest::prelude::*;
-use std::io::Cursor;
 
 const FILTERS: [TexelFilter; 4] =
     [TexelFilter::Nearest, TexelFilter::Bilinear, TexelFilter::BSpline, TexelFilter::CatmullRom];
@@ -140,69 +135,6 @@ fn coordinates_are_scaled_then_turned_then_moved() {
     // (1, 1) becomes (2, 3), then (3, −2), v running downward.
     assert!((found[0] - 3.25).abs() < 1e-6 && (found[1] + 1.5).abs() < 1e-6, "{found:?}");
     assert_eq!(UvTransform::apply(&UvTransform::default().rows(), [0.3_f64, 0.7]), [0.3, 0.7]);
-}
-
-fn png(image: impl Into<DynamicImage>) -> Vec<u8> {
-    let mut bytes = Cursor::new(Vec::new());
-    image.into().write_to(&mut bytes, ImageFormat::Png).expect("room for an image");
-    bytes.into_inner()
-}
-
-#[test]
-fn files_become_linear_light() {
-    let color = png(RgbImage::from_pixel(3, 2, Rgb([255, 188, 0])));
-    let image = decode(&color, "a.png", TexelMeaning::Color).expect("a PNG");
-    assert_eq!(image.size(), [3, 2]);
-    // 188 is the half of 255 in linear light, within half a step.
-    let [r, g, b, a] = image.texels()[4];
-    assert!((r, b, a) == (1.0, 0.0, 1.0) && (g - 0.5).abs() < 0.003, "{:?}", image.texels()[4]);
-    let data = decode(&color, "a.png", TexelMeaning::Data).expect("a PNG");
-    assert_eq!(data.texels()[0], [1.0, 188.0 / 255.0, 0.0, 1.0]);
-
-    let grey = png(image::ImageBuffer::from_pixel(1, 1, Luma([0x8000_u16])));
-    let [r, g, b, a] = decode(&grey, "grey.png", TexelMeaning::Data).expect("16 bits").texels()[0];
-    assert!(r == g && g == b && a == 1.0 && (r - 32768.0 / 65535.0).abs() < 1e-7);
-    let clear = png(image::RgbaImage::from_pixel(1, 1, Rgba([10, 20, 30, 128])));
-    assert_eq!(decode(&clear, "clear.png", TexelMeaning::Color).expect("alpha").texels()[0][3], 128.0 / 255.0);
-
-    let mut bytes = Cursor::new(Vec::new());
-    let flat = RgbImage::from_pixel(16, 16, Rgb([200, 100, 50]));
-    DynamicImage::from(flat).write_to(&mut bytes, ImageFormat::Jpeg).expect("room");
-    let found = decode(&bytes.into_inner(), "flat.jpg", TexelMeaning::Data).expect("a JPEG").texels()[100];
-    assert!((found[0] - 200.0 / 255.0).abs() < 0.02 && (found[2] - 50.0 / 255.0).abs() < 0.02, "{found:?}");
-}
-
-#[test]
-fn what_cannot_be_an_image_is_refused_by_name() {
-    let whole = png(RgbImage::from_fn(40, 40, |x, y| Rgb([x as u8 * 6, y as u8 * 6, (x * y) as u8])));
-    for (bytes, says) in
-        [(&b"not an image"[..], "note.png: is no image"), (&whole[..whole.len() / 2], "note.png: "), (&[], "note.png")]
-    {
-        let error = decode(bytes, "note.png", TexelMeaning::Color).expect_err("it is none").to_string();
-        assert!(error.starts_with(says), "{error}");
-    }
-    // A file of a few bytes that says it is 60,000 × 60,000: refused before there is memory for it.
-    let mut bomb = png(RgbImage::from_pixel(1, 1, Rgb([0; 3])));
-    bomb[16..20].copy_from_slice(&60_000_u32.to_be_bytes());
-    bomb[20..24].copy_from_slice(&60_000_u32.to_be_bytes());
-    let checksum = crc(&bomb[12..29]).to_be_bytes();
-    bomb[29..33].copy_from_slice(&checksum);
-    let error = decode(&bomb, "bomb.png", TexelMeaning::Color).expect_err("too large");
-    assert_eq!(error, TextureError::TooLarge { image: "bomb.png".into(), width: 60_000, height: 60_000 });
-    assert!(matches!(TexelImage::new(0, 3, Vec::new()), Err(TextureError::Empty { .. })));
-    assert!(matches!(TexelImage::new(LONGEST_SIDE + 1, 1, Vec::new()), Err(TextureError::TooLarge { .. })));
-    assert!(matches!(TexelImage::new(2, 1, vec![[0.0; 4]]), Err(TextureError::Count { found: 1, .. })));
-    let nan = TexelImage::new(2, 1, vec![[0.0; 4], [0.0, f32::NAN, 0.0, 0.0]]);
-    assert!(matches!(nan, Err(TextureError::NotFinite { x: 1, y: 0, .. })));
-    let error = halfway_texture::load("no/such/file.png".as_ref(), TexelMeaning::Color).expect_err("it is not there");
-    assert!(error.to_string().starts_with("no/such/file.png: cannot be read"), "{error}");
-}
-
-/// CRC-32 of PNG (ISO 3309), bit by bit.
-fn crc(bytes: &[u8]) -> u32 {
-    !bytes.iter().fold(u32::MAX, |crc, byte| {
-        (0..8).fold(crc ^ u32::from(*byte), |crc, _| if crc & 1 == 1 { crc >> 1 ^ 0xEDB8_8320 } else { crc >> 1 })
-    })
 }
 
 fn any_sampling() -> impl Strategy<Value = Sampling> {

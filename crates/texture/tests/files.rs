@@ -1,0 +1,211 @@
+//! Files of images: what they become, and which are refused.
+
+use halfway_texture::environment::{Environment, EnvironmentMap, EnvironmentShape, MOST_FACE_TEXELS};
+use halfway_texture::{LONGEST_SIDE, MOST_TEXELS, TexelImage, TexelMeaning, TextureError, decode, load};
+use image::{DynamicImage, ImageFormat, Luma, Rgb, RgbImage, Rgba};
+use std::fs::File;
+use std::io::Cursor;
+
+fn png(image: impl Into<DynamicImage>) -> Vec<u8> {
+    let mut bytes = Cursor::new(Vec::new());
+    image.into().write_to(&mut bytes, ImageFormat::Png).expect("room for an image");
+    bytes.into_inner()
+}
+
+#[test]
+fn files_become_linear_light() {
+    let color = png(RgbImage::from_pixel(3, 2, Rgb([255, 188, 0])));
+    let image = decode(&color, "a.png", TexelMeaning::Color).expect("a PNG");
+    assert_eq!(image.size(), [3, 2]);
+    // 188 is the half of 255 in linear light, within half a step.
+    let [r, g, b, a] = image.texels()[4];
+    assert!((r, b, a) == (1.0, 0.0, 1.0) && (g - 0.5).abs() < 0.003, "{:?}", image.texels()[4]);
+    let data = decode(&color, "a.png", TexelMeaning::Data).expect("a PNG");
+    assert_eq!(data.texels()[0], [1.0, 188.0 / 255.0, 0.0, 1.0]);
+
+    let grey = png(image::ImageBuffer::from_pixel(1, 1, Luma([0x8000_u16])));
+    let [r, g, b, a] = decode(&grey, "grey.png", TexelMeaning::Data).expect("16 bits").texels()[0];
+    assert!(r == g && g == b && a == 1.0 && (r - 32768.0 / 65535.0).abs() < 1e-7);
+    let clear = png(image::RgbaImage::from_pixel(1, 1, Rgba([10, 20, 30, 128])));
+    assert_eq!(decode(&clear, "clear.png", TexelMeaning::Color).expect("alpha").texels()[0][3], 128.0 / 255.0);
+
+    let mut bytes = Cursor::new(Vec::new());
+    let flat = RgbImage::from_pixel(16, 16, Rgb([200, 100, 50]));
+    DynamicImage::from(flat).write_to(&mut bytes, ImageFormat::Jpeg).expect("room");
+    let found = decode(&bytes.into_inner(), "flat.jpg", TexelMeaning::Data).expect("a JPEG").texels()[100];
+    assert!((found[0] - 200.0 / 255.0).abs() < 0.02 && (found[2] - 50.0 / 255.0).abs() < 0.02, "{found:?}");
+}
+
+#[test]
+fn what_cannot_be_an_image_is_refused_by_name() {
+    let whole = png(RgbImage::from_fn(40, 40, |x, y| Rgb([x as u8 * 6, y as u8 * 6, (x * y) as u8])));
+    for (bytes, says) in
+        [(&b"not an image"[..], "note.png: is no image"), (&whole[..whole.len() / 2], "note.png: "), (&[], "note.png")]
+    {
+        let error = decode(bytes, "note.png", TexelMeaning::Color).expect_err("it is none").to_string();
+        assert!(error.starts_with(says), "{error}");
+    }
+    // A file of a few bytes that says it is 60,000 × 60,000: refused before there is memory for it.
+    let mut bomb = png(RgbImage::from_pixel(1, 1, Rgb([0; 3])));
+    bomb[16..20].copy_from_slice(&60_000_u32.to_be_bytes());
+    bomb[20..24].copy_from_slice(&60_000_u32.to_be_bytes());
+    let checksum = crc(&bomb[12..29]).to_be_bytes();
+    bomb[29..33].copy_from_slice(&checksum);
+    let error = decode(&bomb, "bomb.png", TexelMeaning::Color).expect_err("too large");
+    assert_eq!(error, TextureError::TooLarge { image: "bomb.png".into(), width: 60_000, height: 60_000 });
+    assert!(matches!(TexelImage::new(0, 3, Vec::new()), Err(TextureError::Empty { .. })));
+    assert!(matches!(TexelImage::new(LONGEST_SIDE + 1, 1, Vec::new()), Err(TextureError::TooLarge { .. })));
+    assert!(matches!(TexelImage::new(2, 1, vec![[0.0; 4]]), Err(TextureError::Count { found: 1, .. })));
+    let nan = TexelImage::new(2, 1, vec![[0.0; 4], [0.0, f32::NAN, 0.0, 0.0]]);
+    assert!(matches!(nan, Err(TextureError::NotFinite { x: 1, y: 0, .. })));
+    let error = halfway_texture::load("no/such/file.png".as_ref(), TexelMeaning::Color).expect_err("it is not there");
+    assert!(error.to_string().starts_with("no/such/file.png: cannot be read"), "{error}");
+}
+
+/// CRC-32 of PNG (ISO 3309), bit by bit.
+fn crc(bytes: &[u8]) -> u32 {
+    !bytes.iter().fold(u32::MAX, |crc, byte| {
+        (0..8).fold(crc ^ u32::from(*byte), |crc, _| if crc & 1 == 1 { crc >> 1 ^ 0xEDB8_8320 } else { crc >> 1 })
+    })
+}
+
+/// A PNG of these chunks.
+fn png_of(chunks: &[(&[u8; 4], &[u8])]) -> Vec<u8> {
+    let mut file = b"\x89PNG\r\n\x1a\n".to_vec();
+    for (name, data) in chunks {
+        let start = file.len() + 4;
+        file.extend((data.len() as u32).to_be_bytes());
+        file.extend(name.iter().chain(*data));
+        let checksum = crc(&file[start..]);
+        file.extend(checksum.to_be_bytes());
+    }
+    file
+}
+
+fn header(width: u32, height: u32, color_type: u8) -> Vec<u8> {
+    [&width.to_be_bytes()[..], &height.to_be_bytes(), &[8, color_type, 0, 0, 0]].concat()
+}
+
+/// Some bytes in zlib's form without compression (RFC 1950 and 1951).
+fn stored(bytes: &[u8]) -> Vec<u8> {
+    let (a, b) = bytes.iter().fold((1_u32, 0_u32), |(a, b), byte| {
+        let a = (a + u32::from(*byte)) % 65_521;
+        (a, (a + b) % 65_521)
+    });
+    let length = bytes.len() as u16;
+    let lengths = [length.to_le_bytes(), (!length).to_le_bytes()].concat();
+    [&[0x78, 0x01, 0x01], &lengths[..], bytes, &(b << 16 | a).to_be_bytes()].concat()
+}
+
+#[test]
+fn palettes_become_the_colors_that_they_stand_for() {
+    let file = png_of(&[
+        (b"IHDR", &header(3, 1, 3)),
+        (b"PLTE", &[255, 0, 51, 0, 102, 255]),
+        // The second color is half clear.
+        (b"tRNS", &[255, 128]),
+        // A row without a filter.
+        (b"IDAT", &stored(&[0, 1, 0, 1])),
+        (b"IEND", &[]),
+    ]);
+    let image = decode(&file, "palette.png", TexelMeaning::Data).expect("a palette");
+    let [red, blue] = [[1.0, 0.0, 51.0 / 255.0, 1.0], [0.0, 102.0 / 255.0, 1.0, 128.0 / 255.0]];
+    assert_eq!(image.texels(), [blue, red, blue]);
+}
+
+/// A baseline JPEG of 8 × 8 pixels of one color in four inks, stored as Adobe does, 255 for none (ITU-T T.81; T.872, 6.5.3).
+fn inks(values: [u8; 4]) -> Vec<u8> {
+    let mut bits: Vec<bool> = Vec::new();
+    for value in values {
+        // The mean of a block, times eight, from 128: its category by two bits, its bits, and the end of the block.
+        let mean = 8 * (i32::from(value) - 128);
+        let size = 32 - mean.unsigned_abs().leading_zeros();
+        let code = match size {
+            0 => 0,
+            10 => 1,
+            11 => 2,
+            _ => panic!("{value} has no code here"),
+        };
+        let offset = if mean < 0 { mean + (1 << size) - 1 } else { mean };
+        bits.extend([code & 2 != 0, code & 1 != 0]);
+        bits.extend((0..size).rev().map(|bit| offset >> bit & 1 != 0));
+        bits.push(false);
+    }
+    bits.resize(bits.len().next_multiple_of(8), true);
+    let scan = bits.chunks(8).map(|byte| byte.iter().fold(0_u8, |byte, bit| byte << 1 | u8::from(*bit)));
+    let segment =
+        |marker: u8, data: &[u8]| [&[0xFF, marker], &(data.len() as u16 + 2).to_be_bytes()[..], data].concat();
+    let table = |class: u8, length: usize, symbols: &[u8]| {
+        let mut counts = [0_u8; 16];
+        counts[length - 1] = symbols.len() as u8;
+        segment(0xC4, &[&[class], &counts[..], symbols].concat())
+    };
+    let parts = (1..=4_u8).flat_map(|part| [part, 0x11, 0]).collect::<Vec<_>>();
+    let scanned = (1..=4_u8).flat_map(|part| [part, 0]).collect::<Vec<_>>();
+    let mut file = [
+        vec![0xFF, 0xD8],
+        segment(0xEE, b"Adobe\0\x64\0\0\0\0\0"),
+        segment(0xDB, &[&[0][..], &[1; 64]].concat()),
+        segment(0xC0, &[&[8, 0, 8, 0, 8, 4][..], &parts].concat()),
+        table(0x00, 2, &[0, 10, 11]),
+        table(0x10, 1, &[0]),
+        segment(0xDA, &[&[4], &scanned[..], &[0, 63, 0]].concat()),
+    ]
+    .concat();
+    file.extend(scan.flat_map(|byte| [Some(byte), (byte == 0xFF).then_some(0)]).flatten());
+    file.extend([0xFF, 0xD9]);
+    file
+}
+
+#[test]
+fn inks_become_the_colors_that_they_stand_for() {
+    let half = 128.0 / 255.0;
+    for (values, expected) in [
+        ([255, 255, 255, 255], [1.0, 1.0, 1.0]),
+        ([0, 255, 255, 255], [0.0, 1.0, 1.0]),
+        ([255, 0, 255, 255], [1.0, 0.0, 1.0]),
+        ([255, 255, 0, 255], [1.0, 1.0, 0.0]),
+        ([255, 255, 255, 0], [0.0, 0.0, 0.0]),
+        ([255, 0, 255, 128], [half, 0.0, half]),
+    ] {
+        let image = decode(&inks(values), "inks.jpg", TexelMeaning::Data).expect("four inks");
+        assert_eq!(image.size(), [8, 8]);
+        for texel in image.texels() {
+            let off = (0..3).map(|k| (texel[k] - expected[k]).abs()).fold(0.0, f32::max);
+            assert!(off <= 1.5 / 255.0 && texel[3] == 1.0, "{values:?}: {texel:?} for {expected:?}");
+        }
+    }
+}
+
+#[test]
+fn images_have_so_many_texels_at_most() {
+    let rows = (MOST_TEXELS / u64::from(LONGEST_SIDE)) as u32;
+    let of_rows = |rows| {
+        let file = png_of(&[(b"IHDR", &header(LONGEST_SIDE, rows, 2)), (b"IDAT", &stored(&[0])), (b"IEND", &[])]);
+        decode(&file, "large.png", TexelMeaning::Color).expect_err("its texels are missing")
+    };
+    // Neither side is too long.
+    assert!(rows < LONGEST_SIDE);
+    assert_eq!(
+        of_rows(rows + 1),
+        TextureError::TooLarge { image: "large.png".into(), width: LONGEST_SIDE, height: rows + 1 }
+    );
+    assert!(matches!(of_rows(rows), TextureError::Decode { .. }), "{}", of_rows(rows));
+}
+
+#[test]
+fn files_have_so_many_bytes_at_most() {
+    let path = std::env::temp_dir().join(format!("halfway-long-{}.png", std::process::id()));
+    // All holes: it takes no room on the disk.
+    File::create(&path).and_then(|file| file.set_len((1 << 28) + 1)).expect("a file");
+    let error = load(&path, TexelMeaning::Color);
+    std::fs::remove_file(&path).expect("it was there");
+    assert_eq!(error, Err(TextureError::TooLong { image: path.display().to_string(), limit: 1 << 28 }));
+}
+
+#[test]
+fn environments_are_drawn_with_so_many_texels_at_most() {
+    let cube = Environment::from_fn(EnvironmentShape::Cube, MOST_FACE_TEXELS + 1, |_| [0.25, 0.5, 1.0, 1.0]);
+    let map = EnvironmentMap::new(&cube.expect("an environment")).expect("a smaller one");
+    assert_eq!(map.levels()[0].side, MOST_FACE_TEXELS);
+}
