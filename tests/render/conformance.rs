@@ -115,15 +115,38 @@ struct Share {
 
 impl Share {
     fn of_environment() -> Self {
-        let Ok(said) = std::env::var("HALFWAY_SHARE") else { return Self { number: 1, of: 1 } };
+        let said = std::env::var("HALFWAY_SHARE").ok();
+        said.map_or(Self { number: 1, of: 1 }, |said| Self::read(&said).unwrap_or_else(|wrong| panic!("{wrong}")))
+    }
+
+    fn read(said: &str) -> Result<Self, String> {
         let read = said.split_once('/').and_then(|(number, of)| Some((number.parse().ok()?, of.parse().ok()?)));
-        let (number, of) = read.unwrap_or_else(|| panic!("HALFWAY_SHARE is {said}; expected two numbers, as in 1/3"));
-        assert!((1..=of).contains(&number), "HALFWAY_SHARE is {said}; expected a number from 1 to {of} first");
-        Self { number, of }
+        let (number, of) = read.ok_or_else(|| format!("HALFWAY_SHARE is {said}; expected two numbers, as in 1/3"))?;
+        if (1..=of).contains(&number) {
+            return Ok(Self { number, of });
+        }
+        Err(format!("HALFWAY_SHARE is {said}; expected a number from 1 to {of} first"))
     }
 
     fn has(&self, place: usize, row: &Row) -> bool {
         !row.scene.compiles_slowly() || place % self.of == self.number - 1
+    }
+}
+
+#[test]
+fn shares_that_are_none_are_refused() {
+    assert_eq!(Share::read("2/3").map(|share| (share.number, share.of)), Ok((2, 3)));
+    for (said, told) in [
+        ("", "two numbers"),
+        ("a third", "two numbers"),
+        ("1", "two numbers"),
+        ("-1/3", "two numbers"),
+        ("0/3", "from 1 to 3"),
+        ("4/3", "from 1 to 3"),
+        ("1/0", "from 1 to 0"),
+    ] {
+        let wrong = Share::read(said).map(|share| share.number);
+        assert!(wrong.as_ref().is_err_and(|wrong| wrong.contains(told)), "{said:?}: {wrong:?}");
     }
 }
 

@@ -210,6 +210,18 @@ fn matt_surfaces_receive_the_convolved_light() {
     }
 }
 
+/// Whatever the shape, weights add up to 1.
+#[test]
+fn one_light_everywhere_stays_when_it_is_convolved() {
+    let light = [0.25, 3.0, 1e-3, 1.0];
+    for shape in SHAPES {
+        let environment = Environment::from_fn(shape, 32, |_| light).expect("an environment");
+        let convolved = environment.convolved(16).expect("a small one");
+        let off = farthest(|d| convolved.at(d, 0.0), |_| light.map(f64::from), |_| true);
+        assert!(off < 1e-6, "{shape:?}, convolved: {off}");
+    }
+}
+
 /// Nine coefficients against the exact convolution: one far light is the worst case, with 3/32 of its peak; a sky is better.
 #[test]
 fn harmonics_of_order_two_err_by_what_is_known_of_them() {

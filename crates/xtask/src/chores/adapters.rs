@@ -17,8 +17,8 @@ use crate::tally::counted;
 /// many lights, and `halfway verify` over examples/scenes; on the CPU all picture tests that are not about wgpu. Each suite
 /// prints the worst figures, from which the table in docs/accuracy.md is.
 /// What is missing is installed first, as for `cargo xtask test`, of which this is a part; but there the drivers share the
-/// suite's rows with images, solids and environments among them, since they take minutes to compile their shaders. Here each
-/// draws all.
+/// suite's rows with images, solids and environments among them, since they take minutes to compile their shaders.
+/// Here each draws all.
 #[derive(Args, Debug)]
 #[command(verbatim_doc_comment)]
 pub(crate) struct Options {
@@ -86,7 +86,8 @@ fn leave_out_what_runs(adapters: &mut [Adapter], line: &str, tests: Option<&str>
     Ok(())
 }
 
-/// The tests of the program `render` that each driver runs, by parts of their names. Lavapipe runs all, in `cargo xtask test`.
+/// The tests of the program `render` that each driver runs, by parts of their names. Lavapipe runs all tests in
+/// `cargo xtask test`.
 const TESTS: [&str; 5] =
     ["render::adapter::", "render::auto::", "render::conformance::", "render::costs::", "render::light_counts::"];
 

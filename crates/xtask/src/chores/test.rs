@@ -18,8 +18,8 @@ use crate::tally::counted;
 /// Documentation examples included, in the release profile, with a summary at the end. No test is skipped for want of
 /// an adapter, a screen or a browser: what they need and the machine lacks (Vulkan drivers, OpenGL, the virtual screen
 /// Xvfb, the window manager openbox, the Wayland compositor weston, the browser chromium) is installed first, by
-/// apt-get where it may be used; otherwise nothing is built, and the remedy is printed. With `HALFWAY_SHARE=1/4` the tests draw
-/// a quarter of the rows with textures, and each of three other drivers another.
+/// apt-get where it may be used; otherwise nothing is built, and the remedy is printed. With `HALFWAY_SHARE=1/4` the
+/// tests draw a quarter of the rows with textures, and each of three other drivers another.
 #[derive(Args, Debug)]
 #[command(verbatim_doc_comment)]
 pub(crate) struct Options {
