@@ -124,7 +124,9 @@ fn earlier(file: &Path) -> Result<EarlierRun, Failure> {
 /// Says where the fronts of two runs differ by more than ties.
 fn agree(fronts: &Fronts, earlier: &EarlierRun) -> Result<(), Failure> {
     let told = fronts.disagreements(earlier);
-    told.iter().for_each(|line| println!("{line}"));
+    for line in &told {
+        println!("{line}");
+    }
     if told.is_empty() {
         println!("the fronts of both runs agree but for ties");
         return Ok(());

@@ -1,9 +1,9 @@
 //! The picture's memory, a row of tiles at a time, as the threads borrow it.
 
-use crate::bins::TILE;
 use crate::cover::PIXELS;
 use crate::error::{LARGEST_SIDE, RasterError};
 use crate::pass::{Output, Pass, PixelFormat};
+use crate::placed::TILE;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 

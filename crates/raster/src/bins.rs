@@ -2,12 +2,9 @@
 
 use crate::error::RasterError;
 use crate::pass::Pass;
-use crate::placed::Placed;
+use crate::placed::{PlacedInstance, TILE};
 use crate::state::State;
 use std::ops::Range;
-
-/// Pixels along a side of a tile. It is part of the picture's bits: interpolation counts from a tile's corner.
-pub(crate) const TILE: usize = 64;
 
 /// A piece in more tiles than this is in no tile's list; each tile asks for its box.
 const MANY_TILES: u32 = 64;
@@ -39,7 +36,7 @@ pub(crate) struct Bins {
     /// The jobs in many tiles.
     wide: Vec<u32>,
     spans: Vec<Span>,
-    parts: Vec<Part>,
+    parts: Vec<BinsPart>,
 }
 
 /// Pieces fewer than this are sorted by the calling thread: to wake another takes longer.
@@ -56,7 +53,7 @@ struct Span {
 
 /// What one thread finds of them.
 #[derive(Debug, Default)]
-pub(crate) struct Part {
+pub(crate) struct BinsPart {
     /// Which pieces it looks at, counted over all spans.
     of: Range<u64>,
     states: Vec<State>,
@@ -72,20 +69,20 @@ impl Bins {
     /// Sorts a pass's pieces into tiles. `each` has a function called with each part, by so many threads.
     pub(crate) fn fill<E>(&mut self, pass: &Pass, threads: usize, each: E) -> Result<(), RasterError>
     where
-        E: FnOnce(&mut [Part], &(dyn Fn(&mut Part) + Sync)),
+        E: FnOnce(&mut [BinsPart], &(dyn Fn(&mut BinsPart) + Sync)),
     {
         self.tiles = pass.size.map(|side| side.div_ceil(TILE as u32));
         let total = self.find_spans(pass)?;
         let count = if total < WORTH_PARTING { 1 } else { threads.max(1) };
         if self.parts.len() < count {
-            self.parts.resize_with(count, Part::default);
+            self.parts.resize_with(count, BinsPart::default);
         }
         for (number, part) in self.parts[..count].iter_mut().enumerate() {
             let end = |number: usize| total * number as u64 / count as u64;
             part.of = end(number)..end(number + 1);
         }
         let spans = &self.spans;
-        let work = |part: &mut Part| part.refused = part.fill(pass, spans).err();
+        let work = |part: &mut BinsPart| part.refused = part.fill(pass, spans).err();
         match &mut self.parts[..count] {
             [part] => work(part),
             parts => each(parts, &work),
@@ -189,7 +186,7 @@ impl Bins {
     }
 }
 
-impl Part {
+impl BinsPart {
     fn fill(&mut self, pass: &Pass, spans: &[Span]) -> Result<(), RasterError> {
         self.states.clear();
         self.jobs.clear();
@@ -223,7 +220,7 @@ impl Part {
         let draw = &pass.draws[number as usize];
         let mesh = pass.meshes[draw.mesh as usize];
         let instance = &pass.instances[index as usize];
-        let placed = Placed::new(pass, instance, draw);
+        let placed = PlacedInstance::new(pass, instance, draw);
         if pieces.len() > 1 && placed.tiles(&mesh.extent).is_none() {
             return Ok(());
         }

@@ -1,12 +1,12 @@
 //! Fragments that are laid over what is there, in the order of drawing.
 
-use crate::bins::TILE;
 use crate::cover::{EdgeFunctions, TileBuffer, clamped, covered, plane};
 use crate::encode::kept;
 use crate::four::{centroid, samples};
 use crate::lanes::{F, M, Simd, V3, counting, each, fma, lanes, load, replace, saturate, splat, splat_i, splat3};
 use crate::look::Look;
 use crate::pass::SampleCount;
+use crate::placed::TILE;
 use crate::planes::{Planes, Slopes};
 use crate::samples::CENTROIDS;
 use crate::shade::{Fragments, state_of};

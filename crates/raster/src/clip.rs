@@ -1,8 +1,8 @@
 //! Triangles that reach far beyond a tile, or behind the eye: few, and so one by one, in 64 bits.
 
-use crate::bins::TILE;
 use crate::cover::EdgeFunctions;
 use crate::pass::LeftOut;
+use crate::placed::TILE;
 use crate::planes::{CutCorner, Gradient, Planes};
 use crate::samples::sample_offsets;
 use crate::triangle::Covering;

@@ -1,6 +1,5 @@
 //! Which pixels a triangle covers, and what it leaves in them where nothing is nearer.
 
-use crate::bins::TILE;
 use crate::lanes::{
     F, I, M, Simd, counting, counting_i, each, f32x4, fma, lanes, load, load_i, max, max_one, min, min_one, replace,
     splat, splat_i, store_i,
@@ -9,6 +8,7 @@ use crate::look::Look;
 use crate::mapped::MappedTriangle;
 use crate::mapped_pixels::MappedPixels;
 use crate::pass::SampleCount;
+use crate::placed::TILE;
 use crate::planes::{LaneSlopes, Planes, Slopes};
 use crate::samples::GRID_PLACES;
 use crate::state::{Stage, State};

@@ -1,8 +1,8 @@
 //! Coverage with four samples a pixel, and what a triangle leaves in them.
 
-use crate::bins::TILE;
 use crate::cover::{EdgeFunctions, Kept, PIXELS, TINY_AT, TINY_PIXELS, TINY_PLACES, TileBuffer, value};
 use crate::lanes::{I, M, Simd, counting_i, each, f32x4, lanes, max_one, min_one, splat, splat_i};
+use crate::placed::TILE;
 use crate::planes::{LaneSlopes, Planes};
 use crate::samples::{CENTROIDS, OFFSETS};
 use fearless_simd::{i32x4, mask32x4, prelude::*};

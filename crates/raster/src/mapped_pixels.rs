@@ -1,12 +1,12 @@
 //! Pixels of draws with images or a mask.
 
 use crate::attributes::{AMBIENT_OF_VERTICES, COLOR, FRAME, MIRROR_NORMAL, NORMAL, OF_VERTICES, PARTS, PLACE, UVS};
-use crate::bins::TILE;
 use crate::lanes::{F, I, M, Simd, V3, each, lanes, splat, splat_i, splat3};
 use crate::lighting::{Gloss, Irradiance, Points, to_viewer};
 use crate::look::Look;
 use crate::mapped::{MappedTriangle, PartsOf};
 use crate::pass::{MapCall, Pass, SideData};
+use crate::placed::TILE;
 use crate::planes::Slopes;
 use crate::state::{Stage, State, StateMaps};
 use fearless_simd::prelude::*;

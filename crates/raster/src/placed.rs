@@ -1,11 +1,13 @@
 //! Where pieces of an instance lie: in which tiles, and whether all of their faces turn away.
 
-use crate::bins::TILE;
 use crate::pass::{DrawCall, InstanceData, LeftOut, Pass};
 use crate::pieces::{Piece, PieceExtent};
 
+/// Pixels along a side of a tile. It is part of the picture's bits: interpolation counts from a tile's corner.
+pub(crate) const TILE: usize = 64;
+
 /// An instance's transform, ready to place spheres.
-pub(crate) struct Placed {
+pub(crate) struct PlacedInstance {
     rows: [[f32; 4]; 3],
     /// An upper bound of how much it stretches lengths.
     stretch: f32,
@@ -16,7 +18,7 @@ pub(crate) struct Placed {
     size: [f32; 2],
 }
 
-impl Placed {
+impl PlacedInstance {
     pub(crate) fn new(pass: &Pass, instance: &InstanceData, draw: &DrawCall) -> Self {
         let rows = instance.eye_from_model;
         let column = |c: usize| [rows[0][c], rows[1][c], rows[2][c]].map(f64::from);
@@ -125,14 +127,14 @@ mod tests {
 
     const SIZE: [f32; 2] = [1280.0, 720.0];
 
-    fn placed(rows: [[f32; 4]; 3]) -> Placed {
+    fn placed(rows: [[f32; 4]; 3]) -> PlacedInstance {
         let column = |k: usize| (0..3).map(|row| f64::from(rows[row][k]).powi(2)).sum::<f64>();
         let stretch = (column(0) + column(1) + column(2)).sqrt() as f32;
-        Placed { rows, stretch, left_out: 0.0, near: 0.1, scale: [1.0, 16.0 / 9.0], size: SIZE }
+        PlacedInstance { rows, stretch, left_out: 0.0, near: 0.1, scale: [1.0, 16.0 / 9.0], size: SIZE }
     }
 
     /// The tile of a point as vertices are put onto the picture; `None` where it is before the near plane or out of sight.
-    fn tile_of(placed: &Placed, point: [f32; 3]) -> Option<[u16; 2]> {
+    fn tile_of(placed: &PlacedInstance, point: [f32; 3]) -> Option<[u16; 2]> {
         let [x, y, z] =
             placed.rows.map(|[a, b, c, d]| c.mul_add(point[2], b.mul_add(point[1], a.mul_add(point[0], d))));
         let share = [placed.scale[0] * x / -z, -placed.scale[1] * y / -z].map(|at| 0.5 + 0.5 * at);

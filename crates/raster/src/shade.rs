@@ -1,6 +1,5 @@
 //! Shading of what is nearest in a tile, a vector of pixels at a time.
 
-use crate::bins::TILE;
 use crate::cover::TileBuffer;
 use crate::encode::{bytes, cleared, kept};
 use crate::four::{CENTROID_SHIFT, SHADER_BITS};
@@ -13,6 +12,7 @@ use crate::look::Look;
 use crate::mapped::MappedTriangle;
 use crate::mapped_pixels::MappedPixels;
 use crate::pass::{Pass, SampleCount};
+use crate::placed::TILE;
 use crate::samples::CENTROIDS;
 use crate::state::{Stage, State};
 use crate::surroundings::behind;

@@ -1,12 +1,12 @@
 //! The environment: what it adds at a pixel, and what is seen of it where nothing is drawn.
 
 use crate::attributes::COLOR;
-use crate::bins::TILE;
 use crate::encode::kept;
 use crate::lanes::{Simd, V3, each, lanes, splat3};
 use crate::look::Look;
 use crate::mapped_pixels::MappedPixel;
 use crate::pass::{Highlight, SurroundingsData};
+use crate::placed::TILE;
 use crate::state::{Stage, State};
 use crate::vertices::Screen;
 use halfway_lighting::Reflectance;

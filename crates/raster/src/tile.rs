@@ -1,7 +1,7 @@
 //! A tile from its pieces to its pixels.
 
 use crate::bands::{Bands, Own, Rows, make_room};
-use crate::bins::{Bins, Job, TILE};
+use crate::bins::{Bins, Job};
 use crate::clip::{Ready, each_part};
 use crate::cover::{EdgeFunctions, Kept, TileBuffer};
 use crate::encode::{bytes, cleared, kept};
@@ -11,6 +11,7 @@ use crate::look::Look;
 use crate::mapped::MappedTriangle;
 use crate::pass::{DrawCall, InstanceData, Pass, PixelFormat, SampleCount};
 use crate::pieces::{PIECE_TRIANGLES, Piece, Pieces};
+use crate::placed::TILE;
 use crate::planes::{Planes, Slopes};
 use crate::shade::{Even, shader_of};
 use crate::state::{Stage, State};

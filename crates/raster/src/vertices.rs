@@ -1,7 +1,6 @@
 //! A piece's vertices: transformed, lit where the draw lights vertices, and put onto the picture's grid.
 
 use crate::attributes::{Attributes, MappedVertices, SLOTS};
-use crate::bins::TILE;
 use crate::lanes::{
     F, I, Simd, V3, each, fma, lanes, load, load3, max, min, safe_normalize, splat, splat_i, store, store_fours,
     store_i,
@@ -9,6 +8,7 @@ use crate::lanes::{
 use crate::lighting::{Points, reflected, tinted, tinted_terms, to_viewer};
 use crate::pass::{InstanceData, Pass};
 use crate::pieces::{Piece, Pieces};
+use crate::placed::TILE;
 use crate::state::{Stage, State};
 use fearless_simd::prelude::*;
 

@@ -44,7 +44,7 @@ pub(crate) const NEEDS: [crate::setup::Need; 3] = [VULKAN, OPENGL, SWIFTSHADER];
 ///
 /// # Errors
 /// An adapter is not there, or the tests' share is not what leaves one for each.
-pub(crate) fn others(choice: &str) -> Result<Vec<Adapter>> {
+pub(crate) fn others(choice: &str) -> Result<Vec<TriedAdapter>> {
     let mut adapters = all()?;
     let line = opened(halfway(&["adapters"]).env(CHOICE, choice))?;
     leave_out_what_runs(&mut adapters, &line, std::env::var(SHARE).ok().as_deref())?;
@@ -55,7 +55,7 @@ pub(crate) fn others(choice: &str) -> Result<Vec<Adapter>> {
 ///
 /// # Errors
 /// An adapter is not there, a test fails, or a scene is not as the oracle draws it.
-pub(crate) fn try_each(adapters: Vec<Adapter>) -> Result {
+pub(crate) fn try_each(adapters: Vec<TriedAdapter>) -> Result {
     let mut failed = Vec::new();
     for adapter in adapters {
         let found = adapter.is_there().and_then(|()| {
@@ -69,11 +69,11 @@ pub(crate) fn try_each(adapters: Vec<Adapter>) -> Result {
 
 /// Leaves out the tests of the adapter that a line of `halfway adapters` is about, and gives each other driver its share: all of
 /// them together draw each row once, or what the `tests` leave them of it.
-fn leave_out_what_runs(adapters: &mut [Adapter], line: &str, tests: Option<&str>) -> Result {
+fn leave_out_what_runs(adapters: &mut [TriedAdapter], line: &str, tests: Option<&str>) -> Result {
     for adapter in adapters.iter_mut().filter(|adapter| adapter.is_chosen_alone() && adapter.is(line)) {
         adapter.tests = Tests::None;
     }
-    let is_driver = |adapter: &Adapter| adapter.tests == Tests::Few;
+    let is_driver = |adapter: &TriedAdapter| adapter.tests == Tests::Few;
     let of_tests = usize::from(tests.is_some());
     let count = of_tests + adapters.iter().filter(|adapter| is_driver(adapter)).count();
     if let Some(said) = tests.filter(|said| *said != format!("1/{count}")) {
@@ -120,7 +120,7 @@ const LEFT_OUT: [(&str, &str); 15] = [
 ];
 
 /// An adapter, and how a program is made to draw with it.
-pub(crate) struct Adapter {
+pub(crate) struct TriedAdapter {
     name: &'static str,
     tests: Tests,
     variables: Vec<(&'static str, String)>,
@@ -177,19 +177,24 @@ const CHOICES: [&str; 10] = [
     "EGL_PLATFORM",
 ];
 
-fn all() -> Result<Vec<Adapter>> {
+fn all() -> Result<Vec<TriedAdapter>> {
     let set = |name, value: &str| (name, value.to_owned());
     let swiftshader = swiftshader().ok_or_else(|| Failure::new("SwiftShader is missing"))?;
     let lavapipe = || set(CHOICE, "vulkan:llvmpipe");
     Ok(vec![
-        Adapter { name: "lavapipe", tests: Tests::Few, variables: vec![lavapipe()], says: ["llvmpipe", "(vulkan"] },
-        Adapter {
+        TriedAdapter {
+            name: "lavapipe",
+            tests: Tests::Few,
+            variables: vec![lavapipe()],
+            says: ["llvmpipe", "(vulkan"],
+        },
+        TriedAdapter {
             name: "lavapipe in the ways of hardware",
             tests: Tests::Few,
             variables: vec![lavapipe(), set("HALFWAY_COSTS", "hardware")],
             says: ["llvmpipe", "(vulkan"],
         },
-        Adapter {
+        TriedAdapter {
             name: "llvmpipe through OpenGL",
             tests: Tests::Few,
             variables: vec![
@@ -202,13 +207,13 @@ fn all() -> Result<Vec<Adapter>> {
             ],
             says: ["llvmpipe", "(gl"],
         },
-        Adapter {
+        TriedAdapter {
             name: SWIFTSHADER_NAME,
             tests: Tests::Few,
             variables: vec![set("VK_DRIVER_FILES", &swiftshader.to_string_lossy())],
             says: ["SwiftShader", "(vulkan"],
         },
-        Adapter {
+        TriedAdapter {
             name: "the CPU without a driver",
             tests: Tests::Most,
             variables: vec![set(CHOICE, "cpu")],
@@ -217,7 +222,7 @@ fn all() -> Result<Vec<Adapter>> {
     ])
 }
 
-impl Adapter {
+impl TriedAdapter {
     fn lend<'a>(&self, command: &'a mut Command) -> &'a mut Command {
         for choice in CHOICES {
             command.env_remove(choice);
@@ -333,7 +338,7 @@ mod tests {
     #[test]
     fn drivers_share_what_all_tests_have_run() {
         let adapter =
-            |name, tests, variable, says| Adapter { name, tests, variables: vec![(variable, "x".into())], says };
+            |name, tests, variable, says| TriedAdapter { name, tests, variables: vec![(variable, "x".into())], says };
         let mut adapters = [
             adapter("a", Tests::Few, CHOICE, ["a", "(vulkan"]),
             adapter("a in other ways", Tests::Few, "HALFWAY_COSTS", ["a", "(vulkan"]),
@@ -342,8 +347,9 @@ mod tests {
         ];
         leave_out_what_runs(&mut adapters, "a 1.0 (vulkan, software)", None).unwrap();
         assert_eq!(adapters.each_ref().map(|it| it.tests), [Tests::None, Tests::Few, Tests::Few, Tests::Most]);
-        let share =
-            |adapter: &Adapter| adapter.variables.iter().find(|(name, _)| *name == SHARE).map(|(_, it)| it.clone());
+        let share = |adapter: &TriedAdapter| {
+            adapter.variables.iter().find(|(name, _)| *name == SHARE).map(|(_, it)| it.clone())
+        };
         assert_eq!(adapters.each_ref().map(share), [None, Some("1/2".into()), Some("2/2".into()), None]);
 
         for adapter in &mut adapters {
@@ -374,7 +380,7 @@ mod tests {
 
     #[test]
     fn an_adapter_is_chosen_by_its_own_variables_alone() {
-        let adapter = Adapter {
+        let adapter = TriedAdapter {
             name: "a",
             tests: Tests::Few,
             variables: vec![("WGPU_BACKEND", "gl".into())],
