@@ -83,7 +83,8 @@ fn have_cargo_fuzz(setup: Setup) -> Result {
     if there.is_ok_and(|status| status.success()) {
         return Ok(());
     }
-    let mut install = cargo(["install", "cargo-fuzz", "--version", CARGO_FUZZ, "--locked"]);
+    // It only starts others: to optimise it would take longer than it ever runs.
+    let mut install = cargo(["install", "cargo-fuzz", "--version", CARGO_FUZZ, "--locked", "--debug"]);
     if !setup.no_install {
         return step("installing cargo-fuzz", &mut install);
     }
