@@ -96,6 +96,26 @@ pub(crate) const COMPILER: Need = Need {
     packages: Packages { apt: &["g++"], dnf: &["gcc-c++"], pacman: &["gcc"] },
 };
 
+/// A linker for 64-bit ARM, with its library of C.
+pub(crate) const ARM_LINKER: Need = Need {
+    missing: || programs::find("aarch64-linux-gnu-gcc").is_none().then(|| "a linker for 64-bit ARM".into()),
+    packages: Packages {
+        apt: &["gcc-aarch64-linux-gnu", "libc6-dev-arm64-cross"],
+        dnf: &["gcc-aarch64-linux-gnu"],
+        pacman: &["aarch64-linux-gnu-gcc"],
+    },
+};
+
+/// What runs programs for 64-bit ARM on other processors.
+pub(crate) const ARM_EMULATOR: Need = Need {
+    missing: || programs::find("qemu-aarch64-static").is_none().then(|| "QEMU, which runs programs for ARM".into()),
+    packages: Packages {
+        apt: &["qemu-user-static"],
+        dnf: &["qemu-user-static-aarch64"],
+        pacman: &["qemu-user-static"],
+    },
+};
+
 /// A screen to open windows on.
 pub(crate) const SCREEN: Need = Need {
     missing: || {

@@ -4,6 +4,7 @@
 //! `main.rs` and a call of [`program::run`].
 
 pub(crate) mod adapters;
+pub(crate) mod arm;
 pub(crate) mod chart;
 pub(crate) mod check;
 pub(crate) mod demo;
