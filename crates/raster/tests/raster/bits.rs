@@ -148,6 +148,13 @@ const HASHES: [u64; 10] = [
     0x841e_22fb_3a42_b195,
 ];
 
+/// So that on ARM the pictures below are drawn with NEON.
+#[test]
+fn the_narrowest_width_is_what_every_cpu_of_the_target_has() {
+    let always = if cfg!(target_arch = "aarch64") { VectorWidth::Neon } else { VectorWidth::Plain };
+    assert_eq!(VectorWidth::available().last(), Some(always));
+}
+
 #[test]
 fn ten_pictures_have_the_same_bits_on_every_width_and_with_any_threads() {
     let scenes = scenes();
