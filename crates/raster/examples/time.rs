@@ -29,7 +29,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     println!("{:12}{:>8}{:>8} {shadings:?}", "scene", "width", "threads");
     let model = std::env::var_os("MODEL").map(|path| halfway_mesh::load(path.as_ref())).transpose()?;
-    for name in ["S1", "S1x4", "S1coarse", "S2", "S4", "model", "small_model"] {
+    for name in ["S1", "S1x4", "S1coarse", "S1coarsex4", "S2", "S4", "model", "small_model"] {
         if name.ends_with("model") && model.is_none() {
             continue;
         }
@@ -40,10 +40,10 @@ fn main() -> Result<(), Box<dyn Error>> {
                 ("small_model", Some(model)) => turntable(&model.parts[0].mesh, [320, 180], shading)?,
                 _ => sphere(name == "S4", shading)?,
             };
-            if name == "S1x4" {
+            if name.ends_with("x4") {
                 scene.samples = SampleCount::Four;
             }
-            if name == "S1coarse" {
+            if name.starts_with("S1coarse") {
                 let mesh = pieces(&UvSphere { radius: 1.0, segments: 78, rings: 40 }.into(), TriangleOrder::Clustered)?;
                 (scene.draws, scene.meshes) = (vec![draw(&mesh, 1, shading)], vec![mesh]);
             }

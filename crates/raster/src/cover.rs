@@ -1,5 +1,6 @@
 //! Which pixels a triangle covers, and what it leaves in them where nothing is nearer.
 
+use crate::four::EVEN;
 use crate::lanes::{
     F, I, M, Simd, counting, counting_i, each, f32x4, fma, lanes, load, load_i, max, max_one, min, min_one, replace,
     splat, splat_i, store_i,
@@ -18,6 +19,10 @@ use fearless_simd::prelude::*;
 
 /// Pixels of a tile.
 pub(crate) const PIXELS: usize = TILE * TILE;
+
+/// Numbers in a list of the tile's buffer: one a pixel, and a line of the cache more. Lists of 16 KiB would have the numbers of
+/// a pixel in the same few places of the cache.
+const LIST: usize = PIXELS + 16;
 
 /// Pixels of a tiny triangle's box, at most.
 pub(crate) const TINY_PIXELS: usize = TINY * TINY;
@@ -85,24 +90,27 @@ impl EdgeFunctions {
 /// second ones, and so on; the depths of a pixel's samples lie side by side.
 pub(crate) struct TileBuffer {
     /// 1/w, 0 where nothing is.
-    pub(crate) depth: Vec<[f32; PIXELS]>,
-    /// What shades it: 0 for nothing, else 2 + 2·state + 1 for backs; in the upper bits 2²⁸·the centroid's number.
-    pub(crate) shader: Vec<[i32; PIXELS]>,
+    pub(crate) depth: Vec<[f32; LIST]>,
+    /// What shades it: 0 for nothing, else 2 + 2·state + 1 for backs; in the upper bits 2²⁸·the centroid's number. Where the
+    /// second sample's is [`EVEN`], the first one's lists hold for all samples.
+    pub(crate) shader: Vec<[i32; LIST]>,
     /// With four samples, which triangle it is.
-    pub(crate) triangle: Vec<[i32; PIXELS]>,
+    pub(crate) triangle: Vec<[i32; LIST]>,
     pub(crate) triangles: i32,
     /// 1/w where it is shaded, with four samples.
-    pub(crate) inverse_w: Vec<[f32; PIXELS]>,
+    pub(crate) inverse_w: Vec<[f32; LIST]>,
     /// The leading numbers, in the end the color.
-    pub(crate) lead: Vec<[[f32; PIXELS]; 3]>,
-    pub(crate) second: Vec<[[f32; PIXELS]; 3]>,
+    pub(crate) lead: Vec<[[f32; LIST]; 3]>,
+    pub(crate) second: Vec<[[f32; LIST]; 3]>,
     /// Of colored draws the color over w; empty where the pass has none.
-    pub(crate) paint: Vec<[[f32; PIXELS]; 3]>,
+    pub(crate) paint: Vec<[[f32; LIST]; 3]>,
     /// The tile's triangles of draws with images or a mask.
     pub(crate) mapped_triangles: Vec<MappedTriangle>,
     /// Which of them is nearest; empty where the pass has none.
-    pub(crate) mapped: Vec<[i32; PIXELS]>,
-    pub(crate) face: Vec<[[f32; PIXELS]; 3]>,
+    pub(crate) mapped: Vec<[i32; LIST]>,
+    pub(crate) face: Vec<[[f32; LIST]; 3]>,
+    /// With four samples, whether any triangle has left more than the leading numbers.
+    pub(crate) keeps_more: bool,
 }
 
 /// Which of its numbers a triangle leaves behind.
@@ -151,6 +159,7 @@ impl TileBuffer {
             mapped_triangles: Vec::new(),
             mapped: Vec::new(),
             face: Vec::new(),
+            keeps_more: false,
         }
     }
 
@@ -158,29 +167,32 @@ impl TileBuffer {
     #[expect(clippy::large_stack_arrays, reason = "48 KiB, once for each list")]
     pub(crate) fn prepare(&mut self, samples: SampleCount, painted: bool, mapped: bool) {
         let count = samples.count();
-        self.depth.resize(count, [0.0; PIXELS]);
-        self.shader.resize(count, [0; PIXELS]);
+        self.depth.resize(count, [0.0; LIST]);
+        self.shader.resize(count, [0; LIST]);
         for list in [&mut self.lead, &mut self.second, &mut self.face] {
-            list.resize(count, [[0.0; PIXELS]; 3]);
+            list.resize(count, [[0.0; LIST]; 3]);
         }
         if mapped {
-            self.mapped.resize(count, [0; PIXELS]);
+            self.mapped.resize(count, [0; LIST]);
         }
         if painted {
-            self.paint.resize(count, [[0.0; PIXELS]; 3]);
+            self.paint.resize(count, [[0.0; LIST]; 3]);
         }
         if samples == SampleCount::Four {
-            self.inverse_w.resize(count, [0.0; PIXELS]);
-            self.triangle.resize(count, [0; PIXELS]);
+            self.inverse_w.resize(count, [0.0; LIST]);
+            self.triangle.resize(count, [0; LIST]);
         }
     }
 
     /// Empties a tile.
     pub(crate) fn clear(&mut self) {
         self.depth.as_flattened_mut().fill(0.0);
-        self.shader.as_flattened_mut().fill(0);
+        for (list, nothing) in self.shader.iter_mut().zip([0, EVEN]) {
+            list.fill(nothing);
+        }
         self.triangles = 0;
         self.mapped_triangles.clear();
+        self.keeps_more = false;
     }
 
     /// Draws a triangle of few pixels with one sample each: those of `pixels`, counted from `first`.
@@ -368,7 +380,15 @@ impl TileBuffer {
     }
 
     #[inline(always)]
-    fn keep<S: Simd>(&mut self, simd: S, planes: &Planes, at: usize, [x, y]: [F<S>; 2], shown: M<S>, kept: Kept) {
+    pub(crate) fn keep<S: Simd>(
+        &mut self,
+        simd: S,
+        planes: &Planes,
+        at: usize,
+        [x, y]: [F<S>; 2],
+        shown: M<S>,
+        kept: Kept,
+    ) {
         if let Some(number) = kept.mapped {
             let before = load_i(simd, &self.mapped[0], at);
             store_i::<S>(shown.select(splat_i(simd, number), before), &mut self.mapped[0], at);

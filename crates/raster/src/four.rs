@@ -1,7 +1,13 @@
 //! Coverage with four samples a pixel, and what a triangle leaves in them.
+//!
+//! Most pixels show one triangle in all four samples. What it leaves is kept once then, as the first sample's, and the
+//! second one's shader is [`EVEN`]; a triangle that takes some of the samples has them written out first.
 
-use crate::cover::{EdgeFunctions, Kept, PIXELS, TINY_AT, TINY_PIXELS, TINY_PLACES, TileBuffer, value};
-use crate::lanes::{I, M, Simd, counting_i, each, f32x4, lanes, max_one, min_one, splat, splat_i};
+use crate::cover::{EdgeFunctions, Kept, PIXELS, TINY_AT, TINY_PIXELS, TINY_PLACES, TileBuffer, clamped, plane, value};
+use crate::lanes::{
+    I, M, MOST_LANES, Simd, counting, counting_i, each, f32x4, fma, lanes, load, load_i, max_one, min_one, replace,
+    splat, splat_i, store_i,
+};
 use crate::placed::TILE;
 use crate::planes::{LaneSlopes, Planes};
 use crate::samples::{CENTROIDS, OFFSETS};
@@ -11,6 +17,12 @@ use fearless_simd::{i32x4, mask32x4, prelude::*};
 pub(crate) const CENTROID_SHIFT: i32 = 28;
 /// The bits of a shader below it.
 pub(crate) const SHADER_BITS: i32 = (1 << CENTROID_SHIFT) - 1;
+
+/// In the place of the second sample's shader: the pixel shows in all samples what the first one does, or nothing.
+pub(crate) const EVEN: i32 = -1;
+
+/// The bits of all samples of a pixel.
+const ALL: usize = 15;
 
 impl TileBuffer {
     /// Draws a triangle of few pixels with four samples each: those whose bits are set in `samples`, counted from `first`.
@@ -49,7 +61,7 @@ impl TileBuffer {
                 continue;
             }
             let all = covered.to_bitmask() as usize % 16;
-            let place = if all == 15 || centers >> bit & 1 != 0 { 0 } else { all };
+            let place = if all == ALL || centers >> bit & 1 != 0 { 0 } else { all };
             let [x, y] = [x + CENTROIDS[place][0], y + CENTROIDS[place][1]];
             let v = slopes.dx.mul_add_precise(
                 f32x4::simd_from(simd, x),
@@ -90,6 +102,9 @@ impl TileBuffer {
         lead: Option<f32x4<S>>,
     ) {
         let pixel = pixel % PIXELS;
+        if mask != ALL && self.shader[1][pixel] == EVEN {
+            self.write_out(pixel);
+        }
         let Self { shader: shaders, triangle, inverse_w: inverses, lead: leads, triangles, .. } = self;
         let (Ok(shaders), Ok(triangle), Ok(inverses), Ok(leads)) = (
             <&mut [_; 4]>::try_from(&mut shaders[..]),
@@ -99,7 +114,7 @@ impl TileBuffer {
         ) else {
             return;
         };
-        let mut left = mask;
+        let mut left = if mask == ALL { 1 } else { mask };
         while left != 0 {
             let sample = left.trailing_zeros() as usize % 4;
             left &= left - 1;
@@ -111,6 +126,23 @@ impl TileBuffer {
                     leads[sample][c][pixel] = v[c + 1];
                 }
             }
+        }
+        if mask == ALL {
+            shaders[1][pixel] = EVEN;
+        }
+    }
+
+    /// Gives each sample of a pixel what the first one has for all.
+    #[inline(never)]
+    fn write_out(&mut self, pixel: usize) {
+        let Self { shader, triangle, inverse_w, lead, second, paint, mapped, face, keeps_more, .. } = self;
+        repeat(shader, pixel);
+        repeat(triangle, pixel);
+        repeat(inverse_w, pixel);
+        repeat_three(lead, pixel);
+        if *keeps_more {
+            repeat(mapped, pixel);
+            [second, paint, face].into_iter().for_each(|lists| repeat_three(lists, pixel));
         }
     }
 
@@ -125,22 +157,116 @@ impl TileBuffer {
         kept: Kept,
     ) {
         let [left, right, top, bottom] = edges.bounds;
+        let count = lanes::<S>() as i32;
         self.triangles += 1;
-        for j in top..=bottom {
-            let mut next = left;
-            while next <= right {
-                let first = next.min(TILE as i32 - lanes::<S>() as i32);
-                // Pixels of which some sample is covered, without those that the strip before has had.
-                let mut covered =
-                    covered_by_any(simd, edges, first, j).to_bitmask() >> (next - first) << (next - first);
-                next = first + lanes::<S>() as i32;
-                while covered != 0 {
-                    let i = first + covered.trailing_zeros() as i32;
-                    covered &= covered - 1;
-                    self.cover_pixel(simd, edges, planes, shader, kept, [i, j]);
+        self.keeps_more |= kept.second || kept.paint || kept.face || kept.mapped.is_some();
+        let least = each!(k in 3 => edges.at[k].into_iter().fold(i32::MAX, i32::min));
+        let more: [I<S>; 3] =
+            each!(k in 3 => splat_i(simd, edges.at[k].into_iter().fold(i32::MIN, i32::max) - least[k]));
+        let mut next = left;
+        while next <= right {
+            // The last strip may begin earlier, so that it ends with the tile; its first pixels have been drawn then.
+            let i = next.min(TILE as i32 - count);
+            let drawn = next - i;
+            next = i + count;
+            let mut e: [I<S>; 3] = each!(k in 3 => {
+                let at = least[k] + edges.across[k] * i + edges.down[k] * top;
+                counting_i(simd) * splat_i(simd, edges.across[k]) + splat_i(simd, at)
+            });
+            for j in top..=bottom {
+                // Of those that none of the edges leaves out as a whole, some may have no sample that all three leave.
+                let some = (e[0] + more[0] | e[1] + more[1] | e[2] + more[2]).simd_ge(splat_i(simd, 0));
+                let mut parts = some.to_bitmask() >> drawn << drawn;
+                if parts != 0 {
+                    let all = (e[0] | e[1] | e[2]).simd_ge(splat_i(simd, 0));
+                    let whole = if kept.mask.is_some() { 0 } else { all.to_bitmask() & parts };
+                    parts &= !whole;
+                    if whole != 0 {
+                        self.cover_whole(simd, planes, shader, kept, ([i, j], whole));
+                    }
+                }
+                while parts != 0 {
+                    let lane = parts.trailing_zeros() as i32;
+                    parts &= parts - 1;
+                    self.cover_pixel(simd, edges, planes, shader, kept, [i + lane, j]);
+                }
+                for k in 0..3 {
+                    e[k] += splat_i(simd, edges.down[k]);
                 }
             }
         }
+    }
+
+    /// Of the pixels from (i, j) on those with a bit in `whole`: all of their samples are covered.
+    #[inline(always)]
+    fn cover_whole<S: Simd>(
+        &mut self,
+        simd: S,
+        planes: &Planes,
+        shader: i32,
+        kept: Kept,
+        ([i, j], whole): ([i32; 2], u64),
+    ) {
+        let at = (j as usize * TILE + i as usize) & (PIXELS - 1);
+        let samples = self.nearer_of_whole(simd, planes, ([i, j], at), whole);
+        // The pixels that are nearer in all samples, and in some.
+        let pairs = samples & samples >> 1;
+        let all = bit_of_four(pairs & pairs >> 2);
+        let pairs = samples | samples >> 1;
+        let mut some = bit_of_four(pairs | pairs >> 2) & !all;
+        if all != 0 {
+            let place = [counting(simd) + splat(simd, i as f32), splat(simd, j as f32)];
+            let shown = M::<S>::from_bitmask(simd, all);
+            let inverse_w = clamped(simd, plane(simd, &planes.lead, 0, place[0], place[1]), planes);
+            replace::<S>(simd, shown, inverse_w, &mut self.inverse_w[0], at);
+            let number = self.triangles;
+            let [first, second, ..] = &mut self.shader[..] else { return };
+            for (list, value) in [(first, shader), (second, EVEN), (&mut self.triangle[0], number)] {
+                store_i::<S>(shown.select(splat_i(simd, value), load_i(simd, list, at)), list, at);
+            }
+            self.keep(simd, planes, at, place, shown, kept);
+        }
+        while some != 0 {
+            let lane = some.trailing_zeros() as usize % MOST_LANES;
+            some &= some - 1;
+            let place = [i as f32 + lane as f32, j as f32];
+            let v = value(simd, &planes.lead, place[0], place[1]);
+            let mask = (samples >> (4 * lane)) as usize & ALL;
+            self.keep_pixel(simd, planes, (at + lane, mask), place, shader, kept, v);
+        }
+    }
+
+    /// Replaces depths of pixels from (i, j) on, of those with a bit in `whole`, where these are nearer; returns of which
+    /// samples: four bits a pixel.
+    #[inline(always)]
+    fn nearer_of_whole<S: Simd>(
+        &mut self,
+        simd: S,
+        planes: &Planes,
+        ([i, j], at): ([i32; 2], usize),
+        whole: u64,
+    ) -> u64 {
+        // A vector holds all samples of some pixels.
+        let pixels = lanes::<S>() / 4;
+        let [base, dx, dy] = [planes.lead.base[0], planes.lead.dx[0], planes.lead.dy[0]];
+        let [x, y] = each!(axis in 2 => load(simd, &SAMPLES_OF_PIXELS[axis], 0));
+        let row = fma::<S>(splat(simd, dy), y + splat(simd, j as f32), splat(simd, base));
+        let depths = self.depth.as_flattened_mut();
+        let mut samples = 0;
+        for first in (0..lanes::<S>()).step_by(pixels) {
+            let here = whole >> first & ((1 << pixels) - 1);
+            if here == 0 {
+                continue;
+            }
+            let x = x + splat(simd, (i + first as i32) as f32);
+            let depth = clamped(simd, fma::<S>(splat(simd, dx), x, row), planes);
+            let place = 4 * (at + first);
+            let covered = M::<S>::from_bitmask(simd, four_of_bit(here));
+            let nearer = covered & depth.simd_gt(load(simd, depths, place));
+            replace::<S>(simd, nearer, depth, depths, place);
+            samples |= nearer.to_bitmask() << (4 * first);
+        }
+        samples
     }
 
     #[inline(always)]
@@ -158,8 +284,8 @@ impl TileBuffer {
         let place = centroid(edges, i, j, covered.to_bitmask() as usize % 16);
         let [x, y] = [i as f32 + CENTROIDS[place][0], j as f32 + CENTROIDS[place][1]];
         let v = value(simd, &planes.lead, x, y);
-        let inverse_w = min_one(max_one(v[0], planes.range[0]), planes.range[1]);
         if kept.mask.is_some() {
+            let inverse_w = min_one(max_one(v[0], planes.range[0]), planes.range[1]);
             let first = counting_i(simd).simd_eq(splat_i(simd, 0));
             let place = [splat(simd, x), splat(simd, y)];
             if !self.left_by_mask(simd, kept, place, splat(simd, inverse_w), first).any_true() {
@@ -167,31 +293,75 @@ impl TileBuffer {
             }
         }
         let mask = self.nearer_of_four(simd, pixel, covered, depth);
-        if mask == 0 {
-            return;
+        if mask != 0 {
+            let shader = shader | (place as i32) << CENTROID_SHIFT;
+            self.keep_pixel(simd, planes, (pixel, mask), [x, y], shader, kept, v);
         }
-        let shader = shader | (place as i32) << CENTROID_SHIFT;
+    }
+
+    /// Puts what a triangle leaves, shaded at a place with the leading numbers `v`, into samples of a pixel.
+    #[inline(always)]
+    fn keep_pixel<S: Simd>(
+        &mut self,
+        simd: S,
+        planes: &Planes,
+        (pixel, mask): (usize, usize),
+        place: [f32; 2],
+        shader: i32,
+        kept: Kept,
+        v: f32x4<S>,
+    ) {
+        let inverse_w = min_one(max_one(v[0], planes.range[0]), planes.range[1]);
         self.keep_samples(pixel, mask, shader, inverse_w, kept.lead.then_some(v));
         if kept.second || kept.paint || kept.face || kept.mapped.is_some() {
-            for sample in (0..4).filter(|sample| mask >> sample & 1 != 0) {
-                self.keep_more(simd, planes, (sample, pixel), [x, y], kept);
+            let written = if mask == ALL { 1 } else { mask };
+            for sample in (0..4).filter(|sample| written >> sample & 1 != 0) {
+                self.keep_more(simd, planes, (sample, pixel), place, kept);
             }
         }
     }
 }
 
-/// Pixels of which some sample is covered, from (i, j) on.
-#[inline(always)]
-fn covered_by_any<S: Simd>(simd: S, edges: &EdgeFunctions, i: i32, j: i32) -> M<S> {
-    let grown = each!(k in 3 => counting_i(simd) * splat_i(simd, edges.across[k]));
-    let mut outside = splat_i(simd, -1);
-    for sample in 0..4 {
-        let [a, b, c]: [I<S>; 3] = each!(k in 3 => {
-            grown[k] + splat_i(simd, edges.at[k][sample] + edges.across[k] * i + edges.down[k] * j)
-        });
-        outside &= a | b | c;
+/// Gives the other samples' lists what the first has of a pixel.
+fn repeat<T: Copy, const N: usize>(lists: &mut [[T; N]], pixel: usize) {
+    if let [first, others @ ..] = lists {
+        others.iter_mut().for_each(|other| other[pixel] = first[pixel]);
     }
-    outside.simd_ge(splat_i(simd, 0))
+}
+
+fn repeat_three<const N: usize>(lists: &mut [[[f32; N]; 3]], pixel: usize) {
+    if let [first, others @ ..] = lists {
+        others.iter_mut().for_each(|other| (0..3).for_each(|c| other[c][pixel] = first[c][pixel]));
+    }
+}
+
+/// Where the samples of neighbouring pixels lie, one pixel's after the other's, from the center of the first on.
+const SAMPLES_OF_PIXELS: [[f32; MOST_LANES]; 2] = {
+    let (mut places, mut lane) = ([[0.0; MOST_LANES]; 2], 0);
+    while lane < MOST_LANES {
+        places[0][lane] = OFFSETS[0][lane % 4] + (lane / 4) as f32;
+        places[1][lane] = OFFSETS[1][lane % 4];
+        lane += 1;
+    }
+    places
+};
+
+/// Each of up to four bits four times.
+#[inline(always)]
+fn four_of_bit(bits: u64) -> u64 {
+    let bits = (bits | bits << 6) & 0x0303;
+    let bits = (bits | bits << 3) & 0x1111;
+    bits * 15
+}
+
+/// The lowest of every four bits, next to each other.
+#[inline(always)]
+fn bit_of_four(bits: u64) -> u64 {
+    let bits = bits & 0x1111_1111_1111_1111;
+    let bits = (bits | bits >> 3) & 0x0303_0303_0303_0303;
+    let bits = (bits | bits >> 6) & 0x000f_000f_000f_000f;
+    let bits = (bits | bits >> 12) & 0x0000_00ff_0000_00ff;
+    (bits | bits >> 24) & 0xffff
 }
 
 /// Which samples of a pixel are covered, and 1/w at each.

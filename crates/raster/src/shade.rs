@@ -2,7 +2,7 @@
 
 use crate::cover::TileBuffer;
 use crate::encode::{bytes, cleared, kept};
-use crate::four::{CENTROID_SHIFT, SHADER_BITS};
+use crate::four::{CENTROID_SHIFT, EVEN, SHADER_BITS};
 use crate::lanes::{
     F, I, M, Simd, V3, add, counting, dot, each, fma, lanes, load, load_i, load3, max, min, neg, safe_normalize, scale,
     select3, splat, splat_i, splat3, store,
@@ -229,25 +229,26 @@ impl TileBuffer {
         bytes
     }
 
-    /// Whether all samples of pixels from `at` on show what their first ones do.
+    /// Which of the pixels from `at` on show the same in all samples.
     #[inline(always)]
-    fn is_even<S: Simd>(&self, simd: S, at: usize) -> bool {
-        let shader = load_i(simd, &self.shader[0], at);
-        let triangle = load_i(simd, &self.triangle[0], at);
-        let none = shader.simd_eq(splat_i(simd, 0));
-        let mut same = none | !none;
-        for sample in 1..4 {
-            same &= shader.simd_eq(load_i(simd, &self.shader[sample], at));
-            same &= triangle.simd_eq(load_i(simd, &self.triangle[sample], at)) | none;
+    fn even<S: Simd>(&self, simd: S, at: usize) -> M<S> {
+        load_i(simd, &self.shader[1], at).simd_eq(splat_i(simd, EVEN))
+    }
+
+    /// The color of pixels with four samples each.
+    #[inline(always)]
+    pub(crate) fn color_of_four<S: Simd>(&mut self, simd: S, look: &Look, at: usize, clear: V3<S>) -> V3<S> {
+        if self.even(simd, at).all_true() {
+            return kept(simd, self.shade_samples(simd, look, (0, at), clear), look.pass.pixels);
         }
-        same.all_true()
+        self.shade_four(simd, look, at, clear);
+        self.resolved(simd, at, SampleCount::Four)
     }
 
     #[inline(always)]
     fn shade_four<S: Simd>(&mut self, simd: S, look: &Look, at: usize, clear: V3<S>) {
-        if self.is_even(simd, at) {
-            let none = load_i(simd, &self.shader[0], at).simd_eq(splat_i(simd, 0));
-            let color = if none.all_true() { clear } else { self.shade_samples(simd, look, (0, at), clear) };
+        if self.even(simd, at).all_true() {
+            let color = self.shade_samples(simd, look, (0, at), clear);
             for sample in 0..4 {
                 self.put(simd, (sample, at), color, look);
             }
@@ -265,6 +266,11 @@ impl TileBuffer {
         let triangle = load_i(simd, &self.triangle[sample], at);
         let mut left = (!load_i(simd, &self.shader[sample], at).simd_eq(splat_i(simd, 0))).to_bitmask();
         let mut color = clear;
+        if sample > 0 {
+            let even = self.even(simd, at);
+            color = select3::<S>(even, load3(simd, &self.lead[0], at), color);
+            left &= !even.to_bitmask();
+        }
         // What another sample of the pixel has shaded is taken over.
         for before in 0..sample {
             let lit = !load_i(simd, &self.shader[before], at).simd_eq(splat_i(simd, 0));

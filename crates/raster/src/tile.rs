@@ -104,19 +104,17 @@ impl Worker {
                 );
             }
         }
-        let at_once = !shaded && pass.samples == SampleCount::One;
-        if !shaded && !at_once {
-            self.shade(simd, &look, last[1]);
-        }
         let Self { nearest, own, .. } = self;
         bands.fill(tile, own, |rows| {
             simd.vectorize(
                 #[inline(always)]
                 || {
-                    if at_once {
+                    if shaded {
+                        encode(simd, nearest, pass, last[1], rows);
+                    } else if pass.samples == SampleCount::One {
                         shade_and_encode(simd, nearest, &look, last[1], rows);
                     } else {
-                        encode(simd, nearest, pass, last[1], rows);
+                        shade_and_encode_four(simd, nearest, &look, last[1], rows);
                     }
                 },
             );
@@ -304,6 +302,17 @@ fn shade_and_encode<S: Simd>(simd: S, nearest: &TileBuffer, look: &Look, last_ro
         for at in places {
             put_bytes::<S>(rows, at, nearest.bytes_of_one::<S, false>(simd, look, at, clear, &mut even));
         }
+    }
+}
+
+/// The same of pixels with four samples.
+#[inline(always)]
+fn shade_and_encode_four<S: Simd>(simd: S, nearest: &mut TileBuffer, look: &Look, last_row: i32, rows: &mut Rows) {
+    let pass = look.pass;
+    let clear = cleared(simd, pass.clear, pass.pixels);
+    for at in (0..(last_row as usize + 1) * TILE).step_by(lanes::<S>()) {
+        let color = nearest.color_of_four(simd, look, at, behind(simd, look, at, clear));
+        put(simd, rows, at, color, pass.pixels);
     }
 }
 
