@@ -277,6 +277,15 @@ impl LitPatches {
     ) {
         let LitObject { ref reflecting, ref key, geometry, model_view, normal_matrix, .. } = *object;
         let detail = &geometry.detail;
+        report.triangles_in += geometry.source.triangle_count() as u64;
+        self.instances.push(InstanceRecord::new(model_view, normal_matrix, reflecting.faces, view.unit() as f32));
+        if let [all] = detail.patches()
+            && let Some(key) = self.unchosen(object, shared, backend)
+        {
+            let record = self.table.number(&mut self.records, object.material, RecordLists::default());
+            self.add_run(object, OpenRun { key, lights: 0, record, indices: all.indices.clone(), stretch: 0 });
+            return;
+        }
         let reflector = reflecting.reflector(key.terms);
         let Shared { lights, encoding, .. } = shared;
         let demand = Demand {
@@ -294,19 +303,18 @@ impl LitPatches {
         let for_geometry = if allowed.is_nothing() { 0.0 } else { geometry_steps(object.tolerance) };
         let steps = f64::from(object.tolerance.steps) - for_geometry;
         let sight = Sight::new(model_view, view, reflecting.faces, &detail.whole);
-        report.triangles_in += geometry.source.triangle_count() as u64;
-        self.instances.push(InstanceRecord::new(model_view, normal_matrix, reflecting.faces, view.unit() as f32));
         // Where all lights are compiled in, no patch has lists.
         let admitted = if key.lists == Lists::Listed { *key } else { backend.admit(*key) };
         let compiled_in = Lists::new(lights.counts) != Lists::Listed;
-        let listing = (admitted.lists == Lists::Listed).then(|| {
+        let is_listed = admitted.lists == Lists::Listed;
+        let make_listing = || {
             let eye = equations::Eye::in_eye_space(shared.viewer);
             let compiled_in = compiled_in.then_some(lights.records.len());
             let spending = Spending { encoding, steps, prices: shared.prices, compiled_in };
             // A color may be black: then there is no ambient light that could hide what is left out. None is above 1.
             let ambient = if key.is_painted() { Vec3::ZERO } else { shared.lights.ambient };
             reflector.listing(reflecting.faces, ambient, eye, spending)
-        });
+        };
         seen.clear();
         let looked_at =
             detail.each_seen(&allowed, &sight, &mut self.choice, |patch, stretch| seen.push((patch, stretch)));
@@ -316,24 +324,26 @@ impl LitPatches {
             report.patches_culled += looked_at - seen.len() as u32;
         }
         // Light by light; else all terms of a patch are in one place.
-        let places = listing.as_ref().filter(|listing| listing.places.is_some());
-        let pays = places.is_some_and(|listing| self.pays(object, seen, listing, (&sight, shared)));
+        let is_placed = is_listed && key.terms.has(Frequency::Auto) && shared.prices != VertexPrices::NEVER;
+        let mut listing = is_placed.then(make_listing);
+        let pays = listing.as_ref().is_some_and(|listing| self.pays(object, seen, listing, (&sight, shared)));
         let prices = if pays { &shared.prices } else { &VertexPrices::NEVER };
-        if places.is_some() && !pays {
+        if is_placed && !pays {
             self.lists.memory.note_object(object.entity);
         }
         let mut run: Option<OpenRun> = None;
         for together in seen.chunks(TOGETHER) {
             let mut has_looked_around = false;
             for &(patch, stretch) in together {
-                let (key, lights, lists) = if let Some(listing) = &listing {
+                let (key, lights, lists) = if is_listed {
                     let place = object.place(patch, &sight, prices, &self.lists.memory);
-                    if listing.places.is_some() && place.0 == ShadedAt::Fragments {
+                    if is_placed && place.0 == ShadedAt::Fragments {
                         self.lists.memory.note_at_fragments(object.name(patch));
                     }
                     if let Some(key) = self.unlisted(object, place.0, shared, backend) {
                         (key, 0, RecordLists::default())
                     } else {
+                        let listing = listing.get_or_insert_with(make_listing);
                         if !has_looked_around {
                             self.lists.look_around(listing, together.iter().map(|(patch, _)| patch.sphere(model_view)));
                             has_looked_around = true;
@@ -344,7 +354,7 @@ impl LitPatches {
                     (admitted, 0, RecordLists::default())
                 };
                 let (key, lights, record) = if shared.false_colors {
-                    self.false_colored(object, patch, key, listing.is_some(), backend)
+                    self.false_colored(object, patch, key, is_listed, backend)
                 } else {
                     (key, lights, self.table.number(&mut self.records, object.material, lists))
                 };
@@ -362,6 +372,19 @@ impl LitPatches {
         if let Some(run) = run {
             self.add_run(object, run);
         }
+    }
+
+    /// The key that draws an object of one patch, where there is nothing to choose: neither lights nor the places of terms.
+    fn unchosen(&mut self, object: &LitObject, shared: Shared, backend: &mut impl Backend) -> Option<DrawKey> {
+        if shared.false_colors {
+            return None;
+        }
+        if object.key.terms.has(Frequency::Auto) {
+            let moves = shared.prices != VertexPrices::NEVER;
+            return if moves { None } else { self.unlisted(object, ShadedAt::Fragments, shared, backend) };
+        }
+        let admitted = (object.key.lists != Lists::Listed).then(|| backend.admit(object.key));
+        admitted.filter(|admitted| admitted.lists != Lists::Listed)
     }
 
     /// What draws a patch in the colour of its terms, in place of what would draw it by `key`.
@@ -480,12 +503,17 @@ impl LitPatches {
 
     fn add_run(&mut self, object: &LitObject, OpenRun { key, lights, record, indices, .. }: OpenRun) {
         let LitObject { depth, twins_before, maps, .. } = *object;
-        for (pass, key) in (0..).zip(key.passes()) {
+        let mut add = |pass, key: DrawKey| {
             let call = self.table.call((key, object.mesh, object.form, if key.is_mapped() { maps } else { 0 }));
             let indices = (indices.start, indices.end);
             let instance = self.instances.len() as u32 - 1;
             let blend = key.blend;
             self.runs.push(LitRun { blend, call, pass, twins_before, indices, lights, record, depth, instance });
+        };
+        if key.blend {
+            (0..).zip(key.passes()).for_each(|(pass, key)| add(pass, key));
+        } else {
+            add(0, key);
         }
     }
 }
