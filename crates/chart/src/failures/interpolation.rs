@@ -10,11 +10,12 @@ use super::{FailurePage, only};
 use crate::figure::{Axis, AxisScale, Figure, Panel};
 use crate::measure::MeasureError;
 
-/// A strip from left to right whose right end is `ratio` times as far away; values go from 0 to 1 along it.
-fn receding(ratio: f64) -> [PolygonCorner<1>; 4] {
+/// A strip from left to right whose right end is `ratio` times as far away; u goes from 0 to 1 along it, v across.
+fn receding(ratio: f64) -> [PolygonCorner<2>; 4] {
     [(-0.9, -0.9, 1.0), (0.9, -0.9, ratio), (0.9, 0.9, ratio), (-0.9, 0.9, 1.0)].map(|(x, y, w)| {
+        let of_side = |side: f64| if side > 0.0 { 1.0 } else { 0.0 };
         // What is farther away is smaller.
-        PolygonCorner { at: [x, y / w], w, value: [if x > 0.0 { 1.0 } else { 0.0 }] }
+        PolygonCorner { at: [x, y / w], w, value: [of_side(x), of_side(y)] }
     })
 }
 
@@ -24,7 +25,7 @@ fn error(how: Interpolation, ratio: f64) -> f64 {
     let off = |i: i32| {
         let point = [f64::from(i) / 500.0 * 0.9, 0.0];
         let [own, right] = [how, Interpolation::Perspective].map(|how| how.at(&strip, point));
-        own.zip(right).map_or(0.0, |([own], [right])| (own - right).abs())
+        own.zip(right).map_or(0.0, |([own, _], [right, _])| (own - right).abs())
     };
     (-499..500).map(off).fold(0.0, f64::max)
 }
@@ -38,14 +39,14 @@ fn middle(how: Interpolation, angle: f64) -> f64 {
     how.at(&square, [0.0, 0.0]).map_or(0.0, |[value]| value)
 }
 
-/// The strip with 16 stripes that are equally wide in space.
-fn stripes(how: Interpolation) -> Image {
+/// The strip with a checkerboard of 16 × 6 fields that are equally large in space.
+fn checkerboard(how: Interpolation) -> Image {
     let strip = receding(6.0);
     let at = |i: u32, size: u32| (f64::from(i) + 0.5) / f64::from(size) * 2.0 - 1.0;
     let pixel = |i: u32| {
         let point = [at(i % SIZE.x, SIZE.x), at(i / SIZE.x, SIZE.y)];
-        let bright = how.at(&strip, point).map_or(0.0, |[u]| if (16.0 * PI * u).sin() > 0.0 { 0.85 } else { 0.15 });
-        [bright; 3]
+        let is_bright = |[u, v]: [f64; 2]| (16.0 * PI * u).sin() * (6.0 * PI * v).sin() > 0.0;
+        [how.at(&strip, point).map_or(0.0, |uv| if is_bright(uv) { 0.85 } else { 0.15 }); 3]
     };
     Image::new(SIZE.x, SIZE.y, (0..SIZE.x * SIZE.y).map(pixel).collect())
 }
@@ -68,11 +69,12 @@ pub(super) fn page() -> Result<FailurePage, MeasureError> {
         notes: Vec::new(),
         series,
     };
-    let [right, screen, scan] = &Interpolation::ALL.map(stripes);
+    let [right, screen, scan] = &Interpolation::ALL.map(checkerboard);
     Ok(FailurePage {
         id: "interpolation",
         title: "Interpolation on the picture is not interpolation in space",
-        cause: "Halfway on the picture is not halfway on a surface that recedes. The published scan-line form is \
+        cause: "Halfway on the picture is not halfway on a surface that recedes: texture coordinates that are linear on the \
+                picture bend along the diagonal of the two triangles. The published scan-line form is \
                 linear on the picture as well, and of polygons with more than three corners it depends on how they are turned.",
         remedy: "Interpolate value/w and 1/w, as this project does; split polygons into triangles.",
         test: "interpolation_on_the_picture_is_off_by_depth_and_rotation",
