@@ -56,7 +56,7 @@ pub use limits::{LONGEST_SIDE, MOST_TEXELS};
 pub use maps::{MapKind, Maps, SurfaceMap, Texture, TexturePlugin, UvSet, WrongMap};
 pub use pyramid::Pyramid;
 pub use ripmap::Ripmap;
-pub use sampling::{Channel, LevelFilter, Sampling, TexelFilter, Wrap};
+pub use sampling::{Channel, ImageForm, LevelFilter, Sampling, TexelFilter, Wrap};
 pub use solid::{SolidKind, SolidTexture, WrongSolid};
 pub use sums::SummedAreas;
 pub use texels::TexelImage;

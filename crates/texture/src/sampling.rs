@@ -38,8 +38,7 @@ pub enum TexelFilter {
 /// points a·x + b·y with x² + y² ≤ 1, where a and b say how (u, v), in texels, change from a pixel to the next along x and
 /// along y. Its semiaxes are σ₁ ≥ σ₂, the singular values of the matrix (a b). Where σ₁ ≤ 1 the image is enlarged.
 ///
-/// The renderers draw the others as [`Linear`](Self::Linear), and say so in the log; the reference renderer takes them as
-/// they are, but for heights, whose slopes go by D everywhere.
+/// Slopes of heights go by D under all of them.
 #[derive(Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[reflect(Clone, Debug, Default, PartialEq, Hash)]
 pub enum LevelFilter {
@@ -80,6 +79,15 @@ impl LevelFilter {
         }
     }
 
+    /// What of an image it reads.
+    pub fn form(self) -> ImageForm {
+        match self {
+            Self::Ripmap => ImageForm::Ripmap,
+            Self::SummedArea => ImageForm::SummedAreas,
+            _ => ImageForm::Pyramid,
+        }
+    }
+
     /// N at most, of those with probes.
     pub(crate) fn most_probes(self) -> Option<u8> {
         match self {
@@ -90,6 +98,17 @@ impl LevelFilter {
             _ => None,
         }
     }
+}
+
+/// What of an image a [`LevelFilter`] reads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ImageForm {
+    /// The levels of its [`Pyramid`](crate::Pyramid).
+    Pyramid,
+    /// Its [`Ripmap`](crate::Ripmap).
+    Ripmap,
+    /// The image itself, and its [`SummedAreas`](crate::SummedAreas).
+    SummedAreas,
 }
 
 /// How an image is looked up: a value of each point and its footprint.

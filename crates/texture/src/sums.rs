@@ -30,6 +30,7 @@ pub struct SummedAreas {
     width: usize,
     height: usize,
     mean: [f64; 4],
+    largest: [f64; 4],
     /// (width + 1)·(height + 1) sums, row by row.
     sums: Vec<[f64; 4]>,
 }
@@ -57,12 +58,25 @@ impl SummedAreas {
             let above = &above[(y - 1) * (width + 1)..];
             row[..=width].iter_mut().zip(above).for_each(|(sum, above)| *sum = plus(*sum, *above));
         }
-        Self { width, height, mean, sums }
+        let larger = |a: [f64; 4], b: [f64; 4]| std::array::from_fn(|k| a[k].max(b[k].abs()));
+        let largest = sums.par_chunks(width + 1).map(|row| row.iter().copied().fold([0.0; 4], larger));
+        let largest = largest.reduce(|| [0.0; 4], larger);
+        Self { width, height, mean, largest, sums }
     }
 
     /// The mean of the image.
     pub fn mean(&self) -> [f64; 4] {
         self.mean
+    }
+
+    /// The largest magnitude of each number of the sums.
+    pub fn largest(&self) -> [f64; 4] {
+        self.largest
+    }
+
+    /// The sums less the mean's, row by row: one more in a row than there are columns, and one row more than there are.
+    pub fn sums(&self) -> &[[f64; 4]] {
+        &self.sums
     }
 
     /// Bytes of memory.

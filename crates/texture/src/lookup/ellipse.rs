@@ -13,6 +13,10 @@ use crate::sampling::Wrap;
 /// How many times as long as the short semiaxis the long one may be, before the short one is lengthened.
 const MOST_ECCENTRIC: f64 = 16.0;
 
+/// How many texels of a level it reaches along an axis at most. Only an image much longer than wide, in levels that are one
+/// texel wide, would ask for more.
+const FARTHEST: f64 = 64.0;
+
 /// The mean over the ellipse.
 pub(super) fn mean<T: Number>(pyramid: &Pyramid, wrap: [Wrap; 2], uv: [T; 2], footprint: &FootprintShape<T>) -> [T; 4] {
     let short = footprint.short.max(footprint.long / T::of(MOST_ECCENTRIC)).max(T::one());
@@ -90,7 +94,8 @@ impl<T: Number> Ellipse<T> {
         let (round, more) = (short * short, (long - short) * (long + short));
         let [x, y] = scale;
         let [uu, uv, vv] = [(round + more * u * u) * x * x, more * u * v * x * y, (round + more * v * v) * y * y];
-        let [uu, uv, vv] = widened([uu, uv, vv]);
+        let [less_u, less_v] = [uu, vv].map(|square| T::of(FARTHEST) / square.sqrt().max(T::of(FARTHEST)));
+        let [uu, uv, vv] = widened([uu * less_u * less_u, uv * less_u * less_v, vv * less_v * less_v]);
         let determinant = uu * vv - uv * uv;
         let inverse = determinant.recip();
         let found = Self { a: vv * inverse, b: -uv * inverse, c: uu * inverse, determinant: inverse };

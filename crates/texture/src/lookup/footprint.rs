@@ -28,8 +28,10 @@ impl<T: Number> FootprintShape<T> {
         Self { moments: [uu, uv, vv], long, short }
     }
 
-    pub(super) fn is_finite(&self) -> bool {
-        self.moments.iter().chain([&self.long, &self.short]).all(|number| number.is_finite())
+    /// Whether it is a footprint, and none of more than 10⁹ texels, as it is near a horizon. So large a one is squared in single
+    /// precision without leaving its range.
+    pub(super) fn has_an_end(&self) -> bool {
+        self.moments[0] + self.moments[2] <= T::of(1e18)
     }
 
     /// The direction of the long axis, of length 1.

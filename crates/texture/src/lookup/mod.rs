@@ -3,7 +3,7 @@
 //! | where | what happens |
 //! |---|---|
 //! | u or v is no finite number | taken for 0 |
-//! | a footprint without an end | the last level |
+//! | a footprint without an end, or of more than 10⁹ texels where its shape counts | the last level |
 //! | a footprint that is no number | the image is enlarged |
 //! | a level of one texel along an axis | that texel, whatever lies beyond |
 
@@ -120,7 +120,7 @@ pub fn filtered<T: Number>(pyramid: &Pyramid, sampling: &Sampling, uv: [T; 2], f
     }
     let shape = FootprintShape::new(pyramid.size(), footprint);
     let uv = uv.map(finite);
-    if !shape.is_finite() {
+    if !shape.has_an_end() {
         return at_level(pyramid, sampling, uv, level(pyramid.size(), footprint));
     }
     if shape.long <= T::one() {
