@@ -27,7 +27,6 @@ pub(crate) struct MappedPixel<'a> {
 struct OnImage {
     uv: [f32; 2],
     footprint: [[f32; 2]; 2],
-    d: f32,
 }
 
 impl MappedPixel<'_> {
@@ -56,15 +55,15 @@ impl MappedPixel<'_> {
             each!(k in 2 => data.rows[k][0] * way[0] + data.rows[k][1] * way[1])
         });
         let uv = UvTransform::apply(&data.rows, uv);
-        OnImage { uv, footprint: ways, d: lookup::level(data.pyramid.size(), ways) }
+        OnImage { uv, footprint: ways }
     }
 
     /// What the filter makes of an image's texels, each number in 0 to 1.
     fn texel(&self, call: &MapCall) -> [f32; 4] {
-        let OnImage { uv, d, .. } = self.on_image(call);
+        let OnImage { uv, footprint } = self.on_image(call);
         let data = &self.pass.maps[call.map as usize];
         // Sums of the largest texels may be no numbers.
-        lookup::at_level(&data.pyramid, &call.sampling, uv, d).map(|t| if t > 0.0 { t.min(1.0) } else { 0.0 })
+        lookup::filtered(&data.pyramid, &call.sampling, uv, footprint).map(|t| if t > 0.0 { t.min(1.0) } else { 0.0 })
     }
 
     /// What an image multiplies by: 1 where there is none.
@@ -123,8 +122,9 @@ impl MappedPixel<'_> {
             return mapped_normal(n, [x, y, z], w, [r, g, b], amount, otherwise);
         }
         let Some(call) = &self.maps.calls[MapKind::Height as usize] else { return otherwise };
-        let OnImage { uv, footprint, d } = self.on_image(call);
+        let OnImage { uv, footprint } = self.on_image(call);
         let data = &self.pass.maps[call.map as usize];
+        let d = lookup::level(data.pyramid.size(), footprint);
         let [along_u, along_v] = lookup::gradient(&data.pyramid, &call.sampling, uv, d, call.channel);
         let rises = footprint.map(|[u, v]| data.amount * (along_u * u + along_v * v));
         // p = way·w, and ∂w = −w²·∂(1/w).
