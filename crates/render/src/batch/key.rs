@@ -3,9 +3,8 @@
 use crate::lights::terms::by_fragment_shader;
 use crate::shaders::light_slots::{Counted, Lists};
 use halfway_lighting::{Frequency, Terms};
-use halfway_texture::{Channel, MapKind, Sampling, SolidKind, SurfaceMap, UvSet};
+use halfway_texture::{Channel, LevelFilter, MapKind, Sampling, SolidKind, SurfaceMap, UvSet};
 use std::fmt;
-use std::sync::Once;
 
 /// All of a draw that its pipeline is specialised for. What a draw does not use is not in its shader.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -53,29 +52,27 @@ pub(crate) struct MapLook {
 }
 
 impl MapLook {
-    /// As maps.wgsl takes it; never all of sixteen bits.
+    /// Of an image of this kind. Slopes of heights go by D, whatever the filter.
+    fn new(kind: MapKind, map: &SurfaceMap) -> Self {
+        let levels = levels_taken(kind, map.sampling.levels);
+        Self { sampling: Sampling { levels, ..map.sampling }, uv_set: map.uv_set, channel: map.channel }
+    }
+
+    /// As maps.wgsl and by_shape.wgsl take it; never all of sixteen bits.
     pub(crate) fn bits(self) -> u32 {
         let Sampling { wrap: [u, v], magnify, minify, levels } = self.sampling;
-        let fields = [magnify as u32, minify as u32, levels as u32, u as u32, v as u32, self.channel as u32];
+        let [by_level, last_by_level] = [levels.by_level(), LevelFilter::Linear].map(|levels| levels as u32);
+        let fields = [magnify as u32, minify as u32, by_level, u as u32, v as u32, self.channel as u32];
         let fields = fields.into_iter().enumerate();
-        fields.fold((self.uv_set as u32) << 12, |bits, (place, field)| bits | field << (2 * place))
+        let shape = (levels as u32).saturating_sub(last_by_level);
+        let first = (self.uv_set as u32) << 12 | shape << 13;
+        fields.fold(first, |bits, (place, field)| bits | field << (2 * place))
     }
 }
 
-impl From<&SurfaceMap> for MapLook {
-    fn from(map: &SurfaceMap) -> Self {
-        Self { sampling: sampling_drawn(map.sampling), uv_set: map.uv_set, channel: map.channel }
-    }
-}
-
-/// How an image is looked up here: filters that go by the footprint's shape are not drawn, and trilinear stands for them.
-fn sampling_drawn(sampling: Sampling) -> Sampling {
-    static SAID: Once = Once::new();
-    let levels = sampling.levels.by_level();
-    if levels != sampling.levels {
-        SAID.call_once(|| log::warn!("LevelFilter::{:?} is not drawn; {levels:?} stands for it", sampling.levels));
-    }
-    Sampling { levels, ..sampling }
+/// What is taken of an image of this kind that is reduced.
+pub(crate) fn levels_taken(kind: MapKind, levels: LevelFilter) -> LevelFilter {
+    if kind == MapKind::Height { levels.by_level() } else { levels }
 }
 
 /// How the images of a draw are looked up, each in the slot of its kind.
@@ -83,6 +80,16 @@ fn sampling_drawn(sampling: Sampling) -> Sampling {
 pub(crate) struct MapLooks(pub(crate) [Option<MapLook>; MapKind::COUNT]);
 
 impl MapLooks {
+    /// Of the images of each kind.
+    pub(crate) fn new(maps: &[Option<&SurfaceMap>; MapKind::COUNT]) -> Self {
+        Self(std::array::from_fn(|slot| maps[slot].map(|map| MapLook::new(MapKind::ALL[slot], map))))
+    }
+
+    /// Whether some filter goes by the footprint's shape.
+    pub(crate) fn by_shape(&self) -> bool {
+        self.0.iter().flatten().any(|look| look.sampling.levels != look.sampling.levels.by_level())
+    }
+
     pub(crate) fn has(&self, kind: MapKind) -> bool {
         self.0[kind as usize].is_some()
     }

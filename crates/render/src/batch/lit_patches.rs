@@ -3,7 +3,7 @@
 use crate::batch::backend::Backend;
 use crate::batch::false_colors::FalseColors;
 use crate::batch::ignored::tell_ignored;
-use crate::batch::key::{DrawKey, MapLook, MapLooks};
+use crate::batch::key::{DrawKey, MapLooks};
 use crate::batch::lit_runs::{LitRun, OpenRun};
 use crate::batch::object::{Circumstances, Reflecting, Shared, wrong_paint};
 use crate::batch::table::{MapsUse, ObjectTable};
@@ -126,7 +126,7 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
             reflectance: reflectance.copied().unwrap_or(view.reflectance),
             faces: faces.copied().unwrap_or_default(),
             colored: paint.colored,
-            maps: MapLooks(paint.maps.map(|map| map.map(MapLook::from))),
+            maps: MapLooks::new(&paint.maps),
             masked: paint.mask.is_some(),
             solid: paint.solid.map(|solid| solid.kind),
             surrounded: paint.surrounded,

@@ -1,6 +1,6 @@
 //! What repeats among objects, numbered.
 
-use crate::batch::key::DrawKey;
+use crate::batch::key::{DrawKey, levels_taken};
 use crate::batch::object::{Appearance, Reflecting, ReflectingBits};
 use crate::geometry::meshes::Form;
 use crate::shaders::records::{DrawRecord, RecordLists};
@@ -8,7 +8,7 @@ use bevy_asset::{AssetId, Assets};
 use bevy_math::Vec3;
 use bevy_platform::collections::HashMap;
 use halfway_mesh::Mesh;
-use halfway_texture::{MapKind, Pyramid, SolidKind, SolidTexture, SurfaceMap, Texture, UvTransform};
+use halfway_texture::{ImageForm, MapKind, Pyramid, SolidKind, SolidTexture, SurfaceMap, Texture, UvTransform};
 use std::sync::OnceLock;
 
 /// What repeats among objects, numbered, so that objects compare by small integers.
@@ -38,6 +38,8 @@ pub(crate) struct ObjectTable {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct MapUse {
     pub(crate) texture: AssetId<Texture>,
+    /// What of the image its filter reads.
+    pub(crate) form: ImageForm,
     transform: UvTransform,
     pub(crate) amount: f32,
 }
@@ -62,17 +64,22 @@ pub(crate) struct MapsUse {
 }
 
 /// The same as a key.
-type MapsBits = ([Option<(AssetId<Texture>, [u32; 6], u32)>; MapKind::COUNT], u32, Option<SolidBits>);
+type MapsBits = ([Option<(AssetId<Texture>, ImageForm, [u32; 6], u32)>; MapKind::COUNT], u32, Option<SolidBits>);
 type SolidBits = (SolidKind, u32, [[u32; 4]; 3], [[u32; 3]; 2]);
 
 impl MapsUse {
     pub(crate) fn new(maps: &[Option<&SurfaceMap>; MapKind::COUNT], cutoff: f32, solid: Option<SolidTexture>) -> Self {
-        let of = |map: &SurfaceMap| MapUse { texture: map.texture.id(), transform: map.transform, amount: map.amount };
-        Self { slots: maps.map(|map| map.map(of)), cutoff, solid }
+        let of = |slot: usize, map: &SurfaceMap| MapUse {
+            texture: map.texture.id(),
+            form: levels_taken(MapKind::ALL[slot], map.sampling.levels).form(),
+            transform: map.transform,
+            amount: map.amount,
+        };
+        Self { slots: std::array::from_fn(|slot| maps[slot].map(|map| of(slot, map))), cutoff, solid }
     }
 
     fn bits(&self) -> MapsBits {
-        let bits = |of: MapUse| (of.texture, bytemuck::cast(of.rows()), of.amount.to_bits());
+        let bits = |of: MapUse| (of.texture, of.form, bytemuck::cast(of.rows()), of.amount.to_bits());
         let of_solid = |SolidTexture { kind, octaves, solid_from_object, colors }: SolidTexture| {
             let rows = solid_from_object.map(|row| row.map(f32::to_bits));
             (kind, octaves, rows, colors.map(|color| color.map(f32::to_bits)))

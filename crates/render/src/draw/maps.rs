@@ -2,7 +2,7 @@
 
 use crate::batch::table::{MapUse, MapsUse};
 use crate::device::gpu::Gpu;
-use crate::draw::placings::{PlacingRecord, PlacingsRecord, packed, packed_size};
+use crate::draw::placings::{PlacingRecord, PlacingsRecord, packed, packed_size, stored};
 use crate::error::RenderError;
 use crate::frame::report::FrameReport;
 use crate::pipelines::cache::Pipelines;
@@ -10,12 +10,12 @@ use crate::shaders::records::SolidRecord;
 use crate::shaders::text::SOLID_BINDING;
 use bevy_asset::{AssetId, Assets};
 use bevy_platform::collections::HashMap;
-use halfway_texture::{MapKind, Pyramid, Texture};
+use halfway_texture::{ImageForm, MapKind, Pyramid, Texture};
 
 /// The images that have been drawn, until they change or go, and the bindings of the frame's uses of them.
 #[derive(Default)]
 pub(crate) struct MapTextures {
-    textures: HashMap<AssetId<Texture>, MapTexture>,
+    textures: HashMap<(AssetId<Texture>, ImageForm), MapTexture>,
     groups: Vec<(MapsUse, Pyramids, wgpu::BindGroup)>,
     /// What is bound where there is no image.
     none: Option<wgpu::TextureView>,
@@ -40,7 +40,7 @@ impl MapTextures {
         textures: &Assets<Texture>,
         report: &mut FrameReport,
     ) {
-        self.textures.retain(|&id, _| {
+        self.textures.retain(|&(id, _), _| {
             textures.contains(id) || used.iter().any(|of| of.slots.iter().flatten().any(|of| of.texture == id))
         });
         for (number, of) in used.iter().enumerate() {
@@ -82,7 +82,6 @@ impl MapTextures {
         pyramids: &Pyramids,
     ) -> Result<Option<(wgpu::BindGroup, u64)>, RenderError> {
         let Some(layout) = pipelines.map_bindings(of.solid.is_some()) else { return Ok(None) };
-        let longest = gpu.device.limits().max_texture_dimension_2d;
         let mut bytes = PLACINGS_BYTES;
         let mut record = PlacingsRecord { cutoff: [of.cutoff, 0.0, 0.0, 0.0], ..PlacingsRecord::default() };
         let mut views = Vec::with_capacity(MapKind::COUNT);
@@ -91,9 +90,9 @@ impl MapTextures {
                 views.push(self.none(gpu)?);
                 continue;
             };
-            record.each[slot] =
-                PlacingRecord::new(of.rows(), of.amount, pyramid, packed_size(pyramid.texels(), longest)[0]);
             let (view, sent) = self.view(gpu, of, pyramid)?;
+            let width = view.texture().width();
+            record.each[slot] = PlacingRecord::new(of.rows(), of.amount, (pyramid, of.form), width);
             bytes += sent;
             views.push(view);
         }
@@ -116,12 +115,19 @@ impl MapTextures {
 
     /// An image on the GPU, and how many bytes had to be sent.
     fn view(&mut self, gpu: &Gpu, of: &MapUse, pyramid: &Pyramid) -> Result<(wgpu::TextureView, u64), RenderError> {
-        if let Some(there) = self.textures.get(&of.texture).filter(|there| there.pyramid.is_same(pyramid)) {
+        let key = (of.texture, of.form);
+        if let Some(there) = self.textures.get(&key).filter(|there| there.pyramid.is_same(pyramid)) {
             return Ok((there.view.clone(), 0));
         }
-        let view = sent(gpu, pyramid.texels(), "an image with its pyramid")?;
-        self.textures.insert(of.texture, MapTexture { pyramid: pyramid.clone(), view: view.clone() });
-        Ok((view, 16 * pyramid.texels().len() as u64))
+        let texels = stored(pyramid, of.form);
+        let what = match of.form {
+            ImageForm::Pyramid => "an image with its pyramid",
+            ImageForm::Ripmap => "an image with its ripmap",
+            ImageForm::SummedAreas => "an image with its summed areas",
+        };
+        let view = sent(gpu, &texels, what)?;
+        self.textures.insert(key, MapTexture { pyramid: pyramid.clone(), view: view.clone() });
+        Ok((view, 16 * texels.len() as u64))
     }
 
     fn none(&mut self, gpu: &Gpu) -> Result<wgpu::TextureView, RenderError> {

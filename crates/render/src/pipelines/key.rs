@@ -37,6 +37,6 @@ impl Text {
             (false, true) => SurfaceText::Colored,
             (false, false) => SurfaceText::Plain,
         };
-        Self { lights, surface }
+        Self { lights, surface, by_shape: key.maps.by_shape() }
     }
 }

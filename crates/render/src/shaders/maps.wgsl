@@ -111,8 +111,7 @@ fn texel_of(image: texture_2d<f32>, slot: u32, level: vec4u, at: vec2i) -> vec4f
     return textureLoad(image, vec2u(number % width, number / width), 0);
 }
 
-fn in_level(image: texture_2d<f32>, slot: u32, wrap: vec2u, uv: vec2f, number: u32, filter_kind: u32) -> vec4f {
-    let level = placings.each[slot].level[number];
+fn in_image(image: texture_2d<f32>, slot: u32, level: vec4u, wrap: vec2u, uv: vec2f, filter_kind: u32) -> vec4f {
     let size = vec2i(level.yz);
     let texels = vec2f(wrapped(uv.x, f32(size.x), wrap.x), wrapped(uv.y, f32(size.y), wrap.y));
     if filter_kind == 0u {
@@ -137,6 +136,10 @@ fn in_level(image: texture_2d<f32>, slot: u32, wrap: vec2u, uv: vec2f, number: u
         }
     }
     return sum;
+}
+
+fn in_level(image: texture_2d<f32>, slot: u32, wrap: vec2u, uv: vec2f, number: u32, filter_kind: u32) -> vec4f {
+    return in_image(image, slot, placings.each[slot].level[number], wrap, uv, filter_kind);
 }
 
 fn at_level(image: texture_2d<f32>, slot: u32, look: u32, uv: vec2f, d: f32) -> vec4f {
@@ -214,15 +217,6 @@ fn level_on(slot: u32, look: u32, c: Coordinates) -> f32 {
     let x = way_on(slot, of_set(look, c.dx)) * size;
     let y = way_on(slot, of_set(look, c.dy)) * size;
     return 0.5 * log2(max(dot(x, x), dot(y, y)));
-}
-
-fn filtered(image: texture_2d<f32>, slot: u32, look: u32, c: Coordinates) -> vec4f {
-    return clamp(at_level(image, slot, look, place_on(slot, look, c), level_on(slot, look, c)), vec4f(), vec4f(1.0));
-}
-
-// What an image multiplies by: 1 + a(t - 1).
-fn factor(image: texture_2d<f32>, slot: u32, look: u32, c: Coordinates) -> vec4f {
-    return 1.0 + placings.each[slot].row0.w * (filtered(image, slot, look, c) - 1.0);
 }
 
 // ---- twins of halfway_lighting::equations ----------------------------------------------------------

@@ -17,10 +17,15 @@ use wgpu::naga::{self, Binding, TypeInner};
 
 fn texts() -> impl Iterator<Item = Text> {
     let lights = [LightText::Few, LightText::Many, LightText::Listed];
-    lights.into_iter().flat_map(|lights| SurfaceText::ALL.map(|surface| Text { lights, surface }))
+    let each = lights.into_iter().flat_map(|lights| [false, true].map(|by_shape| (lights, by_shape)));
+    each.flat_map(|(lights, by_shape)| SurfaceText::ALL.map(|surface| Text { lights, surface, by_shape }))
 }
 
-const FEW: Text = Text { lights: LightText::Few, surface: SurfaceText::Plain };
+const FEW: Text = of(SurfaceText::Plain);
+
+const fn of(surface: SurfaceText) -> Text {
+    Text { lights: LightText::Few, surface, by_shape: false }
+}
 
 fn valid(text: &str) -> Result<naga::Module, String> {
     let module = naga::front::wgsl::parse_str(text).map_err(|error| error.emit_to_string(text))?;
@@ -170,16 +175,27 @@ fn records_lie_as_the_texts_read_them() {
 
 #[test]
 fn where_an_image_lies_is_read_as_it_is_written() {
-    let text = Text { lights: LightText::Few, surface: SurfaceText::Mapped };
+    let text = of(SurfaceText::Mapped);
     let module = valid(&text.files().concat()).expect("a valid text");
     assert_eq!(members(&module, "Placing"), fields!(PlacingRecord { row0, row1, levels, level }));
     assert_eq!(members(&module, "Placings"), fields!(PlacingsRecord { cutoff, each }));
 }
 
+/// What no draw without them reads.
+#[test]
+fn filters_by_shape_are_in_their_own_texts_alone() {
+    for text in texts() {
+        let has_images = !matches!(text.surface, SurfaceText::Plain | SurfaceText::Colored);
+        let module = valid(&text.files().concat()).expect("a valid text");
+        let has = module.functions.iter().any(|(_, function)| function.name.as_deref() == Some("elliptical"));
+        assert_eq!(has, has_images && text.by_shape, "{text:?}");
+    }
+}
+
 #[test]
 fn a_solid_is_read_as_it_is_written() {
     for surface in [SurfaceText::Solid, SurfaceText::SolidSurrounded] {
-        let module = valid(&Text { lights: LightText::Few, surface }.files().concat()).expect("a valid text");
+        let module = valid(&of(surface).files().concat()).expect("a valid text");
         assert_eq!(members(&module, "SolidData"), fields!(SolidRecord { rows, first, octaves, second }));
     }
 }
@@ -208,7 +224,7 @@ fn an_environment_is_read_as_it_is_written() {
         levels,
         level
     });
-    for text in [Text { lights: LightText::Few, surface: SurfaceText::Surrounded }.files(), SKY.to_vec()] {
+    for text in [of(SurfaceText::Surrounded).files(), SKY.to_vec()] {
         assert_eq!(members(&valid(&text.concat()).expect("a valid text"), "Surroundings"), record);
     }
 }
@@ -272,7 +288,7 @@ fn lights_at_fixed_places_are_as_many_as_are_bound() {
 /// What is called for images of kinds that a draw does not have is not in its module; what is for one that it has, is.
 #[test]
 fn what_constants_rule_out_is_not_in_a_module() {
-    let text = Text { lights: LightText::Few, surface: SurfaceText::Mapped };
+    let text = of(SurfaceText::Mapped);
     let template = Template::new(&text.files().concat());
     let functions = |constants: &[(&'static str, f64)]| {
         let fragment = EntryPoint { stage: naga::ShaderStage::Fragment, name: "fs_mixed", constants };

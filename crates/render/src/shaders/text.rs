@@ -24,6 +24,8 @@ pub(crate) enum LightText {
 pub(crate) struct Text {
     pub(crate) lights: LightText,
     pub(crate) surface: SurfaceText,
+    /// It has the filters of images that go by the footprint's shape, where it has images.
+    pub(crate) by_shape: bool,
 }
 
 /// What a text knows of surfaces. What has more than a material takes a text of its own, so that nothing else pays for it.
@@ -52,25 +54,26 @@ pub(crate) struct Shader {
     pub(crate) layout: wgpu::PipelineLayout,
 }
 
-/// The texts, each made when a pipeline first needs it, on whichever thread that is: by lights, then by surface.
+/// The texts, each made when a pipeline first needs it, on whichever thread that is: by lights, then by filters and surface.
 #[derive(Default)]
-pub(crate) struct Shaders([[OnceLock<Shader>; SurfaceText::ALL.len()]; 3]);
+pub(crate) struct Shaders([[[OnceLock<Shader>; SurfaceText::ALL.len()]; 2]; 3]);
 
 impl Shaders {
     /// A text that reads lights so, once there is one. The layouts of all of them are the same.
     pub(crate) fn any(&self, lights: LightText) -> Option<&Shader> {
-        self.0[lights as usize].iter().find_map(OnceLock::get)
+        self.0[lights as usize].iter().flatten().find_map(OnceLock::get)
     }
 
     /// The layout of the bindings of images, and of a solid where there is one, once a text has it.
     pub(crate) fn map_bindings(&self, has_solid: bool) -> Option<&wgpu::BindGroupLayout> {
-        let all = self.0.iter().flat_map(|shaders| SurfaceText::ALL.into_iter().zip(shaders));
+        let all = self.0.iter().flatten().flat_map(|shaders| SurfaceText::ALL.into_iter().zip(shaders));
         let those = all.filter(|(text, _)| text.has_solid() == has_solid).filter_map(|(_, shader)| shader.get());
         those.into_iter().find_map(|shader| shader.map_bindings.as_ref())
     }
 
     pub(crate) fn get_or_make(&self, gpu: &Gpu, text: Text) -> &Shader {
-        self.0[text.lights as usize][text.surface as usize].get_or_init(|| Shader::new(gpu, text))
+        self.0[text.lights as usize][usize::from(text.by_shape)][text.surface as usize]
+            .get_or_init(|| Shader::new(gpu, text))
     }
 }
 
@@ -92,29 +95,24 @@ impl SurfaceText {
         matches!(self, Self::Solid | Self::SolidSurrounded)
     }
 
-    fn files(self) -> &'static [&'static str] {
-        const MAPS: &str = include_str!("maps.wgsl");
-        const PARTS: &str = include_str!("parts.wgsl");
+    fn files(self, by_shape: bool) -> Vec<&'static str> {
+        const FILTERS: [&str; 2] = [include_str!("by_level.wgsl"), include_str!("by_shape.wgsl")];
         const MAPPED: &str = include_str!("mapped.wgsl");
         const SURROUNDED: &str = include_str!("surrounded.wgsl");
         const SOLIDS: &str = include_str!("solids.wgsl");
         const SOLID: &str = include_str!("solid.wgsl");
+        let filters = FILTERS[usize::from(by_shape)];
+        let maps = [include_str!("maps.wgsl"), filters, include_str!("factors.wgsl"), include_str!("parts.wgsl")];
+        let surroundings = [ENVIRONMENT, SURROUNDINGS, SURROUNDED];
         match self {
-            Self::Plain => &[include_str!("plain.wgsl")],
-            Self::Colored => &[include_str!("colored.wgsl")],
-            Self::Mapped => &[MAPS, PARTS, MAPPED],
-            Self::Surrounded => &[MAPS, PARTS, ENVIRONMENT, SURROUNDINGS, SURROUNDED],
-            Self::Solid => &[MAPS, PARTS, MAPPED, SOLIDS, SOLID, include_str!("solid_mapped.wgsl")],
-            Self::SolidSurrounded => &[
-                MAPS,
-                PARTS,
-                ENVIRONMENT,
-                SURROUNDINGS,
-                SURROUNDED,
-                SOLIDS,
-                SOLID,
-                include_str!("solid_surrounded.wgsl"),
-            ],
+            Self::Plain => vec![include_str!("plain.wgsl")],
+            Self::Colored => vec![include_str!("colored.wgsl")],
+            Self::Mapped => [&maps[..], &[MAPPED]].concat(),
+            Self::Surrounded => [&maps[..], &surroundings].concat(),
+            Self::Solid => [&maps[..], &[MAPPED, SOLIDS, SOLID, include_str!("solid_mapped.wgsl")]].concat(),
+            Self::SolidSurrounded => {
+                [&maps[..], &surroundings, &[SOLIDS, SOLID, include_str!("solid_surrounded.wgsl")]].concat()
+            }
         }
     }
 }
@@ -123,7 +121,7 @@ impl Text {
     /// The files that it is put together of, end to end. Each needs only those before it, so that it is valid WGSL with
     /// them; `lighting.wgsl` needs none.
     pub(crate) fn files(self) -> Vec<&'static str> {
-        [self.lights.files(), self.surface.files()].concat()
+        [self.lights.files(), &self.surface.files(self.by_shape)].concat()
     }
 }
 

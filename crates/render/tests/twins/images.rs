@@ -1,20 +1,34 @@
 //! Images for the functions of maps.wgsl: one in each slot, and where they lie.
 
 use halfway_render::wgpu;
-use halfway_texture::{Channel, LevelFilter, MapKind, Pyramid, Sampling, TexelFilter, TexelImage, Wrap};
+use halfway_texture::{Channel, ImageForm, LevelFilter, MapKind, Pyramid, Sampling, TexelFilter, TexelImage, Wrap};
 use std::sync::LazyLock;
 
 use crate::adapter::Bound;
 use crate::inputs::Random;
-use crate::placings::{PlacingRecord, PlacingsRecord, packed, packed_size};
+use crate::placings::{PlacingRecord, PlacingsRecord, packed, packed_size, stored};
 
-/// The slots that rows look up, and their images in maps.wgsl: 5 × 3, 1 × 1, 1 × 7 and 16 × 8 texels.
+/// The slots that rows look up, and their images in maps.wgsl: 5 × 3, 1 × 1, 1 × 7, 6 × 4, 5 × 4, 9 × 1, 1 × 3 and 16 × 8
+/// texels.
 pub(crate) const COLOR: usize = 0;
 pub(crate) const SPECULAR: usize = 1;
 pub(crate) const EMISSION: usize = 2;
+pub(crate) const OPACITY: usize = 3;
+pub(crate) const SHININESS: usize = 4;
+pub(crate) const OCCLUSION: usize = 5;
+pub(crate) const NORMAL: usize = 6;
 pub(crate) const HEIGHT: usize = 7;
 
-const SIZES: [[u32; 2]; MapKind::COUNT] = [[5, 3], [1, 1], [1, 7], [2, 2], [2, 1], [3, 3], [4, 4], [16, 8]];
+const SIZES: [[u32; 2]; MapKind::COUNT] = [[5, 3], [1, 1], [1, 7], [6, 4], [5, 4], [9, 1], [1, 3], [16, 8]];
+
+/// What of an image its texture holds.
+fn form(slot: usize) -> ImageForm {
+    match slot {
+        OPACITY | OCCLUSION => ImageForm::Ripmap,
+        SHININESS | NORMAL => ImageForm::SummedAreas,
+        _ => ImageForm::Pyramid,
+    }
+}
 
 /// Texels in a row of the textures: no side of an image, so that levels begin and end within rows.
 const LONGEST: u32 = 11;
@@ -32,8 +46,9 @@ pub(crate) static PLACINGS: LazyLock<PlacingsRecord> = LazyLock::new(|| {
     let mut random = Random(0x1234_5678_9abc_def1);
     let each = std::array::from_fn(|slot| {
         let rows = [[0; 3]; 2].map(|row| row.map(|_| random.between(-2.0, 2.0)));
-        let pyramid = &IMAGES[slot];
-        PlacingRecord::new(rows, random.between(-1.0, 2.0), pyramid, packed_size(pyramid.texels(), LONGEST)[0])
+        let image = (&IMAGES[slot], form(slot));
+        let width = packed_size(&stored(image.0, image.1), LONGEST)[0];
+        PlacingRecord::new(rows, random.between(-1.0, 2.0), image, width)
     });
     PlacingsRecord { cutoff: [0.5, 0.0, 0.0, 0.0], each }
 });
@@ -59,6 +74,16 @@ pub(crate) const WRAPS: [Wrap; 3] = [Wrap::Repeat, Wrap::Mirror, Wrap::Clamp];
 pub(crate) const FILTERS: [TexelFilter; 4] =
     [TexelFilter::Nearest, TexelFilter::Bilinear, TexelFilter::BSpline, TexelFilter::CatmullRom];
 const LEVELS: [LevelFilter; 3] = [LevelFilter::None, LevelFilter::Nearest, LevelFilter::Linear];
+/// By their numbers in by_shape.wgsl, from 1 on.
+const SHAPES: [LevelFilter; 7] = [
+    LevelFilter::Ripmap,
+    LevelFilter::SummedArea,
+    LevelFilter::Anisotropic2,
+    LevelFilter::Anisotropic4,
+    LevelFilter::Anisotropic8,
+    LevelFilter::Anisotropic16,
+    LevelFilter::Elliptical,
+];
 const CHANNELS: [Channel; 4] = [Channel::Red, Channel::Green, Channel::Blue, Channel::Alpha];
 
 /// How an image is looked up, as the number that maps.wgsl reads, and as what it means.
@@ -70,6 +95,7 @@ pub(crate) struct Look {
     wrap: [usize; 2],
     channel: usize,
     second: bool,
+    shape: usize,
 }
 
 impl Look {
@@ -82,7 +108,22 @@ impl Look {
             wrap: [below(3.0), below(3.0)],
             channel: below(4.0),
             second: below(2.0) == 1,
+            shape: 0,
         }
+    }
+
+    /// The same by the footprint's shape, without steps.
+    pub(crate) fn by_shape(self, shape: usize) -> Self {
+        Self { levels: if shape > 0 { 2 } else { self.levels }, shape, ..self.without_steps() }
+    }
+
+    /// The same that is reduced everywhere.
+    pub(crate) fn reduced(self) -> Self {
+        Self { magnify: self.minify, ..self }
+    }
+
+    pub(crate) fn shape(self) -> usize {
+        self.shape
     }
 
     /// Without filters that have steps.
@@ -97,8 +138,8 @@ impl Look {
     }
 
     pub(crate) fn bits(self) -> f32 {
-        let Self { magnify, minify, levels, wrap: [u, v], channel, second } = self;
-        let fields = [magnify, minify, levels, u, v, channel, usize::from(second)];
+        let Self { magnify, minify, levels, wrap: [u, v], channel, second, shape } = self;
+        let fields = [magnify, minify, levels, u, v, channel, usize::from(second) + 2 * shape];
         fields.iter().rev().fold(0, |bits, field| 4 * bits + field) as f32
     }
 
@@ -111,7 +152,8 @@ impl Look {
             levels: field(2),
             wrap: [field(3), field(4)],
             channel: field(5),
-            second: field(6) == 1,
+            second: field(6) & 1 == 1,
+            shape: bits as usize >> 13 & 7,
         }
     }
 
@@ -120,7 +162,7 @@ impl Look {
             wrap: self.wrap.map(|wrap| WRAPS[wrap]),
             magnify: FILTERS[self.magnify],
             minify: FILTERS[self.minify],
-            levels: LEVELS[self.levels],
+            levels: if self.shape > 0 { SHAPES[self.shape - 1] } else { LEVELS[self.levels] },
         }
     }
 
@@ -163,10 +205,10 @@ pub(crate) fn bound(device: &wgpu::Device, queue: &wgpu::Queue) -> Bound {
         mapped_at_creation: false,
     });
     queue.write_buffer(&placings, 0, bytemuck::bytes_of(&*PLACINGS));
-    let views: Vec<_> = IMAGES
-        .iter()
-        .map(|pyramid| {
-            let texture = packed(device, queue, pyramid.texels(), packed_size(pyramid.texels(), LONGEST));
+    let views: Vec<_> = (IMAGES.iter().enumerate())
+        .map(|(slot, pyramid)| {
+            let texels = stored(pyramid, form(slot));
+            let texture = packed(device, queue, &texels, packed_size(&texels, LONGEST));
             texture.create_view(&wgpu::TextureViewDescriptor::default())
         })
         .collect();

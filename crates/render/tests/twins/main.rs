@@ -4,6 +4,7 @@
 
 mod adapter;
 mod derivatives;
+mod ellipse_rows;
 mod images;
 mod inputs;
 mod map_inputs;
@@ -13,6 +14,9 @@ mod normal_rows;
 mod place_rows;
 #[path = "../../src/draw/placings.rs"]
 mod placings;
+mod shape_inputs;
+mod shape_rows;
+mod shapes;
 mod solid_rows;
 mod solids;
 mod table;

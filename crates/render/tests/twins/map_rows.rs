@@ -155,7 +155,7 @@ pub(crate) const GROSS: f64 = 1.6;
 /// The weights of a row are off by 4 · 8 ULP together, and so are those of a column; each counts as often as the magnitudes of
 /// the others sum up to, 1.25: their products are off by 80 ULP. Sixteen sums of numbers up to 1.6 are off by 13 ULP, products by
 /// 2, mixing two levels by 5.
-const OF_SUM: f64 = 100.0 * ULP;
+pub(crate) const OF_SUM: f64 = 100.0 * ULP;
 /// By how much of the largest texel a filter changes on the way of a texel along one axis: Catmull-Rom's slopes, 3 in all,
 /// by 1.25.
 const SLOPE: f64 = 4.0;
@@ -207,7 +207,7 @@ fn of_gradient(x: &[f32], expected: &[f64]) -> Vec<f64> {
 }
 
 macro_rules! image_rows {
-    ($rows:ident, $slot:ident, $image:literal) => {
+    ($rows:ident, $slot:ident, $image:literal, $number:literal) => {
         $rows.push(row(
             (
                 "in_level",
@@ -215,6 +215,22 @@ macro_rules! image_rows {
                     "in_level(",
                     $image,
                     ", vec2u(vec2f(s(i, 0), s(i, 1))), v(i, 2).xy, u32(s(i, 4)), u32(s(i, 5)))"
+                ),
+            ),
+            Kind::Texel,
+            inputs::in_levels($slot),
+            |x| in_level::<$slot>(x, wide(&x[2..])).to_vec(),
+            |x, _| of_place($slot, wide(&x[2..]), [0.0; 2], |uv| in_level::<$slot>(x, uv)).to_vec(),
+        ));
+        $rows.push(row(
+            (
+                "in_image",
+                concat!(
+                    "in_image(",
+                    $image,
+                    ", placings.each[",
+                    $number,
+                    "].level[u32(s(i, 4))], vec2u(vec2f(s(i, 0), s(i, 1))), v(i, 2).xy, u32(s(i, 5)))"
                 ),
             ),
             Kind::Texel,
@@ -240,9 +256,9 @@ pub(crate) fn image_rows() -> Vec<Row> {
         |x| gradient(x).to_vec(),
         of_gradient,
     )];
-    image_rows!(rows, COLOR, "color_image, 0u");
-    image_rows!(rows, SPECULAR, "specular_image, 1u");
-    image_rows!(rows, EMISSION, "emission_image, 2u");
-    image_rows!(rows, HEIGHT, "height_image, 7u");
+    image_rows!(rows, COLOR, "color_image, 0u", "0");
+    image_rows!(rows, SPECULAR, "specular_image, 1u", "1");
+    image_rows!(rows, EMISSION, "emission_image, 2u", "2");
+    image_rows!(rows, HEIGHT, "height_image, 7u", "7");
     rows
 }

@@ -1,4 +1,4 @@
-//! Twins: the functions of maps.wgsl, run on the adapter over images, against their definition in f64.
+//! Twins: the functions of maps.wgsl, by_level.wgsl and factors.wgsl, run on the adapter over images, against their definition in f64.
 
 use halfway_render::Gpu;
 use std::collections::BTreeSet;
@@ -12,7 +12,11 @@ use crate::place_rows::place_rows;
 use crate::table::Row;
 use crate::{LIGHTING, far_of, named, parsed};
 
-const MAPS: &str = include_str!("../../src/shaders/maps.wgsl");
+const MAPS: &str = concat!(
+    include_str!("../../src/shaders/maps.wgsl"),
+    include_str!("../../src/shaders/by_level.wgsl"),
+    include_str!("../../src/shaders/factors.wgsl"),
+);
 
 fn rows() -> Vec<Row> {
     [look_rows(), texel_rows(), image_rows(), place_rows(), normal_rows()].into_iter().flatten().collect()
@@ -38,7 +42,7 @@ fn each_function_of_maps_gives_what_its_twin_gives() {
 }
 
 /// Faults: the function whose rows find it, what is right, and what is written instead.
-const FAULTS: [(&str, &str, &str); 44] = [
+const FAULTS: [(&str, &str, &str); 46] = [
     ("magnify_of", "return look & 3u", "return look & 1u"),
     ("minify_of", "look >> 2u & 3u", "look >> 1u & 3u"),
     ("levels_of", "look >> 4u & 3u", "look >> 4u & 1u"),
@@ -57,10 +61,11 @@ const FAULTS: [(&str, &str, &str); 44] = [
     ("texel_weights", "(3.0 * f - 5.0) * f * f", "(3.0 * f - 5.0) * f"),
     ("texel_of", "u32(at.y) * level.y", "u32(at.y) * level.z"),
     ("texel_of", "number % width, number / width", "number % width, 0"),
-    ("in_level", "clamp(vec2i(floor(texels)), vec2i(0), size - 1)", "vec2i(floor(texels)) % size"),
-    ("in_level", "let first = floor(texels - 0.5)", "let first = floor(texels)"),
-    ("in_level", "size.y, wrap.y)", "size.y, wrap.x)"),
-    ("in_level", "f32(size.x), wrap.x)", "f32(size.x), wrap.y)"),
+    ("in_image", "clamp(vec2i(floor(texels)), vec2i(0), size - 1)", "vec2i(floor(texels)) % size"),
+    ("in_image", "let first = floor(texels - 0.5)", "let first = floor(texels)"),
+    ("in_image", "size.y, wrap.y)", "size.y, wrap.x)"),
+    ("in_image", "f32(size.x), wrap.x)", "f32(size.x), wrap.y)"),
+    ("in_level", ".level[number], wrap", ".level[0], wrap"),
     ("at_level", "!(d > 0.0)", "!(d > 0.5)"),
     ("at_level", "floor(d + 0.5)", "floor(d)"),
     ("at_level", "uv, 0u, magnify_of(look)", "uv, 0u, minify"),
@@ -76,6 +81,7 @@ const FAULTS: [(&str, &str, &str); 44] = [
     ("place_on", "row0.z, placings", "row1.z, placings"),
     ("level_on", "0.5 * log2(max(", "0.5 * log2(min("),
     ("level_on", "of_set(look, c.dy)", "of_set(look, c.dx)"),
+    ("at_footprint", "level_on(slot, look, c));", "0.0);"),
     ("filtered", "vec4f(), vec4f(1.0))", "vec4f(), vec4f(2.0))"),
     ("factor", "look, c) - 1.0)", "look, c))"),
     ("mapped_normal", "w * x.y * s", "x.y * s"),

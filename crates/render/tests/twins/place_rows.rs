@@ -54,10 +54,12 @@ impl Placed {
         4.0 * ULP * (gross / longest + 1.0) / std::f64::consts::LN_2 + 0.5f64.powi(21) + 3.0 * ULP * self.level().abs()
     }
 
+    fn at_footprint(&self) -> [f64; 4] {
+        lookup::filtered(&IMAGES[self.slot], &self.look.sampling(), self.place(), self.footprint())
+    }
+
     fn filtered(&self) -> [f64; 4] {
-        let image = &IMAGES[self.slot];
-        let texel = lookup::filtered(image, &self.look.sampling(), self.place(), self.footprint());
-        texel.map(|number| number.clamp(0.0, 1.0))
+        self.at_footprint().map(|number| number.clamp(0.0, 1.0))
     }
 
     /// The place is off by three roundings of its sums; a level, all of a level's numbers.
@@ -134,6 +136,13 @@ pub(crate) fn place_rows() -> Vec<Row> {
             inputs::points(),
             |_| vec![0.0],
             exact,
+        ),
+        row(
+            ("at_footprint", placed!("at_footprint(height_image, 7u, ", "")),
+            Kind::Texel,
+            inputs::placed_on(HEIGHT),
+            |x| Placed::of(x).at_footprint().to_vec(),
+            of_filtered,
         ),
         row(
             ("filtered", placed!("filtered(color_image, 0u, ", "")),

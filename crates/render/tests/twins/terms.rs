@@ -21,7 +21,8 @@ macro_rules! shader {
 const BEFORE: [&str; 5] =
     [LIGHTING, shader!("records.wgsl"), shader!("uniform.wgsl"), shader!("few.wgsl"), shader!("mesh.wgsl")];
 const COLORED: &str = shader!("colored.wgsl");
-const MAPPED: &str = concat!(shader!("maps.wgsl"), shader!("parts.wgsl"));
+const MAPPED: &str =
+    concat!(shader!("maps.wgsl"), shader!("by_level.wgsl"), shader!("factors.wgsl"), shader!("parts.wgsl"));
 
 /// The step of f32 at 1; each operation is right to half of it.
 const ULP: f64 = f32::EPSILON as f64;
