@@ -89,7 +89,7 @@ pub struct MapEntry {
     #[serde(default, deserialize_with = "word", serialize_with = "write_word")]
     #[schemars(with = "Spoken<TexelFilter>")]
     pub minify: TexelFilter,
-    /// Which levels count where a texel is smaller than a pixel.
+    /// What is taken of the image where a texel is smaller than a pixel. Slopes of a `height` take levels alone.
     #[serde(default, deserialize_with = "word", serialize_with = "write_word")]
     #[schemars(with = "Spoken<LevelFilter>")]
     pub levels: LevelFilter,
@@ -195,17 +195,34 @@ impl ComponentWord for TexelFilter {
 }
 
 impl Word for LevelFilter {
-    const WORDS: &'static [(&'static str, Self)] =
-        &[("none", Self::None), ("nearest", Self::Nearest), ("linear", Self::Linear)];
+    const WORDS: &'static [(&'static str, Self)] = &[
+        ("none", Self::None),
+        ("nearest", Self::Nearest),
+        ("linear", Self::Linear),
+        ("ripmap", Self::Ripmap),
+        ("summed_areas", Self::SummedArea),
+        ("anisotropic_2", Self::Anisotropic2),
+        ("anisotropic_4", Self::Anisotropic4),
+        ("anisotropic_8", Self::Anisotropic8),
+        ("anisotropic_16", Self::Anisotropic16),
+        ("elliptical", Self::Elliptical),
+    ];
 }
 
 impl ComponentWord for LevelFilter {
     const NAME: &'static str = "LevelFilterEntry";
-    const MEANING: &'static str = "Which of ever smaller images count, by how large a pixel is on the image.";
+    const MEANING: &'static str = "What is taken of an image by how large a pixel is on it, and of what shape.";
     const MEANINGS: &'static [&'static str] = &[
         "The image itself, whose texels are then skipped.",
         "The nearest in size.",
         "The two nearest in size, weighted by nearness.",
+        "Images halved along each axis apart: the four nearest to the pixel's width and height on the image.",
+        "The mean of a rectangle as wide and as high as the pixel.",
+        "Up to 2 lookups along the pixel's longer axis, of levels by its shorter one.",
+        "Up to 4 lookups.",
+        "Up to 8 lookups.",
+        "Up to 16 lookups.",
+        "All texels in the ellipse that a round pixel covers, weighted by a Gaussian.",
     ];
 }
 

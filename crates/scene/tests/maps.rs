@@ -55,6 +55,35 @@ fn an_image_is_read_and_an_unreadable_one_is_a_warning_and_a_checker() {
     std::fs::remove_dir_all(&dir).unwrap();
 }
 
+/// Each word, and itself again when it is written.
+#[test]
+fn every_filter_of_levels_has_a_word() {
+    use LevelFilter as L;
+    let words = [
+        ("none", L::None),
+        ("nearest", L::Nearest),
+        ("linear", L::Linear),
+        ("ripmap", L::Ripmap),
+        ("summed_areas", L::SummedArea),
+        ("anisotropic_2", L::Anisotropic2),
+        ("anisotropic_4", L::Anisotropic4),
+        ("anisotropic_8", L::Anisotropic8),
+        ("anisotropic_16", L::Anisotropic16),
+        ("elliptical", L::Elliptical),
+    ];
+    for (word, filter) in words {
+        let read = scene(&format!(r#"{{"path": "red.png", "levels": "{word}"}}"#));
+        let maps = read.objects[0].maps.clone().expect("it has images");
+        assert_eq!(maps.color.as_ref().expect("a color").levels, filter);
+        let written = read.to_json().expect("it can be written");
+        assert!(word == "linear" || written.contains(word), "{written}");
+        assert_eq!(SceneFile::from_json(&written, "written").expect("a scene"), read);
+    }
+    let text = r#"{"objects": [{"mesh": {"uv_sphere": {}}, "maps": {"color": {"path": "red.png", "levels": "anisotropic"}}}]}"#;
+    let error = SceneFile::from_json(text, "test").expect_err("no such filter").to_string();
+    assert!(error.contains("unknown value `anisotropic`, expected") && error.contains("\"anisotropic_16\""), "{error}");
+}
+
 #[test]
 fn a_world_without_room_for_images_is_refused() {
     let mut app = App::new();
