@@ -312,6 +312,11 @@ fn every_way_to_shade_and_to_filter_images_conforms() {
 }
 
 #[test]
+fn every_filter_by_the_footprints_shape_conforms() {
+    conform_within("filters by shape", &maps::rows_by_shape(), 2.0);
+}
+
+#[test]
 fn every_kind_of_image_conforms() {
     conform_within("kinds of images", &maps::rows_of_kinds(), 2.0);
 }
@@ -364,7 +369,7 @@ fn every_way_to_be_lit_by_an_environment_conforms() {
 #[test]
 fn environments_conform_on_objects_with_images() {
     let mut stage = Stage::new(SIZE.x, SIZE.y);
-    let rows = environment::rows_of_maps();
+    let rows: Vec<Row> = environment::rows_of_maps().into_iter().chain(maps::rows_by_shape_in_environments()).collect();
     stage.set(&rows[0].scene);
     stage.frame();
     if !stage.costs().images_in_environments {

@@ -2,7 +2,9 @@
 
 use super::Row;
 use super::colors::{Change, SHADINGS, colored};
+use super::environment::around;
 use super::features::{lights, point, still_life};
+use super::solids::solid;
 use crate::render::compare::BLENDED;
 use crate::render::scene::{Map, Scene, Thing, other_material, point_light};
 use halfway::prelude::*;
@@ -85,6 +87,96 @@ pub(super) fn rows() -> Vec<Row> {
         .into_iter()
         .map(|(name, sampling, scale)| Row::new(format!("image, {name}"), mapped(sampling, scale)));
     shaded.chain(filtered).collect()
+}
+
+/// Every filter that goes by the footprint's shape.
+pub(crate) const SHAPED: [LevelFilter; 7] = [
+    LevelFilter::Ripmap,
+    LevelFilter::SummedArea,
+    LevelFilter::Anisotropic2,
+    LevelFilter::Anisotropic4,
+    LevelFilter::Anisotropic8,
+    LevelFilter::Anisotropic16,
+    LevelFilter::Elliptical,
+];
+
+/// A filter whose number of probes alone is another's.
+fn is_like_another(levels: LevelFilter) -> bool {
+    matches!(levels, LevelFilter::Anisotropic2 | LevelFilter::Anisotropic4 | LevelFilter::Anisotropic16)
+}
+
+fn shaped(levels: LevelFilter, scale: [f32; 2], wrap: [Wrap; 2], minify: TexelFilter) -> Map {
+    let transform = UvTransform { offset: [0.13, -0.21], rotation: 0.4, scale };
+    map(Sampling { wrap, levels, minify, ..Sampling::default() }, transform)
+}
+
+fn long_along_u(levels: LevelFilter) -> Map {
+    shaped(levels, [12.0, 2.5], [Wrap::Repeat; 2], TexelFilter::Bilinear)
+}
+
+fn with_each(maps: &[(MapKind, Map)]) -> Scene {
+    let mut scene = still_life().lit(point(Vec3::new(1.2, 1.6, 1.8)));
+    for thing in &mut scene.things {
+        thing.mesh = with_second_uvs(&thing.mesh);
+        thing.maps = maps.to_vec();
+        thing.material.emission = LinearRgba::rgb(0.1, 0.2, 0.15);
+    }
+    scene
+}
+
+/// Footprints that are long along either axis, all ways to wrap, on each kind of image that is treated otherwise, and beside
+/// filters by level.
+pub(super) fn rows_by_shape() -> Vec<Row> {
+    let mut rows = Vec::new();
+    for levels in SHAPED {
+        let mut row = |what: &str, scene: Scene| rows.push(Row::new(format!("image, {levels:?}, {what}"), scene));
+        let wide = long_along_u(levels);
+        let high = shaped(levels, [2.5, 14.0], [Wrap::Mirror; 2], TexelFilter::CatmullRom);
+        let relief = Map { amount: 0.6, ..wide.clone() };
+        let of_second = Map { uv_set: UvSet::Second, channel: Channel::Green, amount: 0.7, ..high.clone() };
+        row("long along u", with_each(&[(MapKind::Color, wide.clone())]));
+        row("normals, opacity", {
+            let mut scene = with_each(&[(MapKind::Normal, relief), (MapKind::Opacity, of_second.clone())]);
+            scene.things.iter_mut().for_each(|thing| thing.mask = Some(0.5));
+            scene
+        });
+        if is_like_another(levels) {
+            continue;
+        }
+        let small = shaped(levels, [90.0, 50.0], [Wrap::Repeat, Wrap::Mirror], TexelFilter::Bilinear);
+        let edge = shaped(levels, [3.0, 6.0], [Wrap::Clamp; 2], TexelFilter::BSpline);
+        let bump = Map { amount: 0.04, ..shaped(levels, [4.0, 2.0], [Wrap::Repeat; 2], TexelFilter::Bilinear) };
+        let by_level = Map { sampling: Sampling::default(), ..wide.clone() };
+        row("long along v, mirrored", with_each(&[(MapKind::Color, high.clone())]));
+        row("much smaller than pixels", with_each(&[(MapKind::Color, small)]));
+        row("clamped", with_each(&[(MapKind::Color, edge)]));
+        row("heights by level", with_each(&[(MapKind::Color, wide.clone()), (MapKind::Height, bump)]));
+        row("flat, beside a filter by level", {
+            let maps = [(MapKind::Color, by_level), (MapKind::Emission, high), (MapKind::Occlusion, of_second)];
+            Scene { view_shading: Some(Shading::Flat), ..with_each(&maps) }
+        });
+        row("a solid", {
+            let mut scene = with_each(&[(MapKind::Color, wide)]);
+            scene.things.iter_mut().for_each(|thing| thing.solid = Some(solid(SolidKind::Marble)));
+            scene
+        });
+    }
+    rows
+}
+
+/// The same in an environment, with a solid and without.
+pub(super) fn rows_by_shape_in_environments() -> Vec<Row> {
+    let mut rows = Vec::new();
+    for levels in SHAPED.into_iter().filter(|&levels| !is_like_another(levels)) {
+        for solid in [None, Some(solid(SolidKind::Marble))] {
+            let mut scene = with_each(&[(MapKind::Color, long_along_u(levels))]);
+            scene.things.iter_mut().for_each(|thing| thing.solid = solid);
+            scene.environment = Some(around(0.8));
+            let what = if solid.is_some() { "a solid in an environment" } else { "an environment" };
+            rows.push(Row::new(format!("image, {levels:?}, {what}"), scene));
+        }
+    }
+    rows
 }
 
 /// A mesh with a second set of coordinates beside the first, turned and moved.

@@ -265,20 +265,35 @@ fn in_ellipse(image: texture_2d<f32>, slot: u32, wrap: vec2u, uv: vec2f, number:
     let reach = sqrt(ellipse.zx / ellipse.w);
     let middle_x = within(uv.x, f32(size.x), reach.x, wrap.x);
     let middle_y = within(uv.y, f32(size.y), reach.y, wrap.y);
-    let last_row = i32(floor(middle_y + reach.y - 0.5));
+    // Row by row in one loop that counts what is left: draws with a loop whose bounds take a uniform crash llvmpipe of Mesa
+    // 22.3 through Vulkan.
+    var row = i32(ceil(middle_y - reach.y - 0.5)) - 1;
+    var rows = i32(floor(middle_y + reach.y - 0.5)) - row;
     var sum = vec4f();
     var weights = 0.0;
-    for (var row = i32(ceil(middle_y - reach.y - 0.5)); row <= last_row; row++) {
-        let y = f32(row) + 0.5 - middle_y;
-        let root = sqrt(max(ellipse.x - ellipse.w * y * y, 0.0));
-        let at = wrapped_index(row, size.y, wrap.y);
-        let last = i32(floor(middle_x + (root - ellipse.y * y) / ellipse.x - 0.5));
-        for (var column = i32(ceil(middle_x - (root + ellipse.y * y) / ellipse.x - 0.5)); column <= last; column++) {
+    var y = 0.0;
+    var at = 0;
+    var column = 1;
+    var last = 0;
+    loop {
+        if column <= last {
             let x = f32(column) + 0.5 - middle_x;
             let weight = gaussian(ellipse.x * x * x + 2.0 * ellipse.y * x * y + ellipse.z * y * y);
             weights += weight;
             sum += weight * texel_of(image, slot, level, vec2i(wrapped_index(column, size.x, wrap.x), at));
+            column++;
+            continue;
         }
+        if rows <= 0 {
+            break;
+        }
+        rows--;
+        row++;
+        y = f32(row) + 0.5 - middle_y;
+        at = wrapped_index(row, size.y, wrap.y);
+        let root = sqrt(max(ellipse.x - ellipse.w * y * y, 0.0));
+        column = i32(ceil(middle_x - (root + ellipse.y * y) / ellipse.x - 0.5));
+        last = i32(floor(middle_x + (root - ellipse.y * y) / ellipse.x - 0.5));
     }
     return sum / weights;
 }
