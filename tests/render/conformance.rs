@@ -321,6 +321,11 @@ fn every_kind_of_image_conforms() {
     conform_within("kinds of images", &maps::rows_of_kinds(), 2.0);
 }
 
+#[test]
+fn highlights_of_far_normals_conform() {
+    conform_within("far normals", &maps::rows_of_far_normals(), 2.0);
+}
+
 /// All kinds on one object. On a grid of 1/16 pixel each turns at an outline, and they multiply: a few pixels there are off by a
 /// fifth of the range, so that pictures are held to as a whole; by that, each image that is left out is found.
 #[test]

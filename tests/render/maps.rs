@@ -7,7 +7,8 @@ use crate::render::stage::Stage;
 use halfway::prelude::*;
 use halfway::reference::Image;
 use halfway::reference::metrics::judge;
-use halfway::texture::{LevelFilter, Pyramid, TexelFilter, TexelImage, UvTransform};
+use halfway::texture::normals::from_heights;
+use halfway::texture::{FarNormals, LevelFilter, Pyramid, TexelFilter, TexelImage, UvTransform, Wrap};
 
 const SHADINGS: [Shading; 3] = [Shading::Flat, Shading::Gouraud, Shading::Phong];
 
@@ -209,6 +210,97 @@ fn a_relief_does_nothing_where_vertices_or_triangles_are_lit() {
             assert_eq!(most < 1e-5, shading != Shading::Phong, "{kind:?}, {shading:?}: {most:e}");
         }
     }
+}
+
+/// A plane of bumps, 8 texels a pixel on a picture 64 wide, which moves by `along` pixels; with highlights alone.
+fn bumpy(far_normals: FarNormals, reflectance: Reflectance, along: f32) -> Scene {
+    const SIDE: u32 = 512;
+    let wave = |x: u32, y: u32| {
+        let at = |i: f64, j: f64, phase: f64| {
+            (std::f64::consts::TAU * (i * f64::from(x) + j * f64::from(y)) / f64::from(SIDE) + phase).sin()
+        };
+        at(60.0, 23.0, 0.3) + at(-37.0, 71.0, 1.1) + at(101.0, 44.0, 2.0) + at(22.0, -117.0, 0.7)
+    };
+    let heights = TexelImage::from_fn(SIDE, SIDE, |x, y| [wave(x, y) as f32; 4]).expect("an image");
+    let normals = from_heights(&heights, [Wrap::Repeat; 2], 0.3).expect("normals");
+    let maps = vec![(MapKind::Normal, Map { far_normals, ..Map::new(normals) })];
+    let shiny = Material {
+        ambient: LinearRgba::BLACK,
+        diffuse: LinearRgba::BLACK,
+        specular: LinearRgba::WHITE,
+        shininess: 60.0,
+        ..Material::default()
+    };
+    let moved = Transform::from_xyz(along * 4.0 / 64.0, 0.0, 0.0);
+    let thing = Thing { maps, ..Thing::new(Mesh::from(Plane { size: 4.0, divisions: 1 })) }.of(shiny).at(moved);
+    let light = DirectionalLight { ambient: LinearRgba::BLACK, ..DirectionalLight::white() };
+    let mut scene = Scene::in_eye_space().with(thing).lit(Lamp::directional(light, Vec3::new(-0.15, -1.0, -0.1)));
+    scene.eye = Transform::from_xyz(0.0, 6.0, 0.0).looking_at(Vec3::ZERO, Vec3::NEG_Z);
+    // 4 wide at a distance of 6, on pictures of 4:3.
+    scene.camera.fov_y = 2.0 * (1.5_f32 / 6.0).atan();
+    scene.view_shading = Some(Shading::Phong);
+    scene.view_reflectance = Some(reflectance);
+    scene
+}
+
+/// The red of a picture, each pixel the mean of `times`² of them.
+fn reduced(picture: &image::Rgba32FImage, times: u32) -> Vec<f64> {
+    let (width, height) = (picture.width() / times, picture.height() / times);
+    let mut means = vec![0.0; (width * height) as usize];
+    for (x, y, pixel) in picture.enumerate_pixels() {
+        means[(y / times * width + x / times) as usize] += f64::from(pixel.0[0]) / f64::from(times * times);
+    }
+    means
+}
+
+fn rms_of(a: &[f64], b: &[f64]) -> f64 {
+    (a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>() / a.len() as f64).sqrt()
+}
+
+#[test]
+fn a_minified_bumpy_plane_is_nearer_to_one_of_many_samples_by_toksvig() {
+    let (mut stage, mut fine) = (Stage::new(64, 48), Stage::new(512, 384));
+    for reflectance in [Reflectance::BlinnPhong, Reflectance::Phong] {
+        let truth = reduced(&fine.draw(&bumpy(FarNormals::Mean, reflectance, 0.0)), 8);
+        let [mean, toksvig] = [FarNormals::Mean, FarNormals::Toksvig]
+            .map(|far| rms_of(&reduced(&stage.draw(&bumpy(far, reflectance, 0.0)), 1), &truth));
+        println!("{reflectance:?}: RMS {mean:.4} by the mean, {toksvig:.4} by Toksvig");
+        assert!(mean > 0.05, "{reflectance:?}: highlights are seen: {mean}");
+        assert!(toksvig < 0.2 * mean, "{reflectance:?}: RMS {toksvig} by Toksvig, {mean} by the mean");
+    }
+}
+
+#[test]
+fn highlights_of_a_moving_bumpy_plane_shimmer_less_by_toksvig() {
+    let mut stage = Stage::new(64, 48);
+    // Moved by a whole pixel and more, in thirds; what a pixel shows of a plane without an end should stay about the same.
+    let mut shimmer = |far: FarNormals| {
+        let frames: Vec<Vec<f64>> =
+            (0..10).map(|k| reduced(&stage.draw(&bumpy(far, Reflectance::BlinnPhong, k as f32 / 3.0)), 1)).collect();
+        let changes = frames.windows(2).map(|pair| rms_of(&pair[0], &pair[1]));
+        changes.sum::<f64>() / (frames.len() - 1) as f64
+    };
+    let [mean, toksvig] = [FarNormals::Mean, FarNormals::Toksvig].map(&mut shimmer);
+    println!("RMS from frame to frame {mean:.4} by the mean, {toksvig:.4} by Toksvig");
+    assert!(toksvig < 0.5 * mean, "{toksvig} by Toksvig, {mean} by the mean");
+}
+
+#[test]
+fn far_normals_cost_nothing_where_they_do_nothing_and_are_found_out_where_they_are_left_out() {
+    let mut stage = Stage::new(64, 48);
+    let drawn = |stage: &mut Stage, kind: MapKind, far_normals: FarNormals| {
+        let mut scene = scene(Shading::Phong, None);
+        let transform = UvTransform { scale: [4.0, 4.0], ..UvTransform::default() };
+        scene.things[0].maps = vec![(kind, Map { far_normals, ..map(Sampling::default(), transform) })];
+        stage.draw(&scene)
+    };
+    let of = [FarNormals::Mean, FarNormals::Toksvig];
+    let [mean, toksvig] = of.map(|far| drawn(&mut stage, MapKind::Specular, far));
+    assert!(mean == toksvig, "of no normals");
+    let [mean, _] = of.map(|far| drawn(&mut stage, MapKind::Normal, far));
+    let oracle = stage.oracle();
+    let verdict = judge(&oracle, &oracle.draw(), &Image::from_float(&mean), FLOAT).expect("one size");
+    assert!(!verdict.is_within(), "{verdict}");
 }
 
 #[test]

@@ -4,7 +4,7 @@ use halfway::lighting::Frequency;
 use halfway::lighting::rotation_along;
 use halfway::prelude::*;
 use halfway::texture::environment::EnvironmentMap;
-use halfway::texture::{Channel, Sampling, TexelImage, UvSet, UvTransform};
+use halfway::texture::{Channel, FarNormals, Sampling, TexelImage, UvSet, UvTransform};
 
 /// Everything that decides a picture, but for its size.
 #[derive(Clone)]
@@ -60,13 +60,15 @@ pub(crate) struct Map {
     pub(crate) uv_set: UvSet,
     pub(crate) channel: Channel,
     pub(crate) amount: f32,
+    pub(crate) far_normals: FarNormals,
 }
 
 impl Map {
     /// The whole image.
     pub(crate) fn new(image: TexelImage) -> Self {
         let (sampling, transform) = (Sampling::default(), UvTransform::default());
-        Self { image, sampling, transform, uv_set: UvSet::First, channel: Channel::Red, amount: 1.0 }
+        let (uv_set, channel, far_normals) = (UvSet::First, Channel::Red, FarNormals::Mean);
+        Self { image, sampling, transform, uv_set, channel, amount: 1.0, far_normals }
     }
 }
 

@@ -169,10 +169,18 @@ impl Stage {
             parent = Some(self.child(*frame, parent));
         }
         let mut maps = Maps::default();
-        for (kind, Map { image, sampling, transform, uv_set, channel, amount }) in &thing.maps {
+        for (kind, map) in &thing.maps {
+            let Map { image, sampling, transform, uv_set, channel, amount, far_normals } = map;
             let texture = self.world().resource_mut::<Assets<Texture>>().add(Texture::from(image.clone()));
-            let (sampling, transform) = (*sampling, *transform);
-            let map = SurfaceMap { texture, sampling, uv_set: *uv_set, transform, channel: *channel, amount: *amount };
+            let map = SurfaceMap {
+                texture,
+                sampling: *sampling,
+                uv_set: *uv_set,
+                transform: *transform,
+                channel: *channel,
+                amount: *amount,
+                far_normals: *far_normals,
+            };
             maps.set(*kind, Some(map));
         }
         let entity = self.child((*own, Mesh3d(handle), thing.material), parent);

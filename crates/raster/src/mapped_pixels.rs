@@ -5,13 +5,14 @@ use crate::lanes::{F, I, M, Simd, V3, each, lanes, splat, splat_i, splat3};
 use crate::lighting::{Gloss, Irradiance, Points, to_viewer};
 use crate::look::Look;
 use crate::mapped::{MappedTriangle, PartsOf};
-use crate::pass::{MapCall, Pass, SideData};
+use crate::pass::{Highlight, MapCall, Pass, SideData};
 use crate::placed::TILE;
 use crate::planes::Slopes;
 use crate::state::{Stage, State, StateMaps};
 use fearless_simd::prelude::*;
 use halfway_lighting::equations::{NORMAL_MIN, bumped_normal, mapped_normal};
-use halfway_texture::{MapKind, UvTransform, lookup};
+use halfway_texture::normals::{mean_length, toksvig};
+use halfway_texture::{FarNormals, MapKind, UvTransform, lookup};
 
 /// A pixel of a mapped triangle.
 pub(crate) struct MappedPixel<'a> {
@@ -137,6 +138,19 @@ impl MappedPixel<'_> {
         });
         bumped_normal(n, self.three(FRAME), along, rises, otherwise)
     }
+
+    /// The exponent of highlights of a material with this one, and what they are multiplied by.
+    pub(crate) fn gloss(&self, state: &State, exponent: f32) -> [f32; 2] {
+        let exponent = exponent * self.factor_of_one(MapKind::Shininess);
+        let at_fragments = matches!(state.stage, Stage::Fragment | Stage::Mixed);
+        let normals = self.maps.calls[MapKind::Normal as usize].as_ref().filter(|_| at_fragments);
+        let Some(call) = normals.filter(|call| call.far_normals == FarNormals::Toksvig) else { return [exponent, 1.0] };
+        let [r, g, b, _] = self.texel(call);
+        let amount = self.pass.maps[call.map as usize].amount;
+        // What is mirrored turns twice as far.
+        let turned = if state.highlight == Highlight::Phong { 2.0 * amount } else { amount };
+        toksvig(mean_length([r, g, b], turned), exponent)
+    }
 }
 
 /// Pixels of mapped draws of one state: each names its triangle, or −1.
@@ -222,18 +236,22 @@ impl<S: Simd> MappedPixels<'_, S> {
             pixel * splat(simd, look.screen.way_step[axis]) + splat(simd, look.screen.way_start[axis])
         });
         let mut n = splat3(simd, [0.0, 0.0, 1.0]);
-        let mut shares = splat(simd, 1.0);
+        let exponent = state.side(look.pass, back).exponent;
+        let (mut exponents, mut factors) = (splat(simd, exponent), splat(simd, 1.0));
+        let changes = maps.changes_exponents();
         for lane in 0..lanes::<S>() {
             let Some(pixel) = self.pixel(lane, look.pass, maps) else { continue };
             let turned = pixel.normal(state, [way[0][lane], way[1][lane], -1.0], look.screen.way_step);
             for axis in 0..3 {
                 n[axis][lane] = if back { -turned[axis] } else { turned[axis] };
             }
-            shares[lane] = pixel.factor_of_one(MapKind::Shininess);
+            if changes {
+                [exponents[lane], factors[lane]] = pixel.gloss(state, exponent);
+            }
         }
         let v = to_viewer(simd, [way[0], way[1], splat(simd, -1.0)], n, look.pass.local_viewer);
         let points = Points::new(simd, [way[0] * w, way[1] * w, -w], n, v);
-        if !maps.has(MapKind::Shininess) {
+        if !changes {
             return state.fragment_terms(simd, look.pass, &points, back);
         }
         // One exponent after the other.
@@ -241,14 +259,13 @@ impl<S: Simd> MappedPixels<'_, S> {
         let mut left = (!self.of.simd_lt(splat_i(simd, 0))).to_bitmask();
         while left != 0 {
             let first = left.trailing_zeros();
-            let share = shares[first as usize];
-            let same = shares.simd_eq(splat(simd, share));
+            let exponent = exponents[first as usize];
+            let same = exponents.simd_eq(splat(simd, exponent));
             left &= !(same.to_bitmask() | 1 << first);
-            let exponent = state.side(look.pass, back).exponent * share;
             let gloss = Gloss::new(state.highlight, exponent);
             sum = sum.or(same, &state.fragment_terms_of(simd, look.pass, &points, gloss));
         }
-        sum
+        Irradiance { specular: each!(c in 3 => sum.specular[c] * factors), ..sum }
     }
 }
 

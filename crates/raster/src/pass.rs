@@ -2,7 +2,7 @@
 
 use crate::Pieces;
 use halfway_texture::environment::EnvironmentMap;
-use halfway_texture::{Channel, MapKind, Pyramid, Sampling, SolidTexture, UvSet};
+use halfway_texture::{Channel, FarNormals, MapKind, Pyramid, Sampling, SolidTexture, UvSet};
 use std::ops::Range;
 
 /// All of a picture. Eye space is right-handed, the eye at the origin looking along −z; colors are linear RGB.
@@ -247,6 +247,8 @@ pub struct MapCall {
     pub uv_set: UvSet,
     /// The number that counts where one does.
     pub channel: Channel,
+    /// What highlights take of normals beside where they point.
+    pub far_normals: FarNormals,
 }
 
 /// Where a mesh stands.

@@ -3,7 +3,7 @@
 use crate::lanes::Simd;
 use crate::lighting::{Gloss, Irradiance, Points, gathered, gathered_here};
 use crate::pass::{DrawCall, Highlight, LeftOut, LightRange, MapCall, Pass, ShadedTerms, SideData, SurfaceData};
-use halfway_texture::{MapKind, SolidTexture};
+use halfway_texture::{FarNormals, MapKind, SolidTexture};
 
 /// Where a draw's terms are shaded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,6 +49,12 @@ impl StateMaps {
 
     pub(crate) fn has(&self, kind: MapKind) -> bool {
         self.calls[kind as usize].is_some()
+    }
+
+    /// Whether images change the exponent of highlights.
+    pub(crate) fn changes_exponents(&self) -> bool {
+        let normals = self.calls[MapKind::Normal as usize];
+        self.has(MapKind::Shininess) || normals.is_some_and(|call| call.far_normals == FarNormals::Toksvig)
     }
 
     /// Whether something of it may be cut out.

@@ -12,7 +12,6 @@ use crate::vertices::Screen;
 use halfway_lighting::Reflectance;
 use halfway_lighting::equations::vector::normalize_or_zero;
 use halfway_lighting::equations::{lobe_angle, lobe_exponent, mean_light, mirrored, surroundings};
-use halfway_texture::MapKind;
 
 impl SurroundingsData {
     fn direction(&self, d: [f32; 3]) -> [f32; 3] {
@@ -47,7 +46,8 @@ impl MappedPixel<'_> {
             Highlight::Phong => Reflectance::Phong,
             Highlight::BlinnPhong => Reflectance::BlinnPhong,
         };
-        let alpha = lobe_exponent(reflectance, side.exponent * self.factor_of_one(MapKind::Shininess));
+        let [exponent, _] = self.gloss(state, side.exponent);
+        let alpha = lobe_exponent(reflectance, exponent);
         let seen = around.map.at(around.direction(mirrored(n, v)), around.map.level_of(lobe_angle(alpha)));
         let mean = mean_light(&around.mean, around.direction(n));
         let color = match state.stage {

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use bevy_asset::Handle;
 use halfway_texture::{
-    Channel, LevelFilter, MapKind, Sampling, SurfaceMap, TexelFilter, Texture, UvSet, UvTransform, Wrap,
+    Channel, FarNormals, LevelFilter, MapKind, Sampling, SurfaceMap, TexelFilter, Texture, UvSet, UvTransform, Wrap,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -114,6 +114,10 @@ pub struct MapEntry {
     /// a 1 is, in lengths of the mesh.
     #[serde(default = "one")]
     pub amount: f32,
+    /// What highlights take of a `normal` that is smaller than a pixel, beside where it points.
+    #[serde(default, deserialize_with = "word", serialize_with = "write_word")]
+    #[schemars(with = "Spoken<FarNormals>")]
+    pub far_normals: FarNormals,
 }
 
 fn one() -> f32 {
@@ -150,7 +154,9 @@ impl MapEntry {
 
     /// The map with this image.
     pub(crate) fn on(&self, texture: Handle<Texture>) -> SurfaceMap {
-        let Self { wrap_u, wrap_v, magnify, minify, levels, offset, scale, uv_set, channel, amount, .. } = *self;
+        let Self {
+            wrap_u, wrap_v, magnify, minify, levels, offset, scale, uv_set, channel, amount, far_normals, ..
+        } = *self;
         SurfaceMap {
             texture,
             sampling: Sampling { wrap: [wrap_u, wrap_v], magnify, minify, levels },
@@ -158,6 +164,7 @@ impl MapEntry {
             transform: UvTransform { offset, rotation: self.rotation_deg.to_radians(), scale },
             channel,
             amount,
+            far_normals,
         }
     }
 }
@@ -223,6 +230,19 @@ impl ComponentWord for LevelFilter {
         "Up to 8 lookups.",
         "Up to 16 lookups.",
         "All texels in the ellipse that a round pixel covers, weighted by a Gaussian.",
+    ];
+}
+
+impl Word for FarNormals {
+    const WORDS: &'static [(&'static str, Self)] = &[("mean", Self::Mean), ("toksvig", Self::Toksvig)];
+}
+
+impl ComponentWord for FarNormals {
+    const NAME: &'static str = "FarNormalsEntry";
+    const MEANING: &'static str = "What highlights take of normals that are smaller than a pixel.";
+    const MEANINGS: &'static [&'static str] = &[
+        "Where their mean points.",
+        "And how long it is: rough surfaces have wider and fainter highlights from afar.",
     ];
 }
 

@@ -13,7 +13,7 @@ use bevy_transform::components::Transform;
 use halfway_lighting::{BackMaterial, Blend, GlobalAmbient, Mask, Tolerance, VertexColors, ViewTolerance};
 use halfway_lighting::{Camera, Samples};
 use halfway_mesh::{Bounds, Mesh, Mesh3d};
-use halfway_texture::{Maps, SurfaceMap, TexelMeaning, Texture, UvSet};
+use halfway_texture::{FarNormals, Maps, SurfaceMap, TexelMeaning, Texture, UvSet};
 
 use crate::defaults::{default_lights, framing_camera};
 use crate::error::SceneError;
@@ -259,6 +259,7 @@ fn hang_own_maps(part: &ShapePart, textures: &mut TextureHandles, entity: Entity
             transform: *transform,
             channel: *channel,
             amount: *amount,
+            far_normals: FarNormals::Mean,
         };
         maps.set(*kind, Some(map));
     }

@@ -54,6 +54,7 @@ pub use error::TextureError;
 pub use halves::Level;
 pub use limits::{LONGEST_SIDE, MOST_TEXELS};
 pub use maps::{MapKind, Maps, SurfaceMap, Texture, TexturePlugin, UvSet, WrongMap};
+pub use normals::FarNormals;
 pub use pyramid::Pyramid;
 pub use ripmap::Ripmap;
 pub use sampling::{Channel, ImageForm, LevelFilter, Sampling, TexelFilter, Wrap};

@@ -10,6 +10,7 @@ use bevy_reflect::{Reflect, TypePath};
 
 use crate::decode::TexelMeaning;
 use crate::environment::{EnvironmentLight, EnvironmentMap};
+use crate::normals::FarNormals;
 use crate::pyramid::Pyramid;
 use crate::sampling::{Channel, Sampling};
 use crate::solid::SolidTexture;
@@ -134,12 +135,15 @@ pub struct SurfaceMap {
     /// a: how much it counts, as [`MapKind`] says. 0 to 1 where it multiplies, any finite number where it turns normals.
     /// Default 1.
     pub amount: f32,
+    /// What highlights take of a [`Normal`](MapKind::Normal) beside where it points. Of other kinds it does nothing.
+    pub far_normals: FarNormals,
 }
 
 impl From<Handle<Texture>> for SurfaceMap {
     fn from(texture: Handle<Texture>) -> Self {
         let (sampling, transform) = (Sampling::default(), UvTransform::default());
-        Self { texture, sampling, uv_set: UvSet::First, transform, channel: Channel::Red, amount: 1.0 }
+        let far_normals = FarNormals::Mean;
+        Self { texture, sampling, uv_set: UvSet::First, transform, channel: Channel::Red, amount: 1.0, far_normals }
     }
 }
 

@@ -3,6 +3,9 @@
 //! A normal (x, y, z) in the surface's own axes, x along u, y upward on the image, against v, and z out of the surface, stands
 //! in the first three numbers of a texel as (x, y, z)/2 + ½, as files have it.
 
+use bevy_reflect::Reflect;
+use bevy_reflect::std_traits::ReflectDefault;
+
 use crate::error::TextureError;
 use crate::lookup::{self, Number, wrapped_index};
 use crate::pyramid::Pyramid;
@@ -35,6 +38,30 @@ pub fn from_heights(heights: &TexelImage, wrap: [Wrap; 2], strength: f32) -> Res
 /// The normal that a texel, or a mean of texels, stands for. Means are shorter than 1.
 pub fn decoded<T: Number>([x, y, z, _]: [T; 4]) -> [T; 3] {
     [x, y, z].map(|number| T::of(2.0) * number - T::one())
+}
+
+/// What highlights take of a map of normals that are smaller than a pixel.
+#[derive(Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[reflect(Clone, Debug, Default, PartialEq, Hash)]
+pub enum FarNormals {
+    /// Where their mean points: highlights from afar are too sharp and too bright, and they flicker.
+    #[default]
+    Mean,
+    /// And how long it is: wider and fainter highlights, by [`toksvig`] of [`mean_length`].
+    Toksvig,
+}
+
+/// How long the mean of normals is that a texel stands for, 0 to 1, had their slopes been `s` times as steep: with |n| the
+/// length that it has, |n|/(|n| + s²·(1 − |n|)). For (1 − |n|)/|n| is the variance of their slopes in [`toksvig`].
+///
+/// A vector that is mirrored by the normals turns twice as far as they do: for the exponent of (r·v)^s take 2·s.
+pub fn mean_length<T: Number>(texel: [T; 3], s: T) -> T {
+    let [x, y, z] = texel.map(|number| T::of(2.0) * number - T::one());
+    let length = (x * x + y * y + z * z).sqrt();
+    if length >= T::one() {
+        return T::one();
+    }
+    length / (length + s * s * (T::one() - length)).max(T::of(f64::from(f32::MIN_POSITIVE)))
 }
 
 /// What Toksvig, "Mipmapping Normal Maps", 2005, makes of a highlight (n·h)^s where the mean of the normals has this length:

@@ -2,7 +2,7 @@
 
 #![allow(clippy::float_cmp, reason = "what is exact is compared exactly")]
 
-use halfway_texture::normals::{NormalMoments, decoded, from_heights, toksvig};
+use halfway_texture::normals::{NormalMoments, decoded, from_heights, mean_length, toksvig};
 use halfway_texture::{Pyramid, Sampling, TexelImage, TextureError, Wrap, lookup};
 use std::f64::consts::TAU;
 
@@ -99,6 +99,27 @@ fn highlights_from_afar_are_nearer_with_corrected_exponents() {
         );
         assert!(by_length < 0.6 * plain && by_trace < 0.6 * plain && by_moments < 0.5 * plain);
     }
+}
+
+/// The variance of slopes that a length stands for is (1 − |n|)/|n|: steeper slopes have it times the square.
+#[test]
+fn means_of_steeper_normals_are_shorter_by_the_square() {
+    let texel = |length: f64| [0.5, 0.5, 0.5 * length + 0.5];
+    let variance = |length: f64| (1.0 - length) / length;
+    for length in [0.2, 0.7, 0.95] {
+        for s in [0.0, 0.5, -1.0, 2.0] {
+            let found = mean_length(texel(length), s);
+            assert!((variance(found) - s * s * variance(length)).abs() < 1e-12, "{length}, {s}: {found}");
+        }
+        // As wide as Phong's lobe, whose exponent is a fourth of that of (n·h)^s.
+        let [blinn, _] = toksvig(mean_length(texel(length), 1.0), 200.0);
+        let [phong, _] = toksvig(mean_length(texel(length), 2.0), 50.0);
+        assert!((blinn - 4.0 * phong).abs() < 1e-9, "{blinn}, {phong}");
+    }
+    // Of 8 bits some are a little longer than 1.
+    assert_eq!(mean_length([0.5, 0.5, 1.001], 3.0), 1.0);
+    assert_eq!(mean_length([1.0, 1.0, 1.0], f64::MAX), 1.0);
+    assert!(mean_length([0.5_f64; 3], 1.0).abs() < 1e-30);
 }
 
 #[test]

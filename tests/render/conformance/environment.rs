@@ -9,7 +9,7 @@ use crate::render::scene::{Around, Scene, other_material};
 use halfway::lighting::Frequency;
 use halfway::prelude::*;
 use halfway::texture::environment::{Environment, EnvironmentMap, EnvironmentShape};
-use halfway::texture::{Sampling, UvTransform};
+use halfway::texture::{FarNormals, Sampling, UvTransform};
 use std::sync::OnceLock;
 
 /// An environment of 16 texels a face, in which no two directions and no two channels are alike.
@@ -145,7 +145,12 @@ pub(super) fn rows_of_maps() -> Vec<Row> {
                 thing.maps = vec![(kind, map)];
             }
             shade(&mut scene);
-            rows.push(Row::new(format!("environment, {}, {shading}", kind.name()), scene));
+            rows.push(Row::new(format!("environment, {}, {shading}", kind.name()), scene.clone()));
+            if kind == MapKind::Normal {
+                let mut scene = scene;
+                scene.things.iter_mut().for_each(|thing| thing.maps[0].1.far_normals = FarNormals::Toksvig);
+                rows.push(Row::new(format!("environment, far normals, {shading}"), scene));
+            }
         }
     }
     rows

@@ -8,7 +8,7 @@ use super::solids::solid;
 use crate::render::compare::BLENDED;
 use crate::render::scene::{Map, Scene, Thing, other_material, point_light};
 use halfway::prelude::*;
-use halfway::texture::{Channel, LevelFilter, Sampling, TexelFilter, TexelImage, UvSet, UvTransform, Wrap};
+use halfway::texture::{Channel, FarNormals, LevelFilter, Sampling, TexelFilter, TexelImage, UvSet, UvTransform, Wrap};
 
 /// An image of an odd size that changes smoothly, in which no two channels are alike.
 fn image() -> TexelImage {
@@ -249,6 +249,50 @@ const CIRCUMSTANCES: [Change; 8] = [
 /// Every kind of image by itself under every way to shade.
 pub(super) fn rows_of_kinds() -> Vec<Row> {
     rows_of(ALL.into_iter().chain([HEIGHTS]).map(|one| (one.0.name(), vec![one])))
+}
+
+/// Normals of which highlights take how long their mean is: wherever some term is shaded at the fragments, under every
+/// reflectance, enlarged and reduced, and beside an image of shininess.
+pub(super) fn rows_of_far_normals() -> Vec<Row> {
+    let far = |scale: f32, amount: f32| {
+        let mut scene = still_life().lit(point(Vec3::new(1.2, 1.6, 1.8)));
+        let transform = UvTransform { offset: [0.13, -0.21], rotation: 0.4, scale: [scale, 0.8 * scale] };
+        for thing in &mut scene.things {
+            let normals = Map { amount, far_normals: FarNormals::Toksvig, ..map(Sampling::default(), transform) };
+            thing.maps = vec![(MapKind::Normal, normals)];
+            // Highlights that are wide enough to be seen under normals that lean far.
+            thing.material.shininess = 12.0;
+        }
+        scene
+    };
+    let mut rows: Vec<Row> = SHADINGS
+        .into_iter()
+        // Elsewhere normals of images do nothing.
+        .filter(|(shading, _)| !["flat", "gouraud"].contains(shading))
+        .map(|(shading, shade)| {
+            let mut scene = far(4.0, 0.5);
+            shade(&mut scene);
+            Row::new(format!("far normals, {shading}"), scene)
+        })
+        .collect();
+    for reflectance in [Reflectance::Phong, Reflectance::BlinnPhong, Reflectance::BlinnPhongMatched] {
+        for (scale, amount) in [(0.4, 0.3), (4.0, -0.6)] {
+            let mut scene = far(scale, amount);
+            scene.view_reflectance = Some(reflectance);
+            let row = Row::new(format!("far normals, {reflectance:?}, {scale} times"), scene.clone());
+            let mut shiny = scene.clone();
+            let shininess = map(Sampling::default(), UvTransform::default());
+            shiny.things.iter_mut().for_each(|thing| thing.maps.push((MapKind::Shininess, shininess.clone())));
+            let shiny = Row::new(format!("far normals and shininess, {reflectance:?}, {scale} times"), shiny);
+            rows.extend([row, shiny]);
+        }
+    }
+    for (what, change) in CIRCUMSTANCES {
+        let mut scene = far(3.0, 0.4);
+        change(&mut scene);
+        rows.push(Row::new(format!("far normals, {what}"), scene));
+    }
+    rows
 }
 
 /// All kinds together.

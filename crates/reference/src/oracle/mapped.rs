@@ -2,7 +2,9 @@
 
 use bevy_math::{DVec3, DVec4};
 use halfway_lighting::equations::{bumped_normal, mapped_normal};
-use halfway_texture::{MapKind, lookup};
+use halfway_lighting::{Frequency, Reflectance};
+use halfway_texture::normals::{mean_length, toksvig};
+use halfway_texture::{FarNormals, MapKind, lookup};
 
 use super::gather::OracleScene;
 use super::maps::SolidMap;
@@ -58,6 +60,21 @@ impl OracleScene {
         let rise = |k: usize| map.amount * (along_u * (uvs[k][0] - uvs[0][0]) + along_v * (uvs[k][1] - uvs[0][1]));
         let m: DVec3 = (0..3).map(|i| maps.rises[vertices[i]] * weights[i]).sum();
         bumped_normal(n, m.to_array(), [(b - a).to_array(), (c - a).to_array()], [rise(1), rise(2)], otherwise)
+    }
+
+    /// The exponent of highlights of a material with this one, and what they are multiplied by, as images have it at a hit.
+    pub(super) fn gloss(&self, hit: &Hit, exponent: f64) -> [f64; 2] {
+        let solid = &self.solids[hit.solid];
+        let exponent = exponent * self.factor_of_one(hit, MapKind::Shininess);
+        let looked_up = self.looked_up(hit, MapKind::Normal).filter(|_| solid.terms.has(Frequency::Fragment));
+        let Some((map, place)) = looked_up.filter(|(map, _)| map.far_normals == FarNormals::Toksvig) else {
+            return [exponent, 1.0];
+        };
+        let texel = lookup::filtered(&map.pyramid, &map.sampling, place.uv, place.footprint);
+        let [r, g, b, _] = texel.map(|number| number.clamp(0.0, 1.0));
+        // What is mirrored turns twice as far.
+        let turned = if solid.reflectance == Reflectance::Phong { 2.0 * map.amount } else { map.amount };
+        toksvig(mean_length([r, g, b], turned), exponent)
     }
 
     /// The image of a kind, and where on it a hit lies.

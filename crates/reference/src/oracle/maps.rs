@@ -2,7 +2,7 @@
 
 use bevy_math::{DAffine3, DMat3, DVec3, DVec4};
 use halfway_mesh::Mesh;
-use halfway_texture::{Channel, MapKind, Pyramid, Sampling, SurfaceMap, UvTransform};
+use halfway_texture::{Channel, FarNormals, MapKind, Pyramid, Sampling, SurfaceMap, UvTransform};
 
 /// What the scene says of an image on an object.
 #[derive(Clone, Debug)]
@@ -23,6 +23,7 @@ pub(super) struct SolidMap {
     pub(super) uvs: Vec<[f64; 2]>,
     pub(super) channel: Channel,
     pub(super) amount: f64,
+    pub(super) far_normals: FarNormals,
 }
 
 /// All of them, and what turns normals.
@@ -65,6 +66,7 @@ impl SolidMaps {
                 uvs: uvs.map(|uv| UvTransform::apply(&rows, uv.to_array().map(f64::from))).collect(),
                 channel: map.channel,
                 amount: map.amount.into(),
+                far_normals: map.far_normals,
             }
         };
         let slots = looks.each_ref().map(|looks| looks.as_ref().map(slot));
@@ -87,5 +89,10 @@ impl SolidMaps {
 impl SolidMaps {
     pub(super) fn has(&self, kind: MapKind) -> bool {
         self.slots[kind as usize].is_some()
+    }
+
+    /// What highlights take of its normals beside where they point.
+    pub(super) fn far_normals(&self) -> FarNormals {
+        self.slots[MapKind::Normal as usize].as_ref().map_or(FarNormals::Mean, |map| map.far_normals)
     }
 }

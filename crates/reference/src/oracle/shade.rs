@@ -95,10 +95,11 @@ impl OracleScene {
             let n = mixed(solid.vertices(triangle).map(|number| solid.normals[number]), weights).to_array();
             let n = self.relief(hit, n, interpolated_normal(n, geometric()));
             let mut material = *material;
-            if solid.has_shininess_map() {
-                // It multiplies the exponent, which is matched before.
+            if solid.has_exponents_of_images() {
+                // They change the exponent, which is matched before.
                 let exponent = specular_exponent(solid.reflectance, material.shininess);
-                material.shininess = exponent * self.factor_of_one(hit, MapKind::Shininess);
+                let [exponent, factor] = self.gloss(hit, exponent);
+                (material.shininess, material.ks) = (exponent, scale(material.ks, factor));
             }
             i = i.plus(self.lit(solid, front, &material, mixed(corners, weights), n, Frequency::Fragment));
         }
@@ -118,7 +119,7 @@ impl OracleScene {
         at: Frequency,
     ) -> Parts {
         let reflectance = match solid.reflectance {
-            Reflectance::BlinnPhongMatched if at == Frequency::Fragment && solid.has_shininess_map() => {
+            Reflectance::BlinnPhongMatched if at == Frequency::Fragment && solid.has_exponents_of_images() => {
                 Reflectance::BlinnPhong
             }
             reflectance => reflectance,

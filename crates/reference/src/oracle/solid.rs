@@ -8,7 +8,7 @@ use halfway_lighting::equations::vector::{length, normalize};
 use halfway_lighting::equations::{Coefficients, normal_matrix, transform_normal};
 use halfway_lighting::{Faces, Frequency, Material, Reflectance, Terms};
 use halfway_mesh::Mesh;
-use halfway_texture::{MapKind, SolidTexture};
+use halfway_texture::{FarNormals, MapKind, SolidTexture};
 use rayon::prelude::*;
 
 use super::maps::{MapSlots, ReadMap, SolidMaps, prepared};
@@ -174,9 +174,9 @@ impl Solid {
         turned(self.normal_matrix, n)
     }
 
-    /// Whether an image changes the exponent of highlights.
-    pub(super) fn has_shininess_map(&self) -> bool {
-        self.maps.as_ref().is_some_and(|maps| maps.has(MapKind::Shininess))
+    /// Whether images change the exponent of highlights.
+    pub(super) fn has_exponents_of_images(&self) -> bool {
+        self.maps.as_ref().is_some_and(|maps| maps.has(MapKind::Shininess) || maps.far_normals() == FarNormals::Toksvig)
     }
 
     pub(super) fn side(&self, front: bool) -> &Side {

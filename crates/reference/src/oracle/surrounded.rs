@@ -7,7 +7,6 @@ use halfway_lighting::equations::{
     Coefficients, ShadedPoint, interpolated_normal, lobe_angle, lobe_exponent, mirrored, side_normal,
     specular_exponent, surroundings, view_vector,
 };
-use halfway_texture::MapKind;
 
 use super::gather::OracleScene;
 use super::raster::{Hit, HitPoint};
@@ -28,7 +27,8 @@ impl OracleScene {
         let surface = ShadedPoint { position: p.to_array(), normal: side_normal(n, hit.front) };
         let r = mirrored(surface.normal, view_vector(&surface, &self.viewer));
         let exponent = specular_exponent(solid.reflectance, material.shininess);
-        let alpha = lobe_exponent(solid.reflectance, exponent * self.factor_of_one(hit, MapKind::Shininess));
+        let [exponent, _] = self.gloss(hit, exponent);
+        let alpha = lobe_exponent(solid.reflectance, exponent);
         let level = around.map.level_of(lobe_angle(alpha));
         let arriving = [around.mean_light(surface.normal), around.at(DVec3::from_array(r), level)];
         surroundings([material.kd, material.ks], around.strength, arriving)

@@ -35,11 +35,12 @@ mod tests {
     use crate::batch::key::MapLook;
     use Frequency::{Fragment, Never, Triangle, Vertex};
     use MapKind::{Height, Normal, Shininess};
-    use halfway_texture::{Channel, Sampling, UvSet};
+    use halfway_texture::{Channel, FarNormals, Sampling, UvSet};
 
     #[test]
     fn what_turns_normals_is_ignored_where_no_term_is_shaded_at_the_fragments() {
-        let look = MapLook { sampling: Sampling::default(), uv_set: UvSet::First, channel: Channel::Red };
+        let (uv_set, channel, far_normals) = (UvSet::First, Channel::Red, FarNormals::Mean);
+        let look = MapLook { sampling: Sampling::default(), uv_set, channel, far_normals };
         let all = MapLooks([Some(look); MapKind::COUNT]);
         let found = |terms, surrounded| ignored(&all, terms, surrounded).collect::<Vec<_>>();
         for early in [Triangle, Vertex] {

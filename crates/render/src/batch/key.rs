@@ -3,7 +3,7 @@
 use crate::lights::terms::by_fragment_shader;
 use crate::shaders::light_slots::{Counted, Lists};
 use halfway_lighting::{Frequency, Terms};
-use halfway_texture::{Channel, LevelFilter, MapKind, Sampling, SolidKind, SurfaceMap, UvSet};
+use halfway_texture::{Channel, FarNormals, LevelFilter, MapKind, Sampling, SolidKind, SurfaceMap, UvSet};
 use std::fmt;
 
 /// All of a draw that its pipeline is specialised for. What a draw does not use is not in its shader.
@@ -49,13 +49,15 @@ pub(crate) struct MapLook {
     pub(crate) sampling: Sampling,
     pub(crate) uv_set: UvSet,
     pub(crate) channel: Channel,
+    pub(crate) far_normals: FarNormals,
 }
 
 impl MapLook {
     /// Of an image of this kind. Slopes of heights go by D, whatever the filter.
     fn new(kind: MapKind, map: &SurfaceMap) -> Self {
-        let levels = levels_taken(kind, map.sampling.levels);
-        Self { sampling: Sampling { levels, ..map.sampling }, uv_set: map.uv_set, channel: map.channel }
+        let SurfaceMap { sampling, uv_set, channel, far_normals, .. } = *map;
+        let sampling = Sampling { levels: levels_taken(kind, sampling.levels), ..sampling };
+        Self { sampling, uv_set, channel, far_normals }
     }
 
     /// As maps.wgsl and by_shape.wgsl take it; never all of sixteen bits.
@@ -92,6 +94,16 @@ impl MapLooks {
 
     pub(crate) fn has(&self, kind: MapKind) -> bool {
         self.0[kind as usize].is_some()
+    }
+
+    /// Whether highlights take how long the mean of normals is.
+    pub(crate) fn take_lengths(&self) -> bool {
+        self.0[MapKind::Normal as usize].is_some_and(|look| look.far_normals == FarNormals::Toksvig)
+    }
+
+    /// Whether they change the exponent of highlights.
+    pub(crate) fn change_exponents(&self) -> bool {
+        self.has(MapKind::Shininess) || self.take_lengths()
     }
 
     pub(crate) fn is_empty(&self) -> bool {
@@ -137,6 +149,7 @@ impl fmt::Display for DrawKey {
             (self.masked, "masked"),
             (self.inside_out, "inside_out"),
             (self.surrounded, "surrounded"),
+            (self.maps.take_lengths(), "toksvig"),
         ] {
             if on {
                 write!(f, " {name}")?;
@@ -196,7 +209,7 @@ impl DrawKey {
             attenuated_ambient: self.attenuated_ambient && terms.diffuse != Frequency::Never,
             shared_color: self.shared_color && specular,
             ranged: self.ranged && lit,
-            squarings: self.squarings.filter(|_| specular && !self.maps.has(MapKind::Shininess)),
+            squarings: self.squarings.filter(|_| specular && !self.maps.change_exponents()),
             geometric_fallback: self.geometric_fallback && self.interpolates_normals(terms),
             inside_out: self.inside_out && self.maps.has(MapKind::Normal),
             ..self

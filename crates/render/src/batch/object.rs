@@ -12,7 +12,7 @@ use halfway_lighting::equations::{Coefficients, specular_exponent};
 use halfway_lighting::{
     Encoding, Faces, Fields, Frequency, InvalidValue, Material, Problem, Reflectance, Terms, Viewer,
 };
-use halfway_texture::{MapKind, Maps, SolidKind, SolidTexture, WrongMap};
+use halfway_texture::{Maps, SolidKind, SolidTexture, WrongMap};
 
 /// The components that say how an object reflects light.
 #[derive(Clone, Copy, Debug)]
@@ -142,8 +142,8 @@ impl Reflecting<'_> {
     /// What light lists have to know, where these terms are shaded.
     pub(crate) fn reflector(&self, terms: Terms) -> Reflector {
         let mut sides = self.coefficients();
-        if self.maps.has(MapKind::Shininess) {
-            // An image lowers it, and what has a lower one is brighter everywhere.
+        if self.maps.change_exponents() {
+            // They lower it, and what has a lower one is brighter everywhere.
             for side in &mut sides {
                 side.shininess = 0.0;
             }

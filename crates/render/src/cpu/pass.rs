@@ -73,7 +73,14 @@ impl PassLists {
             of.slots[slot]?;
             let map = next;
             next += 1;
-            key.maps.0[slot].map(|MapLook { sampling, uv_set, channel }| MapCall { map, sampling, uv_set, channel })
+            let call = |MapLook { sampling, uv_set, channel, far_normals }| MapCall {
+                map,
+                sampling,
+                uv_set,
+                channel,
+                far_normals,
+            };
+            key.maps.0[slot].map(call)
         });
         (calls, key.masked.then_some(*cutoff))
     }

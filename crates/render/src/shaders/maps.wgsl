@@ -10,6 +10,7 @@ override SHININESS_MAP: u32 = 65535;
 override OCCLUSION_MAP: u32 = 65535;
 override NORMAL_MAP: u32 = 65535;
 override HEIGHT_MAP: u32 = 65535;
+override TOKSVIG: bool = false;        // highlights take how long the mean of the normals of an image is
 override MASKED: bool = false;         // what has an opacity below the cutoff is not there
 override TANGENT_SIGN: f32 = 1;        // -1 where the surface is lit inside out
 override BITANGENT_SIGN: f32 = 1;      // -1 where fronts wind clockwise
@@ -244,4 +245,17 @@ fn bumped_normal(n: vec3f, m: vec3f, e1: vec3f, e2: vec3f, rises: vec2f, otherwi
     let g = cross(e2, unit) * (rises.x / area) + cross(unit, e1) * (rises.y / area);
     let turned = normalize_or_zero(unit * (1.0 + dot(g, up)) - g * dot(unit, up));
     return select(otherwise, turned, dot(turned, turned) > 0.0);
+}
+
+// ---- twins of halfway_texture::normals --------------------------------------------------------------
+
+fn mean_length(texel: vec3f, s: f32) -> f32 {
+    let found = length(2.0 * texel - 1.0);
+    return select(found / max(found + s * s * (1.0 - found), MIN_POSITIVE), 1.0, found >= 1.0);
+}
+
+fn toksvig(mean: f32, exponent: f32) -> vec2f {
+    let within = clamp(mean, 0.0, 1.0);
+    let f = within / max(within + exponent * (1.0 - within), MIN_POSITIVE);
+    return vec2f(f * exponent, (1.0 + f * exponent) / (1.0 + exponent));
 }

@@ -162,6 +162,7 @@ struct MixedParts {
     record: u32,
     is_front: bool,
     c: Coordinates,
+    mean: f32,                // how long the mean of the normals there is, as highlights take it
 }
 
 fn mixed_parts(in: Mixed, front: bool) -> MixedParts {
@@ -170,9 +171,15 @@ fn mixed_parts(in: Mixed, front: bool) -> MixedParts {
     let color = clamp(in.color, vec4f(), vec4f(1.0));
     let is_front = front || !TWO_SIDED;
     var n = fragment_normal(in.p, in.n, front);
+    var mean = 1.0;
     if NORMAL_MAP != NO_MAP {
         let texel = filtered(normal_image, 6u, NORMAL_MAP, c);
-        n = mapped_normal(in.n, in.frame.xyz, in.frame.w, texel.xyz, placings.each[6].row0.w, n);
+        let amount = placings.each[6].row0.w;
+        n = mapped_normal(in.n, in.frame.xyz, in.frame.w, texel.xyz, amount, n);
+        if TOKSVIG {
+            // What is mirrored turns twice as far.
+            mean = mean_length(texel.xyz, select(2.0 * amount, amount, BLINN_PHONG));
+        }
     } else if HEIGHT_MAP != NO_MAP {
         let along = gradient(height_image, 7u, HEIGHT_MAP, place_on(7u, HEIGHT_MAP, c), level_on(7u, HEIGHT_MAP, c));
         let right = way_on(7u, of_set(HEIGHT_MAP, dpdx(in.at)));
@@ -193,7 +200,14 @@ fn mixed_parts(in: Mixed, front: bool) -> MixedParts {
     if SHININESS_MAP != NO_MAP {
         exponent *= channel_of(SHININESS_MAP, factor(shininess_image, 4u, SHININESS_MAP, c));
     }
-    let terms = fragment_terms(in.p, n, exponent, record);
+    var far = vec2f(exponent, 1.0);
+    if TOKSVIG {
+        far = toksvig(mean, exponent);
+    }
+    var terms = fragment_terms(in.p, n, far.x, record);
+    if TOKSVIG {
+        terms.specular *= far.y;
+    }
     var sums = parts(terms, material, color.rgb);
     if VERTEX_DIFFUSE {
         sums.ambient += ambient_of_vertices;
@@ -201,5 +215,5 @@ fn mixed_parts(in: Mixed, front: bool) -> MixedParts {
     } else {
         sums.specular += terms_of_vertices;
     }
-    return MixedParts(sums, n, color, record, is_front, c);
+    return MixedParts(sums, n, color, record, is_front, c, mean);
 }

@@ -36,7 +36,7 @@ fn fs_solid_flat(in: Flat, cut: Cut) -> @location(0) vec4f {
     let front = in.record.y == 1u;
     let color = vec3f(in.diffuse.a, in.specular.a, in.n.a);
     let lit = Parts(in.ambient.rgb, in.diffuse.rgb, in.specular.rgb);
-    let sums = surrounded(lit, in.p, in.n.xyz, color, record, front, c);
+    let sums = surrounded(lit, in.p, in.n.xyz, 1.0, color, record, front, c);
     return output(cut_parts(sums, cut_by), in.ambient.a, record, front, c);
 }
 
@@ -84,7 +84,7 @@ fn fs_solid_gouraud(in: Gouraud, cut: Cut, @builtin(front_facing) front: bool) -
     let n = fragment_normal(in.middle, in.n, front);
     let record = record_of(in.record);
     let color = clamp(in.color, vec4f(), vec4f(1.0));
-    let sums = surrounded(lit, in.p, select(-n, n, is_front), color.rgb, record, is_front, c);
+    let sums = surrounded(lit, in.p, select(-n, n, is_front), 1.0, color.rgb, record, is_front, c);
     return output(cut_parts(sums, cut_by), color.a, record, is_front, c);
 }
 
@@ -123,6 +123,7 @@ fn fs_solid_mixed(in: Mixed, cut: Cut, @builtin(front_facing) front: bool) -> @l
     let cut_by = cut_color(cut, -in.middle.z);
     let found = mixed_parts(in, front);
     let is_front = found.is_front;
-    let sums = surrounded(found.sums, in.p, found.n, found.color.rgb, found.record, is_front, found.c);
+    let color = found.color.rgb;
+    let sums = surrounded(found.sums, in.p, found.n, found.mean, color, found.record, is_front, found.c);
     return output(cut_parts(sums, cut_by), found.color.a, found.record, is_front, found.c);
 }

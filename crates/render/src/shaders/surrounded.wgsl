@@ -2,8 +2,10 @@
 // whatever the shading. The way to the viewer is that of the point that is shaded, which lies in the triangle also where it covers a
 // part of a pixel of four samples. Needs parts.wgsl and surroundings.wgsl.
 
-// The sums with what the environment adds at a fragment whose normal, of the side that is seen, is n.
-fn surrounded(sums: Parts, p: vec3f, n: vec3f, color: vec3f, record: u32, front: bool, c: Coordinates) -> Parts {
+// The sums with what the environment adds at a fragment whose normal, of the side that is seen, is n, a mean of normals that is so long.
+fn surrounded(
+    sums: Parts, p: vec3f, n: vec3f, mean: f32, color: vec3f, record: u32, front: bool, c: Coordinates,
+) -> Parts {
     var material = draws[record].back;
     if front {
         material = draws[record].front;
@@ -11,6 +13,9 @@ fn surrounded(sums: Parts, p: vec3f, n: vec3f, color: vec3f, record: u32, front:
     var exponent = material.shininess;
     if SHININESS_MAP != NO_MAP {
         exponent *= channel_of(SHININESS_MAP, factor(shininess_image, 4u, SHININESS_MAP, c));
+    }
+    if TOKSVIG {
+        exponent = toksvig(mean, exponent).x;
     }
     let arriving = surroundings_of(n, view_vector(p, n), lobe_exponent(BLINN_PHONG, exponent));
     let ambient = sums.ambient + color * material.diffuse * arriving.mean;
@@ -66,7 +71,7 @@ fn fs_flat(in: Flat) -> @location(0) vec4f {
     let front = in.record.y == 1u;
     let color = vec3f(in.diffuse.a, in.specular.a, in.n.a);
     let lit = Parts(in.ambient.rgb, in.diffuse.rgb, in.specular.rgb);
-    return output(surrounded(lit, in.p, in.n.xyz, color, record, front, c), in.ambient.a, record, front, c);
+    return output(surrounded(lit, in.p, in.n.xyz, 1.0, color, record, front, c), in.ambient.a, record, front, c);
 }
 
 // ---- no term at the fragments: Gouraud, or no lights ----------------------------------------------
@@ -121,7 +126,7 @@ fn fs_gouraud(in: Gouraud, @builtin(front_facing) front: bool) -> @location(0) v
     let n = fragment_normal(in.middle, in.n, front);
     let record = record_of(in.record);
     let color = clamp(in.color, vec4f(), vec4f(1.0));
-    let sums = surrounded(lit, in.p, select(-n, n, is_front), color.rgb, record, is_front, c);
+    let sums = surrounded(lit, in.p, select(-n, n, is_front), 1.0, color.rgb, record, is_front, c);
     return output(sums, color.a, record, is_front, c);
 }
 
@@ -131,6 +136,7 @@ fn fs_gouraud(in: Gouraud, @builtin(front_facing) front: bool) -> @location(0) v
 fn fs_mixed(in: Mixed, @builtin(front_facing) front: bool) -> @location(0) vec4f {
     let found = mixed_parts(in, front);
     let is_front = found.is_front;
-    let sums = surrounded(found.sums, in.p, found.n, found.color.rgb, found.record, is_front, found.c);
+    let color = found.color.rgb;
+    let sums = surrounded(found.sums, in.p, found.n, found.mean, color, found.record, is_front, found.c);
     return output(sums, found.color.a, found.record, is_front, found.c);
 }

@@ -184,6 +184,31 @@ pub(crate) fn mapped_normals() -> Vec<Input> {
     })
 }
 
+/// A texel of normals, and a factor of their slopes: also of vectors of length 0, 1 and more.
+pub(crate) fn texels_with_scales() -> Vec<Input> {
+    let row = |texel: [f32; 3], s: f32| joined(&[&texel, &[s]]);
+    let edges = [
+        row([0.5; 3], 1.0),
+        row([0.5; 3], 0.0),
+        row([0.5, 0.5, 1.0], 2.0),
+        row([1.0; 3], 1.0),
+        row([0.5, 0.5, 0.75], 0.0),
+        row([0.5, 0.5, 0.75], -2.0),
+    ];
+    many(edges, 2000, |random| {
+        let (direction, length) = (random.direction(), random.between(0.0, 1.2));
+        let texel = direction.map(|x| 0.5 * length * x + 0.5);
+        row(texel, random.magnitude(-1.5, 1.5))
+    })
+}
+
+/// The length of a mean, and an exponent.
+pub(crate) fn lengths_with_exponents() -> Vec<Input> {
+    let row = |length: f32, exponent: f32| joined(&[&[length, exponent]]);
+    let edges = [row(0.0, 10.0), row(0.0, 0.0), row(1.0, 0.0), row(1.0, 40.0), row(-0.5, 5.0), row(1.5, 5.0)];
+    many(edges, 2000, |random| row(random.between(0.0, 1.0), random.magnitude(-1.0, 5.0)))
+}
+
 /// n, m, both ways, both rises, and the normal otherwise; n that vanishes, and ways that are one, or none.
 pub(crate) fn bumped_normals() -> Vec<Input> {
     let (z, x, y, other) = ([0.0f32, 0.0, 1.0], [1.0f32, 0.0, 0.0], [0.0f32, 1.0, 0.0], [0.0f32, 0.6, 0.8]);

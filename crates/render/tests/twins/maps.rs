@@ -42,7 +42,7 @@ fn each_function_of_maps_gives_what_its_twin_gives() {
 }
 
 /// Faults: the function whose rows find it, what is right, and what is written instead.
-const FAULTS: [(&str, &str, &str); 46] = [
+const FAULTS: [(&str, &str, &str); 50] = [
     ("magnify_of", "return look & 3u", "return look & 1u"),
     ("minify_of", "look >> 2u & 3u", "look >> 1u & 3u"),
     ("levels_of", "look >> 4u & 3u", "look >> 4u & 1u"),
@@ -87,6 +87,10 @@ const FAULTS: [(&str, &str, &str); 46] = [
     ("mapped_normal", "w * x.y * s", "x.y * s"),
     ("mapped_normal", "length(n) > NORMAL_MIN && ", ""),
     ("mapped_normal", " && dot(turned, turned) > 0.0", ""),
+    ("mean_length", "s * s * (1.0 - found)", "s * (1.0 - found)"),
+    ("mean_length", "1.0, found >= 1.0", "found, found >= 1.0"),
+    ("toksvig", "(1.0 + f * exponent) /", "(1.0 + exponent) /"),
+    ("toksvig", "within + exponent *", "1.0 + exponent *"),
     ("bumped_normal", "cross(unit, e1)", "cross(e1, unit)"),
     ("bumped_normal", "if size <= NORMAL_MIN {", "if size <= 1e-7 {"),
 ];

@@ -1,7 +1,8 @@
-//! The table of what maps.wgsl does to normals: twins of `halfway_lighting::equations`.
+//! The table of what maps.wgsl does to normals: twins of `halfway_lighting::equations` and `halfway_texture::normals`.
 
 use halfway_lighting::equations::vector::{add, cross, dot, length, scale, sub};
 use halfway_lighting::equations::{NORMAL_MIN, bumped_normal, mapped_normal};
+use halfway_texture::normals::{mean_length, toksvig};
 
 use crate::adapter::Kind;
 use crate::inputs::wide;
@@ -56,8 +57,32 @@ fn of_bumped(x: &[f32], _: &[f64]) -> Vec<f64> {
     vec![of_sum / left + 5.0 * ULP; 3]
 }
 
+/// A texel and a factor of slopes.
+fn of_mean_length(x: &[f32], e: &[f64]) -> Vec<f64> {
+    // The length is off by 6 ULP, by which the quotient changes as its derivative says, twice that near 0; and it is rounded.
+    let length = length(wide::<3>(x).map(|c| 2.0 * c - 1.0)).min(1.0);
+    let square = f64::from(x[3]).powi(2);
+    let divisor = length + square * (1.0 - length);
+    vec![12.0 * ULP * square / divisor.powi(2).max(1e-30) + 6.0 * ULP * e[0]]
+}
+
 pub(crate) fn normal_rows() -> Vec<Row> {
     vec![
+        row(
+            ("mean_length", "mean_length(v(i, 0), s(i, 3))"),
+            Kind::Scalar,
+            inputs::texels_with_scales(),
+            |x| vec![mean_length(wide(x), x[3].into())],
+            of_mean_length,
+        ),
+        // Two products, a sum and a quotient of numbers that are not negative.
+        row(
+            ("toksvig", "toksvig(s(i, 0), s(i, 1))"),
+            Kind::Pair,
+            inputs::lengths_with_exponents(),
+            |x| toksvig(x[0].into(), x[1].into()).to_vec(),
+            |_, e| e.iter().map(|e| 12.0 * ULP * e).collect(),
+        ),
         row(
             ("mapped_normal", "mapped_normal(v(i, 0), v(i, 3), s(i, 6), v(i, 7), s(i, 10), v(i, 11))"),
             Kind::Vector,

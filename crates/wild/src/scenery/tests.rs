@@ -59,11 +59,13 @@ fn every_key_and_word_of_the_format_is_drawn() {
     let of_maps =
         ["maps", "color", "specular", "emission", "opacity", "shininess", "occlusion", "normal", "height", "mask"];
     let of_texels = ["uv_set", "first", "second", "channel", "red", "green", "blue", "alpha", "amount"];
+    let of_normals = ["far_normals", "mean", "toksvig"];
     let of_images = ["wrap_u", "wrap_v", "repeat", "mirror", "magnify", "minify", "nearest", "bilinear"];
     let of_filters = ["b_spline", "catmull_rom", "levels", "none", "linear", "offset"];
     let by_shape =
         ["ripmap", "summed_areas", "anisotropic_2", "anisotropic_4", "anisotropic_8", "anisotropic_16", "elliptical"];
-    let left_out = [&left_out[..], &of_maps, &of_texels, &of_images, &of_filters, &by_shape].concat();
+    let of_maps = [&of_maps[..], &of_texels, &of_normals, &of_images, &of_filters, &by_shape].concat();
+    let left_out = [&left_out[..], &of_maps].concat();
     for word in words.iter().filter(|word| !left_out.contains(&word.as_str())) {
         let times = census.get(word).copied().unwrap_or(0);
         assert!(times >= 20, "{word} is drawn {times} times");
