@@ -38,6 +38,7 @@ mod render {
     mod maps;
     mod multi_draw;
     mod order;
+    mod painted;
     mod picture;
     mod pipelines;
     mod plugins;

@@ -3,6 +3,7 @@
 use std::sync::{Arc, OnceLock};
 
 use crate::halves::{Level, half, lower, narrower};
+use crate::ranges::TexelRanges;
 use crate::ripmap::Ripmap;
 use crate::sums::SummedAreas;
 use crate::texels::TexelImage;
@@ -14,7 +15,7 @@ use crate::texels::TexelImage;
 /// sizes these are four texels; of odd ones three in a row count, two of them in part. So no level is brighter or darker than
 /// the image as a whole, none leaves the range of its texels, and none depends on what lies beyond the image.
 ///
-/// What else some filters need, [`Ripmap`] and [`SummedAreas`], is made when it is first asked for, and shared by the clones.
+/// What else some filters and bounds need, [`Ripmap`], [`SummedAreas`] and [`TexelRanges`], is made when it is first asked for, and shared by the clones.
 #[derive(Clone, Debug)]
 pub struct Pyramid {
     levels: Arc<[Level]>,
@@ -26,6 +27,7 @@ pub struct Pyramid {
 struct More {
     ripmap: OnceLock<Ripmap>,
     sums: OnceLock<SummedAreas>,
+    ranges: OnceLock<TexelRanges>,
 }
 
 impl PartialEq for Pyramid {
@@ -89,6 +91,11 @@ impl Pyramid {
     /// The sums of the image's texels: twice the image's memory beside the pyramid's, kept from the first call on.
     pub fn summed_areas(&self) -> &SummedAreas {
         self.more.sums.get_or_init(|| SummedAreas::new(&self.texels, self.size()))
+    }
+
+    /// The least and the largest texels of its parts: 43 KiB at most, kept from the first call on.
+    pub fn ranges(&self) -> &TexelRanges {
+        self.more.ranges.get_or_init(|| TexelRanges::new(&self.levels, &self.texels))
     }
 
     /// Whether the two are clones of each other.

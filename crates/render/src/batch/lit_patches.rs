@@ -4,21 +4,23 @@ use crate::batch::backend::Backend;
 use crate::batch::false_colors::FalseColors;
 use crate::batch::ignored::tell_ignored;
 use crate::batch::key::{DrawKey, MapLooks};
+use crate::batch::lit_object::LitObject;
 use crate::batch::lit_runs::{LitRun, OpenRun};
 use crate::batch::object::{Circumstances, Reflecting, Shared, wrong_paint};
+use crate::batch::painted::{PaintedObject, Paints};
 use crate::batch::table::{MapsUse, ObjectTable};
 use crate::device::costs::VertexPrices;
 use crate::error::{RenderError, label};
 use crate::frame::report::FrameReport;
-use crate::geometry::allowed::{Allowed, Demand, SAMPLED, geometry_steps};
+use crate::geometry::allowed::{Allowed, Demand, geometry_steps};
 use crate::geometry::detail::Choice;
-use crate::geometry::meshes::{Form, Geometries, Geometry, Paint, PaintComponents};
-use crate::geometry::patches::{MeshPatch, PatchNormals, Sight};
+use crate::geometry::meshes::{Form, Geometries, Paint, PaintComponents};
+use crate::geometry::patches::{MeshPatch, Sight};
 use crate::lights::gains::Extent;
 use crate::lights::gather::Lights;
 use crate::lights::lists::{LightLists, Listing};
-use crate::lights::memory::{ChoiceMemory, ChosenBy, PatchName, choosing};
-use crate::lights::places::{PlacedPatch, ShadedAt, Spending};
+use crate::lights::memory::{ChosenBy, choosing};
+use crate::lights::places::{ShadedAt, Spending};
 use crate::lights::surroundings::Surroundings;
 use crate::lights::terms::{Chosen, by_fragment_shader, by_vertex_shader};
 use crate::shaders::light_slots::Lists;
@@ -26,7 +28,7 @@ use crate::shaders::records::{DrawRecord, InstanceRecord, MaterialRecord, Record
 use crate::target::frame::FrameValues;
 use crate::view::camera::View;
 use crate::view::matrices::{ModelView, NormalMatrix, Visible};
-use bevy_asset::{AssetId, Assets};
+use bevy_asset::Assets;
 use bevy_ecs::component::Mutable;
 use bevy_ecs::prelude::*;
 use bevy_math::Vec3;
@@ -34,6 +36,7 @@ use halfway_lighting::{
     BackMaterial, Blend, Faces, Frequency, Material, Reflectance, Terms, Tolerance, ViewTolerance, equations,
 };
 use halfway_mesh::{Mesh, Mesh3d};
+use halfway_texture::Texture;
 
 /// What is seen, in the order of the objects. Holds after [`RenderSet::Illuminate`](crate::RenderSet::Illuminate).
 #[derive(Resource, Debug, Default)]
@@ -46,6 +49,7 @@ pub(crate) struct LitPatches {
     pub(crate) lists: LightLists,
     pub(crate) table: ObjectTable,
     choice: Choice,
+    paints: Paints,
 }
 
 type ObjectQuery<'w, 's> = Query<
@@ -79,7 +83,7 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
     prices: Option<Res<VertexPrices>>,
     chosen_by: ChosenBy,
     values: Res<FrameValues>,
-    surroundings: Res<Surroundings>,
+    (surroundings, textures): (Res<Surroundings>, Res<Assets<Texture>>),
     mut backend: ResMut<B>,
     mut lit: ResMut<LitPatches>,
     mut report: ResMut<FrameReport>,
@@ -94,8 +98,15 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
         report.errors.push(RenderError::Invalid { entity: "resource".into(), source });
         vertex_prices = costs.vertices;
     }
-    let shared =
-        Shared { lights: &lights, encoding, viewer, costs, prices: vertex_prices, false_colors: false_colors.0 };
+    let shared = Shared {
+        lights: &lights,
+        textures: &textures,
+        encoding,
+        viewer,
+        costs,
+        prices: vertex_prices,
+        false_colors: false_colors.0,
+    };
     let mut seen = Vec::new();
     let mut without_environment = 0;
     for &entity in &visible.0 {
@@ -186,76 +197,6 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
 /// A patch that is drawn, and its stretch: see [`Detail::each_seen`](crate::geometry::detail::Detail::each_seen).
 type SeenPatch<'a> = (&'a MeshPatch, u32);
 
-/// An object whose patches are being lit.
-struct LitObject<'a> {
-    entity: Entity,
-    reflecting: Reflecting<'a>,
-    /// The key that fits best.
-    key: DrawKey,
-    material: u32,
-    depth: f32,
-    twins_before: u32,
-    maps: u32,
-    /// Normals may be any.
-    has_relief: bool,
-    mesh: AssetId<Mesh>,
-    form: Form,
-    geometry: &'a Geometry,
-    model_view: &'a ModelView,
-    normal_matrix: &'a NormalMatrix,
-    tolerance: Tolerance,
-}
-
-impl LitObject<'_> {
-    /// Where those terms of a patch may be shaded that are placed light by light, and how much of it there is to shade.
-    fn place(
-        &self,
-        patch: &MeshPatch,
-        sight: &Sight,
-        prices: &VertexPrices,
-        memory: &ChoiceMemory,
-    ) -> (ShadedAt, Extent) {
-        if !self.key.terms.has(Frequency::Auto) {
-            return (ShadedAt::Either, Extent::default());
-        }
-        let extent = patch.extent(sight);
-        let place = if patch.is_coarse_within(sight, self.tolerance.pixels + SAMPLED) {
-            ShadedAt::Corners
-        } else if prices.may_save(extent, memory.before(self.name(patch))) {
-            ShadedAt::Either
-        } else {
-            ShadedAt::Fragments
-        };
-        (place, extent)
-    }
-
-    fn name(&self, patch: &MeshPatch) -> PatchName {
-        (self.entity, patch.indices.start)
-    }
-
-    /// What bounds of lights take of a patch.
-    fn placed<R>(
-        &self,
-        patch: &MeshPatch,
-        (place, extent): (ShadedAt, Extent),
-        with: impl FnOnce(&PlacedPatch) -> R,
-    ) -> R {
-        let Self { model_view, normal_matrix, reflecting, form, .. } = self;
-        let normals = match (form.flat, self.has_relief) {
-            (true, _) => PatchNormals::Faces,
-            (false, true) => PatchNormals::Any,
-            (false, false) => PatchNormals::Vertices,
-        };
-        with(&PlacedPatch {
-            name: self.name(patch),
-            patch: &patch.in_eye_space(model_view, normal_matrix, reflecting.faces, normals),
-            grain: patch.grain(model_view),
-            place,
-            extent,
-        })
-    }
-}
-
 impl LitPatches {
     fn begin(&mut self, lights: &Lights, changed: bool) {
         self.runs.clear();
@@ -263,6 +204,7 @@ impl LitPatches {
         self.records.clear();
         self.lists.begin(lights, changed);
         self.table.begin(lights.ambient);
+        self.paints.begin();
     }
 
     /// Adds what is seen of an object: its patches, neighbours with equal light lists joined. `seen` is room for them.
@@ -331,6 +273,11 @@ impl LitPatches {
         if is_placed && !pays {
             self.lists.memory.note_object(object.entity);
         }
+        let mut painted = (is_listed && !reflecting.maps.is_empty()).then(|| {
+            let of = (object.mesh, object.form, geometry);
+            let maps = self.table.maps[object.maps as usize - 1];
+            self.paints.take(of, reflecting.maps, &maps, shared.textures)
+        });
         let mut run: Option<OpenRun> = None;
         for together in seen.chunks(TOGETHER) {
             let mut has_looked_around = false;
@@ -348,7 +295,7 @@ impl LitPatches {
                             self.lists.look_around(listing, together.iter().map(|(patch, _)| patch.sphere(model_view)));
                             has_looked_around = true;
                         }
-                        self.lit(object, (patch, place), listing, shared, backend)
+                        self.lit(object, (patch, place), painted.as_mut(), listing, shared, backend)
                     }
                 } else {
                     (admitted, 0, RecordLists::default())
@@ -371,6 +318,9 @@ impl LitPatches {
         }
         if let Some(run) = run {
             self.add_run(object, run);
+        }
+        if let Some(painted) = painted {
+            self.paints.keep((object.mesh, object.form), painted);
         }
     }
 
@@ -429,7 +379,7 @@ impl LitPatches {
             let place = object.place(patch, sight, &shared.prices, &self.lists.memory);
             if place.0 == ShadedAt::Either {
                 self.lists.look_around(listing, std::iter::once(patch.sphere(object.model_view)));
-                gains += object.placed(patch, place, |placed| {
+                gains += object.placed(patch, place, None, |placed| {
                     let gain = self.lists.select(shared.lights, placed, listing, object.key.terms);
                     gain.max(-shared.prices.look * shared.lights.records.len() as f32)
                 });
@@ -465,12 +415,16 @@ impl LitPatches {
         &mut self,
         object: &LitObject,
         (patch, place): (&MeshPatch, (ShadedAt, Extent)),
+        painted: Option<&mut PaintedObject>,
         listing: &Listing,
         shared: Shared,
         backend: &mut impl Backend,
     ) -> (DrawKey, u32, RecordLists) {
         let LitObject { key, .. } = object;
-        let gain = object.placed(patch, place, |placed| self.lists.select(shared.lights, placed, listing, key.terms));
+        let paint = painted.map(|painted| painted.of(object.geometry, patch));
+        let gain = object.placed(patch, place, paint.as_ref(), |placed| {
+            self.lists.select(shared.lights, placed, listing, key.terms)
+        });
         if listing.places.is_some() && place.0 == ShadedAt::Either {
             self.lists.note(object.name(patch));
         }

@@ -7,12 +7,13 @@ use crate::lights::gather::Lights;
 use crate::lights::lists::Reflector;
 use crate::shaders::light_slots::Lists;
 use crate::shaders::records::{DrawRecord, MaterialRecord};
+use bevy_asset::Assets;
 use bevy_math::Vec3;
 use halfway_lighting::equations::{Coefficients, specular_exponent};
 use halfway_lighting::{
     Encoding, Faces, Fields, Frequency, InvalidValue, Material, Problem, Reflectance, Terms, Viewer,
 };
-use halfway_texture::{Maps, SolidKind, SolidTexture, WrongMap};
+use halfway_texture::{MapKind, Maps, SolidKind, SolidTexture, Texture, WrongMap};
 
 /// The components that say how an object reflects light.
 #[derive(Clone, Copy, Debug)]
@@ -53,6 +54,7 @@ pub(crate) struct Appearance {
 #[derive(Clone, Copy)]
 pub(crate) struct Shared<'a> {
     pub(crate) lights: &'a Lights,
+    pub(crate) textures: &'a Assets<Texture>,
     /// What the bytes of the picture hold; `None` for floating point.
     pub(crate) encoding: Option<Encoding>,
     pub(crate) viewer: Viewer,
@@ -146,6 +148,12 @@ impl Reflecting<'_> {
             // They lower it, and what has a lower one is brighter everywhere.
             for side in &mut sides {
                 side.shininess = 0.0;
+            }
+        }
+        if self.maps.has(MapKind::Emission) {
+            // An image may leave nothing of it, behind which anything could be left out.
+            for side in &mut sides {
+                side.ke = [0.0; 3];
             }
         }
         Reflector { sides, reflectance: self.reflectance, terms }

@@ -64,8 +64,9 @@ pub(crate) struct MapsUse {
 }
 
 /// The same as a key.
-type MapsBits = ([Option<(AssetId<Texture>, ImageForm, [u32; 6], u32)>; MapKind::COUNT], u32, Option<SolidBits>);
-type SolidBits = (SolidKind, u32, [[u32; 4]; 3], [[u32; 3]; 2]);
+pub(crate) type MapsBits =
+    ([Option<(AssetId<Texture>, ImageForm, [u32; 6], u32)>; MapKind::COUNT], u32, Option<SolidBits>);
+pub(crate) type SolidBits = (SolidKind, u32, [[u32; 4]; 3], [[u32; 3]; 2]);
 
 impl MapsUse {
     pub(crate) fn new(maps: &[Option<&SurfaceMap>; MapKind::COUNT], cutoff: f32, solid: Option<SolidTexture>) -> Self {
@@ -78,7 +79,7 @@ impl MapsUse {
         Self { slots: std::array::from_fn(|slot| maps[slot].map(|map| of(slot, map))), cutoff, solid }
     }
 
-    fn bits(&self) -> MapsBits {
+    pub(crate) fn bits(&self) -> MapsBits {
         let bits = |of: MapUse| (of.texture, of.form, bytemuck::cast(of.rows()), of.amount.to_bits());
         let of_solid = |SolidTexture { kind, octaves, solid_from_object, colors }: SolidTexture| {
             let rows = solid_from_object.map(|row| row.map(f32::to_bits));

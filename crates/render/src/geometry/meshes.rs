@@ -2,6 +2,7 @@
 
 use crate::frame::report::FrameReport;
 use crate::geometry::detail::{Detail, MeshTriangles};
+use crate::geometry::uv_boxes::UvBoxes;
 use crate::geometry::workshop::{Workshop, is_same};
 use crate::lights::surroundings::Surroundings;
 use crate::lights::terms::Chosen;
@@ -28,6 +29,8 @@ pub(crate) struct Geometry {
     pub(crate) drawn: Mesh,
     /// Some interpolated normal may vanish, so that Phong shading needs the geometric one at hand.
     pub(crate) opposite_normals: bool,
+    /// Where its patches lie on images; of meshes that have coordinates and are laid out for images.
+    pub(crate) uv_boxes: UvBoxes,
     /// Which vertices make triangles, in the order in which they are drawn; until what draws it has taken it.
     pub(crate) indices: Option<Vec<u32>>,
 }
@@ -150,9 +153,11 @@ impl Geometries {
             None if form.ordered => MeshTriangles::in_order(drawn),
             None => MeshTriangles::in_patches(drawn),
         };
+        let has_uvs = form.mapped && [0, 1].iter().any(|&set| drawn.uv_set(set).is_some());
+        let uv_boxes = if has_uvs { UvBoxes::new(drawn, &corners, detail.patches()) } else { UvBoxes::default() };
         let indices = Some(corners.into_flattened());
         let drawn = drawn.clone();
-        let geometry = Geometry { detail, source: mesh.clone(), drawn, opposite_normals, indices };
+        let geometry = Geometry { detail, source: mesh.clone(), drawn, opposite_normals, uv_boxes, indices };
         self.meshes.insert((id, form), geometry);
     }
 }

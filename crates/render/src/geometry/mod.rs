@@ -4,4 +4,5 @@ pub(crate) mod allowed;
 pub(crate) mod detail;
 pub(crate) mod meshes;
 pub(crate) mod patches;
+pub(crate) mod uv_boxes;
 pub(crate) mod workshop;

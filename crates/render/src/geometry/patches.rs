@@ -330,7 +330,6 @@ impl MeshPatch {
         let cone = match normals {
             PatchNormals::Faces => self.faces,
             PatchNormals::Vertices => self.normals,
-            PatchNormals::Any => None,
         };
         let cone = cone.filter(|_| model_view.keeps_angles());
         bounds::Patch {
@@ -353,8 +352,6 @@ pub(crate) enum PatchNormals {
     Faces,
     /// Those of its vertices.
     Vertices,
-    /// Any: images turn them.
-    Any,
 }
 
 fn grain(mesh: &Mesh, triangles: &[[u32; 3]]) -> Grain<f32> {

@@ -123,7 +123,8 @@ impl LightLists {
     /// pixel by more than the listing's tolerance together. And says where their terms are shaded. Returns what that saves, in
     /// lights at a pixel; below 0 where nothing is at the vertices for that.
     pub(crate) fn select(&mut self, lights: &Lights, placed: &PlacedPatch, listing: &Listing, terms: Terms) -> f32 {
-        let receiver = Receiver::new(placed.patch, &listing.material, &listing.view, listing.reflectance);
+        let material = placed.shares.map_or(listing.material, |shares| shares.of(listing.material));
+        let receiver = Receiver::new(placed.patch, &material, &listing.view, listing.reflectance);
         self.near.select(&self.tree, &lights.sources, &receiver, listing.tolerance, &mut self.selected);
         match &listing.places {
             Some(places) => {

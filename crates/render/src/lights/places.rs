@@ -110,10 +110,32 @@ struct Side {
     unlit: [f32; 3],
 }
 
+/// What is left of an object's reflectances on a patch at most, channel by channel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct PatchShares {
+    pub(crate) ambient: [f32; 3],
+    pub(crate) diffuse: [f32; 3],
+    pub(crate) specular: [f32; 3],
+}
+
+impl PatchShares {
+    pub(crate) const ALL: Self = Self { ambient: [1.0; 3], diffuse: [1.0; 3], specular: [1.0; 3] };
+
+    /// What is left of these.
+    pub(crate) fn of(&self, material: Coefficients<f32>) -> Coefficients<f32> {
+        let times = |a: [f32; 3], b: [f32; 3]| [0, 1, 2].map(|c| a[c] * b[c]);
+        let Coefficients { ka, kd, ks, .. } = material;
+        let (ka, kd, ks) = (times(ka, self.ambient), times(kd, self.diffuse), times(ks, self.specular));
+        Coefficients { ka, kd, ks, ..material }
+    }
+}
+
 /// A patch as it is looked at.
 pub(crate) struct PlacedPatch<'a> {
     pub(crate) name: PatchName,
     pub(crate) patch: &'a Patch<f32>,
+    /// What images leave; `None` where there are none.
+    pub(crate) shares: Option<PatchShares>,
     pub(crate) grain: Grain<f32>,
     pub(crate) place: ShadedAt,
     pub(crate) extent: Extent,

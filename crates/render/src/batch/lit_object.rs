@@ -1,0 +1,93 @@
+//! An object whose patches are being lit, and what bounds of lights take of a patch.
+
+use crate::batch::key::DrawKey;
+use crate::batch::object::Reflecting;
+use crate::batch::painted::{Lean, PatchPaint};
+use crate::device::costs::VertexPrices;
+use crate::geometry::allowed::SAMPLED;
+use crate::geometry::meshes::{Form, Geometry};
+use crate::geometry::patches::{MeshPatch, PatchNormals, Sight};
+use crate::lights::gains::Extent;
+use crate::lights::memory::{ChoiceMemory, PatchName};
+use crate::lights::places::{PlacedPatch, ShadedAt};
+use crate::view::matrices::{ModelView, NormalMatrix};
+use bevy_asset::AssetId;
+use bevy_ecs::prelude::*;
+use halfway_lighting::{Frequency, Tolerance};
+use halfway_mesh::Mesh;
+
+/// An object whose patches are being lit.
+pub(crate) struct LitObject<'a> {
+    pub(crate) entity: Entity,
+    pub(crate) reflecting: Reflecting<'a>,
+    /// The key that fits best.
+    pub(crate) key: DrawKey,
+    pub(crate) material: u32,
+    pub(crate) depth: f32,
+    pub(crate) twins_before: u32,
+    pub(crate) maps: u32,
+    /// Images turn its normals.
+    pub(crate) has_relief: bool,
+    pub(crate) mesh: AssetId<Mesh>,
+    pub(crate) form: Form,
+    pub(crate) geometry: &'a Geometry,
+    pub(crate) model_view: &'a ModelView,
+    pub(crate) normal_matrix: &'a NormalMatrix,
+    pub(crate) tolerance: Tolerance,
+}
+
+impl LitObject<'_> {
+    /// Where those terms of a patch may be shaded that are placed light by light, and how much of it there is to shade.
+    pub(crate) fn place(
+        &self,
+        patch: &MeshPatch,
+        sight: &Sight,
+        prices: &VertexPrices,
+        memory: &ChoiceMemory,
+    ) -> (ShadedAt, Extent) {
+        if !self.key.terms.has(Frequency::Auto) {
+            return (ShadedAt::Either, Extent::default());
+        }
+        let extent = patch.extent(sight);
+        let place = if patch.is_coarse_within(sight, self.tolerance.pixels + SAMPLED) {
+            ShadedAt::Corners
+        } else if prices.may_save(extent, memory.before(self.name(patch))) {
+            ShadedAt::Either
+        } else {
+            ShadedAt::Fragments
+        };
+        (place, extent)
+    }
+
+    pub(crate) fn name(&self, patch: &MeshPatch) -> PatchName {
+        (self.entity, patch.indices.start)
+    }
+
+    /// What bounds of lights take of a patch, to which images do what `paint` says.
+    pub(crate) fn placed<R>(
+        &self,
+        patch: &MeshPatch,
+        (place, extent): (ShadedAt, Extent),
+        paint: Option<&PatchPaint>,
+        with: impl FnOnce(&PlacedPatch) -> R,
+    ) -> R {
+        let Self { model_view, normal_matrix, reflecting, form, .. } = self;
+        let lean = paint.map_or(if self.has_relief { Lean::Any } else { Lean::Within(0.0) }, |paint| paint.lean);
+        let normals = if form.flat { PatchNormals::Faces } else { PatchNormals::Vertices };
+        let mut seen = patch.in_eye_space(model_view, normal_matrix, reflecting.faces, normals);
+        if !form.flat && self.has_relief {
+            seen.normals = seen.normals.and_then(|cone| lean.widened(cone));
+            if seen.normals.is_none() {
+                seen.half_thickness = f32::INFINITY;
+            }
+        }
+        with(&PlacedPatch {
+            name: self.name(patch),
+            patch: &seen,
+            shares: paint.map(|paint| paint.shares),
+            grain: patch.grain(model_view),
+            place,
+            extent,
+        })
+    }
+}

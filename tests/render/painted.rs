@@ -1,0 +1,172 @@
+//! Lists of many lights on objects with images: what texels leave of the light counts, and what is left out stays within the
+//! tolerance.
+
+use crate::render::random::Random;
+use crate::render::scene::{Lamp, Map, Scene, Thing};
+use crate::render::stage::Stage;
+use halfway::prelude::*;
+use halfway::texture::normals::from_heights;
+use halfway::texture::{TexelImage, Wrap};
+
+/// A floor of 4 by 4 seen from above, in patches, under 120 dim lights from afar and 60 near ones.
+fn floor(maps: Vec<(MapKind, Map)>) -> Scene {
+    let shiny = Material {
+        ambient: LinearRgba::BLACK,
+        diffuse: LinearRgba::gray(0.8),
+        specular: LinearRgba::gray(0.7),
+        shininess: 30.0,
+        ..Material::default()
+    };
+    let thing = Thing { maps, ..Thing::new(Plane { size: 4.0, divisions: 64 }) }.of(shiny).shaded(Shading::Phong);
+    let mut scene = Scene::seen_from(Vec3::new(0.0, 4.0, 0.5), Vec3::ZERO).with(thing);
+    let mut random = Random(5);
+    for number in 0..180 {
+        let brightness = random.between(0.001, 0.008);
+        let color = LinearRgba::gray(brightness);
+        if number % 3 > 0 {
+            let down = Vec3::new(random.between(-0.3, 0.3), -1.0, random.between(-0.3, 0.3));
+            let light = DirectionalLight { ambient: LinearRgba::BLACK, ..DirectionalLight::from_color(color) };
+            scene.lamps.push(Lamp::directional(light, down));
+        } else {
+            let at = Vec3::new(random.between(-2.0, 2.0), random.between(0.5, 2.0), random.between(-2.0, 2.0));
+            scene.lamps.push(Lamp::point(PointLight::from_color(color), at));
+        }
+    }
+    scene
+}
+
+/// A number to the left, and another to the right.
+fn halves(left: f32, right: f32) -> Map {
+    let texel = |x: u32, _: u32| if x < 32 { [left, left, left, 1.0] } else { [right, right, right, 1.0] };
+    Map::new(TexelImage::from_fn(64, 64, texel).expect("a small image"))
+}
+
+/// Normals of waves so high.
+fn waves(height: f32) -> Map {
+    let heights = TexelImage::from_fn(64, 64, |x, y| {
+        let of = |at: u32, turns: f32| (turns * std::f32::consts::TAU * at as f32 / 64.0).sin();
+        [of(x, 5.0) + of(y, 3.0); 4]
+    });
+    Map::new(from_heights(&heights.expect("a small image"), [Wrap::Repeat; 2], height).expect("normals"))
+}
+
+/// What the stage draws of a scene into bytes without a curve, within so many steps; and the terms that patches shade.
+fn drawn(stage: &mut Stage, scene: &Scene, steps: f32) -> (image::RgbaImage, u64) {
+    stage.world().insert_resource(ViewTolerance(Tolerance::steps(steps)));
+    stage.set(scene);
+    stage.encode(Encoding::Raw);
+    let picture = stage.bytes();
+    (picture, stage.report().lights_assigned)
+}
+
+fn stage() -> Stage {
+    Stage::new(64, 48)
+}
+
+#[test]
+fn lights_are_left_out_where_texels_are_dark() {
+    let mut stage = stage();
+    let mut terms = |maps: Vec<(MapKind, Map)>| drawn(&mut stage, &floor(maps), 4.0).1;
+    let plain = terms(Vec::new());
+    let bright = terms(vec![(MapKind::Color, halves(1.0, 1.0)), (MapKind::Specular, halves(1.0, 1.0))]);
+    let dark = terms(vec![(MapKind::Color, halves(0.02, 0.02)), (MapKind::Specular, halves(0.02, 0.02))]);
+    // Along u, of which the last levels are one texel, the mean of both halves: 0.02 there too.
+    let half = terms(vec![(MapKind::Color, halves(0.0, 0.04)), (MapKind::Specular, halves(0.04, 0.0))]);
+    println!("{plain} terms without images, {bright} of white ones, {half} of halves, {dark} of dark ones");
+    assert_eq!(plain, bright, "white images leave all");
+    assert!(dark * 2 < bright, "{dark} terms of dark images, {bright} of bright ones");
+    assert!(
+        dark < half && half * 4 < bright * 3,
+        "{half} terms of halves, {dark} of dark ones, {bright} of bright ones"
+    );
+}
+
+#[test]
+fn normals_of_images_that_lean_little_leave_highlights_out() {
+    let mut stage = stage();
+    let mut terms = |kind: MapKind, map: Map| {
+        let mut scene = floor(vec![(kind, map)]);
+        scene.lamps.clear();
+        // Low and far out, so that halfway vectors lean far.
+        for number in 0..60 {
+            let around = number as f32 * 0.1047;
+            let at = Vec3::new(40.0 * around.cos(), 6.0, 40.0 * around.sin());
+            let light = PointLight { attenuation: Attenuation::NONE, ..PointLight::from_color(LinearRgba::gray(0.02)) };
+            scene.lamps.push(Lamp::point(light, at));
+        }
+        scene.things[0].material.shininess = 400.0;
+        scene.things[0].material.diffuse = LinearRgba::BLACK;
+        drawn(&mut stage, &scene, 4.0).1
+    };
+    // Of heights nothing is known, whatever they are.
+    let any = terms(MapKind::Height, Map { amount: 0.0, ..waves(0.0) });
+    let [flat, low, steep] = [0.0, 0.05, 20.0].map(|height| terms(MapKind::Normal, waves(height)));
+    println!("{flat} terms of flat normals, {low} of low waves, {steep} of steep ones, {any} of any");
+    assert!(flat <= low && low * 2 < any, "{low} terms of low waves, {any} of any");
+    assert_eq!(steep, any);
+}
+
+/// In steps of 1/255 the most that a picture may be off: the tolerance, and half a step of rounding on both sides.
+fn most_off(stage: &mut Stage, scene: &Scene, steps: f32) -> (f64, u64) {
+    let (picture, terms) = drawn(stage, scene, steps);
+    let expected = stage.oracle().draw();
+    let mut most = 0.0_f64;
+    // Off the floor's rim, where a pixel may show either side.
+    for (x, y, pixel) in picture.enumerate_pixels().filter(|(x, y, _)| (16..48).contains(x) && (12..36).contains(y)) {
+        let exact = expected.pixels()[(y * 64 + x) as usize];
+        for c in 0..3 {
+            let exact = f64::from(exact[c]).clamp(0.0, 1.0) * 255.0;
+            most = most.max((f64::from(pixel.0[c]) - exact).abs());
+        }
+    }
+    (most - 0.5, terms)
+}
+
+#[test]
+fn what_is_left_out_of_objects_with_images_stays_within_the_tolerance() {
+    let mut stage = stage();
+    let images = [
+        ("bright", vec![(MapKind::Color, halves(0.9, 0.9)), (MapKind::Specular, halves(0.9, 0.9))]),
+        ("dark", vec![(MapKind::Color, halves(0.15, 0.1)), (MapKind::Specular, halves(0.1, 0.3))]),
+        ("halves", vec![(MapKind::Color, halves(0.9, 0.05)), (MapKind::Specular, halves(0.0, 1.0))]),
+        ("occluded", vec![(MapKind::Occlusion, halves(0.2, 0.9)), (MapKind::Color, halves(0.9, 0.3))]),
+        ("low waves", vec![(MapKind::Normal, waves(0.3)), (MapKind::Color, halves(0.9, 0.3))]),
+        ("steep waves", vec![(MapKind::Normal, waves(3.0)), (MapKind::Specular, halves(0.9, 0.3))]),
+        ("bumps", vec![(MapKind::Height, Map { amount: 0.05, ..waves(1.0) })]),
+        ("waves of less", vec![(MapKind::Normal, Map { amount: 0.4, ..waves(0.5) })]),
+    ];
+    let mut largest = 0.0_f64;
+    for (name, maps) in images {
+        for steps in [2.0_f32, 8.0] {
+            for reflectance in [Reflectance::BlinnPhong, Reflectance::Phong] {
+                let mut scene = floor(maps.clone());
+                scene.view_reflectance = Some(reflectance);
+                let (off, terms) = most_off(&mut stage, &scene, steps);
+                println!("{name}, {reflectance:?}, {steps} steps: {off:.2} off, {terms} terms");
+                assert!(off <= f64::from(steps) + 0.01, "{name}, {reflectance:?}: {off} steps off, {steps} allowed");
+                largest = largest.max(off / f64::from(steps));
+            }
+        }
+    }
+    // Bounds that were half of these would leave out twice as much, which is found.
+    assert!(largest > 0.6, "of the tolerance {largest} is spent");
+}
+
+/// Emission hides what is left out, but not where an image leaves nothing of it.
+#[test]
+fn emission_that_an_image_leaves_nothing_of_hides_nothing() {
+    let mut stage = stage();
+    let mut off = |share: f32| {
+        let mut scene = floor(vec![(MapKind::Emission, halves(share, share))]);
+        scene.things[0].material.emission = LinearRgba::gray(0.7);
+        stage.set(&scene);
+        stage.world().insert_resource(ViewTolerance(Tolerance::steps(4.0)));
+        stage.encode(Encoding::Srgb);
+        let picture = stage.bytes();
+        stage.world().insert_resource(ViewTolerance(Tolerance::EXACT));
+        let exact = stage.bytes();
+        picture.iter().zip(exact.iter()).map(|(a, b)| a.abs_diff(*b)).max().unwrap_or(0)
+    };
+    assert!(off(0.0) <= 5, "{} steps", off(0.0));
+    assert!(off(1.0) <= 5, "{} steps", off(1.0));
+}
