@@ -224,7 +224,7 @@ fn of_at_footprint(x: &[f32], _: &[f64]) -> Vec<f64> {
     vec![of_lookup(HEIGHT, look, (place, blur), (ways, off)) + of_level; 4]
 }
 
-pub(crate) fn shape_rows() -> Vec<Row> {
+fn footprint_rows() -> Vec<Row> {
     vec![
         row(
             ("shape_of", "f32(shape_of(u32(s(i, 0))))"),
@@ -270,6 +270,11 @@ pub(crate) fn shape_rows() -> Vec<Row> {
             |x| vec![Look::of(x[0]).reduced().bits().into()],
             exact,
         ),
+    ]
+}
+
+fn probe_and_ripmap_rows() -> Vec<Row> {
+    vec![
         lookup_row!("probes", HEIGHT, "height_image, 7u", &[3, 4, 5, 6], 1.001),
         row(
             ("ripmap_level", "vec4f(ripmap_level(3u, vec2u(vec2f(s(i, 0), s(i, 1)))))"),
@@ -287,6 +292,11 @@ pub(crate) fn shape_rows() -> Vec<Row> {
         ),
         lookup_row!("in_ripmap", OPACITY, "opacity_image, 3u", &[1], 1.001),
         lookup_row!("in_ripmap", OCCLUSION, "occlusion_image, 5u", &[1], 1.001),
+    ]
+}
+
+fn sum_rows() -> Vec<Row> {
+    vec![
         // All numbers are multiples of 2⁻⁸ up to some hundreds, and sides powers of two.
         row(
             ("part_of", "part_of(s(i, 0), s(i, 1), s(i, 2), u32(s(i, 3)), u32(s(i, 4)))"),
@@ -333,6 +343,11 @@ pub(crate) fn shape_rows() -> Vec<Row> {
         ),
         lookup_row!("summed", SHININESS, "shininess_image, 4u", &[2], 1.001),
         lookup_row!("summed", NORMAL, "normal_image, 6u", &[2], 1.001),
+    ]
+}
+
+fn fragment_rows() -> Vec<Row> {
+    vec![
         lookup_row!("at_shape", HEIGHT, "height_image, 7u", &[3, 4, 5, 6, 7], 0.05),
         lookup_row!("at_shape", OPACITY, "opacity_image, 3u", &[1], 0.05),
         lookup_row!("at_shape", SHININESS, "shininess_image, 4u", &[2], 0.05),
@@ -348,4 +363,8 @@ pub(crate) fn shape_rows() -> Vec<Row> {
             of_at_footprint,
         ),
     ]
+}
+
+pub(crate) fn shape_rows() -> Vec<Row> {
+    [footprint_rows(), probe_and_ripmap_rows(), sum_rows(), fragment_rows()].into_iter().flatten().collect()
 }
