@@ -60,7 +60,7 @@ impl MapLook {
         Self { sampling, uv_set, channel, far_normals }
     }
 
-    /// As maps.wgsl and by_shape.wgsl take it; never all of sixteen bits.
+    /// As maps.wgsl and `by_shape.wgsl` take it; never all of sixteen bits.
     pub(crate) fn bits(self) -> u32 {
         let Sampling { wrap: [u, v], magnify, minify, levels } = self.sampling;
         let [by_level, last_by_level] = [levels.by_level(), LevelFilter::Linear].map(|levels| levels as u32);

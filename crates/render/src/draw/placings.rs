@@ -41,7 +41,7 @@ impl PlacingRecord {
     }
 }
 
-/// How many levels there are, along u and along v where that is asked for, what else by_shape.wgsl needs, and where they are.
+/// How many levels there are, along u and along v where that is asked for, what else `by_shape.wgsl` needs, and where they are.
 type Places = ([u32; 3], [[u32; 4]; 14]);
 
 fn of_pyramid(pyramid: &Pyramid) -> Places {

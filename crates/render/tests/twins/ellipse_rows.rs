@@ -1,4 +1,4 @@
-//! The table of the elliptical mean of by_shape.wgsl: its ellipse, its weights, and what it makes of a level.
+//! The table of the elliptical mean of `by_shape.wgsl`: its ellipse, its weights, and what it makes of a level.
 
 use halfway_texture::Wrap;
 

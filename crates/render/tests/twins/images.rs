@@ -74,7 +74,7 @@ pub(crate) const WRAPS: [Wrap; 3] = [Wrap::Repeat, Wrap::Mirror, Wrap::Clamp];
 pub(crate) const FILTERS: [TexelFilter; 4] =
     [TexelFilter::Nearest, TexelFilter::Bilinear, TexelFilter::BSpline, TexelFilter::CatmullRom];
 const LEVELS: [LevelFilter; 3] = [LevelFilter::None, LevelFilter::Nearest, LevelFilter::Linear];
-/// By their numbers in by_shape.wgsl, from 1 on.
+/// By their numbers in `by_shape.wgsl`, from 1 on.
 const SHAPES: [LevelFilter; 7] = [
     LevelFilter::Ripmap,
     LevelFilter::SummedArea,

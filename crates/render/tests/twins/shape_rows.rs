@@ -1,4 +1,4 @@
-//! The table of what by_shape.wgsl looks up: footprints, probes, ripmaps and summed areas, and all of them together. Twins are
+//! The table of what `by_shape.wgsl` looks up: footprints, probes, ripmaps and summed areas, and all of them together. Twins are
 //! `halfway_texture::lookup` or, of what it keeps to itself, the definition written out in another way.
 
 use halfway_texture::{UvTransform, Wrap, lookup};

@@ -1,4 +1,4 @@
-//! Twins: the functions of by_shape.wgsl, run on the adapter over images, against `halfway_texture::lookup` and definitions in
+//! Twins: the functions of `by_shape.wgsl`, run on the adapter over images, against `halfway_texture::lookup` and definitions in
 //! f64.
 
 use halfway_render::Gpu;
