@@ -1,4 +1,5 @@
-//! Twins: the functions of maps.wgsl, `by_level.wgsl` and factors.wgsl, run on the adapter over images, against their definition in f64.
+//! Twins: the functions of maps.wgsl, `by_level.wgsl` and factors.wgsl, run on the adapter over images, against their
+//! definition in f64.
 
 use halfway_render::Gpu;
 use std::collections::BTreeSet;
