@@ -1,40 +1,95 @@
-//! The hierarchies of patches of spheres, or of the models named: how long they take and how far off they are. Run with
-//! `--release`.
+//! The hierarchies of patches of some meshes, or of the models named: how long making them takes, how many triangles they
+//! have and how far off they are. Run with `--release`; `--times 5` makes each five times and gives the median.
 
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
-use halfway_mesh::{Mesh, PatchGroup, UvSphere};
+use bevy_math::Vec3;
+use halfway_mesh::{Mesh, PatchGroup, PatchHierarchy, Plane, Teapot, UvSphere};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let mut meshes = Vec::new();
-    for name in std::env::args().skip(1) {
-        let model = halfway_mesh::load(name.as_ref())?;
-        meshes.extend(model.parts.into_iter().map(|part| (name.clone(), part.mesh)));
+    let (mut meshes, mut times) = (Vec::new(), 1_usize);
+    let mut args = std::env::args().skip(1);
+    while let Some(name) = args.next() {
+        if name == "--times" {
+            times = args.next().ok_or("--times wants a number")?.parse()?;
+        } else if let Some((_, made)) = MADE.iter().find(|(made, _)| *made == name) {
+            meshes.push((name, made()));
+        } else {
+            let model = halfway_mesh::load(name.as_ref())?;
+            meshes.extend(model.parts.into_iter().map(|part| (name.clone(), part.mesh)));
+        }
     }
     if meshes.is_empty() {
-        let sphere = |(segments, rings)| (format!("{segments} × {rings}"), UvSphere::new(1.0, segments, rings).into());
-        meshes.extend([(512, 256), (64, 32), (16, 8)].map(sphere));
+        meshes.extend(MADE.iter().map(|&(name, made)| (name.to_owned(), made())));
     }
     for (name, mesh) in &meshes {
-        print_hierarchy(name, mesh);
+        print_hierarchy(name, mesh, times.max(1));
     }
     Ok(())
 }
 
+type NamedMesh = (&'static str, fn() -> Mesh);
+
+/// What can be named instead of a model.
+const MADE: [NamedMesh; 6] = [
+    ("stone", || stone(1000, 501)),
+    ("heights", heights),
+    ("sphere", || UvSphere::new(1.0, 512, 256).into()),
+    ("ball", || UvSphere::new(1.0, 255, 128).into()),
+    ("marble", || UvSphere::new(1.0, 64, 32).into()),
+    ("teapot", || Teapot::new(24).into()),
+];
+
+/// A scan: a sphere with hills, and with noise of up to a thousandth.
+fn stone(segments: u32, rings: u32) -> Mesh {
+    let smooth = Mesh::from(UvSphere::new(1.0, segments, rings));
+    let moved = smooth.displaced(|i| {
+        let p = smooth.positions()[i];
+        let hills = (3.0 * p.x + 1.0).sin() * (4.0 * p.y).sin() + 0.4 * (9.0 * p.z + 5.0 * p.x).sin();
+        0.07 * hills + 0.002 * (random(p) - 0.5)
+    });
+    moved.expect("finite heights").0
+}
+
+/// A plain of 500,000 triangles with hills.
+fn heights() -> Mesh {
+    let plain = Mesh::from(Plane { divisions: 500, size: 2.0 });
+    let moved = plain.displaced(|i| {
+        let Vec3 { x, z, .. } = plain.positions()[i];
+        0.1 * (5.0 * x + (3.0 * z).sin()).sin() + 0.02 * (31.0 * x).sin() * (27.0 * z + 7.0 * x).sin()
+    });
+    moved.expect("finite heights").0
+}
+
+/// A number from 0 to 1 of a place, the same for both ends of a seam.
+fn random(p: Vec3) -> f32 {
+    let mix = |all: u32, x: f32| (all ^ (x + 2.0).to_bits()).wrapping_mul(0x9E37_79B1).rotate_left(13);
+    p.to_array().into_iter().fold(0, mix) as f32 / u32::MAX as f32
+}
+
 /// What would be drawn if every group would do that is no further off than this.
-fn print_hierarchy(name: &str, mesh: &Mesh) {
-    let start = Instant::now();
-    let hierarchy = mesh.patch_hierarchy(&AtomicBool::new(false)).expect("nothing stops it");
-    let time = start.elapsed().as_secs_f64() * 1e3;
-    let groups = hierarchy.groups.len();
+fn print_hierarchy(name: &str, mesh: &Mesh, times: usize) {
+    let mut seconds = Vec::new();
+    let mut hierarchy = None;
+    for _ in 0..times {
+        let start = Instant::now();
+        hierarchy = mesh.patch_hierarchy(&AtomicBool::new(false));
+        seconds.push(start.elapsed().as_secs_f64());
+    }
+    let hierarchy = hierarchy.expect("nothing stops it");
+    seconds.sort_by(f64::total_cmp);
+    let (groups, median) = (hierarchy.groups.len(), seconds[times / 2]);
+    let million = median * 1e6 / mesh.triangle_count() as f64;
     println!(
-        "{name}: {} triangles, {} patches, {groups} groups, {time:.1} ms",
+        "{name}: {} triangles, {} patches, {groups} groups, {:.1} ms, {million:.2} s a million triangles{}",
         mesh.triangle_count(),
-        hierarchy.patches.len()
+        hierarchy.patches.len(),
+        median * 1e3,
+        peak()
     );
     let radius = mesh.bounds().radius();
-    for exponent in 0..10 {
+    for exponent in 0..14 {
         let most = radius * 0.1 * 0.5f32.powi(exponent);
         let within = || hierarchy.groups.iter().filter(|group| group.error <= most);
         let largest = |of: fn(&PatchGroup) -> f32| within().map(of).fold(0.0, f32::max);
@@ -44,4 +99,26 @@ fn print_hierarchy(name: &str, mesh: &Mesh) {
             "  within {most:.2e}: {triangles:7} triangles, {normal:8.3}° off, spread {spread:7.2}°, edges {edge:.2e}"
         );
     }
+    // One error is too few to compare two ways of making levels: counts jump.
+    let mean = |of: &PatchHierarchy, most: f32| {
+        let counts = (0..160).map(|step| of.triangles_within(most * 0.5f32.powf(step as f32 / 16.0)));
+        counts.sum::<usize>() / 160
+    };
+    let mut turned = hierarchy.clone();
+    for group in &mut turned.groups {
+        group.error = group.normal_error;
+    }
+    println!(
+        "  in the mean of many errors: {} triangles by distance, {} by normals; {} of all patches",
+        mean(&hierarchy, 0.1 * radius),
+        mean(&turned, 0.5),
+        hierarchy.triangles.len()
+    );
+}
+
+/// The most memory that this process has had so far, where the system says it.
+fn peak() -> String {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    line.map_or(String::new(), |kib| format!(", {} at most so far", kib.trim()))
 }
