@@ -7,8 +7,10 @@ use bevy_math::DVec3;
 
 use super::box_grid::not_less;
 use super::collapse::{Collapse, LocalMesh};
+use super::fine_surface::Surfaces;
 use super::neighbours;
-use super::overlay::{Deviation, Surfaces, angle};
+use super::open_border::open_border;
+use super::overlay::{Deviation, angle};
 use super::stand_ins::StandIns;
 use crate::Mesh;
 
@@ -227,12 +229,18 @@ impl<'a> Maker<'a> {
         Some((next, joined))
     }
 
-    /// The places of a patch, in ascending order.
-    fn places(&self, loose: &Loose) -> Vec<u32> {
-        let places = loose.triangles.as_flattened().iter().map(|&vertex| self.stand_ins.places[vertex as usize]);
-        let mut places: Vec<u32> = places.collect();
-        places.sort_unstable();
-        places.dedup();
+    /// The places of a patch, each once.
+    fn places(&mut self, loose: &Loose) -> Vec<u32> {
+        let mut places = Vec::with_capacity(loose.triangles.len());
+        for &vertex in loose.triangles.as_flattened() {
+            let place = self.stand_ins.places[vertex as usize];
+            if std::mem::replace(&mut self.slots[place as usize], 0) == u32::MAX {
+                places.push(place);
+            }
+        }
+        for &place in &places {
+            self.slots[place as usize] = u32::MAX;
+        }
         places
     }
 
@@ -258,9 +266,11 @@ impl<'a> Maker<'a> {
         };
         let (under, covers) = (gather(|loose| &loose.under), gather(|loose| &loose.covers));
         let fine: Vec<[u32; 3]> = under.iter().map(|&number| self.references[number as usize]).collect();
-        let surfaces = Surfaces { mesh: self.mesh, coarse: &coarse, fine: &fine, covered: &covers };
-        let overlay = surfaces.overlay(&mut self.slots);
+        let places = &self.stand_ins.places;
+        let surfaces =
+            Surfaces { mesh: self.mesh, places, coarse: &coarse, runs: &runs, fine: &fine, covered: &covers };
         let base = members.iter().map(|loose| loose.base).fold(Deviation::default(), Deviation::max);
+        let overlay = surfaces.overlay(self.least(members, base), &mut self.slots);
         let deviation = overlay.deviation.and(base);
         if deviation.distance > FARTHEST * f64::from(self.mesh.bounds().radius()) {
             return None;
@@ -284,16 +294,8 @@ impl<'a> Maker<'a> {
                 (part.base, part.age) = (deviation, 0);
             }
         } else {
-            for (part, run) in parts.iter_mut().zip(&runs) {
-                let mut is_under = vec![false; under.len()];
-                // They are in the order of the coarse ones.
-                let [start, end] = [run.start, run.end]
-                    .map(|first| overlay.pairs.partition_point(|&(coarse, _)| (coarse as usize) < first));
-                for &(_, fine) in &overlay.pairs[start..end] {
-                    is_under[fine as usize] = true;
-                }
-                part.under
-                    .extend(under.iter().zip(is_under).filter(|(_, is_under)| *is_under).map(|(number, _)| number));
+            for (part, near) in parts.iter_mut().zip(overlay.near) {
+                part.under.extend(near.into_iter().map(|at| under[at as usize]));
             }
             for (&vertex, home) in covers.iter().zip(overlay.homes) {
                 let part = runs.partition_point(|run| run.end <= home as usize);
@@ -303,16 +305,28 @@ impl<'a> Maker<'a> {
         Some(parts)
     }
 
+    /// What the errors of a group that joins these patches are in any case, besides the base: what they are for finer ones.
+    fn least(&self, members: &[Loose], base: Deviation) -> Deviation {
+        let finer = members.iter().filter_map(|loose| loose.part_of).map(|group| &self.groups[group as usize]);
+        let of_group = |group: &PatchGroup| Deviation {
+            distance: f64::from(group.error) - base.distance,
+            angle: f64::from(group.normal_error) - base.angle,
+        };
+        finer.map(of_group).fold(Deviation::default(), Deviation::max)
+    }
+
     /// The patches' triangles, without vertices that cost little.
     fn reduced(&mut self, members: &[Loose], owners: &[u32], wanted: usize) -> Vec<[u32; 3]> {
         let triangles: Vec<[u32; 3]> = members.iter().flat_map(|loose| loose.triangles.iter().copied()).collect();
         let Self { mesh, stand_ins: StandIns { places, .. }, stays, slots, .. } = self;
         let place = |vertex: u32| places[vertex as usize];
-        let mut vertices: Vec<u32> = triangles.as_flattened().iter().flat_map(|&i| [i, place(i)]).collect();
-        vertices.sort_unstable();
-        vertices.dedup();
-        for (local, &vertex) in (0..).zip(&vertices) {
-            slots[vertex as usize] = local;
+        let mut vertices = Vec::with_capacity(triangles.len());
+        for vertex in triangles.as_flattened().iter().flat_map(|&vertex| [vertex, place(vertex)]) {
+            let slot = &mut slots[vertex as usize];
+            if *slot == u32::MAX {
+                *slot = vertices.len() as u32;
+                vertices.push(vertex);
+            }
         }
         let position = |&vertex: &u32| (mesh.positions()[vertex as usize].as_dvec3() - self.center) / self.unit;
         let is_kept = |&vertex: &u32| {
@@ -321,7 +335,7 @@ impl<'a> Maker<'a> {
         };
         let local = LocalMesh {
             positions: vertices.iter().map(position).collect(),
-            normals: vertices.iter().map(|&vertex| mesh.normals()[vertex as usize].as_dvec3()).collect(),
+            normals: vertices.iter().map(|&vertex| mesh.normals()[vertex as usize]).collect(),
             places: vertices.iter().map(|&vertex| slots[place(vertex) as usize]).collect(),
             stays: vertices.iter().map(is_kept).collect(),
             triangles: triangles.iter().map(|triangle| triangle.map(|vertex| slots[vertex as usize])).collect(),
@@ -428,27 +442,6 @@ fn vertices(triangles: &[[u32; 3]]) -> Vec<u32> {
     vertices.sort_unstable();
     vertices.dedup();
     vertices
-}
-
-/// Whether each place is on an edge of one triangle only, or of more than two.
-fn open_border(mesh: &Mesh, stand_ins: &StandIns) -> Vec<bool> {
-    let drawn: Vec<[u32; 3]> = mesh.triangles().collect();
-    let places = |triangle: [u32; 3]| triangle.map(|vertex| stand_ins.places[vertex as usize]);
-    let mut edges: Vec<[u32; 2]> = stand_ins
-        .triangles(&drawn)
-        .flat_map(|triangle| {
-            let [a, b, c] = places(triangle);
-            [[a, b], [b, c], [c, a]].map(|[from, to]| [from.min(to), from.max(to)])
-        })
-        .collect();
-    edges.sort_unstable();
-    let mut stays = vec![false; stand_ins.places.len()];
-    for edge in edges.chunk_by(|a, b| a == b).filter(|edge| edge.len() != 2) {
-        for place in edge[0] {
-            stays[place as usize] = true;
-        }
-    }
-    stays
 }
 
 impl PatchHierarchy {

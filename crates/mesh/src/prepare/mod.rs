@@ -5,16 +5,23 @@
 //! meshes by meshoptimizer.
 
 mod box_grid;
+mod clip;
 mod collapse;
 mod components;
 mod distance;
+mod edge_twins;
 #[cfg(feature = "prepare")]
 mod enclose;
+mod fine_surface;
+mod four_vectors;
+mod frame;
 mod hierarchy;
+mod homes;
 #[cfg(feature = "prepare")]
 mod meshlets;
 mod nearest;
 mod neighbours;
+mod open_border;
 #[cfg(feature = "prepare")]
 mod order;
 mod overlay;
@@ -25,6 +32,7 @@ mod report;
 #[cfg(feature = "prepare")]
 mod simplify;
 mod stand_ins;
+mod surroundings;
 mod triangle_fans;
 mod weld;
 

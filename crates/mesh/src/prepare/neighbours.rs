@@ -23,7 +23,7 @@ struct Neighbours {
 impl Neighbours {
     /// `touched` has each place of each patch: the place, and the patch.
     fn new(mut touched: Vec<(u32, u32)>, patches: usize) -> Self {
-        touched.sort_unstable();
+        touched.sort_unstable_by_key(|&pair| as_one(pair));
         touched.dedup();
         let mut pairs = Vec::new();
         for at_place in touched.chunk_by(|a, b| a.0 == b.0).filter(|at_place| at_place.len() > 1) {
@@ -33,7 +33,7 @@ impl Neighbours {
             }
         }
         drop(touched);
-        pairs.sort_unstable();
+        pairs.sort_unstable_by_key(|&pair| as_one(pair));
         let mut each = Vec::new();
         let mut starts = vec![0; patches + 1];
         for same in pairs.chunk_by(|a, b| a == b) {
@@ -49,6 +49,11 @@ impl Neighbours {
     fn of(&self, patch: u32) -> &[(u32, u32)] {
         &self.each[self.starts[patch as usize]..self.starts[patch as usize + 1]]
     }
+}
+
+/// Two numbers in one, of the same order; which is compared sooner.
+fn as_one((first, second): (u32, u32)) -> u64 {
+    u64::from(first) << 32 | u64::from(second)
 }
 
 const NONE: u32 = u32::MAX;

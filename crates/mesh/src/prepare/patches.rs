@@ -22,6 +22,8 @@ struct Site {
     /// The mean normal of its corners: those of its own plane would part what is only noisy.
     facing: Vec3,
     number: u32,
+    /// What it is parted by: a coordinate, as a number of the same order.
+    key: u32,
 }
 
 impl Mesh {
@@ -36,7 +38,7 @@ impl Mesh {
         let most = most.max(1);
         let site = |(number, corners): (u32, &[u32; 3])| {
             let mean = |of: &[Vec3]| corners.iter().map(|&i| of[i as usize] * (1.0 / 3.0)).sum::<Vec3>();
-            Site { place: mean(self.positions()), facing: mean(self.normals()).normalize_or_zero(), number }
+            Site { place: mean(self.positions()), facing: mean(self.normals()).normalize_or_zero(), number, key: 0 }
         };
         let mut sites: Vec<Site> = (0..).zip(triangles.iter()).map(site).collect();
         let mut patches = Vec::with_capacity(triangles.len().div_ceil(most));
@@ -70,9 +72,30 @@ fn part(sites: &mut [Site], before: usize, most: usize, patches: &mut Vec<Range<
     };
     // Whole patches on the first side, so that only the last one of all is not full.
     let half = (sites.len() / 2).next_multiple_of(most).min(sites.len() - 1);
-    let order = |a: &Site, b: &Site| of(a)[axis].total_cmp(&of(b)[axis]).then(a.number.cmp(&b.number));
-    sites.select_nth_unstable_by(half, order);
+    for site in &mut *sites {
+        site.key = ordered(of(site)[axis]);
+    }
+    sites.select_nth_unstable_by_key(half, |site| u64::from(site.key) << 32 | u64::from(site.number));
     let (first, second) = sites.split_at_mut(half);
     part(first, before, most, patches);
     part(second, before + half, most, patches);
+}
+
+/// A number in whose order numbers are by [`f32::total_cmp`].
+fn ordered(x: f32) -> u32 {
+    let bits = x.to_bits();
+    if bits >> 31 == 0 { bits | 1 << 31 } else { !bits }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keys_are_in_the_order_of_numbers() {
+        let numbers =
+            [f32::NEG_INFINITY, f32::MIN, -1.0, -f32::MIN_POSITIVE, -0.0, 0.0, 1e-45, 1.0, 2.5, f32::INFINITY];
+        assert!(numbers.is_sorted_by(|a, b| a.total_cmp(b).is_lt()));
+        assert!(numbers.map(ordered).is_sorted_by(|a, b| a < b));
+    }
 }
