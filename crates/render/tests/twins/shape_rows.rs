@@ -1,6 +1,8 @@
 //! The table of what `by_shape.wgsl` looks up: footprints, probes, ripmaps and summed areas, and all of them together. Twins are
 //! `halfway_texture::lookup` or, of what it keeps to itself, the definition written out in another way.
 
+#![allow(clippy::float_cmp, reason = "numbers of periods are whole")]
+
 use halfway_texture::{UvTransform, Wrap, lookup};
 
 use crate::adapter::Kind;
@@ -194,8 +196,11 @@ fn rectangle(slot: usize, x: &[f32]) -> Vec<f64> {
 
 // ---- at a fragment --------------------------------------------------------------------------------
 
+/// Two ways.
+type WayPair = [[f64; 2]; 2];
+
 /// The place of a fragment on the image of heights, and its ways, each with the largest that its sums could be.
-fn placed(x: &[f32]) -> (Look, [[f64; 2]; 2], [[[f64; 2]; 2]; 2]) {
+fn placed(x: &[f32]) -> (Look, [[f64; 2]; 2], [WayPair; 2]) {
     let look = Look::of(x[1]);
     let rows = rows_of(HEIGHT);
     let gross = rows.map(|row| row.map(f64::abs));
