@@ -70,7 +70,6 @@ fn lights_are_left_out_where_texels_are_dark() {
     let plain = terms(Vec::new());
     let bright = terms(vec![(MapKind::Color, halves(1.0, 1.0)), (MapKind::Specular, halves(1.0, 1.0))]);
     let dark = terms(vec![(MapKind::Color, halves(0.02, 0.02)), (MapKind::Specular, halves(0.02, 0.02))]);
-    // Along u, of which the last levels are one texel, the mean of both halves: 0.02 there too.
     let half = terms(vec![(MapKind::Color, halves(0.0, 0.04)), (MapKind::Specular, halves(0.04, 0.0))]);
     println!("{plain} terms without images, {bright} of white ones, {half} of halves, {dark} of dark ones");
     assert_eq!(plain, bright, "white images leave all");
