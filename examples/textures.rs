@@ -1,5 +1,6 @@
-//! One checker on a floor that is tilted away and on a ball, by eight filters: from left to right nearest, bilinear, B-spline
-//! and Catmull–Rom; above without smaller images, below with them.
+//! One checker on a floor that is tilted away and on a ball, by twelve filters: from left to right nearest, bilinear, B-spline
+//! and Catmull–Rom; above without smaller images, in the middle with them; below by the footprint's shape: ripmap, summed
+//! areas, 16 probes and the elliptical mean.
 //!
 //! ```text
 //! cargo run --release --example textures
@@ -10,7 +11,7 @@ use halfway::prelude::*;
 use halfway::texture::{LevelFilter, TexelFilter, TexelImage, TextureError, UvTransform};
 
 /// The filters of the panels, row by row.
-const PANELS: [Sampling; 8] = {
+const PANELS: [Sampling; 12] = {
     const fn panel(texels: TexelFilter, levels: LevelFilter) -> Sampling {
         Sampling { wrap: Sampling::NEAREST.wrap, magnify: texels, minify: texels, levels }
     }
@@ -23,6 +24,10 @@ const PANELS: [Sampling; 8] = {
         panel(TexelFilter::Bilinear, LevelFilter::Linear),
         panel(TexelFilter::BSpline, LevelFilter::Linear),
         panel(TexelFilter::CatmullRom, LevelFilter::Linear),
+        panel(TexelFilter::Bilinear, LevelFilter::Ripmap),
+        panel(TexelFilter::Bilinear, LevelFilter::SummedArea),
+        panel(TexelFilter::Bilinear, LevelFilter::Anisotropic16),
+        panel(TexelFilter::Bilinear, LevelFilter::Elliptical),
     ]
 };
 
@@ -50,13 +55,13 @@ fn scene(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>, mut textures:
     ));
     commands.spawn((DirectionalLight::white(), Transform::from_xyz(0.3, 1.0, 0.6).looking_at(Vec3::ZERO, Vec3::Y)));
     let floor = meshes.add(Plane { size: 2.0, divisions: 1 });
-    let ball = meshes.add(UvSphere::new(0.42, 64, 32));
+    let ball = meshes.add(UvSphere::new(0.36, 64, 32));
     for (number, sampling) in PANELS.into_iter().enumerate() {
         let (column, row) = ((number % 4) as f32, (number / 4) as f32);
         let x = 2.35 * (column - 1.5);
         let transform = UvTransform { scale: [4.0, 40.0], ..UvTransform::default() };
         // Long, and seen from a few degrees above.
-        let floor_at = Vec3::new(x, 2.0 - 5.4 * row, -7.0);
+        let floor_at = Vec3::new(x, 3.35 - 3.5 * row, -7.0);
         let tilt = (floor_at.y / 17.0).atan() + 0.085;
         commands.spawn((
             Mesh3d(floor.clone()),
@@ -70,7 +75,7 @@ fn scene(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>, mut textures:
             Mesh3d(ball.clone()),
             Material::plastic(LinearRgba::WHITE),
             map(&texture, sampling, UvTransform::default()),
-            Transform::from_xyz(x, 2.4 - 2.97 * row, 0.0),
+            Transform::from_xyz(x, 2.58 - 2.06 * row, 0.0),
         ));
     }
     Ok(())
