@@ -3,8 +3,9 @@
 use std::sync::{Arc, OnceLock};
 
 use crate::halves::{Level, half, lower, narrower};
-use crate::ranges::TexelRanges;
+use crate::ranges::{TexelRange, TexelRanges};
 use crate::ripmap::Ripmap;
+use crate::sampling::Sampling;
 use crate::sums::SummedAreas;
 use crate::texels::TexelImage;
 
@@ -96,6 +97,12 @@ impl Pyramid {
     /// The least and the largest texels of its parts: 43 KiB at most, kept from the first call on.
     pub fn ranges(&self) -> &TexelRanges {
         self.more.ranges.get_or_init(|| TexelRanges::new(&self.levels, &self.texels))
+    }
+
+    /// What [`filtered`](crate::lookup::filtered) may give wherever u and v are from `low` to `high`, or a texel beside that of
+    /// the level that is taken, whatever the footprint; a little more. `None` where texels are too large for sums of them.
+    pub fn range_within(&self, sampling: &Sampling, low: [f32; 2], high: [f32; 2]) -> Option<TexelRange> {
+        self.ranges().within((&self.levels, &self.texels), sampling, low, high)
     }
 
     /// Whether the two are clones of each other.

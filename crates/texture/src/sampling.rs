@@ -153,3 +153,17 @@ pub enum Channel {
     /// The fourth.
     Alpha,
 }
+
+/// The texel that a number stands for that may lie beyond the image.
+pub(crate) fn wrapped_index(wrap: Wrap, at: i64, side: u32) -> usize {
+    let side = i64::from(side);
+    let index = match wrap {
+        Wrap::Repeat => at.rem_euclid(side),
+        Wrap::Mirror => {
+            let there_and_back = at.rem_euclid(2 * side);
+            there_and_back.min(2 * side - 1 - there_and_back)
+        }
+        Wrap::Clamp => at.clamp(0, side - 1),
+    };
+    index as usize
+}

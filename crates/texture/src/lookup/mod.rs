@@ -19,6 +19,7 @@ use num_traits::Float;
 use self::footprint::FootprintShape;
 use crate::halves::Level;
 use crate::pyramid::Pyramid;
+pub(crate) use crate::sampling::wrapped_index;
 use crate::sampling::{Channel, LevelFilter, Sampling, TexelFilter, Wrap};
 
 /// The numbers that filters run in: `f32` and `f64`.
@@ -279,18 +280,4 @@ fn wrapped<T: Number>(wrap: Wrap, u: T, side: T) -> T {
         }
         Wrap::Clamp => (u * side).max(-two).min(side + two),
     }
-}
-
-/// The texel that a number stands for that may lie beyond the image.
-pub(crate) fn wrapped_index(wrap: Wrap, at: i64, side: u32) -> usize {
-    let side = i64::from(side);
-    let index = match wrap {
-        Wrap::Repeat => at.rem_euclid(side),
-        Wrap::Mirror => {
-            let there_and_back = at.rem_euclid(2 * side);
-            there_and_back.min(2 * side - 1 - there_and_back)
-        }
-        Wrap::Clamp => at.clamp(0, side - 1),
-    };
-    index as usize
 }
