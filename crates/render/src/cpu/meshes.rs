@@ -3,7 +3,8 @@
 use crate::batch::batches::Batches;
 use crate::batch::drawn_meshes::DrawnMeshes;
 use crate::frame::report::FrameReport;
-use crate::geometry::meshes::{Form, Geometries, Geometry, both_uvs};
+use crate::geometry::meshes::{Form, Geometries, Geometry};
+use crate::geometry::uv_boxes::both_uvs;
 use bevy_asset::AssetId;
 use bevy_ecs::prelude::*;
 use halfway_mesh::Mesh;

@@ -12,7 +12,6 @@ use crate::target::texture::TextureTarget;
 use crate::view::matrices::Visible;
 use bevy_asset::{AssetId, Assets};
 use bevy_ecs::prelude::*;
-use bevy_math::{Vec2, Vec4};
 use bevy_platform::collections::HashMap;
 use halfway_lighting::{Blend, Frequency, Mask, Terms, Tolerance, VertexColors, ViewTolerance};
 use halfway_mesh::{Mesh, Mesh3d};
@@ -219,16 +218,6 @@ pub(crate) fn forget_removed(
     let after = geometries.meshes.len();
     geometries.forgotten += (before - after) as u64;
     geometries.looked = (after, meshes.len());
-}
-
-/// The coordinates of both sets, zeros where there are none.
-pub(crate) fn both_uvs(mesh: &Mesh) -> Vec<Vec4> {
-    let of = |set: usize, vertex: usize| mesh.uv_set(set).map_or(Vec2::ZERO, |uvs| uvs[vertex]);
-    let both = |vertex| {
-        let ([u, v], [s, t]) = (of(0, vertex).to_array(), of(1, vertex).to_array());
-        Vec4::new(u, v, s, t)
-    };
-    (0..mesh.positions().len()).map(both).collect()
 }
 
 /// Whether any triangle's normals can cancel under interpolation; those of coarser levels, which do so only where a

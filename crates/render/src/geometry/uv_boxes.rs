@@ -1,8 +1,7 @@
 //! Where patches lie on images: the least and the largest of their texture coordinates.
 
-use crate::geometry::meshes::both_uvs;
 use crate::geometry::patches::MeshPatch;
-use bevy_math::Vec4;
+use bevy_math::{Vec2, Vec4};
 use halfway_mesh::Mesh;
 
 /// The least and the largest coordinates of some vertices, of both sets.
@@ -36,4 +35,14 @@ impl UvBoxes {
         let is_whole = self.0.get(at + 1).is_none_or(|(next, _)| *next >= patch.indices.end);
         is_whole.then_some(self.0[at].1)
     }
+}
+
+/// The coordinates of both sets, zeros where there are none.
+pub(crate) fn both_uvs(mesh: &Mesh) -> Vec<Vec4> {
+    let of = |set: usize, vertex: usize| mesh.uv_set(set).map_or(Vec2::ZERO, |uvs| uvs[vertex]);
+    let both = |vertex| {
+        let ([u, v], [s, t]) = (of(0, vertex).to_array(), of(1, vertex).to_array());
+        Vec4::new(u, v, s, t)
+    };
+    (0..mesh.positions().len()).map(both).collect()
 }
