@@ -1,6 +1,5 @@
 //! Which pixels a triangle covers, and what it leaves in them where nothing is nearer.
 
-use crate::four::EVEN;
 use crate::lanes::{
     F, I, M, Simd, counting, counting_i, each, f32x4, fma, lanes, load, load_i, max, max_one, min, min_one, replace,
     splat, splat_i, store_i,
@@ -85,6 +84,9 @@ impl EdgeFunctions {
         edges
     }
 }
+
+/// In the place of the second sample's shader: the pixel shows in all samples what the first one does, or nothing.
+pub(crate) const EVEN: i32 = -1;
 
 /// The nearest that has been drawn of a tile. With four samples each list holds all pixels' first samples, then all
 /// second ones, and so on; the depths of a pixel's samples lie side by side.

@@ -3,7 +3,9 @@
 //! Most pixels show one triangle in all four samples. What it leaves is kept once then, as the first sample's, and the
 //! second one's shader is [`EVEN`]; a triangle that takes some of the samples has them written out first.
 
-use crate::cover::{EdgeFunctions, Kept, PIXELS, TINY_AT, TINY_PIXELS, TINY_PLACES, TileBuffer, clamped, plane, value};
+use crate::cover::{
+    EVEN, EdgeFunctions, Kept, PIXELS, TINY_AT, TINY_PIXELS, TINY_PLACES, TileBuffer, clamped, plane, value,
+};
 use crate::lanes::{
     I, M, MOST_LANES, Simd, counting, counting_i, each, f32x4, fma, lanes, load, load_i, max_one, min_one, replace,
     splat, splat_i, store_i,
@@ -17,9 +19,6 @@ use fearless_simd::{i32x4, mask32x4, prelude::*};
 pub(crate) const CENTROID_SHIFT: i32 = 28;
 /// The bits of a shader below it.
 pub(crate) const SHADER_BITS: i32 = (1 << CENTROID_SHIFT) - 1;
-
-/// In the place of the second sample's shader: the pixel shows in all samples what the first one does, or nothing.
-pub(crate) const EVEN: i32 = -1;
 
 /// The bits of all samples of a pixel.
 const ALL: usize = 15;

@@ -1,8 +1,8 @@
 //! Shading of what is nearest in a tile, a vector of pixels at a time.
 
-use crate::cover::TileBuffer;
+use crate::cover::{EVEN, TileBuffer};
 use crate::encode::{bytes, cleared, kept};
-use crate::four::{CENTROID_SHIFT, EVEN, SHADER_BITS};
+use crate::four::{CENTROID_SHIFT, SHADER_BITS};
 use crate::lanes::{
     F, I, M, Simd, V3, add, counting, dot, each, fma, lanes, load, load_i, load3, max, min, neg, safe_normalize, scale,
     select3, splat, splat_i, splat3, store,
