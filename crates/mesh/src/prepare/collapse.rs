@@ -7,8 +7,8 @@ use bevy_math::{DVec3, Vec3};
 
 use super::edge_twins::{NO_TWIN, edge_twins};
 use super::quadric::ErrorQuadric;
-use super::surroundings::{MOST_AROUND, Surroundings};
 use super::triangle_fans::TriangleFans;
+use super::vicinity::{MOST_AROUND, Vicinity};
 
 /// Triangles and the vertices that they have, numbered among themselves.
 #[derive(Default)]
@@ -36,14 +36,14 @@ pub(super) struct Collapse {
     alive: usize,
     /// Places by what collapsing them onto their best neighbour loses.
     waiting: BinaryHeap<Reverse<(u32, u32)>>,
-    /// Of each place in line, the neighbour onto which it collapses best, if its surroundings have not changed.
+    /// Of each place in line, the neighbour onto which it collapses best, if its vicinity has not changed.
     best: Vec<u32>,
-    /// For each place, whether its surroundings have changed since it was put in line.
+    /// For each place, whether its vicinity has changed since it was put in line.
     changed: Vec<bool>,
     /// Whether each place is in line.
     is_waiting: Vec<bool>,
     /// What is around the place that is looked at, here only so that its memory is used again.
-    surroundings: Surroundings,
+    vicinity: Vicinity,
 }
 
 const GONE: [u32; 3] = [u32::MAX; 3];
@@ -63,14 +63,14 @@ impl Collapse {
             best: vec![u32::MAX; count],
             changed: vec![false; count],
             is_waiting: vec![false; count],
-            surroundings: Surroundings::default(),
+            vicinity: Vicinity::default(),
         };
         collapse.add_quadrics();
-        let mut near = Surroundings::new(count);
+        let mut near = Vicinity::new(count);
         for place in 0..count as u32 {
             collapse.put_in_line(place, &mut near);
         }
-        collapse.surroundings = near;
+        collapse.vicinity = near;
         collapse
     }
 
@@ -79,7 +79,7 @@ impl Collapse {
     }
 
     /// Puts a place in line unless it stays.
-    fn put_in_line(&mut self, place: u32, near: &mut Surroundings) {
+    fn put_in_line(&mut self, place: u32, near: &mut Vicinity) {
         if let Some((cost, target)) = self.best(place, near) {
             self.best[place as usize] = target;
             self.is_waiting[place as usize] = true;
@@ -93,13 +93,13 @@ impl Collapse {
             let Some(Reverse((_, place))) = self.waiting.pop() else { return };
             self.is_waiting[place as usize] = false;
             let has_changed = std::mem::take(&mut self.changed[place as usize]);
-            let mut near = std::mem::take(&mut self.surroundings);
+            let mut near = std::mem::take(&mut self.vicinity);
             let target = if has_changed { None } else { self.still_best(place, &mut near) };
             match target {
                 Some(target) => self.collapse(place, target, &near),
                 None => self.put_in_line(place, &mut near),
             }
-            self.surroundings = near;
+            self.vicinity = near;
         }
     }
 
@@ -136,7 +136,7 @@ impl Collapse {
     }
 
     /// The neighbour onto which a place collapses best, and what that loses.
-    fn best(&self, place: u32, near: &mut Surroundings) -> Option<(f32, u32)> {
+    fn best(&self, place: u32, near: &mut Vicinity) -> Option<(f32, u32)> {
         if self.mesh.stays[place as usize] || self.fans.of(place).len() > MOST_AROUND {
             return None;
         }
@@ -161,7 +161,7 @@ impl Collapse {
     }
 
     /// Finds the fan and the neighbours of a place.
-    fn look_around(&self, place: u32, near: &mut Surroundings) {
+    fn look_around(&self, place: u32, near: &mut Vicinity) {
         near.clear();
         for &number in self.fans.of(place) {
             let ([a, b, c], [i, j, k]) = (self.mesh.triangles[number as usize], self.places[number as usize]);
@@ -177,7 +177,7 @@ impl Collapse {
 
     /// The number of the neighbour that was best for a place, if it still is where only what is further off than the
     /// neighbours has changed.
-    fn still_best(&self, place: u32, near: &mut Surroundings) -> Option<usize> {
+    fn still_best(&self, place: u32, near: &mut Vicinity) -> Option<usize> {
         self.look_around(place, near);
         let target = near.number(self.best[place as usize])?;
         self.keeps_topology(target, near).then_some(target)
@@ -185,7 +185,7 @@ impl Collapse {
 
     /// Whether the surface stays one: the neighbours that both ends have are those of the triangles on their edge, one
     /// at a border and else two, and what is on a border moves along it.
-    fn keeps_topology(&self, target: usize, near: &Surroundings) -> bool {
+    fn keeps_topology(&self, target: usize, near: &Vicinity) -> bool {
         let (around, on_edge) = (&near.around, near.around[target].triangles);
         let is_closed = around.len() == near.triangles();
         let is_open = around.len() == near.triangles() + 1;
@@ -203,7 +203,7 @@ impl Collapse {
     }
 
     /// Collapses a place onto a neighbour.
-    fn collapse(&mut self, place: u32, target: usize, near: &Surroundings) {
+    fn collapse(&mut self, place: u32, target: usize, near: &Vicinity) {
         let Some(moves) = near.moves(target) else { return };
         let target = near.around[target].place;
         for &number in self.fans.of(place) {

@@ -32,8 +32,8 @@ mod report;
 #[cfg(feature = "prepare")]
 mod simplify;
 mod stand_ins;
-mod surroundings;
 mod triangle_fans;
+mod vicinity;
 mod weld;
 
 pub use distance::DistanceBounds;

@@ -67,7 +67,7 @@ struct FourSides {
 /// What is around a place. Lengths are parts of that of the longest edge there, so that no squares of areas under- or
 /// overflow.
 #[derive(Default)]
-pub(super) struct Surroundings {
+pub(super) struct Vicinity {
     fan: Vec<FanCorner>,
     pub(super) around: Vec<Neighbour>,
     sides: Vec<FourSides>,
@@ -111,7 +111,7 @@ fn spread2(a: FourVectors, b: FourVectors, c: FourVectors) -> Vec4 {
     a.max(b).max(c)
 }
 
-impl Surroundings {
+impl Vicinity {
     /// Of one of so many places.
     pub(super) fn new(places: usize) -> Self {
         Self { numbers: vec![0; places], ..Self::default() }
