@@ -141,7 +141,9 @@ impl TileBuffer {
         repeat_three(lead, pixel);
         if *keeps_more {
             repeat(mapped, pixel);
-            [second, paint, face].into_iter().for_each(|lists| repeat_three(lists, pixel));
+            for lists in [second, paint, face] {
+                repeat_three(lists, pixel);
+            }
         }
     }
 
@@ -174,7 +176,8 @@ impl TileBuffer {
             });
             for j in top..=bottom {
                 // Of those that none of the edges leaves out as a whole, some may have no sample that all three leave.
-                let some = (e[0] + more[0] | e[1] + more[1] | e[2] + more[2]).simd_ge(splat_i(simd, 0));
+                let [a, b, c] = each!(k in 3 => e[k] + more[k]);
+                let some = (a | b | c).simd_ge(splat_i(simd, 0));
                 let mut parts = some.to_bitmask() >> drawn << drawn;
                 if parts != 0 {
                     let all = (e[0] | e[1] | e[2]).simd_ge(splat_i(simd, 0));
@@ -324,13 +327,19 @@ impl TileBuffer {
 /// Gives the other samples' lists what the first has of a pixel.
 fn repeat<T: Copy, const N: usize>(lists: &mut [[T; N]], pixel: usize) {
     if let [first, others @ ..] = lists {
-        others.iter_mut().for_each(|other| other[pixel] = first[pixel]);
+        for other in others {
+            other[pixel] = first[pixel];
+        }
     }
 }
 
 fn repeat_three<const N: usize>(lists: &mut [[[f32; N]; 3]], pixel: usize) {
     if let [first, others @ ..] = lists {
-        others.iter_mut().for_each(|other| (0..3).for_each(|c| other[c][pixel] = first[c][pixel]));
+        for other in others {
+            for c in 0..3 {
+                other[c][pixel] = first[c][pixel];
+            }
+        }
     }
 }
 
