@@ -101,7 +101,7 @@ impl Pyramid {
 
     /// What [`filtered`](crate::lookup::filtered) may give wherever u and v are from `low` to `high`, or a texel beside that of
     /// the level that is taken, whatever the footprint; a little more. `None` where texels are too large for sums of them.
-    pub fn range_within(&self, sampling: &Sampling, low: [f32; 2], high: [f32; 2]) -> Option<TexelRange> {
+    pub fn range_within(&self, sampling: Sampling, low: [f32; 2], high: [f32; 2]) -> Option<TexelRange> {
         self.ranges().within((&self.levels, &self.texels), sampling, low, high)
     }
 

@@ -53,7 +53,7 @@ impl TexelRange {
     }
 
     /// What filters make of such texels: with what overshoots, and what sums round.
-    fn filtered(mut self, sampling: &Sampling) -> Self {
+    fn filtered(mut self, sampling: Sampling) -> Self {
         let overshoots = [sampling.magnify, sampling.minify].contains(&TexelFilter::CatmullRom);
         for k in 0..4 {
             let (least, most) = (self.least[k], self.most[k]);
@@ -92,11 +92,12 @@ impl TexelRanges {
     }
 
     /// Of the image that it was made of: what [`filtered`](crate::lookup::filtered) may give wherever u and v are from `low`
-    /// to `high`, or a texel beside that of the level that is taken, whatever the footprint; a little more. `None` where texels are too large for sums of them.
+    /// to `high`, or a texel beside that of the level that is taken, whatever the footprint; a little more. `None` where
+    /// texels are too large for sums of them.
     pub(crate) fn within(
         &self,
         (levels, texels): (&[Level], &[[f32; 4]]),
-        sampling: &Sampling,
+        sampling: Sampling,
         low: [f32; 2],
         high: [f32; 2],
     ) -> Option<TexelRange> {

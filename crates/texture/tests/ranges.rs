@@ -43,7 +43,7 @@ fn outside(made: impl Fn(TexelRange) -> TexelRange) -> usize {
             for _ in 0..60 {
                 let low = [0; 2].map(|_| (hashed.next() * 4.0 - 2.0) as f32);
                 let high = low.map(|low| low + (hashed.next().powi(4) * 1.5) as f32);
-                let range = made(pyramid.range_within(&sampling, low, high).expect("small texels"));
+                let range = made(pyramid.range_within(sampling, low, high).expect("small texels"));
                 for _ in 0..8 {
                     let uv = [0, 1].map(|k| f64::from(low[k]) + hashed.next() * f64::from(high[k] - low[k]));
                     let footprint = [0; 2].map(|_| [0; 2].map(|_| hashed.next().powi(6) * 0.7));
@@ -72,12 +72,12 @@ fn what_is_far_does_not_widen_the_range() {
     let striped = Pyramid::new(flat);
     let of = |pyramid: &Pyramid, levels| {
         let sampling = Sampling { levels, ..Sampling::default() };
-        pyramid.range_within(&sampling, [0.1, 0.2], [0.3, 0.4]).expect("small texels").most[0]
+        pyramid.range_within(sampling, [0.1, 0.2], [0.3, 0.4]).expect("small texels").most[0]
     };
     assert!(of(&striped, LevelFilter::None) < 0.1001, "of the image itself");
     // Of 8 texels a row the last, a quarter of which is bright, is a neighbour of the first.
     assert!((of(&striped, LevelFilter::Linear) - 0.3).abs() < 1e-3);
     assert!(of(&pyramid, LevelFilter::None) <= 1.0 && pyramid.ranges().bytes() <= 44 * 1024);
     let large = Pyramid::new(TexelImage::from_fn(4, 4, |_, _| [3e38; 4]).expect("an image"));
-    assert_eq!(large.range_within(&Sampling::default(), [0.0; 2], [1.0; 2]), None);
+    assert_eq!(large.range_within(Sampling::default(), [0.0; 2], [1.0; 2]), None);
 }

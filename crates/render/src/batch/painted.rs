@@ -174,7 +174,7 @@ fn range_on(look: MapLook, of: &MapUse, pyramid: &Pyramid, around: &UvBox) -> [[
         LevelFilter::None => [sign * f32::INFINITY; 2],
         _ => [boxed[0][at] as f32, boxed[1][at] as f32],
     };
-    let range = pyramid.range_within(&look.sampling, end(0, -1.0), end(1, 1.0));
+    let range = pyramid.range_within(look.sampling, end(0, -1.0), end(1, 1.0));
     let within = |number: f32| if number > 0.0 { number.min(1.0) } else { 0.0 };
     range.map_or([[0.0; 4], [1.0; 4]], |range| [range.least, range.most].map(|ends| ends.map(within)))
 }
