@@ -183,15 +183,7 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
     if without_environment > 0 {
         report.errors.push(RenderError::ImagesInEnvironment(without_environment));
     }
-    report.materials = lit.table.materials_in_use();
-    report.lights_assigned = lit.lists.assigned;
-    report.terms_shaded = lit.lists.shaded;
-    report.light_pairs = lit.lists.take_pairs();
-    report.left_out = lit.lists.left_out;
-    report.terms_at_vertices = lit.lists.placed.at_vertices;
-    report.terms_at_fragments = lit.lists.placed.at_fragments;
-    report.steps_spent = lit.lists.placed.spent / values.share();
-    report.choices_changed = lit.lists.memory.changed;
+    lit.tell(&mut report, values.share());
 }
 
 /// A patch that is drawn, and its stretch: see [`Detail::each_seen`](crate::geometry::detail::Detail::each_seen).
@@ -205,6 +197,19 @@ impl LitPatches {
         self.lists.begin(lights, changed);
         self.table.begin(lights.ambient);
         self.paints.begin();
+    }
+
+    /// What the frame's lists came to; `share` is how much of a tolerance the values have.
+    fn tell(&mut self, report: &mut FrameReport, share: f64) {
+        report.materials = self.table.materials_in_use();
+        report.lights_assigned = self.lists.assigned;
+        report.terms_shaded = self.lists.shaded;
+        report.light_pairs = self.lists.take_pairs();
+        report.left_out = self.lists.left_out;
+        report.terms_at_vertices = self.lists.placed.at_vertices;
+        report.terms_at_fragments = self.lists.placed.at_fragments;
+        report.steps_spent = self.lists.placed.spent / share;
+        report.choices_changed = self.lists.memory.changed;
     }
 
     /// Adds what is seen of an object: its patches, neighbours with equal light lists joined. `seen` is room for them.
@@ -221,11 +226,7 @@ impl LitPatches {
         let detail = &geometry.detail;
         report.triangles_in += geometry.source.triangle_count() as u64;
         self.instances.push(InstanceRecord::new(model_view, normal_matrix, reflecting.faces, view.unit() as f32));
-        if let [all] = detail.patches()
-            && let Some(key) = self.unchosen(object, shared, backend)
-        {
-            let record = self.table.number(&mut self.records, object.material, RecordLists::default());
-            self.add_run(object, OpenRun { key, lights: 0, record, indices: all.indices.clone(), stretch: 0 });
+        if self.add_unchosen(object, shared, backend) {
             return;
         }
         let reflector = reflecting.reflector(key.terms);
@@ -322,6 +323,15 @@ impl LitPatches {
         if let Some(painted) = painted {
             self.paints.keep((object.mesh, object.form), painted);
         }
+    }
+
+    /// Adds an object of one patch of which nothing is chosen; whether it is one.
+    fn add_unchosen(&mut self, object: &LitObject, shared: Shared, backend: &mut impl Backend) -> bool {
+        let [all] = object.geometry.detail.patches() else { return false };
+        let Some(key) = self.unchosen(object, shared, backend) else { return false };
+        let record = self.table.number(&mut self.records, object.material, RecordLists::default());
+        self.add_run(object, OpenRun { key, lights: 0, record, indices: all.indices.clone(), stretch: 0 });
+        true
     }
 
     /// The key that draws an object of one patch, where there is nothing to choose: neither lights nor the places of terms.
@@ -465,7 +475,9 @@ impl LitPatches {
             self.runs.push(LitRun { blend, call, pass, twins_before, indices, lights, record, depth, instance });
         };
         if key.blend {
-            (0..).zip(key.passes()).for_each(|(pass, key)| add(pass, key));
+            for (pass, key) in (0..).zip(key.passes()) {
+                add(pass, key);
+            }
         } else {
             add(0, key);
         }
