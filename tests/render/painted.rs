@@ -114,7 +114,7 @@ fn most_off(stage: &mut Stage, scene: &Scene, steps: f32) -> (f64, u64) {
     for (x, y, pixel) in picture.enumerate_pixels().filter(|(x, y, _)| (16..48).contains(x) && (12..36).contains(y)) {
         let exact = expected.pixels()[(y * 64 + x) as usize];
         for c in 0..3 {
-            let exact = f64::from(exact[c]).clamp(0.0, 1.0) * 255.0;
+            let exact = exact[c].clamp(0.0, 1.0) * 255.0;
             most = most.max((f64::from(pixel.0[c]) - exact).abs());
         }
     }
