@@ -342,8 +342,10 @@ const STEPS_OF_FAR_NORMALS: f64 = 8.0;
 #[test]
 fn highlights_by_the_mean_of_far_normals_alone_are_found_out() {
     let mut stage = Stage::new(SIZE.x, SIZE.y);
-    for Row { name, scene, .. } in maps::rows_of_far_normals().iter().filter(|row| row.name.ends_with("Phong, 4 times"))
-    {
+    let mut rows = maps::rows_of_far_normals();
+    rows.retain(|row| row.name.ends_with("Phong, 4 times"));
+    assert_eq!(rows.len(), 4, "with shininess and without");
+    for Row { name, scene, .. } in &rows {
         let mut mean = scene.clone();
         let normals = mean.things.iter_mut().flat_map(|thing| &mut thing.maps);
         normals.for_each(|(_, map)| map.far_normals = FarNormals::Mean);

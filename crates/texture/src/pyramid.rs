@@ -16,7 +16,8 @@ use crate::texels::TexelImage;
 /// sizes these are four texels; of odd ones three in a row count, two of them in part. So no level is brighter or darker than
 /// the image as a whole, none leaves the range of its texels, and none depends on what lies beyond the image.
 ///
-/// What else some filters and bounds need, [`Ripmap`], [`SummedAreas`] and [`TexelRanges`], is made when it is first asked for, and shared by the clones.
+/// What else some filters and bounds need, [`Ripmap`], [`SummedAreas`] and [`TexelRanges`], is made when it is first asked
+/// for, and shared by the clones.
 #[derive(Clone, Debug)]
 pub struct Pyramid {
     levels: Arc<[Level]>,
