@@ -92,7 +92,8 @@ fn spheres(shading: Shading) -> Result<Scene, RasterError> {
     let length = 60.0_f32.hypot(160.0);
     let (sin, cos) = (60.0 / length, 160.0 / length);
     scene.instances.clear();
-    for i in 0..10_000_u16 {
+    // Front to back, as the renderer sorts them.
+    for i in (0..10_000_u16).rev() {
         let (x, z) = ((f32::from(i % 100) - 49.5) * 2.5, (f32::from(i / 100) - 49.5) * 2.5);
         let (turn_sin, turn_cos) = (0.01 * f32::from(i % 97)).sin_cos();
         let rows = [

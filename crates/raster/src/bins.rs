@@ -2,7 +2,7 @@
 
 use crate::error::RasterError;
 use crate::pass::Pass;
-use crate::placed::{PlacedInstance, TILE};
+use crate::placed::{PlacedInstance, TILE, TileBox};
 use crate::state::State;
 use std::ops::Range;
 
@@ -18,6 +18,8 @@ pub(crate) struct Job {
     pub(crate) state: u32,
     /// First and last column, first and last row of tiles.
     tiles: [u16; 4],
+    /// See [`TileBox::is_at_hand`].
+    pub(crate) at_hand: bool,
 }
 
 /// What is to be drawn, tile by tile. Its memory is kept from frame to frame.
@@ -221,8 +223,10 @@ impl BinsPart {
         let mesh = pass.meshes[draw.mesh as usize];
         let instance = &pass.instances[index as usize];
         let placed = PlacedInstance::new(pass, instance, draw);
-        if pieces.len() > 1 && placed.tiles(&mesh.extent).is_none() {
-            return Ok(());
+        let mut all = None;
+        if pieces.len() > 1 {
+            let Some(tiles) = placed.tiles(&mesh.extent) else { return Ok(()) };
+            all = Some(tiles).filter(TileBox::is_in_one);
         }
         let state = self.state(pass, number, instance.surface)?;
         reserve(&mut self.jobs, pieces.len())?;
@@ -230,8 +234,9 @@ impl BinsPart {
             if placed.turns_away(of) {
                 continue;
             }
-            if let Some(tiles) = placed.tiles(&of.extent) {
-                self.jobs.push(Job { draw: number, instance: index, piece: piece as u32, state, tiles });
+            if let Some(of) = all.or_else(|| placed.tiles(&of.extent)) {
+                let (tiles, at_hand) = (of.tiles, of.is_at_hand());
+                self.jobs.push(Job { draw: number, instance: index, piece: piece as u32, state, tiles, at_hand });
             }
         }
         Ok(())

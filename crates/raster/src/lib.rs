@@ -57,6 +57,7 @@ mod encode;
 mod error;
 mod faces;
 mod four;
+mod hidden;
 mod lane_triangles;
 mod lanes;
 mod lighting;

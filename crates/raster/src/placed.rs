@@ -64,7 +64,7 @@ impl PlacedInstance {
     }
 
     /// The tiles that points of an extent may be in; `None` where they are out of the picture.
-    pub(crate) fn tiles(&self, extent: &PieceExtent) -> Option<[u16; 4]> {
+    pub(crate) fn tiles(&self, extent: &PieceExtent) -> Option<TileBox> {
         let [x, y, z] = self.place(extent.center);
         let radius = extent.radius * self.stretch * 1.0001;
         // Along each axis of eye space the box or the sphere ends first. A flat box has no room for how vertices are rounded.
@@ -80,9 +80,11 @@ impl PlacedInstance {
         }
         let [left, right] = self.span(0, x, reach[0], &depth)?;
         let [bottom, top] = self.span(1, y, reach[1], &depth)?;
-        let columns = tiles_of(0.5 + 0.5 * left, 0.5 + 0.5 * right, self.size[0])?;
-        let rows = tiles_of(0.5 - 0.5 * top, 0.5 - 0.5 * bottom, self.size[1])?;
-        Some([columns[0], columns[1], rows[0], rows[1]])
+        let (columns, wide) = tiles_of(0.5 + 0.5 * left, 0.5 + 0.5 * right, self.size[0])?;
+        let (rows, high) = tiles_of(0.5 - 0.5 * top, 0.5 - 0.5 * bottom, self.size[1])?;
+        let tiles = [columns[0], columns[1], rows[0], rows[1]];
+        let is_inside = wide && high && depth.middle - depth.reach >= self.near * 1.0001;
+        Some(TileBox { tiles, is_inside })
     }
 
     /// From where to where that reaches along an axis, as −1 to 1 over the picture.
@@ -101,6 +103,30 @@ impl PlacedInstance {
     }
 }
 
+/// Where an extent is on the picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct TileBox {
+    /// First and last column, first and last row of tiles.
+    pub(crate) tiles: [u16; 4],
+    /// All of it is behind the near plane and inside the picture.
+    is_inside: bool,
+}
+
+impl TileBox {
+    /// Whether all its points lie so in the tiles next to one of these that they have places there: nothing is clipped, and
+    /// 16 bits take the way from the tile's center.
+    pub(crate) fn is_at_hand(&self) -> bool {
+        let [left, right, top, bottom] = self.tiles;
+        self.is_inside && right - left <= 1 && bottom - top <= 1
+    }
+
+    /// Whether it is at hand in a single tile, in which all that is part of it lies then, too.
+    pub(crate) fn is_in_one(&self) -> bool {
+        let [left, right, top, bottom] = self.tiles;
+        self.is_inside && left == right && top == bottom
+    }
+}
+
 /// How far from the eye something is: its middle, how far it reaches before and behind it, and in any direction.
 struct Depth {
     middle: f32,
@@ -108,8 +134,8 @@ struct Depth {
     radius: f32,
 }
 
-/// The tiles from `low` to `high`, given as shares of a side, with a pixel to spare.
-fn tiles_of(low: f32, high: f32, size: f32) -> Option<[u16; 2]> {
+/// The tiles from `low` to `high`, given as shares of a side, with a pixel to spare; and whether all that is in the picture.
+fn tiles_of(low: f32, high: f32, size: f32) -> Option<([u16; 2], bool)> {
     let (low, high) = (low * size - 1.0, high * size + 1.0);
     if low >= size || high < 0.0 {
         return None;
@@ -117,7 +143,7 @@ fn tiles_of(low: f32, high: f32, size: f32) -> Option<[u16; 2]> {
     // What is no number reaches everywhere.
     let first = if low > 0.0 { low } else { 0.0 };
     let last = if high < size - 1.0 { high } else { size - 1.0 };
-    Some([first, last].map(|x| (x as u32 / TILE as u32) as u16))
+    Some(([first, last].map(|x| (x as u32 / TILE as u32) as u16), low > 0.0 && high < size - 1.0))
 }
 
 #[cfg(test)]
@@ -161,14 +187,32 @@ mod tests {
             });
             let placed = placed(rows);
             let tiles = placed.tiles(&PieceExtent::of(points.iter().copied()));
+            let at_hand = tiles.filter(TileBox::is_at_hand);
             for point in points {
-                let Some([column, row]) = tile_of(&placed, point) else { continue };
-                let listed = tiles.is_some_and(|[left, right, top, bottom]| {
+                let at = tile_of(&placed, point);
+                prop_assert!(at_hand.is_none() || at.is_some(), "{point:?} is out of sight, and at hand by {at_hand:?}");
+                let Some([column, row]) = at else { continue };
+                let listed = tiles.is_some_and(|TileBox { tiles: [left, right, top, bottom], .. }| {
                     (left..=right).contains(&column) && (top..=bottom).contains(&row)
                 });
                 prop_assert!(listed, "{point:?} is in {column}, {row}, and {tiles:?} are listed");
             }
         }
+    }
+
+    /// Whether a plate at a place, and with a near plane, is at hand.
+    #[test]
+    fn nothing_is_at_hand_that_is_clipped_or_wide() {
+        let at_hand = |x: f32, z: f32, near: f32| {
+            let rows = [[1.0, 0.0, 0.0, x], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, z]];
+            let plate = [[-0.1, -0.1, 0.0], [0.1, -0.1, 0.0], [0.1, 0.1, 0.0], [-0.1, 0.1, 0.0]];
+            let placed = PlacedInstance { near, ..placed(rows) };
+            placed.tiles(&PieceExtent::of(plate.into_iter())).is_some_and(|tiles| tiles.is_at_hand())
+        };
+        assert!(at_hand(0.3, -4.0, 0.1));
+        assert!(!at_hand(3.95, -4.0, 0.1), "part of it is beside the picture");
+        assert!(!at_hand(0.3, -4.0, 4.0), "part of it may be before the near plane");
+        assert!(!at_hand(0.0, -0.5, 0.1), "it is in more than two columns of tiles");
     }
 
     /// A plate that is seen edge-on stands in one column of tiles, and its sphere in many.
@@ -177,8 +221,8 @@ mod tests {
         let placed = placed([[1.0, 0.0, 0.0, 0.02], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, -4.0]]);
         let plate = [[0.0, -1.0, -1.0], [0.0, 1.0, -1.0], [0.0, 1.0, 1.0], [0.0, -1.0, 1.0]];
         let extent = PieceExtent::of(plate.into_iter());
-        assert_eq!(placed.tiles(&extent), Some([10, 10, 2, 8]));
+        assert_eq!(placed.tiles(&extent).map(|of| of.tiles), Some([10, 10, 2, 8]));
         let ball = PieceExtent { half: [extent.radius; 3], ..extent };
-        assert_eq!(placed.tiles(&ball).map(|[left, right, ..]| right - left), Some(11));
+        assert_eq!(placed.tiles(&ball).map(|TileBox { tiles: [left, right, ..], .. }| right - left), Some(11));
     }
 }

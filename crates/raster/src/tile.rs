@@ -6,7 +6,7 @@ use crate::clip::{Ready, each_part};
 use crate::cover::{EdgeFunctions, Kept, TileBuffer};
 use crate::encode::{bytes, cleared, kept};
 use crate::faces::PieceFaces;
-use crate::lanes::{I, LEAST_LANES, Simd, V3, each, f32x4, lanes, max_one, min_one};
+use crate::lanes::{I, LEAST_LANES, MOST_LANES, Simd, V3, each, f32x4, lanes, max_one, min_one};
 use crate::look::Look;
 use crate::mapped::MappedTriangle;
 use crate::pass::{DrawCall, InstanceData, Pass, PixelFormat, SampleCount};
@@ -17,7 +17,7 @@ use crate::shade::{Even, shader_of};
 use crate::state::{Stage, State};
 use crate::surroundings::behind;
 use crate::triangle::{Batch, Corners, Covering};
-use crate::vertices::{Screen, Vertices};
+use crate::vertices::{Placement, Screen, Vertices};
 use fearless_simd::prelude::*;
 
 /// What draws tiles, one after the other, in memory of its own.
@@ -49,6 +49,8 @@ struct Work<'a> {
     instance: &'a InstanceData,
     state: &'a State,
     covering: Covering,
+    /// Something else has been drawn before it in the tile, with one sample a pixel; it may hide this.
+    behind: bool,
     blend: bool,
 }
 
@@ -85,17 +87,31 @@ impl Worker {
         }
         self.nearest.clear();
         let mut shaded = false;
+        let first = jobs.peek().map(|&number| bins.jobs[number as usize]);
         for number in jobs {
             let blend = number >= bins.first_blended;
             if blend && !shaded {
                 self.shade(simd, &look, last[1]);
                 shaded = true;
             }
-            let work = Work::of(scene, number, last, blend);
+            let work = Work::of(scene, number, last, (first, blend));
             look.painted |= work.state.shades_apart();
             let shows = simd.vectorize(
                 #[inline(always)]
-                || self.vertices.place(simd, (work.mesh, work.piece), work.instance, (screen, tile)),
+                || {
+                    let place = (work.mesh, work.piece);
+                    match self.vertices.place(
+                        simd,
+                        place,
+                        work.instance,
+                        (screen, tile),
+                        (work.job.at_hand, work.behind),
+                    ) {
+                        Placement::Beside => false,
+                        Placement::Anywhere => true,
+                        Placement::Box { first, last, nearest } => !self.nearest.hides(simd, first, last, nearest),
+                    }
+                },
             );
             if shows {
                 simd.vectorize(
@@ -134,12 +150,15 @@ impl Worker {
         let range = work.piece.triangles.start as usize..work.piece.triangles.end as usize;
         let triangles = &work.mesh.triangles[range];
         let (shown, [fronts, backs]) = self.find_shown(simd, work, triangles);
+        // What is lit once a triangle or a vertex is lit only if something of it shows.
+        let lit_before = matches!(work.state.stage, Stage::Flat | Stage::Vertex);
+        let shown = if lit_before && work.behind { self.not_hidden::<S>(triangles, shown) } else { shown };
         if shown == 0 {
             return;
         }
         let (place, state) = ((work.mesh, work.piece), (look.pass, work.state));
         if work.state.stage == Stage::Flat || work.state.opposite_normals {
-            self.faces.fill(simd, place, work.instance, state, [fronts, backs]);
+            self.faces.fill(simd, place, work.instance, state, [fronts & shown, backs & shown]);
         }
         self.vertices.light(simd, place, work.instance, state, groups_of::<S>(triangles, shown));
         let one = work.covering.is_plain && work.covering.samples == SampleCount::One;
@@ -174,6 +193,24 @@ impl Worker {
             backs |= (here & batch.backs | batch.others) << at;
         }
         (shown, [fronts, backs])
+    }
+
+    /// Those of some triangles that are not behind what has been drawn, as far as the tiny ones tell.
+    #[inline(always)]
+    fn not_hidden<S: Simd>(&self, triangles: &[[u8; 3]], mut shown: u64) -> u64 {
+        for (at, batch) in (0..triangles.len()).step_by(lanes::<S>()).zip(&*self.batches) {
+            let mut left = batch.tiny;
+            while left != 0 {
+                let lane = left.trailing_zeros() as usize % MOST_LANES;
+                left &= left - 1;
+                let [a, b, c] = triangles[at + lane].map(|corner| self.vertices.inverse_w[usize::from(corner)]);
+                let first = [batch.bounds[0][lane], batch.bounds[2][lane]];
+                if self.nearest.hides_tiny((batch.pixels[lane], first), max_one(max_one(a, b), c)) {
+                    shown &= !(1 << (at + lane));
+                }
+            }
+        }
+        shown
     }
 
     /// A triangle that is large, or has to be clipped.
@@ -384,7 +421,7 @@ fn draw<S: Simd>(
 }
 
 impl<'a> Work<'a> {
-    fn of(scene: &Scene<'a>, number: u32, last: [i32; 2], blend: bool) -> Self {
+    fn of(scene: &Scene<'a>, number: u32, last: [i32; 2], (first, blend): (Option<Job>, bool)) -> Self {
         let Scene { pass, bins, .. } = *scene;
         let job = bins.jobs[number as usize];
         let draw = &pass.draws[job.draw as usize];
@@ -403,6 +440,7 @@ impl<'a> Work<'a> {
                 last,
                 is_plain: !blend && state.stage != Stage::Mixed && !state.opposite_normals && !state.is_painted(),
             },
+            behind: pass.samples == SampleCount::One && first.is_some_and(|first| first.instance != job.instance),
             blend,
         }
     }

@@ -12,7 +12,7 @@ use crate::vertices::{CLIPPED, FAR_AWAY, GRID, Vertices};
 use fearless_simd::prelude::*;
 
 /// The longest side of a triangle's box on the grid that 32 bits take without care.
-const SMALL: i32 = 64 * GRID;
+pub(crate) const SMALL: i32 = 64 * GRID;
 
 /// Columns and rows of the box of a tiny triangle, at most.
 pub(crate) const TINY: usize = 5;

@@ -2,14 +2,15 @@
 
 use crate::attributes::{Attributes, MappedVertices, SLOTS};
 use crate::lanes::{
-    F, I, Simd, V3, each, fma, lanes, load, load3, max, min, safe_normalize, splat, splat_i, store, store_fours,
-    store_i,
+    F, I, Simd, V3, each, fma, lanes, load, load3, max, max_one, min, safe_normalize, splat, splat_i, store,
+    store_fours, store_i,
 };
 use crate::lighting::{Points, reflected, tinted, tinted_terms, to_viewer};
 use crate::pass::{InstanceData, Pass};
 use crate::pieces::{Piece, Pieces};
 use crate::placed::TILE;
 use crate::state::{Stage, State};
+use crate::triangle::SMALL;
 use fearless_simd::prelude::*;
 
 /// Steps of the grid in a pixel.
@@ -50,6 +51,16 @@ impl Screen {
             way_start: [((1.0 / width - 1.0) / x) as f32, ((1.0 - 1.0 / height) / y) as f32],
         }
     }
+}
+
+/// Where a piece lies.
+pub(crate) enum Placement {
+    /// Around no pixel of the tile.
+    Beside,
+    /// Where it may be around some.
+    Anywhere,
+    /// It is small: the first and last column and row of pixels of the tile that it may cover, and its greatest 1/w.
+    Box { first: [usize; 2], last: [usize; 2], nearest: f32 },
 }
 
 /// A number a vertex.
@@ -136,7 +147,8 @@ impl Vertices {
         }
     }
 
-    /// Puts a piece's vertices onto the picture; returns whether they may lie around pixels of the tile.
+    /// Puts a piece's vertices onto the picture; returns where they lie. `at_hand` says that none is clipped or far from
+    /// the tile (see [`TileBox::is_at_hand`](crate::placed::TileBox::is_at_hand)), `boxed` asks for the box of what is small.
     #[inline(always)]
     pub(crate) fn place<S: Simd>(
         &mut self,
@@ -144,67 +156,109 @@ impl Vertices {
         (mesh, piece): (&Pieces, &Piece),
         instance: &InstanceData,
         (screen, tile): (&Screen, [u32; 2]),
-    ) -> bool {
+        (at_hand, boxed): (bool, bool),
+    ) -> Placement {
+        if at_hand {
+            self.place_all::<S, true>(simd, (mesh, piece), instance, (screen, tile), boxed)
+        } else {
+            self.place_all::<S, false>(simd, (mesh, piece), instance, (screen, tile), boxed)
+        }
+    }
+
+    #[inline(always)]
+    fn place_all<S: Simd, const AT_HAND: bool>(
+        &mut self,
+        simd: S,
+        (mesh, piece): (&Pieces, &Piece),
+        instance: &InstanceData,
+        (screen, tile): (&Screen, [u32; 2]),
+        boxed: bool,
+    ) -> Placement {
         let center = tile.map(|place| (place as i32 * TILE as i32 + TILE as i32 / 2) * GRID);
         let mut any_code = splat_i(simd, 0);
         let (mut low, mut high) = ([splat_i(simd, i32::MAX); 2], [splat_i(simd, i32::MIN); 2]);
+        let mut nearest = splat(simd, 0.0);
         for at in (0..piece.vertex_count as usize).step_by(lanes::<S>()) {
             let p = load3(simd, &mesh.positions, piece.first_vertex as usize + at);
             let p = transformed(simd, &instance.eye_from_model, p);
-            let (code, grid) = self.project(simd, at, p, screen, center);
+            let (code, grid, inverse_w) = self.project::<S, AT_HAND>(simd, at, p, screen, center);
             any_code |= code;
+            nearest = max::<S>(inverse_w, nearest);
             for axis in 0..2 {
                 low[axis] = SimdBase::min(low[axis], grid[axis]);
                 high[axis] = SimdBase::max(high[axis], grid[axis]);
             }
         }
-        self.any_code = any_code.as_slice().iter().fold(0, |all, code| all | code);
+        self.any_code = if AT_HAND { 0 } else { any_code.as_slice().iter().fold(0, |all, code| all | code) };
         // What has to be clipped may lie anywhere.
         if self.any_code & CLIPPED != 0 {
-            return true;
+            return Placement::Anywhere;
         }
-        let mut meets = true;
         for axis in 0..2 {
             let [first, last] = each!(end in 2 => center[axis] + (end as i32 * TILE as i32 - TILE as i32 / 2) * GRID);
-            meets &= high[axis].simd_ge(splat_i(simd, first)).any_true();
-            meets &= low[axis].simd_le(splat_i(simd, last)).any_true();
+            let reaches = high[axis].simd_ge(splat_i(simd, first)).any_true()
+                && low[axis].simd_le(splat_i(simd, last)).any_true();
+            if !reaches {
+                return Placement::Beside;
+            }
         }
-        meets
+        if !boxed || self.any_code != 0 {
+            return Placement::Anywhere;
+        }
+        let [low, high] = [
+            low.map(|low| low.as_slice().iter().copied().fold(i32::MAX, i32::min)),
+            high.map(|high| high.as_slice().iter().copied().fold(i32::MIN, i32::max)),
+        ];
+        // Depths of larger triangles are not those of their corners to the bit.
+        if (high[0] - low[0]).max(high[1] - low[1]) > SMALL {
+            return Placement::Anywhere;
+        }
+        let place = |grid: i32, axis: usize| (grid >> 8) - (tile[axis] as i32 * TILE as i32);
+        Placement::Box {
+            first: each!(axis in 2 => place(low[axis], axis).max(0) as usize),
+            last: each!(axis in 2 => place(high[axis], axis).min(TILE as i32 - 1) as usize),
+            nearest: nearest.as_slice().iter().copied().fold(0.0, max_one),
+        }
     }
 
-    /// Stores the place on the screen; returns the codes and the place on the grid.
+    /// Stores the place on the screen; returns the codes, the place on the grid, and 1/w.
     #[inline(always)]
-    fn project<S: Simd>(
+    fn project<S: Simd, const AT_HAND: bool>(
         &mut self,
         simd: S,
         at: usize,
         p: V3<S>,
         screen: &Screen,
         center: [i32; 2],
-    ) -> (I<S>, [I<S>; 2]) {
+    ) -> (I<S>, [I<S>; 2], F<S>) {
         let w = -p[2];
+        let (zero, one) = (splat_i(simd, 0), splat(simd, 1.0));
         let in_front = w.simd_ge(splat(simd, screen.near));
-        let one = splat(simd, 1.0);
-        let inverse_w = one / in_front.select(w, one);
-        let zero = splat_i(simd, 0);
-        let mut code = in_front.select(zero, splat_i(simd, TOO_NEAR));
+        let inverse_w = one / if AT_HAND { w } else { in_front.select(w, one) };
+        let mut code = if AT_HAND { zero } else { in_front.select(zero, splat_i(simd, TOO_NEAR)) };
         let (mut relative, mut on_grid) = ([zero; 2], [zero; 2]);
         for axis in 0..2 {
             let x = fma::<S>(p[axis] * inverse_w, splat(simd, screen.scale[axis]), splat(simd, screen.center[axis]));
-            let (low, high) = (splat(simd, SCREEN_LOW), splat(simd, SCREEN_HIGH));
-            // What is no number is beyond both ends.
-            code |= x.simd_ge(low).select(zero, splat_i(simd, 2 << (2 * axis)));
-            code |= x.simd_le(high).select(zero, splat_i(simd, 4 << (2 * axis)));
-            let inside = min::<S>(max::<S>(x, low), high);
+            let mut inside = x;
+            if !AT_HAND {
+                let (low, high) = (splat(simd, SCREEN_LOW), splat(simd, SCREEN_HIGH));
+                // What is no number is beyond both ends.
+                code |= x.simd_ge(low).select(zero, splat_i(simd, 2 << (2 * axis)));
+                code |= x.simd_le(high).select(zero, splat_i(simd, 4 << (2 * axis)));
+                inside = min::<S>(max::<S>(x, low), high);
+            }
             let steps = inside * splat(simd, GRID as f32);
             let whole = steps.round_ties_even();
             let grid: I<S> = whole.to_int();
             // Less than half a step, so that rounding gives the whole steps again.
             let part = min::<S>((steps - whole) * splat(simd, 65_536.0), splat(simd, 32_767.0));
             let from_center = grid - splat_i(simd, center[axis]);
-            let near = SimdBase::max(SimdBase::min(from_center, splat_i(simd, 32_766)), splat_i(simd, -32_767));
+            let mut near = from_center;
+            if !AT_HAND {
+                near = SimdBase::max(SimdBase::min(from_center, splat_i(simd, 32_766)), splat_i(simd, -32_767));
+                code |= near.simd_eq(from_center).select(zero, splat_i(simd, FAR_AWAY));
+            }
             relative[axis] = (near << 16) + part.round_ties_even().to_int::<I<S>>();
-            code |= near.simd_eq(from_center).select(zero, splat_i(simd, FAR_AWAY));
             store::<S>(inside, &mut self.screen[axis], at);
             store_i::<S>(grid, &mut self.grid[axis], at);
             on_grid[axis] = grid;
@@ -216,8 +270,10 @@ impl Vertices {
         let (low, high) = relative[0].interleave(relative[1]);
         store_i::<S>(low, self.places.as_flattened_mut(), 2 * at);
         store_i::<S>(high, self.places.as_flattened_mut(), 2 * at + lanes::<S>());
-        store_i::<S>(code, &mut self.codes, at);
-        (code, on_grid)
+        if !AT_HAND {
+            store_i::<S>(code, &mut self.codes, at);
+        }
+        (code, on_grid, inverse_w)
     }
 
     #[inline(always)]

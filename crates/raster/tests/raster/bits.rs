@@ -214,3 +214,29 @@ fn pictures_differ_where_scenes_do() {
     hashes.dedup();
     assert_eq!(hashes.len(), 10);
 }
+
+/// What is hidden is not lit; drawn far to near nothing is hidden, and the picture is the same to the bit. A ball is at 64
+/// depths in each place, so that no two surfaces lie in one depth.
+#[test]
+fn order_changes_no_bit_of_what_is_opaque() {
+    for shading in Shading::ALL {
+        let mut scene = small(shading);
+        let ball = ball(12, TriangleOrder::Clustered);
+        scene.size = [150, 140];
+        scene.lens = crate::common::lens(scene.size, 45.0);
+        scene.instances = (0..256_u16)
+            .map(|k| {
+                let [x, y, z] = [k % 8, k / 8 % 4, k / 32].map(f32::from);
+                at([2.1 * (x - 3.5) + 0.13 * z, 1.7 * (y - 1.5) - 0.11 * z, -14.0 - 1.3 * z - 0.01 * x], 0)
+            })
+            .collect();
+        scene.draws = vec![draw(&ball, 256, shading)];
+        scene.meshes = vec![ball];
+        let mut rasterizer = Rasterizer::new(RasterOptions { threads: Some(1), ..RasterOptions::default() }).unwrap();
+        let near_to_far = hash_of_picture(&scene, &mut rasterizer);
+        scene.instances.reverse();
+        assert_eq!(hash_of_picture(&scene, &mut rasterizer), near_to_far, "{shading:?}");
+        scene.draws[0].instances.end -= 1;
+        assert_ne!(hash_of_picture(&scene, &mut rasterizer), near_to_far, "{shading:?}: one ball less");
+    }
+}
