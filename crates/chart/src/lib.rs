@@ -2,7 +2,7 @@
 //! time of a frame grows.
 //!
 //! [`ReportPlan`] says how much is measured, [`measure()`] does it, [`Report`] holds what was found, and [`Report::files`]
-//! makes a page, tables and drawings of it. The parts can be had alone: what a millisecond buys in [`front`] and [`Fronts`],
+//! makes a page, tables and drawings of it. The parts can be had alone: error against time in [`front`] and [`Fronts`],
 //! the other sweeps in [`mod@measure`], the charts in
 //! [`figure`], [`filters`] of images, the page in [`page`].
 

@@ -1,4 +1,4 @@
-//! What a millisecond buys: scenes, the methods that draw them, the points of error and time that are measured, and the
+//! Error against time: scenes, the methods that draw them, the points of error and time that are measured, and the
 //! front of those that nothing beats.
 
 mod errors;

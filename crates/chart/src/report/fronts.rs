@@ -71,7 +71,7 @@ impl Fronts {
     pub fn files(&self) -> Result<Vec<NamedFile>, ReportError> {
         let names: Vec<&str> = self.scenes.iter().map(|scene| scene.name.as_str()).collect();
         let page = Page {
-            title: format!("What a millisecond buys: {}", names.join(", ")),
+            title: format!("Error against time: {}", names.join(", ")),
             lead: match &self.scenes[..] {
                 [one] => self.advice(one).join(" "),
                 _ => LEAD.to_owned(),
@@ -206,7 +206,7 @@ impl Fronts {
         let panels = scenes.map(|scene| panel(&Panels::of(scene, backend), Area::Covered, scene.name.clone()));
         let figure = Figure {
             id: "chart".to_owned(),
-            title: format!("What a millisecond buys: RMS error against time, {}", machine.adapter),
+            title: format!("RMS error against the time of a frame, {}", machine.adapter),
             x: Axis::new("frame (reference frame = 1)", AxisScale::Log),
             y: Axis::new("RMS error, steps of 1/255", AxisScale::Log),
             columns: names.len().max(1),

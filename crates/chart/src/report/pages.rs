@@ -23,7 +23,7 @@ impl Report {
             self.scaling.section(),
         ]);
         Page {
-            title: "What a millisecond buys".to_owned(),
+            title: "Error against time".to_owned(),
             lead: LEAD.to_owned(),
             facts: self.facts(),
             sections,
