@@ -1,5 +1,6 @@
-// The entry points of surrounded draws with a solid: those of surrounded.wgsl, and where a vertex lies in the object's space. The solid's
-// color multiplies what all else has left of the ambient and the diffuse part. Needs surrounded.wgsl and solid.wgsl.
+// The entry points of surrounded draws with a solid: those of surrounded.wgsl, and where a vertex lies in the object's
+// space. The solid's color multiplies what all else has left of the ambient and the diffuse part. Needs surrounded.wgsl
+// and solid.wgsl.
 
 // ---- flat ----------------------------------------------------------------------------------------
 
@@ -89,34 +90,6 @@ fn fs_solid_gouraud(in: Gouraud, cut: Cut, @builtin(front_facing) front: bool) -
 }
 
 // ---- some term at the fragments: Phong, or mixed ---------------------------------------------------
-
-struct SolidMixed {
-    @invariant @builtin(position) clip: vec4f,
-    @location(0) @interpolate(perspective, centroid) p: vec3f,
-    @location(1) @interpolate(perspective, centroid) n: vec3f,
-    @location(2) @interpolate(perspective, centroid) color: vec4f,
-    @location(3) @interpolate(perspective, centroid) front: vec3f,   // the terms of the vertices, of either side
-    @location(4) @interpolate(perspective, centroid) back: vec3f,
-    @location(5) @interpolate(perspective, centroid) front_ambient: vec3f,
-    @location(6) @interpolate(perspective, centroid) back_ambient: vec3f,
-    @location(7) @interpolate(perspective, centroid) frame: vec4f,   // the tangent and w, or what a rise of 1 becomes
-    @location(8) @interpolate(perspective, centroid) uv: vec4f,
-    @location(9) @interpolate(perspective, center) at: vec4f,
-    @location(10) @interpolate(perspective, center) middle: vec3f,
-    @location(11) @interpolate(flat, either) record: u32,
-    @location(12) @interpolate(perspective, centroid) place: vec4f,
-    @location(13) @interpolate(perspective, center) at_center: vec4f,
-}
-
-@vertex
-fn vs_solid_mixed(object: Object, vertex: Vertex) -> SolidMixed {
-    let made = mixed_vertex(object, vertex);
-    let place = vec4f(vertex.position, 1.0);
-    return SolidMixed(
-        made.clip, made.p, made.n, made.color, made.front, made.back, made.front_ambient, made.back_ambient,
-        made.frame, made.uv, made.at, made.middle, made.record, place, place,
-    );
-}
 
 @fragment
 fn fs_solid_mixed(in: Mixed, cut: Cut, @builtin(front_facing) front: bool) -> @location(0) vec4f {
