@@ -52,8 +52,8 @@ pub use files::{
 };
 pub use mesh::{Mesh, MeshError};
 pub use model::{
-    AlphaMode, MetallicRoughness, Model, MtlMaterial, Part, SourceCamera, SourceLight, SourceLightKind, SourceMaterial,
-    SourceProjection,
+    AlphaMode, GltfMaps, MetallicRoughness, Model, MtlMaps, MtlMaterial, Part, SourceCamera, SourceLight,
+    SourceLightKind, SourceMaterial, SourceProjection,
 };
 pub use normals::{NormalReport, NormalWeighting, Normals, face_normal};
 pub use occlusion::{OcclusionBake, OcclusionError, OcclusionImage};
@@ -63,7 +63,7 @@ pub use prepare::{
     DistanceBounds, HierarchyPatch, MeshReport, PatchGroup, PatchHierarchy, RepairReport, Weld, WeldReport,
 };
 pub use problems::Problems;
-pub use source_map::{SourceChannel, SourceLevels, SourceMap, SourceMapKind, SourceMaps, SourceWrap};
+pub use source_map::{SourceChannel, SourceLevels, SourceMap, SourceWrap};
 pub use subdivide::Subdivision;
 pub use surfaces::{
     BezierPatch, Capsule, Cone, Cuboid, Cylinder, Disc, Ellipsoid, HeightField, Hyperboloid, HyperboloidSheet,

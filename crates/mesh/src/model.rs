@@ -2,7 +2,7 @@
 
 use bevy_math::Mat4;
 
-use crate::{Bounds, Mesh, SourceMaps};
+use crate::{Bounds, Mesh, SourceMap};
 
 /// The content of a model file: meshes placed in the world, and the materials and lights that the file describes.
 ///
@@ -59,11 +59,11 @@ pub enum SourceMaterial {
 }
 
 impl SourceMaterial {
-    /// The images that it refers to.
-    pub fn maps(&self) -> &SourceMaps {
+    /// Whether it refers to images.
+    pub fn has_maps(&self) -> bool {
         match self {
-            Self::Mtl(mtl) => &mtl.maps,
-            Self::MetallicRoughness(gltf) => &gltf.maps,
+            Self::Mtl(mtl) => mtl.maps != MtlMaps::default(),
+            Self::MetallicRoughness(gltf) => gltf.maps != GltfMaps::default(),
         }
     }
 
@@ -98,8 +98,27 @@ pub struct MtlMaterial {
     pub tr: Option<f32>,
     /// `illum`, the number of the illumination model.
     pub illum: Option<u8>,
-    /// `map_Kd map_Ks map_Ke map_d map_Ns norm map_Bump`.
-    pub maps: SourceMaps,
+    /// The images.
+    pub maps: MtlMaps,
+}
+
+/// The images of an [`MtlMaterial`]. `None` where the file says nothing.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MtlMaps {
+    /// `map_Kd`: its color multiplies `Kd`.
+    pub kd: Option<SourceMap>,
+    /// `map_Ks`: its color multiplies `Ks`.
+    pub ks: Option<SourceMap>,
+    /// `map_Ke`: its color multiplies `Ke`.
+    pub ke: Option<SourceMap>,
+    /// `map_d`: its number multiplies the opacity.
+    pub d: Option<SourceMap>,
+    /// `map_Ns`: its number multiplies `Ns`.
+    pub ns: Option<SourceMap>,
+    /// `norm`: its colors are normals in the space of tangents.
+    pub norm: Option<SourceMap>,
+    /// `map_Bump`: its numbers are heights.
+    pub bump: Option<SourceMap>,
 }
 
 /// A metallic-roughness material of glTF 2.0 (§3.9.2): the factors as they stand, finite but not limited to their
@@ -120,8 +139,21 @@ pub struct MetallicRoughness {
     pub double_sided: bool,
     /// `alphaMode` and `alphaCutoff`.
     pub alpha: AlphaMode,
-    /// `baseColorTexture`, `emissiveTexture`, `occlusionTexture` and `normalTexture`.
-    pub maps: SourceMaps,
+    /// The images.
+    pub maps: GltfMaps,
+}
+
+/// The images of a [`MetallicRoughness`] material. `None` where the file names none.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct GltfMaps {
+    /// `baseColorTexture`: its color multiplies the base color.
+    pub base_color: Option<SourceMap>,
+    /// `emissiveTexture`: its color multiplies the emission.
+    pub emissive: Option<SourceMap>,
+    /// `occlusionTexture`: its number multiplies ambient light.
+    pub occlusion: Option<SourceMap>,
+    /// `normalTexture`: its colors are normals in the space of tangents.
+    pub normal: Option<SourceMap>,
 }
 
 /// What the alpha of a glTF material does.

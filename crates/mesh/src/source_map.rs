@@ -1,6 +1,5 @@
 //! Images that materials refer to.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// An image that a material refers to: the bytes of its file, not decoded, and how the material looks it up.
@@ -31,53 +30,6 @@ pub struct SourceMap {
     pub channel: Option<SourceChannel>,
     /// How much it counts: the strength of an occlusion, the scale of a normal map, the height of a bump map. Otherwise 1.
     pub amount: f32,
-}
-
-/// What an image says of a material.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum SourceMapKind {
-    /// `map_Kd`, `baseColorTexture`: its color multiplies the diffuse or base color.
-    Color,
-    /// `map_Ks`: its color multiplies `Ks`.
-    Specular,
-    /// `map_Ke`, `emissiveTexture`: its color multiplies the emission.
-    Emission,
-    /// `map_d`: its number multiplies the opacity.
-    Opacity,
-    /// `map_Ns`: its number multiplies `Ns`.
-    Shininess,
-    /// `occlusionTexture`: its number multiplies ambient light.
-    Occlusion,
-    /// `norm`, `normalTexture`: its colors are normals in the space of tangents.
-    Normal,
-    /// `map_Bump`: its numbers are heights.
-    Height,
-}
-
-/// The images of a material, one of each kind at most.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct SourceMaps(BTreeMap<SourceMapKind, SourceMap>);
-
-impl SourceMaps {
-    /// The image of a kind.
-    pub fn get(&self, kind: SourceMapKind) -> Option<&SourceMap> {
-        self.0.get(&kind)
-    }
-
-    /// Puts an image in the place of one of its kind.
-    pub fn insert(&mut self, kind: SourceMapKind, map: SourceMap) {
-        self.0.insert(kind, map);
-    }
-
-    /// Those that are there.
-    pub fn iter(&self) -> impl Iterator<Item = (SourceMapKind, &SourceMap)> {
-        self.0.iter().map(|(kind, map)| (*kind, map))
-    }
-
-    /// Whether there is none.
-    pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
-    }
 }
 
 /// One of the four numbers of a texel.

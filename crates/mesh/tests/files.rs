@@ -11,8 +11,8 @@ use std::path::{Path, PathBuf};
 use bevy_math::Vec3;
 use common::{Folder, TRIANGLE_JSON, check_model, glb, triangle_data};
 use halfway_mesh::{
-    Format, LoadError, LoadOptions, LoadProgress, Mesh, Model, SourceLightKind, SourceMapKind, SourceMaterial, Teapot,
-    load, load_bytes, load_with,
+    Format, GltfMaps, LoadError, LoadOptions, LoadProgress, Mesh, Model, MtlMaps, SourceLightKind, SourceMaterial,
+    Teapot, load, load_bytes, load_with,
 };
 
 fn asset(name: &str) -> PathBuf {
@@ -335,15 +335,24 @@ fn the_lantern_has_its_parts_and_its_light() {
 
 #[test]
 fn the_crate_and_the_ball_have_their_images() {
-    for (name, expected) in
-        [("crate.obj", vec![SourceMapKind::Color, SourceMapKind::Height]), ("ball.glb", vec![SourceMapKind::Color])]
-    {
+    for (name, expected) in [("crate.obj", "kd bump"), ("ball.glb", "base_color")] {
         let model = load(&asset(name)).unwrap();
         assert!(model.warnings.is_empty(), "{name}: {:?}", model.warnings);
         let [material] = &model.materials[..] else { panic!("{name}: {} materials", model.materials.len()) };
-        assert_eq!(material.maps().iter().map(|(kind, _)| kind).collect::<Vec<_>>(), expected, "{name}");
-        for kind in expected {
-            let bytes = &material.maps().get(kind).unwrap().bytes;
+        let (each, words) = match material {
+            SourceMaterial::Mtl(mtl) => {
+                let MtlMaps { kd, ks, ke, d, ns, norm, bump } = &mtl.maps;
+                (vec![kd, ks, ke, d, ns, norm, bump], "kd ks ke d ns norm bump")
+            }
+            SourceMaterial::MetallicRoughness(gltf) => {
+                let GltfMaps { base_color, emissive, occlusion, normal } = &gltf.maps;
+                (vec![base_color, emissive, occlusion, normal], "base_color emissive occlusion normal")
+            }
+        };
+        let found: Vec<_> = words.split(' ').zip(each).filter_map(|(word, map)| Some((word, map.as_ref()?))).collect();
+        assert_eq!(found.iter().map(|(word, _)| *word).collect::<Vec<_>>().join(" "), expected, "{name}");
+        for (_, map) in found {
+            let bytes = &map.bytes;
             assert!(bytes.starts_with(b"\x89PNG") && bytes.len() < 100 * 1024, "{name}: {} bytes", bytes.len());
         }
         let problems = model.parts[0].mesh.problems();

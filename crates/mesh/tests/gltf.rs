@@ -7,7 +7,7 @@ use base64::engine::general_purpose::STANDARD;
 use bevy_math::{Mat4, Quat, Vec2, Vec3, Vec4};
 use common::{Folder, TRIANGLE_JSON, glb, triangle_data};
 use halfway_mesh::{
-    AlphaMode, LoadError, MetallicRoughness, Model, SourceCamera, SourceLightKind, SourceMaps, SourceMaterial,
+    AlphaMode, GltfMaps, LoadError, MetallicRoughness, Model, SourceCamera, SourceLightKind, SourceMaterial,
     SourceProjection, load,
 };
 
@@ -43,7 +43,7 @@ fn check_triangle(model: &Model) {
             emissive: [0.0; 3],
             double_sided: false,
             alpha: AlphaMode::Opaque,
-            maps: SourceMaps::default(),
+            maps: GltfMaps::default(),
         })]
     );
     let bounds = model.bounds().unwrap();
@@ -212,7 +212,7 @@ fn materials_keep_their_factors() {
         emissive: [0.0; 3],
         double_sided: false,
         alpha: AlphaMode::Opaque,
-        maps: SourceMaps::default(),
+        maps: GltfMaps::default(),
     };
     let expected = [
         default.clone(),

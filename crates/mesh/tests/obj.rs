@@ -4,7 +4,7 @@ mod common;
 
 use bevy_math::{Vec2, Vec3, Vec4};
 use common::Folder;
-use halfway_mesh::{Model, MtlMaterial, SourceMaps, SourceMaterial, load};
+use halfway_mesh::{Model, MtlMaps, MtlMaterial, SourceMaterial, load};
 
 const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
@@ -96,7 +96,7 @@ fn every_statement_of_a_material_is_kept() {
         d: Some(0.75),
         tr: Some(0.5),
         illum: Some(2),
-        maps: SourceMaps::default(),
+        maps: MtlMaps::default(),
     };
     let nothing = MtlMaterial { name: "nothing".to_owned(), ..MtlMaterial::default() };
     assert_eq!(model.materials, [SourceMaterial::Mtl(all), SourceMaterial::Mtl(nothing)]);

@@ -5,8 +5,8 @@ mod common;
 use bevy_math::{Mat4, Vec2, Vec3, Vec4};
 use common::{Folder, check_model};
 use halfway_mesh::{
-    AlphaMode, Cuboid, Mesh, MetallicRoughness, Model, MtlMaterial, Part, SourceCamera, SourceLight, SourceLightKind,
-    SourceMaps, SourceMaterial, SourceProjection, Teapot, WriteError, load, write, write_quantised,
+    AlphaMode, Cuboid, GltfMaps, Mesh, MetallicRoughness, Model, MtlMaterial, Part, SourceCamera, SourceLight,
+    SourceLightKind, SourceMaterial, SourceProjection, Teapot, WriteError, load, write, write_quantised,
 };
 
 fn part(name: &str, mesh: Mesh, material: Option<usize>) -> Part {
@@ -100,7 +100,7 @@ fn scene() -> Model {
             emissive: [0.0, 0.25, 0.1],
             double_sided: true,
             alpha: AlphaMode::Mask { cutoff: 0.3 },
-            maps: SourceMaps::default(),
+            maps: GltfMaps::default(),
         }),
         SourceMaterial::Mtl(MtlMaterial {
             name: String::new(),

@@ -7,15 +7,12 @@ use std::rc::Rc;
 use bevy_math::Mat4;
 use bevy_transform::components::Transform;
 use halfway_mesh::{
-    Cuboid, Mesh, Model, NormalReport, Normals, Plane, SourceChannel, SourceLevels, SourceLight, SourceMap,
-    SourceMapKind, SourceMaterial, SourceWrap, Teapot, UvSphere,
+    Cuboid, Mesh, Model, NormalReport, Normals, Plane, SourceLight, SourceMap, SourceMaterial, Teapot, UvSphere,
 };
-use halfway_texture::{
-    Channel, LevelFilter, MapKind, Sampling, TexelFilter, TexelMeaning, Texture, UvSet, UvTransform, Wrap,
-};
+use halfway_texture::{Channel, MapKind, Sampling, TexelMeaning, Texture, UvSet, UvTransform};
 
 use crate::error::SceneError;
-use crate::import::{ModelMaterial, model_light};
+use crate::import::{ModelMaterial, channel, maps, model_light, sampling, transform};
 use crate::light_component::LightComponent;
 use crate::mesh::MeshEntry;
 use crate::object::ObjectEntry;
@@ -174,20 +171,20 @@ impl<'a> Shapes<'a> {
     fn all_maps(&mut self, model: &Model, file: &str) -> Vec<Vec<ModelMap>> {
         let mut images = HashMap::new();
         let mut of = |source: &SourceMaterial| {
-            let maps = source.maps();
+            let maps = maps(source);
+            let has = |kind| maps.iter().any(|(other, _)| *other == kind);
             let is_black = match source {
                 SourceMaterial::Mtl(mtl) => mtl.ke == Some([0.0; 3]),
                 SourceMaterial::MetallicRoughness(gltf) => gltf.emissive.iter().all(|channel| *channel == 0.0),
             };
             let mut warn = |what: &str| self.warnings.push(format!("{file}: material {:?}: {what}", source.name()));
-            if maps.get(SourceMapKind::Emission).is_some() && is_black {
+            if has(MapKind::Emission) && is_black {
                 warn("its emission is black, and so the image of its emission shows nothing");
             }
-            if maps.get(SourceMapKind::Normal).is_some() && maps.get(SourceMapKind::Height).is_some() {
+            if has(MapKind::Normal) && has(MapKind::Height) {
                 warn("of its normal map and its bump map only the normal map is shown");
             }
-            let kinds = maps.iter().map(|(kind, map)| (map_kind(kind), map));
-            kinds.filter_map(|(kind, map)| self.map(kind, map, file, &mut images)).collect()
+            maps.into_iter().filter_map(|(kind, map)| self.map(kind, map, file, &mut images)).collect()
         };
         model.materials.iter().map(&mut of).collect()
     }
@@ -214,30 +211,19 @@ impl<'a> Shapes<'a> {
                 Texture::from,
             )
         });
-        let transform = UvTransform { offset: source.offset, rotation: source.rotation, scale: source.scale };
+        let transform = transform(source);
         if transform.wrong().is_some() {
             self.warnings.push(format!("{file}: {} is skipped, since it lies at no finite place", source.name));
             return None;
         }
-        let given = source.channel.map(|channel| match channel {
-            SourceChannel::Red => Channel::Red,
-            SourceChannel::Green => Channel::Green,
-            SourceChannel::Blue => Channel::Blue,
-            SourceChannel::Alpha => Channel::Alpha,
-        });
-        // Programs write the opacity either into a grey image or into the alpha of one with colors.
-        let has_alpha = || texture.0.level(0).iter().any(|texel| texel[3] < 1.0);
-        let is_alpha = || kind == MapKind::Opacity && has_alpha();
-        let channel = given.unwrap_or_else(|| if is_alpha() { Channel::Alpha } else { Channel::Red });
-        let amount = if kind.is_relief() { source.amount } else { source.amount.clamp(0.0, 1.0) };
         Some(ModelMap {
             kind,
             texture: texture.clone(),
             sampling: sampling(source),
             uv_set: if source.uv_set == 0 { UvSet::First } else { UvSet::Second },
             transform,
-            channel,
-            amount,
+            channel: channel(source, kind, texture),
+            amount: if kind.is_relief() { source.amount } else { source.amount.clamp(0.0, 1.0) },
         })
     }
 
@@ -252,37 +238,6 @@ impl<'a> Shapes<'a> {
                 self.warnings.push(format!("{at}: {count} {what}"));
             }
         }
-    }
-}
-
-fn map_kind(kind: SourceMapKind) -> MapKind {
-    match kind {
-        SourceMapKind::Color => MapKind::Color,
-        SourceMapKind::Specular => MapKind::Specular,
-        SourceMapKind::Emission => MapKind::Emission,
-        SourceMapKind::Opacity => MapKind::Opacity,
-        SourceMapKind::Shininess => MapKind::Shininess,
-        SourceMapKind::Occlusion => MapKind::Occlusion,
-        SourceMapKind::Normal => MapKind::Normal,
-        SourceMapKind::Height => MapKind::Height,
-    }
-}
-
-fn sampling(source: &SourceMap) -> Sampling {
-    let filter = |smooth| if smooth { TexelFilter::Bilinear } else { TexelFilter::Nearest };
-    Sampling {
-        wrap: source.wrap.map(|wrap| match wrap {
-            SourceWrap::Repeat => Wrap::Repeat,
-            SourceWrap::Mirror => Wrap::Mirror,
-            SourceWrap::Clamp => Wrap::Clamp,
-        }),
-        magnify: filter(source.smooth),
-        minify: filter(source.smooth_levels),
-        levels: match source.levels {
-            SourceLevels::None => LevelFilter::None,
-            SourceLevels::Nearest => LevelFilter::Nearest,
-            SourceLevels::Linear => LevelFilter::Linear,
-        },
     }
 }
 

@@ -7,7 +7,7 @@ use core::f32::consts::{FRAC_1_PI, FRAC_PI_4};
 use bevy_color::LinearRgba;
 use bevy_math::Mat4;
 use halfway_lighting::{Attenuation, Cone, DirectionalLight, Material, PointLight, SpotLight};
-use halfway_mesh::{AlphaMode, MetallicRoughness, MtlMaterial, SourceLight, SourceLightKind, SourceMaps};
+use halfway_mesh::{AlphaMode, GltfMaps, MetallicRoughness, MtlMaterial, SourceLight, SourceLightKind};
 use halfway_scene::LightComponent;
 use halfway_scene::import::{
     RADIANCE_SCALE, SHININESS_MAX, Warning, from_metallic_roughness, from_mtl, from_punctual, shininess_from_roughness,
@@ -32,7 +32,7 @@ fn bare() -> MetallicRoughness {
         emissive: [0.0; 3],
         double_sided: false,
         alpha: AlphaMode::Opaque,
-        maps: SourceMaps::default(),
+        maps: GltfMaps::default(),
     }
 }
 

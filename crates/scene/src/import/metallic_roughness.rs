@@ -46,7 +46,6 @@ pub fn from_metallic_roughness(source: &MetallicRoughness) -> Result<Material, I
     let peak = if largest > 0.0 { ((shininess + 8.0) / 8.0).min(largest.recip()).max(1.0) } else { 1.0 };
     let material = Material {
         ambient: color(base),
-        diffuse: color(base.map(|c| c * (1.0 - metallic))),
         specular: color(f0.map(|f| f * peak)),
         emission: color(source.emissive),
         shininess,
@@ -54,6 +53,7 @@ pub fn from_metallic_roughness(source: &MetallicRoughness) -> Result<Material, I
             AlphaMode::Opaque => 1.0,
             AlphaMode::Mask { .. } | AlphaMode::Blend => alpha,
         },
+        ..Material::matte(color(base.map(|c| c * (1.0 - metallic))))
     };
     material.validate().map(|()| material)
 }

@@ -17,6 +17,7 @@
 //! # }
 //! ```
 
+mod maps;
 mod metallic_roughness;
 mod model_material;
 mod mtl;
@@ -30,3 +31,5 @@ pub use model_material::ModelMaterial;
 pub use mtl::from_mtl;
 pub use punctual::{RADIANCE_SCALE, from_punctual, model_light};
 pub use warning::Warning;
+
+pub(crate) use maps::{channel, maps, sampling, transform};

@@ -1,7 +1,7 @@
 //! The material of a model, whichever format it came in.
 
 use halfway_lighting::{Faces, InvalidValue, Mask, Material};
-use halfway_mesh::{AlphaMode, MetallicRoughness, MtlMaterial, SourceMapKind, SourceMaterial};
+use halfway_mesh::{AlphaMode, MetallicRoughness, MtlMaterial, SourceMaterial};
 
 use super::metallic_roughness::from_metallic_roughness;
 use super::mtl::from_mtl;
@@ -35,7 +35,7 @@ impl ModelMaterial {
     fn of_mtl(mtl: &MtlMaterial) -> Result<(Self, Vec<String>), InvalidValue> {
         let (material, warnings) = from_mtl(mtl)?;
         let warnings = warnings.iter().map(ToString::to_string).collect();
-        let mask = mtl.maps.get(SourceMapKind::Opacity).map(|_| Mask::default().0);
+        let mask = mtl.maps.d.as_ref().map(|_| Mask::default().0);
         Ok((Self { material, faces: Faces::Front, blend: false, mask }, warnings))
     }
 

@@ -2,7 +2,7 @@
 
 use bevy_color::LinearRgba;
 use halfway_lighting::{Fields, InvalidValue, Material};
-use halfway_mesh::{MtlMaterial, SourceMapKind};
+use halfway_mesh::{MtlMaterial, SourceMap};
 
 use super::warning::Warning;
 
@@ -46,14 +46,14 @@ pub fn from_mtl(mtl: &MtlMaterial) -> Result<(Material, Vec<Warning>), InvalidVa
     let mut warnings = Vec::new();
     let color = |key: Option<[f32; 3]>, missing| key.map_or(missing, |[r, g, b]| LinearRgba::rgb(r, g, b));
     // An image without a factor is to be seen.
-    let mapped = |kind, missing| if mtl.maps.get(kind).is_some() { LinearRgba::WHITE } else { missing };
+    let mapped = |map: &Option<SourceMap>, missing| if map.is_some() { LinearRgba::WHITE } else { missing };
     let mut material = Material {
         ambient: color(mtl.ka, Material::DEFAULT.ambient),
-        diffuse: color(mtl.kd, Material::DEFAULT.diffuse),
-        specular: color(mtl.ks, mapped(SourceMapKind::Specular, Material::DEFAULT.specular)),
-        emission: color(mtl.ke, mapped(SourceMapKind::Emission, Material::DEFAULT.emission)),
+        specular: color(mtl.ks, mapped(&mtl.maps.ks, Material::DEFAULT.specular)),
+        emission: color(mtl.ke, mapped(&mtl.maps.ke, Material::DEFAULT.emission)),
         shininess: mtl.ns.unwrap_or(Material::DEFAULT.shininess),
         opacity: opacity(mtl, &mut warnings),
+        ..Material::matte(color(mtl.kd, Material::DEFAULT.diffuse))
     };
     apply_illum(mtl.illum.unwrap_or(2), &mut material, &mut warnings);
     if mtl.ns.is_none() && material.specular != LinearRgba::BLACK {

@@ -6,7 +6,7 @@ use gltf::texture::Info;
 
 use super::fault::{Fault, check_finite};
 use super::images::{Images, Lookup, TRANSFORM, TexturePlace};
-use crate::{AlphaMode, MetallicRoughness, SourceMapKind, SourceMaps, SourceMaterial};
+use crate::{AlphaMode, GltfMaps, MetallicRoughness, SourceMap, SourceMaterial};
 
 /// All materials of the document, in its order.
 pub(super) fn materials(document: &Document, images: &mut Images) -> Result<Vec<SourceMaterial>, Fault> {
@@ -35,33 +35,29 @@ pub(super) fn materials(document: &Document, images: &mut Images) -> Result<Vec<
         .collect()
 }
 
-fn maps(index: usize, material: &gltf::Material, images: &mut Images) -> SourceMaps {
+fn maps(index: usize, material: &gltf::Material, images: &mut Images) -> GltfMaps {
     let plain = |info: &Info| Lookup { set: info.tex_coord(), transform: TexturePlace::of_info(info), amount: 1.0 };
     let (base, emission) = (material.pbr_metallic_roughness().base_color_texture(), material.emissive_texture());
     if let Some(info) = material.pbr_metallic_roughness().metallic_roughness_texture() {
         images.skip((index, "metallic-roughness"), &info.texture(), "the factors alone count");
     }
-    let mut found = SourceMaps::default();
-    let mut add = |kind, field, texture: gltf::Texture, lookup: Lookup| {
-        if let Some(map) = images.map((index, field), &texture, &lookup) {
-            found.insert(kind, map);
-        }
-    };
+    let mut map = |field, texture: gltf::Texture, lookup: Lookup| images.map((index, field), &texture, &lookup);
+    let mut found = GltfMaps::default();
     if let Some(info) = base {
-        add(SourceMapKind::Color, "base color", info.texture(), plain(&info));
+        found.base_color = map("base color", info.texture(), plain(&info));
     }
     if let Some(info) = emission {
-        add(SourceMapKind::Emission, "emissive", info.texture(), plain(&info));
+        found.emissive = map("emissive", info.texture(), plain(&info));
     }
     if let Some(info) = material.occlusion_texture() {
         let transform = info.extension_value(TRANSFORM).and_then(TexturePlace::of_value);
         let lookup = Lookup { set: info.tex_coord(), transform, amount: info.strength() };
-        add(SourceMapKind::Occlusion, "occlusion", info.texture(), lookup);
+        found.occlusion = map("occlusion", info.texture(), lookup);
     }
     if let Some(info) = material.normal_texture() {
         let transform = info.extension_value(TRANSFORM).and_then(TexturePlace::of_value);
         let lookup = Lookup { set: info.tex_coord(), transform, amount: info.scale() };
-        add(SourceMapKind::Normal, "normal", info.texture(), lookup);
+        found.normal = map("normal", info.texture(), lookup);
     }
     found
 }
@@ -71,15 +67,15 @@ fn check(index: usize, material: &MetallicRoughness) -> Result<(), Fault> {
         AlphaMode::Mask { cutoff } => cutoff,
         _ => 0.0,
     };
-    let amount = |kind| material.maps.get(kind).map_or(1.0, |map| map.amount);
+    let amount = |map: &Option<SourceMap>| map.as_ref().map_or(1.0, |map| map.amount);
     let fields: [(&str, &[f32]); 7] = [
         ("baseColorFactor", &material.base_color),
         ("metallicFactor", &[material.metallic]),
         ("roughnessFactor", &[material.roughness]),
         ("emissiveFactor", &material.emissive),
         ("alphaCutoff", &[cutoff]),
-        ("occlusionTexture.strength", &[amount(SourceMapKind::Occlusion)]),
-        ("normalTexture.scale", &[amount(SourceMapKind::Normal)]),
+        ("occlusionTexture.strength", &[amount(&material.maps.occlusion)]),
+        ("normalTexture.scale", &[amount(&material.maps.normal)]),
     ];
     fields.iter().try_for_each(|(field, numbers)| check_finite(&|| format!("materials[{index}].{field}"), numbers))
 }

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use crate::files::LoadError;
 use crate::files::source::{ModelFolder, Reader};
 use crate::files::text::{Skipped, Statement, Statements, abridged};
-use crate::{MtlMaterial, SourceChannel, SourceMap, SourceMapKind, SourceMaterial, SourceWrap};
+use crate::{MtlMaps, MtlMaterial, SourceChannel, SourceMap, SourceMaterial, SourceWrap};
 
 /// Appends the materials of an MTL file; returns what was skipped.
 ///
@@ -34,12 +34,12 @@ pub(super) fn parse(
             }
             let begun = MtlMaterial { name: statement.rest.to_owned(), ..MtlMaterial::default() };
             materials.extend(material.replace(begun).map(SourceMaterial::Mtl));
-        } else if let Some(kind) = map_kind(statement.keyword) {
+        } else if let Some(place) = map_place(statement.keyword) {
             let Some(material) = &mut material else {
                 return Err(statement.unexpected("`newmtl` and a name before it is"));
             };
-            if let Some(map) = map(&statement, kind, around, &mut images, &mut skipped) {
-                material.maps.insert(kind, map);
+            if let Some(map) = map(&statement, around, &mut images, &mut skipped) {
+                *place(&mut material.maps) = Some(map);
             }
         } else if is_texture(statement.keyword) {
             skipped.add(statement.line, format!("the texture `{}` is skipped", statement.keyword));
@@ -55,18 +55,23 @@ pub(super) fn parse(
     Ok(skipped.warnings(&path))
 }
 
-/// What the file's statements call the images that are read.
-fn map_kind(keyword: &str) -> Option<SourceMapKind> {
-    Some(match keyword {
-        "map_Kd" => SourceMapKind::Color,
-        "map_Ks" => SourceMapKind::Specular,
-        "map_Ke" => SourceMapKind::Emission,
-        "map_d" => SourceMapKind::Opacity,
-        "map_Ns" => SourceMapKind::Shininess,
-        "norm" => SourceMapKind::Normal,
-        "map_Bump" | "map_bump" | "bump" => SourceMapKind::Height,
+/// Where the image of a statement goes, of those that are read.
+fn map_place(keyword: &str) -> Option<fn(&mut MtlMaps) -> &mut Option<SourceMap>> {
+    let place: fn(&mut MtlMaps) -> &mut Option<SourceMap> = match keyword {
+        "map_Kd" => |maps| &mut maps.kd,
+        "map_Ks" => |maps| &mut maps.ks,
+        "map_Ke" => |maps| &mut maps.ke,
+        "map_d" => |maps| &mut maps.d,
+        "map_Ns" => |maps| &mut maps.ns,
+        "norm" => |maps| &mut maps.norm,
+        keyword if is_bump(keyword) => |maps| &mut maps.bump,
         _ => return None,
-    })
+    };
+    Some(place)
+}
+
+fn is_bump(keyword: &str) -> bool {
+    matches!(keyword, "map_Bump" | "map_bump" | "bump")
 }
 
 /// The options of an image.
@@ -83,7 +88,6 @@ impl MapOptions {
     fn read<'a>(
         words: &mut Peekable<impl Iterator<Item = &'a str>>,
         statement: &Statement,
-        kind: SourceMapKind,
         skipped: &mut Skipped,
     ) -> Self {
         let mut options = Self { scale: [1.0; 2], offset: [0.0; 2], clamp: false, amount: 1.0, channel: None };
@@ -118,7 +122,7 @@ impl MapOptions {
                     }
                     true
                 }
-                ("-bm", [amount]) if is_finite && kind == SourceMapKind::Height => {
+                ("-bm", [amount]) if is_finite && is_bump(statement.keyword) => {
                     options.amount = *amount;
                     true
                 }
@@ -149,13 +153,12 @@ impl MapOptions {
 /// The image of a statement. v runs upward in the file, downward in a mesh.
 fn map(
     statement: &Statement,
-    kind: SourceMapKind,
     around: ModelFolder,
     images: &mut HashMap<String, Arc<[u8]>>,
     skipped: &mut Skipped,
 ) -> Option<SourceMap> {
     let mut words = statement.words().peekable();
-    let MapOptions { scale, offset, clamp, amount, channel } = MapOptions::read(&mut words, statement, kind, skipped);
+    let MapOptions { scale, offset, clamp, amount, channel } = MapOptions::read(&mut words, statement, skipped);
     let (line, keyword) = (statement.line, statement.keyword);
     let name = words.collect::<Vec<_>>().join(" ").replace('\\', "/");
     if name.is_empty() {

@@ -10,8 +10,8 @@ use serde_json::{Map, Value, json};
 use super::file::{WriteError, replace};
 use super::quantise::{Grid, signed, unsigned};
 use crate::{
-    AlphaMode, Mesh, MetallicRoughness, Model, MtlMaterial, Part, SourceCamera, SourceLight, SourceLightKind,
-    SourceMaps, SourceMaterial, SourceProjection,
+    AlphaMode, GltfMaps, Mesh, MetallicRoughness, Model, MtlMaterial, Part, SourceCamera, SourceLight, SourceLightKind,
+    SourceMaterial, SourceProjection,
 };
 
 const FLOAT: u32 = 5126;
@@ -359,6 +359,6 @@ fn metallic_roughness(mtl: &MtlMaterial) -> MetallicRoughness {
         emissive: mtl.ke.unwrap_or([0.0; 3]).map(|x| x.clamp(0.0, 1.0)),
         double_sided: false,
         alpha: if opacity < 1.0 { AlphaMode::Blend } else { AlphaMode::Opaque },
-        maps: SourceMaps::default(),
+        maps: GltfMaps::default(),
     }
 }

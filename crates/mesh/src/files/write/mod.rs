@@ -65,6 +65,6 @@ pub fn write_quantised(path: &Path, model: &Model) -> Result<(f64, Vec<String>),
 
 /// What is said of images that materials refer to.
 fn lost_images(model: &Model) -> Option<String> {
-    let count = model.materials.iter().filter(|material| !material.maps().is_empty()).count();
+    let count = model.materials.iter().filter(|material| material.has_maps()).count();
     (count > 0).then(|| format!("{count} materials lose their images"))
 }
