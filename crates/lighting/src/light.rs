@@ -71,6 +71,28 @@ impl Default for Attenuation {
     }
 }
 
+/// What each field of a light means, for its documentation and for the schema of scene files.
+macro_rules! meaning {
+    (ambient) => {
+        "La, linear RGB: added wherever the surface faces."
+    };
+    (diffuse) => {
+        "Ld, linear RGB: received by the diffuse term."
+    };
+    (specular) => {
+        "Ls, linear RGB: received by the specular term."
+    };
+    (attenuation) => {
+        "[a, b, c] of 1/(a + b·d + c·d²), d the distance. One of them above 0."
+    };
+    (range) => {
+        "Where the light ends: multiplies by clamp(1 − (d/range)⁴, 0, 1)². null: it does not end."
+    };
+    (attenuate_ambient) => {
+        "Whether distance and cone weaken the ambient color too, as in OpenGL."
+    };
+}
+
 /// A light at a point, shining in all directions.
 ///
 /// The position is the translation of the entity's `GlobalTransform`; rotation and scale do nothing.
@@ -78,19 +100,30 @@ impl Default for Attenuation {
 #[reflect(Component, Clone, Debug, Default, PartialEq)]
 #[require(Transform)]
 pub struct PointLight {
-    /// La: what the light adds everywhere, whichever way a surface faces. Linear RGB, 0 to 10¹²; alpha is ignored.
-    /// Default black.
+    #[doc = meaning!(ambient)]
+    ///
+    /// Each channel 0 to 10¹²; alpha is ignored. Default black.
     pub ambient: LinearRgba,
-    /// Ld: what the diffuse term receives. Linear RGB, 0 to 10¹²; alpha is ignored. Default white.
+    #[doc = meaning!(diffuse)]
+    ///
+    /// Each channel 0 to 10¹²; alpha is ignored. Default white.
     pub diffuse: LinearRgba,
-    /// Ls: what the specular term receives. Linear RGB, 0 to 10¹²; alpha is ignored. Default white.
+    #[doc = meaning!(specular)]
+    ///
+    /// Each channel 0 to 10¹²; alpha is ignored. Default white.
     pub specular: LinearRgba,
-    /// The falloff with the distance. Default 1, 0.09, 0.032.
+    #[doc = meaning!(attenuation)]
+    ///
+    /// Each finite, 0 or more. Default 1, 0.09, 0.032.
     pub attenuation: Attenuation,
-    /// R in world units, finite and above 0: the attenuation is multiplied by `clamp(1 − (d/R)⁴, 0, 1)²`
-    /// (`KHR_lights_punctual`), so nothing at R or farther is lit. Default `None`: no end.
+    #[doc = meaning!(range)]
+    ///
+    /// In world units, finite and above 0; the factor is that of `KHR_lights_punctual`. Default `None`, which is `null` in
+    /// files.
     pub range: Option<f32>,
-    /// Whether attenuation, range and cone also weaken the ambient term, as in OpenGL 2.1 §2.14.1. Default `false`.
+    #[doc = meaning!(attenuate_ambient)]
+    ///
+    /// OpenGL 2.1 §2.14.1; so does `range`. Default `false`.
     pub attenuate_ambient: bool,
 }
 
@@ -128,13 +161,13 @@ impl PointLight {
 
 impl Described for PointLight {
     const FIELDS: &'static [Field<Self>] = &[
-        Field::color("ambient", "La, linear RGB: added wherever the surface faces.", |it| rgb(&mut it.ambient)),
-        Field::color("diffuse", "Ld, linear RGB: received by the diffuse term.", |it| rgb(&mut it.diffuse)),
-        Field::color("specular", "Ls, linear RGB: received by the specular term.", |it| rgb(&mut it.specular)),
+        Field::color("ambient", meaning!(ambient), |it| rgb(&mut it.ambient)),
+        Field::color("diffuse", meaning!(diffuse), |it| rgb(&mut it.diffuse)),
+        Field::color("specular", meaning!(specular), |it| rgb(&mut it.specular)),
         Field::new(
             "attenuation",
             Range::NON_NEGATIVE,
-            "[a, b, c] of 1/(a + b·d + c·d²), d the distance. One of them above 0.",
+            meaning!(attenuation),
             FieldPlace::Three(
                 |PointLight { attenuation: Attenuation { constant, linear, quadratic }, .. }| {
                     [constant, linear, quadratic]
@@ -142,16 +175,11 @@ impl Described for PointLight {
                 ["constant", "linear", "quadratic"],
             ),
         ),
-        Field::new(
-            "range",
-            Range::POSITIVE,
-            "Where the light ends: multiplies by clamp(1 − (d/range)⁴, 0, 1)². null: it does not end.",
-            FieldPlace::Optional(|it| &mut it.range),
-        ),
+        Field::new("range", Range::POSITIVE, meaning!(range), FieldPlace::Optional(|it| &mut it.range)),
         Field::new(
             "attenuate_ambient",
             Range::FINITE,
-            "Whether distance and cone weaken the ambient color too, as in OpenGL.",
+            meaning!(attenuate_ambient),
             FieldPlace::Flag(|it| &mut it.attenuate_ambient),
         ),
     ];
@@ -259,12 +287,17 @@ impl SpotLight {
 #[reflect(Component, Clone, Debug, Default, PartialEq)]
 #[require(Transform)]
 pub struct DirectionalLight {
-    /// La: what the light adds everywhere, whichever way a surface faces. Linear RGB, 0 to 10¹²; alpha is ignored.
-    /// Default black.
+    #[doc = meaning!(ambient)]
+    ///
+    /// Each channel 0 to 10¹²; alpha is ignored. Default black.
     pub ambient: LinearRgba,
-    /// Ld: what the diffuse term receives. Linear RGB, 0 to 10¹²; alpha is ignored. Default white.
+    #[doc = meaning!(diffuse)]
+    ///
+    /// Each channel 0 to 10¹²; alpha is ignored. Default white.
     pub diffuse: LinearRgba,
-    /// Ls: what the specular term receives. Linear RGB, 0 to 10¹²; alpha is ignored. Default white.
+    #[doc = meaning!(specular)]
+    ///
+    /// Each channel 0 to 10¹²; alpha is ignored. Default white.
     pub specular: LinearRgba,
 }
 

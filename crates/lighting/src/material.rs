@@ -11,6 +11,28 @@ use crate::field::{self, Described, Field, rgb};
 use crate::invalid::{Fields, InvalidValue};
 use crate::range::Range;
 
+/// What each field of [`Material`] means, for its documentation and for the schema of scene files.
+macro_rules! meaning {
+    (ambient) => {
+        "ka, linear RGB: reflects ambient light. Normally at most 1."
+    };
+    (diffuse) => {
+        "kd, linear RGB: reflects light evenly to all sides. Normally at most 1."
+    };
+    (specular) => {
+        "ks, linear RGB: reflects light into the highlight. Normally at most 1."
+    };
+    (emission) => {
+        "ke, linear RGB: shines by itself, unaffected by lights."
+    };
+    (shininess) => {
+        "The exponent of the highlight."
+    };
+    (opacity) => {
+        "0 is clear, 1 opaque; seen only where the object is blended."
+    };
+}
+
 /// The classic material: how much of each kind of light a surface gives back.
 ///
 /// A plain value without padding (its bytes can be hashed); equal materials may share one record on the GPU. Named
@@ -19,23 +41,31 @@ use crate::range::Range;
 #[reflect(Component, Clone, Debug, Default, PartialEq)]
 #[repr(C)]
 pub struct Material {
-    /// ka: the share of ambient light given back. Linear RGB, 0 to 10¹², normally at most 1; alpha is ignored. Default
-    /// 0.2 grey.
+    #[doc = meaning!(ambient)]
+    ///
+    /// Each channel 0 to 10¹²; alpha is ignored. Default 0.2 grey.
     pub ambient: LinearRgba,
-    /// kd: the share of light given back equally in all directions. Linear RGB, 0 to 10¹², normally at most 1; alpha is
-    /// ignored. Default 0.8 grey.
+    #[doc = meaning!(diffuse)]
+    ///
+    /// Each channel 0 to 10¹²; alpha is ignored. Default 0.8 grey.
     pub diffuse: LinearRgba,
-    /// ks: the strength of the highlight. Linear RGB, 0 to 10¹², normally at most 1; alpha is ignored. Default black:
-    /// no highlight.
+    #[doc = meaning!(specular)]
+    ///
+    /// Each channel 0 to 10¹²; alpha is ignored. Default black: no highlight.
     pub specular: LinearRgba,
-    /// ke: light of the surface's own, untouched by lights and transforms. Linear RGB, 0 to 10¹²; alpha is ignored.
-    /// Default black.
+    #[doc = meaning!(emission)]
+    ///
+    /// Each channel 0 to 10¹²; alpha is ignored. Default black.
     pub emission: LinearRgba,
-    /// The exponent of the highlight, finite, 0 or more: α under Phong reflectance, where 5–10 looks like plastic and
-    /// 100–200 like metal; β under Blinn–Phong, where about four times as much gives a highlight of the same size
-    /// ([`crate::matched_shininess`]). 0 gives a highlight as wide as the lit side. Default 32.
+    #[doc = meaning!(shininess)]
+    ///
+    /// Finite, 0 or more. α under Phong reflectance, where 5–10 looks like plastic and 100–200 like metal; β under
+    /// Blinn–Phong, where about four times as much gives a highlight of the same size ([`crate::matched_shininess`]). 0
+    /// gives a highlight as wide as the lit side. Default 32.
     pub shininess: f32,
-    /// 0 (clear) to 1 (opaque). Ignored, and the surface opaque, unless the entity has [`crate::Blend`]. Default 1.
+    #[doc = meaning!(opacity)]
+    ///
+    /// 0 to 1; blended is what has [`crate::Blend`]. Default 1.
     pub opacity: f32,
 }
 
@@ -77,20 +107,12 @@ impl Material {
 
 impl Described for Material {
     const FIELDS: &'static [Field<Self>] = &[
-        Field::color("ambient", "ka, linear RGB: reflects ambient light. Normally at most 1.", |it| {
-            rgb(&mut it.ambient)
-        }),
-        Field::color("diffuse", "kd, linear RGB: reflects light evenly to all sides. Normally at most 1.", |it| {
-            rgb(&mut it.diffuse)
-        }),
-        Field::color("specular", "ks, linear RGB: reflects light into the highlight. Normally at most 1.", |it| {
-            rgb(&mut it.specular)
-        }),
-        Field::color("emission", "ke, linear RGB: shines by itself, unaffected by lights.", |it| rgb(&mut it.emission)),
-        Field::number("shininess", Range::NON_NEGATIVE, "The exponent of the highlight.", |it| &mut it.shininess),
-        Field::number("opacity", Range::UNIT, "0 is clear, 1 opaque; seen only where the object is blended.", |it| {
-            &mut it.opacity
-        }),
+        Field::color("ambient", meaning!(ambient), |it| rgb(&mut it.ambient)),
+        Field::color("diffuse", meaning!(diffuse), |it| rgb(&mut it.diffuse)),
+        Field::color("specular", meaning!(specular), |it| rgb(&mut it.specular)),
+        Field::color("emission", meaning!(emission), |it| rgb(&mut it.emission)),
+        Field::number("shininess", Range::NON_NEGATIVE, meaning!(shininess), |it| &mut it.shininess),
+        Field::number("opacity", Range::UNIT, meaning!(opacity), |it| &mut it.opacity),
     ];
 }
 

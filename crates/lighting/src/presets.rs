@@ -13,9 +13,8 @@ const fn row(ambient: [f32; 3], diffuse: [f32; 3], specular: [f32; 3], shininess
         ambient: rgb(ambient),
         diffuse: rgb(diffuse),
         specular: rgb(specular),
-        emission: LinearRgba::BLACK,
         shininess: shininess * 128.0,
-        opacity: 1.0,
+        ..Material::DEFAULT
     }
 }
 

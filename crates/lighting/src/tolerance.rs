@@ -10,6 +10,16 @@ use crate::field::{Described, Field, validate};
 use crate::invalid::{Fields, InvalidValue};
 use crate::range::Range;
 
+/// What each number of [`Tolerance`] means, for its documentation and for the schema of scene files.
+macro_rules! meaning {
+    (steps) => {
+        "How far a channel may be off, in steps of 1/255 of the output."
+    };
+    (pixels) => {
+        "How far a point may move on the picture, in pixels; 0 draws every mesh as it is."
+    };
+}
+
 /// How far what is drawn may be from the same with every triangle, every light and every term at its place; under
 /// [`Shading::Auto`](crate::Shading::Auto) from Phong shading.
 ///
@@ -28,9 +38,13 @@ use crate::range::Range;
 #[derive(Component, Reflect, Clone, Copy, Debug, PartialEq)]
 #[reflect(Component, Clone, Debug, Default, PartialEq)]
 pub struct Tolerance {
-    /// How far a channel may be off, in steps of an 8-bit picture, 0 or more. Default 1.
+    #[doc = meaning!(steps)]
+    ///
+    /// Finite, 0 or more. Default 1.
     pub steps: f32,
-    /// How far a point may move on the picture, in pixels, 0 or more: 0 draws every mesh as it is. Default ½.
+    #[doc = meaning!(pixels)]
+    ///
+    /// Finite, 0 or more. Default ½.
     pub pixels: f32,
 }
 
@@ -66,12 +80,8 @@ impl Default for Tolerance {
 
 impl Described for Tolerance {
     const FIELDS: &'static [Field<Self>] = &[
-        Field::number("steps", Range::NON_NEGATIVE, "how far a channel may be off, in steps of 1/255", |it| {
-            &mut it.steps
-        }),
-        Field::number("pixels", Range::NON_NEGATIVE, "how far a point may move on the picture, in pixels", |it| {
-            &mut it.pixels
-        }),
+        Field::number("steps", Range::NON_NEGATIVE, meaning!(steps), |it| &mut it.steps),
+        Field::number("pixels", Range::NON_NEGATIVE, meaning!(pixels), |it| &mut it.pixels),
     ];
 }
 

@@ -26,7 +26,7 @@ pub struct EnvironmentEntry {
     #[serde(default = "one")]
     #[schemars(range(min = 0, max = 1_000_000))]
     pub strength: f32,
-    /// It is turned by so many degrees around +Y, counter-clockwise as seen from above.
+    /// It is turned by this angle in degrees around +Y, counter-clockwise as seen from above.
     #[serde(default)]
     pub rotation_deg: f32,
     /// Whether it is seen where nothing is drawn, in place of `background`.

@@ -1,16 +1,87 @@
 //! Numbers, colors and flags of components as keys of a JSON object: read, written, checked and described by the tables
 //! of `halfway_lighting`, so that a field stands there and nowhere here.
 
+use std::borrow::Cow;
 use std::fmt;
+use std::marker::PhantomData;
 use std::ops::Bound::{Excluded, Included};
 
 use halfway_lighting::{Described, Field, FieldPlace, FieldValue, Range};
-use serde::Serialize;
-use serde::de::{DeserializeSeed, Deserializer, Error, MapAccess, Visitor};
-use serde::ser::{SerializeMap, Serializer};
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::de::{Deserialize, DeserializeSeed, Deserializer, Error, MapAccess, Visitor};
+use serde::ser::{Serialize, SerializeMap, Serializer};
 use serde_json::{Map, Value, json};
 
 use crate::check::{Check, Within, in_range};
+use crate::read::JsonObject;
+
+/// What messages call the numbers of a vector.
+pub(crate) const XYZ: [&str; 3] = ["x", "y", "z"];
+
+/// A component that a scene file has as an object with its fields, and with no other keys.
+pub(crate) trait ComponentObject: Described + JsonObject {
+    /// The name of its definition in the schema.
+    const NAME: &'static str;
+    /// What the schema says of it.
+    const MEANING: &'static str;
+}
+
+/// A [`ComponentObject`] as it is read, written and described.
+pub(crate) struct Keys<T>(pub(crate) T);
+
+impl<'de, T: ComponentObject> Deserialize<'de> for Keys<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_map(KeysVisitor(PhantomData)).map(Self)
+    }
+}
+
+impl<T: ComponentObject> Serialize for Keys<T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        write(&self.0, serializer)
+    }
+}
+
+impl<T: ComponentObject> JsonSchema for Keys<T> {
+    fn schema_name() -> Cow<'static, str> {
+        T::NAME.into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        let mut schema = object(properties(&T::default()).collect());
+        schema["description"] = T::MEANING.into();
+        schema.try_into().unwrap_or_default()
+    }
+}
+
+struct KeysVisitor<T>(PhantomData<T>);
+
+impl<'de, T: ComponentObject> Visitor<'de> for KeysVisitor<T> {
+    type Value = T;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(T::EXPECTED)
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<T, A::Error> {
+        read(map)
+    }
+}
+
+/// Reads an object with the fields of a component, or `null`.
+pub(crate) fn keys_or_null<'de, D: Deserializer<'de>, T: ComponentObject>(
+    deserializer: D,
+) -> Result<Option<T>, D::Error> {
+    Ok(Option::deserialize(deserializer)?.map(|Keys(component)| component))
+}
+
+/// Writes the fields of a component, or `null`.
+#[allow(clippy::ref_option, reason = "serde asks for this signature")]
+pub(crate) fn write_keys_or_null<T: ComponentObject, S: Serializer>(
+    component: &Option<T>,
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    component.map(Keys).serialize(serializer)
+}
 
 /// The names of all fields.
 pub(crate) fn names<T: Described>() -> impl Iterator<Item = &'static str> {
@@ -115,7 +186,7 @@ fn property<T: Described>(field: &Field<T>, default: &T) -> Value {
     property
 }
 
-/// A list of so many items.
+/// A list of `count` items.
 pub(crate) fn list(item: Value, count: usize) -> Value {
     json!({ "type": "array", "items": item, "minItems": count, "maxItems": count })
 }
@@ -178,7 +249,9 @@ impl Visitor<'_> for Key<'_> {
     fn visit_str<E: Error>(self, name: &str) -> Result<&'static str, E> {
         let Some(known) = self.known.iter().find(|known| **known == name) else {
             let known: Vec<String> = self.known.iter().map(|known| format!("`{known}`")).collect();
-            return Err(E::custom(format_args!("unknown field `{name}`, expected one of {}", known.join(", "))));
+            // As `serde` says it.
+            let expected = if known.len() < 3 { known.join(" or ") } else { format!("one of {}", known.join(", ")) };
+            return Err(E::custom(format_args!("unknown field `{name}`, expected {expected}")));
         };
         if self.given.contains(known) {
             return Err(E::duplicate_field(known));

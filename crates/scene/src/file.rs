@@ -6,13 +6,14 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use bevy_color::ColorToComponents;
-use halfway_lighting::{Camera, Encoding, GlobalAmbient, Reflectance, Viewer};
+use halfway_lighting::{Camera, Encoding, GlobalAmbient, Reflectance, Tolerance, Viewer};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::check::{Check, KeyProblem, Within, color, count};
 use crate::environment::EnvironmentEntry;
 use crate::error::SceneError;
+use crate::fields::{self, Keys, keys_or_null, write_keys_or_null};
 use crate::intensity::IntensityEntry;
 use crate::json;
 use crate::light::{AttachEntry, LightEntry};
@@ -20,7 +21,7 @@ use crate::locate::{line_and_column, place_of};
 use crate::mesh::MeshEntry;
 use crate::object::ObjectEntry;
 use crate::read::{Given, JsonObject, Spoken, object_or_null, objects, objects_or_null, word, write_word};
-use crate::view::{CameraEntry, ShadingEntry, ToleranceEntry};
+use crate::view::{CameraEntry, ShadingEntry};
 
 /// A scene as it stands in a scene file. Every key may be left out; the defaults are [`SceneFile::default`].
 ///
@@ -65,8 +66,9 @@ pub struct SceneFile {
     #[serde(deserialize_with = "word")]
     pub shading: ShadingEntry,
     /// The tolerance of objects that name none; null: one step and half a pixel.
-    #[serde(deserialize_with = "object_or_null")]
-    pub tolerance: Option<ToleranceEntry>,
+    #[serde(deserialize_with = "keys_or_null", serialize_with = "write_keys_or_null")]
+    #[schemars(with = "Option<Keys<Tolerance>>")]
+    pub tolerance: Option<Tolerance>,
     /// The reflectance of objects that name none.
     #[serde(deserialize_with = "word", serialize_with = "write_word")]
     #[schemars(with = "Spoken<Reflectance>")]
@@ -75,7 +77,8 @@ pub struct SceneFile {
     #[serde(deserialize_with = "object_or_null")]
     pub environment: Option<EnvironmentEntry>,
     /// The camera; null or left out: one that frames everything.
-    #[serde(deserialize_with = "object_or_null")]
+    #[serde(deserialize_with = "keys_or_null", serialize_with = "write_keys_or_null")]
+    #[schemars(with = "Option<Keys<CameraEntry>>")]
     pub camera: Option<CameraEntry>,
     /// The lights; null or left out: those of the models, or a key light, a fill light and a headlight where the models
     /// have none. An empty list: no lights.
@@ -211,7 +214,7 @@ impl SceneFile {
         color("ambient", &self.ambient)?;
         self.intensity.check().within("intensity")?;
         self.shading.check().within("shading")?;
-        self.tolerance.map_or(Ok(()), ToleranceEntry::check).within("tolerance")?;
+        self.tolerance.as_ref().map_or(Ok(()), fields::check).within("tolerance")?;
         self.environment.as_ref().map_or(Ok(()), EnvironmentEntry::check).within("environment")?;
         self.camera.as_ref().map_or(Ok(()), CameraEntry::check).within("camera")?;
         for (i, object) in self.objects.iter().enumerate() {

@@ -54,7 +54,7 @@ pub use schema::json_schema;
 pub use solid::SolidEntry;
 pub use spawn::{Spawned, spawn};
 pub use transform::{TransformEntry, TransformMatrix, TransformParts};
-pub use view::{AutoShading, CameraEntry, ShadingEntry, ToleranceEntry};
+pub use view::{AutoShading, CameraEntry, ShadingEntry};
 
 #[cfg(test)]
 mod tests;

@@ -44,16 +44,35 @@ pub enum LightKind {
     Homogeneous,
 }
 
+/// What each field of [`ConeEntry`] means, for its documentation and for the schema.
+macro_rules! meaning {
+    (direction) => {
+        "The way the light travels, along the axis of its cone. Any length above 0."
+    };
+    (cutoff_deg) => {
+        "The angle from the axis to the edge."
+    };
+    (inner_deg) => {
+        "The angle from the axis to where the light begins to fade; null: a hard edge."
+    };
+    (exponent) => {
+        "e of cos^e φ, φ the angle from the axis."
+    };
+}
+
 /// The cone of a light, in degrees.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ConeEntry {
-    /// The way the light travels, along the axis. Any length above 0.
+    #[doc = meaning!(direction)]
     pub direction: [f32; 3],
-    /// From the axis to the edge: 0 to 90, or 180 for no cone.
+    #[doc = meaning!(cutoff_deg)]
+    /// 0 to 90, or 180 for no cone.
     pub cutoff_deg: f32,
-    /// From the axis to where the light begins to fade, 0 to `cutoff_deg`; `None`: a hard edge.
+    #[doc = meaning!(inner_deg)]
+    /// 0 to `cutoff_deg`; null is `None`.
     pub inner_deg: Option<f32>,
-    /// e of cos^e φ, φ the angle from the axis. 0 or more.
+    #[doc = meaning!(exponent)]
+    /// 0 or more.
     pub exponent: f32,
 }
 
@@ -68,8 +87,8 @@ impl Described for ConeEntry {
         Field::new(
             "direction",
             Range::FINITE,
-            "The way the light travels, along the axis of its cone. Any length above 0.",
-            FieldPlace::Three(|it| it.direction.each_mut(), ["x", "y", "z"]),
+            meaning!(direction),
+            FieldPlace::Three(|it| it.direction.each_mut(), fields::XYZ),
         ),
         Field::number(
             "cutoff_deg",
@@ -77,18 +96,16 @@ impl Described for ConeEntry {
                 also: Some(180.0),
                 ..Range::new(Included(0.0), Included(90.0), "degrees from 0 to 90, or 180 for no cone")
             },
-            "The angle from the axis to the edge.",
+            meaning!(cutoff_deg),
             |it| &mut it.cutoff_deg,
         ),
         Field::new(
             "inner_deg",
             Range::new(Included(0.0), Included(180.0), "degrees from 0 to cutoff_deg"),
-            "The angle from the axis to where the light begins to fade; null: a hard edge.",
+            meaning!(inner_deg),
             FieldPlace::Optional(|it| &mut it.inner_deg),
         ),
-        Field::number("exponent", Range::NON_NEGATIVE, "e of cos^e φ, φ the angle from the axis.", |it| {
-            &mut it.exponent
-        }),
+        Field::number("exponent", Range::NON_NEGATIVE, meaning!(exponent), |it| &mut it.exponent),
     ];
 }
 

@@ -96,7 +96,7 @@ pub struct MapEntry {
     /// The mesh's coordinates are moved by this, in widths and heights of the image.
     #[serde(default)]
     pub offset: [f32; 2],
-    /// Before that they are turned by so many degrees, counter-clockwise as the image is seen.
+    /// Before that they are turned by this angle in degrees, counter-clockwise as the image is seen.
     #[serde(default)]
     pub rotation_deg: f32,
     /// And first they are stretched by this.

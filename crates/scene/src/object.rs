@@ -1,11 +1,12 @@
 //! The objects of a scene file.
 
-use halfway_lighting::{Faces, Reflectance, VertexColors};
+use halfway_lighting::{Faces, Reflectance, Tolerance, VertexColors};
 use halfway_mesh::Normals;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::check::{Check, KeyProblem, Within};
+use crate::fields::{self, Keys, keys_or_null, write_keys_or_null};
 use crate::maps::MapsEntry;
 use crate::material::MaterialEntry;
 use crate::mesh::MeshEntry;
@@ -14,7 +15,7 @@ use crate::read::{
 };
 use crate::solid::SolidEntry;
 use crate::transform::TransformEntry;
-use crate::view::{ShadingEntry, ToleranceEntry};
+use crate::view::ShadingEntry;
 
 /// A mesh somewhere in the scene, with a material.
 #[derive(Serialize, Deserialize, JsonSchema, Clone, Debug, PartialEq)]
@@ -51,8 +52,9 @@ pub struct ObjectEntry {
     #[serde(default, deserialize_with = "word_or_null")]
     pub shading: Option<ShadingEntry>,
     /// The tolerance of this object; null: the scene's.
-    #[serde(default, deserialize_with = "object_or_null")]
-    pub tolerance: Option<ToleranceEntry>,
+    #[serde(default, deserialize_with = "keys_or_null", serialize_with = "write_keys_or_null")]
+    #[schemars(with = "Option<Keys<Tolerance>>")]
+    pub tolerance: Option<Tolerance>,
     /// The reflectance of this object; null: the scene's.
     #[serde(default, deserialize_with = "word_or_null", serialize_with = "write_word_or_null")]
     #[schemars(with = "Option<Spoken<Reflectance>>")]
@@ -116,7 +118,7 @@ impl ObjectEntry {
         if let Some(mask) = self.mask.filter(|mask| !(0.0..=f32::MAX).contains(mask)) {
             return Err(KeyProblem::new("mask", format!("is {mask:?}; expected a finite number, 0 or more")));
         }
-        self.tolerance.map_or(Ok(()), ToleranceEntry::check).within("tolerance")?;
+        self.tolerance.as_ref().map_or(Ok(()), fields::check).within("tolerance")?;
         self.shading.map_or(Ok(()), ShadingEntry::check).within("shading")
     }
 }

@@ -10,7 +10,7 @@ use bevy_color::{ColorToComponents, LinearRgba};
 use bevy_ecs::prelude::*;
 use bevy_math::{DMat3, DQuat, Mat4, Vec3};
 use bevy_transform::components::Transform;
-use halfway_lighting::{BackMaterial, Blend, GlobalAmbient, Mask, Tolerance, VertexColors, ViewTolerance};
+use halfway_lighting::{BackMaterial, Blend, GlobalAmbient, Mask, VertexColors, ViewTolerance};
 use halfway_lighting::{Camera, Samples};
 use halfway_mesh::{Bounds, Mesh, Mesh3d};
 use halfway_texture::{FarNormals, Maps, SurfaceMap, TexelMeaning, Texture, UvSet};
@@ -79,8 +79,8 @@ pub fn spawn(scene: &SceneFile, base_dir: &Path, world: &mut World) -> Result<Sp
         .collect::<Result<Vec<_>, SceneError>>()?;
 
     world.insert_resource(GlobalAmbient(LinearRgba::from_f32_array_no_alpha(scene.ambient)));
-    if let Some(entry) = scene.shading.tolerance(scene.tolerance) {
-        world.insert_resource(ViewTolerance(entry.into()));
+    if let Some(tolerance) = scene.shading.tolerance(scene.tolerance) {
+        world.insert_resource(ViewTolerance(tolerance));
     }
     let camera = spawn_camera(scene, &objects, world);
     let (mut handles, mut textures) = (Handles::new(), TextureHandles::new());
@@ -226,8 +226,8 @@ fn dress(object: &ObjectEntry, part: &ShapePart, mesh: Handle<Mesh>, entity: &mu
         entity.insert(entry.shading());
     }
     let tolerance = object.shading.map_or(object.tolerance, |entry| entry.tolerance(object.tolerance));
-    if let Some(entry) = tolerance {
-        entity.insert(Tolerance::from(entry));
+    if let Some(tolerance) = tolerance {
+        entity.insert(tolerance);
     }
     if let Some(reflectance) = object.reflectance {
         entity.insert(reflectance);

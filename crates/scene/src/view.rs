@@ -1,12 +1,17 @@
 //! The keys of a scene file that say how its picture is seen and written.
 
+use std::ops::Bound::Excluded;
+
 use bevy_math::{DVec3, Vec3};
-use halfway_lighting::{Camera, Encoding, Faces, Range, Reflectance, Shading, Tolerance, VertexColors, Viewer};
+use halfway_lighting::{
+    Camera, Described, Encoding, Faces, Field, FieldPlace, Range, Reflectance, Shading, Tolerance, VertexColors, Viewer,
+};
 use schemars::JsonSchema;
 use serde::de::MapAccess;
 use serde::{Deserialize, Serialize};
 
-use crate::check::{Check, KeyProblem, direction, finite, in_range, test};
+use crate::check::{Check, KeyProblem, direction, in_range};
+use crate::fields::{self, ComponentObject, XYZ};
 use crate::read::{ComponentWord, Given, JsonObject, Word};
 
 impl Word for Encoding {
@@ -105,7 +110,7 @@ pub struct AutoShading {
 
 impl Default for AutoShading {
     fn default() -> Self {
-        Self { tolerance: 1.0 }
+        Self { tolerance: Tolerance::DEFAULT.steps }
     }
 }
 
@@ -123,10 +128,6 @@ impl Word for ShadingEntry {
     }
 }
 
-impl JsonObject for CameraEntry {
-    const EXPECTED: &'static str = "an object with the keys of a camera";
-}
-
 impl ShadingEntry {
     /// The component.
     pub(crate) fn shading(self) -> Shading {
@@ -139,10 +140,10 @@ impl ShadingEntry {
     }
 
     /// The tolerance that it brings along, beside one that is given.
-    pub(crate) fn tolerance(self, given: Option<ToleranceEntry>) -> Option<ToleranceEntry> {
+    pub(crate) fn tolerance(self, given: Option<Tolerance>) -> Option<Tolerance> {
         match self {
             Self::AutoWithin(AutoShading { tolerance: steps }) => {
-                Some(ToleranceEntry { steps, ..given.unwrap_or_default() })
+                Some(Tolerance { steps, ..given.unwrap_or_default() })
             }
             _ => given,
         }
@@ -156,62 +157,49 @@ impl ShadingEntry {
     }
 }
 
-/// `tolerance`: how far a picture may be from everything at full detail with all lights, and under `auto` from Phong shading.
-#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq)]
-#[serde(default, deny_unknown_fields)]
-pub struct ToleranceEntry {
-    /// How far a channel may be off, in steps of 1/255 of the output; 0 or more.
-    #[schemars(range(min = 0))]
-    pub steps: f32,
-    /// How far a point may move on the picture, in pixels; 0 or more, 0 for every mesh as it is.
-    #[schemars(range(min = 0))]
-    pub pixels: f32,
-}
-
-impl Default for ToleranceEntry {
-    fn default() -> Self {
-        Tolerance::DEFAULT.into()
-    }
-}
-
-impl From<Tolerance> for ToleranceEntry {
-    fn from(Tolerance { steps, pixels }: Tolerance) -> Self {
-        Self { steps, pixels }
-    }
-}
-
-impl From<ToleranceEntry> for Tolerance {
-    fn from(ToleranceEntry { steps, pixels }: ToleranceEntry) -> Self {
-        Self { steps, pixels }
-    }
-}
-
-impl JsonObject for ToleranceEntry {
+impl JsonObject for Tolerance {
     const EXPECTED: &'static str = "an object such as {\"steps\": 1.0, \"pixels\": 0.5}";
 }
 
-impl ToleranceEntry {
-    pub(crate) fn check(self) -> Check {
-        in_range("steps", self.steps, Range::NON_NEGATIVE)?;
-        in_range("pixels", self.pixels, Range::NON_NEGATIVE)
-    }
+impl ComponentObject for Tolerance {
+    const NAME: &'static str = "ToleranceEntry";
+    const MEANING: &'static str = "`tolerance`: how far a picture may be from everything at full detail with all \
+                                   lights, and under `auto` from Phong shading.";
+}
+
+/// What each number of [`CameraEntry`] means, for its documentation and for the schema.
+macro_rules! meaning {
+    (position) => {
+        "Where the camera stands."
+    };
+    (target) => {
+        "The point in the middle of the picture; not `position`."
+    };
+    (up) => {
+        "What is up in the picture; not along the line of sight. Any length above 0."
+    };
+    (fov_y_deg) => {
+        "Vertical field of view."
+    };
+    (near) => {
+        "Distance of the near plane. There is no far plane."
+    };
 }
 
 /// `camera`: where the scene is seen from. Right-handed, Y up; the camera looks from `position` to `target`.
-#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq)]
-#[serde(default, deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CameraEntry {
-    /// Where the camera stands.
+    #[doc = meaning!(position)]
     pub position: [f32; 3],
-    /// The point in the middle of the picture; not `position`.
+    #[doc = meaning!(target)]
     pub target: [f32; 3],
-    /// What is up in the picture; not along the line of sight. Any length above 0.
+    #[doc = meaning!(up)]
     pub up: [f32; 3],
-    /// Vertical field of view in degrees, above 0 and below 180.
-    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 180))]
+    #[doc = meaning!(fov_y_deg)]
+    /// In degrees, above 0 and below 180.
     pub fov_y_deg: f32,
-    /// Distance of the near plane, above 0. There is no far plane.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[doc = meaning!(near)]
+    /// Above 0.
     pub near: f32,
 }
 
@@ -227,14 +215,35 @@ impl Default for CameraEntry {
     }
 }
 
+impl Described for CameraEntry {
+    const FIELDS: &'static [Field<Self>] = &[
+        Field::new("position", Range::FINITE, meaning!(position), FieldPlace::Three(|it| it.position.each_mut(), XYZ)),
+        Field::new("target", Range::FINITE, meaning!(target), FieldPlace::Three(|it| it.target.each_mut(), XYZ)),
+        Field::new("up", Range::FINITE, meaning!(up), FieldPlace::Three(|it| it.up.each_mut(), XYZ)),
+        Field::number(
+            "fov_y_deg",
+            Range::new(Excluded(0.0), Excluded(180.0), "degrees above 0 and below 180"),
+            meaning!(fov_y_deg),
+            |it| &mut it.fov_y_deg,
+        ),
+        Field::number("near", Range::POSITIVE, meaning!(near), |it| &mut it.near),
+    ];
+}
+
+impl JsonObject for CameraEntry {
+    const EXPECTED: &'static str = "an object with the keys of a camera";
+}
+
+impl ComponentObject for CameraEntry {
+    const NAME: &'static str = "CameraEntry";
+    const MEANING: &'static str = "`camera`: where the scene is seen from. Right-handed, Y up; the camera looks from \
+                                   `position` to `target`.";
+}
+
 impl CameraEntry {
     pub(crate) fn check(&self) -> Check {
-        finite("position", &self.position)?;
-        finite("target", &self.target)?;
+        fields::check(self)?;
         direction("up", &self.up)?;
-        let fov = self.fov_y_deg;
-        test("fov_y_deg", fov, fov > 0.0 && fov < 180.0, "degrees above 0 and below 180")?;
-        in_range("near", self.near, Range::POSITIVE)?;
         if Vec3::from(self.position) == Vec3::from(self.target) {
             return Err(KeyProblem::new("target", "is where the camera stands; expected another point"));
         }
