@@ -134,8 +134,8 @@ fn tell_apart(a: &mut Decoded, b: &mut Decoded, background: Option<[f64; 3]>) {
     }
 }
 
-fn bytes_of(colour: [f64; 3], encoding: Encoding) -> [u8; 3] {
-    Image::new(1, 1, vec![colour]).to_bytes(encoding).get_pixel(0, 0).0
+fn bytes_of(color: [f64; 3], encoding: Encoding) -> [u8; 3] {
+    Image::new(1, 1, vec![color]).to_bytes(encoding).get_pixel(0, 0).0
 }
 
 fn is_near(a: [f64; 3], b: [f64; 3], encoding: Encoding) -> bool {

@@ -31,7 +31,7 @@ pub(crate) struct ConvertArgs {
     /// Cut each triangle into four, N times over: in place, or to the smooth surface of Loop
     #[arg(long, value_name = "midpoint=N|loop=N", value_parser = parse_subdivision)]
     subdivide: Option<(Subdivision, u32)>,
-    /// Collapse edges until about so many triangles are left, shared among the parts by their number
+    /// Collapse edges until about N triangles are left, shared among the parts by their number
     #[arg(long, value_name = "TRIANGLES")]
     simplify: Option<usize>,
     /// Collapse edges as far as no point is further off than this; with --simplify whichever ends first

@@ -106,9 +106,9 @@ fn print_shape(model: &Model) {
 fn print_material(material: &SourceMaterial) {
     match material {
         SourceMaterial::Mtl(mtl) => {
-            let colours = [("Ka", mtl.ka), ("Kd", mtl.kd), ("Ks", mtl.ks), ("Ke", mtl.ke)];
+            let colors = [("Ka", mtl.ka), ("Kd", mtl.kd), ("Ks", mtl.ks), ("Ke", mtl.ke)];
             let numbers = [("Ns", mtl.ns), ("d", mtl.d), ("Tr", mtl.tr), ("illum", mtl.illum.map(f32::from))];
-            let said = colours
+            let said = colors
                 .iter()
                 .filter_map(|(key, value)| value.map(|value| format!("{key} {value:?}")))
                 .chain(numbers.iter().filter_map(|(key, value)| value.map(|value| format!("{key} {value}"))));

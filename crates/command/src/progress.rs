@@ -54,7 +54,7 @@ impl Progress {
         if self.is_stopped() { Continue::No } else { Continue::Yes }
     }
 
-    /// So many of the tiles of frame `index` of so many frames are done.
+    /// N of the tiles of frame `index` of M frames are done.
     pub(crate) fn tile(&self, index: u32, frames: u32, done: u32, of: u32) -> ControlFlow<()> {
         self.bar.set_length(u64::from(of) * u64::from(frames));
         // Threads may report in another order than they finish in.
@@ -62,7 +62,7 @@ impl Progress {
         if self.is_stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 
-    /// So many bytes of so many are read.
+    /// N bytes of M are read.
     pub(crate) fn bytes(&self, done: u64, of: u64) -> ControlFlow<()> {
         self.bar.set_length(of);
         self.bar.set_position(done);

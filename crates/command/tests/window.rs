@@ -54,7 +54,7 @@ fn a_window_on_wayland_shows_what_one_on_x_does() {
         viewer.take_size(600, 400);
         viewer.shown("Phong, Blinn–Phong", None)
     };
-    assert!((on_x.width, on_x.height) == (600, 400) && on_x.colours() > 50, "{} colours", on_x.colours());
+    assert!((on_x.width, on_x.height) == (600, 400) && on_x.colors() > 50, "{} colours", on_x.colors());
     let compositor = Compositor::start(&screen, 600, 400);
     let mut on_wayland = compositor.run(program());
     eventually("the same picture on Wayland", || (on_wayland.picture()? == on_x).then_some(()));
@@ -65,7 +65,7 @@ fn follows_keys_and_size(program: Command) {
     let mut viewer = Viewer::run(&screen, program);
     let phong = viewer.shown("Phong, Blinn–Phong", None);
     // A clear colour and an unlit outline would have two.
-    assert!(phong.colours() > 50, "{} colours", phong.colours());
+    assert!(phong.colors() > 50, "{} colours", phong.colors());
 
     viewer.press('1'.into());
     let flat = viewer.shown("flat, Blinn–Phong", Some(&phong));

@@ -16,7 +16,7 @@ pub(crate) struct Numbering {
 impl Numbering {
     /// Numbers `count` things, at most 2³² − 1, by their keys. Keys are asked for again, not kept.
     pub(crate) fn new<const N: usize>(count: usize, key: impl Fn(usize) -> [u32; N]) -> Self {
-        let mut table = Table::default();
+        let mut table = KeyNumbers::default();
         let mut firsts: Vec<u32> = Vec::new();
         let mut numbers = Vec::with_capacity(count);
         for thing in 0..count {
@@ -52,7 +52,7 @@ impl Numbering {
 pub(crate) struct DistinctKeys {
     /// The key of each number.
     keys: Vec<[u32; 3]>,
-    table: Table,
+    table: KeyNumbers,
 }
 
 impl DistinctKeys {
@@ -76,12 +76,12 @@ impl DistinctKeys {
 /// The numbers of keys, found by the keys, which lie elsewhere. The hashes are seeded anew each run, so that no file
 /// can be made to collide; the numbers do not depend on it.
 #[derive(Default)]
-struct Table {
+struct KeyNumbers {
     numbers: HashTable<u32>,
     hasher: DefaultHashBuilder,
 }
 
-impl Table {
+impl KeyNumbers {
     /// The number of a key, which is `next` where the key is not there yet; `key_of` gives the keys of those that are.
     fn number<const N: usize>(&mut self, next: u32, key: [u32; N], key_of: impl Fn(u32) -> [u32; N]) -> u32 {
         let Self { numbers, hasher } = self;

@@ -37,7 +37,7 @@ pub struct FrameFigures {
 
 /// What goes round, along which ellipse and how often in [`Animation::FRAMES`].
 #[derive(Component, Clone, Copy)]
-struct Orbit {
+struct GoesRound {
     center: Vec3,
     radii: Vec3,
     turns: f32,
@@ -46,7 +46,7 @@ struct Orbit {
     target: Vec3,
 }
 
-impl Orbit {
+impl GoesRound {
     fn at(&self, frame: u32) -> Transform {
         let angle = TAU * (self.start + self.turns * frame as f32 / Animation::FRAMES as f32);
         // Up and down twice a turn, so that no light only goes round.
@@ -120,7 +120,7 @@ impl Animation {
         let back = BackMaterial(shiny(0.2, 0.6, 0.7, 6.0));
         world.spawn((ring, shiny(0.3, 0.5, 0.8, 8.0), back, Faces::Both, turned));
         world.spawn((floor, shiny(0.5, 0.5, 0.45, 3.0), Transform::from_xyz(0.0, -0.9, 0.0)));
-        let around = |turns, start| Orbit {
+        let around = |turns, start| GoesRound {
             center: Vec3::new(0.0, 1.2, 0.0),
             radii: Vec3::new(2.2, 0.5, 2.2),
             turns,
@@ -135,13 +135,13 @@ impl Animation {
         world.spawn((PointLight { attenuation: Attenuation::INVERSE_SQUARE, ..white(2.0) }, around(-2.0, 0.1)));
         world.spawn((PointLight { range: Some(3.0), ..white(0.6) }, around(3.0, 0.7)));
         let cone = Cone { cutoff: 0.6, inner: Some(0.3), exponent: 2.0 };
-        let from_above = Orbit { center: Vec3::new(0.0, 3.5, 0.0), ..around(-1.0, 0.5) };
+        let from_above = GoesRound { center: Vec3::new(0.0, 3.5, 0.0), ..around(-1.0, 0.5) };
         world.spawn((SpotLight { light: white(0.9), cone }, from_above));
         let sun = DirectionalLight::from_color(LinearRgba::rgb(0.35, 0.33, 0.3));
-        world.spawn((sun, Orbit { center: Vec3::new(0.0, 4.0, 1.0), ..around(0.5, 0.0) }));
-        let far = Orbit { center: Vec3::new(0.0, 2.0, 0.0), radii: Vec3::new(4.2, 0.8, 4.2), ..around(1.0, 0.1) };
+        world.spawn((sun, GoesRound { center: Vec3::new(0.0, 4.0, 1.0), ..around(0.5, 0.0) }));
+        let far = GoesRound { center: Vec3::new(0.0, 2.0, 0.0), radii: Vec3::new(4.2, 0.8, 4.2), ..around(1.0, 0.1) };
         world.spawn((Camera::default(), Shading::Auto, far));
-        let orbits: Vec<Entity> = world.query_filtered::<Entity, With<Orbit>>().iter(world).collect();
+        let orbits: Vec<Entity> = world.query_filtered::<Entity, With<GoesRound>>().iter(world).collect();
         for entity in orbits {
             world.entity_mut(entity).insert_if_new(Transform::default());
         }
@@ -155,7 +155,7 @@ impl Animation {
         let steps = Self::STEPS[frame as usize % Self::STEPS.len()];
         self.app.insert_resource(ViewTolerance(Tolerance::steps(steps)));
         let world = self.app.world_mut();
-        for (orbit, mut at) in world.query::<(&Orbit, &mut Transform)>().iter_mut(world) {
+        for (orbit, mut at) in world.query::<(&GoesRound, &mut Transform)>().iter_mut(world) {
             *at = orbit.at(frame);
         }
         let refused = |error: &dyn std::fmt::Display| Finding::Refused(error.to_string());

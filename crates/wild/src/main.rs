@@ -81,7 +81,7 @@ fn main() -> ExitCode {
 
 /// The worst of the scenes that were right, in shares of the range and in steps.
 #[derive(Default)]
-struct Worst {
+struct LargestErrors {
     float: f64,
     steps: f64,
 }
@@ -100,7 +100,7 @@ fn run(arguments: &Arguments) -> Result<u64, (u8, String)> {
         judge = judge.with_tolerance(tolerance);
     }
     let start = Instant::now();
-    let (mut worst, mut failed) = (Worst::default(), 0);
+    let (mut worst, mut failed) = (LargestErrors::default(), 0);
     for number in arguments.first..arguments.first.saturating_add(arguments.scenes) {
         let drawn = scene(arguments.seed, number);
         match judge.judge(&drawn) {

@@ -19,7 +19,7 @@ type Lookup<T> = ([T; 2], [[T; 2]; 2]);
 
 /// One picture of the plane: what is looked up at each pixel, and what is right. Pixels that do not wholly see the plane have
 /// neither.
-struct Seen {
+struct PlanePicture {
     lookups: Vec<Option<Lookup<f64>>>,
     truth: Vec<Option<[f64; 3]>>,
 }
@@ -40,12 +40,12 @@ fn of_image(
     let pyramid = image.pyramid();
     let truth = FootprintTruth::new(&pyramid);
     let mut see = |view: FilterView, frame: u32| {
-        let seen = Seen::new(plan, &truth, &view.map(plan.size, frame));
+        let seen = PlanePicture::new(plan, &truth, &view.map(plan.size, frame));
         progress.advance(1, &format!("truth of the {}, {}", image.name(), view.name()));
         seen
     };
-    let still: Vec<Seen> = FilterView::ALL.into_iter().map(|view| see(view, 0)).collect();
-    let moving: Vec<Vec<Seen>> =
+    let still: Vec<PlanePicture> = FilterView::ALL.into_iter().map(|view| see(view, 0)).collect();
+    let moving: Vec<Vec<PlanePicture>> =
         FilterView::MOVING.into_iter().map(|view| (0..plan.frames).map(|frame| see(view, frame)).collect()).collect();
     let mut figures = Vec::with_capacity(FILTERS.len());
     for method in FILTERS {
@@ -57,7 +57,7 @@ fn of_image(
     Ok(MeasuredFilters { image, truth: uri(plan, &steepest.truth)?, figures })
 }
 
-impl Seen {
+impl PlanePicture {
     fn new(plan: &FilterPlan, truth: &FootprintTruth, map: &PictureMap) -> Self {
         let [width, height] = plan.size;
         let places = (0..width * height).into_par_iter().map(|pixel| {
@@ -82,8 +82,8 @@ fn errors(
     plan: &FilterPlan,
     pyramid: &Pyramid,
     method: FilterMethod,
-    still: &[Seen],
-    moving: &[Vec<Seen>],
+    still: &[PlanePicture],
+    moving: &[Vec<PlanePicture>],
 ) -> Result<FilterFigures, MeasureError> {
     let mut found = FilterFigures::default();
     let mut all = Mean::default();
@@ -124,7 +124,7 @@ fn errors(
 
 /// Times of lookups in f32, as the CPU's rasterizer does them, over all pixels of all views. The filters take turns, each round
 /// begun by another one, after one that is not timed.
-fn timed(plan: &FilterPlan, pyramid: &Pyramid, still: &[Seen], figures: &mut [FilterFigures]) {
+fn timed(plan: &FilterPlan, pyramid: &Pyramid, still: &[PlanePicture], figures: &mut [FilterFigures]) {
     let single = |&([u, v], [x, y]): &Lookup<f64>| -> Lookup<f32> {
         ([u as f32, v as f32], [[x[0] as f32, x[1] as f32], [y[0] as f32, y[1] as f32]])
     };

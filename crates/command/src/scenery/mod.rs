@@ -241,7 +241,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn colours_by_hue() {
+    fn colors_by_hue() {
         for (hue, expected) in [(0.0, [1.0, 0.5, 0.5]), (1.0 / 3.0, [0.5, 1.0, 0.5]), (0.5, [0.5, 1.0, 1.0])] {
             let LinearRgba { red, green, blue, .. } = hsv(hue, 0.5, 1.0);
             for (channel, expected) in [red, green, blue].into_iter().zip(expected) {

@@ -93,7 +93,7 @@ impl Picture {
         self.bytes.chunks_exact(4).all(|pixel| pixel == &self.bytes[..4])
     }
 
-    pub(crate) fn colours(&self) -> usize {
+    pub(crate) fn colors(&self) -> usize {
         self.bytes.chunks_exact(4).collect::<std::collections::HashSet<_>>().len()
     }
 

@@ -17,18 +17,18 @@ const HALVINGS: u32 = 30;
 /// A spatial structure that finds only the lights within their reach drops each of the others for less than ε, but the
 /// sum of what they would add counts: subtract it from the tolerance of [`Receiver::select`](super::Receiver::select).
 pub fn reach<T: Real>(light: &Light<T>, epsilon: T) -> T {
-    let colour = brightest(light);
-    if colour == 0.0 {
+    let color = brightest(light);
+    if color == 0.0 {
         return T::zero();
     }
     let Place::Point(_) = light.place else { return T::infinity() };
     let epsilon = to_f64(epsilon);
     let constants = light.attenuation.map(to_f64);
-    let unwindowed = crossing(constants, colour / epsilon);
+    let unwindowed = crossing(constants, color / epsilon);
     let reach = match light.range.map(to_f64) {
         None => unwindowed,
         Some(range) => {
-            let bright = |d| colour * attenuation(constants, d) * range_window(d, range) >= epsilon;
+            let bright = |d| color * attenuation(constants, d) * range_window(d, range) >= epsilon;
             last(bright, unwindowed.min(range))
         }
     };

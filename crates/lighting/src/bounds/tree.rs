@@ -58,7 +58,7 @@ struct Falloff {
     /// The least numbers.
     attenuation: [f32; 3],
     /// The sum of their colours' brightest channels.
-    colour: f32,
+    color: f32,
 }
 
 impl Falloff {
@@ -66,14 +66,14 @@ impl Falloff {
         Self {
             range: light.range.unwrap_or(f32::INFINITY),
             attenuation: light.attenuation,
-            colour: brightest(light) as f32 * (1.0 + SLACK),
+            color: brightest(light) as f32 * (1.0 + SLACK),
         }
     }
 
     fn join(&mut self, other: &Self) {
         self.range = self.range.max(other.range);
         self.attenuation = [0, 1, 2].map(|k| self.attenuation[k].min(other.attenuation[k]));
-        self.colour += other.colour;
+        self.color += other.color;
     }
 }
 
@@ -109,7 +109,7 @@ impl LightSearch<'_> {
             return Visit::Open;
         }
         let weight = attenuation(falloff.attenuation, distance).max(f32::MIN_POSITIVE) * (1.0 + SLACK);
-        let most = f64::from(self.region.brightest * falloff.colour * weight);
+        let most = f64::from(self.region.brightest * falloff.color * weight);
         if most <= self.quota * f64::from(count) { Visit::Little(most) } else { Visit::Open }
     }
 }
@@ -225,7 +225,7 @@ impl LightNode {
     }
 
     fn joined(mut nodes: impl Iterator<Item = Self>) -> Self {
-        let falloff = Falloff { range: 0.0, attenuation: [0.0; 3], colour: 0.0 };
+        let falloff = Falloff { range: 0.0, attenuation: [0.0; 3], color: 0.0 };
         let mut all = nodes.next().unwrap_or(Self { low: [0.0; 3], high: [0.0; 3], falloff, count: 0 });
         for node in nodes {
             all.low = [0, 1, 2].map(|k| all.low[k].min(node.low[k]));

@@ -176,7 +176,7 @@ fn number() -> BoxedStrategy<f32> {
     prop_oneof![1 => Just(0.0), 4 => magnitude(-4.0, 4.0)].boxed()
 }
 
-fn colour() -> impl Strategy<Value = LinearRgba> {
+fn color() -> impl Strategy<Value = LinearRgba> {
     [number(), number(), number()].prop_map(|[r, g, b]| LinearRgba::rgb(r, g, b))
 }
 
@@ -205,7 +205,7 @@ pub(crate) fn source() -> impl Strategy<Value = Source> {
     let falloff = ([number(), number(), number()], prop::option::of(magnitude(-1.0, 3.0)), any::<bool>());
     let place = (any_direction(), distance());
     let aim = (any_direction(), prop_oneof![Just(0.0), 0f32..1.5, Just(1e4)]);
-    ((colour(), colour(), colour()), falloff, kind, place, aim).prop_map(
+    ((color(), color(), color()), falloff, kind, place, aim).prop_map(
         |((ambient, diffuse, specular), ([a, b, c], range, attenuate_ambient), kind, (way, d), (off, miss))| {
             let attenuation = Attenuation::new(a, b, if a + b + c == 0.0 { 1.0 } else { c });
             let light = PointLight { ambient, diffuse, specular, attenuation, range, attenuate_ambient };
@@ -229,7 +229,7 @@ pub(crate) fn scene() -> impl Strategy<Value = Scene> {
     let faces = prop::sample::select(&[Faces::Front, Faces::Back, Faces::Both]);
     let reflectance =
         prop::sample::select(&[Reflectance::Phong, Reflectance::BlinnPhong, Reflectance::BlinnPhongMatched]);
-    let material = (colour(), colour(), colour(), exponent(1e4)).prop_map(|(ambient, diffuse, specular, shininess)| {
+    let material = (color(), color(), color(), exponent(1e4)).prop_map(|(ambient, diffuse, specular, shininess)| {
         Material { ambient, diffuse, specular, emission: LinearRgba::BLACK, shininess, opacity: 1.0 }
     });
     let view = prop_oneof![

@@ -54,13 +54,13 @@ fn number() -> impl Strategy<Value = f32> {
     prop_oneof![1 => Just(0.0), 7 => magnitude()]
 }
 
-fn colour(channel: impl Strategy<Value = f32>) -> impl Strategy<Value = LinearRgba> {
+fn color(channel: impl Strategy<Value = f32>) -> impl Strategy<Value = LinearRgba> {
     prop::array::uniform3(channel).prop_map(|[r, g, b]| LinearRgba::rgb(r, g, b))
 }
 
 fn material(channel: fn() -> BoxedStrategy<f32>, shininess: BoxedStrategy<f32>) -> impl Strategy<Value = Material> {
-    let colours = (colour(channel()), colour(channel()), colour(channel()), colour(channel()));
-    (colours, shininess).prop_map(|((ambient, diffuse, specular, emission), shininess)| Material {
+    let colors = (color(channel()), color(channel()), color(channel()), color(channel()));
+    (colors, shininess).prop_map(|((ambient, diffuse, specular, emission), shininess)| Material {
         ambient,
         diffuse,
         specular,
@@ -109,7 +109,7 @@ fn wild() -> impl Strategy<Value = Case> {
         1 => [position[0], position[1], other[2]],
         _ => other,
     };
-    let light = (colour(number()), colour(number()), colour(number()))
+    let light = (color(number()), color(number()), color(number()))
         .prop_map(|(ambient, diffuse, specular)| PointLight { ambient, diffuse, specular, ..PointLight::white() });
     let falloff = ([number(), number(), number()], prop::option::of(magnitude()), any::<bool>());
     let seen = (prop::array::uniform3(signed(number())), near(), near(), direction(), direction());
@@ -146,7 +146,7 @@ fn wild() -> impl Strategy<Value = Case> {
 fn ordinary() -> impl Strategy<Value = Case> {
     let unit = || (0f32..=1.0).boxed();
     let at = || prop::array::uniform3(-3f32..3.0);
-    let light = (colour(unit()), colour(unit()), prop::option::of(4f32..12.0), any::<bool>());
+    let light = (color(unit()), color(unit()), prop::option::of(4f32..12.0), any::<bool>());
     let cone = kind((0f32..16.0).boxed());
     (material(unit, (0f32..256.0).boxed()), light, cone, (at(), at(), at()), (direction(), direction()), reflectance())
         .prop_map(|(material, light, kind, (position, place, eye), (normal, nudge), reflectance)| {
@@ -202,7 +202,7 @@ impl Case {
             .map(|x| x.to_f64().expect("a float"))
     }
 
-    /// Fails unless the evaluation in `T` is a colour, and one that `rounding` explains.
+    /// Fails unless the evaluation in `T` is a color, and one that `rounding` explains.
     fn check<T: Real>(&self, rounding: Rounding) -> Result<(), TestCaseError> {
         let got = self.evaluated::<T>();
         for (value, exact) in got.into_iter().zip(rounding.of(self)) {
@@ -274,7 +274,7 @@ impl Rounding {
             let sum = |w: f64, a: f64, d: f64, s: f64| {
                 ke[k] + ka[k] * f64::from(case.ga[k]) + ka[k] * la[k] * a + w * (kd[k] * ld[k] * d + ks[k] * ls[k] * s)
             };
-            // A factor that underflowed is multiplied by the colours and the largest attenuation after that.
+            // A factor that underflowed is multiplied by the colors and the largest attenuation after that.
             let lost = self.least * (1.0 + sum(ATTENUATION_MAX.into(), 1.0, 1.0, 1.0));
             let low = sum(weight.low, ambient.low, lambert.low, gloss.low);
             let high = sum(weight.high, ambient.high, lambert.high, gloss.high);

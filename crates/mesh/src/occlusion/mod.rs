@@ -203,7 +203,7 @@ const R2: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_2];
 /// The golden section.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
-/// Direction `ray` of so many, of which as many see a part of the hemisphere around +Z as its cosine says; all turned.
+/// Direction `ray` of N, of which as many see a part of the hemisphere around +Z as its cosine says; all turned.
 fn cosine_weighted(ray: u32, rays: u32, turn: f64) -> DVec3 {
     let squared = (f64::from(ray) + 0.5) / f64::from(rays);
     let angle = TAU * (f64::from(ray) * GOLDEN + turn).fract();

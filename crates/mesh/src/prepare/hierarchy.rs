@@ -81,7 +81,7 @@ const KEPT: f64 = 0.5;
 /// Of a mesh of one patch, fewer at a time: errors of small meshes rise in jumps, as one vertex after the other goes.
 const KEPT_OF_WHOLE: f64 = 0.8;
 
-/// After so many joins, errors are measured against the patches then, and added to theirs: what they add is small, as
+/// After this number of joins, errors are measured against the patches then, and added to theirs: what they add is small, as
 /// errors double with each join, and measuring against the mesh itself would take as long each time.
 const REBASED: u32 = 3;
 

@@ -6,21 +6,21 @@ use super::nearest::{TriangleCorners, nearest_on};
 
 /// Which coarse triangle each covered vertex is nearest to, by its place in the list of covered vertices.
 pub(super) struct Homes {
-    nearest: Vec<Nearest>,
+    nearest: Vec<NearestTriangle>,
 }
 
 /// The least distance of a vertex that has been seen.
 #[derive(Clone, Copy)]
-struct Nearest {
+struct NearestTriangle {
     distance: f64,
     /// The first fine triangle that has it, from 1 (0 where no fine one was asked), and the first coarse one.
     seen: [u32; 2],
 }
 
 impl Homes {
-    /// Of so many vertices.
+    /// Of N vertices.
     pub(super) fn new(count: usize) -> Self {
-        Self { nearest: vec![Nearest { distance: f64::INFINITY, seen: [0, u32::MAX] }; count] }
+        Self { nearest: vec![NearestTriangle { distance: f64::INFINITY, seen: [0, u32::MAX] }; count] }
     }
 
     /// Takes note of a distance between a vertex and a fine (from 1, or 0) and a coarse triangle, if the vertex is in the
@@ -29,7 +29,7 @@ impl Homes {
         if let Some(nearest) = self.nearest.get_mut(vertex as usize)
             && (distance, seen) < (nearest.distance, nearest.seen)
         {
-            *nearest = Nearest { distance, seen };
+            *nearest = NearestTriangle { distance, seen };
         }
     }
 
@@ -52,7 +52,7 @@ impl Homes {
                 let (distance2, _) = nearest_on(p, corners);
                 if distance2 < least2 {
                     (least2, least) = (distance2, distance2.sqrt());
-                    *nearest = Nearest { distance: least, seen: [0, number] };
+                    *nearest = NearestTriangle { distance: least, seen: [0, number] };
                 }
             }
         }

@@ -59,7 +59,7 @@ impl Mesh {
         Meshlets { mesh, meshlets }
     }
 
-    /// Meshlets of at most so many triangles, a number that meshoptimizer allows.
+    /// Meshlets of at most N triangles, a number that meshoptimizer allows.
     fn cut(&self, triangles: usize) -> meshopt::Meshlets {
         let indices = meshopt::optimize_vertex_cache(self.indices(), self.positions().len());
         let positions = self.unit_positions().0;

@@ -6,7 +6,7 @@ use bevy_math::Vec3;
 
 use crate::Mesh;
 
-/// From so many patches of triangles down, they are also parted by the way they face: of more than these, borders between
+/// From this number of patches of triangles down, they are also parted by the way they face: of more than these, borders between
 /// what faces apart would run all over the mesh.
 const PARTED_BY_FACING: usize = 16;
 

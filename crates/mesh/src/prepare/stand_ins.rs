@@ -6,7 +6,7 @@ use crate::Mesh;
 /// Numbers of normals, texture coordinates, colours and tangents no further apart than this are equal.
 const EQUAL: f32 = 1e-4;
 
-/// A vertex is compared with so many others of its place; the pole of a sphere has hundreds.
+/// A vertex is compared with this number of others of its place; the pole of a sphere has hundreds.
 const COMPARED: usize = 64;
 
 /// Which vertex each vertex is taken for, by number.

@@ -112,7 +112,7 @@ fn spread2(a: FourVectors, b: FourVectors, c: FourVectors) -> Vec4 {
 }
 
 impl Vicinity {
-    /// Of one of so many places.
+    /// Of one of N places.
     pub(super) fn new(places: usize) -> Self {
         Self { numbers: vec![0; places], ..Self::default() }
     }

@@ -2,7 +2,7 @@
 
 use bevy_math::{Vec2, Vec3};
 
-use super::{Field, SurfaceError, grid_indices};
+use super::{SurfaceError, SurfaceField, grid_indices};
 use crate::Mesh;
 
 /// A box with edges along the axes, centred on the origin.
@@ -31,11 +31,11 @@ impl Cuboid {
     /// # Errors
     /// The first length that is not.
     pub fn validate(&self) -> Result<(), SurfaceError> {
-        self.fields().iter().try_for_each(Field::<f32>::check)
+        self.fields().iter().try_for_each(SurfaceField::<f32>::check)
     }
 
-    fn fields(self) -> [Field<f32>; 3] {
-        let field = |name, value| Field { surface: "Cuboid", name, value };
+    fn fields(self) -> [SurfaceField<f32>; 3] {
+        let field = |name, value| SurfaceField { surface: "Cuboid", name, value };
         [field("size.x", self.size.x), field("size.y", self.size.y), field("size.z", self.size.z)]
     }
 }

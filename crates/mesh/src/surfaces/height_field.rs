@@ -4,7 +4,7 @@ use bevy_math::{DVec2, DVec3};
 
 use super::parameter::uv_at;
 use super::{
-    BezierPatch, Field, Parameter, ParametricSurface, SurfaceError, SurfacePiece, SurfacePoint, Tessellation,
+    BezierPatch, Parameter, ParametricSurface, SurfaceError, SurfaceField, SurfacePiece, SurfacePoint, Tessellation,
     check_lengths,
 };
 
@@ -36,7 +36,8 @@ impl HeightField {
     /// rows or 4097 columns, or a row that is not full; a height that is not from −1e29 to 1e29.
     pub fn new(x: f32, z: f32, columns: u32, heights: Vec<f32>) -> Result<Self, SurfaceError> {
         check_lengths("HeightField", &[("x", x), ("z", z)])?;
-        Field { surface: "HeightField", name: "columns", value: columns }.check(2..=Tessellation::MAX_COLUMNS + 1)?;
+        SurfaceField { surface: "HeightField", name: "columns", value: columns }
+            .check(2..=Tessellation::MAX_COLUMNS + 1)?;
         let error =
             |value, expected: String| SurfaceError { surface: "HeightField", field: "heights", value, expected };
         let columns = columns as usize;

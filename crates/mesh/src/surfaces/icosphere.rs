@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use bevy_math::{DVec3, Vec3};
 
-use super::{Field, Quadric, SurfaceError};
+use super::{Quadric, SurfaceError, SurfaceField};
 use crate::Mesh;
 
 /// A sphere about the origin, from an icosahedron whose faces are cut into `divisions`² triangles each and blown up.
@@ -85,12 +85,12 @@ impl Icosphere {
         self.divisions_field().check(1..=Self::MAX_DIVISIONS)
     }
 
-    fn radius_field(self) -> Field<f32> {
-        Field { surface: "Icosphere", name: "radius", value: self.radius }
+    fn radius_field(self) -> SurfaceField<f32> {
+        SurfaceField { surface: "Icosphere", name: "radius", value: self.radius }
     }
 
-    fn divisions_field(self) -> Field<u32> {
-        Field { surface: "Icosphere", name: "divisions", value: self.divisions }
+    fn divisions_field(self) -> SurfaceField<u32> {
+        SurfaceField { surface: "Icosphere", name: "divisions", value: self.divisions }
     }
 }
 

@@ -87,7 +87,7 @@ const MOST_TIMES: f32 = 1e5;
 
 /// Whether all lengths of a surface are in their range, and none is too long for another.
 fn check_lengths(surface: &'static str, lengths: &[(&'static str, f32)]) -> Result<(), SurfaceError> {
-    lengths.iter().try_for_each(|&(name, value)| Field { surface, name, value }.check())?;
+    lengths.iter().try_for_each(|&(name, value)| SurfaceField { surface, name, value }.check())?;
     let shortest = lengths.iter().map(|length| length.1).fold(f32::MAX, f32::min);
     match lengths.iter().find(|length| length.1 > MOST_TIMES * shortest) {
         None => Ok(()),
@@ -101,13 +101,13 @@ fn check_lengths(surface: &'static str, lengths: &[(&'static str, f32)]) -> Resu
 }
 
 /// A field of a surface: checked, or brought into its range.
-struct Field<T> {
+struct SurfaceField<T> {
     surface: &'static str,
     name: &'static str,
     value: T,
 }
 
-impl Field<f32> {
+impl SurfaceField<f32> {
     fn check(&self) -> Result<(), SurfaceError> {
         if LENGTHS.contains(&self.value) {
             return Ok(());
@@ -134,7 +134,7 @@ impl Field<f32> {
     }
 }
 
-impl Field<u32> {
+impl SurfaceField<u32> {
     fn check(&self, range: std::ops::RangeInclusive<u32>) -> Result<(), SurfaceError> {
         if range.contains(&self.value) {
             return Ok(());
@@ -179,7 +179,7 @@ mod tests {
 
     #[test]
     fn the_nearest_value_in_range() {
-        let length = |value: f32| Field { surface: "Test", name: "length", value }.nearest();
+        let length = |value: f32| SurfaceField { surface: "Test", name: "length", value }.nearest();
         for (value, nearest) in [
             (2.0, 2.0),
             (0.0, 1e-30),
@@ -190,7 +190,7 @@ mod tests {
         ] {
             assert_eq!(length(value).to_bits(), f32::to_bits(nearest), "{value}");
         }
-        let count = |value: u32| Field { surface: "Test", name: "count", value }.nearest(3..=7);
+        let count = |value: u32| SurfaceField { surface: "Test", name: "count", value }.nearest(3..=7);
         assert_eq!([0, 3, 5, 7, 8, u32::MAX].map(count), [3, 3, 5, 7, 7, 7]);
     }
 }

@@ -3,7 +3,7 @@
 use bevy_math::{DVec3, Vec2, Vec3};
 
 use super::parameter::uv_at;
-use super::{Field, Parameter, ParametricSurface, SurfaceError, SurfacePiece, SurfacePoint, grid_indices};
+use super::{Parameter, ParametricSurface, SurfaceError, SurfaceField, SurfacePiece, SurfacePoint, grid_indices};
 use crate::Mesh;
 
 /// A flat square in the plane y = 0, centred on the origin, that faces +Y.
@@ -38,12 +38,12 @@ impl Plane {
         self.divisions_field().check(1..=Self::MAX_DIVISIONS)
     }
 
-    fn size_field(self) -> Field<f32> {
-        Field { surface: "Plane", name: "size", value: self.size }
+    fn size_field(self) -> SurfaceField<f32> {
+        SurfaceField { surface: "Plane", name: "size", value: self.size }
     }
 
-    fn divisions_field(self) -> Field<u32> {
-        Field { surface: "Plane", name: "divisions", value: self.divisions }
+    fn divisions_field(self) -> SurfaceField<u32> {
+        SurfaceField { surface: "Plane", name: "divisions", value: self.divisions }
     }
 }
 

@@ -3,7 +3,7 @@
 use bevy_math::{DVec3, Vec2};
 
 use super::parameter::{half_turn, turn};
-use super::{Field, Parameter, Quadric, SurfaceError};
+use super::{Parameter, Quadric, SurfaceError, SurfaceField};
 use crate::Mesh;
 
 /// A sphere about the origin, cut along meridians and parallels; its poles lie on the Y axis.
@@ -54,16 +54,16 @@ impl UvSphere {
         self.rings_field().check(2..=Self::MAX_RINGS)
     }
 
-    fn radius_field(self) -> Field<f32> {
-        Field { surface: "UvSphere", name: "radius", value: self.radius }
+    fn radius_field(self) -> SurfaceField<f32> {
+        SurfaceField { surface: "UvSphere", name: "radius", value: self.radius }
     }
 
-    fn segments_field(self) -> Field<u32> {
-        Field { surface: "UvSphere", name: "segments", value: self.segments }
+    fn segments_field(self) -> SurfaceField<u32> {
+        SurfaceField { surface: "UvSphere", name: "segments", value: self.segments }
     }
 
-    fn rings_field(self) -> Field<u32> {
-        Field { surface: "UvSphere", name: "rings", value: self.rings }
+    fn rings_field(self) -> SurfaceField<u32> {
+        SurfaceField { surface: "UvSphere", name: "rings", value: self.rings }
     }
 }
 

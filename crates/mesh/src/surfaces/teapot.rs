@@ -4,7 +4,7 @@ use bevy_math::{DVec3, Vec2};
 
 use super::newell::{CONTROL_POINTS, PATCHES};
 use super::tessellate::{Grids, Vertex, counts_for};
-use super::{BezierPatch, Field, Surface, SurfaceError, SurfacePiece};
+use super::{BezierPatch, Surface, SurfaceError, SurfaceField, SurfacePiece};
 use crate::Mesh;
 
 /// The Utah teapot, from Martin Newell's 32 bicubic Bézier patches (see the module `newell` for the source): rim, body,
@@ -62,8 +62,8 @@ impl Teapot {
         self.divisions_field().check(1..=Self::MAX_DIVISIONS)
     }
 
-    fn divisions_field(self) -> Field<u32> {
-        Field { surface: "Teapot", name: "divisions", value: self.divisions }
+    fn divisions_field(self) -> SurfaceField<u32> {
+        SurfaceField { surface: "Teapot", name: "divisions", value: self.divisions }
     }
 }
 

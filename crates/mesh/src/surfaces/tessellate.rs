@@ -2,7 +2,7 @@
 
 use bevy_math::{DVec3, Vec2, Vec3};
 
-use super::{Disc, Field, Parameter, Surface, SurfaceError, SurfacePiece, SurfacePoint};
+use super::{Disc, Parameter, Surface, SurfaceError, SurfaceField, SurfacePiece, SurfacePoint};
 use crate::{Mesh, face_normal};
 
 /// A surface p(u, v), u and v from 0 to 1, in f64.
@@ -81,7 +81,7 @@ impl Tessellation {
     fn validate(self, [least_rows, least_columns]: [u32; 2]) -> Result<(), SurfaceError> {
         match self {
             Self::Count { rows, columns } => {
-                let field = |name, value| Field { surface: "Tessellation", name, value };
+                let field = |name, value| SurfaceField { surface: "Tessellation", name, value };
                 field("rows", rows).check(least_rows..=Self::MAX_ROWS)?;
                 field("columns", columns).check(least_columns..=Self::MAX_COLUMNS)
             }
@@ -208,7 +208,7 @@ const SPENT: f64 = 0.95;
 /// pass through their samples, and is looked at in cells of half the size as well.
 const CERTAIN: u32 = 16;
 
-/// The fewest rows and columns, about, that keep the chord error, and at most so many.
+/// The fewest rows and columns, about, that keep the chord error, and at most `most`.
 pub(super) fn counts_for(surface: &dyn ParametricSurface, error: f64, most: [u32; 2]) -> [u32; 2] {
     let allowed = SPENT * error;
     let mut counts = surface.least_counts();

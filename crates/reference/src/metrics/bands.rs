@@ -64,7 +64,7 @@ impl<'a> BandPairs<'a> {
         }
     }
 
-    /// The rows of bands of about so many pixels, from the top.
+    /// The rows of bands of about N pixels, from the top.
     pub(super) fn ranges(&self, pixels: u32) -> impl Iterator<Item = Range<u32>> + use<> {
         let (width, height) = self.size;
         let rows = (pixels / width.max(1)).max(1);

@@ -12,7 +12,7 @@ const SMALL: u32 = 320;
 pub(super) const PAPER: Rgb<u8> = Rgb([24, 24, 27]);
 pub(super) const INK: Rgb<u8> = Rgb([235, 235, 235]);
 
-/// How large text is on a picture this wide: each of a glyph's 8 × 8 dots becomes a square of so many pixels.
+/// How large text is on a picture this wide: each of a glyph's 8 × 8 dots becomes a square of N × N pixels.
 pub(super) fn text_scale(width: u32) -> u32 {
     if width < 2 * SMALL { 1 } else { 2 }
 }

@@ -88,7 +88,7 @@ struct Sight {
     darkest: f64,
     linear: [ErrorSums; 3],
     steps: [ErrorSums; 3],
-    /// How many channels are so many steps off.
+    /// How many channels are N steps off.
     by_step: [[u64; 256]; 3],
     anywhere: Difference,
 }

@@ -20,11 +20,11 @@ use crate::oracle::{ColorRange, Possible};
 use crate::{Image, Oracle};
 use divisor::judge_divided;
 
-/// Within this many pixels of an edge a pixel may belong to either side: vertices are snapped to a grid of this width or
-/// a finer one (four bits, the least that Vulkan grants; eight are usual).
+/// Within this many pixels of an edge a pixel may belong to either side: vertices are snapped to a grid of this width
+/// or a finer one (four bits, the least that Vulkan grants; eight are usual).
 pub const EDGE_RADIUS: f64 = 1.0 / 16.0;
-/// What is [steep](Bars::steep) for a drawer with a grid of 1/256 pixel. On a gentler slope it changes a pixel by less than
-/// 1/16 of that, which the bars cover.
+/// What is [steep](Bars::steep) for a drawer with a grid of 1/256 pixel. On a gentler slope it changes a pixel by less
+/// than 1/16 of that, which the bars cover.
 const STEEP: f64 = 0.04;
 /// The bits of such a grid.
 const FINE_BITS: u32 = 8;
@@ -42,8 +42,8 @@ pub struct Bars {
     pub equal: f64,
     /// What each blended layer that a pixel is seen through may add to `worst`.
     pub layer: f64,
-    /// Where a triangle's own colour changes by more than this share of the range within the disc of [`EDGE_RADIUS`], any
-    /// of the colours there is right; on a gentler slope only the one at the centre.
+    /// Where a triangle's own colour changes by more than this share of the range within the disc of [`EDGE_RADIUS`],
+    /// any of the colours there is right; on a gentler slope only the one at the centre.
     pub steep: f64,
     /// What was allowed to be left out, in steps of 1/255 of the picture: `most` and `worst` are on top of it.
     pub steps: f64,
@@ -68,21 +68,13 @@ impl Bars {
     /// rounded to either. Adapters may round values of the sRGB curve less exactly (llvmpipe to steps up to 0.66 away),
     /// where a smaller [`equal`](Self::equal) is due.
     ///
-    /// Half a step more for each blended layer: a picture of bytes is rounded whenever something is blended over it, to at
-    /// most half a step away, and the layers above let no more of that through.
+    /// Half a step more for each blended layer: a picture of bytes is rounded whenever something is blended over it, to
+    /// at most half a step away, and the layers above let no more of that through.
     pub const fn bytes(encoding: Encoding) -> Self {
-        Self {
-            measure: Measure::Steps(encoding),
-            most: 1.0,
-            worst: 1.0,
-            equal: 0.99,
-            layer: 0.5,
-            steep: STEEP,
-            steps: 0.0,
-        }
+        Self { measure: Measure::Steps(encoding), most: 1.0, worst: 1.0, equal: 0.99, layer: 0.5, ..Self::FLOAT }
     }
 
-    /// For a drawer that rounds vertices to a grid of so many bits within a pixel. One of fewer than 8 moves what is
+    /// For a drawer that rounds vertices to a grid of N bits within a pixel. One of fewer than 8 moves what is
     /// interpolated by so much that on any slope all colours of the disc are right: by up to 1/32 pixel along each axis
     /// with 4 bits. How many pixels are equal then says nothing.
     #[must_use]
@@ -91,8 +83,8 @@ impl Bars {
     }
 
     /// For a decoded picture of whatever drawer: [`FLOAT`](Self::FLOAT) in floating point, else
-    /// [`bytes`](Self::bytes) without a share that has to be equal, as it is not known who wrote the curve. One of 16 bits
-    /// was rounded once, whatever the layers.
+    /// [`bytes`](Self::bytes) without a share that has to be equal, as it is not known who wrote the curve. One of 16
+    /// bits was rounded once, whatever the layers.
     pub fn for_decoded(picture: &DynamicImage, encoding: Encoding) -> Self {
         match picture {
             DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_) => Self::FLOAT,
@@ -104,7 +96,7 @@ impl Bars {
         }
     }
 
-    /// For a picture that may be off by so many steps besides; how many pixels are equal then says nothing.
+    /// For a picture that may be off by N steps besides; how many pixels are equal then says nothing.
     #[must_use]
     pub fn within(self, steps: f64) -> Self {
         if steps > 0.0 { Self { steps, equal: 0.0, ..self } } else { self }
@@ -120,8 +112,8 @@ impl Bars {
 /// How a drawn picture did. Displayed it is one line.
 ///
 /// Figures are over the pixels that show an object, less those that show the other side of an edge or the roundings of
-/// blended layers; background that is right is left out, as it would flatter them. Where the expected picture does not know what it covers, all pixels count
-/// as showing an object.
+/// blended layers; background that is right is left out, as it would flatter them. Where the expected picture does not
+/// know what it covers, all pixels count as showing an object.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Verdict {
     /// What it was judged by; errors are in its measure.
@@ -140,8 +132,8 @@ pub struct Verdict {
     /// The share of the picture's pixels that show the other side of an edge than the oracle does at their centres, and
     /// may. Each has been judged: the figure excuses nothing.
     pub edges: f64,
-    /// The share of the picture's pixels that are over the bar by no more than the roundings of the blended layers there
-    /// explain.
+    /// The share of the picture's pixels that are over the bar by no more than the roundings of the blended layers
+    /// there explain.
     pub layered: f64,
     /// The share of the picture's pixels that count.
     pub counted: f64,
@@ -159,17 +151,19 @@ impl Verdict {
     }
 }
 
-/// Judges `actual` by `expected`, which `oracle` has drawn with one sample a pixel; `actual` has as many as the camera says.
+/// Judges `actual` by `expected`, which `oracle` has drawn with one sample a pixel; `actual` has as many as the camera
+/// says.
 ///
 /// Of a pixel whose error is over `bars.most` the oracle is asked which colours it [may show](Oracle::possible) with
-/// vertices moved by less than [`EDGE_RADIUS`]; with four samples a pixel, also of one beside which something else is seen. On an edge (several triangles, or a jump in the colour of one) and on a
-/// slope of more than 4 % of the range within that radius, each of these colours and that at the middle, give or take
-/// `bars.worst`, is right, and the pixel is counted apart; the error of another one is its distance from the nearest of them. Where blended layers are
-/// seen, `bars.worst` is larger by `bars.layer` for each. No share of pixels is excused.
+/// vertices moved by less than [`EDGE_RADIUS`]; with four samples a pixel, also of one beside which something else is
+/// seen. On an edge (several triangles, or a jump in the colour of one) and on a slope of more than 4 % of the range
+/// within that radius, each of these colours and that at the middle, give or take `bars.worst`, is right, and the pixel
+/// is counted apart; the error of another one is its distance from the nearest of them. Where blended layers are seen,
+/// `bars.worst` is larger by `bars.layer` for each. No share of pixels is excused.
 ///
-/// Where the expected picture has been [divided](Image::divided), the brightest pixel may be one of those. The one number
-/// that `actual` was divided by is found, and has to be the largest channel of a picture that may be shown; by that number
-/// the expected picture is divided instead.
+/// Where the expected picture has been [divided](Image::divided), the brightest pixel may be one of those. The one
+/// number that `actual` was divided by is found, and has to be the largest channel of a picture that may be shown; by
+/// that number the expected picture is divided instead.
 ///
 /// # Errors
 /// [`SizeMismatch`].
@@ -177,10 +171,11 @@ pub fn judge(oracle: &Oracle, expected: &Image, actual: &Image, bars: Bars) -> R
     judge_divided(|x, y| oracle.possible(x, y, EDGE_RADIUS), oracle.samples(), (expected, None), actual, bars)
 }
 
-/// [`judge`] for a drawer that may move what it draws by so many pixels on the picture: each pixel is right that shows, give
-/// or take the bars, what lies between the oracle's colours within that distance and half a pixel of its middle. `fine` is
-/// the oracle's picture with [`FINENESS`] times as many columns and rows, in which these are found, and in `expected`, which
-/// shows what is at the middle itself; as they have gaps of a part of a pixel, they say less than all that is right.
+/// [`judge`] for a drawer that may move what it draws by N pixels on the picture: each pixel is right that shows, give
+/// or take the bars, what lies between the oracle's colours within that distance and half a pixel of its middle. `fine`
+/// is the oracle's picture with [`FINENESS`] times as many columns and rows, in which these are found, and in
+/// `expected`, which shows what is at the middle itself; as they have gaps of a part of a pixel, they say less than all
+/// that is right.
 ///
 /// # Errors
 /// [`SizeMismatch`].
@@ -204,7 +199,7 @@ pub fn judge_moved(
 /// How much finer the picture of [`judge_moved`] is.
 pub const FINENESS: u32 = 4;
 
-/// Of each pixel the colours within so many pixels of its middle, which lies between pixels of `fine`.
+/// Of each pixel the colours within N pixels of its middle, which lies between pixels of `fine`.
 fn ranges_within(expected: &Image, fine: &Image, radius: f64) -> Vec<ColorRange> {
     let (width, height) = fine.dimensions();
     let (columns, rows) = (width / FINENESS, height / FINENESS);
@@ -240,7 +235,7 @@ fn judge_with(
         let at = ((i % width) as u32, (i / width) as u32);
         let (should, is) = (expected.pixels()[i], actual.pixels()[i]);
         if is.iter().any(|channel| !(channel.is_finite() && *channel >= 0.0)) {
-            return Finding::Bad(at, is);
+            return PixelFinding::Bad(at, is);
         }
         let errors: [f64; 3] = match moved {
             Some(ranges) => ruler.errors_outside(is, &ranges[i]),
@@ -249,7 +244,11 @@ fn judge_with(
         // An error that is no number is over the bar too.
         let is_over = errors.iter().any(|error| error.is_nan() || *error > bars.most + ruler.allowed);
         let counted = |should, errors| {
-            Finding::Counted(at, [is, should].map(|pixel: [f64; 3]| pixel.map(|channel| ruler.value(channel))), errors)
+            PixelFinding::Counted(
+                at,
+                [is, should].map(|pixel: [f64; 3]| pixel.map(|channel| ruler.value(channel))),
+                errors,
+            )
         };
         // Of four samples the centre says nothing where something else is beside it.
         if is_over || (samples == Samples::Four && ruler.differs_beside(expected, at)) {
@@ -257,7 +256,8 @@ fn judge_with(
             let has_choice = ruler.has_choice(&possible);
             let (nearest, errors) = if has_choice {
                 let of_choice = ruler.nearest(is, &possible);
-                // What one sample shows at the middle itself is right, also where it is too small to be found around it.
+                // What one sample shows at the middle itself is right, also where it is too small to be found around
+                // it.
                 let is_nearer = samples == Samples::One && largest(&errors) < largest(&of_choice.1);
                 if is_nearer { (should, errors) } else { of_choice }
             } else {
@@ -266,19 +266,19 @@ fn judge_with(
             let is_within = |bar: f64| errors.iter().all(|error| *error <= bar);
             if !is_within(bars.worst + ruler.allowed) {
                 let is_layered = is_within(ruler.bar_through(&possible, samples));
-                return if is_layered { Finding::Layered } else { counted(nearest, errors) };
+                return if is_layered { PixelFinding::Layered } else { counted(nearest, errors) };
             }
             if has_choice && is_over {
-                return Finding::Edge;
+                return PixelFinding::Edge;
             }
         }
         if is_over || expected.covered().is_none_or(|covered| covered[i]) {
             counted(should, errors)
         } else {
-            Finding::Background
+            PixelFinding::Background
         }
     };
-    let findings: Vec<Finding> = (0..expected.pixels().len()).into_par_iter().map(of_pixel).collect();
+    let findings: Vec<PixelFinding> = (0..expected.pixels().len()).into_par_iter().map(of_pixel).collect();
     let mut tally = Tally::default();
     for finding in findings {
         tally.add(finding);
@@ -292,7 +292,7 @@ fn largest(errors: &[f64; 3]) -> f64 {
 }
 
 /// How a pixel did.
-enum Finding {
+enum PixelFinding {
     /// It holds no number, or one below 0.
     Bad((u32, u32), [f64; 3]),
     /// It is over the bar, and shows another side of an edge.
@@ -355,8 +355,8 @@ impl Ruler {
         self.in_unit((self.value(actual) - self.value(expected)).abs())
     }
 
-    /// The bar for the worst pixel where such layers are seen. Where four samples lie under layers, their mean is rounded
-    /// once more.
+    /// The bar for the worst pixel where such layers are seen. Where four samples lie under layers, their mean is
+    /// rounded once more.
     fn bar_through(&self, possible: &Possible, samples: Samples) -> f64 {
         let roundings = possible.layers + usize::from(samples == Samples::Four && possible.layers > 0);
         self.bars.worst + self.allowed + self.bars.layer * roundings as f64
@@ -424,16 +424,16 @@ struct Tally {
 }
 
 impl Tally {
-    fn add(&mut self, finding: Finding) {
+    fn add(&mut self, finding: PixelFinding) {
         match finding {
-            Finding::Bad(at, pixel) => {
+            PixelFinding::Bad(at, pixel) => {
                 self.bad += 1;
                 self.first_bad.get_or_insert((at, pixel));
             }
-            Finding::Edge => self.edges += 1,
-            Finding::Layered => self.layered += 1,
-            Finding::Background => {}
-            Finding::Counted(at, values, errors) => self.count(at, values, errors),
+            PixelFinding::Edge => self.edges += 1,
+            PixelFinding::Layered => self.layered += 1,
+            PixelFinding::Background => {}
+            PixelFinding::Counted(at, values, errors) => self.count(at, values, errors),
         }
     }
 

@@ -77,7 +77,7 @@ impl Ranks {
     }
 }
 
-/// The rank, from 0, of the least of so many sorted values that `share` per cent of them do not exceed.
+/// The rank, from 0, of the least of N sorted values that `share` per cent of them do not exceed.
 pub(super) fn nearest_rank(values: u64, share: f64) -> u64 {
     // The product may end a little above a whole number that it stands for.
     (values as f64 * share / 100.0 - 1e-6).ceil().max(1.0) as u64 - 1

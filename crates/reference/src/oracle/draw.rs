@@ -13,7 +13,7 @@ use super::raster::{Hit, Primitive, TILE};
 use crate::Image;
 
 /// A finished part of the picture.
-struct Part {
+struct DrawnTile {
     /// Its top left pixel.
     origin: [u32; 2],
     width: u32,
@@ -38,7 +38,7 @@ impl Oracle {
     pub fn draw_with(&self, progress: &(dyn Fn(u32, u32) -> ControlFlow<()> + Sync)) -> Result<Image, Stopped> {
         let tiles = self.tiles().count();
         let done = AtomicU32::new(0);
-        let parts: Vec<Part> = (0..tiles)
+        let parts: Vec<DrawnTile> = (0..tiles)
             .into_par_iter()
             .map(|tile| {
                 let part = self.part(tile);
@@ -51,11 +51,11 @@ impl Oracle {
         Ok(self.under_policy(self.put_together(&parts)))
     }
 
-    fn part(&self, tile: usize) -> Part {
+    fn part(&self, tile: usize) -> DrawnTile {
         let origin = self.tiles().origin(tile);
         let UVec2 { x, y } = self.size;
         let [width, height] = [x - origin[0], y - origin[1]].map(|left| left.min(TILE));
-        let mut part = Part { origin, width, pixels: vec![([0.0; 3], false); (width * height) as usize] };
+        let mut part = DrawnTile { origin, width, pixels: vec![([0.0; 3], false); (width * height) as usize] };
         let n = self.supersampling;
         let share = 1.0 / f64::from(n * n);
         for sample in 0..n * n {
@@ -74,7 +74,7 @@ impl Oracle {
     }
 
     /// What lies on the rays through the pixels of a part, each at `offset` from the pixel's top left corner.
-    fn layers(&self, tile: usize, part: &Part, offset: [f64; 2]) -> Vec<Layers> {
+    fn layers(&self, tile: usize, part: &DrawnTile, offset: [f64; 2]) -> Vec<Layers> {
         let mut layers = vec![Layers::default(); part.pixels.len()];
         let height = part.pixels.len() as u32 / part.width;
         let scene = &self.scene;
@@ -110,7 +110,7 @@ impl Oracle {
         layers
     }
 
-    fn put_together(&self, parts: &[Part]) -> Image {
+    fn put_together(&self, parts: &[DrawnTile]) -> Image {
         let UVec2 { x: width, y: height } = self.size;
         let pixels = width as usize * height as usize;
         let mut colors = vec![[0.0; 3]; pixels];

@@ -61,14 +61,14 @@ fn require_propagation(world: &mut World) -> Result<(), OracleError> {
 }
 
 /// The camera, and what it says of objects that say nothing themselves.
-struct Seen {
+struct ViewDefaults {
     camera: Camera,
     view: PictureView,
     shading: Shading,
     reflectance: Reflectance,
 }
 
-fn see(world: &mut World, size: UVec2) -> Result<Seen, OracleError> {
+fn see(world: &mut World, size: UVec2) -> Result<ViewDefaults, OracleError> {
     let mut query =
         world.query::<(Entity, &Camera, &GlobalTransform, Option<&Shading>, Option<&Reflectance>, Option<&Name>)>();
     let mut cameras = query.iter(world);
@@ -78,7 +78,7 @@ fn see(world: &mut World, size: UVec2) -> Result<Seen, OracleError> {
         return Err(OracleError::ManyCameras(more + 1));
     }
     camera.validate().map_err(|source| OracleError::Invalid { entity: label(entity, name), source })?;
-    Ok(Seen {
+    Ok(ViewDefaults {
         camera: *camera,
         view: PictureView::new(camera, transform, size).ok_or_else(|| bad_transform(entity, name, transform))?,
         shading: shading.copied().unwrap_or_default(),
@@ -145,7 +145,7 @@ type Object<'a> = (
     (Option<&'a Maps>, Option<&'a Mask>, Option<&'a SolidTexture>),
 );
 
-fn solids(world: &mut World, seen: &Seen) -> Result<Vec<Solid>, OracleError> {
+fn solids(world: &mut World, seen: &ViewDefaults) -> Result<Vec<Solid>, OracleError> {
     let mut query = world.query::<Object>();
     let mut shown = SystemState::<Shown>::new(world);
     let shown = shown.get(world).expect(ALWAYS);
@@ -180,7 +180,7 @@ fn solid(
         (maps, mask, cut_from),
     ): Object,
     (meshes, textures): (Option<&Assets<Mesh>>, Option<&Assets<Texture>>),
-    seen: &Seen,
+    seen: &ViewDefaults,
 ) -> Result<Solid, OracleError> {
     let mesh = meshes.and_then(|meshes| meshes.get(&mesh.0));
     let mesh = mesh.ok_or_else(|| OracleError::MissingMesh { entity: label(entity, name) })?;

@@ -154,7 +154,7 @@ struct Cell {
 }
 
 /// What is known of a cell.
-enum Verdict {
+enum CellCase {
     /// The ray misses it, or only touches it.
     Miss,
     /// No two of its points are seen in one place: the ray meets it once at most.
@@ -191,19 +191,19 @@ impl Sight {
         for _ in 0..MOST_CELLS {
             let Some(cell) = cells.pop() else { return };
             match cell.verdict(piece) {
-                Verdict::Miss => continue,
-                Verdict::Point(uv) => {
+                CellCase::Miss => continue,
+                CellCase::Point(uv) => {
                     found(uv, patch.position(uv.x.into(), uv.y.into()));
                     continue;
                 }
-                Verdict::Single => {
+                CellCase::Single => {
                     let place = self.iterate(patch, cell.domain, piece.slack);
                     if let Some((uv, p)) = place.filter(|(uv, _)| cell.domain.holds(*uv, DVec2::splat(MARGIN))) {
                         found(uv, p);
                         continue;
                     }
                 }
-                Verdict::Open => {}
+                CellCase::Open => {}
             }
             cells.extend(cell.halves());
         }
@@ -238,7 +238,7 @@ impl Cell {
         [Self { net: first, domain: first_domain }, Self { net: second, domain: second_domain }]
     }
 
-    fn verdict(&self, piece: &Piece) -> Verdict {
+    fn verdict(&self, piece: &Piece) -> CellCase {
         // The box lies along the way in which the cell is seen longest, so that one seen from its edge is thin.
         let [a, b, c, d] = self.net.corners();
         let (down, across) = (c + d - a - b, b + d - a - c);
@@ -247,19 +247,19 @@ impl Cell {
         let turned = |p: DVec2| DVec2::new(axis.dot(p), axis.perp_dot(p));
         let (min, max) = bounds(self.net.points.iter().map(|&p| turned(p)));
         if min.max_element() > piece.slack || max.min_element() < -piece.slack {
-            return Verdict::Miss;
+            return CellCase::Miss;
         }
         let (least, most) = self.facing();
         if least > 0.0 || most < 0.0 {
-            return Verdict::Single;
+            return CellCase::Single;
         }
         let size = max - min;
         if size.max_element() <= POINT * piece.size {
             // Rounding may turn the smallest facets round.
             let one_sided = least.abs().min(most.abs()) <= 1e-3 * least.abs().max(most.abs()) && least < most;
-            return if one_sided { Verdict::Point(self.nearest_corner()) } else { Verdict::Miss };
+            return if one_sided { CellCase::Point(self.nearest_corner()) } else { CellCase::Miss };
         }
-        if size.y <= piece.slack { Verdict::Miss } else { Verdict::Open }
+        if size.y <= piece.slack { CellCase::Miss } else { CellCase::Open }
     }
 
     /// The least and the greatest of the cross products of a step between rows and a step between columns.

@@ -78,7 +78,7 @@ enum Row {
 const LOOKED_AT: u32 = 4;
 
 /// How light is given back, where it is shaded, and by how many lights.
-struct Shown {
+struct CalibrationScene {
     mesh: Mesh,
     size: UVec2,
     /// Of the camera above the surface.
@@ -119,7 +119,7 @@ fn grid(range: Option<f32>) -> Vec<(PointLight, Vec3)> {
     (0..24).map(|i| (light, at(i))).collect()
 }
 
-impl Shown {
+impl CalibrationScene {
     /// A square that fills the picture, shaded at each of its pixels.
     fn at_pixels(size: UVec2, material: Material, lights: u32) -> Self {
         Self {
@@ -232,8 +232,8 @@ impl Stages {
             if adapter.is_software() { (UVec2::new(512, 384), 160) } else { (UVec2::new(2048, 1536), 400) };
         let matte = Material { specular: LinearRgba::BLACK, ..material() };
         let shiny = Material { diffuse: LinearRgba::BLACK, ..material() };
-        let at_pixels = |material, lights| Shown::at_pixels(size, material, lights);
-        let at_vertices = |lights| Shown::at_vertices(divisions, lights);
+        let at_pixels = |material, lights| CalibrationScene::at_pixels(size, material, lights);
+        let at_vertices = |lights| CalibrationScene::at_vertices(divisions, lights);
         // In the order of `Row`.
         let rows = [
             at_pixels(material(), 0),
@@ -246,10 +246,10 @@ impl Stages {
             at_vertices(0),
             at_vertices(1),
             at_vertices(8),
-            Shown::in_patches(VertexPrices::NEVER),
-            Shown::in_patches(LOOK),
-            Shown::apart(None),
-            Shown::apart(Some(0.5)),
+            CalibrationScene::in_patches(VertexPrices::NEVER),
+            CalibrationScene::in_patches(LOOK),
+            CalibrationScene::apart(None),
+            CalibrationScene::apart(Some(0.5)),
         ];
         Ok(Self {
             rows: rows.into_iter().map(|shown| shown.on(adapter)).collect::<Result<_, _>>()?,
@@ -297,8 +297,8 @@ impl Stages {
 
     /// How long a frame takes by these prices, as a multiple of one by the adapter's `own`.
     pub(super) fn trial(&self, own: VertexPrices, prices: VertexPrices) -> Result<f64, RenderError> {
-        let mut own = Shown::ball(own).on(&self.adapter)?;
-        let mut other = Shown::ball(prices).on(&self.adapter)?;
+        let mut own = CalibrationScene::ball(own).on(&self.adapter)?;
+        let mut other = CalibrationScene::ball(prices).on(&self.adapter)?;
         let mut least = [f64::INFINITY; 2];
         for _ in 0..ROUNDS {
             for (least, stage) in least.iter_mut().zip([&mut own, &mut other]) {

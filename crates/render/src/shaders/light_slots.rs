@@ -19,7 +19,7 @@ pub(crate) enum Lists {
     Listed,
 }
 
-/// Lights at fixed places: so many directional, point and spot lights, in this order, and how many of them have highlights.
+/// Lights at fixed places: the numbers of directional, point and spot lights, in this order, and how many of them have highlights.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Counted {
     pub(crate) counts: [u8; 3],

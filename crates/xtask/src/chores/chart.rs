@@ -43,15 +43,15 @@ pub(crate) struct Options {
 pub(crate) fn run(options: &Options) -> Result {
     let &Options { setup, quick, scaling, filters } = options;
     let part = match (scaling, filters) {
-        (true, _) => Part::Scaling,
-        (_, true) => Part::Filters,
-        _ => Part::All,
+        (true, _) => Measured::Scaling,
+        (_, true) => Measured::Filters,
+        _ => Measured::All,
     };
     program::run("measuring", setup, Program::Binary("halfway"), arguments(quick, part))?;
     let page = match part {
-        Part::All => "index.html",
-        Part::Scaling => "scaling.html",
-        Part::Filters => "filters.html",
+        Measured::All => "index.html",
+        Measured::Scaling => "scaling.html",
+        Measured::Filters => "filters.html",
     };
     eprintln!("\nthe charts: {}", root().join(FOLDER).join(page).display());
     Ok(())
@@ -59,19 +59,19 @@ pub(crate) fn run(options: &Options) -> Result {
 
 /// What is measured.
 #[derive(Clone, Copy)]
-enum Part {
+enum Measured {
     All,
     Scaling,
     Filters,
 }
 
-fn arguments(quick: bool, part: Part) -> Vec<&'static str> {
+fn arguments(quick: bool, part: Measured) -> Vec<&'static str> {
     let mut arguments = vec!["chart", "--output", FOLDER];
     arguments.extend(quick.then_some("--quick"));
     let (own, of_docs): (&[&str], &[&str]) = match part {
-        Part::All => (&[], &["--small-chart", PICTURE, "--tables", TABLES]),
-        Part::Scaling => (&["--scaling"], &[]),
-        Part::Filters => (&["--filters"], &["--tables", FILTER_TABLES]),
+        Measured::All => (&[], &["--small-chart", PICTURE, "--tables", TABLES]),
+        Measured::Scaling => (&["--scaling"], &[]),
+        Measured::Filters => (&["--filters"], &["--tables", FILTER_TABLES]),
     };
     arguments.extend(own);
     if !quick {
@@ -87,12 +87,12 @@ mod tests {
     #[test]
     fn quick_runs_leave_the_documentation_alone() {
         let rows = [
-            (true, Part::All, "--quick"),
-            (false, Part::Scaling, "--scaling"),
-            (true, Part::Scaling, "--quick --scaling"),
-            (true, Part::Filters, "--quick --filters"),
-            (false, Part::Filters, "--filters --tables docs/filters.md"),
-            (false, Part::All, "--small-chart docs/pictures/chart.svg --tables docs/fronts.md"),
+            (true, Measured::All, "--quick"),
+            (false, Measured::Scaling, "--scaling"),
+            (true, Measured::Scaling, "--quick --scaling"),
+            (true, Measured::Filters, "--quick --filters"),
+            (false, Measured::Filters, "--filters --tables docs/filters.md"),
+            (false, Measured::All, "--small-chart docs/pictures/chart.svg --tables docs/fronts.md"),
         ];
         for (quick, part, end) in rows {
             assert_eq!(arguments(quick, part).join(" "), format!("chart --output out/chart {end}"));

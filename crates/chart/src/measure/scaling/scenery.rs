@@ -17,7 +17,7 @@ pub(super) struct ScalingScene {
 
 /// Marks what goes when the next scene comes.
 #[derive(Component)]
-struct Part;
+struct SceneEntity;
 
 /// An object that turns.
 #[derive(Component)]
@@ -61,7 +61,7 @@ impl ScalingScene {
     /// unless it is them that are counted.
     pub(super) fn show(&mut self, growth: Growth, count: f64, size: u32) -> f64 {
         let world = self.app.world_mut();
-        let old: Vec<Entity> = world.query_filtered::<Entity, With<Part>>().iter(world).collect();
+        let old: Vec<Entity> = world.query_filtered::<Entity, With<SceneEntity>>().iter(world).collect();
         for entity in old {
             world.despawn(entity);
         }
@@ -176,7 +176,7 @@ impl ScalingScene {
     }
 
     fn spawn(&mut self, parts: impl Bundle) -> Entity {
-        self.app.world_mut().spawn((parts, Part)).id()
+        self.app.world_mut().spawn((parts, SceneEntity)).id()
     }
 }
 

@@ -133,15 +133,15 @@ fn bounds<S: Simd>(simd: S, receiver: &Receiver<f32>, lights: &Chunk, tolerance:
     };
     let diffuse = [diffuse(0), diffuse(1), diffuse(2)];
     let (diffuse, _) = FoundTerm::new(simd, diffuse, diffuse, tolerance);
-    let colour = |k: usize| splat(simd, receiver.ks[k]) * load(simd, &lights.ls[k]);
-    let colour = [colour(0), colour(1), colour(2)];
-    let shines = (colour[0].simd_gt(zero) | colour[1].simd_gt(zero) | colour[2].simd_gt(zero)) & faces;
+    let color = |k: usize| splat(simd, receiver.ks[k]) * load(simd, &lights.ls[k]);
+    let color = [color(0), color(1), color(2)];
+    let shines = (color[0].simd_gt(zero) | color[1].simd_gt(zero) | color[2].simd_gt(zero)) & faces;
     if !shines.any_true() {
         return Found { odd, diffuse, specular: FoundTerm::NONE };
     }
     let [low, high] = peaks(simd, highlight(simd, receiver, axis, spread), receiver.exponent);
     let [low, high] = [weight * low, weight * high];
-    let bound = |k: usize, peak: F<S>| shines.select(colour[k] * peak, zero);
+    let bound = |k: usize, peak: F<S>| shines.select(color[k] * peak, zero);
     let [low, high] = [[bound(0, low), bound(1, low), bound(2, low)], [bound(0, high), bound(1, high), bound(2, high)]];
     let (specular, unsure) = FoundTerm::new(simd, low, high, tolerance);
     Found { odd: odd | unsure, diffuse, specular }

@@ -133,7 +133,7 @@ fn three(statement: &Statement) -> Result<DVec3, LoadError> {
     Ok(Vec3::new(x, y, z).as_dvec3())
 }
 
-/// About an axis by so many degrees, counter-clockwise as seen against it.
+/// About an axis by N degrees, counter-clockwise as seen against it.
 fn rotation(statement: &Statement) -> Result<DMat4, LoadError> {
     const EXPECTED: &str = "`rot`, one of x, y and z, and an angle in degrees are";
     let [axis, angle] = statement.exactly(EXPECTED)?;

@@ -70,7 +70,7 @@ fn curves(scene: &OracleScene, footprint: &Footprint) -> bool {
     solid.terms.has(Frequency::Fragment) || solid.maps.is_some() || scene.surroundings.is_some()
 }
 
-/// Into so many parts the way from the middle to each corner is cut where the area is about a pixel, and where it is a whole
+/// Into this number of parts the way from the middle to each corner is cut where the area is about a pixel, and where it is a whole
 /// triangle. What mirrors an environment curves by up to 2 % of a picture's range within a pixel: cut in half, by a quarter of
 /// that.
 const CUTS_OF_A_PIXEL: usize = 4;
