@@ -1,19 +1,20 @@
-//! A teapot in a window, whose graphics device is destroyed for each line on the standard input. The tests of the window
-//! run it. With `--update-first` the App has drawn a headless picture, on a device of its own, before there is a window.
+//! A teapot in a window. For each line on the standard input its graphics device is destroyed; for `surface` the surface of
+//! its window counts as lost, as if the driver had said so, and for `surfaces` so does every one from then on. The tests of the
+//! window run it. With `--update-first` the App has drawn a headless picture, on a device of its own, before there is a window.
 
 use std::io::stdin;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::Mutex;
 
 use halfway::prelude::*;
-use halfway::render::Gpu;
+use halfway::render::{Gpu, SurfaceLost};
 
-/// Lines that have come, less those whose device is destroyed.
-static LINES: AtomicUsize = AtomicUsize::new(0);
+/// Lines that have come and are not yet done.
+static LINES: Mutex<Vec<String>> = Mutex::new(Vec::new());
 
 fn main() -> AppExit {
     std::thread::spawn(|| {
-        for _ in stdin().lines() {
-            LINES.fetch_add(1, Ordering::Relaxed);
+        for line in stdin().lines().map_while(Result::ok) {
+            LINES.lock().expect("nobody panics with it").push(line);
         }
     });
     let mut app = App::new();
@@ -33,9 +34,13 @@ fn scene(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>) {
     commands.spawn((PointLight::white(), Transform::from_xyz(2.0, 3.0, 2.0)));
 }
 
-fn lose(gpu: Option<Res<Gpu>>) {
-    let taken = LINES.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |lines| lines.checked_sub(1));
-    if let (Ok(_), Some(gpu)) = (taken, gpu) {
-        gpu.device.destroy();
+fn lose(mut commands: Commands, gpu: Option<Res<Gpu>>, mut always: Local<bool>) {
+    let line = LINES.lock().expect("nobody panics with it").pop();
+    *always |= line.as_deref() == Some("surfaces");
+    match (line.as_deref(), gpu) {
+        _ if *always => commands.insert_resource(SurfaceLost),
+        (Some("surface"), _) => commands.insert_resource(SurfaceLost),
+        (Some(_), Some(gpu)) => gpu.device.destroy(),
+        _ => {}
     }
 }

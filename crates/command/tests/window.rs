@@ -7,12 +7,12 @@
 #![cfg(target_os = "linux")]
 
 mod window {
+    mod losses;
     pub(crate) mod viewer;
     pub(crate) mod wayland;
 }
 
-use std::io::{Read, Write};
-use std::process::{Command, Stdio};
+use std::process::Command;
 use std::thread::sleep;
 use std::time::Duration;
 
@@ -141,34 +141,6 @@ fn pipelines_come_in_beside_the_frames() {
     settles(&viewer, 9, "Phong");
     viewer.request_close();
     assert_eq!(viewer.end().code(), Some(0));
-}
-
-#[test]
-fn a_lost_device_is_said_once_and_all_is_drawn_on() {
-    const LOSSES: usize = 3;
-    let screen = Screen::open();
-    let mut program = device_loser();
-    program.stdin(Stdio::piped()).stderr(Stdio::piped());
-    let mut viewer = Viewer::run(&screen, program);
-    let phong = viewer.shown("Phong, Blinn–Phong", None);
-    for _ in 0..LOSSES {
-        writeln!(viewer.process.stdin.as_ref().expect("it is piped")).expect("the program reads");
-        viewer.press('1'.into());
-        viewer.shown("flat, Blinn–Phong", Some(&phong));
-        viewer.press('3'.into());
-        eventually("the first picture comes back", || (viewer.picture()? == phong).then_some(()));
-    }
-    viewer.resize(1000, 600);
-    eventually("a picture of the new size", || {
-        let picture = viewer.picture().filter(|picture| (picture.width, picture.height) == (1000, 600))?;
-        same_framing(&phong, &picture).then_some(())
-    });
-    viewer.request_close();
-    assert_eq!(viewer.end().code(), Some(0));
-    let mut said = String::new();
-    viewer.process.stderr.take().expect("it is piped").read_to_string(&mut said).expect("messages are text");
-    assert_eq!(said.matches("the graphics device was lost: it was destroyed").count(), LOSSES, "{said}");
-    assert!(!said.contains("panicked"), "{said}");
 }
 
 #[test]

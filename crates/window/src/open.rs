@@ -29,6 +29,8 @@ pub(crate) struct Open {
     display: OwnedDisplayHandle,
     pub(crate) input: Forward,
     entity: Entity,
+    /// In physical pixels; 0 along an axis where the window system minimises so.
+    pub(crate) size: UVec2,
     losses: u32,
 }
 
@@ -52,7 +54,8 @@ impl Open {
         let display = event_loop.owned_display_handle();
         let buffer = open_adapter(&window, &display, world)?;
         let entity = world.spawn(WinitWindow(Arc::clone(&window))).id();
-        let open = Self { buffer, window, display, input: Forward::new(entity), entity, losses: 0 };
+        let size = physical_size(&window);
+        let mut open = Self { buffer, window, display, input: Forward::new(entity), entity, size, losses: 0 };
         open.follow_size(world);
         Ok(open)
     }
@@ -65,8 +68,9 @@ impl Open {
     }
 
     /// The window's picture and the area that is dragged over get the window's size.
-    pub(crate) fn follow_size(&self, world: &mut World) {
+    pub(crate) fn follow_size(&mut self, world: &mut World) {
         let size = physical_size(&self.window);
+        self.size = size;
         if let Some(mut target) = world.get_resource_mut::<SurfaceTarget>() {
             target.resize(size);
         }
@@ -101,7 +105,7 @@ impl Open {
             match world.get_resource::<Gpu>().filter(|_| !device_lost).cloned() {
                 Some(gpu) => {
                     let surface = make_surface(&gpu.instance, &self.window)?;
-                    world.insert_resource(SurfaceTarget::new(&gpu, surface, physical_size(&self.window))?);
+                    world.insert_resource(SurfaceTarget::new(&gpu, surface, self.size)?);
                 }
                 None => self.buffer = open_adapter(&self.window, &self.display, world)?,
             }

@@ -104,10 +104,16 @@ impl Runner {
 
     /// Updates and draws, unless nothing of it could be seen, and arranges for the next time.
     fn frame(&mut self, event_loop: &ActiveEventLoop) {
+        let start = Instant::now();
+        // Before the frame, at once after the display has been listened to: winit panics where one that is gone meanwhile is
+        // asked for something.
+        if self.exit.is_none() && !self.hidden() && start >= self.next_look {
+            self.next_look = start + SELDOM;
+            self.now_and_then(event_loop);
+        }
         if self.hidden() || self.exit.is_some() {
             return;
         }
-        let start = Instant::now();
         self.app.update();
         if let Some(exit) = self.app.should_exit() {
             return self.end(event_loop, exit);
@@ -132,10 +138,6 @@ impl Runner {
             }
         }
         self.say_errors();
-        if start >= self.next_look {
-            self.next_look = start + SELDOM;
-            self.now_and_then(event_loop);
-        }
     }
 
     fn hidden(&self) -> bool {
@@ -155,7 +157,8 @@ impl Runner {
     fn now_and_then(&mut self, event_loop: &ActiveEventLoop) {
         let Some(open) = &self.open else { return };
         self.pace = open.pace();
-        if self.settings.status && self.titled.is_none_or(|(when, _)| when.elapsed() >= TITLE) {
+        // The title is about a frame that has been shown.
+        if self.settings.status && self.frames > 0 && self.titled.is_none_or(|(when, _)| when.elapsed() >= TITLE) {
             self.set_title();
         }
         self.look(event_loop);
@@ -178,8 +181,7 @@ impl Runner {
     /// Sees whether the window is minimised; not every window system says so by itself.
     fn look(&mut self, event_loop: &ActiveEventLoop) {
         let Some(open) = &self.open else { return };
-        let size = open.window.inner_size();
-        self.minimised = size.width == 0 || size.height == 0 || open.window.is_minimized() == Some(true);
+        self.minimised = open.size.min_element() == 0 || open.window.is_minimized() == Some(true);
         if self.minimised {
             event_loop.set_control_flow(ControlFlow::WaitUntil(Instant::now() + SELDOM));
         }

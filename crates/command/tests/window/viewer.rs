@@ -1,5 +1,6 @@
 //! The tests' hands and eyes: an X display, a program with a window on it, and what the window shows.
 
+use std::cell::RefCell;
 use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -120,18 +121,36 @@ pub(crate) struct Screen {
     pub(super) connection: RustConnection,
     pub(super) root: Window,
     pub(super) name: String,
-    server: Option<Child>,
+    server: RefCell<Option<Child>>,
     _turn: MutexGuard<'static, ()>,
 }
 
 impl Screen {
     pub(crate) fn open() -> Self {
-        let turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
         let given = std::env::var("DISPLAY").ok().filter(|name| !name.is_empty());
-        let (name, server) = given.map_or_else(Self::start, |name| (name, None));
+        Self::of(|| given.map_or_else(Self::start, |name| (name, None)))
+    }
+
+    /// One that may be ended, whatever display is given.
+    pub(crate) fn open_own() -> Self {
+        Self::of(Self::start)
+    }
+
+    /// Ends the display, if it is the test's own, under whatever is on it.
+    pub(crate) fn end(&self) {
+        if let Some(mut server) = self.server.take() {
+            // Asked rather than killed, so that it leaves no lock behind.
+            let _ = Command::new("sh").args(["-c", &format!("kill {}", server.id())]).status();
+            let _ = server.wait();
+        }
+    }
+
+    fn of(server: impl FnOnce() -> (String, Option<Child>)) -> Self {
+        let turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
+        let (name, server) = server();
         let (connection, number) = Self::connect(&name);
         let root = connection.setup().roots[number].root;
-        Self { connection, root, name, server, _turn: turn }
+        Self { connection, root, name, server: server.into(), _turn: turn }
     }
 
     /// Connects to a display. One that has just lost its last program may start afresh, and hangs up on whoever comes
@@ -285,11 +304,7 @@ impl Drop for Manager {
 
 impl Drop for Screen {
     fn drop(&mut self) {
-        if let Some(server) = &mut self.server {
-            // Asked rather than killed, so that it leaves no lock behind.
-            let _ = Command::new("sh").args(["-c", &format!("kill {}", server.id())]).status();
-            let _ = server.wait();
-        }
+        self.end();
     }
 }
 
@@ -297,7 +312,7 @@ impl Drop for Screen {
 pub(crate) struct Viewer<'a> {
     screen: &'a Screen,
     pub(crate) process: Child,
-    window: Window,
+    pub(crate) window: Window,
 }
 
 impl<'a> Viewer<'a> {
