@@ -37,10 +37,9 @@ fn scene(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>) {
 fn lose(mut commands: Commands, gpu: Option<Res<Gpu>>, mut always: Local<bool>) {
     let line = LINES.lock().expect("nobody panics with it").pop();
     *always |= line.as_deref() == Some("surfaces");
-    match (line.as_deref(), gpu) {
-        _ if *always => commands.insert_resource(SurfaceLost),
-        (Some("surface"), _) => commands.insert_resource(SurfaceLost),
-        (Some(_), Some(gpu)) => gpu.device.destroy(),
-        _ => {}
+    if *always || line.as_deref() == Some("surface") {
+        commands.insert_resource(SurfaceLost);
+    } else if let (Some(_), Some(gpu)) = (line, gpu) {
+        gpu.device.destroy();
     }
 }
