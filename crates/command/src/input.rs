@@ -42,7 +42,7 @@ impl SceneInput {
             scene.objects.iter_mut().for_each(|object| object.reflectance = None);
         }
         if let Some(tolerance) = args.tolerance.given() {
-            scene.tolerance = Some(tolerance.into());
+            scene.tolerance = Some(tolerance);
             scene.objects.iter_mut().for_each(|object| object.tolerance = None);
         }
         if let Some(samples) = args.samples {

@@ -40,7 +40,7 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
         return judge_picture(args, input, file);
     }
     let tolerance = args.look.tolerance.or(Tolerance::EXACT);
-    input.scene.tolerance = Some(tolerance.into());
+    input.scene.tolerance = Some(tolerance);
     input.scene.objects.iter_mut().for_each(|object| object.tolerance = None);
     let size = input.resize(args.size);
     if input.scene.samples != 1 {

@@ -51,6 +51,7 @@ pub struct Part {
 
 /// A material in the terms of its file.
 #[derive(Clone, Debug, PartialEq)]
+#[expect(clippy::large_enum_variant, reason = "a model has few materials, each read once")]
 pub enum SourceMaterial {
     /// From a Wavefront MTL file.
     Mtl(MtlMaterial),

@@ -17,7 +17,7 @@ use crate::shade::{Even, shader_of};
 use crate::state::{Stage, State};
 use crate::surroundings::behind;
 use crate::triangle::{Batch, Corners, Covering};
-use crate::vertices::{Placement, Screen, Vertices};
+use crate::vertices::{PlacedPiece, Screen, Vertices};
 use fearless_simd::prelude::*;
 
 /// What draws tiles, one after the other, in memory of its own.
@@ -107,9 +107,9 @@ impl Worker {
                         (screen, tile),
                         (work.job.at_hand, work.behind),
                     ) {
-                        Placement::Beside => false,
-                        Placement::Anywhere => true,
-                        Placement::Box { first, last, nearest } => !self.nearest.hides(simd, first, last, nearest),
+                        PlacedPiece::Beside => false,
+                        PlacedPiece::Anywhere => true,
+                        PlacedPiece::Box { first, last, nearest } => !self.nearest.hides(simd, first, last, nearest),
                     }
                 },
             );

@@ -8,11 +8,8 @@ use crate::pass::{LeftOut, SampleCount};
 use crate::pieces::PIECE_TRIANGLES;
 use crate::planes::{FLATTEST, LaneSlopes};
 use crate::samples::GRID_PLACES;
-use crate::vertices::{CLIPPED, FAR_AWAY, GRID, Vertices};
+use crate::vertices::{CLIPPED, FAR_AWAY, GRID, SMALL, Vertices};
 use fearless_simd::prelude::*;
-
-/// The longest side of a triangle's box on the grid that 32 bits take without care.
-pub(crate) const SMALL: i32 = 64 * GRID;
 
 /// Columns and rows of the box of a tiny triangle, at most.
 pub(crate) const TINY: usize = 5;

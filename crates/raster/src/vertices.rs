@@ -10,11 +10,12 @@ use crate::pass::{InstanceData, Pass};
 use crate::pieces::{Piece, Pieces};
 use crate::placed::TILE;
 use crate::state::{Stage, State};
-use crate::triangle::SMALL;
 use fearless_simd::prelude::*;
 
 /// Steps of the grid in a pixel.
 pub(crate) const GRID: i32 = 256;
+/// The longest side of a triangle's box on the grid that 32 bits take without care.
+pub(crate) const SMALL: i32 = 64 * GRID;
 /// Where screen coordinates end, in pixels: 2¹⁵ apart, so that edges fit into the arithmetic of coverage.
 pub(crate) const SCREEN_LOW: f32 = -8190.0;
 /// The other end.
@@ -54,7 +55,7 @@ impl Screen {
 }
 
 /// Where a piece lies.
-pub(crate) enum Placement {
+pub(crate) enum PlacedPiece {
     /// Around no pixel of the tile.
     Beside,
     /// Where it may be around some.
@@ -157,7 +158,7 @@ impl Vertices {
         instance: &InstanceData,
         (screen, tile): (&Screen, [u32; 2]),
         (at_hand, boxed): (bool, bool),
-    ) -> Placement {
+    ) -> PlacedPiece {
         if at_hand {
             self.place_all::<S, true>(simd, (mesh, piece), instance, (screen, tile), boxed)
         } else {
@@ -173,7 +174,7 @@ impl Vertices {
         instance: &InstanceData,
         (screen, tile): (&Screen, [u32; 2]),
         boxed: bool,
-    ) -> Placement {
+    ) -> PlacedPiece {
         let center = tile.map(|place| (place as i32 * TILE as i32 + TILE as i32 / 2) * GRID);
         let mut any_code = splat_i(simd, 0);
         let (mut low, mut high) = ([splat_i(simd, i32::MAX); 2], [splat_i(simd, i32::MIN); 2]);
@@ -192,18 +193,18 @@ impl Vertices {
         self.any_code = if AT_HAND { 0 } else { any_code.as_slice().iter().fold(0, |all, code| all | code) };
         // What has to be clipped may lie anywhere.
         if self.any_code & CLIPPED != 0 {
-            return Placement::Anywhere;
+            return PlacedPiece::Anywhere;
         }
         for axis in 0..2 {
             let [first, last] = each!(end in 2 => center[axis] + (end as i32 * TILE as i32 - TILE as i32 / 2) * GRID);
             let reaches = high[axis].simd_ge(splat_i(simd, first)).any_true()
                 && low[axis].simd_le(splat_i(simd, last)).any_true();
             if !reaches {
-                return Placement::Beside;
+                return PlacedPiece::Beside;
             }
         }
         if !boxed || self.any_code != 0 {
-            return Placement::Anywhere;
+            return PlacedPiece::Anywhere;
         }
         let [low, high] = [
             low.map(|low| low.as_slice().iter().copied().fold(i32::MAX, i32::min)),
@@ -211,10 +212,10 @@ impl Vertices {
         ];
         // Depths of larger triangles are not those of their corners to the bit.
         if (high[0] - low[0]).max(high[1] - low[1]) > SMALL {
-            return Placement::Anywhere;
+            return PlacedPiece::Anywhere;
         }
         let place = |grid: i32, axis: usize| (grid >> 8) - (tile[axis] as i32 * TILE as i32);
-        Placement::Box {
+        PlacedPiece::Box {
             first: each!(axis in 2 => place(low[axis], axis).max(0) as usize),
             last: each!(axis in 2 => place(high[axis], axis).min(TILE as i32 - 1) as usize),
             nearest: nearest.as_slice().iter().copied().fold(0.0, max_one),

@@ -60,11 +60,10 @@ pub(crate) fn channel(source: &SourceMap, kind: MapKind, texture: &Texture) -> C
     // Programs write the opacity either into a grey image or into the alpha of one with colors.
     let has_alpha = || texture.0.level(0).iter().any(|texel| texel[3] < 1.0);
     match source.channel {
-        Some(SourceChannel::Red) => Channel::Red,
         Some(SourceChannel::Green) => Channel::Green,
         Some(SourceChannel::Blue) => Channel::Blue,
         Some(SourceChannel::Alpha) => Channel::Alpha,
         None if kind == MapKind::Opacity && has_alpha() => Channel::Alpha,
-        None => Channel::Red,
+        Some(SourceChannel::Red) | None => Channel::Red,
     }
 }
