@@ -245,7 +245,8 @@ fn add_asset<T: Asset>(app: &mut App) {
 }
 
 /// Registers [`Texture`] and [`EnvironmentMap`] as assets, and [`Maps`], [`SolidTexture`] and [`EnvironmentLight`] for
-/// reflection. May be added late and more than once: textures that the app has already stay. Adds `bevy_asset`'s `AssetPlugin` where the app does not have it yet.
+/// reflection. May be added late and more than once: textures that the app has already stay. Adds `bevy_asset`'s
+/// `AssetPlugin` where the app does not have it yet.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct TexturePlugin;
 

@@ -1,0 +1,50 @@
+//! The plugin, added late and again.
+
+use bevy_app::App;
+use bevy_asset::{Asset, AssetEvent, Assets, Handle};
+use bevy_ecs::message::Messages;
+use halfway_texture::environment::EnvironmentMap;
+use halfway_texture::{Texture, TexturePlugin};
+
+fn is_there<T: Asset>(app: &App, handle: &Handle<T>) -> bool {
+    app.world().resource::<Assets<T>>().get(handle).is_some()
+}
+
+fn add<T: Asset>(app: &mut App, asset: T) -> Handle<T> {
+    app.world_mut().resource_mut::<Assets<T>>().add(asset)
+}
+
+/// Of one kind of asset: what is there before the plugin stays, what is changed is told once, what nobody holds goes.
+fn stays<T: Asset>(make: impl Fn() -> T) {
+    let mut app = App::new();
+    // Somebody had some before any plugin.
+    app.init_resource::<Assets<T>>();
+    let early = add(&mut app, make());
+    app.add_plugins(TexturePlugin);
+    let second = add(&mut app, make());
+    assert_ne!(early, second);
+    app.add_plugins(TexturePlugin);
+    app.update();
+    app.add_plugins((TexturePlugin, TexturePlugin));
+    app.update();
+    assert!(is_there(&app, &early) && is_there(&app, &second));
+
+    // The systems that tell changes are there once.
+    let id = early.id();
+    app.world_mut().resource_mut::<Messages<AssetEvent<T>>>().clear();
+    *app.world_mut().resource_mut::<Assets<T>>().get_mut(id).expect("it stayed") = make();
+    app.update();
+    let messages = app.world().resource::<Messages<AssetEvent<T>>>();
+    assert_eq!(messages.iter_current_update_messages().filter(|event| event.is_modified(id)).count(), 1);
+
+    drop(early);
+    app.update();
+    app.update();
+    assert!(app.world().resource::<Assets<T>>().get(id).is_none() && is_there(&app, &second));
+}
+
+#[test]
+fn images_stay_when_the_plugin_comes_late_and_when_it_comes_again() {
+    stays(Texture::missing);
+    stays(EnvironmentMap::missing);
+}
