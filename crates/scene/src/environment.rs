@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use bevy_asset::Assets;
+use bevy_asset::{Assets, Handle};
 use bevy_ecs::world::World;
 use halfway_texture::environment::{Environment, EnvironmentLight, EnvironmentMap, EnvironmentShape};
 use halfway_texture::{TexelMeaning, TextureError};
@@ -55,14 +55,17 @@ impl EnvironmentEntry {
         if self.paths.iter().any(|path| path.as_os_str().is_empty()) {
             return Err(KeyProblem::new("paths", "has an empty one; expected paths of HDR, EXR, PNG or JPEG files"));
         }
-        if !(0.0..=1e6).contains(&self.strength) {
-            let problem = format!("is {}; expected a number from 0 to 1000000", self.strength);
-            return Err(KeyProblem::new("strength", problem));
-        }
         if !self.rotation_deg.is_finite() {
             return Err(KeyProblem::new("rotation_deg", "is no finite number"));
         }
-        Ok(())
+        let Some(wrong) = self.light(Handle::default()).wrong() else { return Ok(()) };
+        let problem = format!("is {}; expected a number from {}", wrong.value, wrong.expected);
+        Err(KeyProblem::new(wrong.field, problem))
+    }
+
+    fn light(&self, map: Handle<EnvironmentMap>) -> EnvironmentLight {
+        let rotation = self.rotation_deg.to_radians();
+        EnvironmentLight { map, strength: self.strength, rotation, sky: self.sky }
     }
 
     /// Puts it into the world. What cannot be read is told, and shown.
@@ -72,8 +75,7 @@ impl EnvironmentEntry {
             EnvironmentMap::missing()
         });
         let map = world.resource_mut::<Assets<EnvironmentMap>>().add(map);
-        let rotation = self.rotation_deg.to_radians();
-        world.spawn(EnvironmentLight { map, strength: self.strength, rotation, sky: self.sky });
+        world.spawn(self.light(map));
     }
 
     fn load(&self, base_dir: &Path) -> Result<EnvironmentMap, TextureError> {
