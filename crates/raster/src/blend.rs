@@ -14,7 +14,7 @@ use crate::state::Stage;
 use fearless_simd::prelude::*;
 
 /// Of a vector of pixels: which samples the triangle shows in, and where it is shaded.
-struct Shown<S: Simd> {
+struct ShownSamples<S: Simd> {
     masks: [M<S>; 4],
     any: M<S>,
     place: [F<S>; 2],
@@ -45,16 +45,16 @@ impl TileBuffer {
     }
 
     #[inline(always)]
-    fn shown_in_one<S: Simd>(&self, simd: S, edges: &EdgeFunctions, planes: &Planes, [i, j]: [i32; 2]) -> Shown<S> {
+    fn shown_in_one<S: Simd>(&self, simd: S, edges: &EdgeFunctions, planes: &Planes, [i, j]: [i32; 2]) -> ShownSamples<S> {
         let place = [counting(simd) + splat(simd, i as f32), splat(simd, j as f32)];
         let depth = clamped(simd, plane(simd, &planes.lead, 0, place[0], place[1]), planes);
         let at = j as usize * TILE + i as usize;
         let any = covered(simd, edges, i, j) & depth.simd_gt(load(simd, &self.depth[0], at));
-        Shown { masks: [any; 4], any, place }
+        ShownSamples { masks: [any; 4], any, place }
     }
 
     #[inline(always)]
-    fn shown_in_four<S: Simd>(&self, simd: S, edges: &EdgeFunctions, planes: &Planes, [i, j]: [i32; 2]) -> Shown<S> {
+    fn shown_in_four<S: Simd>(&self, simd: S, edges: &EdgeFunctions, planes: &Planes, [i, j]: [i32; 2]) -> ShownSamples<S> {
         let [left, right, ..] = edges.bounds;
         let mut bits = [0_u64; 4];
         let mut place = [counting(simd) + splat(simd, i as f32), splat(simd, j as f32)];
@@ -79,7 +79,7 @@ impl TileBuffer {
             }
         }
         let masks = each!(sample in 4 => M::<S>::from_bitmask(simd, bits[sample]));
-        Shown { masks, any: masks[0] | masks[1] | masks[2] | masks[3], place }
+        ShownSamples { masks, any: masks[0] | masks[1] | masks[2] | masks[3], place }
     }
 
     /// opacity·I + (1 − opacity)·what is there.
@@ -91,7 +91,7 @@ impl TileBuffer {
         shader: i32,
         look: &Look,
         [i, j]: [i32; 2],
-        shown: &Shown<S>,
+        shown: &ShownSamples<S>,
         new: M<S>,
     ) {
         let (state, back) = state_of(look.states, shader);

@@ -12,7 +12,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 
 /// What a channel is put through.
 #[derive(Clone, Copy, Debug)]
-enum Curve {
+enum ToneCurve {
     DividedBy(f32),
     /// 1 over the square of the white point.
     Reinhard(f32),
@@ -51,11 +51,11 @@ impl Rasterizer {
         let (curve, by) = match policy {
             Intensity::Renormalize { smoothing } => {
                 let by = divisor(self.largest(drawn), before.unwrap_or(1.0), before.map_or(0.0, |_| smoothing));
-                (Curve::DividedBy(by), Some(by))
+                (ToneCurve::DividedBy(by), Some(by))
             }
             // What underflows is a white point that no picture reaches.
-            Intensity::Reinhard { white } => (Curve::Reinhard(f64::from(white).powi(-2) as f32), None),
-            Intensity::Aces => (Curve::Aces, None),
+            Intensity::Reinhard { white } => (ToneCurve::Reinhard(f64::from(white).powi(-2) as f32), None),
+            Intensity::Aces => (ToneCurve::Aces, None),
             other => return Err(RasterError::Policy { reason: format!("{other:?} acts on each surface") }),
         };
         let level = self.level();
@@ -96,7 +96,7 @@ fn largest<S: Simd>(simd: S, values: &[f32]) -> f32 {
 }
 
 #[inline(always)]
-fn finish_floats<S: Simd>(simd: S, curve: Curve, from: &[f32], to: &mut [f32]) {
+fn finish_floats<S: Simd>(simd: S, curve: ToneCurve, from: &[f32], to: &mut [f32]) {
     for (from, to) in from.chunks(MOST_LANES).zip(to.chunks_mut(MOST_LANES)) {
         let mut values = [0.0; MOST_LANES];
         each_vector(simd, from, &mut values, |i, _| toned(simd, curve, i));
@@ -106,7 +106,7 @@ fn finish_floats<S: Simd>(simd: S, curve: Curve, from: &[f32], to: &mut [f32]) {
 }
 
 #[inline(always)]
-fn finish_bytes<S: Simd>(simd: S, curve: Curve, as_srgb: bool, from: &[f32], to: &mut [u8]) {
+fn finish_bytes<S: Simd>(simd: S, curve: ToneCurve, as_srgb: bool, from: &[f32], to: &mut [u8]) {
     for (from, to) in from.chunks(MOST_LANES).zip(to.chunks_mut(MOST_LANES)) {
         let mut values = [0.0; MOST_LANES];
         each_vector(simd, from, &mut values, |i, _| {
@@ -133,12 +133,12 @@ fn each_vector<S: Simd>(simd: S, from: &[f32], to: &mut [f32; MOST_LANES], funct
 }
 
 #[inline(always)]
-fn toned<S: Simd>(simd: S, curve: Curve, i: F<S>) -> F<S> {
+fn toned<S: Simd>(simd: S, curve: ToneCurve, i: F<S>) -> F<S> {
     let number = |x: f32| splat(simd, x);
     match curve {
-        Curve::DividedBy(divisor) => i / number(divisor),
-        Curve::Reinhard(per_white) => i / (number(1.0) + i) * fma::<S>(i, number(per_white), number(1.0)),
-        Curve::Aces => {
+        ToneCurve::DividedBy(divisor) => i / number(divisor),
+        ToneCurve::Reinhard(per_white) => i / (number(1.0) + i) * fma::<S>(i, number(per_white), number(1.0)),
+        ToneCurve::Aces => {
             // Where it has long reached 1.
             let i = min::<S>(i, number(ACES_WHITE));
             let above = i * fma::<S>(i, number(2.51), number(0.03));
