@@ -171,7 +171,7 @@ fn conform(title: &str, rows: &[Row]) {
 }
 
 /// Draws every row on one stage, and compares its three pictures with the oracle's: on an adapter whose grid within a pixel
-/// is coarse within so many steps besides.
+/// is coarse within a number of steps besides.
 fn conform_within(title: &str, rows: &[Row], steps_on_coarse_grid: f64) {
     conform_on(Stage::new(SIZE.x, SIZE.y), title, rows, steps_on_coarse_grid);
 }

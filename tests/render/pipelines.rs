@@ -213,7 +213,7 @@ fn squares(numbers: Range<u16>) -> Scene {
 /// The bound, as it is documented.
 const MOST: u16 = 128;
 
-/// A pipeline that so many frames have not used makes room for another.
+/// A pipeline that N frames have not used makes room for another.
 const KEPT: u32 = 60;
 
 #[test]

@@ -52,7 +52,7 @@ fn the_render_plugin_works_with_transforms_alone() {
     assert_identical("TransformPlugin and RenderPlugin", &expected(), &float(&mut app));
 }
 
-/// All orders of so many things.
+/// All orders of N things.
 fn orders(count: usize) -> Vec<Vec<usize>> {
     if count == 0 {
         return vec![vec![]];

@@ -1,6 +1,6 @@
 //! Numbers of a piece's vertices, four by four.
 
-/// A piece has fewer vertices; so many that a number of 8 bits is always in range.
+/// More than the vertices of any piece; a number of 8 bits is always in range.
 pub(crate) const SLOTS: usize = 256;
 
 /// Four numbers a vertex.

@@ -68,7 +68,7 @@ pub(crate) struct BinsPart {
 }
 
 impl Bins {
-    /// Sorts a pass's pieces into tiles. `each` has a function called with each part, by so many threads.
+    /// Sorts a pass's pieces into tiles. `each` has a function called with each part, by `threads` threads.
     pub(crate) fn fill<E>(&mut self, pass: &Pass, threads: usize, each: E) -> Result<(), RasterError>
     where
         E: FnOnce(&mut [BinsPart], &(dyn Fn(&mut BinsPart) + Sync)),

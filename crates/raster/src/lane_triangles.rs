@@ -3,7 +3,7 @@
 use crate::lanes::{F, MOST_LANES, Simd, lanes, store_fours};
 use crate::pieces::PIECE_TRIANGLES;
 
-/// The numbers of some triangles of a piece, at most so many as there are lanes.
+/// The numbers of some triangles of a piece, at most as many as a vector has lanes.
 pub(crate) struct LaneTriangles {
     numbers: [u8; MOST_LANES],
     count: usize,

@@ -297,7 +297,7 @@ impl<'a> Builder<'a> {
         Ok(())
     }
 
-    /// How many vertices of a triangle the piece does not have yet; at most so many.
+    /// How many vertices of a triangle the piece does not have yet, 0 to 3.
     fn count_new(&self, piece: usize, triangle: u32) -> usize {
         self.corners(triangle).into_iter().filter(|&corner| self.local[corner as usize].0 != piece as u32).count()
     }

@@ -47,7 +47,7 @@ pub(crate) fn exp2<S: Simd>(simd: S, y: F<S>) -> F<S> {
 /// An exponent of cosines, 0 or more, the same for all lanes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Exponent {
-    /// 2 to this power: so many squarings do.
+    /// 2 to this power: this number of squarings does.
     Squarings(u32),
     /// Any other.
     Any(f32),

@@ -382,7 +382,7 @@ fn put_bytes<S: Simd>(rows: &mut Rows, at: usize, pixels: I<S>) {
     pixels.bitcast::<S::u8s>().store_slice(&mut rows.values.bytes[place..place + 4 * lanes::<S>()]);
 }
 
-/// The groups of vertices, so many as there are lanes each, that some triangles have corners in.
+/// The groups of vertices, each as large as a vector has lanes, that some triangles have corners in.
 #[inline(always)]
 fn groups_of<S: Simd>(triangles: &[[u8; 3]], shown: u64) -> u32 {
     let (mut left, mut groups) = (shown, 0);

@@ -41,7 +41,7 @@ static ALLOCATOR: Counting = Counting(AtomicUsize::new(0));
 const WARM_UP: usize = 3;
 const FRAMES: usize = 8;
 
-/// How many blocks so many frames ask for, once warm, of scenes that take turns.
+/// How many blocks N frames ask for, once warm, of scenes that take turns.
 fn blocks(scenes: &[Scene], threads: usize) -> usize {
     let mut rasterizer = Rasterizer::new(RasterOptions { width: None, threads: Some(threads) }).expect("threads");
     let most = scenes.iter().map(|scene| 4 * scene.size[0] as usize * scene.size[1] as usize).max().expect("scenes");

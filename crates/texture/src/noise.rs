@@ -71,7 +71,7 @@ pub fn left<T: Number>(width: T) -> T {
 /// The most octaves of a sum.
 pub const MOST_OCTAVES: u32 = 16;
 
-/// A fractal sum: Σ 2⁻ᵏ·noise(2ᵏ·p) over so many octaves, at most [`MOST_OCTAVES`], each faded by [`left`] of 2ᵏ·`width`; those
+/// A fractal sum: Σ 2⁻ᵏ·noise(2ᵏ·p) over `octaves` octaves, at most [`MOST_OCTAVES`], each faded by [`left`] of 2ᵏ·`width`; those
 /// that are gone are not evaluated. About −1 to 1, and within −2.08 to 2.08.
 pub fn fractal<T: Number>(p: [T; 3], octaves: u32, width: T) -> T {
     let (mut sum, mut frequency, mut amplitude) = (T::zero(), T::one(), T::one());
@@ -90,7 +90,7 @@ pub fn fractal<T: Number>(p: [T; 3], octaves: u32, width: T) -> T {
     sum
 }
 
-/// Marble: veins across x, one a unit, bent by a fractal sum of so many octaves. 0 to 1, its mean about ½: ½ + ½ sin 2π(x +
+/// Marble: veins across x, one a unit, bent by a fractal sum of `octaves` octaves. 0 to 1, its mean about ½: ½ + ½ sin 2π(x +
 /// sum).
 pub fn marble<T: Number>(p: [T; 3], octaves: u32, width: T) -> T {
     wave(p[0] + fractal(p, octaves, width), width)

@@ -26,7 +26,7 @@ pub struct TexelRange {
 /// The most squares along a side.
 const SQUARES: u32 = 32;
 
-/// Levels are looked at from the first on of which a part has so many squares along a side, or fewer.
+/// Levels are looked at from the first on of which a part has this number of squares along a side, or fewer.
 const LOOKED_AT: i64 = 12;
 
 /// What weights below 0 of Catmull and Rom's filter sum up to: up to 1/8 along an axis, of which the others sum up to 9/8.

@@ -49,7 +49,7 @@ impl Ripmap {
         [self.columns, self.levels.len() / self.columns]
     }
 
-    /// The image that is halved so many times in width and in height, and its texels row by row.
+    /// The image that is halved i times in width and j times in height, and its texels row by row.
     ///
     /// # Panics
     /// There is no such image.

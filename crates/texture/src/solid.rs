@@ -92,7 +92,7 @@ impl SolidTexture {
         Self { kind, colors, ..Self::default() }
     }
 
-    /// The same with so many cells to each length that there was one to: a larger number makes finer patterns.
+    /// The same, with `cells` cells where there was one, along each axis: a larger number makes finer patterns.
     #[must_use]
     pub fn scaled(mut self, cells: f32) -> Self {
         for number in self.solid_from_object.iter_mut().flatten() {

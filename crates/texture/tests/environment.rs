@@ -345,7 +345,7 @@ fn floating_point_files_are_read_and_what_is_no_number_is_refused() {
     }
 }
 
-/// A cube map of so many texels a side, in which all directions differ.
+/// A cube map of N texels a side, in which all directions differ.
 fn waves(size: u32) -> Environment {
     let color =
         |[x, y, z]: [f64; 3]| [(3.0 * x).sin(), y - z, (2.0 * y).cos() + x * z, 1.0].map(|number| number as f32);

@@ -41,10 +41,10 @@ struct Arguments {
     /// Draw scenes with four samples a pixel as they are, not with one
     #[arg(long)]
     four: bool,
-    /// Draw everything by automatic shading within so many steps of 255 and so many pixels, and judge it by Phong shading
+    /// Draw everything by automatic shading within a tolerance, STEPS of 255 and PIXELS, and judge it by Phong shading
     #[arg(long, value_name = "STEPS[,PIXELS]", value_parser = tolerance)]
     tolerance: Option<Tolerance>,
-    /// Draw no random scenes, but so many frames of an animation by automatic shading, each within another tolerance of ½ to
+    /// Draw no random scenes, but N frames of an animation by automatic shading, each within another tolerance of ½ to
     /// 8 steps, and judge each; it has 300
     #[arg(long, value_name = "FRAMES", conflicts_with_all = ["seed", "scenes", "first", "grid", "four", "tolerance"])]
     animation: Option<u32>,

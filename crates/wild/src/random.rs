@@ -34,7 +34,7 @@ impl Random {
         low + self.bits() % (high - low + 1)
     }
 
-    /// True in so many of a hundred cases.
+    /// True in `percent` of a hundred cases.
     pub(crate) fn percent(&mut self, percent: u64) -> bool {
         self.bits() % 100 < percent
     }

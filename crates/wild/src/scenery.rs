@@ -110,7 +110,7 @@ impl Object {
         self.0.insert(key.into(), value);
     }
 
-    /// Gives the key a value in so many of a hundred cases.
+    /// Gives the key a value in `percent` of a hundred cases.
     fn perhaps(&mut self, random: &mut Random, percent: u64, key: &str, value: impl FnOnce(&mut Random) -> Value) {
         if random.percent(percent) {
             let value = value(random);

@@ -28,7 +28,7 @@ fn each_frame_keeps_to_its_tolerance() {
     for (adapter, places) in adapters().into_iter().zip([3, 8]) {
         let by = adapter.describe();
         let mut animation = animation(adapter);
-        // From so many places, five frames in a row each.
+        // From each of these places five frames in a row.
         let all = figures(&mut animation, (0..places).flat_map(|place| 37 * place..37 * place + 5));
         for steps in Animation::STEPS {
             let of = || all.iter().filter(|figures| figures.steps.to_bits() == steps.to_bits());

@@ -14,7 +14,7 @@ const SHININESS: [f32; 7] = [1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0];
 /// Bands of the spheres.
 const LEVELS: [u32; 3] = [8, 16, 32];
 
-/// The highlight of a sphere of so many bands, under flat, Gouraud and Phong shading, and of the true sphere; it lies in the
+/// The highlight of a sphere of N bands, under flat, Gouraud and Phong shading, and of the true sphere; it lies in the
 /// middle of a cell.
 fn pictures(level: u32, shininess: f32) -> Result<[Image; 4], MeasureError> {
     four(|world, shading| {

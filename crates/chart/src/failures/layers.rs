@@ -34,7 +34,7 @@ fn spawn(world: &mut World, opacity: f32) {
     world.entity_mut(object).insert(Blend);
 }
 
-/// What so many layers add up to, linear: c·(1 − (1 − o)ⁿ).
+/// What n layers of opacity o and color c add up to, linear: c·(1 − (1 − o)ⁿ).
 pub fn exact(layers: u32, opacity: f32) -> [f64; 3] {
     let shown = 1.0 - (1.0 - f64::from(opacity)).powi(layers as i32);
     GLOW.map(|glow| f64::from(glow) * shown)

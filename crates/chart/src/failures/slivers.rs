@@ -26,7 +26,7 @@ fn cells(rows: u32, shading: Shading) -> Result<Image, MeasureError> {
     })
 }
 
-/// The RMS error, linear, of Gouraud shading over a square of 1024 cells in so many rows under a lamp.
+/// The RMS error, linear, of Gouraud shading over a square of 1024 cells in N rows under a lamp.
 ///
 /// # Errors
 /// What the oracle cannot draw.
@@ -56,7 +56,7 @@ fn lantern(bands: u32) -> Mesh {
     made(positions, Some(normals), triangles.collect())
 }
 
-/// By how many degrees the faces of a lantern of so many bands are turned from the cylinder's normal at their middle.
+/// By how many degrees the faces of a lantern of N bands are turned from the cylinder's normal at their middle.
 pub fn turned(bands: u32) -> f64 {
     let mesh = lantern(bands);
     let [a, b, c] = match mesh.triangles().next() {

@@ -71,7 +71,7 @@ pub(super) fn made(positions: Vec<Vec3>, normals: Option<Vec<Vec3>>, indices: Ve
     }
 }
 
-/// The square from −1 to 1 in the plane z = 0, facing +z, of so many cells; each is split from lower left to upper right.
+/// The square from −1 to 1 in the plane z = 0, facing +z, of N cells; each is split from lower left to upper right.
 pub(super) fn square(columns: u32, rows: u32) -> Mesh {
     let at = |i: u32, of: u32| 2.0 * i as f32 / of as f32 - 1.0;
     let corners = (0..=rows).flat_map(|j| (0..=columns).map(move |i| Vec3::new(at(i, columns), at(j, rows), 0.0)));

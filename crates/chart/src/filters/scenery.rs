@@ -128,7 +128,7 @@ impl FilterView {
         format!("{}°{}", self.tilt, if self.turn == 0.0 { "" } else { ", turned" })
     }
 
-    /// Where the pixels of a picture of this size lie on the image, after so many frames of the camera's way over the plane.
+    /// Where the pixels of a picture of this size lie on the image, after `frame` frames of the camera's way over the plane.
     ///
     /// The camera is one unit away from the plane, and opens 60°. A unit has 300 texels where it is seen from above, 3 a pixel
     /// of pictures 120 pixels high, and 100 elsewhere, 1 a pixel near the lower edge. Between two frames the camera moves by

@@ -9,7 +9,7 @@ pub enum Shade {
     At(Shading),
     /// Each of them at a place of its own.
     Mixed(Terms),
-    /// Each light's where that is cheapest, within so many halves of a step of 255.
+    /// Each light's where that is cheapest, within N halves of a step of 255.
     Auto(u8),
 }
 

@@ -5,9 +5,9 @@ use halfway::prelude::*;
 /// How finely a scene's surfaces are drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SceneDetail {
-    /// Surfaces cut into so many cells, every triangle drawn; what a cell is, is the scene's.
+    /// Surfaces cut into N cells, every triangle drawn; what a cell is, is the scene's.
     Cells(u32),
-    /// Meshes with one of so many of their triangles left, and those drawn.
+    /// Meshes with one of N of their triangles left, and those drawn.
     Simplified(u32),
     /// Meshes as they are, drawn as coarsely as the tolerance allows, points moving by up to half a pixel.
     Levels,
@@ -36,7 +36,7 @@ impl SceneDetail {
         }
     }
 
-    /// The tolerance of a method that keeps to so many steps, or to the default.
+    /// The tolerance of a method that keeps to `steps` steps, or to the default.
     pub(super) fn tolerance(self, steps: Option<f64>) -> Tolerance {
         let Tolerance { steps: by_default, pixels } = Tolerance::DEFAULT;
         let steps = steps.map_or(by_default, |steps| steps as f32);

@@ -63,7 +63,7 @@ impl ReportPlan {
         },
     };
 
-    /// The units that [`measure`](super::measure) will report of these scenes on so many adapters.
+    /// The units that [`measure`](super::measure) will report of these scenes on `adapters` adapters.
     pub fn units(&self, scenes: &[ChartedScene], adapters: usize) -> u64 {
         let own = self.convergence.units() + self.highlight.units() + self.scaling.units() + failures::PAGES;
         self.fronts.units(scenes, adapters) + MeasuredOver::units(&self.fronts, adapters) + own

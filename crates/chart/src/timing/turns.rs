@@ -100,7 +100,7 @@ pub fn in_turns_with(
     Ok(times)
 }
 
-/// Whose turn it is, in this round of so many Apps.
+/// Whose turn it is, in this round of N Apps.
 fn order(round: usize, apps: usize) -> impl Iterator<Item = usize> {
     (0..apps).map(move |i| (i + round) % apps)
 }

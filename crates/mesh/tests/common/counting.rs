@@ -11,7 +11,7 @@ use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 const PER_BYTE: usize = 256;
 const AT_LEAST: usize = 1 << 18;
 
-/// The most memory that reading a file of so many bytes may take.
+/// The most memory that reading a file of N bytes may take.
 pub(crate) const fn most_for(bytes: usize) -> usize {
     AT_LEAST + PER_BYTE * bytes
 }

@@ -84,7 +84,7 @@ pub(crate) fn at(place: [f32; 3], surface: u32) -> InstanceData {
     }
 }
 
-/// A draw of a whole mesh and so many instances.
+/// A draw of N instances of a whole mesh.
 pub(crate) fn draw(mesh: &Pieces, instances: u32, shading: Shading) -> DrawCall {
     let (none, both) = (ShadedTerms::default(), ShadedTerms::BOTH);
     let (vertex, fragment) = match shading {

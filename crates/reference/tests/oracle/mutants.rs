@@ -98,7 +98,7 @@ fn at_pixel(p: Vec3, pixel: Vec2) -> Vec3 {
     Vec3::new(at_depth_1.x * -p.z, -at_depth_1.y * -p.z, p.z)
 }
 
-/// The mesh with its vertices on a grid of so many places a pixel, as a rasteriser has them.
+/// The mesh with its vertices on a grid of N places a pixel, as a rasteriser has them.
 fn snapped(mesh: &Mesh, places: f32) -> Mesh {
     moved(mesh, |p| at_pixel(p, (pixel(p) * places).round() / places))
 }

@@ -213,7 +213,7 @@ fn facets_within_the_radius_may_swap_and_no_others() {
 
 #[test]
 fn the_edge_of_a_cone_is_a_jump_and_a_slope_is_none() {
-    // The cone's edge passes beside the centre of pixel (12, 8), so many pixels farther out.
+    // The cone's edge passes beside the centre of pixel (12, 8), `beside` pixels farther out.
     let center = (4.5 * PIXEL).hypot(0.5 * PIXEL);
     for (beside, is_edge) in [(0.03, true), (-0.03, true), (0.1, false), (-0.1, false)] {
         let mut stage = Stage::new();

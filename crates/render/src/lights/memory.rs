@@ -114,7 +114,7 @@ impl FrameChoices {
 }
 
 impl ChoiceMemory {
-    /// Begins a frame with so many lights of each kind.
+    /// Begins a frame with `counts` lights of each kind.
     pub(crate) fn begin(&mut self, choosing: Choosing, counts: [u32; 3]) {
         std::mem::swap(&mut self.before, &mut self.now);
         self.now.patches.clear();

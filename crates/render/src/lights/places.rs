@@ -217,7 +217,7 @@ impl PlacedTerms {
         self.spent = self.spent.max(self.last_spent);
     }
 
-    /// Counts a patch of which all of so many lights are shaded where `terms` says.
+    /// Counts a patch of which all `lights` lights are shaded where `terms` says.
     pub(crate) fn count_all(&mut self, terms: Terms, lights: usize) {
         let count = |at: [bool; 2]| at.map(u64::from).iter().sum::<u64>() * lights as u64;
         self.at_vertices += count(by_vertex_shader(terms));

@@ -95,7 +95,7 @@ impl Highlights {
 /// A patch with other numbers is filled up with black ones, up to what the scene has of the kind; one with more reads lists.
 const STEPS: [&[u32]; 3] = [&[0, 1, 2, 4, 8, 12, 16], &[0, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32], &[0, 1, 2, 4, 8, 16]];
 
-/// The numbers of lights of each kind to fill `counts` up to, of a scene with so many in `all`, which no patch exceeds; `None`
+/// The numbers of lights of each kind to fill `counts` up to, of a scene with `all` of them, which no patch exceeds; `None`
 /// where they are too many.
 pub(crate) fn filled_up(counts: [u32; 3], all: [u32; 3]) -> Option<[u32; 3]> {
     let mut filled = [0; 3];

@@ -5,12 +5,12 @@ override VERTEX_DIFFUSE: bool = false;
 override VERTEX_SPECULAR: bool = false;
 override FRAGMENT_DIFFUSE: bool = false;
 override FRAGMENT_SPECULAR: bool = false;
-// The lights are those that the record's lists name. Else they are the first that are bound, of each kind so many.
+// The lights are those that the record's lists name. Else they are the first ones bound, as many of each kind as these numbers say.
 override LISTED: bool = false;
 override DIRECTIONAL: u32 = 0;
 override POINTS: u32 = 0;
 override SPOTS: u32 = 0;
-override HIGHLIGHTS: u32 = 2;          // of each kind, the first so many halves have specular terms
+override HIGHLIGHTS: u32 = 2;          // of each kind, this number of halves, from the first on, has specular terms
 override FIRST: u32 = 0;               // those of the stage begin here
 
 struct View {

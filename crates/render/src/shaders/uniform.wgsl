@@ -22,7 +22,7 @@ fn add_directional(
 }
 
 // Adds those of the numbers `start` to `start` + 3 among the `count` points or spots that begin at `first`. The driver unrolls
-// a loop as long as what comes out is short, and reads at fixed places only in unrolled ones: so many lights are several
+// a loop as long as what comes out is short, and reads at fixed places only in unrolled ones: many lights are several
 // loops. The numbers are constants wherever this is called.
 fn add_four(
     before: Irradiance, first: u32, count: u32, start: u32, cone: bool,

@@ -227,7 +227,7 @@ fn density(shape: EnvironmentShape, [u, v]: [f64; 2]) -> f64 {
     }
 }
 
-/// The side of a square of the mean solid angle of the texels of an environment so many texels high.
+/// The side of a square of the mean solid angle of the texels of an environment that is `size` texels high.
 fn texel_angle(shape: EnvironmentShape, size: u32) -> f64 {
     let size = f64::from(size);
     let texels = match shape {

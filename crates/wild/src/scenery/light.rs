@@ -6,7 +6,7 @@ use super::place::at_distance;
 use super::{Object, looks, short, shorts};
 use crate::random::Random;
 
-/// The lights of a scene of so many objects: from none to 300, or those that the format puts in.
+/// The lights of a scene of N objects: from none to 300, or those that the format puts in.
 pub(super) fn lights(random: &mut Random, unit: f64, objects: usize) -> Value {
     let count = match random.whole(0, 99) {
         0..2 => return Value::Null,

@@ -25,7 +25,7 @@ fn build(world: &mut World) -> Result<(), MeshError> {
     Ok(())
 }
 
-/// A stone of a radius of about 1 with the noise of a scanner: a [`UvSphere`] of so many segments and rings whose vertices
+/// A stone of a radius of about 1 with the noise of a scanner: a [`UvSphere`] of N segments and rings whose vertices
 /// lie off by hills of up to 0.1 and by noise of up to 0.001, with normals of the default weighting.
 ///
 /// # Errors

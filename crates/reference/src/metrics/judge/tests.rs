@@ -159,7 +159,7 @@ fn pictures_of_one_color_are_judged_by_their_brightness() {
     }
 }
 
-/// The ramp, with so many columns and rows for each of its own.
+/// The ramp, with N columns and rows for each of its own.
 fn fine_ramp() -> Image {
     let size = FINENESS * SIZE;
     let at = |i: u32| (f64::from(i % size) + 0.5) / f64::from(FINENESS) - 0.5;
