@@ -72,7 +72,7 @@ pub(crate) struct Demand<'a> {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Allowed {
     pixels: f32,
-    shading: Shading,
+    shading: ShownTerms,
     /// Everything is shaded at corners, where edges are no longer than what is allowed.
     by_corners: bool,
     /// Its patches have light lists of their own.
@@ -81,7 +81,7 @@ pub(crate) struct Allowed {
 
 /// What is shown besides outlines.
 #[derive(Clone, Copy, Debug)]
-enum Shading {
+enum ShownTerms {
     /// A constant color.
     None,
     /// Terms of more lights than are looked at here: no normal may turn.
@@ -89,12 +89,12 @@ enum Shading {
     /// Terms of which nothing is known.
     Unknown,
     /// Terms that may change.
-    Terms([TermChange; 2]),
+    Terms([TurnedTerms; 2]),
 }
 
 /// What a turned normal changes of all lights' diffuse or specular terms, as parts of what is allowed.
 #[derive(Clone, Copy, Debug, Default)]
-struct TermChange {
+struct TurnedTerms {
     /// The sum of the largest values.
     largest: f32,
     /// A highlight that is cut off.
@@ -119,7 +119,7 @@ const TURNED: f32 = 0.05;
 
 impl Allowed {
     /// The mesh as it is.
-    pub(crate) const NOTHING: Self = Self { pixels: 0.0, shading: Shading::Unknown, by_corners: false, listed: false };
+    pub(crate) const NOTHING: Self = Self { pixels: 0.0, shading: ShownTerms::Unknown, by_corners: false, listed: false };
 
     pub(crate) fn new(demand: Demand) -> Self {
         let Demand { tolerance, listed, lights, model_view, reflector: &Reflector { terms, .. }, .. } = demand;
@@ -131,10 +131,10 @@ impl Allowed {
         }
         let by_vertices = terms.has(Frequency::Vertex);
         let shading = match terms {
-            Terms::NONE => Shading::None,
-            _ if by_vertices && (listed || lights.counts[2] > 0) => Shading::Unknown,
-            _ if listed => Shading::Same,
-            _ => Shading::Terms(demand.changes()),
+            Terms::NONE => ShownTerms::None,
+            _ if by_vertices && (listed || lights.counts[2] > 0) => ShownTerms::Unknown,
+            _ if listed => ShownTerms::Same,
+            _ => ShownTerms::Terms(demand.changes()),
         };
         let by_corners = !terms.has(Frequency::Fragment);
         Self { pixels: tolerance.pixels, shading, by_corners, listed }
@@ -152,17 +152,17 @@ impl Allowed {
         }
         // Without an error it is infinite.
         let by_error = self.pixels / group.error;
-        let sum = |changes: &[TermChange; 2], of: fn(&TermChange, &GroupErrors) -> f32| -> f32 {
+        let sum = |changes: &[TurnedTerms; 2], of: fn(&TurnedTerms, &GroupErrors) -> f32| -> f32 {
             changes.iter().map(|change| of(change, group)).sum()
         };
         let keeps_shading = match &self.shading {
-            Shading::None => true,
-            Shading::Unknown => false,
-            Shading::Same => group.normal_error <= 0.0,
-            Shading::Terms(changes) => sum(changes, TermChange::turned) <= 1.0,
+            ShownTerms::None => true,
+            ShownTerms::Unknown => false,
+            ShownTerms::Same => group.normal_error <= 0.0,
+            ShownTerms::Terms(changes) => sum(changes, TurnedTerms::turned) <= 1.0,
         };
         let between_corners = || match &self.shading {
-            Shading::Terms(changes) => sum(changes, TermChange::between_corners) <= 1.0,
+            ShownTerms::Terms(changes) => sum(changes, TurnedTerms::between_corners) <= 1.0,
             _ => false,
         };
         if keeps_shading {
@@ -177,7 +177,7 @@ impl Allowed {
 
 impl Demand<'_> {
     /// What turned normals change of the object.
-    fn changes(&self) -> [TermChange; 2] {
+    fn changes(&self) -> [TurnedTerms; 2] {
         let &Self { reflector, lights, model_view, sphere: (center, radius), .. } = self;
         let side = reflector.larger_side();
         let unlit = reflector.unlit(lights.ambient).to_array();
@@ -215,7 +215,7 @@ impl Demand<'_> {
         let Terms { diffuse: diffuse_at, specular: specular_at } = reflector.terms;
         let turn = if self.blinn_phong { 1.0 } else { 2.0 };
         [
-            TermChange {
+            TurnedTerms {
                 largest: diffuse,
                 cut: 0.0,
                 exponent: 1.0,
@@ -223,7 +223,7 @@ impl Demand<'_> {
                 seen_from,
                 by_vertices: by_vertices(diffuse_at),
             },
-            TermChange {
+            TurnedTerms {
                 largest: specular,
                 cut,
                 exponent: larger,
@@ -262,7 +262,7 @@ impl Demand<'_> {
     }
 }
 
-impl TermChange {
+impl TurnedTerms {
     /// What turned normals change where a group's parts are drawn, as a part of what is allowed; of a term that is shaded at
     /// the vertices, with what interpolation adds.
     fn turned(&self, group: &GroupErrors) -> f32 {
