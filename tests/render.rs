@@ -48,6 +48,7 @@ mod render {
     mod reflection;
     mod samples;
     mod scene;
+    mod shells;
     mod sides;
     mod slivers;
     mod solids;

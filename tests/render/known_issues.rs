@@ -1,7 +1,7 @@
 //! What is known to be wrong. Each test asserts what happens now, and fails when that is mended: then its case moves to
 //! where the right behaviour is tested.
 
-use crate::render::scene::{Scene, Thing, glowing, rotated};
+use crate::render::scene::{Lamp, Scene, Thing, directional_light, glowing};
 use crate::render::stage::{FULL, Stage};
 use halfway::prelude::*;
 
@@ -35,24 +35,39 @@ fn a_plane_seen_from_lower_than_a_millionth_of_its_size_loses_coverage() {
     assert!(lost > 0, "mended: the floor fills the picture from a hundred-millionth of its size");
 }
 
-/// Levels of detail bound how far points move on the picture, and not how far in depth beyond that: of two spheres one of
-/// which is 0.1 % larger, the inner one shows in places where both are drawn coarser. A tolerance of 0 pixels keeps them as they are.
+/// What lies close behind in the same mesh is not looked for: of two spheres in one mesh, one of which is 0.1 % larger, the
+/// inner one, whose normals point away from the light, shows where the mesh is drawn coarser. A tolerance of 0 pixels keeps it as
+/// it is. Shells of two objects are in `shells`.
 #[test]
-fn a_shell_close_outside_another_shows_it_when_both_are_coarser() {
+fn a_shell_close_inside_another_of_the_same_mesh_shows_when_both_are_coarser() {
     let mut stage = Stage::new(128, 128);
     let ball = Mesh::from(UvSphere::new(1.0, 256, 128));
-    let inner = Thing::new(ball.clone()).of(glowing(1.0, 0.0, 0.0));
-    let outer = Thing::new(ball).of(glowing(0.0, 1.0, 0.0)).at(rotated(0.5, 0.6, 0.7).with_scale(Vec3::splat(1.001)));
+    let turned = Quat::from_euler(EulerRot::XYZ, 0.5, 0.6, 0.7);
+    let outer = ball.positions().iter().map(|&p| turned * (p * 1.001));
+    let positions: Vec<Vec3> = ball.positions().iter().copied().chain(outer).collect();
+    let normals = ball.normals().iter().map(|&n| -n).chain(ball.normals().iter().map(|&n| turned * n)).collect();
+    let count = ball.positions().len() as u32;
+    let indices = ball.indices().iter().copied().chain(ball.indices().iter().map(|i| i + count)).collect();
+    let both = Mesh::from_parts(positions, Some(normals), None, indices).expect("two spheres");
+    let matt = Material { diffuse: LinearRgba::WHITE, ..glowing(0.0, 0.0, 0.0) };
+    let eye = Vec3::new(0.2, 0.35, 0.9).normalize();
     let mut shown = |levels: Tolerance| -> usize {
-        let inner_pixels = |distance: f32| {
-            let scene = Scene::seen_from(Vec3::new(0.2, 0.35, 0.9).normalize() * distance, Vec3::ZERO);
-            stage.set(&scene.with(inner.clone()).with(outer.clone()));
+        let dark_pixels = |distance: f32| {
+            let scene = Scene::seen_from(eye * distance, Vec3::ZERO)
+                .with(Thing::new(both.clone()).of(matt).shaded(Shading::Gouraud))
+                .lit(Lamp::directional(directional_light(), -eye));
+            stage.set(&scene);
             stage.levels(levels);
-            stage.float().pixels().filter(|pixel| pixel.0[0] > 0.5).count()
+            let picture = stage.float();
+            let middle = picture.width() as f32 / 2.0;
+            // Well within the outline, where the outer one is bright.
+            let radius = 0.7 * middle / (0.5 * scene.camera.fov_y).tan() / distance;
+            let is_within = |x: u32, y: u32| (x as f32 - middle).hypot(y as f32 - middle) < radius;
+            picture.enumerate_pixels().filter(|&(x, y, pixel)| is_within(x, y) && pixel.0[0] < 0.05).count()
         };
-        [4.0, 8.0, 12.0].into_iter().map(inner_pixels).sum()
+        [8.0, 16.0, 32.0].into_iter().map(dark_pixels).sum()
     };
     assert_eq!(shown(FULL), 0);
     let wrong = shown(Tolerance::DEFAULT);
-    assert!(wrong > 0, "mended: a shell hides what is close inside");
+    assert!(wrong > 0, "mended: a shell hides what is close inside in the same mesh");
 }

@@ -45,7 +45,13 @@ impl TileBuffer {
     }
 
     #[inline(always)]
-    fn shown_in_one<S: Simd>(&self, simd: S, edges: &EdgeFunctions, planes: &Planes, [i, j]: [i32; 2]) -> ShownSamples<S> {
+    fn shown_in_one<S: Simd>(
+        &self,
+        simd: S,
+        edges: &EdgeFunctions,
+        planes: &Planes,
+        [i, j]: [i32; 2],
+    ) -> ShownSamples<S> {
         let place = [counting(simd) + splat(simd, i as f32), splat(simd, j as f32)];
         let depth = clamped(simd, plane(simd, &planes.lead, 0, place[0], place[1]), planes);
         let at = j as usize * TILE + i as usize;
@@ -54,7 +60,13 @@ impl TileBuffer {
     }
 
     #[inline(always)]
-    fn shown_in_four<S: Simd>(&self, simd: S, edges: &EdgeFunctions, planes: &Planes, [i, j]: [i32; 2]) -> ShownSamples<S> {
+    fn shown_in_four<S: Simd>(
+        &self,
+        simd: S,
+        edges: &EdgeFunctions,
+        planes: &Planes,
+        [i, j]: [i32; 2],
+    ) -> ShownSamples<S> {
         let [left, right, ..] = edges.bounds;
         let mut bits = [0_u64; 4];
         let mut place = [counting(simd) + splat(simd, i as f32), splat(simd, j as f32)];

@@ -19,6 +19,8 @@ use halfway_mesh::Mesh;
 /// An object whose patches are being lit.
 pub(crate) struct LitObject<'a> {
     pub(crate) entity: Entity,
+    /// Among the visible ones.
+    pub(crate) number: u32,
     pub(crate) reflecting: Reflecting<'a>,
     /// The key that fits best.
     pub(crate) key: DrawKey,

@@ -15,6 +15,7 @@ use crate::frame::report::FrameReport;
 use crate::geometry::allowed::{Allowed, Demand, geometry_steps};
 use crate::geometry::detail::Choice;
 use crate::geometry::meshes::{Form, Geometries, Paint, PaintComponents};
+use crate::geometry::near_objects::{CoarserObject, NearObjects, ObjectBox};
 use crate::geometry::patches::{MeshPatch, Sight};
 use crate::lights::gains::Extent;
 use crate::lights::gather::Lights;
@@ -49,6 +50,7 @@ pub(crate) struct LitPatches {
     pub(crate) lists: LightLists,
     pub(crate) table: ObjectTable,
     choice: Choice,
+    near: NearObjects,
     paints: Paints,
 }
 
@@ -101,6 +103,7 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
     let shared = Shared {
         lights: &lights,
         textures: &textures,
+        view: &view,
         encoding,
         viewer,
         costs,
@@ -109,7 +112,15 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
     };
     let mut seen = Vec::new();
     let mut without_environment = 0;
-    for &entity in &visible.0 {
+    let box_of = |&entity: &Entity| {
+        let (mesh, .., blend, _, tolerance, (model_view, _), _, _) = objects.get(entity).ok()?;
+        let tolerance = tolerance.copied().unwrap_or(of_view.0);
+        let pixels = if blend { 0.0 } else { tolerance.pixels };
+        let (mesh, radius) = (meshes.get(&mesh.0)?, geometries.radius(mesh.0.id())?);
+        Some(ObjectBox::new(&mesh.bounds(), radius, model_view, pixels))
+    };
+    let boxes = || visible.0.iter().map(|entity| box_of(entity).unwrap_or(ObjectBox::NOWHERE));
+    for (number, &entity) in (0..).zip(&visible.0) {
         let Ok((mesh, material, back, reflectance, faces, blend, components, tolerance, placed, chosen, name)) =
             objects.get(entity)
         else {
@@ -161,6 +172,7 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
         let sphere = geometry.detail.whole.sphere(model_view);
         let object = LitObject {
             entity,
+            number,
             depth: -sphere.0.z,
             twins_before: if blend { 0 } else { lit.table.twins_before(sphere) },
             reflecting,
@@ -178,7 +190,7 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
             normal_matrix,
             tolerance: if blend { Tolerance { pixels: 0.0, ..tolerance } } else { tolerance },
         };
-        lit.add(&object, &mut seen, &view, shared, &mut *backend, &mut report);
+        lit.add(&object, (&mut seen, boxes), shared, &mut *backend, &mut report);
     }
     if without_environment > 0 {
         report.errors.push(RenderError::ImagesInEnvironment(without_environment));
@@ -197,6 +209,7 @@ impl LitPatches {
         self.lists.begin(lights, changed);
         self.table.begin(lights.ambient);
         self.paints.begin();
+        self.near.begin();
     }
 
     /// What the frame's lists came to; `share` is how much of a tolerance the values have.
@@ -212,12 +225,12 @@ impl LitPatches {
         report.choices_changed = self.lists.memory.changed;
     }
 
-    /// Adds what is seen of an object: its patches, neighbours with equal light lists joined. `seen` is room for them.
-    fn add<'a>(
+    /// Adds what is seen of an object: its patches, neighbours with equal light lists joined. `seen` is room for them;
+    /// `boxes` are those around all visible objects.
+    fn add<'a, I: Iterator<Item = ObjectBox>>(
         &mut self,
         object: &LitObject<'a>,
-        seen: &mut Vec<SeenPatch<'a>>,
-        view: &View,
+        (seen, boxes): (&mut Vec<SeenPatch<'a>>, impl Fn() -> I),
         shared: Shared,
         backend: &mut impl Backend,
         report: &mut FrameReport,
@@ -225,12 +238,17 @@ impl LitPatches {
         let LitObject { ref reflecting, ref key, geometry, model_view, normal_matrix, .. } = *object;
         let detail = &geometry.detail;
         report.triangles_in += geometry.source.triangle_count() as u64;
-        self.instances.push(InstanceRecord::new(model_view, normal_matrix, reflecting.faces, view.unit() as f32));
+        self.instances.push(InstanceRecord::new(
+            model_view,
+            normal_matrix,
+            reflecting.faces,
+            shared.view.unit() as f32,
+        ));
         if self.add_unchosen(object, shared, backend) {
             return;
         }
         let reflector = reflecting.reflector(key.terms);
-        let Shared { lights, encoding, .. } = shared;
+        let Shared { lights, view, encoding, .. } = shared;
         let demand = Demand {
             tolerance: object.tolerance,
             listed: Lists::new(lights.counts) == Lists::Listed,
@@ -259,8 +277,10 @@ impl LitPatches {
             reflector.listing(reflecting.faces, ambient, eye, spending)
         };
         seen.clear();
-        let looked_at =
-            detail.each_seen(&allowed, &sight, &mut self.choice, |patch, stretch| seen.push((patch, stretch)));
+        let coarser = CoarserObject { number: object.number, model_view, view, pixels: object.tolerance.pixels };
+        let is_near = |patch: &MeshPatch, error| self.near.is_near(&coarser, patch, error, &boxes);
+        let add_seen = |patch, stretch| seen.push((patch, stretch));
+        let looked_at = detail.each_seen(&allowed, &sight, &mut self.choice, is_near, add_seen);
         // What is whole has been found to be seen, and is not counted.
         if looked_at > 0 {
             report.patches += looked_at;
@@ -325,28 +345,6 @@ impl LitPatches {
         }
     }
 
-    /// Adds an object of one patch of which nothing is chosen; whether it is one.
-    fn add_unchosen(&mut self, object: &LitObject, shared: Shared, backend: &mut impl Backend) -> bool {
-        let [all] = object.geometry.detail.patches() else { return false };
-        let Some(key) = self.unchosen(object, shared, backend) else { return false };
-        let record = self.table.number(&mut self.records, object.material, RecordLists::default());
-        self.add_run(object, OpenRun { key, lights: 0, record, indices: all.indices.clone(), stretch: 0 });
-        true
-    }
-
-    /// The key that draws an object of one patch, where there is nothing to choose: neither lights nor the places of terms.
-    fn unchosen(&mut self, object: &LitObject, shared: Shared, backend: &mut impl Backend) -> Option<DrawKey> {
-        if shared.false_colors {
-            return None;
-        }
-        if object.key.terms.has(Frequency::Auto) {
-            let moves = shared.prices != VertexPrices::NEVER;
-            return if moves { None } else { self.unlisted(object, ShadedAt::Fragments, shared, backend) };
-        }
-        let admitted = (object.key.lists != Lists::Listed).then(|| backend.admit(object.key));
-        admitted.filter(|admitted| admitted.lists != Lists::Listed)
-    }
-
     /// What draws a patch in the colour of its terms, in place of what would draw it by `key`.
     fn false_colored(
         &mut self,
@@ -398,28 +396,6 @@ impl LitPatches {
         gains >= 0.0
     }
 
-    /// The key that draws a patch under all lights of a scene with few, where its terms have one place whatever the
-    /// light: to look at each would cost more than it saves. `None` where the patch has lists.
-    fn unlisted(
-        &mut self,
-        object: &LitObject,
-        place: ShadedAt,
-        Shared { lights, .. }: Shared,
-        backend: &mut impl Backend,
-    ) -> Option<DrawKey> {
-        let lists = Lists::new(lights.counts);
-        if place == ShadedAt::Either || !object.key.terms.has(Frequency::Auto) || lists == Lists::Listed {
-            return None;
-        }
-        let key = DrawKey { lists, ..object.key }.with_terms(place.of(object.key.terms));
-        let admitted = backend.admit(key);
-        if admitted.lists == Lists::Listed {
-            return None;
-        }
-        self.lists.placed.count_all(admitted.terms, lights.records.len());
-        Some(admitted)
-    }
-
     /// The key that draws a patch, the lights that are bound for it, and its lists.
     fn lit(
         &mut self,
@@ -465,7 +441,7 @@ impl LitPatches {
         (key, 0, self.lists.list(shared.lights))
     }
 
-    fn add_run(&mut self, object: &LitObject, OpenRun { key, lights, record, indices, .. }: OpenRun) {
+    pub(super) fn add_run(&mut self, object: &LitObject, OpenRun { key, lights, record, indices, .. }: OpenRun) {
         let LitObject { depth, twins_before, maps, .. } = *object;
         let mut add = |pass, key: DrawKey| {
             let call = self.table.call((key, object.mesh, object.form, if key.is_mapped() { maps } else { 0 }));
@@ -484,9 +460,10 @@ impl LitPatches {
     }
 }
 
-/// Of objects with so many patches in sight one in so many is looked at, whether placing terms pays.
+/// Objects with at least [`FEW_PATCHES`] patches in sight: one patch in [`LOOKED_AT_FIRST`] is looked at first, whether placing
+/// terms pays.
 const FEW_PATCHES: usize = 64;
 const LOOKED_AT_FIRST: usize = 16;
 
-/// So many patches that lie next to each other look for their lights together.
+/// The number of neighbouring patches that look for their lights together.
 const TOGETHER: usize = 32;

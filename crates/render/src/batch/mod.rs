@@ -13,3 +13,4 @@ pub(crate) mod lit_runs;
 pub(crate) mod object;
 pub(crate) mod painted;
 pub(crate) mod table;
+mod unlisted;

@@ -7,6 +7,7 @@ use crate::lights::gather::Lights;
 use crate::lights::lists::Reflector;
 use crate::shaders::light_slots::Lists;
 use crate::shaders::records::{DrawRecord, MaterialRecord};
+use crate::view::camera::View;
 use bevy_asset::Assets;
 use bevy_math::Vec3;
 use halfway_lighting::equations::{Coefficients, specular_exponent};
@@ -55,6 +56,7 @@ pub(crate) struct Appearance {
 pub(crate) struct Shared<'a> {
     pub(crate) lights: &'a Lights,
     pub(crate) textures: &'a Assets<Texture>,
+    pub(crate) view: &'a View,
     /// What the bytes of the picture hold; `None` for floating point.
     pub(crate) encoding: Option<Encoding>,
     pub(crate) viewer: Viewer,

@@ -119,7 +119,8 @@ const TURNED: f32 = 0.05;
 
 impl Allowed {
     /// The mesh as it is.
-    pub(crate) const NOTHING: Self = Self { pixels: 0.0, shading: ShownTerms::Unknown, by_corners: false, listed: false };
+    pub(crate) const NOTHING: Self =
+        Self { pixels: 0.0, shading: ShownTerms::Unknown, by_corners: false, listed: false };
 
     pub(crate) fn new(demand: Demand) -> Self {
         let Demand { tolerance, listed, lights, model_view, reflector: &Reflector { terms, .. }, .. } = demand;

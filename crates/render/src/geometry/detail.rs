@@ -168,16 +168,18 @@ impl Detail {
     }
 
     /// Visits the patches that are drawn of an object and may show, in the order of their triangles, each with the number of
-    /// its stretch: between two patches of one stretch there are only triangles that do not show. Returns how many patches
+    /// its stretch: between two patches of one stretch there are only triangles that do not show. `is_near` tells whether
+    /// another object is too near to a patch whose points move by a length of the mesh's units. Returns how many patches
     /// were looked at or left out with others.
     pub(crate) fn each_seen<'a>(
         &'a self,
         allowed: &Allowed,
         sight: &Sight,
         Choice { will_do }: &mut Choice,
+        is_near: impl FnMut(&MeshPatch, f32) -> bool,
         mut each: impl FnMut(&'a MeshPatch, u32),
     ) -> u32 {
-        self.choose(allowed, sight, will_do);
+        self.choose(allowed, sight, will_do, is_near);
         let (mut stretch, mut end) = (0, 0);
         let mut stretch_of = |patch: &MeshPatch| {
             // What lies between are triangles for which others stand.
@@ -208,7 +210,13 @@ impl Detail {
     }
 
     /// Finds the groups that will do: a group's parts are drawn where it does, and all finer ones then do as well.
-    fn choose(&self, allowed: &Allowed, sight: &Sight, will_do: &mut Vec<bool>) {
+    fn choose(
+        &self,
+        allowed: &Allowed,
+        sight: &Sight,
+        will_do: &mut Vec<bool>,
+        mut is_near: impl FnMut(&MeshPatch, f32) -> bool,
+    ) {
         will_do.clear();
         will_do.resize(self.groups.len(), false);
         if allowed.is_nothing() {
@@ -218,7 +226,9 @@ impl Detail {
         for (number, group) in self.groups.iter().enumerate().rev() {
             if !will_do[number] {
                 let pixels = if self.is_whole { of_whole } else { sight.pixels_per_unit(&group.joined) };
-                will_do[number] = pixels <= allowed.pixels_per_unit(&group.errors);
+                let around = if self.is_whole { &self.whole } else { &group.joined };
+                will_do[number] =
+                    pixels <= allowed.pixels_per_unit(&group.errors) && !is_near(around, group.errors.error);
             }
             if will_do[number] {
                 for &finer in &self.finer[group.finer.start as usize..group.finer.end as usize] {

@@ -114,6 +114,8 @@ impl<'a> Paint<'a> {
 #[derive(Resource, Default)]
 pub(crate) struct Geometries {
     meshes: HashMap<(AssetId<Mesh>, Form), Geometry>,
+    /// How far the points of each mesh are from the middle of its bounds, at most.
+    radii: HashMap<AssetId<Mesh>, f32>,
     /// How many there were, and how many assets, when those that are gone were last looked for.
     looked: (usize, usize),
     /// How many meshes have been forgotten since the start.
@@ -129,10 +131,16 @@ impl Geometries {
         self.meshes.get_mut(&(id, form))
     }
 
+    /// How far the points of a mesh that has been drawn are from the middle of its bounds, at most.
+    pub(crate) fn radius(&self, id: AssetId<Mesh>) -> Option<f32> {
+        self.radii.get(&id).copied()
+    }
+
     /// Forgets all meshes, as if none had been drawn.
     pub(crate) fn forget_all(&mut self) {
         self.forgotten += self.meshes.len() as u64;
         self.meshes.clear();
+        self.radii.clear();
     }
 
     /// Lays the mesh out unless it is, and its levels of detail once they are there.
@@ -156,6 +164,7 @@ impl Geometries {
         let uv_boxes = if has_uvs { UvBoxes::new(drawn, &corners, detail.patches()) } else { UvBoxes::default() };
         let indices = Some(corners.into_flattened());
         let drawn = drawn.clone();
+        self.radii.insert(id, detail.whole.radius());
         let geometry = Geometry { detail, source: mesh.clone(), drawn, opposite_normals, uv_boxes, indices };
         self.meshes.insert((id, form), geometry);
     }
@@ -214,6 +223,7 @@ pub(crate) fn forget_removed(
         return;
     }
     geometries.meshes.retain(|&(id, _), _| meshes.contains(id));
+    geometries.radii.retain(|&id, _| meshes.contains(id));
     workshop.retain(|id| meshes.contains(id));
     let after = geometries.meshes.len();
     geometries.forgotten += (before - after) as u64;

@@ -3,6 +3,7 @@
 pub(crate) mod allowed;
 pub(crate) mod detail;
 pub(crate) mod meshes;
+pub(crate) mod near_objects;
 pub(crate) mod patches;
 pub(crate) mod uv_boxes;
 pub(crate) mod workshop;

@@ -27,6 +27,17 @@ pub struct ModelView {
 }
 
 impl ModelView {
+    pub(crate) fn new(eye_from_model: &DAffine3) -> Self {
+        let DAffine3 { matrix3: m, translation } = eye_from_model;
+        Self {
+            eye_from_model: Affine3A::from_mat3_translation(m.as_mat3(), translation.as_vec3()),
+            mirrored: is_mirror(m),
+            largest_scale: largest_scale(m) as f32,
+            keeps_angles: keeps_angles(m),
+            made_from: None,
+        }
+    }
+
     /// An upper bound of how much the matrix stretches a length.
     pub(crate) fn largest_scale(&self) -> f32 {
         self.largest_scale
@@ -126,16 +137,7 @@ pub(crate) fn compute(
             continue;
         }
         let eye_from_model = compose(&view.eye_from_world, transform);
-        *model_view = ModelView {
-            eye_from_model: Affine3A::from_mat3_translation(
-                eye_from_model.matrix3.as_mat3(),
-                eye_from_model.translation.as_vec3(),
-            ),
-            mirrored: is_mirror(&eye_from_model.matrix3),
-            largest_scale: largest_scale(&eye_from_model.matrix3) as f32,
-            keeps_angles: keeps_angles(&eye_from_model.matrix3),
-            made_from: Some(source),
-        };
+        *model_view = ModelView { made_from: Some(source), ..ModelView::new(&eye_from_model) };
         normal_matrix.0 = self::normal_matrix(&eye_from_model.matrix3);
         report.matrices += 1;
     }

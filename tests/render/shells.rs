@@ -1,0 +1,68 @@
+//! Objects that are drawn coarser, close before others.
+
+use crate::render::scene::{Scene, Thing, glowing, rotated};
+use crate::render::stage::{FULL, Stage};
+use halfway::prelude::*;
+
+/// A sphere of the size of 1, and one that is larger by a part around it, of another orientation; seen from a distance.
+fn shells(larger_by: f32, distance: f32) -> Scene {
+    let ball = Mesh::from(UvSphere::new(1.0, 256, 128));
+    let inner = Thing::new(ball.clone()).of(glowing(1.0, 0.0, 0.0));
+    let outer = rotated(0.5, 0.6, 0.7).with_scale(Vec3::splat(1.0 + larger_by));
+    let outer = Thing::new(ball).of(glowing(0.0, 1.0, 0.0)).at(outer);
+    Scene::seen_from(Vec3::new(0.2, 0.35, 0.9).normalize() * distance, Vec3::ZERO).with(inner).with(outer)
+}
+
+/// A tolerance lets points move by pixels, and a shell of 0.05 % is a fraction of one. It hides what is inside all the same.
+#[test]
+fn a_shell_hides_what_is_close_inside() {
+    let mut stage = Stage::new(128, 128);
+    for larger_by in [0.0005, 0.00075, 0.001, 0.0015, 0.002] {
+        for distance in [4.0, 6.0, 8.0, 12.0] {
+            for tolerance in [FULL, Tolerance::DEFAULT, Tolerance { pixels: 2.0, ..Tolerance::DEFAULT }] {
+                stage.set(&shells(larger_by, distance));
+                stage.levels(tolerance);
+                let picture = stage.float();
+                let [inner, outer] = [0, 1].map(|k| picture.pixels().filter(|pixel| pixel.0[k] > 0.5).count());
+                let row = format!("{larger_by} larger, from {distance}, {} pixels", tolerance.pixels);
+                assert_eq!(inner, 0, "{row}: pixels of the inner sphere");
+                assert!(outer > 200, "{row}: {outer} pixels of the outer one");
+            }
+        }
+    }
+}
+
+/// What is near to another keeps all triangles, what is farther is drawn with fewer, in one frame.
+#[test]
+fn only_what_is_close_to_another_keeps_its_triangles() {
+    let mut stage = Stage::new(128, 128);
+    let ball = Mesh::from(UvSphere::new(1.0, 256, 128));
+    let whole = ball.triangle_count() as u64;
+    let at = |x: f32| Thing::new(ball.clone()).of(glowing(1.0, 1.0, 1.0)).at(Transform::from_xyz(x, 0.0, 0.0));
+    let mut drawn = |xs: &[f32]| {
+        let scene = Scene::seen_from(Vec3::new(0.0, 0.0, 16.0), Vec3::ZERO);
+        stage.set(&xs.iter().fold(scene, |scene, &x| scene.with(at(x).faces(Faces::Both))));
+        stage.levels(Tolerance::DEFAULT);
+        stage.report().triangles
+    };
+    let alone = drawn(&[0.0]);
+    assert!(alone < whole / 4, "{alone} of {whole}");
+    assert_eq!(drawn(&[-3.0, 3.0]), 2 * alone, "far from each other");
+    // Of two that touch, only the patches where they do are kept.
+    let touching = drawn(&[-1.0, 1.0]);
+    assert!(touching > 2 * alone && touching < whole, "{touching}, {alone} alone, of {whole} each");
+    assert_eq!(drawn(&[0.0, 0.0001]), 2 * whole, "one in the other");
+}
+
+/// What is blended does not move, and keeps what is inside from showing.
+#[test]
+fn glass_counts_as_another() {
+    let mut stage = Stage::new(64, 64);
+    let ball = Mesh::from(UvSphere::new(1.0, 256, 128));
+    let whole = ball.triangle_count() as u64;
+    let inner = Thing::new(ball.clone()).of(glowing(1.0, 0.0, 0.0)).faces(Faces::Both);
+    let glass = Thing::new(ball).blended(0.5).at(Transform::from_scale(Vec3::splat(1.001)));
+    stage.set(&Scene::seen_from(Vec3::new(0.0, 0.0, 12.0), Vec3::ZERO).with(inner).with(glass));
+    stage.levels(Tolerance::DEFAULT);
+    assert_eq!(stage.report().triangles, 2 * whole);
+}
