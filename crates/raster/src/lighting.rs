@@ -6,7 +6,7 @@ use crate::lanes::{
     splat3, sub,
 };
 use crate::pass::{Highlight, LightData, LightRange, ShadedTerms, SideData};
-use crate::power::{Exponent, power};
+use crate::power::{Exponent, Power, power};
 use fearless_simd::prelude::*;
 use halfway_lighting::equations::{ATTENUATION_MAX, COINCIDENT, HALFWAY_MIN};
 
@@ -58,6 +58,74 @@ impl Gloss {
     }
 }
 
+/// What the highlights of points take from the surface.
+pub(crate) trait Lobe<S: Simd>: Copy {
+    /// S, without the gate n·l > 0.
+    fn highlight(self, simd: S, n: V3<S>, l: V3<S>, v: V3<S>) -> F<S>;
+}
+
+impl<S: Simd> Lobe<S> for Gloss {
+    #[inline(always)]
+    fn highlight(self, simd: S, n: V3<S>, l: V3<S>, v: V3<S>) -> F<S> {
+        match self.highlight {
+            Highlight::Phong => specular_phong(simd, n, l, v, Power::One(self.exponent)),
+            Highlight::BlinnPhong => specular_blinn_phong(simd, n, l, v, Power::One(self.exponent)),
+        }
+    }
+}
+
+/// Highlights that are not round, another at each point: see `axial_exponent` in the equations.
+#[derive(Clone, Copy)]
+pub(crate) struct Spread<S: Simd> {
+    pub(crate) highlight: Highlight,
+    pub(crate) axes: [V3<S>; 2],
+    pub(crate) widths: V3<S>,
+    /// The exponent where the halfway direction is that of the normal.
+    pub(crate) otherwise: F<S>,
+}
+
+impl<S: Simd> Spread<S> {
+    /// Round ones of exponent 0.
+    #[inline(always)]
+    pub(crate) fn none(simd: S, highlight: Highlight) -> Self {
+        let zero = splat3(simd, [0.0; 3]);
+        Self { highlight, axes: [zero; 2], widths: zero, otherwise: splat(simd, 0.0) }
+    }
+
+    /// That of one point.
+    #[inline(always)]
+    pub(crate) fn set(&mut self, lane: usize, axes: [[f32; 3]; 2], widths: [f32; 3]) {
+        for axis in 0..3 {
+            self.axes[0][axis][lane] = axes[0][axis];
+            self.axes[1][axis][lane] = axes[1][axis];
+            self.widths[axis][lane] = widths[axis];
+        }
+    }
+}
+
+impl<S: Simd> Lobe<S> for Spread<S> {
+    #[inline(always)]
+    fn highlight(self, simd: S, n: V3<S>, l: V3<S>, v: V3<S>) -> F<S> {
+        let exponents = axial_exponent(simd, &self, add::<S>(l, v));
+        match self.highlight {
+            Highlight::Phong => specular_phong(simd, n, l, v, Power::Each(exponents)),
+            Highlight::BlinnPhong => specular_blinn_phong(simd, n, l, v, Power::Each(exponents * splat(simd, 0.5))),
+        }
+    }
+}
+
+/// The exponents toward the halfway directions h, of any length.
+#[inline(always)]
+pub(crate) fn axial_exponent<S: Simd>(simd: S, spread: &Spread<S>, h: V3<S>) -> F<S> {
+    let [a, b] = each!(k in 2 => dot::<S>(h, spread.axes[k]));
+    let least = splat(simd, 1e-30);
+    let squared = a * a + b * b;
+    let [aa, ab, bb] = spread.widths;
+    let along = aa * a * a + (ab + ab) * a * b + bb * b * b;
+    let found = max::<S>(along / max::<S>(squared, least), splat(simd, 0.0));
+    squared.simd_le(least).select(spread.otherwise, found)
+}
+
 impl<S: Simd> Irradiance<S> {
     /// Another where `mask` says so.
     #[inline(always)]
@@ -104,20 +172,20 @@ pub(crate) fn spot_factor<S: Simd>(simd: S, l: V3<S>, light: &LightData) -> F<S>
 
 /// `max(r·v, 0)^α` with r = 2(n·l)n − l, without the gate n·l > 0.
 #[inline(always)]
-pub(crate) fn specular_phong<S: Simd>(simd: S, n: V3<S>, l: V3<S>, v: V3<S>, alpha: Exponent) -> F<S> {
+fn specular_phong<S: Simd>(simd: S, n: V3<S>, l: V3<S>, v: V3<S>, alpha: Power<S>) -> F<S> {
     let twice = dot::<S>(n, l) * splat(simd, 2.0);
-    power(simd, fma::<S>(twice, dot::<S>(n, v), -dot::<S>(l, v)), alpha)
+    alpha.of(simd, fma::<S>(twice, dot::<S>(n, v), -dot::<S>(l, v)))
 }
 
-/// `max(n·h, 0)^β` with h = (l + v)/‖l + v‖, as ((n·(l + v))²/‖l + v‖²)^(β/2), without the gate n·l > 0.
+/// `max(n·h, 0)^β` with h = (l + v)/‖l + v‖, as ((n·(l + v))²/‖l + v‖²)^(β/2), without the gate n·l > 0; the power is of β/2.
 #[inline(always)]
-pub(crate) fn specular_blinn_phong<S: Simd>(simd: S, n: V3<S>, l: V3<S>, v: V3<S>, half_beta: Exponent) -> F<S> {
+fn specular_blinn_phong<S: Simd>(simd: S, n: V3<S>, l: V3<S>, v: V3<S>, half_beta: Power<S>) -> F<S> {
     const SMALLEST: f32 = HALFWAY_MIN * HALFWAY_MIN;
     let sum = add::<S>(l, v);
     let squared = dot::<S>(sum, sum);
     let along = max::<S>(dot::<S>(n, sum), splat(simd, 0.0));
     let cos_squared = along * along / max::<S>(squared, splat(simd, SMALLEST));
-    let s = power(simd, cos_squared, half_beta);
+    let s = half_beta.of(simd, cos_squared);
     squared.simd_gt(splat(simd, SMALLEST)).select(s, splat(simd, 0.0))
 }
 
@@ -138,7 +206,7 @@ fn add_light<S: Simd>(
     light: &LightData,
     incident: &Incidence<S>,
     points: &Points<S>,
-    gloss: Gloss,
+    lobe: impl Lobe<S>,
     terms: ShadedTerms,
 ) {
     let Points { n, v, .. } = *points;
@@ -152,10 +220,7 @@ fn add_light<S: Simd>(
         }
     }
     if terms.specular {
-        let s = match gloss.highlight {
-            Highlight::Phong => specular_phong(simd, n, l, v, gloss.exponent),
-            Highlight::BlinnPhong => specular_blinn_phong(simd, n, l, v, gloss.exponent),
-        };
+        let s = lobe.highlight(simd, n, l, v);
         let factor = n_dot_l.simd_gt(zero).select(weight * s, zero);
         sum.specular = add_scaled::<S>(sum.specular, splat3(simd, light.specular), factor);
     }
@@ -278,13 +343,13 @@ pub(crate) fn gathered_here<S: Simd>(
     lights: (&[LightData], &[u32]),
     ranges: [LightRange; 3],
     points: &Points<S>,
-    gloss: Gloss,
+    lobe: impl Lobe<S>,
     terms: ShadedTerms,
 ) -> Irradiance<S> {
     let mut sum = Irradiance::none(simd);
     let [diffuse, specular] = [ShadedTerms { specular: false, ..terms }, ShadedTerms { diffuse: false, ..terms }];
     for (range, terms) in ranges.into_iter().zip([terms, diffuse, specular]) {
-        add_listed(simd, &mut sum, lights, range, points, gloss, terms);
+        add_listed(simd, &mut sum, lights, range, points, lobe, terms);
     }
     sum
 }
@@ -295,12 +360,12 @@ pub(crate) fn gathered<S: Simd>(
     lights: (&[LightData], &[u32]),
     ranges: [LightRange; 3],
     points: &Points<S>,
-    gloss: Gloss,
+    lobe: impl Lobe<S>,
     terms: ShadedTerms,
 ) -> Irradiance<S> {
     simd.vectorize(
         #[inline(always)]
-        || gathered_here(simd, lights, ranges, points, gloss, terms),
+        || gathered_here(simd, lights, ranges, points, lobe, terms),
     )
 }
 
@@ -312,7 +377,7 @@ fn add_listed<S: Simd>(
     (lights, lists): (&[LightData], &[u32]),
     range: LightRange,
     points: &Points<S>,
-    gloss: Gloss,
+    lobe: impl Lobe<S>,
     terms: ShadedTerms,
 ) {
     if range.is_empty() || terms.is_empty() {
@@ -327,13 +392,13 @@ fn add_listed<S: Simd>(
         let n_dot_l = dot::<S>(points.n, l);
         if !is_behind_all(simd, n_dot_l, light, terms) {
             let incident = Incidence { l, n_dot_l, weight: splat(simd, 1.0) };
-            add_light(simd, sum, light, &incident, points, gloss, terms);
+            add_light(simd, sum, light, &incident, points, lobe, terms);
         }
     }
     for (place, &number) in near.iter().enumerate() {
         let light = &lights[number as usize];
         if let Some(incident) = finite_light(simd, light, place >= finite, points, terms) {
-            add_light(simd, sum, light, &incident, points, gloss, terms);
+            add_light(simd, sum, light, &incident, points, lobe, terms);
         }
     }
 }

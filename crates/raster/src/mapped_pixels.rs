@@ -2,7 +2,7 @@
 
 use crate::attributes::{AMBIENT_OF_VERTICES, COLOR, FRAME, MIRROR_NORMAL, NORMAL, OF_VERTICES, PARTS, PLACE, UVS};
 use crate::lanes::{F, I, M, Simd, V3, each, lanes, splat, splat_i, splat3};
-use crate::lighting::{Gloss, Irradiance, Points, to_viewer};
+use crate::lighting::{Gloss, Irradiance, Points, Spread, to_viewer};
 use crate::look::Look;
 use crate::mapped::{MappedTriangle, PartsOf};
 use crate::pass::{Highlight, MapCall, Pass, SideData};
@@ -10,8 +10,8 @@ use crate::placed::TILE;
 use crate::planes::Slopes;
 use crate::state::{Stage, State, StateMaps};
 use fearless_simd::prelude::*;
-use halfway_lighting::equations::{NORMAL_MIN, bumped_normal, mapped_normal};
-use halfway_texture::normals::{mean_length, toksvig};
+use halfway_lighting::equations::{NORMAL_MIN, bumped_normal, lobe_axes, mapped_normal};
+use halfway_texture::normals::{SlopeSpread, lean_lobe, mean_length, spread_length, toksvig};
 use halfway_texture::{FarNormals, MapKind, UvTransform, lookup};
 
 /// A pixel of a mapped triangle.
@@ -117,10 +117,15 @@ impl MappedPixel<'_> {
             return otherwise;
         }
         if let Some(call) = &self.maps.calls[MapKind::Normal as usize] {
-            let [r, g, b, _] = self.texel(call);
+            let texel = if call.far_normals == FarNormals::Lean {
+                self.slopes(call).texel()
+            } else {
+                let [r, g, b, _] = self.texel(call);
+                [r, g, b]
+            };
             let [x, y, z, w] = self.group(FRAME);
             let amount = self.pass.maps[call.map as usize].amount;
-            return mapped_normal(n, [x, y, z], w, [r, g, b], amount, otherwise);
+            return mapped_normal(n, [x, y, z], w, texel, amount, otherwise);
         }
         let Some(call) = &self.maps.calls[MapKind::Height as usize] else { return otherwise };
         let OnImage { uv, footprint } = self.on_image(call);
@@ -143,13 +148,43 @@ impl MappedPixel<'_> {
     pub(crate) fn gloss(&self, state: &State, exponent: f32) -> [f32; 2] {
         let exponent = exponent * self.factor_of_one(MapKind::Shininess);
         let at_fragments = matches!(state.stage, Stage::Fragment | Stage::Mixed);
-        let normals = self.maps.calls[MapKind::Normal as usize].as_ref().filter(|_| at_fragments);
-        let Some(call) = normals.filter(|call| call.far_normals == FarNormals::Toksvig) else { return [exponent, 1.0] };
-        let [r, g, b, _] = self.texel(call);
+        let Some(call) = self.maps.calls[MapKind::Normal as usize].as_ref().filter(|_| at_fragments) else {
+            return [exponent, 1.0];
+        };
+        match call.far_normals {
+            FarNormals::Mean => [exponent, 1.0],
+            FarNormals::Toksvig => {
+                let [r, g, b, _] = self.texel(call);
+                toksvig(mean_length([r, g, b], self.turned(call, state)), exponent)
+            }
+            FarNormals::Lean => {
+                let covariance = self.slopes(call).covariance(self.turned(call, state));
+                let [.., factor] = lean_lobe(covariance, exponent);
+                let [even, _] = toksvig(spread_length(covariance), exponent);
+                [even, factor]
+            }
+        }
+    }
+
+    /// How many times as far as the image's normals what highlights go by turns: what is mirrored turns twice as far.
+    fn turned(&self, call: &MapCall, state: &State) -> f32 {
         let amount = self.pass.maps[call.map as usize].amount;
-        // What is mirrored turns twice as far.
-        let turned = if state.highlight == Highlight::Phong { 2.0 * amount } else { amount };
-        toksvig(mean_length([r, g, b], turned), exponent)
+        if state.highlight == Highlight::Phong { 2.0 * amount } else { amount }
+    }
+
+    /// The slopes of normals that a pixel sees.
+    fn slopes(&self, call: &MapCall) -> SlopeSpread<f32> {
+        let OnImage { uv, footprint } = self.on_image(call);
+        SlopeSpread::seen(&self.pass.maps[call.map as usize].pyramid, &call.sampling, uv, footprint)
+    }
+
+    /// The axes of highlights about a normal of the front, and the inverse of how wide they are, of a material with this
+    /// exponent.
+    fn spread(&self, state: &State, call: &MapCall, n: [f32; 3], exponent: f32) -> ([[f32; 3]; 2], [f32; 3]) {
+        let exponent = exponent * self.factor_of_one(MapKind::Shininess);
+        let [x, y, z, w] = self.group(FRAME);
+        let [aa, ab, bb, _] = lean_lobe(self.slopes(call).covariance(self.turned(call, state)), exponent);
+        (lobe_axes(n, [x, y, z], w), [aa, ab, bb])
     }
 }
 
@@ -239,6 +274,8 @@ impl<S: Simd> MappedPixels<'_, S> {
         let exponent = state.side(look.pass, back).exponent;
         let (mut exponents, mut factors) = (splat(simd, exponent), splat(simd, 1.0));
         let changes = maps.changes_exponents();
+        let lean = maps.calls[MapKind::Normal as usize].as_ref().filter(|call| call.far_normals == FarNormals::Lean);
+        let mut spread = Spread::none(simd, state.highlight);
         for lane in 0..lanes::<S>() {
             let Some(pixel) = self.pixel(lane, look.pass, maps) else { continue };
             let turned = pixel.normal(state, [way[0][lane], way[1][lane], -1.0], look.screen.way_step);
@@ -248,11 +285,19 @@ impl<S: Simd> MappedPixels<'_, S> {
             if changes {
                 [exponents[lane], factors[lane]] = pixel.gloss(state, exponent);
             }
+            if let Some(call) = lean {
+                let (axes, widths) = pixel.spread(state, call, turned, exponent);
+                spread.set(lane, axes, widths);
+            }
         }
         let v = to_viewer(simd, [way[0], way[1], splat(simd, -1.0)], n, look.pass.local_viewer);
         let points = Points::new(simd, [way[0] * w, way[1] * w, -w], n, v);
         if !changes {
             return state.fragment_terms(simd, look.pass, &points, back);
+        }
+        if lean.is_some() {
+            let sum = state.spread_terms(simd, look.pass, &points, Spread { otherwise: exponents, ..spread });
+            return Irradiance { specular: each!(c in 3 => sum.specular[c] * factors), ..sum };
         }
         // One exponent after the other.
         let mut sum = Irradiance::none(simd);

@@ -73,6 +73,33 @@ impl Exponent {
     }
 }
 
+/// An exponent for all lanes, or one for each.
+#[derive(Clone, Copy)]
+pub(crate) enum Power<S: Simd> {
+    One(Exponent),
+    Each(F<S>),
+}
+
+impl<S: Simd> Power<S> {
+    /// `max(x, 0)` raised to it.
+    #[inline(always)]
+    pub(crate) fn of(self, simd: S, x: F<S>) -> F<S> {
+        match self {
+            Self::One(exponent) => power(simd, x, exponent),
+            Self::Each(exponents) => powers(simd, x, exponents),
+        }
+    }
+}
+
+/// `max(x, 0)^exponent` for x up to 1, with 0⁰ = 1, of an exponent a lane, 0 or more.
+#[inline(always)]
+fn powers<S: Simd>(simd: S, x: F<S>, exponents: F<S>) -> F<S> {
+    let (x, zero) = (saturate(simd, x), splat(simd, 0.0));
+    let y = log2(simd, max::<S>(x, splat(simd, f32::MIN_POSITIVE))) * exponents;
+    let vanishes = y.simd_lt(splat(simd, -126.0)) | x.simd_le(zero);
+    exponents.simd_le(zero).select(splat(simd, 1.0), vanishes.select(zero, exp2(simd, y)))
+}
+
 /// `max(x, 0)^exponent` for x up to 1, with 0⁰ = 1.
 #[inline(always)]
 pub(crate) fn power<S: Simd>(simd: S, x: F<S>, exponent: Exponent) -> F<S> {

@@ -1,7 +1,7 @@
 //! What shading takes from draws and surfaces, looked up by the number that a pixel keeps.
 
 use crate::lanes::Simd;
-use crate::lighting::{Gloss, Irradiance, Points, gathered, gathered_here};
+use crate::lighting::{Gloss, Irradiance, Points, Spread, gathered, gathered_here};
 use crate::pass::{DrawCall, Highlight, LeftOut, LightRange, MapCall, Pass, ShadedTerms, SideData, SurfaceData};
 use halfway_texture::{FarNormals, MapKind, SolidTexture};
 
@@ -53,8 +53,12 @@ impl StateMaps {
 
     /// Whether images change the exponent of highlights.
     pub(crate) fn changes_exponents(&self) -> bool {
-        let normals = self.calls[MapKind::Normal as usize];
-        self.has(MapKind::Shininess) || normals.is_some_and(|call| call.far_normals == FarNormals::Toksvig)
+        self.has(MapKind::Shininess) || self.far_normals() != FarNormals::Mean
+    }
+
+    /// What highlights take of normals of an image beside where they point.
+    pub(crate) fn far_normals(&self) -> FarNormals {
+        self.calls[MapKind::Normal as usize].map_or(FarNormals::Mean, |call| call.far_normals)
     }
 
     /// Whether something of it may be cut out.
@@ -155,6 +159,18 @@ impl State {
     ) -> Irradiance<S> {
         let surface = &pass.surfaces[self.surface as usize];
         gathered_here(simd, (pass.lights, pass.lists), surface.fragment_ranges(), points, gloss, self.fragment)
+    }
+
+    /// The same for highlights that are not round.
+    pub(crate) fn spread_terms<S: Simd>(
+        &self,
+        simd: S,
+        pass: &Pass,
+        points: &Points<S>,
+        spread: Spread<S>,
+    ) -> Irradiance<S> {
+        let surface = &pass.surfaces[self.surface as usize];
+        gathered(simd, (pass.lights, pass.lists), surface.fragment_ranges(), points, spread, self.fragment)
     }
 
     /// Whether the vertices' colors go a way of their own, which they do unless images have part in it.

@@ -234,7 +234,8 @@ impl ComponentWord for LevelFilter {
 }
 
 impl Word for FarNormals {
-    const WORDS: &'static [(&'static str, Self)] = &[("mean", Self::Mean), ("toksvig", Self::Toksvig)];
+    const WORDS: &'static [(&'static str, Self)] = 
+        &[("mean", Self::Mean), ("toksvig", Self::Toksvig), ("lean", Self::Lean)];
 }
 
 impl ComponentWord for FarNormals {
@@ -243,6 +244,7 @@ impl ComponentWord for FarNormals {
     const MEANINGS: &'static [&'static str] = &[
         "Where their mean points.",
         "And how long it is: rough surfaces have wider and fainter highlights from afar.",
+        "How far their slopes lie apart, and along which axis: highlights of rough surfaces are wider that way. Takes two more images of the same size.",
     ];
 }
 

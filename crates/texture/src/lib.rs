@@ -38,6 +38,7 @@ mod halves;
 mod limits;
 pub mod lookup;
 mod maps;
+mod moments;
 pub mod noise;
 pub mod normals;
 mod pyramid;

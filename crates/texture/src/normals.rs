@@ -49,6 +49,9 @@ pub enum FarNormals {
     Mean,
     /// And how long it is: wider and fainter highlights, by [`toksvig`] of [`mean_length`].
     Toksvig,
+    /// How far their slopes lie apart, and along which axis (Olano and Baker, "LEAN Mapping", 2010): highlights by
+    /// [`lean_lobe`] about the normal of the mean slopes. Takes [`Pyramid::moments`], two more images of the same size.
+    Lean,
 }
 
 /// How long the mean of normals is that a texel stands for, 0 to 1, had their slopes been `s` times as steep: with |n| the
@@ -72,89 +75,63 @@ pub fn toksvig<T: Number>(length: T, exponent: T) -> [T; 2] {
     [f * exponent, (T::one() + f * exponent) / (T::one() + exponent)]
 }
 
-/// The moments of an image of normals, with their pyramids: what Olano and Baker, "LEAN Mapping", 2010, keep.
+/// What a part of an image of normals has, by its [moments](Pyramid::moments): Olano and Baker, "LEAN Mapping", 2010.
 ///
-/// Of each normal the slopes b = (x/z, y/z), and b·bᵀ. Their means over a part of the image are means of texels, so that every
-/// filter does; and the covariance is what roughness the part has.
-#[derive(Clone, Debug, PartialEq)]
-pub struct NormalMoments {
-    slopes: Pyramid,
-    squares: Pyramid,
-}
-
-/// What a part of an image of normals has.
+/// Of each normal there are the slopes b = (x/z, y/z), and b·bᵀ. Their means over a part of the image are means of texels, so
+/// that every filter does; and the covariance, bᵀb less the square of the mean, is how rough that part is along each axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SlopeSpread<T> {
     /// The mean slopes, x/z and y/z.
     pub mean: [T; 2],
-    /// Their covariance: of x with x, x with y, y with y.
-    pub covariance: [T; 3],
-}
-
-/// Slopes are kept up to this, 86° from the surface's normal: so steep ones would outweigh all others.
-const STEEPEST: f64 = 16.0;
-
-impl NormalMoments {
-    /// Of an image of normals. Slopes of normals that lie flat or point into the surface
-    /// are kept within the steepest.
-    ///
-    /// # Errors
-    /// As of [`TexelImage::new`].
-    pub fn new(normals: &TexelImage) -> Result<Self, TextureError> {
-        let slopes: Vec<[f64; 2]> = normals
-            .texels()
-            .iter()
-            .map(|texel| {
-                let [x, y, z] = decoded(texel.map(f64::from));
-                [x, y].map(|side| (side / z.max(1e-9)).clamp(-STEEPEST, STEEPEST))
-            })
-            .collect();
-        let [width, height] = normals.size();
-        let image = |texel: fn([f64; 2]) -> [f64; 3]| {
-            let texels = slopes.iter().map(|slopes| {
-                let [a, b, c] = texel(*slopes).map(|number| number as f32);
-                [a, b, c, 1.0]
-            });
-            TexelImage::new(width, height, texels.collect()).map(Pyramid::new)
-        };
-        Ok(Self { slopes: image(|[x, y]| [x, y, 0.0])?, squares: image(|[x, y]| [x * x, x * y, y * y])? })
-    }
-
-    /// What a footprint sees of it, by the filters of [`lookup::filtered`].
-    pub fn at<T: Number>(&self, sampling: &Sampling, uv: [T; 2], footprint: [[T; 2]; 2]) -> SlopeSpread<T> {
-        let [x, y, ..] = lookup::filtered(&self.slopes, sampling, uv, footprint);
-        let [xx, xy, yy, _] = lookup::filtered(&self.squares, sampling, uv, footprint);
-        let zero = T::zero();
-        SlopeSpread { mean: [x, y], covariance: [(xx - x * x).max(zero), xy - x * y, (yy - y * y).max(zero)] }
-    }
+    /// The means of their products: x·x, x·y, y·y.
+    pub squares: [T; 3],
 }
 
 impl<T: Number> SlopeSpread<T> {
-    /// The normal of the mean slopes, of length 1.
-    pub fn normal(&self) -> [T; 3] {
-        let [x, y] = self.mean;
-        let length = (x * x + y * y + T::one()).sqrt();
-        [x / length, y / length, length.recip()]
+    /// What a footprint sees of it, by the filters of [`lookup::filtered`].
+    pub fn seen(pyramid: &Pyramid, sampling: &Sampling, uv: [T; 2], footprint: [[T; 2]; 2]) -> Self {
+        let [slopes, squares] = pyramid.moments();
+        let [x, y, ..] = lookup::filtered(slopes, sampling, uv, footprint);
+        let [xx, xy, yy, _] = lookup::filtered(squares, sampling, uv, footprint);
+        Self { mean: [x, y], squares: [xx, xy, yy] }
     }
 
-    /// The exponent of a highlight (n·h)^s that is as wide as that of all normals: 1/(1/s + ½ tr Σ), and the factor that keeps
-    /// its energy, that over s. For whoever has no highlight of two axes.
-    pub fn exponent(&self, s: T) -> [T; 2] {
-        let wider = (T::one() + T::of(0.5) * s * (self.covariance[0] + self.covariance[2])).recip();
-        [s * wider, wider]
+    /// The normal of the mean slopes, as texels have it, but not of length 1: (x, y, 1)/2 + ½.
+    pub fn texel(&self) -> [T; 3] {
+        let [x, y] = self.mean.map(|slope| T::of(0.5) * slope + T::of(0.5));
+        [x, y, T::one()]
     }
 
-    /// The mean of (n·h)^s over the normals, h the half vector in the surface's axes: with d the slopes of h less the mean, and
-    /// C = Σ + 1/s, it is e^(−½ dᵀC⁻¹d)/(s·√det C). For one normal this is e^(−s·tan²/2), which is near the power for large s.
-    pub fn highlight(&self, h: [T; 3], s: T) -> T {
-        if h[2] <= T::zero() {
-            return T::zero();
-        }
-        let own = s.recip();
-        let [xx, xy, yy] = [self.covariance[0] + own, self.covariance[1], self.covariance[2] + own];
-        let determinant = (xx * yy - xy * xy).max(own * own);
-        let [x, y] = [h[0] / h[2] - self.mean[0], h[1] / h[2] - self.mean[1]];
-        let squared = (yy * x * x - T::of(2.0) * xy * x * y + xx * y * y) / determinant;
-        (-T::of(0.5) * squared).exponential() / (s * determinant.sqrt())
+    /// [`slope_covariance`] of it.
+    pub fn covariance(&self, s: T) -> [T; 3] {
+        slope_covariance(self.mean, self.squares, s)
     }
+}
+
+/// The covariance of slopes that are `s` times as steep as those of which these are the means, and the means of their
+/// products: of x with x, of x with y, of y with y. `s` is taken to be at most 10⁶, so that all of it is finite.
+pub fn slope_covariance<T: Number>([x, y]: [T; 2], [xx, xy, yy]: [T; 3], s: T) -> [T; 3] {
+    let s = s.max(T::of(-1e6)).min(T::of(1e6));
+    let [xx, yy] = [xx - x * x, yy - y * y].map(|variance| variance.max(T::zero()));
+    [xx, xy - x * y, yy].map(|number| s * s * number)
+}
+
+/// The length of the mean of normals whose slopes have this covariance, as [`toksvig`] takes it: 1/(1 + ½ tr Σ). It is
+/// what a highlight that has no axes takes.
+pub fn spread_length<T: Number>([xx, _, yy]: [T; 3]) -> T {
+    (T::one() + T::of(0.5) * (xx + yy)).recip()
+}
+
+/// What becomes of a highlight (n·h)^s over normals whose slopes have this covariance Σ: it is as wide as Σ + I/s says,
+/// whose inverse comes first (of x with x, of x with y, of y with y); the last number is 1/(s·√det(Σ + I/s)), which keeps
+/// its energy. Along a direction d, of length 1, the exponent is dᵀ(Σ + I/s)⁻¹d, as Ashikhmin and Shirley, "An Anisotropic
+/// Phong BRDF Model", 2000, have it: `halfway_lighting::equations::axial_exponent`. Without roughness it is s all around.
+pub fn lean_lobe<T: Number>(covariance: [T; 3], s: T) -> [T; 4] {
+    // Of s·Σ + I, which is finite for each s; within what squares of f32 can be.
+    let [xx, xy, yy] = covariance.map(|number| (s * number).max(T::of(-1e12)).min(T::of(1e12)));
+    let [xx, yy] = [xx + T::one(), yy + T::one()];
+    // What filters with negative weights leave is no covariance always; of one the determinant is not less.
+    let determinant = (xx * yy - xy * xy).max(xx + yy - T::one());
+    let over = s / determinant;
+    [over * yy, -over * xy, over * xx, determinant.sqrt().recip()]
 }

@@ -3,6 +3,7 @@
 use std::sync::{Arc, OnceLock};
 
 use crate::halves::{Level, half, lower, narrower};
+use crate::moments::moments;
 use crate::ranges::{TexelRange, TexelRanges};
 use crate::ripmap::Ripmap;
 use crate::sampling::Sampling;
@@ -16,8 +17,8 @@ use crate::texels::TexelImage;
 /// sizes these are four texels; of odd ones three in a row count, two of them in part. So no level is brighter or darker than
 /// the image as a whole, none leaves the range of its texels, and none depends on what lies beyond the image.
 ///
-/// What else some filters and bounds need, [`Ripmap`], [`SummedAreas`] and [`TexelRanges`], is made when it is first asked
-/// for, and shared by the clones.
+/// What else some filters, bounds and highlights need, [`Ripmap`], [`SummedAreas`], [`TexelRanges`] and
+/// [moments](Self::moments), is made when it is first asked for, and shared by the clones.
 #[derive(Clone, Debug)]
 pub struct Pyramid {
     levels: Arc<[Level]>,
@@ -30,6 +31,7 @@ struct More {
     ripmap: OnceLock<Ripmap>,
     sums: OnceLock<SummedAreas>,
     ranges: OnceLock<TexelRanges>,
+    moments: OnceLock<[Pyramid; 2]>,
 }
 
 impl PartialEq for Pyramid {
@@ -98,6 +100,14 @@ impl Pyramid {
     /// The least and the largest texels of its parts: 43 KiB at most, kept from the first call on.
     pub fn ranges(&self) -> &TexelRanges {
         self.more.ranges.get_or_init(|| TexelRanges::new(&self.levels, &self.texels))
+    }
+
+    /// Of an image of normals the slopes, and their products: two more images with their pyramids, kept from the first call on.
+    /// [`SlopeSpread`](crate::normals::SlopeSpread) says what they are for.
+    pub fn moments(&self) -> &[Self; 2] {
+        let [width, height] = self.size();
+        let made = || moments(self.level(0)).map(|texels| Self::new(TexelImage::checked(width, height, texels)));
+        self.more.moments.get_or_init(made)
     }
 
     /// What [`filtered`](crate::lookup::filtered) may give wherever u and v are from `low` to `high`, or a texel beside that of

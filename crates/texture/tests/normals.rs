@@ -2,7 +2,9 @@
 
 #![allow(clippy::float_cmp, reason = "what is exact is compared exactly")]
 
-use halfway_texture::normals::{NormalMoments, decoded, from_heights, mean_length, toksvig};
+use halfway_texture::normals::{
+    SlopeSpread, decoded, from_heights, lean_lobe, mean_length, slope_covariance, spread_length, toksvig,
+};
 use halfway_texture::{Pyramid, Sampling, TexelImage, TextureError, Wrap, lookup};
 use std::f64::consts::TAU;
 
@@ -53,13 +55,32 @@ fn unit(d: [f64; 3]) -> [f64; 3] {
     d.map(|x| x / length)
 }
 
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3).map(|k| a[k] * b[k]).sum()
+}
+
+/// The highlight of a spread about its mean normal: by an exponent for each direction, and by one for all.
+fn by_moments(spread: &SlopeSpread<f64>, h: [f64; 3], s: f64) -> [f64; 2] {
+    let [x, y] = spread.mean;
+    let n = unit([x, y, 1.0]);
+    // Beside it, along x, and at a right angle to both.
+    let u = unit([1.0 - n[0] * n[0], -n[0] * n[1], -n[0] * n[2]]);
+    let v = [n[1] * u[2] - n[2] * u[1], n[2] * u[0] - n[0] * u[2], n[0] * u[1] - n[1] * u[0]];
+    let [xx, xy, yy, factor] = lean_lobe(spread.covariance(1.0), s);
+    let (a, b) = (dot(h, u), dot(h, v));
+    let around = a * a + b * b;
+    let along = if around > 0.0 { (xx * a * a + 2.0 * xy * a * b + yy * b * b) / around } else { 0.0 };
+    let [even, even_factor] = toksvig(spread_length(spread.covariance(1.0)), s);
+    [factor * power(n, h, along), even_factor * power(n, h, even)]
+}
+
 /// A highlight over the whole image and over parts of it: the mean over all texels is the truth, and what one lookup makes of
-/// it is nearer with Toksvig's correction than without, and nearer still by moments.
+/// it is nearer with Toksvig's correction than without, and nearer still by moments, most of all where waves run along one axis.
 #[test]
 fn highlights_from_afar_are_nearer_with_corrected_exponents() {
     for (steep, s) in [(0.2, 30.0), (0.2, 100.0), (0.4, 30.0), (0.4, 100.0)] {
         let normals = bumps(steep);
-        let (pyramid, moments) = (Pyramid::new(normals.clone()), NormalMoments::new(&normals).expect("moments"));
+        let pyramid = Pyramid::new(normals.clone());
         let mut squares = [0.0; 4];
         let mut count = 0.0;
         for (level, tile) in [(4_usize, 16_usize), (5, 32), (6, 64)] {
@@ -79,13 +100,13 @@ fn highlights_from_afar_are_nearer_with_corrected_exponents() {
                     let length = mean.iter().map(|x| x * x).sum::<f64>().sqrt();
                     let n = unit(mean);
                     let [corrected, factor] = toksvig(length, s);
-                    let spread = moments.at(&sampling, uv, footprint);
-                    let [even, even_factor] = spread.exponent(s);
+                    let spread = SlopeSpread::seen(&pyramid, &sampling, uv, footprint);
+                    let [by_axes, by_one] = by_moments(&spread, h, s);
                     let found = [
                         power(n, h, s),
                         factor * power(n, h, corrected),
-                        even_factor * power(spread.normal(), h, even),
-                        spread.highlight(h, s),
+                        by_one,
+                        by_axes,
                     ];
                     (0..4).for_each(|kind| squares[kind] += (found[kind] - truth).powi(2));
                     count += 1.0;
@@ -99,6 +120,52 @@ fn highlights_from_afar_are_nearer_with_corrected_exponents() {
         );
         assert!(by_length < 0.6 * plain && by_trace < 0.6 * plain && by_moments < 0.5 * plain);
     }
+}
+
+/// Over waves along one axis a highlight is a streak: of one exponent it is a spot of the wrong shape.
+#[test]
+fn a_streak_needs_two_axes() {
+    let of = |x: f64, y: f64| (TAU * (7.0 * x + 3.0 * y) / 64.0).sin() + (TAU * (14.0 * x + 6.0 * y) / 64.0 + 1.0).sin();
+    let normals = from_heights(&heights(64, 64, of), [Wrap::Repeat; 2], 0.5).expect("normals");
+    let pyramid = Pyramid::new(normals.clone());
+    let whole = [[1.0, 0.0], [0.0, 1.0]];
+    let spread = SlopeSpread::seen(&pyramid, &Sampling::default(), [0.3, 0.7], whole);
+    let s = 60.0;
+    let mut squares = [0.0; 3];
+    for at in 0..169 {
+        let h = unit([f64::from(at % 13) / 12.0 - 0.5, f64::from(at / 13) / 12.0 - 0.5, 1.0]);
+        let truth = normals.texels().iter().map(|texel| power(decoded(texel.map(f64::from)), h, s)).sum::<f64>() / 4096.0;
+        let mean = decoded(pyramid.level(6)[0].map(f64::from));
+        let [exponent, factor] = toksvig(dot(mean, mean).sqrt(), s);
+        let [by_axes, by_one] = by_moments(&spread, h, s);
+        let found = [factor * power(unit(mean), h, exponent), by_one, by_axes];
+        (0..3).for_each(|kind| squares[kind] += (found[kind] - truth).powi(2));
+    }
+    let [by_length, by_one, by_axes] = squares.map(|sum: f64| (sum / 169.0).sqrt());
+    println!("a streak: RMS {by_length:.4} Toksvig, {by_one:.4} one exponent by moments, {by_axes:.4} two axes");
+    assert!(by_axes < 0.5 * by_length && by_axes < 0.5 * by_one, "{by_length}, {by_one}, {by_axes}");
+}
+
+/// The inverse of Σ + I/s, from its definition; energy is kept; what is no covariance, or beyond all numbers, is finite.
+#[test]
+fn a_lobe_is_as_wide_as_its_normals_and_its_own() {
+    for (xx, xy, yy, s) in [(0.1_f64, 0.05, 0.3, 20.0), (0.0, 0.0, 0.0, 50.0), (2.0, -1.0, 0.5, 3.0), (0.2, 0.0, 0.0, 0.0)] {
+        let [a, b, c, factor] = lean_lobe([xx, xy, yy], s);
+        // (Σ + I/s)·inverse·s = s·I.
+        let [sxx, sxy, syy] = [s * xx + 1.0, s * xy, s * yy + 1.0];
+        let product = [sxx * a + sxy * b, sxx * b + sxy * c, sxy * a + syy * b, sxy * b + syy * c];
+        let off = product.iter().zip([s, 0.0, 0.0, s]).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
+        assert!(off < 1e-12 * (1.0 + s), "{xx}, {xy}, {yy}, {s}: {product:?}");
+        assert!((factor - (sxx * syy - sxy * sxy).sqrt().recip()).abs() < 1e-12, "{factor}");
+    }
+    let [a, _, c, factor] = lean_lobe([0.1, 5.0, 0.1], 40.0);
+    assert!(a > 0.0 && c > 0.0 && factor > 0.0 && factor <= 1.0);
+    let far = slope_covariance([1.0_f32, -2.0], [250.0, 3.0, 256.0], f32::MAX);
+    assert!(lean_lobe(far, 1e4).iter().chain(&far).all(|number| number.is_finite()), "{far:?}");
+    // Rounding leaves no variance below 0, and steeper slopes have it times the square.
+    assert_eq!(slope_covariance([0.5, 0.25], [0.2, 0.125, 0.0625], 1.0), [0.0; 3]);
+    assert_eq!(slope_covariance([0.5, 0.25], [0.5, 0.25, 0.5], -2.0), [1.0, 0.5, 1.75]);
+    assert_eq!(spread_length([1.0, 7.0, 1.0]), 0.5);
 }
 
 /// The variance of slopes that a length stands for is (1 − |n|)/|n|: steeper slopes have it times the square.
@@ -126,23 +193,26 @@ fn means_of_steeper_normals_are_shorter_by_the_square() {
 fn one_normal_keeps_its_highlight() {
     assert_eq!(toksvig(1.0, 40.0), [40.0, 1.0]);
     assert!(toksvig(0.0_f64, 40.0).iter().all(|number| number.is_finite()));
-    let even = TexelImage::from_fn(4, 4, |_, _| [0.6, 0.5, 0.99, 1.0]).expect("an image");
-    let moments = NormalMoments::new(&even).expect("moments");
-    let spread = moments.at(&Sampling::default(), [0.3_f64, 0.6], [[1.0, 0.0], [0.0, 1.0]]);
-    assert!(spread.covariance.iter().all(|number| number.abs() < 1e-7), "{spread:?}");
-    // In its own direction the highlight is 1, and a little beside about the power.
-    let n = spread.normal();
-    assert!((spread.highlight(n, 200.0) - 1.0).abs() < 1e-4);
-    // Slopes of a normal that leans by 11° are apart by a little more than its angles are.
-    let h = unit([n[0] + 0.05, n[1] - 0.03, n[2]]);
-    assert!(
-        (spread.highlight(h, 200.0) - power(n, h, 200.0)).abs() < 0.03,
-        "{} {}",
-        spread.highlight(h, 200.0),
-        power(n, h, 200.0)
-    );
-    assert_eq!(spread.highlight([0.0, 0.0, -1.0], 50.0), 0.0);
+    let even = Pyramid::new(TexelImage::from_fn(4, 4, |_, _| [0.6, 0.5, 0.99, 1.0]).expect("an image"));
+    let whole = [[1.0, 0.0], [0.0, 1.0]];
+    let spread = SlopeSpread::seen(&even, &Sampling::default(), [0.3_f64, 0.6], whole);
+    let covariance = spread.covariance(1.0);
+    assert!(covariance.iter().all(|number| number.abs() < 1e-7), "{spread:?}");
+    // (x/z, y/z) of the texel, and the texel of it the same direction.
+    assert!((spread.mean[0] - 0.2 / 0.98).abs() < 1e-6 && spread.mean[1].abs() < 1e-6, "{spread:?}");
+    let n = unit(spread.texel().map(|number| 2.0 * number - 1.0));
+    assert!((dot(n, unit([0.2, 0.0, 0.98])) - 1.0).abs() < 1e-12);
+    // The power itself, in any direction.
+    for h in [n, unit([n[0] + 0.05, n[1] - 0.03, n[2]])] {
+        let [by_axes, by_one] = by_moments(&spread, h, 200.0);
+        assert!((by_axes - power(n, h, 200.0)).abs() < 1e-4 && (by_one - power(n, h, 200.0)).abs() < 1e-4);
+    }
     // f32 is near f64.
-    let single = moments.at(&Sampling::default(), [0.3_f32, 0.6], [[1.0, 0.0], [0.0, 1.0]]);
-    assert!((f64::from(single.highlight(h.map(|x| x as f32), 200.0)) - spread.highlight(h, 200.0)).abs() < 1e-3);
+    let single = SlopeSpread::seen(&even, &Sampling::default(), [0.3_f32, 0.6], whole.map(|way| way.map(|x| x as f32)));
+    assert!(single.covariance(1.0).iter().all(|number| number.abs() < 1e-6), "{single:?}");
+    // Of normals that lie flat, or point inward, slopes are kept within 16.
+    let flat = Pyramid::new(TexelImage::from_fn(2, 1, |x, _| [x as f32, 0.5, 0.3, 1.0]).expect("an image"));
+    let [slopes, squares] = flat.moments();
+    assert_eq!((slopes.level(0)[0], slopes.level(0)[1]), ([-16.0, 0.0, 0.0, 1.0], [16.0, 0.0, 0.0, 1.0]));
+    assert_eq!((slopes.level(1)[0][0], squares.level(1)[0]), (0.0, [256.0, 0.0, 0.0, 1.0]));
 }

@@ -43,10 +43,10 @@ pub use environment::{lobe_angle, lobe_exponent, mean_light, mirrored, surroundi
 pub use falloff::{ATTENUATION_MAX, ConeTerms, attenuation, range_window, spot_factor};
 pub use normal::{NORMAL_MIN, normal_matrix, transform_normal};
 pub use reflectance::{
-    HALFWAY_MIN, diffuse_term, face_forward, half_vector, interpolated_normal, power, reflect, side_normal,
-    specular_blinn_phong, specular_exponent, specular_phong, specular_term,
+    HALFWAY_MIN, axial_exponent, diffuse_term, face_forward, half_vector, interpolated_normal, power, reflect,
+    side_normal, specular_blinn_phong, specular_exponent, specular_phong, specular_term,
 };
-pub use relief::{bumped_normal, mapped_normal};
+pub use relief::{bumped_normal, lobe_axes, mapped_normal};
 pub use scene::{Coefficients, Eye, Light, Place, ShadedPoint, rgb};
 pub use shade::{
     COINCIDENT, Incidence, Irradiance, LightTerms, incidence, irradiance, light_contribution, light_terms, reflected,

@@ -1,6 +1,6 @@
 //! Normals that images turn.
 
-use super::vector::{add, cross, dot, length, normalize, scale, sub};
+use super::vector::{add, cross, dot, length, normalize, normalize_or_zero, scale, sub};
 use super::{NORMAL_MIN, Real};
 
 /// The unit normal that a texel of a normal map names: x·t + y·w·(n × t) + z·n for (x, y, z) = (2c − 1)·(s, s, 1).
@@ -14,6 +14,14 @@ pub fn mapped_normal<T: Real>(n: [T; 3], t: [T; 3], w: T, texel: [T; 3], s: T, o
     let b = scale(cross(n, t), w);
     let sum = add(add(scale(t, x * s), scale(b, y * s)), scale(n, z));
     if length(n) > T::of(NORMAL_MIN.into()) { normalize(sum).unwrap_or(otherwise) } else { otherwise }
+}
+
+/// The ways along which the normals of an image lie apart: perpendicular to n, a unit normal of the image. The first is t
+/// as far as it is so, at unit length, or 0 where nothing is left of it; the second w·(n × that). t and w are as in
+/// [`mapped_normal`].
+pub fn lobe_axes<T: Real>(n: [T; 3], t: [T; 3], w: T) -> [[T; 3]; 2] {
+    let along = normalize_or_zero(sub(t, scale(n, dot(n, t))));
+    [along, scale(cross(n, along), w)]
 }
 
 /// The unit normal of a surface that is raised along its normals, by its slope alone (Blinn 1978, "Simulation of wrinkled
@@ -90,6 +98,19 @@ mod tests {
         close(of([1.0, 0.5, 1.0], 1.0, 0.0), n);
         close(of([0.5, 0.5, 0.5], 1.0, 1.0), n);
         close(mapped_normal([0.0; 3], t, 1.0, [1.0, 0.5, 1.0], 1.0, n), n);
+    }
+
+    #[test]
+    fn axes_lie_beside_the_normal() {
+        let n = normalize([0.3_f64, -0.2, 1.0]).expect("a normal");
+        let [u, v] = lobe_axes(n, [0.9, 0.1, 0.4], 1.0);
+        assert!(dot(u, n).abs() < 1e-12 && dot(v, n).abs() < 1e-12 && dot(u, v).abs() < 1e-12);
+        assert!((length(u) - 1.0).abs() < 1e-12 && (length(v) - 1.0).abs() < 1e-12 && u[0] > 0.9);
+        close(cross(u, v), n);
+        let [same, mirrored] = lobe_axes(n, [0.9, 0.1, 0.4], -1.0);
+        close(same, u);
+        close(mirrored, v.map(|x| -x));
+        assert_eq!(lobe_axes(n, [0.0; 3], 1.0), [[0.0; 3]; 2]);
     }
 
     #[test]

@@ -1,9 +1,12 @@
 //! What the images on an object, and the solid that it is cut from, have where it is seen.
 
 use bevy_math::{DVec3, DVec4};
-use halfway_lighting::equations::{bumped_normal, mapped_normal};
+use halfway_lighting::equations::vector::add;
+use halfway_lighting::equations::{
+    Coefficients, Eye, Light, ShadedPoint, axial_exponent, bumped_normal, incidence, lobe_axes, mapped_normal, view_vector,
+};
 use halfway_lighting::{Frequency, Reflectance};
-use halfway_texture::normals::{mean_length, toksvig};
+use halfway_texture::normals::{SlopeSpread, lean_lobe, mean_length, spread_length, toksvig};
 use halfway_texture::{FarNormals, MapKind, lookup};
 
 use super::gather::OracleScene;
@@ -15,6 +18,44 @@ use super::solid::{Color, Solid};
 struct PointOnMap {
     uv: [f64; 2],
     footprint: [[f64; 2]; 2],
+}
+
+/// How highlights spread about a normal: see [`axial_exponent`].
+pub(super) struct Spread {
+    axes: [Color; 2],
+    widths: Color,
+}
+
+impl Spread {
+    /// The material as a light's highlight takes it.
+    pub(super) fn toward(
+        &self,
+        light: &Light<f64>,
+        surface: &ShadedPoint<f64>,
+        viewer: &Eye<f64>,
+        material: &Coefficients<f64>,
+    ) -> Coefficients<f64> {
+        let h = add(incidence(surface, light).l, view_vector(surface, viewer));
+        Coefficients { shininess: axial_exponent(self.axes, self.widths, h, material.shininess), ..*material }
+    }
+}
+
+/// How many times as far as the image's normals what highlights go by turns: what is mirrored turns twice as far.
+fn turned(solid: &Solid, map: &SolidMap) -> f64 {
+    if solid.reflectance == Reflectance::Phong { 2.0 * map.amount } else { map.amount }
+}
+
+impl PointOnMap {
+    /// A normal as its texel, each number from 0 to 1.
+    fn normal(&self, map: &SolidMap) -> Color {
+        let [r, g, b, _] = lookup::filtered(&map.pyramid, &map.sampling, self.uv, self.footprint);
+        [r, g, b].map(|number| number.clamp(0.0, 1.0))
+    }
+
+    /// The slopes of normals.
+    fn slopes(&self, map: &SolidMap) -> SlopeSpread<f64> {
+        SlopeSpread::seen(&map.pyramid, &map.sampling, self.uv, self.footprint)
+    }
 }
 
 impl OracleScene {
@@ -47,10 +88,9 @@ impl OracleScene {
         let (Some(maps), Some((triangle, weights))) = (&solid.maps, hit.on_triangle()) else { return otherwise };
         let vertices = solid.vertices(triangle);
         if let Some((map, place)) = self.looked_up(hit, MapKind::Normal) {
-            let texel = lookup::filtered(&map.pyramid, &map.sampling, place.uv, place.footprint);
-            let [r, g, b, _] = texel.map(|number| number.clamp(0.0, 1.0));
-            let t: DVec4 = (0..3).map(|i| maps.tangents[vertices[i]] * weights[i]).sum();
-            return mapped_normal(n, t.truncate().to_array(), t.w, [r, g, b], map.amount, otherwise);
+            let texel = if map.far_normals == FarNormals::Lean { place.slopes(map).texel() } else { place.normal(map) };
+            let (t, w) = maps.tangent(vertices, weights);
+            return mapped_normal(n, t, w, texel, map.amount, otherwise);
         }
         let Some((map, place)) = self.looked_up(hit, MapKind::Height) else { return otherwise };
         let d = lookup::level(map.pyramid.size(), place.footprint);
@@ -67,14 +107,31 @@ impl OracleScene {
         let solid = &self.solids[hit.solid];
         let exponent = exponent * self.factor_of_one(hit, MapKind::Shininess);
         let looked_up = self.looked_up(hit, MapKind::Normal).filter(|_| solid.terms.has(Frequency::Fragment));
-        let Some((map, place)) = looked_up.filter(|(map, _)| map.far_normals == FarNormals::Toksvig) else {
-            return [exponent, 1.0];
-        };
-        let texel = lookup::filtered(&map.pyramid, &map.sampling, place.uv, place.footprint);
-        let [r, g, b, _] = texel.map(|number| number.clamp(0.0, 1.0));
-        // What is mirrored turns twice as far.
-        let turned = if solid.reflectance == Reflectance::Phong { 2.0 * map.amount } else { map.amount };
-        toksvig(mean_length([r, g, b], turned), exponent)
+        let Some((map, place)) = looked_up else { return [exponent, 1.0] };
+        match map.far_normals {
+            FarNormals::Mean => [exponent, 1.0],
+            FarNormals::Toksvig => toksvig(mean_length(place.normal(map), turned(solid, map)), exponent),
+            FarNormals::Lean => {
+                let covariance = place.slopes(map).covariance(turned(solid, map));
+                let [.., factor] = lean_lobe(covariance, exponent);
+                let [even, _] = toksvig(spread_length(covariance), exponent);
+                [even, factor]
+            }
+        }
+    }
+
+    /// How highlights spread about a normal of the front, of a material with this exponent; `None` where they are round.
+    pub(super) fn spread(&self, hit: &Hit, n: Color, exponent: f64) -> Option<Spread> {
+        let solid = &self.solids[hit.solid];
+        let (maps, (triangle, weights)) = (solid.maps.as_ref()?, hit.on_triangle()?);
+        let (map, place) = self.looked_up(hit, MapKind::Normal)?;
+        if map.far_normals != FarNormals::Lean {
+            return None;
+        }
+        let exponent = exponent * self.factor_of_one(hit, MapKind::Shininess);
+        let [aa, ab, bb, _] = lean_lobe(place.slopes(map).covariance(turned(solid, map)), exponent);
+        let (t, w) = maps.tangent(solid.vertices(triangle), weights);
+        Some(Spread { axes: lobe_axes(n, t, w), widths: [aa, ab, bb] })
     }
 
     /// The image of a kind, and where on it a hit lies.

@@ -87,6 +87,12 @@ impl SolidMaps {
 }
 
 impl SolidMaps {
+    /// The tangent at a point of a triangle of these vertices, not of length 1, and w.
+    pub(super) fn tangent(&self, vertices: [usize; 3], weights: [f64; 3]) -> ([f64; 3], f64) {
+        let t: DVec4 = (0..3).map(|i| self.tangents[vertices[i]] * weights[i]).sum();
+        (t.truncate().to_array(), t.w)
+    }
+
     pub(super) fn has(&self, kind: MapKind) -> bool {
         self.slots[kind as usize].is_some()
     }

@@ -9,6 +9,7 @@ use halfway_lighting::{Frequency, Reflectance};
 use halfway_texture::MapKind;
 
 use super::gather::OracleScene;
+use super::mapped::Spread;
 use super::raster::{Hit, HitPoint};
 use super::solid::{Color, Parts, Solid};
 
@@ -22,7 +23,9 @@ impl OracleScene {
         let unlit = Parts { ambient: mul(material.ka, self.ambient), ..Parts::default() };
         let lit = match hit.place {
             HitPoint::Triangle(triangle, weights) => self.on_triangle(solid, hit, &material, triangle, weights),
-            HitPoint::Surface { p, n } => self.lit(solid, hit.front, &material, p, n.to_array(), Frequency::Fragment),
+            HitPoint::Surface { p, n } => {
+                self.lit(solid, hit.front, (&material, None), p, n.to_array(), Frequency::Fragment)
+            }
         };
         let [of_normal, of_mirror] = self.surrounded(hit, &material);
         let around = Parts { ambient: of_normal, diffuse: [0.0; 3], specular: of_mirror };
@@ -71,7 +74,7 @@ impl OracleScene {
         let mut i = Parts::default();
         if solid.terms.has(Frequency::Triangle) {
             let centroid = (corners[0] + corners[1] + corners[2]) / 3.0;
-            let of_triangle = || self.lit(solid, front, material, centroid, geometric(), Frequency::Triangle);
+            let of_triangle = || self.lit(solid, front, (material, None), centroid, geometric(), Frequency::Triangle);
             i = i.plus(*shaded[triangle as usize].get_or_init(of_triangle));
         }
         if solid.terms.has(Frequency::Vertex) {
@@ -79,7 +82,7 @@ impl OracleScene {
                 let (p, n) = (solid.corners[number], solid.normals[number].to_array());
                 let color = solid.colors.as_ref().map_or(DVec3::ONE, |colors| colors[number].truncate());
                 let material = || solid.side(front).coefficients.tinted(color.to_array());
-                *shaded[number].get_or_init(|| self.lit(solid, front, &material(), p, n, Frequency::Vertex))
+                *shaded[number].get_or_init(|| self.lit(solid, front, (&material(), None), p, n, Frequency::Vertex))
             };
             let of_vertices = solid.vertices(triangle).map(of_vertex);
             let mean = |of: fn(&Parts) -> Color| {
@@ -94,14 +97,16 @@ impl OracleScene {
         if solid.terms.has(Frequency::Fragment) {
             let n = mixed(solid.vertices(triangle).map(|number| solid.normals[number]), weights).to_array();
             let n = self.relief(hit, n, interpolated_normal(n, geometric()));
-            let mut material = *material;
+            let (mut material, mut spread) = (*material, None);
             if solid.has_exponents_of_images() {
                 // They change the exponent, which is matched before.
-                let exponent = specular_exponent(solid.reflectance, material.shininess);
-                let [exponent, factor] = self.gloss(hit, exponent);
+                let matched = specular_exponent(solid.reflectance, material.shininess);
+                let [exponent, factor] = self.gloss(hit, matched);
+                spread = self.spread(hit, n, matched);
                 (material.shininess, material.ks) = (exponent, scale(material.ks, factor));
             }
-            i = i.plus(self.lit(solid, front, &material, mixed(corners, weights), n, Frequency::Fragment));
+            let p = mixed(corners, weights);
+            i = i.plus(self.lit(solid, front, (&material, spread.as_ref()), p, n, Frequency::Fragment));
         }
         i
     }
@@ -113,7 +118,7 @@ impl OracleScene {
         &self,
         solid: &Solid,
         front: bool,
-        material: &Coefficients<f64>,
+        (material, spread): (&Coefficients<f64>, Option<&Spread>),
         p: DVec3,
         n: [f64; 3],
         at: Frequency,
@@ -126,7 +131,8 @@ impl OracleScene {
         };
         let surface = ShadedPoint { position: p.to_array(), normal: side_normal(n, front) };
         self.lights.iter().fold(Parts::default(), |mut i, light| {
-            let terms = light_terms(&surface, material, light, &self.viewer, reflectance);
+            let material = spread.map_or(*material, |spread| spread.toward(light, &surface, &self.viewer, material));
+            let terms = light_terms(&surface, &material, light, &self.viewer, reflectance);
             if solid.terms.diffuse == at {
                 i.diffuse = add(i.diffuse, terms.diffuse);
                 if light.attenuate_ambient {

@@ -176,7 +176,7 @@ impl Solid {
 
     /// Whether images change the exponent of highlights.
     pub(super) fn has_exponents_of_images(&self) -> bool {
-        self.maps.as_ref().is_some_and(|maps| maps.has(MapKind::Shininess) || maps.far_normals() == FarNormals::Toksvig)
+        self.maps.as_ref().is_some_and(|maps| maps.has(MapKind::Shininess) || maps.far_normals() != FarNormals::Mean)
     }
 
     pub(super) fn side(&self, front: bool) -> &Side {

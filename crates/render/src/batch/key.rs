@@ -98,12 +98,21 @@ impl MapLooks {
 
     /// Whether highlights take how long the mean of normals is.
     pub(crate) fn take_lengths(&self) -> bool {
-        self.0[MapKind::Normal as usize].is_some_and(|look| look.far_normals == FarNormals::Toksvig)
+        self.far_normals() == FarNormals::Toksvig
+    }
+
+    /// Whether highlights take how far the slopes of normals lie apart.
+    pub(crate) fn take_moments(&self) -> bool {
+        self.far_normals() == FarNormals::Lean
+    }
+
+    fn far_normals(&self) -> FarNormals {
+        self.0[MapKind::Normal as usize].map_or(FarNormals::Mean, |look| look.far_normals)
     }
 
     /// Whether they change the exponent of highlights.
     pub(crate) fn change_exponents(&self) -> bool {
-        self.has(MapKind::Shininess) || self.take_lengths()
+        self.has(MapKind::Shininess) || self.far_normals() != FarNormals::Mean
     }
 
     pub(crate) fn is_empty(&self) -> bool {
@@ -150,6 +159,7 @@ impl fmt::Display for DrawKey {
             (self.inside_out, "inside_out"),
             (self.surrounded, "surrounded"),
             (self.maps.take_lengths(), "toksvig"),
+            (self.maps.take_moments(), "lean"),
         ] {
             if on {
                 write!(f, " {name}")?;

@@ -140,7 +140,7 @@ impl PaintedObject {
         let color = largest(MapKind::Color, colors);
         let occlusion = largest(MapKind::Occlusion, |look| [look.channel as usize; 3]);
         let lean = match of(MapKind::Normal) {
-            _ if self.looks.has(MapKind::Height) => Lean::Any,
+            _ if self.looks.has(MapKind::Height) || self.looks.take_moments() => Lean::Any,
             Some((_, amount, range)) => Lean::of(amount, range),
             None => Lean::Within(0.0),
         };

@@ -8,7 +8,7 @@ use bevy_asset::{AssetId, Assets};
 use bevy_math::Vec3;
 use bevy_platform::collections::HashMap;
 use halfway_mesh::Mesh;
-use halfway_texture::{ImageForm, MapKind, Pyramid, SolidKind, SolidTexture, SurfaceMap, Texture, UvTransform};
+use halfway_texture::{FarNormals, ImageForm, MapKind, Pyramid, SolidKind, SolidTexture, SurfaceMap, Texture, UvTransform};
 use std::sync::OnceLock;
 
 /// What repeats among objects, numbered, so that objects compare by small integers.
@@ -40,6 +40,8 @@ pub(crate) struct MapUse {
     pub(crate) texture: AssetId<Texture>,
     /// What of the image its filter reads.
     pub(crate) form: ImageForm,
+    /// Whether its moments are read, and not the image itself.
+    pub(crate) moments: bool,
     transform: UvTransform,
     pub(crate) amount: f32,
 }
@@ -65,7 +67,7 @@ pub(crate) struct MapsUse {
 
 /// The same as a key.
 pub(crate) type MapsBits =
-    ([Option<(AssetId<Texture>, ImageForm, [u32; 6], u32)>; MapKind::COUNT], u32, Option<SolidBits>);
+    ([Option<(AssetId<Texture>, ImageForm, bool, [u32; 6], u32)>; MapKind::COUNT], u32, Option<SolidBits>);
 pub(crate) type SolidBits = (SolidKind, u32, [[u32; 4]; 3], [[u32; 3]; 2]);
 
 impl MapsUse {
@@ -73,6 +75,7 @@ impl MapsUse {
         let of = |slot: usize, map: &SurfaceMap| MapUse {
             texture: map.texture.id(),
             form: levels_taken(MapKind::ALL[slot], map.sampling.levels).form(),
+            moments: MapKind::ALL[slot] == MapKind::Normal && map.far_normals == FarNormals::Lean,
             transform: map.transform,
             amount: map.amount,
         };
@@ -80,7 +83,7 @@ impl MapsUse {
     }
 
     pub(crate) fn bits(&self) -> MapsBits {
-        let bits = |of: MapUse| (of.texture, of.form, bytemuck::cast(of.rows()), of.amount.to_bits());
+        let bits = |of: MapUse| (of.texture, of.form, of.moments, bytemuck::cast(of.rows()), of.amount.to_bits());
         let of_solid = |SolidTexture { kind, octaves, solid_from_object, colors }: SolidTexture| {
             let rows = solid_from_object.map(|row| row.map(f32::to_bits));
             (kind, octaves, rows, colors.map(|color| color.map(f32::to_bits)))

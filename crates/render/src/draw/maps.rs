@@ -15,10 +15,49 @@ use halfway_texture::{ImageForm, MapKind, Pyramid, Texture};
 /// The images that have been drawn, until they change or go, and the bindings of the frame's uses of them.
 #[derive(Default)]
 pub(crate) struct MapTextures {
-    textures: HashMap<(AssetId<Texture>, ImageForm), MapTexture>,
+    textures: HashMap<(AssetId<Texture>, ImageForm, Part), MapTexture>,
     groups: Vec<(MapsUse, Pyramids, wgpu::BindGroup)>,
     /// What is bound where there is no image.
     none: Option<wgpu::TextureView>,
+}
+
+/// What of an image is sent.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+enum Part {
+    Texels,
+    /// Of normals.
+    Slopes,
+    /// Of slopes with each other.
+    Products,
+}
+
+impl Part {
+    fn of(self, pyramid: &Pyramid) -> &Pyramid {
+        match self {
+            Self::Texels => pyramid,
+            Self::Slopes => &pyramid.moments()[0],
+            Self::Products => &pyramid.moments()[1],
+        }
+    }
+}
+
+/// The images that a set binds, each with its use: of normals of which the moments are read the slopes in their own slot, and
+/// their products in that of heights, of which there are none beside normals.
+fn bound<'a>(
+    of: &'a MapsUse,
+    pyramids: &'a Pyramids,
+) -> impl Iterator<Item = Option<(&'a MapUse, &'a Pyramid, Part)>> {
+    let [normal, height] = [MapKind::Normal as usize, MapKind::Height as usize];
+    let moments = of.slots[normal].is_some_and(|of| of.moments);
+    (0..MapKind::COUNT).map(move |slot| {
+        let (from, part) = match slot {
+            _ if !moments => (slot, Part::Texels),
+            _ if slot == normal => (normal, Part::Slopes),
+            _ if slot == height => (normal, Part::Products),
+            _ => (slot, Part::Texels),
+        };
+        Some((of.slots[from].as_ref()?, pyramids[from].as_ref()?, part))
+    })
 }
 
 /// The images of a set, as they were when it was bound.
@@ -40,7 +79,7 @@ impl MapTextures {
         textures: &Assets<Texture>,
         report: &mut FrameReport,
     ) {
-        self.textures.retain(|&(id, _), _| {
+        self.textures.retain(|&(id, ..), _| {
             textures.contains(id) || used.iter().any(|of| of.slots.iter().flatten().any(|of| of.texture == id))
         });
         for (number, of) in used.iter().enumerate() {
@@ -85,14 +124,14 @@ impl MapTextures {
         let mut bytes = PLACINGS_BYTES;
         let mut record = PlacingsRecord { cutoff: [of.cutoff, 0.0, 0.0, 0.0], ..PlacingsRecord::default() };
         let mut views = Vec::with_capacity(MapKind::COUNT);
-        for (slot, (of, pyramid)) in of.slots.iter().zip(pyramids).enumerate() {
-            let (Some(of), Some(pyramid)) = (of, pyramid) else {
+        for (slot, bound) in bound(of, pyramids).enumerate() {
+            let Some((of, pyramid, part)) = bound else {
                 views.push(self.none(gpu)?);
                 continue;
             };
-            let (view, sent) = self.view(gpu, of, pyramid)?;
+            let (view, sent) = self.view(gpu, of, pyramid, part)?;
             let width = view.texture().width();
-            record.each[slot] = PlacingRecord::new(of.rows(), of.amount, (pyramid, of.form), width);
+            record.each[slot] = PlacingRecord::new(of.rows(), of.amount, (part.of(pyramid), of.form), width);
             bytes += sent;
             views.push(view);
         }
@@ -114,12 +153,18 @@ impl MapTextures {
     }
 
     /// An image on the GPU, and how many bytes had to be sent.
-    fn view(&mut self, gpu: &Gpu, of: &MapUse, pyramid: &Pyramid) -> Result<(wgpu::TextureView, u64), RenderError> {
-        let key = (of.texture, of.form);
+    fn view(
+        &mut self,
+        gpu: &Gpu,
+        of: &MapUse,
+        pyramid: &Pyramid,
+        part: Part,
+    ) -> Result<(wgpu::TextureView, u64), RenderError> {
+        let key = (of.texture, of.form, part);
         if let Some(there) = self.textures.get(&key).filter(|there| there.pyramid.is_same(pyramid)) {
             return Ok((there.view.clone(), 0));
         }
-        let texels = stored(pyramid, of.form);
+        let texels = stored(part.of(pyramid), of.form);
         let what = match of.form {
             ImageForm::Pyramid => "an image with its pyramid",
             ImageForm::Ripmap => "an image with its ripmap",

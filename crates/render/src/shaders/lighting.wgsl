@@ -10,6 +10,7 @@ override SHARED_COLOR: bool = false;        // every light's specular color is i
 override SPECULAR: bool = true;             // some highlight is shaded, in this stage or the other
 override RANGED: bool = true;               // some light has a range
 override SQUARINGS: i32 = -1;               // the shininess is 2^SQUARINGS; -1: read it and take a power
+override LEAN: bool = false;                // highlights have two axes: those of `spread`
 
 // Which of a light's terms are shaded; the others are shaded in the other stage, or cannot be seen. Ambient goes with
 // diffuse.
@@ -169,11 +170,33 @@ fn specular_blinn_phong(n: vec3f, l: vec3f, v: vec3f, beta: f32) -> f32 {
     return select(0.0, s, (squared > shortest) & (dot(n, l) > 0.0));
 }
 
+// The exponent of a highlight that is not round, toward the halfway direction h, of any length.
+fn axial_exponent(axes: mat2x3f, widths: vec3f, h: vec3f, otherwise: f32) -> f32 {
+    let a = dot(h, axes[0]);
+    let b = dot(h, axes[1]);
+    let squared = a * a + b * b;
+    let along = widths.x * a * a + 2.0 * widths.y * a * b + widths.z * b * b;
+    return select(max(along / max(squared, 1e-30), 0.0), otherwise, squared <= 1e-30);
+}
+
+// The axes of a fragment's highlights, perpendicular to its normal, and the inverse of how wide they are, as axial_exponent
+// takes them. Where nothing sets it highlights are round.
+struct Spread {
+    axes: mat2x3f,
+    widths: vec3f,
+}
+
+var<private> spread: Spread;
+
 fn specular_term(n: vec3f, l: vec3f, v: vec3f, shininess: f32) -> f32 {
-    if BLINN_PHONG {
-        return specular_blinn_phong(n, l, v, shininess);
+    var exponent = shininess;
+    if LEAN {
+        exponent = axial_exponent(spread.axes, spread.widths, l + v, shininess);
     }
-    return specular_phong(n, l, v, shininess);
+    if BLINN_PHONG {
+        return specular_blinn_phong(n, l, v, exponent);
+    }
+    return specular_phong(n, l, v, exponent);
 }
 
 // What one light brings to a point.

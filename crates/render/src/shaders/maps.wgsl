@@ -11,6 +11,8 @@ override OCCLUSION_MAP: u32 = 65535;
 override NORMAL_MAP: u32 = 65535;
 override HEIGHT_MAP: u32 = 65535;
 override TOKSVIG: bool = false;        // highlights take how long the mean of the normals of an image is
+// LEAN, of lighting.wgsl: highlights take how far the slopes of an image's normals lie apart. NORMAL_MAP then looks up two
+// images: the slopes in place of the normals, and in place of the heights their products.
 override MASKED: bool = false;         // what has an opacity below the cutoff is not there
 override TANGENT_SIGN: f32 = 1;        // -1 where the surface is lit inside out
 override BITANGENT_SIGN: f32 = 1;      // -1 where fronts wind clockwise
@@ -231,6 +233,11 @@ fn mapped_normal(n: vec3f, t: vec3f, w: f32, texel: vec3f, s: f32, otherwise: ve
     return select(otherwise, turned, length(n) > NORMAL_MIN && dot(turned, turned) > 0.0);
 }
 
+fn lobe_axes(n: vec3f, t: vec3f, w: f32) -> mat2x3f {
+    let along = normalize_or_zero(t - n * dot(n, t));
+    return mat2x3f(along, w * cross(n, along));
+}
+
 fn bumped_normal(n: vec3f, m: vec3f, e1: vec3f, e2: vec3f, rises: vec2f, otherwise: vec3f) -> vec3f {
     let size = length(n);
     if size <= NORMAL_MIN {
@@ -252,6 +259,25 @@ fn bumped_normal(n: vec3f, m: vec3f, e1: vec3f, e2: vec3f, rises: vec2f, otherwi
 fn mean_length(texel: vec3f, s: f32) -> f32 {
     let found = length(2.0 * texel - 1.0);
     return select(found / max(found + s * s * (1.0 - found), MIN_POSITIVE), 1.0, found >= 1.0);
+}
+
+fn slope_covariance(mean: vec2f, squares: vec3f, s: f32) -> vec3f {
+    let within = clamp(s, -1e6, 1e6);
+    let xx = max(squares.x - mean.x * mean.x, 0.0);
+    let yy = max(squares.z - mean.y * mean.y, 0.0);
+    return within * within * vec3f(xx, squares.y - mean.x * mean.y, yy);
+}
+
+fn spread_length(covariance: vec3f) -> f32 {
+    return 1.0 / (1.0 + 0.5 * (covariance.x + covariance.z));
+}
+
+fn lean_lobe(covariance: vec3f, s: f32) -> vec4f {
+    let wide = clamp(s * covariance, vec3f(-1e12), vec3f(1e12));
+    let xx = wide.x + 1.0;
+    let yy = wide.z + 1.0;
+    let determinant = max(xx * yy - wide.y * wide.y, xx + yy - 1.0);
+    return vec4f(s / determinant * vec3f(yy, -wide.y, xx), inverseSqrt(determinant));
 }
 
 fn toksvig(mean: f32, exponent: f32) -> vec2f {

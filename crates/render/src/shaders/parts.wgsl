@@ -172,13 +172,22 @@ fn mixed_parts(in: Mixed, front: bool) -> MixedParts {
     let is_front = front || !TWO_SIDED;
     var n = fragment_normal(in.p, in.n, front);
     var mean = 1.0;
-    if NORMAL_MAP != NO_MAP {
+    var covariance = vec3f();
+    let amount = placings.each[6].row0.w;
+    // What is mirrored turns twice as far.
+    let turns = select(2.0 * amount, amount, BLINN_PHONG);
+    if LEAN {
+        let slopes = at_footprint(normal_image, 6u, NORMAL_MAP, c).xy;
+        let squares = at_footprint(height_image, 7u, NORMAL_MAP, c).xyz;
+        n = mapped_normal(in.n, in.frame.xyz, in.frame.w, vec3f(0.5 * slopes + 0.5, 1.0), amount, n);
+        covariance = slope_covariance(slopes, squares, turns);
+        mean = spread_length(covariance);
+        spread.axes = lobe_axes(n, in.frame.xyz, in.frame.w);
+    } else if NORMAL_MAP != NO_MAP {
         let texel = filtered(normal_image, 6u, NORMAL_MAP, c);
-        let amount = placings.each[6].row0.w;
         n = mapped_normal(in.n, in.frame.xyz, in.frame.w, texel.xyz, amount, n);
         if TOKSVIG {
-            // What is mirrored turns twice as far.
-            mean = mean_length(texel.xyz, select(2.0 * amount, amount, BLINN_PHONG));
+            mean = mean_length(texel.xyz, turns);
         }
     } else if HEIGHT_MAP != NO_MAP {
         let along = gradient(height_image, 7u, HEIGHT_MAP, place_on(7u, HEIGHT_MAP, c), level_on(7u, HEIGHT_MAP, c));
@@ -201,11 +210,15 @@ fn mixed_parts(in: Mixed, front: bool) -> MixedParts {
         exponent *= channel_of(SHININESS_MAP, factor(shininess_image, 4u, SHININESS_MAP, c));
     }
     var far = vec2f(exponent, 1.0);
-    if TOKSVIG {
+    if LEAN {
+        let lobe = lean_lobe(covariance, exponent);
+        spread.widths = lobe.xyz;
+        far = vec2f(toksvig(mean, exponent).x, lobe.w);
+    } else if TOKSVIG {
         far = toksvig(mean, exponent);
     }
     var terms = fragment_terms(in.p, n, far.x, record);
-    if TOKSVIG {
+    if LEAN || TOKSVIG {
         terms.specular *= far.y;
     }
     var sums = parts(terms, material, color.rgb);

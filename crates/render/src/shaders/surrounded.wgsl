@@ -14,7 +14,7 @@ fn surrounded(
     if SHININESS_MAP != NO_MAP {
         exponent *= channel_of(SHININESS_MAP, factor(shininess_image, 4u, SHININESS_MAP, c));
     }
-    if TOKSVIG {
+    if LEAN || TOKSVIG {
         exponent = toksvig(mean, exponent).x;
     }
     let arriving = surroundings_of(n, view_vector(p, n), lobe_exponent(BLINN_PHONG, exponent));

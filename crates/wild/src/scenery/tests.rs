@@ -59,7 +59,7 @@ fn every_key_and_word_of_the_format_is_drawn() {
     let of_maps =
         ["maps", "color", "specular", "emission", "opacity", "shininess", "occlusion", "normal", "height", "mask"];
     let of_texels = ["uv_set", "first", "second", "channel", "red", "green", "blue", "alpha", "amount"];
-    let of_normals = ["far_normals", "mean", "toksvig"];
+    let of_normals = ["far_normals", "mean", "toksvig", "lean"];
     let of_images = ["wrap_u", "wrap_v", "repeat", "mirror", "magnify", "minify", "nearest", "bilinear"];
     let of_filters = ["b_spline", "catmull_rom", "levels", "none", "linear", "offset"];
     let by_shape =
