@@ -332,7 +332,12 @@ fn every_kind_of_image_conforms() {
 
 #[test]
 fn highlights_of_far_normals_conform() {
-    conform_within("far normals", &maps::rows_of_far_normals(), STEPS_OF_FAR_NORMALS);
+    conform_within("far normals", &maps::rows_of_far_normals(FarNormals::Toksvig), STEPS_OF_FAR_NORMALS);
+}
+
+#[test]
+fn highlights_of_moments_conform() {
+    conform_within("moments", &maps::rows_of_far_normals(FarNormals::Lean), STEPS_OF_FAR_NORMALS);
 }
 
 /// Of images from afar 1/16 pixel is half a texel: `SwiftShader` is off by up to 2.8e-2 of the range.
@@ -340,22 +345,25 @@ const STEPS_OF_FAR_NORMALS: f64 = 8.0;
 
 /// Also by what a grid of 1/16 pixel is allowed.
 #[test]
-fn highlights_by_the_mean_of_far_normals_alone_are_found_out() {
+fn highlights_of_other_far_normals_are_found_out() {
+    use FarNormals::{Lean, Mean, Toksvig};
     let mut stage = Stage::new(SIZE.x, SIZE.y);
-    let mut rows = maps::rows_of_far_normals();
-    rows.retain(|row| row.name.ends_with("Phong, 4 times"));
-    assert_eq!(rows.len(), 4, "with shininess and without");
-    for Row { name, scene, .. } in &rows {
-        let mut mean = scene.clone();
-        let normals = mean.things.iter_mut().flat_map(|thing| &mut thing.maps);
-        normals.for_each(|(_, map)| map.far_normals = FarNormals::Mean);
-        let picture = stage.draw(&mean);
-        stage.set(scene);
-        stage.frame();
-        let truth = stage.oracle();
-        let bars = FLOAT.within(STEPS_OF_FAR_NORMALS);
-        let verdict = judge(&truth, &truth.draw(), &Image::from_float(&picture), bars).expect("one size");
-        assert!(!verdict.is_within(), "{name}: {verdict}");
+    for (right, wrong) in [(Toksvig, Mean), (Lean, Mean), (Lean, Toksvig)] {
+        let mut rows = maps::rows_of_far_normals(right);
+        rows.retain(|row| row.name.ends_with("Phong, 4 times"));
+        assert_eq!(rows.len(), 4, "with shininess and without");
+        for Row { name, scene, .. } in &rows {
+            let mut other = scene.clone();
+            let normals = other.things.iter_mut().flat_map(|thing| &mut thing.maps);
+            normals.for_each(|(_, map)| map.far_normals = wrong);
+            let picture = stage.draw(&other);
+            stage.set(scene);
+            stage.frame();
+            let truth = stage.oracle();
+            let bars = FLOAT.within(STEPS_OF_FAR_NORMALS);
+            let verdict = judge(&truth, &truth.draw(), &Image::from_float(&picture), bars).expect("one size");
+            assert!(!verdict.is_within(), "{name}, {wrong:?} for {right:?}: {verdict}");
+        }
     }
 }
 

@@ -147,9 +147,11 @@ pub(super) fn rows_of_maps() -> Vec<Row> {
             shade(&mut scene);
             rows.push(Row::new(format!("environment, {}, {shading}", kind.name()), scene.clone()));
             if kind == MapKind::Normal {
-                let mut scene = scene;
-                scene.things.iter_mut().for_each(|thing| thing.maps[0].1.far_normals = FarNormals::Toksvig);
-                rows.push(Row::new(format!("environment, far normals, {shading}"), scene));
+                for far in [FarNormals::Toksvig, FarNormals::Lean] {
+                    let mut scene = scene.clone();
+                    scene.things.iter_mut().for_each(|thing| thing.maps[0].1.far_normals = far);
+                    rows.push(Row::new(format!("environment, {far:?}, {shading}"), scene));
+                }
             }
         }
     }

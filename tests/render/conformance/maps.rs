@@ -251,14 +251,14 @@ pub(super) fn rows_of_kinds() -> Vec<Row> {
     rows_of(ALL.into_iter().chain([HEIGHTS]).map(|one| (one.0.name(), vec![one])))
 }
 
-/// Normals of which highlights take how long their mean is: wherever some term is shaded at the fragments, under every
-/// reflectance, enlarged and reduced, and beside an image of shininess.
-pub(super) fn rows_of_far_normals() -> Vec<Row> {
+/// Normals of which highlights take how long their mean is, or their moments: wherever some term is shaded at the fragments,
+/// under every reflectance, enlarged and reduced, and beside an image of shininess; of moments by filters of each form.
+pub(super) fn rows_of_far_normals(far_normals: FarNormals) -> Vec<Row> {
     let far = |scale: f32, amount: f32| {
         let mut scene = still_life().lit(point(Vec3::new(1.2, 1.6, 1.8)));
         let transform = UvTransform { offset: [0.13, -0.21], rotation: 0.4, scale: [scale, 0.8 * scale] };
         for thing in &mut scene.things {
-            let normals = Map { amount, far_normals: FarNormals::Toksvig, ..map(Sampling::default(), transform) };
+            let normals = Map { amount, far_normals, ..map(Sampling::default(), transform) };
             thing.maps = vec![(MapKind::Normal, normals)];
             // Highlights that are wide enough to be seen under normals that lean far.
             thing.material.shininess = 12.0;
@@ -291,6 +291,11 @@ pub(super) fn rows_of_far_normals() -> Vec<Row> {
         let mut scene = far(3.0, 0.4);
         change(&mut scene);
         rows.push(Row::new(format!("far normals, {what}"), scene));
+    }
+    for levels in SHAPED.into_iter().filter(|&levels| far_normals == FarNormals::Lean && !is_like_another(levels)) {
+        let mut scene = far(4.0, 0.5);
+        scene.things.iter_mut().for_each(|thing| thing.maps[0].1.sampling.levels = levels);
+        rows.push(Row::new(format!("far normals, {levels:?}"), scene));
     }
     rows
 }

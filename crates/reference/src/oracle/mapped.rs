@@ -1,6 +1,6 @@
 //! What the images on an object, and the solid that it is cut from, have where it is seen.
 
-use bevy_math::{DVec3, DVec4};
+use bevy_math::DVec3;
 use halfway_lighting::equations::vector::add;
 use halfway_lighting::equations::{
     Coefficients, Eye, Light, ShadedPoint, axial_exponent, bumped_normal, incidence, lobe_axes, mapped_normal, view_vector,

@@ -238,6 +238,32 @@ pub(crate) fn cones() -> Vec<Input> {
     })
 }
 
+/// Two axes, how wide highlights are along them, a halfway direction, and an exponent otherwise; among the directions those of
+/// the normal, which have no length along the axes, and widths that are none.
+pub(crate) fn spreads() -> Vec<Input> {
+    let row = |axes: [[f32; 3]; 2], widths: [f32; 3], h: [f32; 3], otherwise: f32| {
+        input(&[&axes[0][..], &axes[1], &widths, &h, &[otherwise]].concat())
+    };
+    let sides = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    let edges = [
+        row(sides, [20.0, 3.0, 5.0], [0.0, 0.0, 1.0], 7.0),
+        row(sides, [20.0, 3.0, 5.0], [1e-16, 0.0, 1.0], 7.0),
+        row(sides, [20.0, 3.0, 5.0], [1.0, 0.0, 1.0], 7.0),
+        row(sides, [20.0, 3.0, 5.0], [0.0, -2.0, 1.0], 7.0),
+        row(sides, [1.0, -9.0, 1.0], [1.0, 1.0, 1.0], 7.0),
+        row([[0.0; 3]; 2], [20.0, 3.0, 5.0], [1.0, 0.0, 1.0], 7.0),
+    ];
+    many(edges, 2000, |random| {
+        let (n, t) = (random.direction(), random.direction());
+        let cross = |a: [f32; 3], b: [f32; 3]| {
+            [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+        };
+        let [a, b] = [random.magnitude(-1.0, 3.0), random.magnitude(-1.0, 3.0)];
+        let widths = [a, random.between(-0.9, 0.9) * (a * b).sqrt(), b];
+        row([t, cross(n, t)], widths, random.direction(), random.magnitude(-1.0, 3.0))
+    })
+}
+
 /// n, l, v and an exponent; l = −v and its neighbours, a light in the surface's plane and behind it.
 pub(crate) fn highlights() -> Vec<Input> {
     let row = |n: [f32; 3], l: [f32; 3], v: [f32; 3], e: f32| {

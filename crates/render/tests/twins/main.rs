@@ -69,7 +69,7 @@ fn each_function_gives_what_its_twin_gives() {
 }
 
 /// Faults: the function whose rows find it, what is right, and what is written instead.
-const FAULTS: [(&str, &str, &str); 33] = [
+const FAULTS: [(&str, &str, &str); 36] = [
     ("mirrored", "2.0 * dot(n, v) * n - v", "2.0 * dot(n, v) * n + v"),
     ("lobe_exponent", "0.25 * exponent", "0.26 * exponent"),
     ("lobe_angle", "sqrt(alpha + 3.0)", "sqrt(alpha + 2.0)"),
@@ -88,6 +88,9 @@ const FAULTS: [(&str, &str, &str); 33] = [
     ("specular_blinn_phong", "0.5 * beta", "0.505 * beta"),
     ("specular_blinn_phong", "(dot(n, l) > 0.0)", "true"),
     ("specular_term", "if BLINN_PHONG", "if !BLINN_PHONG"),
+    ("axial_exponent", "2.0 * widths.y * a * b", "widths.y * a * b"),
+    ("axial_exponent", "max(along / max(squared, 1e-30), 0.0)", "along / max(squared, 1e-30)"),
+    ("axial_exponent", "otherwise, squared <= 1e-30", "0.0, squared <= 1e-30"),
     ("irradiance", "light.ambient * incident.weight", "light.ambient"),
     ("irradiance", "color = light.diffuse", "color = light.specular"),
     ("reflected", "material.ambient * arriving.ambient", "material.diffuse * arriving.ambient"),

@@ -202,6 +202,49 @@ pub(crate) fn texels_with_scales() -> Vec<Input> {
     })
 }
 
+/// Mean slopes, the means of their products, and a factor; among them what leaves no variance, and less.
+pub(crate) fn moments() -> Vec<Input> {
+    let row = |mean: [f32; 2], squares: [f32; 3], s: f32| joined(&[&mean, &squares, &[s]]);
+    let edges = [
+        row([0.5, 0.25], [0.25, 0.125, 0.0625], 1.0),
+        row([0.5, 0.25], [0.2, 0.125, 0.05], -2.0),
+        row([16.0, -16.0], [256.0, -256.0, 256.0], 1.0),
+        row([0.0; 2], [1.0, 0.5, 1.0], 0.0),
+        row([0.0; 2], [256.0, 0.5, 1.0], 3e6),
+    ];
+    many(edges, 2000, |random| {
+        let [x, y] = [random.between(-3.0, 3.0), random.between(-3.0, 3.0)];
+        let more = [random.between(0.0, 2.0), random.between(-1.0, 1.0), random.between(0.0, 2.0)];
+        row([x, y], [x * x + more[0], x * y + more[1], y * y + more[2]], random.magnitude(-1.5, 1.5))
+    })
+}
+
+/// Covariances, and an exponent; among them none, those along one axis, and what is none.
+pub(crate) fn covariances() -> Vec<Input> {
+    let row = |covariance: [f32; 3], s: f32| joined(&[&covariance, &[s]]);
+    let edges = [
+        row([0.0; 3], 0.0),
+        row([0.0; 3], 40.0),
+        row([0.5, 0.0, 0.0], 40.0),
+        row([0.5, 0.5, 0.5], 40.0),
+        row([0.1, 3.0, 0.2], 40.0),
+        row([1e14, 0.0, 2.0], 1e4),
+        row([0.5, 0.1, 0.3], 0.0),
+    ];
+    many(edges, 2000, |random| {
+        let [a, b] = [random.magnitude(-3.0, 1.0), random.magnitude(-3.0, 1.0)];
+        row([a, random.between(-0.95, 0.95) * (a * b).sqrt(), b], random.magnitude(-1.0, 3.0))
+    })
+}
+
+/// A normal, a tangent and w; among the tangents none.
+pub(crate) fn axes() -> Vec<Input> {
+    let row = |n: [f32; 3], t: [f32; 3], w: f32| joined(&[&n, &t, &[w]]);
+    let z = [0.0, 0.0, 1.0];
+    let edges = [row(z, [0.0; 3], 1.0), row(z, [1.0, 0.0, 0.0], -1.0), row(z, [0.6, 0.0, 0.8], 0.5)];
+    many(edges, 2000, |random| row(random.direction(), random.direction(), random.between(-1.0, 1.0)))
+}
+
 /// The length of a mean, and an exponent.
 pub(crate) fn lengths_with_exponents() -> Vec<Input> {
     let row = |length: f32, exponent: f32| joined(&[&[length, exponent]]);

@@ -43,7 +43,7 @@ fn each_function_of_maps_gives_what_its_twin_gives() {
 }
 
 /// Faults: the function whose rows find it, what is right, and what is written instead.
-const FAULTS: [(&str, &str, &str); 50] = [
+const FAULTS: [(&str, &str, &str); 57] = [
     ("magnify_of", "return look & 3u", "return look & 1u"),
     ("minify_of", "look >> 2u & 3u", "look >> 1u & 3u"),
     ("levels_of", "look >> 4u & 3u", "look >> 4u & 1u"),
@@ -92,6 +92,13 @@ const FAULTS: [(&str, &str, &str); 50] = [
     ("mean_length", "1.0, found >= 1.0", "found, found >= 1.0"),
     ("toksvig", "(1.0 + f * exponent) /", "(1.0 + exponent) /"),
     ("toksvig", "within + exponent *", "1.0 + exponent *"),
+    ("slope_covariance", "squares.y - mean.x * mean.y", "squares.y"),
+    ("slope_covariance", "clamp(s, -1e6, 1e6)", "s"),
+    ("spread_length", "0.5 * (covariance.x + covariance.z)", "0.5 * covariance.x + covariance.z"),
+    ("lean_lobe", "vec3f(yy, -wide.y, xx)", "vec3f(xx, -wide.y, yy)"),
+    ("lean_lobe", "wide.y * wide.y, xx + yy - 1.0)", "wide.y * wide.y, 1.0)"),
+    ("lobe_axes", "t - n * dot(n, t)", "t"),
+    ("lobe_axes", "w * cross(n, along)", "cross(n, along)"),
     ("bumped_normal", "cross(unit, e1)", "cross(e1, unit)"),
     ("bumped_normal", "if size <= NORMAL_MIN {", "if size <= 1e-7 {"),
 ];

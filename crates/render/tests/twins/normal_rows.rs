@@ -1,8 +1,8 @@
 //! The table of what maps.wgsl does to normals: twins of `halfway_lighting::equations` and `halfway_texture::normals`.
 
 use halfway_lighting::equations::vector::{add, cross, dot, length, scale, sub};
-use halfway_lighting::equations::{NORMAL_MIN, bumped_normal, mapped_normal};
-use halfway_texture::normals::{mean_length, toksvig};
+use halfway_lighting::equations::{NORMAL_MIN, bumped_normal, lobe_axes, mapped_normal};
+use halfway_texture::normals::{lean_lobe, mean_length, slope_covariance, spread_length, toksvig};
 
 use crate::adapter::Kind;
 use crate::inputs::wide;
@@ -66,7 +66,80 @@ fn of_mean_length(x: &[f32], e: &[f64]) -> Vec<f64> {
     vec![12.0 * ULP * square / divisor.powi(2).max(1e-30) + 6.0 * ULP * e[0]]
 }
 
+/// Each product is off by half a ULP of itself, and so is their difference; it is not below 0 where it is a variance.
+fn of_covariance(x: &[f32], e: &[f64]) -> Vec<f64> {
+    let ([a, b], [aa, ab, bb]) = (wide::<2>(x), wide::<3>(&x[2..]));
+    let s = f64::from(x[5]).clamp(-1e6, 1e6);
+    let gross = [aa.abs() + a * a, ab.abs() + (a * b).abs(), bb.abs() + b * b];
+    (0..3).map(|k| ULP * s * s * gross[k] + 2.0 * ULP * e[k].abs()).collect()
+}
+
+/// What s·Σ + I is known to moves its determinant, by which all is divided.
+fn of_lobe(x: &[f32], e: &[f64]) -> Vec<f64> {
+    let s = f64::from(x[3]);
+    let [xx, xy, yy] = wide::<3>(x).map(|number| (s * number).clamp(-1e12, 1e12));
+    let (xx, yy) = (xx + 1.0, yy + 1.0);
+    let determinant = (xx * yy - xy * xy).max(xx + yy - 1.0);
+    let relative = 8.0 * ULP + 4.0 * ULP * (xx * yy + xy * xy) / determinant;
+    e.iter().map(|e| relative * e.abs()).collect()
+}
+
+/// The tangent less its part along n is off by some ULP of the tangent, over what is left of it.
+fn of_axes(x: &[f32], _: &[f64]) -> Vec<f64> {
+    let (n, t, w) = (wide::<3>(x), wide::<3>(&x[3..]), f64::from(x[6]));
+    let left = length(sub(t, scale(n, dot(n, t))));
+    if left == 0.0 {
+        return vec![0.0; 9];
+    }
+    let of_first = 8.0 * ULP * length(t) / left + 4.0 * ULP;
+    let of_second = w.abs() * (of_first + 4.0 * ULP);
+    [[of_first; 3], [of_second; 3], [0.0; 3]].concat()
+}
+
+fn lean_rows() -> Vec<Row> {
+    vec![
+        row(
+            ("slope_covariance", "slope_covariance(v(i, 0).xy, v(i, 2), s(i, 5))"),
+            Kind::Vector,
+            inputs::moments(),
+            |x| slope_covariance(wide(x), wide(&x[2..]), x[5].into()).to_vec(),
+            of_covariance,
+        ),
+        row(
+            ("spread_length", "spread_length(v(i, 0))"),
+            Kind::Scalar,
+            inputs::covariances(),
+            |x| vec![spread_length(wide(x))],
+            |_, e| vec![6.0 * ULP * e[0]],
+        ),
+        row(
+            ("lean_lobe", "lean_lobe(v(i, 0), s(i, 3))"),
+            Kind::Texel,
+            inputs::covariances(),
+            |x| lean_lobe(wide(x), x[3].into()).to_vec(),
+            of_lobe,
+        ),
+        row(
+            (
+                "lobe_axes",
+                "Irradiance(lobe_axes(v(i, 0), v(i, 3), s(i, 6))[0], lobe_axes(v(i, 0), v(i, 3), s(i, 6))[1], vec3f())",
+            ),
+            Kind::Irradiance,
+            inputs::axes(),
+            |x| {
+                let [u, v] = lobe_axes(wide(x), wide(&x[3..]), x[6].into());
+                [u, v, [0.0; 3]].concat()
+            },
+            of_axes,
+        ),
+    ]
+}
+
 pub(crate) fn normal_rows() -> Vec<Row> {
+    lean_rows().into_iter().chain(rows_of_normals()).collect()
+}
+
+fn rows_of_normals() -> Vec<Row> {
     vec![
         row(
             ("mean_length", "mean_length(v(i, 0), s(i, 3))"),

@@ -119,6 +119,20 @@ fn of_highlight(phong: bool, n: [f64; 3], l: [f64; 3], v: [f64; 3], blur: f64, e
     half_vector(l, v).map_or(0.0, |h| of_blurred_power(dot(n, h), 2.0 * blur / length(add(l, v)) + blur, e))
 }
 
+/// Lengths along the axes are off by some ULP of those of the vectors, by which each product is off, over the squares of them.
+fn of_axial(x: &[f32]) -> Vec<f64> {
+    let (axes, widths): ([[f64; 3]; 2], [f64; 3]) = ([wide(x), wide(&x[3..])], wide(&x[6..]));
+    let h: [f64; 3] = wide(&x[9..]);
+    let [a, b] = axes.map(|axis| dot(h, axis).abs());
+    let squared = a * a + b * b;
+    if squared <= 1e-30 {
+        return vec![0.0];
+    }
+    let off = 3.0 * ULP * length(h) * length(axes[0]).max(length(axes[1]));
+    let most = widths.map(f64::abs).into_iter().fold(0.0, f64::max);
+    vec![8.0 * most * (off * (a + b) + off * off) / squared + 16.0 * ULP * most]
+}
+
 fn vectors_of(x: &[f32]) -> ([f64; 3], [f64; 3], [f64; 3], f64) {
     (wide(x), wide(&x[3..]), wide(&x[6..]), f64::from(x[9]))
 }
@@ -193,7 +207,7 @@ fn arriving(x: &[f32]) -> Irradiance<f64> {
 
 use equations::vector::{add, dot, length, normalize_or_zero};
 use equations::{
-    aces, attenuation, diffuse_term, divisor, half_vector, incidence, interpolated_normal, irradiance, lobe_angle,
+    aces, attenuation, axial_exponent, diffuse_term, divisor, half_vector, incidence, interpolated_normal, irradiance, lobe_angle,
     lobe_exponent, mean_light, mirrored, power, range_window, reflect, reflected, reinhard, specular_blinn_phong,
     specular_phong, specular_term, spot_factor, srgb_encoded, transform_normal, view_vector,
 };
@@ -230,6 +244,8 @@ pub(crate) fn rows() -> Vec<Row> {
             |_, e| each(e, 0.0)),
         row!(diffuse_term("v(i, 0), v(i, 3)") -> Scalar, NOTHING, inputs::highlights(),
             |x| (wide(x), wide(&x[3..])), |_, e| each(e, 3.0 * ULP)),
+        row!(axial_exponent("mat2x3f(v(i, 0), v(i, 3)), v(i, 6), v(i, 9), s(i, 12)") -> Scalar, NOTHING, inputs::spreads(),
+            |x| ([wide(x), wide(&x[3..])], wide(&x[6..]), wide(&x[9..]), f64::from(x[12])), |x, _| of_axial(x)),
         row!(specular_phong("v(i, 0), v(i, 3), v(i, 6), s(i, 9)") -> Scalar, PHONG, inputs::highlights(),
             |x| (wide(x), wide(&x[3..]), wide(&x[6..]), f64::from(x[9])),
             |x, e| { let (n, l, v, a) = vectors_of(x); each(e, of_highlight(true, n, l, v, 4.0 * ULP, a)) }),
