@@ -61,6 +61,7 @@ mod hidden;
 mod lane_triangles;
 mod lanes;
 mod lighting;
+mod lobe;
 mod look;
 mod mapped;
 mod mapped_pixels;

@@ -5,10 +5,11 @@ use crate::lanes::{
     F, I, M, Simd, V3, add, add_scaled, dot, each, fma, max, min, neg, saturate, scale, select3, splat, splat_i,
     splat3, sub,
 };
-use crate::pass::{Highlight, LightData, LightRange, ShadedTerms, SideData};
-use crate::power::{Exponent, Power, power};
+use crate::lobe::Lobe;
+use crate::pass::{LightData, LightRange, ShadedTerms, SideData};
+use crate::power::{Exponent, power};
 use fearless_simd::prelude::*;
-use halfway_lighting::equations::{ATTENUATION_MAX, COINCIDENT, HALFWAY_MIN};
+use halfway_lighting::equations::{ATTENUATION_MAX, COINCIDENT};
 
 /// Points of a surface, on the side that is seen.
 #[derive(Clone, Copy)]
@@ -37,93 +38,6 @@ pub(crate) struct Irradiance<S: Simd> {
     pub(crate) ambient: V3<S>,
     pub(crate) diffuse: V3<S>,
     pub(crate) specular: V3<S>,
-}
-
-/// What the terms of one side's lights take from the surface.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Gloss {
-    pub(crate) highlight: Highlight,
-    /// Of the material; Blinn–Phong takes it halved.
-    pub(crate) exponent: Exponent,
-}
-
-impl Gloss {
-    /// One of this exponent.
-    pub(crate) fn new(highlight: Highlight, exponent: f32) -> Self {
-        let exponent = match highlight {
-            Highlight::Phong => Exponent::new(exponent),
-            Highlight::BlinnPhong => Exponent::new(exponent).halved(),
-        };
-        Self { highlight, exponent }
-    }
-}
-
-/// What the highlights of points take from the surface.
-pub(crate) trait Lobe<S: Simd>: Copy {
-    /// S, without the gate n·l > 0.
-    fn highlight(self, simd: S, n: V3<S>, l: V3<S>, v: V3<S>) -> F<S>;
-}
-
-impl<S: Simd> Lobe<S> for Gloss {
-    #[inline(always)]
-    fn highlight(self, simd: S, n: V3<S>, l: V3<S>, v: V3<S>) -> F<S> {
-        match self.highlight {
-            Highlight::Phong => specular_phong(simd, n, l, v, Power::One(self.exponent)),
-            Highlight::BlinnPhong => specular_blinn_phong(simd, n, l, v, Power::One(self.exponent)),
-        }
-    }
-}
-
-/// Highlights that are not round, another at each point: see `axial_exponent` in the equations.
-#[derive(Clone, Copy)]
-pub(crate) struct Spread<S: Simd> {
-    pub(crate) highlight: Highlight,
-    pub(crate) axes: [V3<S>; 2],
-    pub(crate) widths: V3<S>,
-    /// The exponent where the halfway direction is that of the normal.
-    pub(crate) otherwise: F<S>,
-}
-
-impl<S: Simd> Spread<S> {
-    /// Round ones of exponent 0.
-    #[inline(always)]
-    pub(crate) fn none(simd: S, highlight: Highlight) -> Self {
-        let zero = splat3(simd, [0.0; 3]);
-        Self { highlight, axes: [zero; 2], widths: zero, otherwise: splat(simd, 0.0) }
-    }
-
-    /// That of one point.
-    #[inline(always)]
-    pub(crate) fn set(&mut self, lane: usize, axes: [[f32; 3]; 2], widths: [f32; 3]) {
-        for axis in 0..3 {
-            self.axes[0][axis][lane] = axes[0][axis];
-            self.axes[1][axis][lane] = axes[1][axis];
-            self.widths[axis][lane] = widths[axis];
-        }
-    }
-}
-
-impl<S: Simd> Lobe<S> for Spread<S> {
-    #[inline(always)]
-    fn highlight(self, simd: S, n: V3<S>, l: V3<S>, v: V3<S>) -> F<S> {
-        let exponents = axial_exponent(simd, &self, add::<S>(l, v));
-        match self.highlight {
-            Highlight::Phong => specular_phong(simd, n, l, v, Power::Each(exponents)),
-            Highlight::BlinnPhong => specular_blinn_phong(simd, n, l, v, Power::Each(exponents * splat(simd, 0.5))),
-        }
-    }
-}
-
-/// The exponents toward the halfway directions h, of any length.
-#[inline(always)]
-pub(crate) fn axial_exponent<S: Simd>(simd: S, spread: &Spread<S>, h: V3<S>) -> F<S> {
-    let [a, b] = each!(k in 2 => dot::<S>(h, spread.axes[k]));
-    let least = splat(simd, 1e-30);
-    let squared = a * a + b * b;
-    let [aa, ab, bb] = spread.widths;
-    let along = aa * a * a + (ab + ab) * a * b + bb * b * b;
-    let found = max::<S>(along / max::<S>(squared, least), splat(simd, 0.0));
-    squared.simd_le(least).select(spread.otherwise, found)
 }
 
 impl<S: Simd> Irradiance<S> {
@@ -168,25 +82,6 @@ pub(crate) fn spot_factor<S: Simd>(simd: S, l: V3<S>, light: &LightData) -> F<S>
     let [fade, offset] = light.inner_fade;
     let inner = saturate(simd, fma::<S>(cos_phi, splat(simd, fade), splat(simd, offset)));
     cos_phi.simd_ge(splat(simd, light.cos_cutoff)).select(factor * inner * inner, splat(simd, 0.0))
-}
-
-/// `max(r·v, 0)^α` with r = 2(n·l)n − l, without the gate n·l > 0.
-#[inline(always)]
-fn specular_phong<S: Simd>(simd: S, n: V3<S>, l: V3<S>, v: V3<S>, alpha: Power<S>) -> F<S> {
-    let twice = dot::<S>(n, l) * splat(simd, 2.0);
-    alpha.of(simd, fma::<S>(twice, dot::<S>(n, v), -dot::<S>(l, v)))
-}
-
-/// `max(n·h, 0)^β` with h = (l + v)/‖l + v‖, as ((n·(l + v))²/‖l + v‖²)^(β/2), without the gate n·l > 0; the power is of β/2.
-#[inline(always)]
-fn specular_blinn_phong<S: Simd>(simd: S, n: V3<S>, l: V3<S>, v: V3<S>, half_beta: Power<S>) -> F<S> {
-    const SMALLEST: f32 = HALFWAY_MIN * HALFWAY_MIN;
-    let sum = add::<S>(l, v);
-    let squared = dot::<S>(sum, sum);
-    let along = max::<S>(dot::<S>(n, sum), splat(simd, 0.0));
-    let cos_squared = along * along / max::<S>(squared, splat(simd, SMALLEST));
-    let s = half_beta.of(simd, cos_squared);
-    squared.simd_gt(splat(simd, SMALLEST)).select(s, splat(simd, 0.0))
 }
 
 /// A light as it arrives at points.

@@ -2,7 +2,8 @@
 
 use crate::attributes::{AMBIENT_OF_VERTICES, COLOR, FRAME, MIRROR_NORMAL, NORMAL, OF_VERTICES, PARTS, PLACE, UVS};
 use crate::lanes::{F, I, M, Simd, V3, each, lanes, splat, splat_i, splat3};
-use crate::lighting::{Gloss, Irradiance, Points, Spread, to_viewer};
+use crate::lighting::{Irradiance, Points, to_viewer};
+use crate::lobe::{AxialGloss, Gloss};
 use crate::look::Look;
 use crate::mapped::{MappedTriangle, PartsOf};
 use crate::pass::{Highlight, MapCall, Pass, SideData};
@@ -22,6 +23,35 @@ pub(crate) struct MappedPixel<'a> {
     /// In pixels from the tile's first.
     pub(crate) place: [f32; 2],
     w: f32,
+}
+
+/// What a pixel sees of an image of normals.
+#[derive(Clone, Copy)]
+pub(crate) struct SeenNormals {
+    /// Their mean, or the normal of their mean slopes, as texels have it.
+    texel: [f32; 3],
+    amount: f32,
+    roughness: Roughness,
+}
+
+/// What highlights take of them beside where they point, the amount in it.
+#[derive(Clone, Copy)]
+enum Roughness {
+    None,
+    /// How long their mean is.
+    Length(f32),
+    /// How far their slopes lie apart.
+    Covariance([f32; 3]),
+}
+
+/// Highlights of a pixel.
+pub(crate) struct PixelGloss {
+    /// Of round ones, or of the mirrored environment.
+    pub(crate) exponent: f32,
+    /// What they are multiplied by.
+    factor: f32,
+    /// The inverse of how wide they are along their axes, where they are not round.
+    widths: Option<[f32; 3]>,
 }
 
 /// Where a pixel lies on an image, and by how much that changes to the next, along x and along y.
@@ -102,9 +132,31 @@ impl MappedPixel<'_> {
         of_vertices * if has_own { self.factor_of_one(MapKind::Opacity) } else { self.factor(MapKind::Color)[3] }
     }
 
+    /// What it sees of an image of normals, where light is shaded at the fragments.
+    pub(crate) fn normals(&self, state: &State) -> Option<SeenNormals> {
+        let call = self.maps.calls[MapKind::Normal as usize].as_ref()?;
+        if !matches!(state.stage, Stage::Fragment | Stage::Mixed) {
+            return None;
+        }
+        let data = &self.pass.maps[call.map as usize];
+        // What is mirrored turns twice as far.
+        let turned = if state.highlight == Highlight::Phong { 2.0 * data.amount } else { data.amount };
+        if call.far_normals == FarNormals::Lean {
+            let OnImage { uv, footprint } = self.on_image(call);
+            let seen = SlopeSpread::seen(&data.pyramid, &call.sampling, uv, footprint);
+            let roughness = Roughness::Covariance(seen.covariance(turned));
+            return Some(SeenNormals { texel: seen.texel(), amount: data.amount, roughness });
+        }
+        let [r, g, b, _] = self.texel(call);
+        let texel = [r, g, b];
+        let has_length = call.far_normals == FarNormals::Toksvig;
+        let roughness = if has_length { Roughness::Length(mean_length(texel, turned)) } else { Roughness::None };
+        Some(SeenNormals { texel, amount: data.amount, roughness })
+    }
+
     /// The interpolated normal as images turn it where light is shaded at the fragments, or the triangle's under flat shading; of
     /// the front. `way` leads from the eye through the pixel, `steps` to the next.
-    pub(crate) fn normal(&self, state: &State, way: [f32; 3], steps: [f32; 2]) -> [f32; 3] {
+    pub(crate) fn normal(&self, state: &State, seen: Option<&SeenNormals>, way: [f32; 3], steps: [f32; 2]) -> [f32; 3] {
         let n = match state.stage {
             Stage::Flat => return self.triangle.face,
             Stage::Unlit | Stage::Vertex => self.three(MIRROR_NORMAL),
@@ -116,15 +168,8 @@ impl MappedPixel<'_> {
         if matches!(state.stage, Stage::Unlit | Stage::Vertex) {
             return otherwise;
         }
-        if let Some(call) = &self.maps.calls[MapKind::Normal as usize] {
-            let texel = if call.far_normals == FarNormals::Lean {
-                self.slopes(call).texel()
-            } else {
-                let [r, g, b, _] = self.texel(call);
-                [r, g, b]
-            };
+        if let Some(SeenNormals { texel, amount, .. }) = seen.copied() {
             let [x, y, z, w] = self.group(FRAME);
-            let amount = self.pass.maps[call.map as usize].amount;
             return mapped_normal(n, [x, y, z], w, texel, amount, otherwise);
         }
         let Some(call) = &self.maps.calls[MapKind::Height as usize] else { return otherwise };
@@ -144,47 +189,27 @@ impl MappedPixel<'_> {
         bumped_normal(n, self.three(FRAME), along, rises, otherwise)
     }
 
-    /// The exponent of highlights of a material with this one, and what they are multiplied by.
-    pub(crate) fn gloss(&self, state: &State, exponent: f32) -> [f32; 2] {
+    /// What highlights are of a material with this exponent.
+    pub(crate) fn gloss(&self, seen: Option<&SeenNormals>, exponent: f32) -> PixelGloss {
         let exponent = exponent * self.factor_of_one(MapKind::Shininess);
-        let at_fragments = matches!(state.stage, Stage::Fragment | Stage::Mixed);
-        let Some(call) = self.maps.calls[MapKind::Normal as usize].as_ref().filter(|_| at_fragments) else {
-            return [exponent, 1.0];
-        };
-        match call.far_normals {
-            FarNormals::Mean => [exponent, 1.0],
-            FarNormals::Toksvig => {
-                let [r, g, b, _] = self.texel(call);
-                toksvig(mean_length([r, g, b], self.turned(call, state)), exponent)
+        match seen.map_or(Roughness::None, |seen| seen.roughness) {
+            Roughness::None => PixelGloss { exponent, factor: 1.0, widths: None },
+            Roughness::Length(length) => {
+                let [exponent, factor] = toksvig(length, exponent);
+                PixelGloss { exponent, factor, widths: None }
             }
-            FarNormals::Lean => {
-                let covariance = self.slopes(call).covariance(self.turned(call, state));
-                let [.., factor] = lean_lobe(covariance, exponent);
-                let [even, _] = toksvig(spread_length(covariance), exponent);
-                [even, factor]
+            Roughness::Covariance(covariance) => {
+                let [aa, ab, bb, factor] = lean_lobe(covariance, exponent);
+                let [exponent, _] = toksvig(spread_length(covariance), exponent);
+                PixelGloss { exponent, factor, widths: Some([aa, ab, bb]) }
             }
         }
     }
 
-    /// How many times as far as the image's normals what highlights go by turns: what is mirrored turns twice as far.
-    fn turned(&self, call: &MapCall, state: &State) -> f32 {
-        let amount = self.pass.maps[call.map as usize].amount;
-        if state.highlight == Highlight::Phong { 2.0 * amount } else { amount }
-    }
-
-    /// The slopes of normals that a pixel sees.
-    fn slopes(&self, call: &MapCall) -> SlopeSpread<f32> {
-        let OnImage { uv, footprint } = self.on_image(call);
-        SlopeSpread::seen(&self.pass.maps[call.map as usize].pyramid, &call.sampling, uv, footprint)
-    }
-
-    /// The axes of highlights about a normal of the front, and the inverse of how wide they are, of a material with this
-    /// exponent.
-    fn spread(&self, state: &State, call: &MapCall, n: [f32; 3], exponent: f32) -> ([[f32; 3]; 2], [f32; 3]) {
-        let exponent = exponent * self.factor_of_one(MapKind::Shininess);
+    /// The axes of highlights about a normal of the front.
+    fn axes(&self, n: [f32; 3]) -> [[f32; 3]; 2] {
         let [x, y, z, w] = self.group(FRAME);
-        let [aa, ab, bb, _] = lean_lobe(self.slopes(call).covariance(self.turned(call, state)), exponent);
-        (lobe_axes(n, [x, y, z], w), [aa, ab, bb])
+        lobe_axes(n, [x, y, z], w)
     }
 }
 
@@ -274,20 +299,20 @@ impl<S: Simd> MappedPixels<'_, S> {
         let exponent = state.side(look.pass, back).exponent;
         let (mut exponents, mut factors) = (splat(simd, exponent), splat(simd, 1.0));
         let changes = maps.changes_exponents();
-        let lean = maps.calls[MapKind::Normal as usize].as_ref().filter(|call| call.far_normals == FarNormals::Lean);
-        let mut spread = Spread::none(simd, state.highlight);
+        let mut axial = AxialGloss::none(simd, state.highlight);
         for lane in 0..lanes::<S>() {
             let Some(pixel) = self.pixel(lane, look.pass, maps) else { continue };
-            let turned = pixel.normal(state, [way[0][lane], way[1][lane], -1.0], look.screen.way_step);
+            let seen = pixel.normals(state);
+            let turned = pixel.normal(state, seen.as_ref(), [way[0][lane], way[1][lane], -1.0], look.screen.way_step);
             for axis in 0..3 {
                 n[axis][lane] = if back { -turned[axis] } else { turned[axis] };
             }
             if changes {
-                [exponents[lane], factors[lane]] = pixel.gloss(state, exponent);
-            }
-            if let Some(call) = lean {
-                let (axes, widths) = pixel.spread(state, call, turned, exponent);
-                spread.set(lane, axes, widths);
+                let gloss = pixel.gloss(seen.as_ref(), exponent);
+                (exponents[lane], factors[lane]) = (gloss.exponent, gloss.factor);
+                if let Some(widths) = gloss.widths {
+                    axial.set(lane, pixel.axes(turned), widths);
+                }
             }
         }
         let v = to_viewer(simd, [way[0], way[1], splat(simd, -1.0)], n, look.pass.local_viewer);
@@ -295,8 +320,9 @@ impl<S: Simd> MappedPixels<'_, S> {
         if !changes {
             return state.fragment_terms(simd, look.pass, &points, back);
         }
-        if lean.is_some() {
-            let sum = state.spread_terms(simd, look.pass, &points, Spread { otherwise: exponents, ..spread });
+        if maps.far_normals() == FarNormals::Lean {
+            axial.otherwise = exponents;
+            let sum = state.axial_terms(simd, look.pass, &points, axial);
             return Irradiance { specular: each!(c in 3 => sum.specular[c] * factors), ..sum };
         }
         // One exponent after the other.

@@ -1,7 +1,8 @@
 //! What shading takes from draws and surfaces, looked up by the number that a pixel keeps.
 
 use crate::lanes::Simd;
-use crate::lighting::{Gloss, Irradiance, Points, Spread, gathered, gathered_here};
+use crate::lighting::{Irradiance, Points, gathered, gathered_here};
+use crate::lobe::{AxialGloss, Gloss};
 use crate::pass::{DrawCall, Highlight, LeftOut, LightRange, MapCall, Pass, ShadedTerms, SideData, SurfaceData};
 use halfway_texture::{FarNormals, MapKind, SolidTexture};
 
@@ -162,15 +163,15 @@ impl State {
     }
 
     /// The same for highlights that are not round.
-    pub(crate) fn spread_terms<S: Simd>(
+    pub(crate) fn axial_terms<S: Simd>(
         &self,
         simd: S,
         pass: &Pass,
         points: &Points<S>,
-        spread: Spread<S>,
+        axial: AxialGloss<S>,
     ) -> Irradiance<S> {
         let surface = &pass.surfaces[self.surface as usize];
-        gathered(simd, (pass.lights, pass.lists), surface.fragment_ranges(), points, spread, self.fragment)
+        gathered(simd, (pass.lights, pass.lists), surface.fragment_ranges(), points, axial, self.fragment)
     }
 
     /// Whether the vertices' colors go a way of their own, which they do unless images have part in it.

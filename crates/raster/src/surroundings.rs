@@ -38,7 +38,8 @@ impl MappedPixel<'_> {
         back: bool,
     ) -> [[f32; 3]; 2] {
         let way = way(look.screen, look.tile, self.place);
-        let front = self.normal(state, way, look.screen.way_step);
+        let normals = self.normals(state);
+        let front = self.normal(state, normals.as_ref(), way, look.screen.way_step);
         let n = if back { front.map(|x| -x) } else { front };
         let v = if look.pass.local_viewer { normalize_or_zero(way.map(|x| -x)) } else { [0.0, 0.0, 1.0] };
         let side = state.side(look.pass, back);
@@ -46,8 +47,7 @@ impl MappedPixel<'_> {
             Highlight::Phong => Reflectance::Phong,
             Highlight::BlinnPhong => Reflectance::BlinnPhong,
         };
-        let [exponent, _] = self.gloss(state, side.exponent);
-        let alpha = lobe_exponent(reflectance, exponent);
+        let alpha = lobe_exponent(reflectance, self.gloss(normals.as_ref(), side.exponent).exponent);
         let seen = around.map.at(around.direction(mirrored(n, v)), around.map.level_of(lobe_angle(alpha)));
         let mean = mean_light(&around.mean, around.direction(n));
         let color = match state.stage {

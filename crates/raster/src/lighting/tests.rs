@@ -2,6 +2,8 @@
 
 use super::*;
 use crate::lanes::MOST_LANES;
+use crate::lobe::Gloss;
+use crate::pass::Highlight;
 use crate::width::{VectorWidth, with_vectors};
 use halfway_lighting::Reflectance;
 use halfway_lighting::equations::{

@@ -3,7 +3,8 @@
 use bevy_math::DVec3;
 use halfway_lighting::equations::vector::add;
 use halfway_lighting::equations::{
-    Coefficients, Eye, Light, ShadedPoint, axial_exponent, bumped_normal, incidence, lobe_axes, mapped_normal, view_vector,
+    Coefficients, Eye, Light, ShadedPoint, axial_exponent, bumped_normal, incidence, lobe_axes, mapped_normal,
+    view_vector,
 };
 use halfway_lighting::{Frequency, Reflectance};
 use halfway_texture::normals::{SlopeSpread, lean_lobe, mean_length, spread_length, toksvig};
@@ -20,13 +21,13 @@ struct PointOnMap {
     footprint: [[f64; 2]; 2],
 }
 
-/// How highlights spread about a normal: see [`axial_exponent`].
-pub(super) struct Spread {
+/// Highlights about a normal that need not be round: see [`axial_exponent`].
+pub(super) struct AxialLobe {
     axes: [Color; 2],
     widths: Color,
 }
 
-impl Spread {
+impl AxialLobe {
     /// The material as a light's highlight takes it.
     pub(super) fn toward(
         &self,
@@ -120,8 +121,8 @@ impl OracleScene {
         }
     }
 
-    /// How highlights spread about a normal of the front, of a material with this exponent; `None` where they are round.
-    pub(super) fn spread(&self, hit: &Hit, n: Color, exponent: f64) -> Option<Spread> {
+    /// Highlights about a normal of the front that are not round, of a material with this exponent; `None` where they are.
+    pub(super) fn axial(&self, hit: &Hit, n: Color, exponent: f64) -> Option<AxialLobe> {
         let solid = &self.solids[hit.solid];
         let (maps, (triangle, weights)) = (solid.maps.as_ref()?, hit.on_triangle()?);
         let (map, place) = self.looked_up(hit, MapKind::Normal)?;
@@ -131,7 +132,7 @@ impl OracleScene {
         let exponent = exponent * self.factor_of_one(hit, MapKind::Shininess);
         let [aa, ab, bb, _] = lean_lobe(place.slopes(map).covariance(turned(solid, map)), exponent);
         let (t, w) = maps.tangent(solid.vertices(triangle), weights);
-        Some(Spread { axes: lobe_axes(n, t, w), widths: [aa, ab, bb] })
+        Some(AxialLobe { axes: lobe_axes(n, t, w), widths: [aa, ab, bb] })
     }
 
     /// The image of a kind, and where on it a hit lies.

@@ -9,7 +9,7 @@ use halfway_lighting::{Frequency, Reflectance};
 use halfway_texture::MapKind;
 
 use super::gather::OracleScene;
-use super::mapped::Spread;
+use super::mapped::AxialLobe;
 use super::raster::{Hit, HitPoint};
 use super::solid::{Color, Parts, Solid};
 
@@ -97,16 +97,16 @@ impl OracleScene {
         if solid.terms.has(Frequency::Fragment) {
             let n = mixed(solid.vertices(triangle).map(|number| solid.normals[number]), weights).to_array();
             let n = self.relief(hit, n, interpolated_normal(n, geometric()));
-            let (mut material, mut spread) = (*material, None);
+            let (mut material, mut axial) = (*material, None);
             if solid.has_exponents_of_images() {
                 // They change the exponent, which is matched before.
                 let matched = specular_exponent(solid.reflectance, material.shininess);
                 let [exponent, factor] = self.gloss(hit, matched);
-                spread = self.spread(hit, n, matched);
+                axial = self.axial(hit, n, matched);
                 (material.shininess, material.ks) = (exponent, scale(material.ks, factor));
             }
             let p = mixed(corners, weights);
-            i = i.plus(self.lit(solid, front, (&material, spread.as_ref()), p, n, Frequency::Fragment));
+            i = i.plus(self.lit(solid, front, (&material, axial.as_ref()), p, n, Frequency::Fragment));
         }
         i
     }
@@ -118,7 +118,7 @@ impl OracleScene {
         &self,
         solid: &Solid,
         front: bool,
-        (material, spread): (&Coefficients<f64>, Option<&Spread>),
+        (material, axial): (&Coefficients<f64>, Option<&AxialLobe>),
         p: DVec3,
         n: [f64; 3],
         at: Frequency,
@@ -131,7 +131,7 @@ impl OracleScene {
         };
         let surface = ShadedPoint { position: p.to_array(), normal: side_normal(n, front) };
         self.lights.iter().fold(Parts::default(), |mut i, light| {
-            let material = spread.map_or(*material, |spread| spread.toward(light, &surface, &self.viewer, material));
+            let material = axial.map_or(*material, |axial| axial.toward(light, &surface, &self.viewer, material));
             let terms = light_terms(&surface, &material, light, &self.viewer, reflectance);
             if solid.terms.diffuse == at {
                 i.diffuse = add(i.diffuse, terms.diffuse);

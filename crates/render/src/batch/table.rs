@@ -8,7 +8,9 @@ use bevy_asset::{AssetId, Assets};
 use bevy_math::Vec3;
 use bevy_platform::collections::HashMap;
 use halfway_mesh::Mesh;
-use halfway_texture::{FarNormals, ImageForm, MapKind, Pyramid, SolidKind, SolidTexture, SurfaceMap, Texture, UvTransform};
+use halfway_texture::{
+    FarNormals, ImageForm, MapKind, Pyramid, SolidKind, SolidTexture, SurfaceMap, Texture, UvTransform,
+};
 use std::sync::OnceLock;
 
 /// What repeats among objects, numbered, so that objects compare by small integers.

@@ -201,10 +201,6 @@ fn map_constants(key: &DrawKey) -> impl Iterator<Item = (&'static str, f64)> {
     let signs = [("TANGENT_SIGN", sign(key.inside_out)), ("BITANGENT_SIGN", sign(key.clockwise))];
     // By its number in solids.wgsl.
     let solid = key.solid.map(|kind| ("SOLID_KIND", f64::from(kind as u32)));
-    let flags = [
-        ("MASKED", key.masked),
-        ("TOKSVIG", key.maps.take_lengths()),
-        ("LEAN", key.maps.take_moments()),
-    ];
+    let flags = [("MASKED", key.masked), ("TOKSVIG", key.maps.take_lengths()), ("LEAN", key.maps.take_moments())];
     maps.chain(signs).chain(flags.map(|(name, on)| (name, f64::from(u8::from(on))))).chain(solid)
 }

@@ -10,7 +10,7 @@ override SHARED_COLOR: bool = false;        // every light's specular color is i
 override SPECULAR: bool = true;             // some highlight is shaded, in this stage or the other
 override RANGED: bool = true;               // some light has a range
 override SQUARINGS: i32 = -1;               // the shininess is 2^SQUARINGS; -1: read it and take a power
-override LEAN: bool = false;                // highlights have two axes: those of `spread`
+override LEAN: bool = false;                // highlights have two axes: those of `axial`
 
 // Which of a light's terms are shaded; the others are shaded in the other stage, or cannot be seen. Ambient goes with
 // diffuse.
@@ -181,17 +181,17 @@ fn axial_exponent(axes: mat2x3f, widths: vec3f, h: vec3f, otherwise: f32) -> f32
 
 // The axes of a fragment's highlights, perpendicular to its normal, and the inverse of how wide they are, as axial_exponent
 // takes them. Where nothing sets it highlights are round.
-struct Spread {
+struct AxialGloss {
     axes: mat2x3f,
     widths: vec3f,
 }
 
-var<private> spread: Spread;
+var<private> axial: AxialGloss;
 
 fn specular_term(n: vec3f, l: vec3f, v: vec3f, shininess: f32) -> f32 {
     var exponent = shininess;
     if LEAN {
-        exponent = axial_exponent(spread.axes, spread.widths, l + v, shininess);
+        exponent = axial_exponent(axial.axes, axial.widths, l + v, shininess);
     }
     if BLINN_PHONG {
         return specular_blinn_phong(n, l, v, exponent);

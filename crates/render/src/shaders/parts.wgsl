@@ -182,7 +182,7 @@ fn mixed_parts(in: Mixed, front: bool) -> MixedParts {
         n = mapped_normal(in.n, in.frame.xyz, in.frame.w, vec3f(0.5 * slopes + 0.5, 1.0), amount, n);
         covariance = slope_covariance(slopes, squares, turns);
         mean = spread_length(covariance);
-        spread.axes = lobe_axes(n, in.frame.xyz, in.frame.w);
+        axial.axes = lobe_axes(n, in.frame.xyz, in.frame.w);
     } else if NORMAL_MAP != NO_MAP {
         let texel = filtered(normal_image, 6u, NORMAL_MAP, c);
         n = mapped_normal(in.n, in.frame.xyz, in.frame.w, texel.xyz, amount, n);
@@ -212,7 +212,7 @@ fn mixed_parts(in: Mixed, front: bool) -> MixedParts {
     var far = vec2f(exponent, 1.0);
     if LEAN {
         let lobe = lean_lobe(covariance, exponent);
-        spread.widths = lobe.xyz;
+        axial.widths = lobe.xyz;
         far = vec2f(toksvig(mean, exponent).x, lobe.w);
     } else if TOKSVIG {
         far = toksvig(mean, exponent);

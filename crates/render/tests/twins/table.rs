@@ -207,9 +207,9 @@ fn arriving(x: &[f32]) -> Irradiance<f64> {
 
 use equations::vector::{add, dot, length, normalize_or_zero};
 use equations::{
-    aces, attenuation, axial_exponent, diffuse_term, divisor, half_vector, incidence, interpolated_normal, irradiance, lobe_angle,
-    lobe_exponent, mean_light, mirrored, power, range_window, reflect, reflected, reinhard, specular_blinn_phong,
-    specular_phong, specular_term, spot_factor, srgb_encoded, transform_normal, view_vector,
+    aces, attenuation, axial_exponent, diffuse_term, divisor, half_vector, incidence, interpolated_normal, irradiance,
+    lobe_angle, lobe_exponent, mean_light, mirrored, power, range_window, reflect, reflected, reinhard,
+    specular_blinn_phong, specular_phong, specular_term, spot_factor, srgb_encoded, transform_normal, view_vector,
 };
 
 use halfway_texture::environment::on_cube;
