@@ -40,7 +40,7 @@ pub fn decoded<T: Number>([x, y, z, _]: [T; 4]) -> [T; 3] {
     [x, y, z].map(|number| T::of(2.0) * number - T::one())
 }
 
-/// What highlights take of a map of normals that are smaller than a pixel.
+/// What highlights take of a map of normals that are smaller than a pixel, where light is shaded at the fragments.
 #[derive(Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[reflect(Clone, Debug, Default, PartialEq, Hash)]
 pub enum FarNormals {
@@ -49,9 +49,15 @@ pub enum FarNormals {
     Mean,
     /// And how long it is: wider and fainter highlights, by [`toksvig`] of [`mean_length`].
     Toksvig,
-    /// How far their slopes lie apart, and along which axis (Olano and Baker, "LEAN Mapping", 2010): highlights by
-    /// [`lean_lobe`] about the normal of the mean slopes. Takes [`Pyramid::moments`], two more images of the same size.
+    /// How far their slopes lie apart along each axis (Olano and Baker, "LEAN Mapping", 2010): highlights that need not be
+    /// round, by [`lean_lobe`] about the normal of the mean slopes. Reads [`Pyramid::moments`], two images of the same size, in
+    /// place of the normals. What mirrors an environment stays round: one exponent, by [`spread_length`].
     Lean,
+}
+
+impl FarNormals {
+    /// All, in the order of what they cost.
+    pub const ALL: [Self; 3] = [Self::Mean, Self::Toksvig, Self::Lean];
 }
 
 /// How long the mean of normals is that a texel stands for, 0 to 1, had their slopes been `s` times as steep: with |n| the
@@ -77,8 +83,9 @@ pub fn toksvig<T: Number>(length: T, exponent: T) -> [T; 2] {
 
 /// What a part of an image of normals has, by its [moments](Pyramid::moments): Olano and Baker, "LEAN Mapping", 2010.
 ///
-/// Of each normal there are the slopes b = (x/z, y/z), and b·bᵀ. Their means over a part of the image are means of texels, so
-/// that every filter does; and the covariance, bᵀb less the square of the mean, is how rough that part is along each axis.
+/// Of each normal there are the slopes b = (x/z, y/z), and b·bᵀ. Their means over a part of the image are means of
+/// texels, so that every filter does; and the covariance, the mean of b·bᵀ less the square of that of b, is how rough that
+/// part is along each axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SlopeSpread<T> {
     /// The mean slopes, x/z and y/z.
