@@ -234,7 +234,7 @@ impl ComponentWord for LevelFilter {
 }
 
 impl Word for FarNormals {
-    const WORDS: &'static [(&'static str, Self)] = 
+    const WORDS: &'static [(&'static str, Self)] =
         &[("mean", Self::Mean), ("toksvig", Self::Toksvig), ("lean", Self::Lean)];
 }
 
@@ -244,7 +244,7 @@ impl ComponentWord for FarNormals {
     const MEANINGS: &'static [&'static str] = &[
         "Where their mean points.",
         "And how long it is: rough surfaces have wider and fainter highlights from afar.",
-        "How far their slopes lie apart, and along which axis: highlights of rough surfaces are wider that way. Takes two more images of the same size.",
+        "How far their slopes lie apart along each axis, by two more images: highlights need not be round.",
     ];
 }
 
