@@ -284,8 +284,8 @@ fn minified_bumps_are_nearer_to_those_of_many_samples() {
     }
 }
 
-/// Furrows of several waves a pixel, of which a highlight is a streak. By moments it lies along the right axis; were their axes
-/// swapped, or their covariance of another sign, it would be that of furrows across another way.
+/// Furrows of several waves a pixel, of which a highlight is a streak. By moments it lies along the right axis; were
+/// their axes swapped, or their covariance of another sign, it would be that of furrows across another way.
 #[test]
 fn highlights_of_furrows_are_streaks_by_moments() {
     let (mut stage, mut fine) = (Stage::new(16, 12), Stage::new(512, 384));

@@ -1,5 +1,5 @@
-//! Highlights of points on vectors, by what a surface makes of them: round ones of one exponent for all points, or those of
-//! two axes, another at each point. Twins of `halfway_lighting::equations`, with their names.
+//! Highlights of points on vectors, by what a surface makes of them: round ones of one exponent for all points, or
+//! those of two axes, another at each point. Twins of `halfway_lighting::equations`, with their names.
 
 use crate::lanes::{F, Simd, V3, add, dot, each, fma, max, splat, splat3};
 use crate::pass::Highlight;
@@ -101,7 +101,8 @@ fn specular_phong<S: Simd>(simd: S, n: V3<S>, l: V3<S>, v: V3<S>, alpha: Power<S
     alpha.of(simd, fma::<S>(twice, dot::<S>(n, v), -dot::<S>(l, v)))
 }
 
-/// `max(n·h, 0)^β` with h = (l + v)/‖l + v‖, as ((n·(l + v))²/‖l + v‖²)^(β/2), without the gate n·l > 0; `half_beta` is β/2.
+/// `max(n·h, 0)^β` with h = (l + v)/‖l + v‖, as ((n·(l + v))²/‖l + v‖²)^(β/2), without the gate n·l > 0; `half_beta` is
+/// β/2.
 #[inline(always)]
 fn specular_blinn_phong<S: Simd>(simd: S, n: V3<S>, l: V3<S>, v: V3<S>, half_beta: Power<S>) -> F<S> {
     const SMALLEST: f32 = HALFWAY_MIN * HALFWAY_MIN;
@@ -138,7 +139,8 @@ mod tests {
         }
     }
 
-    /// Of two axes, of such as are turned, of none, of widths that would give exponents below 0, and toward the normal itself.
+    /// Of two axes, of such as are turned, of none, of widths that would give exponents below 0, and toward the normal
+    /// itself.
     #[test]
     fn highlights_of_two_axes_are_those_of_the_equations_on_every_width() {
         let (straight, turned) = ([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], [[0.8, 0.6, 0.0], [0.6, -0.8, 0.0]]);

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{Cursor, Read};
 use std::path::Path;
 
-use image::{DynamicImage, ImageDecoder, ImageReader, Limits};
+use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 
 use crate::error::TextureError;
 use crate::texels::{TexelImage, check_size};
@@ -50,6 +50,10 @@ pub fn load(path: &Path, meaning: TexelMeaning) -> Result<TexelImage, TextureErr
 pub fn decode(bytes: &[u8], name: &str, meaning: TexelMeaning) -> Result<TexelImage, TextureError> {
     let broken = |reason: String| TextureError::Decode { image: name.into(), reason };
     let reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format().map_err(|e| broken(e.to_string()))?;
+    if reader.format() == Some(ImageFormat::Jpeg) && !has_end_of_jpeg(bytes) {
+        // The decoder would make the rest gray.
+        return Err(broken("the file ends before the picture does".into()));
+    }
     let mut decoder = reader.into_decoder().map_err(|error| broken(error.to_string()))?;
     let (width, height) = decoder.dimensions();
     check_size(name, width, height)?;
@@ -84,6 +88,26 @@ pub fn decode(bytes: &[u8], name: &str, meaning: TexelMeaning) -> Result<TexelIm
         }));
     }
     Ok(TexelImage::checked(width, height, texels))
+}
+
+/// Whether a JPEG file has the marker of its end, EOI, where one may stand (ITU-T T.81, B.1): not within a segment,
+/// such as that of a preview with an end of its own.
+fn has_end_of_jpeg(bytes: &[u8]) -> bool {
+    let mut at = 2;
+    while at + 1 < bytes.len() {
+        match (bytes[at], bytes[at + 1]) {
+            (0xFF, 0xD9) => return true,
+            // What stands for 0xFF in a scan, a restart, or a fill byte before a marker.
+            (0xFF, 0x00 | 0x01 | 0xD0..=0xD8) => at += 2,
+            (0xFF, 0xFF) => at += 1,
+            (0xFF, _) => {
+                let Some(&[high, low]) = bytes.get(at + 2..at + 4) else { return false };
+                at += 2 + usize::from(u16::from_be_bytes([high, low]));
+            }
+            _ => at += 1,
+        }
+    }
+    false
 }
 
 /// The intensity that a number of the sRGB curve stands for (IEC 61966-2-1).

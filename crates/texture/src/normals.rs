@@ -49,9 +49,9 @@ pub enum FarNormals {
     Mean,
     /// And how long it is: wider and fainter highlights, by [`toksvig`] of [`mean_length`].
     Toksvig,
-    /// How far their slopes lie apart along each axis (Olano and Baker, "LEAN Mapping", 2010): highlights that need not be
-    /// round, by [`lean_lobe`] about the normal of the mean slopes. Reads [`Pyramid::moments`], two images of the same size, in
-    /// place of the normals. What mirrors an environment stays round: one exponent, by [`spread_length`].
+    /// How far their slopes lie apart along each axis (Olano and Baker, "LEAN Mapping", 2010): highlights that need not
+    /// be round, by [`lean_lobe`] about the normal of the mean slopes. Reads [`Pyramid::moments`], two images of the
+    /// same size, in place of the normals. What mirrors an environment stays round: one exponent, by [`spread_length`].
     Lean,
 }
 
@@ -84,8 +84,8 @@ pub fn toksvig<T: Number>(length: T, exponent: T) -> [T; 2] {
 /// What a part of an image of normals has, by its [moments](Pyramid::moments): Olano and Baker, "LEAN Mapping", 2010.
 ///
 /// Of each normal there are the slopes b = (x/z, y/z), and b·bᵀ. Their means over a part of the image are means of
-/// texels, so that every filter does; and the covariance, the mean of b·bᵀ less the square of that of b, is how rough that
-/// part is along each axis.
+/// texels, so that every filter does; and the covariance, the mean of b·bᵀ less the square of that of b, is how rough
+/// that part is along each axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SlopeSpread<T> {
     /// The mean slopes, x/z and y/z.
@@ -130,9 +130,10 @@ pub fn spread_length<T: Number>([xx, _, yy]: [T; 3]) -> T {
 }
 
 /// What becomes of a highlight (n·h)^s over normals whose slopes have this covariance Σ: it is as wide as Σ + I/s says,
-/// whose inverse comes first (of x with x, of x with y, of y with y); the last number is 1/(s·√det(Σ + I/s)), which keeps
-/// its energy. Along a direction d, of length 1, the exponent is dᵀ(Σ + I/s)⁻¹d, as Ashikhmin and Shirley, "An Anisotropic
-/// Phong BRDF Model", 2000, have it: `halfway_lighting::equations::axial_exponent`. Without roughness it is s all around.
+/// whose inverse comes first (of x with x, of x with y, of y with y); the last number is 1/(s·√det(Σ + I/s)), which
+/// keeps its energy. Along a direction d, of length 1, the exponent is dᵀ(Σ + I/s)⁻¹d, as Ashikhmin and Shirley, "An
+/// Anisotropic Phong BRDF Model", 2000, have it: `halfway_lighting::equations::axial_exponent`. Without roughness it is
+/// s all around.
 pub fn lean_lobe<T: Number>(covariance: [T; 3], s: T) -> [T; 4] {
     // Of s·Σ + I, which is finite for each s; within what squares of f32 can be.
     let [xx, xy, yy] = covariance.map(|number| (s * number).max(T::of(-1e12)).min(T::of(1e12)));

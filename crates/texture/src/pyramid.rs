@@ -102,8 +102,8 @@ impl Pyramid {
         self.more.ranges.get_or_init(|| TexelRanges::new(&self.levels, &self.texels))
     }
 
-    /// Of an image of normals the slopes, and their products: two more images with their pyramids, kept from the first call on.
-    /// [`SlopeSpread`](crate::normals::SlopeSpread) says what they are for.
+    /// Of an image of normals the slopes, and their products: two more images with their pyramids, kept from the first
+    /// call on. [`SlopeSpread`](crate::normals::SlopeSpread) says what they are for.
     pub fn moments(&self) -> &[Self; 2] {
         let [width, height] = self.size();
         let made = || moments(self.level(0)).map(|texels| Self::new(TexelImage::checked(width, height, texels)));

@@ -195,6 +195,104 @@ fn images_have_so_many_texels_at_most() {
     assert!(matches!(of_rows(rows), TextureError::Decode { .. }), "{}", of_rows(rows));
 }
 
+/// A small image in a format.
+fn file_in(format: ImageFormat) -> Vec<u8> {
+    let mut bytes = Cursor::new(Vec::new());
+    let image = RgbImage::from_fn(40, 40, |x, y| Rgb([x as u8 * 6, y as u8 * 6, (x * y) as u8]));
+    let image = DynamicImage::from(image);
+    let floats = matches!(format, ImageFormat::Hdr | ImageFormat::OpenExr);
+    let image = if floats { DynamicImage::from(image.to_rgb32f()) } else { image };
+    image.write_to(&mut bytes, format).expect("room for an image");
+    bytes.into_inner()
+}
+
+/// The file with another size in its header.
+fn resized(format: ImageFormat, [width, height]: [u32; 2]) -> Vec<u8> {
+    let mut file = file_in(format);
+    let after = |file: &[u8], mark: &[u8]| {
+        file.windows(mark.len()).position(|window| window == mark).expect("its header") + mark.len()
+    };
+    match format {
+        ImageFormat::Png => {
+            file[16..20].copy_from_slice(&width.to_be_bytes());
+            file[20..24].copy_from_slice(&height.to_be_bytes());
+            let checksum = crc(&file[12..29]).to_be_bytes();
+            file[29..33].copy_from_slice(&checksum);
+        }
+        ImageFormat::Jpeg => {
+            // The length of the segment and the precision stand before the height.
+            let at = after(&file, &[0xFF, 0xC0]) + 3;
+            file[at..at + 2].copy_from_slice(&(height as u16).to_be_bytes());
+            file[at + 2..at + 4].copy_from_slice(&(width as u16).to_be_bytes());
+        }
+        ImageFormat::Hdr => {
+            let at = after(&file, b"\n\n");
+            let end = at + after(&file[at..], b"\n");
+            file.splice(at..end, format!("-Y {height} +X {width}\n").into_bytes());
+        }
+        _ => {
+            // The name of the type and the length of a box stand before its corners; that of the texels, and the
+            // displayed one.
+            for name in [&b"dataWindow\0box2i\0"[..], b"displayWindow\0box2i\0"] {
+                let at = after(&file, name) + 4;
+                let corners = [0, 0, width as i32 - 1, height as i32 - 1].map(i32::to_le_bytes).concat();
+                file[at..at + 16].copy_from_slice(&corners);
+            }
+        }
+    }
+    file
+}
+
+const FORMATS: [ImageFormat; 4] = [ImageFormat::Png, ImageFormat::Jpeg, ImageFormat::Hdr, ImageFormat::OpenExr];
+
+#[test]
+fn sizes_that_no_image_has_are_refused_in_every_format() {
+    for format in FORMATS {
+        let name = format!("{format:?}");
+        let found = decode(&resized(format, [40, 40]), &name, TexelMeaning::Color).expect("the size that it has");
+        assert_eq!(found.size(), [40, 40], "{name}");
+        let refused = |size| {
+            let found = decode(&resized(format, size), &name, TexelMeaning::Color);
+            found.map(|image| image.size()).expect_err("no such size")
+        };
+        let error = refused([60_000, 60_000]);
+        // The parts of an EXR file have to be as many as its size asks for: that is looked at first.
+        let is_miscounted = format == ImageFormat::OpenExr && matches!(error, TextureError::Decode { .. });
+        let too_large = TextureError::TooLarge { image: name.clone(), width: 60_000, height: 60_000 };
+        assert!(is_miscounted || error == too_large, "{error}");
+        for size in [[0, 40], [40, 0]] {
+            let error = refused(size);
+            assert!(matches!(error, TextureError::Empty { .. } | TextureError::Decode { .. }), "{name}: {error}");
+            assert!(error.to_string().starts_with(&name), "{name}: {error}");
+        }
+    }
+}
+
+#[test]
+fn files_that_end_early_are_refused_in_every_format() {
+    for format in FORMATS {
+        let (name, file) = (format!("{format:?}"), file_in(format));
+        for length in [4, 20, file.len() / 3, file.len() / 2, file.len() * 9 / 10] {
+            let found = decode(&file[..length], &name, TexelMeaning::Color);
+            let error = found.map(|image| image.size()).expect_err("a part of it");
+            assert!(error.to_string().starts_with(&format!("{name}: is no image")), "{length}: {error}");
+        }
+    }
+}
+
+/// A preview within a segment has an end of its own, and after the end of the picture anything may stand.
+#[test]
+fn the_end_of_a_jpeg_is_that_of_its_picture() {
+    let file = file_in(ImageFormat::Jpeg);
+    let preview = [&[0xFF, 0xE1, 0, 8][..], b"ab", &[0xFF, 0xD9, 0, 0]].concat();
+    let with_preview = [&file[..2], &preview, &file[2..]].concat();
+    let size = |bytes: &[u8]| decode(bytes, "a.jpg", TexelMeaning::Color).map(|image| image.size());
+    assert_eq!(size(&with_preview), Ok([40, 40]));
+    assert_eq!(size(&[&file[..], b"more"].concat()), Ok([40, 40]));
+    let error = size(&with_preview[..with_preview.len() - 2]).expect_err("its end is missing");
+    assert_eq!(error.to_string(), "a.jpg: is no image that can be read: the file ends before the picture does");
+}
+
 #[test]
 fn files_have_so_many_bytes_at_most() {
     let path = std::env::temp_dir().join(format!("halfway-long-{}.png", std::process::id()));

@@ -59,7 +59,8 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     (0..3).map(|k| a[k] * b[k]).sum()
 }
 
-/// A highlight about the normal of mean slopes with this covariance: by an exponent for each direction, and by one for all.
+/// A highlight about the normal of mean slopes with this covariance: by an exponent for each direction, and by one for
+/// all.
 fn by_covariance([x, y]: [f64; 2], covariance: [f64; 3], h: [f64; 3], s: f64) -> [f64; 2] {
     let n = unit([x, y, 1.0]);
     // Beside it, along x, and at a right angle to both.
@@ -120,8 +121,8 @@ fn highlights_from_afar_are_nearer_with_corrected_exponents() {
     }
 }
 
-/// Over waves along one axis a highlight is a streak: of one exponent it is a spot of the wrong shape, and of a covariance
-/// with its axes swapped, mirrored, or without what they have in common it lies elsewhere.
+/// Over waves along one axis a highlight is a streak: of one exponent it is a spot of the wrong shape, and of a
+/// covariance with its axes swapped, mirrored, or without what they have in common it lies elsewhere.
 #[test]
 fn a_streak_needs_two_axes() {
     let of = |x: f64, y: f64| {
@@ -154,7 +155,8 @@ fn a_streak_needs_two_axes() {
     assert!(faults.iter().all(|fault| *fault > 0.5 * by_length), "{faults:?}, {by_length} Toksvig");
 }
 
-/// The inverse of Σ + I/s, from its definition; energy is kept; what is no covariance, or beyond all numbers, is finite.
+/// The inverse of Σ + I/s, from its definition; energy is kept; what is no covariance, or beyond all numbers, is
+/// finite.
 #[test]
 fn a_lobe_is_as_wide_as_its_normals_and_its_own() {
     let cases = [(0.1_f64, 0.05, 0.3, 20.0), (0.0, 0.0, 0.0, 50.0), (2.0, -1.0, 0.5, 3.0), (0.2, 0.0, 0.0, 0.0)];

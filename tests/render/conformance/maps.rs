@@ -251,8 +251,9 @@ pub(super) fn rows_of_kinds() -> Vec<Row> {
     rows_of(ALL.into_iter().chain([HEIGHTS]).map(|one| (one.0.name(), vec![one])))
 }
 
-/// Normals of which highlights take how long their mean is, or their moments: wherever some term is shaded at the fragments,
-/// under every reflectance, enlarged and reduced, and beside an image of shininess; of moments by filters of each form.
+/// Normals of which highlights take how long their mean is, or their moments: wherever some term is shaded at the
+/// fragments, under every reflectance, enlarged and reduced, and beside an image of shininess; of moments by filters of
+/// each form.
 pub(super) fn rows_of_far_normals(far_normals: FarNormals) -> Vec<Row> {
     let far = |scale: f32, amount: f32| {
         let mut scene = still_life().lit(point(Vec3::new(1.2, 1.6, 1.8)));

@@ -69,8 +69,8 @@ pub fn specular_term<T: Real>(reflectance: Reflectance, n: [T; 3], l: [T; 3], v:
 
 /// The exponent of a highlight that is not round, toward the halfway direction h = l + v, of any length: that of
 /// Ashikhmin and Shirley, "An Anisotropic Phong BRDF Model", 2000, with axes that need not be those of the highlight:
-/// (Σ mᵢⱼ·aᵢ·aⱼ)/(a₁² + a₂²), where a are h's lengths along `axes`, which are perpendicular to n, and m is `widths`, the
-/// inverse of how wide it is (m₁₁, m₁₂, m₂₂). Where h has no length along them (squares of at most 10⁻³⁰) it is
+/// (Σ mᵢⱼ·aᵢ·aⱼ)/(a₁² + a₂²), where a are h's lengths along `axes`, which are perpendicular to n, and m is `widths`,
+/// the inverse of how wide it is (m₁₁, m₁₂, m₂₂). Where h has no length along them (squares of at most 10⁻³⁰) it is
 /// `otherwise`; below 0 it never is.
 pub fn axial_exponent<T: Real>(axes: [[T; 3]; 2], widths: [T; 3], h: [T; 3], otherwise: T) -> T {
     let [a, b] = axes.map(|axis| dot(h, axis));

@@ -16,8 +16,8 @@ pub fn mapped_normal<T: Real>(n: [T; 3], t: [T; 3], w: T, texel: [T; 3], s: T, o
     if length(n) > T::of(NORMAL_MIN.into()) { normalize(sum).unwrap_or(otherwise) } else { otherwise }
 }
 
-/// The ways along which the normals of an image lie apart: perpendicular to n, a unit normal of the image. The first is t
-/// as far as it is so, at unit length, or 0 where nothing is left of it; the second w·(n × that). t and w are as in
+/// The ways along which the normals of an image lie apart: perpendicular to n, a unit normal of the image. The first is
+/// t as far as it is so, at unit length, or 0 where nothing is left of it; the second w·(n × that). t and w are as in
 /// [`mapped_normal`].
 pub fn lobe_axes<T: Real>(n: [T; 3], t: [T; 3], w: T) -> [[T; 3]; 2] {
     let along = normalize_or_zero(sub(t, scale(n, dot(n, t))));

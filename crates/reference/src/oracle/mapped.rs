@@ -121,7 +121,8 @@ impl OracleScene {
         }
     }
 
-    /// Highlights about a normal of the front that are not round, of a material with this exponent; `None` where they are.
+    /// Highlights about a normal of the front that are not round, of a material with this exponent; `None` where they
+    /// are.
     pub(super) fn axial(&self, hit: &Hit, n: Color, exponent: f64) -> Option<AxialLobe> {
         let solid = &self.solids[hit.solid];
         let (maps, (triangle, weights)) = (solid.maps.as_ref()?, hit.on_triangle()?);

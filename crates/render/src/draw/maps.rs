@@ -41,8 +41,8 @@ impl Part {
     }
 }
 
-/// The images that a set binds, each with its use: of normals of which the moments are read the slopes in their own slot, and
-/// their products in that of heights, of which there are none beside normals.
+/// The images that a set binds, each with its use: of normals of which the moments are read the slopes in their own
+/// slot, and their products in that of heights, of which there are none beside normals.
 fn bound<'a>(of: &'a MapsUse, pyramids: &'a Pyramids) -> impl Iterator<Item = Option<(&'a MapUse, &'a Pyramid, Part)>> {
     let [normal, height] = [MapKind::Normal as usize, MapKind::Height as usize];
     let moments = of.slots[normal].is_some_and(|of| of.moments);

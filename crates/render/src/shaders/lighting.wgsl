@@ -179,8 +179,8 @@ fn axial_exponent(axes: mat2x3f, widths: vec3f, h: vec3f, otherwise: f32) -> f32
     return select(max(along / max(squared, 1e-30), 0.0), otherwise, squared <= 1e-30);
 }
 
-// The axes of a fragment's highlights, perpendicular to its normal, and the inverse of how wide they are, as axial_exponent
-// takes them. Where nothing sets it highlights are round.
+// The axes of a fragment's highlights, perpendicular to its normal, and the inverse of how wide they are, as
+// axial_exponent takes them. Where nothing sets it highlights are round.
 struct AxialGloss {
     axes: mat2x3f,
     widths: vec3f,

@@ -11,8 +11,8 @@ override OCCLUSION_MAP: u32 = 65535;
 override NORMAL_MAP: u32 = 65535;
 override HEIGHT_MAP: u32 = 65535;
 override TOKSVIG: bool = false;        // highlights take how long the mean of the normals of an image is
-// LEAN, of lighting.wgsl: highlights take how far the slopes of an image's normals lie apart. NORMAL_MAP then looks up two
-// images: the slopes in place of the normals, and in place of the heights their products.
+// LEAN, of lighting.wgsl: highlights take how far the slopes of an image's normals lie apart. NORMAL_MAP then looks up
+// two images: the slopes in place of the normals, and in place of the heights their products.
 override MASKED: bool = false;         // what has an opacity below the cutoff is not there
 override TANGENT_SIGN: f32 = 1;        // -1 where the surface is lit inside out
 override BITANGENT_SIGN: f32 = 1;      // -1 where fronts wind clockwise

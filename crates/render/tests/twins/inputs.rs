@@ -238,8 +238,8 @@ pub(crate) fn cones() -> Vec<Input> {
     })
 }
 
-/// Two axes, how wide highlights are along them, a halfway direction, and an exponent otherwise; among the directions those of
-/// the normal, which have no length along the axes, and widths that are none.
+/// Two axes, how wide highlights are along them, a halfway direction, and an exponent otherwise; among the directions
+/// those of the normal, which have no length along the axes, and widths that are none.
 pub(crate) fn spreads() -> Vec<Input> {
     let row = |axes: [[f32; 3]; 2], widths: [f32; 3], h: [f32; 3], otherwise: f32| {
         input(&[&axes[0][..], &axes[1], &widths, &h, &[otherwise]].concat())

@@ -119,7 +119,8 @@ fn of_highlight(phong: bool, n: [f64; 3], l: [f64; 3], v: [f64; 3], blur: f64, e
     half_vector(l, v).map_or(0.0, |h| of_blurred_power(dot(n, h), 2.0 * blur / length(add(l, v)) + blur, e))
 }
 
-/// Lengths along the axes are off by some ULP of those of the vectors, by which each product is off, over the squares of them.
+/// Lengths along the axes are off by some ULP of those of the vectors, by which each product is off, over the squares
+/// of them.
 fn of_axial(x: &[f32]) -> Vec<f64> {
     let (axes, widths): ([[f64; 3]; 2], [f64; 3]) = ([wide(x), wide(&x[3..])], wide(&x[6..]));
     let h: [f64; 3] = wide(&x[9..]);
@@ -244,7 +245,8 @@ pub(crate) fn rows() -> Vec<Row> {
             |_, e| each(e, 0.0)),
         row!(diffuse_term("v(i, 0), v(i, 3)") -> Scalar, NOTHING, inputs::highlights(),
             |x| (wide(x), wide(&x[3..])), |_, e| each(e, 3.0 * ULP)),
-        row!(axial_exponent("mat2x3f(v(i, 0), v(i, 3)), v(i, 6), v(i, 9), s(i, 12)") -> Scalar, NOTHING, inputs::spreads(),
+        row!(axial_exponent("mat2x3f(v(i, 0), v(i, 3)), v(i, 6), v(i, 9), s(i, 12)") -> Scalar, NOTHING,
+            inputs::spreads(),
             |x| ([wide(x), wide(&x[3..])], wide(&x[6..]), wide(&x[9..]), f64::from(x[12])), |x, _| of_axial(x)),
         row!(specular_phong("v(i, 0), v(i, 3), v(i, 6), s(i, 9)") -> Scalar, PHONG, inputs::highlights(),
             |x| (wide(x), wide(&x[3..]), wide(&x[6..]), f64::from(x[9])),
