@@ -1,10 +1,12 @@
-//! Draws scenes over the whole format of scene files, models and images on objects excepted.
+//! Draws scenes over the whole format of scene files, models excepted; of images on objects there are normals.
 //!
 //! Most values are ordinary, so that most scenes show something; each may be extreme, and any key may be left out.
 
+mod files;
 mod light;
 mod looks;
 mod mesh;
+mod normals;
 mod place;
 mod surroundings;
 
@@ -12,7 +14,7 @@ use serde_json::{Map, Value, json};
 
 use crate::random::Random;
 
-pub use surroundings::IMAGES;
+pub use files::IMAGES;
 
 /// Scene number `number` of a seed, as the JSON of a scene file: the same one on every machine.
 pub fn scene(seed: u64, number: u64) -> Value {
@@ -34,20 +36,43 @@ pub fn scene(seed: u64, number: u64) -> Value {
     scene.perhaps(random, 70, "reflectance", looks::reflectance);
     scene.perhaps(random, 35, "intensity", looks::intensity);
     scene.perhaps(random, 20, "environment", surroundings::environment);
-    // Last, so that all else is as it would be without; not in an environment, which some adapters leave out for solids.
+    // Last, so that all else is as it would be without; not in an environment, which some adapters leave out for solids
+    // and images.
     if !scene.0.contains_key("environment")
         && let Some(Value::Array(objects)) = scene.0.get_mut("objects")
     {
         cut(random, unit, objects);
+        turn_normals(random, objects);
     }
     scene.into()
+}
+
+/// Puts images of normals on some objects, most of which are then lit at the pixels. One on top of another has the
+/// same, as of solids.
+fn turn_normals(random: &mut Random, objects: &mut [Value]) {
+    for at in 0..objects.len() {
+        if is_twin(objects, at) {
+            if let Some(maps) = objects[at - 1].get("maps").cloned() {
+                objects[at]["maps"] = maps;
+            }
+        } else if random.percent(20) {
+            objects[at]["maps"] = normals::maps(random);
+            if random.percent(70) {
+                objects[at]["shading"] = "phong".into();
+            }
+        }
+    }
+}
+
+/// Whether an object lies where the one before it does.
+fn is_twin(objects: &[Value], at: usize) -> bool {
+    at > 0 && ["mesh", "transform"].iter().all(|key| objects[at][key] == objects[at - 1][key])
 }
 
 /// Cuts some objects from solids. One on top of another is cut from the same: the CPU may draw either first otherwise.
 fn cut(random: &mut Random, unit: f64, objects: &mut [Value]) {
     for at in 0..objects.len() {
-        let is_twin = at > 0 && ["mesh", "transform"].iter().all(|key| objects[at][key] == objects[at - 1][key]);
-        let solid = if is_twin {
+        let solid = if is_twin(objects, at) {
             objects[at - 1].get("solid").cloned()
         } else {
             random.percent(8).then(|| looks::solid(random, unit))

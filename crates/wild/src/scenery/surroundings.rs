@@ -2,26 +2,14 @@
 
 use serde_json::{Value, json};
 
-use super::{Object, short};
+use super::{IMAGES, Object, short};
 use crate::random::Random;
-
-/// The files that random scenes name, relative to the folder of the scene, and what they hold.
-pub const IMAGES: [(&str, &[u8]); 8] = [
-    ("environments/dusk.png", include_bytes!("../../../../tests/wild/environments/dusk.png")),
-    ("environments/ball.png", include_bytes!("../../../../tests/wild/environments/ball.png")),
-    ("environments/right.png", include_bytes!("../../../../tests/wild/environments/right.png")),
-    ("environments/left.png", include_bytes!("../../../../tests/wild/environments/left.png")),
-    ("environments/above.png", include_bytes!("../../../../tests/wild/environments/above.png")),
-    ("environments/below.png", include_bytes!("../../../../tests/wild/environments/below.png")),
-    ("environments/front.png", include_bytes!("../../../../tests/wild/environments/front.png")),
-    ("environments/behind.png", include_bytes!("../../../../tests/wild/environments/behind.png")),
-];
 
 pub(super) fn environment(random: &mut Random) -> Value {
     let (shape, images) = match random.whole(0, 2) {
         0 => ("equirectangular", &IMAGES[..1]),
         1 => ("ball", &IMAGES[1..2]),
-        _ => ("cube", &IMAGES[2..]),
+        _ => ("cube", &IMAGES[2..8]),
     };
     let mut environment = Object::new();
     environment.set("paths", images.iter().map(|(path, _)| *path).collect::<Vec<_>>().into());

@@ -1,0 +1,15 @@
+//! The files that scenes name.
+
+/// The files that random scenes name, relative to the folder of the scene, and what they hold: environments, and
+/// normals.
+pub const IMAGES: [(&str, &[u8]); 9] = [
+    ("environments/dusk.png", include_bytes!("../../../../tests/wild/environments/dusk.png")),
+    ("environments/ball.png", include_bytes!("../../../../tests/wild/environments/ball.png")),
+    ("environments/right.png", include_bytes!("../../../../tests/wild/environments/right.png")),
+    ("environments/left.png", include_bytes!("../../../../tests/wild/environments/left.png")),
+    ("environments/above.png", include_bytes!("../../../../tests/wild/environments/above.png")),
+    ("environments/below.png", include_bytes!("../../../../tests/wild/environments/below.png")),
+    ("environments/front.png", include_bytes!("../../../../tests/wild/environments/front.png")),
+    ("environments/behind.png", include_bytes!("../../../../tests/wild/environments/behind.png")),
+    ("images/furrows.png", include_bytes!("../../../../tests/wild/images/furrows.png")),
+];
