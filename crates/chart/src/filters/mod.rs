@@ -1,5 +1,7 @@
-//! Filters of images against the integrated footprint: error, shimmer, time and memory.
+//! Filters of images against the integrated footprint, and highlights of normal maps from afar against many samples:
+//! error, shimmer, time and memory.
 
+mod highlights;
 mod scenery;
 mod sweep;
 
@@ -7,6 +9,9 @@ use halfway::texture::{LevelFilter, Sampling, TexelFilter};
 
 use crate::timing::Spread;
 
+pub use highlights::{
+    HighlightFigures, MeasuredHighlights, RoughSurface, far_normals_memory, far_normals_name, highlights,
+};
 pub use scenery::{ChartedImage, FilterView};
 pub use sweep::sweep;
 
@@ -29,10 +34,10 @@ impl FilterPlan {
     /// The same with fewer pixels, frames and rounds: for a look.
     pub const QUICK: Self = Self { size: [96, 72], frames: 4, rounds: 7, tolerance: 1e-4 };
 
-    /// The units that [`sweep`] reports: a truth each, and one for the timing of each image.
+    /// The units that [`sweep`] and [`highlights`] report: a truth each, and one for each timing.
     pub fn units(&self) -> u64 {
         let views = FilterView::ALL.len() + FilterView::MOVING.len() * self.frames as usize;
-        (ChartedImage::ALL.len() * (views + 1)) as u64
+        (ChartedImage::ALL.len() * (views + 1)) as u64 + Self::highlight_units()
     }
 }
 

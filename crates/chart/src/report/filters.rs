@@ -2,9 +2,11 @@
 
 use super::charts::gray;
 use super::tables::{capital, number};
-use super::{NamedFile, ReportError, figure_file};
+use super::{NamedFile, ReportError, figure_file, highlights};
 use crate::figure::{Axis, AxisScale, Figure, Marker, Panel, Point, Series, Stroke, Style};
-use crate::filters::{FILTERS, FilterFigures, FilterPlan, FilterView, MeasuredFilters, sweep};
+use crate::filters::{
+    FILTERS, FilterFigures, FilterPlan, FilterView, MeasuredFilters, MeasuredHighlights, highlights as measured, sweep,
+};
 use crate::measure::{MeasureError, MeasureProgress};
 use crate::page::{Page, PageTable, Section, csv, html};
 use crate::timing::{Machine, Spread};
@@ -16,6 +18,8 @@ pub struct Filters {
     pub plan: FilterPlan,
     /// What was found of each image.
     pub images: Vec<MeasuredFilters>,
+    /// What was found of highlights of each rough surface.
+    pub highlights: Vec<MeasuredHighlights>,
     facts: Vec<(String, String)>,
 }
 
@@ -36,26 +40,36 @@ impl Filters {
     /// Measures; `progress` hears of [`FilterPlan::units`].
     ///
     /// # Errors
-    /// A picture that cannot be put on the page.
+    /// What cannot be drawn, or a picture that cannot be put on the page.
     pub fn measure(plan: FilterPlan, progress: &mut MeasureProgress<'_>) -> Result<Self, MeasureError> {
-        Ok(Self { plan, images: sweep(&plan, progress)?, facts: Machine::processor() })
+        let (images, highlights) = (sweep(&plan, progress)?, measured(&plan, progress)?);
+        Ok(Self { plan, images, highlights, facts: Machine::processor() })
     }
 
-    /// The page `filters.html`, the charts and the table.
+    /// The page `filters.html`, the charts and the tables.
     ///
     /// # Errors
     /// What could not be drawn.
     pub fn files(&self) -> Result<Vec<NamedFile>, ReportError> {
         let figures: Vec<Figure> = QUANTITIES.into_iter().map(|quantity| self.figure(quantity)).collect();
+        let of_highlights = highlights::figures(&self.highlights);
         let page = Page {
             title: "Texture filters".to_owned(),
             lead: LEAD.to_owned(),
             facts: self.facts(),
-            sections: self.sections(&figures),
+            sections: self
+                .sections(&figures)
+                .into_iter()
+                .chain([highlights::section(&self.highlights, &of_highlights)])
+                .collect(),
             points: None,
         };
-        let mut files = vec![("filters.html".to_owned(), html(&page)?), ("filters.csv".to_owned(), self.csv())];
-        for figure in &figures {
+        let mut files = vec![
+            ("filters.html".to_owned(), html(&page)?),
+            ("filters.csv".to_owned(), self.csv()),
+            ("highlights.csv".to_owned(), highlights::file(&self.highlights)),
+        ];
+        for figure in figures.iter().chain(&of_highlights) {
             files.push(figure_file(figure)?);
         }
         Ok(files)
@@ -70,13 +84,11 @@ impl Filters {
         for image in &self.images {
             blocks.push(format!("## {}", capital(image.image.name())));
             blocks.extend(findings(image));
-            for table in [figures_table(image), views_table(image)] {
-                let line = |cells: &Vec<String>| format!("| {} |", cells.join(" | "));
-                let rule = format!("|{}", "---|".repeat(table.header.len()));
-                let lines = [line(&table.header), rule].into_iter().chain(table.rows.iter().map(line));
-                blocks.extend([format!("{}:", table.caption), lines.collect::<Vec<_>>().join("\n")]);
-            }
+            blocks.extend([figures_table(image), views_table(image)].iter().flat_map(in_markdown));
         }
+        blocks.push(format!("## {}", highlights::TITLE));
+        blocks.extend(highlights::text());
+        blocks.extend(highlights::tables(&self.highlights).iter().flat_map(in_markdown));
         blocks.join("\n\n") + "\n"
     }
 
@@ -181,6 +193,14 @@ impl Filters {
         });
         csv(header, rows)
     }
+}
+
+/// Its caption and its lines.
+fn in_markdown(table: &PageTable) -> [String; 2] {
+    let line = |cells: &Vec<String>| format!("| {} |", cells.join(" | "));
+    let rule = format!("|{}", "---|".repeat(table.header.len()));
+    let lines = [line(&table.header), rule].into_iter().chain(table.rows.iter().map(line));
+    [format!("{}:", table.caption), lines.collect::<Vec<_>>().join("\n")]
 }
 
 /// What wins where, in sentences.

@@ -5,6 +5,7 @@ mod earlier;
 mod failing;
 mod filters;
 mod fronts;
+mod highlights;
 mod over;
 mod pages;
 mod plan;
