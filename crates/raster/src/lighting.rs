@@ -5,7 +5,7 @@ use crate::lanes::{
     F, I, M, Simd, V3, add, add_scaled, dot, each, fma, max, min, neg, saturate, scale, select3, splat, splat_i,
     splat3, sub,
 };
-use crate::lobe::Lobe;
+use crate::lobe::PointLobe;
 use crate::pass::{LightData, LightRange, ShadedTerms, SideData};
 use crate::power::{Exponent, power};
 use fearless_simd::prelude::*;
@@ -101,7 +101,7 @@ fn add_light<S: Simd>(
     light: &LightData,
     incident: &Incidence<S>,
     points: &Points<S>,
-    lobe: impl Lobe<S>,
+    lobe: impl PointLobe<S>,
     terms: ShadedTerms,
 ) {
     let Points { n, v, .. } = *points;
@@ -238,7 +238,7 @@ pub(crate) fn gathered_here<S: Simd>(
     lights: (&[LightData], &[u32]),
     ranges: [LightRange; 3],
     points: &Points<S>,
-    lobe: impl Lobe<S>,
+    lobe: impl PointLobe<S>,
     terms: ShadedTerms,
 ) -> Irradiance<S> {
     let mut sum = Irradiance::none(simd);
@@ -255,7 +255,7 @@ pub(crate) fn gathered<S: Simd>(
     lights: (&[LightData], &[u32]),
     ranges: [LightRange; 3],
     points: &Points<S>,
-    lobe: impl Lobe<S>,
+    lobe: impl PointLobe<S>,
     terms: ShadedTerms,
 ) -> Irradiance<S> {
     simd.vectorize(
@@ -272,7 +272,7 @@ fn add_listed<S: Simd>(
     (lights, lists): (&[LightData], &[u32]),
     range: LightRange,
     points: &Points<S>,
-    lobe: impl Lobe<S>,
+    lobe: impl PointLobe<S>,
     terms: ShadedTerms,
 ) {
     if range.is_empty() || terms.is_empty() {

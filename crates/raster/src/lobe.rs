@@ -8,7 +8,7 @@ use fearless_simd::prelude::*;
 use halfway_lighting::equations::HALFWAY_MIN;
 
 /// What the highlights of points take from the surface.
-pub(crate) trait Lobe<S: Simd>: Copy {
+pub(crate) trait PointLobe<S: Simd>: Copy {
     /// S, without the gate n·l > 0.
     fn highlight(self, simd: S, n: V3<S>, l: V3<S>, v: V3<S>) -> F<S>;
 }
@@ -32,7 +32,7 @@ impl Gloss {
     }
 }
 
-impl<S: Simd> Lobe<S> for Gloss {
+impl<S: Simd> PointLobe<S> for Gloss {
     #[inline(always)]
     fn highlight(self, simd: S, n: V3<S>, l: V3<S>, v: V3<S>) -> F<S> {
         match self.highlight {
@@ -71,7 +71,7 @@ impl<S: Simd> AxialGloss<S> {
     }
 }
 
-impl<S: Simd> Lobe<S> for AxialGloss<S> {
+impl<S: Simd> PointLobe<S> for AxialGloss<S> {
     #[inline(always)]
     fn highlight(self, simd: S, n: V3<S>, l: V3<S>, v: V3<S>) -> F<S> {
         let exponents = axial_exponent(simd, &self, add::<S>(l, v));
