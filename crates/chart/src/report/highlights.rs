@@ -57,15 +57,15 @@ pub(super) fn text() -> Vec<String> {
     vec![
         format!(
             "A plane shows nothing but highlights (Blinn–Phong, exponent 60) of a normal map, seen from above at \
-             distances where a pixel is 1 to {} texels wide, drawn by the CPU without a driver. Truth is the same scene \
-             with as many samples along each axis of a pixel as it has texels, 4 at least. Errors are linear, of \
+             distances where a pixel is 1 to {} texels wide, drawn by the CPU without a driver. Truth is the same \
+             scene with as many samples along each axis of a pixel as it has texels, 4 at least. Errors are linear, of \
              highlights of 1 at most. Shimmer is the RMS of what changes from frame to frame of a moving camera, less \
              what changes in the truth.",
             FilterPlan::TEXELS[FilterPlan::TEXELS.len() - 1]
         ),
         format!(
-            "Time is that of a frame of four times the width and height, at {texels} texels a pixel, over that by the mean \
-             normal in the same round. Pictures are of that distance, too."
+            "Time is that of a frame of four times the width and height, at {texels} texels a pixel, over that by the \
+             mean normal in the same round. Pictures are of that distance, too."
         ),
     ]
 }
