@@ -7,8 +7,10 @@ use crate::figure::{Axis, AxisScale, Figure, Marker, Panel, Point, Series, Strok
 use crate::filters::{FilterPlan, HighlightFigures, MeasuredHighlights, far_normals_memory, far_normals_name};
 use crate::page::{PageTable, Section, csv};
 
-/// What is charted over the distance.
-const QUANTITIES: [(&str, &str, fn(&HighlightFigures) -> &[f64]); 2] = [
+/// A quantity that is charted over the distance: the figure's name, its own, and its values.
+type OverDistance = (&'static str, &'static str, fn(&HighlightFigures) -> &[f64]);
+
+const QUANTITIES: [OverDistance; 2] = [
     ("highlights-rms", "RMS error", |figures| &figures.rms),
     ("highlights-shimmer", "shimmer", |figures| &figures.shimmer),
 ];
@@ -17,7 +19,7 @@ pub(super) const TITLE: &str = "Highlights of normal maps from afar";
 
 /// The figures of both quantities, a panel a surface.
 pub(super) fn figures(found: &[MeasuredHighlights]) -> Vec<Figure> {
-    let figure = |(id, label, of): (&str, &str, fn(&HighlightFigures) -> &[f64])| Figure {
+    let figure = |(id, label, of): OverDistance| Figure {
         id: id.to_owned(),
         title: format!("{} of highlights against the distance", capital(label)),
         x: Axis::new("texels a pixel", AxisScale::Log),
