@@ -27,7 +27,7 @@ enum Check {
     Circles,
     /// No two types share a name
     Names,
-    /// No file of code is longer than 500 lines
+    /// No file of code is longer than 500 lines, no line of prose wider than 120 columns
     Lengths,
     /// Subjects of commits name their room and are short
     Commits,
