@@ -1,4 +1,5 @@
-//! Two stones on two floors in even light from all sides; on the right both have ambient occlusion that rays have baked.
+//! Two stones on two floors in even light from all sides; on the right both have ambient occlusion that rays have
+//! baked.
 //!
 //! ```text
 //! cargo run --release --example baked_occlusion

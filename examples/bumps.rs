@@ -1,5 +1,5 @@
-//! One image of heights on four columns: not at all, as a bump map, as the normal map that is made of it, and as the heights of
-//! the vertices of a fine mesh. Prints how far the first three are from the last, by the oracle.
+//! One image of heights on four columns: not at all, as a bump map, as the normal map that is made of it, and as the
+//! heights of the vertices of a fine mesh. Prints how far the first three are from the last, by the oracle.
 //!
 //! ```text
 //! cargo run --release --example bumps

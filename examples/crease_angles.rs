@@ -1,5 +1,5 @@
-//! Where does a surface go on, and where does it end in an edge? From left to right the normals stop at edges where faces
-//! differ by more than 10, 40 and 180 degrees; above a turned piece of twenty sides, below a coarse teapot.
+//! Where does a surface go on, and where does it end in an edge? From left to right the normals stop at edges where
+//! faces differ by more than 10, 40 and 180 degrees; above a turned piece of twenty sides, below a coarse teapot.
 //! docs/normals.md tells more.
 //!
 //! ```text

@@ -1,5 +1,5 @@
-//! Ten balls under one sky and nothing else that lights them: from left to right ever sharper highlights, above of metal, below
-//! of a matt color with a polish over it.
+//! Ten balls under one sky and nothing else that lights them: from left to right ever sharper highlights, above of
+//! metal, below of a matt color with a polish over it.
 //!
 //! ```text
 //! cargo run --release --example environment

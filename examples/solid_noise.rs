@@ -1,5 +1,5 @@
-//! Cut solids that show their inside: a block of wood without a corner, a ball of marble without an eighth, a ball of noise; on
-//! a checkered floor to the horizon, where what is finer than a pixel has turned to its mean.
+//! Cut solids that show their inside: a block of wood without a corner, a ball of marble without an eighth, a ball of
+//! noise; on a checkered floor to the horizon, where what is finer than a pixel has turned to its mean.
 //!
 //! ```text
 //! cargo run --release --example solid_noise

@@ -57,8 +57,9 @@ static ALLOCATOR: Counting = Counting { blocks: AtomicUsize::new(0), bytes: Atom
 /// Frames until buffers have their sizes.
 const WARM_UP: usize = 8;
 const FRAMES: usize = 16;
-/// The most blocks of one frame. One without changes takes 71 to 77 on a software adapter, and 10 more where instances are
-/// sent: nearly all of them wgpu's, for the pass, its commands, their submission and the staging of what is written.
+/// The most blocks of one frame. One without changes takes 71 to 77 on a software adapter, and 10 more where instances
+/// are sent: nearly all of them wgpu's, for the pass, its commands, their submission and the staging of what is
+/// written.
 const MOST_BLOCKS: usize = 110;
 /// The most bytes of one frame; those blocks have 14,000 to 19,000.
 const MOST_BYTES: usize = 32_000;

@@ -28,13 +28,13 @@ static ALLOCATOR: memory::Counting = memory::Counting::new();
 const FRAMES: u64 = 100_000;
 /// Frames until buffers, caches and pipelines have their sizes.
 const WARM_UP: u64 = 1_000;
-/// How often memory is looked at, in frames. It is no multiple of the lengths after which the scene repeats something, so
-/// that the largest of some looks is near the largest there is.
+/// How often memory is looked at, in frames. It is no multiple of the lengths after which the scene repeats something,
+/// so that the largest of some looks is near the largest there is.
 const LOOK: u64 = 7;
 /// A picture is read back this often, in frames.
 const READ: u64 = 500;
-/// The program's own bytes on the heap may grow by this much from the first frames after the warm-up to the last: tables
-/// double when a rare frame has more of something. `--leak` grows by more than this.
+/// The program's own bytes on the heap may grow by this much from the first frames after the warm-up to the last:
+/// tables double when a rare frame has more of something. `--leak` grows by more than this.
 const SLACK_LIVE: u64 = 64 << 10;
 /// And the memory that is resident, the driver's included, by this much: allocators keep pages in reserve.
 const SLACK_RESIDENT: u64 = 4 << 20;

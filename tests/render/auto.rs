@@ -1,5 +1,5 @@
-//! `Shading::Auto`: whatever is moved to the vertices or left out, no pixel is off by more than the tolerance from what the
-//! oracle shows of Phong shading under all lights.
+//! `Shading::Auto`: whatever is moved to the vertices or left out, no pixel is off by more than the tolerance from what
+//! the oracle shows of Phong shading under all lights.
 
 use crate::render::compare::{FLOAT, Failures, SRGB, assert_identical, difference};
 use crate::render::random::Random;
@@ -239,8 +239,8 @@ fn moving_lights_stay_within_the_tolerance() {
     failures.finish();
 }
 
-/// What a patch covers decides: the same ball is looked at light by light in a large picture, and only a few of its patches
-/// in a small one; and nowhere what costs more whatever it covers.
+/// What a patch covers decides: the same ball is looked at light by light in a large picture, and only a few of its
+/// patches in a small one; and nowhere what costs more whatever it covers.
 #[test]
 fn what_costs_more_than_it_saves_stays_at_the_fragments() {
     let mut auto = scene(Thing::new(ball()).of(material())).lit(sun());
@@ -293,8 +293,8 @@ fn prices_that_are_none_are_told_and_not_taken() {
     }
 }
 
-/// A run of patches goes on over those between that do not show, and not over triangles for which coarser or finer ones stand:
-/// these would be drawn too, under the lights of their neighbours.
+/// A run of patches goes on over those between that do not show, and not over triangles for which coarser or finer ones
+/// stand: these would be drawn too, under the lights of their neighbours.
 #[test]
 fn coarser_patches_take_no_triangles_of_others_along() {
     let mut stage = stage(244, 220);

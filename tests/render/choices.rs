@@ -1,5 +1,5 @@
-//! Where terms are shaded, from frame to frame: a slow light changes few choices, what is kept is within the tolerance of its own
-//! frame, and pictures that are written do not depend on the frames before.
+//! Where terms are shaded, from frame to frame: a slow light changes few choices, what is kept is within the tolerance
+//! of its own frame, and pictures that are written do not depend on the frames before.
 
 use crate::render::compare::{FLOAT, Failures, assert_identical};
 use crate::render::scene::{Lamp, Scene, Thing, directional_light, material};

@@ -15,10 +15,11 @@ pub(crate) const FLOAT: Bars = Bars::FLOAT;
 /// one colour it may be all.
 pub(crate) const SRGB: Bars = Bars { equal: 0.0, ..Bars::bytes(Encoding::Srgb) };
 
-/// Each layer is rounded to bytes before the next is blended over it, where the oracle rounds once: fewer bytes are equal.
+/// Each layer is rounded to bytes before the next is blended over it, where the oracle rounds once: fewer bytes are
+/// equal.
 pub(crate) const BLENDED: Bars = Bars { equal: 0.0, ..Bars::bytes(Encoding::Raw) };
-/// Bytes of scenes with more than eight lights: a patch may leave out what adds up to half a step, and as large a part of
-/// the pixels rounds to the step below as of a step is left out.
+/// Bytes of scenes with more than eight lights: a patch may leave out what adds up to half a step, and as large a part
+/// of the pixels rounds to the step below as of a step is left out.
 pub(crate) const SELECTED: Bars = Bars { equal: 0.5, ..Bars::bytes(Encoding::Raw) };
 
 /// The rows of a table that failed, so that one does not hide the others.

@@ -1,4 +1,5 @@
-//! The conformance suite: named scenes, each drawn by the renderer and by the oracle, in floating point and in bytes of both encodings.
+//! The conformance suite: named scenes, each drawn by the renderer and by the oracle, in floating point and in bytes of
+//! both encodings.
 //!
 //! There is a row for every value of every axis, one for every pair of values that a scene can have together
 //! (`conformance/axes.rs`), and one for every feature beside the axes (`conformance/features.rs`).
@@ -107,8 +108,8 @@ impl Worst {
     }
 }
 
-/// Which of the rows that drivers compile slowly, those with images, solids or environments, are drawn: of each `of` one after
-/// the other the one of this number. `HALFWAY_SHARE=1/3` says so, from 1 on; by default it is all.
+/// Which of the rows that drivers compile slowly, those with images, solids or environments, are drawn: of each `of`
+/// one after the other the one of this number. `HALFWAY_SHARE=1/3` says so, from 1 on; by default it is all.
 struct Share {
     number: usize,
     of: usize,
@@ -170,8 +171,8 @@ fn conform(title: &str, rows: &[Row]) {
     conform_within(title, rows, 0.0);
 }
 
-/// Draws every row on one stage, and compares its three pictures with the oracle's: on an adapter whose grid within a pixel
-/// is coarse within a number of steps besides.
+/// Draws every row on one stage, and compares its three pictures with the oracle's: on an adapter whose grid within a
+/// pixel is coarse within a number of steps besides.
 fn conform_within(title: &str, rows: &[Row], steps_on_coarse_grid: f64) {
     conform_on(Stage::new(SIZE.x, SIZE.y), title, rows, steps_on_coarse_grid);
 }
@@ -235,8 +236,8 @@ fn every_policy_of_intensity_conforms_after_averaging() {
     conform_on_fine_grids("policies of intensity, four samples", &policies::rows(Samples::Four));
 }
 
-/// On a grid of 1/16 pixel it is not known which samples a triangle covers, and a pixel is one of more colors than the oracle
-/// tells apart; elsewhere they are.
+/// On a grid of 1/16 pixel it is not known which samples a triangle covers, and a pixel is one of more colors than the
+/// oracle tells apart; elsewhere they are.
 fn conform_on_fine_grids(title: &str, rows: &[Row]) {
     let mut stage = Stage::new(SIZE.x, SIZE.y);
     stage.frame();
@@ -250,8 +251,8 @@ fn every_mask_conforms_with_four_samples() {
     conform_on_the_cpu("masks, four samples", &maps::rows_of_masks_with_four_samples());
 }
 
-/// On the CPU, whatever else is tested: llvmpipe is off by up to 5e-2 of the range where a triangle covers a pixel in part, and
-/// why is not known.
+/// On the CPU, whatever else is tested: llvmpipe is off by up to 5e-2 of the range where a triangle covers a pixel in
+/// part, and why is not known.
 fn conform_on_the_cpu(title: &str, rows: &[Row]) {
     conform_on(Stage::on_the_cpu(SIZE.x, SIZE.y), title, rows, 0.0);
 }
@@ -261,7 +262,8 @@ fn environments_conform_with_four_samples() {
     conform_on_the_cpu("environment, four samples", &environment::rows_of_four());
 }
 
-/// Planted faults: of a mask, a cutoff that is off by 0.06, and none; of an environment, one that is turned, and one that is brighter.
+/// Planted faults: of a mask, a cutoff that is off by 0.06, and none; of an environment, one that is turned, and one
+/// that is brighter.
 #[test]
 fn faults_are_found_with_four_samples() {
     let mut stage = Stage::on_the_cpu(SIZE.x, SIZE.y);
@@ -308,7 +310,8 @@ fn every_way_to_shade_colors_of_vertices_conforms() {
 
 #[test]
 fn every_way_to_shade_and_to_filter_images_conforms() {
-    // Vertices that are rounded to 1/16 pixel turn the planes of u and v: SwiftShader is off by up to 1.2e-2 of the range.
+    // Vertices that are rounded to 1/16 pixel turn the planes of u and v: SwiftShader is off by up to 1.2e-2 of the
+    // range.
     conform_within("images", &maps::rows(), 2.0);
 }
 
@@ -318,8 +321,8 @@ fn every_filter_by_the_footprints_shape_conforms() {
     let mut stage = Stage::new(SIZE.x, SIZE.y);
     stage.frame();
     if stage.grid_bits() < 8 {
-        // On a grid of 1/16 pixel a mask cuts other pixels, which are off by whatever is behind them; no bar would tell that from
-        // another filter. Masks themselves are among all kinds of images at once.
+        // On a grid of 1/16 pixel a mask cuts other pixels, which are off by whatever is behind them; no bar would tell
+        // that from another filter. Masks themselves are among all kinds of images at once.
         rows.retain(|row| row.scene.things.iter().all(|thing| thing.mask.is_none()));
     }
     conform_within("filters by shape", &rows, 2.0);
@@ -367,8 +370,8 @@ fn highlights_of_other_far_normals_are_found_out() {
     }
 }
 
-/// All kinds on one object. On a grid of 1/16 pixel each turns at an outline, and they multiply: a few pixels there are off by a
-/// fifth of the range, so that pictures are held to as a whole; by that, each image that is left out is found.
+/// All kinds on one object. On a grid of 1/16 pixel each turns at an outline, and they multiply: a few pixels there are
+/// off by a fifth of the range, so that pictures are held to as a whole; by that, each image that is left out is found.
 #[test]
 fn all_kinds_of_images_at_once_conform() {
     let rows = maps::rows_of_all_kinds();

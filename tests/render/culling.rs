@@ -1,4 +1,5 @@
-//! Patches of large meshes: those that are out of sight or turned away are not drawn, and nothing that shows is missing.
+//! Patches of large meshes: those that are out of sight or turned away are not drawn, and nothing that shows is
+//! missing.
 
 use crate::render::compare::{FLOAT, Failures};
 use crate::render::scene::{Lamp, Scene, Thing, directional_light, other_material, point_light, rotated, scaled};
@@ -82,7 +83,8 @@ fn sheared_spheres_are_whole() {
             let mut scene = lit(Scene::seen_from(Vec3::new(3.0, 5.0, 19.0), Vec3::ZERO));
             scene.camera.fov_y = 0.25;
             let scene = scene.with(Thing::new(COARSE).frames(frames.clone()).faces(faces).back(other_material()));
-            // Their normals are spread otherwise than those of the mesh, so that patches may be kept that are turned away.
+            // Their normals are spread otherwise than those of the mesh, so that patches may be kept that are turned
+            // away.
             assert_culled(&mut failures, &mut stage, &format!("{row}, {faces:?} faces"), &scene, 0.0..=0.6);
         }
     }

@@ -166,7 +166,8 @@ fn a_shininess_of_ten_thousand_on_a_fine_mesh() {
             let bars = Bars { most: FLOAT.most + rounding, worst: FLOAT.worst + rounding, ..FLOAT };
             let picture = stage.draw(&scene);
             failures.compare(&row, &mut stage, &picture, bars);
-            // kd·Ld + ks·Ls of green; between two vertices most of the second is lost, but there is more than the first.
+            // kd·Ld + ks·Ls of green; between two vertices most of the second is lost, but there is more than the
+            // first.
             let peak = if shading == Shading::Phong { 1.3 } else { 0.7 };
             failures.unless(brightest(&picture) > peak, || format!("{row}: the peak is {}", brightest(&picture)));
         }

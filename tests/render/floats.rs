@@ -8,8 +8,8 @@ use halfway::render::{Gpu, RenderError, wgpu};
 /// 16 bits hold no more than 65,504.
 const BRIGHT: f32 = 100_000.25;
 
-/// The adapter, but a device that grants of formats only what WebGPU grants everywhere: no blending and no four samples of
-/// 32-bit floats.
+/// The adapter, but a device that grants of formats only what WebGPU grants everywhere: no blending and no four samples
+/// of 32-bit floats.
 fn plain_device() -> Gpu {
     let mut gpu = Gpu::open_headless().expect("an adapter");
     let descriptor = wgpu::DeviceDescriptor { required_limits: gpu.adapter.limits(), ..Default::default() };

@@ -18,8 +18,8 @@ fn low_over_a_floor(height: f32, turn: f32) -> Scene {
     scene
 }
 
-/// Corners are held in f32, to 10⁻⁷ of the plane's size: seen from lower than about 10⁻⁶ of it they rise above the eye, or
-/// past it. `surfaces::a_vast_floor_is_lit_however_low_the_camera_is` has the heights that work.
+/// Corners are held in f32, to 10⁻⁷ of the plane's size: seen from lower than about 10⁻⁶ of it they rise above the eye,
+/// or past it. `surfaces::a_vast_floor_is_lit_however_low_the_camera_is` has the heights that work.
 #[test]
 fn a_plane_seen_from_lower_than_a_millionth_of_its_size_loses_coverage() {
     let mut stage = Stage::new(16, 16);
@@ -35,9 +35,9 @@ fn a_plane_seen_from_lower_than_a_millionth_of_its_size_loses_coverage() {
     assert!(lost > 0, "mended: the floor fills the picture from a hundred-millionth of its size");
 }
 
-/// What lies close behind in the same mesh is not looked for: of two spheres in one mesh, one of which is 0.1 % larger, the
-/// inner one, whose normals point away from the light, shows where the mesh is drawn coarser. A tolerance of 0 pixels keeps it as
-/// it is. Shells of two objects are in `shells`.
+/// What lies close behind in the same mesh is not looked for: of two spheres in one mesh, one of which is 0.1 % larger,
+/// the inner one, whose normals point away from the light, shows where the mesh is drawn coarser. A tolerance of 0
+/// pixels keeps it as it is. Shells of two objects are in `shells`.
 #[test]
 fn a_shell_close_inside_another_of_the_same_mesh_shows_when_both_are_coarser() {
     let mut stage = Stage::new(128, 128);

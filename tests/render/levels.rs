@@ -299,11 +299,11 @@ fn figures(picture: &Image, fine: &Image, allowed: [f64; 3]) -> Figures {
 }
 
 /// The promise of [`Tolerance`]: no point moves by more than `pixels`, half a pixel, so that what is shown is what the
-/// whole mesh shows within that distance and the half pixel of sampling, but for `steps`, of which coarser triangles take half
-/// and what is shaded at the vertices the rest. The oracle is asked at every third of a pixel. What has a constant colour moves
-/// only by the half pixel, for which two thirds stand; a few pixels at outlines of one part before another may show what it has
-/// not been asked for, the last before the horizon, which is within a pixel. Where a pixel and all within one about it is
-/// covered there is no hole, and where nothing is there is no speck.
+/// whole mesh shows within that distance and the half pixel of sampling, but for `steps`, of which coarser triangles
+/// take half and what is shaded at the vertices the rest. The oracle is asked at every third of a pixel. What has a
+/// constant colour moves only by the half pixel, for which two thirds stand; a few pixels at outlines of one part
+/// before another may show what it has not been asked for, the last before the horizon, which is within a pixel. Where
+/// a pixel and all within one about it is covered there is no hole, and where nothing is there is no speck.
 fn pictures_keep_within_the_bounds(tolerance: Tolerance, shadings: &[(&str, Option<Shading>, Reflectance)]) {
     let mut stage = Stage::new(SIZE, SIZE);
     let mut failures = Failures::default();

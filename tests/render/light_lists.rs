@@ -85,8 +85,8 @@ fn lists_change_no_picture_by_more_than_a_step() {
     failures.finish();
 }
 
-/// A light for each sixteen units of a square floor, the floor in cells of one unit. Its edge is a power of two, so that
-/// all patches are four by eight cells whatever its size.
+/// A light for each sixteen units of a square floor, the floor in cells of one unit. Its edge is a power of two, so
+/// that all patches are four by eight cells whatever its size.
 fn field(size: u32, material: Material) -> Scene {
     let floor = Thing::new(Plane { size: size as f32, divisions: size }).of(material).shaded(Shading::Phong);
     let mut scene = above(size as f32).with(floor);
@@ -113,7 +113,8 @@ fn lists_grow_with_what_lights_touch() {
         println!("{lights} lights, {pixels:?}: {of_each:.2} terms each in {patches} patches, {left_out:.1e} left out");
         let most = linear_tolerance(Encoding::Srgb, HALF_A_STEP, 0.0);
         assert!(left_out <= if pixels == Pixels::Float { 0.0 } else { most }, "{lights}: {left_out} left out");
-        // Of each light those patches that lie in a square with one that it reaches, of 32 or, where the curve turns, 64.
+        // Of each light those patches that lie in a square with one that it reaches, of 32 or, where the curve
+        // turns, 64.
         let looked_at = light_pairs as f64 / f64::from(lights);
         println!("{looked_at:.1} pairs each are looked at");
         assert!(looked_at < 200.0, "{looked_at} pairs each are looked at");
@@ -158,8 +159,8 @@ fn highlights_are_listed_where_they_can_be_seen() {
     }
 }
 
-/// A small floor in one piece, seen from straight above. Of the low lamps far around it no highlight can be seen, of those
-/// overhead every highlight.
+/// A small floor in one piece, seen from straight above. Of the low lamps far around it no highlight can be seen, of
+/// those overhead every highlight.
 fn small_floor(low: impl Iterator<Item = Lamp>, overhead: impl Iterator<Item = Lamp>, shininess: f32) -> Scene {
     let grey = LinearRgba::gray(0.5);
     let glossy = Material { specular: grey, shininess, ..Material::matte(grey) };

@@ -307,7 +307,8 @@ fn highlights_of_furrows_are_streaks_by_moments() {
 #[test]
 fn highlights_of_a_moving_bumpy_plane_shimmer_less_by_toksvig_and_lean() {
     let mut stage = Stage::new(64, 48);
-    // Moved by a whole pixel and more, in thirds; what a pixel shows of a plane without an end should stay about the same.
+    // Moved by a whole pixel and more, in thirds; what a pixel shows of a plane without an end should stay about the
+    // same.
     let mut shimmer = |far: FarNormals| {
         let frames: Vec<Vec<f64>> =
             (0..10).map(|k| reduced(&stage.draw(&bumpy(far, Reflectance::BlinnPhong, k as f32 / 3.0)), 1)).collect();
@@ -381,8 +382,8 @@ fn a_picture_by_another_filter_of_the_footprints_shape_is_found_out() {
     }
 }
 
-/// A table of sums is kept per image and form: an object's other filter does not get it, and where one did it would be found.
-/// Squares and not spheres: small triangles on a grid of 1/16 pixel are seen by other footprints.
+/// A table of sums is kept per image and form: an object's other filter does not get it, and where one did it would be
+/// found. Squares and not spheres: small triangles on a grid of 1/16 pixel are seen by other footprints.
 #[test]
 fn one_image_is_drawn_by_each_filter_at_once_as_by_itself() {
     let mut stage = Stage::new(64, 48);

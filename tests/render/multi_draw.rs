@@ -41,7 +41,8 @@ fn near() -> Scene {
     lit(Scene::seen_from(Vec3::new(0.3, 0.4, 3.0), Vec3::ZERO))
 }
 
-/// Two large meshes of three materials that reach out of the picture, small things among them, and some to look through.
+/// Two large meshes of three materials that reach out of the picture, small things among them, and some to look
+/// through.
 fn many_kinds(shading: Shading) -> Scene {
     let mut scene = near();
     scene.view_shading = Some(shading);
@@ -94,7 +95,8 @@ fn multi_draw_changes_no_pixel() {
                 assert_identical(&row, &direct, &multi);
                 assert_eq!(direct_bytes, multi_bytes, "{row}");
             } else {
-                // There draws of one command look their materials up, and a driver may round the other shader otherwise.
+                // There draws of one command look their materials up, and a driver may round the other shader
+                // otherwise.
                 assert!(difference(&direct, &multi) < 1e-5, "{row}: {}", difference(&direct, &multi));
             }
             set_multi_draw(&mut stage, false);
@@ -126,8 +128,8 @@ fn a_draw_is_a_command() {
         thing
     };
     let on_software = stage.costs().records_of_one_command > 2;
-    // Without multi-draw, and with it. A software adapter looks few materials up, so that both levels come by turns with
-    // one and the other.
+    // Without multi-draw, and with it. A software adapter looks few materials up, so that both levels come by turns
+    // with one and the other.
     let of = |software, hardware| if on_software { software } else { hardware };
     let rows: [(&str, Scene, u32, u32); 5] = [
         ("one level", in_levels(1, plain), 1, 1),

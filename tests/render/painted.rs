@@ -1,5 +1,5 @@
-//! Lists of many lights on objects with images: what texels leave of the light counts, and what is left out stays within the
-//! tolerance.
+//! Lists of many lights on objects with images: what texels leave of the light counts, and what is left out stays
+//! within the tolerance.
 
 use crate::render::random::Random;
 use crate::render::scene::{Lamp, Map, Scene, Thing};

@@ -1,5 +1,5 @@
-//! Intensity policies that act on the finished picture: what they cost, what they keep from frame to frame, and what they leave
-//! alone.
+//! Intensity policies that act on the finished picture: what they cost, what they keep from frame to frame, and what
+//! they leave alone.
 
 use crate::render::compare::{assert_identical, brightest};
 use crate::render::conformance::policies::POLICIES;

@@ -1,5 +1,5 @@
-//! Random numbers over sixteen decades in scenes of one shape: never NaN, infinite or negative, and what the oracle says
-//! within what rounding explains. Numbers alone make no pipelines, so that many scenes take few.
+//! Random numbers over sixteen decades in scenes of one shape: never NaN, infinite or negative, and what the oracle
+//! says within what rounding explains. Numbers alone make no pipelines, so that many scenes take few.
 
 use std::cell::RefCell;
 use std::f32::consts::{FRAC_PI_2, PI};

@@ -13,7 +13,8 @@ fn shells(larger_by: f32, distance: f32) -> Scene {
     Scene::seen_from(Vec3::new(0.2, 0.35, 0.9).normalize() * distance, Vec3::ZERO).with(inner).with(outer)
 }
 
-/// A tolerance lets points move by pixels, and a shell of 0.05 % is a fraction of one. It hides what is inside all the same.
+/// A tolerance lets points move by pixels, and a shell of 0.05 % is a fraction of one. It hides what is inside all the
+/// same.
 #[test]
 fn a_shell_hides_what_is_close_inside() {
     let mut stage = Stage::new(128, 128);

@@ -40,7 +40,8 @@ fn an_open_hemisphere_shows_its_sides_under_every_policy() {
                 scene.things[0].back = back;
                 let row = format!("{shading:?}, {faces:?} faces, back material {}", back.is_some());
                 let verdict = assert_as_expected(&row, &mut stage, &scene);
-                // A grid of 1/16 pixel turns slopes, where any color around is right: such pixels are judged, and counted apart.
+                // A grid of 1/16 pixel turns slopes, where any color around is right: such pixels are judged, and
+                // counted apart.
                 assert!(verdict.counted + verdict.edges > 0.1, "{row}: {verdict}");
             }
         }

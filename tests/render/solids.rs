@@ -1,5 +1,5 @@
-//! Solids that objects are cut from: what they do is what the oracle says, what has none pays nothing, and nothing that is
-//! finer than a pixel is left of them.
+//! Solids that objects are cut from: what they do is what the oracle says, what has none pays nothing, and nothing that
+//! is finer than a pixel is left of them.
 
 use crate::render::compare::FLOAT;
 use crate::render::conformance::solids::solid;

@@ -97,8 +97,8 @@ fn surfaces_that_reach_behind_the_camera_are_clipped_and_shaded_right() {
 
 #[test]
 fn a_vast_floor_is_lit_however_low_the_camera_is() {
-    // The eye is far closer to the plane than to a triangle's centroid: the side must not be decided by rounding. Closer
-    // than this the corners themselves, which f32 holds to 10⁻⁷ of the size, rise above the eye.
+    // The eye is far closer to the plane than to a triangle's centroid: the side must not be decided by rounding.
+    // Closer than this the corners themselves, which f32 holds to 10⁻⁷ of the size, rise above the eye.
     let mut stage = Stage::new(32, 32);
     let mut failures = Failures::default();
     for size in [1e2f32, 1e4, 1e6] {

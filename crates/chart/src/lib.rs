@@ -1,9 +1,9 @@
-//! What shading costs and what it loses: error against time, rates of convergence, how steady highlights are, and how the
-//! time of a frame grows.
+//! What shading costs and what it loses: error against time, rates of convergence, how steady highlights are, and how
+//! the time of a frame grows.
 //!
-//! [`ReportPlan`] says how much is measured, [`measure()`] does it, [`Report`] holds what was found, and [`Report::files`]
-//! makes a page, tables and drawings of it. The parts can be had alone: error against time in [`front`] and [`Fronts`],
-//! the other sweeps in [`mod@measure`], the charts in
+//! [`ReportPlan`] says how much is measured, [`measure()`] does it, [`Report`] holds what was found, and
+//! [`Report::files`] makes a page, tables and drawings of it. The parts can be had alone: error against time in
+//! [`front`] and [`Fronts`], the other sweeps in [`mod@measure`], the charts in
 //! [`figure`], [`filters`] of images, the page in [`page`].
 
 pub mod failures;

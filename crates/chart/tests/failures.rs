@@ -64,10 +64,10 @@ fn every_page_names_a_test_that_there_is() {
     }
 }
 
-/// Light over a triangle is linear in the limit. Over a triangle with corners at vᵢ from its centroid the mean of its square is
-/// Σ (g·vᵢ)²/12 about the centroid, and (g·vⱼ)² more about a corner: five times as much in the mean over the corners. The
-/// cells of a sphere are plane, so that both triangles of one have the normal of its middle: 3/2 as much as about the
-/// centroids of rectangles' halves, where slopes along and across are independent.
+/// Light over a triangle is linear in the limit. Over a triangle with corners at vᵢ from its centroid the mean of its
+/// square is Σ (g·vᵢ)²/12 about the centroid, and (g·vⱼ)² more about a corner: five times as much in the mean over the
+/// corners. The cells of a sphere are plane, so that both triangles of one have the normal of its middle: 3/2 as much
+/// as about the centroids of rectangles' halves, where slopes along and across are independent.
 #[test]
 fn one_corner_is_worse_than_the_face_by_what_triangles_say() {
     let normals =
@@ -232,7 +232,8 @@ fn far_viewers_and_near_lights_lose_what_rounding_takes() {
         assert!((slope - 1.0).abs() < 0.3, "{name}: {slope}, {far:?}");
     }
     let by_definition = |distance| distances::by_definition(distance).expect("a lamp can be drawn");
-    // The angle of view is rounded to f32; farther than that the lamp counts as being on the surface, where light is full.
+    // The angle of view is rounded to f32; farther than that the lamp counts as being on the surface, where light is
+    // full.
     assert!(by_definition(4e5) < 1e-5 && by_definition(4e6) > 0.5, "{} {}", by_definition(4e5), by_definition(4e6));
 }
 

@@ -1,6 +1,7 @@
-//! A teapot in a window. For each line on the standard input its graphics device is destroyed; for `surface` the surface of
-//! its window counts as lost, as if the driver had said so, and for `surfaces` so does every one from then on. The tests of the
-//! window run it. With `--update-first` the App has drawn a headless picture, on a device of its own, before there is a window.
+//! A teapot in a window. For each line on the standard input its graphics device is destroyed; for `surface` the
+//! surface of its window counts as lost, as if the driver had said so, and for `surfaces` so does every one from then
+//! on. The tests of the window run it. With `--update-first` the App has drawn a headless picture, on a device of its
+//! own, before there is a window.
 
 use std::io::stdin;
 use std::sync::Mutex;

@@ -21,9 +21,9 @@ use crate::scenery::{Benchmark, BenchmarkScene};
 
 #[derive(Args, Debug)]
 pub(crate) struct ChartArgs {
-    /// What is charted: a scene file, a model, or a scene of the project's by its name (sphere, sphere-by-phong, teapot,
-    /// teapot-by-phong, machine-part, terrain, scan, moving-lights, s3) [default: all of the project's, and with them rates
-    /// of convergence, a moving highlight, and how the time of a frame grows]
+    /// What is charted: a scene file, a model, or a scene of the project's by its name (sphere, sphere-by-phong,
+    /// teapot, teapot-by-phong, machine-part, terrain, scan, moving-lights, s3) [default: all of the project's, and
+    /// with them rates of convergence, a moving highlight, and how the time of a frame grows]
     #[arg(value_name = "SCENE|MODEL")]
     inputs: Vec<PathBuf>,
     /// The folder for the page and what belongs to it
@@ -38,25 +38,26 @@ pub(crate) struct ChartArgs {
     /// Only what filters of images cost and lose; the page is filters.html
     #[arg(long, conflicts_with_all = ["inputs", "small_chart", "scaling", "method", "detail", "adapter"])]
     filters: bool,
-    /// Only this method, by the name that the page gives it, such as gouraud or phong-infinite-viewer; several times for
-    /// several
+    /// Only this method, by the name that the page gives it, such as gouraud or phong-infinite-viewer; several times
+    /// for several
     #[arg(id = "method", long = "method", value_name = "NAME")]
     methods: Vec<String>,
     /// Only this detail, by the name that the page gives it: a number of cells, 1-of-16, levels or full, say
     #[arg(long, value_name = "NAME")]
     detail: Option<String>,
-    /// What draws, as `halfway adapters` lists them; several times for several [default: what the other commands draw with]
+    /// What draws, as `halfway adapters` lists them; several times for several [default: what the other commands draw
+    /// with]
     #[arg(long = "adapter", value_name = "NAME", value_parser = NonEmptyStringValueParser::new())]
     adapters: Vec<String>,
     /// Also write the fronts of sphere, teapot and scan in small, an SVG file
     #[arg(long, value_name = "FILE")]
     small_chart: Option<PathBuf>,
-    /// Also write what wins where, and what each error costs, for every scene (with --filters, for every image), a Markdown
-    /// file
+    /// Also write what wins where, and what each error costs, for every scene (with --filters, for every image), a
+    /// Markdown file
     #[arg(long, value_name = "FILE")]
     tables: Option<PathBuf>,
-    /// Also compare the fronts with those of an earlier run, its chart.json: exit code 4 where a point is on the front of one
-    /// and clearly beaten in the other
+    /// Also compare the fronts with those of an earlier run, its chart.json: exit code 4 where a point is on the front
+    /// of one and clearly beaten in the other
     #[arg(long, value_name = "FILE", conflicts_with_all = ["scaling", "filters"])]
     against: Option<PathBuf>,
 }

@@ -54,8 +54,8 @@ impl SceneInput {
         Ok(input)
     }
 
-    /// The size of the picture in pixels: what the command line says, or the scene's. A camera that frames everything has
-    /// to know the picture's shape, so the scene has it then.
+    /// The size of the picture in pixels: what the command line says, or the scene's. A camera that frames everything
+    /// has to know the picture's shape, so the scene has it then.
     pub(crate) fn resize(&mut self, args: SizeArgs) -> UVec2 {
         let size = args.size.unwrap_or(UVec2::from_array(self.scene.size));
         self.scene.size = size.to_array();

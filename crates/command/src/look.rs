@@ -26,8 +26,9 @@ pub(crate) struct LookArgs {
     /// Coverage samples a pixel: 1, or 4 for smooth edges [default: the scene's; 1 for a model]
     #[arg(long, value_parser = one_of(&SAMPLES))]
     pub(crate) samples: Option<u32>,
-    /// What becomes of intensities above 1: clamp, renormalise, reinhard or aces; renormalise with the share of the last
-    /// frame's divisor that stays, reinhard with the intensity that becomes 1 [default: the scene's; clamp for a model]
+    /// What becomes of intensities above 1: clamp, renormalise, reinhard or aces; renormalise with the share of the
+    /// last frame's divisor that stays, reinhard with the intensity that becomes 1 [default: the scene's; clamp for a
+    /// model]
     #[arg(long, value_name = "clamp|renormalise[=SHARE]|reinhard[=WHITE]|aces", value_parser = parse_intensity)]
     pub(crate) intensity: Option<IntensityEntry>,
     #[command(flatten)]

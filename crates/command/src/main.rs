@@ -57,8 +57,8 @@ enum Command {
     View(view::ViewArgs),
     /// Say how far one picture is from another, and draw where
     ///
-    /// Figures are of the errors of A, with B as what is expected, on the pixels that both cover. Exit code 4 where a pixel
-    /// differs by more than --max allows.
+    /// Figures are of the errors of A, with B as what is expected, on the pixels that both cover. Exit code 4 where a
+    /// pixel differs by more than --max allows.
     Compare(compare::CompareArgs),
     /// Draw a scene with the adapter and with the reference renderer, and judge the one by the other
     ///
@@ -69,21 +69,22 @@ enum Command {
     Info(info::InfoArgs),
     /// Write a model in another format, mended, refined, simplified or with other normals; print what is lost
     ///
-    /// The steps asked for are taken in the order in which their options are listed here, on each mesh by itself. Lengths
-    /// are in the units of the file's meshes, before a glTF node scales them.
+    /// The steps asked for are taken in the order in which their options are listed here, on each mesh by itself.
+    /// Lengths are in the units of the file's meshes, before a glTF node scales them.
     Convert(convert::ConvertArgs),
     /// Time a benchmark scene in every shading, beside a constant colour; or what features cost
     Bench(bench::BenchArgs),
     /// Measure what lights cost on the adapter, at vertices and at pixels, for automatic shading
     ///
-    /// What is found is kept on disk, in halfway under `$XDG_CACHE_HOME` or else ~/.cache, or in `$HALFWAY_CACHE`, a file for
-    /// each adapter and driver, for `view` and `bench`; what writes pictures never takes it, so that they are the same everywhere. The files may be
-    /// deleted. Nothing else should run meanwhile. Exit code 0 also where nothing could be kept.
+    /// What is found is kept on disk, in halfway under `$XDG_CACHE_HOME` or else ~/.cache, or in `$HALFWAY_CACHE`, a
+    /// file for each adapter and driver, for `view` and `bench`; what writes pictures never takes it, so that they are
+    /// the same everywhere. The files may be deleted. Nothing else should run meanwhile. Exit code 0 also where nothing
+    /// could be kept.
     Calibrate(calibrate::CalibrateArgs),
     /// Chart error against time of every method on a scene, and say what to choose; or of all scenes of the project's
     ///
-    /// Writes a page that opens offline, index.html, and beside it chart.json, tables and drawings. Each file appears only
-    /// when it is complete. An interrupted run goes on where it stopped when it is started again.
+    /// Writes a page that opens offline, index.html, and beside it chart.json, tables and drawings. Each file appears
+    /// only when it is complete. An interrupted run goes on where it stopped when it is started again.
     Chart(chart::ChartArgs),
     /// List what can draw, graphics adapters and the CPU, the one that is used first
     Adapters,
@@ -96,7 +97,8 @@ enum Command {
 #[cfg_attr(unix, expect(unsafe_code, reason = "a signal's default action is set, and no handler that could race"))]
 fn end_with_the_reader() {
     #[cfg(unix)]
-    // SAFETY: both arguments are constants that `signal` documents, and the default action runs no code of this process.
+    // SAFETY: both arguments are constants that `signal` documents, and the default action runs no code of this
+    // process.
     unsafe {
         libc::signal(libc::SIGPIPE, libc::SIG_DFL);
     }

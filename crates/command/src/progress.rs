@@ -89,8 +89,8 @@ fn bar(template: &str) -> ProgressBar {
 fn stop_on_signals() -> Arc<AtomicBool> {
     let stop = Arc::new(AtomicBool::new(false));
     for signal in [SIGINT, SIGTERM] {
-        // Asked in this order, so that it takes a second signal to end the process. Where a handler cannot be set the signal
-        // ends it, as it always did.
+        // Asked in this order, so that it takes a second signal to end the process. Where a handler cannot be set the
+        // signal ends it, as it always did.
         let second = flag::register_conditional_shutdown(signal, STOPPED.into(), Arc::clone(&stop));
         let _ = second.and_then(|_| flag::register(signal, Arc::clone(&stop)));
     }

@@ -18,8 +18,9 @@
 //! ```
 //!
 //! The same App draws without a window: [`HalfwayPlugins::headless`] and [`render_picture`](render::render_picture)
-//! for one picture, [`record`] for many. [`scene`] reads scene files. This crate holds the [`prelude`] and the group of plugins;
-//! all else is re-exported from crates of one subject each: [`mesh`], [`lighting`], [`scene`], [`render`], [`mod@reference`],
+//! for one picture, [`record`] for many. [`scene`] reads scene files. This crate holds the [`prelude`] and the group of
+//! plugins; all else is re-exported from crates of one subject each: [`mesh`], [`lighting`], [`scene`], [`render`],
+//! [`mod@reference`],
 //! [`record`], [`output`] and, with the feature `window`, `window`.
 
 pub mod prelude;

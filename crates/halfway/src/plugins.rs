@@ -18,8 +18,8 @@ use halfway_record::HeadlessPlugin;
 ///
 /// Plugins of bevy that the app has already stay as they are: add your own before the group.
 ///
-/// Without a window: [`HalfwayPlugins::headless`]. Without a renderer: [`HalfwayPlugins::reference`]. As a demo that takes
-/// its target from the command line: [`HalfwayPlugins::from_args`].
+/// Without a window: [`HalfwayPlugins::headless`]. Without a renderer: [`HalfwayPlugins::reference`]. As a demo that
+/// takes its target from the command line: [`HalfwayPlugins::from_args`].
 #[derive(Clone, Copy, Debug, Default)]
 pub struct HalfwayPlugins;
 
@@ -78,8 +78,8 @@ impl HalfwayPlugins {
     /// | `--model FILE` | left to the program |
     /// | `--help` | print these and stop |
     ///
-    /// Arguments that are not understood are refused: the App then draws nothing, [`App::run`](bevy_app::App::run) prints
-    /// what is wrong, and the exit code is 2.
+    /// Arguments that are not understood are refused: the App then draws nothing, [`App::run`](bevy_app::App::run)
+    /// prints what is wrong, and the exit code is 2.
     pub fn from_args() -> PluginGroupBuilder {
         match Demo::from_args() {
             Demo::Window => Self.build(),
@@ -93,8 +93,8 @@ impl HalfwayPlugins {
     }
 }
 
-/// The plugins of bevy that a scene needs: tasks, assets, time and transforms, each with its defaults unless the app has
-/// it already.
+/// The plugins of bevy that a scene needs: tasks, assets, time and transforms, each with its defaults unless the app
+/// has it already.
 #[derive(Clone, Copy, Debug, Default)]
 struct FoundationPlugin;
 

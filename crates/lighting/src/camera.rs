@@ -18,8 +18,8 @@ use crate::{Intensity, Viewer};
 /// A perspective camera at its entity's transform, looking along its local −Z with +Y up.
 ///
 /// Only the transform's translation and rotation count: eye space has world units whatever the
-/// camera is attached to. A [`Shading`](crate::Shading) or [`Reflectance`](crate::Reflectance) component on the camera is
-/// the view's default; an object's own wins for that object.
+/// camera is attached to. A [`Shading`](crate::Shading) or [`Reflectance`](crate::Reflectance) component on the camera
+/// is the view's default; an object's own wins for that object.
 #[derive(Component, Reflect, Clone, Copy, Debug, PartialEq)]
 #[reflect(Component, Clone, Debug, Default, PartialEq)]
 #[require(Transform)]

@@ -11,9 +11,9 @@ use crate::range::Range;
 
 /// What becomes of intensities above 1.
 ///
-/// [`Clamp`](Self::Clamp) acts on each surface, and costs nothing. The others act on the finished picture: on intensities
-/// that have been blended, and averaged where a pixel has several samples. It is drawn in floating point for that, and
-/// what is above 1 after the policy is clamped as bytes are written.
+/// [`Clamp`](Self::Clamp) acts on each surface, and costs nothing. The others act on the finished picture: on
+/// intensities that have been blended, and averaged where a pixel has several samples. It is drawn in floating point
+/// for that, and what is above 1 after the policy is clamped as bytes are written.
 #[derive(Reflect, Clone, Copy, Debug, Default, PartialEq)]
 #[reflect(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
@@ -25,12 +25,13 @@ pub enum Intensity {
     /// Where any channel of the picture exceeds 1, all are divided by the largest
     /// ([`equations::divisor`](crate::equations::divisor)).
     Renormalize {
-        /// The share of the last frame's divisor that stays, 0 to below 1; 0 for each frame by itself. A change has come to
-        /// 1/e of what is left after −1/ln(smoothing) frames. While the divisor follows a picture that grows brighter,
-        /// channels exceed 1.
+        /// The share of the last frame's divisor that stays, 0 to below 1; 0 for each frame by itself. A change has
+        /// come to 1/e of what is left after −1/ln(smoothing) frames. While the divisor follows a picture that grows
+        /// brighter, channels exceed 1.
         smoothing: f32,
     },
-    /// The extended curve of Reinhard and others, a channel by itself ([`equations::reinhard`](crate::equations::reinhard)).
+    /// The extended curve of Reinhard and others, a channel by itself
+    /// ([`equations::reinhard`](crate::equations::reinhard)).
     Reinhard {
         /// The intensity that becomes 1, itself 1 or more. Default [`Intensity::WHITE`].
         white: f32,
@@ -63,8 +64,8 @@ impl Intensity {
 
     /// By how much more than an intensity what becomes of it changes, at most.
     ///
-    /// Reinhard's curve is steepest at 0, with 1. That of ACES has a slope of 1.801 near 0.12. Under a divisor m of 1 or more
-    /// both the channel and m may be off, each by so much as m: twice.
+    /// Reinhard's curve is steepest at 0, with 1. That of ACES has a slope of 1.801 near 0.12. Under a divisor m of 1
+    /// or more both the channel and m may be off, each by so much as m: twice.
     pub fn steepest(self) -> f64 {
         match self {
             Self::Clamp | Self::Reinhard { .. } => 1.0,

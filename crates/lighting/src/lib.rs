@@ -25,7 +25,8 @@
 //!
 //! # What is here
 //! - Components: the lights, [`Material`] (with [presets](Material::PRESETS)) and [`BackMaterial`], [`Shading`],
-//!   [`Reflectance`], [`Faces`], [`Blend`], [`Mask`], [`Visibility`], [`Tolerance`], [`VertexColors`]; the resources [`GlobalAmbient`] and
+//!   [`Reflectance`], [`Faces`], [`Blend`], [`Mask`], [`Visibility`], [`Tolerance`], [`VertexColors`]; the resources
+//!   [`GlobalAmbient`] and
 //!   [`ViewTolerance`]; [`LightingPlugin`]. A light stands where
 //!   its entity's `GlobalTransform` puts it and shines along the local −Z axis. Every value has a `validate()` whose
 //!   [`InvalidValue`] names type, field, value and what was expected.

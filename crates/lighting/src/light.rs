@@ -118,8 +118,8 @@ pub struct PointLight {
     pub attenuation: Attenuation,
     #[doc = meaning!(range)]
     ///
-    /// In world units, finite and above 0; the factor is that of `KHR_lights_punctual`. Default `None`, which is `null` in
-    /// files.
+    /// In world units, finite and above 0; the factor is that of `KHR_lights_punctual`. Default `None`, which is `null`
+    /// in files.
     pub range: Option<f32>,
     #[doc = meaning!(attenuate_ambient)]
     ///

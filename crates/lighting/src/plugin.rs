@@ -7,8 +7,8 @@ use crate::{
     Shading, SpotLight, Terms, Tolerance, VertexColors, ViewTolerance, Visibility,
 };
 
-/// Puts the resources of lighting into an [`App`]: [`GlobalAmbient`] and [`ViewTolerance`] with their defaults, unless they
-/// are there already; and registers the components for reflection.
+/// Puts the resources of lighting into an [`App`]: [`GlobalAmbient`] and [`ViewTolerance`] with their defaults, unless
+/// they are there already; and registers the components for reflection.
 ///
 /// Works alone; drawing is another plugin's work. May be added more than once.
 #[derive(Clone, Copy, Debug, Default)]

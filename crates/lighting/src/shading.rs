@@ -23,10 +23,10 @@ pub enum Shading {
     /// At each fragment with the interpolated, renormalised normal.
     #[default]
     Phong,
-    /// Phong, within the [`Tolerance`](crate::Tolerance): each term of each light is shaded at the vertices of a patch of
-    /// the surface where that changes no more, and at each fragment elsewhere. Blended objects, those
-    /// whose vertices have colours that count, and those that are scaled differently along different axes, are shaded at
-    /// each fragment.
+    /// Phong, within the [`Tolerance`](crate::Tolerance): each term of each light is shaded at the vertices of a patch
+    /// of the surface where that changes no more, and at each fragment elsewhere. Blended objects, those
+    /// whose vertices have colours that count, and those that are scaled differently along different axes, are shaded
+    /// at each fragment.
     Auto,
 }
 
@@ -146,11 +146,11 @@ impl Faces {
 #[reflect(Component, Clone, Debug, Default, PartialEq, Hash)]
 pub struct Blend;
 
-/// Marks a surface as cut out: it is not there where its opacity is below this number, and there as a whole elsewhere, or
-/// blended where it has [`Blend`].
+/// Marks a surface as cut out: it is not there where its opacity is below this number, and there as a whole elsewhere,
+/// or blended where it has [`Blend`].
 ///
-/// The opacity is the material's, times that of the vertices' colours and of images, where there are any. A finite number,
-/// 0 or more; 0 cuts nothing away. The default is 0.5, as in glTF 2.0 (§3.9.4).
+/// The opacity is the material's, times that of the vertices' colours and of images, where there are any. A finite
+/// number, 0 or more; 0 cuts nothing away. The default is 0.5, as in glTF 2.0 (§3.9.4).
 #[derive(Component, Reflect, Clone, Copy, Debug, PartialEq)]
 #[reflect(Component, Clone, Debug, Default, PartialEq)]
 pub struct Mask(pub f32);

@@ -23,16 +23,18 @@ macro_rules! meaning {
 /// How far what is drawn may be from the same with every triangle, every light and every term at its place; under
 /// [`Shading::Auto`](crate::Shading::Auto) from Phong shading.
 ///
-/// No channel of any pixel differs by more than `steps`/255 of the written picture, but for what moving the surface by at
-/// most `pixels` on the picture explains. Roundings of what draws come on top. Lights left out and what `Auto` shades at the
-/// vertices keep to proven bounds, and so does how far points move and normals turn on coarser triangles; what interpolation
-/// between the corners of coarser triangles adds, under Gouraud and Phong shading, is an estimate of the second order.
+/// No channel of any pixel differs by more than `steps`/255 of the written picture, but for what moving the surface by
+/// at most `pixels` on the picture explains. Roundings of what draws come on top. Lights left out and what `Auto`
+/// shades at the vertices keep to proven bounds, and so does how far points move and normals turn on coarser triangles;
+/// what interpolation between the corners of coarser triangles adds, under Gouraud and Phong shading, is an estimate of
+/// the second order.
 ///
-/// Half of `steps` is for coarser triangles, where there are any and `pixels` is above 0. Of the rest, lights that are left
-/// out take as much as they can, under `Auto` no more than half of it; `Auto` takes what is left for terms that are shaded
-/// at the vertices.
+/// Half of `steps` is for coarser triangles, where there are any and `pixels` is above 0. Of the rest, lights that are
+/// left out take as much as they can, under `Auto` no more than half of it; `Auto` takes what is left for terms that
+/// are shaded at the vertices.
 ///
-/// In pictures of floating point a step is 1/255 of linear intensity, and no light is left out but those that add nothing.
+/// In pictures of floating point a step is 1/255 of linear intensity, and no light is left out but those that add
+/// nothing.
 ///
 /// On an object it wins over the [`ViewTolerance`].
 #[derive(Component, Reflect, Clone, Copy, Debug, PartialEq)]

@@ -7,8 +7,8 @@ use bevy_reflect::std_traits::ReflectDefault;
 
 /// What an object does with the colours at the vertices of its mesh. Of a mesh without them it says nothing.
 ///
-/// A colour is linear RGB and an opacity, each taken into 0 to 1 as glTF 2.0 §3.7.2.1 has it for `COLOR_0`. Emission and
-/// specular reflectance are the material's alone.
+/// A colour is linear RGB and an opacity, each taken into 0 to 1 as glTF 2.0 §3.7.2.1 has it for `COLOR_0`. Emission
+/// and specular reflectance are the material's alone.
 ///
 /// - Gouraud: each vertex is shaded with its own colour; intensities are interpolated, and so is the opacity.
 /// - Phong: the colour is interpolated, perspective-correctly, to each fragment.

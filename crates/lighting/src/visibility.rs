@@ -40,8 +40,8 @@ pub struct Shown<'w, 's> {
 }
 
 impl Shown<'_, '_> {
-    /// The same as [`is_shown`](Self::is_shown), for many entities: where nothing is [`Visibility::Hidden`], it looks at
-    /// none of them.
+    /// The same as [`is_shown`](Self::is_shown), for many entities: where nothing is [`Visibility::Hidden`], it looks
+    /// at none of them.
     pub fn by_entity(&self) -> impl Fn(Entity) -> bool {
         let hides = self.hides_any();
         move |entity| !hides || self.is_shown(entity)

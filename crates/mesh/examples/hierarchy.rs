@@ -1,5 +1,5 @@
-//! The hierarchies of patches of some meshes, or of the models named: how long making them takes, how many triangles they
-//! have and how far off they are. Run with `--release`; `--times 5` makes each five times and gives the median.
+//! The hierarchies of patches of some meshes, or of the models named: how long making them takes, how many triangles
+//! they have and how far off they are. Run with `--release`; `--times 5` makes each five times and gives the median.
 
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;

@@ -5,8 +5,8 @@
 //! - [`Normals`] says how a mesh gets its normals: the file's, one a face, or a weighted mean of the faces around a
 //!   vertex, creased or not; [`Mesh::with_tangents`] adds tangents.
 //! - [`Mesh::report`] looks a mesh over; [`Mesh::welded`] and [`Mesh::repaired`] mend it; [`Mesh::subdivided`] and
-//!   [`Mesh::displaced`] give it detail; [`Mesh::baked_occlusion`] bakes how much light from all sides arrives at it. The
-//!   feature `prepare` adds an order for the GPU, meshlets and simplified
+//!   [`Mesh::displaced`] give it detail; [`Mesh::baked_occlusion`] bakes how much light from all sides arrives at it.
+//!   The feature `prepare` adds an order for the GPU, meshlets and simplified
 //!   meshes.
 //! - [`Plane`], [`Cuboid`], [`UvSphere`], [`Icosphere`] and [`Teapot`] turn into meshes with analytic normals; so do
 //!   the quadrics, the torus, [`BezierPatch`] and the other [`ParametricSurface`]s, by count or by chord error.

@@ -287,7 +287,8 @@ impl Mesh {
         self.data.uvs.as_deref()
     }
 
-    /// One of the sets of texture coordinates: number 0 is [`uvs`](Self::uvs), number 1 the second; there are no others.
+    /// One of the sets of texture coordinates: number 0 is [`uvs`](Self::uvs), number 1 the second; there are no
+    /// others.
     pub fn uv_set(&self, number: usize) -> Option<&[Vec2]> {
         match number {
             0 => self.uvs(),

@@ -7,8 +7,8 @@ use std::sync::Arc;
 pub struct SourceMap {
     /// What messages call it: its path, or its place in the file.
     pub name: String,
-    /// The bytes of a PNG or JPEG file, shared with other materials; none where it could not be read, of which a warning of
-    /// the model tells.
+    /// The bytes of a PNG or JPEG file, shared with other materials; none where it could not be read, of which a
+    /// warning of the model tells.
     pub bytes: Arc<[u8]>,
     /// What is beyond the image along u, and along v.
     pub wrap: [SourceWrap; 2],
@@ -28,7 +28,8 @@ pub struct SourceMap {
     pub scale: [f32; 2],
     /// The number of a texel that counts where one does; `None` where the file does not say.
     pub channel: Option<SourceChannel>,
-    /// How much it counts: the strength of an occlusion, the scale of a normal map, the height of a bump map. Otherwise 1.
+    /// How much it counts: the strength of an occlusion, the scale of a normal map, the height of a bump map.
+    /// Otherwise 1.
     pub amount: f32,
 }
 

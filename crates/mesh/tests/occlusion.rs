@@ -27,8 +27,9 @@ fn middles(size: u32) -> impl Iterator<Item = f64> + Clone {
     (0..size).map(move |at| (f64::from(at) + 0.5) / f64::from(size))
 }
 
-/// How far an image of 1024 rays may be from a closed form: as if 6 rays were on the wrong side. The points of the spiral are
-/// so even that the borders of what is seen decide, each as long as a few dozen rays, of which half are on either side.
+/// How far an image of 1024 rays may be from a closed form: as if 6 rays were on the wrong side. The points of the
+/// spiral are so even that the borders of what is seen decide, each as long as a few dozen rays, of which half are on
+/// either side.
 const OFF: f64 = 6.0 / 1024.0;
 
 #[test]
@@ -40,8 +41,8 @@ fn a_plane_alone_is_open() {
 
 #[test]
 fn a_floor_beside_a_wall_loses_what_the_wall_covers() {
-    // A wall without end to either side, of height 1: as a strip seen from 90° to the angle θ of its upper edge it has the
-    // form factor ½(1 − sin θ), sin θ = x/√(x² + 1).
+    // A wall without end to either side, of height 1: as a strip seen from 90° to the angle θ of its upper edge it has
+    // the form factor ½(1 − sin θ), sin θ = x/√(x² + 1).
     let floor = sheet(Vec3::new(0.0, 0.0, -0.5), 2.0 * Vec3::X, Vec3::Z);
     assert!(floor.normals().iter().all(|n| *n == Vec3::Y));
     let far = 2000.0 * Vec3::Z;

@@ -1,9 +1,10 @@
 //! How long scenes S1, S2 and S4, and a model, take by shading, width and threads, in milliseconds a frame: with one
 //! thread the mean of what it was running (on Linux; so a busy machine disturbs less), with two the shortest.
 //!
-//! `cargo run --release -p halfway_raster --example time [FRAMES [FOLDER]]`; pictures go into the folder, unless it is `-`.
-//! Only what has the words of `ONLY` in its line is timed, such as `ONLY="S1 avx2 1"`, and of the shadings those that it
-//! names, if any, as in `ONLY="S1 avx2 1 Phong"`. `MODEL` is the path of a model that is drawn, too, large and small.
+//! `cargo run --release -p halfway_raster --example time [FRAMES [FOLDER]]`; pictures go into the folder, unless it is
+//! `-`. Only what has the words of `ONLY` in its line is timed, such as `ONLY="S1 avx2 1"`, and of the shadings those
+//! that it names, if any, as in `ONLY="S1 avx2 1 Phong"`. `MODEL` is the path of a model that is drawn, too, large and
+//! small.
 
 mod common;
 

@@ -6,9 +6,9 @@ pub(crate) const SLOTS: usize = 256;
 /// Four numbers a vertex.
 pub(crate) type Attributes = [[f32; 4]; SLOTS];
 
-/// Numbers of a vertex, four each, over w: texture coordinates of both sets; the color and opacity; then, where light is shaded at the
-/// vertices, the ambient, diffuse and specular part; else the normal, the tangent with w (or what a rise of 1 along the normal
-/// becomes), the part that is shaded at the vertices, and its ambient part.
+/// Numbers of a vertex, four each, over w: texture coordinates of both sets; the color and opacity; then, where light
+/// is shaded at the vertices, the ambient, diffuse and specular part; else the normal, the tangent with w (or what a
+/// rise of 1 along the normal becomes), the part that is shaded at the vertices, and its ambient part.
 pub(crate) const GROUPS: usize = 7;
 pub(crate) const UVS: usize = 0;
 pub(crate) const COLOR: usize = 1;

@@ -62,8 +62,8 @@ impl<'a> Bands<'a> {
         Self { each: std::array::from_fn(&mut next), width, clear, columns: width.div_ceil(TILE) }
     }
 
-    /// Has a tile's pixels put where they belong; or, while another thread is at its row of tiles or where the tile is cut
-    /// by the picture's edge, into memory of the thread's own and from there.
+    /// Has a tile's pixels put where they belong; or, while another thread is at its row of tiles or where the tile is
+    /// cut by the picture's edge, into memory of the thread's own and from there.
     pub(crate) fn fill(&self, [column, row]: [u32; 2], own: &mut Own, put: impl FnOnce(&mut Rows)) {
         let left = column as usize * TILE;
         let across = TILE.min(self.width - left);
@@ -109,8 +109,8 @@ pub(crate) fn make_room(own: &mut Own, pixels: PixelFormat) {
     own.floats.resize(CHANNELS * floats, 0.0);
 }
 
-/// Which tiles of a picture show nothing but its clear color. Whoever draws one picture after another into the same memory
-/// keeps it with that memory, and has such tiles left as they are while they stay so.
+/// Which tiles of a picture show nothing but its clear color. Whoever draws one picture after another into the same
+/// memory keeps it with that memory, and has such tiles left as they are while they stay so.
 #[derive(Debug, Default)]
 pub struct ClearTiles {
     /// Of this width and height, format, and color's bits.

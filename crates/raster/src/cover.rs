@@ -19,8 +19,8 @@ use fearless_simd::prelude::*;
 /// Pixels of a tile.
 pub(crate) const PIXELS: usize = TILE * TILE;
 
-/// Numbers in a list of the tile's buffer: one a pixel, and a line of the cache more. Lists of 16 KiB would have the numbers of
-/// a pixel in the same few places of the cache.
+/// Numbers in a list of the tile's buffer: one a pixel, and a line of the cache more. Lists of 16 KiB would have the
+/// numbers of a pixel in the same few places of the cache.
 const LIST: usize = PIXELS + 16;
 
 /// Pixels of a tiny triangle's box, at most.
@@ -93,8 +93,8 @@ pub(crate) const EVEN: i32 = -1;
 pub(crate) struct TileBuffer {
     /// 1/w, 0 where nothing is.
     pub(crate) depth: Vec<[f32; LIST]>,
-    /// What shades it: 0 for nothing, else 2 + 2·state + 1 for backs; in the upper bits 2²⁸·the centroid's number. Where the
-    /// second sample's is [`EVEN`], the first one's lists hold for all samples.
+    /// What shades it: 0 for nothing, else 2 + 2·state + 1 for backs; in the upper bits 2²⁸·the centroid's number.
+    /// Where the second sample's is [`EVEN`], the first one's lists hold for all samples.
     pub(crate) shader: Vec<[i32; LIST]>,
     /// With four samples, which triangle it is.
     pub(crate) triangle: Vec<[i32; LIST]>,

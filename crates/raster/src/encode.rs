@@ -4,8 +4,8 @@ use crate::lanes::{F, I, Simd, V3, each, fma, max, min, saturate, splat, splat_i
 use crate::pass::PixelFormat;
 use fearless_simd::prelude::*;
 
-/// The sRGB curve (IEC 61966-2-1) of a clamped intensity. Its upper part, 1.055·I^(1/2.4) − 0.055, is a polynomial of the
-/// fifth degree in ⁴√I, fitted for the least greatest error: 6.8·10⁻⁶, a 600th of an 8-bit step.
+/// The sRGB curve (IEC 61966-2-1) of a clamped intensity. Its upper part, 1.055·I^(1/2.4) − 0.055, is a polynomial of
+/// the fifth degree in ⁴√I, fitted for the least greatest error: 6.8·10⁻⁶, a 600th of an 8-bit step.
 #[inline(always)]
 pub(crate) fn srgb_encoded<S: Simd>(simd: S, intensity: F<S>) -> F<S> {
     let linear = saturate(simd, intensity);

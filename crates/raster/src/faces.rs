@@ -10,8 +10,8 @@ use crate::state::{Stage, State};
 use crate::vertices::{transformed, turned};
 use fearless_simd::prelude::*;
 
-/// Of each triangle of a piece 0 and its own normal, or 0 and its color where the draw is flat, front and back. In place of 0
-/// stands the vertices' mean opacity where they have colors.
+/// Of each triangle of a piece 0 and its own normal, or 0 and its color where the draw is flat, front and back. In
+/// place of 0 stands the vertices' mean opacity where they have colors.
 pub(crate) struct PieceFaces {
     pub(crate) each: [[[f32; 4]; PIECE_TRIANGLES]; 2],
     /// Of flat draws with images or a mask.
@@ -23,8 +23,8 @@ impl PieceFaces {
         Self { each: [[[0.0; 4]; PIECE_TRIANGLES]; 2], parts: FlatParts::new() }
     }
 
-    /// The own normals of triangles, or their colors where the draw is flat. `fronts` and `backs` are those that may show
-    /// that side.
+    /// The own normals of triangles, or their colors where the draw is flat. `fronts` and `backs` are those that may
+    /// show that side.
     #[inline(always)]
     pub(crate) fn fill<S: Simd>(
         &mut self,

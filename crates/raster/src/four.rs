@@ -24,8 +24,9 @@ pub(crate) const SHADER_BITS: i32 = (1 << CENTROID_SHIFT) - 1;
 const ALL: usize = 15;
 
 impl TileBuffer {
-    /// Draws a triangle of few pixels with four samples each: those whose bits are set in `samples`, counted from `first`.
-    /// It is shaded once a pixel, at the center or, where that is not covered, at the centroid of the samples that are.
+    /// Draws a triangle of few pixels with four samples each: those whose bits are set in `samples`, counted from
+    /// `first`. It is shaded once a pixel, at the center or, where that is not covered, at the centroid of the samples
+    /// that are.
     #[inline(always)]
     pub(crate) fn cover_tiny_four<S: Simd>(
         &mut self,
@@ -238,8 +239,8 @@ impl TileBuffer {
         }
     }
 
-    /// Replaces depths of pixels from (i, j) on, of those with a bit in `whole`, where these are nearer; returns of which
-    /// samples: four bits a pixel.
+    /// Replaces depths of pixels from (i, j) on, of those with a bit in `whole`, where these are nearer; returns of
+    /// which samples: four bits a pixel.
     #[inline(always)]
     fn nearer_of_whole<S: Simd>(
         &mut self,

@@ -9,8 +9,8 @@ use fearless_simd::prelude::*;
 const PIXELS: usize = TILE * TILE;
 
 impl TileBuffer {
-    /// Whether a triangle of few pixels, with one sample each, is nowhere nearer than what has been drawn: its 1/w is at most
-    /// `most`.
+    /// Whether a triangle of few pixels, with one sample each, is nowhere nearer than what has been drawn: its 1/w is
+    /// at most `most`.
     #[inline(always)]
     pub(crate) fn hides_tiny(&self, (pixels, first): (i32, [i32; 2]), most: f32) -> bool {
         let first = first[1] as usize * TILE + first[0] as usize;

@@ -1,13 +1,14 @@
 //! Vectors of numbers, one a lane, in operations that give the same bits in every width.
 //!
-//! Allowed are +, −, ×, ÷, √ and the fused multiply-add, which a CPU without one emulates exactly; estimates of reciprocals
-//! and roots are not, nor what the makers of CPUs define differently (minimum and maximum of NaN, casts out of range).
+//! Allowed are +, −, ×, ÷, √ and the fused multiply-add, which a CPU without one emulates exactly; estimates of
+//! reciprocals and roots are not, nor what the makers of CPUs define differently (minimum and maximum of NaN, casts out
+//! of range).
 
 use fearless_simd::prelude::*;
 pub(crate) use fearless_simd::{Simd, f32x4};
 
-/// An array of the same expression for 0 … of its numbers. A closure would be a function of its own, that is not compiled
-/// for the CPU's vectors.
+/// An array of the same expression for 0 … of its numbers. A closure would be a function of its own, that is not
+/// compiled for the CPU's vectors.
 macro_rules! each {
     ($k:ident in 2 => $e:expr) => {
         [{ let $k = 0_usize; $e }, { let $k = 1_usize; $e }]
@@ -81,8 +82,8 @@ pub(crate) fn store_i<S: Simd>(x: I<S>, to: &mut [i32], at: usize) {
     x.store_slice(&mut to[at..at + lanes::<S>()]);
 }
 
-/// Replaces the lanes of a mask. As integers: of floats LLVM makes a masked store, which many CPUs do slowly (AMD's in more
-/// than ten steps), and which what is loaded next from there has to wait for.
+/// Replaces the lanes of a mask. As integers: of floats LLVM makes a masked store, which many CPUs do slowly (AMD's in
+/// more than ten steps), and which what is loaded next from there has to wait for.
 #[inline(always)]
 pub(crate) fn replace<S: Simd>(simd: S, mask: M<S>, x: F<S>, to: &mut [f32], at: usize) {
     let before: I<S> = load(simd, to, at).bitcast();

@@ -1,5 +1,5 @@
-//! The lighting text on vectors, one point a lane: a third twin of `halfway_lighting::equations` and `lighting.wgsl`, with
-//! their names. Eye space, linear RGB. The test beside it holds it to the equations in f64.
+//! The lighting text on vectors, one point a lane: a third twin of `halfway_lighting::equations` and `lighting.wgsl`,
+//! with their names. Eye space, linear RGB. The test beside it holds it to the equations in f64.
 
 use crate::lanes::{
     F, I, M, Simd, V3, add, add_scaled, dot, each, fma, max, min, neg, saturate, scale, select3, splat, splat_i,
@@ -132,7 +132,8 @@ fn is_behind_all<S: Simd>(simd: S, n_dot_l: F<S>, light: &LightData, terms: Shad
     !(terms.diffuse && has_ambient(light)) && n_dot_l.simd_gt(splat(simd, 0.0)).all_false()
 }
 
-/// Whether the window of a range is 0 for all points, by the squares of their distances; roundings are far below a millionth.
+/// Whether the window of a range is 0 for all points, by the squares of their distances; roundings are far below a
+/// millionth.
 #[inline(always)]
 fn is_beyond_all<S: Simd>(simd: S, squared: F<S>, inverse_range: f32) -> bool {
     let square_over_range = squared * splat(simd, inverse_range * inverse_range);
@@ -231,7 +232,8 @@ pub(crate) fn to_viewer<S: Simd>(simd: S, p: V3<S>, n: V3<S>, local_viewer: bool
     scale::<S>(p, splat(simd, -1.0) / squared.sqrt())
 }
 
-/// What three ranges of lights bring to points: with all terms, without highlights, and with nothing else. It is most of the code; see [`gathered`].
+/// What three ranges of lights bring to points: with all terms, without highlights, and with nothing else. It is most
+/// of the code; see [`gathered`].
 #[inline(always)]
 pub(crate) fn gathered_here<S: Simd>(
     simd: S,

@@ -1,5 +1,5 @@
-//! Triangles of draws with images, or of which a mask cuts something out. What they have is kept once a triangle and not once a
-//! pixel, so that other draws do not pay for it.
+//! Triangles of draws with images, or of which a mask cuts something out. What they have is kept once a triangle and
+//! not once a pixel, so that other draws do not pay for it.
 
 use crate::attributes::{FRAME, GROUPS, GROUPS_BUT_SOLID, OF_VERTICES, PARTS, PLACE};
 use crate::lane_triangles::{LaneTriangles, spread};

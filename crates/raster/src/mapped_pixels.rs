@@ -154,8 +154,8 @@ impl MappedPixel<'_> {
         Some(SeenNormals { texel, amount: data.amount, roughness })
     }
 
-    /// The interpolated normal as images turn it where light is shaded at the fragments, or the triangle's under flat shading; of
-    /// the front. `way` leads from the eye through the pixel, `steps` to the next.
+    /// The interpolated normal as images turn it where light is shaded at the fragments, or the triangle's under flat
+    /// shading; of the front. `way` leads from the eye through the pixel, `steps` to the next.
     pub(crate) fn normal(&self, state: &State, seen: Option<&SeenNormals>, way: [f32; 3], steps: [f32; 2]) -> [f32; 3] {
         let n = match state.stage {
             Stage::Flat => return self.triangle.face,

@@ -167,7 +167,8 @@ pub struct SideData {
     pub diffuse: [f32; 3],
     /// ks.
     pub specular: [f32; 3],
-    /// ke of draws that are `colored` or have `maps`, a `mask` or a `solid`, apart from what colors multiply; of others it is part of the base, and this 0.
+    /// ke of draws that are `colored` or have `maps`, a `mask` or a `solid`, apart from what colors multiply; of others
+    /// it is part of the base, and this 0.
     pub emission: [f32; 3],
     /// ka, for the lights that attenuate their ambient.
     pub ambient: [f32; 3],
@@ -330,17 +331,18 @@ pub struct DrawCall {
     pub opposite_normals: bool,
     /// The mesh's colors multiply base, diffuse and ambient, and the opacity.
     pub colored: bool,
-    /// Images, each in the slot of its kind. Of the draw's two terms none is shaded both at the vertices and at the fragments
-    /// then; nor where there is a `mask`.
+    /// Images, each in the slot of its kind. Of the draw's two terms none is shaded both at the vertices and at the
+    /// fragments then; nor where there is a `mask`.
     pub maps: [Option<MapCall>; MapKind::COUNT],
     /// Fragments of a lower opacity are not there.
     pub mask: Option<f32>,
-    /// What the mesh is cut from, which multiplies base, diffuse and ambient at each pixel. As with `maps`, none of the draw's
-    /// two terms is shaded both at the vertices and at the fragments then.
+    /// What the mesh is cut from, which multiplies base, diffuse and ambient at each pixel. As with `maps`, none of the
+    /// draw's two terms is shaded both at the vertices and at the fragments then.
     pub solid: Option<SolidTexture>,
     /// The surface is lit inside out, which turns the tangents of a normal map.
     pub inside_out: bool,
-    /// The environment lights it. Of the draw's two terms none is shaded both at the vertices and at the fragments then.
+    /// The environment lights it. Of the draw's two terms none is shaded both at the vertices and at the fragments
+    /// then.
     pub surrounded: bool,
     /// Fragments are laid over what is there by their opacity, and leave the depth as it is.
     pub blend: bool,

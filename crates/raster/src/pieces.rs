@@ -388,7 +388,8 @@ fn cone(triangles: impl Iterator<Item = [[f32; 3]; 3]> + Clone) -> Option<FaceCo
     let sum = normals.clone().fold([0.0; 3], |sum, n| [0, 1, 2].map(|axis| sum[axis] + n[axis]));
     let axis = unit(sum)?;
     let least = normals.map(|n| n[0] * axis[0] + n[1] * axis[1] + n[2] * axis[2]).fold(1.0, f64::min);
-    // LaneFaces turned by more than this beyond the cone bound nothing; half of it is room for rounding to the pixels' grid.
+    // LaneFaces turned by more than this beyond the cone bound nothing; half of it is room for rounding to the pixels'
+    // grid.
     let angle = least.clamp(-1.0, 1.0).acos() + 0.03;
     (angle < 1.5).then(|| FaceCone { axis: axis.map(|x| x as f32), sin: angle.sin() as f32, cos: angle.cos() as f32 })
 }

@@ -67,7 +67,8 @@ impl PlacedInstance {
     pub(crate) fn tiles(&self, extent: &PieceExtent) -> Option<TileBox> {
         let [x, y, z] = self.place(extent.center);
         let radius = extent.radius * self.stretch * 1.0001;
-        // Along each axis of eye space the box or the sphere ends first. A flat box has no room for how vertices are rounded.
+        // Along each axis of eye space the box or the sphere ends first. A flat box has no room for how vertices are
+        // rounded.
         let reach = self.rows.map(|row| {
             let terms = [0, 1, 2].map(|k| (row[k].abs() * extent.half[k], row[k].abs() * extent.center[k].abs()));
             let of_box = terms[0].0 + terms[1].0 + terms[2].0;
@@ -113,8 +114,8 @@ pub(crate) struct TileBox {
 }
 
 impl TileBox {
-    /// Whether all its points lie so in the tiles next to one of these that they have places there: nothing is clipped, and
-    /// 16 bits take the way from the tile's center.
+    /// Whether all its points lie so in the tiles next to one of these that they have places there: nothing is clipped,
+    /// and 16 bits take the way from the tile's center.
     pub(crate) fn is_at_hand(&self) -> bool {
         let [left, right, top, bottom] = self.tiles;
         self.is_inside && right - left <= 1 && bottom - top <= 1
@@ -134,7 +135,8 @@ struct Depth {
     radius: f32,
 }
 
-/// The tiles from `low` to `high`, given as shares of a side, with a pixel to spare; and whether all that is in the picture.
+/// The tiles from `low` to `high`, given as shares of a side, with a pixel to spare; and whether all that is in the
+/// picture.
 fn tiles_of(low: f32, high: f32, size: f32) -> Option<([u16; 2], bool)> {
     let (low, high) = (low * size - 1.0, high * size + 1.0);
     if low >= size || high < 0.0 {
@@ -159,7 +161,8 @@ mod tests {
         PlacedInstance { rows, stretch, left_out: 0.0, near: 0.1, scale: [1.0, 16.0 / 9.0], size: SIZE }
     }
 
-    /// The tile of a point as vertices are put onto the picture; `None` where it is before the near plane or out of sight.
+    /// The tile of a point as vertices are put onto the picture; `None` where it is before the near plane or out of
+    /// sight.
     fn tile_of(placed: &PlacedInstance, point: [f32; 3]) -> Option<[u16; 2]> {
         let [x, y, z] =
             placed.rows.map(|[a, b, c, d]| c.mul_add(point[2], b.mul_add(point[1], a.mul_add(point[0], d))));

@@ -48,13 +48,14 @@ pub(crate) struct Gradient {
     inverse: f64,
 }
 
-/// A triangle flatter than this, in pixels, takes its slopes from the corners on the grid, and so does one that the rounding to
-/// the grid has turned over. A covered pixel lies at most one step of the grid outside of the exact triangle; so what is
-/// interpolated leaves the range of its corners by half of it at most.
+/// A triangle flatter than this, in pixels, takes its slopes from the corners on the grid, and so does one that the
+/// rounding to the grid has turned over. A covered pixel lies at most one step of the grid outside of the exact
+/// triangle; so what is interpolated leaves the range of its corners by half of it at most.
 pub(crate) const FLATTEST: f32 = 1.0 / 128.0;
 
 impl Gradient {
-    /// From the corners in pixels from the tile's first, exactly and on the grid, and the sign of the area on the picture.
+    /// From the corners in pixels from the tile's first, exactly and on the grid, and the sign of the area on the
+    /// picture.
     pub(crate) fn new(x: [f64; 3], y: [f64; 3], on_grid: ([f64; 3], [f64; 3]), positive: bool) -> Self {
         let area = |x: [f64; 3], y: [f64; 3]| (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
         let extent =
@@ -92,7 +93,8 @@ impl Slopes {
 }
 
 impl Planes {
-    /// Takes over what a triangle has of its own: its opacity and color where the draw is flat, else its normal where it may be needed.
+    /// Takes over what a triangle has of its own: its opacity and color where the draw is flat, else its normal where
+    /// it may be needed.
     #[inline(always)]
     pub(crate) fn set_face(&mut self, [first, x, y, z]: &[f32; 4], state: &State) {
         if state.stage == Stage::Flat {

@@ -25,13 +25,13 @@ const CHANNELS: usize = 4;
 const PART: usize = CHANNELS * 16 * 1024;
 
 impl Rasterizer {
-    /// Makes a picture of what a pass of [`PixelFormat::Floats`] has drawn, by a policy that acts on the finished picture;
-    /// `format` is the output's. Returns the number that all was divided by under [`Intensity::Renormalize`], whose
-    /// smoothing counts where that of the picture `before` is given.
+    /// Makes a picture of what a pass of [`PixelFormat::Floats`] has drawn, by a policy that acts on the finished
+    /// picture; `format` is the output's. Returns the number that all was divided by under [`Intensity::Renormalize`],
+    /// whose smoothing counts where that of the picture `before` is given.
     ///
     /// # Errors
-    /// [`RasterError::Finish`] where the lengths differ, or the format is not the output's; [`RasterError::Policy`] for a
-    /// policy with a number out of its range, or [`Intensity::Clamp`], which acts on no finished picture.
+    /// [`RasterError::Finish`] where the lengths differ, or the format is not the output's; [`RasterError::Policy`] for
+    /// a policy with a number out of its range, or [`Intensity::Clamp`], which acts on no finished picture.
     pub fn finish(
         &self,
         drawn: &[f32],

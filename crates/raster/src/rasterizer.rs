@@ -35,7 +35,8 @@ pub struct Rasterizer {
     fresh: ClearTiles,
 }
 
-/// A pass of less work than this many triangles and pixels is drawn by the calling thread: to wake another takes longer.
+/// A pass of less work than this many triangles and pixels is drawn by the calling thread: to wake another takes
+/// longer.
 const WORTH_A_THREAD: usize = 4_000;
 
 impl Rasterizer {

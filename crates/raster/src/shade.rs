@@ -50,8 +50,8 @@ impl<S: Simd> Fragments<'_, S> {
         )
     }
 
-    /// Their colors where only the material says how they give light back; most of the code of drawing, and fastest where it
-    /// is inlined.
+    /// Their colors where only the material says how they give light back; most of the code of drawing, and fastest
+    /// where it is inlined.
     #[inline(always)]
     pub(crate) fn color(&self, simd: S, look: &Look, state: &State, back: bool) -> V3<S> {
         let side = state.side(look.pass, back);
@@ -174,7 +174,8 @@ impl TileBuffer {
         )
     }
 
-    /// The color of pixels with one sample each. Tiles that are not `PAINTED` have nothing in the way of what is drawn most.
+    /// The color of pixels with one sample each. Tiles that are not `PAINTED` have nothing in the way of what is drawn
+    /// most.
     #[inline(always)]
     fn shade_one<S: Simd, const PAINTED: bool>(&self, simd: S, look: &Look, at: usize, clear: V3<S>) -> V3<S> {
         let shaders = load_i(simd, &self.shader[0], at);

@@ -60,8 +60,8 @@ impl MappedPixel<'_> {
     }
 }
 
-/// What is seen where nothing is drawn, from the pixel `at` of the tile on: the sky, where there is one, as the target keeps it, and
-/// else the clear color, which is given.
+/// What is seen where nothing is drawn, from the pixel `at` of the tile on: the sky, where there is one, as the target
+/// keeps it, and else the clear color, which is given.
 #[inline(always)]
 pub(crate) fn behind<S: Simd>(simd: S, look: &Look, at: usize, clear: V3<S>) -> V3<S> {
     match look.pass.surroundings {

@@ -239,8 +239,8 @@ impl Worker {
         });
     }
 
-    /// A triangle of few pixels, of which it covers some, or a larger one with one sample a pixel; it leaves nothing but
-    /// its depth and the leading numbers.
+    /// A triangle of few pixels, of which it covers some, or a larger one with one sample a pixel; it leaves nothing
+    /// but its depth and the leading numbers.
     #[inline(always)]
     fn plain<S: Simd>(&mut self, simd: S, work: &Work, triangle: [u8; 3], number: usize, tiny: bool) {
         let (batch, lane) = (&self.batches[number / lanes::<S>()], number % lanes::<S>());

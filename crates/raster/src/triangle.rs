@@ -1,5 +1,5 @@
-//! Triangles of a piece, as many at once as there are lanes: which pixels of the tile they may cover, their edges, and how
-//! numbers change over them.
+//! Triangles of a piece, as many at once as there are lanes: which pixels of the tile they may cover, their edges, and
+//! how numbers change over them.
 
 use crate::lanes::{
     F, I, M, MOST_LANES, Simd, each, f32x4, lanes, load_i, splat, splat_i, store, store_fours_i, store_i,
@@ -66,7 +66,8 @@ pub(crate) struct Batch {
     pub(crate) others: u64,
     /// The lanes that show their backs, as far as that is known.
     pub(crate) backs: u64,
-    /// Edge functions at the center of the first pixel that may be covered, less 1 where an edge does not own its pixels.
+    /// Edge functions at the center of the first pixel that may be covered, less 1 where an edge does not own its
+    /// pixels.
     pub(crate) edge: [Lanes; 3],
     /// By how much they grow from pixel to pixel, over 256.
     pub(crate) across: [Lanes; 3],
@@ -90,8 +91,8 @@ pub(crate) struct Covering {
     pub(crate) samples: SampleCount,
     /// The last column and row of the tile that are in the picture.
     pub(crate) last: [i32; 2],
-    /// Whether triangles leave nothing but their depth and the leading numbers; those of few pixels are told from others
-    /// then.
+    /// Whether triangles leave nothing but their depth and the leading numbers; those of few pixels are told from
+    /// others then.
     pub(crate) is_plain: bool,
 }
 

@@ -114,8 +114,8 @@ impl Vertices {
         }
     }
 
-    /// Fills what shading takes, of the groups of vertices that some triangle that shows has: bit k is that of the k-th so
-    /// many as there are lanes.
+    /// Fills what shading takes, of the groups of vertices that some triangle that shows has: bit k is that of the k-th
+    /// so many as there are lanes.
     #[inline(always)]
     pub(crate) fn light<S: Simd>(
         &mut self,
@@ -148,8 +148,9 @@ impl Vertices {
         }
     }
 
-    /// Puts a piece's vertices onto the picture; returns where they lie. `at_hand` says that none is clipped or far from
-    /// the tile (see [`TileBox::is_at_hand`](crate::placed::TileBox::is_at_hand)), `boxed` asks for the box of what is small.
+    /// Puts a piece's vertices onto the picture; returns where they lie. `at_hand` says that none is clipped or far
+    /// from the tile (see [`TileBox::is_at_hand`](crate::placed::TileBox::is_at_hand)), `boxed` asks for the box of
+    /// what is small.
     #[inline(always)]
     pub(crate) fn place<S: Simd>(
         &mut self,

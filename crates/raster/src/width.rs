@@ -4,7 +4,8 @@ use crate::error::RasterError;
 use fearless_simd::Level;
 use std::fmt;
 
-/// Evaluates an expression with the vectors of a level: like [`fearless_simd::dispatch`], but not for every level there is.
+/// Evaluates an expression with the vectors of a level: like [`fearless_simd::dispatch`], but not for every level there
+/// is.
 macro_rules! with_vectors {
     ($level:expr, $simd:ident => $draw:expr) => {
         match $level {

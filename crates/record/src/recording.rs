@@ -166,7 +166,8 @@ pub struct FrameToDraw {
 }
 
 /// Runs `app` frame by frame and writes what it draws. Time moves on by exactly 1/rate a frame, so that recordings
-/// repeat, to the byte on the same adapter. `progress` is told how many frames are done of how many, and may stop the work.
+/// repeat, to the byte on the same adapter. `progress` is told how many frames are done of how many, and may stop the
+/// work.
 ///
 /// # Errors
 /// The first thing that kept a frame from being drawn or written.
@@ -178,8 +179,8 @@ pub fn record(
     record_with(app, recording, |app, _| Ok(render_picture(app)?), progress)
 }
 
-/// The same with a drawer of its own, such as [`ReferenceDrawing::picture`](crate::ReferenceDrawing::picture). For each frame that is kept `draw` runs the
-/// App once and gives the picture.
+/// The same with a drawer of its own, such as [`ReferenceDrawing::picture`](crate::ReferenceDrawing::picture). For each
+/// frame that is kept `draw` runs the App once and gives the picture.
 ///
 /// # Errors
 /// The first thing that kept a frame from being drawn or written.

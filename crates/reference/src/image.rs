@@ -88,8 +88,8 @@ impl Image {
         Self::new(image.width(), image.height(), pixels)
     }
 
-    /// A decoded picture of 8 or 16 bits, whose values are decoded to the intensities they stand for, or one in floating
-    /// point, whose intensities stand as they are. Alpha is dropped.
+    /// A decoded picture of 8 or 16 bits, whose values are decoded to the intensities they stand for, or one in
+    /// floating point, whose intensities stand as they are. Alpha is dropped.
     pub fn from_decoded(image: &DynamicImage, encoding: Encoding) -> Self {
         use DynamicImage as D;
         match image {

@@ -11,8 +11,9 @@ pub enum Interpolation {
     Perspective,
     /// Linear on the picture, in the same triangles.
     Screen,
-    /// Linear in y along the edges, then linear in x along the line between them (Gouraud 1971 for intensities, Phong 1975
-    /// for normals). The same as [`Screen`](Self::Screen) on triangles; on other polygons it depends on how they are turned.
+    /// Linear in y along the edges, then linear in x along the line between them (Gouraud 1971 for intensities, Phong
+    /// 1975 for normals). The same as [`Screen`](Self::Screen) on triangles; on other polygons it depends on how they
+    /// are turned.
     ScanLine,
 }
 
@@ -40,7 +41,8 @@ impl Interpolation {
         }
     }
 
-    /// The value at a point of the picture; `None` outside of the polygon, which is convex, its corners in order round it.
+    /// The value at a point of the picture; `None` outside of the polygon, which is convex, its corners in order round
+    /// it.
     pub fn at<const N: usize>(self, corners: &[PolygonCorner<N>], point: [f64; 2]) -> Option<[f64; N]> {
         if self == Self::ScanLine {
             return scan_line(corners, point);

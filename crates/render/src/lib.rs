@@ -2,7 +2,8 @@
 //!
 //! [`RenderPlugin`] adds the way of a frame, [`RenderSet`] by [`RenderSet`], to a schedule of any
 //! `bevy_app` App. The target is a texture ([`Headless`]) unless a window brings a surface
-//! ([`SurfaceTarget`]) or an engine a texture of its own ([`TextureTarget`]). [`FrameReport`] counts what a frame did and holds what it could not do;
+//! ([`SurfaceTarget`]) or an engine a texture of its own ([`TextureTarget`]). [`FrameReport`] counts what a frame did
+//! and holds what it could not do;
 //! [`FrameTimes`] says where its time went on the CPU, and [`GpuTimer`] how much of it the GPU took.
 
 mod batch;

@@ -37,7 +37,8 @@ use halfway_lighting::{LightingPlugin, Material};
 use halfway_mesh::{Mesh3d, MeshPlugin};
 use halfway_texture::TexturePlugin;
 
-/// Draws every entity with a [`Mesh3d`] through the world's [`Camera`](halfway_lighting::Camera), once a run of its schedule.
+/// Draws every entity with a [`Mesh3d`] through the world's [`Camera`](halfway_lighting::Camera), once a run of its
+/// schedule.
 ///
 /// Needs `GlobalTransform`s to be current: it runs after `TransformSystems::Propagate` where that set
 /// is in the same schedule, and an App with a schedule of its own propagates before. Where nothing propagates them, the
@@ -173,8 +174,8 @@ fn register_types(app: &mut App) {
         .register_type::<Chosen>();
 }
 
-/// Opens what draws headless pictures unless there is something that can. What fails is in the report, every frame anew, so
-/// that an adapter that appears later is found. A device that is lost is replaced once a report has said so.
+/// Opens what draws headless pictures unless there is something that can. What fails is in the report, every frame
+/// anew, so that an adapter that appears later is found. A device that is lost is replaced once a report has said so.
 fn open(world: &mut World) {
     let lost = match world.get_resource::<Gpu>() {
         Some(gpu) if !gpu.is_lost() => return,

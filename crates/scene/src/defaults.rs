@@ -45,8 +45,8 @@ pub fn framing_camera(points: impl IntoIterator<Item = Vec3>, aspect: f32) -> Ca
     }
 }
 
-/// How far beside `center` along `axis`, and how far from it along `back`, an eye has to be at least, so that the points
-/// lie within the half angle of this tangent to both sides of its line of sight.
+/// How far beside `center` along `axis`, and how far from it along `back`, an eye has to be at least, so that the
+/// points lie within the half angle of this tangent to both sides of its line of sight.
 ///
 /// A point (x, z) is inside when |x − c| ≤ (d − z)·tan, that is, when c + d·tan is at least x + z·tan and d·tan − c at
 /// least z·tan − x. The largest of each over all points decides, and half their sum is the least d·tan.

@@ -16,7 +16,8 @@ use crate::read::{ComponentWord, JsonObject, Spoken, Word, word, write_word};
 #[derive(Serialize, Deserialize, JsonSchema, Clone, Debug, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct EnvironmentEntry {
-    /// HDR, EXR, PNG or JPEG files, relative to the scene file: one, or of a cube six, of +X, −X, +Y, −Y, +Z and −Z. Required.
+    /// HDR, EXR, PNG or JPEG files, relative to the scene file: one, or of a cube six, of +X, −X, +Y, −Y, +Z and −Z.
+    /// Required.
     pub paths: Vec<PathBuf>,
     /// How the images hold all directions.
     #[serde(default, deserialize_with = "word", serialize_with = "write_word")]

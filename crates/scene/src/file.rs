@@ -125,11 +125,12 @@ impl SceneFile {
 
     /// Reads a scene file.
     ///
-    /// Paths in it stay as they are written: relative to the folder of the file, which [`spawn()`](fn@crate::spawn) is told.
+    /// Paths in it stay as they are written: relative to the folder of the file, which [`spawn()`](fn@crate::spawn) is
+    /// told.
     ///
     /// # Errors
-    /// [`SceneError::Read`], [`SceneError::NotAFile`], [`SceneError::TooLarge`] and [`SceneError::NotUtf8`] for a file that is
-    /// no text, and as [`from_json`](Self::from_json).
+    /// [`SceneError::Read`], [`SceneError::NotAFile`], [`SceneError::TooLarge`] and [`SceneError::NotUtf8`] for a file
+    /// that is no text, and as [`from_json`](Self::from_json).
     pub fn read(path: &Path) -> Result<Self, SceneError> {
         let mut bytes = Vec::new();
         // Asked before it is opened: opening a pipe waits for its other end.

@@ -34,8 +34,8 @@ fn near_light(entry: &LightEntry, transform: Transform) -> (LightComponent, Tran
     (component, transform.with_rotation(along(&entry.cone)))
 }
 
-/// A light at an infinite distance. The angle between its rays and the axis of its cone, if any, is the same everywhere,
-/// so the cone's factor is a constant of its colors.
+/// A light at an infinite distance. The angle between its rays and the axis of its cone, if any, is the same
+/// everywhere, so the cone's factor is a constant of its colors.
 fn far_light(LightEntry { light, cone, .. }: &LightEntry, toward: Vec3) -> (LightComponent, Transform) {
     let axis = along(cone) * Vec3::NEG_Z;
     let cos_phi = f64::from((-toward).dot(axis)).clamp(-1.0, 1.0);

@@ -110,8 +110,8 @@ pub struct MapEntry {
     #[serde(default, deserialize_with = "word", serialize_with = "write_word")]
     #[schemars(with = "Spoken<Channel>")]
     pub channel: Channel,
-    /// How much the image counts: 0 not at all, 1 in full; of normals what their slopes are multiplied by; of heights how high
-    /// a 1 is, in lengths of the mesh.
+    /// How much the image counts: 0 not at all, 1 in full; of normals what their slopes are multiplied by; of heights
+    /// how high a 1 is, in lengths of the mesh.
     #[serde(default = "one")]
     pub amount: f32,
     /// What highlights take of a `normal` that is smaller than a pixel, beside where it points.

@@ -69,8 +69,8 @@ pub struct ObjectEntry {
     /// What the object is cut from, whose color multiplies ambient and diffuse light; null: nothing.
     #[serde(default, deserialize_with = "object_or_null")]
     pub solid: Option<SolidEntry>,
-    /// The object is not there where its opacity is below this number, 0 or more; 0 cuts nothing away. Left out: no, except
-    /// for parts with a masked material of the model's own.
+    /// The object is not there where its opacity is below this number, 0 or more; 0 cuts nothing away. Left out: no,
+    /// except for parts with a masked material of the model's own.
     #[serde(default, deserialize_with = "given", skip_serializing_if = "Option::is_none")]
     #[schemars(with = "f32", default)]
     pub mask: Option<f32>,

@@ -1,9 +1,9 @@
 //! A matrix as what `bevy_transform` can hold.
 //!
-//! A `Transform` is a translation, a rotation and a scale along the object's own axes; a matrix may also shear, that is,
-//! leave axes that are not perpendicular. Every matrix M is U·Σ·Vᵀ with rotations U, V and a diagonal Σ (its singular
-//! value decomposition), and that is two transforms, one inside the other: U and Σ outside, Vᵀ inside. So a sheared
-//! matrix becomes a parent and a child, and nothing of it is lost.
+//! A `Transform` is a translation, a rotation and a scale along the object's own axes; a matrix may also shear, that
+//! is, leave axes that are not perpendicular. Every matrix M is U·Σ·Vᵀ with rotations U, V and a diagonal Σ (its
+//! singular value decomposition), and that is two transforms, one inside the other: U and Σ outside, Vᵀ inside. So a
+//! sheared matrix becomes a parent and a child, and nothing of it is lost.
 
 use bevy_math::{DMat3, DQuat, DVec3, Mat4, Quat, Vec3};
 use bevy_transform::components::Transform;

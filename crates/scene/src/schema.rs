@@ -17,7 +17,8 @@ pub fn json_schema() -> String {
     crate::json::pretty(&schema).unwrap_or_default()
 }
 
-/// Defaults are `f32`, of which 0.1 would show as 0.10000000149011612; and descriptions have the line ends of the source.
+/// Defaults are `f32`, of which 0.1 would show as 0.10000000149011612; and descriptions have the line ends of the
+/// source.
 fn tidy(value: &mut Value) {
     match value {
         Value::Array(items) => items.iter_mut().for_each(tidy),
@@ -48,8 +49,8 @@ fn whole_or_fraction(x: f64) -> Value {
 mod tests {
     use super::*;
 
-    /// The schema in `docs/` is the one of the types. To bring it up to date, run the test with the environment variable
-    /// `HALFWAY_WRITE_SCHEMA=1`.
+    /// The schema in `docs/` is the one of the types. To bring it up to date, run the test with the environment
+    /// variable `HALFWAY_WRITE_SCHEMA=1`.
     #[test]
     fn the_written_schema_is_up_to_date() {
         let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/scene.schema.json");

@@ -30,7 +30,8 @@ use crate::view::CameraEntry;
 /// The entities of a scene that was spawned.
 #[derive(Clone, Debug)]
 pub struct Spawned {
-    /// The camera, with the scene's [`Shading`](halfway_lighting::Shading) and [`Reflectance`](halfway_lighting::Reflectance).
+    /// The camera, with the scene's [`Shading`](halfway_lighting::Shading) and
+    /// [`Reflectance`](halfway_lighting::Reflectance).
     pub camera: Entity,
     /// The entity of every object of the file, in its order: it carries the object's `Name` and its frame. A shape of
     /// one part has its mesh on it, a model of several parts has one child for each.
@@ -271,8 +272,8 @@ fn hang_own_maps(part: &ShapePart, textures: &mut TextureHandles, entity: Entity
 /// The textures of a scene's own images, by path and by what their numbers mean.
 type SceneTextures<'a> = HashMap<(&'a Path, TexelMeaning), Handle<Texture>>;
 
-/// Gives objects, or all parts of their models, their images. Each file is read once for each meaning; what cannot be read is
-/// a warning, and a checker is shown in its place.
+/// Gives objects, or all parts of their models, their images. Each file is read once for each meaning; what cannot be
+/// read is a warning, and a checker is shown in its place.
 fn hang_maps(scene: &SceneFile, base_dir: &Path, frames: &[Entity], warnings: &mut Vec<String>, world: &mut World) {
     let mut handles = SceneTextures::new();
     for (index, (object, &frame)) in scene.objects.iter().zip(frames).enumerate() {

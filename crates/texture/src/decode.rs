@@ -37,16 +37,16 @@ pub fn load(path: &Path, meaning: TexelMeaning) -> Result<TexelImage, TextureErr
     decode(&bytes, &image(), meaning)
 }
 
-/// The image in the bytes of a PNG, JPEG, Radiance HDR or EXR file, told apart by how they begin. `name` is what errors call
-/// it.
+/// The image in the bytes of a PNG, JPEG, Radiance HDR or EXR file, told apart by how they begin. `name` is what errors
+/// call it.
 ///
-/// Grey becomes red, green and blue alike; without an alpha channel alpha is 1; palettes and the inks of JPEG become the
-/// colors they stand for. Values of 8 and 16 bits are taken over 255 and 65535; those of HDR and EXR are floats, linear
-/// already, and stand as they are, whatever `meaning` says.
+/// Grey becomes red, green and blue alike; without an alpha channel alpha is 1; palettes and the inks of JPEG become
+/// the colors they stand for. Values of 8 and 16 bits are taken over 255 and 65535; those of HDR and EXR are floats,
+/// linear already, and stand as they are, whatever `meaning` says.
 ///
 /// # Errors
-/// Bytes that are none of these, NaN or an infinite number in a texel, an image that is broken, empty or too large, or memory
-/// that is refused. The size is checked before memory is taken for it.
+/// Bytes that are none of these, NaN or an infinite number in a texel, an image that is broken, empty or too large, or
+/// memory that is refused. The size is checked before memory is taken for it.
 pub fn decode(bytes: &[u8], name: &str, meaning: TexelMeaning) -> Result<TexelImage, TextureError> {
     let broken = |reason: String| TextureError::Decode { image: name.into(), reason };
     let reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format().map_err(|e| broken(e.to_string()))?;

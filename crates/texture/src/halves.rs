@@ -21,8 +21,8 @@ pub(crate) fn half(side: u32) -> u32 {
     (side / 2).max(1)
 }
 
-/// What of one row or column lies under a texel of the smaller image: its first and last neighbour, and how much of each
-/// lies there, in parts of the larger image's texels times the smaller one's count.
+/// What of one row or column lies under a texel of the smaller image: its first and last neighbour, and how much of
+/// each lies there, in parts of the larger image's texels times the smaller one's count.
 struct Under {
     first: usize,
     shares: Vec<f64>,
@@ -39,8 +39,8 @@ fn under(from: usize, to: usize) -> Vec<Under> {
     (0..to).map(share).collect()
 }
 
-/// Writes the texels of a row of the smaller image from `source`, the texels of the larger one that lie under it: the number
-/// of the texel in the row, and of the neighbour under it.
+/// Writes the texels of a row of the smaller image from `source`, the texels of the larger one that lie under it: the
+/// number of the texel in the row, and of the neighbour under it.
 fn mean(under: &Under, whole: f64, source: impl Fn(usize) -> [f32; 4]) -> [f32; 4] {
     let mut sum = [0.0_f64; 4];
     for (k, covered) in under.shares.iter().enumerate() {

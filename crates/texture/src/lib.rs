@@ -1,7 +1,7 @@
 //! Images as surfaces have them: in linear light, as pyramids of ever smaller ones, and looked up with filters.
 //!
-//! - [`TexelImage`]: four numbers a texel; [`decode`] and [`load`] make one of a PNG or JPEG file, within [limits](MOST_TEXELS)
-//!   that are checked before memory is taken.
+//! - [`TexelImage`]: four numbers a texel; [`decode`] and [`load`] make one of a PNG or JPEG file, within
+//!   [limits](MOST_TEXELS) that are checked before memory is taken.
 //! - [`Pyramid`]: an image of any size and its halves, down to one texel.
 //! - [`Sampling`]: what is beyond the image ([`Wrap`]), which filter enlarges it and which reduces it ([`TexelFilter`],
 //!   [`LevelFilter`]).
@@ -14,8 +14,8 @@
 //! - [`UvTransform`]: where on the image a surface's coordinates lie.
 //! - [`Texture`], [`Maps`]: the asset, and the component that puts some onto an object, one for each [`MapKind`].
 //!
-//! (u, v) = (0, 0) is the image's top left corner, (1, 1) its bottom right. Texel (i, j) of a w × h image has its center at
-//! ((i + ½)/w, (j + ½)/h). No GPU, no window is touched; files only by [`load`].
+//! (u, v) = (0, 0) is the image's top left corner, (1, 1) its bottom right. Texel (i, j) of a w × h image has its
+//! center at ((i + ½)/w, (j + ½)/h). No GPU, no window is touched; files only by [`load`].
 //!
 //! ```
 //! use halfway_texture::{Pyramid, Sampling, TexelImage, lookup};

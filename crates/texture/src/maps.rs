@@ -36,8 +36,8 @@ impl From<TexelImage> for Texture {
 
 /// What an image on an object says of its surface.
 ///
-/// t is what the filter makes of the texels, taken into 0 to 1, of [`SurfaceMap::channel`] where it is one number. Where
-/// something is multiplied, it is by 1 + a·(t − 1), a being [`SurfaceMap::amount`].
+/// t is what the filter makes of the texels, taken into 0 to 1, of [`SurfaceMap::channel`] where it is one number.
+/// Where something is multiplied, it is by 1 + a·(t − 1), a being [`SurfaceMap::amount`].
 #[derive(Reflect, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[reflect(Clone, Debug, PartialEq, Hash)]
 pub enum MapKind {
@@ -50,17 +50,18 @@ pub enum MapKind {
     Emission,
     /// Its number multiplies the opacity.
     Opacity,
-    /// Its number multiplies the exponent of highlights, a matched one after it is matched: those of lights where they are
-    /// shaded at the fragments, and what an environment mirrors everywhere.
+    /// Its number multiplies the exponent of highlights, a matched one after it is matched: those of lights where they
+    /// are shaded at the fragments, and what an environment mirrors everywhere.
     Shininess,
     /// Its number multiplies the ambient terms: baked ambient occlusion.
     Occlusion,
     /// Its colors are normals in the space of the mesh's tangents, (2t − 1)·(a, a, 1), where light is shaded at the
     /// fragments; elsewhere it does nothing.
     Normal,
-    /// Its numbers, as they are, are heights above the surface in a lengths of the mesh, by which normals are turned (Blinn
-    /// 1978), where light is shaded at the fragments; elsewhere it does nothing. Beside a [`Normal`](Self::Normal) it does
-    /// nothing either.
+    /// Its numbers, as they are, are heights above the surface in a lengths of the mesh, by which normals are turned
+    /// (Blinn
+    /// 1978), where light is shaded at the fragments; elsewhere it does nothing. Beside a [`Normal`](Self::Normal) it
+    /// does nothing either.
     Height,
 }
 
@@ -132,8 +133,8 @@ pub struct SurfaceMap {
     pub transform: UvTransform,
     /// The number that counts where one does.
     pub channel: Channel,
-    /// a: how much it counts, as [`MapKind`] says. 0 to 1 where it multiplies, any finite number where it turns normals.
-    /// Default 1.
+    /// a: how much it counts, as [`MapKind`] says. 0 to 1 where it multiplies, any finite number where it turns
+    /// normals. Default 1.
     pub amount: f32,
     /// What highlights take of a [`Normal`](MapKind::Normal) beside where it points. Of other kinds it does nothing.
     pub far_normals: FarNormals,
@@ -181,9 +182,9 @@ pub struct WrongMap {
 /// The images on an object, one of each [`MapKind`] at most; beside its material, on both sides.
 ///
 /// Each counts at every fragment, whatever the shading: under Gouraud and flat shading the ambient, the diffuse and the
-/// specular terms are interpolated apart, so that each is multiplied by its own. What belongs to the evaluation of light
-/// (shininess, normals, heights) does nothing there, since it is the vertices and triangles that are lit; but for what an
-/// environment mirrors, which takes the shininess at every fragment.
+/// specular terms are interpolated apart, so that each is multiplied by its own. What belongs to the evaluation of
+/// light (shininess, normals, heights) does nothing there, since it is the vertices and triangles that are lit; but for
+/// what an environment mirrors, which takes the shininess at every fragment.
 #[derive(Component, Reflect, Clone, Debug, Default, PartialEq)]
 #[reflect(Component, Clone, Debug, Default, PartialEq)]
 pub struct Maps([Option<SurfaceMap>; MapKind::COUNT]);

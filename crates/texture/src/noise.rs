@@ -1,7 +1,8 @@
 //! Noise in space, and solids made of it.
 //!
-//! Everything is a function of a point and of how wide a part of space is seen there, `width`: how far the point moves from a
-//! pixel to the next, in units of the noise's cells. What changes faster than a pixel can show is faded to its mean.
+//! Everything is a function of a point and of how wide a part of space is seen there, `width`: how far the point moves
+//! from a pixel to the next, in units of the noise's cells. What changes faster than a pixel can show is faded to its
+//! mean.
 
 use crate::lookup::Number;
 
@@ -20,9 +21,9 @@ pub fn hash([x, y, z]: [u32; 3]) -> [u32; 3] {
     [x, y, z]
 }
 
-/// Gradient noise of Perlin, "Improving Noise", 2002: 0 at whole numbers, within −1.04 to 1.04, its mean 0. Each cell's corners
-/// have one of the twelve directions to the edges of a cube (four of them twice), by [`hash`]; between them they are mixed by
-/// 6t⁵ − 15t⁴ + 10t³. Of points without a number, 0.
+/// Gradient noise of Perlin, "Improving Noise", 2002: 0 at whole numbers, within −1.04 to 1.04, its mean 0. Each cell's
+/// corners have one of the twelve directions to the edges of a cube (four of them twice), by [`hash`]; between them
+/// they are mixed by 6t⁵ − 15t⁴ + 10t³. Of points without a number, 0.
 pub fn gradient_noise<T: Number>(p: [T; 3]) -> T {
     let floor = p.map(T::floor);
     let Some(cell) = whole(floor) else { return T::zero() };
@@ -61,8 +62,8 @@ fn whole<T: Number>(floor: [T; 3]) -> Option<[u32; 3]> {
     Some([of(floor[0])?, of(floor[1])?, of(floor[2])?])
 }
 
-/// How much of noise is left that is seen by parts so wide, in its cells: all up to ¼, nothing from ¾ on, 3t² − 2t³ between
-/// (Ebert et al., *Texturing and Modeling*, 2003, on fading before aliasing).
+/// How much of noise is left that is seen by parts so wide, in its cells: all up to ¼, nothing from ¾ on, 3t² − 2t³
+/// between (Ebert et al., *Texturing and Modeling*, 2003, on fading before aliasing).
 pub fn left<T: Number>(width: T) -> T {
     let t = ((width - T::of(0.25)) * T::of(2.0)).max(T::zero()).min(T::one());
     T::one() - t * t * (T::of(3.0) - T::of(2.0) * t)
@@ -71,8 +72,8 @@ pub fn left<T: Number>(width: T) -> T {
 /// The most octaves of a sum.
 pub const MOST_OCTAVES: u32 = 16;
 
-/// A fractal sum: Σ 2⁻ᵏ·noise(2ᵏ·p) over `octaves` octaves, at most [`MOST_OCTAVES`], each faded by [`left`] of 2ᵏ·`width`; those
-/// that are gone are not evaluated. About −1 to 1, and within −2.08 to 2.08.
+/// A fractal sum: Σ 2⁻ᵏ·noise(2ᵏ·p) over `octaves` octaves, at most [`MOST_OCTAVES`], each faded by [`left`] of
+/// 2ᵏ·`width`; those that are gone are not evaluated. About −1 to 1, and within −2.08 to 2.08.
 pub fn fractal<T: Number>(p: [T; 3], octaves: u32, width: T) -> T {
     let (mut sum, mut frequency, mut amplitude) = (T::zero(), T::one(), T::one());
     for octave in 0..octaves.min(MOST_OCTAVES) {
@@ -90,8 +91,8 @@ pub fn fractal<T: Number>(p: [T; 3], octaves: u32, width: T) -> T {
     sum
 }
 
-/// Marble: veins across x, one a unit, bent by a fractal sum of `octaves` octaves. 0 to 1, its mean about ½: ½ + ½ sin 2π(x +
-/// sum).
+/// Marble: veins across x, one a unit, bent by a fractal sum of `octaves` octaves. 0 to 1, its mean about ½: ½ + ½ sin
+/// 2π(x + sum).
 pub fn marble<T: Number>(p: [T; 3], octaves: u32, width: T) -> T {
     wave(p[0] + fractal(p, octaves, width), width)
 }
@@ -102,7 +103,8 @@ pub fn wood<T: Number>([x, y, z]: [T; 3], width: T) -> T {
     wave((x * x + z * z).sqrt() + grain, width)
 }
 
-/// ½ + ½ sin 2πt, of which a part so wide is seen: times sin(πw)/(πw), the mean of a wave over a box, until that is 0 at w = 1.
+/// ½ + ½ sin 2πt, of which a part so wide is seen: times sin(πw)/(πw), the mean of a wave over a box, until that is 0
+/// at w = 1.
 fn wave<T: Number>(t: T, width: T) -> T {
     let half = T::of(0.5);
     let angle = T::of(std::f64::consts::PI) * width.abs();
@@ -122,7 +124,8 @@ fn wave<T: Number>(t: T, width: T) -> T {
 }
 
 /// A checker of cubes of side 1: 0 or 1, or the mean over a box of these widths along the axes, exactly. Widths below
-/// [`LEAST_WIDTH`] count as that. So a plane that lies just between cubes is not one or the other by a rounding, but ½ all over.
+/// [`LEAST_WIDTH`] count as that. So a plane that lies just between cubes is not one or the other by a rounding, but ½
+/// all over.
 pub fn checker<T: Number>(p: [T; 3], widths: [T; 3]) -> T {
     let half = T::of(0.5);
     let product = (0..3).fold(T::one(), |product, axis| product * square_wave(p[axis], widths[axis].abs()));

@@ -1,7 +1,7 @@
 //! Normals in images: made of heights, and looked up from afar without losing their roughness.
 //!
-//! A normal (x, y, z) in the surface's own axes, x along u, y upward on the image, against v, and z out of the surface, stands
-//! in the first three numbers of a texel as (x, y, z)/2 + ½, as files have it.
+//! A normal (x, y, z) in the surface's own axes, x along u, y upward on the image, against v, and z out of the surface,
+//! stands in the first three numbers of a texel as (x, y, z)/2 + ½, as files have it.
 
 use bevy_reflect::Reflect;
 use bevy_reflect::std_traits::ReflectDefault;
@@ -12,9 +12,9 @@ use crate::pyramid::Pyramid;
 use crate::sampling::{Sampling, Wrap};
 use crate::texels::TexelImage;
 
-/// The normals of the heights in the first numbers of an image's texels: (−∂h/∂x, −∂h/∂y, 1) at length 1, y upward. Slopes are
-/// half the difference of the two neighbours, wrapped as said. `strength` is the height of 1 in widths of a texel; negative
-/// ones turn bumps into dents.
+/// The normals of the heights in the first numbers of an image's texels: (−∂h/∂x, −∂h/∂y, 1) at length 1, y upward.
+/// Slopes are half the difference of the two neighbours, wrapped as said. `strength` is the height of 1 in widths of a
+/// texel; negative ones turn bumps into dents.
 ///
 /// # Errors
 /// A strength that is not finite: [`TextureError::NotFinite`].
@@ -60,8 +60,8 @@ impl FarNormals {
     pub const ALL: [Self; 3] = [Self::Mean, Self::Toksvig, Self::Lean];
 }
 
-/// How long the mean of normals is that a texel stands for, 0 to 1, had their slopes been `s` times as steep: with |n| the
-/// length that it has, |n|/(|n| + s²·(1 − |n|)). For (1 − |n|)/|n| is the variance of their slopes in [`toksvig`].
+/// How long the mean of normals is that a texel stands for, 0 to 1, had their slopes been `s` times as steep: with |n|
+/// the length that it has, |n|/(|n| + s²·(1 − |n|)). For (1 − |n|)/|n| is the variance of their slopes in [`toksvig`].
 ///
 /// A vector that is mirrored by the normals turns twice as far as they do: for the exponent of (r·v)^s take 2·s.
 pub fn mean_length<T: Number>(texel: [T; 3], s: T) -> T {
@@ -73,8 +73,8 @@ pub fn mean_length<T: Number>(texel: [T; 3], s: T) -> T {
     length / (length + s * s * (T::one() - length)).max(T::of(f64::from(f32::MIN_POSITIVE)))
 }
 
-/// What Toksvig, "Mipmapping Normal Maps", 2005, makes of a highlight (n·h)^s where the mean of the normals has this length:
-/// the exponent f·s and the factor (1 + f·s)/(1 + s), with f = |n|/(|n| + s(1 − |n|)).
+/// What Toksvig, "Mipmapping Normal Maps", 2005, makes of a highlight (n·h)^s where the mean of the normals has this
+/// length: the exponent f·s and the factor (1 + f·s)/(1 + s), with f = |n|/(|n| + s(1 − |n|)).
 pub fn toksvig<T: Number>(length: T, exponent: T) -> [T; 2] {
     let length = length.max(T::zero()).min(T::one());
     let f = length / (length + exponent * (T::one() - length)).max(T::of(f64::from(f32::MIN_POSITIVE)));

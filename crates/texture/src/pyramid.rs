@@ -10,12 +10,13 @@ use crate::sampling::Sampling;
 use crate::sums::SummedAreas;
 use crate::texels::TexelImage;
 
-/// An image, and images of half its width and height (rounded down, at least 1), and so on down to one texel: 4/3 of the
-/// image's memory, a little more for odd sizes. Its clones share their texels.
+/// An image, and images of half its width and height (rounded down, at least 1), and so on down to one texel: 4/3 of
+/// the image's memory, a little more for odd sizes. Its clones share their texels.
 ///
-/// Each level is made of the one before it, in linear light: a texel is the mean of what lies under it, by area. Of even
-/// sizes these are four texels; of odd ones three in a row count, two of them in part. So no level is brighter or darker than
-/// the image as a whole, none leaves the range of its texels, and none depends on what lies beyond the image.
+/// Each level is made of the one before it, in linear light: a texel is the mean of what lies under it, by area. Of
+/// even sizes these are four texels; of odd ones three in a row count, two of them in part. So no level is brighter or
+/// darker than the image as a whole, none leaves the range of its texels, and none depends on what lies beyond the
+/// image.
 ///
 /// What else some filters, bounds and highlights need, [`Ripmap`], [`SummedAreas`], [`TexelRanges`] and
 /// [moments](Self::moments), is made when it is first asked for, and shared by the clones.
@@ -87,7 +88,8 @@ impl Pyramid {
         &self.texels[start..start + width as usize * height as usize]
     }
 
-    /// The image and its halves along each axis: 4 times the image's memory beside the pyramid's, kept from the first call on.
+    /// The image and its halves along each axis: 4 times the image's memory beside the pyramid's, kept from the first
+    /// call on.
     pub fn ripmap(&self) -> &Ripmap {
         self.more.ripmap.get_or_init(|| Ripmap::new(&self.texels, self.size()))
     }
@@ -110,8 +112,9 @@ impl Pyramid {
         self.more.moments.get_or_init(made)
     }
 
-    /// What [`filtered`](crate::lookup::filtered) may give wherever u and v are from `low` to `high`, or a texel beside that of
-    /// the level that is taken, whatever the footprint; a little more. `None` where texels are too large for sums of them.
+    /// What [`filtered`](crate::lookup::filtered) may give wherever u and v are from `low` to `high`, or a texel beside
+    /// that of the level that is taken, whatever the footprint; a little more. `None` where texels are too large for
+    /// sums of them.
     pub fn range_within(&self, sampling: Sampling, low: [f32; 2], high: [f32; 2]) -> Option<TexelRange> {
         self.ranges().within((&self.levels, &self.texels), sampling, low, high)
     }

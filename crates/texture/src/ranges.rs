@@ -29,7 +29,8 @@ const SQUARES: u32 = 32;
 /// Levels are looked at from the first on of which a part has this number of squares along a side, or fewer.
 const LOOKED_AT: i64 = 12;
 
-/// What weights below 0 of Catmull and Rom's filter sum up to: up to 1/8 along an axis, of which the others sum up to 9/8.
+/// What weights below 0 of Catmull and Rom's filter sum up to: up to 1/8 along an axis, of which the others sum up to
+/// 9/8.
 const OVERSHOOT: f32 = 2.0 * 0.125 * 1.125;
 
 /// Texels beyond this are not summed up without overflow.
@@ -91,9 +92,9 @@ impl TexelRanges {
         self.levels.iter().map(|level| size_of_val(&level[..])).sum()
     }
 
-    /// Of the image that it was made of: what [`filtered`](crate::lookup::filtered) may give wherever u and v are from `low`
-    /// to `high`, or a texel beside that of the level that is taken, whatever the footprint; a little more. `None` where
-    /// texels are too large for sums of them.
+    /// Of the image that it was made of: what [`filtered`](crate::lookup::filtered) may give wherever u and v are from
+    /// `low` to `high`, or a texel beside that of the level that is taken, whatever the footprint; a little more.
+    /// `None` where texels are too large for sums of them.
     pub(crate) fn within(
         &self,
         (levels, texels): (&[Level], &[[f32; 4]]),

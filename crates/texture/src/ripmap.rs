@@ -2,8 +2,9 @@
 
 use crate::halves::{Level, half, lower, narrower};
 
-/// An image, and for each pair of halvings, (i, j), the image that is halved i times in width and j times in height, down to
-/// one texel: 4 times the image's memory: a ripmap (Akenine-Möller et al., *Real-Time Rendering*, on anisotropic filters).
+/// An image, and for each pair of halvings, (i, j), the image that is halved i times in width and j times in height,
+/// down to one texel: 4 times the image's memory: a ripmap (Akenine-Möller et al., *Real-Time Rendering*, on
+/// anisotropic filters).
 ///
 /// Each is made by means by area, as the levels of a [`Pyramid`](crate::Pyramid).
 #[derive(Clone, Debug, PartialEq)]

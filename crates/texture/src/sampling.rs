@@ -16,7 +16,8 @@ pub enum Wrap {
     Clamp,
 }
 
-/// How the texels of one image become a value between them. `f` is the part of the way from one texel's center to the next.
+/// How the texels of one image become a value between them. `f` is the part of the way from one texel's center to the
+/// next.
 #[derive(Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[reflect(Clone, Debug, Default, PartialEq, Hash)]
 pub enum TexelFilter {
@@ -25,7 +26,8 @@ pub enum TexelFilter {
     /// The mean of four, weighted by 1 − f and f along each axis.
     #[default]
     Bilinear,
-    /// The uniform cubic B-spline over sixteen (Hou and Andrews 1978): smooth, softer than the texels, never beyond them.
+    /// The uniform cubic B-spline over sixteen (Hou and Andrews 1978): smooth, softer than the texels, never beyond
+    /// them.
     BSpline,
     /// The cubic through the texels with slopes half their neighbours' difference (Catmull and Rom 1974), over sixteen:
     /// sharper; it overshoots at edges.
@@ -35,8 +37,8 @@ pub enum TexelFilter {
 /// What is taken of an image at a point whose footprint is larger than a texel.
 ///
 /// The first three go by D, the level of a square footprint. The others go by the footprint's shape: the ellipse of the
-/// points a·x + b·y with x² + y² ≤ 1, where a and b say how (u, v), in texels, change from a pixel to the next along x and
-/// along y. Its semiaxes are σ₁ ≥ σ₂, the singular values of the matrix (a b). Where σ₁ ≤ 1 the image is enlarged.
+/// points a·x + b·y with x² + y² ≤ 1, where a and b say how (u, v), in texels, change from a pixel to the next along x
+/// and along y. Its semiaxes are σ₁ ≥ σ₂, the singular values of the matrix (a b). Where σ₁ ≤ 1 the image is enlarged.
 ///
 /// Slopes of heights go by D under all of them.
 #[derive(Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -49,14 +51,14 @@ pub enum LevelFilter {
     /// The two levels around D, weighted by the distance from it.
     #[default]
     Linear,
-    /// The images of a [`Ripmap`](crate::Ripmap) around log₂ of √(aᵤ² + bᵤ²) along u and of √(aᵥ² + bᵥ²) along v: the sides of
-    /// a rectangle along the axes that is as spread out as the footprint.
+    /// The images of a [`Ripmap`](crate::Ripmap) around log₂ of √(aᵤ² + bᵤ²) along u and of √(aᵥ² + bᵥ²) along v: the
+    /// sides of a rectangle along the axes that is as spread out as the footprint.
     Ripmap,
     /// The mean of that rectangle, at least a texel wide and high, by [`SummedAreas`](crate::SummedAreas).
     SummedArea,
     /// Up to 2 probes along the ellipse's long axis: N = min(σ₁/max(σ₂, 1), 2), the level is log₂(σ₁/N) by
-    /// [`Linear`](Self::Linear), and the probes lie σ₁/N apart: one in the middle, and pairs around it, of which the outermost
-    /// has what is left of the weight N. With N growing, pairs come in with weight 0, so that nothing jumps.
+    /// [`Linear`](Self::Linear), and the probes lie σ₁/N apart: one in the middle, and pairs around it, of which the
+    /// outermost has what is left of the weight N. With N growing, pairs come in with weight 0, so that nothing jumps.
     Anisotropic2,
     /// Up to 4 probes' weight, likewise.
     Anisotropic4,
@@ -64,8 +66,9 @@ pub enum LevelFilter {
     Anisotropic8,
     /// Up to 16 probes' weight, likewise.
     Anisotropic16,
-    /// All texels in the ellipse, weighted by a Gaussian: the elliptical weighted average of Heckbert 1989, in the two levels
-    /// around log₂ of the short semiaxis. That is lengthened where it is less than 1/16 of the long one or than a texel.
+    /// All texels in the ellipse, weighted by a Gaussian: the elliptical weighted average of Heckbert 1989, in the two
+    /// levels around log₂ of the short semiaxis. That is lengthened where it is less than 1/16 of the long one or than
+    /// a texel.
     Elliptical,
 }
 
@@ -113,9 +116,9 @@ pub enum ImageForm {
 
 /// How an image is looked up: a value of each point and its footprint.
 ///
-/// D = log₂ of the longer side of the footprint in texels. Where D ≤ 0 the image is enlarged, by `magnify`. Elsewhere it is
-/// reduced: `levels` says what is taken of it, and `minify` how its levels are looked up between texels; summed areas and
-/// ellipses need no such filter. The default is trilinear.
+/// D = log₂ of the longer side of the footprint in texels. Where D ≤ 0 the image is enlarged, by `magnify`. Elsewhere
+/// it is reduced: `levels` says what is taken of it, and `minify` how its levels are looked up between texels; summed
+/// areas and ellipses need no such filter. The default is trilinear.
 #[derive(Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[reflect(Clone, Debug, Default, PartialEq, Hash)]
 pub struct Sampling {

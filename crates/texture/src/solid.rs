@@ -1,21 +1,23 @@
 //! Solids: patterns that fill space, of which surfaces show what they cut out (Peachey, "Solid Texturing of Complex
 //! Surfaces", and Perlin, "An Image Synthesizer", both 1985). They need no texture coordinates.
 //!
-//! *Place.* A point p of an object lies in the solid at q = M·(p, 1), M being [`SolidTexture::solid_from_object`], in cells.
+//! *Place.* A point p of an object lies in the solid at q = M·(p, 1), M being [`SolidTexture::solid_from_object`], in
+//! cells.
 //!
-//! *Footprint.* q moves by the ways a and b from a pixel to the next, along x and along y of the picture. Over a triangle p/w
-//! and 1/w are linear on the picture, w the distance along the view, so that ∂p = w·(∂(p/w) − p·∂(1/w)) by the rule of
-//! quotients, and ∂q = M₃·∂p with M₃ the first three columns of M. Of these ways are made
+//! *Footprint.* q moves by the ways a and b from a pixel to the next, along x and along y of the picture. Over a
+//! triangle p/w and 1/w are linear on the picture, w the distance along the view, so that ∂p = w·(∂(p/w) − p·∂(1/w)) by
+//! the rule of quotients, and ∂q = M₃·∂p with M₃ the first three columns of M. Of these ways are made
 //!
-//! - the width of [`Marble`](SolidKind::Marble), [`Wood`](SolidKind::Wood) and [`Noise`](SolidKind::Noise): max(|a|, |b|), the
-//!   longer side of the footprint, as [`lookup::level`](crate::lookup::level) takes it of images;
-//! - the box of [`Checker`](SolidKind::Checker): along each axis k √(aₖ² + bₖ²), the box whose variance along the axis is
-//!   that of the parallelogram of both ways.
+//! - the width of [`Marble`](SolidKind::Marble), [`Wood`](SolidKind::Wood) and [`Noise`](SolidKind::Noise):
+//!   max(|a|, |b|), the longer side of the footprint, as [`lookup::level`](crate::lookup::level) takes it of images;
+//! - the box of [`Checker`](SolidKind::Checker): along each axis k √(aₖ² + bₖ²), the box whose variance along the axis
+//!   is that of the parallelogram of both ways.
 //!
-//! *Number.* t, from 0 to 1, by [`noise`](crate::noise): `checker(q + ½)`, `marble(q)`, `wood(q)`, or ½ + ½·`fractal(q)` taken
-//! into 0 to 1. What changes faster than the footprint shows is faded to its mean there.
+//! *Number.* t, from 0 to 1, by [`noise`](crate::noise): `checker(q + ½)`, `marble(q)`, `wood(q)`, or ½ +
+//! ½·`fractal(q)` taken into 0 to 1. What changes faster than the footprint shows is faded to its mean there.
 //!
-//! *Color.* c₀ + t·(c₁ − c₀), which multiplies the ambient and the diffuse reflectance at each fragment, whatever the shading, as
+//! *Color.* c₀ + t·(c₁ − c₀), which multiplies the ambient and the diffuse reflectance at each fragment, whatever the
+//! shading, as
 //! [`MapKind::Color`](crate::MapKind::Color) does; both multiply where both are there.
 
 use bevy_ecs::component::Component;
@@ -30,7 +32,8 @@ use crate::noise::{MOST_OCTAVES, checker, fractal, marble, wood};
 #[derive(Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[reflect(Clone, Debug, Default, PartialEq, Hash)]
 pub enum SolidKind {
-    /// Cubes of side 1 around whole numbers, in the first color where the sum of the three is even, else in the second: [`checker`].
+    /// Cubes of side 1 around whole numbers, in the first color where the sum of the three is even, else in the second:
+    /// [`checker`].
     #[default]
     Checker,
     /// Veins across x, one a unit, bent by noise: [`marble`].
@@ -48,8 +51,8 @@ impl SolidKind {
 
 /// A solid that an object is cut from; beside its material, on both sides. The [module](crate::solid) has the formulas.
 ///
-/// Renderers place points in it in single precision: at 500 units from the solid's origin to 3·10⁻⁵ of a unit. So pieces of one
-/// solid are better taken some units apart than some thousands.
+/// Renderers place points in it in single precision: at 500 units from the solid's origin to 3·10⁻⁵ of a unit. So
+/// pieces of one solid are better taken some units apart than some thousands.
 #[derive(Component, Reflect, Clone, Copy, Debug, PartialEq)]
 #[reflect(Component, Clone, Debug, Default, PartialEq)]
 pub struct SolidTexture {
@@ -57,8 +60,8 @@ pub struct SolidTexture {
     pub kind: SolidKind,
     /// How many octaves of noise marble and noise have: 1 to [`MOST_OCTAVES`]. Default 5.
     pub octaves: u32,
-    /// M: the rows of the affine map from the object's space to the solid's, in cells. Finite. Default the identity: a cell is
-    /// as long as a unit of the mesh.
+    /// M: the rows of the affine map from the object's space to the solid's, in cells. Finite. Default the identity: a
+    /// cell is as long as a unit of the mesh.
     pub solid_from_object: [[f32; 4]; 3],
     /// c₀ and c₁: what t = 0 and t = 1 multiply by, linear RGB, each channel 0 to 1. Default black and white.
     pub colors: [[f32; 3]; 2],
@@ -101,8 +104,8 @@ impl SolidTexture {
         self
     }
 
-    /// The same with the map from the object's space to the solid's in the place of what was there, by the columns of a matrix
-    /// whose last row is 0, 0, 0, 1, as `Mat4::to_cols_array_2d` gives them.
+    /// The same with the map from the object's space to the solid's in the place of what was there, by the columns of a
+    /// matrix whose last row is 0, 0, 0, 1, as `Mat4::to_cols_array_2d` gives them.
     #[must_use]
     pub fn placed(self, columns: [[f32; 4]; 4]) -> Self {
         Self { solid_from_object: [0, 1, 2].map(|row| columns.map(|column| column[row])), ..self }

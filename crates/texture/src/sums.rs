@@ -4,8 +4,8 @@ use rayon::prelude::*;
 
 use crate::sampling::Wrap;
 
-/// The integral along an axis from 0 to a place that may lie beyond the image, as integrals from 0 to two places inside it,
-/// each times a factor.
+/// The integral along an axis from 0 to a place that may lie beyond the image, as integrals from 0 to two places inside
+/// it, each times a factor.
 pub(crate) fn inside(wrap: Wrap, at: f64, side: f64) -> [(f64, f64); 2] {
     let period = (at / side).floor();
     let rest = (at - period * side).clamp(0.0, side);
@@ -19,12 +19,12 @@ pub(crate) fn inside(wrap: Wrap, at: f64, side: f64) -> [(f64, f64); 2] {
     }
 }
 
-/// At each corner (x, y) of the texels, the sum of what lies to the left of it and above it, less that many times the image's
-/// mean: a summed-area table (Crow 1984). A rectangle's sum is S(x₁, y₁) − S(x₀, y₁) − S(x₁, y₀) + S(x₀, y₀).
+/// At each corner (x, y) of the texels, the sum of what lies to the left of it and above it, less that many times the
+/// image's mean: a summed-area table (Crow 1984). A rectangle's sum is S(x₁, y₁) − S(x₀, y₁) − S(x₁, y₀) + S(x₀, y₀).
 ///
-/// Sums of n texels in f32 are off by up to n·2⁻²⁴ of their mean, and their differences as much. The mean is taken off first
-/// (Hensley et al. 2005), which leaves sums that grow with the contrast alone, and they are kept in f64: 32 bytes a texel,
-/// twice the image's memory.
+/// Sums of n texels in f32 are off by up to n·2⁻²⁴ of their mean, and their differences as much. The mean is taken off
+/// first (Hensley et al. 2005), which leaves sums that grow with the contrast alone, and they are kept in f64: 32 bytes
+/// a texel, twice the image's memory.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SummedAreas {
     width: usize,

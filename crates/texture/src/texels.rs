@@ -3,7 +3,8 @@
 use crate::error::TextureError;
 use crate::limits::{LONGEST_SIDE, MOST_TEXELS};
 
-/// Red, green, blue and alpha in linear light, or four numbers that are no color, row by row from the top. All are finite.
+/// Red, green, blue and alpha in linear light, or four numbers that are no color, row by row from the top. All are
+/// finite.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TexelImage {
     width: u32,
@@ -15,8 +16,8 @@ impl TexelImage {
     /// An image of these texels.
     ///
     /// # Errors
-    /// No texels, too many ([`LONGEST_SIDE`], [`MOST_TEXELS`]), another number of them than `width`·`height`, or one that is
-    /// not finite.
+    /// No texels, too many ([`LONGEST_SIDE`], [`MOST_TEXELS`]), another number of them than `width`·`height`, or one
+    /// that is not finite.
     pub fn new(width: u32, height: u32, texels: Vec<[f32; 4]>) -> Result<Self, TextureError> {
         check_size(IN_CODE, width, height)?;
         if texels.len() as u64 != u64::from(width) * u64::from(height) {

@@ -1,8 +1,9 @@
 //! What a pixel sees of an image: the mean over its footprint, integrated, which judges the filters.
 //!
-//! The image is taken as squares of its texels' values, as the means by area of a [`Pyramid`] take it. A pixel is a square of
-//! the picture, and each part of it counts alike. Straight lines of the picture are straight on the image, so that the
-//! footprint is exactly a quadrilateral; what a projection changes within it is how much of the pixel a texel fills.
+//! The image is taken as squares of its texels' values, as the means by area of a [`Pyramid`] take it. A pixel is a
+//! square of the picture, and each part of it counts alike. Straight lines of the picture are straight on the image, so
+//! that the footprint is exactly a quadrilateral; what a projection changes within it is how much of the pixel a texel
+//! fills.
 
 use crate::pyramid::Pyramid;
 use crate::sampling::Wrap;
@@ -71,13 +72,15 @@ impl FootprintTruth {
         Self { size, mean, sums }
     }
 
-    /// The mean over the footprint of the pixel whose middle is `pixel`; none where a part of it lies behind the viewer.
+    /// The mean over the footprint of the pixel whose middle is `pixel`; none where a part of it lies behind the
+    /// viewer.
     ///
-    /// A cell of the pixel, at first the whole of it, has the mean over its quadrilateral, by Green's theorem exact to rounding
-    /// but for its texels all counting alike. It is halved across the direction along which w changes more. Where the mean of
-    /// the halves differs from the cell's by more than `tolerance` in any number, each is halved again, up to 24 times. Under
-    /// affine maps the first is exact. So that none agree by accident, texels of a cell that is not halved again differ in size
-    /// by a tenth at most. The result may be off by some hundreds of `tolerance`.
+    /// A cell of the pixel, at first the whole of it, has the mean over its quadrilateral, by Green's theorem exact to
+    /// rounding but for its texels all counting alike. It is halved across the direction along which w changes more.
+    /// Where the mean of the halves differs from the cell's by more than `tolerance` in any number, each is halved
+    /// again, up to 24 times. Under affine maps the first is exact. So that none agree by accident, texels of a cell
+    /// that is not halved again differ in size by a tenth at most. The result may be off by some hundreds of
+    /// `tolerance`.
     pub fn mean(&self, wrap: [Wrap; 2], map: &PictureMap, pixel: [f64; 2], tolerance: f64) -> Option<[f64; 4]> {
         let [x, y] = pixel;
         let cell = Cell { low: [x - 0.5, y - 0.5], sides: [1.0; 2] };
@@ -110,8 +113,8 @@ impl FootprintTruth {
         mean([a, b])
     }
 
-    /// The mean over a cell's quadrilateral, less the image's: ∮ F dv over the area ∮ u dv, F the integral of a row from 0 to
-    /// u.
+    /// The mean over a cell's quadrilateral, less the image's: ∮ F dv over the area ∮ u dv, F the integral of a row
+    /// from 0 to u.
     fn of_cell(&self, wrap: [Wrap; 2], map: &PictureMap, cell: &Cell) -> [f64; 4] {
         let [width, height] = self.size.map(|side| side as f64);
         let corners = cell.corners().map(|corner| {
@@ -148,7 +151,8 @@ impl FootprintTruth {
         sum.map(|sum| sum / area)
     }
 
-    /// Adds ∫ F dv along an edge. Between two lines of the grid F is linear along it, so that its middle times dv is exact.
+    /// Adds ∫ F dv along an edge. Between two lines of the grid F is linear along it, so that its middle times dv is
+    /// exact.
     fn along(&self, wrap: [Wrap; 2], from: [f64; 2], to: [f64; 2], sum: &mut [f64; 4]) {
         let change = [to[0] - from[0], to[1] - from[1]];
         if change[1] == 0.0 {

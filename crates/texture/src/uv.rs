@@ -5,8 +5,8 @@ use bevy_reflect::std_traits::ReflectDefault;
 
 use crate::lookup::Number;
 
-/// An affine map of texture coordinates: scaled, then turned, then moved, as `KHR_texture_transform` has it. The default
-/// leaves them as they are.
+/// An affine map of texture coordinates: scaled, then turned, then moved, as `KHR_texture_transform` has it. The
+/// default leaves them as they are.
 #[derive(Reflect, Clone, Copy, Debug, PartialEq)]
 #[reflect(Clone, Debug, Default, PartialEq)]
 pub struct UvTransform {
@@ -32,8 +32,8 @@ impl UvTransform {
         numbers.into_iter().find(|(_, number)| !number.is_finite())
     }
 
-    /// The rows of the map: u' = r₀·(u, v, 1), v' = r₁·(u, v, 1). From `KHR_texture_transform`: translation · rotation · scale,
-    /// with u' = cos·u + sin·v and v' = −sin·u + cos·v for the rotation, since v runs downward.
+    /// The rows of the map: u' = r₀·(u, v, 1), v' = r₁·(u, v, 1). From `KHR_texture_transform`: translation · rotation
+    /// · scale, with u' = cos·u + sin·v and v' = −sin·u + cos·v for the rotation, since v runs downward.
     pub fn rows(&self) -> [[f64; 3]; 2] {
         let [[x, y], [a, b]] = [self.offset, self.scale].map(|pair| pair.map(f64::from));
         let angle = f64::from(self.rotation);

@@ -177,7 +177,8 @@ fn texels_are_distorted_as_the_shapes_say() {
     // Latitude 80°: a texel of an image twice as wide as high is cos 80° as wide as high.
     let (_, sides) = measured(EnvironmentShape::Equirectangular, [0.3, 10.0 / 180.0]);
     assert!((sides / 2.0 - 80_f64.to_radians().cos()).abs() < 1e-6);
-    // The ball: 4 per unit of the disc's area, which is 16 per unit of u·v; at 0.9 of the radius sides differ as 1 to 1 − 0.81.
+    // The ball: 4 per unit of the disc's area, which is 16 per unit of u·v; at 0.9 of the radius sides differ as 1 to 1
+    // − 0.81.
     for place in [[0.5, 0.5], [0.7, 0.2], [0.95, 0.5]] {
         let (solid_angle, _) = measured(EnvironmentShape::MirrorBall, place);
         assert!((solid_angle - 16.0).abs() < 1e-5, "{place:?}: {solid_angle}");
@@ -222,7 +223,8 @@ fn one_light_everywhere_stays_when_it_is_convolved() {
     }
 }
 
-/// Nine coefficients against the exact convolution: one far light is the worst case, with 3/32 of its peak; a sky is better.
+/// Nine coefficients against the exact convolution: one far light is the worst case, with 3/32 of its peak; a sky is
+/// better.
 #[test]
 fn harmonics_of_order_two_err_by_what_is_known_of_them() {
     let toward = unit([0.3, 0.8, -0.5]);

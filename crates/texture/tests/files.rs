@@ -115,7 +115,8 @@ fn palettes_become_the_colors_that_they_stand_for() {
     assert_eq!(image.texels(), [blue, red, blue]);
 }
 
-/// A baseline JPEG of 8 × 8 pixels of one color in four inks, stored as Adobe does, 255 for none (ITU-T T.81; T.872, 6.5.3).
+/// A baseline JPEG of 8 × 8 pixels of one color in four inks, stored as Adobe does, 255 for none (ITU-T T.81;
+/// T.872, 6.5.3).
 fn inks(values: [u8; 4]) -> Vec<u8> {
     let mut bits: Vec<bool> = Vec::new();
     for value in values {

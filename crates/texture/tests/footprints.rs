@@ -128,7 +128,8 @@ fn the_mean_of_any_rectangle_is_that_of_its_texels_by_area() {
     }
 }
 
-/// A texel's square around a point weighs the texels around it as the bilinear filter does: enlarging and reducing meet.
+/// A texel's square around a point weighs the texels around it as the bilinear filter does: enlarging and reducing
+/// meet.
 #[test]
 fn the_least_rectangle_is_the_bilinear_filter() {
     let pyramid = numbered(9, 6);
@@ -144,8 +145,8 @@ fn the_least_rectangle_is_the_bilinear_filter() {
     }
 }
 
-/// What sums in f32 lose, and what is left of it when the mean is taken off first, and in f64: the mean of 2 × 2 texels far
-/// from the corner where the sums begin, of an image of 1024 × 1024 texels around 0.7.
+/// What sums in f32 lose, and what is left of it when the mean is taken off first, and in f64: the mean of 2 × 2 texels
+/// far from the corner where the sums begin, of an image of 1024 × 1024 texels around 0.7.
 #[test]
 fn sums_in_single_precision_lose_what_differences_need() {
     const SIDE: usize = 1024;
@@ -303,7 +304,8 @@ proptest! {
         let pyramid = numbered(32, 19);
         let single = lookup::filtered(&pyramid, &of(levels, wrap), [u, v], footprint).map(f64::from);
         let double = lookup::filtered(&pyramid, &of(levels, wrap), [u, v].map(f64::from), footprint.map(|row| row.map(f64::from)));
-        // Texels differ by 1 from neighbour to neighbour, and places by 2⁻²² · 2 · 32 texels: 1.5e-5; levels by as much more.
+        // Texels differ by 1 from neighbour to neighbour, and places by 2⁻²² · 2 · 32 texels: 1.5e-5; levels by as much
+        // more.
         prop_assert!(distance(single, double) < 2e-4, "{single:?} {double:?}");
         prop_assert!(double.iter().all(|number| (-1e-9..=1.0 + 1e-9).contains(number)), "{double:?}");
     }

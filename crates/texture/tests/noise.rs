@@ -76,8 +76,8 @@ fn noise_has_the_mean_and_the_variance_that_are_said() {
     assert!((1.01..1.04).contains(&rare), "{rare}");
 }
 
-/// The power along a line of 256 cells, by the frequency: hardly any above 1 cycle a cell. A line through space also meets low
-/// ones, which no fading has to care for.
+/// The power along a line of 256 cells, by the frequency: hardly any above 1 cycle a cell. A line through space also
+/// meets low ones, which no fading has to care for.
 #[test]
 fn noise_lies_in_a_band() {
     const CELLS: usize = 256;

@@ -78,8 +78,8 @@ fn by_moments(spread: &SlopeSpread<f64>, h: [f64; 3], s: f64) -> [f64; 2] {
     by_covariance(spread.mean, spread.covariance(1.0), h, s)
 }
 
-/// A highlight over the whole image and over parts of it: the mean over all texels is the truth, and what one lookup makes of
-/// it is nearer with Toksvig's correction than without, and nearer still by moments.
+/// A highlight over the whole image and over parts of it: the mean over all texels is the truth, and what one lookup
+/// makes of it is nearer with Toksvig's correction than without, and nearer still by moments.
 #[test]
 fn highlights_from_afar_are_nearer_with_corrected_exponents() {
     for (steep, s) in [(0.2, 30.0), (0.2, 100.0), (0.4, 30.0), (0.4, 100.0)] {

@@ -32,8 +32,8 @@ fn a_checkerboard_under_affine_maps() {
     }
     let whole = affine([3.0, 0.0, 0.1], [0.0, 7.0, 0.2]);
     assert!((mean(&whole, [0.3, 0.9]) - 0.5).abs() < 1e-12);
-    // Turned by 45°: |x| + |y| ≤ 1.5 texels around the middle of a white one, 4.5 texels in all. White are that one, and of its
-    // four diagonal neighbours a triangle of sides ½ each.
+    // Turned by 45°: |x| + |y| ≤ 1.5 texels around the middle of a white one, 4.5 texels in all. White are that one,
+    // and of its four diagonal neighbours a triangle of sides ½ each.
     let diamond = affine([0.75, 0.75, 0.75], [-0.75, 0.75, 0.25]);
     assert!((mean(&diamond, [0.0, 0.0]) - 1.5 / 4.5).abs() < 1e-12, "{}", mean(&diamond, [0.0, 0.0]));
 }
@@ -131,7 +131,8 @@ proptest! {
         let map = PictureMap { rows: [u, v, [w[0], w[1], 1.0]] };
         let truth = FootprintTruth::new(&pyramid);
         // w from 0.3 to 1.7: texels of one pixel differ in size by up to 180 times.
-        // What halves may differ by is not the error, which the halves share: of 1,500 maps the farthest was off by 380 times it.
+        // What halves may differ by is not the error, which the halves share: of 1,500 maps the farthest was off by 380
+        // times it.
         let found = truth.mean([wrap; 2], &map, [0.0, 0.0], 1e-7).expect("in front");
         let expected = by_cutting(&pyramid, wrap, &map, [0.0, 0.0]);
         for k in 0..4 {
@@ -140,7 +141,8 @@ proptest! {
     }
 }
 
-/// The map's derivatives against differences, and as filters take them: summed areas are exact for a pixel along the axes.
+/// The map's derivatives against differences, and as filters take them: summed areas are exact for a pixel along the
+/// axes.
 #[test]
 fn summed_areas_are_the_truth_of_an_upright_rectangle() {
     let map = PictureMap { rows: [[0.3, 0.1, 2.0], [-0.2, 0.4, 1.0], [0.02, 0.03, 1.0]] };

@@ -1,4 +1,5 @@
-//! An animation under moving lights and a moving camera, each frame drawn by automatic shading and judged by the oracle.
+//! An animation under moving lights and a moving camera, each frame drawn by automatic shading and judged by the
+//! oracle.
 
 use std::f32::consts::TAU;
 use std::time::Duration;
@@ -11,8 +12,9 @@ use halfway::render::{Adapter, Choosing, RenderError, VertexPrices};
 
 use crate::judge::Finding;
 
-/// One App from frame to frame: what is chosen steadily may depend on the frames before, and the tolerance may not. Each frame
-/// is drawn within another of [`Animation::STEPS`] and judged by Phong shading of all lights and that tolerance.
+/// One App from frame to frame: what is chosen steadily may depend on the frames before, and the tolerance may not.
+/// Each frame is drawn within another of [`Animation::STEPS`] and judged by Phong shading of all lights and that
+/// tolerance.
 pub struct Animation {
     app: App,
     size: UVec2,

@@ -16,11 +16,12 @@ use crate::shrink::shrink;
 
 /// Draws scenes with one adapter and judges the pictures by the oracle, as `halfway verify` does.
 ///
-/// Everywhere, in floating point, a value may be off by 2 · 10⁻³ of the range, as by [`Bars::FLOAT`]. Its bar for 99.9 % of the
-/// values does not hold for scenes of all kinds: of a slope of up to 4 % of the range within 1/16 of a pixel, more than which
-/// the judge takes for an edge, half a unit of a grid of 1/256 of a pixel makes up to 1.3 · 10⁻³, and a small object may show
-/// hardly anything but slopes. A byte may be off by one step; where something is blended by one step more for each blended
-/// object, since each layer is rounded to bytes. Scenes with four samples a pixel are drawn and judged with one, unless asked for.
+/// Everywhere, in floating point, a value may be off by 2 · 10⁻³ of the range, as by [`Bars::FLOAT`]. Its bar for 99.9
+/// % of the values does not hold for scenes of all kinds: of a slope of up to 4 % of the range within 1/16 of a pixel,
+/// more than which the judge takes for an edge, half a unit of a grid of 1/256 of a pixel makes up to 1.3 · 10⁻³, and a
+/// small object may show hardly anything but slopes. A byte may be off by one step; where something is blended by one
+/// step more for each blended object, since each layer is rounded to bytes. Scenes with four samples a pixel are drawn
+/// and judged with one, unless asked for.
 pub struct Judge {
     adapter: Adapter,
     base_dir: PathBuf,
@@ -84,22 +85,22 @@ impl Judge {
         Self { adapter, base_dir: base_dir.into(), grid: 8, four: false, tolerance: None, fault: None }
     }
 
-    /// Judges an adapter that puts vertices on a grid of so many bits, 4 to 8, which is Vulkan's `subPixelPrecisionBits`; 8
-    /// unless said. The coarser the grid, the more a slope may be off.
+    /// Judges an adapter that puts vertices on a grid of so many bits, 4 to 8, which is Vulkan's
+    /// `subPixelPrecisionBits`; 8 unless said. The coarser the grid, the more a slope may be off.
     #[must_use]
     pub fn with_grid(self, bits: u32) -> Self {
         Self { grid: bits.clamp(4, 8), ..self }
     }
 
-    /// Draws and judges scenes with four samples a pixel as they are. Adapters differ in where they shade a pixel that is
-    /// covered in part, so that some pictures fail on adapters that are right.
+    /// Draws and judges scenes with four samples a pixel as they are. Adapters differ in where they shade a pixel that
+    /// is covered in part, so that some pictures fail on adapters that are right.
     #[must_use]
     pub fn with_four_samples(self, four: bool) -> Self {
         Self { four, ..self }
     }
 
-    /// Has everything drawn by [`Shading::Auto`] within this tolerance, and judged by Phong shading and the tolerance. Spheres,
-    /// planes and teapots are made finer, so that they have patches.
+    /// Has everything drawn by [`Shading::Auto`] within this tolerance, and judged by Phong shading and the tolerance.
+    /// Spheres, planes and teapots are made finer, so that they have patches.
     #[must_use]
     pub fn with_tolerance(self, tolerance: Tolerance) -> Self {
         Self { tolerance: Some(tolerance), ..self }

@@ -16,7 +16,8 @@ use serde_json::Value;
 
 /// Draws random scenes with the adapter and judges each by the oracle; makes what fails small and prints it.
 ///
-/// The same seed means the same scenes on every machine. A failure is written as a scene file, which `halfway verify` takes.
+/// The same seed means the same scenes on every machine. A failure is written as a scene file, which `halfway verify`
+/// takes.
 #[derive(Debug, Parser)]
 #[command(name = "halfway-wild", version, max_term_width = 100)]
 #[command(after_help = "Exit codes: 0 done; 1 a file could not be written; 2 the command line cannot be used; 3 the \
@@ -31,8 +32,8 @@ struct Arguments {
     /// The number of the first one
     #[arg(long, value_name = "N", default_value_t = 0)]
     first: u64,
-    /// What draws: cpu, or a graphics adapter by a part of its name or its backend's, as `halfway adapters` lists them, or
-    /// both, such as gl:llvmpipe
+    /// What draws: cpu, or a graphics adapter by a part of its name or its backend's, as `halfway adapters` lists them,
+    /// or both, such as gl:llvmpipe
     #[arg(long, value_name = "NAME", value_parser = NonEmptyStringValueParser::new())]
     adapter: Option<String>,
     /// The bits of the grid of a pixel that the adapter puts vertices on; some have 4

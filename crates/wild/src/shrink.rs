@@ -1,8 +1,8 @@
 //! Makes a scene that fails small: delta debugging on its JSON.
 //!
-//! A step takes something away, or writes a number shorter, and stands if the scene still fails. Steps are taken in turn
-//! until none stands: parts of lists, then keys (the format's defaults hold), then the triangles of written-out meshes,
-//! then numbers.
+//! A step takes something away, or writes a number shorter, and stands if the scene still fails. Steps are taken in
+//! turn until none stands: parts of lists, then keys (the format's defaults hold), then the triangles of written-out
+//! meshes, then numbers.
 
 use serde_json::{Map, Value};
 

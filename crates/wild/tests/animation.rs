@@ -61,7 +61,8 @@ fn frames_are_chosen_anew_unless_choices_are_kept() {
     let [_, cpu] = adapters();
     let between = |choosing| {
         let mut animation = animation(cpu.clone()).choosing(choosing);
-        // The third of five has 2 steps and the first ½: less is at the vertices, and the rest comes back where it clearly fits.
+        // The third of five has 2 steps and the first ½: less is at the vertices, and the rest comes back where it
+        // clearly fits.
         let all = figures(&mut animation, [2, 0, 2].into_iter());
         [all[0], all[2]].map(|figures| figures.terms_at_vertices)
     };

@@ -83,8 +83,8 @@ impl Open {
         }
     }
 
-    /// Whether the newest frame went to the display, where what the CPU has drawn goes by now. A surface or a device that it
-    /// found lost is made anew.
+    /// Whether the newest frame went to the display, where what the CPU has drawn goes by now. A surface or a device
+    /// that it found lost is made anew.
     pub(crate) fn settle(&mut self, world: &mut World) -> Result<bool, WindowError> {
         if let Some(buffer) = &mut self.buffer {
             let Some((size, picture)) = world.get_resource::<Canvas>().and_then(Canvas::bytes) else {
@@ -126,8 +126,8 @@ impl Open {
     }
 }
 
-/// Opens what can draw in the window and puts it into `world`: an adapter with the window's surface, or the CPU, which draws
-/// for the buffer that is returned.
+/// Opens what can draw in the window and puts it into `world`: an adapter with the window's surface, or the CPU, which
+/// draws for the buffer that is returned.
 fn open_adapter(
     window: &Arc<Window>,
     display: &OwnedDisplayHandle,

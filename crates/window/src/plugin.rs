@@ -18,9 +18,10 @@ use halfway_render::{GpuTimer, RenderPlugin, RenderSet, SurfaceTarget};
 ///
 /// What the App draws goes to the window instead of a headless picture; the adapter is open before
 /// the first update, so `Startup` systems find [`Gpu`](halfway_render::Gpu) and [`SurfaceTarget`], or
-/// [`Cpu`](halfway_render::Cpu) and [`CanvasTarget`](halfway_render::CanvasTarget), and the entity of the [`WinitWindow`]. Keys, mouse buttons, wheel and pointer reach `bevy_input`, its
-/// `MouseMotion` in logical pixels. While the window is minimised or covered, the App is not
-/// updated, and nothing is drawn. Pipelines are built beside the frames, unless
+/// [`Cpu`](halfway_render::Cpu) and [`CanvasTarget`](halfway_render::CanvasTarget), and the entity of the
+/// [`WinitWindow`]. Keys, mouse buttons, wheel and pointer reach `bevy_input`, its `MouseMotion` in logical pixels.
+/// While the window is minimised or covered, the App is not updated, and nothing is drawn. Pipelines are built beside
+/// the frames, unless
 /// [`Compile`](halfway_render::Compile) says otherwise.
 ///
 /// The App ends when the window is closed ([`AppExit::Success`](bevy_app::AppExit), after a last

@@ -105,8 +105,8 @@ impl Runner {
     /// Updates and draws, unless nothing of it could be seen, and arranges for the next time.
     fn frame(&mut self, event_loop: &ActiveEventLoop) {
         let start = Instant::now();
-        // Before the frame, at once after the display has been listened to: winit panics where one that is gone meanwhile is
-        // asked for something.
+        // Before the frame, at once after the display has been listened to: winit panics where one that is gone
+        // meanwhile is asked for something.
         if self.exit.is_none() && !self.hidden() && start >= self.next_look {
             self.next_look = start + SELDOM;
             self.now_and_then(event_loop);

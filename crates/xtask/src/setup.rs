@@ -247,8 +247,8 @@ fn refusal(reasons: &[String], names: &[&str], manager: Option<Manager>, why_not
     format!("missing:\n{}\nNothing was installed: {why_not}. {remedy}", listed(reasons))
 }
 
-/// Asks the built command for what it can draw with, prints it, and sees that a driver is there, or what the environment
-/// chooses; the CPU draws without.
+/// Asks the built command for what it can draw with, prints it, and sees that a driver is there, or what the
+/// environment chooses; the CPU draws without.
 ///
 /// # Errors
 /// There is none: a driver that looked usable is not. Where set-up may install, the software driver is tried first.
@@ -267,7 +267,8 @@ pub(crate) fn adapters(setup: Setup) -> Result {
     Err(Failure::new("no graphics adapter, even with the software driver; VK_LOADER_DEBUG=all tells what it tries"))
 }
 
-/// Whether the command finds an adapter by a driver, or the one that is chosen; its list goes to the standard error output.
+/// Whether the command finds an adapter by a driver, or the one that is chosen; its list goes to the standard error
+/// output.
 fn list_adapters() -> Result<bool> {
     const NONE: i32 = 3;
     let mut command = cargo(["run", "--release", "--quiet", "--bin", "halfway", "--", "adapters"]);

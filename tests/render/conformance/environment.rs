@@ -107,7 +107,8 @@ pub(super) fn rows() -> Vec<Row> {
     rows
 }
 
-/// Four samples a pixel, of which the sky is one, seen at its center: what mirrors most sharply, and what lies over edges.
+/// Four samples a pixel, of which the sky is one, seen at its center: what mirrors most sharply, and what lies over
+/// edges.
 pub(super) fn rows_of_four() -> Vec<Row> {
     let kept = ["all", "harmonics alone", "a mirror", "sky", "sky behind what blends", "one light", "backs"];
     let changes = || CHANGES.into_iter().filter(|(what, _)| kept.contains(what));

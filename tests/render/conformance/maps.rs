@@ -124,8 +124,8 @@ fn with_each(maps: &[(MapKind, Map)]) -> Scene {
     scene
 }
 
-/// Footprints that are long along either axis, all ways to wrap, on each kind of image that is treated otherwise, and beside
-/// filters by level.
+/// Footprints that are long along either axis, all ways to wrap, on each kind of image that is treated otherwise, and
+/// beside filters by level.
 pub(super) fn rows_by_shape() -> Vec<Row> {
     let mut rows = Vec::new();
     for levels in SHAPED {
@@ -306,8 +306,8 @@ pub(super) fn rows_of_all_kinds() -> Vec<Row> {
     rows_of([("all", ALL.to_vec()), ("all with heights", [&ALL[..6], &[HEIGHTS]].concat())].into_iter())
 }
 
-/// Masks with four samples a pixel: a fragment is cut as a whole, also where the mask's edge runs through the triangle's. By the
-/// alpha of a color, by an opacity beside other images, and in layers.
+/// Masks with four samples a pixel: a fragment is cut as a whole, also where the mask's edge runs through the
+/// triangle's. By the alpha of a color, by an opacity beside other images, and in layers.
 pub(super) fn rows_of_masks_with_four_samples() -> Vec<Row> {
     let kinds: [(&str, &[(MapKind, f32)]); 3] = [
         ("color", &[(MapKind::Color, 0.9)]),

@@ -9,8 +9,8 @@ use crate::render::scene::{Map, Scene, Thing, other_material, point_light};
 use halfway::prelude::*;
 use halfway::texture::UvTransform;
 
-/// One of a kind whose colors share no channel, askew in the object, stretched, and with its cells larger and smaller than
-/// pixels in the still life.
+/// One of a kind whose colors share no channel, askew in the object, stretched, and with its cells larger and smaller
+/// than pixels in the still life.
 pub(crate) fn solid(kind: SolidKind) -> SolidTexture {
     let rotation = Quat::from_euler(EulerRot::XYZ, 0.3, 0.5, -0.4);
     let place = Mat4::from_scale_rotation_translation(Vec3::new(2.9, 2.3, 3.4), rotation, Vec3::new(0.31, -0.17, 0.23));

@@ -18,8 +18,8 @@ const COLUMN: u32 = 4;
 /// Distances of the nearer surface over that of the near plane: powers of two, which f32 holds exactly.
 const DISTANCES: [i32; 9] = [1, 3, 5, 7, 9, 11, 13, 15, 17];
 
-/// Column i shows a surface at `distance` before another that is farther by 2⁻⁽ⁱ⁺⁴⁾ of it, which was spawned first and so
-/// wins where depths are equal.
+/// Column i shows a surface at `distance` before another that is farther by 2⁻⁽ⁱ⁺⁴⁾ of it, which was spawned first and
+/// so wins where depths are equal.
 fn spawn(world: &mut World, distance: f32) {
     let half = GAPS as f32;
     // From −half to half across, −1 to 1 upward at distance 1: a column is two units wide.
@@ -42,8 +42,8 @@ fn spawn(world: &mut World, distance: f32) {
     show(world, mesh(vec![quad([-half - 1.0, half + 1.0], distance)]), green, Shading::Flat);
 }
 
-/// The least gap, as a part of the distance, from which on the nearer of two surfaces hides the other, for each of these
-/// distances; the near plane is at distance 1, the other end at infinity. `None` where not even 1/16 is enough.
+/// The least gap, as a part of the distance, from which on the nearer of two surfaces hides the other, for each of
+/// these distances; the near plane is at distance 1, the other end at infinity. `None` where not even 1/16 is enough.
 ///
 /// # Errors
 /// What cannot be drawn.

@@ -50,8 +50,8 @@ fn spawn(world: &mut World, distant: Distant, distance: f32) {
     }
 }
 
-/// The largest error of this adapter as a part of the oracle's intensity at six distances about each power of ten, from 10⁻³ to
-/// 10⁷ units; 10⁻⁹ where there is none.
+/// The largest error of this adapter as a part of the oracle's intensity at six distances about each power of ten, from
+/// 10⁻³ to 10⁷ units; 10⁻⁹ where there is none.
 ///
 /// # Errors
 /// What cannot be drawn.
@@ -69,9 +69,9 @@ pub fn errors(adapter: &Adapter, distant: Distant) -> Result<Vec<(f64, f64)>, Me
     distances().into_iter().map(&mut worst).collect()
 }
 
-/// How far the oracle's picture is, at most and as a part of it, from what it is for a viewer 3 units away, who sees the same:
-/// what is lost by definition. A lamp counts as being on the surface where it is nearer than 2·10⁻⁶ of the viewer's distance
-/// ([`COINCIDENT`](halfway::lighting::equations::COINCIDENT)).
+/// How far the oracle's picture is, at most and as a part of it, from what it is for a viewer 3 units away, who sees
+/// the same: what is lost by definition. A lamp counts as being on the surface where it is nearer than 2·10⁻⁶ of the
+/// viewer's distance ([`COINCIDENT`](halfway::lighting::equations::COINCIDENT)).
 ///
 /// # Errors
 /// What the oracle cannot draw.

@@ -16,8 +16,8 @@ const DISTANCE: f64 = 3.0;
 /// What is judged; full light is 1.
 const LEAST: f64 = 0.05;
 
-/// A square under a lamp; about one unit of it is seen along the line of sight, whatever the angle. All of it is turned against
-/// every axis, so that a matrix has sums to round, and points are given as they lie in the world.
+/// A square under a lamp; about one unit of it is seen along the line of sight, whatever the angle. All of it is turned
+/// against every axis, so that a matrix has sums to round, and points are given as they lie in the world.
 fn spawn(world: &mut World, degrees: f64) {
     let turn = Quat::from_euler(EulerRot::XYZ, 0.5, 0.6, 0.7);
     let angle = degrees.to_radians();
@@ -48,8 +48,8 @@ pub fn errors(adapter: &Adapter) -> Result<Vec<(f64, f64)>, MeasureError> {
     ANGLES.into_iter().map(error).collect()
 }
 
-/// How far a point moves along the surface, in units, where the surface moves by half a step of f32 at the viewer's distance; at
-/// an angle in degrees. Light changes by about as much there, as a part of itself.
+/// How far a point moves along the surface, in units, where the surface moves by half a step of f32 at the viewer's
+/// distance; at an angle in degrees. Light changes by about as much there, as a part of itself.
 pub fn slip(degrees: f64) -> f64 {
     DISTANCE * f64::from(f32::EPSILON) / 2.0 / degrees.to_radians().sin()
 }

@@ -40,8 +40,9 @@ pub fn errors(adapter: &Adapter, reflectance: Reflectance, exponents: &[f32]) ->
     exponents.iter().map(error).collect()
 }
 
-/// What a cosine that is off by some roundings of f32 makes of a power: α times as many, and those of the power itself. Blinn's
-/// is a product of two vectors of three roundings each, and a sum of three; Phong's reflected direction has twice n's.
+/// What a cosine that is off by some roundings of f32 makes of a power: α times as many, and those of the power itself.
+/// Blinn's is a product of two vectors of three roundings each, and a sum of three; Phong's reflected direction has
+/// twice n's.
 pub fn bound(reflectance: Reflectance, exponent: f64) -> f64 {
     let roundings = if reflectance == Reflectance::Phong { 16.0 } else { 8.0 };
     (roundings * exponent + 32.0) * f64::from(f32::EPSILON) / 2.0

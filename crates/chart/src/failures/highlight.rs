@@ -19,7 +19,8 @@ const LEVELS: [u32; 3] = [8, 16, 32];
 fn pictures(level: u32, shininess: f32) -> Result<[Image; 4], MeasureError> {
     four(|world, shading| {
         camera(world, Vec3::new(0.0, 0.0, 2.9), Vec3::Y);
-        // Halfway between two meridians and two parallels, whatever the level: towards the viewer, and by half a cell off.
+        // Halfway between two meridians and two parallels, whatever the level: towards the viewer, and by half a cell
+        // off.
         let cell = std::f32::consts::PI / level as f32;
         let normal = Quat::from_rotation_y(0.5 * cell) * Quat::from_rotation_x(-0.5 * cell) * Vec3::Z;
         sun(world, 2.0 * normal.dot(Vec3::Z) * normal - Vec3::Z);

@@ -72,8 +72,8 @@ fn steps(there: [f64; 3], exact: [f64; 3]) -> f64 {
     there.into_iter().zip(exact).map(|(there, exact)| 255.0 * (there - exact).abs()).fold(0.0, f64::max)
 }
 
-/// The most that errors of `each` step a layer can add up to, in steps, after any number of layers: each·Σ (1 − o)ᵏ. Rounding to
-/// the nearest step errs by ½, an adapter that cuts off what is less than a step by 1.
+/// The most that errors of `each` step a layer can add up to, in steps, after any number of layers: each·Σ (1 − o)ᵏ.
+/// Rounding to the nearest step errs by ½, an adapter that cuts off what is less than a step by 1.
 pub fn most(opacity: f64, each: f64) -> f64 {
     each / opacity
 }

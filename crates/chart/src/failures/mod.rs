@@ -1,7 +1,8 @@
 //! Where methods fail: a page for each way, with pictures, a plot, the cause, the remedy, and the test that keeps it.
 //!
-//! What methods lose is drawn by the oracle, and not by what implements them. What rounding loses is drawn by the adapters that
-//! are charted and by the CPU without a driver, and compared with the oracle; what policies of intensity cost is timed.
+//! What methods lose is drawn by the oracle, and not by what implements them. What rounding loses is drawn by the
+//! adapters that are charted and by the CPU without a driver, and compared with the oracle; what policies of intensity
+//! cost is timed.
 
 pub mod blend_order;
 mod creases;

@@ -15,8 +15,8 @@ const KD: f64 = 0.8;
 /// Cells along a side.
 const CELLS: i32 = 72;
 
-/// The `i`th of a row of random numbers, uniform in 0 to 1 without its ends (Steele, Lea, Flood: "Fast splittable pseudorandom
-/// number generators", 2014).
+/// The `i`th of a row of random numbers, uniform in 0 to 1 without its ends (Steele, Lea, Flood: "Fast splittable
+/// pseudorandom number generators", 2014).
 fn uniform(i: u64) -> f64 {
     let mut z = i.wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -29,8 +29,8 @@ fn normal(i: u64) -> f64 {
     (-2.0 * uniform(2 * i).ln()).sqrt() * (std::f64::consts::TAU * uniform(2 * i + 1)).cos()
 }
 
-/// Equilateral triangles of edge 1 about the origin, their vertices off the plane z = 0 by numbers of this deviation. Vertex
-/// normals are means of the faces'.
+/// Equilateral triangles of edge 1 about the origin, their vertices off the plane z = 0 by numbers of this deviation.
+/// Vertex normals are means of the faces'.
 fn sheet(sigma: f64) -> Mesh {
     let side = CELLS + 1;
     let vertex = |k: i32| {
@@ -57,8 +57,8 @@ fn picture(sigma: f64, shading: Shading, half: f32, size: UVec2) -> Result<Image
     })
 }
 
-/// The RMS change of intensity, linear, that noise makes of a plane lit at 45°, of reflectance 0.8; `sigma` is the standard
-/// deviation of the vertices from the plane, in edge lengths.
+/// The RMS change of intensity, linear, that noise makes of a plane lit at 45°, of reflectance 0.8; `sigma` is the
+/// standard deviation of the vertices from the plane, in edge lengths.
 ///
 /// # Errors
 /// What the oracle cannot draw.
@@ -71,10 +71,10 @@ pub fn roughness(sigma: f64, shading: Shading) -> Result<f64, MeasureError> {
 
 /// What [`roughness`] is for little noise.
 ///
-/// The heights z of a triangle's corners tilt it by Σ z·∇λ, λ the barycentric coordinates, |∇λ| = 2/√3 for edge 1: by √4·σ in
-/// all (RMS). The mean over the six triangles around a vertex is Σ z·d/3 over its neighbours, d the direction to each: √(6/9)·σ;
-/// interpolated between vertices, two of which share 1/9 by their common neighbours, √(3.5/9)·σ over a triangle. Half of the
-/// square goes along the light, whose part in the plane is √½.
+/// The heights z of a triangle's corners tilt it by Σ z·∇λ, λ the barycentric coordinates, |∇λ| = 2/√3 for edge 1: by
+/// √4·σ in all (RMS). The mean over the six triangles around a vertex is Σ z·d/3 over its neighbours, d the direction
+/// to each: √(6/9)·σ; interpolated between vertices, two of which share 1/9 by their common neighbours, √(3.5/9)·σ over
+/// a triangle. Half of the square goes along the light, whose part in the plane is √½.
 pub fn expected(sigma: f64, shading: Shading) -> f64 {
     let tilt = if shading == Shading::Flat { 4.0f64 } else { 3.5 / 9.0 };
     KD * sigma * (0.5 * 0.5 * tilt).sqrt()

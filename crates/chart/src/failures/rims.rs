@@ -27,8 +27,8 @@ fn picture(cells: u32, cutoff: f64, shading: Shading) -> Result<Image, MeasureEr
     })
 }
 
-/// All light of a spot onto the middle of a cell under Gouraud shading, the true light being 1. `cells` of them make a side of
-/// the square that the spot is one side above; the cutoff is in degrees.
+/// All light of a spot onto the middle of a cell under Gouraud shading, the true light being 1. `cells` of them make a
+/// side of the square that the spot is one side above; the cutoff is in degrees.
 ///
 /// # Errors
 /// What the oracle cannot draw.

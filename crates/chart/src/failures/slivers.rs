@@ -34,8 +34,8 @@ pub fn stretched(rows: u32) -> Result<f64, MeasureError> {
     rms(&cells(rows, Shading::Gouraud)?, &cells(rows, Shading::Phong)?)
 }
 
-/// Schwarz's lantern: a cylinder of radius 1 and height 2 about the y axis in `bands` rings of triangles, each ring turned
-/// by half a side against the next. Its vertices lie on the cylinder and have its normals.
+/// Schwarz's lantern: a cylinder of radius 1 and height 2 about the y axis in `bands` rings of triangles, each ring
+/// turned by half a side against the next. Its vertices lie on the cylinder and have its normals.
 fn lantern(bands: u32) -> Mesh {
     let vertex = |ring: u32, side: u32| {
         let angle = std::f64::consts::TAU * (f64::from(side) + 0.5 * f64::from(ring % 2)) / f64::from(SIDES);

@@ -39,8 +39,8 @@ pub(super) fn camera(world: &mut World, from: Vec3, up: Vec3) {
     world.spawn((Camera::default(), Transform::from_translation(from).looking_at(Vec3::ZERO, up)));
 }
 
-/// A camera on the z axis that looks at the origin and sees `half` to each side of it, above and below; what is nearer than a
-/// tenth of its distance is left out.
+/// A camera on the z axis that looks at the origin and sees `half` to each side of it, above and below; what is nearer
+/// than a tenth of its distance is left out.
 pub(super) fn camera_above(world: &mut World, distance: f32, half: f32) {
     let fov_y = (2.0 * (f64::from(half) / f64::from(distance)).atan()) as f32;
     let camera = Camera { fov_y, near: 0.1 * distance, ..Camera::default() };

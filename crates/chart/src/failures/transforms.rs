@@ -18,8 +18,8 @@ fn angle(a: [f64; 3], b: [f64; 3]) -> f64 {
     length(cross(a, b)).atan2(dot(a, b)).to_degrees()
 }
 
-/// By how many degrees a normal that goes through the matrix of the points is wrong at most, where the y axis is stretched
-/// by this factor, above 0.
+/// By how many degrees a normal that goes through the matrix of the points is wrong at most, where the y axis is
+/// stretched by this factor, above 0.
 pub fn by_the_points(stretch: f64) -> f64 {
     let matrix = normal_matrix([[1.0, 0.0, 0.0], [0.0, stretch, 0.0], [0.0, 0.0, 1.0]]);
     let error = |i: u32| {
@@ -44,8 +44,8 @@ pub enum NormalBy {
     Cofactors,
 }
 
-/// By how many degrees the normal of a turned object that is scaled alike in all directions is wrong in f32; 90 where there
-/// is none.
+/// By how many degrees the normal of a turned object that is scaled alike in all directions is wrong in f32; 90 where
+/// there is none.
 pub fn when_scaled(scale: f32, by: NormalBy) -> f64 {
     let turn = Quat::from_euler(EulerRot::XYZ, 0.5, 0.6, 0.7);
     let n = Vec3::new(0.36, 0.48, 0.8);
@@ -97,8 +97,8 @@ fn with_normals(scale: Vec3, normal: impl Fn(Vec3) -> Vec3) -> Result<Image, Mea
 const STRETCHED: Vec3 = Vec3::new(1.0, 1.0 / STRETCH, 1.0);
 const MIRRORED: Vec3 = Vec3::new(-1.0, 1.0, 1.0);
 
-/// A mirrored sphere with the normals of this project, and with those of the cofactors alone, which leave out the sign of the
-/// determinant.
+/// A mirrored sphere with the normals of this project, and with those of the cofactors alone, which leave out the sign
+/// of the determinant.
 ///
 /// # Errors
 /// What the oracle cannot draw.

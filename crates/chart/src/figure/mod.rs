@@ -132,8 +132,8 @@ impl Stroke {
 }
 
 impl Figure {
-    /// The ends of a panel's axes: the least that hold every point of every panel, or, where its horizontal axis is one of
-    /// its own, of this one; and a little room. In positions ([`Axis::position`]): x, then y.
+    /// The ends of a panel's axes: the least that hold every point of every panel, or, where its horizontal axis is one
+    /// of its own, of this one; and a little room. In positions ([`Axis::position`]): x, then y.
     pub fn ranges(&self, panel: &Panel) -> [(f64, f64); 2] {
         let all = || self.shown().map(|(_, point)| point);
         let own = || panel.series.iter().flat_map(|series| self.drawn(series));

@@ -67,8 +67,8 @@ pub fn figure(figure: &Figure, size: Size) -> Result<String> {
     .map(|(svg, ())| svg)
 }
 
-/// Draws one panel of a figure alone, for a page that can be pointed at: over each point lies an invisible circle of the
-/// class `hit`, with the point's label as `data-label`.
+/// Draws one panel of a figure alone, for a page that can be pointed at: over each point lies an invisible circle of
+/// the class `hit`, with the point's label as `data-label`.
 ///
 /// # Errors
 /// What the drawing library has to say; it has no reason to fail on text in memory.

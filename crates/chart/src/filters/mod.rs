@@ -92,7 +92,8 @@ pub struct FilterFigures {
     pub rms: f64,
     /// The mean of ꟻLIP over all of them.
     pub flip: f64,
-    /// The RMS of what changes from a frame of the moving camera to the next, less what changes in the truth, in such steps.
+    /// The RMS of what changes from a frame of the moving camera to the next, less what changes in the truth, in such
+    /// steps.
     pub shimmer: f64,
     /// A lookup's time, in nanoseconds.
     pub ns: Spread,
@@ -114,8 +115,8 @@ pub struct MeasuredFilters {
 }
 
 impl MeasuredFilters {
-    /// The places in [`FILTERS`] that nothing is both as fast as and errs as little, by the figure that `error` tells, the
-    /// fastest first.
+    /// The places in [`FILTERS`] that nothing is both as fast as and errs as little, by the figure that `error` tells,
+    /// the fastest first.
     pub fn front(&self, error: impl Fn(&FilterFigures) -> f64) -> Vec<usize> {
         let time = |i: usize| self.figures[i].ratio.median;
         let error = |i: usize| error(&self.figures[i]);

@@ -128,18 +128,20 @@ impl FilterView {
         format!("{}°{}", self.tilt, if self.turn == 0.0 { "" } else { ", turned" })
     }
 
-    /// Where the pixels of a picture of this size lie on the image, after `frame` frames of the camera's way over the plane.
+    /// Where the pixels of a picture of this size lie on the image, after `frame` frames of the camera's way over the
+    /// plane.
     ///
-    /// The camera is one unit away from the plane, and opens 60°. A unit has 300 texels where it is seen from above, 3 a pixel
-    /// of pictures 120 pixels high, and 100 elsewhere, 1 a pixel near the lower edge. Between two frames the camera moves by
+    /// The camera is one unit away from the plane, and opens 60°. A unit has 300 texels where it is seen from above, 3
+    /// a pixel of pictures 120 pixels high, and 100 elsewhere, 1 a pixel near the lower edge. Between two frames the
+    /// camera moves by
     /// 0.4 texels to the side and 0.9 forward.
     pub fn map(self, [width, height]: [u32; 2], frame: u32) -> PictureMap {
         let [width, height] = [f64::from(width), f64::from(height)];
         let focal = 0.5 * height / 30_f64.to_radians().tan();
         let texels = if self.tilt == 0.0 { 300.0 } else { 100.0 } * height / 120.0 / f64::from(SIDE);
         let ((sin, cos), (s, c)) = (self.tilt.to_radians().sin_cos(), self.turn.to_radians().sin_cos());
-        // With X and Y on the picture's plane, one unit before the eye, the ray (X, Y·cos + sin, Y·sin − cos) is where it meets
-        // the ground after 1/(cos − Y·sin).
+        // With X and Y on the picture's plane, one unit before the eye, the ray (X, Y·cos + sin, Y·sin − cos) is where
+        // it meets the ground after 1/(cos − Y·sin).
         let x = [1.0 / focal, 0.0, -0.5 * width / focal];
         let y = [0.0, -1.0 / focal, 0.5 * height / focal];
         let both = |a: f64, b: f64, constant: f64| -> [f64; 3] {

@@ -17,8 +17,8 @@ use crate::timing::{Spread, ratios};
 /// A lookup: where, and how (u, v) changes from a pixel to the next.
 type Lookup<T> = ([T; 2], [[T; 2]; 2]);
 
-/// One picture of the plane: what is looked up at each pixel, and what is right. Pixels that do not wholly see the plane have
-/// neither.
+/// One picture of the plane: what is looked up at each pixel, and what is right. Pixels that do not wholly see the
+/// plane have neither.
 struct PlanePicture {
     lookups: Vec<Option<Lookup<f64>>>,
     truth: Vec<Option<[f64; 3]>>,
@@ -122,8 +122,8 @@ fn errors(
     Ok(found)
 }
 
-/// Times of lookups in f32, as the CPU's rasterizer does them, over all pixels of all views. The filters take turns, each round
-/// begun by another one, after one that is not timed.
+/// Times of lookups in f32, as the CPU's rasterizer does them, over all pixels of all views. The filters take turns,
+/// each round begun by another one, after one that is not timed.
 fn timed(plan: &FilterPlan, pyramid: &Pyramid, still: &[PlanePicture], figures: &mut [FilterFigures]) {
     let single = |&([u, v], [x, y]): &Lookup<f64>| -> Lookup<f32> {
         ([u as f32, v as f32], [[x[0] as f32, x[1] as f32], [y[0] as f32, y[1] as f32]])

@@ -17,8 +17,8 @@ pub struct KeptResults {
 }
 
 impl KeptResults {
-    /// What the file holds, if it was written for the same `run`: the program and the machine, in words. A file of another
-    /// run is begun anew. What follows a line that was not finished is measured again.
+    /// What the file holds, if it was written for the same `run`: the program and the machine, in words. A file of
+    /// another run is begun anew. What follows a line that was not finished is measured again.
     ///
     /// # Errors
     /// The file can be neither read nor made; in words.

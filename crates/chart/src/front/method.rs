@@ -39,8 +39,8 @@ pub struct Method {
     pub reflectance: Option<Reflectance>,
     /// Whether the viewer is infinitely far away for the highlights, whatever the scene says.
     pub infinite_viewer: bool,
-    /// Whether point lights shine as if they were infinitely far away, from where they are as seen from the origin. Only
-    /// tried where the distance of a light is what is changed.
+    /// Whether point lights shine as if they were infinitely far away, from where they are as seen from the origin.
+    /// Only tried where the distance of a light is what is changed.
     pub far_lights: bool,
     /// Samples a pixel.
     pub samples: Samples,
@@ -145,8 +145,8 @@ impl Method {
         Self { shade, reflectance: None, infinite_viewer: false, far_lights: false, samples: Samples::One }
     }
 
-    /// Every method worth trying on a scene: flat, Gouraud and Phong with either viewer and either number of samples, every
-    /// mixture of terms, and, where the scene reflects by Phong's formula, Blinn's in its place.
+    /// Every method worth trying on a scene: flat, Gouraud and Phong with either viewer and either number of samples,
+    /// every mixture of terms, and, where the scene reflects by Phong's formula, Blinn's in its place.
     pub fn all(scene: Option<Reflectance>) -> Vec<Self> {
         let mut methods: Vec<Self> = Shade::all().into_iter().map(Self::new).collect();
         for shading in [Shading::Flat, Shading::Gouraud, Shading::Phong] {

@@ -9,7 +9,8 @@ pub const ERROR_STEPS: [f64; 5] = [8.0, 4.0, 2.0, 1.0, 0.5];
 /// The times whose least error is told, as multiples of the reference frame's.
 pub const BOUGHT_RATIOS: [f64; 6] = [1.2, 1.5, 2.0, 3.0, 5.0, 10.0];
 
-/// The points of one scene and adapter that no other point is both faster and nearer to the truth than: the Pareto front.
+/// The points of one scene and adapter that no other point is both faster and nearer to the truth than: the Pareto
+/// front.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Front {
     /// Their places in the list that it was made of, the fastest first.
@@ -102,9 +103,9 @@ impl Front {
         }
     }
 
-    /// What the fronts of two runs disagree on, over the points that both measured: points that are on the front of one and
-    /// clearly beaten in the other. A point is clearly beaten where one that errs no more has its upper quartile of time
-    /// below that point's lower quartile; else the two are a tie.
+    /// What the fronts of two runs disagree on, over the points that both measured: points that are on the front of one
+    /// and clearly beaten in the other. A point is clearly beaten where one that errs no more has its upper quartile of
+    /// time below that point's lower quartile; else the two are a tie.
     pub fn disagreement<'a>(
         own: &[&'a FrontPoint],
         other: &[&'a FrontPoint],

@@ -70,7 +70,8 @@ pub struct MeasuredScene {
     pub points: Vec<FrontPoint>,
 }
 
-/// How many Apps take turns: enough that the reference frame costs little, few enough for the memory of a small machine.
+/// How many Apps take turns: enough that the reference frame costs little, few enough for the memory of a small
+/// machine.
 const TOGETHER: usize = 8;
 /// The fewest rounds that a median is taken of, however long a frame takes: one that is disturbed then leaves it alone.
 const LEAST: u32 = 3;
@@ -338,8 +339,8 @@ fn in_time(apps: &mut [&mut App], plan: &FrontPlan) -> Result<Vec<Vec<f64>>, Mea
     Ok(times)
 }
 
-/// The picture with squares of pixels averaged, so that no side is longer than [`SMALL`]. What is left over at the right
-/// and the bottom is dropped.
+/// The picture with squares of pixels averaged, so that no side is longer than [`SMALL`]. What is left over at the
+/// right and the bottom is dropped.
 fn reduced(image: &Image) -> Image {
     let (width, height) = image.dimensions();
     let factor = width.max(height).div_ceil(SMALL).max(1);

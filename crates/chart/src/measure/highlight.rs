@@ -41,8 +41,8 @@ pub struct Unsteadiness {
     pub worst_frame: usize,
 }
 
-/// How far the energy's changes from frame to frame are from the true energy's. `None` where there are no two frames, not
-/// as many of one as of the other, or no true energy at all.
+/// How far the energy's changes from frame to frame are from the true energy's. `None` where there are no two frames,
+/// not as many of one as of the other, or no true energy at all.
 pub fn unsteadiness(energy: &[f64], truth: &[f64]) -> Option<Unsteadiness> {
     let mean = truth.iter().sum::<f64>() / truth.len() as f64;
     if energy.len() != truth.len() || truth.len() < 2 || mean <= 0.0 {
@@ -84,8 +84,8 @@ pub fn sweep(plan: HighlightPlan, progress: &mut MeasureProgress<'_>) -> Result<
     Ok(energies)
 }
 
-/// The direction toward the light: along a line that crosses meridians and parallels aslant, so that the highlight, which
-/// stays well inside the sphere's outline, meets vertices, edges and faces in turn.
+/// The direction toward the light: along a line that crosses meridians and parallels aslant, so that the highlight,
+/// which stays well inside the sphere's outline, meets vertices, edges and faces in turn.
 fn light(frame: u32, frames: u32) -> Vec3 {
     let t = frame as f32 / frames.saturating_sub(1).max(1) as f32;
     Vec3::new(-1.0, 0.2, 1.0).lerp(Vec3::new(1.0, 0.8, 1.0), t)

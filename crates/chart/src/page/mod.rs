@@ -21,8 +21,8 @@ pub struct Page {
     pub facts: Vec<(String, String)>,
     /// The chapters.
     pub sections: Vec<Section>,
-    /// The points of the sections with scenes, their pictures and their scenes: what the page's script draws again, to be
-    /// zoomed and filtered.
+    /// The points of the sections with scenes, their pictures and their scenes: what the page's script draws again, to
+    /// be zoomed and filtered.
     pub points: Option<serde_json::Value>,
 }
 

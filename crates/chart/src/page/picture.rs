@@ -17,8 +17,8 @@ pub fn exact_data_uri(picture: &RgbImage) -> Result<String, ImageError> {
     Ok(format!("data:image/png;base64,{}", STANDARD.encode(png)))
 }
 
-/// The picture as a JPEG in a `data:` address: a tenth of a PNG's size, for pages with hundreds of pictures that are looked at
-/// and not measured.
+/// The picture as a JPEG in a `data:` address: a tenth of a PNG's size, for pages with hundreds of pictures that are
+/// looked at and not measured.
 ///
 /// # Errors
 /// What the encoder has to say; it has no reason to fail in memory.

@@ -7,8 +7,8 @@ use crate::figure::{Axis, AxisScale, Figure, Marker, Panel, Point, Series, Strok
 use crate::measure::convergence::{Convergence, ConvergenceSurface, Refinement};
 use crate::measure::{ChartObject, SHADINGS, shading_name};
 
-/// Colours that colour-blind readers tell apart (Okabe and Ito, "Color Universal Design", 2008), with markers and strokes
-/// of their own.
+/// Colours that colour-blind readers tell apart (Okabe and Ito, "Color Universal Design", 2008), with markers and
+/// strokes of their own.
 pub(super) fn style(shading: Shading) -> Style {
     let (color, marker, stroke) = match shading {
         Shading::Flat => ([0xd5, 0x5e, 0x00], Marker::Square, Stroke::Dot),

@@ -53,7 +53,8 @@ fn point(json: &Value) -> Option<FrontPoint> {
 
 impl Fronts {
     /// The points on which the fronts of this run and of an earlier one disagree, a line each: what is on the front of
-    /// one and clearly beaten in the other ([`Front::disagreement`]). Of what only one of them measured nothing is said.
+    /// one and clearly beaten in the other ([`Front::disagreement`]). Of what only one of them measured nothing is
+    /// said.
     pub fn disagreements(&self, earlier: &EarlierRun) -> Vec<String> {
         let mut told = Vec::new();
         for (scene, (backend, _)) in self.scenes.iter().flat_map(|scene| self.machines.iter().map(move |m| (scene, m)))

@@ -284,8 +284,8 @@ fn panel(image: &MeasuredFilters, error: fn(&FilterFigures) -> f64) -> Panel {
     }
 }
 
-/// Colours that colour-blind readers tell apart (Okabe and Ito, "Color Universal Design", 2008), filled for the first of them
-/// and outlined for the second; no two filters have both colour and marker in common.
+/// Colours that colour-blind readers tell apart (Okabe and Ito, "Color Universal Design", 2008), filled for the first
+/// of them and outlined for the second; no two filters have both colour and marker in common.
 fn style(filter: usize) -> Style {
     const COLORS: [[u8; 3]; 7] = [
         [0x8a, 0x8a, 0x8a],

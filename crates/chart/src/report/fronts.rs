@@ -376,8 +376,8 @@ impl<'a> Panels<'a> {
         }
     }
 
-    /// The milliseconds of what takes so much of the reference frame. Points are measured one after the other, while a machine may
-    /// become faster or slower: only times in one unit compare.
+    /// The milliseconds of what takes so much of the reference frame. Points are measured one after the other, while a
+    /// machine may become faster or slower: only times in one unit compare.
     fn ms(&self, point: &FrontPoint) -> f64 {
         point.ratio.median * self.reference_ms
     }
@@ -474,7 +474,8 @@ fn panel(panels: &Panels<'_>, area: Area, title: String) -> Panel {
     Panel { title, x_label: None, notes: Vec::new(), series: series.collect() }
 }
 
-/// Colours that colour-blind readers tell apart (Okabe and Ito, "Color Universal Design", 2008), with markers of their own.
+/// Colours that colour-blind readers tell apart (Okabe and Ito, "Color Universal Design", 2008), with markers of their
+/// own.
 pub(super) fn style(family: Family) -> Style {
     let (color, marker) = match family {
         Family::Constant => ([0x8a, 0x8a, 0x8a], Marker::Diamond),

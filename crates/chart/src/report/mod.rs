@@ -67,8 +67,8 @@ pub struct Report {
 /// A file's name and what is in it.
 pub type NamedFile = (String, String);
 
-/// Measures everything; `tell` hears of [`ReportPlan::units`] done so far, and of what is being done. What `kept` has is not
-/// measured again.
+/// Measures everything; `tell` hears of [`ReportPlan::units`] done so far, and of what is being done. What `kept` has
+/// is not measured again.
 ///
 /// # Errors
 /// The first picture that could not be drawn.

@@ -12,8 +12,8 @@ pub enum TimedLook {
 }
 
 impl TimedLook {
-    /// A material of this ambient and diffuse color with a white highlight of shininess 32; without a light to show for it
-    /// where the look is constant.
+    /// A material of this ambient and diffuse color with a white highlight of shininess 32; without a light to show for
+    /// it where the look is constant.
     pub fn material(self, color: LinearRgba) -> Material {
         let lit = Material { specular: LinearRgba::WHITE, shininess: 32.0, ..Material::matte(color) };
         match self {

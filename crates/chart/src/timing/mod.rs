@@ -1,6 +1,7 @@
 //! How a frame is timed, and what was found out about the machine that drew it.
 //!
-//! Times are those of a [`frame`], [in turns](in_turns) with what they are compared with, once all has [settled](settle).
+//! Times are those of a [`frame`], [in turns](in_turns) with what they are compared with, once all has
+//! [settled](settle).
 
 mod look;
 mod machine;

@@ -33,10 +33,10 @@ pub fn frame(app: &mut App) -> Result<(), RenderError> {
     Adapter::of(world).ok_or(RenderError::NoAdapter)?.finish()
 }
 
-/// Runs frames until they are alike: the first ones build pipelines, upload meshes and wait for levels of detail. Alike are
-/// three in a row after which as many pipelines are built, which upload as many bytes, and which wait for no levels. A
-/// scene whose frames go on to differ is left after 20, and one that waits for levels after five minutes: those of a mesh that
-/// was seen but once are not made.
+/// Runs frames until they are alike: the first ones build pipelines, upload meshes and wait for levels of detail. Alike
+/// are three in a row after which as many pipelines are built, which upload as many bytes, and which wait for no
+/// levels. A scene whose frames go on to differ is left after 20, and one that waits for levels after five minutes:
+/// those of a mesh that was seen but once are not made.
 ///
 /// # Errors
 /// What [`frame`] says.
@@ -110,8 +110,8 @@ pub fn median(values: &[f64]) -> f64 {
     Spread::of(values).median
 }
 
-/// The median over the rounds of a time as a multiple of another one of the same round: what slows the machine down for a
-/// while slows both. 0 for none.
+/// The median over the rounds of a time as a multiple of another one of the same round: what slows the machine down for
+/// a while slows both. 0 for none.
 pub fn median_ratio(times: &[f64], to: &[f64]) -> f64 {
     ratios(times, to).median
 }

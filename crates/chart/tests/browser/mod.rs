@@ -161,7 +161,8 @@ fn fingers_move_and_zoom_the_chart() {
          facts.zoomed = getComputedStyle(chart().parentNode).touchAction;
          document.querySelector('#controls button[title=\"the whole chart\"]').click();
          facts.whole = apart(places(), first) < 1e-6;
-         // Two fingers, twice as far apart in the end, and their middle moved by (10, 20): from (220, 120) to (230, 140).
+         // Two fingers, twice as far apart in the end, and their middle moved by (10, 20): from (220, 120) to
+         // (230, 140).
          send('pointerdown', 1, 180, 120); send('pointerdown', 2, 260, 120);
          send('pointermove', 1, 150, 140); send('pointermove', 2, 310, 140);
          facts.pinched = apart(places(), first.map(([x, y]) => [230 + 2 * (x - 220), 140 + 2 * (y - 120)])) < 1e-6;

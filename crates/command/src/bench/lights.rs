@@ -1,4 +1,5 @@
-//! `halfway bench lights`: what a light costs the CPU for each patch that it touches, and what one that touches nothing.
+//! `halfway bench lights`: what a light costs the CPU for each patch that it touches, and what one that touches
+//! nothing.
 
 use halfway::prelude::*;
 use halfway_chart::timing::{Machine, median, settle};

@@ -7,8 +7,8 @@ use halfway::prelude::*;
 /// Where the lighting is evaluated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum FeatureStage {
-    /// Gouraud shading of a plane of 360 × 360 cells in 32 × 32 pixels: hardly anything but vertices, and none of them on
-    /// a patch that turns away.
+    /// Gouraud shading of a plane of 360 × 360 cells in 32 × 32 pixels: hardly anything but vertices, and none of them
+    /// on a patch that turns away.
     Vertex,
     /// Phong shading of a sphere of 64 × 32 cells, seen from so near that it covers all of 640 × 480 pixels.
     Fragment,
@@ -207,8 +207,8 @@ impl Feature {
     }
 }
 
-/// A [`Feature`] where a [`FeatureStage`] shows what it costs, as a plugin. Nothing moves, and all triangles are drawn: levels of
-/// detail are off.
+/// A [`Feature`] where a [`FeatureStage`] shows what it costs, as a plugin. Nothing moves, and all triangles are drawn:
+/// levels of detail are off.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct FeatureScene {
     /// What is different.

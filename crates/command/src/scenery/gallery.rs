@@ -113,8 +113,8 @@ fn vase() -> Mesh {
     turned(&profile.collect::<Vec<_>>(), 128)
 }
 
-/// A profile of (radius, height) turned about +Y, with creases of more than 30°. Seen from outside where the profile goes
-/// up.
+/// A profile of (radius, height) turned about +Y, with creases of more than 30°. Seen from outside where the profile
+/// goes up.
 fn turned(profile: &[[f32; 2]], around: u32) -> Mesh {
     let positions = profile.iter().flat_map(|&[radius, y]| {
         (0..around).map(move |i| {

@@ -45,7 +45,8 @@ fn numbers(said: &str, step: &str) -> Vec<f64> {
 #[test]
 fn convert_takes_the_steps_that_are_asked_for() {
     let folder = folder("convert_steps");
-    // A cube whose squares share no vertices, one of them wound inside out, with a triangle too many and one of no area.
+    // A cube whose squares share no vertices, one of them wound inside out, with a triangle too many and one of no
+    // area.
     let corners = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [5, 7, 3, 1]];
     let vertices = corners.iter().flatten().map(|i| format!("v {} {} {}\n", i >> 2, i >> 1 & 1, i & 1));
     let faces = (0..6).map(|i| 4 * i + 1).map(|i| format!("f {} {} {} {}\n", i, i + 1, i + 2, i + 3));

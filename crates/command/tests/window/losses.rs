@@ -26,8 +26,8 @@ fn last_words(viewer: &mut Viewer) -> (Option<i32>, String) {
     (code, said)
 }
 
-/// Has `view` drawn by the adapter that is tested and by the CPU, several times, each a little longer after the first picture,
-/// and hands it over.
+/// Has `view` drawn by the adapter that is tested and by the CPU, several times, each a little longer after the first
+/// picture, and hands it over.
 fn each_a_little_later(screen: impl Fn() -> Screen, mut take_away: impl FnMut(&Screen, Viewer)) {
     for adapter in [None, Some("cpu")] {
         for milliseconds in [0, 3, 7, 240, 490] {

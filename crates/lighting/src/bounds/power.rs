@@ -1,14 +1,15 @@
-//! Powers on vectors, to a few millionths: for bounds from above and below. The exact ones take half of the time of a bound.
+//! Powers on vectors, to a few millionths: for bounds from above and below. The exact ones take half of the time of a
+//! bound.
 
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8, i32x8};
 
-/// How far [`power`] is off at most, relative to itself. For y = `e`·log₂ x from −126 to 0 that is |y|·ln 2 times the error
-/// of the logarithm and of the product, 4·10⁻⁷, and that of [`exp2`]; twice as much as was found.
+/// How far [`power`] is off at most, relative to itself. For y = `e`·log₂ x from −126 to 0 that is |y|·ln 2 times the
+/// error of the logarithm and of the product, 4·10⁻⁷, and that of [`exp2`]; twice as much as was found.
 pub(super) const POWER_ERROR: f32 = 8e-5;
 
-/// `x` to the power of `e` for x from the smallest normal number to 1 and e of 0 or more; what is below 2⁻¹²⁶ is taken as
-/// that.
+/// `x` to the power of `e` for x from the smallest normal number to 1 and e of 0 or more; what is below 2⁻¹²⁶ is taken
+/// as that.
 #[inline(always)]
 pub(super) fn power<S: Simd>(simd: S, x: f32x8<S>, e: f32) -> f32x8<S> {
     exp2(simd, log2(simd, x) * f32x8::splat(simd, e))

@@ -5,7 +5,8 @@ use crate::equations::Real;
 /// How far [`quick_power`] is off at most, relative to itself; as much as was found.
 const OFF: f32 = 1e-4;
 
-/// What `max(x, 0)` to the power of `e`, 0 or more, is at least and at most, for x up to 1; what is below 2⁻¹²⁶ may count as 0.
+/// What `max(x, 0)` to the power of `e`, 0 or more, is at least and at most, for x up to 1; what is below 2⁻¹²⁶ may
+/// count as 0.
 pub(super) fn power_within<T: Real>(x: T, e: T) -> [T; 2] {
     if e == T::zero() || x >= T::one() {
         return [T::one(); 2];

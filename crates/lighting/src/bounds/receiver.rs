@@ -127,8 +127,8 @@ impl<T: Real> Receiver<T> {
         Some(bounds)
     }
 
-    /// Whether its numbers are far from the ends of their range, so that none of what is computed of them and of a light,
-    /// whose squared distance is a normal number and not near the largest, is infinite or no number.
+    /// Whether its numbers are far from the ends of their range, so that none of what is computed of them and of a
+    /// light, whose squared distance is a normal number and not near the largest, is infinite or no number.
     pub(super) fn is_moderate(&self) -> bool {
         let most = T::max_value().sqrt().sqrt();
         let lengths = [self.center[0], self.center[1], self.center[2], self.radius, self.exponent];

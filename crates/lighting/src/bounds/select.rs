@@ -128,10 +128,10 @@ impl<T: Real> Selected<T> {
         self.weak.push(WeakTerm { share: f64::NAN, light, term, bound, blur });
     }
 
-    /// Leaves out as many of the weak terms as fit into the tolerance, the weakest first, and keeps the rest; of those that
-    /// are blurred `exact` gives the bound where it matters. `spent` is what terms add at most that nobody has looked at
-    /// and that are left out with them; false where it is not certain that these are the weakest, or that no other would
-    /// be left out if they added less.
+    /// Leaves out as many of the weak terms as fit into the tolerance, the weakest first, and keeps the rest; of those
+    /// that are blurred `exact` gives the bound where it matters. `spent` is what terms add at most that nobody has
+    /// looked at and that are left out with them; false where it is not certain that these are the weakest, or that no
+    /// other would be left out if they added less.
     pub(super) fn keep_strongest(&mut self, tolerance: [f64; 3], spent: f64, exact: impl Fn(u32) -> [T; 3]) -> bool {
         let mut weak = core::mem::take(&mut self.weak);
         let is_certain = loop {
@@ -203,8 +203,8 @@ impl<T: Real> Selected<T> {
     }
 }
 
-/// Whether the same terms are left out whatever the bounds are, as far as they are known: those kept are all stronger than
-/// those left out and than `largest_unseen`, and none would fit beside those left out.
+/// Whether the same terms are left out whatever the bounds are, as far as they are known: those kept are all stronger
+/// than those left out and than `largest_unseen`, and none would fit beside those left out.
 fn is_certain<T: Real>(
     left_out: &[WeakTerm<T>],
     kept: &[WeakTerm<T>],

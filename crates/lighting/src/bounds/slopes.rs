@@ -5,8 +5,8 @@ use crate::equations::{Real, power};
 
 /// Bounds of the derivatives of max(cos f, 0)ⁿ by f, over all angles from some f₀ on.
 ///
-/// With c = cos f and s = sin f, the first is −n·cⁿ⁻¹·s, and the second n·(n − 1)·cⁿ⁻²·s² − n·cⁿ. Each product has one peak;
-/// before it the bound is the peak's value, behind it the value at f₀.
+/// With c = cos f and s = sin f, the first is −n·cⁿ⁻¹·s, and the second n·(n − 1)·cⁿ⁻²·s² − n·cⁿ. Each product has one
+/// peak; before it the bound is the peak's value, behind it the value at f₀.
 #[derive(Clone, Copy, Debug)]
 pub struct PowerSlopes<T> {
     exponent: T,
@@ -40,9 +40,9 @@ impl<T: Real> PowerSlopes<T> {
         self.peaks
     }
 
-    /// For cosines of at most `c`: the largest size of the first derivative; of −n·cⁿ⁻¹, by which the second one may fall;
-    /// the most by which it may rise; and the largest power itself. The second derivative is bounded for n ≥ 2 alone, or
-    /// where n is 1, and the first for n ≥ 1: elsewhere they are infinite.
+    /// For cosines of at most `c`: the largest size of the first derivative; of −n·cⁿ⁻¹, by which the second one may
+    /// fall; the most by which it may rise; and the largest power itself. The second derivative is bounded for n ≥ 2
+    /// alone, or where n is 1, and the first for n ≥ 1: elsewhere they are infinite.
     pub(super) fn from(&self, c: T) -> [T; 4] {
         let (n, zero, one) = (self.exponent, T::zero(), T::one());
         if c <= zero && n > zero {

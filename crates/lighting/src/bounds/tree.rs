@@ -14,9 +14,9 @@ const SLACK: f32 = 1e-3;
 
 /// Lights in a hierarchy of boxes, so that those which reach a region are found without looking at the others.
 ///
-/// [`NearLights`](super::NearLights) takes from it the lights that a region may need and what all the others add at most: nothing where they
-/// are out of their range, and otherwise so little that it can be told from a bound for many of them. Directional lights
-/// reach everything.
+/// [`NearLights`](super::NearLights) takes from it the lights that a region may need and what all the others add at
+/// most: nothing where they are out of their range, and otherwise so little that it can be told from a bound for many
+/// of them. Directional lights reach everything.
 ///
 /// Made anew for each frame by [`LightTree::rebuild`], in a time that is as good as linear in the lights; its memory is
 /// kept.
@@ -169,8 +169,8 @@ impl LightTree {
         levels.truncate(height);
     }
 
-    /// The numbers of the lights that may reach a region, in any order, without some that add no more than `unseen` of its
-    /// tolerance together; and what those add at most.
+    /// The numbers of the lights that may reach a region, in any order, without some that add no more than `unseen` of
+    /// its tolerance together; and what those add at most.
     pub(super) fn find(&self, region: &Region, unseen: f64, numbers: &mut Vec<u32>) -> f64 {
         let quota = unseen * region.tolerance / self.leaves.len().max(1) as f64;
         numbers.extend(&self.everywhere);

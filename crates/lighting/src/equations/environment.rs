@@ -4,8 +4,8 @@
 //! I += o·kd·s·E(n) + ks·s·L(r, α)      r = 2(n·v)n − v
 //! ```
 //!
-//! E(n) is the mean light that a matt surface of the normal n receives, o what occlusion leaves of it; L(r, α) the light around
-//! the mirrored direction, as wide as the lobe of the exponent α; s the environment's strength.
+//! E(n) is the mean light that a matt surface of the normal n receives, o what occlusion leaves of it; L(r, α) the
+//! light around the mirrored direction, as wide as the lobe of the exponent α; s the environment's strength.
 
 use super::Real;
 use super::reflect;
@@ -17,8 +17,8 @@ pub fn mirrored<T: Real>(n: [T; 3], v: [T; 3]) -> [T; 3] {
     reflect(v, n)
 }
 
-/// The exponent of Phong's lobe that is as wide as the one of a highlight: of Blinn–Phong's β it is β/4, since the halfway
-/// vector turns half as far as the light.
+/// The exponent of Phong's lobe that is as wide as the one of a highlight: of Blinn–Phong's β it is β/4, since the
+/// halfway vector turns half as far as the light.
 pub fn lobe_exponent<T: Real>(reflectance: Reflectance, exponent: T) -> T {
     match reflectance {
         Reflectance::Phong => exponent,
@@ -31,7 +31,8 @@ pub fn lobe_angle<T: Real>(alpha: T) -> T {
     T::of(2.0) / (alpha + T::of(3.0)).sqrt()
 }
 
-/// E(n), of the polynomial of a normal of unit length: its coefficients of 1, y, z, x, xy, yz, 3z² − 1, xz and x² − y². Never below 0.
+/// E(n), of the polynomial of a normal of unit length: its coefficients of 1, y, z, x, xy, yz, 3z² − 1, xz and x² − y².
+/// Never below 0.
 pub fn mean_light<T: Real>(c: &[[T; 3]; 9], n: [T; 3]) -> [T; 3] {
     let [x, y, z] = n;
     let terms = [T::one(), y, z, x, x * y, y * z, T::of(3.0) * z * z - T::one(), x * z, x * x - y * y];

@@ -5,10 +5,10 @@ use super::{NORMAL_MIN, Real};
 
 /// The unit normal that a texel of a normal map names: x·t + y·w·(n × t) + z·n for (x, y, z) = (2c − 1)·(s, s, 1).
 ///
-/// n and t are the interpolated normal and tangent, neither brought to unit length, as `MikkTSpace` (Mikkelsen 2008) has it
-/// and those programs that make such maps; w is 1, or −1 where the image is mirrored or the transform mirrors; s is glTF's
-/// `normalTexture.scale` (2.0 §3.9.3). Where n vanishes (length at most [`NORMAL_MIN`]) or nothing is left of the sum it is
-/// `otherwise`.
+/// n and t are the interpolated normal and tangent, neither brought to unit length, as `MikkTSpace` (Mikkelsen 2008)
+/// has it and those programs that make such maps; w is 1, or −1 where the image is mirrored or the transform mirrors; s
+/// is glTF's `normalTexture.scale` (2.0 §3.9.3). Where n vanishes (length at most [`NORMAL_MIN`]) or nothing is left of
+/// the sum it is `otherwise`.
 pub fn mapped_normal<T: Real>(n: [T; 3], t: [T; 3], w: T, texel: [T; 3], s: T, otherwise: [T; 3]) -> [T; 3] {
     let [x, y, z] = texel.map(|c| c + c - T::one());
     let b = scale(cross(n, t), w);
@@ -24,17 +24,17 @@ pub fn lobe_axes<T: Real>(n: [T; 3], t: [T; 3], w: T) -> [[T; 3]; 2] {
     [along, scale(cross(n, along), w)]
 }
 
-/// The unit normal of a surface that is raised along its normals, by its slope alone (Blinn 1978, "Simulation of wrinkled
-/// surfaces").
+/// The unit normal of a surface that is raised along its normals, by its slope alone (Blinn 1978, "Simulation of
+/// wrinkled surfaces").
 ///
-/// `along` are two ways on the surface, and `rises` by how much the height differs at their ends. g, the gradient of the
-/// height on the surface, follows from them (Mikkelsen 2010, "Bump mapping unparametrized surfaces on the GPU"):
+/// `along` are two ways on the surface, and `rises` by how much the height differs at their ends. g, the gradient of
+/// the height on the surface, follows from them (Mikkelsen 2010, "Bump mapping unparametrized surfaces on the GPU"):
 /// g = (δ₁·(e₂ × n) + δ₂·(n × e₁))/(n·(e₁ × e₂)). Heights are lengths of the mesh as it was modelled; m is what its
 /// transform makes of a unit length along the normal. The normal of what is raised and then transformed is
 /// n·(1 + g·m) − (n·m)·g, up to its length: n − h·g where the transform scales all alike, by h.
 ///
-/// n and m are interpolated, neither brought to unit length. Where n vanishes (length at most [`NORMAL_MIN`]), the two ways
-/// are one, or nothing is left of the normal, it is `otherwise`.
+/// n and m are interpolated, neither brought to unit length. Where n vanishes (length at most [`NORMAL_MIN`]), the two
+/// ways are one, or nothing is left of the normal, it is `otherwise`.
 pub fn bumped_normal<T: Real>(n: [T; 3], m: [T; 3], along: [[T; 3]; 2], rises: [T; 2], otherwise: [T; 3]) -> [T; 3] {
     let size = length(n);
     if size <= T::of(NORMAL_MIN.into()) {

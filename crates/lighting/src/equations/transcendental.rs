@@ -1,8 +1,8 @@
 //! The one door to functions that the standard library leaves to each platform.
 //!
-//! `+`, `−`, `·`, `/`, the square root and the fused product are rounded to the nearest number everywhere (IEEE 754). Powers
-//! and the functions of angles are not: their last bits differ between systems. Here they are `libm`'s, whose code is the
-//! same on all of them, so that what the equations say is the same to the bit wherever they run.
+//! `+`, `−`, `·`, `/`, the square root and the fused product are rounded to the nearest number everywhere (IEEE 754).
+//! Powers and the functions of angles are not: their last bits differ between systems. Here they are `libm`'s, whose
+//! code is the same on all of them, so that what the equations say is the same to the bit wherever they run.
 
 /// Powers and the functions of angles, equal to the bit on every machine. Angles are in radians.
 pub trait Transcendental: Sized {

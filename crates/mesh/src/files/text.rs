@@ -151,7 +151,8 @@ impl<'a> Statement<'a> {
         Ok(found)
     }
 
-    /// The words after the keyword as finite numbers, of which there may be as many as `counts` says, and how many there are.
+    /// The words after the keyword as finite numbers, of which there may be as many as `counts` says, and how many
+    /// there are.
     pub(super) fn numbers<const N: usize>(
         &self,
         counts: &[usize],

@@ -12,7 +12,8 @@ use crate::numbering::Numbering;
 /// The directions of two normals from `f32` positions are known no better than this; flat edges stay smooth at angle 0.
 const ANGLE_ROUNDING: f64 = 1e-6;
 
-/// Pairs are looked at up to this number of triangles an edge, so that no file makes their number quadratic in its size.
+/// Pairs are looked at up to this number of triangles an edge, so that no file makes their number quadratic in its
+/// size.
 const CROWD: usize = 16;
 
 /// The mesh with creased normals; see [`Normals::Creased`](super::Normals::Creased).

@@ -1,7 +1,7 @@
 //! An image of which parts are empty, filled from beside.
 
-/// The numbers with those that are missing: each the mean of its neighbours, at corners too, that are there before it. What is
-/// next to the others comes first, then what is next to that. Some number has to be there.
+/// The numbers with those that are missing: each the mean of its neighbours, at corners too, that are there before it.
+/// What is next to the others comes first, then what is next to that. Some number has to be there.
 pub(super) fn dilated(mut numbers: Vec<Option<f32>>, width: usize) -> Vec<f32> {
     let mut ring: Vec<usize> = (0..numbers.len()).filter(|at| numbers[*at].is_none()).collect();
     ring.retain(|at| around(*at, width, numbers.len()).any(|beside| numbers[beside].is_some()));

@@ -121,22 +121,23 @@ impl OcclusionImage {
 }
 
 impl Mesh {
-    /// The ambient occlusion of the mesh by itself and by `occluders`, which stand in the same space, in an image over its
-    /// texture coordinates: what `MapKind::Occlusion` takes.
+    /// The ambient occlusion of the mesh by itself and by `occluders`, which stand in the same space, in an image over
+    /// its texture coordinates: what `MapKind::Occlusion` takes.
     ///
-    /// At the place of each texel's centre it is A = 1/π·∫V(ω)·(n·ω)dω over the hemisphere around the interpolated normal n
-    /// (Zhukov, Iones and Kronin 1998, "An ambient light illumination model", with a distance after which all is open), V
-    /// being 0 where a triangle of either side is met within the reach. By rays whose density is the cosine, so that A is the
-    /// share of rays that meet nothing: the points of a Fibonacci spiral over the unit disc, raised onto the hemisphere
-    /// (Nusselt's analogy), turned from texel to texel by Roberts' sequence R2. So the same call gives the same image.
+    /// At the place of each texel's centre it is A = 1/π·∫V(ω)·(n·ω)dω over the hemisphere around the interpolated
+    /// normal n (Zhukov, Iones and Kronin 1998, "An ambient light illumination model", with a distance after which all
+    /// is open), V being 0 where a triangle of either side is met within the reach. By rays whose density is the
+    /// cosine, so that A is the share of rays that meet nothing: the points of a Fibonacci spiral over the unit disc,
+    /// raised onto the hemisphere (Nusselt's analogy), turned from texel to texel by Roberts' sequence R2. So the same
+    /// call gives the same image.
     ///
-    /// Rays of curved surfaces start on what their normals round them to (Hanika 2021, "Hacking the shadow terminator"), so
-    /// that a convex mesh does not occlude itself. Where triangles overlap on the image the first counts; what lies beyond
-    /// it is not baked. Texels that are on no triangle continue the mean of their neighbours, ring by ring, so that no filter
-    /// finds anything else beside a seam.
+    /// Rays of curved surfaces start on what their normals round them to (Hanika 2021, "Hacking the shadow
+    /// terminator"), so that a convex mesh does not occlude itself. Where triangles overlap on the image the first
+    /// counts; what lies beyond it is not baked. Texels that are on no triangle continue the mean of their neighbours,
+    /// ring by ring, so that no filter finds anything else beside a seam.
     ///
-    /// A ray looks at 256 and at 16 near triangles as a whole; the time grows with their number. `progress` is told how many rows of how
-    /// many are done, from any thread, and may stop the work.
+    /// A ray looks at 256 and at 16 near triangles as a whole; the time grows with their number. `progress` is told how
+    /// many rows of how many are done, from any thread, and may stop the work.
     ///
     /// # Errors
     /// Numbers out of their range, no such texture coordinates, nothing on the image, or [`OcclusionError::Stopped`].

@@ -89,8 +89,8 @@ impl TriangleRun {
 }
 
 impl OccludingTriangle {
-    /// The place of the middle along a curve through all of space as far as `largest` along each axis (Morton 1966), cut into
-    /// 1024 parts along each.
+    /// The place of the middle along a curve through all of space as far as `largest` along each axis (Morton 1966),
+    /// cut into 1024 parts along each.
     fn place(&self, largest: f64) -> u32 {
         let [b, c] = self.edges;
         let middle = self.corner + (b + c) / 3.0;

@@ -9,7 +9,8 @@ pub(super) struct PartCorner {
     pub(super) fine: DVec2,
 }
 
-/// What is clipped by a side has half as many corners more at most, also where rounding has made it concave: 3, 4, 6, 9.
+/// What is clipped by a side has half as many corners more at most, also where rounding has made it concave: 3, 4,
+/// 6, 9.
 const MOST_CORNERS: usize = 9;
 
 /// A part, with its corners before and after it is clipped; here only so that their memory is used again.

@@ -3,8 +3,9 @@
 /// The twin of an edge that has none.
 pub(super) const NO_TWIN: u32 = u32::MAX;
 
-/// The twin of each edge of each triangle, those from its first, its second and its third corner: an edge that passes the
-/// other way between the same corners, by three times the number of its triangle and its own. Twins are each other's.
+/// The twin of each edge of each triangle, those from its first, its second and its third corner: an edge that passes
+/// the other way between the same corners, by three times the number of its triangle and its own. Twins are each
+/// other's.
 ///
 /// Triangles are between corners numbered below `count`.
 pub(super) fn edge_twins(triangles: &[[u32; 3]], count: usize) -> Vec<u32> {

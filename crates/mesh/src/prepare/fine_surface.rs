@@ -69,8 +69,8 @@ impl SeenVertex {
 
 impl FineSurface {
     /// The fine one of two surfaces, and the coarse triangles by its numbers, `u32::MAX` where it has no such vertex,
-    /// likewise the corner first that has the least number in the mesh. `slots` has `u32::MAX` for every vertex, before and
-    /// after.
+    /// likewise the corner first that has the least number in the mesh. `slots` has `u32::MAX` for every vertex, before
+    /// and after.
     pub(super) fn new(surfaces: &Surfaces, slots: &mut [u32]) -> (Self, Vec<[u32; 3]>) {
         let Surfaces { mesh, places, coarse, fine, covered, .. } = surfaces;
         let mut vertices = covered.to_vec();
@@ -123,8 +123,8 @@ impl FineSurface {
         (surface, coarse)
     }
 
-    /// Looks from a coarse triangle at a fine one, and returns whether that lies near it. If it lies over it and faces the
-    /// same way, it is added to those.
+    /// Looks from a coarse triangle at a fine one, and returns whether that lies near it. If it lies over it and faces
+    /// the same way, it is added to those.
     pub(super) fn look(&mut self, frame: &Frame, from: u32, number: u32) -> bool {
         let way = frame.quick.way(&self.points[number as usize]);
         if way == QuickWay::Away {
@@ -155,8 +155,8 @@ impl FineSurface {
 
     /// Whether the fine triangles that lie over a coarse one, and face the same way, cover it exactly once.
     ///
-    /// Where each of their edges that pass over it has a twin among them, as many of them lie over one point of it as over
-    /// any other, so that it is enough to count them at one.
+    /// Where each of their edges that pass over it has a twin among them, as many of them lie over one point of it as
+    /// over any other, so that it is enough to count them at one.
     pub(super) fn covers_once(&self, from: u32) -> bool {
         let mut count = 0;
         for &number in &self.over_this {

@@ -52,7 +52,8 @@ pub(super) fn reached([a, b, c]: TriangleCorners, frame: Option<&Frame>) -> [DVe
     [a.min(b).min(c) - reach, a.max(b).max(c) + reach]
 }
 
-/// How vertices lie to a coarse triangle, quickly and more or less: what is left out by this does not count for its cover.
+/// How vertices lie to a coarse triangle, quickly and more or less: what is left out by this does not count for its
+/// cover.
 pub(super) struct QuickFrame {
     origin: Vec3A,
     /// What the depths within three sides and the height grow by along each axis, and what they are at the origin.

@@ -16,11 +16,12 @@ use crate::Mesh;
 
 /// Patches of a mesh, finer and coarser ones, of which some make up the mesh once, each part as fine as it has to be.
 ///
-/// Groups of neighbouring patches are joined to fewer triangles, which are cut into patches again: the *parts* of a group
-/// are coarser patches that cover what the patches that it *joins* cover. Their common border stays as it is, so parts fit
-/// whatever stands beside them. A patch is part of one group, or finest, and each is joined by one. Where for each group
-/// it is decided whether it *will do*, and all groups will do of whose parts it joins any, then those patches cover the
-/// mesh once that are finest or parts of a group that will do, and that are joined by a group that will not.
+/// Groups of neighbouring patches are joined to fewer triangles, which are cut into patches again: the *parts* of a
+/// group are coarser patches that cover what the patches that it *joins* cover. Their common border stays as it is, so
+/// parts fit whatever stands beside them. A patch is part of one group, or finest, and each is joined by one. Where for
+/// each group it is decided whether it *will do*, and all groups will do of whose parts it joins any, then those
+/// patches cover the mesh once that are finest or parts of a group that will do, and that are joined by a group that
+/// will not.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PatchHierarchy {
     /// The triangles of all patches, as numbers of the mesh's vertices.
@@ -50,8 +51,8 @@ pub struct PatchGroup {
     /// No point of its parts is further from the mesh than this, and no point of the mesh's triangles for which they
     /// stand is further from its parts, in the mesh's units. Infinite for the last group.
     pub error: f32,
-    /// For each point of its parts the mesh has a point within `error` of it whose interpolated normal, made unit again,
-    /// is turned by no more than this, in radians; π where nothing is known.
+    /// For each point of its parts the mesh has a point within `error` of it whose interpolated normal, made unit
+    /// again, is turned by no more than this, in radians; π where nothing is known.
     pub normal_error: f32,
     /// The largest angle between a vertex normal of a triangle and the mean of all three, in radians: what shading at
     /// the vertices loses between them grows with its square.
@@ -81,8 +82,8 @@ const KEPT: f64 = 0.5;
 /// Of a mesh of one patch, fewer at a time: errors of small meshes rise in jumps, as one vertex after the other goes.
 const KEPT_OF_WHOLE: f64 = 0.8;
 
-/// After this number of joins, errors are measured against the patches then, and added to theirs: what they add is small, as
-/// errors double with each join, and measuring against the mesh itself would take as long each time.
+/// After this number of joins, errors are measured against the patches then, and added to theirs: what they add is
+/// small, as errors double with each join, and measuring against the mesh itself would take as long each time.
 const REBASED: u32 = 3;
 
 impl Mesh {
@@ -98,8 +99,9 @@ impl Mesh {
     ///
     /// Vertices go one by one, the least loss first, each onto a neighbour: a loss of shape or of shading (see
     /// [`PatchGroup::normal_spread`]), so that triangles stay where the surface or its normals bend. Those at one place
-    /// with the same attributes (to 10⁻⁴) become one; the others make a seam or a crease, which stays closed and goes only
-    /// along itself. What is on an open border stays, for other meshes may share it. A faceted mesh is all creases:
+    /// with the same attributes (to 10⁻⁴) become one; the others make a seam or a crease, which stays closed and goes
+    /// only along itself. What is on an open border stays, for other meshes may share it. A faceted mesh is all
+    /// creases:
     /// [weld](Self::welded) it first.
     pub fn patch_hierarchy(&self, stop: &AtomicBool) -> Option<PatchHierarchy> {
         let mut maker = Maker::new(self);
@@ -198,7 +200,8 @@ impl<'a> Maker<'a> {
         loose.collect()
     }
 
-    /// Joins what can be joined; `None` where it is to stop. Returns what is loose then, and whether anything was joined.
+    /// Joins what can be joined; `None` where it is to stop. Returns what is loose then, and whether anything was
+    /// joined.
     fn join(&mut self, pool: Vec<Loose>, stop: &AtomicBool) -> Option<(Vec<Loose>, bool)> {
         let places: Vec<Vec<u32>> = pool.iter().map(|loose| self.places(loose)).collect();
         let touched = (0..).zip(&places).flat_map(|(at, places)| places.iter().map(move |&place| (place, at)));
@@ -305,7 +308,8 @@ impl<'a> Maker<'a> {
         Some(parts)
     }
 
-    /// What the errors of a group that joins these patches are in any case, besides the base: what they are for finer ones.
+    /// What the errors of a group that joins these patches are in any case, besides the base: what they are for finer
+    /// ones.
     fn least(&self, members: &[Loose], base: Deviation) -> Deviation {
         let finer = members.iter().filter_map(|loose| loose.part_of).map(|group| &self.groups[group as usize]);
         let of_group = |group: &PatchGroup| Deviation {

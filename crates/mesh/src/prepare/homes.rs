@@ -23,8 +23,8 @@ impl Homes {
         Self { nearest: vec![NearestTriangle { distance: f64::INFINITY, seen: [0, u32::MAX] }; count] }
     }
 
-    /// Takes note of a distance between a vertex and a fine (from 1, or 0) and a coarse triangle, if the vertex is in the
-    /// list.
+    /// Takes note of a distance between a vertex and a fine (from 1, or 0) and a coarse triangle, if the vertex is in
+    /// the list.
     pub(super) fn see(&mut self, vertex: u32, seen: [u32; 2], distance: f64) {
         if let Some(nearest) = self.nearest.get_mut(vertex as usize)
             && (distance, seen) < (nearest.distance, nearest.seen)

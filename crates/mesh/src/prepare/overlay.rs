@@ -1,4 +1,5 @@
-//! How far coarse triangles are from the fine ones that they stand for: the largest differences, and not samples of them.
+//! How far coarse triangles are from the fine ones that they stand for: the largest differences, and not samples of
+//! them.
 
 use bevy_math::{DVec3, Vec3A};
 
@@ -55,20 +56,21 @@ pub(super) struct Overlay {
 impl Surfaces<'_> {
     /// Bounds the distance of the surfaces.
     ///
-    /// Each coarse triangle is compared with the fine ones that lie over it along its normal: clipped by its sides, they
-    /// have parts over which both surfaces are linear, so that the distance along the normal and the difference of the
-    /// interpolated normals are largest at corners of the parts (as in Bajaj and Schikore 1996, "Error-bounded reduction
-    /// of triangle meshes with multivariate data"). A fine triangle is not clipped where they are no larger at its own
-    /// corners than what was found before. The parts have to fill the triangle once
-    /// ([how that is seen](FineSurface::covers_once)). Where they do not, its own corners, which are vertices of the fine
-    /// surface, bound it: none of its points is further from one of them than the longest edge over √3 (Jung 1901).
+    /// Each coarse triangle is compared with the fine ones that lie over it along its normal: clipped by its sides,
+    /// they have parts over which both surfaces are linear, so that the distance along the normal and the difference of
+    /// the interpolated normals are largest at corners of the parts (as in Bajaj and Schikore 1996, "Error-bounded
+    /// reduction of triangle meshes with multivariate data"). A fine triangle is not clipped where they are no larger
+    /// at its own corners than what was found before. The parts have to fill the triangle once
+    /// ([how that is seen](FineSurface::covers_once)). Where they do not, its own corners, which are vertices of the
+    /// fine surface, bound it: none of its points is further from one of them than the longest edge over √3
+    /// (Jung 1901).
     ///
     /// The other way round, what lies over no coarse triangle lies in a wedge at an edge. The distance from the edge is
     /// convex, so over a part of a fine triangle it is largest at a corner: at a side of a coarse triangle, which has
     /// been looked at, or at a vertex of the fine surface, whose distance is found by itself.
     ///
-    /// What is less than `known` is not looked for, and the bounds are no less. `slots` has `u32::MAX` for every vertex of
-    /// the mesh, before and after.
+    /// What is less than `known` is not looked for, and the bounds are no less. `slots` has `u32::MAX` for every vertex
+    /// of the mesh, before and after.
     pub(super) fn overlay(&self, known: Deviation, slots: &mut [u32]) -> Overlay {
         let (mut fine, coarse) = FineSurface::new(self, slots);
         let mut homes = Homes::new(self.covered.len());
@@ -173,8 +175,8 @@ impl Differences {
     }
 }
 
-/// The square of the sine of an angle that no normal n is turned by more than from m, by the most of |n − m|² and the least
-/// of n along a unit vector: |n| sin ∠(n, m) ≤ |n − m|, and both n − m and n are linear over a part.
+/// The square of the sine of an angle that no normal n is turned by more than from m, by the most of |n − m|² and the
+/// least of n along a unit vector: |n| sin ∠(n, m) ≤ |n − m|, and both n − m and n are linear over a part.
 fn sine2(most: f64, least: f64) -> f64 {
     if least > 0.0 { most / (least * least) } else { f64::INFINITY }
 }

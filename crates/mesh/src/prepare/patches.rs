@@ -6,8 +6,8 @@ use bevy_math::Vec3;
 
 use crate::Mesh;
 
-/// From this number of patches of triangles down, they are also parted by the way they face: of more than these, borders between
-/// what faces apart would run all over the mesh.
+/// From this number of patches of triangles down, they are also parted by the way they face: of more than these,
+/// borders between what faces apart would run all over the mesh.
 const PARTED_BY_FACING: usize = 16;
 
 /// Normals whose parts along an axis differ by more than this are parted there rather than by place: those of the sides
@@ -27,9 +27,9 @@ struct Site {
 }
 
 impl Mesh {
-    /// Puts triangles of the mesh in an order in which neighbours in the list lie close together and face alike, and cuts
-    /// them into patches of up to `most` triangles (at least 1), all but one of them full. Within a patch they keep their
-    /// order.
+    /// Puts triangles of the mesh in an order in which neighbours in the list lie close together and face alike, and
+    /// cuts them into patches of up to `most` triangles (at least 1), all but one of them full. Within a patch they
+    /// keep their order.
     ///
     /// Triangles are halved across the longest side of the box around their centres until a patch is left, as in a k-d
     /// tree; a few patches' triangles that face apart are halved by the longest side of the box around their normals

@@ -47,7 +47,8 @@ pub(super) struct Neighbour {
 
 const SEVERAL: u32 = u32::MAX;
 
-/// The sides of four of a fan's triangles across from the fan's place; the last of a fan may be one side more than once.
+/// The sides of four of a fan's triangles across from the fan's place; the last of a fan may be one side more than
+/// once.
 struct FourSides {
     /// Of the fan.
     corners: [u8; 4],
@@ -159,8 +160,8 @@ impl Vicinity {
         self.fan.len()
     }
 
-    /// Which vertex of a neighbour each vertex of the fan's place becomes: the one that it shares an edge with. None if a
-    /// vertex has none there, or two.
+    /// Which vertex of a neighbour each vertex of the fan's place becomes: the one that it shares an edge with. None if
+    /// a vertex has none there, or two.
     pub(super) fn moves(&self, target: usize) -> Option<Moves> {
         let mut moves = Moves::default();
         let first = self.fan.first()?.vertices[0];
@@ -229,8 +230,9 @@ impl Vicinity {
         }
     }
 
-    /// Puts the neighbours in the order in which they are looked at, those first that promise to lose least: then others
-    /// can be left sooner. `distance` is how far a place is from the planes of the original triangles, in the mean.
+    /// Puts the neighbours in the order in which they are looked at, those first that promise to lose least: then
+    /// others can be left sooner. `distance` is how far a place is from the planes of the original triangles, in the
+    /// mean.
     pub(super) fn order_targets(&mut self, normals: &[Vec3], distance: impl Fn(u32) -> f64) {
         let Self { fan, around, targets, unit, .. } = self;
         let Some(n) = fan.first().map(|corner| normals[corner.vertices[0] as usize]) else { return };
@@ -297,8 +299,8 @@ impl Vicinity {
         (loss < most).then_some(loss)
     }
 
-    /// Of the triangles that stay where the place is collapsed onto a neighbour the one that is nearest to it: the square
-    /// of its distance, its corner in the fan, and the weights of its corners at the nearest point.
+    /// Of the triangles that stay where the place is collapsed onto a neighbour the one that is nearest to it: the
+    /// square of its distance, its corner in the fan, and the weights of its corners at the nearest point.
     fn nearest(&self, target: usize) -> Option<(f32, u8, [f32; 3])> {
         let q = FourVectors::splat(self.around[target].offset);
         let number = Vec4::splat(target as f32);

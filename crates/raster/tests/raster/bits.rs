@@ -134,7 +134,8 @@ fn scenes() -> Vec<(String, Scene)> {
     scenes
 }
 
-/// The hashes of the ten pictures, the same on every machine. After a change that pictures show, the test prints them anew.
+/// The hashes of the ten pictures, the same on every machine. After a change that pictures show, the test prints them
+/// anew.
 const HASHES: [u64; 10] = [
     0xc943_811b_9387_2d2d,
     0x07d0_5f52_2d48_715a,
@@ -215,8 +216,8 @@ fn pictures_differ_where_scenes_do() {
     assert_eq!(hashes.len(), 10);
 }
 
-/// What is hidden is not lit; drawn far to near nothing is hidden, and the picture is the same to the bit. The balls do not
-/// touch, so that no two surfaces lie in one depth.
+/// What is hidden is not lit; drawn far to near nothing is hidden, and the picture is the same to the bit. The balls do
+/// not touch, so that no two surfaces lie in one depth.
 #[test]
 fn order_changes_no_bit_of_what_is_opaque() {
     for shading in Shading::ALL {

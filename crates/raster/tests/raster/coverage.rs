@@ -13,14 +13,15 @@ const GRID: i64 = 256;
 /// A corner on the grid.
 type Corner = [i64; 2];
 
-/// A point in eye space at a depth of 1 that falls exactly onto a corner of the grid: all numbers on the way have few bits.
+/// A point in eye space at a depth of 1 that falls exactly onto a corner of the grid: all numbers on the way have few
+/// bits.
 fn point([x, y]: Corner) -> [f32; 3] {
     let half = (i64::from(SIDE) * GRID / 2) as f32;
     [x as f32 / half - 1.0, 1.0 - y as f32 / half, -1.0]
 }
 
-/// White triangles over black. Half-transparent ones make 0.5 where one of them covers a sample, 0.75 where two do; opaque
-/// ones, which are drawn in other ways, 1 where any does.
+/// White triangles over black. Half-transparent ones make 0.5 where one of them covers a sample, 0.75 where two do;
+/// opaque ones, which are drawn in other ways, 1 where any does.
 fn scene(triangles: &[[[f32; 3]; 3]], samples: SampleCount, blend: bool) -> Scene {
     let positions = triangles.concat();
     let indices: Vec<_> = (0..positions.len() as u32).collect();
@@ -52,7 +53,8 @@ fn picture(scene: &Scene, width: VectorWidth) -> Vec<f32> {
     floats.chunks_exact(4).map(|pixel| pixel[0]).collect()
 }
 
-/// Whether a triangle covers a point of the grid: what is on an edge belongs to the triangle whose left or top edge it is.
+/// Whether a triangle covers a point of the grid: what is on an edge belongs to the triangle whose left or top edge it
+/// is.
 fn covers(corners: [Corner; 3], [x, y]: Corner) -> bool {
     let [a, b, c] = corners;
     let area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);

@@ -1,4 +1,5 @@
-//! Draws passes and judges the pictures: by an exact fill rule, by the equations in f64, by closed forms, by their bits.
+//! Draws passes and judges the pictures: by an exact fill rule, by the equations in f64, by closed forms, by their
+//! bits.
 
 mod bits;
 #[path = "../../examples/common/mod.rs"]

@@ -32,8 +32,8 @@ pub(super) struct Partial {
 }
 
 impl Partial {
-    /// Opens a new file beside `file`, on the same file system so that it can be moved there at once. Folders on the way
-    /// that are missing are made.
+    /// Opens a new file beside `file`, on the same file system so that it can be moved there at once. Folders on the
+    /// way that are missing are made.
     pub(super) fn create(file: &Path) -> Result<(Self, BufWriter<File>), OutputError> {
         let io_error = |source| OutputError::io(file, source);
         if let Some(folder) = file.parent().filter(|folder| !folder.as_os_str().is_empty()) {

@@ -15,7 +15,8 @@ use super::{OutputError, PictureFormat};
 ///
 /// `encoding` is the camera's. In a PNG, a picture drawn in floating point is clamped to [0, 1] and encoded with it;
 /// one drawn in bytes is encoded already. A PNG of sRGB values says so (`sRGB`, `gAMA` and `cHRM` chunks); raw values
-/// carry no such chunk, since they are meant to be seen as they are. In an EXR the intensities stand as they were drawn.
+/// carry no such chunk, since they are meant to be seen as they are. In an EXR the intensities stand as they were
+/// drawn.
 ///
 /// # Errors
 /// [`OutputError::TooCoarse`] for a byte picture in a format that holds more, [`OutputError::Empty`] for one without

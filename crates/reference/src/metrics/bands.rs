@@ -19,12 +19,13 @@ pub struct SizeMismatch {
     pub expected: (u32, u32),
 }
 
-/// A picture whose rows can be had some at a time: an [`Image`], or what is read from a file and would take too much memory as
-/// one.
+/// A picture whose rows can be had some at a time: an [`Image`], or what is read from a file and would take too much
+/// memory as one.
 pub trait PictureRows {
     /// Width and height in pixels.
     fn dimensions(&self) -> (u32, u32);
-    /// The rows `rows.start` to `rows.end` − 1 as a picture of their own. What they cover is known of all rows or of none.
+    /// The rows `rows.start` to `rows.end` − 1 as a picture of their own. What they cover is known of all rows or of
+    /// none.
     fn rows(&self, rows: Range<u32>) -> Image;
 }
 

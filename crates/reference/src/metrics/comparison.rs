@@ -11,8 +11,9 @@ use crate::Image;
 
 /// How far an actual picture is from an expected one.
 ///
-/// The figures in [`linear`](Self::linear) and [`steps`](Self::steps) and [`equal`](Self::equal) are over the pixels that
-/// count: those that both pictures cover, or all where either does not know what it covers; never one that is not finite.
+/// The figures in [`linear`](Self::linear) and [`steps`](Self::steps) and [`equal`](Self::equal) are over the pixels
+/// that count: those that both pictures cover, or all where either does not know what it covers; never one that is not
+/// finite.
 ///
 /// Displayed it is one line that says where and how far off; [`table`](Self::table) shows every figure.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,8 +62,8 @@ pub struct NotFinite {
     pub expected: [f64; 3],
 }
 
-/// Measures how far `actual` is from `expected`; `encoding` says what the bytes of an 8-bit picture mean. The pictures are
-/// gone through some rows at a time, several times.
+/// Measures how far `actual` is from `expected`; `encoding` says what the bytes of an 8-bit picture mean. The pictures
+/// are gone through some rows at a time, several times.
 ///
 /// # Errors
 /// [`SizeMismatch`].

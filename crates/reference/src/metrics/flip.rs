@@ -7,7 +7,8 @@ use super::comparison::same_size;
 use super::ranks::{PERCENTILES, nearest_rank};
 use crate::Image;
 
-/// How many pixels there are to a degree of what the viewer sees: 67 is a display of 0.7 m width and 3840 pixels seen from
+/// How many pixels there are to a degree of what the viewer sees: 67 is a display of 0.7 m width and 3840 pixels seen
+/// from
 /// 0.7 m, the value that the method's authors recommend. A lower number is a viewer farther off.
 pub const PIXELS_PER_DEGREE: f32 = nv_flip::DEFAULT_PIXELS_PER_DEGREE;
 
@@ -33,8 +34,8 @@ pub fn flip(actual: &dyn PictureRows, expected: &dyn PictureRows, encoding: Enco
     Ok(figures(map(actual, expected, encoding)?))
 }
 
-/// The same over the pixels that both pictures cover, where both know. The others are made equal first: an eye sees more
-/// than one pixel at once, and would see them, too.
+/// The same over the pixels that both pictures cover, where both know. The others are made equal first: an eye sees
+/// more than one pixel at once, and would see them, too.
 ///
 /// # Errors
 /// [`SizeMismatch`].
@@ -49,8 +50,8 @@ pub fn flip_of_covered(actual: &Image, expected: &Image, encoding: Encoding) -> 
     Ok(figures(values.into_iter().zip(both).filter(|(_, both)| *both).map(|(value, _)| value).collect()))
 }
 
-/// Rows above and below a pixel, at least, that have part in its value: the method's filters reach three standard deviations,
-/// at most 10 pixels at [`PIXELS_PER_DEGREE`].
+/// Rows above and below a pixel, at least, that have part in its value: the method's filters reach three standard
+/// deviations, at most 10 pixels at [`PIXELS_PER_DEGREE`].
 const REACH: u32 = 16;
 
 /// A value a pixel, row by row.

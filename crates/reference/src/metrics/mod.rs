@@ -1,8 +1,8 @@
 //! How far one picture is from another.
 //!
 //! [`compare`] measures two pictures pixel by pixel, in linear intensity and in the 256 steps of an 8-bit picture;
-//! [`flip()`] measures what a viewer would notice. [`judge`] measures a drawn picture against the oracle, apart from the
-//! pixels where edges leave the drawer a choice. [`difference`] shows where two pictures differ, and
+//! [`flip()`] measures what a viewer would notice. [`judge`] measures a drawn picture against the oracle, apart from
+//! the pixels where edges leave the drawer a choice. [`difference`] shows where two pictures differ, and
 //! [`report_failure`] leaves what a failing test has to show.
 //!
 //! ```

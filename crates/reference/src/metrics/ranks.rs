@@ -8,10 +8,11 @@ const DIGIT: u32 = 13;
 /// Passes over all values: 13 bits each of 64, the last one fewer.
 pub(super) const PASSES: u32 = u64::BITS.div_ceil(DIGIT);
 
-/// The nearest ranks of [`PERCENTILES`] among values of 0 and above, in [`PASSES`] passes over them, the same values in each.
+/// The nearest ranks of [`PERCENTILES`] among values of 0 and above, in [`PASSES`] passes over them, the same values in
+/// each.
 ///
-/// The bits of such numbers are in their order. A pass counts by the next digit those values that share all digits before it
-/// with the value that is looked for.
+/// The bits of such numbers are in their order. A pass counts by the next digit those values that share all digits
+/// before it with the value that is looked for.
 pub(super) struct Ranks {
     pass: u32,
     values: u64,

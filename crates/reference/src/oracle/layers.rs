@@ -6,8 +6,8 @@ use super::gather::OracleScene;
 use super::raster::Hit;
 use super::solid::Color;
 
-/// The hits on one ray that can be seen: the nearest opaque one, and the blended ones. They have to be added in the order
-/// of drawing.
+/// The hits on one ray that can be seen: the nearest opaque one, and the blended ones. They have to be added in the
+/// order of drawing.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Layers {
     opaque: Option<Hit>,
@@ -48,7 +48,8 @@ impl Layers {
         self.opaque.iter().chain(blended)
     }
 
-    /// I of everything on the ray before what is `behind`, one over the other; each is clamped to 1 first where `clamp` says so.
+    /// I of everything on the ray before what is `behind`, one over the other; each is clamped to 1 first where `clamp`
+    /// says so.
     pub(super) fn color(&self, scene: &OracleScene, behind: Color, clamp: bool) -> Color {
         let written = |i: Color| if clamp { i.map(|channel| channel.min(1.0)) } else { i };
         self.visible(scene).fold(written(behind), |behind, hit| {

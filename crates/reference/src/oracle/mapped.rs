@@ -60,7 +60,8 @@ impl PointOnMap {
 }
 
 impl OracleScene {
-    /// What the image of a kind multiplies by, channel by channel and, of the color, the opacity: 1 where there is none.
+    /// What the image of a kind multiplies by, channel by channel and, of the color, the opacity: 1 where there is
+    /// none.
     pub(super) fn factor(&self, hit: &Hit, kind: MapKind) -> [f64; 4] {
         let Some((map, place)) = self.looked_up(hit, kind) else { return [1.0; 4] };
         let texel = lookup::filtered(&map.pyramid, &map.sampling, place.uv, place.footprint);
@@ -82,8 +83,8 @@ impl OracleScene {
         }
     }
 
-    /// The normal of the front as the images turn it: from the interpolated one, and what stands for it where it vanishes or
-    /// nothing turns it.
+    /// The normal of the front as the images turn it: from the interpolated one, and what stands for it where it
+    /// vanishes or nothing turns it.
     pub(super) fn relief(&self, hit: &Hit, n: Color, otherwise: Color) -> Color {
         let solid = &self.solids[hit.solid];
         let (Some(maps), Some((triangle, weights))) = (&solid.maps, hit.on_triangle()) else { return otherwise };
@@ -103,7 +104,8 @@ impl OracleScene {
         bumped_normal(n, m.to_array(), [(b - a).to_array(), (c - a).to_array()], [rise(1), rise(2)], otherwise)
     }
 
-    /// The exponent of highlights of a material with this one, and what they are multiplied by, as images have it at a hit.
+    /// The exponent of highlights of a material with this one, and what they are multiplied by, as images have it at a
+    /// hit.
     pub(super) fn gloss(&self, hit: &Hit, exponent: f64) -> [f64; 2] {
         let solid = &self.solids[hit.solid];
         let exponent = exponent * self.factor_of_one(hit, MapKind::Shininess);
@@ -160,11 +162,11 @@ impl OracleScene {
         PointOnMap { uv, footprint }
     }
 
-    /// Numbers at a point of a triangle, from those of its corners, and by how much they change from a pixel to the next,
-    /// along x and along y.
+    /// Numbers at a point of a triangle, from those of its corners, and by how much they change from a pixel to the
+    /// next, along x and along y.
     ///
-    /// The footprint is a pixel's. On a triangle u = Σ uᵢVᵢ/Σ Vᵢ, Vᵢ the volume of the ray with the edge opposite to a corner,
-    /// which is linear over the picture: the derivative follows by the rule of quotients.
+    /// The footprint is a pixel's. On a triangle u = Σ uᵢVᵢ/Σ Vᵢ, Vᵢ the volume of the ray with the edge opposite to a
+    /// corner, which is linear over the picture: the derivative follows by the rule of quotients.
     fn over_triangle<const N: usize>(
         &self,
         solid: &Solid,

@@ -1,8 +1,8 @@
 //! The oracle: what each pixel of a scene should be.
 //!
-//! `gather` takes the world's entities into eye space (`view`, `solid`), `raster` finds what a ray through a point of the
-//! picture meets, `shade` says what that gives back, `layers` puts it one over the other, `draw` does so for every pixel
-//! and `probe` for any point. `possible` says what else a pixel may show, for judges.
+//! `gather` takes the world's entities into eye space (`view`, `solid`), `raster` finds what a ray through a point of
+//! the picture meets, `shade` says what that gives back, `layers` puts it one over the other, `draw` does so for every
+//! pixel and `probe` for any point. `possible` says what else a pixel may show, for judges.
 
 mod draw;
 mod error;
@@ -43,12 +43,12 @@ use crate::Image;
 /// - A point of the picture shows what the ray through it meets: the nearest opaque surface beyond the near plane, and
 ///   the blended ones before it. Of two triangles that share an edge exactly one is met (top-left rule). Triangles
 ///   without area are not drawn.
-/// - Opaque surfaces at equal depth (to 10⁻⁹ of it): the one that was spawned first, then the one that comes first in the
-///   mesh.
+/// - Opaque surfaces at equal depth (to 10⁻⁹ of it): the one that was spawned first, then the one that comes first in
+///   the mesh.
 /// - What the camera's [`Intensity`] makes of the finished picture is done last, after samples are averaged.
 /// - Blended objects are drawn over the opaque ones from back to front by the view depth of the middle of their bounds,
-///   those of equal depth (in f32) as they were spawned; of a two-sided one the back faces, then the front faces; then in
-///   the order of the mesh. Each gives opacity·I + (1 − opacity)·what is behind.
+///   those of equal depth (in f32) as they were spawned; of a two-sided one the back faces, then the front faces; then
+///   in the order of the mesh. Each gives opacity·I + (1 − opacity)·what is behind.
 #[derive(Debug)]
 pub struct Oracle {
     scene: OracleScene,
@@ -103,8 +103,8 @@ impl Oracle {
         Self { supersampling: n.clamp(1, Self::MAX_SUPERSAMPLING), ..self }
     }
 
-    /// Whether each surface, and the background, is clamped to 1 before it is blended, as 8-bit pictures are; not unless
-    /// said, and never where the camera's [`Intensity`] acts on the finished picture.
+    /// Whether each surface, and the background, is clamped to 1 before it is blended, as 8-bit pictures are; not
+    /// unless said, and never where the camera's [`Intensity`] acts on the finished picture.
     #[must_use]
     pub fn with_clamping(self, clamp: bool) -> Self {
         Self { clamp: clamp && !self.scene.intensity.acts_on_pictures(), ..self }

@@ -166,8 +166,8 @@ fn reach(scene: &OracleScene, hull: &[DVec3]) -> Option<[DVec2; 2]> {
 /// A triangle in eye space, ready to be met by rays.
 pub(super) struct RayTriangle {
     corners: [DVec3; 3],
-    /// Normals of the planes through the eye and the edge opposite to each corner. The edge that two triangles share has
-    /// exactly opposite ones.
+    /// Normals of the planes through the eye and the edge opposite to each corner. The edge that two triangles share
+    /// has exactly opposite ones.
     normals: [DVec3; 3],
 }
 
@@ -187,9 +187,10 @@ impl RayTriangle {
 
     /// Where the line along `ray` meets the triangle, before the eye or behind it.
     ///
-    /// The edge functions are the volumes of the tetrahedra of the eye, the ray and each edge (homogeneous rasterisation,
-    /// Olano and Greer 1997): they need no clipping, and are proportional to the weights. A ray through an edge belongs
-    /// to the triangle that it enters when it is moved right by less than anything, or else down: the top-left rule.
+    /// The edge functions are the volumes of the tetrahedra of the eye, the ray and each edge (homogeneous
+    /// rasterisation, Olano and Greer 1997): they need no clipping, and are proportional to the weights. A ray through
+    /// an edge belongs to the triangle that it enters when it is moved right by less than anything, or else down: the
+    /// top-left rule.
     pub(super) fn meet(&self, ray: DVec3) -> Option<Met> {
         let volumes = self.normals.map(|n| n.dot(ray));
         let inside = |i: usize| {

@@ -56,8 +56,8 @@ impl OracleScene {
         self.solids[hit.solid].mask.is_some_and(|cutoff| self.opacity_there(hit) < cutoff)
     }
 
-    /// What the lights add at a point of a triangle, whose material there is given. What is evaluated at the triangle or at
-    /// its vertices is remembered.
+    /// What the lights add at a point of a triangle, whose material there is given. What is evaluated at the triangle
+    /// or at its vertices is remembered.
     fn on_triangle(
         &self,
         solid: &Solid,
@@ -111,7 +111,8 @@ impl OracleScene {
         i
     }
 
-    /// What those terms of the lights add at a point of one side that have this frequency; `n` is the normal of the front.
+    /// What those terms of the lights add at a point of one side that have this frequency; `n` is the normal of the
+    /// front.
     ///
     /// An ambient colour that attenuates goes with the diffuse term; one that does not is in the scene's ambient.
     fn lit(

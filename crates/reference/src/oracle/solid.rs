@@ -159,8 +159,8 @@ impl Solid {
         };
     }
 
-    /// The surface behind the mesh, unless it is unknown, the mesh has colours, images or a solid, which the surface does
-    /// not, or the transform flattens it, so that no ray leads back to it.
+    /// The surface behind the mesh, unless it is unknown, the mesh has colours, images or a solid, which the surface
+    /// does not, or the transform flattens it, so that no ray leads back to it.
     fn smooth(&self) -> Option<Smooth> {
         let surface = self.mesh.surface()?;
         let is_flat = unit_determinant(&self.eye_from_model.matrix3).abs() <= FLAT;
@@ -189,7 +189,8 @@ impl Solid {
         [0, 1, 2].map(|corner| self.mesh.indices()[first + corner] as usize)
     }
 
-    /// The colour and opacity that the vertices give a point of a triangle, by the weights of its corners: under flat shading the mean of its corners'.
+    /// The colour and opacity that the vertices give a point of a triangle, by the weights of its corners: under flat
+    /// shading the mean of its corners'.
     pub(super) fn color(&self, place: Option<(u32, [f64; 3])>) -> DVec4 {
         let (Some(colors), Some((triangle, weights))) = (&self.colors, place) else { return DVec4::ONE };
         let [u, v, w] = if self.terms.has(Frequency::Triangle) { [1.0 / 3.0; 3] } else { weights };
@@ -223,8 +224,8 @@ impl Solid {
 /// what could be seen.
 const NO_AREA: f64 = 1e-12;
 
-/// The matrix of [`normal_matrix`] with its sign decided in the precision of the transforms, so that normals and windings
-/// turn over together.
+/// The matrix of [`normal_matrix`] with its sign decided in the precision of the transforms, so that normals and
+/// windings turn over together.
 fn signed_cofactors(m: &DMat3, determinant: f64, mirrored: bool) -> [[f64; 3]; 3] {
     // cof(−M) = cof(M), and of M and −M one has no negative determinant: its sign is +.
     let upright = if determinant < 0.0 { -*m } else { *m };

@@ -34,8 +34,8 @@ impl OracleScene {
         surroundings([material.kd, material.ks], around.strength, arriving)
     }
 
-    /// Where a hit lies, and the normal of the front there: that of the triangle under flat shading, and one that images turn only where
-    /// light is shaded at the fragments.
+    /// Where a hit lies, and the normal of the front there: that of the triangle under flat shading, and one that
+    /// images turn only where light is shaded at the fragments.
     fn point(&self, solid: &Solid, hit: &Hit) -> (DVec3, Color) {
         let (triangle, [u, v, w]) = match hit.place {
             HitPoint::Triangle(triangle, weights) => (triangle, weights),

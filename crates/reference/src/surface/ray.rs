@@ -12,8 +12,8 @@ pub(super) struct Ray {
 impl Ray {
     /// The same line from the place on it that is next to `p`, and the t of that place.
     ///
-    /// What is computed from there keeps its digits however far away the ray begins: each coordinate of the new origin is
-    /// rounded once, when it is already small.
+    /// What is computed from there keeps its digits however far away the ray begins: each coordinate of the new origin
+    /// is rounded once, when it is already small.
     pub(super) fn beside(&self, p: DVec3) -> (Self, f64) {
         let Self { origin, direction } = *self;
         let t = (p - origin).dot(direction) / direction.length_squared();

@@ -326,8 +326,8 @@ fn rays_meet_the_teapot_where_they_meet_a_fine_mesh() {
                 meet_triangle(triangle.map(|i| mesh.positions()[i as usize].as_dvec3()), origin, direction)
             })
             .collect();
-        // Facets of 1/24 of a patch lie within a thousandth of the surface; along a ray that meets it at a slope that is
-        // so much more. Rays that graze either may miss the other.
+        // Facets of 1/24 of a patch lie within a thousandth of the surface; along a ray that meets it at a slope that
+        // is so much more. Rays that graze either may miss the other.
         let agree = |t: f64, other: f64, slope: f64| (t - other).abs() < 4e-3 / slope;
         for hit in &hits {
             let slope = hit.normal.dot(direction).abs();

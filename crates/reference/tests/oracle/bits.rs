@@ -8,8 +8,8 @@ use halfway_reference::{Image, Mode};
 
 use crate::scene::Stage;
 
-/// An octahedron whose faces are cut in four `cuts` times and pushed to the unit sphere: of square roots only, so that the
-/// mesh is the same on every machine.
+/// An octahedron whose faces are cut in four `cuts` times and pushed to the unit sphere: of square roots only, so that
+/// the mesh is the same on every machine.
 fn geode(cuts: u32) -> Mesh {
     let [x, y, z] = [Vec3::X, Vec3::Y, Vec3::Z];
     let mut faces =

@@ -40,9 +40,9 @@ impl<T> DrawnMeshes<T> {
         self.meshes.len()
     }
 
-    /// Forgets meshes that are gone, and makes what is missing or out of date for those that are drawn: `make` takes the
-    /// mesh, its indices, its form, and what was made of the same mesh with other triangles; it says how many bytes it has
-    /// made. Where it fails the mesh is not drawn, and its error is in the report, every frame anew.
+    /// Forgets meshes that are gone, and makes what is missing or out of date for those that are drawn: `make` takes
+    /// the mesh, its indices, its form, and what was made of the same mesh with other triangles; it says how many bytes
+    /// it has made. Where it fails the mesh is not drawn, and its error is in the report, every frame anew.
     pub(crate) fn make_ready(
         &mut self,
         batches: &Batches,

@@ -7,7 +7,8 @@ use bevy_reflect::std_traits::ReflectDefault;
 /// Whether everything is drawn in false colours, which say where the terms of its lights are shaded. Default: not.
 ///
 /// Red grows with the share of terms shaded at the fragments, green with that of terms shaded at the vertices or once a
-/// triangle, of all that the patch has; a patch without a term is dark grey. Patches that are coarser than the mesh are bluish.
+/// triangle, of all that the patch has; a patch without a term is dark grey. Patches that are coarser than the mesh are
+/// bluish.
 #[derive(Resource, Reflect, Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[reflect(Resource, Clone, Debug, Default, PartialEq)]
 pub struct FalseColors(pub bool);

@@ -5,8 +5,8 @@ use halfway_lighting::{Frequency, Terms};
 use halfway_texture::MapKind;
 use std::sync::Once;
 
-/// The kinds of these images that do nothing where light is evaluated as these terms say. An environment takes the exponent
-/// everywhere.
+/// The kinds of these images that do nothing where light is evaluated as these terms say. An environment takes the
+/// exponent everywhere.
 fn ignored(maps: &MapLooks, terms: Terms, surrounded: bool) -> impl Iterator<Item = MapKind> {
     let is_early = |term: Frequency| matches!(term, Frequency::Triangle | Frequency::Vertex);
     let no_normals = [terms.diffuse, terms.specular].into_iter().any(is_early) && !terms.has(Frequency::Fragment);

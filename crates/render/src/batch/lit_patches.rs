@@ -460,8 +460,8 @@ impl LitPatches {
     }
 }
 
-/// Objects with at least [`FEW_PATCHES`] patches in sight: one patch in [`LOOKED_AT_FIRST`] is looked at first, whether placing
-/// terms pays.
+/// Objects with at least [`FEW_PATCHES`] patches in sight: one patch in [`LOOKED_AT_FIRST`] is looked at first, whether
+/// placing terms pays.
 const FEW_PATCHES: usize = 64;
 const LOOKED_AT_FIRST: usize = 16;
 

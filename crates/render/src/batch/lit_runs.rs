@@ -12,8 +12,8 @@ pub(crate) struct LitRun {
     pub(crate) call: u32,
     /// 0, and 1 for the second pass of an object that is drawn in two: its near side.
     pub(crate) pass: u32,
-    /// How many opaque objects that were spawned before have its bounding sphere; such may coincide, and the first is to
-    /// win. 0 for blended ones.
+    /// How many opaque objects that were spawned before have its bounding sphere; such may coincide, and the first is
+    /// to win. 0 for blended ones.
     pub(crate) twins_before: u32,
     /// The first of its indices, and the first behind them.
     pub(crate) indices: (u32, u32),
@@ -35,8 +35,8 @@ pub(super) struct OpenRun {
     pub(super) stretch: u32,
 }
 
-/// Triangles between patches of a run that are not seen are drawn with it if they are no more than this: that costs less
-/// than another draw.
+/// Triangles between patches of a run that are not seen are drawn with it if they are no more than this: that costs
+/// less than another draw.
 const JOINED: u32 = 128;
 
 impl OpenRun {

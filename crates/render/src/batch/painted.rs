@@ -168,8 +168,8 @@ fn range_on(look: MapLook, of: &MapUse, pyramid: &Pyramid, around: &UvBox) -> [[
         let (at, around) = (a * middle[0] + b * middle[1] + c, a.abs() * half[0] + b.abs() * half[1] + ROUNDED * size);
         [at - around, at + around]
     });
-    // A pixel is sampled up to half its size beside a triangle, which is no more than a texel of the level that it takes; without
-    // levels it may be any number of texels.
+    // A pixel is sampled up to half its size beside a triangle, which is no more than a texel of the level that it
+    // takes; without levels it may be any number of texels.
     let end = |at: usize, sign: f32| match look.sampling.levels {
         LevelFilter::None => [sign * f32::INFINITY; 2],
         _ => [boxed[0][at] as f32, boxed[1][at] as f32],

@@ -59,7 +59,8 @@ impl MapUse {
     }
 }
 
-/// The images of an object, each in the slot of its kind, the opacity below which it is not there, and what it is cut from.
+/// The images of an object, each in the slot of its kind, the opacity below which it is not there, and what it is cut
+/// from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct MapsUse {
     pub(crate) slots: [Option<MapUse>; MapKind::COUNT],
@@ -107,7 +108,8 @@ struct Used {
     plain: Option<u32>,
 }
 
-/// How something is drawn, the triangles of which mesh in which form, and the number of its set of images, from 1 on; 0 for none.
+/// How something is drawn, the triangles of which mesh in which form, and the number of its set of images, from 1 on; 0
+/// for none.
 pub(crate) type Call = (DrawKey, AssetId<Mesh>, Form, u32);
 
 impl ObjectTable {
@@ -166,7 +168,8 @@ impl ObjectTable {
         self.used.iter().filter(|used| used.somewhere).count() as u32
     }
 
-    /// How many opaque objects before this one have the same bounding sphere, as have those whose triangles all coincide.
+    /// How many opaque objects before this one have the same bounding sphere, as have those whose triangles all
+    /// coincide.
     pub(crate) fn twins_before(&mut self, (center, radius): (Vec3, f32)) -> u32 {
         let number = self.twins.entry([center.x, center.y, center.z, radius].map(f32::to_bits)).or_default();
         *number += 1;

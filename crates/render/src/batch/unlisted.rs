@@ -22,7 +22,8 @@ impl LitPatches {
         true
     }
 
-    /// The key that draws an object of one patch, where there is nothing to choose: neither lights nor the places of terms.
+    /// The key that draws an object of one patch, where there is nothing to choose: neither lights nor the places of
+    /// terms.
     fn unchosen(&mut self, object: &LitObject, shared: Shared, backend: &mut impl Backend) -> Option<DrawKey> {
         if shared.false_colors {
             return None;

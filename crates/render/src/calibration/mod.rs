@@ -7,8 +7,8 @@ use crate::device::costs::VertexPrices;
 use crate::error::RenderError;
 use scenery::{Stages, Times};
 
-/// What drawing costs on an adapter, measured by drawing: small scenes that differ in one thing, in turns. Their frames take a
-/// second or two on the CPU and less on a graphics card.
+/// What drawing costs on an adapter, measured by drawing: small scenes that differ in one thing, in turns. Their frames
+/// take a second or two on the CPU and less on a graphics card.
 ///
 /// ```no_run
 /// # use bevy_app::App;
@@ -22,8 +22,8 @@ use scenery::{Stages, Times};
 /// # }
 /// ```
 ///
-/// Pictures under [`Shading::Auto`](halfway_lighting::Shading::Auto) keep to the tolerance whatever the prices are, but they
-/// are not the same pictures to the byte: do without where they are to repeat on other machines.
+/// Pictures under [`Shading::Auto`](halfway_lighting::Shading::Auto) keep to the tolerance whatever the prices are, but
+/// they are not the same pictures to the byte: do without where they are to repeat on other machines.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Calibration {
     /// What a light costs at a pixel, in nanoseconds of a frame: what the prices are multiples of.
@@ -53,13 +53,13 @@ const BELIEVED: [(&str, f32, f32); 6] = [
 /// What a light can cost at a pixel, in nanoseconds.
 const BELIEVED_UNIT: [f64; 2] = [1e-4, 1e4];
 
-/// By how much longer a frame may take by prices that are believed than by the adapter's own: as much as the least times of the
-/// same frame differ on a machine that does something else as well.
+/// By how much longer a frame may take by prices that are believed than by the adapter's own: as much as the least
+/// times of the same frame differ on a machine that does something else as well.
 const MOST_LOST: f64 = 1.05;
 
 impl Calibration {
-    /// Draws on the adapter and times it. What else the machine does at that time makes it less exact; prices that cannot be
-    /// are not taken.
+    /// Draws on the adapter and times it. What else the machine does at that time makes it less exact; prices that
+    /// cannot be are not taken.
     ///
     /// # Errors
     /// What the adapter could not draw.

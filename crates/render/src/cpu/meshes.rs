@@ -14,8 +14,8 @@ use halfway_raster::{Pieces, RasterError, TriangleOrder, VertexLists};
 #[derive(Resource, Default)]
 pub(crate) struct MeshPieces(DrawnMeshes<Pieces>);
 
-/// Cuts the meshes that are drawn and not there yet. What the memory is refused for is not drawn, and its error is in the
-/// report, every frame anew.
+/// Cuts the meshes that are drawn and not there yet. What the memory is refused for is not drawn, and its error is in
+/// the report, every frame anew.
 pub(crate) fn make_ready(
     batches: Res<Batches>,
     mut geometries: ResMut<Geometries>,

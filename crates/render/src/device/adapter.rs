@@ -6,7 +6,8 @@ use crate::device::gpu::Gpu;
 use crate::error::RenderError;
 use bevy_ecs::prelude::World;
 
-/// What draws, opened. [`AdapterChoice::open`](crate::AdapterChoice::open) opens it, and the world holds it as the resource
+/// What draws, opened. [`AdapterChoice::open`](crate::AdapterChoice::open) opens it, and the world holds it as the
+/// resource
 /// [`Gpu`] or [`Cpu`].
 #[derive(Clone)]
 pub enum Adapter {

@@ -10,7 +10,8 @@ use bevy_reflect::Reflect;
 use bevy_reflect::std_traits::ReflectDefault;
 use std::path::Path;
 
-/// What to draw with: which graphics adapter, or the CPU. Insert it before the first frame; an open [`Gpu`] or [`Cpu`] stays.
+/// What to draw with: which graphics adapter, or the CPU. Insert it before the first frame; an open [`Gpu`] or [`Cpu`]
+/// stays.
 ///
 /// The first of these that is given decides:
 ///
@@ -23,15 +24,15 @@ use std::path::Path;
 ///    there is no hardware, the CPU, which is faster than software drivers. On Linux drivers are asked only where the
 ///    kernel shows a graphics card (`/dev/dri/renderD128`, say).
 ///
-/// The name `cpu` stands for the CPU without a driver ([`Cpu`]), `cpu:avx512`, `cpu:avx2`, `cpu:neon` and `cpu:plain` for the
-/// CPU with these vectors. The name `gpu` stands for any graphics adapter, hardware first, else a software one; wgpu's
-/// variables limit which.
+/// The name `cpu` stands for the CPU without a driver ([`Cpu`]), `cpu:avx512`, `cpu:avx2`, `cpu:neon` and `cpu:plain`
+/// for the CPU with these vectors. The name `gpu` stands for any graphics adapter, hardware first, else a software one;
+/// wgpu's variables limit which.
 ///
-/// Any other name is a part, in upper or lower case, of the adapter's name or of its backend's (`vulkan`, `metal`, `dx12`, `gl`
-/// or `opengl`), or both with a colon between: `vulkan:llvmpipe`, `gl:llvmpipe`. The name of a backend in full stands for
-/// the backend only. Of several adapters that fit, hardware goes before software. `VK_DRIVER_FILES` says which Vulkan
-/// drivers there are to choose from, whatever names them. OpenGL is asked only where the name can mean it and nothing of
-/// the others fits: asking it takes time.
+/// Any other name is a part, in upper or lower case, of the adapter's name or of its backend's (`vulkan`, `metal`,
+/// `dx12`, `gl` or `opengl`), or both with a colon between: `vulkan:llvmpipe`, `gl:llvmpipe`. The name of a backend in
+/// full stands for the backend only. Of several adapters that fit, hardware goes before software. `VK_DRIVER_FILES`
+/// says which Vulkan drivers there are to choose from, whatever names them. OpenGL is asked only where the name can
+/// mean it and nothing of the others fits: asking it takes time.
 #[derive(Resource, Reflect, Clone, Debug, Default, PartialEq, Eq)]
 #[reflect(Resource, Default)]
 pub struct AdapterChoice {
@@ -71,8 +72,8 @@ impl AdapterChoice {
         }
     }
 
-    /// Opens a graphics adapter, for pictures without a window: a software one where there is no other, and never the CPU
-    /// without a driver.
+    /// Opens a graphics adapter, for pictures without a window: a software one where there is no other, and never the
+    /// CPU without a driver.
     ///
     /// # Errors
     /// [`RenderError::NoAdapter`], [`RenderError::NoAdapterAmong`], [`RenderError::NoSuchAdapter`] or
@@ -97,9 +98,9 @@ impl AdapterChoice {
         self.name.clone().filter(|name| !name.is_empty()).or_else(|| variable("HALFWAY_ADAPTER"))
     }
 
-    /// Opens what draws in a window: a graphics adapter with a surface that it can present to, or the CPU, which needs none.
-    /// `display` is the display of the surface's window, which OpenGL has to know; `make_surface` makes the surface from an
-    /// instance, and may be called once a backend.
+    /// Opens what draws in a window: a graphics adapter with a surface that it can present to, or the CPU, which needs
+    /// none. `display` is the display of the surface's window, which OpenGL has to know; `make_surface` makes the
+    /// surface from an instance, and may be called once a backend.
     ///
     /// # Errors
     /// As [`open`](Self::open), and what `make_surface` could not do.
@@ -188,8 +189,8 @@ impl Gpu {
 /// The variable that says which backends may be asked.
 const BACKEND: &str = "WGPU_BACKEND";
 
-/// Whether there may be a graphics card: on Linux, whether the kernel shows one among its devices. These are the nodes of its
-/// own drivers, of NVIDIA's, of WSL, and of the makers of phones' and boards' chips.
+/// Whether there may be a graphics card: on Linux, whether the kernel shows one among its devices. These are the nodes
+/// of its own drivers, of NVIDIA's, of WSL, and of the makers of phones' and boards' chips.
 fn may_have_hardware(devices: &Path) -> bool {
     const NODES: [&str; 7] = ["nvidia", "dxg", "kgsl", "mali", "pvr", "galcore", "vchiq"];
     let names = |folder: &Path| -> Vec<String> {

@@ -8,7 +8,8 @@ use halfway_lighting::{Fields, InvalidValue};
 /// What is cheap on the adapter, and so by which of two ways a frame is drawn: the one place where the renderer tells
 /// software adapters, which draw on the CPU, from hardware. Either way gives the same picture, but for rounding.
 ///
-/// Taken from the adapter when it is opened, unless the environment variable `HALFWAY_COSTS` says `software` or `hardware`;
+/// Taken from the adapter when it is opened, unless the environment variable `HALFWAY_COSTS` says `software` or
+/// `hardware`;
 /// [`Gpu::set_costs`](crate::Gpu::set_costs) sets it later. So the ways of hardware can be tried on a software adapter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a way of drawing by itself")]
@@ -19,28 +20,30 @@ pub struct Costs {
     /// Each patch of a scene with many lights has its own bound at fixed places, where they are few enough. A software
     /// adapter reads those faster than lists, but starts a draw for each set.
     pub lights_at_fixed_places: bool,
-    /// From this number of materials and light lists on, what one command can draw looks them up by instance; 2 or more. A
-    /// software adapter looks up pixel by pixel, in the time of which it starts many draws.
+    /// From this number of materials and light lists on, what one command can draw looks them up by instance; 2 or
+    /// more. A software adapter looks up pixel by pixel, in the time of which it starts many draws.
     pub records_of_one_command: usize,
-    /// From this number of draws on, those that share their state are one command, `multi_draw_indexed_indirect`; `None`
-    /// where each draw is a command.
+    /// From this number of draws on, those that share their state are one command, `multi_draw_indexed_indirect`;
+    /// `None` where each draw is a command.
     pub multi_draw: Option<u32>,
-    /// The CPU writes meshes directly into the buffers that are drawn from. Elsewhere than on a software adapter, memory
-    /// that both reach is slow for one of them.
+    /// The CPU writes meshes directly into the buffers that are drawn from. Elsewhere than on a software adapter,
+    /// memory that both reach is slow for one of them.
     pub maps_meshes: bool,
-    /// What has images may be lit by an environment. llvmpipe through Vulkan (Mesa 22.3) crashes in draws that read both.
+    /// What has images may be lit by an environment. llvmpipe through Vulkan (Mesa 22.3) crashes in draws that read
+    /// both.
     pub images_in_environments: bool,
     /// What shading at the vertices saves and costs, for [`Shading::Auto`](halfway_lighting::Shading::Auto).
     pub vertices: VertexPrices,
 }
 
 /// What it costs to shade the lights of a patch at its vertices, in what a light costs at a pixel: for
-/// [`Shading::Auto`](halfway_lighting::Shading::Auto), which moves terms to the vertices, and leaves lights out of a patch
-/// that are compiled in, where that is within the tolerance and saves more than it costs.
+/// [`Shading::Auto`](halfway_lighting::Shading::Auto), which moves terms to the vertices, and leaves lights out of a
+/// patch that are compiled in, where that is within the tolerance and saves more than it costs.
 ///
-/// As a resource it stands for the adapter's own, in [`Costs`]. Prices are 0 or more, also infinite; of one that is not,
-/// [`FrameReport::errors`](crate::FrameReport) tells, and the adapter's own are taken. [`Calibration`](crate::Calibration)
-/// measures them.
+/// As a resource it stands for the adapter's own, in [`Costs`]. Prices are 0 or more, also infinite; of one that is
+/// not,
+/// [`FrameReport::errors`](crate::FrameReport) tells, and the adapter's own are taken.
+/// [`Calibration`](crate::Calibration) measures them.
 #[derive(Resource, Reflect, Clone, Copy, Debug, PartialEq)]
 #[reflect(Resource, Clone, Debug, PartialEq)]
 pub struct VertexPrices {
@@ -52,8 +55,8 @@ pub struct VertexPrices {
     pub look: f32,
     /// To draw a patch with lights of its own.
     pub draw: f32,
-    /// A light's diffuse term where its specular one is shaded elsewhere, 0 to 1: most of what a light costs is where it
-    /// is, which one term needs as two do. Of a light without a specular term this is left to save.
+    /// A light's diffuse term where its specular one is shaded elsewhere, 0 to 1: most of what a light costs is where
+    /// it is, which one term needs as two do. Of a light without a specular term this is left to save.
     pub diffuse_alone: f32,
     /// Its specular term where its diffuse one is shaded elsewhere, 0 to 1.
     pub specular_alone: f32,
@@ -131,8 +134,8 @@ impl Costs {
         vertices: VertexPrices::NEVER,
     };
 
-    /// Of the CPU without a driver ([`Cpu`](crate::Cpu)): its shading reads materials and lights where they are, so that
-    /// what would start a draw elsewhere is free.
+    /// Of the CPU without a driver ([`Cpu`](crate::Cpu)): its shading reads materials and lights where they are, so
+    /// that what would start a draw elsewhere is free.
     pub const CPU: Self = Self {
         shaders_encode: true,
         lights_at_fixed_places: false,
@@ -157,8 +160,8 @@ impl Costs {
         if is_software { Self::SOFTWARE } else { Self::HARDWARE }.as_able_as(adapter)
     }
 
-    /// Without what this adapter cannot do. Without the feature that is asked for here, wgpu writes a multi-draw out as single
-    /// draws.
+    /// Without what this adapter cannot do. Without the feature that is asked for here, wgpu writes a multi-draw out as
+    /// single draws.
     fn as_able_as(self, adapter: &wgpu::Adapter) -> Self {
         let has_multi_draw = adapter.features().contains(wgpu::Features::MULTI_DRAW_INDIRECT_COUNT);
         let info = adapter.get_info();

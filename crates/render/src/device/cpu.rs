@@ -5,7 +5,8 @@ use bevy_ecs::prelude::Resource;
 use halfway_raster::{RasterError, RasterOptions, Rasterizer, VectorWidth, WIDTH_VARIABLE};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// The CPU, drawing by itself: no driver, no device, and the same bits on every machine. Opened by the first frame where
+/// The CPU, drawing by itself: no driver, no device, and the same bits on every machine. Opened by the first frame
+/// where
 /// [`AdapterChoice`](crate::AdapterChoice) says so, or inserted; clones share threads and memory, and may be given to
 /// several Apps. While there is a [`Gpu`](crate::Gpu) too, that one draws.
 ///

@@ -68,11 +68,12 @@ impl Gpu {
     }
 
     /// A device that is open already: an engine's. It may lack any of wgpu's optional features and have the smallest
-    /// limits; what it cannot do is done in another way, or said in [`FrameReport::errors`](crate::FrameReport::errors).
+    /// limits; what it cannot do is done in another way, or said in
+    /// [`FrameReport::errors`](crate::FrameReport::errors).
     ///
-    /// The device's callbacks stay the engine's: what goes wrong outside of any call, and the loss of the device, goes to
-    /// whatever it has set with `on_uncaptured_error` and `set_device_lost_callback`. After a loss it inserts another
-    /// `Gpu`. [`TextureTarget`](crate::TextureTarget) has a frame drawn by an encoder of the engine's own.
+    /// The device's callbacks stay the engine's: what goes wrong outside of any call, and the loss of the device, goes
+    /// to whatever it has set with `on_uncaptured_error` and `set_device_lost_callback`. After a loss it inserts
+    /// another `Gpu`. [`TextureTarget`](crate::TextureTarget) has a frame drawn by an encoder of the engine's own.
     pub fn from_existing(
         instance: wgpu::Instance,
         adapter: wgpu::Adapter,
@@ -116,7 +117,8 @@ impl Gpu {
         self.costs.multi_draw
     }
 
-    /// Sets that number, from the next frame on. The picture is the same, but for rounding where materials are looked up.
+    /// Sets that number, from the next frame on. The picture is the same, but for rounding where materials are looked
+    /// up.
     ///
     /// Default: 128 on a hardware adapter that has multi-draw, else `None`. It stays `None` where the device cannot:
     /// without `wgpu::Features::INDIRECT_FIRST_INSTANCE` or `wgpu::DownlevelFlags::INDIRECT_EXECUTION`.

@@ -41,8 +41,8 @@ impl GpuTimer {
         self.newest
     }
 
-    /// The mean over frames, each with a weight that falls to 1/e within a second; without the first frame once there is a
-    /// second.
+    /// The mean over frames, each with a weight that falls to 1/e within a second; without the first frame once there
+    /// is a second.
     pub fn smoothed(&self) -> Option<Duration> {
         self.newest.map(|_| Duration::from_secs_f64(self.smoothed))
     }

@@ -18,8 +18,8 @@ pub(crate) fn instance(
 
 /// An instance of Vulkan without surfaces on Wayland, where there can be none; else `None`.
 ///
-/// With them Mesa's layer `VK_LAYER_MESA_device_select` asks the Wayland library for a display while adapters are listed,
-/// and without `XDG_RUNTIME_DIR` that library prints an error line.
+/// With them Mesa's layer `VK_LAYER_MESA_device_select` asks the Wayland library for a display while adapters are
+/// listed, and without `XDG_RUNTIME_DIR` that library prints an error line.
 #[cfg(target_os = "linux")]
 fn without_wayland() -> Option<wgpu::Instance> {
     use wgpu::hal::vulkan;
@@ -40,9 +40,9 @@ fn without_wayland() -> Option<wgpu::Instance> {
     let leave_out: Box<vulkan::CreateInstanceCallback> =
         Box::new(|arguments| arguments.extensions.retain(|&name| name != c"VK_KHR_wayland_surface"));
     #[expect(unsafe_code, reason = "only the driver's own instance can be made without one extension")]
-    // SAFETY: wgpu-hal asks not to remove extensions because it takes the supported ones for enabled. This one it uses in
-    // one function, `create_surface_from_wayland`, which first looks it up among those that are enabled and returns an
-    // error without it (30.0.1). Nothing else is changed, and the instance goes to wgpu whole.
+    // SAFETY: wgpu-hal asks not to remove extensions because it takes the supported ones for enabled. This one it uses
+    // in one function, `create_surface_from_wayland`, which first looks it up among those that are enabled and returns
+    // an error without it (30.0.1). Nothing else is changed, and the instance goes to wgpu whole.
     unsafe {
         let instance = vulkan::Instance::init_with_callback(&descriptor, Some(leave_out)).ok()?;
         Some(wgpu::Instance::from_hal::<wgpu::hal::api::Vulkan>(instance))

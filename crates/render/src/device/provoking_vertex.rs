@@ -1,8 +1,9 @@
 //! Which vertex of a triangle gives what is not interpolated.
 
-/// The vertex of a triangle from which its fragments get what is not interpolated, its provoking vertex. The texts ask for
-/// the first, in WGSL `@interpolate(flat, first)`. OpenGL takes the last, OpenGL ES without a choice, and wgpu refuses
-/// such a text there. So for OpenGL the text asks for `either`, and triangles are turned so that their own vertex is the last.
+/// The vertex of a triangle from which its fragments get what is not interpolated, its provoking vertex. The texts ask
+/// for the first, in WGSL `@interpolate(flat, first)`. OpenGL takes the last, OpenGL ES without a choice, and wgpu
+/// refuses such a text there. So for OpenGL the text asks for `either`, and triangles are turned so that their own
+/// vertex is the last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ProvokingVertex {
     First,

@@ -9,8 +9,8 @@ const PIXELS: u32 = 16;
 /// Bytes of a row as it is copied to a buffer.
 const ROW_BYTES: u32 = wgpu::COPY_BYTES_PER_ROW_ALIGNMENT;
 
-/// A triangle in pixel k, whose left edge stands 0.4/2ᵏ of a pixel to the right of the pixel's centre. It covers the centre
-/// only where the edge is rounded to it: by a grid of k bits or fewer, half a step of which is 0.5/2ᵏ.
+/// A triangle in pixel k, whose left edge stands 0.4/2ᵏ of a pixel to the right of the pixel's centre. It covers the
+/// centre only where the edge is rounded to it: by a grid of k bits or fewer, half a step of which is 0.5/2ᵏ.
 const TEXT: &str = "
 @vertex
 fn vs(@builtin(vertex_index) i: u32) -> @builtin(position) vec4f {

@@ -66,8 +66,8 @@ struct MapTexture {
 }
 
 impl MapTextures {
-    /// Sends the images that the frame shows and that are not there. What is too large is not drawn, and its error is in the
-    /// report, every frame anew.
+    /// Sends the images that the frame shows and that are not there. What is too large is not drawn, and its error is
+    /// in the report, every frame anew.
     pub(crate) fn send(
         &mut self,
         gpu: &Gpu,

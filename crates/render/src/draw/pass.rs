@@ -194,7 +194,8 @@ pub(crate) fn present(
 ///
 /// # Errors
 /// [`RenderError::NoFrame`] before the schedule has run with a `TextureTarget`, or the first error of
-/// [`FrameReport::errors`] where the frame could not be made. With `Ok`, what was left out of the frame is in the report.
+/// [`FrameReport::errors`] where the frame could not be made. With `Ok`, what was left out of the frame is in the
+/// report.
 pub fn encode_frame(world: &World, encoder: &mut wgpu::CommandEncoder) -> Result<(), RenderError> {
     let ready = || {
         let target = world.get_resource::<Target>()?;

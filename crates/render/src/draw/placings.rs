@@ -1,5 +1,5 @@
-//! Placings: where images lie in the textures that hold them, and where a mesh's coordinates lie on images, as maps.wgsl
-//! reads it. The test of the twins of maps.wgsl is a user of this file too, so it needs no other.
+//! Placings: where images lie in the textures that hold them, and where a mesh's coordinates lie on images, as
+//! maps.wgsl reads it. The test of the twins of maps.wgsl is a user of this file too, so it needs no other.
 
 use bytemuck::{Pod, Zeroable};
 use halfway_texture::{ImageForm, Level, MapKind, Pyramid, Ripmap, SummedAreas};
@@ -41,7 +41,8 @@ impl PlacingRecord {
     }
 }
 
-/// How many levels there are, along u and along v where that is asked for, what else `by_shape.wgsl` needs, and where they are.
+/// How many levels there are, along u and along v where that is asked for, what else `by_shape.wgsl` needs, and where
+/// they are.
 type Places = ([u32; 3], [[u32; 4]; 14]);
 
 fn of_pyramid(pyramid: &Pyramid) -> Places {
@@ -52,7 +53,8 @@ fn of_pyramid(pyramid: &Pyramid) -> Places {
     ([pyramid.levels().len() as u32, 0, 0], level)
 }
 
-/// Of each number of halvings: the columns of all wider images of a row, its width, its height, and the rows of all higher ones.
+/// Of each number of halvings: the columns of all wider images of a row, its width, its height, and the rows of all
+/// higher ones.
 fn of_ripmap(ripmap: &Ripmap) -> Places {
     let [columns, rows] = ripmap.counts();
     let mut level = [[0; 4]; 14];
@@ -96,8 +98,8 @@ pub(crate) fn stored(pyramid: &Pyramid, form: ImageForm) -> Cow<'_, [[f32; 4]]> 
     }
 }
 
-/// Numbers of at most about 1 as a whole number of 2⁻²² and the rest. Sums and differences of four of the first halves are
-/// exact in f32, in any order; the others are off by 2⁻⁴⁸.
+/// Numbers of at most about 1 as a whole number of 2⁻²² and the rest. Sums and differences of four of the first halves
+/// are exact in f32, in any order; the others are off by 2⁻⁴⁸.
 fn split(numbers: [f64; 4]) -> [[f32; 4]; 2] {
     const STEPS: f64 = (1 << 22) as f64;
     let coarse = numbers.map(|number| (number * STEPS).round() / STEPS);

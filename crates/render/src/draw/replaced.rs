@@ -19,9 +19,9 @@ pub(crate) enum DrawnBy {
     Cpu,
 }
 
-/// Forgets all that belongs to what has drawn before, once it is another [`Gpu`], or the CPU and no GPU: the frame makes it
-/// anew from what the App holds. What belongs to a device is held nowhere else, but for a window's surface, which knows its
-/// device, and for pictures that are still on their way.
+/// Forgets all that belongs to what has drawn before, once it is another [`Gpu`], or the CPU and no GPU: the frame
+/// makes it anew from what the App holds. What belongs to a device is held nowhere else, but for a window's surface,
+/// which knows its device, and for pictures that are still on their way.
 #[expect(clippy::too_many_arguments, reason = "a system takes each resource as a parameter")]
 pub(crate) fn forget(
     gpu: Option<Res<Gpu>>,

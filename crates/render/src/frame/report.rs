@@ -10,8 +10,9 @@ use bevy_reflect::std_traits::ReflectDefault;
 #[reflect(Resource, Clone, Debug, Default, PartialEq)]
 pub struct FrameReport {
     /// Everything that kept the frame from being drawn as asked, in the order found. What an error names is left out of
-    /// the picture, and nothing is left out without one. What goes wrong beside the frames is told here as well, once, though
-    /// nothing is left out for it: a pipeline that a frame can do without, or levels of detail that cannot be made.
+    /// the picture, and nothing is left out without one. What goes wrong beside the frames is told here as well, once,
+    /// though nothing is left out for it: a pipeline that a frame can do without, or levels of detail that cannot be
+    /// made.
     #[reflect(ignore)]
     pub errors: Vec<RenderError>,
     /// Objects with a mesh that are not [hidden](halfway_lighting::Visibility).
@@ -31,8 +32,8 @@ pub struct FrameReport {
     /// Diffuse and specular terms in the light lists, summed over objects and patches; 0 where all lights of the scene
     /// are compiled in.
     pub lights_assigned: u64,
-    /// Pairs of a patch, or an object in one piece, and a light whose bounds were looked at for those lists. Lights that are
-    /// out of reach of the patches around are in none.
+    /// Pairs of a patch, or an object in one piece, and a light whose bounds were looked at for those lists. Lights
+    /// that are out of reach of the patches around are in none.
     pub light_pairs: u64,
     /// Terms that are shaded at each point of an object or patch with light lists, summed over these: those in the
     /// lists, and what a list is filled up with where a shader takes only some numbers of terms.
@@ -45,9 +46,9 @@ pub struct FrameReport {
     /// [`Shading::Auto`](halfway_lighting::Shading::Auto) and without another level of detail;
     /// [`Choosing`](crate::Choosing) keeps them few.
     pub choices_changed: u32,
-    /// The most that shading terms at the vertices under [`Shading::Auto`](halfway_lighting::Shading::Auto) may have changed
-    /// any channel of any pixel, in steps of 1/255 of the picture: the largest sum of bounds. What is left out of the lists is
-    /// in it where terms are shaded at the vertices.
+    /// The most that shading terms at the vertices under [`Shading::Auto`](halfway_lighting::Shading::Auto) may have
+    /// changed any channel of any pixel, in steps of 1/255 of the picture: the largest sum of bounds. What is left out
+    /// of the lists is in it where terms are shaded at the vertices.
     pub steps_spent: f64,
     /// The most that the terms left out of the lists could have added anywhere, in linear intensity; 0 where none was.
     pub left_out: f64,
@@ -62,11 +63,12 @@ pub struct FrameReport {
     pub matrices: u32,
     /// Distinct materials (front and back together) in the picture.
     pub materials: u32,
-    /// Bytes sent to the GPU: meshes, the view, instances, materials, lights and their lists, and draws that a multi-draw
-    /// reads. The [`Cpu`](crate::Cpu) reads all but meshes where they are: there, the bytes of those that were made ready.
-    /// 0 for a frame equal to the last.
+    /// Bytes sent to the GPU: meshes, the view, instances, materials, lights and their lists, and draws that a
+    /// multi-draw reads. The [`Cpu`](crate::Cpu) reads all but meshes where they are: there, the bytes of those that
+    /// were made ready. 0 for a frame equal to the last.
     pub bytes_uploaded: u64,
-    /// Pipelines built since the device was opened; each is one variant of the shader. The [`Cpu`](crate::Cpu) has none.
+    /// Pipelines built since the device was opened; each is one variant of the shader. The [`Cpu`](crate::Cpu) has
+    /// none.
     pub pipelines: u32,
     /// Pipelines that are there now: those built, less the specialised ones that were given up.
     pub pipelines_live: u32,

@@ -5,18 +5,18 @@ use bevy_ecs::prelude::SystemSet;
 /// The steps of a frame, in order. Each says what holds after it.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum RenderSet {
-    /// What draws is open, the camera is validated, [`View`](crate::View) holds its matrices and projection, and there is
-    /// something to draw into.
+    /// What draws is open, the camera is validated, [`View`](crate::View) holds its matrices and projection, and there
+    /// is something to draw into.
     View,
     /// [`Visible`](crate::Visible) holds the objects that the frustum sees.
     Select,
     /// [`ModelView`](crate::ModelView) and [`NormalMatrix`](crate::NormalMatrix) of every visible object are current.
     Matrices,
-    /// [`Chosen`](crate::Chosen) says where each visible object's terms are shaded, and its mesh is in patches laid out for
-    /// that.
+    /// [`Chosen`](crate::Chosen) says where each visible object's terms are shaded, and its mesh is in patches laid out
+    /// for that.
     Choose,
-    /// [`Lights`](crate::Lights) holds the lights in eye space; each visible object has a level of detail, and each of its
-    /// patches that is seen has its light lists.
+    /// [`Lights`](crate::Lights) holds the lights in eye space; each visible object has a level of detail, and each of
+    /// its patches that is seen has its light lists.
     Illuminate,
     /// Those patches are draws: sorted, equal ones instanced, and those that share their state together.
     Batch,

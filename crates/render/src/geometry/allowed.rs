@@ -1,31 +1,33 @@
 //! How coarse an object may be drawn: by a group's triangles where
 //!
 //! - no point of its surface moves by more than the tolerance's pixels on the picture, and
-//! - turned normals change what is shown by no more than half of the tolerance's steps, all lights and terms together; or no
-//!   edge is longer than those pixels and half a pixel of sampling, and no point of a triangle shows more or less than its
-//!   corners do by more than that.
+//! - turned normals change what is shown by no more than half of the tolerance's steps, all lights and terms together;
+//!   or no edge is longer than those pixels and half a pixel of sampling, and no point of a triangle shows more or less
+//!   than its corners do by more than that.
 //!
-//! Corners are points of the mesh with its normals. What is interpolated between shades at corners never is more or less than
-//! they: so Gouraud shading keeps to this however its normals turn, and `Auto` shades such patches at the vertices.
+//! Corners are points of the mesh with its normals. What is interpolated between shades at corners never is more or
+//! less than they: so Gouraud shading keeps to this however its normals turn, and `Auto` shades such patches at the
+//! vertices.
 //!
-//! How far points move and normals turn is bounded, patch by patch ([`halfway_mesh::PatchGroup`]). A normal that turns by δ
-//! changes a term with exponent n (1 for diffuse) by no more than
+//! How far points move and normals turn is bounded, patch by patch ([`halfway_mesh::PatchGroup`]). A normal that turns
+//! by δ changes a term with exponent n (1 for diffuse) by no more than
 //!
 //! - √n·((n − 1)/n)^((n − 1)/2)·δ, its steepest slope, of its largest value, twice that for Phong's reflection vector,
 //! - and a highlight by what is cut off where n·l falls below 0: sinⁿ(β + δ) of its largest value, β half the angle
 //!   between light and eye; −cosⁿ 2β for Phong's.
 //!
-//! Between corners a term may be off by ½·n·ω² + 6·w² of its largest value, an estimate of the second order: ω = R + ½(w + u) is how far n and h turn against each other within a triangle, R the spread of its
-//! normals, w = e/(√3·d) and u its size as seen from the nearest light and from a local viewer (e the longest edge, within a
-//! circle of e/√3, Jung 1901); 6·w² is for attenuation, up to the inverse square.
+//! Between corners a term may be off by ½·n·ω² + 6·w² of its largest value, an estimate of the second order: ω = R +
+//! ½(w + u) is how far n and h turn against each other within a triangle, R the spread of its normals, w = e/(√3·d) and
+//! u its size as seen from the nearest light and from a local viewer (e the longest edge, within a circle of e/√3,
+//! Jung 1901); 6·w² is for attenuation, up to the inverse square.
 //!
-//! Flat shading shows the triangles themselves, and keeps them all. Of more than eight lights only the length of edges counts,
-//! or that no normal turns; likewise for vertices lit by spots, whose rims are sharp.
+//! Flat shading shows the triangles themselves, and keeps them all. Of more than eight lights only the length of edges
+//! counts, or that no normal turns; likewise for vertices lit by spots, whose rims are sharp.
 //!
-//! With a window, coarser patches are made in the background once a mesh has been seen in two frames; until then it is drawn
-//! as it is. Without one, the second frame waits for them: so a picture of one frame never has any, and a recording repeats to
-//! the byte. Blended objects, whose triangles are drawn in the order of their mesh, and objects that are scaled differently
-//! along different axes keep all triangles.
+//! With a window, coarser patches are made in the background once a mesh has been seen in two frames; until then it is
+//! drawn as it is. Without one, the second frame waits for them: so a picture of one frame never has any, and a
+//! recording repeats to the byte. Blended objects, whose triangles are drawn in the order of their mesh, and objects
+//! that are scaled differently along different axes keep all triangles.
 
 use crate::lights::gather::Lights;
 use crate::lights::lists::Reflector;
@@ -145,8 +147,8 @@ impl Allowed {
         self.pixels <= 0.0
     }
 
-    /// The most pixels that a unit of the mesh may take where a group's parts will do. It is no more for a group than for
-    /// one whose parts it joins, as its errors are no less.
+    /// The most pixels that a unit of the mesh may take where a group's parts will do. It is no more for a group than
+    /// for one whose parts it joins, as its errors are no less.
     pub(crate) fn pixels_per_unit(&self, group: &GroupErrors) -> f32 {
         if self.listed && group.spoils_lists {
             return NEVER;
@@ -240,8 +242,8 @@ impl Demand<'_> {
         tolerated(self.encoding, geometry_steps(self.tolerance) * STEP, at_least.into()) as f32
     }
 
-    /// Where n·l is 0, h is no nearer to n than v and l are to each other: n·h ≤ sin β, 2β their angle. The reflected vector
-    /// is −l there.
+    /// Where n·l is 0, h is no nearer to n than v and l are to each other: n·h ≤ sin β, 2β their angle. The reflected
+    /// vector is −l there.
     fn cut(&self, light: &Light<f32>, exponent: f32) -> f32 {
         let (center, radius) = self.sphere;
         let center = center.as_dvec3();
@@ -264,8 +266,8 @@ impl Demand<'_> {
 }
 
 impl TurnedTerms {
-    /// What turned normals change where a group's parts are drawn, as a part of what is allowed; of a term that is shaded at
-    /// the vertices, with what interpolation adds.
+    /// What turned normals change where a group's parts are drawn, as a part of what is allowed; of a term that is
+    /// shaded at the vertices, with what interpolation adds.
     fn turned(&self, group: &GroupErrors) -> f32 {
         if self.largest == 0.0 {
             return 0.0;

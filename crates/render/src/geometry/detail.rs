@@ -46,8 +46,8 @@ const FINEST: u32 = u32::MAX;
 /// So many patches are looked at together where nothing stands for them.
 const LOOKED_AT: usize = 8;
 
-/// Where patches have light lists of their own, coarser ones have no larger radius than the whole mesh's divided by this,
-/// or than the finest have in the mean and a quarter more.
+/// Where patches have light lists of their own, coarser ones have no larger radius than the whole mesh's divided by
+/// this, or than the finest have in the mean and a quarter more.
 const PATCHES_ACROSS: f32 = 10.0;
 
 /// Which groups will do, for one object after the other.
@@ -167,10 +167,10 @@ impl Detail {
         self.part_of.iter().any(|&part_of| part_of != FINEST)
     }
 
-    /// Visits the patches that are drawn of an object and may show, in the order of their triangles, each with the number of
-    /// its stretch: between two patches of one stretch there are only triangles that do not show. `is_near` tells whether
-    /// another object is too near to a patch whose points move by a length of the mesh's units. Returns how many patches
-    /// were looked at or left out with others.
+    /// Visits the patches that are drawn of an object and may show, in the order of their triangles, each with the
+    /// number of its stretch: between two patches of one stretch there are only triangles that do not show. `is_near`
+    /// tells whether another object is too near to a patch whose points move by a length of the mesh's units. Returns
+    /// how many patches were looked at or left out with others.
     pub(crate) fn each_seen<'a>(
         &'a self,
         allowed: &Allowed,

@@ -211,8 +211,8 @@ pub(crate) fn lay_out(
 }
 
 /// Forgets meshes whose assets are gone. It looks for them only when the number of assets or that of laid out meshes is
-/// another than it was: without that nothing grows. (Messages would not do: they live for two updates of the App, and the
-/// frames of an App may be fewer.) A mesh that changed is found when it is drawn next.
+/// another than it was: without that nothing grows. (Messages would not do: they live for two updates of the App, and
+/// the frames of an App may be fewer.) A mesh that changed is found when it is drawn next.
 pub(crate) fn forget_removed(
     meshes: Res<Assets<Mesh>>,
     mut geometries: ResMut<Geometries>,

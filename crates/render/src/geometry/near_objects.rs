@@ -1,9 +1,10 @@
 //! Which objects come so near to a part of another that coarser triangles could change which of them hides which.
 //!
-//! A tolerance lets points move by its pixels, in whatever direction, so also in depth. Where two surfaces are nearer to each
-//! other than both may move, the farther one could show in place of the nearer one, which no motion by that many pixels
-//! explains. So a group of patches keeps its triangles where the box around another object comes that near to the sphere
-//! around it. What is finer has a smaller sphere in that one and moves less, so that it may be drawn where the group may.
+//! A tolerance lets points move by its pixels, in whatever direction, so also in depth. Where two surfaces are nearer
+//! to each other than both may move, the farther one could show in place of the nearer one, which no motion by that
+//! many pixels explains. So a group of patches keeps its triangles where the box around another object comes that near
+//! to the sphere around it. What is finer has a smaller sphere in that one and moves less, so that it may be drawn
+//! where the group may.
 //!
 //! Objects are found by where they are, in grids that are made in the first place of a frame that asks for them.
 
@@ -63,8 +64,8 @@ const SLACK: f32 = 1e-5;
 /// With more near objects than this, those near to each patch are looked up.
 const FEW: usize = 16;
 
-/// The visible objects of a frame, by where they are: in grids whose cells are powers of two, each object in that with the
-/// smallest cells that are no smaller than it.
+/// The visible objects of a frame, by where they are: in grids whose cells are powers of two, each object in that with
+/// the smallest cells that are no smaller than it.
 #[derive(Debug, Default)]
 pub(crate) struct NearObjects {
     is_made: bool,
@@ -147,8 +148,8 @@ impl NearObjects {
         self.asked = None;
     }
 
-    /// Whether another object comes so near to a patch whose points move by `error`, in the mesh's units, that the order of
-    /// both could turn. `boxes` are those of all visible objects, which are asked for once in a frame.
+    /// Whether another object comes so near to a patch whose points move by `error`, in the mesh's units, that the
+    /// order of both could turn. `boxes` are those of all visible objects, which are asked for once in a frame.
     pub(crate) fn is_near<I: Iterator<Item = ObjectBox>>(
         &mut self,
         object: &CoarserObject,
@@ -262,7 +263,8 @@ fn with_slack(reach: f32, center: Vec3A) -> f32 {
     reach + SLACK * (center.length() + reach)
 }
 
-/// How far points move at most, in eye space, that move by this many pixels to where they are in a sphere, or come from there.
+/// How far points move at most, in eye space, that move by this many pixels to where they are in a sphere, or come from
+/// there.
 fn moved(view: &View, pixels: f32, center: Vec3, radius: f32) -> f32 {
     // At a depth z, by no more than a part of z.
     let part = pixels / view.pixels_at_unit_depth;
@@ -367,7 +369,8 @@ mod tests {
         assert_eq!(of.distance((at + Vec3::new(1.1, 0.5, 2.0)).into()), 0.0);
     }
 
-    /// What does not move is drawn coarser however near another is; what moves, where the other is farther than both move.
+    /// What does not move is drawn coarser however near another is; what moves, where the other is farther than both
+    /// move.
     #[test]
     fn a_patch_is_near_within_what_both_move() {
         let mesh = Mesh::from(UvSphere::new(1.0, 8, 4));

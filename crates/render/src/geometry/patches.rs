@@ -1,5 +1,5 @@
-//! Patches: large meshes in pieces that lie close together and face alike, so that each can have light lists of its own and
-//! be left out when it is not seen.
+//! Patches: large meshes in pieces that lie close together and face alike, so that each can have light lists of its own
+//! and be left out when it is not seen.
 
 use crate::lights::gains::Extent;
 use crate::view::camera::View;
@@ -10,8 +10,8 @@ use halfway_lighting::bounds::{self, Grain, NormalCone};
 use halfway_mesh::{Bounds, Mesh, face_normal};
 use std::ops::Range;
 
-/// Normals spread wider than this from their mean, in radians, bound nothing. Below π/2 those that are interpolated stay
-/// inside the cone of the vertices'.
+/// Normals spread wider than this from their mean, in radians, bound nothing. Below π/2 those that are interpolated
+/// stay inside the cone of the vertices'.
 const WIDEST: f32 = 1.5;
 /// What rounding in f32 may add to a cone's half angle, in radians.
 const ANGLE_SLACK: f32 = 2e-3;
@@ -40,10 +40,10 @@ pub(crate) struct MeshPatch {
 /// Which way triangles face: from where none of them shows its front, or none its back.
 ///
 /// A triangle shows its front to the eye at e where n·(e − p) > 0, n its normal and p any of its points. With c the
-/// centre of the patch and v = e − c, that is n·v + n·(c − p). The largest n·v of all triangles is a convex function of v,
-/// twice as large for twice the v; so where v = Σ wᵢ dᵢ with no wᵢ below 0, it is at most Σ wᵢ times its value for dᵢ. It
-/// is known for 18 directions d, the corners and the middles of edges of an octahedron, of which the three around v
-/// serve. A cone around the normals is wider: it is as round as their farthest one is far.
+/// centre of the patch and v = e − c, that is n·v + n·(c − p). The largest n·v of all triangles is a convex function of
+/// v, twice as large for twice the v; so where v = Σ wᵢ dᵢ with no wᵢ below 0, it is at most Σ wᵢ times its value for
+/// dᵢ. It is known for 18 directions d, the corners and the middles of edges of an octahedron, of which the three
+/// around v serve. A cone around the normals is wider: it is as round as their farthest one is far.
 #[derive(Clone, Debug, PartialEq)]
 struct Facing {
     /// The largest n·d of all triangles for each of [`Facing::DIRECTIONS`].
@@ -179,8 +179,8 @@ impl<'a> Sight<'a> {
 
     /// An upper bound of how many pixels a way of a unit of the mesh takes, anywhere in the sphere around a patch where
     /// the picture shows it; no less for a patch whose sphere holds another's. A way of length e at (x, y, −z) in eye
-    /// space moves its end by at most f·e/z·√(1 + (x² + y²)/z²), f pixels being the way of a point at depth 1 that moves
-    /// by 1.
+    /// space moves its end by at most f·e/z·√(1 + (x² + y²)/z²), f pixels being the way of a point at depth 1 that
+    /// moves by 1.
     pub(crate) fn pixels_per_unit(&self, patch: &MeshPatch) -> f32 {
         let View { projection, pixels_at_unit_depth, .. } = self.view;
         let (center, radius) = patch.sphere(self.model_view);
@@ -247,8 +247,8 @@ impl MeshPatch {
         }
     }
 
-    /// What is known of all of these together, one or more, which follow each other; and its sphere is no smaller than to
-    /// hold those of `others`.
+    /// What is known of all of these together, one or more, which follow each other; and its sphere is no smaller than
+    /// to hold those of `others`.
     pub(crate) fn around<'a>(patches: &'a [Self], others: impl Iterator<Item = &'a Self> + Clone) -> Self {
         let spheres = || patches.iter().chain(others.clone());
         let corners = spheres().flat_map(|patch| [patch.center - patch.radius, patch.center + patch.radius]);

@@ -14,8 +14,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// Meshes with fewer triangles have no levels.
 const FEWEST: usize = 64;
 
-/// So many meshes are on their way at most; the others wait until some are made. A mesh that is gone by then is never made:
-/// what comes and goes faster than levels are made must not pile up.
+/// So many meshes are on their way at most; the others wait until some are made. A mesh that is gone by then is never
+/// made: what comes and goes faster than levels are made must not pile up.
 const MOST_ON_THEIR_WAY: usize = 64;
 
 /// The meshes whose levels are asked for, and one thread that makes them, one after the other.
@@ -80,8 +80,8 @@ impl Workshop {
         Self { orders: HashMap::default(), frame: 0, thread: None, on_their_way: 0, make, failures: Vec::new() }
     }
 
-    /// The levels of `mesh` if they are made. Asks for them if another frame has wanted them before, and then waits for them
-    /// if it `waits`.
+    /// The levels of `mesh` if they are made. Asks for them if another frame has wanted them before, and then waits for
+    /// them if it `waits`.
     pub(crate) fn levels(&mut self, id: AssetId<Mesh>, mesh: &Mesh, waits: bool) -> Option<&MeshTriangles> {
         if mesh.triangle_count() < FEWEST {
             return None;

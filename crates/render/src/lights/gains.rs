@@ -72,8 +72,8 @@ impl VertexPrices {
         }
     }
 
-    /// What is saved of a patch beside what each moved term saves, less what it took to find that: of `looked_at` lights, with
-    /// nothing left at the fragments or something.
+    /// What is saved of a patch beside what each moved term saves, less what it took to find that: of `looked_at`
+    /// lights, with nothing left at the fragments or something.
     pub(super) fn of_all(&self, extent: Extent, looked_at: usize, is_emptied: bool, compiled_in: Option<usize>) -> f32 {
         let emptied = if is_emptied { self.pixel } else { 0.0 };
         match compiled_in {

@@ -256,9 +256,9 @@ struct Near {
 }
 
 impl WorldPlace {
-    /// At a position in eye space, the lengths measured in a unit of `least` world units, or in a longer one where it would
-    /// be farther than `farthest` of them. The direction is kept, so that near the eye, where what it lights is seen, it
-    /// lights the same.
+    /// At a position in eye space, the lengths measured in a unit of `least` world units, or in a longer one where it
+    /// would be farther than `farthest` of them. The direction is kept, so that near the eye, where what it lights is
+    /// seen, it lights the same.
     fn brought_near(&self, position: DVec3, farthest: f64, least: f64) -> Near {
         let unit = (position.length() / farthest).max(least);
         let [constant, linear, quadratic] = self.attenuation.map(f64::from);

@@ -50,8 +50,8 @@ pub(crate) struct BoundLights {
     pub(crate) terms: Terms,
 }
 
-/// Which lights are bound together, those with highlights first: by number, and at the vertices with which terms where the
-/// others are shaded at the fragments.
+/// Which lights are bound together, those with highlights first: by number, and at the vertices with which terms where
+/// the others are shaded at the fragments.
 #[derive(Debug, Default, PartialEq)]
 struct BoundSet {
     /// Those of the fragment shader, or of all.
@@ -59,7 +59,8 @@ struct BoundSet {
     at_vertices: Vec<(u32, [bool; 2])>,
 }
 
-/// Sets begin at numbers that are multiples of this, and so at offsets that are multiples of 256: any adapter can bind them.
+/// Sets begin at numbers that are multiples of this, and so at offsets that are multiples of 256: any adapter can bind
+/// them.
 const SET_ALIGNMENT: usize = 256 / size_of::<LightRecord>();
 const _: () = assert!(SET_ALIGNMENT * size_of::<LightRecord>() == 256, "a LightRecord's bytes divide 256");
 
@@ -120,8 +121,8 @@ impl LightLists {
     }
 
     /// Selects the lights that `patch`, one of those last looked around, needs: those left out change no channel of a
-    /// pixel by more than the listing's tolerance together. And says where their terms are shaded. Returns what that saves, in
-    /// lights at a pixel; below 0 where nothing is at the vertices for that.
+    /// pixel by more than the listing's tolerance together. And says where their terms are shaded. Returns what that
+    /// saves, in lights at a pixel; below 0 where nothing is at the vertices for that.
     pub(crate) fn select(&mut self, lights: &Lights, placed: &PlacedPatch, listing: &Listing, terms: Terms) -> f32 {
         let material = placed.shares.map_or(listing.material, |shares| shares.of(listing.material));
         let receiver = Receiver::new(placed.patch, &material, &listing.view, listing.reflectance);
@@ -169,10 +170,10 @@ impl LightLists {
         self.near.take_pairs()
     }
 
-    /// Binds what was selected at fixed places, for a draw with these terms; `None` where it is too much. Of each kind the
-    /// lights with highlights come first, and the others' are left out as far as [`Highlights`] can say; or none, unless
-    /// highlights `take_powers`: a few squarings cost less than more pipelines. A light that is needed for its highlight
-    /// alone is shaded with both terms.
+    /// Binds what was selected at fixed places, for a draw with these terms; `None` where it is too much. Of each kind
+    /// the lights with highlights come first, and the others' are left out as far as [`Highlights`] can say; or none,
+    /// unless highlights `take_powers`: a few squarings cost less than more pipelines. A light that is needed for its
+    /// highlight alone is shaded with both terms.
     pub(crate) fn bind(&mut self, lights: &Lights, terms: Terms, take_powers: bool) -> Option<BoundLights> {
         let both_stages = !self.placed.vertex.is_empty() && !self.placed.fragment.is_empty();
         let (lists, terms) = if both_stages && terms.has(Frequency::Auto) {
@@ -218,8 +219,9 @@ impl LightLists {
         Some(bound)
     }
 
-    /// Collects lights of which some terms are shaded at the vertices and others at the fragments. All that the fragment
-    /// shader takes have their diffuse terms there, or none has; what is shaded there is not shaded at the vertices.
+    /// Collects lights of which some terms are shaded at the vertices and others at the fragments. All that the
+    /// fragment shader takes have their diffuse terms there, or none has; what is shaded there is not shaded at the
+    /// vertices.
     fn split(&mut self, lights: &Lights, terms: Terms, take_powers: bool) -> Option<(Lists, Terms)> {
         let PlacedTerms { vertex, fragment, .. } = &self.placed;
         let fragment_counted = self.set.collect(&fragment.diffuse, &fragment.specular, lights.counts, take_powers)?;
@@ -305,8 +307,8 @@ impl LightLists {
 }
 
 impl BoundSet {
-    /// Collects the lights of one stage, those with highlights first; how many of each kind they are filled up to. `None`
-    /// where they are too many.
+    /// Collects the lights of one stage, those with highlights first; how many of each kind they are filled up to.
+    /// `None` where they are too many.
     fn collect(&mut self, diffuse: &[u32], specular: &[u32], all: [u32; 3], take_powers: bool) -> Option<Counted> {
         self.lights.clear();
         self.lights.extend(specular.iter().chain(without(diffuse, specular)));

@@ -1,5 +1,5 @@
-//! What was chosen for each patch in the frame before: so that terms do not flicker under a slow light, and to count how many
-//! change their place.
+//! What was chosen for each patch in the frame before: so that terms do not flicker under a slow light, and to count
+//! how many change their place.
 
 use crate::target::canvas::CanvasTarget;
 use crate::target::surface::SurfaceTarget;
@@ -9,9 +9,9 @@ use bevy_platform::collections::HashMap;
 use bevy_reflect::Reflect;
 use std::ops::Range;
 
-/// Whether under [`Shading::Auto`](halfway_lighting::Shading::Auto) it counts where the terms of a patch were shaded in the
-/// frame before. While this resource is not there, the target decides: [`Choosing::Steadily`] for a window and an engine's
-/// texture, [`Choosing::Anew`] for headless pictures.
+/// Whether under [`Shading::Auto`](halfway_lighting::Shading::Auto) it counts where the terms of a patch were shaded in
+/// the frame before. While this resource is not there, the target decides: [`Choosing::Steadily`] for a window and an
+/// engine's texture, [`Choosing::Anew`] for headless pictures.
 ///
 /// Either keeps to the tolerance in every frame by the same bounds.
 /// [`FrameReport::choices_changed`](crate::FrameReport::choices_changed) counts what changes.
@@ -21,8 +21,8 @@ pub enum Choosing {
     /// Each frame chooses by itself: the same scene is the same picture to the byte, whatever was drawn before.
     Anew,
     /// A term stays where it was unless the other place is clearly better: it goes to the vertices where that saves a
-    /// tenth of its pixels more than it costs and leaves a tenth of the tolerance, and comes back where it costs a tenth
-    /// more than it saves, or where the bound of this frame does not allow it any more.
+    /// tenth of its pixels more than it costs and leaves a tenth of the tolerance, and comes back where it costs a
+    /// tenth more than it saves, or where the bound of this frame does not allow it any more.
     Steadily,
 }
 

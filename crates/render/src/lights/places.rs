@@ -1,5 +1,5 @@
-//! Where the terms of each light are shaded, patch by patch: at the vertices where that is within the tolerance, and at the
-//! fragments elsewhere.
+//! Where the terms of each light are shaded, patch by patch: at the vertices where that is within the tolerance, and at
+//! the fragments elsewhere.
 
 use crate::device::costs::VertexPrices;
 use crate::lights::gains::{Extent, Movable};
@@ -39,14 +39,14 @@ pub(crate) struct PlacedTerms {
     rooms: Rooms,
 }
 
-/// How far a channel that has at least this intensity may be off, in linear intensity. Pictures in floating point are held to
-/// those of bytes that are not encoded, and are not clamped at white.
+/// How far a channel that has at least this intensity may be off, in linear intensity. Pictures in floating point are
+/// held to those of bytes that are not encoded, and are not clamped at white.
 pub(crate) fn tolerated(encoding: Option<Encoding>, tolerance: f64, at_least: f64) -> f64 {
     encoding.map_or(tolerance, |encoding| linear_tolerance(encoding, tolerance, at_least))
 }
 
-/// [`tolerated`] for intensities from 0 to 1, as a table: the entry i is that of (i/256)², and no more than those of all
-/// above.
+/// [`tolerated`] for intensities from 0 to 1, as a table: the entry i is that of (i/256)², and no more than those of
+/// all above.
 #[derive(Debug, Default)]
 struct Rooms {
     of: Option<(Option<Encoding>, f64)>,
@@ -240,8 +240,8 @@ impl PlacedTerms {
     }
 
     /// Places what was selected of these lights for a patch: at the vertices as much as the tolerance allows, the terms
-    /// first that change least by it, and before them those that were there `before`. Returns what that saves, in lights at
-    /// a pixel, less what it has to; below 0 where all are at the fragments for that.
+    /// first that change least by it, and before them those that were there `before`. Returns what that saves, in
+    /// lights at a pixel, less what it has to; below 0 where all are at the fragments for that.
     pub(crate) fn place(
         &mut self,
         places: &Places,
@@ -310,8 +310,8 @@ impl PlacedTerms {
         places.prices.of_all(extent, self.numbers.len(), is_emptied, places.compiled_in)
     }
 
-    /// Collects what may move, and returns by how much a channel may come out brighter, and darker; `None` where nothing
-    /// is known of the patch.
+    /// Collects what may move, and returns by how much a channel may come out brighter, and darker; `None` where
+    /// nothing is known of the patch.
     fn movable(
         &mut self,
         places: &Places,

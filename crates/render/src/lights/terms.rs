@@ -20,8 +20,8 @@ impl Default for Chosen {
     }
 }
 
-/// Whether the diffuse and the specular term are evaluated by the vertex shader: at each vertex, or at the one vertex that
-/// stands for a triangle. Those of `Auto` are, for some lights.
+/// Whether the diffuse and the specular term are evaluated by the vertex shader: at each vertex, or at the one vertex
+/// that stands for a triangle. Those of `Auto` are, for some lights.
 pub(crate) fn by_vertex_shader(terms: Terms) -> [bool; 2] {
     [terms.diffuse, terms.specular]
         .map(|term| matches!(term, Frequency::Triangle | Frequency::Vertex | Frequency::Auto))

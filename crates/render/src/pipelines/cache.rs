@@ -15,12 +15,12 @@ use bevy_platform::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
 /// The most specialised pipelines that are kept. What a frame asks for beyond them is drawn by generic ones, which are
-/// slower, and few: they differ only in where their terms are shaded, the reflectance, the viewer, faces, blending and the
-/// target. A draw that looks up records for its instances has a pipeline beside that of its key.
+/// slower, and few: they differ only in where their terms are shaded, the reflectance, the viewer, faces, blending and
+/// the target. A draw that looks up records for its instances has a pipeline beside that of its key.
 const MOST_SPECIAL: usize = 128;
 
-/// A specialised pipeline that was not used for more than this number of frames makes room for another. It is the frames
-/// of a second: a scene that changes between more pipelines than are kept must not build them again and again.
+/// A specialised pipeline that was not used for more than this number of frames makes room for another. It is the
+/// frames of a second: a scene that changes between more pipelines than are kept must not build them again and again.
 const KEPT_FRAMES: u64 = 60;
 
 /// The pipelines, with what they share.
@@ -150,8 +150,9 @@ impl Pipelines {
             variant.used = self.frame;
             return true;
         }
-        // What a frame uses is known when it is over. Only what was refused in the frame before takes the place of another,
-        // so that nothing takes the place of what this frame is about to ask for, which would then take another's.
+        // What a frame uses is known when it is over. Only what was refused in the frame before takes the place of
+        // another, so that nothing takes the place of what this frame is about to ask for, which would then take
+        // another's.
         let asked_before = self.refused_before.contains(&key);
         if self.special < MOST_SPECIAL || asked_before && self.give_up_one() {
             self.special += 1;

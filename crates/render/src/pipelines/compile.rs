@@ -14,19 +14,19 @@ use std::thread::JoinHandle;
 /// When pipelines are built. While this resource is not there, the target decides: [`Compile::Beside`] for a window's
 /// surface, [`Compile::Now`] for headless pictures.
 ///
-/// A software adapter makes machine code when a pipeline first draws, whichever thread has built it; what goes beside the
-/// frames there is the work before.
+/// A software adapter makes machine code when a pipeline first draws, whichever thread has built it; what goes beside
+/// the frames there is the work before.
 #[derive(Resource, Reflect, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[reflect(Resource, Clone, Debug, PartialEq, Hash)]
 pub enum Compile {
     /// In the frame that first needs them, which waits. Every frame is drawn by the pipelines made for it, so that two
     /// runs are equal to the byte.
     Now,
-    /// Beside the frames, but for those of the first frame that draws anything. Until a specialised pipeline is there, the
-    /// generic one draws in its place: the same picture but for rounding, more slowly. Generic ones are built ahead for
-    /// what is seen, under every shading and reflectance; a frame waits for one only where it needs one that was not
-    /// foreseen or is not ready ([`FrameReport::pipelines_awaited`](crate::FrameReport::pipelines_awaited)). Where there is
-    /// no thread that builds them, this is as [`Compile::Now`].
+    /// Beside the frames, but for those of the first frame that draws anything. Until a specialised pipeline is there,
+    /// the generic one draws in its place: the same picture but for rounding, more slowly. Generic ones are built ahead
+    /// for what is seen, under every shading and reflectance; a frame waits for one only where it needs one that was
+    /// not foreseen or is not ready ([`FrameReport::pipelines_awaited`](crate::FrameReport::pipelines_awaited)). Where
+    /// there is no thread that builds them, this is as [`Compile::Now`].
     Beside,
 }
 

@@ -265,7 +265,8 @@ fn in_ellipse(image: texture_2d<f32>, slot: u32, wrap: vec2u, uv: vec2f, number:
     let reach = sqrt(ellipse.zx / ellipse.w);
     let middle_x = within(uv.x, f32(size.x), reach.x, wrap.x);
     let middle_y = within(uv.y, f32(size.y), reach.y, wrap.y);
-    // Row by row in one loop that counts what is left: draws with a loop whose bounds take a uniform crash llvmpipe of Mesa
+    // Row by row in one loop that counts what is left: draws with a loop whose bounds take a uniform crash llvmpipe of
+    // Mesa
     // 22.3 through Vulkan.
     var row = i32(ceil(middle_y - reach.y - 0.5)) - 1;
     var rows = i32(floor(middle_y + reach.y - 0.5)) - row;

@@ -19,7 +19,8 @@ pub(crate) enum Lists {
     Listed,
 }
 
-/// Lights at fixed places: the numbers of directional, point and spot lights, in this order, and how many of them have highlights.
+/// Lights at fixed places: the numbers of directional, point and spot lights, in this order, and how many of them have
+/// highlights.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Counted {
     pub(crate) counts: [u8; 3],
@@ -91,12 +92,13 @@ impl Highlights {
     }
 }
 
-/// The numbers of directional, point and spot lights that have pipelines of their own where patches are lit by few of many lights.
-/// A patch with other numbers is filled up with black ones, up to what the scene has of the kind; one with more reads lists.
+/// The numbers of directional, point and spot lights that have pipelines of their own where patches are lit by few of
+/// many lights. A patch with other numbers is filled up with black ones, up to what the scene has of the kind; one with
+/// more reads lists.
 const STEPS: [&[u32]; 3] = [&[0, 1, 2, 4, 8, 12, 16], &[0, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32], &[0, 1, 2, 4, 8, 16]];
 
-/// The numbers of lights of each kind to fill `counts` up to, of a scene with `all` of them, which no patch exceeds; `None`
-/// where they are too many.
+/// The numbers of lights of each kind to fill `counts` up to, of a scene with `all` of them, which no patch exceeds;
+/// `None` where they are too many.
 pub(crate) fn filled_up(counts: [u32; 3], all: [u32; 3]) -> Option<[u32; 3]> {
     let mut filled = [0; 3];
     for (((filled, steps), count), all) in filled.iter_mut().zip(STEPS).zip(counts).zip(all) {
@@ -105,8 +107,8 @@ pub(crate) fn filled_up(counts: [u32; 3], all: [u32; 3]) -> Option<[u32; 3]> {
     Some(filled)
 }
 
-/// The same for lights that are shaded at the vertices beside others: fewer steps, as there are fewer vertices than pixels where
-/// that is worth it, and each makes pipelines of its own.
+/// The same for lights that are shaded at the vertices beside others: fewer steps, as there are fewer vertices than
+/// pixels where that is worth it, and each makes pipelines of its own.
 pub(crate) fn filled_up_roughly(counts: [u32; 3], all: [u32; 3]) -> Option<[u32; 3]> {
     let mut filled = [0; 3];
     for ((filled, count), all) in filled.iter_mut().zip(counts).zip(all) {

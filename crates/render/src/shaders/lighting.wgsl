@@ -1,5 +1,5 @@
-// The lighting text: the equations in eye space, linear RGB. It needs no other file and has no bindings; the vertex and the
-// fragment stages share it. Each function and each constant here has a twin of the same name in
+// The lighting text: the equations in eye space, linear RGB. It needs no other file and has no bindings; the vertex and
+// the fragment stages share it. Each function and each constant here has a twin of the same name in
 // halfway_lighting::equations, written apart; a test calls each function on the adapter and compares it with its twin.
 
 // What the pipeline knows of its draws. The equations with a switch off are those of draws that need no more.
@@ -230,8 +230,8 @@ fn reflected(arriving: Irradiance, material: Material) -> vec3f {
     return sum;
 }
 
-// The sRGB curve (IEC 61966-2-1) of intensities in 0..1. Its upper part, 1.055·I^(1/2.4) − 0.055, is a polynomial of the
-// fifth degree in ⁴√I here, fitted for the least greatest error: 6.8e-6, a 600th of an 8-bit step.
+// The sRGB curve (IEC 61966-2-1) of intensities in 0..1. Its upper part, 1.055·I^(1/2.4) − 0.055, is a polynomial of
+// the fifth degree in ⁴√I here, fitted for the least greatest error: 6.8e-6, a 600th of an 8-bit step.
 fn srgb_encoded(linear: vec3f) -> vec3f {
     let q = sqrt(sqrt(linear));
     let lower = -0.06134022 + q * (0.16202632 + q * 1.2554042);

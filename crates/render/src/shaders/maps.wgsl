@@ -17,8 +17,9 @@ override MASKED: bool = false;         // what has an opacity below the cutoff i
 override TANGENT_SIGN: f32 = 1;        // -1 where the surface is lit inside out
 override BITANGENT_SIGN: f32 = 1;      // -1 where fronts wind clockwise
 
-// Where the mesh's coordinates lie on an image, and where its levels are. All of them lie in one texture without levels,
-// one after the other, in rows as wide as the texture: software adapters load from one level for four pixels at once.
+// Where the mesh's coordinates lie on an image, and where its levels are. All of them lie in one texture without
+// levels, one after the other, in rows as wide as the texture: software adapters load from one level for four pixels at
+// once.
 struct Placing {
     row0: vec4f,                    // w: how much the image counts
     row1: vec4f,

@@ -64,7 +64,8 @@ fn written(color: vec3f) -> vec3f {
     return color;
 }
 
-// No shade is below 0. Across a triangle seen edge-on an adapter may extrapolate, and so leave the range of the vertices.
+// No shade is below 0. Across a triangle seen edge-on an adapter may extrapolate, and so leave the range of the
+// vertices.
 fn interpolated(color: vec3f) -> vec3f {
     return max(color, vec3f());
 }

@@ -1,5 +1,6 @@
-// Draws with images, or of which a mask cuts something out: what mapped.wgsl and surrounded.wgsl share. Images count at each
-// fragment: what they multiply apart is interpolated apart. Colors of the vertices multiply where light is evaluated. Needs maps.wgsl.
+// Draws with images, or of which a mask cuts something out: what mapped.wgsl and surrounded.wgsl share. Images count at
+// each fragment: what they multiply apart is interpolated apart. Colors of the vertices multiply where light is
+// evaluated. Needs maps.wgsl.
 
 struct Parts {
     ambient: vec3f,

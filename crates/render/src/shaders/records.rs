@@ -39,8 +39,8 @@ impl From<&View> for ViewRecord {
     }
 }
 
-/// A light as the shader reads it; `Light` in lighting.wgsl. 128 bytes, so that every second one begins at an offset that
-/// any adapter can bind.
+/// A light as the shader reads it; `Light` in lighting.wgsl. 128 bytes, so that every second one begins at an offset
+/// that any adapter can bind.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub(crate) struct LightRecord {
@@ -246,8 +246,8 @@ impl LightRecord {
     }
 }
 
-/// The inner cone's fade of `KHR_lights_punctual`, s = clamp((cos φ − cos cutoff)/(cos inner − cos cutoff), 0, 1), as scale
-/// and offset of cos φ; 0 and 1, which is s = 1, where there is no inner cone or it is as wide as the cutoff.
+/// The inner cone's fade of `KHR_lights_punctual`, s = clamp((cos φ − cos cutoff)/(cos inner − cos cutoff), 0, 1), as
+/// scale and offset of cos φ; 0 and 1, which is s = 1, where there is no inner cone or it is as wide as the cutoff.
 fn inner_fade(cone: &ConeTerms<f64>) -> (f32, f32) {
     let width = cone.cos_inner.map_or(0.0, |cos_inner| cos_inner - cone.cos_cutoff);
     if width > 0.0 { ((1.0 / width) as f32, (-cone.cos_cutoff / width) as f32) } else { (0.0, 1.0) }

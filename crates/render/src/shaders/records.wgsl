@@ -5,7 +5,8 @@ override VERTEX_DIFFUSE: bool = false;
 override VERTEX_SPECULAR: bool = false;
 override FRAGMENT_DIFFUSE: bool = false;
 override FRAGMENT_SPECULAR: bool = false;
-// The lights are those that the record's lists name. Else they are the first ones bound, as many of each kind as these numbers say.
+// The lights are those that the record's lists name. Else they are the first ones bound, as many of each kind as these
+// numbers say.
 override LISTED: bool = false;
 override DIRECTIONAL: u32 = 0;
 override POINTS: u32 = 0;

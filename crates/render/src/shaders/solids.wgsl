@@ -15,7 +15,8 @@ fn hash(cell: vec3u) -> vec3u {
     return v;
 }
 
-// The product of the direction at a corner of a cell with the way from there; f is the way from the cell's first corner.
+// The product of the direction at a corner of a cell with the way from there; f is the way from the cell's first
+// corner.
 fn at_corner(cell: vec3u, f: vec3f, offset: vec3u) -> f32 {
     let number = hash(cell + offset).x >> 28u;
     let d = f - vec3f(offset);

@@ -1,5 +1,5 @@
-// Any number of records and lights. Needs lighting.wgsl and records.wgsl. Not uniform: lavapipe compiles a shader anew for
-// every value that a loop's end or a condition takes from a uniform buffer.
+// Any number of records and lights. Needs lighting.wgsl and records.wgsl. Not uniform: lavapipe compiles a shader anew
+// for every value that a loop's end or a condition takes from a uniform buffer.
 
 @group(0) @binding(1) var<storage, read> draws: array<Draw>;
 // All lights of the scene by kind: directional, point, spot.

@@ -1,8 +1,9 @@
-// The entry points of draws in an environment, with images, a mask, or without. What it adds is evaluated at each fragment,
-// whatever the shading. The way to the viewer is that of the point that is shaded, which lies in the triangle also where it covers a
-// part of a pixel of four samples. Needs parts.wgsl and surroundings.wgsl.
+// The entry points of draws in an environment, with images, a mask, or without. What it adds is evaluated at each
+// fragment, whatever the shading. The way to the viewer is that of the point that is shaded, which lies in the triangle
+// also where it covers a part of a pixel of four samples. Needs parts.wgsl and surroundings.wgsl.
 
-// The sums with what the environment adds at a fragment whose normal, of the side that is seen, is n, a mean of normals that is so long.
+// The sums with what the environment adds at a fragment whose normal, of the side that is seen, is n, a mean of normals
+// that is so long.
 fn surrounded(
     sums: Parts, p: vec3f, n: vec3f, mean: f32, color: vec3f, record: u32, front: bool, c: Coordinates,
 ) -> Parts {

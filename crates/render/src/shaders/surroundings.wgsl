@@ -1,7 +1,7 @@
 // The environment of a scene, looked up. Needs environment.wgsl.
 
-// Its levels lie in one texture without levels, one after the other, in rows as wide as the texture. Each is six faces with a
-// border of one texel.
+// Its levels lie in one texture without levels, one after the other, in rows as wide as the texture. Each is six faces
+// with a border of one texel.
 struct Surroundings {
     row0: vec4f,                    // from eye space to the environment
     row1: vec4f,

@@ -8,8 +8,8 @@ use wgpu::naga::{self, Arena, Block, Constant, Expression, Handle, Literal, Modu
 
 /// A text, read once.
 ///
-/// A driver would drop by itself what a pipeline's constants rule out, but not before it has put the body of each function in the
-/// place of each call: of a draw with one image that are the filters of all eight kinds.
+/// A driver would drop by itself what a pipeline's constants rule out, but not before it has put the body of each
+/// function in the place of each call: of a draw with one image that are the filters of all eight kinds.
 pub(crate) struct Template {
     module: Module,
     info: ModuleInfo,

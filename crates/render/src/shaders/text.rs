@@ -28,7 +28,8 @@ pub(crate) struct Text {
     pub(crate) by_shape: bool,
 }
 
-/// What a text knows of surfaces. What has more than a material takes a text of its own, so that nothing else pays for it.
+/// What a text knows of surfaces. What has more than a material takes a text of its own, so that nothing else pays for
+/// it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum SurfaceText {
     /// Materials.
@@ -54,7 +55,8 @@ pub(crate) struct Shader {
     pub(crate) layout: wgpu::PipelineLayout,
 }
 
-/// The texts, each made when a pipeline first needs it, on whichever thread that is: by lights, then by filters and surface.
+/// The texts, each made when a pipeline first needs it, on whichever thread that is: by lights, then by filters and
+/// surface.
 #[derive(Default)]
 pub(crate) struct Shaders([[[OnceLock<Shader>; SurfaceText::ALL.len()]; 2]; 3]);
 

@@ -21,9 +21,9 @@ fn add_directional(
     return sum;
 }
 
-// Adds those of the numbers `start` to `start` + 3 among the `count` points or spots that begin at `first`. The driver unrolls
-// a loop as long as what comes out is short, and reads at fixed places only in unrolled ones: many lights are several
-// loops. The numbers are constants wherever this is called.
+// Adds those of the numbers `start` to `start` + 3 among the `count` points or spots that begin at `first`. The driver
+// unrolls a loop as long as what comes out is short, and reads at fixed places only in unrolled ones: many lights are
+// several loops. The numbers are constants wherever this is called.
 fn add_four(
     before: Irradiance, first: u32, count: u32, start: u32, cone: bool,
     p: vec3f, n: vec3f, v: vec3f, shininess: f32, terms: Terms,

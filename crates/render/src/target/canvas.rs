@@ -38,8 +38,8 @@ pub struct Canvas {
 const CHANNELS: usize = 4;
 
 impl Canvas {
-    /// Width and height in pixels, and the bytes of the newest frame: red, green, blue and 255, row by row from the top.
-    /// `None` where there is no frame, or one in floating point.
+    /// Width and height in pixels, and the bytes of the newest frame: red, green, blue and 255, row by row from the
+    /// top. `None` where there is no frame, or one in floating point.
     pub fn bytes(&self) -> Option<(UVec2, &[u8])> {
         (self.drawn && !self.bytes.is_empty()).then_some((self.size, &self.bytes[..]))
     }

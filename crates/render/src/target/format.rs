@@ -14,8 +14,9 @@ pub enum Pixels {
     /// 8 bits a channel, encoded as the camera says.
     #[default]
     Byte,
-    /// Linear I in 32-bit floating point; not clamped, but after a policy that acts on the finished picture. An adapter may be unable to blend them, or to take
-    /// four samples of them: then a frame with [`Blend`](halfway_lighting::Blend) objects, or with [`Samples::Four`], is
+    /// Linear I in 32-bit floating point; not clamped, but after a policy that acts on the finished picture. An adapter
+    /// may be unable to blend them, or to take four samples of them: then a frame with
+    /// [`Blend`](halfway_lighting::Blend) objects, or with [`Samples::Four`], is
     /// [`RenderError::FloatTarget`], and others are drawn.
     Float,
 }
@@ -80,8 +81,8 @@ impl PixelValues {
     }
 }
 
-/// The format that a scene is drawn into before passes over the finished picture: 32-bit floats, or where the adapter cannot
-/// do with them what the frame needs, and bytes are made of them, 16-bit ones.
+/// The format that a scene is drawn into before passes over the finished picture: 32-bit floats, or where the adapter
+/// cannot do with them what the frame needs, and bytes are made of them, 16-bit ones.
 pub(super) fn drawn_format(
     gpu: &Gpu,
     pixels: Pixels,

@@ -252,8 +252,8 @@ impl Target {
         ShaderOutput { format, encoded, samples: camera.samples.count() }
     }
 
-    /// Begins the frame that comes into `view`: by the scene's pass, or by passes over the finished picture, whose bytes
-    /// sent are returned.
+    /// Begins the frame that comes into `view`: by the scene's pass, or by passes over the finished picture, whose
+    /// bytes sent are returned.
     fn begin(
         &mut self,
         gpu: &Gpu,

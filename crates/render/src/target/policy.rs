@@ -1,5 +1,5 @@
-//! Passes over the finished picture, by the camera's intensity policy: from the floating point that the scene is drawn into
-//! to what the target holds.
+//! Passes over the finished picture, by the camera's intensity policy: from the floating point that the scene is drawn
+//! into to what the target holds.
 
 use crate::device::gpu::Gpu;
 use crate::shaders::picture::{PICTURE_FILES, PicturePolicyRecord};

@@ -109,8 +109,8 @@ pub struct SurfaceLost;
 
 pub(crate) struct Lost;
 
-/// Of a surface's formats the one that is `current` but for the encoding, else another of bytes that encodes as asked, else
-/// the first.
+/// Of a surface's formats the one that is `current` but for the encoding, else another of bytes that encodes as asked,
+/// else the first.
 fn pick_format(formats: &[wgpu::TextureFormat], current: wgpu::TextureFormat, encodes: bool) -> wgpu::TextureFormat {
     let sibling = if encodes { current.add_srgb_suffix() } else { current.remove_srgb_suffix() };
     let is_sibling = |format: &&wgpu::TextureFormat| **format == sibling;

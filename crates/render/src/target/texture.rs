@@ -8,8 +8,8 @@ use bevy_math::UVec2;
 use halfway_lighting::{Camera, Encoding, Samples};
 
 /// A texture of an engine's own; while this resource is there it is the target, before
-/// [`SurfaceTarget`](crate::SurfaceTarget) and [`Headless`](crate::Headless). The render schedule makes the frame ready,
-/// and [`encode_frame`](crate::encode_frame) draws it by an encoder of the engine's own.
+/// [`SurfaceTarget`](crate::SurfaceTarget) and [`Headless`](crate::Headless). The render schedule makes the frame
+/// ready, and [`encode_frame`](crate::encode_frame) draws it by an encoder of the engine's own.
 ///
 /// ```no_run
 /// # use bevy_app::App;
@@ -33,12 +33,14 @@ use halfway_lighting::{Camera, Encoding, Samples};
 /// ```
 #[derive(Resource, Clone, Debug)]
 pub struct TextureTarget {
-    /// One level of a texture of one sample a pixel, with `wgpu::TextureUsages::RENDER_ATTACHMENT`, of the device of the
-    /// world's [`Gpu`].
+    /// One level of a texture of one sample a pixel, with `wgpu::TextureUsages::RENDER_ATTACHMENT`, of the device of
+    /// the world's [`Gpu`].
     pub view: wgpu::TextureView,
-    /// The format of the view: `Rgba8Unorm`, `Bgra8Unorm`, either of them as sRGB, `Rgba16Float` or `Rgba32Float`. Bytes
-    /// hold what the camera's encoding says, floating point linear I as [`Pixels::Float`](crate::Pixels::Float) has it. Under
-    /// [`Encoding::Srgb`] and [`Intensity::Clamp`](halfway_lighting::Intensity::Clamp) what is blended, or averaged of four samples, needs an sRGB format or floating point; under
+    /// The format of the view: `Rgba8Unorm`, `Bgra8Unorm`, either of them as sRGB, `Rgba16Float` or `Rgba32Float`.
+    /// Bytes hold what the camera's encoding says, floating point linear I as [`Pixels::Float`](crate::Pixels::Float)
+    /// has it. Under
+    /// [`Encoding::Srgb`] and [`Intensity::Clamp`](halfway_lighting::Intensity::Clamp) what is blended, or averaged of
+    /// four samples, needs an sRGB format or floating point; under
     /// [`Encoding::Raw`] no sRGB format will do.
     pub format: wgpu::TextureFormat,
     /// Width and height of the view in pixels.

@@ -27,14 +27,15 @@ pub struct View {
     pub reflectance: Reflectance,
     /// Counts changes of `eye_from_world`; equal epochs mean equal matrices.
     pub epoch: u64,
-    /// log₂ of the length of a world unit in the eye space of the shaders; 0 but for scenes so large or so small that the
-    /// squares of their distances leave f32.
+    /// log₂ of the length of a world unit in the eye space of the shaders; 0 but for scenes so large or so small that
+    /// the squares of their distances leave f32.
     pub unit_exponent: i32,
 }
 
 impl View {
-    /// How long a world unit is in the eye space of the shaders: a power of two, and 1 but for scenes so large or so small
-    /// that the squares of their distances leave f32. Holds after [`RenderSet::Select`](crate::RenderSet::Select).
+    /// How long a world unit is in the eye space of the shaders: a power of two, and 1 but for scenes so large or so
+    /// small that the squares of their distances leave f32. Holds after
+    /// [`RenderSet::Select`](crate::RenderSet::Select).
     pub(crate) fn unit(&self) -> f64 {
         2f64.powi(self.unit_exponent)
     }

@@ -55,8 +55,8 @@ impl ModelView {
 #[reflect(Component, Clone, Debug, Default, PartialEq)]
 pub struct NormalMatrix(pub Mat3);
 
-/// The objects that are not [hidden](halfway_lighting::Visibility) and whose bounding sphere meets the frustum, in spawn
-/// order.
+/// The objects that are not [hidden](halfway_lighting::Visibility) and whose bounding sphere meets the frustum, in
+/// spawn order.
 /// Holds after [`RenderSet::Select`](crate::RenderSet::Select).
 #[derive(Resource, Reflect, Clone, Debug, Default)]
 #[reflect(Resource, Clone, Debug, Default)]
@@ -110,8 +110,8 @@ pub(crate) fn select(
     report.visible = visible.0.len() as u32;
 }
 
-/// Of the unit in which the shaders measure a scene whose farthest visible point is at this distance: squares of distances
-/// down to 10⁻¹⁷ of it, and of lights as far again beyond it, are normal numbers of f32.
+/// Of the unit in which the shaders measure a scene whose farthest visible point is at this distance: squares of
+/// distances down to 10⁻¹⁷ of it, and of lights as far again beyond it, are normal numbers of f32.
 fn unit_exponent(farthest: f64) -> i32 {
     const MOST: i32 = 56;
     const LEAST: i32 = -40;

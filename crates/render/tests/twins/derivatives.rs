@@ -1,7 +1,7 @@
 //! `coordinates` of maps.wgsl, which takes derivatives and so is called by fragments alone.
 //!
-//! The twin is the rule of quotients: with at/w and 1/w planes l and m over the picture, at is l/m, and changes along x by
-//! (lₓ − at·mₓ)/m from a pixel to the next.
+//! The twin is the rule of quotients: with at/w and 1/w planes l and m over the picture, at is l/m, and changes along x
+//! by (lₓ − at·mₓ)/m from a pixel to the next.
 
 use halfway_render::{Gpu, wgpu};
 
@@ -12,8 +12,8 @@ pub(crate) const FUNCTION: &str = "coordinates";
 /// Pixels along each side of the picture.
 const SIDE: u32 = 16;
 
-/// Planes over the picture, each as its value in the middle and how it changes along x and along y: 1/w, and of each of four
-/// coordinates that over w.
+/// Planes over the picture, each as its value in the middle and how it changes along x and along y: 1/w, and of each of
+/// four coordinates that over w.
 type Planes = ([f32; 3], [[f32; 3]; 4]);
 
 const CASES: [Planes; 4] = [
@@ -140,9 +140,9 @@ fn gross(plane: [f32; 3]) -> f64 {
 
 /// What coordinate k is to be along an axis at a pixel, and how far from it it may be.
 ///
-/// The planes are sums of three, off by 3 ULP; at/w and 1/w by 8, with both divisions and the product; the difference of two
-/// pixels by 16, and with the product and the difference by 24. That counts over 1/w, which itself is known to 6 ULP of its
-/// parts.
+/// The planes are sums of three, off by 3 ULP; at/w and 1/w by 8, with both divisions and the product; the difference
+/// of two pixels by 16, and with the product and the difference by 24. That counts over 1/w, which itself is known to 6
+/// ULP of its parts.
 fn expected((over_w, planes): &Planes, k: usize, axis: usize, p: [f64; 2]) -> (f64, f64) {
     let (m, l) = (at(*over_w, p), at(planes[k], p));
     let value = (f64::from(planes[k][axis + 1]) - l / m * f64::from(over_w[axis + 1])) / m;

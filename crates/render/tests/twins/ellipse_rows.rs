@@ -43,8 +43,9 @@ fn of_level(x: &[f32]) -> [f64; 3] {
     widened([uu * x * x, uv * x * y, vv * y * y])
 }
 
-/// The moments are off by some 20 roundings of their trace: those of the direction, of products and of the widening. An inverse is
-/// off by itself times that, twice over; a determinant, relative to itself, by that over the smaller eigenvalue.
+/// The moments are off by some 20 roundings of their trace: those of the direction, of products and of the widening. An
+/// inverse is off by itself times that, twice over; a determinant, relative to itself, by that over the smaller
+/// eigenvalue.
 fn of_ellipse(x: &[f32], expected: &[f64]) -> Vec<f64> {
     let m = of_level(x);
     let off = 20.0 * ULP * (m[0] + m[2]);
@@ -71,7 +72,8 @@ fn ellipse(x: &[f32]) -> [f64; 4] {
     inverse(moments(wide(&x[5..])))
 }
 
-/// The mean of all texels of a level, weighted where they are in the ellipse, and the sum of the weights over their number.
+/// The mean of all texels of a level, weighted where they are in the ellipse, and the sum of the weights over their
+/// number.
 fn mean(slot: usize, x: &[f32], uv: [f64; 2], [a, b, c, determinant]: [f64; 4]) -> ([f64; 4], f64) {
     let number = x[4] as usize;
     let level = IMAGES[slot].levels()[number];
@@ -106,8 +108,9 @@ fn mean(slot: usize, x: &[f32], uv: [f64; 2], [a, b, c, determinant]: [f64; 4]) 
     (sum.map(|sum| sum / weights), weights / count)
 }
 
-/// The series is off by 3.1·10⁻⁶ of each weight, of which the mean is known, and so are sums by some roundings; the place is known
-/// to 3 ULP of the side and 4.5 of itself, and the ellipse, of ways with that many roundings, to 20 ULP of its ways.
+/// The series is off by 3.1·10⁻⁶ of each weight, of which the mean is known, and so are sums by some roundings; the
+/// place is known to 3 ULP of the side and 4.5 of itself, and the ellipse, of ways with that many roundings, to 20 ULP
+/// of its ways.
 fn of_mean(slot: usize, x: &[f32]) -> Vec<f64> {
     let uv = wide::<2>(&x[2..]);
     let (here, weight) = mean(slot, x, uv, ellipse(x));

@@ -8,8 +8,8 @@ use crate::adapter::Bound;
 use crate::inputs::Random;
 use crate::placings::{PlacingRecord, PlacingsRecord, packed, packed_size, stored};
 
-/// The slots that rows look up, and their images in maps.wgsl: 5 × 3, 1 × 1, 1 × 7, 6 × 4, 5 × 4, 9 × 1, 1 × 3 and 16 × 8
-/// texels.
+/// The slots that rows look up, and their images in maps.wgsl: 5 × 3, 1 × 1, 1 × 7, 6 × 4, 5 × 4, 9 × 1, 1 × 3 and 16 ×
+/// 8 texels.
 pub(crate) const COLOR: usize = 0;
 pub(crate) const SPECULAR: usize = 1;
 pub(crate) const EMISSION: usize = 2;

@@ -1,6 +1,6 @@
-//! Twins: the functions of lighting.wgsl, tone.wgsl and environment.wgsl, run on the adapter, against those of the same name in
-//! `halfway_lighting::equations` and `halfway_texture::environment` in f64; those of maps.wgsl and solids.wgsl, against `halfway_texture` too;
-//! and sums of terms.
+//! Twins: the functions of lighting.wgsl, tone.wgsl and environment.wgsl, run on the adapter, against those of the same
+//! name in `halfway_lighting::equations` and `halfway_texture::environment` in f64; those of maps.wgsl and solids.wgsl,
+//! against `halfway_texture` too; and sums of terms.
 
 mod adapter;
 mod derivatives;

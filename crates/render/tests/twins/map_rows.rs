@@ -1,5 +1,5 @@
-//! The table of what maps.wgsl looks up: one row a call. The twins are those of `halfway_texture::lookup`; of what it keeps to
-//! itself the definition is written out here, and the rows of `in_level` hold it to the lookup.
+//! The table of what maps.wgsl looks up: one row a call. The twins are those of `halfway_texture::lookup`; of what it
+//! keeps to itself the definition is written out here, and the rows of `in_level` hold it to the lookup.
 
 use halfway_texture::{LevelFilter, Pyramid, TexelFilter, TexelImage, Wrap, lookup};
 
@@ -9,8 +9,8 @@ use crate::inputs::{Input, wide};
 use crate::map_inputs as inputs;
 use crate::table::Row;
 
-/// The step of f32 at 1. WGSL's basic operations are right to half of it, relative to their results; its division to 2.5
-/// of it, `exp2(x)` to 3 + 2·|x|.
+/// The step of f32 at 1. WGSL's basic operations are right to half of it, relative to their results; its division
+/// to 2.5 of it, `exp2(x)` to 3 + 2·|x|.
 pub(crate) const ULP: f64 = f32::EPSILON as f64;
 
 pub(crate) fn row(
@@ -100,8 +100,8 @@ fn texel_weights(f: f64, filter: TexelFilter) -> [f64; 4] {
 
 pub(crate) fn texel_rows() -> Vec<Row> {
     vec![
-        // u − floor(u) is off by half a ULP at most, where u is little below a whole number; so is the product. Mirrored, the
-        // range is twice as large.
+        // u − floor(u) is off by half a ULP at most, where u is little below a whole number; so is the product.
+        // Mirrored, the range is twice as large.
         row(
             ("wrapped", "wrapped(s(i, 0), s(i, 1), u32(s(i, 2)))"),
             Kind::Scalar,
@@ -147,24 +147,25 @@ pub(crate) fn texel_rows() -> Vec<Row> {
     ]
 }
 
-/// At most 6 operations on numbers up to 6, each off by half a ULP, are 18 ULP, a sixth of which counts, with 2.5 for the
-/// division; on numbers up to 5 they are 15, half of which counts.
+/// At most 6 operations on numbers up to 6, each off by half a ULP, are 18 ULP, a sixth of which counts, with 2.5 for
+/// the division; on numbers up to 5 they are 15, half of which counts.
 const OF_WEIGHT: f64 = 8.0 * ULP;
 /// No filter's weights sum up to more in magnitude, along both axes: 1.25² of Catmull-Rom.
 pub(crate) const GROSS: f64 = 1.6;
-/// The weights of a row are off by 4 · 8 ULP together, and so are those of a column; each counts as often as the magnitudes of
-/// the others sum up to, 1.25: their products are off by 80 ULP. Sixteen sums of numbers up to 1.6 are off by 13 ULP, products by
-/// 2, mixing two levels by 5.
+/// The weights of a row are off by 4 · 8 ULP together, and so are those of a column; each counts as often as the
+/// magnitudes of the others sum up to, 1.25: their products are off by 80 ULP. Sixteen sums of numbers up to 1.6 are
+/// off by 13 ULP, products by 2, mixing two levels by 5.
 pub(crate) const OF_SUM: f64 = 100.0 * ULP;
-/// By how much of the largest texel a filter changes on the way of a texel along one axis: Catmull-Rom's slopes, 3 in all,
-/// by 1.25.
+/// By how much of the largest texel a filter changes on the way of a texel along one axis: Catmull-Rom's slopes, 3 in
+/// all, by 1.25.
 const SLOPE: f64 = 4.0;
 
 // ---- the image at a point -------------------------------------------------------------------------
 
-/// How far a value may be off whose place is known to 3 ULP of the side, and further to `blur` texels of the image, along each
-/// axis: by the slope of the filters without steps, and by what is around, where they have steps. 3 ULP of the side and 2
-/// texels more, of a level of two texels or more, are less than 9 ULP of the image; of one texel it does not matter.
+/// How far a value may be off whose place is known to 3 ULP of the side, and further to `blur` texels of the image,
+/// along each axis: by the slope of the filters without steps, and by what is around, where they have steps. 3 ULP of
+/// the side and 2 texels more, of a level of two texels or more, are less than 9 ULP of the image; of one texel it does
+/// not matter.
 pub(crate) fn of_place(slot: usize, uv: [f64; 2], blur: [f64; 2], at: impl Fn([f64; 2]) -> [f64; 4]) -> [f64; 4] {
     let size = IMAGES[slot].size().map(f64::from);
     let off: [f64; 2] = std::array::from_fn(|k| 3.0 * ULP * (size[k] + 2.0) + blur[k]);
@@ -194,8 +195,8 @@ fn gradient(x: &[f32]) -> [f64; 2] {
     lookup::gradient(&IMAGES[HEIGHT], &look.sampling(), wide(&x[1..]), x[3].into(), look.channel())
 }
 
-/// Two values half a texel of the level apart, over that distance. exp2 is off by 3 + 2·4 ULP at the last level, and so is the
-/// distance; the places, at most 4.5 from 0, by half a ULP more.
+/// Two values half a texel of the level apart, over that distance. exp2 is off by 3 + 2·4 ULP at the last level, and so
+/// is the distance; the places, at most 4.5 from 0, by half a ULP more.
 fn of_gradient(x: &[f32], expected: &[f64]) -> Vec<f64> {
     let uv = wide(&x[1..]);
     let d = f64::from(x[3]).clamp(0.0, (IMAGES[HEIGHT].levels().len() - 1) as f64);

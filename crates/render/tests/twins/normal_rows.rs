@@ -15,8 +15,8 @@ fn mapped(x: &[f32]) -> [f64; 3] {
     mapped_normal(wide(x), wide(&x[3..]), x[6].into(), wide(&x[7..]), x[10].into(), wide(&x[11..]))
 }
 
-/// The texel's numbers are off by a ULP, and each of the three parts of the sum by five roundings; what is left of the sum is
-/// brought to length 1.
+/// The texel's numbers are off by a ULP, and each of the three parts of the sum by five roundings; what is left of the
+/// sum is brought to length 1.
 fn of_mapped(x: &[f32], _: &[f64]) -> Vec<f64> {
     let (n, t, w, s) = (wide::<3>(x), wide::<3>(&x[3..]), f64::from(x[6]), f64::from(x[10]));
     let [x, y, z] = wide::<3>(&x[7..]).map(|c| 2.0 * c - 1.0);
@@ -34,8 +34,9 @@ fn bumped(x: &[f32]) -> [f64; 3] {
     bumped_normal(wide(x), wide(&x[3..]), [wide(&x[6..]), wide(&x[9..])], wide(&x[12..]), wide(&x[14..]))
 }
 
-/// n and m over the length of n are off by 5 ULP, and what is cross and dot of them by as many more; the area, relative to
-/// itself, by 10 ULP of the product of both ways; so g, and so what is left of the normal, which is brought to length 1.
+/// n and m over the length of n are off by 5 ULP, and what is cross and dot of them by as many more; the area, relative
+/// to itself, by 10 ULP of the product of both ways; so g, and so what is left of the normal, which is brought to
+/// length 1.
 fn of_bumped(x: &[f32], _: &[f64]) -> Vec<f64> {
     let (n, m, e1, e2) = (wide::<3>(x), wide::<3>(&x[3..]), wide::<3>(&x[6..]), wide::<3>(&x[9..]));
     let rises = wide::<2>(&x[12..]);
@@ -59,7 +60,8 @@ fn of_bumped(x: &[f32], _: &[f64]) -> Vec<f64> {
 
 /// A texel and a factor of slopes.
 fn of_mean_length(x: &[f32], e: &[f64]) -> Vec<f64> {
-    // The length is off by 6 ULP, by which the quotient changes as its derivative says, twice that near 0; and it is rounded.
+    // The length is off by 6 ULP, by which the quotient changes as its derivative says, twice that near 0; and it is
+    // rounded.
     let length = length(wide::<3>(x).map(|c| 2.0 * c - 1.0)).min(1.0);
     let square = f64::from(x[3]).powi(2);
     let divisor = length + square * (1.0 - length);

@@ -44,8 +44,8 @@ impl Placed {
         lookup::level(IMAGES[self.slot].size(), self.footprint())
     }
 
-    /// The longer side of the footprint is off by what its sums are, four roundings each, and by four more; the logarithm, of
-    /// a square, by 2⁻²¹ or 3 ULP of it.
+    /// The longer side of the footprint is off by what its sums are, four roundings each, and by four more; the
+    /// logarithm, of a square, by 2⁻²¹ or 3 ULP of it.
     fn of_level(&self) -> f64 {
         let size = IMAGES[self.slot].size().map(f64::from);
         let sides = |way: [f64; 2]| length([way[0] * size[0], way[1] * size[1], 0.0]);

@@ -1,4 +1,5 @@
-//! What the functions of `by_shape.wgsl` are called with: every edge of their definitions, and numbers over the whole range.
+//! What the functions of `by_shape.wgsl` are called with: every edge of their definitions, and numbers over the whole
+//! range.
 
 use crate::images::{IMAGES, Look, WRAPS};
 use crate::inputs::{Input, Random, input, many};

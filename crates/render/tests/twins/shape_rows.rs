@@ -1,5 +1,5 @@
-//! The table of what `by_shape.wgsl` looks up: footprints, probes, ripmaps and summed areas, and all of them together. Twins are
-//! `halfway_texture::lookup` or, of what it keeps to itself, the definition written out in another way.
+//! The table of what `by_shape.wgsl` looks up: footprints, probes, ripmaps and summed areas, and all of them together.
+//! Twins are `halfway_texture::lookup` or, of what it keeps to itself, the definition written out in another way.
 
 #![allow(clippy::float_cmp, reason = "numbers of periods are whole")]
 
@@ -12,7 +12,8 @@ use crate::map_rows::{OF_SUM, ULP, exact, of_set, row};
 use crate::shape_inputs as inputs;
 use crate::table::Row;
 
-/// σ₁ and σ₂ of the matrix (a b): half the sum and half the difference of the lengths of its conformal and anticonformal part.
+/// σ₁ and σ₂ of the matrix (a b): half the sum and half the difference of the lengths of its conformal and
+/// anticonformal part.
 pub(crate) fn semiaxes([ax, ay, bx, by]: [f64; 4]) -> [f64; 2] {
     let (turns, mirrors) = ((ax + by).hypot(ay - bx), (ax - by).hypot(ay + bx));
     [0.5 * (turns + mirrors), 0.5 * (turns - mirrors).abs()]
@@ -39,7 +40,8 @@ fn footprint(x: &[f32]) -> Vec<f64> {
     vec![m[0], m[1], m[2], long, short]
 }
 
-/// Three roundings of each sum; of roots half as much, and two more; the area loses what its products are larger than it.
+/// Three roundings of each sum; of roots half as much, and two more; the area loses what its products are larger than
+/// it.
 fn of_footprint(x: &[f32], expected: &[f64]) -> Vec<f64> {
     let [ax, ay, bx, by] = wide::<4>(x);
     let gross = (ax * ay).abs() + (bx * by).abs();
@@ -48,8 +50,9 @@ fn of_footprint(x: &[f32], expected: &[f64]) -> Vec<f64> {
     vec![relative(0, 3.0), 3.0 * ULP * gross + 1e-18, relative(2, 3.0), relative(3, 8.0), of_area + relative(4, 12.0)]
 }
 
-/// How far a filter by shape may be off whose place is known to 3 ULP of the side and to 4.5 ULP of the place, and each number
-/// of whose footprint to 8 ULP and to `off`: by as much as it changes from there to there, twice, and by the sum's roundings.
+/// How far a filter by shape may be off whose place is known to 3 ULP of the side and to 4.5 ULP of the place, and each
+/// number of whose footprint to 8 ULP and to `off`: by as much as it changes from there to there, twice, and by the
+/// sum's roundings.
 fn of_lookup(
     slot: usize,
     look: Look,
@@ -173,8 +176,9 @@ fn columns(x: &[f32]) -> [usize; 4] {
     std::array::from_fn(|k| x[k] as usize)
 }
 
-/// First halves are whole numbers of 2⁻²², whose differences are exact, and so are they times −1, 0 and 1; the second halves are
-/// off by 2⁻⁴⁸, and their differences and sums by as many more. So what is lost is what rounding the result loses.
+/// First halves are whole numbers of 2⁻²², whose differences are exact, and so are they times −1, 0 and 1; the second
+/// halves are off by 2⁻⁴⁸, and their differences and sums by as many more. So what is lost is what rounding the result
+/// loses.
 fn of_strip(_: &[f32], expected: &[f64]) -> Vec<f64> {
     expected.iter().map(|number| ULP * number.abs() + 0.5f64.powi(42)).collect()
 }
@@ -255,7 +259,8 @@ fn footprint_rows() -> Vec<Row> {
             |x| footprint(x)[4..].to_vec(),
             |x, _| of_footprint(x, &footprint(x))[4..].to_vec(),
         ),
-        // Half the difference of the moments is off by a rounding of the larger, relative to the radius; an angle by half of it.
+        // Half the difference of the moments is off by a rounding of the larger, relative to the radius; an angle by
+        // half of it.
         row(
             ("long_direction", "long_direction(v(i, 0))"),
             Kind::Pair,

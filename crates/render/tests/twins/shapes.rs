@@ -1,5 +1,5 @@
-//! Twins: the functions of `by_shape.wgsl`, run on the adapter over images, against `halfway_texture::lookup` and definitions in
-//! f64.
+//! Twins: the functions of `by_shape.wgsl`, run on the adapter over images, against `halfway_texture::lookup` and
+//! definitions in f64.
 
 use halfway_render::Gpu;
 use std::collections::BTreeSet;

@@ -1,5 +1,5 @@
-//! The table of the functions of solids.wgsl: twins of `halfway_texture::noise` and `halfway_texture::solid`. Of what these keep to
-//! themselves the definition is written out here.
+//! The table of the functions of solids.wgsl: twins of `halfway_texture::noise` and `halfway_texture::solid`. Of what
+//! these keep to themselves the definition is written out here.
 
 use halfway_texture::noise::{LEAST_WIDTH, checker, fractal, gradient_noise, hash, left, marble, wood};
 use halfway_texture::solid::{SolidKind, solid_value};
@@ -108,8 +108,8 @@ fn largest(x: &[f32]) -> f64 {
     x[..3].iter().fold(0.0, |largest, number| f64::max(largest, number.abs().into()))
 }
 
-/// Noise itself is off by some 40 roundings of numbers up to 1; each octave's place by half a ULP of it, which counts three
-/// times as much at most, and as much as the octave does.
+/// Noise itself is off by some 40 roundings of numbers up to 1; each octave's place by half a ULP of it, which counts
+/// three times as much at most, and as much as the octave does.
 fn of_fractal(x: &[f32], octaves: f64) -> f64 {
     octaves.min(16.0) * ULP * (48.0 + 4.0 * largest(x))
 }
@@ -143,8 +143,8 @@ fn kind(x: &[f32]) -> SolidKind {
     SolidKind::ALL[x[0] as usize]
 }
 
-/// Widths are off by four roundings, which an octave and a wave take as they are. A checker's place is rounded once more, and
-/// counts over its width.
+/// Widths are off by four roundings, which an octave and a wave take as they are. A checker's place is rounded once
+/// more, and counts over its width.
 fn of_solid(x: &[f32]) -> f64 {
     let q = &x[2..];
     let widths = [0, 1, 2].map(|axis| f64::from(x[5 + axis]).hypot(x[8 + axis].into()).max(LEAST_WIDTH.into()));

@@ -1,4 +1,5 @@
-//! Twins: the functions of solids.wgsl, run on the adapter, against `halfway_texture::noise` and `halfway_texture::solid` in f64.
+//! Twins: the functions of solids.wgsl, run on the adapter, against `halfway_texture::noise` and
+//! `halfway_texture::solid` in f64.
 
 use halfway_render::Gpu;
 use std::collections::BTreeSet;

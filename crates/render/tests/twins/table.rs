@@ -1,7 +1,7 @@
 //! The table of twins: each function of lighting.wgsl, what it is called with, and how far it may be from its twin.
 //!
-//! A row's one name stands for the WGSL function that is called on the adapter and for the Rust function that it is compared
-//! with, so a row without its twin does not compile.
+//! A row's one name stands for the WGSL function that is called on the adapter and for the Rust function that it is
+//! compared with, so a row without its twin does not compile.
 
 use halfway_lighting::Reflectance;
 use halfway_lighting::equations::{self, Coefficients, Eye, Incidence, Irradiance};
@@ -81,8 +81,8 @@ macro_rules! row {
     };
 }
 
-/// The step of f32 at 1. WGSL's basic operations are right to half of it, relative to their results; its division to 2.5
-/// of it, `inverseSqrt` to 2.
+/// The step of f32 at 1. WGSL's basic operations are right to half of it, relative to their results; its division
+/// to 2.5 of it, `inverseSqrt` to 2.
 const ULP: f64 = f32::EPSILON as f64;
 /// Results below the normal numbers may be 0.
 const LEAST: f64 = f32::MIN_POSITIVE as f64;
@@ -138,8 +138,8 @@ fn vectors_of(x: &[f32]) -> ([f64; 3], [f64; 3], [f64; 3], f64) {
     (wide(x), wide(&x[3..]), wide(&x[6..]), f64::from(x[9]))
 }
 
-/// Of att·spot: the distance is known to 4 ULP, which its square takes twice and the window four times; the cosine of the
-/// cone to 8 ULP, which its power and its fade steepen.
+/// Of att·spot: the distance is known to 4 ULP, which its square takes twice and the window four times; the cosine of
+/// the cone to 8 ULP, which its power and its fade steepen.
 fn of_weight(x: &[f32], ranged: bool, coned: bool) -> f64 {
     let mut bare = light(x);
     bare.cone = None;

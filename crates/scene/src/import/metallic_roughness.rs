@@ -23,11 +23,12 @@ pub const SHININESS_MAX: f32 = 10_000.0;
 /// | emission | the emissive color | |
 /// | opacity | alpha where blended or masked ([`Mask`](halfway_lighting::Mask)); else 1 | section 3.9.4 |
 ///
-/// The shininess is β, for [`Reflectance::BlinnPhong`](halfway_lighting::Reflectance::BlinnPhong). (n + 8)/8 is the factor that
-/// keeps the reflected energy the same however small the highlight is (Akenine-Möller, Haines, Hoffman, *Real-Time
-/// Rendering*, 3rd ed. 2008, chapter 7), written for a diffuse term without 1/π, as this project's is; it is held back
-/// so that no channel passes 1 and the hue is kept. Ambient light comes from everywhere, so a surface gives back of it
-/// about what it gives back in all: a dielectric its diffuse color, a metal its reflectance, both of which are c.
+/// The shininess is β, for [`Reflectance::BlinnPhong`](halfway_lighting::Reflectance::BlinnPhong). (n + 8)/8 is the
+/// factor that keeps the reflected energy the same however small the highlight is (Akenine-Möller, Haines,
+/// Hoffman, *Real-Time Rendering*, 3rd ed. 2008, chapter 7), written for a diffuse term without 1/π, as this project's
+/// is; it is held back so that no channel passes 1 and the hue is kept. Ambient light comes from everywhere, so a
+/// surface gives back of it about what it gives back in all: a dielectric its diffuse color, a metal its reflectance,
+/// both of which are c.
 ///
 /// Left out: the Fresnel rise toward grazing angles, the masking term, and reflections of the surroundings. A metal
 /// therefore is darker than in a path tracer: it shows only highlights and ambient light.

@@ -15,8 +15,8 @@ pub struct ModelMaterial {
     pub faces: Faces,
     /// Whether the file asks for blending. An MTL file cannot; whoever shows it has to.
     pub blend: bool,
-    /// The opacity below which the surface is not there, where the file says so: glTF's `alphaCutoff`; of an MTL material with
-    /// a `map_d` 0.5, since such images mostly cut something out.
+    /// The opacity below which the surface is not there, where the file says so: glTF's `alphaCutoff`; of an MTL
+    /// material with a `map_d` 0.5, since such images mostly cut something out.
     pub mask: Option<f32>,
 }
 

@@ -52,8 +52,8 @@ pub fn from_punctual(source: &SourceLight, scale: f32) -> Result<LightComponent,
     }
 }
 
-/// The light that a model file describes, scaled by [`RADIANCE_SCALE`], and its place in the model. The frame of a light may
-/// scale, which has no meaning for one: position and direction are taken from it.
+/// The light that a model file describes, scaled by [`RADIANCE_SCALE`], and its place in the model. The frame of a
+/// light may scale, which has no meaning for one: position and direction are taken from it.
 ///
 /// # Errors
 /// [`InvalidValue`] for a number out of its range, and for a frame that leaves no direction.

@@ -119,7 +119,8 @@ fn differences(rows: &[Vec<String>], object: &Value, what: &str) -> Vec<String> 
     wrong
 }
 
-/// The definition in which the schema has the keys of materials: the object among the two things that a material can be.
+/// The definition in which the schema has the keys of materials: the object among the two things that a material can
+/// be.
 fn material(schema: &Value) -> Value {
     let ways = schema["$defs"]["MaterialEntry"]["anyOf"].as_array().expect("a name or values");
     ways.iter().find(|way| way.get("properties").is_some()).expect("values").clone()

@@ -10,11 +10,11 @@ use crate::error::TextureError;
 use crate::lookup::Number;
 
 impl Environment {
-    /// The mean light that a matt surface receives: (1/π)∫ L(ω) max(n·ω, 0) dω for each normal n, in the environment's shape
-    /// and `size` texels along its height. A constant light stays as it is.
+    /// The mean light that a matt surface receives: (1/π)∫ L(ω) max(n·ω, 0) dω for each normal n, in the environment's
+    /// shape and `size` texels along its height. A constant light stays as it is.
     ///
-    /// Each texel of a level of at most 64 rows counts as all of its solid angle in its middle; the sum of the weights is
-    /// made 1. Takes time in proportion to both sizes' squares.
+    /// Each texel of a level of at most 64 rows counts as all of its solid angle in its middle; the sum of the weights
+    /// is made 1. Takes time in proportion to both sizes' squares.
     ///
     /// # Errors
     /// As of [`Environment::from_fn`].
@@ -65,9 +65,9 @@ impl Environment {
 
 /// Light in spherical harmonics up to order 2, for matt surfaces: nine colors in place of an image.
 ///
-/// From Ramamoorthi and Hanrahan, "An Efficient Representation for Irradiance Environment Maps", 2001. What a surface receives
-/// is nearly all in these: of one far light, the worst case, the largest error is 3/32 of what a surface that faces it
-/// receives; of none it is more.
+/// From Ramamoorthi and Hanrahan, "An Efficient Representation for Irradiance Environment Maps", 2001. What a surface
+/// receives is nearly all in these: of one far light, the worst case, the largest error is 3/32 of what a surface that
+/// faces it receives; of none it is more.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Harmonics {
     /// L₀₀, L₁₋₁, L₁₀, L₁₁, L₂₋₂, L₂₋₁, L₂₀, L₂₁, L₂₂, each with four numbers as texels have them.
@@ -82,8 +82,8 @@ impl Harmonics {
         }
     }
 
-    /// The mean light that a matt surface of this normal receives, as [`Environment::convolved`] has it. May be below 0 by the
-    /// error.
+    /// The mean light that a matt surface of this normal receives, as [`Environment::convolved`] has it. May be below 0
+    /// by the error.
     pub fn mean_light<T: Number>(&self, normal: [T; 3]) -> [T; 4] {
         let basis = basis(unit(normal));
         let mut sum = [T::zero(); 4];
@@ -97,8 +97,8 @@ impl Harmonics {
 }
 
 impl Harmonics {
-    /// The same as the coefficients of a polynomial of a normal (x, y, z) of length 1, for red, green and blue: of 1, y, z, x, xy, yz,
-    /// 3z² − 1, xz and x² − y².
+    /// The same as the coefficients of a polynomial of a normal (x, y, z) of length 1, for red, green and blue: of 1,
+    /// y, z, x, xy, yz, 3z² − 1, xz and x² − y².
     pub fn polynomial(&self) -> [[f64; 3]; 9] {
         // The squares of the harmonics' factors, times π.
         const FACTORS: [f64; 9] = [0.25, 0.75, 0.75, 0.75, 3.75, 3.75, 5.0 / 16.0, 3.75, 15.0 / 16.0];

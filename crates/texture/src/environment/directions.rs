@@ -7,21 +7,21 @@ use crate::lookup::Number;
 /// How an image holds all directions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum EnvironmentShape {
-    /// Longitude along u, latitude along v: u = ½ + atan2(x, −z)/2π, v = acos(y)/π for a direction of length 1. What lies ahead
-    /// is in the middle. Twice as wide as high where its texels are square on the equator.
+    /// Longitude along u, latitude along v: u = ½ + atan2(x, −z)/2π, v = acos(y)/π for a direction of length 1. What
+    /// lies ahead is in the middle. Twice as wide as high where its texels are square on the equator.
     ///
     /// A texel at the latitude φ is cos φ times as wide as on the equator: near the poles they crowd.
     #[default]
     Equirectangular,
-    /// What a mirroring ball shows from far away, looked at along −Z: (2u − 1, 1 − 2v) are the first two coordinates of its
-    /// normal, which is halfway between the direction and +Z (Blinn and Newell 1976; the sphere map of OpenGL 1.x). Square;
-    /// outside the inscribed circle there is nothing.
+    /// What a mirroring ball shows from far away, looked at along −Z: (2u − 1, 1 − 2v) are the first two coordinates of
+    /// its normal, which is halfway between the direction and +Z (Blinn and Newell 1976; the sphere map of OpenGL 1.x).
+    /// Square; outside the inscribed circle there is nothing.
     ///
-    /// All of its texels see solid angles of one size, 4 for each unit of the disc's area; toward the rim, which is the one
-    /// direction −Z, they become long and thin.
+    /// All of its texels see solid angles of one size, 4 for each unit of the disc's area; toward the rim, which is the
+    /// one direction −Z, they become long and thin.
     MirrorBall,
-    /// Six squares, in the order +X, −X, +Y, −Y, +Z, −Z, each turned as graphics interfaces have it. u and v are those of the
-    /// face.
+    /// Six squares, in the order +X, −X, +Y, −Y, +Z, −Z, each turned as graphics interfaces have it. u and v are those
+    /// of the face.
     ///
     /// A texel in a corner sees 1/(3√3) of the solid angle of one in a middle.
     Cube,
@@ -41,8 +41,8 @@ impl EnvironmentShape {
 /// The number of a cube map's faces.
 pub(crate) const FACES: usize = 6;
 
-/// On which face of a cube map a direction lies, and where: that of its largest number; of equal ones the first of x, y and z.
-/// A direction without one lies in the middle of face 0.
+/// On which face of a cube map a direction lies, and where: that of its largest number; of equal ones the first of x, y
+/// and z. A direction without one lies in the middle of face 0.
 pub fn on_cube<T: Number>([x, y, z]: [T; 3]) -> (usize, [T; 2]) {
     let [a, b, c] = [x.abs(), y.abs(), z.abs()];
     let zero = T::zero();

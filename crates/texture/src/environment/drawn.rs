@@ -11,13 +11,15 @@ use super::{Environment, EnvironmentShape, texel_angle};
 use crate::error::TextureError;
 use crate::lookup::Number;
 
-/// The longest side of a face that is drawn. Larger cube maps, and what a larger one would be made of, are taken smaller.
+/// The longest side of a face that is drawn. Larger cube maps, and what a larger one would be made of, are taken
+/// smaller.
 pub const MOST_FACE_TEXELS: u32 = 1024;
 
-/// An environment as it is drawn, as an asset: a cube map with its levels, and nine harmonics. Its clones share their texels.
+/// An environment as it is drawn, as an asset: a cube map with its levels, and nine harmonics. Its clones share their
+/// texels.
 ///
-/// Each face has a border of one texel from its neighbours, so that looking it up takes four texels of one face, also at
-/// seams.
+/// Each face has a border of one texel from its neighbours, so that looking it up takes four texels of one face, also
+/// at seams.
 #[derive(Asset, TypePath, Clone, Debug, PartialEq)]
 pub struct EnvironmentMap {
     levels: Arc<[EnvironmentLevel]>,
@@ -36,8 +38,9 @@ pub struct EnvironmentLevel {
 }
 
 impl EnvironmentMap {
-    /// Makes an environment ready. A cube map stays as it is; of an equirectangular image, faces are half as wide as it is
-    /// high, of a mirroring ball's 1/√8: texels see about as much as before. No face is wider than [`MOST_FACE_TEXELS`].
+    /// Makes an environment ready. A cube map stays as it is; of an equirectangular image, faces are half as wide as it
+    /// is high, of a mirroring ball's 1/√8: texels see about as much as before. No face is wider than
+    /// [`MOST_FACE_TEXELS`].
     ///
     /// # Errors
     /// As of [`TexelImage::new`](crate::TexelImage::new).

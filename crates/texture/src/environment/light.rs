@@ -9,19 +9,20 @@ use super::drawn::EnvironmentMap;
 
 /// Lights everything from all directions, and shows where it comes from behind everything.
 ///
-/// For a normal n, a direction v toward the viewer and the exponent α of Phong's lobe (β/4 of a Blinn–Phong exponent β) it adds
+/// For a normal n, a direction v toward the viewer and the exponent α of Phong's lobe (β/4 of a Blinn–Phong exponent β)
+/// it adds
 ///
 /// ```text
 /// I += o·kd·s·E(n) + ks·s·L(2(n·v)n − v, α)
 /// ```
 ///
-/// E is the mean light that a matt surface receives, by nine harmonics; L the light around the mirrored direction, from the
-/// level whose texels are as wide as the lobe; s the strength; o what an image of occlusion has there. Colors and images
-/// multiply kd, and images ks, as they do for lights. It is evaluated at each fragment, whatever the shading; under flat shading with
-/// the triangle's normal.
+/// E is the mean light that a matt surface receives, by nine harmonics; L the light around the mirrored direction, from
+/// the level whose texels are as wide as the lobe; s the strength; o what an image of occlusion has there. Colors and
+/// images multiply kd, and images ks, as they do for lights. It is evaluated at each fragment, whatever the shading;
+/// under flat shading with the triangle's normal.
 ///
-/// A scene has one: of more the one of the first entity counts, and the renderer says so. [`TexturePlugin`](crate::TexturePlugin)
-/// registers it.
+/// A scene has one: of more the one of the first entity counts, and the renderer says so.
+/// [`TexturePlugin`](crate::TexturePlugin) registers it.
 #[derive(Component, Reflect, Clone, Debug, PartialEq)]
 #[reflect(Component, Clone, Debug, PartialEq)]
 pub struct EnvironmentLight {

@@ -24,9 +24,10 @@ use crate::texels::TexelImage;
 
 /// An image of all directions, with its pyramid: one image, or the six of a cube map.
 ///
-/// Its levels are looked up bilinearly. No seam is seen but the mirroring ball's: an equirectangular image goes on at its other
-/// side, and across a pole on the other side of it, half a texel beside where its width is odd; a cube map goes on at the neighbouring face, and in its corners, where only
-/// three texels meet, the mean of the three is taken for the fourth.
+/// Its levels are looked up bilinearly. No seam is seen but the mirroring ball's: an equirectangular image goes on at
+/// its other side, and across a pole on the other side of it, half a texel beside where its width is odd; a cube map
+/// goes on at the neighbouring face, and in its corners, where only three texels meet, the mean of the three is taken
+/// for the fourth.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Environment {
     shape: EnvironmentShape,
@@ -34,11 +35,12 @@ pub struct Environment {
 }
 
 impl Environment {
-    /// Of one image, or of six of one size. There is no light below 0: what filters leave of it in files is taken for 0.
+    /// Of one image, or of six of one size. There is no light below 0: what filters leave of it in files is taken
+    /// for 0.
     ///
     /// # Errors
-    /// Another number of images; images of a cube that are not square, or of several sizes; a mirroring ball's that is not
-    /// square.
+    /// Another number of images; images of a cube that are not square, or of several sizes; a mirroring ball's that is
+    /// not square.
     pub fn new(shape: EnvironmentShape, images: Vec<TexelImage>) -> Result<Self, TextureError> {
         let count = if shape == EnvironmentShape::Cube { FACES } else { 1 };
         let [width, height] = images.first().map_or([0; 2], TexelImage::size);
@@ -51,8 +53,8 @@ impl Environment {
         Ok(Self { shape, images: images.into_iter().map(|image| Pyramid::new(image.not_below_zero())).collect() })
     }
 
-    /// An environment whose texel in each direction, of length 1, is `color` of it: the middle of the texel stands for the
-    /// whole. Of `size` texels along the height of an equirectangular image, or along each side of the others.
+    /// An environment whose texel in each direction, of length 1, is `color` of it: the middle of the texel stands for
+    /// the whole. Of `size` texels along the height of an equirectangular image, or along each side of the others.
     ///
     /// # Errors
     /// As of [`TexelImage::new`].
@@ -78,8 +80,8 @@ impl Environment {
         Self::new(shape, (0..count).map(image).collect::<Result<_, _>>()?)
     }
 
-    /// The same light in another shape, or size: the level, between two of them, whose texels have the new ones' solid angle,
-    /// looked up at each of their middles.
+    /// The same light in another shape, or size: the level, between two of them, whose texels have the new ones' solid
+    /// angle, looked up at each of their middles.
     ///
     /// # Errors
     /// As of [`TexelImage::new`].
@@ -123,13 +125,13 @@ impl Environment {
         std::array::from_fn(|k| a[k] + part * (b[k] - a[k]))
     }
 
-    /// The light that a surface of this shininess α mirrors, arriving around the reflected direction: from the level whose
-    /// texels are as wide as the lobe.
+    /// The light that a surface of this shininess α mirrors, arriving around the reflected direction: from the level
+    /// whose texels are as wide as the lobe.
     ///
-    /// The lobe (r·l)^α, normalized over the hemisphere by (α + 1)/2π, has the mean 2/(α + 3) of sin²θ, and so a variance of
-    /// 1/(α + 3) along each of two axes. A level of texels of the angle s, looked up bilinearly, has weights that are a box of the
-    /// variance s²/12 beside a tent of s²/6: s²/4 in all. Both are alike where s = 2/√(α + 3), and D = log₂(s/[`angle`]).
-    /// Of a Blinn–Phong exponent β, α is about β/4.
+    /// The lobe (r·l)^α, normalized over the hemisphere by (α + 1)/2π, has the mean 2/(α + 3) of sin²θ, and so a
+    /// variance of 1/(α + 3) along each of two axes. A level of texels of the angle s, looked up bilinearly, has
+    /// weights that are a box of the variance s²/12 beside a tent of s²/6: s²/4 in all. Both are alike where s =
+    /// 2/√(α + 3), and D = log₂(s/[`angle`]). Of a Blinn–Phong exponent β, α is about β/4.
     ///
     /// [`angle`]: Self::angle
     pub fn glossy<T: Number>(&self, reflected: [T; 3], shininess: T) -> [T; 4] {
@@ -173,8 +175,8 @@ impl Environment {
         let inside = |at: i64| (0..i64::from(side)).contains(&at);
         let texel =
             |face: usize, [x, y]: [i64; 2]| self.images[face].level(level)[y as usize * side as usize + x as usize];
-        // Beyond an edge lies the texel of the next face that the place of this texel's middle, on this face's plane, is seen
-        // through: that on the other side of the edge, for any size.
+        // Beyond an edge lies the texel of the next face that the place of this texel's middle, on this face's plane,
+        // is seen through: that on the other side of the edge, for any size.
         let across = |[x, y]: [i64; 2]| {
             let middle = [x, y].map(|at| (at as f64 + 0.5) / f64::from(side));
             let (face, uv) = on_cube(from_cube(face, middle));

@@ -62,8 +62,8 @@ pub(super) fn mean<T: Number>(
     std::array::from_fn(|k| T::of(sums.mean()[k] + sum[k] / area))
 }
 
-/// The integral over an interval of an axis, whatever lies beyond the image, as a sum of integrals from 0 to places inside
-/// it, each times a factor.
+/// The integral over an interval of an axis, whatever lies beyond the image, as a sum of integrals from 0 to places
+/// inside it, each times a factor.
 struct Interval {
     length: f64,
     parts: [(f64, f64); 4],

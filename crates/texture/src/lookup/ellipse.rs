@@ -1,8 +1,9 @@
 //! The elliptical weighted average.
 //!
-//! P. Heckbert, *Fundamentals of Texture Mapping and Image Warping*, 1989, §3.5: the footprint of a round pixel is an ellipse,
-//! and its texels are weighted by a Gaussian of the distance r² from its middle, which is 1 at its edge. As in the pyramids of
-//! Pharr et al., *Physically Based Rendering*, the weight is e^(−2r²) − e^(−2), so that none jumps at the edge.
+//! P. Heckbert, *Fundamentals of Texture Mapping and Image Warping*, 1989, §3.5: the footprint of a round pixel is an
+//! ellipse, and its texels are weighted by a Gaussian of the distance r² from its middle, which is 1 at its edge. As in
+//! the pyramids of Pharr et al., *Physically Based Rendering*, the weight is e^(−2r²) − e^(−2), so that none jumps at
+//! the edge.
 
 use super::footprint::FootprintShape;
 use super::{Number, finite, mixed, wrapped_index};
@@ -13,8 +14,8 @@ use crate::sampling::Wrap;
 /// How many times as long as the short semiaxis the long one may be, before the short one is lengthened.
 const MOST_ECCENTRIC: f64 = 16.0;
 
-/// How many texels of a level it reaches along an axis at most. Only an image much longer than wide, in levels that are one
-/// texel wide, would ask for more.
+/// How many texels of a level it reaches along an axis at most. Only an image much longer than wide, in levels that are
+/// one texel wide, would ask for more.
 const FARTHEST: f64 = 64.0;
 
 /// The mean over the ellipse.
@@ -32,7 +33,8 @@ pub(super) fn mean<T: Number>(pyramid: &Pyramid, wrap: [Wrap; 2], uv: [T; 2], fo
     if part == T::zero() { a } else { mixed(a, of(finer + 1), part) }
 }
 
-/// The texels of a level in the ellipse, whose short semiaxis is `short` texels of the image, and at least one of the level.
+/// The texels of a level in the ellipse, whose short semiaxis is `short` texels of the image, and at least one of the
+/// level.
 fn in_level<T: Number>(
     pyramid: &Pyramid,
     level: usize,
@@ -90,7 +92,8 @@ impl<T: Number> Ellipse<T> {
     fn new(footprint: &FootprintShape<T>, short: T, scale: [T; 2]) -> Option<Self> {
         let [u, v] = footprint.direction();
         let [long, short] = [footprint.long.max(short), short];
-        // M with the semiaxes as they are now: σ₂²·1 + (σ₁² − σ₂²)·d·dᵀ, scaled, and no thinner than a texel of the level.
+        // M with the semiaxes as they are now: σ₂²·1 + (σ₁² − σ₂²)·d·dᵀ, scaled, and no thinner than a texel of the
+        // level.
         let (round, more) = (short * short, (long - short) * (long + short));
         let [x, y] = scale;
         let [uu, uv, vv] = [(round + more * u * u) * x * x, more * u * v * x * y, (round + more * v * v) * y * y];
@@ -139,8 +142,8 @@ fn widened<T: Number>([uu, uv, vv]: [T; 3]) -> [T; 3] {
     [T::one() + (uu - small) * share, uv * share, T::one() + (vv - small) * share]
 }
 
-/// e^(−2r²) − e^(−2), but for a factor e: with x = 1 − 2r² it is e^x − e^(−1), e^x by Taylor's series up to x⁸, whose error is
-/// 3·10⁻⁶ or less between −1 and 1.
+/// e^(−2r²) − e^(−2), but for a factor e: with x = 1 − 2r² it is e^x − e^(−1), e^x by Taylor's series up to x⁸, whose
+/// error is 3·10⁻⁶ or less between −1 and 1.
 fn weight<T: Number>(r2: T) -> T {
     const OVER_FACTORIALS: [f64; 9] =
         [1.0 / 40320.0, 1.0 / 5040.0, 1.0 / 720.0, 1.0 / 120.0, 1.0 / 24.0, 1.0 / 6.0, 0.5, 1.0, 1.0];

@@ -2,7 +2,8 @@
 
 use super::Number;
 
-/// The ellipse a·x + b·y with x² + y² ≤ 1, in texels: M = a·aᵀ + b·bᵀ, whose eigenvalues are the squares of the semiaxes.
+/// The ellipse a·x + b·y with x² + y² ≤ 1, in texels: M = a·aᵀ + b·bᵀ, whose eigenvalues are the squares of the
+/// semiaxes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FootprintShape<T> {
     /// M, as (uu, uv, vv).
@@ -28,8 +29,8 @@ impl<T: Number> FootprintShape<T> {
         Self { moments: [uu, uv, vv], long, short }
     }
 
-    /// Whether it is a footprint, and none of more than 10⁹ texels, as it is near a horizon. So large a one is squared in single
-    /// precision without leaving its range.
+    /// Whether it is a footprint, and none of more than 10⁹ texels, as it is near a horizon. So large a one is squared
+    /// in single precision without leaving its range.
     pub(super) fn has_an_end(&self) -> bool {
         self.moments[0] + self.moments[2] <= T::of(1e18)
     }
@@ -47,8 +48,8 @@ impl<T: Number> FootprintShape<T> {
 
     /// The sides along u and v of a rectangle that is as spread out as the footprint: √uu and √vv.
     ///
-    /// The footprint is the parallelogram of a and b; a point that is evenly distributed over it has the covariance M/12, and
-    /// one over a rectangle of these sides the variances uu/12 and vv/12.
+    /// The footprint is the parallelogram of a and b; a point that is evenly distributed over it has the covariance
+    /// M/12, and one over a rectangle of these sides the variances uu/12 and vv/12.
     pub(super) fn sides(&self) -> [T; 2] {
         [self.moments[0].sqrt(), self.moments[2].sqrt()]
     }

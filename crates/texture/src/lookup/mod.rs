@@ -106,8 +106,8 @@ impl Number for f64 {
     }
 }
 
-/// D = log₂ of the longer side of a footprint, in texels of an image of this size: `footprint` has how (u, v) changes from a
-/// pixel to the next along x, and along y.
+/// D = log₂ of the longer side of a footprint, in texels of an image of this size: `footprint` has how (u, v) changes
+/// from a pixel to the next along x, and along y.
 pub fn level<T: Number>(size: [u32; 2], footprint: [[T; 2]; 2]) -> T {
     let [width, height] = size.map(|side| T::of(side.into()));
     let [x, y] = footprint.map(|[u, v]| (u * width) * (u * width) + (v * height) * (v * height));
@@ -170,9 +170,9 @@ fn mixed<T: Number>(a: [T; 4], b: [T; 4], part: T) -> [T; 4] {
     std::array::from_fn(|channel| a[channel] + part * (b[channel] - a[channel]))
 }
 
-/// How one number of an image changes along u and along v at a point of this D, per unit of u and v: the difference half a
-/// texel of the level to either side. In one level and with a bilinear filter that is the derivative of the quadratic
-/// B-spline through the texels, which has no steps.
+/// How one number of an image changes along u and along v at a point of this D, per unit of u and v: the difference
+/// half a texel of the level to either side. In one level and with a bilinear filter that is the derivative of the
+/// quadratic B-spline through the texels, which has no steps.
 pub fn gradient<T: Number>(pyramid: &Pyramid, sampling: &Sampling, uv: [T; 2], d: T, channel: Channel) -> [T; 2] {
     let reduced = sampling.levels != LevelFilter::None && d > T::zero();
     let last = T::of((pyramid.levels().len() - 1) as f64);

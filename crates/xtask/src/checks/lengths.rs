@@ -49,8 +49,8 @@ fn faults(root: &Path) -> Result<Vec<String>> {
     Ok(faults)
 }
 
-/// The lines of a page, or of the comments of code, that are too wide, each with its columns. Code, tables, headings and
-/// pictures cannot be broken.
+/// The lines of a page, or of the comments of code, that are too wide, each with its columns. Code, tables, headings
+/// and pictures cannot be broken.
 fn wide_lines(text: &str, is_page: bool) -> impl Iterator<Item = (usize, usize)> {
     let mut in_code = false;
     text.lines().zip(1..).filter_map(move |(line, at)| {

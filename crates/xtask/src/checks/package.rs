@@ -69,8 +69,8 @@ fn faults(package: &Package) -> Vec<String> {
     faults
 }
 
-/// Unpacks every package, each into the folder that it brings, and names these. Files are as new as that, whatever their
-/// package says: else what was built of older ones would be taken for built of these.
+/// Unpacks every package, each into the folder that it brings, and names these. Files are as new as that, whatever
+/// their package says: else what was built of older ones would be taken for built of these.
 fn unpack(folder: &Path) -> Result<Vec<PathBuf>> {
     let packed = folder.join("package");
     let mut folders = Vec::new();

@@ -13,11 +13,11 @@ use crate::tally::counted;
 /// Run the picture tests and verify the example scenes on every adapter that a bare Debian can have
 ///
 /// These are lavapipe (Vulkan), lavapipe in the ways of hardware, llvmpipe through OpenGL, `SwiftShader`, the software
-/// Vulkan driver of chromium, and the CPU without a driver. On each: the conformance suite, all three shadings with few and
-/// many lights, and `halfway verify` over examples/scenes; on the CPU all picture tests that are not about wgpu. Each suite
-/// prints the worst figures, from which the table in docs/accuracy.md is.
-/// What is missing is installed first, as for `cargo xtask test`, of which this is a part; but there the drivers share the
-/// suite's rows with images, solids and environments among them, since they take minutes to compile their shaders.
+/// Vulkan driver of chromium, and the CPU without a driver. On each: the conformance suite, all three shadings with few
+/// and many lights, and `halfway verify` over examples/scenes; on the CPU all picture tests that are not about wgpu.
+/// Each suite prints the worst figures, from which the table in docs/accuracy.md is.
+/// What is missing is installed first, as for `cargo xtask test`, of which this is a part; but there the drivers share
+/// the suite's rows with images, solids and environments among them, since they take minutes to compile their shaders.
 /// Here each draws all.
 #[derive(Args, Debug)]
 #[command(verbatim_doc_comment)]
@@ -39,8 +39,8 @@ pub(crate) fn run(options: &Options) -> Result {
 /// What the adapters need beyond the driver.
 pub(crate) const NEEDS: [crate::setup::Need; 3] = [VULKAN, OPENGL, SWIFTSHADER];
 
-/// The adapters to try where all tests run on the one that this choice opens: they do not run again there, and the drivers that
-/// are left share the rows with textures among them; with the tests, where those take a share.
+/// The adapters to try where all tests run on the one that this choice opens: they do not run again there, and the
+/// drivers that are left share the rows with textures among them; with the tests, where those take a share.
 ///
 /// # Errors
 /// An adapter is not there, or the tests' share is not what leaves one for each.
@@ -67,8 +67,8 @@ pub(crate) fn try_each(adapters: Vec<TriedAdapter>) -> Result {
     if failed.is_empty() { Ok(()) } else { Err(Failure::new(failed.join("\n"))) }
 }
 
-/// Leaves out the tests of the adapter that a line of `halfway adapters` is about, and gives each other driver its share: all of
-/// them together draw each row once, or what the `tests` leave them of it.
+/// Leaves out the tests of the adapter that a line of `halfway adapters` is about, and gives each other driver its
+/// share: all of them together draw each row once, or what the `tests` leave them of it.
 fn leave_out_what_runs(adapters: &mut [TriedAdapter], line: &str, tests: Option<&str>) -> Result {
     for adapter in adapters.iter_mut().filter(|adapter| adapter.is_chosen_alone() && adapter.is(line)) {
         adapter.tests = Tests::None;
@@ -149,11 +149,11 @@ impl Tests {
     }
 }
 
-/// The example scenes that are known not to be as the oracle draws them, by adapter, and how many steps they may be off: more is
-/// an error, and so is what is mended.
+/// The example scenes that are known not to be as the oracle draws them, by adapter, and how many steps they may be
+/// off: more is an error, and so is what is mended.
 ///
-/// At the outline of the ball `SwiftShader`'s grid of 1/16 pixel is thought to turn the planes of u and v, and so to change which
-/// level of an image is seen: 22 steps were found, and CPUs may round that differently.
+/// At the outline of the ball `SwiftShader`'s grid of 1/16 pixel is thought to turn the planes of u and v, and so to
+/// change which level of an image is seen: 22 steps were found, and CPUs may round that differently.
 const KNOWN: [(&str, &str, u32); 1] = [(SWIFTSHADER_NAME, "textured_models.json", 24)];
 const SWIFTSHADER_NAME: &str = "SwiftShader";
 
@@ -201,8 +201,8 @@ fn all() -> Result<Vec<TriedAdapter>> {
                 set("WGPU_BACKEND", "gl"),
                 set("EGL_PLATFORM", "surfaceless"),
                 set("LIBGL_ALWAYS_SOFTWARE", "true"),
-                // Targets of 32-bit floats, which the tests need, are a part of OpenGL since 3.0, but wgpu looks for the
-                // name that they had as an extension.
+                // Targets of 32-bit floats, which the tests need, are a part of OpenGL since 3.0, but wgpu looks for
+                // the name that they had as an extension.
                 set("MESA_EXTENSION_OVERRIDE", "+GL_ARB_color_buffer_float"),
             ],
             says: ["llvmpipe", "(gl"],

@@ -18,8 +18,8 @@ pub(crate) enum Program {
 
 /// Sees to an adapter to draw with, builds a program and runs it with `arguments`.
 ///
-/// It is built as a part of the workspace: chosen by its package, its dependencies would have other features than for the
-/// tests, and most of them would be built once more.
+/// It is built as a part of the workspace: chosen by its package, its dependencies would have other features than for
+/// the tests, and most of them would be built once more.
 pub(crate) fn run<A: AsRef<OsStr>>(
     title: &str,
     setup: Setup,

@@ -6,7 +6,8 @@ use halfway::prelude::*;
 
 use super::super::{ChartedScene, SceneDetail, Still};
 
-/// Five teapots on a floor among lights that circle them, one of them below each: what the example `moving_lights` shows.
+/// Five teapots on a floor among lights that circle them, one of them below each: what the example `moving_lights`
+/// shows.
 pub fn moving_lights() -> ChartedScene {
     let about = "five teapots on a floor, three point lights and two spots that move with every frame";
     let levels = [2, 4, 8, 16, 32];

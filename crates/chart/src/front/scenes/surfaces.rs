@@ -85,7 +85,8 @@ pub fn terrain() -> ChartedScene {
     })
 }
 
-/// The mesh of [`terrain`], 8 × 8 units around the origin and up to 1.4 high and deep, of `cells` cells along each side.
+/// The mesh of [`terrain`], 8 × 8 units around the origin and up to 1.4 high and deep, of `cells` cells along each
+/// side.
 pub fn terrain_mesh(cells: u32) -> Mesh {
     match HeightField::new(8.0, 8.0, SAMPLES, heights()) {
         Ok(field) => cut(&field, cells, cells),

@@ -37,8 +37,8 @@ pub struct ScalingPlan {
     /// The time in milliseconds that the timed frames of one look may take at one step; 3 rounds are made at
     /// least, unless `rounds` are fewer.
     pub budget_ms: f64,
-    /// The longest frame that is worth waiting for, in milliseconds: where one may be expected to take longer, its curve
-    /// ends.
+    /// The longest frame that is worth waiting for, in milliseconds: where one may be expected to take longer, its
+    /// curve ends.
     pub limit_ms: f64,
     /// How many decades each sweep ends before its full length ([`Growth::end`]).
     pub decades_less: u32,

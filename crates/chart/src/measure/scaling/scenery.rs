@@ -57,8 +57,8 @@ impl ScalingScene {
         &mut self.app
     }
 
-    /// Sets the scene with about as many as asked for, and tells how many there are. Pictures have `size` × `size` pixels
-    /// unless it is them that are counted.
+    /// Sets the scene with about as many as asked for, and tells how many there are. Pictures have `size` × `size`
+    /// pixels unless it is them that are counted.
     pub(super) fn show(&mut self, growth: Growth, count: f64, size: u32) -> f64 {
         let world = self.app.world_mut();
         let old: Vec<Entity> = world.query_filtered::<Entity, With<SceneEntity>>().iter(world).collect();
@@ -125,7 +125,8 @@ impl ScalingScene {
             self.object(mesh.clone(), Transform::from_xyz(at(i % tiles), 0.0, at(i / tiles)));
         }
         for i in 0..lights {
-            // Over each unit one; the golden section scatters the first of them. It has no factor in common with the units.
+            // Over each unit one; the golden section scatters the first of them. It has no factor in common with the
+            // units.
             let unit = i * 6181 % (GROUND * GROUND);
             let at = |unit: u32| unit as f32 + 0.5 - half;
             let light = PointLight {
@@ -149,8 +150,8 @@ impl ScalingScene {
         }
     }
 
-    /// A sphere that covers the picture: its half angle is asin(1/1.4) = 45.6°, and the corners of 16:9 lie 40.2° off the
-    /// middle.
+    /// A sphere that covers the picture: its half angle is asin(1/1.4) = 45.6°, and the corners of 16:9 lie 40.2° off
+    /// the middle.
     fn filled(&mut self) {
         self.camera(1.4);
         self.sun();

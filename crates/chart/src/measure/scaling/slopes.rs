@@ -1,4 +1,5 @@
-//! How steep a curve is where, on logarithmic axes: a slope of 1 is in proportion, one of 0 does not depend on the count.
+//! How steep a curve is where, on logarithmic axes: a slope of 1 is in proportion, one of 0 does not depend on the
+//! count.
 
 use crate::measure::Line;
 

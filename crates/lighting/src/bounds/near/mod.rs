@@ -26,8 +26,8 @@ pub struct NearLights {
     pairs: u64,
 }
 
-/// The parts of the tolerance that may be spent on lights without looking at them. With more of it fewer are looked at, and
-/// more often it depends on the others which of these are left out.
+/// The parts of the tolerance that may be spent on lights without looking at them. With more of it fewer are looked at,
+/// and more often it depends on the others which of these are left out.
 const UNSEEN: [f64; 3] = [1.0 / 64.0, 1.0 / 4096.0, 0.0];
 
 /// Lights side by side, in ascending order.

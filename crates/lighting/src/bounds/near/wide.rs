@@ -30,13 +30,13 @@ pub(super) struct FoundTerm {
     pub(super) strong: u32,
     /// Those whose bound does not, and is not 0.
     pub(super) weak: u32,
-    /// A channel each; of highlights no less than the bound and no more than a [`BLUR`] above it. Not there where no lane
-    /// is weak.
+    /// A channel each; of highlights no less than the bound and no more than a [`BLUR`] above it. Not there where no
+    /// lane is weak.
     pub(super) bound: [[f32; CHUNK]; 3],
 }
 
-/// By how much what stands for the bound of a highlight may exceed it, relative to itself: twice the error of the power, on
-/// either side.
+/// By how much what stands for the bound of a highlight may exceed it, relative to itself: twice the error of the
+/// power, on either side.
 pub(super) const BLUR: f64 = 4.0 * POWER_ERROR as f64;
 
 impl Found {
@@ -50,7 +50,8 @@ impl Found {
 impl FoundTerm {
     const NONE: Self = Self { strong: 0, weak: 0, bound: [[0.0; CHUNK]; 3] };
 
-    /// Also gives the lanes of which it is not certain whether they are strong: their bounds lie between `low` and `high`.
+    /// Also gives the lanes of which it is not certain whether they are strong: their bounds lie between `low` and
+    /// `high`.
     #[inline(always)]
     fn new<S: Simd>(simd: S, low: V3<S>, high: V3<S>, tolerance: [f32; 3]) -> (Self, u32) {
         let zero = splat(simd, 0.0);

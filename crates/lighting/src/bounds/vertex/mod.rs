@@ -16,8 +16,8 @@ pub use wide::VertexChanges;
 /// How finely a patch is cut into triangles: of each of the two, the largest of all its triangles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grain<T> {
-    /// The radius of the smallest circle around the three unit normals of a triangle's corners, taken as points: sin R, R
-    /// the half angle of the smallest cone around them.
+    /// The radius of the smallest circle around the three unit normals of a triangle's corners, taken as points: sin R,
+    /// R the half angle of the smallest cone around them.
     pub normals: T,
     /// The radius r of the smallest circle around a triangle's corners, in the space of the evaluation.
     pub corners: T,
@@ -54,8 +54,8 @@ fn circle<T: Real>([a, b, c]: [[T; 3]; 3]) -> T {
     (square * (T::one() + slack())).sqrt()
 }
 
-/// Of one term of a light, without its colours: what shading it at the vertices changes at any point at most, and what it
-/// has at every point at least.
+/// Of one term of a light, without its colours: what shading it at the vertices changes at any point at most, and what
+/// it has at every point at least.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TermChange<T> {
     /// By how much it may come out brighter.
@@ -79,8 +79,8 @@ impl<T: Real> TermChange<T> {
     }
 }
 
-/// What each bound is multiplied by, and what is added to it of a light's largest att·spot: ten times what was found to be
-/// lost in `f32`.
+/// What each bound is multiplied by, and what is added to it of a light's largest att·spot: ten times what was found to
+/// be lost in `f32`.
 const RAISE: f64 = 1.001;
 const LEAST: f64 = 2e-6;
 
@@ -98,18 +98,18 @@ pub struct VertexChange<T> {
 /// One side of a patch whose triangles may be shaded at their vertices: everything about it that does not depend on the
 /// light.
 ///
-/// What is interpolated over a triangle, perspective-correctly and unclamped, is Σ bᵢ·f(vᵢ) with f the term at each corner
-/// and b the barycentric coordinates of a point; what it stands for is f at that point, with the interpolated, renormalised
-/// normal. [`VertexShading::change`] bounds their difference, above and below.
+/// What is interpolated over a triangle, perspective-correctly and unclamped, is Σ bᵢ·f(vᵢ) with f the term at each
+/// corner and b the barycentric coordinates of a point; what it stands for is f at that point, with the interpolated,
+/// renormalised normal. [`VertexShading::change`] bounds their difference, above and below.
 ///
 /// # The bound
-/// p = Σ bᵢ·pᵢ, m = Σ bᵢ·nᵢ, N = m/‖m‖. As the mean square of distances about a mean is no more than about any other point,
-/// Σ bᵢ·‖pᵢ − p‖² ≤ r² and Σ bᵢ·‖nᵢ − m‖² = 1 − ‖m‖² ≤ sin² R ([`Grain`]), so ‖m‖ ≥ cos R. Along the straight way to the
-/// corner i, N turns with a speed ωᵢ of at most ‖nᵢ − m‖/cos R, and Σ bᵢ·ωᵢ² ≤ tan² R. By Taylor's theorem along the three
-/// ways, Σ bᵢ·f(vᵢ) − f(b) lies in ½·Σ bᵢ·[inf f″, sup f″].
+/// p = Σ bᵢ·pᵢ, m = Σ bᵢ·nᵢ, N = m/‖m‖. As the mean square of distances about a mean is no more than about any other
+/// point, Σ bᵢ·‖pᵢ − p‖² ≤ r² and Σ bᵢ·‖nᵢ − m‖² = 1 − ‖m‖² ≤ sin² R ([`Grain`]), so ‖m‖ ≥ cos R. Along the straight
+/// way to the corner i, N turns with a speed ωᵢ of at most ‖nᵢ − m‖/cos R, and Σ bᵢ·ωᵢ² ≤ tan² R. By Taylor's theorem
+/// along the three ways, Σ bᵢ·f(vᵢ) − f(b) lies in ½·Σ bᵢ·[inf f″, sup f″].
 ///
-/// With A, A′ and A″ the largest att·spot and the largest sizes of its first and second derivatives along a unit way, d the
-/// least distance to the light and all cosines over the cones of [`Receiver`]:
+/// With A, A′ and A″ the largest att·spot and the largest sizes of its first and second derivatives along a unit way, d
+/// the least distance to the light and all cosines over the cones of [`Receiver`]:
 ///
 /// | term | change | because |
 /// |---|---|---|
@@ -148,13 +148,13 @@ struct Weight<T> {
     is_spot: bool,
 }
 
-/// For a way p + u·s at distance d of a light, with a along the light's direction and t across it of u, l′ has the size t/d, and
-/// l″ t·√(t² + 4·a²)/d² ≤ 2/√3·‖u‖²/d².
+/// For a way p + u·s at distance d of a light, with a along the light's direction and t across it of u, l′ has the size
+/// t/d, and l″ t·√(t² + 4·a²)/d² ≤ 2/√3·‖u‖²/d².
 const TURNING: f64 = 1.154_700_6;
 
 impl<T: Real> VertexShading<T> {
-    /// The front of a patch, or its back, with the coefficients of that side and `slopes` of their exponent; `None` where
-    /// nothing can be said: normals that are spread too wide, an eye among the points.
+    /// The front of a patch, or its back, with the coefficients of that side and `slopes` of their exponent; `None`
+    /// where nothing can be said: normals that are spread too wide, an eye among the points.
     pub fn new(
         patch: &Patch<T>,
         grain: &Grain<T>,
@@ -197,8 +197,8 @@ impl<T: Real> VertexShading<T> {
         })
     }
 
-    /// What shading the terms of `light` at the vertices changes; `None` where nothing can be said, as of a light among the
-    /// points, or at the edge of its cone.
+    /// What shading the terms of `light` at the vertices changes; `None` where nothing can be said, as of a light among
+    /// the points, or at the edge of its cone.
     pub fn change(&self, light: &Light<T>) -> Option<VertexChange<T>> {
         let (l, weight) = self.arrival(light)?;
         let zero = T::zero();

@@ -1,5 +1,5 @@
-//! What shading at the vertices changes of eight lights at once: the text of the module on lanes. What the plain text decides
-//! by a branch is a selection here; powers are those of the other bounds on lanes, no less exact.
+//! What shading at the vertices changes of eight lights at once: the text of the module on lanes. What the plain text
+//! decides by a branch is a selection here; powers are those of the other bounds on lanes, no less exact.
 //!
 //! Lights with a cone, and those whose squared distance leaves the range of numbers, are for the plain text.
 

@@ -14,8 +14,8 @@ use crate::{MtlMaps, MtlMaterial, SourceChannel, SourceMap, SourceMaterial, Sour
 /// - `Ka Kd Ks Ke`: three finite numbers, or one for all three; spectra (`spectral`, `xyz`) are skipped with a warning.
 /// - `Ns d Tr`: one finite number; `d -halo` is skipped with a warning.
 /// - `illum`: a number from 0 to 255.
-/// - `map_Kd map_Ks map_Ke map_d map_Ns norm map_Bump` (also `map_bump`, `bump`): options `-s -o -clamp -imfchan`, of bumps
-///   `-bm`, and a file; others are skipped with a warning. What cannot be read is a warning.
+/// - `map_Kd map_Ks map_Ke map_d map_Ns norm map_Bump` (also `map_bump`, `bump`): options `-s -o -clamp -imfchan`, of
+///   bumps `-bm`, and a file; others are skipped with a warning. What cannot be read is a warning.
 /// - Other textures are skipped with a warning, everything else in silence.
 pub(super) fn parse(
     reader: Reader,

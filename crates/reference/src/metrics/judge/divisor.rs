@@ -1,7 +1,7 @@
 //! A picture that was divided by its largest channel, judged by the one number that it was divided by.
 //!
-//! Where the brightest pixel lies on an edge, two drawers that are both right divide by different numbers, and then differ
-//! everywhere. Were each pixel allowed any of those numbers, a wrong one would pass too.
+//! Where the brightest pixel lies on an edge, two drawers that are both right divide by different numbers, and then
+//! differ everywhere. Were each pixel allowed any of those numbers, a wrong one would pass too.
 
 use super::{Bars, Measure, Ruler, SizeMismatch, Verdict, judge_with, same_size};
 use crate::Image;
@@ -33,8 +33,9 @@ pub(super) fn judge_divided(
     judge_with(possible, samples, (&scaled, moved.as_deref()), actual, bars)
 }
 
-/// What the expected picture is multiplied by to be divided like the actual one; 1 where no picture that may be shown would
-/// have been divided so. `one` is the intensity 1, below which nothing is divided, as the expected picture shows it.
+/// What the expected picture is multiplied by to be divided like the actual one; 1 where no picture that may be shown
+/// would have been divided so. `one` is the intensity 1, below which nothing is divided, as the expected picture shows
+/// it.
 fn divided_like(
     possible: &(impl Fn(u32, u32) -> Possible + Sync),
     (expected, moved): (&Image, Option<&[ColorRange]>),
@@ -104,8 +105,8 @@ fn largest(pixel: [f64; 3]) -> f64 {
     pixel.into_iter().fold(0.0, f64::max)
 }
 
-/// Bright channels, as they are expected and as they are: each expected value once, as a large patch of one color is rounded
-/// alike everywhere; and none that was clamped, where there are others.
+/// Bright channels, as they are expected and as they are: each expected value once, as a large patch of one color is
+/// rounded alike everywhere; and none that was clamped, where there are others.
 fn bright(expected: &Image, actual: &Image, bars: Bars) -> Vec<(f64, f64)> {
     let least = DARKEST * expected.largest();
     let clamped = if matches!(bars.measure, Measure::Steps(_)) { 1.0 } else { f64::INFINITY };

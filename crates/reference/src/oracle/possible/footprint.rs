@@ -19,8 +19,8 @@ pub(super) struct Zone {
     round: bool,
 }
 
-/// The sides of the polygon around a disc. Each of its corners lies 2 % of the radius outside, so that the corners are on
-/// both sides of whatever straight line cuts the disc.
+/// The sides of the polygon around a disc. Each of its corners lies 2 % of the radius outside, so that the corners are
+/// on both sides of whatever straight line cuts the disc.
 const SIDES: u32 = 16;
 
 /// 0, 22.5, 45 and 67.5 degrees as cosine and sine, to the nearest f64.
@@ -52,8 +52,8 @@ impl Zone {
         [self.centre - self.reach, self.centre + self.reach]
     }
 
-    /// How far a point before the eye lies beyond a side, in pixels, times its depth: linear in space, so that an edge is
-    /// cut there without a division by depths near 0.
+    /// How far a point before the eye lies beyond a side, in pixels, times its depth: linear in space, so that an edge
+    /// is cut there without a division by depths near 0.
     fn beyond(&self, view: &PictureView, side: DVec2, p: DVec3) -> f64 {
         view.pixel_by_depth(p, self.centre).dot(side) + self.reach * p.z
     }
@@ -228,12 +228,12 @@ fn is_thin(view: &PictureView, corners: [DVec3; 3], reach: f64) -> bool {
     (b - a).perp_dot(c - a).abs() <= 2.0 * reach * longest
 }
 
-/// A depth buffer in f32 holds near/depth. A renderer knows it, of a triangle, to a few roundings of the greatest one on it,
-/// from which it interpolates.
+/// A depth buffer in f32 holds near/depth. A renderer knows it, of a triangle, to a few roundings of the greatest one
+/// on it, from which it interpolates.
 const ROUNDINGS: f64 = 4.0 * f32::EPSILON as f64;
 
-/// The least and the greatest 1/depth of an outline, widened by the roundings of f32: those of the vertices, whose depths
-/// are sums of larger terms, and those of the interpolation between them.
+/// The least and the greatest 1/depth of an outline, widened by the roundings of f32: those of the vertices, whose
+/// depths are sums of larger terms, and those of the interpolation between them.
 fn nearness(view: &PictureView, solid: &Solid, triangle: u32, outline: &[FootprintCorner]) -> [f64; 2] {
     let inverse = || outline.iter().map(|corner| corner.depth().recip());
     let z = solid.eye_from_model.matrix3.row(2).abs();

@@ -18,27 +18,27 @@ use stack::Stack;
 
 pub use range::{ColorRange, Possible};
 
-/// Where the four samples of a pixel lie, from its top left corner (WebGPU, "multisample state"; Vulkan, "standard sample
-/// locations").
+/// Where the four samples of a pixel lie, from its top left corner (WebGPU, "multisample state"; Vulkan, "standard
+/// sample locations").
 const FOUR: [[f64; 2]; 4] = [[0.375, 0.125], [0.875, 0.375], [0.125, 0.625], [0.625, 0.875]];
 
 /// More combinations of the samples' colours become one range.
 const MOST_RANGES: usize = 4096;
 
 impl Oracle {
-    /// The colours that the pixel in column `x` of row `y` may show, drawn by a renderer that moves each vertex by at most
-    /// `radius` pixels, vertices at one place together: what any sampling point so far beside the true one could have met.
-    /// The radius is below 1/8.
+    /// The colours that the pixel in column `x` of row `y` may show, drawn by a renderer that moves each vertex by at
+    /// most `radius` pixels, vertices at one place together: what any sampling point so far beside the true one could
+    /// have met. The radius is below 1/8.
     ///
-    /// - A triangle may be seen if it comes into the disc of that radius, unless something before it cannot be missed: a
-    ///   surface that covers the disc's centre and has neither an end nor a silhouette within the disc, and of which the
-    ///   farthest point in the disc is nearer than the triangle's nearest one.
-    /// - Depths are equal if they differ by no more than four roundings of f32 of the nearest depth on the triangle, from
-    ///   which a renderer interpolates, and of the terms of its vertices' depths. Of two opaque objects with
+    /// - A triangle may be seen if it comes into the disc of that radius, unless something before it cannot be missed:
+    ///   a surface that covers the disc's centre and has neither an end nor a silhouette within the disc, and of which
+    ///   the farthest point in the disc is nearer than the triangle's nearest one.
+    /// - Depths are equal if they differ by no more than four roundings of f32 of the nearest depth on the triangle,
+    ///   from which a renderer interpolates, and of the terms of its vertices' depths. Of two opaque objects with
     ///   equal meshes and the same transform, both flat or neither, the one that was spawned first is seen.
     /// - Blended surfaces are put over each other in every combination, in the order of drawing.
-    /// - Where the camera takes four samples a pixel, each of them has a disc of its own. A triangle is shaded once, anywhere in the part of
-    ///   the pixel that it covers, or at the centre if it covers the pixel.
+    /// - Where the camera takes four samples a pixel, each of them has a disc of its own. A triangle is shaded once,
+    ///   anywhere in the part of the pixel that it covers, or at the centre if it covers the pixel.
     ///
     /// The camera's [`Intensity`](halfway_lighting::Intensity) has acted on them, but for a divisor.
     ///

@@ -14,8 +14,9 @@ pub struct ColorRange {
 pub struct Possible {
     /// One for each combination of triangles that may be seen.
     pub ranges: Vec<ColorRange>,
-    /// Whether more than one combination of triangles may be seen, or another by each sample, or a triangle's own colour
-    /// jumps, as it does at the edge of a spot's cone. Where none is so the pixel has one right colour: that at its centre.
+    /// Whether more than one combination of triangles may be seen, or another by each sample, or a triangle's own
+    /// colour jumps, as it does at the edge of a spot's cone. Where none is so the pixel has one right colour: that at
+    /// its centre.
     pub is_edge: bool,
     /// The most blended layers that may lie over one another at one sampling point.
     pub layers: usize,
