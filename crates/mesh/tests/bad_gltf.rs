@@ -313,7 +313,7 @@ const ROWS: &[Row] = &[
         ": the extension KHR_draco_mesh_compression is required, which is not supported",
     ),
     (
-        "required transform of textures",
+        "required form of images",
         "{\"version\":\"2.0\"}",
         "{\"version\":\"2.0\"},\"extensionsRequired\":[\"KHR_texture_basisu\"]",
         ": the extension KHR_texture_basisu is required, which is not supported",

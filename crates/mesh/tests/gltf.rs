@@ -310,6 +310,23 @@ fn a_texture_of_metal_and_roughness_is_skipped_by_name() {
 }
 
 #[test]
+fn a_transform_of_textures_may_be_required() {
+    let head = r#"{"version":"2.0"},"extensionsUsed":["KHR_texture_transform"],
+        "extensionsRequired":["KHR_texture_transform"],
+        "images":[{"uri":"data:image/png;base64,AAAA"}],"textures":[{"source":0}]"#;
+    let texture = r#""baseColorTexture":{"index":0,"extensions":{"KHR_texture_transform":
+        {"offset":[0.5,0.25],"rotation":0.125,"scale":[2,4]}}},"metallicFactor":0.25"#;
+    let json = with(&[(r#"{"version":"2.0"}"#, head), (r#""metallicFactor":0.25"#, texture)]);
+    let model = load_glb(&json, &triangle_data()).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(model.warnings, [""; 0]);
+    let [SourceMaterial::MetallicRoughness(MetallicRoughness { maps, .. })] = &model.materials[..] else {
+        panic!("one material: {:?}", model.materials)
+    };
+    let map = maps.base_color.as_ref().expect("its image");
+    assert_eq!((map.offset, map.rotation, map.scale), ([0.5, 0.25], 0.125, [2.0, 4.0]));
+}
+
+#[test]
 fn matrices_may_be_off_by_rounding() {
     let node = "{\"name\":\"node\",\"mesh\":0,\"translation\":[0,0,5]}";
     let of = |last: &str| format!("{{\"mesh\":0,\"matrix\":[2,0,0,0, 0,2,0,0, 0,0,2,0, 1,2,3,{last}]}}");
