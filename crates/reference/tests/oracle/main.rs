@@ -4,6 +4,7 @@ mod bits;
 mod blending;
 mod coverage;
 mod errors;
+mod folds;
 mod four;
 mod mutants;
 mod possible;

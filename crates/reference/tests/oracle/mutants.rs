@@ -17,7 +17,7 @@ const SIZE: u32 = 96;
 /// Where the four samples of a pixel lie.
 const FOUR: [[f64; 2]; 4] = [[0.375, 0.125], [0.875, 0.375], [0.125, 0.625], [0.625, 0.875]];
 
-fn oracle(stage: &mut Stage) -> Oracle {
+pub(crate) fn oracle(stage: &mut Stage) -> Oracle {
     stage.oracle(SIZE, SIZE)
 }
 
@@ -26,7 +26,7 @@ fn float(truth: &Oracle, actual: &Image) -> Verdict {
 }
 
 /// As a drawer with a grid of four bits is judged.
-fn coarse(truth: &Oracle, actual: &Image) -> Verdict {
+pub(crate) fn coarse(truth: &Oracle, actual: &Image) -> Verdict {
     judge(truth, &truth.draw(), actual, Bars::FLOAT.on_grid(4)).expect("pictures of one size")
 }
 
@@ -39,7 +39,7 @@ fn bytes(stage: &mut Stage, actual: &Image, encoding: Encoding) -> Verdict {
 }
 
 /// Fails unless all judges, of floating point on either grid and of bytes, find the fault.
-fn assert_caught(fault: &str, stage: &mut Stage, actual: &Image) {
+pub(crate) fn assert_caught(fault: &str, stage: &mut Stage, actual: &Image) {
     let verdict = float(&oracle(stage), actual);
     assert!(!verdict.is_within(), "{fault}: {verdict}");
     let verdict = coarse(&oracle(stage), actual);
@@ -51,7 +51,7 @@ fn assert_caught(fault: &str, stage: &mut Stage, actual: &Image) {
 }
 
 /// The picture with some pixels changed.
-fn with(image: &Image, changes: impl IntoIterator<Item = ((u32, u32), [f64; 3])>) -> Image {
+pub(crate) fn with(image: &Image, changes: impl IntoIterator<Item = ((u32, u32), [f64; 3])>) -> Image {
     let (width, height) = image.dimensions();
     let mut pixels = image.pixels().to_vec();
     for ((x, y), color) in changes {
@@ -60,7 +60,7 @@ fn with(image: &Image, changes: impl IntoIterator<Item = ((u32, u32), [f64; 3])>
     Image::new(width, height, pixels)
 }
 
-fn all_pixels() -> impl Iterator<Item = (u32, u32)> {
+pub(crate) fn all_pixels() -> impl Iterator<Item = (u32, u32)> {
     (0..SIZE).flat_map(|y| (0..SIZE).map(move |x| (x, y)))
 }
 
@@ -75,7 +75,7 @@ fn ball(center: Vec3, radius: f32, columns: u32, rows: u32) -> Mesh {
     moved(&mesh, |p| p + center)
 }
 
-fn moved(mesh: &Mesh, place: impl Fn(Vec3) -> Vec3) -> Mesh {
+pub(crate) fn moved(mesh: &Mesh, place: impl Fn(Vec3) -> Vec3) -> Mesh {
     let positions = mesh.positions().iter().map(|p| place(*p)).collect();
     Mesh::from_parts(positions, Some(mesh.normals().to_vec()), None, mesh.indices().to_vec())
         .expect("the same triangles")
@@ -99,7 +99,7 @@ fn at_pixel(p: Vec3, pixel: Vec2) -> Vec3 {
 }
 
 /// The mesh with its vertices on a grid of N places a pixel, as a rasteriser has them.
-fn snapped(mesh: &Mesh, places: f32) -> Mesh {
+pub(crate) fn snapped(mesh: &Mesh, places: f32) -> Mesh {
     moved(mesh, |p| at_pixel(p, (pixel(p) * places).round() / places))
 }
 

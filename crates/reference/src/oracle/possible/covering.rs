@@ -20,6 +20,8 @@ pub(super) struct CoveringGroup {
     pub(super) is_certain: bool,
     /// Whether exactly one does, and all are seen from the same side.
     pub(super) is_single: bool,
+    /// Whether rounding may turn some over, so that the surface is folded and lies over itself.
+    pub(super) may_fold: bool,
 }
 
 /// A shared edge: the [`group`] of its triangles, and its ends, the smaller one first.
@@ -88,7 +90,9 @@ fn covering(scene: &OracleScene, footprints: &[Footprint], rims: &[Rim], members
     let one_sided =
         members.iter().all(|m| footprints[*m].counter_clockwise == footprints[members[0]].counter_clockwise);
     let is_certain = !is_open && (by_turns || by_number);
-    CoveringGroup { members, is_certain, is_single: one_sided && is_certain && at_centre.len() == 1 }
+    let may_fold = members.iter().any(|member| footprints[*member].thin);
+    let is_single = one_sided && is_certain && at_centre.len() == 1 && !may_fold;
+    CoveringGroup { members, is_certain, is_single, may_fold }
 }
 
 /// Triangles of one number hang together as those of one mesh: those of opaque objects that show the same sides and have

@@ -10,6 +10,7 @@ use crate::oracle::gather::OracleScene;
 use crate::oracle::solid::Color;
 
 /// A side of a triangle that may be seen.
+#[derive(Clone)]
 struct Layer {
     /// The footprint's number, which is its place in the order of drawing among those of its object.
     footprint: usize,
@@ -67,10 +68,7 @@ impl Stack {
             sides.map(|(m, front)| layer(m, front)).collect()
         };
         let opaque_layers = opaque.iter().flat_map(&layers).collect();
-        let choices = blended.iter().flat_map(|covering| {
-            let layers = layers(covering);
-            choices(covering.is_single && layers.len() == covering.members.len(), layers, &footprints)
-        });
+        let choices = blended.iter().flat_map(|covering| choices(covering, layers(covering), &footprints));
         Self { opaque: opaque_layers, is_bare: certain.is_empty(), blended: choices.collect(), footprints }
     }
 
@@ -84,7 +82,7 @@ impl Stack {
         for opaque in behind {
             let range = opaque.map_or_else(|| ColorRange::of([behind_all]), |layer| layer.values.range);
             let seen = self.seen_over(scene, opaque);
-            layers = layers.max(seen.iter().filter(|(layers, _)| !layers.is_empty()).count());
+            layers = layers.max(most_layers(&seen));
             for range in self.over(scene, &seen, written(&range), &written) {
                 if !ranges.contains(&range) {
                     ranges.push(range);
@@ -138,6 +136,7 @@ impl Stack {
         }
         let over = ways.into_iter().map(|mut way| {
             way.sort_by_key(|layer| self.order(scene, layer));
+            way.dedup_by_key(|layer| (layer.footprint, layer.front));
             way.into_iter().fold(behind, |behind, layer| blend(&behind, layer))
         });
         over.collect()
@@ -153,6 +152,7 @@ impl Stack {
     ) -> ColorRange {
         let mut layers: Vec<&Layer> = seen.iter().flat_map(|(layers, _)| layers).copied().collect();
         layers.sort_by_key(|layer| self.order(scene, layer));
+        layers.dedup_by_key(|layer| (layer.footprint, layer.front));
         layers.into_iter().fold(behind, |behind, layer| behind.with(&blend(&behind, layer)))
     }
 
@@ -176,6 +176,16 @@ impl Stack {
         let in_two_passes = scene.solids[footprint.solid].faces == Faces::Both;
         (footprint.solid, layer.front && in_two_passes, footprint.triangle)
     }
+}
+
+/// How many blended layers may lie over one another: one of each choice, and each layer once.
+fn most_layers(seen: &[(Vec<&Layer>, bool)]) -> usize {
+    let choices = seen.iter().filter(|(layers, _)| !layers.is_empty()).count();
+    let mut layers: Vec<_> =
+        seen.iter().flat_map(|(layers, _)| layers).map(|layer| (layer.footprint, layer.front)).collect();
+    layers.sort_unstable();
+    layers.dedup();
+    choices.min(layers.len())
 }
 
 /// Leaves out what a mask has certainly cut out of a covering; what it may have cut out covers nothing for certain.
@@ -202,25 +212,31 @@ fn is_hidden_by(scene: &OracleScene, footprint: &Footprint, earlier: &Footprint)
     !solid.blend && !first.blend && is_shown(scene, earlier) && are_the_same && are_twins()
 }
 
-/// The sides that may be seen: the one that is turned to the eye, and of a thin triangle at a silhouette, which rounding
-/// may turn over, both; if they are shown.
+/// The sides that may be seen: the one that is turned to the eye, and of a thin triangle at a silhouette or of a blended
+/// object, which rounding may turn over, both; if they are shown.
 fn sides(scene: &OracleScene, footprint: &Footprint, is_certain: bool) -> impl Iterator<Item = bool> {
     let solid = &scene.solids[footprint.solid];
-    let may_turn = footprint.thin && !is_certain;
+    let may_turn = footprint.thin && (!is_certain || solid.blend);
     let front = footprint.front;
     [true, false].into_iter().filter(move |side| (may_turn || *side == front) && solid.side(*side).shown)
 }
 
-/// The layers of one covering, of which each side is met once at most; or each by itself, where they overlap.
-fn choices(is_single: bool, layers: Vec<Layer>, footprints: &[Footprint]) -> Vec<Choice> {
-    if is_single {
+/// The layers of one covering, of which each side is met once at most; or each by itself, where they overlap or the surface
+/// may be folded.
+fn choices(covering: &CoveringGroup, layers: Vec<Layer>, footprints: &[Footprint]) -> Vec<Choice> {
+    let all_are_there = covering.members.iter().all(|m| layers.iter().any(|layer| layer.footprint == *m));
+    if covering.is_single && all_are_there {
         return vec![Choice { layers, is_certain: true }];
+    }
+    if covering.may_fold && covering.is_certain && all_are_there {
+        // A fold lies over one layer, once more.
+        return [true, false].map(|is_certain| Choice { layers: layers.clone(), is_certain }).into();
     }
     let (front, back): (Vec<Layer>, Vec<Layer>) = layers.into_iter().partition(|layer| layer.front);
     let mut choices = Vec::new();
     for layers in [back, front].into_iter().filter(|layers| !layers.is_empty()) {
         let number = layers.iter().filter(|layer| footprints[layer.footprint].at_centre).count();
-        if number > 1 {
+        if number > 1 || covering.may_fold {
             choices.extend(layers.into_iter().map(|layer| Choice { layers: vec![layer], is_certain: false }));
         } else {
             choices.push(Choice { layers, is_certain: false });

@@ -28,46 +28,117 @@ impl SideColors {
     /// The colours of a side within the last of some areas, or within the first of them if the triangle covers the last.
     ///
     /// They are found at the corners of the part of the triangle that lies within, and in its middle. What is interpolated
-    /// between vertices is extreme at corners; a jump along a straight line has corners on both sides; and what curves in
-    /// between does so by less than the bars of a judge, the area being a small part of a pixel. Where it is larger (a pixel of
-    /// four samples, or a triangle that is seen edge-on), more points between are taken.
+    /// between vertices is extreme at corners, and a jump along a straight line has corners on both sides. What curves in
+    /// between does so by less than the bars of a judge where the area is a small part of a pixel. Where it is larger (a pixel of
+    /// four samples, or a triangle that is seen edge-on), more points between are taken, and from the extreme ones the
+    /// extremes are sought, as under images and solids everywhere: those may go up and down within any area.
     pub(super) fn new(scene: &OracleScene, footprint: &Footprint, front: bool, shading: &[&Zone]) -> Self {
-        let outline = outline(scene, footprint, shading);
+        let (outline, cuts) = part(scene, footprint, shading);
+        let points = points(&outline, cuts);
         let color = |corner: &FootprintCorner| color(scene, footprint, front, corner);
-        let colors: Vec<Color> = outline.iter().map(color).collect();
-        let range = ColorRange::of(colors.iter().copied());
+        let colors: Vec<Color> = points.iter().map(color).collect();
+        let mut range = ColorRange::of(colors.iter().copied());
         let solid = &scene.solids[footprint.solid];
         let is_textured = solid.maps.is_some() || solid.cut_from.is_some();
-        let jumps = (solid.terms.has(Frequency::Fragment) || is_textured) && jumps(&outline, &colors, &range, color);
-        let opacity = extremes(&outline, |corner| scene.opacity(&hit(footprint, front, corner)));
+        let jumps = (solid.terms.has(Frequency::Fragment) || is_textured) && jumps(&points, &colors, &range, color)
+            || shading.len() > 1 && is_in_parts(scene, footprint);
+        if cuts > 1 || is_textured {
+            range = range.with(&sought(&outline, (&points, &colors), 0.5 / cuts as f64, color));
+        }
+        let opacity = extremes(&points, |corner| scene.opacity(&hit(footprint, front, corner)));
         Self { range, opacity, jumps }
     }
 }
 
-/// The corners of the part of a triangle in which it is shaded, its middle, and where colours may curve over a large part more
-/// points of it.
-fn outline(scene: &OracleScene, footprint: &Footprint, shading: &[&Zone]) -> Vec<FootprintCorner> {
+/// The part of a triangle in which it is shaded, and into how many parts the way from its middle to a corner is cut.
+fn part(scene: &OracleScene, footprint: &Footprint, shading: &[&Zone]) -> (Vec<FootprintCorner>, usize) {
     let (mut outline, mut cuts) = match shading {
         [_] => (footprint.outline.clone(), 1),
         [first, .., last] => {
             let whole = footprint.within(scene, last);
-            if covers(scene, &whole, last) { (footprint.within(scene, first), 1) } else { (whole, CUTS_OF_A_PIXEL) }
+            let is_at_centre = covers(scene, &whole, last) && !is_in_parts(scene, footprint);
+            if is_at_centre { (footprint.within(scene, first), 1) } else { (whole, CUTS_OF_A_PIXEL) }
         }
         [] => (Vec::new(), 1),
     };
     if footprint.thin {
         // Across it a renderer's slopes come from rounded corners alone: none of its colours is wrong.
-        (outline, cuts) = (footprint.whole(scene), CUTS_OF_A_TRIANGLE);
+        (outline, cuts) = (widened(scene, &footprint.whole(scene)), CUTS_OF_A_TRIANGLE);
     } else if outline.is_empty() {
         (outline, cuts) = (footprint.outline.clone(), 1);
     }
-    points(&outline, if curves(scene, footprint) { cuts } else { 1 })
+    (outline, if curves(scene, footprint) { cuts } else { 1 })
+}
+
+/// The colours on the ways from the points with the least and the greatest of each channel to where it is least and greatest
+/// near by: toward whichever corner changes it most, at first by a part `step` of the way there.
+fn sought(
+    corners: &[FootprintCorner],
+    (points, colors): (&[FootprintCorner], &[Color]),
+    step: f64,
+    color: impl Fn(&FootprintCorner) -> Color,
+) -> ColorRange {
+    let mut range = ColorRange::of([]);
+    // Channels often have their extremes at one point.
+    let mut begun: Vec<(usize, bool)> = Vec::new();
+    for (channel, greatest) in (0..3).flat_map(|channel| [(channel, false), (channel, true)]) {
+        let value = |color: &Color| if greatest { color[channel] } else { -color[channel] };
+        let numbers = 0..points.len();
+        let Some(first) = numbers.max_by(|a, b| value(&colors[*a]).total_cmp(&value(&colors[*b]))) else { break };
+        let is_flat = colors.iter().all(|color| color[channel].to_bits() == colors[0][channel].to_bits());
+        if is_flat || begun.contains(&(first, greatest)) {
+            continue;
+        }
+        begun.push((first, greatest));
+        let (mut place, mut most, mut step) = (points[first], value(&colors[first]), step);
+        for _ in 0..TRIALS {
+            let beside = corners.iter().map(|corner| place.between(corner, step)).map(|there| (there, color(&there)));
+            let beside: Vec<_> = beside.collect();
+            range = range.with(&ColorRange::of(beside.iter().map(|(_, color)| *color)));
+            match beside.into_iter().max_by(|a, b| value(&a.1).total_cmp(&value(&b.1))) {
+                Some((there, color)) if value(&color) > most => (place, most) = (there, value(&color)),
+                _ => step *= 0.5,
+            }
+        }
+    }
+    range
+}
+
+/// How often an extreme is looked for farther on. Where every second time leads on, it is then known to a sixteenth of what is
+/// between the points.
+const TRIALS: u32 = 8;
+
+/// A thin triangle with what lies so close beside it that a fine grid may have it cover a pixel there. A renderer that takes its
+/// slopes from vertices that are not rounded continues its colours as far as that.
+fn widened(scene: &OracleScene, corners: &[FootprintCorner]) -> Vec<FootprintCorner> {
+    let pixels: Vec<_> = corners.iter().map(|corner| scene.view.pixel(corner.p)).collect();
+    let ends = || (0..pixels.len()).map(|i| (pixels[i], pixels[(i + 1) % pixels.len()]));
+    let twice_area: f64 = ends().map(|(a, b)| (a - pixels[0]).perp_dot(b - pixels[0])).sum();
+    let longest = ends().map(|(a, b)| a.distance(b)).fold(0.0, f64::max);
+    // The longest side lies a third of the height from the middle.
+    let third_of_height = twice_area.abs() / (3.0 * longest);
+    let middle = middle(corners);
+    let factor = 1.0 + (BESIDE / third_of_height).min(MOST_BESIDE);
+    corners.iter().map(|corner| middle.between(corner, factor)).collect()
+}
+
+/// How far vertices are moved, in pixels, that a grid of 1/256 pixel rounds: by half of a step along each axis.
+const BESIDE: f64 = std::f64::consts::SQRT_2 / 512.0;
+/// No farther beside it than this, as a share of the way from its middle: where that would take it farther, slopes are taken from
+/// rounded vertices.
+const MOST_BESIDE: f64 = 0.5;
+
+/// Whether a renderer draws a triangle in parts, since the near plane leaves a quadrangle of it. With four samples a pixel on
+/// the seam is shaded in both parts, where the samples lie that each covers.
+fn is_in_parts(scene: &OracleScene, footprint: &Footprint) -> bool {
+    scene.solids[footprint.solid].triangle(footprint.triangle).iter().any(|corner| -corner.z < scene.view.near)
 }
 
 /// Whether the colours of a triangle are more than linear in its corners'.
 fn curves(scene: &OracleScene, footprint: &Footprint) -> bool {
     let solid = &scene.solids[footprint.solid];
-    solid.terms.has(Frequency::Fragment) || solid.maps.is_some() || scene.surroundings.is_some()
+    let is_textured = solid.maps.is_some() || solid.cut_from.is_some();
+    solid.terms.has(Frequency::Fragment) || is_textured || scene.surroundings.is_some()
 }
 
 /// Into this number of parts the way from the middle to each corner is cut where the area is about a pixel, and where it is a whole
@@ -96,7 +167,8 @@ fn points(outline: &[FootprintCorner], cuts: usize) -> Vec<FootprintCorner> {
 /// Whether a mask may have cut a triangle out at a point near by, and whether it may not.
 pub(super) fn cuts(scene: &OracleScene, footprint: &Footprint, shading: &[&Zone]) -> [bool; 2] {
     let Some(cutoff) = scene.solids[footprint.solid].mask else { return [false, true] };
-    let outline = outline(scene, footprint, shading);
+    let (outline, cuts) = part(scene, footprint, shading);
+    let outline = points(&outline, cuts);
     let there = |corner: &FootprintCorner| scene.opacity_there(&hit(footprint, footprint.front, corner));
     let [least, greatest] = extremes(&outline, there);
     [least < cutoff + CUT, greatest >= cutoff - CUT]
