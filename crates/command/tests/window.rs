@@ -33,11 +33,16 @@ fn keys_choose_the_shading_and_the_size_is_followed() {
 #[test]
 fn without_a_driver_the_cpu_draws_in_the_window() {
     let mut program = view();
+    without_drivers(&mut program);
+    program.args(["--adapter", "cpu"]);
+    follows_keys_and_size(program);
+}
+
+/// Has the program find no graphics driver.
+fn without_drivers(program: &mut Command) {
     for variable in ["VK_DRIVER_FILES", "VK_ICD_FILENAMES", "__EGL_VENDOR_LIBRARY_DIRS"] {
         program.env(variable, "/dev/null");
     }
-    program.args(["--adapter", "cpu"]);
-    follows_keys_and_size(program);
 }
 
 // Of one scene and size the CPU makes the same bits everywhere; a window on X and one on Wayland are to show them.
@@ -274,4 +279,23 @@ fn without_a_display_it_says_so() {
     let said = String::from_utf8_lossy(&output.stderr);
     assert_eq!((output.status.code(), said.lines().count()), (Some(3), 1), "{said}");
     assert!(said.contains("DISPLAY") || said.contains("display"), "{said}");
+}
+
+#[test]
+fn without_the_adapter_that_is_asked_for_it_says_so() {
+    let screen = Screen::open();
+    for (name, has_drivers) in [("nothing", true), ("gpu", false)] {
+        let mut program = view();
+        if !has_drivers {
+            without_drivers(&mut program);
+            program.env("WGPU_BACKEND", "vulkan");
+        }
+        let output = program.args(["--adapter", name]).env("DISPLAY", &screen.name).output();
+        let output = output.expect("the command starts");
+        let said = String::from_utf8_lossy(&output.stderr);
+        // The adapters that there are follow, a line each.
+        let errors = said.lines().filter(|line| !line.starts_with("  "));
+        assert_eq!((output.status.code(), errors.count()), (Some(3), 1), "{name}: {said}");
+        assert!(said.contains("no graphics adapter"), "{name}: {said}");
+    }
 }

@@ -120,7 +120,7 @@ impl Picture {
 pub(crate) struct Screen {
     pub(super) connection: RustConnection,
     pub(super) root: Window,
-    pub(super) name: String,
+    pub(crate) name: String,
     server: RefCell<Option<Child>>,
     _turn: MutexGuard<'static, ()>,
 }
