@@ -1,8 +1,8 @@
 //! The window as people meet it: it opens, shows the model, follows keys and size, and closes.
 //!
 //! It opens on the X display that `DISPLAY` names, or, where none is named, on a virtual screen (Xvfb) that the test
-//! starts. Where neither can be had, the tests fail; `cargo xtask test` sees to it that one can. The Wayland display of one
-//! test is a window on that.
+//! starts. Where neither can be had, the tests fail; `cargo xtask test` sees to it that one can. The Wayland display of
+//! one test is a window on that.
 
 #![cfg(target_os = "linux")]
 

@@ -9,8 +9,8 @@ use halfway::scene::{MaterialEntry, SceneFile, ShadingEntry};
 use halfway_wild::{Fault, Finding, Judge, scene, written};
 use serde_json::Value;
 
-/// Scenes that failed once, small. Those in the folder `known` inside still do, those in `known/cpu` on the CPU; those in `four`
-/// failed on the CPU with four samples a pixel.
+/// Scenes that failed once, small. Those in the folder `known` inside still do, those in `known/cpu` on the CPU; those
+/// in `four` failed on the CPU with four samples a pixel.
 const KEPT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/wild");
 
 /// Of what the environment names, else of a graphics adapter.
@@ -153,8 +153,8 @@ fn with_another_environment(scene: &mut SceneFile) {
     }
 }
 
-/// Each fault is found within 40 scenes, and the scene that shows it has at most two objects in the end; an environment shows
-/// without any.
+/// Each fault is found within 40 scenes, and the scene that shows it has at most two objects in the end; an environment
+/// shows without any.
 #[test]
 fn planted_faults_are_found_and_made_small() {
     let faults: [(&str, Fault); 4] = [

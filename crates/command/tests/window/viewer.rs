@@ -30,8 +30,8 @@ fn by_a_driver(command: &mut Command) {
     }
 }
 
-/// The command that shows the teapot as it is, on whatever X display it will be told. Levels of detail would come in beside the
-/// frames, and one scene would have two pictures.
+/// The command that shows the teapot as it is, on whatever X display it will be told. Levels of detail would come in
+/// beside the frames, and one scene would have two pictures.
 pub(crate) fn view() -> Command {
     let mut command = view_with_levels();
     command.args(["--tolerance", "exact"]);
@@ -230,8 +230,8 @@ impl Screen {
         self.connection.destroy_window(window).expect("the display is there").check().expect("the window is there");
     }
 
-    /// Tells the programs on the screen how many dots an inch it has, as a desktop does (XSETTINGS 0.5): first before they
-    /// start, which gives the window that tells it, and then by that window.
+    /// Tells the programs on the screen how many dots an inch it has, as a desktop does (XSETTINGS 0.5): first before
+    /// they start, which gives the window that tells it, and then by that window.
     pub(crate) fn tell_resolution(&self, teller: Option<Window>, dots: u32) -> Window {
         let connection = &self.connection;
         let teller = teller.unwrap_or_else(|| {
@@ -243,7 +243,8 @@ impl Screen {
             owned.expect("the display is there").check().expect("nothing else tells it");
             window
         });
-        // In the order of this machine: a header with the number of settings, which is 1; a whole number, its name, and it.
+        // In the order of this machine: a header with the number of settings, which is 1; a whole number, its name, and
+        // it.
         let mut settings = vec![u8::from(cfg!(target_endian = "big")), 0, 0, 0];
         settings.extend([0, 1].map(u32::to_ne_bytes).as_flattened());
         settings.extend([0, 0]);

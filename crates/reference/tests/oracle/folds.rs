@@ -7,8 +7,8 @@ use halfway_mesh::{Mesh, Plane};
 use crate::mutants::{all_pixels, assert_caught, coarse, moved, oracle, snapped, with};
 use crate::scene::{Stage, glow};
 
-/// A blended sheet that runs away from the eye and is tilted, so that its far triangles are thinner than a coarse grid: there
-/// rounding turns some over, and the sheet is folded.
+/// A blended sheet that runs away from the eye and is tilted, so that its far triangles are thinner than a coarse grid:
+/// there rounding turns some over, and the sheet is folded.
 fn sheet(change: impl Fn(&Mesh) -> Mesh) -> Stage {
     let mut stage = Stage::new();
     let (sine, cosine) = 0.4_f32.sin_cos();

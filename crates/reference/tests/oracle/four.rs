@@ -1,5 +1,5 @@
-//! The judge of pictures with four samples a pixel, of what curves within a pixel: an environment in mirrors, solids, and
-//! lamps near by.
+//! The judge of pictures with four samples a pixel, of what curves within a pixel: an environment in mirrors, solids,
+//! and lamps near by.
 
 use bevy_asset::Assets;
 use bevy_color::LinearRgba;
@@ -38,8 +38,8 @@ fn mirror(strength: f32, shading: Shading) -> Stage {
     stage
 }
 
-/// A picture of a drawer that is right: each triangle is shaded once a pixel, at the centre where it covers that, else in the
-/// middle of the samples that it covers; or everything at the pixel's first sample, whatever is there.
+/// A picture of a drawer that is right: each triangle is shaded once a pixel, at the centre where it covers that, else
+/// in the middle of the samples that it covers; or everything at the pixel's first sample, whatever is there.
 fn drawn(oracle: &Oracle, at_first_sample: bool) -> Image {
     let pixel = |x: u32, y: u32| {
         let seen = |[dx, dy]: [f64; 2]| oracle.seen(f64::from(x) + dx, f64::from(y) + dy);
@@ -134,7 +134,8 @@ fn floor(is_cut: bool) -> Stage {
     stage
 }
 
-/// The near plane leaves a quadrangle of a triangle, which is drawn as two triangles: a pixel on their seam is shaded in both.
+/// The near plane leaves a quadrangle of a triangle, which is drawn as two triangles: a pixel on their seam is shaded
+/// in both.
 #[test]
 fn seams_of_what_the_near_plane_cuts_pass_and_no_others() {
     for is_cut in [true, false] {

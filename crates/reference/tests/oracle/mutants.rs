@@ -283,8 +283,8 @@ fn an_outline_moved_by_a_quarter_of_a_pixel_is_found() {
     }
 }
 
-/// By how much an exponent is off that is found on a grid of four bits, too: on every slope the colours within 1/16 of a
-/// pixel are right there, and one that is off by 4 % changes one of these pictures by no more.
+/// By how much an exponent is off that is found on a grid of four bits, too: on every slope the colours within 1/16 of
+/// a pixel are right there, and one that is off by 4 % changes one of these pictures by no more.
 const COARSE_EXPONENT: f32 = 1.05;
 
 #[test]
@@ -410,8 +410,8 @@ fn black_pixels_between_facets_are_found() {
     }
 }
 
-/// A picture of four samples a pixel: each sample's triangle shaded in the middle of the samples that it covers, or, as a
-/// renderer does that forgets `centroid`, at the pixel's centre, be it inside the triangle or not.
+/// A picture of four samples a pixel: each sample's triangle shaded in the middle of the samples that it covers, or, as
+/// a renderer does that forgets `centroid`, at the pixel's centre, be it inside the triangle or not.
 fn four_samples(oracle: &Oracle, extrapolated: bool) -> Image {
     let seen = |x: u32, y: u32, [dx, dy]: [f64; 2]| oracle.seen(f64::from(x) + dx, f64::from(y) + dy);
     let pixel = |(x, y): (u32, u32)| {

@@ -10,8 +10,8 @@ use crate::oracle::gather::OracleScene;
 /// Triangles that hang together within a disc: neighbours share an edge that comes into it.
 ///
 /// A renderer moves vertices by less than the disc's radius, those at one place together. An edge outside the disc then
-/// does not pass its centre. So where all edges inside are shared by two triangles, what covers the centre cannot uncover
-/// it: how many triangles wind one way around the centre, less those that wind the other way, does not change.
+/// does not pass its centre. So where all edges inside are shared by two triangles, what covers the centre cannot
+/// uncover it: how many triangles wind one way around the centre, less those that wind the other way, does not change.
 #[derive(Debug)]
 pub(super) struct CoveringGroup {
     /// Numbers of footprints.
@@ -95,8 +95,8 @@ fn covering(scene: &OracleScene, footprints: &[Footprint], rims: &[Rim], members
     CoveringGroup { members, is_certain, is_single, may_fold }
 }
 
-/// Triangles of one number hang together as those of one mesh: those of opaque objects that show the same sides and have
-/// equal transforms, so that a renderer takes equal corners to equal places; or those of one blended object.
+/// Triangles of one number hang together as those of one mesh: those of opaque objects that show the same sides and
+/// have equal transforms, so that a renderer takes equal corners to equal places; or those of one blended object.
 fn group(scene: &OracleScene, footprints: &[Footprint], solid: usize) -> usize {
     let own = &scene.solids[solid];
     let is_like = |number: usize| {

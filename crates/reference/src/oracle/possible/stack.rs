@@ -94,8 +94,8 @@ impl Stack {
         Possible { is_edge: ranges.len() > 1 || jumps, ranges, layers }
     }
 
-    /// Of each choice the blended layers that may lie over an opaque one, or over the background, and whether perhaps none
-    /// does.
+    /// Of each choice the blended layers that may lie over an opaque one, or over the background, and whether perhaps
+    /// none does.
     fn seen_over(&self, scene: &OracleScene, opaque: Option<&Layer>) -> Vec<(Vec<&Layer>, bool)> {
         self.blended.iter().map(|choice| self.before(scene, choice, opaque)).collect()
     }
@@ -212,8 +212,8 @@ fn is_hidden_by(scene: &OracleScene, footprint: &Footprint, earlier: &Footprint)
     !solid.blend && !first.blend && is_shown(scene, earlier) && are_the_same && are_twins()
 }
 
-/// The sides that may be seen: the one that is turned to the eye, and of a thin triangle at a silhouette or of a blended
-/// object, which rounding may turn over, both; if they are shown.
+/// The sides that may be seen: the one that is turned to the eye, and of a thin triangle at a silhouette or of a
+/// blended object, which rounding may turn over, both; if they are shown.
 fn sides(scene: &OracleScene, footprint: &Footprint, is_certain: bool) -> impl Iterator<Item = bool> {
     let solid = &scene.solids[footprint.solid];
     let may_turn = footprint.thin && (!is_certain || solid.blend);
@@ -221,8 +221,8 @@ fn sides(scene: &OracleScene, footprint: &Footprint, is_certain: bool) -> impl I
     [true, false].into_iter().filter(move |side| (may_turn || *side == front) && solid.side(*side).shown)
 }
 
-/// The layers of one covering, of which each side is met once at most; or each by itself, where they overlap or the surface
-/// may be folded.
+/// The layers of one covering, of which each side is met once at most; or each by itself, where they overlap or the
+/// surface may be folded.
 fn choices(covering: &CoveringGroup, layers: Vec<Layer>, footprints: &[Footprint]) -> Vec<Choice> {
     let all_are_there = covering.members.iter().all(|m| layers.iter().any(|layer| layer.footprint == *m));
     if covering.is_single && all_are_there {

@@ -25,13 +25,15 @@ const JUMP: f64 = 0.125;
 const ROUNDING: f64 = 1e-9;
 
 impl SideColors {
-    /// The colours of a side within the last of some areas, or within the first of them if the triangle covers the last.
+    /// The colours of a side within the last of some areas, or within the first of them if the triangle covers the
+    /// last.
     ///
-    /// They are found at the corners of the part of the triangle that lies within, and in its middle. What is interpolated
-    /// between vertices is extreme at corners, and a jump along a straight line has corners on both sides. What curves in
-    /// between does so by less than the bars of a judge where the area is a small part of a pixel. Where it is larger (a pixel of
-    /// four samples, or a triangle that is seen edge-on), more points between are taken, and from the extreme ones the
-    /// extremes are sought, as under images and solids everywhere: those may go up and down within any area.
+    /// They are found at the corners of the part of the triangle that lies within, and in its middle. What is
+    /// interpolated between vertices is extreme at corners, and a jump along a straight line has corners on both sides.
+    /// What curves in between does so by less than the bars of a judge where the area is a small part of a pixel. Where
+    /// it is larger (a pixel of four samples, or a triangle that is seen edge-on), more points between are taken, and
+    /// from the extreme ones the extremes are sought, as under images and solids everywhere: those may go up and down
+    /// within any area.
     pub(super) fn new(scene: &OracleScene, footprint: &Footprint, front: bool, shading: &[&Zone]) -> Self {
         let (outline, cuts) = part(scene, footprint, shading);
         let points = points(&outline, cuts);
@@ -70,8 +72,8 @@ fn part(scene: &OracleScene, footprint: &Footprint, shading: &[&Zone]) -> (Vec<F
     (outline, if curves(scene, footprint) { cuts } else { 1 })
 }
 
-/// The colours on the ways from the points with the least and the greatest of each channel to where it is least and greatest
-/// near by: toward whichever corner changes it most, at first by a part `step` of the way there.
+/// The colours on the ways from the points with the least and the greatest of each channel to where it is least and
+/// greatest near by: toward whichever corner changes it most, at first by a part `step` of the way there.
 fn sought(
     corners: &[FootprintCorner],
     (points, colors): (&[FootprintCorner], &[Color]),
@@ -104,12 +106,12 @@ fn sought(
     range
 }
 
-/// How often an extreme is looked for farther on. Where every second time leads on, it is then known to a sixteenth of what is
-/// between the points.
+/// How often an extreme is looked for farther on. Where every second time leads on, it is then known to a sixteenth of
+/// what is between the points.
 const TRIALS: u32 = 8;
 
-/// A thin triangle with what lies so close beside it that a fine grid may have it cover a pixel there. A renderer that takes its
-/// slopes from vertices that are not rounded continues its colours as far as that.
+/// A thin triangle with what lies so close beside it that a fine grid may have it cover a pixel there. A renderer that
+/// takes its slopes from vertices that are not rounded continues its colours as far as that.
 fn widened(scene: &OracleScene, corners: &[FootprintCorner]) -> Vec<FootprintCorner> {
     let pixels: Vec<_> = corners.iter().map(|corner| scene.view.pixel(corner.p)).collect();
     let ends = || (0..pixels.len()).map(|i| (pixels[i], pixels[(i + 1) % pixels.len()]));
@@ -124,12 +126,12 @@ fn widened(scene: &OracleScene, corners: &[FootprintCorner]) -> Vec<FootprintCor
 
 /// How far vertices are moved, in pixels, that a grid of 1/256 pixel rounds: by half of a step along each axis.
 const BESIDE: f64 = std::f64::consts::SQRT_2 / 512.0;
-/// No farther beside it than this, as a share of the way from its middle: where that would take it farther, slopes are taken from
-/// rounded vertices.
+/// No farther beside it than this, as a share of the way from its middle: where that would take it farther, slopes are
+/// taken from rounded vertices.
 const MOST_BESIDE: f64 = 0.5;
 
-/// Whether a renderer draws a triangle in parts, since the near plane leaves a quadrangle of it. With four samples a pixel on
-/// the seam is shaded in both parts, where the samples lie that each covers.
+/// Whether a renderer draws a triangle in parts, since the near plane leaves a quadrangle of it. With four samples a
+/// pixel on the seam is shaded in both parts, where the samples lie that each covers.
 fn is_in_parts(scene: &OracleScene, footprint: &Footprint) -> bool {
     scene.solids[footprint.solid].triangle(footprint.triangle).iter().any(|corner| -corner.z < scene.view.near)
 }
@@ -141,13 +143,14 @@ fn curves(scene: &OracleScene, footprint: &Footprint) -> bool {
     solid.terms.has(Frequency::Fragment) || is_textured || scene.surroundings.is_some()
 }
 
-/// Into this number of parts the way from the middle to each corner is cut where the area is about a pixel, and where it is a whole
-/// triangle. What mirrors an environment curves by up to 2 % of a picture's range within a pixel: cut in half, by a quarter of
-/// that.
+/// Into this number of parts the way from the middle to each corner is cut where the area is about a pixel, and where
+/// it is a whole triangle. What mirrors an environment curves by up to 2 % of a picture's range within a pixel: cut in
+/// half, by a quarter of that.
 const CUTS_OF_A_PIXEL: usize = 4;
 const CUTS_OF_A_TRIANGLE: usize = 8;
 
-/// The corners of an outline, its middle, and points between: each triangle of the middle and a side has `cuts` rows of them.
+/// The corners of an outline, its middle, and points between: each triangle of the middle and a side has `cuts` rows of
+/// them.
 fn points(outline: &[FootprintCorner], cuts: usize) -> Vec<FootprintCorner> {
     let middle = middle(outline);
     let mut points = outline.to_vec();
