@@ -112,14 +112,7 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
     };
     let mut seen = Vec::new();
     let mut without_environment = 0;
-    let box_of = |&entity: &Entity| {
-        let (mesh, .., blend, _, tolerance, (model_view, _), _, _) = objects.get(entity).ok()?;
-        let tolerance = tolerance.copied().unwrap_or(of_view.0);
-        let pixels = if blend { 0.0 } else { tolerance.pixels };
-        let (mesh, radius) = (meshes.get(&mesh.0)?, geometries.radius(mesh.0.id())?);
-        Some(ObjectBox::new(&mesh.bounds(), radius, model_view, pixels))
-    };
-    let boxes = || visible.0.iter().map(|entity| box_of(entity).unwrap_or(ObjectBox::NOWHERE));
+    let boxes = || visible.0.iter().map(|&entity| box_around(entity, &objects, &meshes, &geometries, of_view.0));
     for (number, &entity) in (0..).zip(&visible.0) {
         let Ok((mesh, material, back, reflectance, faces, blend, components, tolerance, placed, chosen, name)) =
             objects.get(entity)
@@ -196,6 +189,24 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
         report.errors.push(RenderError::ImagesInEnvironment(without_environment));
     }
     lit.tell(&mut report, values.share());
+}
+
+/// The box around an object.
+fn box_around(
+    entity: Entity,
+    objects: &ObjectQuery,
+    meshes: &Assets<Mesh>,
+    geometries: &Geometries,
+    of_view: Tolerance,
+) -> ObjectBox {
+    let Ok((mesh, .., blend, _, tolerance, (model_view, _), _, _)) = objects.get(entity) else {
+        return ObjectBox::NOWHERE;
+    };
+    let (Some(bounds), Some(radius)) = (meshes.get(&mesh.0).map(Mesh::bounds), geometries.radius(mesh.0.id())) else {
+        return ObjectBox::NOWHERE;
+    };
+    let pixels = if blend { 0.0 } else { tolerance.copied().unwrap_or(of_view).pixels };
+    ObjectBox::new(&bounds, radius, model_view, pixels)
 }
 
 /// A patch that is drawn, and its stretch: see [`Detail::each_seen`](crate::geometry::detail::Detail::each_seen).
@@ -294,11 +305,7 @@ impl LitPatches {
         if is_placed && !pays {
             self.lists.memory.note_object(object.entity);
         }
-        let mut painted = (is_listed && !reflecting.maps.is_empty()).then(|| {
-            let of = (object.mesh, object.form, geometry);
-            let maps = self.table.maps[object.maps as usize - 1];
-            self.paints.take(of, reflecting.maps, &maps, shared.textures)
-        });
+        let mut painted = (is_listed && !reflecting.maps.is_empty()).then(|| self.take_painted(object, shared));
         let mut run: Option<OpenRun> = None;
         for together in seen.chunks(TOGETHER) {
             let mut has_looked_around = false;
@@ -343,6 +350,13 @@ impl LitPatches {
         if let Some(painted) = painted {
             self.paints.keep((object.mesh, object.form), painted);
         }
+    }
+
+    /// What is known of the images on an object.
+    fn take_painted(&mut self, object: &LitObject, shared: Shared) -> PaintedObject {
+        let of = (object.mesh, object.form, object.geometry);
+        let maps = self.table.maps[object.maps as usize - 1];
+        self.paints.take(of, object.reflecting.maps, &maps, shared.textures)
     }
 
     /// What draws a patch in the colour of its terms, in place of what would draw it by `key`.
