@@ -2,9 +2,9 @@
 //!
 //! A tolerance lets points move by its pixels, in whatever direction, so also in depth. Where two surfaces are nearer
 //! to each other than both may move, the farther one could show in place of the nearer one, which no motion by that
-//! many pixels explains. So a group of patches keeps its triangles where the box around another object comes that near
-//! to the sphere around it. What is finer has a smaller sphere in that one and moves less, so that it may be drawn
-//! where the group may.
+//! many pixels explains. So a group of patches keeps its triangles where the box and the sphere around another object
+//! come that near to the sphere around it. What is finer has a smaller sphere in that one and moves less, so that it
+//! may be drawn where the group may.
 //!
 //! Objects are found by where they are, in grids that are made in the first place of a frame that asks for them.
 
