@@ -260,13 +260,48 @@ fn what_costs_more_than_it_saves_stays_at_the_fragments() {
     };
     let software = Costs::SOFTWARE.vertices;
     let (at_vertices, pairs, seen, _) = look(1024, software);
-    assert!(at_vertices > 0 && pairs >= 4 * seen, "{at_vertices} at vertices, {pairs} pairs of {seen} patches");
+    // But for some at the rim, which cover few pixels.
+    assert!(
+        at_vertices > 0 && 10 * pairs >= 9 * 4 * seen,
+        "{at_vertices} at vertices, {pairs} pairs of {seen} patches"
+    );
     let (at_vertices, pairs, seen, off) = look(96, software);
     assert!(pairs <= seen / 2, "{pairs} pairs of {seen} patches");
     assert_eq!((at_vertices, off), (0, 0.0));
     assert_eq!(Costs::CPU.vertices, VertexPrices::NEVER);
     let (at_vertices, pairs, _, off) = look(1024, VertexPrices::NEVER);
     assert_eq!((at_vertices, pairs, off), (0, 0, 0.0));
+}
+
+/// A whole ball has normals all around: of it no term moves, and automatic shading leaves out what Phong shading does.
+/// Nor does any where no step may be off.
+#[test]
+fn what_cannot_move_is_drawn_as_under_phong_shading() {
+    let pictures = |mesh: Mesh, steps: f32| {
+        let mut auto = scene(Thing::new(mesh).of(material()));
+        let mut random = Random(5);
+        for light in 0..40 {
+            let at = Vec3::new(random.between(-4.0, 4.0), random.between(-4.0, 4.0), random.between(1.5, 4.0));
+            auto.lamps.push(Lamp::point(white(if light % 2 == 0 { 0.02 } else { 0.0002 }), at));
+        }
+        let mut phong = auto.clone();
+        phong.view_shading = Some(Shading::Phong);
+        let mut stage = Stage::new(256, 256);
+        stage.world().insert_resource(Costs::SOFTWARE.vertices);
+        stage.world().insert_resource(ViewTolerance(Tolerance { steps, pixels: 0.0 }));
+        let [expected, found] = [phong, auto].map(|scene| {
+            stage.set(&scene);
+            let bytes = stage.bytes();
+            (bytes, stage.report().left_out, stage.report().terms_at_vertices)
+        });
+        (expected.1, expected.0 == found.0 && expected.1 == found.1, found.2)
+    };
+    let (left_out, same, at_vertices) = pictures(UvSphere::new(1.0, 32, 16).into(), 1.0);
+    assert!(left_out > 0.0 && same, "{left_out} left out, or not the same, {at_vertices} at vertices");
+    assert_eq!(at_vertices, 0);
+    assert_eq!(pictures(ball(), 0.0), (0.0, true, 0));
+    let (_, same, at_vertices) = pictures(ball(), 1.0);
+    assert!(!same && at_vertices > 0, "what can move does not: {at_vertices} at vertices");
 }
 
 #[test]

@@ -44,7 +44,7 @@ impl LitObject<'_> {
         &self,
         patch: &MeshPatch,
         sight: &Sight,
-        prices: &VertexPrices,
+        (prices, compiled_in): (&VertexPrices, Option<usize>),
         memory: &ChoiceMemory,
     ) -> (ShadedAt, Extent) {
         if !self.key.terms.has(Frequency::Auto) {
@@ -53,7 +53,7 @@ impl LitObject<'_> {
         let extent = patch.extent(sight);
         let place = if patch.is_coarse_within(sight, self.tolerance.pixels + SAMPLED) {
             ShadedAt::Corners
-        } else if prices.may_save(extent, memory.before(self.name(patch))) {
+        } else if patch.has_normal_cone() && prices.may_save(extent, memory.before(self.name(patch)), compiled_in) {
             ShadedAt::Either
         } else {
             ShadedAt::Fragments

@@ -22,6 +22,7 @@ use crate::lights::gather::Lights;
 use crate::lights::lists::{LightLists, Listing};
 use crate::lights::memory::{ChosenBy, choosing};
 use crate::lights::places::{ShadedAt, Spending};
+use crate::lights::profit::Profit;
 use crate::lights::surroundings::Surroundings;
 use crate::lights::terms::{Chosen, by_fragment_shader, by_vertex_shader};
 use crate::shaders::light_slots::Lists;
@@ -49,6 +50,7 @@ pub(crate) struct LitPatches {
     pub(crate) records: Vec<DrawRecord>,
     pub(crate) lists: LightLists,
     pub(crate) table: ObjectTable,
+    pub(super) profit: Profit,
     choice: Choice,
     near: NearObjects,
     paints: Paints,
@@ -158,6 +160,9 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
             continue;
         }
         tolerance.steps *= values.share() as f32;
+        // Nothing moves where nothing may change.
+        let shared =
+            Shared { prices: if tolerance.steps > 0.0 { shared.prices } else { VertexPrices::NEVER }, ..shared };
         let circumstances =
             Circumstances { terms, blend, mirrored: model_view.mirrored, opposite_normals: geometry.opposite_normals };
         let key = reflecting.key(look, circumstances, shared);
@@ -210,7 +215,7 @@ fn box_around(
 }
 
 /// A patch that is drawn, and its stretch: see [`Detail::each_seen`](crate::geometry::detail::Detail::each_seen).
-type SeenPatch<'a> = (&'a MeshPatch, u32);
+pub(super) type SeenPatch<'a> = (&'a MeshPatch, u32);
 
 impl LitPatches {
     fn begin(&mut self, lights: &Lights, changed: bool) {
@@ -221,6 +226,7 @@ impl LitPatches {
         self.table.begin(lights.ambient);
         self.paints.begin();
         self.near.begin();
+        self.profit = Profit::default();
     }
 
     /// What the frame's lists came to; `share` is how much of a tolerance the values have.
@@ -277,12 +283,11 @@ impl LitPatches {
         let sight = Sight::new(model_view, view, reflecting.faces, &detail.whole);
         // Where all lights are compiled in, no patch has lists.
         let admitted = if key.lists == Lists::Listed { *key } else { backend.admit(*key) };
-        let compiled_in = Lists::new(lights.counts) != Lists::Listed;
+        let compiled_in = (Lists::new(lights.counts) != Lists::Listed).then_some(lights.records.len());
         let is_listed = admitted.lists == Lists::Listed;
-        let make_listing = || {
+        let make_listing = |prices| {
             let eye = equations::Eye::in_eye_space(shared.viewer);
-            let compiled_in = compiled_in.then_some(lights.records.len());
-            let spending = Spending { encoding, steps, prices: shared.prices, compiled_in };
+            let spending = Spending { encoding, steps, prices, compiled_in };
             // A color may be black: then there is no ambient light that could hide what is left out. None is above 1.
             let ambient = if key.is_painted() { Vec3::ZERO } else { shared.lights.ambient };
             reflector.listing(reflecting.faces, ambient, eye, spending)
@@ -299,27 +304,34 @@ impl LitPatches {
         }
         // Light by light; else all terms of a patch are in one place.
         let is_placed = is_listed && key.terms.has(Frequency::Auto) && shared.prices != VertexPrices::NEVER;
-        let mut listing = is_placed.then(make_listing);
-        let pays = listing.as_ref().is_some_and(|listing| self.pays(object, seen, listing, (&sight, shared)));
-        let prices = if pays { &shared.prices } else { &VertexPrices::NEVER };
-        if is_placed && !pays {
+        let placing = is_placed.then(|| make_listing(shared.prices));
+        let placing = placing.filter(|placing| self.pays(object, seen, placing, &sight, (shared, compiled_in)));
+        let prices = if placing.is_some() { &shared.prices } else { &VertexPrices::NEVER };
+        if is_placed && placing.is_none() {
             self.lists.memory.note_object(object.entity);
         }
+        // Of what does not move lights that are left out may take all of the tolerance.
+        let mut staying = None;
         let mut painted = (is_listed && !reflecting.maps.is_empty()).then(|| self.take_painted(object, shared));
         let mut run: Option<OpenRun> = None;
         for together in seen.chunks(TOGETHER) {
             let mut has_looked_around = false;
             for &(patch, stretch) in together {
                 let (key, lights, lists) = if is_listed {
-                    let place = object.place(patch, &sight, prices, &self.lists.memory);
+                    let place = object.place(patch, &sight, (prices, compiled_in), &self.lists.memory);
                     if is_placed && place.0 == ShadedAt::Fragments {
                         self.lists.memory.note_at_fragments(object.name(patch));
                     }
                     if let Some(key) = self.unlisted(object, place.0, shared, backend) {
                         (key, 0, RecordLists::default())
                     } else {
-                        let listing = listing.get_or_insert_with(make_listing);
+                        let listing = match &placing {
+                            Some(placing) if place.0 == ShadedAt::Either => placing,
+                            _ => staying.get_or_insert_with(|| make_listing(VertexPrices::NEVER)),
+                        };
                         if !has_looked_around {
+                            // With the smaller tolerance of both.
+                            let listing = placing.as_ref().unwrap_or(listing);
                             self.lists.look_around(listing, together.iter().map(|(patch, _)| patch.sphere(model_view)));
                             has_looked_around = true;
                         }
@@ -385,31 +397,6 @@ impl LitPatches {
         (key, 0, self.records.len() as u32 - 1)
     }
 
-    /// Whether it pays to place terms light by light, as far as some of the patches tell.
-    fn pays(
-        &mut self,
-        object: &LitObject,
-        seen: &[SeenPatch],
-        listing: &Listing,
-        (sight, shared): (&Sight, Shared),
-    ) -> bool {
-        if seen.len() < FEW_PATCHES {
-            return true;
-        }
-        let mut gains = 0.0;
-        for (patch, _) in seen.iter().step_by(LOOKED_AT_FIRST) {
-            let place = object.place(patch, sight, &shared.prices, &self.lists.memory);
-            if place.0 == ShadedAt::Either {
-                self.lists.look_around(listing, std::iter::once(patch.sphere(object.model_view)));
-                gains += object.placed(patch, place, None, |placed| {
-                    let gain = self.lists.select(shared.lights, placed, listing, object.key.terms);
-                    gain.max(-shared.prices.look * shared.lights.records.len() as f32)
-                });
-            }
-        }
-        gains >= 0.0
-    }
-
     /// The key that draws a patch, the lights that are bound for it, and its lists.
     fn lit(
         &mut self,
@@ -427,6 +414,7 @@ impl LitPatches {
         });
         if listing.places.is_some() && place.0 == ShadedAt::Either {
             self.lists.note(object.name(patch));
+            self.profit.add(gain);
         }
         if gain < 0.0
             && let Some(key) = self.unlisted(object, ShadedAt::Fragments, shared, backend)
@@ -473,11 +461,6 @@ impl LitPatches {
         }
     }
 }
-
-/// Objects with at least [`FEW_PATCHES`] patches in sight: one patch in [`LOOKED_AT_FIRST`] is looked at first, whether
-/// placing terms pays.
-const FEW_PATCHES: usize = 64;
-const LOOKED_AT_FIRST: usize = 16;
 
 /// The number of neighbouring patches that look for their lights together.
 const TOGETHER: usize = 32;

@@ -12,5 +12,6 @@ pub(crate) mod lit_patches;
 pub(crate) mod lit_runs;
 pub(crate) mod object;
 pub(crate) mod painted;
+mod pays;
 pub(crate) mod table;
 mod unlisted;

@@ -316,6 +316,11 @@ impl MeshPatch {
         sight.eye.is_none_or(|(eye, back)| !self.facing.hides(eye - self.center, back))
     }
 
+    /// Whether anything is known of the normals of its vertices. If not, no term may move to them.
+    pub(crate) fn has_normal_cone(&self) -> bool {
+        self.normals.is_some()
+    }
+
     /// What bounds of lights know of it, in eye space: with these normals.
     /// The cone of the normals is kept only where the transform turns and scales all alike.
     pub(crate) fn in_eye_space(

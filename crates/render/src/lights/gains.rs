@@ -31,10 +31,17 @@ pub(super) struct Movable {
 const UNSEEN_LIGHT: f32 = 0.5;
 
 impl VertexPrices {
-    /// Whether a patch may save anything, and enough to go on with what was chosen before.
-    pub(crate) fn may_save(&self, Extent { pixels, vertices }: Extent, before: Before) -> bool {
-        let most = pixels * (1.0 + self.pixel);
-        *self != Self::NEVER && most - vertices * self.light - self.look >= before.least_gain(most).min(0.0)
+    /// Whether a patch may save anything, and enough to go on with what was chosen before; `compiled_in` lights are
+    /// looked at where there are no lists. Of lists one light tells: where all its pixels do not pay for a look at it,
+    /// those of more lights do not either.
+    pub(crate) fn may_save(&self, extent: Extent, before: Before, compiled_in: Option<usize>) -> bool {
+        let Extent { pixels, vertices } = extent;
+        let (lights, least_cost) = match compiled_in {
+            Some(lights) => (lights as f32, self.draw),
+            None => (1.0, vertices * self.light),
+        };
+        let most = pixels * (lights + self.pixel);
+        *self != Self::NEVER && most - least_cost - lights * self.look >= before.least_gain(most).min(0.0)
     }
 
     /// The terms of a light, of those that a patch `has`, that may move by these changes to their own gain: each by
@@ -70,6 +77,13 @@ impl VertexPrices {
             }
             _ => apart,
         }
+    }
+
+    /// How much more than it costs moving terms has to save of a patch on which so much could be saved: a tenth of it,
+    /// or what a draw costs. What is shaded in two places is drawn in a way of its own, and on an adapter each way is a
+    /// pipeline to build and to change to.
+    pub(super) fn least_gain(&self, of: f32) -> f32 {
+        (CLEARLY * of).min(self.draw)
     }
 
     /// What is saved of a patch beside what each moved term saves, less what it took to find that: of `looked_at`

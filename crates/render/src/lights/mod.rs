@@ -5,5 +5,6 @@ pub(crate) mod gather;
 pub(crate) mod lists;
 pub(crate) mod memory;
 pub(crate) mod places;
+pub(crate) mod profit;
 pub(crate) mod surroundings;
 pub(crate) mod terms;

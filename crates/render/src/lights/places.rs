@@ -241,7 +241,8 @@ impl PlacedTerms {
 
     /// Places what was selected of these lights for a patch: at the vertices as much as the tolerance allows, the terms
     /// first that change least by it, and before them those that were there `before`. Returns what that saves, in
-    /// lights at a pixel, less what it has to; below 0 where all are at the fragments for that.
+    /// lights at a pixel, less what it has to; where it saves less all are at the fragments, and what the look has cost
+    /// is returned, below 0.
     pub(crate) fn place(
         &mut self,
         places: &Places,
@@ -292,10 +293,11 @@ impl PlacedTerms {
             }
         }
         gain += self.gain_of_all(places, patch.extent);
-        gain -= before.least_gain(patch.extent.pixels * (self.numbers.len() as f32 + places.prices.pixel));
+        let most = patch.extent.pixels * (self.numbers.len() as f32 + places.prices.pixel);
+        gain -= before.least_gain(most) + if self.vertex.is_empty() { 0.0 } else { places.prices.least_gain(most) };
         if gain < 0.0 {
             self.as_said(selected, terms.at_fragments());
-            return gain;
+            return (-places.prices.look * self.numbers.len() as f32).min(-f32::MIN_POSITIVE);
         }
         let left_out = selected.left_out;
         let darker_with = [0, 1, 2].map(|c| if spent[1][c] > 0.0 { spent[1][c] + left_out[c] } else { 0.0 });
