@@ -4,9 +4,12 @@ use std::ops::Range;
 
 use bevy_math::{DVec2, DVec3, Vec3A};
 
+use super::box_grid::BoxGrid;
 use super::clip::third;
 use super::edge_twins::{NO_TWIN, edge_twins};
-use super::frame::{Frame, QuickWay};
+use super::frame::{Frame, QuickWay, reached};
+use super::nearest::TriangleCorners;
+use super::triangle_fans::TriangleFans;
 use crate::Mesh;
 
 /// Two surfaces between a mesh's vertices.
@@ -33,12 +36,20 @@ pub(super) struct FineSurface {
     pub(super) normals: Vec<DVec3>,
     /// The corner first whose vertex has the least number in the mesh.
     pub(super) triangles: Vec<[u32; 3]>,
+    /// Of each vertex its place, as a number of their own.
+    place_numbers: Vec<u32>,
+    /// Of each place the triangles around it.
+    fans: TriangleFans,
     /// Of each edge of each triangle, by places.
     twins: Vec<u32>,
     /// Of each triangle the corners in single precision.
     points: Vec<[Vec3A; 3]>,
     /// What was seen of each vertex last.
     vertices: Vec<SeenVertex>,
+    /// Of each triangle from which coarse one it was come to last, over edges.
+    come_to: Vec<u32>,
+    /// Those that were come to and not looked at.
+    waiting: Vec<u32>,
     /// Of each triangle from which coarse one it was seen last to lie over that, facing the same way.
     over: Vec<u32>,
     /// Those that lie over the coarse one from which is looked now.
@@ -52,6 +63,8 @@ pub(super) struct SeenVertex {
     from: u32,
     /// Whether `turn` is of this triangle.
     is_turned: bool,
+    /// Whether it was [told](FineSurface::told_first) from this triangle.
+    is_told: bool,
     /// The weights of the triangle's second and third corner.
     pub(super) at: DVec2,
     /// How far above the triangle it is.
@@ -62,7 +75,7 @@ pub(super) struct SeenVertex {
 
 impl SeenVertex {
     /// Whether it lies over the triangle or on its sides.
-    pub(super) fn is_over(&self) -> bool {
+    fn is_over(&self) -> bool {
         self.at.x >= 0.0 && self.at.y >= 0.0 && third(self.at) >= 0.0
     }
 }
@@ -106,11 +119,22 @@ impl FineSurface {
         }
         let by_places: Vec<[u32; 3]> =
             triangles.iter().map(|triangle| triangle.map(|vertex| numbers[vertex as usize])).collect();
-        let unseen = SeenVertex { from: u32::MAX, is_turned: false, at: DVec2::ZERO, height: 0.0, turn: [0.0; 2] };
+        let unseen = SeenVertex {
+            from: u32::MAX,
+            is_turned: false,
+            is_told: false,
+            at: DVec2::ZERO,
+            height: 0.0,
+            turn: [0.0; 2],
+        };
         let surface = Self {
             positions: vertices.iter().map(|&vertex| mesh.positions()[vertex as usize].as_dvec3()).collect(),
             normals: vertices.iter().map(|&vertex| mesh.normals()[vertex as usize].as_dvec3()).collect(),
             twins: edge_twins(&by_places, count as usize),
+            fans: TriangleFans::new(&by_places, count as usize),
+            place_numbers: numbers,
+            come_to: vec![u32::MAX; triangles.len()],
+            waiting: Vec::new(),
             points: triangles
                 .iter()
                 .map(|triangle| triangle.map(|vertex| mesh.positions()[vertices[vertex as usize] as usize].into()))
@@ -123,34 +147,99 @@ impl FineSurface {
         (surface, coarse)
     }
 
-    /// Looks from a coarse triangle at a fine one, and returns whether that lies near it. If it lies over it and faces
-    /// the same way, it is added to those.
-    pub(super) fn look(&mut self, frame: &Frame, from: u32, number: u32) -> bool {
-        let way = frame.quick.way(&self.points[number as usize]);
-        if way == QuickWay::Away {
-            return false;
-        }
-        if way == QuickWay::Over {
-            let corners = self.triangles[number as usize];
-            for vertex in corners {
-                let seen = &mut self.vertices[vertex as usize];
-                if seen.from != from {
-                    let offset = self.positions[vertex as usize] - frame.origin;
-                    seen.at = DVec2::new(offset.dot(frame.axes[0]), offset.dot(frame.axes[1]));
-                    seen.height = offset.dot(frame.axes[2]);
-                    (seen.from, seen.is_turned) = (from, false);
+    /// Comes from a coarse triangle, given by its corners' numbers, to the fine ones around its corners. Returns whether
+    /// it is one of them; then nothing else has to be [looked at](Self::spread).
+    pub(super) fn begin(&mut self, own: [u32; 3], from: u32) -> bool {
+        self.waiting.clear();
+        self.over_this.clear();
+        let mut is_same = false;
+        for vertex in own {
+            let Some(&place) = self.place_numbers.get(vertex as usize) else { continue };
+            for &number in self.fans.of(place) {
+                is_same |= self.triangles[number as usize] == own;
+                if std::mem::replace(&mut self.come_to[number as usize], from) != from {
+                    self.waiting.push(number);
                 }
             }
-            // Not beside it, facing the other way or edge on.
-            let [a, b, c] = self.corners(number).map(|corner| corner.at);
-            let is_within = |depth: fn(DVec2) -> f64| (depth(a) > 0.0) | (depth(b) > 0.0) | (depth(c) > 0.0);
-            let is_over = is_within(|at| at.x) && is_within(|at| at.y) && is_within(third);
-            if is_over && (b - a).perp_dot(c - a) > 0.0 {
-                self.over[number as usize] = from;
-                self.over_this.push(number);
+        }
+        is_same
+    }
+
+    /// The triangles that were come to and not looked at.
+    pub(super) fn come_to(&self) -> &[u32] {
+        &self.waiting
+    }
+
+    /// Looks at all that were come to, comes from those that lie over the coarse triangle to those beside them, and so
+    /// on: what covers it once hangs together by edges, and has a corner in common with it. Adds to `near` all that
+    /// were come to, and what is beside them, some of it twice.
+    pub(super) fn spread(&mut self, frame: &Frame, from: u32, near: &mut Vec<u32>) {
+        while let Some(number) = self.waiting.pop() {
+            near.push(number);
+            let is_over = self.look_exactly(frame, from, number);
+            for &twin in &self.twins[3 * number as usize..][..3] {
+                let beside = twin / 3;
+                if twin == NO_TWIN || self.come_to[beside as usize] == from {
+                    continue;
+                }
+                if is_over {
+                    self.come_to[beside as usize] = from;
+                    self.waiting.push(beside);
+                } else {
+                    near.push(beside);
+                }
             }
         }
-        true
+    }
+
+    /// Looks at all that are in reach of a coarse triangle, found by place, more or less. Adds to `near` those that lie
+    /// near it.
+    pub(super) fn look_at_all(
+        &mut self,
+        grid: &BoxGrid,
+        corners: TriangleCorners,
+        frame: &Frame,
+        from: u32,
+        near: &mut Vec<u32>,
+    ) {
+        self.over_this.clear();
+        let [low, high] = reached(corners, frame);
+        grid.meeting(low, high, |number| {
+            let way = frame.quick.way(&self.points[number as usize]);
+            if way == QuickWay::Over {
+                self.look_exactly(frame, from, number);
+            }
+            if way != QuickWay::Away {
+                near.push(number);
+            }
+        });
+    }
+
+    /// Adds a fine triangle to those over a coarse one if it lies over it, within its reach, and faces the same way;
+    /// returns whether it does.
+    fn look_exactly(&mut self, frame: &Frame, from: u32, number: u32) -> bool {
+        for vertex in self.triangles[number as usize] {
+            let seen = &mut self.vertices[vertex as usize];
+            if seen.from != from {
+                let offset = self.positions[vertex as usize] - frame.origin;
+                seen.at = DVec2::new(offset.dot(frame.axes[0]), offset.dot(frame.axes[1]));
+                seen.height = offset.dot(frame.axes[2]);
+                (seen.from, seen.is_turned, seen.is_told) = (from, false, false);
+            }
+        }
+        // Not beside it, facing the other way, edge on or out of reach.
+        let corners = self.corners(number);
+        let [a, b, c] = corners.map(|corner| corner.at);
+        let is_within = |depth: fn(DVec2) -> f64| (depth(a) > 0.0) | (depth(b) > 0.0) | (depth(c) > 0.0);
+        let is_over = is_within(|at| at.x) & is_within(|at| at.y) & is_within(third);
+        let is_in_reach = corners.iter().any(|corner| corner.height < frame.reach)
+            && corners.iter().any(|corner| corner.height > -frame.reach);
+        if is_over && is_in_reach && (b - a).perp_dot(c - a) > 0.0 {
+            self.over[number as usize] = from;
+            self.over_this.push(number);
+            return true;
+        }
+        false
     }
 
     /// Whether the fine triangles that lie over a coarse one, and face the same way, cover it exactly once.
@@ -178,6 +267,12 @@ impl FineSurface {
             count += u32::from(least > 0.0);
         }
         count == 1
+    }
+
+    /// The height of a vertex that lies over the coarse triangle from which it was seen, but only the first time.
+    pub(super) fn told_first(&mut self, vertex: u32) -> Option<f64> {
+        let seen = &mut self.vertices[vertex as usize];
+        (!std::mem::replace(&mut seen.is_told, true) && seen.is_over()).then_some(seen.height)
     }
 
     /// The corners of a triangle as they were seen last.
@@ -245,7 +340,7 @@ mod tests {
         let corners = [0, 1, 2].map(|vertex| surface.positions[vertex]);
         let frame = Frame::new(corners, [DVec3::Z; 3]).unwrap();
         for number in 0..fine.len() as u32 {
-            surface.look(&frame, 0, number);
+            surface.look_exactly(&frame, 0, number);
         }
         surface.covers_once(0)
     }

@@ -16,7 +16,7 @@ pub(super) struct Frame {
     normals: [DVec3; 3],
     /// Of unit length.
     pub(super) mean_normal: DVec3,
-    reach: f64,
+    pub(super) reach: f64,
     pub(super) quick: QuickFrame,
 }
 
@@ -47,8 +47,8 @@ pub(super) fn longest_edge([a, b, c]: TriangleCorners) -> f64 {
 }
 
 /// The box around a coarse triangle and what lies within its reach, along its normal only.
-pub(super) fn reached([a, b, c]: TriangleCorners, frame: Option<&Frame>) -> [DVec3; 2] {
-    let reach = frame.map_or(DVec3::ZERO, |frame| frame.reach * frame.axes[2].abs());
+pub(super) fn reached([a, b, c]: TriangleCorners, frame: &Frame) -> [DVec3; 2] {
+    let reach = frame.reach * frame.axes[2].abs();
     [a.min(b).min(c) - reach, a.max(b).max(c) + reach]
 }
 

@@ -6,7 +6,7 @@ use bevy_math::{DVec3, Vec3A};
 use super::box_grid::BoxGrid;
 use super::clip::{ClippedPart, PartCorner};
 use super::fine_surface::{FineSurface, Surfaces};
-use super::frame::{Frame, longest_edge, reached};
+use super::frame::{Frame, longest_edge};
 use super::homes::Homes;
 use super::nearest::TriangleCorners;
 use crate::Mesh;
@@ -61,7 +61,8 @@ impl Surfaces<'_> {
     /// the interpolated normals are largest at corners of the parts (as in Bajaj and Schikore 1996, "Error-bounded
     /// reduction of triangle meshes with multivariate data"). A fine triangle is not clipped where they are no larger
     /// at its own corners than what was found before. The parts have to fill the triangle once
-    /// ([how that is seen](FineSurface::covers_once)). Where they do not, its own corners, which are vertices of the
+    /// ([how that is seen](FineSurface::covers_once)); they are found from its corners on, over edges, and if these do
+    /// not fill it, among all by place. Where none do, its own corners, which are vertices of the
     /// fine surface, bound it: none of its points is further from one of them than the longest edge over √3
     /// (Jung 1901).
     ///
@@ -80,7 +81,7 @@ impl Surfaces<'_> {
             }
         }
         let corners: Vec<TriangleCorners> = self.coarse.iter().map(|&triangle| self.mesh.corners(triangle)).collect();
-        let grid = BoxGrid::new(&self.fine.iter().map(|&triangle| box_around(self.mesh, triangle)).collect::<Vec<_>>());
+        let mut grid: Option<BoxGrid> = None;
         // Of each fine triangle the run that it lay near last.
         let mut near_run = vec![u32::MAX; fine.triangles.len()];
         let mut near = vec![Vec::new(); self.runs.len()];
@@ -94,22 +95,28 @@ impl Surfaces<'_> {
             }
             near_this.clear();
             let frame = Frame::new(corners, self.mesh.corner_normals(triangle));
-            let [low, high] = reached(corners, frame.as_ref());
-            let mut is_same = false;
-            fine.over_this.clear();
-            grid.meeting(low, high, |at| {
-                is_same |= fine.triangles[at as usize] == *own;
-                let Some(frame) = &frame else { return };
-                if fine.look(frame, number, at) {
-                    near_this.push(at);
+            let is_same = fine.begin(*own, number);
+            let is_known = if is_same {
+                near_this.extend_from_slice(fine.come_to());
+                true
+            } else if let Some(frame) = &frame {
+                fine.spread(frame, number, &mut near_this);
+                look.over(frame, number, &mut fine, &mut homes) || {
+                    // Once more with all that lies near, also where no edge leads.
+                    let grid = grid.get_or_insert_with(|| self.grid());
+                    near_this.clear();
+                    fine.look_at_all(grid, corners, frame, number, &mut near_this);
+                    look.over(frame, number, &mut fine, &mut homes)
                 }
-            });
+            } else {
+                false
+            };
             for &at in &near_this {
                 if std::mem::replace(&mut near_run[at as usize], run as u32) != run as u32 {
                     near[run].push(at);
                 }
             }
-            if is_same || frame.is_some_and(|frame| look.over(&frame, number, &mut fine, &mut homes)) {
+            if is_known {
                 continue;
             }
             look.most = look.most.max(by_corners(corners, self.mesh.corner_normals(triangle)));
@@ -124,6 +131,11 @@ impl Surfaces<'_> {
             of_run.sort_unstable();
         }
         Overlay { deviation, near, homes }
+    }
+
+    /// The fine triangles, found by place.
+    fn grid(&self) -> BoxGrid {
+        BoxGrid::new(&self.fine.iter().map(|&triangle| box_around(self.mesh, triangle)).collect::<Vec<_>>())
     }
 }
 
@@ -195,9 +207,9 @@ impl Look {
         for place in 0..fine.over_this.len() {
             let number = fine.over_this[place];
             let vertices = fine.triangles[number as usize];
-            for (corner, vertex) in fine.corners(number).into_iter().zip(vertices) {
-                if corner.is_over() {
-                    homes.see(vertex, [1 + number, from], corner.height.abs());
+            for vertex in vertices {
+                if let Some(height) = fine.told_first(vertex) {
+                    homes.see(vertex, [1 + number, from], height.abs());
                 }
             }
             if covers_once && self.may_differ_more(frame, number, fine) {
@@ -223,7 +235,8 @@ impl Look {
         }
         fine.turn(frame, number);
         let [a, b, c] = fine.corners(number).map(|corner| corner.turn);
-        sine2(a[0].max(b[0]).max(c[0]), a[1].min(b[1]).min(c[1])) > self.most.sine2
+        let least = a[1].min(b[1]).min(c[1]);
+        least <= 0.0 || a[0].max(b[0]).max(c[0]) > self.most.sine2 * least * least
     }
 }
 
