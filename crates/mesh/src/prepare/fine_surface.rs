@@ -147,8 +147,8 @@ impl FineSurface {
         (surface, coarse)
     }
 
-    /// Comes from a coarse triangle, given by its corners' numbers, to the fine ones around its corners. Returns whether
-    /// it is one of them; then nothing else has to be [looked at](Self::spread).
+    /// Comes from a coarse triangle, given by its corners, to the fine ones around those. Returns whether it is one of
+    /// them; then nothing else has to be [looked at](Self::spread).
     pub(super) fn begin(&mut self, own: [u32; 3], from: u32) -> bool {
         self.waiting.clear();
         self.over_this.clear();
