@@ -307,3 +307,30 @@ fn lights_beyond_the_square_root_of_the_number_range_keep_their_direction() {
     }
     failures.finish();
 }
+
+// More than eight are read from a list. A clamp of each coordinate would turn their directions by 21°.
+#[test]
+fn nine_lights_at_the_end_of_the_number_range_keep_their_directions() {
+    let mut stage = Stage::new(48, 48);
+    let mut failures = Failures::default();
+    let dim = LinearRgba::rgb(0.2, 0.15, 0.1);
+    let light = PointLight { ambient: LinearRgba::BLACK, diffuse: dim, specular: dim, ..unweakened() };
+    let [x, y, z] = [0.3, 0.5, 0.8].map(|coordinate| coordinate * 1e38);
+    for shading in SHADINGS {
+        let sphere = Thing::new(UvSphere::new(1.0, 16, 8)).shaded(shading);
+        let mut scene = Scene::seen_from(Vec3::Z * 3.0, Vec3::ZERO).with(sphere);
+        for at in
+            [[x, y, z], [-x, y, z], [x, -y, z], [-x, -y, z], [y, x, z], [-y, x, z], [x, z, y], [z, x, y], [z, y, x]]
+        {
+            scene = scene.lit(Lamp::point(light, Vec3::from_array(at)));
+        }
+        failures.draw(&format!("{shading:?}"), &mut stage, &scene, FLOAT);
+        // All nine where the finding had them: at one place.
+        let mut scene = Scene { lamps: vec![], ..scene };
+        for _ in 0..9 {
+            scene = scene.lit(Lamp::point(light, Vec3::new(x, y, z)));
+        }
+        failures.draw(&format!("{shading:?}, at one place"), &mut stage, &scene, FLOAT);
+    }
+    failures.finish();
+}
