@@ -68,6 +68,32 @@ fn frames_become_an_animation_or_a_file_each() {
     assert!(!folder.join("frame-0009.png").exists() && !folder.join("frame-0012.png").exists());
 }
 
+// What docs/many-machines.md promises.
+#[test]
+fn two_processes_draw_the_bytes_of_one() {
+    let folder = folder("processes");
+    let scene = asset("examples/scenes/brass_teapot.json");
+    let draw = &|frames: &str, pattern: &str| {
+        let common = ["render", &scene, "--size", "64x36", "--tolerance", "1,0", "--frames", frames];
+        succeeds(&folder, &[&common[..], &["-o", pattern]].concat());
+    };
+    draw("0..6", "one-{}.png");
+    std::thread::scope(|scope| {
+        let others = ["0..3", "3..6"].map(|frames| scope.spawn(move || draw(frames, "many-{}.png")));
+        for other in others {
+            other.join().expect("the process succeeds");
+        }
+    });
+    let frame = |name: &str, number| {
+        let path = folder.join(format!("{name}-{number:04}.png"));
+        fs::read(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+    };
+    for number in 0..6 {
+        assert!(frame("one", number) == frame("many", number), "frame {number} differs");
+    }
+    assert!((1..6).all(|number| frame("one", number) != frame("one", number - 1)), "something moves");
+}
+
 #[test]
 fn every_example_scene_renders() {
     let folder = folder("scenes");
