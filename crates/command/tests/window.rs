@@ -38,6 +38,14 @@ fn without_a_driver_the_cpu_draws_in_the_window() {
     follows_keys_and_size(program);
 }
 
+#[test]
+fn opengl_draws_in_the_window_where_it_is_asked_for() {
+    let mut program = view();
+    // Else a graphics card's driver may answer, under its own name.
+    program.env("LIBGL_ALWAYS_SOFTWARE", "true").args(["--adapter", "gl:llvmpipe"]);
+    follows_keys_and_size(program);
+}
+
 /// Has the program find no graphics driver.
 fn without_drivers(program: &mut Command) {
     for variable in ["VK_DRIVER_FILES", "VK_ICD_FILENAMES", "__EGL_VENDOR_LIBRARY_DIRS"] {
