@@ -75,7 +75,6 @@ impl SurfaceTarget {
 
     /// The next picture of the surface; `None` means skip this frame.
     pub(crate) fn acquire(&mut self, gpu: &Gpu) -> Result<Option<wgpu::SurfaceTexture>, Lost> {
-        use wgpu::CurrentSurfaceTexture as Current;
         self.acquired = false;
         // It may be another instance's by now.
         if self.gpu != gpu.id() {
@@ -84,19 +83,9 @@ impl SurfaceTarget {
         if std::mem::take(&mut self.stale) {
             self.surface.configure(&gpu.device, &self.config);
         }
-        let texture = match self.surface.get_current_texture() {
-            Current::Success(texture) => Some(texture),
-            Current::Suboptimal(texture) => {
-                self.stale = true;
-                Some(texture)
-            }
-            Current::Outdated => {
-                self.stale = true;
-                None
-            }
-            Current::Lost => return Err(Lost),
-            Current::Timeout | Current::Occluded | Current::Validation => None,
-        };
+        let answer = answer(self.surface.get_current_texture())?;
+        self.stale = answer.is_stale;
+        let texture = answer.texture;
         self.acquired = texture.is_some();
         Ok(texture)
     }
@@ -107,7 +96,29 @@ impl SurfaceTarget {
 #[derive(Resource, Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SurfaceLost;
 
+#[derive(Debug)]
 pub(crate) struct Lost;
+
+/// What a frame gets of a surface.
+#[derive(Debug)]
+struct Answer {
+    /// Without one the frame is skipped, and the next one asks again.
+    texture: Option<wgpu::SurfaceTexture>,
+    /// The surface is configured anew before it is asked again.
+    is_stale: bool,
+}
+
+fn answer(current: wgpu::CurrentSurfaceTexture) -> Result<Answer, Lost> {
+    use wgpu::CurrentSurfaceTexture as Current;
+    let (texture, is_stale) = match current {
+        Current::Success(texture) => (Some(texture), false),
+        Current::Suboptimal(texture) => (Some(texture), true),
+        Current::Outdated => (None, true),
+        Current::Lost => return Err(Lost),
+        Current::Timeout | Current::Occluded | Current::Validation => (None, false),
+    };
+    Ok(Answer { texture, is_stale })
+}
 
 /// Of a surface's formats the one that is `current` but for the encoding, else another of bytes that encodes as asked,
 /// else the first.
@@ -125,7 +136,8 @@ fn pick_format(formats: &[wgpu::TextureFormat], current: wgpu::TextureFormat, en
 
 #[cfg(test)]
 mod tests {
-    use super::pick_format;
+    use super::{answer, pick_format};
+    use wgpu::CurrentSurfaceTexture as Current;
     use wgpu::TextureFormat::{Bgra8Unorm, Bgra8UnormSrgb, Rgba8Unorm, Rgba8UnormSrgb, Rgba16Float};
 
     #[test]
@@ -142,5 +154,22 @@ mod tests {
         let few = [Rgba16Float, Rgba8UnormSrgb, Bgra8Unorm];
         assert_eq!(pick_format(&few, Rgba8UnormSrgb, false), Bgra8Unorm, "a float is no byte");
         assert_eq!(pick_format(&[Rgba8Unorm], Rgba8Unorm, true), Rgba8Unorm, "nothing encodes");
+    }
+
+    // No driver at hand can be made to let the time run out.
+    #[test]
+    fn a_surface_without_a_picture_skips_the_frame_and_only_a_lost_one_is_given_up() {
+        for (current, is_stale) in [
+            (Current::Timeout, false),
+            (Current::Occluded, false),
+            (Current::Validation, false),
+            (Current::Outdated, true),
+        ] {
+            let name = format!("{current:?}");
+            let answer = answer(current).unwrap_or_else(|_| panic!("{name} is taken as lost"));
+            assert!(answer.texture.is_none(), "{name} has a picture");
+            assert_eq!(answer.is_stale, is_stale, "{name}: whether it is configured anew");
+        }
+        assert!(answer(Current::Lost).is_err(), "a lost surface is kept");
     }
 }
