@@ -303,7 +303,8 @@ impl LitPatches {
             report.patches_culled += looked_at - seen.len() as u32;
         }
         // Light by light; else all terms of a patch are in one place.
-        let is_placed = is_listed && key.terms.has(Frequency::Auto) && shared.prices != VertexPrices::NEVER;
+        let may_move = key.terms.has(Frequency::Auto) && shared.prices != VertexPrices::NEVER;
+        let is_placed = is_listed && may_move && seen.iter().any(|(patch, _)| patch.has_normal_cone());
         let placing = is_placed.then(|| make_listing(shared.prices));
         let placing = placing.filter(|placing| self.pays(object, seen, placing, &sight, (shared, compiled_in)));
         let prices = if placing.is_some() { &shared.prices } else { &VertexPrices::NEVER };

@@ -16,7 +16,8 @@ impl LitPatches {
     /// Adds an object of one patch of which nothing is chosen; whether it is one.
     pub(super) fn add_unchosen(&mut self, object: &LitObject, shared: Shared, backend: &mut impl Backend) -> bool {
         let [all] = object.geometry.detail.patches() else { return false };
-        let Some(key) = self.unchosen(object, shared, backend) else { return false };
+        let may_move = all.has_normal_cone() && shared.prices != VertexPrices::NEVER;
+        let Some(key) = self.unchosen(object, may_move, shared, backend) else { return false };
         let record = self.table.number(&mut self.records, object.material, RecordLists::default());
         self.add_run(object, OpenRun { key, lights: 0, record, indices: all.indices.clone(), stretch: 0 });
         true
@@ -24,13 +25,18 @@ impl LitPatches {
 
     /// The key that draws an object of one patch, where there is nothing to choose: neither lights nor the places of
     /// terms.
-    fn unchosen(&mut self, object: &LitObject, shared: Shared, backend: &mut impl Backend) -> Option<DrawKey> {
+    fn unchosen(
+        &mut self,
+        object: &LitObject,
+        may_move: bool,
+        shared: Shared,
+        backend: &mut impl Backend,
+    ) -> Option<DrawKey> {
         if shared.false_colors {
             return None;
         }
         if object.key.terms.has(Frequency::Auto) {
-            let moves = shared.prices != VertexPrices::NEVER;
-            return if moves { None } else { self.unlisted(object, ShadedAt::Fragments, shared, backend) };
+            return if may_move { None } else { self.unlisted(object, ShadedAt::Fragments, shared, backend) };
         }
         let admitted = (object.key.lists != Lists::Listed).then(|| backend.admit(object.key));
         admitted.filter(|admitted| admitted.lists != Lists::Listed)
