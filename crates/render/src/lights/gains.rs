@@ -99,3 +99,32 @@ impl VertexPrices {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::device::costs::Costs;
+
+    #[test]
+    fn what_cannot_pay_is_not_looked_at() {
+        let prices = Costs::SOFTWARE.vertices;
+        let may_save = |prices: VertexPrices, pixels: f32, compiled_in: Option<usize>| {
+            prices.may_save(Extent { pixels, vertices: 10.0 }, Before::default(), compiled_in)
+        };
+        // Four lights and what any light costs at a pixel, for four looks and a draw: 932 / 4.5.
+        assert_eq!([207.0, 208.0].map(|pixels| may_save(prices, pixels, Some(4))), [false, true]);
+        // One light of a list, for a look and ten vertices: 38 / 1.5.
+        assert_eq!([25.0, 26.0].map(|pixels| may_save(prices, pixels, None)), [false, true]);
+        assert!([None, Some(4)].iter().all(|&lights| may_save(VertexPrices::FREE, 0.0, lights)));
+        assert!([None, Some(4)].iter().all(|&lights| !may_save(VertexPrices::NEVER, 1e9, lights)));
+    }
+
+    #[test]
+    fn what_moves_saves_a_tenth_or_a_draw() {
+        let prices = Costs::SOFTWARE.vertices;
+        let close = |a: f32, b: f32| assert!((a - b).abs() < 1e-3, "{a} {b}");
+        close(prices.least_gain(1000.0), 100.0);
+        close(prices.least_gain(1e6), prices.draw);
+        close(VertexPrices::FREE.least_gain(1e6), 0.0);
+    }
+}
