@@ -166,7 +166,7 @@ impl FineSurface {
     }
 
     /// The triangles that were come to and not looked at.
-    pub(super) fn come_to(&self) -> &[u32] {
+    pub(super) fn waiting(&self) -> &[u32] {
         &self.waiting
     }
 

@@ -97,7 +97,7 @@ impl Surfaces<'_> {
             let frame = Frame::new(corners, self.mesh.corner_normals(triangle));
             let is_same = fine.begin(*own, number);
             let is_known = if is_same {
-                near_this.extend_from_slice(fine.come_to());
+                near_this.extend_from_slice(fine.waiting());
                 true
             } else if let Some(frame) = &frame {
                 fine.spread(frame, number, &mut near_this);
