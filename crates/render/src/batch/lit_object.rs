@@ -39,6 +39,12 @@ pub(crate) struct LitObject<'a> {
 }
 
 impl LitObject<'_> {
+    /// Whether its terms are placed light by light, and any of what is seen of it may move at these prices.
+    pub(crate) fn may_move(&self, seen: &[(&MeshPatch, u32)], prices: &VertexPrices) -> bool {
+        let is_auto = self.key.terms.has(Frequency::Auto) && *prices != VertexPrices::NEVER;
+        is_auto && seen.iter().any(|(patch, _)| patch.has_normal_cone())
+    }
+
     /// Where those terms of a patch may be shaded that are placed light by light, and how much of it there is to shade.
     pub(crate) fn place(
         &self,

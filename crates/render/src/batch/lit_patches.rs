@@ -34,9 +34,7 @@ use bevy_asset::Assets;
 use bevy_ecs::component::Mutable;
 use bevy_ecs::prelude::*;
 use bevy_math::Vec3;
-use halfway_lighting::{
-    BackMaterial, Blend, Faces, Frequency, Material, Reflectance, Terms, Tolerance, ViewTolerance, equations,
-};
+use halfway_lighting::{BackMaterial, Blend, Faces, Material, Reflectance, Terms, Tolerance, ViewTolerance, equations};
 use halfway_mesh::{Mesh, Mesh3d};
 use halfway_texture::Texture;
 
@@ -278,8 +276,8 @@ impl LitPatches {
             sphere: detail.whole.sphere(model_view),
         };
         let allowed = if detail.has_levels() { Allowed::new(demand) } else { Allowed::NOTHING };
-        let for_geometry = if allowed.is_nothing() { 0.0 } else { geometry_steps(object.tolerance) };
-        let steps = f64::from(object.tolerance.steps) - for_geometry;
+        let steps = f64::from(object.tolerance.steps);
+        let steps = steps - if allowed.is_nothing() { 0.0 } else { geometry_steps(object.tolerance) };
         let sight = Sight::new(model_view, view, reflecting.faces, &detail.whole);
         // Where all lights are compiled in, no patch has lists.
         let admitted = if key.lists == Lists::Listed { *key } else { backend.admit(*key) };
@@ -297,20 +295,14 @@ impl LitPatches {
         let is_near = |patch: &MeshPatch, error| self.near.is_near(&coarser, patch, error, &boxes);
         let add_seen = |patch, stretch| seen.push((patch, stretch));
         let looked_at = detail.each_seen(&allowed, &sight, &mut self.choice, is_near, add_seen);
+        report.patches += looked_at;
         // What is whole has been found to be seen, and is not counted.
-        if looked_at > 0 {
-            report.patches += looked_at;
-            report.patches_culled += looked_at - seen.len() as u32;
-        }
+        report.patches_culled += looked_at.saturating_sub(seen.len() as u32);
         // Light by light; else all terms of a patch are in one place.
-        let may_move = key.terms.has(Frequency::Auto) && shared.prices != VertexPrices::NEVER;
-        let is_placed = is_listed && may_move && seen.iter().any(|(patch, _)| patch.has_normal_cone());
+        let is_placed = is_listed && object.may_move(seen, &shared.prices);
         let placing = is_placed.then(|| make_listing(shared.prices));
         let placing = placing.filter(|placing| self.pays(object, seen, placing, &sight, (shared, compiled_in)));
         let prices = if placing.is_some() { &shared.prices } else { &VertexPrices::NEVER };
-        if is_placed && placing.is_none() {
-            self.lists.memory.note_object(object.entity);
-        }
         // Of what does not move lights that are left out may take all of the tolerance.
         let mut staying = None;
         let mut painted = (is_listed && !reflecting.maps.is_empty()).then(|| self.take_painted(object, shared));

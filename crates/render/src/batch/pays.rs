@@ -23,21 +23,26 @@ impl LitPatches {
         (shared, compiled_in): (Shared, Option<usize>),
     ) -> bool {
         self.profit.is_open = seen.len() < FEW_PATCHES;
-        if self.profit.is_open {
-            let was_moved =
-                seen.iter().any(|(patch, _)| self.lists.memory.before(object.name(patch)).is_moved() == Some(true));
-            return self.profit.looks_at_next() || was_moved;
-        }
-        let mut gains = 0.0;
-        for (patch, _) in seen.iter().step_by(LOOKED_AT_FIRST) {
-            let place = object.place(patch, sight, (&shared.prices, compiled_in), &self.lists.memory);
-            if place.0 == ShadedAt::Either {
-                self.lists.look_around(listing, std::iter::once(patch.sphere(object.model_view)));
-                gains += object.placed(patch, place, None, |placed| {
-                    self.lists.select(shared.lights, placed, listing, object.key.terms)
-                });
+        let pays = if self.profit.is_open {
+            let mut moved = seen.iter().map(|(patch, _)| self.lists.memory.before(object.name(patch)).is_moved());
+            self.profit.looks_at_next() || moved.any(|moved| moved == Some(true))
+        } else {
+            let prices = (&shared.prices, compiled_in);
+            let mut gains = 0.0;
+            for (patch, _) in seen.iter().step_by(LOOKED_AT_FIRST) {
+                let place = object.place(patch, sight, prices, &self.lists.memory);
+                if place.0 == ShadedAt::Either {
+                    self.lists.look_around(listing, std::iter::once(patch.sphere(object.model_view)));
+                    gains += object.placed(patch, place, None, |placed| {
+                        self.lists.select(shared.lights, placed, listing, object.key.terms)
+                    });
+                }
             }
+            gains >= 0.0
+        };
+        if !pays {
+            self.lists.memory.note_object(object.entity);
         }
-        gains >= 0.0
+        pays
     }
 }
