@@ -31,6 +31,7 @@ mod render {
     mod failures;
     mod floats;
     mod globs;
+    mod kept;
     mod known_issues;
     mod levels;
     mod light_counts;

@@ -90,7 +90,7 @@ fn cpu_model(list: &str) -> String {
 }
 
 /// What a frame counted, each count with its name in [`FrameReport`]; all of its numbers but `left_out`, which is no
-/// count.
+/// count, and 1 for one that was kept.
 pub fn counters(report: &FrameReport) -> Vec<(&'static str, u64)> {
     vec![
         ("objects", report.objects.into()),
@@ -108,6 +108,7 @@ pub fn counters(report: &FrameReport) -> Vec<(&'static str, u64)> {
         ("choices_changed", report.choices_changed.into()),
         ("draws", report.draws.into()),
         ("triangles", report.triangles),
+        ("kept", report.kept.into()),
         ("matrices", report.matrices.into()),
         ("materials", report.materials.into()),
         ("bytes_uploaded", report.bytes_uploaded),

@@ -6,15 +6,16 @@ use crate::batch::ignored::tell_ignored;
 use crate::batch::key::{DrawKey, MapLooks};
 use crate::batch::lit_object::LitObject;
 use crate::batch::lit_runs::{LitRun, OpenRun};
-use crate::batch::object::{Circumstances, Reflecting, Shared, wrong_paint};
+use crate::batch::object::{Circumstances, Shared};
 use crate::batch::painted::{PaintedObject, Paints};
-use crate::batch::table::{MapsUse, ObjectTable};
+use crate::batch::shown_objects::{ShownObject, ShownObjects};
+use crate::batch::sources::{FrameSources, Sources};
+use crate::batch::table::ObjectTable;
 use crate::device::costs::VertexPrices;
 use crate::error::{RenderError, label};
 use crate::frame::report::FrameReport;
 use crate::geometry::allowed::{Allowed, Demand, geometry_steps};
 use crate::geometry::detail::Choice;
-use crate::geometry::meshes::{Form, Geometries, Paint, PaintComponents};
 use crate::geometry::near_objects::{CoarserObject, NearObjects, ObjectBox};
 use crate::geometry::patches::{MeshPatch, Sight};
 use crate::lights::gains::Extent;
@@ -23,20 +24,14 @@ use crate::lights::lists::{LightLists, Listing};
 use crate::lights::memory::{ChosenBy, choosing};
 use crate::lights::places::{ShadedAt, Spending};
 use crate::lights::profit::Profit;
-use crate::lights::surroundings::Surroundings;
-use crate::lights::terms::{Chosen, by_fragment_shader, by_vertex_shader};
+use crate::lights::terms::{by_fragment_shader, by_vertex_shader};
 use crate::shaders::light_slots::Lists;
 use crate::shaders::records::{DrawRecord, InstanceRecord, MaterialRecord, RecordLists};
 use crate::target::frame::FrameValues;
-use crate::view::camera::View;
-use crate::view::matrices::{ModelView, NormalMatrix, Visible};
-use bevy_asset::Assets;
 use bevy_ecs::component::Mutable;
 use bevy_ecs::prelude::*;
 use bevy_math::Vec3;
-use halfway_lighting::{BackMaterial, Blend, Faces, Material, Reflectance, Terms, Tolerance, ViewTolerance, equations};
-use halfway_mesh::{Mesh, Mesh3d};
-use halfway_texture::Texture;
+use halfway_lighting::{InvalidValue, Terms, Tolerance, equations};
 
 /// What is seen, in the order of the objects. Holds after [`RenderSet::Illuminate`](crate::RenderSet::Illuminate).
 #[derive(Resource, Debug, Default)]
@@ -52,164 +47,73 @@ pub(crate) struct LitPatches {
     choice: Choice,
     near: NearObjects,
     paints: Paints,
+    /// What the draws are made of, where nothing moves.
+    pub(crate) sources: Option<Sources>,
+    /// They are made of the same as in the frame before, and all is as it was.
+    pub(super) are_kept: bool,
 }
-
-type ObjectQuery<'w, 's> = Query<
-    'w,
-    's,
-    (
-        &'static Mesh3d,
-        Option<&'static Material>,
-        Option<&'static BackMaterial>,
-        Option<&'static Reflectance>,
-        Option<&'static Faces>,
-        Has<Blend>,
-        PaintComponents,
-        Option<&'static Tolerance>,
-        (&'static ModelView, &'static NormalMatrix),
-        &'static Chosen,
-        Option<&'static Name>,
-    ),
->;
 
 #[expect(clippy::too_many_arguments, reason = "a system takes each resource as a parameter")]
 pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
-    objects: ObjectQuery,
-    meshes: Res<Assets<Mesh>>,
-    geometries: Res<Geometries>,
-    visible: Res<Visible>,
-    view: Res<View>,
+    objects: ShownObjects,
     lights: Res<Lights>,
-    of_view: Res<ViewTolerance>,
     false_colors: Res<FalseColors>,
     prices: Option<Res<VertexPrices>>,
     chosen_by: ChosenBy,
     values: Res<FrameValues>,
-    (surroundings, textures): (Res<Surroundings>, Res<Assets<Texture>>),
     mut backend: ResMut<B>,
     mut lit: ResMut<LitPatches>,
     mut report: ResMut<FrameReport>,
 ) {
     let lit = &mut *lit;
-    lit.begin(&lights, lights.is_changed());
-    lit.lists.memory.begin(choosing(chosen_by), lights.counts);
-    let (Some(camera), Some(values)) = (&view.camera, values.0) else { return };
-    let (encoding, viewer, costs) = (values.encoding(), camera.viewer, backend.costs());
+    let before = lit.sources.take();
+    lit.are_kept = false;
+    let view = &objects.view;
+    let (Some(camera), Some(values)) = (&view.camera, values.0) else {
+        lit.begin(&lights, lights.is_changed());
+        return;
+    };
+    let (choosing, errors, costs) = (choosing(chosen_by), report.errors.len(), backend.costs());
     let mut vertex_prices = prices.map_or(costs.vertices, |prices| *prices);
     if let Err(source) = vertex_prices.validate() {
         report.errors.push(RenderError::Invalid { entity: "resource".into(), source });
         vertex_prices = costs.vertices;
     }
+    let of_frame = || FrameSources {
+        view: (**view).clone(),
+        values,
+        costs,
+        prices: vertex_prices,
+        choosing,
+        false_colors: false_colors.0,
+        geometries: objects.geometries.changes,
+        answers: backend.answers(),
+    };
+    // Where anything moves, nothing is compared.
+    let stands_still = report.matrices == 0 && !lights.is_changed();
+    let sources = stands_still.then(|| Sources::new(of_frame(), &objects));
+    if let (Some(before), Some(sources)) = (before, &sources)
+        && sources.are(&before)
+    {
+        (lit.sources, lit.are_kept) = (Some(before), true);
+        return;
+    }
+    lit.begin(&lights, lights.is_changed());
+    lit.lists.memory.begin(choosing, lights.counts);
     let shared = Shared {
         lights: &lights,
-        textures: &textures,
-        view: &view,
-        encoding,
-        viewer,
+        textures: &objects.textures,
+        view,
+        encoding: values.encoding(),
+        viewer: camera.viewer,
         costs,
         prices: vertex_prices,
         false_colors: false_colors.0,
     };
-    let mut seen = Vec::new();
-    let mut without_environment = 0;
-    let boxes = || visible.0.iter().map(|&entity| box_around(entity, &objects, &meshes, &geometries, of_view.0));
-    for (number, &entity) in (0..).zip(&visible.0) {
-        let Ok((mesh, material, back, reflectance, faces, blend, components, tolerance, placed, chosen, name)) =
-            objects.get(entity)
-        else {
-            continue;
-        };
-        let (model_view, normal_matrix) = placed;
-        let mut paint =
-            meshes.get(&mesh.0).map_or(Paint::default(), |mesh| Paint::new(mesh, components, surroundings.are_there()));
-        if paint.surrounded && (paint.has_images() || paint.solid.is_some()) && !costs.images_in_environments {
-            paint.surrounded = false;
-            without_environment += 1;
-        }
-        if let Some(source) = wrong_paint(components) {
-            report.errors.push(RenderError::Invalid { entity: label(entity, name), source });
-            continue;
-        }
-        // Of blended patches all is drawn at once, and of products of colors and light there is no bound.
-        let terms = if blend || paint.is_any() { chosen.0.at_fragments() } else { chosen.0 };
-        let form = Form::new(terms, blend, &paint);
-        let Some(geometry) = geometries.get(mesh.0.id(), form) else { continue };
-        let material = material.unwrap_or(&Material::DEFAULT);
-        let reflecting = Reflecting {
-            front: material,
-            back: back.map_or(material, |back| &back.0),
-            reflectance: reflectance.copied().unwrap_or(view.reflectance),
-            faces: faces.copied().unwrap_or_default(),
-            colored: paint.colored,
-            maps: MapLooks::new(&paint.maps),
-            masked: paint.mask.is_some(),
-            solid: paint.solid.map(|solid| solid.kind),
-            surrounded: paint.surrounded,
-        };
-        tell_ignored(&reflecting.maps, terms, paint.surrounded);
-        let look = lit.table.look(&reflecting);
-        if let Some(source) = &look.invalid {
-            report.errors.push(RenderError::Invalid { entity: label(entity, name), source: source.clone() });
-            continue;
-        }
-        let mut tolerance = tolerance.copied().unwrap_or(of_view.0);
-        if let Err(source) = tolerance.validate() {
-            report.errors.push(RenderError::Invalid { entity: label(entity, name), source });
-            continue;
-        }
-        tolerance.steps *= values.share() as f32;
-        // Nothing moves where nothing may change.
-        let shared =
-            Shared { prices: if tolerance.steps > 0.0 { shared.prices } else { VertexPrices::NEVER }, ..shared };
-        let circumstances =
-            Circumstances { terms, blend, mirrored: model_view.mirrored, opposite_normals: geometry.opposite_normals };
-        let key = reflecting.key(look, circumstances, shared);
-        let material = look.material;
-        let sphere = geometry.detail.whole.sphere(model_view);
-        let object = LitObject {
-            entity,
-            number,
-            depth: -sphere.0.z,
-            twins_before: if blend { 0 } else { lit.table.twins_before(sphere) },
-            reflecting,
-            key,
-            material,
-            maps: paint
-                .is_mapped()
-                .then(|| MapsUse::new(&paint.maps, paint.mask.unwrap_or(0.0), paint.solid.copied()))
-                .map_or(0, |of| lit.table.maps(&of)),
-            has_relief: paint.has_relief(),
-            mesh: mesh.0.id(),
-            form,
-            geometry,
-            model_view,
-            normal_matrix,
-            tolerance: if blend { Tolerance { pixels: 0.0, ..tolerance } } else { tolerance },
-        };
-        lit.add(&object, (&mut seen, boxes), shared, &mut *backend, &mut report);
-    }
-    if without_environment > 0 {
-        report.errors.push(RenderError::ImagesInEnvironment(without_environment));
-    }
+    lit.add_all(&objects, values.share(), shared, &mut *backend, &mut report);
     lit.tell(&mut report, values.share());
-}
-
-/// The box around an object.
-fn box_around(
-    entity: Entity,
-    objects: &ObjectQuery,
-    meshes: &Assets<Mesh>,
-    geometries: &Geometries,
-    of_view: Tolerance,
-) -> ObjectBox {
-    let Ok((mesh, .., blend, _, tolerance, (model_view, _), _, _)) = objects.get(entity) else {
-        return ObjectBox::NOWHERE;
-    };
-    let (Some(bounds), Some(radius)) = (meshes.get(&mesh.0).map(Mesh::bounds), geometries.radius(mesh.0.id())) else {
-        return ObjectBox::NOWHERE;
-    };
-    let pixels = if blend { 0.0 } else { tolerance.copied().unwrap_or(of_view).pixels };
-    ObjectBox::new(&bounds, radius, model_view, pixels)
+    // What is refused is told in each frame anew.
+    lit.sources = sources.filter(|_| report.errors.len() == errors);
 }
 
 /// A patch that is drawn, and its stretch: see [`Detail::each_seen`](crate::geometry::detail::Detail::each_seen).
@@ -238,6 +142,84 @@ impl LitPatches {
         report.terms_at_fragments = self.lists.placed.at_fragments;
         report.steps_spent = self.lists.placed.spent / share;
         report.choices_changed = self.lists.memory.changed;
+    }
+
+    /// Adds all objects, where `share` of a tolerance is left for the values.
+    fn add_all(
+        &mut self,
+        shown: &ShownObjects,
+        share: f64,
+        shared: Shared,
+        backend: &mut impl Backend,
+        report: &mut FrameReport,
+    ) {
+        let mut seen = Vec::new();
+        let mut without_environment = 0;
+        for (number, object) in (0..).zip(shown.iter(shared.costs)) {
+            without_environment += usize::from(object.lacks_environment);
+            match self.lit_object(number, &object, shown, share, shared) {
+                Ok(Some((lit, prices))) => {
+                    let shared = Shared { prices, ..shared };
+                    self.add(&lit, (&mut seen, || shown.boxes()), shared, backend, report);
+                }
+                Ok(None) => {}
+                Err(source) => {
+                    report.errors.push(RenderError::Invalid { entity: label(object.entity, object.name), source });
+                }
+            }
+        }
+        if without_environment > 0 {
+            report.errors.push(RenderError::ImagesInEnvironment(without_environment));
+        }
+    }
+
+    /// An object that is to be lit, and the prices of moving its terms; none while its mesh is not laid out.
+    fn lit_object<'a>(
+        &mut self,
+        number: u32,
+        object: &ShownObject<'a>,
+        shown: &'a ShownObjects,
+        share: f64,
+        shared: Shared,
+    ) -> Result<Option<(LitObject<'a>, VertexPrices)>, InvalidValue> {
+        let &ShownObject { entity, mesh, reflecting, paint, blend, terms, mut tolerance, .. } = object;
+        let &ShownObject { model_view, normal_matrix, .. } = object;
+        if let Some(wrong) = &object.wrong_paint {
+            return Err(wrong.clone());
+        }
+        let Some(geometry) = object.geometry(&shown.geometries) else { return Ok(None) };
+        tell_ignored(&reflecting.maps, terms, paint.surrounded);
+        let look = self.table.look(&reflecting);
+        if let Some(invalid) = &look.invalid {
+            return Err(invalid.clone());
+        }
+        tolerance.validate()?;
+        tolerance.steps *= share as f32;
+        // Nothing moves where nothing may change.
+        let prices = if tolerance.steps > 0.0 { shared.prices } else { VertexPrices::NEVER };
+        let circumstances =
+            Circumstances { terms, blend, mirrored: model_view.mirrored, opposite_normals: geometry.opposite_normals };
+        let key = reflecting.key(look, circumstances, Shared { prices, ..shared });
+        let material = look.material;
+        let sphere = geometry.detail.whole.sphere(model_view);
+        let lit = LitObject {
+            entity,
+            number,
+            depth: -sphere.0.z,
+            twins_before: if blend { 0 } else { self.table.twins_before(sphere) },
+            reflecting,
+            key,
+            material,
+            maps: object.maps().map_or(0, |maps| self.table.maps(&maps)),
+            has_relief: paint.has_relief(),
+            mesh,
+            form: object.form(),
+            geometry,
+            model_view,
+            normal_matrix,
+            tolerance: if blend { Tolerance { pixels: 0.0, ..tolerance } } else { tolerance },
+        };
+        Ok(Some((lit, prices)))
     }
 
     /// Adds what is seen of an object: its patches, neighbours with equal light lists joined. `seen` is room for them;

@@ -13,5 +13,7 @@ pub(crate) mod lit_runs;
 pub(crate) mod object;
 pub(crate) mod painted;
 mod pays;
+mod shown_objects;
+pub(crate) mod sources;
 pub(crate) mod table;
 mod unlisted;

@@ -262,7 +262,7 @@ pub(crate) fn upload(
     pipelines: Res<Pipelines>,
     view: Res<View>,
     lights: Res<Lights>,
-    lit: Res<LitPatches>,
+    mut lit: ResMut<LitPatches>,
     mut batches: ResMut<Batches>,
     mut buffers: ResMut<Buffers>,
     mut report: ResMut<FrameReport>,
@@ -275,6 +275,7 @@ pub(crate) fn upload(
         Err(error) => {
             report.errors.push(error);
             batches.draws.clear();
+            lit.sources = None;
         }
     }
 }

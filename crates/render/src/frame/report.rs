@@ -59,6 +59,9 @@ pub struct FrameReport {
     /// Passes over the finished picture, by an [`Intensity`](halfway_lighting::Intensity) that acts on it: of
     /// [`Cpu`](crate::Cpu) over its memory. 0 under [`Intensity::Clamp`](halfway_lighting::Intensity::Clamp).
     pub picture_passes: u32,
+    /// Whether nothing that the draws are made of has changed since the frame before, so that they are drawn again as
+    /// they were: nothing is chosen, and counts of patches, lights and draws are those of the frame that made them.
+    pub kept: bool,
     /// Model-view and normal matrices computed; 0 where nothing moved.
     pub matrices: u32,
     /// Distinct materials (front and back together) in the picture.
@@ -85,5 +88,29 @@ impl FrameReport {
     pub(crate) fn begin(&mut self) {
         let Self { pipelines, pipelines_live, pipelines_pending, .. } = *self;
         *self = Self { pipelines, pipelines_live, pipelines_pending, ..Self::default() };
+    }
+
+    /// Takes what was reported of the draws when they were made, where they are drawn again.
+    pub(crate) fn keep(&mut self, made: &Self) {
+        let &Self { triangles_in, patches, patches_culled, lights_assigned, light_pairs, terms_shaded, .. } = made;
+        let &Self { terms_at_vertices, terms_at_fragments, steps_spent, left_out, draws, triangles, materials, .. } =
+            made;
+        *self = Self {
+            triangles_in,
+            patches,
+            patches_culled,
+            lights_assigned,
+            light_pairs,
+            terms_shaded,
+            terms_at_vertices,
+            terms_at_fragments,
+            steps_spent,
+            left_out,
+            draws,
+            triangles,
+            materials,
+            kept: true,
+            ..std::mem::take(self)
+        };
     }
 }

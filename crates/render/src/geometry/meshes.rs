@@ -120,6 +120,8 @@ pub(crate) struct Geometries {
     looked: (usize, usize),
     /// How many meshes have been forgotten since the start.
     pub(crate) forgotten: u64,
+    /// How often a mesh was laid out or forgotten since the start.
+    pub(crate) changes: u64,
 }
 
 impl Geometries {
@@ -139,6 +141,7 @@ impl Geometries {
     /// Forgets all meshes, as if none had been drawn.
     pub(crate) fn forget_all(&mut self) {
         self.forgotten += self.meshes.len() as u64;
+        self.changes += 1;
         self.meshes.clear();
         self.radii.clear();
     }
@@ -165,6 +168,7 @@ impl Geometries {
         let indices = Some(corners.into_flattened());
         let drawn = drawn.clone();
         self.radii.insert(id, detail.whole.radius());
+        self.changes += 1;
         let geometry = Geometry { detail, source: mesh.clone(), drawn, opposite_normals, uv_boxes, indices };
         self.meshes.insert((id, form), geometry);
     }
@@ -227,6 +231,7 @@ pub(crate) fn forget_removed(
     workshop.retain(|id| meshes.contains(id));
     let after = geometries.meshes.len();
     geometries.forgotten += (before - after) as u64;
+    geometries.changes += 1;
     geometries.looked = (after, meshes.len());
 }
 
