@@ -97,7 +97,7 @@ impl OracleScene {
         let Some((map, place)) = self.looked_up(hit, MapKind::Height) else { return otherwise };
         let d = lookup::level(map.pyramid.size(), place.footprint);
         let [along_u, along_v] = lookup::gradient(&map.pyramid, &map.sampling, place.uv, d, map.channel);
-        let [a, b, c] = solid.triangle(triangle);
+        let [a, b, c] = solid.lit_triangle(triangle);
         let uvs = vertices.map(|number| map.uvs[number]);
         let rise = |k: usize| map.amount * (along_u * (uvs[k][0] - uvs[0][0]) + along_v * (uvs[k][1] - uvs[0][1]));
         let m: DVec3 = (0..3).map(|i| maps.rises[vertices[i]] * weights[i]).sum();

@@ -96,6 +96,19 @@ impl Oracle {
         self
     }
 
+    /// Draws as a rasteriser that puts vertices on a grid of N bits within a pixel; exactly unless said. What is
+    /// interpolated between vertices, and how it changes from a pixel to the next, is then as on the moved triangles;
+    /// what is shaded at vertices is not.
+    #[must_use]
+    pub fn on_grid(mut self, bits: u32) -> Self {
+        let view = self.scene.view;
+        for solid in &mut self.scene.solids {
+            solid.draw_at(|p| view.on_grid(p, bits));
+        }
+        self.tiles = OnceLock::new();
+        self
+    }
+
     /// `n` × `n` samples a pixel, averaged, in place of its centre; 1 unless said. They are the centres of the pixel's
     /// `n` × `n` squares. `n` is taken into 1 to [`MAX_SUPERSAMPLING`](Self::MAX_SUPERSAMPLING).
     #[must_use]

@@ -68,7 +68,7 @@ impl OracleScene {
     ) -> Parts {
         let front = hit.front;
         let shaded = &solid.side(front).shaded;
-        let corners = solid.triangle(triangle);
+        let corners = solid.lit_triangle(triangle);
         // Triangles without area have no normal, and are not drawn.
         let geometric = || solid.face(triangle).unwrap_or(DVec3::ZERO).to_array();
         let mut i = Parts::default();

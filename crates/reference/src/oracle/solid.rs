@@ -73,6 +73,8 @@ pub(super) struct Solid {
     /// The transform turns windings over.
     pub(super) mirrored: bool,
     pub(super) corners: Vec<DVec3>,
+    /// Where the corners are drawn, unless it is where they are.
+    drawn: Option<Vec<DVec3>>,
     pub(super) normals: Vec<DVec3>,
     /// The colours of the vertices, where they count.
     pub(super) colors: Option<Vec<DVec4>>,
@@ -137,6 +139,7 @@ impl Solid {
             mirrored,
             corners: mesh.positions().par_iter().map(|p| eye_from_model.transform_point3(p.as_dvec3())).collect(),
             normals: mesh.normals().par_iter().map(|n| turned(normal_matrix, n.as_dvec3())).collect(),
+            drawn: None,
             colors: colors.map(|colors| colors.iter().map(|color| color.as_dvec4()).collect()),
             maps,
             mask: looks.mask,
@@ -198,8 +201,19 @@ impl Solid {
         a * u + b * v + c * w
     }
 
-    /// A triangle's corners in eye space.
+    /// Draws each corner elsewhere.
+    pub(super) fn draw_at(&mut self, place: impl Fn(DVec3) -> DVec3 + Sync) {
+        self.drawn = Some(self.corners.par_iter().map(|p| place(*p)).collect());
+    }
+
+    /// Where a triangle's corners are drawn, in eye space.
     pub(super) fn triangle(&self, triangle: u32) -> [DVec3; 3] {
+        let corners = self.drawn.as_ref().unwrap_or(&self.corners);
+        self.vertices(triangle).map(|vertex| corners[vertex])
+    }
+
+    /// Where a triangle's corners are lit, in eye space.
+    pub(super) fn lit_triangle(&self, triangle: u32) -> [DVec3; 3] {
         self.vertices(triangle).map(|vertex| self.corners[vertex])
     }
 

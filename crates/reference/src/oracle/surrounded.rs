@@ -41,7 +41,7 @@ impl OracleScene {
             HitPoint::Triangle(triangle, weights) => (triangle, weights),
             HitPoint::Surface { p, n } => return (p, n.to_array()),
         };
-        let [a, b, c] = solid.triangle(triangle);
+        let [a, b, c] = solid.lit_triangle(triangle);
         let p = a * u + b * v + c * w;
         let geometric = solid.face(triangle).unwrap_or(DVec3::ZERO).to_array();
         if solid.terms.has(Frequency::Triangle) {

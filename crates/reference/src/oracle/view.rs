@@ -19,6 +19,9 @@ pub(super) struct PictureView {
     pub(super) near: f64,
 }
 
+/// The most bits of a grid within a pixel; more are as none.
+const MOST_BITS: u32 = 24;
+
 impl PictureView {
     /// The view of a camera; `None` where its transform gives it no place or direction.
     pub(super) fn new(camera: &Camera, transform: &GlobalTransform, size: UVec2) -> Option<Self> {
@@ -80,6 +83,16 @@ impl PictureView {
     pub(super) fn pixel(&self, p: DVec3) -> DVec2 {
         let at_depth_1 = p.truncate() / -p.z / self.half;
         0.5 * self.size * (1.0 + DVec2::new(at_depth_1.x, -at_depth_1.y))
+    }
+
+    /// The point of the same depth that lies on the picture where a grid of 2ᴺ places a pixel has its nearest place.
+    pub(super) fn on_grid(&self, p: DVec3, bits: u32) -> DVec3 {
+        let places = f64::from(1_u32 << bits.min(MOST_BITS));
+        let pixel = (self.pixel(p) * places).round() / places;
+        let at_depth_1 = 2.0 * pixel / self.size - 1.0;
+        let on_grid = DVec2::new(at_depth_1.x, -at_depth_1.y) * self.half * -p.z;
+        // What lies in the plane of the eye lies nowhere on the picture.
+        if on_grid.is_finite() { on_grid.extend(p.z) } else { p }
     }
 
     /// [`pixel`](Self::pixel) less `origin`, times the depth: linear in space, and finite wherever the point lies.
