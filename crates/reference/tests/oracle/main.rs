@@ -6,6 +6,7 @@ mod coverage;
 mod errors;
 mod folds;
 mod four;
+mod grid;
 mod mutants;
 mod possible;
 mod probes;
