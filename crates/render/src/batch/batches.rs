@@ -35,8 +35,8 @@ pub(crate) fn batch<B: Backend + Resource<Mutability = Mutable>>(
     batches.emit(&mut lit, &mut *backend);
     report.draws = batches.draws.command_count() as u32;
     report.triangles = batches.draws.triangles();
-    lit.sources = lit.sources.take().map(|sources| sources.answered(backend.answers()));
-    if lit.sources.is_some() {
+    if lit.sources.are_known() {
+        lit.sources.answered(backend.answers());
         batches.report = report.clone();
     }
 }

@@ -48,7 +48,7 @@ pub(crate) struct LitPatches {
     near: NearObjects,
     paints: Paints,
     /// What the draws are made of, where nothing moves.
-    pub(crate) sources: Option<Sources>,
+    pub(crate) sources: Sources,
     /// They are made of the same as in the frame before, and all is as it was.
     pub(super) are_kept: bool,
 }
@@ -66,11 +66,11 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
     mut report: ResMut<FrameReport>,
 ) {
     let lit = &mut *lit;
-    let before = lit.sources.take();
     lit.are_kept = false;
     let view = &objects.view;
     let (Some(camera), Some(values)) = (&view.camera, values.0) else {
         lit.begin(&lights, lights.is_changed());
+        lit.sources.forget();
         return;
     };
     let (choosing, errors, costs) = (choosing(chosen_by), report.errors.len(), backend.costs());
@@ -79,24 +79,24 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
         report.errors.push(RenderError::Invalid { entity: "resource".into(), source });
         vertex_prices = costs.vertices;
     }
-    let of_frame = || FrameSources {
-        view: (**view).clone(),
-        values,
-        costs,
-        prices: vertex_prices,
-        choosing,
-        false_colors: false_colors.0,
-        geometries: objects.geometries.changes,
-        answers: backend.answers(),
-    };
     // Where anything moves, nothing is compared.
-    let stands_still = report.matrices == 0 && !lights.is_changed();
-    let sources = stands_still.then(|| Sources::new(of_frame(), &objects));
-    if let (Some(before), Some(sources)) = (before, &sources)
-        && sources.are(&before)
-    {
-        (lit.sources, lit.are_kept) = (Some(before), true);
-        return;
+    if report.matrices == 0 && !lights.is_changed() {
+        let of_frame = FrameSources {
+            view: (**view).clone(),
+            values,
+            costs,
+            prices: vertex_prices,
+            choosing,
+            false_colors: false_colors.0,
+            geometries: objects.geometries.changes,
+            answers: backend.answers(),
+        };
+        lit.are_kept = lit.sources.are_again(of_frame, &objects);
+        if lit.are_kept {
+            return;
+        }
+    } else {
+        lit.sources.forget();
     }
     lit.begin(&lights, lights.is_changed());
     lit.lists.memory.begin(choosing, lights.counts);
@@ -113,7 +113,9 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
     lit.add_all(&objects, values.share(), shared, &mut *backend, &mut report);
     lit.tell(&mut report, values.share());
     // What is refused is told in each frame anew.
-    lit.sources = sources.filter(|_| report.errors.len() == errors);
+    if report.errors.len() > errors {
+        lit.sources.forget();
+    }
 }
 
 /// A patch that is drawn, and its stretch: see [`Detail::each_seen`](crate::geometry::detail::Detail::each_seen).

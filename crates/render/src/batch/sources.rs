@@ -3,7 +3,7 @@
 use crate::batch::key::MapLooks;
 use crate::batch::object::ReflectingBits;
 use crate::batch::shown_objects::{ShownObject, ShownObjects};
-use crate::batch::table::{MapUse, MapsBits, MapsUse};
+use crate::batch::table::MapsBits;
 use crate::device::costs::{Costs, VertexPrices};
 use crate::lights::memory::Choosing;
 use crate::target::format::PixelValues;
@@ -15,16 +15,58 @@ use halfway_mesh::Mesh;
 use halfway_texture::Pyramid;
 
 /// What the draws of a frame are made of, besides where objects and lights are.
-#[derive(Clone, Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct Sources {
-    of_frame: FrameSources,
-    objects: Vec<ObjectSources>,
-    /// The images, those of one object after those of the other.
-    images: Vec<Pyramid>,
+    /// Whether they are those of the frame before.
+    are_known: bool,
+    of_frame: Option<FrameSources>,
+    objects: Known<ObjectSources>,
+    /// How the images of objects that have any are looked up, and the images.
+    maps: Known<MapsBits>,
+    images: Known<Pyramid>,
+}
+
+/// A list that is compared with what it was while it is made.
+#[derive(Debug)]
+struct Known<T> {
+    all: Vec<T>,
+    count: usize,
+    are_same: bool,
+}
+
+impl<T> Default for Known<T> {
+    fn default() -> Self {
+        Self { all: Vec::new(), count: 0, are_same: false }
+    }
+}
+
+impl<T> Known<T> {
+    fn begin(&mut self) {
+        (self.count, self.are_same) = (0, true);
+    }
+
+    fn add(&mut self, now: T, is_same: impl FnOnce(&T, &T) -> bool) {
+        match self.all.get_mut(self.count) {
+            Some(before) if is_same(before, &now) => {}
+            Some(before) => (*before, self.are_same) = (now, false),
+            None => {
+                self.all.push(now);
+                self.are_same = false;
+            }
+        }
+        self.count += 1;
+    }
+
+    /// Whether all is as it was.
+    fn end(&mut self) -> bool {
+        self.are_same &= self.count == self.all.len();
+        self.all.truncate(self.count);
+        self.are_same
+    }
 }
 
 /// What is the same for all objects.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub(crate) struct FrameSources {
     pub(crate) view: View,
     pub(crate) values: PixelValues,
@@ -39,7 +81,8 @@ pub(crate) struct FrameSources {
 }
 
 /// An object.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug, PartialEq)]
+#[expect(clippy::struct_excessive_bools, reason = "each is one independent fact")]
 struct ObjectSources {
     entity: Entity,
     mesh: AssetId<Mesh>,
@@ -47,44 +90,54 @@ struct ObjectSources {
     colored: bool,
     surrounded: bool,
     looks: MapLooks,
-    maps: Option<MapsBits>,
+    has_maps: bool,
     blend: bool,
     terms: Terms,
     tolerance: Tolerance,
 }
 
 impl Sources {
-    pub(crate) fn new(of_frame: FrameSources, shown: &ShownObjects) -> Self {
-        let (mut objects, mut images) = (Vec::new(), Vec::new());
+    /// Takes what the frame's draws are to be made of. Returns whether that is what the last ones were made of.
+    pub(crate) fn are_again(&mut self, of_frame: FrameSources, shown: &ShownObjects) -> bool {
+        let of_frame_is_same = of_frame.answers.is_some() && self.of_frame.as_ref() == Some(&of_frame);
+        self.objects.begin();
+        self.maps.begin();
+        self.images.begin();
         for object in shown.iter(of_frame.costs) {
             let maps = object.maps();
-            let slots = maps.iter().flat_map(|maps| maps.slots.iter().flatten());
-            images.extend(slots.map(|of: &MapUse| of.pyramid(&shown.textures)));
-            objects.push(ObjectSources::new(&object, maps.as_ref()));
+            self.objects.add(ObjectSources::new(&object, maps.is_some()), |a, b| a == b);
+            let Some(maps) = maps else { continue };
+            self.maps.add(maps.bits(), |a, b| a == b);
+            for of in maps.slots.iter().flatten() {
+                self.images.add(of.pyramid(&shown.textures), Pyramid::is_same);
+            }
         }
-        Self { of_frame, objects, images }
+        self.of_frame = Some(of_frame);
+        let lists_are_same = [self.objects.end(), self.maps.end(), self.images.end()] == [true; 3];
+        std::mem::replace(&mut self.are_known, true) && of_frame_is_same && lists_are_same
     }
 
-    /// Whether draws that are made of these are those that were made of the others.
-    pub(crate) fn are(&self, others: &Self) -> bool {
-        let of_frame = &self.of_frame;
-        let images = || self.images.iter().zip(&others.images);
-        of_frame.answers.is_some()
-            && *of_frame == others.of_frame
-            && self.objects == others.objects
-            && self.images.len() == others.images.len()
-            && images().all(|(a, b)| a.is_same(b))
+    /// Nothing is known of the draws, or they are not to be drawn again.
+    pub(crate) fn forget(&mut self) {
+        self.are_known = false;
+        // They may be large, and nobody else may hold them.
+        self.images.all.clear();
     }
 
-    /// The same, where what draws would give these answers now.
-    pub(crate) fn answered(mut self, answers: Option<u64>) -> Self {
-        self.of_frame.answers = answers;
-        self
+    pub(crate) fn are_known(&self) -> bool {
+        self.are_known
+    }
+
+    /// What draws would give these answers now.
+    pub(crate) fn answered(&mut self, answers: Option<u64>) {
+        if let Some(of_frame) = &mut self.of_frame {
+            of_frame.answers = answers;
+        }
     }
 }
 
 impl ObjectSources {
-    fn new(object: &ShownObject, maps: Option<&MapsUse>) -> Self {
+    fn new(object: &ShownObject, has_maps: bool) -> Self {
         let ShownObject { entity, mesh, ref reflecting, blend, terms, tolerance, .. } = *object;
         Self {
             entity,
@@ -93,7 +146,7 @@ impl ObjectSources {
             colored: reflecting.colored,
             surrounded: reflecting.surrounded,
             looks: reflecting.maps,
-            maps: maps.map(MapsUse::bits),
+            has_maps,
             blend,
             terms,
             tolerance,

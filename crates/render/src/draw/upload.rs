@@ -275,7 +275,7 @@ pub(crate) fn upload(
         Err(error) => {
             report.errors.push(error);
             batches.draws.clear();
-            lit.sources = None;
+            lit.sources.forget();
         }
     }
 }
