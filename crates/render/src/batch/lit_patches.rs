@@ -80,7 +80,7 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
         vertex_prices = costs.vertices;
     }
     // Where anything moves, nothing is compared.
-    if report.matrices == 0 && !lights.is_changed() {
+    if !objects.have_moved() && !lights.is_changed() {
         let of_frame = FrameSources {
             view: (**view).clone(),
             values,

@@ -37,6 +37,7 @@ type ObjectComponents = (
 #[derive(SystemParam)]
 pub(crate) struct ShownObjects<'w, 's> {
     objects: Query<'w, 's, ObjectComponents>,
+    moved: Query<'w, 's, (), Changed<ModelView>>,
     meshes: Res<'w, Assets<Mesh>>,
     pub(super) geometries: Res<'w, Geometries>,
     visible: Res<'w, Visible>,
@@ -65,6 +66,11 @@ pub(super) struct ShownObject<'a> {
 }
 
 impl ShownObjects<'_, '_> {
+    /// Whether any was moved, or seen from elsewhere, since the system ran last.
+    pub(super) fn have_moved(&self) -> bool {
+        !self.moved.is_empty()
+    }
+
     /// The visible ones in spawn order, where these are the costs of drawing them.
     pub(super) fn iter(&self, costs: Costs) -> impl Iterator<Item = ShownObject<'_>> {
         self.visible.0.iter().filter_map(move |&entity| self.get(entity, costs))
