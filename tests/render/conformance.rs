@@ -17,7 +17,7 @@ use crate::render::scene::{Scene, Thing};
 use crate::render::stage::Stage;
 use halfway::prelude::*;
 use halfway::reference::Image;
-use halfway::reference::metrics::{Bars, Verdict, compare, judge};
+use halfway::reference::metrics::{Bars, Verdict, judge};
 use halfway::render::RenderError;
 use halfway::texture::FarNormals;
 
@@ -167,22 +167,16 @@ fn shares_are_all_rows_together() {
     }
 }
 
+/// Draws every row on one stage, and compares its three pictures with the oracle's.
 fn conform(title: &str, rows: &[Row]) {
-    conform_within(title, rows, 0.0);
+    conform_on(Stage::new(SIZE.x, SIZE.y).judged_on_grid(), title, rows);
 }
 
-/// Draws every row on one stage, and compares its three pictures with the oracle's: on an adapter whose grid within a
-/// pixel is coarse within a number of steps besides.
-fn conform_within(title: &str, rows: &[Row], steps_on_coarse_grid: f64) {
-    conform_on(Stage::new(SIZE.x, SIZE.y), title, rows, steps_on_coarse_grid);
-}
-
-fn conform_on(mut stage: Stage, title: &str, rows: &[Row], steps_on_coarse_grid: f64) {
+fn conform_on(mut stage: Stage, title: &str, rows: &[Row]) {
     let mut failures = Failures::default();
     let mut worst = Worst::default();
     let mut without_floats = 0;
     stage.frame();
-    let besides = if stage.grid_bits() < 8 { steps_on_coarse_grid } else { 0.0 };
     let share = Share::of_environment();
     let rows: Vec<&Row> = (0..).zip(rows).filter(|(number, row)| share.has(*number, row)).map(|(_, row)| row).collect();
     for Row { name, scene, float, raw, srgb } in &rows {
@@ -190,7 +184,7 @@ fn conform_on(mut stage: Stage, title: &str, rows: &[Row], steps_on_coarse_grid:
         // An adapter may be unable to blend 32-bit floats, as OpenGL is.
         let of_floats = if stage.blends_floats() || !scene.things.iter().any(|thing| thing.blend) {
             let picture = stage.float();
-            let verdict = failures.compare(name, &mut stage, &picture, float.within(besides));
+            let verdict = failures.compare(name, &mut stage, &picture, *float);
             failures.unless(verdict.counted + verdict.edges > 0.02, || format!("{name} shows next to nothing"));
             Some(verdict)
         } else {
@@ -202,7 +196,7 @@ fn conform_on(mut stage: Stage, title: &str, rows: &[Row], steps_on_coarse_grid:
         let [raw, srgb] = [(Encoding::Raw, raw), (Encoding::Srgb, &srgb)].map(|(encoding, bars)| {
             stage.encode(encoding);
             let picture = stage.bytes();
-            failures.compare_bytes(&format!("{name}, {encoding:?} bytes"), &mut stage, &picture, bars.within(besides))
+            failures.compare_bytes(&format!("{name}, {encoding:?} bytes"), &mut stage, &picture, *bars)
         });
         worst.note(name, of_floats, [raw, srgb]);
     }
@@ -227,8 +221,7 @@ fn every_feature_conforms() {
 
 #[test]
 fn every_policy_of_intensity_conforms() {
-    // On SwiftShader's grid of 1/16 pixel a slope that is divided is off by 2.2e-4 of the range in places.
-    conform_within("policies of intensity", &policies::rows(Samples::One), 0.25);
+    conform("policies of intensity", &policies::rows(Samples::One));
 }
 
 #[test]
@@ -254,7 +247,7 @@ fn every_mask_conforms_with_four_samples() {
 /// On the CPU, whatever else is tested: llvmpipe is off by up to 5e-2 of the range where a triangle covers a pixel in
 /// part, and why is not known.
 fn conform_on_the_cpu(title: &str, rows: &[Row]) {
-    conform_on(Stage::on_the_cpu(SIZE.x, SIZE.y), title, rows, 0.0);
+    conform_on(Stage::on_the_cpu(SIZE.x, SIZE.y), title, rows);
 }
 
 #[test]
@@ -310,47 +303,33 @@ fn every_way_to_shade_colors_of_vertices_conforms() {
 
 #[test]
 fn every_way_to_shade_and_to_filter_images_conforms() {
-    // Vertices that are rounded to 1/16 pixel turn the planes of u and v: SwiftShader is off by up to 1.2e-2 of the
-    // range.
-    conform_within("images", &maps::rows(), 2.0);
+    conform("images", &maps::rows());
 }
 
 #[test]
 fn every_filter_by_the_footprints_shape_conforms() {
-    let mut rows = maps::rows_by_shape();
-    let mut stage = Stage::new(SIZE.x, SIZE.y);
-    stage.frame();
-    if stage.grid_bits() < 8 {
-        // On a grid of 1/16 pixel a mask cuts other pixels, which are off by whatever is behind them; no bar would tell
-        // that from another filter. Masks themselves are among all kinds of images at once.
-        rows.retain(|row| row.scene.things.iter().all(|thing| thing.mask.is_none()));
-    }
-    conform_within("filters by shape", &rows, 2.0);
+    conform("filters by shape", &maps::rows_by_shape());
 }
 
 #[test]
 fn every_kind_of_image_conforms() {
-    conform_within("kinds of images", &maps::rows_of_kinds(), 2.0);
+    conform("kinds of images", &maps::rows_of_kinds());
 }
 
 #[test]
 fn highlights_of_far_normals_conform() {
-    conform_within("far normals", &maps::rows_of_far_normals(FarNormals::Toksvig), STEPS_OF_FAR_NORMALS);
+    conform("far normals", &maps::rows_of_far_normals(FarNormals::Toksvig));
 }
 
 #[test]
 fn highlights_of_moments_conform() {
-    conform_within("moments", &maps::rows_of_far_normals(FarNormals::Lean), STEPS_OF_FAR_NORMALS);
+    conform("moments", &maps::rows_of_far_normals(FarNormals::Lean));
 }
 
-/// Of images from afar 1/16 pixel is half a texel: `SwiftShader` is off by up to 2.8e-2 of the range.
-const STEPS_OF_FAR_NORMALS: f64 = 8.0;
-
-/// Also by what a grid of 1/16 pixel is allowed.
 #[test]
 fn highlights_of_other_far_normals_are_found_out() {
     use FarNormals::{Lean, Mean, Toksvig};
-    let mut stage = Stage::new(SIZE.x, SIZE.y);
+    let mut stage = Stage::new(SIZE.x, SIZE.y).judged_on_grid();
     for (right, wrong) in [(Toksvig, Mean), (Lean, Mean), (Lean, Toksvig)] {
         let mut rows = maps::rows_of_far_normals(right);
         rows.retain(|row| row.name.ends_with("Phong, 4 times"));
@@ -363,52 +342,35 @@ fn highlights_of_other_far_normals_are_found_out() {
             stage.set(scene);
             stage.frame();
             let truth = stage.oracle();
-            let bars = FLOAT.within(STEPS_OF_FAR_NORMALS);
-            let verdict = judge(&truth, &truth.draw(), &Image::from_float(&picture), bars).expect("one size");
+            let verdict = judge(&truth, &truth.draw(), &Image::from_float(&picture), FLOAT).expect("one size");
             assert!(!verdict.is_within(), "{name}, {wrong:?} for {right:?}: {verdict}");
         }
     }
 }
 
-/// All kinds on one object. On a grid of 1/16 pixel each turns at an outline, and they multiply: a few pixels there are
-/// off by a fifth of the range, so that pictures are held to as a whole; by that, each image that is left out is found.
+/// All kinds on one object, where they multiply.
 #[test]
 fn all_kinds_of_images_at_once_conform() {
+    conform("all kinds of images", &maps::rows_of_all_kinds());
+}
+
+/// A planted fault: each image that is left out is found where opacity counts.
+#[test]
+fn an_image_that_is_left_out_is_found() {
     let rows = maps::rows_of_all_kinds();
-    let mut stage = Stage::new(SIZE.x, SIZE.y);
-    stage.frame();
-    if stage.grid_bits() >= 8 {
-        return conform("all kinds of images", &rows);
-    }
-    let mut off = |drawn: &Scene, judged: &Scene| {
-        let picture = Image::from_float(&stage.draw(drawn));
-        stage.set(judged);
-        stage.frame();
-        let expected = stage.oracle().draw();
-        compare(&picture, &expected, Encoding::Srgb).expect("pictures of one size").steps.all.rmse
-    };
-    for Row { name, scene, .. } in &rows {
-        let off = off(scene, scene);
-        println!("{name}: RMSE {off:.2} steps");
-        assert!(off <= MOST_OFF_AS_A_WHOLE, "{name}: RMSE {off} steps");
-    }
-    // Where opacity counts.
     let whole = &rows.iter().find(|row| row.name == "all, phong, both sides, blended").expect("a row").scene;
-    let mut unfound = Vec::new();
+    let mut stage = Stage::on_the_cpu(SIZE.x, SIZE.y);
     for number in 0..whole.things[0].maps.len() {
         let mut without = whole.clone();
         without.things.iter_mut().for_each(|thing| drop(thing.maps.remove(number)));
-        let (kind, off) = (whole.things[0].maps[number].0, off(&without, whole));
-        println!("without {kind:?}: RMSE {off:.2} steps");
-        if off <= MOST_OFF_AS_A_WHOLE {
-            unfound.push(kind);
-        }
+        let picture = Image::from_float(&stage.draw(&without));
+        stage.set(whole);
+        stage.frame();
+        let truth = stage.oracle();
+        let verdict = judge(&truth, &truth.draw(), &picture, FLOAT).expect("pictures of one size");
+        assert!(!verdict.is_within(), "without {:?}: {verdict}", whole.things[0].maps[number].0);
     }
-    assert_eq!(unfound, [], "left out and not found");
 }
-
-/// In steps of 1/255, the root of the mean square: what `SwiftShader` needs is 0.9.
-const MOST_OFF_AS_A_WHOLE: f64 = 1.5;
 
 #[test]
 fn every_way_to_be_lit_by_an_environment_conforms() {
@@ -426,13 +388,12 @@ fn environments_conform_on_objects_with_images() {
         assert!(stage.report().errors.iter().any(told), "{:?}", stage.report().errors);
         return;
     }
-    // As images do.
-    conform_within("environment and images", &rows, 2.0);
+    conform("environment and images", &rows);
 }
 
 #[test]
 fn every_solid_conforms() {
-    conform_within("solids", &solids::rows(), 2.0);
+    conform("solids", &solids::rows());
 }
 
 #[test]
@@ -442,7 +403,7 @@ fn solids_conform_in_environments() {
     stage.set(&rows[0].scene);
     stage.frame();
     if stage.costs().images_in_environments {
-        return conform_within("environment and solids", &rows, 2.0);
+        return conform("environment and solids", &rows);
     }
     let told = |error: &RenderError| matches!(error, RenderError::ImagesInEnvironment(count) if *count > 0);
     assert!(stage.report().errors.iter().any(told), "{:?}", stage.report().errors);

@@ -21,6 +21,8 @@ pub(crate) struct Stage {
     spawned: Vec<Entity>,
     /// Equal meshes share a handle, as they would in an App.
     meshes: Vec<(Mesh, Handle<Mesh>)>,
+    /// Whether the oracle puts corners of triangles where the adapter's grid has them.
+    rounds_corners: bool,
 }
 
 impl Stage {
@@ -40,7 +42,7 @@ impl Stage {
         app.world_mut().resource_mut::<Headless>().pixels = Pixels::Float;
         app.insert_resource(ViewTolerance(FULL));
         app.insert_resource(choice);
-        Self { app, spawned: Vec::new(), meshes: Vec::new() }
+        Self { app, spawned: Vec::new(), meshes: Vec::new(), rounds_corners: false }
     }
 
     pub(crate) fn world(&mut self) -> &mut World {
@@ -102,9 +104,15 @@ impl Stage {
         if self.is_on_cpu() { bits() } else { *BITS.get_or_init(bits) }
     }
 
+    /// The same, judged by an oracle that rounds corners of triangles to a coarse grid as the adapter does: then the
+    /// bars of a fine grid hold.
+    pub(crate) fn judged_on_grid(self) -> Self {
+        Self { rounds_corners: true, ..self }
+    }
+
     /// `bars` for the adapter's grid.
     pub(crate) fn on_grid(&self, bars: Bars) -> Bars {
-        bars.on_grid(self.grid_bits())
+        if self.rounds_corners { bars } else { bars.on_grid(self.grid_bits()) }
     }
 
     /// Whether a floating-point picture may show blended objects.
@@ -158,7 +166,9 @@ impl Stage {
     /// What should be seen of what stands, since the last frame.
     pub(crate) fn oracle(&mut self) -> Oracle {
         let size = self.world().resource::<Headless>().size;
-        Oracle::new(self.world(), size).unwrap_or_else(|error| panic!("{error}"))
+        let oracle = Oracle::new(self.world(), size).unwrap_or_else(|error| panic!("{error}"));
+        let bits = self.grid_bits();
+        if self.rounds_corners && bits < 8 { oracle.on_grid(bits) } else { oracle }
     }
 
     fn thing(&mut self, thing: &Thing) -> Entity {
