@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use halfway::prelude::*;
-use halfway::reference::metrics::{Bars, FINENESS, Scale, Verdict, difference, judge, judge_moved};
+use halfway::reference::metrics::{Bars, FINENESS, Scale, Verdict, difference, judge, judge_moved, judge_on_grid};
 use halfway::reference::{Image, Oracle};
 use halfway::render::RenderError;
 
@@ -73,14 +73,14 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
         draw(app, size, values)
     };
     let picture = draw(&mut app, Pixels::Byte)?;
-    let bytes = Drawn::new(&mut app, &picture, (size, pixels), encoding, (0, &progress))?;
-    let of_bytes = bytes.judged(bars.on_grid(bits))?;
+    let bytes = Drawn::new(&mut app, &picture, (size, pixels, bits), encoding, (0, &progress))?;
+    let of_bytes = bytes.judged(bars)?;
     let float = match draw(&mut app, Pixels::Float) {
         // The bytes are judged all the same.
         Err(RenderError::FloatTarget { cannot }) => Err(cannot),
         drawn => {
-            let bars = Bars::FLOAT.within(steps).on_grid(bits);
-            Ok(Drawn::new(&mut app, &drawn?, (size, pixels), encoding, (1, &progress))?.judged(bars)?)
+            let bars = Bars::FLOAT.within(steps);
+            Ok(Drawn::new(&mut app, &drawn?, (size, pixels, bits), encoding, (1, &progress))?.judged(bars)?)
         }
     };
     drop(progress);
@@ -142,7 +142,7 @@ fn judge_picture(args: &VerifyArgs, mut input: SceneInput, file: &Path) -> Resul
     let expected = oracle
         .draw_with(&|done, of| progress.tile(0, 1, done, of))
         .map_err(|stopped| Failure::new(STOPPED, stopped))?;
-    let drawn = Drawn { oracle, actual: Image::from_decoded(&picture, encoding), expected, moved: None };
+    let drawn = Drawn { oracle, on_grid: None, actual: Image::from_decoded(&picture, encoding), expected, moved: None };
     let found = drawn.judged(bars)?;
     drop(progress);
     if let Some(file) = &args.output {
@@ -181,6 +181,8 @@ fn draw(app: &mut App, size: UVec2, pixels: Pixels) -> Result<Picture, RenderErr
 /// One picture of a scene by the adapter, and by the oracle.
 struct Drawn {
     oracle: Oracle,
+    /// The same with its corners on the adapter's grid, where it is an adapter's picture, and the bits of the grid.
+    on_grid: Option<(Oracle, u32)>,
     actual: Image,
     expected: Image,
     /// How far what is drawn may be moved on the picture, and the oracle's finer picture.
@@ -191,7 +193,7 @@ impl Drawn {
     fn new(
         app: &mut App,
         picture: &Picture,
-        (size, pixels): (UVec2, f64),
+        (size, pixels, bits): (UVec2, f64, u32),
         encoding: Encoding,
         (index, progress): (u32, &Progress),
     ) -> Result<Self, Failure> {
@@ -209,13 +211,19 @@ impl Drawn {
         } else {
             None
         };
-        Ok(Self { oracle, actual, expected, moved })
+        let on_grid = Oracle::new(app.world_mut(), size)?.with_clamping(is_clamped).on_grid(bits);
+        Ok(Self { oracle, on_grid: Some((on_grid, bits)), actual, expected, moved })
     }
 
     fn judged(&self, bars: Bars) -> Result<Verdict, Failure> {
-        match &self.moved {
-            Some((pixels, fine)) => judge_moved(&self.oracle, (&self.expected, fine), *pixels, &self.actual, bars),
-            None => judge(&self.oracle, &self.expected, &self.actual, bars),
+        let Self { oracle, on_grid, actual, expected, moved } = self;
+        match (moved, on_grid) {
+            (Some((pixels, fine)), on_grid) => {
+                let bars = on_grid.as_ref().map_or(bars, |(_, bits)| bars.on_grid(*bits));
+                judge_moved(oracle, (expected, fine), *pixels, actual, bars)
+            }
+            (None, Some((on_grid, bits))) => judge_on_grid((oracle, expected), (on_grid, *bits), actual, bars),
+            (None, None) => judge(oracle, expected, actual, bars),
         }
         .map_err(text)
     }

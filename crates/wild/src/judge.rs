@@ -34,6 +34,9 @@ pub struct Judge {
 /// A change of the scene that only the renderer is given, to see that it is found.
 pub type Fault = fn(&mut SceneFile);
 
+/// The bits of the grid of an adapter whose vertices are hardly moved.
+const FINE: u32 = 8;
+
 /// What is wrong with a scene.
 #[derive(Clone, Debug)]
 pub enum Finding {
@@ -82,14 +85,14 @@ impl fmt::Display for Finding {
 impl Judge {
     /// Judges what `adapter` draws. Paths of scenes are relative to `base_dir`.
     pub fn new(adapter: Adapter, base_dir: impl Into<PathBuf>) -> Self {
-        Self { adapter, base_dir: base_dir.into(), grid: 8, four: false, tolerance: None, fault: None }
+        Self { adapter, base_dir: base_dir.into(), grid: FINE, four: false, tolerance: None, fault: None }
     }
 
     /// Judges an adapter that puts vertices on a grid of so many bits, 4 to 8, which is Vulkan's
     /// `subPixelPrecisionBits`; 8 unless said. The coarser the grid, the more a slope may be off.
     #[must_use]
     pub fn with_grid(self, bits: u32) -> Self {
-        Self { grid: bits.clamp(4, 8), ..self }
+        Self { grid: bits.clamp(4, FINE), ..self }
     }
 
     /// Draws and judges scenes with four samples a pixel as they are. Adapters differ in where they shade a pixel that
@@ -137,12 +140,7 @@ impl Judge {
     fn judge_unguarded(&self, scene: &SceneFile) -> Result<Figures, Finding> {
         let size = UVec2::from_array(scene.size);
         let encoding = scene.output;
-        let blended = scene.objects.iter().filter(|object| object.blend == Some(true)).count();
-        let offset = Bars::FLOAT.worst * f64::from(1 << (8 - self.grid));
-        let float = Bars { worst: offset, ..Bars::FLOAT };
-        let steps = 1.0 + blended as f64 + (255.0 * offset).floor();
-        let bytes = Bars { most: steps, worst: steps, equal: 0.0, ..Bars::bytes(encoding) };
-
+        let blended = scene.objects.iter().filter(|object| object.blend == Some(true)).count() as f64;
         let (mut drawn, mut judged) = (scene.clone(), scene.clone());
         if self.tolerance.is_some() {
             shade(&mut drawn, ShadingEntry::Auto);
@@ -150,7 +148,6 @@ impl Judge {
             [&mut drawn, &mut judged].into_iter().for_each(refine);
         }
         let tolerance = self.tolerance.unwrap_or(Tolerance::EXACT);
-        let [float, bytes] = [float, bytes].map(|bars| bars.within(tolerance.steps.into()));
         if let Some(fault) = self.fault {
             fault(&mut drawn);
         }
@@ -167,16 +164,14 @@ impl Judge {
         self.set_up(&mut pictures.oracle, &judged)?;
         pictures.oracle.update();
 
-        let float = pictures.judged(Pixels::Float, float)?;
-        let bytes = pictures.judged(Pixels::Byte, bytes)?;
-        if float.worst > offset + float.allowed || float.bad > 0 {
-            Err(Finding::Float(Box::new(float)))
-        } else if !bytes.is_within() {
-            Err(Finding::Bytes(Box::new(bytes)))
-        } else {
-            let terms_at_vertices = pictures.renderer.world().resource::<FrameReport>().terms_at_vertices;
-            Ok(Figures { float, bytes, terms_at_vertices })
+        let steps = f64::from(tolerance.steps);
+        let exact = pictures.figures(Limits { grid: self.grid, corners: None, blended, steps });
+        // As a whole, what the exact triangles show with the bars of the grid, or what those show whose corners are on
+        // the grid with the bars of a fine one: `halfway::reference::metrics::judge_on_grid`.
+        if exact.is_ok() || self.grid == FINE {
+            return exact;
         }
+        pictures.figures(Limits { grid: FINE, corners: Some(self.grid), blended, steps }).or(exact)
     }
 
     fn set_up(&self, app: &mut App, scene: &SceneFile) -> Result<(), Finding> {
@@ -218,8 +213,38 @@ struct Pictures {
     pixels: f64,
 }
 
+/// What the pictures have to keep to.
+#[derive(Clone, Copy)]
+struct Limits {
+    /// The bits of the grid that the bars are for.
+    grid: u32,
+    /// Those of the grid that the oracle's corners are on.
+    corners: Option<u32>,
+    /// How many objects are.
+    blended: f64,
+    /// What they may be off besides.
+    steps: f64,
+}
+
 impl Pictures {
-    fn judged(&mut self, pixels: Pixels, bars: Bars) -> Result<Verdict, Finding> {
+    fn figures(&mut self, Limits { grid, corners, blended, steps }: Limits) -> Result<Figures, Finding> {
+        let offset = Bars::FLOAT.worst * f64::from(1 << (FINE - grid));
+        let float = Bars { worst: offset, ..Bars::FLOAT };
+        let most = 1.0 + blended + (255.0 * offset).floor();
+        let bytes = Bars { most, worst: most, equal: 0.0, ..Bars::bytes(self.encoding) };
+        let float = self.judged(Pixels::Float, float.within(steps), corners)?;
+        let bytes = self.judged(Pixels::Byte, bytes.within(steps), corners)?;
+        if float.worst > offset + float.allowed || float.bad > 0 {
+            Err(Finding::Float(Box::new(float)))
+        } else if !bytes.is_within() {
+            Err(Finding::Bytes(Box::new(bytes)))
+        } else {
+            let terms_at_vertices = self.renderer.world().resource::<FrameReport>().terms_at_vertices;
+            Ok(Figures { float, bytes, terms_at_vertices })
+        }
+    }
+
+    fn judged(&mut self, pixels: Pixels, bars: Bars, corners: Option<u32>) -> Result<Verdict, Finding> {
         self.renderer.insert_resource(Headless { size: self.size, pixels });
         if self.pixels > 0.0 {
             // The second frame has coarser triangles.
@@ -230,8 +255,8 @@ impl Pictures {
             Picture::Float(image) => Image::from_float(&image),
         };
         let mut oracle = |size| {
-            let oracle = Oracle::new(self.oracle.world_mut(), size).map_err(refused)?;
-            Ok(oracle.with_clamping(bars.are_clamped()))
+            let oracle = Oracle::new(self.oracle.world_mut(), size).map_err(refused)?.with_clamping(bars.are_clamped());
+            Ok(if let Some(bits) = corners { oracle.on_grid(bits) } else { oracle })
         };
         let of_size = oracle(self.size)?;
         let expected = of_size.draw();

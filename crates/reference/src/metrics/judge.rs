@@ -5,6 +5,7 @@
 //! oracle says which colours it may show, and it is right if it shows one of them.
 
 mod divisor;
+mod grid;
 
 use std::fmt;
 
@@ -20,15 +21,14 @@ use crate::oracle::{ColorRange, Possible};
 use crate::{Image, Oracle};
 use divisor::judge_divided;
 
+pub use grid::judge_on_grid;
+
 /// Within this many pixels of an edge a pixel may belong to either side: vertices are snapped to a grid of this width
 /// or a finer one (four bits, the least that Vulkan grants; eight are usual).
 pub const EDGE_RADIUS: f64 = 1.0 / 16.0;
 /// What is [steep](Bars::steep) for a drawer with a grid of 1/256 pixel. On a gentler slope it changes a pixel by less
 /// than 1/16 of that, which the bars cover.
 const STEEP: f64 = 0.04;
-/// The bits of such a grid.
-const FINE_BITS: u32 = 8;
-
 /// What a picture has to keep to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bars {
@@ -72,14 +72,6 @@ impl Bars {
     /// at most half a step away, and the layers above let no more of that through.
     pub const fn bytes(encoding: Encoding) -> Self {
         Self { measure: Measure::Steps(encoding), most: 1.0, worst: 1.0, equal: 0.99, layer: 0.5, ..Self::FLOAT }
-    }
-
-    /// For a drawer that rounds vertices to a grid of N bits within a pixel. One of fewer than 8 moves what is
-    /// interpolated by so much that on any slope all colours of the disc are right: by up to 1/32 pixel along each axis
-    /// with 4 bits. How many pixels are equal then says nothing.
-    #[must_use]
-    pub fn on_grid(self, bits: u32) -> Self {
-        if bits < FINE_BITS { Self { steep: 0.0, equal: 0.0, ..self } } else { self }
     }
 
     /// For a decoded picture of whatever drawer: [`FLOAT`](Self::FLOAT) in floating point, else

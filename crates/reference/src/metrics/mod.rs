@@ -40,7 +40,7 @@ pub use coverage::Coverage;
 pub use difference::difference;
 #[cfg(feature = "flip")]
 pub use flip::{Flip, PIXELS_PER_DEGREE, flip, flip_of_covered};
-pub use judge::{Bars, EDGE_RADIUS, FINENESS, Measure, Verdict, judge, judge_moved};
+pub use judge::{Bars, EDGE_RADIUS, FINENESS, Measure, Verdict, judge, judge_moved, judge_on_grid};
 pub use ranks::PERCENTILES;
 pub use report::report_failure;
 pub use scale::{Scale, Unit};

@@ -7,7 +7,7 @@ use halfway_lighting::{
     BackMaterial, Blend, Camera, DirectionalLight, Encoding, Faces, Material, PointLight, Samples, Shading,
 };
 use halfway_mesh::{Mesh, UvSphere};
-use halfway_reference::metrics::{Bars, Verdict, judge};
+use halfway_reference::metrics::{Bars, Verdict, judge, judge_on_grid};
 use halfway_reference::{Image, Oracle};
 use image::{DynamicImage, RgbaImage};
 
@@ -42,7 +42,8 @@ fn bytes(stage: &mut Stage, actual: &Image, encoding: Encoding) -> Verdict {
 pub(crate) fn assert_caught(fault: &str, stage: &mut Stage, actual: &Image) {
     let verdict = float(&oracle(stage), actual);
     assert!(!verdict.is_within(), "{fault}: {verdict}");
-    let verdict = coarse(&oracle(stage), actual);
+    let (truth, on_grid) = (oracle(stage), oracle(stage).on_grid(4));
+    let verdict = judge_on_grid((&truth, &truth.draw()), (&on_grid, 4), actual, Bars::FLOAT).expect("one size");
     assert!(!verdict.is_within(), "{fault}, on a grid of four bits: {verdict}");
     for encoding in [Encoding::Raw, Encoding::Srgb] {
         let verdict = bytes(stage, actual, encoding);
