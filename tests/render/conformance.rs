@@ -51,10 +51,11 @@ impl Row {
 const SHADERS_SRGB: Bars = Bars { equal: 0.98, ..Bars::bytes(Encoding::Srgb) };
 
 impl Scene {
-    /// Whether it has images, solids or an environment.
+    /// Whether it has colours of vertices, images, solids or an environment.
     fn compiles_slowly(&self) -> bool {
         let has_texture = |thing: &Thing| !thing.maps.is_empty() || thing.mask.is_some() || thing.solid.is_some();
-        self.environment.is_some() || self.things.iter().any(has_texture)
+        let has_colors = |thing: &Thing| thing.mesh.colors().is_some();
+        self.environment.is_some() || self.things.iter().any(|thing| has_colors(thing) || has_texture(thing))
     }
 
     /// Whether a software adapter's bytes in sRGB are as exact as bare ones.
@@ -108,8 +109,9 @@ impl Worst {
     }
 }
 
-/// Which of the rows that drivers compile slowly, those with images, solids or environments, are drawn: of each `of`
-/// one after the other the one of this number. `HALFWAY_SHARE=1/3` says so, from 1 on; by default it is all.
+/// Which of the rows that drivers compile slowly, those with colours of vertices, images, solids or environments, are
+/// drawn: of each `of` one after the other the one of this number. `HALFWAY_SHARE=1/3` says so, from 1 on; by default it
+/// is all.
 struct Share {
     number: usize,
     of: usize,
@@ -154,8 +156,9 @@ fn shares_that_are_none_are_refused() {
 
 #[test]
 fn shares_are_all_rows_together() {
+    let colors = ("colours of vertices", colors::rows());
     for (title, rows) in
-        [("solids", solids::rows()), ("kinds of images", maps::rows_of_kinds()), ("axes", axes::rows())]
+        [("solids", solids::rows()), ("kinds of images", maps::rows_of_kinds()), colors, ("axes", axes::rows())]
     {
         let is_slow = rows.iter().any(|row| row.scene.compiles_slowly());
         assert_eq!(is_slow, title != "axes", "{title}");

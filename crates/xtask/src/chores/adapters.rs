@@ -17,8 +17,8 @@ use crate::tally::counted;
 /// and many lights, and `halfway verify` over examples/scenes; on the CPU all picture tests that are not about wgpu.
 /// Each suite prints the worst figures, from which the table in docs/accuracy.md is.
 /// What is missing is installed first, as for `cargo xtask test`, of which this is a part; but there the drivers share
-/// the suite's rows with images, solids and environments among them, since they take minutes to compile their shaders.
-/// Here each draws all.
+/// the suite's rows with colours of vertices, images, solids and environments among them, since they take minutes to
+/// compile their shaders. Here each draws all.
 #[derive(Args, Debug)]
 #[command(verbatim_doc_comment)]
 pub(crate) struct Options {
