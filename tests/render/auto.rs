@@ -224,6 +224,17 @@ fn false_colors_show_where_terms_are_shaded() {
     assert_eq!(stage.report().errors, []);
 }
 
+/// Of what cannot move no patch has a list, and none that came before it counts.
+#[test]
+fn false_colors_show_what_has_no_lists() {
+    let mut stage = stage(96, 80);
+    stage.world().insert_resource(halfway::render::FalseColors(true));
+    stage.world().insert_resource(VertexPrices::NEVER);
+    let picture = stage.draw(&scene(Thing::new(ball()).of(material())).lit(sun()));
+    let colored = picture.pixels().filter(|pixel| pixel.0[..2] == [1.0, 0.0]).count();
+    assert!(colored > 1000, "{colored} pixels");
+}
+
 /// Lights and camera move on: what was chosen in one frame does not stay for the next.
 #[test]
 fn moving_lights_stay_within_the_tolerance() {

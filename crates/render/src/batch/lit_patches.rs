@@ -294,13 +294,13 @@ impl LitPatches {
         for together in seen.chunks(TOGETHER) {
             let mut has_looked_around = false;
             for &(patch, stretch) in together {
-                let (key, lights, lists) = if is_listed {
+                let (key, lights, lists, has_list) = if is_listed {
                     let place = object.place(patch, &sight, (prices, compiled_in), &self.lists.memory);
                     if is_placed && place.0 == ShadedAt::Fragments {
                         self.lists.memory.note_at_fragments(object.name(patch));
                     }
                     if let Some(key) = self.unlisted(object, place.0, shared, backend) {
-                        (key, 0, RecordLists::default())
+                        (key, 0, RecordLists::default(), false)
                     } else {
                         let listing = match &placing {
                             Some(placing) if place.0 == ShadedAt::Either => placing,
@@ -312,13 +312,14 @@ impl LitPatches {
                             self.lists.look_around(listing, together.iter().map(|(patch, _)| patch.sphere(model_view)));
                             has_looked_around = true;
                         }
-                        self.lit(object, (patch, place), painted.as_mut(), listing, shared, backend)
+                        let lit = self.lit(object, (patch, place), painted.as_mut(), listing, shared, backend);
+                        (lit.0, lit.1, lit.2, true)
                     }
                 } else {
-                    (admitted, 0, RecordLists::default())
+                    (admitted, 0, RecordLists::default(), false)
                 };
                 let (key, lights, record) = if shared.false_colors {
-                    self.false_colored(object, patch, key, is_listed, backend)
+                    self.false_colored(object, patch, key, has_list, backend)
                 } else {
                     (key, lights, self.table.number(&mut self.records, object.material, lists))
                 };
@@ -354,10 +355,10 @@ impl LitPatches {
         object: &LitObject,
         patch: &MeshPatch,
         key: DrawKey,
-        is_listed: bool,
+        has_list: bool,
         backend: &mut impl Backend,
     ) -> (DrawKey, u32, u32) {
-        let [at_vertices, at_fragments] = if is_listed {
+        let [at_vertices, at_fragments] = if has_list {
             self.lists.placed.terms()
         } else {
             [by_vertex_shader(key.terms), by_fragment_shader(key.terms)].map(|terms| terms.map(u64::from).iter().sum())
