@@ -110,8 +110,8 @@ impl Worst {
 }
 
 /// Which of the rows that drivers compile slowly, those with colours of vertices, images, solids or environments, are
-/// drawn: of each `of` one after the other the one of this number. `HALFWAY_SHARE=1/3` says so, from 1 on; by default it
-/// is all.
+/// drawn: of each `of` one after the other the one of this number. `HALFWAY_SHARE=1/3` says so, from 1 on; by default
+/// it is all.
 struct Share {
     number: usize,
     of: usize,
