@@ -1,5 +1,6 @@
 //! The oracle against closed forms, hand arithmetic and itself.
 
+mod beside;
 mod bits;
 mod blending;
 mod coverage;

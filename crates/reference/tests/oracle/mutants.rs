@@ -21,7 +21,7 @@ pub(crate) fn oracle(stage: &mut Stage) -> Oracle {
     stage.oracle(SIZE, SIZE)
 }
 
-fn float(truth: &Oracle, actual: &Image) -> Verdict {
+pub(crate) fn float(truth: &Oracle, actual: &Image) -> Verdict {
     judge(truth, &truth.draw(), actual, Bars::FLOAT).expect("pictures of one size")
 }
 
@@ -94,7 +94,7 @@ fn pixel(p: Vec3) -> Vec2 {
 }
 
 /// The point of the same depth that lies elsewhere on the picture.
-fn at_pixel(p: Vec3, pixel: Vec2) -> Vec3 {
+pub(crate) fn at_pixel(p: Vec3, pixel: Vec2) -> Vec3 {
     let at_depth_1 = pixel / (0.5 * SIZE as f32) - 1.0;
     Vec3::new(at_depth_1.x * -p.z, -at_depth_1.y * -p.z, p.z)
 }

@@ -147,6 +147,12 @@ impl Footprint {
         clipped(&scene.view, &self.whole(scene), zone)
     }
 
+    /// The same of the triangle with what lies beside it by less than `reach` pixels, in its plane.
+    pub(super) fn beside(&self, scene: &OracleScene, zone: &Zone, reach: f64) -> Vec<FootprintCorner> {
+        let whole = whole(scene.solids[self.solid].triangle(self.triangle));
+        clipped(&scene.view, &grown(&scene.view, &whole, reach).unwrap_or(whole), zone)
+    }
+
     /// All of the triangle.
     pub(super) fn whole(&self, scene: &OracleScene) -> Vec<FootprintCorner> {
         whole(scene.solids[self.solid].triangle(self.triangle)).to_vec()
@@ -171,6 +177,29 @@ fn whole(corners: [DVec3; 3]) -> [FootprintCorner; 3] {
         number += 1;
         FootprintCorner { p, weights }
     })
+}
+
+/// A triangle whose sides are moved outward on the picture by a number of pixels; `None` where it comes before the near
+/// plane, or where its plane would go on behind the eye.
+fn grown(view: &PictureView, corners: &[FootprintCorner; 3], by: f64) -> Option<[FootprintCorner; 3]> {
+    if corners.iter().any(|corner| corner.depth() < view.near) {
+        return None;
+    }
+    let pixels = corners.map(|corner| view.pixel(corner.p));
+    let twice_area = (pixels[1] - pixels[0]).perp_dot(pixels[2] - pixels[0]).abs();
+    // How far a side moves, of its distance from the corner that faces it.
+    let shares = [0, 1, 2].map(|i| by * pixels[(i + 1) % 3].distance(pixels[(i + 2) % 3]) / twice_area);
+    let moved = [0, 1, 2].map(|i| {
+        let on_picture = |k: usize| if k == i { 1.0 + shares[(i + 1) % 3] + shares[(i + 2) % 3] } else { -shares[k] };
+        // What is linear on the picture is so in space over the depth.
+        let by_depth = [0, 1, 2].map(|k| on_picture(k) / corners[k].depth());
+        let nearness: f64 = by_depth.iter().sum();
+        let weights = by_depth.map(|weight| weight / nearness);
+        let p = weights.iter().zip(corners).map(|(weight, corner)| *weight * corner.p).sum();
+        (nearness > 0.0).then_some(FootprintCorner { p, weights })
+    });
+    let [a, b, c] = moved;
+    Some([a?, b?, c?])
 }
 
 /// The part of a convex outline beyond the near plane and inside the sides of a zone (Sutherland and Hodgman 1974).

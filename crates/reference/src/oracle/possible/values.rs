@@ -52,14 +52,19 @@ impl SideColors {
     }
 }
 
-/// The part of a triangle in which it is shaded, and into how many parts the way from its middle to a corner is cut.
+/// The part of a triangle in which it is shaded, and into how many parts the way from its middle to a corner is cut. A
+/// fine grid may have it cover a point [`BESIDE`] it, where slopes that are not rounded go on.
 fn part(scene: &OracleScene, footprint: &Footprint, shading: &[&Zone]) -> (Vec<FootprintCorner>, usize) {
     let (mut outline, mut cuts) = match shading {
-        [_] => (footprint.outline.clone(), 1),
+        [zone] => (footprint.beside(scene, zone, BESIDE), 1),
         [first, .., last] => {
             let whole = footprint.within(scene, last);
             let is_at_centre = covers(scene, &whole, last) && !is_in_parts(scene, footprint);
-            if is_at_centre { (footprint.within(scene, first), 1) } else { (whole, CUTS_OF_A_PIXEL) }
+            if is_at_centre {
+                (footprint.within(scene, first), 1)
+            } else {
+                (footprint.beside(scene, last, BESIDE), CUTS_OF_A_PIXEL)
+            }
         }
         [] => (Vec::new(), 1),
     };
@@ -124,7 +129,8 @@ fn widened(scene: &OracleScene, corners: &[FootprintCorner]) -> Vec<FootprintCor
     corners.iter().map(|corner| middle.between(corner, factor)).collect()
 }
 
-/// How far vertices are moved, in pixels, that a grid of 1/256 pixel rounds: by half of a step along each axis.
+/// How far vertices are moved, in pixels, that a grid of 1/256 pixel rounds: by half of a step along each axis. So far
+/// beside a triangle its colours may go on.
 const BESIDE: f64 = std::f64::consts::SQRT_2 / 512.0;
 /// No farther beside it than this, as a share of the way from its middle: where that would take it farther, slopes are
 /// taken from rounded vertices.
