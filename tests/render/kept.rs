@@ -257,6 +257,21 @@ fn a_mesh_that_is_written_anew_is_not_kept() {
 }
 
 #[test]
+fn what_is_hidden_is_not_compared_in_vain() {
+    let mut stage = Stage::new(1, 1);
+    let things = set(&mut stage);
+    let light = light(&mut stage);
+    for hidden in [things[3], light] {
+        insert(&mut stage, hidden, Visibility::Hidden);
+    }
+    let before = [(); 4].map(|()| stage.float());
+    assert!(stage.report().kept, "a hidden object and a hidden light");
+    insert(&mut stage, light, Visibility::Inherited);
+    let after = stage.float();
+    assert!(!stage.report().kept && difference(&before[3], &after) > 1e-3, "a light that shows again");
+}
+
+#[test]
 fn what_is_refused_is_told_in_each_frame() {
     let mut stage = Stage::new(1, 1);
     let things = set(&mut stage);

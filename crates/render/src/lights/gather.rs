@@ -83,19 +83,19 @@ pub(crate) fn gather(
     };
     let keep = lights.made_of.filter(|_| changed.is_empty() && !shown.hides_any());
     if keep != Some(made_of) {
-        let lights = &mut *lights;
+        // What is hidden is looked at in each frame, and often nothing has changed.
+        let before = shown.hides_any().then(|| lights.clone());
+        let now = lights.bypass_change_detection();
         if keep.map(|before| MadeOf { view: made_of.view, ..before }) != Some(made_of) {
             let refused = report.errors.len();
-            lights.begin(rgb(ambient.0));
+            now.begin(rgb(ambient.0));
             if let Err(source) = ambient.validate() {
-                lights.begin(Vec3::ZERO);
+                now.begin(Vec3::ZERO);
                 report.errors.push(RenderError::Invalid { entity: "resource".into(), source });
             }
             let (is_shown, errors) = (shown.by_entity(), &mut report.errors);
-            each(&directional, &is_shown, errors, |light, at| {
-                directional_light(light, at).map(|made| lights.add(made))
-            });
-            each(&points, &is_shown, errors, |light, at| point_light(light, at).map(|made| lights.add(made)));
+            each(&directional, &is_shown, errors, |light, at| directional_light(light, at).map(|made| now.add(made)));
+            each(&points, &is_shown, errors, |light, at| point_light(light, at).map(|made| now.add(made)));
             // Those without a cone are points.
             let mut with_cones = Vec::new();
             each(&spots, &is_shown, errors, |spot, at| {
@@ -103,22 +103,25 @@ pub(crate) fn gather(
                 if made.source.cone.is_some() {
                     with_cones.push(made);
                 } else {
-                    lights.add(made);
+                    now.add(made);
                 }
                 Ok(())
             });
             for made in with_cones {
-                lights.add(made);
+                now.add(made);
             }
             // What is refused is told in each frame anew, and what is hidden is looked at in each.
             let is_whole = report.errors.len() == refused && !shown.hides_any();
-            lights.made_of = is_whole.then_some(made_of);
-            lights.sum_up();
+            now.made_of = is_whole.then_some(made_of);
+            now.sum_up();
         }
-        if let Some(before) = &mut lights.made_of {
+        if let Some(before) = &mut now.made_of {
             *before = made_of;
         }
-        lights.place(&view);
+        now.place(&view);
+        if before.as_ref() != Some(now) {
+            lights.set_changed();
+        }
     }
     report.lights = lights.counts.iter().sum();
 }
