@@ -51,7 +51,7 @@ impl Timed {
             }
         }
         // Whatever the scene says.
-        app.insert_resource(ViewTolerance(args.tolerance.or(Tolerance::DEFAULT)));
+        app.insert_resource(ViewTolerance(mode.tolerance(args.tolerance.or(Tolerance::DEFAULT))));
         finish(&mut app);
         Ok(app)
     }

@@ -98,10 +98,16 @@ pub(crate) enum BenchShading {
     Gouraud,
     Phong,
     Auto,
+    /// Phong with all lights on the full mesh, whatever the tolerance: what is left out adds nothing. The other rows
+    /// are beside it what the tolerance saves.
+    ExactPhong,
 }
 
 impl BenchShading {
-    pub(super) const ALL: [Self; 5] = [Self::Constant, Self::Flat, Self::Gouraud, Self::Phong, Self::Auto];
+    pub(super) const ALL: [Self; 6] =
+        [Self::Constant, Self::Flat, Self::Gouraud, Self::Phong, Self::Auto, Self::ExactPhong];
+    /// The number of the last.
+    pub(super) const EXACT: usize = 5;
 
     pub(super) fn name(self) -> &'static str {
         match self {
@@ -110,7 +116,13 @@ impl BenchShading {
             Self::Gouraud => "gouraud",
             Self::Phong => "phong",
             Self::Auto => "auto",
+            Self::ExactPhong => "exact-phong",
         }
+    }
+
+    /// Within which tolerance it is drawn, where `said` is that of the command line.
+    pub(super) fn tolerance(self, said: Tolerance) -> Tolerance {
+        if self == Self::ExactPhong { Tolerance::EXACT } else { said }
     }
 
     pub(super) fn look(self) -> TimedLook {
@@ -118,7 +130,7 @@ impl BenchShading {
             Self::Constant => TimedLook::Constant,
             Self::Flat => TimedLook::Shaded(Shading::Flat),
             Self::Gouraud => TimedLook::Shaded(Shading::Gouraud),
-            Self::Phong => TimedLook::Shaded(Shading::Phong),
+            Self::Phong | Self::ExactPhong => TimedLook::Shaded(Shading::Phong),
             Self::Auto => TimedLook::Shaded(Shading::Auto),
         }
     }

@@ -18,7 +18,8 @@ use crate::tolerance;
 struct Row {
     mode: BenchShading,
     frame: Spread,
-    ratio: f64,
+    to_constant: f64,
+    to_exact: f64,
     cpu: CpuTimes,
     report: FrameReport,
     warm: FirstFrame,
@@ -42,7 +43,8 @@ pub(super) fn run(args: &BenchArgs, timed: &Timed) -> Result<(), Failure> {
         rows.push(Row {
             mode,
             frame: Spread::of(own),
-            ratio: median_ratio(own, &times[0].0),
+            to_constant: median_ratio(own, &times[0].0),
+            to_exact: median_ratio(own, &times[BenchShading::EXACT].0),
             cpu: cpu.clone(),
             report,
             warm: first_frame(args, mode, false)?,
@@ -67,15 +69,16 @@ fn print_table(args: &BenchArgs, timed: &Timed, (machine, prices): (&Machine, &P
     println!("\n{FRAME_TIME}\n{OWN_TIME}\n");
     let cold = if args.cold { ["first frame, no shaders kept, ms | ", "---|"] } else { [""; 2] };
     println!(
-        "| shading | frame, ms: median | min | max | × constant | own CPU, ms | first frame, ms | {}peak memory, MB |",
+        "| shading | frame, ms: median | min | max | × constant | × exact Phong | own CPU, ms | first frame, ms | \
+         {}peak memory, MB |",
         cold[0]
     );
-    println!("|---|---|---|---|---|---|---|{}---|", cold[1]);
-    for Row { mode, frame, ratio, cpu, report: _, warm, cold } in rows {
+    println!("|---|---|---|---|---|---|---|---|{}---|", cold[1]);
+    for Row { mode, frame, to_constant, to_exact, cpu, report: _, warm, cold } in rows {
         let Spread { median, min, max, .. } = frame;
         let cold = cold.as_ref().map(|cold| format!("{:.0} | ", cold.ms)).unwrap_or_default();
         println!(
-            "| {} | {median:.2} | {min:.2} | {max:.2} | {ratio:.2} | {:.2} | {:.0} | {cold}{:.0} |",
+            "| {} | {median:.2} | {min:.2} | {max:.2} | {to_constant:.2} | {to_exact:.2} | {:.2} | {:.0} | {cold}{:.0} |",
             mode.name(),
             cpu.own_ms(),
             warm.ms,
@@ -94,7 +97,8 @@ fn print_json(args: &BenchArgs, timed: &Timed, (machine, prices): (&Machine, &Va
                 "shading": row.mode.name(),
                 "frame_ms": row.frame.median,
                 "frame_ms_spread": spread(&row.frame),
-                "ratio_to_constant": row.ratio,
+                "ratio_to_constant": row.to_constant,
+                "ratio_to_exact_phong": row.to_exact,
                 "first_frame_ms": row.warm.ms,
                 "peak_mb": row.warm.peak_mb,
                 "cpu_ms": row.cpu.json(),

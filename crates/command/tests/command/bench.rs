@@ -32,10 +32,10 @@ fn a_benchmark_prints_a_row_for_each_shading() {
     assert_eq!(value["size"], serde_json::json!([256, 256]));
     let rows = value["rows"].as_array().expect("rows");
     let shadings: Vec<_> = rows.iter().map(|row| row["shading"].as_str().unwrap_or("")).collect();
-    assert_eq!(shadings, ["constant", "flat", "gouraud", "phong", "auto"]);
+    assert_eq!(shadings, ["constant", "flat", "gouraud", "phong", "auto", "exact-phong"]);
     for row in rows {
         is_timed(row);
-        for figure in ["ratio_to_constant", "first_frame_ms", "first_frame_cold_ms"] {
+        for figure in ["ratio_to_constant", "ratio_to_exact_phong", "first_frame_ms", "first_frame_cold_ms"] {
             assert!(row[figure].as_f64().is_some_and(|value| value > 0.0), "{figure} in {row}");
         }
         // One sphere of 64 × 32 cells, and nothing moves; its levels are made, and it is drawn in patches.
@@ -58,6 +58,7 @@ fn a_benchmark_prints_a_row_for_each_shading() {
         "App::update",
         "own CPU, ms",
         "| phong | ",
+        "| exact-phong | ",
     ] {
         assert!(table.contains(text), "{text} is missing in:\n{table}");
     }
@@ -73,7 +74,7 @@ fn any_scene_or_model_is_timed() {
         assert!(value["scene"].as_str().is_some_and(|name| file.ends_with(name)), "{value}");
         assert_eq!(value["size"], serde_json::json!([48, 32]));
         let rows = value["rows"].as_array().expect("rows");
-        assert_eq!(rows.len(), 5);
+        assert_eq!(rows.len(), 6);
         for row in rows {
             is_timed(row);
             let counts = ["objects_drawn", "draws"].map(|count| row["report"][count].as_u64());
