@@ -77,6 +77,7 @@ mod samples;
 mod shade;
 mod state;
 mod surroundings;
+mod threads;
 mod tile;
 mod triangle;
 mod vertices;
@@ -90,4 +91,5 @@ pub use pass::{
 };
 pub use pieces::{Pieces, TriangleOrder, VertexLists};
 pub use rasterizer::{RasterOptions, Rasterizer};
+pub use threads::Threads;
 pub use width::{VectorWidth, WIDTH_VARIABLE};

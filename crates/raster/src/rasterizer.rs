@@ -6,12 +6,12 @@ use crate::check::check;
 use crate::error::RasterError;
 use crate::lanes::Simd;
 use crate::pass::{Output, Pass};
+use crate::threads::Threads;
 use crate::tile::{Scene, Worker};
 use crate::vertices::Screen;
 use crate::width::{VectorWidth, with_vectors};
 use fearless_simd::Level;
 use std::fmt;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// How to draw. Neither choice changes a bit of a picture.
@@ -27,10 +27,9 @@ pub struct RasterOptions {
 pub struct Rasterizer {
     width: VectorWidth,
     level: Level,
-    threads: usize,
-    pool: Option<rayon::ThreadPool>,
+    threads: Threads,
     bins: Bins,
-    workers: Vec<Mutex<Worker>>,
+    workers: Vec<Worker>,
     /// For memory of which nothing is known.
     fresh: ClearTiles,
 }
@@ -47,17 +46,10 @@ impl Rasterizer {
     pub fn new(options: RasterOptions) -> Result<Self, RasterError> {
         let width = options.width.map_or_else(VectorWidth::from_environment, Ok)?;
         let Some(level) = width.level() else { return VectorWidth::named(&width.to_string()).map(|_| unreachable!()) };
-        let cores = || std::thread::available_parallelism().map_or(1, usize::from);
-        let threads = options.threads.unwrap_or_else(cores).max(1);
-        let pool = (threads > 1).then(|| {
-            let named = |number| format!("raster {number}");
-            let built = rayon::ThreadPoolBuilder::new().num_threads(threads - 1).thread_name(named).build();
-            built.map_err(|error| RasterError::Threads { count: threads - 1, reason: error.to_string() })
-        });
-        let pool = pool.transpose()?;
-        let workers = (0..threads).map(|_| Mutex::new(Worker::new())).collect();
+        let threads = Threads::new("raster", options.threads)?;
+        let workers = (0..threads.count()).map(|_| Worker::new()).collect();
         let (bins, fresh) = (Bins::default(), ClearTiles::default());
-        Ok(Self { width, level, threads, pool, bins, workers, fresh })
+        Ok(Self { width, level, threads, bins, workers, fresh })
     }
 
     /// The vectors it draws with.
@@ -67,7 +59,7 @@ impl Rasterizer {
 
     /// How many threads draw.
     pub fn threads(&self) -> usize {
-        self.threads
+        self.threads.count()
     }
 
     /// The proof that this CPU has those vectors.
@@ -77,22 +69,7 @@ impl Rasterizer {
 
     /// Has a function called with each of some parts, by all threads.
     pub(crate) fn each<T: Send>(&self, parts: impl Iterator<Item = T> + Send, work: impl Fn(T) + Sync) {
-        let parts = Mutex::new(parts);
-        let next = || parts.lock().ok()?.next();
-        let work = || {
-            while let Some(part) = next() {
-                work(part);
-            }
-        };
-        match &self.pool {
-            Some(pool) => pool.in_place_scope(|scope| {
-                for _ in 1..self.threads {
-                    scope.spawn(|_| work());
-                }
-                work();
-            }),
-            None => work(),
-        }
+        self.threads.share(0..self.threads.count(), parts, |_, part| work(part));
     }
 
     /// Draws a pass into memory that holds four values a pixel: red, green, blue, alpha.
@@ -115,7 +92,7 @@ impl Rasterizer {
     pub fn draw_again(&mut self, pass: &Pass, output: Output, clear_tiles: &mut ClearTiles) -> Result<(), RasterError> {
         check(pass, &output)?;
         let mut bins = std::mem::take(&mut self.bins);
-        let filled = bins.fill(pass, self.threads, |parts, work| self.each(parts.iter_mut(), work));
+        let filled = bins.fill(pass, self.threads.count(), |parts, work| self.each(parts.iter_mut(), work));
         self.bins = bins;
         filled?;
         let screen = Screen::new(pass);
@@ -124,32 +101,24 @@ impl Rasterizer {
         clear_tiles.prepare(pass, tiles.count)?;
         let bands = Bands::new(pass, output, clear_tiles);
         let amount = pass.size[0] as usize * pass.size[1] as usize / 8 + 16 * self.bins.jobs.len();
-        let threads = if amount > WORTH_A_THREAD { self.threads.min(tiles.count) } else { 1 };
-        for worker in self.workers[..threads].iter_mut().filter_map(|worker| worker.get_mut().ok()) {
+        let threads = if amount > WORTH_A_THREAD { self.threads.count().min(tiles.count) } else { 1 };
+        let (level, next, workers) = (self.level, AtomicUsize::new(0), &mut self.workers[..threads]);
+        for worker in &mut *workers {
             worker.prepare(pass);
         }
-        let (next, workers) = (AtomicUsize::new(0), &self.workers[..threads]);
-        let work = || {
-            // As many as there are threads, so that one is free.
-            let Some(mut worker) = workers.iter().find_map(|worker| worker.try_lock().ok()) else { return };
-            with_vectors!(self.level, simd => tiles.draw(simd, &mut worker, &scene, &next, &bands));
-        };
-        match &self.pool {
-            Some(pool) if threads > 1 => pool.in_place_scope(|scope| {
-                for _ in 1..threads {
-                    scope.spawn(|_| work());
-                }
-                work();
-            }),
-            _ => work(),
-        }
+        self.threads.all(workers, |worker| {
+            with_vectors!(level, simd => tiles.draw(simd, worker, &scene, &next, &bands));
+        });
         Ok(())
     }
 }
 
 impl fmt::Debug for Rasterizer {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Rasterizer").field("width", &self.width).field("threads", &self.threads).finish_non_exhaustive()
+        f.debug_struct("Rasterizer")
+            .field("width", &self.width)
+            .field("threads", &self.threads())
+            .finish_non_exhaustive()
     }
 }
 

@@ -1,13 +1,14 @@
 //! Illuminate: what is seen of each object, patch by patch, with its material and the lights that it needs.
 
 use crate::batch::backend::Backend;
+use crate::batch::choosers::{Chooser, Choosers};
 use crate::batch::false_colors::FalseColors;
 use crate::batch::ignored::tell_ignored;
 use crate::batch::key::{DrawKey, MapLooks};
 use crate::batch::lit_object::LitObject;
 use crate::batch::lit_runs::{LitRun, OpenRun};
 use crate::batch::object::{Circumstances, Shared};
-use crate::batch::painted::{PaintedObject, Paints};
+use crate::batch::painted::Paints;
 use crate::batch::shown_objects::{ShownObject, ShownObjects};
 use crate::batch::sources::{FrameSources, Sources};
 use crate::batch::table::ObjectTable;
@@ -18,11 +19,9 @@ use crate::geometry::allowed::{Allowed, Demand, geometry_steps};
 use crate::geometry::detail::Choice;
 use crate::geometry::near_objects::{CoarserObject, NearObjects, ObjectBox};
 use crate::geometry::patches::{MeshPatch, Sight};
-use crate::lights::gains::Extent;
 use crate::lights::gather::Lights;
-use crate::lights::lists::{LightLists, Listing};
+use crate::lights::lists::LightLists;
 use crate::lights::memory::{ChosenBy, choosing};
-use crate::lights::places::{ShadedAt, Spending};
 use crate::lights::profit::Profit;
 use crate::lights::terms::{by_fragment_shader, by_vertex_shader};
 use crate::shaders::light_slots::Lists;
@@ -30,8 +29,8 @@ use crate::shaders::records::{DrawRecord, InstanceRecord, MaterialRecord, Record
 use crate::target::frame::FrameValues;
 use bevy_ecs::component::Mutable;
 use bevy_ecs::prelude::*;
-use bevy_math::Vec3;
-use halfway_lighting::{InvalidValue, Terms, Tolerance, equations};
+use halfway_lighting::{InvalidValue, Terms, Tolerance};
+use std::sync::OnceLock;
 
 /// What is seen, in the order of the objects. Holds after [`RenderSet::Illuminate`](crate::RenderSet::Illuminate).
 #[derive(Resource, Debug, Default)]
@@ -44,9 +43,10 @@ pub(crate) struct LitPatches {
     pub(crate) lists: LightLists,
     pub(crate) table: ObjectTable,
     pub(super) profit: Profit,
+    pub(super) choosers: Choosers,
     choice: Choice,
     near: NearObjects,
-    paints: Paints,
+    pub(super) paints: Paints,
     /// What the draws are made of, where nothing moves.
     pub(crate) sources: Sources,
     /// They are made of the same as in the frame before, and all is as it was.
@@ -127,6 +127,7 @@ impl LitPatches {
         self.instances.clear();
         self.records.clear();
         self.lists.begin(lights, changed);
+        self.choosers.begin();
         self.table.begin(lights.ambient);
         self.paints.begin();
         self.near.begin();
@@ -138,11 +139,11 @@ impl LitPatches {
         report.materials = self.table.materials_in_use();
         report.lights_assigned = self.lists.assigned;
         report.terms_shaded = self.lists.shaded;
-        report.light_pairs = self.lists.take_pairs();
+        report.light_pairs = self.choosers.take_pairs();
         report.left_out = self.lists.left_out;
-        report.terms_at_vertices = self.lists.placed.at_vertices;
-        report.terms_at_fragments = self.lists.placed.at_fragments;
-        report.steps_spent = self.lists.placed.spent / share;
+        report.terms_at_vertices = self.lists.at_vertices;
+        report.terms_at_fragments = self.lists.at_fragments;
+        report.steps_spent = self.lists.spent / share;
         report.choices_changed = self.lists.memory.changed;
     }
 
@@ -265,15 +266,6 @@ impl LitPatches {
         let sight = Sight::new(model_view, view, reflecting.faces, &detail.whole);
         // Where all lights are compiled in, no patch has lists.
         let admitted = if key.lists == Lists::Listed { *key } else { backend.admit(*key) };
-        let compiled_in = (Lists::new(lights.counts) != Lists::Listed).then_some(lights.records.len());
-        let is_listed = admitted.lists == Lists::Listed;
-        let make_listing = |prices| {
-            let eye = equations::Eye::in_eye_space(shared.viewer);
-            let spending = Spending { encoding, steps, prices, compiled_in };
-            // A color may be black: then there is no ambient light that could hide what is left out. None is above 1.
-            let ambient = if key.is_painted() { Vec3::ZERO } else { shared.lights.ambient };
-            reflector.listing(reflecting.faces, ambient, eye, spending)
-        };
         seen.clear();
         let coarser = CoarserObject { number: object.number, model_view, view, pixels: object.tolerance.pixels };
         let is_near = |patch: &MeshPatch, error| self.near.is_near(&coarser, patch, error, &boxes);
@@ -282,87 +274,60 @@ impl LitPatches {
         report.patches += looked_at;
         // What is whole has been found to be seen, and is not counted.
         report.patches_culled += looked_at.saturating_sub(seen.len() as u32);
+        if admitted.lists != Lists::Listed {
+            self.add_alike(object, seen, admitted, shared, backend);
+            return;
+        }
         // Light by light; else all terms of a patch are in one place.
-        let is_placed = is_listed && object.may_move(seen, &shared.prices);
-        let placing = is_placed.then(|| make_listing(shared.prices));
-        let placing = placing.filter(|placing| self.pays(object, seen, placing, &sight, (shared, compiled_in)));
-        let prices = if placing.is_some() { &shared.prices } else { &VertexPrices::NEVER };
-        // Of what does not move lights that are left out may take all of the tolerance.
-        let mut staying = None;
-        let mut painted = (is_listed && !reflecting.maps.is_empty()).then(|| self.take_painted(object, shared));
+        let is_placed = object.may_move(seen, &shared.prices);
+        let compiled_in = (Lists::new(lights.counts) != Lists::Listed).then_some(lights.records.len());
+        let (reflector, sight, staying) = (&reflector, &sight, OnceLock::new());
+        let mut chooser = Chooser { object, shared, sight, reflector, steps, compiled_in, placing: None, staying };
+        chooser.placing = is_placed.then(|| chooser.listing(shared.prices));
+        if is_placed && !self.pays(&chooser, seen) {
+            chooser.placing = None;
+        }
+        self.add_listed(&chooser, seen, is_placed, backend);
+    }
+
+    /// Adds what is seen of an object of which no patch has a list.
+    fn add_alike(
+        &mut self,
+        object: &LitObject,
+        seen: &[SeenPatch],
+        key: DrawKey,
+        shared: Shared,
+        backend: &mut impl Backend,
+    ) {
         let mut run: Option<OpenRun> = None;
-        for together in seen.chunks(TOGETHER) {
-            let mut has_looked_around = false;
-            for &(patch, stretch) in together {
-                let (key, lights, lists, has_list) = if is_listed {
-                    let place = object.place(patch, &sight, (prices, compiled_in), &self.lists.memory);
-                    if is_placed && place.0 == ShadedAt::Fragments {
-                        self.lists.memory.note_at_fragments(object.name(patch));
-                    }
-                    if let Some(key) = self.unlisted(object, place.0, shared, backend) {
-                        (key, 0, RecordLists::default(), false)
-                    } else {
-                        let listing = match &placing {
-                            Some(placing) if place.0 == ShadedAt::Either => placing,
-                            _ => staying.get_or_insert_with(|| make_listing(VertexPrices::NEVER)),
-                        };
-                        if !has_looked_around {
-                            // With the smaller tolerance of both.
-                            let listing = placing.as_ref().unwrap_or(listing);
-                            self.lists.look_around(listing, together.iter().map(|(patch, _)| patch.sphere(model_view)));
-                            has_looked_around = true;
-                        }
-                        let lit = self.lit(object, (patch, place), painted.as_mut(), listing, shared, backend);
-                        (lit.0, lit.1, lit.2, true)
-                    }
-                } else {
-                    (admitted, 0, RecordLists::default(), false)
-                };
-                let (key, lights, record) = if shared.false_colors {
-                    self.false_colored(object, patch, key, has_list, backend)
-                } else {
-                    (key, lights, self.table.number(&mut self.records, object.material, lists))
-                };
-                let next = OpenRun { key, lights, record, indices: patch.indices.clone(), stretch };
-                match &mut run {
-                    Some(run) if run.goes_on_with(&next) => run.indices.end = next.indices.end,
-                    _ => {
-                        if let Some(run) = run.replace(next) {
-                            self.add_run(object, run);
-                        }
-                    }
-                }
-            }
+        for &(patch, stretch) in seen {
+            let (key, record) = if shared.false_colors {
+                let (key, _, record) = self.false_colored(object, patch, key, None, backend);
+                (key, record)
+            } else {
+                (key, self.table.number(&mut self.records, object.material, RecordLists::default()))
+            };
+            let next = OpenRun { key, lights: 0, record, indices: patch.indices.clone(), stretch };
+            self.go_on(object, &mut run, next);
         }
         if let Some(run) = run {
             self.add_run(object, run);
         }
-        if let Some(painted) = painted {
-            self.paints.keep((object.mesh, object.form), painted);
-        }
     }
 
-    /// What is known of the images on an object.
-    fn take_painted(&mut self, object: &LitObject, shared: Shared) -> PaintedObject {
-        let of = (object.mesh, object.form, object.geometry);
-        let maps = self.table.maps[object.maps as usize - 1];
-        self.paints.take(of, object.reflecting.maps, &maps, shared.textures)
-    }
-
-    /// What draws a patch in the colour of its terms, in place of what would draw it by `key`.
-    fn false_colored(
+    /// What draws a patch in the colour of its terms, in place of what would draw it by `key`: of so many at the vertices
+    /// and at the fragments, or where the key has them.
+    pub(super) fn false_colored(
         &mut self,
         object: &LitObject,
         patch: &MeshPatch,
         key: DrawKey,
-        has_list: bool,
+        terms: Option<[u64; 2]>,
         backend: &mut impl Backend,
     ) -> (DrawKey, u32, u32) {
-        let [at_vertices, at_fragments] = if has_list {
-            self.lists.placed.terms()
-        } else {
+        let [at_vertices, at_fragments] = terms.unwrap_or_else(|| {
             [by_vertex_shader(key.terms), by_fragment_shader(key.terms)].map(|terms| terms.map(u64::from).iter().sum())
-        };
+        });
         let base = FalseColors::color(at_vertices, at_fragments, patch.longest_edge.is_finite());
         let side = MaterialRecord::plain(base);
         let colored = DrawRecord { front: side, back: side, ..DrawRecord::default() };
@@ -375,50 +340,16 @@ impl LitPatches {
         (key, 0, self.records.len() as u32 - 1)
     }
 
-    /// The key that draws a patch, the lights that are bound for it, and its lists.
-    fn lit(
-        &mut self,
-        object: &LitObject,
-        (patch, place): (&MeshPatch, (ShadedAt, Extent)),
-        painted: Option<&mut PaintedObject>,
-        listing: &Listing,
-        shared: Shared,
-        backend: &mut impl Backend,
-    ) -> (DrawKey, u32, RecordLists) {
-        let LitObject { key, .. } = object;
-        let paint = painted.map(|painted| painted.of(object.geometry, patch));
-        let gain = object.placed(patch, place, paint.as_ref(), |placed| {
-            self.lists.select(shared.lights, placed, listing, key.terms)
-        });
-        if listing.places.is_some() && place.0 == ShadedAt::Either {
-            self.lists.note(object.name(patch));
-            self.profit.add(gain);
-        }
-        if gain < 0.0
-            && let Some(key) = self.unlisted(object, ShadedAt::Fragments, shared, backend)
-        {
-            return (key, 0, RecordLists::default());
-        }
-        self.lists.count();
-        let key = key.with_terms(self.lists.terms(key.terms));
-        if !key.is_lit() {
-            return (backend.admit(key), 0, RecordLists::default());
-        }
-        let key = if shared.costs.lights_at_fixed_places
-            && key.lists == Lists::Listed
-            && let Some(bound) = self.lists.bind(shared.lights, key.terms, key.takes_powers())
-        {
-            let counted = DrawKey { lists: bound.lists, ..key.with_terms(bound.terms) };
-            if backend.admit(counted) == counted {
-                self.lists.count_bound(bound);
-                return (counted, bound.start, RecordLists::default());
+    /// Goes on with a run, or with another where the next patch is drawn otherwise.
+    pub(super) fn go_on(&mut self, object: &LitObject, run: &mut Option<OpenRun>, next: OpenRun) {
+        match run {
+            Some(run) if run.goes_on_with(&next) => run.indices.end = next.indices.end,
+            _ => {
+                if let Some(run) = run.replace(next) {
+                    self.add_run(object, run);
+                }
             }
-            // One with lists that is not generic either would take up room and time of those that are to draw.
-            key.generic()
-        } else {
-            backend.admit(key)
-        };
-        (key, 0, self.lists.list(shared.lights))
+        }
     }
 
     pub(super) fn add_run(&mut self, object: &LitObject, OpenRun { key, lights, record, indices, .. }: OpenRun) {
@@ -439,6 +370,3 @@ impl LitPatches {
         }
     }
 }
-
-/// The number of neighbouring patches that look for their lights together.
-const TOGETHER: usize = 32;

@@ -2,11 +2,13 @@
 
 pub(crate) mod backend;
 pub(crate) mod batches;
+pub(crate) mod choosers;
 pub(crate) mod drawn_meshes;
 pub(crate) mod draws;
 pub(crate) mod false_colors;
 pub(crate) mod ignored;
 pub(crate) mod key;
+mod listed;
 pub(crate) mod lit_object;
 pub(crate) mod lit_patches;
 pub(crate) mod lit_runs;

@@ -114,13 +114,16 @@ impl Paints {
 
 impl PaintedObject {
     /// What images do to a patch of it.
-    pub(crate) fn of(&mut self, geometry: &Geometry, patch: &MeshPatch) -> PatchPaint {
-        if let Some(found) = self.found.get(&patch.indices) {
-            return *found;
-        }
-        let paint = geometry.uv_boxes.of(patch).map_or(PatchPaint::UNKNOWN, |around| self.on(&around));
-        self.found.insert(patch.indices.clone(), paint);
-        paint
+    pub(crate) fn of(&self, geometry: &Geometry, patch: &MeshPatch) -> PatchPaint {
+        self.found
+            .get(&patch.indices)
+            .copied()
+            .unwrap_or_else(|| geometry.uv_boxes.of(patch).map_or(PatchPaint::UNKNOWN, |around| self.on(&around)))
+    }
+
+    /// Keeps that for the next frame.
+    pub(crate) fn remember(&mut self, patch: &MeshPatch, paint: PatchPaint) {
+        self.found.entry(patch.indices.clone()).or_insert(paint);
     }
 
     /// What they do to points with these coordinates.

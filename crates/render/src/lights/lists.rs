@@ -2,13 +2,15 @@
 
 use crate::lights::gather::Lights;
 use crate::lights::memory::{ChoiceMemory, PatchName};
-use crate::lights::places::{PlacedPatch, PlacedTerms, Places, Spending, StageLights, next};
+use crate::lights::patch_lights::{PatchLights, TermLights};
+use crate::lights::places::{Places, Spending, next};
+use crate::lights::terms::{by_fragment_shader, by_vertex_shader};
 use crate::shaders::light_slots::{
     BOUND_LIGHTS, COUNTED_LIGHTS, Counted, Highlights, Lists, filled_up, filled_up_roughly,
 };
 use crate::shaders::records::{LightRecord, RecordLists};
 use bevy_math::Vec3;
-use halfway_lighting::bounds::{LightTree, NearLights, Receiver, Region, STEP, Selected, linear_tolerance};
+use halfway_lighting::bounds::{LightTree, STEP, linear_tolerance};
 use halfway_lighting::equations::{Coefficients, Eye, specular_exponent};
 use halfway_lighting::{Faces, Frequency, Reflectance, Terms};
 
@@ -26,16 +28,19 @@ pub(crate) struct LightLists {
     last_bound: Option<BoundLights>,
     /// The lists made last. Neighbouring patches often need the same.
     last: Option<(RecordLists, usize)>,
-    /// The lights of the frame, and those near the patches at hand.
-    tree: LightTree,
-    near: NearLights,
-    selected: Selected<f32>,
-    pub(crate) placed: PlacedTerms,
+    /// The lights of the frame.
+    pub(super) tree: LightTree,
     pub(crate) memory: ChoiceMemory,
     /// How many terms of lights the lists name, over all patches.
     pub(crate) assigned: u64,
     /// How many terms are shaded at each point, over all patches.
     pub(crate) shaded: u64,
+    /// How many terms are shaded where, over all patches.
+    pub(crate) at_vertices: u64,
+    pub(crate) at_fragments: u64,
+    /// The most that any channel of any patch may be off by for terms that are at the vertices, in steps of the
+    /// picture.
+    pub(crate) spent: f64,
     /// The most that was left out anywhere, in linear intensity: the sum of the bounds, of the brightest channel.
     pub(crate) left_out: f64,
 }
@@ -79,11 +84,11 @@ pub(crate) struct Reflector {
 /// What the light lists of an object's patches are made by.
 pub(crate) struct Listing {
     /// No smaller than either side's.
-    material: Coefficients<f32>,
-    reflectance: Reflectance,
-    view: Eye<f32>,
+    pub(super) material: Coefficients<f32>,
+    pub(super) reflectance: Reflectance,
+    pub(super) view: Eye<f32>,
     /// What may be left out of a patch, in linear intensity.
-    tolerance: [f64; 3],
+    pub(super) tolerance: [f64; 3],
     pub(crate) places: Option<Places>,
 }
 
@@ -105,85 +110,50 @@ impl LightLists {
         self.last = None;
         self.assigned = 0;
         self.shaded = 0;
-        self.left_out = 0.0;
-        self.placed.begin();
+        (self.at_vertices, self.at_fragments) = (0, 0);
+        (self.left_out, self.spent) = (0.0, 0.0);
     }
 
-    /// Looks for the lights near patches in these spheres, of an object with this listing.
-    pub(crate) fn look_around(&mut self, listing: &Listing, spheres: impl Iterator<Item = (Vec3, f32)>) {
-        let Coefficients { ka, kd, ks, .. } = listing.material;
-        let nowhere = Region {
-            brightest: [ka, kd, ks].into_iter().flatten().fold(0.0, f32::max),
-            tolerance: listing.tolerance.into_iter().fold(f64::INFINITY, f64::min),
-            ..Region::EMPTY
-        };
-        self.near.begin(spheres.fold(nowhere, |region, (center, radius)| region.with(center.to_array(), radius)));
+    /// Takes note of where the terms of a patch are shaded.
+    pub(crate) fn note(&mut self, name: PatchName, lights: &PatchLights) {
+        self.memory.note(name, lights.vertex.lists(), lights.fragment.lists());
     }
 
-    /// Selects the lights that `patch`, one of those last looked around, needs: those left out change no channel of a
-    /// pixel by more than the listing's tolerance together. And says where their terms are shaded. Returns what that
-    /// saves, in lights at a pixel; below 0 where nothing is at the vertices for that.
-    pub(crate) fn select(&mut self, lights: &Lights, placed: &PlacedPatch, listing: &Listing, terms: Terms) -> f32 {
-        let material = placed.shares.map_or(listing.material, |shares| shares.of(listing.material));
-        let receiver = Receiver::new(placed.patch, &material, &listing.view, listing.reflectance);
-        self.near.select(&self.tree, &lights.sources, &receiver, listing.tolerance, &mut self.selected);
-        match &listing.places {
-            Some(places) => {
-                let before = self.memory.before(placed.name);
-                self.placed.place(places, placed, terms, &lights.sources, &self.selected, before)
-            }
-            None => self.placed.as_said(&self.selected, placed.place.of(terms)),
-        }
+    /// Counts a patch and its lights.
+    pub(crate) fn count(&mut self, lights: &PatchLights) {
+        self.left_out = self.left_out.max(lights.left_out);
+        self.assigned += lights.selected.count();
+        self.at_vertices += lights.vertex.count();
+        self.at_fragments += lights.fragment.count();
+        self.spent = self.spent.max(lights.spent);
     }
 
-    /// Takes note of where the terms of the patch last selected for are shaded.
-    pub(crate) fn note(&mut self, name: PatchName) {
-        let PlacedTerms { vertex, fragment, .. } = &self.placed;
-        let [at_vertices, at_fragments] = [vertex, fragment].map(StageLights::lists);
-        self.memory.note(name, at_vertices, at_fragments);
+    /// Counts a patch of which all `lights` lights are shaded where `terms` says.
+    pub(crate) fn count_all(&mut self, terms: Terms, lights: usize) {
+        let count = |at: [bool; 2]| at.map(u64::from).iter().sum::<u64>() * lights as u64;
+        self.at_vertices += count(by_vertex_shader(terms));
+        self.at_fragments += count(by_fragment_shader(terms));
     }
 
-    /// Counts what was selected last.
-    pub(crate) fn count(&mut self) {
-        self.left_out = self.selected.left_out.into_iter().fold(self.left_out, f64::max);
-        self.assigned += (self.selected.diffuse.len() + self.selected.specular.len()) as u64;
-        self.placed.count();
-    }
-
-    /// Where the terms of the patch last selected for are shaded, of an object whose terms are these.
-    pub(crate) fn terms(&self, terms: Terms) -> Terms {
-        let PlacedTerms { vertex, fragment, .. } = &self.placed;
-        let of = |term, vertex: &[u32], fragment: &[u32]| match (term, vertex.is_empty(), fragment.is_empty()) {
-            (Frequency::Auto, true, true) => Frequency::Never,
-            (Frequency::Auto, false, true) => Frequency::Vertex,
-            (Frequency::Auto, true, false) => Frequency::Fragment,
-            (term, ..) => term,
-        };
-        Terms {
-            diffuse: of(terms.diffuse, &vertex.diffuse, &fragment.diffuse),
-            specular: of(terms.specular, &vertex.specular, &fragment.specular),
-        }
-    }
-
-    /// How many pairs of a patch and a light have been looked at since this was last asked.
-    pub(crate) fn take_pairs(&mut self) -> u64 {
-        self.near.take_pairs()
-    }
-
-    /// Binds what was selected at fixed places, for a draw with these terms; `None` where it is too much. Of each kind
+    /// Binds what a patch needs at fixed places, for a draw with these terms; `None` where it is too much. Of each kind
     /// the lights with highlights come first, and the others' are left out as far as [`Highlights`] can say; or none,
     /// unless highlights `take_powers`: a few squarings cost less than more pipelines. A light that is needed for its
     /// highlight alone is shaded with both terms.
-    pub(crate) fn bind(&mut self, lights: &Lights, terms: Terms, take_powers: bool) -> Option<BoundLights> {
-        let both_stages = !self.placed.vertex.is_empty() && !self.placed.fragment.is_empty();
+    pub(crate) fn bind(
+        &mut self,
+        lights: &Lights,
+        of: &PatchLights,
+        terms: Terms,
+        take_powers: bool,
+    ) -> Option<BoundLights> {
+        let both_stages = !of.vertex.is_empty() && !of.fragment.is_empty();
         let (lists, terms) = if both_stages && terms.has(Frequency::Auto) {
-            self.split(lights, terms, take_powers)?
+            self.split(lights, of, terms, take_powers)?
         } else {
-            let stage = if self.placed.fragment.is_empty() { &self.placed.vertex } else { &self.placed.fragment };
-            let Selected { diffuse, specular, .. } = &self.selected;
-            let [diffuse, specular] = if both_stages { [diffuse, specular] } else { [&stage.diffuse, &stage.specular] };
+            let stage = if of.fragment.is_empty() { of.vertex } else { of.fragment };
+            let all = if both_stages { of.selected } else { stage };
             self.set.at_vertices.clear();
-            (Lists::Counted(self.set.collect(diffuse, specular, lights.counts, take_powers)?), terms)
+            (Lists::Counted(self.set.collect(all, lights.counts, take_powers)?), terms)
         };
         if let Some(last) = self.last_bound
             && self.last_set == self.set
@@ -222,14 +192,19 @@ impl LightLists {
     /// Collects lights of which some terms are shaded at the vertices and others at the fragments. All that the
     /// fragment shader takes have their diffuse terms there, or none has; what is shaded there is not shaded at the
     /// vertices.
-    fn split(&mut self, lights: &Lights, terms: Terms, take_powers: bool) -> Option<(Lists, Terms)> {
-        let PlacedTerms { vertex, fragment, .. } = &self.placed;
-        let fragment_counted = self.set.collect(&fragment.diffuse, &fragment.specular, lights.counts, take_powers)?;
+    fn split(
+        &mut self,
+        lights: &Lights,
+        &PatchLights { vertex, fragment, .. }: &PatchLights,
+        terms: Terms,
+        take_powers: bool,
+    ) -> Option<(Lists, Terms)> {
+        let fragment_counted = self.set.collect(fragment, lights.counts, take_powers)?;
         let has_diffuse = !fragment.diffuse.is_empty();
         let has_specular = !fragment.specular.is_empty();
         let at_vertices = &mut self.set.at_vertices;
         at_vertices.clear();
-        let (mut diffuse, mut specular) = (&vertex.diffuse[..], &vertex.specular[..]);
+        let TermLights { mut diffuse, mut specular } = vertex;
         while let Some(light) = next(&mut diffuse, &mut specular) {
             let place = self.set.lights.iter().position(|&at_fragments| at_fragments == light.number);
             let is_highlit = place.is_some_and(|place| {
@@ -281,19 +256,14 @@ impl LightLists {
         }
     }
 
-    /// The lists of what was selected: appended, unless they are what was appended last.
-    pub(crate) fn list(&mut self, Lights { counts, .. }: &Lights) -> RecordLists {
+    /// The lists of a patch: appended, unless they are what was appended last.
+    pub(crate) fn list(&mut self, Lights { counts, .. }: &Lights, of: &PatchLights) -> RecordLists {
         let start = self.numbers.len();
-        let [vertex, vertex_diffuse, vertex_specular] = append_stage(&mut self.numbers, *counts, &self.placed.vertex);
-        let [fragment, fragment_diffuse, fragment_specular] =
-            append_stage(&mut self.numbers, *counts, &self.placed.fragment);
+        let [vertex, vertex_diffuse, vertex_specular] = append_stage(&mut self.numbers, *counts, of.vertex);
+        let [fragment, fragment_diffuse, fragment_specular] = append_stage(&mut self.numbers, *counts, of.fragment);
         let lists =
             RecordLists { vertex, vertex_diffuse, vertex_specular, fragment, fragment_diffuse, fragment_specular };
-        let PlacedTerms { vertex, fragment, .. } = &self.placed;
-        self.shaded += [vertex, fragment]
-            .into_iter()
-            .map(|stage| (stage.diffuse.len() + stage.specular.len()) as u64)
-            .sum::<u64>();
+        self.shaded += of.vertex.count() + of.fragment.count();
         if let Some((last, last_start)) = self.last
             && last.starting_at(0, last_start) == lists.starting_at(0, start)
             && self.numbers[last_start..start] == self.numbers[start..]
@@ -309,7 +279,8 @@ impl LightLists {
 impl BoundSet {
     /// Collects the lights of one stage, those with highlights first; how many of each kind they are filled up to.
     /// `None` where they are too many.
-    fn collect(&mut self, diffuse: &[u32], specular: &[u32], all: [u32; 3], take_powers: bool) -> Option<Counted> {
+    fn collect(&mut self, of: TermLights, all: [u32; 3], take_powers: bool) -> Option<Counted> {
+        let TermLights { diffuse, specular } = of;
         self.lights.clear();
         self.lights.extend(specular.iter().chain(without(diffuse, specular)));
         let (highlit, rest) = self.lights.split_at(specular.len());
@@ -351,7 +322,7 @@ fn is_highlit(bound: &[u32], place: usize, counted: Counted, all: [u32; 3]) -> b
 fn append_stage(
     numbers: &mut Vec<u32>,
     counts: [u32; 3],
-    StageLights { diffuse, specular }: &StageLights,
+    TermLights { diffuse, specular }: TermLights,
 ) -> [[u32; 4]; 3] {
     let both = specular.iter().filter(|light| diffuse.binary_search(light).is_ok());
     [
@@ -460,11 +431,11 @@ mod tests {
         lists.begin(&lights, true);
         // Sets of 1 to 24 lights, one after the other, from all kinds.
         for count in 1..=24 {
-            lists.selected.diffuse = (40 - count..40).collect();
-            lists.selected.specular = (40 - count / 2..40).collect();
-            let terms = Terms::both(Frequency::Fragment);
-            lists.placed.as_said(&lists.selected, terms);
-            let bound = lists.bind(&lights, terms, true).expect("so few lights fit");
+            let [diffuse, specular] = [count, count / 2].map(|count| (40 - count..40).collect::<Vec<u32>>());
+            let selected = TermLights { diffuse: &diffuse, specular: &specular };
+            let (vertex, terms) = (TermLights::default(), Terms::both(Frequency::Fragment));
+            let of = PatchLights { selected, vertex, fragment: selected, left_out: 0.0, spent: 0.0 };
+            let bound = lists.bind(&lights, &of, terms, true).expect("so few lights fit");
             let offset = bound.start as usize * size_of::<LightRecord>();
             assert!(offset > 0 && offset.is_multiple_of(256), "the set of {count} lights begins at {offset}");
         }

@@ -4,6 +4,7 @@
 use crate::device::costs::VertexPrices;
 use crate::lights::gains::{Extent, Movable};
 use crate::lights::memory::{Before, PatchName, ROOM_TO_COME};
+use crate::lights::patch_lights::TermLights;
 use crate::lights::terms::{by_fragment_shader, by_vertex_shader};
 use halfway_lighting::bounds::{
     Grain, Patch, PowerSlopes, STEP, Selected, TermChange, VertexChange, VertexChanges, VertexShading, linear_tolerance,
@@ -13,23 +14,18 @@ use halfway_lighting::{Encoding, Faces, Frequency, Reflectance, Terms};
 
 /// The lights whose diffuse terms, and those whose specular terms, one stage shades. Ascending.
 #[derive(Debug, Default)]
-pub(crate) struct StageLights {
+pub(super) struct StageLights {
     pub(crate) diffuse: Vec<u32>,
     pub(crate) specular: Vec<u32>,
 }
 
-/// Where the terms of a patch's lights are shaded.
+/// Where the terms of a patch's lights are shaded, for one patch after the other.
 #[derive(Debug, Default)]
 pub(crate) struct PlacedTerms {
-    pub(crate) vertex: StageLights,
-    pub(crate) fragment: StageLights,
-    /// The most that any channel of any patch of the frame may be off by, in steps of the picture.
-    pub(crate) spent: f64,
-    /// How many terms are shaded where, over all patches.
-    pub(crate) at_vertices: u64,
-    pub(crate) at_fragments: u64,
-    /// The most that any channel of the last patch may be off by, in steps.
-    last_spent: f64,
+    pub(super) vertex: StageLights,
+    pub(super) fragment: StageLights,
+    /// The most that any channel of the patch may be off by, in steps of the picture.
+    pub(super) spent: f64,
     /// Those that may move to the vertices, for one patch after the other.
     movable: Vec<Movable>,
     /// The lights of the patch at hand, and what shading them at the vertices changes of each side.
@@ -205,33 +201,11 @@ impl Places {
 impl PlacedTerms {
     pub(crate) fn begin(&mut self) {
         self.changes.begin();
-        self.spent = 0.0;
-        (self.at_vertices, self.at_fragments) = (0, 0);
-    }
-
-    /// Counts what was placed last.
-    pub(crate) fn count(&mut self) {
-        let [at_vertices, at_fragments] = self.terms();
-        self.at_vertices += at_vertices;
-        self.at_fragments += at_fragments;
-        self.spent = self.spent.max(self.last_spent);
-    }
-
-    /// Counts a patch of which all `lights` lights are shaded where `terms` says.
-    pub(crate) fn count_all(&mut self, terms: Terms, lights: usize) {
-        let count = |at: [bool; 2]| at.map(u64::from).iter().sum::<u64>() * lights as u64;
-        self.at_vertices += count(by_vertex_shader(terms));
-        self.at_fragments += count(by_fragment_shader(terms));
-    }
-
-    /// How many terms of the patch placed last are shaded at the vertices and at the fragments.
-    pub(crate) fn terms(&self) -> [u64; 2] {
-        [&self.vertex, &self.fragment].map(|stage| (stage.diffuse.len() + stage.specular.len()) as u64)
     }
 
     /// Places what was selected where `terms` says, whatever the light. Saves nothing.
     pub(crate) fn as_said(&mut self, selected: &Selected<f32>, terms: Terms) -> f32 {
-        self.last_spent = 0.0;
+        self.spent = 0.0;
         let [vertex, fragment] = [by_vertex_shader(terms), by_fragment_shader(terms)];
         for (stage, [diffuse, specular]) in [(&mut self.vertex, vertex), (&mut self.fragment, fragment)] {
             stage.set(if diffuse { &selected.diffuse } else { &[] }, if specular { &selected.specular } else { &[] });
@@ -302,7 +276,7 @@ impl PlacedTerms {
         let left_out = selected.left_out;
         let darker_with = [0, 1, 2].map(|c| if spent[1][c] > 0.0 { spent[1][c] + left_out[c] } else { 0.0 });
         let most = shares(spent[0], brighter).max(shares(darker_with, brighter));
-        self.last_spent = most * places.tolerance / STEP;
+        self.spent = most * places.tolerance / STEP;
         gain
     }
 
@@ -434,8 +408,8 @@ impl StageLights {
         if term == 0 { &mut self.diffuse } else { &mut self.specular }
     }
 
-    pub(crate) fn lists(&self) -> [&[u32]; 2] {
-        [&self.diffuse, &self.specular]
+    pub(super) fn lights(&self) -> TermLights<'_> {
+        TermLights { diffuse: &self.diffuse, specular: &self.specular }
     }
 
     pub(crate) fn is_empty(&self) -> bool {
