@@ -1,10 +1,8 @@
 //! Chooses the lights that the patches of an object need: on all threads, since no patch has to do with another.
 
-use crate::batch::lit_object::LitObject;
-use crate::batch::lit_patches::SeenPatch;
+use crate::batch::lit_object::{LitObject, SeenPatch};
 use crate::batch::object::Shared;
 use crate::batch::painted::{PaintedObject, PatchPaint};
-use crate::batch::unlisted::may_be_unlisted;
 use crate::device::costs::VertexPrices;
 use crate::geometry::patches::{MeshPatch, Sight};
 use crate::lights::gains::Extent;
@@ -37,7 +35,7 @@ pub(super) struct Chooser<'a> {
 impl Chooser<'_> {
     /// What lists are made by at these prices.
     pub(super) fn listing(&self, prices: VertexPrices) -> Listing {
-        let &Self { ref object, shared, steps, compiled_in, .. } = self;
+        let &Self { object, shared, steps, compiled_in, .. } = self;
         let eye = equations::Eye::in_eye_space(shared.viewer);
         let spending = Spending { encoding: shared.encoding, steps, prices, compiled_in };
         // A color may be black: then there is no ambient light that could hide what is left out. None is above 1.
@@ -95,7 +93,7 @@ impl Chooser<'_> {
         for &(patch, _) in patches {
             let place = self.place(patch, &lists.memory);
             let mut of = ChosenPatch { place, gain: 0.0, lights: None, paint: None };
-            if !may_be_unlisted(self.object, place.0, self.shared.lights) {
+            if !self.object.may_be_unlisted(place.0, self.shared.lights) {
                 if !has_looked_around {
                     self.look_around(selector, patches, place.0);
                     has_looked_around = true;

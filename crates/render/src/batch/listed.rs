@@ -3,8 +3,8 @@
 use crate::batch::backend::Backend;
 use crate::batch::choosers::{Chooser, ChosenPatch, TOGETHER};
 use crate::batch::key::DrawKey;
-use crate::batch::lit_object::LitObject;
-use crate::batch::lit_patches::{LitPatches, SeenPatch};
+use crate::batch::lit_object::{LitObject, SeenPatch};
+use crate::batch::lit_patches::LitPatches;
 use crate::batch::lit_runs::OpenRun;
 use crate::batch::object::Shared;
 use crate::batch::painted::PaintedObject;

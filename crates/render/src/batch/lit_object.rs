@@ -8,13 +8,18 @@ use crate::geometry::allowed::SAMPLED;
 use crate::geometry::meshes::{Form, Geometry};
 use crate::geometry::patches::{MeshPatch, PatchNormals, Sight};
 use crate::lights::gains::Extent;
+use crate::lights::gather::Lights;
 use crate::lights::memory::{ChoiceMemory, PatchName};
 use crate::lights::places::{PlacedPatch, ShadedAt};
+use crate::shaders::light_slots::Lists;
 use crate::view::matrices::{ModelView, NormalMatrix};
 use bevy_asset::AssetId;
 use bevy_ecs::prelude::*;
 use halfway_lighting::{Frequency, Tolerance};
 use halfway_mesh::Mesh;
+
+/// A patch that is drawn, and its stretch: see [`Detail::each_seen`](crate::geometry::detail::Detail::each_seen).
+pub(crate) type SeenPatch<'a> = (&'a MeshPatch, u32);
 
 /// An object whose patches are being lit.
 pub(crate) struct LitObject<'a> {
@@ -39,8 +44,13 @@ pub(crate) struct LitObject<'a> {
 }
 
 impl LitObject<'_> {
+    /// Whether a patch of it may be drawn under all lights of a scene with few, where its terms are there.
+    pub(crate) fn may_be_unlisted(&self, place: ShadedAt, lights: &Lights) -> bool {
+        place != ShadedAt::Either && self.key.terms.has(Frequency::Auto) && Lists::new(lights.counts) != Lists::Listed
+    }
+
     /// Whether its terms are placed light by light, and any of what is seen of it may move at these prices.
-    pub(crate) fn may_move(&self, seen: &[(&MeshPatch, u32)], prices: &VertexPrices) -> bool {
+    pub(crate) fn may_move(&self, seen: &[SeenPatch], prices: &VertexPrices) -> bool {
         let is_auto = self.key.terms.has(Frequency::Auto) && *prices != VertexPrices::NEVER;
         is_auto && seen.iter().any(|(patch, _)| patch.has_normal_cone())
     }

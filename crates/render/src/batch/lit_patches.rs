@@ -5,7 +5,7 @@ use crate::batch::choosers::{Chooser, Choosers};
 use crate::batch::false_colors::FalseColors;
 use crate::batch::ignored::tell_ignored;
 use crate::batch::key::{DrawKey, MapLooks};
-use crate::batch::lit_object::LitObject;
+use crate::batch::lit_object::{LitObject, SeenPatch};
 use crate::batch::lit_runs::{LitRun, OpenRun};
 use crate::batch::object::{Circumstances, Shared};
 use crate::batch::painted::Paints;
@@ -117,9 +117,6 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
         lit.sources.forget();
     }
 }
-
-/// A patch that is drawn, and its stretch: see [`Detail::each_seen`](crate::geometry::detail::Detail::each_seen).
-pub(super) type SeenPatch<'a> = (&'a MeshPatch, u32);
 
 impl LitPatches {
     fn begin(&mut self, lights: &Lights, changed: bool) {
@@ -315,8 +312,8 @@ impl LitPatches {
         }
     }
 
-    /// What draws a patch in the colour of its terms, in place of what would draw it by `key`: of so many at the vertices
-    /// and at the fragments, or where the key has them.
+    /// What draws a patch in the colour of its terms, in place of what would draw it by `key`: of so many at the
+    /// vertices and at the fragments, or where the key has them.
     pub(super) fn false_colored(
         &mut self,
         object: &LitObject,

@@ -1,7 +1,8 @@
 //! Whether it pays to place an object's terms light by light, as far as some patches tell.
 
 use crate::batch::choosers::Chooser;
-use crate::batch::lit_patches::{LitPatches, SeenPatch};
+use crate::batch::lit_object::SeenPatch;
+use crate::batch::lit_patches::LitPatches;
 use crate::lights::places::ShadedAt;
 use crate::lights::profit::LOOKED_AT_FIRST;
 

@@ -7,16 +7,10 @@ use crate::batch::lit_patches::LitPatches;
 use crate::batch::lit_runs::OpenRun;
 use crate::batch::object::Shared;
 use crate::device::costs::VertexPrices;
-use crate::lights::gather::Lights;
 use crate::lights::places::ShadedAt;
 use crate::shaders::light_slots::Lists;
 use crate::shaders::records::RecordLists;
 use halfway_lighting::Frequency;
-
-/// Whether a patch may be drawn under all lights of a scene with few, where its terms are there.
-pub(super) fn may_be_unlisted(object: &LitObject, place: ShadedAt, lights: &Lights) -> bool {
-    place != ShadedAt::Either && object.key.terms.has(Frequency::Auto) && Lists::new(lights.counts) != Lists::Listed
-}
 
 impl LitPatches {
     /// Adds an object of one patch of which nothing is chosen; whether it is one.
@@ -57,7 +51,7 @@ impl LitPatches {
         Shared { lights, .. }: Shared,
         backend: &mut impl Backend,
     ) -> Option<DrawKey> {
-        if !may_be_unlisted(object, place, lights) {
+        if !object.may_be_unlisted(place, lights) {
             return None;
         }
         let key = DrawKey { lists: Lists::new(lights.counts), ..object.key }.with_terms(place.of(object.key.terms));
