@@ -21,6 +21,8 @@ pub(crate) struct Points<S: Simd> {
     pub(crate) v: V3<S>,
     /// The square of a distance up to which it is to be looked at more closely.
     coincident: F<S>,
+    /// ‖p‖, where its square is a number.
+    distance: F<S>,
 }
 
 impl<S: Simd> Points<S> {
@@ -28,7 +30,8 @@ impl<S: Simd> Points<S> {
     pub(crate) fn new(simd: S, p: V3<S>, n: V3<S>, v: V3<S>) -> Self {
         // A little more than what counts as the point itself.
         let share = splat(simd, 1.01 * COINCIDENT * COINCIDENT);
-        Self { p, n, v, coincident: max::<S>(dot::<S>(p, p) * share, splat(simd, LEAST_SQUARE)) }
+        let squared = dot::<S>(p, p);
+        Self { p, n, v, coincident: max::<S>(squared * share, splat(simd, LEAST_SQUARE)), distance: squared.sqrt() }
     }
 }
 
@@ -88,6 +91,7 @@ pub(crate) fn spot_factor<S: Simd>(simd: S, l: V3<S>, light: &LightData) -> F<S>
 #[derive(Clone, Copy)]
 struct Incidence<S: Simd> {
     l: V3<S>,
+    /// 0 where the light counts as behind.
     n_dot_l: F<S>,
     /// att·spot.
     weight: F<S>,
@@ -108,7 +112,7 @@ fn add_light<S: Simd>(
     let Incidence { l, n_dot_l, weight } = *incident;
     let zero = splat(simd, 0.0);
     if terms.diffuse {
-        let factor = weight * max::<S>(n_dot_l, zero);
+        let factor = weight * n_dot_l;
         sum.diffuse = add_scaled::<S>(sum.diffuse, splat3(simd, light.diffuse), factor);
         if has_ambient(light) {
             sum.ambient = add_scaled::<S>(sum.ambient, splat3(simd, light.ambient), weight);
@@ -152,10 +156,10 @@ fn finite_light<S: Simd>(
     let mut to_light = sub::<S>(splat3(simd, light.position), points.p);
     let mut squared = dot::<S>(to_light, to_light);
     let ordinary = squared.simd_gt(points.coincident) & squared.simd_lt(splat(simd, LARGEST_SQUARE));
-    let mut stretch = None;
+    let (mut stretch, mut distance) = (None, points.distance);
     if ordinary.any_false() {
-        let (away, unit) = extraordinary(simd, light.position, points);
-        (to_light, squared, stretch) = (away, dot::<S>(away, away), Some(unit));
+        let (away, unit, from_eye) = extraordinary(simd, light.position, points);
+        (to_light, squared, stretch, distance) = (away, dot::<S>(away, away), Some(unit), from_eye);
     } else if is_beyond_all(simd, squared, light.inverse_range) {
         return None;
     }
@@ -177,17 +181,19 @@ fn finite_light<S: Simd>(
     if cone {
         weight *= spot_factor(simd, l, light);
     }
-    Some(Incidence { l, n_dot_l: n_dot_to_light * inverse, weight })
+    let is_above = n_dot_to_light.simd_gt((length + distance) * splat(simd, COINCIDENT));
+    Some(Incidence { l, n_dot_l: is_above.select(n_dot_to_light * inverse, splat(simd, 0.0)), weight })
 }
 
 /// Squares of distances from here on are not computed as they are, nor those below the least.
 const LARGEST_SQUARE: f32 = (1_u128 << 120) as f32;
 const LEAST_SQUARE: f32 = 1.0 / (1_u64 << 60) as f32;
 
-/// What squares cannot tell: the way to a light that is far off, very near, or at the point itself, where it is n; and
-/// what its length is to be multiplied by. Ordinary distances come out as elsewhere, since powers of two round nothing.
+/// What squares cannot tell: the way to a light that is far off, very near, or at the point itself, where it is n; what
+/// its length is to be multiplied by; and ‖p‖ over that, or 0 at the point. Ordinary distances come out as elsewhere,
+/// since powers of two round nothing.
 #[cold]
-fn extraordinary<S: Simd>(simd: S, position: [f32; 3], points: &Points<S>) -> (V3<S>, F<S>) {
+fn extraordinary<S: Simd>(simd: S, position: [f32; 3], points: &Points<S>) -> (V3<S>, F<S>, F<S>) {
     simd.vectorize(
         #[inline(always)]
         || {
@@ -197,9 +203,11 @@ fn extraordinary<S: Simd>(simd: S, position: [f32; 3], points: &Points<S>) -> (V
                 brought_near(simd, sub::<S>(scale::<S>(splat3(simd, position), half), scale::<S>(points.p, half)));
             let (p, unit_of_p) = brought_near(simd, points.p);
             let d = dot::<S>(to_light, to_light).sqrt() * unit;
-            let at_point = d.simd_le(dot::<S>(p, p).sqrt() * splat(simd, 0.5 * COINCIDENT) * unit_of_p);
+            let from_eye = dot::<S>(p, p).sqrt();
+            let at_point = d.simd_le(from_eye * splat(simd, 0.5 * COINCIDENT) * unit_of_p);
             let stretch = at_point.select(splat(simd, 0.0), min::<S>(unit * splat(simd, 2.0), splat(simd, f32::MAX)));
-            (select3::<S>(at_point, points.n, to_light), stretch)
+            let from_eye = at_point.select(splat(simd, 0.0), from_eye * splat(simd, 0.5) * (unit_of_p / unit));
+            (select3::<S>(at_point, points.n, to_light), stretch, from_eye)
         },
     )
 }
@@ -288,6 +296,8 @@ fn add_listed<S: Simd>(
         let l = splat3(simd, light.position);
         let n_dot_l = dot::<S>(points.n, l);
         if !is_behind_all(simd, n_dot_l, light, terms) {
+            let is_above = n_dot_l.simd_gt(splat(simd, COINCIDENT));
+            let n_dot_l = is_above.select(n_dot_l, splat(simd, 0.0));
             let incident = Incidence { l, n_dot_l, weight: splat(simd, 1.0) };
             add_light(simd, sum, light, &incident, points, lobe, terms);
         }

@@ -20,7 +20,7 @@
 //! | l = −v, no halfway vector | S = 0: [`specular_blinn_phong`] |
 //! | the light at the lit point ([`COINCIDENT`]) | l is n, d is 0; attenuation 1/a, at most [`ATTENUATION_MAX`] |
 //! | a local eye at the lit point | v is n: [`view_vector`] |
-//! | the light behind the surface (n·l ≤ 0) | neither diffuse nor specular |
+//! | the light behind the surface (n·l ≤ 0), or in its plane ([`Incidence::grazing`]) | neither diffuse nor specular |
 //! | distances beyond the number range | the direction is kept, the distance is the largest finite number |
 //! | an inner cone equal to the cutoff | a hard edge, no division by 0: [`spot_factor`] |
 //! | an interpolated normal ≈ 0 | the geometric normal: [`interpolated_normal`] |

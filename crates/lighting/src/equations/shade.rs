@@ -17,6 +17,10 @@ pub const COINCIDENT: f32 = 2e-6;
 pub struct Incidence<T> {
     /// l, the unit vector from the point toward the light.
     pub l: [T; 3],
+    /// Up to this n·l the light counts as in the plane of the surface, and as behind it: [`COINCIDENT`]·(1 + ‖p‖/d) of
+    /// a light at a distance d, [`COINCIDENT`] of a directional one. Positions in eye space are not known better, so
+    /// that rounding would decide, pixel by pixel, on which side a light is that stands in a floor.
+    pub grazing: T,
     /// att·spot: attenuation, range window and cone together; 0 to [`ATTENUATION_MAX`](super::ATTENUATION_MAX).
     pub weight: T,
 }
@@ -27,9 +31,9 @@ pub struct Incidence<T> {
 pub struct Irradiance<T> {
     /// La, times att·spot where the light attenuates its ambient.
     pub ambient: [T; 3],
-    /// att·spot·Ld·max(n·l, 0).
+    /// att·spot·Ld·max(n·l, 0), and 0 unless n·l is above [`Incidence::grazing`].
     pub diffuse: [T; 3],
-    /// att·spot·Ls·S.
+    /// att·spot·Ls·S, and 0 unless n·l is above that.
     pub specular: [T; 3],
 }
 
@@ -47,20 +51,21 @@ pub struct LightTerms<T> {
 /// Direction and strength of a light at a point. Where the light is at the point itself ([`COINCIDENT`]) l is n and the
 /// distance 0.
 pub fn incidence<T: Real>(surface: &ShadedPoint<T>, light: &Light<T>) -> Incidence<T> {
-    let (l, att) = match light.place {
-        Place::Directional(l) => (l, T::one()),
+    let coincident = T::of(COINCIDENT.into());
+    let (l, grazing, att) = match light.place {
+        Place::Directional(l) => (l, coincident, T::one()),
         Place::Point(position) => {
-            let at_point = T::of(COINCIDENT.into()) * length(surface.position);
-            let (l, d) = match toward(surface.position, position) {
-                (Some(l), d) if d > at_point => (l, d),
-                _ => (surface.normal, T::zero()),
+            let at_point = coincident * length(surface.position);
+            let (l, d, grazing) = match toward(surface.position, position) {
+                (Some(l), d) if d > at_point => (l, d, coincident + at_point / d),
+                _ => (surface.normal, T::zero(), T::zero()),
             };
             let window = light.range.map_or(T::one(), |range| range_window(d, range));
-            (l, attenuation(light.attenuation, d) * window)
+            (l, grazing, attenuation(light.attenuation, d) * window)
         }
     };
     let spot = light.cone.as_ref().map_or(T::one(), |cone| spot_factor(dot(neg(l), cone.direction), cone));
-    Incidence { l, weight: att * spot }
+    Incidence { l, grazing, weight: att * spot }
 }
 
 /// v: the unit vector from the surface toward the viewer. Where a local eye is at the surface itself v is n.
@@ -81,8 +86,9 @@ pub fn irradiance<T: Real>(
 ) -> Irradiance<T> {
     let n = surface.normal;
     let v = view_vector(surface, view);
-    let Incidence { l, weight } = incidence(surface, light);
+    let Incidence { l, grazing, weight } = incidence(surface, light);
     let ambient = if light.attenuate_ambient { weight } else { T::one() };
+    let weight = if dot(n, l) > grazing { weight } else { T::zero() };
     Irradiance {
         ambient: scale(light.la, ambient),
         diffuse: scale(light.ld, weight * diffuse_term(n, l)),

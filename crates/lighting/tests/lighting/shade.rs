@@ -4,8 +4,8 @@ use core::f64::consts::FRAC_1_SQRT_2;
 
 use bevy_color::LinearRgba;
 use halfway_lighting::equations::{
-    Coefficients, Eye, Incidence, Light, Place, ShadedPoint, incidence, light_contribution, light_terms, shade,
-    view_vector,
+    COINCIDENT, Coefficients, Eye, Incidence, Light, LightTerms, Place, ShadedPoint, incidence, light_contribution,
+    light_terms, shade, view_vector,
 };
 use halfway_lighting::{
     Attenuation, Cone, DirectionalLight, GlobalAmbient, Material, PointLight, Reflectance, SpotLight, Viewer,
@@ -79,7 +79,7 @@ fn attenuated_ambient_is_opengls() {
 fn strength_on_arrival_is_a_product() {
     let window = (1.0 - 0.5f64.powi(4)).powi(2);
     let ranged = PointLight { range: Some(10.0), ..light() };
-    let Incidence { l, weight } = incidence(&SURFACE, &ranged.at(PLACE));
+    let Incidence { l, weight, .. } = incidence(&SURFACE, &ranged.at(PLACE));
     close3(l, [0.6, 0.0, 0.8], 1e-15, "l");
     close(weight, 0.25 * window, F32_CONSTANTS, "attenuation times window");
     // The axis points from the light straight down: cos φ = 0.8, squared by the exponent.
@@ -150,12 +150,39 @@ fn a_light_at_the_lit_point_is_finite() {
     let material = Coefficients::from(&Material::plastic(LinearRgba::WHITE));
     for (attenuation, weight) in [(Attenuation::NONE, 1.0), (Attenuation::INVERSE_SQUARE, 1e6)] {
         let here = PointLight { attenuation, ..PointLight::white() }.at(SURFACE.position);
-        let Incidence { l, weight: got } = incidence(&SURFACE, &here);
+        let Incidence { l, weight: got, .. } = incidence(&SURFACE, &here);
         assert_eq!(l, SURFACE.normal, "l falls back to n");
         close(got, weight, weight * 1e-12, "1/a, or the cap");
         let color = light_contribution(&SURFACE, &material, &here, &VIEW, Reflectance::BlinnPhong);
         close3(color, [1.5 * weight; 3], weight * 1e-12, "kd + ks, both at full strength");
     }
+}
+
+/// A floor at a distance of 5 from the eye and lights that stand in it, 2 away, or shine along it.
+#[test]
+fn a_light_in_the_plane_of_the_surface_is_behind_it() {
+    let material = Coefficients::from(&Material::plastic(LinearRgba::WHITE));
+    let floor = ShadedPoint { position: [0.0, -3.0, -4.0], normal: [0.0, 1.0, 0.0] };
+    let eye = Eye::Local([0.0; 3]);
+    let grazing = f64::from(COINCIDENT);
+    let lit = |light: &Light<f64>| {
+        [Reflectance::Phong, Reflectance::BlinnPhong].map(|reflectance| {
+            let LightTerms { diffuse, specular, .. } = light_terms(&floor, &material, light, &eye, reflectance);
+            assert_eq!(diffuse[0] > 0.0, specular[0] > 0.0, "{reflectance:?}: both or none");
+            diffuse[0] > 0.0
+        })
+    };
+    for (n_dot_l, is_lit) in [(0.0, false), (0.99, false), (1.01, true), (1e3, true)] {
+        let rise = n_dot_l * grazing * (1.0 + 5.0 / 2.0);
+        let point = PointLight::white().at([2.0 * (1.0 - rise * rise).sqrt(), 2.0f64.mul_add(rise, -3.0), -4.0]);
+        assert_eq!(lit(&point), [is_lit; 2], "a point light, {n_dot_l} times what counts");
+        let rise = n_dot_l * grazing;
+        let sun = DirectionalLight::white().along([-(1.0 - rise * rise).sqrt(), -rise, 0.0]).expect("a direction");
+        assert_eq!(lit(&sun), [is_lit; 2], "a sun, {n_dot_l} times what counts");
+    }
+    let attenuated = PointLight { attenuate_ambient: true, ambient: LinearRgba::WHITE, ..PointLight::white() };
+    let terms = light_terms(&floor, &material, &attenuated.at([2.0, -3.0, -4.0]), &eye, Reflectance::Phong);
+    assert!(terms.ambient[0] > 0.0, "ambient light comes from all around");
 }
 
 #[test]

@@ -50,9 +50,11 @@ struct Material {
     padding1: f32,
 }
 
-// A light as it arrives at a point: l toward the light, and att · spot.
+// A light as it arrives at a point: l toward the light, the n·l up to which it counts as in the plane of the surface,
+// and att · spot.
 struct Incidence {
     l: vec3f,
+    grazing: f32,
     weight: f32,
 }
 
@@ -136,7 +138,8 @@ fn incidence(light: Light, cone: bool, p: vec3f, n: vec3f) -> Incidence {
     if cone {
         weight *= spot_factor(-dot(l, light.direction), light);
     }
-    return Incidence(l, weight);
+    let grazing = select(COINCIDENT + COINCIDENT * length(p) * inverse, 0.0, at_point);
+    return Incidence(l, grazing, weight);
 }
 
 // v: toward the eye, or (0, 0, 1) for an infinite viewer. An eye on the surface looks along n.
@@ -202,15 +205,16 @@ fn specular_term(n: vec3f, l: vec3f, v: vec3f, shininess: f32) -> f32 {
 // What one light brings to a point.
 fn irradiance(light: Light, incident: Incidence, n: vec3f, v: vec3f, shininess: f32, terms: Terms) -> Irradiance {
     var result = Irradiance();
+    let weight = select(0.0, incident.weight, dot(n, incident.l) > incident.grazing);
     if terms.diffuse {
-        result.diffuse = light.diffuse * (incident.weight * diffuse_term(n, incident.l));
+        result.diffuse = light.diffuse * (weight * diffuse_term(n, incident.l));
     }
     if terms.specular {
         var color = light.specular;
         if SHARED_COLOR {
             color = light.diffuse;
         }
-        result.specular = color * (incident.weight * specular_term(n, incident.l, v, shininess));
+        result.specular = color * (weight * specular_term(n, incident.l, v, shininess));
     }
     if ATTENUATED_AMBIENT && terms.diffuse {
         result.ambient = light.ambient * incident.weight;

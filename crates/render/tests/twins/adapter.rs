@@ -58,7 +58,7 @@ impl Kind {
             Self::Pair => &["r.x", "r.y"],
             Self::Vector => &["r.x", "r.y", "r.z"],
             Self::Texel => &["r.x", "r.y", "r.z", "r.w"],
-            Self::Incidence => &["r.l.x", "r.l.y", "r.l.z", "r.weight"],
+            Self::Incidence => &["r.l.x", "r.l.y", "r.l.z", "r.grazing", "r.weight"],
             Self::Irradiance => &[
                 "r.ambient.x",
                 "r.ambient.y",

@@ -57,7 +57,7 @@ impl Parts for Option<[f64; 3]> {
 
 impl Parts for Incidence<f64> {
     fn parts(self) -> Vec<f64> {
-        [&self.l[..], &[self.weight]].concat()
+        [&self.l[..], &[self.grazing, self.weight]].concat()
     }
 }
 
@@ -146,7 +146,7 @@ fn of_weight(x: &[f32], ranged: bool, coned: bool) -> f64 {
     if !ranged {
         bare.range = None;
     }
-    let Incidence { l, weight } = incidence(&surface(x), &bare);
+    let Incidence { l, weight, .. } = incidence(&surface(x), &bare);
     bare.range = None;
     let unwindowed = incidence(&surface(x), &bare).weight;
     let falloff = 30.0 * ULP * weight + if ranged { 40.0 * ULP * unwindowed } else { 0.0 };
@@ -171,14 +171,16 @@ fn of_spot(cos_phi: f64, blur: f64, x: &[f32], spot: f64) -> f64 {
 fn of_irradiance(x: &[f32], expected: &[f64], reflectance: Reflectance, shared: bool) -> Vec<f64> {
     let light = light(x);
     let surface = surface(x);
-    let Incidence { l, weight } = incidence(&surface, &light);
+    let Incidence { l, grazing, weight } = incidence(&surface, &light);
     let v = view_vector(&surface, &Eye::Local([0.0; 3]));
     let n = surface.normal;
     let of_weight = of_weight(x, true, true);
     let s = specular_term(reflectance, n, l, v, f64::from(x[SHININESS]));
     let of_s = of_highlight(reflectance == Reflectance::Phong, n, l, v, 16.0 * ULP, f64::from(x[SHININESS]));
-    let of_diffuse = of_weight * diffuse_term(n, l) + weight * 10.0 * ULP;
-    let of_specular = of_weight * (s + of_s) + weight * of_s;
+    // At the very height that counts as in the plane it is one side's or the other's.
+    let either = if (dot(n, l) - grazing).abs() < 8.0 * ULP { weight } else { 0.0 };
+    let of_diffuse = (of_weight + either) * diffuse_term(n, l) + weight * 10.0 * ULP;
+    let of_specular = (of_weight + either) * (s + of_s) + weight * of_s;
     let specular = if shared { light.ld } else { light.ls };
     let colors = [(light.la, of_weight), (light.ld, of_diffuse), (specular, of_specular)];
     let allowed = colors.into_iter().flat_map(|(color, off)| color.map(|c| c * off + LEAST));
@@ -233,10 +235,10 @@ pub(crate) fn rows() -> Vec<Row> {
             |x| (f64::from(x[32]), &cone(x)), |x, e| each(e, of_spot(f64::from(x[32]), 0.0, x, e[0]))),
         row!(incidence("light(i, 0), true, v(i, 23), v(i, 26)") -> Incidence, NOTHING, inputs::lit(inputs::coincident()),
             |x| (&surface(x), &light(x)),
-            |x, _| [6.0 * ULP, 6.0 * ULP, 6.0 * ULP, of_weight(x, true, true)].to_vec()),
+            |x, e| [6.0 * ULP, 6.0 * ULP, 6.0 * ULP, 8.0 * ULP * e[3], of_weight(x, true, true)].to_vec()),
         row!(incidence("light(i, 0), false, v(i, 23), v(i, 26)") -> Incidence, &[("RANGED", 0.0)], inputs::lit(inputs::coincident()),
             |x| (&surface(x), &without_range(x)),
-            |x, _| [6.0 * ULP, 6.0 * ULP, 6.0 * ULP, of_weight(x, false, false)].to_vec()),
+            |x, e| [6.0 * ULP, 6.0 * ULP, 6.0 * ULP, 8.0 * ULP * e[3], of_weight(x, false, false)].to_vec()),
         row!(view_vector("v(i, 0), v(i, 3)") -> Vector, NOTHING, inputs::vectors(),
             |x| (&equations::ShadedPoint { position: wide(x), normal: wide(&x[3..]) }, &Eye::Local([0.0; 3])),
             |_, e| each(e, 5.0 * ULP)),

@@ -98,7 +98,7 @@ const ON_THE_CPU: &str = "with_four_samples";
 const SHARE: &str = "HALFWAY_SHARE";
 
 /// The tests that the CPU leaves out, and why.
-const LEFT_OUT: [(&str, &str); 15] = [
+const LEFT_OUT: [(&str, &str); 14] = [
     ("render::compile::", "pipelines are wgpu's"),
     ("render::pipelines::", "pipelines are wgpu's"),
     ("render::counters::pipelines_do_not_grow", "pipelines are wgpu's"),
@@ -113,10 +113,6 @@ const LEFT_OUT: [(&str, &str); 15] = [
     ("render::floats::a_device_that_cannot", "a device is wgpu's"),
     ("render::timing::the_gpu_is_timed", "there is no GPU to time"),
     ("render::timing::frames_that_nobody_waits_for", "there is no GPU to time"),
-    (
-        "render::properties::scenes_of_any_numbers_are_what",
-        "a known issue of flattened objects; tests/wild/known/cpu has one",
-    ),
 ];
 
 /// An adapter, and how a program is made to draw with it.

@@ -8,7 +8,9 @@ use super::quick::power_within;
 use super::slopes::PowerSlopes;
 use super::{Patch, Receiver};
 use crate::equations::vector::{dot, length, neg, sub};
-use crate::equations::{ATTENUATION_MAX, Coefficients, Eye, Light, Place, Real, attenuation, range_window, reflect};
+use crate::equations::{
+    ATTENUATION_MAX, COINCIDENT, Coefficients, Eye, Light, Place, Real, attenuation, range_window, reflect,
+};
 use crate::{Faces, Reflectance};
 
 pub use wide::VertexChanges;
@@ -212,9 +214,11 @@ impl<T: Real> VertexShading<T> {
         if facing <= zero {
             return Some(VertexChange { ambient, diffuse: TermChange::none(), specular: TermChange::none() });
         }
-        let least_facing = angle.plus(spread).cos - slack();
-        let diffuse = self.diffuse(&weight, facing, least_facing);
-        let specular = self.specular(&l, &weight, least_facing);
+        // The most that counts as in the plane of the surface.
+        let grazing = (T::of(COINCIDENT.into()) + self.receiver.coincident * weight.nearness) * (T::one() + slack());
+        let least_facing = angle.plus(spread).cos - slack() - grazing;
+        let diffuse = self.diffuse(&weight, facing, least_facing, grazing);
+        let specular = self.specular(&l, &weight, least_facing, grazing);
         Some(VertexChange { ambient, diffuse, specular })
     }
 
@@ -308,7 +312,7 @@ impl<T: Real> VertexShading<T> {
         Some((l, Weight { largest, least, slope, bend, nearness, is_spot: false }))
     }
 
-    fn diffuse(&self, weight: &Weight<T>, facing: T, least_facing: T) -> TermChange<T> {
+    fn diffuse(&self, weight: &Weight<T>, facing: T, least_facing: T, grazing: T) -> TermChange<T> {
         let (one, half) = (T::one(), T::of(0.5));
         let Weight { largest, least, slope, bend, nearness, is_spot } = *weight;
         let r = self.corners;
@@ -324,7 +328,8 @@ impl<T: Real> VertexShading<T> {
         let shorter = self.sin_r * self.sin_r / (one + self.cos_r) * largest * facing;
         let kink = if least_facing < T::zero() {
             let span = half * (largest * self.sin_r + first * r);
-            span.min(largest * facing).min(-largest * least_facing)
+            // And the step where it counts as behind.
+            (span + largest * grazing).min(largest * facing).min(-largest * least_facing)
         } else {
             T::zero()
         };
@@ -333,7 +338,7 @@ impl<T: Real> VertexShading<T> {
         change.limited(largest * facing - at_least, largest)
     }
 
-    fn specular(&self, l: &Cap<T>, weight: &Weight<T>, least_facing: T) -> TermChange<T> {
+    fn specular(&self, l: &Cap<T>, weight: &Weight<T>, least_facing: T, grazing: T) -> TermChange<T> {
         let (zero, half) = (T::zero(), T::of(0.5));
         let Weight { largest, least, slope, bend, nearness, .. } = *weight;
         let (receiver, r) = (&self.receiver, self.corners);
@@ -374,7 +379,7 @@ impl<T: Real> VertexShading<T> {
             if change.is_nan() { range } else { change }
         });
         if least_facing < zero {
-            let facing_span = T::of(2.0) * (self.sin_r + r * nearness);
+            let facing_span = T::of(2.0) * (self.sin_r + r * nearness) + grazing;
             let seen = Angle::between(normals.axis, view.axis).cos_within(normals.spread.plus(view.spread));
             let cut = if self.is_mirror {
                 T::of(2.0) * facing_span * seen.max(zero) - between.cos + slack()

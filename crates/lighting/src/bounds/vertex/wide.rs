@@ -7,7 +7,7 @@ use super::{LEAST, RAISE, TURNING, TermChange, VertexChange, VertexShading};
 use crate::bounds::chunk::{CHUNK, Chunk};
 use crate::bounds::lanes::{F, M, SLACK, V3, WideAngle, dot, load, load3, max, min, scale, splat, splat3, stored};
 use crate::bounds::power;
-use crate::equations::{ATTENUATION_MAX, Light};
+use crate::equations::{ATTENUATION_MAX, COINCIDENT, Light};
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd};
 
@@ -144,10 +144,12 @@ fn found<S: Simd>(simd: S, shading: &VertexShading<f32>, lights: &Chunk) -> Wide
     let angle = WideAngle::between(splat3(simd, normals.axis), l);
     let around = WideAngle::of(simd, normals.spread).plus(simd, spread);
     let facing = min::<S>(angle.cos_within(simd, around), one);
-    let least_facing = angle.plus(simd, around).cos - splat(simd, SLACK);
+    // The most that counts as in the plane of the surface.
+    let grazing = splat(simd, COINCIDENT * (1.0 + SLACK)) + splat(simd, shading.receiver.coincident) * weight.nearness;
+    let least_facing = angle.plus(simd, around).cos - splat(simd, SLACK) - grazing;
     let faces = facing.simd_gt(zero);
-    let diffuse = diffuse(simd, shading, &weight, facing, least_facing);
-    let specular = specular(simd, shading, l, spread, &weight, least_facing);
+    let diffuse = diffuse(simd, shading, &weight, [facing, least_facing, grazing]);
+    let specular = specular(simd, shading, (l, spread), &weight, [least_facing, grazing]);
     let lit = |change: [F<S>; 3]| change.map(|value| stored::<S>(faces.select(value, zero)));
     WideChanges {
         odd: odd.to_bitmask() as u32,
@@ -249,8 +251,7 @@ fn diffuse<S: Simd>(
     simd: S,
     shading: &VertexShading<f32>,
     weight: &WideWeight<S>,
-    facing: F<S>,
-    least_facing: F<S>,
+    [facing, least_facing, grazing]: [F<S>; 3],
 ) -> [F<S>; 3] {
     let (zero, half) = (splat(simd, 0.0), splat(simd, 0.5));
     let WideWeight { largest, least, slope, bend, nearness } = *weight;
@@ -262,7 +263,7 @@ fn diffuse<S: Simd>(
     let both = splat(simd, turned) * first * r + half * second * r * r;
     let shorter = splat(simd, shading.sin_r * shading.sin_r / (1.0 + shading.cos_r)) * largest * facing;
     let span = half * (largest * splat(simd, shading.sin_r) + first * r);
-    let kink = min::<S>(min::<S>(span, largest * facing), -largest * least_facing);
+    let kink = min::<S>(min::<S>(span + largest * grazing, largest * facing), -largest * least_facing);
     let kink = least_facing.simd_lt(zero).select(kink, zero);
     let at_least = least * max::<S>(least_facing, zero);
     limited(simd, [both + kink, both + shorter, at_least], largest * facing - at_least, largest)
@@ -272,10 +273,9 @@ fn diffuse<S: Simd>(
 fn specular<S: Simd>(
     simd: S,
     shading: &VertexShading<f32>,
-    l: V3<S>,
-    l_spread: WideAngle<S>,
+    (l, l_spread): (V3<S>, WideAngle<S>),
     weight: &WideWeight<S>,
-    least_facing: F<S>,
+    [least_facing, grazing]: [F<S>; 2],
 ) -> [F<S>; 3] {
     let (zero, one, two, half) = (splat(simd, 0.0), splat(simd, 1.0), splat(simd, 2.0), splat(simd, 0.5));
     let WideWeight { largest, least, slope, bend, nearness } = *weight;
@@ -322,7 +322,7 @@ fn specular<S: Simd>(
         change.simd_lt(range).select(change, range)
     };
     let change = [of_bending(rising), of_bending(falling)];
-    let span = two * (splat(simd, shading.sin_r) + r * nearness);
+    let span = two * (splat(simd, shading.sin_r) + r * nearness) + grazing;
     let seen = WideAngle::between(normal_axis, view_axis).cos_within(simd, normal_spread.plus(simd, view_spread));
     let cut = if shading.is_mirror {
         two * span * max::<S>(seen, zero) - between.cos + splat(simd, SLACK)
