@@ -9,7 +9,7 @@ use crate::lobe::PointLobe;
 use crate::pass::{LightData, LightRange, ShadedTerms, SideData};
 use crate::power::{Exponent, power};
 use fearless_simd::prelude::*;
-use halfway_lighting::equations::{ATTENUATION_MAX, COINCIDENT};
+use halfway_lighting::equations::{ATTENUATION_MAX, COINCIDENT, GRAZING};
 
 /// Points of a surface, on the side that is seen.
 #[derive(Clone, Copy)]
@@ -181,7 +181,7 @@ fn finite_light<S: Simd>(
     if cone {
         weight *= spot_factor(simd, l, light);
     }
-    let is_above = n_dot_to_light.simd_gt((length + distance) * splat(simd, COINCIDENT));
+    let is_above = n_dot_to_light.simd_gt((length + distance) * splat(simd, GRAZING));
     Some(Incidence { l, n_dot_l: is_above.select(n_dot_to_light * inverse, splat(simd, 0.0)), weight })
 }
 
@@ -296,7 +296,7 @@ fn add_listed<S: Simd>(
         let l = splat3(simd, light.position);
         let n_dot_l = dot::<S>(points.n, l);
         if !is_behind_all(simd, n_dot_l, light, terms) {
-            let is_above = n_dot_l.simd_gt(splat(simd, COINCIDENT));
+            let is_above = n_dot_l.simd_gt(splat(simd, GRAZING));
             let n_dot_l = is_above.select(n_dot_l, splat(simd, 0.0));
             let incident = Incidence { l, n_dot_l, weight: splat(simd, 1.0) };
             add_light(simd, sum, light, &incident, points, lobe, terms);

@@ -20,7 +20,7 @@
 //! | l = −v, no halfway vector | S = 0: [`specular_blinn_phong`] |
 //! | the light at the lit point ([`COINCIDENT`]) | l is n, d is 0; attenuation 1/a, at most [`ATTENUATION_MAX`] |
 //! | a local eye at the lit point | v is n: [`view_vector`] |
-//! | the light behind the surface (n·l ≤ 0), or in its plane ([`Incidence::grazing`]) | neither diffuse nor specular |
+//! | the light behind the surface (n·l ≤ 0), or in its plane ([`GRAZING`]) | neither diffuse nor specular |
 //! | distances beyond the number range | the direction is kept, the distance is the largest finite number |
 //! | an inner cone equal to the cutoff | a hard edge, no division by 0: [`spot_factor`] |
 //! | an interpolated normal ≈ 0 | the geometric normal: [`interpolated_normal`] |
@@ -50,8 +50,8 @@ pub use reflectance::{
 pub use relief::{bumped_normal, lobe_axes, mapped_normal};
 pub use scene::{Coefficients, Eye, Light, Place, ShadedPoint, rgb};
 pub use shade::{
-    COINCIDENT, Incidence, Irradiance, LightTerms, incidence, irradiance, light_contribution, light_terms, reflected,
-    shade, view_vector,
+    COINCIDENT, GRAZING, Incidence, Irradiance, LightTerms, incidence, irradiance, light_contribution, light_terms,
+    reflected, shade, view_vector,
 };
 pub use tone::{ACES_WHITE, aces, divisor, reinhard};
 pub use transcendental::Transcendental;

@@ -12,14 +12,18 @@ use crate::Reflectance;
 /// their distance from the eye, so a nearer light has no direction but that of rounding errors.
 pub const COINCIDENT: f32 = 2e-6;
 
+/// A light counts as in the plane of a surface, and so as behind it, where its height over that is at most this share of
+/// ‖p‖ and its distance together. In `f32` heights are known to no more: rounding would decide, pixel by pixel, on which
+/// side a light is that stands in a floor.
+pub const GRAZING: f32 = 5e-7;
+
 /// A light as it arrives at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Incidence<T> {
     /// l, the unit vector from the point toward the light.
     pub l: [T; 3],
-    /// Up to this n·l the light counts as in the plane of the surface, and as behind it: [`COINCIDENT`]·(1 + ‖p‖/d) of
-    /// a light at a distance d, [`COINCIDENT`] of a directional one. Positions in eye space are not known better, so
-    /// that rounding would decide, pixel by pixel, on which side a light is that stands in a floor.
+    /// Up to this n·l the light counts as in the plane of the surface, and as behind it: [`GRAZING`]·(1 + ‖p‖/d) of a
+    /// light at a distance d, [`GRAZING`] of a directional one, 0 of one at the point.
     pub grazing: T,
     /// att·spot: attenuation, range window and cone together; 0 to [`ATTENUATION_MAX`](super::ATTENUATION_MAX).
     pub weight: T,
@@ -51,13 +55,13 @@ pub struct LightTerms<T> {
 /// Direction and strength of a light at a point. Where the light is at the point itself ([`COINCIDENT`]) l is n and the
 /// distance 0.
 pub fn incidence<T: Real>(surface: &ShadedPoint<T>, light: &Light<T>) -> Incidence<T> {
-    let coincident = T::of(COINCIDENT.into());
+    let least = T::of(GRAZING.into());
     let (l, grazing, att) = match light.place {
-        Place::Directional(l) => (l, coincident, T::one()),
+        Place::Directional(l) => (l, least, T::one()),
         Place::Point(position) => {
-            let at_point = coincident * length(surface.position);
+            let from_eye = length(surface.position);
             let (l, d, grazing) = match toward(surface.position, position) {
-                (Some(l), d) if d > at_point => (l, d, coincident + at_point / d),
+                (Some(l), d) if d > T::of(COINCIDENT.into()) * from_eye => (l, d, least + least * (from_eye / d)),
                 _ => (surface.normal, T::zero(), T::zero()),
             };
             let window = light.range.map_or(T::one(), |range| range_window(d, range));

@@ -10,7 +10,7 @@ use core::f32::consts::{FRAC_PI_2, PI};
 use bevy_color::LinearRgba;
 use halfway_lighting::equations::vector::{dot, length, normalize, scale, sub};
 use halfway_lighting::equations::{
-    ATTENUATION_MAX, COINCIDENT, Coefficients, Eye, HALFWAY_MIN, Light, Real, ShadedPoint, rgb, shade,
+    ATTENUATION_MAX, COINCIDENT, Coefficients, Eye, GRAZING, HALFWAY_MIN, Light, Real, ShadedPoint, rgb, shade,
 };
 use halfway_lighting::{
     Attenuation, Cone, DirectionalLight, Material, PointLight, Reflectance, SpotLight, matched_shininess,
@@ -179,6 +179,18 @@ impl Case {
         length(sub(to_f64(self.place), p)) / (f64::from(COINCIDENT) * length(p)).max(f64::MIN_POSITIVE)
     }
 
+    /// The n·l up to which the light counts as in the plane of the surface.
+    fn grazing(&self) -> f64 {
+        let share = match self.kind {
+            Kind::Directional => 1.0,
+            Kind::Point | Kind::Spot(_) => {
+                let d = length(self.to_light());
+                if d > 0.0 { 1.0 + length(to_f64(self.position)) / d } else { 0.0 }
+            }
+        };
+        share * f64::from(GRAZING)
+    }
+
     fn light<T: Real>(&self) -> Light<T> {
         let [place, direction] = [self.place, self.direction].map(|a| a.map(|x| T::of(x.into())));
         let PointLight { ambient, diffuse, specular, .. } = self.light;
@@ -263,7 +275,7 @@ impl Rounding {
             Kind::Point | Kind::Spot(_) => normalize(case.to_light()).unwrap_or(n),
         };
         let weight = self.weight(case, l);
-        let lambert = self.cosine(dot(n, l), 1.0);
+        let lambert = self.above(case, dot(n, l), self.cosine(dot(n, l), 1.0));
         let gloss = self.gloss(case, n, l, v);
         let Material { ambient, diffuse, specular, emission, .. } = case.material;
         let [ka, kd, ks, ke] = [ambient, diffuse, specular, emission].map(rgb::<f64>);
@@ -304,7 +316,14 @@ impl Rounding {
             Reflectance::BlinnPhong => self.halfway(n, l, v, alpha),
             Reflectance::BlinnPhongMatched => self.halfway(n, l, v, matched_shininess(alpha)),
         };
-        Between::new(if nl > self.cosine { s.low } else { 0.0 }, if nl > -self.cosine { s.high } else { 0.0 })
+        self.above(case, nl, s)
+    }
+
+    /// A term, with its gate: 0 unless n·l is above what counts as in the plane.
+    fn above(self, case: &Case, nl: f64, term: Between) -> Between {
+        let grazing = case.grazing();
+        let off = self.cosine * (1.0 + grazing);
+        Between::new(if nl > grazing + off { term.low } else { 0.0 }, if nl > grazing - off { term.high } else { 0.0 })
     }
 
     /// (n·h)^β.

@@ -4,7 +4,7 @@ use core::f64::consts::FRAC_1_SQRT_2;
 
 use bevy_color::LinearRgba;
 use halfway_lighting::equations::{
-    COINCIDENT, Coefficients, Eye, Incidence, Light, LightTerms, Place, ShadedPoint, incidence, light_contribution,
+    Coefficients, Eye, GRAZING, Incidence, Light, LightTerms, Place, ShadedPoint, incidence, light_contribution,
     light_terms, shade, view_vector,
 };
 use halfway_lighting::{
@@ -164,7 +164,7 @@ fn a_light_in_the_plane_of_the_surface_is_behind_it() {
     let material = Coefficients::from(&Material::plastic(LinearRgba::WHITE));
     let floor = ShadedPoint { position: [0.0, -3.0, -4.0], normal: [0.0, 1.0, 0.0] };
     let eye = Eye::Local([0.0; 3]);
-    let grazing = f64::from(COINCIDENT);
+    let grazing = f64::from(GRAZING);
     let lit = |light: &Light<f64>| {
         [Reflectance::Phong, Reflectance::BlinnPhong].map(|reflectance| {
             let LightTerms { diffuse, specular, .. } = light_terms(&floor, &material, light, &eye, reflectance);

@@ -69,6 +69,8 @@ struct Irradiance {
 const ATTENUATION_MAX: f32 = 1e6;
 // A light at most this share of ‖p‖ away from p counts as being at p.
 const COINCIDENT: f32 = 2e-6;
+// A light no higher over the plane of a surface than this share of ‖p‖ and its distance counts as in it.
+const GRAZING: f32 = 5e-7;
 // l and v with a shorter sum (an angle of 1e-6 rad from l = −v) have no half vector: S = 0.
 const HALFWAY_MIN: f32 = 1e-6;
 // A shorter interpolated normal has no direction.
@@ -138,7 +140,7 @@ fn incidence(light: Light, cone: bool, p: vec3f, n: vec3f) -> Incidence {
     if cone {
         weight *= spot_factor(-dot(l, light.direction), light);
     }
-    let grazing = select(COINCIDENT + COINCIDENT * length(p) * inverse, 0.0, at_point);
+    let grazing = select(GRAZING + GRAZING * length(p) * inverse, 0.0, at_point);
     return Incidence(l, grazing, weight);
 }
 

@@ -21,7 +21,7 @@ fn add_listed(before: Irradiance, p: vec3f, n: vec3f, shininess: f32, counts: ve
     let first_spot = first_point + counts.y;
     for (var i = counts.w; i < first_point; i++) {
         let light = light_numbered(i);
-        sum = plus(sum, irradiance(light, Incidence(light.position, COINCIDENT, 1.0), n, v, shininess, terms));
+        sum = plus(sum, irradiance(light, Incidence(light.position, GRAZING, 1.0), n, v, shininess, terms));
     }
     for (var i = first_point; i < first_spot; i++) {
         let light = light_numbered(i);

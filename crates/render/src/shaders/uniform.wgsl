@@ -15,7 +15,7 @@ fn add_directional(
 ) -> Irradiance {
     var sum = before;
     for (var i = start; i < min(DIRECTIONAL, start + 8u); i++) {
-        let incident = Incidence(lights[FIRST + i].position, COINCIDENT, 1.0);
+        let incident = Incidence(lights[FIRST + i].position, GRAZING, 1.0);
         sum = plus(sum, irradiance(lights[FIRST + i], incident, n, v, shininess, of_first(terms, i, DIRECTIONAL)));
     }
     return sum;

@@ -96,6 +96,9 @@ pub(crate) fn select(
             continue;
         }
         let eye_from_model = compose(&view.eye_from_world, transform);
+        if is_flat_twice(&eye_from_model.matrix3) {
+            continue;
+        }
         let bounds = mesh.bounds();
         let center = eye_from_model.transform_point3(bounds.center().as_dvec3());
         let radius = f64::from(bounds.radius()) * largest_scale(&eye_from_model.matrix3);
@@ -108,6 +111,13 @@ pub(crate) fn select(
     seen.sort_unstable();
     visible.0.extend(seen.iter().map(|&(_, entity)| entity));
     report.visible = visible.0.len() as u32;
+}
+
+/// Whether a matrix takes everything to a line or a point, so that no triangle has an area. What rounding would leave of
+/// one is not to be seen.
+fn is_flat_twice(m: &DMat3) -> bool {
+    let DMat3 { x_axis: x, y_axis: y, z_axis: z } = *m;
+    [x.cross(y), y.cross(z), z.cross(x)].iter().all(|cofactors| *cofactors == DVec3::ZERO)
 }
 
 /// Of the unit in which the shaders measure a scene whose farthest visible point is at this distance: squares of

@@ -207,9 +207,9 @@ pub(crate) fn coincident() -> Vec<Lit> {
         Lit { position: [0.0, 0.0, -1.0], range: Some(3.0), ..constant },
         Lit { position: [0.0, 0.0, -1.0], range: Some(4.1), ..constant },
         // In its plane, as far as that is known, and above it.
-        Lit { position: [1.0, 0.0, -4.999_995], ..constant },
-        Lit { position: [0.1, 0.0, -4.999_92], ..constant },
-        Lit { position: [0.1, 0.0, -4.999_88], ..constant },
+        Lit { position: [1.0, 0.0, -4.999_998_5], ..constant },
+        Lit { position: [0.1, 0.0, -4.999_998], ..constant },
+        Lit { position: [0.1, 0.0, -4.999_996], ..constant },
         // Behind the surface.
         Lit { position: [0.0, 0.0, -9.0], ..constant },
     ]

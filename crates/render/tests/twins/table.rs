@@ -342,7 +342,7 @@ pub(crate) fn constants() -> Vec<(&'static str, f32)> {
     macro_rules! named {
         ($($name:ident),*) => { vec![$((stringify!($name), equations::$name)),*] };
     }
-    let mut constants = named![ACES_WHITE, ATTENUATION_MAX, COINCIDENT, HALFWAY_MIN, NORMAL_MIN];
+    let mut constants = named![ACES_WHITE, ATTENUATION_MAX, COINCIDENT, GRAZING, HALFWAY_MIN, NORMAL_MIN];
     constants.push(("MIN_POSITIVE", f32::MIN_POSITIVE));
     constants
 }

@@ -9,7 +9,7 @@ use super::slopes::PowerSlopes;
 use super::{Patch, Receiver};
 use crate::equations::vector::{dot, length, neg, sub};
 use crate::equations::{
-    ATTENUATION_MAX, COINCIDENT, Coefficients, Eye, Light, Place, Real, attenuation, range_window, reflect,
+    ATTENUATION_MAX, COINCIDENT, Coefficients, Eye, GRAZING, Light, Place, Real, attenuation, range_window, reflect,
 };
 use crate::{Faces, Reflectance};
 
@@ -215,7 +215,8 @@ impl<T: Real> VertexShading<T> {
             return Some(VertexChange { ambient, diffuse: TermChange::none(), specular: TermChange::none() });
         }
         // The most that counts as in the plane of the surface.
-        let grazing = (T::of(COINCIDENT.into()) + self.receiver.coincident * weight.nearness) * (T::one() + slack());
+        let over_distance = self.receiver.coincident * T::of((GRAZING / COINCIDENT).into()) * weight.nearness;
+        let grazing = (T::of(GRAZING.into()) + over_distance) * (T::one() + slack());
         let least_facing = angle.plus(spread).cos - slack() - grazing;
         let diffuse = self.diffuse(&weight, facing, least_facing, grazing);
         let specular = self.specular(&l, &weight, least_facing, grazing);

@@ -7,7 +7,7 @@ use super::{LEAST, RAISE, TURNING, TermChange, VertexChange, VertexShading};
 use crate::bounds::chunk::{CHUNK, Chunk};
 use crate::bounds::lanes::{F, M, SLACK, V3, WideAngle, dot, load, load3, max, min, scale, splat, splat3, stored};
 use crate::bounds::power;
-use crate::equations::{ATTENUATION_MAX, COINCIDENT, Light};
+use crate::equations::{ATTENUATION_MAX, COINCIDENT, GRAZING, Light};
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd};
 
@@ -145,7 +145,8 @@ fn found<S: Simd>(simd: S, shading: &VertexShading<f32>, lights: &Chunk) -> Wide
     let around = WideAngle::of(simd, normals.spread).plus(simd, spread);
     let facing = min::<S>(angle.cos_within(simd, around), one);
     // The most that counts as in the plane of the surface.
-    let grazing = splat(simd, COINCIDENT * (1.0 + SLACK)) + splat(simd, shading.receiver.coincident) * weight.nearness;
+    let share = shading.receiver.coincident * (GRAZING / COINCIDENT) * (1.0 + SLACK);
+    let grazing = splat(simd, GRAZING * (1.0 + SLACK)) + splat(simd, share) * weight.nearness;
     let least_facing = angle.plus(simd, around).cos - splat(simd, SLACK) - grazing;
     let faces = facing.simd_gt(zero);
     let diffuse = diffuse(simd, shading, &weight, [facing, least_facing, grazing]);
