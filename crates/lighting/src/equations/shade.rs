@@ -12,9 +12,9 @@ use crate::Reflectance;
 /// their distance from the eye, so a nearer light has no direction but that of rounding errors.
 pub const COINCIDENT: f32 = 2e-6;
 
-/// A light counts as in the plane of a surface, and so as behind it, where its height over that is at most this share of
-/// ‖p‖ and its distance together. In `f32` heights are known to no more: rounding would decide, pixel by pixel, on which
-/// side a light is that stands in a floor.
+/// A light counts as in the plane of a surface, and so as behind it, where its height over that is at most this share
+/// of ‖p‖ and its distance together. In `f32` heights are known to no more: rounding would decide, pixel by pixel, on
+/// which side a light is that stands in a floor.
 pub const GRAZING: f32 = 5e-7;
 
 /// A light as it arrives at a point.

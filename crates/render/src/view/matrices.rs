@@ -113,8 +113,8 @@ pub(crate) fn select(
     report.visible = visible.0.len() as u32;
 }
 
-/// Whether a matrix takes everything to a line or a point, so that no triangle has an area. What rounding would leave of
-/// one is not to be seen.
+/// Whether a matrix takes everything to a line or a point, so that no triangle has an area. What rounding would leave
+/// of one is not to be seen.
 fn is_flat_twice(m: &DMat3) -> bool {
     let DMat3 { x_axis: x, y_axis: y, z_axis: z } = *m;
     [x.cross(y), y.cross(z), z.cross(x)].iter().all(|cofactors| *cofactors == DVec3::ZERO)
