@@ -5,7 +5,7 @@ use halfway_lighting::bounds::{
 };
 use halfway_lighting::equations::vector::{add, cross, dot, length, normalize, scale, sub};
 use halfway_lighting::equations::{
-    Coefficients, ConeTerms, Eye, Light, Place, Real, ShadedPoint, light_terms, specular_exponent,
+    Coefficients, ConeTerms, Eye, GRAZING, Light, Place, Real, ShadedPoint, light_terms, specular_exponent,
 };
 use halfway_lighting::{Faces, Reflectance};
 
@@ -137,16 +137,29 @@ impl Case {
         }
     }
 
+    /// It, its light and its eye elsewhere.
+    fn moved(self, by: V) -> Self {
+        let Place::Point(light) = self.light.place else { unreachable!("of point lights only") };
+        let Eye::Local(eye) = self.view else { unreachable!("of eyes at a place only") };
+        Self {
+            corners: self.corners.map(|corner| add(corner, by)),
+            light: Light { place: Place::Point(add(light, by)), ..self.light },
+            view: Eye::Local(add(eye, by)),
+            ..self
+        }
+    }
+
     fn shading<T: Real>(&self) -> Option<VertexShading<T>> {
         let of = |a: V| a.map(T::of);
         let center = scale(add(add(self.corners[0], self.corners[1]), self.corners[2]), 1.0 / 3.0);
         let radius = self.corners.map(|corner| length(sub(corner, center))).into_iter().fold(0.0, f64::max);
+        let rounded = length(center) * f64::from(f32::EPSILON);
         let axis = normalize(add(add(self.normals[0], self.normals[1]), self.normals[2]))?;
         let angle = |n: V| length(cross(n, axis)).atan2(dot(n, axis));
         let half_angle = self.normals.map(angle).into_iter().fold(0.0, f64::max) + 1e-6;
         let patch = Patch {
             center: of(center),
-            radius: T::of(radius * (1.0 + 1e-6)),
+            radius: T::of(radius * (1.0 + 1e-6) + rounded),
             normals: Some(NormalCone { axis: of(axis), half_angle: T::of(half_angle) }),
             half_thickness: T::of(radius),
             faces: self.faces,
@@ -284,6 +297,85 @@ fn half_a_bound_is_exceeded() {
     }
     println!("{exceeded:?}");
     assert!(exceeded.iter().all(|&times| times > 0), "{exceeded:?}");
+}
+
+/// From this size on a triangle at 512 units has corners in single precision.
+const SINGLE: f64 = 1e-3;
+
+/// A flat triangle of this size, `far` from the eye, with a light so low over its plane that it counts as in it at some
+/// of its points and as above it at others.
+fn in_the_plane(random: &mut Random, far: f64, size: f64) -> Case {
+    let corners = [0; 3].map(|_| {
+        let turn = random.between(0.0, core::f64::consts::TAU);
+        [far + size * turn.cos(), size * turn.sin(), 0.0]
+    });
+    let turn = random.between(0.0, core::f64::consts::TAU);
+    let weights = [random.next(), random.next(), random.next()];
+    let sum: f64 = weights.iter().sum();
+    let step = (0..3).fold([0.0; 3], |p, k| add(p, scale(corners[k], weights[k] / sum)));
+    let below = [far + turn.cos(), turn.sin(), 0.0];
+    let height = f64::from(GRAZING) * (length(step) + length(sub(below, step)));
+    // Numbers of single precision where those tell the corners apart, so that both precisions are of the same scene.
+    let exact = |p: V| if size < SINGLE { p } else { p.map(|x| f64::from(x as f32)) };
+    // Some are so low that the highlight is weak where it ends.
+    let [x, y, z] = random.direction();
+    let eye = add([far, 0.0, 0.0], scale([x, y, z.abs() * random.magnitude(1e-3, 1.0)], random.magnitude(1.0, 10.0)));
+    let white = [1.0; 3];
+    Case {
+        corners: corners.map(exact),
+        normals: [[0.0, 0.0, 1.0]; 3],
+        faces: Faces::Front,
+        light: Light {
+            place: Place::Point(exact([below[0], below[1], height])),
+            la: white,
+            ld: white,
+            ls: white,
+            attenuation: [1.0, 0.0, 0.0],
+            range: None,
+            cone: None,
+            attenuate_ambient: true,
+        },
+        view: Eye::Local(exact(eye)),
+        reflectance: if random.chance(0.5) { Reflectance::BlinnPhong } else { Reflectance::Phong },
+        shininess: random.magnitude(0.5, 32.0),
+    }
+}
+
+/// Where a light counts as in the plane of the surface its terms end in a step, and the bounds have room for that; those
+/// of the same triangle beside the eye, where the step is smaller, have not.
+#[test]
+fn the_step_in_the_plane_of_a_light_is_within_the_bounds() {
+    let (mut random, mut changes) = (Random(93), VertexChanges::default());
+    let (mut exceeded, mut singles) = ([0; 2], 0);
+    for number in 0..count(4_000) {
+        let size = random.magnitude(1e-6, 0.3);
+        let case = in_the_plane(&mut random, 512.0, size);
+        let holds = |found: Result<[f64; 3], String>| {
+            found.unwrap_or_else(|text| panic!("case {number}: {text}\n{case:#?}"));
+        };
+        let change = |case: &Case| case.shading::<f64>().and_then(|shading| shading.change(&case.light));
+        // Of some nothing is said, whose eye is among the points.
+        let Some(own) = change(&case) else { continue };
+        holds(case.check_change(own, 8, 1.0));
+        let light = case.light.cast();
+        let single = case.shading::<f32>().filter(|_| size >= SINGLE);
+        if let Some((shading, found)) = single.and_then(|shading| Some((shading, shading.change(&light)?))) {
+            holds(case.check_change(found, 8, 1.0));
+            changes.begin();
+            holds(case.check_change(changes.find(&shading, &[light], &[0])[0].expect("as before"), 8, 1.0));
+            singles += 1;
+        }
+        let near = change(&case.moved([-512.0, 0.0, 0.0])).expect("apart from light and eye");
+        for (k, planted) in
+            [VertexChange { diffuse: near.diffuse, ..own }, VertexChange { specular: near.specular, ..own }]
+                .into_iter()
+                .enumerate()
+        {
+            exceeded[k] += u32::from(case.check_change(planted, 8, 1.0).is_err());
+        }
+    }
+    println!("{exceeded:?} {singles}");
+    assert!(exceeded.into_iter().chain([singles]).all(|times| times > 0), "{exceeded:?} {singles}");
 }
 
 /// Prints what one light costs for one patch.

@@ -118,8 +118,9 @@ pub struct VertexChange<T> {
 /// | att·spot | ½·A″·r² | the above |
 /// | diffuse | 2 sin(R/2)·L·r + ½·W·r², and (1 − cos R)·A·x more where it is darker | w = A·l: Σ bᵢ·nᵢ·wᵢ − N·w = −(1 − ‖m‖)·N·w + Σ bᵢ·(nᵢ − N)·(wᵢ − w) + N·(Σ bᵢ·wᵢ − w); L and W bound w′ and w″ |
 /// | diffuse, where n·l changes sign | ½·(A·sin R + L·r) more where it is brighter | the gap of max(z, 0) over zᵢ with a span s is s/4, and s is at most 2·(A·sin R + L·r) |
+/// | diffuse, where the light may count as in the plane | A·g more, g the largest [`Incidence::grazing`](crate::equations::Incidence::grazing) | the step from n·l = g to 0 is A·g high, at the point or at its corners |
 /// | specular, n the exponent and f the angle of its cosine | ½·A·(M·ω² + K·a) + A′·r·K·ω + ½·A″·r² S | ω and a bound speed and acceleration of that angle, M and K the second and the first derivative of cosⁿ f |
-/// | specular, where n·l changes sign | A·min(S, gⁿ), if that is more | it is cut off there, where its cosine is at most g: of h, (x + N·v)/‖l + v‖ with x the span of n·l |
+/// | specular, where n·l changes sign | A·min(S, cⁿ), if that is more | it is cut off there, where its cosine is at most c: of h, (x + N·v)/‖l + v‖ with x the span of n·l and g |
 ///
 /// No change is larger than the difference between the term's largest value and its smallest.
 #[derive(Clone, Copy, Debug)]
@@ -327,15 +328,15 @@ impl<T: Real> VertexShading<T> {
         let turned = self.sin_r / (half * (one + self.cos_r)).sqrt();
         let both = turned * first * r + half * second * r * r;
         let shorter = self.sin_r * self.sin_r / (one + self.cos_r) * largest * facing;
-        let kink = if least_facing < T::zero() {
-            let span = half * (largest * self.sin_r + first * r);
-            // And the step where it counts as behind.
-            (span + largest * grazing).min(largest * facing).min(-largest * least_facing)
+        let [kink, step] = if least_facing < T::zero() {
+            let (span, step) = (half * (largest * self.sin_r + first * r), largest * grazing);
+            let below = (-largest * (least_facing + grazing)).max(T::zero());
+            [span.min(largest * facing).min(below) + step, step]
         } else {
-            T::zero()
+            [T::zero(); 2]
         };
         let at_least = least * least_facing.max(T::zero());
-        let change = TermChange { brighter: both + kink, darker: both + shorter, least: at_least };
+        let change = TermChange { brighter: both + kink, darker: both + shorter + step, least: at_least };
         change.limited(largest * facing - at_least, largest)
     }
 

@@ -264,10 +264,12 @@ fn diffuse<S: Simd>(
     let both = splat(simd, turned) * first * r + half * second * r * r;
     let shorter = splat(simd, shading.sin_r * shading.sin_r / (1.0 + shading.cos_r)) * largest * facing;
     let span = half * (largest * splat(simd, shading.sin_r) + first * r);
-    let kink = min::<S>(min::<S>(span + largest * grazing, largest * facing), -largest * least_facing);
-    let kink = least_facing.simd_lt(zero).select(kink, zero);
+    let step = largest * grazing;
+    let below = max::<S>(-largest * (least_facing + grazing), zero);
+    let kink = min::<S>(min::<S>(span, largest * facing), below);
+    let [kink, step] = [kink + step, step].map(|change| least_facing.simd_lt(zero).select(change, zero));
     let at_least = least * max::<S>(least_facing, zero);
-    limited(simd, [both + kink, both + shorter, at_least], largest * facing - at_least, largest)
+    limited(simd, [both + kink, both + shorter + step, at_least], largest * facing - at_least, largest)
 }
 
 #[inline(always)]
