@@ -1,5 +1,5 @@
-//! What the fuzz targets share: it is what the tests of past failures do too, `crates/mesh/tests/past_failures.rs` and
-//! `crates/scene/tests/past_failures.rs`.
+//! What the fuzz targets share: it is what the tests of past failures do too, `tests/past_failures.rs` of the crates
+//! mesh, scene and texture.
 
 #[path = "../../crates/mesh/tests/common/mod.rs"]
 mod common;
@@ -9,6 +9,8 @@ mod counting;
 mod fuzzed;
 #[path = "../../crates/mesh/tests/common/targets.rs"]
 mod targets;
+#[path = "../../crates/texture/tests/common/fuzzed.rs"]
+mod texture;
 
 use counting::Counting;
 
@@ -29,4 +31,12 @@ pub fn feed(target: &str, bytes: &[u8]) {
 /// As [`feed`].
 pub fn feed_scene(bytes: &[u8]) {
     fuzzed::feed(bytes);
+}
+
+/// Feeds the reader of images.
+///
+/// # Panics
+/// As [`feed`].
+pub fn feed_image(bytes: &[u8]) {
+    texture::feed(bytes);
 }

@@ -18,12 +18,12 @@ const MOST_TIME: &str = "-timeout=10";
 /// Where Linux keeps files in memory.
 const MEMORY: &str = "/dev/shm";
 
-/// Feed the readers of model and scene files what a fuzzer makes up, and see that they bear it
+/// Feed the readers of model, scene and image files what a fuzzer makes up, and see that they bear it
 ///
 /// Nothing may panic, overflow, hang, or take memory out of proportion, and what is read must be sound. A target for
-/// each format of models, one for scene files (scene), for material libraries (mtl) and for the parts of binary glTF
-/// (`glb_chunks`). Prints how often
-/// each was run; a failing input is kept, and how to try it again and where to put it as a test is printed.
+/// each format of models, one for scene files (scene), for images of all formats (image), for material libraries (mtl)
+/// and for the parts of binary glTF (`glb_chunks`). Prints how often each was run; a failing input is kept, and how to
+/// try it again and where to put it as a test is printed.
 /// cargo-fuzz and a C++ compiler are installed first where they are missing.
 #[derive(Args, Debug)]
 #[command(verbatim_doc_comment)]
@@ -33,6 +33,9 @@ pub(crate) struct Options {
     /// How long each target is run
     #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..))]
     seconds: u32,
+    /// Then keep of the inputs found no more than what reaches everything that all of them reach
+    #[arg(long)]
+    minimise: bool,
     /// What is fuzzed, by name; all where none is named
     #[arg(value_name = "TARGET")]
     targets: Vec<String>,
@@ -47,8 +50,12 @@ pub(crate) fn run(options: &Options) -> Result {
     let mut failures = Vec::new();
     let mut table = Vec::new();
     for target in targets {
-        match fuzzed(&target, options.seconds) {
-            Ok(row) => table.push(format!("{target:12} {row}")),
+        let row = fuzzed(&target, options.seconds).and_then(|counts| {
+            let kept = if options.minimise { minimised(&target)? } else { String::new() };
+            Ok(format!("{target:12} {counts}{kept}"))
+        });
+        match row {
+            Ok(row) => table.push(row),
             Err(failure) => failures.push(failure.to_string()),
         }
     }
@@ -127,6 +134,26 @@ fn fuzzed(target: &str, seconds: u32) -> Result<Counts> {
     })
 }
 
+/// Brings the inputs found to the fewest that reach as much, and says how many there were and are.
+fn minimised(target: &str) -> Result<String> {
+    let corpus = format!("fuzz/corpus/{target}");
+    let folder = root().join(&corpus);
+    let count = || std::fs::read_dir(&folder).map(Iterator::count);
+    let failed = |error| Failure::new(format!("{corpus}: {error}"));
+    let before = count().map_err(failed)?;
+    let mut command = fuzz("cmin", &[target.into(), corpus.clone(), "--".into(), MOST_MEMORY.into(), MOST_TIME.into()]);
+    if Path::new(MEMORY).is_dir() {
+        command.env("TMPDIR", MEMORY);
+    }
+    announce(&format!("{target}, minimised"), &command);
+    let output = command.output().map_err(|error| not_started(&command, &error))?;
+    if !output.status.success() {
+        eprintln!("{}", String::from_utf8_lossy(&output.stderr).trim_end());
+        return Err(ended(&command, output.status));
+    }
+    Ok(format!("  {before} inputs kept as {}", count().map_err(failed)?))
+}
+
 /// The dictionary of a target: binary glTF is glTF inside.
 fn language(target: &str) -> &str {
     if target.starts_with("glb") { "gltf" } else { target }
@@ -148,7 +175,11 @@ fn advice(target: &str, input: &str) -> String {
 
 /// The crate with the test of inputs that once failed, and the folder among them for those of a target.
 fn past_failures(target: &str) -> (&'static str, String) {
-    if target == "scene" { ("scene", String::new()) } else { ("mesh", format!("/{target}")) }
+    match target {
+        "scene" => ("scene", String::new()),
+        "image" => ("texture", String::new()),
+        model => ("mesh", format!("/{model}")),
+    }
 }
 
 /// What a run counted.
@@ -222,7 +253,7 @@ mod tests {
         assert_eq!(input(said), Some("/a/crash-1"));
         let advice = advice("smf", "/a/crash-1");
         assert!(advice.contains("fuzz run --sanitizer none smf /a/crash-1\n"), "{advice}");
-        for target in ["smf", "scene"] {
+        for target in ["smf", "scene", "image"] {
             let (krate, folder) = past_failures(target);
             let test = root().join(format!("crates/{krate}/tests/past_failures.rs"));
             assert!(test.is_file(), "{}", test.display());

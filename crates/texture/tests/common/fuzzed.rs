@@ -1,0 +1,32 @@
+//! What fuzzing asks of the reader of images: that it does not panic, that an error names the image, and that what was
+//! read is an image, of numbers in their ranges.
+
+use halfway_texture::{TexelImage, TexelMeaning, decode};
+
+/// Reads the bytes as an image, by either meaning.
+pub(crate) fn feed(bytes: &[u8]) {
+    let [color, data] = [TexelMeaning::Color, TexelMeaning::Data].map(|meaning| decode(bytes, "fuzzed", meaning));
+    match (color, data) {
+        (Ok(color), Ok(data)) => {
+            assert_eq!(color.size(), data.size());
+            let is_float = bytes.starts_with(b"\x76\x2F\x31\x01") || bytes.starts_with(b"#?");
+            for image in [color, data] {
+                check(&image, is_float);
+            }
+        }
+        (Err(color), Err(data)) => {
+            assert_eq!(color.to_string(), data.to_string());
+            assert!(color.to_string().starts_with("fuzzed"), "{color}");
+        }
+        (color, data) => panic!("as a color {:?}, and as data {:?}", color.err(), data.err()),
+    }
+}
+
+fn check(image: &TexelImage, is_float: bool) {
+    let [width, height] = image.size();
+    assert_eq!(image.texels().len() as u64, u64::from(width) * u64::from(height));
+    assert!(!image.texels().is_empty());
+    for number in image.texels().as_flattened() {
+        assert!(if is_float { number.is_finite() } else { (0.0..=1.0).contains(number) }, "{number}");
+    }
+}

@@ -1,0 +1,42 @@
+//! What fuzzing found once in the reader of images, and what it starts from: the files of `past_failures` here and of
+//! `fuzz/seeds/image`.
+
+#[path = "common/fuzzed.rs"]
+mod fuzzed;
+
+use std::fs;
+use std::path::Path;
+
+use halfway_texture::{TexelMeaning, load};
+
+#[test]
+fn past_failures_and_seeds_are_read_or_refused_soundly() {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut count = 0;
+    for folder in ["../../fuzz/seeds/image", "tests/past_failures"] {
+        // Nothing has failed yet: then the second is not there.
+        for file in fs::read_dir(here.join(folder)).into_iter().flatten() {
+            let file = file.unwrap().path();
+            // Shown where the test fails.
+            println!("{}", file.display());
+            fuzzed::feed(&fs::read(&file).unwrap());
+            count += 1;
+        }
+    }
+    assert!(count > 0);
+}
+
+/// The seeds are whole images, of every format.
+#[test]
+fn the_seeds_are_images() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz/seeds/image");
+    let mut endings = std::collections::BTreeSet::new();
+    for file in fs::read_dir(folder).unwrap() {
+        let file = file.unwrap().path();
+        // Those that fuzzing kept have no ending.
+        let Some(ending) = file.extension() else { continue };
+        load(&file, TexelMeaning::Color).unwrap();
+        endings.insert(ending.to_owned());
+    }
+    assert_eq!(endings.into_iter().collect::<Vec<_>>(), ["exr", "hdr", "jpg", "png"]);
+}

@@ -1,0 +1,4 @@
+//! PNG, JPEG, Radiance HDR and EXR files.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| halfway_fuzz::feed_image(bytes));
