@@ -83,16 +83,14 @@ impl fmt::Display for Finding {
 }
 
 impl Judge {
-    /// Judges what `adapter` draws. Paths of scenes are relative to `base_dir`.
-    pub fn new(adapter: Adapter, base_dir: impl Into<PathBuf>) -> Self {
-        Self { adapter, base_dir: base_dir.into(), grid: FINE, four: false, tolerance: None, fault: None }
-    }
-
-    /// Judges an adapter that puts vertices on a grid of so many bits, 4 to 8, which is Vulkan's
-    /// `subPixelPrecisionBits`; 8 unless said. The coarser the grid, the more a slope may be off.
-    #[must_use]
-    pub fn with_grid(self, bits: u32) -> Self {
-        Self { grid: bits.clamp(4, FINE), ..self }
+    /// Judges what `adapter` draws. Paths of scenes are relative to `base_dir`. The coarser the grid that the adapter
+    /// puts vertices on, the more a slope may be off.
+    ///
+    /// # Errors
+    /// The adapter fails to draw what tells its grid.
+    pub fn new(adapter: Adapter, base_dir: impl Into<PathBuf>) -> Result<Self, RenderError> {
+        let grid = adapter.sub_pixel_bits()?.clamp(4, FINE);
+        Ok(Self { adapter, base_dir: base_dir.into(), grid, four: false, tolerance: None, fault: None })
     }
 
     /// Draws and judges scenes with four samples a pixel as they are. Adapters differ in where they shade a pixel that

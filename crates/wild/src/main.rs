@@ -36,9 +36,6 @@ struct Arguments {
     /// or both, such as gl:llvmpipe
     #[arg(long, value_name = "NAME", value_parser = NonEmptyStringValueParser::new())]
     adapter: Option<String>,
-    /// The bits of the grid of a pixel that the adapter puts vertices on; some have 4
-    #[arg(long, value_name = "BITS", default_value_t = 8, value_parser = clap::value_parser!(u32).range(4..=8))]
-    grid: u32,
     /// Draw scenes with four samples a pixel as they are, not with one
     #[arg(long)]
     four: bool,
@@ -47,7 +44,7 @@ struct Arguments {
     tolerance: Option<Tolerance>,
     /// Draw no random scenes, but N frames of an animation by automatic shading, each within another tolerance of ½ to
     /// 8 steps, and judge each; it has 300
-    #[arg(long, value_name = "FRAMES", conflicts_with_all = ["seed", "scenes", "first", "grid", "four", "tolerance"])]
+    #[arg(long, value_name = "FRAMES", conflicts_with_all = ["seed", "scenes", "first", "four", "tolerance"])]
     animation: Option<u32>,
     /// Judge a failure at most so often to make it small
     #[arg(long, value_name = "N", default_value_t = 500)]
@@ -96,7 +93,8 @@ fn run(arguments: &Arguments) -> Result<u64, (u8, String)> {
     }
     println!("{}, seed {}", adapter.describe(), arguments.seed);
     write_images(&arguments.output).map_err(|error| (1, error))?;
-    let mut judge = Judge::new(adapter, &arguments.output).with_grid(arguments.grid).with_four_samples(arguments.four);
+    let judge = Judge::new(adapter, &arguments.output).map_err(|error| (3, error.to_string()))?;
+    let mut judge = judge.with_four_samples(arguments.four);
     if let Some(tolerance) = arguments.tolerance {
         judge = judge.with_tolerance(tolerance);
     }

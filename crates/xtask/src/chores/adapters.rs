@@ -14,7 +14,8 @@ use crate::tally::counted;
 ///
 /// These are lavapipe (Vulkan), lavapipe in the ways of hardware, llvmpipe through OpenGL, `SwiftShader`, the software
 /// Vulkan driver of chromium, and the CPU without a driver. On each: the conformance suite, all three shadings with few
-/// and many lights, and `halfway verify` over examples/scenes; on the CPU all picture tests that are not about wgpu.
+/// and many lights, the random scenes that failed once, and `halfway verify` over examples/scenes; on the CPU all picture
+/// tests that are not about wgpu.
 /// Each suite prints the worst figures, from which the table in docs/accuracy.md is.
 /// What is missing is installed first, as for `cargo xtask test`, of which this is a part; but there the drivers share
 /// the suite's rows with colours of vertices, images, solids and environments among them, since they take minutes to
@@ -32,7 +33,7 @@ pub(crate) fn run(options: &Options) -> Result {
         return Err(Failure::new("the adapters are those of Linux: here the tests run on the system's own"));
     }
     options.setup.meet(&NEEDS)?;
-    step("build", &mut cargo(["test", "--release", "--workspace", "--test", "render", "--no-run"]))?;
+    step("build", &mut cargo(["test", "--release", "--workspace", "--test", "render", "--test", "wild", "--no-run"]))?;
     try_each(all()?)
 }
 
@@ -91,7 +92,11 @@ fn leave_out_what_runs(adapters: &mut [TriedAdapter], line: &str, tests: Option<
 const TESTS: [&str; 5] =
     ["render::adapter::", "render::auto::", "render::conformance::", "render::costs::", "render::light_counts::"];
 
-/// Those of them that the CPU draws, whatever the adapter.
+/// The tests of the program `wild` that each driver runs, and those of what is known to fail where it is told by driver.
+const WILD: [&str; 1] = ["scenes_that_failed_once_are_right"];
+const KNOWN_WILD: &str = "known_failures_fail";
+
+/// Those of [`TESTS`] that the CPU draws, whatever the adapter.
 const ON_THE_CPU: &str = "with_four_samples";
 
 /// Which of the conformance suite's rows with textures are drawn: drivers take minutes to compile all of them.
@@ -257,12 +262,22 @@ impl TriedAdapter {
         if self.tests == Tests::None {
             return Ok(());
         }
-        let words = ["test", "--release", "--workspace", "--test", "render", "--", "--show-output"];
-        let mut command = cargo(words.into_iter().chain(self.tests.arguments()));
-        let (tally, outcome) = counted(self.name, self.lend(&mut command))?;
+        self.run("render", &self.tests.arguments())?;
+        match self.tests {
+            Tests::None | Tests::Most => Ok(()),
+            Tests::Few if self.name == SWIFTSHADER_NAME => self.run("wild", &[WILD.as_slice(), &[KNOWN_WILD]].concat()),
+            Tests::Few => self.run("wild", &WILD),
+        }
+    }
+
+    /// Runs tests of a program, chosen by these arguments.
+    fn run(&self, program: &str, arguments: &[&str]) -> Result {
+        let words = ["test", "--release", "--workspace", "--test", program, "--", "--show-output"];
+        let mut command = cargo(words.into_iter().chain(arguments.iter().copied()));
+        let (tally, outcome) = counted(&format!("{program} on {}", self.name), self.lend(&mut command))?;
         eprintln!("{tally}");
         outcome?;
-        if tally.passed == 0 { Err(Failure::new("no test ran")) } else { Ok(()) }
+        if tally.passed == 0 { Err(Failure::new(format!("no test of {program} ran"))) } else { Ok(()) }
     }
 
     fn verify(&self) -> Result {
