@@ -1,6 +1,7 @@
 //! Choosing a graphics adapter by its name.
 
 use crate::command::{asset, folder, succeeds};
+use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
@@ -29,6 +30,36 @@ fn name_of(line: &str) -> String {
     let (name, kind) = line.rsplit_once(" (").expect("a name and a backend");
     let backend = kind.split([',', ')']).next().unwrap_or_default();
     format!("{backend}:{}", name.split(' ').next().unwrap_or_default())
+}
+
+/// What draws with these variables and arguments, by what `verify` says of it.
+#[track_caller]
+fn device(folder: &Path, set: &[(&str, &str)], more: &[&str]) -> String {
+    let teapot = asset("assets/teapot.obj");
+    // How near it is to the oracle is for other tests to say.
+    let verify = ["verify", &teapot, "--size", "16x12", "--json", "--max", "255"];
+    let output = run(folder, set, &[&verify[..], more].concat());
+    assert!(output.status.success(), "{set:?} {more:?}: {output:?}");
+    let json: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    json["device"].as_str().expect("a line of the list").to_owned()
+}
+
+/// The first of these lines that is about this backend.
+#[cfg(target_os = "linux")]
+#[track_caller]
+fn line_of<'a>(all: &'a [String], backend: &str) -> &'a str {
+    let line = all.iter().find(|line| line.contains(&format!(" ({backend}")));
+    line.unwrap_or_else(|| panic!("no adapter of {backend}; `cargo xtask test` installs its driver: {all:?}"))
+}
+
+// Else a list of one would do for the tests that go through it.
+#[cfg(target_os = "linux")]
+#[test]
+fn the_list_has_vulkan_opengl_and_the_cpu() {
+    let all = listed(&folder("three_adapters"), &[]);
+    for backend in ["vulkan", "gl", "cpu"] {
+        line_of(&all, backend);
+    }
 }
 
 #[test]
@@ -95,6 +126,72 @@ fn a_name_that_fits_nothing_lists_what_there_is() {
     }
 }
 
+#[test]
+fn wgpu_s_own_variable_chooses_any_driver_of_the_list() {
+    let folder = folder("own_variable");
+    let all = listed(&folder, &[]);
+    let drivers: Vec<_> = all.iter().filter(|line| !line.contains(" (cpu")).collect();
+    assert!(!drivers.is_empty(), "{all:?}");
+    for line in drivers {
+        assert_eq!(device(&folder, &[("WGPU_ADAPTER_NAME", &name_of(line))], &[]), *line);
+    }
+}
+
+// What `AdapterChoice` and docs/decisions/0027-which-adapter.md promise.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_name_goes_before_named_drivers_and_brings_back_none_that_they_hide() {
+    let folder = folder("named_drivers");
+    let all = listed(&folder, &[]);
+    let [vulkan, gl, cpu] = ["vulkan", "gl", "cpu"].map(|backend| line_of(&all, backend));
+    let of_gl = name_of(gl);
+    // Drivers that are named are asked for, software ones included, and a name says more.
+    let mesa_s = ("VK_DRIVER_FILES", "/usr/share/vulkan/icd.d");
+    assert!(device(&folder, &[mesa_s], &[]).contains(" (vulkan"));
+    for (name, line) in [("cpu", cpu), (of_gl.as_str(), gl)] {
+        assert_eq!(device(&folder, &[mesa_s], &["--adapter", name]), line);
+        assert_eq!(device(&folder, &[mesa_s, ("HALFWAY_ADAPTER", name)], &[]), line);
+    }
+    assert_eq!(device(&folder, &[mesa_s, ("WGPU_BACKEND", "gl")], &[]), gl);
+    // Without any driver of Vulkan's there is none to choose, by whatever name; the others can be.
+    let none = [("VK_DRIVER_FILES", "/nowhere.json"), ("VK_ICD_FILENAMES", "/nowhere.json")];
+    assert_eq!(device(&folder, &none, &["--adapter", &of_gl]), gl);
+    let teapot = asset("assets/teapot.obj");
+    let output = run(&folder, &none, &["render", &teapot, "-o", "a.png", "--adapter", &name_of(vulkan)]);
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(3), "{error}");
+    assert!(error.contains("no graphics adapter fits") && error.contains(gl) && error.contains(cpu), "{error}");
+    assert!(!error.contains(vulkan) && !folder.join("a.png").exists(), "{error}");
+}
+
+/// A blended box before the camera, brighter than 16-bit floats can be.
+const BRIGHT: &str = r#"{"size": [8, 8], "lights": [], "camera": {"position": [0, 0, 3], "target": [0, 0, 0]},
+    "objects": [{"mesh": {"box": {}}, "blend": true,
+        "material": {"diffuse": [0, 0, 0], "emission": [100000, 100000, 100000]}}]}"#;
+
+#[test]
+fn a_picture_holds_32_bit_floats_or_is_an_error_and_no_file() {
+    for line in listed(&folder("floats"), &[]) {
+        let folder = folder("floats");
+        fs::write(folder.join("bright.json"), BRIGHT).expect("the folder can be written");
+        let name = name_of(&line);
+        let draw = |file: &str| run(&folder, &[], &["render", "bright.json", "-o", file, "--adapter", &name]);
+        let output = draw("a.exr");
+        if output.status.success() {
+            let picture = image::open(folder.join("a.exr")).expect("it was written").into_rgb32f();
+            assert!(picture.get_pixel(4, 4).0.iter().all(|value| (value - 1e5).abs() < 1.0), "{line}: {picture:?}");
+        } else {
+            let error = String::from_utf8_lossy(&output.stderr);
+            assert_eq!(output.status.code(), Some(2), "{line}: {error}");
+            assert!(error.contains("32-bit floats, and the adapter cannot"), "{line}: {error}");
+            assert!(!line.contains(" (cpu"), "{error}");
+            assert_eq!(fs::read_dir(&folder).expect("it was made").count(), 1, "{line}: something was left");
+        }
+        // One of the ways out that the error names.
+        assert!(draw("a.png").status.success(), "{line}");
+    }
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn opengl_is_tried_before_giving_up() {
@@ -123,7 +220,9 @@ fn opengl_is_tried_before_giving_up() {
 fn a_machine_without_a_session_hears_nothing_of_it() {
     let folder = folder("no_session");
     let teapot = asset("assets/teapot.obj");
-    for arguments in [&["render", &teapot, "--size", "32x24", "-o", "a.png"][..], &["adapters"]] {
+    let render = ["render", &teapot, "--size", "32x24", "-o", "a.png"];
+    // The second draws with a driver, whatever the machine would choose.
+    for arguments in [&render[..], &[&render[..], &["--adapter", "gpu"]].concat(), &["adapters"]] {
         let output = run(&folder, &[], arguments);
         assert!(output.status.success(), "{output:?}");
         assert_eq!(String::from_utf8_lossy(&output.stderr), "", "{arguments:?}");
