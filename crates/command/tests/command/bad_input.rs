@@ -118,16 +118,38 @@ fn the_largest_pictures_are_not_too_large_to_compare() {
         drop(encoder.write_header().expect("memory takes it"));
         fs::write(folder.join(name), bytes).expect("the folder can be written");
     };
-    header("largest.png", 16384);
-    header("larger.png", 16385);
+    // The same of the format that takes most, made from one of a single pixel.
+    image::Rgba32FImage::new(1, 1).save(folder.join("one.exr")).expect("the folder can be written");
+    let one = fs::read(folder.join("one.exr")).expect("it was written");
+    let large = |name: &str, side: u32| {
+        let mut bytes = one.clone();
+        let mut set = |attribute: &[u8], at: usize, value: u32| {
+            let start = bytes.windows(attribute.len()).position(|part| part == attribute).expect("it is in each file");
+            // After its name there are four bytes of its length.
+            let start = start + attribute.len() + 4 + at;
+            bytes[start..start + 4].copy_from_slice(&value.to_le_bytes());
+        };
+        for window in [b"displayWindow\0box2i\0".as_slice(), b"dataWindow\0box2i\0"] {
+            set(window, 8, side - 1);
+            set(window, 12, side - 1);
+        }
+        set(b"chunkCount\0int\0", 0, side.div_ceil(64).pow(2));
+        fs::write(folder.join(name), bytes).expect("the folder can be written");
+    };
+    for (side, name) in [(16384, "largest"), (16385, "larger")] {
+        header(&format!("{name}.png"), side);
+        large(&format!("{name}.exr"), side);
+    }
     let refused = |name: &str| {
         let output = halfway(&folder, &["compare", name, name]);
         assert_eq!(output.status.code(), Some(2), "{output:?}");
         String::from_utf8_lossy(&output.stderr).to_lowercase()
     };
-    let (largest, larger) = (refused("largest.png"), refused("larger.png"));
-    assert!(!largest.contains("limit") && !largest.contains("memory"), "{largest}");
-    assert!(larger.contains("limit") || larger.contains("memory"), "{larger}");
+    for ending in ["png", "exr"] {
+        let [largest, larger] = ["largest", "larger"].map(|name| refused(&format!("{name}.{ending}")));
+        assert!(!largest.contains("limit") && !largest.contains("memory"), "{largest}");
+        assert!(larger.contains("limit") || larger.contains("memory"), "{larger}");
+    }
 }
 
 #[cfg(unix)]
