@@ -49,3 +49,31 @@ fn turn(
     }
     table.frame += 1;
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_camera_goes_round_the_middle_by_its_step_a_frame() {
+        let mut app = App::new();
+        app.add_plugins(HalfwayPlugins::reference());
+        let mesh = app.world_mut().resource_mut::<Assets<Mesh>>().add(Cuboid::default());
+        // Their middle is 4 before the camera and 1 beside its axis.
+        for at in [Vec3::new(-1.0, 2.0, -3.0), Vec3::new(3.0, 2.0, 1.0)] {
+            app.world_mut().spawn((Mesh3d(mesh.clone()), Transform::from_translation(at)));
+        }
+        let camera = app.world_mut().spawn((Camera::default(), Transform::from_xyz(0.0, 2.0, 3.0))).id();
+        Turntable::turn(&mut app, camera, 1.0_f32.to_radians());
+        app.finish();
+        app.cleanup();
+        for frame in 0..=90_u16 {
+            app.update();
+            let (sin, cos) = f32::from(frame).to_radians().sin_cos();
+            let at = app.world().get::<Transform>(camera).expect("the camera stays");
+            let expected = Vec3::new(4.0 * sin, 2.0, 4.0 * cos - 1.0);
+            assert!((at.translation - expected).length() < 1e-4, "frame {frame}: {at:?}");
+            assert!((*at.forward() - Vec3::new(-sin, 0.0, -cos)).length() < 1e-4, "frame {frame}: {at:?}");
+        }
+    }
+}

@@ -1,6 +1,7 @@
 //! What `bench` times and prints.
 
 use crate::command::{asset, folder, halfway, succeeds};
+use std::fs;
 use std::path::Path;
 
 /// What `halfway` prints as JSON.
@@ -87,6 +88,40 @@ fn any_scene_or_model_is_timed() {
     // The scene's own size.
     let table = succeeds(&folder, &["bench", &asset("examples/scenes/brass_teapot.json"), "--rounds", "1"]);
     assert!(table.contains("scene: brass_teapot.json, ") && table.contains("| constant | "), "{table}");
+}
+
+/// A count of each row of a scene file or model whose frames are timed, so many rounds of them.
+#[track_caller]
+fn counts(folder: &Path, file: &str, rounds: &str, count: &str) -> Vec<u64> {
+    let bench = ["bench", file, "--adapter", "cpu", "--size", "16x16", "--rounds", rounds];
+    let value = json_of(folder, &[&bench[..], &["--tolerance", "exact", "--json"]].concat());
+    let rows = value["rows"].as_array().expect("rows");
+    rows.iter().map(|row| row["report"][count].as_u64().expect("a count")).collect()
+}
+
+#[test]
+fn the_camera_turns_by_one_degree_a_frame() {
+    let folder = folder("bench_turn");
+    // The second box is seen from around 90° only.
+    let scene = r#"{"camera": {"position": [0, 0, 5], "target": [0, 0, 0], "fov_y_deg": 30}, "objects": [
+        {"mesh": {"box": {}}}, {"mesh": {"box": {}}, "transform": {"translation": [-10, 0, 0]}}]}"#;
+    fs::write(folder.join("turn.json"), scene).expect("the folder can be written");
+    // A round draws three frames, one of them not timed, and 3 to 20 go before the first.
+    for (rounds, visible) in [("1", 1), ("29", 2), ("59", 1), ("149", 2)] {
+        assert_eq!(counts(&folder, "turn.json", rounds, "visible"), [visible; 6], "{rounds} rounds");
+    }
+}
+
+#[test]
+fn a_model_is_timed_under_the_lights_that_it_is_drawn_under() {
+    let folder = folder("bench_model_lights");
+    let cube = asset("assets/cube.smf");
+    let dark = serde_json::json!({ "lights": [], "objects": [{ "mesh": { "path": cube } }] });
+    fs::write(folder.join("dark.json"), dark.to_string()).expect("the folder can be written");
+    // A key light, a fill light and a headlight; a candle of its own; and none, since the file says so.
+    for (file, lights) in [(cube.as_str(), 3), (&asset("assets/lantern.glb"), 1), ("dark.json", 0)] {
+        assert_eq!(counts(&folder, file, "1", "lights"), [lights; 6], "{file}");
+    }
 }
 
 #[test]
