@@ -4,7 +4,7 @@ use std::path::Path;
 
 use halfway::prelude::*;
 use halfway::scene::SceneFile;
-use image::{DynamicImage, ImageReader, Limits};
+use image::{DynamicImage, ImageDecoder, ImageReader, Limits};
 
 use crate::failure::Failure;
 
@@ -14,8 +14,14 @@ pub(crate) fn decoded(file: &Path) -> Result<DynamicImage, Failure> {
         Failure::from(format!("{}: cannot be read as a picture: {error}; expected a PNG or EXR", file.display()))
     };
     let mut reader = ImageReader::open(file).and_then(ImageReader::with_guessed_format).map_err(|e| unreadable(&e))?;
-    reader.limits(limits());
-    reader.decode().map_err(|error| unreadable(&error))
+    let mut limits = limits();
+    reader.limits(limits.clone());
+    let mut decoder = reader.into_decoder().map_err(|error| unreadable(&error))?;
+    let bytes = decoder.total_bytes();
+    limits.reserve(bytes).and_then(|()| decoder.set_limits(limits)).map_err(|error| unreadable(&error))?;
+    // The decoder takes its memory at once, and a program that is refused it ends.
+    Vec::<u8>::new().try_reserve_exact(bytes as usize).map_err(|error| unreadable(&error))?;
+    DynamicImage::from_decoder(decoder).map_err(|error| unreadable(&error))
 }
 
 /// The largest pictures that are drawn, in the format that takes most: four channels of 32 bits.

@@ -60,6 +60,11 @@ pub fn decode(bytes: &[u8], name: &str, meaning: TexelMeaning) -> Result<TexelIm
     let mut limits = Limits::default();
     limits.max_alloc = Some(decoder.total_bytes().saturating_mul(2).saturating_add(1 << 24));
     decoder.set_limits(limits).map_err(|error| broken(error.to_string()))?;
+    // The decoder takes its memory at once, and a program that is refused it ends.
+    let bytes = decoder.total_bytes();
+    Vec::<u8>::new()
+        .try_reserve_exact(bytes as usize)
+        .map_err(|_| TextureError::Memory { image: name.into(), bytes })?;
     let image = DynamicImage::from_decoder(decoder).map_err(|error| broken(error.to_string()))?;
     let mut texels = Vec::new();
     let count = width as usize * height as usize;

@@ -150,6 +150,15 @@ fn the_largest_pictures_are_not_too_large_to_compare() {
         assert!(!largest.contains("limit") && !largest.contains("memory"), "{largest}");
         assert!(larger.contains("limit") || larger.contains("memory"), "{larger}");
     }
+    // Memory that is refused is an error, and no end of the program.
+    if cfg!(target_os = "linux") {
+        let mut command = Command::new("sh");
+        let line = r#"ulimit -v 1000000; exec "$0" compare largest.exr largest.exr"#;
+        let output = command.args(["-c", line, env!("CARGO_BIN_EXE_halfway")]).current_dir(&folder).output();
+        let output = output.expect("there is a shell");
+        let said = String::from_utf8_lossy(&output.stderr).to_lowercase();
+        assert!(output.status.code() == Some(2) && said.contains("memory"), "{output:?}");
+    }
 }
 
 #[cfg(unix)]
