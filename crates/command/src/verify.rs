@@ -73,7 +73,7 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
         draw(app, size, values)
     };
     let picture = draw(&mut app, Pixels::Byte)?;
-    let bytes = Drawn::new(&mut app, &picture, (size, pixels, bits), encoding, (0, &progress))?;
+    let mut bytes = Drawn::new(&mut app, &picture, (size, pixels, bits), encoding, (0, &progress))?;
     let of_bytes = bytes.judged(bars)?;
     let float = match draw(&mut app, Pixels::Float) {
         // The bytes are judged all the same.
@@ -142,7 +142,8 @@ fn judge_picture(args: &VerifyArgs, mut input: SceneInput, file: &Path) -> Resul
     let expected = oracle
         .draw_with(&|done, of| progress.tile(0, 1, done, of))
         .map_err(|stopped| Failure::new(STOPPED, stopped))?;
-    let drawn = Drawn { oracle, on_grid: None, actual: Image::from_decoded(&picture, encoding), expected, moved: None };
+    let mut drawn =
+        Drawn { oracle, rounded: None, actual: Image::from_decoded(&picture, encoding), expected, moved: None };
     let found = drawn.judged(bars)?;
     drop(progress);
     if let Some(file) = &args.output {
@@ -161,7 +162,7 @@ fn judge_picture(args: &VerifyArgs, mut input: SceneInput, file: &Path) -> Resul
     if found.is_within() { Ok(()) } else { Err(Failure::new(DIFFERENT, format!("{}: {found}", file.display()))) }
 }
 
-/// The 8-bit picture keeps to its bar, and the other, where there is one, is a picture at all.
+/// Either picture keeps to its bar for the worst pixel.
 fn verdict(max: u8, bytes: &Verdict, float: Option<&Verdict>) -> Result<(), Failure> {
     let different = |what: String| Err(Failure::new(DIFFERENT, what));
     if bytes.bad + float.map_or(0, |float| float.bad) > 0 {
@@ -170,7 +171,13 @@ fn verdict(max: u8, bytes: &Verdict, float: Option<&Verdict>) -> Result<(), Fail
     if !bytes.is_within() {
         return different(format!("a pixel differs by {} of 255 steps, more than --max {max}", bytes.worst));
     }
-    Ok(())
+    match float {
+        Some(&Verdict { worst, bars, allowed, .. }) if worst > bars.worst + allowed => different(format!(
+            "in floating point a pixel differs by {worst:.1e} of the range, more than {:.1e}",
+            bars.worst + allowed
+        )),
+        _ => Ok(()),
+    }
 }
 
 fn draw(app: &mut App, size: UVec2, pixels: Pixels) -> Result<Picture, RenderError> {
@@ -181,8 +188,8 @@ fn draw(app: &mut App, size: UVec2, pixels: Pixels) -> Result<Picture, RenderErr
 /// One picture of a scene by the adapter, and by the oracle.
 struct Drawn {
     oracle: Oracle,
-    /// The same with its corners on the adapter's grid, where it is an adapter's picture, and the bits of the grid.
-    on_grid: Option<(Oracle, u32)>,
+    /// The same again, for corners on the adapter's grid, where it is an adapter's picture, and the bits of the grid.
+    rounded: Option<(Oracle, u32)>,
     actual: Image,
     expected: Image,
     /// How far what is drawn may be moved on the picture, and the oracle's finer picture.
@@ -211,18 +218,19 @@ impl Drawn {
         } else {
             None
         };
-        let on_grid = Oracle::new(app.world_mut(), size)?.with_clamping(is_clamped).on_grid(bits);
-        Ok(Self { oracle, on_grid: Some((on_grid, bits)), actual, expected, moved })
+        let rounded = Oracle::new(app.world_mut(), size)?.with_clamping(is_clamped);
+        Ok(Self { oracle, rounded: Some((rounded, bits)), actual, expected, moved })
     }
 
-    fn judged(&self, bars: Bars) -> Result<Verdict, Failure> {
-        let Self { oracle, on_grid, actual, expected, moved } = self;
-        match (moved, on_grid) {
-            (Some((pixels, fine)), on_grid) => {
-                let bars = on_grid.as_ref().map_or(bars, |(_, bits)| bars.on_grid(*bits));
+    /// How right it is; asked once.
+    fn judged(&mut self, bars: Bars) -> Result<Verdict, Failure> {
+        let Self { oracle, rounded, actual, expected, moved } = self;
+        match (moved, rounded.take()) {
+            (Some((pixels, fine)), rounded) => {
+                let bars = rounded.map_or(bars, |(_, bits)| bars.on_grid(bits));
                 judge_moved(oracle, (expected, fine), *pixels, actual, bars)
             }
-            (None, Some((on_grid, bits))) => judge_on_grid((oracle, expected), (on_grid, *bits), actual, bars),
+            (None, Some(rounded)) => judge_on_grid((oracle, expected), rounded, actual, bars),
             (None, None) => judge(oracle, expected, actual, bars),
         }
         .map_err(text)
@@ -231,4 +239,49 @@ impl Drawn {
 
 fn text(error: impl std::fmt::Display) -> Failure {
     error.to_string().into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A verdict of a picture whose worst pixel is so far off.
+    fn off(bars: Bars, worst: f64) -> Verdict {
+        let (most, at) = (0.0, None);
+        Verdict {
+            bars,
+            allowed: 0.0,
+            most,
+            worst,
+            at,
+            equal: 1.0,
+            edges: 0.0,
+            layered: 0.0,
+            counted: 1.0,
+            bad: 0,
+            first_bad: None,
+        }
+    }
+
+    #[test]
+    fn a_wrong_pixel_of_either_picture_is_an_error() {
+        let bytes = Bars { most: 1.0, worst: 1.0, equal: 0.0, ..Bars::bytes(halfway::lighting::Encoding::Srgb) };
+        let [right, wrong] = [1.0, 2.0].map(|worst| off(bytes, worst));
+        let [right_float, wrong_float] = [0.9, 1.1].map(|share| off(Bars::FLOAT, share * Bars::FLOAT.worst));
+        let said = |bytes: &Verdict, float: Option<&Verdict>| {
+            let told = |failure: Failure| failure.error.map_or(String::new(), |error| error.to_string());
+            verdict(1, bytes, float).map_err(told)
+        };
+        assert_eq!(said(&right, None), Ok(()));
+        assert_eq!(said(&right, Some(&right_float)), Ok(()));
+        assert_eq!(
+            said(&wrong, Some(&right_float)),
+            Err("a pixel differs by 2 of 255 steps, more than --max 1".into())
+        );
+        let expected = "in floating point a pixel differs by 2.2e-3 of the range, more than 2.0e-3";
+        assert_eq!(said(&right, Some(&wrong_float)), Err(expected.into()));
+        let negative = Verdict { bad: 1, ..right_float };
+        let expected = "the picture holds values that are not finite or negative";
+        assert_eq!(said(&right, Some(&negative)), Err(expected.into()));
+    }
 }

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use halfway::prelude::*;
 use halfway::reference::metrics::{Bars, FINENESS, Verdict, judge, judge_moved};
-use halfway::reference::{Image, Oracle};
+use halfway::reference::{Image, Oracle, VertexGrid};
 use halfway::render::{Adapter, RenderError, VertexPrices};
 use halfway::scene::{MeshEntry, PlaneEntry, SceneFile, ShadingEntry, TeapotEntry, UvSphereEntry, spawn};
 use serde_json::Value;
@@ -164,12 +164,17 @@ impl Judge {
 
         let steps = f64::from(tolerance.steps);
         let exact = pictures.figures(Limits { grid: self.grid, corners: None, blended, steps });
-        // As a whole, what the exact triangles show with the bars of the grid, or what those show whose corners are on
-        // the grid with the bars of a fine one: `halfway::reference::metrics::judge_on_grid`.
         if exact.is_ok() || self.grid == FINE {
             return exact;
         }
-        pictures.figures(Limits { grid: FINE, corners: Some(self.grid), blended, steps }).or(exact)
+        // As a whole, what the exact triangles show with the bars of the grid, or what those show whose corners are on
+        // the grid with the bars of a fine one: `halfway::reference::metrics::judge_on_grid`.
+        let grids = VertexGrid::all(self.grid);
+        let count = if pictures.has_ties(self.grid)? { grids.len() } else { 1 };
+        let on_grid = |&corners: &VertexGrid| {
+            pictures.figures(Limits { grid: FINE, corners: Some(corners), blended, steps }).ok()
+        };
+        grids[..count].iter().find_map(on_grid).map_or(exact, Ok)
     }
 
     fn set_up(&self, app: &mut App, scene: &SceneFile) -> Result<(), Finding> {
@@ -216,8 +221,8 @@ struct Pictures {
 struct Limits {
     /// The bits of the grid that the bars are for.
     grid: u32,
-    /// Those of the grid that the oracle's corners are on.
-    corners: Option<u32>,
+    /// The grid that the oracle's corners are on.
+    corners: Option<VertexGrid>,
     /// How many objects are.
     blended: f64,
     /// What they may be off besides.
@@ -242,7 +247,11 @@ impl Pictures {
         }
     }
 
-    fn judged(&mut self, pixels: Pixels, bars: Bars, corners: Option<u32>) -> Result<Verdict, Finding> {
+    fn has_ties(&mut self, bits: u32) -> Result<bool, Finding> {
+        Ok(Oracle::new(self.oracle.world_mut(), self.size).map_err(refused)?.has_ties(bits))
+    }
+
+    fn judged(&mut self, pixels: Pixels, bars: Bars, corners: Option<VertexGrid>) -> Result<Verdict, Finding> {
         self.renderer.insert_resource(Headless { size: self.size, pixels });
         if self.pixels > 0.0 {
             // The second frame has coarser triangles.
@@ -254,7 +263,7 @@ impl Pictures {
         };
         let mut oracle = |size| {
             let oracle = Oracle::new(self.oracle.world_mut(), size).map_err(refused)?.with_clamping(bars.are_clamped());
-            Ok(if let Some(bits) = corners { oracle.on_grid(bits) } else { oracle })
+            Ok(if let Some(grid) = corners { oracle.on_grid(grid) } else { oracle })
         };
         let of_size = oracle(self.size)?;
         let expected = of_size.draw();

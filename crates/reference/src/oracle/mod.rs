@@ -7,6 +7,7 @@
 mod draw;
 mod error;
 mod gather;
+mod grid;
 mod layers;
 mod mapped;
 mod maps;
@@ -23,11 +24,12 @@ mod view;
 use std::sync::OnceLock;
 
 use bevy_ecs::world::World;
-use bevy_math::UVec2;
+use bevy_math::{DVec3, UVec2};
 use halfway_lighting::equations::divisor;
 use halfway_lighting::{Intensity, Samples};
 
 pub use error::{OracleError, Stopped};
+pub use grid::VertexGrid;
 pub use mode::Mode;
 pub use possible::{ColorRange, Possible};
 pub use probe::{Nearest, Seen};
@@ -96,17 +98,24 @@ impl Oracle {
         self
     }
 
-    /// Draws as a rasteriser that puts vertices on a grid of N bits within a pixel; exactly unless said. What is
+    /// Draws as a rasteriser that puts vertices on a grid within a pixel, of N bits, say; exactly unless said. What is
     /// interpolated between vertices, and how it changes from a pixel to the next, is then as on the moved triangles;
     /// what is shaded at vertices is not.
     #[must_use]
-    pub fn on_grid(mut self, bits: u32) -> Self {
-        let view = self.scene.view;
+    pub fn on_grid(mut self, grid: impl Into<VertexGrid>) -> Self {
+        let (view, grid) = (self.scene.view, grid.into());
         for solid in &mut self.scene.solids {
-            solid.draw_at(|p| view.on_grid(p, bits));
+            solid.draw_at(|p| view.on_grid(p, grid));
         }
         self.tiles = OnceLock::new();
         self
+    }
+
+    /// Whether single precision cannot tell which place of a grid of N bits is the nearest one to some vertex.
+    pub fn has_ties(&self, bits: u32) -> bool {
+        let (view, grid) = (self.scene.view, VertexGrid::from(bits));
+        let is_tie = |p: &DVec3| grid.is_tie(view.pixel(*p), view.size());
+        self.scene.solids.iter().any(|solid| solid.corners.iter().any(is_tie))
     }
 
     /// `n` × `n` samples a pixel, averaged, in place of its centre; 1 unless said. They are the centres of the pixel's

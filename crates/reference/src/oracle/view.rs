@@ -5,6 +5,8 @@ use bevy_transform::components::GlobalTransform;
 use halfway_lighting::Camera;
 use halfway_lighting::equations::Transcendental;
 
+use super::grid::VertexGrid;
+
 /// Where the picture is seen from, and where a point of eye space lies on it.
 ///
 /// Eye space is right-handed and has world units: the eye at the origin, looking along −Z. Depth is the distance along
@@ -18,9 +20,6 @@ pub(super) struct PictureView {
     size: DVec2,
     pub(super) near: f64,
 }
-
-/// The most bits of a grid within a pixel; more are as none.
-const MOST_BITS: u32 = 24;
 
 impl PictureView {
     /// The view of a camera; `None` where its transform gives it no place or direction.
@@ -85,10 +84,9 @@ impl PictureView {
         0.5 * self.size * (1.0 + DVec2::new(at_depth_1.x, -at_depth_1.y))
     }
 
-    /// The point of the same depth that lies on the picture where a grid of 2ᴺ places a pixel has its nearest place.
-    pub(super) fn on_grid(&self, p: DVec3, bits: u32) -> DVec3 {
-        let places = f64::from(1_u32 << bits.min(MOST_BITS));
-        let pixel = (self.pixel(p) * places).round() / places;
+    /// The point of the same depth that lies on the picture where the grid has its place.
+    pub(super) fn on_grid(&self, p: DVec3, grid: VertexGrid) -> DVec3 {
+        let pixel = grid.place(self.pixel(p), self.size);
         let at_depth_1 = 2.0 * pixel / self.size - 1.0;
         let on_grid = DVec2::new(at_depth_1.x, -at_depth_1.y) * self.half * -p.z;
         // What lies in the plane of the eye lies nowhere on the picture.

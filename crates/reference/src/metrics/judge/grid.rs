@@ -2,7 +2,7 @@
 
 use super::divisor::judge_divided;
 use super::{Bars, SizeMismatch, Verdict, judge};
-use crate::{Image, Oracle};
+use crate::{Image, Oracle, VertexGrid};
 
 /// From so many bits on a grid is fine: what it moves is within the bars.
 const FINE_BITS: u32 = 8;
@@ -21,17 +21,17 @@ impl Bars {
 }
 
 /// [`judge`] for a drawer that rounds the corners of triangles to a grid of N bits within a pixel. The picture is right
-/// as a whole by one of two rules: what the exact triangles show, with [`Bars::on_grid`]; or what `on_grid` shows, the
-/// oracle whose corners lie [on the grid](Oracle::on_grid), with `bars` as they are and edges within 1/64 of a pixel.
-/// By the second images seen from afar and slopes of triangles less than a pixel high are judged, by the first corners
-/// so near the middle between two places that single precision rounds them to the other one. With 8 bits or more it is
-/// [`judge`].
+/// as a whole by one of two rules: what the exact triangles show, with [`Bars::on_grid`]; or what `rounded` shows with its
+/// corners [on the grid](Oracle::on_grid), with `bars` as they are and edges within 1/64 of a pixel. By the second images
+/// seen from afar and slopes of triangles less than a pixel high are judged. Where corners lie so near the middle between
+/// two places that single precision rounds them to either, all of those may also have gone to one side along each axis
+/// ([`VertexGrid`]). With 8 bits or more it is [`judge`].
 ///
 /// # Errors
 /// [`SizeMismatch`].
 pub fn judge_on_grid(
     (oracle, expected): (&Oracle, &Image),
-    (on_grid, bits): (&Oracle, u32),
+    (mut rounded, bits): (Oracle, u32),
     actual: &Image,
     bars: Bars,
 ) -> Result<Verdict, SizeMismatch> {
@@ -39,7 +39,16 @@ pub fn judge_on_grid(
     if exact.is_within() || bits >= FINE_BITS {
         return Ok(exact);
     }
-    let possible = |x, y| on_grid.possible(x, y, RADIUS_ON_GRID);
-    let rounded = judge_divided(possible, on_grid.samples(), (&on_grid.draw(), None), actual, bars)?;
-    Ok(if rounded.is_within() { rounded } else { exact })
+    for grid in VertexGrid::all(bits) {
+        rounded = rounded.on_grid(grid);
+        let possible = |x, y| rounded.possible(x, y, RADIUS_ON_GRID);
+        let verdict = judge_divided(possible, rounded.samples(), (&rounded.draw(), None), actual, bars)?;
+        if verdict.is_within() {
+            return Ok(verdict);
+        }
+        if !rounded.has_ties(bits) {
+            break;
+        }
+    }
+    Ok(exact)
 }
