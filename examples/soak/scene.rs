@@ -8,11 +8,15 @@ use halfway::render::{PendingPicture, RenderError};
 const SIZE: UVec2 = UVec2::splat(16);
 /// Objects that come and go, one a frame.
 const VISITORS: u64 = 12;
+/// A light comes so often, and stays for half of that, in frames.
+const LAMP: u64 = 16;
 
 /// An App whose scene changes from frame to frame.
 pub(crate) struct Life {
     pub(crate) app: App,
     visitors: Vec<Entity>,
+    /// The light that comes and goes.
+    lamp: Option<Entity>,
     /// The object whose mesh is replaced in place, and that mesh.
     shape: Handle<Mesh>,
     kept: Option<Vec<Handle<Mesh>>>,
@@ -41,11 +45,12 @@ impl Life {
     fn empty() -> Self {
         let mut app = App::new();
         app.add_plugins(HalfwayPlugins::headless(SIZE));
-        Self { app, visitors: Vec::new(), shape: Handle::default(), kept: None }
+        Self { app, visitors: Vec::new(), lamp: None, shape: Handle::default(), kept: None }
     }
 
     /// Changes the scene for a frame.
     pub(crate) fn step(&mut self, frame: u64) {
+        self.change_lights(frame);
         self.move_lights(frame);
         self.replace(frame);
         self.change_materials(frame);
@@ -67,6 +72,18 @@ impl Life {
             visitor.insert(Blend);
         }
         self.visitors.push(visitor.id());
+    }
+
+    fn change_lights(&mut self, frame: u64) {
+        let world = self.app.world_mut();
+        if frame.is_multiple_of(LAMP) {
+            let lamp = PointLight { range: Some(4.0), ..PointLight::white() };
+            self.lamp = Some(world.spawn((lamp, Transform::default())).id());
+        } else if frame % LAMP == LAMP / 2
+            && let Some(lamp) = self.lamp.take()
+        {
+            world.despawn(lamp);
+        }
     }
 
     fn move_lights(&mut self, frame: u64) {

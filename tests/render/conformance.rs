@@ -184,7 +184,7 @@ fn conform_on(mut stage: Stage, title: &str, rows: &[Row]) {
     let rows: Vec<&Row> = (0..).zip(rows).filter(|(number, row)| share.has(*number, row)).map(|(_, row)| row).collect();
     for Row { name, scene, float, raw, srgb } in &rows {
         stage.set(scene);
-        // An adapter may be unable to blend 32-bit floats, as OpenGL is.
+        // An adapter may be unable to blend 32-bit floats, as WebGPU allows.
         let of_floats = if stage.blends_floats() || !scene.things.iter().any(|thing| thing.blend) {
             let picture = stage.float();
             let verdict = failures.compare(name, &mut stage, &picture, *float);

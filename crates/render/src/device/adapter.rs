@@ -62,7 +62,10 @@ impl Adapter {
     /// Whether blended objects can be drawn into 32-bit floating point.
     pub fn blends_floats(&self) -> bool {
         match self {
-            Self::Gpu(gpu) => gpu.device.features().contains(wgpu::Features::FLOAT32_BLENDABLE),
+            Self::Gpu(gpu) => {
+                let can = gpu.format_features(wgpu::TextureFormat::Rgba32Float);
+                can.flags.contains(wgpu::TextureFormatFeatureFlags::BLENDABLE)
+            }
             Self::Cpu(_) => true,
         }
     }

@@ -18,7 +18,7 @@ use std::path::Path;
 /// 1. the name here;
 /// 2. the environment variable `HALFWAY_ADAPTER`, a name as here;
 /// 3. wgpu's variables `WGPU_BACKEND`, the backends to ask (`vulkan`, `gl`, `metal`, `dx12`; several with commas), and
-///    `WGPU_ADAPTER_NAME`, a name as here;
+///    `WGPU_ADAPTER_NAME`, a name of a graphics adapter as here;
 /// 4. `VK_DRIVER_FILES`, or `VK_ICD_FILENAMES`, which name drivers: an adapter of theirs, also a software one;
 /// 5. nothing: a hardware adapter of Vulkan, Metal or DirectX 12; where none of these answers, one of OpenGL; and where
 ///    there is no hardware, the CPU, which is faster than software drivers. On Linux drivers are asked only where the
