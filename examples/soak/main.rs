@@ -1,6 +1,6 @@
-//! A long run: lights move, objects and a light come and go, meshes are replaced in place, materials change; for 100,000
-//! frames. It fails where memory grows, where a frame has an error, and where the last picture is another than that of the same
-//! scene in a new App.
+//! A long run: lights move, objects and a light come and go, meshes are replaced in place, materials change; for
+//! 100,000 frames. It fails where memory grows, where a frame has an error, and where the last picture is another than
+//! that of the same scene in a new App.
 //!
 //! ```text
 //! cargo run --release --example soak

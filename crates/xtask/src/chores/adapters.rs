@@ -92,7 +92,7 @@ fn leave_out_what_runs(adapters: &mut [TriedAdapter], line: &str, tests: Option<
 const TESTS: [&str; 5] =
     ["render::adapter::", "render::auto::", "render::conformance::", "render::costs::", "render::light_counts::"];
 
-/// The tests of the program `wild` that each driver runs, and those of what is known to fail where it is told by driver.
+/// The tests of the program `wild` that each driver runs, and the one of what is known to fail by the driver.
 const WILD: [&str; 1] = ["scenes_that_failed_once_are_right"];
 const KNOWN_WILD: &str = "known_failures_fail";
 

@@ -11,8 +11,8 @@ use crate::setup::Setup;
 /// Run a scene in which everything changes for 100,000 frames, and fail where memory grows
 ///
 /// It also fails where a frame has an error, and where the last picture is another than that of the same scene in a
-/// new App. The example `soak` says what changes, and by how much memory may grow. Without a graphics card it draws on the
-/// CPU; HALFWAY_ADAPTER=gpu has a software driver draw.
+/// new App. The example `soak` says what changes, and by how much memory may grow. Without a graphics card it draws on
+/// the CPU; `HALFWAY_ADAPTER=gpu` has a software driver draw.
 #[derive(Args, Debug)]
 #[command(verbatim_doc_comment)]
 pub(crate) struct Options {
