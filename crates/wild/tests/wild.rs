@@ -10,8 +10,8 @@ use halfway::scene::{MaterialEntry, SceneFile, ShadingEntry};
 use halfway_wild::{Fault, Finding, Judge, scene, written};
 use serde_json::Value;
 
-/// Scenes that failed once, small. Those in the folder `known` inside still do, those in `known/cpu` on the CPU, those in
-/// `known/swiftshader` by that driver; those in `four` failed on the CPU with four samples a pixel.
+/// Scenes that failed once, small. Those in the folder `known` inside still do, those in `known/cpu` on the CPU, those
+/// in `known/swiftshader` by that driver; those in `four` failed on the CPU with four samples a pixel.
 const KEPT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/wild");
 
 /// Of what the environment names, else of a graphics adapter.

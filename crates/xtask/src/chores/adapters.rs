@@ -14,8 +14,8 @@ use crate::tally::counted;
 ///
 /// These are lavapipe (Vulkan), lavapipe in the ways of hardware, llvmpipe through OpenGL, `SwiftShader`, the software
 /// Vulkan driver of chromium, and the CPU without a driver. On each: the conformance suite, all three shadings with few
-/// and many lights, the random scenes that failed once, and `halfway verify` over examples/scenes; on the CPU all picture
-/// tests that are not about wgpu.
+/// and many lights, the random scenes that failed once, and `halfway verify` over examples/scenes; on the CPU all
+/// picture tests that are not about wgpu.
 /// Each suite prints the worst figures, from which the table in docs/accuracy.md is.
 /// What is missing is installed first, as for `cargo xtask test`, of which this is a part; but there the drivers share
 /// the suite's rows with colours of vertices, images, solids and environments among them, since they take minutes to
