@@ -341,8 +341,8 @@ fn in_the_plane(random: &mut Random, far: f64, size: f64) -> Case {
     }
 }
 
-/// Where a light counts as in the plane of the surface its terms end in a step, and the bounds have room for that; those
-/// of the same triangle beside the eye, where the step is smaller, have not.
+/// Where a light counts as in the plane of the surface its terms end in a step, and the bounds have room for that;
+/// those of the same triangle beside the eye, where the step is smaller, have not.
 #[test]
 fn the_step_in_the_plane_of_a_light_is_within_the_bounds() {
     let (mut random, mut changes) = (Random(93), VertexChanges::default());

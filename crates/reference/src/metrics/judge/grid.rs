@@ -20,12 +20,12 @@ impl Bars {
     }
 }
 
-/// [`judge`] for a drawer that rounds the corners of triangles to a grid of N bits within a pixel. The picture is right
-/// as a whole by one of two rules: what the exact triangles show, with [`Bars::on_grid`]; or what `rounded` shows with
-/// its corners [on the grid](Oracle::on_grid), with `bars` as they are and edges within 1/64 of a pixel. By the second
-/// images seen from afar and slopes of triangles less than a pixel high are judged. Where corners lie so near the middle
-/// between two places that single precision rounds them to either, all of those may also have gone to one side along
-/// each axis ([`VertexGrid`]). With 8 bits or more it is [`judge`].
+/// [`judge`] for a drawer that rounds the corners of triangles to a grid of N bits within a pixel. The picture is
+/// right as a whole by one of two rules: what the exact triangles show, with [`Bars::on_grid`]; or what `rounded`
+/// shows with its corners [on the grid](Oracle::on_grid), with `bars` as they are and edges within 1/64 of a pixel.
+/// By the second images seen from afar and slopes of triangles less than a pixel high are judged. Where corners lie
+/// so near the middle between two places that single precision rounds them to either, all of those may also have
+/// gone to one side along each axis ([`VertexGrid`]). With 8 bits or more it is [`judge`].
 ///
 /// # Errors
 /// [`SizeMismatch`].
