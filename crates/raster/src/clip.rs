@@ -3,7 +3,7 @@
 use crate::cover::EdgeFunctions;
 use crate::pass::LeftOut;
 use crate::placed::TILE;
-use crate::planes::{CutCorner, Gradient, Planes};
+use crate::planes::{CutCorner, DepthPlane, Gradient, Planes};
 use crate::samples::sample_offsets;
 use crate::triangle::Covering;
 use crate::vertices::{CLIPPED, GRID, SCREEN_HIGH, SCREEN_LOW, Screen, TOO_NEAR, Vertices};
@@ -244,8 +244,10 @@ fn planes(
     let gradient = Gradient::new(exact(0), exact(1), (on_grid(x), on_grid(y)), positive);
     let lead = [0, 1, 2].map(|k| &corners[k].lead[side]);
     let inverse_w = lead.map(|lead| lead[0]);
+    let lead = gradient.slopes(lead);
     let planes = Planes {
-        lead: gradient.slopes(lead),
+        depth: DepthPlane::new(&lead, [0; 2]),
+        lead,
         second: gradient.slopes([0, 1, 2].map(|k| &corners[k].second[side])),
         paint: gradient.slopes([0, 1, 2].map(|k| &corners[k].paint)),
         face: [0.0; 3],

@@ -9,7 +9,7 @@ use crate::mapped::MappedTriangle;
 use crate::mapped_pixels::MappedPixels;
 use crate::pass::SampleCount;
 use crate::placed::TILE;
-use crate::planes::{LaneSlopes, Planes, Slopes};
+use crate::planes::{DepthPlane, LaneSlopes, Planes, Slopes};
 use crate::samples::GRID_PLACES;
 use crate::state::{Stage, State};
 use crate::triangle::{Batch, TINY};
@@ -326,8 +326,8 @@ impl TileBuffer {
         let [left, right, top, bottom] = edges.bounds;
         let count = lanes::<S>() as i32;
         let shader = splat_i(simd, shader);
-        let lead = &planes.lead;
-        let [base, dx, dy] = [splat(simd, lead.base[0]), splat(simd, lead.dx[0]), splat(simd, lead.dy[0])];
+        let DepthPlane { base, dx, dy, first } = planes.depth;
+        let [base, dx, dy] = each!(k in 3 => splat(simd, [base, dx, dy][k]));
         let zero = splat_i(simd, 0);
         let mut next = left;
         while next <= right {
@@ -339,12 +339,14 @@ impl TileBuffer {
                 counting_i(simd) * splat_i(simd, edges.across[k]) + splat_i(simd, at)
             });
             let x = counting(simd) + splat(simd, i as f32);
+            let from_first = counting(simd) + splat(simd, (i - first[0]) as f32);
             let mut y = splat(simd, top as f32);
             for j in top..=bottom {
                 let covered = (e[0] | e[1] | e[2]).simd_ge(zero);
                 if covered.any_true() {
                     let at = (j as usize * TILE + i as usize) & (PIXELS - 1);
-                    let depth = clamped(simd, fma::<S>(dx, x, fma::<S>(dy, y, base)), planes);
+                    let row = fma::<S>(dy, splat(simd, (j - first[1]) as f32), base);
+                    let depth = clamped(simd, fma::<S>(dx, from_first, row), planes);
                     let before = load(simd, &self.depth[0], at);
                     let mut nearer = covered & depth.simd_gt(before);
                     if kept.mask.is_some() {

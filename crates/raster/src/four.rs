@@ -11,7 +11,7 @@ use crate::lanes::{
     splat, splat_i, store_i,
 };
 use crate::placed::TILE;
-use crate::planes::{LaneSlopes, Planes};
+use crate::planes::{DepthPlane, LaneSlopes, Planes};
 use crate::samples::{CENTROIDS, OFFSETS};
 use fearless_simd::{i32x4, mask32x4, prelude::*};
 
@@ -44,7 +44,7 @@ impl TileBuffer {
             f32x4::simd_from(simd, [slopes.base, slopes.dx, slopes.dy][k][0])
         });
         let [x, y] = each!(axis in 2 => f32x4::load_array_ref(simd, &OFFSETS[axis]));
-        let base = dx.mul_add_precise(x, dy.mul_add_precise(y, base));
+        let (sample_x, sample_y) = (x, y);
         let mut left = (samples[0] | samples[1] | samples[2] | samples[3]) as u32;
         while left != 0 {
             let bit = left.trailing_zeros() as usize % TINY_PIXELS;
@@ -52,8 +52,7 @@ impl TileBuffer {
             let bits = i32x4::simd_from(simd, 1 << bit);
             let covered = (each_sample & bits).simd_eq(bits);
             let [x, y] = each!(axis in 2 => TINY_PLACES[axis][bit]);
-            let depth =
-                dx.mul_add_precise(f32x4::simd_from(simd, x), dy.mul_add_precise(f32x4::simd_from(simd, y), base));
+            let depth = dx.mul_add_precise(sample_x + x, dy.mul_add_precise(sample_y + y, base));
             let depth = clamped_four(simd, depth, [least, most]);
             let pixel = (first + TINY_AT[bit]) % PIXELS;
             let mask = self.nearer_of_four(simd, pixel, covered, depth);
@@ -251,9 +250,9 @@ impl TileBuffer {
     ) -> u64 {
         // A vector holds all samples of some pixels.
         let pixels = lanes::<S>() / 4;
-        let [base, dx, dy] = [planes.lead.base[0], planes.lead.dx[0], planes.lead.dy[0]];
+        let DepthPlane { base, dx, dy, first: from } = planes.depth;
         let [x, y] = each!(axis in 2 => load(simd, &SAMPLES_OF_PIXELS[axis], 0));
-        let row = fma::<S>(splat(simd, dy), y + splat(simd, j as f32), splat(simd, base));
+        let row = fma::<S>(splat(simd, dy), y + splat(simd, (j - from[1]) as f32), splat(simd, base));
         let depths = self.depth.as_flattened_mut();
         let mut samples = 0;
         for first in (0..lanes::<S>()).step_by(pixels) {
@@ -261,7 +260,7 @@ impl TileBuffer {
             if here == 0 {
                 continue;
             }
-            let x = x + splat(simd, (i + first as i32) as f32);
+            let x = x + splat(simd, (i + first as i32 - from[0]) as f32);
             let depth = clamped(simd, fma::<S>(splat(simd, dx), x, row), planes);
             let place = 4 * (at + first);
             let covered = M::<S>::from_bitmask(simd, four_of_bit(here));
@@ -387,9 +386,9 @@ pub(crate) fn samples<S: Simd>(
     });
     let covered = (a | b | c).simd_ge(i32x4::simd_from(simd, 0));
     let [x, y] = each!(axis in 2 => f32x4::from_slice(simd, &OFFSETS[axis]));
-    let [base, dx, dy] = [planes.lead.base[0], planes.lead.dx[0], planes.lead.dy[0]];
-    let row = f32x4::simd_from(simd, dy).mul_add_precise(y + j as f32, f32x4::simd_from(simd, base));
-    let depth = f32x4::simd_from(simd, dx).mul_add_precise(x + i as f32, row);
+    let DepthPlane { base, dx, dy, first } = planes.depth;
+    let row = f32x4::simd_from(simd, dy).mul_add_precise(y + (j - first[1]) as f32, f32x4::simd_from(simd, base));
+    let depth = f32x4::simd_from(simd, dx).mul_add_precise(x + (i - first[0]) as f32, row);
     (covered, clamped_four(simd, depth, planes.range))
 }
 

@@ -34,6 +34,25 @@ pub(crate) struct Planes {
     pub(crate) face: [f32; 3],
     /// The least and greatest 1/w of its corners.
     pub(crate) range: [f32; 2],
+    /// What is nearest is told by this.
+    pub(crate) depth: DepthPlane,
+}
+
+/// 1/w as `base + dx·(i − first) + dy·(j − first)` of the tile's pixels (i, j). Every triangle of few pixels has it from
+/// the first that may be covered, whatever is drawn: so surfaces at one place have one depth, to the bit.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct DepthPlane {
+    pub(crate) base: f32,
+    pub(crate) dx: f32,
+    pub(crate) dy: f32,
+    pub(crate) first: [i32; 2],
+}
+
+impl DepthPlane {
+    /// From the first of four numbers.
+    pub(crate) fn new(lead: &Slopes, first: [i32; 2]) -> Self {
+        Self { base: lead.base[0], dx: lead.dx[0], dy: lead.dy[0], first }
+    }
 }
 
 /// A corner of what a triangle was cut to: 1/w, and the weights of the triangle's own.

@@ -281,6 +281,7 @@ impl Worker {
                 let mut planes = Planes {
                     lead: Slopes::of_lane(&batch.slopes(simd, lane, corners)),
                     range: range(corners),
+                    depth: batch.depth(simd, lane, corners),
                     ..Planes::default()
                 };
                 if work.state.stage == Stage::Mixed && work.state.maps.is_none() {

@@ -6,7 +6,7 @@ use crate::lanes::{
 };
 use crate::pass::{LeftOut, SampleCount};
 use crate::pieces::PIECE_TRIANGLES;
-use crate::planes::{FLATTEST, LaneSlopes};
+use crate::planes::{DepthPlane, FLATTEST, LaneSlopes, Slopes};
 use crate::samples::GRID_PLACES;
 use crate::vertices::{CLIPPED, FAR_AWAY, GRID, SMALL, Vertices};
 use fearless_simd::prelude::*;
@@ -62,6 +62,8 @@ pub(crate) struct Batch {
     pub(crate) tiny: u64,
     /// The lanes of larger ones that may cover pixels.
     pub(crate) small: u64,
+    /// Those of them that are no larger, where none are told apart.
+    pub(crate) few: u64,
     /// The lanes of triangles that must be clipped, or are large.
     pub(crate) others: u64,
     /// The lanes that show their backs, as far as that is known.
@@ -80,6 +82,8 @@ pub(crate) struct Batch {
     pub(crate) samples: [[i32; 4]; MOST_LANES],
     /// How numbers change over triangles: see [`Batch::slopes`].
     weights: [[f32; MOST_LANES]; 6],
+    /// The last two of them, where numbers begin at the first pixel that may be covered.
+    near: [[f32; MOST_LANES]; 2],
 }
 
 /// What a batch has to know of the draw and the tile.
@@ -116,6 +120,8 @@ struct Outlines<S: Simd> {
     clockwise: M<S>,
     /// Those that may cover pixels, and are neither clipped nor large.
     meet: M<S>,
+    /// Those of few pixels, and they where they are told from others.
+    few: M<S>,
     tiny: M<S>,
 }
 
@@ -141,7 +147,7 @@ impl Batch {
         });
         let outlines = self.find(simd, &places, (usable, far_away), covering);
         let meet = outlines.meet.to_bitmask();
-        (self.tiny, self.small) = (0, 0);
+        (self.tiny, self.small, self.few) = (0, 0, 0);
         if meet != 0 {
             self.set_edges(simd, &outlines);
             let mut covers = outlines.meet;
@@ -150,6 +156,9 @@ impl Batch {
             }
             self.tiny = (covers & outlines.tiny).to_bitmask();
             self.small = (covers & !outlines.tiny).to_bitmask();
+            if !covering.is_plain {
+                self.few = outlines.few.to_bitmask();
+            }
             if self.tiny | self.small != 0 {
                 self.weigh(simd, &places, &outlines);
             }
@@ -194,13 +203,10 @@ impl Batch {
         self.others |= (meets & large).to_bitmask();
         self.backs = (!front).to_bitmask();
         let meet = meets & shown & !large;
-        let tiny = if covering.is_plain {
-            let box_side = SimdBase::max(last[0] - first[0], last[1] - first[1]);
-            meet & box_side.simd_lt(splat_i(simd, TINY as i32))
-        } else {
-            M::<S>::splat(simd, false)
-        };
-        Outlines { x, y, first, last, clockwise, meet, tiny }
+        let box_side = SimdBase::max(last[0] - first[0], last[1] - first[1]);
+        let few = meet & box_side.simd_lt(splat_i(simd, TINY as i32));
+        let tiny = if covering.is_plain { few } else { M::<S>::splat(simd, false) };
+        Outlines { x, y, first, last, clockwise, meet, few, tiny }
     }
 
     #[inline(always)]
@@ -317,17 +323,39 @@ impl Batch {
         for k in 0..6 {
             store::<S>(weights[k], &mut self.weights[k], 0);
         }
+        if self.few != 0 {
+            for (axis, place) in [x[0], y[0]].into_iter().enumerate() {
+                let to_first = outlines.first[axis].to_float::<F<S>>() - middle;
+                store::<S>(to_first - place, &mut self.near[axis], 0);
+            }
+        }
     }
 
     /// Of a lane that is tiny or small: four numbers from their values at the three corners.
     #[inline(always)]
     pub(crate) fn slopes<S: Simd>(&self, simd: S, lane: usize, values: [&[f32; 4]; 3]) -> LaneSlopes<S> {
+        self.slopes_from(simd, lane, [self.weights[4][lane], self.weights[5][lane]], values)
+    }
+
+    /// The nearness of a lane that is small, from 1/w and more at its corners.
+    #[inline(always)]
+    pub(crate) fn depth<S: Simd>(&self, simd: S, lane: usize, values: [&[f32; 4]; 3]) -> DepthPlane {
+        if self.few >> lane & 1 == 0 {
+            return DepthPlane::new(&Slopes::of_lane(&self.slopes(simd, lane, values)), [0; 2]);
+        }
+        let slopes = self.slopes_from(simd, lane, each!(axis in 2 => self.near[axis][lane]), values);
+        DepthPlane::new(&Slopes::of_lane(&slopes), [self.bounds[0][lane], self.bounds[2][lane]])
+    }
+
+    #[inline(always)]
+    fn slopes_from<S: Simd>(&self, simd: S, lane: usize, to_first: [f32; 2], values: [&[f32; 4]; 3]) -> LaneSlopes<S> {
         let v = each!(k in 3 => f32x4::load_array_ref(simd, values[k]));
-        let w = each!(k in 6 => f32x4::simd_from(simd, self.weights[k][lane]));
+        let w = each!(k in 4 => f32x4::simd_from(simd, self.weights[k][lane]));
+        let [to_x, to_y] = each!(axis in 2 => f32x4::simd_from(simd, to_first[axis]));
         let (d1, d2) = (v[1] - v[0], v[2] - v[0]);
         let dx = d1.mul_sub_precise(w[0], d2 * w[1]);
         let dy = d2.mul_sub_precise(w[2], d1 * w[3]);
-        LaneSlopes { base: dy.mul_add_precise(w[5], dx.mul_add_precise(w[4], v[0])), dx, dy }
+        LaneSlopes { base: dy.mul_add_precise(to_y, dx.mul_add_precise(to_x, v[0])), dx, dy }
     }
 }
 

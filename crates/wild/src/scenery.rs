@@ -48,11 +48,11 @@ pub fn scene(seed: u64, number: u64) -> Value {
 }
 
 /// Puts images of normals on some objects, most of which are then lit at the pixels. One on top of another has the
-/// same, as of solids.
+/// same or none, as of solids.
 fn turn_normals(random: &mut Random, objects: &mut [Value]) {
     for at in 0..objects.len() {
         if is_twin(objects, at) {
-            if let Some(maps) = objects[at - 1].get("maps").cloned() {
+            if let Some(maps) = objects[at - 1].get("maps").filter(|_| has_the_same(at)).cloned() {
                 objects[at]["maps"] = maps;
             }
         } else if random.percent(20) {
@@ -69,11 +69,16 @@ fn is_twin(objects: &[Value], at: usize) -> bool {
     at > 0 && ["mesh", "transform"].iter().all(|key| objects[at][key] == objects[at - 1][key])
 }
 
-/// Cuts some objects from solids. One on top of another is cut from the same: the CPU may draw either first otherwise.
+/// Whether an object on top of another has what that has.
+fn has_the_same(at: usize) -> bool {
+    at.is_multiple_of(2)
+}
+
+/// Cuts some objects from solids. One on top of another is cut from the same or from none.
 fn cut(random: &mut Random, unit: f64, objects: &mut [Value]) {
     for at in 0..objects.len() {
         let solid = if is_twin(objects, at) {
-            objects[at - 1].get("solid").cloned()
+            objects[at - 1].get("solid").filter(|_| has_the_same(at)).cloned()
         } else {
             random.percent(8).then(|| looks::solid(random, unit))
         };
