@@ -132,7 +132,7 @@ fn an_object_flattened_to_a_line_or_a_point_shows_nothing() {
 fn every_scale_of_the_world_gives_the_same_picture() {
     // Lengths that differ by a common factor look the same where nothing weakens with distance.
     let light = PointLight { attenuation: Attenuation::NONE, ..point_light() };
-    let sphere = |size: f32, shading| {
+    let sphere = |size: f32, shading, reflectance| {
         let at = |p: Vec3| p * size;
         let object = Transform::from_scale(Vec3::new(0.8, 1.0, 1.2) * size)
             .with_rotation(Quat::from_rotation_z(0.3))
@@ -141,18 +141,21 @@ fn every_scale_of_the_world_gives_the_same_picture() {
         let mut scene = Scene::seen_from(Vec3::new(1.3, 1.1, 3.2), Vec3::ZERO)
             .ambient(0.1)
             .lit(Lamp::point(light, at(Vec3::new(2.0, 1.5, 1.0))))
-            .with(Thing::new(hemisphere(16, 8)).at(object).faces(Faces::Both).shaded(shading));
+            .with(Thing::new(hemisphere(16, 8)).at(object).faces(Faces::Both).shaded(shading).reflecting(reflectance));
         scene.eye.translation = at(scene.eye.translation);
         scene.camera.near = 0.1 * size;
         scene
     };
     let mut stage = Stage::new(48, 48);
     let mut failures = Failures::default();
-    for shading in SHADINGS {
-        let plain = stage.draw(&sphere(1.0, shading));
-        for size in [1e-28, 1e-23, 1e-18, 1e-12, 1e-6, 1e6, 1e12, 1e18, 1e23, 1e28] {
-            let scene = sphere(size, shading);
-            let row = format!("{size:e} times as large, {shading:?}");
+    for (shading, reflectance) in
+        SHADINGS.into_iter().flat_map(|shading| [Reflectance::default(), Reflectance::Phong].map(|r| (shading, r)))
+    {
+        let plain = stage.draw(&sphere(1.0, shading, reflectance));
+        // The first and the last leave the object's lengths within 1e±30, which is as far as scene files go.
+        for size in [1.3e-30, 1e-28, 1e-23, 1e-18, 1e-12, 1e-6, 1e6, 1e12, 1e18, 1e23, 1e28, 8e29] {
+            let scene = sphere(size, shading, reflectance);
+            let row = format!("{size:e} times as large, {shading:?}, {reflectance:?}");
             let picture = stage.draw(&scene);
             failures.compare(&row, &mut stage, &picture, FLOAT);
             // Powers of ten round, so an edge may move over a pixel's centre; compare where both are inside.
