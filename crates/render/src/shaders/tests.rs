@@ -78,6 +78,57 @@ fn what_no_tool_can_read_is_found() {
     }
 }
 
+/// What says how large a pixel is on the surface or on an image: it has to change by the same step from each pixel to
+/// the next, so that it is taken at their centres.
+const AT_CENTERS: [&str; 3] = ["at", "at_center", "middle"];
+
+/// The varyings of a text's stages that are not as they should be, and how many are right.
+fn badly_interpolated(module: &naga::Module) -> (Vec<String>, usize) {
+    use naga::{Interpolation, Sampling, ShaderStage};
+    let (mut wrong, mut right) = (Vec::new(), 0);
+    let between = |point: &naga::EntryPoint| match point.stage {
+        ShaderStage::Vertex => point.function.result.iter().map(|result| result.ty).collect(),
+        _ => point.function.arguments.iter().map(|argument| argument.ty).collect::<Vec<_>>(),
+    };
+    for point in &module.entry_points {
+        for ty in between(point) {
+            let TypeInner::Struct { members, .. } = &module.types[ty].inner else { continue };
+            for member in members {
+                let Some(Binding::Location { interpolation, sampling, .. }) = member.binding else { continue };
+                let name = member.name.as_deref().unwrap_or_default();
+                let expected = if AT_CENTERS.contains(&name) { Sampling::Center } else { Sampling::Centroid };
+                let is_right = match interpolation {
+                    Some(Interpolation::Flat) => matches!(sampling, Some(Sampling::First | Sampling::Either)),
+                    Some(Interpolation::Perspective) => sampling == Some(expected),
+                    _ => false,
+                };
+                if is_right {
+                    right += 1;
+                } else {
+                    wrong.push(format!("{}: {name} is {interpolation:?}, {sampling:?}", point.name));
+                }
+            }
+        }
+    }
+    (wrong, right)
+}
+
+/// Of a pixel with four samples of which a triangle covers some, the centre may lie outside the triangle.
+#[test]
+fn what_is_interpolated_is_taken_where_the_triangle_is() {
+    for text in texts() {
+        let (wrong, right) = badly_interpolated(&valid(&text.files().concat()).expect("a valid text"));
+        assert_eq!(wrong, [""; 0], "{text:?}");
+        assert!(right > 10, "{text:?}: {right} varyings");
+    }
+    let whole = FEW.files().concat();
+    for wrong in ["perspective, center", "perspective", "linear, centroid"] {
+        let text = whole.replacen("perspective, centroid", wrong, 1);
+        let found = badly_interpolated(&naga::front::wgsl::parse_str(&text).expect("a text that can be read")).0;
+        assert!(!found.is_empty(), "{wrong} passes");
+    }
+}
+
 /// Name, offset and size in bytes.
 type Field = (String, usize, usize);
 
