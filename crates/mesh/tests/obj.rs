@@ -83,6 +83,15 @@ fn objects_groups_and_materials_become_parts() {
 }
 
 #[test]
+fn a_bare_usemtl_takes_the_material_away() {
+    let obj = format!("mtllib model.mtl\n{SQUARE}usemtl red\nf 1 2 3\nusemtl\nf 1 3 4\n");
+    let model = load_with_mtl(&obj, "newmtl red\nKd 1 0 0\n");
+    assert_eq!(model.parts.iter().map(|part| part.material).collect::<Vec<_>>(), [Some(0), None]);
+    assert_eq!(model.parts.iter().map(|part| part.mesh.triangle_count()).collect::<Vec<_>>(), [1, 1]);
+    assert_eq!(model.warnings, ["model.obj:8: `usemtl` without a name: the faces after it have no material"]);
+}
+
+#[test]
 fn every_statement_of_a_material_is_kept() {
     let mtl = "\u{feff}# two materials\nnewmtl all of it\n Ka 0.1 0.2 0.3\nKd 0.5\nKs 1 1 1 # white\n\tKe 0 0 2.5\nNs 27.8974\nd 0.75\nTr 0.5\nillum 2\nNi 1.5\nTf 1 1 1\nunknown thing\nnewmtl nothing\n";
     let model = load_with_mtl(&format!("mtllib model.mtl\n{SQUARE}usemtl all of it\nf 1 2 3\n"), mtl);
