@@ -216,27 +216,33 @@ mod tests {
         let whole = Mesh::from(UvSphere::new(1.0, 24, 12));
         let mut assets = Assets::<Mesh>::default();
         let handles = [&broken, &whole].map(|mesh| assets.add(mesh.clone()));
-        let mut workshop = Workshop::making(|mesh, stop| {
-            assert!(mesh != &Mesh::from(UvSphere::new(1.0, 16, 8)), "this mesh is broken");
-            MeshTriangles::in_levels(mesh, stop)
-        });
-        let mut failures = Vec::new();
-        let mut frame = |workshop: &mut Workshop| {
-            workshop.collect();
-            failures.append(&mut workshop.failures);
-            let [first, second] = &handles;
-            let made =
-                [(first, &broken), (second, &whole)].map(|(at, mesh)| workshop.levels(at.id(), mesh, false).is_some());
-            (made, workshop.pending())
-        };
-        assert_eq!(frame(&mut workshop), ([false, false], 2), "seen once");
-        while frame(&mut workshop).1 > 0 {
-            std::thread::yield_now();
+        for waits in [false, true] {
+            let mut workshop = Workshop::making(|mesh, stop| {
+                assert!(mesh != &Mesh::from(UvSphere::new(1.0, 16, 8)), "this mesh is broken");
+                MeshTriangles::in_levels(mesh, stop)
+            });
+            let mut failures = Vec::new();
+            let mut frame = |workshop: &mut Workshop| {
+                workshop.collect();
+                let [first, second] = &handles;
+                let made = [(first, &broken), (second, &whole)]
+                    .map(|(at, mesh)| workshop.levels(at.id(), mesh, waits).is_some());
+                failures.append(&mut workshop.failures);
+                (made, workshop.pending())
+            };
+            assert_eq!(frame(&mut workshop), ([false, false], 2), "waits {waits}: seen once");
+            while !waits && frame(&mut workshop).1 > 0 {
+                std::thread::yield_now();
+            }
+            // Where it waits, both are done by the second frame.
+            for _ in 0..3 {
+                assert_eq!(frame(&mut workshop), ([false, true], 0), "waits {waits}");
+            }
+            assert_eq!(workshop.thread.is_none(), waits, "a thread beside the frames");
+            let [RenderError::NoLevels { mesh, reason }] = &failures[..] else {
+                panic!("waits {waits}: said once, not {failures:?}")
+            };
+            assert!(mesh.starts_with("mesh ") && reason == "this mesh is broken", "waits {waits}: {mesh}: {reason}");
         }
-        for _ in 0..3 {
-            assert_eq!(frame(&mut workshop), ([false, true], 0));
-        }
-        let [RenderError::NoLevels { mesh, reason }] = &failures[..] else { panic!("said once, not {failures:?}") };
-        assert!(mesh.starts_with("mesh ") && reason == "this mesh is broken", "{mesh}: {reason}");
     }
 }
