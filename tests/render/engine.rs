@@ -5,6 +5,7 @@ use crate::render::scene::{Lamp, Scene, Thing, directional_light, material, othe
 use crate::render::stage::Stage;
 use halfway::prelude::*;
 use halfway::render::{Gpu, GpuTimer, RenderError, TextureTarget, encode_frame, wgpu};
+use std::sync::{Arc, Mutex};
 
 const SIZE: UVec2 = UVec2::new(24, 16);
 
@@ -182,4 +183,34 @@ fn what_does_not_go_into_a_texture_is_said() {
     let (_, target) = texture(&gpu, Rgba8Unorm);
     stage.world().insert_resource(TextureTarget { size: SIZE + 1, ..target });
     assert!(matches!(&stage.frame().errors[..], [RenderError::BadTarget { reason, .. }] if reason.contains("size")));
+}
+
+/// The device's callbacks are the engine's, so that it hears of the loss by them; the frame says what it cannot do.
+#[test]
+fn an_engine_s_device_that_is_destroyed_is_an_error_until_another_takes_its_place() {
+    for (lights, samples) in [(2, Samples::One), (20, Samples::Four)] {
+        let row = format!("{lights} lights, {samples:?}");
+        let gpu = plain_device();
+        let heard = Arc::new(Mutex::new(Vec::new()));
+        let (errors, losses) = (Arc::clone(&heard), Arc::clone(&heard));
+        gpu.device.on_uncaptured_error(Arc::new(move |error| errors.lock().expect("no panic").push(error.to_string())));
+        gpu.device.set_device_lost_callback(move |reason, _| {
+            losses.lock().expect("no panic").push(format!("{reason:?}"));
+        });
+        let mut stage = Stage::new(SIZE.x, SIZE.y);
+        stage.world().insert_resource(gpu.clone());
+        let mut scene = with_blended(scene(lights));
+        scene.camera.samples = samples;
+        let before = stage.draw_bytes(&scene);
+        gpu.device.destroy();
+        for _ in 0..2 {
+            let result = stage.try_draw();
+            assert!(matches!(result, Err(RenderError::Device(_))), "{row}: {result:?}");
+        }
+        let heard = heard.lock().expect("no panic").clone();
+        assert!(heard.contains(&"Destroyed".to_owned()), "{row}: the engine hears {heard:?}");
+        stage.world().insert_resource(plain_device());
+        assert!(before == stage.bytes(), "{row}: another picture");
+        assert_eq!(stage.report().errors, [], "{row}");
+    }
 }
