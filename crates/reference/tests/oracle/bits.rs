@@ -1,10 +1,15 @@
 //! The same bits on every machine.
 
-use bevy_math::Vec3;
+use bevy_asset::Assets;
+use bevy_math::{Vec2, Vec3};
 use bevy_transform::components::GlobalTransform;
-use halfway_lighting::{Blend, Cone, Faces, Material, PointLight, Reflectance, Shading, SpotLight};
+use halfway_lighting::{Blend, Cone, Faces, Intensity, Material, PointLight, Reflectance, Shading, SpotLight};
 use halfway_mesh::{Mesh, UvSphere};
 use halfway_reference::{Image, Mode};
+use halfway_texture::environment::{Environment, EnvironmentLight, EnvironmentMap, EnvironmentShape};
+use halfway_texture::{
+    LevelFilter, MapKind, Maps, Sampling, SolidKind, SolidTexture, SurfaceMap, TexelImage, Texture, UvTransform,
+};
 
 use crate::scene::Stage;
 
@@ -53,6 +58,67 @@ fn lit(shading: Shading, reflectance: Reflectance) -> Stage {
     stage
 }
 
+/// Texels that differ from their neighbours, of whole numbers.
+fn texels(width: u32, height: u32, seed: u32) -> TexelImage {
+    let number = |i: u32| (i.wrapping_mul(2_654_435_761) >> 24) as f32 / 256.0;
+    let texel = |x: u32, y: u32| [0, 7, 14, 21].map(|k| number(seed + 31 * x + 1023 * y + k));
+    TexelImage::from_fn(width, height, texel).expect("finite texels")
+}
+
+/// Solids of each kind over a floor with images of colours and heights, which shrink far away, by each way to look them
+/// up.
+fn mapped(intensity: Intensity) -> Stage {
+    let mut stage = Stage::new();
+    stage.camera().intensity = intensity;
+    stage.world.insert_resource(Assets::<Texture>::default());
+    stage.world.spawn((PointLight::white(), GlobalTransform::from_xyz(-2.0, 3.0, 1.0)));
+    let texture = stage.world.resource_mut::<Assets<Texture>>().add(Texture::from(texels(16, 8, 1)));
+    let heights = stage.world.resource_mut::<Assets<Texture>>().add(Texture::from(texels(8, 8, 5)));
+    let filters = [
+        LevelFilter::None,
+        LevelFilter::Nearest,
+        LevelFilter::Linear,
+        LevelFilter::Ripmap,
+        LevelFilter::SummedArea,
+        LevelFilter::Anisotropic8,
+        LevelFilter::Elliptical,
+    ];
+    for (i, levels) in filters.into_iter().enumerate() {
+        let [left, right] = [i, i + 1].map(|i| 0.75 * i as f32 - 2.625);
+        let corners = [(left, -1.0), (right, -1.0), (right, -9.0), (left, -9.0)].map(|(x, z)| Vec3::new(x, -1.0, z));
+        let uvs = vec![Vec2::ZERO, Vec2::X, Vec2::new(1.0, 8.0), Vec2::new(0.0, 8.0)];
+        let strip = Mesh::from_parts(corners.to_vec(), Some(vec![Vec3::Y; 4]), Some(uvs), vec![0, 1, 2, 0, 2, 3]);
+        let sampling = Sampling { levels, ..Sampling::default() };
+        let transform = UvTransform { rotation: 0.3, ..UvTransform::default() };
+        let color = SurfaceMap { sampling, transform, ..texture.clone().into() };
+        let height = SurfaceMap { amount: 0.05, ..heights.clone().into() };
+        let maps = Maps::new(MapKind::Color, color).with(MapKind::Height, height);
+        stage.add(strip.expect("a rectangle"), (Material::default(), maps));
+    }
+    for (i, kind) in SolidKind::ALL.into_iter().enumerate() {
+        let solid = SolidTexture::new(kind, [[0.125, 0.25, 0.5], [1.0, 0.75, 0.5]]).scaled(3.0);
+        let at = GlobalTransform::from_xyz(1.25 * i as f32 - 1.875, 0.375, -2.5);
+        stage.add_at(geode(2), at, (Material::default(), solid));
+    }
+    stage
+}
+
+/// Balls that are lit by a cube map alone, before it.
+fn surrounded(intensity: Intensity) -> Stage {
+    let mut stage = Stage::new();
+    stage.camera().intensity = intensity;
+    let faces = (0..6).map(|face| texels(8, 8, 100 * face)).collect();
+    let cube = Environment::new(EnvironmentShape::Cube, faces).expect("six squares");
+    let mut maps = Assets::<EnvironmentMap>::default();
+    let map = maps.add(EnvironmentMap::new(&cube).expect("a cube map"));
+    stage.world.insert_resource(maps);
+    stage.world.spawn(EnvironmentLight { map, strength: 2.5, rotation: 0.7, sky: true });
+    for (x, shading) in [(-1.25, Shading::Flat), (1.25, Shading::Phong)] {
+        stage.add_at(geode(3), GlobalTransform::from_xyz(x, -0.125, -2.5), (Material::BRASS, shading));
+    }
+    stage
+}
+
 #[test]
 fn pictures_have_the_same_bits_on_every_machine() {
     // Recorded from this test. A change of the oracle may change them; a change of the machine may not.
@@ -68,6 +134,12 @@ fn pictures_have_the_same_bits_on_every_machine() {
                 stage.oracle(40, 30).with_mode(Mode::Surface).draw()
             },
             0x1dee_3268_8a10_f8f3,
+        ),
+        ("images and solids by the curve of ACES", mapped(Intensity::Aces).draw(40, 30), 0x3513_02e4_6cc3_0398),
+        (
+            "an environment, divided by the brightest",
+            surrounded(Intensity::Renormalize { smoothing: 0.0 }).draw(40, 30),
+            0xb049_5fb4_6a19_d5b0,
         ),
     ];
     let found: Vec<String> =
