@@ -9,6 +9,7 @@ mod folds;
 mod four;
 mod grid;
 mod mutants;
+mod needles;
 mod possible;
 mod probes;
 mod repeats;

@@ -66,7 +66,7 @@ pub(crate) fn all_pixels() -> impl Iterator<Item = (u32, u32)> {
 }
 
 /// A grey material under a white light from above, to be seen by either shading.
-fn lamp(stage: &mut Stage) -> Entity {
+pub(crate) fn lamp(stage: &mut Stage) -> Entity {
     stage.world.spawn((PointLight::white(), GlobalTransform::from_xyz(2.0, 3.0, 1.0))).id()
 }
 
@@ -82,7 +82,7 @@ pub(crate) fn moved(mesh: &Mesh, place: impl Fn(Vec3) -> Vec3) -> Mesh {
         .expect("the same triangles")
 }
 
-fn without(mesh: &Mesh, triangle: usize) -> Mesh {
+pub(crate) fn without(mesh: &Mesh, triangle: usize) -> Mesh {
     let mut indices = mesh.indices().to_vec();
     indices.drain(3 * triangle..3 * triangle + 3);
     Mesh::from_parts(mesh.positions().to_vec(), Some(mesh.normals().to_vec()), None, indices).expect("one less")
