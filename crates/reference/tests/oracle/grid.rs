@@ -1,11 +1,15 @@
 //! Vertices on the grid that a rasterizer rounds to.
 
+use bevy_asset::Assets;
 use bevy_color::LinearRgba;
-use bevy_math::Vec4;
+use bevy_math::{Vec2, Vec3, Vec4};
 use halfway_lighting::{GlobalAmbient, Material};
 use halfway_mesh::Mesh;
 use halfway_reference::Image;
+use halfway_reference::metrics::{Bars, judge, judge_on_grid};
+use halfway_texture::{MapKind, Maps, TexelImage, Texture};
 
+use crate::mutants::with;
 use crate::scene::{Stage, panel};
 
 /// A rectangle at depth 1 with a colour at each corner, on a picture of 16 × 16 pixels that shows 2 × 2 units there.
@@ -38,4 +42,57 @@ fn what_is_interpolated_goes_with_the_rounded_corners() {
         assert!(difference(&on_grid, &exact) > 1e-3, "{bits} bits move nothing");
     }
     assert!(difference(&stage.oracle(16, 16).on_grid(24).draw(), &exact) < 1e-6);
+}
+
+/// Strips one above the other, 0.15 pixels high, on each of which the same spot of an image shrinks alike. A grid of
+/// sixteenths of a pixel makes a strip a sixth lower or a quarter higher, and so more or fewer texels go to a pixel.
+fn strips() -> Stage {
+    let mut stage = Stage::new();
+    stage.world.insert_resource(GlobalAmbient(LinearRgba::WHITE));
+    // Whole texels of the third level, and quarters of the fourth.
+    let is_bright = |i: u32| (32..36).contains(&i);
+    let texel = |x, y| if is_bright(x) && is_bright(y) { [1.0, 0.5, 0.25, 1.0] } else { [0.1, 0.1, 0.1, 1.0] };
+    let image = TexelImage::from_fn(64, 64, texel).expect("finite texels");
+    let mut textures = Assets::<Texture>::default();
+    let texture = textures.add(Texture::from(image));
+    stage.world.insert_resource(textures);
+    // 5.7 texels a pixel, which lies between the two levels.
+    let [middle, half] = [34.0, 0.5 * 5.7 * 0.15].map(|texels| texels / 64.0);
+    let uvs = [middle + half, middle - half].map(|v| [Vec2::new(middle, v); 2]).concat();
+    let height = 0.15 / 8.0;
+    for i in 0..40 {
+        let bottom = -0.371 + height * i as f32;
+        let [low, high] = [bottom, bottom + height];
+        let corners = [(-0.7, low), (0.7, low), (0.7, high), (-0.7, high)].map(|(x, y)| Vec3::new(x, y, -1.0));
+        let strip = Mesh::from_parts(corners.to_vec(), None, Some(uvs.clone()), vec![0, 1, 2, 0, 2, 3]);
+        let looks = Material { ambient: LinearRgba::WHITE, diffuse: LinearRgba::BLACK, ..Material::DEFAULT };
+        stage.add(strip.expect("a rectangle"), (looks, Maps::new(MapKind::Color, texture.clone())));
+    }
+    stage
+}
+
+#[test]
+fn a_picture_that_is_right_on_the_grid_alone_passes_as_a_whole_or_not_at_all() {
+    let mut stage = strips();
+    let exact = stage.oracle(16, 16);
+    let (expected, picture) = (exact.draw(), stage.oracle(16, 16).on_grid(4).draw());
+    let by_exact = |picture: &Image| judge(&exact, &expected, picture, Bars::FLOAT.on_grid(4)).expect("one size");
+    let by_either = |picture: &Image| {
+        let rounded = strips().oracle(16, 16);
+        judge_on_grid((&exact, &expected), (rounded, 4), picture, Bars::FLOAT).expect("one size")
+    };
+    let verdict = by_exact(&picture);
+    assert!(!verdict.is_within(), "by the exact triangles: {verdict}");
+    let verdict = by_either(&picture);
+    assert!(verdict.is_within(), "by either: {verdict}");
+    let verdict = by_either(&expected);
+    assert!(verdict.is_within(), "the exact picture: {verdict}");
+    // A pixel off by ten bars, and one that is right by the other rule.
+    for (x, y) in (5..11).map(|y| (7, y)) {
+        let brighter = picture.pixel(x, y).map(|channel| channel + 0.02);
+        for (fault, color) in [("brighter", brighter), ("exact", expected.pixel(x, y))] {
+            let verdict = by_either(&with(&picture, [((x, y), color)]));
+            assert!(!verdict.is_within(), "({x}, {y}) is {fault}, {color:?}: {verdict}");
+        }
+    }
 }
