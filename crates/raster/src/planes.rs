@@ -38,8 +38,8 @@ pub(crate) struct Planes {
     pub(crate) depth: DepthPlane,
 }
 
-/// 1/w as `base + dx·(i − first) + dy·(j − first)` of the tile's pixels (i, j). Every triangle of few pixels has it from
-/// the first that may be covered, whatever is drawn: so surfaces at one place have one depth, to the bit.
+/// 1/w as `base + dx·(i − first) + dy·(j − first)` of the tile's pixels (i, j). Every triangle of few pixels has it
+/// from the first that may be covered, whatever is drawn: so surfaces at one place have one depth, to the bit.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct DepthPlane {
     pub(crate) base: f32,
