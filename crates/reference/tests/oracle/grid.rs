@@ -5,8 +5,8 @@ use bevy_color::LinearRgba;
 use bevy_math::{Vec2, Vec3, Vec4};
 use halfway_lighting::{GlobalAmbient, Material};
 use halfway_mesh::Mesh;
-use halfway_reference::Image;
 use halfway_reference::metrics::{Bars, judge, judge_on_grid};
+use halfway_reference::{Image, VertexGrid};
 use halfway_texture::{MapKind, Maps, TexelImage, Texture};
 
 use crate::mutants::with;
@@ -47,6 +47,11 @@ fn what_is_interpolated_goes_with_the_rounded_corners() {
 /// Strips one above the other, 0.15 pixels high, on each of which the same spot of an image shrinks alike. A grid of
 /// sixteenths of a pixel makes a strip a sixth lower or a quarter higher, and so more or fewer texels go to a pixel.
 fn strips() -> Stage {
+    strips_from(-0.371, 0.15 / 8.0)
+}
+
+/// The same from a place on, of a height, both at depth 1, where a pixel is 1/8.
+fn strips_from(bottom: f32, height: f32) -> Stage {
     let mut stage = Stage::new();
     stage.world.insert_resource(GlobalAmbient(LinearRgba::WHITE));
     // Whole texels of the third level, and quarters of the fourth.
@@ -59,9 +64,8 @@ fn strips() -> Stage {
     // 5.7 texels a pixel, which lies between the two levels.
     let [middle, half] = [34.0, 0.5 * 5.7 * 0.15].map(|texels| texels / 64.0);
     let uvs = [middle + half, middle - half].map(|v| [Vec2::new(middle, v); 2]).concat();
-    let height = 0.15 / 8.0;
     for i in 0..40 {
-        let bottom = -0.371 + height * i as f32;
+        let bottom = bottom + height * i as f32;
         let [low, high] = [bottom, bottom + height];
         let corners = [(-0.7, low), (0.7, low), (0.7, high), (-0.7, high)].map(|(x, y)| Vec3::new(x, y, -1.0));
         let strip = Mesh::from_parts(corners.to_vec(), None, Some(uvs.clone()), vec![0, 1, 2, 0, 2, 3]);
@@ -94,5 +98,31 @@ fn a_picture_that_is_right_on_the_grid_alone_passes_as_a_whole_or_not_at_all() {
             let verdict = by_either(&with(&picture, [((x, y), color)]));
             assert!(!verdict.is_within(), "({x}, {y}) is {fault}, {color:?}: {verdict}");
         }
+    }
+}
+
+/// Every other border of the strips is just in the middle between two places, and goes to either; one that is a hundredth
+/// of a pixel beside it does not.
+#[test]
+fn ties_go_to_either_side() {
+    let ties = || strips_from(-0.375, 0.09375 / 8.0);
+    let judged = |stage: &dyn Fn() -> Stage, picture: &Image| {
+        let (exact, rounded) = (stage().oracle(16, 16), stage().oracle(16, 16));
+        judge_on_grid((&exact, &exact.draw()), (rounded, 4), picture, Bars::FLOAT).expect("one size")
+    };
+    assert!(ties().oracle(16, 16).has_ties(4) && !strips().oracle(16, 16).has_ties(4));
+    let [nearest, others @ ..] = VertexGrid::all(4).map(|grid| ties().oracle(16, 16).on_grid(grid).draw());
+    let [lower, .., higher] = &others;
+    assert!(difference(lower, higher) > 0.05, "the ways are one");
+    for picture in [&nearest].into_iter().chain(&others) {
+        let verdict = judged(&ties, picture);
+        assert!(verdict.is_within(), "{verdict}");
+    }
+    // Down on the picture is up in pixels.
+    for (beside, other) in [(-0.01, lower), (0.01, higher)] {
+        let moved = || strips_from(-0.375 + beside / 8.0, 0.09375 / 8.0);
+        assert!(!moved().oracle(16, 16).has_ties(4));
+        let verdict = judged(&moved, other);
+        assert!(!verdict.is_within(), "{beside} beside: {verdict}");
     }
 }
