@@ -101,8 +101,8 @@ fn a_picture_that_is_right_on_the_grid_alone_passes_as_a_whole_or_not_at_all() {
     }
 }
 
-/// Every other border of the strips is just in the middle between two places, and goes to either; one that is a hundredth
-/// of a pixel beside it does not.
+/// Every other border of the strips is just in the middle between two places, and goes to either; one that is a
+/// hundredth of a pixel beside it does not.
 #[test]
 fn ties_go_to_either_side() {
     let ties = || strips_from(-0.375, 0.09375 / 8.0);
