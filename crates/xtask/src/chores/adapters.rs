@@ -12,10 +12,11 @@ use crate::tally::counted;
 
 /// Run the picture tests and verify the example scenes on every adapter that a bare Debian can have
 ///
-/// These are lavapipe (Vulkan), lavapipe in the ways of hardware, llvmpipe through OpenGL, `SwiftShader`, the software
-/// Vulkan driver of chromium, and the CPU without a driver. On each: the conformance suite, all three shadings with few
-/// and many lights, the random scenes that failed once, and `halfway verify` over examples/scenes; on the CPU all
-/// picture tests that are not about wgpu.
+/// These are lavapipe (Vulkan), lavapipe in the ways of hardware, llvmpipe through OpenGL, `SwiftShader`, the
+/// software Vulkan driver of chromium, and the CPU without a driver. On each: the conformance suite, all three
+/// shadings with few and many lights, transforms and scales of the world, what lies at one place, outlines and
+/// slivers, the random scenes that failed once, and `halfway verify` over examples/scenes; on the CPU all picture
+/// tests that are not about wgpu.
 /// Each suite prints the worst figures, from which the table in docs/accuracy.md is.
 /// What is missing is installed first, as for `cargo xtask test`, of which this is a part; but there the drivers share
 /// the suite's rows with colours of vertices, images, solids and environments among them, since they take minutes to
@@ -89,8 +90,17 @@ fn leave_out_what_runs(adapters: &mut [TriedAdapter], line: &str, tests: Option<
 
 /// The tests of the program `render` that each driver runs, by parts of their names. Lavapipe runs all tests in
 /// `cargo xtask test`.
-const TESTS: [&str; 5] =
-    ["render::adapter::", "render::auto::", "render::conformance::", "render::costs::", "render::light_counts::"];
+const TESTS: [&str; 9] = [
+    "render::adapter::",
+    "render::auto::",
+    "render::conformance::",
+    "render::costs::",
+    "render::light_counts::",
+    "render::order::",
+    "render::samples::",
+    "render::slivers::",
+    "render::transforms::",
+];
 
 /// The tests of the program `wild` that each driver runs, and the one of what is known to fail by the driver.
 const WILD: [&str; 1] = ["scenes_that_failed_once_are_right"];
