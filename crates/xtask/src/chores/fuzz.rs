@@ -13,8 +13,8 @@ use crate::setup::{COMPILER, Setup};
 const CARGO_FUZZ: &str = "0.13.2";
 /// Mebibytes that a target may take, its fuzzer's memory of past inputs included.
 const MOST_MEMORY: &str = "-rss_limit_mb=2048";
-/// Seconds that one input may take: a hundred times what any does, which is an image of a few bytes that says that it is
-/// as large as may be.
+/// Seconds that one input may take: a hundred times what any does, which is an image of a few bytes that says that it
+/// is as large as may be.
 const MOST_TIME: &str = "-timeout=60";
 /// Where Linux keeps files in memory.
 const MEMORY: &str = "/dev/shm";
