@@ -11,7 +11,7 @@ use halfway_wild::{Fault, Finding, Judge, scene, written};
 use serde_json::Value;
 
 /// Scenes that failed once, small. Those in the folder `known` inside still do, those in `known/cpu` on the CPU, those
-/// in `known/swiftshader` by that driver; those in `four` failed on the CPU with four samples a pixel.
+/// in `known/swiftshader` and `known/opengl` by those; those in `four` failed on the CPU with four samples a pixel.
 const KEPT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/wild");
 
 /// Of what the environment names, else of a graphics adapter.
@@ -37,7 +37,11 @@ fn tried() -> Option<String> {
 
 /// The folder of what fails by the driver.
 fn known() -> &'static str {
-    if tried().is_some_and(|tried| tried.contains("SwiftShader")) { "known/swiftshader" } else { "known" }
+    match tried() {
+        Some(tried) if tried.contains("SwiftShader") => "known/swiftshader",
+        Some(tried) if tried.contains("(gl") => "known/opengl",
+        _ => "known",
+    }
 }
 
 fn kept(folder: &Path) -> Vec<(PathBuf, Value)> {

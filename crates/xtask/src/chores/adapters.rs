@@ -160,7 +160,9 @@ impl Tests {
     }
 }
 
-/// The one of which random scenes are known to fail that are right elsewhere.
+/// Those of which random scenes are known to fail that are right elsewhere.
+const WITH_KNOWN: [&str; 2] = [SWIFTSHADER_NAME, OPENGL_NAME];
+const OPENGL_NAME: &str = "llvmpipe through OpenGL";
 const SWIFTSHADER_NAME: &str = "SwiftShader";
 
 /// What the tests are to draw with, as parts of what it says of itself: they fail where it is something else.
@@ -201,7 +203,7 @@ fn all() -> Result<Vec<TriedAdapter>> {
             says: ["llvmpipe", "(vulkan"],
         },
         TriedAdapter {
-            name: "llvmpipe through OpenGL",
+            name: OPENGL_NAME,
             tests: Tests::Few,
             variables: vec![
                 set("WGPU_BACKEND", "gl"),
@@ -270,7 +272,9 @@ impl TriedAdapter {
         self.run("render", &self.tests.arguments())?;
         match self.tests {
             Tests::None | Tests::Most => Ok(()),
-            Tests::Few if self.name == SWIFTSHADER_NAME => self.run("wild", &[WILD.as_slice(), &[KNOWN_WILD]].concat()),
+            Tests::Few if WITH_KNOWN.contains(&self.name) => {
+                self.run("wild", &[WILD.as_slice(), &[KNOWN_WILD]].concat())
+            }
             Tests::Few => self.run("wild", &WILD),
         }
     }
