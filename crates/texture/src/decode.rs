@@ -54,6 +54,10 @@ pub fn decode(bytes: &[u8], name: &str, meaning: TexelMeaning) -> Result<TexelIm
         // The decoder would make the rest gray.
         return Err(broken("the file ends before the picture does".into()));
     }
+    if reader.format() == Some(ImageFormat::Png) && !has_whole_palette(bytes) {
+        // The decoder would panic.
+        return Err(broken("its palette ends within a color".into()));
+    }
     let mut decoder = reader.into_decoder().map_err(|error| broken(error.to_string()))?;
     let (width, height) = decoder.dimensions();
     check_size(name, width, height)?;
@@ -113,6 +117,20 @@ fn has_end_of_jpeg(bytes: &[u8]) -> bool {
         }
     }
     false
+}
+
+/// Whether every palette of a PNG file has three bytes a color (PNG Specification, 11.2.2): chunk after chunk, each the
+/// length of its data, a name, the data and a checksum.
+fn has_whole_palette(bytes: &[u8]) -> bool {
+    let mut rest = bytes.get(8..).unwrap_or_default();
+    while let Some((&[a, b, c, d, ref name @ ..], after)) = rest.split_first_chunk::<8>() {
+        let length = u32::from_be_bytes([a, b, c, d]) as usize;
+        if name == b"PLTE" && !length.is_multiple_of(3) {
+            return false;
+        }
+        rest = after.get(length.saturating_add(4)..).unwrap_or_default();
+    }
+    true
 }
 
 /// The intensity that a number of the sRGB curve stands for (IEC 61966-2-1).
