@@ -2,6 +2,7 @@
 
 use std::fs::File;
 use std::io::{Cursor, Read};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
@@ -69,7 +70,10 @@ pub fn decode(bytes: &[u8], name: &str, meaning: TexelMeaning) -> Result<TexelIm
     Vec::<u8>::new()
         .try_reserve_exact(bytes as usize)
         .map_err(|_| TextureError::Memory { image: name.into(), bytes })?;
-    let image = DynamicImage::from_decoder(decoder).map_err(|error| broken(error.to_string()))?;
+    // Fuzzing found files on which decoders panic; what they leave then is dropped.
+    let image = catch_unwind(AssertUnwindSafe(|| DynamicImage::from_decoder(decoder)));
+    let image = image.map_err(|_| broken("its decoder cannot make sense of it".into()))?;
+    let image = image.map_err(|error| broken(error.to_string()))?;
     let mut texels = Vec::new();
     let count = width as usize * height as usize;
     let refused = |_| TextureError::Memory { image: name.into(), bytes: 16 * count as u64 };
