@@ -66,7 +66,7 @@ pub(crate) fn all_pixels() -> impl Iterator<Item = (u32, u32)> {
 }
 
 /// A grey material under a white light from above, to be seen by either shading.
-pub(crate) fn lamp(stage: &mut Stage) -> Entity {
+fn lamp(stage: &mut Stage) -> Entity {
     stage.world.spawn((PointLight::white(), GlobalTransform::from_xyz(2.0, 3.0, 1.0))).id()
 }
 
@@ -234,16 +234,19 @@ fn a_missing_light_is_found() {
     }
 }
 
+/// A mesh under a lamp, before a wall that glows.
+pub(crate) fn lit_before_a_wall(mesh: &Mesh) -> Stage {
+    let mut stage = Stage::new();
+    lamp(&mut stage);
+    stage.add(wall(30.0, 8.0), glow(1.0, 0.5, 0.1));
+    stage.add(mesh.clone(), Material::default());
+    stage
+}
+
 #[test]
 fn a_missing_triangle_is_found() {
     let mesh = ball(Vec3::new(0.0, 0.0, -2.0), 1.2, 96, 48);
-    let scene = |mesh: &Mesh| {
-        let mut stage = Stage::new();
-        lamp(&mut stage);
-        stage.add(wall(30.0, 8.0), glow(1.0, 0.5, 0.1));
-        stage.add(mesh.clone(), Material::default());
-        stage
-    };
+    let scene = lit_before_a_wall;
     let mut truth = scene(&mesh);
     let judged = oracle(&mut truth);
     let mut triangles: Vec<u32> = (20..76)

@@ -1,11 +1,9 @@
 //! Triangles inside a mesh that are a fraction of a pixel wide: the judge finds where one is missing.
 
 use bevy_math::{Vec2, Vec3};
-use halfway_lighting::Material;
 use halfway_mesh::Mesh;
 
-use crate::mutants::{all_pixels, assert_caught, at_pixel, float, lamp, oracle, with, without};
-use crate::scene::{Stage, glow, wall};
+use crate::mutants::{all_pixels, assert_caught, at_pixel, float, lit_before_a_wall, oracle, with, without};
 
 /// A square before the camera, cut from top to bottom by a needle so many pixels wide at its upper end, which leans so
 /// that it passes some centres. The needle is the first triangle; its edges are its neighbours', too.
@@ -20,13 +18,7 @@ fn cut_by_a_needle(width: f32) -> Mesh {
 
 #[test]
 fn a_missing_needle_is_found() {
-    let scene = |mesh: &Mesh| {
-        let mut stage = Stage::new();
-        lamp(&mut stage);
-        stage.add(wall(30.0, 8.0), glow(1.0, 0.5, 0.1));
-        stage.add(mesh.clone(), Material::default());
-        stage
-    };
+    let scene = lit_before_a_wall;
     for width in [0.5, 0.25, 0.1, 0.05, 0.03] {
         let mesh = cut_by_a_needle(width);
         let mut truth = scene(&mesh);
