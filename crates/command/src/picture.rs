@@ -1,27 +1,22 @@
 //! Pictures on disk, as intensities.
 
+use std::fs::File;
+use std::io::BufReader;
 use std::path::Path;
 
 use halfway::prelude::*;
 use halfway::scene::SceneFile;
-use image::{DynamicImage, ImageDecoder, ImageReader, Limits};
+use halfway::texture::decode_stored;
+use image::{DynamicImage, Limits};
 
 use crate::failure::Failure;
 
 /// Reads a PNG or an EXR as it is; of an animation it is the first frame.
 pub(crate) fn decoded(file: &Path) -> Result<DynamicImage, Failure> {
-    let unreadable = |error: &dyn std::fmt::Display| {
-        Failure::from(format!("{}: cannot be read as a picture: {error}; expected a PNG or EXR", file.display()))
-    };
-    let mut reader = ImageReader::open(file).and_then(ImageReader::with_guessed_format).map_err(|e| unreadable(&e))?;
-    let mut limits = limits();
-    reader.limits(limits.clone());
-    let mut decoder = reader.into_decoder().map_err(|error| unreadable(&error))?;
-    let bytes = decoder.total_bytes();
-    limits.reserve(bytes).and_then(|()| decoder.set_limits(limits)).map_err(|error| unreadable(&error))?;
-    // The decoder takes its memory at once, and a program that is refused it ends.
-    Vec::<u8>::new().try_reserve_exact(bytes as usize).map_err(|error| unreadable(&error))?;
-    DynamicImage::from_decoder(decoder).map_err(|error| unreadable(&error))
+    let name = file.display().to_string();
+    let opened = File::open(file).map_err(|error| format!("{name}: cannot be read: {error}"))?;
+    let picture = decode_stored(BufReader::new(opened), &name, limits());
+    picture.map_err(|error| format!("{error}; expected a PNG or EXR").into())
 }
 
 /// The largest pictures that are drawn, in the format that takes most: four channels of 32 bits.

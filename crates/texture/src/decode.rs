@@ -1,11 +1,11 @@
 //! From the bytes of a file to texels in linear light.
 
 use std::fs::File;
-use std::io::{Cursor, Read};
+use std::io::{BufRead, Cursor, Read, Seek, SeekFrom};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
-use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
+use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, ImageResult, Limits};
 
 use crate::error::TextureError;
 use crate::texels::{TexelImage, check_size};
@@ -49,31 +49,17 @@ pub fn load(path: &Path, meaning: TexelMeaning) -> Result<TexelImage, TextureErr
 /// Bytes that are none of these, NaN or an infinite number in a texel, an image that is broken, empty or too large, or
 /// memory that is refused. The size is checked before memory is taken for it.
 pub fn decode(bytes: &[u8], name: &str, meaning: TexelMeaning) -> Result<TexelImage, TextureError> {
-    let broken = |reason: String| TextureError::Decode { image: name.into(), reason };
-    let reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format().map_err(|e| broken(e.to_string()))?;
-    if reader.format() == Some(ImageFormat::Jpeg) && !has_end_of_jpeg(bytes) {
+    let mut file = Cursor::new(bytes);
+    if guessed(&mut file, name)? == Some(ImageFormat::Jpeg) && !has_end_of_jpeg(bytes) {
         // The decoder would make the rest gray.
-        return Err(broken("the file ends before the picture does".into()));
+        return Err(broken(name, "the file ends before the picture does"));
     }
-    if reader.format() == Some(ImageFormat::Png) && !has_whole_palette(bytes) {
-        // The decoder would panic.
-        return Err(broken("its palette ends within a color".into()));
-    }
-    let mut decoder = reader.into_decoder().map_err(|error| broken(error.to_string()))?;
+    let decoder = opened(file, name, Limits::default())?;
     let (width, height) = decoder.dimensions();
     check_size(name, width, height)?;
     let mut limits = Limits::default();
     limits.max_alloc = Some(decoder.total_bytes().saturating_mul(2).saturating_add(1 << 24));
-    decoder.set_limits(limits).map_err(|error| broken(error.to_string()))?;
-    // The decoder takes its memory at once, and a program that is refused it ends.
-    let bytes = decoder.total_bytes();
-    Vec::<u8>::new()
-        .try_reserve_exact(bytes as usize)
-        .map_err(|_| TextureError::Memory { image: name.into(), bytes })?;
-    // Fuzzing found files on which decoders panic; what they leave then is dropped.
-    let image = catch_unwind(AssertUnwindSafe(|| DynamicImage::from_decoder(decoder)));
-    let image = image.map_err(|_| broken("its decoder cannot make sense of it".into()))?;
-    let image = image.map_err(|error| broken(error.to_string()))?;
+    let image = finished(decoder, name, limits)?;
     let mut texels = Vec::new();
     let count = width as usize * height as usize;
     let refused = |_| TextureError::Memory { image: name.into(), bytes: 16 * count as u64 };
@@ -103,6 +89,64 @@ pub fn decode(bytes: &[u8], name: &str, meaning: TexelMeaning) -> Result<TexelIm
     Ok(TexelImage::checked(width, height, texels))
 }
 
+/// The numbers of a file as they are stored: for pictures that are judged, not for surfaces. `name` is what errors call
+/// the file.
+///
+/// # Errors
+/// Bytes that are no image, a broken one, or one beyond the `limits`; or memory that is refused. The size is checked
+/// before memory is taken for it.
+pub fn decode_stored(file: impl BufRead + Seek, name: &str, mut limits: Limits) -> Result<DynamicImage, TextureError> {
+    let decoder = opened(file, name, limits.clone())?;
+    limits.reserve(decoder.total_bytes()).map_err(|error| broken(name, error))?;
+    finished(decoder, name, limits)
+}
+
+fn broken(name: &str, reason: impl ToString) -> TextureError {
+    TextureError::Decode { image: name.into(), reason: reason.to_string() }
+}
+
+/// What begins as the file does, which is read from its start again after it.
+fn guessed(mut file: impl BufRead + Seek, name: &str) -> Result<Option<ImageFormat>, TextureError> {
+    let format = ImageReader::new(&mut file).with_guessed_format().map(|reader| reader.format());
+    format.and_then(|format| file.rewind().map(|()| format)).map_err(|error| broken(name, error))
+}
+
+/// The decoder of a file, which has read where the image begins.
+fn opened<'a>(
+    mut file: impl BufRead + Seek + 'a,
+    name: &str,
+    limits: Limits,
+) -> Result<impl ImageDecoder + 'a, TextureError> {
+    if guessed(&mut file, name)? == Some(ImageFormat::Png) && !has_whole_palette(&mut file) {
+        // The decoder would panic.
+        return Err(broken(name, "its palette ends within a color"));
+    }
+    guarded(name, || {
+        let mut reader = ImageReader::new(file).with_guessed_format()?;
+        reader.limits(limits);
+        reader.into_decoder()
+    })
+}
+
+/// The image of a decoder, once its memory is granted.
+fn finished(mut decoder: impl ImageDecoder, name: &str, limits: Limits) -> Result<DynamicImage, TextureError> {
+    // The decoder takes its memory at once, and a program that is refused it ends.
+    let bytes = decoder.total_bytes();
+    Vec::<u8>::new()
+        .try_reserve_exact(bytes as usize)
+        .map_err(|_| TextureError::Memory { image: name.into(), bytes })?;
+    guarded(name, || {
+        decoder.set_limits(limits)?;
+        DynamicImage::from_decoder(decoder)
+    })
+}
+
+/// What a decoder gives. Fuzzing found files on which decoders panic; what they leave then is dropped.
+fn guarded<T>(name: &str, decode: impl FnOnce() -> ImageResult<T>) -> Result<T, TextureError> {
+    let given = catch_unwind(AssertUnwindSafe(decode));
+    given.map_err(|_| broken(name, "its decoder cannot make sense of it"))?.map_err(|error| broken(name, error))
+}
+
 /// Whether a JPEG file has the marker of its end, EOI, where one may stand (ITU-T T.81, B.1): not within a segment,
 /// such as that of a preview with an end of its own.
 fn has_end_of_jpeg(bytes: &[u8]) -> bool {
@@ -125,16 +169,18 @@ fn has_end_of_jpeg(bytes: &[u8]) -> bool {
 
 /// Whether every palette of a PNG file has three bytes a color (PNG Specification, 11.2.2): chunk after chunk, each the
 /// length of its data, a name, the data and a checksum.
-fn has_whole_palette(bytes: &[u8]) -> bool {
-    let mut rest = bytes.get(8..).unwrap_or_default();
-    while let Some((&[a, b, c, d, ref name @ ..], after)) = rest.split_first_chunk::<8>() {
-        let length = u32::from_be_bytes([a, b, c, d]) as usize;
+fn has_whole_palette(mut file: impl BufRead + Seek) -> bool {
+    let mut at = 8;
+    let mut chunk = [0; 8];
+    while file.seek(SeekFrom::Start(at)).is_ok() && file.read_exact(&mut chunk).is_ok() {
+        let [a, b, c, d, ref name @ ..] = chunk;
+        let length = u32::from_be_bytes([a, b, c, d]);
         if name == b"PLTE" && !length.is_multiple_of(3) {
             return false;
         }
-        rest = after.get(length.saturating_add(4)..).unwrap_or_default();
+        at += 12 + u64::from(length);
     }
-    true
+    file.rewind().is_ok()
 }
 
 /// The intensity that a number of the sRGB curve stands for (IEC 61966-2-1).

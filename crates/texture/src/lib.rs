@@ -51,7 +51,7 @@ mod texels;
 mod truth;
 mod uv;
 
-pub use decode::{TexelMeaning, decode, load};
+pub use decode::{TexelMeaning, decode, decode_stored, load};
 pub use error::TextureError;
 pub use halves::Level;
 pub use limits::{LONGEST_SIDE, MOST_TEXELS};

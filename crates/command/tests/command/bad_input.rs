@@ -28,6 +28,8 @@ fn bad_input_is_named_and_ends_with_exit_code_2() {
     write("nan.smf", b"v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n");
     write("empty.obj", b"");
     write("text.png", b"no picture");
+    let past = |name: &str| fs::read(asset(&format!("crates/texture/tests/past_failures/{name}"))).expect("it is kept");
+    write("palette.png", &past("a_palette_that_ends_within_a_color.png"));
     for (name, side) in [("2.png", 2), ("3.png", 3)] {
         image::RgbImage::new(side, 3).save(folder.join(name)).expect("the folder can be written");
     }
@@ -79,6 +81,8 @@ fn bad_input_is_named_and_ends_with_exit_code_2() {
         (&["render", "missing.obj", "-o", "a.png", "--reference"], &["missing.obj"]),
         (&["compare", "missing.png", "2.png"], &["missing.png"]),
         (&["compare", "text.png", "2.png"], &["text.png", "expected a PNG or EXR"]),
+        (&["compare", "2.png", "palette.png"], &["palette.png", "within a color", "expected a PNG or EXR"]),
+        (&["verify", "fine.json", "--picture", "palette.png"], &["palette.png", "within a color"]),
         (&["compare", "2.png", "3.png"], &["2.png and 3.png", "2 × 3", "3 × 3"]),
         (&["compare", "2.png", "2.png", "--background", "1,2"], &["1,2", "three linear intensities"]),
         (&["compare", "2.png", "2.png", "-o", "a.bmp"], &["a.bmp", ".png or .exr"]),
@@ -104,6 +108,17 @@ fn bad_input_is_named_and_ends_with_exit_code_2() {
         assert!(!folder.join("a.png").exists(), "{arguments:?} left a picture");
         assert!(!folder.join("b.glb").exists(), "{arguments:?} left a model");
     }
+}
+
+/// Its message, which is standard error's too, is the library's; what ends the command is an error.
+#[test]
+fn a_decoder_that_panics_is_an_error() {
+    let file = asset("crates/texture/tests/past_failures/a_jpeg_on_which_the_decoder_panics.jpg");
+    let output = halfway(&folder("decoder"), &["compare", &file, &file]);
+    assert_eq!(output.status.code(), Some(2), "{output:?}");
+    let error = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(error.contains("error:") && error.contains("a_jpeg_on_which"), "{error}");
+    assert!(error.contains("its decoder cannot make sense of it; expected a PNG or EXR"), "{error}");
 }
 
 #[test]
