@@ -39,8 +39,11 @@ pub fn feed_scene(bytes: &[u8]) {
 /// As [`feed`].
 pub fn feed_image(bytes: &[u8]) {
     // The fuzzer's hook ends the program at any panic, also one of a decoder that the reader makes an error of. Those
-    // that come out of here end it all the same.
+    // that come out of here end it all the same, and say why.
     static ONCE: std::sync::Once = std::sync::Once::new();
     ONCE.call_once(|| std::panic::set_hook(Box::new(|_| {})));
-    texture::feed(bytes);
+    if let Err(panic) = std::panic::catch_unwind(|| texture::feed(bytes)) {
+        eprintln!("{}", panic.downcast_ref::<String>().map_or("a panic without a text", String::as_str));
+        std::process::abort();
+    }
 }

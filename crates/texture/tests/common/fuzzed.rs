@@ -1,6 +1,8 @@
 //! What fuzzing asks of the reader of images: that it does not panic, that an error names the image, and that what was
 //! read is an image, of numbers in their ranges.
 
+use std::mem::discriminant;
+
 use halfway_texture::{TexelImage, TexelMeaning, decode};
 
 /// Reads the bytes as an image, by either meaning.
@@ -15,7 +17,8 @@ pub(crate) fn feed(bytes: &[u8]) {
             }
         }
         (Err(color), Err(data)) => {
-            assert_eq!(color.to_string(), data.to_string());
+            // Not their texts: of an EXR file that is broken in two ways the decoder names either.
+            assert_eq!(discriminant(&color), discriminant(&data), "{color}, and {data}");
             assert!(color.to_string().starts_with("fuzzed"), "{color}");
         }
         (color, data) => panic!("as a color {:?}, and as data {:?}", color.err(), data.err()),
