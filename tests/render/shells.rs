@@ -1,6 +1,6 @@
 //! Objects that are drawn coarser, close before others.
 
-use crate::render::scene::{Scene, Thing, glowing, rotated};
+use crate::render::scene::{Lamp, Scene, Thing, directional_light, glowing, rotated};
 use crate::render::stage::{FULL, Stage};
 use halfway::prelude::*;
 
@@ -31,6 +31,52 @@ fn a_shell_hides_what_is_close_inside() {
             }
         }
     }
+}
+
+/// The same of two spheres in one mesh that have no corner in common. The normals of the inner one point away from the
+/// light.
+#[test]
+fn a_shell_hides_what_is_close_inside_in_the_same_mesh() {
+    let mut stage = Stage::new(128, 128);
+    let ball = Mesh::from(UvSphere::new(1.0, 256, 128));
+    let turned = rotated(0.5, 0.6, 0.7).rotation;
+    let eye = Vec3::new(0.2, 0.35, 0.9).normalize();
+    let mut drawn = |larger_by: f32, distance: f32, tolerance: Tolerance| {
+        let outer = ball.positions().iter().map(|&p| turned * (p * (1.0 + larger_by)));
+        let positions = ball.positions().iter().copied().chain(outer).collect();
+        let normals = ball.normals().iter().map(|&n| -n).chain(ball.normals().iter().map(|&n| turned * n)).collect();
+        let count = ball.positions().len() as u32;
+        let indices = ball.indices().iter().copied().chain(ball.indices().iter().map(|i| i + count)).collect();
+        let both = Mesh::from_parts(positions, Some(normals), None, indices).expect("two spheres");
+        let matt = Material { diffuse: LinearRgba::WHITE, ..glowing(0.0, 0.0, 0.0) };
+        let scene = Scene::seen_from(eye * distance, Vec3::ZERO)
+            .with(Thing::new(both).of(matt).shaded(Shading::Gouraud))
+            .lit(Lamp::directional(directional_light(), -eye));
+        stage.set(&scene);
+        stage.levels(tolerance);
+        let picture = stage.float();
+        let middle = picture.width() as f32 / 2.0;
+        // Well within the outline, where the outer one is bright.
+        let radius = 0.7 * middle / (0.5 * scene.camera.fov_y).tan() / distance;
+        let within: Vec<f32> = picture
+            .enumerate_pixels()
+            .filter(|&(x, y, _)| (x as f32 - middle).hypot(y as f32 - middle) < radius)
+            .map(|(_, _, pixel)| pixel.0[0])
+            .collect();
+        assert!(within.len() > 50, "{} pixels", within.len());
+        (within.into_iter().filter(|&bright| bright < 0.05).count(), stage.report().triangles)
+    };
+    for larger_by in [0.0005, 0.00075, 0.001, 0.0015, 0.002] {
+        for distance in [4.0, 6.0, 8.0, 12.0] {
+            for tolerance in [FULL, Tolerance::DEFAULT, Tolerance { pixels: 2.0, ..Tolerance::DEFAULT }] {
+                let (dark, _) = drawn(larger_by, distance, tolerance);
+                assert_eq!(dark, 0, "{larger_by} larger, from {distance}, {} pixels", tolerance.pixels);
+            }
+        }
+    }
+    // Where there is room, both are drawn with fewer.
+    let [all, fewer] = [FULL, Tolerance::DEFAULT].map(|tolerance| drawn(0.3, 12.0, tolerance).1);
+    assert!(fewer < all / 2, "{fewer} of {all}");
 }
 
 /// What is near to another keeps all triangles, what is farther is drawn with fewer, in one frame.

@@ -254,6 +254,49 @@ fn normals_turn_no_further_than_is_said() {
     }
 }
 
+/// Parts stay at least their error away from what is not connected with them: those move by no more than that too.
+#[test]
+fn what_is_not_connected_has_room_for_the_error() {
+    let ball = Mesh::from(UvSphere::new(1.0, 96, 48));
+    let count = ball.positions().len() as u32;
+    let mut groups_with_room = Vec::new();
+    // Shells around each other; then one that cuts another's side, and one far off.
+    for (size, aside) in [(1.001, 0.0), (1.02, 0.0), (1.1, 0.0), (1.5, 0.0), (0.5, 1.2), (1.0, 30.0)] {
+        let other = |p: &Vec3| *p * size + Vec3::X * aside;
+        let positions = ball.positions().iter().copied().chain(ball.positions().iter().map(other)).collect();
+        let indices = ball.indices().iter().copied().chain(ball.indices().iter().map(|i| i + count)).collect();
+        let both = Mesh::new(positions, indices).unwrap();
+        let is_other = |triangle: &[u32; 3]| triangle[0] >= count;
+        let hierarchy = hierarchy(&both);
+        for group in hierarchy.groups.iter().take(hierarchy.groups.len() - 1) {
+            let number = hierarchy.groups.iter().position(|other| std::ptr::eq(group, other)).unwrap() as u32;
+            let parts = hierarchy.patches.iter().filter(|patch| patch.part_of == Some(number));
+            for patch in parts {
+                let triangles = &hierarchy.triangles[patch.triangles.start as usize..patch.triangles.end as usize];
+                for own in triangles {
+                    let corners = own.map(|i| both.positions()[i as usize]);
+                    for weights in samples(3) {
+                        let p = sum(corners, weights);
+                        // Both are around an axis or beside each other: how far a point is from a sphere is known, and
+                        // the mesh of one is within its sphere by no more than 2 · 10⁻³ of its radius.
+                        let (center, radius) = if is_other(own) {
+                            (DVec3::ZERO, 1.0)
+                        } else {
+                            (DVec3::X * f64::from(aside), f64::from(size))
+                        };
+                        let distance = (p.distance(center) - radius).abs() + 0.002 * radius;
+                        assert!(distance >= f64::from(group.error), "{size}, {aside}: {distance} < {}", group.error);
+                    }
+                }
+            }
+        }
+        groups_with_room.push(hierarchy.groups.len() - 1);
+    }
+    let [close, some, more, wide, cut, apart] = groups_with_room[..] else { unreachable!("as many as there are rows") };
+    assert!(close == 0 && some <= more && more <= wide && wide <= apart, "{groups_with_room:?}");
+    assert!(cut > 0 && cut < apart, "only where one cuts the other nothing is joined: {groups_with_room:?}");
+}
+
 #[test]
 fn creases_and_planes_stay_as_they_are() {
     let mesh = Mesh::from(Cuboid::default()).subdivided(Subdivision::Midpoint, 5).unwrap();

@@ -8,10 +8,13 @@ use bevy_math::DVec3;
 use super::box_grid::not_less;
 use super::collapse::{Collapse, LocalMesh};
 use super::fine_surface::Surfaces;
+use super::frame::longest_edge;
 use super::neighbours;
 use super::open_border::open_border;
-use super::overlay::{Deviation, angle};
+use super::overlay::Deviation;
+use super::pieces::rooms;
 use super::stand_ins::StandIns;
+use super::widest_angle::WidestAngle;
 use crate::Mesh;
 
 /// Patches of a mesh, finer and coarser ones, of which some make up the mesh once, each part as fine as it has to be.
@@ -73,6 +76,10 @@ const FEWEST: usize = 32;
 /// Groups further off than this part of the radius of the box around the mesh are not made.
 const FARTHEST: f64 = 0.1;
 
+/// Where other pieces of the mesh are closer than this number of times the error, no group is made: so neither of two
+/// that move by their errors comes to lie before the other.
+const ROOM: f64 = 2.0;
+
 /// A group that keeps more than this part of its triangles is not worth its memory.
 const WORTHWHILE: f64 = 0.93;
 
@@ -103,9 +110,13 @@ impl Mesh {
     /// only along itself. What is on an open border stays, for other meshes may share it. A faceted mesh is all
     /// creases:
     /// [weld](Self::welded) it first.
+    ///
+    /// Triangles that have corners in common, and those that have some in common with these, and so on, are one piece.
+    /// Where another piece is closer than twice the [error](PatchGroup::error) of a group, that is not made: so neither
+    /// comes to lie before the other.
     pub fn patch_hierarchy(&self, stop: &AtomicBool) -> Option<PatchHierarchy> {
         let mut maker = Maker::new(self);
-        let mut pool = maker.finest();
+        let mut pool = maker.finest(stop);
         while !pool.is_empty() {
             let before = pool.len();
             let (next, joined) = maker.join(pool, stop)?;
@@ -133,6 +144,10 @@ struct Loose {
     base: Deviation,
     /// The number of joins since.
     age: u32,
+    /// How far it is at least from what is not connected with it.
+    room: f64,
+    /// Whether a group that was to join it would have been too far off for that. It is joined no more.
+    is_stuck: bool,
 }
 
 struct Maker<'a> {
@@ -177,7 +192,8 @@ impl<'a> Maker<'a> {
         }
     }
 
-    fn finest(&mut self) -> Vec<Loose> {
+    fn finest(&mut self, stop: &AtomicBool) -> Vec<Loose> {
+        let rooms = rooms(self.mesh, &self.stand_ins.places, stop);
         let mut triangles: Vec<[u32; 3]> = self.mesh.triangles().collect();
         let runs = self.mesh.cut_into_patches(&mut triangles, self.mesh.triangles_of_a_patch());
         self.references = triangles;
@@ -185,6 +201,7 @@ impl<'a> Maker<'a> {
             let number = self.patches.len() as u32;
             let drawn = self.references[run.clone()].to_vec();
             let triangles = self.stand_ins.triangles(&drawn).collect();
+            let room = rooms.as_ref().map_or(f64::INFINITY, |rooms| self.room(&drawn, rooms));
             let loose = Loose {
                 number,
                 triangles,
@@ -193,6 +210,8 @@ impl<'a> Maker<'a> {
                 covers: vertices(&drawn),
                 base: Deviation::default(),
                 age: 0,
+                room,
+                is_stuck: false,
             };
             self.patches.push((drawn, None));
             loose
@@ -200,11 +219,23 @@ impl<'a> Maker<'a> {
         loose.collect()
     }
 
+    /// How far triangles are from what is not connected with them, by how far their vertices are: no point of a
+    /// triangle is further from one of them than the longest edge over √3 (Jung 1901).
+    fn room(&self, triangles: &[[u32; 3]], rooms: &[f64]) -> f64 {
+        let of = |triangle: &[u32; 3]| {
+            let corners = triangle.map(|vertex| self.mesh.positions()[vertex as usize].as_dvec3());
+            let rooms = triangle.map(|vertex| rooms[self.stand_ins.places[vertex as usize] as usize]);
+            rooms.into_iter().fold(f64::INFINITY, f64::min) - longest_edge(corners) / 3f64.sqrt()
+        };
+        triangles.iter().map(of).fold(f64::INFINITY, f64::min).max(0.0)
+    }
+
     /// Joins what can be joined; `None` where it is to stop. Returns what is loose then, and whether anything was
     /// joined.
     fn join(&mut self, pool: Vec<Loose>, stop: &AtomicBool) -> Option<(Vec<Loose>, bool)> {
         let places: Vec<Vec<u32>> = pool.iter().map(|loose| self.places(loose)).collect();
-        let touched = (0..).zip(&places).flat_map(|(at, places)| places.iter().map(move |&place| (place, at)));
+        let (stuck, free): (Vec<_>, Vec<_>) = (0..).zip(&places).partition(|(at, _)| pool[*at as usize].is_stuck);
+        let touched = free.into_iter().flat_map(|(at, places)| places.iter().map(move |&place| (place, at)));
         let groups = neighbours::group(touched.collect(), pool.len());
         // Of each place the only group that has it.
         let mut owners = vec![NOBODY; self.stand_ins.places.len()];
@@ -214,14 +245,19 @@ impl<'a> Maker<'a> {
                 *owner = if *owner == NOBODY || *owner == group { group } else { SEVERAL };
             }
         }
+        for &place in stuck.into_iter().flat_map(|(_, places)| places) {
+            owners[place as usize] = SEVERAL;
+        }
         let mut pool: Vec<Option<Loose>> = pool.into_iter().map(Some).collect();
         let (mut next, mut joined) = (Vec::new(), false);
         for members in &groups {
             if stop.load(Ordering::Relaxed) {
                 return None;
             }
-            let members: Vec<Loose> = members.iter().filter_map(|&at| pool[at as usize].take()).collect();
-            match self.parts(&members, &owners) {
+            let (stuck, mut members): (Vec<Loose>, Vec<Loose>) =
+                members.iter().filter_map(|&at| pool[at as usize].take()).partition(|loose| loose.is_stuck);
+            next.extend(stuck);
+            match self.parts(&mut members, &owners) {
                 Some(parts) => {
                     joined = true;
                     next.extend(parts);
@@ -248,7 +284,12 @@ impl<'a> Maker<'a> {
     }
 
     /// Fewer triangles in the place of some patches, cut into patches.
-    fn parts(&mut self, members: &[Loose], owners: &[u32]) -> Option<Vec<Loose>> {
+    fn parts(&mut self, members: &mut [Loose], owners: &[u32]) -> Option<Vec<Loose>> {
+        let finer = members.iter().filter_map(|loose| loose.part_of).map(|group| &self.groups[group as usize]);
+        let known = finer.map(|group| f64::from(group.error)).fold(0.0, f64::max);
+        if !has_room(members, known) {
+            return None;
+        }
         let before: usize = members.iter().map(|loose| loose.triangles.len()).sum();
         let kept = if self.is_whole { KEPT_OF_WHOLE } else { KEPT };
         let wanted = (kept * before as f64) as usize;
@@ -275,17 +316,21 @@ impl<'a> Maker<'a> {
         let base = members.iter().map(|loose| loose.base).fold(Deviation::default(), Deviation::max);
         let overlay = surfaces.overlay(self.least(members, base), &mut self.slots);
         let deviation = overlay.deviation.and(base);
-        if deviation.distance > FARTHEST * f64::from(self.mesh.bounds().radius()) {
+        if deviation.distance > FARTHEST * f64::from(self.mesh.bounds().radius())
+            || !has_room(members, deviation.distance.max(known))
+        {
             return None;
         }
         let group = self.groups.len() as u32;
         self.add_group(members, &coarse, deviation);
+        let room = members.iter().map(|loose| loose.room).fold(f64::INFINITY, f64::min);
         let age = 1 + members.iter().map(|loose| loose.age).max().unwrap_or(0);
         let parts = runs.iter().map(|run| {
             let number = self.patches.len() as u32;
             let triangles = coarse[run.clone()].to_vec();
             self.patches.push((triangles.clone(), Some(group)));
-            Loose { number, triangles, part_of: Some(group), under: Vec::new(), covers: Vec::new(), base, age }
+            let (under, covers, is_stuck) = (Vec::new(), Vec::new(), false);
+            Loose { number, triangles, part_of: Some(group), under, covers, base, age, room, is_stuck }
         });
         let mut parts: Vec<Loose> = parts.collect();
         if age == REBASED && !self.is_whole {
@@ -412,28 +457,14 @@ impl<'a> Maker<'a> {
     }
 }
 
-/// The largest of angles.
-#[derive(Default)]
-struct WidestAngle {
-    angle: f64,
-    /// The square of a tangent: what is by far less than that of the angle is not the largest.
-    by_far2: f64,
-}
-
-impl WidestAngle {
-    /// Adds the angle between two vectors, π where the second is none.
-    fn add(&mut self, a: DVec3, b: DVec3) {
-        let (across2, along) = (a.cross(b).length_squared(), a.dot(b));
-        if along > 0.0 && across2 < self.by_far2 * along * along {
-            return;
-        }
-        let angle = if b == DVec3::ZERO { std::f64::consts::PI } else { angle(a, b) };
-        if angle > self.angle {
-            // From a right angle on all are looked at.
-            let tan = if angle < 1.5 { angle.tan() } else { 0.0 };
-            (self.angle, self.by_far2) = (angle, 0.999_999 * tan * tan);
-        }
+/// Whether patches may be this far off; those are stuck that may not.
+fn has_room(members: &mut [Loose], distance: f64) -> bool {
+    let mut has_room = true;
+    for loose in members {
+        loose.is_stuck = ROOM * f64::from(not_less(distance)) > loose.room;
+        has_room &= !loose.is_stuck;
     }
+    has_room
 }
 
 /// Of no group, and of more than one.

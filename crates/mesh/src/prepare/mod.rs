@@ -26,6 +26,7 @@ mod open_border;
 mod order;
 mod overlay;
 mod patches;
+mod pieces;
 mod quadric;
 mod repair;
 mod report;
@@ -35,6 +36,7 @@ mod stand_ins;
 mod triangle_fans;
 mod vicinity;
 mod weld;
+mod widest_angle;
 
 pub use distance::DistanceBounds;
 #[cfg(feature = "prepare")]

@@ -16,6 +16,8 @@ pub(super) struct TriangleTree {
 struct Node {
     min: DVec3,
     max: DVec3,
+    /// The only piece of which it has triangles, if there is one.
+    piece: Option<u32>,
     /// The first triangle of a leaf, the number of the second half's node otherwise.
     next: u32,
     /// The number of a leaf's triangles, 0 otherwise.
@@ -28,10 +30,15 @@ const LEAF: usize = 4;
 impl TriangleTree {
     /// At least one triangle.
     pub(super) fn new(triangles: Vec<TriangleCorners>) -> Self {
+        Self::of_pieces(triangles, |_| 0)
+    }
+
+    /// At least one triangle; which piece each is of, by its number.
+    pub(super) fn of_pieces(triangles: Vec<TriangleCorners>, piece: impl Fn(u32) -> u32) -> Self {
         let key = |(number, [a, b, c]): (u32, &TriangleCorners)| (a + b + c, number);
         let mut keys: Vec<(DVec3, u32)> = (0..).zip(&triangles).map(key).collect();
         let mut nodes = Vec::with_capacity(triangles.len());
-        build(&mut keys, 0, &triangles, &mut nodes);
+        build(&mut keys, 0, (&triangles, &piece), &mut nodes);
         let triangles = keys.into_iter().map(|(_, number)| (triangles[number as usize], number)).collect();
         Self { triangles, nodes }
     }
@@ -45,7 +52,7 @@ impl TriangleTree {
     /// found.
     pub(super) fn nearest(&self, p: DVec3, guess: usize) -> (f64, usize) {
         let (mut least2, mut nearest) = (distance_squared(p, self.triangles[guess].0), guess);
-        self.search(p, least2, |number, triangle, _| {
+        self.search(p, None, least2, |number, triangle, _| {
             let distance2 = distance_squared(p, *triangle);
             if distance2 < least2 {
                 (least2, nearest) = (distance2, number);
@@ -55,10 +62,29 @@ impl TriangleTree {
         (least2.sqrt(), nearest)
     }
 
+    /// The least distance from a triangle of another piece; `piece` is that of each by the number with which it was
+    /// given.
+    pub(super) fn nearest_of_others(&self, p: DVec3, own: u32, piece: impl Fn(u32) -> u32) -> f64 {
+        let mut least2 = f64::INFINITY;
+        self.search(p, Some(own), least2, |_, triangle, given| {
+            if piece(given) != own {
+                least2 = least2.min(distance_squared(p, *triangle));
+            }
+            least2
+        });
+        least2.sqrt()
+    }
+
     /// Looks at triangles, the near ones first: `look` gets a triangle's number, its corners and the number that it had
     /// when it was given, and returns the square of the distance from which on no others need be looked at; at first
-    /// `within2` is.
-    pub(super) fn search(&self, p: DVec3, within2: f64, mut look: impl FnMut(usize, &TriangleCorners, u32) -> f64) {
+    /// `within2` is. Where there is nothing but one piece, those of `left_out` are not looked at.
+    fn search(
+        &self,
+        p: DVec3,
+        left_out: Option<u32>,
+        within2: f64,
+        mut look: impl FnMut(usize, &TriangleCorners, u32) -> f64,
+    ) {
         let mut within2 = within2;
         let mut waiting = vec![(self.nodes[0].distance_squared(p), 0)];
         while let Some((distance2, number)) = waiting.pop() {
@@ -66,6 +92,9 @@ impl TriangleTree {
                 continue;
             }
             let node: &Node = &self.nodes[number];
+            if left_out.is_some() && node.piece == left_out {
+                continue;
+            }
             for number in node.triangles() {
                 let (triangle, given) = &self.triangles[number];
                 within2 = look(number, triangle, *given);
@@ -82,11 +111,19 @@ impl TriangleTree {
 
 /// The tree over the triangles of these numbers, found by three times their centroids, which come after `before`
 /// others.
-fn build(keys: &mut [(DVec3, u32)], before: usize, triangles: &[TriangleCorners], nodes: &mut Vec<Node>) {
+fn build(
+    keys: &mut [(DVec3, u32)],
+    before: usize,
+    (triangles, piece): (&[TriangleCorners], &impl Fn(u32) -> u32),
+    nodes: &mut Vec<Node>,
+) {
     let this = nodes.len();
     if keys.len() <= LEAF {
         let (min, max) = bounds(keys.iter().flat_map(|(_, number)| triangles[*number as usize]));
-        nodes.push(Node { min, max, next: before as u32, count: keys.len() as u32 });
+        let mut pieces = keys.iter().map(|(_, number)| piece(*number));
+        let first = pieces.next();
+        let piece = first.filter(|first| pieces.all(|other| other == *first));
+        nodes.push(Node { min, max, piece, next: before as u32, count: keys.len() as u32 });
         return;
     }
     let (min, max) = bounds(keys.iter().map(|(place, _)| *place));
@@ -94,12 +131,13 @@ fn build(keys: &mut [(DVec3, u32)], before: usize, triangles: &[TriangleCorners]
     let middle = keys.len() / 2;
     keys.select_nth_unstable_by(middle, |a, b| a.0[axis].total_cmp(&b.0[axis]));
     let (near, far) = keys.split_at_mut(middle);
-    nodes.push(Node { min, max, next: 0, count: 0 });
-    build(near, before, triangles, nodes);
+    nodes.push(Node { min, max, piece: None, next: 0, count: 0 });
+    build(near, before, (triangles, piece), nodes);
     let next = nodes.len();
-    build(far, before + middle, triangles, nodes);
+    build(far, before + middle, (triangles, piece), nodes);
     let [a, b] = [&nodes[this + 1], &nodes[next]];
-    nodes[this] = Node { min: a.min.min(b.min), max: a.max.max(b.max), next: next as u32, count: 0 };
+    let piece = a.piece.filter(|_| a.piece == b.piece);
+    nodes[this] = Node { min: a.min.min(b.min), max: a.max.max(b.max), piece, next: next as u32, count: 0 };
 }
 
 /// The box around points.
@@ -195,6 +233,16 @@ mod tests {
             let p = 2.0 * place(5000 + i) - 0.5;
             let all = triangles.iter().map(|t| distance_squared(p, *t)).fold(f64::INFINITY, f64::min);
             assert_eq!(tree.nearest(p, i as usize % 200).0, all.sqrt());
+        }
+        // Of pieces that lie among each other, and of some that lie apart.
+        for (name, piece) in [("mixed", (|i| i % 3) as fn(u32) -> u32), ("apart", |i| u32::from(place(i).x > 0.5))] {
+            let tree = TriangleTree::of_pieces(triangles.clone(), piece);
+            for i in 0..300 {
+                let (p, own) = (2.0 * place(5000 + i) - 0.5, i % 2);
+                let others = (0..).zip(&triangles).filter(|(number, _)| piece(*number) != own);
+                let least = others.map(|(_, t)| distance_squared(p, *t)).fold(f64::INFINITY, f64::min);
+                assert_eq!(tree.nearest_of_others(p, own, piece), least.sqrt(), "{name}");
+            }
         }
     }
 }
