@@ -235,7 +235,8 @@ mod tests {
             assert_eq!(tree.nearest(p, i as usize % 200).0, all.sqrt());
         }
         // Of pieces that lie among each other, and of some that lie apart.
-        for (name, piece) in [("mixed", (|i| i % 3) as fn(u32) -> u32), ("apart", |i| u32::from(place(i).x > 0.5))] {
+        let (mixed, apart) = (|i: u32| i % 3, |i: u32| u32::from(place(3 * i).x > 0.5));
+        for (name, piece) in [("mixed", &mixed as &dyn Fn(u32) -> u32), ("apart", &apart)] {
             let tree = TriangleTree::of_pieces(triangles.clone(), piece);
             for i in 0..300 {
                 let (p, own) = (2.0 * place(5000 + i) - 0.5, i % 2);

@@ -255,9 +255,17 @@ mod tests {
 
     #[test]
     fn lists_are_the_same_by_any_number_of_threads() {
-        for (shading, lights) in [(Shading::Auto, 3), (Shading::Auto, 16), (Shading::Phong, 16)] {
+        let (free, never) = (VertexPrices::FREE, VertexPrices::NEVER);
+        let rows = [
+            (Shading::Auto, 3, free),
+            (Shading::Auto, 16, free),
+            (Shading::Auto, 16, never),
+            (Shading::Phong, 16, never),
+        ];
+        for (shading, lights, prices) in rows {
             let frames = [1, 2, 3].map(|threads| {
                 let mut app = app(shading, lights);
+                app.insert_resource(prices);
                 let started = Threads::new("test", Some(threads)).expect("a few threads");
                 app.world_mut().resource_mut::<LitPatches>().choosers.threads = Some(started);
                 let frames = [0, 1, 2].map(|_| {
@@ -277,5 +285,30 @@ mod tests {
             assert!(frames[0][0] != frames[0][1], "{shading:?}: the camera moves");
             assert!(frames[1..].iter().all(|other| *other == frames[0]), "{shading:?}, {lights} lights");
         }
+    }
+
+    /// By prices at which no patch can save anything no patch is chosen for, and all is as at prices that say so at once.
+    #[test]
+    fn where_no_patch_may_save_none_is_chosen_for() {
+        let drawn = |prices: VertexPrices| {
+            let mut app = app(Shading::Auto, 6);
+            app.insert_resource(prices);
+            let frames = [0, 1].map(|_| {
+                app.update();
+                let mut cameras = app.world_mut().query_filtered::<&mut Transform, With<Camera>>();
+                cameras.iter_mut(app.world_mut()).for_each(|mut camera| camera.translation.x += 0.05);
+                made(&app)
+            });
+            let choosers = &app.world().resource::<LitPatches>().choosers;
+            assert!(choosers.threads.is_none() && choosers.groups.is_empty(), "{prices:?}");
+            let report = app.world().resource::<FrameReport>();
+            assert!(
+                report.patches > 500 && report.terms_at_fragments > 0 && report.terms_at_vertices == 0,
+                "{report:?}"
+            );
+            frames
+        };
+        let dear = VertexPrices { look: 1e9, ..VertexPrices::FREE };
+        assert_eq!(drawn(dear), drawn(VertexPrices::NEVER));
     }
 }

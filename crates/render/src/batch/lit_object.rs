@@ -67,14 +67,20 @@ impl LitObject<'_> {
             return (ShadedAt::Either, Extent::default());
         }
         let extent = patch.extent(sight);
-        let place = if patch.is_coarse_within(sight, self.tolerance.pixels + SAMPLED) {
+        let may_save = || prices.may_save(extent, memory.before(self.name(patch)), compiled_in);
+        let place = if self.is_coarse(patch, sight) {
             ShadedAt::Corners
-        } else if patch.has_normal_cone() && prices.may_save(extent, memory.before(self.name(patch)), compiled_in) {
+        } else if *prices != VertexPrices::NEVER && patch.has_normal_cone() && may_save() {
             ShadedAt::Either
         } else {
             ShadedAt::Fragments
         };
         (place, extent)
+    }
+
+    /// Whether a patch is so coarse or far away that its terms are shaded at its corners.
+    pub(crate) fn is_coarse(&self, patch: &MeshPatch, sight: &Sight) -> bool {
+        patch.is_coarse_within(sight, self.tolerance.pixels + SAMPLED)
     }
 
     pub(crate) fn name(&self, patch: &MeshPatch) -> PatchName {

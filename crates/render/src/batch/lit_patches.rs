@@ -272,7 +272,7 @@ impl LitPatches {
         // What is whole has been found to be seen, and is not counted.
         report.patches_culled += looked_at.saturating_sub(seen.len() as u32);
         if admitted.lists != Lists::Listed {
-            self.add_alike(object, seen, admitted, shared, backend);
+            self.add_alike(object, seen, |_| admitted, shared, backend);
             return;
         }
         // Light by light; else all terms of a patch are in one place.
@@ -284,20 +284,23 @@ impl LitPatches {
         if is_placed && !self.pays(&chooser, seen) {
             chooser.placing = None;
         }
-        self.add_listed(&chooser, seen, is_placed, backend);
+        if chooser.placing.is_some() || !self.add_in_place(&chooser, seen, is_placed, backend) {
+            self.add_listed(&chooser, seen, is_placed, backend);
+        }
     }
 
-    /// Adds what is seen of an object of which no patch has a list.
-    fn add_alike(
+    /// Adds what is seen of an object of which no patch has a list, each by its key.
+    pub(super) fn add_alike(
         &mut self,
         object: &LitObject,
         seen: &[SeenPatch],
-        key: DrawKey,
+        key: impl Fn(&MeshPatch) -> DrawKey,
         shared: Shared,
         backend: &mut impl Backend,
     ) {
         let mut run: Option<OpenRun> = None;
         for &(patch, stretch) in seen {
+            let key = key(patch);
             let (key, record) = if shared.false_colors {
                 let (key, _, record) = self.false_colored(object, patch, key, None, backend);
                 (key, record)

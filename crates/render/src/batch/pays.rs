@@ -16,19 +16,21 @@ impl LitPatches {
         let object = chooser.object;
         self.profit.is_open = seen.len() < FEW_PATCHES;
         let pays = if self.profit.is_open {
-            let mut moved = seen.iter().map(|(patch, _)| self.lists.memory.before(object.name(patch)).is_moved());
-            self.profit.looks_at_next() || moved.any(|moved| moved == Some(true))
+            let memory = &self.lists.memory;
+            let mut moved = seen.iter().map(|(patch, _)| memory.before(object.name(patch)).is_moved());
+            self.profit.looks_at_next() || (memory.has_moved(object.entity) && moved.any(|moved| moved == Some(true)))
         } else {
             let selector = self.choosers.first();
-            let mut gains = 0.0;
+            let (mut gains, mut may_save) = (0.0, false);
             for looked_at in seen.iter().step_by(LOOKED_AT_FIRST) {
                 let place = chooser.place(looked_at.0, &self.lists.memory);
                 if place.0 == ShadedAt::Either {
+                    may_save = true;
                     chooser.look_around(selector, std::slice::from_ref(looked_at), place.0);
                     gains += chooser.select(selector, (looked_at.0, place), None, &self.lists);
                 }
             }
-            gains >= 0.0
+            may_save && gains >= 0.0
         };
         if !pays {
             self.lists.memory.note_object(object.entity);

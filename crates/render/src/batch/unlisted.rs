@@ -1,12 +1,14 @@
 //! Objects and patches that need no light lists.
 
 use crate::batch::backend::Backend;
+use crate::batch::choosers::Chooser;
 use crate::batch::key::DrawKey;
-use crate::batch::lit_object::LitObject;
+use crate::batch::lit_object::{LitObject, SeenPatch};
 use crate::batch::lit_patches::LitPatches;
 use crate::batch::lit_runs::OpenRun;
 use crate::batch::object::Shared;
 use crate::device::costs::VertexPrices;
+use crate::geometry::patches::MeshPatch;
 use crate::lights::places::ShadedAt;
 use crate::shaders::light_slots::Lists;
 use crate::shaders::records::RecordLists;
@@ -42,10 +44,56 @@ impl LitPatches {
         admitted.filter(|admitted| admitted.lists != Lists::Listed)
     }
 
+    /// Adds what is seen of an object of which no term is placed light by light, all without lists; whether it could,
+    /// which takes that what draws it is there. What was moved in the frame before is noted where that is `is_placed`.
+    pub(super) fn add_in_place(
+        &mut self,
+        chooser: &Chooser,
+        seen: &[SeenPatch],
+        is_placed: bool,
+        backend: &mut impl Backend,
+    ) -> bool {
+        let &Chooser { object, shared, sight, .. } = chooser;
+        let coarse = seen.iter().filter(|(patch, _)| object.is_coarse(patch, sight)).count();
+        let is_coarse = |patch: &MeshPatch| coarse == seen.len() || (coarse > 0 && object.is_coarse(patch, sight));
+        let counts = [(ShadedAt::Corners, coarse), (ShadedAt::Fragments, seen.len() - coarse)];
+        let mut keys = [object.key; 2];
+        for (key, (place, count)) in keys.iter_mut().zip(counts) {
+            if count > 0 {
+                let Some(unlisted) = Self::unlisted_key(object, place, shared, backend) else { return false };
+                *key = unlisted;
+            }
+        }
+        for (key, (_, count)) in keys.iter().zip(counts) {
+            self.lists.count_all(key.terms, count * shared.lights.records.len());
+        }
+        if is_placed && self.lists.memory.has_moved(object.entity) {
+            for (patch, _) in seen.iter().filter(|(patch, _)| !is_coarse(patch)) {
+                self.lists.memory.note_at_fragments(object.name(patch));
+            }
+        }
+        let [corners, fragments] = keys;
+        let key = |patch: &MeshPatch| if is_coarse(patch) { corners } else { fragments };
+        self.add_alike(object, seen, key, shared, backend);
+        true
+    }
+
     /// The key that draws a patch under all lights of a scene with few, where its terms have one place whatever the
     /// light: to look at each would cost more than it saves. `None` where the patch has lists.
     pub(super) fn unlisted(
         &mut self,
+        object: &LitObject,
+        place: ShadedAt,
+        shared: Shared,
+        backend: &mut impl Backend,
+    ) -> Option<DrawKey> {
+        let key = Self::unlisted_key(object, place, shared, backend)?;
+        self.lists.count_all(key.terms, shared.lights.records.len());
+        Some(key)
+    }
+
+    /// As [`Self::unlisted`], and counts nothing.
+    fn unlisted_key(
         object: &LitObject,
         place: ShadedAt,
         Shared { lights, .. }: Shared,
@@ -56,10 +104,6 @@ impl LitPatches {
         }
         let key = DrawKey { lists: Lists::new(lights.counts), ..object.key }.with_terms(place.of(object.key.terms));
         let admitted = backend.admit(key);
-        if admitted.lists == Lists::Listed {
-            return None;
-        }
-        self.lists.count_all(admitted.terms, lights.records.len());
-        Some(admitted)
+        (admitted.lists != Lists::Listed).then_some(admitted)
     }
 }

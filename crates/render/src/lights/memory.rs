@@ -5,7 +5,7 @@ use crate::target::canvas::CanvasTarget;
 use crate::target::surface::SurfaceTarget;
 use crate::target::texture::TextureTarget;
 use bevy_ecs::prelude::{Entity, ReflectResource, Res, Resource};
-use bevy_platform::collections::HashMap;
+use bevy_platform::collections::{HashMap, HashSet};
 use bevy_reflect::Reflect;
 use std::ops::Range;
 
@@ -77,6 +77,8 @@ struct FrameChoices {
     /// The lights of each patch, in `lights`, ascending; none where all is at the fragments unseen.
     patches: HashMap<PatchName, Range<usize>>,
     lights: Vec<PlacedLight>,
+    /// The objects of which any term is at the vertices.
+    moved: HashSet<Entity>,
 }
 
 /// What was chosen for a patch in the frame before, where that counts; of a patch that was not there, nothing.
@@ -119,9 +121,11 @@ impl ChoiceMemory {
         std::mem::swap(&mut self.before, &mut self.now);
         self.now.patches.clear();
         self.now.lights.clear();
+        self.now.moved.clear();
         if self.counts != counts {
             self.counts = counts;
             self.before.patches.clear();
+            self.before.moved.clear();
         }
         self.is_steady = choosing == Choosing::Steadily;
         self.changed = 0;
@@ -131,6 +135,11 @@ impl ChoiceMemory {
     pub(crate) fn before(&self, (object, first): PatchName) -> Before<'_> {
         let of = |first| self.before.get((object, first));
         Before(if self.is_steady { of(first).or_else(|| of(ALL)) } else { None })
+    }
+
+    /// Whether any term of an object was at the vertices in the frame before.
+    pub(crate) fn has_moved(&self, object: Entity) -> bool {
+        self.before.moved.contains(&object)
     }
 
     /// Takes note of where the terms of a patch are shaded: the lights whose diffuse and whose specular ones are at the
@@ -148,6 +157,9 @@ impl ChoiceMemory {
             });
             self.now.lights.push(PlacedLight { light, at_vertices: took[0], at_fragments: took[1] });
         }
+        if at_vertices.iter().any(|list| !list.is_empty()) {
+            self.now.moved.insert(name.0);
+        }
         let now = &self.now.lights[start..];
         if self.before.get(name).is_some_and(|before| is_changed(before, now)) {
             self.changed += 1;
@@ -162,7 +174,7 @@ impl ChoiceMemory {
 
     /// Takes note of a patch that is not looked at: its terms are all at the fragments, whatever its lights.
     pub(crate) fn note_at_fragments(&mut self, name: PatchName) {
-        self.changed += u32::from(Before(self.before.get(name)).is_moved() == Some(true));
+        self.changed += u32::from(self.has_moved(name.0) && Before(self.before.get(name)).is_moved() == Some(true));
         if !self.now.patches.contains_key(&(name.0, ALL)) {
             self.now.patches.insert(name, 0..0);
         }
@@ -227,6 +239,7 @@ mod tests {
         assert_eq!((before.is_moved(), before.at_vertices(1)), (Some(true), Some([true, false])));
         assert_eq!((before.at_vertices(0), before.at_vertices(2)), (Some([false; 2]), Some([false; 2])));
         assert_eq!(memory.before(other).is_moved(), Some(false));
+        assert_eq!([name.0, other.0].map(|object| memory.has_moved(object)), [true, false]);
         memory.note_object(name.0);
         memory.note_at_fragments(name);
         assert_eq!(memory.changed, 1);
