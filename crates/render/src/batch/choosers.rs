@@ -287,7 +287,8 @@ mod tests {
         }
     }
 
-    /// By prices at which no patch can save anything no patch is chosen for, and all is as at prices that say so at once.
+    /// By prices at which no patch can save anything no patch is chosen for, and all is as at prices that say so at
+    /// once.
     #[test]
     fn where_no_patch_may_save_none_is_chosen_for() {
         let drawn = |prices: VertexPrices| {

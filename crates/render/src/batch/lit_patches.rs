@@ -246,6 +246,7 @@ impl LitPatches {
         }
         let reflector = reflecting.reflector(key.terms);
         let Shared { lights, view, encoding, .. } = shared;
+        let sight = Sight::new(model_view, view, reflecting.faces, &detail.whole);
         let demand = Demand {
             tolerance: object.tolerance,
             listed: Lists::new(lights.counts) == Lists::Listed,
@@ -256,11 +257,12 @@ impl LitPatches {
             encoding,
             model_view,
             sphere: detail.whole.sphere(model_view),
+            least: &detail.least,
+            pixels_per_unit: detail.pixels_per_unit(&sight),
         };
         let allowed = if detail.has_levels() { Allowed::new(demand) } else { Allowed::NOTHING };
         let steps = f64::from(object.tolerance.steps);
         let steps = steps - if allowed.is_nothing() { 0.0 } else { geometry_steps(object.tolerance) };
-        let sight = Sight::new(model_view, view, reflecting.faces, &detail.whole);
         // Where all lights are compiled in, no patch has lists.
         let admitted = if key.lists == Lists::Listed { *key } else { backend.admit(*key) };
         seen.clear();

@@ -68,6 +68,10 @@ pub(crate) struct Demand<'a> {
     pub(crate) model_view: &'a ModelView,
     /// Around all of it, in eye space.
     pub(crate) sphere: (Vec3, f32),
+    /// Of each of its errors the least that any of its groups has.
+    pub(crate) least: &'a GroupErrors,
+    /// The pixels that a unit of the mesh takes; `None` where that is asked patch by patch.
+    pub(crate) pixels_per_unit: Option<f32>,
 }
 
 /// What one object may be drawn with.
@@ -119,6 +123,35 @@ pub(crate) const SAMPLED: f32 = 0.5;
 /// What is cut off of highlights is found for normals that turn by up to this, in radians: 3°.
 const TURNED: f32 = 0.05;
 
+/// Up to this intensity a channel has [`FEW_STEPS`] of room below white, by either encoding.
+const FAR_FROM_WHITE: f32 = 0.9;
+const FEW_STEPS: f64 = 0.03;
+
+/// The slope of the sRGB curve's inverse at white, 2.4/1.055, which is the largest.
+const STEEPEST_OF_SRGB: f32 = 2.4 / 1.055;
+
+impl GroupErrors {
+    /// No error is larger than these.
+    pub(crate) const LARGEST: Self = Self {
+        error: f32::INFINITY,
+        normal_error: std::f32::consts::PI,
+        normal_spread: std::f32::consts::PI,
+        longest_edge: f32::INFINITY,
+        spoils_lists: true,
+    };
+
+    /// The least of each.
+    pub(crate) fn min(self, other: Self) -> Self {
+        Self {
+            error: self.error.min(other.error),
+            normal_error: self.normal_error.min(other.normal_error),
+            normal_spread: self.normal_spread.min(other.normal_spread),
+            longest_edge: self.longest_edge.min(other.longest_edge),
+            spoils_lists: self.spoils_lists && other.spoils_lists,
+        }
+    }
+}
+
 impl Allowed {
     /// The mesh as it is.
     pub(crate) const NOTHING: Self =
@@ -132,14 +165,19 @@ impl Allowed {
         if terms.has(Frequency::Triangle) {
             return Self::NOTHING;
         }
-        let by_vertices = terms.has(Frequency::Vertex);
-        let shading = match terms {
-            Terms::NONE => ShownTerms::None,
-            _ if by_vertices && (listed || lights.counts[2] > 0) => ShownTerms::Unknown,
-            _ if listed => ShownTerms::Same,
-            _ => ShownTerms::Terms(demand.changes()),
-        };
         let by_corners = !terms.has(Frequency::Fragment);
+        let by_vertices = terms.has(Frequency::Vertex);
+        let keeps_corners = by_corners && demand.pixels_per_unit.is_none_or(|pixels| pixels <= demand.by_edges());
+        let (shading, is_in_vain) = match terms {
+            Terms::NONE => (ShownTerms::None, false),
+            _ if by_vertices && (listed || lights.counts[2] > 0) => (ShownTerms::Unknown, true),
+            _ if listed => (ShownTerms::Same, demand.least.normal_error > 0.0),
+            _ if !keeps_corners && demand.turn_too_far() => (ShownTerms::Unknown, true),
+            _ => (ShownTerms::Terms(demand.changes()), false),
+        };
+        if is_in_vain && !keeps_corners {
+            return Self::NOTHING;
+        }
         Self { pixels: tolerance.pixels, shading, by_corners, listed }
     }
 
@@ -179,6 +217,54 @@ impl Allowed {
 }
 
 impl Demand<'_> {
+    /// Whether already the least errors change too much, by numbers that take no power: what may change is no more than
+    /// the steepest part of the sRGB curve makes of it, and no slope is less than √(n/e). What is cut off of highlights
+    /// is not looked at. Some that change too much are not told.
+    fn turn_too_far(&self) -> bool {
+        let &Self { reflector, lights, least, .. } = self;
+        let steps = geometry_steps(self.tolerance) * STEP;
+        // Where white is near, anything may change.
+        let unlit = reflector.unlit(lights.ambient).max_element();
+        if unlit > FAR_FROM_WHITE || steps > FEW_STEPS {
+            return false;
+        }
+        let allowed = steps as f32 * if self.encoding == Some(Encoding::Srgb) { STEEPEST_OF_SRGB } else { 1.0 };
+        let side = reflector.larger_side();
+        let mut sums = [[0.0_f32; 3]; 2];
+        for light in &lights.sources {
+            let weight = self.weight(light);
+            for k in [0, 1, 2] {
+                sums[0][k] += weight * side.kd[k] * light.ld[k];
+                sums[1][k] += weight * side.ks[k] * light.ls[k];
+            }
+        }
+        let [diffuse, specular] = sums.map(|sum| sum.into_iter().fold(0.0, f32::max) / allowed);
+        let [_, larger] = reflector.exponents();
+        let (n, turn) = (larger.max(1.0), if self.blinn_phong { 1.0 } else { 2.0 });
+        let turned = (diffuse + specular * turn * (n / std::f32::consts::E).sqrt()) * least.normal_error;
+        let spread = least.normal_spread;
+        let between = 0.5 * (diffuse + specular * n * turn * turn) * spread * spread;
+        turned > 1.01 && between > 1.01
+    }
+
+    /// The most pixels that a unit of the mesh may take for the shortest edges to be no longer than what is allowed.
+    fn by_edges(&self) -> f32 {
+        (self.tolerance.pixels + SAMPLED) / self.least.longest_edge
+    }
+
+    /// The largest part of a light that arrives anywhere at the object.
+    fn weight(&self, light: &Light<f32>) -> f32 {
+        let (center, radius) = self.sphere;
+        match light.place {
+            Place::Point(position) => {
+                let distance = center.as_dvec3().distance(Vec3::from(position).as_dvec3()) as f32;
+                let nearest = (distance - radius).max(0.0);
+                attenuation(light.attenuation, nearest) * light.range.map_or(1.0, |range| range_window(nearest, range))
+            }
+            Place::Directional(_) => 1.0,
+        }
+    }
+
     /// What turned normals change of the object.
     fn changes(&self) -> [TurnedTerms; 2] {
         let &Self { reflector, lights, model_view, sphere: (center, radius), .. } = self;
@@ -192,16 +278,11 @@ impl Demand<'_> {
         let scale = model_view.largest_scale();
         let inverse = |distance: f32| if distance > radius { scale / (distance - radius) } else { f32::INFINITY };
         for light in &lights.sources {
-            let weight = match light.place {
-                Place::Point(position) => {
-                    let distance = center.as_dvec3().distance(Vec3::from(position).as_dvec3()) as f32;
-                    nearest_light = nearest_light.max(inverse(distance));
-                    let nearest = (distance - radius).max(0.0);
-                    attenuation(light.attenuation, nearest)
-                        * light.range.map_or(1.0, |range| range_window(nearest, range))
-                }
-                Place::Directional(_) => 1.0,
-            };
+            let weight = self.weight(light);
+            if let Place::Point(position) = light.place {
+                let distance = center.as_dvec3().distance(Vec3::from(position).as_dvec3()) as f32;
+                nearest_light = nearest_light.max(inverse(distance));
+            }
             let cut = self.cut(light, smaller);
             for k in [0, 1, 2] {
                 sums[0][k] += weight * side.kd[k] * light.ld[k];
@@ -298,4 +379,74 @@ impl TurnedTerms {
 /// The steepest slope of cosⁿ f is √n·((n − 1)/n)^((n − 1)/2): √n times 1 at n = 1, and falling to √(n/e).
 fn steepest(n: f32) -> f32 {
     n.sqrt() * ((n - 1.0) / n).powf(0.5 * (n - 1.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use bevy_math::DAffine3;
+    use halfway_lighting::Reflectance;
+    use halfway_lighting::equations::Coefficients;
+
+    const LEAST: GroupErrors =
+        GroupErrors { error: 1e-6, normal_error: 0.0, normal_spread: 0.0, longest_edge: 1e-3, spoils_lists: false };
+
+    /// What is told at once to turn too far is never allowed by all that is known; and of what is not, more than a
+    /// third is told.
+    #[test]
+    fn what_is_in_vain_is_not_allowed() {
+        let mut state = 1_u32;
+        let mut random = || {
+            state = state.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
+            (state >> 8) as f32 / (1 << 24) as f32
+        };
+        let model_view = ModelView::new(&DAffine3::IDENTITY);
+        let (mut told, mut never, mut allowed) = (0, 0, 0);
+        for _ in 0..20_000 {
+            let mut color = |most: f32| [random(), random(), random()].map(|c| most * c * c);
+            let (kd, ks, ke, la, ld, ls) = (color(1.0), color(1.0), color(0.9), color(0.5), color(2.0), color(2.0));
+            let shininess = 200.0_f32.powf(random());
+            let material = Coefficients { ka: [1.0; 3], kd, ks, ke, shininess };
+            let reflector = Reflector {
+                sides: [material; 2],
+                reflectance: if random() < 0.5 { Reflectance::BlinnPhong } else { Reflectance::Phong },
+                terms: Terms::both(Frequency::Fragment),
+            };
+            let place = if random() < 0.5 {
+                Place::Directional(Vec3::new(random() - 0.5, random() - 0.5, 1.0).normalize().to_array())
+            } else {
+                Place::Point([4.0 * random(), 4.0 * random(), 2.0])
+            };
+            let attenuation = [1.0, random(), random()];
+            let (range, cone, attenuate_ambient) = (None, None, false);
+            let light = Light { place, la, ld, ls, attenuation, range, cone, attenuate_ambient };
+            let lights = Lights::of_sources(vec![light], la.into());
+            let mut errors = LEAST;
+            errors.normal_error = 10.0_f32.powf(-4.0 * random());
+            errors.normal_spread = 10.0_f32.powf(-4.0 * random());
+            let demand = |least| Demand {
+                tolerance: Tolerance { steps: 1.0, pixels: 0.5 },
+                listed: false,
+                blinn_phong: reflector.reflectance == Reflectance::BlinnPhong,
+                local_viewer: true,
+                reflector: &reflector,
+                lights: &lights,
+                encoding: [None, Some(Encoding::Srgb), Some(Encoding::Raw)][told % 3],
+                model_view: &model_view,
+                sphere: (Vec3::new(0.0, 0.0, -5.0), 1.0),
+                least,
+                pixels_per_unit: None,
+            };
+            let in_full = Allowed::new(demand(&LEAST));
+            assert!(!in_full.is_nothing());
+            let is_never = in_full.pixels_per_unit(&errors) <= 0.0;
+            if Allowed::new(demand(&errors)).is_nothing() {
+                assert!(is_never, "{material:?} {lights:?} {errors:?}");
+                told += 1;
+            }
+            (never, allowed) = (never + usize::from(is_never), allowed + usize::from(!is_never));
+        }
+        assert!(allowed > 2_000 && never > 2_000, "{allowed} and {never}");
+        assert!(3 * told > never, "{told} of {never} are told");
+    }
 }

@@ -28,6 +28,8 @@ pub(crate) struct Detail {
     pub(crate) whole: MeshPatch,
     /// Each patch is all that there is, in fewer triangles or more.
     is_whole: bool,
+    /// Of each error the least of all groups that have parts.
+    pub(crate) least: GroupErrors,
 }
 
 /// See [`PatchGroup`].
@@ -88,7 +90,15 @@ impl Detail {
         let groups = joins.map(|joins| DetailGroup::last(&patches, joins)).collect();
         let part_of = vec![FINEST; patches.len()];
         let is_whole = patches.len() == 1;
-        Self { groups, part_of, finer: Vec::new(), whole: MeshPatch::whole(mesh), is_whole, patches }
+        Self {
+            groups,
+            part_of,
+            finer: Vec::new(),
+            whole: MeshPatch::whole(mesh),
+            is_whole,
+            patches,
+            least: GroupErrors::LARGEST,
+        }
     }
 
     fn new(mesh: &Mesh, triangles: &[[u32; 3]], patches: &[HierarchyPatch], groups: &[PatchGroup]) -> Self {
@@ -103,6 +113,7 @@ impl Detail {
             finer: Vec::new(),
             whole: MeshPatch::whole(mesh),
             is_whole: patches.iter().filter(|patch| patch.part_of.is_none()).count() == 1,
+            least: GroupErrors::LARGEST,
         };
         let finest = || detail.patches.iter().zip(&detail.part_of).filter(|(_, part_of)| **part_of == FINEST);
         let mean = finest().map(|(patch, _)| patch.radius()).sum::<f32>() / finest().count().max(1) as f32;
@@ -123,7 +134,9 @@ impl Detail {
             }
         }
         // What nothing stands for is looked at some patches at a time.
-        if let Some(DetailGroup { joins, .. }) = detail.groups.pop() {
+        let last = detail.groups.pop();
+        detail.least = detail.groups.iter().map(|group| group.errors).fold(GroupErrors::LARGEST, GroupErrors::min);
+        if let Some(DetailGroup { joins, .. }) = last {
             let ends = joins.clone().step_by(LOOKED_AT).map(|first| first..joins.end.min(first + LOOKED_AT as u32));
             for joins in ends {
                 detail.add_last(joins);
@@ -165,6 +178,11 @@ impl Detail {
     /// Whether anything coarser stands for any patch.
     pub(crate) fn has_levels(&self) -> bool {
         self.part_of.iter().any(|&part_of| part_of != FINEST)
+    }
+
+    /// How many pixels a unit of the mesh takes, where all of it is coarser or nothing.
+    pub(crate) fn pixels_per_unit(&self, sight: &Sight) -> Option<f32> {
+        self.is_whole.then(|| sight.pixels_per_unit(&self.whole))
     }
 
     /// Visits the patches that are drawn of an object and may show, in the order of their triangles, each with the
@@ -222,7 +240,7 @@ impl Detail {
         if allowed.is_nothing() {
             return;
         }
-        let of_whole = if self.is_whole { sight.pixels_per_unit(&self.whole) } else { 0.0 };
+        let of_whole = self.pixels_per_unit(sight).unwrap_or(0.0);
         for (number, group) in self.groups.iter().enumerate().rev() {
             if !will_do[number] {
                 let pixels = if self.is_whole { of_whole } else { sight.pixels_per_unit(&group.joined) };
@@ -245,13 +263,7 @@ impl DetailGroup {
             joined: MeshPatch::around(&patches[joins.clone()], std::iter::empty()),
             joins: joins.start as u32..joins.end as u32,
             finer: 0..0,
-            errors: GroupErrors {
-                error: f32::INFINITY,
-                normal_error: std::f32::consts::PI,
-                normal_spread: std::f32::consts::PI,
-                longest_edge: f32::INFINITY,
-                spoils_lists: true,
-            },
+            errors: GroupErrors::LARGEST,
         }
     }
 }

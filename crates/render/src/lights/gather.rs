@@ -39,6 +39,14 @@ pub struct Lights {
     pub(super) made_of: Option<MadeOf>,
 }
 
+#[cfg(test)]
+impl Lights {
+    /// Of which nothing else is known.
+    pub(crate) fn of_sources(sources: Vec<Light<f32>>, ambient: Vec3) -> Self {
+        Self { ambient, sources, ..Self::default() }
+    }
+}
+
 /// What a frame's lights were made of. Where the next finds the same, and no light has changed, they are as they were.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct MadeOf {
