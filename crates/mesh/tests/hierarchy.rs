@@ -268,8 +268,7 @@ fn what_is_not_connected_has_room_for_the_error() {
         let both = Mesh::new(positions, indices).unwrap();
         let is_other = |triangle: &[u32; 3]| triangle[0] >= count;
         let hierarchy = hierarchy(&both);
-        for group in hierarchy.groups.iter().take(hierarchy.groups.len() - 1) {
-            let number = hierarchy.groups.iter().position(|other| std::ptr::eq(group, other)).unwrap() as u32;
+        for (number, group) in (0..).zip(&hierarchy.groups).take(hierarchy.groups.len() - 1) {
             let parts = hierarchy.patches.iter().filter(|patch| patch.part_of == Some(number));
             for patch in parts {
                 let triangles = &hierarchy.triangles[patch.triangles.start as usize..patch.triangles.end as usize];
@@ -277,8 +276,8 @@ fn what_is_not_connected_has_room_for_the_error() {
                     let corners = own.map(|i| both.positions()[i as usize]);
                     for weights in samples(3) {
                         let p = sum(corners, weights);
-                        // Both are around an axis or beside each other: how far a point is from a sphere is known, and
-                        // the mesh of one is within its sphere by no more than 2 · 10⁻³ of its radius.
+                        // How far a point is from a sphere is known, and its mesh lies within it by no more than
+                        // 2 · 10⁻³ of its radius.
                         let (center, radius) = if is_other(own) {
                             (DVec3::ZERO, 1.0)
                         } else {

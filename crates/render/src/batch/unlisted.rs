@@ -54,6 +54,9 @@ impl LitPatches {
         backend: &mut impl Backend,
     ) -> bool {
         let &Chooser { object, shared, sight, .. } = chooser;
+        if !object.may_be_unlisted(ShadedAt::Fragments, shared.lights) {
+            return false;
+        }
         let coarse = seen.iter().filter(|(patch, _)| object.is_coarse(patch, sight)).count();
         let is_coarse = |patch: &MeshPatch| coarse == seen.len() || (coarse > 0 && object.is_coarse(patch, sight));
         let counts = [(ShadedAt::Corners, coarse), (ShadedAt::Fragments, seen.len() - coarse)];

@@ -392,7 +392,7 @@ mod tests {
         GroupErrors { error: 1e-6, normal_error: 0.0, normal_spread: 0.0, longest_edge: 1e-3, spoils_lists: false };
 
     /// What is told at once to turn too far is never allowed by all that is known; and of what is not, more than a
-    /// third is told.
+    /// quarter is told.
     #[test]
     fn what_is_in_vain_is_not_allowed() {
         let mut state = 1_u32;
@@ -410,8 +410,10 @@ mod tests {
             let reflector = Reflector {
                 sides: [material; 2],
                 reflectance: if random() < 0.5 { Reflectance::BlinnPhong } else { Reflectance::Phong },
-                terms: Terms::both(Frequency::Fragment),
+                terms: Terms::both(if random() < 0.5 { Frequency::Fragment } else { Frequency::Auto }),
             };
+            // Where all terms may be shaded at corners, a thousand are too many for the edges.
+            let pixels_per_unit = 2000.0 * random();
             let place = if random() < 0.5 {
                 Place::Directional(Vec3::new(random() - 0.5, random() - 0.5, 1.0).normalize().to_array())
             } else {
@@ -435,11 +437,11 @@ mod tests {
                 model_view: &model_view,
                 sphere: (Vec3::new(0.0, 0.0, -5.0), 1.0),
                 least,
-                pixels_per_unit: None,
+                pixels_per_unit: Some(pixels_per_unit),
             };
             let in_full = Allowed::new(demand(&LEAST));
             assert!(!in_full.is_nothing());
-            let is_never = in_full.pixels_per_unit(&errors) <= 0.0;
+            let is_never = in_full.pixels_per_unit(&errors) < pixels_per_unit;
             if Allowed::new(demand(&errors)).is_nothing() {
                 assert!(is_never, "{material:?} {lights:?} {errors:?}");
                 told += 1;
@@ -447,6 +449,6 @@ mod tests {
             (never, allowed) = (never + usize::from(is_never), allowed + usize::from(!is_never));
         }
         assert!(allowed > 2_000 && never > 2_000, "{allowed} and {never}");
-        assert!(3 * told > never, "{told} of {never} are told");
+        assert!(4 * told > never, "{told} of {never} are told");
     }
 }
