@@ -1,11 +1,16 @@
-//! The hierarchies of patches of some meshes, or of the models named: how long making them takes, how many triangles
-//! they have and how far off they are. Run with `--release`; `--times 5` makes each five times and gives the median.
+//! The hierarchies of patches of some meshes, or of the models named: how long making them takes and how much memory at
+//! most, how many triangles they have and how far off they are. Run with `--release`; `--times 5` makes each five times
+//! and gives the median, `RAYON_NUM_THREADS=1` makes them on one thread.
 
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 use bevy_math::Vec3;
 use halfway_mesh::{Mesh, PatchGroup, PatchHierarchy, Plane, Teapot, UvSphere};
+use peak_alloc::PeakAlloc;
+
+#[global_allocator]
+static MEMORY: PeakAlloc = PeakAlloc;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (mut meshes, mut times) = (Vec::new(), 1_usize);
@@ -71,22 +76,28 @@ fn random(p: Vec3) -> f32 {
 /// What would be drawn if every group would do that is no further off than this.
 fn print_hierarchy(name: &str, mesh: &Mesh, times: usize) {
     let mut seconds = Vec::new();
-    let mut hierarchy = None;
+    let (mut hierarchy, mut memory) = (None, 0);
     for _ in 0..times {
+        drop(hierarchy.take());
+        let before = MEMORY.current_usage();
+        MEMORY.reset_peak_usage();
         let start = Instant::now();
         hierarchy = mesh.patch_hierarchy(&AtomicBool::new(false));
         seconds.push(start.elapsed().as_secs_f64());
+        memory = memory.max(MEMORY.peak_usage() - before);
     }
     let hierarchy = hierarchy.expect("nothing stops it");
     seconds.sort_by(f64::total_cmp);
     let (groups, median) = (hierarchy.groups.len(), seconds[times / 2]);
     let million = median * 1e6 / mesh.triangle_count() as f64;
     println!(
-        "{name}: {} triangles, {} patches, {groups} groups, {:.1} ms, {million:.2} s a million triangles{}",
+        "{name}: {} triangles, {} patches, {groups} groups, {:.1} ms, {million:.2} s a million triangles, at most {:.1} MB \
+        of memory, {:.2} of the mesh's",
         mesh.triangle_count(),
         hierarchy.patches.len(),
         median * 1e3,
-        peak()
+        memory as f64 / 1e6,
+        memory as f64 / bytes_of(mesh) as f64,
     );
     let radius = mesh.bounds().radius();
     for exponent in 0..14 {
@@ -116,9 +127,7 @@ fn print_hierarchy(name: &str, mesh: &Mesh, times: usize) {
     );
 }
 
-/// The most memory that this process has had so far, where the system says it.
-fn peak() -> String {
-    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
-    line.map_or(String::new(), |kib| format!(", {} at most so far", kib.trim()))
+/// The memory that positions, normals and indices of a mesh take.
+fn bytes_of(mesh: &Mesh) -> usize {
+    size_of_val(mesh.positions()) + size_of_val(mesh.normals()) + size_of_val(mesh.indices())
 }

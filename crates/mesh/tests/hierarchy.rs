@@ -330,9 +330,15 @@ fn what_cannot_be_coarser_is_left_as_it_is() {
 }
 
 #[test]
-fn the_same_mesh_has_the_same_hierarchy() {
-    let mesh = shaken(&grid(65), 0.2);
-    assert!(hierarchy(&mesh) == hierarchy(&mesh));
+fn the_same_mesh_has_the_same_hierarchy_on_any_number_of_threads() {
+    let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
+    let several = rayon::ThreadPoolBuilder::new().num_threads(3).build().expect("some threads");
+    // One of many groups, and one of two pieces.
+    for mesh in [shaken(&grid(150), 0.2), pieces(300)] {
+        let [alone, shared] = [&one, &several].map(|threads| threads.install(|| hierarchy(&mesh)));
+        assert!(alone.groups.len() > 50, "{} groups", alone.groups.len());
+        assert!(alone == shared && alone == hierarchy(&mesh));
+    }
 }
 
 #[test]

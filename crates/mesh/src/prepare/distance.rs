@@ -3,6 +3,7 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
+use bevy_math::Vec3;
 use rayon::prelude::*;
 
 use super::nearest::{TriangleCorners, TriangleTree};
@@ -30,9 +31,8 @@ impl Mesh {
     /// general polygonal models"). After some hundred thousand cuts the bounds are given as they are.
     pub fn distance_to(&self, other: &Mesh, tolerance: f64) -> DistanceBounds {
         let tolerance = tolerance.max(0.0);
-        let corners = |mesh: &Mesh, i: u32| mesh.positions()[i as usize].as_dvec3();
-        let target = TriangleTree::new(other.triangles().map(|triangle| triangle.map(|i| corners(other, i))).collect());
-        let own = |triangle: &[u32; 3]| triangle.map(|i| corners(self, i));
+        let target = TriangleTree::new(other.triangle_count() as u32, |number| other.corners_of(number));
+        let own = |triangle: &[u32; 3]| triangle.map(|i| self.positions()[i as usize].as_dvec3());
         let triangles = self.indices().as_chunks::<3>().0;
         let first: Vec<SubTriangle> =
             triangles.par_iter().map(|triangle| SubTriangle::new(own(triangle), &target, 0)).collect();
@@ -60,12 +60,12 @@ struct SubTriangle {
     /// A distance that none of its points passes.
     upper: f64,
     /// The number of the triangle nearest to its centre.
-    nearest: usize,
+    nearest: u32,
 }
 
 impl SubTriangle {
     /// `guess` is the number of a triangle that is probably near.
-    fn new(corners: TriangleCorners, target: &TriangleTree, guess: usize) -> Self {
+    fn new(corners: TriangleCorners, target: &TriangleTree<impl Fn(u32) -> [Vec3; 3]>, guess: u32) -> Self {
         let [a, b, c] = corners;
         let center = (a + b + c) / 3.0;
         let (lower, nearest) = target.nearest(center, guess);
@@ -74,7 +74,7 @@ impl SubTriangle {
         Self { corners, lower, upper: to_nearest.min(lower + reach), nearest }
     }
 
-    fn quarters(&self, target: &TriangleTree) -> [Self; 4] {
+    fn quarters(&self, target: &TriangleTree<impl Fn(u32) -> [Vec3; 3]>) -> [Self; 4] {
         let [a, b, c] = self.corners;
         let [ab, bc, ca] = [0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)];
         [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]].map(|corners| {

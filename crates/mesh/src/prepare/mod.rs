@@ -4,39 +4,22 @@
 //! With the feature `prepare`, which takes a C++ compiler, also an order for the GPU's caches, meshlets and simplified
 //! meshes by meshoptimizer.
 
-mod box_grid;
-mod clip;
-mod collapse;
 mod components;
 mod distance;
-mod edge_twins;
 #[cfg(feature = "prepare")]
 mod enclose;
-mod fine_surface;
-mod four_vectors;
-mod frame;
 mod hierarchy;
-mod homes;
 #[cfg(feature = "prepare")]
 mod meshlets;
 mod nearest;
-mod neighbours;
-mod open_border;
 #[cfg(feature = "prepare")]
 mod order;
-mod overlay;
 mod patches;
-mod pieces;
-mod quadric;
 mod repair;
 mod report;
 #[cfg(feature = "prepare")]
 mod simplify;
-mod stand_ins;
-mod triangle_fans;
-mod vicinity;
 mod weld;
-mod widest_angle;
 
 pub use distance::DistanceBounds;
 #[cfg(feature = "prepare")]
@@ -56,6 +39,11 @@ use crate::Mesh;
 use crate::numbering::Numbering;
 
 impl Mesh {
+    /// The corners of a triangle by its number.
+    fn corners_of(&self, triangle: u32) -> [Vec3; 3] {
+        self.indices().as_chunks::<3>().0[triangle as usize].map(|vertex| self.positions()[vertex as usize])
+    }
+
     /// The mesh with these triangles, its vertices in the order in which they are used first and the unused ones left
     /// out: the GPU then fetches them nearly in a row.
     pub(crate) fn in_order_of_use(&self, indices: &[u32]) -> Self {

@@ -1,24 +1,27 @@
 //! The nearest triangle, by a tree of boxes.
 
-use bevy_math::DVec3;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use bevy_math::{DVec3, Vec3};
 
 /// Three corners.
 pub(super) type TriangleCorners = [DVec3; 3];
 
-/// Triangles, found by place.
-pub(super) struct TriangleTree {
-    /// Each with the number that it had when it was given.
-    triangles: Vec<(TriangleCorners, u32)>,
+/// Triangles, found by place. `C` gives the corners of each by its number; they are not kept.
+pub(super) struct TriangleTree<C> {
+    corners: C,
+    /// The numbers of the triangles, leaf by leaf.
+    triangles: Vec<u32>,
     /// A node's near half follows it; leaves have triangles. The first is the root.
     nodes: Vec<Node>,
 }
 
 struct Node {
-    min: DVec3,
-    max: DVec3,
+    min: Vec3,
+    max: Vec3,
     /// The only piece of which it has triangles, if there is one.
     piece: Option<u32>,
-    /// The first triangle of a leaf, the number of the second half's node otherwise.
+    /// Where the triangles of a leaf begin, the number of the second half's node otherwise.
     next: u32,
     /// The number of a leaf's triangles, 0 otherwise.
     count: u32,
@@ -27,33 +30,37 @@ struct Node {
 /// So many triangles are not worth a box more.
 const LEAF: usize = 4;
 
-impl TriangleTree {
-    /// At least one triangle.
-    pub(super) fn new(triangles: Vec<TriangleCorners>) -> Self {
-        Self::of_pieces(triangles, |_| 0)
+impl<C: Fn(u32) -> [Vec3; 3]> TriangleTree<C> {
+    /// Of at least one triangle.
+    pub(super) fn new(count: u32, corners: C) -> Self {
+        Self::of_pieces(count, corners, |_| 0, &AtomicBool::new(false))
     }
 
-    /// At least one triangle; which piece each is of, by its number.
-    pub(super) fn of_pieces(triangles: Vec<TriangleCorners>, piece: impl Fn(u32) -> u32) -> Self {
-        let key = |(number, [a, b, c]): (u32, &TriangleCorners)| (a + b + c, number);
-        let mut keys: Vec<(DVec3, u32)> = (0..).zip(&triangles).map(key).collect();
-        let mut nodes = Vec::with_capacity(triangles.len());
-        build(&mut keys, 0, (&triangles, &piece), &mut nodes);
-        let triangles = keys.into_iter().map(|(_, number)| (triangles[number as usize], number)).collect();
-        Self { triangles, nodes }
+    /// Of at least one triangle; which piece each is of, by its number. Where `stop` becomes true the tree is good for
+    /// nothing.
+    pub(super) fn of_pieces(count: u32, corners: C, piece: impl Fn(u32) -> u32, stop: &AtomicBool) -> Self {
+        let key = |number: u32| (corners(number).into_iter().map(|corner| corner / 3.0).sum(), number);
+        let mut keys: Vec<(Vec3, u32)> = (0..count).map(key).collect();
+        let mut nodes = Vec::new();
+        build(&mut keys, 0, (&corners, &piece, stop), &mut nodes);
+        Self { triangles: keys.into_iter().map(|(_, number)| number).collect(), nodes, corners }
+    }
+
+    fn distance_squared(&self, p: DVec3, triangle: u32) -> f64 {
+        distance_squared(p, (self.corners)(triangle).map(Vec3::as_dvec3))
     }
 
     /// The distance from one of the triangles, by its number.
-    pub(super) fn distance(&self, p: DVec3, triangle: usize) -> f64 {
-        distance_squared(p, self.triangles[triangle].0).sqrt()
+    pub(super) fn distance(&self, p: DVec3, triangle: u32) -> f64 {
+        self.distance_squared(p, triangle).sqrt()
     }
 
     /// The least distance from a triangle, and its number. The nearer the triangle of number `guess`, the sooner it is
     /// found.
-    pub(super) fn nearest(&self, p: DVec3, guess: usize) -> (f64, usize) {
-        let (mut least2, mut nearest) = (distance_squared(p, self.triangles[guess].0), guess);
-        self.search(p, None, least2, |number, triangle, _| {
-            let distance2 = distance_squared(p, *triangle);
+    pub(super) fn nearest(&self, p: DVec3, guess: u32) -> (f64, u32) {
+        let (mut least2, mut nearest) = (self.distance_squared(p, guess), guess);
+        self.search(p, None, least2, |number| {
+            let distance2 = self.distance_squared(p, number);
             if distance2 < least2 {
                 (least2, nearest) = (distance2, number);
             }
@@ -62,29 +69,26 @@ impl TriangleTree {
         (least2.sqrt(), nearest)
     }
 
-    /// The least distance from a triangle of another piece; `piece` is that of each by the number with which it was
-    /// given.
-    pub(super) fn nearest_of_others(&self, p: DVec3, own: u32, piece: impl Fn(u32) -> u32) -> f64 {
-        let mut least2 = f64::INFINITY;
-        self.search(p, Some(own), least2, |_, triangle, given| {
-            if piece(given) != own {
-                least2 = least2.min(distance_squared(p, *triangle));
+    /// The least distance from a triangle of another piece, infinite where all are further off than `within`; `piece`
+    /// is that of each by its number.
+    pub(super) fn nearest_of_others(&self, p: DVec3, own: u32, piece: impl Fn(u32) -> u32, within: f64) -> f64 {
+        let mut least2 = within * within;
+        let mut is_found = false;
+        self.search(p, Some(own), least2, |number| {
+            if piece(number) != own {
+                let distance2 = self.distance_squared(p, number);
+                is_found |= distance2 < least2;
+                least2 = least2.min(distance2);
             }
             least2
         });
-        least2.sqrt()
+        if is_found { least2.sqrt() } else { f64::INFINITY }
     }
 
-    /// Looks at triangles, the near ones first: `look` gets a triangle's number, its corners and the number that it had
-    /// when it was given, and returns the square of the distance from which on no others need be looked at; at first
-    /// `within2` is. Where there is nothing but one piece, those of `left_out` are not looked at.
-    fn search(
-        &self,
-        p: DVec3,
-        left_out: Option<u32>,
-        within2: f64,
-        mut look: impl FnMut(usize, &TriangleCorners, u32) -> f64,
-    ) {
+    /// Looks at triangles, the near ones first: `look` gets a triangle's number and returns the square of the distance
+    /// from which on no others need be looked at; at first `within2` is. Where there is nothing but one piece, those of
+    /// `left_out` are not looked at.
+    fn search(&self, p: DVec3, left_out: Option<u32>, within2: f64, mut look: impl FnMut(u32) -> f64) {
         let mut within2 = within2;
         let mut waiting = vec![(self.nodes[0].distance_squared(p), 0)];
         while let Some((distance2, number)) = waiting.pop() {
@@ -95,9 +99,8 @@ impl TriangleTree {
             if left_out.is_some() && node.piece == left_out {
                 continue;
             }
-            for number in node.triangles() {
-                let (triangle, given) = &self.triangles[number];
-                within2 = look(number, triangle, *given);
+            for &number in &self.triangles[node.triangles()] {
+                within2 = look(number);
             }
             if node.count == 0 {
                 let halves = [number + 1, node.next as usize].map(|half| (self.nodes[half].distance_squared(p), half));
@@ -109,17 +112,16 @@ impl TriangleTree {
     }
 }
 
-/// The tree over the triangles of these numbers, found by three times their centroids, which come after `before`
-/// others.
+/// The tree over the triangles of these numbers, found by their centroids, which come after `before` others.
 fn build(
-    keys: &mut [(DVec3, u32)],
+    keys: &mut [(Vec3, u32)],
     before: usize,
-    (triangles, piece): (&[TriangleCorners], &impl Fn(u32) -> u32),
+    (corners, piece, stop): (&impl Fn(u32) -> [Vec3; 3], &impl Fn(u32) -> u32, &AtomicBool),
     nodes: &mut Vec<Node>,
 ) {
     let this = nodes.len();
-    if keys.len() <= LEAF {
-        let (min, max) = bounds(keys.iter().flat_map(|(_, number)| triangles[*number as usize]));
+    if keys.len() <= LEAF || stop.load(Ordering::Relaxed) {
+        let (min, max) = bounds(keys.iter().flat_map(|(_, number)| corners(*number)));
         let mut pieces = keys.iter().map(|(_, number)| piece(*number));
         let first = pieces.next();
         let piece = first.filter(|first| pieces.all(|other| other == *first));
@@ -127,27 +129,28 @@ fn build(
         return;
     }
     let (min, max) = bounds(keys.iter().map(|(place, _)| *place));
-    let axis = (max - min).max_position();
+    // Halved first, so that no finite box overflows.
+    let axis = (max * 0.5 - min * 0.5).max_position();
     let middle = keys.len() / 2;
     keys.select_nth_unstable_by(middle, |a, b| a.0[axis].total_cmp(&b.0[axis]));
     let (near, far) = keys.split_at_mut(middle);
-    nodes.push(Node { min, max, piece: None, next: 0, count: 0 });
-    build(near, before, (triangles, piece), nodes);
+    nodes.push(Node { min: Vec3::ZERO, max: Vec3::ZERO, piece: None, next: 0, count: 0 });
+    build(near, before, (corners, piece, stop), nodes);
     let next = nodes.len();
-    build(far, before + middle, (triangles, piece), nodes);
+    build(far, before + middle, (corners, piece, stop), nodes);
     let [a, b] = [&nodes[this + 1], &nodes[next]];
     let piece = a.piece.filter(|_| a.piece == b.piece);
     nodes[this] = Node { min: a.min.min(b.min), max: a.max.max(b.max), piece, next: next as u32, count: 0 };
 }
 
 /// The box around points.
-fn bounds(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
-    points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), p| (min.min(p), max.max(p)))
+fn bounds(points: impl Iterator<Item = Vec3>) -> (Vec3, Vec3) {
+    points.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(min, max), p| (min.min(p), max.max(p)))
 }
 
 impl Node {
     fn distance_squared(&self, p: DVec3) -> f64 {
-        p.distance_squared(p.clamp(self.min, self.max))
+        p.distance_squared(p.clamp(self.min.as_dvec3(), self.max.as_dvec3()))
     }
 
     fn triangles(&self) -> std::ops::Range<usize> {
@@ -226,23 +229,26 @@ mod tests {
             let t = f64::from(i) * 0.618_033_988_749_895;
             DVec3::new(t.fract(), (t * 3.7).fract(), (t * 11.3).fract())
         };
-        let triangles: Vec<TriangleCorners> =
-            (0..200).map(|i| [0, 1, 2].map(|k| place(i) + 0.1 * place(1000 + 3 * i + k))).collect();
-        let tree = TriangleTree::new(triangles.clone());
+        let triangle = |i: u32| [0, 1, 2].map(|k| (place(i) + 0.1 * place(1000 + 3 * i + k)).as_vec3());
+        let triangles: Vec<TriangleCorners> = (0..200).map(|i| triangle(i).map(Vec3::as_dvec3)).collect();
+        let tree = TriangleTree::new(200, triangle);
         for i in 0..300 {
             let p = 2.0 * place(5000 + i) - 0.5;
             let all = triangles.iter().map(|t| distance_squared(p, *t)).fold(f64::INFINITY, f64::min);
-            assert_eq!(tree.nearest(p, i as usize % 200).0, all.sqrt());
+            assert_eq!(tree.nearest(p, i % 200).0, all.sqrt());
         }
         // Of pieces that lie among each other, and of some that lie apart.
         let (mixed, apart) = (|i: u32| i % 3, |i: u32| u32::from(place(3 * i).x > 0.5));
         for (name, piece) in [("mixed", &mixed as &dyn Fn(u32) -> u32), ("apart", &apart)] {
-            let tree = TriangleTree::of_pieces(triangles.clone(), piece);
+            let tree = TriangleTree::of_pieces(200, triangle, piece, &AtomicBool::new(false));
             for i in 0..300 {
                 let (p, own) = (2.0 * place(5000 + i) - 0.5, i % 2);
                 let others = (0..).zip(&triangles).filter(|(number, _)| piece(*number) != own);
                 let least = others.map(|(_, t)| distance_squared(p, *t)).fold(f64::INFINITY, f64::min);
-                assert_eq!(tree.nearest_of_others(p, own, piece), least.sqrt(), "{name}");
+                let least = least.sqrt();
+                assert_eq!(tree.nearest_of_others(p, own, piece, f64::INFINITY), least, "{name}");
+                let near = if least < 0.1 { least } else { f64::INFINITY };
+                assert_eq!(tree.nearest_of_others(p, own, piece, 0.1), near, "{name}, within 0.1");
             }
         }
     }

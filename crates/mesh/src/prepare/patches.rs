@@ -41,21 +41,35 @@ impl Mesh {
             Site { place: mean(self.positions()), facing: mean(self.normals()).normalize_or_zero(), number, key: 0 }
         };
         let mut sites: Vec<Site> = (0..).zip(triangles.iter()).map(site).collect();
-        let mut patches = Vec::with_capacity(triangles.len().div_ceil(most));
-        part(&mut sites, 0, most, &mut patches);
-        let before = triangles.to_vec();
-        for (triangle, site) in triangles.iter_mut().zip(&sites) {
-            *triangle = before[site.number as usize];
-        }
-        patches
+        part(&mut sites, most);
+        put_in_order(triangles, &mut sites);
+        (0..sites.len()).step_by(most).map(|start| start..(start + most).min(sites.len())).collect()
     }
 }
 
-/// Cuts triangles of which `before` come before them in the list.
-fn part(sites: &mut [Site], before: usize, most: usize, patches: &mut Vec<Range<usize>>) {
+/// Puts triangles in the order of their sites, circle by circle of those that take each other's place.
+fn put_in_order(triangles: &mut [[u32; 3]], sites: &mut [Site]) {
+    for first in 0..sites.len() {
+        let (mut at, moved) = (first, triangles[first]);
+        loop {
+            let from = std::mem::replace(&mut sites[at].number, at as u32) as usize;
+            if from == first {
+                triangles[at] = moved;
+                break;
+            }
+            triangles[at] = triangles[from];
+            at = from;
+        }
+    }
+}
+
+/// More triangles than this are parted on two threads.
+const WORTH_A_THREAD: usize = 1 << 14;
+
+/// Puts triangles in an order in which each `most` are a patch.
+fn part(sites: &mut [Site], most: usize) {
     if sites.len() <= most {
         sites.sort_unstable_by_key(|site| site.number);
-        patches.push(before..before + sites.len());
         return;
     }
     let size = |of: fn(&Site) -> Vec3| {
@@ -77,8 +91,12 @@ fn part(sites: &mut [Site], before: usize, most: usize, patches: &mut Vec<Range<
     }
     sites.select_nth_unstable_by_key(half, |site| u64::from(site.key) << 32 | u64::from(site.number));
     let (first, second) = sites.split_at_mut(half);
-    part(first, before, most, patches);
-    part(second, before + half, most, patches);
+    if first.len() > WORTH_A_THREAD {
+        rayon::join(|| part(first, most), || part(second, most));
+    } else {
+        part(first, most);
+        part(second, most);
+    }
 }
 
 /// A number in whose order numbers are by [`f32::total_cmp`].

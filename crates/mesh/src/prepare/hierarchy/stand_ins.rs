@@ -1,7 +1,7 @@
 //! Vertices that levels of detail take for one.
 
-use super::weld::places;
 use crate::Mesh;
+use crate::prepare::weld::places;
 
 /// Numbers of normals, texture coordinates, colours and tangents no further apart than this are equal.
 const EQUAL: f32 = 1e-4;

@@ -8,9 +8,9 @@ use super::box_grid::BoxGrid;
 use super::clip::third;
 use super::edge_twins::{NO_TWIN, edge_twins};
 use super::frame::{Frame, QuickWay, reached};
-use super::nearest::TriangleCorners;
 use super::triangle_fans::TriangleFans;
 use crate::Mesh;
+use crate::prepare::nearest::TriangleCorners;
 
 /// Two surfaces between a mesh's vertices.
 pub(super) struct Surfaces<'a> {

@@ -2,7 +2,7 @@
 
 use bevy_math::DVec3;
 
-use super::nearest::{TriangleCorners, nearest_on};
+use crate::prepare::nearest::{TriangleCorners, nearest_on};
 
 /// Which coarse triangle each covered vertex is nearest to, by its place in the list of covered vertices.
 pub(super) struct Homes {

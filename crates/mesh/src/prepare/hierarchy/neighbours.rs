@@ -1,5 +1,7 @@
 //! Which patches touch, and groups of those that touch most.
 
+use rayon::prelude::*;
+
 /// At a place where more patches than this meet, as at a pole, only those that follow each other are taken for
 /// neighbours.
 const MOST_AT_PLACE: usize = 8;
@@ -23,7 +25,7 @@ struct Neighbours {
 impl Neighbours {
     /// `touched` has each place of each patch: the place, and the patch.
     fn new(mut touched: Vec<(u32, u32)>, patches: usize) -> Self {
-        touched.sort_unstable_by_key(|&pair| as_one(pair));
+        touched.par_sort_unstable_by_key(|&pair| as_one(pair));
         touched.dedup();
         let mut pairs = Vec::new();
         for at_place in touched.chunk_by(|a, b| a.0 == b.0).filter(|at_place| at_place.len() > 1) {
@@ -33,7 +35,7 @@ impl Neighbours {
             }
         }
         drop(touched);
-        pairs.sort_unstable_by_key(|&pair| as_one(pair));
+        pairs.par_sort_unstable_by_key(|&pair| as_one(pair));
         let mut each = Vec::new();
         let mut starts = vec![0; patches + 1];
         for same in pairs.chunk_by(|a, b| a == b) {

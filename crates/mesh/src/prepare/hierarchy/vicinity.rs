@@ -3,7 +3,7 @@
 use bevy_math::{DVec3, Vec3, Vec4};
 
 use super::four_vectors::FourVectors;
-use super::nearest::nearest_on;
+use crate::prepare::nearest::nearest_on;
 
 /// Places with more triangles stay: they are looked at with each of their neighbours.
 pub(super) const MOST_AROUND: usize = 64;

@@ -2,27 +2,25 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use bevy_math::DVec3;
+use rayon::prelude::*;
 
-use super::nearest::TriangleTree;
 use crate::Mesh;
+use crate::prepare::nearest::TriangleTree;
 
-/// Of each vertex that is its own place, how far it is from the nearest triangle of another piece; `None` where there
-/// is only one. Triangles are of one piece that have a place in common, and so on. Where `stop` has become true, some
-/// are 0.
-pub(super) fn rooms(mesh: &Mesh, places: &[u32], stop: &AtomicBool) -> Option<Vec<f64>> {
+/// Of each vertex that is its own place, how far it is from the nearest triangle of another piece, infinitely far from
+/// `within` on; `None` where there is only one. Triangles are of one piece that have a place in common, and so on.
+/// Where `stop` has become true, some are 0.
+pub(super) fn rooms(mesh: &Mesh, places: &[u32], within: f64, stop: &AtomicBool) -> Option<Vec<f64>> {
     let pieces = pieces(mesh, places)?;
     let piece = |triangle: u32| pieces[places[mesh.indices()[3 * triangle as usize] as usize] as usize];
-    let position = |vertex: u32| mesh.positions()[vertex as usize].as_dvec3();
-    let tree = TriangleTree::of_pieces(mesh.triangles().map(|triangle| triangle.map(position)).collect(), piece);
-    let room = |(vertex, &own): (u32, &u32)| {
-        if places[vertex as usize] != vertex || stop.load(Ordering::Relaxed) {
+    let tree = TriangleTree::of_pieces(mesh.triangle_count() as u32, |number| mesh.corners_of(number), piece, stop);
+    let room = |(vertex, &own): (usize, &u32)| {
+        if places[vertex] as usize != vertex || stop.load(Ordering::Relaxed) {
             return 0.0;
         }
-        let p: DVec3 = position(vertex);
-        tree.nearest_of_others(p, own, piece)
+        tree.nearest_of_others(mesh.positions()[vertex].as_dvec3(), own, piece, within)
     };
-    Some((0..).zip(&pieces).map(room).collect())
+    Some(pieces.par_iter().enumerate().map(room).collect())
 }
 
 /// Of each place a number of its piece; `None` where there is one only.

@@ -8,8 +8,8 @@ use super::clip::{ClippedPart, PartCorner};
 use super::fine_surface::{FineSurface, Surfaces};
 use super::frame::{Frame, longest_edge};
 use super::homes::Homes;
-use super::nearest::TriangleCorners;
 use crate::Mesh;
+use crate::prepare::nearest::TriangleCorners;
 
 impl Mesh {
     fn corners(&self, triangle: [u32; 3]) -> TriangleCorners {

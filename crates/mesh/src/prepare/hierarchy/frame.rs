@@ -2,7 +2,7 @@
 
 use bevy_math::{DVec2, DVec3, Vec3A, Vec4};
 
-use super::nearest::TriangleCorners;
+use crate::prepare::nearest::TriangleCorners;
 
 /// Further off than this part of a triangle's longest edge nothing is looked for over it.
 const REACH: f64 = 0.25;

@@ -1,0 +1,45 @@
+//! How much memory making a hierarchy of patches takes at most. In a process of its own: other tests would count.
+
+use std::sync::atomic::AtomicBool;
+
+use bevy_math::Vec3;
+use halfway_mesh::{Mesh, UvSphere};
+use peak_alloc::PeakAlloc;
+
+#[global_allocator]
+static MEMORY: PeakAlloc = PeakAlloc;
+
+/// A ball with hills, so that no part is like another.
+fn stone() -> Mesh {
+    let ball = Mesh::from(UvSphere::new(1.0, 400, 200));
+    let hill = |i: usize| {
+        let Vec3 { x, y, z } = ball.positions()[i];
+        0.05 * ((7.0 * x).sin() * (9.0 * y).cos() + (23.0 * z + 5.0 * x).sin() * 0.3)
+    };
+    ball.displaced(hill).expect("finite heights").0
+}
+
+/// The same with a ball within, so that it is of two pieces.
+fn stone_with_core() -> Mesh {
+    let (stone, core) = (stone(), Mesh::from(UvSphere::new(0.5, 200, 100)));
+    let first = stone.positions().len() as u32;
+    let both = |of: fn(&Mesh) -> &[Vec3]| [of(&stone), of(&core)].concat();
+    let indices = stone.indices().iter().copied().chain(core.indices().iter().map(|i| first + i)).collect();
+    Mesh::from_parts(both(Mesh::positions), Some(both(Mesh::normals)), None, indices).expect("two whole meshes")
+}
+
+#[test]
+fn making_a_hierarchy_takes_three_times_the_memory_of_the_mesh_at_most() {
+    let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
+    for (name, mesh) in [("one piece", stone()), ("two pieces", stone_with_core())] {
+        let own = size_of_val(mesh.positions()) + size_of_val(mesh.normals()) + size_of_val(mesh.indices());
+        let before = MEMORY.current_usage();
+        MEMORY.reset_peak_usage();
+        let hierarchy = one.install(|| mesh.patch_hierarchy(&AtomicBool::new(false))).expect("nothing stops it");
+        let most = MEMORY.peak_usage() - before;
+        assert!(hierarchy.groups.len() > 200, "{name}: {} groups", hierarchy.groups.len());
+        assert!(most <= 3 * own, "{name}: {most} bytes, of the mesh {own}");
+        drop(hierarchy);
+        assert_eq!(MEMORY.current_usage(), before, "{name}: nothing of it is left");
+    }
+}
