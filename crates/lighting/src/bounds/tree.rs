@@ -18,8 +18,8 @@ const SLACK: f32 = 1e-3;
 /// most: nothing where they are out of their range, and otherwise so little that it can be told from a bound for many
 /// of them. Directional lights reach everything.
 ///
-/// Made anew for each frame by [`LightTree::rebuild`], in a time that is as good as linear in the lights; its memory is
-/// kept.
+/// Made anew for each frame by [`LightTree::rebuild`], in a time that is as good as linear in the lights, or by
+/// [`LightTree::rebuild_in_order`], which sorts none; its memory is kept.
 #[derive(Clone, Debug, Default)]
 pub struct LightTree {
     /// Those that have no place.
@@ -28,8 +28,44 @@ pub struct LightTree {
     leaves: Vec<LightLeaf>,
     /// Level upon level, the leaves' first; each node of those above has up to eight below it.
     levels: Vec<Vec<LightNode>>,
+    /// Where no other is given.
+    order: LightOrder,
+}
+
+/// An order of lights in which neighbours are neighbours in space; those without a place are not in it.
+///
+/// Lights that have only been moved or turned together are still neighbours: the order of those that stand still is
+/// good for every frame, wherever they are seen from.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct LightOrder {
     /// Places on a curve, and the numbers of the lights.
     keys: Vec<u64>,
+}
+
+impl LightOrder {
+    /// Puts these lights in order, in place of those it had.
+    pub fn sort(&mut self, lights: &[Light<f32>]) {
+        self.keys.clear();
+        let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+        for (light, number) in lights.iter().zip(0..) {
+            if let Place::Point(at) = light.place {
+                low = [0, 1, 2].map(|k| low[k].min(at[k]));
+                high = [0, 1, 2].map(|k| high[k].max(at[k]));
+                self.keys.push(number);
+            }
+        }
+        let cells = [0, 1, 2].map(|k| 1023.0 / (high[k] - low[k]).max(f32::MIN_POSITIVE));
+        for key in &mut self.keys {
+            let (Place::Point(at) | Place::Directional(at)) = lights[*key as usize].place;
+            let cell = |k: usize| u64::from(spread(((at[k] - low[k]) * cells[k]) as u32)) << k;
+            *key |= (cell(0) | cell(1) | cell(2)) << 32;
+        }
+        self.keys.sort_unstable();
+    }
+
+    fn numbers(&self) -> impl Iterator<Item = u32> {
+        self.keys.iter().map(|&key| key as u32)
+    }
 }
 
 /// A light, as far as is known without its patch.
@@ -117,33 +153,29 @@ impl LightSearch<'_> {
 impl LightTree {
     /// Takes these lights in place of those it had.
     pub fn rebuild(&mut self, lights: &[Light<f32>]) {
+        let mut order = core::mem::take(&mut self.order);
+        order.sort(lights);
+        self.rebuild_in_order(lights, &order);
+        self.order = order;
+    }
+
+    /// Takes these lights in place of those it had, in the order of the same lights where they were before. What it
+    /// finds does not depend on the order, only how soon it finds it.
+    ///
+    /// # Panics
+    ///
+    /// Where `order` is not of lights with a place that are among these.
+    pub fn rebuild_in_order(&mut self, lights: &[Light<f32>], order: &LightOrder) {
+        let has_place = |light: &Light<f32>| matches!(light.place, Place::Point(_));
         self.everywhere.clear();
+        self.everywhere.extend((0..).zip(lights).filter(|(_, light)| !has_place(light)).map(|(number, _)| number));
         self.leaves.clear();
-        self.keys.clear();
-        let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
-        for (light, number) in lights.iter().zip(0..) {
-            match light.place {
-                Place::Directional(_) => self.everywhere.push(number as u32),
-                Place::Point(at) => {
-                    low = [0, 1, 2].map(|k| low[k].min(at[k]));
-                    high = [0, 1, 2].map(|k| high[k].max(at[k]));
-                    self.keys.push(number);
-                }
-            }
-        }
-        let cells = [0, 1, 2].map(|k| 1023.0 / (high[k] - low[k]).max(f32::MIN_POSITIVE));
-        for key in &mut self.keys {
-            let (Place::Point(at) | Place::Directional(at)) = lights[*key as usize].place;
-            let cell = |k: usize| u64::from(spread(((at[k] - low[k]) * cells[k]) as u32)) << k;
-            *key |= (cell(0) | cell(1) | cell(2)) << 32;
-        }
-        self.keys.sort_unstable();
-        self.leaves.extend(self.keys.iter().map(|&key| {
-            let number = key as u32;
+        self.leaves.extend(order.numbers().map(|number| {
             let light = &lights[number as usize];
             let (Place::Point(position) | Place::Directional(position)) = light.place;
             LightLeaf { number, position, falloff: Falloff::of(light) }
         }));
+        assert_eq!(self.everywhere.len() + self.leaves.len(), lights.len(), "each light once");
         self.build_levels();
     }
 

@@ -1,7 +1,7 @@
 //! Lights found by where they are: the lists are those of all lights, and what touches nothing is hardly looked at.
 
-use halfway_lighting::bounds::{LightTree, NearLights, NormalCone, Patch, Receiver, Region, Selected};
-use halfway_lighting::equations::{Coefficients, Eye, Light};
+use halfway_lighting::bounds::{LightOrder, LightTree, NearLights, NormalCone, Patch, Receiver, Region, Selected};
+use halfway_lighting::equations::{Coefficients, Eye, Light, Place};
 use halfway_lighting::{Attenuation, Faces, Material, PointLight, Reflectance};
 use proptest::prelude::*;
 
@@ -19,16 +19,19 @@ fn region(scene: &Scene, (way, room): ([f32; 3], f32), tolerance: [f64; 3]) -> R
     Region { brightest, tolerance, ..Region::EMPTY }.with(scene.center, scene.radius).with(aside, scene.radius)
 }
 
-/// The lists of a patch by way of a tree, and how many pairs were looked at.
+/// The lists of a patch by way of a tree, which may be in the order of other places.
 fn by_tree(
     scene: &Scene,
     region: &Region,
     lights: &[Light<f32>],
     tolerance: [f64; 3],
-    near: &mut NearLights,
+    order: Option<&LightOrder>,
 ) -> Selected<f32> {
-    let (mut tree, mut selected) = (LightTree::default(), Selected::default());
-    tree.rebuild(lights);
+    let (mut tree, mut near, mut selected) = (LightTree::default(), NearLights::default(), Selected::default());
+    match order {
+        Some(order) => tree.rebuild_in_order(lights, order),
+        None => tree.rebuild(lights),
+    }
     near.begin(*region);
     near.select(&tree, lights, &scene.receiver(), tolerance, &mut selected);
     selected
@@ -48,13 +51,24 @@ proptest! {
         let lights = lights(&scene, &sources);
         let mut plain = Selected::default();
         scene.receiver().select((0..).zip(&lights), tolerance, &mut plain);
-        let selected =
-            by_tree(&scene, &region(&scene, (way, room), tolerance), &lights, tolerance, &mut NearLights::default());
-        prop_assert_eq!(&selected.diffuse, &plain.diffuse);
-        prop_assert_eq!(&selected.specular, &plain.specular);
-        for ((found, plain), tolerance) in selected.left_out.into_iter().zip(plain.left_out).zip(tolerance) {
-            // More is said to be left out, where lights were not looked at, and never more than may be.
-            prop_assert!(found <= tolerance && found >= plain * (1.0 - 1e-13), "{found}, {plain}, {tolerance}");
+        let region = region(&scene, (way, room), tolerance);
+        // As though they had all been somewhere else.
+        let mut elsewhere = lights.clone();
+        for (light, i) in elsewhere.iter_mut().zip(0..) {
+            if let Place::Point(at) = &mut light.place {
+                *at = [0, 1, 2].map(|k| random(i, k));
+            }
+        }
+        let mut order = LightOrder::default();
+        order.sort(&elsewhere);
+        for order in [None, Some(&order)] {
+            let selected = by_tree(&scene, &region, &lights, tolerance, order);
+            prop_assert_eq!(&selected.diffuse, &plain.diffuse);
+            prop_assert_eq!(&selected.specular, &plain.specular);
+            for ((found, plain), tolerance) in selected.left_out.into_iter().zip(plain.left_out).zip(tolerance) {
+                // More is said to be left out, where lights were not looked at, and never more than may be.
+                prop_assert!(found <= tolerance && found >= plain * (1.0 - 1e-13), "{found}, {plain}, {tolerance}");
+            }
         }
     }
 }

@@ -8,6 +8,7 @@ use bevy_color::LinearRgba;
 use bevy_ecs::prelude::*;
 use bevy_math::{DVec3, Vec3};
 use bevy_transform::components::GlobalTransform;
+use halfway_lighting::bounds::LightOrder;
 use halfway_lighting::equations::vector::normalize_or_zero;
 use halfway_lighting::equations::{self, Light, Place};
 use halfway_lighting::{
@@ -26,6 +27,8 @@ pub struct Lights {
     pub(crate) sources: Vec<Light<f32>>,
     /// And where they are in the world.
     pub(super) places: Vec<WorldPlace>,
+    /// In the world, too.
+    pub(super) order: LightOrder,
     /// How many directional, point and spot lights, in this order.
     pub(crate) counts: [u32; 3],
     /// Whether any has a specular color.
@@ -213,11 +216,13 @@ impl Lights {
         self.places.push(place);
     }
 
+    /// What is known of all that were added, which are still in world space.
     fn sum_up(&mut self) {
         self.specular = self.records.iter().any(LightRecord::is_specular);
         self.attenuated_ambient = self.records.iter().any(LightRecord::attenuates_ambient);
         self.shared_color = self.records.iter().all(LightRecord::shares_color);
         self.ranged = self.records.iter().any(LightRecord::is_ranged);
+        self.order.sort(&self.sources);
     }
 
     /// Puts every light where the view sees it.
@@ -270,7 +275,13 @@ impl WorldPlace {
     /// At a position in eye space, the lengths measured in a unit of `least` world units, or in a longer one where it
     /// would be farther than `farthest` of them. The direction is kept, so that near the eye, where what it lights is
     /// seen, it lights the same.
+    #[expect(clippy::float_cmp, reason = "a unit that nothing was done to is 1 exactly")]
     fn brought_near(&self, position: DVec3, farthest: f64, least: f64) -> Near {
+        // Which is so of nearly all, and takes no division.
+        if least == 1.0 && position.length_squared() <= farthest * farthest {
+            let (attenuation, range) = (self.attenuation.map(f64::from), self.range.map(f64::from));
+            return Near { unit: 1.0, position: position.to_array(), attenuation, range };
+        }
         let unit = (position.length() / farthest).max(least);
         let [constant, linear, quadratic] = self.attenuation.map(f64::from);
         Near {

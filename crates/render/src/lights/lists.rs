@@ -96,7 +96,7 @@ impl LightLists {
     /// Starts a frame; `changed` says whether the lights have, since the last.
     pub(crate) fn begin(&mut self, lights: &Lights, changed: bool) {
         if changed {
-            self.tree.rebuild(&lights.sources);
+            self.tree.rebuild_in_order(&lights.sources, &lights.order);
         }
         self.numbers.clear();
         self.bound.clear();
@@ -116,7 +116,7 @@ impl LightLists {
 
     /// Takes note of where the terms of a patch are shaded.
     pub(crate) fn note(&mut self, name: PatchName, lights: &PatchLights) {
-        self.memory.note(name, lights.vertex.lists(), lights.fragment.lists());
+        self.memory.note(name, lights.vertex, lights.fragment);
     }
 
     /// Counts a patch and its lights.
@@ -324,6 +324,12 @@ fn append_stage(
     counts: [u32; 3],
     TermLights { diffuse, specular }: TermLights,
 ) -> [[u32; 4]; 3] {
+    // Which is so of most patches, and found sooner.
+    if diffuse == specular {
+        let both = append(numbers, counts, diffuse.iter().copied());
+        let none = [0, 0, 0, numbers.len() as u32];
+        return [both, none, none];
+    }
     let both = specular.iter().filter(|light| diffuse.binary_search(light).is_ok());
     [
         append(numbers, counts, both.copied()),

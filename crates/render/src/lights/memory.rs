@@ -1,13 +1,13 @@
 //! What was chosen for each patch in the frame before: so that terms do not flicker under a slow light, and to count
 //! how many change their place.
 
+use crate::lights::patch_lights::TermLights;
 use crate::target::canvas::CanvasTarget;
 use crate::target::surface::SurfaceTarget;
 use crate::target::texture::TextureTarget;
 use bevy_ecs::prelude::{Entity, ReflectResource, Res, Resource};
 use bevy_platform::collections::{HashMap, HashSet};
 use bevy_reflect::Reflect;
-use std::ops::Range;
 
 /// Whether under [`Shading::Auto`](halfway_lighting::Shading::Auto) it counts where the terms of a patch were shaded in
 /// the frame before. While this resource is not there, the target decides: [`Choosing::Steadily`] for a window and an
@@ -52,12 +52,11 @@ pub(crate) type PatchName = (Entity, u32);
 /// In the place of a patch: all of an object of which no patch is looked at.
 const ALL: u32 = u32::MAX;
 
-/// Where the diffuse and the specular term of a light are shaded that were placed for a patch.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct PlacedLight {
-    light: u32,
-    at_vertices: [bool; 2],
-    at_fragments: [bool; 2],
+/// The lights that were placed for a patch: those of the vertex shader, and those of the fragment shader.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct PlacedLights<'a> {
+    vertex: TermLights<'a>,
+    fragment: TermLights<'a>,
 }
 
 /// What was chosen in the frame before, and what is in this one.
@@ -74,28 +73,34 @@ pub(crate) struct ChoiceMemory {
 
 #[derive(Debug, Default)]
 struct FrameChoices {
-    /// The lights of each patch, in `lights`, ascending; none where all is at the fragments unseen.
-    patches: HashMap<PatchName, Range<usize>>,
-    lights: Vec<PlacedLight>,
+    patches: HashMap<PatchName, PlacedLists>,
+    /// The lists of one patch after the other.
+    numbers: Vec<u32>,
     /// The objects of which any term is at the vertices.
     moved: HashSet<Entity>,
 }
 
+/// The lights of a patch: none where all is at the fragments unseen.
+#[derive(Clone, Copy, Debug, Default)]
+struct PlacedLists {
+    start: usize,
+    /// Of the vertex shader's diffuse and specular terms, and of the fragment shader's.
+    counts: [u32; 4],
+}
+
 /// What was chosen for a patch in the frame before, where that counts; of a patch that was not there, nothing.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Before<'a>(Option<&'a [PlacedLight]>);
+pub(crate) struct Before<'a>(Option<PlacedLights<'a>>);
 
 impl Before<'_> {
     /// Which terms of a light were at the vertices; `None` where that does not count.
     pub(crate) fn at_vertices(self, light: u32) -> Option<[bool; 2]> {
-        let lights = self.0?;
-        let place = lights.binary_search_by_key(&light, |placed| placed.light);
-        Some(place.map_or([false; 2], |place| lights[place].at_vertices))
+        Some(self.0?.vertex.lists().map(|list| list.binary_search(&light).is_ok()))
     }
 
     /// Whether anything was at the vertices; `None` where that does not count.
     pub(crate) fn is_moved(self) -> Option<bool> {
-        Some(self.0?.iter().any(|placed| placed.at_vertices != [false; 2]))
+        Some(!self.0?.vertex.is_empty())
     }
 
     /// How much more than it costs moving terms has to save of a patch on which so much could be saved.
@@ -110,8 +115,25 @@ impl Before<'_> {
 }
 
 impl FrameChoices {
-    fn get(&self, name: PatchName) -> Option<&[PlacedLight]> {
-        self.patches.get(&name).map(|range| &self.lights[range.clone()])
+    fn get(&self, name: PatchName) -> Option<PlacedLights<'_>> {
+        let &PlacedLists { start, counts } = self.patches.get(&name)?;
+        let mut rest = &self.numbers[start..];
+        let [a, b, c, d] = counts.map(|count| {
+            let (list, after) = rest.split_at(count as usize);
+            rest = after;
+            list
+        });
+        let [vertex, fragment] = [[a, b], [c, d]].map(|[diffuse, specular]| TermLights { diffuse, specular });
+        Some(PlacedLights { vertex, fragment })
+    }
+
+    fn insert(&mut self, name: PatchName, PlacedLights { vertex, fragment }: PlacedLights) {
+        let [[a, b], [c, d]] = [vertex, fragment].map(TermLights::lists);
+        let start = self.numbers.len();
+        for list in [a, b, c, d] {
+            self.numbers.extend_from_slice(list);
+        }
+        self.patches.insert(name, PlacedLists { start, counts: [a, b, c, d].map(|list| list.len() as u32) });
     }
 }
 
@@ -120,7 +142,7 @@ impl ChoiceMemory {
     pub(crate) fn begin(&mut self, choosing: Choosing, counts: [u32; 3]) {
         std::mem::swap(&mut self.before, &mut self.now);
         self.now.patches.clear();
-        self.now.lights.clear();
+        self.now.numbers.clear();
         self.now.moved.clear();
         if self.counts != counts {
             self.counts = counts;
@@ -142,55 +164,45 @@ impl ChoiceMemory {
         self.before.moved.contains(&object)
     }
 
-    /// Takes note of where the terms of a patch are shaded: the lights whose diffuse and whose specular ones are at the
-    /// vertices, and those at the fragments, each list ascending.
-    pub(crate) fn note(&mut self, name: PatchName, at_vertices: [&[u32]; 2], at_fragments: [&[u32]; 2]) {
-        let start = self.now.lights.len();
-        let mut lists = [at_vertices, at_fragments];
-        while let Some(light) = lists.as_flattened().iter().filter_map(|list| list.first()).min().copied() {
-            let took = lists.each_mut().map(|stage| {
-                stage.each_mut().map(|list| {
-                    let has = list.first() == Some(&light);
-                    *list = &list[usize::from(has)..];
-                    has
-                })
-            });
-            self.now.lights.push(PlacedLight { light, at_vertices: took[0], at_fragments: took[1] });
-        }
-        if at_vertices.iter().any(|list| !list.is_empty()) {
+    /// Takes note of where the terms of a patch are shaded: each list ascends.
+    pub(crate) fn note(&mut self, name: PatchName, vertex: TermLights, fragment: TermLights) {
+        let now = PlacedLights { vertex, fragment };
+        if !vertex.is_empty() {
             self.now.moved.insert(name.0);
         }
-        let now = &self.now.lights[start..];
         if self.before.get(name).is_some_and(|before| is_changed(before, now)) {
             self.changed += 1;
         }
-        self.now.patches.insert(name, start..self.now.lights.len());
+        self.now.insert(name, now);
     }
 
     /// Takes note of an object of which no patch is looked at: all its terms are at the fragments.
     pub(crate) fn note_object(&mut self, object: Entity) {
-        self.now.patches.insert((object, ALL), 0..0);
+        self.now.patches.insert((object, ALL), PlacedLists::default());
     }
 
     /// Takes note of a patch that is not looked at: its terms are all at the fragments, whatever its lights.
     pub(crate) fn note_at_fragments(&mut self, name: PatchName) {
         self.changed += u32::from(self.has_moved(name.0) && Before(self.before.get(name)).is_moved() == Some(true));
         if !self.now.patches.contains_key(&(name.0, ALL)) {
-            self.now.patches.insert(name, 0..0);
+            self.now.patches.insert(name, PlacedLists::default());
         }
     }
 }
 
 /// Whether a term that both have is in the other place.
-fn is_changed(before: &[PlacedLight], now: &[PlacedLight]) -> bool {
-    let both = |a: [bool; 2], b: [bool; 2]| (a[0] && b[0]) || (a[1] && b[1]);
-    now.iter().any(|now| {
-        let place = before.binary_search_by_key(&now.light, |placed| placed.light);
-        place.is_ok_and(|place| {
-            let before = before[place];
-            both(before.at_vertices, now.at_fragments) || both(before.at_fragments, now.at_vertices)
-        })
-    })
+fn is_changed(before: PlacedLights, now: PlacedLights) -> bool {
+    // Which is so of most patches, and found sooner.
+    if before == now {
+        return false;
+    }
+    let went = |from: TermLights, to: TermLights| {
+        from.lists()
+            .into_iter()
+            .zip(to.lists())
+            .any(|(from, to)| from.iter().any(|light| to.binary_search(light).is_ok()))
+    };
+    went(before.vertex, now.fragment) || went(before.fragment, now.vertex)
 }
 
 #[cfg(test)]
@@ -205,18 +217,22 @@ mod tests {
         [(world.spawn_empty().id(), 0), (world.spawn_empty().id(), 96)]
     }
 
+    fn lights([diffuse, specular]: [&[u32]; 2]) -> TermLights<'_> {
+        TermLights { diffuse, specular }
+    }
+
     #[test]
     fn a_term_in_the_other_place_is_counted_once_a_patch() {
         let [name, other] = names();
         let mut memory = ChoiceMemory::default();
         memory.begin(Choosing::Anew, COUNTS);
-        memory.note(name, [&[0, 2], &[0]], [&[1], &[1, 2]]);
-        memory.note(other, [&[], &[]], [&[0], &[]]);
+        memory.note(name, lights([&[0, 2], &[0]]), lights([&[1], &[1, 2]]));
+        memory.note(other, lights([&[], &[]]), lights([&[0], &[]]));
         assert_eq!(memory.changed, 0, "what was not there has not changed");
         let mut changed = |counts, vertices: [&[u32]; 2], fragments: [&[u32]; 2]| {
             memory.begin(Choosing::Anew, counts);
-            memory.note(name, vertices, fragments);
-            memory.note(other, [&[], &[]], [&[0], &[]]);
+            memory.note(name, lights(vertices), lights(fragments));
+            memory.note(other, lights([&[], &[]]), lights([&[0], &[]]));
             memory.changed
         };
         assert_eq!(changed(COUNTS, [&[0, 2], &[0]], [&[1], &[1, 2]]), 0, "the same");
@@ -232,7 +248,7 @@ mod tests {
         let mut memory = ChoiceMemory::default();
         memory.begin(Choosing::Steadily, COUNTS);
         assert_eq!(memory.before(name).is_moved(), None, "nothing is known of the first frame");
-        memory.note(name, [&[1], &[]], [&[], &[1]]);
+        memory.note(name, lights([&[1], &[]]), lights([&[], &[1]]));
         memory.note_at_fragments(other);
         memory.begin(Choosing::Steadily, COUNTS);
         let before = memory.before(name);
@@ -266,9 +282,9 @@ mod tests {
 
     #[test]
     fn what_was_moved_stays_for_less() {
-        let placed = |at_vertices| [PlacedLight { light: 0, at_vertices, at_fragments: [false; 2] }];
-        let (moved, left) = (placed([false, true]), placed([false; 2]));
-        let [none, moved, left] = [Before(None), Before(Some(&moved)), Before(Some(&left))];
+        let moved = PlacedLights { vertex: lights([&[], &[0]]), ..PlacedLights::default() };
+        let left = PlacedLights { fragment: lights([&[], &[0]]), ..PlacedLights::default() };
+        let [none, moved, left] = [None, Some(moved), Some(left)].map(Before);
         let close = |a: f32, b: f32| assert!((a - b).abs() < 1e-6, "{a} {b}");
         close(none.least_gain(50.0), 0.0);
         close(moved.least_gain(50.0), -5.0);
