@@ -16,7 +16,7 @@ pub(crate) struct Numbering {
 impl Numbering {
     /// Numbers `count` things, at most 2³² − 1, by their keys. Keys are asked for again, not kept.
     pub(crate) fn new<const N: usize>(count: usize, key: impl Fn(usize) -> [u32; N]) -> Self {
-        let mut table = KeyNumbers { numbers: HashTable::with_capacity(count), ..KeyNumbers::default() };
+        let mut table = KeyNumbers::default();
         let mut firsts: Vec<u32> = Vec::new();
         let mut numbers = Vec::with_capacity(count);
         for thing in 0..count {

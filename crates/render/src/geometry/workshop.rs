@@ -18,7 +18,7 @@ const FEWEST: usize = 64;
 /// made: what comes and goes faster than levels are made must not pile up.
 const MOST_ON_THEIR_WAY: usize = 64;
 
-/// The meshes whose levels are asked for, and one thread that makes them, one after the other.
+/// The meshes whose levels are asked for, and one thread that has them made, one after the other.
 #[derive(Resource)]
 pub(crate) struct Workshop {
     orders: HashMap<AssetId<Mesh>, Order>,

@@ -99,6 +99,8 @@ impl Mesh {
     /// creases:
     /// [weld](Self::welded) it first.
     ///
+    /// It is made on rayon's threads, up to sixteen of them, and is the same on any number.
+    ///
     /// Triangles that have corners in common, and those that have some in common with these, and so on, are one piece.
     /// Where another piece is closer than twice the [error](PatchGroup::error) of a group, that is not made: so neither
     /// comes to lie before the other.
