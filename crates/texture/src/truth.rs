@@ -79,8 +79,8 @@ impl FootprintTruth {
     /// rounding but for its texels all counting alike. It is halved across the direction along which w changes more.
     /// Where the mean of the halves differs from the cell's by more than `tolerance` in any number, each is halved
     /// again, up to 24 times. Under affine maps the first is exact. So that none agree by accident, texels of a cell
-    /// that is not halved again differ in size by a tenth at most. The result may be off by some hundreds of
-    /// `tolerance`.
+    /// that is not halved again differ in size by a tenth at most, and its quarters agree with it, too. The result may
+    /// be off by hundreds of times `tolerance`.
     pub fn mean(&self, wrap: [Wrap; 2], map: &PictureMap, pixel: [f64; 2], tolerance: f64) -> Option<[f64; 4]> {
         let [x, y] = pixel;
         let cell = Cell { low: [x - 0.5, y - 0.5], sides: [1.0; 2] };
@@ -105,8 +105,10 @@ impl FootprintTruth {
         let found = halves.map(|half| self.of_cell(wrap, map, &half));
         let mean = |[a, b]: [[f64; 4]; 2]| -> [f64; 4] { std::array::from_fn(|k| 0.5 * (a[k] + b[k])) };
         let together = mean(found);
-        let agree = (0..4).all(|k| (together[k] - whole[k]).abs() <= tolerance);
-        if depth == 0 || agree && cell.is_even(map) {
+        let agree = |other: [f64; 4]| (0..4).all(|k| (other[k] - whole[k]).abs() <= tolerance);
+        let of_quarters =
+            || mean(halves.each_ref().map(|half| mean(half.halves(map).map(|it| self.of_cell(wrap, map, &it)))));
+        if depth == 0 || agree(together) && cell.is_even(map) && agree(of_quarters()) {
             return together;
         }
         let [a, b] = [0, 1].map(|k| self.refined(wrap, map, &halves[k], found[k], tolerance, depth - 1));
