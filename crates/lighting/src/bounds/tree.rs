@@ -164,7 +164,7 @@ impl LightTree {
     ///
     /// # Panics
     ///
-    /// Where `order` is not of lights with a place that are among these.
+    /// Where `order` has more or fewer lights than have a place here, or a number that none of them has.
     pub fn rebuild_in_order(&mut self, lights: &[Light<f32>], order: &LightOrder) {
         let has_place = |light: &Light<f32>| matches!(light.place, Place::Point(_));
         self.everywhere.clear();

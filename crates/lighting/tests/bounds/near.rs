@@ -153,6 +153,15 @@ fn where_the_weak_are_too_many_each_is_looked_at() {
 }
 
 #[test]
+#[should_panic(expected = "each light once")]
+fn an_order_of_fewer_lights_is_refused() {
+    let lights: Vec<Light<f32>> = (0..4).map(|i| lamp([i as f32, 0.0, 0.0], None)).collect();
+    let mut order = LightOrder::default();
+    order.sort(&lights[..3]);
+    LightTree::default().rebuild_in_order(&lights, &order);
+}
+
+#[test]
 fn patches_without_bounds_are_reached_by_all_lights() {
     let lights: Vec<Light<f32>> = (0..40).map(|i| lamp([i as f32, 0.0, 0.0], Some(2.0))).collect();
     let mut tree = LightTree::default();

@@ -50,7 +50,8 @@ impl Maker<'_> {
     /// The groups of a round have nothing to do with one another: they are joined on all threads, and numbered in their
     /// order.
     pub(super) fn join(&mut self, pool: Vec<Loose>, stop: &AtomicBool) -> Option<(Vec<Loose>, bool)> {
-        let places: Vec<Vec<u32>> = pool.par_iter().map(|loose| self.places(loose)).collect();
+        let few = pool.len().div_ceil(MOST_THREADS);
+        let places: Vec<Vec<u32>> = pool.par_iter().with_min_len(few).map(|loose| self.places(loose)).collect();
         let (stuck, free): (Vec<_>, Vec<_>) = (0..).zip(&places).partition(|(at, _)| pool[*at as usize].is_stuck);
         let mut touched = Vec::with_capacity(free.iter().map(|(_, places)| places.len()).sum());
         for (at, places) in free {
