@@ -8,7 +8,7 @@ use halfway::prelude::*;
 use halfway::render::{Choosing, VertexPrices};
 
 /// At which something is gained on some patches of [`ball`] and lost on others.
-const MIDDLING: VertexPrices = VertexPrices { light: 0.2, pixel: 0.5, look: 0.1, draw: 1.0, ..VertexPrices::FREE };
+const MIDDLING: VertexPrices = VertexPrices { light: 0.25, pixel: 0.5, look: 0.1, draw: 10.0, ..VertexPrices::FREE };
 
 /// Under three lights that can be moved and one that stays.
 fn ball() -> Scene {

@@ -135,7 +135,8 @@ fn lists_grow_with_what_lights_touch() {
 
 #[test]
 fn highlights_are_listed_where_they_can_be_seen() {
-    let mut stage = Stage::new(32, 32);
+    // Each patch covers enough pixels to have a list of its own.
+    let mut stage = Stage::new(512, 512);
     let glossy = Material { shininess: 200.0, ..Material::matte(LinearRgba::rgb(0.5, 0.5, 0.5)) };
     let glossy = Material { specular: LinearRgba::rgb(0.5, 0.5, 0.5), ..glossy };
     for (mesh, row) in

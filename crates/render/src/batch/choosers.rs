@@ -1,11 +1,11 @@
 //! Chooses the lights that the patches of an object need: on all threads, since no patch has to do with another.
 
-use crate::batch::lit_object::{LitObject, SeenPatch};
+use crate::batch::clusters::{Cluster, Clustering, SeenPatch};
+use crate::batch::lit_object::LitObject;
 use crate::batch::object::Shared;
 use crate::batch::painted::{PaintedObject, PatchPaint};
 use crate::device::costs::VertexPrices;
-use crate::geometry::patches::{MeshPatch, Sight};
-use crate::lights::gains::Extent;
+use crate::geometry::shape::PatchShape;
 use crate::lights::lists::{LightLists, Listing, Reflector};
 use crate::lights::memory::ChoiceMemory;
 use crate::lights::patch_lights::KeptLights;
@@ -14,14 +14,15 @@ use crate::lights::selector::Selector;
 use bevy_math::Vec3;
 use halfway_lighting::equations;
 use halfway_raster::Threads;
+use std::ops::Range;
 use std::sync::OnceLock;
 
 /// What chooses for the patches of one object.
 pub(super) struct Chooser<'a> {
     pub(super) object: &'a LitObject<'a>,
     pub(super) shared: Shared<'a>,
-    pub(super) sight: &'a Sight<'a>,
     pub(super) reflector: &'a Reflector,
+    pub(super) clustering: Clustering<'a, 'a>,
     /// How far a channel may be off for light, in steps.
     pub(super) steps: f64,
     /// How many lights are compiled in for a patch without lists; `None` where each has some.
@@ -32,7 +33,7 @@ pub(super) struct Chooser<'a> {
     pub(super) staying: OnceLock<Listing>,
 }
 
-impl Chooser<'_> {
+impl<'a> Chooser<'a> {
     /// What lists are made by at these prices.
     pub(super) fn listing(&self, prices: VertexPrices) -> Listing {
         let &Self { object, shared, steps, compiled_in, .. } = self;
@@ -51,29 +52,44 @@ impl Chooser<'_> {
         }
     }
 
-    /// Where the terms of a patch may be shaded, and how much of it there is to shade.
-    pub(super) fn place(&self, patch: &MeshPatch, memory: &ChoiceMemory) -> (ShadedAt, Extent) {
+    /// Where the terms of a cluster may be shaded.
+    pub(super) fn place(&self, cluster: &Cluster, memory: &ChoiceMemory) -> ShadedAt {
         let prices = if self.placing.is_some() { &self.shared.prices } else { &VertexPrices::NEVER };
-        self.object.place(patch, self.sight, (prices, self.compiled_in), memory)
+        self.object.place(cluster, (prices, self.compiled_in), memory)
     }
 
-    /// Has the lights near some patches looked for, for whichever of them comes next.
-    pub(super) fn look_around(&self, selector: &mut Selector, patches: &[SeenPatch], place: ShadedAt) {
+    /// Has the lights near some pieces looked for, for whichever part of them comes next.
+    pub(super) fn look_around<'s>(&self, selector: &mut Selector, shapes: impl Iterator<Item = &'s PatchShape>) {
         // With the smaller tolerance of both.
-        let listing = self.placing.as_ref().unwrap_or_else(|| self.listing_at(place));
-        selector.look_around(listing, patches.iter().map(|(patch, _)| patch.sphere(self.object.model_view)));
+        let listing = self.placing.as_ref().unwrap_or_else(|| self.listing_at(ShadedAt::Fragments));
+        selector.look_around(listing, shapes.map(|shape| shape.sphere(self.object.model_view)));
     }
 
-    /// Has the lights of a patch selected, one of those last looked around; what is saved.
+    /// Has the lights near patches looked for, and joins those to clusters that have no light among them.
+    pub(super) fn cluster(
+        &self,
+        selector: &mut Selector,
+        seen: &[SeenPatch<'a>],
+        members: Range<usize>,
+        lists: &LightLists,
+        clusters: &mut Vec<Cluster>,
+    ) {
+        self.look_around(selector, seen[members.clone()].iter().map(|seen| &seen.patch.shape));
+        let mut is_among =
+            |shape: &PatchShape| selector.is_among(self.shared.lights, lists, shape.sphere(self.object.model_view));
+        self.clustering.fill((seen, members), &mut is_among, &lists.memory, clusters);
+    }
+
+    /// Has the lights of a cluster selected, one of those last looked around; what is saved.
     pub(super) fn select(
         &self,
         selector: &mut Selector,
-        (patch, place): (&MeshPatch, (ShadedAt, Extent)),
+        (cluster, place): (&Cluster, ShadedAt),
         paint: Option<&PatchPaint>,
         lists: &LightLists,
     ) -> f32 {
-        let listing = self.listing_at(place.0);
-        self.object.placed(patch, place, paint, |placed| {
+        let listing = self.listing_at(place);
+        self.object.placed(cluster, place, paint, |placed| {
             selector.select(self.shared.lights, lists, placed, listing, self.object.key.terms)
         })
     }
@@ -82,35 +98,32 @@ impl Chooser<'_> {
     fn choose(
         &self,
         selector: &mut Selector,
-        patches: &[SeenPatch],
+        (seen, members): (&[SeenPatch<'a>], Range<usize>),
         lists: &LightLists,
         painted: Option<&PaintedObject>,
         chosen: &mut ChosenGroup,
     ) {
-        chosen.patches.clear();
+        chosen.choices.clear();
         chosen.lights.clear();
-        let mut has_looked_around = false;
-        for &(patch, _) in patches {
-            let place = self.place(patch, &lists.memory);
-            let mut of = ChosenPatch { place, gain: 0.0, lights: None, paint: None };
-            if !self.object.may_be_unlisted(place.0, self.shared.lights) {
-                if !has_looked_around {
-                    self.look_around(selector, patches, place.0);
-                    has_looked_around = true;
-                }
-                of.paint = painted.map(|painted| painted.of(self.object.geometry, patch));
-                of.gain = self.select(selector, (patch, place), of.paint.as_ref(), lists);
+        self.cluster(selector, seen, members, lists, &mut chosen.clusters);
+        for cluster in &chosen.clusters {
+            let place = self.place(cluster, &lists.memory);
+            let mut of = ClusterChoice { place, gain: 0.0, lights: None, paint: None };
+            if !self.object.may_be_unlisted(place, self.shared.lights) {
+                let first = seen[cluster.members.start].patch;
+                of.paint = painted.map(|painted| painted.of(self.object.geometry, first));
+                of.gain = self.select(selector, (cluster, place), of.paint.as_ref(), lists);
                 of.lights = Some(chosen.lights.keep(&selector.lights()));
             }
-            chosen.patches.push(of);
+            chosen.choices.push(of);
         }
     }
 }
 
-/// What was chosen for a patch.
+/// What was chosen for a cluster.
 #[derive(Debug)]
-pub(super) struct ChosenPatch {
-    pub(super) place: (ShadedAt, Extent),
+pub(super) struct ClusterChoice {
+    pub(super) place: ShadedAt,
     /// What it saves to have terms at the vertices.
     pub(super) gain: f32,
     /// The number of its lights; `None` where they have not been selected, since it may need no list.
@@ -119,10 +132,11 @@ pub(super) struct ChosenPatch {
     pub(super) paint: Option<PatchPaint>,
 }
 
-/// What was chosen for neighbouring patches.
+/// Neighbouring clusters, and what was chosen for each.
 #[derive(Debug, Default)]
 pub(super) struct ChosenGroup {
-    pub(super) patches: Vec<ChosenPatch>,
+    pub(super) clusters: Vec<Cluster>,
+    pub(super) choices: Vec<ClusterChoice>,
     pub(super) lights: KeptLights,
 }
 
@@ -133,18 +147,20 @@ pub(crate) struct Choosers {
     threads: Option<Threads>,
     /// One at least.
     selectors: Vec<Selector>,
+    /// The patches that each group has, of those that are seen of an object.
+    parts: Vec<Range<usize>>,
     groups: Vec<ChosenGroup>,
 }
 
-/// The number of neighbouring patches that look for their lights together, and for which one thread chooses.
-pub(super) const TOGETHER: usize = 32;
+/// At most so many neighbouring patches look for their lights together, and one thread chooses for them.
+const TOGETHER: usize = 32;
 
 /// A second thread is woken for no fewer groups than this: what it takes over is to be worth more than waking it.
 const WORTH_A_THREAD: usize = 4;
 
 impl Default for Choosers {
     fn default() -> Self {
-        Self { threads: None, selectors: vec![Selector::default()], groups: Vec::new() }
+        Self { threads: None, selectors: vec![Selector::default()], parts: Vec::new(), groups: Vec::new() }
     }
 }
 
@@ -164,17 +180,18 @@ impl Choosers {
         self.selectors.iter_mut().map(Selector::take_pairs).sum()
     }
 
-    /// Chooses for what is seen of an object. Returns that, [`TOGETHER`] by [`TOGETHER`], and one who can choose again.
+    /// Chooses for what is seen of an object. Returns that, and one who can choose again.
     ///
     /// Each choice is what it is whoever makes it, so that nothing depends on how many threads there are.
-    pub(super) fn choose(
+    pub(super) fn choose<'a>(
         &mut self,
-        chooser: &Chooser,
-        seen: &[SeenPatch],
+        chooser: &Chooser<'a>,
+        seen: &[SeenPatch<'a>],
         lists: &LightLists,
         painted: Option<&PaintedObject>,
     ) -> (&[ChosenGroup], &mut Selector) {
-        let count = seen.len().div_ceil(TOGETHER);
+        chooser.clustering.cut(seen, TOGETHER, &mut self.parts);
+        let count = self.parts.len();
         if self.groups.len() < count {
             self.groups.resize_with(count, ChosenGroup::default);
         }
@@ -183,9 +200,9 @@ impl Choosers {
         if self.selectors.len() < most {
             self.selectors.resize_with(most, Selector::default);
         }
-        let parts = seen.chunks(TOGETHER).zip(&mut self.groups);
-        threads.share(&mut self.selectors[..most], parts, |selector, (patches, chosen)| {
-            chooser.choose(selector, patches, lists, painted, chosen);
+        let parts = self.parts.iter().cloned().zip(&mut self.groups);
+        threads.share(&mut self.selectors[..most], parts, |selector, (members, chosen)| {
+            chooser.choose(selector, (seen, members), lists, painted, chosen);
         });
         (&self.groups[..count], &mut self.selectors[0])
     }
@@ -278,13 +295,40 @@ mod tests {
                 });
                 let choosers = &app.world().resource::<LitPatches>().choosers;
                 let selectors = choosers.selectors.len();
-                let chosen = choosers.groups.iter().map(|group| group.patches.len()).sum::<usize>();
-                assert!(chosen > WORTH_A_THREAD * TOGETHER && selectors == threads, "{chosen} by {selectors}");
+                let groups = choosers.groups.iter().filter(|group| !group.clusters.is_empty()).count();
+                assert!(groups > WORTH_A_THREAD && selectors == threads, "{groups} by {selectors}");
                 frames
             });
             assert!(frames[0][0] != frames[0][1], "{shading:?}: the camera moves");
             assert!(frames[1..].iter().all(|other| *other == frames[0]), "{shading:?}, {lights} lights");
         }
+    }
+
+    /// Of a ball that covers few pixels, several patches have one list together, and all that is seen of them is drawn;
+    /// where each covers many pixels, each has its own, and among lights most have.
+    #[test]
+    fn patches_of_few_pixels_are_chosen_for_together() {
+        let chosen = |size: u32, away: f32| {
+            let mut app = app(Shading::Phong, 16);
+            app.insert_resource(Headless { size: UVec2::new(size, size), pixels: Pixels::Byte });
+            let mut lights = app.world_mut().query_filtered::<&mut Transform, With<PointLight>>();
+            lights.iter_mut(app.world_mut()).for_each(|mut light| light.translation *= away);
+            app.update();
+            let report = app.world().resource::<FrameReport>();
+            assert_eq!(report.errors, []);
+            let seen = report.patches - report.patches_culled;
+            let lit = app.world().resource::<LitPatches>();
+            let clusters = lit.choosers.groups.iter().map(|group| group.clusters.len()).sum::<usize>();
+            let drawn: u32 = lit.runs.iter().map(|run| (run.indices.1 - run.indices.0) / 3).sum();
+            assert!(drawn >= 64 * seen.saturating_sub(1), "{drawn} triangles of {seen} patches");
+            (seen as usize, clusters, report.light_pairs as usize)
+        };
+        let (seen, clusters, pairs) = chosen(64, 5.0);
+        assert!(5 * clusters < seen && pairs <= 16 * clusters, "{clusters} of {seen}, {pairs} pairs");
+        let (seen, clusters, pairs) = chosen(2048, 5.0);
+        assert!(5 * clusters > 4 * seen && pairs <= 16 * clusters, "{clusters} of {seen}, {pairs} pairs");
+        let (seen, clusters, _) = chosen(64, 0.3);
+        assert!(2 * clusters > seen, "{clusters} of {seen}");
     }
 
     /// By prices at which no patch can save anything no patch is chosen for, and all is as at prices that say so at

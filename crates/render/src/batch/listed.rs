@@ -1,29 +1,29 @@
-//! Objects whose patches have light lists: what was chosen for each becomes lists, patch after patch.
+//! Objects whose patches have light lists: what was chosen for each cluster becomes lists, one by one.
 
 use crate::batch::backend::Backend;
-use crate::batch::choosers::{Chooser, ChosenPatch, TOGETHER};
+use crate::batch::choosers::{Chooser, ClusterChoice};
+use crate::batch::clusters::{Cluster, SeenPatch};
 use crate::batch::key::DrawKey;
-use crate::batch::lit_object::{LitObject, SeenPatch};
+use crate::batch::lit_object::LitObject;
 use crate::batch::lit_patches::LitPatches;
 use crate::batch::lit_runs::OpenRun;
 use crate::batch::object::Shared;
 use crate::batch::painted::PaintedObject;
-use crate::geometry::patches::MeshPatch;
 use crate::lights::patch_lights::PatchLights;
 use crate::lights::places::ShadedAt;
 use crate::shaders::light_slots::Lists;
 use crate::shaders::records::RecordLists;
 
-/// What draws a patch: its key, the lights that are bound for it, its lists, and how many terms of lights it shades at
-/// the vertices and at the fragments, where lists tell.
+/// What draws a cluster: its key, the lights that are bound for it, its lists, and how many terms of lights it shades
+/// at the vertices and at the fragments, where lists tell.
 type Listed = (DrawKey, u32, RecordLists, Option<[u64; 2]>);
 
 impl LitPatches {
     /// Adds what is seen of an object; of `is_placed` ones terms may be in one place or another.
-    pub(super) fn add_listed(
+    pub(super) fn add_listed<'a>(
         &mut self,
-        chooser: &Chooser,
-        seen: &[SeenPatch],
+        chooser: &Chooser<'a>,
+        seen: &[SeenPatch<'a>],
         is_placed: bool,
         backend: &mut impl Backend,
     ) {
@@ -32,31 +32,35 @@ impl LitPatches {
         let mut choosers = std::mem::take(&mut self.choosers);
         let (groups, spare) = choosers.choose(chooser, seen, &self.lists, painted.as_ref());
         let mut run: Option<OpenRun> = None;
-        for (together, group) in seen.chunks(TOGETHER).zip(groups) {
-            for (&(patch, stretch), chosen) in together.iter().zip(&group.patches) {
-                if is_placed && chosen.place.0 == ShadedAt::Fragments {
-                    self.lists.memory.note_at_fragments(object.name(patch));
+        for group in groups {
+            for (cluster, chosen) in group.clusters.iter().zip(&group.choices) {
+                let patch = seen[cluster.members.start].patch;
+                if is_placed && chosen.place == ShadedAt::Fragments {
+                    self.lists.memory.note_at_fragments(object.name(cluster));
                 }
                 if let (Some(painted), Some(paint)) = (&mut painted, chosen.paint) {
                     painted.remember(patch, paint);
                 }
                 let (key, lights, lists, terms) = if let Some(number) = chosen.lights {
-                    self.lit(chooser, (patch, chosen), &group.lights.get(number), backend)
-                } else if let Some(key) = self.unlisted(object, chosen.place.0, shared, backend) {
+                    self.lit(chooser, (cluster, chosen), &group.lights.get(number), backend)
+                } else if let Some(key) = self.unlisted(object, chosen.place, cluster.members.len(), shared, backend) {
                     (key, 0, RecordLists::default(), None)
                 } else {
                     // What would draw it without a list is not to be had.
-                    chooser.look_around(spare, &[(patch, stretch)], chosen.place.0);
+                    chooser.look_around(spare, std::iter::once(&cluster.shape));
                     let paint = painted.as_ref().map(|painted| painted.of(object.geometry, patch));
-                    chooser.select(spare, (patch, chosen.place), paint.as_ref(), &self.lists);
-                    self.lit(chooser, (patch, chosen), &spare.lights(), backend)
+                    chooser.select(spare, (cluster, chosen.place), paint.as_ref(), &self.lists);
+                    self.lit(chooser, (cluster, chosen), &spare.lights(), backend)
                 };
                 let (key, lights, record) = if shared.false_colors {
                     self.false_colored(object, patch, key, terms, backend)
                 } else {
                     (key, lights, self.table.number(&mut self.records, object.material, lists))
                 };
-                self.go_on(object, &mut run, OpenRun { key, lights, record, indices: patch.indices.clone(), stretch });
+                for &SeenPatch { patch, stretch, .. } in &seen[cluster.members.clone()] {
+                    let next = OpenRun { key, lights, record, indices: patch.indices.clone(), stretch };
+                    self.go_on(object, &mut run, next);
+                }
             }
         }
         if let Some(run) = run {
@@ -75,25 +79,26 @@ impl LitPatches {
         self.paints.take(of, object.reflecting.maps, &maps, shared.textures)
     }
 
-    /// What draws a patch with these lights.
+    /// What draws a cluster with these lights.
     fn lit(
         &mut self,
         chooser: &Chooser,
-        (patch, chosen): (&MeshPatch, &ChosenPatch),
+        (cluster, chosen): (&Cluster, &ClusterChoice),
         of: &PatchLights,
         backend: &mut impl Backend,
     ) -> Listed {
         let &Chooser { object, shared, .. } = chooser;
-        if chooser.placing.is_some() && chosen.place.0 == ShadedAt::Either {
-            self.lists.note(object.name(patch), of);
+        let patches = cluster.members.len();
+        if chooser.placing.is_some() && chosen.place == ShadedAt::Either {
+            self.lists.note(object.name(cluster), of);
             self.profit.add(chosen.gain);
         }
         if chosen.gain < 0.0
-            && let Some(key) = self.unlisted(object, ShadedAt::Fragments, shared, backend)
+            && let Some(key) = self.unlisted(object, ShadedAt::Fragments, patches, shared, backend)
         {
             return (key, 0, RecordLists::default(), None);
         }
-        self.lists.count(of);
+        self.lists.count(of, patches);
         let terms = Some([of.vertex.count(), of.fragment.count()]);
         let key = object.key.with_terms(of.terms(object.key.terms));
         if !key.is_lit() {
@@ -105,7 +110,7 @@ impl LitPatches {
         {
             let counted = DrawKey { lists: bound.lists, ..key.with_terms(bound.terms) };
             if backend.admit(counted) == counted {
-                self.lists.count_bound(bound);
+                self.lists.count_bound(bound, patches);
                 return (counted, bound.start, RecordLists::default(), terms);
             }
             // One with lists that is not generic either would take up room and time of those that are to draw.
@@ -113,6 +118,6 @@ impl LitPatches {
         } else {
             backend.admit(key)
         };
-        (key, 0, self.lists.list(shared.lights, of), terms)
+        (key, 0, self.lists.list(shared.lights, of, patches), terms)
     }
 }

@@ -1,15 +1,16 @@
 //! An object whose patches are being lit, and what bounds of lights take of a patch.
 
+use crate::batch::clusters::{Cluster, Clustering, SeenPatch};
 use crate::batch::key::DrawKey;
 use crate::batch::object::Reflecting;
 use crate::batch::painted::{Lean, PatchPaint};
 use crate::device::costs::VertexPrices;
 use crate::geometry::allowed::SAMPLED;
 use crate::geometry::meshes::{Form, Geometry};
-use crate::geometry::patches::{MeshPatch, PatchNormals, Sight};
-use crate::lights::gains::Extent;
+use crate::geometry::patches::{MeshPatch, Sight};
+use crate::geometry::shape::PatchNormals;
 use crate::lights::gather::Lights;
-use crate::lights::memory::{ChoiceMemory, PatchName};
+use crate::lights::memory::{ChoiceMemory, NamedPatches};
 use crate::lights::places::{PlacedPatch, ShadedAt};
 use crate::shaders::light_slots::Lists;
 use crate::view::matrices::{ModelView, NormalMatrix};
@@ -17,9 +18,6 @@ use bevy_asset::AssetId;
 use bevy_ecs::prelude::*;
 use halfway_lighting::{Frequency, Tolerance};
 use halfway_mesh::Mesh;
-
-/// A patch that is drawn, and its stretch: see [`Detail::each_seen`](crate::geometry::detail::Detail::each_seen).
-pub(crate) type SeenPatch<'a> = (&'a MeshPatch, u32);
 
 /// An object whose patches are being lit.
 pub(crate) struct LitObject<'a> {
@@ -43,7 +41,7 @@ pub(crate) struct LitObject<'a> {
     pub(crate) tolerance: Tolerance,
 }
 
-impl LitObject<'_> {
+impl<'a> LitObject<'a> {
     /// Whether a patch of it may be drawn under all lights of a scene with few, where its terms are there.
     pub(crate) fn may_be_unlisted(&self, place: ShadedAt, lights: &Lights) -> bool {
         place != ShadedAt::Either && self.key.terms.has(Frequency::Auto) && Lists::new(lights.counts) != Lists::Listed
@@ -52,30 +50,41 @@ impl LitObject<'_> {
     /// Whether its terms are placed light by light, and any of what is seen of it may move at these prices.
     pub(crate) fn may_move(&self, seen: &[SeenPatch], prices: &VertexPrices) -> bool {
         let is_auto = self.key.terms.has(Frequency::Auto) && *prices != VertexPrices::NEVER;
-        is_auto && seen.iter().any(|(patch, _)| patch.has_normal_cone())
+        is_auto && seen.iter().any(|seen| seen.patch.shape.has_normal_cone())
     }
 
-    /// Where those terms of a patch may be shaded that are placed light by light, and how much of it there is to shade.
+    /// How its patches are joined to clusters.
+    pub(crate) fn clustering<'s>(&self, sight: &'s Sight<'s>) -> Clustering<'s, 'a> {
+        Clustering {
+            object: self.entity,
+            detail: &self.geometry.detail,
+            sight,
+            coarse_within: self.tolerance.pixels + SAMPLED,
+            // What images do is known patch by patch.
+            may_join: self.reflecting.maps.is_empty(),
+            // Of a patch by itself nobody asks but who may move terms.
+            asks_of_one: self.key.terms.has(Frequency::Auto),
+        }
+    }
+
+    /// Where those terms of a cluster may be shaded that are placed light by light.
     pub(crate) fn place(
         &self,
-        patch: &MeshPatch,
-        sight: &Sight,
+        cluster: &Cluster,
         (prices, compiled_in): (&VertexPrices, Option<usize>),
         memory: &ChoiceMemory,
-    ) -> (ShadedAt, Extent) {
+    ) -> ShadedAt {
         if !self.key.terms.has(Frequency::Auto) {
-            return (ShadedAt::Either, Extent::default());
+            return ShadedAt::Either;
         }
-        let extent = patch.extent(sight);
-        let may_save = || prices.may_save(extent, memory.before(self.name(patch)), compiled_in);
-        let place = if self.is_coarse(patch, sight) {
+        let may_save = || prices.may_save(cluster.extent, memory.before(self.name(cluster).name), compiled_in);
+        if cluster.is_coarse {
             ShadedAt::Corners
-        } else if *prices != VertexPrices::NEVER && patch.has_normal_cone() && may_save() {
+        } else if *prices != VertexPrices::NEVER && cluster.shape.has_normal_cone() && may_save() {
             ShadedAt::Either
         } else {
             ShadedAt::Fragments
-        };
-        (place, extent)
+        }
     }
 
     /// Whether a patch is so coarse or far away that its terms are shaded at its corners.
@@ -83,22 +92,23 @@ impl LitObject<'_> {
         patch.is_coarse_within(sight, self.tolerance.pixels + SAMPLED)
     }
 
-    pub(crate) fn name(&self, patch: &MeshPatch) -> PatchName {
-        (self.entity, patch.indices.start)
+    pub(crate) fn name(&self, cluster: &Cluster) -> NamedPatches {
+        let seen = cluster.members.len() as u32;
+        NamedPatches { name: (self.entity, cluster.name), count: cluster.count, seen }
     }
 
-    /// What bounds of lights take of a patch, to which images do what `paint` says.
+    /// What bounds of lights take of a cluster, to which images do what `paint` says.
     pub(crate) fn placed<R>(
         &self,
-        patch: &MeshPatch,
-        (place, extent): (ShadedAt, Extent),
+        cluster: &Cluster,
+        place: ShadedAt,
         paint: Option<&PatchPaint>,
         with: impl FnOnce(&PlacedPatch) -> R,
     ) -> R {
         let Self { model_view, normal_matrix, reflecting, form, .. } = self;
         let lean = paint.map_or(if self.has_relief { Lean::Any } else { Lean::Within(0.0) }, |paint| paint.lean);
         let normals = if form.flat { PatchNormals::Faces } else { PatchNormals::Vertices };
-        let mut seen = patch.in_eye_space(model_view, normal_matrix, reflecting.faces, normals);
+        let mut seen = cluster.shape.in_eye_space(model_view, normal_matrix, reflecting.faces, normals);
         if !form.flat && self.has_relief {
             seen.normals = seen.normals.and_then(|cone| lean.widened(cone));
             if seen.normals.is_none() {
@@ -106,12 +116,12 @@ impl LitObject<'_> {
             }
         }
         with(&PlacedPatch {
-            name: self.name(patch),
+            name: self.name(cluster).name,
             patch: &seen,
             shares: paint.map(|paint| paint.shares),
-            grain: patch.grain(model_view),
+            grain: cluster.shape.grain(model_view),
             place,
-            extent,
+            extent: cluster.extent,
         })
     }
 }

@@ -2,10 +2,11 @@
 
 use crate::batch::backend::Backend;
 use crate::batch::choosers::{Chooser, Choosers};
+use crate::batch::clusters::{Cluster, SeenPatch};
 use crate::batch::false_colors::FalseColors;
 use crate::batch::ignored::tell_ignored;
 use crate::batch::key::{DrawKey, MapLooks};
-use crate::batch::lit_object::{LitObject, SeenPatch};
+use crate::batch::lit_object::LitObject;
 use crate::batch::lit_runs::{LitRun, OpenRun};
 use crate::batch::object::{Circumstances, Shared};
 use crate::batch::painted::Paints;
@@ -52,6 +53,9 @@ pub(crate) struct LitPatches {
     /// They are made of the same as in the frame before, and all is as it was.
     pub(super) are_kept: bool,
 }
+
+/// Room for what is seen of an object.
+type SeenRoom<'r, 'a> = (&'r mut Vec<SeenPatch<'a>>, &'r mut Vec<Cluster>);
 
 #[expect(clippy::too_many_arguments, reason = "a system takes each resource as a parameter")]
 pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
@@ -153,14 +157,14 @@ impl LitPatches {
         backend: &mut impl Backend,
         report: &mut FrameReport,
     ) {
-        let mut seen = Vec::new();
+        let (mut seen, mut clusters) = (Vec::new(), Vec::new());
         let mut without_environment = 0;
         for (number, object) in (0..).zip(shown.iter(shared.costs)) {
             without_environment += usize::from(object.lacks_environment);
             match self.lit_object(number, &object, shown, share, shared) {
                 Ok(Some((lit, prices))) => {
                     let shared = Shared { prices, ..shared };
-                    self.add(&lit, (&mut seen, || shown.boxes()), shared, backend, report);
+                    self.add(&lit, ((&mut seen, &mut clusters), || shown.boxes()), shared, backend, report);
                 }
                 Ok(None) => {}
                 Err(source) => {
@@ -201,7 +205,7 @@ impl LitPatches {
             Circumstances { terms, blend, mirrored: model_view.mirrored, opposite_normals: geometry.opposite_normals };
         let key = reflecting.key(look, circumstances, Shared { prices, ..shared });
         let material = look.material;
-        let sphere = geometry.detail.whole.sphere(model_view);
+        let sphere = geometry.detail.whole.shape.sphere(model_view);
         let lit = LitObject {
             entity,
             number,
@@ -222,12 +226,12 @@ impl LitPatches {
         Ok(Some((lit, prices)))
     }
 
-    /// Adds what is seen of an object: its patches, neighbours with equal light lists joined. `seen` is room for them;
-    /// `boxes` are those around all visible objects.
+    /// Adds what is seen of an object: its patches, neighbours with equal light lists joined. `seen` and `clusters` are
+    /// room for them; `boxes` are those around all visible objects.
     fn add<'a, I: Iterator<Item = ObjectBox>>(
         &mut self,
         object: &LitObject<'a>,
-        (seen, boxes): (&mut Vec<SeenPatch<'a>>, impl Fn() -> I),
+        ((seen, clusters), boxes): (SeenRoom<'_, 'a>, impl Fn() -> I),
         shared: Shared,
         backend: &mut impl Backend,
         report: &mut FrameReport,
@@ -256,7 +260,7 @@ impl LitPatches {
             lights,
             encoding,
             model_view,
-            sphere: detail.whole.sphere(model_view),
+            sphere: detail.whole.shape.sphere(model_view),
             least: &detail.least,
             pixels_per_unit: detail.pixels_per_unit(&sight),
         };
@@ -268,7 +272,7 @@ impl LitPatches {
         seen.clear();
         let coarser = CoarserObject { number: object.number, model_view, view, pixels: object.tolerance.pixels };
         let is_near = |patch: &MeshPatch, error| self.near.is_near(&coarser, patch, error, &boxes);
-        let add_seen = |patch, stretch| seen.push((patch, stretch));
+        let add_seen = |patch, [number, stretch]: [u32; 2]| seen.push(SeenPatch { patch, number, stretch });
         let looked_at = detail.each_seen(&allowed, &sight, &mut self.choice, is_near, add_seen);
         report.patches += looked_at;
         // What is whole has been found to be seen, and is not counted.
@@ -280,13 +284,15 @@ impl LitPatches {
         // Light by light; else all terms of a patch are in one place.
         let is_placed = object.may_move(seen, &shared.prices);
         let compiled_in = (Lists::new(lights.counts) != Lists::Listed).then_some(lights.records.len());
-        let (reflector, sight, staying) = (&reflector, &sight, OnceLock::new());
-        let mut chooser = Chooser { object, shared, sight, reflector, steps, compiled_in, placing: None, staying };
+        let staying = OnceLock::new();
+        let reflector = &reflector;
+        let clustering = object.clustering(&sight);
+        let mut chooser = Chooser { object, shared, reflector, clustering, steps, compiled_in, placing: None, staying };
         chooser.placing = is_placed.then(|| chooser.listing(shared.prices));
-        if is_placed && !self.pays(&chooser, seen) {
+        if is_placed && !self.pays(&chooser, (seen, clusters)) {
             chooser.placing = None;
         }
-        if chooser.placing.is_some() || !self.add_in_place(&chooser, seen, is_placed, backend) {
+        if chooser.placing.is_some() || !self.add_in_place(&chooser, (seen, clusters), is_placed, backend) {
             self.add_listed(&chooser, seen, is_placed, backend);
         }
     }
@@ -301,7 +307,7 @@ impl LitPatches {
         backend: &mut impl Backend,
     ) {
         let mut run: Option<OpenRun> = None;
-        for &(patch, stretch) in seen {
+        for &SeenPatch { patch, stretch, .. } in seen {
             let key = key(patch);
             let (key, record) = if shared.false_colors {
                 let (key, _, record) = self.false_colored(object, patch, key, None, backend);

@@ -3,6 +3,7 @@
 pub(crate) mod backend;
 pub(crate) mod batches;
 pub(crate) mod choosers;
+mod clusters;
 pub(crate) mod drawn_meshes;
 pub(crate) mod draws;
 pub(crate) mod false_colors;

@@ -2,13 +2,15 @@
 
 use crate::batch::backend::Backend;
 use crate::batch::choosers::Chooser;
+use crate::batch::clusters::{Cluster, SeenPatch};
 use crate::batch::key::DrawKey;
-use crate::batch::lit_object::{LitObject, SeenPatch};
+use crate::batch::lit_object::LitObject;
 use crate::batch::lit_patches::LitPatches;
 use crate::batch::lit_runs::OpenRun;
 use crate::batch::object::Shared;
 use crate::device::costs::VertexPrices;
 use crate::geometry::patches::MeshPatch;
+use crate::geometry::shape::PatchShape;
 use crate::lights::places::ShadedAt;
 use crate::shaders::light_slots::Lists;
 use crate::shaders::records::RecordLists;
@@ -18,7 +20,7 @@ impl LitPatches {
     /// Adds an object of one patch of which nothing is chosen; whether it is one.
     pub(super) fn add_unchosen(&mut self, object: &LitObject, shared: Shared, backend: &mut impl Backend) -> bool {
         let [all] = object.geometry.detail.patches() else { return false };
-        let may_move = all.has_normal_cone() && shared.prices != VertexPrices::NEVER;
+        let may_move = all.shape.has_normal_cone() && shared.prices != VertexPrices::NEVER;
         let Some(key) = self.unchosen(object, may_move, shared, backend) else { return false };
         let record = self.table.number(&mut self.records, object.material, RecordLists::default());
         self.add_run(object, OpenRun { key, lights: 0, record, indices: all.indices.clone(), stretch: 0 });
@@ -38,7 +40,7 @@ impl LitPatches {
             return None;
         }
         if object.key.terms.has(Frequency::Auto) {
-            return if may_move { None } else { self.unlisted(object, ShadedAt::Fragments, shared, backend) };
+            return if may_move { None } else { self.unlisted(object, ShadedAt::Fragments, 1, shared, backend) };
         }
         let admitted = (object.key.lists != Lists::Listed).then(|| backend.admit(object.key));
         admitted.filter(|admitted| admitted.lists != Lists::Listed)
@@ -46,18 +48,19 @@ impl LitPatches {
 
     /// Adds what is seen of an object of which no term is placed light by light, all without lists; whether it could,
     /// which takes that what draws it is there. What was moved in the frame before is noted where that is `is_placed`.
-    pub(super) fn add_in_place(
+    pub(super) fn add_in_place<'a>(
         &mut self,
-        chooser: &Chooser,
-        seen: &[SeenPatch],
+        chooser: &Chooser<'a>,
+        (seen, clusters): (&[SeenPatch<'a>], &mut Vec<Cluster>),
         is_placed: bool,
         backend: &mut impl Backend,
     ) -> bool {
-        let &Chooser { object, shared, sight, .. } = chooser;
+        let &Chooser { object, shared, .. } = chooser;
         if !object.may_be_unlisted(ShadedAt::Fragments, shared.lights) {
             return false;
         }
-        let coarse = seen.iter().filter(|(patch, _)| object.is_coarse(patch, sight)).count();
+        let sight = chooser.clustering.sight;
+        let coarse = seen.iter().filter(|seen| object.is_coarse(seen.patch, sight)).count();
         let is_coarse = |patch: &MeshPatch| coarse == seen.len() || (coarse > 0 && object.is_coarse(patch, sight));
         let counts = [(ShadedAt::Corners, coarse), (ShadedAt::Fragments, seen.len() - coarse)];
         let mut keys = [object.key; 2];
@@ -71,8 +74,17 @@ impl LitPatches {
             self.lists.count_all(key.terms, count * shared.lights.records.len());
         }
         if is_placed && self.lists.memory.has_moved(object.entity) {
-            for (patch, _) in seen.iter().filter(|(patch, _)| !is_coarse(patch)) {
-                self.lists.memory.note_at_fragments(object.name(patch));
+            // They were joined, or were not.
+            let mut noted = Vec::new();
+            for apart in [false, true] {
+                let all = (seen, 0..seen.len());
+                chooser.clustering.fill(all, &mut |_: &PatchShape| apart, &self.lists.memory, clusters);
+                noted.extend(clusters.iter().filter(|cluster| !cluster.is_coarse).map(|cluster| object.name(cluster)));
+            }
+            noted.sort_unstable();
+            noted.dedup_by_key(|patches| patches.name);
+            for patches in noted {
+                self.lists.memory.note_at_fragments(patches);
             }
         }
         let [corners, fragments] = keys;
@@ -81,17 +93,18 @@ impl LitPatches {
         true
     }
 
-    /// The key that draws a patch under all lights of a scene with few, where its terms have one place whatever the
-    /// light: to look at each would cost more than it saves. `None` where the patch has lists.
+    /// The key that draws so many patches under all lights of a scene with few, where their terms have one place
+    /// whatever the light: to look at each would cost more than it saves. `None` where they have lists.
     pub(super) fn unlisted(
         &mut self,
         object: &LitObject,
         place: ShadedAt,
+        patches: usize,
         shared: Shared,
         backend: &mut impl Backend,
     ) -> Option<DrawKey> {
         let key = Self::unlisted_key(object, place, shared, backend)?;
-        self.lists.count_all(key.terms, shared.lights.records.len());
+        self.lists.count_all(key.terms, patches * shared.lights.records.len());
         Some(key)
     }
 

@@ -32,8 +32,8 @@ pub struct FrameReport {
     /// Diffuse and specular terms in the light lists, summed over objects and patches; 0 where all lights of the scene
     /// are compiled in.
     pub lights_assigned: u64,
-    /// Pairs of a patch, or an object in one piece, and a light whose bounds were looked at for those lists. Lights
-    /// that are out of reach of the patches around are in none.
+    /// Pairs of a patch, of patches that have one list together, or of an object in one piece, and a light whose bounds
+    /// were looked at for those lists. Lights that are out of reach of the patches around are in none.
     pub light_pairs: u64,
     /// Terms that are shaded at each point of an object or patch with light lists, summed over these: those in the
     /// lists, and what a list is filled up with where a shader takes only some numbers of terms.

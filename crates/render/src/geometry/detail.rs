@@ -1,6 +1,7 @@
 //! Detail: the patches of a mesh, finer and coarser ones, and which of them a frame draws.
 
 use crate::geometry::allowed::{Allowed, GroupErrors};
+use crate::geometry::families::Families;
 use crate::geometry::patches::{MeshPatch, Sight};
 use halfway_mesh::{HierarchyPatch, Mesh, PatchGroup, PatchHierarchy};
 use std::ops::Range;
@@ -19,6 +20,8 @@ pub(crate) struct MeshTriangles {
 #[derive(Debug)]
 pub(crate) struct Detail {
     patches: Vec<MeshPatch>,
+    /// Which of them lie together.
+    pub(crate) families: Families,
     /// Of each patch the group that it is a part of, or [`FINEST`].
     part_of: Vec<u32>,
     groups: Vec<DetailGroup>,
@@ -96,6 +99,7 @@ impl Detail {
             finer: Vec::new(),
             whole: MeshPatch::whole(mesh),
             is_whole,
+            families: Families::new(&patches),
             patches,
             least: GroupErrors::LARGEST,
         }
@@ -106,9 +110,11 @@ impl Detail {
             let Range { start, end } = of.triangles;
             MeshPatch::new(mesh, &triangles[start as usize..end as usize], 3 * start)
         };
+        let made: Vec<MeshPatch> = patches.iter().map(patch).collect();
         let mut detail = Self {
+            families: Families::new(&made),
             part_of: patches.iter().map(|patch| patch.part_of.unwrap_or(FINEST)).collect(),
-            patches: patches.iter().map(patch).collect(),
+            patches: made,
             groups: Vec::with_capacity(groups.len()),
             finer: Vec::new(),
             whole: MeshPatch::whole(mesh),
@@ -116,13 +122,13 @@ impl Detail {
             least: GroupErrors::LARGEST,
         };
         let finest = || detail.patches.iter().zip(&detail.part_of).filter(|(_, part_of)| **part_of == FINEST);
-        let mean = finest().map(|(patch, _)| patch.radius()).sum::<f32>() / finest().count().max(1) as f32;
-        let largest = (1.25 * mean).max(detail.whole.radius() / PATCHES_ACROSS);
+        let mean = finest().map(|(patch, _)| patch.shape.radius()).sum::<f32>() / finest().count().max(1) as f32;
+        let largest = (1.25 * mean).max(detail.whole.shape.radius() / PATCHES_ACROSS);
         // Of each group the largest radius of its parts.
         let mut radii = vec![0.0_f32; groups.len()];
         for (patch, &part_of) in detail.patches.iter().zip(&detail.part_of) {
             if let Some(radius) = radii.get_mut(part_of as usize) {
-                *radius = radius.max(patch.radius());
+                *radius = radius.max(patch.shape.radius());
             }
         }
         for (group, radius) in groups.iter().zip(radii) {
@@ -186,7 +192,8 @@ impl Detail {
     }
 
     /// Visits the patches that are drawn of an object and may show, in the order of their triangles, each with the
-    /// number of its stretch: between two patches of one stretch there are only triangles that do not show. `is_near`
+    /// its number and that of its stretch: between two patches of one stretch there are only triangles that do not
+    /// show. `is_near`
     /// tells whether another object is too near to a patch whose points move by a length of the mesh's units. Returns
     /// how many patches were looked at or left out with others.
     pub(crate) fn each_seen<'a>(
@@ -195,7 +202,7 @@ impl Detail {
         sight: &Sight,
         Choice { will_do }: &mut Choice,
         is_near: impl FnMut(&MeshPatch, f32) -> bool,
-        mut each: impl FnMut(&'a MeshPatch, u32),
+        mut each: impl FnMut(&'a MeshPatch, [u32; 2]),
     ) -> u32 {
         self.choose(allowed, sight, will_do, is_near);
         let (mut stretch, mut end) = (0, 0);
@@ -211,7 +218,7 @@ impl Detail {
             let joins = group.joins.start as usize..group.joins.end as usize;
             let drawn = |at: &usize| will_do.get(self.part_of[*at] as usize).is_none_or(|will_do| *will_do);
             if self.is_whole {
-                joins.filter(drawn).map(|at| &self.patches[at]).for_each(|patch| each(patch, stretch_of(patch)));
+                joins.filter(drawn).for_each(|at| each(&self.patches[at], [at as u32, stretch_of(&self.patches[at])]));
                 continue;
             }
             let is_seen = group.joined.is_seen(sight);
@@ -220,7 +227,7 @@ impl Detail {
                 let patch = &self.patches[at];
                 let stretch = stretch_of(patch);
                 if is_seen && patch.is_seen(sight) {
-                    each(patch, stretch);
+                    each(patch, [at as u32, stretch]);
                 }
             }
         }

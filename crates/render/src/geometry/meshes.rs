@@ -167,7 +167,7 @@ impl Geometries {
         let uv_boxes = if has_uvs { UvBoxes::new(drawn, &corners, detail.patches()) } else { UvBoxes::default() };
         let indices = Some(corners.into_flattened());
         let drawn = drawn.clone();
-        self.radii.insert(id, detail.whole.radius());
+        self.radii.insert(id, detail.whole.shape.radius());
         self.changes += 1;
         let geometry = Geometry { detail, source: mesh.clone(), drawn, opposite_normals, uv_boxes, indices };
         self.meshes.insert((id, form), geometry);

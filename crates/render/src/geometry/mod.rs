@@ -2,8 +2,10 @@
 
 pub(crate) mod allowed;
 pub(crate) mod detail;
+pub(crate) mod families;
 pub(crate) mod meshes;
 pub(crate) mod near_objects;
 pub(crate) mod patches;
+pub(crate) mod shape;
 pub(crate) mod uv_boxes;
 pub(crate) mod workshop;

@@ -175,7 +175,7 @@ impl NearObjects {
         if self.near.is_empty() {
             return false;
         }
-        let (center, radius) = patch.sphere(model_view);
+        let (center, radius) = patch.shape.sphere(model_view);
         let center = Vec3A::from(center);
         let radius = radius + error * model_view.largest_scale();
         let moved = |pixels: f32| with_slack(radius + moved(view, pixels, center.into(), radius), center);
@@ -317,7 +317,7 @@ mod tests {
                     boxes.iter().copied()
                 };
                 let is_near = near.is_near(&object, &patch, 0.01, boxes_again);
-                let (center, radius) = patch.sphere(model_view);
+                let (center, radius) = patch.shape.sphere(model_view);
                 let error = 0.01 * model_view.largest_scale();
                 let reach = radius + error + moved(&view, 0.5, center, radius + error);
                 let distance = |other: &ObjectBox| other.distance(center.into());

@@ -1,35 +1,22 @@
 //! Patches: large meshes in pieces that lie close together and face alike, so that each can have light lists of its own
 //! and be left out when it is not seen.
 
+use crate::geometry::shape::{ANGLE_SLACK, PatchShape, sphere_around};
 use crate::lights::gains::Extent;
 use crate::view::camera::View;
-use crate::view::matrices::{ModelView, NormalMatrix};
+use crate::view::matrices::ModelView;
 use bevy_math::Vec3;
 use halfway_lighting::Faces;
-use halfway_lighting::bounds::{self, Grain, NormalCone};
 use halfway_mesh::{Bounds, Mesh, face_normal};
 use std::ops::Range;
-
-/// Normals spread wider than this from their mean, in radians, bound nothing. Below π/2 those that are interpolated
-/// stay inside the cone of the vertices'.
-const WIDEST: f32 = 1.5;
-/// What rounding in f32 may add to a cone's half angle, in radians.
-const ANGLE_SLACK: f32 = 2e-3;
 
 /// A run of triangles of a mesh and what is known of them, in model space.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct MeshPatch {
     /// Its part of the index list.
     pub(crate) indices: Range<u32>,
-    center: Vec3,
-    radius: f32,
+    pub(crate) shape: PatchShape,
     facing: Facing,
-    /// Of the normals of its triangles; `None` where they are spread too wide.
-    faces: Option<PatchCone>,
-    /// Of the normals of its vertices; `None` where they are spread too wide.
-    normals: Option<PatchCone>,
-    /// How finely it is cut.
-    grain: Grain<f32>,
     /// Its longest edge; of a patch of the mesh itself infinite, as nobody asks.
     pub(crate) longest_edge: f32,
     /// The sum of the areas of its triangles, and how many vertices they have.
@@ -127,29 +114,6 @@ impl Facing {
     }
 }
 
-/// The mean of some normals, and how far the farthest is from it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct PatchCone {
-    axis: Vec3,
-    /// In radians.
-    half_angle: f32,
-    /// How far any vertex is from the plane through the patch's centre across the axis.
-    half_thickness: f32,
-}
-
-impl PatchCone {
-    fn new(normals: &[Vec3], offsets: impl Iterator<Item = Vec3>) -> Option<Self> {
-        let axis = normals.iter().sum::<Vec3>().normalize_or_zero();
-        let least = normals.iter().map(|n| n.dot(axis)).fold(1.0, f32::min);
-        let half_angle = least.clamp(-1.0, 1.0).acos() + ANGLE_SLACK;
-        if axis == Vec3::ZERO || half_angle >= WIDEST {
-            return None;
-        }
-        let farthest = offsets.map(|offset| offset.dot(axis).abs()).fold(0.0, f32::max);
-        Some(Self { axis, half_angle, half_thickness: farthest * (1.0 + 1e-5) })
-    }
-}
-
 /// From where, and which sides of an object are seen: what tells whether a patch of it shows.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sight<'a> {
@@ -173,7 +137,7 @@ impl<'a> Sight<'a> {
         let model_from_eye = model_view.eye_from_model.inverse();
         let eye = Vec3::from(model_from_eye.translation);
         let eye = side.filter(|_| eye.is_finite()).map(|back| (eye, back));
-        let (center, radius) = whole.sphere(model_view);
+        let (center, radius) = whole.shape.sphere(model_view);
         Self { model_view, view, eye, is_inside: view.projection.holds(center, radius) }
     }
 
@@ -183,7 +147,7 @@ impl<'a> Sight<'a> {
     /// moves by 1.
     pub(crate) fn pixels_per_unit(&self, patch: &MeshPatch) -> f32 {
         let View { projection, pixels_at_unit_depth, .. } = self.view;
-        let (center, radius) = patch.sphere(self.model_view);
+        let (center, radius) = patch.shape.sphere(self.model_view);
         let [x, y] = projection.scale;
         let nearest = (-center.z - radius).max(projection.near);
         let aside2 = (center.truncate().length() + radius).powi(2) / (nearest * nearest);
@@ -198,7 +162,6 @@ impl MeshPatch {
         let vertices = || triangles.as_flattened().iter().map(|&i| i as usize);
         let points = || vertices().map(|i| mesh.positions()[i]);
         let center = Bounds::from_points(points()).map_or(Vec3::ZERO, |bounds| bounds.center());
-        let offsets = || points().map(|p| p - center);
         let faces = triangles.iter().filter_map(|corners| {
             let corners = corners.map(|i| mesh.positions()[i as usize]);
             let n = face_normal(corners[0], corners[1], corners[2])?;
@@ -212,16 +175,10 @@ impl MeshPatch {
             0.5 * (b - a).cross(c - a).length()
         });
         let area = area.sum();
-        let normals: Vec<Vec3> = vertices().map(|i| mesh.normals()[i]).collect();
-        let radius = offsets().map(Vec3::length).fold(0.0, f32::max) * (1.0 + 1e-5);
         Self {
             indices: first..first + 3 * triangles.len() as u32,
-            center,
-            radius,
+            shape: PatchShape::new(mesh, triangles, center, &faces),
             facing,
-            faces: PatchCone::new(&faces, offsets()),
-            normals: PatchCone::new(&normals, offsets()),
-            grain: grain(mesh, triangles),
             longest_edge: f32::INFINITY,
             area,
             vertices: count_of(vertices()),
@@ -235,12 +192,8 @@ impl MeshPatch {
         let indices = 0..mesh.indices().len() as u32;
         Self {
             indices,
-            center,
-            radius: farthest * (1.0 + 1e-5),
+            shape: PatchShape::sphere_alone((center, farthest * (1.0 + 1e-5))),
             facing: Facing::UNKNOWN,
-            faces: None,
-            normals: None,
-            grain: Grain::none(),
             longest_edge: f32::INFINITY,
             area: 0.0,
             vertices: 0,
@@ -250,30 +203,16 @@ impl MeshPatch {
     /// What is known of all of these together, one or more, which follow each other; and its sphere is no smaller than
     /// to hold those of `others`.
     pub(crate) fn around<'a>(patches: &'a [Self], others: impl Iterator<Item = &'a Self> + Clone) -> Self {
-        let spheres = || patches.iter().chain(others.clone());
-        let corners = spheres().flat_map(|patch| [patch.center - patch.radius, patch.center + patch.radius]);
-        let center = Bounds::from_points(corners).map_or(Vec3::ZERO, |bounds| bounds.center());
-        let reach = spheres().map(|patch| patch.center.distance(center) + patch.radius).fold(0.0, f32::max);
+        let (center, radius) = sphere_around(patches.iter().chain(others).map(|patch| &patch.shape));
         let ends = patches.first().zip(patches.last()).map_or(0..0, |(a, b)| a.indices.start..b.indices.end);
         Self {
             indices: ends,
-            center,
-            radius: reach * (1.0 + 1e-5),
-            facing: Facing::around(patches.iter().map(|patch| (&patch.facing, patch.center.distance(center)))),
-            faces: None,
-            normals: None,
-            grain: Grain::none(),
+            shape: PatchShape::sphere_alone((center, radius)),
+            facing: Facing::around(patches.iter().map(|patch| (&patch.facing, patch.shape.center.distance(center)))),
             longest_edge: f32::INFINITY,
             area: 0.0,
             vertices: 0,
         }
-    }
-
-    /// How finely it is cut, in eye space.
-    pub(crate) fn grain(&self, model_view: &ModelView) -> Grain<f32> {
-        // What the transform rounds is less than that.
-        let corners = self.grain.corners * model_view.largest_scale() * (1.0 + 1e-5);
-        Grain { corners, ..self.grain }
     }
 
     /// Whether it is coarser than the mesh, and no edge of it is longer on the picture than this, in pixels.
@@ -284,86 +223,27 @@ impl MeshPatch {
     /// About how many pixels its triangles cover, where nothing hides them; and its vertices.
     pub(crate) fn extent(&self, sight: &Sight) -> Extent {
         let View { projection, pixels_at_unit_depth, .. } = sight.view;
-        let (center, _) = self.sphere(sight.model_view);
+        let (center, _) = self.shape.sphere(sight.model_view);
         let depth = (-center.z).max(projection.near);
         let pixels = sight.model_view.largest_scale() * pixels_at_unit_depth / depth;
         let facing = sight
             .eye
-            .zip(self.faces)
-            .map_or(0.5, |((eye, _), cone)| (eye - self.center).normalize_or_zero().dot(cone.axis).abs());
+            .zip(self.shape.faces)
+            .map_or(0.5, |((eye, _), cone)| (eye - self.shape.center).normalize_or_zero().dot(cone.axis).abs());
         Extent { pixels: self.area * facing * pixels * pixels, vertices: self.vertices as f32 }
-    }
-
-    /// The radius of the sphere around it, in the mesh's units.
-    pub(crate) fn radius(&self) -> f32 {
-        self.radius
-    }
-
-    /// The sphere around it in eye space.
-    pub(crate) fn sphere(&self, model_view: &ModelView) -> (Vec3, f32) {
-        (model_view.eye_from_model.transform_point3(self.center), self.radius * model_view.largest_scale())
     }
 
     /// Whether any of it may show: it reaches into the frustum, and not all its triangles turn the side away that is
     /// drawn. Never false for one that shows.
     pub(crate) fn is_seen(&self, sight: &Sight) -> bool {
         if !sight.is_inside {
-            let (center, radius) = self.sphere(sight.model_view);
+            let (center, radius) = self.shape.sphere(sight.model_view);
             if !sight.view.projection.sees(center, radius) {
                 return false;
             }
         }
-        sight.eye.is_none_or(|(eye, back)| !self.facing.hides(eye - self.center, back))
+        sight.eye.is_none_or(|(eye, back)| !self.facing.hides(eye - self.shape.center, back))
     }
-
-    /// Whether anything is known of the normals of its vertices. If not, no term may move to them.
-    pub(crate) fn has_normal_cone(&self) -> bool {
-        self.normals.is_some()
-    }
-
-    /// What bounds of lights know of it, in eye space: with these normals.
-    /// The cone of the normals is kept only where the transform turns and scales all alike.
-    pub(crate) fn in_eye_space(
-        &self,
-        model_view: &ModelView,
-        normal_matrix: &NormalMatrix,
-        faces: Faces,
-        normals: PatchNormals,
-    ) -> bounds::Patch<f32> {
-        let scale = model_view.largest_scale();
-        let (center, radius) = self.sphere(model_view);
-        let cone = match normals {
-            PatchNormals::Faces => self.faces,
-            PatchNormals::Vertices => self.normals,
-        };
-        let cone = cone.filter(|_| model_view.keeps_angles());
-        bounds::Patch {
-            center: center.to_array(),
-            radius,
-            normals: cone.map(|PatchCone { axis, half_angle, .. }| NormalCone {
-                axis: (normal_matrix.0 * axis).to_array(),
-                half_angle,
-            }),
-            half_thickness: cone.map_or(f32::INFINITY, |cone| cone.half_thickness * scale),
-            faces,
-        }
-    }
-}
-
-/// The normals that a patch is lit with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum PatchNormals {
-    /// Those of its triangles.
-    Faces,
-    /// Those of its vertices.
-    Vertices,
-}
-
-fn grain(mesh: &Mesh, triangles: &[[u32; 3]]) -> Grain<f32> {
-    triangles.iter().fold(Grain::none(), |grain, corners| {
-        let of = |values: &[Vec3]| corners.map(|i| values[i as usize].to_array());
-        grain.with(of(mesh.positions()), of(mesh.normals()))
-    })
 }
 
 fn count_of(vertices: impl Iterator<Item = usize>) -> u32 {
@@ -406,16 +286,13 @@ mod tests {
             for patch in &patches {
                 assert_eq!(patch.indices.start, end);
                 end = patch.indices.end;
-                let [faces, normals] = [patch.faces, patch.normals].map(|cone| cone.expect("they lie together"));
-                let is_in = |cone: PatchCone, n: Vec3| n.dot(cone.axis).clamp(-1.0, 1.0).acos() <= cone.half_angle;
+                assert!(patch.shape.faces.is_some() && patch.shape.normals.is_some(), "they lie together");
                 for corners in &triangles[patch.indices.start as usize / 3..end as usize / 3] {
-                    for i in corners.map(|i| i as usize) {
-                        let offset = mesh.positions()[i] - patch.center;
-                        assert!(offset.length() <= patch.radius && is_in(normals, mesh.normals()[i]));
-                        assert!([faces, normals].iter().all(|cone| offset.dot(cone.axis).abs() <= cone.half_thickness));
-                    }
                     let [a, b, c] = corners.map(|i| mesh.positions()[i as usize]);
-                    assert!(face_normal(a, b, c).is_none_or(|n| is_in(faces, n)));
+                    let face = face_normal(a, b, c);
+                    for i in corners.map(|i| i as usize) {
+                        assert!(patch.shape.holds(mesh.positions()[i], mesh.normals()[i], face));
+                    }
                 }
             }
             assert_eq!(end as usize, 3 * triangles.len());
@@ -426,7 +303,7 @@ mod tests {
     fn patches_are_small() {
         let (_, patches) = cut_whole(&Mesh::from(Plane { size: 64.0, divisions: 64 }));
         // 64 triangles are 32 cells of edge 1: at most 4 × 8 of them, with half a diagonal of 4.5, or 11 × 3.
-        assert!(patches.iter().all(|patch| patch.radius < 6.0), "{patches:?}");
-        assert!(patches.iter().all(|patch| patch.normals.is_some_and(|cone| cone.half_thickness == 0.0)));
+        assert!(patches.iter().all(|patch| patch.shape.radius < 6.0), "{patches:?}");
+        assert!(patches.iter().all(|patch| patch.shape.normals.is_some_and(|cone| cone.half_thickness == 0.0)));
     }
 }

@@ -11,6 +11,14 @@ pub(crate) struct Extent {
     pub(crate) vertices: f32,
 }
 
+impl Extent {
+    /// That of both.
+    #[must_use]
+    pub(crate) fn and(self, other: Self) -> Self {
+        Self { pixels: self.pixels + other.pixels, vertices: self.vertices + other.vertices }
+    }
+}
+
 /// Terms of a light that may be shaded at the vertices: one of them, or both together.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Movable {

@@ -1,7 +1,7 @@
 //! Light lists: which of many lights each patch needs, term by term.
 
 use crate::lights::gather::Lights;
-use crate::lights::memory::{ChoiceMemory, PatchName};
+use crate::lights::memory::{ChoiceMemory, NamedPatches};
 use crate::lights::patch_lights::{PatchLights, TermLights};
 use crate::lights::places::{Places, Spending, next};
 use crate::lights::terms::{by_fragment_shader, by_vertex_shader};
@@ -114,21 +114,22 @@ impl LightLists {
         (self.left_out, self.spent) = (0.0, 0.0);
     }
 
-    /// Takes note of where the terms of a patch are shaded.
-    pub(crate) fn note(&mut self, name: PatchName, lights: &PatchLights) {
-        self.memory.note(name, lights.vertex, lights.fragment);
+    /// Takes note of where the terms of patches are shaded.
+    pub(crate) fn note(&mut self, of: NamedPatches, lights: &PatchLights) {
+        self.memory.note(of, lights.vertex, lights.fragment);
     }
 
-    /// Counts a patch and its lights.
-    pub(crate) fn count(&mut self, lights: &PatchLights) {
+    /// Counts so many patches and their lights.
+    pub(crate) fn count(&mut self, lights: &PatchLights, patches: usize) {
         self.left_out = self.left_out.max(lights.left_out);
-        self.assigned += lights.selected.count();
-        self.at_vertices += lights.vertex.count();
-        self.at_fragments += lights.fragment.count();
+        let count = |of: TermLights| patches as u64 * of.count();
+        self.assigned += count(lights.selected);
+        self.at_vertices += count(lights.vertex);
+        self.at_fragments += count(lights.fragment);
         self.spent = self.spent.max(lights.spent);
     }
 
-    /// Counts a patch of which all `lights` lights are shaded where `terms` says.
+    /// Counts patches of which so many `lights` together are shaded where `terms` says.
     pub(crate) fn count_all(&mut self, terms: Terms, lights: usize) {
         let count = |at: [bool; 2]| at.map(u64::from).iter().sum::<u64>() * lights as u64;
         self.at_vertices += count(by_vertex_shader(terms));
@@ -239,31 +240,32 @@ impl LightLists {
         fits.then_some((Lists::Split { vertex, fragment: fragment_counted }, terms))
     }
 
-    /// Counts what a patch shades of the lights that are bound for it.
-    pub(crate) fn count_bound(&mut self, bound: BoundLights) {
+    /// Counts what so many patches shade of the lights that are bound for each.
+    pub(crate) fn count_bound(&mut self, bound: BoundLights, patches: usize) {
         let [vertex, fragment] = bound.lists.of_stages().map(|(counted, _)| {
             let lights =
                 |share: Highlights| counted.counts.map(|count| u64::from(share.of(count.into()))).iter().sum::<u64>();
             [lights(Highlights::All), lights(counted.highlights)]
         });
         for (term, frequency) in [bound.terms.diffuse, bound.terms.specular].into_iter().enumerate() {
-            self.shaded += match frequency {
-                Frequency::Never => 0,
-                Frequency::Triangle | Frequency::Vertex => vertex[term],
-                Frequency::Fragment => fragment[term],
-                Frequency::Auto => vertex[term] + fragment[term],
-            };
+            self.shaded += patches as u64
+                * match frequency {
+                    Frequency::Never => 0,
+                    Frequency::Triangle | Frequency::Vertex => vertex[term],
+                    Frequency::Fragment => fragment[term],
+                    Frequency::Auto => vertex[term] + fragment[term],
+                };
         }
     }
 
-    /// The lists of a patch: appended, unless they are what was appended last.
-    pub(crate) fn list(&mut self, Lights { counts, .. }: &Lights, of: &PatchLights) -> RecordLists {
+    /// The lists of so many patches: appended, unless they are what was appended last.
+    pub(crate) fn list(&mut self, Lights { counts, .. }: &Lights, of: &PatchLights, patches: usize) -> RecordLists {
         let start = self.numbers.len();
         let [vertex, vertex_diffuse, vertex_specular] = append_stage(&mut self.numbers, *counts, of.vertex);
         let [fragment, fragment_diffuse, fragment_specular] = append_stage(&mut self.numbers, *counts, of.fragment);
         let lists =
             RecordLists { vertex, vertex_diffuse, vertex_specular, fragment, fragment_diffuse, fragment_specular };
-        self.shaded += of.vertex.count() + of.fragment.count();
+        self.shaded += patches as u64 * (of.vertex.count() + of.fragment.count());
         if let Some((last, last_start)) = self.last
             && last.starting_at(0, last_start) == lists.starting_at(0, start)
             && self.numbers[last_start..start] == self.numbers[start..]

@@ -27,7 +27,7 @@ pub enum Choosing {
 }
 
 /// The part of what is shaded at the pixels by which the other place has to be better.
-pub(super) const CLEARLY: f32 = 0.1;
+pub(crate) const CLEARLY: f32 = 0.1;
 
 /// The part of what is allowed that a term may fill up that comes to the vertices; one that stays there may fill all.
 pub(super) const ROOM_TO_COME: f64 = 0.9;
@@ -46,8 +46,18 @@ pub(crate) fn choosing((said, surface, canvas, texture): ChosenBy) -> Choosing {
     said.map_or(if is_watched { Choosing::Steadily } else { Choosing::Anew }, |said| *said)
 }
 
-/// Names a patch as long as its object stands and its mesh is laid out the same: by the first of its indices.
+/// Names a patch, or some that follow each other, as long as their object stands and its mesh is laid out the same: by
+/// the first of their indices.
 pub(crate) type PatchName = (Entity, u32);
+
+/// Patches that are chosen for together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct NamedPatches {
+    pub(crate) name: PatchName,
+    /// How many they are, and how many of them are seen.
+    pub(crate) count: u32,
+    pub(crate) seen: u32,
+}
 
 /// In the place of a patch: all of an object of which no patch is looked at.
 const ALL: u32 = u32::MAX;
@@ -84,6 +94,8 @@ struct FrameChoices {
 #[derive(Clone, Copy, Debug, Default)]
 struct PlacedLists {
     start: usize,
+    /// How many patches have them.
+    patches: u32,
     /// Of the vertex shader's diffuse and specular terms, and of the fragment shader's.
     counts: [u32; 4],
 }
@@ -116,7 +128,7 @@ impl Before<'_> {
 
 impl FrameChoices {
     fn get(&self, name: PatchName) -> Option<PlacedLights<'_>> {
-        let &PlacedLists { start, counts } = self.patches.get(&name)?;
+        let &PlacedLists { start, counts, .. } = self.patches.get(&name)?;
         let mut rest = &self.numbers[start..];
         let [a, b, c, d] = counts.map(|count| {
             let (list, after) = rest.split_at(count as usize);
@@ -127,13 +139,14 @@ impl FrameChoices {
         Some(PlacedLights { vertex, fragment })
     }
 
-    fn insert(&mut self, name: PatchName, PlacedLights { vertex, fragment }: PlacedLights) {
+    fn insert(&mut self, of: NamedPatches, PlacedLights { vertex, fragment }: PlacedLights) {
         let [[a, b], [c, d]] = [vertex, fragment].map(TermLights::lists);
         let start = self.numbers.len();
         for list in [a, b, c, d] {
             self.numbers.extend_from_slice(list);
         }
-        self.patches.insert(name, PlacedLists { start, counts: [a, b, c, d].map(|list| list.len() as u32) });
+        let counts = [a, b, c, d].map(|list| list.len() as u32);
+        self.patches.insert(of.name, PlacedLists { start, patches: of.count, counts });
     }
 }
 
@@ -164,16 +177,27 @@ impl ChoiceMemory {
         self.before.moved.contains(&object)
     }
 
-    /// Takes note of where the terms of a patch are shaded: each list ascends.
-    pub(crate) fn note(&mut self, name: PatchName, vertex: TermLights, fragment: TermLights) {
+    /// Whether that counts, and any was.
+    pub(crate) fn keeps_moved(&self, object: Entity) -> bool {
+        self.is_steady && self.has_moved(object)
+    }
+
+    /// How many patches were chosen for together with the first of these, if that counts.
+    pub(crate) fn joined_before(&self, name: PatchName) -> Option<u32> {
+        if self.is_steady { self.before.patches.get(&name).map(|lists| lists.patches) } else { None }
+    }
+
+    /// Takes note of where the terms of patches are shaded: each list ascends.
+    pub(crate) fn note(&mut self, of: NamedPatches, vertex: TermLights, fragment: TermLights) {
+        let name = of.name;
         let now = PlacedLights { vertex, fragment };
         if !vertex.is_empty() {
             self.now.moved.insert(name.0);
         }
         if self.before.get(name).is_some_and(|before| is_changed(before, now)) {
-            self.changed += 1;
+            self.changed += of.seen;
         }
-        self.now.insert(name, now);
+        self.now.insert(of, now);
     }
 
     /// Takes note of an object of which no patch is looked at: all its terms are at the fragments.
@@ -181,11 +205,13 @@ impl ChoiceMemory {
         self.now.patches.insert((object, ALL), PlacedLists::default());
     }
 
-    /// Takes note of a patch that is not looked at: its terms are all at the fragments, whatever its lights.
-    pub(crate) fn note_at_fragments(&mut self, name: PatchName) {
-        self.changed += u32::from(self.has_moved(name.0) && Before(self.before.get(name)).is_moved() == Some(true));
+    /// Takes note of patches that are not looked at: their terms are all at the fragments, whatever their lights.
+    pub(crate) fn note_at_fragments(&mut self, NamedPatches { name, count, seen }: NamedPatches) {
+        if self.has_moved(name.0) && Before(self.before.get(name)).is_moved() == Some(true) {
+            self.changed += seen;
+        }
         if !self.now.patches.contains_key(&(name.0, ALL)) {
-            self.now.patches.insert(name, PlacedLists::default());
+            self.now.patches.insert(name, PlacedLists { patches: count, ..PlacedLists::default() });
         }
     }
 }
@@ -217,6 +243,11 @@ mod tests {
         [(world.spawn_empty().id(), 0), (world.spawn_empty().id(), 96)]
     }
 
+    /// All of which are seen.
+    fn patches(name: PatchName, count: u32) -> NamedPatches {
+        NamedPatches { name, count, seen: count }
+    }
+
     fn lights([diffuse, specular]: [&[u32]; 2]) -> TermLights<'_> {
         TermLights { diffuse, specular }
     }
@@ -226,19 +257,19 @@ mod tests {
         let [name, other] = names();
         let mut memory = ChoiceMemory::default();
         memory.begin(Choosing::Anew, COUNTS);
-        memory.note(name, lights([&[0, 2], &[0]]), lights([&[1], &[1, 2]]));
-        memory.note(other, lights([&[], &[]]), lights([&[0], &[]]));
+        memory.note(patches(name, 3), lights([&[0, 2], &[0]]), lights([&[1], &[1, 2]]));
+        memory.note(patches(other, 1), lights([&[], &[]]), lights([&[0], &[]]));
         assert_eq!(memory.changed, 0, "what was not there has not changed");
         let mut changed = |counts, vertices: [&[u32]; 2], fragments: [&[u32]; 2]| {
             memory.begin(Choosing::Anew, counts);
-            memory.note(name, lights(vertices), lights(fragments));
-            memory.note(other, lights([&[], &[]]), lights([&[0], &[]]));
+            memory.note(patches(name, 3), lights(vertices), lights(fragments));
+            memory.note(patches(other, 1), lights([&[], &[]]), lights([&[0], &[]]));
             memory.changed
         };
         assert_eq!(changed(COUNTS, [&[0, 2], &[0]], [&[1], &[1, 2]]), 0, "the same");
         assert_eq!(changed(COUNTS, [&[0], &[0]], [&[1], &[]]), 0, "what is left out is in no place");
-        assert_eq!(changed(COUNTS, [&[], &[]], [&[0, 1], &[0]]), 1, "two terms of one patch");
-        assert_eq!(changed(COUNTS, [&[0, 1], &[0]], [&[], &[]]), 1, "and back");
+        assert_eq!(changed(COUNTS, [&[], &[]], [&[0, 1], &[0]]), 3, "two terms of three patches");
+        assert_eq!(changed(COUNTS, [&[0, 1], &[0]], [&[], &[]]), 3, "and back");
         assert_eq!(changed([0, 3, 0], [&[], &[]], [&[0, 1], &[0]]), 0, "other lights");
     }
 
@@ -248,22 +279,24 @@ mod tests {
         let mut memory = ChoiceMemory::default();
         memory.begin(Choosing::Steadily, COUNTS);
         assert_eq!(memory.before(name).is_moved(), None, "nothing is known of the first frame");
-        memory.note(name, lights([&[1], &[]]), lights([&[], &[1]]));
-        memory.note_at_fragments(other);
+        memory.note(patches(name, 4), lights([&[1], &[]]), lights([&[], &[1]]));
+        assert_eq!(memory.joined_before(name), None);
+        memory.note_at_fragments(patches(other, 2));
         memory.begin(Choosing::Steadily, COUNTS);
+        assert_eq!([name, other].map(|name| memory.joined_before(name)), [Some(4), Some(2)]);
         let before = memory.before(name);
         assert_eq!((before.is_moved(), before.at_vertices(1)), (Some(true), Some([true, false])));
         assert_eq!((before.at_vertices(0), before.at_vertices(2)), (Some([false; 2]), Some([false; 2])));
         assert_eq!(memory.before(other).is_moved(), Some(false));
         assert_eq!([name.0, other.0].map(|object| memory.has_moved(object)), [true, false]);
         memory.note_object(name.0);
-        memory.note_at_fragments(name);
-        assert_eq!(memory.changed, 1);
+        memory.note_at_fragments(patches(name, 2));
+        assert_eq!(memory.changed, 2);
         memory.begin(Choosing::Steadily, COUNTS);
         assert_eq!(memory.before((name.0, 7)).is_moved(), Some(false), "any patch of it");
         assert_eq!(memory.before(other).is_moved(), None, "it was not there");
         memory.begin(Choosing::Anew, COUNTS);
-        assert_eq!(memory.before(name).is_moved(), None, "it does not count");
+        assert_eq!((memory.before(name).is_moved(), memory.joined_before(name)), (None, None), "it does not count");
     }
 
     #[test]

@@ -9,6 +9,9 @@ use halfway_lighting::Terms;
 use halfway_lighting::bounds::{NearLights, Receiver, Region, Selected};
 use halfway_lighting::equations::Coefficients;
 
+/// Lights that are nearer to the middle of a sphere than so many times its radius are among its parts.
+const AMONG: f32 = 4.0;
+
 /// Selects the lights of one patch after the other, and places their terms. Its memory is kept.
 #[derive(Debug, Default)]
 pub(crate) struct Selector {
@@ -33,6 +36,12 @@ impl Selector {
             ..Region::EMPTY
         };
         self.near.begin(spheres.fold(nowhere, |region, (center, radius)| region.with(center.to_array(), radius)));
+    }
+
+    /// Whether this sphere, of what was last looked around, has a light so near that its parts are lit otherwise: by
+    /// other lights, or from elsewhere.
+    pub(crate) fn is_among(&mut self, lights: &Lights, lists: &LightLists, (center, radius): (Vec3, f32)) -> bool {
+        self.near.any_within(&lists.tree, &lights.sources, center.to_array(), AMONG * radius)
     }
 
     /// Selects the lights that `patch`, one of those last looked around, needs: those left out change no channel of a

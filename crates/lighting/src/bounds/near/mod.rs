@@ -6,7 +6,9 @@ mod wide;
 use super::chunk::{CHUNK, Chunk};
 use super::select::{Selected, Term};
 use super::{LightTree, Receiver, Region};
-use crate::equations::Light;
+use crate::equations::vector::{length, sub};
+use crate::equations::{Light, Place};
+use core::cmp::Ordering;
 use fearless_simd::Level;
 use wide::{BLUR, Found};
 
@@ -80,6 +82,24 @@ impl NearLights {
         self.filled = 0;
     }
 
+    /// Whether any of the lights that the region may need is nearer to `center` than that, or no number. Directional
+    /// lights are not.
+    pub fn any_within(&mut self, tree: &LightTree, lights: &[Light<f32>], center: [f32; 3], distance: f32) -> bool {
+        self.fill(0, tree, lights);
+        self.packs[0].numbers.iter().any(|&number| match lights[number as usize].place {
+            Place::Point(position) => length(sub(position, center)).partial_cmp(&distance) != Some(Ordering::Greater),
+            Place::Directional(_) => false,
+        })
+    }
+
+    /// Makes those ready that are looked at in this place.
+    fn fill(&mut self, place: usize, tree: &LightTree, lights: &[Light<f32>]) {
+        if self.filled == place {
+            self.packs[place].fill(tree, lights, &self.region, UNSEEN[place]);
+            self.filled += 1;
+        }
+    }
+
     /// Fills `selected` as [`Receiver::select`] does with all of `lights`, of which `tree` is made, for a patch in the
     /// region: with the same lists. What is said to be left out may be more, and is within the tolerance.
     ///
@@ -92,12 +112,9 @@ impl NearLights {
         tolerance: [f64; 3],
         selected: &mut Selected<f32>,
     ) {
-        for (place, unseen) in UNSEEN.into_iter().enumerate() {
-            let pack = &mut self.packs[place];
-            if self.filled == place {
-                pack.fill(tree, lights, &self.region, unseen);
-                self.filled += 1;
-            }
+        for place in 0..UNSEEN.len() {
+            self.fill(place, tree, lights);
+            let pack = &self.packs[place];
             self.pairs += pack.numbers.len() as u64;
             offer(self.level, pack, lights, receiver, tolerance, &mut self.found, selected);
             let exact = |number: u32| receiver.bounds(&lights[number as usize]).specular;

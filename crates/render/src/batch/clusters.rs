@@ -1,0 +1,174 @@
+//! Neighbouring patches that have one list of lights together, where each by itself covers too little of the picture to
+//! be worth one.
+
+use crate::geometry::detail::Detail;
+use crate::geometry::families::{FamilyPart, MOST};
+use crate::geometry::patches::{MeshPatch, Sight};
+use crate::geometry::shape::PatchShape;
+use crate::lights::gains::Extent;
+use crate::lights::memory::{CLEARLY, ChoiceMemory};
+use bevy_ecs::prelude::Entity;
+use std::ops::Range;
+
+/// A patch that is drawn: see [`Detail::each_seen`].
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SeenPatch<'a> {
+    pub(crate) patch: &'a MeshPatch,
+    /// Its number among all patches of its mesh.
+    pub(crate) number: u32,
+    /// Between two patches of one there are only triangles that do not show.
+    pub(crate) stretch: u32,
+}
+
+/// Patches that lie together and are chosen for together, or one.
+#[derive(Clone, Debug)]
+pub(crate) struct Cluster {
+    /// What it goes by: the first of its indices, whichever of its patches are seen.
+    pub(crate) name: u32,
+    /// How many patches it has, and which of what is seen they are.
+    pub(crate) count: u32,
+    pub(crate) members: Range<usize>,
+    pub(crate) shape: PatchShape,
+    /// Of all that are seen; where it is asked for.
+    pub(crate) extent: Extent,
+    /// Whether each is so coarse or far away that its terms are shaded at its corners.
+    pub(crate) is_coarse: bool,
+}
+
+/// Patches that cover fewer pixels than this together are chosen for together, where they lie together. Where choices
+/// are kept, what was joined in the frame before stays so unless there are clearly more pixels, and what was not unless
+/// there are clearly fewer.
+///
+/// What it takes to choose the lights of a patch and to draw with them does not depend on how much of it there is to
+/// shade; but the larger it is, the more lights and terms it needs.
+const WORTH_A_LIST: f32 = 1024.0;
+
+/// How an object's patches are joined to clusters.
+pub(crate) struct Clustering<'s, 'a> {
+    pub(crate) object: Entity,
+    pub(crate) detail: &'a Detail,
+    pub(crate) sight: &'s Sight<'s>,
+    /// Patches without longer edges on the picture, in pixels, are shaded at their corners.
+    pub(crate) coarse_within: f32,
+    /// Whether what is known of one of its patches is known of all.
+    pub(crate) may_join: bool,
+    /// Whether the extent of a patch by itself is asked for.
+    pub(crate) asks_of_one: bool,
+}
+
+impl<'a> Clustering<'_, 'a> {
+    /// Cuts what is seen into parts of so many patches or a few less, none within a family.
+    pub(crate) fn cut(&self, seen: &[SeenPatch], most: usize, parts: &mut Vec<Range<usize>>) {
+        parts.clear();
+        let mut part = 0..0;
+        while let Some(first) = seen.get(part.end) {
+            let family = self.detail.families.of(first.number);
+            let count = seen[part.end..].iter().take_while(|seen| seen.number < family.patches.end).count();
+            if part.len() + count > most && !part.is_empty() {
+                parts.push(part.clone());
+                part.start = part.end;
+            }
+            part.end += count;
+        }
+        if !part.is_empty() {
+            parts.push(part);
+        }
+    }
+
+    /// Fills `clusters` with some of what is seen, in its order: joined, but where that `is_among` lights.
+    pub(crate) fn fill(
+        &self,
+        (seen, members): (&[SeenPatch<'a>], Range<usize>),
+        is_among: &mut impl FnMut(&PatchShape) -> bool,
+        memory: &ChoiceMemory,
+        clusters: &mut Vec<Cluster>,
+    ) {
+        clusters.clear();
+        let is_coarse = |seen: &SeenPatch| seen.patch.is_coarse_within(self.sight, self.coarse_within);
+        let mut start = members.start;
+        while start < members.end {
+            let first = &seen[start];
+            let are_coarse = is_coarse(first);
+            let family = self.detail.families.of(first.number);
+            let is_alike = |other: &&SeenPatch| {
+                self.may_join
+                    && other.number < family.patches.end
+                    && other.patch.longest_edge.is_finite() == first.patch.longest_edge.is_finite()
+                    && is_coarse(other) == are_coarse
+            };
+            let end = start + 1 + seen[start + 1..members.end].iter().take_while(is_alike).count();
+            let mut extents = [Extent::default(); MOST];
+            if end > start + 1 || self.asks_of_one {
+                for (extent, seen) in extents.iter_mut().zip(&seen[start..end]) {
+                    *extent = seen.patch.extent(self.sight);
+                }
+            }
+            let is_parted = &mut |part: &FamilyPart, pixels: f32| {
+                self.is_worth_a_list(part, pixels, memory)
+                    || self.detail.families.shape(part).is_some_and(&mut *is_among)
+            };
+            let add = &mut |part: &FamilyPart, at: Range<usize>, extent: Extent| {
+                let members = start + at.start..start + at.end;
+                clusters.push(Cluster {
+                    members,
+                    extent,
+                    is_coarse: are_coarse,
+                    ..self.joined(part, &seen[start..][at])
+                });
+            };
+            split(&family, (&seen[start..end], 0), &extents, is_parted, add);
+            start = end;
+        }
+    }
+
+    /// What these patches of a part of a family are together, so far as it does not depend on where they are seen.
+    fn joined(&self, part: &FamilyPart, patches: &[SeenPatch<'a>]) -> Cluster {
+        let one = patches[0].patch;
+        let joined = self.detail.families.shape(part).filter(|_| patches.len() > 1);
+        let first = joined.map_or(one, |_| self.first_of(part));
+        Cluster {
+            name: first.indices.start,
+            count: joined.map_or(1, |_| part.patches.len() as u32),
+            members: 0..0,
+            shape: *joined.unwrap_or(&one.shape),
+            extent: Extent::default(),
+            is_coarse: false,
+        }
+    }
+
+    fn first_of(&self, part: &FamilyPart) -> &MeshPatch {
+        &self.detail.patches()[part.patches.start as usize]
+    }
+
+    /// Whether each half of a part of which so many pixels are seen is to have a list of its own.
+    fn is_worth_a_list(&self, part: &FamilyPart, pixels: f32, memory: &ChoiceMemory) -> bool {
+        let is_clear = (pixels - WORTH_A_LIST).abs() > CLEARLY * WORTH_A_LIST;
+        let before = || memory.joined_before((self.object, self.first_of(part).indices.start));
+        let before = if is_clear { None } else { before() };
+        before.map_or(pixels >= WORTH_A_LIST, |joined| joined < part.patches.len() as u32)
+    }
+}
+
+/// Adds patches of a part of a family as one, or each half by itself where that `is_parted`. They begin at a place of
+/// which their extents tell.
+fn split(
+    part: &FamilyPart,
+    (seen, from): (&[SeenPatch], usize),
+    extents: &[Extent],
+    is_parted: &mut impl FnMut(&FamilyPart, f32) -> bool,
+    add: &mut impl FnMut(&FamilyPart, Range<usize>, Extent),
+) {
+    let to = from + seen.len();
+    if seen.is_empty() {
+        return;
+    }
+    let extent = extents[from..to].iter().copied().fold(Extent::default(), Extent::and);
+    if seen.len() == 1 || !is_parted(part, extent.pixels) {
+        add(part, from..to, extent);
+        return;
+    }
+    let [one, other] = part.halves();
+    let (before, after) = seen.split_at(seen.partition_point(|seen| seen.number < other.patches.start));
+    split(&one, (before, from), extents, is_parted, add);
+    split(&other, (after, from + before.len()), extents, is_parted, add);
+}
