@@ -230,6 +230,7 @@ mod tests {
     use bevy_asset::Assets;
     use bevy_ecs::prelude::With;
     use bevy_math::{UVec2, Vec3};
+    use bevy_platform::collections::HashSet;
     use bevy_transform::TransformPlugin;
     use bevy_transform::components::Transform;
     use halfway_lighting::{Camera, DirectionalLight, PointLight, Shading, Tolerance, ViewTolerance};
@@ -329,6 +330,32 @@ mod tests {
         assert!(5 * clusters > 4 * seen && pairs <= 16 * clusters, "{clusters} of {seen}, {pairs} pairs");
         let (seen, clusters, _) = chosen(64, 0.3);
         assert!(2 * clusters > seen, "{clusters} of {seen}");
+    }
+
+    /// Also where some patches of a family are coarser than the mesh and others are not, so that each has clusters.
+    #[test]
+    fn no_two_clusters_go_by_one_name() {
+        let mut families_apart = 0;
+        for away in [1.0, 2.0, 3.0, 5.0] {
+            let mut app = app(Shading::Auto, 3);
+            app.insert_resource(ViewTolerance(Tolerance { steps: 2.0, pixels: 0.5 }));
+            app.insert_resource(VertexPrices::FREE);
+            let mut cameras = app.world_mut().query_filtered::<&mut Transform, With<Camera>>();
+            cameras.iter_mut(app.world_mut()).for_each(|mut camera| camera.translation *= away);
+            // The second frame waits for what is coarser.
+            app.update();
+            app.world_mut().resource_mut::<LitPatches>().choosers.groups.clear();
+            app.update();
+            let choosers = &app.world().resource::<LitPatches>().choosers;
+            let clusters = || choosers.groups.iter().flat_map(|group| &group.clusters);
+            let names: HashSet<u32> = clusters().map(|cluster| cluster.name).collect();
+            assert_eq!(names.len(), clusters().count(), "{away}");
+            families_apart += clusters()
+                .zip(clusters().skip(1))
+                .filter(|(a, b)| a.is_coarse != b.is_coarse && a.count + b.count > 2)
+                .count();
+        }
+        assert!(families_apart > 3, "{families_apart}");
     }
 
     /// By prices at which no patch can save anything no patch is chosen for, and all is as at prices that say so at

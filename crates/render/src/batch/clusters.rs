@@ -23,7 +23,7 @@ pub(crate) struct SeenPatch<'a> {
 /// Patches that lie together and are chosen for together, or one.
 #[derive(Clone, Debug)]
 pub(crate) struct Cluster {
-    /// What it goes by: the first of its indices, whichever of its patches are seen.
+    /// What it goes by: the first index of one of its patches.
     pub(crate) name: u32,
     /// How many patches it has, and which of what is seen they are.
     pub(crate) count: u32,
@@ -97,15 +97,21 @@ impl<'a> Clustering<'_, 'a> {
                     && is_coarse(other) == are_coarse
             };
             let end = start + 1 + seen[start + 1..members.end].iter().take_while(is_alike).count();
+            let is_of_family = |other: &SeenPatch| family.patches.contains(&other.number);
+            let names = Names {
+                detail: self.detail,
+                has_others: seen[members.start..start].last().is_some_and(is_of_family)
+                    || seen[end..members.end].first().is_some_and(is_of_family),
+            };
             let mut extents = [Extent::default(); MOST];
             if end > start + 1 || self.asks_of_one {
                 for (extent, seen) in extents.iter_mut().zip(&seen[start..end]) {
                     *extent = seen.patch.extent(self.sight);
                 }
             }
-            let is_parted = &mut |part: &FamilyPart, pixels: f32| {
-                self.is_worth_a_list(part, pixels, memory)
-                    || self.detail.families.shape(part).is_some_and(&mut *is_among)
+            let is_parted = &mut |part: &FamilyPart, of: &[SeenPatch], pixels: f32| {
+                let before = || memory.joined_before((self.object, names.of(part, of)));
+                is_worth_a_list(part, pixels, before) || self.detail.families.shape(part).is_some_and(&mut *is_among)
             };
             let add = &mut |part: &FamilyPart, at: Range<usize>, extent: Extent| {
                 let members = start + at.start..start + at.end;
@@ -113,7 +119,7 @@ impl<'a> Clustering<'_, 'a> {
                     members,
                     extent,
                     is_coarse: are_coarse,
-                    ..self.joined(part, &seen[start..][at])
+                    ..self.joined(part, &seen[start..][at], &names)
                 });
             };
             split(&family, (&seen[start..end], 0), &extents, is_parted, add);
@@ -122,31 +128,42 @@ impl<'a> Clustering<'_, 'a> {
     }
 
     /// What these patches of a part of a family are together, so far as it does not depend on where they are seen.
-    fn joined(&self, part: &FamilyPart, patches: &[SeenPatch<'a>]) -> Cluster {
-        let one = patches[0].patch;
+    fn joined(&self, part: &FamilyPart, patches: &[SeenPatch<'a>], names: &Names) -> Cluster {
         let joined = self.detail.families.shape(part).filter(|_| patches.len() > 1);
-        let first = joined.map_or(one, |_| self.first_of(part));
         Cluster {
-            name: first.indices.start,
+            name: names.of(part, patches),
             count: joined.map_or(1, |_| part.patches.len() as u32),
             members: 0..0,
-            shape: *joined.unwrap_or(&one.shape),
+            shape: *joined.unwrap_or(&patches[0].patch.shape),
             extent: Extent::default(),
             is_coarse: false,
         }
     }
+}
 
-    fn first_of(&self, part: &FamilyPart) -> &MeshPatch {
-        &self.detail.patches()[part.patches.start as usize]
-    }
+/// What clusters of a family go by, no two of a frame by the same.
+struct Names<'a> {
+    detail: &'a Detail,
+    /// Others of the family are seen that are no part of these clusters: they are coarser, or finer.
+    has_others: bool,
+}
 
-    /// Whether each half of a part of which so many pixels are seen is to have a list of its own.
-    fn is_worth_a_list(&self, part: &FamilyPart, pixels: f32, memory: &ChoiceMemory) -> bool {
-        let is_clear = (pixels - WORTH_A_LIST).abs() > CLEARLY * WORTH_A_LIST;
-        let before = || memory.joined_before((self.object, self.first_of(part).indices.start));
-        let before = if is_clear { None } else { before() };
-        before.map_or(pixels >= WORTH_A_LIST, |joined| joined < part.patches.len() as u32)
+impl Names<'_> {
+    /// The first index of a part of the family, of which these patches are seen: the same whichever they are, unless it
+    /// is one, or another cluster may be of the same part.
+    fn of(&self, part: &FamilyPart, seen: &[SeenPatch]) -> u32 {
+        let first = &self.detail.patches()[part.patches.start as usize];
+        let is_alone = seen.len() == 1 || self.has_others;
+        if is_alone { seen[0].patch } else { first }.indices.start
     }
+}
+
+/// Whether each half of a part of which so many pixels are seen is to have a list of its own; of `before` it is asked
+/// how many patches were chosen for together with the first of it.
+fn is_worth_a_list(part: &FamilyPart, pixels: f32, before: impl Fn() -> Option<u32>) -> bool {
+    let is_clear = (pixels - WORTH_A_LIST).abs() > CLEARLY * WORTH_A_LIST;
+    let before = if is_clear { None } else { before() };
+    before.map_or(pixels >= WORTH_A_LIST, |joined| joined < part.patches.len() as u32)
 }
 
 /// Adds patches of a part of a family as one, or each half by itself where that `is_parted`. They begin at a place of
@@ -155,7 +172,7 @@ fn split(
     part: &FamilyPart,
     (seen, from): (&[SeenPatch], usize),
     extents: &[Extent],
-    is_parted: &mut impl FnMut(&FamilyPart, f32) -> bool,
+    is_parted: &mut impl FnMut(&FamilyPart, &[SeenPatch], f32) -> bool,
     add: &mut impl FnMut(&FamilyPart, Range<usize>, Extent),
 ) {
     let to = from + seen.len();
@@ -163,7 +180,7 @@ fn split(
         return;
     }
     let extent = extents[from..to].iter().copied().fold(Extent::default(), Extent::and);
-    if seen.len() == 1 || !is_parted(part, extent.pixels) {
+    if seen.len() == 1 || !is_parted(part, seen, extent.pixels) {
         add(part, from..to, extent);
         return;
     }
