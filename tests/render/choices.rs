@@ -88,6 +88,17 @@ fn what_sways_a_little_changes_few_choices() {
     }
 }
 
+/// One term of a light stays at the vertices where it no longer fits there with the other, though both would save more.
+/// At these prices it went to and fro with the camera, with 108 and 245 patches in all.
+#[test]
+fn what_fits_by_itself_stays_by_itself() {
+    for light in [0.15, 0.2] {
+        let prices = VertexPrices { light, ..MIDDLING };
+        let steadily = changes(Choosing::Steadily, prices, Sway { lights: 0.0, camera: 0.01 });
+        assert_eq!(steadily, 0, "{light} for a light at a vertex");
+    }
+}
+
 /// What was within 8 steps is not within ½.
 #[test]
 fn what_is_kept_is_within_the_bound_of_its_own_frame() {

@@ -31,8 +31,10 @@ pub(super) struct Movable {
     pub(super) share: f64,
     /// Whether all of it was at the vertices in the frame before; `None` where that does not count.
     pub(super) stays: Option<bool>,
-    /// What is saved at the pixels, less what it costs at the vertices, in lights at a pixel.
-    pub(super) gain: f32,
+    /// What is saved at the pixels, less what it costs at the vertices, in lights at a pixel: where the light's other
+    /// term is at the fragments, and where that is at the vertices, too. `None` where it does not pay.
+    pub(super) gains: [Option<f32>; 2],
+    pub(super) is_moved: bool,
 }
 
 /// What a light costs that is compiled in and does not show: it is found to be behind.
@@ -53,35 +55,40 @@ impl VertexPrices {
     }
 
     /// The terms of a light, of those that a patch `has`, that may move by these changes to their own gain: each by
-    /// itself where that saves anything, else both together. What was at the vertices before, where that counts, stays
-    /// unless it costs clearly more than it saves, and what was not comes if it saves clearly more.
+    /// itself where that saves anything for one of them, else both together. What was at the vertices before, where
+    /// that counts, stays unless it costs clearly more than it saves, and what was not comes if it saves clearly more.
     pub(super) fn movable(
         &self,
         light: u32,
         has: [bool; 2],
         changes: [Option<[[f64; 3]; 2]>; 2],
         Extent { pixels, vertices }: Extent,
-        was: Option<[bool; 2]>,
+        before: Before,
     ) -> [Option<Movable>; 2] {
         let one_term = [self.diffuse_alone, self.specular_alone];
-        let item = |terms: [bool; 2], [brighter, darker]: [[f64; 3]; 2], saved: f32, cost: f32| {
-            let gain = saved * pixels - cost * self.light * vertices;
-            let stays = was.map(|was| (0..2).all(|term| was[term] || !terms[term]));
-            let least = stays.map_or(0.0, |stays| if stays { -CLEARLY } else { CLEARLY }) * saved * pixels;
-            (gain >= least).then_some(Movable { light, terms, brighter, darker, share: 0.0, stays, gain })
+        // What is saved of a light at a pixel, and what it costs of one at a vertex, by itself and beside the other.
+        let item = |terms: [bool; 2], [brighter, darker]: [[f64; 3]; 2], parts: [Option<[f32; 2]>; 2]| {
+            let stays = before.stays(light, terms);
+            let clearly = stays.map_or(0.0, |stays| if stays { -CLEARLY } else { CLEARLY });
+            let gains = parts.map(|part| {
+                let [saved, cost] = part?;
+                let gain = saved * pixels - cost * self.light * vertices;
+                (gain >= clearly * saved * pixels).then_some(gain)
+            });
+            let movable = Movable { light, terms, brighter, darker, share: 0.0, stays, gains, is_moved: false };
+            gains.iter().any(Option::is_some).then_some(movable)
         };
-        let one = |term: usize, saved: f32| {
-            let terms = [term == 0, term == 1];
-            changes[term].and_then(|change| item(terms, change, saved, one_term[term]))
+        let one = |term: usize| {
+            let (own, other) = (one_term[term], one_term[1 - term]);
+            let by_itself = if has[1 - term] { [1.0 - other, own] } else { [own; 2] };
+            let beside = changes[1 - term].map(|_| [own, 1.0 - other]);
+            changes[term].and_then(|change| item([term == 0, term == 1], change, [Some(by_itself), beside]))
         };
-        if has != [true; 2] {
-            return [one(0, one_term[0]), one(1, one_term[1])];
-        }
-        let apart = [one(0, 1.0 - one_term[1]), one(1, 1.0 - one_term[0])];
+        let apart = [one(0), one(1)];
         match changes {
-            [Some(diffuse), Some(specular)] if apart.iter().any(Option::is_none) => {
+            [Some(diffuse), Some(specular)] if !apart.iter().flatten().any(|item| item.gains[0].is_some()) => {
                 let sum = [0, 1].map(|side| [0, 1, 2].map(|c| diffuse[side][c] + specular[side][c]));
-                [item([true; 2], sum, 1.0, 1.0), None]
+                [item([true; 2], sum, [Some([1.0; 2]), None]), None]
             }
             _ => apart,
         }
@@ -125,6 +132,42 @@ mod tests {
         assert_eq!([25.0, 26.0].map(|pixels| may_save(prices, pixels, None)), [false, true]);
         assert!([None, Some(4)].iter().all(|&lights| may_save(VertexPrices::FREE, 0.0, lights)));
         assert!([None, Some(4)].iter().all(|&lights| !may_save(VertexPrices::NEVER, 1e9, lights)));
+    }
+
+    /// Prices that leave 0.2 of a light at a pixel to save by its diffuse term, and 0.4 by its specular one.
+    const TERMS: VertexPrices =
+        VertexPrices { light: 1.0, diffuse_alone: 0.6, specular_alone: 0.8, ..VertexPrices::FREE };
+
+    /// The terms of a light with both that may move, of a patch of 100 pixels, with their gains.
+    fn movable(vertices: f32, changes: [Option<f64>; 2]) -> Vec<([bool; 2], [f64; 2], [Option<f32>; 2])> {
+        let changes = changes.map(|change| change.map(|change| [[change; 3], [0.0; 3]]));
+        let extent = Extent { pixels: 100.0, vertices };
+        let found = TERMS.movable(7, [true; 2], changes, extent, Before::default());
+        let told = |item: Movable| {
+            (item.terms, [item.brighter[0], item.darker[0]], item.gains.map(|gain| gain.map(f32::round)))
+        };
+        found.into_iter().flatten().map(told).collect()
+    }
+
+    #[test]
+    fn both_terms_save_what_a_light_takes() {
+        let (diffuse, specular) = ([true, false], [false, true]);
+        let changes = [Some(1.0), Some(2.0)];
+        // Each by itself saves 20 and 40 for 0.6 and 0.8 of the vertices, and beside the other what is left of 100.
+        let free = [(diffuse, [1.0, 0.0], [Some(20.0), Some(60.0)]), (specular, [2.0, 0.0], [Some(40.0), Some(80.0)])];
+        assert_eq!(movable(0.0, changes), free);
+        for [one, other] in [[0, 1], [1, 0]] {
+            let sum = free[one].2[0].unwrap_or_default() + free[other].2[1].unwrap_or_default();
+            assert!((sum - 100.0).abs() < 1e-3, "{sum}");
+        }
+        // One pays by itself, the other beside it alone.
+        let one = [(diffuse, [1.0, 0.0], [None, Some(52.0)]), (specular, [2.0, 0.0], [Some(8.0), Some(64.0)])];
+        assert_eq!(movable(40.0, changes), one);
+        assert_eq!(movable(40.0, [None, Some(2.0)]), [(specular, [2.0, 0.0], [Some(8.0), None])]);
+        assert_eq!(movable(40.0, [Some(1.0), None]), []);
+        // Neither pays but with the other.
+        assert_eq!(movable(60.0, changes), [([true; 2], [3.0, 0.0], [Some(40.0), None])]);
+        assert_eq!(movable(110.0, changes), []);
     }
 
     #[test]

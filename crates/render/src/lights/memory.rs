@@ -105,9 +105,17 @@ struct PlacedLists {
 pub(crate) struct Before<'a>(Option<PlacedLights<'a>>);
 
 impl Before<'_> {
-    /// Which terms of a light were at the vertices; `None` where that does not count.
-    pub(crate) fn at_vertices(self, light: u32) -> Option<[bool; 2]> {
-        Some(self.0?.vertex.lists().map(|list| list.binary_search(&light).is_ok()))
+    /// Whether these terms of a light were at the vertices, all that were anywhere; `None` where that does not count,
+    /// and where none was.
+    pub(crate) fn stays(self, light: u32, terms: [bool; 2]) -> Option<bool> {
+        let PlacedLights { vertex, fragment } = self.0?;
+        if vertex.is_empty() && fragment.is_empty() {
+            // It was not looked at.
+            return Some(false);
+        }
+        let has = |of: TermLights, term: usize| terms[term] && of.lists()[term].binary_search(&light).is_ok();
+        let any = |of| [0, 1].iter().any(|&term| has(of, term));
+        if any(fragment) { Some(false) } else { any(vertex).then_some(true) }
     }
 
     /// Whether anything was at the vertices; `None` where that does not count.
@@ -285,9 +293,12 @@ mod tests {
         memory.begin(Choosing::Steadily, COUNTS);
         assert_eq!([name, other].map(|name| memory.joined_before(name)), [Some(4), Some(2)]);
         let before = memory.before(name);
-        assert_eq!((before.is_moved(), before.at_vertices(1)), (Some(true), Some([true, false])));
-        assert_eq!((before.at_vertices(0), before.at_vertices(2)), (Some([false; 2]), Some([false; 2])));
-        assert_eq!(memory.before(other).is_moved(), Some(false));
+        assert_eq!(before.is_moved(), Some(true));
+        let stays = [[true, false], [false, true], [true, true]].map(|terms| before.stays(1, terms));
+        assert_eq!(stays, [Some(true), Some(false), Some(false)]);
+        assert_eq!([0, 2].map(|light| before.stays(light, [true, true])), [None; 2], "they were left out");
+        let before = memory.before(other);
+        assert_eq!((before.is_moved(), before.stays(1, [true, true])), (Some(false), Some(false)), "not looked at");
         assert_eq!([name.0, other.0].map(|object| memory.has_moved(object)), [true, false]);
         memory.note_object(name.0);
         memory.note_at_fragments(patches(name, 2));

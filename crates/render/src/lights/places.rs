@@ -245,16 +245,25 @@ impl PlacedTerms {
         self.movable.sort_unstable_by(|a, b| comes(a).cmp(&comes(b)).then(a.share.total_cmp(&b.share)));
         let mut spent = [[0.0; 3]; 2];
         let mut gain = 0.0;
-        for item in &self.movable {
-            let with = |spent: [f64; 3], more: [f64; 3]| [0, 1, 2].map(|c| spent[c] + more[c]);
-            let sum = [with(spent[0], item.brighter), with(spent[1], item.darker)];
+        let fits = |sum: &[[f64; 3]; 2], item: &Movable| {
             let part = if comes(item) { ROOM_TO_COME } else { 1.0 };
-            if (0..3).all(|c| sum[0][c] <= part * brighter[c] && sum[1][c] <= part * darker[c]) {
-                spent = sum;
-                gain += item.gain;
-                for term in [0, 1] {
-                    if item.terms[term] {
-                        self.vertex.list(term).push(item.light);
+            (0..3).all(|c| sum[0][c] <= part * brighter[c] && sum[1][c] <= part * darker[c])
+        };
+        // Once more those that pay beside the other term of their light alone: it may have come after them.
+        for is_again in [false, true] {
+            let is_open = |item: &&mut Movable| !item.is_moved && (!is_again || item.gains[0].is_none());
+            for item in self.movable.iter_mut().filter(is_open) {
+                let is_beside = (0..2).any(|term| !item.terms[term] && self.vertex.list(term).contains(&item.light));
+                let Some(saved) = item.gains[usize::from(is_beside)] else { continue };
+                let with = |spent: [f64; 3], more: [f64; 3]| [0, 1, 2].map(|c| spent[c] + more[c]);
+                let sum = [with(spent[0], item.brighter), with(spent[1], item.darker)];
+                if fits(&sum, item) {
+                    (spent, item.is_moved) = (sum, true);
+                    gain += saved;
+                    for term in [0, 1] {
+                        if item.terms[term] {
+                            self.vertex.list(term).push(item.light);
+                        }
                     }
                 }
             }
@@ -351,8 +360,7 @@ impl PlacedTerms {
                 let larger = |i: usize| [0, 1, 2].map(|c| front[i][c].max(back[i][c]));
                 (has[term] && places.placed[term]).then(|| [larger(0), larger(1)])
             };
-            let (prices, was) = (&places.prices, before.at_vertices(number));
-            let movable = prices.movable(number, has, [change(0), change(1)], *extent, was);
+            let movable = places.prices.movable(number, has, [change(0), change(1)], *extent, before);
             self.movable.extend(movable.into_iter().flatten());
         }
         let sides = places.sides().len();
