@@ -138,8 +138,11 @@ mod tests {
     const TERMS: VertexPrices =
         VertexPrices { light: 1.0, diffuse_alone: 0.6, specular_alone: 0.8, ..VertexPrices::FREE };
 
-    /// The terms of a light with both that may move, of a patch of 100 pixels, with their gains.
-    fn movable(vertices: f32, changes: [Option<f64>; 2]) -> Vec<([bool; 2], [f64; 2], [Option<f32>; 2])> {
+    /// Terms that may move, what they change, brighter and darker, and their gains.
+    type Found = ([bool; 2], [f64; 2], [Option<f32>; 2]);
+
+    /// Of a light with both terms, and of a patch of 100 pixels.
+    fn movable(vertices: f32, changes: [Option<f64>; 2]) -> Vec<Found> {
         let changes = changes.map(|change| change.map(|change| [[change; 3], [0.0; 3]]));
         let extent = Extent { pixels: 100.0, vertices };
         let found = TERMS.movable(7, [true; 2], changes, extent, Before::default());
