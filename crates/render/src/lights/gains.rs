@@ -54,9 +54,9 @@ impl VertexPrices {
         *self != Self::NEVER && most - least_cost - lights * self.look >= before.least_gain(most).min(0.0)
     }
 
-    /// The terms of a light, of those that a patch `has`, that may move by these changes to their own gain: each by
-    /// itself where that saves anything for one of them, else both together. What was at the vertices before, where
-    /// that counts, stays unless it costs clearly more than it saves, and what was not comes if it saves clearly more.
+    /// The terms of a light, of those that a patch `has`, that may move by these changes: term by term where one of
+    /// them pays by itself, else both together. What was at the vertices before, where that counts, pays unless it
+    /// costs clearly more than it saves; what was not pays if it saves clearly more.
     pub(super) fn movable(
         &self,
         light: u32,

@@ -249,7 +249,7 @@ impl PlacedTerms {
             let part = if comes(item) { ROOM_TO_COME } else { 1.0 };
             (0..3).all(|c| sum[0][c] <= part * brighter[c] && sum[1][c] <= part * darker[c])
         };
-        // Once more those that pay beside the other term of their light alone: it may have come after them.
+        // Twice, since what pays only beside the other term of its light may come before that.
         for is_again in [false, true] {
             let is_open = |item: &&mut Movable| !item.is_moved && (!is_again || item.gains[0].is_none());
             for item in self.movable.iter_mut().filter(is_open) {
