@@ -79,6 +79,56 @@ fn a_shell_hides_what_is_close_inside_in_the_same_mesh() {
     assert!(fewer < all / 2, "{fewer} of {all}");
 }
 
+/// The same of a sheet that is wound twice around a cylinder, and so is connected. The normals of its inner turn point
+/// away from the light.
+#[test]
+fn a_turn_of_a_sheet_hides_what_is_close_inside() {
+    const AROUND: u32 = 256;
+    let mut stage = Stage::new(128, 128);
+    let matt = Material { diffuse: LinearRgba::WHITE, ..glowing(0.0, 0.0, 0.0) };
+    let mut drawn = |apart: f32, distance: f32, tolerance: Tolerance| {
+        let (mut positions, mut normals, mut indices) = (Vec::new(), Vec::new(), Vec::new());
+        for along in 0..=2 * AROUND {
+            // No corner of one turn is behind a corner of the other.
+            let turns = along as f32 / (AROUND as f32 + 0.4);
+            let (sin, cos) = (std::f32::consts::TAU * (turns + 0.3)).sin_cos();
+            let (radius, out) = (1.0 + apart * turns, if turns <= 1.0 { -1.0 } else { 1.0 });
+            for across in 0..=64_u32 {
+                positions.push(Vec3::new(radius * sin, across as f32 / 32.0 - 1.0, radius * cos));
+                normals.push(out * Vec3::new(sin, 0.0, cos));
+                if along < 2 * AROUND && across < 64 {
+                    let [a, b] = [65 * along + across, 65 * (along + 1) + across];
+                    indices.extend([a, b, b + 1, a, b + 1, a + 1]);
+                }
+            }
+        }
+        let sheet = Mesh::from_parts(positions, Some(normals), None, indices).expect("a sheet");
+        let scene = Scene::seen_from(Vec3::Z * distance, Vec3::ZERO)
+            .with(Thing::new(sheet).of(matt).shaded(Shading::Gouraud))
+            .lit(Lamp::directional(directional_light(), Vec3::NEG_Z));
+        stage.set(&scene);
+        stage.levels(tolerance);
+        let picture = stage.float();
+        let middle = picture.width() as f32 / 2.0;
+        // Well within the outline, where the outer turn is bright.
+        let half = 0.5 * middle / (0.5 * scene.camera.fov_y).tan() / distance;
+        let is_within = |x: u32, y: u32| (x as f32 - middle).abs().max((y as f32 - middle).abs()) < half;
+        let dark = picture.enumerate_pixels().filter(|&(x, y, pixel)| is_within(x, y) && pixel.0[0] < 0.05).count();
+        (dark, stage.report().triangles)
+    };
+    for apart in [0.0002, 0.0005, 0.001, 0.002, 0.01] {
+        for distance in [4.0, 8.0, 16.0, 32.0] {
+            for tolerance in [FULL, Tolerance::DEFAULT, Tolerance { pixels: 2.0, ..Tolerance::DEFAULT }] {
+                let (dark, _) = drawn(apart, distance, tolerance);
+                assert_eq!(dark, 0, "{apart} apart, from {distance}, {} pixels", tolerance.pixels);
+            }
+        }
+    }
+    // Where there is room, it is drawn with fewer.
+    let [all, fewer] = [FULL, Tolerance::DEFAULT].map(|tolerance| drawn(0.5, 32.0, tolerance).1);
+    assert!(fewer < all / 2, "{fewer} of {all}");
+}
+
 /// What is near to another keeps all triangles, what is farther is drawn with fewer, in one frame.
 #[test]
 fn only_what_is_close_to_another_keeps_its_triangles() {

@@ -296,6 +296,37 @@ fn what_is_not_connected_has_room_for_the_error() {
     assert!(cut > 0 && cut < apart, "only where one cuts the other nothing is joined: {groups_with_room:?}");
 }
 
+/// The same of a sheet that is wound twice around a cylinder, which is connected; each of its points has a layer over
+/// it or under it.
+#[test]
+fn a_rolled_sheet_has_room_for_the_error() {
+    const AROUND: u32 = 150;
+    let mut groups_with_room = Vec::new();
+    for apart in [0.0005, 0.05, 0.2, 0.5] {
+        let (mut positions, mut indices) = (Vec::new(), Vec::new());
+        for along in 0..=2 * AROUND {
+            let turns = along as f32 / (AROUND as f32 + 0.4);
+            let (sin, cos) = (std::f32::consts::TAU * turns).sin_cos();
+            for across in 0..=40_u32 {
+                let bump = 0.004 * (0.7 * across as f32).sin();
+                let radius = 1.0 + apart * turns + bump;
+                positions.push(Vec3::new(radius * sin, 0.04 * across as f32, radius * cos));
+                if along < 2 * AROUND && across < 40 {
+                    let [a, b] = [41 * along + across, 41 * (along + 1) + across];
+                    indices.extend([a, b, b + 1, a, b + 1, a + 1]);
+                }
+            }
+        }
+        let hierarchy = hierarchy(&Mesh::new(positions, indices).unwrap());
+        let groups = &hierarchy.groups[..hierarchy.groups.len() - 1];
+        let largest = groups.iter().map(|group| group.error).fold(0.0, f32::max);
+        assert!(2.0 * largest <= apart, "{apart} apart, off by {largest}");
+        groups_with_room.push(groups.len());
+    }
+    let [close, some, more, wide] = groups_with_room[..] else { unreachable!("as many as there are rows") };
+    assert!(close == 0 && some <= more && more <= wide && wide > 10, "{groups_with_room:?}");
+}
+
 #[test]
 fn creases_and_planes_stay_as_they_are() {
     let mesh = Mesh::from(Cuboid::default()).subdivided(Subdivision::Midpoint, 5).unwrap();
@@ -333,8 +364,8 @@ fn what_cannot_be_coarser_is_left_as_it_is() {
 fn the_same_mesh_has_the_same_hierarchy_on_any_number_of_threads() {
     let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
     let several = rayon::ThreadPoolBuilder::new().num_threads(3).build().expect("some threads");
-    // One of many groups, and one of two pieces.
-    for mesh in [shaken(&grid(150), 0.2), pieces(300)] {
+    // One of many groups, and one of many pieces.
+    for mesh in [shaken(&grid(150), 0.2), pieces(400)] {
         let [alone, shared] = [&one, &several].map(|threads| threads.install(|| hierarchy(&mesh)));
         assert!(alone.groups.len() > 50, "{} groups", alone.groups.len());
         assert!(alone == shared && alone == hierarchy(&mesh));

@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use bevy_math::{DVec3, Vec3};
+use bevy_math::{DVec3, Vec3, Vec3A};
 
 /// Three corners.
 pub(super) type TriangleCorners = [DVec3; 3];
@@ -27,8 +27,12 @@ struct Node {
     count: u32,
 }
 
+/// What rounding to single precision changes of a distance, at most.
+const A_LITTLE: f32 = 1e-5;
+const A_LITTLE_MORE: f32 = 1.0 + A_LITTLE;
+
 /// So many triangles are not worth a box more.
-const LEAF: usize = 4;
+const LEAF: usize = 8;
 
 impl<C: Fn(u32) -> [Vec3; 3]> TriangleTree<C> {
     /// Of at least one triangle.
@@ -41,7 +45,8 @@ impl<C: Fn(u32) -> [Vec3; 3]> TriangleTree<C> {
     pub(super) fn of_pieces(count: u32, corners: C, piece: impl Fn(u32) -> u32, stop: &AtomicBool) -> Self {
         let key = |number: u32| (corners(number).into_iter().map(|corner| corner / 3.0).sum(), number);
         let mut keys: Vec<(Vec3, u32)> = (0..count).map(key).collect();
-        let mut nodes = Vec::new();
+        let leaves = (count as usize).div_ceil(LEAF).next_power_of_two();
+        let mut nodes = Vec::with_capacity(2 * leaves);
         build(&mut keys, 0, (&corners, &piece, stop), &mut nodes);
         Self { triangles: keys.into_iter().map(|(_, number)| number).collect(), nodes, corners }
     }
@@ -83,6 +88,39 @@ impl<C: Fn(u32) -> [Vec3; 3]> TriangleTree<C> {
             least2
         });
         if is_found { least2.sqrt() } else { f64::INFINITY }
+    }
+
+    /// Looks at triangles near a line through a point, the near ones first on either side; `look` gets a triangle's
+    /// number, and returns the distance from which on no others need be looked at; at first `within` is. The direction
+    /// has a length of 1.
+    pub(super) fn search_line(&self, p: Vec3, direction: Vec3, within: f64, mut look: impl FnMut(u32) -> f64) {
+        let mut within = within as f32 * A_LITTLE_MORE;
+        // Finite, so that it makes no NaN of 0.
+        let (p, inverse) = (Vec3A::from(p), Vec3A::from(direction).recip().clamp(-Vec3A::MAX, Vec3A::MAX));
+        let mut waiting = vec![(0.0, 0)];
+        while let Some((distance, number)) = waiting.pop() {
+            if distance > within {
+                continue;
+            }
+            let node: &Node = &self.nodes[number];
+            for &number in &self.triangles[node.triangles()] {
+                within = look(number) as f32 * A_LITTLE_MORE;
+            }
+            if node.count == 0 {
+                let halves = [number + 1, node.next as usize];
+                let halves = halves.map(|half| (self.nodes[half].distance_along(p, inverse), half));
+                let [a, b] = halves;
+                waiting.extend(if a.0 < b.0 { [b, a] } else { [a, b] });
+            }
+        }
+    }
+
+    /// Looks at all triangles that a point is on, and at some that are near it.
+    pub(super) fn search_around(&self, p: Vec3, mut look: impl FnMut(u32)) {
+        self.search(p.as_dvec3(), None, f64::MIN_POSITIVE, |number| {
+            look(number);
+            f64::MIN_POSITIVE
+        });
     }
 
     /// Looks at triangles, the near ones first: `look` gets a triangle's number and returns the square of the distance
@@ -151,6 +189,14 @@ fn bounds(points: impl Iterator<Item = Vec3>) -> (Vec3, Vec3) {
 impl Node {
     fn distance_squared(&self, p: DVec3) -> f64 {
         p.distance_squared(p.clamp(self.min.as_dvec3(), self.max.as_dvec3()))
+    }
+
+    /// How far off the box is along a line on either side, more or less; infinitely far where it is beside the line.
+    fn distance_along(&self, p: Vec3A, inverse: Vec3A) -> f32 {
+        let [a, b] = [self.min, self.max].map(|corner| (Vec3A::from(corner) - p) * inverse);
+        let (first, last) = (a.min(b).max_element(), a.max(b).min_element());
+        let is_met = first <= last + A_LITTLE * first.abs().min(last.abs());
+        if is_met { first.max(-last).max(0.0) } else { f32::INFINITY }
     }
 
     fn triangles(&self) -> std::ops::Range<usize> {
@@ -251,5 +297,31 @@ mod tests {
                 assert_eq!(tree.nearest_of_others(p, own, piece, 0.1), near, "{name}, within 0.1");
             }
         }
+    }
+
+    #[test]
+    fn a_search_along_a_line_looks_at_what_the_line_meets() {
+        let place = |i: u32| {
+            let t = f64::from(i) * 0.618_033_988_749_895;
+            Vec3::new(t.fract() as f32, (t * 3.7).fract() as f32, (t * 11.3).fract() as f32)
+        };
+        let triangle = |i: u32| [0, 1, 2].map(|k| place(i) + 0.1 * place(1000 + 3 * i + k));
+        let tree = TriangleTree::new(200, triangle);
+        let mut all = 0;
+        for i in 0..300 {
+            let [a, b, c] = triangle(i % 200);
+            // Also along an axis.
+            let direction = if i % 3 == 0 { Vec3::Y } else { (place(7 * i + 3) - 0.5).normalize() };
+            let far = 2.0 * place(31 * i).x - 1.0;
+            let p = (a + b + c) / 3.0 + far * direction;
+            let mut looked = Vec::new();
+            tree.search_line(p, direction, 1.001 * f64::from(far.abs()), |number| {
+                looked.push(number);
+                1.001 * f64::from(far.abs())
+            });
+            assert!(looked.contains(&(i % 200)), "line {i}");
+            all += looked.len();
+        }
+        assert!(all < 300 * 50, "a line looked at {} of 200", all / 300);
     }
 }

@@ -129,11 +129,11 @@ impl<'a> Maker<'a> {
 
     /// How far triangles are from what is not connected with them, by how far their vertices are: no point of a
     /// triangle is further from one of them than the longest edge over √3 (Jung 1901).
-    pub(super) fn room(&self, triangles: &[[u32; 3]], rooms: &[f64]) -> f64 {
+    pub(super) fn room(&self, triangles: &[[u32; 3]], rooms: &[f32]) -> f64 {
         let of = |triangle: &[u32; 3]| {
             let corners = triangle.map(|vertex| self.mesh.positions()[vertex as usize].as_dvec3());
             let rooms = triangle.map(|vertex| rooms[self.stand_ins.places[vertex as usize] as usize]);
-            rooms.into_iter().fold(f64::INFINITY, f64::min) - longest_edge(corners) / 3f64.sqrt()
+            f64::from(rooms.into_iter().fold(f32::INFINITY, f32::min)) - longest_edge(corners) / 3f64.sqrt()
         };
         triangles.iter().map(of).fold(f64::INFINITY, f64::min).max(0.0)
     }

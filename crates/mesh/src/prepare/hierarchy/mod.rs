@@ -9,12 +9,14 @@ mod four_vectors;
 mod frame;
 mod homes;
 mod joined;
+mod layers;
 mod maker;
 mod neighbours;
 mod open_border;
 mod overlay;
 mod pieces;
 mod quadric;
+mod rooms;
 mod rounds;
 mod stand_ins;
 mod triangle_fans;
@@ -102,8 +104,9 @@ impl Mesh {
     /// It is made on rayon's threads, up to sixteen of them, and is the same on any number.
     ///
     /// Triangles that have corners in common, and those that have some in common with these, and so on, are one piece.
-    /// Where another piece is closer than twice the [error](PatchGroup::error) of a group, that is not made: so neither
-    /// comes to lie before the other.
+    /// Where another piece, or another layer of the same, is closer than twice the [error](PatchGroup::error) of a
+    /// group, that is not made: so neither comes to lie before the other. A layer is what lies over a vertex along the
+    /// mean normal around it, turned by no more than 45° from the surface there, and is no neighbour's triangle.
     pub fn patch_hierarchy(&self, stop: &AtomicBool) -> Option<PatchHierarchy> {
         let mut maker = Maker::new(self);
         let mut pool = maker.finest(stop);

@@ -8,7 +8,7 @@ use super::joined::{Joined, JoinedPart};
 use super::maker::{Loose, Maker, NOBODY, SEVERAL};
 use super::neighbours;
 use super::overlay::Deviation;
-use super::pieces::rooms;
+use super::rooms::rooms;
 use super::{HierarchyPatch, PatchGroup, PatchHierarchy};
 
 /// After this number of joins, errors are measured against the patches then, and added to theirs: what they add is
@@ -21,7 +21,7 @@ const MOST_THREADS: usize = 16;
 impl Maker<'_> {
     /// The patches of the mesh itself.
     pub(super) fn finest(&mut self, stop: &AtomicBool) -> Vec<Loose> {
-        let rooms = rooms(self.mesh, &self.stand_ins.places, self.most_room(), stop);
+        let rooms = rooms(self.mesh, &self.stand_ins.places, (self.unit, self.most_room()), stop);
         self.triangles = self.mesh.triangles().collect();
         let runs = self.mesh.cut_into_patches(&mut self.triangles, self.mesh.triangles_of_a_patch());
         // There are seldom more in the end.
@@ -35,7 +35,7 @@ impl Maker<'_> {
                 covers: vertices(triangles),
                 base: Deviation::default(),
                 age: 0,
-                room: rooms.as_ref().map_or(f64::INFINITY, |rooms| self.room(triangles, rooms)),
+                room: self.room(triangles, &rooms),
                 is_stuck: false,
             }
         });
