@@ -99,6 +99,23 @@ fn what_fits_by_itself_stays_by_itself() {
     }
 }
 
+/// A diffuse term that saves nothing while the highlight of its light is at the fragments moves once that has moved,
+/// also where it changes less, and so is tried before.
+#[test]
+fn what_pays_beside_the_other_term_alone_moves_with_it() {
+    let moved = |prices: VertexPrices| {
+        let mut stage = stage(None, prices);
+        within(&mut stage, 32.0);
+        stage.frame();
+        let FrameReport { terms_at_vertices, terms_at_fragments, .. } = *stage.report();
+        [terms_at_vertices, terms_at_fragments]
+    };
+    let beside = VertexPrices { light: 1e-6, diffuse_alone: 0.5, specular_alone: 1.0, ..VertexPrices::FREE };
+    let all = moved(VertexPrices::FREE);
+    assert!(all[0] > 1000, "{all:?}");
+    assert_eq!(moved(beside), all);
+}
+
 /// What was within 8 steps is not within ½.
 #[test]
 fn what_is_kept_is_within_the_bound_of_its_own_frame() {
