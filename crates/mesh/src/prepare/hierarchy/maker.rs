@@ -37,7 +37,7 @@ pub(super) struct Loose {
     pub(super) base: Deviation,
     /// The number of joins since.
     pub(super) age: u32,
-    /// How far it is at least from what is not connected with it.
+    /// How far it is from other pieces, and from other layers of its own.
     pub(super) room: f64,
     /// Whether a group that was to join it would have been too far off for that. It is joined no more.
     pub(super) is_stuck: bool,
@@ -119,7 +119,7 @@ impl<'a> Maker<'a> {
         made
     }
 
-    /// Vertices that are as far as this from what is not connected with them have room for any group.
+    /// Vertices that are as far as this from other pieces and layers have room for any group.
     pub(super) fn most_room(&self) -> f64 {
         let longest = |number| longest_edge(self.mesh.corners_of(number).map(Vec3::as_dvec3));
         let longest = (0..self.mesh.triangle_count() as u32).map(longest).fold(0.0, f64::max);
@@ -127,8 +127,8 @@ impl<'a> Maker<'a> {
         1.001 * ROOM * FARTHEST * f64::from(self.mesh.bounds().radius()) + longest / 3f64.sqrt()
     }
 
-    /// How far triangles are from what is not connected with them, by how far their vertices are: no point of a
-    /// triangle is further from one of them than the longest edge over √3 (Jung 1901).
+    /// How far triangles are from other pieces and layers, by how far their vertices are: no point of a triangle is
+    /// further from one of them than the longest edge over √3 (Jung 1901).
     pub(super) fn room(&self, triangles: &[[u32; 3]], rooms: &[f32]) -> f64 {
         let of = |triangle: &[u32; 3]| {
             let corners = triangle.map(|vertex| self.mesh.positions()[vertex as usize].as_dvec3());

@@ -104,9 +104,10 @@ impl Mesh {
     /// It is made on rayon's threads, up to sixteen of them, and is the same on any number.
     ///
     /// Triangles that have corners in common, and those that have some in common with these, and so on, are one piece.
-    /// Where another piece, or another layer of the same, is closer than twice the [error](PatchGroup::error) of a
-    /// group, that is not made: so neither comes to lie before the other. A layer is what lies over a vertex along the
-    /// mean normal around it, turned by no more than 45° from the surface there, and is no neighbour's triangle.
+    /// Where another piece is closer than twice the [error](PatchGroup::error) of a group, that is not made: so neither
+    /// comes to lie before the other. The same goes for another layer of one piece, as far as vertices tell: what lies
+    /// over one of them along the mean normal around it, turned by no more than 45° from the surface there, and is no
+    /// neighbour's triangle.
     pub fn patch_hierarchy(&self, stop: &AtomicBool) -> Option<PatchHierarchy> {
         let mut maker = Maker::new(self);
         let mut pool = maker.finest(stop);
