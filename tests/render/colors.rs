@@ -1,12 +1,11 @@
 //! Colours at the vertices: what they do is what the oracle says, and what does not have them pays nothing for them.
 
-use crate::render::compare::FLOAT;
+use crate::render::compare::{FLOAT, judge};
 use crate::render::conformance::colors::colored;
 use crate::render::scene::{Lamp, Scene, Thing, material, point_light};
 use crate::render::stage::{FULL, Stage};
 use halfway::prelude::*;
 use halfway::reference::Image;
-use halfway::reference::metrics::judge;
 
 fn scene(mesh: Mesh, colors: Option<VertexColors>) -> Scene {
     let thing = Thing { colors, ..Thing::new(mesh) };
@@ -75,8 +74,7 @@ fn a_picture_without_the_colors_is_found_out() {
         wrong.things[0].colors = None;
         stage.set(&wrong);
         stage.frame();
-        let truth = stage.oracle();
-        let verdict = judge(&truth, &truth.draw(), &Image::from_float(&without), FLOAT).expect("one size");
+        let (verdict, _) = judge(&mut stage, &Image::from_float(&without), FLOAT);
         assert!(!verdict.is_within(), "{shading:?}: {verdict}");
     }
 }

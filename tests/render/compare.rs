@@ -3,8 +3,8 @@
 use crate::render::scene::Scene;
 use crate::render::stage::Stage;
 use halfway::prelude::*;
+use halfway::reference::Image;
 use halfway::reference::metrics::{self, Bars, Measure, Verdict};
-use halfway::reference::{Image, Oracle};
 use image::{Rgba32FImage, RgbaImage};
 use std::path::Path;
 
@@ -42,7 +42,7 @@ impl Failures {
     /// Adds the row unless `picture` shows something, and is what the oracle says of what stands on the stage.
     pub(crate) fn compare(&mut self, row: &str, stage: &mut Stage, picture: &Rgba32FImage, bars: Bars) -> Verdict {
         self.unless(picture.pixels().all(|pixel| pixel.0[3] == 1.0), || format!("{row} is not opaque"));
-        let (verdict, expected) = self.judge(row, &stage.oracle(), &Image::from_float(picture), stage.on_grid(bars));
+        let (verdict, expected) = self.judge(row, stage, &Image::from_float(picture), bars);
         let shows = expected.covered().is_none_or(|covered| covered.contains(&true));
         self.unless(shows, || format!("{row} shows nothing"));
         verdict
@@ -51,19 +51,18 @@ impl Failures {
     /// Draws `scene`, of which nothing may be seen, and adds the row unless it is what the oracle says within `bars`.
     pub(crate) fn draw_any(&mut self, row: &str, stage: &mut Stage, scene: &Scene, bars: Bars) -> Verdict {
         let picture = Image::from_float(&stage.draw(scene));
-        self.judge(row, &stage.oracle(), &picture, stage.on_grid(bars)).0
+        self.judge(row, stage, &picture, bars).0
     }
 
     /// Adds the row unless a picture of bytes is what the oracle says of what stands on the stage.
     pub(crate) fn compare_bytes(&mut self, row: &str, stage: &mut Stage, picture: &RgbaImage, bars: Bars) -> Verdict {
         self.unless(picture.pixels().all(|pixel| pixel.0[3] == 255), || format!("{row} is not opaque"));
         let picture = Image::from_bytes(picture, encoding(&bars));
-        self.judge(row, &stage.oracle().with_clamping(true), &picture, stage.on_grid(bars)).0
+        self.judge(row, stage, &picture, stage.rounding(bars)).0
     }
 
-    fn judge(&mut self, row: &str, oracle: &Oracle, actual: &Image, bars: Bars) -> (Verdict, Image) {
-        let expected = oracle.draw();
-        let verdict = metrics::judge(oracle, &expected, actual, bars).expect("pictures of one size");
+    fn judge(&mut self, row: &str, stage: &mut Stage, actual: &Image, bars: Bars) -> (Verdict, Image) {
+        let (verdict, expected) = judge(stage, actual, bars);
         self.unless(verdict.is_within(), || {
             let comparison = metrics::compare(actual, &expected, encoding(&bars)).expect("pictures of one size");
             let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
@@ -77,6 +76,18 @@ impl Failures {
     pub(crate) fn finish(self) {
         assert!(self.0.is_empty(), "{} rows failed:\n{}", self.0.len(), self.0.join("\n"));
     }
+}
+
+/// A picture judged by what the oracle says of what stands on the stage, which is returned too.
+pub(crate) fn judge(stage: &mut Stage, actual: &Image, bars: Bars) -> (Verdict, Image) {
+    let oracle = |stage: &mut Stage| stage.oracle().with_clamping(bars.are_clamped());
+    let truth = oracle(stage);
+    let expected = truth.draw();
+    let verdict = match stage.other_grid() {
+        Some(bits) => metrics::judge_on_grid((&truth, &expected), (oracle(stage), bits), actual, bars),
+        None => metrics::judge(&truth, &expected, actual, bars),
+    };
+    (verdict.expect("pictures of one size"), expected)
 }
 
 /// The encoding that errors are counted in; of floating point, the one its pictures are shown in.

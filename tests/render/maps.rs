@@ -1,12 +1,11 @@
 //! Images on objects: what they do is what the oracle says, and what does not have them pays nothing for them.
 
-use crate::render::compare::FLOAT;
+use crate::render::compare::{FLOAT, judge};
 use crate::render::conformance::maps::{SHAPED, map};
 use crate::render::scene::{Lamp, Map, Scene, Thing, material, point_light};
 use crate::render::stage::Stage;
 use halfway::prelude::*;
 use halfway::reference::Image;
-use halfway::reference::metrics::judge;
 use halfway::texture::normals::from_heights;
 use halfway::texture::{FarNormals, LevelFilter, Pyramid, TexelFilter, TexelImage, UvTransform, Wrap};
 
@@ -71,8 +70,7 @@ fn a_picture_of_another_filter_place_or_image_is_found_out() {
         let picture = stage.draw(&scene(Shading::Phong, wrong));
         stage.set(&scene(Shading::Phong, Some(right.clone())));
         stage.frame();
-        let truth = stage.oracle();
-        let verdict = judge(&truth, &truth.draw(), &Image::from_float(&picture), FLOAT).expect("one size");
+        let (verdict, _) = judge(&mut stage, &Image::from_float(&picture), FLOAT);
         assert!(!verdict.is_within(), "{number}: {verdict}");
     }
 }
@@ -107,13 +105,10 @@ fn an_uncut_picture_of_a_mask_is_found_out() {
         right.things[0].mask = Some(0.5);
         stage.set(&right);
         stage.frame();
-        let truth = stage.oracle();
-        let verdict = judge(&truth, &truth.draw(), &Image::from_float(&uncut), FLOAT).expect("one size");
+        let (verdict, _) = judge(&mut stage, &Image::from_float(&uncut), FLOAT);
         assert!(!verdict.is_within(), "{shading:?}: {verdict}");
         let cut = stage.float();
-        // Rounded vertices turn the planes of u and v, as in the conformance suite.
-        let bars = if stage.grid_bits() < 8 { FLOAT.within(2.0) } else { FLOAT };
-        let verdict = judge(&truth, &truth.draw(), &Image::from_float(&cut), bars).expect("one size");
+        let (verdict, _) = judge(&mut stage, &Image::from_float(&cut), FLOAT);
         assert!(verdict.is_within(), "{shading:?}: {verdict}");
     }
 }
@@ -334,8 +329,7 @@ fn far_normals_cost_nothing_where_they_do_nothing_and_are_found_out_where_they_a
         let [mean, same] = of.map(|far| drawn(&mut stage, MapKind::Specular, far));
         assert!(mean == same, "of no normals");
         let [mean, _] = of.map(|far| drawn(&mut stage, MapKind::Normal, far));
-        let oracle = stage.oracle();
-        let verdict = judge(&oracle, &oracle.draw(), &Image::from_float(&mean), FLOAT).expect("one size");
+        let (verdict, _) = judge(&mut stage, &Image::from_float(&mean), FLOAT);
         assert!(!verdict.is_within(), "{other:?}: {verdict}");
     }
 }
@@ -369,11 +363,9 @@ fn a_picture_by_another_filter_of_the_footprints_shape_is_found_out() {
     for right in SHAPED.into_iter().chain([LevelFilter::Linear]) {
         stage.set(&with(right));
         stage.frame();
-        let truth = stage.oracle();
-        let expected = truth.draw();
         for (drawn, picture) in &pictures {
             // Also by what a grid of 1/16 pixel is allowed in the conformance suite.
-            let verdict = judge(&truth, &expected, picture, FLOAT.within(2.0)).expect("one size");
+            let (verdict, _) = judge(&mut stage, picture, FLOAT.within(2.0));
             // Where no footprint is longer than 8 to 1, both are all probes of the longest.
             let more = [LevelFilter::Anisotropic8, LevelFilter::Anisotropic16];
             let same = *drawn == right || more.contains(drawn) && more.contains(&right);
@@ -405,8 +397,7 @@ fn one_image_is_drawn_by_each_filter_at_once_as_by_itself() {
         let picture = Image::from_float(&stage.draw(&with(drawn)));
         stage.set(&with(&all));
         stage.frame();
-        let truth = stage.oracle();
-        judge(&truth, &truth.draw(), &picture, stage.on_grid(FLOAT)).expect("one size")
+        judge(&mut stage, &picture, FLOAT).0
     };
     let verdict = judged(&all);
     assert!(verdict.is_within(), "{verdict}");
@@ -433,9 +424,8 @@ fn sums_of_a_large_image_tell_two_texels_apart() {
     let mut stage = Stage::new(64, 48);
     stage.set(&scene);
     stage.frame();
-    let truth = stage.oracle();
-    let bars = if stage.grid_bits() < 8 { FLOAT.within(2.0) } else { FLOAT };
-    let verdict = judge(&truth, &truth.draw(), &Image::from_float(&stage.float()), bars).expect("one size");
+    let picture = Image::from_float(&stage.float());
+    let (verdict, _) = judge(&mut stage, &picture, FLOAT);
     assert!(verdict.is_within(), "{verdict}");
     println!("{verdict}");
 }

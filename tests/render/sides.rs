@@ -1,11 +1,10 @@
 //! Front and back faces and their materials.
 
-use crate::render::compare::{FLOAT, assert_as_expected, assert_identical};
+use crate::render::compare::{FLOAT, assert_as_expected, assert_identical, judge};
 use crate::render::scene::{Lamp, Scene, Thing, directional_light, glowing, other_material, point_light};
 use crate::render::stage::Stage;
 use halfway::prelude::*;
 use halfway::reference::Image;
-use halfway::reference::metrics::judge;
 
 const SHADINGS: [Shading; 3] = [Shading::Flat, Shading::Gouraud, Shading::Phong];
 const FACES: [Faces; 3] = [Faces::Front, Faces::Back, Faces::Both];
@@ -68,8 +67,7 @@ fn other_sides_of_an_open_hemisphere_are_found_out() {
             let picture = Image::from_float(&stage.draw(&wrong));
             stage.set(&right);
             stage.frame();
-            let truth = stage.oracle();
-            let verdict = judge(&truth, &truth.draw(), &picture, stage.on_grid(FLOAT)).expect("one size");
+            let (verdict, _) = judge(&mut stage, &picture, FLOAT);
             assert!(!verdict.is_within(), "{shading:?}, wrong in way {number}: {verdict}");
         }
     }

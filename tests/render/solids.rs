@@ -1,13 +1,12 @@
 //! Solids that objects are cut from: what they do is what the oracle says, what has none pays nothing, and nothing that
 //! is finer than a pixel is left of them.
 
-use crate::render::compare::FLOAT;
+use crate::render::compare::{FLOAT, judge};
 use crate::render::conformance::solids::solid;
 use crate::render::scene::{Lamp, Scene, Thing, material, point_light};
 use crate::render::stage::Stage;
 use halfway::prelude::*;
 use halfway::reference::Image;
-use halfway::reference::metrics::judge;
 
 const SHADINGS: [Shading; 3] = [Shading::Flat, Shading::Gouraud, Shading::Phong];
 
@@ -75,8 +74,7 @@ fn a_picture_of_another_solid_is_found_out() {
             let picture = stage.draw(&scene(Shading::Phong, wrong));
             stage.set(&scene(Shading::Phong, Some(right)));
             stage.frame();
-            let truth = stage.oracle();
-            let verdict = judge(&truth, &truth.draw(), &Image::from_float(&picture), FLOAT).expect("one size");
+            let (verdict, _) = judge(&mut stage, &Image::from_float(&picture), FLOAT);
             assert!(!verdict.is_within(), "{kind:?}, {number}: {verdict}");
         }
     }

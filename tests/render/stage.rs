@@ -14,6 +14,9 @@ use std::time::Duration;
 /// Every mesh as it is, and lights left out within half a step.
 pub(crate) const FULL: Tolerance = Tolerance::steps(0.5);
 
+/// Grids of so many bits or more move what is interpolated, but no edge to speak of.
+const FINE_BITS: u32 = 8;
+
 /// An App with the facade's plugins and a headless target, on which scenes replace each other.
 pub(crate) struct Stage {
     pub(crate) app: App,
@@ -110,9 +113,21 @@ impl Stage {
         Self { rounds_corners: true, ..self }
     }
 
-    /// `bars` for the adapter's grid.
-    pub(crate) fn on_grid(&self, bars: Bars) -> Bars {
-        if self.rounds_corners { bars } else { bars.on_grid(self.grid_bits()) }
+    /// The bits of the grid that corners may be on where the [oracle](Self::oracle) has them elsewhere.
+    pub(crate) fn other_grid(&self) -> Option<u32> {
+        let bits = self.grid_bits();
+        (!self.rounds_corners || bits >= FINE_BITS).then_some(bits)
+    }
+
+    /// `bars` for how the adapter rounds to bytes. Hardware may take the next byte for the nearest one from 0.4 of a
+    /// step to 0.6 (Direct3D's rules of conversion), which is a fifth of all values, and of a pixel's three each.
+    pub(crate) fn rounding(&self, bars: Bars) -> Bars {
+        if self.rounds_nearest() { bars } else { Bars { equal: bars.equal.min(0.5), ..bars } }
+    }
+
+    /// Whether the adapter rounds to the nearest byte.
+    pub(crate) fn rounds_nearest(&self) -> bool {
+        !matches!(self.adapter(), Adapter::Gpu(gpu) if !gpu.is_software())
     }
 
     /// Whether a floating-point picture may show blended objects.
@@ -168,7 +183,7 @@ impl Stage {
         let size = self.world().resource::<Headless>().size;
         let oracle = Oracle::new(self.world(), size).unwrap_or_else(|error| panic!("{error}"));
         let bits = self.grid_bits();
-        if self.rounds_corners && bits < 8 { oracle.on_grid(bits) } else { oracle }
+        if self.rounds_corners && bits < FINE_BITS { oracle.on_grid(bits) } else { oracle }
     }
 
     fn thing(&mut self, thing: &Thing) -> Entity {

@@ -164,7 +164,7 @@ impl Judge {
 
         let steps = f64::from(tolerance.steps);
         let exact = pictures.figures(Limits { grid: self.grid, corners: None, blended, steps });
-        if exact.is_ok() || self.grid == FINE {
+        if exact.is_ok() {
             return exact;
         }
         // As a whole, what the exact triangles show with the bars of the grid, or what those show whose corners are on

@@ -101,6 +101,31 @@ fn a_picture_that_is_right_on_the_grid_alone_passes_as_a_whole_or_not_at_all() {
     }
 }
 
+/// A grid of 1/256 of a pixel moves a slope of a fifth of the range a pixel by twice the bar at most.
+#[test]
+fn a_fine_grid_is_judged_by_either_rule_too() {
+    // Four pixels wide; the corners are 0.45/256 of a pixel beside the grid's places.
+    let beside = 0.45 / 256.0 / 8.0;
+    let moved = |by: f32| ramp(-0.25 + by, 0.25 + by, -0.25 + by, 0.25 + by).oracle(16, 16);
+    let slope = || moved(beside);
+    let (exact, picture) = (slope(), slope().on_grid(8).draw());
+    let expected = exact.draw();
+    let by_either =
+        |picture: &Image| judge_on_grid((&exact, &expected), (slope(), 8), picture, Bars::FLOAT).expect("one size");
+    let verdict = judge(&exact, &expected, &picture, Bars::FLOAT).expect("one size");
+    assert!(!verdict.is_within(), "by the exact triangles: {verdict}");
+    let verdict = by_either(&picture);
+    assert!(verdict.is_within(), "by either: {verdict}");
+    // On the next places of the grid, a pixel off by ten bars, and one that is right by the other rule.
+    let next = moved(1.0 / 256.0 / 8.0).draw();
+    let brighter = with(&picture, [((8, 8), picture.pixel(8, 8).map(|channel| channel + 0.02))]);
+    let exact_there = with(&picture, [((8, 8), expected.pixel(8, 8))]);
+    for (fault, picture) in [("the next places", &next), ("brighter", &brighter), ("exact", &exact_there)] {
+        let verdict = by_either(picture);
+        assert!(!verdict.is_within(), "{fault}: {verdict}");
+    }
+}
+
 /// Every other border of the strips is just in the middle between two places, and goes to either; one that is a
 /// hundredth of a pixel beside it does not.
 #[test]

@@ -42,9 +42,11 @@ fn bytes(stage: &mut Stage, actual: &Image, encoding: Encoding) -> Verdict {
 pub(crate) fn assert_caught(fault: &str, stage: &mut Stage, actual: &Image) {
     let verdict = float(&oracle(stage), actual);
     assert!(!verdict.is_within(), "{fault}: {verdict}");
-    let (truth, rounded) = (oracle(stage), oracle(stage));
-    let verdict = judge_on_grid((&truth, &truth.draw()), (rounded, 4), actual, Bars::FLOAT).expect("one size");
-    assert!(!verdict.is_within(), "{fault}, on a grid of four bits: {verdict}");
+    for bits in [4, 8] {
+        let (truth, rounded) = (oracle(stage), oracle(stage));
+        let verdict = judge_on_grid((&truth, &truth.draw()), (rounded, bits), actual, Bars::FLOAT).expect("one size");
+        assert!(!verdict.is_within(), "{fault}, on a grid of {bits} bits: {verdict}");
+    }
     for encoding in [Encoding::Raw, Encoding::Srgb] {
         let verdict = bytes(stage, actual, encoding);
         assert!(!verdict.is_within(), "{fault}, {encoding:?}: {verdict}");

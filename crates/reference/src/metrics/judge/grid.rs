@@ -1,10 +1,10 @@
-//! Pictures of adapters that put the corners of triangles on a coarse grid.
+//! Pictures of adapters that put the corners of triangles on a grid within a pixel.
 
 use super::divisor::judge_divided;
 use super::{Bars, SizeMismatch, Verdict, judge};
 use crate::{Image, Oracle, VertexGrid};
 
-/// From so many bits on a grid is fine: what it moves is within the bars.
+/// From so many bits on a grid is fine: what it moves is no edge, and within twice to three times the bars.
 const FINE_BITS: u32 = 8;
 
 /// Where corners are on the drawer's own grid, all that is left to move an edge is single precision; in pixels.
@@ -25,7 +25,7 @@ impl Bars {
 /// shows with its corners [on the grid](Oracle::on_grid), with `bars` as they are and edges within 1/64 of a pixel.
 /// By the second images seen from afar and slopes of triangles less than a pixel high are judged. Where corners lie
 /// so near the middle between two places that single precision rounds them to either, all of those may also have
-/// gone to one side along each axis ([`VertexGrid`]). With 8 bits or more it is [`judge`].
+/// gone to one side along each axis ([`VertexGrid`]). With 8 bits or more the first rule is [`judge`].
 ///
 /// # Errors
 /// [`SizeMismatch`].
@@ -36,7 +36,7 @@ pub fn judge_on_grid(
     bars: Bars,
 ) -> Result<Verdict, SizeMismatch> {
     let exact = judge(oracle, expected, actual, bars.on_grid(bits))?;
-    if exact.is_within() || bits >= FINE_BITS {
+    if exact.is_within() {
         return Ok(exact);
     }
     for grid in VertexGrid::all(bits) {
