@@ -1,7 +1,8 @@
 //! Images on objects: what they do is what the oracle says, and what does not have them pays nothing for them.
 
-use crate::render::compare::{FLOAT, judge};
+use crate::render::compare::{FLOAT, Failures, judge};
 use crate::render::conformance::maps::{SHAPED, map};
+use crate::render::conformance::solids::solid;
 use crate::render::scene::{Lamp, Map, Scene, Thing, material, point_light};
 use crate::render::stage::Stage;
 use halfway::prelude::*;
@@ -73,6 +74,26 @@ fn a_picture_of_another_filter_place_or_image_is_found_out() {
         let (verdict, _) = judge(&mut stage, &Image::from_float(&picture), FLOAT);
         assert!(!verdict.is_within(), "{number}: {verdict}");
     }
+}
+
+/// Nothing is drawn of a ball around the camera, so that no pipeline reads its image, or solid; what is drawn after it
+/// reads the other.
+#[test]
+fn what_comes_after_something_textured_out_of_sight_is_drawn() {
+    let (mut stage, mut failures) = (Stage::new(64, 48), Failures::default());
+    let image = || vec![(MapKind::Color, map(Sampling::default(), UvTransform::default()))];
+    for shading in SHADINGS {
+        for is_image_seen in [false, true] {
+            let mut scene = scene(shading, None);
+            let around = Thing::new(UvSphere::new(0.5, 128, 64)).at(Transform::from_xyz(0.4, 1.0, 3.0));
+            scene.things.insert(0, around);
+            scene.things[usize::from(is_image_seen)].maps = image();
+            scene.things[usize::from(!is_image_seen)].solid = Some(solid(SolidKind::Marble));
+            failures.draw(&format!("{shading:?}, image {is_image_seen}"), &mut stage, &scene, FLOAT);
+            assert!(stage.report().patches_culled > 0, "the ball has patches");
+        }
+    }
+    failures.finish();
 }
 
 #[test]

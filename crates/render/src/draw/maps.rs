@@ -16,7 +16,8 @@ use halfway_texture::{ImageForm, MapKind, Pyramid, Texture};
 #[derive(Default)]
 pub(crate) struct MapTextures {
     textures: HashMap<(AssetId<Texture>, ImageForm, Part), MapTexture>,
-    groups: Vec<(MapsUse, Pyramids, wgpu::BindGroup)>,
+    /// By their numbers.
+    groups: Vec<BoundMaps>,
     /// What is bound where there is no image.
     none: Option<wgpu::TextureView>,
 }
@@ -60,6 +61,21 @@ fn bound<'a>(of: &'a MapsUse, pyramids: &'a Pyramids) -> impl Iterator<Item = Op
 /// The images of a set, as they were when it was bound.
 type Pyramids = [Option<Pyramid>; MapKind::COUNT];
 
+/// A set of images, as it was bound.
+struct BoundMaps {
+    of: MapsUse,
+    pyramids: Pyramids,
+    /// `None` where it could not be, and where no pipeline reads such a set yet; others are bound all the same.
+    group: Option<wgpu::BindGroup>,
+}
+
+impl BoundMaps {
+    fn is_of(&self, of: &MapsUse, pyramids: &Pyramids) -> bool {
+        let mut both = self.pyramids.iter().flatten().zip(pyramids.iter().flatten());
+        self.group.is_some() && self.of == *of && both.all(|(a, b)| a.is_same(b))
+    }
+}
+
 struct MapTexture {
     pyramid: Pyramid,
     view: wgpu::TextureView,
@@ -81,32 +97,30 @@ impl MapTextures {
         });
         for (number, of) in used.iter().enumerate() {
             let pyramids = of.slots.map(|slot| slot.map(|of| of.pyramid(textures)));
-            let is_same = |a: &Pyramids| {
-                let both = a.iter().flatten().zip(pyramids.iter().flatten());
-                both.into_iter().all(|(a, b)| a.is_same(b))
-            };
-            let is_there = |(known, made, _): &(MapsUse, Pyramids, _)| known == of && is_same(made);
-            if self.groups.get(number).is_some_and(is_there) {
+            if self.groups.get(number).is_some_and(|bound| bound.is_of(of, &pyramids)) {
                 continue;
             }
-            self.groups.truncate(number);
-            match self.bind(gpu, pipelines, of, &pyramids) {
-                Ok(Some((group, bytes))) => {
+            let group = match self.bind(gpu, pipelines, of, &pyramids) {
+                Ok(bound) => bound.map(|(group, bytes)| {
                     report.bytes_uploaded += bytes;
-                    self.groups.push((*of, pyramids, group));
-                }
-                Ok(None) => return,
+                    group
+                }),
                 Err(error) => {
                     report.errors.push(error);
-                    return;
+                    None
                 }
+            };
+            let bound = BoundMaps { of: *of, pyramids, group };
+            match self.groups.get_mut(number) {
+                Some(before) => *before = bound,
+                None => self.groups.push(bound),
             }
         }
     }
 
     /// The bindings of a set, by its number from 1 on.
     pub(crate) fn group(&self, number: u32) -> Option<&wgpu::BindGroup> {
-        self.groups.get((number as usize).checked_sub(1)?).map(|(.., group)| group)
+        self.groups.get((number as usize).checked_sub(1)?)?.group.as_ref()
     }
 
     /// `None` while no pipeline reads images.
