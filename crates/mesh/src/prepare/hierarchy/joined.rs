@@ -5,10 +5,10 @@ use bevy_math::DVec3;
 use super::PatchGroup;
 use super::box_grid::not_less;
 use super::collapse::{Collapse, LocalMesh};
+use super::deviation::Deviation;
 use super::fine_surface::Surfaces;
 use super::frame::longest_edge;
 use super::maker::{FARTHEST, Loose, Maker, SEVERAL, has_room};
-use super::overlay::Deviation;
 use super::stand_ins::StandIns;
 use super::widest_angle::WidestAngle;
 

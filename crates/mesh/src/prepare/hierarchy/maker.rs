@@ -6,9 +6,9 @@ use std::sync::{Mutex, PoisonError};
 use bevy_math::{DVec3, Vec3};
 
 use super::box_grid::not_less;
+use super::deviation::Deviation;
 use super::frame::longest_edge;
 use super::open_border::open_border;
-use super::overlay::Deviation;
 use super::stand_ins::StandIns;
 use super::{PatchGroup, WHOLE};
 use crate::Mesh;

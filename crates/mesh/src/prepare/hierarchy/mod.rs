@@ -3,6 +3,7 @@
 mod box_grid;
 mod clip;
 mod collapse;
+mod deviation;
 mod edge_twins;
 mod fine_surface;
 mod four_vectors;
@@ -20,6 +21,7 @@ mod rooms;
 mod rounds;
 mod stand_ins;
 mod triangle_fans;
+mod uncovered;
 mod vicinity;
 mod widest_angle;
 

@@ -5,42 +5,21 @@ use bevy_math::{DVec3, Vec3A};
 
 use super::box_grid::BoxGrid;
 use super::clip::{ClippedPart, PartCorner};
+use super::deviation::Deviation;
 use super::fine_surface::{FineSurface, Surfaces};
-use super::frame::{Frame, longest_edge};
+use super::frame::Frame;
 use super::homes::Homes;
+use super::uncovered::{FineHomes, Uncovered};
 use crate::Mesh;
 use crate::prepare::nearest::TriangleCorners;
 
 impl Mesh {
-    fn corners(&self, triangle: [u32; 3]) -> TriangleCorners {
+    pub(super) fn corners(&self, triangle: [u32; 3]) -> TriangleCorners {
         triangle.map(|vertex| self.positions()[vertex as usize].as_dvec3())
     }
 
-    fn corner_normals(&self, triangle: [u32; 3]) -> [DVec3; 3] {
+    pub(super) fn corner_normals(&self, triangle: [u32; 3]) -> [DVec3; 3] {
         triangle.map(|vertex| self.normals()[vertex as usize].as_dvec3())
-    }
-}
-
-/// A bound of how far apart two surfaces are.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Deviation {
-    /// No point of either is further from the other than this.
-    pub(super) distance: f64,
-    /// Every point of the coarse one has a point of the fine one within the distance whose normal is turned by no more
-    /// than this, in radians.
-    pub(super) angle: f64,
-}
-
-impl Deviation {
-    pub(super) fn max(self, other: Self) -> Self {
-        Self { distance: self.distance.max(other.distance), angle: self.angle.max(other.angle) }
-    }
-
-    /// Of a surface from a third one, where this is that of the first from the second, and `other` of the second from
-    /// the third.
-    pub(super) fn and(self, other: Self) -> Self {
-        let angle = (self.angle + other.angle).min(std::f64::consts::PI);
-        Self { distance: self.distance + other.distance, angle }
     }
 }
 
@@ -62,9 +41,8 @@ impl Surfaces<'_> {
     /// reduction of triangle meshes with multivariate data"). A fine triangle is not clipped where they are no larger
     /// at its own corners than what was found before. The parts have to fill the triangle once
     /// ([how that is seen](FineSurface::covers_once)); they are found from its corners on, over edges, and if these do
-    /// not fill it, among all by place. Where none do, its own corners, which are vertices of the
-    /// fine surface, bound it: none of its points is further from one of them than the longest edge over √3
-    /// (Jung 1901).
+    /// not fill it, among all by place. Where none do, the distance from the nearest ones bounds it
+    /// ([`Uncovered`]), both ways.
     ///
     /// The other way round, what lies over no coarse triangle lies in a wedge at an edge. The distance from the edge is
     /// convex, so over a part of a fine triangle it is largest at a corner: at a side of a coarse triangle, which has
@@ -88,7 +66,8 @@ impl Surfaces<'_> {
         let mut near_this = Vec::new();
         let mut run = 0;
         let known = Differences { distance: known.distance, sine2: sine2_of(known.angle) };
-        let (mut look, mut longest_unseen) = (Look { most: known, part: ClippedPart::default() }, 0.0_f64);
+        let mut look = Look { most: known, part: ClippedPart::default() };
+        let mut uncovered = Vec::new();
         for ((number, &triangle), (own, &corners)) in (0..).zip(self.coarse).zip(coarse.iter().zip(&corners)) {
             if self.runs.get(run).is_some_and(|run| run.end <= number as usize) {
                 run += 1;
@@ -116,17 +95,15 @@ impl Surfaces<'_> {
                     near[run].push(at);
                 }
             }
-            if is_known {
-                continue;
+            if !is_known {
+                uncovered.push(Uncovered { coarse: number, near: near_this.clone() });
             }
-            look.most = look.most.max(by_corners(corners, self.mesh.corner_normals(triangle)));
-            let over = near_this.iter().map(|&at| longest_edge(self.mesh.corners(self.fine[at as usize])));
-            longest_unseen = over.fold(longest_unseen, f64::max);
         }
-        let mut deviation = look.most.deviation();
         let (farthest, homes) = homes.farthest(&fine.positions, &corners);
-        // What lies over a triangle that is not covered is no further from a vertex than its longest edge over √3.
-        deviation.distance = deviation.distance.max(farthest + longest_unseen / 3f64.sqrt());
+        let deviation = look.most.deviation().max(Deviation { distance: farthest, angle: 0.0 });
+        // Last, so that least of it is looked for.
+        let fine = FineHomes { triangles: &fine.triangles, homes: &homes, farthest };
+        let deviation = self.with_uncovered(deviation, &uncovered, &fine);
         for of_run in &mut near {
             of_run.sort_unstable();
         }
@@ -139,20 +116,9 @@ impl Surfaces<'_> {
     }
 }
 
-/// What the corners of a coarse triangle say of it.
-fn by_corners(corners: TriangleCorners, [a, b, c]: [DVec3; 3]) -> Differences {
-    let angle = angle(a, b).max(angle(b, c)).max(angle(c, a));
-    Differences { distance: longest_edge(corners) / 3f64.sqrt(), sine2: sine2_of(angle) }
-}
-
 /// The square of the sine of an angle; infinite from a right angle on.
 fn sine2_of(angle: f64) -> f64 {
     if angle < std::f64::consts::FRAC_PI_2 { angle.sin().powi(2) } else { f64::INFINITY }
-}
-
-/// The angle between two vectors, exact also where it is small.
-pub(super) fn angle(a: DVec3, b: DVec3) -> f64 {
-    a.cross(b).length().atan2(a.dot(b))
 }
 
 /// How far surfaces are apart at most.
@@ -195,7 +161,6 @@ fn sine2(most: f64, least: f64) -> f64 {
 
 /// What has been seen of the fine surface over coarse triangles.
 struct Look {
-    /// Also by the corners of those that are not filled once.
     most: Differences,
     part: ClippedPart,
 }

@@ -4,10 +4,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::*;
 
+use super::deviation::Deviation;
 use super::joined::{Joined, JoinedPart};
 use super::maker::{Loose, Maker, NOBODY, SEVERAL};
 use super::neighbours;
-use super::overlay::Deviation;
 use super::rooms::rooms;
 use super::{HierarchyPatch, PatchGroup, PatchHierarchy};
 

@@ -2,7 +2,7 @@
 
 use bevy_math::DVec3;
 
-use super::overlay::angle;
+use super::deviation::angle;
 
 /// The largest of angles.
 #[derive(Default)]
