@@ -119,6 +119,7 @@ impl Shade {
             Self::Mixed(Terms { diffuse, specular }) if diffuse != specular => {
                 format!("diffuse {}, specular {}", place(diffuse), place(specular))
             }
+            Self::Auto(2) => "automatic, within 1 step".to_owned(),
             Self::Auto(half_steps) => format!("automatic, within {} steps", f64::from(half_steps) / 2.0),
             other => other.family().name().to_owned(),
         }
