@@ -42,3 +42,67 @@ pub(super) fn rooms(mesh: &Mesh, places: &[u32], (unit, within): (f64, f64), sto
     });
     rooms.into_iter().map(|room| f32::from_bits(room.into_inner())).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use bevy_math::Vec3;
+
+    use super::*;
+
+    const ACROSS: u32 = 12;
+    const APART: f32 = 0.05;
+
+    /// A fine sheet from 0 to 1 over one large triangle that is turned by an angle about the sheet's middle line, in one
+    /// piece: a strip leads from a corner of the one to a corner of the other. The large triangle is last.
+    fn sheet_over_a_triangle(angle: f32) -> Mesh {
+        let step = |i: u32| i as f32 / ACROSS as f32;
+        let row = |y| (0..=ACROSS).map(move |x| Vec3::new(step(x), step(y), APART));
+        let mut positions: Vec<Vec3> = (0..=ACROSS).flat_map(row).collect();
+        let (sin, cos) = angle.sin_cos();
+        let at = |x: f32, y: f32| Vec3::new(0.5 + x * cos, y, x * sin);
+        positions.extend([at(-9.0, -9.0), at(9.0, -9.0), at(0.0, 18.0)]);
+        let last = positions.len() as u32 - 1;
+        let mut indices = Vec::new();
+        for (x, y) in (0..ACROSS).flat_map(|y| (0..ACROSS).map(move |x| (x, y))) {
+            let a = y * (ACROSS + 1) + x;
+            let [b, c, d] = [a + 1, a + ACROSS + 1, a + ACROSS + 2];
+            indices.extend([a, b, d, a, d, c]);
+        }
+        indices.extend([0, 1, last - 2]);
+        indices.extend([last - 2, last - 1, last]);
+        Mesh::new(positions, indices).expect("a mesh")
+    }
+
+    fn rooms_of(mesh: &Mesh) -> Vec<f32> {
+        let places: Vec<u32> = (0..mesh.positions().len() as u32).collect();
+        rooms(mesh, &places, (1.0, 1.0), &AtomicBool::new(false))
+    }
+
+    /// The middle of the sheet, whose normal the strip does not turn.
+    const MIDDLE: usize = ((ACROSS + 1) * (ACROSS / 2) + ACROSS / 2) as usize;
+
+    #[test]
+    fn what_lies_under_a_vertex_has_as_little_room_as_that() {
+        let mesh = sheet_over_a_triangle(0.0);
+        let rooms = rooms_of(&mesh);
+        let last = rooms.len() - 1;
+        // No line along a normal of the large triangle's corners meets the sheet.
+        for vertex in [MIDDLE, last - 1, last] {
+            assert!((rooms[vertex] - APART).abs() < 1e-6, "{vertex}: {}", rooms[vertex]);
+        }
+    }
+
+    #[test]
+    fn what_is_turned_by_more_than_45_degrees_lies_beside() {
+        for (degrees, is_layer) in [(30.0_f32, true), (44.0, true), (46.0, false), (60.0, false)] {
+            let angle = degrees.to_radians();
+            let room = rooms_of(&sheet_over_a_triangle(angle))[MIDDLE];
+            // The distance across the large triangle, whose normals the strip turns a little.
+            let expected = if is_layer { APART * angle.cos() } else { f32::INFINITY };
+            assert!(
+                room == expected || (room - expected).abs() < 1e-3 * expected,
+                "{degrees}°: {room}, expected {expected}"
+            );
+        }
+    }
+}
