@@ -52,8 +52,8 @@ mod tests {
     const ACROSS: u32 = 12;
     const APART: f32 = 0.05;
 
-    /// A fine sheet from 0 to 1 over one large triangle that is turned by an angle about the sheet's middle line, in one
-    /// piece: a strip leads from a corner of the one to a corner of the other. The large triangle is last.
+    /// A fine sheet from 0 to 1 over one large triangle that is turned about the sheet's middle line by an angle. They
+    /// are one piece: a strip leads from a corner of one to one of the other. The large triangle's corners are last.
     fn sheet_over_a_triangle(angle: f32) -> Mesh {
         let step = |i: u32| i as f32 / ACROSS as f32;
         let row = |y| (0..=ACROSS).map(move |x| Vec3::new(step(x), step(y), APART));
