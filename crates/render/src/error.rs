@@ -161,6 +161,12 @@ pub enum RenderError {
         /// What went wrong.
         reason: String,
     },
+    /// Draws were left out of the picture, and nothing else says why: what they read was not there.
+    #[error("{draws} draws are left out of the picture, since what they read is not there: a fault of the renderer")]
+    LeftOut {
+        /// How many.
+        draws: u32,
+    },
     /// The device was lost, and the frame with it. The next one is drawn on a new device.
     #[error("the graphics device was lost: {0}. Everything is made anew on a new device")]
     DeviceLost(String),

@@ -1,7 +1,7 @@
 //! Draw and Deliver: the pass is encoded, submitted and presented.
 
 use crate::batch::batches::Batches;
-use crate::batch::draws::GroupCommands;
+use crate::batch::draws::{DrawGroup, GroupCommands};
 use crate::device::gpu::Gpu;
 use crate::device::gpu_timer::GpuTimer;
 use crate::draw::meshes::MeshBuffers;
@@ -37,7 +37,9 @@ pub(crate) fn draw(
         let timing = timer.as_mut().and_then(|timer| timer.begin(&gpu));
         let [first, last] = around(timing, frame.finished.is_some());
         let mut pass = begin(&mut encoder, frame, attachments, view.camera.unwrap_or_default(), first);
-        record(&mut pass, &batches, &meshes, &pipelines, &buffers);
+        let left_out = record(&mut pass, &batches, &meshes, &pipelines, &buffers);
+        let unsaid = unsaid(left_out, &report);
+        report.errors.extend(unsaid);
         drop(pass);
         finish(&mut encoder, &target, frame, last);
     }
@@ -109,23 +111,33 @@ fn begin<'a>(
     })
 }
 
+/// The error of draws that are left out where there is none yet.
+fn unsaid(draws: u32, report: &FrameReport) -> Option<RenderError> {
+    (draws > 0 && report.errors.is_empty()).then_some(RenderError::LeftOut { draws })
+}
+
+/// Draws what is there to draw with, and returns how many draws had to be left out.
 fn record(
     pass: &mut wgpu::RenderPass<'_>,
     batches: &Batches,
     meshes: &MeshBuffers,
     pipelines: &Pipelines,
     buffers: &Buffers,
-) {
+) -> u32 {
     if let Some((pipeline, surroundings)) = buffers.surroundings.sky() {
         pass.set_pipeline(pipeline);
         pass.set_bind_group(2, surroundings, &[]);
         pass.draw(0..3, 0..1);
     }
-    let Some(instances) = buffers.instances() else { return };
+    let groups = batches.draws.groups();
+    let count = |groups: &[DrawGroup]| groups.iter().map(|group| batches.draws.of(group).len()).sum::<usize>() as u32;
+    let Some(instances) = buffers.instances() else { return count(groups) };
     pass.set_vertex_buffer(0, instances.slice(..));
-    let mut last = None;
-    for group in batches.draws.groups() {
+    let (mut last, mut left_out) = (None, 0);
+    for group in groups {
         let state = &group.state;
+        // Until it is drawn.
+        left_out += count(std::slice::from_ref(group));
         let (Some(pipeline), Some(mesh), Some((bindings, offsets))) =
             (pipelines.get(state.key), meshes.get(state.mesh, state.form), buffers.bindings(state))
         else {
@@ -164,10 +176,11 @@ fn record(
             (GroupCommands::Multi { offset, count }, Some(draws)) => {
                 pass.multi_draw_indexed_indirect(draws, offset, count);
             }
-            // Uploaded before.
-            (GroupCommands::Multi { .. }, None) => {}
+            (GroupCommands::Multi { .. }, None) => continue,
         }
+        left_out -= count(std::slice::from_ref(group));
     }
+    left_out
 }
 
 /// Shows the frame where it goes to a window, and asks the device whether it is still there.
@@ -194,8 +207,8 @@ pub(crate) fn present(
 ///
 /// # Errors
 /// [`RenderError::NoFrame`] before the schedule has run with a `TextureTarget`, or the first error of
-/// [`FrameReport::errors`] where the frame could not be made. With `Ok`, what was left out of the frame is in the
-/// report.
+/// [`FrameReport::errors`] where the frame could not be made; [`RenderError::LeftOut`]. With `Ok`, what was left out of
+/// the frame is in the report.
 pub fn encode_frame(world: &World, encoder: &mut wgpu::CommandEncoder) -> Result<(), RenderError> {
     let ready = || {
         let target = world.get_resource::<Target>()?;
@@ -212,8 +225,47 @@ pub fn encode_frame(world: &World, encoder: &mut wgpu::CommandEncoder) -> Result
         return Err(first.cloned().unwrap_or(RenderError::NoFrame));
     };
     let mut pass = begin(encoder, frame, attachments, camera, None);
-    record(&mut pass, batches, meshes, pipelines, buffers);
+    let left_out = record(&mut pass, batches, meshes, pipelines, buffers);
     drop(pass);
     finish(encoder, target, frame, None);
-    Ok(())
+    let unsaid = world.get_resource::<FrameReport>().and_then(|report| unsaid(left_out, report));
+    unsaid.map_or(Ok(()), Err)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frame::sets::RenderSet;
+    use crate::plugin::RenderPlugin;
+    use crate::{Headless, Pixels};
+    use bevy_app::{App, PostUpdate};
+    use bevy_asset::Assets;
+    use bevy_math::{UVec2, Vec3};
+    use bevy_transform::TransformPlugin;
+    use bevy_transform::components::Transform;
+    use halfway_mesh::{Cuboid, Mesh, Mesh3d};
+
+    /// Takes away what the draws of a box read once they are made: the frame has no error but this one.
+    #[test]
+    fn nothing_is_left_out_without_an_error() {
+        fn lose_meshes(mut meshes: ResMut<MeshBuffers>) {
+            *meshes = MeshBuffers::default();
+        }
+        let mut app = App::new();
+        app.insert_resource(Gpu::open_headless().expect("an adapter"));
+        app.add_plugins((TransformPlugin, RenderPlugin::default()));
+        app.insert_resource(Headless { size: UVec2::new(32, 24), pixels: Pixels::Byte });
+        app.finish();
+        app.cleanup();
+        let world = app.world_mut();
+        let mesh = world.resource_mut::<Assets<Mesh>>().add(Mesh::from(Cuboid::default()));
+        world.spawn((Mesh3d(mesh), Transform::default()));
+        world.spawn((Camera::default(), Transform::from_xyz(0.0, 0.0, 3.0).looking_at(Vec3::ZERO, Vec3::Y)));
+        app.update();
+        let report = |app: &App| app.world().resource::<FrameReport>().clone();
+        assert_eq!((report(&app).errors, report(&app).draws), (vec![], 1));
+        app.add_systems(PostUpdate, lose_meshes.after(RenderSet::Upload).before(RenderSet::Draw));
+        app.update();
+        assert_eq!(report(&app).errors, [RenderError::LeftOut { draws: 1 }]);
+    }
 }
