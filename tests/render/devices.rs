@@ -1,10 +1,11 @@
 //! The device is lost, or another one takes its place.
 
-use crate::render::scene::{Lamp, Scene, Thing, directional_light, material, other_material, point_light};
+use crate::render::scene::{Lamp, Map, Scene, Thing, directional_light, material, other_material, point_light};
 use crate::render::stage::Stage;
 use bevy_app::PostUpdate;
 use halfway::prelude::*;
-use halfway::render::{Compile, Gpu, GpuTimer, PendingPicture, RenderError, RenderSet};
+use halfway::render::{Compile, Gpu, GpuTimer, PendingPicture, RenderError, RenderSet, wgpu};
+use halfway::texture::TexelImage;
 
 /// Something of all that a device holds: flat, smooth and blended meshes, patches, few lights and many.
 fn scene(lights: u8) -> Scene {
@@ -28,6 +29,36 @@ fn lose(world: &World) {
 
 fn is_loss<T>(result: &Result<T, RenderError>) -> bool {
     matches!(result, Err(RenderError::DeviceLost(reason)) if reason == "it was destroyed")
+}
+
+/// An image that is too large for the device is told, and what comes after it has its own.
+#[test]
+fn what_comes_after_an_image_that_is_too_large_is_drawn() {
+    let mut gpu = Gpu::open_headless().expect("an adapter");
+    let limits = wgpu::Limits { max_texture_dimension_2d: 64, ..gpu.adapter.limits() };
+    let descriptor = wgpu::DeviceDescriptor {
+        required_limits: limits,
+        required_features: gpu.device.features(),
+        ..Default::default()
+    };
+    (gpu.device, gpu.queue) = pollster::block_on(gpu.adapter.request_device(&descriptor)).expect("a small device");
+    let mut stage = Stage::new(32, 24);
+    stage.app.insert_resource(gpu);
+    let square = |x: f32, side: u32, image: [f32; 4]| {
+        let image = TexelImage::from_fn(side, side, |_, _| image).expect("an image");
+        let maps = vec![(MapKind::Color, Map::new(image))];
+        Thing { maps, ..Thing::square(Vec3::new(x, 0.0, -2.0), Vec3::Z, 0.9) }
+    };
+    let grey = [0.5, 0.5, 0.5, 1.0];
+    let mut scene = Scene::in_eye_space().ambient(1.0);
+    scene.things = vec![square(-0.5, 128, grey), square(0.5, 4, grey)];
+    stage.set(&scene);
+    let errors = stage.frame().errors.clone();
+    assert!(matches!(errors[..], [RenderError::TooLarge { .. }]), "{errors:?}");
+    let picture = PendingPicture::request(stage.app.world()).and_then(PendingPicture::wait);
+    let Ok(Picture::Float(picture)) = picture else { panic!("a picture in floating point") };
+    let [left, right] = [12, 20].map(|x| picture.get_pixel(x, 12).0[0]);
+    assert!(left == 0.0 && right > 0.01, "{left}, {right}");
 }
 
 /// Stages of all kinds, each with what it draws.

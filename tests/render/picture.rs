@@ -1,9 +1,11 @@
 //! The picture itself: encodings, background, clamping, samples, sizes, depth, what the camera sees.
 
-use crate::render::compare::{FLOAT, Failures, SRGB, assert_as_expected, assert_identical, difference};
+use crate::render::compare::{FLOAT, Failures, SRGB, assert_as_expected, assert_identical, difference, judge};
 use crate::render::scene::{Lamp, Scene, Thing, directional_light, glowing, point_light};
-use crate::render::stage::Stage;
+use crate::render::stage::{Stage, of_hardware};
 use halfway::prelude::*;
+use halfway::reference::Image;
+use halfway::reference::metrics::Bars;
 use halfway::render::PendingPicture;
 
 /// A square that fills the picture with one grey.
@@ -35,7 +37,7 @@ fn encodings_write_the_values_that_they_define() {
             for (what, scene) in [("a surface", drawn), ("the background", background)] {
                 let [red, green, blue, alpha] = stage.draw_bytes(&scene).get_pixel(1, 1).0;
                 // Vulkan lets the sRGB curve be 0.6 of a step off; as it is, 0.1 and 0.5 lie between two steps.
-                let is_tie = raw_is_tie(intensity, if stage.rounds_nearest() { 1e-5 } else { 0.1 });
+                let is_tie = raw_is_tie(intensity, if stage.is_hardware() { 0.1 } else { 1e-5 });
                 let exact = encoding == Encoding::Raw && !is_tie;
                 let step = u8::from(!exact && (0.001..1.0).contains(&intensity));
                 assert!(red.abs_diff(expected) <= step, "{what} of {intensity}, {encoding:?}: {red}, not {expected}");
@@ -60,6 +62,21 @@ fn srgb_bytes_turn_over_where_the_curve_says() {
     for (k, [below, above]) in (0..255).zip(bytes) {
         assert!(below.abs_diff(k) <= may_be_off, "{below}, not {k}");
         assert!(above.abs_diff(k + 1) <= may_be_off, "{above}, not {}", k + 1);
+    }
+}
+
+/// A planted fault: bytes that are all one step too dark are found, also by the bars of hardware.
+#[test]
+fn bytes_that_are_all_one_step_off_are_found() {
+    let mut stage = Stage::new(24, 16);
+    let mut scene = grey(0.4);
+    scene.camera.encoding = Encoding::Raw;
+    let mut picture = stage.draw_bytes(&scene);
+    let bars = of_hardware(Bars::bytes(Encoding::Raw));
+    for is_right in [true, false] {
+        let (verdict, _) = judge(&mut stage, &Image::from_bytes(&picture, Encoding::Raw), bars);
+        assert_eq!(verdict.is_within(), is_right, "{verdict}");
+        picture.pixels_mut().for_each(|pixel| pixel.0[..3].iter_mut().for_each(|byte| *byte -= 1));
     }
 }
 

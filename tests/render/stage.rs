@@ -17,6 +17,12 @@ pub(crate) const FULL: Tolerance = Tolerance::steps(0.5);
 /// Grids of so many bits or more move what is interpolated, but no edge to speak of.
 const FINE_BITS: u32 = 8;
 
+/// `bars` for bytes of hardware, which may take the next byte for the nearest one from 0.4 of a step to 0.6 (Direct3D's
+/// rules of conversion): a fifth of all values, and of a pixel's three each.
+pub(crate) fn of_hardware(bars: Bars) -> Bars {
+    Bars { equal: bars.equal.min(0.5), ..bars }
+}
+
 /// An App with the facade's plugins and a headless target, on which scenes replace each other.
 pub(crate) struct Stage {
     pub(crate) app: App,
@@ -119,15 +125,13 @@ impl Stage {
         (!self.rounds_corners || bits >= FINE_BITS).then_some(bits)
     }
 
-    /// `bars` for how the adapter rounds to bytes. Hardware may take the next byte for the nearest one from 0.4 of a
-    /// step to 0.6 (Direct3D's rules of conversion), which is a fifth of all values, and of a pixel's three each.
+    /// `bars` for how the adapter rounds to bytes.
     pub(crate) fn rounding(&self, bars: Bars) -> Bars {
-        if self.rounds_nearest() { bars } else { Bars { equal: bars.equal.min(0.5), ..bars } }
+        if self.is_hardware() { of_hardware(bars) } else { bars }
     }
 
-    /// Whether the adapter rounds to the nearest byte.
-    pub(crate) fn rounds_nearest(&self) -> bool {
-        !matches!(self.adapter(), Adapter::Gpu(gpu) if !gpu.is_software())
+    pub(crate) fn is_hardware(&self) -> bool {
+        matches!(self.adapter(), Adapter::Gpu(gpu) if !gpu.is_software())
     }
 
     /// Whether a floating-point picture may show blended objects.
