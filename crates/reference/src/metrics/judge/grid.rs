@@ -4,7 +4,7 @@ use super::divisor::judge_divided;
 use super::{Bars, SizeMismatch, Verdict, judge};
 use crate::{Image, Oracle, VertexGrid};
 
-/// From so many bits on a grid is fine: what it moves is no edge, and within twice to three times the bars.
+/// From so many bits on a grid is fine: the first rule has no wider bars. On a slope it may still move a value by more.
 const FINE_BITS: u32 = 8;
 
 /// Where corners are on the drawer's own grid, all that is left to move an edge is single precision; in pixels.
