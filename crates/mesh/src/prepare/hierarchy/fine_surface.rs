@@ -38,8 +38,9 @@ pub(super) struct FineSurface {
     pub(super) triangles: Vec<[u32; 3]>,
     /// Of each vertex its place, as a number of their own.
     place_numbers: Vec<u32>,
-    /// Of each place the triangles around it.
+    /// Of each place the triangles around it, and the sum of their normals, each as long as twice the area.
     fans: TriangleFans,
+    areas: Vec<DVec3>,
     /// Of each edge of each triangle, by places.
     twins: Vec<u32>,
     /// Of each triangle the corners in single precision.
@@ -119,6 +120,14 @@ impl FineSurface {
         }
         let by_places: Vec<[u32; 3]> =
             triangles.iter().map(|triangle| triangle.map(|vertex| numbers[vertex as usize])).collect();
+        let mut areas = vec![DVec3::ZERO; count as usize];
+        for (&triangle, places) in fine.iter().zip(&by_places) {
+            let [a, b, c] = mesh.corners(triangle);
+            let area = (b - a).cross(c - a);
+            for &place in places {
+                areas[place as usize] += area;
+            }
+        }
         let unseen = SeenVertex {
             from: u32::MAX,
             is_turned: false,
@@ -132,6 +141,7 @@ impl FineSurface {
             normals: vertices.iter().map(|&vertex| mesh.normals()[vertex as usize].as_dvec3()).collect(),
             twins: edge_twins(&by_places, count as usize),
             fans: TriangleFans::new(&by_places, count as usize),
+            areas,
             place_numbers: numbers,
             come_to: vec![u32::MAX; triangles.len()],
             waiting: Vec::new(),
@@ -163,6 +173,12 @@ impl FineSurface {
             }
         }
         is_same
+    }
+
+    /// Where the surface faces around the corners of a coarse triangle, as long as twice its areas there.
+    pub(super) fn outward(&self, own: [u32; 3]) -> DVec3 {
+        let places = own.iter().filter_map(|&vertex| self.place_numbers.get(vertex as usize));
+        places.map(|&place| self.areas[place as usize]).sum()
     }
 
     /// The triangles that were come to and not looked at.
@@ -338,7 +354,7 @@ mod tests {
             Surfaces { mesh: &mesh, places: &numbers, coarse: &[[0, 1, 2]], runs: &[], fine, covered: &numbers };
         let (mut surface, _) = FineSurface::new(&surfaces, &mut [u32::MAX; 7]);
         let corners = [0, 1, 2].map(|vertex| surface.positions[vertex]);
-        let frame = Frame::new(corners, [DVec3::Z; 3]).unwrap();
+        let frame = Frame::new(corners, [DVec3::Z; 3], DVec3::Z).unwrap();
         for number in 0..fine.len() as u32 {
             surface.look_exactly(&frame, 0, number);
         }

@@ -7,11 +7,18 @@ use crate::prepare::nearest::TriangleCorners;
 /// Further off than this part of a triangle's longest edge nothing is looked for over it.
 const REACH: f64 = 0.25;
 
-/// A coarse triangle, and where points are over it.
+/// From a triangle that makes no more than this with the surface around it, as a cosine, it is looked along its own
+/// normal.
+const LEAST_COSINE: f64 = 0.1;
+
+/// A coarse triangle, and where points are over it: along the mean normal of the surface around its corners, which
+/// noise turns less than the triangle itself.
 pub(super) struct Frame {
     pub(super) origin: DVec3,
-    /// What the weights of its second and third corner grow by, and of unit length, its normal.
+    /// What the weights of its second and third corner grow by, and the height over it.
     pub(super) axes: [DVec3; 3],
+    /// Along which heights are, of unit length.
+    upward: DVec3,
     /// At the first corner, and what is added towards the second and the third.
     normals: [DVec3; 3],
     /// Of unit length.
@@ -21,19 +28,23 @@ pub(super) struct Frame {
 }
 
 impl Frame {
-    /// `None` where the triangle has no area to speak of.
-    pub(super) fn new([a, b, c]: TriangleCorners, [na, nb, nc]: [DVec3; 3]) -> Option<Self> {
+    /// Of a triangle with these normals, on a surface that faces `outward`, of any length. `None` where the triangle
+    /// has no area to speak of.
+    pub(super) fn new([a, b, c]: TriangleCorners, [na, nb, nc]: [DVec3; 3], outward: DVec3) -> Option<Self> {
         let (ab, ac) = (b - a, c - a);
         let normal = ab.cross(ac);
         let longest = longest_edge([a, b, c]);
         if normal.length() <= 1e-9 * longest * longest {
             return None;
         }
-        let square = normal.length_squared();
-        let axes = [ac.cross(normal) / square, normal.cross(ab) / square, normal.normalize()];
         let mean_normal = (na + nb + nc).normalize_or_zero();
+        let own = normal.normalize();
+        let outward = outward.normalize_or_zero();
+        let upward = if own.dot(outward) > LEAST_COSINE { outward } else { own };
+        let volume = normal.dot(upward);
+        let axes = [ac.cross(upward) / volume, upward.cross(ab) / volume, normal / volume];
         let (normals, reach) = ([na, nb - na, nc - na], REACH * longest);
-        Some(Self { origin: a, axes, normals, mean_normal, reach, quick: QuickFrame::new(a, axes, reach) })
+        Some(Self { origin: a, axes, upward, normals, mean_normal, reach, quick: QuickFrame::new(a, axes, reach) })
     }
 
     /// The interpolated normal, not of unit length; beside the triangle it goes on as it is over it.
@@ -46,9 +57,9 @@ pub(super) fn longest_edge([a, b, c]: TriangleCorners) -> f64 {
     a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a)).sqrt()
 }
 
-/// The box around a coarse triangle and what lies within its reach, along its normal only.
+/// The box around a coarse triangle and what lies over it within its reach.
 pub(super) fn reached([a, b, c]: TriangleCorners, frame: &Frame) -> [DVec3; 2] {
-    let reach = frame.reach * frame.axes[2].abs();
+    let reach = frame.reach * frame.upward.abs();
     [a.min(b).min(c) - reach, a.max(b).max(c) + reach]
 }
 

@@ -35,14 +35,14 @@ pub(super) struct Overlay {
 impl Surfaces<'_> {
     /// Bounds the distance of the surfaces.
     ///
-    /// Each coarse triangle is compared with the fine ones that lie over it along its normal: clipped by its sides,
-    /// they have parts over which both surfaces are linear, so that the distance along the normal and the difference of
-    /// the interpolated normals are largest at corners of the parts (as in Bajaj and Schikore 1996, "Error-bounded
-    /// reduction of triangle meshes with multivariate data"). A fine triangle is not clipped where they are no larger
-    /// at its own corners than what was found before. The parts have to fill the triangle once
-    /// ([how that is seen](FineSurface::covers_once)); they are found from its corners on, over edges, and if these do
-    /// not fill it, among all by place. Where none do, the distance from the nearest ones bounds it
-    /// ([`Uncovered`]), both ways.
+    /// Each coarse triangle is compared with the fine ones that lie over it along the mean normal of the surface there
+    /// ([`Frame`]): clipped by its sides, they have parts over which both surfaces are linear, so that the distance
+    /// along that normal and the difference of the interpolated normals are largest at corners of the parts (as in
+    /// Bajaj and Schikore 1996, "Error-bounded reduction of triangle meshes with multivariate data"). A fine triangle
+    /// is not clipped where they are no larger at its own corners than what was found before. The parts have to fill
+    /// the triangle once ([how that is seen](FineSurface::covers_once)); they are found from its corners on, over
+    /// edges, and if these do not fill it, among all by place. Where none do, the distance from the nearest ones bounds
+    /// it ([`Uncovered`]), both ways.
     ///
     /// The other way round, what lies over no coarse triangle lies in a wedge at an edge. The distance from the edge is
     /// convex, so over a part of a fine triangle it is largest at a corner: at a side of a coarse triangle, which has
@@ -73,7 +73,7 @@ impl Surfaces<'_> {
                 run += 1;
             }
             near_this.clear();
-            let frame = Frame::new(corners, self.mesh.corner_normals(triangle));
+            let frame = Frame::new(corners, self.mesh.corner_normals(triangle), fine.outward(*own));
             let is_same = fine.begin(*own, number);
             let is_known = if is_same {
                 near_this.extend_from_slice(fine.waiting());

@@ -11,6 +11,11 @@ pub(super) const MOST_AROUND: usize = 64;
 /// A triangle may turn by so much at once, as a cosine.
 const TURN: f32 = 0.3;
 
+/// The cosine between a triangle and the mean of those around its vertex, which none falls below if it was above. Else
+/// three vertices of a row, moved by noise, make a triangle that stands upright: no surface lies over it, so that how
+/// far off it is is hardly known.
+const FACING: f32 = 0.6;
+
 /// How much of a loss the distance of the vertex that goes from the triangles that stay is.
 const GAP_WEIGHT: f32 = 2.0;
 
@@ -62,6 +67,9 @@ struct FourSides {
     /// Across the triangles, as long as twice their areas, and what the square of that counts for a turn.
     across: FourVectors,
     turn2: Vec4,
+    /// The least square, with its sign, of the cosine between the fan's normal and each triangle that takes one's
+    /// place.
+    facing2: Vec4,
     normals: [FourVectors; 2],
 }
 
@@ -78,6 +86,8 @@ pub(super) struct Vicinity {
     has_one_vertex: bool,
     /// Of each place the number of the neighbour that it is, from 1; 0 if it is none.
     numbers: Vec<u8>,
+    /// The mean of its triangles' normals by their areas, of unit length; zero where it has none.
+    normal: Vec3,
     /// The neighbours by what collapsing onto them loses, more or less: its bits, and the neighbour's number.
     pub(super) targets: Vec<(u32, u8)>,
 }
@@ -110,6 +120,10 @@ fn spread2(a: FourVectors, b: FourVectors, c: FourVectors) -> Vec4 {
     let mean = (a + b + c) * (1.0 / 3.0);
     let [a, b, c] = [a, b, c].map(|n| (n - mean).length_squared());
     a.max(b).max(c)
+}
+
+fn signed_square(x: Vec4) -> Vec4 {
+    x * x.abs()
 }
 
 impl Vicinity {
@@ -187,7 +201,7 @@ impl Vicinity {
 
     /// Measures what is around a place at `p`.
     pub(super) fn measure(&mut self, p: DVec3, positions: &[DVec3], normals: &[Vec3]) {
-        let Self { fan, around, sides, unit, .. } = self;
+        let Self { fan, around, sides, unit, normal, .. } = self;
         let mut longest2 = 0.0_f64;
         for neighbour in &mut *around {
             let offset = positions[neighbour.place as usize] - p;
@@ -200,18 +214,23 @@ impl Vicinity {
             neighbour.offset *= per_unit;
         }
         sides.clear();
+        let mut areas = Vec3::ZERO;
         for start in (0..fan.len()).step_by(4) {
             let mut corners = [start as u8; 4];
             let (mut numbers, mut offsets) = ([[0.0; 4]; 2], [[Vec3::ZERO; 4]; 2]);
             let mut side_normals = [[Vec3::ZERO; 4]; 2];
             for lane in 0..4 {
-                let number = if start + lane < fan.len() { start + lane } else { start };
+                let is_one_more = start + lane < fan.len();
+                let number = if is_one_more { start + lane } else { start };
                 corners[lane] = number as u8;
                 let corner = &fan[number];
                 for end in 0..2 {
                     numbers[end][lane] = f32::from(corner.ends[end]);
                     offsets[end][lane] = around[usize::from(corner.ends[end])].offset;
                     side_normals[end][lane] = normals[corner.vertices[1 + end] as usize];
+                }
+                if is_one_more {
+                    areas += offsets[0][lane].cross(offsets[1][lane]);
                 }
             }
             let (from, to) = (FourVectors::new(offsets[0]), FourVectors::new(offsets[1]));
@@ -225,8 +244,16 @@ impl Vicinity {
                 length2: side.length_squared(),
                 across,
                 turn2: TURN * TURN * across.length_squared(),
+                facing2: Vec4::ZERO,
                 normals: [FourVectors::new(side_normals[0]), FourVectors::new(side_normals[1])],
             });
+        }
+        *normal = areas.normalize_or_zero();
+        for four in sides {
+            let along = four.across.dot(FourVectors::splat(*normal));
+            let least = Vec4::splat(FACING * FACING);
+            let faces = signed_square(along).cmpge(least * four.across.length_squared());
+            four.facing2 = Vec4::select(faces, least, Vec4::NEG_INFINITY);
         }
     }
 
@@ -275,6 +302,8 @@ impl Vicinity {
             let after = four.side.cross(from);
             let dot = four.across.dot(after);
             let turns = dot.cmple(Vec4::ZERO) | (dot * dot).cmple(four.turn2 * after.length_squared());
+            let along = after.dot(FourVectors::splat(self.normal));
+            let turns = turns | signed_square(along).cmplt(four.facing2 * after.length_squared());
             if (turns & !goes).any() {
                 return None;
             }
