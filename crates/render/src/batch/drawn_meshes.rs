@@ -65,11 +65,11 @@ impl<T> DrawnMeshes<T> {
             if there.is_some_and(|there| Arc::ptr_eq(&there.detail, &geometry.detail)) {
                 continue;
             }
-            let Some(indices) = &geometry.indices else { continue };
-            match make(geometry, indices, key.1, there.map(|there| &there.made)) {
+            let Some(triangles) = &geometry.triangles else { continue };
+            match make(geometry, triangles.as_flattened(), key.1, there.map(|there| &there.made)) {
                 Ok((made, bytes)) => {
                     report.bytes_uploaded += bytes;
-                    geometry.indices = None;
+                    geometry.triangles = None;
                     let (source, detail) = (geometry.source.clone(), Arc::clone(&geometry.detail));
                     self.meshes.insert(key, DrawnMesh { made, source, detail });
                 }

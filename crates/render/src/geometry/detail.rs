@@ -4,16 +4,18 @@ use crate::geometry::allowed::{Allowed, GroupErrors};
 use crate::geometry::families::Families;
 use crate::geometry::patches::{MeshPatch, Sight};
 use halfway_mesh::{HierarchyPatch, Mesh, PatchGroup, PatchHierarchy};
+use halfway_raster::Pieces;
 use std::ops::Range;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-/// A mesh's triangles in the order in which they are drawn: patch by patch.
+/// A mesh's triangles in the order in which they are drawn: patch by patch. A clone shares them.
 #[derive(Clone, Debug)]
 pub(crate) struct MeshTriangles {
-    pub(crate) corners: Vec<[u32; 3]>,
-    /// Shared, as it is needed after the triangles have gone to what draws them.
+    pub(crate) corners: Arc<Vec<[u32; 3]>>,
     pub(crate) detail: Arc<Detail>,
+    /// The same as the CPU draws them, where that was asked for.
+    pub(crate) pieces: Option<Arc<Pieces>>,
 }
 
 /// The runs of a mesh's triangles as they are drawn, and which may stand for others.
@@ -66,7 +68,7 @@ impl MeshTriangles {
     pub(crate) fn in_order(mesh: &Mesh) -> Self {
         let corners: Vec<_> = mesh.triangles().collect();
         let patches = vec![MeshPatch::new(mesh, &corners, 0)];
-        Self { corners, detail: Arc::new(Detail::finest(mesh, patches)) }
+        Self::new(corners, Detail::finest(mesh, patches))
     }
 
     /// The mesh as it is, in patches.
@@ -75,14 +77,19 @@ impl MeshTriangles {
         let runs = mesh.cut_into_patches(&mut corners, mesh.triangles_of_a_patch());
         let patch = |run: Range<usize>| MeshPatch::new(mesh, &corners[run.clone()], 3 * run.start as u32);
         let patches = runs.into_iter().map(patch).collect();
-        Self { detail: Arc::new(Detail::finest(mesh, patches)), corners }
+        let detail = Detail::finest(mesh, patches);
+        Self::new(corners, detail)
     }
 
     /// With coarser patches; `None` where `stop` has become true.
     pub(crate) fn in_levels(mesh: &Mesh, stop: &AtomicBool) -> Option<Self> {
         let PatchHierarchy { triangles, patches, groups } = mesh.patch_hierarchy(stop)?;
-        let detail = Arc::new(Detail::new(mesh, &triangles, &patches, &groups));
-        Some(Self { corners: triangles, detail })
+        let detail = Detail::new(mesh, &triangles, &patches, &groups);
+        Some(Self::new(triangles, detail))
+    }
+
+    fn new(corners: Vec<[u32; 3]>, detail: Detail) -> Self {
+        Self { corners: Arc::new(corners), detail: Arc::new(detail), pieces: None }
     }
 }
 

@@ -101,7 +101,7 @@ mod tests {
 
     /// All that is known of more than one patch, with the triangles that it is known of.
     fn joined(mesh: &Mesh) -> Vec<(PatchShape, Vec<[u32; 3]>)> {
-        let MeshTriangles { corners, detail } = MeshTriangles::in_patches(mesh);
+        let MeshTriangles { corners, detail, .. } = MeshTriangles::in_patches(mesh);
         let mut found = Vec::new();
         let mut end = 0;
         while end < detail.patches().len() as u32 {

@@ -15,6 +15,7 @@ use bevy_ecs::prelude::*;
 use bevy_platform::collections::HashMap;
 use halfway_lighting::{Blend, Frequency, Mask, Terms, Tolerance, VertexColors, ViewTolerance};
 use halfway_mesh::{Mesh, Mesh3d};
+use halfway_raster::Pieces;
 use halfway_texture::{MapKind, Maps, SolidTexture, SurfaceMap, UvSet};
 use std::sync::Arc;
 
@@ -30,12 +31,14 @@ pub(crate) struct Geometry {
     pub(crate) opposite_normals: bool,
     /// Where its patches lie on images; of meshes that have coordinates and are laid out for images.
     pub(crate) uv_boxes: UvBoxes,
-    /// Which vertices make triangles, in the order in which they are drawn; until what draws it has taken it.
-    pub(crate) indices: Option<Vec<u32>>,
+    /// Which vertices make triangles, in the order in which they are drawn; until what draws it has taken them.
+    pub(crate) triangles: Option<Arc<Vec<[u32; 3]>>>,
+    /// The same as the CPU draws them, where they have been made ready beside the frames.
+    pub(crate) pieces: Option<Arc<Pieces>>,
 }
 
 /// How a mesh is laid out for drawing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[expect(clippy::struct_excessive_bools, reason = "each is one independent choice")]
 pub(crate) struct Form {
     /// For flat shading.
@@ -158,18 +161,18 @@ impl Geometries {
         let drawn = dressed.as_ref().unwrap_or(mesh);
         let opposite_normals =
             there.map_or_else(|| !form.flat && has_opposite_normals(mesh), |there| there.opposite_normals);
-        let MeshTriangles { corners, detail } = match levels {
+        let MeshTriangles { corners, detail, pieces } = match levels {
             Some(levels) => levels.clone(),
             None if form.ordered => MeshTriangles::in_order(drawn),
             None => MeshTriangles::in_patches(drawn),
         };
         let has_uvs = form.mapped && [0, 1].iter().any(|&set| drawn.uv_set(set).is_some());
         let uv_boxes = if has_uvs { UvBoxes::new(drawn, &corners, detail.patches()) } else { UvBoxes::default() };
-        let indices = Some(corners.into_flattened());
         let drawn = drawn.clone();
         self.radii.insert(id, detail.whole.shape.radius());
         self.changes += 1;
-        let geometry = Geometry { detail, source: mesh.clone(), drawn, opposite_normals, uv_boxes, indices };
+        let triangles = Some(corners);
+        let geometry = Geometry { detail, source: mesh.clone(), drawn, opposite_normals, uv_boxes, triangles, pieces };
         self.meshes.insert((id, form), geometry);
     }
 }

@@ -260,8 +260,8 @@ mod tests {
     use halfway_mesh::{Plane, UvSphere};
 
     fn cut_whole(mesh: &Mesh) -> (Vec<[u32; 3]>, Vec<MeshPatch>) {
-        let MeshTriangles { corners, detail } = MeshTriangles::in_patches(mesh);
-        (corners, detail.patches().to_vec())
+        let MeshTriangles { corners, detail, .. } = MeshTriangles::in_patches(mesh);
+        (corners.to_vec(), detail.patches().to_vec())
     }
 
     #[test]

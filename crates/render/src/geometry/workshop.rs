@@ -6,6 +6,7 @@ use bevy_asset::AssetId;
 use bevy_ecs::prelude::Resource;
 use bevy_platform::collections::HashMap;
 use halfway_mesh::Mesh;
+use halfway_raster::Pieces;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -28,6 +29,8 @@ pub(crate) struct Workshop {
     /// How many meshes have been sent to the thread and have not come back.
     on_their_way: usize,
     make: Make,
+    /// How what draws takes them, if it takes time: done with them, and not in the frame that shows them first.
+    pub(crate) cut: Option<Cut>,
     /// What went wrong beside the frames, until it is reported.
     pub(crate) failures: Vec<RenderError>,
 }
@@ -40,6 +43,9 @@ impl Default for Workshop {
 
 /// Makes the levels of a mesh, unless it is told to stop.
 type Make = fn(&Mesh, &AtomicBool) -> Option<MeshTriangles>;
+
+/// Cuts triangles into the CPU's pieces, if it can.
+type Cut = fn(&Mesh, &MeshTriangles) -> Option<Pieces>;
 
 struct Order {
     source: Mesh,
@@ -59,7 +65,7 @@ enum OrderState {
 }
 
 struct Thread {
-    wanted: Sender<(AssetId<Mesh>, Mesh)>,
+    wanted: Sender<(AssetId<Mesh>, Mesh, Option<Cut>)>,
     made: Mutex<Receiver<Made>>,
     /// What it is doing is no longer wanted.
     stop: Arc<AtomicBool>,
@@ -77,7 +83,15 @@ type Made = (AssetId<Mesh>, Mesh, Result<MeshTriangles, String>);
 
 impl Workshop {
     fn making(make: Make) -> Self {
-        Self { orders: HashMap::default(), frame: 0, thread: None, on_their_way: 0, make, failures: Vec::new() }
+        Self {
+            orders: HashMap::default(),
+            frame: 0,
+            thread: None,
+            on_their_way: 0,
+            make,
+            cut: None,
+            failures: Vec::new(),
+        }
     }
 
     /// The levels of `mesh` if they are made. Asks for them if another frame has wanted them before, and then waits for
@@ -86,14 +100,14 @@ impl Workshop {
         if mesh.triangle_count() < FEWEST {
             return None;
         }
-        let Self { orders, frame, thread, on_their_way, make, failures } = self;
+        let Self { orders, frame, thread, on_their_way, make, cut, failures } = self;
         let order = orders.entry(id).or_insert_with(|| Order::new(mesh, *frame));
         if !is_same(&order.source, mesh) {
             *order = Order::new(mesh, *frame);
         }
         let before = std::mem::replace(&mut order.wanted, *frame);
         if matches!(order.state, OrderState::Seen) && before < *frame && waits {
-            order.state = match made(*make, mesh, &AtomicBool::new(false)) {
+            order.state = match made(*make, *cut, mesh, &AtomicBool::new(false)) {
                 Ok(triangles) => triangles.map_or(OrderState::Refused, OrderState::Made),
                 Err(reason) => {
                     failures.push(no_levels(id, reason));
@@ -105,7 +119,7 @@ impl Workshop {
             if thread.is_none() {
                 *thread = Thread::start(*make);
             }
-            let asked = thread.as_ref().is_some_and(|thread| thread.wanted.send((id, mesh.clone())).is_ok());
+            let asked = thread.as_ref().is_some_and(|thread| thread.wanted.send((id, mesh.clone(), *cut)).is_ok());
             order.state = if asked { OrderState::Asked } else { OrderState::Refused };
             if asked {
                 *on_their_way += 1;
@@ -174,22 +188,27 @@ fn no_levels(id: AssetId<Mesh>, reason: String) -> RenderError {
 }
 
 /// What is made of a mesh, `None` where it was told to stop, or what went wrong.
-fn made(make: Make, mesh: &Mesh, stop: &AtomicBool) -> Result<Option<MeshTriangles>, String> {
+fn made(make: Make, cut: Option<Cut>, mesh: &Mesh, stop: &AtomicBool) -> Result<Option<MeshTriangles>, String> {
+    let made = || {
+        let mut triangles = make(mesh, stop)?;
+        triangles.pieces = cut.and_then(|cut| cut(mesh, &triangles)).map(Arc::new);
+        Some(triangles)
+    };
     // What was being made is dropped, and the flag is as good as before.
-    catch_unwind(AssertUnwindSafe(|| make(mesh, stop))).map_err(|panic| panic_message(&*panic))
+    catch_unwind(AssertUnwindSafe(made)).map_err(|panic| panic_message(&*panic))
 }
 
 impl Thread {
     /// `None` where the system gives no thread.
     fn start(make: Make) -> Option<Self> {
-        let (wanted, wishes) = channel::<(AssetId<Mesh>, Mesh)>();
+        let (wanted, wishes) = channel::<(AssetId<Mesh>, Mesh, Option<Cut>)>();
         let (sender, receiver) = channel();
         let stop = Arc::new(AtomicBool::new(false));
         let stopped = Arc::clone(&stop);
         let work = move || {
             // Ends when the workshop is gone.
-            for (id, mesh) in wishes {
-                let triangles = match made(make, &mesh, &stopped) {
+            for (id, mesh, cut) in wishes {
+                let triangles = match made(make, cut, &mesh, &stopped) {
                     Ok(Some(triangles)) => Ok(triangles),
                     Ok(None) => break,
                     Err(reason) => Err(reason),
