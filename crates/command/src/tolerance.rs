@@ -33,7 +33,15 @@ impl ToleranceArgs {
 /// In a few words.
 pub(crate) fn describe(tolerance: Tolerance) -> String {
     let Tolerance { steps, pixels } = tolerance;
-    if tolerance == Tolerance::EXACT { "exact".to_owned() } else { format!("{steps} steps of 255, {pixels} pixels") }
+    let counted = |number: f32, what| match number.to_string() {
+        one if one == "1" => format!("1 {what}"),
+        number => format!("{number} {what}s"),
+    };
+    if tolerance == Tolerance::EXACT {
+        "exact".to_owned()
+    } else {
+        format!("{} of 255, {}", counted(steps, "step"), counted(pixels, "pixel"))
+    }
 }
 
 fn parse(text: &str) -> Result<Tolerance, String> {

@@ -425,7 +425,8 @@ impl<'a> Panels<'a> {
         let bought = fronts.map(|front| front.least_errors(&self.points));
         let rows = (0..least[0].len()).map(|i| {
             let [a, b] = least.map(|choices| time(choices[i].best));
-            vec![format!("{} steps", least[0][i].limit), a, b]
+            let limit = least[0][i].limit.to_string();
+            vec![format!("{limit} {}", if limit == "1" { "step" } else { "steps" }), a, b]
         });
         let costs = PageTable {
             caption: format!("For this RMS error at most, the least time ({backend})"),

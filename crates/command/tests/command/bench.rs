@@ -54,7 +54,7 @@ fn a_benchmark_prints_a_row_for_each_shading() {
     let table = succeeds(&folder, &["bench", "s4", "--rounds", "1"]);
     for text in [
         "256 × 256 pixels",
-        "tolerance: 1 steps of 255, 0.5 pixels",
+        "tolerance: 1 step of 255, 0.5 pixels",
         "driver: ",
         "App::update",
         "own CPU, ms",
