@@ -307,13 +307,15 @@ impl LitPatches {
         backend: &mut impl Backend,
     ) {
         let mut run: Option<OpenRun> = None;
+        let is_plain = !shared.false_colors && !seen.is_empty();
+        let of_all = is_plain.then(|| self.table.number(&mut self.records, object.material, RecordLists::default()));
         for &SeenPatch { patch, stretch, .. } in seen {
-            let key = key(patch);
-            let (key, record) = if shared.false_colors {
-                let (key, _, record) = self.false_colored(object, patch, key, None, backend);
-                (key, record)
-            } else {
-                (key, self.table.number(&mut self.records, object.material, RecordLists::default()))
+            let (key, record) = match (key(patch), of_all) {
+                (key, Some(record)) => (key, record),
+                (key, None) => {
+                    let (key, _, record) = self.false_colored(object, patch, key, None, backend);
+                    (key, record)
+                }
             };
             let next = OpenRun { key, lights: 0, record, indices: patch.indices.clone(), stretch };
             self.go_on(object, &mut run, next);

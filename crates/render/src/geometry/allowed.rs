@@ -103,6 +103,8 @@ enum ShownTerms {
 struct TurnedTerms {
     /// The sum of the largest values.
     largest: f32,
+    /// The most that a radian of turn changes.
+    slope: f32,
     /// A highlight that is cut off.
     cut: f32,
     exponent: f32,
@@ -301,6 +303,7 @@ impl Demand<'_> {
         [
             TurnedTerms {
                 largest: diffuse,
+                slope: diffuse,
                 cut: 0.0,
                 exponent: 1.0,
                 turn: 1.0,
@@ -309,6 +312,7 @@ impl Demand<'_> {
             },
             TurnedTerms {
                 largest: specular,
+                slope: specular * steepest(larger.max(1.0)) * turn,
                 cut,
                 exponent: larger,
                 turn,
@@ -359,7 +363,7 @@ impl TurnedTerms {
             _ => self.largest,
         };
         let interpolated = if self.by_vertices { self.interpolated(group) } else { 0.0 };
-        self.largest * steepest(self.exponent.max(1.0)) * self.turn * group.normal_error + cut + interpolated
+        self.slope * group.normal_error + cut + interpolated
     }
 
     /// By how much a point of a triangle may lie outside of what its corners show, as a part of what is allowed.
