@@ -369,7 +369,7 @@ fn noise_goes_within_its_own_height() {
         let mesh = wild(180, noise);
         let leaning = vec![Vec3::new(0.9, 0.1, 0.0).normalize(); mesh.positions().len()];
         let leaning = Mesh::from_parts(mesh.positions().to_vec(), Some(leaning), None, mesh.indices().to_vec());
-        for (name, mesh) in [("its own", mesh), ("leaning", leaning.unwrap())] {
+        for (name, mesh) in [("its own", mesh), ("leaning", leaning.expect("a normal for each vertex"))] {
             let hierarchy = hierarchy(&mesh);
             let left = hierarchy.triangles_within(2.0 * noise) as f32 / hierarchy.finest_count() as f32;
             println!("noise of {noise}, {name} normals: {left} of the triangles");
