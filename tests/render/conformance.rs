@@ -9,6 +9,7 @@ pub(crate) mod colors;
 pub(crate) mod environment;
 mod features;
 pub(crate) mod maps;
+mod on_the_cpu;
 pub(crate) mod policies;
 pub(crate) mod solids;
 
@@ -243,62 +244,6 @@ fn conform_on_fine_grids(title: &str, rows: &[Row]) {
 }
 
 #[test]
-fn every_mask_conforms_with_four_samples() {
-    conform_on_the_cpu("masks, four samples", &maps::rows_of_masks_with_four_samples());
-}
-
-/// On the CPU, whatever else is tested: llvmpipe is off by up to 5e-2 of the range where a triangle covers a pixel in
-/// part, and why is not known.
-fn conform_on_the_cpu(title: &str, rows: &[Row]) {
-    conform_on(Stage::on_the_cpu(SIZE.x, SIZE.y), title, rows);
-}
-
-#[test]
-fn environments_conform_with_four_samples() {
-    conform_on_the_cpu("environment, four samples", &environment::rows_of_four());
-}
-
-/// Planted faults: of a mask, a cutoff that is off by 0.06, and none; of an environment, one that is turned, and one
-/// that is brighter.
-#[test]
-fn faults_are_found_with_four_samples() {
-    let mut stage = Stage::on_the_cpu(SIZE.x, SIZE.y);
-    let faults: [(Vec<Row>, [fn(&mut Scene); 2]); 2] = [
-        (
-            maps::rows_of_masks_with_four_samples(),
-            [
-                |scene| scene.things.iter_mut().for_each(|thing| thing.mask = thing.mask.map(|cutoff| cutoff + 0.06)),
-                |scene| scene.things.iter_mut().for_each(|thing| thing.mask = None),
-            ],
-        ),
-        (
-            environment::rows_of_four(),
-            [
-                |scene| scene.environment.as_mut().expect("one").rotation += 0.1,
-                |scene| scene.environment.as_mut().expect("one").strength *= 1.05,
-            ],
-        ),
-    ];
-    for (rows, faults) in &faults {
-        for (Row { name, scene, float, .. }, (number, fault)) in
-            // Of masks on one side and of mirrors alone; the others take long.
-            rows
-                .iter()
-                .filter(|row| row.name.ends_with("one side") || row.name.ends_with("a mirror"))
-                .flat_map(|row| faults.iter().enumerate().map(move |fault| (row, fault)))
-        {
-            let mut wrong = scene.clone();
-            fault(&mut wrong);
-            let picture = stage.draw(&wrong);
-            stage.set(scene);
-            stage.frame();
-            let (verdict, _) = judge(&mut stage, &Image::from_float(&picture), *float);
-            assert!(!verdict.is_within(), "{name}: fault {number} is not found");
-        }
-    }
-}
-
-#[test]
 fn every_way_to_shade_colors_of_vertices_conforms() {
     conform("colours of vertices", &colors::rows());
 }
@@ -332,20 +277,24 @@ fn highlights_of_moments_conform() {
 fn highlights_of_other_far_normals_are_found_out() {
     use FarNormals::{Lean, Mean, Toksvig};
     let mut stage = Stage::new(SIZE.x, SIZE.y).judged_on_grid();
-    for (right, wrong) in [(Toksvig, Mean), (Lean, Mean), (Lean, Toksvig)] {
+    let pairs = [(Toksvig, Mean), (Lean, Mean), (Lean, Toksvig)];
+    let faults = pairs.into_iter().flat_map(|(right, wrong)| {
         let mut rows = maps::rows_of_far_normals(right);
         rows.retain(|row| row.name.ends_with("Phong, 4 times"));
         assert_eq!(rows.len(), 4, "with shininess and without");
-        for Row { name, scene, .. } in &rows {
-            let mut other = scene.clone();
-            let normals = other.things.iter_mut().flat_map(|thing| &mut thing.maps);
-            normals.for_each(|(_, map)| map.far_normals = wrong);
-            let picture = stage.draw(&other);
-            stage.set(scene);
-            stage.frame();
-            let (verdict, _) = judge(&mut stage, &Image::from_float(&picture), FLOAT);
-            assert!(!verdict.is_within(), "{name}, {wrong:?} for {right:?}: {verdict}");
-        }
+        rows.into_iter().map(move |row| (row, right, wrong))
+    });
+    let share = Share::of_environment();
+    for (_, (Row { name, scene, .. }, right, wrong)) in (0..).zip(faults).filter(|(place, of)| share.has(*place, &of.0))
+    {
+        let mut other = scene.clone();
+        let normals = other.things.iter_mut().flat_map(|thing| &mut thing.maps);
+        normals.for_each(|(_, map)| map.far_normals = wrong);
+        let picture = stage.draw(&other);
+        stage.set(&scene);
+        stage.frame();
+        let (verdict, _) = judge(&mut stage, &Image::from_float(&picture), FLOAT);
+        assert!(!verdict.is_within(), "{name}, {wrong:?} for {right:?}: {verdict}");
     }
 }
 
@@ -353,23 +302,6 @@ fn highlights_of_other_far_normals_are_found_out() {
 #[test]
 fn all_kinds_of_images_at_once_conform() {
     conform("all kinds of images", &maps::rows_of_all_kinds());
-}
-
-/// A planted fault: each image that is left out is found where opacity counts.
-#[test]
-fn an_image_that_is_left_out_is_found() {
-    let rows = maps::rows_of_all_kinds();
-    let whole = &rows.iter().find(|row| row.name == "all, phong, both sides, blended").expect("a row").scene;
-    let mut stage = Stage::on_the_cpu(SIZE.x, SIZE.y);
-    for number in 0..whole.things[0].maps.len() {
-        let mut without = whole.clone();
-        without.things.iter_mut().for_each(|thing| drop(thing.maps.remove(number)));
-        let picture = Image::from_float(&stage.draw(&without));
-        stage.set(whole);
-        stage.frame();
-        let (verdict, _) = judge(&mut stage, &picture, FLOAT);
-        assert!(!verdict.is_within(), "without {:?}: {verdict}", whole.things[0].maps[number].0);
-    }
 }
 
 #[test]

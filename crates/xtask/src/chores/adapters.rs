@@ -69,11 +69,15 @@ pub(crate) fn try_each(adapters: Vec<TriedAdapter>) -> Result {
     if failed.is_empty() { Ok(()) } else { Err(Failure::new(failed.join("\n"))) }
 }
 
-/// Leaves out the tests of the adapter that a line of `halfway adapters` is about, and gives each other driver its
-/// share: all of them together draw each row once, or what the `tests` leave them of it.
+/// Leaves out the tests of the adapter that a line of `halfway adapters` is about and those that the CPU has drawn with
+/// them, and gives each other driver its share: all of them together draw each row once, or what the `tests` leave them
+/// of it.
 fn leave_out_what_runs(adapters: &mut [TriedAdapter], line: &str, tests: Option<&str>) -> Result {
     for adapter in adapters.iter_mut().filter(|adapter| adapter.is_chosen_alone() && adapter.is(line)) {
         adapter.tests = Tests::None;
+    }
+    for adapter in adapters.iter_mut().filter(|adapter| adapter.tests == Tests::Most) {
+        adapter.tests = Tests::Rest;
     }
     let is_driver = |adapter: &TriedAdapter| adapter.tests == Tests::Few;
     let of_tests = usize::from(tests.is_some());
@@ -107,7 +111,7 @@ const WILD: [&str; 1] = ["scenes_that_failed_once_are_right"];
 const KNOWN_WILD: &str = "known_failures_fail";
 
 /// Those of [`TESTS`] that the CPU draws, whatever the adapter.
-const ON_THE_CPU: &str = "with_four_samples";
+const ON_THE_CPU: &str = "render::conformance::on_the_cpu::";
 
 /// Which of the conformance suite's rows with textures are drawn: drivers take minutes to compile all of them.
 const SHARE: &str = "HALFWAY_SHARE";
@@ -148,6 +152,8 @@ enum Tests {
     Few,
     /// All but those of [`LEFT_OUT`].
     Most,
+    /// Those of `Most` that have not run where all tests have: all but those of [`ON_THE_CPU`].
+    Rest,
 }
 
 impl Tests {
@@ -156,6 +162,7 @@ impl Tests {
             Self::None => vec![],
             Self::Few => TESTS.into_iter().chain(["--skip", ON_THE_CPU]).collect(),
             Self::Most => LEFT_OUT.iter().flat_map(|(name, _)| ["--skip", *name]).collect(),
+            Self::Rest => Self::Most.arguments().into_iter().chain(["--skip", ON_THE_CPU]).collect(),
         }
     }
 }
@@ -271,7 +278,7 @@ impl TriedAdapter {
         }
         self.run("render", &self.tests.arguments())?;
         match self.tests {
-            Tests::None | Tests::Most => Ok(()),
+            Tests::None | Tests::Most | Tests::Rest => Ok(()),
             Tests::Few if WITH_KNOWN.contains(&self.name) => {
                 self.run("wild", &[WILD.as_slice(), &[KNOWN_WILD]].concat())
             }
@@ -356,7 +363,7 @@ mod tests {
             adapter("c", Tests::Most, CHOICE, ["", "(cpu"]),
         ];
         leave_out_what_runs(&mut adapters, "a 1.0 (vulkan, software)", None).unwrap();
-        assert_eq!(adapters.each_ref().map(|it| it.tests), [Tests::None, Tests::Few, Tests::Few, Tests::Most]);
+        assert_eq!(adapters.each_ref().map(|it| it.tests), [Tests::None, Tests::Few, Tests::Few, Tests::Rest]);
         let share = |adapter: &TriedAdapter| {
             adapter.variables.iter().find(|(name, _)| *name == SHARE).map(|(_, it)| it.clone())
         };
@@ -375,8 +382,9 @@ mod tests {
 
     #[test]
     fn what_the_cpu_draws_has_tests() {
-        let path = root().join("tests/render/conformance.rs");
-        assert!(std::fs::read_to_string(path).unwrap().contains(&format!("{ON_THE_CPU}()")));
+        let path = root().join("tests").join(ON_THE_CPU.trim_end_matches("::").replace("::", "/")).with_extension("rs");
+        let text = std::fs::read_to_string(path).unwrap();
+        assert!(text.contains("#[test]") && text.contains("Stage::on_the_cpu(") && !text.contains("Stage::new("));
     }
 
     #[test]
