@@ -11,7 +11,9 @@ pub(crate) fn located(error: &serde_json::Error, text: &str, origin: &str) -> Sc
     let full = error.to_string();
     let message = full.strip_suffix(&suffix).unwrap_or(&full);
 
-    let (place, last_key) = place_at(text, byte_of(text, error.line(), error.column()));
+    let stopped = byte_of(text, error.line(), error.column());
+    let last_read = if error.is_eof() { stopped } else { text.floor_char_boundary(stopped.saturating_sub(1)) };
+    let (place, last_key) = place_at(text, stopped);
     let (key, byte) = match last_key {
         // The parser stops right after a key that it does not want.
         Some(name) if is_about_a_key(message) => (name.key, name.name),
@@ -20,6 +22,10 @@ pub(crate) fn located(error: &serde_json::Error, text: &str, origin: &str) -> Sc
             Some((key, _)) => {
                 let place = place_of(text, &format!("{}.{key}", place.key));
                 (place.key, place.name)
+            }
+            // What is no JSON in an object or a list may be lines away from where that begins.
+            None if (error.is_syntax() || error.is_eof()) && text[place.value..].starts_with(['{', '[']) => {
+                (place.key, last_read)
             }
             None => (place.key, place.value),
         },
@@ -55,6 +61,7 @@ fn in_words_of_the_format(message: &str, key: &str) -> String {
         ("invalid length ", "is a list of length "),
         ("expected value", "not JSON: expected a value"),
         ("EOF while parsing", "the text ends inside"),
+        ("key must be a string", "not JSON: expected a key in quotes"),
     ] {
         if let Some(rest) = words.strip_prefix(rust) {
             words = format!("{json}{rest}");
