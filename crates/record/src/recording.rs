@@ -8,7 +8,7 @@ use std::time::Duration;
 use bevy_app::{App, AppExit, Plugin, PluginsState};
 use bevy_math::UVec2;
 use bevy_time::TimeUpdateStrategy;
-use halfway_lighting::{Camera, Encoding};
+use halfway_lighting::{Camera, Encoding, Intensity};
 use halfway_reference::OracleError;
 use halfway_render::{Headless, Picture, Pixels, RenderError, render_picture};
 use thiserror::Error;
@@ -34,7 +34,9 @@ pub struct Recording {
     /// The file. One frame makes a picture: `.png` or `.exr`. More make an animated PNG, or a file each where the path
     /// has a `{}`, which becomes the frame's number with four digits.
     pub path: PathBuf,
-    /// The frames to keep, counted from 0; those before the first are run but not drawn to a file. Default 0..1.
+    /// The frames to keep, counted from 0; those before the first run as well, since what moves goes on from
+    /// frame to frame, and are drawn small, or in full where the camera's intensity policy follows the picture before.
+    /// Default 0..1.
     pub frames: Range<u32>,
     /// Width and height in pixels. Default 1280 × 720.
     pub size: UVec2,
@@ -180,7 +182,7 @@ pub fn record(
 }
 
 /// The same with a drawer of its own, such as [`ReferenceDrawing::picture`](crate::ReferenceDrawing::picture). For each
-/// frame that is kept `draw` runs the App once and gives the picture.
+/// frame that is kept, and for those before on which it depends, `draw` runs the App once and gives the picture.
 ///
 /// # Errors
 /// The first thing that kept a frame from being drawn or written.
@@ -199,12 +201,21 @@ pub fn record_with(
     } else {
         PictureFormat::of(&recording.path_of(0), recording.bits)?.pixels()
     };
-    app.insert_resource(Headless { size: recording.size, pixels });
+    let [full, small] =
+        [recording.size, (recording.size / SMALLER).max(UVec2::ONE)].map(|size| Headless { size, pixels });
+    app.insert_resource(full);
     app.insert_resource(TimeUpdateStrategy::ManualDuration(Duration::from_secs(1) / u32::from(recording.rate.max(1))));
     ready(app);
-    for _ in 0..recording.frames.start {
-        app.update();
+    for number in 0..recording.frames.start {
+        if depends_on_the_frame_before(app) {
+            app.insert_resource(full);
+            draw(app, FrameToDraw { number, size: recording.size, pixels })?;
+        } else {
+            app.insert_resource(small);
+            app.update();
+        }
     }
+    app.insert_resource(full);
     for number in recording.frames.clone() {
         let picture = draw(app, FrameToDraw { number, size: recording.size, pixels })?;
         sink.write(number, &picture, encoding(app))?;
@@ -214,6 +225,18 @@ pub fn record_with(
         }
     }
     sink.finish(encoding(app))
+}
+
+/// How many times smaller the frames before the first are along each side.
+const SMALLER: u32 = 16;
+
+/// Whether what the camera shows may depend on the picture before, so that all have to be drawn. A camera that is not
+/// there before the first frame may be of either kind.
+fn depends_on_the_frame_before(app: &mut App) -> bool {
+    let world = app.world_mut();
+    let mut cameras = world.query::<&Camera>();
+    let follows = |intensity| matches!(intensity, Intensity::Renormalize { smoothing } if smoothing > 0.0);
+    cameras.iter(world).next().is_none_or(|camera| follows(camera.intensity))
 }
 
 /// Finishes the plugins, as a runner has to.
