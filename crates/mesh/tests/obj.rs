@@ -225,7 +225,7 @@ fn what_is_skipped_is_said() {
 fn malformed_files_are_refused_by_line() {
     const CORNERS: &str = "corners of the form v, v/vt, v//vn or v/vt/vn are expected";
     let with = |line: &str| format!("{SQUARE}{line}\n").into_bytes();
-    let rows: [(&str, Vec<u8>, String); 24] = [
+    let rows: [(&str, Vec<u8>, String); 25] = [
         ("two coordinates", b"v 0 0\n".into(), ":1: `v 0 0`; `v` and three numbers are expected".into()),
         ("five numbers", b"v 0 0 0 1 1\n".into(), ":1: `v 0 0 0 1 1`; `v` and three numbers are expected".into()),
         ("NaN position", with("v nan 0 0"), ":5: `nan` in `v`; a finite number is expected".into()),
@@ -277,7 +277,8 @@ fn malformed_files_are_refused_by_line() {
         ("no library", with("mtllib"), ":5: `mtllib`; `mtllib` and a file name is expected".into()),
         ("continued line", with("f 1 \\\n2 \\\n3\nf 1 2 9"), ":8: the position 9 in `f`; a position from 1 to 4, or from -4 to -1, is expected".into()),
         ("no faces", with(""), ": no triangles; at least one is expected".into()),
-        ("lines alone", with("l 1 2"), ": no triangles; at least one is expected".into()),
+        ("a small face", with("f 1 2"), ": no triangles; at least one is expected (model.obj:5: a face of fewer than three corners is skipped)".into()),
+        ("lines alone", with("l 1 2"), ": no triangles; at least one is expected (model.obj:5: `l` is skipped)".into()),
         ("no number", b"v 0 0 caf\xE9\n".into(), ":1: `café` in `v`; a finite number is expected".into()),
     ];
     for (name, text, expected) in rows {

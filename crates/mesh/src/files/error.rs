@@ -81,10 +81,12 @@ pub enum LoadError {
         source: MeshError,
     },
     /// The file shows nothing.
-    #[error("{}: no triangles; at least one is expected", path.display())]
+    #[error("{}: no triangles; at least one is expected{}", path.display(), in_brackets(skipped.as_ref()))]
     NoTriangles {
         /// The file.
         path: PathBuf,
+        /// The first thing that was skipped in it, if any.
+        skipped: Option<String>,
     },
     /// A glTF file cannot be shown rightly without an extension of the format that is not supported.
     #[error("{}: the extension {extension} is required, which is not supported", path.display())]
@@ -108,8 +110,12 @@ impl LoadError {
             | Self::Line { path, .. }
             | Self::Element { path, .. }
             | Self::Mesh { path, .. }
-            | Self::NoTriangles { path }
+            | Self::NoTriangles { path, .. }
             | Self::RequiredExtension { path, .. } => path,
         }
     }
+}
+
+fn in_brackets(text: Option<&String>) -> String {
+    text.map_or_else(String::new, |text| format!(" ({text})"))
 }

@@ -90,7 +90,8 @@ fn parse(format: Format, source: Source) -> Result<Model, LoadError> {
         Format::Stl => stl::parse(source),
     }?;
     if model.parts.is_empty() {
-        return Err(LoadError::NoTriangles { path: path.to_owned() });
+        let skipped = model.warnings.into_iter().next();
+        return Err(LoadError::NoTriangles { path: path.to_owned(), skipped });
     }
     Ok(model)
 }
