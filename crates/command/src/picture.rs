@@ -14,7 +14,12 @@ use crate::failure::Failure;
 /// Reads a PNG or an EXR as it is; of an animation it is the first frame.
 pub(crate) fn decoded(file: &Path) -> Result<DynamicImage, Failure> {
     let name = file.display().to_string();
-    let opened = File::open(file).map_err(|error| format!("{name}: cannot be read: {error}"))?;
+    let unread = |error| format!("{name}: cannot be read: {error}");
+    // Asked before it is opened: opening a pipe waits for its other end.
+    if !std::fs::metadata(file).map_err(unread)?.is_file() {
+        return Err(format!("{name}: not a regular file; expected a PNG or EXR").into());
+    }
+    let opened = File::open(file).map_err(unread)?;
     let picture = decode_stored(BufReader::new(opened), &name, limits());
     picture.map_err(|error| format!("{error}; expected a PNG or EXR").into())
 }

@@ -26,10 +26,14 @@ const LONGEST_FILE: u64 = 1 << 28;
 /// The image in a PNG, JPEG, Radiance HDR or EXR file.
 ///
 /// # Errors
-/// The file cannot be read or is too long, or what [`decode`] refuses.
+/// The file cannot be read, is too long or no regular file, or what [`decode`] refuses.
 pub fn load(path: &Path, meaning: TexelMeaning) -> Result<TexelImage, TextureError> {
     let image = || path.display().to_string();
     let read = |reason: std::io::Error| TextureError::Read { image: image(), reason: reason.to_string() };
+    // Asked before it is opened: opening a pipe waits for its other end.
+    if !std::fs::metadata(path).map_err(read)?.is_file() {
+        return Err(TextureError::NotAFile { image: image() });
+    }
     let mut bytes = Vec::new();
     File::open(path).map_err(read)?.take(LONGEST_FILE + 1).read_to_end(&mut bytes).map_err(read)?;
     if bytes.len() as u64 > LONGEST_FILE {

@@ -16,6 +16,12 @@ pub enum TextureError {
         /// What the system says.
         reason: String,
     },
+    /// The path leads to a folder, a pipe or a device.
+    #[error("{image}: not a regular file")]
+    NotAFile {
+        /// The path.
+        image: String,
+    },
     /// The file holds more bytes than are read.
     #[error("{image}: is longer than {limit} bytes, the most that is read of an image")]
     TooLong {

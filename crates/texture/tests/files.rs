@@ -62,6 +62,9 @@ fn what_cannot_be_an_image_is_refused_by_name() {
     assert!(matches!(nan, Err(TextureError::NotFinite { x: 1, y: 0, .. })));
     let error = halfway_texture::load("no/such/file.png".as_ref(), TexelMeaning::Color).expect_err("it is not there");
     assert!(error.to_string().starts_with("no/such/file.png: cannot be read"), "{error}");
+    // As a pipe is none, whose other end might never come.
+    let error = halfway_texture::load("src".as_ref(), TexelMeaning::Color).expect_err("it is a folder");
+    assert_eq!(error, TextureError::NotAFile { image: "src".into() });
 }
 
 /// CRC-32 of PNG (ISO 3309), bit by bit.

@@ -37,10 +37,12 @@ fn bad_input_is_named_and_ends_with_exit_code_2() {
     for (name, text) in SCENES {
         write(name, text.as_bytes());
     }
-    #[cfg(unix)]
-    assert!(Command::new("mkfifo").arg(folder.join("pipe.json")).status().is_ok_and(|status| status.success()));
-    #[cfg(not(unix))]
-    fs::create_dir_all(folder.join("pipe.json")).expect("the folder can be written");
+    for pipe in ["pipe.json", "pipe.png"] {
+        #[cfg(unix)]
+        assert!(Command::new("mkfifo").arg(folder.join(pipe)).status().is_ok_and(|status| status.success()));
+        #[cfg(not(unix))]
+        fs::create_dir_all(folder.join(pipe)).expect("the folder can be written");
+    }
     let cases: &[(&[&str], &[&str])] = &[
         (&["render", "pipe.json", "-o", "a.png"], &["pipe.json", "not a regular file"]),
         (&["render", "fine.json", "-o", "a.exr", "--frames", "0..2"], &["a.exr", ".png or .apng"]),
@@ -49,7 +51,14 @@ fn bad_input_is_named_and_ends_with_exit_code_2() {
             &["render", "fine.json", "-o", "turn-{}.png", "--frames", "0..2", "--contact-sheet", "turn-0001.png"],
             &["turn-0001.png", "contact sheet"],
         ),
+        (&["compare", "2.png", "pipe.png"], &["pipe.png", "not a regular file"]),
+        (&["verify", "fine.json", "--picture", "pipe.png"], &["pipe.png", "not a regular file"]),
+        (&["verify", "fine.json", "--picture", "2.png", "--tolerance", "1"], &["--picture", "--tolerance"]),
         (&["bench", "missing.json"], &["missing.json"]),
+        (&["bench", "s9"], &["s9: ", "known by a name", ".json"]),
+        (&["chart", "sphare"], &["sphare: ", "known by a name"]),
+        (&["render", "fine.fbx", "-o", "a.png"], &["fine.fbx: ", ".json", ".glb"]),
+        (&["bench", "s4", "--octahedra"], &["--octahedra", "s2"]),
         (&["bench", "fine.json", "--octahedra"], &["--octahedra", "s2"]),
         (&["render", "fine.json", "-o", "a.png", "--adapter", ""], &["--adapter"]),
         (&["render", "fine.json", "-o", "a.png", "--reference", "--adapter", "gl"], &["--reference", "--adapter"]),
