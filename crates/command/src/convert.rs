@@ -43,7 +43,7 @@ pub(crate) struct ConvertArgs {
     /// Put triangles and vertices in an order that is fast to draw
     #[arg(long)]
     optimize: bool,
-    /// Write vertices as integers of 16 bits, in about half the room; .glb only
+    /// Write vertices as integers of 16 bits, in about 60 % of the room where the mesh is large; .glb only
     #[arg(long)]
     quantise: bool,
 }

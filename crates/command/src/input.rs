@@ -9,6 +9,9 @@ use halfway::scene::{SceneError, SceneFile, Spawned, spawn};
 use crate::failure::Failure;
 use crate::look::{LookArgs, SizeArgs};
 
+const EXPECTED: &str =
+    "neither a scene that is known by a name nor a file that ends in .json, .smf, .obj, .gltf, .glb, .ply or .stl";
+
 /// A scene with the folder that its paths start from.
 pub(crate) struct SceneInput {
     pub(crate) scene: SceneFile,
@@ -80,6 +83,10 @@ impl SceneInput {
     fn failure(&self, error: SceneError) -> Failure {
         match error {
             SceneError::Model { source, .. } if !self.is_scene => source.into(),
+            // The only key that a model's name makes.
+            SceneError::Value { key, .. } if !self.is_scene && key == "objects[0].mesh.path" => {
+                format!("{}: {EXPECTED}", self.file.display()).into()
+            }
             error => {
                 let text = error.to_string();
                 let text = text.strip_prefix("scene: ").unwrap_or(&text);

@@ -51,8 +51,9 @@ enum Command {
     Render(render::RenderArgs),
     /// Show a scene or a model in a window
     ///
-    /// Left drag turns, right drag pans, the wheel zooms; 1, 2, 3 switch flat, Gouraud and Phong, B the reflectance,
-    /// I the intensity policy, Home resets, Escape closes.
+    /// Left drag turns, right drag pans, the wheel zooms, Home resets; 1, 2, 3, 4 choose flat, Gouraud, Phong and
+    /// automatic shading, T the steps of the tolerance, B the reflectance, I the intensity policy; C shows in false
+    /// colours where terms are shaded, Escape or Q closes.
     #[cfg(feature = "window")]
     View(view::ViewArgs),
     /// Say how far one picture is from another, and draw where

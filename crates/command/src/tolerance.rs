@@ -7,7 +7,7 @@ use halfway::prelude::*;
 pub(crate) struct ToleranceArgs {
     /// How far the picture may be from everything at full detail with all lights (under --shading auto from Phong
     /// shading): steps of 1/255, and how many pixels a point may move (0: every mesh as it is); exact: not at all
-    /// [default: the scene's; 1,0.5]
+    /// [default: the scene's; 1,0.5; exact in verify, whatever the scene says]
     #[arg(long, value_name = "STEPS[,PIXELS]|exact", value_parser = parse)]
     tolerance: Option<Tolerance>,
 }

@@ -24,7 +24,7 @@ pub(crate) struct VerifyArgs {
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Judge this picture, a PNG or EXR of the scene's first moment, and not what the adapter draws; its size is taken
-    #[arg(long, value_name = "FILE", conflicts_with = "adapter")]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["adapter", "tolerance"])]
     picture: Option<PathBuf>,
     /// Exit with code 4 where a pixel of a picture of bytes differs by more steps of 1/255 from what it may show
     #[arg(long, value_name = "STEPS", default_value_t = 1)]

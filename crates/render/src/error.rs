@@ -100,7 +100,7 @@ pub enum RenderError {
     ManyEnvironments(usize),
     /// Objects have images, and an environment lights the scene, on an adapter that crashes where a draw reads both.
     #[error(
-        "{0} objects with images are drawn without the environment: llvmpipe through Vulkan crashes where a draw reads both; the \
+        "{0} objects with images cannot be drawn in the environment: llvmpipe through Vulkan crashes where a draw reads both; the \
          CPU draws them (`--adapter cpu`), and so does OpenGL (`--adapter gl:llvmpipe`)"
     )]
     ImagesInEnvironment(usize),

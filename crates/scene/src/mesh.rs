@@ -292,9 +292,7 @@ impl<'de> Visitor<'de> for OneShape {
             "teapot" => map.next_value().map(|Given(shape)| MeshEntry::Teapot(shape))?,
             "inline" => map.next_value().map(|Given(shape)| MeshEntry::Inline(shape))?,
             _ => {
-                return Err(A::Error::custom(format_args!(
-                    "unknown field `{key}`, expected {SHAPES}; further surfaces: not yet"
-                )));
+                return Err(A::Error::custom(format_args!("unknown field `{key}`, expected {SHAPES}")));
             }
         };
         no_more(&mut map, SHAPES)?;

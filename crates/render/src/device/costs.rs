@@ -40,9 +40,8 @@ pub struct Costs {
 /// [`Shading::Auto`](halfway_lighting::Shading::Auto), which moves terms to the vertices, and leaves lights out of a
 /// patch that are compiled in, where that is within the tolerance and saves more than it costs.
 ///
-/// As a resource it stands for the adapter's own, in [`Costs`]. Prices are 0 or more, also infinite; of one that is
-/// not,
-/// [`FrameReport::errors`](crate::FrameReport) tells, and the adapter's own are taken.
+/// As a resource it stands for the adapter's own, in [`Costs`]. Prices are 0 or more, also infinite; where one
+/// is not, [`FrameReport::errors`](crate::FrameReport) tells, and the adapter's own are taken.
 /// [`Calibration`](crate::Calibration) measures them.
 #[derive(Resource, Reflect, Clone, Copy, Debug, PartialEq)]
 #[reflect(Resource, Clone, Debug, PartialEq)]

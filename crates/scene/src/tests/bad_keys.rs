@@ -214,7 +214,7 @@ pub(super) const NOT_THE_FORMAT: &[Bad] = &[
     (
         r#"{"objects": [{"mesh": {"torus": {}}}]}"#,
         (1, 24),
-        "`objects[0].mesh.torus`: unknown key `torus`, expected path, uv_sphere, plane, box, teapot or inline; further surfaces: not yet",
+        "`objects[0].mesh.torus`: unknown key `torus`, expected path, uv_sphere, plane, box, teapot or inline",
     ),
     (
         r#"{"objects": [{"mesh": {"box": {}, "plane": {}}}]}"#,
