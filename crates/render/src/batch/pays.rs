@@ -12,6 +12,9 @@ const FEW_PATCHES: usize = 64;
 /// Of those with more, so many neighbours are looked at in one place.
 const NEIGHBORS: usize = 8;
 
+/// At most in so many places: more tell little more, and of a mesh of a million triangles would be a part of the frame.
+const PLACES: usize = 16;
+
 impl LitPatches {
     /// Whether it pays to place the terms of an object light by light: by some of its patches where they are many, else
     /// by what was drawn before it. What was moved in the frame before is looked at in any case.
@@ -27,7 +30,8 @@ impl LitPatches {
         } else {
             let selector = self.choosers.first();
             let (mut gains, mut may_save) = (0.0, false);
-            for start in (0..seen.len()).step_by(LOOKED_AT_FIRST * NEIGHBORS) {
+            let apart = (LOOKED_AT_FIRST * NEIGHBORS).max(seen.len().div_ceil(PLACES));
+            for start in (0..seen.len()).step_by(apart) {
                 let members = start..seen.len().min(start + NEIGHBORS);
                 chooser.cluster(selector, seen, members, &self.lists, clusters);
                 for looked_at in &*clusters {
