@@ -137,12 +137,12 @@ impl LightSearch<'_> {
         let beside = |k: usize| (low[k] - self.region.high[k]).max(self.region.low[k] - high[k]).max(0.0);
         let [x, y, z] = [beside(0), beside(1), beside(2)];
         let distance = (x * x + y * y + z * z).sqrt() * (1.0 - SLACK) - self.margin;
-        if distance > falloff.range {
-            return Visit::Nothing;
-        }
         // Nothing is known where a square left the number range.
         if !(distance > 0.0 && distance < f32::INFINITY) {
             return Visit::Open;
+        }
+        if distance > falloff.range {
+            return Visit::Nothing;
         }
         let weight = attenuation(falloff.attenuation, distance).max(f32::MIN_POSITIVE) * (1.0 + SLACK);
         let most = f64::from(self.region.brightest * falloff.color * weight);

@@ -415,3 +415,22 @@ fn times() {
         println!("{:.1} ns a patch", start.elapsed().as_secs_f64() * 1e9 / 20.0 / cases.len() as f64);
     }
 }
+
+/// Also where squares and powers of its edges leave the range of single precision.
+#[test]
+fn the_circle_around_a_triangle_is_known_at_any_size() {
+    for (corners, radius) in [
+        ([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.5, 0.75_f32.sqrt(), 0.0]], 1.0 / 3f32.sqrt()),
+        // Obtuse, and of two corners at one place.
+        ([[0.0, 0.0, 0.0], [1.0, 0.1, 0.0], [2.0, 0.0, 0.0]], 1.0),
+        ([[0.0, 0.0, 1.0], [0.0, 0.0, 1.0], [0.0, 3.0, 1.0]], 1.5),
+        ([[1.0; 3]; 3], 0.0),
+    ] {
+        for size in [1e-30_f32, 1e-22, 1e-10, 1.0, 1e10, 1e20, 1e30] {
+            let scaled = corners.map(|corner| corner.map(|along| along * size));
+            let found = Grain::none().with(scaled, [[0.0; 3]; 3]).corners;
+            let expected = radius * size;
+            assert!(found >= expected && found <= expected * (1.0 + 1e-4), "{size}: {found} for {expected}");
+        }
+    }
+}

@@ -41,11 +41,16 @@ impl<T: Real> Grain<T> {
 /// The radius of the smallest circle around three points: of the longest side, or around all corners where no angle is
 /// obtuse.
 fn circle<T: Real>([a, b, c]: [[T; 3]; 3]) -> T {
-    let square = |p: [T; 3], q: [T; 3]| {
-        let side = sub(p, q);
+    let sides = [sub(b, c), sub(c, a), sub(a, b)];
+    // Powers of it stay in the number range, whatever the triangle's size.
+    let unit = sides.as_flattened().iter().fold(T::zero(), |most, side| most.max(side.abs()));
+    if unit == T::zero() || !unit.is_finite() {
+        return unit;
+    }
+    let mut sides = sides.map(|side| {
+        let side = side.map(|along| along / unit);
         dot(side, side)
-    };
-    let mut sides = [square(b, c), square(c, a), square(a, b)];
+    });
     sides.sort_unstable_by(|x, y| x.partial_cmp(y).unwrap_or(core::cmp::Ordering::Equal));
     let [x, y, z] = sides;
     // 16 times the square of the area.
@@ -53,7 +58,7 @@ fn circle<T: Real>([a, b, c]: [[T; 3]; 3]) -> T {
     let by_side = T::of(0.25) * z;
     let square = if z >= x + y { by_side } else { (x * (y / area) * z).max(by_side) };
     // Of an angle near 90° either formula is right to some ε.
-    (square * (T::one() + slack())).sqrt()
+    unit * (square * (T::one() + slack())).sqrt()
 }
 
 /// Of one term of a light, without its colours: what shading it at the vertices changes at any point at most, and what
