@@ -1,7 +1,7 @@
 //! Patches: large meshes in pieces that lie close together and face alike, so that each can have light lists of its own
 //! and be left out when it is not seen.
 
-use crate::geometry::shape::{ANGLE_SLACK, PatchShape, sphere_around};
+use crate::geometry::shape::{ANGLE_SLACK, PatchShape, length, sphere_around};
 use crate::lights::gains::Extent;
 use crate::view::camera::View;
 use crate::view::matrices::ModelView;
@@ -134,8 +134,8 @@ impl<'a> Sight<'a> {
             Faces::Front => Some(false),
             Faces::Back => Some(true),
         };
-        let model_from_eye = model_view.eye_from_model.inverse();
-        let eye = Vec3::from(model_from_eye.translation);
+        // In single precision the determinant leaves the number range where a scale is 7·10¹² or 10⁻¹³.
+        let eye = model_view.eye_from_model.as_daffine3().inverse().translation.as_vec3();
         let eye = side.filter(|_| eye.is_finite()).map(|back| (eye, back));
         let (center, radius) = whole.shape.sphere(model_view);
         Self { model_view, view, eye, is_inside: view.projection.holds(center, radius) }
@@ -188,7 +188,7 @@ impl MeshPatch {
     /// All of a mesh, of whose normals nothing is known.
     pub(crate) fn whole(mesh: &Mesh) -> Self {
         let center = mesh.bounds().center();
-        let farthest = mesh.positions().iter().map(|p| p.distance(center)).fold(0.0, f32::max);
+        let farthest = mesh.positions().iter().map(|p| length(*p - center)).fold(0.0, f32::max);
         let indices = 0..mesh.indices().len() as u32;
         Self {
             indices,
@@ -208,7 +208,7 @@ impl MeshPatch {
         Self {
             indices: ends,
             shape: PatchShape::sphere_alone((center, radius)),
-            facing: Facing::around(patches.iter().map(|patch| (&patch.facing, patch.shape.center.distance(center)))),
+            facing: Facing::around(patches.iter().map(|patch| (&patch.facing, length(patch.shape.center - center)))),
             longest_edge: f32::INFINITY,
             area: 0.0,
             vertices: 0,

@@ -67,7 +67,7 @@ impl PatchCone {
             all.half_angle = all.half_angle.max(sin.atan2(cos) + cone.half_angle + ROUNDING);
             // What lies in a disk of that radius and thickness across the cone's axis.
             let along = offset.dot(axis).abs() + cone.half_thickness * cos.abs() + radius * sin;
-            all.half_thickness = all.half_thickness.max(along + ROUNDING * (offset.length() + radius));
+            all.half_thickness = all.half_thickness.max(along + ROUNDING * (length(offset) + radius));
         }
         (axis != Vec3::ZERO && all.half_angle < WIDEST).then_some(all)
     }
@@ -84,7 +84,7 @@ impl PatchShape {
         let normals: Vec<Vec3> = vertices().map(|i| mesh.normals()[i]).collect();
         Self {
             center,
-            radius: offsets().map(Vec3::length).fold(0.0, f32::max) * (1.0 + 1e-5),
+            radius: offsets().map(length).fold(0.0, f32::max) * (1.0 + 1e-5),
             faces: PatchCone::new(faces, offsets()),
             normals: PatchCone::new(&normals, offsets()),
             grain: grain(mesh, triangles),
@@ -191,11 +191,16 @@ impl PatchShape {
 const LARGER: f32 = 1.3;
 const WIDER: f32 = 0.35;
 
+/// Also where squares leave the range of single precision.
+pub(super) fn length(v: Vec3) -> f32 {
+    v.as_dvec3().length() as f32
+}
+
 /// A sphere that holds those around these shapes.
 pub(super) fn sphere_around<'a>(shapes: impl Iterator<Item = &'a PatchShape> + Clone) -> (Vec3, f32) {
     let corners = shapes.clone().flat_map(|shape| [shape.center - shape.radius, shape.center + shape.radius]);
     let center = Bounds::from_points(corners).map_or(Vec3::ZERO, |bounds| bounds.center());
-    let reach = shapes.map(|shape| shape.center.distance(center) + shape.radius).fold(0.0, f32::max);
+    let reach = shapes.map(|shape| length(shape.center - center) + shape.radius).fold(0.0, f32::max);
     (center, reach * (1.0 + 1e-5))
 }
 
