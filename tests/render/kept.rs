@@ -5,6 +5,7 @@ use crate::render::conformance::environment::around;
 use crate::render::scene::{Around, Lamp, Map, Scene, Thing, material, other_material, point_light};
 use crate::render::sides::hemisphere;
 use crate::render::stage::Stage;
+use bevy_ecs::entity_disabling::Disabled;
 use halfway::lighting::Frequency;
 use halfway::prelude::*;
 use halfway::render::{Choosing, FalseColors, VertexPrices};
@@ -269,6 +270,20 @@ fn what_is_hidden_is_not_compared_in_vain() {
     insert(&mut stage, light, Visibility::Inherited);
     let after = stage.float();
     assert!(!stage.report().kept && difference(&before[3], &after) > 1e-3, "a light that shows again");
+}
+
+#[test]
+fn a_light_that_is_disabled_as_another_is_enabled_shows_at_once() {
+    let mut stage = Stage::new(1, 1);
+    set(&mut stage);
+    let other = stage.spawn((point_light(), Transform::from_xyz(0.0, 0.0, 2.0), Disabled));
+    let before = [(); 4].map(|()| stage.float());
+    assert!(stage.report().kept);
+    let light = light(&mut stage);
+    stage.world().entity_mut(light).insert(Disabled);
+    stage.world().entity_mut(other).remove::<Disabled>();
+    let after = stage.float();
+    assert!(!stage.report().kept && difference(&before[3], &after) > 1e-3);
 }
 
 #[test]

@@ -184,6 +184,21 @@ fn the_second_frame_that_sees_a_mesh_has_its_levels() {
     }
 }
 
+/// Objects that follow each other are looked at once where they are alike; which of them wants levels comes first.
+#[test]
+fn an_object_has_levels_beside_one_of_the_same_mesh_that_wants_none() {
+    for exact in [0, 1] {
+        let mut stage = Stage::new(48, 48);
+        let thing = || Thing::new(sphere(64)).shaded(Shading::Auto);
+        let scene = one(thing(), 40.0).with(thing().at(Transform::from_xyz(2.5, 0.0, 0.0)));
+        let things = stage.set(&scene);
+        stage.world().entity_mut(things[exact]).insert(FULL);
+        stage.levels(Tolerance::DEFAULT);
+        let (drawn, modelled) = (stage.report().triangles, stage.report().triangles_in);
+        assert!(drawn > modelled / 2 && drawn < modelled * 3 / 4, "{exact}: {drawn} of {modelled}");
+    }
+}
+
 #[test]
 fn what_is_gone_is_not_waited_for() {
     let mut stage = Stage::new(48, 48);

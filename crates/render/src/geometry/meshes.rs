@@ -204,12 +204,12 @@ pub(crate) fn lay_out(
         let Some(mesh) = meshes.get(handle) else { continue };
         let paint = Paint::new(mesh, paint, surroundings.are_there());
         let wanted = (handle.id(), Form::new(chosen.0, blend, &paint));
-        if last.replace(wanted) == Some(wanted) {
-            continue;
-        }
         let pixels = tolerance.map_or(of_view.0.pixels, |tolerance| tolerance.pixels);
         // Levels know nothing of colors and of images.
         let has_levels = !wanted.1.ordered && !paint.is_any() && pixels > 0.0;
+        if last.replace((wanted, has_levels)) == Some((wanted, has_levels)) {
+            continue;
+        }
         let levels = if has_levels { workshop.levels(wanted.0, mesh, waits) } else { None };
         geometries.ensure(wanted, mesh, levels);
     }

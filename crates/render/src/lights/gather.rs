@@ -5,6 +5,7 @@ use crate::frame::report::FrameReport;
 use crate::shaders::records::LightRecord;
 use crate::view::camera::View;
 use bevy_color::LinearRgba;
+use bevy_ecs::entity_disabling::Disabled;
 use bevy_ecs::prelude::*;
 use bevy_math::{DVec3, Vec3};
 use bevy_transform::components::GlobalTransform;
@@ -81,6 +82,7 @@ pub(crate) fn gather(
     points: LightQuery<PointLight>,
     spots: LightQuery<SpotLight>,
     changed: Query<(), (AnyLight, AnyChange)>,
+    disabled: Query<(), (AnyLight, With<Disabled>, Added<Disabled>)>,
     shown: Shown,
     ambient: Res<GlobalAmbient>,
     view: Res<View>,
@@ -92,7 +94,9 @@ pub(crate) fn gather(
         ambient: ambient.0,
         view: (view.epoch, view.unit_exponent),
     };
-    let keep = lights.made_of.filter(|_| changed.is_empty() && !shown.hides_any());
+    // As many may have been enabled.
+    let are_same = changed.is_empty() && disabled.is_empty();
+    let keep = lights.made_of.filter(|_| are_same && !shown.hides_any());
     if keep != Some(made_of) {
         // What is hidden is looked at in each frame, and often nothing has changed.
         let before = shown.hides_any().then(|| lights.clone());
