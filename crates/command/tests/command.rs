@@ -9,6 +9,7 @@ mod command {
     mod models;
     mod pictures;
     mod reference;
+    mod tolerances;
 
     use std::fs;
     use std::path::{Path, PathBuf};

@@ -27,7 +27,8 @@ macro_rules! meaning {
 /// at most `pixels` on the picture explains. Roundings of what draws come on top. Lights left out and what `Auto`
 /// shades at the vertices keep to proven bounds, and so does how far points move and normals turn on coarser triangles;
 /// what interpolation between the corners of coarser triangles adds, under Gouraud and Phong shading, is an estimate of
-/// the second order.
+/// the second order, at the terminator of the first; and a light that is nearer to a surface than those pixels may
+/// change it by more, as its points also move in depth.
 ///
 /// Half of `steps` is for coarser triangles, where there are any and `pixels` is above 0. Of the rest, lights that are
 /// left out take as much as they can, under `Auto` no more than half of it; `Auto` takes what is left for terms that

@@ -12,14 +12,18 @@
 //! How far points move and normals turn is bounded, patch by patch ([`halfway_mesh::PatchGroup`]). A normal that turns
 //! by δ changes a term with exponent n (1 for diffuse) by no more than
 //!
-//! - √n·((n − 1)/n)^((n − 1)/2)·δ, its steepest slope, of its largest value, twice that for Phong's reflection vector,
+//! - √n·((n − 1)/n)^((n − 1)/2)·δ, its steepest slope, of its largest value, twice that for Phong's reflection vector;
+//!   for 0 < n < 1 there is none, and no normal may turn,
 //! - and a highlight by what is cut off where n·l falls below 0: sinⁿ(β + δ) of its largest value, β half the angle
 //!   between light and eye; −cosⁿ 2β for Phong's.
 //!
-//! Between corners a term may be off by ½·n·ω² + 6·w² of its largest value, an estimate of the second order: ω = R +
-//! ½(w + u) is how far n and h turn against each other within a triangle, R the spread of its normals, w = e/(√3·d) and
-//! u its size as seen from the nearest light and from a local viewer (e the longest edge, within a circle of e/√3,
-//! Jung 1901); 6·w² is for attenuation, up to the inverse square.
+//! Between corners a term may be off by ½·n·ω² + 6·w² of its largest value, an estimate of the second order: ω is how
+//! far the vectors of its cosine turn against each other within a triangle, R + w for n·l, R + ½(w + u) for n·h and
+//! twice that for r·v, R the spread of its normals, w = e/(√3·d) and u its size as seen from the nearest light and from
+//! a local viewer (e the longest edge, within a circle of e/√3, Jung 1901); 6·w² is for attenuation, up to the inverse
+//! square, also of ambient light. Where n·l, or the cosine of a highlight with an exponent below 2, falls to 0 the term
+//! has a kink: what is shaded at vertices is off by up to a quarter of the cosine's span there, ½·ω; and by what is cut
+//! off. Between what its corners show it stays all the same.
 //!
 //! Flat shading shows the triangles themselves, and keeps them all. Of more than eight lights only the length of edges
 //! counts, or that no normal turns; likewise for vertices lit by spots, whose rims are sharp.
@@ -29,6 +33,7 @@
 //! recording repeats to the byte. Blended objects, whose triangles are drawn in the order of their mesh, and objects
 //! that are scaled differently along different axes keep all triangles.
 
+use crate::geometry::turned::{GroupErrors, TURNED, TurnedTerms, steepest};
 use crate::lights::gather::Lights;
 use crate::lights::lists::Reflector;
 use crate::lights::places::tolerated;
@@ -41,17 +46,6 @@ use halfway_lighting::{Encoding, Frequency, Terms, Tolerance};
 /// What coarser triangles may take of the steps of a tolerance: half, unless every mesh is drawn as it is.
 pub(crate) fn geometry_steps(tolerance: Tolerance) -> f64 {
     if tolerance.pixels > 0.0 { 0.5 * f64::from(tolerance.steps) } else { 0.0 }
-}
-
-/// How far a group's parts are off; see [`halfway_mesh::PatchGroup`].
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct GroupErrors {
-    pub(crate) error: f32,
-    pub(crate) normal_error: f32,
-    pub(crate) normal_spread: f32,
-    pub(crate) longest_edge: f32,
-    /// They are too large for short light lists.
-    pub(crate) spoils_lists: bool,
 }
 
 /// An object whose detail is chosen.
@@ -95,25 +89,7 @@ enum ShownTerms {
     /// Terms of which nothing is known.
     Unknown,
     /// Terms that may change.
-    Terms([TurnedTerms; 2]),
-}
-
-/// What a turned normal changes of all lights' diffuse or specular terms, as parts of what is allowed.
-#[derive(Clone, Copy, Debug, Default)]
-struct TurnedTerms {
-    /// The sum of the largest values.
-    largest: f32,
-    /// The most that a radian of turn changes.
-    slope: f32,
-    /// A highlight that is cut off.
-    cut: f32,
-    exponent: f32,
-    /// How far h or the reflected vector turns with the normal.
-    turn: f32,
-    /// The angle of a triangle of a unit of the mesh, as seen from the nearest light and from the eye.
-    seen_from: [f32; 2],
-    /// It is shaded at the vertices.
-    by_vertices: bool,
+    Terms([TurnedTerms; 3]),
 }
 
 /// No mesh is drawn so small.
@@ -122,37 +98,12 @@ const NEVER: f32 = -1.0;
 /// How far from a pixel's middle it may be sampled.
 pub(crate) const SAMPLED: f32 = 0.5;
 
-/// What is cut off of highlights is found for normals that turn by up to this, in radians: 3°.
-const TURNED: f32 = 0.05;
-
 /// Up to this intensity a channel has [`FEW_STEPS`] of room below white, by either encoding.
 const FAR_FROM_WHITE: f32 = 0.9;
 const FEW_STEPS: f64 = 0.03;
 
 /// The slope of the sRGB curve's inverse at white, 2.4/1.055, which is the largest.
 const STEEPEST_OF_SRGB: f32 = 2.4 / 1.055;
-
-impl GroupErrors {
-    /// No error is larger than these.
-    pub(crate) const LARGEST: Self = Self {
-        error: f32::INFINITY,
-        normal_error: std::f32::consts::PI,
-        normal_spread: std::f32::consts::PI,
-        longest_edge: f32::INFINITY,
-        spoils_lists: true,
-    };
-
-    /// The least of each.
-    pub(crate) fn min(self, other: Self) -> Self {
-        Self {
-            error: self.error.min(other.error),
-            normal_error: self.normal_error.min(other.normal_error),
-            normal_spread: self.normal_spread.min(other.normal_spread),
-            longest_edge: self.longest_edge.min(other.longest_edge),
-            spoils_lists: self.spoils_lists && other.spoils_lists,
-        }
-    }
-}
 
 impl Allowed {
     /// The mesh as it is.
@@ -195,7 +146,7 @@ impl Allowed {
         }
         // Without an error it is infinite.
         let by_error = self.pixels / group.error;
-        let sum = |changes: &[TurnedTerms; 2], of: fn(&TurnedTerms, &GroupErrors) -> f32| -> f32 {
+        let sum = |changes: &[TurnedTerms; 3], of: fn(&TurnedTerms, &GroupErrors) -> f32| -> f32 {
             changes.iter().map(|change| of(change, group)).sum()
         };
         let keeps_shading = match &self.shading {
@@ -268,14 +219,15 @@ impl Demand<'_> {
     }
 
     /// What turned normals change of the object.
-    fn changes(&self) -> [TurnedTerms; 2] {
+    fn changes(&self) -> [TurnedTerms; 3] {
         let &Self { reflector, lights, model_view, sphere: (center, radius), .. } = self;
         let side = reflector.larger_side();
         let unlit = reflector.unlit(lights.ambient).to_array();
         let allowed = unlit.map(|at_least| self.intensity(at_least));
-        let [smaller, larger] = reflector.exponents();
-        // Sums over the lights, by channel: diffuse, specular, and highlights that are cut off.
-        let mut sums = [[0.0_f32; 3]; 3];
+        let exponents @ [smaller, larger] = reflector.exponents();
+        // Sums over the lights, by channel: diffuse, specular, highlights that are cut off, and ambient where it
+        // weakens with distance.
+        let mut sums = [[0.0_f32; 3]; 4];
         let mut nearest_light = 0.0_f32;
         let scale = model_view.largest_scale();
         let inverse = |distance: f32| if distance > radius { scale / (distance - radius) } else { f32::INFINITY };
@@ -290,34 +242,44 @@ impl Demand<'_> {
                 sums[0][k] += weight * side.kd[k] * light.ld[k];
                 sums[1][k] += weight * side.ks[k] * light.ls[k];
                 sums[2][k] += weight * side.ks[k] * light.ls[k] * cut;
+                sums[3][k] += if light.attenuate_ambient { weight * side.ka[k] * light.la[k] } else { 0.0 };
             }
         }
         // Of the channel of which it is the largest part.
         let part = |sum: [f32; 3]| [0, 1, 2].map(|k| if sum[k] > 0.0 { sum[k] / allowed[k] } else { 0.0 });
-        let [diffuse, specular, cut] = sums.map(|sum| part(sum).into_iter().fold(0.0, f32::max));
+        let [diffuse, specular, cut, ambient] = sums.map(|sum| part(sum).into_iter().fold(0.0, f32::max));
         let eye = if self.local_viewer { inverse(center.length()) } else { 0.0 };
-        let seen_from = [nearest_light, eye];
         let by_vertices = |at| at == Frequency::Vertex;
         let Terms { diffuse: diffuse_at, specular: specular_at } = reflector.terms;
         let turn = if self.blinn_phong { 1.0 } else { 2.0 };
+        // Between exponents of 0 and 1 the slope has no end.
+        let is_steep = exponents.into_iter().any(|n| n > 0.0 && n < 1.0);
+        let steepest = if is_steep { f32::INFINITY } else { steepest(smaller.max(1.0)).max(steepest(larger.max(1.0))) };
         [
             TurnedTerms {
                 largest: diffuse,
                 slope: diffuse,
                 cut: 0.0,
-                exponent: 1.0,
+                exponents: [1.0; 2],
                 turn: 1.0,
-                seen_from,
+                seen_from: [nearest_light; 2],
                 by_vertices: by_vertices(diffuse_at),
             },
             TurnedTerms {
                 largest: specular,
-                slope: specular * steepest(larger.max(1.0)) * turn,
+                slope: specular * steepest * turn,
                 cut,
-                exponent: larger,
+                exponents,
                 turn,
-                seen_from,
+                seen_from: [nearest_light, 0.5 * (nearest_light + eye)],
                 by_vertices: by_vertices(specular_at),
+            },
+            // It does not depend on normals.
+            TurnedTerms {
+                largest: ambient,
+                seen_from: [nearest_light, 0.0],
+                by_vertices: by_vertices(diffuse_at),
+                ..TurnedTerms::default()
             },
         ]
     }
@@ -348,41 +310,6 @@ impl Demand<'_> {
         let cosine = if self.blinn_phong { (0.5 * between).sin() + turned } else { 2.0 * turned - between.cos() };
         cosine.clamp(0.0, 1.0).powf(f64::from(exponent)) as f32
     }
-}
-
-impl TurnedTerms {
-    /// What turned normals change where a group's parts are drawn, as a part of what is allowed; of a term that is
-    /// shaded at the vertices, with what interpolation adds.
-    fn turned(&self, group: &GroupErrors) -> f32 {
-        if self.largest == 0.0 {
-            return 0.0;
-        }
-        let cut = match group.normal_error {
-            0.0 => 0.0,
-            turned if turned <= TURNED => self.cut,
-            _ => self.largest,
-        };
-        let interpolated = if self.by_vertices { self.interpolated(group) } else { 0.0 };
-        self.slope * group.normal_error + cut + interpolated
-    }
-
-    /// By how much a point of a triangle may lie outside of what its corners show, as a part of what is allowed.
-    fn between_corners(&self, group: &GroupErrors) -> f32 {
-        if self.largest == 0.0 { 0.0 } else { self.cut + self.interpolated(group) }
-    }
-
-    /// What second-order terms add between the corners of a triangle.
-    fn interpolated(&self, group: &GroupErrors) -> f32 {
-        let size = group.longest_edge / 3f32.sqrt();
-        let [w, u] = self.seen_from.map(|inverse| size * inverse);
-        let turned = self.turn * (group.normal_spread + 0.5 * (w + u));
-        self.largest * (0.5 * self.exponent.max(1.0) * turned * turned + 6.0 * w * w)
-    }
-}
-
-/// The steepest slope of cosⁿ f is √n·((n − 1)/n)^((n − 1)/2): √n times 1 at n = 1, and falling to √(n/e).
-fn steepest(n: f32) -> f32 {
-    n.sqrt() * ((n - 1.0) / n).powf(0.5 * (n - 1.0))
 }
 
 #[cfg(test)]
@@ -454,5 +381,55 @@ mod tests {
         }
         assert!(allowed > 2_000 && never > 2_000, "{allowed} and {never}");
         assert!(4 * told > never, "{told} of {never} are told");
+    }
+
+    /// A cosine to a power between 0 and 1 rises without end from 0, so that no normal may turn; to the power 0 it does
+    /// not.
+    #[test]
+    fn exponents_below_1_keep_every_normal() {
+        let model_view = ModelView::new(&DAffine3::IDENTITY);
+        let place = Place::Directional([0.0, 0.0, 1.0]);
+        let color = [1.0; 3];
+        let (range, cone, attenuate_ambient) = (None, None, false);
+        let [la, ld] = [[0.0; 3], color];
+        let light = Light { place, la, ld, ls: color, attenuation: [1.0, 0.0, 0.0], range, cone, attenuate_ambient };
+        let lights = Lights::of_sources(vec![light], Vec3::ZERO);
+        let turning = GroupErrors { normal_error: 1e-6, normal_spread: 1e-3, ..LEAST };
+        for (shininess, [phong, gouraud, turned]) in [
+            (0.0, [true, true, true]),
+            (0.05, [true, false, false]),
+            (0.9, [true, false, false]),
+            (1.0, [true, true, true]),
+            (20.0, [true, true, true]),
+        ] {
+            let black = [0.0; 3];
+            let material = Coefficients { ka: black, kd: black, ks: [0.02; 3], ke: black, shininess };
+            let allows = |terms, errors: &GroupErrors| {
+                let reflector =
+                    Reflector { sides: [material; 2], reflectance: Reflectance::Phong, terms: Terms::both(terms) };
+                let allowed = Allowed::new(Demand {
+                    tolerance: Tolerance { steps: 30.0, pixels: 0.5 },
+                    listed: false,
+                    blinn_phong: false,
+                    local_viewer: false,
+                    reflector: &reflector,
+                    lights: &lights,
+                    encoding: Some(Encoding::Raw),
+                    model_view: &model_view,
+                    sphere: (Vec3::new(0.0, 0.0, -5.0), 1.0),
+                    least: &LEAST,
+                    pixels_per_unit: None,
+                });
+                // Edges are far too long for their corners to do.
+                allowed.pixels_per_unit(&GroupErrors { longest_edge: 1.0, ..*errors }) > 2.0
+            };
+            let still = GroupErrors { normal_error: 0.0, ..turning };
+            let found = [
+                allows(Frequency::Fragment, &still),
+                allows(Frequency::Vertex, &still),
+                allows(Frequency::Fragment, &turning),
+            ];
+            assert_eq!(found, [phong, gouraud, turned], "shininess {shininess}");
+        }
     }
 }

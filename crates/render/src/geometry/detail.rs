@@ -1,8 +1,9 @@
 //! Detail: the patches of a mesh, finer and coarser ones, and which of them a frame draws.
 
-use crate::geometry::allowed::{Allowed, GroupErrors};
+use crate::geometry::allowed::Allowed;
 use crate::geometry::families::Families;
 use crate::geometry::patches::{MeshPatch, Sight};
+use crate::geometry::turned::GroupErrors;
 use halfway_mesh::{HierarchyPatch, Mesh, PatchGroup, PatchHierarchy};
 use halfway_raster::Pieces;
 use std::ops::Range;

@@ -7,5 +7,6 @@ pub(crate) mod meshes;
 pub(crate) mod near_objects;
 pub(crate) mod patches;
 pub(crate) mod shape;
+pub(crate) mod turned;
 pub(crate) mod uv_boxes;
 pub(crate) mod workshop;
