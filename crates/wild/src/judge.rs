@@ -27,7 +27,7 @@ pub struct Judge {
     base_dir: PathBuf,
     grid: u32,
     four: bool,
-    tolerance: Option<Tolerance>,
+    tolerance: Option<(Tolerance, ShadingEntry)>,
     fault: Option<Fault>,
 }
 
@@ -61,6 +61,8 @@ pub struct Figures {
     pub bytes: Verdict,
     /// How many terms of lights were shaded at vertices, of those in lists.
     pub terms_at_vertices: u64,
+    /// How many triangles coarser ones saved.
+    pub triangles_saved: u64,
 }
 
 impl Finding {
@@ -100,11 +102,11 @@ impl Judge {
         Self { four, ..self }
     }
 
-    /// Has everything drawn by [`Shading::Auto`] within this tolerance, and judged by Phong shading and the tolerance.
-    /// Spheres, planes and teapots are made finer, so that they have patches.
+    /// Has everything drawn by this shading within this tolerance, and judged by the same and the tolerance, `Auto` by
+    /// Phong shading. Spheres, planes and teapots are made finer, so that they have patches.
     #[must_use]
-    pub fn with_tolerance(self, tolerance: Tolerance) -> Self {
-        Self { tolerance: Some(tolerance), ..self }
+    pub fn with_tolerance(self, tolerance: Tolerance, shading: ShadingEntry) -> Self {
+        Self { tolerance: Some((tolerance, shading)), ..self }
     }
 
     /// Gives the renderer another scene than the oracle.
@@ -140,12 +142,12 @@ impl Judge {
         let encoding = scene.output;
         let blended = scene.objects.iter().filter(|object| object.blend == Some(true)).count() as f64;
         let (mut drawn, mut judged) = (scene.clone(), scene.clone());
-        if self.tolerance.is_some() {
-            shade(&mut drawn, ShadingEntry::Auto);
-            shade(&mut judged, ShadingEntry::Phong);
+        if let Some((_, shading)) = &self.tolerance {
+            shade(&mut drawn, shading);
+            shade(&mut judged, if *shading == ShadingEntry::Auto { &ShadingEntry::Phong } else { shading });
             [&mut drawn, &mut judged].into_iter().for_each(refine);
         }
-        let tolerance = self.tolerance.unwrap_or(Tolerance::EXACT);
+        let tolerance = self.tolerance.as_ref().map_or(Tolerance::EXACT, |(tolerance, _)| *tolerance);
         if let Some(fault) = self.fault {
             fault(&mut drawn);
         }
@@ -157,7 +159,7 @@ impl Judge {
         // What is within the tolerance is tried whether it pays or not.
         renderer.insert_resource(VertexPrices::FREE);
         let pixels = tolerance.pixels.into();
-        let mut pictures = Pictures { renderer, oracle: App::new(), size, encoding, pixels };
+        let mut pictures = Pictures { renderer, oracle: App::new(), size, encoding, pixels, triangles_saved: 0 };
         pictures.oracle.add_plugins(HalfwayPlugins::reference());
         self.set_up(&mut pictures.oracle, &judged)?;
         pictures.oracle.update();
@@ -187,8 +189,8 @@ impl Judge {
 }
 
 /// Shades all of a scene alike.
-fn shade(scene: &mut SceneFile, shading: ShadingEntry) {
-    scene.shading = shading;
+fn shade(scene: &mut SceneFile, shading: &ShadingEntry) {
+    scene.shading = shading.clone();
     scene.objects.iter_mut().for_each(|object| object.shading = None);
 }
 
@@ -214,6 +216,8 @@ struct Pictures {
     encoding: Encoding,
     /// How far what is drawn may be moved on the picture.
     pixels: f64,
+    /// The most triangles that coarser ones saved.
+    triangles_saved: u64,
 }
 
 /// What the pictures have to keep to.
@@ -242,9 +246,13 @@ impl Pictures {
         } else if !bytes.is_within() {
             Err(Finding::Bytes(Box::new(bytes)))
         } else {
-            let terms_at_vertices = self.renderer.world().resource::<FrameReport>().terms_at_vertices;
-            Ok(Figures { float, bytes, terms_at_vertices })
+            let terms_at_vertices = self.report().terms_at_vertices;
+            Ok(Figures { float, bytes, terms_at_vertices, triangles_saved: self.triangles_saved })
         }
+    }
+
+    fn report(&self) -> &FrameReport {
+        self.renderer.world().resource()
     }
 
     fn has_ties(&mut self, bits: u32) -> Result<bool, Finding> {
@@ -253,14 +261,17 @@ impl Pictures {
 
     fn judged(&mut self, pixels: Pixels, bars: Bars, corners: Option<VertexGrid>) -> Result<Verdict, Finding> {
         self.renderer.insert_resource(Headless { size: self.size, pixels });
+        let mut whole = 0;
         if self.pixels > 0.0 {
             // The second frame has coarser triangles.
             render_picture(&mut self.renderer).map_err(refused::<RenderError>)?;
+            whole = self.report().triangles;
         }
         let actual = match render_picture(&mut self.renderer).map_err(refused::<RenderError>)? {
             Picture::Byte(image) => Image::from_bytes(&image, self.encoding),
             Picture::Float(image) => Image::from_float(&image),
         };
+        self.triangles_saved = self.triangles_saved.max(whole.saturating_sub(self.report().triangles));
         let mut oracle = |size| {
             let oracle = Oracle::new(self.oracle.world_mut(), size).map_err(refused)?.with_clamping(bars.are_clamped());
             Ok(if let Some(grid) = corners { oracle.on_grid(grid) } else { oracle })

@@ -11,6 +11,7 @@ use halfway::output::write_text;
 use halfway::prelude::UVec2;
 use halfway::reference::metrics::Verdict;
 use halfway::render::{Adapter, AdapterChoice};
+use halfway::scene::ShadingEntry;
 use halfway_wild::{Animation, Finding, IMAGES, Judge, scene, written};
 use serde_json::Value;
 
@@ -39,9 +40,13 @@ struct Arguments {
     /// Draw scenes with four samples a pixel as they are, not with one
     #[arg(long)]
     four: bool,
-    /// Draw everything by automatic shading within a tolerance, STEPS of 255 and PIXELS, and judge it by Phong shading
+    /// Draw everything within a tolerance, STEPS of 255 and PIXELS, and judge it by that
     #[arg(long, value_name = "STEPS[,PIXELS]", value_parser = tolerance)]
     tolerance: Option<Tolerance>,
+    /// How everything is then shaded: flat, gouraud, phong, and judged by the same; or auto, and judged by Phong
+    /// shading
+    #[arg(long, value_name = "SHADING", default_value = "auto", value_parser = shading, requires = "tolerance")]
+    shading: ShadingEntry,
     /// Draw no random scenes, but N frames of an animation by automatic shading, each within another tolerance of ½ to
     /// 8 steps, and judge each; it has 300
     #[arg(long, value_name = "FRAMES", conflicts_with_all = ["seed", "scenes", "first", "four", "tolerance"])]
@@ -61,6 +66,16 @@ fn tolerance(text: &str) -> Result<Tolerance, String> {
     tolerance
         .filter(|tolerance| tolerance.validate().is_ok())
         .ok_or_else(|| "expected numbers such as 1 or 2,0.5".into())
+}
+
+fn shading(text: &str) -> Result<ShadingEntry, String> {
+    match text {
+        "flat" => Ok(ShadingEntry::Flat),
+        "gouraud" => Ok(ShadingEntry::Gouraud),
+        "phong" => Ok(ShadingEntry::Phong),
+        "auto" => Ok(ShadingEntry::Auto),
+        _ => Err("expected flat, gouraud, phong or auto".into()),
+    }
 }
 
 fn main() -> ExitCode {
@@ -96,7 +111,7 @@ fn run(arguments: &Arguments) -> Result<u64, (u8, String)> {
     let judge = Judge::new(adapter, &arguments.output).map_err(|error| (3, error.to_string()))?;
     let mut judge = judge.with_four_samples(arguments.four);
     if let Some(tolerance) = arguments.tolerance {
-        judge = judge.with_tolerance(tolerance);
+        judge = judge.with_tolerance(tolerance, arguments.shading.clone());
     }
     let start = Instant::now();
     let (mut worst, mut failed) = (LargestErrors::default(), 0);

@@ -80,7 +80,7 @@ fn automatic_shading_keeps_to_its_tolerance() {
         let tolerance = Tolerance { steps, pixels };
         // A driver takes far longer to compile a scene's shaders than the CPU takes to draw it.
         for ((by, judge), scenes) in judges().into_iter().zip([6, 24]) {
-            let judge = judge.with_tolerance(tolerance);
+            let judge = judge.with_tolerance(tolerance, ShadingEntry::Auto);
             let (mut used, mut failures) = (0, Vec::new());
             for number in 0..scenes {
                 match judge.judge(&scene(SEED, number)) {
@@ -94,10 +94,32 @@ fn automatic_shading_keeps_to_its_tolerance() {
     }
 }
 
+/// So do coarser triangles under the other shadings, where they are drawn at all; flat shading keeps all of them.
+#[test]
+fn gouraud_and_phong_shading_keep_to_their_tolerance() {
+    for (steps, pixels) in [(1.0, 0.5), (8.0, 2.0)] {
+        for shading in [ShadingEntry::Gouraud, ShadingEntry::Phong] {
+            let judge = judge_of(&AdapterChoice::cpu()).with_tolerance(Tolerance { steps, pixels }, shading.clone());
+            let (mut coarser, mut failures) = (0, Vec::new());
+            for number in 0..12 {
+                match judge.judge(&scene(SEED, number)) {
+                    Ok(figures) => coarser += u64::from(figures.triangles_saved > 0),
+                    Err(finding) => failures.push(format!("scene {number}: {finding}")),
+                }
+            }
+            assert!(failures.is_empty(), "{shading:?}, {steps} steps, {pixels} pixels:\n{}", failures.join("\n"));
+            assert!(
+                coarser >= 3,
+                "{shading:?}, {steps} steps, {pixels} pixels: {coarser} scenes have coarser triangles"
+            );
+        }
+    }
+}
+
 /// Gouraud shading in the place of what was chosen is found.
 #[test]
 fn a_choice_that_is_too_cheap_is_found() {
-    let judge = judge_of(&AdapterChoice::cpu()).with_tolerance(Tolerance::steps(1.0));
+    let judge = judge_of(&AdapterChoice::cpu()).with_tolerance(Tolerance::steps(1.0), ShadingEntry::Auto);
     let judge = judge.with_fault(|scene| scene.shading = ShadingEntry::Gouraud);
     let found = (0..16).filter(|&number| judge.judge(&scene(SEED, number)).is_err()).count();
     assert!(found >= 4, "found in {found} of 16 scenes");
