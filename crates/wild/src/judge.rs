@@ -142,12 +142,12 @@ impl Judge {
         let encoding = scene.output;
         let blended = scene.objects.iter().filter(|object| object.blend == Some(true)).count() as f64;
         let (mut drawn, mut judged) = (scene.clone(), scene.clone());
-        if let Some((_, shading)) = &self.tolerance {
+        if let Some((_, shading)) = self.tolerance {
             shade(&mut drawn, shading);
-            shade(&mut judged, if *shading == ShadingEntry::Auto { &ShadingEntry::Phong } else { shading });
+            shade(&mut judged, if shading == ShadingEntry::Auto { ShadingEntry::Phong } else { shading });
             [&mut drawn, &mut judged].into_iter().for_each(refine);
         }
-        let tolerance = self.tolerance.as_ref().map_or(Tolerance::EXACT, |(tolerance, _)| *tolerance);
+        let tolerance = self.tolerance.map_or(Tolerance::EXACT, |(tolerance, _)| tolerance);
         if let Some(fault) = self.fault {
             fault(&mut drawn);
         }
@@ -189,8 +189,8 @@ impl Judge {
 }
 
 /// Shades all of a scene alike.
-fn shade(scene: &mut SceneFile, shading: &ShadingEntry) {
-    scene.shading = shading.clone();
+fn shade(scene: &mut SceneFile, shading: ShadingEntry) {
+    scene.shading = shading;
     scene.objects.iter_mut().for_each(|object| object.shading = None);
 }
 

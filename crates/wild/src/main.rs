@@ -111,7 +111,7 @@ fn run(arguments: &Arguments) -> Result<u64, (u8, String)> {
     let judge = Judge::new(adapter, &arguments.output).map_err(|error| (3, error.to_string()))?;
     let mut judge = judge.with_four_samples(arguments.four);
     if let Some(tolerance) = arguments.tolerance {
-        judge = judge.with_tolerance(tolerance, arguments.shading.clone());
+        judge = judge.with_tolerance(tolerance, arguments.shading);
     }
     let start = Instant::now();
     let (mut worst, mut failed) = (LargestErrors::default(), 0);

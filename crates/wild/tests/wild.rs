@@ -99,7 +99,7 @@ fn automatic_shading_keeps_to_its_tolerance() {
 fn gouraud_and_phong_shading_keep_to_their_tolerance() {
     for (steps, pixels) in [(1.0, 0.5), (8.0, 2.0)] {
         for shading in [ShadingEntry::Gouraud, ShadingEntry::Phong] {
-            let judge = judge_of(&AdapterChoice::cpu()).with_tolerance(Tolerance { steps, pixels }, shading.clone());
+            let judge = judge_of(&AdapterChoice::cpu()).with_tolerance(Tolerance { steps, pixels }, shading);
             let (mut coarser, mut failures) = (0, Vec::new());
             for number in 0..12 {
                 match judge.judge(&scene(SEED, number)) {
