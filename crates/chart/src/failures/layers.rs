@@ -86,8 +86,9 @@ pub(super) fn page(drawers: &[ChartedAdapter]) -> Result<FailurePage, MeasureErr
             lines.push(series(name, lines.len(), &drawn(adapter, opacity)?, false));
         }
         lines.push(series("rounded after each layer, by arithmetic", 3, &rounded(opacity), false));
-        panels
-            .push(panel(&format!("opacity {opacity}: at most {} steps", most(f64::from(opacity), 0.5).round()), lines));
+        let most = most(f64::from(opacity), 0.5).round();
+        let steps = if most <= 1.0 { "step" } else { "steps" };
+        panels.push(panel(&format!("opacity {opacity}: at most {most} {steps}"), lines));
     }
     let [drawn, oracle, off] = &judged(drawers, (SIZE, Pixels::Byte), 10.0, |world| spawn(world, OPACITIES[2]))?;
     let mut figure = figure(

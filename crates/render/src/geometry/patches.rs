@@ -1,12 +1,13 @@
 //! Patches: large meshes in pieces that lie close together and face alike, so that each can have light lists of its own
 //! and be left out when it is not seen.
 
-use crate::geometry::shape::{ANGLE_SLACK, PatchShape, length, sphere_around};
+use crate::geometry::shape::{ANGLE_SLACK, PatchShape, sphere_around};
 use crate::lights::gains::Extent;
 use crate::view::camera::View;
 use crate::view::matrices::ModelView;
 use bevy_math::Vec3;
 use halfway_lighting::Faces;
+use halfway_lighting::equations::vector::length;
 use halfway_mesh::{Bounds, Mesh, face_normal};
 use std::ops::Range;
 
@@ -188,7 +189,7 @@ impl MeshPatch {
     /// All of a mesh, of whose normals nothing is known.
     pub(crate) fn whole(mesh: &Mesh) -> Self {
         let center = mesh.bounds().center();
-        let farthest = mesh.positions().iter().map(|p| length(*p - center)).fold(0.0, f32::max);
+        let farthest = mesh.positions().iter().map(|p| length((*p - center).to_array())).fold(0.0, f32::max);
         let indices = 0..mesh.indices().len() as u32;
         Self {
             indices,
@@ -208,7 +209,9 @@ impl MeshPatch {
         Self {
             indices: ends,
             shape: PatchShape::sphere_alone((center, radius)),
-            facing: Facing::around(patches.iter().map(|patch| (&patch.facing, length(patch.shape.center - center)))),
+            facing: Facing::around(
+                patches.iter().map(|patch| (&patch.facing, length((patch.shape.center - center).to_array()))),
+            ),
             longest_edge: f32::INFINITY,
             area: 0.0,
             vertices: 0,

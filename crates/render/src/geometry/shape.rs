@@ -4,6 +4,7 @@ use crate::view::matrices::{ModelView, NormalMatrix};
 use bevy_math::Vec3;
 use halfway_lighting::Faces;
 use halfway_lighting::bounds::{self, Grain, NormalCone};
+use halfway_lighting::equations::vector::length;
 use halfway_mesh::{Bounds, Mesh};
 
 /// Normals spread wider than this from their mean, in radians, bound nothing. Below π/2 those that are interpolated
@@ -67,7 +68,7 @@ impl PatchCone {
             all.half_angle = all.half_angle.max(sin.atan2(cos) + cone.half_angle + ROUNDING);
             // What lies in a disk of that radius and thickness across the cone's axis.
             let along = offset.dot(axis).abs() + cone.half_thickness * cos.abs() + radius * sin;
-            all.half_thickness = all.half_thickness.max(along + ROUNDING * (length(offset) + radius));
+            all.half_thickness = all.half_thickness.max(along + ROUNDING * (length(offset.to_array()) + radius));
         }
         (axis != Vec3::ZERO && all.half_angle < WIDEST).then_some(all)
     }
@@ -84,7 +85,7 @@ impl PatchShape {
         let normals: Vec<Vec3> = vertices().map(|i| mesh.normals()[i]).collect();
         Self {
             center,
-            radius: offsets().map(length).fold(0.0, f32::max) * (1.0 + 1e-5),
+            radius: offsets().map(|offset| length(offset.to_array())).fold(0.0, f32::max) * (1.0 + 1e-5),
             faces: PatchCone::new(faces, offsets()),
             normals: PatchCone::new(&normals, offsets()),
             grain: grain(mesh, triangles),
@@ -191,16 +192,11 @@ impl PatchShape {
 const LARGER: f32 = 1.3;
 const WIDER: f32 = 0.35;
 
-/// Also where squares leave the range of single precision.
-pub(super) fn length(v: Vec3) -> f32 {
-    v.as_dvec3().length() as f32
-}
-
 /// A sphere that holds those around these shapes.
 pub(super) fn sphere_around<'a>(shapes: impl Iterator<Item = &'a PatchShape> + Clone) -> (Vec3, f32) {
     let corners = shapes.clone().flat_map(|shape| [shape.center - shape.radius, shape.center + shape.radius]);
     let center = Bounds::from_points(corners).map_or(Vec3::ZERO, |bounds| bounds.center());
-    let reach = shapes.map(|shape| length(shape.center - center) + shape.radius).fold(0.0, f32::max);
+    let reach = shapes.map(|shape| length((shape.center - center).to_array()) + shape.radius).fold(0.0, f32::max);
     (center, reach * (1.0 + 1e-5))
 }
 
