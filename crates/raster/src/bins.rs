@@ -62,8 +62,8 @@ pub(crate) struct BinsPart {
     jobs: Vec<Job>,
     /// How many jobs do not blend; they come first.
     opaque: u32,
-    /// Of each surface the last draw that showed it, and its state there.
-    known: Vec<(u32, u32)>,
+    /// Of each surface the last draw that showed it, and its states there: where normals may vanish, and where not.
+    known: Vec<(u32, [u32; 2])>,
     refused: Option<RasterError>,
 }
 
@@ -195,7 +195,7 @@ impl BinsPart {
         self.opaque = 0;
         self.known.clear();
         reserve(&mut self.known, pass.surfaces.len())?;
-        self.known.resize(pass.surfaces.len(), (u32::MAX, 0));
+        self.known.resize(pass.surfaces.len(), (u32::MAX, [0; 2]));
         let Range { start, end } = self.of;
         let first = spans.partition_point(|span| span.start <= start).saturating_sub(1);
         for span in spans[first..].iter().take_while(|span| span.start < end) {
@@ -228,7 +228,7 @@ impl BinsPart {
             let Some(tiles) = placed.tiles(&mesh.extent) else { return Ok(()) };
             all = Some(tiles).filter(TileBox::is_in_one);
         }
-        let state = self.state(pass, number, instance.surface)?;
+        let [vanishing, other] = self.states(pass, number, instance.surface)?;
         reserve(&mut self.jobs, pieces.len())?;
         for (piece, of) in pieces.clone().zip(&mesh.each[pieces]) {
             if placed.turns_away(of) {
@@ -236,26 +236,36 @@ impl BinsPart {
             }
             if let Some(of) = all.or_else(|| placed.tiles(&of.extent)) {
                 let (tiles, at_hand) = (of.tiles, of.is_at_hand());
+                let state = if mesh.each[piece].opposite_normals { vanishing } else { other };
                 self.jobs.push(Job { draw: number, instance: index, piece: piece as u32, state, tiles, at_hand });
             }
         }
         Ok(())
     }
 
-    /// The number of a surface's state in a draw.
-    fn state(&mut self, pass: &Pass, number: u32, surface: u32) -> Result<u32, RasterError> {
-        let (of, state) = self.known[surface as usize];
+    /// The numbers of a surface's states in a draw: of pieces of which interpolated normals may vanish, if the draw
+    /// asks for that, and of others.
+    fn states(&mut self, pass: &Pass, number: u32, surface: u32) -> Result<[u32; 2], RasterError> {
+        let (of, states) = self.known[surface as usize];
         if of == number {
-            return Ok(state);
+            return Ok(states);
         }
         let state = State::new(&pass.draws[number as usize], surface, &pass.surfaces[surface as usize]);
-        if self.states.last() != Some(&state) {
-            reserve(&mut self.states, 1)?;
-            self.states.push(state);
+        let vanishing = self.number(state)?;
+        let other = if state.opposite_normals { self.number(state.without_opposite_normals())? } else { vanishing };
+        self.known[surface as usize] = (number, [vanishing, other]);
+        Ok([vanishing, other])
+    }
+
+    /// The number of a state: that which it has already, if it is one of the last two.
+    fn number(&mut self, state: State) -> Result<u32, RasterError> {
+        let last = self.states.len().saturating_sub(2);
+        if let Some(place) = self.states[last..].iter().position(|other| *other == state) {
+            return Ok((last + place) as u32);
         }
-        let state = self.states.len() as u32 - 1;
-        self.known[surface as usize] = (number, state);
-        Ok(state)
+        reserve(&mut self.states, 1)?;
+        self.states.push(state);
+        Ok(self.states.len() as u32 - 1)
     }
 }
 
@@ -286,7 +296,9 @@ impl Job {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pass::{DrawCall, LeftOut, Lens, PixelFormat, SampleCount, SideData, SurfaceData};
+    use crate::pass::{
+        DrawCall, LeftOut, Lens, LightRange, PixelFormat, SampleCount, ShadedTerms, SideData, SurfaceData,
+    };
     use crate::{InstanceData, Pieces, TriangleOrder};
 
     /// Whatever parts there are, jobs come in the order of drawing, with the states that they have in one part.
@@ -357,11 +369,61 @@ mod tests {
         let one = filled(1);
         assert!(one.0.len() > 1_000 && one.2 > 0 && one.2 < one.0.len() as u32, "{} jobs", one.0.len());
         assert!(one.0.iter().all(|(_, instance, _, state)| state.surface == instance % 3));
-        // Three surfaces in three draws, of which one has a single instance.
-        assert_eq!(one.3, 3 + 1 + 3);
+        // Three surfaces in three draws; those of the second draw and of the first instance of the third, 1 and 2, are
+        // the last two there are.
+        assert_eq!(one.3, 3 + 2);
         for threads in [2, 3, 7] {
             let parts = filled(threads);
             assert!((&parts.0, &parts.1, parts.2) == (&one.0, &one.1, one.2), "{threads} parts");
         }
+    }
+
+    /// Of a mesh with some triangles whose normals may cancel only the pieces that have one keep the triangles' own;
+    /// and draws that follow each other go on with the same two states.
+    #[test]
+    fn pieces_whose_normals_do_not_vanish_keep_no_others() {
+        let corners = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 1.0, 0.0]];
+        let positions = [corners, corners].concat();
+        let normals = [[[0.0, 0.0, 1.0]; 3], [[0.0, 0.0, 1.0], [0.0, 0.6, -0.8], [0.0, 0.0, 1.0]]].concat();
+        let indices = [0, 1, 2, 3, 4, 5];
+        let mesh = Pieces::new(&positions, &normals, &indices, &[0..3, 3..6], TriangleOrder::Clustered).unwrap();
+        let instances = [InstanceData {
+            eye_from_model: [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, -3.0]],
+            normal: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+            surface: 0,
+        }];
+        let lit = LightRange { counts: [0, 1, 0], start: 0 };
+        let surfaces = [SurfaceData { fragment: lit, ..SurfaceData::default() }];
+        let draw = |opposite_normals, indices| DrawCall {
+            indices,
+            instances: 0..1,
+            fragment: ShadedTerms::BOTH,
+            opposite_normals,
+            ..DrawCall::default()
+        };
+        let states = |opposite_normals| {
+            let pass = Pass {
+                size: [64, 64],
+                samples: SampleCount::One,
+                pixels: PixelFormat::SrgbBytes,
+                clear: [0.0; 3],
+                lens: Lens { scale: [1.0, 1.0], near: 0.1 },
+                local_viewer: true,
+                lights: &[],
+                lists: &[],
+                surfaces: &surfaces,
+                instances: &instances,
+                meshes: &[&mesh],
+                maps: &[],
+                surroundings: None,
+                draws: &[draw(opposite_normals, 0..6), draw(opposite_normals, 0..3), draw(opposite_normals, 3..6)],
+            };
+            let mut bins = Bins::default();
+            bins.fill(&pass, 1, |parts, work| parts.iter_mut().for_each(work)).unwrap();
+            let of = |job: &Job| (job.piece, bins.states[job.state as usize].opposite_normals);
+            (bins.jobs.iter().map(of).collect::<Vec<_>>(), bins.states.len())
+        };
+        assert_eq!(states(true), (vec![(0, false), (1, true), (0, false), (1, true)], 2));
+        assert_eq!(states(false), (vec![(0, false), (1, false), (0, false), (1, false)], 1));
     }
 }

@@ -52,6 +52,8 @@ pub(crate) struct Piece {
     pub(crate) extent: PieceExtent,
     /// Of its face normals the axis, and the sine and cosine of the largest angle to it; `None` where they spread wide.
     pub(crate) cone: Option<FaceCone>,
+    /// Interpolated normals may vanish in some of its triangles.
+    pub(crate) opposite_normals: bool,
 }
 
 /// A cone around the normals of faces.
@@ -267,6 +269,15 @@ impl<'a> Builder<'a> {
         self.corners(triangle).map(|corner| self.positions[corner as usize])
     }
 
+    /// Whether a triangle's normals may cancel. While the products of all pairs are at least −0.49, the square of their
+    /// mean, by weights u, v and w whose sum is 1, is u² + v² + w² − 0.98·(u·v + v·w + w·u) ≥ 0.0066 at least.
+    fn has_opposite_normals(&self, triangle: u32) -> bool {
+        let normal = |corner: u32| self.lists.normals.get(corner as usize).copied().unwrap_or_default();
+        let [a, b, c] = self.corners(triangle).map(normal);
+        let dot = |a: [f32; 3], b: [f32; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+        dot(a, b).min(dot(b, c)).min(dot(c, a)) < -0.49
+    }
+
     fn cut(&mut self, pieces: &mut Pieces, cut: Range<u32>, order: TriangleOrder) -> Result<(), RasterError> {
         let triangles = cut.start / 3..cut.end / 3;
         self.order.clear();
@@ -345,7 +356,8 @@ impl<'a> Builder<'a> {
             vertex_count: self.used.len() as u32,
             triangles: end - of.len() as u32..end,
             extent,
-            cone: cone(self.order[of].iter().map(|&triangle| self.points(triangle))),
+            cone: cone(self.order[of.clone()].iter().map(|&triangle| self.points(triangle))),
+            opposite_normals: self.order[of].iter().any(|&triangle| self.has_opposite_normals(triangle)),
         });
         self.used.clear();
         Ok(())

@@ -125,6 +125,11 @@ impl State {
         }
     }
 
+    /// The same of pieces of which no interpolated normal vanishes.
+    pub(crate) fn without_opposite_normals(self) -> Self {
+        Self { opposite_normals: false, ..self }
+    }
+
     /// How a side takes light.
     pub(crate) fn gloss(&self, back: bool) -> Gloss {
         self.glosses[usize::from(back)]
