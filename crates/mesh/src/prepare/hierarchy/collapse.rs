@@ -7,6 +7,7 @@ use bevy_math::{DVec3, Vec3};
 
 use super::edge_twins::{NO_TWIN, edge_twins};
 use super::quadric::ErrorQuadric;
+use super::roughness::least_spread;
 use super::triangle_fans::TriangleFans;
 use super::vicinity::{MOST_AROUND, Vicinity};
 
@@ -66,7 +67,8 @@ impl Collapse {
             vicinity: Vicinity::default(),
         };
         collapse.add_quadrics();
-        let mut near = Vicinity::new(count);
+        let least_spread = least_spread(&collapse.mesh.triangles, &collapse.mesh.normals);
+        let mut near = Vicinity::new(count, least_spread);
         for place in 0..count as u32 {
             collapse.put_in_line(place, &mut near);
         }

@@ -18,6 +18,7 @@ mod overlay;
 mod pieces;
 mod quadric;
 mod rooms;
+mod roughness;
 mod rounds;
 mod stand_ins;
 mod triangle_fans;

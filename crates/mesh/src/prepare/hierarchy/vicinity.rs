@@ -82,6 +82,9 @@ pub(super) struct Vicinity {
     sides: Vec<FourSides>,
     /// That longest edge.
     unit: f64,
+    /// The square of the spread of normals that each triangle counts with at least: see
+    /// [`least_spread`](super::roughness::least_spread).
+    least_spread2: f32,
     /// Whether all of the fan's triangles have one vertex at the fan's place.
     has_one_vertex: bool,
     /// Of each place the number of the neighbour that it is, from 1; 0 if it is none.
@@ -128,8 +131,8 @@ fn signed_square(x: Vec4) -> Vec4 {
 
 impl Vicinity {
     /// Of one of N places.
-    pub(super) fn new(places: usize) -> Self {
-        Self { numbers: vec![0; places], ..Self::default() }
+    pub(super) fn new(places: usize, least_spread: f32) -> Self {
+        Self { numbers: vec![0; places], least_spread2: least_spread * least_spread, ..Self::default() }
     }
 
     pub(super) fn clear(&mut self) {
@@ -278,8 +281,9 @@ impl Vicinity {
     ///
     /// A length, the sum of: how far the new position is from the planes of the original triangles, in the mean; how
     /// far the old position is from the new triangles, which the mean may hide; the spread of the new triangles'
-    /// normals and the change of the normal at the old position (see [`SHARP_TURN`]), both times the longest edge. So
-    /// what is small may be cut coarsely, and on a sphere all triangles become alike.
+    /// normals, of rough surfaces a large one for all, and the change of the normal at the old position (see
+    /// [`SHARP_TURN`]), both times the longest edge. So what is small may be cut coarsely, and on a sphere, or where
+    /// all is rough, all triangles become alike.
     pub(super) fn loss(&self, target: usize, most: f64, normals: &[Vec3]) -> Option<f64> {
         let base = self.around[target].base;
         if base >= most {
@@ -309,7 +313,8 @@ impl Vicinity {
             }
             let longest2 = four.length2.max(from.length_squared()).max((q - four.to).length_squared());
             let moved = one.unwrap_or_else(|| FourVectors::new(four.corners.map(moved)));
-            let bulges2 = spread2(moved, four.normals[0], four.normals[1]) * longest2;
+            let spread2 = spread2(moved, four.normals[0], four.normals[1]).max(Vec4::splat(self.least_spread2));
+            let bulges2 = spread2 * longest2;
             bulge2 = bulge2.max(Vec4::select(goes, Vec4::ZERO, bulges2).max_element());
             if bulge2 >= most_bulge * most_bulge {
                 return None;
