@@ -30,7 +30,7 @@ use crate::shaders::records::{DrawRecord, InstanceRecord, MaterialRecord, Record
 use crate::target::frame::FrameValues;
 use bevy_ecs::component::Mutable;
 use bevy_ecs::prelude::*;
-use halfway_lighting::{InvalidValue, Terms, Tolerance};
+use halfway_lighting::{Frequency, InvalidValue, Terms, Tolerance};
 use std::sync::OnceLock;
 
 /// What is seen, in the order of the objects. Holds after [`RenderSet::Illuminate`](crate::RenderSet::Illuminate).
@@ -200,7 +200,20 @@ impl LitPatches {
         tolerance.validate()?;
         tolerance.steps *= share as f32;
         // Nothing moves where nothing may change.
-        let prices = if tolerance.steps > 0.0 { shared.prices } else { VertexPrices::NEVER };
+        let may_change = tolerance.steps > 0.0;
+        let mut prices = if may_change { shared.prices } else { VertexPrices::NEVER };
+        // Of what is shaded at the fragments, coarser patches may be as well at their corners. Of what is one patch,
+        // few triangles are saved, and looking takes as long.
+        let in_patches = geometry.source.triangle_count() > geometry.source.triangles_of_a_patch();
+        let may_be_coarser = may_change && tolerance.pixels > 0.0 && in_patches && geometry.detail.has_levels();
+        let is_by_fragments =
+            terms == terms.map(|term| if term == Frequency::Never { term } else { Frequency::Fragment });
+        let terms = if may_be_coarser && is_by_fragments && !blend && !paint.is_any() {
+            prices = VertexPrices::NEVER;
+            terms.map(|term| if term == Frequency::Fragment { Frequency::Auto } else { term })
+        } else {
+            terms
+        };
         let circumstances =
             Circumstances { terms, blend, mirrored: model_view.mirrored, opposite_normals: geometry.opposite_normals };
         let key = reflecting.key(look, circumstances, Shared { prices, ..shared });

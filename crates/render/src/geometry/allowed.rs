@@ -6,8 +6,8 @@
 //!   than its corners do by more than that.
 //!
 //! Corners are points of the mesh with its normals. What is interpolated between shades at corners never is more or
-//! less than they: so Gouraud shading keeps to this however its normals turn, and `Auto` shades such patches at the
-//! vertices.
+//! less than they: so Gouraud shading keeps to this however its normals turn, and `Auto`, and with it Phong shading,
+//! shades such patches at the vertices.
 //!
 //! How far points move and normals turn is bounded, patch by patch ([`halfway_mesh::PatchGroup`]). A normal that turns
 //! by δ changes a term with exponent n (1 for diffuse) by no more than
