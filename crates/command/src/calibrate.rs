@@ -51,6 +51,8 @@ pub(crate) fn run(args: &CalibrateArgs) -> Result<(), Failure> {
                 "vertex_ns": found.vertex_ns,
                 "measured": named(&found.measured),
                 "fixed": named(&own),
+                "caution": found.caution,
+                "prices": named(&found.prices),
                 "trial": found.trial,
                 "doubts": found.doubts,
                 "measured_on": of.json(),
@@ -70,7 +72,10 @@ pub(crate) fn run(args: &CalibrateArgs) -> Result<(), Failure> {
     for ((meaning, (_, measured)), (_, own)) in MEANINGS.iter().zip(found.measured.named()).zip(own.named()) {
         println!("| {meaning} | {measured:.2} | {} |", if own.is_finite() { format!("{own}") } else { "never".into() });
     }
-    println!("\nA frame of a ball under four lights takes {:.2} times as long by those measured.", found.trial);
+    println!("\nA frame of a ball under four lights takes {:.2} times as long by these prices.", found.trial);
+    if found.caution > 1.0 {
+        println!("By less it took too long: looks and draws count {} times what was measured.", found.caution);
+    }
     for doubt in &found.doubts {
         println!("not believed: {doubt}");
     }

@@ -36,7 +36,10 @@ pub struct Calibration {
     pub prices: VertexPrices,
     /// Why those measured are not believed, in words; none where they are.
     pub doubts: Vec<String>,
-    /// How long a frame takes by the prices measured, as a multiple of one by the adapter's own.
+    /// How many times what was measured a look and a draw count in `prices`: 1, or up to 16 where a frame took too long
+    /// by less.
+    pub caution: f32,
+    /// How long a frame takes by the prices measured, with such caution, as a multiple of one by the adapter's own.
     pub trial: f64,
 }
 
@@ -57,6 +60,11 @@ const BELIEVED_UNIT: [f64; 2] = [1e-4, 1e4];
 /// times of the same frame differ on a machine that does something else as well.
 const MOST_LOST: f64 = 1.05;
 
+/// What no price stands for, as that triangles whose terms are in two places are drawn in a slower way, is told by a
+/// frame that takes too long. Then looks and draws are taken for twice as dear, up to so many times: what moves has to
+/// save more.
+const MOST_CAUTION: f32 = 16.0;
+
 impl Calibration {
     /// Draws on the adapter and times it. What else the machine does at that time makes it less exact; prices that
     /// cannot be are not taken.
@@ -68,13 +76,22 @@ impl Calibration {
         let times = stages.time()?;
         let (unit_ns, vertex_ns, measured) = times.prices();
         let own = adapter.costs().vertices;
-        let unlimited = Self::of(unit_ns, vertex_ns, measured, own, 1.0);
-        let trial = if unlimited.doubts.is_empty() { stages.trial(own, unlimited.prices)? } else { 1.0 };
-        Ok(Self::of(unit_ns, vertex_ns, measured, own, trial))
+        let untried = Self::of(unit_ns, vertex_ns, measured, own, (1.0, 1.0));
+        if !untried.doubts.is_empty() {
+            return Ok(untried);
+        }
+        let (trial, caution) = tried(|caution| stages.trial(own, taken(measured, caution)))?;
+        Ok(Self::of(unit_ns, vertex_ns, measured, own, (trial, caution)))
     }
 
-    /// Judges what was measured, on an adapter with prices of its `own`.
-    fn of(unit_ns: f64, vertex_ns: f64, measured: VertexPrices, own: VertexPrices, trial: f64) -> Self {
+    /// Judges what was measured, and tried with some caution, on an adapter with prices of its `own`.
+    fn of(
+        unit_ns: f64,
+        vertex_ns: f64,
+        measured: VertexPrices,
+        own: VertexPrices,
+        (trial, caution): (f64, f32),
+    ) -> Self {
         let mut doubts = Vec::new();
         let [least, most] = BELIEVED_UNIT;
         if !(least..=most).contains(&unit_ns) {
@@ -90,20 +107,33 @@ impl Calibration {
                 "a frame by these prices takes {trial:.2} times as long; expected no more than {MOST_LOST}"
             ));
         }
-        let prices = if doubts.is_empty() { within_range(measured) } else { own };
-        Self { unit_ns, vertex_ns, measured, prices, doubts, trial }
+        let prices = if doubts.is_empty() { taken(measured, caution) } else { own };
+        Self { unit_ns, vertex_ns, measured, prices, doubts, caution, trial }
     }
 }
 
-/// What noise may have put a little outside of what prices can be.
-fn within_range(
+/// With the least caution by which a frame does not take too long, or the most there is: how long it takes, and that.
+fn tried(mut trial: impl FnMut(f32) -> Result<f64, RenderError>) -> Result<(f64, f32), RenderError> {
+    let mut caution = 1.0;
+    loop {
+        let found = trial(caution)?;
+        if found <= MOST_LOST || caution >= MOST_CAUTION {
+            return Ok((found, caution));
+        }
+        caution *= 2.0;
+    }
+}
+
+/// The prices to draw by, with so much caution; without what noise may have put a little outside of what they can be.
+fn taken(
     VertexPrices { light, pixel, look, draw, diffuse_alone, specular_alone }: VertexPrices,
+    caution: f32,
 ) -> VertexPrices {
     VertexPrices {
         light,
         pixel: pixel.max(0.0),
-        look,
-        draw: draw.max(0.0),
+        look: caution * look,
+        draw: caution * draw.max(0.0),
         diffuse_alone: diffuse_alone.min(1.0),
         specular_alone: specular_alone.min(1.0),
     }
@@ -157,19 +187,25 @@ mod tests {
 
     #[test]
     fn what_cannot_be_is_not_believed() {
-        let believed = Calibration::of(2.0, 30.0, FOUND, OWN, 1.01);
+        let believed = Calibration::of(2.0, 30.0, FOUND, OWN, (1.01, 1.0));
         assert_eq!((believed.prices, believed.doubts.len()), (FOUND, 0));
         let rows = [
-            ("light", Calibration::of(2.0, 30.0, VertexPrices { light: -0.1, ..FOUND }, OWN, 1.0)),
-            ("pixel", Calibration::of(2.0, 30.0, VertexPrices { pixel: -2.0, ..FOUND }, OWN, 1.0)),
-            ("look", Calibration::of(2.0, 30.0, VertexPrices { look: 0.0, ..FOUND }, OWN, 1.0)),
-            ("draw", Calibration::of(2.0, 30.0, VertexPrices { draw: f32::INFINITY, ..FOUND }, OWN, 1.0)),
-            ("diffuse_alone", Calibration::of(2.0, 30.0, VertexPrices { diffuse_alone: f32::NAN, ..FOUND }, OWN, 1.0)),
-            ("specular_alone", Calibration::of(2.0, 30.0, VertexPrices { specular_alone: 1.5, ..FOUND }, OWN, 1.0)),
-            ("a light at a pixel", Calibration::of(0.0, 30.0, FOUND, OWN, 1.0)),
-            ("a light at a pixel", Calibration::of(f64::NAN, 30.0, FOUND, OWN, 1.0)),
-            ("a frame by these prices takes 1.06", Calibration::of(2.0, 30.0, FOUND, OWN, 1.06)),
-            ("a frame by these prices takes NaN", Calibration::of(2.0, 30.0, FOUND, OWN, f64::NAN)),
+            ("light", Calibration::of(2.0, 30.0, VertexPrices { light: -0.1, ..FOUND }, OWN, (1.0, 1.0))),
+            ("pixel", Calibration::of(2.0, 30.0, VertexPrices { pixel: -2.0, ..FOUND }, OWN, (1.0, 1.0))),
+            ("look", Calibration::of(2.0, 30.0, VertexPrices { look: 0.0, ..FOUND }, OWN, (1.0, 1.0))),
+            ("draw", Calibration::of(2.0, 30.0, VertexPrices { draw: f32::INFINITY, ..FOUND }, OWN, (1.0, 1.0))),
+            (
+                "diffuse_alone",
+                Calibration::of(2.0, 30.0, VertexPrices { diffuse_alone: f32::NAN, ..FOUND }, OWN, (1.0, 1.0)),
+            ),
+            (
+                "specular_alone",
+                Calibration::of(2.0, 30.0, VertexPrices { specular_alone: 1.5, ..FOUND }, OWN, (1.0, 1.0)),
+            ),
+            ("a light at a pixel", Calibration::of(0.0, 30.0, FOUND, OWN, (1.0, 1.0))),
+            ("a light at a pixel", Calibration::of(f64::NAN, 30.0, FOUND, OWN, (1.0, 1.0))),
+            ("a frame by these prices takes 1.06", Calibration::of(2.0, 30.0, FOUND, OWN, (1.06, 1.0))),
+            ("a frame by these prices takes NaN", Calibration::of(2.0, 30.0, FOUND, OWN, (f64::NAN, 1.0))),
         ];
         for (name, found) in rows {
             assert_eq!(found.prices, OWN, "{name}");
@@ -177,10 +213,33 @@ mod tests {
         }
     }
 
+    /// A frame that takes too long by what was measured may not where looks and draws are dearer.
+    #[test]
+    fn what_takes_too_long_is_tried_with_caution() {
+        let of = |frames: [f64; 6]| {
+            let mut frames = frames.into_iter();
+            let mut asked = Vec::new();
+            let found = tried(|caution| {
+                asked.push(caution);
+                Ok(frames.next().expect("no more is tried"))
+            });
+            (found.expect("it draws"), asked)
+        };
+        let never = f64::INFINITY;
+        assert_eq!(of([1.05, never, never, never, never, never]), ((1.05, 1.0), vec![1.0]));
+        assert_eq!(of([1.16, 1.07, 1.02, never, never, never]), ((1.02, 4.0), vec![1.0, 2.0, 4.0]));
+        assert_eq!(of([1.16, 1.16, f64::NAN, 1.2, 1.1, never]), ((1.1, 16.0), vec![1.0, 2.0, 4.0, 8.0, 16.0]));
+        let found = Calibration::of(2.0, 30.0, FOUND, OWN, (1.02, 4.0));
+        let VertexPrices { look, draw, .. } = FOUND;
+        assert_eq!(found.prices, VertexPrices { look: 4.0 * look, draw: 4.0 * draw, ..FOUND });
+        assert_eq!((found.measured, found.doubts.len()), (FOUND, 0));
+        assert_eq!(Calibration::of(2.0, 30.0, FOUND, OWN, (1.1, 16.0)).prices, OWN);
+    }
+
     #[test]
     fn noise_does_not_make_prices_that_are_none() {
         let found = VertexPrices { pixel: -0.3, draw: -0.5, diffuse_alone: 1.1, specular_alone: 1.19, ..FOUND };
-        let prices = Calibration::of(2.0, 30.0, found, OWN, 1.0).prices;
+        let prices = Calibration::of(2.0, 30.0, found, OWN, (1.0, 1.0)).prices;
         assert_eq!(prices, VertexPrices { pixel: 0.0, draw: 0.0, diffuse_alone: 1.0, specular_alone: 1.0, ..FOUND });
         assert_eq!(prices.validate(), Ok(()));
     }
