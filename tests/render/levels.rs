@@ -30,7 +30,7 @@ fn triangles(stage: &mut Stage, scene: &Scene, levels: Tolerance) -> (u64, u64) 
 #[test]
 fn farther_spheres_are_drawn_with_fewer_triangles() {
     let mut stage = Stage::new(64, 64);
-    for shading in [Shading::Gouraud, Shading::Auto] {
+    for shading in [Shading::Gouraud, Shading::Phong, Shading::Auto] {
         let mut before = u64::MAX;
         for distance in [4.0, 16.0, 64.0] {
             let thing = Thing::new(sphere(256)).shaded(shading).faces(Faces::Both);
@@ -41,6 +41,26 @@ fn farther_spheres_are_drawn_with_fewer_triangles() {
             assert!(drawn < before && drawn < modelled, "{shading:?}, distance {distance}: {drawn} after {before}");
             before = drawn;
         }
+    }
+}
+
+/// Where no edge is longer than what is allowed, Phong shading has its terms at the corners as automatic shading does;
+/// not with colors, and not of a mesh of one patch.
+#[test]
+fn phong_shading_goes_by_edges_as_automatic_shading_does() {
+    let mut stage = Stage::new(64, 64);
+    let mut drawn = |mesh: &Mesh, shading| {
+        let scene = one(Thing::new(mesh.clone()).shaded(shading), 64.0);
+        triangles(&mut stage, &scene, Tolerance { steps: 0.01, pixels: 0.5 }).0
+    };
+    let large = sphere(256);
+    let colors = large.clone().with_colors(vec![Vec4::ONE; large.positions().len()]).expect("a color a vertex");
+    let rows = [("large", large, true), ("colored", colors, false), ("of one patch", sphere(64), false)];
+    for (row, mesh, goes) in rows {
+        let [phong, auto] = [Shading::Phong, Shading::Auto].map(|shading| drawn(&mesh, shading));
+        println!("{row}: {phong} and {auto} of {} triangles", mesh.triangle_count());
+        assert_eq!(phong < mesh.triangle_count() as u64 / 8, goes, "{row}: {phong}");
+        assert!(!goes || phong == auto, "{row}: {phong} and {auto}");
     }
 }
 
