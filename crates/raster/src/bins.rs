@@ -301,6 +301,31 @@ mod tests {
     };
     use crate::{InstanceData, Pieces, TriangleOrder};
 
+    /// A pass into bytes, without lights.
+    fn plain<'a>(
+        size: [u32; 2],
+        (instances, surfaces): (&'a [InstanceData], &'a [SurfaceData]),
+        meshes: &'a [&'a Pieces],
+        draws: &'a [DrawCall],
+    ) -> Pass<'a> {
+        Pass {
+            size,
+            samples: SampleCount::One,
+            pixels: PixelFormat::SrgbBytes,
+            clear: [0.0; 3],
+            lens: Lens { scale: [1.0, size[0] as f32 / size[1] as f32], near: 0.1 },
+            local_viewer: true,
+            lights: &[],
+            lists: &[],
+            surfaces,
+            instances,
+            meshes,
+            maps: &[],
+            surroundings: None,
+            draws,
+        }
+    }
+
     /// Whatever parts there are, jobs come in the order of drawing, with the states that they have in one part.
     #[test]
     fn parts_find_what_one_finds() {
@@ -335,22 +360,8 @@ mod tests {
             draw(false, 145..146, LeftOut::Back),
             draw(false, 146..3_001, LeftOut::Neither),
         ];
-        let pass = Pass {
-            size: [1280, 720],
-            samples: SampleCount::One,
-            pixels: PixelFormat::SrgbBytes,
-            clear: [0.0; 3],
-            lens: Lens { scale: [1.0, 16.0 / 9.0], near: 0.1 },
-            local_viewer: true,
-            lights: &[],
-            lists: &[],
-            surfaces: &surfaces,
-            instances: &instances,
-            meshes: &[&mesh],
-            maps: &[],
-            surroundings: None,
-            draws: &draws,
-        };
+        let meshes = [&mesh];
+        let pass = plain([1280, 720], (&instances, &surfaces), &meshes, &draws);
         let filled = |threads| {
             let mut bins = Bins::default();
             // The second time in memory that the first has left behind.
@@ -401,23 +412,10 @@ mod tests {
             opposite_normals,
             ..DrawCall::default()
         };
+        let meshes = [&mesh];
         let states = |opposite_normals| {
-            let pass = Pass {
-                size: [64, 64],
-                samples: SampleCount::One,
-                pixels: PixelFormat::SrgbBytes,
-                clear: [0.0; 3],
-                lens: Lens { scale: [1.0, 1.0], near: 0.1 },
-                local_viewer: true,
-                lights: &[],
-                lists: &[],
-                surfaces: &surfaces,
-                instances: &instances,
-                meshes: &[&mesh],
-                maps: &[],
-                surroundings: None,
-                draws: &[draw(opposite_normals, 0..6), draw(opposite_normals, 0..3), draw(opposite_normals, 3..6)],
-            };
+            let draws = [draw(opposite_normals, 0..6), draw(opposite_normals, 0..3), draw(opposite_normals, 3..6)];
+            let pass = plain([64, 64], (&instances, &surfaces), &meshes, &draws);
             let mut bins = Bins::default();
             bins.fill(&pass, 1, |parts, work| parts.iter_mut().for_each(work)).unwrap();
             let of = |job: &Job| (job.piece, bins.states[job.state as usize].opposite_normals);

@@ -8,8 +8,8 @@ const SMOOTH: f32 = 0.01;
 /// How many times that what is above it counts as the spread of a triangle's normals.
 const WEIGHT: f32 = 40.0;
 
-/// The spread of normals that each triangle counts with at least: 0 where three of four vertices, and all of what is
-/// smooth or has sharp edges only here and there, have about the mean of their neighbours' normals.
+/// The spread of normals that each triangle counts with at least: 0 where a quarter of the vertices or more have about
+/// the mean of their neighbours' normals, as on what is smooth, or has sharp edges only here and there.
 ///
 /// Normals of a rough surface are lost with the first vertices that go, and then nothing but the length of edges tells
 /// whether a group will do. With this all triangles lose alike by their edges, and none becomes much longer than others
