@@ -156,7 +156,8 @@ fn groups_follow_those_that_they_join_and_are_no_better() {
                 triangle_end = patch.triangles.end;
                 let Some(finer) = patch.part_of else { continue };
                 assert!(finer < number, "{name}");
-                let figures = |g: &PatchGroup| [g.error, g.normal_error, g.normal_spread, g.longest_edge];
+                let figures =
+                    |g: &PatchGroup| [g.error, g.normal_error, g.normal_spread, g.longest_edge, g.corner_reach];
                 let pairs = figures(&groups[finer as usize]).into_iter().zip(figures(group));
                 assert!(pairs.clone().all(|(finer, own)| finer <= own), "{name}: {:?}", pairs.collect::<Vec<_>>());
             }

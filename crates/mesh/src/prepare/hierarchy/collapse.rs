@@ -7,7 +7,7 @@ use bevy_math::{DVec3, Vec3};
 
 use super::edge_twins::{NO_TWIN, edge_twins};
 use super::quadric::ErrorQuadric;
-use super::roughness::least_spread;
+use super::roughness::{least_spread, roughness};
 use super::triangle_fans::TriangleFans;
 use super::vicinity::{MOST_AROUND, Vicinity};
 
@@ -45,6 +45,8 @@ pub(super) struct Collapse {
     is_waiting: Vec<bool>,
     /// What is around the place that is looked at, here only so that its memory is used again.
     vicinity: Vicinity,
+    /// How rough the mesh was before anything collapsed.
+    pub(super) roughness: f32,
 }
 
 const GONE: [u32; 3] = [u32::MAX; 3];
@@ -65,10 +67,11 @@ impl Collapse {
             changed: vec![false; count],
             is_waiting: vec![false; count],
             vicinity: Vicinity::default(),
+            roughness: 0.0,
         };
         collapse.add_quadrics();
-        let least_spread = least_spread(&collapse.mesh.triangles, &collapse.mesh.normals);
-        let mut near = Vicinity::new(count, least_spread);
+        collapse.roughness = roughness(&collapse.mesh.triangles, &collapse.mesh.normals);
+        let mut near = Vicinity::new(count, least_spread(collapse.roughness));
         for place in 0..count as u32 {
             collapse.put_in_line(place, &mut near);
         }

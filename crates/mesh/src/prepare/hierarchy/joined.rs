@@ -5,12 +5,14 @@ use bevy_math::DVec3;
 use super::PatchGroup;
 use super::box_grid::not_less;
 use super::collapse::{Collapse, LocalMesh};
+use super::corner_reach::corner_reach;
 use super::deviation::Deviation;
 use super::fine_surface::Surfaces;
 use super::frame::longest_edge;
 use super::maker::{FARTHEST, Loose, Maker, SEVERAL, has_room};
 use super::stand_ins::StandIns;
 use super::widest_angle::WidestAngle;
+use crate::prepare::nearest::TriangleCorners;
 
 /// Fewer triangles than this are not joined.
 const FEWEST: usize = 32;
@@ -68,7 +70,7 @@ impl Maker<'_> {
         if wanted < FEWEST {
             return None;
         }
-        let mut coarse = self.reduced(&triangles, owners, wanted);
+        let (mut coarse, roughness) = self.reduced(&triangles, owners, wanted);
         if coarse.is_empty() || coarse.len() as f64 > WORTHWHILE * before as f64 {
             return None;
         }
@@ -105,7 +107,7 @@ impl Maker<'_> {
             parts[part].covers.push(vertex);
         }
         Some(Joined {
-            group: self.group(members, &coarse, deviation),
+            group: self.group(members, (&coarse, roughness), deviation),
             joins: members.iter().map(|loose| loose.number).collect(),
             parts,
             deviation,
@@ -126,12 +128,13 @@ impl Maker<'_> {
         finer.map(of_group).fold(Deviation::default(), Deviation::max)
     }
 
-    /// Triangles of patches without vertices that cost little.
-    fn reduced(&self, triangles: &[[u32; 3]], owners: &[u32], wanted: usize) -> Vec<[u32; 3]> {
+    /// Triangles of patches without vertices that cost little, and how rough those triangles were.
+    fn reduced(&self, triangles: &[[u32; 3]], owners: &[u32], wanted: usize) -> (Vec<[u32; 3]>, f32) {
         let (vertices, local) = self.with_slots(|slots| self.local(triangles, owners, slots));
         let mut collapse = Collapse::new(local);
         collapse.reduce_to(wanted);
-        collapse.triangles().map(|triangle| triangle.map(|local| vertices[local as usize])).collect()
+        let left = collapse.triangles().map(|triangle| triangle.map(|local| vertices[local as usize])).collect();
+        (left, collapse.roughness)
     }
 
     /// Triangles by themselves, and the vertices that theirs are.
@@ -165,7 +168,7 @@ impl Maker<'_> {
     }
 
     /// What is known of the group of coarse triangles that stand for some patches.
-    fn group(&self, members: &[Loose], coarse: &[[u32; 3]], deviation: Deviation) -> PatchGroup {
+    fn group(&self, members: &[Loose], (coarse, roughness): (&[[u32; 3]], f32), deviation: Deviation) -> PatchGroup {
         let normals = self.mesh.normals();
         let mut spread = WidestAngle::default();
         for triangle in coarse {
@@ -175,16 +178,16 @@ impl Maker<'_> {
                 spread.add(n, mean);
             }
         }
-        let longest =
-            |triangle: &[u32; 3]| longest_edge(triangle.map(|i| self.mesh.positions()[i as usize].as_dvec3()));
-        let longest_edge = coarse.iter().map(longest).fold(0.0, f64::max);
-        let [normal_spread, longest_edge] = [spread.angle, longest_edge].map(not_less);
+        let corners = |triangle: &[u32; 3]| triangle.map(|i| self.mesh.positions()[i as usize].as_dvec3());
+        let largest = |of: fn(TriangleCorners) -> f64| coarse.iter().map(|it| of(corners(it))).fold(0.0, f64::max);
         let mut group = PatchGroup {
             joins: 0..0,
             error: not_less(deviation.distance),
             normal_error: not_less(deviation.angle),
-            normal_spread,
-            longest_edge: longest_edge.min(f32::MAX),
+            normal_spread: not_less(spread.angle),
+            longest_edge: not_less(largest(longest_edge)).min(f32::MAX),
+            corner_reach: not_less(largest(corner_reach)).min(f32::MAX),
+            roughness,
         };
         for finer in members.iter().filter_map(|loose| loose.part_of) {
             let finer = &self.groups[finer as usize];
@@ -192,6 +195,8 @@ impl Maker<'_> {
             group.normal_error = group.normal_error.max(finer.normal_error);
             group.normal_spread = group.normal_spread.max(finer.normal_spread);
             group.longest_edge = group.longest_edge.max(finer.longest_edge);
+            group.corner_reach = group.corner_reach.max(finer.corner_reach);
+            group.roughness = group.roughness.min(finer.roughness);
         }
         group
     }

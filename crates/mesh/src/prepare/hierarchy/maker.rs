@@ -6,8 +6,8 @@ use std::sync::{Mutex, PoisonError};
 use bevy_math::{DVec3, Vec3};
 
 use super::box_grid::not_less;
+use super::corner_reach::corner_reach;
 use super::deviation::Deviation;
-use super::frame::longest_edge;
 use super::open_border::open_border;
 use super::stand_ins::StandIns;
 use super::{PatchGroup, WHOLE};
@@ -121,19 +121,18 @@ impl<'a> Maker<'a> {
 
     /// Vertices that are as far as this from other pieces and layers have room for any group.
     pub(super) fn most_room(&self) -> f64 {
-        let longest = |number| longest_edge(self.mesh.corners_of(number).map(Vec3::as_dvec3));
-        let longest = (0..self.mesh.triangle_count() as u32).map(longest).fold(0.0, f64::max);
+        let reach = |number| corner_reach(self.mesh.corners_of(number).map(Vec3::as_dvec3));
+        let farthest = (0..self.mesh.triangle_count() as u32).map(reach).fold(0.0, f64::max);
         // A little more, as errors are rounded up.
-        1.001 * ROOM * FARTHEST * f64::from(self.mesh.bounds().radius()) + longest / 3f64.sqrt()
+        1.001 * ROOM * FARTHEST * f64::from(self.mesh.bounds().radius()) + farthest
     }
 
-    /// How far triangles are from other pieces and layers, by how far their vertices are: no point of a triangle is
-    /// further from one of them than the longest edge over √3 (Jung 1901).
+    /// How far triangles are from other pieces and layers, by how far their vertices are.
     pub(super) fn room(&self, triangles: &[[u32; 3]], rooms: &[f32]) -> f64 {
         let of = |triangle: &[u32; 3]| {
             let corners = triangle.map(|vertex| self.mesh.positions()[vertex as usize].as_dvec3());
             let rooms = triangle.map(|vertex| rooms[self.stand_ins.places[vertex as usize] as usize]);
-            f64::from(rooms.into_iter().fold(f32::INFINITY, f32::min)) - longest_edge(corners) / 3f64.sqrt()
+            f64::from(rooms.into_iter().fold(f32::INFINITY, f32::min)) - corner_reach(corners)
         };
         triangles.iter().map(of).fold(f64::INFINITY, f64::min).max(0.0)
     }

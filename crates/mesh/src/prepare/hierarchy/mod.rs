@@ -3,6 +3,7 @@
 mod box_grid;
 mod clip;
 mod collapse;
+mod corner_reach;
 mod deviation;
 mod edge_twins;
 mod fine_surface;
@@ -62,7 +63,7 @@ pub struct HierarchyPatch {
 }
 
 /// Patches that are joined to coarser ones, and how far off those are. None of these numbers is smaller than that of a
-/// group whose parts this one joins.
+/// group whose parts this one joins, but for the roughness, which is no larger.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PatchGroup {
     /// The patches that it joins.
@@ -78,6 +79,13 @@ pub struct PatchGroup {
     pub normal_spread: f32,
     /// The length of the longest edge of its parts, in the mesh's units; at most `f32::MAX`.
     pub longest_edge: f32,
+    /// No point of its parts' triangles is farther from the nearest corner of its triangle, in the mesh's units; at
+    /// most `f32::MAX`, and no more than the longest edge over √3.
+    pub corner_reach: f32,
+    /// How rough the mesh is there: a quarter of the vertices of what it joins, or of some group that is joined to
+    /// that, differ in their normals from the mean of those beside them by no more than this, as unit vectors. Hardly
+    /// anything where it is smooth. Of a group it is no more than of those whose parts it joins.
+    pub roughness: f32,
 }
 
 /// A mesh of up to this many triangles is one patch: cutting it would cost more draws than it saves.

@@ -8,13 +8,9 @@ const SMOOTH: f32 = 0.01;
 /// How many times that what is above it counts as the spread of a triangle's normals.
 const WEIGHT: f32 = 40.0;
 
-/// The spread of normals that each triangle counts with at least: 0 where a quarter of the vertices or more have about
-/// the mean of their neighbours' normals, as on what is smooth, or has sharp edges only here and there.
-///
-/// Normals of a rough surface are lost with the first vertices that go, and then nothing but the length of edges tells
-/// whether a group will do. With this all triangles lose alike by their edges, and none becomes much longer than others
-/// because its normals happen to agree.
-pub(super) fn least_spread(triangles: &[[u32; 3]], normals: &[Vec3]) -> f32 {
+/// A quarter of the vertices differ from the mean of their neighbours' normals by no more than this, as unit vectors:
+/// hardly by anything on what is smooth, or has sharp edges only here and there.
+pub(super) fn roughness(triangles: &[[u32; 3]], normals: &[Vec3]) -> f32 {
     let mut around = vec![Vec3::ZERO; normals.len()];
     for &[a, b, c] in triangles {
         let [of_a, of_b, of_c] = [a, b, c].map(|vertex| normals[vertex as usize]);
@@ -28,8 +24,16 @@ pub(super) fn least_spread(triangles: &[[u32; 3]], normals: &[Vec3]) -> f32 {
         return 0.0;
     }
     let quarter = differences.len() / 4;
-    let (_, roughness, _) = differences.select_nth_unstable_by(quarter, f32::total_cmp);
-    WEIGHT * (*roughness - SMOOTH).max(0.0)
+    *differences.select_nth_unstable_by(quarter, f32::total_cmp).1
+}
+
+/// The spread of normals that each triangle of a surface as rough as this counts with at least, 0 of what is smooth.
+///
+/// Normals of a rough surface are lost with the first vertices that go, and then nothing but the length of edges tells
+/// whether a group will do. With this all triangles lose alike by their edges, and none becomes much longer than others
+/// because its normals happen to agree.
+pub(super) fn least_spread(roughness: f32) -> f32 {
+    WEIGHT * (roughness - SMOOTH).max(0.0)
 }
 
 #[cfg(test)]
@@ -49,7 +53,7 @@ mod tests {
             .collect();
         let normals: Vec<_> =
             (0..SIDE * SIDE).map(|i| Vec3::new(slope(i % SIDE, i / SIDE), 0.0, 1.0).normalize()).collect();
-        least_spread(&triangles, &normals)
+        least_spread(roughness(&triangles, &normals))
     }
 
     #[test]
@@ -60,6 +64,6 @@ mod tests {
         assert!(is_close(spread(|x, _| if x < 6 { -0.5 } else { 0.5 }), 0.0), "creased");
         let noise = |x: u32, y: u32| if (x * 7 + y * 5).is_multiple_of(3) { 0.2 } else { -0.1 };
         assert!(spread(noise) > 1.0, "{}", spread(noise));
-        assert!(is_close(least_spread(&[], &[]), 0.0));
+        assert!(is_close(roughness(&[], &[]), 0.0));
     }
 }

@@ -127,6 +127,8 @@ impl Maker<'_> {
             normal_error: std::f32::consts::PI,
             normal_spread: std::f32::consts::PI,
             longest_edge: f32::MAX,
+            corner_reach: f32::MAX,
+            roughness: 0.0,
         });
         self.joined.push(pool.into_iter().map(|loose| loose.number).collect());
         let mut hierarchy = PatchHierarchy {

@@ -3,9 +3,9 @@
 
 use bevy_math::DVec3;
 
+use super::corner_reach::corner_reach;
 use super::deviation::{Deviation, angle};
 use super::fine_surface::Surfaces;
-use super::frame::longest_edge;
 use crate::prepare::nearest::{TriangleCorners, nearest_on};
 
 /// A triangle is cut in four so often at most. A fifth time saves less than 0.1 % of them.
@@ -78,11 +78,11 @@ impl ShadedTriangle {
         Self { normals: [DVec3::Z; 3], ..self }
     }
 
-    /// How far its points are from its corners: no further from one of them than the longest edge over √3 (Jung 1901).
+    /// How far its points are from its corners.
     fn by_corners(&self) -> Deviation {
         let [a, b, c] = self.normals;
         let angle = angle(a, b).max(angle(b, c)).max(angle(c, a));
-        Deviation { distance: longest_edge(self.corners) / 3f64.sqrt(), angle }
+        Deviation { distance: corner_reach(self.corners), angle }
     }
 
     /// How far its points are from points of another one, all of which are no further from that than `within`: a
@@ -258,7 +258,7 @@ mod tests {
         let triangle = ShadedTriangle { corners, normals: [DVec3::Z, DVec3::Z, DVec3::new(0.6, 0.0, 0.8)] };
         let far = ShadedTriangle { corners: corners.map(|p| p + 9.0 * DVec3::Z), ..triangle };
         let by_corners = triangle.by_corners();
-        assert!((by_corners.distance - (2.0 / 3.0_f64).sqrt()).abs() < 1e-15, "{by_corners:?}");
+        assert!((by_corners.distance - 0.5_f64.sqrt()).abs() < 1e-15, "{by_corners:?}");
         for others in [vec![], vec![far]] {
             let mut search = Search { most: Deviation::default() };
             search.look(&triangle, &others, by_corners);
