@@ -6,6 +6,7 @@
 
 mod divisor;
 mod grid;
+mod moved;
 
 use std::fmt;
 
@@ -22,6 +23,7 @@ use crate::{Image, Oracle};
 use divisor::judge_divided;
 
 pub use grid::judge_on_grid;
+pub use moved::{FINENESS, judge_moved};
 
 /// Within this many pixels of an edge a pixel may belong to either side: vertices are snapped to a grid of this width
 /// or a finer one (four bits, the least that Vulkan grants; eight are usual).
@@ -161,56 +163,6 @@ impl Verdict {
 /// [`SizeMismatch`].
 pub fn judge(oracle: &Oracle, expected: &Image, actual: &Image, bars: Bars) -> Result<Verdict, SizeMismatch> {
     judge_divided(|x, y| oracle.possible(x, y, EDGE_RADIUS), oracle.samples(), (expected, None), actual, bars)
-}
-
-/// [`judge`] for a drawer that may move what it draws by N pixels on the picture: each pixel is right that shows, give
-/// or take the bars, what lies between the oracle's colours within that distance and half a pixel of its middle. `fine`
-/// is the oracle's picture with [`FINENESS`] times as many columns and rows, in which these are found, and in
-/// `expected`, which shows what is at the middle itself; as they have gaps of a part of a pixel, they say less than all
-/// that is right.
-///
-/// # Errors
-/// [`SizeMismatch`].
-pub fn judge_moved(
-    oracle: &Oracle,
-    (expected, fine): (&Image, &Image),
-    pixels: f64,
-    actual: &Image,
-    bars: Bars,
-) -> Result<Verdict, SizeMismatch> {
-    let (width, height) = expected.dimensions();
-    if fine.dimensions() != (FINENESS * width, FINENESS * height) {
-        return Err(SizeMismatch { actual: fine.dimensions(), expected: (FINENESS * width, FINENESS * height) });
-    }
-    let alike = expected.divisor().map(|divisor| fine.clone().divided(divisor));
-    let ranges = ranges_within(expected, alike.as_ref().unwrap_or(fine), pixels + 0.5);
-    let possible = |x, y| oracle.possible(x, y, EDGE_RADIUS);
-    judge_divided(possible, oracle.samples(), (expected, Some(&ranges)), actual, bars)
-}
-
-/// How much finer the picture of [`judge_moved`] is.
-pub const FINENESS: u32 = 4;
-
-/// Of each pixel the colours within N pixels of its middle, which lies between pixels of `fine`.
-fn ranges_within(expected: &Image, fine: &Image, radius: f64) -> Vec<ColorRange> {
-    let (width, height) = fine.dimensions();
-    let (columns, rows) = (width / FINENESS, height / FINENESS);
-    let of_pixel = |i: u32| {
-        let middle = [i % columns, i / columns].map(|at| (f64::from(at) + 0.5) * f64::from(FINENESS));
-        let reach = radius * f64::from(FINENESS);
-        let along = |middle: f64, size: u32| {
-            let [first, end] = [(middle - reach).floor().max(0.0), (middle + reach).ceil()];
-            first as u32..(end as u32).min(size)
-        };
-        let near = along(middle[1], height).flat_map(|y| along(middle[0], width).map(move |x| (x, y)));
-        let near = near.filter(|&(x, y)| {
-            let [dx, dy] = [(x, middle[0]), (y, middle[1])].map(|(at, middle)| f64::from(at) + 0.5 - middle);
-            dx * dx + dy * dy <= reach * reach
-        });
-        let near = near.map(|(x, y)| fine.pixel(x, y));
-        ColorRange::of(near.chain([expected.pixels()[i as usize]]))
-    };
-    (0..columns * rows).into_par_iter().map(of_pixel).collect()
 }
 
 fn judge_with(

@@ -1,5 +1,6 @@
 //! The judgement of single pixels, with surroundings made up for them.
 
+use super::moved::{ranges_within, widen};
 use super::*;
 
 const SIZE: u32 = 40;
@@ -195,4 +196,23 @@ fn what_shows_at_the_middle_alone_is_right() {
     let sliver = with(&ramp(), &[((11, 30), [0.9; 3])]);
     let verdict = moved_by(0.5, &sliver, &sliver);
     assert!(verdict.is_within(), "{verdict}");
+}
+
+/// A colour that is there, between the pixels of the finer picture, is right, and one that is nowhere near is not.
+#[test]
+fn what_shows_between_fine_pixels_is_right_where_it_is_within_reach() {
+    let peak = |x: f64, y: f64, value: f64| if (x - 20.16).abs() < 0.1 && (y - 7.66).abs() < 0.1 { value } else { 0.5 };
+    for (at, value, is_right) in
+        [((20, 7), 0.9, true), ((21, 7), 0.8, true), ((22, 7), 0.9, false), ((20, 7), 0.95, false)]
+    {
+        let grey = |value: f64| vec![[value; 3]; (SIZE * SIZE) as usize];
+        let expected = with(&Image::new(SIZE, SIZE, grey(0.5)), &[((0, 0), [0.0; 3]), ((1, 0), [1.0; 3])]);
+        let mut ranges: Vec<ColorRange> = expected.pixels().iter().map(|pixel| ColorRange::of([*pixel])).collect();
+        let actual = with(&expected, &[(at, [value; 3])]);
+        let shown = |x: f64, y: f64| [peak(x, y, 0.9); 3];
+        widen(&mut ranges, shown, (&expected, &actual), 1.4, Bars::FLOAT).unwrap();
+        let surroundings = |_, _| Possible { is_edge: false, ranges: Vec::new(), layers: 0 };
+        let verdict = judge_with(surroundings, Samples::One, (&expected, Some(&ranges)), &actual, Bars::FLOAT).unwrap();
+        assert_eq!(verdict.is_within(), is_right, "{at:?} {value}: {verdict}");
+    }
 }

@@ -29,7 +29,7 @@ impl ColorRange {
     }
 
     /// The least range that holds both.
-    pub(super) fn with(&self, other: &Self) -> Self {
+    pub(crate) fn with(&self, other: &Self) -> Self {
         let [low, high] = [0, 1].map(|end| {
             std::array::from_fn(|k| match end {
                 0 => self.low[k].min(other.low[k]),
