@@ -52,6 +52,7 @@ mod bins;
 mod blend;
 mod check;
 mod clip;
+mod corners;
 mod cover;
 mod encode;
 mod error;

@@ -3,6 +3,7 @@
 use crate::bands::{Bands, Own, Rows, make_room};
 use crate::bins::{Bins, Job};
 use crate::clip::{Ready, each_part};
+use crate::corners::{Interpolated, Lead, NearestCorner};
 use crate::cover::{EdgeFunctions, Kept, TileBuffer};
 use crate::encode::{bytes, cleared, kept};
 use crate::faces::PieceFaces;
@@ -12,7 +13,7 @@ use crate::mapped::MappedTriangle;
 use crate::pass::{DrawCall, InstanceData, Pass, PixelFormat, SampleCount};
 use crate::pieces::{PIECE_TRIANGLES, Piece, Pieces};
 use crate::placed::TILE;
-use crate::planes::{Planes, Slopes};
+use crate::planes::{LaneSlopes, Planes, Slopes};
 use crate::shade::{Even, shader_of};
 use crate::state::{Stage, State};
 use crate::surroundings::behind;
@@ -170,7 +171,7 @@ impl Worker {
             let (batch, bit) = (&self.batches[number / lanes::<S>()], 1 << (number % lanes::<S>()));
             let (tiny, small) = (batch.tiny & bit != 0, batch.small & bit != 0);
             if tiny || one && small {
-                self.plain(simd, work, triangles[number], number, tiny);
+                self.plain(simd, look, work, triangles[number], number, tiny);
             } else if small {
                 self.small(simd, look, work, triangles[number], number);
             } else {
@@ -242,7 +243,7 @@ impl Worker {
     /// A triangle of few pixels, of which it covers some, or a larger one with one sample a pixel; it leaves nothing
     /// but its depth and the leading numbers.
     #[inline(always)]
-    fn plain<S: Simd>(&mut self, simd: S, work: &Work, triangle: [u8; 3], number: usize, tiny: bool) {
+    fn plain<S: Simd>(&mut self, simd: S, look: &Look, work: &Work, triangle: [u8; 3], number: usize, tiny: bool) {
         let (batch, lane) = (&self.batches[number / lanes::<S>()], number % lanes::<S>());
         let back = batch.backs >> lane & 1 != 0;
         let numbers = each!(k in 3 => usize::from(triangle[k]));
@@ -252,18 +253,26 @@ impl Worker {
         if work.state.stage == Stage::Flat {
             slopes.base += f32x4::load_array_ref(simd, &self.faces.each[usize::from(back)][number]);
         }
-        let (shader, keeps_lead) = (shader_of(work.job.state, back), work.state.stage != Stage::Unlit);
+        let state = if tiny { work.job.state } else { work.state_of_larger() };
+        let (shader, keeps_lead) = (shader_of(state, back), work.state.stage != Stage::Unlit);
         if !tiny {
             self.nearest.cover_small(simd, (batch, lane), &slopes, range(corners), shader, keeps_lead);
             return;
         }
         let first = [batch.bounds[0][lane], batch.bounds[2][lane]];
-        let centers = batch.pixels[lane];
-        if work.covering.samples == SampleCount::One {
-            self.nearest.cover_tiny(simd, (centers, first), &slopes, range(corners), shader, keeps_lead);
+        let place = (batch.pixels[lane], batch.samples[lane], first);
+        let to = (&mut self.nearest, work.covering.samples);
+        if work.state.nearest_corner {
+            let places = each!(axis in 2 => {
+                let start = (look.tile[axis] as i32 * TILE as i32 + first[axis]) as f32 + 0.5;
+                let place = |k: usize| self.vertices.screen[axis][numbers[k]] - start;
+                [place(0), place(1), place(2), 0.0]
+            });
+            let in_eye = each!(k in 3 => each!(axis in 3 => self.vertices.eye[axis][numbers[k]]));
+            let lead = Some(NearestCorner { places, corners, in_eye });
+            cover_tiny(simd, to, place, &slopes, range(corners), shader, lead);
         } else {
-            let place = (centers, batch.samples[lane], first);
-            self.nearest.cover_tiny_four(simd, place, &slopes, range(corners), shader, keeps_lead);
+            cover_tiny(simd, to, place, &slopes, range(corners), shader, keeps_lead.then_some(Interpolated));
         }
     }
 
@@ -383,6 +392,23 @@ fn put_bytes<S: Simd>(rows: &mut Rows, at: usize, pixels: I<S>) {
     pixels.bitcast::<S::u8s>().store_slice(&mut rows.values.bytes[place..place + 4 * lanes::<S>()]);
 }
 
+/// Draws a triangle of few pixels.
+#[inline(always)]
+fn cover_tiny<S: Simd>(
+    simd: S,
+    (nearest, count): (&mut TileBuffer, SampleCount),
+    (centers, samples, first): (i32, [i32; 4], [i32; 2]),
+    slopes: &LaneSlopes<S>,
+    range: [f32; 2],
+    shader: i32,
+    lead: Option<impl Lead<S>>,
+) {
+    match count {
+        SampleCount::One => nearest.cover_tiny(simd, (centers, first), slopes, range, shader, lead),
+        SampleCount::Four => nearest.cover_tiny_four(simd, (centers, samples, first), slopes, range, shader, lead),
+    }
+}
+
 /// The groups of vertices, each as large as a vector has lanes, that some triangles have corners in.
 #[inline(always)]
 fn groups_of<S: Simd>(triangles: &[[u8; 3]], shown: u64) -> u32 {
@@ -413,7 +439,7 @@ fn draw<S: Simd>(
     work: &Work,
 ) {
     let mapped = (nearest.mapped_triangles.len() as i32).checked_sub(1);
-    let (shader, kept) = (shader_of(work.job.state, back), Kept::of(look, work.state, back, mapped));
+    let (shader, kept) = (shader_of(work.state_of_larger(), back), Kept::of(look, work.state, back, mapped));
     match look.pass.samples {
         _ if work.blend => nearest.blend(simd, edges, planes, shader, look),
         SampleCount::One => nearest.cover_strips(simd, edges, planes, shader, kept),
@@ -422,6 +448,12 @@ fn draw<S: Simd>(
 }
 
 impl<'a> Work<'a> {
+    /// The number of what shades triangles that are not tiny.
+    fn state_of_larger(&self) -> u32 {
+        // It follows: see [`State::nearest_corner`].
+        self.job.state + u32::from(self.state.nearest_corner)
+    }
+
     fn of(scene: &Scene<'a>, number: u32, last: [i32; 2], (first, blend): (Option<Job>, bool)) -> Self {
         let Scene { pass, bins, .. } = *scene;
         let job = bins.jobs[number as usize];

@@ -4,6 +4,7 @@
 mod bits;
 #[path = "../../examples/common/mod.rs"]
 mod common;
+mod corners;
 mod coverage;
 mod pass;
 mod policy;
