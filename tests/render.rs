@@ -47,6 +47,7 @@ mod render {
     mod properties;
     mod random;
     mod reflection;
+    mod rough;
     mod samples;
     mod scene;
     mod shells;

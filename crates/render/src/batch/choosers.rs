@@ -352,7 +352,7 @@ mod tests {
             assert_eq!(names.len(), clusters().count(), "{away}");
             neighbours += clusters()
                 .zip(clusters().skip(1))
-                .filter(|(a, b)| a.is_coarse != b.is_coarse && a.count + b.count > 2)
+                .filter(|(a, b)| a.corners.is_some() != b.corners.is_some() && a.count + b.count > 2)
                 .count();
         }
         // There is what could go by one name: it does where coarser ones are not told apart.

@@ -1,6 +1,7 @@
 //! Neighbouring patches that have one list of lights together, where each by itself covers too little of the picture to
 //! be worth one.
 
+use crate::geometry::corners::{CountedCorners, ShadedCorners};
 use crate::geometry::detail::Detail;
 use crate::geometry::families::{FamilyPart, MOST};
 use crate::geometry::patches::{MeshPatch, Sight};
@@ -31,8 +32,8 @@ pub(crate) struct Cluster {
     pub(crate) shape: PatchShape,
     /// Of all that are seen; where it is asked for.
     pub(crate) extent: Extent,
-    /// Whether each is so coarse or far away that its terms are shaded at its corners.
-    pub(crate) is_coarse: bool,
+    /// Which corners the terms of each are shaded at, where they are so coarse or far away.
+    pub(crate) corners: Option<CountedCorners>,
 }
 
 /// Patches that cover fewer pixels than this together are chosen for together, where they lie together. Where choices
@@ -48,8 +49,8 @@ pub(crate) struct Clustering<'s, 'a> {
     pub(crate) object: Entity,
     pub(crate) detail: &'a Detail,
     pub(crate) sight: &'s Sight<'s>,
-    /// Patches without longer edges on the picture, in pixels, are shaded at their corners.
-    pub(crate) coarse_within: f32,
+    /// When patches are shaded at their corners.
+    pub(crate) corners: ShadedCorners,
     /// Whether what is known of one of its patches is known of all.
     pub(crate) may_join: bool,
     /// Whether the extent of a patch by itself is asked for.
@@ -84,17 +85,17 @@ impl<'a> Clustering<'_, 'a> {
         clusters: &mut Vec<Cluster>,
     ) {
         clusters.clear();
-        let is_coarse = |seen: &SeenPatch| seen.patch.is_coarse_within(self.sight, self.coarse_within);
+        let counted = |seen: &SeenPatch| seen.patch.counted(self.corners, self.sight);
         let mut start = members.start;
         while start < members.end {
             let first = &seen[start];
-            let are_coarse = is_coarse(first);
+            let counted_first = counted(first);
             let family = self.detail.families.of(first.number);
             let is_alike = |other: &&SeenPatch| {
                 self.may_join
                     && other.number < family.patches.end
                     && other.patch.longest_edge.is_finite() == first.patch.longest_edge.is_finite()
-                    && is_coarse(other) == are_coarse
+                    && counted(other) == counted_first
             };
             let end = start + 1 + seen[start + 1..members.end].iter().take_while(is_alike).count();
             let is_of_family = |other: &SeenPatch| family.patches.contains(&other.number);
@@ -118,7 +119,7 @@ impl<'a> Clustering<'_, 'a> {
                 clusters.push(Cluster {
                     members,
                     extent,
-                    is_coarse: are_coarse,
+                    corners: counted_first,
                     ..self.joined(part, &seen[start..][at], &names)
                 });
             };
@@ -136,7 +137,7 @@ impl<'a> Clustering<'_, 'a> {
             members: 0..0,
             shape: *joined.unwrap_or(&patches[0].patch.shape),
             extent: Extent::default(),
-            is_coarse: false,
+            corners: None,
         }
     }
 }

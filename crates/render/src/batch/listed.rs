@@ -100,7 +100,7 @@ impl LitPatches {
         }
         self.lists.count(of, patches);
         let terms = Some([of.vertex.count(), of.fragment.count()]);
-        let key = object.key.with_terms(of.terms(object.key.terms));
+        let key = object.key_at(chosen.place).with_terms(of.terms(object.key.terms));
         if !key.is_lit() {
             return (backend.admit(key), 0, RecordLists::default(), terms);
         }

@@ -5,9 +5,9 @@ use crate::batch::key::DrawKey;
 use crate::batch::object::Reflecting;
 use crate::batch::painted::{Lean, PatchPaint};
 use crate::device::costs::VertexPrices;
-use crate::geometry::allowed::SAMPLED;
+use crate::geometry::corners::{CountedCorners, ShadedCorners};
 use crate::geometry::meshes::{Form, Geometry};
-use crate::geometry::patches::{MeshPatch, Sight};
+use crate::geometry::patches::Sight;
 use crate::geometry::shape::PatchNormals;
 use crate::lights::gather::Lights;
 use crate::lights::memory::{ChoiceMemory, NamedPatches};
@@ -39,6 +39,8 @@ pub(crate) struct LitObject<'a> {
     pub(crate) model_view: &'a ModelView,
     pub(crate) normal_matrix: &'a NormalMatrix,
     pub(crate) tolerance: Tolerance,
+    /// Where what is coarse is shaded at corners.
+    pub(crate) corners: ShadedCorners,
 }
 
 impl<'a> LitObject<'a> {
@@ -59,7 +61,7 @@ impl<'a> LitObject<'a> {
             object: self.entity,
             detail: &self.geometry.detail,
             sight,
-            coarse_within: self.tolerance.pixels + SAMPLED,
+            corners: self.corners,
             // What images do is known patch by patch.
             may_join: self.reflecting.maps.is_empty(),
             // Of a patch by itself nobody asks but who may move terms.
@@ -78,8 +80,8 @@ impl<'a> LitObject<'a> {
             return ShadedAt::Either;
         }
         let may_save = || prices.may_save(cluster.extent, memory.before(self.name(cluster).name), compiled_in);
-        if cluster.is_coarse {
-            ShadedAt::Corners
+        if let Some(counted) = cluster.corners {
+            ShadedAt::Corners(counted)
         } else if *prices != VertexPrices::NEVER && cluster.shape.has_normal_cone() && may_save() {
             ShadedAt::Either
         } else {
@@ -87,9 +89,9 @@ impl<'a> LitObject<'a> {
         }
     }
 
-    /// Whether a patch is so coarse or far away that its terms are shaded at its corners.
-    pub(crate) fn is_coarse(&self, patch: &MeshPatch, sight: &Sight) -> bool {
-        patch.is_coarse_within(sight, self.tolerance.pixels + SAMPLED)
+    /// Its key, for a patch whose terms are there.
+    pub(crate) fn key_at(&self, place: ShadedAt) -> DrawKey {
+        DrawKey { nearest_corner: place == ShadedAt::Corners(CountedCorners::Nearest), ..self.key }
     }
 
     pub(crate) fn name(&self, cluster: &Cluster) -> NamedPatches {

@@ -17,6 +17,7 @@ use crate::device::costs::VertexPrices;
 use crate::error::{RenderError, label};
 use crate::frame::report::FrameReport;
 use crate::geometry::allowed::{Allowed, Demand, geometry_steps};
+use crate::geometry::corners::ShadedCorners;
 use crate::geometry::detail::Choice;
 use crate::geometry::near_objects::{CoarserObject, NearObjects, ObjectBox};
 use crate::geometry::patches::{MeshPatch, Sight};
@@ -214,11 +215,17 @@ impl LitPatches {
         } else {
             terms
         };
+        let tolerance = if blend { Tolerance { pixels: 0.0, ..tolerance } } else { tolerance };
         let circumstances =
             Circumstances { terms, blend, mirrored: model_view.mirrored, opposite_normals: geometry.opposite_normals };
         let key = reflecting.key(look, circumstances, Shared { prices, ..shared });
         let material = look.material;
         let sphere = geometry.detail.whole.shape.sphere(model_view);
+        // What the near plane cuts has corners of its own.
+        let may_be_nearest = shared.costs.nearest_corner
+            && key.terms == key.terms.map(|term| if term == Frequency::Never { term } else { Frequency::Auto })
+            && !(blend || paint.is_any())
+            && -sphere.0.z - sphere.1 > shared.view.projection.near;
         let lit = LitObject {
             entity,
             number,
@@ -234,7 +241,8 @@ impl LitPatches {
             geometry,
             model_view,
             normal_matrix,
-            tolerance: if blend { Tolerance { pixels: 0.0, ..tolerance } } else { tolerance },
+            tolerance,
+            corners: ShadedCorners::new(tolerance, may_be_nearest),
         };
         Ok(Some((lit, prices)))
     }
@@ -274,6 +282,7 @@ impl LitPatches {
             encoding,
             model_view,
             sphere: detail.whole.shape.sphere(model_view),
+            corners: object.corners,
             least: &detail.least,
             pixels_per_unit: detail.pixels_per_unit(&sight),
         };

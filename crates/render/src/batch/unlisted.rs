@@ -9,6 +9,7 @@ use crate::batch::lit_patches::LitPatches;
 use crate::batch::lit_runs::OpenRun;
 use crate::batch::object::Shared;
 use crate::device::costs::VertexPrices;
+use crate::geometry::corners::CountedCorners;
 use crate::geometry::patches::MeshPatch;
 use crate::geometry::shape::PatchShape;
 use crate::lights::places::ShadedAt;
@@ -60,17 +61,22 @@ impl LitPatches {
             return false;
         }
         let sight = chooser.clustering.sight;
-        let coarse = seen.iter().filter(|seen| object.is_coarse(seen.patch, sight)).count();
-        let is_coarse = |patch: &MeshPatch| coarse == seen.len() || (coarse > 0 && object.is_coarse(patch, sight));
-        let counts = [(ShadedAt::Corners, coarse), (ShadedAt::Fragments, seen.len() - coarse)];
-        let mut keys = [object.key; 2];
-        for (key, (place, count)) in keys.iter_mut().zip(counts) {
+        let counted = |patch: &MeshPatch| patch.counted(object.corners, sight);
+        let number = |counted: Option<CountedCorners>| counted.map_or(0, |counted| 1 + counted as usize);
+        let places =
+            [ShadedAt::Fragments, ShadedAt::Corners(CountedCorners::All), ShadedAt::Corners(CountedCorners::Nearest)];
+        let mut counts = [0; 3];
+        for seen in seen {
+            counts[number(counted(seen.patch))] += 1;
+        }
+        let mut keys = [object.key; 3];
+        for ((key, place), count) in keys.iter_mut().zip(places).zip(counts) {
             if count > 0 {
                 let Some(unlisted) = Self::unlisted_key(object, place, shared, backend) else { return false };
                 *key = unlisted;
             }
         }
-        for (key, (_, count)) in keys.iter().zip(counts) {
+        for (key, count) in keys.iter().zip(counts) {
             self.lists.count_all(key.terms, count * shared.lights.records.len());
         }
         if is_placed && self.lists.memory.has_moved(object.entity) {
@@ -79,7 +85,9 @@ impl LitPatches {
             for apart in [false, true] {
                 let all = (seen, 0..seen.len());
                 chooser.clustering.fill(all, &mut |_: &PatchShape| apart, &self.lists.memory, clusters);
-                noted.extend(clusters.iter().filter(|cluster| !cluster.is_coarse).map(|cluster| object.name(cluster)));
+                noted.extend(
+                    clusters.iter().filter(|cluster| cluster.corners.is_none()).map(|cluster| object.name(cluster)),
+                );
             }
             noted.sort_unstable();
             noted.dedup_by_key(|patches| patches.name);
@@ -87,8 +95,8 @@ impl LitPatches {
                 self.lists.memory.note_at_fragments(patches);
             }
         }
-        let [corners, fragments] = keys;
-        let key = |patch: &MeshPatch| if is_coarse(patch) { corners } else { fragments };
+        let alone = counts.iter().position(|count| *count == seen.len());
+        let key = |patch: &MeshPatch| keys[alone.unwrap_or_else(|| number(counted(patch)))];
         self.add_alike(object, seen, key, shared, backend);
         true
     }
@@ -118,7 +126,8 @@ impl LitPatches {
         if !object.may_be_unlisted(place, lights) {
             return None;
         }
-        let key = DrawKey { lists: Lists::new(lights.counts), ..object.key }.with_terms(place.of(object.key.terms));
+        let key = DrawKey { lists: Lists::new(lights.counts), ..object.key_at(place) };
+        let key = key.with_terms(place.of(object.key.terms));
         let admitted = backend.admit(key);
         (admitted.lists != Lists::Listed).then_some(admitted)
     }

@@ -32,6 +32,9 @@ pub struct Costs {
     /// What has images may be lit by an environment. llvmpipe through Vulkan (Mesa 22.3) crashes in draws that read
     /// both.
     pub images_in_environments: bool,
+    /// Fragments may be shaded at the nearest corner of their triangle, with its normal, so that triangles may be 1.7
+    /// times as long as where all three corners count. Nothing of wgpu tells a fragment which corner is nearest.
+    pub nearest_corner: bool,
     /// What shading at the vertices saves and costs, for [`Shading::Auto`](halfway_lighting::Shading::Auto).
     pub vertices: VertexPrices,
 }
@@ -116,6 +119,7 @@ impl Costs {
         multi_draw: None,
         maps_meshes: true,
         images_in_environments: true,
+        nearest_corner: false,
         vertices: VertexPrices::BY_HAND,
     };
 
@@ -130,6 +134,7 @@ impl Costs {
         multi_draw: Some(128),
         maps_meshes: false,
         images_in_environments: true,
+        nearest_corner: false,
         vertices: VertexPrices::NEVER,
     };
 
@@ -142,6 +147,7 @@ impl Costs {
         multi_draw: None,
         maps_meshes: true,
         images_in_environments: true,
+        nearest_corner: true,
         vertices: VertexPrices::NEVER,
     };
 

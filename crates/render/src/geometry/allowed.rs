@@ -3,7 +3,8 @@
 //! - no point of its surface moves by more than the tolerance's pixels on the picture, and
 //! - turned normals change what is shown by no more than half of the tolerance's steps, all lights and terms together;
 //!   or no edge is longer than those pixels and half a pixel of sampling, and no point of a triangle shows more or less
-//!   than its corners do by more than that.
+//!   than its corners do by more than that; or no point is farther than that from the nearest corner, by which
+//!   fragments go ([`ShadedCorners`]).
 //!
 //! Corners are points of the mesh with its normals. What is interpolated between shades at corners never is more or
 //! less than they: so Gouraud shading keeps to this however its normals turn, and `Auto`, and with it Phong shading,
@@ -33,6 +34,7 @@
 //! recording repeats to the byte. Blended objects, whose triangles are drawn in the order of their mesh, and objects
 //! that are scaled differently along different axes keep all triangles.
 
+use crate::geometry::corners::ShadedCorners;
 use crate::geometry::turned::{GroupErrors, TURNED, TurnedTerms, steepest};
 use crate::lights::gather::Lights;
 use crate::lights::lists::Reflector;
@@ -62,6 +64,8 @@ pub(crate) struct Demand<'a> {
     pub(crate) model_view: &'a ModelView,
     /// Around all of it, in eye space.
     pub(crate) sphere: (Vec3, f32),
+    /// Where it is shaded at corners.
+    pub(crate) corners: ShadedCorners,
     /// Of each of its errors the least that any of its groups has.
     pub(crate) least: &'a GroupErrors,
     /// The pixels that a unit of the mesh takes; `None` where that is asked patch by patch.
@@ -72,6 +76,7 @@ pub(crate) struct Demand<'a> {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Allowed {
     pixels: f32,
+    corners: ShadedCorners,
     shading: ShownTerms,
     /// Everything is shaded at corners, where edges are no longer than what is allowed.
     by_corners: bool,
@@ -95,9 +100,6 @@ enum ShownTerms {
 /// No mesh is drawn so small.
 const NEVER: f32 = -1.0;
 
-/// How far from a pixel's middle it may be sampled.
-pub(crate) const SAMPLED: f32 = 0.5;
-
 /// Up to this intensity a channel has [`FEW_STEPS`] of room below white, by either encoding.
 const FAR_FROM_WHITE: f32 = 0.9;
 const FEW_STEPS: f64 = 0.03;
@@ -107,8 +109,13 @@ const STEEPEST_OF_SRGB: f32 = 2.4 / 1.055;
 
 impl Allowed {
     /// The mesh as it is.
-    pub(crate) const NOTHING: Self =
-        Self { pixels: 0.0, shading: ShownTerms::Unknown, by_corners: false, listed: false };
+    pub(crate) const NOTHING: Self = Self {
+        pixels: 0.0,
+        corners: ShadedCorners::NONE,
+        shading: ShownTerms::Unknown,
+        by_corners: false,
+        listed: false,
+    };
 
     pub(crate) fn new(demand: Demand) -> Self {
         let Demand { tolerance, listed, lights, model_view, reflector: &Reflector { terms, .. }, .. } = demand;
@@ -120,7 +127,8 @@ impl Allowed {
         }
         let by_corners = !terms.has(Frequency::Fragment);
         let by_vertices = terms.has(Frequency::Vertex);
-        let keeps_corners = by_corners && demand.pixels_per_unit.is_none_or(|pixels| pixels <= demand.by_edges());
+        let keeps_corners = by_corners
+            && demand.pixels_per_unit.is_none_or(|pixels| pixels <= demand.corners.pixels_per_unit(demand.least));
         let (shading, is_in_vain) = match terms {
             Terms::NONE => (ShownTerms::None, false),
             _ if by_vertices && (listed || lights.counts[2] > 0) => (ShownTerms::Unknown, true),
@@ -131,7 +139,8 @@ impl Allowed {
         if is_in_vain && !keeps_corners {
             return Self::NOTHING;
         }
-        Self { pixels: tolerance.pixels, shading, by_corners, listed }
+        let corners = if by_corners { demand.corners } else { ShadedCorners::new(tolerance, false) };
+        Self { pixels: tolerance.pixels, corners, shading, by_corners, listed }
     }
 
     pub(crate) fn is_nothing(&self) -> bool {
@@ -162,7 +171,7 @@ impl Allowed {
         if keeps_shading {
             by_error
         } else if self.by_corners || between_corners() {
-            by_error.min((self.pixels + SAMPLED) / group.longest_edge)
+            by_error.min(self.corners.pixels_per_unit(group))
         } else {
             NEVER
         }
@@ -198,11 +207,6 @@ impl Demand<'_> {
         let spread = least.normal_spread;
         let between = 0.5 * (diffuse + specular * n * turn * turn) * spread * spread;
         turned > 1.01 && between > 1.01
-    }
-
-    /// The most pixels that a unit of the mesh may take for the shortest edges to be no longer than what is allowed.
-    fn by_edges(&self) -> f32 {
-        (self.tolerance.pixels + SAMPLED) / self.least.longest_edge
     }
 
     /// The largest part of a light that arrives anywhere at the object.
@@ -319,8 +323,14 @@ mod tests {
     use halfway_lighting::Reflectance;
     use halfway_lighting::equations::Coefficients;
 
-    const LEAST: GroupErrors =
-        GroupErrors { error: 1e-6, normal_error: 0.0, normal_spread: 0.0, longest_edge: 1e-3, spoils_lists: false };
+    const LEAST: GroupErrors = GroupErrors {
+        error: 1e-6,
+        normal_error: 0.0,
+        normal_spread: 0.0,
+        longest_edge: 1e-3,
+        corner_reach: f32::INFINITY,
+        spoils_lists: false,
+    };
 
     /// What is told at once to turn too far is never allowed by all that is known; and of what is not, more than a
     /// quarter is told.
@@ -359,6 +369,7 @@ mod tests {
             errors.normal_spread = 10.0_f32.powf(-4.0 * random());
             let demand = |least| Demand {
                 tolerance: Tolerance { steps: 1.0, pixels: 0.5 },
+                corners: ShadedCorners::new(Tolerance { steps: 1.0, pixels: 0.5 }, true),
                 listed: false,
                 blinn_phong: reflector.reflectance == Reflectance::BlinnPhong,
                 local_viewer: true,
@@ -409,6 +420,7 @@ mod tests {
                     Reflector { sides: [material; 2], reflectance: Reflectance::Phong, terms: Terms::both(terms) };
                 let allowed = Allowed::new(Demand {
                     tolerance: Tolerance { steps: 30.0, pixels: 0.5 },
+                    corners: ShadedCorners::new(Tolerance { steps: 30.0, pixels: 0.5 }, true),
                     listed: false,
                     blinn_phong: false,
                     local_viewer: false,

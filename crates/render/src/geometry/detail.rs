@@ -1,6 +1,7 @@
 //! Detail: the patches of a mesh, finer and coarser ones, and which of them a frame draws.
 
 use crate::geometry::allowed::Allowed;
+use crate::geometry::corners::reach_of_rough;
 use crate::geometry::families::Families;
 use crate::geometry::patches::{MeshPatch, Sight};
 use crate::geometry::turned::GroupErrors;
@@ -145,6 +146,7 @@ impl Detail {
         for (patch, &part_of) in detail.patches.iter_mut().zip(&detail.part_of) {
             if let Some(group) = detail.groups.get(part_of as usize) {
                 patch.longest_edge = group.errors.longest_edge;
+                patch.corner_reach = group.errors.corner_reach;
             }
         }
         // What nothing stands for is looked at some patches at a time.
@@ -170,12 +172,13 @@ impl Detail {
         let joined = MeshPatch::around(&self.patches[joins], spheres);
         let spoils_lists = spoils_lists || finer.iter().any(|&group| self.groups[group as usize].errors.spoils_lists);
         self.finer.extend(finer);
-        let &PatchGroup { error, normal_error, normal_spread, longest_edge, .. } = group;
+        let &PatchGroup { error, normal_error, normal_spread, longest_edge, corner_reach, roughness, .. } = group;
+        let corner_reach = reach_of_rough(corner_reach, roughness, normal_spread);
         self.groups.push(DetailGroup {
             joined,
             joins: group.joins.clone(),
             finer: first as u32..self.finer.len() as u32,
-            errors: GroupErrors { error, normal_error, normal_spread, longest_edge, spoils_lists },
+            errors: GroupErrors { error, normal_error, normal_spread, longest_edge, corner_reach, spoils_lists },
         });
     }
 

@@ -1,6 +1,7 @@
 //! Meshes as they are drawn: in patches, and in levels of detail.
 
 pub(crate) mod allowed;
+pub(crate) mod corners;
 pub(crate) mod detail;
 pub(crate) mod families;
 pub(crate) mod meshes;

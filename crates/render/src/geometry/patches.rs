@@ -1,6 +1,7 @@
 //! Patches: large meshes in pieces that lie close together and face alike, so that each can have light lists of its own
 //! and be left out when it is not seen.
 
+use crate::geometry::corners::{CountedCorners, ShadedCorners};
 use crate::geometry::shape::{ANGLE_SLACK, PatchShape, sphere_around};
 use crate::lights::gains::Extent;
 use crate::view::camera::View;
@@ -20,6 +21,8 @@ pub(crate) struct MeshPatch {
     facing: Facing,
     /// Its longest edge; of a patch of the mesh itself infinite, as nobody asks.
     pub(crate) longest_edge: f32,
+    /// How far its points are from the nearest corners of their triangles, likewise.
+    pub(crate) corner_reach: f32,
     /// The sum of the areas of its triangles, and how many vertices they have.
     area: f32,
     vertices: u32,
@@ -181,6 +184,7 @@ impl MeshPatch {
             shape: PatchShape::new(mesh, triangles, center, &faces),
             facing,
             longest_edge: f32::INFINITY,
+            corner_reach: f32::INFINITY,
             area,
             vertices: count_of(vertices()),
         }
@@ -196,6 +200,7 @@ impl MeshPatch {
             shape: PatchShape::sphere_alone((center, farthest * (1.0 + 1e-5))),
             facing: Facing::UNKNOWN,
             longest_edge: f32::INFINITY,
+            corner_reach: f32::INFINITY,
             area: 0.0,
             vertices: 0,
         }
@@ -213,14 +218,15 @@ impl MeshPatch {
                 patches.iter().map(|patch| (&patch.facing, length((patch.shape.center - center).to_array()))),
             ),
             longest_edge: f32::INFINITY,
+            corner_reach: f32::INFINITY,
             area: 0.0,
             vertices: 0,
         }
     }
 
-    /// Whether it is coarser than the mesh, and no edge of it is longer on the picture than this, in pixels.
-    pub(crate) fn is_coarse_within(&self, sight: &Sight, pixels: f32) -> bool {
-        self.longest_edge.is_finite() && self.longest_edge * sight.pixels_per_unit(self) <= pixels
+    /// Which corners it is shaded at, where it is coarser than the mesh and small enough on the picture.
+    pub(crate) fn counted(&self, corners: ShadedCorners, sight: &Sight) -> Option<CountedCorners> {
+        corners.counted([self.longest_edge, self.corner_reach], || sight.pixels_per_unit(self))
     }
 
     /// About how many pixels its triangles cover, where nothing hides them; and its vertices.

@@ -8,6 +8,8 @@ pub(crate) struct GroupErrors {
     pub(crate) normal_error: f32,
     pub(crate) normal_spread: f32,
     pub(crate) longest_edge: f32,
+    /// Infinite where the surface is [smooth](crate::geometry::corners::reach_of_rough).
+    pub(crate) corner_reach: f32,
     /// They are too large for short light lists.
     pub(crate) spoils_lists: bool,
 }
@@ -19,6 +21,7 @@ impl GroupErrors {
         normal_error: std::f32::consts::PI,
         normal_spread: std::f32::consts::PI,
         longest_edge: f32::INFINITY,
+        corner_reach: f32::INFINITY,
         spoils_lists: true,
     };
 
@@ -29,6 +32,7 @@ impl GroupErrors {
             normal_error: self.normal_error.min(other.normal_error),
             normal_spread: self.normal_spread.min(other.normal_spread),
             longest_edge: self.longest_edge.min(other.longest_edge),
+            corner_reach: self.corner_reach.min(other.corner_reach),
             spoils_lists: self.spoils_lists && other.spoils_lists,
         }
     }

@@ -2,6 +2,7 @@
 //! the fragments elsewhere.
 
 use crate::device::costs::VertexPrices;
+use crate::geometry::corners::CountedCorners;
 use crate::lights::gains::{Extent, Movable};
 use crate::lights::memory::{Before, PatchName, ROOM_TO_COME};
 use crate::lights::patch_lights::TermLights;
@@ -140,8 +141,8 @@ pub(crate) struct PlacedPatch<'a> {
 /// Where those terms of a patch may be shaded that are placed light by light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ShadedAt {
-    /// At the vertices: what its corners show is as good as what is between them.
-    Corners,
+    /// At the vertices, or at the fragments as at the nearest: what corners show is as good as what is between them.
+    Corners(CountedCorners),
     /// At the fragments: its vertices cost as much as its pixels.
     Fragments,
     /// Light by light.
@@ -152,8 +153,10 @@ impl ShadedAt {
     /// Where they are, all in one place.
     pub(crate) fn of(self, terms: Terms) -> Terms {
         match self {
-            Self::Corners => terms.map(|term| if term == Frequency::Auto { Frequency::Vertex } else { term }),
-            Self::Fragments | Self::Either => terms.at_fragments(),
+            Self::Corners(CountedCorners::All) => {
+                terms.map(|term| if term == Frequency::Auto { Frequency::Vertex } else { term })
+            }
+            Self::Corners(CountedCorners::Nearest) | Self::Fragments | Self::Either => terms.at_fragments(),
         }
     }
 }
