@@ -12,6 +12,11 @@ fn stage() -> Stage {
     Stage::on_the_cpu(SIZE.x, SIZE.y)
 }
 
+/// A planted fault is in every pixel of what has it, and the judge takes long over each: a quarter of them will do.
+fn stage_of_faults() -> Stage {
+    Stage::on_the_cpu(SIZE.x / 2, SIZE.y / 2)
+}
+
 #[test]
 fn every_mask_conforms_with_four_samples() {
     conform_on(stage(), "masks, four samples", &maps::rows_of_masks_with_four_samples());
@@ -26,7 +31,7 @@ fn environments_conform_with_four_samples() {
 /// that is brighter.
 #[test]
 fn faults_are_found_with_four_samples() {
-    let mut stage = stage();
+    let mut stage = stage_of_faults();
     let faults: [(Vec<Row>, [fn(&mut Scene); 2]); 2] = [
         (
             maps::rows_of_masks_with_four_samples(),
@@ -67,7 +72,7 @@ fn faults_are_found_with_four_samples() {
 fn an_image_that_is_left_out_is_found() {
     let rows = maps::rows_of_all_kinds();
     let whole = &rows.iter().find(|row| row.name == "all, phong, both sides, blended").expect("a row").scene;
-    let mut stage = stage();
+    let mut stage = stage_of_faults();
     for number in 0..whole.things[0].maps.len() {
         let mut without = whole.clone();
         without.things.iter_mut().for_each(|thing| drop(thing.maps.remove(number)));
