@@ -88,6 +88,7 @@ fn what_the_nearest_corners_show_is_within_the_tolerance() {
         if seed > 1 {
             continue;
         }
+        // Half a pixel of sampling is added to this.
         let closer = judged(&mut stage, &picture, -0.25);
         assert!(!closer.is_within(), "from {distance} within a quarter of a pixel: {closer}");
         let last = (JUDGED * JUDGED) as usize - 1;

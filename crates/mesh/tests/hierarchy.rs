@@ -160,6 +160,10 @@ fn groups_follow_those_that_they_join_and_are_no_better() {
                     |g: &PatchGroup| [g.error, g.normal_error, g.normal_spread, g.longest_edge, g.corner_reach];
                 let pairs = figures(&groups[finer as usize]).into_iter().zip(figures(group));
                 assert!(pairs.clone().all(|(finer, own)| finer <= own), "{name}: {:?}", pairs.collect::<Vec<_>>());
+                assert!(groups[finer as usize].roughness >= group.roughness, "{name}: rougher than what it joins");
+                // Jung's theorem, and a little for rounding up.
+                let most = 1.001 * group.longest_edge / 3f32.sqrt();
+                assert!(group.error.is_infinite() || group.corner_reach <= most, "{name}: {group:?}");
             }
         }
         assert_eq!((patch_end as usize, triangle_end as usize), (patches.len(), triangles.len()), "{name}");

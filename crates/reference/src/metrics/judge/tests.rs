@@ -210,9 +210,10 @@ fn what_shows_between_fine_pixels_is_right_where_it_is_within_reach() {
         let mut ranges: Vec<ColorRange> = expected.pixels().iter().map(|pixel| ColorRange::of([*pixel])).collect();
         let actual = with(&expected, &[(at, [value; 3])]);
         let shown = |x: f64, y: f64| [peak(x, y, 0.9); 3];
-        widen(&mut ranges, shown, (&expected, &actual), 1.4, Bars::FLOAT).unwrap();
+        widen(&mut ranges, shown, (&expected, &actual), 1.4, Bars::FLOAT).expect("one size");
         let surroundings = |_, _| Possible { is_edge: false, ranges: Vec::new(), layers: 0 };
-        let verdict = judge_with(surroundings, Samples::One, (&expected, Some(&ranges)), &actual, Bars::FLOAT).unwrap();
+        let verdict =
+            judge_with(surroundings, Samples::One, (&expected, Some(&ranges)), &actual, Bars::FLOAT).expect("one size");
         assert_eq!(verdict.is_within(), is_right, "{at:?} {value}: {verdict}");
     }
 }
