@@ -1,6 +1,7 @@
 //! The adapter, its device and its queue.
 
 use crate::device::costs::Costs;
+use crate::device::old_opengl::unfit;
 use crate::device::provoking_vertex::ProvokingVertex;
 use crate::error::RenderError;
 use bevy_ecs::prelude::Resource;
@@ -33,7 +34,6 @@ pub struct Gpu {
 }
 
 /// What the device has said by itself.
-#[derive(Default)]
 struct Notices {
     /// The first error outside of any call, until it is taken.
     failure: Option<String>,
@@ -52,6 +52,9 @@ impl Gpu {
             | wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES
             | wgpu::Features::TIMESTAMP_QUERY
             | wgpu::Features::INDIRECT_FIRST_INSTANCE;
+        if let Some(reason) = unfit(&adapter.get_info(), adapter.get_downlevel_capabilities().flags) {
+            return Err(RenderError::NoDevice { adapter: adapter.get_info().name, reason });
+        }
         let costs = Costs::of(&adapter)?;
         let wanted = if costs.maps_meshes { wanted | wgpu::Features::MAPPABLE_PRIMARY_BUFFERS } else { wanted };
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
@@ -69,7 +72,7 @@ impl Gpu {
 
     /// A device that is open already: an engine's. It may lack any of wgpu's optional features and have the smallest
     /// limits; what it cannot do is done in another way, or said in
-    /// [`FrameReport::errors`](crate::FrameReport::errors).
+    /// [`FrameReport::errors`](crate::FrameReport::errors), as that its OpenGL is too old to draw what is right.
     ///
     /// The device's callbacks stay the engine's: what goes wrong outside of any call, and the loss of the device, goes
     /// to whatever it has set with `on_uncaptured_error` and `set_device_lost_callback`. After a loss it inserts
@@ -93,7 +96,9 @@ impl Gpu {
     ) -> Self {
         static DEVICES: AtomicU64 = AtomicU64::new(0);
         let id = DEVICES.fetch_add(1, Ordering::Relaxed);
-        let mut gpu = Self { instance, adapter, device, queue, costs, id, notices: Arc::default() };
+        let failure = unfit(&adapter.get_info(), adapter.get_downlevel_capabilities().flags);
+        let notices = Arc::new(Mutex::new(Notices { failure, loss: None }));
+        let mut gpu = Self { instance, adapter, device, queue, costs, id, notices };
         gpu.set_costs(costs);
         gpu
     }

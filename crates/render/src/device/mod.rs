@@ -7,5 +7,6 @@ pub(crate) mod cpu;
 pub(crate) mod gpu;
 pub(crate) mod gpu_timer;
 mod instance;
+mod old_opengl;
 pub(crate) mod provoking_vertex;
 pub(crate) mod sub_pixel_grid;
