@@ -293,7 +293,7 @@ fn highlights_of_other_far_normals_are_found_out() {
         let picture = stage.draw(&other);
         stage.set(&scene);
         stage.frame();
-        let (verdict, _) = judge(&mut stage, &Image::from_float(&picture), FLOAT);
+        let (verdict, _) = judge(&mut stage, &Image::from_float(&picture), FLOAT.until_wrong());
         assert!(!verdict.is_within(), "{name}, {wrong:?} for {right:?}: {verdict}");
     }
 }
@@ -354,7 +354,7 @@ fn an_environment_that_is_a_twentieth_brighter_is_found() {
         let picture = stage.draw(&brighter);
         stage.set(scene);
         stage.frame();
-        let (verdict, _) = judge(&mut stage, &Image::from_float(&picture), *float);
+        let (verdict, _) = judge(&mut stage, &Image::from_float(&picture), float.until_wrong());
         assert!(!verdict.is_within(), "{name}: not found");
     }
 }

@@ -71,7 +71,7 @@ fn a_picture_of_another_filter_place_or_image_is_found_out() {
         let picture = stage.draw(&scene(Shading::Phong, wrong));
         stage.set(&scene(Shading::Phong, Some(right.clone())));
         stage.frame();
-        let (verdict, _) = judge(&mut stage, &Image::from_float(&picture), FLOAT);
+        let (verdict, _) = judge(&mut stage, &Image::from_float(&picture), FLOAT.until_wrong());
         assert!(!verdict.is_within(), "{number}: {verdict}");
     }
 }
@@ -350,7 +350,7 @@ fn far_normals_cost_nothing_where_they_do_nothing_and_are_found_out_where_they_a
         let [mean, same] = of.map(|far| drawn(&mut stage, MapKind::Specular, far));
         assert!(mean == same, "of no normals");
         let [mean, _] = of.map(|far| drawn(&mut stage, MapKind::Normal, far));
-        let (verdict, _) = judge(&mut stage, &Image::from_float(&mean), FLOAT);
+        let (verdict, _) = judge(&mut stage, &Image::from_float(&mean), FLOAT.until_wrong());
         assert!(!verdict.is_within(), "{other:?}: {verdict}");
     }
 }
@@ -386,7 +386,7 @@ fn a_picture_by_another_filter_of_the_footprints_shape_is_found_out() {
         stage.frame();
         for (drawn, picture) in &pictures {
             // Also by what a grid of 1/16 pixel is allowed in the conformance suite.
-            let (verdict, _) = judge(&mut stage, picture, FLOAT.within(2.0));
+            let (verdict, _) = judge(&mut stage, picture, FLOAT.within(2.0).until_wrong());
             // Where no footprint is longer than 8 to 1, both are all probes of the longest.
             let more = [LevelFilter::Anisotropic8, LevelFilter::Anisotropic16];
             let same = *drawn == right || more.contains(drawn) && more.contains(&right);

@@ -74,7 +74,7 @@ fn a_picture_of_another_solid_is_found_out() {
             let picture = stage.draw(&scene(Shading::Phong, wrong));
             stage.set(&scene(Shading::Phong, Some(right)));
             stage.frame();
-            let (verdict, _) = judge(&mut stage, &Image::from_float(&picture), FLOAT);
+            let (verdict, _) = judge(&mut stage, &Image::from_float(&picture), FLOAT.until_wrong());
             assert!(!verdict.is_within(), "{kind:?}, {number}: {verdict}");
         }
     }

@@ -29,6 +29,8 @@ pub struct Judge {
     four: bool,
     tolerance: Option<(Tolerance, ShadingEntry)>,
     fault: Option<Fault>,
+    /// Only whether a picture is wrong is asked, and not how.
+    until_wrong: bool,
 }
 
 /// A change of the scene that only the renderer is given, to see that it is found.
@@ -92,7 +94,15 @@ impl Judge {
     /// The adapter fails to draw what tells its grid.
     pub fn new(adapter: Adapter, base_dir: impl Into<PathBuf>) -> Result<Self, RenderError> {
         let grid = adapter.sub_pixel_bits()?.clamp(4, FINE);
-        Ok(Self { adapter, base_dir: base_dir.into(), grid, four: false, tolerance: None, fault: None })
+        Ok(Self {
+            adapter,
+            base_dir: base_dir.into(),
+            grid,
+            four: false,
+            tolerance: None,
+            fault: None,
+            until_wrong: false,
+        })
     }
 
     /// Draws and judges scenes with four samples a pixel as they are. Adapters differ in where they shade a pixel that
@@ -115,6 +125,12 @@ impl Judge {
         Self { fault: Some(fault), ..self }
     }
 
+    /// Finds only whether a scene is wrong, much sooner where it is; what is then said of it is of some pixels.
+    #[must_use]
+    pub fn until_wrong(self) -> Self {
+        Self { until_wrong: true, ..self }
+    }
+
     /// Reads the scene, draws it and judges its pictures.
     ///
     /// # Errors
@@ -134,7 +150,8 @@ impl Judge {
 
     /// The scene in small, if it fails: one that fails in the same way, found with at most `trials` pictures.
     pub fn shrunk(&self, scene: &Value, finding: &Finding, trials: usize) -> Value {
-        shrink(scene, trials, |smaller| self.judge(smaller).is_err_and(|other| other.is_like(finding)))
+        let hasty = Self { until_wrong: true, adapter: self.adapter.clone(), base_dir: self.base_dir.clone(), ..*self };
+        shrink(scene, trials, |smaller| hasty.judge(smaller).is_err_and(|other| other.is_like(finding)))
     }
 
     fn judge_unguarded(&self, scene: &SceneFile) -> Result<Figures, Finding> {
@@ -165,7 +182,8 @@ impl Judge {
         pictures.oracle.update();
 
         let steps = f64::from(tolerance.steps);
-        let exact = pictures.figures(Limits { grid: self.grid, corners: None, blended, steps });
+        let limits = Limits { grid: self.grid, corners: None, blended, steps, until_wrong: self.until_wrong };
+        let exact = pictures.figures(limits);
         if exact.is_ok() {
             return exact;
         }
@@ -174,7 +192,7 @@ impl Judge {
         let grids = VertexGrid::all(self.grid);
         let count = if pictures.has_ties(self.grid)? { grids.len() } else { 1 };
         let on_grid = |&corners: &VertexGrid| {
-            pictures.figures(Limits { grid: FINE, corners: Some(corners), blended, steps }).ok()
+            pictures.figures(Limits { grid: FINE, corners: Some(corners), until_wrong: true, ..limits }).ok()
         };
         grids[..count].iter().find_map(on_grid).map_or(exact, Ok)
     }
@@ -231,14 +249,17 @@ struct Limits {
     blended: f64,
     /// What they may be off besides.
     steps: f64,
+    /// Only whether they do is asked.
+    until_wrong: bool,
 }
 
 impl Pictures {
-    fn figures(&mut self, Limits { grid, corners, blended, steps }: Limits) -> Result<Figures, Finding> {
+    fn figures(&mut self, limits: Limits) -> Result<Figures, Finding> {
+        let Limits { grid, corners, blended, steps, until_wrong } = limits;
         let offset = Bars::FLOAT.worst * f64::from(1 << (FINE - grid));
-        let float = Bars { worst: offset, ..Bars::FLOAT };
+        let float = Bars { worst: offset, until_wrong, ..Bars::FLOAT };
         let most = 1.0 + blended + (255.0 * offset).floor();
-        let bytes = Bars { most, worst: most, equal: 0.0, ..Bars::bytes(self.encoding) };
+        let bytes = Bars { most, worst: most, equal: 0.0, until_wrong, ..Bars::bytes(self.encoding) };
         let float = self.judged(Pixels::Float, float.within(steps), corners)?;
         let bytes = self.judged(Pixels::Byte, bytes.within(steps), corners)?;
         if float.worst > offset + float.allowed || float.bad > 0 {

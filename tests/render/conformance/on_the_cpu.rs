@@ -1,6 +1,6 @@
 //! Rows that the CPU draws, whatever else is tested: drivers are off by more than is allowed where four samples see a
 //! mask or an environment (llvmpipe by up to 5e-2 of the range where a triangle covers a pixel in part, and why is not
-//! known), and the planted faults are there for the judge, which takes long over them. They are the same on every
+//! known), and the planted faults are there for the judge. They are the same on every
 //! adapter: `cargo xtask test` runs them once, with all tests, and not again on the adapters that it tries after.
 
 use super::{FLOAT, Row, SIZE, Scene, conform_on, environment, maps};
@@ -10,11 +10,6 @@ use halfway::reference::Image;
 
 fn stage() -> Stage {
     Stage::on_the_cpu(SIZE.x, SIZE.y)
-}
-
-/// A planted fault is in every pixel of what has it, and the judge takes long over each: a quarter of them will do.
-fn stage_of_faults() -> Stage {
-    Stage::on_the_cpu(SIZE.x / 2, SIZE.y / 2)
 }
 
 #[test]
@@ -31,7 +26,7 @@ fn environments_conform_with_four_samples() {
 /// that is brighter.
 #[test]
 fn faults_are_found_with_four_samples() {
-    let mut stage = stage_of_faults();
+    let mut stage = stage();
     let faults: [(Vec<Row>, [fn(&mut Scene); 2]); 2] = [
         (
             maps::rows_of_masks_with_four_samples(),
@@ -61,7 +56,7 @@ fn faults_are_found_with_four_samples() {
             let picture = stage.draw(&wrong);
             stage.set(scene);
             stage.frame();
-            let (verdict, _) = judge(&mut stage, &Image::from_float(&picture), *float);
+            let (verdict, _) = judge(&mut stage, &Image::from_float(&picture), float.until_wrong());
             assert!(!verdict.is_within(), "{name}: fault {number} is not found");
         }
     }
@@ -72,14 +67,14 @@ fn faults_are_found_with_four_samples() {
 fn an_image_that_is_left_out_is_found() {
     let rows = maps::rows_of_all_kinds();
     let whole = &rows.iter().find(|row| row.name == "all, phong, both sides, blended").expect("a row").scene;
-    let mut stage = stage_of_faults();
+    let mut stage = stage();
     for number in 0..whole.things[0].maps.len() {
         let mut without = whole.clone();
         without.things.iter_mut().for_each(|thing| drop(thing.maps.remove(number)));
         let picture = Image::from_float(&stage.draw(&without));
         stage.set(whole);
         stage.frame();
-        let (verdict, _) = judge(&mut stage, &picture, FLOAT);
+        let (verdict, _) = judge(&mut stage, &picture, FLOAT.until_wrong());
         assert!(!verdict.is_within(), "without {:?}: {verdict}", whole.things[0].maps[number].0);
     }
 }

@@ -9,6 +9,7 @@ mod grid;
 mod moved;
 
 use std::fmt;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use halfway_lighting::{Encoding, Samples};
 use image::DynamicImage;
@@ -49,6 +50,9 @@ pub struct Bars {
     pub steep: f64,
     /// What was allowed to be left out, in steps of 1/255 of the picture: `most` and `worst` are on top of it.
     pub steps: f64,
+    /// The oracle is asked no more once a pixel is over `worst`: the [`Verdict`] is [`is_within`](Verdict::is_within)
+    /// or not as it would be, much sooner where all is wrong; its figures are then of some pixels.
+    pub until_wrong: bool,
 }
 
 /// What errors are counted in.
@@ -63,8 +67,16 @@ pub enum Measure {
 impl Bars {
     /// For pictures in 32-bit floating point: 2·10⁻⁴ of the range for 99.9 %, 2·10⁻³ for all. Single precision over a
     /// few hundred operations, and attributes interpolated between vertices that were snapped.
-    pub const FLOAT: Self =
-        Self { measure: Measure::Range, most: 2e-4, worst: 2e-3, equal: 0.0, layer: 0.0, steep: STEEP, steps: 0.0 };
+    pub const FLOAT: Self = Self {
+        measure: Measure::Range,
+        most: 2e-4,
+        worst: 2e-3,
+        equal: 0.0,
+        layer: 0.0,
+        steep: STEEP,
+        steps: 0.0,
+        until_wrong: false,
+    };
 
     /// For pictures of 8 bits: 1 step anywhere, and 99 % equal. A value near the middle between two steps may be
     /// rounded to either. Adapters may round values of the sRGB curve less exactly (llvmpipe to steps up to 0.66 away),
@@ -94,6 +106,12 @@ impl Bars {
     #[must_use]
     pub fn within(self, steps: f64) -> Self {
         if steps > 0.0 { Self { steps, equal: 0.0, ..self } } else { self }
+    }
+
+    /// For a picture of which only is asked whether it is wrong; see [`until_wrong`](Self::until_wrong).
+    #[must_use]
+    pub const fn until_wrong(self) -> Self {
+        Self { until_wrong: true, ..self }
     }
 
     /// Whether such pictures hold no intensity above 1, so that the oracle has to
@@ -175,6 +193,7 @@ fn judge_with(
     same_size(actual, expected)?;
     let ruler = Ruler::new(expected, bars);
     let width = expected.dimensions().0.max(1) as usize;
+    let is_wrong = AtomicBool::new(false);
     let of_pixel = |i: usize| {
         let at = ((i % width) as u32, (i / width) as u32);
         let (should, is) = (expected.pixels()[i], actual.pixels()[i]);
@@ -196,6 +215,9 @@ fn judge_with(
         };
         // Of four samples the centre says nothing where something else is beside it.
         if is_over || (samples == Samples::Four && ruler.differs_beside(expected, at)) {
+            if bars.until_wrong && is_wrong.load(Ordering::Relaxed) {
+                return PixelFinding::Unasked;
+            }
             let possible = possible(at.0, at.1);
             let has_choice = ruler.has_choice(&possible);
             let (nearest, errors) = if has_choice {
@@ -210,6 +232,7 @@ fn judge_with(
             let is_within = |bar: f64| errors.iter().all(|error| *error <= bar);
             if !is_within(bars.worst + ruler.allowed) {
                 let is_layered = is_within(ruler.bar_through(&possible, samples));
+                is_wrong.fetch_or(!is_layered, Ordering::Relaxed);
                 return if is_layered { PixelFinding::Layered } else { counted(nearest, errors) };
             }
             if has_choice && is_over {
@@ -245,6 +268,8 @@ enum PixelFinding {
     Layered,
     /// It shows no object, and is right.
     Background,
+    /// It is over the bar, and another is wrong whatever it may show.
+    Unasked,
     /// Its place, what it shows and should show, and the errors.
     Counted((u32, u32), [[f64; 3]; 2], [f64; 3]),
 }
@@ -376,7 +401,7 @@ impl Tally {
             }
             PixelFinding::Edge => self.edges += 1,
             PixelFinding::Layered => self.layered += 1,
-            PixelFinding::Background => {}
+            PixelFinding::Background | PixelFinding::Unasked => {}
             PixelFinding::Counted(at, values, errors) => self.count(at, values, errors),
         }
     }

@@ -42,9 +42,12 @@ pub fn judge_on_grid(
     for grid in VertexGrid::all(bits) {
         rounded = rounded.on_grid(grid);
         let possible = |x, y| rounded.possible(x, y, RADIUS_ON_GRID);
-        let verdict = judge_divided(possible, rounded.samples(), (&rounded.draw(), None), actual, bars)?;
+        let drawn = rounded.draw();
+        let verdict = judge_divided(possible, rounded.samples(), (&drawn, None), actual, bars.until_wrong())?;
         if verdict.is_within() {
-            return Ok(verdict);
+            // All has been asked then.
+            let bars = Bars { until_wrong: bars.until_wrong, ..verdict.bars };
+            return Ok(Verdict { bars, ..verdict });
         }
         if !rounded.has_ties(bits) {
             break;

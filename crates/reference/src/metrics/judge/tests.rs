@@ -2,6 +2,7 @@
 
 use super::moved::{ranges_within, widen};
 use super::*;
+use std::sync::atomic::AtomicUsize;
 
 const SIZE: u32 = 40;
 
@@ -43,6 +44,31 @@ fn what_is_within_the_bar_is_not_asked_about() {
     assert!(verdict.is_within(), "{verdict}");
     assert!((verdict.most - 1.5e-4).abs() < 1e-9 && (verdict.worst - 1.5e-4).abs() < 1e-9, "{verdict}");
     assert_eq!((verdict.edges, verdict.counted, verdict.equal), (0.0, 1.0, 0.0));
+}
+
+/// What is asked after the first that is wrong is what other threads are at.
+#[test]
+fn of_a_picture_that_is_wrong_few_pixels_are_asked() {
+    let asked = AtomicUsize::new(0);
+    let surroundings = |x, y| {
+        asked.fetch_add(1, Ordering::Relaxed);
+        pixels(true, [[0.2, 0.25], [0.7, 0.7]])(x, y)
+    };
+    let judged = |actual: &Image, bars| {
+        asked.store(0, Ordering::Relaxed);
+        let verdict = judge_with(surroundings, Samples::One, (&ramp(), None), actual, bars).expect("one size");
+        (verdict.is_within(), asked.load(Ordering::Relaxed))
+    };
+    let all_wrong = Image::new(SIZE, SIZE, vec![[0.45; 3]; (SIZE * SIZE) as usize]);
+    let (is_within, of_all) = judged(&all_wrong, Bars::FLOAT);
+    assert!(!is_within && of_all > 1000, "{of_all}");
+    let (is_within, few) = judged(&all_wrong, Bars::FLOAT.until_wrong());
+    assert!(!is_within && few <= rayon::current_num_threads(), "{few}");
+    // What is over the bar and right is no reason to stop; the one wrong pixel behind it is found.
+    let mut changes = vec![((3, 5), [0.2; 3]), ((30, 5), [0.7; 3])];
+    assert_eq!(judged(&with(&ramp(), &changes), Bars::FLOAT.until_wrong()), (true, 2));
+    changes.push(((10, 39), [0.45; 3]));
+    assert!(!judged(&with(&ramp(), &changes), Bars::FLOAT.until_wrong()).0);
 }
 
 #[test]
