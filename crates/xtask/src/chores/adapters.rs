@@ -110,8 +110,8 @@ const TESTS: [&str; 9] = [
 const WILD: [&str; 1] = ["scenes_that_failed_once_are_right"];
 const KNOWN_WILD: &str = "known_failures_fail";
 
-/// Those of [`TESTS`] that the CPU draws, whatever the adapter.
-const ON_THE_CPU: &str = "render::conformance::on_the_cpu::";
+/// The tests of the program `render` that the CPU draws, whatever the adapter: in files of their own.
+const ON_THE_CPU: [&str; 2] = ["render::conformance::on_the_cpu::", "render::rough::"];
 
 /// Which of the conformance suite's rows with textures are drawn: drivers take minutes to compile all of them.
 const SHARE: &str = "HALFWAY_SHARE";
@@ -160,11 +160,15 @@ impl Tests {
     fn arguments(self) -> Vec<&'static str> {
         match self {
             Self::None => vec![],
-            Self::Few => TESTS.into_iter().chain(["--skip", ON_THE_CPU]).collect(),
-            Self::Most => LEFT_OUT.iter().flat_map(|(name, _)| ["--skip", *name]).collect(),
-            Self::Rest => Self::Most.arguments().into_iter().chain(["--skip", ON_THE_CPU]).collect(),
+            Self::Few => TESTS.into_iter().chain(skipped(&ON_THE_CPU)).collect(),
+            Self::Most => skipped(&LEFT_OUT.map(|(name, _)| name)).collect(),
+            Self::Rest => Self::Most.arguments().into_iter().chain(skipped(&ON_THE_CPU)).collect(),
         }
     }
+}
+
+fn skipped(names: &[&'static str]) -> impl Iterator<Item = &'static str> {
+    names.iter().flat_map(|name| ["--skip", name])
 }
 
 /// Those of which random scenes are known to fail that are right elsewhere.
@@ -382,9 +386,12 @@ mod tests {
 
     #[test]
     fn what_the_cpu_draws_has_tests() {
-        let path = root().join("tests").join(ON_THE_CPU.trim_end_matches("::").replace("::", "/")).with_extension("rs");
-        let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-        assert!(text.contains("#[test]") && text.contains("Stage::on_the_cpu(") && !text.contains("Stage::new("));
+        for name in ON_THE_CPU {
+            let path = root().join("tests").join(name.trim_end_matches("::").replace("::", "/")).with_extension("rs");
+            let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+            assert!(text.contains("#[test]") && text.contains("Stage::on_the_cpu("), "{name}");
+            assert!(!text.contains("Stage::new("), "{name}");
+        }
     }
 
     #[test]
