@@ -46,7 +46,8 @@ pub struct Calibration {
 /// What a price can be. What is outside has been disturbed.
 ///
 /// The first light at a pixel takes no less than nothing, and a light more than the lights after it: -1 where it is
-/// free, as on graphics cards that wait for something else meanwhile (-0.6 and -0.7 on an NVIDIA H200).
+/// free, as on graphics cards that wait for something else meanwhile (-0.6 and -0.7 on an NVIDIA H200), and a tenth for
+/// noise.
 const BELIEVED: [(&str, f32, f32); 6] = [
     ("light", 0.02, 500.0),
     ("pixel", -1.1, 100.0),
