@@ -1,7 +1,7 @@
 //! Neighbouring patches that have one list of lights together, where each by itself covers too little of the picture to
 //! be worth one.
 
-use crate::geometry::corners::{CountedCorners, ShadedCorners};
+use crate::geometry::corners::CountedCorners;
 use crate::geometry::detail::Detail;
 use crate::geometry::families::{FamilyPart, MOST};
 use crate::geometry::patches::{MeshPatch, Sight};
@@ -19,6 +19,8 @@ pub(crate) struct SeenPatch<'a> {
     pub(crate) number: u32,
     /// Between two patches of one there are only triangles that do not show.
     pub(crate) stretch: u32,
+    /// Which corners it is shaded at, where it is so coarse or far away and its terms have no place of their own.
+    pub(crate) corners: Option<CountedCorners>,
 }
 
 /// Patches that lie together and are chosen for together, or one.
@@ -49,8 +51,6 @@ pub(crate) struct Clustering<'s, 'a> {
     pub(crate) object: Entity,
     pub(crate) detail: &'a Detail,
     pub(crate) sight: &'s Sight<'s>,
-    /// When patches are shaded at their corners.
-    pub(crate) corners: ShadedCorners,
     /// Whether what is known of one of its patches is known of all.
     pub(crate) may_join: bool,
     /// Whether the extent of a patch by itself is asked for.
@@ -85,17 +85,15 @@ impl<'a> Clustering<'_, 'a> {
         clusters: &mut Vec<Cluster>,
     ) {
         clusters.clear();
-        let counted = |seen: &SeenPatch| seen.patch.counted(self.corners, self.sight);
         let mut start = members.start;
         while start < members.end {
             let first = &seen[start];
-            let counted_first = counted(first);
             let family = self.detail.families.of(first.number);
             let is_alike = |other: &&SeenPatch| {
                 self.may_join
                     && other.number < family.patches.end
                     && other.patch.longest_edge.is_finite() == first.patch.longest_edge.is_finite()
-                    && counted(other) == counted_first
+                    && other.corners == first.corners
             };
             let end = start + 1 + seen[start + 1..members.end].iter().take_while(is_alike).count();
             let is_of_family = |other: &SeenPatch| family.patches.contains(&other.number);
@@ -119,7 +117,7 @@ impl<'a> Clustering<'_, 'a> {
                 clusters.push(Cluster {
                     members,
                     extent,
-                    corners: counted_first,
+                    corners: first.corners,
                     ..self.joined(part, &seen[start..][at], &names)
                 });
             };

@@ -61,7 +61,6 @@ impl<'a> LitObject<'a> {
             object: self.entity,
             detail: &self.geometry.detail,
             sight,
-            corners: self.corners,
             // What images do is known patch by patch.
             may_join: self.reflecting.maps.is_empty(),
             // Of a patch by itself nobody asks but who may move terms.

@@ -294,12 +294,16 @@ impl LitPatches {
         seen.clear();
         let coarser = CoarserObject { number: object.number, model_view, view, pixels: object.tolerance.pixels };
         let is_near = |patch: &MeshPatch, error| self.near.is_near(&coarser, patch, error, &boxes);
-        let add_seen = |patch, [number, stretch]: [u32; 2]| seen.push(SeenPatch { patch, number, stretch });
+        let has_lists = admitted.lists == Lists::Listed;
+        let add_seen = |patch: &'a MeshPatch, [number, stretch]: [u32; 2]| {
+            let corners = if has_lists { patch.counted(object.corners, &sight) } else { None };
+            seen.push(SeenPatch { patch, number, stretch, corners });
+        };
         let looked_at = detail.each_seen(&allowed, &sight, &mut self.choice, is_near, add_seen);
         report.patches += looked_at;
         // What is whole has been found to be seen, and is not counted.
         report.patches_culled += looked_at.saturating_sub(seen.len() as u32);
-        if admitted.lists != Lists::Listed {
+        if !has_lists {
             self.add_alike(object, seen, |_| admitted, shared, backend);
             return;
         }
@@ -324,15 +328,15 @@ impl LitPatches {
         &mut self,
         object: &LitObject,
         seen: &[SeenPatch],
-        key: impl Fn(&MeshPatch) -> DrawKey,
+        key: impl Fn(&SeenPatch) -> DrawKey,
         shared: Shared,
         backend: &mut impl Backend,
     ) {
         let mut run: Option<OpenRun> = None;
         let is_plain = !shared.false_colors && !seen.is_empty();
         let of_all = is_plain.then(|| self.table.number(&mut self.records, object.material, RecordLists::default()));
-        for &SeenPatch { patch, stretch, .. } in seen {
-            let (key, record) = match (key(patch), of_all) {
+        for of_patch @ &SeenPatch { patch, stretch, .. } in seen {
+            let (key, record) = match (key(of_patch), of_all) {
                 (key, Some(record)) => (key, record),
                 (key, None) => {
                     let (key, _, record) = self.false_colored(object, patch, key, None, backend);

@@ -10,7 +10,6 @@ use crate::batch::lit_runs::OpenRun;
 use crate::batch::object::Shared;
 use crate::device::costs::VertexPrices;
 use crate::geometry::corners::CountedCorners;
-use crate::geometry::patches::MeshPatch;
 use crate::geometry::shape::PatchShape;
 use crate::lights::places::ShadedAt;
 use crate::shaders::light_slots::Lists;
@@ -60,14 +59,12 @@ impl LitPatches {
         if !object.may_be_unlisted(ShadedAt::Fragments, shared.lights) {
             return false;
         }
-        let sight = chooser.clustering.sight;
-        let counted = |patch: &MeshPatch| patch.counted(object.corners, sight);
-        let number = |counted: Option<CountedCorners>| counted.map_or(0, |counted| 1 + counted as usize);
+        let number = |seen: &SeenPatch| seen.corners.map_or(0, |counted| 1 + counted as usize);
         let places =
             [ShadedAt::Fragments, ShadedAt::Corners(CountedCorners::All), ShadedAt::Corners(CountedCorners::Nearest)];
         let mut counts = [0; 3];
         for seen in seen {
-            counts[number(counted(seen.patch))] += 1;
+            counts[number(seen)] += 1;
         }
         let mut keys = [object.key; 3];
         for ((key, place), count) in keys.iter_mut().zip(places).zip(counts) {
@@ -96,7 +93,7 @@ impl LitPatches {
             }
         }
         let alone = counts.iter().position(|count| *count == seen.len());
-        let key = |patch: &MeshPatch| keys[alone.unwrap_or_else(|| number(counted(patch)))];
+        let key = |seen: &SeenPatch| keys[alone.unwrap_or_else(|| number(seen))];
         self.add_alike(object, seen, key, shared, backend);
         true
     }
