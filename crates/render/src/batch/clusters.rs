@@ -4,7 +4,8 @@
 use crate::geometry::corners::CountedCorners;
 use crate::geometry::detail::Detail;
 use crate::geometry::families::{FamilyPart, MOST};
-use crate::geometry::patches::{MeshPatch, Sight};
+use crate::geometry::outlines::Sight;
+use crate::geometry::patches::MeshPatch;
 use crate::geometry::shape::PatchShape;
 use crate::lights::gains::Extent;
 use crate::lights::memory::{CLEARLY, ChoiceMemory};

@@ -7,7 +7,7 @@ use crate::batch::painted::{Lean, PatchPaint};
 use crate::device::costs::VertexPrices;
 use crate::geometry::corners::{CountedCorners, ShadedCorners};
 use crate::geometry::meshes::{Form, Geometry};
-use crate::geometry::patches::Sight;
+use crate::geometry::outlines::Sight;
 use crate::geometry::shape::PatchNormals;
 use crate::lights::gather::Lights;
 use crate::lights::memory::{ChoiceMemory, NamedPatches};

@@ -20,7 +20,8 @@ use crate::geometry::allowed::{Allowed, Demand, geometry_steps};
 use crate::geometry::corners::ShadedCorners;
 use crate::geometry::detail::Choice;
 use crate::geometry::near_objects::{CoarserObject, NearObjects, ObjectBox};
-use crate::geometry::patches::{MeshPatch, Sight};
+use crate::geometry::outlines::{Outline, Sight};
+use crate::geometry::patches::MeshPatch;
 use crate::lights::gather::Lights;
 use crate::lights::lists::LightLists;
 use crate::lights::memory::{ChosenBy, choosing};
@@ -220,7 +221,7 @@ impl LitPatches {
             Circumstances { terms, blend, mirrored: model_view.mirrored, opposite_normals: geometry.opposite_normals };
         let key = reflecting.key(look, circumstances, Shared { prices, ..shared });
         let material = look.material;
-        let sphere = geometry.detail.whole.shape.sphere(model_view);
+        let sphere = geometry.detail.whole.sphere(model_view);
         // What the near plane cuts has corners of its own.
         let may_be_nearest = shared.costs.nearest_corner
             && key.terms == key.terms.map(|term| if term == Frequency::Never { term } else { Frequency::Auto })
@@ -281,7 +282,7 @@ impl LitPatches {
             lights,
             encoding,
             model_view,
-            sphere: detail.whole.shape.sphere(model_view),
+            sphere: detail.whole.sphere(model_view),
             corners: object.corners,
             least: &detail.least,
             pixels_per_unit: detail.pixels_per_unit(&sight),
@@ -293,7 +294,7 @@ impl LitPatches {
         let admitted = if key.lists == Lists::Listed { *key } else { backend.admit(*key) };
         seen.clear();
         let coarser = CoarserObject { number: object.number, model_view, view, pixels: object.tolerance.pixels };
-        let is_near = |patch: &MeshPatch, error| self.near.is_near(&coarser, patch, error, &boxes);
+        let is_near = |patch: &Outline, error| self.near.is_near(&coarser, patch, error, &boxes);
         let has_lists = admitted.lists == Lists::Listed;
         let add_seen = |patch: &'a MeshPatch, [number, stretch]: [u32; 2]| {
             let corners = if has_lists { patch.counted(object.corners, &sight) } else { None };

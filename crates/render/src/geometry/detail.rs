@@ -3,7 +3,8 @@
 use crate::geometry::allowed::Allowed;
 use crate::geometry::corners::reach_of_rough;
 use crate::geometry::families::Families;
-use crate::geometry::patches::{MeshPatch, Sight};
+use crate::geometry::outlines::{Outline, Sight};
+use crate::geometry::patches::MeshPatch;
 use crate::geometry::turned::GroupErrors;
 use halfway_mesh::{HierarchyPatch, Mesh, PatchGroup, PatchHierarchy};
 use halfway_raster::Pieces;
@@ -24,6 +25,8 @@ pub(crate) struct MeshTriangles {
 #[derive(Debug)]
 pub(crate) struct Detail {
     patches: Vec<MeshPatch>,
+    /// Of each patch.
+    outlines: Vec<Outline>,
     /// Which of them lie together.
     pub(crate) families: Families,
     /// Of each patch the group that it is a part of, or [`FINEST`].
@@ -32,7 +35,7 @@ pub(crate) struct Detail {
     /// The groups of whose parts each group joins any.
     finer: Vec<u32>,
     /// What is known of the whole.
-    pub(crate) whole: MeshPatch,
+    pub(crate) whole: Outline,
     /// Each patch is all that there is, in fewer triangles or more.
     is_whole: bool,
     /// Of each error the least of all groups that have parts.
@@ -43,7 +46,7 @@ pub(crate) struct Detail {
 #[derive(Clone, Debug)]
 pub(crate) struct DetailGroup {
     /// What is known of the patches that it joins. Its sphere holds those of the finer groups.
-    joined: MeshPatch,
+    joined: Outline,
     joins: Range<u32>,
     finer: Range<u32>,
     errors: GroupErrors,
@@ -97,19 +100,21 @@ impl MeshTriangles {
 
 impl Detail {
     /// The mesh itself, in these patches.
-    fn finest(mesh: &Mesh, patches: Vec<MeshPatch>) -> Self {
+    fn finest(mesh: &Mesh, patches: Vec<(MeshPatch, Outline)>) -> Self {
+        let (patches, outlines): (Vec<_>, Vec<_>) = patches.into_iter().unzip();
         let joins = (0..patches.len()).step_by(LOOKED_AT).map(|first| first..patches.len().min(first + LOOKED_AT));
-        let groups = joins.map(|joins| DetailGroup::last(&patches, joins)).collect();
+        let groups = joins.map(|joins| DetailGroup::last(&outlines, joins)).collect();
         let part_of = vec![FINEST; patches.len()];
         let is_whole = patches.len() == 1;
         Self {
             groups,
             part_of,
             finer: Vec::new(),
-            whole: MeshPatch::whole(mesh),
+            whole: Outline::whole(mesh),
             is_whole,
             families: Families::new(&patches),
             patches,
+            outlines,
             least: GroupErrors::LARGEST,
         }
     }
@@ -119,20 +124,21 @@ impl Detail {
             let Range { start, end } = of.triangles;
             MeshPatch::new(mesh, &triangles[start as usize..end as usize], 3 * start)
         };
-        let made: Vec<MeshPatch> = patches.iter().map(patch).collect();
+        let (made, outlines): (Vec<MeshPatch>, Vec<Outline>) = patches.iter().map(patch).unzip();
         let mut detail = Self {
             families: Families::new(&made),
             part_of: patches.iter().map(|patch| patch.part_of.unwrap_or(FINEST)).collect(),
             patches: made,
+            outlines,
             groups: Vec::with_capacity(groups.len()),
             finer: Vec::new(),
-            whole: MeshPatch::whole(mesh),
+            whole: Outline::whole(mesh),
             is_whole: patches.iter().filter(|patch| patch.part_of.is_none()).count() == 1,
             least: GroupErrors::LARGEST,
         };
         let finest = || detail.patches.iter().zip(&detail.part_of).filter(|(_, part_of)| **part_of == FINEST);
         let mean = finest().map(|(patch, _)| patch.shape.radius()).sum::<f32>() / finest().count().max(1) as f32;
-        let largest = (1.25 * mean).max(detail.whole.shape.radius() / PATCHES_ACROSS);
+        let largest = (1.25 * mean).max(detail.whole.radius() / PATCHES_ACROSS);
         // Of each group the largest radius of its parts.
         let mut radii = vec![0.0_f32; groups.len()];
         for (patch, &part_of) in detail.patches.iter().zip(&detail.part_of) {
@@ -169,7 +175,7 @@ impl Detail {
         let mut finer = self.finer.split_off(first);
         finer.dedup();
         let spheres = finer.iter().map(|&group| &self.groups[group as usize].joined);
-        let joined = MeshPatch::around(&self.patches[joins], spheres);
+        let joined = Outline::around(&self.outlines[joins], spheres);
         let spoils_lists = spoils_lists || finer.iter().any(|&group| self.groups[group as usize].errors.spoils_lists);
         self.finer.extend(finer);
         let &PatchGroup { error, normal_error, normal_spread, longest_edge, corner_reach, roughness, .. } = group;
@@ -184,7 +190,7 @@ impl Detail {
 
     /// Patches for which nothing stands.
     fn add_last(&mut self, joins: Range<u32>) {
-        self.groups.push(DetailGroup::last(&self.patches, joins.start as usize..joins.end as usize));
+        self.groups.push(DetailGroup::last(&self.outlines, joins.start as usize..joins.end as usize));
     }
 
     /// All patches, in the order of their triangles.
@@ -199,7 +205,7 @@ impl Detail {
 
     /// How many pixels a unit of the mesh takes, where all of it is coarser or nothing.
     pub(crate) fn pixels_per_unit(&self, sight: &Sight) -> Option<f32> {
-        self.is_whole.then(|| sight.pixels_per_unit(&self.whole))
+        self.is_whole.then(|| sight.pixels_per_unit(self.whole.sphere(sight.model_view)))
     }
 
     /// Visits the patches that are drawn of an object and may show, in the order of their triangles, each with the
@@ -212,15 +218,15 @@ impl Detail {
         allowed: &Allowed,
         sight: &Sight,
         Choice { will_do }: &mut Choice,
-        is_near: impl FnMut(&MeshPatch, f32) -> bool,
+        is_near: impl FnMut(&Outline, f32) -> bool,
         mut each: impl FnMut(&'a MeshPatch, [u32; 2]),
     ) -> u32 {
         self.choose(allowed, sight, will_do, is_near);
-        let (mut stretch, mut end) = (0, 0);
-        let mut stretch_of = |patch: &MeshPatch| {
-            // What lies between are triangles for which others stand.
-            stretch += u32::from(patch.indices.start != end);
-            end = patch.indices.end;
+        // Patches lie one behind the other; what lies between are triangles for which others stand.
+        let (mut stretch, mut next) = (0, 0);
+        let mut stretch_of = |at: usize| {
+            stretch += u32::from(at != next);
+            next = at + 1;
             stretch
         };
         // The object as a whole has been found to be seen.
@@ -229,16 +235,15 @@ impl Detail {
             let joins = group.joins.start as usize..group.joins.end as usize;
             let drawn = |at: &usize| will_do.get(self.part_of[*at] as usize).is_none_or(|will_do| *will_do);
             if self.is_whole {
-                joins.filter(drawn).for_each(|at| each(&self.patches[at], [at as u32, stretch_of(&self.patches[at])]));
+                joins.filter(drawn).for_each(|at| each(&self.patches[at], [at as u32, stretch_of(at)]));
                 continue;
             }
             let is_seen = group.joined.is_seen(sight);
             for at in joins.filter(drawn) {
                 looked_at += 1;
-                let patch = &self.patches[at];
-                let stretch = stretch_of(patch);
-                if is_seen && patch.is_seen(sight) {
-                    each(patch, [at as u32, stretch]);
+                let stretch = stretch_of(at);
+                if is_seen && self.outlines[at].is_seen(sight) {
+                    each(&self.patches[at], [at as u32, stretch]);
                 }
             }
         }
@@ -251,7 +256,7 @@ impl Detail {
         allowed: &Allowed,
         sight: &Sight,
         will_do: &mut Vec<bool>,
-        mut is_near: impl FnMut(&MeshPatch, f32) -> bool,
+        mut is_near: impl FnMut(&Outline, f32) -> bool,
     ) {
         will_do.clear();
         will_do.resize(self.groups.len(), false);
@@ -261,7 +266,8 @@ impl Detail {
         let of_whole = self.pixels_per_unit(sight).unwrap_or(0.0);
         for (number, group) in self.groups.iter().enumerate().rev() {
             if !will_do[number] {
-                let pixels = if self.is_whole { of_whole } else { sight.pixels_per_unit(&group.joined) };
+                let pixels =
+                    if self.is_whole { of_whole } else { sight.pixels_per_unit(group.joined.sphere(sight.model_view)) };
                 let around = if self.is_whole { &self.whole } else { &group.joined };
                 will_do[number] =
                     pixels <= allowed.pixels_per_unit(&group.errors) && !is_near(around, group.errors.error);
@@ -276,9 +282,9 @@ impl Detail {
 }
 
 impl DetailGroup {
-    fn last(patches: &[MeshPatch], joins: Range<usize>) -> Self {
+    fn last(outlines: &[Outline], joins: Range<usize>) -> Self {
         Self {
-            joined: MeshPatch::around(&patches[joins.clone()], std::iter::empty()),
+            joined: Outline::around(&outlines[joins.clone()], std::iter::empty()),
             joins: joins.start as u32..joins.end as u32,
             finer: 0..0,
             errors: GroupErrors::LARGEST,

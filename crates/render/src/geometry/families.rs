@@ -163,7 +163,7 @@ mod tests {
             let positions = flat.positions().iter().map(|&p| turn * p + at).collect();
             let normals = flat.normals().iter().map(|&n| turn * n).collect();
             let mesh = Mesh::from_parts(positions, Some(normals), None, flat.indices().to_vec());
-            MeshPatch::new(&mesh.expect("it is as before"), &[[0, 1, 2]], 0)
+            MeshPatch::new(&mesh.expect("it is as before"), &[[0, 1, 2]], 0).0
         };
         let here = || patch(Vec3::ZERO, Quat::IDENTITY);
         assert!(are_compact(&[here(), patch(0.3 * Vec3::X, Quat::from_rotation_x(0.1))]));

@@ -169,7 +169,7 @@ impl Geometries {
         let has_uvs = form.mapped && [0, 1].iter().any(|&set| drawn.uv_set(set).is_some());
         let uv_boxes = if has_uvs { UvBoxes::new(drawn, &corners, detail.patches()) } else { UvBoxes::default() };
         let drawn = drawn.clone();
-        self.radii.insert(id, detail.whole.shape.radius());
+        self.radii.insert(id, detail.whole.radius());
         self.changes += 1;
         let triangles = Some(corners);
         let geometry = Geometry { detail, source: mesh.clone(), drawn, opposite_normals, uv_boxes, triangles, pieces };

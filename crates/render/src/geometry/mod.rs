@@ -6,6 +6,7 @@ pub(crate) mod detail;
 pub(crate) mod families;
 pub(crate) mod meshes;
 pub(crate) mod near_objects;
+pub(crate) mod outlines;
 pub(crate) mod patches;
 pub(crate) mod shape;
 pub(crate) mod turned;

@@ -8,7 +8,7 @@
 //!
 //! Objects are found by where they are, in grids that are made in the first place of a frame that asks for them.
 
-use crate::geometry::patches::MeshPatch;
+use crate::geometry::outlines::Outline;
 use crate::view::camera::View;
 use crate::view::matrices::ModelView;
 use bevy_math::{Affine3A, Vec3, Vec3A};
@@ -153,7 +153,7 @@ impl NearObjects {
     pub(crate) fn is_near<I: Iterator<Item = ObjectBox>>(
         &mut self,
         object: &CoarserObject,
-        patch: &MeshPatch,
+        patch: &Outline,
         error: f32,
         boxes: impl FnOnce() -> I,
     ) -> bool {
@@ -175,7 +175,7 @@ impl NearObjects {
         if self.near.is_empty() {
             return false;
         }
-        let (center, radius) = patch.shape.sphere(model_view);
+        let (center, radius) = patch.sphere(model_view);
         let center = Vec3A::from(center);
         let radius = radius + error * model_view.largest_scale();
         let moved = |pixels: f32| with_slack(radius + moved(view, pixels, center.into(), radius), center);
@@ -295,7 +295,7 @@ mod tests {
     #[test]
     fn what_the_grids_find_is_what_is_there() {
         let mesh = Mesh::from(UvSphere::new(1.0, 8, 4));
-        let patch = MeshPatch::whole(&mesh);
+        let patch = Outline::whole(&mesh);
         let view = view();
         let mut seed = 7;
         for count in [1, 2, 9, 70, 700] {
@@ -317,7 +317,7 @@ mod tests {
                     boxes.iter().copied()
                 };
                 let is_near = near.is_near(&object, &patch, 0.01, boxes_again);
-                let (center, radius) = patch.shape.sphere(model_view);
+                let (center, radius) = patch.sphere(model_view);
                 let error = 0.01 * model_view.largest_scale();
                 let reach = radius + error + moved(&view, 0.5, center, radius + error);
                 let distance = |other: &ObjectBox| other.distance(center.into());
@@ -377,7 +377,7 @@ mod tests {
     #[test]
     fn a_patch_is_near_within_what_both_move() {
         let mesh = Mesh::from(UvSphere::new(1.0, 8, 4));
-        let patch = MeshPatch::whole(&mesh);
+        let patch = Outline::whole(&mesh);
         let view = view();
         let at = |x: f32| placed(Affine3A::from_translation(Vec3::new(x, 0.0, -10.0)));
         let near = |apart: f32, error: f32, pixels: f32| {

@@ -92,14 +92,9 @@ impl PatchShape {
         }
     }
 
-    /// A sphere, in which nothing is known of any normal.
-    pub(super) fn sphere_alone((center, radius): (Vec3, f32)) -> Self {
-        Self { center, radius, faces: None, normals: None, grain: Grain::none() }
-    }
-
     /// Of all of these together, one or more.
     pub(crate) fn around<'a>(parts: impl Iterator<Item = &'a Self> + Clone) -> Self {
-        let (center, radius) = sphere_around(parts.clone());
+        let (center, radius) = sphere_around(parts.clone().map(|part| (part.center, part.radius)));
         let cones = |of: fn(&Self) -> Option<PatchCone>| {
             PatchCone::around(parts.clone().map(move |part| Some((of(part)?, part.center - center, part.radius))))
         };
@@ -192,11 +187,11 @@ impl PatchShape {
 const LARGER: f32 = 1.3;
 const WIDER: f32 = 0.35;
 
-/// A sphere that holds those around these shapes.
-pub(super) fn sphere_around<'a>(shapes: impl Iterator<Item = &'a PatchShape> + Clone) -> (Vec3, f32) {
-    let corners = shapes.clone().flat_map(|shape| [shape.center - shape.radius, shape.center + shape.radius]);
+/// A sphere that holds all of these.
+pub(super) fn sphere_around(spheres: impl Iterator<Item = (Vec3, f32)> + Clone) -> (Vec3, f32) {
+    let corners = spheres.clone().flat_map(|(center, radius)| [center - radius, center + radius]);
     let center = Bounds::from_points(corners).map_or(Vec3::ZERO, |bounds| bounds.center());
-    let reach = shapes.map(|shape| length((shape.center - center).to_array()) + shape.radius).fold(0.0, f32::max);
+    let reach = spheres.map(|(at, radius)| length((at - center).to_array()) + radius).fold(0.0, f32::max);
     (center, reach * (1.0 + 1e-5))
 }
 

@@ -1,0 +1,232 @@
+//! Outlines: what tells whether a piece of a mesh shows, apart from all else that is known of it. In each frame those of
+//! all patches are looked at, and of most patches nothing else.
+
+use crate::geometry::shape::{ANGLE_SLACK, PatchShape, sphere_around};
+use crate::view::camera::View;
+use crate::view::matrices::ModelView;
+use bevy_math::Vec3;
+use halfway_lighting::Faces;
+use halfway_lighting::equations::vector::length;
+use halfway_mesh::Mesh;
+
+/// Where a piece of a mesh is and which way it faces, in model space: no more bytes than a line of a cache has.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Outline {
+    center: Vec3,
+    radius: f32,
+    facing: Facing,
+}
+
+/// Which way triangles face: from where none of them shows its front, or none its back.
+///
+/// A triangle shows its front to the eye at e where n·(e − p) > 0, n its normal and p any of its points. With c the
+/// centre of the patch and v = e − c, that is n·v + n·(c − p). The largest n·v of all triangles is a convex function of
+/// v, twice as large for twice the v; so where v = Σ wᵢ dᵢ with no wᵢ below 0, it is at most Σ wᵢ times its value for
+/// dᵢ. It is known for 18 directions d, the corners and the middles of edges of an octahedron, of which the three
+/// around v serve. A cone around the normals is wider: it is as round as their farthest one is far.
+///
+/// What is known for a direction is rounded up to a 20,000th.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Facing {
+    /// The largest n·d of all triangles for each of [`Facing::DIRECTIONS`], in [`Facing::PARTS`].
+    most: [i16; 18],
+    /// The largest n·(c − p) of all, and the largest −n·(c − p).
+    beyond: [f32; 2],
+}
+
+impl Facing {
+    /// Numbered by the signs of their coordinates, 1 where they are negative: ±x, ±y, ±z; then ±x ± y, ±x ± z, ±y ± z.
+    const DIRECTIONS: [Vec3; 18] = {
+        const fn d(x: i32, y: i32, z: i32) -> Vec3 {
+            Vec3::new(x as f32, y as f32, z as f32)
+        }
+        [
+            d(1, 0, 0),
+            d(-1, 0, 0),
+            d(0, 1, 0),
+            d(0, -1, 0),
+            d(0, 0, 1),
+            d(0, 0, -1),
+            d(1, 1, 0),
+            d(1, -1, 0),
+            d(-1, 1, 0),
+            d(-1, -1, 0),
+            d(1, 0, 1),
+            d(1, 0, -1),
+            d(-1, 0, 1),
+            d(-1, 0, -1),
+            d(0, 1, 1),
+            d(0, 1, -1),
+            d(0, -1, 1),
+            d(0, -1, -1),
+        ]
+    };
+
+    /// The unit of what is known for a direction: the largest there can be is √2.
+    const PARTS: f32 = 20_000.0;
+
+    /// Of triangles that may face anywhere.
+    const UNKNOWN: Self = Self { most: [i16::MAX; 18], beyond: [f32::INFINITY; 2] };
+
+    /// Of no triangle.
+    const NONE: Self = Self { most: [i16::MIN; 18], beyond: [f32::NEG_INFINITY; 2] };
+
+    /// Of triangles with these normals, whose corners are so far from the centre of the patch.
+    pub(super) fn new(triangles: impl Iterator<Item = (Vec3, [Vec3; 3])>) -> Self {
+        let mut facing = Self::NONE;
+        for (n, offsets) in triangles {
+            for (most, d) in facing.most.iter_mut().zip(Self::DIRECTIONS) {
+                *most = (*most).max((Self::PARTS * n.dot(d)).ceil() as i16);
+            }
+            for height in offsets.map(|offset| n.dot(offset)) {
+                facing.beyond = [facing.beyond[0].max(-height), facing.beyond[1].max(height)];
+            }
+        }
+        facing
+    }
+
+    /// Of all of these, around centres that are so far from the centre of all.
+    fn around<'a>(parts: impl Iterator<Item = (&'a Self, f32)>) -> Self {
+        let mut facing = Self::NONE;
+        for (part, away) in parts {
+            facing.most = std::array::from_fn(|i| facing.most[i].max(part.most[i]));
+            facing.beyond = std::array::from_fn(|i| facing.beyond[i].max(part.beyond[i] + away));
+        }
+        facing
+    }
+
+    /// Whether no triangle turns its front, or its `back`, to an eye that is so far from the centre of the patch.
+    fn hides(&self, eye: Vec3, back: bool) -> bool {
+        let v = if back { -eye } else { eye };
+        let [x, y, z] = v.to_array().map(|at| usize::from(at < 0.0));
+        let Vec3 { x: a, y: b, z: c } = v.abs();
+        let [of_x, of_y, of_z] = [x, 2 + y, 4 + z].map(|i| f32::from(self.most[i]));
+        let [of_xy, of_xz, of_yz] = [6 + 2 * x + y, 10 + 2 * x + z, 14 + 2 * y + z].map(|i| f32::from(self.most[i]));
+        let most = if a >= b + c {
+            (a - b - c) * of_x + b * of_xy + c * of_xz
+        } else if b >= a + c {
+            (b - a - c) * of_y + a * of_xy + c * of_yz
+        } else if c >= a + b {
+            (c - a - b) * of_z + a * of_xz + b * of_yz
+        } else {
+            0.5 * ((a + b - c) * of_xy + (a + c - b) * of_xz + (b + c - a) * of_yz)
+        };
+        most / Self::PARTS + self.beyond[usize::from(back)] < -ANGLE_SLACK * (a + b + c)
+    }
+}
+
+/// From where, and which sides of an object are seen: what tells whether a patch of it shows.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Sight<'a> {
+    pub(super) model_view: &'a ModelView,
+    pub(super) view: &'a View,
+    /// The eye in model space, and whether back faces are drawn rather than front faces; `None` where both are or the
+    /// transform has no inverse.
+    pub(super) eye: Option<(Vec3, bool)>,
+    /// None of it is beside the picture.
+    is_inside: bool,
+}
+
+impl<'a> Sight<'a> {
+    /// Of an object; `whole` is all of it.
+    pub(crate) fn new(model_view: &'a ModelView, view: &'a View, faces: Faces, whole: &Outline) -> Self {
+        let side = match faces {
+            Faces::Both => None,
+            Faces::Front => Some(false),
+            Faces::Back => Some(true),
+        };
+        // In single precision the determinant leaves the number range where a scale is 7·10¹² or 10⁻¹³.
+        let eye = model_view.eye_from_model.as_daffine3().inverse().translation.as_vec3();
+        let eye = side.filter(|_| eye.is_finite()).map(|back| (eye, back));
+        let (center, radius) = whole.sphere(model_view);
+        Self { model_view, view, eye, is_inside: view.projection.holds(center, radius) }
+    }
+
+    /// An upper bound of how many pixels a way of a unit of the mesh takes, anywhere in a sphere in eye space where the
+    /// picture shows it; no less for a sphere that holds another. A way of length e at (x, y, −z) in eye
+    /// space moves its end by at most f·e/z·√(1 + (x² + y²)/z²), f pixels being the way of a point at depth 1 that
+    /// moves by 1.
+    pub(crate) fn pixels_per_unit(&self, (center, radius): (Vec3, f32)) -> f32 {
+        let View { projection, pixels_at_unit_depth, .. } = self.view;
+        let [x, y] = projection.scale;
+        let nearest = (-center.z - radius).max(projection.near);
+        let aside2 = (center.truncate().length() + radius).powi(2) / (nearest * nearest);
+        let slope2 = aside2.min(1.0 / (x * x) + 1.0 / (y * y));
+        pixels_at_unit_depth * self.model_view.largest_scale() * (1.0 + slope2).sqrt() / nearest
+    }
+}
+
+impl Outline {
+    /// Of a patch whose triangles face like that.
+    pub(super) fn new(shape: &PatchShape, facing: Facing) -> Self {
+        Self { center: shape.center, radius: shape.radius(), facing }
+    }
+
+    /// All of a mesh, of whose normals nothing is known.
+    pub(crate) fn whole(mesh: &Mesh) -> Self {
+        let center = mesh.bounds().center();
+        let farthest = mesh.positions().iter().map(|p| length((*p - center).to_array())).fold(0.0, f32::max);
+        Self { center, radius: farthest * (1.0 + 1e-5), facing: Facing::UNKNOWN }
+    }
+
+    /// What is known of all of these together, one or more; and its sphere is no smaller than to hold those of `others`.
+    pub(super) fn around<'a>(parts: &'a [Self], others: impl Iterator<Item = &'a Self> + Clone) -> Self {
+        let (center, radius) = sphere_around(parts.iter().chain(others).map(|part| (part.center, part.radius)));
+        let facing = Facing::around(parts.iter().map(|part| (&part.facing, length((part.center - center).to_array()))));
+        Self { center, radius, facing }
+    }
+
+    /// The radius of the sphere around it, in the mesh's units.
+    pub(crate) fn radius(&self) -> f32 {
+        self.radius
+    }
+
+    /// The sphere around it in eye space.
+    pub(crate) fn sphere(&self, model_view: &ModelView) -> (Vec3, f32) {
+        (model_view.eye_from_model.transform_point3(self.center), self.radius * model_view.largest_scale())
+    }
+
+    /// Whether any of it may show: it reaches into the frustum, and not all its triangles turn the side away that is
+    /// drawn. Never false for one that shows.
+    pub(crate) fn is_seen(&self, sight: &Sight) -> bool {
+        if !sight.is_inside {
+            let (center, radius) = self.sphere(sight.model_view);
+            if !sight.view.projection.sees(center, radius) {
+                return false;
+            }
+        }
+        sight.eye.is_none_or(|(eye, back)| !self.facing.hides(eye - self.center, back))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_outline_is_a_line_of_a_cache() {
+        assert!(size_of::<Outline>() <= 64, "{}", size_of::<Outline>());
+    }
+
+    /// What is rounded is never less, and nothing hides what may face anywhere.
+    #[test]
+    fn what_faces_the_eye_is_not_hidden() {
+        let mut seed = 3_u32;
+        let mut random = || {
+            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (seed >> 8) as f32 / 8_388_608.0 - 1.0
+        };
+        let (mut hidden, mut turned) = (0, 0);
+        for _ in 0..10_000 {
+            let [n, eye] = [(); 2].map(|()| Vec3::new(random(), random(), random()).normalize_or(Vec3::X));
+            let facing = Facing::new(std::iter::once((n, [Vec3::ZERO; 3])));
+            let hides = [facing.hides(eye, false), facing.hides(eye, true)];
+            let shows = n.dot(eye);
+            assert!(!(hides[0] && shows > 0.0) && !(hides[1] && shows < 0.0), "{n} from {eye}");
+            assert!(!Facing::UNKNOWN.hides(eye, false) && !Facing::UNKNOWN.hides(eye, true));
+            turned += usize::from(shows < 0.0);
+            hidden += usize::from(hides[0]);
+        }
+        assert!(4 * hidden > 3 * turned, "{hidden} of {turned}");
+    }
+}
