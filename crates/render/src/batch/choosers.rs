@@ -1,10 +1,12 @@
 //! Chooses the lights that the patches of an object need: on all threads, since no patch has to do with another.
 
-use crate::batch::clusters::{Cluster, Clustering, SeenPatch};
+use crate::batch::clusters::{Cluster, Clustering};
 use crate::batch::lit_object::LitObject;
 use crate::batch::object::Shared;
 use crate::batch::painted::{PaintedObject, PatchPaint};
 use crate::device::costs::VertexPrices;
+use crate::frame::helpers::Helpers;
+use crate::geometry::seen::SeenPatch;
 use crate::geometry::shape::PatchShape;
 use crate::lights::lists::{LightLists, Listing, Reflector};
 use crate::lights::memory::ChoiceMemory;
@@ -13,7 +15,6 @@ use crate::lights::places::{ShadedAt, Spending};
 use crate::lights::selector::Selector;
 use bevy_math::Vec3;
 use halfway_lighting::equations;
-use halfway_raster::Threads;
 use std::ops::Range;
 use std::sync::OnceLock;
 
@@ -33,7 +34,7 @@ pub(super) struct Chooser<'a> {
     pub(super) staying: OnceLock<Listing>,
 }
 
-impl<'a> Chooser<'a> {
+impl Chooser<'_> {
     /// What lists are made by at these prices.
     pub(super) fn listing(&self, prices: VertexPrices) -> Listing {
         let &Self { object, shared, steps, compiled_in, .. } = self;
@@ -69,12 +70,15 @@ impl<'a> Chooser<'a> {
     pub(super) fn cluster(
         &self,
         selector: &mut Selector,
-        seen: &[SeenPatch<'a>],
+        seen: &[SeenPatch],
         members: Range<usize>,
         lists: &LightLists,
         clusters: &mut Vec<Cluster>,
     ) {
-        self.look_around(selector, seen[members.clone()].iter().map(|seen| &seen.patch.shape));
+        self.look_around(
+            selector,
+            seen[members.clone()].iter().map(|seen| &self.clustering.detail.patch(seen.number).shape),
+        );
         let mut is_among =
             |shape: &PatchShape| selector.is_among(self.shared.lights, lists, shape.sphere(self.object.model_view));
         self.clustering.fill((seen, members), &mut is_among, &lists.memory, clusters);
@@ -98,7 +102,7 @@ impl<'a> Chooser<'a> {
     fn choose(
         &self,
         selector: &mut Selector,
-        (seen, members): (&[SeenPatch<'a>], Range<usize>),
+        (seen, members): (&[SeenPatch], Range<usize>),
         lists: &LightLists,
         painted: Option<&PaintedObject>,
         chosen: &mut ChosenGroup,
@@ -110,7 +114,7 @@ impl<'a> Chooser<'a> {
             let place = self.place(cluster, &lists.memory);
             let mut of = ClusterChoice { place, gain: 0.0, lights: None, paint: None };
             if !self.object.may_be_unlisted(place, self.shared.lights) {
-                let first = seen[cluster.members.start].patch;
+                let first = seen[cluster.members.start].number;
                 of.paint = painted.map(|painted| painted.of(self.object.geometry, first));
                 of.gain = self.select(selector, (cluster, place), of.paint.as_ref(), lists);
                 of.lights = Some(chosen.lights.keep(&selector.lights()));
@@ -143,8 +147,6 @@ pub(super) struct ChosenGroup {
 /// Those who choose, one a thread, and what they chose. Their memory is kept.
 #[derive(Debug)]
 pub(crate) struct Choosers {
-    /// `None` until there is enough to do.
-    threads: Option<Threads>,
     /// One at least.
     selectors: Vec<Selector>,
     /// The patches that each group has, of those that are seen of an object.
@@ -155,12 +157,9 @@ pub(crate) struct Choosers {
 /// At most so many neighbouring patches look for their lights together, and one thread chooses for them.
 const TOGETHER: usize = 32;
 
-/// A second thread is woken for no fewer groups than this: what it takes over is to be worth more than waking it.
-const WORTH_A_THREAD: usize = 4;
-
 impl Default for Choosers {
     fn default() -> Self {
-        Self { threads: None, selectors: vec![Selector::default()], parts: Vec::new(), groups: Vec::new() }
+        Self { selectors: vec![Selector::default()], parts: Vec::new(), groups: Vec::new() }
     }
 }
 
@@ -183,10 +182,10 @@ impl Choosers {
     /// Chooses for what is seen of an object. Returns that, and one who can choose again.
     ///
     /// Each choice is what it is whoever makes it, so that nothing depends on how many threads there are.
-    pub(super) fn choose<'a>(
+    pub(super) fn choose(
         &mut self,
-        chooser: &Chooser<'a>,
-        seen: &[SeenPatch<'a>],
+        (chooser, seen): (&Chooser, &[SeenPatch]),
+        helpers: &mut Helpers,
         lists: &LightLists,
         painted: Option<&PaintedObject>,
     ) -> (&[ChosenGroup], &mut Selector) {
@@ -195,8 +194,7 @@ impl Choosers {
         if self.groups.len() < count {
             self.groups.resize_with(count, ChosenGroup::default);
         }
-        let threads = if count < WORTH_A_THREAD { &Threads::ALONE } else { self.threads.get_or_insert_with(started) };
-        let most = threads.count().min(count / 2).max(1);
+        let (threads, most) = helpers.for_parts(count);
         if self.selectors.len() < most {
             self.selectors.resize_with(most, Selector::default);
         }
@@ -208,14 +206,6 @@ impl Choosers {
     }
 }
 
-/// A thread for each core, or the calling one alone where the system refuses others.
-fn started() -> Threads {
-    Threads::new("lights", None).unwrap_or_else(|error| {
-        log::warn!("lights are chosen on one thread: {error}");
-        Threads::ALONE
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -223,6 +213,7 @@ mod tests {
     use crate::device::adapter::Adapter;
     use crate::device::cpu::Cpu;
     use crate::frame::report::FrameReport;
+    use crate::geometry::seen::SeenRoom;
     use crate::plugin::RenderPlugin;
     use crate::target::format::Pixels;
     use crate::target::frame::Headless;
@@ -235,6 +226,7 @@ mod tests {
     use bevy_transform::components::Transform;
     use halfway_lighting::{Camera, DirectionalLight, PointLight, Shading, Tolerance, ViewTolerance};
     use halfway_mesh::{Mesh, Mesh3d, UvSphere};
+    use halfway_raster::Threads;
 
     /// A ball of many patches under many lights, and a camera that turns about it.
     fn app(shading: Shading, lights: u16) -> App {
@@ -275,17 +267,23 @@ mod tests {
     fn lists_are_the_same_by_any_number_of_threads() {
         let (free, never) = (VertexPrices::FREE, VertexPrices::NEVER);
         let rows = [
-            (Shading::Auto, 3, free),
-            (Shading::Auto, 16, free),
-            (Shading::Auto, 16, never),
-            (Shading::Phong, 16, never),
+            (Shading::Auto, 3, free, 0.0),
+            (Shading::Auto, 16, free, 0.0),
+            (Shading::Auto, 16, never, 0.0),
+            (Shading::Phong, 16, never, 0.0),
+            (Shading::Phong, 16, never, 0.5),
         ];
-        for (shading, lights, prices) in rows {
+        for (shading, lights, prices, pixels) in rows {
             let frames = [1, 2, 3].map(|threads| {
                 let mut app = app(shading, lights);
                 app.insert_resource(prices);
-                let started = Threads::new("test", Some(threads)).expect("a few threads");
-                app.world_mut().resource_mut::<LitPatches>().choosers.threads = Some(started);
+                app.insert_resource(ViewTolerance(Tolerance { steps: 1.0, pixels }));
+                let mut lit = app.world_mut().resource_mut::<LitPatches>();
+                lit.helpers = Helpers::of(Threads::new("test", Some(threads)).expect("a few threads"));
+                // What is seen is found all at once, or in parts of a few groups.
+                if threads > 1 {
+                    lit.room = SeenRoom::for_parts_of(threads);
+                }
                 let frames = [0, 1, 2].map(|_| {
                     app.update();
                     let mut cameras = app.world_mut().query_filtered::<&mut Transform, With<Camera>>();
@@ -297,7 +295,7 @@ mod tests {
                 let choosers = &app.world().resource::<LitPatches>().choosers;
                 let selectors = choosers.selectors.len();
                 let groups = choosers.groups.iter().filter(|group| !group.clusters.is_empty()).count();
-                assert!(groups > WORTH_A_THREAD && selectors == threads, "{groups} by {selectors}");
+                assert!(groups > 8 && selectors == threads, "{groups} by {selectors}");
                 frames
             });
             assert!(frames[0][0] != frames[0][1], "{shading:?}: the camera moves");
@@ -372,8 +370,8 @@ mod tests {
                 cameras.iter_mut(app.world_mut()).for_each(|mut camera| camera.translation.x += 0.05);
                 made(&app)
             });
-            let choosers = &app.world().resource::<LitPatches>().choosers;
-            assert!(choosers.threads.is_none() && choosers.groups.is_empty(), "{prices:?}");
+            let lit = app.world().resource::<LitPatches>();
+            assert!(!lit.helpers.are_started() && lit.choosers.groups.is_empty(), "{prices:?}");
             let report = app.world().resource::<FrameReport>();
             assert!(
                 report.patches > 500 && report.terms_at_fragments > 0 && report.terms_at_vertices == 0,

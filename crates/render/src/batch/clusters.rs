@@ -5,29 +5,17 @@ use crate::geometry::corners::CountedCorners;
 use crate::geometry::detail::Detail;
 use crate::geometry::families::{FamilyPart, MOST};
 use crate::geometry::outlines::Sight;
-use crate::geometry::patches::MeshPatch;
+use crate::geometry::seen::SeenPatch;
 use crate::geometry::shape::PatchShape;
 use crate::lights::gains::Extent;
 use crate::lights::memory::{CLEARLY, ChoiceMemory};
 use bevy_ecs::prelude::Entity;
 use std::ops::Range;
 
-/// A patch that is drawn: see [`Detail::each_seen`].
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct SeenPatch<'a> {
-    pub(crate) patch: &'a MeshPatch,
-    /// Its number among all patches of its mesh.
-    pub(crate) number: u32,
-    /// Between two patches of one there are only triangles that do not show.
-    pub(crate) stretch: u32,
-    /// Which corners it is shaded at, where it is so coarse or far away and its terms have no place of their own.
-    pub(crate) corners: Option<CountedCorners>,
-}
-
 /// Patches that lie together and are chosen for together, or one.
 #[derive(Clone, Debug)]
 pub(crate) struct Cluster {
-    /// What it goes by: the first index of one of its patches.
+    /// What it goes by: the number of one of its patches.
     pub(crate) name: u32,
     /// How many patches it has, and which of what is seen they are.
     pub(crate) count: u32,
@@ -58,7 +46,7 @@ pub(crate) struct Clustering<'s, 'a> {
     pub(crate) asks_of_one: bool,
 }
 
-impl<'a> Clustering<'_, 'a> {
+impl Clustering<'_, '_> {
     /// Cuts what is seen into parts of so many patches or a few less, none within a family.
     pub(crate) fn cut(&self, seen: &[SeenPatch], most: usize, parts: &mut Vec<Range<usize>>) {
         parts.clear();
@@ -80,7 +68,7 @@ impl<'a> Clustering<'_, 'a> {
     /// Fills `clusters` with some of what is seen, in its order: joined, but where that `is_among` lights.
     pub(crate) fn fill(
         &self,
-        (seen, members): (&[SeenPatch<'a>], Range<usize>),
+        (seen, members): (&[SeenPatch], Range<usize>),
         is_among: &mut impl FnMut(&PatchShape) -> bool,
         memory: &ChoiceMemory,
         clusters: &mut Vec<Cluster>,
@@ -93,20 +81,19 @@ impl<'a> Clustering<'_, 'a> {
             let is_alike = |other: &&SeenPatch| {
                 self.may_join
                     && other.number < family.patches.end
-                    && other.patch.longest_edge.is_finite() == first.patch.longest_edge.is_finite()
+                    && self.detail.is_coarser(other.number) == self.detail.is_coarser(first.number)
                     && other.corners == first.corners
             };
             let end = start + 1 + seen[start + 1..members.end].iter().take_while(is_alike).count();
             let is_of_family = |other: &SeenPatch| family.patches.contains(&other.number);
             let names = Names {
-                detail: self.detail,
                 has_others: seen[members.start..start].last().is_some_and(is_of_family)
                     || seen[end..members.end].first().is_some_and(is_of_family),
             };
             let mut extents = [Extent::default(); MOST];
             if end > start + 1 || self.asks_of_one {
                 for (extent, seen) in extents.iter_mut().zip(&seen[start..end]) {
-                    *extent = seen.patch.extent(self.sight);
+                    *extent = self.detail.patch(seen.number).extent(self.sight);
                 }
             }
             let is_parted = &mut |part: &FamilyPart, of: &[SeenPatch], pixels: f32| {
@@ -119,7 +106,7 @@ impl<'a> Clustering<'_, 'a> {
                     members,
                     extent,
                     corners: first.corners,
-                    ..self.joined(part, &seen[start..][at], &names)
+                    ..self.joined(part, &seen[start..][at], names)
                 });
             };
             split(&family, (&seen[start..end], 0), &extents, is_parted, add);
@@ -128,13 +115,13 @@ impl<'a> Clustering<'_, 'a> {
     }
 
     /// What these patches of a part of a family are together, so far as it does not depend on where they are seen.
-    fn joined(&self, part: &FamilyPart, patches: &[SeenPatch<'a>], names: &Names) -> Cluster {
+    fn joined(&self, part: &FamilyPart, patches: &[SeenPatch], names: Names) -> Cluster {
         let joined = self.detail.families.shape(part).filter(|_| patches.len() > 1);
         Cluster {
             name: names.of(part, patches),
             count: joined.map_or(1, |_| part.patches.len() as u32),
             members: 0..0,
-            shape: *joined.unwrap_or(&patches[0].patch.shape),
+            shape: *joined.unwrap_or(&self.detail.patch(patches[0].number).shape),
             extent: Extent::default(),
             corners: None,
         }
@@ -142,19 +129,18 @@ impl<'a> Clustering<'_, 'a> {
 }
 
 /// What clusters of a family go by, no two of a frame by the same.
-struct Names<'a> {
-    detail: &'a Detail,
+#[derive(Clone, Copy)]
+struct Names {
     /// Others of the family are seen that are no part of these clusters: they are coarser, or finer.
     has_others: bool,
 }
 
-impl Names<'_> {
-    /// The first index of a part of the family, of which these patches are seen: the same whichever they are, unless it
-    /// is one, or another cluster may be of the same part.
-    fn of(&self, part: &FamilyPart, seen: &[SeenPatch]) -> u32 {
-        let first = &self.detail.patches()[part.patches.start as usize];
+impl Names {
+    /// The first patch of a part of the family, of which these are seen: the same whichever they are, unless it is one,
+    /// or another cluster may be of the same part.
+    fn of(self, part: &FamilyPart, seen: &[SeenPatch]) -> u32 {
         let is_alone = seen.len() == 1 || self.has_others;
-        if is_alone { seen[0].patch } else { first }.indices.start
+        if is_alone { seen[0].number } else { part.patches.start }
     }
 }
 

@@ -2,13 +2,14 @@
 
 use crate::batch::backend::Backend;
 use crate::batch::choosers::{Chooser, ClusterChoice};
-use crate::batch::clusters::{Cluster, SeenPatch};
+use crate::batch::clusters::Cluster;
 use crate::batch::key::DrawKey;
 use crate::batch::lit_object::LitObject;
 use crate::batch::lit_patches::LitPatches;
 use crate::batch::lit_runs::OpenRun;
 use crate::batch::object::Shared;
 use crate::batch::painted::PaintedObject;
+use crate::geometry::seen::SeenPatch;
 use crate::lights::patch_lights::PatchLights;
 use crate::lights::places::ShadedAt;
 use crate::shaders::light_slots::Lists;
@@ -20,21 +21,21 @@ type Listed = (DrawKey, u32, RecordLists, Option<[u64; 2]>);
 
 impl LitPatches {
     /// Adds what is seen of an object; of `is_placed` ones terms may be in one place or another.
-    pub(super) fn add_listed<'a>(
+    pub(super) fn add_listed(
         &mut self,
-        chooser: &Chooser<'a>,
-        seen: &[SeenPatch<'a>],
+        chooser: &Chooser,
+        seen: &[SeenPatch],
         is_placed: bool,
         backend: &mut impl Backend,
     ) {
         let &Chooser { object, shared, .. } = chooser;
         let mut painted = (!object.reflecting.maps.is_empty()).then(|| self.take_painted(object, shared));
         let mut choosers = std::mem::take(&mut self.choosers);
-        let (groups, spare) = choosers.choose(chooser, seen, &self.lists, painted.as_ref());
-        let mut run: Option<OpenRun> = None;
+        let (groups, spare) = choosers.choose((chooser, seen), &mut self.helpers, &self.lists, painted.as_ref());
+        let mut run = None;
         for group in groups {
             for (cluster, chosen) in group.clusters.iter().zip(&group.choices) {
-                let patch = seen[cluster.members.start].patch;
+                let patch = seen[cluster.members.start].number;
                 if is_placed && chosen.place == ShadedAt::Fragments {
                     self.lists.memory.note_at_fragments(object.name(cluster));
                 }
@@ -57,8 +58,9 @@ impl LitPatches {
                 } else {
                     (key, lights, self.table.number(&mut self.records, object.material, lists))
                 };
-                for &SeenPatch { patch, stretch, .. } in &seen[cluster.members.clone()] {
-                    let next = OpenRun { key, lights, record, indices: patch.indices.clone(), stretch };
+                for &SeenPatch { number, stretch, .. } in &seen[cluster.members.clone()] {
+                    let indices = object.geometry.detail.indices(number);
+                    let next = OpenRun { key: &key, lights, record, indices, stretch };
                     self.go_on(object, &mut run, next);
                 }
             }

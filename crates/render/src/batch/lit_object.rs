@@ -1,6 +1,6 @@
 //! An object whose patches are being lit, and what bounds of lights take of a patch.
 
-use crate::batch::clusters::{Cluster, Clustering, SeenPatch};
+use crate::batch::clusters::{Cluster, Clustering};
 use crate::batch::key::DrawKey;
 use crate::batch::object::Reflecting;
 use crate::batch::painted::{Lean, PatchPaint};
@@ -8,6 +8,7 @@ use crate::device::costs::VertexPrices;
 use crate::geometry::corners::{CountedCorners, ShadedCorners};
 use crate::geometry::meshes::{Form, Geometry};
 use crate::geometry::outlines::Sight;
+use crate::geometry::seen::SeenPatch;
 use crate::geometry::shape::PatchNormals;
 use crate::lights::gather::Lights;
 use crate::lights::memory::{ChoiceMemory, NamedPatches};
@@ -52,7 +53,7 @@ impl<'a> LitObject<'a> {
     /// Whether its terms are placed light by light, and any of what is seen of it may move at these prices.
     pub(crate) fn may_move(&self, seen: &[SeenPatch], prices: &VertexPrices) -> bool {
         let is_auto = self.key.terms.has(Frequency::Auto) && *prices != VertexPrices::NEVER;
-        is_auto && seen.iter().any(|seen| seen.patch.shape.has_normal_cone())
+        is_auto && seen.iter().any(|seen| self.geometry.detail.patch(seen.number).shape.has_normal_cone())
     }
 
     /// How its patches are joined to clusters.

@@ -2,7 +2,7 @@
 
 use crate::batch::backend::Backend;
 use crate::batch::choosers::{Chooser, Choosers};
-use crate::batch::clusters::{Cluster, SeenPatch};
+use crate::batch::clusters::Cluster;
 use crate::batch::false_colors::FalseColors;
 use crate::batch::ignored::tell_ignored;
 use crate::batch::key::{DrawKey, MapLooks};
@@ -15,13 +15,13 @@ use crate::batch::sources::{FrameSources, Sources};
 use crate::batch::table::ObjectTable;
 use crate::device::costs::VertexPrices;
 use crate::error::{RenderError, label};
+use crate::frame::helpers::Helpers;
 use crate::frame::report::FrameReport;
 use crate::geometry::allowed::{Allowed, Demand, geometry_steps};
 use crate::geometry::corners::ShadedCorners;
-use crate::geometry::detail::Choice;
 use crate::geometry::near_objects::{CoarserObject, NearObjects, ObjectBox};
 use crate::geometry::outlines::{Outline, Sight};
-use crate::geometry::patches::MeshPatch;
+use crate::geometry::seen::{ObjectLook, SeenPatch, SeenRoom};
 use crate::lights::gather::Lights;
 use crate::lights::lists::LightLists;
 use crate::lights::memory::{ChosenBy, choosing};
@@ -47,7 +47,8 @@ pub(crate) struct LitPatches {
     pub(crate) table: ObjectTable,
     pub(super) profit: Profit,
     pub(super) choosers: Choosers,
-    choice: Choice,
+    pub(super) helpers: Helpers,
+    pub(super) room: SeenRoom,
     near: NearObjects,
     pub(super) paints: Paints,
     /// What the draws are made of, where nothing moves.
@@ -55,9 +56,6 @@ pub(crate) struct LitPatches {
     /// They are made of the same as in the frame before, and all is as it was.
     pub(super) are_kept: bool,
 }
-
-/// Room for what is seen of an object.
-type SeenRoom<'r, 'a> = (&'r mut Vec<SeenPatch<'a>>, &'r mut Vec<Cluster>);
 
 #[expect(clippy::too_many_arguments, reason = "a system takes each resource as a parameter")]
 pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
@@ -207,7 +205,7 @@ impl LitPatches {
         // Of what is shaded at the fragments, coarser patches may be as well at their corners. Of what is one patch,
         // few triangles are saved, and looking takes as long.
         let in_patches = geometry.source.triangle_count() > geometry.source.triangles_of_a_patch();
-        let may_be_coarser = may_change && tolerance.pixels > 0.0 && in_patches && geometry.detail.has_levels();
+        let may_be_coarser = may_change && tolerance.pixels > 0.0 && in_patches && geometry.detail.has_levels;
         let is_by_fragments =
             terms == terms.map(|term| if term == Frequency::Never { term } else { Frequency::Fragment });
         let terms = if may_be_coarser && is_by_fragments && !blend && !paint.is_any() {
@@ -250,10 +248,10 @@ impl LitPatches {
 
     /// Adds what is seen of an object: its patches, neighbours with equal light lists joined. `seen` and `clusters` are
     /// room for them; `boxes` are those around all visible objects.
-    fn add<'a, I: Iterator<Item = ObjectBox>>(
+    fn add<I: Iterator<Item = ObjectBox>>(
         &mut self,
-        object: &LitObject<'a>,
-        ((seen, clusters), boxes): (SeenRoom<'_, 'a>, impl Fn() -> I),
+        object: &LitObject,
+        ((seen, clusters), boxes): ((&mut Vec<SeenPatch>, &mut Vec<Cluster>), impl Fn() -> I),
         shared: Shared,
         backend: &mut impl Backend,
         report: &mut FrameReport,
@@ -287,25 +285,21 @@ impl LitPatches {
             least: &detail.least,
             pixels_per_unit: detail.pixels_per_unit(&sight),
         };
-        let allowed = if detail.has_levels() { Allowed::new(demand) } else { Allowed::NOTHING };
+        let allowed = if detail.has_levels { Allowed::new(demand) } else { Allowed::NOTHING };
         let steps = f64::from(object.tolerance.steps);
         let steps = steps - if allowed.is_nothing() { 0.0 } else { geometry_steps(object.tolerance) };
         // Where all lights are compiled in, no patch has lists.
         let admitted = if key.lists == Lists::Listed { *key } else { backend.admit(*key) };
-        seen.clear();
         let coarser = CoarserObject { number: object.number, model_view, view, pixels: object.tolerance.pixels };
         let is_near = |patch: &Outline, error| self.near.is_near(&coarser, patch, error, &boxes);
         let has_lists = admitted.lists == Lists::Listed;
-        let add_seen = |patch: &'a MeshPatch, [number, stretch]: [u32; 2]| {
-            let corners = if has_lists { patch.counted(object.corners, &sight) } else { None };
-            seen.push(SeenPatch { patch, number, stretch, corners });
-        };
-        let looked_at = detail.each_seen(&allowed, &sight, &mut self.choice, is_near, add_seen);
+        let look = ObjectLook { sight: &sight, allowed: &allowed, corners: has_lists.then_some(object.corners) };
+        let looked_at = detail.see(look, &mut self.room, &mut self.helpers, is_near, seen);
         report.patches += looked_at;
         // What is whole has been found to be seen, and is not counted.
         report.patches_culled += looked_at.saturating_sub(seen.len() as u32);
         if !has_lists {
-            self.add_alike(object, seen, |_| admitted, shared, backend);
+            self.add_alike(object, seen, |_| &admitted, shared, backend);
             return;
         }
         // Light by light; else all terms of a patch are in one place.
@@ -325,27 +319,27 @@ impl LitPatches {
     }
 
     /// Adds what is seen of an object of which no patch has a list, each by its key.
-    pub(super) fn add_alike(
+    pub(super) fn add_alike<'k>(
         &mut self,
         object: &LitObject,
         seen: &[SeenPatch],
-        key: impl Fn(&SeenPatch) -> DrawKey,
+        key: impl Fn(&SeenPatch) -> &'k DrawKey,
         shared: Shared,
         backend: &mut impl Backend,
     ) {
-        let mut run: Option<OpenRun> = None;
+        let mut run = None;
         let is_plain = !shared.false_colors && !seen.is_empty();
         let of_all = is_plain.then(|| self.table.number(&mut self.records, object.material, RecordLists::default()));
-        for of_patch @ &SeenPatch { patch, stretch, .. } in seen {
-            let (key, record) = match (key(of_patch), of_all) {
-                (key, Some(record)) => (key, record),
-                (key, None) => {
-                    let (key, _, record) = self.false_colored(object, patch, key, None, backend);
-                    (key, record)
-                }
+        for of_patch @ &SeenPatch { number, stretch, .. } in seen {
+            let false_colored;
+            let (key, record) = if let Some(record) = of_all {
+                (key(of_patch), record)
+            } else {
+                false_colored = self.false_colored(object, number, *key(of_patch), None, backend);
+                (&false_colored.0, false_colored.2)
             };
-            let next = OpenRun { key, lights: 0, record, indices: patch.indices.clone(), stretch };
-            self.go_on(object, &mut run, next);
+            let indices = object.geometry.detail.indices(number);
+            self.go_on(object, &mut run, OpenRun { key, lights: 0, record, indices, stretch });
         }
         if let Some(run) = run {
             self.add_run(object, run);
@@ -357,7 +351,7 @@ impl LitPatches {
     pub(super) fn false_colored(
         &mut self,
         object: &LitObject,
-        patch: &MeshPatch,
+        patch: u32,
         key: DrawKey,
         terms: Option<[u64; 2]>,
         backend: &mut impl Backend,
@@ -365,7 +359,7 @@ impl LitPatches {
         let [at_vertices, at_fragments] = terms.unwrap_or_else(|| {
             [by_vertex_shader(key.terms), by_fragment_shader(key.terms)].map(|terms| terms.map(u64::from).iter().sum())
         });
-        let base = FalseColors::color(at_vertices, at_fragments, patch.longest_edge.is_finite());
+        let base = FalseColors::color(at_vertices, at_fragments, object.geometry.detail.is_coarser(patch));
         let side = MaterialRecord::plain(base);
         let colored = DrawRecord { front: side, back: side, ..DrawRecord::default() };
         if self.records.last() != Some(&colored) {
@@ -378,18 +372,22 @@ impl LitPatches {
     }
 
     /// Goes on with a run, or with another where the next patch is drawn otherwise.
-    pub(super) fn go_on(&mut self, object: &LitObject, run: &mut Option<OpenRun>, next: OpenRun) {
+    pub(super) fn go_on(&mut self, object: &LitObject, run: &mut Option<OpenRun<DrawKey>>, next: OpenRun<&DrawKey>) {
         match run {
             Some(run) if run.goes_on_with(&next) => run.indices.end = next.indices.end,
             _ => {
-                if let Some(run) = run.replace(next) {
+                if let Some(run) = run.replace(next.begun()) {
                     self.add_run(object, run);
                 }
             }
         }
     }
 
-    pub(super) fn add_run(&mut self, object: &LitObject, OpenRun { key, lights, record, indices, .. }: OpenRun) {
+    pub(super) fn add_run(
+        &mut self,
+        object: &LitObject,
+        OpenRun { key, lights, record, indices, .. }: OpenRun<DrawKey>,
+    ) {
         let LitObject { depth, twins_before, maps, .. } = *object;
         let mut add = |pass, key: DrawKey| {
             let call = self.table.call((key, object.mesh, object.form, if key.is_mapped() { maps } else { 0 }));

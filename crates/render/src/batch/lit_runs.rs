@@ -25,9 +25,9 @@ pub(crate) struct LitRun {
     pub(crate) instance: u32,
 }
 
-/// A part that may go on with the next patch.
-pub(super) struct OpenRun {
-    pub(super) key: DrawKey,
+/// A part that may go on with the next patch; or that next patch, whose key is looked at where it is.
+pub(super) struct OpenRun<Key> {
+    pub(super) key: Key,
     pub(super) lights: u32,
     pub(super) record: u32,
     pub(super) indices: Range<u32>,
@@ -39,12 +39,20 @@ pub(super) struct OpenRun {
 /// less than another draw.
 const JOINED: u32 = 128;
 
-impl OpenRun {
-    pub(super) fn goes_on_with(&self, next: &Self) -> bool {
+impl OpenRun<&DrawKey> {
+    /// As a run of its own.
+    pub(super) fn begun(self) -> OpenRun<DrawKey> {
+        let Self { key, lights, record, indices, stretch } = self;
+        OpenRun { key: *key, lights, record, indices, stretch }
+    }
+}
+
+impl OpenRun<DrawKey> {
+    pub(super) fn goes_on_with(&self, next: &OpenRun<&DrawKey>) -> bool {
         (self.lights, self.record, self.stretch) == (next.lights, next.record, next.stretch)
             && next.indices.start - self.indices.end <= 3 * JOINED
             // Last, as they take longest to compare.
-            && self.key == next.key
+            && self.key == *next.key
     }
 }
 

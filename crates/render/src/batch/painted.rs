@@ -4,7 +4,6 @@ use crate::batch::key::{MapLook, MapLooks};
 use crate::batch::table::{MapUse, MapsBits, MapsUse};
 use crate::geometry::detail::Detail;
 use crate::geometry::meshes::{Form, Geometry};
-use crate::geometry::patches::MeshPatch;
 use crate::geometry::uv_boxes::UvBox;
 use crate::lights::places::PatchShares;
 use bevy_asset::{AssetId, Assets};
@@ -12,7 +11,6 @@ use bevy_platform::collections::HashMap;
 use halfway_lighting::bounds::NormalCone;
 use halfway_mesh::Mesh;
 use halfway_texture::{LevelFilter, MapKind, Pyramid, Texture, UvSet};
-use std::ops::Range;
 use std::sync::Arc;
 
 /// What is known of the patches of objects with images, kept while they are drawn.
@@ -29,7 +27,8 @@ pub(crate) struct PaintedObject {
     maps: MapsUse,
     pyramids: [Option<Pyramid>; MapKind::COUNT],
     detail: Arc<Detail>,
-    found: HashMap<Range<u32>, PatchPaint>,
+    /// By the numbers of patches.
+    found: HashMap<u32, PatchPaint>,
     is_used: bool,
 }
 
@@ -114,16 +113,14 @@ impl Paints {
 
 impl PaintedObject {
     /// What images do to a patch of it.
-    pub(crate) fn of(&self, geometry: &Geometry, patch: &MeshPatch) -> PatchPaint {
-        self.found
-            .get(&patch.indices)
-            .copied()
-            .unwrap_or_else(|| geometry.uv_boxes.of(patch).map_or(PatchPaint::UNKNOWN, |around| self.on(&around)))
+    pub(crate) fn of(&self, geometry: &Geometry, patch: u32) -> PatchPaint {
+        let found = || geometry.uv_boxes.of(patch).map_or(PatchPaint::UNKNOWN, |around| self.on(&around));
+        self.found.get(&patch).copied().unwrap_or_else(found)
     }
 
     /// Keeps that for the next frame.
-    pub(crate) fn remember(&mut self, patch: &MeshPatch, paint: PatchPaint) {
-        self.found.entry(patch.indices.clone()).or_insert(paint);
+    pub(crate) fn remember(&mut self, patch: u32, paint: PatchPaint) {
+        self.found.entry(patch).or_insert(paint);
     }
 
     /// What they do to points with these coordinates.

@@ -1,8 +1,9 @@
 //! Whether it pays to place an object's terms light by light, as far as some patches tell.
 
 use crate::batch::choosers::Chooser;
-use crate::batch::clusters::{Cluster, SeenPatch};
+use crate::batch::clusters::Cluster;
 use crate::batch::lit_patches::LitPatches;
+use crate::geometry::seen::SeenPatch;
 use crate::lights::places::ShadedAt;
 use crate::lights::profit::LOOKED_AT_FIRST;
 
@@ -18,11 +19,7 @@ const PLACES: usize = 16;
 impl LitPatches {
     /// Whether it pays to place the terms of an object light by light: by some of its patches where they are many, else
     /// by what was drawn before it. What was moved in the frame before is looked at in any case.
-    pub(super) fn pays<'a>(
-        &mut self,
-        chooser: &Chooser<'a>,
-        (seen, clusters): (&[SeenPatch<'a>], &mut Vec<Cluster>),
-    ) -> bool {
+    pub(super) fn pays(&mut self, chooser: &Chooser, (seen, clusters): (&[SeenPatch], &mut Vec<Cluster>)) -> bool {
         let object = chooser.object;
         self.profit.is_open = seen.len() < FEW_PATCHES;
         let pays = if self.profit.is_open {

@@ -2,7 +2,7 @@
 
 use crate::batch::backend::Backend;
 use crate::batch::choosers::Chooser;
-use crate::batch::clusters::{Cluster, SeenPatch};
+use crate::batch::clusters::Cluster;
 use crate::batch::key::DrawKey;
 use crate::batch::lit_object::LitObject;
 use crate::batch::lit_patches::LitPatches;
@@ -10,6 +10,7 @@ use crate::batch::lit_runs::OpenRun;
 use crate::batch::object::Shared;
 use crate::device::costs::VertexPrices;
 use crate::geometry::corners::CountedCorners;
+use crate::geometry::seen::SeenPatch;
 use crate::geometry::shape::PatchShape;
 use crate::lights::places::ShadedAt;
 use crate::shaders::light_slots::Lists;
@@ -23,7 +24,10 @@ impl LitPatches {
         let may_move = all.shape.has_normal_cone() && shared.prices != VertexPrices::NEVER;
         let Some(key) = self.unchosen(object, may_move, shared, backend) else { return false };
         let record = self.table.number(&mut self.records, object.material, RecordLists::default());
-        self.add_run(object, OpenRun { key, lights: 0, record, indices: all.indices.clone(), stretch: 0 });
+        self.add_run(
+            object,
+            OpenRun { key, lights: 0, record, indices: object.geometry.detail.indices(0), stretch: 0 },
+        );
         true
     }
 
@@ -48,10 +52,10 @@ impl LitPatches {
 
     /// Adds what is seen of an object of which no term is placed light by light, all without lists; whether it could,
     /// which takes that what draws it is there. What was moved in the frame before is noted where that is `is_placed`.
-    pub(super) fn add_in_place<'a>(
+    pub(super) fn add_in_place(
         &mut self,
-        chooser: &Chooser<'a>,
-        (seen, clusters): (&[SeenPatch<'a>], &mut Vec<Cluster>),
+        chooser: &Chooser,
+        (seen, clusters): (&[SeenPatch], &mut Vec<Cluster>),
         is_placed: bool,
         backend: &mut impl Backend,
     ) -> bool {
@@ -93,7 +97,7 @@ impl LitPatches {
             }
         }
         let alone = counts.iter().position(|count| *count == seen.len());
-        let key = |seen: &SeenPatch| keys[alone.unwrap_or_else(|| number(seen))];
+        let key = |seen: &SeenPatch| &keys[alone.unwrap_or_else(|| number(seen))];
         self.add_alike(object, seen, key, shared, backend);
         true
     }

@@ -48,7 +48,7 @@ pub(crate) fn of_levels(mesh: &Mesh, MeshTriangles { corners, detail, .. }: &Mes
 
 /// Draws begin and end where patches do.
 fn pieces(source: &Mesh, detail: &Detail, indices: &[u32], form: Form) -> Result<Pieces, RasterError> {
-    let cuts: Vec<_> = detail.patches().iter().map(|patch| patch.indices.clone()).collect();
+    let cuts: Vec<_> = (0..detail.patches().len() as u32).map(|number| detail.indices(number)).collect();
     let order = if form.ordered { TriangleOrder::Kept } else { TriangleOrder::Clustered };
     let [positions, normals] = [source.positions(), source.normals()].map(bytemuck::cast_slice);
     let colors = source.drawn_colors().filter(|_| form.colored).unwrap_or_default();

@@ -115,8 +115,7 @@ mod tests {
                     assert_eq!(part.patches.len(), 1);
                     continue;
                 };
-                let of = |number: u32| &detail.patches()[number as usize].indices;
-                let indices = of(part.patches.start).start..of(part.patches.end - 1).end;
+                let indices = detail.indices(part.patches.start).start..detail.indices(part.patches.end - 1).end;
                 found.push((*shape, corners[indices.start as usize / 3..indices.end as usize / 3].to_vec()));
                 let halves = part.halves();
                 assert_eq!(halves[0].patches.end, halves[1].patches.start);
@@ -163,7 +162,7 @@ mod tests {
             let positions = flat.positions().iter().map(|&p| turn * p + at).collect();
             let normals = flat.normals().iter().map(|&n| turn * n).collect();
             let mesh = Mesh::from_parts(positions, Some(normals), None, flat.indices().to_vec());
-            MeshPatch::new(&mesh.expect("it is as before"), &[[0, 1, 2]], 0).0
+            MeshPatch::new(&mesh.expect("it is as before"), &[[0, 1, 2]]).0
         };
         let here = || patch(Vec3::ZERO, Quat::IDENTITY);
         assert!(are_compact(&[here(), patch(0.3 * Vec3::X, Quat::from_rotation_x(0.1))]));

@@ -167,7 +167,7 @@ impl Geometries {
             None => MeshTriangles::in_patches(drawn),
         };
         let has_uvs = form.mapped && [0, 1].iter().any(|&set| drawn.uv_set(set).is_some());
-        let uv_boxes = if has_uvs { UvBoxes::new(drawn, &corners, detail.patches()) } else { UvBoxes::default() };
+        let uv_boxes = if has_uvs { UvBoxes::new(drawn, &corners, &detail) } else { UvBoxes::default() };
         let drawn = drawn.clone();
         self.radii.insert(id, detail.whole.radius());
         self.changes += 1;

@@ -8,6 +8,7 @@ pub(crate) mod meshes;
 pub(crate) mod near_objects;
 pub(crate) mod outlines;
 pub(crate) mod patches;
+pub(crate) mod seen;
 pub(crate) mod shape;
 pub(crate) mod turned;
 pub(crate) mod uv_boxes;

@@ -1,5 +1,5 @@
-//! Outlines: what tells whether a piece of a mesh shows, apart from all else that is known of it. In each frame those of
-//! all patches are looked at, and of most patches nothing else.
+//! Outlines: what tells whether a piece of a mesh shows, apart from all else that is known of it. In each frame those
+//! of all patches are looked at, and of most patches nothing else.
 
 use crate::geometry::shape::{ANGLE_SLACK, PatchShape, sphere_around};
 use crate::view::camera::View;
@@ -169,7 +169,7 @@ impl Outline {
         Self { center, radius: farthest * (1.0 + 1e-5), facing: Facing::UNKNOWN }
     }
 
-    /// What is known of all of these together, one or more; and its sphere is no smaller than to hold those of `others`.
+    /// What is known of all of these together, one or more. The sphere around it holds those of `others` as well.
     pub(super) fn around<'a>(parts: &'a [Self], others: impl Iterator<Item = &'a Self> + Clone) -> Self {
         let (center, radius) = sphere_around(parts.iter().chain(others).map(|part| (part.center, part.radius)));
         let facing = Facing::around(parts.iter().map(|part| (&part.facing, length((part.center - center).to_array()))));
@@ -189,13 +189,13 @@ impl Outline {
     /// Whether any of it may show: it reaches into the frustum, and not all its triangles turn the side away that is
     /// drawn. Never false for one that shows.
     pub(crate) fn is_seen(&self, sight: &Sight) -> bool {
-        if !sight.is_inside {
-            let (center, radius) = self.sphere(sight.model_view);
-            if !sight.view.projection.sees(center, radius) {
-                return false;
-            }
-        }
-        sight.eye.is_none_or(|(eye, back)| !self.facing.hides(eye - self.center, back))
+        // The first leaves out about half, and takes no longer.
+        let faces = sight.eye.is_none_or(|(eye, back)| !self.facing.hides(eye - self.center, back));
+        faces
+            && (sight.is_inside || {
+                let (center, radius) = self.sphere(sight.model_view);
+                sight.view.projection.sees(center, radius)
+            })
     }
 }
 
@@ -222,7 +222,7 @@ mod tests {
             let facing = Facing::new(std::iter::once((n, [Vec3::ZERO; 3])));
             let hides = [facing.hides(eye, false), facing.hides(eye, true)];
             let shows = n.dot(eye);
-            assert!(!(hides[0] && shows > 0.0) && !(hides[1] && shows < 0.0), "{n} from {eye}");
+            assert!(!(hides[0] && shows > 0.0 || hides[1] && shows < 0.0), "{n} from {eye}");
             assert!(!Facing::UNKNOWN.hides(eye, false) && !Facing::UNKNOWN.hides(eye, true));
             turned += usize::from(shows < 0.0);
             hidden += usize::from(hides[0]);

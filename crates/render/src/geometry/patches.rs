@@ -1,33 +1,25 @@
 //! Patches: large meshes in pieces that lie close together and face alike, so that each can have light lists of its own
 //! and be left out when it is not seen.
 
-use crate::geometry::corners::{CountedCorners, ShadedCorners};
 use crate::geometry::outlines::{Facing, Outline, Sight};
 use crate::geometry::shape::PatchShape;
 use crate::lights::gains::Extent;
 use crate::view::camera::View;
 use bevy_math::Vec3;
 use halfway_mesh::{Bounds, Mesh, face_normal};
-use std::ops::Range;
 
 /// A run of triangles of a mesh and what is known of them, in model space.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct MeshPatch {
-    /// Its part of the index list.
-    pub(crate) indices: Range<u32>,
     pub(crate) shape: PatchShape,
-    /// Its longest edge; of a patch of the mesh itself infinite, as nobody asks.
-    pub(crate) longest_edge: f32,
-    /// How far its points are from the nearest corners of their triangles, likewise.
-    pub(crate) corner_reach: f32,
     /// The sum of the areas of its triangles, and how many vertices they have.
     area: f32,
     vertices: u32,
 }
 
 impl MeshPatch {
-    /// What is known of some triangles, which begin at `first` in the index list.
-    pub(crate) fn new(mesh: &Mesh, triangles: &[[u32; 3]], first: u32) -> (Self, Outline) {
+    /// What is known of some triangles.
+    pub(crate) fn new(mesh: &Mesh, triangles: &[[u32; 3]]) -> (Self, Outline) {
         let vertices = || triangles.as_flattened().iter().map(|&i| i as usize);
         let points = || vertices().map(|i| mesh.positions()[i]);
         let center = Bounds::from_points(points()).map_or(Vec3::ZERO, |bounds| bounds.center());
@@ -46,22 +38,7 @@ impl MeshPatch {
         let area = area.sum();
         let shape = PatchShape::new(mesh, triangles, center, &faces);
         let outline = Outline::new(&shape, facing);
-        let patch = Self {
-            indices: first..first + 3 * triangles.len() as u32,
-            shape,
-            longest_edge: f32::INFINITY,
-            corner_reach: f32::INFINITY,
-            area,
-            vertices: count_of(vertices()),
-        };
-        (patch, outline)
-    }
-
-    /// Which corners it is shaded at, where it is coarser than the mesh and small enough on the picture.
-    pub(crate) fn counted(&self, corners: ShadedCorners, sight: &Sight) -> Option<CountedCorners> {
-        corners.counted([self.longest_edge, self.corner_reach], || {
-            sight.pixels_per_unit(self.shape.sphere(sight.model_view))
-        })
+        (Self { shape, area, vertices: count_of(vertices()) }, outline)
     }
 
     /// About how many pixels its triangles cover, where nothing hides them; and its vertices.
@@ -90,37 +67,32 @@ mod tests {
     use super::*;
     use crate::geometry::detail::MeshTriangles;
     use halfway_mesh::{Plane, UvSphere};
-    use std::sync::atomic::AtomicBool;
-
-    fn cut_whole(mesh: &Mesh) -> (Vec<[u32; 3]>, Vec<MeshPatch>) {
-        let MeshTriangles { corners, detail, .. } = MeshTriangles::in_patches(mesh);
-        (corners.to_vec(), detail.patches().to_vec())
-    }
 
     #[test]
     fn small_meshes_are_whole_and_in_order() {
         let mesh = Mesh::from(UvSphere::new(1.0, 32, 16));
-        let (triangles, patches) = cut_whole(&mesh);
-        assert_eq!(triangles, mesh.triangles().collect::<Vec<_>>());
-        assert_eq!(patches.len(), 1);
-        assert_eq!(patches[0].indices, 0..mesh.indices().len() as u32);
+        let MeshTriangles { corners, detail, .. } = MeshTriangles::in_patches(&mesh);
+        assert_eq!(*corners, mesh.triangles().collect::<Vec<_>>());
+        assert_eq!(detail.patches().len(), 1);
+        assert_eq!(detail.indices(0), 0..mesh.indices().len() as u32);
     }
 
     #[test]
     fn patches_hold_every_triangle_once_and_all_that_is_said_of_them() {
         for mesh in [Mesh::from(UvSphere::new(2.0, 96, 48)), Mesh::from(Plane { size: 200.0, divisions: 64 })] {
-            let (triangles, patches) = cut_whole(&mesh);
+            let MeshTriangles { corners: triangles, detail, .. } = MeshTriangles::in_patches(&mesh);
             let sorted = |mut triangles: Vec<[u32; 3]>| {
                 triangles.sort_unstable();
                 triangles
             };
-            assert_eq!(sorted(triangles.clone()), sorted(mesh.triangles().collect()));
+            assert_eq!(sorted(triangles.to_vec()), sorted(mesh.triangles().collect()));
             let mut end = 0;
-            for patch in &patches {
-                assert_eq!(patch.indices.start, end);
-                end = patch.indices.end;
+            for (number, patch) in (0..).zip(detail.patches()) {
+                assert_eq!(detail.indices(number).start, end);
+                end = detail.indices(number).end;
+                let run = detail.indices(number).start as usize / 3..end as usize / 3;
                 assert!(patch.shape.faces.is_some() && patch.shape.normals.is_some(), "they lie together");
-                for corners in &triangles[patch.indices.start as usize / 3..end as usize / 3] {
+                for corners in &triangles[run] {
                     let [a, b, c] = corners.map(|i| mesh.positions()[i as usize]);
                     let face = face_normal(a, b, c);
                     for i in corners.map(|i| i as usize) {
@@ -133,20 +105,9 @@ mod tests {
     }
 
     #[test]
-    fn coarser_patches_lie_one_behind_the_other_too() {
-        for mesh in [Mesh::from(UvSphere::new(2.0, 96, 48)), Mesh::from(Plane { size: 200.0, divisions: 64 })] {
-            let levels = MeshTriangles::in_levels(&mesh, &AtomicBool::new(false)).expect("nobody stops it");
-            let patches = levels.detail.patches();
-            assert!(levels.detail.has_levels());
-            assert!(patches.windows(2).all(|pair| pair[0].indices.end == pair[1].indices.start));
-            assert_eq!(patches[0].indices.start, 0);
-            assert_eq!(patches[patches.len() - 1].indices.end as usize, 3 * levels.corners.len());
-        }
-    }
-
-    #[test]
     fn patches_are_small() {
-        let (_, patches) = cut_whole(&Mesh::from(Plane { size: 64.0, divisions: 64 }));
+        let MeshTriangles { detail, .. } = MeshTriangles::in_patches(&Mesh::from(Plane { size: 64.0, divisions: 64 }));
+        let patches = detail.patches();
         // 64 triangles are 32 cells of edge 1: at most 4 × 8 of them, with half a diagonal of 4.5, or 11 × 3.
         assert!(patches.iter().all(|patch| patch.shape.radius < 6.0), "{patches:?}");
         assert!(patches.iter().all(|patch| patch.shape.normals.is_some_and(|cone| cone.half_thickness == 0.0)));

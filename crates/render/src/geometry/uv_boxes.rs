@@ -1,6 +1,6 @@
 //! Where patches lie on images: the least and the largest of their texture coordinates.
 
-use crate::geometry::patches::MeshPatch;
+use crate::geometry::detail::Detail;
 use bevy_math::{Vec2, Vec4};
 use halfway_mesh::Mesh;
 
@@ -11,29 +11,28 @@ pub(crate) struct UvBox {
     pub(crate) high: Vec4,
 }
 
-/// Those of a mesh's patches, by where they begin in the index list.
+/// Those of a mesh's patches, by their numbers.
 #[derive(Debug, Default)]
-pub(crate) struct UvBoxes(Vec<(u32, UvBox)>);
+pub(crate) struct UvBoxes(Vec<UvBox>);
 
 impl UvBoxes {
-    /// Of a mesh with these triangles in these patches.
-    pub(crate) fn new(mesh: &Mesh, triangles: &[[u32; 3]], patches: &[MeshPatch]) -> Self {
+    /// Of a mesh with these triangles in patches.
+    pub(crate) fn new(mesh: &Mesh, triangles: &[[u32; 3]], detail: &Detail) -> Self {
         let uvs = both_uvs(mesh);
-        let of = |patch: &MeshPatch| {
-            let indices = &triangles.as_flattened()[patch.indices.start as usize..patch.indices.end as usize];
-            let points = indices.iter().map(|&vertex| uvs[vertex as usize]);
+        let of = |number: u32| {
+            let indices = detail.indices(number);
+            let vertices = &triangles.as_flattened()[indices.start as usize..indices.end as usize];
+            let points = vertices.iter().map(|&vertex| uvs[vertex as usize]);
             let nowhere = UvBox { low: Vec4::INFINITY, high: Vec4::NEG_INFINITY };
             let around = |of: UvBox, uv: Vec4| UvBox { low: of.low.min(uv), high: of.high.max(uv) };
-            (patch.indices.start, points.fold(nowhere, around))
+            points.fold(nowhere, around)
         };
-        Self(patches.iter().map(of).collect())
+        Self((0..detail.patches().len() as u32).map(of).collect())
     }
 
     /// That of a patch; `None` where it is not known.
-    pub(crate) fn of(&self, patch: &MeshPatch) -> Option<UvBox> {
-        let at = self.0.binary_search_by_key(&patch.indices.start, |(start, _)| *start).ok()?;
-        let is_whole = self.0.get(at + 1).is_none_or(|(next, _)| *next >= patch.indices.end);
-        is_whole.then_some(self.0[at].1)
+    pub(crate) fn of(&self, patch: u32) -> Option<UvBox> {
+        self.0.get(patch as usize).copied()
     }
 }
 
