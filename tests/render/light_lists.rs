@@ -254,9 +254,12 @@ fn highlights_left_out_change_no_picture() {
             }
             (stage.report().terms_shaded, stage.costs().lights_at_fixed_places)
         };
-        let [(few, bound), (all, _)] = [120.5, 128.0].map(&mut shaded);
-        // Nearly the same lists; on a software adapter highlights of the second are not left out.
-        failures.unless(!bound || few < all, || format!("{row}: {few} terms of {all} are shaded"));
+        let (few, bound) = shaded(120.5);
+        // Nearly the same lists; on a software adapter highlights of this one are not left out. Drivers compile long.
+        if row == rows[1].0 {
+            let (all, _) = shaded(128.0);
+            failures.unless(!bound || few < all, || format!("{row}: {few} terms of {all} are shaded"));
+        }
     }
     failures.finish();
 }
