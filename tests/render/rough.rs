@@ -63,11 +63,25 @@ fn rough_surfaces_take_fewer_triangles_by_the_nearest_corner_and_smooth_ones_do_
     assert!(10 * drawn(&mut stage, &near, TOLERANCE) < 9 * before);
 }
 
-fn judged(stage: &mut Stage, picture: &Image, pixels: f64) -> Verdict {
-    let oracle = stage.oracle();
-    let fine = Oracle::new(stage.world(), UVec2::splat(JUDGED * FINENESS)).expect("a scene");
-    let bars = Bars::FLOAT.within(TOLERANCE.steps.into());
-    judge_moved(&oracle, (&oracle.draw(), &fine.draw()), pixels, picture, bars).expect("one size")
+/// What judges pictures of a scene: the oracle, and what it draws.
+struct Truth {
+    oracle: Oracle,
+    picture: Image,
+    fine: Image,
+}
+
+impl Truth {
+    /// Of what is on the stage.
+    fn new(stage: &mut Stage) -> Self {
+        let oracle = stage.oracle();
+        let fine = Oracle::new(stage.world(), UVec2::splat(JUDGED * FINENESS)).expect("a scene").draw();
+        Self { picture: oracle.draw(), oracle, fine }
+    }
+
+    fn judge(&self, picture: &Image, pixels: f64, bars: Bars) -> Verdict {
+        let bars = bars.within(TOLERANCE.steps.into());
+        judge_moved(&self.oracle, (&self.picture, &self.fine), pixels, picture, bars).expect("one size")
+    }
 }
 
 /// Where all is noise, nearly all that another surface shows is within the tolerance, too. Within less than half of the
@@ -82,18 +96,20 @@ fn what_the_nearest_corners_show_is_within_the_tolerance() {
         assert!(3 * coarse < 2 * whole, "from {distance}: {coarse} of {whole}");
         let picture = Image::from_float(&stage.float());
         drawn(&mut stage, &scene, FULL);
-        let verdict = judged(&mut stage, &picture, TOLERANCE.pixels.into());
+        let truth = Truth::new(&mut stage);
+        let verdict = truth.judge(&picture, TOLERANCE.pixels.into(), Bars::FLOAT);
         println!("from {distance}, {coarse} of {whole} triangles: {verdict}");
         assert!(verdict.is_within() && verdict.counted > 0.05, "from {distance}: {verdict}");
         if seed > 1 {
             continue;
         }
         // Half a pixel of sampling is added to this.
-        let closer = judged(&mut stage, &picture, -0.25);
+        let closer = truth.judge(&picture, -0.25, Bars::FLOAT.until_wrong());
         assert!(!closer.is_within(), "from {distance} within a quarter of a pixel: {closer}");
         let last = (JUDGED * JUDGED) as usize - 1;
         let aside = (0..=last).map(|pixel| picture.pixels()[(pixel + 2).min(last)]).collect();
-        let aside = judged(&mut stage, &Image::new(JUDGED, JUDGED, aside), TOLERANCE.pixels.into());
+        let aside = Image::new(JUDGED, JUDGED, aside);
+        let aside = truth.judge(&aside, TOLERANCE.pixels.into(), Bars::FLOAT.until_wrong());
         assert!(!aside.is_within(), "from {distance}, two pixels away: {aside}");
     }
 }

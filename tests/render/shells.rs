@@ -20,8 +20,8 @@ fn a_shell_hides_what_is_close_inside() {
     let mut stage = Stage::new(128, 128);
     for larger_by in [0.0005, 0.00075, 0.001, 0.0015, 0.002] {
         for distance in [4.0, 6.0, 8.0, 12.0] {
+            stage.set(&shells(larger_by, distance));
             for tolerance in [FULL, Tolerance::DEFAULT, Tolerance { pixels: 2.0, ..Tolerance::DEFAULT }] {
-                stage.set(&shells(larger_by, distance));
                 stage.levels(tolerance);
                 let picture = stage.float();
                 let [inner, outer] = [0, 1].map(|k| picture.pixels().filter(|pixel| pixel.0[k] > 0.5).count());
