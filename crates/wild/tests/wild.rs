@@ -79,19 +79,22 @@ fn automatic_shading_keeps_to_its_tolerance() {
     // A driver takes far longer to compile a scene's shaders than the CPU takes to draw it: each within one.
     for ((by, judge), scenes) in judges().into_iter().zip([2, 12]) {
         let mut judge = judge;
-        let (mut tried, mut used, mut failures) = (0, 0, Vec::new());
-        for (place, (steps, pixels)) in (0..).zip(tolerances) {
+        let (mut used, mut failures) = ([0; 6], Vec::new());
+        for (place, ((steps, pixels), used)) in (0..).zip(tolerances.into_iter().zip(&mut used)) {
             judge = judge.with_tolerance(Tolerance { steps, pixels }, ShadingEntry::Auto);
             for number in place * scenes..(place + 1) * scenes {
-                tried += 1;
                 match judge.judge(&scene(SEED, number)) {
-                    Ok(figures) => used += u64::from(figures.terms_at_vertices > 0),
+                    Ok(figures) => *used += u64::from(figures.terms_at_vertices > 0),
                     Err(finding) => failures.push(format!("scene {number} within {steps},{pixels}: {finding}")),
                 }
             }
         }
         assert!(failures.is_empty(), "{by}:\n{}", failures.join("\n"));
-        assert!(used * 6 >= tried, "{by}: in {used} of {tried} scenes anything is shaded at vertices");
+        // Of the few that a driver draws, all together tell.
+        let all: u64 = used.iter().sum();
+        assert!(all >= scenes, "{by}: in {all} of {} scenes anything is shaded at vertices", 6 * scenes);
+        let is_used = used.iter().all(|used| used * 6 >= scenes);
+        assert!(scenes < 6 || is_used, "{by}: anything is shaded at vertices in {used:?} of {scenes} scenes each");
     }
 }
 
