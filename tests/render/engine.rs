@@ -4,7 +4,9 @@ use crate::render::compare::assert_identical;
 use crate::render::scene::{Lamp, Scene, Thing, directional_light, material, other_material, point_light};
 use crate::render::stage::Stage;
 use halfway::prelude::*;
-use halfway::render::{Gpu, GpuTimer, RenderError, TextureTarget, encode_frame, wgpu};
+use halfway::render::{Gpu, GpuTimer, Pixels, RenderError, TextureTarget, encode_frame, wgpu};
+#[cfg(target_os = "linux")]
+use std::process::Command;
 use std::sync::{Arc, Mutex};
 
 const SIZE: UVec2 = UVec2::new(24, 16);
@@ -212,5 +214,46 @@ fn an_engine_s_device_that_is_destroyed_is_an_error_until_another_takes_its_plac
         stage.world().insert_resource(plain_device());
         assert!(before == stage.bytes(), "{row}: another picture");
         assert_eq!(stage.report().errors, [], "{row}");
+    }
+}
+
+/// In a process of its own, where Mesa's OpenGL says that it is 3.3, as NVIDIA's does.
+#[cfg(target_os = "linux")]
+#[test]
+fn an_engine_s_device_of_too_old_opengl_says_so_in_each_frame() {
+    const NAME: &str = "render::engine::an_engine_s_device_of_too_old_opengl_says_so_in_each_frame";
+    const OLD: [(&str, &str); 3] =
+        [("MESA_GL_VERSION_OVERRIDE", "3.3"), ("MESA_GLSL_VERSION_OVERRIDE", "330"), ("EGL_PLATFORM", "surfaceless")];
+    if OLD.iter().all(|(name, value)| std::env::var(name).is_ok_and(|said| said == *value)) {
+        return is_told_of_old_opengl();
+    }
+    let mut itself = Command::new(std::env::current_exe().expect("a running test has a path"));
+    let output = itself.args([NAME, "--exact", "--nocapture"]).envs(OLD).env("LIBGL_ALWAYS_SOFTWARE", "true").output();
+    let output = output.expect("a test starts");
+    let said = [output.stdout, output.stderr].map(|said| String::from_utf8_lossy(&said).into_owned());
+    assert!(output.status.success() && said[0].contains("1 passed"), "{}{}", said[0], said[1]);
+}
+
+#[cfg(target_os = "linux")]
+fn is_told_of_old_opengl() {
+    let mut wanted = wgpu::InstanceDescriptor::new_without_display_handle();
+    wanted.backends = wgpu::Backends::GL;
+    // With what wgpu looks over by default the device is lost as it is opened.
+    wanted.flags = wgpu::InstanceFlags::empty();
+    let instance = wgpu::Instance::new(wanted);
+    let found = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()));
+    let adapter = found.expect("llvmpipe through OpenGL");
+    let opened = pollster::block_on(
+        adapter.request_device(&wgpu::DeviceDescriptor { required_limits: adapter.limits(), ..Default::default() }),
+    );
+    let (device, queue) = opened.expect("a device that draws by the wrong buffers");
+    let mut stage = Stage::new(SIZE.x, SIZE.y);
+    stage.world().insert_resource(Gpu::from_existing(instance, adapter, device, queue));
+    stage.pixels(Pixels::Byte);
+    stage.set(&scene(2));
+    for frame in 0..2 {
+        let errors = stage.frame().errors.clone();
+        let is_told = |error: &RenderError| matches!(error, RenderError::Device(why) if why.contains("OpenGL is 3.3"));
+        assert!(errors.iter().any(is_told), "frame {frame}: {errors:?}");
     }
 }

@@ -30,6 +30,8 @@ pub struct Gpu {
     costs: Costs,
     /// No other device has it, in any instance. (wgpu's own comparison holds within an instance only.)
     id: u64,
+    /// Why nothing that is right can be drawn on it, if so.
+    unfit: Option<Arc<str>>,
     notices: Arc<Mutex<Notices>>,
 }
 
@@ -72,7 +74,8 @@ impl Gpu {
 
     /// A device that is open already: an engine's. It may lack any of wgpu's optional features and have the smallest
     /// limits; what it cannot do is done in another way, or said in
-    /// [`FrameReport::errors`](crate::FrameReport::errors), as that its OpenGL is too old to draw what is right.
+    /// [`FrameReport::errors`](crate::FrameReport::errors); in each frame, that its OpenGL is too old to draw what is
+    /// right.
     ///
     /// The device's callbacks stay the engine's: what goes wrong outside of any call, and the loss of the device, goes
     /// to whatever it has set with `on_uncaptured_error` and `set_device_lost_callback`. After a loss it inserts
@@ -96,9 +99,9 @@ impl Gpu {
     ) -> Self {
         static DEVICES: AtomicU64 = AtomicU64::new(0);
         let id = DEVICES.fetch_add(1, Ordering::Relaxed);
-        let failure = unfit(&adapter.get_info(), adapter.get_downlevel_capabilities().flags);
-        let notices = Arc::new(Mutex::new(Notices { failure, loss: None }));
-        let mut gpu = Self { instance, adapter, device, queue, costs, id, notices };
+        let unfit = unfit(&adapter.get_info(), adapter.get_downlevel_capabilities().flags).map(Arc::from);
+        let notices = Arc::new(Mutex::new(Notices { failure: None, loss: None }));
+        let mut gpu = Self { instance, adapter, device, queue, costs, id, unfit, notices };
         gpu.set_costs(costs);
         gpu
     }
@@ -206,9 +209,11 @@ impl Gpu {
         Err(RenderError::DeviceLost(reason.unwrap_or_default()))
     }
 
-    /// The first error the driver reported outside any call, if it has not been taken yet.
+    /// The first error the driver reported outside any call, if it has not been taken yet; of a device on which nothing
+    /// is right why, each time.
     pub(crate) fn take_failure(&self) -> Option<RenderError> {
-        lock(&self.notices).failure.take().map(RenderError::Device)
+        let unfit = self.unfit.as_deref().map(str::to_owned);
+        unfit.or_else(|| lock(&self.notices).failure.take()).map(RenderError::Device)
     }
 
     /// The loss of the device, if it has not been told yet.
