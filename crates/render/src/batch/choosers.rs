@@ -213,7 +213,6 @@ mod tests {
     use crate::device::adapter::Adapter;
     use crate::device::cpu::Cpu;
     use crate::frame::report::FrameReport;
-    use crate::geometry::seen::SeenRoom;
     use crate::plugin::RenderPlugin;
     use crate::target::format::Pixels;
     use crate::target::frame::Headless;
@@ -280,10 +279,6 @@ mod tests {
                 app.insert_resource(ViewTolerance(Tolerance { steps: 1.0, pixels }));
                 let mut lit = app.world_mut().resource_mut::<LitPatches>();
                 lit.helpers = Helpers::of(Threads::new("test", Some(threads)).expect("a few threads"));
-                // What is seen is found all at once, or in parts of a few groups.
-                if threads > 1 {
-                    lit.room = SeenRoom::for_parts_of(threads);
-                }
                 let frames = [0, 1, 2].map(|_| {
                     app.update();
                     let mut cameras = app.world_mut().query_filtered::<&mut Transform, With<Camera>>();

@@ -21,7 +21,7 @@ use crate::geometry::allowed::{Allowed, Demand, geometry_steps};
 use crate::geometry::corners::ShadedCorners;
 use crate::geometry::near_objects::{CoarserObject, NearObjects, ObjectBox};
 use crate::geometry::outlines::{Outline, Sight};
-use crate::geometry::seen::{ObjectLook, SeenPatch, SeenRoom};
+use crate::geometry::seen::{Choice, ObjectLook, SeenPatch};
 use crate::lights::gather::Lights;
 use crate::lights::lists::LightLists;
 use crate::lights::memory::{ChosenBy, choosing};
@@ -48,7 +48,7 @@ pub(crate) struct LitPatches {
     pub(super) profit: Profit,
     pub(super) choosers: Choosers,
     pub(super) helpers: Helpers,
-    pub(super) room: SeenRoom,
+    choice: Choice,
     near: NearObjects,
     pub(super) paints: Paints,
     /// What the draws are made of, where nothing moves.
@@ -294,7 +294,7 @@ impl LitPatches {
         let is_near = |patch: &Outline, error| self.near.is_near(&coarser, patch, error, &boxes);
         let has_lists = admitted.lists == Lists::Listed;
         let look = ObjectLook { sight: &sight, allowed: &allowed, corners: has_lists.then_some(object.corners) };
-        let looked_at = detail.see(look, &mut self.room, &mut self.helpers, is_near, seen);
+        let looked_at = detail.see(look, &mut self.choice, is_near, seen);
         report.patches += looked_at;
         // What is whole has been found to be seen, and is not counted.
         report.patches_culled += looked_at.saturating_sub(seen.len() as u32);

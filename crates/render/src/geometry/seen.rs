@@ -1,11 +1,9 @@
 //! What is seen of an object: which of its patches, finer and coarser ones, a frame draws.
 
-use crate::frame::helpers::Helpers;
 use crate::geometry::allowed::Allowed;
 use crate::geometry::corners::{CountedCorners, ShadedCorners};
 use crate::geometry::detail::Detail;
 use crate::geometry::outlines::{Outline, Sight};
-use std::ops::Range;
 
 /// A patch that is drawn and may show.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,41 +26,10 @@ pub(crate) struct ObjectLook<'a> {
     pub(crate) corners: Option<ShadedCorners>,
 }
 
-/// Room for what is found out of one object after the other.
-#[derive(Debug)]
-pub(crate) struct SeenRoom {
-    /// Which groups will do.
-    will_do: Vec<bool>,
-    parts: Vec<SeenPart>,
-    /// So many groups are one part, which one thread looks at.
-    together: usize,
-}
-
-/// What is seen of some groups that follow each other.
+/// Which groups will do, for one object after the other.
 #[derive(Debug, Default)]
-struct SeenPart {
-    /// Their stretches are counted from 0.
-    patches: Vec<SeenPatch>,
-    /// From the first patch that is drawn, whether it shows or not, to the last; empty where none is.
-    drawn: Range<u32>,
-    /// The last one's.
-    stretch: u32,
-    looked_at: u32,
-}
-
-impl Default for SeenRoom {
-    fn default() -> Self {
-        // Some two thousand patches of a mesh without coarser ones: 50 µs.
-        Self { will_do: Vec::new(), parts: Vec::new(), together: 256 }
-    }
-}
-
-impl SeenRoom {
-    /// For parts of so many groups.
-    #[cfg(test)]
-    pub(crate) fn for_parts_of(together: usize) -> Self {
-        Self { together, ..Self::default() }
-    }
+pub(crate) struct Choice {
+    will_do: Vec<bool>,
 }
 
 impl Detail {
@@ -72,33 +39,28 @@ impl Detail {
     pub(crate) fn see(
         &self,
         look: ObjectLook,
-        room: &mut SeenRoom,
-        helpers: &mut Helpers,
+        Choice { will_do }: &mut Choice,
         is_near: impl FnMut(&Outline, f32) -> bool,
         seen: &mut Vec<SeenPatch>,
     ) -> u32 {
-        let &mut SeenRoom { ref mut will_do, ref mut parts, together } = room;
         self.choose(look, will_do, is_near);
-        let count = self.groups.len().div_ceil(together);
-        if parts.len() < count {
-            parts.resize_with(count, SeenPart::default);
-        }
-        let parts = &mut parts[..count];
-        let (threads, most) = helpers.for_parts(count);
-        let each = parts.iter_mut().enumerate();
-        threads.share(0..most, each, |_, (number, part)| {
-            let groups = number * together..self.groups.len().min((number + 1) * together);
-            // Not in place: threads that write beside each other wait for each other.
-            *part = std::mem::take(part).see(self, groups, look, will_do);
-        });
         seen.clear();
-        let (mut looked_at, mut stretch, mut end) = (0, 0, 0);
-        for part in parts.iter().filter(|part| !part.drawn.is_empty()) {
-            let before = stretch + u32::from(part.drawn.start != end);
-            let moved = |patch: &SeenPatch| SeenPatch { stretch: before + patch.stretch, ..*patch };
-            seen.extend(part.patches.iter().map(moved));
-            (stretch, end) = (before + part.stretch, part.drawn.end);
-            looked_at += part.looked_at;
+        let ObjectLook { sight, corners, .. } = look;
+        // Patches lie one behind the other; what lies between are triangles for which others stand.
+        let (mut stretch, mut end, mut looked_at) = (0, 0, 0);
+        let drawn = |at: &u32| will_do.get(self.part_of[*at as usize] as usize).is_none_or(|will_do| *will_do);
+        for (group, _) in self.groups.iter().zip(&*will_do).filter(|(_, will_do)| !**will_do) {
+            // The object as a whole has been found to be seen.
+            let is_seen = self.is_whole || group.joined.is_seen(sight);
+            for number in group.joins.clone().filter(drawn) {
+                stretch += u32::from(number != end);
+                end = number + 1;
+                looked_at += u32::from(!self.is_whole);
+                if self.is_whole || is_seen && self.outlines[number as usize].is_seen(sight) {
+                    let corners = corners.and_then(|corners| self.counted(number, corners, sight));
+                    seen.push(SeenPatch { number, stretch, corners });
+                }
+            }
         }
         looked_at
     }
@@ -130,35 +92,5 @@ impl Detail {
                 }
             }
         }
-    }
-}
-
-impl SeenPart {
-    /// What is seen of some groups, where these will do.
-    fn see(mut self, detail: &Detail, groups: Range<usize>, look: ObjectLook, will_do: &[bool]) -> Self {
-        self.patches.clear();
-        (self.drawn, self.stretch, self.looked_at) = (0..0, 0, 0);
-        let ObjectLook { sight, corners, .. } = look;
-        // Patches lie one behind the other; what lies between are triangles for which others stand.
-        let drawn = |at: &u32| will_do.get(detail.part_of[*at as usize] as usize).is_none_or(|will_do| *will_do);
-        for number in groups.filter(|number| !will_do[*number]) {
-            let group = &detail.groups[number];
-            // The object as a whole has been found to be seen.
-            let is_seen = detail.is_whole || group.joined.is_seen(sight);
-            for number in group.joins.clone().filter(drawn) {
-                if self.drawn.is_empty() {
-                    self.drawn.start = number;
-                } else {
-                    self.stretch += u32::from(number != self.drawn.end);
-                }
-                self.drawn.end = number + 1;
-                self.looked_at += u32::from(!detail.is_whole);
-                if detail.is_whole || is_seen && detail.outlines[number as usize].is_seen(sight) {
-                    let corners = corners.and_then(|corners| detail.counted(number, corners, sight));
-                    self.patches.push(SeenPatch { number, stretch: self.stretch, corners });
-                }
-            }
-        }
-        self
     }
 }
