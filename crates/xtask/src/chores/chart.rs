@@ -28,7 +28,7 @@ const FILTER_TABLES: &str = "docs/filters.md";
 pub(crate) struct Options {
     #[command(flatten)]
     setup: Setup,
-    /// Fewer methods, details, rounds and pixels, in less than two minutes; docs/ stays as it is
+    /// Fewer methods, details, rounds and pixels, in some two minutes; docs/ stays as it is
     #[arg(long)]
     quick: bool,
     /// Only how the time of a frame grows, on out/chart/scaling.html; docs/ stays as it is
