@@ -5,7 +5,6 @@ use crate::batch::lit_object::LitObject;
 use crate::batch::object::Shared;
 use crate::batch::painted::{PaintedObject, PatchPaint};
 use crate::device::costs::VertexPrices;
-use crate::frame::helpers::Helpers;
 use crate::geometry::seen::SeenPatch;
 use crate::geometry::shape::PatchShape;
 use crate::lights::lists::{LightLists, Listing, Reflector};
@@ -15,6 +14,7 @@ use crate::lights::places::{ShadedAt, Spending};
 use crate::lights::selector::Selector;
 use bevy_math::Vec3;
 use halfway_lighting::equations;
+use halfway_raster::Threads;
 use std::ops::Range;
 use std::sync::OnceLock;
 
@@ -147,6 +147,8 @@ pub(super) struct ChosenGroup {
 /// Those who choose, one a thread, and what they chose. Their memory is kept.
 #[derive(Debug)]
 pub(crate) struct Choosers {
+    /// `None` until there is enough to do.
+    threads: Option<Threads>,
     /// One at least.
     selectors: Vec<Selector>,
     /// The patches that each group has, of those that are seen of an object.
@@ -157,9 +159,12 @@ pub(crate) struct Choosers {
 /// At most so many neighbouring patches look for their lights together, and one thread chooses for them.
 const TOGETHER: usize = 32;
 
+/// A second thread is woken for no fewer groups than this: what it takes over is to be worth more than waking it.
+const WORTH_A_THREAD: usize = 4;
+
 impl Default for Choosers {
     fn default() -> Self {
-        Self { selectors: vec![Selector::default()], parts: Vec::new(), groups: Vec::new() }
+        Self { threads: None, selectors: vec![Selector::default()], parts: Vec::new(), groups: Vec::new() }
     }
 }
 
@@ -184,8 +189,8 @@ impl Choosers {
     /// Each choice is what it is whoever makes it, so that nothing depends on how many threads there are.
     pub(super) fn choose(
         &mut self,
-        (chooser, seen): (&Chooser, &[SeenPatch]),
-        helpers: &mut Helpers,
+        chooser: &Chooser,
+        seen: &[SeenPatch],
         lists: &LightLists,
         painted: Option<&PaintedObject>,
     ) -> (&[ChosenGroup], &mut Selector) {
@@ -194,7 +199,8 @@ impl Choosers {
         if self.groups.len() < count {
             self.groups.resize_with(count, ChosenGroup::default);
         }
-        let (threads, most) = helpers.for_parts(count);
+        let threads = if count < WORTH_A_THREAD { &Threads::ALONE } else { self.threads.get_or_insert_with(started) };
+        let most = threads.count().min(count / 2).max(1);
         if self.selectors.len() < most {
             self.selectors.resize_with(most, Selector::default);
         }
@@ -204,6 +210,14 @@ impl Choosers {
         });
         (&self.groups[..count], &mut self.selectors[0])
     }
+}
+
+/// A thread for each core, or the calling one alone where the system refuses others.
+fn started() -> Threads {
+    Threads::new("lights", None).unwrap_or_else(|error| {
+        log::warn!("lights are chosen on one thread: {error}");
+        Threads::ALONE
+    })
 }
 
 #[cfg(test)]
@@ -225,7 +239,6 @@ mod tests {
     use bevy_transform::components::Transform;
     use halfway_lighting::{Camera, DirectionalLight, PointLight, Shading, Tolerance, ViewTolerance};
     use halfway_mesh::{Mesh, Mesh3d, UvSphere};
-    use halfway_raster::Threads;
 
     /// A ball of many patches under many lights, and a camera that turns about it.
     fn app(shading: Shading, lights: u16) -> App {
@@ -277,8 +290,8 @@ mod tests {
                 let mut app = app(shading, lights);
                 app.insert_resource(prices);
                 app.insert_resource(ViewTolerance(Tolerance { steps: 1.0, pixels }));
-                let mut lit = app.world_mut().resource_mut::<LitPatches>();
-                lit.helpers = Helpers::of(Threads::new("test", Some(threads)).expect("a few threads"));
+                let started = Threads::new("test", Some(threads)).expect("a few threads");
+                app.world_mut().resource_mut::<LitPatches>().choosers.threads = Some(started);
                 let frames = [0, 1, 2].map(|_| {
                     app.update();
                     let mut cameras = app.world_mut().query_filtered::<&mut Transform, With<Camera>>();
@@ -290,7 +303,7 @@ mod tests {
                 let choosers = &app.world().resource::<LitPatches>().choosers;
                 let selectors = choosers.selectors.len();
                 let groups = choosers.groups.iter().filter(|group| !group.clusters.is_empty()).count();
-                assert!(groups > 8 && selectors == threads, "{groups} by {selectors}");
+                assert!(groups > WORTH_A_THREAD && selectors == threads, "{groups} by {selectors}");
                 frames
             });
             assert!(frames[0][0] != frames[0][1], "{shading:?}: the camera moves");
@@ -365,8 +378,8 @@ mod tests {
                 cameras.iter_mut(app.world_mut()).for_each(|mut camera| camera.translation.x += 0.05);
                 made(&app)
             });
-            let lit = app.world().resource::<LitPatches>();
-            assert!(!lit.helpers.are_started() && lit.choosers.groups.is_empty(), "{prices:?}");
+            let choosers = &app.world().resource::<LitPatches>().choosers;
+            assert!(choosers.threads.is_none() && choosers.groups.is_empty(), "{prices:?}");
             let report = app.world().resource::<FrameReport>();
             assert!(
                 report.patches > 500 && report.terms_at_fragments > 0 && report.terms_at_vertices == 0,

@@ -31,7 +31,7 @@ impl LitPatches {
         let &Chooser { object, shared, .. } = chooser;
         let mut painted = (!object.reflecting.maps.is_empty()).then(|| self.take_painted(object, shared));
         let mut choosers = std::mem::take(&mut self.choosers);
-        let (groups, spare) = choosers.choose((chooser, seen), &mut self.helpers, &self.lists, painted.as_ref());
+        let (groups, spare) = choosers.choose(chooser, seen, &self.lists, painted.as_ref());
         let mut run = None;
         for group in groups {
             for (cluster, chosen) in group.clusters.iter().zip(&group.choices) {

@@ -15,7 +15,6 @@ use crate::batch::sources::{FrameSources, Sources};
 use crate::batch::table::ObjectTable;
 use crate::device::costs::VertexPrices;
 use crate::error::{RenderError, label};
-use crate::frame::helpers::Helpers;
 use crate::frame::report::FrameReport;
 use crate::geometry::allowed::{Allowed, Demand, geometry_steps};
 use crate::geometry::corners::ShadedCorners;
@@ -47,7 +46,6 @@ pub(crate) struct LitPatches {
     pub(crate) table: ObjectTable,
     pub(super) profit: Profit,
     pub(super) choosers: Choosers,
-    pub(super) helpers: Helpers,
     choice: Choice,
     near: NearObjects,
     pub(super) paints: Paints,
