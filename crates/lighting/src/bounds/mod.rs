@@ -78,5 +78,5 @@ pub use region::Region;
 pub use select::Selected;
 pub use slopes::PowerSlopes;
 pub use tolerance::{STEP, linear_tolerance};
-pub use tree::{LightOrder, LightTree};
+pub use tree::LightTree;
 pub use vertex::{Grain, TermChange, VertexChange, VertexChanges, VertexShading};

@@ -18,9 +18,9 @@ const SLACK: f32 = 1e-3;
 /// most: nothing where they are out of their range, and otherwise so little that it can be told from a bound for many
 /// of them. Directional lights reach everything.
 ///
-/// Made anew for each frame by [`LightTree::rebuild`], in a time that is as good as linear in the lights, or by
-/// [`LightTree::rebuild_in_order`], which sorts none; its memory is kept.
-#[derive(Clone, Debug, Default)]
+/// Made by [`LightTree::rebuild`], in a time that is as good as linear in the lights. Where they have only been moved
+/// or turned together, as by a camera that moves, [`LightTree::follow`] is sooner. Its memory is kept.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct LightTree {
     /// Those that have no place.
     everywhere: Vec<u32>,
@@ -28,48 +28,12 @@ pub struct LightTree {
     leaves: Vec<LightLeaf>,
     /// Level upon level, the leaves' first; each node of those above has up to eight below it.
     levels: Vec<Vec<LightNode>>,
-    /// Where no other is given.
-    order: LightOrder,
-}
-
-/// An order of lights in which neighbours are neighbours in space; those without a place are not in it.
-///
-/// Lights that have only been moved or turned together are still neighbours: the order of those that stand still is
-/// good for every frame, wherever they are seen from.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct LightOrder {
-    /// Places on a curve, and the numbers of the lights.
+    /// Places on a curve that fills space, and the numbers of the lights.
     keys: Vec<u64>,
 }
 
-impl LightOrder {
-    /// Puts these lights in order, in place of those it had.
-    pub fn sort(&mut self, lights: &[Light<f32>]) {
-        self.keys.clear();
-        let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
-        for (light, number) in lights.iter().zip(0..) {
-            if let Place::Point(at) = light.place {
-                low = [0, 1, 2].map(|k| low[k].min(at[k]));
-                high = [0, 1, 2].map(|k| high[k].max(at[k]));
-                self.keys.push(number);
-            }
-        }
-        let cells = [0, 1, 2].map(|k| 1023.0 / (high[k] - low[k]).max(f32::MIN_POSITIVE));
-        for key in &mut self.keys {
-            let (Place::Point(at) | Place::Directional(at)) = lights[*key as usize].place;
-            let cell = |k: usize| u64::from(spread(((at[k] - low[k]) * cells[k]) as u32)) << k;
-            *key |= (cell(0) | cell(1) | cell(2)) << 32;
-        }
-        self.keys.sort_unstable();
-    }
-
-    fn numbers(&self) -> impl Iterator<Item = u32> {
-        self.keys.iter().map(|&key| key as u32)
-    }
-}
-
 /// A light, as far as is known without its patch.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 struct LightLeaf {
     number: u32,
     position: [f32; 3],
@@ -77,17 +41,22 @@ struct LightLeaf {
 }
 
 /// Lights that lie together.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 struct LightNode {
-    /// A box around them.
-    low: [f32; 3],
-    high: [f32; 3],
+    around: LightBox,
     falloff: Falloff,
     count: u32,
 }
 
+/// A box around lights.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct LightBox {
+    low: [f32; 3],
+    high: [f32; 3],
+}
+
 /// What lights add at a distance at most.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 struct Falloff {
     /// The largest; infinite where one has none.
     range: f32,
@@ -106,10 +75,13 @@ impl Falloff {
         }
     }
 
-    fn join(&mut self, other: &Self) {
-        self.range = self.range.max(other.range);
-        self.attenuation = [0, 1, 2].map(|k| self.attenuation[k].min(other.attenuation[k]));
-        self.color += other.color;
+    fn joined<'a>(all: impl Iterator<Item = &'a Self>) -> Self {
+        let nothing = Self { range: 0.0, attenuation: [f32::INFINITY; 3], color: 0.0 };
+        all.fold(nothing, |all, one| Self {
+            range: all.range.max(one.range),
+            attenuation: [0, 1, 2].map(|k| all.attenuation[k].min(one.attenuation[k])),
+            color: all.color + one.color,
+        })
     }
 }
 
@@ -133,7 +105,7 @@ enum Visit {
 
 impl LightSearch<'_> {
     /// Of lights in a box.
-    fn visit_to(&self, low: [f32; 3], high: [f32; 3], falloff: &Falloff, count: u32) -> Visit {
+    fn visit_to(&self, LightBox { low, high }: &LightBox, falloff: &Falloff, count: u32) -> Visit {
         let beside = |k: usize| (low[k] - self.region.high[k]).max(self.region.low[k] - high[k]).max(0.0);
         let [x, y, z] = [beside(0), beside(1), beside(2)];
         let distance = (x * x + y * y + z * z).sqrt() * (1.0 - SLACK) - self.margin;
@@ -153,30 +125,61 @@ impl LightSearch<'_> {
 impl LightTree {
     /// Takes these lights in place of those it had.
     pub fn rebuild(&mut self, lights: &[Light<f32>]) {
-        let mut order = core::mem::take(&mut self.order);
-        order.sort(lights);
-        self.rebuild_in_order(lights, &order);
-        self.order = order;
+        let position = |number: u32| match lights[number as usize].place {
+            Place::Point(position) => Some(position),
+            Place::Directional(_) => None,
+        };
+        let mut all = LightBox::EMPTY;
+        self.everywhere.clear();
+        self.keys.clear();
+        for number in 0..lights.len() as u32 {
+            match position(number) {
+                Some(position) => {
+                    all = all.with(&LightBox::at(position));
+                    self.keys.push(number.into());
+                }
+                None => self.everywhere.push(number),
+            }
+        }
+        let cells = [0, 1, 2].map(|k| 1023.0 / (all.high[k] - all.low[k]).max(f32::MIN_POSITIVE));
+        for key in &mut self.keys {
+            let Some(position) = position(*key as u32) else { continue };
+            let cell = |k: usize| u64::from(spread(((position[k] - all.low[k]) * cells[k]) as u32)) << k;
+            *key |= (cell(0) | cell(1) | cell(2)) << 32;
+        }
+        self.keys.sort_unstable();
+        self.leaves.clear();
+        self.leaves.extend(self.keys.iter().filter_map(|&key| LightLeaf::of(key as u32, lights)));
+        self.build_levels();
     }
 
-    /// Takes these lights in place of those it had, in the order of the same lights where they were before. What it
-    /// finds does not depend on the order, only how soon it finds it.
+    /// Takes the places of these lights, which are otherwise those it has, in the same order. What it finds is what it
+    /// would find after [`LightTree::rebuild`], and as soon, if they have only been moved or turned together.
     ///
     /// # Panics
     ///
-    /// Where `order` has more or fewer lights than have a place here, or a number that none of them has.
-    pub fn rebuild_in_order(&mut self, lights: &[Light<f32>], order: &LightOrder) {
-        let has_place = |light: &Light<f32>| matches!(light.place, Place::Point(_));
-        self.everywhere.clear();
-        self.everywhere.extend((0..).zip(lights).filter(|(_, light)| !has_place(light)).map(|(number, _)| number));
-        self.leaves.clear();
-        self.leaves.extend(order.numbers().map(|number| {
-            let light = &lights[number as usize];
-            let (Place::Point(position) | Place::Directional(position)) = light.place;
-            LightLeaf { number, position, falloff: Falloff::of(light) }
-        }));
-        assert_eq!(self.everywhere.len() + self.leaves.len(), lights.len(), "each light once");
-        self.build_levels();
+    /// Where there are more or fewer lights than it has.
+    pub fn follow(&mut self, lights: &[Light<f32>]) {
+        assert_eq!(self.everywhere.len() + self.leaves.len(), lights.len(), "as many lights as before");
+        for leaf in &mut self.leaves {
+            let (Place::Point(position) | Place::Directional(position)) = lights[leaf.number as usize].place;
+            leaf.position = position;
+        }
+        for height in 0..self.levels.len() {
+            let (below, above) = self.levels.split_at_mut(height);
+            match below.last() {
+                None => {
+                    for (node, leaves) in above[0].iter_mut().zip(self.leaves.chunks(LEAF)) {
+                        node.around = LightBox::of_leaves(leaves);
+                    }
+                }
+                Some(nodes) => {
+                    for (node, nodes) in above[0].iter_mut().zip(nodes.chunks(BRANCHES)) {
+                        node.around = LightBox::of_nodes(nodes);
+                    }
+                }
+            }
+        }
     }
 
     fn build_levels(&mut self) {
@@ -224,7 +227,7 @@ impl LightTree {
         spent: &mut f64,
     ) {
         for (place, node) in nodes.clone().zip(&self.levels[level][nodes]) {
-            match search.visit_to(node.low, node.high, &node.falloff, node.count) {
+            match search.visit_to(&node.around, &node.falloff, node.count) {
                 Visit::Nothing => {}
                 Visit::Little(most) => *spent += most,
                 Visit::Open if level > 0 => {
@@ -234,7 +237,7 @@ impl LightTree {
                 }
                 Visit::Open => {
                     for leaf in &self.leaves[place * LEAF..place * LEAF + node.count as usize] {
-                        match search.visit_to(leaf.position, leaf.position, &leaf.falloff, 1) {
+                        match search.visit_to(&LightBox::at(leaf.position), &leaf.falloff, 1) {
                             Visit::Nothing => {}
                             Visit::Little(most) => *spent += most,
                             Visit::Open => numbers.push(leaf.number),
@@ -246,26 +249,51 @@ impl LightTree {
     }
 }
 
+impl LightLeaf {
+    /// `None` for a light without a place.
+    fn of(number: u32, lights: &[Light<f32>]) -> Option<Self> {
+        let light = &lights[number as usize];
+        match light.place {
+            Place::Point(position) => Some(Self { number, position, falloff: Falloff::of(light) }),
+            Place::Directional(_) => None,
+        }
+    }
+}
+
+impl LightBox {
+    const EMPTY: Self = Self { low: [f32::INFINITY; 3], high: [f32::NEG_INFINITY; 3] };
+
+    fn at(position: [f32; 3]) -> Self {
+        Self { low: position, high: position }
+    }
+
+    fn of_leaves(leaves: &[LightLeaf]) -> Self {
+        leaves.iter().fold(Self::EMPTY, |all, leaf| all.with(&Self::at(leaf.position)))
+    }
+
+    fn of_nodes(nodes: &[LightNode]) -> Self {
+        nodes.iter().fold(Self::EMPTY, |all, node| all.with(&node.around))
+    }
+
+    fn with(self, other: &Self) -> Self {
+        // One instruction each, where `min` and `max` take three.
+        let [lower, higher] = [|a, b| if b < a { b } else { a }, |a: f32, b| if b > a { b } else { a }];
+        Self {
+            low: [0, 1, 2].map(|k| lower(self.low[k], other.low[k])),
+            high: [0, 1, 2].map(|k| higher(self.high[k], other.high[k])),
+        }
+    }
+}
+
 impl LightNode {
     fn of_leaves(leaves: &[LightLeaf]) -> Self {
-        let node = |leaf: &LightLeaf| Self { low: leaf.position, high: leaf.position, falloff: leaf.falloff, count: 1 };
-        Self::joined(leaves.iter().map(node))
+        let falloff = Falloff::joined(leaves.iter().map(|leaf| &leaf.falloff));
+        Self { around: LightBox::of_leaves(leaves), falloff, count: leaves.len() as u32 }
     }
 
     fn of_nodes(nodes: &[Self]) -> Self {
-        Self::joined(nodes.iter().copied())
-    }
-
-    fn joined(mut nodes: impl Iterator<Item = Self>) -> Self {
-        let falloff = Falloff { range: 0.0, attenuation: [0.0; 3], color: 0.0 };
-        let mut all = nodes.next().unwrap_or(Self { low: [0.0; 3], high: [0.0; 3], falloff, count: 0 });
-        for node in nodes {
-            all.low = [0, 1, 2].map(|k| all.low[k].min(node.low[k]));
-            all.high = [0, 1, 2].map(|k| all.high[k].max(node.high[k]));
-            all.falloff.join(&node.falloff);
-            all.count += node.count;
-        }
-        all
+        let falloff = Falloff::joined(nodes.iter().map(|node| &node.falloff));
+        Self { around: LightBox::of_nodes(nodes), falloff, count: nodes.iter().map(|node| node.count).sum() }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Lights found by where they are: the lists are those of all lights, and what touches nothing is hardly looked at.
 
-use halfway_lighting::bounds::{LightOrder, LightTree, NearLights, NormalCone, Patch, Receiver, Region, Selected};
+use halfway_lighting::bounds::{LightTree, NearLights, NormalCone, Patch, Receiver, Region, Selected};
 use halfway_lighting::equations::{Coefficients, Eye, Light, Place};
 use halfway_lighting::{Attenuation, Faces, Material, PointLight, Reflectance};
 use proptest::prelude::*;
@@ -19,18 +19,18 @@ fn region(scene: &Scene, (way, room): ([f32; 3], f32), tolerance: [f64; 3]) -> R
     Region { brightest, tolerance, ..Region::EMPTY }.with(scene.center, scene.radius).with(aside, scene.radius)
 }
 
-/// The lists of a patch by way of a tree, which may be in the order of other places.
+/// The lists of a patch by way of a tree, which may have been made of the same lights elsewhere.
 fn by_tree(
     scene: &Scene,
     region: &Region,
     lights: &[Light<f32>],
     tolerance: [f64; 3],
-    order: Option<&LightOrder>,
+    elsewhere: Option<&[Light<f32>]>,
 ) -> Selected<f32> {
     let (mut tree, mut near, mut selected) = (LightTree::default(), NearLights::default(), Selected::default());
-    match order {
-        Some(order) => tree.rebuild_in_order(lights, order),
-        None => tree.rebuild(lights),
+    tree.rebuild(elsewhere.unwrap_or(lights));
+    if elsewhere.is_some() {
+        tree.follow(lights);
     }
     near.begin(*region);
     near.select(&tree, lights, &scene.receiver(), tolerance, &mut selected);
@@ -59,10 +59,8 @@ proptest! {
                 *at = [0, 1, 2].map(|k| random(i, k));
             }
         }
-        let mut order = LightOrder::default();
-        order.sort(&elsewhere);
-        for order in [None, Some(&order)] {
-            let selected = by_tree(&scene, &region, &lights, tolerance, order);
+        for elsewhere in [None, Some(&elsewhere[..])] {
+            let selected = by_tree(&scene, &region, &lights, tolerance, elsewhere);
             prop_assert_eq!(&selected.diffuse, &plain.diffuse);
             prop_assert_eq!(&selected.specular, &plain.specular);
             for ((found, plain), tolerance) in selected.left_out.into_iter().zip(plain.left_out).zip(tolerance) {
@@ -153,12 +151,26 @@ fn where_the_weak_are_too_many_each_is_looked_at() {
 }
 
 #[test]
-#[should_panic(expected = "each light once")]
-fn an_order_of_fewer_lights_is_refused() {
+#[should_panic(expected = "as many lights as before")]
+fn fewer_lights_are_not_followed() {
     let lights: Vec<Light<f32>> = (0..4).map(|i| lamp([i as f32, 0.0, 0.0], None)).collect();
-    let mut order = LightOrder::default();
-    order.sort(&lights[..3]);
-    LightTree::default().rebuild_in_order(&lights, &order);
+    let mut tree = LightTree::default();
+    tree.rebuild(&lights);
+    tree.follow(&lights[..3]);
+}
+
+#[test]
+fn a_tree_that_follows_is_the_one_made_anew() {
+    let at =
+        |turn: f32| (0..300).map(move |i| lamp([turn + random(i, 0), random(i, 1), turn * random(i, 2)], Some(2.0)));
+    let (here, there): (Vec<_>, Vec<_>) = (at(1.0).collect(), at(2.0).collect());
+    let [mut tree, mut anew] = [(); 2].map(|()| LightTree::default());
+    tree.rebuild(&here);
+    anew.rebuild(&here);
+    tree.follow(&there);
+    assert_ne!(tree, anew);
+    tree.follow(&here);
+    assert_eq!(tree, anew);
 }
 
 #[test]

@@ -80,7 +80,7 @@ impl Chooser<'_> {
             seen[members.clone()].iter().map(|seen| &self.clustering.detail.patch(seen.number).shape),
         );
         let mut is_among =
-            |shape: &PatchShape| selector.is_among(self.shared.lights, lists, shape.sphere(self.object.model_view));
+            |shape: &PatchShape| selector.is_among(self.shared.lights, shape.sphere(self.object.model_view));
         self.clustering.fill((seen, members), &mut is_among, &lists.memory, clusters);
     }
 
@@ -272,7 +272,8 @@ mod tests {
         let report = app.world().resource::<FrameReport>();
         assert_eq!(report.errors, []);
         let LitPatches { runs, records, lists, .. } = lit;
-        format!("{runs:?} {records:?} {:?} {:?} {report:?}", lists.numbers, lists.bound)
+        let LightLists { numbers, sent, bound, .. } = lists;
+        format!("{runs:?} {records:?} {numbers:?} {sent:?} {bound:?} {report:?}")
     }
 
     #[test]

@@ -71,7 +71,7 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
     lit.are_kept = false;
     let view = &objects.view;
     let (Some(camera), Some(values)) = (&view.camera, values.0) else {
-        lit.begin(&lights, lights.is_changed());
+        lit.begin(&lights);
         lit.sources.forget();
         return;
     };
@@ -100,7 +100,7 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
     } else {
         lit.sources.forget();
     }
-    lit.begin(&lights, lights.is_changed());
+    lit.begin(&lights);
     lit.lists.memory.begin(choosing, lights.counts);
     let shared = Shared {
         lights: &lights,
@@ -121,11 +121,11 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
 }
 
 impl LitPatches {
-    fn begin(&mut self, lights: &Lights, changed: bool) {
+    fn begin(&mut self, lights: &Lights) {
         self.runs.clear();
         self.instances.clear();
         self.records.clear();
-        self.lists.begin(lights, changed);
+        self.lists.begin(lights);
         self.choosers.begin();
         self.table.begin(lights.ambient);
         self.paints.begin();
@@ -302,7 +302,7 @@ impl LitPatches {
         }
         // Light by light; else all terms of a patch are in one place.
         let is_placed = object.may_move(seen, &shared.prices);
-        let compiled_in = (Lists::new(lights.counts) != Lists::Listed).then_some(lights.records.len());
+        let compiled_in = (Lists::new(lights.counts) != Lists::Listed).then_some(lights.len());
         let staying = OnceLock::new();
         let reflector = &reflector;
         let clustering = object.clustering(&sight);

@@ -78,7 +78,7 @@ impl LitPatches {
             }
         }
         for (key, count) in keys.iter().zip(counts) {
-            self.lists.count_all(key.terms, count * shared.lights.records.len());
+            self.lists.count_all(key.terms, count * shared.lights.len());
         }
         if is_placed && self.lists.memory.has_moved(object.entity) {
             // They were joined, or were not.
@@ -113,7 +113,7 @@ impl LitPatches {
         backend: &mut impl Backend,
     ) -> Option<DrawKey> {
         let key = Self::unlisted_key(object, place, shared, backend)?;
-        self.lists.count_all(key.terms, patches * shared.lights.records.len());
+        self.lists.count_all(key.terms, patches * shared.lights.len());
         Some(key)
     }
 

@@ -87,13 +87,13 @@ impl PassLists {
 
     fn fill(&mut self, lights: &Lights, lit: &LitPatches, batches: &Batches, meshes: &MeshPieces) {
         self.lights.clear();
-        self.lights.extend(lights.records.iter().map(light));
+        self.lights.extend(lit.lists.sent.records.iter().map(light));
         self.lists.clear();
         self.lists.extend(&lit.lists.numbers);
         // Draws without lists shade all of so few.
-        let all = (lights.records.len() <= COUNTED_LIGHTS as usize).then(|| {
+        let all = (lights.len() <= COUNTED_LIGHTS as usize).then(|| {
             let start = self.lists.len() as u32;
-            self.lists.extend(0..lights.records.len() as u32);
+            self.lists.extend(0..lights.len() as u32);
             LightRange { counts: lights.counts, start }
         });
         self.surfaces.clear();

@@ -8,7 +8,6 @@ use crate::draw::maps::MapTextures;
 use crate::draw::surroundings::SurroundingsOnGpu;
 use crate::error::RenderError;
 use crate::frame::report::FrameReport;
-use crate::lights::gather::Lights;
 use crate::lights::surroundings::Surroundings;
 use crate::pipelines::cache::Pipelines;
 use crate::shaders::records::{LightRecord, RECORD_BYTES, ViewRecord};
@@ -167,13 +166,12 @@ impl Buffers {
         gpu: &Gpu,
         pipelines: &Pipelines,
         view: &View,
-        lights: &Lights,
         (lit, batches): (&LitPatches, &Batches),
     ) -> Result<u64, RenderError> {
         let view = ViewRecord::from(view);
         let listed =
             if batches.draws.groups().iter().any(|group| Text::of(&group.state.key).lights == LightText::Listed) {
-                lights.records.as_slice()
+                lit.lists.sent.records.as_slice()
             } else {
                 &[]
             };
@@ -256,12 +254,10 @@ pub(crate) fn build_pipelines(
     pipelines.report(&mut report);
 }
 
-#[expect(clippy::too_many_arguments, reason = "a system takes each resource as a parameter")]
 pub(crate) fn upload(
     gpu: Res<Gpu>,
     pipelines: Res<Pipelines>,
     view: Res<View>,
-    lights: Res<Lights>,
     mut lit: ResMut<LitPatches>,
     mut batches: ResMut<Batches>,
     mut buffers: ResMut<Buffers>,
@@ -270,7 +266,7 @@ pub(crate) fn upload(
     if batches.draws.groups().is_empty() {
         return;
     }
-    match buffers.upload(&gpu, &pipelines, &view, &lights, (&lit, &batches)) {
+    match buffers.upload(&gpu, &pipelines, &view, (&lit, &batches)) {
         Ok(bytes) => report.bytes_uploaded += bytes,
         Err(error) => {
             report.errors.push(error);

@@ -7,9 +7,9 @@ use crate::view::camera::View;
 use bevy_color::LinearRgba;
 use bevy_ecs::entity_disabling::Disabled;
 use bevy_ecs::prelude::*;
-use bevy_math::{DVec3, Vec3};
+use bevy_math::{DAffine3, DVec3, Vec3};
 use bevy_transform::components::GlobalTransform;
-use halfway_lighting::bounds::LightOrder;
+use halfway_lighting::bounds::LightTree;
 use halfway_lighting::equations::vector::normalize_or_zero;
 use halfway_lighting::equations::{self, Light, Place};
 use halfway_lighting::{
@@ -18,18 +18,24 @@ use halfway_lighting::{
 };
 
 /// The scene's lights, sorted by kind. Holds after [`RenderSet::Illuminate`](crate::RenderSet::Illuminate).
-#[derive(Resource, Clone, Debug, Default, PartialEq)]
+#[derive(Resource, Clone, Debug, PartialEq)]
 #[expect(clippy::struct_excessive_bools, reason = "each is one independent fact about the records")]
 pub struct Lights {
     /// Ga + Σ La of the lights that do not attenuate their ambient.
     pub(crate) ambient: Vec3,
-    pub(crate) records: Vec<LightRecord>,
-    /// The same lights, in the same order, as the equations take them.
+    /// As the equations take them.
     pub(crate) sources: Vec<Light<f32>>,
+    /// The same, found by where they are.
+    pub(super) tree: LightTree,
+    /// The same lights, in the same order, as the shaders read them, but for where they are.
+    unplaced: Vec<LightRecord>,
     /// And where they are in the world.
-    pub(super) places: Vec<WorldPlace>,
-    /// In the world, too.
-    pub(super) order: LightOrder,
+    places: Vec<WorldPlace>,
+    /// How the view sees the world, and its unit of length.
+    eye_from_world: DAffine3,
+    unit: f64,
+    /// Whether all fall off as they do in the world, in units of length as long.
+    is_unscaled: bool,
     /// How many directional, point and spot lights, in this order.
     pub(crate) counts: [u32; 3],
     /// Whether any has a specular color.
@@ -43,11 +49,44 @@ pub struct Lights {
     pub(super) made_of: Option<MadeOf>,
 }
 
+impl Default for Lights {
+    fn default() -> Self {
+        Self {
+            ambient: Vec3::ZERO,
+            sources: Vec::new(),
+            tree: LightTree::default(),
+            unplaced: Vec::new(),
+            places: Vec::new(),
+            eye_from_world: DAffine3::IDENTITY,
+            unit: 1.0,
+            is_unscaled: true,
+            counts: [0; 3],
+            specular: false,
+            attenuated_ambient: false,
+            shared_color: false,
+            ranged: false,
+            made_of: None,
+        }
+    }
+}
+
 #[cfg(test)]
 impl Lights {
     /// Of which nothing else is known.
     pub(crate) fn of_sources(sources: Vec<Light<f32>>, ambient: Vec3) -> Self {
         Self { ambient, sources, ..Self::default() }
+    }
+
+    /// So many of each kind, all at one place.
+    pub(crate) fn of_kinds([directional, points, spots]: [u32; 3]) -> Self {
+        let (mut lights, at) = (Self::default(), GlobalTransform::IDENTITY);
+        let made = (0..directional).map(|_| directional_light(&DirectionalLight::default(), &at));
+        let made = made.chain((0..points).map(|_| point_light(&PointLight::default(), &at)));
+        for made in made.chain((0..spots).map(|_| spot_light(&SpotLight::default(), &at))) {
+            lights.add(made.expect("what is there by default is valid"));
+        }
+        lights.sum_up();
+        lights
     }
 }
 
@@ -199,7 +238,7 @@ impl Lights {
     /// Forgets all lights.
     fn begin(&mut self, ambient: Vec3) {
         self.ambient = ambient;
-        self.records.clear();
+        self.unplaced.clear();
         self.sources.clear();
         self.places.clear();
         self.counts = [0; 3];
@@ -215,49 +254,82 @@ impl Lights {
             (Place::Point(_), Some(_)) => 2,
         };
         self.counts[kind] += 1;
-        self.records.push(LightRecord::from(&source));
+        self.unplaced.push(LightRecord::from(&source));
         self.sources.push(source.cast());
         self.places.push(place);
     }
 
     /// What is known of all that were added, which are still in world space.
     fn sum_up(&mut self) {
-        self.specular = self.records.iter().any(LightRecord::is_specular);
-        self.attenuated_ambient = self.records.iter().any(LightRecord::attenuates_ambient);
-        self.shared_color = self.records.iter().all(LightRecord::shares_color);
-        self.ranged = self.records.iter().any(LightRecord::is_ranged);
-        self.order.sort(&self.sources);
+        self.specular = self.unplaced.iter().any(LightRecord::is_specular);
+        self.attenuated_ambient = self.unplaced.iter().any(LightRecord::attenuates_ambient);
+        self.shared_color = self.unplaced.iter().all(LightRecord::shares_color);
+        self.ranged = self.unplaced.iter().any(LightRecord::is_ranged);
+        self.is_unscaled = true;
+        self.tree.rebuild(&self.sources);
     }
 
     /// Puts every light where the view sees it.
-    #[expect(clippy::float_cmp, reason = "a unit that nothing was done to is 1 exactly")]
     fn place(&mut self, view: &View) {
-        // The shaders' unit, or a longer one.
-        let unit = view.unit().recip();
-        let toward = |direction: Vec3| {
-            let direction = (view.eye_from_world.matrix3 * direction.as_dvec3()).to_array();
-            normalize_or_zero(direction).map(|x| x as f32)
-        };
-        for ((record, source), place) in self.records.iter_mut().zip(&mut self.sources).zip(&self.places) {
+        (self.eye_from_world, self.unit) = (view.eye_from_world, view.unit());
+        let was_unscaled = self.is_unscaled;
+        self.is_unscaled = true;
+        for (source, place) in self.sources.iter_mut().zip(&self.places) {
             if let Place::Directional(_) = source.place {
-                let from = toward(place.direction).map(|x| -x);
-                (source.place, record.position) = (Place::Directional(from), from);
+                source.place = Place::Directional(toward(&view.eye_from_world, place.direction).map(|x| -x));
                 continue;
             }
             let position = view.eye_from_world.transform_point3(place.position.as_dvec3());
-            let near = place.brought_near(position, FARTHEST, unit);
-            record.place(near.position, near.attenuation, near.range);
-            // In the unit of the world, or a longer one; which is mostly the same.
-            let near = if near.unit == 1.0 { near } else { place.brought_near(position, FAR, 1.0) };
-            source.place = Place::Point(near.position.map(|x| x as f32));
-            source.attenuation = near.attenuation.map(|x| x as f32);
-            source.range = near.range.map(|x| x as f32);
+            if position.length_squared() <= FAR * FAR && was_unscaled {
+                source.place = Place::Point(position.to_array().map(|x| x as f32));
+            } else {
+                // In the unit of the world, or a longer one.
+                let near = place.brought_near(position, FAR, 1.0);
+                self.is_unscaled &= near.unit <= 1.0;
+                source.place = Place::Point(near.position.map(|x| x as f32));
+                source.attenuation = near.attenuation.map(|x| x as f32);
+                source.range = near.range.map(|x| x as f32);
+            }
             if let Some(cone) = &mut source.cone {
-                cone.direction = toward(place.direction);
-                record.direction = cone.direction;
+                cone.direction = toward(&view.eye_from_world, place.direction);
             }
         }
+        if was_unscaled && self.is_unscaled {
+            self.tree.follow(&self.sources);
+        } else {
+            self.tree.rebuild(&self.sources);
+        }
     }
+
+    /// How many there are.
+    pub(crate) fn len(&self) -> usize {
+        self.sources.len()
+    }
+
+    /// One of them as the shaders read it.
+    pub(crate) fn record(&self, number: u32) -> LightRecord {
+        let number = number as usize;
+        let (mut record, place) = (self.unplaced[number], &self.places[number]);
+        let source = &self.sources[number];
+        if let Place::Directional(from) = source.place {
+            record.position = from;
+            return record;
+        }
+        let position = self.eye_from_world.transform_point3(place.position.as_dvec3());
+        // In the shaders' unit, or a longer one.
+        let near = place.brought_near(position, FARTHEST, self.unit.recip());
+        record.place(near.position, near.attenuation, near.range);
+        if let Some(cone) = &source.cone {
+            record.direction = cone.direction;
+        }
+        record
+    }
+}
+
+/// A direction of the world, in eye space.
+fn toward(eye_from_world: &DAffine3, direction: Vec3) -> [f32; 3] {
+    let direction = (eye_from_world.matrix3 * direction.as_dvec3()).to_array();
+    normalize_or_zero(direction).map(|x| x as f32)
 }
 
 /// The distance beyond which a light's square would not fit into f32.

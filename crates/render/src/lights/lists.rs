@@ -4,20 +4,23 @@ use crate::lights::gather::Lights;
 use crate::lights::memory::{ChoiceMemory, NamedPatches};
 use crate::lights::patch_lights::{PatchLights, TermLights};
 use crate::lights::places::{Places, Spending, next};
+use crate::lights::sent::SentLights;
 use crate::lights::terms::{by_fragment_shader, by_vertex_shader};
 use crate::shaders::light_slots::{
     BOUND_LIGHTS, COUNTED_LIGHTS, Counted, Highlights, Lists, filled_up, filled_up_roughly,
 };
 use crate::shaders::records::{LightRecord, RecordLists};
 use bevy_math::Vec3;
-use halfway_lighting::bounds::{LightTree, STEP, linear_tolerance};
+use halfway_lighting::bounds::{STEP, linear_tolerance};
 use halfway_lighting::equations::{Coefficients, Eye, specular_exponent};
 use halfway_lighting::{Faces, Frequency, Reflectance, Terms};
 
 /// The lists of a frame.
 #[derive(Debug, Default)]
 pub(crate) struct LightLists {
-    /// Lists, one after the other, as numbers of lights.
+    /// The lights that lists name; all of a scene with few, in their order.
+    pub(crate) sent: SentLights,
+    /// Lists, one after the other, as places of lights in `sent`.
     pub(crate) numbers: Vec<u32>,
     /// Lights to be bound at fixed places, set after set: first all of a scene with few, at number 0.
     pub(crate) bound: Vec<LightRecord>,
@@ -28,8 +31,6 @@ pub(crate) struct LightLists {
     last_bound: Option<BoundLights>,
     /// The lists made last. Neighbouring patches often need the same.
     last: Option<(RecordLists, usize)>,
-    /// The lights of the frame.
-    pub(super) tree: LightTree,
     pub(crate) memory: ChoiceMemory,
     /// How many terms of lights the lists name, over all patches.
     pub(crate) assigned: u64,
@@ -93,15 +94,16 @@ pub(crate) struct Listing {
 }
 
 impl LightLists {
-    /// Starts a frame; `changed` says whether the lights have, since the last.
-    pub(crate) fn begin(&mut self, lights: &Lights, changed: bool) {
-        if changed {
-            self.tree.rebuild_in_order(&lights.sources, &lights.order);
-        }
+    /// Starts a frame.
+    pub(crate) fn begin(&mut self, lights: &Lights) {
         self.numbers.clear();
         self.bound.clear();
-        if lights.records.len() <= COUNTED_LIGHTS as usize {
-            self.bound.extend(&lights.records);
+        self.sent.begin(lights);
+        if lights.len() <= COUNTED_LIGHTS as usize {
+            for number in 0..lights.len() as u32 {
+                self.sent.place(lights, number);
+            }
+            self.bound.extend(&self.sent.records);
         } else {
             // No set of a patch is number 0.
             self.bound.extend([LightRecord::BLACK; SET_ALIGNMENT]);
@@ -167,7 +169,7 @@ impl LightLists {
         }
         self.bound.resize(self.bound.len().next_multiple_of(SET_ALIGNMENT), LightRecord::default());
         let bound = BoundLights { start: self.bound.len() as u32, lists, terms };
-        let records = |light: &u32| lights.records[*light as usize];
+        let records = |light: &u32| lights.record(*light);
         let [(vertex, _), (fragment, _)] = lists.of_stages();
         append_bound(&mut self.bound, self.set.lights.iter().map(|light| (*light, records(light))), fragment, lights);
         let at_vertices = self.set.at_vertices.iter().map(|&(light, [diffuse, specular])| {
@@ -259,10 +261,14 @@ impl LightLists {
     }
 
     /// The lists of so many patches: appended, unless they are what was appended last.
-    pub(crate) fn list(&mut self, Lights { counts, .. }: &Lights, of: &PatchLights, patches: usize) -> RecordLists {
+    pub(crate) fn list(&mut self, lights: &Lights, of: &PatchLights, patches: usize) -> RecordLists {
         let start = self.numbers.len();
-        let [vertex, vertex_diffuse, vertex_specular] = append_stage(&mut self.numbers, *counts, of.vertex);
-        let [fragment, fragment_diffuse, fragment_specular] = append_stage(&mut self.numbers, *counts, of.fragment);
+        let mut append = |stage| append_stage(&mut self.numbers, lights.counts, stage);
+        let [vertex, vertex_diffuse, vertex_specular] = append(of.vertex);
+        let [fragment, fragment_diffuse, fragment_specular] = append(of.fragment);
+        for number in &mut self.numbers[start..] {
+            *number = self.sent.place(lights, *number);
+        }
         let lists =
             RecordLists { vertex, vertex_diffuse, vertex_specular, fragment, fragment_diffuse, fragment_specular };
         self.shaded += patches as u64 * (of.vertex.count() + of.fragment.count());
@@ -434,9 +440,9 @@ mod tests {
 
     #[test]
     fn each_bound_set_begins_where_any_adapter_can_bind_it() {
-        let lights = Lights { records: vec![LightRecord::BLACK; 40], counts: [4, 20, 16], ..Lights::default() };
+        let lights = Lights::of_kinds([4, 20, 16]);
         let mut lists = LightLists::default();
-        lists.begin(&lights, true);
+        lists.begin(&lights);
         // Sets of 1 to 24 lights, one after the other, from all kinds.
         for count in 1..=24 {
             let [diffuse, specular] = [count, count / 2].map(|count| (40 - count..40).collect::<Vec<u32>>());
@@ -448,5 +454,35 @@ mod tests {
             assert!(offset > 0 && offset.is_multiple_of(256), "the set of {count} lights begins at {offset}");
         }
         assert!(lists.bound.len() > 24 * 8, "each set is another");
+    }
+
+    #[test]
+    fn of_many_lights_those_that_lists_name_are_sent_once() {
+        let lights = Lights::of_kinds([0, 1000, 0]);
+        let mut lists = LightLists::default();
+        // A second frame begins anew.
+        for _ in 0..2 {
+            lists.begin(&lights);
+            let mut list = |numbers: &[u32]| {
+                let selected = TermLights { diffuse: numbers, specular: &[] };
+                let vertex = TermLights::default();
+                let of = PatchLights { selected, vertex, fragment: selected, left_out: 0.0, spent: 0.0 };
+                lists.list(&lights, &of, 1).fragment_diffuse
+            };
+            assert_eq!(list(&[7, 900]), [0, 2, 0, 0]);
+            assert_eq!(list(&[7, 900]), [0, 2, 0, 0], "what was appended last");
+            assert_eq!(list(&[7, 8, 900]), [0, 3, 0, 2]);
+            assert_eq!(lists.numbers, [0, 1, 0, 2, 1]);
+            assert_eq!(lists.sent.records, [7, 900, 8].map(|number| lights.record(number)));
+        }
+    }
+
+    #[test]
+    fn few_lights_are_all_sent_in_their_order() {
+        let lights = Lights::of_kinds([1, 2, 1]);
+        let mut lists = LightLists::default();
+        lists.begin(&lights);
+        assert_eq!(lists.sent.records, [0, 1, 2, 3].map(|number| lights.record(number)));
+        assert_eq!(lists.bound, lists.sent.records);
     }
 }

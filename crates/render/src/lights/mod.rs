@@ -8,5 +8,6 @@ pub(crate) mod patch_lights;
 pub(crate) mod places;
 pub(crate) mod profit;
 pub(crate) mod selector;
+pub(crate) mod sent;
 pub(crate) mod surroundings;
 pub(crate) mod terms;

@@ -40,8 +40,8 @@ impl Selector {
 
     /// Whether this sphere, of what was last looked around, has a light so near that its parts are lit otherwise: by
     /// other lights, or from elsewhere.
-    pub(crate) fn is_among(&mut self, lights: &Lights, lists: &LightLists, (center, radius): (Vec3, f32)) -> bool {
-        self.near.any_within(&lists.tree, &lights.sources, center.to_array(), AMONG * radius)
+    pub(crate) fn is_among(&mut self, lights: &Lights, (center, radius): (Vec3, f32)) -> bool {
+        self.near.any_within(&lights.tree, &lights.sources, center.to_array(), AMONG * radius)
     }
 
     /// Selects the lights that `patch`, one of those last looked around, needs: those left out change no channel of a
@@ -57,7 +57,7 @@ impl Selector {
     ) -> f32 {
         let material = placed.shares.map_or(listing.material, |shares| shares.of(listing.material));
         let receiver = Receiver::new(placed.patch, &material, &listing.view, listing.reflectance);
-        self.near.select(&lists.tree, &lights.sources, &receiver, listing.tolerance, &mut self.selected);
+        self.near.select(&lights.tree, &lights.sources, &receiver, listing.tolerance, &mut self.selected);
         match &listing.places {
             Some(places) => {
                 let before = lists.memory.before(placed.name);
