@@ -17,9 +17,12 @@ pub(crate) type PartsOf = [[f32; 3]; 3];
 /// What a triangle's pixels take.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct MappedTriangle {
-    /// 1/w, by base, dx and dy.
-    pub(crate) inverse_w: [f32; 3],
+    /// How 1/w grows from pixel to pixel.
+    pub(crate) inverse_w: [f32; 2],
+    /// Their base is at this pixel of the tile, the first that may be covered: far from it, what differs by little
+    /// between steep slopes would be lost to rounding.
     pub(crate) groups: [Slopes; GROUPS],
+    pub(crate) first: [f32; 2],
     /// Its own normal.
     pub(crate) face: [f32; 3],
     /// Of flat ones the parts, and the opacity of the vertices.
@@ -30,20 +33,21 @@ pub(crate) struct MappedTriangle {
 }
 
 impl MappedTriangle {
-    /// One that lies near the tile, from the slopes of four numbers by their values at the corners.
+    /// One that lies near the tile, from the slopes of four numbers by their values at the corners, from the first
+    /// pixel on.
     #[inline(always)]
     pub(crate) fn small(
         vertices: &Vertices,
         (numbers, back): ([usize; 3], bool),
         (state, planes): (&State, &Planes),
-        mut slopes: impl FnMut([&[f32; 4]; 3]) -> Slopes,
+        (first, mut slopes): ([i32; 2], impl FnMut([&[f32; 4]; 3]) -> Slopes),
     ) -> Self {
         let mut groups = [Slopes::default(); GROUPS];
         for number in groups_of(state) {
             let side = back && is_of_side(state, number);
             groups[number] = slopes(numbers.map(|vertex| vertices.mapped.of(side, number, vertex)));
         }
-        Self::with(&groups, planes)
+        Self::with(&groups, first, planes)
     }
 
     /// Any other, by the corners that it was cut to.
@@ -51,9 +55,10 @@ impl MappedTriangle {
         vertices: &Vertices,
         (triangle, back): ([u8; 3], bool),
         (state, planes): (&State, &Planes),
-        gradient: &Gradient,
+        (first, gradient): ([i32; 2], &Gradient),
         corners: &[CutCorner; 3],
     ) -> Self {
+        let gradient = gradient.beginning_at(first);
         let mut groups = [Slopes::default(); GROUPS];
         for number in groups_of(state) {
             let side = back && is_of_side(state, number);
@@ -71,12 +76,13 @@ impl MappedTriangle {
             });
             groups[number] = gradient.slopes(values.each_ref());
         }
-        Self::with(&groups, planes)
+        Self::with(&groups, first, planes)
     }
 
-    fn with(groups: &[Slopes; GROUPS], planes: &Planes) -> Self {
-        let Slopes { base, dx, dy } = &planes.lead;
-        Self { inverse_w: [base[0], dx[0], dy[0]], groups: *groups, face: planes.face, ..Self::default() }
+    fn with(groups: &[Slopes; GROUPS], first: [i32; 2], planes: &Planes) -> Self {
+        let Slopes { dx, dy, .. } = &planes.lead;
+        let first = first.map(|pixels| pixels as f32);
+        Self { inverse_w: [dx[0], dy[0]], groups: *groups, first, face: planes.face, ..Self::default() }
     }
 }
 

@@ -64,7 +64,7 @@ impl MappedPixel<'_> {
     /// Four numbers.
     fn group(&self, group: usize) -> [f32; 4] {
         let Slopes { base, dx, dy } = &self.triangle.groups[group];
-        let [x, y] = self.place;
+        let [x, y] = each!(axis in 2 => self.place[axis] - self.triangle.first[axis]);
         each!(k in 4 => (base[k] + dx[k] * x + dy[k] * y) * self.w)
     }
 
@@ -80,7 +80,7 @@ impl MappedPixel<'_> {
         let all = self.group(UVS);
         let first = 2 * call.uv_set as usize;
         let uv = [all[first], all[first + 1]];
-        let [_, wx, wy] = self.triangle.inverse_w;
+        let [wx, wy] = self.triangle.inverse_w;
         let ways = [(dx, wx), (dy, wy)].map(|(slope, of_w)| {
             let way = each!(k in 2 => self.w * (slope[first + k] - uv[k] * of_w));
             each!(k in 2 => data.rows[k][0] * way[0] + data.rows[k][1] * way[1])
@@ -113,7 +113,7 @@ impl MappedPixel<'_> {
         let Some(solid) = &self.maps.solid else { return [1.0; 3] };
         let p = self.three(PLACE);
         let Slopes { dx, dy, .. } = &self.triangle.groups[PLACE];
-        let [_, wx, wy] = self.triangle.inverse_w;
+        let [wx, wy] = self.triangle.inverse_w;
         // As of images.
         let way = |slope: &[f32; 4], of_w: f32| each!(axis in 3 => self.w * (slope[axis] - p[axis] * of_w));
         solid.color_at(p, [way(dx, wx), way(dy, wy)])
@@ -179,7 +179,7 @@ impl MappedPixel<'_> {
         let [along_u, along_v] = lookup::gradient(&data.pyramid, &call.sampling, uv, d, call.channel);
         let rises = footprint.map(|[u, v]| data.amount * (along_u * u + along_v * v));
         // p = way·w, and ∂w = −w²·∂(1/w).
-        let [_, wx, wy] = self.triangle.inverse_w;
+        let [wx, wy] = self.triangle.inverse_w;
         let along = [(0, wx), (1, wy)].map(|(axis, of_w)| {
             let grown = -self.w * self.w * of_w;
             let mut way = way.map(|x| x * grown);

@@ -89,6 +89,12 @@ impl Gradient {
         }
     }
 
+    /// The same, from this pixel of the tile on.
+    pub(crate) fn beginning_at(self, pixel: [i32; 2]) -> Self {
+        let [i, j] = pixel.map(f64::from);
+        Self { x: self.x.map(|x| x - i), y: self.y.map(|y| y - j), ..self }
+    }
+
     /// The slopes of four numbers.
     pub(crate) fn slopes(&self, values: [&[f32; 4]; 3]) -> Slopes {
         let [x0, x1, x2] = self.x;

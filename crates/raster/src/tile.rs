@@ -222,11 +222,12 @@ impl Worker {
             let back = ready.back;
             ready.planes.set_face(&faces.each[usize::from(back)][number], work.state);
             if work.state.maps.is_some() {
+                let [left, _, top, _] = ready.edges.bounds;
                 let mut mapped = MappedTriangle::large(
                     vertices,
                     (triangle, back),
                     (work.state, &ready.planes),
-                    &ready.gradient,
+                    ([left, top], &ready.gradient),
                     &ready.corners,
                 );
                 faces.parts.set((&mut mapped, work.state), back, number);
@@ -302,8 +303,9 @@ impl Worker {
                 }
                 planes.set_face(&self.faces.each[usize::from(back)][number], work.state);
                 if work.state.maps.is_some() {
-                    let slopes = |values: [&[f32; 4]; 3]| Slopes::of_lane(&batch.slopes(simd, lane, values));
-                    let mut mapped = MappedTriangle::small(v, (numbers, back), (work.state, &planes), slopes);
+                    let slopes = |values: [&[f32; 4]; 3]| Slopes::of_lane(&batch.slopes_near(simd, lane, values));
+                    let first = [batch.bounds[0][lane], batch.bounds[2][lane]];
+                    let mut mapped = MappedTriangle::small(v, (numbers, back), (work.state, &planes), (first, slopes));
                     self.faces.parts.set((&mut mapped, work.state), back, number);
                     self.nearest.mapped_triangles.push(mapped);
                 }

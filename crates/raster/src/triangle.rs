@@ -337,6 +337,13 @@ impl Batch {
         self.slopes_from(simd, lane, [self.weights[4][lane], self.weights[5][lane]], values)
     }
 
+    /// The same of a lane that is not tiny, from the first pixel on that may be covered.
+    #[inline(always)]
+    pub(crate) fn slopes_near<S: Simd>(&self, simd: S, lane: usize, values: [&[f32; 4]; 3]) -> LaneSlopes<S> {
+        let to_first = each!(axis in 2 => self.weights[4 + axis][lane] + self.bounds[2 * axis][lane] as f32);
+        self.slopes_from(simd, lane, to_first, values)
+    }
+
     /// The nearness of a lane that is small, from 1/w and more at its corners.
     #[inline(always)]
     pub(crate) fn depth<S: Simd>(&self, simd: S, lane: usize, values: [&[f32; 4]; 3]) -> DepthPlane {
