@@ -276,10 +276,14 @@ fn what_costs_more_than_it_saves_stays_at_the_fragments() {
         at_vertices > 0 && 10 * pairs >= 9 * 4 * seen,
         "{at_vertices} at vertices, {pairs} pairs of {seen} patches"
     );
-    let (at_vertices, pairs, seen, off) = look(96, software);
-    assert!(pairs <= seen / 2, "{pairs} pairs of {seen} patches");
-    assert_eq!((at_vertices, off), (0, 0.0));
-    assert_eq!(Costs::CPU.vertices, VertexPrices::NEVER);
+    let (at_vertices, ..) = look(1024, Costs::CPU.vertices);
+    assert!(at_vertices > 0, "nothing is at the vertices by what it costs on the CPU");
+    for prices in [software, Costs::CPU.vertices] {
+        let (at_vertices, pairs, seen, off) = look(96, prices);
+        assert!(pairs <= seen / 2, "{pairs} pairs of {seen} patches");
+        assert_eq!((at_vertices, off), (0, 0.0));
+    }
+    assert_eq!(Costs::HARDWARE.vertices, VertexPrices::NEVER);
     let (at_vertices, pairs, _, off) = look(1024, VertexPrices::NEVER);
     assert_eq!((at_vertices, pairs, off), (0, 0, 0.0));
 }

@@ -66,13 +66,16 @@ pub struct VertexPrices {
 
 impl VertexPrices {
     /// Whatever the tolerance allows is shaded at the vertices, though that may be dearer.
-    pub const FREE: Self = Self { light: 0.0, pixel: 0.0, look: 0.0, draw: 0.0, ..Self::BY_HAND };
+    pub const FREE: Self = Self { light: 0.0, pixel: 0.0, look: 0.0, draw: 0.0, ..Self::BY_DRIVER };
     /// Nothing is, but what is coarser than its mesh.
     pub const NEVER: Self =
-        Self { light: f32::INFINITY, pixel: 0.0, look: f32::INFINITY, draw: f32::INFINITY, ..Self::BY_HAND };
+        Self { light: f32::INFINITY, pixel: 0.0, look: f32::INFINITY, draw: f32::INFINITY, ..Self::BY_DRIVER };
     /// Of an adapter that draws on the CPU by a driver: from `bench` on one machine with llvmpipe.
-    const BY_HAND: Self =
+    const BY_DRIVER: Self =
         Self { light: 3.0, pixel: 0.5, look: 8.0, draw: 900.0, diffuse_alone: 0.8, specular_alone: 0.9 };
+    /// Of the CPU without a driver: from `calibrate` on one machine with AVX-512, whose pixels are the cheapest.
+    const OF_CPU: Self =
+        Self { light: 0.2, pixel: 2.5, look: 200.0, draw: 1000.0, diffuse_alone: 0.35, specular_alone: 0.9 };
 
     /// Each with its name.
     pub fn named(&self) -> [(&'static str, f32); 6] {
@@ -120,7 +123,7 @@ impl Costs {
         maps_meshes: true,
         images_in_environments: true,
         nearest_corner: false,
-        vertices: VertexPrices::BY_HAND,
+        vertices: VertexPrices::BY_DRIVER,
     };
 
     /// Of a graphics card.
@@ -148,7 +151,7 @@ impl Costs {
         maps_meshes: true,
         images_in_environments: true,
         nearest_corner: true,
-        vertices: VertexPrices::NEVER,
+        vertices: VertexPrices::OF_CPU,
     };
 
     /// Of this adapter, or what the environment says of it.
