@@ -3,6 +3,8 @@
 use clap::Args;
 use halfway::render::{Calibration, VertexPrices};
 use serde_json::json;
+use std::io::ErrorKind;
+use std::path::Path;
 
 use crate::adapters::AdapterArgs;
 use crate::failure::Failure;
@@ -36,6 +38,7 @@ pub(crate) fn run(args: &CalibrateArgs) -> Result<(), Failure> {
     let kept = match &file {
         _ if !found.doubts.is_empty() => Err("they are not believed".to_owned()),
         None => Err("there is no folder; expected one in HALFWAY_CACHE, XDG_CACHE_HOME or HOME".to_owned()),
+        Some(file) if found.weight.is_none() => Err(forget(file)?),
         Some(file) => keep(file, &of, &found),
     };
     if args.json {
@@ -51,7 +54,7 @@ pub(crate) fn run(args: &CalibrateArgs) -> Result<(), Failure> {
                 "vertex_ns": found.vertex_ns,
                 "measured": named(&found.measured),
                 "fixed": named(&own),
-                "caution": found.caution,
+                "weight": found.weight,
                 "prices": named(&found.prices),
                 "trial": found.trial,
                 "doubts": found.doubts,
@@ -72,9 +75,11 @@ pub(crate) fn run(args: &CalibrateArgs) -> Result<(), Failure> {
     for ((meaning, (_, measured)), (_, own)) in MEANINGS.iter().zip(found.measured.named()).zip(own.named()) {
         println!("| {meaning} | {measured:.2} | {} |", if own.is_finite() { format!("{own}") } else { "never".into() });
     }
-    println!("\nA frame of a ball under four lights takes {:.2} times as long by these prices.", found.trial);
-    if found.caution > 1.0 {
-        println!("By less it took too long: looks and draws count {} times what was measured.", found.caution);
+    if found.doubts.is_empty() {
+        println!("\nFrames of a dome take {:.2} times as long by these prices as by those fixed", found.trial);
+    }
+    if let Some(weight) = found.weight {
+        println!("where looks and draws count {weight} times what was measured, which was the best of those tried.");
     }
     for doubt in &found.doubts {
         println!("not believed: {doubt}");
@@ -84,4 +89,36 @@ pub(crate) fn run(args: &CalibrateArgs) -> Result<(), Failure> {
         (kept, _) => println!("not kept: {}", kept.err().unwrap_or_default()),
     }
     Ok(())
+}
+
+/// Removes what was kept before: the adapter's own prices draw faster. Why nothing is kept.
+fn forget(file: &Path) -> Result<String, Failure> {
+    let why = "those fixed draw as fast";
+    match std::fs::remove_file(file) {
+        Ok(()) => Ok(format!("{why}; {} is removed", file.display())),
+        Err(error) if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => Ok(why.to_owned()),
+        Err(error) => Err(Failure::from(format!("{}: cannot be removed: {error}", file.display()))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn prices_that_no_longer_pay_are_removed() {
+        let folder = std::env::temp_dir().join(format!("halfway_forget_{}", std::process::id()));
+        std::fs::create_dir_all(&folder).expect("it can be made");
+        let file = folder.join("prices.json");
+        std::fs::write(&file, "{}").expect("it can be written");
+        let said = |file: &Path| forget(file).expect("it is gone");
+        assert!(said(&file).ends_with("prices.json is removed") && !file.exists());
+        assert_eq!(said(&file), "those fixed draw as fast");
+        assert_eq!(said(&std::env::current_exe().expect("a program").join("none")), "those fixed draw as fast");
+        let failure = forget(&folder).expect_err("a folder is no file");
+        assert!(
+            failure.code == 2 && failure.error.is_some_and(|error| error.to_string().contains("cannot be removed"))
+        );
+        std::fs::remove_dir(&folder).expect("it is empty");
+    }
 }

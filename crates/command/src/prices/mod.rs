@@ -194,7 +194,7 @@ mod tests {
             measured: VertexPrices::FREE,
             prices: VertexPrices::FREE,
             doubts: Vec::new(),
-            caution: 1.0,
+            weight: Some(1.0),
             trial: 1.0,
         };
         let program = std::env::current_exe().expect("a program");

@@ -79,7 +79,7 @@ mod tests {
             measured: PRICES,
             prices: PRICES,
             doubts: Vec::new(),
-            caution: 1.0,
+            weight: Some(1.0),
             trial: 0.9,
         };
         written(&of("1"), &found)

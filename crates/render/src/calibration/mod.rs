@@ -1,14 +1,17 @@
 //! What drawing costs on an adapter, measured by drawing.
 
 mod scenery;
+mod stages;
+mod trials;
 
 use crate::device::adapter::Adapter;
 use crate::device::costs::VertexPrices;
 use crate::error::RenderError;
-use scenery::{Stages, Times};
+use stages::{Stages, Times};
+use trials::{Trial, Trials};
 
 /// What drawing costs on an adapter, measured by drawing: small scenes that differ in one thing, in turns. Their frames
-/// take a second or two on the CPU and less on a graphics card.
+/// take two or three seconds on the CPU and less on a graphics card.
 ///
 /// ```no_run
 /// # use bevy_app::App;
@@ -32,14 +35,15 @@ pub struct Calibration {
     pub vertex_ns: f64,
     /// As they were found, also where they cannot be.
     pub measured: VertexPrices,
-    /// What to draw by: those measured, or the adapter's own where these are not believed.
+    /// What to draw by: those measured, or the adapter's own where these cannot be or draw faster.
     pub prices: VertexPrices,
-    /// Why those measured are not believed, in words; none where they are.
+    /// Why those measured cannot be, in words; none where they can.
     pub doubts: Vec<String>,
-    /// How many times what was measured a look and a draw count in `prices`: 1, or up to 16 where a frame took too long
-    /// by less.
-    pub caution: f32,
-    /// How long a frame takes by the prices measured, with such caution, as a multiple of one by the adapter's own.
+    /// How many times what was measured a look and a draw count in `prices`, ¼ to 4; `None` where those are the
+    /// adapter's own.
+    pub weight: Option<f32>,
+    /// How long frames take by the prices measured, with the best such weight, as a multiple of those by the adapter's
+    /// own; 1 where they were not tried, since they cannot be.
     pub trial: f64,
 }
 
@@ -47,9 +51,9 @@ pub struct Calibration {
 ///
 /// The first light at a pixel takes no less than nothing, and a light more than the lights after it: -1 where it is
 /// free, as on graphics cards that wait for something else meanwhile (-0.6 and -0.7 on an NVIDIA H200), and a tenth for
-/// noise.
+/// noise. A light at a vertex is found from frames of whose time it is a tenth.
 const BELIEVED: [(&str, f32, f32); 6] = [
-    ("light", 0.02, 500.0),
+    ("light", -3.0, 500.0),
     ("pixel", -1.1, 100.0),
     ("look", 0.01, 1e5),
     ("draw", -1.0, 1e7),
@@ -57,45 +61,39 @@ const BELIEVED: [(&str, f32, f32); 6] = [
     ("specular_alone", 0.05, 1.3),
 ];
 
+/// What a light at a vertex is taken for where noise has hidden it: less than on any adapter that was tried.
+const LEAST_LIGHT: f32 = 0.05;
+
 /// What a light can cost at a pixel, in nanoseconds.
 const BELIEVED_UNIT: [f64; 2] = [1e-4, 1e4];
 
-/// By how much longer a frame may take by prices that are believed than by the adapter's own: as much as the least
-/// times of the same frame differ on a machine that does something else as well.
-const MOST_LOST: f64 = 1.05;
-
-/// What no price stands for, as that triangles whose terms are in two places are drawn in a slower way, is told by a
-/// frame that takes too long. Then looks and draws are taken for twice as dear, up to so many times: what moves has to
-/// save more.
-const MOST_CAUTION: f32 = 16.0;
+/// As how many times what was measured looks and draws are tried. Less where patches beside each other have the same
+/// lights, so that one draw is enough for many; more for what no price stands for, as that triangles whose terms are in
+/// two places are drawn in a slower way.
+const WEIGHTS: [f32; 3] = [0.25, 1.0, 4.0];
 
 impl Calibration {
     /// Draws on the adapter and times it. What else the machine does at that time makes it less exact; prices that
-    /// cannot be are not taken.
+    /// cannot be, or that do not draw faster than the adapter's own, are not taken.
     ///
     /// # Errors
     /// What the adapter could not draw.
     pub fn measure(adapter: &Adapter) -> Result<Self, RenderError> {
-        let mut stages = Stages::new(adapter)?;
+        let mut stages = Stages::new(adapter);
         let times = stages.time()?;
-        let (unit_ns, vertex_ns, measured) = times.prices();
-        let own = adapter.costs().vertices;
-        let untried = Self::of(unit_ns, vertex_ns, measured, own, (1.0, 1.0));
-        if !untried.doubts.is_empty() {
-            return Ok(untried);
+        let found = Self::untried(&times, adapter.costs().vertices);
+        if !found.doubts.is_empty() {
+            return Ok(found);
         }
-        let (trial, caution) = tried(|caution| stages.trial(own, taken(measured, caution)))?;
-        Ok(Self::of(unit_ns, vertex_ns, measured, own, (trial, caution)))
+        let tried = WEIGHTS.map(|weight| taken(found.measured, weight));
+        let prices: Vec<_> = [found.prices].into_iter().chain(tried).collect();
+        let trials = stages.trials(&prices)?;
+        Ok(found.with_trials(&trials))
     }
 
-    /// Judges what was measured, and tried with some caution, on an adapter with prices of its `own`.
-    fn of(
-        unit_ns: f64,
-        vertex_ns: f64,
-        measured: VertexPrices,
-        own: VertexPrices,
-        (trial, caution): (f64, f32),
-    ) -> Self {
+    /// What was measured, on an adapter with prices of its `own`.
+    fn untried(times: &Times, own: VertexPrices) -> Self {
+        let (unit_ns, vertex_ns, measured) = times.prices();
         let mut doubts = Vec::new();
         let [least, most] = BELIEVED_UNIT;
         if !(least..=most).contains(&unit_ns) {
@@ -106,38 +104,37 @@ impl Calibration {
                 doubts.push(format!("{name}: {price} lights at a pixel; expected {least} to {most}"));
             }
         }
-        if trial.is_nan() || trial > MOST_LOST {
-            doubts.push(format!(
-                "a frame by these prices takes {trial:.2} times as long; expected no more than {MOST_LOST}"
-            ));
+        Self { unit_ns, vertex_ns, measured, prices: own, doubts, weight: None, trial: 1.0 }
+    }
+
+    /// With the weight by which frames take the shortest, if they are surely shorter than by the adapter's own prices:
+    /// number 0 of `trials`, before those of each of [`WEIGHTS`].
+    fn with_trials(self, trials: &Trials) -> Self {
+        let by_weight = (1..).zip(WEIGHTS).map(|(number, weight)| (weight, trials.of(number)));
+        let finite = by_weight.filter(|(_, trial)| trial.ratio.is_finite());
+        let Some((weight, trial)) = finite.min_by(|(_, one), (_, other)| one.ratio.total_cmp(&other.ratio)) else {
+            return self;
+        };
+        let Trial { ratio, .. } = trial;
+        if trial.is_faster() {
+            Self { prices: taken(self.measured, weight), weight: Some(weight), trial: ratio, ..self }
+        } else {
+            Self { trial: ratio, ..self }
         }
-        let prices = if doubts.is_empty() { taken(measured, caution) } else { own };
-        Self { unit_ns, vertex_ns, measured, prices, doubts, caution, trial }
     }
 }
 
-/// With the least caution by which a frame does not take too long, or the most there is: how long it takes, and that.
-fn tried(mut trial: impl FnMut(f32) -> Result<f64, RenderError>) -> Result<(f64, f32), RenderError> {
-    let mut caution = 1.0;
-    loop {
-        let found = trial(caution)?;
-        if found <= MOST_LOST || caution >= MOST_CAUTION {
-            return Ok((found, caution));
-        }
-        caution *= 2.0;
-    }
-}
-
-/// The prices to draw by, with so much caution; without what noise may have put a little outside of what they can be.
+/// The prices to draw by where looks and draws count so many times what was measured; without what noise may have put a
+/// little outside of what they can be.
 fn taken(
     VertexPrices { light, pixel, look, draw, diffuse_alone, specular_alone }: VertexPrices,
-    caution: f32,
+    weight: f32,
 ) -> VertexPrices {
     VertexPrices {
-        light,
+        light: light.max(LEAST_LIGHT),
         pixel: pixel.max(0.0),
-        look: caution * look,
-        draw: caution * draw.max(0.0),
+        look: weight * look,
+        draw: weight * draw.max(0.0),
         diffuse_alone: diffuse_alone.min(1.0),
         specular_alone: specular_alone.min(1.0),
     }
@@ -167,84 +164,88 @@ mod tests {
     use crate::device::cpu::Cpu;
 
     const OWN: VertexPrices = Costs::SOFTWARE.vertices;
+
+    /// A light at a pixel takes 2 ns.
+    const TIMES: Times = Times {
+        light_at_pixel: 2.0,
+        first_light_at_pixel: 3.0,
+        diffuse_at_pixel: 1.6,
+        specular_at_pixel: 1.8,
+        light_at_vertex: 7.0,
+        vertex: 30.0,
+        look: 24.0,
+        draw: 2600.0,
+    };
+
     const FOUND: VertexPrices =
-        VertexPrices { light: 2.0, pixel: 0.8, look: 12.0, draw: 500.0, diffuse_alone: 0.7, specular_alone: 0.8 };
+        VertexPrices { light: 3.5, pixel: 0.5, look: 12.0, draw: 1300.0, diffuse_alone: 0.8, specular_alone: 0.9 };
 
     #[test]
     fn prices_are_in_lights_at_a_pixel() {
-        let times = Times {
-            light_at_pixel: 2.0,
-            first_light_at_pixel: 3.0,
-            diffuse_at_pixel: 1.6,
-            specular_at_pixel: 1.8,
-            light_at_vertex: 7.0,
-            vertex: 30.0,
-            look: 24.0,
-            draw: 2600.0,
-        };
-        let (unit, vertex, prices) = times.prices();
-        assert_eq!((unit.to_bits(), vertex.to_bits()), (2f64.to_bits(), 30f64.to_bits()));
-        let expected =
-            VertexPrices { light: 3.5, pixel: 0.5, look: 12.0, draw: 1300.0, diffuse_alone: 0.8, specular_alone: 0.9 };
-        assert_eq!(prices, expected);
+        let Calibration { unit_ns, vertex_ns, measured, prices, doubts, weight, trial } =
+            Calibration::untried(&TIMES, OWN);
+        assert_eq!([unit_ns, vertex_ns, trial].map(f64::to_bits), [2.0, 30.0, 1.0].map(f64::to_bits));
+        assert_eq!((measured, prices, weight), (FOUND, OWN, None));
+        assert!(doubts.is_empty(), "{doubts:?}");
     }
 
     #[test]
     fn what_cannot_be_is_not_believed() {
-        let believed = Calibration::of(2.0, 30.0, FOUND, OWN, (1.01, 1.0));
-        assert_eq!((believed.prices, believed.doubts.len()), (FOUND, 0));
         let rows = [
-            ("light", Calibration::of(2.0, 30.0, VertexPrices { light: -0.1, ..FOUND }, OWN, (1.0, 1.0))),
-            ("pixel", Calibration::of(2.0, 30.0, VertexPrices { pixel: -2.0, ..FOUND }, OWN, (1.0, 1.0))),
-            ("look", Calibration::of(2.0, 30.0, VertexPrices { look: 0.0, ..FOUND }, OWN, (1.0, 1.0))),
-            ("draw", Calibration::of(2.0, 30.0, VertexPrices { draw: f32::INFINITY, ..FOUND }, OWN, (1.0, 1.0))),
-            (
-                "diffuse_alone",
-                Calibration::of(2.0, 30.0, VertexPrices { diffuse_alone: f32::NAN, ..FOUND }, OWN, (1.0, 1.0)),
-            ),
-            (
-                "specular_alone",
-                Calibration::of(2.0, 30.0, VertexPrices { specular_alone: 1.5, ..FOUND }, OWN, (1.0, 1.0)),
-            ),
-            ("a light at a pixel", Calibration::of(0.0, 30.0, FOUND, OWN, (1.0, 1.0))),
-            ("a light at a pixel", Calibration::of(f64::NAN, 30.0, FOUND, OWN, (1.0, 1.0))),
-            ("a frame by these prices takes 1.06", Calibration::of(2.0, 30.0, FOUND, OWN, (1.06, 1.0))),
-            ("a frame by these prices takes NaN", Calibration::of(2.0, 30.0, FOUND, OWN, (f64::NAN, 1.0))),
+            ("light", Times { light_at_vertex: -6.1, ..TIMES }),
+            ("pixel", Times { first_light_at_pixel: -2.0, ..TIMES }),
+            ("look", Times { look: 0.0, ..TIMES }),
+            ("draw", Times { draw: f64::INFINITY, ..TIMES }),
+            ("diffuse_alone", Times { diffuse_at_pixel: f64::NAN, ..TIMES }),
+            ("specular_alone", Times { specular_at_pixel: 3.0, ..TIMES }),
+            ("a light at a pixel", Times { light_at_pixel: 1e-9, ..TIMES }),
+            ("a light at a pixel", Times { light_at_pixel: f64::NAN, ..TIMES }),
         ];
-        for (name, found) in rows {
-            assert_eq!(found.prices, OWN, "{name}");
-            assert!(found.doubts.len() == 1 && found.doubts[0].starts_with(name), "{name}: {:?}", found.doubts);
+        for (name, times) in rows {
+            let found = Calibration::untried(&times, OWN);
+            assert_eq!((found.prices, found.weight), (OWN, None), "{name}");
+            assert!(found.doubts.iter().any(|doubt| doubt.starts_with(name)), "{name}: {:?}", found.doubts);
         }
     }
 
-    /// A frame that takes too long by what was measured may not where looks and draws are dearer.
+    /// Of two rounds of one scene that take so many times as long by prices of each weight.
+    fn trials(of: [f64; 3]) -> Trials {
+        Trials { scenes: vec![vec![[1.0].into_iter().chain(of).collect(); 2]] }
+    }
+
+    /// What draws the fastest is taken.
     #[test]
-    fn what_takes_too_long_is_tried_with_caution() {
-        let of = |frames: [f64; 6]| {
-            let mut frames = frames.into_iter();
-            let mut asked = Vec::new();
-            let found = tried(|caution| {
-                asked.push(caution);
-                Ok(frames.next().expect("no more is tried"))
-            });
-            (found.expect("it draws"), asked)
+    fn prices_are_tried() {
+        let with = |of: [f64; 3]| {
+            let found = Calibration::untried(&TIMES, OWN).with_trials(&trials(of));
+            assert!(found.doubts.is_empty() && found.measured == FOUND, "{found:?}");
+            (found.prices, found.weight, (1e3 * found.trial).round())
         };
-        let never = f64::INFINITY;
-        assert_eq!(of([1.05, never, never, never, never, never]), ((1.05, 1.0), vec![1.0]));
-        assert_eq!(of([1.16, 1.07, 1.02, never, never, never]), ((1.02, 4.0), vec![1.0, 2.0, 4.0]));
-        assert_eq!(of([1.16, 1.16, f64::NAN, 1.2, 1.1, never]), ((1.1, 16.0), vec![1.0, 2.0, 4.0, 8.0, 16.0]));
-        let found = Calibration::of(2.0, 30.0, FOUND, OWN, (1.02, 4.0));
         let VertexPrices { look, draw, .. } = FOUND;
-        assert_eq!(found.prices, VertexPrices { look: 4.0 * look, draw: 4.0 * draw, ..FOUND });
-        assert_eq!((found.measured, found.doubts.len()), (FOUND, 0));
-        assert_eq!(Calibration::of(2.0, 30.0, FOUND, OWN, (1.1, 16.0)).prices, OWN);
+        assert_eq!(with([1.2, 0.9, 0.95]), (FOUND, Some(1.0), 900.0));
+        let cheaper = VertexPrices { look: 0.25 * look, draw: 0.25 * draw, ..FOUND };
+        assert_eq!(with([0.8, 0.9, f64::NAN]), (cheaper, Some(0.25), 800.0));
+        let dearer = VertexPrices { look: 4.0 * look, draw: 4.0 * draw, ..FOUND };
+        assert_eq!(with([f64::INFINITY, 1.4, 0.97]), (dearer, Some(4.0), 970.0));
+        assert_eq!(with([1.4, 1.0, 1.1]), (OWN, None, 1000.0), "no faster than the adapter's own");
+        assert_eq!(with([1.4, 1.2, 1.1]), (OWN, None, 1100.0));
+        assert_eq!(with([f64::NAN; 3]), (OWN, None, 1000.0));
     }
 
     #[test]
     fn noise_does_not_make_prices_that_are_none() {
-        let found = VertexPrices { pixel: -0.7, draw: -0.5, diffuse_alone: 1.1, specular_alone: 1.19, ..FOUND };
-        let prices = Calibration::of(2.0, 30.0, found, OWN, (1.0, 1.0)).prices;
-        assert_eq!(prices, VertexPrices { pixel: 0.0, draw: 0.0, diffuse_alone: 1.0, specular_alone: 1.0, ..FOUND });
+        let times = Times {
+            first_light_at_pixel: 0.6,
+            diffuse_at_pixel: 2.2,
+            specular_at_pixel: 2.4,
+            light_at_vertex: -5.9,
+            draw: -1.0,
+            ..TIMES
+        };
+        let found = Calibration::untried(&times, OWN).with_trials(&trials([2.0, 0.9, 2.0]));
+        let prices =
+            VertexPrices { light: 0.05, pixel: 0.0, draw: 0.0, diffuse_alone: 1.0, specular_alone: 1.0, ..FOUND };
+        assert_eq!((found.prices, found.doubts), (prices, Vec::new()));
         assert_eq!(prices.validate(), Ok(()));
     }
 
@@ -255,7 +256,7 @@ mod tests {
         let found = Calibration::measure(&adapter).expect("it draws");
         println!("{found:#?}");
         assert_eq!(found.prices.validate(), Ok(()));
-        let own = found.prices == adapter.costs().vertices;
-        assert_eq!(own, !found.doubts.is_empty(), "{found:?}");
+        assert_eq!(found.prices == adapter.costs().vertices, found.weight.is_none(), "{found:?}");
+        assert!(found.doubts.is_empty() || found.weight.is_none(), "{found:?}");
     }
 }
