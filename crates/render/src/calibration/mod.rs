@@ -61,7 +61,8 @@ const BELIEVED: [(&str, f32, f32); 6] = [
     ("specular_alone", 0.05, 1.3),
 ];
 
-/// What a light at a vertex is taken for where noise has hidden it: less than on any adapter that was tried.
+/// What a light at a vertex is taken for where less was found: as little as on the cheapest adapter that was tried, the
+/// CPU without a driver (0.02 to 0.27), but for noise.
 const LEAST_LIGHT: f32 = 0.05;
 
 /// What a light can cost at a pixel, in nanoseconds.

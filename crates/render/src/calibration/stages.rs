@@ -304,9 +304,9 @@ mod tests {
     use super::*;
     use crate::device::cpu::Cpu;
 
-    /// What is kept takes no time, and would have no price.
+    /// What is kept takes no time, and would have no price; what stands still is timed when it is kept.
     #[test]
-    fn no_frame_that_is_timed_is_kept() {
+    fn no_moving_frame_that_is_timed_is_kept() {
         let adapter = Adapter::Cpu(Cpu::open().expect("threads"));
         let scenes = [
             (StagePlace::of_vertices(128), StagedScene::looked_at(LOOK)),
@@ -319,6 +319,11 @@ mod tests {
                 stage.frame().expect("a frame");
                 let FrameReport { kept, light_pairs, .. } = *stage.report();
                 assert!(!kept && light_pairs > 0, "{light_pairs} pairs");
+            }
+            // Nor is the first that stands still; those after it are.
+            for is_kept in [false, true, true] {
+                stage.still_frame().expect("a frame");
+                assert_eq!(stage.report().kept, is_kept);
             }
         }
     }
