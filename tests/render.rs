@@ -9,10 +9,8 @@
 
 mod render {
     mod adapter;
-    mod auto;
     mod blend;
     mod changes;
-    mod choices;
     mod closed_forms;
     mod coincident;
     mod colors;
@@ -31,13 +29,10 @@ mod render {
     mod failures;
     mod floats;
     mod globs;
-    mod kept;
     mod known_issues;
-    mod levels;
     mod light_counts;
     mod light_lists;
     mod maps;
-    mod multi_draw;
     mod order;
     mod painted;
     mod picture;
@@ -47,10 +42,8 @@ mod render {
     mod properties;
     mod random;
     mod reflection;
-    mod rough;
     mod samples;
     mod scene;
-    mod shells;
     mod sides;
     mod slivers;
     mod solids;

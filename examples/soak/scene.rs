@@ -152,14 +152,9 @@ impl Life {
         Ok(fresh)
     }
 
-    /// The picture once all levels of detail are made.
+    /// The picture once all pipelines are there.
     pub(crate) fn settled_picture(&mut self) -> Result<Picture, RenderError> {
-        // Levels are ordered by the second frame that sees a mesh.
         for _ in 0..3 {
-            self.app.update();
-        }
-        while self.app.world().resource::<FrameReport>().levels_pending > 0 {
-            std::thread::yield_now();
             self.app.update();
         }
         self.app.update();

@@ -3,7 +3,7 @@
 use crate::render::compare::{FLOAT, judge};
 use crate::render::conformance::colors::colored;
 use crate::render::scene::{Lamp, Scene, Thing, material, point_light};
-use crate::render::stage::{FULL, Stage};
+use crate::render::stage::Stage;
 use halfway::prelude::*;
 use halfway::reference::Image;
 
@@ -18,7 +18,7 @@ fn scene(mesh: Mesh, colors: Option<VertexColors>) -> Scene {
 #[test]
 fn colors_that_are_ignored_change_no_bit_and_cost_no_byte() {
     let sphere = Mesh::from(UvSphere::new(1.0, 24, 12));
-    for shading in [Shading::Flat, Shading::Gouraud, Shading::Phong, Shading::Auto] {
+    for shading in [Shading::Flat, Shading::Gouraud, Shading::Phong] {
         let drawn =
             [(sphere.clone(), None), (colored(sphere.clone()), Some(VertexColors::Ignore))].map(|(mesh, colors)| {
                 let mut stage = Stage::new(64, 48);
@@ -76,20 +76,5 @@ fn a_picture_without_the_colors_is_found_out() {
         stage.frame();
         let (verdict, _) = judge(&mut stage, &Image::from_float(&without), FLOAT);
         assert!(!verdict.is_within(), "{shading:?}: {verdict}");
-    }
-}
-
-#[test]
-fn meshes_with_colors_keep_all_their_triangles() {
-    let mut stage = Stage::new(64, 48);
-    // Large enough that the coarser levels of the one without colors are far fewer triangles.
-    let sphere = Mesh::from(UvSphere::new(1.0, 200, 101));
-    for (mesh, has_levels) in [(sphere.clone(), true), (colored(sphere), false)] {
-        stage.set(&scene(mesh, None));
-        let [all, coarse] = [FULL, Tolerance::DRAFT].map(|tolerance| {
-            stage.levels(tolerance);
-            stage.report().triangles
-        });
-        assert_eq!(coarse < all, has_levels, "{coarse} of {all}");
     }
 }

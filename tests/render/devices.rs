@@ -81,7 +81,6 @@ fn stages() -> Vec<(String, Stage)> {
 
 /// The picture once everything has settled.
 fn settled(stage: &mut Stage) -> image::RgbaImage {
-    stage.levels(Tolerance::DEFAULT);
     stage.compile();
     stage.bytes()
 }

@@ -186,16 +186,14 @@ fn dim() -> PointLight {
 fn highlights_that_cannot_be_seen_are_not_shaded() {
     let point: fn(Vec3) -> Lamp = |at| Lamp::point(dim(), at);
     let spot: fn(Vec3) -> Lamp = |at| Lamp::spot(SpotLight { light: dim(), cone: Cone::new(0.5) }, at, -at);
-    // On a software adapter highlights are shaded of none of the lights, of half of each kind or of all.
     let rows = [
-        ("none", (24, point), (0, point), 200.0, 24),
-        ("a few", (22, point), (2, point), 200.0, 24 + 12),
-        ("exactly half", (12, point), (12, point), 200.0, 24 + 12),
-        ("over half", (11, point), (13, point), 200.0, 24 + 24),
-        ("over half of an odd number", (13, point), (16, point), 200.0, 29 + 29),
-        ("a few of the spots", (12, spot), (4, spot), 200.0, 16 + 8),
-        ("all of the spots, none of the points", (16, point), (2, spot), 200.0, 18 + 18),
-        ("a power of two, which is as good as free", (24, point), (0, point), 256.0, 24 + 24),
+        ("none", (24, point), (0, point), 200.0),
+        ("a few", (22, point), (2, point), 200.0),
+        ("half", (12, point), (12, point), 200.0),
+        ("over half", (13, point), (16, point), 200.0),
+        ("a few of the spots", (12, spot), (4, spot), 200.0),
+        ("all of the spots, none of the points", (16, point), (2, spot), 200.0),
+        ("a power of two", (24, point), (0, point), 256.0),
     ];
     let frequencies = [
         ("flat", Shading::Flat, None),
@@ -205,7 +203,7 @@ fn highlights_that_cannot_be_seen_are_not_shaded() {
         ("highlights at vertices", Shading::Phong, Some((Frequency::Fragment, Frequency::Vertex))),
     ];
     let mut stage = Stage::new(32, 32);
-    for (row, (low, low_kind), (overhead, overhead_kind), shininess, bound) in rows {
+    for (row, (low, low_kind), (overhead, overhead_kind), shininess) in rows {
         for (frequency, shading, terms) in frequencies {
             let overhead_places = (0..overhead).map(|i| Vec3::new(0.1 * i as f32, 20.0, 0.0));
             let mut scene = small_floor(around(low).map(low_kind), overhead_places.map(overhead_kind), shininess);
@@ -213,10 +211,8 @@ fn highlights_that_cannot_be_seen_are_not_shaded() {
             floor.shading = Some(shading);
             floor.terms = terms.map(|(diffuse, specular)| Terms { diffuse, specular });
             stage.draw_bytes(&scene);
-            let FrameReport { lights_assigned, terms_shaded, .. } = *stage.report();
             let needed = (low + 2 * overhead) as u64;
-            let expected = if stage.costs().lights_at_fixed_places { bound } else { needed };
-            assert_eq!((lights_assigned, terms_shaded), (needed, expected), "{row}, {frequency}");
+            assert_eq!(stage.report().lights_assigned, needed, "{row}, {frequency}");
         }
     }
 }
@@ -233,32 +229,22 @@ fn highlights_left_out_change_no_picture() {
         ("the back of the floor", Shading::Phong, None, std::f32::consts::PI),
     ];
     for (row, shading, terms, turn) in rows {
-        let mut shaded = |shininess: f32| {
-            // A stage for all would run out of pipelines of their own.
-            let mut stage = Stage::new(72, 48);
-            let mut scene = hall(24, shading);
-            scene.lamps.extend(around(12).map(|at| Lamp::point(dim(), at)));
-            for thing in &mut scene.things {
-                *thing = thing.clone().of(Material { shininess, ..material() });
-                *thing = thing.clone().back(Material { shininess, ..other_material() }).faces(Faces::Both);
-                thing.terms = terms;
-            }
-            scene.things[0].frames = vec![rotated(turn, 0.0, 0.0)];
-            let row = format!("{row}, exponent {shininess}");
-            failures.draw(&row, &mut stage, &scene, FLOAT);
-            for (encoding, bars) in [(Encoding::Raw, SELECTED), (Encoding::Srgb, SRGB)] {
-                stage.encode(encoding);
-                let picture = stage.bytes();
-                let verdict = failures.compare_bytes(&format!("{row}, {encoding:?} bytes"), &mut stage, &picture, bars);
-                println!("{row}, {encoding:?} bytes: {verdict}; {} terms shaded", stage.report().terms_shaded);
-            }
-            (stage.report().terms_shaded, stage.costs().lights_at_fixed_places)
-        };
-        let (few, bound) = shaded(120.5);
-        // Nearly the same lists; on a software adapter highlights of this one are not left out. Drivers compile long.
-        if row == rows[1].0 {
-            let (all, _) = shaded(128.0);
-            failures.unless(!bound || few < all, || format!("{row}: {few} terms of {all} are shaded"));
+        // A stage for all would run out of pipelines of their own.
+        let mut stage = Stage::new(72, 48);
+        let mut scene = hall(24, shading);
+        scene.lamps.extend(around(12).map(|at| Lamp::point(dim(), at)));
+        for thing in &mut scene.things {
+            *thing = thing.clone().of(Material { shininess: 120.5, ..material() });
+            *thing = thing.clone().back(Material { shininess: 120.5, ..other_material() }).faces(Faces::Both);
+            thing.terms = terms;
+        }
+        scene.things[0].frames = vec![rotated(turn, 0.0, 0.0)];
+        failures.draw(row, &mut stage, &scene, FLOAT);
+        for (encoding, bars) in [(Encoding::Raw, SELECTED), (Encoding::Srgb, SRGB)] {
+            stage.encode(encoding);
+            let picture = stage.bytes();
+            let verdict = failures.compare_bytes(&format!("{row}, {encoding:?} bytes"), &mut stage, &picture, bars);
+            println!("{row}, {encoding:?} bytes: {verdict}; {} terms listed", stage.report().lights_assigned);
         }
     }
     failures.finish();

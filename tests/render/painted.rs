@@ -1,5 +1,4 @@
-//! Lists of many lights on objects with images: what texels leave of the light counts, and what is left out stays
-//! within the tolerance.
+//! Lists of many lights on objects with images: what is left out stays within the tolerance.
 
 use crate::render::random::Random;
 use crate::render::scene::{Lamp, Map, Scene, Thing};
@@ -61,48 +60,6 @@ fn drawn(stage: &mut Stage, scene: &Scene, steps: f32) -> (image::RgbaImage, u64
 
 fn stage() -> Stage {
     Stage::new(64, 48)
-}
-
-#[test]
-fn lights_are_left_out_where_texels_are_dark() {
-    let mut stage = stage();
-    let mut terms = |maps: Vec<(MapKind, Map)>| drawn(&mut stage, &floor(maps), 4.0).1;
-    let plain = terms(Vec::new());
-    let bright = terms(vec![(MapKind::Color, halves(1.0, 1.0)), (MapKind::Specular, halves(1.0, 1.0))]);
-    let dark = terms(vec![(MapKind::Color, halves(0.02, 0.02)), (MapKind::Specular, halves(0.02, 0.02))]);
-    let half = terms(vec![(MapKind::Color, halves(0.0, 0.04)), (MapKind::Specular, halves(0.04, 0.0))]);
-    println!("{plain} terms without images, {bright} of white ones, {half} of halves, {dark} of dark ones");
-    assert_eq!(plain, bright, "white images leave all");
-    assert!(dark * 2 < bright, "{dark} terms of dark images, {bright} of bright ones");
-    assert!(
-        dark < half && half * 4 < bright * 3,
-        "{half} terms of halves, {dark} of dark ones, {bright} of bright ones"
-    );
-}
-
-#[test]
-fn normals_of_images_that_lean_little_leave_highlights_out() {
-    let mut stage = stage();
-    let mut terms = |kind: MapKind, map: Map| {
-        let mut scene = floor(vec![(kind, map)]);
-        scene.lamps.clear();
-        // Low and far out, so that halfway vectors lean far.
-        for number in 0..60 {
-            let around = number as f32 * 0.1047;
-            let at = Vec3::new(40.0 * around.cos(), 6.0, 40.0 * around.sin());
-            let light = PointLight { attenuation: Attenuation::NONE, ..PointLight::from_color(LinearRgba::gray(0.02)) };
-            scene.lamps.push(Lamp::point(light, at));
-        }
-        scene.things[0].material.shininess = 400.0;
-        scene.things[0].material.diffuse = LinearRgba::BLACK;
-        drawn(&mut stage, &scene, 4.0).1
-    };
-    // Of heights nothing is known, whatever they are.
-    let any = terms(MapKind::Height, Map { amount: 0.0, ..waves(0.0) });
-    let [flat, low, steep] = [0.0, 0.05, 20.0].map(|height| terms(MapKind::Normal, waves(height)));
-    println!("{flat} terms of flat normals, {low} of low waves, {steep} of steep ones, {any} of any");
-    assert!(flat <= low && low * 2 < any, "{low} terms of low waves, {any} of any");
-    assert_eq!(steep, any);
 }
 
 /// In steps of 1/255 the most that a picture may be off: the tolerance, and half a step of rounding on both sides.

@@ -134,7 +134,7 @@ fn a_tolerance_holds_for_what_a_policy_makes_of_the_picture() {
         let mut scene = Scene::seen_from(Vec3::new(0.4, 0.3, 3.0), Vec3::ZERO).with(ball);
         for i in 0..24 {
             let angle = i as f32;
-            let light = PointLight::from_color(LinearRgba::rgb(0.4, 0.2, 0.3));
+            let light = PointLight::from_color(LinearRgba::rgb(0.4, 0.2, 0.3) * if i < 12 { 1.0 } else { 1e-3 });
             let at = Vec3::new(3.0 * angle.cos(), 3.0 * angle.sin(), 2.0);
             scene.lamps.push(crate::render::scene::Lamp::point(light, at));
         }
@@ -142,15 +142,13 @@ fn a_tolerance_holds_for_what_a_policy_makes_of_the_picture() {
         scene.things[0].shading = Some(Shading::Phong);
         stage.world().insert_resource(ViewTolerance(Tolerance::EXACT));
         let exact = stage.draw_bytes(&scene);
-        scene.things[0].shading = Some(Shading::Auto);
         for steps in [1.0, 4.0] {
             stage.world().insert_resource(ViewTolerance(Tolerance::steps(steps)));
             let drawn = stage.draw_bytes(&scene);
             let most = exact.iter().zip(drawn.iter()).map(|(a, b)| a.abs_diff(*b)).max().unwrap_or(0);
             // And half a step of rounding to either side.
             assert!(f32::from(most) <= steps + 1.0, "{name}: {most} steps of {steps}");
-            let spent = stage.report().steps_spent;
-            assert!(spent <= f64::from(steps) + 1e-6, "{name}: {spent} of {steps}");
+            assert!(stage.report().left_out > 0.0, "{name}: nothing is left out within {steps} steps");
         }
     }
 }

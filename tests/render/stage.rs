@@ -58,14 +58,6 @@ impl Stage {
         self.app.world_mut()
     }
 
-    /// Lets meshes be drawn at these levels of detail, and draws what stands until all its levels are made.
-    pub(crate) fn levels(&mut self, tolerance: Tolerance) {
-        self.world().insert_resource(ViewTolerance(tolerance));
-        self.wait_for(|report| report.levels_pending);
-        // Of a mesh that was there before none is pending, even if it is the first frame that shows it at this level.
-        self.frame();
-    }
-
     /// Draws what stands until all pipelines that are asked for are built.
     pub(crate) fn compile(&mut self) {
         self.wait_for(|report| report.pipelines_pending);

@@ -2,7 +2,6 @@
 
 mod adapters;
 mod bench;
-mod calibrate;
 mod chart;
 mod compare;
 mod convert;
@@ -12,7 +11,6 @@ mod info;
 mod input;
 mod look;
 mod picture;
-mod prices;
 mod progress;
 mod render;
 mod scenery;
@@ -51,9 +49,8 @@ enum Command {
     Render(render::RenderArgs),
     /// Show a scene or a model in a window
     ///
-    /// Left drag turns, right drag pans, the wheel zooms, Home resets; 1, 2, 3, 4 choose flat, Gouraud, Phong and
-    /// automatic shading, T the steps of the tolerance, B the reflectance, I the intensity policy; C shows in false
-    /// colours where terms are shaded, Escape or Q closes.
+    /// Left drag turns, right drag pans, the wheel zooms, Home resets; 1, 2, 3 choose flat, Gouraud and Phong shading, T
+    /// the steps of the tolerance, B the reflectance, I the intensity policy; Escape or Q closes.
     #[cfg(feature = "window")]
     View(view::ViewArgs),
     /// Say how far one picture is from another, and draw where
@@ -75,13 +72,6 @@ enum Command {
     Convert(convert::ConvertArgs),
     /// Time a benchmark scene in every shading, beside a constant colour; or what features cost
     Bench(bench::BenchArgs),
-    /// Measure what lights cost on the adapter, at vertices and at pixels, for automatic shading
-    ///
-    /// What is found is kept on disk, in halfway under `$XDG_CACHE_HOME` or else ~/.cache, or in `$HALFWAY_CACHE`, a
-    /// file for each adapter and driver, for `view` and `bench`; what writes pictures never takes it, so that they are
-    /// the same everywhere. The files may be deleted. Nothing else should run meanwhile. Exit code 0 also where nothing
-    /// could be kept.
-    Calibrate(calibrate::CalibrateArgs),
     /// Chart error against time of every method on a scene, and say what to choose; or of all scenes of the project's
     ///
     /// Writes a page that opens offline, index.html, and beside it chart.json, tables and drawings. Each file appears
@@ -127,7 +117,6 @@ fn main() -> ExitCode {
         Command::Info(args) => info::run(&args),
         Command::Convert(args) => convert::run(&args),
         Command::Bench(args) => bench::run(&args),
-        Command::Calibrate(args) => calibrate::run(&args),
         Command::Chart(args) => chart::run(&args),
         Command::Adapters => adapters::run(),
         Command::Schema => {

@@ -64,7 +64,7 @@ mod tests {
     fn tolerances_by_steps_and_pixels() {
         assert_eq!(parse("exact"), Ok(Tolerance::EXACT));
         assert_eq!(parse("0,0"), Ok(Tolerance::EXACT));
-        assert_eq!(parse("1"), Ok(Tolerance::DEFAULT));
+        assert_eq!(parse("1"), Ok(Tolerance { steps: 1.0, pixels: 0.5 }));
         assert_eq!(parse("2.5,0"), Ok(Tolerance::steps(2.5)));
         for bad in ["", "on", "-1", "1,-1", "inf", "NaN,1", "1px", "1,", ",1", "1,2,3", "Exact "] {
             assert!(parse(bad).is_err(), "{bad}");
@@ -79,6 +79,6 @@ mod tests {
             assert_eq!((option.as_str(), parse(value).ok()), ("--tolerance", given.given()), "{text}");
         }
         let none = ToleranceArgs { tolerance: None };
-        assert_eq!((none.arguments(), none.or(Tolerance::CLOSE)), (Vec::new(), Tolerance::CLOSE));
+        assert_eq!((none.arguments(), none.or(Tolerance::steps(2.0))), (Vec::new(), Tolerance::steps(2.0)));
     }
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use halfway::prelude::*;
-use halfway::reference::metrics::{Bars, FINENESS, Scale, Verdict, difference, judge, judge_moved, judge_on_grid};
+use halfway::reference::metrics::{Bars, Scale, Verdict, difference, judge, judge_on_grid};
 use halfway::reference::{Image, Oracle};
 use halfway::render::RenderError;
 
@@ -40,6 +40,12 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
         return judge_picture(args, input, file);
     }
     let tolerance = args.look.tolerance.or(Tolerance::EXACT);
+    if tolerance.pixels > 0.0 {
+        let pixels = tolerance.pixels;
+        let advice =
+            "coarser triangles are an estimate, which cannot be judged; `halfway compare` says how far they are off";
+        return Err(format!("--tolerance: {pixels} pixels; expected 0: {advice}").into());
+    }
     input.scene.tolerance = Some(tolerance);
     input.scene.objects.iter_mut().for_each(|object| object.tolerance = None);
     let size = input.resize(args.size);
@@ -63,24 +69,16 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
     let progress = Progress::of_tiles();
     let max = f64::from(args.max);
     let steps = f64::from(tolerance.steps);
-    let pixels = f64::from(tolerance.pixels);
     let bars = Bars { most: max, worst: max, equal: 0.0, ..Bars::bytes(encoding) }.within(steps);
-    let draw = |app: &mut App, values| {
-        if pixels > 0.0 {
-            // The second frame has coarser triangles.
-            draw(app, size, values)?;
-        }
-        draw(app, size, values)
-    };
-    let picture = draw(&mut app, Pixels::Byte)?;
-    let mut bytes = Drawn::new(&mut app, &picture, (size, pixels, bits), encoding, (0, &progress))?;
+    let picture = draw(&mut app, size, Pixels::Byte)?;
+    let mut bytes = Drawn::new(&mut app, &picture, (size, bits), encoding, (0, &progress))?;
     let of_bytes = bytes.judged(bars)?;
-    let float = match draw(&mut app, Pixels::Float) {
+    let float = match draw(&mut app, size, Pixels::Float) {
         // The bytes are judged all the same.
         Err(RenderError::FloatTarget { cannot }) => Err(cannot),
         drawn => {
             let bars = Bars::FLOAT.within(steps);
-            Ok(Drawn::new(&mut app, &drawn?, (size, pixels, bits), encoding, (1, &progress))?.judged(bars)?)
+            Ok(Drawn::new(&mut app, &drawn?, (size, bits), encoding, (1, &progress))?.judged(bars)?)
         }
     };
     drop(progress);
@@ -142,8 +140,7 @@ fn judge_picture(args: &VerifyArgs, mut input: SceneInput, file: &Path) -> Resul
     let expected = oracle
         .draw_with(&|done, of| progress.tile(0, 1, done, of))
         .map_err(|stopped| Failure::new(STOPPED, stopped))?;
-    let mut drawn =
-        Drawn { oracle, rounded: None, actual: Image::from_decoded(&picture, encoding), expected, moved: None };
+    let mut drawn = Drawn { oracle, rounded: None, actual: Image::from_decoded(&picture, encoding), expected };
     let found = drawn.judged(bars)?;
     drop(progress);
     if let Some(file) = &args.output {
@@ -192,15 +189,13 @@ struct Drawn {
     rounded: Option<(Oracle, u32)>,
     actual: Image,
     expected: Image,
-    /// How far what is drawn may be moved on the picture, and the oracle's finer picture.
-    moved: Option<(f64, Image)>,
 }
 
 impl Drawn {
     fn new(
         app: &mut App,
         picture: &Picture,
-        (size, pixels, bits): (UVec2, f64, u32),
+        (size, bits): (UVec2, u32),
         encoding: Encoding,
         (index, progress): (u32, &Progress),
     ) -> Result<Self, Failure> {
@@ -212,26 +207,16 @@ impl Drawn {
         let expected = oracle
             .draw_with(&|done, of| progress.tile(index, 2, done, of))
             .map_err(|stopped| Failure::new(STOPPED, stopped))?;
-        let moved = if pixels > 0.0 {
-            let fine = Oracle::new(app.world_mut(), size * FINENESS)?.with_clamping(is_clamped);
-            Some((pixels, fine.draw()))
-        } else {
-            None
-        };
         let rounded = Oracle::new(app.world_mut(), size)?.with_clamping(is_clamped);
-        Ok(Self { oracle, rounded: Some((rounded, bits)), actual, expected, moved })
+        Ok(Self { oracle, rounded: Some((rounded, bits)), actual, expected })
     }
 
     /// How right it is; asked once.
     fn judged(&mut self, bars: Bars) -> Result<Verdict, Failure> {
-        let Self { oracle, rounded, actual, expected, moved } = self;
-        match (moved, rounded.take()) {
-            (Some((pixels, fine)), rounded) => {
-                let bars = rounded.map_or(bars, |(_, bits)| bars.on_grid(bits));
-                judge_moved(oracle, (expected, fine), *pixels, actual, bars)
-            }
-            (None, Some(rounded)) => judge_on_grid((oracle, expected), rounded, actual, bars),
-            (None, None) => judge(oracle, expected, actual, bars),
+        let Self { oracle, rounded, actual, expected } = self;
+        match rounded.take() {
+            Some(rounded) => judge_on_grid((oracle, expected), rounded, actual, bars),
+            None => judge(oracle, expected, actual, bars),
         }
         .map_err(text)
     }

@@ -4,7 +4,6 @@ mod command {
     mod adapters;
     mod bad_input;
     mod bench;
-    mod calibrate;
     mod chart;
     mod models;
     mod pictures;
@@ -27,8 +26,6 @@ mod command {
         Command::new(env!("CARGO_BIN_EXE_halfway"))
             .args(arguments)
             .current_dir(folder)
-            // Prices that somebody has kept are not for tests.
-            .env("HALFWAY_CACHE", folder.join("cache"))
             .output()
             .expect("the command was built with this test")
     }

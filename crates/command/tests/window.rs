@@ -16,9 +16,7 @@ use std::process::Command;
 use std::thread::sleep;
 use std::time::Duration;
 
-use window::viewer::{
-    BETWEEN_LOOKS, Manager, Screen, Viewer, device_loser, eventually, same_framing, view, view_with_levels,
-};
+use window::viewer::{BETWEEN_LOOKS, Manager, Screen, Viewer, device_loser, eventually, same_framing, view};
 use window::wayland::Compositor;
 use x11rb::CURRENT_TIME;
 use x11rb::protocol::xproto::Keysym;
@@ -106,7 +104,7 @@ fn follows_keys_and_size(program: Command) {
 #[test]
 fn the_title_counts() {
     let screen = Screen::open();
-    let mut viewer = Viewer::run(&screen, view_with_levels());
+    let mut viewer = Viewer::run(&screen, view());
     viewer.shown("Phong, Blinn–Phong", None);
     // The first title comes before there is a rate of frames, and tells of the frame that uploads everything.
     let settled = |title: &String| title.contains(" fps · ") && title.contains(" · 0 B · ");
@@ -114,7 +112,7 @@ fn the_title_counts() {
     let (names, counted) = title.split_once(" — ").unwrap_or_else(|| panic!("no counters: {title}"));
     assert_eq!(names, "halfway – teapot.obj");
     // What shows only where there is some of it.
-    let sometimes = ["culled", "listed", "awaiting levels", "pending"];
+    let sometimes = ["culled", "listed", "pending"];
     let mut parts = counted.split(" · ").filter(|part| !sometimes.iter().any(|end| part.ends_with(end)));
     for noun in ["draw", "triangle", "light", "pipeline"] {
         let part = parts.next().unwrap_or_default();
@@ -136,7 +134,7 @@ fn the_title_counts() {
 #[test]
 fn pipelines_come_in_beside_the_frames() {
     let screen = Screen::open();
-    let mut viewer = Viewer::run(&screen, view_with_levels());
+    let mut viewer = Viewer::run(&screen, view());
     let settles = |viewer: &Viewer, pipelines: u32, shading: &str| {
         let counted = format!(" · {pipelines} pipelines · 0 B · ");
         let settled =

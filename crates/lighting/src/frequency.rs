@@ -14,6 +14,4 @@ pub enum Frequency {
     Vertex,
     /// At each fragment, with the interpolated normal.
     Fragment,
-    /// Of each light where that is cheapest: as at each fragment, within the [`Tolerance`](crate::Tolerance).
-    Auto,
 }

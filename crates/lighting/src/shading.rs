@@ -23,11 +23,6 @@ pub enum Shading {
     /// At each fragment with the interpolated, renormalised normal.
     #[default]
     Phong,
-    /// Phong, within the [`Tolerance`](crate::Tolerance): each term of each light is shaded at the vertices of a patch
-    /// of the surface where that changes no more, and at each fragment elsewhere. Blended objects, those
-    /// whose vertices have colours that count, and those that are scaled differently along different axes, are shaded
-    /// at each fragment.
-    Auto,
 }
 
 /// Where each term of an object's lights is evaluated, in place of its [`Shading`].
@@ -64,19 +59,12 @@ impl Terms {
         Self { diffuse: of(self.diffuse), specular: of(self.specular) }
     }
 
-    /// What `Auto` stands for: the terms at each fragment in its place.
-    #[must_use]
-    pub fn at_fragments(self) -> Self {
-        self.map(|term| if term == Frequency::Auto { Frequency::Fragment } else { term })
-    }
-
     /// Checks that the two frequencies can be drawn together.
     ///
     /// # Errors
     /// One term is evaluated once a triangle, and the other at the vertices or fragments.
     pub fn validate(&self) -> Result<(), InvalidValue> {
-        let other =
-            [Frequency::Vertex, Frequency::Fragment, Frequency::Auto].into_iter().find(|&other| self.has(other));
+        let other = [Frequency::Vertex, Frequency::Fragment].into_iter().find(|&other| self.has(other));
         match other.filter(|_| self.has(Frequency::Triangle)) {
             None => Ok(()),
             Some(other) => {
@@ -93,7 +81,6 @@ impl From<Shading> for Terms {
             Shading::Flat => Frequency::Triangle,
             Shading::Gouraud => Frequency::Vertex,
             Shading::Phong => Frequency::Fragment,
-            Shading::Auto => Frequency::Auto,
         })
     }
 }

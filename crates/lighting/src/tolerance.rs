@@ -1,4 +1,4 @@
-//! How far a picture may be off.
+//! How far a picture may differ from the exact one.
 
 use bevy_ecs::component::Component;
 use bevy_ecs::reflect::{ReflectComponent, ReflectResource};
@@ -13,55 +13,42 @@ use crate::range::Range;
 /// What each number of [`Tolerance`] means, for its documentation and for the schema of scene files.
 macro_rules! meaning {
     (steps) => {
-        "How far a channel may be off, in steps of 1/255 of the output."
+        "How much light may be left out of a pixel's channel, in steps of 1/255 of the output."
     };
     (pixels) => {
-        "How far a point may move on the picture, in pixels; 0 draws every mesh as it is."
+        "How far a point of a surface may move on the picture, in pixels; 0 draws every triangle."
     };
 }
 
-/// How far what is drawn may be from the same with every triangle, every light and every term at its place; under
-/// [`Shading::Auto`](crate::Shading::Auto) from Phong shading.
+/// How far a picture may differ from the exact one, which has every triangle and every light. Default: not at all.
 ///
-/// No channel of any pixel differs by more than `steps`/255 of the written picture, but for what moving the surface by
-/// at most `pixels` on the picture explains. Roundings of what draws come on top. Lights left out and what `Auto`
-/// shades at the vertices keep to proven bounds, and so does how far points move and normals turn on coarser triangles;
-/// what interpolation between the corners of coarser triangles adds, under Gouraud and Phong shading, is an estimate of
-/// the second order, at the terminator of the first; and a light that is nearer to a surface than those pixels may
-/// change it by more, as its points also move in depth.
+/// `steps` allows lights to be left out that are too weak to show: for each patch of a surface the weakest, as long as
+/// a proven bound of their *sum* changes no channel of any pixel by more than `steps`/255 of the written picture.
+/// Lights that add nothing, because they are out of range, behind the surface or outside of their cone, are always left
+/// out. In floating-point pictures no others are.
 ///
-/// Half of `steps` is for coarser triangles, where there are any and `pixels` is above 0. Of the rest, lights that are
-/// left out take as much as they can, under `Auto` no more than half of it; `Auto` takes what is left for terms that
-/// are shaded at the vertices.
-///
-/// In pictures of floating point a step is 1/255 of linear intensity, and no light is left out but those that add
-/// nothing.
+/// `pixels` allows coarser triangles where a mesh is finer than the picture: no point is meant to move by more than
+/// that. This is an estimate, not a bound.
 ///
 /// On an object it wins over the [`ViewTolerance`].
-#[derive(Component, Reflect, Clone, Copy, Debug, PartialEq)]
+#[derive(Component, Reflect, Clone, Copy, Debug, Default, PartialEq)]
 #[reflect(Component, Clone, Debug, Default, PartialEq)]
 pub struct Tolerance {
     #[doc = meaning!(steps)]
     ///
-    /// Finite, 0 or more. Default 1.
+    /// Finite, 0 or more. Default 0.
     pub steps: f32,
     #[doc = meaning!(pixels)]
     ///
-    /// Finite, 0 or more. Default ½.
+    /// Finite, 0 or more. Default 0.
     pub pixels: f32,
 }
 
 impl Tolerance {
-    /// Only what adds nothing is left out: what is hidden, out of range or turned away.
+    /// Every triangle is drawn, and every light that adds anything. The default.
     pub const EXACT: Self = Self { steps: 0.0, pixels: 0.0 };
-    /// One step and half a pixel.
-    pub const DEFAULT: Self = Self { steps: 1.0, pixels: 0.5 };
-    /// Two steps and half a pixel: hardly seen side by side.
-    pub const CLOSE: Self = Self { steps: 2.0, pixels: 0.5 };
-    /// Eight steps and one pixel: for a look.
-    pub const DRAFT: Self = Self { steps: 8.0, pixels: 1.0 };
 
-    /// So many steps, with every mesh as it is.
+    /// The given number of steps, with every mesh in full detail.
     pub const fn steps(steps: f32) -> Self {
         Self { steps, pixels: 0.0 }
     }
@@ -69,15 +56,9 @@ impl Tolerance {
     /// Checks both numbers.
     ///
     /// # Errors
-    /// One is negative or not finite.
+    /// Returns [`InvalidValue`] if one is negative or not finite.
     pub fn validate(&self) -> Result<(), InvalidValue> {
         validate(self, Fields::of("Tolerance"))
-    }
-}
-
-impl Default for Tolerance {
-    fn default() -> Self {
-        Self::DEFAULT
     }
 }
 

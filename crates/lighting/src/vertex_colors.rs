@@ -13,8 +13,6 @@ use bevy_reflect::std_traits::ReflectDefault;
 /// - Gouraud: each vertex is shaded with its own colour; intensities are interpolated, and so is the opacity.
 /// - Phong: the colour is interpolated, perspective-correctly, to each fragment.
 /// - Flat: the mean of the three corners' colours, at the centroid.
-/// - [`Frequency::Auto`](crate::Frequency::Auto) is [`Frequency::Fragment`](crate::Frequency::Fragment): under Gouraud
-///   shading it is the products of colour and light that are interpolated, for which there is no bound.
 #[derive(Component, Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[reflect(Component, Clone, Debug, Default, PartialEq, Hash)]
 pub enum VertexColors {

@@ -7,7 +7,6 @@
 //! [`FrameTimes`] says where its time went on the CPU, and [`GpuTimer`] how much of it the GPU took.
 
 mod batch;
-mod calibration;
 mod cpu;
 mod device;
 mod draw;
@@ -21,11 +20,9 @@ mod shaders;
 mod target;
 mod view;
 
-pub use batch::false_colors::FalseColors;
-pub use calibration::Calibration;
 pub use device::adapter::Adapter;
 pub use device::choice::AdapterChoice;
-pub use device::costs::{Costs, VertexPrices};
+pub use device::costs::Costs;
 pub use device::cpu::Cpu;
 pub use device::gpu::Gpu;
 pub use device::gpu_timer::GpuTimer;
@@ -35,7 +32,6 @@ pub use frame::report::FrameReport;
 pub use frame::sets::RenderSet;
 pub use frame::times::{FrameTimes, SetTimes};
 pub use lights::gather::Lights;
-pub use lights::memory::Choosing;
 pub use lights::terms::Chosen;
 pub use pipelines::compile::Compile;
 pub use plugin::RenderPlugin;

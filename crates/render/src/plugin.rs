@@ -1,14 +1,12 @@
 //! The plugin and the way of one frame.
 
 use crate::batch::batches::{self, Batches};
-use crate::batch::false_colors::FalseColors;
 use crate::batch::lit_patches::{self, LitPatches};
 use crate::cpu::draw as on_canvas;
 use crate::cpu::meshes::{self as mesh_pieces, MeshPieces};
 use crate::cpu::pass::{self as lists, PassLists};
 use crate::device::adapter::Adapter;
 use crate::device::choice::AdapterChoice;
-use crate::device::costs::VertexPrices;
 use crate::device::cpu::Cpu;
 use crate::device::gpu::Gpu;
 use crate::draw::meshes::{self as mesh_buffers, MeshBuffers};
@@ -18,9 +16,7 @@ use crate::frame::report::FrameReport;
 use crate::frame::sets::RenderSet;
 use crate::frame::times;
 use crate::geometry::meshes::{self, Geometries};
-use crate::geometry::workshop::Workshop;
 use crate::lights::gather::{self, Lights};
-use crate::lights::memory::Choosing;
 use crate::lights::surroundings::{self, Surroundings};
 use crate::lights::terms::{self, Chosen};
 use crate::pipelines::cache::{self, Pipelines};
@@ -74,8 +70,6 @@ impl Plugin for RenderPlugin {
             .init_resource::<Surroundings>()
             .init_resource::<LitPatches>()
             .init_resource::<Batches>()
-            .init_resource::<FalseColors>()
-            .init_resource::<Workshop>()
             .init_resource::<Geometries>()
             .init_resource::<MeshBuffers>()
             .init_resource::<Buffers>()
@@ -162,15 +156,12 @@ fn register_types(app: &mut App) {
     app.register_type::<AdapterChoice>()
         .register_type::<Headless>()
         .register_type::<CanvasTarget>()
-        .register_type::<Choosing>()
         .register_type::<Compile>()
-        .register_type::<FalseColors>()
         .register_type::<FrameReport>()
         .register_type::<View>()
         .register_type::<Visible>()
         .register_type::<ModelView>()
         .register_type::<NormalMatrix>()
-        .register_type::<VertexPrices>()
         .register_type::<Chosen>();
 }
 

@@ -110,7 +110,7 @@ pub struct AutoShading {
 
 impl Default for AutoShading {
     fn default() -> Self {
-        Self { tolerance: Tolerance::DEFAULT.steps }
+        Self { tolerance: 1.0 }
     }
 }
 
@@ -135,7 +135,7 @@ impl ShadingEntry {
             Self::Flat => Shading::Flat,
             Self::Gouraud => Shading::Gouraud,
             Self::Phong => Shading::Phong,
-            Self::Auto | Self::AutoWithin(_) => Shading::Auto,
+            Self::Auto | Self::AutoWithin(_) => Shading::Phong,
         }
     }
 

@@ -6,10 +6,10 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use halfway::prelude::*;
-use halfway::reference::metrics::{Bars, FINENESS, Verdict, judge, judge_moved};
+use halfway::reference::metrics::{Bars, Verdict, judge};
 use halfway::reference::{Image, Oracle, VertexGrid};
-use halfway::render::{Adapter, RenderError, VertexPrices};
-use halfway::scene::{MeshEntry, PlaneEntry, SceneFile, ShadingEntry, TeapotEntry, UvSphereEntry, spawn};
+use halfway::render::{Adapter, RenderError};
+use halfway::scene::{MeshEntry, PlaneEntry, SceneFile, TeapotEntry, UvSphereEntry, spawn};
 use serde_json::Value;
 
 use crate::shrink::shrink;
@@ -27,7 +27,7 @@ pub struct Judge {
     base_dir: PathBuf,
     grid: u32,
     four: bool,
-    tolerance: Option<(Tolerance, ShadingEntry)>,
+    steps: Option<f32>,
     fault: Option<Fault>,
     /// Only whether a picture is wrong is asked, and not how.
     until_wrong: bool,
@@ -61,10 +61,8 @@ pub struct Figures {
     pub float: Verdict,
     /// In bytes.
     pub bytes: Verdict,
-    /// How many terms of lights were shaded at vertices, of those in lists.
-    pub terms_at_vertices: u64,
-    /// How many triangles coarser ones saved.
-    pub triangles_saved: u64,
+    /// The most that was left out of the picture of bytes, in linear intensity.
+    pub left_out: f64,
 }
 
 impl Finding {
@@ -94,15 +92,7 @@ impl Judge {
     /// The adapter fails to draw what tells its grid.
     pub fn new(adapter: Adapter, base_dir: impl Into<PathBuf>) -> Result<Self, RenderError> {
         let grid = adapter.sub_pixel_bits()?.clamp(4, FINE);
-        Ok(Self {
-            adapter,
-            base_dir: base_dir.into(),
-            grid,
-            four: false,
-            tolerance: None,
-            fault: None,
-            until_wrong: false,
-        })
+        Ok(Self { adapter, base_dir: base_dir.into(), grid, four: false, steps: None, fault: None, until_wrong: false })
     }
 
     /// Draws and judges scenes with four samples a pixel as they are. Adapters differ in where they shade a pixel that
@@ -112,11 +102,11 @@ impl Judge {
         Self { four, ..self }
     }
 
-    /// Has everything drawn by this shading within this tolerance, and judged by the same and the tolerance, `Auto` by
-    /// Phong shading. Spheres, planes and teapots are made finer, so that they have patches.
+    /// Has everything drawn within so many steps, and judged by that. Spheres, planes and teapots are made finer, so
+    /// that they have patches.
     #[must_use]
-    pub fn with_tolerance(self, tolerance: Tolerance, shading: ShadingEntry) -> Self {
-        Self { tolerance: Some((tolerance, shading)), ..self }
+    pub fn within(self, steps: f32) -> Self {
+        Self { steps: Some(steps), ..self }
     }
 
     /// Gives the renderer another scene than the oracle.
@@ -159,12 +149,10 @@ impl Judge {
         let encoding = scene.output;
         let blended = scene.objects.iter().filter(|object| object.blend == Some(true)).count() as f64;
         let (mut drawn, mut judged) = (scene.clone(), scene.clone());
-        if let Some((_, shading)) = self.tolerance {
-            shade(&mut drawn, shading);
-            shade(&mut judged, if shading == ShadingEntry::Auto { ShadingEntry::Phong } else { shading });
+        if self.steps.is_some() {
             [&mut drawn, &mut judged].into_iter().for_each(refine);
         }
-        let tolerance = self.tolerance.map_or(Tolerance::EXACT, |(tolerance, _)| tolerance);
+        let steps = self.steps.unwrap_or(0.0);
         if let Some(fault) = self.fault {
             fault(&mut drawn);
         }
@@ -172,17 +160,14 @@ impl Judge {
         renderer.add_plugins(HalfwayPlugins::headless(size));
         self.adapter.clone().insert_into(renderer.world_mut());
         self.set_up(&mut renderer, &drawn)?;
-        renderer.insert_resource(ViewTolerance(tolerance));
-        // What is within the tolerance is tried whether it pays or not.
-        renderer.insert_resource(VertexPrices::FREE);
-        let pixels = tolerance.pixels.into();
-        let mut pictures = Pictures { renderer, oracle: App::new(), size, encoding, pixels, triangles_saved: 0 };
+        renderer.insert_resource(ViewTolerance(Tolerance::steps(steps)));
+        let mut pictures = Pictures { renderer, oracle: App::new(), size, encoding };
         pictures.oracle.add_plugins(HalfwayPlugins::reference());
         self.set_up(&mut pictures.oracle, &judged)?;
         pictures.oracle.update();
 
-        let steps = f64::from(tolerance.steps);
-        let limits = Limits { grid: self.grid, corners: None, blended, steps, until_wrong: self.until_wrong };
+        let limits =
+            Limits { grid: self.grid, corners: None, blended, steps: steps.into(), until_wrong: self.until_wrong };
         let exact = pictures.figures(limits);
         if exact.is_ok() {
             return exact;
@@ -206,12 +191,6 @@ impl Judge {
     }
 }
 
-/// Shades all of a scene alike.
-fn shade(scene: &mut SceneFile, shading: ShadingEntry) {
-    scene.shading = shading;
-    scene.objects.iter_mut().for_each(|object| object.shading = None);
-}
-
 /// Makes meshes so fine that there is something to choose, patch by patch.
 fn refine(scene: &mut SceneFile) {
     for object in &mut scene.objects {
@@ -232,10 +211,6 @@ struct Pictures {
     oracle: App,
     size: UVec2,
     encoding: Encoding,
-    /// How far what is drawn may be moved on the picture.
-    pixels: f64,
-    /// The most triangles that coarser ones saved.
-    triangles_saved: u64,
 }
 
 /// What the pictures have to keep to.
@@ -267,13 +242,8 @@ impl Pictures {
         } else if !bytes.is_within() {
             Err(Finding::Bytes(Box::new(bytes)))
         } else {
-            let terms_at_vertices = self.report().terms_at_vertices;
-            Ok(Figures { float, bytes, terms_at_vertices, triangles_saved: self.triangles_saved })
+            Ok(Figures { float, bytes, left_out: self.renderer.world().resource::<FrameReport>().left_out })
         }
-    }
-
-    fn report(&self) -> &FrameReport {
-        self.renderer.world().resource()
     }
 
     fn has_ties(&mut self, bits: u32) -> Result<bool, Finding> {
@@ -282,28 +252,14 @@ impl Pictures {
 
     fn judged(&mut self, pixels: Pixels, bars: Bars, corners: Option<VertexGrid>) -> Result<Verdict, Finding> {
         self.renderer.insert_resource(Headless { size: self.size, pixels });
-        let mut whole = 0;
-        if self.pixels > 0.0 {
-            // The second frame has coarser triangles.
-            render_picture(&mut self.renderer).map_err(refused::<RenderError>)?;
-            whole = self.report().triangles;
-        }
         let actual = match render_picture(&mut self.renderer).map_err(refused::<RenderError>)? {
             Picture::Byte(image) => Image::from_bytes(&image, self.encoding),
             Picture::Float(image) => Image::from_float(&image),
         };
-        self.triangles_saved = self.triangles_saved.max(whole.saturating_sub(self.report().triangles));
-        let mut oracle = |size| {
-            let oracle = Oracle::new(self.oracle.world_mut(), size).map_err(refused)?.with_clamping(bars.are_clamped());
-            Ok(if let Some(grid) = corners { oracle.on_grid(grid) } else { oracle })
-        };
-        let of_size = oracle(self.size)?;
-        let expected = of_size.draw();
-        if self.pixels > 0.0 {
-            let fine = oracle(self.size * FINENESS)?.draw();
-            return judge_moved(&of_size, (&expected, &fine), self.pixels, &actual, bars).map_err(refused);
-        }
-        judge(&of_size, &expected, &actual, bars).map_err(refused)
+        let oracle = Oracle::new(self.oracle.world_mut(), self.size).map_err(refused)?;
+        let oracle = oracle.with_clamping(bars.are_clamped());
+        let oracle = if let Some(grid) = corners { oracle.on_grid(grid) } else { oracle };
+        judge(&oracle, &oracle.draw(), &actual, bars).map_err(refused)
     }
 }
 

@@ -3,16 +3,13 @@
 //! [`scene`] draws a scene file by numbers: the same one for the same numbers on every machine. [`Judge`] draws it with
 //! an adapter and judges it as `halfway verify` does; [`shrink()`] makes what fails small. `cargo xtask wild` does all
 //! three.
-//! [`Animation`] judges the frames of one scene in which lights and camera move.
 //! Environments, and normals on objects, are a few small [`IMAGES`], which have to lie in the judge's folder.
 
-mod animation;
 mod judge;
 mod random;
 mod scenery;
 mod shrink;
 
-pub use animation::{Animation, FrameFigures};
 pub use judge::{Fault, Figures, Finding, Judge};
 pub use scenery::{IMAGES, scene};
 pub use shrink::{shrink, written};

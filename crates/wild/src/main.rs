@@ -8,11 +8,8 @@ use clap::Parser;
 use clap::builder::NonEmptyStringValueParser;
 use halfway::lighting::Tolerance;
 use halfway::output::write_text;
-use halfway::prelude::UVec2;
-use halfway::reference::metrics::Verdict;
-use halfway::render::{Adapter, AdapterChoice};
-use halfway::scene::ShadingEntry;
-use halfway_wild::{Animation, Finding, IMAGES, Judge, scene, written};
+use halfway::render::AdapterChoice;
+use halfway_wild::{IMAGES, Judge, scene, written};
 use serde_json::Value;
 
 /// Draws random scenes with the adapter and judges each by the oracle; makes what fails small and prints it.
@@ -40,17 +37,9 @@ struct Arguments {
     /// Draw scenes with four samples a pixel as they are, not with one
     #[arg(long)]
     four: bool,
-    /// Draw everything within a tolerance, STEPS of 255 and PIXELS, and judge it by that
-    #[arg(long, value_name = "STEPS[,PIXELS]", value_parser = tolerance)]
-    tolerance: Option<Tolerance>,
-    /// How everything is then shaded: flat, gouraud, phong, and judged by the same; or auto, and judged by Phong
-    /// shading
-    #[arg(long, value_name = "SHADING", default_value = "auto", value_parser = shading, requires = "tolerance")]
-    shading: ShadingEntry,
-    /// Draw no random scenes, but N frames of an animation by automatic shading, each within another tolerance of ½ to
-    /// 8 steps, and judge each; it has 300
-    #[arg(long, value_name = "FRAMES", conflicts_with_all = ["seed", "scenes", "first", "four", "tolerance"])]
-    animation: Option<u32>,
+    /// Draw everything within so many steps of 255, and judge it by that
+    #[arg(long, value_name = "STEPS", value_parser = steps)]
+    steps: Option<f32>,
     /// Judge a failure at most so often to make it small
     #[arg(long, value_name = "N", default_value_t = 500)]
     trials: usize,
@@ -59,23 +48,9 @@ struct Arguments {
     output: PathBuf,
 }
 
-fn tolerance(text: &str) -> Result<Tolerance, String> {
-    let (steps, pixels) = text.split_once(',').unwrap_or((text, "0"));
-    let numbers = steps.parse().ok().zip(pixels.parse().ok());
-    let tolerance = numbers.map(|(steps, pixels)| Tolerance { steps, pixels });
-    tolerance
-        .filter(|tolerance| tolerance.validate().is_ok())
-        .ok_or_else(|| "expected numbers such as 1 or 2,0.5".into())
-}
-
-fn shading(text: &str) -> Result<ShadingEntry, String> {
-    match text {
-        "flat" => Ok(ShadingEntry::Flat),
-        "gouraud" => Ok(ShadingEntry::Gouraud),
-        "phong" => Ok(ShadingEntry::Phong),
-        "auto" => Ok(ShadingEntry::Auto),
-        _ => Err("expected flat, gouraud, phong or auto".into()),
-    }
+fn steps(text: &str) -> Result<f32, String> {
+    let steps = text.parse().ok().filter(|&steps| Tolerance::steps(steps).validate().is_ok());
+    steps.ok_or_else(|| "expected a number, 0 or more, such as 0.5".into())
 }
 
 fn main() -> ExitCode {
@@ -103,15 +78,12 @@ struct LargestErrors {
 fn run(arguments: &Arguments) -> Result<u64, (u8, String)> {
     let choice = AdapterChoice { name: arguments.adapter.clone() };
     let adapter = choice.open().map_err(|error| (3, error.to_string()))?;
-    if let Some(frames) = arguments.animation {
-        return animate(adapter, frames).map_err(|finding| (1, finding.to_string()));
-    }
     println!("{}, seed {}", adapter.describe(), arguments.seed);
     write_images(&arguments.output).map_err(|error| (1, error))?;
     let judge = Judge::new(adapter, &arguments.output).map_err(|error| (3, error.to_string()))?;
     let mut judge = judge.with_four_samples(arguments.four);
-    if let Some(tolerance) = arguments.tolerance {
-        judge = judge.with_tolerance(tolerance, arguments.shading);
+    if let Some(steps) = arguments.steps {
+        judge = judge.within(steps);
     }
     let start = Instant::now();
     let (mut worst, mut failed) = (LargestErrors::default(), 0);
@@ -137,36 +109,6 @@ fn run(arguments: &Arguments) -> Result<u64, (u8, String)> {
         worst.float,
         worst.steps
     );
-    Ok(failed)
-}
-
-/// How many frames of the animation failed.
-fn animate(adapter: Adapter, frames: u32) -> Result<u64, Finding> {
-    println!("{}, {frames} frames of the animation", adapter.describe());
-    let start = Instant::now();
-    let mut animation = Animation::new(adapter, UVec2::new(96, 64))?;
-    let mut failed = 0;
-    let mut all = Vec::new();
-    for frame in 0..frames {
-        match animation.judge_frame(frame) {
-            Ok(figures) => all.push(figures),
-            Err(finding) => {
-                failed += 1;
-                println!("frame {frame} fails: {finding}");
-            }
-        }
-    }
-    println!("\n| steps | frames | off by at most, steps | sum of bounds at most | terms at vertices, of all frames |");
-    println!("|---|---|---|---|---|");
-    for steps in Animation::STEPS {
-        let of = || all.iter().filter(|figures| figures.steps.to_bits() == steps.to_bits());
-        let off = |verdict: &Verdict| verdict.worst / verdict.allowed * f64::from(steps);
-        let worst = of().map(|figures| off(&figures.verdict)).fold(0.0, f64::max);
-        let spent = of().map(|figures| figures.spent).fold(0.0, f64::max);
-        let at_vertices: u64 = of().map(|figures| figures.terms_at_vertices).sum();
-        println!("| {steps} | {} | {worst:.2} | {spent:.2} | {at_vertices} |", of().count());
-    }
-    println!("\n{frames} frames in {:.0} s: {failed} failed", start.elapsed().as_secs_f64());
     Ok(failed)
 }
 

@@ -4,9 +4,8 @@ use std::fs;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
-use halfway::prelude::Tolerance;
 use halfway::render::{Adapter, AdapterChoice};
-use halfway::scene::{MaterialEntry, SceneFile, ShadingEntry};
+use halfway::scene::{MaterialEntry, SceneFile};
 use halfway_wild::{Fault, Finding, Judge, scene, written};
 use serde_json::Value;
 
@@ -72,59 +71,43 @@ fn a_few_dozen_scenes_are_right() {
     }
 }
 
-/// What is drawn within a tolerance keeps to it, and uses it. `halfway-wild --tolerance` tries more.
+/// Scenes that are drawn within some steps keep to them. `halfway-wild --steps` tries more.
 #[test]
-fn automatic_shading_keeps_to_its_tolerance() {
-    let tolerances = [(0.5, 0.0), (1.0, 0.0), (2.0, 0.0), (4.0, 0.0), (1.0, 0.5), (8.0, 1.0)];
-    // A driver takes far longer to compile a scene's shaders than the CPU takes to draw it: each within one.
+fn light_lists_keep_to_their_steps() {
+    // A driver takes far longer to compile a scene's shaders than the CPU takes to draw it.
     for ((by, judge), scenes) in judges().into_iter().zip([2, 12]) {
         let mut judge = judge;
-        let (mut used, mut failures) = ([0; 6], Vec::new());
-        for (place, ((steps, pixels), used)) in (0..).zip(tolerances.into_iter().zip(&mut used)) {
-            judge = judge.with_tolerance(Tolerance { steps, pixels }, ShadingEntry::Auto);
-            for number in place * scenes..(place + 1) * scenes {
-                match judge.judge(&scene(SEED, number)) {
-                    Ok(figures) => *used += u64::from(figures.terms_at_vertices > 0),
-                    Err(finding) => failures.push(format!("scene {number} within {steps},{pixels}: {finding}")),
+        let (mut used, mut failures) = (0, Vec::new());
+        for (place, steps) in [0.5, 2.0, 8.0].into_iter().enumerate() {
+            judge = judge.within(steps);
+            let first = place as u64 * scenes;
+            for number in first..first + scenes {
+                match judge.judge(&with_many_lights(scene(SEED, number))) {
+                    Ok(figures) => used += u64::from(figures.left_out > 0.0),
+                    Err(finding) => failures.push(format!("scene {number} within {steps}: {finding}")),
                 }
             }
         }
         assert!(failures.is_empty(), "{by}:\n{}", failures.join("\n"));
-        // Of the few that a driver draws, all together tell.
-        let all: u64 = used.iter().sum();
-        assert!(all >= scenes, "{by}: in {all} of {} scenes anything is shaded at vertices", 6 * scenes);
-        let is_used = used.iter().all(|used| used * 6 >= scenes);
-        assert!(scenes < 6 || is_used, "{by}: anything is shaded at vertices in {used:?} of {scenes} scenes each");
+        assert!(used >= scenes, "{by}: lights are left out in {used} of {} scenes", 3 * scenes);
     }
 }
 
-/// So do coarser triangles under the other shadings, where they are drawn at all; flat shading keeps all of them.
-#[test]
-fn gouraud_and_phong_shading_keep_to_their_tolerance() {
-    for (steps, pixels) in [(1.0, 0.5), (8.0, 2.0)] {
-        for shading in [ShadingEntry::Gouraud, ShadingEntry::Phong] {
-            let judge = judge_of(&AdapterChoice::cpu()).with_tolerance(Tolerance { steps, pixels }, shading);
-            let (mut coarser, mut failures) = (0, Vec::new());
-            for number in 0..12 {
-                match judge.judge(&scene(SEED, number)) {
-                    Ok(figures) => coarser += u64::from(figures.triangles_saved > 0),
-                    Err(finding) => failures.push(format!("scene {number}: {finding}")),
-                }
-            }
-            assert!(failures.is_empty(), "{shading:?}, {steps} steps, {pixels} pixels:\n{}", failures.join("\n"));
-            assert!(
-                coarser >= 3,
-                "{shading:?}, {steps} steps, {pixels} pixels: {coarser} scenes have coarser triangles"
-            );
-        }
+/// The same scene with a dozen weak lights around what it has: more than a shader takes without lists.
+fn with_many_lights(mut scene: Value) -> Value {
+    let lights = scene["lights"].as_array_mut().expect("a list of lights");
+    for number in 0..12_u8 {
+        let (sin, cos) = (0.5 * f32::from(number)).sin_cos();
+        let position = [3.0 * cos, 0.4 * f32::from(number) - 2.0, 3.0 * sin];
+        lights.push(serde_json::json!({ "kind": "point", "position": position, "diffuse": [0.004, 0.004, 0.004], "specular": [0.004, 0.004, 0.004] }));
     }
+    scene
 }
 
-/// Gouraud shading in the place of what was chosen is found.
+/// Lights that are missing, and would show by more than was allowed, are found.
 #[test]
-fn a_choice_that_is_too_cheap_is_found() {
-    let judge = judge_of(&AdapterChoice::cpu()).with_tolerance(Tolerance::steps(1.0), ShadingEntry::Auto);
-    let judge = judge.with_fault(|scene| scene.shading = ShadingEntry::Gouraud).until_wrong();
+fn light_that_is_missing_is_found() {
+    let judge = judge_of(&AdapterChoice::cpu()).within(1.0).with_fault(without_last_light).until_wrong();
     let found = (0..16).filter(|&number| judge.judge(&scene(SEED, number)).is_err()).count();
     assert!(found >= 4, "found in {found} of 16 scenes");
 }

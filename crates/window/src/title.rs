@@ -47,7 +47,7 @@ struct Status<'a> {
     reflectance: Option<&'static str>,
     /// What becomes of intensities above 1, unless they are clamped.
     intensity: Option<&'static str>,
-    /// The steps that automatic shading keeps to.
+    /// How much light may be left out, in steps of 1/255.
     steps: Option<f32>,
 }
 
@@ -63,7 +63,7 @@ impl Status<'_> {
             self.shading.zip(self.reflectance).map(|(shading, reflectance)| format!("{shading}, {reflectance}")),
         );
         parts.extend(self.intensity.map(str::to_owned));
-        let steps = self.steps.filter(|_| self.shading == Some("Auto"));
+        let steps = self.steps.filter(|steps| *steps > 0.0);
         parts.extend(steps.map(|steps| format!("within {steps} of 255 steps")));
         let errors = self.report.map_or(0, |report| report.errors.len() as u64);
         parts.extend((errors > 0).then(|| count(errors, "error")));
@@ -84,7 +84,6 @@ fn counters(report: &FrameReport) -> Vec<String> {
         unless_0(report.patches_culled.into(), "patch", "culled"),
         Some(count(report.lights.into(), "light")),
         unless_0(report.lights_assigned, "term", "listed"),
-        unless_0(report.levels_pending.into(), "mesh", "awaiting levels"),
         Some(count(report.pipelines.into(), "pipeline")),
         unless_0(report.pipelines_pending.into(), "pipeline", "pending"),
         Some(bytes(report.bytes_uploaded)),
@@ -97,7 +96,6 @@ fn shading_name(shading: Shading) -> &'static str {
         Shading::Flat => "flat",
         Shading::Gouraud => "Gouraud",
         Shading::Phong => "Phong",
-        Shading::Auto => "Auto",
         _ => "other shading",
     }
 }
@@ -178,13 +176,7 @@ mod tests {
             ..FrameReport::default()
         };
         let failing = FrameReport { errors: vec![RenderError::NoCamera; 2], ..FrameReport::default() };
-        let saving = FrameReport {
-            patches_culled: 5_642,
-            lights_assigned: 1,
-            levels_pending: 1,
-            pipelines_pending: 6,
-            ..report.clone()
-        };
+        let saving = FrameReport { patches_culled: 5_642, lights_assigned: 1, pipelines_pending: 6, ..report.clone() };
         let full = || Status {
             program: "halfway",
             name: "teapot",
@@ -195,7 +187,7 @@ mod tests {
             shading: Some("Phong"),
             reflectance: Some("Blinn–Phong"),
             intensity: None,
-            steps: Some(2.0),
+            steps: Some(0.0),
         };
         let counted = "12 draws · 1.2 M triangles · 4 lights · 3 pipelines · 0 B";
         let shaded = "Phong, Blinn–Phong";
@@ -217,13 +209,13 @@ mod tests {
             ),
             (
                 Status { program: "", name: "", report: Some(&saving), ..Status::default() },
-                "12 draws · 1.2 M triangles · 5.6 k patches culled · 4 lights · 1 term listed · 1 mesh awaiting levels · \
+                "12 draws · 1.2 M triangles · 5.6 k patches culled · 4 lights · 1 term listed · \
                  3 pipelines · 6 pipelines pending · 0 B"
                     .into(),
             ),
             (
-                Status { shading: Some("Auto"), reflectance: Some("Phong"), steps: Some(0.5), ..Status::default() },
-                "Auto, Phong · within 0.5 of 255 steps".into(),
+                Status { shading: Some("flat"), reflectance: Some("Phong"), steps: Some(0.5), ..Status::default() },
+                "flat, Phong · within 0.5 of 255 steps".into(),
             ),
             (Status { intensity: Some("ACES"), ..Status::default() }, "ACES".into()),
             (Status { program: "halfway", ..Status::default() }, "halfway".into()),

@@ -1,4 +1,4 @@
-//! The viewer's keys: shading frequency, reflectance, intensity policy, tolerance, false colours, close.
+//! The viewer's keys: shading frequency, reflectance, intensity policy, tolerance, close.
 
 use crate::keys;
 use crate::orbit_camera::modified;
@@ -9,15 +9,14 @@ use bevy_input::keyboard::{KeyCode, KeyboardInput};
 use bevy_input::{ButtonInput, InputPlugin, InputSystems};
 use halfway_lighting::{Camera, Intensity};
 use halfway_lighting::{Reflectance, Shading, Tolerance, ViewTolerance};
-use halfway_render::{FalseColors, ModelView};
+use halfway_render::ModelView;
 
 /// Keys to compare shadings with, in `PreUpdate`:
 ///
 /// | key | what it does |
 /// |---|---|
-/// | 1, 2, 3, 4 | flat, Gouraud, Phong, automatic shading |
+/// | 1, 2, 3 | flat, Gouraud, Phong shading |
 /// | T | the tolerance: exact, ½, 1, 2, 4, 8 steps, and again; of pixels nothing changes |
-/// | C | false colours on and off ([`FalseColors`]) |
 /// | B | switches between Phong and Blinn–Phong reflectance |
 /// | I | what becomes of intensities above 1: clamp, renormalise, renormalise smoothly, Reinhard, ACES, and again |
 /// | Escape, Q | closes: [`AppExit::Success`] |
@@ -38,7 +37,7 @@ impl Plugin for ViewerKeysPlugin {
             app.add_plugins(InputPlugin);
         }
         app.init_resource::<Pressed>();
-        let systems = (read, (shading, reflectance, intensity, tolerance, false_colors, close)).chain();
+        let systems = (read, (shading, reflectance, intensity, tolerance, close)).chain();
         app.add_systems(PreUpdate, systems.after(InputSystems));
     }
 
@@ -91,7 +90,7 @@ where
 }
 
 fn shading(pressed: Res<Pressed>, mut choosers: Choosers<Shading>, mut commands: Commands) {
-    let keys = [('1', Shading::Flat), ('2', Shading::Gouraud), ('3', Shading::Phong), ('4', Shading::Auto)];
+    let keys = [('1', Shading::Flat), ('2', Shading::Gouraud), ('3', Shading::Phong)];
     for (_, shading) in keys.into_iter().filter(|&(key, _)| pressed.has(key)) {
         choose(shading, &mut choosers, &mut commands);
     }
@@ -161,12 +160,6 @@ fn tolerance(pressed: Res<Pressed>, of_view: Option<ResMut<ViewTolerance>>, mut 
     own.iter_mut().for_each(|mut own| own.steps = steps);
 }
 
-fn false_colors(pressed: Res<Pressed>, shown: Option<ResMut<FalseColors>>) {
-    if let Some(mut shown) = shown.filter(|_| pressed.has('c')) {
-        shown.0 = !shown.0;
-    }
-}
-
 fn close(pressed: Res<Pressed>, mut exits: MessageWriter<AppExit>) {
     if pressed.has('q') || pressed.has(ESCAPE) {
         exits.write(AppExit::Success);
@@ -205,9 +198,8 @@ mod tests {
             (KeyCode::Digit1, "1", Shading::Flat),
             (KeyCode::Digit2, "2", Shading::Gouraud),
             (KeyCode::Numpad3, "3", Shading::Phong),
-            (KeyCode::Digit4, "4", Shading::Auto),
         ];
-        for before in [Shading::Flat, Shading::Gouraud, Shading::Phong, Shading::Auto] {
+        for before in [Shading::Flat, Shading::Gouraud, Shading::Phong] {
             for (key_code, text, expected) in rows {
                 let mut app = app();
                 let bare_camera = app.world_mut().spawn(Camera::default()).id();
@@ -263,17 +255,12 @@ mod tests {
     #[test]
     fn t_goes_through_the_steps_of_the_tolerance() {
         let mut app = app();
-        app.insert_resource(ViewTolerance::default()).insert_resource(FalseColors::default());
+        app.insert_resource(ViewTolerance::default());
         let own = app.world_mut().spawn(Tolerance { steps: 3.0, pixels: 2.0 }).id();
-        for steps in [2.0, 4.0, 8.0, 0.0, 0.5, 1.0] {
+        for steps in [0.5, 1.0, 2.0, 4.0, 8.0, 0.0] {
             press(&mut app, KeyCode::KeyT, "t");
-            assert_eq!(app.world().resource::<ViewTolerance>().0, Tolerance { steps, pixels: 0.5 });
+            assert_eq!(app.world().resource::<ViewTolerance>().0, Tolerance { steps, pixels: 0.0 });
             assert_eq!(app.world().get::<Tolerance>(own), Some(&Tolerance { steps, pixels: 2.0 }));
-        }
-        assert!(!app.world().resource::<FalseColors>().0);
-        for shown in [true, false] {
-            press(&mut app, KeyCode::KeyC, "c");
-            assert_eq!(app.world().resource::<FalseColors>().0, shown);
         }
     }
 

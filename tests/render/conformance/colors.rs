@@ -32,11 +32,10 @@ fn lit() -> Scene {
 pub(super) type Change = (&'static str, fn(&mut Scene));
 
 /// The ways to shade.
-pub(super) const SHADINGS: [Change; 6] = [
+pub(super) const SHADINGS: [Change; 5] = [
     ("flat", |scene| scene.view_shading = Some(Shading::Flat)),
     ("gouraud", |scene| scene.view_shading = Some(Shading::Gouraud)),
     ("phong", |scene| scene.view_shading = Some(Shading::Phong)),
-    ("automatic", |scene| scene.view_shading = Some(Shading::Auto)),
     ("diffuse at vertices", |scene| terms(scene, Frequency::Vertex, Frequency::Fragment)),
     ("specular at vertices", |scene| terms(scene, Frequency::Fragment, Frequency::Vertex)),
 ];

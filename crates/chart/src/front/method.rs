@@ -113,7 +113,6 @@ impl Shade {
             Frequency::Triangle => "once a triangle",
             Frequency::Vertex => "at vertices",
             Frequency::Fragment => "at pixels",
-            Frequency::Auto => "automatic",
         };
         match self {
             Self::Mixed(Terms { diffuse, specular }) if diffuse != specular => {
@@ -133,7 +132,6 @@ fn at(frequency: Frequency) -> &'static str {
         Frequency::Triangle => "triangle",
         Frequency::Vertex => "vertex",
         Frequency::Fragment => "pixel",
-        Frequency::Auto => "auto",
     }
 }
 
@@ -224,7 +222,7 @@ impl Method {
             match self.shade {
                 Shade::At(shading) => object.insert(shading).remove::<Terms>(),
                 Shade::Mixed(terms) => object.insert(terms),
-                Shade::Auto(_) => object.insert(Shading::Auto).remove::<Terms>().remove::<Tolerance>(),
+                Shade::Auto(_) => object.insert(Shading::Phong).remove::<Terms>().remove::<Tolerance>(),
             };
             if let Some(reflectance) = self.reflectance {
                 object.insert(reflectance);

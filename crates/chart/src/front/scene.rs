@@ -38,7 +38,7 @@ impl SceneDetail {
 
     /// The tolerance of a method that keeps to `steps` steps, or to the default.
     pub(super) fn tolerance(self, steps: Option<f64>) -> Tolerance {
-        let Tolerance { steps: by_default, pixels } = Tolerance::DEFAULT;
+        let Tolerance { steps: by_default, pixels } = Tolerance { steps: 1.0, pixels: 0.5 };
         let steps = steps.map_or(by_default, |steps| steps as f32);
         match self {
             Self::Levels => Tolerance { steps, pixels },

@@ -50,7 +50,6 @@ pub fn shading_name(shading: Shading) -> &'static str {
         Shading::Flat => "flat",
         Shading::Gouraud => "Gouraud",
         Shading::Phong => "Phong",
-        Shading::Auto => "Auto",
         _ => "another",
     }
 }

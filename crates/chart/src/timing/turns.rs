@@ -44,14 +44,9 @@ pub fn settle(app: &mut App) -> Result<(), RenderError> {
     let mut last = None;
     let mut alike = 0;
     let mut frames = 0;
-    let start = Instant::now();
     while frames < MOST {
         frame(app)?;
         let report = app.world().get_resource::<FrameReport>();
-        if report.is_some_and(|report| report.levels_pending > 0) && start.elapsed() < PATIENCE {
-            std::thread::sleep(PAUSE);
-            continue;
-        }
         frames += 1;
         let now = report.map(|report| (report.pipelines, report.bytes_uploaded));
         alike = if now == last { alike + 1 } else { 0 };

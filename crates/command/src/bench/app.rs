@@ -6,7 +6,6 @@ use halfway_chart::timing::TimedLook;
 use super::args::{BenchArgs, BenchShading};
 use crate::failure::Failure;
 use crate::input::SceneInput;
-use crate::prices::PricesInUse;
 use crate::scenery::{Benchmark, BenchmarkScene};
 use crate::turntable::Turntable;
 
@@ -33,11 +32,10 @@ impl Timed {
         args.size.size.unwrap_or(own)
     }
 
-    pub(super) fn app(&self, args: &BenchArgs, mode: BenchShading, prices: &PricesInUse) -> Result<App, Failure> {
+    pub(super) fn app(&self, args: &BenchArgs, mode: BenchShading) -> Result<App, Failure> {
         let mut app = App::new();
         app.add_plugins(HalfwayPlugins::headless(self.size(args)));
         app.insert_resource(args.adapter.choice());
-        prices.insert_into(app.world_mut());
         let look = mode.look();
         match self {
             Self::Made(scene) => {
@@ -51,7 +49,7 @@ impl Timed {
             }
         }
         // Whatever the scene says.
-        app.insert_resource(ViewTolerance(mode.tolerance(args.tolerance.or(Tolerance::DEFAULT))));
+        app.insert_resource(ViewTolerance(mode.tolerance(args.tolerance.or(Tolerance::EXACT))));
         finish(&mut app);
         Ok(app)
     }

@@ -97,17 +97,15 @@ pub(crate) enum BenchShading {
     Flat,
     Gouraud,
     Phong,
-    Auto,
     /// Phong with all lights on the full mesh, whatever the tolerance: what is left out adds nothing. The other rows
     /// are beside it what the tolerance saves.
     ExactPhong,
 }
 
 impl BenchShading {
-    pub(super) const ALL: [Self; 6] =
-        [Self::Constant, Self::Flat, Self::Gouraud, Self::Phong, Self::Auto, Self::ExactPhong];
+    pub(super) const ALL: [Self; 5] = [Self::Constant, Self::Flat, Self::Gouraud, Self::Phong, Self::ExactPhong];
     /// The number of the last.
-    pub(super) const EXACT: usize = 5;
+    pub(super) const EXACT: usize = 4;
 
     pub(super) fn name(self) -> &'static str {
         match self {
@@ -115,7 +113,6 @@ impl BenchShading {
             Self::Flat => "flat",
             Self::Gouraud => "gouraud",
             Self::Phong => "phong",
-            Self::Auto => "auto",
             Self::ExactPhong => "exact-phong",
         }
     }
@@ -131,7 +128,6 @@ impl BenchShading {
             Self::Flat => TimedLook::Shaded(Shading::Flat),
             Self::Gouraud => TimedLook::Shaded(Shading::Gouraud),
             Self::Phong | Self::ExactPhong => TimedLook::Shaded(Shading::Phong),
-            Self::Auto => TimedLook::Shaded(Shading::Auto),
         }
     }
 }

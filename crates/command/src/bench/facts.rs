@@ -18,7 +18,7 @@ pub(super) fn spread(it: &Spread) -> Value {
 
 pub(super) fn counters(report: &FrameReport) -> Value {
     let counters = timing::counters(report).into_iter().map(|(name, count)| (name, json!(count)));
-    let all = counters.chain([("left_out", json!(report.left_out)), ("steps_spent", json!(report.steps_spent))]);
+    let all = counters.chain([("left_out", json!(report.left_out))]);
     all.map(|(name, value)| (name.to_owned(), value)).collect::<Map<_, _>>().into()
 }
 

@@ -8,7 +8,6 @@ use halfway_chart::timing::frame;
 use super::app::Timed;
 use super::args::{BenchArgs, BenchShading};
 use crate::failure::Failure;
-use crate::prices::PricesInUse;
 
 /// How a process got to its first frame.
 #[derive(Clone, Copy, Debug)]
@@ -25,7 +24,7 @@ const PROCESSES: usize = 3;
 /// In the process: draws the frame, and prints when it was finished and the memory.
 pub(super) fn once(args: &BenchArgs, timed: &Timed, mode: BenchShading) -> Result<(), Failure> {
     let adapter = args.adapter.choice().open()?;
-    let mut app = timed.app(args, mode, &PricesInUse::of(&adapter))?;
+    let mut app = timed.app(args, mode)?;
     adapter.insert_into(app.world_mut());
     frame(&mut app)?;
     println!("{} {}", now_ms(), peak_kb());

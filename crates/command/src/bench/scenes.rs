@@ -3,7 +3,7 @@
 use halfway::prelude::*;
 use halfway::render::{Adapter, RenderError};
 use halfway_chart::timing::{FRAME_TIME, Machine, Spread, median_ratio, settle};
-use serde_json::{Value, json};
+use serde_json::json;
 
 use super::app::Timed;
 use super::args::{BenchArgs, BenchShading};
@@ -11,7 +11,6 @@ use super::cpu::{self, CpuTimes, OWN_TIME};
 use super::facts::{counters, machine, print_facts, spread};
 use super::own_process::{FirstFrame, first_frame};
 use crate::failure::Failure;
-use crate::prices::PricesInUse;
 use crate::tolerance;
 
 /// What was measured of one shading.
@@ -27,9 +26,7 @@ struct Row {
 }
 
 pub(super) fn run(args: &BenchArgs, timed: &Timed) -> Result<(), Failure> {
-    let prices = PricesInUse::of(&args.adapter.choice().open()?);
-    let apps: Result<Vec<App>, Failure> =
-        BenchShading::ALL.iter().map(|mode| timed.app(args, *mode, &prices)).collect();
+    let apps: Result<Vec<App>, Failure> = BenchShading::ALL.iter().map(|mode| timed.app(args, *mode)).collect();
     let mut apps = apps?;
     for app in &mut apps {
         settle(app)?;
@@ -52,19 +49,18 @@ pub(super) fn run(args: &BenchArgs, timed: &Timed) -> Result<(), Failure> {
         });
     }
     if args.json {
-        print_json(args, timed, (&machine, &prices.json(&adapter)), &rows);
+        print_json(args, timed, &machine, &rows);
     } else {
-        print_table(args, timed, (&machine, &prices), &rows);
+        print_table(args, timed, &machine, &rows);
     }
     Ok(())
 }
 
-fn print_table(args: &BenchArgs, timed: &Timed, (machine, prices): (&Machine, &PricesInUse), rows: &[Row]) {
+fn print_table(args: &BenchArgs, timed: &Timed, machine: &Machine, rows: &[Row]) {
     let size = timed.size(args);
     let octahedra = if args.octahedra { ", spheres as octahedra" } else { "" };
     println!("scene: {}{octahedra}, {} × {} pixels, {} rounds", timed.name(), size.x, size.y, args.rounds);
-    println!("tolerance: {}", tolerance::describe(args.tolerance.or(Tolerance::DEFAULT)));
-    println!("prices of automatic shading: {}", prices.describe());
+    println!("tolerance: {}", tolerance::describe(args.tolerance.or(Tolerance::EXACT)));
     print_facts(machine);
     println!("\n{FRAME_TIME}\n{OWN_TIME}\n");
     let cold = if args.cold { ["first frame, no shaders kept, ms | ", "---|"] } else { [""; 2] };
@@ -87,9 +83,9 @@ fn print_table(args: &BenchArgs, timed: &Timed, (machine, prices): (&Machine, &P
     }
 }
 
-fn print_json(args: &BenchArgs, timed: &Timed, (machine, prices): (&Machine, &Value), rows: &[Row]) {
+fn print_json(args: &BenchArgs, timed: &Timed, machine: &Machine, rows: &[Row]) {
     let size = timed.size(args);
-    let Tolerance { steps, pixels } = args.tolerance.or(Tolerance::DEFAULT);
+    let Tolerance { steps, pixels } = args.tolerance.or(Tolerance::EXACT);
     let rows: Vec<_> = rows
         .iter()
         .map(|row| {
@@ -118,7 +114,6 @@ fn print_json(args: &BenchArgs, timed: &Timed, (machine, prices): (&Machine, &Va
             "size": size.to_array(),
             "tolerance": { "steps": steps, "pixels": pixels },
             "rounds": args.rounds,
-            "prices": prices,
             "machine": self::machine(machine),
             "frame": FRAME_TIME,
             "rows": rows,

@@ -207,8 +207,7 @@ impl Feature {
     }
 }
 
-/// A [`Feature`] where a [`FeatureStage`] shows what it costs, as a plugin. Nothing moves, and all triangles are drawn:
-/// levels of detail are off.
+/// A [`Feature`] where a [`FeatureStage`] shows what it costs, as a plugin. Nothing moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct FeatureScene {
     /// What is different.
@@ -220,11 +219,12 @@ pub(crate) struct FeatureScene {
 impl Plugin for FeatureScene {
     fn build(&self, app: &mut App) {
         let scene = *self;
-        app.insert_resource(GlobalAmbient(LinearRgba::rgb(0.1, 0.1, 0.1)))
-            .insert_resource(ViewTolerance(Tolerance { pixels: 0.0, ..Tolerance::DEFAULT }))
-            .add_systems(Startup, move |mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>| {
+        app.insert_resource(GlobalAmbient(LinearRgba::rgb(0.1, 0.1, 0.1))).add_systems(
+            Startup,
+            move |mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>| {
                 scene.spawn(&mut commands, meshes.add(scene.stage.mesh()));
-            });
+            },
+        );
     }
 }
 

@@ -30,7 +30,6 @@ impl Plugin for ManyLights {
     fn build(&self, app: &mut App) {
         let scene = *self;
         app.insert_resource(GlobalAmbient(LinearRgba::rgb(0.1, 0.1, 0.1)))
-            .insert_resource(ViewTolerance(Tolerance { pixels: 0.0, ..Tolerance::DEFAULT }))
             .add_systems(Startup, move |mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>| {
                 let floor = meshes.add(Plane { size: EDGE, divisions: CELLS });
                 commands.spawn((Mesh3d(floor), Material::BRASS, Shading::Phong, Reflectance::BlinnPhong));

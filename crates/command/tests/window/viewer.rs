@@ -30,21 +30,11 @@ fn by_a_driver(command: &mut Command) {
     }
 }
 
-/// The command that shows the teapot as it is, on whatever X display it will be told. Levels of detail would come in
-/// beside the frames, and one scene would have two pictures.
+/// The command that shows the teapot, on whatever X display it will be told.
 pub(crate) fn view() -> Command {
-    let mut command = view_with_levels();
-    command.args(["--tolerance", "exact"]);
-    command
-}
-
-/// The command that shows the teapot within the tolerance that everybody starts with.
-pub(crate) fn view_with_levels() -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_halfway"));
     command.args(["view", concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/teapot.obj")]);
     by_a_driver(&mut command);
-    // Prices that somebody has kept are not for tests.
-    command.env("HALFWAY_CACHE", "");
     command.env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET").stdin(Stdio::null());
     command
 }

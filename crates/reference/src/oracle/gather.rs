@@ -204,7 +204,7 @@ fn solid(
         reflectance: reflectance.copied().unwrap_or(seen.reflectance),
         faces: faces.copied().unwrap_or_default(),
         blend: blend.is_some(),
-        terms: terms.at_fragments(),
+        terms,
         maps: maps.map_or_else(Default::default, |maps| {
             let looks = |map: &SurfaceMap| {
                 let there = textures.and_then(|textures| textures.get(&map.texture));

@@ -15,8 +15,4 @@ pub(crate) trait Backend {
 
     /// Whether the instances of such a draw can look up their records. If not, each record is a draw.
     fn looks_up(&mut self, key: DrawKey) -> bool;
-
-    /// A number that is another once [`admit`](Self::admit) or [`looks_up`](Self::looks_up) may answer otherwise;
-    /// `None` where they may in any frame.
-    fn answers(&self) -> Option<u64>;
 }

@@ -16,8 +16,6 @@ pub(crate) struct Batches {
     /// In the order of the draws.
     pub(crate) instances: Vec<InstanceRecord>,
     pub(crate) draws: Draws,
-    /// What was reported of them, where the next frame may keep them.
-    report: FrameReport,
 }
 
 pub(crate) fn batch<B: Backend + Resource<Mutability = Mutable>>(
@@ -26,19 +24,11 @@ pub(crate) fn batch<B: Backend + Resource<Mutability = Mutable>>(
     mut batches: ResMut<Batches>,
     mut report: ResMut<FrameReport>,
 ) {
-    if lit.are_kept {
-        report.keep(&batches.report);
-        return;
-    }
     batches.instances.clear();
     batches.draws.begin(backend.costs().multi_draw);
     batches.emit(&mut lit, &mut *backend);
     report.draws = batches.draws.command_count() as u32;
     report.triangles = batches.draws.triangles();
-    if lit.sources.are_known() {
-        lit.sources.answered(backend.answers());
-        batches.report = report.clone();
-    }
 }
 
 impl Batches {

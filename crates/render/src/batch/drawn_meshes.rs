@@ -3,9 +3,8 @@
 use crate::batch::batches::Batches;
 use crate::error::RenderError;
 use crate::frame::report::FrameReport;
-use crate::geometry::detail::Detail;
-use crate::geometry::meshes::{Form, Geometries, Geometry};
-use crate::geometry::workshop::is_same;
+use crate::geometry::meshes::{Form, Geometries, Geometry, is_same};
+use crate::geometry::patches::Patches;
 use bevy_asset::AssetId;
 use bevy_platform::collections::HashMap;
 use halfway_mesh::Mesh;
@@ -21,7 +20,7 @@ pub(crate) struct DrawnMeshes<T> {
 struct DrawnMesh<T> {
     made: T,
     source: Mesh,
-    detail: Arc<Detail>,
+    patches: Arc<Patches>,
 }
 
 impl<T> Default for DrawnMeshes<T> {
@@ -62,7 +61,7 @@ impl<T> DrawnMeshes<T> {
             }
             let Some(geometry) = geometries.get_mut(key.0, key.1) else { continue };
             let there = self.meshes.get(&key).filter(|there| is_same(&there.source, &geometry.source));
-            if there.is_some_and(|there| Arc::ptr_eq(&there.detail, &geometry.detail)) {
+            if there.is_some_and(|there| Arc::ptr_eq(&there.patches, &geometry.patches)) {
                 continue;
             }
             let Some(triangles) = &geometry.triangles else { continue };
@@ -70,8 +69,8 @@ impl<T> DrawnMeshes<T> {
                 Ok((made, bytes)) => {
                     report.bytes_uploaded += bytes;
                     geometry.triangles = None;
-                    let (source, detail) = (geometry.source.clone(), Arc::clone(&geometry.detail));
-                    self.meshes.insert(key, DrawnMesh { made, source, detail });
+                    let (source, patches) = (geometry.source.clone(), Arc::clone(&geometry.patches));
+                    self.meshes.insert(key, DrawnMesh { made, source, patches });
                 }
                 Err(error) => {
                     self.meshes.remove(&key);

@@ -1,6 +1,5 @@
 //! Runs: neighbouring patches of an object that are drawn alike, and the order in which they are drawn.
 
-use crate::batch::key::DrawKey;
 use std::cmp::Ordering;
 use std::ops::Range;
 
@@ -25,34 +24,19 @@ pub(crate) struct LitRun {
     pub(crate) instance: u32,
 }
 
-/// A part that may go on with the next patch; or that next patch, whose key is looked at where it is.
-pub(super) struct OpenRun<Key> {
-    pub(super) key: Key,
-    pub(super) lights: u32,
+/// A run that may go on with the next patch.
+pub(super) struct OpenRun {
     pub(super) record: u32,
     pub(super) indices: Range<u32>,
-    /// Between its patches and others of the stretch there are only triangles that do not show.
-    pub(super) stretch: u32,
 }
 
 /// Triangles between patches of a run that are not seen are drawn with it if they are no more than this: that costs
 /// less than another draw.
 const JOINED: u32 = 128;
 
-impl OpenRun<&DrawKey> {
-    /// As a run of its own.
-    pub(super) fn begun(self) -> OpenRun<DrawKey> {
-        let Self { key, lights, record, indices, stretch } = self;
-        OpenRun { key: *key, lights, record, indices, stretch }
-    }
-}
-
-impl OpenRun<DrawKey> {
-    pub(super) fn goes_on_with(&self, next: &OpenRun<&DrawKey>) -> bool {
-        (self.lights, self.record, self.stretch) == (next.lights, next.record, next.stretch)
-            && next.indices.start - self.indices.end <= 3 * JOINED
-            // Last, as they take longest to compare.
-            && self.key == *next.key
+impl OpenRun {
+    pub(super) fn goes_on_with(&self, next: &Self) -> bool {
+        self.record == next.record && next.indices.start - self.indices.end <= 3 * JOINED
     }
 }
 

@@ -1,20 +1,18 @@
 //! What one object is drawn with: its key, its material record, and what light lists have to know of it.
 
 use crate::batch::key::{Cull, DrawKey, MapLooks};
-use crate::device::costs::{Costs, VertexPrices};
 use crate::geometry::meshes::PaintOf;
 use crate::lights::gather::Lights;
 use crate::lights::lists::Reflector;
 use crate::shaders::light_slots::Lists;
 use crate::shaders::records::{DrawRecord, MaterialRecord};
 use crate::view::camera::View;
-use bevy_asset::Assets;
 use bevy_math::Vec3;
 use halfway_lighting::equations::{Coefficients, specular_exponent};
 use halfway_lighting::{
     Encoding, Faces, Fields, Frequency, InvalidValue, Material, Problem, Reflectance, Terms, Viewer,
 };
-use halfway_texture::{MapKind, Maps, SolidKind, SolidTexture, Texture, WrongMap};
+use halfway_texture::{MapKind, Maps, SolidKind, SolidTexture, WrongMap};
 
 /// The components that say how an object reflects light.
 #[derive(Clone, Copy, Debug)]
@@ -55,14 +53,10 @@ pub(crate) struct Appearance {
 #[derive(Clone, Copy)]
 pub(crate) struct Shared<'a> {
     pub(crate) lights: &'a Lights,
-    pub(crate) textures: &'a Assets<Texture>,
     pub(crate) view: &'a View,
     /// What the bytes of the picture hold; `None` for floating point.
     pub(crate) encoding: Option<Encoding>,
     pub(crate) viewer: Viewer,
-    pub(crate) costs: Costs,
-    pub(crate) prices: VertexPrices,
-    pub(crate) false_colors: bool,
 }
 
 /// What an object's key takes from its place, its mesh and its shading.
@@ -174,7 +168,7 @@ impl Reflecting<'_> {
         };
         let key = DrawKey {
             blend: circumstances.blend,
-            lists: if terms.has(Frequency::Auto) { Lists::Listed } else { Lists::new(lights.counts) },
+            lists: Lists::new(lights.counts),
             terms,
             per_instance: false,
             blinn_phong: self.reflectance != Reflectance::Phong,

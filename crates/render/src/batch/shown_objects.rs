@@ -5,7 +5,6 @@ use crate::batch::object::{Reflecting, wrong_paint};
 use crate::batch::table::MapsUse;
 use crate::device::costs::Costs;
 use crate::geometry::meshes::{Form, Geometries, Geometry, Paint, PaintComponents};
-use crate::geometry::near_objects::ObjectBox;
 use crate::lights::surroundings::Surroundings;
 use crate::lights::terms::Chosen;
 use crate::view::camera::View;
@@ -17,7 +16,6 @@ use halfway_lighting::{
     BackMaterial, Blend, Faces, InvalidValue, Material, Reflectance, Terms, Tolerance, ViewTolerance,
 };
 use halfway_mesh::{Mesh, Mesh3d};
-use halfway_texture::Texture;
 
 type ObjectComponents = (
     &'static Mesh3d,
@@ -37,14 +35,12 @@ type ObjectComponents = (
 #[derive(SystemParam)]
 pub(crate) struct ShownObjects<'w, 's> {
     objects: Query<'w, 's, ObjectComponents>,
-    moved: Query<'w, 's, (), Changed<ModelView>>,
     meshes: Res<'w, Assets<Mesh>>,
     pub(super) geometries: Res<'w, Geometries>,
     visible: Res<'w, Visible>,
     pub(super) view: Res<'w, View>,
     of_view: Res<'w, ViewTolerance>,
     pub(super) surroundings: Res<'w, Surroundings>,
-    pub(super) textures: Res<'w, Assets<Texture>>,
 }
 
 /// One of them.
@@ -66,11 +62,6 @@ pub(super) struct ShownObject<'a> {
 }
 
 impl ShownObjects<'_, '_> {
-    /// Whether any was moved, or seen from elsewhere, since the system ran last.
-    pub(super) fn have_moved(&self) -> bool {
-        !self.moved.is_empty()
-    }
-
     /// The visible ones in spawn order, where these are the costs of drawing them.
     pub(super) fn iter(&self, costs: Costs) -> impl Iterator<Item = ShownObject<'_>> {
         self.visible.0.iter().filter_map(move |&entity| self.get(entity, costs))
@@ -105,25 +96,11 @@ impl ShownObjects<'_, '_> {
             wrong_paint: wrong_paint(components),
             lacks_environment,
             blend,
-            // Of blended patches all is drawn at once, and of products of colors and light there is no bound.
-            terms: if blend || paint.is_any() { chosen.0.at_fragments() } else { chosen.0 },
+            terms: chosen.0,
             tolerance: tolerance.copied().unwrap_or(self.of_view.0),
             model_view: placed.0,
             normal_matrix: placed.1,
         })
-    }
-
-    /// The boxes around them.
-    pub(super) fn boxes(&self) -> impl Iterator<Item = ObjectBox> {
-        self.visible.0.iter().map(|&entity| self.box_around(entity).unwrap_or(ObjectBox::NOWHERE))
-    }
-
-    fn box_around(&self, entity: Entity) -> Option<ObjectBox> {
-        let (mesh, .., blend, _, tolerance, (model_view, _), _, _) = self.objects.get(entity).ok()?;
-        let bounds = self.meshes.get(&mesh.0)?.bounds();
-        let radius = self.geometries.radius(mesh.0.id())?;
-        let pixels = if blend { 0.0 } else { tolerance.copied().unwrap_or(self.of_view.0).pixels };
-        Some(ObjectBox::new(&bounds, radius, model_view, pixels))
     }
 }
 

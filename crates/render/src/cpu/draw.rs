@@ -38,10 +38,6 @@ impl Backend for Cpu {
     fn looks_up(&mut self, _: DrawKey) -> bool {
         true
     }
-
-    fn answers(&self) -> Option<u64> {
-        Some(0)
-    }
 }
 
 /// Makes the memory ready that the frame is drawn into.

@@ -151,7 +151,6 @@ impl Gpu {
             multi_draw: costs.multi_draw.filter(|_| can_multi_draw),
             maps_meshes: costs.maps_meshes && features.contains(wgpu::Features::MAPPABLE_PRIMARY_BUFFERS),
             images_in_environments: costs.images_in_environments && self.costs.images_in_environments,
-            nearest_corner: false,
             ..costs
         };
     }

@@ -258,7 +258,7 @@ pub(crate) fn upload(
     gpu: Res<Gpu>,
     pipelines: Res<Pipelines>,
     view: Res<View>,
-    mut lit: ResMut<LitPatches>,
+    lit: Res<LitPatches>,
     mut batches: ResMut<Batches>,
     mut buffers: ResMut<Buffers>,
     mut report: ResMut<FrameReport>,
@@ -271,7 +271,6 @@ pub(crate) fn upload(
         Err(error) => {
             report.errors.push(error);
             batches.draws.clear();
-            lit.sources.forget();
         }
     }
 }

@@ -1,40 +1,29 @@
-//! Meshes laid out for drawing: in patches, and with levels of detail.
+//! Meshes laid out for drawing.
 
-use crate::frame::report::FrameReport;
-use crate::geometry::detail::{Detail, MeshTriangles};
-use crate::geometry::uv_boxes::UvBoxes;
-use crate::geometry::workshop::{Workshop, is_same};
+use crate::geometry::patches::{MeshTriangles, Patches};
 use crate::lights::surroundings::Surroundings;
 use crate::lights::terms::Chosen;
-use crate::target::canvas::CanvasTarget;
-use crate::target::surface::SurfaceTarget;
-use crate::target::texture::TextureTarget;
 use crate::view::matrices::Visible;
 use bevy_asset::{AssetId, Assets};
 use bevy_ecs::prelude::*;
+use bevy_math::{Vec2, Vec4};
 use bevy_platform::collections::HashMap;
-use halfway_lighting::{Blend, Frequency, Mask, Terms, Tolerance, VertexColors, ViewTolerance};
+use halfway_lighting::{Blend, Frequency, Mask, Terms, VertexColors};
 use halfway_mesh::{Mesh, Mesh3d};
-use halfway_raster::Pieces;
 use halfway_texture::{MapKind, Maps, SolidTexture, SurfaceMap, UvSet};
 use std::sync::Arc;
 
 /// One mesh, laid out for one way of shading.
 pub(crate) struct Geometry {
-    /// The runs of its triangles.
-    pub(crate) detail: Arc<Detail>,
+    pub(crate) patches: Arc<Patches>,
     /// What it was made of; a mesh is immutable and shares its data, so the same data is the same mesh.
     pub(crate) source: Mesh,
     /// What is drawn: the same, with tangents where they were asked for.
     pub(crate) drawn: Mesh,
     /// Some interpolated normal may vanish, so that Phong shading needs the geometric one at hand.
     pub(crate) opposite_normals: bool,
-    /// Where its patches lie on images; of meshes that have coordinates and are laid out for images.
-    pub(crate) uv_boxes: UvBoxes,
     /// Which vertices make triangles, in the order in which they are drawn; until what draws it has taken them.
     pub(crate) triangles: Option<Arc<Vec<[u32; 3]>>>,
-    /// The same as the CPU draws them, where they have been made ready beside the frames.
-    pub(crate) pieces: Option<Arc<Pieces>>,
 }
 
 /// How a mesh is laid out for drawing.
@@ -94,10 +83,6 @@ impl<'a> Paint<'a> {
         Self { colored, maps, mask, solid, surrounded }
     }
 
-    pub(crate) fn is_any(&self) -> bool {
-        self.colored || self.is_mapped()
-    }
-
     /// Whether there are images, a mask, a solid or an environment.
     pub(crate) fn is_mapped(&self) -> bool {
         self.surrounded || self.mask.is_some() || self.solid.is_some() || self.has_images()
@@ -117,14 +102,10 @@ impl<'a> Paint<'a> {
 #[derive(Resource, Default)]
 pub(crate) struct Geometries {
     meshes: HashMap<(AssetId<Mesh>, Form), Geometry>,
-    /// How far the points of each mesh are from the middle of its bounds, at most.
-    radii: HashMap<AssetId<Mesh>, f32>,
     /// How many there were, and how many assets, when those that are gone were last looked for.
     looked: (usize, usize),
     /// How many meshes have been forgotten since the start.
     pub(crate) forgotten: u64,
-    /// How often a mesh was laid out or forgotten since the start.
-    pub(crate) changes: u64,
 }
 
 impl Geometries {
@@ -136,110 +117,84 @@ impl Geometries {
         self.meshes.get_mut(&(id, form))
     }
 
-    /// How far the points of a mesh that has been drawn are from the middle of its bounds, at most.
-    pub(crate) fn radius(&self, id: AssetId<Mesh>) -> Option<f32> {
-        self.radii.get(&id).copied()
-    }
-
     /// Forgets all meshes, as if none had been drawn.
     pub(crate) fn forget_all(&mut self) {
         self.forgotten += self.meshes.len() as u64;
-        self.changes += 1;
         self.meshes.clear();
-        self.radii.clear();
     }
 
-    /// Lays the mesh out unless it is, and its levels of detail once they are there.
-    fn ensure(&mut self, (id, form): (AssetId<Mesh>, Form), mesh: &Mesh, levels: Option<&MeshTriangles>) {
-        let there = self.meshes.get(&(id, form)).filter(|geometry| is_same(&geometry.source, mesh));
-        if there.is_some_and(|there| levels.is_none_or(|levels| Arc::ptr_eq(&levels.detail, &there.detail))) {
+    /// Lays the mesh out unless it is.
+    fn ensure(&mut self, (id, form): (AssetId<Mesh>, Form), mesh: &Mesh) {
+        if self.meshes.get(&(id, form)).is_some_and(|geometry| is_same(&geometry.source, mesh)) {
             return;
         }
         // Tangents split vertices, and nothing else changes.
         let dressed = form.tangents.filter(|_| mesh.tangents().is_none());
         let dressed = dressed.and_then(|set| mesh.clone().with_tangents_of(set as usize).ok());
-        let drawn = dressed.as_ref().unwrap_or(mesh);
-        let opposite_normals =
-            there.map_or_else(|| !form.flat && has_opposite_normals(mesh), |there| there.opposite_normals);
-        let MeshTriangles { corners, detail, pieces } = match levels {
-            Some(levels) => levels.clone(),
-            None if form.ordered => MeshTriangles::in_order(drawn),
-            None => MeshTriangles::in_patches(drawn),
-        };
-        let has_uvs = form.mapped && [0, 1].iter().any(|&set| drawn.uv_set(set).is_some());
-        let uv_boxes = if has_uvs { UvBoxes::new(drawn, &corners, &detail) } else { UvBoxes::default() };
-        let drawn = drawn.clone();
-        self.radii.insert(id, detail.whole.radius());
-        self.changes += 1;
+        let drawn = dressed.unwrap_or_else(|| mesh.clone());
+        let opposite_normals = !form.flat && has_opposite_normals(mesh);
+        let MeshTriangles { corners, patches } =
+            if form.ordered { MeshTriangles::in_order(&drawn) } else { MeshTriangles::in_patches(&drawn) };
         let triangles = Some(corners);
-        let geometry = Geometry { detail, source: mesh.clone(), drawn, opposite_normals, uv_boxes, triangles, pieces };
+        let geometry = Geometry { patches, source: mesh.clone(), drawn, opposite_normals, triangles };
         self.meshes.insert((id, form), geometry);
     }
 }
 
-/// What is drawn into where it is not a picture that is read back.
-type OtherTargets<'w> = (Option<Res<'w, SurfaceTarget>>, Option<Res<'w, CanvasTarget>>, Option<Res<'w, TextureTarget>>);
+/// Whether two meshes are clones of each other.
+pub(crate) fn is_same(a: &Mesh, b: &Mesh) -> bool {
+    a.positions().as_ptr() == b.positions().as_ptr()
+        && a.normals().as_ptr() == b.normals().as_ptr()
+        && a.indices().as_ptr() == b.indices().as_ptr()
+}
+
+/// The texture coordinates of both sets, zeros where there are none.
+pub(crate) fn both_uvs(mesh: &Mesh) -> Vec<Vec4> {
+    let of = |set: usize, vertex: usize| mesh.uv_set(set).map_or(Vec2::ZERO, |uvs| uvs[vertex]);
+    let both = |vertex| {
+        let ([u, v], [s, t]) = (of(0, vertex).to_array(), of(1, vertex).to_array());
+        Vec4::new(u, v, s, t)
+    };
+    (0..mesh.positions().len()).map(both).collect()
+}
 
 /// What decides how an object's mesh is laid out.
-type LaidOut = (&'static Mesh3d, &'static Chosen, Has<Blend>, PaintComponents, Option<&'static Tolerance>);
+type LaidOut = (&'static Mesh3d, &'static Chosen, Has<Blend>, PaintComponents);
 
 /// Lays out the meshes of visible objects that are not yet, for the way they are shaded.
-#[expect(clippy::too_many_arguments, reason = "a system takes each resource as a parameter")]
 pub(crate) fn lay_out(
     meshes: Res<Assets<Mesh>>,
     objects: Query<LaidOut>,
     visible: Res<Visible>,
-    of_view: Res<ViewTolerance>,
-    (surface, canvas, texture): OtherTargets,
     surroundings: Res<Surroundings>,
-    mut workshop: ResMut<Workshop>,
     mut geometries: ResMut<Geometries>,
-    mut report: ResMut<FrameReport>,
 ) {
-    workshop.collect();
-    // Nobody watches the frames, but somebody may compare them.
-    let waits = surface.is_none() && canvas.is_none() && texture.is_none();
     let mut last = None;
-    for (Mesh3d(handle), chosen, blend, paint, tolerance) in objects.iter_many(&visible.0).flatten() {
+    for (Mesh3d(handle), chosen, blend, paint) in objects.iter_many(&visible.0).flatten() {
         let Some(mesh) = meshes.get(handle) else { continue };
         let paint = Paint::new(mesh, paint, surroundings.are_there());
         let wanted = (handle.id(), Form::new(chosen.0, blend, &paint));
-        let pixels = tolerance.map_or(of_view.0.pixels, |tolerance| tolerance.pixels);
-        // Levels know nothing of colors and of images.
-        let has_levels = !wanted.1.ordered && !paint.is_any() && pixels > 0.0;
-        if last.replace((wanted, has_levels)) == Some((wanted, has_levels)) {
-            continue;
+        if last.replace(wanted) != Some(wanted) {
+            geometries.ensure(wanted, mesh);
         }
-        let levels = if has_levels { workshop.levels(wanted.0, mesh, waits) } else { None };
-        geometries.ensure(wanted, mesh, levels);
     }
-    report.levels_pending = workshop.pending();
-    report.errors.append(&mut workshop.failures);
 }
 
 /// Forgets meshes whose assets are gone. It looks for them only when the number of assets or that of laid out meshes is
 /// another than it was: without that nothing grows. (Messages would not do: they live for two updates of the App, and
 /// the frames of an App may be fewer.) A mesh that changed is found when it is drawn next.
-pub(crate) fn forget_removed(
-    meshes: Res<Assets<Mesh>>,
-    mut geometries: ResMut<Geometries>,
-    mut workshop: ResMut<Workshop>,
-) {
+pub(crate) fn forget_removed(meshes: Res<Assets<Mesh>>, mut geometries: ResMut<Geometries>) {
     let before = geometries.meshes.len();
     if geometries.looked == (before, meshes.len()) {
         return;
     }
     geometries.meshes.retain(|&(id, _), _| meshes.contains(id));
-    geometries.radii.retain(|&id, _| meshes.contains(id));
-    workshop.retain(|id| meshes.contains(id));
     let after = geometries.meshes.len();
     geometries.forgotten += (before - after) as u64;
-    geometries.changes += 1;
     geometries.looked = (after, meshes.len());
 }
 
-/// Whether any triangle's normals can cancel under interpolation; those of coarser levels, which do so only where a
-/// triangle is smaller than a pixel, are not looked at. While all pairs of the three have
+/// Whether any triangle's normals can cancel under interpolation. While all pairs of the three have
 /// `n_i·n_j ≥ −0.49`, `|Σ b_i n_i|² ≥ Σ b_i² − 0.98 Σ b_i b_j ≥ 0.0066` everywhere on the triangle.
 fn has_opposite_normals(mesh: &Mesh) -> bool {
     let normals = mesh.normals();
@@ -253,6 +208,7 @@ fn has_opposite_normals(mesh: &Mesh) -> bool {
 mod tests {
     use super::*;
     use crate::draw::meshes::MeshBuffers;
+    use crate::frame::report::FrameReport;
     use crate::plugin::RenderPlugin;
     use crate::target::frame::Headless;
     use bevy_app::App;
@@ -266,20 +222,19 @@ mod tests {
     #[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
     struct Seldom;
 
-    /// How many meshes the renderer keeps laid out, ordered in levels, and in buffers.
-    fn kept(app: &App) -> [usize; 3] {
+    /// How many meshes the renderer keeps laid out, and in buffers.
+    fn kept(app: &App) -> [usize; 2] {
         let world = app.world();
-        let orders = world.resource::<Workshop>().len();
-        [world.resource::<Geometries>().meshes.len(), orders, world.resource::<MeshBuffers>().len()]
+        [world.resource::<Geometries>().meshes.len(), world.resource::<MeshBuffers>().len()]
     }
 
     /// Draws ten meshes after each other, `updates` of the App between, each of which stays for one frame or more.
-    fn most_kept(updates: usize, frames: usize) -> [usize; 3] {
+    fn most_kept(updates: usize, frames: usize) -> [usize; 2] {
         let mut app = App::new();
         app.add_plugins((TransformPlugin, RenderPlugin { schedule: Seldom.intern() }));
         app.init_schedule(Seldom).insert_resource(Headless { size: UVec2::splat(4), ..Headless::default() });
         app.world_mut().spawn((Camera::default(), Transform::from_xyz(0.0, 0.0, 3.0)));
-        let mut most = [0; 3];
+        let mut most = [0; 2];
         for number in 0..10 {
             let mesh = Mesh::from(UvSphere::new(1.0, 12 + number, 6));
             let handle = app.world_mut().resource_mut::<Assets<Mesh>>().add(mesh);
@@ -302,7 +257,7 @@ mod tests {
             }
         }
         app.world_mut().run_schedule(Seldom);
-        assert_eq!(kept(&app)[..2], [0, 0], "nothing is there, and something is kept");
+        assert_eq!(kept(&app)[0], 0, "nothing is there, and something is kept");
         most
     }
 
@@ -311,7 +266,7 @@ mod tests {
         for updates in [1, 2, 3, 10] {
             // Those of the frame in two ways of shading, and those of the frame before, which is looked for first.
             let most = most_kept(updates, 2);
-            assert!(most[0] <= 4 && most[1] <= 2 && most[2] <= 4, "{updates} updates: {most:?}");
+            assert!(most[0] <= 4 && most[1] <= 4, "{updates} updates: {most:?}");
         }
     }
 }

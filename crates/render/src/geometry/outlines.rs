@@ -141,19 +141,6 @@ impl<'a> Sight<'a> {
         let (center, radius) = whole.sphere(model_view);
         Self { model_view, view, eye, is_inside: view.projection.holds(center, radius) }
     }
-
-    /// An upper bound of how many pixels a way of a unit of the mesh takes, anywhere in a sphere in eye space where the
-    /// picture shows it; no less for a sphere that holds another. A way of length e at (x, y, −z) in eye
-    /// space moves its end by at most f·e/z·√(1 + (x² + y²)/z²), f pixels being the way of a point at depth 1 that
-    /// moves by 1.
-    pub(crate) fn pixels_per_unit(&self, (center, radius): (Vec3, f32)) -> f32 {
-        let View { projection, pixels_at_unit_depth, .. } = self.view;
-        let [x, y] = projection.scale;
-        let nearest = (-center.z - radius).max(projection.near);
-        let aside2 = (center.truncate().length() + radius).powi(2) / (nearest * nearest);
-        let slope2 = aside2.min(1.0 / (x * x) + 1.0 / (y * y));
-        pixels_at_unit_depth * self.model_view.largest_scale() * (1.0 + slope2).sqrt() / nearest
-    }
 }
 
 impl Outline {
@@ -169,16 +156,11 @@ impl Outline {
         Self { center, radius: farthest * (1.0 + 1e-5), facing: Facing::UNKNOWN }
     }
 
-    /// What is known of all of these together, one or more. The sphere around it holds those of `others` as well.
-    pub(super) fn around<'a>(parts: &'a [Self], others: impl Iterator<Item = &'a Self> + Clone) -> Self {
-        let (center, radius) = sphere_around(parts.iter().chain(others).map(|part| (part.center, part.radius)));
+    /// Of all of these together, one or more.
+    pub(super) fn around(parts: &[Self]) -> Self {
+        let (center, radius) = sphere_around(parts.iter().map(|part| (part.center, part.radius)));
         let facing = Facing::around(parts.iter().map(|part| (&part.facing, length((part.center - center).to_array()))));
         Self { center, radius, facing }
-    }
-
-    /// The radius of the sphere around it, in the mesh's units.
-    pub(crate) fn radius(&self) -> f32 {
-        self.radius
     }
 
     /// The sphere around it in eye space.

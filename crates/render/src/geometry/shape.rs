@@ -1,9 +1,9 @@
-//! Where pieces of a mesh are and how their normals lie: what bounds of lights take of them.
+//! Bounds of a piece of a mesh and of its normals, by which its lights are selected.
 
 use crate::view::matrices::{ModelView, NormalMatrix};
 use bevy_math::Vec3;
 use halfway_lighting::Faces;
-use halfway_lighting::bounds::{self, Grain, NormalCone};
+use halfway_lighting::bounds::{self, NormalCone};
 use halfway_lighting::equations::vector::length;
 use halfway_mesh::{Bounds, Mesh};
 
@@ -13,7 +13,7 @@ const WIDEST: f32 = 1.5;
 /// What rounding in f32 may add to a cone's half angle, in radians.
 pub(super) const ANGLE_SLACK: f32 = 2e-3;
 
-/// A piece of a mesh, in model space, as far as bounds of lights know it.
+/// Bounds of a piece of a mesh, in model space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PatchShape {
     pub(super) center: Vec3,
@@ -22,8 +22,6 @@ pub(crate) struct PatchShape {
     pub(super) faces: Option<PatchCone>,
     /// Of the normals of its vertices; `None` where they are spread too wide.
     pub(super) normals: Option<PatchCone>,
-    /// How finely it is cut.
-    grain: Grain<f32>,
 }
 
 /// The mean of some normals, and how far the farthest is from it.
@@ -56,26 +54,7 @@ impl PatchCone {
         let farthest = offsets.map(|offset| offset.dot(axis).abs()).fold(0.0, f32::max);
         Some(Self { axis, half_angle, half_thickness: farthest * (1.0 + 1e-5) })
     }
-
-    /// Of all that these cones are of, around another centre. Each is with the way from there to its own centre, and
-    /// the radius of the sphere around that.
-    fn around(parts: impl Iterator<Item = Option<(Self, Vec3, f32)>> + Clone) -> Option<Self> {
-        let axis = parts.clone().flatten().map(|(cone, ..)| cone.axis).sum::<Vec3>().normalize_or_zero();
-        let mut all = Self { axis, half_angle: 0.0, half_thickness: 0.0 };
-        for part in parts {
-            let (cone, offset, radius) = part?;
-            let (cos, sin) = (axis.dot(cone.axis), axis.cross(cone.axis).length());
-            all.half_angle = all.half_angle.max(sin.atan2(cos) + cone.half_angle + ROUNDING);
-            // What lies in a disk of that radius and thickness across the cone's axis.
-            let along = offset.dot(axis).abs() + cone.half_thickness * cos.abs() + radius * sin;
-            all.half_thickness = all.half_thickness.max(along + ROUNDING * (length(offset.to_array()) + radius));
-        }
-        (axis != Vec3::ZERO && all.half_angle < WIDEST).then_some(all)
-    }
 }
-
-/// What rounding adds where cones are joined at most, as a part of what is added.
-const ROUNDING: f32 = 1e-6;
 
 impl PatchShape {
     /// Of triangles between these corners around a centre: with the normals of those triangles that have one.
@@ -88,34 +67,7 @@ impl PatchShape {
             radius: offsets().map(|offset| length(offset.to_array())).fold(0.0, f32::max) * (1.0 + 1e-5),
             faces: PatchCone::new(faces, offsets()),
             normals: PatchCone::new(&normals, offsets()),
-            grain: grain(mesh, triangles),
         }
-    }
-
-    /// Of all of these together, one or more.
-    pub(crate) fn around<'a>(parts: impl Iterator<Item = &'a Self> + Clone) -> Self {
-        let (center, radius) = sphere_around(parts.clone().map(|part| (part.center, part.radius)));
-        let cones = |of: fn(&Self) -> Option<PatchCone>| {
-            PatchCone::around(parts.clone().map(move |part| Some((of(part)?, part.center - center, part.radius))))
-        };
-        let larger = |all: Grain<f32>, Self { grain, .. }: &Self| Grain {
-            normals: all.normals.max(grain.normals),
-            corners: all.corners.max(grain.corners),
-        };
-        let (faces, normals) = (cones(|part| part.faces), cones(|part| part.normals));
-        Self { center, radius, faces, normals, grain: parts.fold(Grain::none(), larger) }
-    }
-
-    /// Whether it is hardly larger than these parts of it are together, and its normals are spread hardly wider: so
-    /// that bounds say hardly less of it.
-    pub(crate) fn is_compact<'a>(&self, parts: impl Iterator<Item = &'a Self> + Clone) -> bool {
-        let squares: f32 = parts.clone().map(|part| part.radius * part.radius).sum();
-        let is_small = self.radius * self.radius <= LARGER * LARGER * squares;
-        let spread = |of: fn(&Self) -> Option<PatchCone>| {
-            let widest = parts.clone().filter_map(of).map(|cone| cone.half_angle).fold(0.0, f32::max);
-            of(self).map_or(widest == 0.0, |cone| cone.half_angle <= widest + WIDER)
-        };
-        is_small && spread(|shape| shape.faces) && spread(|shape| shape.normals)
     }
 
     /// Whether a corner with this normal, of a triangle with that, may be a part of it by all that is said of it.
@@ -141,20 +93,8 @@ impl PatchShape {
         (model_view.eye_from_model.transform_point3(self.center), self.radius * model_view.largest_scale())
     }
 
-    /// How finely it is cut, in eye space.
-    pub(crate) fn grain(&self, model_view: &ModelView) -> Grain<f32> {
-        // What the transform rounds is less than that.
-        let corners = self.grain.corners * model_view.largest_scale() * (1.0 + 1e-5);
-        Grain { corners, ..self.grain }
-    }
-
-    /// Whether anything is known of the normals of its vertices. If not, no term may move to them.
-    pub(crate) fn has_normal_cone(&self) -> bool {
-        self.normals.is_some()
-    }
-
-    /// What bounds of lights know of it, in eye space: with these normals.
-    /// The cone of the normals is kept only where the transform turns and scales all alike.
+    /// The same in eye space, with these normals. Their cone is kept only where the transform scales all directions
+    /// alike.
     pub(crate) fn in_eye_space(
         &self,
         model_view: &ModelView,
@@ -182,22 +122,10 @@ impl PatchShape {
     }
 }
 
-/// By how much the radius of the sphere around compact parts is larger than that of a disk of their area, and how much
-/// wider the cones of their normals are, in radians.
-const LARGER: f32 = 1.3;
-const WIDER: f32 = 0.35;
-
 /// A sphere that holds all of these.
 pub(super) fn sphere_around(spheres: impl Iterator<Item = (Vec3, f32)> + Clone) -> (Vec3, f32) {
     let corners = spheres.clone().flat_map(|(center, radius)| [center - radius, center + radius]);
     let center = Bounds::from_points(corners).map_or(Vec3::ZERO, |bounds| bounds.center());
     let reach = spheres.map(|(at, radius)| length((at - center).to_array()) + radius).fold(0.0, f32::max);
     (center, reach * (1.0 + 1e-5))
-}
-
-fn grain(mesh: &Mesh, triangles: &[[u32; 3]]) -> Grain<f32> {
-    triangles.iter().fold(Grain::none(), |grain, corners| {
-        let of = |values: &[Vec3]| corners.map(|i| values[i as usize].to_array());
-        grain.with(of(mesh.positions()), of(mesh.normals()))
-    })
 }

@@ -72,9 +72,17 @@ impl Default for Lights {
 
 #[cfg(test)]
 impl Lights {
-    /// Of which nothing else is known.
-    pub(crate) fn of_sources(sources: Vec<Light<f32>>, ambient: Vec3) -> Self {
-        Self { ambient, sources, ..Self::default() }
+    /// White points along the x axis from the origin on, so far from each other and reaching so far, as an eye at the
+    /// origin sees them.
+    pub(crate) fn in_a_row(count: u16, apart: f32, range: f32) -> Self {
+        let (mut lights, light) = (Self::default(), PointLight { range: Some(range), ..PointLight::default() });
+        for number in 0..count {
+            let at = GlobalTransform::from_xyz(apart * f32::from(number), 0.0, 0.0);
+            lights.add(point_light(&light, &at).expect("a valid light"));
+        }
+        lights.sum_up();
+        lights.place(&View::default());
+        lights
     }
 
     /// So many of each kind, all at one place.

@@ -21,15 +21,14 @@ impl Default for Chosen {
 }
 
 /// Whether the diffuse and the specular term are evaluated by the vertex shader: at each vertex, or at the one vertex
-/// that stands for a triangle. Those of `Auto` are, for some lights.
+/// that stands for a triangle.
 pub(crate) fn by_vertex_shader(terms: Terms) -> [bool; 2] {
-    [terms.diffuse, terms.specular]
-        .map(|term| matches!(term, Frequency::Triangle | Frequency::Vertex | Frequency::Auto))
+    [terms.diffuse, terms.specular].map(|term| matches!(term, Frequency::Triangle | Frequency::Vertex))
 }
 
 /// Whether the diffuse and the specular term are evaluated by the fragment shader.
 pub(crate) fn by_fragment_shader(terms: Terms) -> [bool; 2] {
-    [terms.diffuse, terms.specular].map(|term| matches!(term, Frequency::Fragment | Frequency::Auto))
+    [terms.diffuse, terms.specular].map(|term| term == Frequency::Fragment)
 }
 
 type Wishes = (&'static mut Chosen, Option<&'static Shading>, Option<&'static Terms>, Option<&'static Name>);

@@ -50,8 +50,6 @@ pub(crate) struct Pipelines {
     unforeseen: Vec<PipelineKey>,
     /// What went wrong beside the frames, until it is reported.
     failures: Vec<RenderError>,
-    /// How often one came, was built, has failed or was given up, or what they are built for has changed.
-    changes: u64,
     /// Since the start.
     built: u32,
     /// Since the last report.
@@ -90,7 +88,6 @@ impl Pipelines {
     /// Begins a frame, and takes in what has been built beside the frames.
     fn begin(&mut self, gpu: &Gpu, output: ShaderOutput, compile: Compile) {
         self.frame += 1;
-        let before = (self.output, self.compile);
         (self.output, self.costs) = (output, gpu.costs());
         (self.full, self.last) = (false, None);
         std::mem::swap(&mut self.refused, &mut self.refused_before);
@@ -100,7 +97,6 @@ impl Pipelines {
             self.background = Builder::start(gpu, &self.shaders).map_or(Background::Unavailable, Background::Running);
         }
         self.compile = Some(if matches!(self.background, Background::Unavailable) { Compile::Now } else { compile });
-        self.changes += u64::from((self.output, self.compile) != before);
         if !self.waits() {
             for key in std::mem::take(&mut self.unforeseen) {
                 for draw in key.draw.relatives() {
@@ -119,7 +115,6 @@ impl Pipelines {
                 self.variants.get_mut(&key).filter(|variant| matches!(variant.state, VariantState::Asked))
             {
                 variant.state = VariantState::new(key, result);
-                self.changes += 1;
                 match &variant.state {
                     VariantState::Failed(error) => self.failures.push(error.clone()),
                     _ => self.built += 1,
@@ -161,7 +156,6 @@ impl Pipelines {
         let asked_before = self.refused_before.contains(&key);
         if self.special < MOST_SPECIAL || asked_before && self.give_up_one() {
             self.special += 1;
-            self.changes += 1;
             self.variants.insert(key, PipelineVariant { used: self.frame, state: VariantState::Admitted });
             return true;
         }
@@ -227,7 +221,6 @@ impl Pipelines {
         if matches!(state, VariantState::Admitted | VariantState::Asked) {
             log::debug!("building pipeline {key}");
             *state = VariantState::new(key, build(gpu, &self.shaders, key));
-            self.changes += 1;
             self.awaited += 1;
             self.built += u32::from(matches!(state, VariantState::Built(_)));
             if self.compile == Some(Compile::Beside) {
@@ -290,11 +283,6 @@ impl Backend for Pipelines {
         }
         self.ask(self.key(key.generic().looking_up()));
         self.is_there(key.looking_up())
-    }
-
-    /// Of what there was no room for, there may be room in the next frame.
-    fn answers(&self) -> Option<u64> {
-        (self.refused.is_empty() && self.refused_before.is_empty()).then_some(self.changes)
     }
 }
 

@@ -169,11 +169,6 @@ impl DrawRecord {
 }
 
 impl MaterialRecord {
-    /// Of a color that no light changes.
-    pub(crate) fn plain(base: [f32; 3]) -> Self {
-        Self { base, opacity: 1.0, ..Self::default() }
-    }
-
     /// The record of a material under ambient light: Ga, and La of the lights that do not attenuate it.
     pub(crate) fn new(material: &Coefficients<f32>, opacity: f32, reflectance: Reflectance, ambient: Vec3) -> Self {
         let unlit = Vec3::from_array(material.ke) + Vec3::from_array(material.ka) * ambient;

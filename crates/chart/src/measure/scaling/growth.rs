@@ -63,7 +63,7 @@ impl Growth {
 
     /// How coarse meshes may be drawn: by default, but where it is triangles that grow, as they are.
     pub fn tolerance(self) -> Tolerance {
-        if self == Self::Triangles { Tolerance { pixels: 0.0, ..Tolerance::DEFAULT } } else { Tolerance::DEFAULT }
+        Tolerance::EXACT
     }
 
     /// The counts to measure at: the first, the powers of ten and the steps between them, the last. A mesh or a picture
