@@ -17,7 +17,7 @@ use crate::tally::counted;
 /// shadings with few and many lights, transforms and scales of the world, what lies at one place, outlines and
 /// slivers, the random scenes that failed once, and `halfway verify` over examples/scenes; on the CPU all picture
 /// tests that are not about wgpu.
-/// Each suite prints the worst figures, from which the table in docs/accuracy.md is.
+/// Each suite prints the worst figures; docs/lab has those of dated runs.
 /// What is missing is installed first, as for `cargo xtask test`, of which this is a part; but there the drivers share
 /// the suite's rows with colours of vertices, images, solids and environments among them, since they take minutes to
 /// compile their shaders. Here each draws all.
