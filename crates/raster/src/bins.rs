@@ -263,12 +263,9 @@ impl BinsPart {
         if let Some(place) = self.states[last..].iter().position(|other| *other == state) {
             return Ok((last + place) as u32);
         }
-        reserve(&mut self.states, 2)?;
+        reserve(&mut self.states, 1)?;
         let number = self.states.len() as u32;
         self.states.push(state);
-        if state.nearest_corner {
-            self.states.push(state.without_nearest_corner());
-        }
         Ok(number)
     }
 }

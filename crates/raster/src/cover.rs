@@ -1,6 +1,5 @@
 //! Which pixels a triangle covers, and what it leaves in them where nothing is nearer.
 
-use crate::corners::Lead;
 use crate::lanes::{
     F, I, M, Simd, counting, counting_i, each, f32x4, fma, lanes, load, load_i, max, max_one, min, min_one, replace,
     splat, splat_i, store_i,
@@ -104,7 +103,7 @@ pub(crate) struct TileBuffer {
     pub(crate) inverse_w: Vec<[f32; LIST]>,
     /// The leading numbers, in the end the color.
     pub(crate) lead: Vec<[[f32; LIST]; 3]>,
-    /// More of them, or where pixels are shaded that go by corners.
+    /// More of them.
     pub(crate) second: Vec<[[f32; LIST]; 3]>,
     /// Of colored draws the color over w; empty where the pass has none.
     pub(crate) paint: Vec<[[f32; LIST]; 3]>,
@@ -208,29 +207,23 @@ impl TileBuffer {
         slopes: &LaneSlopes<S>,
         [least, most]: [f32; 2],
         shader: i32,
-        lead: Option<impl Lead<S>>,
+        keeps_lead: bool,
     ) {
         let first = first[1] as usize * TILE + first[0] as usize;
         let (depths, shaders, [a, b, c]) = (&mut self.depth[0], &mut self.shader[0], &mut self.lead[0]);
-        let [x_at, y_at, z_at] = &mut self.second[0];
         let mut left = pixels as u32;
         while left != 0 {
             let bit = left.trailing_zeros() as usize % TINY_PIXELS;
             left &= left - 1;
-            let place = each!(axis in 2 => TINY_PLACES[axis][bit]);
-            let [x, y] = each!(axis in 2 => f32x4::simd_from(simd, place[axis]));
+            let [x, y] = each!(axis in 2 => f32x4::simd_from(simd, TINY_PLACES[axis][bit]));
             let v = slopes.dx.mul_add_precise(x, slopes.dy.mul_add_precise(y, slopes.base));
             let depth = min_one(max_one(v[0], least), most);
             let pixel = (first + TINY_AT[bit]) % PIXELS;
             if depth > depths[pixel] {
                 depths[pixel] = depth;
                 shaders[pixel] = shader;
-                if let Some(lead) = lead {
-                    let left_there = lead.at(simd, v, place);
-                    [a[pixel], b[pixel], c[pixel]] = left_there.lead;
-                    if let Some(place) = left_there.place {
-                        [x_at[pixel], y_at[pixel], z_at[pixel]] = place;
-                    }
+                if keeps_lead {
+                    (a[pixel], b[pixel], c[pixel]) = (v[1], v[2], v[3]);
                 }
             }
         }

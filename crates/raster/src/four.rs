@@ -3,7 +3,6 @@
 //! Most pixels show one triangle in all four samples. What it leaves is kept once then, as the first sample's, and the
 //! second one's shader is [`EVEN`]; a triangle that takes some of the samples has them written out first.
 
-use crate::corners::{Lead, Left};
 use crate::cover::{
     EVEN, EdgeFunctions, Kept, PIXELS, TINY_AT, TINY_PIXELS, TINY_PLACES, TileBuffer, clamped, plane, value,
 };
@@ -29,17 +28,16 @@ impl TileBuffer {
     /// `first`. It is shaded once a pixel, at the center or, where that is not covered, at the centroid of the samples
     /// that are.
     #[inline(always)]
-    pub(crate) fn cover_tiny_four<S: Simd, L: Lead<S>>(
+    pub(crate) fn cover_tiny_four<S: Simd>(
         &mut self,
         simd: S,
         (centers, samples, first): (i32, [i32; 4], [i32; 2]),
         slopes: &LaneSlopes<S>,
         [least, most]: [f32; 2],
         shader: i32,
-        lead: Option<L>,
+        keeps_lead: bool,
     ) {
         self.triangles += 1;
-        self.keeps_more |= L::HAS_PLACES;
         let first = first[1] as usize * TILE + first[0] as usize;
         let each_sample = i32x4::load_array_ref(simd, &samples);
         let [base, dx, dy] = each!(k in 3 => {
@@ -63,24 +61,14 @@ impl TileBuffer {
             }
             let all = covered.to_bitmask() as usize % 16;
             let place = if all == ALL || centers >> bit & 1 != 0 { 0 } else { all };
-            let at = [x + CENTROIDS[place][0], y + CENTROIDS[place][1]];
-            let [x, y] = at;
+            let [x, y] = [x + CENTROIDS[place][0], y + CENTROIDS[place][1]];
             let v = slopes.dx.mul_add_precise(
                 f32x4::simd_from(simd, x),
                 slopes.dy.mul_add_precise(f32x4::simd_from(simd, y), slopes.base),
             );
             let inverse_w = min_one(max_one(v[0], least), most);
-            let left_there = lead.map(|lead| lead.at(simd, v, at));
             let shader = shader | (place as i32) << CENTROID_SHIFT;
-            self.keep_samples(pixel, mask, shader, inverse_w, left_there.map(|left| left.lead));
-            if let Some(Left { place: Some(place), .. }) = left_there {
-                let written = if mask == ALL { 1 } else { mask };
-                for sample in (0..4).filter(|sample| written >> sample & 1 != 0) {
-                    for c in 0..3 {
-                        self.second[sample][c][pixel] = place[c];
-                    }
-                }
-            }
+            self.keep_samples(pixel, mask, shader, inverse_w, keeps_lead.then(|| [v[1], v[2], v[3]]));
         }
     }
 

@@ -52,7 +52,6 @@ mod bins;
 mod blend;
 mod check;
 mod clip;
-mod corners;
 mod cover;
 mod encode;
 mod error;

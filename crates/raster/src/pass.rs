@@ -329,11 +329,6 @@ pub struct DrawCall {
     pub clockwise: bool,
     /// Interpolated normals may vanish; where they do the triangle's own takes their place.
     pub opposite_normals: bool,
-    /// Fragments of triangles that lie in 5 × 5 pixels are shaded at the corner nearest on the picture, with its
-    /// normal, in place of what is between the corners; those of larger ones are shaded in either way. No point of a
-    /// triangle is farther from its nearest corner than 1/√3 of its longest edge. It does not count where something
-    /// blends, nor with `colored` vertices, `maps`, a `mask`, a `solid` or where the draw is `surrounded`.
-    pub nearest_corner: bool,
     /// The mesh's colors multiply base, diffuse and ambient, and the opacity.
     pub colored: bool,
     /// Images, each in the slot of its kind. Of the draw's two terms none is shaded both at the vertices and at the

@@ -26,7 +26,7 @@ pub(crate) struct Fragments<'a, S: Simd> {
     pub(crate) place: [F<S>; 2],
     pub(crate) inverse_w: F<S>,
     pub(crate) lead: V3<S>,
-    /// More of it, or the place of the nearest corner.
+    /// More of it.
     pub(crate) second: V3<S>,
     /// The vertices' color, over w.
     pub(crate) paint: V3<S>,
@@ -112,9 +112,6 @@ impl<S: Simd> Fragments<'_, S> {
             fma::<S>(pixel, splat(simd, look.screen.way_step[axis]), splat(simd, look.screen.way_start[axis]))
         });
         let n = self.fragment_normal(simd, w, state, back);
-        if state.nearest_corner {
-            return Points::new(simd, self.second, n, to_viewer(simd, self.second, n, look.pass.local_viewer));
-        }
         let p = [way[0] * w, way[1] * w, -w];
         // The way through the pixel, not p: it has a direction however far p is.
         let v = to_viewer(simd, [way[0], way[1], splat(simd, -1.0)], n, look.pass.local_viewer);
@@ -319,7 +316,7 @@ impl TileBuffer {
             place,
             inverse_w,
             lead: load3(simd, &self.lead[sample], at),
-            second: if state.takes_second() { load3(simd, &self.second[sample], at) } else { zero },
+            second: if state.stage == Stage::Mixed { load3(simd, &self.second[sample], at) } else { zero },
             mapped: if state.maps.is_some() {
                 shown.select(load_i(simd, &self.mapped[sample], at), splat_i(simd, -1))
             } else {

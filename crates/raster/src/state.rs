@@ -79,9 +79,6 @@ pub(crate) struct State {
     pub(crate) highlight: Highlight,
     /// Whether triangles keep their own normal for where the interpolated one vanishes.
     pub(crate) opposite_normals: bool,
-    /// Whether fragments of tiny triangles are shaded with the normal and at the place of the nearest corner. The next
-    /// state is the same without that, for others.
-    pub(crate) nearest_corner: bool,
     /// Whether backs are drawn.
     pub(crate) backs: bool,
     /// Whether the vertices' colors count.
@@ -114,19 +111,14 @@ impl State {
             (true, false) => Stage::Fragment,
             (false, false) => Stage::Mixed,
         };
-        let nearest_corner =
-            draw.nearest_corner && stage == Stage::Fragment && !(draw.blend || draw.colored || draw.is_mapped());
         Self {
             stage,
             surface,
             vertex,
             fragment,
             highlight: draw.highlight,
-            // No corner's normal vanishes.
             opposite_normals: draw.opposite_normals
-                && !nearest_corner
                 && (matches!(stage, Stage::Fragment | Stage::Mixed) || draw.surrounded && stage != Stage::Flat),
-            nearest_corner,
             backs: draw.left_out != LeftOut::Back,
             colored: draw.colored,
             maps: StateMaps::of(draw),
@@ -137,11 +129,6 @@ impl State {
     /// The same of pieces of which no interpolated normal vanishes.
     pub(crate) fn without_opposite_normals(self) -> Self {
         Self { opposite_normals: false, ..self }
-    }
-
-    /// The same of triangles that are not tiny.
-    pub(crate) fn without_nearest_corner(self) -> Self {
-        Self { nearest_corner: false, ..self }
     }
 
     /// How a side takes light.
@@ -197,12 +184,6 @@ impl State {
     #[inline(always)]
     pub(crate) fn paints(&self) -> bool {
         self.colored && self.maps.is_none()
-    }
-
-    /// Whether fragments take more than the leading numbers, without colors.
-    #[inline(always)]
-    pub(crate) fn takes_second(&self) -> bool {
-        self.stage == Stage::Mixed || self.nearest_corner
     }
 
     /// Whether fragments take them: where no color has been shaded before them.

@@ -3,7 +3,6 @@
 use crate::bands::{Bands, Own, Rows, make_room};
 use crate::bins::{Bins, Job};
 use crate::clip::{Ready, each_part};
-use crate::corners::{Interpolated, Lead, NearestCorner};
 use crate::cover::{EdgeFunctions, Kept, TileBuffer};
 use crate::encode::{bytes, cleared, kept};
 use crate::faces::PieceFaces;
@@ -171,7 +170,7 @@ impl Worker {
             let (batch, bit) = (&self.batches[number / lanes::<S>()], 1 << (number % lanes::<S>()));
             let (tiny, small) = (batch.tiny & bit != 0, batch.small & bit != 0);
             if tiny || one && small {
-                self.plain(simd, look, work, triangles[number], number, tiny);
+                self.plain(simd, work, triangles[number], number, tiny);
             } else if small {
                 self.small(simd, look, work, triangles[number], number);
             } else {
@@ -244,7 +243,7 @@ impl Worker {
     /// A triangle of few pixels, of which it covers some, or a larger one with one sample a pixel; it leaves nothing
     /// but its depth and the leading numbers.
     #[inline(always)]
-    fn plain<S: Simd>(&mut self, simd: S, look: &Look, work: &Work, triangle: [u8; 3], number: usize, tiny: bool) {
+    fn plain<S: Simd>(&mut self, simd: S, work: &Work, triangle: [u8; 3], number: usize, tiny: bool) {
         let (batch, lane) = (&self.batches[number / lanes::<S>()], number % lanes::<S>());
         let back = batch.backs >> lane & 1 != 0;
         let numbers = each!(k in 3 => usize::from(triangle[k]));
@@ -254,8 +253,7 @@ impl Worker {
         if work.state.stage == Stage::Flat {
             slopes.base += f32x4::load_array_ref(simd, &self.faces.each[usize::from(back)][number]);
         }
-        let state = if tiny { work.job.state } else { work.state_of_larger() };
-        let (shader, keeps_lead) = (shader_of(state, back), work.state.stage != Stage::Unlit);
+        let (shader, keeps_lead) = (shader_of(work.job.state, back), work.state.stage != Stage::Unlit);
         if !tiny {
             self.nearest.cover_small(simd, (batch, lane), &slopes, range(corners), shader, keeps_lead);
             return;
@@ -263,18 +261,7 @@ impl Worker {
         let first = [batch.bounds[0][lane], batch.bounds[2][lane]];
         let place = (batch.pixels[lane], batch.samples[lane], first);
         let to = (&mut self.nearest, work.covering.samples);
-        if work.state.nearest_corner {
-            let places = each!(axis in 2 => {
-                let start = (look.tile[axis] as i32 * TILE as i32 + first[axis]) as f32 + 0.5;
-                let place = |k: usize| self.vertices.screen[axis][numbers[k]] - start;
-                [place(0), place(1), place(2), 0.0]
-            });
-            let in_eye = each!(k in 3 => each!(axis in 3 => self.vertices.eye[axis][numbers[k]]));
-            let lead = Some(NearestCorner { places, corners, in_eye });
-            cover_tiny(simd, to, place, &slopes, range(corners), shader, lead);
-        } else {
-            cover_tiny(simd, to, place, &slopes, range(corners), shader, keeps_lead.then_some(Interpolated));
-        }
+        cover_tiny(simd, to, place, &slopes, range(corners), shader, keeps_lead);
     }
 
     /// One that is not so plain.
@@ -403,11 +390,13 @@ fn cover_tiny<S: Simd>(
     slopes: &LaneSlopes<S>,
     range: [f32; 2],
     shader: i32,
-    lead: Option<impl Lead<S>>,
+    keeps_lead: bool,
 ) {
     match count {
-        SampleCount::One => nearest.cover_tiny(simd, (centers, first), slopes, range, shader, lead),
-        SampleCount::Four => nearest.cover_tiny_four(simd, (centers, samples, first), slopes, range, shader, lead),
+        SampleCount::One => nearest.cover_tiny(simd, (centers, first), slopes, range, shader, keeps_lead),
+        SampleCount::Four => {
+            nearest.cover_tiny_four(simd, (centers, samples, first), slopes, range, shader, keeps_lead)
+        }
     }
 }
 
@@ -441,7 +430,7 @@ fn draw<S: Simd>(
     work: &Work,
 ) {
     let mapped = (nearest.mapped_triangles.len() as i32).checked_sub(1);
-    let (shader, kept) = (shader_of(work.state_of_larger(), back), Kept::of(look, work.state, back, mapped));
+    let (shader, kept) = (shader_of(work.job.state, back), Kept::of(look, work.state, back, mapped));
     match look.pass.samples {
         _ if work.blend => nearest.blend(simd, edges, planes, shader, look),
         SampleCount::One => nearest.cover_strips(simd, edges, planes, shader, kept),
@@ -450,12 +439,6 @@ fn draw<S: Simd>(
 }
 
 impl<'a> Work<'a> {
-    /// The number of what shades triangles that are not tiny.
-    fn state_of_larger(&self) -> u32 {
-        // It follows: see [`State::nearest_corner`].
-        self.job.state + u32::from(self.state.nearest_corner)
-    }
-
     fn of(scene: &Scene<'a>, number: u32, last: [i32; 2], (first, blend): (Option<Job>, bool)) -> Self {
         let Scene { pass, bins, .. } = *scene;
         let job = bins.jobs[number as usize];

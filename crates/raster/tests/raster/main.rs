@@ -4,7 +4,6 @@
 mod bits;
 #[path = "../../examples/common/mod.rs"]
 mod common;
-mod corners;
 mod coverage;
 mod pass;
 mod policy;

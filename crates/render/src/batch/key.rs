@@ -26,8 +26,6 @@ pub(crate) struct DrawKey {
     /// The exponent is 2 to this power on both sides.
     pub(crate) squarings: Option<u8>,
     pub(crate) geometric_fallback: bool,
-    /// Fragments are shaded at the nearest corner: see [`Costs::nearest_corner`](crate::Costs).
-    pub(crate) nearest_corner: bool,
     pub(crate) cull: Cull,
     /// Front faces wind clockwise: the transform mirrors, or only back faces are shown.
     pub(crate) clockwise: bool,
@@ -154,7 +152,6 @@ impl fmt::Display for DrawKey {
             (self.shared_color, "shared_color"),
             (self.ranged, "ranged"),
             (self.geometric_fallback, "geometric_fallback"),
-            (self.nearest_corner, "nearest_corner"),
             (self.clockwise, "clockwise"),
             (self.blend, "blend"),
             (self.colored, "colored"),
@@ -224,7 +221,6 @@ impl DrawKey {
             ranged: self.ranged && lit,
             squarings: self.squarings.filter(|_| specular && !self.maps.change_exponents()),
             geometric_fallback: self.geometric_fallback && self.interpolates_normals(terms),
-            nearest_corner: self.nearest_corner && lit,
             inside_out: self.inside_out && self.maps.has(MapKind::Normal),
             ..self
         }
@@ -297,7 +293,6 @@ pub(crate) mod tests {
             ranged: false,
             squarings: None,
             geometric_fallback: false,
-            nearest_corner: false,
             cull: Cull::Back,
             clockwise: false,
             colored: false,

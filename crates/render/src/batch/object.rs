@@ -178,7 +178,6 @@ impl Reflecting<'_> {
             ranged: lights.ranged,
             squarings: look.squarings,
             geometric_fallback: circumstances.opposite_normals,
-            nearest_corner: false,
             cull: if self.faces == Faces::Both { Cull::None } else { Cull::Back },
             clockwise: circumstances.mirrored != (self.faces == Faces::Back),
             colored: self.colored,

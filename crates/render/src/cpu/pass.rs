@@ -146,7 +146,6 @@ fn call(key: &DrawKey) -> DrawCall {
         },
         clockwise: key.clockwise,
         opposite_normals: key.geometric_fallback,
-        nearest_corner: key.nearest_corner,
         colored: key.colored,
         blend: key.blend,
         ..DrawCall::default()
