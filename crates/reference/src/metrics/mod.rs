@@ -23,7 +23,6 @@ mod canvas;
 mod comparison;
 mod coverage;
 mod difference;
-#[cfg(feature = "flip")]
 mod flip;
 mod judge;
 mod legend;
@@ -38,7 +37,6 @@ pub use bands::{PictureRows, SizeMismatch};
 pub use comparison::{Comparison, Difference, NotFinite, compare};
 pub use coverage::Coverage;
 pub use difference::difference;
-#[cfg(feature = "flip")]
 pub use flip::{Flip, PIXELS_PER_DEGREE, flip, flip_of_covered};
 pub use judge::{Bars, EDGE_RADIUS, FINENESS, Measure, Verdict, judge, judge_moved, judge_on_grid};
 pub use ranks::PERCENTILES;

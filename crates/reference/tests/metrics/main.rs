@@ -4,7 +4,6 @@
 
 mod comparison;
 mod difference;
-#[cfg(feature = "flip")]
 mod flip;
 mod report;
 
