@@ -80,13 +80,9 @@ impl Failures {
 
 /// A picture judged by what the oracle says of what stands on the stage, which is returned too.
 pub(crate) fn judge(stage: &mut Stage, actual: &Image, bars: Bars) -> (Verdict, Image) {
-    let oracle = |stage: &mut Stage| stage.oracle().with_clamping(bars.are_clamped());
-    let truth = oracle(stage);
+    let truth = stage.oracle().with_clamping(bars.are_clamped());
     let expected = truth.draw();
-    let verdict = match stage.other_grid() {
-        Some(bits) => metrics::judge_on_grid((&truth, &expected), (oracle(stage), bits), actual, bars),
-        None => metrics::judge(&truth, &expected, actual, bars),
-    };
+    let verdict = metrics::judge_on_grid(&truth, &expected, stage.grid_bits(), actual, bars);
     (verdict.expect("pictures of one size"), expected)
 }
 

@@ -196,7 +196,7 @@ fn shares_are_all_rows_together() {
 
 /// Draws every row on one stage, and compares its three pictures with the oracle's.
 fn conform(title: &str, rows: &[Row]) {
-    conform_on(Stage::new(SIZE.x, SIZE.y).judged_on_grid(), title, rows);
+    conform_on(Stage::new(SIZE.x, SIZE.y), title, rows);
 }
 
 fn conform_on(mut stage: Stage, title: &str, rows: &[Row]) {
@@ -302,7 +302,7 @@ fn highlights_of_moments_conform() {
 #[test]
 fn highlights_of_other_far_normals_are_found_out() {
     use FarNormals::{Lean, Mean, Toksvig};
-    let mut stage = Stage::new(SIZE.x, SIZE.y).judged_on_grid();
+    let mut stage = Stage::new(SIZE.x, SIZE.y);
     let pairs = [(Toksvig, Mean), (Lean, Mean), (Lean, Toksvig)];
     let faults = pairs.into_iter().flat_map(|(right, wrong)| {
         let mut rows = maps::rows_of_far_normals(right);

@@ -14,9 +14,6 @@ use std::time::Duration;
 /// Every mesh as it is, and lights left out within half a step.
 pub(crate) const FULL: Tolerance = Tolerance::steps(0.5);
 
-/// Grids of so many bits or more move what is interpolated, but no edge to speak of.
-const FINE_BITS: u32 = 8;
-
 /// `bars` for bytes of hardware, which may take the next byte for the nearest one from 0.4 of a step to 0.6 (Direct3D's
 /// rules of conversion): a fifth of all values, and of a pixel's three each.
 pub(crate) fn of_hardware(bars: Bars) -> Bars {
@@ -30,8 +27,6 @@ pub(crate) struct Stage {
     spawned: Vec<Entity>,
     /// Equal meshes share a handle, as they would in an App.
     meshes: Vec<(Mesh, Handle<Mesh>)>,
-    /// Whether the oracle puts corners of triangles where the adapter's grid has them.
-    rounds_corners: bool,
 }
 
 impl Stage {
@@ -51,7 +46,7 @@ impl Stage {
         app.world_mut().resource_mut::<Headless>().pixels = Pixels::Float;
         app.insert_resource(ViewTolerance(FULL));
         app.insert_resource(choice);
-        Self { app, spawned: Vec::new(), meshes: Vec::new(), rounds_corners: false }
+        Self { app, spawned: Vec::new(), meshes: Vec::new() }
     }
 
     pub(crate) fn world(&mut self) -> &mut World {
@@ -103,18 +98,6 @@ impl Stage {
         static BITS: OnceLock<u32> = OnceLock::new();
         let bits = || self.adapter().sub_pixel_bits().unwrap_or_else(|error| panic!("{error}"));
         if self.is_on_cpu() { bits() } else { *BITS.get_or_init(bits) }
-    }
-
-    /// The same, judged by an oracle that rounds corners of triangles to a coarse grid as the adapter does: then the
-    /// bars of a fine grid hold.
-    pub(crate) fn judged_on_grid(self) -> Self {
-        Self { rounds_corners: true, ..self }
-    }
-
-    /// The bits of the grid that corners may be on where the [oracle](Self::oracle) has them elsewhere.
-    pub(crate) fn other_grid(&self) -> Option<u32> {
-        let bits = self.grid_bits();
-        (!self.rounds_corners || bits >= FINE_BITS).then_some(bits)
     }
 
     /// `bars` for how the adapter rounds to bytes.
@@ -177,9 +160,7 @@ impl Stage {
     /// What should be seen of what stands, since the last frame.
     pub(crate) fn oracle(&mut self) -> Oracle {
         let size = self.world().resource::<Headless>().size;
-        let oracle = Oracle::new(self.world(), size).unwrap_or_else(|error| panic!("{error}"));
-        let bits = self.grid_bits();
-        if self.rounds_corners && bits < FINE_BITS { oracle.on_grid(bits) } else { oracle }
+        Oracle::new(self.world(), size).unwrap_or_else(|error| panic!("{error}"))
     }
 
     fn thing(&mut self, thing: &Thing) -> Entity {

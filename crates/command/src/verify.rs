@@ -71,7 +71,7 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
     let steps = f64::from(tolerance.steps);
     let bars = Bars { most: max, worst: max, equal: 0.0, ..Bars::bytes(encoding) }.within(steps);
     let picture = draw(&mut app, size, Pixels::Byte)?;
-    let mut bytes = Drawn::new(&mut app, &picture, (size, bits), encoding, (0, &progress))?;
+    let bytes = Drawn::new(&mut app, &picture, (size, bits), encoding, (0, &progress))?;
     let of_bytes = bytes.judged(bars)?;
     let float = match draw(&mut app, size, Pixels::Float) {
         // The bytes are judged all the same.
@@ -100,11 +100,6 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
         println!("{json}");
     } else {
         println!("{device}, {} × {} pixels", size.x, size.y);
-        if bits < 8 {
-            println!(
-                "its vertices are on a grid of {bits} bits a pixel: on slopes any color within 1/16 pixel is right"
-            );
-        }
         println!("8 bits  {of_bytes}");
         if let Some(float) = &float {
             println!("float   {float}");
@@ -140,7 +135,7 @@ fn judge_picture(args: &VerifyArgs, mut input: SceneInput, file: &Path) -> Resul
     let expected = oracle
         .draw_with(&|done, of| progress.tile(0, 1, done, of))
         .map_err(|stopped| Failure::new(STOPPED, stopped))?;
-    let mut drawn = Drawn { oracle, rounded: None, actual: Image::from_decoded(&picture, encoding), expected };
+    let drawn = Drawn { oracle, bits: None, actual: Image::from_decoded(&picture, encoding), expected };
     let found = drawn.judged(bars)?;
     drop(progress);
     if let Some(file) = &args.output {
@@ -185,8 +180,8 @@ fn draw(app: &mut App, size: UVec2, pixels: Pixels) -> Result<Picture, RenderErr
 /// One picture of a scene by the adapter, and by the oracle.
 struct Drawn {
     oracle: Oracle,
-    /// The same again, for corners on the adapter's grid, where it is an adapter's picture, and the bits of the grid.
-    rounded: Option<(Oracle, u32)>,
+    /// The bits of the adapter's grid within a pixel, where it is an adapter's picture.
+    bits: Option<u32>,
     actual: Image,
     expected: Image,
 }
@@ -207,15 +202,14 @@ impl Drawn {
         let expected = oracle
             .draw_with(&|done, of| progress.tile(index, 2, done, of))
             .map_err(|stopped| Failure::new(STOPPED, stopped))?;
-        let rounded = Oracle::new(app.world_mut(), size)?.with_clamping(is_clamped);
-        Ok(Self { oracle, rounded: Some((rounded, bits)), actual, expected })
+        Ok(Self { oracle, bits: Some(bits), actual, expected })
     }
 
-    /// How right it is; asked once.
-    fn judged(&mut self, bars: Bars) -> Result<Verdict, Failure> {
-        let Self { oracle, rounded, actual, expected } = self;
-        match rounded.take() {
-            Some(rounded) => judge_on_grid((oracle, expected), rounded, actual, bars),
+    /// How right it is.
+    fn judged(&self, bars: Bars) -> Result<Verdict, Failure> {
+        let Self { oracle, bits, actual, expected } = self;
+        match bits {
+            Some(bits) => judge_on_grid(oracle, expected, *bits, actual, bars),
             None => judge(oracle, expected, actual, bars),
         }
         .map_err(text)

@@ -14,4 +14,4 @@ mod surface;
 
 pub use image::Image;
 pub use interpolation::{Interpolation, PolygonCorner};
-pub use oracle::{ColorRange, Mode, Nearest, Oracle, OracleError, Possible, Seen, Stopped, VertexGrid};
+pub use oracle::{ColorRange, Mode, Nearest, Oracle, OracleError, Possible, Seen, Stopped};

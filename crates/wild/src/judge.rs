@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use halfway::prelude::*;
-use halfway::reference::metrics::{Bars, Verdict, judge};
-use halfway::reference::{Image, Oracle, VertexGrid};
+use halfway::reference::metrics::{Bars, Verdict, judge_on_grid};
+use halfway::reference::{Image, Oracle};
 use halfway::render::{Adapter, RenderError};
 use halfway::scene::{MeshEntry, PlaneEntry, SceneFile, TeapotEntry, UvSphereEntry, spawn};
 use serde_json::Value;
@@ -35,9 +35,6 @@ pub struct Judge {
 
 /// A change of the scene that only the renderer is given, to see that it is found.
 pub type Fault = fn(&mut SceneFile);
-
-/// The bits of the grid of an adapter whose vertices are hardly moved.
-const FINE: u32 = 8;
 
 /// What is wrong with a scene.
 #[derive(Clone, Debug)]
@@ -85,13 +82,12 @@ impl fmt::Display for Finding {
 }
 
 impl Judge {
-    /// Judges what `adapter` draws. Paths of scenes are relative to `base_dir`. The coarser the grid that the adapter
-    /// puts vertices on, the more a slope may be off.
+    /// Judges what `adapter` draws. Paths of scenes are relative to `base_dir`.
     ///
     /// # Errors
     /// The adapter fails to draw what tells its grid.
     pub fn new(adapter: Adapter, base_dir: impl Into<PathBuf>) -> Result<Self, RenderError> {
-        let grid = adapter.sub_pixel_bits()?.clamp(4, FINE);
+        let grid = adapter.sub_pixel_bits()?;
         Ok(Self { adapter, base_dir: base_dir.into(), grid, four: false, steps: None, fault: None, until_wrong: false })
     }
 
@@ -166,20 +162,7 @@ impl Judge {
         self.set_up(&mut pictures.oracle, &judged)?;
         pictures.oracle.update();
 
-        let limits =
-            Limits { grid: self.grid, corners: None, blended, steps: steps.into(), until_wrong: self.until_wrong };
-        let exact = pictures.figures(limits);
-        if exact.is_ok() {
-            return exact;
-        }
-        // As a whole, what the exact triangles show with the bars of the grid, or what those show whose corners are on
-        // the grid with the bars of a fine one: `halfway::reference::metrics::judge_on_grid`.
-        let grids = VertexGrid::all(self.grid);
-        let count = if pictures.has_ties(self.grid)? { grids.len() } else { 1 };
-        let on_grid = |&corners: &VertexGrid| {
-            pictures.figures(Limits { grid: FINE, corners: Some(corners), until_wrong: true, ..limits }).ok()
-        };
-        grids[..count].iter().find_map(on_grid).map_or(exact, Ok)
+        pictures.figures(Limits { grid: self.grid, blended, steps: steps.into(), until_wrong: self.until_wrong })
     }
 
     fn set_up(&self, app: &mut App, scene: &SceneFile) -> Result<(), Finding> {
@@ -216,10 +199,8 @@ struct Pictures {
 /// What the pictures have to keep to.
 #[derive(Clone, Copy)]
 struct Limits {
-    /// The bits of the grid that the bars are for.
+    /// The bits of the adapter's grid within a pixel.
     grid: u32,
-    /// The grid that the oracle's corners are on.
-    corners: Option<VertexGrid>,
     /// How many objects are.
     blended: f64,
     /// What they may be off besides.
@@ -230,14 +211,13 @@ struct Limits {
 
 impl Pictures {
     fn figures(&mut self, limits: Limits) -> Result<Figures, Finding> {
-        let Limits { grid, corners, blended, steps, until_wrong } = limits;
-        let offset = Bars::FLOAT.worst * f64::from(1 << (FINE - grid));
-        let float = Bars { worst: offset, until_wrong, ..Bars::FLOAT };
-        let most = 1.0 + blended + (255.0 * offset).floor();
+        let Limits { grid, blended, steps, until_wrong } = limits;
+        let float = Bars { most: Bars::FLOAT.worst, until_wrong, ..Bars::FLOAT };
+        let most = 1.0 + blended;
         let bytes = Bars { most, worst: most, equal: 0.0, until_wrong, ..Bars::bytes(self.encoding) };
-        let float = self.judged(Pixels::Float, float.within(steps), corners)?;
-        let bytes = self.judged(Pixels::Byte, bytes.within(steps), corners)?;
-        if float.worst > offset + float.allowed || float.bad > 0 {
+        let float = self.judged(Pixels::Float, float.within(steps), grid)?;
+        let bytes = self.judged(Pixels::Byte, bytes.within(steps), grid)?;
+        if !float.is_within() {
             Err(Finding::Float(Box::new(float)))
         } else if !bytes.is_within() {
             Err(Finding::Bytes(Box::new(bytes)))
@@ -246,11 +226,7 @@ impl Pictures {
         }
     }
 
-    fn has_ties(&mut self, bits: u32) -> Result<bool, Finding> {
-        Ok(Oracle::new(self.oracle.world_mut(), self.size).map_err(refused)?.has_ties(bits))
-    }
-
-    fn judged(&mut self, pixels: Pixels, bars: Bars, corners: Option<VertexGrid>) -> Result<Verdict, Finding> {
+    fn judged(&mut self, pixels: Pixels, bars: Bars, grid: u32) -> Result<Verdict, Finding> {
         self.renderer.insert_resource(Headless { size: self.size, pixels });
         let actual = match render_picture(&mut self.renderer).map_err(refused::<RenderError>)? {
             Picture::Byte(image) => Image::from_bytes(&image, self.encoding),
@@ -258,8 +234,7 @@ impl Pictures {
         };
         let oracle = Oracle::new(self.oracle.world_mut(), self.size).map_err(refused)?;
         let oracle = oracle.with_clamping(bars.are_clamped());
-        let oracle = if let Some(grid) = corners { oracle.on_grid(grid) } else { oracle };
-        judge(&oracle, &oracle.draw(), &actual, bars).map_err(refused)
+        judge_on_grid(&oracle, &oracle.draw(), grid, &actual, bars).map_err(refused)
     }
 }
 

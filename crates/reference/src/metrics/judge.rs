@@ -5,8 +5,6 @@
 //! oracle says which colours it may show, and it is right if it shows one of them.
 
 mod divisor;
-mod grid;
-mod moved;
 
 use std::fmt;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -23,15 +21,17 @@ use crate::oracle::{ColorRange, Possible};
 use crate::{Image, Oracle};
 use divisor::judge_divided;
 
-pub use grid::judge_on_grid;
-pub use moved::{FINENESS, judge_moved};
-
 /// Within this many pixels of an edge a pixel may belong to either side: vertices are snapped to a grid of this width
 /// or a finer one (four bits, the least that Vulkan grants; eight are usual).
-pub const EDGE_RADIUS: f64 = 1.0 / 16.0;
-/// What is [steep](Bars::steep) for a drawer with a grid of 1/256 pixel. On a gentler slope it changes a pixel by less
-/// than 1/16 of that, which the bars cover.
+const EDGE_RADIUS: f64 = 1.0 / 16.0;
+/// Where a triangle's own colour changes by more than this share of the range within the disc of [`EDGE_RADIUS`], any of
+/// the colours there is right; on a gentler slope only the one at the centre. A grid of 1/256 of a pixel changes that by
+/// less than 1/16 of this share, which the bars cover.
 const STEEP: f64 = 0.04;
+
+/// The same where corners are on the drawer's own grid: all that is left to move an edge is single precision.
+const RADIUS_ON_GRID: f64 = 1.0 / 64.0;
+
 /// What a picture has to keep to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bars {
@@ -45,9 +45,6 @@ pub struct Bars {
     pub equal: f64,
     /// What each blended layer that a pixel is seen through may add to `worst`.
     pub layer: f64,
-    /// Where a triangle's own colour changes by more than this share of the range within the disc of [`EDGE_RADIUS`],
-    /// any of the colours there is right; on a gentler slope only the one at the centre.
-    pub steep: f64,
     /// What was allowed to be left out, in steps of 1/255 of the picture: `most` and `worst` are on top of it.
     pub steps: f64,
     /// The oracle is asked no more once a pixel is over `worst`: the [`Verdict`] is [`is_within`](Verdict::is_within)
@@ -73,7 +70,6 @@ impl Bars {
         worst: 2e-3,
         equal: 0.0,
         layer: 0.0,
-        steep: STEEP,
         steps: 0.0,
         until_wrong: false,
     };
@@ -167,7 +163,7 @@ impl Verdict {
 /// says.
 ///
 /// Of a pixel whose error is over `bars.most` the oracle is asked which colours it [may show](Oracle::possible) with
-/// vertices moved by less than [`EDGE_RADIUS`]; with four samples a pixel, also of one beside which something else is
+/// vertices moved by less than 1/16 of a pixel; with four samples a pixel, also of one beside which something else is
 /// seen. On an edge (several triangles, or a jump in the colour of one) and on a slope of more than 4 % of the range
 /// within that radius, each of these colours and that at the middle, give or take `bars.worst`, is right, and the pixel
 /// is counted apart; the error of another one is its distance from the nearest of them. Where blended layers are seen,
@@ -180,13 +176,49 @@ impl Verdict {
 /// # Errors
 /// [`SizeMismatch`].
 pub fn judge(oracle: &Oracle, expected: &Image, actual: &Image, bars: Bars) -> Result<Verdict, SizeMismatch> {
-    judge_divided(|x, y| oracle.possible(x, y, EDGE_RADIUS), oracle.samples(), (expected, None), actual, bars)
+    judge_within(EDGE_RADIUS, oracle, expected, actual, bars)
+}
+
+/// [`judge`] for a drawer that rounds the corners of triangles to a grid of N bits within a pixel. Some drawers
+/// interpolate between the rounded corners and others between the exact ones, so the picture is right if it is so as a
+/// whole by either: by `oracle`, which has drawn `expected`, or by the same [on the grid](Oracle::on_grid) with vertices
+/// moved by less than 1/64 of a pixel. Where a corner lies so near the middle between two places that single precision
+/// may take it to either, the triangles on it may be moved by a step of the grid.
+///
+/// # Errors
+/// [`SizeMismatch`].
+pub fn judge_on_grid(
+    oracle: &Oracle,
+    expected: &Image,
+    bits: u32,
+    actual: &Image,
+    bars: Bars,
+) -> Result<Verdict, SizeMismatch> {
+    let exact = judge(oracle, expected, actual, bars)?;
+    if exact.is_within() {
+        return Ok(exact);
+    }
+    let rounded = oracle.clone().on_grid(bits);
+    let verdict = judge_within(RADIUS_ON_GRID, &rounded, &rounded.draw(), actual, bars.until_wrong())?;
+    // Of a picture that is right all pixels have been judged.
+    Ok(if verdict.is_within() { Verdict { bars, ..verdict } } else { exact })
+}
+
+/// [`judge`] with another radius in place of [`EDGE_RADIUS`].
+fn judge_within(
+    radius: f64,
+    oracle: &Oracle,
+    expected: &Image,
+    actual: &Image,
+    bars: Bars,
+) -> Result<Verdict, SizeMismatch> {
+    judge_divided(|x, y| oracle.possible(x, y, radius), oracle.samples(), expected, actual, bars)
 }
 
 fn judge_with(
     possible: impl Fn(u32, u32) -> Possible + Sync,
     samples: Samples,
-    (expected, moved): (&Image, Option<&[ColorRange]>),
+    expected: &Image,
     actual: &Image,
     bars: Bars,
 ) -> Result<Verdict, SizeMismatch> {
@@ -200,10 +232,7 @@ fn judge_with(
         if is.iter().any(|channel| !(channel.is_finite() && *channel >= 0.0)) {
             return PixelFinding::Bad(at, is);
         }
-        let errors: [f64; 3] = match moved {
-            Some(ranges) => ruler.errors_outside(is, &ranges[i]),
-            None => std::array::from_fn(|k| ruler.error(is[k], should[k])),
-        };
+        let errors: [f64; 3] = std::array::from_fn(|k| ruler.error(is[k], should[k]));
         // An error that is no number is over the bar too.
         let is_over = errors.iter().any(|error| error.is_nan() || *error > bars.most + ruler.allowed);
         let counted = |should, errors| {
@@ -334,8 +363,7 @@ impl Ruler {
     /// Whether a pixel lies on an edge or a steep slope, where more than one colour is right.
     fn has_choice(&self, possible: &Possible) -> bool {
         let span = |range: &ColorRange, k: usize| self.value(range.high[k]) - self.value(range.low[k]);
-        possible.is_edge
-            || possible.ranges.iter().any(|range| (0..3).any(|k| span(range, k) > self.bars.steep * self.range))
+        possible.is_edge || possible.ranges.iter().any(|range| (0..3).any(|k| span(range, k) > STEEP * self.range))
     }
 
     /// The colour that a pixel may show and that is nearest to what it shows, and the errors of the channels.

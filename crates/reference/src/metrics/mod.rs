@@ -38,7 +38,7 @@ pub use comparison::{Comparison, Difference, NotFinite, compare};
 pub use coverage::Coverage;
 pub use difference::difference;
 pub use flip::{Flip, PIXELS_PER_DEGREE, flip, flip_of_covered};
-pub use judge::{Bars, EDGE_RADIUS, FINENESS, Measure, Verdict, judge, judge_moved, judge_on_grid};
+pub use judge::{Bars, Measure, Verdict, judge, judge_on_grid};
 pub use ranks::PERCENTILES;
 pub use report::report_failure;
 pub use scale::{Scale, Unit};

@@ -21,7 +21,7 @@ use super::surroundings::OracleSurroundings;
 use super::view::{PictureView, affine};
 
 /// What is drawn, in eye space.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct OracleScene {
     pub(super) view: PictureView,
     pub(super) viewer: equations::Eye<f64>,

@@ -15,7 +15,7 @@ pub(super) struct ReadMap {
 pub(super) type MapSlots<T> = [Option<T>; MapKind::COUNT];
 
 /// An image on an object.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct SolidMap {
     pub(super) pyramid: Pyramid,
     pub(super) sampling: Sampling,
@@ -27,7 +27,7 @@ pub(super) struct SolidMap {
 }
 
 /// All of them, and what turns normals.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct SolidMaps {
     pub(super) slots: MapSlots<SolidMap>,
     /// Where there is a normal map: the tangents of the vertices in eye space, and w.

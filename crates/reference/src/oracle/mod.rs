@@ -24,17 +24,17 @@ mod view;
 use std::sync::OnceLock;
 
 use bevy_ecs::world::World;
-use bevy_math::{DVec3, UVec2};
+use bevy_math::UVec2;
 use halfway_lighting::equations::divisor;
 use halfway_lighting::{Intensity, Samples};
 
 pub use error::{OracleError, Stopped};
-pub use grid::VertexGrid;
 pub use mode::Mode;
 pub use possible::{ColorRange, Possible};
 pub use probe::{Nearest, Seen};
 
 use gather::OracleScene;
+use grid::VertexGrid;
 use raster::Tiles;
 
 use crate::Image;
@@ -51,12 +51,14 @@ use crate::Image;
 /// - Blended objects are drawn over the opaque ones from back to front by the view depth of the middle of their bounds,
 ///   those of equal depth (in f32) as they were spawned; of a two-sided one the back faces, then the front faces; then
 ///   in the order of the mesh. Each gives opacity·I + (1 − opacity)·what is behind.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Oracle {
     scene: OracleScene,
     size: UVec2,
     supersampling: u32,
     clamp: bool,
+    /// The grid that vertices are on.
+    grid: Option<VertexGrid>,
     /// The divisor of the frame before.
     before: Option<f64>,
     /// Found when they are first needed: they depend on the mode.
@@ -85,7 +87,7 @@ impl Oracle {
             return Err(OracleError::TooLarge { width, height, limit: Self::MAX_PIXELS });
         }
         let scene = OracleScene::gather(world, size)?;
-        Ok(Self { scene, size, supersampling: 1, clamp: false, before: None, tiles: OnceLock::new() })
+        Ok(Self { scene, size, supersampling: 1, clamp: false, grid: None, before: None, tiles: OnceLock::new() })
     }
 
     /// What is drawn of each object; [`Mode::Mesh`] unless said.
@@ -98,24 +100,18 @@ impl Oracle {
         self
     }
 
-    /// Draws as a rasteriser that puts vertices on a grid within a pixel, of N bits, say; exactly unless said. What is
+    /// Draws as a rasterizer that puts vertices on a grid of N bits within a pixel; exactly unless said. What is
     /// interpolated between vertices, and how it changes from a pixel to the next, is then as on the moved triangles;
     /// what is shaded at vertices is not.
     #[must_use]
-    pub fn on_grid(mut self, grid: impl Into<VertexGrid>) -> Self {
-        let (view, grid) = (self.scene.view, grid.into());
+    pub fn on_grid(mut self, bits: u32) -> Self {
+        let (view, grid) = (self.scene.view, VertexGrid::new(bits));
         for solid in &mut self.scene.solids {
             solid.draw_at(|p| view.on_grid(p, grid));
         }
+        self.grid = Some(grid);
         self.tiles = OnceLock::new();
         self
-    }
-
-    /// Whether single precision cannot tell which place of a grid of N bits is the nearest one to some vertex.
-    pub fn has_ties(&self, bits: u32) -> bool {
-        let (view, grid) = (self.scene.view, VertexGrid::from(bits));
-        let is_tie = |p: &DVec3| grid.is_tie(view.pixel(*p), view.size());
-        self.scene.solids.iter().any(|solid| solid.corners.iter().any(is_tie))
     }
 
     /// `n` × `n` samples a pixel, averaged, in place of its centre; 1 unless said. They are the centres of the pixel's

@@ -47,12 +47,6 @@ impl Oracle {
         Seen { color: layers.color(&self.scene, self.scene.behind(self.scene.view.ray(x, y)), self.clamp), nearest }
     }
 
-    /// The colour at a point of the picture, as it is drawn, but for a divisor.
-    pub(crate) fn shown(&self, x: f64, y: f64) -> [f64; 3] {
-        let policy = self.scene.intensity;
-        self.seen(x, y).color.map(|channel| policy.toned(channel))
-    }
-
     /// Where a point of the world lies on the picture, or beside it, in pixels from its top left corner; `None` before
     /// the near plane.
     pub fn project(&self, world: DVec3) -> Option<(f64, f64)> {

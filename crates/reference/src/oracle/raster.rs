@@ -45,7 +45,7 @@ pub(super) struct Primitive {
 }
 
 /// The picture cut into squares, and what each of them may show, in the order in which it is drawn.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Tiles {
     pub(super) primitives: Vec<Primitive>,
     /// Numbers of primitives, a list a tile, row by row.

@@ -53,7 +53,7 @@ pub(super) struct Parts {
 }
 
 /// One side of an object.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Side {
     pub(super) coefficients: Coefficients<f64>,
     pub(super) opacity: f64,
@@ -63,7 +63,7 @@ pub(super) struct Side {
 }
 
 /// A mesh in eye space, with what it takes to shade it.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Solid {
     pub(super) entity: Entity,
     pub(super) mesh: Mesh,
@@ -73,8 +73,8 @@ pub(super) struct Solid {
     /// The transform turns windings over.
     pub(super) mirrored: bool,
     pub(super) corners: Vec<DVec3>,
-    /// Where the corners are drawn, unless it is where they are.
-    drawn: Option<Vec<DVec3>>,
+    /// Where the corners are drawn, unless it is where they are, and whether each may be drawn elsewhere all the same.
+    drawn: Option<Vec<(DVec3, bool)>>,
     pub(super) normals: Vec<DVec3>,
     /// The colours of the vertices, where they count.
     pub(super) colors: Option<Vec<DVec4>>,
@@ -96,7 +96,7 @@ pub(super) struct Solid {
 }
 
 /// The surface that a mesh stands for, and the way to it.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Smooth {
     pub(super) traced: Traced,
     pub(super) model_from_eye: DAffine3,
@@ -201,15 +201,20 @@ impl Solid {
         a * u + b * v + c * w
     }
 
-    /// Draws each corner elsewhere.
-    pub(super) fn draw_at(&mut self, place: impl Fn(DVec3) -> DVec3 + Sync) {
+    /// Draws each corner elsewhere, where it is uncertain or not.
+    pub(super) fn draw_at(&mut self, place: impl Fn(DVec3) -> (DVec3, bool) + Sync) {
         self.drawn = Some(self.corners.par_iter().map(|p| place(*p)).collect());
     }
 
     /// Where a triangle's corners are drawn, in eye space.
     pub(super) fn triangle(&self, triangle: u32) -> [DVec3; 3] {
-        let corners = self.drawn.as_ref().unwrap_or(&self.corners);
-        self.vertices(triangle).map(|vertex| corners[vertex])
+        let drawn = self.drawn.as_ref();
+        self.vertices(triangle).map(|vertex| drawn.map_or(self.corners[vertex], |drawn| drawn[vertex].0))
+    }
+
+    /// Whether a corner of a triangle may be drawn elsewhere.
+    pub(super) fn is_uncertain(&self, triangle: u32) -> bool {
+        self.drawn.as_ref().is_some_and(|drawn| self.vertices(triangle).iter().any(|vertex| drawn[*vertex].1))
     }
 
     /// Where a triangle's corners are lit, in eye space.

@@ -12,7 +12,7 @@ use super::solid::Color;
 use super::view::PictureView;
 
 /// The environment, in eye space.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct OracleSurroundings {
     pub(super) map: EnvironmentMap,
     pub(super) strength: f64,

@@ -84,13 +84,15 @@ impl PictureView {
         0.5 * self.size * (1.0 + DVec2::new(at_depth_1.x, -at_depth_1.y))
     }
 
-    /// The point of the same depth that lies on the picture where the grid has its place.
-    pub(super) fn on_grid(&self, p: DVec3, grid: VertexGrid) -> DVec3 {
-        let pixel = grid.place(self.pixel(p), self.size);
+    /// The point of the same depth that lies on the picture where the grid has its place, and whether a drawer in
+    /// single precision may put it on another one.
+    pub(super) fn on_grid(&self, p: DVec3, grid: VertexGrid) -> (DVec3, bool) {
+        let exact = self.pixel(p);
+        let pixel = grid.place(exact);
         let at_depth_1 = 2.0 * pixel / self.size - 1.0;
         let on_grid = DVec2::new(at_depth_1.x, -at_depth_1.y) * self.half * -p.z;
         // What lies in the plane of the eye lies nowhere on the picture.
-        if on_grid.is_finite() { on_grid.extend(p.z) } else { p }
+        if on_grid.is_finite() { (on_grid.extend(p.z), grid.is_tie(exact, self.size)) } else { (p, false) }
     }
 
     /// [`pixel`](Self::pixel) less `origin`, times the depth: linear in space, and finite wherever the point lies.

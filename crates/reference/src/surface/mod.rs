@@ -21,7 +21,7 @@ use ray::{Ray, extent};
 pub(crate) use ray::SurfaceHit;
 
 /// A surface made ready for rays: its patches are cut into small ones.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Traced {
     /// The quadrics and the discs.
     plain: Vec<Plain>,
@@ -31,7 +31,7 @@ pub(crate) struct Traced {
 }
 
 /// A piece that is met in closed form.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Plain {
     piece: SurfacePiece,
     hull: Vec<DVec3>,

@@ -25,14 +25,14 @@ const MARGIN: f64 = 1e-10;
 const MOST_CELLS: usize = 10_000;
 
 /// Patches in pieces.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Patches {
     patches: Vec<BezierPatch>,
     pieces: Vec<Piece>,
 }
 
 /// A part of a patch.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Piece {
     patch: usize,
     net: Net<DVec3>,

@@ -4,7 +4,7 @@ use bevy_math::Vec3;
 use halfway_lighting::{Blend, Material};
 use halfway_mesh::{Mesh, Plane};
 
-use crate::mutants::{all_pixels, assert_caught, coarse, moved, oracle, snapped, with};
+use crate::mutants::{all_pixels, assert_caught, moved, on_grid, oracle, snapped, with};
 use crate::scene::{Stage, glow};
 
 /// A blended sheet that runs away from the eye and is tilted, so that its far triangles are thinner than a coarse grid:
@@ -26,7 +26,7 @@ fn sheets_that_a_coarse_grid_folds_pass_and_holes_in_them_are_found() {
     let folded = oracle(&mut sheet(|mesh| snapped(mesh, 16.0))).draw();
     let is_twice = |(x, y): &(u32, u32)| folded.pixel(*x, *y)[0] > 1.2 * plain.pixel(*x, *y)[0];
     assert!(all_pixels().filter(is_twice).count() > 3, "nowhere is the sheet seen twice");
-    let verdict = coarse(&judged, &folded);
+    let verdict = on_grid(&judged, 4, &folded);
     assert!(verdict.is_within(), "{verdict}");
     // Nothing is folded where triangles are large, and nowhere does a fold open the sheet.
     let inside = |x: u32, y: u32| {

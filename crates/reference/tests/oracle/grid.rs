@@ -5,11 +5,11 @@ use bevy_color::LinearRgba;
 use bevy_math::{Vec2, Vec3, Vec4};
 use halfway_lighting::{GlobalAmbient, Material};
 use halfway_mesh::Mesh;
-use halfway_reference::metrics::{Bars, judge, judge_on_grid};
-use halfway_reference::{Image, VertexGrid};
+use halfway_reference::Image;
+use halfway_reference::metrics::{Bars, judge};
 use halfway_texture::{MapKind, Maps, TexelImage, Texture};
 
-use crate::mutants::with;
+use crate::mutants::{on_grid, with};
 use crate::scene::{Stage, panel};
 
 /// A rectangle at depth 1 with a colour at each corner, on a picture of 16 × 16 pixels that shows 2 × 2 units there.
@@ -47,11 +47,8 @@ fn what_is_interpolated_goes_with_the_rounded_corners() {
 /// Strips one above the other, 0.15 pixels high, on each of which the same spot of an image shrinks alike. A grid of
 /// sixteenths of a pixel makes a strip a sixth lower or a quarter higher, and so more or fewer texels go to a pixel.
 fn strips() -> Stage {
-    strips_from(-0.371, 0.15 / 8.0)
-}
-
-/// The same from a place on, of a height, both at depth 1, where a pixel is 1/8.
-fn strips_from(bottom: f32, height: f32) -> Stage {
+    // At depth 1, where a pixel is 1/8.
+    let height = 0.15 / 8.0;
     let mut stage = Stage::new();
     stage.world.insert_resource(GlobalAmbient(LinearRgba::WHITE));
     // Whole texels of the third level, and quarters of the fourth.
@@ -65,7 +62,7 @@ fn strips_from(bottom: f32, height: f32) -> Stage {
     let [middle, half] = [34.0, 0.5 * 5.7 * 0.15].map(|texels| texels / 64.0);
     let uvs = [middle + half, middle - half].map(|v| [Vec2::new(middle, v); 2]).concat();
     for i in 0..40 {
-        let bottom = bottom + height * i as f32;
+        let bottom = -0.371 + height * i as f32;
         let [low, high] = [bottom, bottom + height];
         let corners = [(-0.7, low), (0.7, low), (0.7, high), (-0.7, high)].map(|(x, y)| Vec3::new(x, y, -1.0));
         let strip = Mesh::from_parts(corners.to_vec(), None, Some(uvs.clone()), vec![0, 1, 2, 0, 2, 3]);
@@ -80,13 +77,9 @@ fn a_picture_that_is_right_on_the_grid_alone_passes_as_a_whole_or_not_at_all() {
     let mut stage = strips();
     let exact = stage.oracle(16, 16);
     let (expected, picture) = (exact.draw(), stage.oracle(16, 16).on_grid(4).draw());
-    let by_exact = |picture: &Image| judge(&exact, &expected, picture, Bars::FLOAT.on_grid(4)).expect("one size");
-    let by_either = |picture: &Image| {
-        let rounded = strips().oracle(16, 16);
-        judge_on_grid((&exact, &expected), (rounded, 4), picture, Bars::FLOAT).expect("one size")
-    };
-    let verdict = by_exact(&picture);
+    let verdict = judge(&exact, &expected, &picture, Bars::FLOAT).expect("one size");
     assert!(!verdict.is_within(), "by the exact triangles: {verdict}");
+    let by_either = |picture: &Image| on_grid(&exact, 4, picture);
     let verdict = by_either(&picture);
     assert!(verdict.is_within(), "by either: {verdict}");
     let verdict = by_either(&expected);
@@ -110,8 +103,7 @@ fn a_fine_grid_is_judged_by_either_rule_too() {
     let slope = || moved(beside);
     let (exact, picture) = (slope(), slope().on_grid(8).draw());
     let expected = exact.draw();
-    let by_either =
-        |picture: &Image| judge_on_grid((&exact, &expected), (slope(), 8), picture, Bars::FLOAT).expect("one size");
+    let by_either = |picture: &Image| on_grid(&exact, 8, picture);
     let verdict = judge(&exact, &expected, &picture, Bars::FLOAT).expect("one size");
     assert!(!verdict.is_within(), "by the exact triangles: {verdict}");
     let verdict = by_either(&picture);
@@ -126,28 +118,33 @@ fn a_fine_grid_is_judged_by_either_rule_too() {
     }
 }
 
-/// Every other border of the strips is just in the middle between two places, and goes to either; one that is a
-/// hundredth of a pixel beside it does not.
+/// Corners just in the middle between two places of a grid of sixteenths go to either, each by itself; those that are a
+/// hundredth of a pixel beside it do not, and no corner goes places farther.
 #[test]
 fn ties_go_to_either_side() {
-    let ties = || strips_from(-0.375, 0.09375 / 8.0);
-    let judged = |stage: &dyn Fn() -> Stage, picture: &Image| {
-        let (exact, rounded) = (stage().oracle(16, 16), stage().oracle(16, 16));
-        judge_on_grid((&exact, &exact.draw()), (rounded, 4), picture, Bars::FLOAT).expect("one size")
+    // Pixels are 1/8 of a unit, and half a place 1/256. One corner at a time is moved by some places from the lower
+    // ones of the grid.
+    let at = |beside: f32| move |places: f32| -0.5 + (0.5 + beside + places) / 128.0;
+    let scene = |beside: f32, places: [f32; 4]| {
+        let [left, right, bottom, top] = places.map(at(beside));
+        ramp(left, 1.0 + right, bottom, 1.0 + top)
     };
-    assert!(ties().oracle(16, 16).has_ties(4) && !strips().oracle(16, 16).has_ties(4));
-    let [nearest, others @ ..] = VertexGrid::all(4).map(|grid| ties().oracle(16, 16).on_grid(grid).draw());
-    let [lower, .., higher] = &others;
-    assert!(difference(lower, higher) > 0.05, "the ways are one");
-    for picture in [&nearest].into_iter().chain(&others) {
-        let verdict = judged(&ties, picture);
-        assert!(verdict.is_within(), "{verdict}");
-    }
-    // Down on the picture is up in pixels.
-    for (beside, other) in [(-0.01, lower), (0.01, higher)] {
-        let moved = || strips_from(-0.375 + beside / 8.0, 0.09375 / 8.0);
-        assert!(!moved().oracle(16, 16).has_ties(4));
-        let verdict = judged(&moved, other);
-        assert!(!verdict.is_within(), "{beside} beside: {verdict}");
+    let judged = |beside: f32, picture: &Image| on_grid(&scene(beside, [0.0; 4]).oracle(16, 16), 4, picture);
+    for ways in 0..16_u32 {
+        let picture = |beside: f32, farther: f32| {
+            let place = |way: u32| if ways >> way & 1 == 1 { 0.5 + farther } else { -0.5 - farther } - beside;
+            scene(beside, [0, 1, 2, 3].map(place)).oracle(16, 16).draw()
+        };
+        let verdict = judged(0.0, &picture(0.0, 0.0));
+        assert!(verdict.is_within(), "{ways:04b}: {verdict}");
+        // By less the slopes here change by no more than the bars allow.
+        let verdict = judged(0.0, &picture(0.0, 2.0));
+        assert!(!verdict.is_within(), "{ways:04b}, two places farther: {verdict}");
+        // Less than the half place is to the nearest one, of which each side has one.
+        for beside in [-0.16, 0.16] {
+            let nearest = if beside > 0.0 { 15 } else { 0 };
+            let verdict = judged(beside, &picture(beside, 0.0));
+            assert_eq!(verdict.is_within(), ways == nearest, "{ways:04b}, {beside} beside: {verdict}");
+        }
     }
 }

@@ -1,10 +1,12 @@
 //! The judge itself: pictures with planted faults, each of which it finds, and pictures of rasterisers that are right.
 
+use bevy_color::LinearRgba;
 use bevy_ecs::prelude::*;
-use bevy_math::{Vec2, Vec3};
+use bevy_math::{Vec2, Vec3, Vec4};
 use bevy_transform::components::GlobalTransform;
 use halfway_lighting::{
-    BackMaterial, Blend, Camera, DirectionalLight, Encoding, Faces, Material, PointLight, Samples, Shading,
+    BackMaterial, Blend, Camera, DirectionalLight, Encoding, Faces, GlobalAmbient, Material, PointLight, Samples,
+    Shading,
 };
 use halfway_mesh::{Mesh, UvSphere};
 use halfway_reference::metrics::{Bars, Verdict, judge, judge_on_grid};
@@ -25,9 +27,9 @@ pub(crate) fn float(truth: &Oracle, actual: &Image) -> Verdict {
     judge(truth, &truth.draw(), actual, Bars::FLOAT).expect("pictures of one size")
 }
 
-/// As a drawer with a grid of four bits is judged.
-pub(crate) fn coarse(truth: &Oracle, actual: &Image) -> Verdict {
-    judge(truth, &truth.draw(), actual, Bars::FLOAT.on_grid(4)).expect("pictures of one size")
+/// As a drawer with a grid of so many bits is judged.
+pub(crate) fn on_grid(truth: &Oracle, bits: u32, actual: &Image) -> Verdict {
+    judge_on_grid(truth, &truth.draw(), bits, actual, Bars::FLOAT).expect("pictures of one size")
 }
 
 /// The picture rounded to bytes, judged by their bars.
@@ -43,8 +45,7 @@ pub(crate) fn assert_caught(fault: &str, stage: &mut Stage, actual: &Image) {
     let verdict = float(&oracle(stage), actual);
     assert!(!verdict.is_within(), "{fault}: {verdict}");
     for bits in [4, 8] {
-        let (truth, rounded) = (oracle(stage), oracle(stage));
-        let verdict = judge_on_grid((&truth, &truth.draw()), (rounded, bits), actual, Bars::FLOAT).expect("one size");
+        let verdict = on_grid(&oracle(stage), bits, actual);
         assert!(!verdict.is_within(), "{fault}, on a grid of {bits} bits: {verdict}");
     }
     for encoding in [Encoding::Raw, Encoding::Srgb] {
@@ -136,6 +137,21 @@ fn glossy(shininess: f32) -> Material {
     Material { specular: grey(0.5), shininess, ..Material::default() }
 }
 
+/// Another colour at each vertex.
+fn painted(mesh: &Mesh) -> Mesh {
+    let wave = |i: usize, by: f32| 0.5 + 0.4 * (by * i as f32).sin();
+    let colors = (0..mesh.positions().len()).map(|i| Vec4::new(wave(i, 0.1), wave(i, 0.3), wave(i, 0.7), 1.0));
+    mesh.clone().with_colors(colors.collect()).expect("a colour a vertex")
+}
+
+/// The balls in colours that stay with their vertices, as on a rasteriser, wherever those are moved.
+fn painted_balls(change: impl Fn(&Mesh) -> Mesh) -> Stage {
+    let looks = |_| Material { ambient: LinearRgba::WHITE, ..glow(0.0, 0.0, 0.0) };
+    let mut stage = balls(looks, Shading::Phong, |mesh| painted(&change(mesh)));
+    stage.world.insert_resource(GlobalAmbient(LinearRgba::WHITE));
+    stage
+}
+
 #[test]
 fn a_rasteriser_that_is_right_passes() {
     for places in [16.0, 256.0] {
@@ -152,11 +168,15 @@ fn a_rasteriser_that_is_right_passes() {
         assert!(verdict.is_within(), "{shading:?}: {verdict}");
         let verdict = bytes(&mut truth, &picture, Encoding::Srgb);
         assert!(verdict.is_within(), "{shading:?} in bytes: {verdict}");
-        // A coarse grid moves slopes, too, and is over the bar that knows nothing of it.
-        let picture = oracle(&mut balls(plain, shading, |mesh| snapped(mesh, 16.0))).draw();
-        let verdict = coarse(&oracle(&mut truth), &picture);
-        assert!(verdict.is_within(), "{shading:?} on a grid of four bits: {verdict}");
-        assert!(!float(&oracle(&mut truth), &picture).is_within(), "{shading:?}: the slopes do not move");
+    }
+    // A coarse grid moves slopes, too, and is over the bar where it is not known.
+    for places in [16.0, 256.0] {
+        let truth = oracle(&mut painted_balls(Mesh::clone));
+        let picture = oracle(&mut painted_balls(|mesh| snapped(mesh, places))).draw();
+        let verdict = on_grid(&truth, places.log2() as u32, &picture);
+        assert!(verdict.is_within(), "painted, {places} places a pixel: {verdict}");
+        let verdict = float(&truth, &picture);
+        assert!(places > 16.0 || !verdict.is_within(), "the slopes do not move: {verdict}");
     }
 }
 
@@ -289,24 +309,23 @@ fn an_outline_moved_by_a_quarter_of_a_pixel_is_found() {
     }
 }
 
-/// By how much an exponent is off that is found on a grid of four bits, too: on every slope the colours within 1/16 of
-/// a pixel are right there, and one that is off by 4 % changes one of these pictures by no more.
-const COARSE_EXPONENT: f32 = 1.05;
-
 #[test]
 fn an_exponent_one_hundredth_off_is_found() {
     for shading in [Shading::Gouraud, Shading::Phong] {
         for shininess in [5.0, 60.0] {
             let looks = |factor: f32| move |_: f32| glossy(shininess * factor);
+            let truth = || oracle(&mut balls(looks(1.0), shading, Mesh::clone));
+            // Bytes are too coarse for it.
             let picture = oracle(&mut balls(looks(1.01), shading, Mesh::clone)).draw();
-            let verdict = float(&oracle(&mut balls(looks(1.0), shading, Mesh::clone)), &picture);
-            assert!(!verdict.is_within(), "{shading:?}, {shininess}: {verdict}");
-            // What is as small as a coarse grid moves things can be found only on a fine one.
-            for (factor, is_found) in [(1.01, false), (COARSE_EXPONENT, true)] {
-                let picture = oracle(&mut balls(looks(factor), shading, Mesh::clone)).draw();
-                let verdict = coarse(&oracle(&mut balls(looks(1.0), shading, Mesh::clone)), &picture);
-                assert_eq!(!verdict.is_within(), is_found, "{shading:?}, {shininess} times {factor}: {verdict}");
+            let verdicts = [float(&truth(), &picture), on_grid(&truth(), 4, &picture), on_grid(&truth(), 8, &picture)];
+            for verdict in verdicts {
+                assert!(!verdict.is_within(), "{shading:?}, {shininess}: {verdict}");
             }
+            // Drawn on a coarse grid, too.
+            let change = |mesh: &Mesh| snapped(mesh, 16.0);
+            let picture = oracle(&mut balls(looks(1.01), shading, change)).draw();
+            let verdict = on_grid(&truth(), 4, &picture);
+            assert!(!verdict.is_within(), "{shading:?}, {shininess}, on a coarse grid: {verdict}");
         }
     }
 }

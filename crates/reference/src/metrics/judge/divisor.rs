@@ -5,7 +5,7 @@
 
 use super::{Bars, Measure, Ruler, SizeMismatch, Verdict, judge_with, same_size};
 use crate::Image;
-use crate::oracle::{ColorRange, Possible};
+use crate::oracle::Possible;
 use halfway_lighting::Samples;
 use rayon::prelude::*;
 
@@ -13,24 +13,22 @@ use rayon::prelude::*;
 pub(super) fn judge_divided(
     possible: impl Fn(u32, u32) -> Possible + Sync,
     samples: Samples,
-    (expected, moved): (&Image, Option<&[ColorRange]>),
+    expected: &Image,
     actual: &Image,
     bars: Bars,
 ) -> Result<Verdict, SizeMismatch> {
     same_size(actual, expected)?;
     let Some(divisor) = expected.divisor() else {
-        return judge_with(possible, samples, (expected, moved), actual, bars);
+        return judge_with(possible, samples, expected, actual, bars);
     };
     let possible = |x, y| possible(x, y).mapped(|channel| channel / divisor);
-    let factor = divided_like(&possible, (expected, moved), divisor.recip(), actual, bars);
+    let factor = divided_like(&possible, expected, divisor.recip(), actual, bars);
     // A factor that was found is known to some 10⁻⁴, which takes a hundredth of the values across the middle of a step.
     let equal = if factor.to_bits() == 1.0f64.to_bits() { bars.equal } else { bars.equal - 0.05 };
     let bars = Bars { equal, ..bars };
     let scaled = expected.clone().scaled(factor);
     let possible = |x, y| possible(x, y).mapped(|channel| channel * factor);
-    let moved: Option<Vec<_>> =
-        moved.map(|ranges| ranges.iter().map(|range| range.mapped(|channel| channel * factor)).collect());
-    judge_with(possible, samples, (&scaled, moved.as_deref()), actual, bars)
+    judge_with(possible, samples, &scaled, actual, bars)
 }
 
 /// What the expected picture is multiplied by to be divided like the actual one; 1 where no picture that may be shown
@@ -38,7 +36,7 @@ pub(super) fn judge_divided(
 /// it.
 fn divided_like(
     possible: &(impl Fn(u32, u32) -> Possible + Sync),
-    (expected, moved): (&Image, Option<&[ColorRange]>),
+    expected: &Image,
     one: f64,
     actual: &Image,
     bars: Bars,
@@ -64,14 +62,10 @@ fn divided_like(
     }
     // What the largest channel of a pixel may be: from and to, one for each colour that it may show.
     let brightness = |i: usize| {
-        let of = |range: &ColorRange| [largest(range.low), largest(range.high)];
-        if let Some(ranges) = moved {
-            return vec![of(&ranges[i])];
-        }
         let possible = possible((i % width) as u32, (i / width) as u32);
         let mut all = vec![[largest(expected.pixels()[i]); 2]];
         if ruler.has_choice(&possible) {
-            all.extend(possible.ranges.iter().map(of));
+            all.extend(possible.ranges.iter().map(|range| [largest(range.low), largest(range.high)]));
         }
         all
     };

@@ -1,6 +1,5 @@
 //! The judgement of single pixels, with surroundings made up for them.
 
-use super::moved::{ranges_within, widen};
 use super::*;
 use std::sync::atomic::AtomicUsize;
 
@@ -30,7 +29,7 @@ fn pixels<const N: usize>(is_edge: bool, greys: [[f64; 2]; N]) -> impl Fn(u32, u
 }
 
 fn float(surroundings: impl Fn(u32, u32) -> Possible + Sync, actual: &Image) -> Verdict {
-    judge_with(surroundings, Samples::One, (&ramp(), None), actual, Bars::FLOAT).expect("one size")
+    judge_with(surroundings, Samples::One, &ramp(), actual, Bars::FLOAT).expect("one size")
 }
 
 fn nothing_is_asked(x: u32, y: u32) -> Possible {
@@ -56,7 +55,7 @@ fn of_a_picture_that_is_wrong_few_pixels_are_asked() {
     };
     let judged = |actual: &Image, bars| {
         asked.store(0, Ordering::Relaxed);
-        let verdict = judge_with(surroundings, Samples::One, (&ramp(), None), actual, bars).expect("one size");
+        let verdict = judge_with(surroundings, Samples::One, &ramp(), actual, bars).expect("one size");
         (verdict.is_within(), asked.load(Ordering::Relaxed))
     };
     let all_wrong = Image::new(SIZE, SIZE, vec![[0.45; 3]; (SIZE * SIZE) as usize]);
@@ -109,7 +108,7 @@ fn a_steep_slope_has_many_right_values_and_a_gentle_one_has_one() {
 #[test]
 fn of_four_samples_the_centre_alone_is_not_right_beside_an_edge() {
     let judged = |samples: Samples, picture: &Image| {
-        judge_with(pixels(true, [[0.4, 0.4]]), samples, (&ramp(), None), picture, Bars::FLOAT).expect("one size")
+        judge_with(pixels(true, [[0.4, 0.4]]), samples, &ramp(), picture, Bars::FLOAT).expect("one size")
     };
     assert!(judged(Samples::One, &ramp()).is_within());
     assert!(!judged(Samples::Four, &ramp()).is_within(), "every pixel of the ramp has others beside it");
@@ -138,8 +137,8 @@ fn bad_numbers_are_never_within() {
     }
     // An oracle that knows no value has no picture to judge by.
     let unknown = with(&ramp(), &[((7, 2), [f64::NAN; 3])]);
-    let verdict = judge_with(pixels(false, [[0.0, 0.0]]), Samples::One, (&unknown, None), &ramp(), Bars::FLOAT)
-        .expect("one size");
+    let verdict =
+        judge_with(pixels(false, [[0.0, 0.0]]), Samples::One, &unknown, &ramp(), Bars::FLOAT).expect("one size");
     assert!(!verdict.is_within() && verdict.worst.is_infinite(), "{verdict}");
 }
 
@@ -153,7 +152,7 @@ fn bytes_may_be_one_step_off_on_a_hundredth() {
         Image::new(SIZE, SIZE, (0..SIZE * SIZE).map(pixel).collect())
     };
     let judged = |actual: &Image| {
-        judge_with(pixels(false, [[0.5, 0.5]]), Samples::One, (&expected, None), actual, Bars::bytes(encoding))
+        judge_with(pixels(false, [[0.5, 0.5]]), Samples::One, &expected, actual, Bars::bytes(encoding))
             .expect("one size")
     };
     let (few, many, far) = (judged(&off(1, 101)), judged(&off(1, 50)), judged(&off(2, 400)));
@@ -168,8 +167,8 @@ fn right_background_does_not_flatter() {
     let expected = ramp().with_coverage(covered);
     // A wrong pixel of the object, and a right and a wrong one of the background.
     let actual = with(&ramp(), &[((2, 2), [0.5; 3]), ((30, 30), [0.1; 3])]);
-    let verdict = judge_with(pixels(false, [[0.0, 0.0]]), Samples::One, (&expected, None), &actual, Bars::FLOAT)
-        .expect("one size");
+    let verdict =
+        judge_with(pixels(false, [[0.0, 0.0]]), Samples::One, &expected, &actual, Bars::FLOAT).expect("one size");
     let counted = f64::from(4 * SIZE + 1) / f64::from(SIZE * SIZE);
     assert_eq!((verdict.counted, verdict.at.map(|worst| worst.at)), (counted, Some((30, 30))));
     assert!((verdict.equal - f64::from(4 * SIZE - 1) / f64::from(4 * SIZE + 1)).abs() < 1e-12);
@@ -179,67 +178,8 @@ fn right_background_does_not_flatter() {
 fn pictures_of_one_color_are_judged_by_their_brightness() {
     let one = |value: f64| Image::new(2, 2, vec![[value; 3]; 4]);
     for (expected, off, relative) in [(0.5, 0.5005, 1e-3), (0.0, 1e-3, 1e-3)] {
-        let verdict =
-            judge_with(pixels(false, [[0.0, 0.0]]), Samples::One, (&one(expected), None), &one(off), Bars::FLOAT)
-                .expect("one size");
+        let verdict = judge_with(pixels(false, [[0.0, 0.0]]), Samples::One, &one(expected), &one(off), Bars::FLOAT)
+            .expect("one size");
         assert!((verdict.worst - relative).abs() < 1e-9, "{verdict}");
-    }
-}
-
-/// The ramp, with N columns and rows for each of its own.
-fn fine_ramp() -> Image {
-    let size = FINENESS * SIZE;
-    let at = |i: u32| (f64::from(i % size) + 0.5) / f64::from(FINENESS) - 0.5;
-    Image::new(size, size, (0..size * size).map(|i| [at(i) / f64::from(SIZE - 1); 3]).collect())
-}
-
-fn moved_by(pixels: f64, expected: &Image, actual: &Image) -> Verdict {
-    let ranges = ranges_within(expected, &fine_ramp(), pixels + 0.5);
-    let surroundings = |_, _| Possible { is_edge: false, ranges: Vec::new(), layers: 0 };
-    judge_with(surroundings, Samples::One, (expected, Some(&ranges)), actual, Bars::FLOAT).expect("one size")
-}
-
-#[test]
-fn what_is_moved_is_right_within_so_many_pixels_and_not_farther() {
-    let along = |by: f64| {
-        let last = f64::from(SIZE - 1);
-        let pixels = (0..SIZE * SIZE).map(|i| [(f64::from(i % SIZE) + by).clamp(0.0, last) / last; 3]);
-        Image::new(SIZE, SIZE, pixels.collect())
-    };
-    // Half a pixel of sampling, less the gap between pixels of the fine picture.
-    for (pixels, by, is_right) in [(0.5, 0.7, true), (0.5, 1.2, false), (2.0, 2.2, true), (2.0, -2.7, false)] {
-        let verdict = moved_by(pixels, &ramp(), &along(by));
-        assert_eq!(verdict.is_within(), is_right, "{by} of {pixels} pixels: {verdict}");
-    }
-    // One pixel that shows what is nowhere near.
-    let verdict = moved_by(2.0, &ramp(), &with(&ramp(), &[((20, 7), [0.9; 3])]));
-    assert!(!verdict.is_within() && verdict.at.is_some_and(|worst| worst.at == (20, 7)), "{verdict}");
-}
-
-#[test]
-fn what_shows_at_the_middle_alone_is_right() {
-    // Thinner than the gaps of the fine picture.
-    let sliver = with(&ramp(), &[((11, 30), [0.9; 3])]);
-    let verdict = moved_by(0.5, &sliver, &sliver);
-    assert!(verdict.is_within(), "{verdict}");
-}
-
-/// A colour that is there, between the pixels of the finer picture, is right, and one that is nowhere near is not.
-#[test]
-fn what_shows_between_fine_pixels_is_right_where_it_is_within_reach() {
-    let peak = |x: f64, y: f64, value: f64| if (x - 20.16).abs() < 0.1 && (y - 7.66).abs() < 0.1 { value } else { 0.5 };
-    for (at, value, is_right) in
-        [((20, 7), 0.9, true), ((21, 7), 0.8, true), ((22, 7), 0.9, false), ((20, 7), 0.95, false)]
-    {
-        let grey = |value: f64| vec![[value; 3]; (SIZE * SIZE) as usize];
-        let expected = with(&Image::new(SIZE, SIZE, grey(0.5)), &[((0, 0), [0.0; 3]), ((1, 0), [1.0; 3])]);
-        let mut ranges: Vec<ColorRange> = expected.pixels().iter().map(|pixel| ColorRange::of([*pixel])).collect();
-        let actual = with(&expected, &[(at, [value; 3])]);
-        let shown = |x: f64, y: f64| [peak(x, y, 0.9); 3];
-        widen(&mut ranges, shown, (&expected, &actual), 1.4, Bars::FLOAT).expect("one size");
-        let surroundings = |_, _| Possible { is_edge: false, ranges: Vec::new(), layers: 0 };
-        let verdict =
-            judge_with(surroundings, Samples::One, (&expected, Some(&ranges)), &actual, Bars::FLOAT).expect("one size");
-        assert_eq!(verdict.is_within(), is_right, "{at:?} {value}: {verdict}");
     }
 }

@@ -83,6 +83,10 @@ impl FootprintCorner {
     }
 }
 
+/// From the disc's centre to where coverage is looked up, in pixels: right and then down, as the top-left rule has it.
+/// Vertices on a grid may lie at the centre exactly, where rounding would decide for each edge by itself.
+const AT_CENTRE: DVec2 = DVec2::new(1e-9, 1e-10);
+
 /// A triangle within a disc around a point of the picture.
 #[derive(Clone, Debug)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a fact of its own")]
@@ -120,7 +124,8 @@ impl Footprint {
         }
         let [a, b, c] = corners;
         let counter_clockwise = (b - a).cross(c - a).dot(a) < 0.0;
-        let ray = view.ray(zone.centre.x, zone.centre.y);
+        let DVec2 { x, y } = zone.centre + AT_CENTRE;
+        let ray = view.ray(x, y);
         let met = RayTriangle::new(corners).meet(ray).filter(|met| met.depth >= view.near);
         let edge = |i: usize| {
             let ends = [whole(corners)[i], whole(corners)[(i + 1) % 3]];

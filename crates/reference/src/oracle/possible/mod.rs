@@ -28,7 +28,8 @@ const MOST_RANGES: usize = 4096;
 impl Oracle {
     /// The colours that the pixel in column `x` of row `y` may show, drawn by a renderer that moves each vertex by at
     /// most `radius` pixels, vertices at one place together: what any sampling point so far beside the true one could
-    /// have met. The radius is below 1/8.
+    /// have met. The radius is below 1/8. Near triangles of which a corner may be at either of two places of the
+    /// [grid](Self::on_grid) it is the step of the grid, if that is more.
     ///
     /// - A triangle may be seen if it comes into the disc of that radius, unless something before it cannot be missed:
     ///   a surface that covers the disc's centre and has neither an end nor a silhouette within the disc, and of which
@@ -52,6 +53,8 @@ impl Oracle {
     fn drawn_there(&self, x: u32, y: u32, radius: f64) -> Possible {
         let corner = DVec2::new(f64::from(x), f64::from(y));
         let centre = corner + 0.5;
+        let radius =
+            if self.is_uncertain(corner) { self.grid.map_or(radius, |grid| radius.max(grid.step())) } else { radius };
         // Shaded once a pixel, as everything is.
         let behind = self.scene.behind(self.scene.view.ray(centre.x, centre.y));
         match self.samples() {
@@ -73,6 +76,13 @@ impl Oracle {
                 Possible { is_edge: possible.is_edge || is_edge, ..possible }
             }
         }
+    }
+
+    /// Whether a triangle that may be drawn elsewhere comes near a pixel.
+    fn is_uncertain(&self, corner: DVec2) -> bool {
+        let Some(grid) = self.grid else { return false };
+        let near = self.tiles().within(corner - grid.step(), corner + 1.0 + grid.step());
+        near.into_iter().any(|primitive| self.scene.solids[primitive.solid].is_uncertain(primitive.index))
     }
 
     fn stack(&self, disc: &Zone, shading: &[&Zone]) -> Stack {

@@ -15,21 +15,21 @@ pub struct Possible {
     /// One for each combination of triangles that may be seen.
     pub ranges: Vec<ColorRange>,
     /// Whether more than one combination of triangles may be seen, or another by each sample, or a triangle's own
-    /// colour jumps, as it does at the edge of a spot's cone. Where none is so the pixel has one right colour: that at
-    /// its centre.
+    /// colour jumps, as it does at the edge of a spot's cone, or a corner of it may be drawn at either of two places.
+    /// Where none is so the pixel has one right colour: that at its centre.
     pub is_edge: bool,
     /// The most blended layers that may lie over one another at one sampling point.
     pub layers: usize,
 }
 
 impl ColorRange {
-    pub(crate) fn of(colors: impl IntoIterator<Item = [f64; 3]>) -> Self {
+    pub(super) fn of(colors: impl IntoIterator<Item = [f64; 3]>) -> Self {
         let none = Self { low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3] };
         colors.into_iter().fold(none, |range, color| range.with(&Self { low: color, high: color }))
     }
 
     /// The least range that holds both.
-    pub(crate) fn with(&self, other: &Self) -> Self {
+    pub(super) fn with(&self, other: &Self) -> Self {
         let [low, high] = [0, 1].map(|end| {
             std::array::from_fn(|k| match end {
                 0 => self.low[k].min(other.low[k]),

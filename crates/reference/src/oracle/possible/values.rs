@@ -13,7 +13,8 @@ pub(super) struct SideColors {
     pub(super) range: ColorRange,
     /// The least and the greatest opacity.
     pub(super) opacity: [f64; 2],
-    /// Whether they change by much from one place to the next.
+    /// Whether any of them is right: they change by much from one place to the next, or it is not known where the
+    /// triangle is drawn.
     pub(super) jumps: bool,
 }
 
@@ -43,7 +44,8 @@ impl SideColors {
         let solid = &scene.solids[footprint.solid];
         let is_textured = solid.maps.is_some() || solid.cut_from.is_some();
         let jumps = (solid.terms.has(Frequency::Fragment) || is_textured) && jumps(&points, &colors, &range, color)
-            || shading.len() > 1 && is_in_parts(scene, footprint);
+            || shading.len() > 1 && is_in_parts(scene, footprint)
+            || solid.is_uncertain(footprint.triangle);
         if cuts > 1 || is_textured {
             range = range.with(&sought(&outline, (&points, &colors), 0.5 / cuts as f64, color));
         }

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::metrics::judge::judge_with;
+use crate::oracle::ColorRange;
 use halfway_lighting::Encoding;
 
 const SIZE: u32 = 128;
@@ -43,15 +44,7 @@ fn surroundings(whole: &Image, dim: Option<f64>) -> impl Fn(u32, u32) -> Possibl
 
 fn verdict(whole: &Image, divisor: f64, dim: Option<f64>, actual: &Image, bars: Bars) -> Verdict {
     let expected = whole.clone().divided(divisor);
-    judge_divided(surroundings(whole, dim), Samples::One, (&expected, None), actual, bars).expect("one size")
-}
-
-/// The same where all may be moved by next to nothing.
-fn verdict_moved(whole: &Image, divisor: f64, actual: &Image, bars: Bars) -> Verdict {
-    let expected = whole.clone().divided(divisor);
-    let ranges: Vec<_> = expected.pixels().iter().map(|pixel| ColorRange::of([*pixel])).collect();
-    let moved = Some(&ranges[..]);
-    judge_divided(surroundings(whole, None), Samples::One, (&expected, moved), actual, bars).expect("one size")
+    judge_divided(surroundings(whole, dim), Samples::One, &expected, actual, bars).expect("one size")
 }
 
 /// Off by so much, and whether that is right.
@@ -66,8 +59,6 @@ fn the_right_divisor_passes_and_one_that_is_3_percent_off_is_found() {
             let actual = written(&whole.clone().scaled((off * brightest).recip()), bars);
             let alone = verdict(&whole, brightest, None, &actual, bars);
             assert_eq!(alone.is_within(), is_right, "{off} of {brightest}: {alone}");
-            let moved = verdict_moved(&whole, brightest, &actual, bars);
-            assert_eq!(moved.is_within(), is_right, "moved, {off} of {brightest}: {moved}");
         }
     }
 }
@@ -95,7 +86,7 @@ fn on_an_edge_two_divisors_are_right_and_no_third() {
                 Possible { is_edge, ranges: both[..=usize::from(is_edge)].to_vec(), layers: 0 }
             };
             let expected = without.clone().divided(other);
-            let judged = judge_divided(possible, Samples::One, (&expected, None), &actual, bars).expect("one size");
+            let judged = judge_divided(possible, Samples::One, &expected, &actual, bars).expect("one size");
             assert_eq!(judged.is_within(), is_right, "shown, {off} of {brightest}: {judged}");
         }
     }
@@ -106,12 +97,12 @@ fn without_a_divisor_nothing_is_scaled() {
     let whole = undivided(1.0, 0.9);
     let darker = whole.clone().scaled(0.995);
     for (expected, is_right) in [(whole.clone(), false), (darker.clone(), true)] {
-        let found = judge_divided(surroundings(&whole, None), Samples::One, (&expected, None), &darker, Bars::FLOAT);
+        let found = judge_divided(surroundings(&whole, None), Samples::One, &expected, &darker, Bars::FLOAT);
         assert_eq!(found.expect("one size").is_within(), is_right);
     }
     // Below 1 nothing is divided.
     let expected = whole.clone().divided(1.0);
-    let found = judge_with(surroundings(&whole, None), Samples::One, (&expected, None), &whole, Bars::FLOAT);
+    let found = judge_with(surroundings(&whole, None), Samples::One, &expected, &whole, Bars::FLOAT);
     assert!(found.expect("one size").is_within());
     for off in [0.97, 1.03] {
         let found = verdict(&whole, 1.0, None, &whole.clone().scaled(off), Bars::FLOAT);
