@@ -1,7 +1,7 @@
 //! Text and areas on pictures.
 
 use font8x8::legacy::BASIC_LEGACY;
-use image::imageops::{FilterType, resize};
+use image::imageops::{FilterType, replace, resize};
 use image::{Rgb, RgbImage};
 
 /// Rows and columns of a glyph before it is enlarged.
@@ -53,32 +53,11 @@ pub(super) fn enlarged(image: &RgbImage) -> RgbImage {
     resize(image, width * factor, height * factor, FilterType::Nearest)
 }
 
-/// Pictures below one another, the left edges in line, `gap` pixels between.
-pub(super) fn below_one_another(pictures: &[RgbImage], gap: u32) -> RgbImage {
-    let width = pictures.iter().map(RgbImage::width).max().unwrap_or(0);
-    let height = pictures.iter().map(|picture| picture.height() + gap).sum::<u32>().saturating_sub(gap);
-    let mut canvas = RgbImage::from_pixel(width, height, PAPER);
-    let mut y = 0;
-    for picture in pictures {
-        paste(&mut canvas, picture, (0, y));
-        y += picture.height() + gap;
-    }
+/// Two pictures one below the other, the left edges in line.
+pub(super) fn stacked(upper: &RgbImage, lower: &RgbImage) -> RgbImage {
+    let width = upper.width().max(lower.width());
+    let mut canvas = RgbImage::from_pixel(width, upper.height() + lower.height(), PAPER);
+    replace(&mut canvas, upper, 0, 0);
+    replace(&mut canvas, lower, 0, upper.height().into());
     canvas
-}
-
-/// Pictures beside one another, the upper edges in line, `gap` pixels between.
-pub(super) fn beside_one_another(pictures: &[RgbImage], gap: u32) -> RgbImage {
-    let width = pictures.iter().map(|picture| picture.width() + gap).sum::<u32>().saturating_sub(gap);
-    let height = pictures.iter().map(RgbImage::height).max().unwrap_or(0);
-    let mut canvas = RgbImage::from_pixel(width, height, PAPER);
-    let mut x = 0;
-    for picture in pictures {
-        paste(&mut canvas, picture, (x, 0));
-        x += picture.width() + gap;
-    }
-    canvas
-}
-
-fn paste(canvas: &mut RgbImage, picture: &RgbImage, (x, y): (u32, u32)) {
-    image::imageops::replace(canvas, picture, x.into(), y.into());
 }

@@ -2,11 +2,12 @@
 
 use halfway_lighting::Encoding;
 use image::RgbImage;
+use rayon::prelude::*;
 
 use super::bands::{Band, BandPairs, PictureRows, SizeMismatch};
-use super::coverage::{Coverage, Kind, Pair, coverage, pairs};
-use super::ranks::{PASSES, PERCENTILES, Ranks, nearest_rank};
-use super::statistics::{ErrorSums, Errors, Worst};
+use super::coverage::{Coverage, Kind, Pair, pairs};
+use super::ranks::{PERCENTILES, nearest_rank, percentile, percentile_of_all};
+use super::statistics::{ChannelSums, Errors, Worst};
 use crate::Image;
 
 /// How far an actual picture is from an expected one.
@@ -63,7 +64,7 @@ pub struct NotFinite {
 }
 
 /// Measures how far `actual` is from `expected`; `encoding` says what the bytes of an 8-bit picture mean. The pictures
-/// are gone through some rows at a time, several times.
+/// are gone through some rows at a time.
 ///
 /// # Errors
 /// [`SizeMismatch`].
@@ -75,7 +76,7 @@ pub fn compare(
     let bands = BandPairs::of(actual, expected)?;
     let mut seen = Sight::new(encoding);
     bands.each().for_each(|band| seen.take(&band));
-    Ok(seen.comparison(&bands))
+    Ok(seen.comparison(bands.size))
 }
 
 /// What one look at all pixels tells.
@@ -87,8 +88,10 @@ struct Sight {
     not_finite: Option<NotFinite>,
     brightest: f64,
     darkest: f64,
-    linear: [ErrorSums; 3],
-    steps: [ErrorSums; 3],
+    linear: ChannelSums,
+    steps: ChannelSums,
+    /// The absolute linear errors, by channel.
+    errors: [Vec<f64>; 3],
     /// How many channels are N steps off.
     by_step: [[u64; 256]; 3],
     anywhere: Difference,
@@ -104,8 +107,9 @@ impl Sight {
             not_finite: None,
             brightest: f64::NEG_INFINITY,
             darkest: f64::INFINITY,
-            linear: [ErrorSums::default(); 3],
-            steps: [ErrorSums::default(); 3],
+            linear: ChannelSums::default(),
+            steps: ChannelSums::default(),
+            errors: Default::default(),
             by_step: [[0; 256]; 3],
             anywhere: Difference::default(),
         }
@@ -113,8 +117,8 @@ impl Sight {
 
     fn take(&mut self, band: &Band) {
         let bytes = [&band.actual, &band.expected].map(|image| image.to_bytes(self.encoding));
-        if let Some(here) = coverage(band) {
-            self.coverage.get_or_insert_default().append(&here);
+        if band.actual.covered().is_some() && band.expected.covered().is_some() {
+            self.coverage.get_or_insert_default();
         }
         for channel in band.expected.pixels().iter().flatten().filter(|channel| channel.is_finite()) {
             self.brightest = self.brightest.max(*channel);
@@ -123,6 +127,9 @@ impl Sight {
         for pair in pairs(band) {
             let Pair { at, actual, expected, kind } = pair;
             let steps = steps(&bytes, (at.0, at.1 - band.first));
+            if let Some(coverage) = &mut self.coverage {
+                coverage.count(kind, at);
+            }
             if kind == Kind::NotFinite {
                 let first = NotFinite { count: 0, first: at, actual, expected };
                 self.not_finite.get_or_insert(first).count += 1;
@@ -140,26 +147,33 @@ impl Sight {
             for channel in 0..3 {
                 let here = |actual, expected| Worst { at, channel, actual, expected };
                 let [own, other] = steps[channel];
-                self.linear[channel].push(here(actual[channel], expected[channel]));
-                self.steps[channel].push(here(f64::from(own), f64::from(other)));
+                let linear = here(actual[channel], expected[channel]);
+                self.linear.push(linear);
+                self.errors[channel].push(linear.error());
+                self.steps.push(here(f64::from(own), f64::from(other)));
                 self.by_step[channel][usize::from(own.abs_diff(other))] += 1;
             }
         }
     }
 
-    fn comparison(self, bands: &BandPairs) -> Comparison {
-        let by_step = self.by_step.map(|counts| step_percentiles(&counts));
-        let all_steps = std::array::from_fn(|step| self.by_step.iter().map(|counts| counts[step]).sum());
-        let (linear, all_linear) = linear_percentiles(bands);
+    fn comparison(mut self, size: (u32, u32)) -> Comparison {
+        self.errors.iter_mut().for_each(|errors| errors.par_sort_unstable_by(f64::total_cmp));
+        let [red, green, blue] =
+            self.errors.each_ref().map(|sorted| PERCENTILES.map(|share| percentile(sorted, share)));
+        let all = PERCENTILES.map(|share| percentile_of_all(&self.errors, share));
+        let linear = [red, green, blue, all];
+        let [red, green, blue] = &self.by_step;
+        let all = std::array::from_fn(|step| red[step] + green[step] + blue[step]);
+        let by_step = [red, green, blue, &all].map(step_percentiles);
         Comparison {
-            size: bands.size,
+            size,
             encoding: self.encoding,
             counted: self.counted,
             coverage: self.coverage,
             not_finite: self.not_finite,
             range: (self.brightest - self.darkest).max(0.0),
-            linear: Errors::of(&self.linear, linear, all_linear),
-            steps: Errors::of(&self.steps, by_step, step_percentiles(&all_steps)),
+            linear: self.linear.errors(linear),
+            steps: self.steps.errors(by_step),
             equal: if self.counted == 0 { 1.0 } else { self.equal as f64 / self.counted as f64 },
             anywhere: self.anywhere,
         }
@@ -177,25 +191,6 @@ fn step_percentiles(counts: &[u64; 256]) -> [f64; 4] {
         });
         found.unwrap_or(0) as f64
     })
-}
-
-/// The percentiles of the linear errors that count: of each channel, and of all.
-fn linear_percentiles(bands: &BandPairs) -> ([[f64; 4]; 3], [f64; 4]) {
-    let mut ranks: [Ranks; 4] = std::array::from_fn(|_| Ranks::new());
-    for _ in 0..PASSES {
-        for band in bands.each() {
-            for Pair { actual, expected, .. } in pairs(&band).filter(|pair| pair.kind == Kind::Counted) {
-                for channel in 0..3 {
-                    let error = (actual[channel] - expected[channel]).abs();
-                    ranks[channel].push(error);
-                    ranks[3].push(error);
-                }
-            }
-        }
-        ranks.iter_mut().for_each(Ranks::next_pass);
-    }
-    let [red, green, blue, all] = ranks.map(|ranks| ranks.percentiles());
-    ([red, green, blue], all)
 }
 
 impl Comparison {

@@ -18,13 +18,18 @@ pub struct Coverage {
 }
 
 impl Coverage {
-    /// Adds what is known of rows below.
-    pub(super) fn append(&mut self, below: &Self) {
-        self.both += below.both;
-        self.neither += below.neither;
-        self.only_actual += below.only_actual;
-        self.only_expected += below.only_expected;
-        self.first_difference = self.first_difference.or(below.first_difference);
+    /// Counts a pixel at a place, after those in the rows above and to the left.
+    pub(super) fn count(&mut self, kind: Kind, at: (u32, u32)) {
+        match kind {
+            Kind::Counted => self.both += 1,
+            Kind::Background => self.neither += 1,
+            Kind::OnlyActual => self.only_actual += 1,
+            Kind::OnlyExpected => self.only_expected += 1,
+            Kind::NotFinite => {}
+        }
+        if matches!(kind, Kind::OnlyActual | Kind::OnlyExpected) {
+            self.first_difference.get_or_insert(at);
+        }
     }
 
     /// Pixels that exactly one of the pictures covers.
@@ -66,7 +71,7 @@ pub(super) struct Pair {
 }
 
 /// The pixels of a band, row by row.
-pub(super) fn pairs(band: &Band) -> impl Iterator<Item = Pair> + Clone + '_ {
+pub(super) fn pairs(band: &Band) -> impl Iterator<Item = Pair> {
     let Band { first, actual, expected } = band;
     let width = actual.dimensions().0.max(1) as usize;
     let covered = actual.covered().zip(expected.covered());
@@ -81,23 +86,4 @@ pub(super) fn pairs(band: &Band) -> impl Iterator<Item = Pair> + Clone + '_ {
         };
         Pair { at: ((i % width) as u32, first + (i / width) as u32), actual, expected, kind }
     })
-}
-
-/// The figures of a band's finite pixels, where both pictures know what they cover.
-pub(super) fn coverage(band: &Band) -> Option<Coverage> {
-    band.actual.covered().zip(band.expected.covered())?;
-    let mut coverage = Coverage::default();
-    for Pair { at, kind, .. } in pairs(band) {
-        match kind {
-            Kind::Counted => coverage.both += 1,
-            Kind::Background => coverage.neither += 1,
-            Kind::OnlyActual => coverage.only_actual += 1,
-            Kind::OnlyExpected => coverage.only_expected += 1,
-            Kind::NotFinite => {}
-        }
-        if matches!(kind, Kind::OnlyActual | Kind::OnlyExpected) {
-            coverage.first_difference.get_or_insert(at);
-        }
-    }
-    Some(coverage)
 }

@@ -4,7 +4,7 @@ use halfway_lighting::Encoding;
 use image::RgbImage;
 
 use super::bands::{Band, BandPairs, PictureRows, SizeMismatch};
-use super::canvas::{below_one_another, enlarged};
+use super::canvas::{enlarged, stacked};
 use super::comparison::{largest, steps};
 use super::coverage::{Kind, pairs};
 use super::legend::legend;
@@ -47,7 +47,7 @@ pub fn difference(
     };
     let picture = enlarged(&picture);
     let legend = legend(picture.width(), shown);
-    Ok(below_one_another(&[picture, legend], 0))
+    Ok(stacked(&picture, &legend))
 }
 
 /// Adds the error of every pixel of a band, row by row; of pixels that are not finite it means nothing.

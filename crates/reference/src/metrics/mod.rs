@@ -31,7 +31,6 @@ mod report;
 mod scale;
 mod statistics;
 mod table;
-mod triptych;
 
 pub use bands::{PictureRows, SizeMismatch};
 pub use comparison::{Comparison, Difference, NotFinite, compare};
@@ -44,4 +43,3 @@ pub use report::report_failure;
 pub use scale::{Scale, Unit};
 pub use statistics::{Errors, Statistics, Worst};
 pub use table::Table;
-pub use triptych::triptych;

@@ -8,11 +8,10 @@ use image::{ImageResult, RgbImage};
 use super::comparison::Comparison;
 use super::difference::difference;
 use super::scale::Scale;
-use super::triptych::triptych;
 use crate::Image;
 
-/// Leaves `NAME.actual.png`, `NAME.expected.png`, `NAME.difference.png` and, of all three side by side,
-/// `NAME.triptych.png` in `folder`, and says in one line where and how far off, and where the pictures are.
+/// Leaves `NAME.actual.png`, `NAME.expected.png` and `NAME.difference.png` in `folder`, and says in one line where and
+/// how far off, and where the pictures are.
 ///
 /// Characters of `name` other than letters, digits, `-`, `_` and `.` become `_` in the files' names. A picture that
 /// cannot be written is said to be so in the line; the failure that it was to show stands.
@@ -20,7 +19,7 @@ use crate::Image;
 pub fn report_failure(folder: &Path, name: &str, actual: &Image, expected: &Image, comparison: &Comparison) -> String {
     let stem: String = name.chars().map(|c| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' }).collect();
     let pictures = match leave(folder, &stem, actual, expected, comparison) {
-        Ok(()) => format!("pictures: {}", folder.join(stem).display()) + ".{actual,expected,difference,triptych}.png",
+        Ok(()) => format!("pictures: {}", folder.join(stem).display()) + ".{actual,expected,difference}.png",
         Err(problem) => format!("no pictures: {}: {problem}", folder.join(stem).display()),
     };
     format!("{name}: {comparison}; {pictures}")
@@ -34,13 +33,11 @@ fn leave(
     comparison: &Comparison,
 ) -> Result<(), Box<dyn std::error::Error>> {
     let encoding = comparison.encoding;
-    let scale = Scale::default();
     fs::create_dir_all(folder)?;
     let save =
         |kind: &str, picture: &RgbImage| -> ImageResult<()> { picture.save(folder.join(format!("{stem}.{kind}.png"))) };
     save("actual", &actual.to_bytes(encoding))?;
     save("expected", &expected.to_bytes(encoding))?;
-    save("difference", &difference(actual, expected, encoding, scale)?)?;
-    save("triptych", &triptych(actual, expected, encoding, scale)?)?;
+    save("difference", &difference(actual, expected, encoding, Scale::default())?)?;
     Ok(())
 }

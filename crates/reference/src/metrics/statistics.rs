@@ -1,6 +1,5 @@
 //! Figures over many errors.
 
-use std::cmp::Ordering;
 use std::fmt;
 
 /// The channels' names, in their order.
@@ -69,7 +68,7 @@ impl Statistics {
 
 /// Errors in all figures but the percentiles, as they come in.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct ErrorSums {
+struct ErrorSums {
     count: u64,
     sum: f64,
     absolute: f64,
@@ -79,32 +78,13 @@ pub(super) struct ErrorSums {
 
 impl ErrorSums {
     /// Takes the values at a place.
-    pub(super) fn push(&mut self, here: Worst) {
+    fn push(&mut self, here: Worst) {
         let error = here.actual - here.expected;
         self.count += 1;
         self.sum += error;
         self.absolute += error.abs();
         self.squares += error * error;
         if self.worst.is_none_or(|worst| error.abs() > worst.error()) {
-            self.worst = Some(here);
-        }
-    }
-
-    /// Takes what another one has.
-    fn append(&mut self, other: &Self) {
-        self.count += other.count;
-        self.sum += other.sum;
-        self.absolute += other.absolute;
-        self.squares += other.squares;
-        // Of equal errors the first, row by row.
-        let before = |a: Worst, b: Worst| match b.error().total_cmp(&a.error()) {
-            Ordering::Greater => true,
-            Ordering::Equal => (b.at.1, b.at.0) < (a.at.1, a.at.0),
-            Ordering::Less => false,
-        };
-        if let Some(here) = other.worst
-            && self.worst.is_none_or(|worst| before(worst, here))
-        {
             self.worst = Some(here);
         }
     }
@@ -121,14 +101,20 @@ impl ErrorSums {
     }
 }
 
-impl Errors {
-    /// The figures of the three channels, with the percentiles of each and of all.
-    pub(super) fn of(channels: &[ErrorSums; 3], percentiles: [[f64; 4]; 3], of_all: [f64; 4]) -> Self {
-        let mut all = ErrorSums::default();
-        for channel in channels {
-            all.append(channel);
-        }
-        let channel = |k: usize| channels[k].statistics(percentiles[k]);
-        Self { channels: [channel(0), channel(1), channel(2)], all: all.statistics(of_all) }
+/// The sums of red, green and blue, and of all of them.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct ChannelSums([ErrorSums; 4]);
+
+impl ChannelSums {
+    /// Takes the values of one channel at a place.
+    pub(super) fn push(&mut self, here: Worst) {
+        self.0[here.channel].push(here);
+        self.0[3].push(here);
+    }
+
+    /// The figures, with the percentiles of each channel and of all.
+    pub(super) fn errors(&self, percentiles: [[f64; 4]; 4]) -> Errors {
+        let statistics = |k: usize| self.0[k].statistics(percentiles[k]);
+        Errors { channels: [0, 1, 2].map(statistics), all: statistics(3) }
     }
 }

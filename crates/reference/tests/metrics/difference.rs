@@ -3,7 +3,7 @@
 use colorous::MAGMA;
 use halfway_lighting::Encoding::Raw;
 use halfway_reference::Image;
-use halfway_reference::metrics::{Scale, Unit, difference, triptych};
+use halfway_reference::metrics::{Scale, Unit, difference};
 use image::{Rgb, RgbImage};
 
 use crate::grey;
@@ -67,15 +67,4 @@ fn large_and_odd_pictures_keep_their_pixels() {
         assert!(picture.width() >= width.max(320), "{width} × {height}: {:?}", picture.dimensions());
         assert!(picture.height() > height, "{width} × {height}: {:?}", picture.dimensions());
     }
-}
-
-#[test]
-fn a_triptych_shows_all_three() {
-    let (actual, expected) = (grey(2, &[0.2, 0.4, 0.6, 0.8]), grey(2, &[0.2, 0.4, 0.6, 0.7]));
-    let picture = triptych(&actual, &expected, Raw, Scale::default()).unwrap();
-    assert_eq!(picture.width(), 3 * 320 + 2 * 8);
-    let lower_right = |panel: u32| *picture.get_pixel(panel * 328 + 319, 16 + 319);
-    assert_eq!([lower_right(0), lower_right(1)], [Rgb([204; 3]), Rgb([179; 3])]);
-    assert_eq!(lower_right(2), magma(25.0 / 50.0));
-    assert!(triptych(&actual, &grey(1, &[0.0]), Raw, Scale::default()).is_err());
 }

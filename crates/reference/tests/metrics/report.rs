@@ -15,18 +15,18 @@ fn folder(test: &str) -> PathBuf {
 }
 
 #[test]
-fn four_pictures_and_one_line() {
+fn three_pictures_and_one_line() {
     let folder = folder("report");
     let (actual, expected) = (grey(2, &[0.5, 0.25]), grey(2, &[0.5, 0.5]));
     let comparison = compare(&actual, &expected, Srgb).unwrap();
     let line = report_failure(&folder, "flat × point/1", &actual, &expected, &comparison);
     assert!(!line.contains('\n') && line.starts_with("flat × point/1: up to 51 steps"), "{line}");
     assert!(line.contains("(1, 0) red"), "{line}");
-    for kind in ["actual", "expected", "difference", "triptych"] {
+    for kind in ["actual", "expected", "difference"] {
         let file = folder.join(format!("flat___point_1.{kind}.png"));
         assert!(image::open(&file).is_ok(), "{}", file.display());
     }
-    assert!(line.contains("flat___point_1.{actual,expected,difference,triptych}.png"), "{line}");
+    assert!(line.contains("flat___point_1.{actual,expected,difference}.png"), "{line}");
     let kept = image::open(folder.join("flat___point_1.actual.png")).unwrap().into_rgb8();
     assert_eq!(kept, actual.to_bytes(Srgb));
 }
