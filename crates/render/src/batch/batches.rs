@@ -25,41 +25,34 @@ pub(crate) fn batch<B: Backend + Resource<Mutability = Mutable>>(
     mut report: ResMut<FrameReport>,
 ) {
     batches.instances.clear();
-    batches.draws.begin(backend.costs().multi_draw);
+    batches.draws.clear();
     batches.emit(&mut lit, &mut *backend);
-    report.draws = batches.draws.command_count() as u32;
+    report.draws = batches.draws.count() as u32;
     report.triangles = batches.draws.triangles();
 }
 
 impl Batches {
-    /// Sorts, and joins neighbours that differ only in their instance or record, and in one command in their indices.
+    /// Sorts, and joins neighbours that differ only in their instance or record.
     fn emit(&mut self, seen: &mut LitPatches, backend: &mut impl Backend) {
         let mut runs = std::mem::take(&mut seen.runs);
         // Instances are numbered in spawn order, which equal ones keep.
         runs.sort_unstable_by(|a, b| {
             a.blend.cmp(&b.blend).then_with(|| if a.blend { a.by_depth(b) } else { a.by_state(b) })
         });
-        for alike in runs.chunk_by_mut(LitRun::is_of_one_state) {
-            let draws = || 1 + alike.windows(2).filter(|pair| pair[0].indices != pair[1].indices).count();
-            if self.draws.is_one_command(draws) {
-                self.emit_command(alike, seen, backend);
-            } else {
-                for same in alike.chunk_by_mut(|a, b| a.indices == b.indices) {
-                    self.emit_command(same, seen, backend);
-                }
-            }
+        for same in runs.chunk_by_mut(LitRun::differs_in_record_alone) {
+            self.emit_alike(same, seen, backend);
         }
         seen.runs = runs;
     }
 
-    /// Draws what one command can draw, where records are looked up.
-    fn emit_command(&mut self, runs: &mut [LitRun], seen: &LitPatches, backend: &mut impl Backend) {
+    /// Draws runs that differ in nothing but their record and instance: at once where records are looked up.
+    fn emit_alike(&mut self, runs: &mut [LitRun], seen: &LitPatches, backend: &mut impl Backend) {
         let LitRun { blend, call, lights, .. } = runs[0];
         let (key, ..) = seen.table.called[call as usize];
         let records = 1 + runs.windows(2).filter(|pair| pair[0].record != pair[1].record).count();
         let are_looked_up = records > 1 && (blend || records >= backend.costs().records_of_one_command) && lights == 0;
         let per_instance = are_looked_up && backend.looks_up(key);
-        for same in runs.chunk_by_mut(|a, b| a.indices == b.indices && (per_instance || a.record == b.record)) {
+        for same in runs.chunk_by_mut(|a, b| per_instance || a.record == b.record) {
             if per_instance && !blend {
                 same.sort_unstable_by(LitRun::by_nearness);
             }

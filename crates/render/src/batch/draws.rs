@@ -3,7 +3,6 @@
 use crate::batch::key::DrawKey;
 use crate::geometry::meshes::Form;
 use bevy_asset::AssetId;
-use bytemuck::{Pod, Zeroable};
 use halfway_mesh::Mesh;
 use std::ops::Range;
 
@@ -21,26 +20,11 @@ pub(crate) struct DrawState {
     pub(crate) maps: u32,
 }
 
-/// One draw, laid out as commands read it from a buffer.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
+/// One draw command: a range of the mesh's indices, for a range of instances.
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct IndexedDraw {
-    pub(crate) index_count: u32,
-    pub(crate) instance_count: u32,
-    pub(crate) first_index: u32,
-    /// Added to each index; always 0.
-    base_vertex: i32,
-    pub(crate) first_instance: u32,
-}
-
-impl IndexedDraw {
-    pub(crate) fn indices(&self) -> Range<u32> {
-        self.first_index..self.first_index + self.index_count
-    }
-
-    pub(crate) fn instances(&self) -> Range<u32> {
-        self.first_instance..self.first_instance + self.instance_count
-    }
+    pub(crate) indices: Range<u32>,
+    pub(crate) instances: Range<u32>,
 }
 
 /// Draws one after the other that share their state.
@@ -55,42 +39,16 @@ pub(crate) struct DrawGroup {
 pub(crate) struct Draws {
     groups: Vec<DrawGroup>,
     each: Vec<IndexedDraw>,
-    /// A group of this many draws or more is one command that reads them from a buffer.
-    multi_draw: Option<u32>,
-}
-
-/// How a group is drawn.
-pub(crate) enum GroupCommands<'a> {
-    /// Draw by draw.
-    Each(&'a [IndexedDraw]),
-    /// By one command that reads `count` draws, from byte `offset` of their buffer on.
-    Multi { offset: u64, count: u32 },
 }
 
 impl Draws {
-    pub(crate) fn begin(&mut self, multi_draw: Option<u32>) {
-        self.clear();
-        self.multi_draw = multi_draw;
-    }
-
-    /// Whether this number of draws that share their state is one command.
-    pub(crate) fn is_one_command(&self, draws: impl FnOnce() -> usize) -> bool {
-        self.multi_draw.is_some_and(|from| draws() >= from as usize)
-    }
-
     pub(crate) fn clear(&mut self) {
         self.groups.clear();
         self.each.clear();
     }
 
     pub(crate) fn push(&mut self, state: DrawState, indices: Range<u32>, instances: Range<u32>) {
-        self.each.push(IndexedDraw {
-            index_count: indices.end - indices.start,
-            instance_count: instances.end - instances.start,
-            first_index: indices.start,
-            base_vertex: 0,
-            first_instance: instances.start,
-        });
+        self.each.push(IndexedDraw { indices, instances });
         let end = self.each.len();
         match self.groups.last_mut() {
             Some(group) if group.state == state => group.draws.end = end,
@@ -107,32 +65,13 @@ impl Draws {
         self.each.get(group.draws.clone()).unwrap_or_default()
     }
 
-    pub(crate) fn commands(&self, group: &DrawGroup) -> GroupCommands<'_> {
-        let Range { start, end } = group.draws;
-        if self.is_one_command(|| end - start) {
-            let offset = (start * size_of::<IndexedDraw>()) as u64;
-            GroupCommands::Multi { offset, count: (end - start) as u32 }
-        } else {
-            GroupCommands::Each(self.of(group))
-        }
-    }
-
     /// How many commands draw it all.
-    pub(crate) fn command_count(&self) -> usize {
-        let count = |group| match self.commands(group) {
-            GroupCommands::Each(draws) => draws.len(),
-            GroupCommands::Multi { .. } => 1,
-        };
-        self.groups.iter().map(count).sum()
-    }
-
-    /// What the buffer has to hold that commands read; empty where none does.
-    pub(crate) fn read(&self) -> &[IndexedDraw] {
-        let is_read = self.groups.iter().any(|group| matches!(self.commands(group), GroupCommands::Multi { .. }));
-        if is_read { &self.each } else { &[] }
+    pub(crate) fn count(&self) -> usize {
+        self.each.len()
     }
 
     pub(crate) fn triangles(&self) -> u64 {
-        self.each.iter().map(|draw| u64::from(draw.index_count / 3) * u64::from(draw.instance_count)).sum()
+        let of_draw = |draw: &IndexedDraw| draw.indices.len() as u64 / 3 * draw.instances.len() as u64;
+        self.each.iter().map(of_draw).sum()
     }
 }

@@ -41,9 +41,9 @@ impl OpenRun {
 }
 
 impl LitRun {
-    /// But for their records, which may be looked up.
-    pub(crate) fn is_of_one_state(&self, other: &Self) -> bool {
-        let state = |item: &Self| (item.blend, item.call, item.lights);
+    /// Whether both are drawn alike but for their records, which may be looked up.
+    pub(crate) fn differs_in_record_alone(&self, other: &Self) -> bool {
+        let state = |item: &Self| (item.blend, item.call, item.indices, item.lights);
         state(self) == state(other)
     }
 

@@ -1,7 +1,7 @@
 //! Upload: what the draws read, as the rasterizer takes it.
 
 use crate::batch::batches::Batches;
-use crate::batch::draws::DrawState;
+use crate::batch::draws::{DrawState, IndexedDraw};
 use crate::batch::key::{Cull, DrawKey, MapLook};
 use crate::batch::lit_patches::LitPatches;
 use crate::batch::table::{MapUse, MapsUse};
@@ -120,13 +120,13 @@ impl PassLists {
                 _ => call,
             };
             for draw in batches.draws.of(group) {
-                let instances = draw.instances();
+                let IndexedDraw { indices, instances } = draw.clone();
                 if !key.per_instance {
                     for instance in &mut self.instances[instances.start as usize..instances.end as usize] {
                         instance.surface = record;
                     }
                 }
-                self.draws.push(DrawCall { indices: draw.indices(), instances, ..call.clone() });
+                self.draws.push(DrawCall { indices, instances, ..call.clone() });
             }
         }
     }

@@ -20,9 +20,6 @@ pub struct Costs {
     /// From this number of materials and light lists on, what one command can draw looks them up by instance; 2 or
     /// more. A software adapter looks up pixel by pixel, in the time of which it starts many draws.
     pub records_of_one_command: usize,
-    /// From this number of draws on, those that share their state are one command, `multi_draw_indexed_indirect`;
-    /// `None` where each draw is a command.
-    pub multi_draw: Option<u32>,
     /// The CPU writes meshes directly into the buffers that are drawn from. Elsewhere than on a software adapter,
     /// memory that both reach is slow for one of them.
     pub maps_meshes: bool,
@@ -44,20 +41,15 @@ impl Costs {
         shaders_encode: true,
         lights_at_fixed_places: true,
         records_of_one_command: 512,
-        multi_draw: None,
         maps_meshes: true,
         images_in_environments: true,
     };
 
     /// Of a graphics card.
-    ///
-    /// wgpu checks on the GPU what a multi-draw reads, by a pass before that of the frame. The CPU takes as long to set
-    /// that pass up as for about a hundred draws.
     pub const HARDWARE: Self = Self {
         shaders_encode: false,
         lights_at_fixed_places: false,
         records_of_one_command: 2,
-        multi_draw: Some(128),
         maps_meshes: false,
         images_in_environments: true,
     };
@@ -68,7 +60,6 @@ impl Costs {
         shaders_encode: true,
         lights_at_fixed_places: false,
         records_of_one_command: 2,
-        multi_draw: None,
         maps_meshes: true,
         images_in_environments: true,
     };
@@ -87,13 +78,11 @@ impl Costs {
         if is_software { Self::SOFTWARE } else { Self::HARDWARE }.as_able_as(adapter)
     }
 
-    /// Without what this adapter cannot do. Without the feature that is asked for here, wgpu writes a multi-draw out as
-    /// single draws.
+    /// Without what this adapter cannot do.
     fn as_able_as(self, adapter: &wgpu::Adapter) -> Self {
-        let has_multi_draw = adapter.features().contains(wgpu::Features::MULTI_DRAW_INDIRECT_COUNT);
         let info = adapter.get_info();
         let crashes = info.backend == wgpu::Backend::Vulkan && info.name.starts_with("llvmpipe");
-        Self { multi_draw: self.multi_draw.filter(|_| has_multi_draw), images_in_environments: !crashes, ..self }
+        Self { images_in_environments: !crashes, ..self }
     }
 
     fn named(name: &str) -> Result<Self, RenderError> {

@@ -52,8 +52,7 @@ impl Gpu {
     pub(super) fn of_adapter(instance: wgpu::Instance, adapter: wgpu::Adapter) -> Result<Self, RenderError> {
         let wanted = wgpu::Features::FLOAT32_BLENDABLE
             | wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES
-            | wgpu::Features::TIMESTAMP_QUERY
-            | wgpu::Features::INDIRECT_FIRST_INSTANCE;
+            | wgpu::Features::TIMESTAMP_QUERY;
         if let Some(reason) = unfit(&adapter.get_info(), adapter.get_downlevel_capabilities().flags) {
             return Err(RenderError::NoDevice { adapter: adapter.get_info().name, reason });
         }
@@ -119,36 +118,16 @@ impl Gpu {
         });
     }
 
-    /// From how many draws on those that share their state are one command, `multi_draw_indexed_indirect`; `None` where
-    /// each is a command.
-    pub fn multi_draw(&self) -> Option<u32> {
-        self.costs.multi_draw
-    }
-
-    /// Sets that number, from the next frame on. The picture is the same, but for rounding where materials are looked
-    /// up.
-    ///
-    /// Default: 128 on a hardware adapter that has multi-draw, else `None`. It stays `None` where the device cannot:
-    /// without `wgpu::Features::INDIRECT_FIRST_INSTANCE` or `wgpu::DownlevelFlags::INDIRECT_EXECUTION`.
-    pub fn set_multi_draw(&mut self, from: Option<u32>) {
-        self.set_costs(Costs { multi_draw: from, ..self.costs });
-    }
-
     /// What is taken to be cheap on the adapter.
     pub fn costs(&self) -> Costs {
         self.costs
     }
 
-    /// Draws in the ways that are cheap by `costs`, from the next frame on, as far as the device can: multi-draw takes
-    /// `wgpu::Features::INDIRECT_FIRST_INSTANCE` and `wgpu::DownlevelFlags::INDIRECT_EXECUTION`, and mapping
+    /// Draws in the ways that are cheap by `costs`, from the next frame on, as far as the device can: mapping takes
     /// `wgpu::Features::MAPPABLE_PRIMARY_BUFFERS`. Meshes that have been uploaded stay as they are.
     pub fn set_costs(&mut self, costs: Costs) {
         let features = self.device.features();
-        let flags = self.adapter.get_downlevel_capabilities().flags;
-        let can_multi_draw = features.contains(wgpu::Features::INDIRECT_FIRST_INSTANCE)
-            && flags.contains(wgpu::DownlevelFlags::INDIRECT_EXECUTION);
         self.costs = Costs {
-            multi_draw: costs.multi_draw.filter(|_| can_multi_draw),
             maps_meshes: costs.maps_meshes && features.contains(wgpu::Features::MAPPABLE_PRIMARY_BUFFERS),
             images_in_environments: costs.images_in_environments && self.costs.images_in_environments,
             ..costs

@@ -1,7 +1,7 @@
 //! Draw and Deliver: the pass is encoded, submitted and presented.
 
 use crate::batch::batches::Batches;
-use crate::batch::draws::{DrawGroup, GroupCommands};
+use crate::batch::draws::DrawGroup;
 use crate::device::gpu::Gpu;
 use crate::device::gpu_timer::GpuTimer;
 use crate::draw::meshes::MeshBuffers;
@@ -167,16 +167,8 @@ fn record(
             pass.set_bind_group(2, surroundings, &[]);
         }
         pass.set_index_buffer(mesh.indices.slice(..), mesh.index_format);
-        match (batches.draws.commands(group), buffers.draws()) {
-            (GroupCommands::Each(draws), _) => {
-                for draw in draws {
-                    pass.draw_indexed(draw.indices(), 0, draw.instances());
-                }
-            }
-            (GroupCommands::Multi { offset, count }, Some(draws)) => {
-                pass.multi_draw_indexed_indirect(draws, offset, count);
-            }
-            (GroupCommands::Multi { .. }, None) => continue,
+        for draw in batches.draws.of(group) {
+            pass.draw_indexed(draw.indices.clone(), 0, draw.instances.clone());
         }
         left_out -= count(std::slice::from_ref(group));
     }

@@ -87,7 +87,6 @@ pub(crate) struct Buffers {
     bound: Mirrored,
     lists: Mirrored,
     instances: Mirrored,
-    draws: Mirrored,
     groups: Groups,
     pub(crate) maps: MapTextures,
     pub(crate) surroundings: SurroundingsOnGpu,
@@ -129,7 +128,6 @@ impl Default for Buffers {
             bound: Mirrored::new("the lights of patches", Usage::UNIFORM),
             lists: Mirrored::new("the light lists", Usage::STORAGE),
             instances: Mirrored::new("the instances", Usage::VERTEX),
-            draws: Mirrored::new("the draws", Usage::INDIRECT),
             groups: Groups::default(),
             maps: MapTextures::default(),
             surroundings: SurroundingsOnGpu::default(),
@@ -140,11 +138,6 @@ impl Default for Buffers {
 impl Buffers {
     pub(crate) fn instances(&self) -> Option<&wgpu::Buffer> {
         self.instances.buffer.as_ref()
-    }
-
-    /// What commands read their draws from.
-    pub(crate) fn draws(&self) -> Option<&wgpu::Buffer> {
-        self.draws.buffer.as_ref()
     }
 
     /// The bindings of a draw, and their offset.
@@ -185,15 +178,11 @@ impl Buffers {
             self.lists.set(gpu, bytemuck::cast_slice(&lit.lists.numbers), 0)?,
         ];
         let (instances, _) = self.instances.set(gpu, bytemuck::cast_slice(&batches.instances), 0)?;
-        let draws = batches.draws.read();
-        // Not every device can have the buffer.
-        let (draws, _) =
-            if draws.is_empty() { (0, false) } else { self.draws.set(gpu, bytemuck::cast_slice(draws), 0)? };
         if sent.iter().any(|&(_, new)| new) {
             self.groups = Groups::default();
         }
         self.bind(gpu, pipelines)?;
-        Ok(sent.iter().map(|(bytes, _)| bytes).sum::<u64>() + instances + draws)
+        Ok(sent.iter().map(|(bytes, _)| bytes).sum::<u64>() + instances)
     }
 
     /// Makes the bindings that are not there.

@@ -34,7 +34,7 @@ pub struct FrameReport {
     pub light_pairs: u64,
     /// The most that the terms left out of the lists could have added anywhere, in linear intensity; 0 where none was.
     pub left_out: f64,
-    /// Draw commands: a multi-draw is one, however much it draws ([`Gpu::multi_draw`](crate::Gpu::multi_draw)).
+    /// Draw commands.
     pub draws: u32,
     /// Triangles in those draws, before culling of faces.
     pub triangles: u64,
@@ -45,9 +45,9 @@ pub struct FrameReport {
     pub matrices: u32,
     /// Distinct materials (front and back together) in the picture.
     pub materials: u32,
-    /// Bytes sent to the GPU: meshes, the view, instances, materials, lights and their lists, and draws that a
-    /// multi-draw reads. The [`Cpu`](crate::Cpu) reads all but meshes where they are: there, the bytes of those that
-    /// were made ready. 0 for a frame equal to the last.
+    /// Bytes sent to the GPU: meshes, the view, instances, materials, lights and their lists. The [`Cpu`](crate::Cpu)
+    /// reads all but meshes where they are: there, the bytes of those that were made ready. 0 for a frame equal to the
+    /// last.
     pub bytes_uploaded: u64,
     /// Pipelines built since the device was opened; each is one variant of the shader. The [`Cpu`](crate::Cpu) has
     /// none.
