@@ -47,9 +47,9 @@ impl Row {
     }
 }
 
-/// The shaders' curve is within a 600th of a step. But it is steeper than bare values in the dark, and a facet of flat
+/// The CPU's curve is within a 600th of a step. But it is steeper than bare values in the dark, and a facet of flat
 /// shading, which is a hundredth of some pictures, turns over as a whole.
-const SHADERS_SRGB: Bars = Bars { equal: 0.98, ..Bars::bytes(Encoding::Srgb) };
+const CPU_SRGB: Bars = Bars { equal: 0.98, ..Bars::bytes(Encoding::Srgb) };
 
 impl Scene {
     /// Whether it has colours of vertices, images, solids or an environment.
@@ -59,8 +59,8 @@ impl Scene {
         self.environment.is_some() || self.things.iter().any(|thing| has_colors(thing) || has_texture(thing))
     }
 
-    /// Whether a software adapter's bytes in sRGB are as exact as bare ones.
-    fn is_encoded_by_shaders(&self) -> bool {
+    /// Whether the CPU's bytes in sRGB are as exact as bare ones.
+    fn is_encoded_once(&self) -> bool {
         if self.camera.intensity.acts_on_pictures() {
             return true;
         }
@@ -218,8 +218,8 @@ fn conform_on(mut stage: Stage, title: &str, rows: &[Row]) {
             without_floats += 1;
             None
         };
-        let by_shaders = stage.costs().shaders_encode && scene.is_encoded_by_shaders();
-        let srgb = if by_shaders && scene.camera.samples == Samples::One { SHADERS_SRGB } else { *srgb };
+        let is_exact = stage.is_on_cpu() && scene.is_encoded_once() && scene.camera.samples == Samples::One;
+        let srgb = if is_exact { CPU_SRGB } else { *srgb };
         let encodings = share.encodings(*place, row);
         let [raw, srgb] = [(Encoding::Raw, raw), (Encoding::Srgb, &srgb)].map(|(encoding, bars)| {
             encodings.contains(&encoding).then(|| {
@@ -230,8 +230,7 @@ fn conform_on(mut stage: Stage, title: &str, rows: &[Row]) {
         });
         worst.note(name, of_floats, [raw, srgb]);
     }
-    let ways = if stage.costs().shaders_encode { "software" } else { "hardware" };
-    worst.print(title, rows.len(), &format!("{}, in the ways of {ways}", stage.adapter().describe()));
+    worst.print(title, rows.len(), &stage.adapter().describe());
     println!(
         "  {} pipelines; {without_floats} rows of blended objects not in floating point",
         stage.report().pipelines

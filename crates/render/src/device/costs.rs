@@ -11,9 +11,6 @@ use crate::error::RenderError;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a way of drawing by itself")]
 pub struct Costs {
-    /// Shaders write the sRGB curve where nothing blends and a pixel has one sample; else the target's format does. A
-    /// software adapter decodes and encodes all 16 pixels of a block to write some of them.
-    pub shaders_encode: bool,
     /// Each patch of a scene with many lights has its own bound at fixed places, where they are few enough. A software
     /// adapter reads those faster than lists, but starts a draw for each set.
     pub lights_at_fixed_places: bool,
@@ -38,7 +35,6 @@ impl Default for Costs {
 impl Costs {
     /// Of an adapter that draws on the CPU.
     pub const SOFTWARE: Self = Self {
-        shaders_encode: true,
         lights_at_fixed_places: true,
         records_of_one_command: 512,
         maps_meshes: true,
@@ -47,7 +43,6 @@ impl Costs {
 
     /// Of a graphics card.
     pub const HARDWARE: Self = Self {
-        shaders_encode: false,
         lights_at_fixed_places: false,
         records_of_one_command: 2,
         maps_meshes: false,
@@ -57,7 +52,6 @@ impl Costs {
     /// Of the CPU without a driver ([`Cpu`](crate::Cpu)): its shading reads materials and lights where they are, so
     /// that what would start a draw elsewhere is free.
     pub const CPU: Self = Self {
-        shaders_encode: true,
         lights_at_fixed_places: false,
         records_of_one_command: 2,
         maps_meshes: true,

@@ -3,7 +3,7 @@
 
 override TWO_SIDED: bool = true;
 override BLEND: bool = false;
-override ENCODED: bool = false;        // the target takes bytes as they are: the sRGB curve is the shader's
+override ENCODED: bool = false;        // the target has no sRGB format: the curve is the shader's
 override GEOMETRIC_FALLBACK: bool = false;
 override PER_INSTANCE: bool = false;   // each instance names its record; else the draw has one
 

@@ -71,7 +71,7 @@ struct Configuration {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct ShaderOutput {
     pub(crate) format: wgpu::TextureFormat,
-    /// The format takes bytes as they are, and the shaders write them encoded as sRGB.
+    /// The shaders write sRGB bytes: the target that was given has no sRGB format.
     pub(crate) encoded: bool,
     /// Samples a pixel.
     pub(crate) samples: u32,
@@ -197,8 +197,7 @@ pub(crate) fn prepare(
     };
     let (samples, blends) = if drawn.is_some() { (Samples::One, false) } else { (camera.samples, blends) };
     // Blending and resolving need linear values, which only the format gives.
-    let shaders_may = gpu.costs().shaders_encode && samples == Samples::One;
-    let format_encodes = |blends: bool| camera.encoding == Encoding::Srgb && (blends || !shaders_may);
+    let encodes = camera.encoding == Encoding::Srgb;
     let (format, given, delivery) = match (texture, surface) {
         (Some(texture), _) => {
             if let Err(error) = texture.check(&gpu, &Camera { samples, ..camera }, blends) {
@@ -207,7 +206,7 @@ pub(crate) fn prepare(
             }
             (texture.format, Some(texture.view.clone()), Delivery::Encode)
         }
-        (None, None) => match headless_format(&gpu, headless.pixels, samples, blends, format_encodes(blends)) {
+        (None, None) => match headless_format(&gpu, headless.pixels, samples, blends, encodes) {
             Ok(format) => (format, None, Delivery::Read),
             Err(error) => {
                 report.errors.push(error);
@@ -215,7 +214,7 @@ pub(crate) fn prepare(
             }
         },
         (None, Some(mut surface)) => {
-            surface.pick_format(blends, format_encodes);
+            surface.pick_format(encodes);
             match times.at_display(|| surface.acquire(&gpu)) {
                 Ok(Some(texture)) => (surface.format(), Some(view_of(&texture.texture)), Delivery::Present(texture)),
                 Ok(None) => return,

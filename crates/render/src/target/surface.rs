@@ -15,8 +15,6 @@ pub struct SurfaceTarget {
     config: wgpu::SurfaceConfiguration,
     stale: bool,
     acquired: bool,
-    /// It has shown blended objects, and keeps the format that blends them: another one waits for the GPU.
-    blends: bool,
 }
 
 impl SurfaceTarget {
@@ -29,15 +27,7 @@ impl SurfaceTarget {
         let config = surface
             .get_default_config(&gpu.adapter, size.x.max(1), size.y.max(1))
             .ok_or_else(|| RenderError::Device(format!("{} cannot present to this window", gpu.describe())))?;
-        Ok(Self {
-            surface,
-            gpu: gpu.id(),
-            formats: capabilities.formats,
-            config,
-            stale: true,
-            acquired: false,
-            blends: false,
-        })
+        Ok(Self { surface, gpu: gpu.id(), formats: capabilities.formats, config, stale: true, acquired: false })
     }
 
     /// Follows the window to `size` physical pixels; a size of 0 (minimised) is ignored.
@@ -64,10 +54,8 @@ impl SurfaceTarget {
         self.config.format
     }
 
-    /// Takes a format that blends and encodes as asked.
-    pub(crate) fn pick_format(&mut self, blends: bool, format_encodes: impl FnOnce(bool) -> bool) {
-        self.blends |= blends;
-        let encodes = format_encodes(self.blends);
+    /// Takes a format that encodes as asked, if there is one.
+    pub(crate) fn pick_format(&mut self, encodes: bool) {
         let format = pick_format(&self.formats, self.config.format, encodes);
         self.stale |= format != self.config.format;
         self.config.format = format;
