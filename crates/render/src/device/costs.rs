@@ -17,9 +17,6 @@ pub struct Costs {
     /// From this number of materials and light lists on, what one command can draw looks them up by instance; 2 or
     /// more. A software adapter looks up pixel by pixel, in the time of which it starts many draws.
     pub records_of_one_command: usize,
-    /// The CPU writes meshes directly into the buffers that are drawn from. Elsewhere than on a software adapter,
-    /// memory that both reach is slow for one of them.
-    pub maps_meshes: bool,
     /// What has images may be lit by an environment. llvmpipe through Vulkan (Mesa 22.3) crashes in draws that read
     /// both.
     pub images_in_environments: bool,
@@ -37,7 +34,6 @@ impl Costs {
     pub const SOFTWARE: Self = Self {
         lights_at_fixed_places: true,
         records_of_one_command: 512,
-        maps_meshes: true,
         images_in_environments: true,
     };
 
@@ -45,7 +41,6 @@ impl Costs {
     pub const HARDWARE: Self = Self {
         lights_at_fixed_places: false,
         records_of_one_command: 2,
-        maps_meshes: false,
         images_in_environments: true,
     };
 
@@ -54,7 +49,6 @@ impl Costs {
     pub const CPU: Self = Self {
         lights_at_fixed_places: false,
         records_of_one_command: 2,
-        maps_meshes: true,
         images_in_environments: true,
     };
 

@@ -57,7 +57,6 @@ impl Gpu {
             return Err(RenderError::NoDevice { adapter: adapter.get_info().name, reason });
         }
         let costs = Costs::of(&adapter)?;
-        let wanted = if costs.maps_meshes { wanted | wgpu::Features::MAPPABLE_PRIMARY_BUFFERS } else { wanted };
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("halfway"),
             required_features: wanted & adapter.features(),
@@ -123,12 +122,9 @@ impl Gpu {
         self.costs
     }
 
-    /// Draws in the ways that are cheap by `costs`, from the next frame on, as far as the device can: mapping takes
-    /// `wgpu::Features::MAPPABLE_PRIMARY_BUFFERS`. Meshes that have been uploaded stay as they are.
+    /// Draws in the ways that are cheap by `costs`, from the next frame on, as far as the device can.
     pub fn set_costs(&mut self, costs: Costs) {
-        let features = self.device.features();
         self.costs = Costs {
-            maps_meshes: costs.maps_meshes && features.contains(wgpu::Features::MAPPABLE_PRIMARY_BUFFERS),
             images_in_environments: costs.images_in_environments && self.costs.images_in_environments,
             ..costs
         };

@@ -143,8 +143,6 @@ fn buffer(gpu: &Gpu, label: &str, contents: &[u8], usage: wgpu::BufferUsages) ->
     if needed > limit {
         return Err(RenderError::TooLarge { what: format!("the mesh's {label}, in bytes,"), needed, limit });
     }
-    // What cannot be mapped is written to a second buffer of its size, which is kept until the frame is done.
-    let usage = if gpu.costs().maps_meshes { usage | wgpu::BufferUsages::MAP_WRITE } else { usage };
     let size = needed.max(1).next_multiple_of(wgpu::COPY_BUFFER_ALIGNMENT);
     let descriptor = wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: true };
     let buffer = gpu.device.create_buffer(&descriptor);
