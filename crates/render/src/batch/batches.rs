@@ -47,10 +47,10 @@ impl Batches {
 
     /// Draws runs that differ in nothing but their record and instance: at once where records are looked up.
     fn emit_alike(&mut self, runs: &mut [LitRun], seen: &LitPatches, backend: &mut impl Backend) {
-        let LitRun { blend, call, lights, .. } = runs[0];
+        let LitRun { blend, call, .. } = runs[0];
         let (key, ..) = seen.table.called[call as usize];
         let records = 1 + runs.windows(2).filter(|pair| pair[0].record != pair[1].record).count();
-        let are_looked_up = records > 1 && (blend || records >= backend.costs().records_of_one_command) && lights == 0;
+        let are_looked_up = records > 1 && (blend || records >= backend.costs().records_of_one_command);
         let per_instance = are_looked_up && backend.looks_up(key);
         for same in runs.chunk_by_mut(|a, b| per_instance || a.record == b.record) {
             if per_instance && !blend {
@@ -66,14 +66,10 @@ impl Batches {
             let record = if per_instance { run.record } else { 0 };
             self.instances.push(InstanceRecord { record, ..seen.instances[run.instance as usize] });
         }
-        let LitRun { call, indices: (first, end), lights, record, .. } = runs[0];
+        let LitRun { call, indices: (first, end), record, .. } = runs[0];
         let (key, mesh, form, maps) = seen.table.called[call as usize];
         let key = DrawKey { per_instance, ..key };
         let record = if per_instance { 0 } else { record };
-        self.draws.push(
-            DrawState { key, mesh, form, record, lights, maps },
-            first..end,
-            start..self.instances.len() as u32,
-        );
+        self.draws.push(DrawState { key, mesh, form, record, maps }, first..end, start..self.instances.len() as u32);
     }
 }

@@ -14,8 +14,6 @@ pub(crate) struct DrawState {
     pub(crate) form: Form,
     /// 0 where each instance names its own.
     pub(crate) record: u32,
-    /// The first of the lights that are bound at fixed places.
-    pub(crate) lights: u32,
     /// The number of its set of images, from 1 on; 0 for none.
     pub(crate) maps: u32,
 }

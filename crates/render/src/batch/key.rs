@@ -1,7 +1,7 @@
 //! What a draw is specialised for.
 
 use crate::lights::terms::by_fragment_shader;
-use crate::shaders::light_slots::{Counted, Lists};
+use crate::shaders::light_slots::Lists;
 use halfway_lighting::{Frequency, Terms};
 use halfway_texture::{Channel, FarNormals, LevelFilter, MapKind, Sampling, SolidKind, SurfaceMap, UvSet};
 use std::fmt;
@@ -213,7 +213,7 @@ impl DrawKey {
         let (lit, specular) = (terms != Terms::NONE, terms.specular != Frequency::Never);
         Self {
             terms,
-            lists: if lit { self.lists } else { Lists::Counted(Counted::NONE) },
+            lists: if lit { self.lists } else { Lists::NONE },
             blinn_phong: self.blinn_phong || !(specular || self.surrounded),
             local_viewer: self.local_viewer && (specular || self.surrounded),
             attenuated_ambient: self.attenuated_ambient && terms.diffuse != Frequency::Never,
@@ -266,24 +266,18 @@ impl DrawKey {
         let near_side = if far_side.is_some() { Self { cull: Cull::Back, ..self } } else { self };
         far_side.into_iter().chain([near_side])
     }
-
-    /// Whether a highlight takes a logarithm and an exponential, and not a few squarings.
-    pub(crate) fn takes_powers(&self) -> bool {
-        self.terms.specular != Frequency::Never && self.squarings.is_none()
-    }
 }
 
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
-    use crate::shaders::light_slots::Highlights;
     use std::collections::HashSet;
 
     /// A draw under one point light, with both terms at the fragments.
     pub(crate) fn key() -> DrawKey {
         DrawKey {
             blend: false,
-            lists: Lists::Counted(Counted::new([0, 1, 0], Highlights::All)),
+            lists: Lists::Counted([0, 1, 0]),
             terms: Terms::both(Frequency::Fragment),
             per_instance: false,
             blinn_phong: true,

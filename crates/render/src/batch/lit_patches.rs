@@ -233,7 +233,7 @@ impl LitPatches {
             let indices = (indices.start, indices.end);
             let instance = self.instances.len() as u32 - 1;
             let blend = key.blend;
-            self.runs.push(LitRun { blend, call, pass, twins_before, indices, lights: 0, record, depth, instance });
+            self.runs.push(LitRun { blend, call, pass, twins_before, indices, record, depth, instance });
         }
     }
 }

@@ -16,8 +16,6 @@ pub(crate) struct LitRun {
     pub(crate) twins_before: u32,
     /// The first of its indices, and the first behind them.
     pub(crate) indices: (u32, u32),
-    /// The first of the lights that are bound for it at fixed places.
-    pub(crate) lights: u32,
     pub(crate) record: u32,
     /// Distance of the object's centre along the view; nearer opaque objects first, farther blended ones first.
     pub(crate) depth: f32,
@@ -43,12 +41,12 @@ impl OpenRun {
 impl LitRun {
     /// Whether both are drawn alike but for their records, which may be looked up.
     pub(crate) fn differs_in_record_alone(&self, other: &Self) -> bool {
-        let state = |item: &Self| (item.blend, item.call, item.indices, item.lights);
+        let state = |item: &Self| (item.blend, item.call, item.indices);
         state(self) == state(other)
     }
 
     pub(crate) fn by_state(&self, other: &Self) -> Ordering {
-        let state = |item: &Self| (item.twins_before, item.call, item.indices, item.lights, item.record);
+        let state = |item: &Self| (item.twins_before, item.call, item.indices, item.record);
         state(self).cmp(&state(other)).then_with(|| self.by_nearness(other))
     }
 

@@ -11,9 +11,6 @@ use crate::error::RenderError;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a way of drawing by itself")]
 pub struct Costs {
-    /// Each patch of a scene with many lights has its own bound at fixed places, where they are few enough. A software
-    /// adapter reads those faster than lists, but starts a draw for each set.
-    pub lights_at_fixed_places: bool,
     /// From this number of materials and light lists on, what one command can draw looks them up by instance; 2 or
     /// more. A software adapter looks up pixel by pixel, in the time of which it starts many draws.
     pub records_of_one_command: usize,
@@ -32,14 +29,12 @@ impl Default for Costs {
 impl Costs {
     /// Of an adapter that draws on the CPU.
     pub const SOFTWARE: Self = Self {
-        lights_at_fixed_places: true,
         records_of_one_command: 512,
         images_in_environments: true,
     };
 
     /// Of a graphics card.
     pub const HARDWARE: Self = Self {
-        lights_at_fixed_places: false,
         records_of_one_command: 2,
         images_in_environments: true,
     };
@@ -47,7 +42,6 @@ impl Costs {
     /// Of the CPU without a driver ([`Cpu`](crate::Cpu)): its shading reads materials and lights where they are, so
     /// that what would start a draw elsewhere is free.
     pub const CPU: Self = Self {
-        lights_at_fixed_places: false,
         records_of_one_command: 2,
         images_in_environments: true,
     };

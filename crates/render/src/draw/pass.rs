@@ -138,7 +138,7 @@ fn record(
         let state = &group.state;
         // Until it is drawn.
         left_out += count(std::slice::from_ref(group));
-        let (Some(pipeline), Some(mesh), Some((bindings, offsets))) =
+        let (Some(pipeline), Some(mesh), Some((bindings, offset))) =
             (pipelines.get(state.key), meshes.get(state.mesh, state.form), buffers.bindings(state))
         else {
             continue;
@@ -147,7 +147,7 @@ fn record(
             pass.set_pipeline(pipeline);
             last = Some(state.key);
         }
-        pass.set_bind_group(0, bindings, offsets.as_slice());
+        pass.set_bind_group(0, bindings, &[offset]);
         pass.set_vertex_buffer(1, mesh.positions.slice(..));
         if state.key.reads_attributes() {
             pass.set_vertex_buffer(2, mesh.attributes.slice(..));

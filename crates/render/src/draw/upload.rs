@@ -10,8 +10,9 @@ use crate::error::RenderError;
 use crate::frame::report::FrameReport;
 use crate::lights::surroundings::Surroundings;
 use crate::pipelines::cache::Pipelines;
+use crate::shaders::light_slots::COUNTED_LIGHTS;
 use crate::shaders::records::{LightRecord, RECORD_BYTES, ViewRecord};
-use crate::shaders::text::{BOUND_LIGHT_BYTES, LightText, Text};
+use crate::shaders::text::{COUNTED_LIGHT_BYTES, LightText, Text};
 use crate::target::frame::Target;
 use crate::view::camera::View;
 use bevy_asset::Assets;
@@ -83,8 +84,10 @@ fn changed_range(old: &[u8], new: &[u8]) -> std::ops::Range<usize> {
 pub(crate) struct Buffers {
     view: Mirrored,
     records: Mirrored,
+    /// For lists.
     lights: Mirrored,
-    bound: Mirrored,
+    /// All of a scene with few.
+    few_lights: Mirrored,
     lists: Mirrored,
     instances: Mirrored,
     groups: Groups,
@@ -92,26 +95,10 @@ pub(crate) struct Buffers {
     pub(crate) surroundings: SurroundingsOnGpu,
 }
 
-/// Offsets of a draw's record, and of its lights where they are at fixed places.
-pub(crate) enum Offsets {
-    One([u32; 1]),
-    Two([u32; 2]),
-}
-
-impl Offsets {
-    pub(crate) fn as_slice(&self) -> &[u32] {
-        match self {
-            Self::One(offsets) => offsets,
-            Self::Two(offsets) => offsets,
-        }
-    }
-}
-
 /// Bindings of the same buffers, for each text that has a pipeline.
 #[derive(Default)]
 struct Groups {
     few: Option<wgpu::BindGroup>,
-    many: Option<wgpu::BindGroup>,
     /// With the one record that the offset names.
     one: Option<wgpu::BindGroup>,
     /// With all records.
@@ -125,7 +112,7 @@ impl Default for Buffers {
             view: Mirrored::new("the view", Usage::UNIFORM),
             records: Mirrored::new("the materials", Usage::UNIFORM | Usage::STORAGE),
             lights: Mirrored::new("the lights", Usage::STORAGE),
-            bound: Mirrored::new("the lights of patches", Usage::UNIFORM),
+            few_lights: Mirrored::new("the few lights", Usage::UNIFORM),
             lists: Mirrored::new("the light lists", Usage::STORAGE),
             instances: Mirrored::new("the instances", Usage::VERTEX),
             groups: Groups::default(),
@@ -140,18 +127,16 @@ impl Buffers {
         self.instances.buffer.as_ref()
     }
 
-    /// The bindings of a draw, and their offset.
-    pub(crate) fn bindings(&self, state: &DrawState) -> Option<(&wgpu::BindGroup, Offsets)> {
+    /// The bindings of a draw, and the offset of its record.
+    pub(crate) fn bindings(&self, state: &DrawState) -> Option<(&wgpu::BindGroup, u32)> {
         let record = state.record * RECORD_BYTES as u32;
-        let lights = state.lights * size_of::<LightRecord>() as u32;
-        let Groups { few, many, one, all } = &self.groups;
-        let (group, offsets) = match Text::of(&state.key).lights {
-            LightText::Few => (few, Offsets::Two([record, lights])),
-            LightText::Many => (many, Offsets::Two([record, lights])),
-            LightText::Listed if state.key.per_instance => (all, Offsets::One([0])),
-            LightText::Listed => (one, Offsets::One([record])),
+        let Groups { few, one, all } = &self.groups;
+        let (group, offset) = match Text::of(&state.key).lights {
+            LightText::Few => (few, record),
+            LightText::Listed if state.key.per_instance => (all, 0),
+            LightText::Listed => (one, record),
         };
-        Some((group.as_ref()?, offsets))
+        Some((group.as_ref()?, offset))
     }
 
     fn upload(
@@ -162,19 +147,17 @@ impl Buffers {
         (lit, batches): (&LitPatches, &Batches),
     ) -> Result<u64, RenderError> {
         let view = ViewRecord::from(view);
-        let listed =
-            if batches.draws.groups().iter().any(|group| Text::of(&group.state.key).lights == LightText::Listed) {
-                lit.lists.sent.records.as_slice()
-            } else {
-                &[]
-            };
-        let bound = bytemuck::cast_slice(&lit.lists.bound);
+        let all_lights = lit.lists.sent.records.as_slice();
+        let has_lists =
+            batches.draws.groups().iter().any(|group| Text::of(&group.state.key).lights == LightText::Listed);
+        let listed = if has_lists { all_lights } else { &[] };
+        let few = if all_lights.len() <= COUNTED_LIGHTS as usize { all_lights } else { &[] };
         let sent = [
             self.view.set(gpu, bytemuck::bytes_of(&view), 0)?,
             self.records.set(gpu, bytemuck::cast_slice(&lit.records), RECORD_BYTES)?,
             self.lights.set(gpu, bytemuck::cast_slice(listed), size_of::<LightRecord>() as u64)?,
-            // The last set too is bound as if it had all lights that fit.
-            self.bound.set(gpu, bound, bound.len() as u64 + BOUND_LIGHT_BYTES)?,
+            // Bound as if it had all lights that fit.
+            self.few_lights.set(gpu, bytemuck::cast_slice(few), COUNTED_LIGHT_BYTES)?,
             self.lists.set(gpu, bytemuck::cast_slice(&lit.lists.numbers), 0)?,
         ];
         let (instances, _) = self.instances.set(gpu, bytemuck::cast_slice(&batches.instances), 0)?;
@@ -187,8 +170,8 @@ impl Buffers {
 
     /// Makes the bindings that are not there.
     fn bind(&mut self, gpu: &Gpu, pipelines: &Pipelines) -> Result<(), RenderError> {
-        let (Some(view), Some(records), Some(lights), Some(bound), Some(lists)) =
-            (&self.view.buffer, &self.records.buffer, &self.lights.buffer, &self.bound.buffer, &self.lists.buffer)
+        let (Some(view), Some(records), Some(lights), Some(few_lights), Some(lists)) =
+            (&self.view.buffer, &self.records.buffer, &self.lights.buffer, &self.few_lights.buffer, &self.lists.buffer)
         else {
             return Ok(());
         };
@@ -214,10 +197,9 @@ impl Buffers {
                 *group = Some(gpu.device.create_bind_group(&descriptor));
             }
         };
-        let Groups { few, many, one, all } = &mut self.groups;
-        for (group, text) in [(few, LightText::Few), (many, LightText::Many)] {
-            make(group, text, &[binding(1, records, RECORD_BYTES), binding(2, bound, BOUND_LIGHT_BYTES)]);
-        }
+        let Groups { few, one, all } = &mut self.groups;
+        let fixed = [binding(1, records, RECORD_BYTES), binding(2, few_lights, COUNTED_LIGHT_BYTES)];
+        make(few, LightText::Few, &fixed);
         for (group, bytes) in [(one, RECORD_BYTES), (all, records.size())] {
             let [lights, lists] = [binding(2, lights, lights.size()), binding(3, lists, lists.size())];
             make(group, LightText::Listed, &[binding(1, records, bytes), lights, lists]);

@@ -4,7 +4,7 @@ use crate::lights::gather::Lights;
 use crate::lights::sent::SentLights;
 use crate::lights::terms::{by_fragment_shader, by_vertex_shader};
 use crate::shaders::light_slots::COUNTED_LIGHTS;
-use crate::shaders::records::{LightRecord, RecordLists};
+use crate::shaders::records::RecordLists;
 use bevy_math::Vec3;
 use halfway_lighting::bounds::{NearLights, Patch, Receiver, Region, STEP, Selected, linear_tolerance};
 use halfway_lighting::equations::{Coefficients, Eye};
@@ -17,8 +17,6 @@ pub(crate) struct LightLists {
     pub(crate) sent: SentLights,
     /// Lists, one after the other, as places of lights in `sent`.
     pub(crate) numbers: Vec<u32>,
-    /// The lights that are bound at fixed places: all of a scene with few.
-    pub(crate) bound: Vec<LightRecord>,
     /// The newest lists, and where they begin. Neighbouring patches often need the same.
     last: Option<(RecordLists, usize)>,
     /// The lights near the patches at hand.
@@ -55,13 +53,11 @@ impl LightLists {
     /// Starts a frame.
     pub(crate) fn begin(&mut self, lights: &Lights) {
         self.numbers.clear();
-        self.bound.clear();
         self.sent.begin(lights);
         if lights.len() <= COUNTED_LIGHTS as usize {
             for number in 0..lights.len() as u32 {
                 self.sent.place(lights, number);
             }
-            self.bound.extend(&self.sent.records);
         }
         self.last = None;
         (self.assigned, self.left_out) = (0, 0.0);
@@ -246,6 +242,5 @@ mod tests {
         let mut lists = LightLists::default();
         lists.begin(&lights);
         assert_eq!(lists.sent.records, [0, 1, 2, 3].map(|number| lights.record(number)));
-        assert_eq!(lists.bound, lists.sent.records);
     }
 }

@@ -4,7 +4,7 @@ use crate::batch::key::{Cull, DrawKey};
 use crate::device::gpu::Gpu;
 use crate::lights::terms::{by_fragment_shader, by_vertex_shader};
 use crate::pipelines::key::PipelineKey;
-use crate::shaders::light_slots::{Counted, Lists};
+use crate::shaders::light_slots::Lists;
 use crate::shaders::records::{INSTANCE, INSTANCE_BYTES};
 use crate::shaders::template::EntryPoint;
 use crate::shaders::text::Shader;
@@ -23,7 +23,7 @@ const FACE: [wgpu::VertexAttribute; 2] = wgpu::vertex_attr_array![7 => Float32x3
 impl Shader {
     pub(crate) fn build(&self, gpu: &Gpu, pipeline: PipelineKey) -> wgpu::RenderPipeline {
         let PipelineKey { draw: key, output } = pipeline;
-        let [of_vertices, of_fragments] = constants(&key, output);
+        let constants = constants(&key, output);
         let buffer = |attributes, stride, step_mode| {
             Some(wgpu::VertexBufferLayout { array_stride: stride, step_mode, attributes })
         };
@@ -50,10 +50,9 @@ impl Shader {
             }
         }
         let (vertex, fragment) = entry_points(&key);
-        let module =
-            |stage, name, constants: &_| self.template.shader(&gpu.device, EntryPoint { stage, name, constants });
-        let vertex = module(ShaderStage::Vertex, vertex, &of_vertices);
-        let fragment = module(ShaderStage::Fragment, fragment, &of_fragments);
+        let module = |stage, name| self.template.shader(&gpu.device, EntryPoint { stage, name, constants: &constants });
+        let vertex = module(ShaderStage::Vertex, vertex);
+        let fragment = module(ShaderStage::Fragment, fragment);
         gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(&pipeline.to_string()),
             layout: Some(&self.layout),
@@ -140,20 +139,8 @@ fn solid_entry_points(key: &DrawKey) -> (&'static str, &'static str) {
     }
 }
 
-/// Those of the vertex shader and of the fragment shader.
-fn constants(key: &DrawKey, output: ShaderOutput) -> [Vec<(&'static str, f64)>; 2] {
-    let [vertex, fragment] = key.lists.of_stages();
-    // Of lights that are split, terms that belong to the other stage are black.
-    let shared_color = key.shared_color && !matches!(key.lists, Lists::Split { .. });
-    let of_vertices = DrawKey { shared_color, ..*key };
-    [stage_constants(&of_vertices, output, vertex), stage_constants(key, output, fragment)]
-}
-
-fn stage_constants(
-    key: &DrawKey,
-    output: ShaderOutput,
-    (Counted { counts: [directional, points, spots], highlights }, first): (Counted, u32),
-) -> Vec<(&'static str, f64)> {
+fn constants(key: &DrawKey, output: ShaderOutput) -> Vec<(&'static str, f64)> {
+    let [directional, points, spots] = key.lists.counts();
     let flag = |on: bool| f64::from(u8::from(on));
     let [vertex_diffuse, vertex_specular] = by_vertex_shader(key.terms).map(flag);
     let [fragment_diffuse, fragment_specular] = by_fragment_shader(key.terms).map(flag);
@@ -178,8 +165,6 @@ fn stage_constants(
         ("DIRECTIONAL", directional.into()),
         ("POINTS", points.into()),
         ("SPOTS", spots.into()),
-        ("HIGHLIGHTS", highlights.halves().into()),
-        ("FIRST", first.into()),
     ];
     if key.is_mapped() { constants.into_iter().chain(map_constants(key)).collect() } else { constants }
 }

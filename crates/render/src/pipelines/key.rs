@@ -1,7 +1,7 @@
 //! What a pipeline is made for: a draw, and what it writes.
 
 use crate::batch::key::DrawKey;
-use crate::shaders::light_slots::{COUNTED_LIGHTS, Lists};
+use crate::shaders::light_slots::Lists;
 use crate::shaders::text::{LightText, SurfaceText, Text};
 use crate::target::frame::ShaderOutput;
 use std::fmt;
@@ -26,8 +26,7 @@ impl Text {
         let lights = match key.lists {
             _ if key.per_instance => LightText::Listed,
             Lists::Listed => LightText::Listed,
-            lists if lists.of_stages().iter().all(|(counted, _)| counted.len() <= COUNTED_LIGHTS) => LightText::Few,
-            Lists::Counted(..) | Lists::Split { .. } => LightText::Many,
+            Lists::Counted(_) => LightText::Few,
         };
         let surface = match (key.is_mapped(), key.colored) {
             _ if key.surrounded && key.solid.is_some() => SurfaceText::SolidSurrounded,

@@ -19,7 +19,6 @@ struct Terms {
     specular: bool,
 }
 
-// 128 bytes: sets of lights are bound at offsets that are multiples of 256.
 struct Light {
     position: vec3f,     // finite light: eye space; directional: unit vector toward the light
     inverse_range: f32,  // 0: no range
@@ -35,8 +34,6 @@ struct Light {
     inner_scale: f32,    // s = clamp(cos φ · inner_scale + inner_offset, 0, 1); 0 and 1 without an inner cone
     inner_offset: f32,
     padding0: f32,
-    padding1: vec4f,
-    padding2: vec4f,
 }
 
 struct Material {

@@ -1,5 +1,4 @@
-// What all entry points share. Needs lighting.wgsl, records.wgsl, and one of
-// few.wgsl, many.wgsl and storage.wgsl.
+// What all entry points share. Needs lighting.wgsl, records.wgsl, and uniform.wgsl or storage.wgsl.
 
 override TWO_SIDED: bool = true;
 override BLEND: bool = false;

@@ -39,8 +39,7 @@ impl From<&View> for ViewRecord {
     }
 }
 
-/// A light as the shader reads it; `Light` in lighting.wgsl. 128 bytes, so that every second one begins at an offset
-/// that any adapter can bind.
+/// A light as the shader reads it; `Light` in lighting.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub(crate) struct LightRecord {
@@ -57,27 +56,7 @@ pub(crate) struct LightRecord {
     pub(crate) exponent: f32,
     pub(crate) inner_scale: f32,
     pub(crate) inner_offset: f32,
-    pub(crate) padding: [f32; 9],
-}
-
-impl LightRecord {
-    /// One that adds nothing.
-    pub(crate) const BLACK: Self = Self {
-        position: [0.0, 0.0, 1.0],
-        inverse_range: 0.0,
-        diffuse: [0.0; 3],
-        constant: 1.0,
-        specular: [0.0; 3],
-        linear: 0.0,
-        direction: [0.0; 3],
-        quadratic: 0.0,
-        ambient: [0.0; 3],
-        cos_cutoff: 1.0,
-        exponent: 0.0,
-        inner_scale: 0.0,
-        inner_offset: 1.0,
-        padding: [0.0; 9],
-    };
+    pub(crate) padding: f32,
 }
 
 /// A material as the shader reads it.

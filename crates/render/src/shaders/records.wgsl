@@ -11,8 +11,6 @@ override LISTED: bool = false;
 override DIRECTIONAL: u32 = 0;
 override POINTS: u32 = 0;
 override SPOTS: u32 = 0;
-override HIGHLIGHTS: u32 = 2;          // of each kind, this number of halves, from the first on, has specular terms
-override FIRST: u32 = 0;               // those of the stage begin here
 
 struct View {
     scale: vec2f,        // x and y of clip_from_eye

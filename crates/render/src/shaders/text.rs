@@ -1,7 +1,7 @@
 //! The lighting text with its bindings, and what goes with them.
 
 use crate::device::gpu::Gpu;
-use crate::shaders::light_slots::BOUND_LIGHTS;
+use crate::shaders::light_slots::COUNTED_LIGHTS;
 use crate::shaders::records::{LightRecord, RECORD_BYTES};
 use crate::shaders::template::Template;
 use halfway_texture::MapKind;
@@ -11,10 +11,8 @@ use std::sync::OnceLock;
 /// pipeline leaves unused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum LightText {
-    /// From uniform buffers, up to [`COUNTED_LIGHTS`](crate::shaders::light_slots::COUNTED_LIGHTS).
+    /// From uniform buffers, up to [`COUNTED_LIGHTS`].
     Few,
-    /// From uniform buffers, up to [`BOUND_LIGHTS`].
-    Many,
     /// From storage, any number.
     Listed,
 }
@@ -58,7 +56,7 @@ pub(crate) struct Shader {
 /// The texts, each made when a pipeline first needs it, on whichever thread that is: by lights, then by filters and
 /// surface.
 #[derive(Default)]
-pub(crate) struct Shaders([[[OnceLock<Shader>; SurfaceText::ALL.len()]; 2]; 3]);
+pub(crate) struct Shaders([[[OnceLock<Shader>; SurfaceText::ALL.len()]; 2]; 2]);
 
 impl Shaders {
     /// A text that reads lights so, once there is one. The layouts of all of them are the same.
@@ -86,7 +84,7 @@ const SURROUNDINGS: &str = include_str!("surroundings.wgsl");
 pub(crate) const SKY: [&str; 4] = [include_str!("lighting.wgsl"), ENVIRONMENT, SURROUNDINGS, include_str!("sky.wgsl")];
 
 /// The bytes of lights at fixed places.
-pub(crate) const BOUND_LIGHT_BYTES: u64 = BOUND_LIGHTS as u64 * size_of::<LightRecord>() as u64;
+pub(crate) const COUNTED_LIGHT_BYTES: u64 = COUNTED_LIGHTS as u64 * size_of::<LightRecord>() as u64;
 
 impl SurfaceText {
     /// All of them.
@@ -131,11 +129,9 @@ impl LightText {
     fn files(self) -> &'static [&'static str] {
         const LIGHTING: &str = include_str!("lighting.wgsl");
         const RECORDS: &str = include_str!("records.wgsl");
-        const UNIFORM: &str = include_str!("uniform.wgsl");
         const MESH: &str = include_str!("mesh.wgsl");
         match self {
-            Self::Few => &[LIGHTING, RECORDS, UNIFORM, include_str!("few.wgsl"), MESH],
-            Self::Many => &[LIGHTING, RECORDS, UNIFORM, include_str!("many.wgsl"), MESH],
+            Self::Few => &[LIGHTING, RECORDS, include_str!("uniform.wgsl"), MESH],
             Self::Listed => &[LIGHTING, RECORDS, include_str!("storage.wgsl"), MESH],
         }
     }
@@ -150,7 +146,7 @@ impl Shader {
             visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
             ty: wgpu::BindingType::Buffer {
                 ty,
-                has_dynamic_offset: binding == 1 || binding == 2 && !storage,
+                has_dynamic_offset: binding == 1,
                 min_binding_size: std::num::NonZeroU64::new(size),
             },
             count: None,
@@ -160,7 +156,7 @@ impl Shader {
         let entries = if storage {
             vec![entry(1, read, RECORD_BYTES), entry(2, read, size_of::<LightRecord>() as u64), entry(3, read, 4)]
         } else {
-            vec![entry(1, uniform, RECORD_BYTES), entry(2, uniform, BOUND_LIGHT_BYTES)]
+            vec![entry(1, uniform, RECORD_BYTES), entry(2, uniform, COUNTED_LIGHT_BYTES)]
         };
         let bindings = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("draw"),

@@ -1,37 +1,20 @@
-// One record and lights at fixed places: a software adapter reads them once for eight pixels. Needs lighting.wgsl and
-// records.wgsl.
+// One record, and all lights of a scene with few, at fixed places. Needs lighting.wgsl and records.wgsl.
 
 @group(0) @binding(1) var<uniform> draws: array<Draw, 1>;
-@group(0) @binding(2) var<uniform> lights: array<Light, 64>;
+@group(0) @binding(2) var<uniform> lights: array<Light, 8>;
 
-// The terms of the i-th of `count` lights of one kind.
-fn of_first(terms: Terms, i: u32, count: u32) -> Terms {
-    return Terms(terms.diffuse, terms.specular && i < HIGHLIGHTS * count / 2u);
-}
-
-// Adds the directional lights of the numbers `start` to `start` + 7. Numbers count from the stage's first.
-fn add_directional(
-    before: Irradiance, start: u32, p: vec3f, n: vec3f, v: vec3f, shininess: f32, terms: Terms,
-) -> Irradiance {
-    var sum = before;
-    for (var i = start; i < min(DIRECTIONAL, start + 8u); i++) {
-        let incident = Incidence(lights[FIRST + i].position, GRAZING, 1.0);
-        sum = plus(sum, irradiance(lights[FIRST + i], incident, n, v, shininess, of_first(terms, i, DIRECTIONAL)));
+fn add_counted(p: vec3f, n: vec3f, shininess: f32, terms: Terms) -> Irradiance {
+    let v = view_vector(p, n);
+    var sum = Irradiance();
+    for (var i = 0u; i < DIRECTIONAL; i++) {
+        sum = plus(sum, irradiance(lights[i], Incidence(lights[i].position, GRAZING, 1.0), n, v, shininess, terms));
     }
-    return sum;
-}
-
-// Adds those of the numbers `start` to `start` + 3 among the `count` points or spots that begin at `first`. The driver
-// unrolls a loop as long as what comes out is short, and reads at fixed places only in unrolled ones: many lights are
-// several loops. The numbers are constants wherever this is called.
-fn add_four(
-    before: Irradiance, first: u32, count: u32, start: u32, cone: bool,
-    p: vec3f, n: vec3f, v: vec3f, shininess: f32, terms: Terms,
-) -> Irradiance {
-    var sum = before;
-    for (var i = first + start; i < first + min(count, start + 4u); i++) {
-        let incident = incidence(lights[FIRST + i], cone, p, n);
-        sum = plus(sum, irradiance(lights[FIRST + i], incident, n, v, shininess, of_first(terms, i - first, count)));
+    let spots = DIRECTIONAL + POINTS;
+    for (var i = DIRECTIONAL; i < spots; i++) {
+        sum = plus(sum, irradiance(lights[i], incidence(lights[i], false, p, n), n, v, shininess, terms));
+    }
+    for (var i = spots; i < spots + SPOTS; i++) {
+        sum = plus(sum, irradiance(lights[i], incidence(lights[i], true, p, n), n, v, shininess, terms));
     }
     return sum;
 }

@@ -22,7 +22,7 @@ fn v(i: u32, k: u32) -> vec3f {
 fn light(i: u32, k: u32) -> Light {
     return Light(
         v(i, k), s(i, k + 3), v(i, k + 4), s(i, k + 7), v(i, k + 8), s(i, k + 11), v(i, k + 12), s(i, k + 15),
-        v(i, k + 16), s(i, k + 19), s(i, k + 20), s(i, k + 21), s(i, k + 22), 0.0, vec4f(), vec4f(),
+        v(i, k + 16), s(i, k + 19), s(i, k + 20), s(i, k + 21), s(i, k + 22), 0.0,
     );
 }
 

@@ -18,8 +18,7 @@ macro_rules! shader {
 }
 
 /// What both files need.
-const BEFORE: [&str; 5] =
-    [LIGHTING, shader!("records.wgsl"), shader!("uniform.wgsl"), shader!("few.wgsl"), shader!("mesh.wgsl")];
+const BEFORE: [&str; 4] = [LIGHTING, shader!("records.wgsl"), shader!("uniform.wgsl"), shader!("mesh.wgsl")];
 const COLORED: &str = shader!("colored.wgsl");
 const MAPPED: &str =
     concat!(shader!("maps.wgsl"), shader!("by_level.wgsl"), shader!("factors.wgsl"), shader!("parts.wgsl"));
