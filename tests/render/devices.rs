@@ -149,7 +149,7 @@ fn nothing_of_one_device_is_used_with_another() {
 fn costs_outlive_the_device_that_they_were_set_for() {
     let mut stage = Stage::new(8, 8);
     stage.draw(&scene(1));
-    let costs = halfway::render::Costs { records_of_one_command: 3, ..halfway::render::Costs::HARDWARE };
+    let costs = halfway::render::Costs::HARDWARE;
     stage.world().resource_mut::<Gpu>().set_costs(costs);
     let set = stage.app.world().resource::<Gpu>().costs();
     lose(stage.app.world());

@@ -1,13 +1,11 @@
 //! Every variant of the shader builds and draws.
 
-use crate::render::adapter::choice;
 use crate::render::compare::{FLOAT, Failures};
 use crate::render::random::Random;
 use crate::render::scene::{Lamp, Scene, Thing, directional_light, material, other_material, point_light};
 use crate::render::stage::Stage;
 use halfway::lighting::Frequency;
 use halfway::prelude::*;
-use halfway::render::{Adapter, Costs};
 use std::ops::Range;
 
 /// What decides a pipeline, each by its number of choices.
@@ -212,16 +210,6 @@ fn squares(numbers: Range<u16>) -> Scene {
     scene
 }
 
-/// A stage in the ways of a software adapter, on which no draw here looks up its records, for which it would have a
-/// pipeline more.
-fn stage_in_ways_of_software() -> Stage {
-    let Ok(Adapter::Gpu(mut gpu)) = choice().open() else { panic!("pipelines are wgpu's") };
-    gpu.set_costs(Costs::SOFTWARE);
-    let mut stage = Stage::new(96, 96);
-    stage.app.insert_resource(gpu);
-    stage
-}
-
 /// The bound, as it is documented.
 const MOST: u16 = 128;
 
@@ -231,7 +219,7 @@ const KEPT: u32 = 60;
 #[test]
 fn a_frame_that_needs_more_than_the_bound_builds_them_once() {
     for compile in [Compile::Now, Compile::Beside] {
-        let mut stage = stage_in_ways_of_software();
+        let mut stage = Stage::new(96, 96);
         stage.world().insert_resource(compile);
         let row = format!("{compile:?}");
         let mut failures = Failures::default();
@@ -251,7 +239,7 @@ fn a_frame_that_needs_more_than_the_bound_builds_them_once() {
 
 #[test]
 fn what_is_not_drawn_any_more_makes_room_in_time() {
-    let mut stage = stage_in_ways_of_software();
+    let mut stage = Stage::new(96, 96);
     stage.draw(&squares(0..MOST));
     let mut failures = Failures::default();
     let others = squares(MOST..MOST + 22);

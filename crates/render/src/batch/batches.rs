@@ -49,9 +49,8 @@ impl Batches {
     fn emit_alike(&mut self, runs: &mut [LitRun], seen: &LitPatches, backend: &mut impl Backend) {
         let LitRun { blend, call, .. } = runs[0];
         let (key, ..) = seen.table.called[call as usize];
-        let records = 1 + runs.windows(2).filter(|pair| pair[0].record != pair[1].record).count();
-        let are_looked_up = records > 1 && (blend || records >= backend.costs().records_of_one_command);
-        let per_instance = are_looked_up && backend.looks_up(key);
+        let have_one_record = runs.windows(2).all(|pair| pair[0].record == pair[1].record);
+        let per_instance = !have_one_record && backend.looks_up(key);
         for same in runs.chunk_by_mut(|a, b| per_instance || a.record == b.record) {
             if per_instance && !blend {
                 same.sort_unstable_by(LitRun::by_nearness);

@@ -9,11 +9,7 @@ use crate::error::RenderError;
 /// `hardware`;
 /// [`Gpu::set_costs`](crate::Gpu::set_costs) sets it later. So the ways of hardware can be tried on a software adapter.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[expect(clippy::struct_excessive_bools, reason = "each is a way of drawing by itself")]
 pub struct Costs {
-    /// From this number of materials and light lists on, what one command can draw looks them up by instance; 2 or
-    /// more. A software adapter looks up pixel by pixel, in the time of which it starts many draws.
-    pub records_of_one_command: usize,
     /// What has images may be lit by an environment. llvmpipe through Vulkan (Mesa 22.3) crashes in draws that read
     /// both.
     pub images_in_environments: bool,
@@ -28,23 +24,13 @@ impl Default for Costs {
 
 impl Costs {
     /// Of an adapter that draws on the CPU.
-    pub const SOFTWARE: Self = Self {
-        records_of_one_command: 512,
-        images_in_environments: true,
-    };
+    pub const SOFTWARE: Self = Self { images_in_environments: true };
 
     /// Of a graphics card.
-    pub const HARDWARE: Self = Self {
-        records_of_one_command: 2,
-        images_in_environments: true,
-    };
+    pub const HARDWARE: Self = Self { images_in_environments: true };
 
-    /// Of the CPU without a driver ([`Cpu`](crate::Cpu)): its shading reads materials and lights where they are, so
-    /// that what would start a draw elsewhere is free.
-    pub const CPU: Self = Self {
-        records_of_one_command: 2,
-        images_in_environments: true,
-    };
+    /// Of the CPU without a driver ([`Cpu`](crate::Cpu)).
+    pub const CPU: Self = Self { images_in_environments: true };
 
     /// Of this adapter, or what the environment says of it.
     pub(crate) fn of(adapter: &wgpu::Adapter) -> Result<Self, RenderError> {
