@@ -17,7 +17,6 @@ mod render {
     mod compare;
     mod compile;
     mod conformance;
-    mod costs;
     mod counters;
     mod cpu;
     mod culling;

@@ -1,6 +1,6 @@
 //! What is measured of the adapter, and what the environment says of it. `cargo xtask adapters` runs these on each.
 
-use halfway::render::{Adapter, AdapterChoice, Costs};
+use halfway::render::{Adapter, AdapterChoice};
 
 /// What the environment names, else a graphics adapter, which most of these tests are about.
 pub(crate) fn choice() -> AdapterChoice {
@@ -33,19 +33,4 @@ fn the_grid_is_as_fine_as_the_driver_says() {
         None => assert!(bits >= 4, "{bits} bits; Vulkan grants 4"),
     }
     assert_eq!(adapter.sub_pixel_bits(), Ok(bits), "measured again");
-}
-
-#[test]
-fn the_environment_says_what_is_cheap() {
-    let Adapter::Gpu(gpu) = adapter() else {
-        return assert_eq!(adapter().costs(), Costs::CPU, "the CPU has one way");
-    };
-    let is_software = match std::env::var("HALFWAY_COSTS").as_deref() {
-        Ok("software") => true,
-        Ok("hardware") => false,
-        _ => gpu.is_software(),
-    };
-    let expected = if is_software { Costs::SOFTWARE } else { Costs::HARDWARE };
-    let Costs { images_in_environments, .. } = gpu.costs();
-    assert_eq!(gpu.costs(), Costs { images_in_environments, ..expected });
 }

@@ -340,7 +340,7 @@ fn environments_conform_on_objects_with_images() {
     let rows: Vec<Row> = environment::rows_of_maps().into_iter().chain(maps::rows_by_shape_in_environments()).collect();
     stage.set(&rows[0].scene);
     stage.frame();
-    if !stage.costs().images_in_environments {
+    if !stage.adapter().lights_images_by_environments() {
         let told = |error: &RenderError| matches!(error, RenderError::ImagesInEnvironment(count) if *count > 0);
         assert!(stage.report().errors.iter().any(told), "{:?}", stage.report().errors);
         return;
@@ -359,7 +359,7 @@ fn solids_conform_in_environments() {
     let rows = solids::rows_in_environments();
     stage.set(&rows[0].scene);
     stage.frame();
-    if stage.costs().images_in_environments {
+    if stage.adapter().lights_images_by_environments() {
         return conform("environment and solids", &rows);
     }
     let told = |error: &RenderError| matches!(error, RenderError::ImagesInEnvironment(count) if *count > 0);

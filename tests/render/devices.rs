@@ -146,19 +146,6 @@ fn nothing_of_one_device_is_used_with_another() {
 }
 
 #[test]
-fn costs_outlive_the_device_that_they_were_set_for() {
-    let mut stage = Stage::new(8, 8);
-    stage.draw(&scene(1));
-    let costs = halfway::render::Costs::HARDWARE;
-    stage.world().resource_mut::<Gpu>().set_costs(costs);
-    let set = stage.app.world().resource::<Gpu>().costs();
-    lose(stage.app.world());
-    assert!(is_loss(&stage.try_draw()));
-    stage.frame();
-    assert_eq!(stage.app.world().resource::<Gpu>().costs(), set);
-}
-
-#[test]
 fn a_picture_on_its_way_comes_from_its_own_device() {
     let mut stage = Stage::new(8, 8);
     let expected = stage.draw(&scene(1));

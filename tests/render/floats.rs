@@ -14,8 +14,6 @@ fn plain_device() -> Gpu {
     let mut gpu = Gpu::open_headless().expect("an adapter");
     let descriptor = wgpu::DeviceDescriptor { required_limits: gpu.adapter.limits(), ..Default::default() };
     (gpu.device, gpu.queue) = pollster::block_on(gpu.adapter.request_device(&descriptor)).expect("a plain device");
-    let costs = gpu.costs();
-    gpu.set_costs(costs);
     gpu
 }
 

@@ -5,7 +5,6 @@ use crate::render::scene::{Lamp, Scene, Thing, glowing, material, other_material
 use crate::render::sides::hemisphere;
 use crate::render::stage::Stage;
 use halfway::prelude::*;
-use halfway::render::{Costs, Gpu};
 
 const SHADINGS: [Shading; 3] = [Shading::Flat, Shading::Gouraud, Shading::Phong];
 
@@ -39,41 +38,31 @@ fn of_equal_opaque_objects_the_first_spawned_is_seen() {
         Thing::new(UvSphere::new(0.8, 24, 12)).at(rotated(0.3, 0.4, 0.5)).of(material).shaded(shading).faces(faces)
     };
     let brass = Material::BRASS;
-    for costs in [Costs::SOFTWARE, Costs::HARDWARE] {
-        for (name, lights) in [("one light", 1), ("many lights", 12)] {
-            for (first, second) in [
-                ((brass, Shading::Phong, Faces::Front), (material(), Shading::Phong, Faces::Front)),
-                ((brass, Shading::Flat, Faces::Front), (material(), Shading::Flat, Faces::Both)),
-                // Depths of flat triangles are rounded otherwise: here either may be seen.
-                ((brass, Shading::Flat, Faces::Front), (material(), Shading::Phong, Faces::Front)),
-                ((brass, Shading::Phong, Faces::Front), (material(), Shading::Gouraud, Faces::Both)),
-                ((brass, Shading::Gouraud, Faces::Both), (glowing(1.0, 0.0, 0.5), Shading::Phong, Faces::Front)),
-            ] {
-                let [first, second] = [first, second].map(|(material, shading, faces)| ball(material, shading, faces));
-                let mut aside = second.clone();
-                aside.frames[0].translation = Vec3::new(1.1, 0.9, -1.0);
-                let mut scene = Scene::seen_from(Vec3::new(0.2, 0.1, 3.5), Vec3::ZERO).ambient(0.2);
-                for i in 0..lights {
-                    let (sine, cosine) = (0.5 * i as f32).sin_cos();
-                    scene = scene.lit(Lamp::point(point_light(), Vec3::new(3.0 * cosine, 3.0 * sine, 2.0)));
-                }
-                for (unrelated, before) in [("none", vec![]), ("one like the second", vec![aside])] {
-                    let mut scene = scene.clone();
-                    scene.things = before;
-                    scene.things.extend([first.clone(), second.clone(), first.clone()]);
-                    stage.set(&scene);
-                    stage.frame();
-                    // The CPU has one way.
-                    if let Some(mut gpu) = stage.world().get_resource_mut::<Gpu>() {
-                        gpu.set_costs(costs);
-                    }
-                    let picture = stage.float();
-                    let row = format!(
-                        "{costs:?}, {name}, {:?} before {:?}, unrelated: {unrelated}",
-                        first.shading, second.shading
-                    );
-                    failures.compare(&row, &mut stage, &picture, FLOAT);
-                }
+    for (name, lights) in [("one light", 1), ("many lights", 12)] {
+        for (first, second) in [
+            ((brass, Shading::Phong, Faces::Front), (material(), Shading::Phong, Faces::Front)),
+            ((brass, Shading::Flat, Faces::Front), (material(), Shading::Flat, Faces::Both)),
+            // Depths of flat triangles are rounded otherwise: here either may be seen.
+            ((brass, Shading::Flat, Faces::Front), (material(), Shading::Phong, Faces::Front)),
+            ((brass, Shading::Phong, Faces::Front), (material(), Shading::Gouraud, Faces::Both)),
+            ((brass, Shading::Gouraud, Faces::Both), (glowing(1.0, 0.0, 0.5), Shading::Phong, Faces::Front)),
+        ] {
+            let [first, second] = [first, second].map(|(material, shading, faces)| ball(material, shading, faces));
+            let mut aside = second.clone();
+            aside.frames[0].translation = Vec3::new(1.1, 0.9, -1.0);
+            let mut scene = Scene::seen_from(Vec3::new(0.2, 0.1, 3.5), Vec3::ZERO).ambient(0.2);
+            for i in 0..lights {
+                let (sine, cosine) = (0.5 * i as f32).sin_cos();
+                scene = scene.lit(Lamp::point(point_light(), Vec3::new(3.0 * cosine, 3.0 * sine, 2.0)));
+            }
+            for (unrelated, before) in [("none", vec![]), ("one like the second", vec![aside])] {
+                let mut scene = scene.clone();
+                scene.things = before;
+                scene.things.extend([first.clone(), second.clone(), first.clone()]);
+                stage.set(&scene);
+                let picture = stage.float();
+                let row = format!("{name}, {:?} before {:?}, unrelated: {unrelated}", first.shading, second.shading);
+                failures.compare(&row, &mut stage, &picture, FLOAT);
             }
         }
     }

@@ -5,7 +5,7 @@ use crate::render::scene::{Around, Kind, Lamp, Map, On, Scene, Thing};
 use halfway::prelude::*;
 use halfway::reference::Oracle;
 use halfway::reference::metrics::Bars;
-use halfway::render::{Adapter, AdapterChoice, Costs, RenderError};
+use halfway::render::{Adapter, AdapterChoice, RenderError};
 use halfway::texture::environment::{EnvironmentLight, EnvironmentMap};
 use image::{Rgba32FImage, RgbaImage};
 use std::sync::OnceLock;
@@ -112,11 +112,6 @@ impl Stage {
     /// Whether a floating-point picture may show blended objects.
     pub(crate) fn blends_floats(&self) -> bool {
         self.adapter().blends_floats()
-    }
-
-    /// What was taken to be cheap.
-    pub(crate) fn costs(&self) -> Costs {
-        self.adapter().costs()
     }
 
     pub(crate) fn report(&self) -> &FrameReport {

@@ -46,12 +46,6 @@ pub enum RenderError {
         /// What was found, and what there is.
         reason: String,
     },
-    /// The environment variable `HALFWAY_COSTS` has a value that means nothing.
-    #[error("HALFWAY_COSTS is \"{found}\"; expected software or hardware")]
-    BadCosts {
-        /// The value.
-        found: String,
-    },
     /// A component holds a value outside its range.
     #[error("{entity}: {source}")]
     Invalid {

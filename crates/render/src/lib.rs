@@ -22,7 +22,6 @@ mod view;
 
 pub use device::adapter::Adapter;
 pub use device::choice::AdapterChoice;
-pub use device::costs::Costs;
 pub use device::cpu::Cpu;
 pub use device::gpu::Gpu;
 pub use device::gpu_timer::GpuTimer;

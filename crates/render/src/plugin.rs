@@ -5,7 +5,6 @@ use crate::batch::lit_patches::{self, LitPatches};
 use crate::cpu::draw as on_canvas;
 use crate::cpu::meshes::{self as mesh_pieces, MeshPieces};
 use crate::cpu::pass::{self as lists, PassLists};
-use crate::device::adapter::Adapter;
 use crate::device::choice::AdapterChoice;
 use crate::device::cpu::Cpu;
 use crate::device::gpu::Gpu;
@@ -180,11 +179,7 @@ fn open(world: &mut World) {
     match world.resource::<AdapterChoice>().open() {
         Ok(adapter) => {
             log::info!("drawing on {}", adapter.describe());
-            match (adapter, &lost) {
-                (Adapter::Gpu(gpu), Some(lost)) => Adapter::Gpu(gpu.in_place_of(lost)),
-                (adapter, _) => adapter,
-            }
-            .insert_into(world);
+            adapter.insert_into(world);
         }
         Err(error) => world.resource_mut::<FrameReport>().errors.push(error),
     }

@@ -136,15 +136,12 @@ fn open_adapter(
     let choice = world.get_resource_or_init::<AdapterChoice>().clone();
     let (adapter, surface) = choice.open_for(display, |instance| make_surface(instance, window))?;
     log::info!("drawing on {}", adapter.describe());
-    let (Adapter::Gpu(mut gpu), Some(surface)) = (adapter.clone(), surface) else {
+    let (Adapter::Gpu(gpu), Some(surface)) = (adapter.clone(), surface) else {
         let buffer = WindowBuffer::new(display, window)?;
         world.insert_resource(CanvasTarget { size: physical_size(window) });
         adapter.insert_into(world);
         return Ok(Some(buffer));
     };
-    if let Some(lost) = world.get_resource::<Gpu>().filter(|gpu| gpu.is_lost()) {
-        gpu = gpu.in_place_of(lost);
-    }
     world.insert_resource(SurfaceTarget::new(&gpu, surface, physical_size(window))?);
     world.insert_resource(gpu);
     Ok(None)

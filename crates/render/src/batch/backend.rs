@@ -1,14 +1,13 @@
 //! What draws batches.
 
 use crate::batch::key::DrawKey;
-use crate::device::costs::Costs;
 
 /// What draws the batches of a frame, as far as it has a say in how they are made. All else that it takes is data:
 /// [`LitPatches`](super::lit_patches::LitPatches), [`Batches`](super::batches::Batches) and the triangles in
 /// [`Geometries`](crate::geometry::meshes::Geometries), none of which holds anything of wgpu's.
 pub(crate) trait Backend {
-    /// What is cheap there.
-    fn costs(&self) -> Costs;
+    /// Whether it lights by an environment what has images or a solid.
+    fn lights_images_by_environments(&self) -> bool;
 
     /// The key itself, or a more general one that draws the same, where there is nothing that draws this one alone.
     fn admit(&mut self, key: DrawKey) -> DrawKey;

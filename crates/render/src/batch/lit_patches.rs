@@ -101,7 +101,7 @@ impl LitPatches {
         report: &mut FrameReport,
     ) {
         let mut without_environment = 0;
-        for object in shown.iter(backend.costs()) {
+        for object in shown.iter(backend.lights_images_by_environments()) {
             without_environment += usize::from(object.lacks_environment);
             match self.lit_object(&object, shown, share, shared) {
                 Ok(Some(lit)) => self.add(&lit, shared, backend, report),

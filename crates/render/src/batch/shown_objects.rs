@@ -3,7 +3,6 @@
 use crate::batch::key::MapLooks;
 use crate::batch::object::{Reflecting, wrong_paint};
 use crate::batch::table::MapsUse;
-use crate::device::costs::Costs;
 use crate::geometry::meshes::{Form, Geometries, Geometry, Paint, PaintComponents};
 use crate::lights::surroundings::Surroundings;
 use crate::lights::terms::Chosen;
@@ -62,18 +61,18 @@ pub(super) struct ShownObject<'a> {
 }
 
 impl ShownObjects<'_, '_> {
-    /// The visible ones in spawn order, where these are the costs of drawing them.
-    pub(super) fn iter(&self, costs: Costs) -> impl Iterator<Item = ShownObject<'_>> {
-        self.visible.0.iter().filter_map(move |&entity| self.get(entity, costs))
+    /// The visible ones in spawn order; those with images or a solid are lit by an environment where that can be.
+    pub(super) fn iter(&self, lights_images: bool) -> impl Iterator<Item = ShownObject<'_>> {
+        self.visible.0.iter().filter_map(move |&entity| self.get(entity, lights_images))
     }
 
-    fn get(&self, entity: Entity, costs: Costs) -> Option<ShownObject<'_>> {
+    fn get(&self, entity: Entity, lights_images: bool) -> Option<ShownObject<'_>> {
         let (mesh, material, back, reflectance, faces, blend, components, tolerance, placed, chosen, name) =
             self.objects.get(entity).ok()?;
         let of_mesh = |mesh| Paint::new(mesh, components, self.surroundings.are_there());
         let mut paint = self.meshes.get(&mesh.0).map_or(Paint::default(), of_mesh);
         let has_images = paint.has_images() || paint.solid.is_some();
-        let lacks_environment = paint.surrounded && has_images && !costs.images_in_environments;
+        let lacks_environment = paint.surrounded && has_images && !lights_images;
         paint.surrounded &= !lacks_environment;
         let material = material.unwrap_or(&Material::DEFAULT);
         let reflecting = Reflecting {

@@ -4,7 +4,6 @@ use crate::batch::backend::Backend;
 use crate::batch::key::DrawKey;
 use crate::cpu::meshes::MeshPieces;
 use crate::cpu::pass::PassLists;
-use crate::device::costs::Costs;
 use crate::device::cpu::Cpu;
 use crate::error::RenderError;
 use crate::frame::report::FrameReport;
@@ -19,8 +18,8 @@ use halfway_lighting::{Encoding, Frequency, Intensity, Samples, Viewer};
 use halfway_raster::{LARGEST_SIDE, Lens, Pass, PixelFormat, SampleCount};
 
 impl Backend for Cpu {
-    fn costs(&self) -> Costs {
-        Costs::CPU
+    fn lights_images_by_environments(&self) -> bool {
+        true
     }
 
     /// The same for all draws of which only a shader would be specialised for the difference.

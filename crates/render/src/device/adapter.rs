@@ -1,6 +1,5 @@
 //! What draws: a graphics adapter, or the CPU.
 
-use crate::device::costs::Costs;
 use crate::device::cpu::Cpu;
 use crate::device::gpu::Gpu;
 use crate::error::RenderError;
@@ -51,11 +50,11 @@ impl Adapter {
         }
     }
 
-    /// What is taken to be cheap on it.
-    pub fn costs(&self) -> Costs {
+    /// Whether what has images or a solid can be lit by an environment.
+    pub fn lights_images_by_environments(&self) -> bool {
         match self {
-            Self::Gpu(gpu) => gpu.costs(),
-            Self::Cpu(_) => Costs::CPU,
+            Self::Gpu(gpu) => gpu.lights_images_by_environments(),
+            Self::Cpu(_) => true,
         }
     }
 

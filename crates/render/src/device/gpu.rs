@@ -1,6 +1,5 @@
 //! The adapter, its device and its queue.
 
-use crate::device::costs::Costs;
 use crate::device::old_opengl::unfit;
 use crate::device::provoking_vertex::ProvokingVertex;
 use crate::error::RenderError;
@@ -27,7 +26,6 @@ pub struct Gpu {
     pub device: wgpu::Device,
     /// The queue all work is submitted to.
     pub queue: wgpu::Queue,
-    costs: Costs,
     /// No other device has it, in any instance. (wgpu's own comparison holds within an instance only.)
     id: u64,
     /// Why nothing that is right can be drawn on it, if so.
@@ -56,7 +54,6 @@ impl Gpu {
         if let Some(reason) = unfit(&adapter.get_info(), adapter.get_downlevel_capabilities().flags) {
             return Err(RenderError::NoDevice { adapter: adapter.get_info().name, reason });
         }
-        let costs = Costs::of(&adapter)?;
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("halfway"),
             required_features: wanted & adapter.features(),
@@ -65,7 +62,7 @@ impl Gpu {
             ..Default::default()
         }))
         .map_err(|error| RenderError::NoDevice { adapter: adapter.get_info().name, reason: error.to_string() })?;
-        let gpu = Self::with_costs(instance, adapter, device, queue, costs);
+        let gpu = Self::from_existing(instance, adapter, device, queue);
         gpu.listen();
         Ok(gpu)
     }
@@ -84,24 +81,11 @@ impl Gpu {
         device: wgpu::Device,
         queue: wgpu::Queue,
     ) -> Self {
-        let costs = Costs::of_kind(&adapter);
-        Self::with_costs(instance, adapter, device, queue, costs)
-    }
-
-    fn with_costs(
-        instance: wgpu::Instance,
-        adapter: wgpu::Adapter,
-        device: wgpu::Device,
-        queue: wgpu::Queue,
-        costs: Costs,
-    ) -> Self {
         static DEVICES: AtomicU64 = AtomicU64::new(0);
         let id = DEVICES.fetch_add(1, Ordering::Relaxed);
         let unfit = unfit(&adapter.get_info(), adapter.get_downlevel_capabilities().flags).map(Arc::from);
         let notices = Arc::new(Mutex::new(Notices { failure: None, loss: None }));
-        let mut gpu = Self { instance, adapter, device, queue, costs, id, unfit, notices };
-        gpu.set_costs(costs);
-        gpu
+        Self { instance, adapter, device, queue, id, unfit, notices }
     }
 
     /// Takes note of what the device says by itself.
@@ -117,17 +101,11 @@ impl Gpu {
         });
     }
 
-    /// What is taken to be cheap on the adapter.
-    pub fn costs(&self) -> Costs {
-        self.costs
-    }
-
-    /// Draws in the ways that are cheap by `costs`, from the next frame on, as far as the device can.
-    pub fn set_costs(&mut self, costs: Costs) {
-        self.costs = Costs {
-            images_in_environments: costs.images_in_environments && self.costs.images_in_environments,
-            ..costs
-        };
+    /// Whether what has images or a solid can be lit by an environment. llvmpipe through Vulkan (Mesa 22.3) crashes in
+    /// draws that read both.
+    pub fn lights_images_by_environments(&self) -> bool {
+        let info = self.adapter.get_info();
+        !(info.backend == wgpu::Backend::Vulkan && info.name.starts_with("llvmpipe"))
     }
 
     /// What the device can do with textures of a format.
@@ -138,15 +116,6 @@ impl Gpu {
         } else {
             format.guaranteed_format_features(features)
         }
-    }
-
-    /// Takes over the costs of a device that this one replaces, where both are of one adapter.
-    #[must_use]
-    pub fn in_place_of(mut self, old: &Self) -> Self {
-        if self.describe() == old.describe() {
-            self.set_costs(old.costs);
-        }
-        self
     }
 
     /// Whether it is known that the device is lost. Never of an engine's device, which alone hears of it.

@@ -2,7 +2,6 @@
 
 pub(crate) mod adapter;
 pub(crate) mod choice;
-pub(crate) mod costs;
 pub(crate) mod cpu;
 pub(crate) mod gpu;
 pub(crate) mod gpu_timer;

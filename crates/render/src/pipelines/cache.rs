@@ -2,7 +2,6 @@
 
 use crate::batch::backend::Backend;
 use crate::batch::key::DrawKey;
-use crate::device::costs::Costs;
 use crate::device::gpu::Gpu;
 use crate::error::RenderError;
 use crate::frame::report::FrameReport;
@@ -35,7 +34,7 @@ pub(crate) struct Pipelines {
     frame: u64,
     /// What the frame draws into.
     output: ShaderOutput,
-    costs: Costs,
+    lights_images_by_environments: bool,
     /// No specialised pipeline can make room in this frame.
     full: bool,
     /// The keys for which there was no room in this frame.
@@ -88,7 +87,8 @@ impl Pipelines {
     /// Begins a frame, and takes in what has been built beside the frames.
     fn begin(&mut self, gpu: &Gpu, output: ShaderOutput, compile: Compile) {
         self.frame += 1;
-        (self.output, self.costs) = (output, gpu.costs());
+        self.output = output;
+        self.lights_images_by_environments = gpu.lights_images_by_environments();
         (self.full, self.last) = (false, None);
         std::mem::swap(&mut self.refused, &mut self.refused_before);
         self.refused.clear();
@@ -255,8 +255,8 @@ impl VariantState {
 }
 
 impl Backend for Pipelines {
-    fn costs(&self) -> Costs {
-        self.costs
+    fn lights_images_by_environments(&self) -> bool {
+        self.lights_images_by_environments
     }
 
     /// The key itself, or the generic one: where there is no room, where what the key needs cannot be
