@@ -2,12 +2,11 @@
 
 use crate::batch::key::{Cull, DrawKey};
 use crate::device::gpu::Gpu;
-use crate::lights::terms::{by_fragment_shader, by_vertex_shader};
 use crate::pipelines::key::PipelineKey;
 use crate::shaders::light_slots::Lists;
 use crate::shaders::records::{INSTANCE, INSTANCE_BYTES};
 use crate::shaders::template::EntryPoint;
-use crate::shaders::text::Shader;
+use crate::shaders::text::{Shader, Text};
 use crate::target::frame::{DEPTH_FORMAT, ShaderOutput};
 use halfway_lighting::Frequency;
 use halfway_texture::MapKind;
@@ -23,36 +22,30 @@ const FACE: [wgpu::VertexAttribute; 2] = wgpu::vertex_attr_array![7 => Float32x3
 impl Shader {
     pub(crate) fn build(&self, gpu: &Gpu, pipeline: PipelineKey) -> wgpu::RenderPipeline {
         let PipelineKey { draw: key, output } = pipeline;
-        let constants = constants(&key, output);
-        let buffer = |attributes, stride, step_mode| {
-            Some(wgpu::VertexBufferLayout { array_stride: stride, step_mode, attributes })
+        let text = Text::of(&key);
+        let buffer = |used: bool, attributes, stride| {
+            let step_mode = wgpu::VertexStepMode::Vertex;
+            used.then_some(wgpu::VertexBufferLayout { array_stride: stride, step_mode, attributes })
         };
-        // Unlit draws need no normal matrix, and a software adapter pays for every attribute it fetches.
-        let unlit = [INSTANCE[0], INSTANCE[1], INSTANCE[2], INSTANCE[6]];
-        let has_attributes = key.reads_attributes();
-        let instance = if has_attributes { &INSTANCE[..] } else { &unlit[..] };
-        let mut buffers = vec![
-            buffer(instance, INSTANCE_BYTES, wgpu::VertexStepMode::Instance),
-            buffer(&POSITION, 12, wgpu::VertexStepMode::Vertex),
+        let without_normals = [INSTANCE[0], INSTANCE[1], INSTANCE[2], INSTANCE[6]];
+        let instance = wgpu::VertexBufferLayout {
+            array_stride: INSTANCE_BYTES,
+            step_mode: wgpu::VertexStepMode::Instance,
+            attributes: if text.reads_normals() { &INSTANCE } else { &without_normals },
+        };
+        let (normals, normal_bytes) = if text.is_flat() { (&FACE[..], 24) } else { (&NORMAL[..], 12) };
+        let buffers = [
+            Some(instance),
+            buffer(true, &POSITION, 12),
+            buffer(text.reads_normals(), normals, normal_bytes),
+            buffer(text.painted, &COLOR, 16),
+            buffer(text.mapped, &UV, 16),
+            buffer(text.relief, &TANGENT, 16),
         ];
-        if key.terms.has(Frequency::Triangle) {
-            buffers.push(buffer(&FACE, 24, wgpu::VertexStepMode::Vertex));
-        } else if has_attributes {
-            buffers.push(buffer(&NORMAL, 12, wgpu::VertexStepMode::Vertex));
-        }
-        if key.is_painted() {
-            buffers.push(buffer(&COLOR, 16, wgpu::VertexStepMode::Vertex));
-        }
-        if key.is_mapped() {
-            buffers.push(buffer(&UV, 16, wgpu::VertexStepMode::Vertex));
-            if !key.terms.has(Frequency::Triangle) {
-                buffers.push(buffer(&TANGENT, 16, wgpu::VertexStepMode::Vertex));
-            }
-        }
-        let (vertex, fragment) = entry_points(&key);
+        let constants = constants(&key, output);
         let module = |stage, name| self.template.shader(&gpu.device, EntryPoint { stage, name, constants: &constants });
-        let vertex = module(ShaderStage::Vertex, vertex);
-        let fragment = module(ShaderStage::Fragment, fragment);
+        let vertex = module(ShaderStage::Vertex, "vs_surface");
+        let fragment = module(ShaderStage::Fragment, "fs_surface");
         gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(&pipeline.to_string()),
             layout: Some(&self.layout),
@@ -109,46 +102,10 @@ const OVER: wgpu::BlendState = wgpu::BlendState {
     },
 };
 
-fn entry_points(key: &DrawKey) -> (&'static str, &'static str) {
-    if key.solid.is_some() {
-        return solid_entry_points(key);
-    }
-    let is_one_sided = key.cull == Cull::Back;
-    if key.terms.has(Frequency::Triangle) {
-        return ("vs_flat", "fs_flat");
-    }
-    let [by_vertices, by_fragments] =
-        [by_vertex_shader(key.terms), by_fragment_shader(key.terms)].map(|terms| terms.contains(&true));
-    match (by_vertices, by_fragments) {
-        (_, false) if key.is_painted() => ("vs_gouraud", "fs_gouraud"),
-        (_, true) if key.is_painted() => ("vs_mixed", "fs_mixed"),
-        (false, false) if is_one_sided => ("vs_unlit", "fs_unlit"),
-        (false, false) => ("vs_unlit_both", "fs_unlit_both"),
-        (true, false) if is_one_sided => ("vs_gouraud", "fs_gouraud"),
-        (true, false) => ("vs_gouraud_both", "fs_gouraud_both"),
-        (false, true) => ("vs_phong", "fs_phong"),
-        (true, true) => ("vs_mixed", "fs_mixed"),
-    }
-}
-
-fn solid_entry_points(key: &DrawKey) -> (&'static str, &'static str) {
-    match by_fragment_shader(key.terms).contains(&true) {
-        _ if key.terms.has(Frequency::Triangle) => ("vs_solid_flat", "fs_solid_flat"),
-        false => ("vs_solid_gouraud", "fs_solid_gouraud"),
-        true => ("vs_solid_mixed", "fs_solid_mixed"),
-    }
-}
-
 fn constants(key: &DrawKey, output: ShaderOutput) -> Vec<(&'static str, f64)> {
     let [directional, points, spots] = key.lists.counts();
     let flag = |on: bool| f64::from(u8::from(on));
-    let [vertex_diffuse, vertex_specular] = by_vertex_shader(key.terms).map(flag);
-    let [fragment_diffuse, fragment_specular] = by_fragment_shader(key.terms).map(flag);
     let constants = vec![
-        ("VERTEX_DIFFUSE", vertex_diffuse),
-        ("VERTEX_SPECULAR", vertex_specular),
-        ("FRAGMENT_DIFFUSE", fragment_diffuse),
-        ("FRAGMENT_SPECULAR", fragment_specular),
         ("BLINN_PHONG", flag(key.blinn_phong)),
         ("LOCAL_VIEWER", flag(key.local_viewer)),
         ("ATTENUATED_AMBIENT", flag(key.attenuated_ambient)),
@@ -156,7 +113,6 @@ fn constants(key: &DrawKey, output: ShaderOutput) -> Vec<(&'static str, f64)> {
         ("SPECULAR", flag(key.terms.specular != Frequency::Never)),
         ("RANGED", flag(key.ranged)),
         ("SQUARINGS", key.squarings.map_or(-1.0, f64::from)),
-        ("TWO_SIDED", flag(key.cull != Cull::Back)),
         ("BLEND", flag(key.blend)),
         ("ENCODED", flag(output.encoded)),
         ("GEOMETRIC_FALLBACK", flag(key.geometric_fallback)),

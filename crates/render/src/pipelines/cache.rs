@@ -130,12 +130,12 @@ impl Pipelines {
 
     /// The layout of the bindings that such pipelines need; `None` before the first is built.
     pub(crate) fn bindings(&self, lights: LightText) -> Option<&wgpu::BindGroupLayout> {
-        self.shaders.any(lights).map(|shader| &shader.bindings)
+        self.shaders.layouts.of_lights(lights).get()
     }
 
     /// The layout of an image's bindings; `None` before the first pipeline that has one.
     pub(crate) fn map_bindings(&self, has_solid: bool) -> Option<&wgpu::BindGroupLayout> {
-        self.shaders.map_bindings(has_solid)
+        self.shaders.layouts.of_images(has_solid).get()
     }
 
     /// The pipeline that draws this into what the frame draws into.

@@ -35,7 +35,7 @@ pub(crate) fn build(gpu: &Gpu, shaders: &Shaders, key: PipelineKey) -> Result<wg
     use wgpu::ErrorFilter::{Internal, OutOfMemory, Validation};
     // Scopes belong to the thread, so that two threads that build keep their errors apart.
     let scopes = [Validation, OutOfMemory, Internal].map(|filter| gpu.device.push_error_scope(filter));
-    let pipeline = shaders.get_or_make(gpu, Text::of(&key.draw)).build(gpu, key);
+    let pipeline = shaders.with(gpu, Text::of(&key.draw), |shader| shader.build(gpu, key));
     // Popped in reverse order, and all of them.
     let error = scopes.into_iter().rev().filter_map(|scope| pollster::block_on(scope.pop())).last();
     error.map_or(Ok(pipeline), |error| Err(error.to_string()))

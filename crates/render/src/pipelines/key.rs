@@ -1,9 +1,11 @@
 //! What a pipeline is made for: a draw, and what it writes.
 
-use crate::batch::key::DrawKey;
+use crate::batch::key::{Cull, DrawKey};
+use crate::lights::terms::by_fragment_shader;
 use crate::shaders::light_slots::Lists;
-use crate::shaders::text::{LightText, SurfaceText, Text};
+use crate::shaders::text::{LightText, Text};
 use crate::target::frame::ShaderOutput;
+use halfway_texture::MapKind;
 use std::fmt;
 
 /// All that a pipeline is specialised for.
@@ -28,14 +30,17 @@ impl Text {
             Lists::Listed => LightText::Listed,
             Lists::Counted(_) => LightText::Few,
         };
-        let surface = match (key.is_mapped(), key.colored) {
-            _ if key.surrounded && key.solid.is_some() => SurfaceText::SolidSurrounded,
-            _ if key.surrounded => SurfaceText::Surrounded,
-            _ if key.solid.is_some() => SurfaceText::Solid,
-            (true, _) => SurfaceText::Mapped,
-            (false, true) => SurfaceText::Colored,
-            (false, false) => SurfaceText::Plain,
-        };
-        Self { lights, surface, by_shape: key.maps.by_shape() }
+        let turns_normals = key.maps.has(MapKind::Normal) || key.maps.has(MapKind::Height);
+        Self {
+            lights,
+            terms: key.terms,
+            two_sided: key.cull != Cull::Back,
+            painted: key.is_painted(),
+            mapped: key.is_mapped(),
+            by_shape: key.maps.by_shape(),
+            relief: turns_normals && by_fragment_shader(key.terms).contains(&true),
+            solid: key.solid.is_some(),
+            surrounded: key.surrounded,
+        }
     }
 }

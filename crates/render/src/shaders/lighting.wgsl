@@ -221,18 +221,6 @@ fn irradiance(light: Light, incident: Incidence, n: vec3f, v: vec3f, shininess: 
     return result;
 }
 
-// What a material gives back of what lights bring.
-fn reflected(arriving: Irradiance, material: Material) -> vec3f {
-    var sum = material.diffuse * arriving.diffuse;
-    if SPECULAR {
-        sum += material.specular * arriving.specular;
-    }
-    if ATTENUATED_AMBIENT {
-        sum += material.ambient * arriving.ambient;
-    }
-    return sum;
-}
-
 // The sRGB curve (IEC 61966-2-1) of intensities in 0..1. Its upper part, 1.055·I^(1/2.4) − 0.055, is a polynomial of
 // the fifth degree in ⁴√I here, fitted for the least greatest error: 6.8e-6, a 600th of an 8-bit step.
 fn srgb_encoded(linear: vec3f) -> vec3f {

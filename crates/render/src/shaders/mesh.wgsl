@@ -1,6 +1,5 @@
-// What all entry points share. Needs lighting.wgsl, records.wgsl, and uniform.wgsl or storage.wgsl.
+// What the stages of surfaces share. Needs lighting.wgsl, records.wgsl, and uniform.wgsl or storage.wgsl.
 
-override TWO_SIDED: bool = true;
 override BLEND: bool = false;
 override ENCODED: bool = false;        // the target has no sRGB format: the curve is the shader's
 override GEOMETRIC_FALLBACK: bool = false;
@@ -11,9 +10,11 @@ struct Object {
     @location(0) row0: vec4f,
     @location(1) row1: vec4f,
     @location(2) row2: vec4f,
+#if NORMALS
     @location(3) normal0: vec3f,
     @location(4) normal1: vec3f,
     @location(5) normal2: vec3f,
+#end
     @location(9) record: u32,
 }
 
@@ -26,9 +27,11 @@ fn eye_position(object: Object, position: vec3f) -> vec3f {
     return vec3f(dot(object.row0, p), dot(object.row1, p), dot(object.row2, p));
 }
 
+#if NORMALS
 fn eye_normal(object: Object, normal: vec3f) -> vec3f {
     return transform_normal(mat3x3f(object.normal0, object.normal1, object.normal2), normal);
 }
+#end
 
 // Reversed depth with an infinite far plane: z/w = near / distance.
 fn clip_position(eye: vec3f) -> vec4f {

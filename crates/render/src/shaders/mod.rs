@@ -3,6 +3,7 @@
 pub(crate) mod light_slots;
 pub(crate) mod picture;
 pub(crate) mod records;
+pub(crate) mod switches;
 pub(crate) mod template;
 #[cfg(test)]
 mod tests;

@@ -1,10 +1,5 @@
 // What draws read, and what a pipeline knows of them. Needs lighting.wgsl.
 
-// What a draw does not use is not in its pipeline.
-override VERTEX_DIFFUSE: bool = false;
-override VERTEX_SPECULAR: bool = false;
-override FRAGMENT_DIFFUSE: bool = false;
-override FRAGMENT_SPECULAR: bool = false;
 // The lights are those that the record's lists name. Else they are the first ones bound, as many of each kind as these
 // numbers say.
 override LISTED: bool = false;

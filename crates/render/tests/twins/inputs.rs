@@ -376,11 +376,6 @@ pub(crate) fn divisors() -> Vec<Input> {
     })
 }
 
-/// What lights bring, and a material's ambient, diffuse and specular colour and exponent.
-pub(crate) fn reflections() -> Vec<Input> {
-    many([], 300, |random| std::array::from_fn(|_| random.between(0.0, 2.0)))
-}
-
 /// Coefficients of a polynomial of a normal, and the normal.
 pub(crate) fn harmonics() -> Vec<Input> {
     let mut random = Random(23);

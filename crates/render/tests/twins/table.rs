@@ -4,7 +4,7 @@
 //! compared with, so a row without its twin does not compile.
 
 use halfway_lighting::Reflectance;
-use halfway_lighting::equations::{self, Coefficients, Eye, Incidence, Irradiance};
+use halfway_lighting::equations::{self, Eye, Incidence, Irradiance};
 
 use crate::adapter::Kind;
 use crate::inputs::{self, Input, N, P, SHININESS, cone, light, surface, wide};
@@ -200,19 +200,11 @@ fn without_range(x: &[f32]) -> equations::Light<f64> {
     equations::Light { range: None, cone: None, ..light(x) }
 }
 
-fn coefficients(x: &[f32]) -> Coefficients<f64> {
-    Coefficients { ka: wide(&x[9..]), kd: wide(&x[12..]), ks: wide(&x[15..]), ke: [0.0; 3], shininess: 1.0 }
-}
-
-fn arriving(x: &[f32]) -> Irradiance<f64> {
-    Irradiance { ambient: wide(x), diffuse: wide(&x[3..]), specular: wide(&x[6..]) }
-}
-
 use equations::vector::{add, dot, length, normalize_or_zero};
 use equations::{
     aces, attenuation, axial_exponent, diffuse_term, divisor, half_vector, incidence, interpolated_normal, irradiance,
-    lobe_angle, lobe_exponent, mean_light, mirrored, power, range_window, reflect, reflected, reinhard,
-    specular_blinn_phong, specular_phong, specular_term, spot_factor, srgb_encoded, transform_normal, view_vector,
+    lobe_angle, lobe_exponent, mean_light, mirrored, power, range_window, reflect, reinhard, specular_blinn_phong,
+    specular_phong, specular_term, spot_factor, srgb_encoded, transform_normal, view_vector,
 };
 
 use halfway_texture::environment::on_cube;
@@ -279,9 +271,6 @@ pub(crate) fn rows() -> Vec<Row> {
             &[("BLINN_PHONG", 0.0), ("SHARED_COLOR", 1.0)], inputs::lit(inputs::coincident()),
             |x| (&surface(x), &shared(x), &Eye::Local([0.0; 3]), Reflectance::Phong, f64::from(x[SHININESS])),
             |x, e| of_irradiance(x, e, Reflectance::Phong, true)),
-        row!(reflected("Irradiance(v(i, 0), v(i, 3), v(i, 6)), \
-                Material(vec3f(), 0.0, v(i, 12), 0.0, v(i, 15), 0.0, v(i, 9), 0.0)") -> Vector, NOTHING, inputs::reflections(),
-            |x| (&arriving(x), &coefficients(x)), |_, e| e.iter().map(|e| 3.0 * ULP * e).collect()),
         row!(normalize_or_zero("v(i, 0)") -> Vector, NOTHING, inputs::short_vectors(),
             |x| (long_enough(wide(x))), |_, e| each(e, 5.0 * ULP)),
         row!(transform_normal("mat3x3f(v(i, 0), v(i, 3), v(i, 6)), v(i, 9)") -> Vector, NOTHING, inputs::matrices(),
