@@ -199,7 +199,6 @@ fn one_sided_blended_objects_show_the_side_asked_for() {
 
 #[test]
 fn opaque_pixels_are_the_same_beside_a_blended_object() {
-    // Without one, a software adapter's shaders encode.
     let mut stage = Stage::new(24, 24);
     let mut scene = Scene::seen_from(Vec3::Z * 4.0, Vec3::ZERO).with(Thing::new(UvSphere::new(1.0, 24, 12)));
     scene = scene.lit(Lamp::point(point_light(), Vec3::new(1.0, 2.0, 4.0)));

@@ -214,7 +214,6 @@ fn of_many_lights_only_what_is_going_to_draw_is_built() {
     let mut failures = Failures::default();
     failures.draw("generic", &mut stage, &scene, FLOAT);
     failures.finish();
-    // On a software adapter that is the one with its lights at fixed places, and none of its own that reads lists.
     assert_eq!(counts(&stage), (1 + RELATIVES, 1, 0));
     stage.compile();
     assert_identical("its own", &Stage::new(24, 24).draw(&scene), &stage.float());

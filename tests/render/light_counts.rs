@@ -9,7 +9,7 @@ use halfway::prelude::*;
 
 /// Few pixels: a thousand lights take the evaluator a while at each.
 const SIZE: u32 = 8;
-/// On both sides of the lengths at which the renderer changes its ways: 8 and 128.
+/// On both sides of 8, above which lights are listed, and many more.
 const COUNTS: [usize; 9] = [0, 1, 3, 8, 9, 40, 128, 129, 1000];
 
 fn floor() -> Thing {
