@@ -1,7 +1,5 @@
 //! Normals of heights, and normals from afar against the mean over all of them.
 
-#![allow(clippy::float_cmp, reason = "what is exact is compared exactly")]
-
 use halfway_texture::normals::{
     SlopeSpread, decoded, from_heights, lean_lobe, mean_length, slope_covariance, spread_length, toksvig,
 };

@@ -1,7 +1,5 @@
 //! Filters that go by the shape of a footprint: exact cases, f32 against f64, and what sums in f32 lose.
 
-#![allow(clippy::float_cmp, reason = "what is exact is compared exactly")]
-
 use halfway_texture::{LevelFilter, Pyramid, Sampling, TexelFilter, TexelImage, Wrap, lookup};
 use proptest::prelude::*;
 

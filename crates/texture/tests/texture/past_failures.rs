@@ -1,9 +1,6 @@
 //! What fuzzing found once in the reader of images, and what it starts from: the files of `past_failures` here and of
 //! `fuzz/seeds/image`.
 
-#[path = "common/fuzzed.rs"]
-mod fuzzed;
-
 use std::fs;
 use std::path::Path;
 
@@ -18,7 +15,7 @@ fn past_failures_and_seeds_are_read_or_refused_soundly() {
             let file = file.unwrap().path();
             // Shown where the test fails.
             println!("{}", file.display());
-            fuzzed::feed(&fs::read(&file).unwrap());
+            crate::fuzzed::feed(&fs::read(&file).unwrap());
             count += 1;
         }
     }

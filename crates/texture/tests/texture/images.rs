@@ -1,7 +1,5 @@
 //! Pyramids and filters: exact cases, and f32 against f64.
 
-#![allow(clippy::float_cmp, reason = "what is exact is compared exactly")]
-
 use halfway_texture::{LevelFilter, Pyramid, Sampling, TexelFilter, TexelImage, UvTransform, Wrap, lookup};
 use proptest::prelude::*;
 

@@ -1,7 +1,5 @@
 //! Environments: directions, conversions, seams, lobes and matt surfaces.
 
-#![allow(clippy::float_cmp, reason = "what is exact is compared exactly")]
-
 use bevy_asset::Handle;
 use halfway_texture::environment::{
     Environment, EnvironmentLight, EnvironmentMap, EnvironmentShape, Harmonics, from_cube, from_equirectangular,

@@ -1,7 +1,5 @@
 //! Solids that objects are cut from: where they lie, what they are made of, and what is refused.
 
-#![allow(clippy::float_cmp, reason = "what is exact is compared exactly")]
-
 use halfway_texture::noise::{LEAST_WIDTH, checker, fractal, marble, wood};
 use halfway_texture::solid::solid_value;
 use halfway_texture::{SolidKind, SolidTexture};

@@ -1,7 +1,5 @@
 //! Files of images: what they become, and which are refused.
 
-#![allow(clippy::float_cmp, reason = "what is exact is compared exactly")]
-
 use halfway_texture::environment::{Environment, EnvironmentMap, EnvironmentShape, MOST_FACE_TEXELS};
 use halfway_texture::{LONGEST_SIDE, MOST_TEXELS, TexelImage, TexelMeaning, TextureError, decode, load};
 use image::{DynamicImage, ImageFormat, Luma, Rgb, RgbImage, Rgba};

@@ -1,7 +1,5 @@
 //! Noise and solids: determinism, statistics, and what is left of them from afar.
 
-#![allow(clippy::float_cmp, reason = "what is exact is compared exactly")]
-
 use halfway_texture::noise::{checker, fractal, gradient_noise, hash, left, marble, wood};
 use proptest::prelude::*;
 use std::f64::consts::TAU;

@@ -1,0 +1,17 @@
+//! Images in linear light and what is made of them: files, filters, normals, environments, solids.
+
+#![allow(clippy::float_cmp, reason = "what is exact is compared exactly")]
+
+mod environment;
+mod files;
+mod footprints;
+#[path = "../common/fuzzed.rs"]
+mod fuzzed;
+mod images;
+mod noise;
+mod normals;
+mod past_failures;
+mod plugin;
+mod ranges;
+mod solid;
+mod truth;
