@@ -3,6 +3,7 @@
 use crate::render::scene::{Lamp, Map, Scene, Thing, directional_light, material, other_material, point_light};
 use crate::render::stage::Stage;
 use bevy_app::PostUpdate;
+use futures_lite::future::block_on;
 use halfway::prelude::*;
 use halfway::render::{Compile, Gpu, GpuTimer, PendingPicture, RenderError, RenderSet, wgpu};
 use halfway::texture::TexelImage;
@@ -41,7 +42,7 @@ fn what_comes_after_an_image_that_is_too_large_is_drawn() {
         required_features: gpu.device.features(),
         ..Default::default()
     };
-    (gpu.device, gpu.queue) = pollster::block_on(gpu.adapter.request_device(&descriptor)).expect("a small device");
+    (gpu.device, gpu.queue) = block_on(gpu.adapter.request_device(&descriptor)).expect("a small device");
     let mut stage = Stage::new(32, 24);
     stage.app.insert_resource(gpu);
     let square = |x: f32, side: u32, image: [f32; 4]| {

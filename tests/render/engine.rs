@@ -3,6 +3,7 @@
 use crate::render::compare::assert_identical;
 use crate::render::scene::{Lamp, Scene, Thing, directional_light, material, other_material, point_light};
 use crate::render::stage::Stage;
+use futures_lite::future::block_on;
 use halfway::prelude::*;
 use halfway::render::{Gpu, GpuTimer, Pixels, RenderError, TextureTarget, encode_frame, wgpu};
 #[cfg(target_os = "linux")]
@@ -36,7 +37,7 @@ fn plain_device() -> Gpu {
     let (device, queue) = {
         let request = adapter
             .request_device(&wgpu::DeviceDescriptor { required_limits: wgpu::Limits::default(), ..Default::default() });
-        pollster::block_on(request).expect("every adapter has the defaults")
+        block_on(request).expect("every adapter has the defaults")
     };
     Gpu::from_existing(instance, adapter, device, queue)
 }
@@ -240,9 +241,9 @@ fn is_told_of_old_opengl() {
     // With what wgpu looks over by default the device is lost as it is opened.
     wanted.flags = wgpu::InstanceFlags::empty();
     let instance = wgpu::Instance::new(wanted);
-    let found = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()));
+    let found = block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()));
     let adapter = found.expect("llvmpipe through OpenGL");
-    let opened = pollster::block_on(
+    let opened = block_on(
         adapter.request_device(&wgpu::DeviceDescriptor { required_limits: adapter.limits(), ..Default::default() }),
     );
     let (device, queue) = opened.expect("a device that draws by the wrong buffers");

@@ -2,6 +2,7 @@
 
 use crate::render::scene::{Scene, Thing, glowing};
 use crate::render::stage::Stage;
+use futures_lite::future::block_on;
 use halfway::prelude::*;
 use halfway::render::{Gpu, RenderError, wgpu};
 
@@ -13,7 +14,7 @@ const BRIGHT: f32 = 100_000.25;
 fn plain_device() -> Gpu {
     let mut gpu = Gpu::open_headless().expect("an adapter");
     let descriptor = wgpu::DeviceDescriptor { required_limits: gpu.adapter.limits(), ..Default::default() };
-    (gpu.device, gpu.queue) = pollster::block_on(gpu.adapter.request_device(&descriptor)).expect("a plain device");
+    (gpu.device, gpu.queue) = block_on(gpu.adapter.request_device(&descriptor)).expect("a plain device");
     gpu
 }
 

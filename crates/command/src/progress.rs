@@ -1,13 +1,11 @@
 //! How far long work is, and signals to stop it.
 
 use std::ops::ControlFlow;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, OnceLock};
 
 use halfway::record::Continue;
 use indicatif::{ProgressBar, ProgressStyle};
-use signal_hook::consts::{SIGINT, SIGTERM};
-use signal_hook::flag;
 
 use crate::failure::STOPPED;
 
@@ -85,14 +83,20 @@ fn bar(template: &str) -> ProgressBar {
     ProgressBar::new(1).with_style(style)
 }
 
-/// Set by the first Ctrl-C or SIGTERM from now on.
+/// Set by the first Ctrl-C or SIGTERM; the second one ends the process.
 fn stop_on_signals() -> Arc<AtomicBool> {
-    let stop = Arc::new(AtomicBool::new(false));
-    for signal in [SIGINT, SIGTERM] {
-        // Asked in this order, so that it takes a second signal to end the process. Where a handler cannot be set the
-        // signal ends it, as it always did.
-        let second = flag::register_conditional_shutdown(signal, STOPPED.into(), Arc::clone(&stop));
-        let _ = second.and_then(|_| flag::register(signal, Arc::clone(&stop)));
-    }
-    stop
+    // A process has one handler.
+    static STOP: OnceLock<Arc<AtomicBool>> = OnceLock::new();
+    let stop = STOP.get_or_init(|| {
+        let stop = Arc::new(AtomicBool::new(false));
+        let asked = Arc::clone(&stop);
+        // Where a handler cannot be set the signal ends the process, as it always did.
+        let _ = ctrlc::set_handler(move || {
+            if asked.swap(true, Ordering::Relaxed) {
+                std::process::exit(STOPPED.into());
+            }
+        });
+        stop
+    });
+    Arc::clone(stop)
 }

@@ -8,6 +8,7 @@ use crate::error::RenderError;
 use bevy_ecs::prelude::{ReflectResource, Resource};
 use bevy_reflect::Reflect;
 use bevy_reflect::std_traits::ReflectDefault;
+use futures_lite::future::block_on;
 use std::path::Path;
 
 /// What to draw with: which graphics adapter, or the CPU. Insert it before the first frame; an open [`Gpu`] or [`Cpu`]
@@ -262,7 +263,7 @@ impl Wanted {
                 compatible_surface: surface,
                 ..Default::default()
             };
-            return pollster::block_on(instance.request_adapter(&options)).ok();
+            return block_on(instance.request_adapter(&options)).ok();
         };
         let fitting = enumerate(instance, backends).into_iter().filter(|adapter| name.fits(&adapter.get_info()));
         let able = fitting.filter(|adapter| surface.is_none_or(|surface| adapter.is_surface_supported(surface)));
@@ -291,7 +292,7 @@ fn there(rounds: &[wgpu::Backends]) -> Vec<String> {
 }
 
 fn enumerate(instance: &wgpu::Instance, backends: wgpu::Backends) -> Vec<wgpu::Adapter> {
-    pollster::block_on(instance.enumerate_adapters(backends))
+    block_on(instance.enumerate_adapters(backends))
 }
 
 /// The better, the lower.

@@ -4,6 +4,7 @@ use crate::device::old_opengl::unfit;
 use crate::device::provoking_vertex::ProvokingVertex;
 use crate::error::RenderError;
 use bevy_ecs::prelude::Resource;
+use futures_lite::future::block_on;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -54,7 +55,7 @@ impl Gpu {
         if let Some(reason) = unfit(&adapter.get_info(), adapter.get_downlevel_capabilities().flags) {
             return Err(RenderError::NoDevice { adapter: adapter.get_info().name, reason });
         }
-        let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
+        let (device, queue) = block_on(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("halfway"),
             required_features: wanted & adapter.features(),
             // All the adapter has: large meshes and long light lists may need more than the defaults.

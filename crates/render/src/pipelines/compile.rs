@@ -6,6 +6,7 @@ use crate::pipelines::key::PipelineKey;
 use crate::shaders::text::{Shaders, Text};
 use bevy_ecs::prelude::{ReflectResource, Resource};
 use bevy_reflect::Reflect;
+use futures_lite::future::block_on;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -37,7 +38,7 @@ pub(crate) fn build(gpu: &Gpu, shaders: &Shaders, key: PipelineKey) -> Result<wg
     let scopes = [Validation, OutOfMemory, Internal].map(|filter| gpu.device.push_error_scope(filter));
     let pipeline = shaders.with(gpu, Text::of(&key.draw), |shader| shader.build(gpu, key));
     // Popped in reverse order, and all of them.
-    let error = scopes.into_iter().rev().filter_map(|scope| pollster::block_on(scope.pop())).last();
+    let error = scopes.into_iter().rev().filter_map(|scope| block_on(scope.pop())).last();
     error.map_or(Ok(pipeline), |error| Err(error.to_string()))
 }
 
