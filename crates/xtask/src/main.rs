@@ -4,8 +4,9 @@ mod cargo;
 mod checks;
 mod chores;
 mod commands;
+mod display;
 mod failure;
-mod machine;
+mod screen;
 mod setup;
 mod tally;
 
@@ -28,13 +29,26 @@ enum Chore {
     Adapters(chores::adapters::Options),
     Arm(chores::arm::Options),
     Check(chores::check::Options),
-    Docs(chores::docs::Options),
+    /// Make the pictures and the schema in docs/ again, by the commands that docs/examples.md shows
+    Docs,
     Chart(chores::chart::Options),
     Fuzz(chores::fuzz::Options),
     Readme(chores::readme::Options),
     Screen(chores::screen::Options),
-    Soak(chores::soak::Options),
-    Wild(chores::wild::Options),
+    /// Run a scene in which everything changes for 100,000 frames, and fail where memory grows
+    ///
+    /// It also fails where a frame has an error, and where the last picture is another than that of the same scene in a
+    /// new App. Arguments are those of the example `soak`: --frames N, at least 2000, and --leak, which has to fail.
+    /// Without a graphics card the CPU draws.
+    #[command(verbatim_doc_comment)]
+    Soak(chores::program::Arguments),
+    /// Draw random scenes, judge each by the reference renderer, and make those that fail small
+    ///
+    /// A failure is printed and written to out/wild/ as a scene file. The same seed means the same scenes on every
+    /// machine. Options are those of the program: --seed N, --scenes N, --first N, --adapter NAME, --trials N, --output
+    /// FOLDER; `cargo xtask wild -- --help` tells of them.
+    #[command(verbatim_doc_comment)]
+    Wild(chores::program::Arguments),
 }
 
 impl Chore {
@@ -45,13 +59,13 @@ impl Chore {
             Self::Adapters(options) => chores::adapters::run(&options),
             Self::Arm(options) => chores::arm::run(&options),
             Self::Check(options) => chores::check::run(&options),
-            Self::Docs(options) => chores::docs::run(&options),
+            Self::Docs => chores::docs::run(),
             Self::Chart(options) => chores::chart::run(&options),
             Self::Fuzz(options) => chores::fuzz::run(&options),
             Self::Readme(options) => chores::readme::run(&options),
             Self::Screen(options) => chores::screen::run(&options),
-            Self::Soak(options) => chores::soak::run(&options),
-            Self::Wild(options) => chores::wild::run(&options),
+            Self::Soak(arguments) => chores::program::soak(&arguments),
+            Self::Wild(arguments) => chores::program::wild(&arguments),
         }
     }
 }
@@ -76,24 +90,24 @@ mod tests {
             "demo --no-install",
             "demo --headless --model a.obj",
             "test",
-            "test --no-install",
+            "test --all --no-install",
+            "test --all --shared",
             "adapters --no-install",
             "arm",
             "arm --no-install bits",
             "check",
-            "check circles lengths",
-            "docs --no-install",
-            "chart --quick --no-install",
-            "chart --scaling",
+            "check circles doors",
+            "docs",
+            "chart --quick",
             "chart --filters",
             "fuzz smf --seconds 60 obj --no-install",
             "readme --list",
             "screen cargo test --release --test window",
-            "soak --no-install",
+            "soak",
             "soak --frames 3000",
             "wild",
             "wild --seed 7 --scenes 1000 --output out/wild",
-            "wild --no-install --first 12",
+            "wild --first 12",
         ];
         for line in rows {
             let parsed = Arguments::try_parse_from(["xtask"].into_iter().chain(line.split(' ')));
@@ -109,6 +123,7 @@ mod tests {
             ("demo --model", "'--model <FILE>'"),
             ("demo a.obj", "'a.obj'"),
             ("test --model a.obj", "'--model'"),
+            ("test --shared", "--all"),
             ("check circle", "'circle'"),
             ("fuzz --second 1", "'--second'"),
             ("fuzz --seconds", "'--seconds <N>'"),

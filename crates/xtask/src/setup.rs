@@ -1,16 +1,12 @@
 //! Set-up: what a chore needs of the machine, and getting it.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::process::Command;
 
 use clap::Args;
 
-use crate::cargo::{cargo, step, written};
+use crate::cargo::step;
 use crate::failure::{Failure, Result};
-use crate::machine::display::Display;
-use crate::machine::driver::Drivers;
-use crate::machine::libraries::Libraries;
-use crate::machine::packages::{Manager, Packages, Rights, apt, is_root};
-use crate::machine::programs;
 
 /// Whether set-up may change the machine.
 #[derive(Args, Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -20,343 +16,263 @@ pub(crate) struct Setup {
     pub(crate) no_install: bool,
 }
 
-/// Something outside the project that a chore needs.
+/// Something outside the project that a chore needs on Linux. Other systems bring all of it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Need {
-    /// Why it is not met, or `None` where it is.
-    missing: fn() -> Option<String>,
-    packages: Packages,
+    /// For messages.
+    name: &'static str,
+    /// Any of these programs will do.
+    programs: &'static [&'static str],
+    /// All of these shared libraries are needed.
+    libraries: &'static [&'static str],
+    /// Any of these files will do.
+    files: &'static [&'static str],
+    /// The Debian packages that bring it.
+    packages: &'static [&'static str],
 }
 
-/// A driver of Vulkan; the software one will do.
-pub(crate) const VULKAN: Need = Need {
-    missing: || Drivers::here().usable().err().map(|problem| problem.to_string()),
-    packages: Packages {
-        apt: &["libvulkan1", "mesa-vulkan-drivers"],
-        dnf: &["vulkan-loader", "mesa-vulkan-drivers"],
-        pacman: &["vulkan-icd-loader", "vulkan-swrast"],
-    },
+const NOTHING: Need = Need { name: "", programs: &[], libraries: &[], files: &[], packages: &[] };
+
+const fn program(name: &'static str, programs: &'static [&'static str], packages: &'static [&'static str]) -> Need {
+    Need { name, programs, packages, ..NOTHING }
+}
+
+/// A C compiler, which links Rust programs, and one of C++ for what the fuzzer is written in.
+pub(crate) const COMPILER: Need = program("a C++ compiler", &["c++"], &["g++"]);
+
+/// The software driver of Vulkan.
+pub(crate) const LAVAPIPE: Need = Need {
+    name: "lavapipe, Mesa's software Vulkan driver",
+    libraries: &["libvulkan.so.1"],
+    files: &[
+        "/usr/share/vulkan/icd.d/lvp_icd.json",
+        "/usr/share/vulkan/icd.d/lvp_icd.x86_64.json",
+        "/usr/share/vulkan/icd.d/lvp_icd.aarch64.json",
+    ],
+    packages: &["libvulkan1", "mesa-vulkan-drivers"],
+    ..NOTHING
 };
-
-/// A driver to draw with: one of Vulkan, unless the environment chooses something else.
-pub(crate) const DRIVER: Need =
-    Need { missing: || if is_chosen(variable) { None } else { (VULKAN.missing)() }, ..VULKAN };
-
-/// An environment variable that says something, in lower case.
-fn variable(name: &str) -> Option<String> {
-    std::env::var(name).ok().filter(|value| !value.is_empty()).map(|value| value.to_lowercase())
-}
-
-/// Whether the environment chooses what Vulkan has no part in: the CPU, or another backend. That is the user's to care
-/// for; whether it works is seen after the build.
-fn is_chosen(variable: impl Fn(&str) -> Option<String>) -> bool {
-    let is_vulkan = |backends: &str| backends.contains("vulkan") || backends.contains("vk");
-    match variable("HALFWAY_ADAPTER") {
-        // A part of an adapter's name may be that of one behind Vulkan.
-        Some(name) => ["cpu", "gl", "opengl", "metal", "dx12"].contains(&name.split(':').next().unwrap_or_default()),
-        None => variable("WGPU_BACKEND").is_some_and(|backends| !is_vulkan(&backends)),
-    }
-}
 
 /// The software driver of OpenGL, to be drawn with without a display.
 pub(crate) const OPENGL: Need = Need {
-    missing: || missing_libraries("OpenGL without a display", &["libEGL.so.1", "libEGL_mesa.so.0"]),
-    packages: Packages {
-        apt: &["libegl1", "libegl-mesa0", "libgl1-mesa-dri"],
-        dnf: &["libglvnd-egl", "mesa-libEGL", "mesa-dri-drivers"],
-        pacman: &["libglvnd", "mesa"],
-    },
+    name: "llvmpipe, Mesa's software OpenGL driver, without a display",
+    libraries: &["libEGL.so.1", "libEGL_mesa.so.0"],
+    packages: &["libegl1", "libegl-mesa0", "libgl1-mesa-dri"],
+    ..NOTHING
 };
 
-/// `SwiftShader`, a second software driver of Vulkan, which comes with a browser.
+/// The manifests of `SwiftShader` where browsers keep it.
+const SWIFTSHADER_MANIFESTS: &[&str] = &[
+    "/usr/lib/chromium/vk_swiftshader_icd.json",
+    "/usr/lib64/chromium-browser/vk_swiftshader_icd.json",
+    "/usr/lib/chromium-browser/vk_swiftshader_icd.json",
+];
+
+/// `SwiftShader`, a second software driver of Vulkan.
 pub(crate) const SWIFTSHADER: Need = Need {
-    missing: || swiftshader().is_none().then(|| "SwiftShader, the software Vulkan driver that chromium brings".into()),
-    packages: Packages { apt: &["chromium"], dnf: &["chromium"], pacman: &["chromium"] },
+    name: "SwiftShader, the software Vulkan driver that chromium brings",
+    files: SWIFTSHADER_MANIFESTS,
+    packages: &["chromium"],
+    ..NOTHING
 };
 
 /// The manifest of `SwiftShader`.
-pub(crate) fn swiftshader() -> Option<PathBuf> {
-    let folders = ["/usr/lib/chromium", "/usr/lib64/chromium-browser", "/usr/lib/chromium-browser"];
-    folders.map(|folder| PathBuf::from(folder).join("vk_swiftshader_icd.json")).into_iter().find(|path| path.is_file())
+pub(crate) fn swiftshader() -> Option<&'static str> {
+    SWIFTSHADER_MANIFESTS.iter().copied().find(|path| Path::new(path).is_file())
 }
 
 /// The browser that opens the page of the charts.
-pub(crate) const BROWSER: Need = Need {
-    missing: || {
-        let names = ["chromium", "chromium-browser", "google-chrome"];
-        let there = names.iter().any(|name| programs::find(name).is_some());
-        (!there).then(|| "chromium, for the tests of the page with the charts".into())
-    },
-    packages: Packages { apt: &["chromium"], dnf: &["chromium"], pacman: &["chromium"] },
-};
-
-/// A compiler for the parts of dependencies that are written in C++.
-pub(crate) const COMPILER: Need = Need {
-    missing: || programs::find("c++").is_none().then(|| "a C++ compiler".into()),
-    packages: Packages { apt: &["g++"], dnf: &["gcc-c++"], pacman: &["gcc"] },
-};
+pub(crate) const BROWSER: Need =
+    program("the browser chromium", &["chromium", "chromium-browser", "google-chrome"], &["chromium"]);
 
 /// A linker for 64-bit ARM, with its library of C.
-pub(crate) const ARM_LINKER: Need = Need {
-    missing: || programs::find("aarch64-linux-gnu-gcc").is_none().then(|| "a linker for 64-bit ARM".into()),
-    packages: Packages {
-        apt: &["gcc-aarch64-linux-gnu", "libc6-dev-arm64-cross"],
-        dnf: &["gcc-aarch64-linux-gnu"],
-        pacman: &["aarch64-linux-gnu-gcc"],
-    },
-};
+pub(crate) const ARM_LINKER: Need =
+    program("a linker for 64-bit ARM", &["aarch64-linux-gnu-gcc"], &["gcc-aarch64-linux-gnu", "libc6-dev-arm64-cross"]);
 
 /// What runs programs for 64-bit ARM on other processors.
-pub(crate) const ARM_EMULATOR: Need = Need {
-    missing: || programs::find("qemu-aarch64-static").is_none().then(|| "QEMU, which runs programs for ARM".into()),
-    packages: Packages {
-        apt: &["qemu-user-static"],
-        dnf: &["qemu-user-static-aarch64"],
-        pacman: &["qemu-user-static"],
-    },
-};
+pub(crate) const ARM_EMULATOR: Need =
+    program("QEMU, which runs programs for ARM", &["qemu-aarch64-static"], &["qemu-user-static"]);
 
-/// A screen to open windows on.
-pub(crate) const SCREEN: Need = Need {
-    missing: || {
-        let there = programs::find("Xvfb").is_some() || Display::x11_answers();
-        (!there).then(|| "no screen for the tests of the window (the virtual one, Xvfb, will do)".into())
-    },
-    packages: Packages { apt: &["xvfb"], dnf: &["xorg-x11-server-Xvfb"], pacman: &["xorg-server-xvfb"] },
-};
+/// An X display without hardware, to open windows on.
+pub(crate) const VIRTUAL_SCREEN: Need = program("the virtual screen Xvfb", &["Xvfb"], &["xvfb"]);
 
 /// The program that lists the windows of an X display.
-pub(crate) const WINDOW_LIST: Need = Need {
-    missing: || programs::find("xwininfo").is_none().then(|| "xwininfo, which lists windows".into()),
-    packages: Packages { apt: &["x11-utils"], dnf: &["xwininfo"], pacman: &["xorg-xwininfo"] },
-};
-
-/// The virtual screen, Xvfb.
-pub(crate) const VIRTUAL_SCREEN: Need =
-    Need { missing: || programs::find("Xvfb").is_none().then(|| "the virtual screen Xvfb".into()), ..SCREEN };
+pub(crate) const WINDOW_LIST: Need = program("xwininfo, which lists windows", &["xwininfo"], &["x11-utils"]);
 
 /// A window manager, for the tests of the window on the virtual screen.
-pub(crate) const WINDOW_MANAGER: Need = Need {
-    missing: || programs::find("openbox").is_none().then(|| "the window manager openbox".into()),
-    packages: Packages { apt: &["openbox"], dnf: &["openbox"], pacman: &["openbox"] },
-};
+pub(crate) const WINDOW_MANAGER: Need = program("the window manager openbox", &["openbox"], &["openbox"]);
 
 /// A Wayland display in a window of the virtual screen, for the tests of the window.
-pub(crate) const COMPOSITOR: Need = Need {
-    missing: || programs::find("weston").is_none().then(|| "the Wayland compositor weston".into()),
-    packages: Packages { apt: &["weston"], dnf: &["weston"], pacman: &["weston"] },
-};
+pub(crate) const COMPOSITOR: Need = program("the Wayland compositor weston", &["weston"], &["weston"]);
 
 /// What windows on an X display load when they open.
 pub(crate) const X11_WINDOWS: Need = Need {
-    missing: || {
-        let needed = [
-            "libX11.so.6",
-            "libX11-xcb.so.1",
-            "libxcb.so.1",
-            "libXcursor.so.1",
-            "libXi.so.6",
-            "libxkbcommon.so.0",
-            "libxkbcommon-x11.so.0",
-        ];
-        missing_libraries("windows", &needed)
-    },
-    packages: Packages {
-        apt: &["libx11-6", "libx11-xcb1", "libxcb1", "libxcursor1", "libxi6", "libxkbcommon0", "libxkbcommon-x11-0"],
-        dnf: &["libX11", "libX11-xcb", "libxcb", "libXcursor", "libXi", "libxkbcommon", "libxkbcommon-x11"],
-        pacman: &["libx11", "libxcb", "libxcursor", "libxi", "libxkbcommon", "libxkbcommon-x11"],
-    },
+    name: "the libraries of windows on X",
+    libraries: &[
+        "libX11.so.6",
+        "libX11-xcb.so.1",
+        "libxcb.so.1",
+        "libXcursor.so.1",
+        "libXi.so.6",
+        "libxkbcommon.so.0",
+        "libxkbcommon-x11.so.0",
+    ],
+    packages: &["libx11-6", "libx11-xcb1", "libxcb1", "libxcursor1", "libxi6", "libxkbcommon0", "libxkbcommon-x11-0"],
+    ..NOTHING
 };
 
 /// What windows on a Wayland display load when they open.
 pub(crate) const WAYLAND_WINDOWS: Need = Need {
-    missing: || missing_libraries("windows", &["libwayland-client.so.0", "libxkbcommon.so.0"]),
-    packages: Packages {
-        apt: &["libwayland-client0", "libxkbcommon0"],
-        dnf: &["libwayland-client", "libxkbcommon"],
-        pacman: &["wayland", "libxkbcommon"],
-    },
+    name: "the libraries of windows on Wayland",
+    libraries: &["libwayland-client.so.0", "libxkbcommon.so.0"],
+    packages: &["libwayland-client0", "libxkbcommon0"],
+    ..NOTHING
 };
 
-fn missing_libraries(what_loads: &str, needed: &[&str]) -> Option<String> {
-    let missing = Libraries::here().missing(needed);
-    (!missing.is_empty()).then(|| format!("libraries for {what_loads}: {}", missing.join(", ")))
+impl Need {
+    fn is_met(&self) -> bool {
+        let any = |names: &[&str], is_there: fn(&str) -> bool| names.is_empty() || names.iter().any(|it| is_there(it));
+        any(self.programs, |name| find(name).is_some())
+            && any(self.files, |path| Path::new(path).is_file())
+            && self.libraries.iter().all(|name| has_library(name))
+    }
 }
 
 impl Setup {
-    /// Sees that `needs` are met, and installs what is missing where it may. Systems other than Linux bring all of it.
+    /// Sees that `needs` are met, and installs what is missing where it may, by apt-get.
     ///
     /// # Errors
-    /// What is missing, why it was not installed, and the command that would install it.
+    /// What is missing, why it was not installed, and the packages that would bring it.
     pub(crate) fn meet(self, needs: &[Need]) -> Result {
-        if !cfg!(target_os = "linux") {
+        let missing = missing(needs);
+        if missing.is_empty() || !cfg!(target_os = "linux") {
             return Ok(());
         }
-        let (reasons, missing) = missing(needs);
-        if reasons.is_empty() {
-            return Ok(());
+        if self.no_install {
+            return Err(refusal(&missing, "--no-install was given"));
         }
-        self.install(&reasons, &missing)?;
-        let (reasons, _) = self::missing(needs);
-        if reasons.is_empty() {
-            return Ok(());
+        if find("apt-get").is_none() {
+            return Err(refusal(&missing, "only apt-get is run from here"));
         }
-        Err(Failure::new(format!("still missing after the installation:\n{}", listed(&reasons))))
-    }
-
-    fn install(self, reasons: &[String], missing: &[Packages]) -> Result {
-        let manager = Manager::here();
-        let names: Vec<&str> =
-            missing.iter().flat_map(|&packages| manager.unwrap_or(Manager::Apt).names(packages)).copied().collect();
-        let rights = match manager {
-            _ if self.no_install => Err("--no-install was given"),
-            Some(Manager::Apt) => match Rights::here() {
-                Rights::Nothing => Err("it takes root, or sudo without a password"),
-                rights => Ok(rights),
-            },
-            _ => Err("only apt-get is run from here"),
-        };
-        let rights = rights.map_err(|why_not| Failure::new(refusal(reasons, &names, manager, why_not, is_root())))?;
-        eprintln!("missing:\n{}\nInstalling {} by apt-get.", listed(reasons), names.join(" "));
-        let [mut update, mut install] = apt(rights, &names);
+        eprintln!("missing:\n{}\nInstalling them by apt-get.", listed(&missing));
         // A list that is out of date, or a repository that does not answer, need not keep the packages from coming.
-        if let Err(failure) = step("what packages there are", &mut update) {
+        if let Err(failure) = step("what packages there are", &mut apt(&["update"])) {
             eprintln!("warning: {failure}");
         }
-        step("installing", &mut install)
+        let install = [&["install", "-y", "--no-install-recommends"], &packages(&missing)[..]].concat();
+        step("installing", &mut apt(&install)).map_err(|failure| refusal(&missing, &failure.to_string()))?;
+        let missing = self::missing(&missing);
+        if missing.is_empty() { Ok(()) } else { Err(refusal(&missing, "the packages do not bring it")) }
     }
 }
 
-/// Why needs are not met, and the packages that would meet them.
-fn missing(needs: &[Need]) -> (Vec<String>, Vec<Packages>) {
-    needs.iter().filter_map(|need| Some(((need.missing)()?, need.packages))).unzip()
+fn missing(needs: &[Need]) -> Vec<Need> {
+    needs.iter().copied().filter(|need| !need.is_met()).collect()
 }
 
-fn listed(reasons: &[String]) -> String {
-    reasons.iter().map(|reason| format!("  - {reason}")).collect::<Vec<_>>().join("\n")
+fn listed(needs: &[Need]) -> String {
+    needs.iter().map(|need| format!("  - {}", need.name)).collect::<Vec<_>>().join("\n")
+}
+
+fn packages(needs: &[Need]) -> Vec<&'static str> {
+    needs.iter().flat_map(|need| need.packages).copied().collect()
 }
 
 /// The message where nothing is installed.
-fn refusal(reasons: &[String], names: &[&str], manager: Option<Manager>, why_not: &str, is_root: bool) -> String {
-    let remedy = match manager {
-        Some(manager) => format!("Install it yourself, and try again:\n\n    {}", manager.remedy(names, is_root)),
-        None => {
-            format!("Install what your system calls these Debian packages, and try again:\n\n    {}", names.join(" "))
-        }
-    };
-    format!("missing:\n{}\nNothing was installed: {why_not}. {remedy}", listed(reasons))
+fn refusal(missing: &[Need], why: &str) -> Failure {
+    let packages = packages(missing).join(" ");
+    Failure::new(format!(
+        "missing:\n{}\nNot installed: {why}. Install these Debian packages, or what your system calls them, and try \
+         again:\n\n    {packages}",
+        listed(missing)
+    ))
 }
 
-/// Asks the built command for what it can draw with, prints it, and sees that a driver is there, or what the
-/// environment chooses; the CPU draws without.
-///
-/// # Errors
-/// There is none: a driver that looked usable is not. Where set-up may install, the software driver is tried first.
-pub(crate) fn adapters(setup: Setup) -> Result {
-    if list_adapters()? {
-        return Ok(());
+/// A command of apt-get, by `sudo` for others than root, where that asks for no password. `env` stands behind `sudo`,
+/// which hands no variable on; this one keeps packages from asking questions.
+fn apt(words: &[&str]) -> Command {
+    let user = Command::new("id").arg("-u").output();
+    let is_root = user.is_ok_and(|output| output.stdout.trim_ascii() == b"0");
+    let mut command = Command::new(if is_root { "env" } else { "sudo" });
+    if !is_root {
+        command.args(["-n", "env"]);
     }
-    if !cfg!(target_os = "linux") {
-        return Err(Failure::new("no graphics adapter: install the driver of your graphics card"));
-    }
-    let reason = "an adapter: the drivers that are installed find nothing to draw with".to_owned();
-    setup.install(&[reason], &[DRIVER.packages])?;
-    if list_adapters()? {
-        return Ok(());
-    }
-    Err(Failure::new("no graphics adapter, even with the software driver; VK_LOADER_DEBUG=all tells what it tries"))
+    command.args(["DEBIAN_FRONTEND=noninteractive", "apt-get"]).args(words);
+    command
 }
 
-/// Whether the command finds an adapter by a driver, or the one that is chosen; its list goes to the standard error
-/// output.
-fn list_adapters() -> Result<bool> {
-    const NONE: i32 = 3;
-    let mut command = cargo(["run", "--release", "--quiet", "--bin", "halfway", "--", "adapters"]);
-    let output = command.output().map_err(|error| crate::cargo::not_started(&command, &error))?;
-    match output.status.code() {
-        Some(0) => {
-            eprintln!("\nadapters:");
-            let said = String::from_utf8_lossy(&output.stdout);
-            said.lines().for_each(|line| eprintln!("   {line}"));
-            Ok(is_chosen(variable) || said.lines().any(has_driver))
-        }
-        Some(NONE) => Ok(false),
-        _ => {
-            let said = String::from_utf8_lossy(&output.stderr);
-            Err(Failure::new(format!("{} failed:\n{}", written(&command), said.trim_end())))
-        }
-    }
+/// Where a program is: on the search path, or in the folders of administrators, which are not on everybody's.
+pub(crate) fn find(name: &str) -> Option<PathBuf> {
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    let folders = std::env::split_paths(&path).chain(["/usr/sbin", "/sbin"].map(PathBuf::from));
+    folders.map(|folder| folder.join(name)).find(|file| file.is_file())
 }
 
-/// Whether a line of the list is of an adapter, and not of the CPU without a driver.
-fn has_driver(line: &str) -> bool {
-    !line.contains("(cpu,")
+/// Whether the dynamic loader finds a library: in the usual folders, or by its cache.
+fn has_library(name: &str) -> bool {
+    let given = std::env::var_os("LD_LIBRARY_PATH").unwrap_or_default();
+    let triple = format!("/usr/lib/{}-linux-gnu", std::env::consts::ARCH);
+    let usual = [&triple, "/lib", "/lib64", "/usr/lib", "/usr/lib64", "/usr/local/lib"].map(PathBuf::from);
+    if std::env::split_paths(&given).chain(usual).any(|folder| folder.join(name).is_file()) {
+        return true;
+    }
+    let cache = find("ldconfig").and_then(|ldconfig| Command::new(ldconfig).arg("-p").output().ok());
+    cache.is_some_and(|output| is_cached(&String::from_utf8_lossy(&output.stdout), name))
+}
+
+/// Whether `ldconfig -p` lists a library that is still there, as in `libm.so.6 (libc6,x86-64) => /lib/libm.so.6`.
+fn is_cached(listing: &str, name: &str) -> bool {
+    listing
+        .lines()
+        .filter_map(|line| line.split_once("=>"))
+        .any(|(entry, path)| entry.split_whitespace().next() == Some(name) && Path::new(path.trim()).is_file())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    #[test]
-    fn the_cpu_is_no_driver() {
-        assert!(has_driver("llvmpipe (LLVM 15.0.6, 256 bits) (vulkan, software)"));
-        assert!(!has_driver("avx2 (cpu, software)"));
-    }
-
-    #[test]
-    fn what_the_environment_chooses_needs_no_vulkan() {
-        let rows: [(&[(&str, &str)], bool); 9] = [
-            (&[], false),
-            (&[("HALFWAY_ADAPTER", "cpu")], true),
-            (&[("HALFWAY_ADAPTER", "cpu:avx2")], true),
-            (&[("HALFWAY_ADAPTER", "gl:llvmpipe")], true),
-            (&[("HALFWAY_ADAPTER", "llvmpipe")], false),
-            (&[("HALFWAY_ADAPTER", "vulkan:llvmpipe"), ("WGPU_BACKEND", "gl")], false),
-            (&[("WGPU_BACKEND", "gl")], true),
-            (&[("WGPU_BACKEND", "gl,vulkan")], false),
-            (&[("WGPU_BACKEND", "vk")], false),
-        ];
-        for (variables, chosen) in rows {
-            let of = |name: &str| variables.iter().find(|(key, _)| *key == name).map(|(_, value)| (*value).to_owned());
-            assert_eq!(is_chosen(of), chosen, "{variables:?}");
-        }
-    }
-
-    const MET: Need = Need { missing: || None, ..DRIVER };
-    const UNMET: Need = Need { missing: || Some("a thing".into()), ..SCREEN };
-
-    #[test]
-    fn what_is_there_needs_no_installation() {
-        assert_eq!(Setup { no_install: true }.meet(&[MET, MET]), Ok(()));
-        assert_eq!(Setup::default().meet(&[]), Ok(()));
-    }
+    const UNMET: Need = Need { name: "a thing", programs: &["no-program-has-this-name"], packages: &["x"], ..NOTHING };
 
     #[cfg(target_os = "linux")]
     #[test]
     fn what_is_missing_is_not_installed_unasked() {
-        let message = Setup { no_install: true }.meet(&[MET, UNMET]).unwrap_err().to_string();
-        assert!(message.contains("  - a thing\n"), "{message}");
-        assert!(message.contains("--no-install was given"), "{message}");
+        let met = program("a shell", &["no-program-has-this-name", "sh"], &[]);
+        let no_install = Setup { no_install: true };
+        assert_eq!(no_install.meet(&[met]), Ok(()));
+        let message = no_install.meet(&[met, UNMET]).unwrap_err().to_string();
+        assert!(message.starts_with("missing:\n  - a thing\nNot installed: --no-install was given."), "{message}");
+        assert!(message.ends_with("\n    x"), "{message}");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn each_part_of_a_need_counts() {
+        let rows = [
+            (NOTHING, true),
+            (UNMET, false),
+            (Need { files: &["/no/such/file", "/bin/sh"], ..NOTHING }, true),
+            (Need { files: &["/no/such/file"], ..NOTHING }, false),
+            (Need { programs: &["sh"], libraries: &["libno-such-library.so"], ..NOTHING }, false),
+        ];
+        for (need, expected) in rows {
+            assert_eq!(need.is_met(), expected, "{need:?}");
+        }
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn the_cache_lists_what_still_exists() {
+        let listing = "2 libs found in cache `/etc/ld.so.cache'\n\tlibthere.so.1 (libc6,x86-64) => /bin/sh\n\
+                       \tlibgone.so.1 (libc6) => /no/such/libgone.so.1\n";
+        assert!(is_cached(listing, "libthere.so.1"));
+        assert!(!is_cached(listing, "libthere.so"));
+        assert!(!is_cached(listing, "libgone.so.1"));
     }
 
     #[test]
-    fn refusals_have_a_remedy() {
-        let reasons = ["a driver".to_owned(), "a screen".to_owned()];
-        let rows = [
-            (
-                Some(Manager::Apt),
-                false,
-                "\n    sudo apt-get update && sudo apt-get install -y --no-install-recommends x y",
-            ),
-            (Some(Manager::Apt), true, "\n    apt-get update && apt-get install -y --no-install-recommends x y"),
-            (Some(Manager::Dnf), false, "\n    sudo dnf install -y x y"),
-            (None, false, "Debian packages, and try again:\n\n    x y"),
-        ];
-        for (manager, is_root, remedy) in rows {
-            let message = refusal(&reasons, &["x", "y"], manager, "because", is_root);
-            assert!(message.starts_with("missing:\n  - a driver\n  - a screen\n"), "{message}");
-            assert!(message.contains("Nothing was installed: because."), "{message}");
-            assert!(message.ends_with(remedy), "{message}");
-        }
+    fn packages_are_installed_without_questions() {
+        let words: Vec<_> = apt(&["install", "x"]).get_args().map(|word| word.to_string_lossy().into_owned()).collect();
+        assert!(words.ends_with(&["DEBIAN_FRONTEND=noninteractive", "apt-get", "install", "x"].map(String::from)));
     }
 }

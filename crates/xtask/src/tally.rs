@@ -11,15 +11,23 @@ use crate::failure::{Failure, Result};
 #[derive(Debug, Default, PartialEq, Eq)]
 pub(crate) struct Tally {
     /// Test programs and sets of documentation examples that ran to their end.
-    pub(crate) programs: u32,
+    programs: u32,
     pub(crate) passed: u32,
-    pub(crate) failed: Vec<String>,
-    pub(crate) ignored: Vec<String>,
+    failed: Vec<String>,
+    ignored: Vec<String>,
 }
 
 impl Tally {
+    /// Takes in the results of another run.
+    pub(crate) fn add(&mut self, other: Self) {
+        self.programs += other.programs;
+        self.passed += other.passed;
+        self.failed.extend(other.failed);
+        self.ignored.extend(other.ignored);
+    }
+
     /// Takes in a line of the output.
-    pub(crate) fn line(&mut self, line: &str) {
+    fn line(&mut self, line: &str) {
         if let Some(counts) = line.strip_prefix("test result: ") {
             self.programs += 1;
             self.passed += count(counts, "passed");
@@ -104,7 +112,11 @@ test result: ok. 1 passed; 0 failed; 1 ignored; 0 measured; 0 filtered out; fini
     #[test]
     fn results_are_added_up() {
         let mut tally = Tally::default();
-        OUTPUT.lines().for_each(|line| tally.line(line));
+        let (first, second) = OUTPUT.split_at(OUTPUT.find("running 1 test").unwrap());
+        first.lines().for_each(|line| tally.line(line));
+        let mut more = Tally::default();
+        second.lines().for_each(|line| more.line(line));
+        tally.add(more);
         assert_eq!((tally.programs, tally.passed), (2, 3));
         assert_eq!(tally.failed, ["lights::tests::none"]);
         assert_eq!(tally.ignored, ["slow", "src/lib.rs - (line 20)"]);

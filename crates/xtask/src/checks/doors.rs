@@ -70,7 +70,7 @@ mod tests {
     use crate::checks::metadata::Dependency;
 
     fn package(name: &str, inside: &[&str], outside: &[&str]) -> Package {
-        let dependency = |name: &&str, inside| Dependency { name: (*name).into(), inside, versions: "1".into() };
+        let dependency = |name: &&str, inside| Dependency { name: (*name).into(), inside };
         let inside = inside.iter().map(|name| dependency(name, true));
         let dependencies = inside.chain(outside.iter().map(|name| dependency(name, false))).collect();
         Package { name: name.into(), dependencies, ..Package::default() }

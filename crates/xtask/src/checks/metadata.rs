@@ -1,6 +1,7 @@
 //! What cargo says about the packages of the workspace.
 
 use serde_json::Value;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use crate::cargo::{cargo, ended, not_started};
@@ -10,12 +11,6 @@ use crate::failure::{Failure, Result};
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Package {
     pub(crate) name: String,
-    pub(crate) manifest: PathBuf,
-    /// As its manifest says, or nothing.
-    pub(crate) description: String,
-    pub(crate) license: String,
-    pub(crate) readme: String,
-    pub(crate) rust_version: String,
     /// The first files of its library and programs; not of its tests and examples.
     pub(crate) roots: Vec<PathBuf>,
     /// What it is built with, and what its build script is; not what only its tests need.
@@ -27,8 +22,6 @@ pub(crate) struct Dependency {
     pub(crate) name: String,
     /// Of this workspace.
     pub(crate) inside: bool,
-    /// The versions that will do; `*` where the manifest does not say.
-    pub(crate) versions: String,
 }
 
 /// The packages of the workspace in a folder.
@@ -39,14 +32,18 @@ pub(crate) fn packages(root: &Path) -> Result<Vec<Package>> {
     metadata(root, read)
 }
 
-/// The folder that cargo builds into.
+/// The names of all programs of tests in the workspace's folders `tests`, each once.
 ///
 /// # Errors
 /// Cargo cannot read the manifests.
-pub(crate) fn target_folder(root: &Path) -> Result<PathBuf> {
+pub(crate) fn test_programs(root: &Path) -> Result<Vec<String>> {
     metadata(root, |json| {
         let metadata: Value = serde_json::from_slice(json).ok()?;
-        Some(metadata["target_directory"].as_str()?.into())
+        let packages = metadata["packages"].as_array()?.iter();
+        let targets = packages.map(|package| package["targets"].as_array()).collect::<Option<Vec<_>>>()?;
+        let programs = targets.into_iter().flatten().filter(|target| target["kind"][0] == "test");
+        let names: BTreeSet<_> = programs.filter_map(|target| Some(target["name"].as_str()?.to_owned())).collect();
+        Some(names.into_iter().collect())
     })
 }
 
@@ -66,22 +63,16 @@ fn read(json: &[u8]) -> Option<Vec<Package>> {
 }
 
 fn package(json: &Value) -> Option<Package> {
-    let text = |value: &Value| value.as_str().unwrap_or_default().to_owned();
     let kinds = |target: &Value| target["kind"].as_array().cloned().unwrap_or_default();
     let built = |target: &&Value| kinds(target).iter().any(|kind| kind == "lib" || kind == "bin");
     let needed = |dependency: &&Value| dependency["kind"] != "dev";
     let root = |target: &Value| Some(PathBuf::from(target["src_path"].as_str()?));
     let dependency = |json: &Value| {
         let name = json["name"].as_str()?.to_owned();
-        Some(Dependency { name, inside: json["path"].is_string(), versions: text(&json["req"]) })
+        Some(Dependency { name, inside: json["path"].is_string() })
     };
     Some(Package {
         name: json["name"].as_str()?.to_owned(),
-        manifest: json["manifest_path"].as_str()?.into(),
-        description: text(&json["description"]),
-        license: text(&json["license"]),
-        readme: text(&json["readme"]),
-        rust_version: text(&json["rust_version"]),
         roots: json["targets"].as_array()?.iter().filter(built).map(root).collect::<Option<_>>()?,
         dependencies: json["dependencies"].as_array()?.iter().filter(needed).map(dependency).collect::<Option<_>>()?,
     })

@@ -1,13 +1,8 @@
 //! The rules of this house that no other tool keeps: one file a rule.
 
 pub(crate) mod circles;
-pub(crate) mod commits;
 pub(crate) mod doors;
-pub(crate) mod lengths;
 pub(crate) mod metadata;
-pub(crate) mod msrv;
-pub(crate) mod names;
-pub(crate) mod package;
 mod source;
 
 use crate::failure::{Failure, Result};

@@ -27,8 +27,6 @@ pub(crate) struct Module {
     pub(crate) imports: Vec<Import>,
     /// The names of its items, re-exports left out.
     defines: HashSet<String>,
-    /// Its structs, enums, unions and traits that more than this module can see.
-    pub(crate) types: Vec<String>,
     /// The paths of two names and more in its items, imports left out.
     pub(crate) paths: Vec<Vec<String>>,
     /// Every name that occurs in its items.
@@ -83,14 +81,7 @@ impl Crate {
                     let inner = folder.join(&name);
                     let child = match item.content {
                         Some((_, items)) => self.module(file, &inner, index, items)?,
-                        None => match given_path(&item.attrs) {
-                            Some(path) => {
-                                let path = file.parent().unwrap_or(folder).join(path);
-                                let folder = path.parent().unwrap_or(folder).to_owned();
-                                self.file(&path, &folder, index)?
-                            }
-                            None => self.file(&file_of(folder, &name), &inner, index)?,
-                        },
+                        None => self.file(&file_of(folder, &name), &inner, index)?,
                     };
                     self.modules[index].children.insert(name, child);
                 }
@@ -172,24 +163,21 @@ impl Crate {
 impl Module {
     /// Takes in an item other than `mod`, `use` and `impl`.
     fn take(&mut self, item: &Item) {
-        let (name, visible) = match item {
-            Item::Struct(item) => (Some(&item.ident), Some(&item.vis)),
-            Item::Enum(item) => (Some(&item.ident), Some(&item.vis)),
-            Item::Union(item) => (Some(&item.ident), Some(&item.vis)),
-            Item::Trait(item) => (Some(&item.ident), Some(&item.vis)),
-            Item::Fn(item) => (Some(&item.sig.ident), None),
-            Item::Const(item) => (Some(&item.ident), None),
-            Item::Static(item) => (Some(&item.ident), None),
-            Item::Type(item) => (Some(&item.ident), None),
-            Item::TraitAlias(item) => (Some(&item.ident), None),
-            Item::Macro(item) => (item.ident.as_ref(), None),
-            _ => (None, None),
+        let name = match item {
+            Item::Struct(item) => Some(&item.ident),
+            Item::Enum(item) => Some(&item.ident),
+            Item::Union(item) => Some(&item.ident),
+            Item::Trait(item) => Some(&item.ident),
+            Item::Fn(item) => Some(&item.sig.ident),
+            Item::Const(item) => Some(&item.ident),
+            Item::Static(item) => Some(&item.ident),
+            Item::Type(item) => Some(&item.ident),
+            Item::TraitAlias(item) => Some(&item.ident),
+            Item::Macro(item) => item.ident.as_ref(),
+            _ => None,
         };
         if let Some(name) = name {
             self.defines.insert(plain(name));
-            if visible.is_some_and(|visible| !matches!(visible, Visibility::Inherited)) {
-                self.types.push(plain(name));
-            }
         }
         self.scan(item.to_token_stream());
     }
@@ -241,16 +229,6 @@ fn plain(name: &syn::Ident) -> String {
 fn file_of(folder: &Path, name: &str) -> PathBuf {
     let file = folder.join(format!("{name}.rs"));
     if file.is_file() { file } else { folder.join(name).join("mod.rs") }
-}
-
-fn given_path(attributes: &[Attribute]) -> Option<String> {
-    attributes.iter().find_map(|attribute| match &attribute.meta {
-        Meta::NameValue(pair) if pair.path.is_ident("path") => match &pair.value {
-            syn::Expr::Lit(syn::ExprLit { lit: syn::Lit::Str(text), .. }) => Some(text.value()),
-            _ => None,
-        },
-        _ => None,
-    })
 }
 
 fn imports(tree: &UseTree, path: &mut Vec<String>, handed_on: bool, all: &mut Vec<Import>) {

@@ -7,20 +7,17 @@ use clap::Args;
 
 use crate::cargo::{cargo, not_started, root, step, written};
 use crate::failure::{Failure, Result};
-use crate::setup::{OPENGL, SWIFTSHADER, Setup, VULKAN, swiftshader};
+use crate::setup::{LAVAPIPE, Need, OPENGL, SWIFTSHADER, Setup, swiftshader};
 use crate::tally::counted;
 
 /// Run the picture tests and verify the example scenes on every adapter that a bare Debian can have
 ///
-/// These are lavapipe (Vulkan), lavapipe in the ways of hardware, llvmpipe through OpenGL, `SwiftShader`, the
-/// software Vulkan driver of chromium, and the CPU without a driver. On each: the conformance suite, all three
-/// shadings with few and many lights, transforms and scales of the world, what lies at one place, outlines and
-/// slivers, the random scenes that failed once, and `halfway verify` over examples/scenes; on the CPU all picture
-/// tests that are not about wgpu.
+/// These are lavapipe (Vulkan), llvmpipe through OpenGL, `SwiftShader`, the software Vulkan driver of chromium, and the
+/// CPU without a driver. On each: the conformance suite, all three shadings with few and many lights, transforms and
+/// scales of the world, surfaces at one place, outlines and slivers, the random scenes that failed once, and
+/// `halfway verify` over examples/scenes; on the CPU all picture tests that are not about wgpu.
 /// Each suite prints the worst figures; docs/lab has those of dated runs.
-/// What is missing is installed first, as for `cargo xtask test`, of which this is a part; but there the drivers share
-/// the suite's rows with colours of vertices, images, solids and environments among them, since they take minutes to
-/// compile their shaders. Here each draws all.
+/// Missing drivers are installed first, as for `cargo xtask test --all`, of which this is a part.
 #[derive(Args, Debug)]
 #[command(verbatim_doc_comment)]
 pub(crate) struct Options {
@@ -38,19 +35,213 @@ pub(crate) fn run(options: &Options) -> Result {
     try_each(all()?)
 }
 
-/// What the adapters need beyond the driver.
-pub(crate) const NEEDS: [crate::setup::Need; 3] = [VULKAN, OPENGL, SWIFTSHADER];
+/// The drivers.
+pub(crate) const NEEDS: [Need; 3] = [LAVAPIPE, OPENGL, SWIFTSHADER];
 
-/// The adapters to try where all tests run on the one that this choice opens: they do not run again there, and the
-/// drivers that are left share the rows with textures among them; with the tests, where those take a share.
+/// Tests that nothing but a graphics driver can run, by file: those whose names begin so, all where none is named.
+const ABOUT_DRIVERS: [(&str, &[&str]); 16] = [
+    ("crates/render/src/device/gpu_timer.rs", &["frames_that_are_refused_have_no_time"]),
+    ("crates/render/src/draw/pass.rs", &["nothing_is_left_out_without_an_error"]),
+    ("crates/render/src/pipelines/cache/tests.rs", &[]),
+    ("crates/render/src/pipelines/compile.rs", &["what_cannot_be_built_comes_back", "the_thread_ends_with"]),
+    (
+        "crates/command/tests/command/adapters.rs",
+        &[
+            "the_list_has_vulkan_opengl",
+            "wgpu_s_own_variable_chooses",
+            "a_name_goes_before_named_drivers",
+            "opengl_is_tried_before_giving_up",
+            "a_machine_without_a_session",
+        ],
+    ),
+    ("crates/command/tests/command/bench.rs", &["a_benchmark_prints_a_row", "any_scene_or_model_is_timed"]),
+    ("tests/allocations.rs", &["frames_allocate_no_more"]),
+    ("tests/render/compile.rs", &[]),
+    ("tests/render/costs.rs", &[]),
+    ("tests/render/devices.rs", &[]),
+    ("tests/render/engine.rs", &[]),
+    ("tests/render/pipelines.rs", &[]),
+    (
+        "tests/render/counters.rs",
+        &[
+            "pipelines_do_not_grow",
+            "what_a_draw_does_not_use",
+            // The CPU reads in place what is sent to wgpu.
+            "a_change_uploads",
+        ],
+    ),
+    ("tests/render/cpu.rs", &["what_draws_may_change", "a_device_s_texture"]),
+    ("tests/render/floats.rs", &["a_device_that_cannot"]),
+    ("tests/render/timing.rs", &["the_gpu_is_timed", "frames_that_nobody_waits_for"]),
+];
+
+/// Arguments of a test program that leave out what is about drivers.
+pub(crate) fn without_drivers() -> Vec<String> {
+    skipped(names_about_drivers(|_| true))
+}
+
+/// Tests of libraries that are about drivers, by parts of their names.
+pub(crate) fn units_about_drivers() -> impl Iterator<Item = String> {
+    names_about_drivers(|file| file.contains("/src/"))
+}
+
+fn names_about_drivers(is_chosen: fn(&str) -> bool) -> impl Iterator<Item = String> {
+    ABOUT_DRIVERS.iter().filter(move |(file, _)| is_chosen(file)).flat_map(|(file, tests)| match tests {
+        [] => vec![module(file)],
+        tests => tests.iter().map(|test| (*test).to_owned()).collect(),
+    })
+}
+
+fn skipped(names: impl IntoIterator<Item = String>) -> Vec<String> {
+    names.into_iter().flat_map(|name| ["--skip".to_owned(), name]).collect()
+}
+
+/// The module of a file, as tests in it are named: `render::compile::` of `tests/render/compile.rs`.
+fn module(file: &str) -> String {
+    let within = ["src/", "tests/"].iter().find_map(|folder| Some(file.split_once(folder)?.1)).unwrap_or(file);
+    format!("{}::", within.trim_end_matches(".rs").replace('/', "::"))
+}
+
+/// The tests of the program `render` that each driver runs, by parts of their names. All tests run on lavapipe in
+/// `cargo xtask test --all`.
+const TESTS: [&str; 7] = [
+    "render::adapter::",
+    "render::conformance::",
+    "render::light_counts::",
+    "render::order::",
+    "render::samples::",
+    "render::slivers::",
+    "render::transforms::",
+];
+
+/// The tests of the program `wild` that each driver runs, and the one of scenes known to fail by the driver.
+const WILD: [&str; 1] = ["scenes_that_failed_once_are_right"];
+const KNOWN_WILD: &str = "known_failures_fail";
+
+/// The tests of the program `render` that the CPU draws, whatever the adapter: in a file of their own.
+pub(crate) const ON_THE_CPU: &str = "render::conformance::on_the_cpu::";
+
+/// Which of the conformance suite's rows with textures are drawn: drivers take minutes to compile all of them.
+pub(crate) const SHARE: &str = "HALFWAY_SHARE";
+/// What the tests are to draw with, as parts of what it says of itself: they fail where it is something else.
+const TESTED: &str = "HALFWAY_TESTED_ADAPTER";
+/// What the adapter is chosen by.
+pub(crate) const CHOICE: &str = "HALFWAY_ADAPTER";
+
+/// Every variable that chooses an adapter or its ways.
+const CHOICES: [&str; 9] = [
+    TESTED,
+    SHARE,
+    CHOICE,
+    "HALFWAY_SIMD",
+    "VK_DRIVER_FILES",
+    "VK_ICD_FILENAMES",
+    "WGPU_ADAPTER_NAME",
+    "WGPU_BACKEND",
+    "EGL_PLATFORM",
+];
+
+/// An adapter, and how a program is made to draw with it.
+pub(crate) struct TriedAdapter {
+    name: &'static str,
+    tests: Tests,
+    /// Whether random scenes are known to fail there that are right elsewhere.
+    has_known: bool,
+    variables: Vec<(&'static str, String)>,
+    /// Parts of the line that `halfway adapters` prints of it.
+    says: [&'static str; 2],
+}
+
+/// The tests of the program `render` that an adapter runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Tests {
+    /// None, as they have run.
+    None,
+    /// Those of [`TESTS`].
+    Few,
+    /// All but those of [`ABOUT_DRIVERS`].
+    Most,
+}
+
+impl Tests {
+    fn arguments(self) -> Vec<String> {
+        match self {
+            Self::None => vec![],
+            Self::Few => TESTS.map(String::from).into_iter().chain(skipped([ON_THE_CPU.to_owned()])).collect(),
+            Self::Most => without_drivers(),
+        }
+    }
+}
+
+fn all() -> Result<Vec<TriedAdapter>> {
+    let set = |name, value: &str| (name, value.to_owned());
+    let swiftshader = swiftshader().ok_or_else(|| Failure::new("SwiftShader is missing"))?;
+    Ok(vec![
+        TriedAdapter {
+            name: "lavapipe",
+            tests: Tests::Few,
+            has_known: false,
+            variables: vec![set(CHOICE, "vulkan:llvmpipe")],
+            says: ["llvmpipe", "(vulkan"],
+        },
+        TriedAdapter {
+            name: "llvmpipe through OpenGL",
+            tests: Tests::Few,
+            has_known: true,
+            variables: vec![
+                set("WGPU_BACKEND", "gl"),
+                set("EGL_PLATFORM", "surfaceless"),
+                set("LIBGL_ALWAYS_SOFTWARE", "true"),
+                // Targets of 32-bit floats, which the tests need, are a part of OpenGL since 3.0, but wgpu looks for
+                // the name that they had as an extension.
+                set("MESA_EXTENSION_OVERRIDE", "+GL_ARB_color_buffer_float"),
+            ],
+            says: ["llvmpipe", "(gl"],
+        },
+        TriedAdapter {
+            name: "SwiftShader",
+            tests: Tests::Few,
+            has_known: true,
+            variables: vec![set("VK_DRIVER_FILES", swiftshader)],
+            says: ["SwiftShader", "(vulkan"],
+        },
+        TriedAdapter {
+            name: "the CPU without a driver",
+            tests: Tests::Most,
+            has_known: false,
+            variables: vec![set(CHOICE, "cpu")],
+            says: ["", "(cpu"],
+        },
+    ])
+}
+
+/// The adapters to try where all tests have run on the CPU and run on the one that `choice` opens, and the share of rows
+/// with textures that these draw. No test runs there again, and the drivers that are left share those rows among them;
+/// with the tests, where these are to draw a share.
 ///
 /// # Errors
-/// An adapter is not there, or the tests' share is not what leaves one for each.
-pub(crate) fn others(choice: &str) -> Result<Vec<TriedAdapter>> {
+/// An adapter is not there.
+pub(crate) fn others(choice: &str, with_tests: bool) -> Result<(Option<String>, Vec<TriedAdapter>)> {
     let mut adapters = all()?;
     let line = opened(halfway(&["adapters"]).env(CHOICE, choice))?;
-    leave_out_what_runs(&mut adapters, &line, std::env::var(SHARE).ok().as_deref())?;
-    Ok(adapters)
+    let share = share(&mut adapters, &line, with_tests);
+    Ok((share, adapters))
+}
+
+/// Leaves out the tests of the CPU and of the adapter that a line of `halfway adapters` is about, shares rows among the
+/// others, and tells the tests' share: all of them together draw each row once.
+fn share(adapters: &mut [TriedAdapter], line: &str, with_tests: bool) -> Option<String> {
+    for adapter in adapters.iter_mut() {
+        if adapter.tests == Tests::Most || adapter.is_chosen_alone() && adapter.is(line) {
+            adapter.tests = Tests::None;
+        }
+    }
+    let first = usize::from(with_tests);
+    let count = first + adapters.iter().filter(|adapter| adapter.tests == Tests::Few).count();
+    for (number, adapter) in (first + 1..).zip(adapters.iter_mut().filter(|adapter| adapter.tests == Tests::Few)) {
+        adapter.variables.push((SHARE, format!("{number}/{count}")));
+    }
+    with_tests.then(|| format!("1/{count}"))
 }
 
 /// Tries each adapter, and says in the end what failed on which.
@@ -69,178 +260,6 @@ pub(crate) fn try_each(adapters: Vec<TriedAdapter>) -> Result {
     if failed.is_empty() { Ok(()) } else { Err(Failure::new(failed.join("\n"))) }
 }
 
-/// Leaves out the tests of the adapter that a line of `halfway adapters` is about and those that the CPU has drawn with
-/// them, and gives each other driver its share: all of them together draw each row once, or what the `tests` leave them
-/// of it.
-fn leave_out_what_runs(adapters: &mut [TriedAdapter], line: &str, tests: Option<&str>) -> Result {
-    for adapter in adapters.iter_mut().filter(|adapter| adapter.is_chosen_alone() && adapter.is(line)) {
-        adapter.tests = Tests::None;
-    }
-    for adapter in adapters.iter_mut().filter(|adapter| adapter.tests == Tests::Most) {
-        adapter.tests = Tests::Rest;
-    }
-    let is_driver = |adapter: &TriedAdapter| adapter.tests == Tests::Few;
-    let of_tests = usize::from(tests.is_some());
-    let count = of_tests + adapters.iter().filter(|adapter| is_driver(adapter)).count();
-    if let Some(said) = tests.filter(|said| *said != format!("1/{count}")) {
-        let expected = format!("expected 1/{count}, a share for the tests and one for each other driver");
-        return Err(Failure::new(format!("{SHARE} is {said}; {expected}")));
-    }
-    for (number, adapter) in (1 + of_tests..).zip(adapters.iter_mut().filter(|adapter| is_driver(adapter))) {
-        adapter.variables.push((SHARE, format!("{number}/{count}")));
-    }
-    Ok(())
-}
-
-/// The tests of the program `render` that each driver runs, by parts of their names. Lavapipe runs all tests in
-/// `cargo xtask test`.
-const TESTS: [&str; 9] = [
-    "render::adapter::",
-    "render::auto::",
-    "render::conformance::",
-    "render::costs::",
-    "render::light_counts::",
-    "render::order::",
-    "render::samples::",
-    "render::slivers::",
-    "render::transforms::",
-];
-
-/// The tests of the program `wild` that each driver runs, and the one of what is known to fail by the driver.
-const WILD: [&str; 1] = ["scenes_that_failed_once_are_right"];
-const KNOWN_WILD: &str = "known_failures_fail";
-
-/// The tests of the program `render` that the CPU draws, whatever the adapter: in files of their own.
-const ON_THE_CPU: [&str; 2] = ["render::conformance::on_the_cpu::", "render::rough::"];
-
-/// Which of the conformance suite's rows with textures are drawn: drivers take minutes to compile all of them.
-const SHARE: &str = "HALFWAY_SHARE";
-
-/// The tests that the CPU leaves out, and why.
-const LEFT_OUT: [(&str, &str); 14] = [
-    ("render::compile::", "pipelines are wgpu's"),
-    ("render::pipelines::", "pipelines are wgpu's"),
-    ("render::counters::pipelines_do_not_grow", "pipelines are wgpu's"),
-    ("render::counters::what_a_draw_does_not_use", "pipelines are wgpu's"),
-    ("render::counters::a_change_uploads", "the CPU reads where it is what wgpu sends"),
-    ("render::costs::", "the CPU has one way"),
-    ("render::multi_draw::", "the CPU starts no commands"),
-    ("render::devices::", "a device is wgpu's"),
-    ("render::cpu::what_draws_may_change", "it takes a device to change to"),
-    ("render::cpu::a_device_s_texture", "a device is wgpu's"),
-    ("render::engine::", "an engine's texture is a device's"),
-    ("render::floats::a_device_that_cannot", "a device is wgpu's"),
-    ("render::timing::the_gpu_is_timed", "there is no GPU to time"),
-    ("render::timing::frames_that_nobody_waits_for", "there is no GPU to time"),
-];
-
-/// An adapter, and how a program is made to draw with it.
-pub(crate) struct TriedAdapter {
-    name: &'static str,
-    tests: Tests,
-    variables: Vec<(&'static str, String)>,
-    /// Parts of the line that `halfway adapters` prints of it.
-    says: [&'static str; 2],
-}
-
-/// The tests of the program `render` that an adapter runs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Tests {
-    /// None, as they have run.
-    None,
-    /// Those of [`TESTS`].
-    Few,
-    /// All but those of [`LEFT_OUT`].
-    Most,
-    /// Those of `Most` that have not run where all tests have: all but those of [`ON_THE_CPU`].
-    Rest,
-}
-
-impl Tests {
-    fn arguments(self) -> Vec<&'static str> {
-        match self {
-            Self::None => vec![],
-            Self::Few => TESTS.into_iter().chain(skipped(&ON_THE_CPU)).collect(),
-            Self::Most => skipped(&LEFT_OUT.map(|(name, _)| name)).collect(),
-            Self::Rest => Self::Most.arguments().into_iter().chain(skipped(&ON_THE_CPU)).collect(),
-        }
-    }
-}
-
-fn skipped(names: &[&'static str]) -> impl Iterator<Item = &'static str> {
-    names.iter().flat_map(|name| ["--skip", name])
-}
-
-/// Those of which random scenes are known to fail that are right elsewhere.
-const WITH_KNOWN: [&str; 2] = [SWIFTSHADER_NAME, OPENGL_NAME];
-const OPENGL_NAME: &str = "llvmpipe through OpenGL";
-const SWIFTSHADER_NAME: &str = "SwiftShader";
-
-/// What the tests are to draw with, as parts of what it says of itself: they fail where it is something else.
-const TESTED: &str = "HALFWAY_TESTED_ADAPTER";
-
-/// What the adapter is chosen by.
-const CHOICE: &str = "HALFWAY_ADAPTER";
-
-/// Every variable that chooses an adapter or its ways.
-const CHOICES: [&str; 10] = [
-    TESTED,
-    SHARE,
-    CHOICE,
-    "HALFWAY_COSTS",
-    "HALFWAY_SIMD",
-    "VK_DRIVER_FILES",
-    "VK_ICD_FILENAMES",
-    "WGPU_ADAPTER_NAME",
-    "WGPU_BACKEND",
-    "EGL_PLATFORM",
-];
-
-fn all() -> Result<Vec<TriedAdapter>> {
-    let set = |name, value: &str| (name, value.to_owned());
-    let swiftshader = swiftshader().ok_or_else(|| Failure::new("SwiftShader is missing"))?;
-    let lavapipe = || set(CHOICE, "vulkan:llvmpipe");
-    Ok(vec![
-        TriedAdapter {
-            name: "lavapipe",
-            tests: Tests::Few,
-            variables: vec![lavapipe()],
-            says: ["llvmpipe", "(vulkan"],
-        },
-        TriedAdapter {
-            name: "lavapipe in the ways of hardware",
-            tests: Tests::Few,
-            variables: vec![lavapipe(), set("HALFWAY_COSTS", "hardware")],
-            says: ["llvmpipe", "(vulkan"],
-        },
-        TriedAdapter {
-            name: OPENGL_NAME,
-            tests: Tests::Few,
-            variables: vec![
-                set("WGPU_BACKEND", "gl"),
-                set("EGL_PLATFORM", "surfaceless"),
-                set("LIBGL_ALWAYS_SOFTWARE", "true"),
-                // Targets of 32-bit floats, which the tests need, are a part of OpenGL since 3.0, but wgpu looks for
-                // the name that they had as an extension.
-                set("MESA_EXTENSION_OVERRIDE", "+GL_ARB_color_buffer_float"),
-            ],
-            says: ["llvmpipe", "(gl"],
-        },
-        TriedAdapter {
-            name: SWIFTSHADER_NAME,
-            tests: Tests::Few,
-            variables: vec![set("VK_DRIVER_FILES", &swiftshader.to_string_lossy())],
-            says: ["SwiftShader", "(vulkan"],
-        },
-        TriedAdapter {
-            name: "the CPU without a driver",
-            tests: Tests::Most,
-            variables: vec![set(CHOICE, "cpu")],
-            says: ["", "(cpu"],
-        },
-    ])
-}
-
 impl TriedAdapter {
     fn lend<'a>(&self, command: &'a mut Command) -> &'a mut Command {
         for choice in CHOICES {
@@ -248,12 +267,6 @@ impl TriedAdapter {
         }
         command.env(TESTED, self.says.join(" "));
         command.envs(self.variables.iter().map(|(name, value)| (name, value)))
-    }
-
-    fn halfway(&self, arguments: &[&str]) -> Command {
-        let mut command = halfway(arguments);
-        self.lend(&mut command);
-        command
     }
 
     /// Whether nothing but its name tells it from others.
@@ -268,8 +281,8 @@ impl TriedAdapter {
 
     /// Whether the programs draw with it.
     fn is_there(&self) -> Result {
-        let mut command = self.halfway(&["adapters"]);
-        let first = opened(&mut command)?;
+        let mut command = halfway(&["adapters"]);
+        let first = opened(self.lend(&mut command))?;
         if self.is(&first) {
             return Ok(());
         }
@@ -281,20 +294,17 @@ impl TriedAdapter {
             return Ok(());
         }
         self.run("render", &self.tests.arguments())?;
-        match self.tests {
-            Tests::None | Tests::Most | Tests::Rest => Ok(()),
-            Tests::Few if WITH_KNOWN.contains(&self.name) => {
-                self.run("wild", &[WILD.as_slice(), &[KNOWN_WILD]].concat())
-            }
-            Tests::Few => self.run("wild", &WILD),
+        if self.tests != Tests::Few {
+            return Ok(());
         }
+        let known = self.has_known.then_some(KNOWN_WILD);
+        self.run("wild", &WILD.into_iter().chain(known).map(String::from).collect::<Vec<_>>())
     }
 
     /// Runs tests of a program, chosen by these arguments.
-    fn run(&self, program: &str, arguments: &[&str]) -> Result {
-        let words = ["test", "--release", "--workspace", "--test", program, "--", "--show-output"];
-        let mut command = cargo(words.into_iter().chain(arguments.iter().copied()));
-        let (tally, outcome) = counted(&format!("{program} on {}", self.name), self.lend(&mut command))?;
+    fn run(&self, program: &str, arguments: &[String]) -> Result {
+        let mut command = cargo(["test", "--release", "--workspace", "--test", program, "--", "--show-output"]);
+        let (tally, outcome) = counted(&format!("{program} on {}", self.name), self.lend(command.args(arguments)))?;
         eprintln!("{tally}");
         outcome?;
         if tally.passed == 0 { Err(Failure::new(format!("no test of {program} ran"))) } else { Ok(()) }
@@ -302,11 +312,9 @@ impl TriedAdapter {
 
     fn verify(&self) -> Result {
         let mut failed = Vec::new();
-        let scenes = scenes()?;
-        for scene in &scenes {
+        for scene in scenes()? {
             let title = format!("{} by {}", scene.display(), self.name);
-            let path = scene.to_string_lossy();
-            let outcome = step(&title, &mut self.halfway(&["verify", &path]));
+            let outcome = step(&title, self.lend(&mut halfway(&["verify", &scene.to_string_lossy()])));
             failed.extend(outcome.err().map(|failure| failure.to_string()));
         }
         if failed.is_empty() { Ok(()) } else { Err(Failure::new(failed.join("\n"))) }
@@ -346,52 +354,59 @@ mod tests {
     }
 
     #[test]
-    fn what_is_left_out_is_there() {
-        for (name, why) in LEFT_OUT {
-            let mut parts = name.split("::").skip(1);
-            let (file, test) = (parts.next().unwrap(), parts.next().unwrap());
-            let path = root().join("tests/render").join(file).with_extension("rs");
-            let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-            assert!(text.contains(&format!("#[test]\nfn {test}")) && !why.is_empty(), "{name} is no test any more");
+    fn tests_about_drivers_are_there() {
+        for (file, tests) in ABOUT_DRIVERS {
+            let text = std::fs::read_to_string(root().join(file)).unwrap_or_else(|error| panic!("{file}: {error}"));
+            assert!(text.contains("#[test]"), "{file} has no tests any more");
+            for test in tests {
+                assert!(text.contains(&format!("fn {test}")), "{file}: {test} is no test any more");
+            }
         }
+    }
+
+    #[test]
+    fn tests_are_named_by_their_files() {
+        assert_eq!(module("tests/render/compile.rs"), "render::compile::");
+        assert_eq!(module("crates/render/src/pipelines/cache/tests.rs"), "pipelines::cache::tests::");
+        assert_eq!(module("crates/command/tests/command/bench.rs"), "command::bench::");
     }
 
     #[test]
     fn drivers_share_what_all_tests_have_run() {
-        let adapter =
-            |name, tests, variable, says| TriedAdapter { name, tests, variables: vec![(variable, "x".into())], says };
-        let mut adapters = [
-            adapter("a", Tests::Few, CHOICE, ["a", "(vulkan"]),
-            adapter("a in other ways", Tests::Few, "HALFWAY_COSTS", ["a", "(vulkan"]),
-            adapter("b", Tests::Few, CHOICE, ["b", "(vulkan"]),
-            adapter("c", Tests::Most, CHOICE, ["", "(cpu"]),
-        ];
-        leave_out_what_runs(&mut adapters, "a 1.0 (vulkan, software)", None).unwrap();
-        assert_eq!(adapters.each_ref().map(|it| it.tests), [Tests::None, Tests::Few, Tests::Few, Tests::Rest]);
-        let share = |adapter: &TriedAdapter| {
-            adapter.variables.iter().find(|(name, _)| *name == SHARE).map(|(_, it)| it.clone())
+        let adapter = |name, tests, variable, says| TriedAdapter {
+            name,
+            tests,
+            has_known: false,
+            variables: vec![(variable, "x".into())],
+            says,
         };
-        assert_eq!(adapters.each_ref().map(share), [None, Some("1/2".into()), Some("2/2".into()), None]);
-
-        for adapter in &mut adapters {
-            adapter.variables.truncate(1);
-        }
-        leave_out_what_runs(&mut adapters, "a 1.0 (vulkan, software)", Some("1/3")).unwrap();
-        assert_eq!(adapters.each_ref().map(share), [None, Some("2/3".into()), Some("3/3".into()), None]);
-        for wrong in ["2/3", "1/2", "1/4", "a third"] {
-            let refused = leave_out_what_runs(&mut adapters, "a 1.0 (vulkan, software)", Some(wrong)).unwrap_err();
-            assert!(refused.to_string().contains("expected 1/3"), "{refused}");
-        }
+        let adapters = || {
+            [
+                adapter("a", Tests::Few, CHOICE, ["a", "(vulkan"]),
+                adapter("a by a variable", Tests::Few, "WGPU_BACKEND", ["a", "(vulkan"]),
+                adapter("b", Tests::Few, CHOICE, ["b", "(vulkan"]),
+                adapter("c", Tests::Most, CHOICE, ["", "(cpu"]),
+            ]
+        };
+        let shares = |adapters: &[TriedAdapter]| -> Vec<_> {
+            let variables = adapters.iter().flat_map(|adapter| &adapter.variables);
+            variables.filter(|(name, _)| *name == SHARE).map(|(_, share)| share.clone()).collect()
+        };
+        let mut alone = adapters();
+        assert_eq!(share(&mut alone, "a 1.0 (vulkan, software)", false), None);
+        assert_eq!(alone.each_ref().map(|it| it.tests), [Tests::None, Tests::Few, Tests::Few, Tests::None]);
+        assert_eq!(shares(&alone), ["1/2", "2/2"]);
+        let mut with_tests = adapters();
+        assert_eq!(share(&mut with_tests, "a 1.0 (vulkan, software)", true), Some("1/3".into()));
+        assert_eq!(shares(&with_tests), ["2/3", "3/3"]);
     }
 
     #[test]
     fn what_the_cpu_draws_has_tests() {
-        for name in ON_THE_CPU {
-            let path = root().join("tests").join(name.trim_end_matches("::").replace("::", "/")).with_extension("rs");
-            let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-            assert!(text.contains("#[test]") && text.contains("Stage::on_the_cpu("), "{name}");
-            assert!(!text.contains("Stage::new("), "{name}");
-        }
+        let path = root().join("tests").join(ON_THE_CPU.trim_end_matches("::").replace("::", "/")).with_extension("rs");
+        let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+        assert!(text.contains("#[test]") && text.contains("Stage::on_the_cpu("), "{ON_THE_CPU}");
+        assert!(!text.contains("Stage::new("), "{ON_THE_CPU}");
     }
 
     #[test]
@@ -399,6 +414,7 @@ mod tests {
         let adapter = TriedAdapter {
             name: "a",
             tests: Tests::Few,
+            has_known: false,
             variables: vec![("WGPU_BACKEND", "gl".into())],
             says: ["a", "(gl"],
         };

@@ -1,12 +1,10 @@
 //! `cargo xtask arm`.
 
 use std::ffi::OsString;
-use std::path::PathBuf;
-use std::process::Command;
 
 use clap::Args;
 
-use crate::cargo::{cargo, not_started, step};
+use crate::cargo::{cargo, step};
 use crate::failure::{Failure, Result};
 use crate::setup::{ARM_EMULATOR, ARM_LINKER, Setup};
 
@@ -38,7 +36,6 @@ pub(crate) fn run(options: &Options) -> Result {
             return Err(Failure::new("ARM is emulated on Linux only"));
         }
         options.setup.meet(&[ARM_LINKER, ARM_EMULATOR])?;
-        has_library()?;
         tests.args(["--target", TARGET]).envs(cross());
     }
     step("tests on ARM", tests.arg("--").args(&options.arguments))
@@ -50,19 +47,4 @@ fn cross() -> [(&'static str, String); 2] {
         ("CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_LINKER", "aarch64-linux-gnu-gcc".into()),
         ("CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_RUNNER", format!("qemu-aarch64-static -L {LIBRARIES}")),
     ]
-}
-
-/// Sees that the compiler has a library for ARM.
-fn has_library() -> Result {
-    let mut rustc = Command::new(std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into()));
-    rustc.args(["--print", "target-libdir", "--target", TARGET]);
-    let output = rustc.output().map_err(|error| not_started(&rustc, &error))?;
-    let folder = PathBuf::from(String::from_utf8_lossy(&output.stdout).trim());
-    if output.status.success() && folder.is_dir() {
-        return Ok(());
-    }
-    Err(Failure::new(format!(
-        "the compiler has no library for {TARGET}: install it by `rustup target add {TARGET}`, or name a compiler that has \
-         it by RUSTC"
-    )))
 }

@@ -3,15 +3,12 @@
 use clap::{Args, ValueEnum};
 
 use crate::cargo::{cargo, duration, root, step};
-use crate::checks::{circles, commits, doors, lengths, msrv, names, package};
+use crate::checks::{circles, doors};
 use crate::failure::{Failure, Result};
-use crate::setup::Setup;
 
 /// Check what must be clean before a change goes in; all of it runs, whichever fails
 #[derive(Args, Debug)]
 pub(crate) struct Options {
-    #[command(flatten)]
-    setup: Setup,
     /// Only these; all where none is named
     #[arg(value_enum)]
     checks: Vec<Check>,
@@ -25,22 +22,12 @@ enum Check {
     Doors,
     /// No files of a crate import each other in a circle
     Circles,
-    /// No two types share a name
-    Names,
-    /// No file of code is longer than 500 lines, no line of prose wider than 120 columns
-    Lengths,
-    /// Subjects of commits name their room and are short
-    Commits,
     /// Clippy and the compiler have nothing to say
     Lints,
     /// The documentation is whole
     Documentation,
     /// The library builds for those who bring their own window
     Smallest,
-    /// The oldest Rust that is promised builds everything
-    Msrv,
-    /// What users would depend on can be packaged, and builds from the packages
-    Package,
 }
 
 /// Runs the checks, and then says which failed.
@@ -49,7 +36,7 @@ pub(crate) fn run(options: &Options) -> Result {
     let chosen = if options.checks.is_empty() { all } else { &options.checks };
     let mut failures = Vec::new();
     for &check in chosen {
-        if let Err(failure) = check.run(options.setup) {
+        if let Err(failure) = check.run() {
             failures.push(format!("  {}: {failure}", check.name()));
         }
     }
@@ -69,7 +56,7 @@ impl Check {
         self.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default()
     }
 
-    fn run(self, setup: Setup) -> Result {
+    fn run(self) -> Result {
         let root = root();
         let by_cargo = |words: &[&str]| step(&self.name(), &mut cargo(words));
         let own = |check: &dyn Fn() -> Result| {
@@ -83,17 +70,12 @@ impl Check {
             Self::Formatting => by_cargo(&["fmt", "--all", "--check"]),
             Self::Doors => own(&|| doors::run(&root)),
             Self::Circles => own(&|| circles::run(&root)),
-            Self::Names => own(&|| names::run(&root)),
-            Self::Lengths => own(&|| lengths::run(&root)),
-            Self::Commits => own(&|| commits::run(&root)),
             Self::Lints => by_cargo(&["clippy", "--release", "--workspace", "--all-targets", "--", "-D", "warnings"]),
             Self::Documentation => {
                 let mut command = cargo(["doc", "--release", "--workspace", "--no-deps"]);
                 step(&self.name(), command.env("RUSTDOCFLAGS", "-D warnings"))
             }
             Self::Smallest => by_cargo(&["check", "--release", "-p", "halfway", "--no-default-features", "--lib"]),
-            Self::Msrv => own(&|| msrv::run(&root, setup)),
-            Self::Package => own(&|| package::run(&root)),
         }
     }
 }

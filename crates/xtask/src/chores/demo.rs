@@ -1,15 +1,14 @@
 //! `cargo xtask demo`.
 
-use std::env;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use clap::Args;
 
 use crate::cargo::{cargo, root, step};
+use crate::display::Display;
 use crate::failure::{Failure, Result};
-use crate::machine::display::Display;
-use crate::setup::{DRIVER, Need, Setup, WAYLAND_WINDOWS, X11_WINDOWS, adapters};
+use crate::setup::{Need, Setup, WAYLAND_WINDOWS, X11_WINDOWS};
 
 const EXAMPLE: &str = "moving_lights";
 /// The six seconds after which the example's lights are where they were, so that the animation has no jump.
@@ -18,16 +17,13 @@ const SIZE: &str = "640x360";
 
 /// Show moving lights around a model in a window, or record them where there is no display
 ///
-/// Records an animated PNG and a contact sheet in out/. Without a graphics adapter the CPU draws. What windows need and
-/// the machine lacks (with a display, their libraries) is installed first, by apt-get where it may be used.
+/// Records an animated PNG and a contact sheet in out/. Without a graphics card the CPU draws. What windows need and the
+/// machine lacks (with a display, their libraries) is installed first, by apt-get where it may be used.
 #[derive(Args, Debug)]
 #[command(verbatim_doc_comment)]
 pub(crate) struct Options {
     #[command(flatten)]
     setup: Setup,
-    /// Draw by a graphics driver, also a software one; where there is none, install that of Vulkan
-    #[arg(long)]
-    driver: bool,
     /// Record, even where a display is
     #[arg(long)]
     headless: bool,
@@ -41,16 +37,11 @@ pub(crate) fn run(options: &Options) -> Result {
     let model = options.model.as_deref().map(model).transpose()?;
     let display = Display::here().filter(|_| !options.headless);
     options.setup.meet(needs(display))?;
-    if options.driver {
-        options.setup.meet(&[DRIVER])?;
-    }
-    step("build", &mut cargo(["build", "--release", "--bin", "halfway", "--example", EXAMPLE]))?;
-    if options.driver {
-        adapters(options.setup)?;
-    }
-    let mut command = example(model);
-    if options.driver && env::var_os("HALFWAY_ADAPTER").is_none() {
-        command.env("HALFWAY_ADAPTER", "gpu");
+    step("build", &mut example("build", display))?;
+    let mut command = example("run", display);
+    command.args(["--quiet", "--"]);
+    if let Some(model) = model {
+        command.arg("--model").arg(model);
     }
     if display.is_some() { show(command) } else { record(command) }
 }
@@ -69,11 +60,11 @@ fn needs(display: Option<Display>) -> &'static [Need] {
     }
 }
 
-/// The command that runs the example. Without a model it takes its own, `assets/teapot.obj`.
-fn example(model: Option<PathBuf>) -> Command {
-    let mut command = cargo(["run", "--release", "--quiet", "--example", EXAMPLE, "--"]);
-    if let Some(model) = model {
-        command.arg("--model").arg(model);
+/// Has cargo build or run the example, with windows where there is a display, and with nothing else of the workspace.
+fn example(verb: &str, display: Option<Display>) -> Command {
+    let mut command = cargo([verb, "--release", "-p", "halfway", "--example", EXAMPLE]);
+    if display.is_none() {
+        command.arg("--no-default-features");
     }
     command
 }

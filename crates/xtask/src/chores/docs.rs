@@ -1,33 +1,18 @@
 //! `cargo xtask docs`.
 
-use std::path::Path;
-
-use clap::Args;
-
 use crate::cargo::{announce, cargo, ended, not_started, root, step};
 use crate::commands::{self, PageCommand};
 use crate::failure::{Failure, Result};
-use crate::setup::{DRIVER, Setup, adapters};
 
 /// The page whose commands make the pictures.
 const PAGE: &str = "docs/examples.md";
 const SCHEMA: &str = "docs/scene.schema.json";
 
-/// Make the pictures and the schema in docs/ again, by the commands that docs/examples.md shows
-#[derive(Args, Debug)]
-pub(crate) struct Options {
-    #[command(flatten)]
-    setup: Setup,
-}
-
-/// Sets up, and makes schema and pictures again.
-pub(crate) fn run(options: &Options) -> Result {
-    let setup = options.setup;
-    // Before anything is installed or built: a page that cannot be read, or shows something else.
-    let commands = pictures(&root())?;
-    setup.meet(&[DRIVER])?;
+/// Makes schema and pictures again.
+pub(crate) fn run() -> Result {
+    // Before anything is built: a page that cannot be read, or shows something else.
+    let commands = drawing(commands::of_page(&root(), PAGE)?)?;
     step("build", &mut cargo(["build", "--release", "--bins", "--examples"]))?;
-    adapters(setup)?;
     schema()?;
     for command in &commands {
         step(&format!("{PAGE}, line {}", command.line), &mut cargo(&command.words[1..]))?;
@@ -50,21 +35,13 @@ fn schema() -> Result {
     written.map_err(|error| Failure::new(format!("{SCHEMA}: {error}")))
 }
 
-/// The page's commands that draw: those that name a file to write to. The others open windows.
-fn pictures(root: &Path) -> Result<Vec<PageCommand>> {
-    chosen(commands::of_page(root, PAGE)?)
-}
-
-fn chosen(commands: Vec<PageCommand>) -> Result<Vec<PageCommand>> {
-    let drawing: Vec<_> = commands
-        .into_iter()
-        .filter(|command| command.words.iter().any(|word| ["--headless", "-o", "--output"].contains(&word.as_str())))
-        .collect();
-    for command in &drawing {
-        if command.words.len() < 2 || command.words[0] != "cargo" || command.words[1] != "run" {
-            let text = command.words.join(" ");
-            return Err(Failure::new(format!("{PAGE}, line {}: expected cargo run …, found {text}", command.line)));
-        }
+/// The commands that draw: those that name a file to write to. The others open windows.
+fn drawing(commands: Vec<PageCommand>) -> Result<Vec<PageCommand>> {
+    let writes = |word: &String| ["--headless", "-o", "--output"].contains(&word.as_str());
+    let drawing: Vec<_> = commands.into_iter().filter(|command| command.words.iter().any(writes)).collect();
+    if let Some(other) = drawing.iter().find(|command| !command.words.starts_with(&["cargo".into(), "run".into()])) {
+        let text = other.words.join(" ");
+        return Err(Failure::new(format!("{PAGE}, line {}: expected cargo run …, found {text}", other.line)));
     }
     if drawing.is_empty() {
         return Err(Failure::new(format!("{PAGE} shows no command that writes a picture")));
@@ -88,13 +65,13 @@ mod tests {
             "cargo run -- render b -o b.png",
             "cargo run --example homework",
         ];
-        let lines: Vec<_> = chosen(commands(&lines)).unwrap().iter().map(|command| command.line).collect();
+        let lines: Vec<_> = drawing(commands(&lines)).unwrap().iter().map(|command| command.line).collect();
         assert_eq!(lines, [3, 4]);
     }
 
     #[test]
     fn the_page_can_be_read() {
-        if let Err(problem) = pictures(&root()) {
+        if let Err(problem) = commands::of_page(&root(), PAGE).and_then(drawing) {
             panic!("{problem}");
         }
     }
@@ -102,9 +79,11 @@ mod tests {
     #[test]
     fn other_programs_are_not_run() {
         for line in ["convert a -o b.png", "cargo install x --headless y", "cargo -o x"] {
-            let problem = chosen(commands(&[line])).unwrap_err().to_string();
+            let problem = drawing(commands(&[line])).unwrap_err().to_string();
             assert!(problem.contains("docs/examples.md, line 2: expected cargo run"), "{problem}");
         }
-        assert!(chosen(commands(&["cargo run"])).unwrap_err().to_string().contains("no command that writes a picture"));
+        assert!(
+            drawing(commands(&["cargo run"])).unwrap_err().to_string().contains("no command that writes a picture")
+        );
     }
 }

@@ -1,7 +1,7 @@
 //! One file a chore.
 //!
 //! A chore that is a program of the workspace, an example with arguments of its own, say, is a variant of `Chore` in
-//! `main.rs` and a call of [`program::run`].
+//! `main.rs` and a function of [`program`].
 
 pub(crate) mod adapters;
 pub(crate) mod arm;
@@ -13,6 +13,4 @@ pub(crate) mod fuzz;
 pub(crate) mod program;
 pub(crate) mod readme;
 pub(crate) mod screen;
-pub(crate) mod soak;
 pub(crate) mod test;
-pub(crate) mod wild;

@@ -1,13 +1,31 @@
-//! Chores that are programs of this workspace: set-up, build, run.
+//! Chores that are programs of this workspace: build, run.
 
-use std::ffi::OsStr;
+use std::ffi::{OsStr, OsString};
 use std::path::PathBuf;
 use std::process::Command;
 
+use clap::Args;
+
 use crate::cargo::{cargo, root, step};
-use crate::checks::metadata::target_folder;
-use crate::failure::Result;
-use crate::setup::{DRIVER, Setup, adapters};
+use crate::failure::{Failure, Result};
+
+/// What a program is given.
+#[derive(Args, Debug)]
+pub(crate) struct Arguments {
+    /// The program's own arguments
+    #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+    arguments: Vec<OsString>,
+}
+
+/// Draws random scenes.
+pub(crate) fn wild(options: &Arguments) -> Result {
+    run("random scenes", Program::Binary("halfway-wild"), &options.arguments)
+}
+
+/// Draws a scene in which everything changes, for long.
+pub(crate) fn soak(options: &Arguments) -> Result {
+    run("soak", Program::Example("soak"), &options.arguments)
+}
 
 /// A program of this workspace, by its name.
 #[derive(Clone, Copy)]
@@ -16,19 +34,12 @@ pub(crate) enum Program {
     Example(&'static str),
 }
 
-/// Sees to an adapter to draw with, builds a program and runs it with `arguments`.
+/// Builds a program and runs it with `arguments`.
 ///
 /// It is built as a part of the workspace: chosen by its package, its dependencies would have other features than for
 /// the tests, and most of them would be built once more.
-pub(crate) fn run<A: AsRef<OsStr>>(
-    title: &str,
-    setup: Setup,
-    program: Program,
-    arguments: impl IntoIterator<Item = A>,
-) -> Result {
-    setup.meet(&[DRIVER])?;
+pub(crate) fn run<A: AsRef<OsStr>>(title: &str, program: Program, arguments: impl IntoIterator<Item = A>) -> Result {
     step("build", cargo(["build", "--release", "--workspace"]).args(program.target()))?;
-    adapters(setup)?;
     step(title, Command::new(program.built()?).args(arguments).current_dir(root()))
 }
 
@@ -41,28 +52,16 @@ impl Program {
         }
     }
 
-    /// Where cargo puts it.
+    /// Where cargo puts it: beside this program's own profile.
     fn built(self) -> Result<PathBuf> {
-        let folder = target_folder(&root())?.join("release");
+        let here =
+            std::env::current_exe().map_err(|error| Failure::new(format!("the folder of this program: {error}")))?;
+        let target = here.ancestors().find(|folder| folder.join("release").is_dir());
+        let folder = target.unwrap_or(&here).join("release");
         let file = |name: &str| format!("{name}{}", std::env::consts::EXE_SUFFIX);
         Ok(match self {
             Self::Binary(name) => folder.join(file(name)),
             Self::Example(name) => folder.join("examples").join(file(name)),
         })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn programs_are_found_where_cargo_puts_them() {
-        let ends =
-            [(Program::Binary("halfway-wild"), "release/halfway-wild"), (Program::Example("soak"), "examples/soak")];
-        for (program, end) in ends {
-            let built = program.built().unwrap().with_extension("");
-            assert!(built.ends_with(end), "{}", built.display());
-        }
     }
 }

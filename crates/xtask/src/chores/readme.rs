@@ -9,9 +9,10 @@ use clap::Args;
 use crate::cargo::{announce, cargo, ended, not_started, root, step};
 use crate::commands::{self, PageCommand};
 use crate::failure::{Failure, Result};
-use crate::machine::screen::VirtualScreen;
-use crate::setup::{DRIVER, Setup, VIRTUAL_SCREEN, WINDOW_LIST, X11_WINDOWS};
+use crate::screen::VirtualScreen;
+use crate::setup::{Setup, VIRTUAL_SCREEN, WINDOW_LIST, X11_WINDOWS};
 
+const PAGE: &str = "README.md";
 /// How long a window may take to open, after everything is built, on a busy machine.
 const TO_OPEN: Duration = Duration::from_mins(2);
 /// How long it must then stay.
@@ -26,9 +27,6 @@ const TO_STAY: Duration = Duration::from_secs(10);
 pub(crate) struct Options {
     #[command(flatten)]
     setup: Setup,
-    /// The page that shows the commands, from the project's folder
-    #[arg(long, value_name = "FILE", default_value = "README.md")]
-    page: String,
     /// Only print each command and how it is tried
     #[arg(long)]
     list: bool,
@@ -47,53 +45,42 @@ enum Way {
 
 /// Tries the page's commands, one after the other.
 pub(crate) fn run(options: &Options) -> Result {
-    let page = &options.page;
-    let commands = ways(commands::of_page(&root(), page)?).map_err(|problem| problem.on(page))?;
+    let commands = ways(commands::of_page(&root(), PAGE)?)?;
     if options.list {
         for (shown, way) in &commands {
             println!("{:9} {}", format!("{way:?}"), shown.words.join(" "));
         }
         return Ok(());
     }
-    options.setup.meet(&[DRIVER])?;
     if commands.iter().any(|(_, way)| *way == Way::Window) {
         options.setup.meet(&[VIRTUAL_SCREEN, WINDOW_LIST, X11_WINDOWS])?;
     }
     for (shown, way) in &commands {
-        let title = format!("{page}, line {}", shown.line);
+        let title = format!("{PAGE}, line {}", shown.line);
         match way {
             Way::Elsewhere => {}
             Way::Run => step(&title, program(&shown.words).stdin(Stdio::null()))?,
             Way::Window => open_window(&title, &shown.words)?,
         }
     }
-    eprintln!("\n{} commands of {page}: done", commands.len());
+    eprintln!("\n{} commands of {PAGE}: done", commands.len());
     Ok(())
 }
 
-/// A command that nobody has said how to try.
-#[derive(Debug, PartialEq, Eq)]
-enum Unknown {
-    Command(usize, String),
-    NoCommands,
-}
-
-impl Unknown {
-    fn on(self, page: &str) -> Failure {
-        Failure::new(match self {
-            Self::Command(line, command) => format!("{page}, line {line}: no way to try this is known: {command}"),
-            Self::NoCommands => format!("{page} shows no command"),
-        })
-    }
-}
-
-fn ways(commands: Vec<PageCommand>) -> std::result::Result<Vec<(PageCommand, Way)>, Unknown> {
+/// Each command with its way.
+///
+/// # Errors
+/// No command is shown, or nobody has said how to try one.
+fn ways(commands: Vec<PageCommand>) -> Result<Vec<(PageCommand, Way)>> {
     if commands.is_empty() {
-        return Err(Unknown::NoCommands);
+        return Err(Failure::new(format!("{PAGE} shows no command")));
     }
     let known = commands.into_iter().map(|shown| match way(&shown.words) {
         Some(way) => Ok((shown, way)),
-        None => Err(Unknown::Command(shown.line, shown.words.join(" "))),
+        None => {
+            let command = shown.words.join(" ");
+            Err(Failure::new(format!("{PAGE}, line {}: no way to try this is known: {command}", shown.line)))
+        }
     });
     known.collect()
 }
@@ -105,7 +92,7 @@ fn way(words: &[String]) -> Option<Way> {
     let example = words.iter().position(|&word| word == "--example").and_then(|place| words.get(place + 1));
     Some(match words[..] {
         ["cargo", "xtask", ref chore @ ..] => match chore {
-            ["test" | "check" | "demo"] | ["chart", "--quick"] => Way::Elsewhere,
+            ["test" | "check" | "demo"] | ["test", "--all"] | ["chart", "--quick"] => Way::Elsewhere,
             _ => Way::Run,
         },
         ["git", "clone", ..] | ["cd", _] | ["cargo", "add", ..] | ["sudo", "apt-get", ..] | ["apt-get", ..] => {
@@ -215,10 +202,12 @@ mod tests {
     #[test]
     fn the_readme_shows_commands_that_are_known() {
         let commands = commands::of_page(&root(), "README.md").unwrap();
-        assert!(ways(commands).is_ok_and(|commands| commands.iter().any(|(_, way)| *way == Way::Run)));
+        let ways_of = |commands| ways(commands).map_err(|failure| failure.to_string());
+        assert!(ways_of(commands).is_ok_and(|commands| commands.iter().any(|(_, way)| *way == Way::Run)));
         let planted = commands::shown("```sh\ncargo run\nrm -r target\n```\n").unwrap();
-        assert_eq!(ways(planted), Err(Unknown::Command(3, "rm -r target".into())));
-        assert_eq!(ways(Vec::new()), Err(Unknown::NoCommands));
+        let expected = "README.md, line 3: no way to try this is known: rm -r target";
+        assert_eq!(ways_of(planted), Err(expected.to_owned()));
+        assert_eq!(ways_of(Vec::new()), Err("README.md shows no command".to_owned()));
     }
 
     #[test]

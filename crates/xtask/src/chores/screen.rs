@@ -7,7 +7,7 @@ use clap::Args;
 
 use crate::cargo::step;
 use crate::failure::Result;
-use crate::machine::screen::VirtualScreen;
+use crate::screen::VirtualScreen;
 use crate::setup::{Setup, VIRTUAL_SCREEN};
 
 /// Run a command on a virtual screen of its own, as on a desktop that nobody sees

@@ -1,66 +1,140 @@
 //! `cargo xtask test`.
 
-use std::env;
 use std::process::Command;
 use std::time::Instant;
 
 use clap::Args;
 
-use crate::cargo::{cargo, duration, step};
-use crate::chores::adapters as each_adapter;
+use super::adapters::{self, CHOICE, ON_THE_CPU, SHARE, units_about_drivers, without_drivers};
+use crate::cargo::{cargo, duration, root, step};
+use crate::checks::metadata::test_programs;
 use crate::failure::{Failure, Result};
-use crate::machine::programs;
-use crate::setup::{BROWSER, COMPOSITOR, SCREEN, Setup, WAYLAND_WINDOWS, WINDOW_MANAGER, X11_WINDOWS, adapters};
-use crate::tally::counted;
+use crate::setup::{BROWSER, COMPOSITOR, Need, Setup, VIRTUAL_SCREEN, WAYLAND_WINDOWS, WINDOW_MANAGER, X11_WINDOWS};
+use crate::tally::{Tally, counted};
 
-/// Run every test, those that need a graphics adapter or a window included
+/// Run the tests that need nothing but Rust and a C compiler, or with --all every test there is
 ///
-/// Documentation examples included, in the release profile, with a summary at the end. No test is skipped for want of
-/// an adapter, a screen or a browser: what they need and the machine lacks (Vulkan drivers, OpenGL, the virtual screen
-/// Xvfb, the window manager openbox, the Wayland compositor weston, the browser chromium) is installed first, by
-/// apt-get where it may be used; otherwise nothing is built, and the remedy is printed. With `HALFWAY_SHARE=1/4` the
-/// tests draw a quarter of the rows with textures, and each of three other drivers another.
+/// Unit tests, documentation examples and the tests of pictures, drawn by the CPU without a driver, in the release
+/// profile, with a summary at the end; nothing is installed.
+///
+/// --all then also runs the tests of the window, of the charts' page in a browser and of graphics drivers, and those of
+/// pictures on each driver that a bare Debian can have. What is missing for that (Vulkan and OpenGL drivers, the virtual
+/// screen Xvfb, the window manager openbox, the Wayland compositor weston, the browser chromium) is installed by apt-get
+/// where it may be used; otherwise the packages are named.
 #[derive(Args, Debug)]
 #[command(verbatim_doc_comment)]
 pub(crate) struct Options {
     #[command(flatten)]
     setup: Setup,
+    /// Run every test, on every adapter; install what they need
+    #[arg(long)]
+    all: bool,
+    /// Have each driver draw a share of the rows with textures, whose shaders take minutes to compile, and not all
+    #[arg(long, requires = "all")]
+    shared: bool,
 }
 
-/// Sets up, builds, runs every test and sums up.
+/// What the tests need beside drivers: a screen with windows, and a browser.
+const NEEDS: [Need; 6] = [VIRTUAL_SCREEN, WINDOW_MANAGER, X11_WINDOWS, COMPOSITOR, WAYLAND_WINDOWS, BROWSER];
+
+/// Programs of tests that need a driver or a screen, all of them.
+const ABOUT_MACHINES: [&str; 2] = ["twins", "window"];
+/// The module of tests that need a browser.
+const IN_A_BROWSER: &str = "browser::";
+/// Programs of tests that run once more where a driver draws.
+const BY_A_DRIVER: [&str; 5] = ["render", "wild", "examples", "allocations", "command"];
+
+const NOT_RUN: &str = "\
+not run:
+   the window, on X and on Wayland
+   the page of the charts, in a browser
+   shaders against their twins in Rust, pipelines, devices that are lost: on a graphics driver
+   the same pictures on Vulkan, OpenGL and SwiftShader
+These run, too, and what they need is installed, by
+
+    cargo xtask test --all";
+
+/// Runs the tests that were asked for.
 pub(crate) fn run(options: &Options) -> Result {
-    let setup = options.setup;
-    let start = Instant::now();
-    setup.meet(
-        &[&[SCREEN, WINDOW_MANAGER, X11_WINDOWS, COMPOSITOR, WAYLAND_WINDOWS, BROWSER][..], &each_adapter::NEEDS]
-            .concat(),
-    )?;
-    // Without a choice of targets these are all tests of libraries, programs, `tests/` and the documentation; the
-    // examples are built beside them as programs, which `tests/` runs.
-    step("build", &mut cargo(["test", "--release", "--workspace", "--no-run"]))?;
-    adapters(setup)?;
-    // Without hardware the CPU would draw; it has its turn with the other adapters.
-    let choice = env::var("HALFWAY_ADAPTER").unwrap_or_else(|_| "gpu".to_owned());
-    // Elsewhere than on Linux there is the system's own.
-    let others = if cfg!(target_os = "linux") { each_adapter::others(&choice)? } else { Vec::new() };
-    let mut command = cargo(["test", "--release", "--workspace", "--no-fail-fast"]);
-    give_own_screen(&mut command);
-    command.env("HALFWAY_ADAPTER", &choice);
-    let tally = counted("tests", &mut command);
-    eprintln!("\n── {}", duration(start.elapsed()));
-    let (tally, outcome) = tally?;
-    eprintln!("{tally}");
-    outcome?;
-    if tally.passed == 0 {
-        return Err(Failure::new("no test ran"));
+    by_the_cpu()?;
+    if options.all {
+        return on_drivers(options);
     }
-    each_adapter::try_each(others)
+    eprintln!("\n{NOT_RUN}");
+    Ok(())
 }
 
-/// Where the virtual screen is installed, the tests open their windows there, whatever display is at hand: none flashes
-/// up in front of somebody who works, and no key that they press goes astray.
-fn give_own_screen(command: &mut Command) {
-    if programs::find("Xvfb").is_some() {
-        command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY");
+/// The tests that any machine can run.
+fn by_the_cpu() -> Result {
+    let programs = test_programs(&root())?;
+    let programs = programs.iter().filter(|name| !ABOUT_MACHINES.contains(&name.as_str()));
+    // The tests of the examples run them as they are built for people.
+    step("examples", &mut cargo(["build", "--release", "--workspace", "--examples"]))?;
+    let mut tests = tests_of(["--lib", "--bins"].into_iter().chain(programs.flat_map(|name| ["--test", name])));
+    tests.arg("--").args(["--skip", IN_A_BROWSER]).args(without_drivers());
+    let mut documentation = tests_of(["--doc"]);
+    for command in [&mut tests, &mut documentation] {
+        command.env(CHOICE, "cpu").env_remove(SHARE);
+    }
+    all_of([("tests", tests), ("examples of the documentation", documentation)])
+}
+
+/// The tests that take a driver, a screen or a browser, and the tests of pictures on every adapter.
+fn on_drivers(options: &Options) -> Result {
+    options.setup.meet(&[&NEEDS[..], &adapters::NEEDS].concat())?;
+    let programs = BY_A_DRIVER.iter().chain(&ABOUT_MACHINES).flat_map(|name| ["--test", name]);
+    let mut programs = tests_of(programs);
+    programs.args(["--", "--skip", ON_THE_CPU]);
+    let mut others = tests_of(["--lib", "--tests"]);
+    others.args(["--", IN_A_BROWSER]).args(units_about_drivers());
+    step("build", &mut cargo(["test", "--release", "--workspace", "--no-run"]))?;
+    // Without hardware the CPU would draw, which has had its turn.
+    let choice = std::env::var(CHOICE).unwrap_or_else(|_| "gpu".to_owned());
+    // Elsewhere than on Linux there is the system's own.
+    let (share, adapters) =
+        if cfg!(target_os = "linux") { adapters::others(&choice, options.shared)? } else { (None, Vec::new()) };
+    for command in [&mut programs, &mut others] {
+        command.env(CHOICE, &choice).envs(share.iter().map(|share| (SHARE, share)));
+        if cfg!(target_os = "linux") {
+            // Windows open on a virtual screen, whatever display is at hand: none flashes up in front of somebody who
+            // works, and no key that they press goes astray.
+            command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY");
+        }
+    }
+    all_of([("tests on a driver", programs), ("what else takes one, and the browser", others)])?;
+    adapters::try_each(adapters)
+}
+
+/// Has cargo run tests of the whole workspace, also those after one that fails.
+fn tests_of<'a>(targets: impl IntoIterator<Item = &'a str>) -> Command {
+    cargo(["test", "--release", "--workspace", "--no-fail-fast"].into_iter().chain(targets))
+}
+
+/// Runs all of the commands, and sums up.
+fn all_of<const N: usize>(commands: [(&str, Command); N]) -> Result {
+    let start = Instant::now();
+    let mut tally = Tally::default();
+    let mut outcome = Ok(());
+    for (title, mut command) in commands {
+        let (more, ended) = counted(title, &mut command)?;
+        tally.add(more);
+        outcome = outcome.and(ended);
+    }
+    eprintln!("\n── {}\n{tally}", duration(start.elapsed()));
+    outcome?;
+    if tally.passed == 0 { Err(Failure::new("no test ran")) } else { Ok(()) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_left_out_is_there() {
+        let programs = test_programs(&root()).unwrap();
+        for name in ABOUT_MACHINES.iter().chain(&BY_A_DRIVER) {
+            assert!(programs.iter().any(|program| program == name), "{name} is no program of tests: {programs:?}");
+        }
+        assert!(root().join("crates/chart/tests/browser/mod.rs").is_file(), "the tests in a browser are elsewhere");
     }
 }

@@ -21,18 +21,12 @@ impl Display {
         }
         find(|name| std::env::var_os(name).filter(|value| !value.is_empty()), answers)
     }
-
-    /// Whether the X display that the environment names answers, whatever else is there.
-    pub(crate) fn x11_answers() -> bool {
-        let x11 = std::env::var_os("DISPLAY").filter(|value| !value.is_empty());
-        find(|name| if name == "DISPLAY" { x11.clone() } else { None }, answers).is_some()
-    }
 }
 
 /// Where a display listens.
 #[derive(Debug, PartialEq, Eq)]
 enum Address {
-    /// One of these sockets of the machine; on Linux also the abstract one of the same name.
+    /// A socket of the machine.
     Local(PathBuf),
     /// Host and port.
     Network(String, u16),
@@ -74,7 +68,7 @@ fn answers(address: &Address) -> bool {
     use std::time::Duration;
 
     match address {
-        Address::Local(path) => UnixStream::connect(path).is_ok() || answers_abstract(path),
+        Address::Local(path) => UnixStream::connect(path).is_ok(),
         Address::Network(host, port) => {
             let mut addresses = (host.as_str(), *port).to_socket_addrs().into_iter().flatten();
             addresses.any(|address| TcpStream::connect_timeout(&address, Duration::from_secs(3)).is_ok())
@@ -84,21 +78,6 @@ fn answers(address: &Address) -> bool {
 
 #[cfg(not(unix))]
 fn answers(_: &Address) -> bool {
-    false
-}
-
-#[cfg(target_os = "linux")]
-fn answers_abstract(path: &Path) -> bool {
-    use std::os::linux::net::SocketAddrExt;
-    use std::os::unix::ffi::OsStrExt;
-    use std::os::unix::net::{SocketAddr, UnixStream};
-
-    SocketAddr::from_abstract_name(path.as_os_str().as_bytes())
-        .is_ok_and(|address| UnixStream::connect_addr(&address).is_ok())
-}
-
-#[cfg(all(unix, not(target_os = "linux")))]
-fn answers_abstract(_: &Path) -> bool {
     false
 }
 

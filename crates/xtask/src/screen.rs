@@ -5,7 +5,7 @@ use std::process::{Child, Command, Stdio};
 
 use crate::cargo::not_started;
 use crate::failure::{Failure, Result};
-use crate::machine::programs;
+use crate::setup::find;
 
 /// An X display without hardware (Xvfb), which ends with this value.
 pub(crate) struct VirtualScreen {
@@ -20,7 +20,7 @@ impl VirtualScreen {
     /// # Errors
     /// Xvfb cannot be started, or names no display.
     pub(crate) fn start() -> Result<Self> {
-        let mut command = Command::new(programs::find("Xvfb").unwrap_or_else(|| "Xvfb".into()));
+        let mut command = Command::new(find("Xvfb").unwrap_or_else(|| "Xvfb".into()));
         command.args(["-displayfd", "1", "-screen", "0", "1280x1024x24", "-nolisten", "tcp"]);
         command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::null());
         let mut server = command.spawn().map_err(|error| not_started(&command, &error))?;
