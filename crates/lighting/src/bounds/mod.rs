@@ -60,15 +60,12 @@ mod near;
 mod patch;
 #[expect(clippy::inline_always, reason = "what is not inlined is not compiled for the CPU's vectors")]
 mod power;
-mod quick;
 mod reach;
 mod receiver;
 mod region;
 mod select;
-mod slopes;
 mod tolerance;
 mod tree;
-mod vertex;
 
 pub use near::NearLights;
 pub use patch::{NormalCone, Patch};
@@ -76,7 +73,5 @@ pub use reach::reach;
 pub use receiver::{MARGIN, Receiver, TermBounds};
 pub use region::Region;
 pub use select::Selected;
-pub use slopes::PowerSlopes;
 pub use tolerance::{STEP, linear_tolerance};
 pub use tree::LightTree;
-pub use vertex::{Grain, TermChange, VertexChange, VertexChanges, VertexShading};

@@ -11,4 +11,3 @@ mod reach;
 mod select;
 mod support;
 mod tolerance;
-mod vertex;
