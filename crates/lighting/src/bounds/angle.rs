@@ -30,7 +30,7 @@ impl<T: Real> Angle<T> {
     }
 
     /// `radians`, at least 0 and at most π; π where it is not a number.
-    pub(super) fn of(radians: T) -> Self {
+    pub(super) fn from_radians(radians: T) -> Self {
         if radians < T::of(core::f64::consts::PI) {
             let radians = radians.max(T::zero());
             Self { cos: radians.cosine(), sin: radians.sine() }
@@ -53,7 +53,7 @@ impl<T: Real> Angle<T> {
     }
 
     /// The angle of a cosine above −1 and below 1.
-    pub(super) fn of_cos(cos: T) -> Self {
+    pub(super) fn from_cos(cos: T) -> Self {
         Self { cos, sin: ((T::one() - cos) * (T::one() + cos)).max(T::zero()).sqrt() }
     }
 
@@ -131,7 +131,7 @@ impl<T: Real> Cap<T> {
     }
 
     /// The v of the points of a sphere.
-    pub(super) fn of_view(center: [T; 3], radius: T, view: &Eye<T>) -> Self {
+    pub(super) fn toward_eye(center: [T; 3], radius: T, view: &Eye<T>) -> Self {
         match *view {
             Eye::Infinite(v) => Self::single(v),
             Eye::Local(eye) => {

@@ -1,11 +1,13 @@
-//! What a light can add to a patch of surface at most, so that lights which cannot change a pixel are left out.
+//! Upper bounds of what a light adds to a patch of surface, to leave out lights that cannot change a pixel.
 //!
-//! A [`Patch`] is an object or a part of one: a sphere around its points, a cone around its normals, and how thick it
-//! is. A [`Receiver`] is a patch with its material and its viewer; for any light it gives [`TermBounds`], upper bounds
-//! of the three terms of [`equations::light_terms`](crate::equations::light_terms) over all points and normals of the
-//! patch, and [`Receiver::select`] leaves out the weakest terms of many lights as long as the *sum* of their bounds
-//! stays within a tolerance. [`linear_tolerance`] brings a tolerance from the picture's encoding to intensities, and
-//! [`reach`] says how far a light needs to be looked for at all.
+//! A [`Patch`] is an object or a part of one: a sphere around its points, a cone around its normals, and its thickness.
+//! A [`Receiver`] is a patch with its material and its viewer; for any light it gives [`TermBounds`], upper bounds of
+//! the three terms of [`equations::light_terms`](crate::equations::light_terms) over all points and normals of the
+//! patch. [`Receiver::select`] lists the lights that a patch needs: with a tolerance of 0 it leaves out the terms that
+//! are 0 all over the patch, otherwise also the weakest terms, as long as the *sum* of their bounds stays within the
+//! tolerance. [`LightTree::select`] gives the same lists without visiting the lights that are out of range.
+//! [`linear_tolerance`] converts a tolerance from the picture's encoding to intensities, and [`reach`] tells how far a
+//! light needs to be looked for at all.
 //!
 //! # The bound
 //! With the sphere (c, r) and the cone (k, α) of the patch, D = ‖L − c‖ and sin al = r/D, every l of the patch lies
@@ -23,11 +25,23 @@
 //! S is 0 where n·l can only be ≤ 0. Each factor is bounded by itself, so the bound of a term is reached only where one
 //! point of the patch is nearest, faces the light most and sees the highlight at once.
 //!
+//! # Terms that are 0
+//! Signs tell first which terms are 0 all over the patch; with a tolerance of 0 that is all that needs to be known. With
+//! the light's height H = k·(L − c), its distance ρ from the axis through c along k, and half the thickness t:
+//!
+//! | term | is 0 where | because |
+//! |---|---|---|
+//! | all | D − r > R, or the distance from the disk is at least R | the range R ends before the patch |
+//! | all | ∠(−l0, axis) − al > cutoff | the cone passes the patch by |
+//! | diffuse, specular | H·cos α + ρ·sin α + r ≤ 0 | n·(L − p) is at most that over the sphere, if ∠(k, l0) ≥ α |
+//! | diffuse, specular | (H + t)·cos α + (ρ + r)·sin α ≤ 0 | n·(L − p) is at most that over the disk, if H + t ≤ 0 |
+//! | specular (Phong) | cos ∠(r0, v0) ≤ −sin(2α + av + al) and 2α + av + al < π/2 | ∠(r, v) is then at least π/2 |
+//!
 //! # Rounding
 //! A bound evaluated in `f32` holds for the exact terms of the same scene: angles are carried as cosine and sine, every
 //! cosine is raised by 32 ε of the number type, radii are widened and distances shortened by as much, and the terms are
-//! multiplied by 1 + [`MARGIN`]. Below the smallest normal number of the type a term counts as 0. What a renderer's own
-//! rounding adds to a term is not in the bound.
+//! multiplied by 1 + [`MARGIN`]. A sign is trusted only beyond 32 ε of the lengths it is made of. Below the smallest
+//! normal number of the type a term counts as 0. The bounds do not include what a renderer's own rounding adds.
 //!
 //! ```
 //! use halfway_lighting::bounds::{NormalCone, Patch, Receiver, STEP, Selected, linear_tolerance};
@@ -53,25 +67,16 @@
 //! ```
 
 mod angle;
-mod chunk;
-#[expect(clippy::inline_always, reason = "what is not inlined is not compiled for the CPU's vectors")]
-mod lanes;
-mod near;
 mod patch;
-#[expect(clippy::inline_always, reason = "what is not inlined is not compiled for the CPU's vectors")]
-mod power;
 mod reach;
 mod receiver;
-mod region;
 mod select;
 mod tolerance;
 mod tree;
 
-pub use near::NearLights;
 pub use patch::{NormalCone, Patch};
 pub use reach::reach;
 pub use receiver::{MARGIN, Receiver, TermBounds};
-pub use region::Region;
 pub use select::Selected;
 pub use tolerance::{STEP, linear_tolerance};
 pub use tree::LightTree;

@@ -41,9 +41,9 @@ pub struct Patch<T> {
 impl<T: Real> Patch<T> {
     /// The normals of the side that is seen; of the front one where both are.
     pub(super) fn seen_normals(&self) -> Cap<T> {
-        let cap = self
-            .normals
-            .and_then(|cone| normalize(cone.axis).map(|axis| Cap { axis, spread: Angle::of(cone.half_angle) }));
+        let cap = self.normals.and_then(|cone| {
+            normalize(cone.axis).map(|axis| Cap { axis, spread: Angle::from_radians(cone.half_angle) })
+        });
         match (cap, self.faces) {
             (None, _) => Cap::everything(),
             (Some(cap), Faces::Front | Faces::Both) => cap,

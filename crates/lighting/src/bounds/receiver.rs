@@ -1,81 +1,102 @@
-//! A patch with its material and its viewer, and what one light adds to it at most.
+//! The bound: an upper limit of each term of one light over a patch.
 
 use super::Patch;
 use super::angle::{Angle, Cap, slack};
 use crate::equations::vector::{cross, dot, length, mul, neg, scale, sub};
 use crate::equations::{
-    COINCIDENT, Coefficients, Eye, Light, Place, Real, attenuation, power, range_window, reflect, specular_exponent,
-    spot_factor,
+    COINCIDENT, Coefficients, ConeTerms, Eye, Light, Place, Real, attenuation, power, range_window, reflect,
+    specular_exponent, spot_factor,
 };
 use crate::{Faces, Reflectance};
 
-/// What each bound is raised by, relative to itself: above the relative error that the factors other than cosines
-/// gather in `f32`, which is some 2·10⁻⁵, most of it from a rounded exponent where S is near the smallest number.
+/// Relative margin of every bound. It covers the rounding of the factors that are not cosines: about 2·10⁻⁵ in `f32`,
+/// most of it from a rounded exponent where S is close to the smallest number.
 pub const MARGIN: f64 = 1e-4;
 
-/// Upper bounds, a channel each, of what one light adds to any point of a patch; unclamped, linear.
+/// Upper bounds of one light's terms over a patch, per channel; unclamped, linear.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TermBounds<T> {
-    /// Of ka·La·att·spot, for a light that attenuates its ambient. 0 for any other: that ambient is the same
-    /// everywhere, and belongs to the surface rather than to the light.
+    /// Bound of ka·La·att·spot for a light that attenuates its ambient. 0 for any other light: its ambient term is the
+    /// same everywhere and is counted as part of the surface.
     pub ambient: [T; 3],
-    /// Of att·spot·kd·Ld·max(n·l, 0).
+    /// Bound of att·spot·kd·Ld·max(n·l, 0).
     pub diffuse: [T; 3],
-    /// Of att·spot·ks·Ls·S.
+    /// Bound of att·spot·ks·Ls·S.
     pub specular: [T; 3],
 }
 
 impl<T: Real> TermBounds<T> {
-    /// Of a light that adds nothing.
+    /// The bounds of a light that adds nothing.
     pub fn zero() -> Self {
         Self { ambient: [T::zero(); 3], diffuse: [T::zero(); 3], specular: [T::zero(); 3] }
     }
 }
 
-/// A [`Patch`] made ready for many lights: everything about it that does not depend on the light.
+/// The terms of a light that may be above 0 somewhere on a patch.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct LitTerms {
+    pub(super) ambient: bool,
+    pub(super) diffuse: bool,
+    pub(super) specular: bool,
+}
+
+/// A [`Patch`] with its material and its viewer, prepared for many lights.
 #[derive(Clone, Copy, Debug)]
 pub struct Receiver<T> {
-    pub(super) center: [T; 3],
-    pub(super) radius: T,
-    /// A light no farther than this from a point of the patch may count as being there.
-    pub(super) coincident: T,
-    pub(super) half_thickness: T,
-    pub(super) normals: Cap<T>,
-    pub(super) both_sides: bool,
-    pub(super) view: Cap<T>,
-    pub(super) ka: [T; 3],
-    pub(super) kd: [T; 3],
-    pub(super) ks: [T; 3],
-    /// Of the specular term.
-    pub(super) exponent: T,
-    pub(super) lobe: Lobe<T>,
+    center: [T; 3],
+    radius: T,
+    /// A light within this distance of a point of the patch may count as being at that point.
+    coincident: T,
+    half_thickness: T,
+    normals: Cap<T>,
+    both_sides: bool,
+    view: Cap<T>,
+    ka: [T; 3],
+    kd: [T; 3],
+    ks: [T; 3],
+    /// The exponent of S.
+    exponent: T,
+    lobe: Lobe<T>,
 }
 
-/// A light as it arrives at the points of a patch.
-struct Arrival<T> {
-    /// Every l.
-    l: Cap<T>,
-    /// The least angle between an l and the axis of the normals, by the patch's thickness; 0 where that says nothing.
-    rise: Angle<T>,
-    /// The largest att·spot.
-    weight: T,
-}
-
-/// What the specular term's cosine is taken of.
+/// The two directions whose cosine S is a power of.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Lobe<T> {
+enum Lobe<T> {
     /// n and h.
     Halfway { view_chord: T },
     /// r and v. `spread` is 2α + av.
     Mirror { spread: Angle<T> },
 }
 
+/// Where a light is, seen from the middle of the patch.
+#[derive(Clone, Copy)]
+struct Offset<T> {
+    /// L − c; the unit vector l of a directional light.
+    vector: [T; 3],
+    square: T,
+    /// r, and half the thickness of the patch; both 0 for a directional light, whose l is the same everywhere.
+    radius: T,
+    half_thickness: T,
+    /// Rounding errors of lengths, and the distance within which the light counts as being at a point.
+    blur: T,
+}
+
+/// How a light arrives at the points of a patch.
+struct Arrival<T> {
+    /// Every l.
+    l: Cap<T>,
+    /// The least angle between an l and the axis of the normals, known from the thickness; 0 where it tells nothing.
+    rise: Angle<T>,
+    /// The least distance from a point of the patch.
+    nearest: T,
+}
+
 impl<T: Real> Receiver<T> {
-    /// `patch` with the coefficients of the sides that are seen, all in one space. Where a coefficient varies over the
-    /// patch, give the largest value of each channel, and of the shininess the smallest.
+    /// Prepares `patch` with the coefficients of the sides that are seen, all in one space. For coefficients that vary
+    /// over the patch, give the largest value of each channel, and the smallest shininess.
     pub fn new(patch: &Patch<T>, material: &Coefficients<T>, view: &Eye<T>, reflectance: Reflectance) -> Self {
         let normals = patch.seen_normals();
-        let view = Cap::of_view(patch.center, patch.radius, view);
+        let view = Cap::toward_eye(patch.center, patch.radius, view);
         let lobe = match reflectance {
             Reflectance::Phong => Lobe::Mirror { spread: normals.spread.plus(normals.spread).plus(view.spread) },
             Reflectance::BlinnPhong | Reflectance::BlinnPhongMatched => {
@@ -98,98 +119,175 @@ impl<T: Real> Receiver<T> {
         }
     }
 
-    /// What `light` adds to any point of the patch at most.
+    /// Bounds what `light` adds to any point of the patch.
     ///
-    /// Formulas and their reasons are the table at [`bounds`](crate::bounds). What makes them more than the largest
-    /// term: the sphere holds places where no surface is, the factors are bounded one by one, and a patch that is seen
-    /// from both sides takes the better side for each factor.
+    /// The table at [`bounds`](crate::bounds) gives the formulas and why they hold. A bound is usually above the
+    /// largest term, because the sphere has places without surface, the factors are bounded one by one, and a patch
+    /// seen from both sides takes the better side for each factor.
     pub fn bounds(&self, light: &Light<T>) -> TermBounds<T> {
-        self.reached(light).unwrap_or_else(TermBounds::zero)
-    }
-
-    /// [`Receiver::bounds`], or `None` where nothing of the light arrives, which is most of the lights of a large scene
-    /// and found out first.
-    pub(super) fn reached(&self, light: &Light<T>) -> Option<TermBounds<T>> {
-        let arrival = self.arrival(light)?;
-        let weight = arrival.weight * (T::one() + T::of(MARGIN));
         let mut bounds = TermBounds::zero();
-        if light.attenuate_ambient {
+        let lit = self.lit_terms(light);
+        if lit == LitTerms::default() {
+            return bounds;
+        }
+        let (l, rise, weight) = match light.place {
+            Place::Directional(l) => (Cap::single(l), Angle::zero(), T::one()),
+            Place::Point(position) => {
+                let Arrival { l, rise, nearest } = self.arrival(position);
+                let window = light.range.map_or(T::one(), |range| range_window(nearest, range));
+                (l, rise, attenuation(light.attenuation, nearest) * window)
+            }
+        };
+        let spot = light.cone.as_ref().map_or(T::one(), |cone| largest_spot(&l, cone));
+        // A product that left the number range is small, not 0.
+        let weight = (weight * spot).max(T::min_positive_value()) * (T::one() + T::of(MARGIN));
+        if lit.ambient {
             bounds.ambient = scale(mul(self.ka, light.la), weight);
         }
-        let facing = self.facing(&arrival);
-        if facing > T::zero() {
+        if lit.diffuse || lit.specular {
+            let facing = self.facing(&l, rise);
             bounds.diffuse = scale(mul(self.kd, light.ld), weight * facing);
-            let specular = mul(self.ks, light.ls);
-            if specular.iter().any(|&x| x > T::zero()) {
-                bounds.specular = scale(specular, weight * self.highlight(&arrival.l));
+            if lit.specular && facing > T::zero() {
+                bounds.specular = scale(mul(self.ks, light.ls), weight * self.highlight(&l));
             }
         }
-        Some(bounds)
+        bounds
     }
 
-    /// Whether its numbers are far from the ends of their range, so that none of what is computed of them and of a
-    /// light, whose squared distance is a normal number and not near the largest, is infinite or no number.
-    pub(super) fn is_moderate(&self) -> bool {
-        let most = T::max_value().sqrt().sqrt();
-        let lengths = [self.center[0], self.center[1], self.center[2], self.radius, self.exponent];
-        lengths.iter().all(|length| length.abs() < most)
+    /// The sphere that a light's range overlaps if the light adds anything: that of the patch, widened by the distance
+    /// within which a light may count as being at a point of it, and as much again for the rounding of positions.
+    pub(super) fn search_sphere(&self) -> ([T; 3], T) {
+        (self.center, (self.radius + self.coincident * T::of(2.0)) * (T::one() + slack()))
     }
 
-    /// `None` where att·spot is 0 all over the patch.
-    fn arrival(&self, light: &Light<T>) -> Option<Arrival<T>> {
-        let arrival = match light.place {
-            Place::Directional(l) => Arrival { l: Cap::single(l), rise: Angle::zero(), weight: T::one() },
-            Place::Point(position) => self.fall(light, position)?,
+    /// Finds the terms that may be above 0, by signs alone: no power, and seldom a root. That is the first step of a
+    /// bound, and all that a tolerance of 0 asks for.
+    ///
+    /// The tests are those of the second table at [`bounds`](crate::bounds), multiplied by D. A test fails only by more
+    /// than its rounding, and never with NaN.
+    pub(super) fn lit_terms(&self, light: &Light<T>) -> LitTerms {
+        let offset = match light.place {
+            Place::Directional(l) => {
+                Offset { vector: l, square: T::one(), radius: T::zero(), half_thickness: T::zero(), blur: slack() }
+            }
+            Place::Point(position) => {
+                let vector = sub(position, self.center);
+                let square = dot(vector, vector);
+                // Signs of sums that left the number range say nothing.
+                if !(square > T::min_positive_value() / T::epsilon() && square < T::max_value() * T::of(0.25)) {
+                    return self.colored_terms(light);
+                }
+                let blur = self.coincident + slack::<T>() * (norm1(vector) + self.radius);
+                Offset { vector, square, radius: self.radius, half_thickness: self.half_thickness, blur }
+            }
         };
-        let Some(cone) = &light.cone else { return Some(arrival) };
-        let l = &arrival.l;
-        let spot = spot_factor(Angle::between(neg(l.axis), cone.direction).cos_within(l.spread), cone);
-        (spot > T::zero()).then(|| Arrival { weight: (arrival.weight * spot).max(T::min_positive_value()), ..arrival })
+        if self.is_out_of_range(light, &offset) {
+            return LitTerms::default();
+        }
+        let colored = self.colored_terms(light);
+        let faces = (colored.diffuse || colored.specular) && self.may_face(&offset);
+        let lit = LitTerms {
+            ambient: colored.ambient,
+            diffuse: faces && colored.diffuse,
+            specular: faces && colored.specular && self.may_mirror(&offset),
+        };
+        if lit == LitTerms::default() || self.is_out_of_reach(light) { LitTerms::default() } else { lit }
     }
 
-    /// The arrival of a light at `position` without its cone; `None` out of its range.
-    fn fall(&self, light: &Light<T>, position: [T; 3]) -> Option<Arrival<T>> {
+    /// The terms that neither the light nor the material makes black.
+    fn colored_terms(&self, light: &Light<T>) -> LitTerms {
+        let is_lit = |k: [T; 3], color: [T; 3]| (0..3).any(|c| k[c] * color[c] != T::zero());
+        LitTerms {
+            ambient: light.attenuate_ambient && is_lit(self.ka, light.la),
+            diffuse: is_lit(self.kd, light.ld),
+            specular: is_lit(self.ks, light.ls),
+        }
+    }
+
+    /// Whether the range of a light ends before the sphere.
+    fn is_out_of_range(&self, light: &Light<T>, offset: &Offset<T>) -> bool {
+        light.range.is_some_and(|range| {
+            let end = range.max(self.coincident) + self.radius;
+            offset.square * (T::one() - slack::<T>() * T::of(4.0)) > end * end
+        })
+    }
+
+    /// Whether the range of a light ends before the slab of the patch, or its cone passes the patch by.
+    fn is_out_of_reach(&self, light: &Light<T>) -> bool {
+        let range = light.range.filter(|_| self.is_flat());
+        match light.place {
+            Place::Point(position) if range.is_some() || light.cone.is_some() => {
+                let arrival = self.arrival(position);
+                range.is_some_and(|range| arrival.nearest >= range)
+                    || light.cone.as_ref().is_some_and(|cone| largest_spot(&arrival.l, cone) == T::zero())
+            }
+            _ => false,
+        }
+    }
+
+    /// Whether n·(L − p) may be above 0 anywhere on the patch.
+    fn may_face(&self, offset: &Offset<T>) -> bool {
+        let &Offset { vector, radius, half_thickness, blur, .. } = offset;
+        let Cap { axis, spread: Angle { cos, sin } } = self.normals;
+        let height = dot(vector, axis);
+        let height = if self.both_sides { height.abs() } else { height };
+        if cos <= T::zero() || height + radius.min(half_thickness) > T::zero() {
+            return true;
+        }
+        let across = cross(vector, axis);
+        let aside = dot(across, across).sqrt();
+        let by_sphere = height * cos + aside * sin + radius;
+        let by_slab = (height + half_thickness) * cos + (aside + radius) * sin;
+        !(by_sphere <= -blur || by_slab <= -blur)
+    }
+
+    /// Whether r·v may be above 0, for Phong's S. Always true for Blinn–Phong: n·h is above 0 wherever n·l and n·v are.
+    fn may_mirror(&self, offset: &Offset<T>) -> bool {
+        let Lobe::Mirror { spread } = self.lobe else { return true };
+        let &Offset { vector, square, radius, blur, .. } = offset;
+        let along = dot(reflect(vector, self.normals.axis), self.view.axis);
+        // 0 to the power of 0 is 1.
+        if along > T::zero() || self.exponent == T::zero() {
+            return true;
+        }
+        let radius = radius + blur;
+        let tangent = (square - radius * radius).sqrt();
+        // Of 2α + av + al, times D.
+        let (cos, sin) = (spread.cos * tangent - spread.sin * radius, spread.sin * tangent + spread.cos * radius);
+        !(cos > T::zero() && along <= -sin - blur)
+    }
+
+    /// How a light at `position` arrives.
+    fn arrival(&self, position: [T; 3]) -> Arrival<T> {
         let offset = sub(position, self.center);
         let square = dot(offset, offset);
-        if let Some(range) = light.range {
-            // Without a root: most lights of a large scene get no farther. Squares below the normal numbers say
-            // nothing.
-            let end = range.max(self.coincident) + self.radius;
-            if square * (T::one() - slack::<T>() * T::of(4.0)) > end * end && square > T::min_positive_value() {
-                return None;
-            }
-        }
         let (l, distance) = Cap::toward(self.center, self.radius, position, offset, square);
         let beyond_sphere = distance * (T::one() - slack()) - self.radius * (T::one() + slack());
         let (beyond_slab, rise) = self.slab(offset, square, distance);
         let nearest = beyond_sphere.max(beyond_slab).max(T::zero());
         if nearest <= self.coincident {
-            let weight = attenuation(light.attenuation, T::zero());
-            return Some(Arrival { l: Cap::everything(), rise: Angle::zero(), weight });
+            return Arrival { l: Cap::everything(), rise: Angle::zero(), nearest: T::zero() };
         }
-        let window = light.range.map_or(T::one(), |range| range_window(nearest, range));
-        // A divisor beyond the number range gives 0 where the quotient only is smaller than any normal number.
-        let weight = (attenuation(light.attenuation, nearest) * window).max(T::min_positive_value());
-        (window > T::zero()).then_some(Arrival { l, rise, weight })
+        Arrival { l, rise, nearest }
     }
 
-    /// What the thickness says of a place at `offset` and `distance` from the centre: its least distance from the
-    /// patch, which lies in the disk of the sphere's radius and that thickness, and the least angle between the axis of
-    /// the normals and the directions toward it.
+    /// Bounds that follow from the thickness for a light at `offset` and `distance` from the centre: its least distance
+    /// from the patch, which lies in the disk of the sphere's radius and that thickness, and the least angle between
+    /// the axis of the normals and the directions toward it.
     ///
-    /// With the height H of the place over the middle plane, its distance ρ from the axis, and the half thickness t,
+    /// With the height H of the light over the middle plane, its distance ρ from the axis, and half the thickness t,
     /// the distance is at least √((|H| − t)₊² + (ρ − r)₊²), and k·l is at most (H + t)/d: d as small as it can be where
     /// that is positive, and as large as D + r where it is negative.
     fn slab(&self, offset: [T; 3], square: T, distance: T) -> (T, Angle<T>) {
         let k = self.normals.axis;
-        // Nor squares beyond the number range.
+        // Squares beyond the number range say nothing.
         if !(self.is_flat() && square < T::max_value() * T::of(0.25)) {
             return (T::zero(), Angle::zero());
         }
         let height = dot(offset, k);
         let height = if self.both_sides { height.abs() } else { height };
         let across = cross(offset, k);
-        // Height and distance from the axis are known to some ε of the distance.
+        // Height and distance from the axis are known to a few ε of the distance.
         let blur = slack::<T>() * (distance + self.radius);
         let over = (height.abs() - self.half_thickness - blur).max(T::zero());
         let aside = (dot(across, across).sqrt() - self.radius - blur).max(T::zero());
@@ -197,20 +295,20 @@ impl<T: Real> Receiver<T> {
         let top = height + self.half_thickness + blur;
         let cos = if top < T::zero() { top / (distance + self.radius + blur) } else { top / nearest };
         // Also where the quotient is 0/0.
-        let rise = if cos < T::one() { Angle::of_cos(cos) } else { Angle::zero() };
+        let rise = if cos < T::one() { Angle::from_cos(cos) } else { Angle::zero() };
         (nearest, rise)
     }
 
-    /// Whether the thickness says anything: of neither a ball nor any normal.
-    pub(super) fn is_flat(&self) -> bool {
+    /// Whether the thickness tells anything: not for a ball, nor for unknown normals.
+    fn is_flat(&self) -> bool {
         self.half_thickness < self.radius && self.normals.axis != [T::zero(); 3]
     }
 
     /// The largest n·l, at most 0 where no normal faces the light.
-    fn facing(&self, Arrival { l, rise, .. }: &Arrival<T>) -> T {
+    fn facing(&self, l: &Cap<T>, rise: Angle<T>) -> T {
         let angle = self.side(Angle::between(self.normals.axis, l.axis));
         let by_sphere = angle.cos_within(self.normals.spread.plus(l.spread));
-        by_sphere.min(rise.cos_within(self.normals.spread)).min(T::one())
+        by_sphere.min(rise.cos_within(self.normals.spread)).min(T::one()).max(T::zero())
     }
 
     /// The largest S, without its gate n·l > 0.
@@ -236,4 +334,15 @@ impl<T: Real> Receiver<T> {
     fn side(&self, angle: Angle<T>) -> Angle<T> {
         if self.both_sides { angle.to_line() } else { angle }
     }
+}
+
+/// The largest factor of a cone for these l.
+fn largest_spot<T: Real>(l: &Cap<T>, cone: &ConeTerms<T>) -> T {
+    let cos = Angle::between(neg(l.axis), cone.direction).cos_within(l.spread);
+    spot_factor(cos, cone)
+}
+
+/// |x| + |y| + |z|: the length, or more.
+fn norm1<T: Real>(v: [T; 3]) -> T {
+    v[0].abs() + v[1].abs() + v[2].abs()
 }

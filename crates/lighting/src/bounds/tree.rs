@@ -1,281 +1,84 @@
-//! Many lights, found by where they are.
+//! A tree of many lights, which finds those whose range reaches a patch.
 
-use super::Region;
-use super::reach::brightest;
-use crate::equations::{COINCIDENT, Light, Place, attenuation};
+use super::{Receiver, Selected};
+use crate::equations::{Light, Place};
 
-/// How many lights a leaf holds at most, and of how many nodes one above is made.
-const LEAF: usize = 16;
-const BRANCHES: usize = 8;
+/// How many boxes are tested together.
+const WIDTH: usize = 8;
 
-/// What distances are shortened by and sums raised by, relative to themselves: more than all rounding on the way, and
-/// than what the bounds widen by.
-const SLACK: f32 = 1e-3;
+/// Relative margin of ranges: more than the rounding of the boxes.
+const SLACK: f32 = 1e-5;
 
-/// Lights in a hierarchy of boxes, so that those which reach a region are found without looking at the others.
+/// Lights in a hierarchy of boxes around what they reach, to find those that reach a patch without visiting the others.
 ///
-/// [`NearLights`](super::NearLights) takes from it the lights that a region may need and what all the others add at
-/// most: nothing where they are out of their range, and otherwise so little that it can be told from a bound for many
-/// of them. Directional lights reach everything.
+/// A light without a range reaches everything. [`LightTree::rebuild`] sorts the others along a curve that fills space,
+/// which takes about 35 ns a light; it keeps its memory.
 ///
-/// Made by [`LightTree::rebuild`], in a time that is as good as linear in the lights. Where they have only been moved
-/// or turned together, as by a camera that moves, [`LightTree::follow`] is sooner. Its memory is kept.
+/// ```
+/// use halfway_lighting::bounds::{LightTree, Patch, Receiver, Selected};
+/// use halfway_lighting::equations::{Coefficients, Eye, Light};
+/// use halfway_lighting::{Faces, Material, PointLight, Reflectance, Viewer};
+///
+/// let lamp = PointLight { range: Some(3.0), ..PointLight::white() };
+/// let lights: Vec<Light<f32>> = (0..1000u16).map(|i| lamp.at([f32::from(i), 2.0, 0.0])).collect();
+/// let mut tree = LightTree::default();
+/// tree.rebuild(&lights);
+///
+/// let patch =
+///     Patch { center: [500.0, 0.0, 0.0], radius: 0.5, normals: None, half_thickness: 0.5, faces: Faces::Front };
+/// let material = Coefficients::from(&Material::BRASS);
+/// let receiver = Receiver::new(&patch, &material, &Eye::in_eye_space(Viewer::Local), Reflectance::BlinnPhong);
+/// let mut selected = Selected::default();
+/// tree.select(&lights, &receiver, [0.0; 3], &mut selected);
+/// assert_eq!(selected.diffuse, [498, 499, 500, 501, 502]);
+/// assert!(selected.evaluated < 10);
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LightTree {
-    /// Those that have no place.
+    /// The numbers of the lights that reach everything, ascending.
     everywhere: Vec<u32>,
-    /// Those that have one, in an order in which neighbours are neighbours in space.
-    leaves: Vec<LightLeaf>,
-    /// Level upon level, the leaves' first; each node of those above has up to eight below it.
-    levels: Vec<Vec<LightNode>>,
-    /// Places on a curve that fills space, and the numbers of the lights.
+    /// The other lights in the order of the curve: the place on the curve, above the number.
     keys: Vec<u64>,
+    /// Level after level. The first level has a box for each key, and each box of another level holds a block of the
+    /// level before.
+    blocks: Vec<Block>,
+    /// Where each level starts. The last one has one block.
+    levels: Vec<usize>,
 }
 
-/// A light, as far as is known without its patch.
+/// A box along the axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct LightLeaf {
-    number: u32,
-    position: [f32; 3],
-    falloff: Falloff,
-}
-
-/// Lights that lie together.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct LightNode {
-    around: LightBox,
-    falloff: Falloff,
-    count: u32,
-}
-
-/// A box around lights.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct LightBox {
+struct Aabb {
     low: [f32; 3],
     high: [f32; 3],
 }
 
-/// What lights add at a distance at most.
+/// Up to eight boxes, side by side so that the compiler tests them together. A lane without a box overlaps none.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Falloff {
-    /// The largest; infinite where one has none.
-    range: f32,
-    /// The least numbers.
-    attenuation: [f32; 3],
-    /// The sum of their colours' brightest channels.
-    color: f32,
+struct Block {
+    low: [[f32; WIDTH]; 3],
+    high: [[f32; WIDTH]; 3],
 }
 
-impl Falloff {
-    fn of(light: &Light<f32>) -> Self {
-        Self {
-            range: light.range.unwrap_or(f32::INFINITY),
-            attenuation: light.attenuation,
-            color: brightest(light) as f32 * (1.0 + SLACK),
-        }
-    }
-
-    fn joined<'a>(all: impl Iterator<Item = &'a Self>) -> Self {
-        let nothing = Self { range: 0.0, attenuation: [f32::INFINITY; 3], color: 0.0 };
-        all.fold(nothing, |all, one| Self {
-            range: all.range.max(one.range),
-            attenuation: [0, 1, 2].map(|k| all.attenuation[k].min(one.attenuation[k])),
-            color: all.color + one.color,
-        })
-    }
-}
-
-/// A region as lights are looked for around it.
-struct LightSearch<'a> {
-    region: &'a Region,
-    /// The distance from which a light may count as being at a point of it, and what its corners are rounded by.
-    margin: f32,
-    /// What each light may add unseen.
-    quota: f64,
-}
-
-/// What is to be done with lights.
-enum Visit {
-    /// They add nothing.
-    Nothing,
-    /// They add so little at most that they need not be looked at.
-    Little(f64),
-    Open,
-}
-
-impl LightSearch<'_> {
-    /// Of lights in a box.
-    fn visit_to(&self, LightBox { low, high }: &LightBox, falloff: &Falloff, count: u32) -> Visit {
-        let beside = |k: usize| (low[k] - self.region.high[k]).max(self.region.low[k] - high[k]).max(0.0);
-        let [x, y, z] = [beside(0), beside(1), beside(2)];
-        let distance = (x * x + y * y + z * z).sqrt() * (1.0 - SLACK) - self.margin;
-        // Nothing is known where a square left the number range.
-        if !(distance > 0.0 && distance < f32::INFINITY) {
-            return Visit::Open;
-        }
-        if distance > falloff.range {
-            return Visit::Nothing;
-        }
-        let weight = attenuation(falloff.attenuation, distance).max(f32::MIN_POSITIVE) * (1.0 + SLACK);
-        let most = f64::from(self.region.brightest * falloff.color * weight);
-        if most <= self.quota * f64::from(count) { Visit::Little(most) } else { Visit::Open }
-    }
-}
-
-impl LightTree {
-    /// Takes these lights in place of those it had.
-    pub fn rebuild(&mut self, lights: &[Light<f32>]) {
-        let position = |number: u32| match lights[number as usize].place {
-            Place::Point(position) => Some(position),
-            Place::Directional(_) => None,
-        };
-        let mut all = LightBox::EMPTY;
-        self.everywhere.clear();
-        self.keys.clear();
-        for number in 0..lights.len() as u32 {
-            match position(number) {
-                Some(position) => {
-                    all = all.with(&LightBox::at(position));
-                    self.keys.push(number.into());
-                }
-                None => self.everywhere.push(number),
-            }
-        }
-        let cells = [0, 1, 2].map(|k| 1023.0 / (all.high[k] - all.low[k]).max(f32::MIN_POSITIVE));
-        for key in &mut self.keys {
-            let Some(position) = position(*key as u32) else { continue };
-            let cell = |k: usize| u64::from(spread(((position[k] - all.low[k]) * cells[k]) as u32)) << k;
-            *key |= (cell(0) | cell(1) | cell(2)) << 32;
-        }
-        self.keys.sort_unstable();
-        self.leaves.clear();
-        self.leaves.extend(self.keys.iter().filter_map(|&key| LightLeaf::of(key as u32, lights)));
-        self.build_levels();
-    }
-
-    /// Takes the places of these lights, which are otherwise those it has, in the same order. What it finds is what it
-    /// would find after [`LightTree::rebuild`], and as soon, if they have only been moved or turned together.
-    ///
-    /// # Panics
-    ///
-    /// Where there are more or fewer lights than it has.
-    pub fn follow(&mut self, lights: &[Light<f32>]) {
-        assert_eq!(self.everywhere.len() + self.leaves.len(), lights.len(), "as many lights as before");
-        for leaf in &mut self.leaves {
-            let (Place::Point(position) | Place::Directional(position)) = lights[leaf.number as usize].place;
-            leaf.position = position;
-        }
-        for height in 0..self.levels.len() {
-            let (below, above) = self.levels.split_at_mut(height);
-            match below.last() {
-                None => {
-                    for (node, leaves) in above[0].iter_mut().zip(self.leaves.chunks(LEAF)) {
-                        node.around = LightBox::of_leaves(leaves);
-                    }
-                }
-                Some(nodes) => {
-                    for (node, nodes) in above[0].iter_mut().zip(nodes.chunks(BRANCHES)) {
-                        node.around = LightBox::of_nodes(nodes);
-                    }
-                }
-            }
-        }
-    }
-
-    fn build_levels(&mut self) {
-        let Self { leaves, levels, .. } = self;
-        let mut height = 0;
-        loop {
-            if levels.len() == height {
-                levels.push(Vec::new());
-            }
-            let (below, above) = levels.split_at_mut(height);
-            let above = &mut above[0];
-            above.clear();
-            match below.last() {
-                None => above.extend(leaves.chunks(LEAF).map(LightNode::of_leaves)),
-                Some(nodes) => above.extend(nodes.chunks(BRANCHES).map(LightNode::of_nodes)),
-            }
-            height += 1;
-            if above.len() <= 1 {
-                break;
-            }
-        }
-        levels.truncate(height);
-    }
-
-    /// The numbers of the lights that may reach a region, in any order, without some that add no more than `unseen` of
-    /// its tolerance together; and what those add at most.
-    pub(super) fn find(&self, region: &Region, unseen: f64, numbers: &mut Vec<u32>) -> f64 {
-        let quota = unseen * region.tolerance / self.leaves.len().max(1) as f64;
-        numbers.extend(&self.everywhere);
-        let margin = (COINCIDENT + 4.0 * f32::EPSILON) * region.farthest() * (1.0 + SLACK);
-        let search = LightSearch { region, margin, quota };
-        let mut spent = 0.0;
-        if let Some(top) = self.levels.len().checked_sub(1) {
-            self.visit(&search, top, 0..self.levels[top].len(), numbers, &mut spent);
-        }
-        spent * (1.0 + f64::from(SLACK))
-    }
-
-    fn visit(
-        &self,
-        search: &LightSearch,
-        level: usize,
-        nodes: core::ops::Range<usize>,
-        numbers: &mut Vec<u32>,
-        spent: &mut f64,
-    ) {
-        for (place, node) in nodes.clone().zip(&self.levels[level][nodes]) {
-            match search.visit_to(&node.around, &node.falloff, node.count) {
-                Visit::Nothing => {}
-                Visit::Little(most) => *spent += most,
-                Visit::Open if level > 0 => {
-                    let start = place * BRANCHES;
-                    let below = start..(start + BRANCHES).min(self.levels[level - 1].len());
-                    self.visit(search, level - 1, below, numbers, spent);
-                }
-                Visit::Open => {
-                    for leaf in &self.leaves[place * LEAF..place * LEAF + node.count as usize] {
-                        match search.visit_to(&LightBox::at(leaf.position), &leaf.falloff, 1) {
-                            Visit::Nothing => {}
-                            Visit::Little(most) => *spent += most,
-                            Visit::Open => numbers.push(leaf.number),
-                        }
-                    }
-                }
-            }
-        }
-    }
-}
-
-impl LightLeaf {
-    /// `None` for a light without a place.
-    fn of(number: u32, lights: &[Light<f32>]) -> Option<Self> {
-        let light = &lights[number as usize];
-        match light.place {
-            Place::Point(position) => Some(Self { number, position, falloff: Falloff::of(light) }),
-            Place::Directional(_) => None,
-        }
-    }
-}
-
-impl LightBox {
+impl Aabb {
     const EMPTY: Self = Self { low: [f32::INFINITY; 3], high: [f32::NEG_INFINITY; 3] };
+    const EVERYTHING: Self = Self { low: [-f32::MAX; 3], high: [f32::MAX; 3] };
 
-    fn at(position: [f32; 3]) -> Self {
-        Self { low: position, high: position }
+    /// The box around a sphere, if it is finite.
+    fn around(center: [f32; 3], radius: f32) -> Option<Self> {
+        let around = Self { low: center.map(|x| x - radius), high: center.map(|x| x + radius) };
+        around.low.iter().chain(&around.high).all(|x| x.is_finite()).then_some(around)
     }
 
-    fn of_leaves(leaves: &[LightLeaf]) -> Self {
-        leaves.iter().fold(Self::EMPTY, |all, leaf| all.with(&Self::at(leaf.position)))
+    /// The box around what the range of a light reaches, if it is finite.
+    fn reached_by(light: &Light<f32>) -> Option<Self> {
+        match (light.place, light.range) {
+            (Place::Point(position), Some(range)) => Self::around(position, range * (1.0 + SLACK)),
+            _ => None,
+        }
     }
 
-    fn of_nodes(nodes: &[LightNode]) -> Self {
-        nodes.iter().fold(Self::EMPTY, |all, node| all.with(&node.around))
-    }
-
-    fn with(self, other: &Self) -> Self {
+    fn join(self, other: Self) -> Self {
         // One instruction each, where `min` and `max` take three.
         let [lower, higher] = [|a, b| if b < a { b } else { a }, |a: f32, b| if b > a { b } else { a }];
         Self {
@@ -285,15 +88,110 @@ impl LightBox {
     }
 }
 
-impl LightNode {
-    fn of_leaves(leaves: &[LightLeaf]) -> Self {
-        let falloff = Falloff::joined(leaves.iter().map(|leaf| &leaf.falloff));
-        Self { around: LightBox::of_leaves(leaves), falloff, count: leaves.len() as u32 }
+impl Block {
+    fn new(boxes: impl Iterator<Item = Aabb>) -> Self {
+        let mut block = Self { low: [[f32::INFINITY; WIDTH]; 3], high: [[f32::NEG_INFINITY; WIDTH]; 3] };
+        for (lane, Aabb { low, high }) in boxes.enumerate() {
+            for k in 0..3 {
+                (block.low[k][lane], block.high[k][lane]) = (low[k], high[k]);
+            }
+        }
+        block
     }
 
-    fn of_nodes(nodes: &[Self]) -> Self {
-        let falloff = Falloff::joined(nodes.iter().map(|node| &node.falloff));
-        Self { around: LightBox::of_nodes(nodes), falloff, count: nodes.iter().map(|node| node.count).sum() }
+    fn joined(&self) -> Aabb {
+        let lane = |i| Aabb { low: self.low.map(|x| x[i]), high: self.high.map(|x| x[i]) };
+        (0..WIDTH).map(lane).fold(Aabb::EMPTY, Aabb::join)
+    }
+
+    fn overlaps(&self, with: &Aabb) -> [bool; WIDTH] {
+        let mut overlaps = [true; WIDTH];
+        for k in 0..3 {
+            for (overlaps, (low, high)) in overlaps.iter_mut().zip(self.low[k].iter().zip(&self.high[k])) {
+                *overlaps &= *low <= with.high[k];
+                *overlaps &= *high >= with.low[k];
+            }
+        }
+        overlaps
+    }
+}
+
+impl LightTree {
+    /// Replaces the lights of the tree by these.
+    pub fn rebuild(&mut self, lights: &[Light<f32>]) {
+        let Self { everywhere, keys, blocks, levels } = self;
+        everywhere.clear();
+        keys.clear();
+        let mut all = Aabb::EMPTY;
+        for (number, light) in (0..).zip(lights) {
+            match Aabb::reached_by(light) {
+                Some(reached) => {
+                    all = all.join(reached);
+                    keys.push(u64::from(number));
+                }
+                None => everywhere.push(number),
+            }
+        }
+        let light = |key: u64| &lights[key as u32 as usize];
+        let cells = [0, 1, 2].map(|k| 1023.0 / (all.high[k] - all.low[k]).max(f32::MIN_POSITIVE));
+        for key in keys.iter_mut() {
+            let (Place::Point(position) | Place::Directional(position)) = light(*key).place;
+            let cell = |k: usize| u64::from(spread(((position[k] - all.low[k]) * cells[k]) as u32)) << k;
+            *key |= (cell(0) | cell(1) | cell(2)) << 32;
+        }
+        keys.sort_unstable();
+        blocks.clear();
+        blocks.extend(
+            keys.chunks(WIDTH).map(|keys| Block::new(keys.iter().filter_map(|&key| Aabb::reached_by(light(key))))),
+        );
+        levels.clear();
+        levels.push(0);
+        let mut start = 0;
+        while blocks.len() - start > 1 {
+            let end = blocks.len();
+            for first in (start..end).step_by(WIDTH) {
+                let joined = Block::new(blocks[first..end.min(first + WIDTH)].iter().map(Block::joined));
+                blocks.push(joined);
+            }
+            levels.push(end);
+            start = end;
+        }
+    }
+
+    /// Fills `selected` as [`Receiver::select`] does with all of `lights`, the same as given to [`LightTree::rebuild`].
+    ///
+    /// # Panics
+    ///
+    /// If there are fewer lights than the tree has.
+    pub fn select(
+        &self,
+        lights: &[Light<f32>],
+        receiver: &Receiver<f32>,
+        tolerance: [f64; 3],
+        selected: &mut Selected,
+    ) {
+        let mut near = core::mem::take(&mut selected.near);
+        near.clear();
+        near.extend(&self.everywhere);
+        if !self.keys.is_empty() {
+            let (center, radius) = receiver.search_sphere();
+            let around = Aabb::around(center, radius).unwrap_or(Aabb::EVERYTHING);
+            self.find(self.levels.len() - 1, 0, &around, &mut near);
+            near.sort_unstable();
+        }
+        receiver.select(near.iter().map(|&number| (number, &lights[number as usize])), tolerance, selected);
+        selected.near = near;
+    }
+
+    /// Appends the lights below a block of a level whose boxes overlap `around`.
+    fn find(&self, level: usize, block: usize, around: &Aabb, found: &mut Vec<u32>) {
+        let overlaps = self.blocks[self.levels[level] + block].overlaps(around);
+        for (place, _) in (block * WIDTH..).zip(overlaps).filter(|&(_, overlaps)| overlaps) {
+            match level {
+                0 => found.push(self.keys[place] as u32),
+                _ => self.find(level - 1, place, around, found),
+            }
+        }
     }
 }
 

@@ -3,7 +3,7 @@
 use bevy_color::LinearRgba;
 use proptest::prelude::*;
 
-use halfway_lighting::bounds::{NormalCone, Patch, Receiver};
+use halfway_lighting::bounds::{NormalCone, Patch, Receiver, Selected};
 use halfway_lighting::equations::{Coefficients, Eye, Light, ShadedPoint, light_terms};
 use halfway_lighting::{Attenuation, Faces, Material, PointLight, Reflectance};
 
@@ -95,5 +95,70 @@ fn bounds_hold_where_factors_vanish() {
         assert!(terms.diffuse[0] > 0.0);
         let excess = exceeds(&terms, &bounds, &light);
         assert!(excess.is_none(), "{place:?}: {}", excess.unwrap_or_default());
+    }
+}
+
+/// White without highlights, lit at a point of a patch of this radius, thickness and cone around +Z: whether the term is
+/// above 0, and whether its bound is and the light is kept without a tolerance.
+fn is_lit_and_kept(patch: &Patch<f32>, light: &PointLight, at: [f64; 3], surface: &ShadedPoint<f64>) -> [bool; 3] {
+    let material = Material::matte(LinearRgba::WHITE);
+    let view = Eye::Infinite([0.0, 0.0, 1.0]);
+    let receiver = Receiver::new(patch, &Coefficients::from(&material), &view, Reflectance::BlinnPhong);
+    let narrow = light.at(at.map(|x| x as f32));
+    let mut selected = Selected::default();
+    receiver.select([(7, &narrow)], [0.0; 3], &mut selected);
+    let (coefficients, view) = (Coefficients::from(&material), Eye::Infinite([0.0, 0.0, 1.0]));
+    let terms = light_terms(surface, &coefficients, &light.at(at), &view, Reflectance::BlinnPhong);
+    [terms.diffuse[0] > 0.0, receiver.bounds(&narrow).diffuse[0] > 0.0, selected.diffuse == [7]]
+}
+
+/// Lights that one point with one normal faces by a thousandth of the radius, and none by less.
+#[test]
+fn barely_lit_patches_are_lit() {
+    for (radius, half_angle) in [(0.01f64, 0.0f64), (1.0, 0.0), (1.0, 0.3), (100.0, 0.3), (1.0, 0.6)] {
+        let (sin, cos) = half_angle.sin_cos();
+        let normal = [sin, 0.0, cos];
+        let center = [3.0, -2.0, 1.0];
+        let (barely, patch) = (1e-3 * radius, |half_thickness: f64| Patch {
+            center: center.map(|x| x as f32),
+            radius: radius as f32,
+            normals: Some(NormalCone { axis: [0.0f32, 0.0, 1.0], half_angle: half_angle as f32 }),
+            half_thickness: half_thickness as f32,
+            faces: Faces::Front,
+        });
+        // A ball, at its lowest point along the normal; and a disk, at its edge away from the light.
+        let height = (barely - 3.0 * radius * sin) / cos;
+        let along = (barely - radius) / 0.8;
+        let rows = [
+            (
+                patch(radius),
+                normal.map(|x| -radius * x),
+                [along * (0.8 * sin - 0.6 * cos), 0.0, along * (0.8 * cos + 0.6 * sin)],
+            ),
+            (patch(0.0), [-radius, 0.0, 0.0], [2.0 * radius, 0.0, height]),
+        ];
+        for (patch, point, light) in rows {
+            let position = [0, 1, 2].map(|k| center[k] + point[k] * (1.0 - 1e-9));
+            let at = |lower: f64| [0, 1, 2].map(|k| center[k] + light[k] - lower * normal[k]);
+            let surface = ShadedPoint { position, normal };
+            assert_eq!(is_lit_and_kept(&patch, &PointLight::white(), at(0.0), &surface), [true; 3], "{patch:?}");
+            let below = at(2.0 * barely);
+            assert_eq!(is_lit_and_kept(&patch, &PointLight::white(), below, &surface), [false; 3], "{patch:?}");
+        }
+    }
+}
+
+/// A light so near that it counts as being at the point, which it lights from behind, with hardly a range.
+#[test]
+fn coincident_lights_are_kept() {
+    let center = [1000.0, 0.0, 0.0];
+    let normals = Some(NormalCone { axis: [0.0f32, 0.0, 1.0], half_angle: 0.0 });
+    let patch =
+        Patch { center: [1000.0f32, 0.0, 0.0], radius: 1e-4, normals, half_thickness: 0.0, faces: Faces::Front };
+    let surface = ShadedPoint { position: center, normal: [0.0, 0.0, 1.0] };
+    for range in [None, Some(1e-4)] {
+        let light = PointLight { range, ..PointLight::white() };
+        assert_eq!(is_lit_and_kept(&patch, &light, [1000.0, 0.0, -1.5e-3], &surface), [true; 3], "{range:?}");
+        assert_eq!(is_lit_and_kept(&patch, &light, [1000.0, 0.0, -3e-3], &surface), [false; 3], "{range:?}");
     }
 }

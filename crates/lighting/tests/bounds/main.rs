@@ -6,8 +6,8 @@
 mod conservative;
 mod exact;
 mod many_lights;
-mod near;
 mod reach;
 mod select;
 mod support;
 mod tolerance;
+mod tree;
