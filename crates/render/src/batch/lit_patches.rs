@@ -60,9 +60,6 @@ struct LitObject<'a> {
     tolerance: Tolerance,
 }
 
-/// At most so many neighbouring patches look for their lights together.
-const TOGETHER: usize = 32;
-
 pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
     objects: ShownObjects,
     lights: Res<Lights>,
@@ -78,7 +75,7 @@ pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
     lit.add_all(&objects, values.share(), shared, &mut *backend, &mut report);
     report.materials = lit.table.materials_in_use();
     report.lights_assigned = lit.lists.assigned;
-    report.light_pairs = lit.lists.take_pairs();
+    report.light_pairs = lit.lists.pairs;
     report.left_out = lit.lists.left_out;
 }
 
@@ -196,13 +193,10 @@ impl LitPatches {
         let steps = f64::from(object.tolerance.steps);
         let listing = reflector.listing(ambient, Eye::in_eye_space(viewer), encoding, steps);
         let mut records = Vec::with_capacity(seen.len());
-        let shape = |patch: &u32| object.geometry.patches.shape(*patch);
-        for together in seen.chunks(TOGETHER) {
-            self.lists.look_around(&listing, together.iter().map(|patch| shape(patch).sphere(object.model_view)));
-            for patch in together {
-                let lists = self.lists.list(lights, &object.in_eye_space(shape(patch)), &listing);
-                records.push(self.table.number(&mut self.records, object.material, lists));
-            }
+        for patch in seen {
+            let patch = object.in_eye_space(object.geometry.patches.shape(*patch));
+            let lists = self.lists.list(lights, &patch, &listing);
+            records.push(self.table.number(&mut self.records, object.material, lists));
         }
         self.add_runs(object, key, seen.iter().copied().zip(records));
     }

@@ -274,7 +274,6 @@ impl Lights {
         self.shared_color = self.unplaced.iter().all(LightRecord::shares_color);
         self.ranged = self.unplaced.iter().any(LightRecord::is_ranged);
         self.is_unscaled = true;
-        self.tree.rebuild(&self.sources);
     }
 
     /// Puts every light where the view sees it.
@@ -302,11 +301,7 @@ impl Lights {
                 cone.direction = toward(&view.eye_from_world, place.direction);
             }
         }
-        if was_unscaled && self.is_unscaled {
-            self.tree.follow(&self.sources);
-        } else {
-            self.tree.rebuild(&self.sources);
-        }
+        self.tree.rebuild(&self.sources);
     }
 
     /// How many there are.

@@ -6,7 +6,7 @@ use crate::lights::terms::{by_fragment_shader, by_vertex_shader};
 use crate::shaders::light_slots::COUNTED_LIGHTS;
 use crate::shaders::records::RecordLists;
 use bevy_math::Vec3;
-use halfway_lighting::bounds::{NearLights, Patch, Receiver, Region, STEP, Selected, linear_tolerance};
+use halfway_lighting::bounds::{Patch, Receiver, STEP, Selected, linear_tolerance};
 use halfway_lighting::equations::{Coefficients, Eye};
 use halfway_lighting::{Encoding, Frequency, Reflectance, Terms};
 
@@ -19,12 +19,12 @@ pub(crate) struct LightLists {
     pub(crate) numbers: Vec<u32>,
     /// The newest lists, and where they begin. Neighbouring patches often need the same.
     last: Option<(RecordLists, usize)>,
-    /// The lights near the patches at hand.
-    near: NearLights,
     /// The lights of the patch at hand.
-    selected: Selected<f32>,
+    selected: Selected,
     /// How many terms of lights the lists name, over all patches.
     pub(crate) assigned: u64,
+    /// How many pairs of a patch and a light were evaluated.
+    pub(crate) pairs: u64,
     /// The most that was left out anywhere, in linear intensity: the sum of the bounds, of the brightest channel.
     pub(crate) left_out: f64,
 }
@@ -60,31 +60,16 @@ impl LightLists {
             }
         }
         self.last = None;
-        (self.assigned, self.left_out) = (0, 0.0);
+        (self.assigned, self.pairs, self.left_out) = (0, 0, 0.0);
     }
 
-    /// How many pairs of a patch and a light have been looked at since this was last asked.
-    pub(crate) fn take_pairs(&mut self) -> u64 {
-        self.near.take_pairs()
-    }
-
-    /// Finds the lights near patches in these spheres, of an object with this listing.
-    pub(crate) fn look_around(&mut self, listing: &Listing, spheres: impl Iterator<Item = (Vec3, f32)>) {
-        let Coefficients { ka, kd, ks, .. } = listing.material;
-        let nowhere = Region {
-            brightest: [ka, kd, ks].into_iter().flatten().fold(0.0, f32::max),
-            tolerance: listing.tolerance.into_iter().fold(f64::INFINITY, f64::min),
-            ..Region::EMPTY
-        };
-        self.near.begin(spheres.fold(nowhere, |region, (center, radius)| region.with(center.to_array(), radius)));
-    }
-
-    /// The lists of a patch, one of those that were last looked around: the lights left out change no channel of a
-    /// pixel by more than the listing's tolerance together.
+    /// The lists of a patch: the lights left out change no channel of a pixel by more than the listing's tolerance
+    /// together.
     pub(crate) fn list(&mut self, lights: &Lights, patch: &Patch<f32>, listing: &Listing) -> RecordLists {
         let receiver = Receiver::new(patch, &listing.material, &listing.view, listing.reflectance);
-        self.near.select(&lights.tree, &lights.sources, &receiver, listing.tolerance, &mut self.selected);
-        let Selected { diffuse, specular, left_out, .. } = &self.selected;
+        lights.tree.select(&lights.sources, &receiver, listing.tolerance, &mut self.selected);
+        let Selected { diffuse, specular, left_out, evaluated, .. } = &self.selected;
+        self.pairs += *evaluated as u64;
         self.assigned += (diffuse.len() + specular.len()) as u64;
         self.left_out = left_out.iter().copied().fold(self.left_out, f64::max);
         let start = self.numbers.len();
@@ -215,7 +200,6 @@ mod tests {
         let view = Eye::in_eye_space(halfway_lighting::Viewer::Local);
         let listing = reflector.listing(Vec3::ZERO, view, None, 0.0);
         let patch = Patch { center, radius: 0.1, normals: None, half_thickness: 0.1, faces: Faces::Both };
-        lists.look_around(&listing, std::iter::once((Vec3::from_array(center), 0.1)));
         lists.list(lights, &patch, &listing).fragment_diffuse
     }
 
