@@ -40,9 +40,6 @@ pub(crate) struct ConvertArgs {
     /// Make new normals: one a face, a mean by these weights, or a mean that stops where faces differ by more degrees
     #[arg(long, value_name = "keep|face|uniform|area|angle|max|creased=DEGREES", value_parser = parse_normals)]
     normals: Option<Normals>,
-    /// Put triangles and vertices in an order that is fast to draw
-    #[arg(long)]
-    optimize: bool,
     /// Write vertices as integers of 16 bits, in about 60 % of the room where the mesh is large; .glb only
     #[arg(long)]
     quantise: bool,
@@ -94,9 +91,6 @@ fn change(args: &ConvertArgs, model: &mut Model) -> Result<(), Failure> {
     }
     if let Some(normals) = args.normals {
         meshes.make_normals(normals);
-    }
-    if args.optimize {
-        meshes.optimize();
     }
     meshes.put_into(model);
     if model.parts.is_empty() {

@@ -4,9 +4,7 @@ use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 
 use clap::Args;
-use halfway::mesh::{
-    AlphaMode, Mesh, Meshlets, Model, PatchHierarchy, SourceLightKind, SourceMaterial, SourceProjection,
-};
+use halfway::mesh::{AlphaMode, LodGroup, Mesh, Model, SourceLightKind, SourceMaterial, SourceProjection};
 
 use crate::failure::Failure;
 
@@ -14,7 +12,7 @@ use crate::failure::Failure;
 pub(crate) struct InfoArgs {
     /// A model (.smf, .obj, .gltf, .glb, .ply, .stl)
     model: PathBuf,
-    /// Make levels of detail, too, and measure how far off each is
+    /// Make levels of detail, too, and print how many triangles they have within some errors
     #[arg(long)]
     levels: bool,
 }
@@ -26,7 +24,7 @@ pub(crate) fn run(args: &InfoArgs) -> Result<(), Failure> {
     for part in &model.parts {
         let material = part.material.and_then(|i| model.materials.get(i)).map_or("none", SourceMaterial::name);
         println!("part       \"{}\": {}; material {material}", part.name, attributes(&part.mesh));
-        print_mesh(&part.mesh);
+        part.mesh.report().to_string().lines().for_each(|line| println!("  {line}"));
         if args.levels {
             print_levels(&part.mesh);
         }
@@ -56,27 +54,16 @@ fn attributes(mesh: &Mesh) -> String {
     ["positions", "normals"].into_iter().chain(has).collect::<Vec<_>>().join(", ")
 }
 
-/// What the mesh is like, and what it can be made into.
-fn print_mesh(mesh: &Mesh) {
-    let report = mesh.report();
-    report.to_string().lines().for_each(|line| println!("  {line}"));
-    println!("  optimised  {:.3} vertices loaded a triangle", mesh.optimized().report().cache_misses);
-    let meshlets = mesh.meshlets(Meshlets::DEFAULT_TRIANGLES).meshlets;
-    let count = meshlets.len() as f64;
-    let radius = meshlets.iter().map(|meshlet| f64::from(meshlet.sphere.radius)).sum::<f64>() / count;
-    let degrees = |cos: f32| f64::from(cos).clamp(-1.0, 1.0).acos().to_degrees();
-    let angle = meshlets.iter().map(|meshlet| degrees(meshlet.normals.cos)).sum::<f64>() / count;
-    println!("  meshlets   {count} of {:.0} triangles in the mean", report.triangles as f64 / count);
-    println!("             mean radius {radius:.3e}, mean half angle of the normals {angle:.0}°");
-}
-
 fn print_levels(mesh: &Mesh) {
-    let Some(hierarchy) = mesh.patch_hierarchy(&AtomicBool::new(false)) else { return };
-    let PatchHierarchy { patches, groups, .. } = &hierarchy;
-    println!("  levels     {} patches, {} groups of them", patches.len(), groups.len());
+    let Some(levels) = mesh.lod_hierarchy(&AtomicBool::new(false)) else { return };
+    println!("  levels     {} clusters in {} groups", levels.clusters.len(), levels.groups.len());
+    let count = |error: &dyn Fn(&LodGroup) -> f32, most: f32| -> usize {
+        levels.cut(|group| error(group) <= most).into_iter().map(|cluster| levels.triangles_of(cluster).len()).sum()
+    };
     let radius = mesh.bounds().radius();
-    for error in (2..13).rev().map(|exponent| radius * 0.5_f32.powi(exponent)) {
-        println!("             {} triangles within {error:.2e}", hierarchy.triangles_within(error));
+    for most in (2..13).rev().map(|exponent| radius * 0.5_f32.powi(exponent)) {
+        let [surface, shading] = [false, true].map(|lit| count(&|group| group.error(lit, false), most));
+        println!("             {surface} triangles within {most:.2e}, {shading} if lit");
     }
 }
 

@@ -132,20 +132,6 @@ impl Meshes {
         }
         println!();
     }
-
-    pub(crate) fn optimize(&mut self) {
-        let before = self.loads();
-        self.change(|mesh, _| Some(mesh.optimized()));
-        println!("optimize   {before:.3} to {:.3} vertices loaded a triangle (cache of 16)", self.loads());
-    }
-
-    /// Vertices that a cache loads for a triangle, in the mean over all.
-    fn loads(&self) -> f64 {
-        let loads = |(mesh, parts): &(Mesh, Vec<usize>)| {
-            mesh.report().cache_misses * (mesh.triangle_count() * parts.len()) as f64
-        };
-        self.meshes.iter().map(loads).sum::<f64>() / self.triangles() as f64
-    }
 }
 
 fn with_tangents(model: &Model) -> usize {

@@ -5,9 +5,8 @@
 //! - [`Normals`] says how a mesh gets its normals: the file's, one a face, or a weighted mean of the faces around a
 //!   vertex, creased or not; [`Mesh::with_tangents`] adds tangents.
 //! - [`Mesh::report`] looks a mesh over; [`Mesh::welded`] and [`Mesh::repaired`] mend it; [`Mesh::subdivided`] and
-//!   [`Mesh::displaced`] give it detail; [`Mesh::baked_occlusion`] bakes how much light from all sides arrives at it.
-//!   The feature `prepare` adds an order for the GPU, meshlets and simplified
-//!   meshes.
+//!   [`Mesh::displaced`] give it detail, [`Mesh::simplified`] and [`Mesh::lod_hierarchy`] take it away;
+//!   [`Mesh::baked_occlusion`] bakes how much light from all sides arrives at it.
 //! - [`Plane`], [`Cuboid`], [`UvSphere`], [`Icosphere`] and [`Teapot`] turn into meshes with analytic normals; so do
 //!   the quadrics, the torus, [`BezierPatch`] and the other [`ParametricSurface`]s, by count or by chord error.
 //! - [`Mesh::surface`] is the smooth surface that a mesh stands for, where it is known by formula.
@@ -57,10 +56,8 @@ pub use model::{
 };
 pub use normals::{NormalReport, NormalWeighting, Normals, face_normal};
 pub use occlusion::{OcclusionBake, OcclusionError, OcclusionImage};
-#[cfg(feature = "prepare")]
-pub use prepare::{BoundingSphere, DirectionCone, Meshlet, Meshlets, SimplifiedMesh};
 pub use prepare::{
-    DistanceBounds, HierarchyPatch, MeshReport, PatchGroup, PatchHierarchy, RepairReport, Weld, WeldReport,
+    DistanceBounds, LodCluster, LodGroup, LodHierarchy, MeshReport, RepairReport, SimplifiedMesh, Weld, WeldReport,
 };
 pub use problems::Problems;
 pub use source_map::{SourceChannel, SourceLevels, SourceMap, SourceWrap};

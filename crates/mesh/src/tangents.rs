@@ -1,6 +1,6 @@
 //! Tangents, for normal maps.
 
-use bevy_math::{Vec2, Vec3, Vec4};
+use bevy_math::{DVec3, Vec2, Vec3, Vec4};
 use bevy_mikktspace::{Geometry, TangentSpace, generate_tangents};
 
 use crate::numbering::Numbering;
@@ -50,7 +50,7 @@ struct Corners<'a> {
 impl<'a> Corners<'a> {
     /// The tangent of each corner.
     fn tangents(mesh: &'a Mesh, uvs: &'a [Vec2]) -> Vec<Vec4> {
-        let (positions, tangents) = (mesh.unit_positions().0, vec![Vec4::ZERO; mesh.indices().len()]);
+        let (positions, tangents) = (unit_positions(mesh), vec![Vec4::ZERO; mesh.indices().len()]);
         let mut corners = Self { mesh, positions, uvs, tangents };
         generate_tangents(&mut corners).expect("it has no errors to give");
         corners.tangents
@@ -59,6 +59,16 @@ impl<'a> Corners<'a> {
     fn vertex(&self, face: usize, corner: usize) -> usize {
         self.mesh.indices()[3 * face + corner] as usize
     }
+}
+
+/// The positions moved and scaled into the cube from −1 to 1, where single precision neither under- nor overflows.
+fn unit_positions(mesh: &Mesh) -> Vec<[f32; 3]> {
+    let (min, max) = (mesh.bounds().min.as_dvec3(), mesh.bounds().max.as_dvec3());
+    let center = 0.5 * (min + max);
+    let unit = (0.5 * (max - min)).max_element();
+    let unit = if unit > 0.0 { unit } else { 1.0 };
+    let place = |p: &Vec3| ((p.as_dvec3() - center) / unit).clamp(DVec3::NEG_ONE, DVec3::ONE).as_vec3().to_array();
+    mesh.positions().iter().map(place).collect()
 }
 
 impl Geometry for Corners<'_> {

@@ -1,7 +1,9 @@
-//! Welding, repair and the report.
+//! Welding, repair, the report and simplification.
 
 use bevy_math::{Vec2, Vec3};
-use halfway_mesh::{Cuboid, Mesh, MeshError, Plane, RepairReport, UvSphere, Weld, WeldReport};
+use halfway_mesh::{
+    Cuboid, Mesh, MeshError, Plane, RepairReport, SimplifiedMesh, Subdivision, UvSphere, Weld, WeldReport,
+};
 
 /// The mesh with every `step`-th triangle turned over.
 fn partly_turned(mesh: &Mesh, step: usize) -> Mesh {
@@ -183,13 +185,11 @@ fn the_report_of_a_cube() {
     let [shortest, mean, longest] = report.edge_lengths;
     assert_eq!((shortest, longest), (1.0, 2.0_f64.sqrt()));
     assert!((mean - (12.0 + 6.0 * 2.0_f64.sqrt()) / 18.0).abs() < 1e-12);
-    // Each side brings its four vertices.
-    assert!((report.cache_misses - 2.0).abs() < 1e-12);
     let text = report.to_string();
     let first = "shape      12 triangles, 24 vertices at 8 positions, 18 edges";
     assert_eq!(text.lines().next(), Some(first));
     assert_eq!(text.lines().last(), Some("problems   none"));
-    assert_eq!(text.lines().count(), 8);
+    assert_eq!(text.lines().count(), 7);
 }
 
 #[test]
@@ -247,4 +247,66 @@ fn ditch() -> Mesh {
 /// A triangle from one wall to the other.
 fn bridge() -> Mesh {
     Mesh::new(vec![Vec3::NEG_X, Vec3::X, Vec3::new(1.0, 0.1, 0.0)], vec![0, 1, 2]).unwrap()
+}
+
+#[test]
+fn simplifying_at_any_scale_and_to_any_number() {
+    let sphere = Mesh::from(UvSphere::new(1.0, 32, 16));
+    let reference = sphere.simplified(200, f64::INFINITY);
+    for exponent in [-60, 60] {
+        // A power of two, so that all is rounded alike: on a sphere much costs the same, and rounding would decide.
+        let scale = 2_f32.powi(exponent);
+        let scaled = sphere.positions().iter().map(|p| *p * scale).collect();
+        let uvs = sphere.uvs().map(<[_]>::to_vec);
+        let mesh = Mesh::from_parts(scaled, Some(sphere.normals().to_vec()), uvs, sphere.indices().to_vec()).unwrap();
+        let level = mesh.simplified(200, f64::INFINITY);
+        assert_eq!(level.mesh.indices(), reference.mesh.indices(), "2^{exponent}");
+        let error = level.error / f64::from(scale) / reference.error;
+        assert!((error - 1.0).abs() < 1e-3, "2^{exponent}: {error}");
+    }
+    for limit in [0.0, -1.0, f64::NAN] {
+        // Only what is flat may go; on a sphere nothing is.
+        assert!(sphere.simplified(0, limit).mesh.triangle_count() > 900);
+    }
+    let none = sphere.simplified(0, f64::INFINITY);
+    assert!(none.mesh.triangle_count() >= 1);
+    assert_eq!(sphere.simplified(usize::MAX, f64::INFINITY).mesh.triangle_count(), sphere.triangle_count());
+    let limited = sphere.simplified(0, 0.05);
+    assert!(limited.error <= 0.05 && limited.mesh.triangle_count() < sphere.triangle_count());
+}
+
+#[test]
+fn simplified_meshes_are_about_as_near_as_can_be() {
+    // N equilateral triangles with an area of 4π/N each are off a unit sphere by 8π/(3√3·N) in their middles.
+    let sphere = Mesh::from(UvSphere::new(1.0, 128, 64));
+    for triangles in [200, 1000, 4000] {
+        let SimplifiedMesh { mesh, error } = sphere.simplified(triangles, f64::INFINITY);
+        assert!(mesh.triangle_count() <= triangles && mesh.triangle_count() + 2 > triangles);
+        let best = 8.0 * std::f64::consts::PI / (27.0_f64.sqrt() * triangles as f64);
+        println!("{triangles} triangles: {error} off, {best} at best");
+let bare = Mesh::from_parts(sphere.positions().to_vec(), Some(sphere.normals().to_vec()), None, sphere.indices().to_vec()).unwrap(); println!("bare {}", bare.simplified(triangles, f64::INFINITY).error);
+        assert!(error < 80.0 * best, "{triangles} triangles: {error} off, {best} at best");
+    }
+    // Flat sides and straight edges need nothing, and borders move along themselves only.
+    let plane = Mesh::from(Plane { divisions: 40, ..Plane::default() });
+    let flat = plane.simplified(0, 1e-6);
+    assert!(flat.mesh.triangle_count() <= 8 && flat.error < 1e-5, "{} triangles", flat.mesh.triangle_count());
+    assert!((flat.mesh.report().area / plane.report().area - 1.0).abs() < 1e-5);
+}
+
+#[test]
+fn simplified_seams_stay_closed() {
+    // A seam along the prime meridian, and creases along the edges of a box.
+    let sphere = Mesh::from(UvSphere::new(1.0, 64, 32));
+    let boxed = Mesh::from(Cuboid::default()).subdivided(Subdivision::Midpoint, 4).unwrap();
+    for (name, mesh, triangles) in [("sphere", sphere, 200), ("box", boxed, 12)] {
+        let simplified = mesh.simplified(triangles, f64::INFINITY).mesh;
+        let report = simplified.report();
+        assert_eq!((report.closed, report.problems.open_edges), (1, 0), "{name}");
+        assert!(simplified.triangle_count() <= triangles, "{name}: {} triangles", simplified.triangle_count());
+        for (n, uv) in simplified.normals().iter().zip(simplified.uvs().unwrap()) {
+            let is_kept = mesh.normals().iter().zip(mesh.uvs().unwrap()).any(|vertex| vertex == (n, uv));
+            assert!(is_kept, "{name}: a vertex that the mesh has not");
+        }
+    }
 }

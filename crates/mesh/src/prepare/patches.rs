@@ -14,19 +14,30 @@ const PARTED_BY_FACING: usize = 16;
 /// of a thin sheet or of an edge, but not those of what is only a little uneven.
 const FACING_APART: f32 = 0.6;
 
-/// A triangle among others.
+/// A triangle among others, or a cluster of triangles.
 #[derive(Clone, Copy)]
-struct Site {
+pub(super) struct Site {
     /// Its centre.
-    place: Vec3,
-    /// The mean normal of its corners: those of its own plane would part what is only noisy.
-    facing: Vec3,
-    number: u32,
-    /// What it is parted by: a coordinate, as a number of the same order.
-    key: u32,
+    pub(super) place: Vec3,
+    /// The mean normal of its corners: those of its own plane would part what is only noisy. 0 to part by place alone.
+    pub(super) facing: Vec3,
+    pub(super) number: u32,
+    /// What it is parted by: a coordinate, as a number of the same order. Anything at first.
+    pub(super) key: u32,
 }
 
+/// A mesh of up to this many triangles is one patch: cutting it would cost more draws than it saves.
+const WHOLE: usize = 4096;
+
+/// How many triangles a patch of a larger mesh has at most.
+const PATCH: usize = 64;
+
 impl Mesh {
+    /// How many triangles a patch of the mesh has at most: all, up to 4096, and else 64.
+    pub fn triangles_of_a_patch(&self) -> usize {
+        if self.triangle_count() <= WHOLE { WHOLE } else { PATCH }
+    }
+
     /// Puts triangles of the mesh in an order in which neighbours in the list lie close together and face alike, and
     /// cuts them into patches of up to `most` triangles (at least 1), all but one of them full. Within a patch they
     /// keep their order.
@@ -35,10 +46,16 @@ impl Mesh {
     /// tree; a few patches' triangles that face apart are halved by the longest side of the box around their normals
     /// instead.
     pub fn cut_into_patches(&self, triangles: &mut [[u32; 3]], most: usize) -> Vec<Range<usize>> {
+        self.cut(triangles, most, true)
+    }
+
+    /// The same, by place alone unless `by_facing`.
+    pub(super) fn cut(&self, triangles: &mut [[u32; 3]], most: usize, by_facing: bool) -> Vec<Range<usize>> {
         let most = most.max(1);
         let site = |(number, corners): (u32, &[u32; 3])| {
             let mean = |of: &[Vec3]| corners.iter().map(|&i| of[i as usize] * (1.0 / 3.0)).sum::<Vec3>();
-            Site { place: mean(self.positions()), facing: mean(self.normals()).normalize_or_zero(), number, key: 0 }
+            let facing = if by_facing { mean(self.normals()).normalize_or_zero() } else { Vec3::ZERO };
+            Site { place: mean(self.positions()), facing, number, key: 0 }
         };
         let mut sites: Vec<Site> = (0..).zip(triangles.iter()).map(site).collect();
         part(&mut sites, most);
@@ -67,7 +84,7 @@ fn put_in_order(triangles: &mut [[u32; 3]], sites: &mut [Site]) {
 const WORTH_A_THREAD: usize = 1 << 14;
 
 /// Puts triangles in an order in which each `most` are a patch.
-fn part(sites: &mut [Site], most: usize) {
+pub(super) fn part(sites: &mut [Site], most: usize) {
     if sites.len() <= most {
         sites.sort_unstable_by_key(|site| site.number);
         return;

@@ -40,9 +40,6 @@ pub struct MeshReport {
     pub conflicts: usize,
     /// Triangles whose front is away from the mean of their vertex normals.
     pub against_normals: usize,
-    /// How many vertices a cache of the last sixteen has to load for a triangle: from 0.5 for a large smooth mesh in
-    /// the best order to 3 where no vertex is shared.
-    pub cache_misses: f64,
     /// What is wrong with it.
     pub problems: Problems,
 }
@@ -71,7 +68,6 @@ impl Mesh {
             to_turn: components.turn.iter().filter(|&&turn| turn).count(),
             conflicts: components.conflicts,
             against_normals: self.against_normals(),
-            cache_misses: cache_misses(self.indices(), self.positions().len()),
             problems: self.problems_of(&groups, &edges),
         }
     }
@@ -100,21 +96,6 @@ fn measure_edges(edges: &Edges, position: impl Fn(u32) -> Vec3) -> (usize, [f64;
     if count == 0 { (0, [0.0; 3]) } else { (count, [shortest, sum / count as f64, longest]) }
 }
 
-/// The vertices that a first-in-first-out cache of sixteen loads, for each triangle.
-pub(super) fn cache_misses(indices: &[u32], vertices: usize) -> f64 {
-    const CACHE: usize = 16;
-    // When each vertex was loaded, counted in loads.
-    let mut loaded = vec![None; vertices];
-    let mut loads = 0_usize;
-    for &i in indices {
-        if loaded[i as usize].is_none_or(|at| loads - at >= CACHE) {
-            loaded[i as usize] = Some(loads);
-            loads += 1;
-        }
-    }
-    loads as f64 / (indices.len() / 3) as f64
-}
-
 impl fmt::Display for MeshReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { triangles, vertices, positions, edges, bounds, edge_lengths, .. } = self;
@@ -126,7 +107,6 @@ impl fmt::Display for MeshReport {
         writeln!(f, "pieces     {}, {} closed, {} of them inside out", self.pieces, self.closed, self.inward)?;
         write!(f, "winding    {} triangles to turn, ", self.to_turn)?;
         writeln!(f, "{} edges in conflict, {} against their normals", self.conflicts, self.against_normals)?;
-        writeln!(f, "order      {:.3} vertices loaded a triangle (cache of 16)", self.cache_misses)?;
         write!(f, "problems   {}", self.problems)
     }
 }

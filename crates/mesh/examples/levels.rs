@@ -1,12 +1,12 @@
-//! The hierarchies of patches of some meshes, or of the models named: how long making them takes and how much memory at
-//! most, how many triangles they have and how far off they are. Run with `--release`; `--times 5` makes each five times
-//! and gives the median, `RAYON_NUM_THREADS=1` makes them on one thread.
+//! The levels of detail of some meshes, or of the models named: how long making them takes and how much memory at most,
+//! how many triangles they have and how far off they are. Run with `--release`; `--times 5` makes each five times and
+//! gives the median, `RAYON_NUM_THREADS=1` makes them on one thread.
 
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 use bevy_math::Vec3;
-use halfway_mesh::{Mesh, PatchGroup, PatchHierarchy, Plane, Teapot, UvSphere};
+use halfway_mesh::{LodGroup, LodHierarchy, Mesh, Plane, Teapot, UvSphere};
 use peak_alloc::PeakAlloc;
 
 #[global_allocator]
@@ -29,7 +29,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         meshes.extend(MADE.iter().map(|&(name, made)| (name.to_owned(), made())));
     }
     for (name, mesh) in &meshes {
-        print_hierarchy(name, mesh, times.max(1));
+        print_levels(name, mesh, times.max(1));
     }
     Ok(())
 }
@@ -73,8 +73,8 @@ fn random(p: Vec3) -> f32 {
     p.to_array().into_iter().fold(0, mix) as f32 / u32::MAX as f32
 }
 
-/// What would be drawn if every group would do that is no further off than this.
-fn print_hierarchy(name: &str, mesh: &Mesh, times: usize) {
+/// What would be drawn where groups will do that are no further off than this.
+fn print_levels(name: &str, mesh: &Mesh, times: usize) {
     let mut seconds = Vec::new();
     let (mut hierarchy, mut memory) = (None, 0);
     for _ in 0..times {
@@ -82,49 +82,35 @@ fn print_hierarchy(name: &str, mesh: &Mesh, times: usize) {
         let before = MEMORY.current_usage();
         MEMORY.reset_peak_usage();
         let start = Instant::now();
-        hierarchy = mesh.patch_hierarchy(&AtomicBool::new(false));
+        hierarchy = mesh.lod_hierarchy(&AtomicBool::new(false));
         seconds.push(start.elapsed().as_secs_f64());
         memory = memory.max(MEMORY.peak_usage() - before);
     }
-    let hierarchy = hierarchy.expect("nothing stops it");
+    let hierarchy: LodHierarchy = hierarchy.expect("nothing stops it");
     seconds.sort_by(f64::total_cmp);
-    let (groups, median) = (hierarchy.groups.len(), seconds[times / 2]);
-    let million = median * 1e6 / mesh.triangle_count() as f64;
+    let median = seconds[times / 2];
     println!(
-        "{name}: {} triangles, {} patches, {groups} groups, {:.1} ms, {million:.2} s a million triangles, at most {:.1} MB \
-        of memory, {:.2} of the mesh's",
+        "{name}: {} triangles, {} clusters, {} groups, {:.1} ms, {:.2} s a million triangles, at most {:.1} MB of \
+        memory, {:.2} of the mesh's",
         mesh.triangle_count(),
-        hierarchy.patches.len(),
+        hierarchy.clusters.len(),
+        hierarchy.groups.len(),
         median * 1e3,
+        median * 1e6 / mesh.triangle_count() as f64,
         memory as f64 / 1e6,
         memory as f64 / bytes_of(mesh) as f64,
     );
     let radius = mesh.bounds().radius();
-    for exponent in 0..14 {
+    for exponent in 0..16 {
         let most = radius * 0.1 * 0.5f32.powi(exponent);
-        let within = || hierarchy.groups.iter().filter(|group| group.error <= most);
-        let largest = |of: fn(&PatchGroup) -> f32| within().map(of).fold(0.0, f32::max);
-        let [normal, spread] = [largest(|g| g.normal_error), largest(|g| g.normal_spread)].map(f32::to_degrees);
-        let (triangles, edge) = (hierarchy.triangles_within(most), largest(|group| group.longest_edge));
-        println!(
-            "  within {most:.2e}: {triangles:7} triangles, {normal:8.3}° off, spread {spread:7.2}°, edges {edge:.2e}"
-        );
+        let count = |error: &dyn Fn(&LodGroup) -> f32| -> usize {
+            let cut = hierarchy.cut(|group| error(group) <= most);
+            cut.into_iter().map(|cluster| hierarchy.triangles_of(cluster).len()).sum()
+        };
+        let [surface, lit, textured] =
+            [[false, false], [true, false], [true, true]].map(|[lit, images]| count(&|group| group.error(lit, images)));
+        println!("  within {most:.2e}: {surface:8} triangles, {lit:8} if lit, {textured:8} with images, too");
     }
-    // One error is too few to compare two ways of making levels: counts jump.
-    let mean = |of: &PatchHierarchy, most: f32| {
-        let counts = (0..160).map(|step| of.triangles_within(most * 0.5f32.powf(step as f32 / 16.0)));
-        counts.sum::<usize>() / 160
-    };
-    let mut turned = hierarchy.clone();
-    for group in &mut turned.groups {
-        group.error = group.normal_error;
-    }
-    println!(
-        "  in the mean of many errors: {} triangles by distance, {} by normals; {} of all patches",
-        mean(&hierarchy, 0.1 * radius),
-        mean(&turned, 0.5),
-        hierarchy.triangles.len()
-    );
 }
 
 /// The memory that positions, normals and indices of a mesh take.

@@ -1,4 +1,4 @@
-//! How much memory making a hierarchy of patches takes at most. In a process of its own: other tests would count.
+//! How much memory making levels of detail takes at most. In a process of its own: other tests would count.
 
 use std::sync::atomic::AtomicBool;
 
@@ -29,17 +29,17 @@ fn stone_with_core() -> Mesh {
 }
 
 #[test]
-fn making_a_hierarchy_takes_three_times_the_memory_of_the_mesh_at_most() {
+fn making_levels_takes_three_times_the_memory_of_the_mesh_at_most() {
     let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
     for (name, mesh) in [("one piece", stone()), ("two pieces", stone_with_core())] {
         let own = size_of_val(mesh.positions()) + size_of_val(mesh.normals()) + size_of_val(mesh.indices());
         let before = MEMORY.current_usage();
         MEMORY.reset_peak_usage();
-        let hierarchy = one.install(|| mesh.patch_hierarchy(&AtomicBool::new(false))).expect("nothing stops it");
+        let levels = one.install(|| mesh.lod_hierarchy(&AtomicBool::new(false))).expect("nothing stops it");
         let most = MEMORY.peak_usage() - before;
-        assert!(hierarchy.groups.len() > 200, "{name}: {} groups", hierarchy.groups.len());
+        assert!(levels.groups.len() > 200, "{name}: {} groups", levels.groups.len());
         assert!(most <= 3 * own, "{name}: {most} bytes, of the mesh {own}");
-        drop(hierarchy);
+        drop(levels);
         assert_eq!(MEMORY.current_usage(), before, "{name}: nothing of it is left");
     }
 }
