@@ -1,18 +1,21 @@
-//! What shading costs and what it loses: error against time, rates of convergence, how steady highlights are, and how
-//! the time of a frame grows.
+//! What shading costs and what it loses: error against time with its Pareto fronts, pages of known failures, and
+//! filters of images, measured and charted.
 //!
-//! [`ReportPlan`] says how much is measured, [`measure()`] does it, [`Report`] holds what was found, and
-//! [`Report::files`] makes a page, tables and drawings of it. The parts can be had alone: error against time in
-//! [`front`] and [`Fronts`], the other sweeps in [`mod@measure`], the charts in
-//! [`figure`], [`filters`] of images, the page in [`page`].
+//! [`Report`] is everything that is measured of the project's scenes, [`front::Fronts`] the error and time of chosen
+//! scenes, [`filters::Filters`] what filters of images cost and lose. Each says what it found as [`page::Page`]s, which
+//! become HTML, SVG and Markdown.
 
+mod error;
 pub mod failures;
 pub mod figure;
 pub mod filters;
 pub mod front;
-pub mod measure;
 pub mod page;
+mod pareto;
+mod progress;
 mod report;
 pub mod timing;
 
-pub use report::{EarlierRun, Filters, Fronts, NamedFile, Report, ReportError, ReportPlan, Scaling, measure};
+pub use error::ChartError;
+pub use progress::Progress;
+pub use report::Report;

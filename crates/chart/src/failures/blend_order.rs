@@ -1,12 +1,6 @@
 //! The order in which blended surfaces are drawn.
 
-use halfway::prelude::*;
-use halfway::reference::{Image, Mode};
-
-use super::plots::{figure, linear, panel, series, shown};
-use super::stage::{camera, compared, drawn, made, show};
-use super::{FailurePage, only};
-use crate::measure::MeasureError;
+use super::prelude::*;
 
 /// The colours of the two squares; they differ by 1 in red and blue.
 const COLORS: [LinearRgba; 2] = [LinearRgba::rgb(1.0, 0.25, 0.0), LinearRgba::rgb(0.0, 0.25, 1.0)];
@@ -30,7 +24,7 @@ fn part(rises: bool, [left, right]: [f32; 2]) -> Mesh {
     made(corners.to_vec(), None, vec![0, 1, 2, 0, 2, 3])
 }
 
-fn picture(squares: Squares, opacity: f32) -> Result<Image, MeasureError> {
+fn picture(squares: Squares, opacity: f32) -> Result<Image, ChartError> {
     drawn(Mode::Mesh, |world| {
         camera(world, Vec3::new(0.0, 0.0, 4.5), Vec3::Y);
         let order = if squares == Squares::Swapped { [1, 0] } else { [0, 1] };
@@ -43,20 +37,9 @@ fn picture(squares: Squares, opacity: f32) -> Result<Image, MeasureError> {
     })
 }
 
-/// What drawing object by object makes of two blended squares that cross.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WrongOrder {
-    /// The share of pixels that are wrong, among those that show both.
-    pub share: f64,
-    /// By how much at most, linear.
-    pub most: f64,
-}
-
-/// Measures it against the same squares cut where they cross, for squares of this opacity, whose colours differ by 1.
-///
-/// # Errors
-/// What the oracle cannot draw.
-pub fn wrong_order(opacity: f32) -> Result<WrongOrder, MeasureError> {
+/// What drawing object by object makes of two blended squares that cross, against the same squares cut there: the share
+/// of pixels that are wrong, among those that show both, and by how much at most, linear.
+fn wrong_order(opacity: f32) -> Result<(f64, f64), ChartError> {
     let [first, second, truth] =
         [Squares::Crossing, Squares::Swapped, Squares::Cut].map(|squares| picture(squares, opacity));
     let (first, second, truth) = (first?, second?, truth?);
@@ -66,17 +49,17 @@ pub fn wrong_order(opacity: f32) -> Result<WrongOrder, MeasureError> {
     };
     // Where both are seen, either order shows something else.
     let share = differ(&first, &truth) as f64 / differ(&first, &second).max(1) as f64;
-    Ok(WrongOrder { share, most: compared(&first, &truth)?.linear.all.max() })
+    Ok((share, compared(&first, &truth)?.linear.all.max()))
 }
 
-/// [`WrongOrder::most`] by formula: o·a + (1 − o)·o·b less o·b + (1 − o)·o·a is o²·(a − b).
-pub fn wrong_by(opacity: f64) -> f64 {
+/// The error by formula: o·a + (1 − o)·o·b less o·b + (1 − o)·o·a is o²·(a − b).
+fn wrong_by(opacity: f64) -> f64 {
     opacity * opacity
 }
 
-pub(super) fn page() -> Result<FailurePage, MeasureError> {
-    let points = OPACITIES.into_iter().map(|opacity| Ok((f64::from(opacity), wrong_order(opacity)?.most)));
-    let points = points.collect::<Result<Vec<_>, MeasureError>>()?;
+pub(super) fn page() -> Result<FailurePage, ChartError> {
+    let opacities = OPACITIES.map(|opacity| (f64::from(opacity), opacity));
+    let drawn = measured("drawn object by object", 0, opacities, |opacity| Ok(wrong_order(opacity)?.1))?;
     let formula: Vec<_> = (0..=20).map(|i| f64::from(i) / 20.0).map(|opacity| (opacity, wrong_by(opacity))).collect();
     Ok(FailurePage {
         id: "blend-order",
@@ -86,19 +69,32 @@ pub(super) fn page() -> Result<FailurePage, MeasureError> {
                 colours a and b, and which half that is jumps as the camera passes.",
         remedy: "Cut objects where they cross; where a mask will do, cut them out instead of blending (Mask).",
         test: "crossing_objects_are_wrong_by_the_square_of_their_opacity",
-        figures: only(figure(
+        figures: vec![figure(
             "blend-order",
             "Largest error of two crossing squares whose colours differ by 1",
-            [linear("opacity"), linear("error (linear)")],
-            panel(
-                "wrong on half of the pixels",
-                vec![series("opacity²", 3, &formula, false), series("drawn object by object", 0, &points, true)],
-            ),
-        )),
+            [Axis::linear("opacity"), Axis::linear("error (linear)")],
+            Panel::new("wrong on half of the pixels", vec![series("opacity²", 3, &formula, false), drawn]),
+        )],
         pictures: shown([
             ("by object", &picture(Squares::Crossing, 0.7)?),
             ("the other first", &picture(Squares::Swapped, 0.7)?),
             ("cut where they cross", &picture(Squares::Cut, 0.7)?),
         ]),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::failures::testing::is_near;
+
+    #[test]
+    fn crossing_objects_are_wrong_by_the_square_of_their_opacity() {
+        for opacity in [0.2f32, 0.5, 0.8] {
+            let (share, most) = wrong_order(opacity).expect("squares can be drawn");
+            // Rounded to f32 is the opacity, and nothing else.
+            is_near("by how much", most, wrong_by(opacity.into()), 1e-6);
+            assert!((share - 0.5).abs() < 0.02, "half of the pixels: {}", share);
+        }
+    }
 }

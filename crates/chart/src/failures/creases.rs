@@ -1,14 +1,8 @@
 //! Normals across creases.
 
 use halfway::mesh::{Cylinder, NormalWeighting, Normals, ParametricSurface, Tessellation, Weld};
-use halfway::prelude::*;
-use halfway::reference::{Image, Mode};
 
-use super::plots::{series, shown};
-use super::stage::{SIZE, camera, drawn, show, sun};
-use super::{FailurePage, only};
-use crate::figure::{Axis, AxisScale, Figure, Panel};
-use crate::measure::MeasureError;
+use super::prelude::*;
 
 /// A can with the normals of this policy; without one, those of the surface itself.
 fn can(policy: Option<Normals>) -> Mesh {
@@ -25,7 +19,7 @@ fn can(policy: Option<Normals>) -> Mesh {
     }
 }
 
-fn picture(policy: Option<Normals>) -> Result<Image, MeasureError> {
+fn picture(policy: Option<Normals>) -> Result<Image, ChartError> {
     drawn(Mode::Mesh, |world| {
         camera(world, Vec3::new(0.0, 1.5, 2.4), Vec3::Y);
         sun(world, Vec3::new(0.6, 1.0, 0.5));
@@ -34,7 +28,7 @@ fn picture(policy: Option<Normals>) -> Result<Image, MeasureError> {
 }
 
 /// Means across all edges, means up to creases of 40°, and the true normals.
-fn pictures() -> Result<[Image; 3], MeasureError> {
+fn pictures() -> Result<[Image; 3], ChartError> {
     let weighting = NormalWeighting::default();
     let creased = Normals::Creased { angle: 40.0_f32.to_radians(), weighting };
     let [mean, creased, own] = [Some(Normals::Weighted(weighting)), Some(creased), None].map(picture);
@@ -47,7 +41,7 @@ fn column(image: &Image) -> Vec<(f64, f64)> {
     (0..SIZE.y).map(|y| (f64::from(y), image.pixel(x, y)[0])).collect()
 }
 
-pub(super) fn page() -> Result<FailurePage, MeasureError> {
+pub(super) fn page() -> Result<FailurePage, ChartError> {
     let [mean, creased, own] = &pictures()?;
     let lines = [("mean normals", 1, mean), ("creased at 40°", 2, creased), ("the surface’s own", 3, own)];
     Ok(FailurePage {
@@ -58,19 +52,15 @@ pub(super) fn page() -> Result<FailurePage, MeasureError> {
         remedy: "Split vertices where the angle between faces is larger than a crease angle (Normals::Creased), or by \
                  smoothing groups.",
         test: "mean_normals_are_wrong_at_creases",
-        figures: only(Figure {
-            id: "failure-creases".to_owned(),
-            title: "Intensity down the middle of a can, Phong shading".to_owned(),
-            x: Axis::new("pixel", AxisScale::Linear),
-            y: Axis::new("intensity (linear)", AxisScale::Linear),
-            columns: 1,
-            panels: vec![Panel {
-                title: "middle column".to_owned(),
-                x_label: None,
-                notes: Vec::new(),
-                series: lines.map(|(name, kind, image)| series(name, kind, &column(image), false)).into(),
-            }],
-        }),
+        figures: vec![figure(
+            "creases",
+            "Intensity down the middle of a can, Phong shading",
+            [Axis::linear("pixel"), Axis::linear("intensity (linear)")],
+            Panel::new(
+                "middle column",
+                lines.map(|(name, kind, image)| series(name, kind, &column(image), false)).into(),
+            ),
+        )],
         pictures: shown([("mean normals", mean), ("creased at 40°", creased), ("the surface’s own", own)]),
     })
 }

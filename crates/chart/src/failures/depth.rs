@@ -1,14 +1,6 @@
 //! How near two surfaces may be for the depth buffer to part them.
 
-use halfway::prelude::*;
-use halfway::reference::Image;
-use halfway::render::Adapter;
-
-use super::plots::{figure, log, panel, series, shown};
-use super::stage::{JudgedApp, SIZE, made, show};
-use super::{FailurePage, only};
-use crate::front::ChartedAdapter;
-use crate::measure::MeasureError;
+use super::prelude::*;
 
 /// Gaps are powers of two as parts of the distance; the last leaves both at one place in f32.
 const LEAST_POWER: i32 = 4;
@@ -44,10 +36,7 @@ fn spawn(world: &mut World, distance: f32) {
 
 /// The least gap, as a part of the distance, from which on the nearer of two surfaces hides the other, for each of
 /// these distances; the near plane is at distance 1, the other end at infinity. `None` where not even 1/16 is enough.
-///
-/// # Errors
-/// What cannot be drawn.
-pub fn parted(adapter: &Adapter, distances: &[f64]) -> Result<Vec<(f64, Option<f64>)>, MeasureError> {
+fn parted(adapter: &Adapter, distances: &[f64]) -> Result<Vec<(f64, Option<f64>)>, ChartError> {
     let mut judged = JudgedApp::new(adapter, UVec2::new(COLUMN * GAPS, COLUMN), Pixels::Byte);
     let gap = |&distance: &f64| {
         judged.set(|world| spawn(world, distance as f32));
@@ -66,47 +55,34 @@ fn least_parted(picture: &Image) -> Option<f64> {
     (0..GAPS).take_while(hides).last().map(|i| 2f64.powi(-(i as i32) - LEAST_POWER))
 }
 
-/// How depth is stored.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum DepthStored {
-    /// 1 at the near plane, 0 at infinity, in 32-bit floating point: as this project stores it.
-    ReversedFloat,
-    /// 0 at the near plane, 1 at infinity, in 32-bit floating point.
-    Float,
-    /// The same in 24 bits of fixed point.
-    Fixed24,
+/// What is stored for a distance, as whole numbers that count up: 0 at the near plane and 1 at infinity, in 24 bits of
+/// fixed point.
+fn standard(distance: f64) -> i64 {
+    ((1.0 - distance.recip()) * f64::from((1 << 24) - 1)).round() as i64
 }
 
-impl DepthStored {
-    /// What is stored for a distance, as whole numbers that count up.
-    fn of(self, distance: f64) -> i64 {
-        let float = |value: f64| i64::from((value as f32).to_bits());
-        match self {
-            Self::ReversedFloat => -float(distance.recip()),
-            Self::Float => float(1.0 - distance.recip()),
-            Self::Fixed24 => ((1.0 - distance.recip()) * f64::from((1 << 24) - 1)).round() as i64,
-        }
-    }
-
-    /// The least power of two that parts two surfaces at a distance, as a part of it, by arithmetic alone.
-    pub fn gap(self, distance: f64) -> f64 {
-        let parts = |power: &i32| self.of(distance * (1.0 + 2f64.powi(-power))) > self.of(distance);
-        (0..40).take_while(parts).last().map_or(1.0, |power| 2f64.powi(-power))
-    }
+/// The same of 1 at the near plane and 0 at infinity, in 32-bit floating point: as this project stores it.
+fn reversed(distance: f64) -> i64 {
+    -i64::from((distance.recip() as f32).to_bits())
 }
 
-/// What two surfaces that pass through each other far away show where depth is stored so.
-fn crossing(stored: Option<DepthStored>) -> Image {
+/// The least power of two that parts two surfaces at a distance, as a part of it, by arithmetic alone.
+fn gap(stored: fn(f64) -> i64, distance: f64) -> f64 {
+    let parts = |power: &i32| stored(distance * (1.0 + 2f64.powi(-power))) > stored(distance);
+    (0..40).take_while(parts).last().map_or(1.0, |power| 2f64.powi(-power))
+}
+
+/// What two surfaces that pass through each other far away show where the first hides the second so.
+fn crossing(hides: impl Fn(f64, f64) -> bool) -> Image {
     let pixel = |i: u32| {
         let [x, y] = [i % SIZE.x, i / SIZE.x].map(|at| (f64::from(at) + 0.5) / f64::from(SIZE.x) - 0.5);
         let [a, b] = [5e4 * (1.0 + 0.04 * y), 5e4 * (1.0 + 0.04 * y + 0.02 * x + 0.01 * y)];
-        let first = stored.map_or(a <= b, |stored| stored.of(a) <= stored.of(b));
-        if first { [0.75, 0.35, 0.05] } else { [0.1, 0.3, 0.6] }
+        if hides(a, b) { [0.75, 0.35, 0.05] } else { [0.1, 0.3, 0.6] }
     };
     Image::new(SIZE.x, SIZE.y, (0..SIZE.x * SIZE.y).map(pixel).collect())
 }
 
-pub(super) fn page(drawers: &[ChartedAdapter]) -> Result<FailurePage, MeasureError> {
+pub(super) fn page(drawers: &[ChartedAdapter]) -> Result<FailurePage, ChartError> {
     let distances = DISTANCES.map(|power| 2f64.powi(power));
     let mut lines = Vec::new();
     for ChartedAdapter { name, adapter } in drawers {
@@ -114,31 +90,50 @@ pub(super) fn page(drawers: &[ChartedAdapter]) -> Result<FailurePage, MeasureErr
         let points: Vec<_> = found.into_iter().filter_map(|(distance, gap)| Some((distance, gap?))).collect();
         lines.push(series(&format!("{name}, measured"), 2 + lines.len(), &points, true));
     }
-    for (name, kind, stored) in
-        [("standard, 24 bits", 0, DepthStored::Fixed24), ("standard, 32-bit float", 1, DepthStored::Float)]
-    {
-        let points = distances.map(|distance| (distance, stored.gap(distance)));
-        lines.push(series(name, kind, &points, true));
-    }
+    let standard_gaps = distances.map(|distance| (distance, gap(standard, distance)));
+    lines.push(series("standard, 24 bits", 0, &standard_gaps, true));
     Ok(FailurePage {
         id: "depth",
         title: "Depth that is nearly all spent near the viewer",
         cause: "1 − n/d is nearly 1 for all that is far: in 24 bits two surfaces at distance d are told apart from a gap of d²/n \
-                times 2⁻²⁴ on, 0.6 % at a hundred thousand times the near plane's distance n, and float spends its bits near 0, \
-                where nothing is.",
+                times 2⁻²⁴ on, 0.6 % at a hundred thousand times the near plane's distance n.",
         remedy: "Reversed depth, n/d, in floating point, as this project has it: gaps of about 2⁻²³ at any distance. Else move \
                  the near plane away.",
         test: "reversed_depth_parts_what_standard_depth_does_not",
-        figures: only(figure(
+        figures: vec![figure(
             "depth",
             "The least gap between two surfaces that the nearer one hides (powers of two)",
-            [log("distance (near plane = 1)"), log("gap (part of the distance)")],
-            panel("far end at infinity; standard depth by arithmetic", lines),
-        )),
+            [Axis::log("distance (near plane = 1)"), Axis::log("gap (part of the distance)")],
+            Panel::new("far end at infinity; standard depth by arithmetic", lines),
+        )],
         pictures: shown([
-            ("crossing at 5·10⁴, standard in 24 bits", &crossing(Some(DepthStored::Fixed24))),
-            ("reversed float", &crossing(Some(DepthStored::ReversedFloat))),
-            ("exact", &crossing(None)),
+            ("crossing at 5·10⁴, standard in 24 bits", &crossing(|a, b| standard(a) <= standard(b))),
+            ("reversed float", &crossing(|a, b| reversed(a) <= reversed(b))),
+            ("exact", &crossing(|a, b| a <= b)),
         ]),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::failures::testing::test_drawers;
+
+    #[test]
+    fn reversed_depth_parts_what_standard_depth_does_not() {
+        let distances: Vec<f64> = (1..=17).map(|power| 2f64.powi(power)).collect();
+        for ChartedAdapter { name, adapter } in test_drawers() {
+            for (distance, gap) in parted(adapter, &distances).expect("squares can be drawn") {
+                // What f32 tells apart, and a few roundings on the way to the depth.
+                assert!(gap.is_some_and(|gap| gap <= 2f64.powi(-21)), "{name} at {distance}: {gap:?}");
+            }
+        }
+        for distance in distances {
+            let gap = gap(standard, distance);
+            // d·2⁻²⁴ to the next power of two, and by half a step of rounding more or less.
+            let expected = distance * 2f64.powi(-24);
+            assert!(gap >= 0.5 * expected && gap <= 4.0 * expected, "{distance}: {gap}");
+            assert!(gap(reversed, distance) <= 2f64.powi(-23));
+        }
+    }
 }

@@ -1,26 +1,16 @@
 //! The diagonal along which a quad is split.
 
-use halfway::prelude::*;
-use halfway::reference::{Image, Mode};
-
-use super::plots::{row, series, shown};
-use super::stage::{SIZE, camera, drawn, show};
-use super::{FailurePage, only};
-use crate::figure::{Axis, AxisScale, Figure, Panel};
-use crate::measure::MeasureError;
+use super::prelude::*;
 
 /// A square in the plane z = 0, split along one of its diagonals.
 fn square(rising: bool) -> Mesh {
     let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
     let positions = corners.map(|(x, y)| Vec3::new(x, y, 0.0)).to_vec();
     let indices = if rising { vec![0, 1, 2, 0, 2, 3] } else { vec![0, 1, 3, 1, 2, 3] };
-    match Mesh::new(positions, indices) {
-        Ok(mesh) => mesh,
-        Err(error) => unreachable!("a square is a mesh: {error}"),
-    }
+    made(positions, None, indices)
 }
 
-fn picture(rising: bool, shading: Shading) -> Result<Image, MeasureError> {
+fn picture(rising: bool, shading: Shading) -> Result<Image, ChartError> {
     drawn(Mode::Mesh, |world| {
         camera(world, Vec3::new(0.0, 0.0, 2.9), Vec3::Y);
         let lamp = PointLight { attenuation: Attenuation::new(0.3, 0.0, 0.5), ..PointLight::white() };
@@ -30,14 +20,14 @@ fn picture(rising: bool, shading: Shading) -> Result<Image, MeasureError> {
 }
 
 /// Gouraud shading over either diagonal, and Phong shading over either.
-fn pictures() -> Result<[Image; 4], MeasureError> {
+fn pictures() -> Result<[Image; 4], ChartError> {
     let [a, b, c, d] =
         [(true, Shading::Gouraud), (false, Shading::Gouraud), (true, Shading::Phong), (false, Shading::Phong)]
             .map(|(rising, shading)| picture(rising, shading));
     Ok([a?, b?, c?, d?])
 }
 
-pub(super) fn page() -> Result<FailurePage, MeasureError> {
+pub(super) fn page() -> Result<FailurePage, ChartError> {
     let [rising, falling, phong, _] = &pictures()?;
     let lines = [
         ("Gouraud, rising diagonal", 0, rising),
@@ -51,19 +41,15 @@ pub(super) fn page() -> Result<FailurePage, MeasureError> {
                 diagonal it depends on two of them alone.",
         remedy: "Shade at pixels, or cut quads finer, or along the diagonal whose ends are more alike.",
         test: "gouraud_depends_on_the_diagonal_and_phong_does_not",
-        figures: only(Figure {
-            id: "failure-diagonals".to_owned(),
-            title: "Intensity along the middle row of a square with a light near one corner".to_owned(),
-            x: Axis::new("pixel", AxisScale::Linear),
-            y: Axis::new("intensity (linear)", AxisScale::Linear),
-            columns: 1,
-            panels: vec![Panel {
-                title: "middle row".to_owned(),
-                x_label: None,
-                notes: Vec::new(),
-                series: lines.map(|(name, kind, image)| series(name, kind, &row(image, SIZE.y / 2), false)).into(),
-            }],
-        }),
+        figures: vec![figure(
+            "diagonals",
+            "Intensity along the middle row of a square with a light near one corner",
+            [Axis::linear("pixel"), Axis::linear("intensity (linear)")],
+            Panel::new(
+                "middle row",
+                lines.map(|(name, kind, image)| series(name, kind, &row(image, SIZE.y / 2), false)).into(),
+            ),
+        )],
         pictures: shown([
             ("Gouraud, rising diagonal", rising),
             ("Gouraud, falling diagonal", falling),

@@ -1,18 +1,10 @@
 //! Lights and viewers that are very near and very far, in 32 bits.
 
-use halfway::prelude::*;
-use halfway::reference::Mode;
-use halfway::render::Adapter;
-
-use super::plots::{figure, log, panel, series, shown};
-use super::stage::{JudgedApp, SIZE, camera_above, drawn_at, judged, lamp, show, square};
-use super::{FailurePage, only};
-use crate::front::ChartedAdapter;
-use crate::measure::MeasureError;
+use super::prelude::*;
 
 /// What is moved away from a square of edge 6.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Distant {
+enum Distant {
     /// A lamp, above the middle of what is seen; the viewer is 3 units away.
     Light,
     /// The viewer, who sees as much; a lamp is 1.234 units above.
@@ -52,10 +44,7 @@ fn spawn(world: &mut World, distant: Distant, distance: f32) {
 
 /// The largest error of this adapter as a part of the oracle's intensity at six distances about each power of ten, from
 /// 10⁻³ to 10⁷ units; 10⁻⁹ where there is none.
-///
-/// # Errors
-/// What cannot be drawn.
-pub fn errors(adapter: &Adapter, distant: Distant) -> Result<Vec<(f64, f64)>, MeasureError> {
+fn errors(adapter: &Adapter, distant: Distant) -> Result<Vec<(f64, f64)>, ChartError> {
     let mut judged = JudgedApp::new(adapter, SMALL, Pixels::Float);
     let mut worst = |distance: f64| {
         // An error of 0 has no place on a logarithmic axis.
@@ -72,17 +61,14 @@ pub fn errors(adapter: &Adapter, distant: Distant) -> Result<Vec<(f64, f64)>, Me
 /// How far the oracle's picture is, at most and as a part of it, from what it is for a viewer 3 units away, who sees
 /// the same: what is lost by definition. A lamp counts as being on the surface where it is nearer than 2·10⁻⁶ of the
 /// viewer's distance ([`COINCIDENT`](halfway::lighting::equations::COINCIDENT)).
-///
-/// # Errors
-/// What the oracle cannot draw.
-pub fn by_definition(distance: f64) -> Result<f64, MeasureError> {
+fn by_definition(distance: f64) -> Result<f64, ChartError> {
     let draw = |distance| drawn_at(SMALL, Mode::Mesh, |world| spawn(world, Distant::Viewer, distance));
     let (there, near) = (draw(distance as f32)?, draw(3.0)?);
     let channels = there.pixels().iter().flatten().zip(near.pixels().iter().flatten());
     Ok(channels.map(|(there, near)| (there / near - 1.0).abs()).fold(0.0, f64::max))
 }
 
-pub(super) fn page(drawers: &[ChartedAdapter]) -> Result<FailurePage, MeasureError> {
+pub(super) fn page(drawers: &[ChartedAdapter]) -> Result<FailurePage, ChartError> {
     let mut lines = Vec::new();
     for ChartedAdapter { name, adapter } in drawers {
         for (words, distant) in [("the light", Distant::Light), ("the viewer", Distant::Viewer)] {
@@ -90,10 +76,7 @@ pub(super) fn page(drawers: &[ChartedAdapter]) -> Result<FailurePage, MeasureErr
         }
     }
     let far = distances().into_iter().filter(|distance| *distance >= 1.0);
-    let rule = far.map(|distance| Ok((distance, by_definition(distance)?)));
-    lines.push(series("by definition, viewer", 4, &rule.collect::<Result<Vec<_>, MeasureError>>()?, true));
-    let [drawn, oracle, off] =
-        &judged(drawers, (SIZE, Pixels::Float), 20.0, |world| spawn(world, Distant::Viewer, 1.13e5))?;
+    lines.push(measured("by definition, viewer", 4, far.map(|distance| (distance, distance)), by_definition)?);
     Ok(FailurePage {
         id: "distances",
         title: "A far viewer rounds what is near",
@@ -104,16 +87,49 @@ pub(super) fn page(drawers: &[ChartedAdapter]) -> Result<FailurePage, MeasureErr
         remedy: "Keep the viewer within about 10⁴ times the distance between a lamp and what it lights, where 8 bits do not show \
                  it; a directional light has no place that could be rounded.",
         test: "far_viewers_and_near_lights_lose_what_rounding_takes",
-        figures: only(figure(
+        figures: vec![figure(
             "distances",
             "Largest relative error against the oracle, floating-point target",
-            [log("distance from the surface (units)"), log("relative error")],
-            panel("diffuse light of a lamp; errors below 10⁻⁹ are drawn there", lines),
-        )),
-        pictures: shown([
-            ("viewer 113,000 units away, drawn", drawn),
-            ("the oracle", oracle),
-            ("20 times their difference", off),
-        ]),
+            [Axis::log("distance from the surface (units)"), Axis::log("relative error")],
+            Panel::new("diffuse light of a lamp; errors below 10⁻⁹ are drawn there", lines),
+        )],
+        pictures: judged(
+            drawers,
+            (SIZE, Pixels::Float),
+            ("viewer 113,000 units away, drawn", "20 times their difference", 20.0),
+            |world| spawn(world, Distant::Viewer, 1.13e5),
+        )?,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::failures::testing::{slope, test_drawers};
+
+    #[test]
+    fn far_viewers_and_near_lights_lose_what_rounding_takes() {
+        for ChartedAdapter { name, adapter } in test_drawers() {
+            let near = errors(adapter, Distant::Light).expect("a lamp can be drawn");
+            // A few roundings of the viewer's distance, 3, over that of the lamp; and of what is computed.
+            for (distance, error) in &near {
+                let bound = f64::from(f32::EPSILON) * (8.0 + 12.0 / distance);
+                assert!(*error < bound, "{name}, light at {distance}: {error}");
+            }
+            assert!(near[0].1 > 30.0 * near[6].1, "{name}: {near:?}");
+            let far = errors(adapter, Distant::Viewer).expect("a lamp can be drawn");
+            for (distance, error) in &far {
+                // And where the lamp is about to count as being on the surface, it may do so in one and not in the other.
+                let bound = f64::from(f32::EPSILON) * (16.0 + 8.0 * distance);
+                assert!(*error < bound, "{name}, viewer at {distance}: {error}");
+            }
+            // From 10 to 100,000 units.
+            let slope = slope(&far[4..9]);
+            assert!((slope - 1.0).abs() < 0.3, "{name}: {slope}, {far:?}");
+        }
+        let by_definition = |distance| by_definition(distance).expect("a lamp can be drawn");
+        // The angle of view is rounded to f32; farther than that the lamp counts as being on the surface, where light is
+        // full.
+        assert!(by_definition(4e5) < 1e-5 && by_definition(4e6) > 0.5, "{} {}", by_definition(4e5), by_definition(4e6));
+    }
 }

@@ -1,16 +1,9 @@
 //! Surfaces that are seen nearly edge-on, in 32 bits.
 
-use halfway::prelude::*;
-use halfway::render::Adapter;
-
-use super::plots::{figure, log, panel, series, shown};
-use super::stage::{JudgedApp, SIZE, camera_above, judged, lamp, made, show, square};
-use super::{FailurePage, only};
-use crate::front::ChartedAdapter;
-use crate::measure::MeasureError;
+use super::prelude::*;
 
 /// Angles between the surface and the line of sight, in degrees.
-pub const ANGLES: [f64; 9] = [60.0, 30.0, 10.0, 3.0, 1.0, 0.3, 0.1, 0.03, 0.01];
+const ANGLES: [f64; 9] = [60.0, 30.0, 10.0, 3.0, 1.0, 0.3, 0.1, 0.03, 0.01];
 /// The viewer's distance.
 const DISTANCE: f64 = 3.0;
 /// What is judged; full light is 1.
@@ -36,10 +29,7 @@ fn spawn(world: &mut World, degrees: f64) {
 }
 
 /// The largest error of this adapter as a part of the oracle's intensity at each of [`ANGLES`].
-///
-/// # Errors
-/// What cannot be drawn.
-pub fn errors(adapter: &Adapter) -> Result<Vec<(f64, f64)>, MeasureError> {
+fn errors(adapter: &Adapter) -> Result<Vec<(f64, f64)>, ChartError> {
     let mut judged = JudgedApp::new(adapter, UVec2::splat(48), Pixels::Float);
     let error = |degrees: f64| {
         judged.set(|world| spawn(world, degrees));
@@ -50,11 +40,11 @@ pub fn errors(adapter: &Adapter) -> Result<Vec<(f64, f64)>, MeasureError> {
 
 /// How far a point moves along the surface, in units, where the surface moves by half a step of f32 at the viewer's
 /// distance; at an angle in degrees. Light changes by about as much there, as a part of itself.
-pub fn slip(degrees: f64) -> f64 {
+fn slip(degrees: f64) -> f64 {
     DISTANCE * f64::from(f32::EPSILON) / 2.0 / degrees.to_radians().sin()
 }
 
-pub(super) fn page(drawers: &[ChartedAdapter]) -> Result<FailurePage, MeasureError> {
+pub(super) fn page(drawers: &[ChartedAdapter]) -> Result<FailurePage, ChartError> {
     let mut lines = Vec::new();
     for ChartedAdapter { name, adapter } in drawers {
         lines.push(series(name, lines.len(), &errors(adapter)?, true));
@@ -65,7 +55,6 @@ pub(super) fn page(drawers: &[ChartedAdapter]) -> Result<FailurePage, MeasureErr
         &ANGLES.map(|degrees| (degrees, slip(degrees))),
         false,
     ));
-    let [drawn, oracle, off] = &judged(drawers, (SIZE, Pixels::Float), 500.0, |world| spawn(world, 0.01))?;
     Ok(FailurePage {
         id: "edge-on",
         title: "Surfaces seen edge-on magnify rounding",
@@ -75,12 +64,36 @@ pub(super) fn page(drawers: &[ChartedAdapter]) -> Result<FailurePage, MeasureErr
         remedy: "None is needed above a tenth of a degree, where less than a step of 8 bits is lost; cut surfaces that are seen \
                  so, so that their corners are near what is seen.",
         test: "errors_grow_with_one_over_the_angle",
-        figures: only(figure(
+        figures: vec![figure(
             "edge-on",
             "Largest relative error against the oracle, floating-point target",
-            [log("angle between surface and line of sight (degrees)"), log("relative error")],
-            panel("diffuse light of a lamp half a unit above, viewer 3 units away", lines),
-        )),
-        pictures: shown([("at 0.01°, drawn", drawn), ("the oracle", oracle), ("500 times their difference", off)]),
+            [Axis::log("angle between surface and line of sight (degrees)"), Axis::log("relative error")],
+            Panel::new("diffuse light of a lamp half a unit above, viewer 3 units away", lines),
+        )],
+        pictures: judged(
+            drawers,
+            (SIZE, Pixels::Float),
+            ("at 0.01°, drawn", "500 times their difference", 500.0),
+            |world| spawn(world, 0.01),
+        )?,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::failures::testing::{slope, test_drawers};
+
+    #[test]
+    fn errors_grow_with_one_over_the_angle() {
+        for ChartedAdapter { name, adapter } in test_drawers() {
+            let found = errors(adapter).expect("a square can be drawn");
+            for (degrees, error) in &found {
+                let bound = 8.0 * slip(*degrees) + 16.0 * f64::from(f32::EPSILON);
+                assert!(*error < bound, "{name}, {degrees}°: {error}");
+            }
+            let slope = slope(&found[4..]);
+            assert!((slope + 1.0).abs() < 0.5, "{name}: {slope}, {found:?}");
+        }
+    }
 }

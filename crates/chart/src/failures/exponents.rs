@@ -1,16 +1,9 @@
 //! Large exponents in 32 bits.
 
-use halfway::prelude::*;
-use halfway::render::Adapter;
-
-use super::plots::{figure, log, panel, series, shown};
-use super::stage::{JudgedApp, SIZE, camera_above, judged, show, sun};
-use super::{FailurePage, only};
-use crate::front::ChartedAdapter;
-use crate::measure::MeasureError;
+use super::prelude::*;
 
 /// Exponents.
-pub const EXPONENTS: [f32; 9] = [1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0, 3000.0, 10_000.0];
+const EXPONENTS: [f32; 9] = [1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0, 3000.0, 10_000.0];
 /// What is judged, as a part of the brightest intensity, which is 1.
 const LEAST: f64 = 0.01;
 
@@ -21,17 +14,13 @@ fn spawn(world: &mut World, exponent: f32, reflectance: Reflectance) {
     let angle = if reflectance == Reflectance::Phong { 0.5 * angle } else { angle };
     camera_above(world, 3.0, 0.7 * angle);
     sun(world, Vec3::new(0.02, 0.01, 1.0));
-    let shine = Material { specular: LinearRgba::WHITE, shininess: exponent, ..Material::matte(LinearRgba::BLACK) };
-    let object = show(world, UvSphere::new(1.0, 64, 32), shine, Shading::Phong);
+    let object = show(world, UvSphere::new(1.0, 64, 32), shine(exponent), Shading::Phong);
     world.entity_mut(object).insert(reflectance);
 }
 
 /// The largest error of this adapter as a part of the oracle's intensity, where that is more than a hundredth of the
 /// highlight's, for each of these exponents.
-///
-/// # Errors
-/// What cannot be drawn.
-pub fn errors(adapter: &Adapter, reflectance: Reflectance, exponents: &[f32]) -> Result<Vec<(f64, f64)>, MeasureError> {
+fn errors(adapter: &Adapter, reflectance: Reflectance, exponents: &[f32]) -> Result<Vec<(f64, f64)>, ChartError> {
     let mut judged = JudgedApp::new(adapter, UVec2::splat(64), Pixels::Float);
     let error = |&exponent: &f32| {
         judged.set(|world| spawn(world, exponent, reflectance));
@@ -43,12 +32,12 @@ pub fn errors(adapter: &Adapter, reflectance: Reflectance, exponents: &[f32]) ->
 /// What a cosine that is off by some roundings of f32 makes of a power: α times as many, and those of the power itself.
 /// Blinn's is a product of two vectors of three roundings each, and a sum of three; Phong's reflected direction has
 /// twice n's.
-pub fn bound(reflectance: Reflectance, exponent: f64) -> f64 {
+fn bound(reflectance: Reflectance, exponent: f64) -> f64 {
     let roundings = if reflectance == Reflectance::Phong { 16.0 } else { 8.0 };
     (roundings * exponent + 32.0) * f64::from(f32::EPSILON) / 2.0
 }
 
-pub(super) fn page(drawers: &[ChartedAdapter]) -> Result<FailurePage, MeasureError> {
+pub(super) fn page(drawers: &[ChartedAdapter]) -> Result<FailurePage, ChartError> {
     let mut lines = Vec::new();
     for ChartedAdapter { name, adapter } in drawers {
         for (words, reflectance) in [("Phong", Reflectance::Phong), ("Blinn–Phong", Reflectance::BlinnPhong)] {
@@ -58,8 +47,6 @@ pub(super) fn page(drawers: &[ChartedAdapter]) -> Result<FailurePage, MeasureErr
     }
     let bounds = EXPONENTS.map(|exponent| (f64::from(exponent), bound(Reflectance::Phong, exponent.into())));
     lines.push(series("(16α + 32)·2⁻²⁴", 4, &bounds, false));
-    let [drawn, oracle, off] =
-        &judged(drawers, (SIZE, Pixels::Float), 500.0, |world| spawn(world, 10_000.0, Reflectance::BlinnPhong))?;
     Ok(FailurePage {
         id: "exponents",
         title: "Large exponents magnify rounding",
@@ -68,12 +55,37 @@ pub(super) fn page(drawers: &[ChartedAdapter]) -> Result<FailurePage, MeasureErr
         remedy: "Blinn–Phong, whose cosine is rounded less than that of a reflected direction; larger exponents than 10⁴ take \
                  more than 32 bits.",
         test: "errors_grow_with_the_exponent_and_keep_to_its_bound",
-        figures: only(figure(
+        figures: vec![figure(
             "exponents",
             "Largest relative error of a highlight against the oracle, floating-point target",
-            [log("exponent α"), log("relative error")],
-            panel("where the highlight is above 0.01", lines),
-        )),
-        pictures: shown([("shininess 10⁴, drawn", drawn), ("the oracle", oracle), ("500 times their difference", off)]),
+            [Axis::log("exponent α"), Axis::log("relative error")],
+            Panel::new("where the highlight is above 0.01", lines),
+        )],
+        pictures: judged(
+            drawers,
+            (SIZE, Pixels::Float),
+            ("shininess 10⁴, drawn", "500 times their difference", 500.0),
+            |world| spawn(world, 10_000.0, Reflectance::BlinnPhong),
+        )?,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::failures::testing::{slope, test_drawers};
+
+    #[test]
+    fn errors_grow_with_the_exponent_and_keep_to_its_bound() {
+        for ChartedAdapter { name, adapter } in test_drawers() {
+            for reflectance in [Reflectance::Phong, Reflectance::BlinnPhong] {
+                let found = errors(adapter, reflectance, &EXPONENTS).expect("highlights can be drawn");
+                for (exponent, error) in &found {
+                    assert!(*error <= bound(reflectance, *exponent), "{name}, {reflectance:?}, {exponent}: {error}");
+                }
+                let slope = slope(&found[4..]);
+                assert!((slope - 1.0).abs() < 0.35, "{name}, {reflectance:?}: {slope}, {found:?}");
+            }
+        }
+    }
 }

@@ -1,14 +1,9 @@
 //! Interpolation in space, on the picture, and along scan lines.
 
+use halfway::reference::{Interpolation, PolygonCorner};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use halfway::reference::{Image, Interpolation, PolygonCorner};
-
-use super::plots::{series, shown};
-use super::stage::SIZE;
-use super::{FailurePage, only};
-use crate::figure::{Axis, AxisScale, Figure, Panel};
-use crate::measure::MeasureError;
+use super::prelude::*;
 
 /// A strip from left to right whose right end is `ratio` times as far away; u goes from 0 to 1 along it, v across.
 fn receding(ratio: f64) -> [PolygonCorner<2>; 4] {
@@ -52,7 +47,7 @@ fn checkerboard(how: Interpolation) -> Image {
 }
 
 #[expect(clippy::unnecessary_wraps, reason = "as every page")]
-pub(super) fn page() -> Result<FailurePage, MeasureError> {
+pub(super) fn page() -> Result<FailurePage, ChartError> {
     let ratios: Vec<f64> = (0..=24).map(|i| 10f64.powf(f64::from(i) / 12.0)).collect();
     let errors = [Interpolation::Screen, Interpolation::ScanLine].map(|how| {
         let points: Vec<_> = ratios.iter().map(|&ratio| (ratio, error(how, ratio))).collect();
@@ -63,12 +58,6 @@ pub(super) fn page() -> Result<FailurePage, MeasureError> {
         let value = |degrees: i32| (f64::from(degrees), middle(how, f64::from(degrees).to_radians()));
         series(how.name(), kind, &(1..90).map(value).collect::<Vec<_>>(), false)
     });
-    let panel = |title: &str, x: &str, series| Panel {
-        title: title.to_owned(),
-        x_label: Some(x.to_owned()),
-        notes: Vec::new(),
-        series,
-    };
     let [right, screen, scan] = &Interpolation::ALL.map(checkerboard);
     Ok(FailurePage {
         id: "interpolation",
@@ -78,17 +67,22 @@ pub(super) fn page() -> Result<FailurePage, MeasureError> {
                 linear on the picture as well, and of polygons with more than three corners it depends on how they are turned.",
         remedy: "Interpolate value/w and 1/w, as this project does; split polygons into triangles.",
         test: "interpolation_on_the_picture_is_off_by_depth_and_rotation",
-        figures: only(Figure {
-            id: "failure-interpolation".to_owned(),
-            title: "Error over depth, and change with rotation".to_owned(),
-            x: Axis::new("", AxisScale::Linear),
-            y: Axis::new("error; value", AxisScale::Linear),
-            columns: 2,
-            panels: vec![
-                panel("largest error along a receding strip", "depth of the far end (near end = 1)", errors.into()),
-                panel("middle of a square with corners 1, 0, 1, 0", "angle (degrees)", turned.collect()),
-            ],
-        }),
+        figures: vec![
+            figure(
+                "interpolation-depth",
+                "Error of interpolation along a strip that recedes",
+                [Axis::linear("depth of the far end (near end = 1)"), Axis::linear("largest error")],
+                Panel::new("values from 0 to 1", errors.into()),
+            )
+            .named("depth"),
+            figure(
+                "interpolation-rotation",
+                "The middle of a square with corners 1, 0, 1, 0 while it turns",
+                [Axis::linear("angle (degrees)"), Axis::linear("value")],
+                Panel::new("seen from the front", turned.collect()),
+            )
+            .named("rotation"),
+        ],
         pictures: shown([
             ("perspective-correct, 6 : 1 in depth", right),
             ("linear on the picture", screen),

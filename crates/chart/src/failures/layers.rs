@@ -1,16 +1,9 @@
 //! What 8 bits make of many blended layers.
 
-use halfway::prelude::*;
-use halfway::render::Adapter;
-
-use super::plots::{figure, linear, panel, series, shown};
-use super::stage::{JudgedApp, camera_above, judged, made, show};
-use super::{FailurePage, only};
-use crate::front::ChartedAdapter;
-use crate::measure::MeasureError;
+use super::prelude::*;
 
 /// The most layers.
-pub const LAYERS: u32 = 64;
+const LAYERS: u32 = 64;
 /// What the layers glow.
 const GLOW: [f32; 3] = [1.0, 0.6, 0.3];
 const OPACITIES: [f32; 3] = [0.5, 0.05, 0.005];
@@ -35,16 +28,13 @@ fn spawn(world: &mut World, opacity: f32) {
 }
 
 /// What n layers of opacity o and color c add up to, linear: c·(1 − (1 − o)ⁿ).
-pub fn exact(layers: u32, opacity: f32) -> [f64; 3] {
+fn exact(layers: u32, opacity: f32) -> [f64; 3] {
     let shown = 1.0 - (1.0 - f64::from(opacity)).powi(layers as i32);
     GLOW.map(|glow| f64::from(glow) * shown)
 }
 
 /// The largest error of a channel in steps of 1/255, on 8 bits, for 1 to 64 layers of this opacity.
-///
-/// # Errors
-/// What cannot be drawn.
-pub fn drawn(adapter: &Adapter, opacity: f32) -> Result<Vec<(f64, f64)>, MeasureError> {
+fn drawn(adapter: &Adapter, opacity: f32) -> Result<Vec<(f64, f64)>, ChartError> {
     let mut judged = JudgedApp::new(adapter, SIZE, Pixels::Byte);
     judged.set(|world| spawn(world, opacity));
     let picture = judged.picture()?;
@@ -56,7 +46,7 @@ pub fn drawn(adapter: &Adapter, opacity: f32) -> Result<Vec<(f64, f64)>, Measure
 }
 
 /// The same by arithmetic: each layer is blended exactly and rounded to the nearest step.
-pub fn rounded(opacity: f32) -> Vec<(f64, f64)> {
+fn rounded(opacity: f32) -> Vec<(f64, f64)> {
     let o = f64::from(opacity);
     let mut held = [0.0; 3];
     let mut error = |layers: u32| {
@@ -74,11 +64,11 @@ fn steps(there: [f64; 3], exact: [f64; 3]) -> f64 {
 
 /// The most that errors of `each` step a layer can add up to, in steps, after any number of layers: each·Σ (1 − o)ᵏ.
 /// Rounding to the nearest step errs by ½, an adapter that cuts off what is less than a step by 1.
-pub fn most(opacity: f64, each: f64) -> f64 {
+fn most(opacity: f64, each: f64) -> f64 {
     each / opacity
 }
 
-pub(super) fn page(drawers: &[ChartedAdapter]) -> Result<FailurePage, MeasureError> {
+pub(super) fn page(drawers: &[ChartedAdapter]) -> Result<FailurePage, ChartError> {
     let mut panels = Vec::new();
     for opacity in OPACITIES {
         let mut lines = Vec::new();
@@ -88,16 +78,10 @@ pub(super) fn page(drawers: &[ChartedAdapter]) -> Result<FailurePage, MeasureErr
         lines.push(series("rounded after each layer, by arithmetic", 3, &rounded(opacity), false));
         let most = most(f64::from(opacity), 0.5).round();
         let steps = if most <= 1.0 { "step" } else { "steps" };
-        panels.push(panel(&format!("opacity {opacity}: at most {most} {steps}"), lines));
+        panels.push(Panel::new(format!("opacity {opacity}: at most {most} {steps}"), lines));
     }
-    let [drawn, oracle, off] = &judged(drawers, (SIZE, Pixels::Byte), 10.0, |world| spawn(world, OPACITIES[2]))?;
-    let mut figure = figure(
-        "blended-layers",
-        "Largest error of a channel over the number of layers",
-        [linear("layers"), linear("error (steps of 1/255)")],
-        panel("", Vec::new()),
-    );
-    (figure.columns, figure.panels) = (3, panels);
+    let axes = [Axis::linear("layers"), Axis::linear("error (steps of 1/255)")];
+    let title = "Largest error of a channel over the number of layers";
     Ok(FailurePage {
         id: "blended-layers",
         title: "Many thin layers stop in 8 bits",
@@ -106,11 +90,39 @@ pub(super) fn page(drawers: &[ChartedAdapter]) -> Result<FailurePage, MeasureErr
                 of 0.3 under 0.005 never shows. The CPU without a driver keeps tiles in floating point and rounds once.",
         remedy: "Blend into a floating-point target (Pixels::Float) and round once, or draw fewer layers of more opacity.",
         test: "thin_layers_stop_short_by_what_roundings_add_up_to",
-        figures: only(figure),
-        pictures: shown([
-            ("1 to 64 layers of opacity 0.005 in 8 bits", drawn),
-            ("exact", oracle),
-            ("10 times their difference", off),
-        ]),
+        figures: vec![Figure::new("failure-blended-layers", title, axes, panels)],
+        pictures: judged(
+            drawers,
+            (SIZE, Pixels::Byte),
+            ("1 to 64 layers of opacity 0.005 in 8 bits", "10 times their difference", 10.0),
+            |world| spawn(world, OPACITIES[2]),
+        )?,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::failures::testing::test_drawers;
+
+    #[test]
+    fn thin_layers_stop_short_by_what_roundings_add_up_to() {
+        for opacity in [0.5f32, 0.05, 0.005] {
+            let o = f64::from(opacity);
+            for ChartedAdapter { name, adapter } in test_drawers() {
+                // A step a layer at most, and half a step of the last one; on the CPU nothing but the last.
+                let bound = if matches!(adapter, Adapter::Cpu(_)) { 0.0 } else { most(o, 1.0) };
+                for (count, error) in drawn(adapter, opacity).expect("layers can be drawn") {
+                    assert!(error <= bound + 0.51, "{name}, {opacity}, {count} layers: {error}");
+                }
+            }
+            for (count, error) in rounded(opacity) {
+                assert!(error <= most(o, 0.5), "{opacity}, {count} layers: {error}");
+            }
+        }
+        // Blue of 0.3 at 0.005 is 0.38 of a step, and is never seen; 64 layers should come to 21.
+        let lost = 255.0 * exact(LAYERS, 0.005)[2];
+        let found = rounded(0.005).last().expect("64 layers").1;
+        assert!(lost > 20.0 && found >= lost - 1e-9, "{lost}: {found}");
+    }
 }

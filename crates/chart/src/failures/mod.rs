@@ -1,39 +1,33 @@
 //! Where methods fail: a page for each way, with pictures, a plot, the cause, the remedy, and the test that keeps it.
 //!
 //! What methods lose is drawn by the oracle, and not by what implements them. What rounding loses is drawn by the
-//! adapters that are charted and by the CPU without a driver, and compared with the oracle; what policies of intensity
-//! cost is timed.
+//! adapters that are charted and by the CPU without a driver, and compared with the oracle.
 
-pub mod blend_order;
+mod bands;
+mod blend_order;
 mod creases;
-pub mod depth;
+mod depth;
 mod diagonals;
-pub mod distances;
-pub mod edge_on;
-pub mod exponents;
+mod distances;
+mod edge_on;
+mod exponents;
 mod highlight;
 mod interpolation;
-pub mod layers;
-mod mach;
-pub mod near_light;
-pub mod noise;
-pub mod outlines;
-mod plots;
-pub mod provoking;
-pub mod rims;
+mod layers;
+mod near_light;
+mod noise;
+mod outlines;
+mod prelude;
+mod rims;
 mod saturation;
-pub mod slivers;
-mod stage;
-mod terminator;
-pub mod transforms;
+mod slivers;
 
 use image::RgbImage;
 
+use crate::error::ChartError;
 use crate::figure::Figure;
 use crate::front::ChartedAdapter;
-use crate::measure::MeasureError;
-
-pub use stage::drawers;
+use crate::page::{Page, Section, exact_data_uri};
 
 /// One way in which a method fails.
 #[derive(Clone, Debug)]
@@ -48,27 +42,51 @@ pub struct FailurePage {
     pub remedy: &'static str,
     /// The test that keeps what the page says.
     pub test: &'static str,
-    /// How much, over what it depends on; of several one is shown at a time, by the name before it.
-    pub figures: Vec<(&'static str, Figure)>,
+    /// How much, over what it depends on; of several one is shown at a time.
+    pub figures: Vec<Figure>,
     /// Captions and pictures.
     pub pictures: Vec<(&'static str, RgbImage)>,
 }
 
-type DrawnPage = fn() -> Result<FailurePage, MeasureError>;
-type JudgedPage = fn(&[ChartedAdapter]) -> Result<FailurePage, MeasureError>;
+impl FailurePage {
+    /// The page `failure-….html`.
+    ///
+    /// # Errors
+    /// A picture that could not be put on the page.
+    pub fn page(&self) -> Result<Page, ChartError> {
+        let pictures = self.pictures.iter();
+        let pictures = pictures.map(|(caption, picture)| Ok(((*caption).to_owned(), exact_data_uri(picture)?)));
+        let facts = [("remedy", self.remedy), ("held by the test", self.test)];
+        Ok(Page {
+            file: format!("failure-{}.html", self.id),
+            title: self.title.to_owned(),
+            lead: self.cause.to_owned(),
+            facts: facts.map(|(name, value)| (name.to_owned(), value.to_owned())).into(),
+            sections: vec![Section {
+                title: "Pictures and figures".to_owned(),
+                pictures: pictures.collect::<Result<_, ChartError>>()?,
+                figures: self.figures.clone(),
+                links: vec![("all charts".to_owned(), "index.html".to_owned())],
+                ..Section::default()
+            }],
+            ..Page::default()
+        })
+    }
+}
+
+type DrawnPage = fn() -> Result<FailurePage, ChartError>;
+type JudgedPage = fn(&[ChartedAdapter]) -> Result<FailurePage, ChartError>;
 
 /// Those that the oracle draws.
-const DRAWN: [DrawnPage; 15] = [
+const DRAWN: [DrawnPage; 13] = [
     highlight::page,
-    mach::page,
-    terminator::page,
+    bands::mach_bands,
+    bands::terminator,
     outlines::page,
-    provoking::page,
     diagonals::page,
     slivers::page,
     creases::page,
     noise::page,
-    transforms::page,
     near_light::page,
     rims::page,
     interpolation::page,
@@ -85,15 +103,48 @@ pub const PAGES: u64 = (DRAWN.len() + JUDGED.len()) as u64;
 ///
 /// # Errors
 /// The first picture that could not be drawn.
-pub fn all(charted: &[ChartedAdapter], done: impl FnMut(&FailurePage)) -> Result<Vec<FailurePage>, MeasureError> {
-    let drawers = drawers(charted)?;
+pub fn all(charted: &[ChartedAdapter], done: impl FnMut(&FailurePage)) -> Result<Vec<FailurePage>, ChartError> {
+    let drawers = prelude::drawers(charted)?;
     let mut done = done;
     let drawn = DRAWN.into_iter().map(|page| page());
     let judged = JUDGED.into_iter().map(|page| page(&drawers));
     drawn.chain(judged).map(|page| page.inspect(&mut done)).collect()
 }
 
-/// The one figure of a page, which needs no name.
-fn only(figure: Figure) -> Vec<(&'static str, Figure)> {
-    vec![("", figure)]
+#[cfg(test)]
+mod testing {
+    use std::sync::OnceLock;
+
+    use halfway::render::AdapterChoice;
+
+    use super::*;
+
+    /// What draws in these tests, and always the CPU without a driver.
+    pub(super) fn test_drawers() -> &'static [ChartedAdapter] {
+        static DRAWERS: OnceLock<Vec<ChartedAdapter>> = OnceLock::new();
+        DRAWERS.get_or_init(|| {
+            let adapter = AdapterChoice::default().open().expect("an adapter");
+            prelude::drawers(&[ChartedAdapter { name: "the adapter".to_owned(), adapter }]).expect("the CPU draws")
+        })
+    }
+
+    /// The slope of log y against log x by least squares: the order of what goes with a power.
+    pub(super) fn slope(points: &[(f64, f64)]) -> f64 {
+        let points: Vec<_> = points.iter().map(|(x, y)| (x.ln(), y.ln())).collect();
+        let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / points.len() as f64;
+        let (mean_x, mean_y) = (mean(|point| point.0), mean(|point| point.1));
+        let xy: f64 = points.iter().map(|(x, y)| (x - mean_x) * (y - mean_y)).sum();
+        xy / points.iter().map(|(x, _)| (x - mean_x).powi(2)).sum::<f64>()
+    }
+
+    #[track_caller]
+    pub(super) fn is_near(what: &str, found: f64, expected: f64, part: f64) {
+        assert!((found / expected - 1.0).abs() <= part, "{what}: {found} for {expected}");
+    }
+
+    #[test]
+    fn slopes_are_those_of_powers() {
+        let points: Vec<_> = [1.0, 2.0, 8.0].map(|x: f64| (x, 3.0 * x.powi(2))).into();
+        assert!((slope(&points) - 2.0).abs() < 1e-12);
+    }
 }

@@ -1,12 +1,6 @@
 //! Interpolated normals that face away from the viewer.
 
-use halfway::prelude::*;
-use halfway::reference::{Image, Mode};
-
-use super::plots::{figure, log, names, panel, series, shown};
-use super::stage::{drawn, show, sun};
-use super::{FailurePage, only};
-use crate::measure::{MeasureError, SHADINGS};
+use super::prelude::*;
 
 /// Bands of the spheres.
 const LEVELS: [u32; 4] = [4, 8, 16, 32];
@@ -18,7 +12,7 @@ fn toward() -> Vec3 {
 }
 
 /// A sphere with its light exactly behind it: no point that is seen is lit.
-fn picture(level: u32, shading: Shading, mode: Mode) -> Result<Image, MeasureError> {
+fn picture(level: u32, shading: Shading, mode: Mode) -> Result<Image, ChartError> {
     drawn(mode, |world| {
         let camera = Camera { fov_y: 2.0 * (1.08_f32 / DISTANCE).atan(), ..Camera::default() };
         world.spawn((camera, Transform::from_translation(DISTANCE * toward()).looking_at(Vec3::ZERO, Vec3::Y)));
@@ -27,29 +21,8 @@ fn picture(level: u32, shading: Shading, mode: Mode) -> Result<Image, MeasureErr
     })
 }
 
-/// What is seen of a light behind a sphere of `level` bands and twice as many meridians.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BackLight {
-    /// The brightest pixel, linear; full light on the surface is 1.
-    pub brightest: f64,
-    /// The share of the sphere's pixels that are lit.
-    pub lit: f64,
-}
-
-/// Measures it on the mesh; without a shading, on the true sphere.
-///
-/// # Errors
-/// What the oracle cannot draw.
-pub fn back_light(level: u32, shading: Option<Shading>) -> Result<BackLight, MeasureError> {
-    let mode = if shading.is_some() { Mode::Mesh } else { Mode::Surface };
-    let picture = picture(level, shading.unwrap_or(Shading::Phong), mode)?;
-    let covered = picture.covered().map_or(0, |covered| covered.iter().filter(|here| **here).count());
-    let lit = picture.pixels().iter().filter(|pixel| pixel[0] > 0.0).count();
-    Ok(BackLight { brightest: picture.largest(), lit: lit as f64 / covered.max(1) as f64 })
-}
-
 /// The brightest corner of all triangles that face the viewer: what pixels near it approach under interpolated normals.
-pub fn brightest_corner(level: u32) -> f64 {
+fn brightest_corner(level: u32) -> f64 {
     let mesh = Mesh::from(UvSphere::new(1.0, 2 * level, level));
     let (toward, eye) = (toward().as_dvec3(), (DISTANCE * toward()).as_dvec3());
     let corners = mesh.triangles().filter_map(|triangle| {
@@ -62,20 +35,17 @@ pub fn brightest_corner(level: u32) -> f64 {
 
 /// The most that can be seen of it: the sine of how far a corner's normal may be turned from that of a triangle, the
 /// circumradius of a cell on the equator.
-pub fn most(level: u32) -> f64 {
+fn most(level: u32) -> f64 {
     let half_cell = 0.5 * std::f64::consts::PI / f64::from(level);
     // Of a square on a sphere with sides of two half cells the corners are that far from the middle.
     (half_cell.cos() * half_cell.cos()).acos().sin()
 }
 
-pub(super) fn page() -> Result<FailurePage, MeasureError> {
+pub(super) fn page() -> Result<FailurePage, ChartError> {
     let mut lines = Vec::new();
     for (kind, shading) in SHADINGS.into_iter().enumerate() {
-        let points = LEVELS
-            .into_iter()
-            .map(|level| Ok((f64::from(2 * level), back_light(level, Some(shading))?.brightest)))
-            .collect::<Result<Vec<_>, MeasureError>>()?;
-        lines.push(series(names()[kind], kind, &points, true));
+        let brightest = |level| Ok(picture(level, shading, Mode::Mesh)?.largest());
+        lines.push(measured(NAMES[kind], kind, LEVELS.map(|level| (f64::from(2 * level), level)), brightest)?);
     }
     let corners = LEVELS.map(|level| (f64::from(2 * level), brightest_corner(level)));
     lines.push(series("brightest corner", 3, &corners, true));
@@ -90,12 +60,48 @@ pub(super) fn page() -> Result<FailurePage, MeasureError> {
                 point that is seen of the true surface can catch.",
         remedy: "More triangles: the rim darkens as the cells shrink, and narrows by the square. Flat shading has none.",
         test: "light_from_behind_shrinks_with_the_cells",
-        figures: only(figure(
+        figures: vec![figure(
             "outlines",
             "The brightest pixel of a sphere that is lit from behind (true: 0)",
-            [log("meridians"), log("brightest pixel (linear)")],
-            panel("256 × 256 pixels; flat shading shows none, and 0 has no place on this axis", lines),
-        )),
+            [Axis::log("meridians"), Axis::log("brightest pixel (linear)")],
+            Panel::new("256 × 256 pixels; flat shading shows none, and 0 has no place on this axis", lines),
+        )],
         pictures: shown([("flat, lit from behind", &flat?), ("Gouraud", &gouraud?), ("Phong", &phong?)]),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::failures::testing::slope;
+
+    #[test]
+    fn light_from_behind_shrinks_with_the_cells() {
+        let corners = [8, 16, 32, 64, 128].map(|level| (1.0 / f64::from(level), brightest_corner(level)));
+        for (edge, corner) in corners {
+            let most = most((1.0 / edge).round() as u32);
+            // Some triangle of each outline lies nearly as badly as one may, and none worse.
+            assert!(corner > 0.6 * most && corner < most, "{edge}: {corner} of {most}");
+        }
+        let slope_of_corners = slope(&corners);
+        assert!((slope_of_corners - 1.0).abs() < 0.15, "of the first order: {slope_of_corners}");
+        let seen = |level, shading, mode| picture(level, shading, mode).expect("a sphere can be drawn");
+        for shading in [Shading::Gouraud, Shading::Phong] {
+            for level in [4, 8] {
+                let found = seen(level, shading, Mode::Mesh).largest();
+                assert!(found > 0.5 * brightest_corner(level) && found < brightest_corner(level), "{level}: {found}");
+            }
+        }
+        let lit = [4, 8, 16].map(|level| {
+            let picture = seen(level, Shading::Gouraud, Mode::Mesh);
+            let covered = picture.covered().expect("the oracle knows").iter().filter(|here| **here).count();
+            let lit = picture.pixels().iter().filter(|pixel| pixel[0] > 0.0).count();
+            (1.0 / f64::from(level), lit as f64 / covered as f64)
+        });
+        assert!((slope(&lit) - 2.0).abs() < 0.4, "the rim narrows by the square: {lit:?}");
+        for (shading, mode) in [(Shading::Flat, Mode::Mesh), (Shading::Phong, Mode::Surface)] {
+            let brightest = seen(8, shading, mode).largest();
+            assert!(brightest <= 0.0, "{shading:?}, {mode:?}: {brightest}");
+        }
+    }
 }

@@ -1,12 +1,6 @@
 //! The rims of spots.
 
-use halfway::prelude::*;
-use halfway::reference::{Image, Mode};
-
-use super::FailurePage;
-use super::plots::{figure, log, panel, series, shown};
-use super::stage::{camera_above, drawn, light, rms, show, square};
-use crate::measure::MeasureError;
+use super::prelude::*;
 
 /// Cells along a side; odd, so that the axis meets the middle of one.
 const CELLS: [u32; 4] = [9, 17, 33, 65];
@@ -17,7 +11,7 @@ const HEIGHT: f64 = 2.0;
 /// The cutoff of the pictures, in degrees.
 const WIDE: f64 = 20.0;
 
-fn picture(cells: u32, cutoff: f64, shading: Shading) -> Result<Image, MeasureError> {
+fn picture(cells: u32, cutoff: f64, shading: Shading) -> Result<Image, ChartError> {
     drawn(Mode::Mesh, |world| {
         camera_above(world, 10.0, 0.99);
         let mut spot = SpotLight::white(cutoff.to_radians() as f32);
@@ -29,37 +23,29 @@ fn picture(cells: u32, cutoff: f64, shading: Shading) -> Result<Image, MeasureEr
 
 /// All light of a spot onto the middle of a cell under Gouraud shading, the true light being 1. `cells` of them make a
 /// side of the square that the spot is one side above; the cutoff is in degrees.
-///
-/// # Errors
-/// What the oracle cannot draw.
-pub fn spot_light(cells: u32, cutoff: f64) -> Result<f64, MeasureError> {
+fn spot_light(cells: u32, cutoff: f64) -> Result<f64, ChartError> {
     Ok(light(&picture(cells, cutoff, Shading::Gouraud)?) / light(&picture(cells, cutoff, Shading::Phong)?))
 }
 
 /// The cutoff in degrees below which the cone meets no corner of the cell that it is above.
-pub fn first_met(cells: u32) -> f64 {
+fn first_met(cells: u32) -> f64 {
     let half_edge = 1.0 / f64::from(cells);
     (half_edge * 2f64.sqrt() / HEIGHT).atan().to_degrees()
 }
 
 /// The RMS error, linear, of a spot of 20° under Gouraud shading.
-///
-/// # Errors
-/// What the oracle cannot draw.
-pub fn rim_error(cells: u32) -> Result<f64, MeasureError> {
+fn rim_error(cells: u32) -> Result<f64, ChartError> {
     rms(&picture(cells, WIDE, Shading::Gouraud)?, &picture(cells, WIDE, Shading::Phong)?)
 }
 
-pub(super) fn page() -> Result<FailurePage, MeasureError> {
+pub(super) fn page() -> Result<FailurePage, ChartError> {
     let mut lights = Vec::new();
     for (kind, cells) in CELLS.into_iter().take(3).enumerate() {
-        let points = CUTOFFS.into_iter().map(|cutoff| Ok((cutoff, spot_light(cells, cutoff)?)));
-        let points = points.collect::<Result<Vec<_>, MeasureError>>()?;
         let name = format!("{cells} × {cells} cells, corners met from {:.1}°", first_met(cells));
-        lights.push(series(&name, kind, &points, true));
+        let cutoffs = CUTOFFS.map(|cutoff| (cutoff, cutoff));
+        lights.push(measured(&name, kind, cutoffs, |cutoff| spot_light(cells, cutoff))?);
     }
-    let errors = CELLS.into_iter().map(|cells| Ok((2.0 / f64::from(cells), rim_error(cells)?)));
-    let errors = series("Gouraud", 1, &errors.collect::<Result<Vec<_>, MeasureError>>()?, true);
+    let errors = measured("Gouraud", 1, CELLS.map(|cells| (2.0 / f64::from(cells), cells)), rim_error)?;
     let [coarse, fine] = [9, 33].map(|cells| picture(cells, WIDE, Shading::Gouraud));
     Ok(FailurePage {
         id: "spot-rims",
@@ -70,24 +56,20 @@ pub(super) fn page() -> Result<FailurePage, MeasureError> {
         remedy: "Shade spots at pixels; or give the cone an inner angle, so that it fades over more than a cell.",
         test: "spots_between_vertices_are_lost_and_rims_fall_by_the_root",
         figures: vec![
-            (
-                "light",
-                figure(
-                    "spot-rims-light",
-                    "All light of a spot above the middle of a cell under Gouraud shading (true = 1; 0 has no place here)",
-                    [log("cutoff (degrees)"), log("light (true = 1)")],
-                    panel("a square as wide as the spot is high", lights),
-                ),
-            ),
-            (
-                "rim",
-                figure(
-                    "spot-rims-error",
-                    "RMS error of a spot of 20° under Gouraud shading",
-                    [log("edge of the cells"), log("RMS error (linear)")],
-                    panel("slope ½", vec![errors]),
-                ),
-            ),
+            figure(
+                "spot-rims-light",
+                "All light of a spot above the middle of a cell under Gouraud shading (true = 1; 0 has no place here)",
+                [Axis::log("cutoff (degrees)"), Axis::log("light (true = 1)")],
+                Panel::new("a square as wide as the spot is high", lights),
+            )
+            .named("light"),
+            figure(
+                "spot-rims-error",
+                "RMS error of a spot of 20° under Gouraud shading",
+                [Axis::log("edge of the cells"), Axis::log("RMS error (linear)")],
+                Panel::new("slope ½", vec![errors]),
+            )
+            .named("rim"),
         ],
         pictures: shown([
             ("Gouraud, 9 × 9 cells", &coarse?),
@@ -95,4 +77,23 @@ pub(super) fn page() -> Result<FailurePage, MeasureError> {
             ("Phong", &picture(9, WIDE, Shading::Phong)?),
         ]),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::failures::testing::slope;
+
+    #[test]
+    fn spots_between_vertices_are_lost_and_rims_fall_by_the_root() {
+        for cells in [9, 17, 33] {
+            let light = |cutoff: f64| spot_light(cells, cutoff).expect("a square can be drawn");
+            assert!(light(0.99 * first_met(cells)) <= 0.0, "{cells}: the cone meets no corner");
+            assert!(light(1.01 * first_met(cells)) > 0.5, "{cells}: the cone meets four corners");
+        }
+        let found =
+            [9, 17, 33, 65].map(|cells| (1.0 / f64::from(cells), rim_error(cells).expect("a square can be drawn")));
+        let slope = slope(&found);
+        assert!((slope - 0.5).abs() < 0.15, "by the root: {slope}, {found:?}");
+    }
 }

@@ -1,15 +1,8 @@
 //! Intensities above 1, and what policies make of them.
 
-use halfway::prelude::*;
-use halfway::reference::{Image, Mode, Oracle};
-use halfway::render::{Adapter, AdapterChoice};
+use halfway::reference::Oracle;
 
-use super::FailurePage;
-use super::plots::{row, series, shown};
-use super::stage::{SIZE, camera, set_up, show};
-use crate::figure::{Axis, AxisScale, Figure, Panel, Series};
-use crate::measure::MeasureError;
-use crate::timing::{in_turns, median, settle};
+use super::prelude::*;
 
 /// The policies by their names.
 const POLICIES: [(&str, Intensity); 4] = [
@@ -44,10 +37,10 @@ fn clamped(image: &Image) -> Image {
 }
 
 /// The intensities themselves, and what each policy makes of them.
-fn pictures() -> Result<(Image, [Image; 4]), MeasureError> {
+fn pictures() -> Result<(Image, [Image; 4]), ChartError> {
     let draw = |intensity| {
         let mut app = set_up(|world| spawn(world, intensity));
-        Ok::<_, MeasureError>(Oracle::new(app.world_mut(), SIZE)?.with_mode(Mode::Surface).draw())
+        Ok::<_, ChartError>(Oracle::new(app.world_mut(), SIZE)?.with_mode(Mode::Surface).draw())
     };
     let [clamp, divided, reinhard, aces] = POLICIES.map(|(_, policy)| draw(policy).map(|image| clamped(&image)));
     Ok((draw(Intensity::Clamp)?, [clamp?, divided?, reinhard?, aces?]))
@@ -74,19 +67,10 @@ fn turns(raw: &Image, shown: &Image) -> Vec<(f64, f64)> {
     columns.filter_map(turn).collect()
 }
 
-/// The share of the sphere that shows one and the same red, the brightest.
-#[cfg(test)]
-fn flat_share(shown: &Image) -> f64 {
-    let covered = shown.covered().expect("the oracle knows");
-    let reds = || shown.pixels().iter().zip(covered).filter(|(_, covered)| **covered).map(|(pixel, _)| pixel[0]);
-    let most = reds().fold(0.0, f64::max);
-    reds().filter(|red| most - red < 1.0 / 512.0).count() as f64 / reds().count() as f64
-}
-
 const FRAMES: u32 = 60;
 
 /// How the grey background is shown while a small lamp flies by a wall of facets, each of which flashes once.
-fn flicker(policy: Intensity) -> Result<Vec<(f64, f64)>, MeasureError> {
+fn flicker(policy: Intensity) -> Result<Vec<(f64, f64)>, ChartError> {
     let mut app = set_up(|world| {
         camera(world, Vec3::new(0.0, 0.0, 2.9), Vec3::Y);
         world.query::<&mut Camera>().iter_mut(world).for_each(|mut camera| {
@@ -117,58 +101,10 @@ fn flicker(policy: Intensity) -> Result<Vec<(f64, f64)>, MeasureError> {
         .collect()
 }
 
-/// The largest change from one frame to the next.
-#[cfg(test)]
-fn jump(frames: &[(f64, f64)]) -> f64 {
-    frames.windows(2).map(|pair| (pair[1].1 - pair[0].1).abs()).fold(0.0, f64::max)
-}
-
-/// Sides of the pictures that are timed.
-const SIDES: [u32; 4] = [64, 128, 256, 512];
-
-/// Milliseconds of a frame over the pixels, for each policy.
-fn costs() -> Result<Vec<Series>, MeasureError> {
-    let adapter = AdapterChoice::default().open()?;
-    let mut times = vec![Vec::new(); POLICIES.len()];
-    for side in SIDES {
-        let mut apps = POLICIES.map(|(_, policy)| timed(&adapter, side, policy));
-        for app in &mut apps {
-            settle(app)?;
-        }
-        let found = in_turns(&mut apps.each_mut(), 3)?;
-        for (times, found) in times.iter_mut().zip(found) {
-            times.push((f64::from(side * side), median(&found)));
-        }
-    }
-    let lines = POLICIES.iter().zip(times).enumerate();
-    Ok(lines.map(|(kind, ((name, _), points))| series(name, kind, &points, true)).collect())
-}
-
-fn timed(adapter: &Adapter, side: u32, policy: Intensity) -> App {
-    let mut app = App::new();
-    adapter.clone().insert_into(app.world_mut());
-    app.add_plugins(HalfwayPlugins::headless(UVec2::splat(side)));
-    app.finish();
-    app.cleanup();
-    spawn(app.world_mut(), policy);
-    app
-}
-
-fn panel(title: &str, series: Vec<Series>) -> Panel {
-    Panel { title: title.to_owned(), x_label: None, notes: Vec::new(), series }
-}
-
-fn figure(id: &str, title: &str, [x, y]: [Axis; 2], of: Panel) -> Figure {
-    Figure { id: format!("failure-saturation{id}"), title: title.to_owned(), x, y, columns: 1, panels: vec![of] }
-}
-
-pub(super) fn page() -> Result<FailurePage, MeasureError> {
+pub(super) fn page() -> Result<FailurePage, ChartError> {
     let (raw, all) = pictures()?;
-    let lines = |of: &dyn Fn(&Image) -> Vec<(f64, f64)>| {
-        let each = POLICIES.iter().zip(&all).enumerate();
-        each.map(|(kind, ((name, _), image))| series(name, kind, &of(image), false)).collect::<Vec<_>>()
-    };
-    let linear = |label: &str| Axis::new(label, AxisScale::Linear);
+    let hues = POLICIES.iter().zip(&all).enumerate();
+    let hues = hues.map(|(kind, ((name, _), image))| series(name, kind, &turns(&raw, image), false));
     let middle = format!("row {} of {}", SIZE.y / 2, SIZE.y);
     let mut flickers = Vec::new();
     for (kind, (name, policy)) in [POLICIES[1], SMOOTHLY, POLICIES[2]].into_iter().enumerate() {
@@ -186,42 +122,20 @@ pub(super) fn page() -> Result<FailurePage, MeasureError> {
                  pictures renormalise; for moving ones renormalise with smoothing, or take a curve.",
         test: "clamping_turns_hues_and_divisors_flicker",
         figures: vec![
-            (
-                "hue",
-                figure(
-                    "-hue",
-                    "How far hues are turned, across a sphere under an orange light of 3, 1.5, 0.6",
-                    [linear("pixel"), linear("turned by (degrees)")],
-                    panel(&middle, lines(&|image| turns(&raw, image))),
-                ),
-            ),
-            (
-                "contrast",
-                figure(
-                    "-contrast",
-                    "The red of that row as it is shown",
-                    [linear("pixel"), linear("red (linear)")],
-                    panel(&middle, lines(&|image| row(image, SIZE.y / 2))),
-                ),
-            ),
-            (
-                "flicker",
-                figure(
-                    "-flicker",
-                    "How a background of 0.25 is shown while a lamp passes the facets of a sphere",
-                    [linear("frame"), linear("red (linear)")],
-                    panel("60 frames, flat shading, shininess 200", flickers),
-                ),
-            ),
-            (
-                "time",
-                figure(
-                    "-cost",
-                    "The time of a frame",
-                    [Axis::new("pixels", AxisScale::Log), Axis::new("milliseconds", AxisScale::Log)],
-                    panel("that sphere, on the adapter of this report", costs()?),
-                ),
-            ),
+            figure(
+                "saturation-hue",
+                "How far hues are turned, across a sphere under an orange light of 3, 1.5, 0.6",
+                [Axis::linear("pixel"), Axis::linear("turned by (degrees)")],
+                Panel::new(&middle, hues.collect()),
+            )
+            .named("hue"),
+            figure(
+                "saturation-flicker",
+                "How a background of 0.25 is shown while a lamp passes the facets of a sphere",
+                [Axis::linear("frame"), Axis::linear("red (linear)")],
+                Panel::new("60 frames, flat shading, shininess 200", flickers),
+            )
+            .named("flicker"),
         ],
         pictures: shown([("clamp", clamp), ("renormalise", divided), ("Reinhard, white 4", reinhard), ("ACES", aces)]),
     })
@@ -230,6 +144,19 @@ pub(super) fn page() -> Result<FailurePage, MeasureError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// The share of the sphere that shows one and the same red, the brightest.
+    fn flat_share(shown: &Image) -> f64 {
+        let covered = shown.covered().expect("the oracle knows");
+        let reds = || shown.pixels().iter().zip(covered).filter(|(_, covered)| **covered).map(|(pixel, _)| pixel[0]);
+        let most = reds().fold(0.0, f64::max);
+        reds().filter(|red| most - red < 1.0 / 512.0).count() as f64 / reds().count() as f64
+    }
+
+    /// The largest change from one frame to the next.
+    fn jump(frames: &[(f64, f64)]) -> f64 {
+        frames.windows(2).map(|pair| (pair[1].1 - pair[0].1).abs()).fold(0.0, f64::max)
+    }
 
     #[test]
     fn clamping_turns_hues_and_divisors_flicker() {

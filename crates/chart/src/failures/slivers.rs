@@ -1,13 +1,8 @@
 //! Long thin triangles.
 
 use halfway::mesh::{Cylinder, ParametricSurface, Tessellation};
-use halfway::prelude::*;
-use halfway::reference::{Image, Mode};
 
-use super::FailurePage;
-use super::plots::{figure, log, panel, series, shown};
-use super::stage::{camera, camera_above, compared, drawn, lamp, made, rms, show, square, sun};
-use crate::measure::MeasureError;
+use super::prelude::*;
 
 /// The rows that 1024 cells of a square are in, and how many times as long as wide the cells are then.
 const ROWS: [(u32, f64); 5] = [(32, 1.0), (16, 4.0), (8, 16.0), (4, 64.0), (2, 256.0)];
@@ -18,7 +13,7 @@ const SIDES: u32 = 16;
 /// The lanterns' height; their radius is 1.
 const HEIGHT: f64 = 2.0;
 
-fn cells(rows: u32, shading: Shading) -> Result<Image, MeasureError> {
+fn cells(rows: u32, shading: Shading) -> Result<Image, ChartError> {
     drawn(Mode::Mesh, |world| {
         camera_above(world, 10.0, 0.99);
         lamp(world, Vec3::new(0.3, 0.2, 1.0));
@@ -27,10 +22,7 @@ fn cells(rows: u32, shading: Shading) -> Result<Image, MeasureError> {
 }
 
 /// The RMS error, linear, of Gouraud shading over a square of 1024 cells in N rows under a lamp.
-///
-/// # Errors
-/// What the oracle cannot draw.
-pub fn stretched(rows: u32) -> Result<f64, MeasureError> {
+fn stretched(rows: u32) -> Result<f64, ChartError> {
     rms(&cells(rows, Shading::Gouraud)?, &cells(rows, Shading::Phong)?)
 }
 
@@ -56,34 +48,17 @@ fn lantern(bands: u32) -> Mesh {
     made(positions, Some(normals), triangles.collect())
 }
 
-/// By how many degrees the faces of a lantern of N bands are turned from the cylinder's normal at their middle.
-pub fn turned(bands: u32) -> f64 {
-    let mesh = lantern(bands);
-    let [a, b, c] = match mesh.triangles().next() {
-        Some(triangle) => triangle.map(|vertex| mesh.positions()[vertex as usize].as_dvec3()),
-        None => return 0.0,
-    };
-    let n = (b - a).cross(c - a);
-    n.y.abs().atan2(n.x.hypot(n.z)).to_degrees()
-}
-
-/// The same by formula: a face is as high as a band, and its base lies behind its tip by the sagitta 1 − cos(π/16).
-pub fn turned_by(bands: u32) -> f64 {
-    let sagitta = 1.0 - (std::f64::consts::PI / f64::from(SIDES)).cos();
-    (sagitta * f64::from(bands) / HEIGHT).atan().to_degrees()
-}
-
 fn column(world: &mut World, mesh: Mesh, shading: Shading) {
     camera(world, Vec3::new(0.0, 0.0, 3.4), Vec3::Y);
     sun(world, Vec3::new(0.3, 0.4, 1.0));
     show(world, mesh, Material::matte(LinearRgba::gray(0.9)), shading);
 }
 
-fn lantern_picture(bands: u32, shading: Shading) -> Result<Image, MeasureError> {
+fn lantern_picture(bands: u32, shading: Shading) -> Result<Image, ChartError> {
     drawn(Mode::Mesh, |world| column(world, lantern(bands), shading))
 }
 
-fn cylinder() -> Result<Image, MeasureError> {
+fn cylinder() -> Result<Image, ChartError> {
     let cylinder = Cylinder { radius: 1.0, height: HEIGHT as f32, capped: false };
     let mesh = match cylinder.mesh(Tessellation::Count { rows: 1, columns: 64 }) {
         Ok(mesh) => mesh,
@@ -93,21 +68,17 @@ fn cylinder() -> Result<Image, MeasureError> {
 }
 
 /// The error, linear, that 95 % of the pixels of a lantern keep to against the true cylinder.
-///
-/// # Errors
-/// What the oracle cannot draw.
-pub fn lantern_error(bands: u32, shading: Shading) -> Result<f64, MeasureError> {
+fn lantern_error(bands: u32, shading: Shading) -> Result<f64, ChartError> {
     const P95: usize = 1;
     Ok(compared(&lantern_picture(bands, shading)?, &cylinder()?)?.linear.all.percentiles[P95])
 }
 
-pub(super) fn page() -> Result<FailurePage, MeasureError> {
-    let stretches = ROWS.into_iter().map(|(rows, aspect)| Ok((aspect, stretched(rows)?)));
-    let stretches = stretches.collect::<Result<Vec<_>, MeasureError>>()?;
+pub(super) fn page() -> Result<FailurePage, ChartError> {
+    let stretches = measured("Gouraud", 1, ROWS.map(|(rows, aspect)| (aspect, rows)), stretched)?;
     let mut lanterns = Vec::new();
     for (name, kind, shading) in [("flat", 0, Shading::Flat), ("Phong, the cylinder’s normals", 2, Shading::Phong)] {
-        let points = BANDS.into_iter().map(|bands| Ok((f64::from(bands), lantern_error(bands, shading)?)));
-        lanterns.push(series(name, kind, &points.collect::<Result<Vec<_>, MeasureError>>()?, true));
+        let bands = BANDS.map(|bands| (f64::from(bands), bands));
+        lanterns.push(measured(name, kind, bands, |bands| lantern_error(bands, shading))?);
     }
     let [even, thin] = [32, 2].map(|rows| cells(rows, Shading::Gouraud));
     let [flat, phong] = [Shading::Flat, Shading::Phong].map(|shading| lantern_picture(64, shading));
@@ -121,24 +92,20 @@ pub(super) fn page() -> Result<FailurePage, MeasureError> {
                  pixels.",
         test: "thin_triangles_err_by_their_length_and_lanterns_by_their_angles",
         figures: vec![
-            (
-                "stretched cells",
-                figure(
-                    "slivers-stretched",
-                    "RMS error of Gouraud shading over a square of 1024 cells",
-                    [log("length of the cells (widths)"), log("RMS error (linear)")],
-                    panel("under a lamp; Phong shading is exact there", vec![series("Gouraud", 1, &stretches, true)]),
-                ),
-            ),
-            (
-                "Schwarz’s lantern",
-                figure(
-                    "slivers-lantern",
-                    "Error that 95 % of the pixels of a lantern of 16 sides keep to",
-                    [log("bands"), log("error (linear)")],
-                    panel("against the true cylinder", lanterns),
-                ),
-            ),
+            figure(
+                "slivers-stretched",
+                "RMS error of Gouraud shading over a square of 1024 cells",
+                [Axis::log("length of the cells (widths)"), Axis::log("RMS error (linear)")],
+                Panel::new("under a lamp; Phong shading is exact there", vec![stretches]),
+            )
+            .named("stretched cells"),
+            figure(
+                "slivers-lantern",
+                "Error that 95 % of the pixels of a lantern of 16 sides keep to",
+                [Axis::log("bands"), Axis::log("error (linear)")],
+                Panel::new("against the true cylinder", lanterns),
+            )
+            .named("Schwarz’s lantern"),
         ],
         pictures: shown([
             ("Gouraud, 32 × 32 cells", &even?),
@@ -147,4 +114,43 @@ pub(super) fn page() -> Result<FailurePage, MeasureError> {
             ("the same, Phong", &phong?),
         ]),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::failures::testing::{is_near, slope};
+
+    /// By how many degrees the faces of a lantern of N bands are turned from the cylinder's normal at their middle.
+    fn turned(bands: u32) -> f64 {
+        let mesh = lantern(bands);
+        let [a, b, c] = match mesh.triangles().next() {
+            Some(triangle) => triangle.map(|vertex| mesh.positions()[vertex as usize].as_dvec3()),
+            None => return 0.0,
+        };
+        let n = (b - a).cross(c - a);
+        n.y.abs().atan2(n.x.hypot(n.z)).to_degrees()
+    }
+
+    /// The same by formula: a face is as high as a band, and its base lies behind its tip by the sagitta 1 − cos(π/16).
+    fn turned_by(bands: u32) -> f64 {
+        let sagitta = 1.0 - (std::f64::consts::PI / f64::from(SIDES)).cos();
+        (sagitta * f64::from(bands) / HEIGHT).atan().to_degrees()
+    }
+
+    #[test]
+    fn thin_triangles_err_by_their_length_and_lanterns_by_their_angles() {
+        let found =
+            [16, 8, 4].map(|rows: u32| (1.0 / f64::from(rows), stretched(rows).expect("a square can be drawn")));
+        let slope = slope(&found);
+        assert!((slope - 2.0).abs() < 0.2, "by the square of the length: {slope}, {found:?}");
+        for bands in [2, 16, 128] {
+            is_near("the faces of a lantern", turned(bands), turned_by(bands), 1e-3);
+        }
+        let error = |bands, shading| lantern_error(bands, shading).expect("a lantern can be drawn");
+        let [few, many] = [8, 128].map(|bands| error(bands, Shading::Flat));
+        assert!(many > 2.0 * few, "finer and worse: {few}, {many}");
+        let [few, many] = [8, 128].map(|bands| error(bands, Shading::Phong));
+        assert!(many < 0.1 && many < 1.5 * few, "normals of the cylinder: {few}, {many}");
+    }
 }

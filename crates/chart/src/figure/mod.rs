@@ -3,23 +3,22 @@
 mod axis;
 pub mod svg;
 
-pub(crate) use axis::superscript;
 pub use axis::{Axis, AxisScale, Tick};
 
-/// A chart of one or more panels whose axes and series mean the same; horizontal axes may differ ([`Panel::x_label`]).
+/// A chart of one or more panels whose axes and series mean the same.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
     /// Names the SVG file and the chart's place on the page: lower case, no spaces.
     pub id: String,
-    /// What is charted, in a line.
+    /// Names the button that shows this chart, where a section has several.
+    pub name: String,
+    /// What is charted, in a line; no two charts of a page have the same.
     pub title: String,
     /// The horizontal axis of every panel.
     pub x: Axis,
     /// The vertical axis of every panel.
     pub y: Axis,
-    /// How many panels stand side by side where there is room for them, 1 or more.
-    pub columns: usize,
-    /// The panels, row by row.
+    /// The panels, row by row ([`Figure::columns`]).
     pub panels: Vec<Panel>,
 }
 
@@ -28,12 +27,15 @@ pub struct Figure {
 pub struct Panel {
     /// What the panel shows and its neighbours do not.
     pub title: String,
-    /// What its horizontal axis shows, where that is not what the figure's does; it has ends of its own then.
-    pub x_label: Option<String>,
-    /// Lines of text for a corner that the series leave free.
-    pub notes: Vec<String>,
     /// What is drawn, the last on top.
     pub series: Vec<Series>,
+}
+
+impl Panel {
+    /// A panel.
+    pub fn new(title: impl Into<String>, series: Vec<Series>) -> Self {
+        Self { title: title.into(), series }
+    }
 }
 
 /// Points that belong together, joined by a line in their order.
@@ -54,18 +56,21 @@ pub struct Point {
     pub x: f64,
     /// In the unit of the vertical axis.
     pub y: f64,
-    /// What the point is, in a line.
+    /// What the point is, in a line; empty for what is no measured point.
     pub label: String,
     /// From where to where half of the values lie that `x` is the median of, where it is one.
     pub quartiles: Option<(f64, f64)>,
-    /// Whether another point is better in everything: it is drawn pale.
+    /// Whether another point is both faster and more accurate: it is drawn pale.
     pub faded: bool,
+    /// The place of what the page shows of it, in [`Page::cards`](crate::page::Page::cards); without one the page shows
+    /// the label.
+    pub card: Option<usize>,
 }
 
 impl Point {
     /// A point without quartiles.
     pub fn new(x: f64, y: f64, label: String) -> Self {
-        Self { x, y, label, quartiles: None, faded: false }
+        Self { x, y, label, quartiles: None, faded: false, card: None }
     }
 }
 
@@ -113,35 +118,76 @@ pub enum Stroke {
 }
 
 impl Style {
+    /// A bare solid line of this brightness.
+    pub const fn gray(level: u8) -> Self {
+        Self { color: [level; 3], marker: None, filled: true, stroke: Stroke::Solid }
+    }
+
+    /// The colour as CSS writes it.
+    pub fn css(self) -> String {
+        let [r, g, b] = self.color;
+        format!("#{r:02x}{g:02x}{b:02x}")
+    }
+
     /// The same in a colour that stands back.
-    pub(crate) fn faded(self) -> Self {
+    fn faded(self) -> Self {
         // Three quarters of the way to white.
         Self { color: self.color.map(|channel| 255 - (255 - channel) / 4), ..self }
     }
 }
 
-impl Stroke {
-    /// The lengths of ink and gap in pixels; `None` without gaps.
-    pub(crate) fn pattern(self) -> Option<(u32, u32)> {
+impl Marker {
+    /// The outline around (0, 0), in pixels, as the data of an SVG path.
+    pub fn path(self) -> &'static str {
         match self {
-            Self::Solid | Self::Nothing => None,
-            Self::Dash => Some((8, 4)),
-            Self::Dot => Some((2, 3)),
+            Self::Circle => "M-4.5,0a4.5,4.5 0 1,0 9,0a4.5,4.5 0 1,0 -9,0Z",
+            Self::Square => "M-4,-4 4,-4 4,4 -4,4Z",
+            Self::Triangle => "M0,-5 5,4 -5,4Z",
+            Self::Diamond => "M0,-5 5,0 0,5 -5,0Z",
+            Self::Wedge => "M0,5 5,-4 -5,-4Z",
+            Self::Star => "M0,-6 2,-2 6,0 2,2 0,6 -2,2 -6,0 -2,-2Z",
         }
     }
 }
 
+/// The colours that charts use, which colour-blind readers tell apart (Okabe and Ito, "Color Universal Design", 2008).
+pub(crate) mod colors {
+    pub(crate) const GRAY: [u8; 3] = [0x8a, 0x8a, 0x8a];
+    pub(crate) const INK: [u8; 3] = [0x22, 0x22, 0x22];
+    pub(crate) const RED: [u8; 3] = [0xd5, 0x5e, 0x00];
+    pub(crate) const BLUE: [u8; 3] = [0x00, 0x72, 0xb2];
+    pub(crate) const GREEN: [u8; 3] = [0x00, 0x9e, 0x73];
+    pub(crate) const PURPLE: [u8; 3] = [0xcc, 0x79, 0xa7];
+    pub(crate) const ORANGE: [u8; 3] = [0xe6, 0x9f, 0x00];
+    pub(crate) const SKY: [u8; 3] = [0x56, 0xb4, 0xe9];
+}
+
 impl Figure {
-    /// The ends of a panel's axes: the least that hold every point of every panel, or, where its horizontal axis is one
-    /// of its own, of this one; and a little room. In positions ([`Axis::position`]): x, then y.
-    pub fn ranges(&self, panel: &Panel) -> [(f64, f64); 2] {
+    /// A figure of these axes and panels.
+    pub fn new(id: impl Into<String>, title: impl Into<String>, [x, y]: [Axis; 2], panels: Vec<Panel>) -> Self {
+        Self { id: id.into(), name: String::new(), title: title.into(), x, y, panels }
+    }
+
+    /// How many panels stand side by side where there is room for them.
+    pub fn columns(&self) -> usize {
+        match self.panels.len() {
+            0 | 1 => 1,
+            2 | 4 => 2,
+            _ => 3,
+        }
+    }
+
+    /// The same with the name of its button.
+    #[must_use]
+    pub fn named(self, name: impl Into<String>) -> Self {
+        Self { name: name.into(), ..self }
+    }
+
+    /// The ends of the axes: the least that hold every point of every panel, and a little more. In positions
+    /// ([`Axis::position`]): x, then y.
+    pub fn ranges(&self) -> [(f64, f64); 2] {
         let all = || self.shown().map(|(_, point)| point);
-        let own = || panel.series.iter().flat_map(|series| self.drawn(series));
-        let x = match panel.x_label {
-            None => self.x.range(all().flat_map(|point| self.reach(point))),
-            Some(_) => self.x.range(own().flat_map(|point| self.reach(point))),
-        };
-        [x, self.y.range(all().map(|point| point.y))]
+        [self.x.range(all().flat_map(|point| self.reach(point))), self.y.range(all().map(|point| point.y))]
     }
 
     /// Where a point and its quartiles stand along the horizontal axis.
@@ -183,8 +229,6 @@ pub(crate) mod tests {
         let point = |x, y| Point { quartiles: Some((0.9 * x, 1.1 * x)), ..Point::new(x, y, format!("<{x}> & {y}")) };
         let panel = |title: &str, factor: f64| Panel {
             title: title.to_owned(),
-            x_label: None,
-            notes: vec!["slope < 2".to_owned(), "another".to_owned()],
             series: vec![
                 Series {
                     name: "one & all".to_owned(),
@@ -198,28 +242,17 @@ pub(crate) mod tests {
                 },
             ],
         };
-        Figure {
-            id: "example".to_owned(),
-            title: "An <example>".to_owned(),
-            x: Axis::new("time", AxisScale::Log),
-            y: Axis::new("error", AxisScale::Log),
-            columns: 2,
-            panels: vec![panel("left", 1.0), panel("right", 2.0)],
-        }
+        let axes = [Axis::log("time"), Axis::log("error")];
+        Figure::new("example", "An <example>", axes, vec![panel("left", 1.0), panel("right", 2.0)])
     }
 
     #[test]
     fn ranges_hold_what_is_shown() {
-        let mut figure = example();
-        let [x, y] = figure.ranges(&figure.panels[0]);
+        let figure = example();
+        let [x, y] = figure.ranges();
         assert!(x.0 < 0.0 && x.1 > 3f64.log10() && x.1 < 1.0, "{x:?}");
         assert!(y.0 < -2.0 && y.0 > -3.0 && y.1 > 0.0 && y.1 < 1.0, "{y:?}");
         assert_eq!(figure.shown().count(), 8, "the points at 0 have no logarithm");
-        figure.panels[0].series.pop();
-        figure.panels[0].x_label = Some("another".to_owned());
-        let [own, same] = figure.ranges(&figure.panels[0]);
-        assert!(own.1 > 1.5f64.log10() && own.1 < 2f64.log10() && same == y, "{own:?}, {same:?}");
-        assert_eq!(figure.ranges(&figure.panels[1])[0], x);
     }
 
     #[test]

@@ -1,18 +1,8 @@
 //! Figures as SVG, with text as text.
 
-use std::ops::Range;
+use std::fmt::Write as _;
 
-use plotters::coord::Shift;
-use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
-use plotters::element::{DashedPathElement, PathElement, Polygon, Text};
-use plotters::prelude::{
-    ChartBuilder, Circle, DrawingArea, DrawingAreaErrorKind, IntoDrawingArea, RGBColor, SVGBackend, TRANSPARENT, WHITE,
-};
-use plotters::style::text_anchor::{HPos, Pos, VPos};
-use plotters::style::{Color, IntoFont, TextStyle};
-use thiserror::Error;
-
-use super::{Axis, Figure, Marker, Panel, Point, Series, Stroke, Style, Tick};
+use super::{Axis, Figure, Panel, Point, Series, Stroke, Style};
 
 /// How large a figure is drawn, in pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,92 +13,50 @@ pub struct Size {
     pub row: u32,
 }
 
-/// The drawing library refused.
-#[derive(Debug, Error)]
-#[error("the chart cannot be drawn as SVG: {0}")]
-pub struct SvgError(String);
-
-impl<E: std::error::Error + Send + Sync> From<DrawingAreaErrorKind<E>> for SvgError {
-    fn from(error: DrawingAreaErrorKind<E>) -> Self {
-        Self(error.to_string())
-    }
-}
-
-type Result<T = ()> = std::result::Result<T, SvgError>;
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-/// Pixels from the upper left corner of the figure.
-type Pixel = (i32, i32);
-
-const INK: RGBColor = RGBColor(0x2b, 0x2b, 0x2b);
-const GRID: RGBColor = RGBColor(0xe6, 0xe6, 0xe6);
-const FONT: &str = "system-ui, sans-serif";
 /// What the title and one line of legend take at the top.
 const HEAD: u32 = 64;
 /// What another line of legend takes.
 const LEGEND_LINE: u32 = 20;
-/// Half the width of a marker.
-const MARKER: i32 = 4;
 /// The length of line that stands for a series in the legend.
-const SWATCH: i32 = 36;
+const SWATCH: u32 = 36;
+/// What a panel's title and labels take around its plot: left, right, top, bottom.
+const MARGINS: [f64; 4] = [64.0, 14.0, 26.0, 48.0];
 
 /// Draws all of a figure: title, legend, and the panels below.
-///
-/// # Errors
-/// What the drawing library has to say; it has no reason to fail on text in memory.
-pub fn figure(figure: &Figure, size: Size) -> Result<String> {
-    let rows = figure.panels.len().div_ceil(figure.columns).max(1);
+pub fn figure(figure: &Figure, size: Size) -> String {
+    let columns = figure.columns();
     let legend = legend_lines(figure, size.width);
     let top = HEAD + LEGEND_LINE * legend.len().saturating_sub(1) as u32;
-    on_canvas((size.width, top + rows as u32 * size.row), |root| {
-        head(figure, &legend, root)?;
-        let body = root.split_vertically(top).1.split_evenly((rows, figure.columns));
-        figure.panels.iter().zip(body).try_for_each(|(content, area)| panel(figure, content, root, &area).map(drop))
-    })
-    .map(|(svg, ())| svg)
+    let mut body = head(figure, &legend, size.width);
+    let panel_size = Size { width: size.width / columns as u32, row: size.row };
+    for (i, content) in figure.panels.iter().enumerate() {
+        let (column, row) = ((i % columns) as u32, (i / columns) as u32);
+        let (x, y) = (column * panel_size.width, top + row * size.row);
+        let _ = writeln!(body, "<g transform=\"translate({x} {y})\">\n{}</g>", panel(figure, content, panel_size).0);
+    }
+    let rows = figure.panels.len().div_ceil(columns).max(1) as u32;
+    document((size.width, top + rows * size.row), &body)
 }
 
-/// Draws one panel of a figure alone, for a page that can be pointed at: over each point lies an invisible circle of
-/// the class `hit`, with the point's label as `data-label`.
-///
-/// # Errors
-/// What the drawing library has to say; it has no reason to fail on text in memory.
-pub fn panel_with_hits(figure: &Figure, content: &Panel, size: Size) -> Result<String> {
-    let (mut svg, points) = on_canvas((size.width, size.row), |root| panel(figure, content, root, root))?;
-    let end = svg.rfind("</svg>").unwrap_or(svg.len());
-    let hits: String = points.into_iter().map(hit).collect();
-    svg.insert_str(end, &hits);
-    Ok(svg)
+/// Draws one panel of a figure alone, for a page that can be pointed at: over each point with a label lies an invisible circle of
+/// the class `hit`, with the point's label as `data-label` and its card, if it has one, as `data-card`.
+pub fn panel_with_hits(figure: &Figure, content: &Panel, size: Size) -> String {
+    let (mut body, points) = panel(figure, content, size);
+    for (series, point, (x, y)) in points.into_iter().filter(|(_, point, _)| !point.label.is_empty()) {
+        let [series, label] = [&series.name, &point.label].map(|text| escaped(text));
+        let card = point.card.map(|card| format!(" data-card=\"{card}\"")).unwrap_or_default();
+        let _ = writeln!(
+            body,
+            "<circle class=\"hit\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"8\" tabindex=\"0\" data-series=\"{series}\" \
+             data-label=\"{label}\"{card}/>"
+        );
+    }
+    document((size.width, size.row), &body)
 }
 
 /// Draws a piece of a series' line with its marker, as the legend shows it.
-///
-/// # Errors
-/// What the drawing library has to say; it has no reason to fail on text in memory.
-pub fn swatch(style: Style) -> Result<String> {
-    let drawn = on_canvas((SWATCH as u32, 14), |root| piece(root, (0, 7), style));
-    drawn.map(|(svg, ())| svg)
-}
-
-fn piece(root: &Area<'_>, (x, y): Pixel, style: Style) -> Result {
-    line(root, vec![(x, y), (x + SWATCH, y)], style)?;
-    mark(root, (x + SWATCH / 2, y), style)
-}
-
-fn on_canvas<T>((width, height): (u32, u32), draw: impl FnOnce(&Area<'_>) -> Result<T>) -> Result<(String, T)> {
-    let mut svg = String::new();
-    let drawn = {
-        let root = SVGBackend::with_string(&mut svg, (width, height)).into_drawing_area();
-        root.fill(&WHITE)?;
-        let drawn = draw(&root)?;
-        root.present()?;
-        drawn
-    };
-    Ok((svg, drawn))
-}
-
-fn hit((point, (x, y)): (&Point, Pixel)) -> String {
-    let label = escaped(&point.label);
-    format!("<circle class=\"hit\" cx=\"{x}\" cy=\"{y}\" r=\"8\" data-label=\"{label}\"/>\n")
+pub fn swatch(style: Style) -> String {
+    document((SWATCH, 14), &piece((0.0, 7.0), style))
 }
 
 /// Text as HTML and SVG, in elements and in quoted attributes.
@@ -120,21 +68,34 @@ pub fn escaped(text: &str) -> String {
     escaped
 }
 
+fn document((width, height): (u32, u32), body: &str) -> String {
+    format!(
+        "<svg width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" \
+         xmlns=\"http://www.w3.org/2000/svg\" font-family=\"system-ui, sans-serif\" fill=\"#2b2b2b\">\n\
+         <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n{body}</svg>\n"
+    )
+}
+
+fn piece((x, y): (f64, f64), style: Style) -> String {
+    let length = f64::from(SWATCH);
+    line(&[(x, y), (x + length, y)], style) + &mark((x + length / 2.0, y), style)
+}
+
 /// What a series takes in the legend. An SVG file does not say how wide its letters are; most are narrower than this.
-fn advance(series: &Series) -> i32 {
-    SWATCH + 8 + 8 * series.name.chars().count() as i32 + 22
+fn advance(series: &Series) -> f64 {
+    f64::from(SWATCH) + 8.0 * series.name.chars().count() as f64 + 30.0
 }
 
 /// The legend in as many lines as its entries need in this width, at least one entry in each.
 fn legend_lines(figure: &Figure, width: u32) -> Vec<Vec<&Series>> {
     let mut lines: Vec<Vec<&Series>> = Vec::new();
-    let mut room = 0;
+    let mut left = 0.0;
     for series in figure.legend() {
-        room -= advance(series);
+        left -= advance(series);
         match lines.last_mut() {
-            Some(line) if room >= 0 => line.push(series),
+            Some(line) if left >= 0.0 => line.push(series),
             _ => {
-                room = width as i32 - advance(series);
+                left = f64::from(width) - advance(series);
                 lines.push(vec![series]);
             }
         }
@@ -142,159 +103,133 @@ fn legend_lines(figure: &Figure, width: u32) -> Vec<Vec<&Series>> {
     lines
 }
 
-fn head(figure: &Figure, legend: &[Vec<&Series>], root: &Area<'_>) -> Result {
-    let middle = root.dim_in_pixel().0 as i32 / 2;
-    write(root, &figure.title, (middle, 20), 16, (HPos::Center, VPos::Center))?;
+fn head(figure: &Figure, legend: &[Vec<&Series>], width: u32) -> String {
+    let middle = f64::from(width) / 2.0;
+    let mut head = text(&figure.title, (middle, 26.0), (16, "middle"));
     for (line, y) in legend.iter().zip((47..).step_by(LEGEND_LINE as usize)) {
-        let mut x = middle - line.iter().map(|series| advance(series)).sum::<i32>() / 2 + 11;
+        let y = f64::from(y);
+        let mut x = middle - line.iter().map(|series| advance(series)).sum::<f64>() / 2.0 + 11.0;
         for series in line {
-            piece(root, (x, y), series.style)?;
-            write(root, &series.name, (x + SWATCH + 8, y), 13, (HPos::Left, VPos::Center))?;
+            head += &piece((x, y), series.style);
+            head += &text(&series.name, (x + f64::from(SWATCH) + 8.0, y + 4.5), (13, "start"));
             x += advance(series);
         }
     }
-    Ok(())
+    head
 }
 
-/// An axis as the drawing library takes it, in positions ([`Axis::position`]).
-struct Positions {
+/// An axis between two places of the picture.
+struct Scale<'a> {
+    axis: &'a Axis,
+    /// Positions ([`Axis::position`]).
     range: (f64, f64),
-    ticks: Vec<Tick>,
+    /// Where they are drawn.
+    pixels: (f64, f64),
 }
 
-impl Positions {
-    fn of(axis: &Axis, range: (f64, f64)) -> Self {
-        Self { range, ticks: axis.ticks(range) }
-    }
-}
-
-impl Ranged for Positions {
-    type FormatOption = NoDefaultFormatting;
-    type ValueType = f64;
-
-    fn map(&self, position: &f64, (start, end): (i32, i32)) -> i32 {
-        let (low, high) = self.range;
-        start + ((position - low) / (high - low) * f64::from(end - start)).round() as i32
+impl Scale<'_> {
+    fn place(&self, position: f64) -> f64 {
+        let ((low, high), (start, end)) = (self.range, self.pixels);
+        start + (position - low) / (high - low) * (end - start)
     }
 
-    fn key_points<Hint: KeyPointHint>(&self, hint: Hint) -> Vec<f64> {
-        // There are no light grid lines between the ticks.
-        let ticks = if hint.weight().allow_light_points() { &[] } else { self.ticks.as_slice() };
-        ticks.iter().map(|tick| tick.position).collect()
-    }
-
-    fn range(&self) -> Range<f64> {
-        self.range.0..self.range.1
+    fn value(&self, value: f64) -> f64 {
+        self.place(self.axis.position(value))
     }
 }
 
-impl ValueFormatter<f64> for Positions {
-    fn format_ext(&self, position: &f64) -> String {
-        let off = |tick: &Tick| (tick.position - position).abs();
-        let nearest = self.ticks.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
-        nearest.map(|tick| tick.label.clone()).unwrap_or_default()
-    }
-}
+/// A point of a series, and where it is drawn.
+type Placed<'a> = (&'a Series, &'a Point, (f64, f64));
 
-/// Draws a panel into `area` and tells where its points are on `root`.
-fn panel<'a>(
-    figure: &'a Figure,
-    panel: &'a Panel,
-    root: &Area<'_>,
-    area: &Area<'_>,
-) -> Result<Vec<(&'a Point, Pixel)>> {
-    let [x, y] = figure.ranges(panel);
-    let mut chart = ChartBuilder::on(area)
-        .margin(6)
-        .margin_right(14)
-        .caption(&panel.title, style(13))
-        .x_label_area_size(42)
-        .y_label_area_size(58)
-        .build_cartesian_2d(Positions::of(&figure.x, x), Positions::of(&figure.y, y))?;
-    chart
-        .configure_mesh()
-        .x_desc(panel.x_label.as_ref().unwrap_or(&figure.x.label).as_str())
-        .y_desc(figure.y.label.as_str())
-        .label_style(style(11))
-        .axis_desc_style(style(11))
-        .axis_style(INK)
-        .bold_line_style(GRID)
-        .light_line_style(TRANSPARENT)
-        .draw()?;
-    let at = |point: &Point| chart.backend_coord(&(figure.x.position(point.x), figure.y.position(point.y)));
+/// A panel, and where its points are.
+fn panel<'a>(figure: &'a Figure, panel: &'a Panel, size: Size) -> (String, Vec<Placed<'a>>) {
+    let [left, right, top, bottom] = MARGINS;
+    let (right, bottom) = (f64::from(size.width) - right, f64::from(size.row) - bottom);
+    let [x, y] = figure.ranges();
+    let x = Scale { axis: &figure.x, range: x, pixels: (left, right) };
+    let y = Scale { axis: &figure.y, range: y, pixels: (bottom, top) };
+    let mut body = axes(&x, &y);
+    body += &text(&panel.title, ((left + right) / 2.0, 18.0), (13, "middle"));
+    body += &text(&figure.x.label, ((left + right) / 2.0, bottom + 38.0), (11, "middle"));
+    let _ = writeln!(
+        body,
+        "<text transform=\"translate(14 {:.1}) rotate(-90)\" font-size=\"11\" text-anchor=\"middle\">{}</text>",
+        (top + bottom) / 2.0,
+        escaped(&figure.y.label)
+    );
     let mut placed = Vec::new();
     for series in &panel.series {
-        let points: Vec<_> = figure.drawn(series).map(|point| (point, at(point))).collect();
-        line(root, points.iter().map(|(_, at)| *at).collect(), series.style)?;
-        for (point, at) in &points {
+        let points = figure.drawn(series).map(|point| (series, point, (x.value(point.x), y.value(point.y))));
+        let points: Vec<Placed<'_>> = points.collect();
+        let _ = writeln!(body, "<g data-series=\"{}\">", escaped(&series.name));
+        body += &line(&points.iter().map(|(.., at)| *at).collect::<Vec<_>>(), series.style);
+        for &(_, point, at) in &points {
             let style = if point.faded { series.style.faded() } else { series.style };
             if let Some((low, high)) = point.quartiles.filter(|(low, _)| figure.x.shows(*low)) {
-                let [low, high] = [low, high].map(|x| (chart.backend_coord(&(figure.x.position(x), y.0)).0, at.1));
-                root.draw(&PathElement::new(vec![low, high], color(style).stroke_width(1)))?;
+                body += &segment((x.value(low), at.1), (x.value(high), at.1), &style.css());
             }
-            mark(root, *at, style)?;
+            body += &mark(at, style);
         }
+        body += "</g>\n";
         placed.extend(points);
     }
-    // Lines of 15 pixels, the last at the bottom of the plot's right edge.
-    let (right, bottom) = chart.backend_coord(&(x.1, y.0));
-    for (above, note) in panel.notes.iter().rev().enumerate() {
-        let at = (right - 8, bottom - 8 - 15 * above as i32);
-        write(root, note, at, 11, (HPos::Right, VPos::Bottom))?;
+    (body, placed)
+}
+
+/// Ticks with their labels and the lines of the grid, and the frame's left and lower side.
+fn axes(x: &Scale<'_>, y: &Scale<'_>) -> String {
+    let ((left, right), (bottom, top)) = (x.pixels, y.pixels);
+    let mut body = String::new();
+    for tick in x.axis.ticks(x.range) {
+        let at = x.place(tick.position);
+        body += &segment((at, top), (at, bottom), "#e6e6e6");
+        body += &text(&tick.label, (at, bottom + 16.0), (11, "middle"));
     }
-    Ok(placed)
-}
-
-/// `size` is the font's in pixels, as CSS has it; the drawing library means the height of a line, and divides by 1.24.
-fn style(size: u32) -> TextStyle<'static> {
-    TextStyle::from((FONT, f64::from(size) * 1.24).into_font()).color(&INK)
-}
-
-fn write(root: &Area<'_>, text: &str, at: Pixel, size: u32, (h, v): (HPos, VPos)) -> Result {
-    Ok(root.draw(&Text::new(text.to_owned(), at, style(size).pos(Pos::new(h, v))))?)
-}
-
-fn line(root: &Area<'_>, points: Vec<Pixel>, style: Style) -> Result {
-    let ink = color(style).stroke_width(2);
-    match style.stroke.pattern() {
-        _ if style.stroke == Stroke::Nothing => {}
-        None => root.draw(&PathElement::new(points, ink))?,
-        Some((dash, gap)) => root.draw(&DashedPathElement::new(points, dash, gap, ink))?,
+    for tick in y.axis.ticks(y.range) {
+        let at = y.place(tick.position);
+        body += &segment((left, at), (right, at), "#e6e6e6");
+        body += &text(&tick.label, (left - 6.0, at + 4.0), (11, "end"));
     }
-    Ok(())
+    body + &segment((left, top), (left, bottom), "#2b2b2b") + &segment((left, bottom), (right, bottom), "#2b2b2b")
+}
+
+fn text(content: &str, (x, y): (f64, f64), (size, anchor): (u32, &str)) -> String {
+    let content = escaped(content);
+    format!("<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"{size}\" text-anchor=\"{anchor}\">{content}</text>\n")
+}
+
+fn segment((x1, y1): (f64, f64), (x2, y2): (f64, f64), color: &str) -> String {
+    format!("<line x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\" stroke=\"{color}\"/>\n")
+}
+
+fn line(points: &[(f64, f64)], style: Style) -> String {
+    let dashes = match style.stroke {
+        Stroke::Nothing => return String::new(),
+        Stroke::Solid => "",
+        Stroke::Dash => " stroke-dasharray=\"8 4\"",
+        Stroke::Dot => " stroke-dasharray=\"2 3\"",
+    };
+    let points: Vec<String> = points.iter().map(|(x, y)| format!("{x:.1},{y:.1}")).collect();
+    let color = style.css();
+    let points = points.join(" ");
+    format!("<polyline points=\"{points}\" fill=\"none\" stroke=\"{color}\" stroke-width=\"2\"{dashes}/>\n")
 }
 
 /// The series' marker, if it has one. One that is not filled is white inside, so that no line shows through.
-fn mark(root: &Area<'_>, (x, y): Pixel, style: Style) -> Result {
-    let Some(marker) = style.marker else { return Ok(()) };
-    let fill = if style.filled { color(style).filled() } else { WHITE.filled() };
-    let corners: &[Pixel] = match marker {
-        Marker::Circle => {
-            root.draw(&Circle::new((x, y), MARKER, fill))?;
-            return Ok(root.draw(&Circle::new((x, y), MARKER, color(style).stroke_width(2)))?);
-        }
-        Marker::Square => &[(-4, -4), (4, -4), (4, 4), (-4, 4)],
-        Marker::Triangle => &[(0, -5), (5, 4), (-5, 4)],
-        Marker::Diamond => &[(0, -5), (5, 0), (0, 5), (-5, 0)],
-        Marker::Wedge => &[(0, 5), (5, -4), (-5, -4)],
-        Marker::Star => &[(0, -6), (2, -2), (6, 0), (2, 2), (0, 6), (-2, 2), (-6, 0), (-2, -2)],
-    };
-    let mut outline: Vec<Pixel> = corners.iter().map(|(dx, dy)| (x + dx, y + dy)).collect();
-    root.draw(&Polygon::new(outline.clone(), fill))?;
-    // Closed, and a bit beyond, for the last corner to be as sharp as the others.
-    outline.extend_from_within(..2);
-    Ok(root.draw(&PathElement::new(outline, color(style).stroke_width(2)))?)
-}
-
-fn color(style: Style) -> RGBColor {
-    let [r, g, b] = style.color;
-    RGBColor(r, g, b)
+fn mark((x, y): (f64, f64), style: Style) -> String {
+    let Some(marker) = style.marker else { return String::new() };
+    let color = style.css();
+    let fill = if style.filled { &color } else { "#ffffff" };
+    let path = marker.path();
+    format!(
+        "<path class=\"mark\" d=\"{path}\" transform=\"translate({x:.1} {y:.1})\" fill=\"{fill}\" stroke=\"{color}\" \
+         stroke-width=\"2\"/>\n"
+    )
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::figure::AxisScale;
     use crate::figure::tests::example;
 
     #[test]
@@ -304,15 +239,15 @@ mod tests {
 
     #[test]
     fn an_svg_file_shows_all_and_keeps_text_as_text() {
-        let svg = figure(&example(), Size { width: 800, row: 300 }).unwrap();
+        let svg = figure(&example(), Size { width: 800, row: 300 });
         assert!(svg.starts_with("<svg width=\"800\" height=\"364\""), "{}", &svg[..80]);
-        for text in ["An &lt;example&gt;", "one &amp; all", "other", "left", "right", "slope &lt; 2", "time", "error"] {
-            assert!(svg.contains(text), "{text}");
+        for text in ["An &lt;example&gt;", "one &amp; all", "other", "left", "right", "time", "error"] {
+            assert!(svg.contains(&format!(">{text}</text>")), "{text}");
         }
-        // Four points of triangles in each panel and one in the legend, each filled and outlined.
-        assert_eq!(svg.matches("<polygon").count(), 8 + 2);
+        // Four points in each panel, and two series in the legend.
+        assert_eq!(svg.matches("class=\"mark\"").count(), 8 + 2);
         // Ticks of both axes.
-        for label in ["\n1\n", "\n0.1\n"] {
+        for label in [">1</text>", ">0.1</text>"] {
             assert!(svg.contains(label), "{label:?}");
         }
         assert!(!svg.contains("NaN"));
@@ -327,23 +262,25 @@ mod tests {
         };
         assert_eq!(names(800), [["one & all", "other"]]);
         assert_eq!(names(150), [["one & all"], ["other"]]);
-        let svg = figure(&example, Size { width: 150, row: 300 }).unwrap();
+        let svg = figure(&example, Size { width: 150, row: 300 });
         assert!(svg.starts_with("<svg width=\"150\" height=\"384\""), "{}", &svg[..80]);
     }
 
     #[test]
     fn every_point_of_a_panel_can_be_hit() {
         let example = example();
-        let svg = panel_with_hits(&example, &example.panels[0], Size { width: 300, row: 280 }).unwrap();
+        let svg = panel_with_hits(&example, &example.panels[0], Size { width: 300, row: 280 });
         assert!(svg.starts_with("<svg width=\"300\" height=\"280\"") && svg.ends_with("</svg>\n"), "{svg}");
         assert_eq!(svg.matches("class=\"hit\"").count(), 4);
         assert!(svg.contains("data-label=\"&lt;1&gt; &amp; 0.01\""));
     }
 
     #[test]
-    fn positions_are_linear_and_named() {
-        let axis = Positions::of(&Axis::new("", AxisScale::Log), (-2.0, 2.0));
-        assert_eq!([-2.0, 0.0, 2.0].map(|position| axis.map(&position, (100, 500))), [100, 300, 500]);
-        assert_eq!(axis.format_ext(&-1.0), "0.1");
+    fn values_lie_where_the_axis_says() {
+        let axis = Axis::log("");
+        let scale = Scale { axis: &axis, range: (-2.0, 2.0), pixels: (100.0, 500.0) };
+        for (value, expected) in [(0.01, 100.0), (1.0, 300.0), (100.0, 500.0)] {
+            assert!((scale.value(value) - expected).abs() < 1e-9, "{value}");
+        }
     }
 }

@@ -1,17 +1,15 @@
-//! Filters of images against the integrated footprint, and highlights of normal maps from afar against many samples:
-//! error, shimmer, time and memory.
+//! Filters of images against the integrated footprint: error, shimmer, time and memory.
 
-mod highlights;
+mod pages;
 mod scenery;
 mod sweep;
 
 use halfway::texture::{LevelFilter, Sampling, TexelFilter};
 
+use crate::pareto;
 use crate::timing::Spread;
 
-pub use highlights::{
-    HighlightFigures, MeasuredHighlights, RoughSurface, far_normals_memory, far_normals_name, highlights,
-};
+pub use pages::Filters;
 pub use scenery::{ChartedImage, FilterView};
 pub use sweep::sweep;
 
@@ -34,10 +32,10 @@ impl FilterPlan {
     /// The same with fewer pixels, frames and rounds: for a look.
     pub const QUICK: Self = Self { size: [96, 72], frames: 4, rounds: 7, tolerance: 1e-4 };
 
-    /// The units that [`sweep`] and [`highlights`] report: a truth each, and one for each timing.
+    /// The units that [`sweep`] reports: a truth each, and one for each timing.
     pub fn units(&self) -> u64 {
         let views = FilterView::ALL.len() + FilterView::MOVING.len() * self.frames as usize;
-        (ChartedImage::ALL.len() * (views + 1)) as u64 + Self::highlight_units()
+        (ChartedImage::ALL.len() * (views + 1)) as u64
     }
 }
 
@@ -115,19 +113,9 @@ pub struct MeasuredFilters {
 }
 
 impl MeasuredFilters {
-    /// The places in [`FILTERS`] that nothing is both as fast as and errs as little, by the figure that `error` tells,
-    /// the fastest first.
+    /// The places in [`FILTERS`] of the Pareto front of time and the error that `error` tells, the fastest first.
     pub fn front(&self, error: impl Fn(&FilterFigures) -> f64) -> Vec<usize> {
-        let time = |i: usize| self.figures[i].ratio.median;
-        let error = |i: usize| error(&self.figures[i]);
-        let mut order: Vec<usize> = (0..self.figures.len()).collect();
-        order.sort_by(|&a, &b| time(a).total_cmp(&time(b)).then(error(a).total_cmp(&error(b))));
-        let mut least = f64::INFINITY;
-        order.retain(|&i| {
-            let nearer = error(i) < least;
-            least = least.min(error(i));
-            nearer
-        });
-        order
+        let places: Vec<_> = self.figures.iter().map(|found| (found.ratio.median, error(found))).collect();
+        pareto::front(&places)
     }
 }

@@ -1,7 +1,5 @@
 //! What the filters are shown: images on a plane, and from where it is seen.
 
-use std::f64::consts::TAU;
-
 use halfway::texture::{PictureMap, Pyramid, TexelImage};
 
 /// Texels along a side of the images.
@@ -12,31 +10,19 @@ const SIDE: u32 = 256;
 pub enum ChartedImage {
     /// Squares of 8 × 8 texels, black and white.
     Checkerboard,
-    /// 36 rays, black and white.
-    Radial,
     /// Noise of colors whose amplitude falls with the frequency, as that of photographs does (Field 1987).
     Noise,
 }
 
 impl ChartedImage {
     /// All.
-    pub const ALL: [Self; 3] = [Self::Checkerboard, Self::Radial, Self::Noise];
+    pub const ALL: [Self; 2] = [Self::Checkerboard, Self::Noise];
 
     /// In words.
     pub fn name(self) -> &'static str {
         match self {
             Self::Checkerboard => "checkerboard",
-            Self::Radial => "radial chart",
             Self::Noise => "noise as of photographs",
-        }
-    }
-
-    /// Part of the names of files.
-    pub fn id(self) -> &'static str {
-        match self {
-            Self::Checkerboard => "checkerboard",
-            Self::Radial => "radial",
-            Self::Noise => "noise",
         }
     }
 
@@ -46,10 +32,6 @@ impl ChartedImage {
             Self::Checkerboard => {
                 let white = (x / 8 + y / 8) % 2 == 1;
                 if white { [0.9, 0.9, 0.85, 1.0] } else { [0.05, 0.05, 0.08, 1.0] }
-            }
-            Self::Radial => {
-                let value = rays(x, y) as f32;
-                [0.05 + 0.85 * value, 0.05 + 0.85 * value, 0.08 + 0.8 * value, 1.0]
             }
             Self::Noise => {
                 let [gray, r, g, b] = [0, 1, 2, 3].map(|seed| noise(x, y, seed));
@@ -63,16 +45,6 @@ impl ChartedImage {
             Err(_) => Pyramid::missing(),
         }
     }
-}
-
-/// How much of a texel lies on a white ray, from 8 × 8 samples.
-fn rays(x: u32, y: u32) -> f64 {
-    let samples = (0..64).filter(|k| {
-        let at = |texel: u32, k: u32| (f64::from(texel) + (f64::from(k) + 0.5) / 8.0) / f64::from(SIDE) - 0.5;
-        let turns = at(y, k / 8).atan2(at(x, k % 8)) / TAU;
-        (turns * 36.0).rem_euclid(1.0) < 0.5
-    });
-    samples.count() as f64 / 64.0
 }
 
 /// Octaves of smooth noise of one amplitude each: in two dimensions that is an amplitude like 1/f. About −1 to 1.
@@ -133,8 +105,7 @@ impl FilterView {
     ///
     /// The camera is one unit away from the plane, and opens 60°. A unit has 300 texels where it is seen from above, 3
     /// a pixel of pictures 120 pixels high, and 100 elsewhere, 1 a pixel near the lower edge. Between two frames the
-    /// camera moves by
-    /// 0.4 texels to the side and 0.9 forward.
+    /// camera moves by 0.4 texels to the side and 0.9 forward.
     pub fn map(self, [width, height]: [u32; 2], frame: u32) -> PictureMap {
         let [width, height] = [f64::from(width), f64::from(height)];
         let focal = 0.5 * height / 30_f64.to_radians().tan();

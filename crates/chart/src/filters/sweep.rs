@@ -10,8 +10,9 @@ use halfway::texture::{FootprintTruth, PictureMap, Pyramid, Wrap, lookup};
 use rayon::prelude::*;
 
 use super::{BILINEAR, ChartedImage, FILTERS, FilterFigures, FilterMethod, FilterPlan, FilterView, MeasuredFilters};
-use crate::measure::{MeasureError, MeasureProgress};
+use crate::error::ChartError;
 use crate::page::data_uri;
+use crate::progress::Progress;
 use crate::timing::{Spread, ratios};
 
 /// A lookup: where, and how (u, v) changes from a pixel to the next.
@@ -28,15 +29,15 @@ struct PlanePicture {
 ///
 /// # Errors
 /// A picture that cannot be put on the page.
-pub fn sweep(plan: &FilterPlan, progress: &mut MeasureProgress<'_>) -> Result<Vec<MeasuredFilters>, MeasureError> {
+pub fn sweep(plan: &FilterPlan, progress: &mut Progress<'_>) -> Result<Vec<MeasuredFilters>, ChartError> {
     ChartedImage::ALL.into_iter().map(|image| of_image(plan, image, progress)).collect()
 }
 
 fn of_image(
     plan: &FilterPlan,
     image: ChartedImage,
-    progress: &mut MeasureProgress<'_>,
-) -> Result<MeasuredFilters, MeasureError> {
+    progress: &mut Progress<'_>,
+) -> Result<MeasuredFilters, ChartError> {
     let pyramid = image.pyramid();
     let truth = FootprintTruth::new(&pyramid);
     let mut see = |view: FilterView, frame: u32| {
@@ -84,7 +85,7 @@ fn errors(
     method: FilterMethod,
     still: &[PlanePicture],
     moving: &[Vec<PlanePicture>],
-) -> Result<FilterFigures, MeasureError> {
+) -> Result<FilterFigures, ChartError> {
     let mut found = FilterFigures::default();
     let mut all = Mean::default();
     for seen in still {
@@ -165,8 +166,8 @@ fn image(plan: &FilterPlan, pixels: &[Option<[f64; 3]>]) -> Image {
     Image::new(plan.size[0], plan.size[1], pixels.iter().map(|pixel| pixel.unwrap_or([0.3; 3])).collect())
 }
 
-fn uri(plan: &FilterPlan, pixels: &[Option<[f64; 3]>]) -> Result<String, MeasureError> {
-    data_uri(&image(plan, pixels).to_bytes(Encoding::Srgb)).map_err(MeasureError::Picture)
+fn uri(plan: &FilterPlan, pixels: &[Option<[f64; 3]>]) -> Result<String, ChartError> {
+    Ok(data_uri(&image(plan, pixels).to_bytes(Encoding::Srgb))?)
 }
 
 /// A root of a mean of squares.

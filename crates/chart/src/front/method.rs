@@ -2,17 +2,6 @@
 
 use halfway::prelude::*;
 
-/// Where the lights' terms are evaluated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shade {
-    /// All of them at one place.
-    At(Shading),
-    /// Each of them at a place of its own.
-    Mixed(Terms),
-    /// Each light's where that is cheapest, within N halves of a step of 255.
-    Auto(u8),
-}
-
 /// Methods that are drawn alike in a chart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Family {
@@ -24,17 +13,15 @@ pub enum Family {
     Gouraud,
     /// Once a pixel.
     Phong,
-    /// A mixture.
+    /// The diffuse and the specular term at places of their own.
     Mixed,
-    /// Automatically, within a tolerance.
-    Auto,
 }
 
 /// How a scene is drawn, whatever it says itself.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Method {
     /// Where the lights' terms are evaluated.
-    pub shade: Shade,
+    pub terms: Terms,
     /// How highlights are made; `None` leaves that to the scene.
     pub reflectance: Option<Reflectance>,
     /// Whether the viewer is infinitely far away for the highlights, whatever the scene says.
@@ -44,11 +31,13 @@ pub struct Method {
     pub far_lights: bool,
     /// Samples a pixel.
     pub samples: Samples,
+    /// How far points of meshes may move, in pixels ([`Tolerance::pixels`]): 0, which draws every triangle, or 1.
+    pub pixels: f32,
 }
 
 impl Family {
     /// Every family.
-    pub const ALL: [Self; 6] = [Self::Constant, Self::Flat, Self::Gouraud, Self::Phong, Self::Mixed, Self::Auto];
+    pub const ALL: [Self; 5] = [Self::Constant, Self::Flat, Self::Gouraud, Self::Phong, Self::Mixed];
 
     /// As a reader knows it.
     pub fn name(self) -> &'static str {
@@ -58,115 +47,59 @@ impl Family {
             Self::Gouraud => "Gouraud",
             Self::Phong => "Phong",
             Self::Mixed => "mixed terms",
-            Self::Auto => "automatic",
         }
-    }
-
-    /// The family of this name.
-    pub fn named(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|family| family.name() == name)
-    }
-}
-
-/// The tolerances that are tried, in halves of a step: ½ to 16 steps.
-const HALF_STEPS: [u8; 6] = [1, 2, 4, 8, 16, 32];
-
-impl Shade {
-    /// Every way; a term that is shaded once a triangle goes with no other.
-    fn all() -> Vec<Self> {
-        let frequencies = [Frequency::Never, Frequency::Vertex, Frequency::Fragment];
-        let mixed = frequencies.iter().flat_map(|&diffuse| frequencies.map(|specular| Terms { diffuse, specular }));
-        let mixed = mixed.filter(|terms| terms.diffuse != terms.specular || *terms == Terms::NONE);
-        [Shading::Flat, Shading::Gouraud, Shading::Phong]
-            .map(Self::At)
-            .into_iter()
-            .chain(mixed.map(Self::Mixed))
-            .chain(HALF_STEPS.map(Self::Auto))
-            .collect()
-    }
-
-    fn family(self) -> Family {
-        match self {
-            Self::At(Shading::Flat) => Family::Flat,
-            Self::At(Shading::Gouraud) => Family::Gouraud,
-            Self::At(_) => Family::Phong,
-            Self::Mixed(Terms::NONE) => Family::Constant,
-            Self::Mixed(_) => Family::Mixed,
-            Self::Auto(_) => Family::Auto,
-        }
-    }
-
-    fn id(self) -> String {
-        match self {
-            Self::At(Shading::Flat) => "flat".to_owned(),
-            Self::At(Shading::Gouraud) => "gouraud".to_owned(),
-            Self::At(_) => "phong".to_owned(),
-            Self::Mixed(Terms::NONE) => "constant".to_owned(),
-            Self::Auto(half_steps) => format!("auto-{}", f64::from(half_steps) / 2.0),
-            Self::Mixed(Terms { diffuse, specular }) => format!("diffuse-{}-specular-{}", at(diffuse), at(specular)),
-        }
-    }
-
-    fn words(self) -> String {
-        let place = |frequency| match frequency {
-            Frequency::Never => "left out",
-            Frequency::Triangle => "once a triangle",
-            Frequency::Vertex => "at vertices",
-            Frequency::Fragment => "at pixels",
-        };
-        match self {
-            Self::Mixed(Terms { diffuse, specular }) if diffuse != specular => {
-                format!("diffuse {}, specular {}", place(diffuse), place(specular))
-            }
-            Self::Auto(2) => "automatic, within 1 step".to_owned(),
-            Self::Auto(half_steps) => format!("automatic, within {} steps", f64::from(half_steps) / 2.0),
-            other => other.family().name().to_owned(),
-        }
-    }
-}
-
-/// Where a term is evaluated, in a word.
-fn at(frequency: Frequency) -> &'static str {
-    match frequency {
-        Frequency::Never => "never",
-        Frequency::Triangle => "triangle",
-        Frequency::Vertex => "vertex",
-        Frequency::Fragment => "pixel",
     }
 }
 
 impl Method {
     /// Without lights: what every frame is timed against.
-    pub const CONSTANT: Self = Self::new(Shade::Mixed(Terms::NONE));
+    pub const CONSTANT: Self = Self::new(Terms::NONE);
+    /// Both terms once a triangle.
+    pub const FLAT: Self = Self::new(Terms::both(Frequency::Triangle));
+    /// Both terms once a vertex.
+    pub const GOURAUD: Self = Self::new(Terms::both(Frequency::Vertex));
+    /// Both terms once a pixel.
+    pub const PHONG: Self = Self::new(Terms::both(Frequency::Fragment));
+    /// The diffuse term once a vertex, the specular one once a pixel.
+    pub const HIGHLIGHTS: Self = Self::new(Terms { diffuse: Frequency::Vertex, specular: Frequency::Fragment });
 
-    /// With one sample, and with the scene's reflectance and viewer.
-    pub const fn new(shade: Shade) -> Self {
-        Self { shade, reflectance: None, infinite_viewer: false, far_lights: false, samples: Samples::One }
+    /// Every triangle with one sample a pixel, and with the scene's reflectance and viewer.
+    pub const fn new(terms: Terms) -> Self {
+        let samples = Samples::One;
+        Self { terms, reflectance: None, infinite_viewer: false, far_lights: false, samples, pixels: 0.0 }
     }
 
-    /// Every method worth trying on a scene: flat, Gouraud and Phong with either viewer and either number of samples,
-    /// every mixture of terms, and, where the scene reflects by Phong's formula, Blinn's in its place.
+    /// Every method worth trying on a scene: flat, Gouraud and Phong shading, each also with an infinite viewer and with
+    /// four samples; every mixture of terms, the constant colour among them; Phong shading with detail within a pixel;
+    /// and, where the scene reflects by Phong's formula, Blinn's in its place.
     pub fn all(scene: Option<Reflectance>) -> Vec<Self> {
-        let mut methods: Vec<Self> = Shade::all().into_iter().map(Self::new).collect();
-        for shading in [Shading::Flat, Shading::Gouraud, Shading::Phong] {
-            let plain = Self::new(Shade::At(shading));
-            let smooth = Self { samples: Samples::Four, ..plain };
-            methods.extend([Self { infinite_viewer: true, ..plain }, smooth, Self { infinite_viewer: true, ..smooth }]);
+        let mut methods = vec![Self::CONSTANT];
+        for plain in [Self::FLAT, Self::GOURAUD, Self::PHONG] {
+            methods.extend([plain, Self { infinite_viewer: true, ..plain }, Self { samples: Samples::Four, ..plain }]);
             if scene == Some(Reflectance::Phong) {
                 let others = [Reflectance::BlinnPhong, Reflectance::BlinnPhongMatched];
                 methods.extend(others.map(|reflectance| Self { reflectance: Some(reflectance), ..plain }));
             }
         }
+        // A term that is shaded once a triangle goes with no other.
+        let frequencies = [Frequency::Never, Frequency::Vertex, Frequency::Fragment];
+        for diffuse in frequencies {
+            let others = frequencies.into_iter().filter(|specular| *specular != diffuse);
+            methods.extend(others.map(|specular| Self::new(Terms { diffuse, specular })));
+        }
+        methods.push(Self { pixels: 1.0, ..Self::PHONG });
         methods
     }
 
     /// The few that tell most.
     pub fn few(scene: Option<Reflectance>) -> Vec<Self> {
-        let highlights = Shade::Mixed(Terms { diffuse: Frequency::Vertex, specular: Frequency::Fragment });
-        let phong = Self::new(Shade::At(Shading::Phong));
-        let mut methods = [Shade::At(Shading::Flat), Shade::At(Shading::Gouraud), highlights].map(Self::new).to_vec();
-        methods.push(Self::new(Shade::Auto(2)));
-        methods.extend([phong, Self { infinite_viewer: true, ..phong }, Self { samples: Samples::Four, ..phong }]);
+        let phong = Self::PHONG;
+        let mut methods = vec![Self::FLAT, Self::GOURAUD, Self::HIGHLIGHTS, phong];
+        methods.extend([
+            Self { infinite_viewer: true, ..phong },
+            Self { samples: Samples::Four, ..phong },
+            Self { pixels: 1.0, ..phong },
+        ]);
         if scene == Some(Reflectance::Phong) {
             methods.push(Self { reflectance: Some(Reflectance::BlinnPhongMatched), ..phong });
         }
@@ -175,55 +108,60 @@ impl Method {
 
     /// What it is drawn like.
     pub fn family(self) -> Family {
-        self.shade.family()
+        let Terms { diffuse, specular } = self.terms;
+        match diffuse {
+            _ if diffuse != specular => Family::Mixed,
+            Frequency::Never => Family::Constant,
+            Frequency::Triangle => Family::Flat,
+            Frequency::Vertex => Family::Gouraud,
+            Frequency::Fragment => Family::Phong,
+        }
     }
 
     /// As the command line takes it: its parts with hyphens between.
     pub fn id(self) -> String {
-        let mut id = self.shade.id();
-        id += match self.reflectance {
-            None => "",
-            Some(Reflectance::Phong) => "-by-phong",
-            Some(Reflectance::BlinnPhong) => "-by-blinn-phong",
-            Some(Reflectance::BlinnPhongMatched) => "-by-blinn-phong-matched",
+        let Terms { diffuse, specular } = self.terms;
+        let start = match self.family() {
+            Family::Constant => "constant".to_owned(),
+            Family::Mixed => format!("diffuse-{}-specular-{}", place(diffuse).0, place(specular).0),
+            family => family.name().to_lowercase(),
         };
-        id += if self.infinite_viewer { "-infinite-viewer" } else { "" };
-        id += if self.far_lights { "-far-lights" } else { "" };
-        id + if self.samples == Samples::Four { "-4-samples" } else { "" }
+        self.additions().into_iter().fold(start, |all, (id, _)| format!("{all}-{id}"))
     }
 
     /// In words.
     pub fn words(self) -> String {
-        let mut words = self.shade.words();
-        words += match self.reflectance {
-            None => "",
-            Some(Reflectance::Phong) => ", Phong reflectance",
-            Some(Reflectance::BlinnPhong) => ", Blinn–Phong for Phong",
-            Some(Reflectance::BlinnPhongMatched) => ", matched Blinn–Phong for Phong",
+        let Terms { diffuse, specular } = self.terms;
+        let start = match self.family() {
+            Family::Mixed => format!("diffuse {}, specular {}", place(diffuse).1, place(specular).1),
+            family => family.name().to_owned(),
         };
-        words += if self.infinite_viewer { ", infinite viewer" } else { "" };
-        words += if self.far_lights { ", far lights" } else { "" };
-        words + if self.samples == Samples::Four { ", 4 samples" } else { "" }
+        self.additions().into_iter().fold(start, |all, (_, words)| format!("{all}, {words}"))
     }
 
-    /// The error that it is told to keep to, in steps of 255; `None` of methods that keep to none.
-    pub fn tolerance(self) -> Option<f64> {
-        match self.shade {
-            Shade::Auto(half_steps) => Some(f64::from(half_steps) / 2.0),
-            Shade::At(_) | Shade::Mixed(_) => None,
-        }
+    /// What distinguishes it from others of its terms, as the command line takes it and in words.
+    fn additions(self) -> Vec<(&'static str, &'static str)> {
+        let reflectance = self.reflectance.map(|reflectance| match reflectance {
+            Reflectance::Phong => ("by-phong", "Phong reflectance"),
+            Reflectance::BlinnPhong => ("by-blinn-phong", "Blinn–Phong for Phong"),
+            Reflectance::BlinnPhongMatched => ("by-blinn-phong-matched", "matched Blinn–Phong for Phong"),
+        });
+        let others = [
+            (self.infinite_viewer, ("infinite-viewer", "infinite viewer")),
+            (self.far_lights, ("far-lights", "far lights")),
+            (self.samples == Samples::Four, ("4-samples", "4 samples")),
+            (self.pixels > 0.0, ("1-pixel", "detail within 1 pixel")),
+        ];
+        reflectance.into_iter().chain(others.into_iter().filter_map(|(is, names)| is.then_some(names))).collect()
     }
 
     /// Has everything in `world` drawn so.
     pub fn apply(self, world: &mut World) {
+        world.insert_resource(ViewTolerance(Tolerance { steps: 0.0, pixels: self.pixels }));
         let objects: Vec<Entity> = world.query_filtered::<Entity, With<Mesh3d>>().iter(world).collect();
         for object in objects {
             let mut object = world.entity_mut(object);
-            match self.shade {
-                Shade::At(shading) => object.insert(shading).remove::<Terms>(),
-                Shade::Mixed(terms) => object.insert(terms),
-                Shade::Auto(_) => object.insert(Shading::Phong).remove::<Terms>().remove::<Tolerance>(),
-            };
+            object.insert(self.terms).remove::<Tolerance>();
             if let Some(reflectance) = self.reflectance {
                 object.insert(reflectance);
             }
@@ -237,6 +175,16 @@ impl Method {
                 camera.viewer = Viewer::Infinite;
             }
         }
+    }
+}
+
+/// Where a term is evaluated, in a word and in words.
+fn place(frequency: Frequency) -> (&'static str, &'static str) {
+    match frequency {
+        Frequency::Never => ("never", "left out"),
+        Frequency::Triangle => ("triangle", "once a triangle"),
+        Frequency::Vertex => ("vertex", "at vertices"),
+        Frequency::Fragment => ("pixel", "at pixels"),
     }
 }
 
@@ -265,27 +213,19 @@ mod tests {
                     names.dedup();
                     assert_eq!(names.len(), methods.len(), "{names:?}");
                 }
-                assert!(methods.iter().all(|method| Family::named(method.family().name()) == Some(method.family())));
             }
             assert!(Method::few(scene).iter().all(|method| Method::all(scene).contains(method)));
         }
-        // 3 shadings, 6 mixtures and none, 6 tolerances; 3 × 3 of viewers and samples; 3 × 2 of reflectances.
-        assert_eq!((Method::all(None).len(), Method::all(Some(Reflectance::Phong)).len()), (25, 31));
+        // 3 × 3 shadings with viewers and samples, 6 mixtures, a constant colour, detail; 3 × 2 of reflectances.
+        assert_eq!((Method::all(None).len(), Method::all(Some(Reflectance::Phong)).len()), (17, 23));
+        let words = [Method::FLAT, Method::HIGHLIGHTS, Method { pixels: 1.0, ..Method::PHONG }].map(Method::words);
+        assert_eq!(words, ["flat", "diffuse at vertices, specular at pixels", "Phong, detail within 1 pixel"]);
     }
 
     #[test]
-    fn automatic_shading_is_tried_within_these_tolerances() {
-        let tolerances = |methods: Vec<Method>| methods.into_iter().filter_map(Method::tolerance).collect::<Vec<_>>();
-        assert_eq!(tolerances(Method::all(None)), [0.5, 1.0, 2.0, 4.0, 8.0, 16.0]);
-        assert_eq!(tolerances(Method::few(None)), [1.0]);
-    }
-
-    #[test]
-    fn mixtures_can_be_drawn() {
+    fn every_method_can_be_drawn() {
         for method in Method::all(None) {
-            if let Shade::Mixed(terms) = method.shade {
-                assert_eq!(terms.validate(), Ok(()), "{}", method.id());
-            }
+            assert_eq!(method.terms.validate(), Ok(()), "{}", method.id());
         }
     }
 }

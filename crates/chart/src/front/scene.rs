@@ -5,13 +5,11 @@ use halfway::prelude::*;
 /// How finely a scene's surfaces are drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SceneDetail {
-    /// Surfaces cut into N cells, every triangle drawn; what a cell is, is the scene's.
+    /// Surfaces cut into N cells; what a cell is, is the scene's.
     Cells(u32),
-    /// Meshes with one of N of their triangles left, and those drawn.
+    /// Meshes with one of N of their triangles left.
     Simplified(u32),
-    /// Meshes as they are, drawn as coarsely as the tolerance allows, points moving by up to half a pixel.
-    Levels,
-    /// Every triangle.
+    /// Meshes as they are.
     Full,
 }
 
@@ -21,7 +19,6 @@ impl SceneDetail {
         match self {
             Self::Cells(cells) => cells.to_string(),
             Self::Simplified(to) => format!("1-of-{to}"),
-            Self::Levels => "levels".to_owned(),
             Self::Full => "full".to_owned(),
         }
     }
@@ -31,18 +28,7 @@ impl SceneDetail {
         match self {
             Self::Cells(cells) => format!("{cells} cells"),
             Self::Simplified(to) => format!("simplified to 1 of {to} triangles"),
-            Self::Levels => "levels of detail".to_owned(),
             Self::Full => "every triangle".to_owned(),
-        }
-    }
-
-    /// The tolerance of a method that keeps to `steps` steps, or to the default.
-    pub(super) fn tolerance(self, steps: Option<f64>) -> Tolerance {
-        let Tolerance { steps: by_default, pixels } = Tolerance { steps: 1.0, pixels: 0.5 };
-        let steps = steps.map_or(by_default, |steps| steps as f32);
-        match self {
-            Self::Levels => Tolerance { steps, pixels },
-            Self::Cells(_) | Self::Simplified(_) | Self::Full => Tolerance::steps(steps),
         }
     }
 }
@@ -109,20 +95,14 @@ impl ChartedScene {
         }
     }
 
-    /// A scene of meshes, simplified, drawn with levels of detail, or as they are.
+    /// A scene of meshes, simplified or as they are.
     pub fn of_meshes(name: &str, about: &str, build: BuildScene) -> Self {
         Self {
             name: name.to_owned(),
             about: about.to_owned(),
             truth: "every triangle of the meshes, shaded at every pixel, or the true surface where one is known"
                 .to_owned(),
-            details: vec![
-                SceneDetail::Simplified(64),
-                SceneDetail::Simplified(16),
-                SceneDetail::Simplified(4),
-                SceneDetail::Levels,
-                SceneDetail::Full,
-            ],
+            details: [64, 16, 4].map(SceneDetail::Simplified).into_iter().chain([SceneDetail::Full]).collect(),
             true_detail: SceneDetail::Full,
             reflectance: None,
             size: UVec2::splat(640),

@@ -6,9 +6,9 @@ use halfway::prelude::*;
 use halfway::reference::{Image, Mode, Oracle};
 use halfway::render::Adapter;
 
-use super::errors::{Drawn, Truth};
+use super::errors::Truth;
 use super::{ChartedScene, Method, SceneDetail, Still};
-use crate::measure::MeasureError;
+use crate::error::ChartError;
 use crate::timing::settle;
 
 /// The meshes of one scene, simplified: found once for all of its Apps, which make them in the same order.
@@ -46,11 +46,10 @@ impl SceneStage {
         size: UVec2,
         adapter: &Adapter,
         meshes: &mut SimplifiedMeshes,
-    ) -> Result<Self, MeasureError> {
+    ) -> Result<Self, ChartError> {
         let mut app = App::new();
         adapter.clone().insert_into(app.world_mut());
-        app.add_plugins(HalfwayPlugins::headless(size))
-            .insert_resource(ViewTolerance(detail.tolerance(method.tolerance())));
+        app.add_plugins(HalfwayPlugins::headless(size));
         let mut stage = Self::new(app, scene, detail, meshes)?;
         method.apply(stage.app.world_mut());
         settle(&mut stage.app)?;
@@ -62,9 +61,9 @@ impl SceneStage {
         scene: &ChartedScene,
         detail: SceneDetail,
         meshes: &mut SimplifiedMeshes,
-    ) -> Result<Self, MeasureError> {
+    ) -> Result<Self, ChartError> {
         app.insert_resource(Still);
-        (scene.build)(&mut app, detail).map_err(MeasureError::Scene)?;
+        (scene.build)(&mut app, detail).map_err(ChartError::Scene)?;
         app.finish();
         app.cleanup();
         // Spawns what systems spawn.
@@ -81,7 +80,7 @@ impl SceneStage {
     }
 
     /// What every pixel of the scene should show, by `samples` × `samples` of them for its average.
-    pub(super) fn truth(scene: &ChartedScene, size: UVec2, samples: u32) -> Result<(Truth, Encoding), MeasureError> {
+    pub(super) fn truth(scene: &ChartedScene, size: UVec2, samples: u32) -> Result<(Truth, Encoding), ChartError> {
         let mut app = App::new();
         app.add_plugins(HalfwayPlugins::reference());
         let mut stage = Self::new(app, scene, scene.true_detail, &mut SimplifiedMeshes::default())?;
@@ -96,20 +95,16 @@ impl SceneStage {
         Ok((Truth { center, average }, encoding))
     }
 
-    /// Both pictures of the scene as it stands, told what one sample covers.
-    pub(super) fn pictures(
-        &mut self,
-        method: Method,
-        covered: &[bool],
-        encoding: Encoding,
-    ) -> Result<Drawn, MeasureError> {
-        let [floats, bytes] = [Pixels::Float, Pixels::Byte].map(|pixels| self.picture(pixels, encoding));
-        let told = |image: Image| image.with_coverage(covered.to_vec());
-        Ok(Drawn { bytes: told(bytes?), floats: told(floats?), one_sample: method.samples == Samples::One })
+    /// The picture of the scene as it stands.
+    pub(super) fn picture(&mut self, encoding: Encoding) -> Result<Image, ChartError> {
+        Ok(match render_picture(&mut self.app)? {
+            Picture::Byte(image) => Image::from_bytes(&image, encoding),
+            Picture::Float(image) => Image::from_float(&image),
+        })
     }
 
     /// Which pixels show an object. Nothing else can be drawn afterwards.
-    pub(super) fn coverage(mut self) -> Result<Vec<bool>, MeasureError> {
+    pub(super) fn coverage(mut self) -> Result<Vec<bool>, ChartError> {
         let world = self.app.world_mut();
         world.insert_resource(GlobalAmbient(LinearRgba::BLACK));
         for mut material in world.query::<&mut Material>().iter_mut(world) {
@@ -122,20 +117,12 @@ impl SceneStage {
             camera.background = LinearRgba::BLACK;
             camera.samples = Samples::One;
         }
-        let picture = self.picture(Pixels::Byte, Encoding::Raw)?.with_background([0.0; 3]);
+        let picture = self.picture(Encoding::Raw)?.with_background([0.0; 3]);
         Ok(picture.covered().unwrap_or_default().to_vec())
     }
 
-    fn picture(&mut self, pixels: Pixels, encoding: Encoding) -> Result<Image, MeasureError> {
-        self.app.world_mut().resource_mut::<Headless>().pixels = pixels;
-        Ok(match render_picture(&mut self.app)? {
-            Picture::Float(image) => Image::from_float(&image),
-            Picture::Byte(image) => Image::from_bytes(&image, encoding),
-        })
-    }
-
     /// Lets the scene move, if anything of it does, and makes it ready to be timed.
-    pub(super) fn move_on(&mut self) -> Result<(), MeasureError> {
+    pub(super) fn move_on(&mut self) -> Result<(), ChartError> {
         self.app.world_mut().remove_resource::<Still>();
         Ok(settle(&mut self.app)?)
     }

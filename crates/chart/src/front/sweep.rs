@@ -1,19 +1,18 @@
 //! Measures points.
 
-use std::collections::HashMap;
-
 use halfway::prelude::*;
 use halfway::reference::Image;
 use halfway::reference::metrics::{self, Scale};
 use halfway::render::Adapter;
-use image::RgbImage;
 use rayon::prelude::*;
 
-use super::errors::{Drawn, PointErrors, Truth};
+use super::errors::{AreaErrors, PointErrors, Truth};
 use super::stage::{SceneStage, SimplifiedMeshes};
-use super::{ChartedScene, FrontPoint, KeptResults, Method, SceneDetail};
-use crate::measure::{MeasureError, MeasureProgress};
+use super::{ChartedScene, FrontPoint, Method, SceneDetail};
+use crate::error::ChartError;
 use crate::page::data_uri;
+use crate::pareto;
+use crate::progress::Progress;
 use crate::timing::{Spread, in_turns, ratios};
 
 /// How much is measured.
@@ -64,8 +63,6 @@ pub struct MeasuredScene {
     pub truth: String,
     /// The oracle's picture, small, as a `data:` address.
     pub picture: String,
-    /// The size of the pictures that were measured, in pixels.
-    pub size: UVec2,
     /// Every adapter, detail and method; in this order, the last the quickest to change.
     pub points: Vec<FrontPoint>,
 }
@@ -78,35 +75,28 @@ const LEAST: u32 = 3;
 /// The longer side that small pictures have at most, in pixels.
 const SMALL: u32 = 240;
 
-/// One App's worth of work.
-#[derive(Clone, Copy)]
-struct Task<'a> {
-    scene: &'a ChartedScene,
-    detail: SceneDetail,
-    method: Method,
-}
-
-impl Task<'_> {
-    /// What is known of its point before it is measured.
-    fn point(self, plan: &FrontPlan, adapter: &ChartedAdapter) -> FrontPoint {
-        let Self { scene, detail, method } = self;
-        let command = ["halfway chart", &scene.name, "--detail", &detail.id(), "--method", &method.id()].join(" ");
-        FrontPoint {
-            scene: scene.name.clone(),
-            method: method.id(),
-            words: method.words(),
-            family: method.family().name().to_owned(),
-            tolerance: method.tolerance(),
-            detail: detail.id(),
-            detail_words: detail.words(),
-            backend: adapter.name.clone(),
-            command: format!("{command} --adapter {}{}", adapter.name, if plan.smaller > 1 { " --quick" } else { "" }),
-            ..FrontPoint::default()
-        }
-    }
-}
-
 impl FrontPlan {
+    /// What the project's figures come from: half an hour on two cores without a GPU.
+    pub const FULL: Self = Self {
+        smaller: 1,
+        details: 5,
+        all_methods: true,
+        rounds: 25,
+        budget_ms: 2000.0,
+        samples: 4,
+        only: FrontFilter { methods: Vec::new(), detail: None },
+    };
+    /// The same with fewer methods, details, rounds and pixels: for a look, and for CI.
+    pub const QUICK: Self = Self {
+        smaller: 2,
+        details: 3,
+        all_methods: false,
+        rounds: 7,
+        budget_ms: 100.0,
+        samples: 2,
+        only: FrontFilter { methods: Vec::new(), detail: None },
+    };
+
     /// The details of a scene that are measured.
     pub fn details_of(&self, scene: &ChartedScene) -> Vec<SceneDetail> {
         let all = &scene.details;
@@ -130,22 +120,10 @@ impl FrontPlan {
         self.only.methods.iter().filter_map(|only| all.iter().find(|method| method.id() == *only)).copied().collect()
     }
 
-    /// The units of [`MeasureProgress`] that [`sweep`] will report.
+    /// The units of [`Progress`] that [`sweep`] will report.
     pub fn units(&self, scenes: &[ChartedScene], adapters: usize) -> u64 {
         let of = |scene| 1 + adapters * self.details_of(scene).len() * self.methods_of(scene).len();
         scenes.iter().map(|scene| of(scene) as u64).sum()
-    }
-
-    fn size_of(&self, scene: &ChartedScene) -> UVec2 {
-        (scene.size / self.smaller).max(UVec2::ONE)
-    }
-
-    fn key(&self, task: Task<'_>, adapter: &ChartedAdapter) -> String {
-        let Task { scene, detail, method } = task;
-        let size = self.size_of(scene);
-        let (rounds, samples) = (self.rounds, self.samples);
-        let parts = [&scene.name, &detail.id(), &method.id(), &adapter.name].map(String::as_str).join(" ");
-        format!("{parts} {size} {rounds} {samples}")
     }
 }
 
@@ -157,176 +135,149 @@ pub fn sweep(
     plan: &FrontPlan,
     scenes: &[ChartedScene],
     adapters: &[ChartedAdapter],
-    kept: &mut KeptResults,
-    progress: &mut MeasureProgress<'_>,
-) -> Result<Vec<MeasuredScene>, MeasureError> {
-    scenes.iter().map(|scene| of_scene(plan, scene, adapters, kept, progress)).collect()
+    progress: &mut Progress<'_>,
+) -> Result<Vec<MeasuredScene>, ChartError> {
+    let measured = scenes.iter().map(|scene| measure_scene(plan, scene, adapters, progress));
+    let mut measured = measured.collect::<Result<Vec<_>, _>>()?;
+    let points = measured.iter_mut().flat_map(|scene| &mut scene.points);
+    points.enumerate().for_each(|(place, point)| point.place = place);
+    Ok(measured)
 }
 
-fn of_scene(
+fn measure_scene(
     plan: &FrontPlan,
     scene: &ChartedScene,
     adapters: &[ChartedAdapter],
-    kept: &mut KeptResults,
-    progress: &mut MeasureProgress<'_>,
-) -> Result<MeasuredScene, MeasureError> {
+    progress: &mut Progress<'_>,
+) -> Result<MeasuredScene, ChartError> {
     progress.begin(&format!("{}, the truth", scene.name));
-    let size = plan.size_of(scene);
-    let mut judged = None;
-    let key = format!("truth {} {size} {}", scene.name, plan.samples);
-    let picture = if let Some(picture) = kept.find(&key) {
-        picture
-    } else {
-        let picture = needed(&mut judged, plan, scene)?.picture()?;
-        kept.keep(&key, &picture).map_err(MeasureError::Keep)?;
-        picture
-    };
+    let mut judge = Judge::new(plan, scene)?;
+    let picture = data_uri(&reduced(&judge.truth.average).to_bytes(judge.encoding))?;
     progress.advance(1, &scene.name);
+    let coarsest = scene.details.first().ok_or_else(|| ChartError::Scene(format!("{}: no details", scene.name)))?;
     let mut points = Vec::new();
     for adapter in adapters {
-        let mut reference = None;
+        let mut reference = judge.stage(*coarsest, Method::CONSTANT, adapter)?;
+        reference.move_on()?;
+        let first = points.len();
         for detail in plan.details_of(scene) {
-            let tasks = plan.methods_of(scene).into_iter().map(|method| Task { scene, detail, method });
-            let (old, new): (Vec<_>, Vec<_>) = tasks
-                .map(|task| (task, kept.find::<FrontPoint>(&plan.key(task, adapter))))
-                .partition(|(_, known)| known.is_some());
-            progress.advance(old.len() as u64, &scene.name);
-            points.extend(old.into_iter().filter_map(|(_, point)| point));
-            let new: Vec<Task<'_>> = new.into_iter().map(|(task, _)| task).collect();
-            for tasks in new.chunks(TOGETHER) {
+            let covered = judge.stage(detail, Method::CONSTANT, adapter)?.coverage()?;
+            for methods in plan.methods_of(scene).chunks(TOGETHER) {
                 progress.begin(&format!("{}, {} on {}", scene.name, detail.words(), adapter.name));
-                let judged = needed(&mut judged, plan, scene)?;
-                let reference = match &mut reference {
-                    Some(reference) => reference,
-                    none => none.insert(judged.reference(scene, adapter)?),
-                };
-                for (task, point) in tasks.iter().zip(judged.measure(plan, tasks, adapter, reference)?) {
-                    kept.keep(&plan.key(*task, adapter), &point).map_err(MeasureError::Keep)?;
-                    points.push(point);
-                }
-                progress.advance(tasks.len() as u64, &scene.name);
+                points.extend(judge.measure((adapter, detail), methods, &covered, &mut reference)?);
+                progress.advance(methods.len() as u64, &scene.name);
             }
         }
+        mark_fronts(&mut points[first..]);
     }
-    // What was known already came first.
-    let methods: Vec<String> = plan.methods_of(scene).into_iter().map(Method::id).collect();
-    let details: Vec<String> = plan.details_of(scene).into_iter().map(SceneDetail::id).collect();
-    let place = |list: &[String], name: &String| list.iter().position(|other| other == name);
-    points.sort_by_key(|point: &FrontPoint| {
-        let adapter = adapters.iter().position(|adapter| adapter.name == point.backend);
-        (adapter, place(&details, &point.detail), place(&methods, &point.method))
-    });
     let ChartedScene { name, about, truth, .. } = scene;
-    Ok(MeasuredScene { name: name.clone(), about: about.clone(), truth: truth.clone(), picture, size, points })
+    Ok(MeasuredScene { name: name.clone(), about: about.clone(), truth: truth.clone(), picture, points })
 }
 
-/// The truth about a scene, found out when it is first needed: not where everything is known already.
-fn needed<'a>(
-    judged: &'a mut Option<Judged>,
-    plan: &FrontPlan,
-    scene: &ChartedScene,
-) -> Result<&'a mut Judged, MeasureError> {
-    Ok(match judged {
-        Some(judged) => judged,
-        none => none.insert(Judged::new(plan, scene)?),
-    })
+/// Notes which points of one scene and adapter are on its fronts.
+fn mark_fronts(points: &mut [FrontPoint]) {
+    let front = |area: fn(&PointErrors) -> &AreaErrors| {
+        pareto::front(&points.iter().map(|point| point.time_and_error(area)).collect::<Vec<_>>())
+    };
+    let (covered, whole) = (front(|errors| &errors.covered), front(|errors| &errors.whole));
+    covered.into_iter().for_each(|place| points[place].front = true);
+    whole.into_iter().for_each(|place| points[place].front_whole = true);
 }
 
 /// A scene with what it should look like.
-struct Judged {
+struct Judge<'a> {
+    plan: &'a FrontPlan,
+    scene: &'a ChartedScene,
+    size: UVec2,
     truth: Truth,
     encoding: Encoding,
-    size: UVec2,
-    /// What one sample covers, by adapter and detail.
-    covered: HashMap<(String, String), Vec<bool>>,
     meshes: SimplifiedMeshes,
 }
 
-impl Judged {
-    fn new(plan: &FrontPlan, scene: &ChartedScene) -> Result<Self, MeasureError> {
-        let size = plan.size_of(scene);
+impl<'a> Judge<'a> {
+    fn new(plan: &'a FrontPlan, scene: &'a ChartedScene) -> Result<Self, ChartError> {
+        let size = (scene.size / plan.smaller).max(UVec2::ONE);
         let (truth, encoding) = SceneStage::truth(scene, size, plan.samples)?;
-        Ok(Self { truth, encoding, size, covered: HashMap::new(), meshes: SimplifiedMeshes::default() })
+        Ok(Self { plan, scene, size, truth, encoding, meshes: SimplifiedMeshes::default() })
     }
 
-    /// What it should look like, small.
-    fn picture(&self) -> Result<String, MeasureError> {
-        data_uri(&reduced(&self.truth.average).to_bytes(self.encoding)).map_err(MeasureError::Picture)
+    fn stage(
+        &mut self,
+        detail: SceneDetail,
+        method: Method,
+        adapter: &ChartedAdapter,
+    ) -> Result<SceneStage, ChartError> {
+        SceneStage::drawn(self.scene, detail, method, self.size, &adapter.adapter, &mut self.meshes)
     }
 
-    /// The coarsest detail in a constant colour.
-    fn reference(&mut self, scene: &ChartedScene, adapter: &ChartedAdapter) -> Result<SceneStage, MeasureError> {
-        let coarsest =
-            *scene.details.first().ok_or_else(|| MeasureError::Scene(format!("{}: no details", scene.name)))?;
-        let mut stage =
-            SceneStage::drawn(scene, coarsest, Method::CONSTANT, self.size, &adapter.adapter, &mut self.meshes)?;
-        stage.move_on()?;
-        Ok(stage)
-    }
-
-    fn covered(&mut self, task: Task<'_>, adapter: &ChartedAdapter) -> Result<Vec<bool>, MeasureError> {
-        let key = (adapter.name.clone(), task.detail.id());
-        if let Some(covered) = self.covered.get(&key) {
-            return Ok(covered.clone());
-        }
-        let stage = SceneStage::drawn(
-            task.scene,
-            task.detail,
-            Method::CONSTANT,
-            self.size,
-            &adapter.adapter,
-            &mut self.meshes,
-        )?;
-        Ok(self.covered.entry(key).or_insert(stage.coverage()?).clone())
-    }
-
-    /// A point for each of the tasks, which are all of one detail.
+    /// A point for each of the methods. `covered` is what one sample covers at this detail.
     fn measure(
         &mut self,
-        plan: &FrontPlan,
-        tasks: &[Task<'_>],
-        adapter: &ChartedAdapter,
+        (adapter, detail): (&ChartedAdapter, SceneDetail),
+        methods: &[Method],
+        covered: &[bool],
         reference: &mut SceneStage,
-    ) -> Result<Vec<FrontPoint>, MeasureError> {
-        let Some(first) = tasks.first() else { return Ok(Vec::new()) };
-        let covered = self.covered(*first, adapter)?;
+    ) -> Result<Vec<FrontPoint>, ChartError> {
         let mut stages = Vec::new();
         let mut drawn = Vec::new();
-        for &Task { scene, detail, method } in tasks {
-            let mut stage = SceneStage::drawn(scene, detail, method, self.size, &adapter.adapter, &mut self.meshes)?;
-            drawn.push(stage.pictures(method, &covered, self.encoding)?);
+        for &method in methods {
+            let mut stage = self.stage(detail, method, adapter)?;
+            drawn.push((method, stage.picture(self.encoding)?.with_coverage(covered.to_vec())));
             stage.move_on()?;
             stages.push(stage);
         }
         let mut apps = vec![reference.app()];
         apps.extend(stages.iter_mut().map(SceneStage::app));
-        let times = in_time(&mut apps, plan)?;
-        let judged = drawn.par_iter().map(|drawn| self.judge(drawn)).collect::<Result<Vec<_>, _>>()?;
-        let timed = times[1..].iter().map(|own| (Spread::of(own), ratios(own, &times[0])));
-        let found = tasks.iter().zip(&stages).zip(timed).zip(judged);
-        let points = found.map(|(((task, stage), (ms, ratio)), (errors, pictures))| {
-            let [picture, difference] = pictures;
-            let triangles = stage.triangles();
-            FrontPoint { triangles, ms, ratio, errors, picture, difference, ..task.point(plan, adapter) }
+        let times = in_time(&mut apps, self.plan)?;
+        let (truth, encoding) = (&self.truth, self.encoding);
+        let judged = drawn.par_iter().map(|drawn| judge(drawn, truth, encoding)).collect::<Result<Vec<_>, _>>()?;
+        let found = methods.iter().zip(&stages).zip(&times[1..]).zip(judged);
+        let points = found.map(|(((method, stage), own), (errors, [picture, difference]))| FrontPoint {
+            triangles: stage.triangles(),
+            ms: Spread::of(own),
+            ratio: ratios(own, &times[0]),
+            errors,
+            picture,
+            difference,
+            ..self.unmeasured(detail, *method, adapter)
         });
         Ok(points.collect())
     }
 
-    /// Errors, and the small pictures.
-    fn judge(&self, drawn: &Drawn) -> Result<(PointErrors, [String; 2]), MeasureError> {
-        let truth = &self.truth.average;
-        let errors = PointErrors::of(drawn, &self.truth, self.encoding)?;
-        let [small, small_truth] = [&drawn.bytes, truth].map(reduced);
-        // Steps of the largest error of the small picture, so that all of it is seen.
-        let difference = metrics::difference(&small, &small_truth, self.encoding, Scale::default())?;
-        let pictures: [RgbImage; 2] = [small.to_bytes(self.encoding), difference];
-        let [picture, difference] = pictures.map(|picture| data_uri(&picture));
-        Ok((errors, [picture.map_err(MeasureError::Picture)?, difference.map_err(MeasureError::Picture)?]))
+    /// What is known of a point before it is measured.
+    fn unmeasured(&self, detail: SceneDetail, method: Method, adapter: &ChartedAdapter) -> FrontPoint {
+        let (scene, adapter) = (self.scene.name.clone(), adapter.name.clone());
+        let (id, method_id) = (detail.id(), method.id());
+        let quick = if self.plan.smaller > 1 { " --quick" } else { "" };
+        FrontPoint {
+            command: format!("halfway chart {scene} --detail {id} --method {method_id} --adapter {adapter}{quick}"),
+            scene,
+            method: method_id,
+            words: method.words(),
+            family: method.family().name().to_owned(),
+            detail: id,
+            detail_words: detail.words(),
+            adapter,
+            ..FrontPoint::default()
+        }
     }
 }
 
+/// Errors, and the small pictures: as drawn, and the difference.
+fn judge(
+    (method, picture): &(Method, Image),
+    truth: &Truth,
+    encoding: Encoding,
+) -> Result<(PointErrors, [String; 2]), ChartError> {
+    let errors = PointErrors::new(picture, method.samples, truth, encoding)?;
+    let [small, truth] = [picture, &truth.average].map(reduced);
+    // Steps of the largest error of the small picture, so that all of it is seen.
+    let difference = metrics::difference(&small, &truth, encoding, Scale::default())?;
+    Ok((errors, [data_uri(&small.to_bytes(encoding))?, data_uri(&difference)?]))
+}
+
 /// The times of as many rounds as the plan has time for.
-fn in_time(apps: &mut [&mut App], plan: &FrontPlan) -> Result<Vec<Vec<f64>>, MeasureError> {
+fn in_time(apps: &mut [&mut App], plan: &FrontPlan) -> Result<Vec<Vec<f64>>, ChartError> {
     let first = plan.rounds.min(LEAST);
     let mut times = in_turns(apps, first)?;
     let round =

@@ -1,18 +1,13 @@
 //! The page as HTML.
 
-use super::{Page, PageTable, Section};
-use crate::figure::svg::{self, Size, SvgError, escaped};
-use crate::figure::{Figure, Series};
+use serde_json::json;
+
+use super::{Page, PageTable, Section, svg_file};
+use crate::figure::Figure;
+use crate::figure::svg::{self, Size, escaped};
 
 const STYLE: &str = include_str!("page.css");
-/// One function, so that the parts share what they define and the page nothing.
-const SCRIPT: [&str; 5] = [
-    "'use strict';\n(() => {\n",
-    include_str!("card.js"),
-    include_str!("fronts.js"),
-    include_str!("page.js"),
-    "})();\n",
-];
+const SCRIPT: &str = include_str!("page.js");
 /// Before everything else, so that it hears of every failure.
 const GUARD: &str = "window.addEventListener('error', (event) => {
   const problem = document.getElementById('problem');
@@ -21,30 +16,24 @@ const GUARD: &str = "window.addEventListener('error', (event) => {
 });";
 
 /// The page with charts, pictures and figures inside.
-///
-/// # Errors
-/// A chart that could not be drawn.
-pub fn html(page: &Page) -> Result<String, SvgError> {
+pub(super) fn html(page: &Page) -> String {
     let title = escaped(&page.title);
     let facts =
         each(&page.facts, |(name, value)| format!("<div><dt>{}</dt><dd>{}</dd></div>", escaped(name), escaped(value)));
-    let sections = page.sections.iter().map(section).collect::<Result<String, _>>()?;
-    Ok(format!(
+    let sections = each(&page.sections, section);
+    format!(
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{title}</title>\n\
          <link rel=\"icon\" href=\"data:,\">\n<style>\n{STYLE}</style>\n</head>\n<body>\n\
          <p id=\"problem\" role=\"alert\" hidden></p>\n<script>\n{GUARD}\n</script>\n\
          <header>\n<h1>{title}</h1>\n<p>{lead}</p>\n<dl>{facts}</dl>\n</header>\n\
-         <main>\n<div id=\"controls\" hidden></div>\n{sections}</main>\n\
+         <main>\n{sections}</main>\n\
          <aside id=\"card\" hidden></aside>\n\
-         {points}<script>\n{script}</script>\n</body>\n</html>\n",
+         <script type=\"application/json\" id=\"cards\">{cards}</script>\n\
+         <script>\n{SCRIPT}</script>\n</body>\n</html>\n",
         lead = escaped(&page.lead),
-        points = each(&page.points, |points| format!(
-            "<script type=\"application/json\" id=\"points\">{}</script>\n",
-            in_script(&points.to_string())
-        )),
-        script = SCRIPT.concat(),
-    ))
+        cards = in_script(&json!({ "cards": page.cards, "images": page.images }).to_string()),
+    )
 }
 
 /// The HTML of each, one after the other.
@@ -57,70 +46,64 @@ fn in_script(json: &str) -> String {
     json.replace('<', "\\u003c")
 }
 
-fn section(section: &Section) -> Result<String, SvgError> {
+fn section(section: &Section) -> String {
     let text = each(&section.text, |text| format!("<p>{}</p>\n", escaped(text)));
-    let figures = section.figures.iter().enumerate().map(|(i, (_, figure))| self::figure(figure, i == 0));
-    let figures = figures.collect::<Result<String, _>>()?;
+    let figures = each(section.figures.iter().enumerate(), |(i, figure)| self::figure(figure, i == 0));
     let tables = each(&section.tables, table);
     let pictures = each(&section.pictures, |(caption, source)| {
         format!("<figure><img src=\"{source}\" alt=\"\"><figcaption>{}</figcaption></figure>\n", escaped(caption))
     });
-    let files: Vec<_> = section
-        .files
-        .iter()
-        .map(|(what, file)| format!("<a href=\"{}\">{}</a>", escaped(file), escaped(what)))
-        .collect();
-    Ok(format!(
-        "<section{}>\n<h2>{}</h2>\n{text}<div class=\"pictures\">{pictures}</div>{}{figures}{tables}\
+    let link = |what: &str, file: &str| format!("<a href=\"{}\">{}</a>", escaped(file), escaped(what));
+    let charts = section.figures.iter().map(|figure| link(&format!("{} (SVG)", figure.title), &svg_file(figure)));
+    let links: Vec<String> = charts.chain(section.links.iter().map(|(what, file)| link(what, file))).collect();
+    format!(
+        "<section>\n<h2>{}</h2>\n{text}<div class=\"pictures\">{pictures}</div>{}{figures}{tables}\
          <p class=\"files\">{}</p>\n</section>\n",
-        each(&section.scene, |scene| format!(" data-scene=\"{}\"", escaped(scene))),
         escaped(&section.title),
         buttons(&section.figures),
-        files.join(" · ")
-    ))
+        links.join(" · ")
+    )
 }
 
 /// The buttons that choose among figures; none where there is no choice.
-fn buttons(figures: &[(String, Figure)]) -> String {
+fn buttons(figures: &[Figure]) -> String {
     if figures.len() < 2 {
         return String::new();
     }
-    let buttons = each(figures.iter().enumerate(), |(i, (name, figure))| {
+    let buttons = each(figures.iter().enumerate(), |(i, figure)| {
         let checked = if i == 0 { " checked" } else { "" };
         format!(
             "<label><input type=\"radio\" name=\"{}\" value=\"{}\"{checked}> {}</label>",
-            figures[0].1.id,
+            figures[0].id,
             figure.id,
-            escaped(name)
+            escaped(&figure.name)
         )
     });
     format!("<fieldset class=\"shown\"><legend>Shown</legend>{buttons}</fieldset>\n")
 }
 
-fn figure(figure: &Figure, shown: bool) -> Result<String, SvgError> {
-    let entry = |series: &Series| Ok(format!("<span>{}{}</span>", svg::swatch(series.style)?, escaped(&series.name)));
-    let legend = figure.legend().into_iter().map(entry).collect::<Result<String, SvgError>>()?;
+fn figure(figure: &Figure, shown: bool) -> String {
+    let legend =
+        each(figure.legend(), |series| format!("<span>{}{}</span>", svg::swatch(series.style), escaped(&series.name)));
     // Panels are scaled to the columns of the page, so that their text comes out at about its own size.
-    let size = match figure.columns {
+    let size = match figure.columns() {
         1 => Size { width: 860, row: 360 },
         2 => Size { width: 560, row: 350 },
-        3 => Size { width: 420, row: 310 },
-        _ => Size { width: 320, row: 290 },
+        _ => Size { width: 420, row: 310 },
     };
-    let panels = figure.panels.iter().map(|panel| {
-        let svg = svg::panel_with_hits(figure, panel, size)?;
-        Ok(format!("<div class=\"panel\" role=\"img\" aria-label=\"{}\">{svg}</div>\n", escaped(&panel.title)))
+    let panels = each(&figure.panels, |panel| {
+        let svg = svg::panel_with_hits(figure, panel, size);
+        format!("<div class=\"panel\" role=\"img\" aria-label=\"{}\">{svg}</div>\n", escaped(&panel.title))
     });
-    Ok(format!(
+    format!(
         "<figure id=\"{}\"{}>\n<figcaption>{}</figcaption>\n<div class=\"legend\">{legend}</div>\n\
-         <div class=\"panels\" style=\"--columns: {}; --least: {}px\">\n{}</div>\n</figure>\n",
+         <div class=\"panels\" style=\"--columns: {}; --least: {}px\">\n{panels}</div>\n</figure>\n",
         figure.id,
         if shown { "" } else { " hidden" },
         escaped(&figure.title),
-        figure.columns,
-        size.width * 4 / 5,
-        panels.collect::<Result<String, SvgError>>()?
-    ))
+        figure.columns(),
+        size.width * 4 / 5
+    )
 }
 
 fn table(table: &PageTable) -> String {
@@ -141,20 +124,21 @@ fn table(table: &PageTable) -> String {
 mod tests {
     use super::*;
     use crate::figure::tests::example;
+    use crate::page::Card;
 
     fn page() -> Page {
         Page {
+            file: "page.html".to_owned(),
             title: "A <page>".to_owned(),
             lead: "Read & weep".to_owned(),
             facts: vec![("adapter".to_owned(), "\"llvmpipe\"".to_owned())],
             sections: vec![Section {
                 title: "One".to_owned(),
-                scene: None,
                 pictures: vec![("Seen".to_owned(), "data:,".to_owned())],
                 text: vec!["Text.".to_owned()],
                 figures: vec![
-                    ("a".to_owned(), example()),
-                    ("b".to_owned(), Figure { id: "second".to_owned(), ..example() }),
+                    example().named("a"),
+                    Figure { id: "second".to_owned(), title: "Another".to_owned(), ..example() }.named("b"),
                 ],
                 tables: vec![PageTable {
                     caption: "Numbers".to_owned(),
@@ -162,15 +146,16 @@ mod tests {
                     header: vec!["name".to_owned(), "slope".to_owned()],
                     rows: vec![vec!["flat".to_owned(), "1.00".to_owned()]],
                 }],
-                files: vec![("data".to_owned(), "a.csv".to_owned())],
+                links: vec![("data".to_owned(), "a.json".to_owned())],
+                ..Section::default()
             }],
-            points: None,
+            ..Page::default()
         }
     }
 
     #[test]
     fn the_page_shows_everything_and_fetches_nothing() {
-        let html = html(&page()).unwrap();
+        let html = html(&page());
         for text in [
             "<title>A &lt;page&gt;</title>",
             "Read &amp; weep",
@@ -178,7 +163,8 @@ mod tests {
             "<h2>One</h2>",
             "id=\"second\" hidden",
             "<td>1.00</td>",
-            "href=\"a.csv\"",
+            "href=\"a.json\"",
+            "href=\"second.svg\">Another (SVG)<",
         ] {
             assert!(html.contains(text), "{text}");
         }
@@ -186,8 +172,6 @@ mod tests {
         assert_eq!(html.matches("class=\"hit\"").count(), 16);
         // Names of namespaces are no addresses.
         let html = html.replace("xmlns=\"http://www.w3.org/2000/svg\"", "");
-        // This one is a part of the page itself.
-        let html = html.replace("url(#inside)", "");
         for outside in ["http:", "https:", "src=\"//", "@import", "url("] {
             assert!(!html.contains(outside), "{outside}");
         }
@@ -195,19 +179,36 @@ mod tests {
     }
 
     #[test]
-    fn points_cannot_end_the_script_they_stand_in() {
-        let points = serde_json::json!({ "points": [{ "words": "</script><b>" }] });
-        let html = html(&Page { points: Some(points.clone()), ..page() }).unwrap();
+    fn cards_cannot_end_the_script_they_stand_in() {
+        let card = |title: &str| Card {
+            title: title.to_owned(),
+            pictures: vec![("seen".to_owned(), 0)],
+            rows: Vec::new(),
+            command: String::new(),
+        };
+        let cards = vec![card("</script><b>")];
+        let html = html(&Page { cards, images: vec!["data:,".to_owned()], ..page() });
         assert!(!html.contains("</script><b>"));
         assert_eq!(html.matches("<script").count(), html.matches("</script>").count());
-        let (_, rest) = html.split_once("id=\"points\">").unwrap();
+        let (_, rest) = html.split_once("id=\"cards\">").unwrap();
         let (json, _) = rest.split_once("</script>").unwrap();
-        assert_eq!(serde_json::from_str::<serde_json::Value>(json).unwrap(), points);
+        let json: serde_json::Value = serde_json::from_str(json).unwrap();
+        assert_eq!(json["cards"][0]["title"], "</script><b>");
+        assert_eq!(json["images"], json!(["data:,"]));
     }
 
     #[test]
     fn one_figure_needs_no_buttons() {
-        assert_eq!(buttons(&[("a".to_owned(), example())]), "");
+        assert_eq!(buttons(&[example()]), "");
         assert_eq!(buttons(&page().sections[0].figures).matches("type=\"radio\"").count(), 2);
+    }
+
+    #[test]
+    fn a_page_has_files_for_its_charts_and_its_tables_in_markdown() {
+        let names: Vec<String> = page().files().into_iter().map(|(name, _)| name).collect();
+        assert_eq!(names, ["page.html", "example.svg", "second.svg"]);
+        let expected = "# A <page>\n\nMade by `halfway chart`; [charts.md](charts.md) says what is measured.\n\nadapter: \"llvmpipe\".\n\n## One\n\nText.\n\nNumbers:\n\n\
+                        | name | slope |\n|---|---|\n| flat | 1.00 |\n";
+        assert_eq!(page().markdown(), expected);
     }
 }

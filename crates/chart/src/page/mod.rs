@@ -1,18 +1,23 @@
-//! The page: one file that needs no other and no network.
+//! Pages: each is one HTML file that needs no other and no network, with its charts beside it as SVG.
 
-mod csv;
 mod html;
 mod picture;
 
-pub use csv::csv;
-pub use html::html;
+use serde::Serialize;
+
 pub use picture::{data_uri, exact_data_uri};
 
 use crate::figure::Figure;
+use crate::figure::svg::{self, Size};
+
+/// A file's name and what is in it.
+pub type NamedFile = (String, String);
 
 /// What stands on the page, from top to bottom.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Page {
+    /// The name of its file.
+    pub file: String,
     /// The page's title.
     pub title: String,
     /// How to read it: a paragraph.
@@ -21,28 +26,42 @@ pub struct Page {
     pub facts: Vec<(String, String)>,
     /// The chapters.
     pub sections: Vec<Section>,
-    /// The points of the sections with scenes, their pictures and their scenes: what the page's script draws again, to
-    /// be zoomed and filtered.
-    pub points: Option<serde_json::Value>,
+    /// What the points of charts show when they are pointed at ([`Point::card`](crate::figure::Point::card)).
+    pub cards: Vec<Card>,
+    /// The pictures of the cards, as `data:` addresses.
+    pub images: Vec<String>,
+    /// What else belongs to the page.
+    pub beside: Vec<NamedFile>,
+}
+
+/// What a point of a chart is.
+#[derive(Clone, Debug, Serialize)]
+pub struct Card {
+    /// What it is, in a line.
+    pub title: String,
+    /// Captions, and places in [`Page::images`].
+    pub pictures: Vec<(String, usize)>,
+    /// Names and values.
+    pub rows: Vec<(String, String)>,
+    /// What measures it again.
+    pub command: String,
 }
 
 /// A chapter.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Section {
     /// Its heading.
     pub title: String,
-    /// The scene whose points it shows, if it does; where scripts run one of these sections is shown at a time.
-    pub scene: Option<String>,
     /// What it shows, and how that was measured: paragraphs.
     pub text: Vec<String>,
     /// Captions and pictures, the latter as `data:` addresses.
     pub pictures: Vec<(String, String)>,
-    /// The same chart of several quantities, of which one is shown at a time, each with the name of its button.
-    pub figures: Vec<(String, Figure)>,
+    /// The same chart of several quantities, of which one is shown at a time.
+    pub figures: Vec<Figure>,
     /// Figures as numbers.
     pub tables: Vec<PageTable>,
-    /// Files beside the page: what they hold, and their names.
-    pub files: Vec<(String, String)>,
+    /// Pages and files beside this one, those of its charts apart: what they hold, and their names.
+    pub links: Vec<(String, String)>,
 }
 
 /// Rows under a header.
@@ -56,4 +75,50 @@ pub struct PageTable {
     pub header: Vec<String>,
     /// As many cells in each as in the header.
     pub rows: Vec<Vec<String>>,
+}
+
+impl Page {
+    /// The page, what else belongs to it, and its charts as SVG.
+    pub fn files(&self) -> Vec<NamedFile> {
+        let figures = self.sections.iter().flat_map(|section| &section.figures);
+        let svg = figures.map(|figure| {
+            let size =
+                if figure.columns() > 2 { Size { width: 1240, row: 300 } } else { Size { width: 900, row: 330 } };
+            (svg_file(figure), svg::figure(figure, size))
+        });
+        std::iter::once((self.file.clone(), html::html(self))).chain(self.beside.clone()).chain(svg).collect()
+    }
+
+    /// Title, facts, and the text and tables of the sections that have tables, in Markdown.
+    pub fn markdown(&self) -> String {
+        let facts: Vec<String> = self.facts.iter().map(|(name, value)| format!("{name}: {value}")).collect();
+        let made = "Made by `halfway chart`; [charts.md](charts.md) says what is measured.";
+        let mut blocks = vec![format!("# {}", self.title), made.to_owned(), facts.join("; ") + "."];
+        for section in self.sections.iter().filter(|section| !section.tables.is_empty()) {
+            blocks.push(format!("## {}", section.title));
+            blocks.extend(section.text.iter().cloned());
+            blocks.extend(section.tables.iter().map(PageTable::markdown));
+        }
+        blocks.join("\n\n") + "\n"
+    }
+}
+
+impl PageTable {
+    fn markdown(&self) -> String {
+        let line = |cells: &[String]| format!("| {} |", cells.join(" | "));
+        let rule = format!("|{}", "---|".repeat(self.header.len()));
+        let lines = [line(&self.header), rule].into_iter().chain(self.rows.iter().map(|row| line(row)));
+        format!("{}:\n\n{}", self.caption, lines.collect::<Vec<_>>().join("\n"))
+    }
+}
+
+/// The name of a chart's file.
+fn svg_file(figure: &Figure) -> String {
+    format!("{}.svg", figure.id)
+}
+
+/// The text with its first letter as at the beginning of a sentence.
+pub fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map(|first| first.to_uppercase().collect::<String>() + letters.as_str()).unwrap_or_default()
 }

@@ -1,6 +1,6 @@
 //! What was measured on.
 
-use halfway::render::{Adapter, Cpu, FrameReport};
+use halfway::render::{Adapter, Cpu};
 
 /// The machine and the programs that figures come from. What cannot be found out is `unknown`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -87,27 +87,6 @@ fn cpu_model(list: &str) -> String {
         (key.trim() == "model name").then(|| value.trim())
     });
     model.filter(|model| !model.is_empty()).unwrap_or(UNKNOWN).to_owned()
-}
-
-/// What a frame counted, each count with its name in [`FrameReport`]; all of its numbers but `left_out`, which is no
-/// count, and 1 for one that was kept.
-pub fn counters(report: &FrameReport) -> Vec<(&'static str, u64)> {
-    vec![
-        ("objects", report.objects.into()),
-        ("visible", report.visible.into()),
-        ("lights", report.lights.into()),
-        ("triangles_in", report.triangles_in),
-        ("patches", report.patches.into()),
-        ("patches_culled", report.patches_culled.into()),
-        ("lights_assigned", report.lights_assigned),
-        ("light_pairs", report.light_pairs),
-        ("draws", report.draws.into()),
-        ("triangles", report.triangles),
-        ("matrices", report.matrices.into()),
-        ("materials", report.materials.into()),
-        ("bytes_uploaded", report.bytes_uploaded),
-        ("pipelines", report.pipelines.into()),
-    ]
 }
 
 #[cfg(test)]

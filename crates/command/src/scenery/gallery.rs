@@ -15,9 +15,9 @@
 
 use std::f32::consts::{PI, TAU};
 
-use halfway::mesh::{MeshError, NormalWeighting, Normals};
+use halfway::mesh::{HeightField, NormalWeighting, Normals, ParametricSurface, Tessellation};
 use halfway::prelude::*;
-use halfway_chart::front::scenes::{stone_mesh, terrain_mesh};
+use halfway_chart::front::scenes::stone_mesh;
 
 use super::{Circling, Scenery, Turning, grey, hsv};
 
@@ -28,7 +28,7 @@ impl Scenery<'_, '_, '_> {
     pub(super) fn gallery(&mut self) {
         self.camera(Vec3::new(0.0, 10.0, 19.0));
         self.two_suns();
-        let kinds = [machine_part(), scan(), terrain_mesh(127), Teapot::new(8).into(), vase()];
+        let kinds = [machine_part(), scan(), terrain(), Teapot::new(8).into(), vase()];
         let scales = [1.0, 1.0, 0.25, 0.6, 1.0];
         let kinds = kinds.map(|mesh| Mesh3d(self.meshes.add(mesh)));
         for i in 0..60_u8 {
@@ -97,6 +97,24 @@ fn scan() -> Mesh {
     sound(Mesh::new(whole.positions().to_vec(), open))
 }
 
+/// Hills: a smooth surface through 17 × 17 heights, 8 × 8 units around the origin and up to 1.4 high and deep.
+fn terrain() -> Mesh {
+    let field = sound(HeightField::new(8.0, 8.0, SAMPLES, heights()));
+    sound(field.mesh(Tessellation::Count { rows: 127, columns: 127 }))
+}
+
+/// Along each side of the terrain.
+const SAMPLES: u32 = 17;
+
+fn heights() -> Vec<f32> {
+    let height = |i: u32, j: u32| {
+        let [x, z] = [i, j].map(|k| k as f32 / (SAMPLES - 1) as f32);
+        let waves = [(1.0, 1.3, 0.9, 0.2), (0.5, -2.1, 2.6, 1.1), (0.25, 4.7, 3.9, 2.3), (0.1, 7.1, -6.3, 0.7)];
+        waves.iter().map(|(high, a, b, start)| 0.75 * high * (6.0 * (a * x + b * z) + start).sin()).sum()
+    };
+    (0..SAMPLES * SAMPLES).map(|k| height(k % SAMPLES, k / SAMPLES)).collect()
+}
+
 /// A wall of 0.03, up outside and down inside, and a bottom.
 fn vase() -> Mesh {
     let outside = |i: u8| {
@@ -141,9 +159,9 @@ fn turned(profile: &[[f32; 2]], around: u32) -> Mesh {
 }
 
 /// Meshes of our own have triangles, and finite numbers.
-fn sound(mesh: Result<Mesh, MeshError>) -> Mesh {
-    match mesh {
-        Ok(mesh) => mesh,
+fn sound<T, E: std::fmt::Display>(made: Result<T, E>) -> T {
+    match made {
+        Ok(made) => made,
         Err(error) => unreachable!("{error}"),
     }
 }
@@ -155,7 +173,7 @@ mod tests {
     #[test]
     fn kinds_have_the_triangles_that_are_said() {
         let teapot = Mesh::from(Teapot::new(8));
-        let counts = [machine_part(), scan(), terrain_mesh(127), teapot, vase()].map(|mesh| mesh.triangle_count());
+        let counts = [machine_part(), scan(), terrain(), teapot, vase()].map(|mesh| mesh.triangle_count());
         assert_eq!(counts, [2_688, 150_001, 32_258, 4_032, 10_496]);
         assert_eq!(12 * counts.iter().sum::<usize>(), 2_393_700);
     }

@@ -1,13 +1,20 @@
-//! The scenes of the pages: set up, drawn by the oracle, and by what else draws.
+//! What the pages have in common: scenes, drawn by the oracle and by adapters, and how they are plotted.
 
 use bevy_ecs::query::QueryFilter;
-use halfway::prelude::*;
+use halfway::reference::Oracle;
 use halfway::reference::metrics::{self, Comparison};
-use halfway::reference::{Image, Mode, Oracle};
-use halfway::render::{Adapter, AdapterChoice};
+use halfway::render::AdapterChoice;
+use image::RgbImage;
 
-use crate::front::ChartedAdapter;
-use crate::measure::{MeasureError, SHADINGS};
+pub(super) use halfway::prelude::*;
+pub(super) use halfway::reference::{Image, Mode};
+pub(super) use halfway::render::Adapter;
+
+pub(super) use super::FailurePage;
+pub(super) use crate::error::ChartError;
+pub(super) use crate::figure::{Axis, Figure, Panel};
+use crate::figure::{Marker, Point, Series, Stroke, Style, colors};
+pub(super) use crate::front::ChartedAdapter;
 
 /// Width and height of the pictures.
 pub(super) const SIZE: UVec2 = UVec2::splat(256);
@@ -24,12 +31,12 @@ pub(super) fn set_up(spawn: impl FnOnce(&mut World)) -> App {
 }
 
 /// A scene drawn by the oracle.
-pub(super) fn drawn(mode: Mode, spawn: impl FnOnce(&mut World)) -> Result<Image, MeasureError> {
+pub(super) fn drawn(mode: Mode, spawn: impl FnOnce(&mut World)) -> Result<Image, ChartError> {
     drawn_at(SIZE, mode, spawn)
 }
 
 /// The same in another size.
-pub(super) fn drawn_at(size: UVec2, mode: Mode, spawn: impl FnOnce(&mut World)) -> Result<Image, MeasureError> {
+pub(super) fn drawn_at(size: UVec2, mode: Mode, spawn: impl FnOnce(&mut World)) -> Result<Image, ChartError> {
     let mut app = set_up(spawn);
     Ok(Oracle::new(app.world_mut(), size)?.with_mode(mode).draw())
 }
@@ -85,19 +92,29 @@ pub(super) fn square(columns: u32, rows: u32) -> Mesh {
     made(positions, Some(normals), triangles.collect())
 }
 
+/// A highlight and nothing else.
+pub(super) fn shine(shininess: f32) -> Material {
+    Material { specular: LinearRgba::WHITE, shininess, ..Material::matte(LinearRgba::BLACK) }
+}
+
 /// The three shadings and the truth of one scene, in this order.
-pub(super) fn four(spawn: impl Fn(&mut World, Shading)) -> Result<[Image; 4], MeasureError> {
-    let [flat, gouraud, phong] = SHADINGS.map(|shading| drawn(Mode::Mesh, |world| spawn(world, shading)));
-    Ok([flat?, gouraud?, phong?, drawn(Mode::Surface, |world| spawn(world, Shading::Phong))?])
+pub(super) fn four(spawn: impl Fn(&mut World, Shading)) -> Result<[Image; 4], ChartError> {
+    four_at(SIZE, spawn)
+}
+
+/// The same in another size.
+pub(super) fn four_at(size: UVec2, spawn: impl Fn(&mut World, Shading)) -> Result<[Image; 4], ChartError> {
+    let [flat, gouraud, phong] = SHADINGS.map(|shading| drawn_at(size, Mode::Mesh, |world| spawn(world, shading)));
+    Ok([flat?, gouraud?, phong?, drawn_at(size, Mode::Surface, |world| spawn(world, Shading::Phong))?])
 }
 
 /// How far one picture is from another in linear intensity, on pixels that both cover.
-pub(super) fn compared(picture: &Image, truth: &Image) -> Result<Comparison, MeasureError> {
+pub(super) fn compared(picture: &Image, truth: &Image) -> Result<Comparison, ChartError> {
     Ok(metrics::compare(picture, truth, Encoding::Raw)?)
 }
 
 /// The root of the mean squared difference of that.
-pub(super) fn rms(picture: &Image, truth: &Image) -> Result<f64, MeasureError> {
+pub(super) fn rms(picture: &Image, truth: &Image) -> Result<f64, ChartError> {
     Ok(compared(picture, truth)?.linear.all.rmse)
 }
 
@@ -107,10 +124,7 @@ pub(super) fn light(picture: &Image) -> f64 {
 }
 
 /// What draws beside the oracle: those that are charted, and the CPU without a driver, if it is not among them.
-///
-/// # Errors
-/// The CPU cannot draw with the vectors that are asked for.
-pub fn drawers(charted: &[ChartedAdapter]) -> Result<Vec<ChartedAdapter>, MeasureError> {
+pub(super) fn drawers(charted: &[ChartedAdapter]) -> Result<Vec<ChartedAdapter>, ChartError> {
     let mut drawers = charted.to_vec();
     if !drawers.iter().any(|one| matches!(one.adapter, Adapter::Cpu(_))) {
         let adapter = AdapterChoice::cpu().open()?;
@@ -148,7 +162,7 @@ impl JudgedApp {
     }
 
     /// What the adapter draws.
-    pub(super) fn picture(&mut self) -> Result<Image, MeasureError> {
+    pub(super) fn picture(&mut self) -> Result<Image, ChartError> {
         Ok(match render_picture(&mut self.app)? {
             Picture::Float(image) => Image::from_float(&image),
             Picture::Byte(image) => Image::from_bytes(&image, Encoding::Raw),
@@ -156,34 +170,35 @@ impl JudgedApp {
     }
 
     /// What the oracle draws of the same; after [`picture`](Self::picture), which puts everything in its place.
-    pub(super) fn truth(&mut self) -> Result<Image, MeasureError> {
+    pub(super) fn truth(&mut self) -> Result<Image, ChartError> {
         Ok(Oracle::new(self.app.world_mut(), self.size)?.with_mode(Mode::Mesh).draw())
     }
 
     /// The largest error of a channel as a part of what it should be, over channels of more than `least`.
-    pub(super) fn relative_error(&mut self, least: f64) -> Result<f64, MeasureError> {
+    pub(super) fn relative_error(&mut self, least: f64) -> Result<f64, ChartError> {
         let (picture, truth) = (self.picture()?, self.truth()?);
         let channels = picture.pixels().iter().flatten().zip(truth.pixels().iter().flatten());
         let counted = channels.filter(|(_, should)| **should > least);
         let largest = counted.map(|(is, should)| (is / should - 1.0).abs()).reduce(f64::max);
-        largest.ok_or_else(|| MeasureError::Scene("the picture shows nothing that could be judged".to_owned()))
+        largest.ok_or_else(|| ChartError::Scene("the picture shows nothing that could be judged".to_owned()))
     }
 }
 
-/// A scene as the first of these draws it, as the oracle does, and their difference times a factor.
+/// A scene as the first of these draws it, as the oracle does, and their difference times a factor; with the captions
+/// of the first and the last.
 pub(super) fn judged(
     drawers: &[ChartedAdapter],
     (size, pixels): (UVec2, Pixels),
-    factor: f64,
+    (as_drawn, difference, factor): (&'static str, &'static str, f64),
     spawn: impl FnOnce(&mut World),
-) -> Result<[Image; 3], MeasureError> {
-    let drawer = drawers.first().ok_or_else(|| MeasureError::Scene("there is nothing that draws".to_owned()))?;
+) -> Result<Vec<(&'static str, RgbImage)>, ChartError> {
+    let drawer = drawers.first().ok_or_else(|| ChartError::Scene("there is nothing that draws".to_owned()))?;
     let mut judged = JudgedApp::new(&drawer.adapter, size, pixels);
     judged.set(spawn);
     let (drawn, truth) = (judged.picture()?, judged.truth()?);
     let off = |(a, b): (&[f64; 3], &[f64; 3])| [0, 1, 2].map(|channel| factor * (a[channel] - b[channel]).abs());
-    let difference = Image::new(size.x, size.y, drawn.pixels().iter().zip(truth.pixels()).map(off).collect());
-    Ok([drawn, truth, difference])
+    let off = Image::new(size.x, size.y, drawn.pixels().iter().zip(truth.pixels()).map(off).collect());
+    Ok(shown([(as_drawn, &drawn), ("the oracle", &truth), (difference, &off)]))
 }
 
 fn clear<F: QueryFilter>(world: &mut World) {
@@ -191,4 +206,60 @@ fn clear<F: QueryFilter>(world: &mut World) {
     for entity in entities {
         world.despawn(entity);
     }
+}
+
+/// The shadings that are compared, the cheapest first.
+pub(super) const SHADINGS: [Shading; 3] = [Shading::Flat, Shading::Gouraud, Shading::Phong];
+/// Their names, and that of the truth.
+pub(super) const NAMES: [&str; 4] = ["flat", "Gouraud", "Phong", "true surface"];
+
+/// The first channel along a row of pixels, from column to column where something is covered.
+pub(super) fn row(image: &Image, y: u32) -> Vec<(f64, f64)> {
+    let covered = |x: u32| image.covered().is_none_or(|covered| covered[(y * SIZE.x + x) as usize]);
+    (0..SIZE.x).filter(|x| covered(*x)).map(|x| (f64::from(x), image.pixel(x, y)[0])).collect()
+}
+
+/// Lines of five kinds that are told apart by colour and by stroke.
+pub(super) fn series(name: &str, kind: usize, points: &[(f64, f64)], marked: bool) -> Series {
+    let styles = [
+        (colors::RED, Marker::Square, Stroke::Dot),
+        (colors::BLUE, Marker::Triangle, Stroke::Dash),
+        (colors::GREEN, Marker::Circle, Stroke::Solid),
+        (colors::INK, Marker::Diamond, Stroke::Solid),
+        (colors::PURPLE, Marker::Wedge, Stroke::Dash),
+    ];
+    let (color, marker, stroke) = styles[kind % styles.len()];
+    let point = |&(x, y): &(f64, f64)| Point::new(x, y, format!("{name}: {} at {}", number(y), number(x)));
+    Series {
+        name: name.to_owned(),
+        style: Style { color, marker: marked.then_some(marker), filled: true, stroke },
+        points: points.iter().map(point).collect(),
+    }
+}
+
+/// A marked line of what `value` tells over these places.
+pub(super) fn measured<T>(
+    name: &str,
+    kind: usize,
+    over: impl IntoIterator<Item = (f64, T)>,
+    mut value: impl FnMut(T) -> Result<f64, ChartError>,
+) -> Result<Series, ChartError> {
+    let points = over.into_iter().map(|(x, it)| Ok((x, value(it)?)));
+    Ok(series(name, kind, &points.collect::<Result<Vec<_>, ChartError>>()?, true))
+}
+
+/// With four decimals where that tells it, else with a power of ten.
+fn number(value: f64) -> String {
+    let size = value.abs();
+    if size == 0.0 || (1e-2..1e5).contains(&size) { format!("{value:.4}") } else { format!("{value:.2e}") }
+}
+
+/// A figure of one panel.
+pub(super) fn figure(id: &str, title: &str, axes: [Axis; 2], panel: Panel) -> Figure {
+    Figure::new(format!("failure-{id}"), title, axes, vec![panel])
+}
+
+/// As they are looked at.
+pub(super) fn shown<const N: usize>(pictures: [(&'static str, &Image); N]) -> Vec<(&'static str, RgbImage)> {
+    pictures.map(|(caption, picture)| (caption, picture.to_bytes(Encoding::Srgb))).into()
 }

@@ -1,0 +1,63 @@
+//! Everything that `halfway chart` measures of the project's own scenes.
+
+use crate::error::ChartError;
+use crate::failures::{self, FailurePage};
+use crate::front::{ChartedAdapter, ChartedScene, FrontPlan, Fronts, MeasuredOver};
+use crate::page::{Page, Section};
+use crate::progress::Progress;
+
+/// What was found.
+#[derive(Clone, Debug)]
+pub struct Report {
+    /// Error and time.
+    pub fronts: Fronts,
+    /// Error and time of far lights and viewers.
+    pub over: Vec<MeasuredOver>,
+    /// Where methods fail.
+    pub failures: Vec<FailurePage>,
+}
+
+impl Report {
+    /// The units of [`Progress`] that [`measure`](Self::measure) will report.
+    pub fn units(plan: &FrontPlan, scenes: &[ChartedScene], adapters: usize) -> u64 {
+        plan.units(scenes, adapters) + MeasuredOver::units(plan, adapters) + failures::PAGES
+    }
+
+    /// Measures everything.
+    ///
+    /// # Errors
+    /// The first picture that could not be drawn.
+    pub fn measure(
+        plan: &FrontPlan,
+        scenes: &[ChartedScene],
+        adapters: &[ChartedAdapter],
+        progress: &mut Progress<'_>,
+    ) -> Result<Self, ChartError> {
+        let fronts = Fronts::measure(plan, scenes, adapters, progress)?;
+        let over = MeasuredOver::all(plan, adapters, progress)?;
+        let failures = failures::all(adapters, |page| progress.advance(1, page.title))?;
+        Ok(Self { fronts, over, failures })
+    }
+
+    /// The page `index.html`, and a page for each failure.
+    ///
+    /// # Errors
+    /// A picture that could not be put on a page.
+    pub fn pages(&self) -> Result<Vec<Page>, ChartError> {
+        let mut index = self.fronts.page();
+        index.sections.push(MeasuredOver::section(&self.over));
+        let failures = self.failures.iter().map(FailurePage::page).collect::<Result<Vec<_>, _>>()?;
+        index.sections.push(Section {
+            title: "Where methods fail".to_owned(),
+            text: vec![
+                "Each known failure has its own page: pictures, how large the error is, the cause, the remedy, and the test \
+                 that holds it. What methods lose is drawn by the reference renderer, what rounding loses by the adapters of \
+                 this report and by the CPU."
+                    .to_owned(),
+            ],
+            links: failures.iter().map(|page| (page.title.clone(), page.file.clone())).collect(),
+            ..Section::default()
+        });
+        Ok(std::iter::once(index).chain(failures).collect())
+    }
+}
