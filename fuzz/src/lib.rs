@@ -1,11 +1,10 @@
-//! What the fuzz targets share: it is what the tests of past failures do too, `tests/past_failures.rs` of the crates
-//! mesh, scene and texture.
+//! What the fuzz targets share: it is what the tests of past failures of the crates mesh, scene and texture do too.
 
 #[path = "../../crates/mesh/tests/common/mod.rs"]
 mod common;
 #[path = "../../crates/mesh/tests/common/counting.rs"]
 mod counting;
-#[path = "../../crates/scene/tests/common/fuzzed.rs"]
+#[path = "../../crates/scene/tests/scene/fuzzed.rs"]
 mod fuzzed;
 #[path = "../../crates/mesh/tests/common/targets.rs"]
 mod targets;

@@ -36,7 +36,7 @@ impl SceneInput {
     pub(crate) fn read(args: &LookArgs) -> Result<Self, Failure> {
         let mut input = Self::open(&args.input)?;
         let scene = &mut input.scene;
-        if let Some(shading) = args.shading {
+        if let Some(shading) = args.shading() {
             scene.shading = shading;
             scene.objects.iter_mut().for_each(|object| object.shading = None);
         }

@@ -4,9 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use halfway::prelude::{Intensity, Reflectance, UVec2};
+use halfway::prelude::{Intensity, Reflectance, Shading, UVec2};
 use halfway::record::parse_size;
-use halfway::scene::{IntensityEntry, ReinhardEntry, RenormaliseEntry, ShadingEntry};
 
 use crate::adapters::AdapterArgs;
 use crate::tolerance::ToleranceArgs;
@@ -19,7 +18,7 @@ pub(crate) struct LookArgs {
     pub(crate) input: PathBuf,
     /// How often surfaces are shaded [default: the scene's; phong for a model]
     #[arg(long, value_parser = one_of(&SHADINGS))]
-    pub(crate) shading: Option<ShadingEntry>,
+    shading: Option<GivenShading>,
     /// How surfaces reflect [default: the scene's; blinn-phong for a model]
     #[arg(long, value_parser = one_of(&REFLECTANCES))]
     pub(crate) reflectance: Option<Reflectance>,
@@ -30,11 +29,32 @@ pub(crate) struct LookArgs {
     /// last frame's divisor that stays, reinhard with the intensity that becomes 1 [default: the scene's; clamp for a
     /// model]
     #[arg(long, value_name = "clamp|renormalise[=SHARE]|reinhard[=WHITE]|aces", value_parser = parse_intensity)]
-    pub(crate) intensity: Option<IntensityEntry>,
+    pub(crate) intensity: Option<Intensity>,
     #[command(flatten)]
     pub(crate) tolerance: ToleranceArgs,
     #[command(flatten)]
     pub(crate) adapter: AdapterArgs,
+}
+
+/// A value of `--shading`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum GivenShading {
+    Known(Shading),
+    /// `auto`, which once was a shading.
+    Retired,
+}
+
+impl LookArgs {
+    /// The shading that is asked for. A warning is printed about one that is no longer there.
+    pub(crate) fn shading(&self) -> Option<Shading> {
+        self.shading.map(|given| match given {
+            GivenShading::Known(shading) => shading,
+            GivenShading::Retired => {
+                eprintln!("warning: --shading auto: \"auto\" is no longer a shading; \"phong\" is drawn");
+                Shading::Phong
+            }
+        })
+    }
 }
 
 /// The size of a picture.
@@ -45,14 +65,14 @@ pub(crate) struct SizeArgs {
     pub(crate) size: Option<UVec2>,
 }
 
-/// Values of an option: what is typed, what the help says, and what it means.
+/// Values of an option: what is typed, what the help says, and what it means. Those without help are not listed.
 type Values<T, const N: usize> = [(&'static str, &'static str, T); N];
 
-const SHADINGS: Values<ShadingEntry, 4> = [
-    ("flat", "Once a triangle", ShadingEntry::Flat),
-    ("gouraud", "Once a vertex", ShadingEntry::Gouraud),
-    ("phong", "Once a pixel", ShadingEntry::Phong),
-    ("auto", "As phong within the tolerance, wherever that is cheapest", ShadingEntry::Auto),
+const SHADINGS: Values<GivenShading, 4> = [
+    ("flat", "Once a triangle", GivenShading::Known(Shading::Flat)),
+    ("gouraud", "Once a vertex", GivenShading::Known(Shading::Gouraud)),
+    ("phong", "Once a pixel", GivenShading::Known(Shading::Phong)),
+    ("auto", "", GivenShading::Retired),
 ];
 const REFLECTANCES: Values<Reflectance, 3> = [
     ("phong", "(v·r)^α", Reflectance::Phong),
@@ -65,28 +85,26 @@ fn one_of<T, const N: usize>(values: &'static Values<T, N>) -> impl TypedValuePa
 where
     T: Clone + Send + Sync,
 {
-    let names = values.iter().map(|(name, help, _)| PossibleValue::new(*name).help(*help));
+    let names = values.iter().map(|(name, help, _)| PossibleValue::new(*name).help(*help).hide(help.is_empty()));
     PossibleValuesParser::new(names).try_map(|text| {
         let value = values.iter().find(|(name, ..)| *name == text);
         value.map(|(.., value)| value.clone()).ok_or("not one of the values")
     })
 }
 
-fn parse_intensity(text: &str) -> Result<IntensityEntry, String> {
+fn parse_intensity(text: &str) -> Result<Intensity, String> {
     let (word, number) = match text.split_once('=') {
         Some((word, number)) => (word, Some(number.parse::<f32>().map_err(|_| EXPECTED.to_owned())?)),
         None => (text, None),
     };
-    let entry = match (word, number) {
-        ("clamp", None) => IntensityEntry::Clamp,
-        ("renormalise", None) => IntensityEntry::Renormalise,
-        ("renormalise", Some(smoothing)) => IntensityEntry::RenormaliseSlowly(RenormaliseEntry { smoothing }),
-        ("reinhard", None) => IntensityEntry::Reinhard,
-        ("reinhard", Some(white)) => IntensityEntry::ReinhardTo(ReinhardEntry { white }),
-        ("aces", None) => IntensityEntry::Aces,
+    let intensity = match (word, number) {
+        ("clamp", None) => Intensity::Clamp,
+        ("renormalise", smoothing) => Intensity::Renormalize { smoothing: smoothing.unwrap_or(0.0) },
+        ("reinhard", white) => Intensity::Reinhard { white: white.unwrap_or(Intensity::WHITE) },
+        ("aces", None) => Intensity::Aces,
         _ => return Err(EXPECTED.to_owned()),
     };
-    Intensity::from(entry).validate().map(|()| entry).map_err(|error| error.problem.to_string())
+    intensity.validate().map(|()| intensity).map_err(|error| error.problem.to_string())
 }
 
 const EXPECTED: &str =
@@ -95,6 +113,28 @@ const EXPECTED: &str =
 #[cfg(test)]
 mod tests {
     use super::*;
+    use clap::Parser;
+
+    #[derive(Parser)]
+    struct Line {
+        #[command(flatten)]
+        look: LookArgs,
+    }
+
+    #[test]
+    fn auto_is_read_as_phong_and_not_offered() {
+        let read = |word: &str| Line::try_parse_from(["halfway", "teapot.obj", "--shading", word]);
+        for (word, shading) in [
+            ("flat", Shading::Flat),
+            ("gouraud", Shading::Gouraud),
+            ("phong", Shading::Phong),
+            ("auto", Shading::Phong),
+        ] {
+            assert_eq!(read(word).map(|line| line.look.shading()).ok(), Some(Some(shading)), "{word}");
+        }
+        let error = read("smooth").err().map(|error| error.to_string()).unwrap_or_default();
+        assert!(error.contains("[possible values: flat, gouraud, phong]"), "{error}");
+    }
 
     #[test]
     fn policies_with_and_without_their_numbers() {
@@ -106,7 +146,7 @@ mod tests {
             ("reinhard=2.5", Intensity::Reinhard { white: 2.5 }),
             ("aces", Intensity::Aces),
         ] {
-            assert_eq!(parse_intensity(text).map(Intensity::from), Ok(expected), "{text}");
+            assert_eq!(parse_intensity(text), Ok(expected), "{text}");
         }
         for bad in ["", "tone", "aces=1", "clamp=1", "reinhard=", "reinhard=x", "Clamp"] {
             assert_eq!(parse_intensity(bad), Err(EXPECTED.to_owned()), "{bad}");

@@ -1,13 +1,13 @@
-//! `--tolerance`: how far a picture may be off.
+//! `--tolerance`: how far a picture may differ from the exact one.
 
 use clap::Args;
 use halfway::prelude::*;
 
 #[derive(Args, Clone, Copy, Debug)]
 pub(crate) struct ToleranceArgs {
-    /// How far the picture may be from everything at full detail with all lights (under --shading auto from Phong
-    /// shading): steps of 1/255, and how many pixels a point may move (0: every mesh as it is); exact: not at all
-    /// [default: the scene's; 1,0.5; exact in verify, whatever the scene says]
+    /// How far the picture may differ from the exact one, which has every light and every triangle: in steps of 1/255,
+    /// and by how many pixels a point may move (0 if left out) [default: the scene's; exact if it has none, and always
+    /// in verify]
     #[arg(long, value_name = "STEPS[,PIXELS]|exact", value_parser = parse)]
     tolerance: Option<Tolerance>,
 }
@@ -48,7 +48,7 @@ fn parse(text: &str) -> Result<Tolerance, String> {
     if text == "exact" {
         return Ok(Tolerance::EXACT);
     }
-    let (steps, pixels) = text.split_once(',').unwrap_or((text, "0.5"));
+    let (steps, pixels) = text.split_once(',').unwrap_or((text, "0"));
     let number = |text: &str| text.parse::<f32>().ok();
     let tolerance = number(steps).zip(number(pixels)).map(|(steps, pixels)| Tolerance { steps, pixels });
     tolerance
@@ -64,7 +64,8 @@ mod tests {
     fn tolerances_by_steps_and_pixels() {
         assert_eq!(parse("exact"), Ok(Tolerance::EXACT));
         assert_eq!(parse("0,0"), Ok(Tolerance::EXACT));
-        assert_eq!(parse("1"), Ok(Tolerance { steps: 1.0, pixels: 0.5 }));
+        assert_eq!(parse("1"), Ok(Tolerance::steps(1.0)));
+        assert_eq!(parse("1,0.5"), Ok(Tolerance { steps: 1.0, pixels: 0.5 }));
         assert_eq!(parse("2.5,0"), Ok(Tolerance::steps(2.5)));
         for bad in ["", "on", "-1", "1,-1", "inf", "NaN,1", "1px", "1,", ",1", "1,2,3", "Exact "] {
             assert!(parse(bad).is_err(), "{bad}");

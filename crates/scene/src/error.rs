@@ -64,7 +64,7 @@ pub enum SceneError {
         /// What is wrong there, and what was expected.
         message: String,
     },
-    /// A value of a scene made in code (no text to point into) does not hold.
+    /// A value of a scene does not hold, and there is no text to point into.
     #[error("scene: {}{message}", named(key))]
     Value {
         /// The path of the key, such as `lights[2].attenuation`; empty for the scene as a whole.
@@ -90,14 +90,6 @@ pub enum SceneError {
         /// Which value, and what was expected.
         source: halfway_lighting::InvalidValue,
     },
-    /// An inline mesh is not a mesh.
-    #[error("scene: `{key}`: {source}")]
-    Mesh {
-        /// The path of the key, such as `objects[0].mesh.inline`.
-        key: String,
-        /// What the mesh said.
-        source: halfway_mesh::MeshError,
-    },
     /// The world has no `Assets<Mesh>` to put meshes into.
     #[error("the world has no `Assets<Mesh>`; add `MeshPlugin` before a scene is spawned")]
     NoMeshAssets,
@@ -117,8 +109,7 @@ impl SceneError {
             Self::Text { key, .. }
             | Self::Value { key, .. }
             | Self::Model { key, .. }
-            | Self::ModelValue { key, .. }
-            | Self::Mesh { key, .. } => Some(key),
+            | Self::ModelValue { key, .. } => Some(key),
             _ => None,
         }
     }

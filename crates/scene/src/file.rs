@@ -2,117 +2,77 @@
 
 use std::collections::HashSet;
 use std::fs::File;
-use std::io::Read;
+use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 use bevy_color::ColorToComponents;
-use halfway_lighting::{Camera, Encoding, GlobalAmbient, Reflectance, Tolerance, Viewer};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use halfway_lighting::{Camera, Encoding, GlobalAmbient, Intensity, Range, Reflectance, Shading, Tolerance, Viewer};
 
-use crate::check::{Check, KeyProblem, Within, color, count};
+use crate::check::{Check, KeyProblem, Limits, Within};
+use crate::entry::{Entry, Written};
 use crate::environment::EnvironmentEntry;
 use crate::error::SceneError;
-use crate::fields::{self, Keys, keys_or_null, write_keys_or_null};
-use crate::intensity::IntensityEntry;
 use crate::json;
+use crate::keys::{Object, keys};
 use crate::light::{AttachEntry, LightEntry};
-use crate::locate::{line_and_column, place_of};
 use crate::mesh::MeshEntry;
 use crate::object::ObjectEntry;
-use crate::read::{Given, JsonObject, Spoken, object_or_null, objects, objects_or_null, word, write_word};
-use crate::view::{CameraEntry, ShadingEntry};
+use crate::retired;
+use crate::view::CameraEntry;
 
-/// A scene as it stands in a scene file. Every key may be left out; the defaults are [`SceneFile::default`].
-///
-/// A scene from [`SceneFile::read`] or [`SceneFile::from_json`] holds only values that make sense
-/// ([`SceneFile::validate`]). One that was put together in code, or deserialised by other means, is validated before it
-/// is written or spawned.
-#[derive(Serialize, Deserialize, JsonSchema, Clone, Debug, PartialEq)]
-#[serde(default, deny_unknown_fields)]
-#[schemars(
-    title = "halfway scene",
-    description = "A scene: a camera, lights and objects. Right-handed, Y up; colours are linear RGB; lengths are world \
-                   units; paths are relative to the scene file."
-)]
-pub struct SceneFile {
-    /// The version of the format: 1.
-    #[schemars(extend("const" = 1))]
-    pub schema_version: u32,
-    /// Width and height of the picture in pixels, each 1 to 16384.
-    #[schemars(inner(range(min = 1, max = SceneFile::MAX_SIDE)))]
-    pub size: [u32; 2],
-    /// The colour where nothing is drawn, linear RGB. 0 to 1e12.
-    #[schemars(inner(range(min = 0, max = halfway_lighting::CHANNEL_MAX)))]
-    pub background: [f32; 3],
-    /// What the channels of a PNG picture hold.
-    #[serde(deserialize_with = "word", serialize_with = "write_word")]
-    #[schemars(with = "Spoken<Encoding>")]
-    pub output: Encoding,
-    /// What becomes of intensities above 1.
-    #[serde(deserialize_with = "word")]
-    pub intensity: IntensityEntry,
-    /// Coverage samples a pixel: 1, or 4 for smooth edges.
-    #[schemars(extend("enum" = [1, 4]))]
-    pub samples: u32,
-    /// Ga, the global ambient light, linear RGB. 0 to 1e12.
-    #[schemars(inner(range(min = 0, max = halfway_lighting::CHANNEL_MAX)))]
-    pub ambient: [f32; 3],
-    /// Where the viewer is for the highlights.
-    #[serde(deserialize_with = "word", serialize_with = "write_word")]
-    #[schemars(with = "Spoken<Viewer>")]
-    pub viewer: Viewer,
-    /// The shading of objects that name none.
-    #[serde(deserialize_with = "word")]
-    pub shading: ShadingEntry,
-    /// The tolerance of objects that name none; null: one step and half a pixel.
-    #[serde(deserialize_with = "keys_or_null", serialize_with = "write_keys_or_null")]
-    #[schemars(with = "Option<Keys<Tolerance>>")]
-    pub tolerance: Option<Tolerance>,
-    /// The reflectance of objects that name none.
-    #[serde(deserialize_with = "word", serialize_with = "write_word")]
-    #[schemars(with = "Spoken<Reflectance>")]
-    pub reflectance: Reflectance,
-    /// Light from all directions; null or left out: none.
-    #[serde(deserialize_with = "object_or_null")]
-    pub environment: Option<EnvironmentEntry>,
-    /// The camera; null or left out: one that frames everything.
-    #[serde(deserialize_with = "keys_or_null", serialize_with = "write_keys_or_null")]
-    #[schemars(with = "Option<Keys<CameraEntry>>")]
-    pub camera: Option<CameraEntry>,
-    /// The lights; null or left out: those of the models, or a key light, a fill light and a headlight where the models
-    /// have none. An empty list: no lights.
-    #[serde(deserialize_with = "objects_or_null")]
-    pub lights: Option<Vec<LightEntry>>,
-    /// What is seen.
-    #[serde(deserialize_with = "objects")]
-    pub objects: Vec<ObjectEntry>,
-}
-
-impl Default for SceneFile {
-    fn default() -> Self {
-        Self {
-            schema_version: Self::VERSION,
-            size: [1280, 720],
-            background: Camera::default().background.to_f32_array_no_alpha(),
-            output: Encoding::default(),
-            intensity: IntensityEntry::default(),
-            samples: 1,
-            ambient: GlobalAmbient::default().0.to_f32_array_no_alpha(),
-            viewer: Viewer::default(),
-            shading: ShadingEntry::default(),
-            tolerance: None,
-            reflectance: Reflectance::default(),
-            environment: None,
-            camera: None,
-            lights: None,
-            objects: Vec::new(),
-        }
+keys! {
+    /// A scene: a camera, lights and objects. Right-handed, Y up; colours are linear RGB; lengths are world units; paths
+    /// are relative to the scene file. Every key may be left out.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct SceneFile {
+        [optional]
+        /// The version of the format: 1.
+        schema_version: u32 = SceneFile::VERSION => Limits::OneOf(&[SceneFile::VERSION], "this version reads 1 only"),
+        /// Width and height of the picture in pixels, each 1 to 16384.
+        size: [u32; 2] = [1280, 720] => Limits::Counts(1, SceneFile::MAX_SIDE),
+        /// The colour where nothing is drawn, linear RGB. 0 to 1e12.
+        background: [f32; 3] = Camera::default().background.to_f32_array_no_alpha() => Limits::Numbers(Range::CHANNEL),
+        /// What the channels of a PNG picture hold.
+        output: Encoding = Encoding::default(),
+        /// What becomes of intensities above 1.
+        intensity: Intensity = Intensity::default(),
+        /// Coverage samples a pixel: 1, or 4 for smooth edges.
+        samples: u32 = 1 => Limits::OneOf(&[1, 4], "expected 1 or 4"),
+        /// Ga, the global ambient light, linear RGB. 0 to 1e12.
+        ambient: [f32; 3] = GlobalAmbient::default().0.to_f32_array_no_alpha() => Limits::Numbers(Range::CHANNEL),
+        /// Where the viewer is for the highlights.
+        viewer: Viewer = Viewer::default(),
+        /// The shading of objects that name none.
+        shading: Shading = Shading::default(),
+        /// The tolerance of objects that name none; null: exact.
+        tolerance: Option<Tolerance> = None,
+        /// The reflectance of objects that name none.
+        reflectance: Reflectance = Reflectance::default(),
+        /// Light from all directions; null or left out: none.
+        environment: Option<EnvironmentEntry> = None,
+        /// The camera; null or left out: one that frames everything.
+        camera: Option<CameraEntry> = None,
+        /// The lights; null or left out: those of the models, or a key light, a fill light and a headlight where the
+        /// models have none. An empty list: no lights.
+        lights: Option<Vec<LightEntry>> = None,
+        /// What is seen.
+        objects: Vec<ObjectEntry> = Vec::new(),
+        [not in the file]
+        /// What was read otherwise than it stands in the file, one sentence each, with the file's name; not written.
+        warnings: Vec<String>,
     }
 }
 
-impl JsonObject for SceneFile {
+impl Object for SceneFile {
     const EXPECTED: &'static str = "an object with the keys of a scene";
+
+    fn check_whole(&self) -> Check {
+        let names = self.names()?;
+        for (i, light) in self.lights.iter().flatten().enumerate() {
+            check_attach(&light.attach, &names).within_item(i).within("lights")?;
+        }
+        Ok(())
+    }
 }
 
 impl SceneFile {
@@ -157,12 +117,9 @@ impl SceneFile {
     /// have, for values of the wrong type and for those that [`validate`](Self::validate) refuses.
     pub fn from_json(text: &str, origin: &str) -> Result<Self, SceneError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let Given(scene): Given<Self> =
-            serde_json::from_str(text).map_err(|error| json::located(&error, text, origin))?;
-        scene.check().map_err(|KeyProblem { key, message }| {
-            let (line, column) = line_and_column(text, place_of(text, &key).value);
-            SceneError::Text { origin: origin.to_owned(), line, column, key, message }
-        })?;
+        let mut scene: Self = json::read(text, origin)?;
+        let warning = scene.check(&Limits::Any).and_then(|()| retired::warning(text, origin));
+        scene.warnings.extend(warning.map_err(|problem| json::error_at(text, origin, problem))?);
         Ok(scene)
     }
 
@@ -172,7 +129,8 @@ impl SceneFile {
     /// [`SceneError::Value`] as [`validate`](Self::validate), and for a path that is not UTF-8.
     pub fn to_json(&self) -> Result<String, SceneError> {
         self.validate()?;
-        json::pretty(self).map_err(|error| SceneError::Value { key: String::new(), message: error.to_string() })
+        json::pretty(&Written(self))
+            .map_err(|error| SceneError::Value { key: String::new(), message: error.to_string() })
     }
 
     /// Writes the scene to a file, as [`to_json`](Self::to_json) has it. An existing file is replaced.
@@ -197,36 +155,7 @@ impl SceneFile {
     /// # Errors
     /// [`SceneError::Value`] for the first that is not, with its path.
     pub fn validate(&self) -> Result<(), SceneError> {
-        self.check().map_err(|KeyProblem { key, message }| SceneError::Value { key, message })
-    }
-
-    fn check(&self) -> Check {
-        if self.schema_version != Self::VERSION {
-            let message = format!("is {}; this version reads {} only", self.schema_version, Self::VERSION);
-            return Err(KeyProblem::new("schema_version", message));
-        }
-        for (i, &side) in self.size.iter().enumerate() {
-            count("", side, 1..=Self::MAX_SIDE).within_item("size", i)?;
-        }
-        color("background", &self.background)?;
-        if !matches!(self.samples, 1 | 4) {
-            return Err(KeyProblem::new("samples", format!("is {}; expected 1 or 4", self.samples)));
-        }
-        color("ambient", &self.ambient)?;
-        self.intensity.check().within("intensity")?;
-        self.shading.check().within("shading")?;
-        self.tolerance.as_ref().map_or(Ok(()), fields::check).within("tolerance")?;
-        self.environment.as_ref().map_or(Ok(()), EnvironmentEntry::check).within("environment")?;
-        self.camera.as_ref().map_or(Ok(()), CameraEntry::check).within("camera")?;
-        for (i, object) in self.objects.iter().enumerate() {
-            object.check().within_item("objects", i)?;
-        }
-        let names = self.names()?;
-        for (i, light) in self.lights.iter().flatten().enumerate() {
-            light.check().within_item("lights", i)?;
-            check_attach(&light.attach, &names).within_item("lights", i)?;
-        }
-        Ok(())
+        self.check(&Limits::Any).map_err(|KeyProblem { key, message }| SceneError::Value { key, message })
     }
 
     /// The names of the objects, all different.
@@ -236,7 +165,7 @@ impl SceneFile {
             let Some(name) = object.name.as_deref() else { continue };
             if !names.insert(name) {
                 let message = format!("is {name:?}, as of an object before; expected a name of its own");
-                return Err(KeyProblem::new("name", message)).within_item("objects", i);
+                return Err(KeyProblem::new("name", message)).within_item(i).within("objects");
             }
         }
         Ok(names)

@@ -1,60 +1,73 @@
 //! JSON text: what the parser says about it, told in the words of the format; and how a scene is written.
 
 use serde::Serialize;
+use serde_path_to_error::{Path, Segment};
 
+use crate::check::KeyProblem;
+use crate::entry::{Entry, Read};
 use crate::error::SceneError;
-use crate::locate::{byte_of, line_and_column, place_at, place_of};
+use crate::locate::{byte_of, key_before, line_and_column, value_at};
 
-/// An error of the parser, with the path of the key it is about.
-pub(crate) fn located(error: &serde_json::Error, text: &str, origin: &str) -> SceneError {
+/// Reads the one value of a text.
+pub(crate) fn read<T: Entry>(text: &str, origin: &str) -> Result<T, SceneError> {
+    let mut parser = serde_json::Deserializer::from_str(text);
+    let result: Result<Read<T>, _> = serde_path_to_error::deserialize(&mut parser);
+    let Read(value) = result.map_err(|error| located(error.inner(), &known(error.path()), text, origin))?;
+    parser.end().map_err(|error| located(&error, "", text, origin))?;
+    Ok(value)
+}
+
+/// The error about a value that was read and does not hold, at the place where it begins.
+pub(crate) fn error_at(text: &str, origin: &str, KeyProblem { key, message }: KeyProblem) -> SceneError {
+    let (line, column) = line_and_column(text, value_at(text, &key));
+    SceneError::Text { origin: origin.to_owned(), line, column, key, message }
+}
+
+/// The path in a file, without the `?` for a key that the text ends inside of.
+fn known(path: &Path) -> String {
+    let whole = path.to_string();
+    match path.iter().next_back() {
+        None => String::new(),
+        Some(Segment::Unknown) => whole.trim_end_matches(['?', '.']).to_owned(),
+        Some(_) => whole,
+    }
+}
+
+/// An error of the parser about the value at `path`.
+fn located(error: &serde_json::Error, path: &str, text: &str, origin: &str) -> SceneError {
     let suffix = format!(" at line {} column {}", error.line(), error.column());
     let full = error.to_string();
     let message = full.strip_suffix(&suffix).unwrap_or(&full);
 
     let stopped = byte_of(text, error.line(), error.column());
-    let last_read = if error.is_eof() { stopped } else { text.floor_char_boundary(stopped.saturating_sub(1)) };
-    let (place, last_key) = place_at(text, stopped);
-    let (key, byte) = match last_key {
-        // The parser stops right after a key that it does not want.
-        Some(name) if is_about_a_key(message) => (name.key, name.name),
-        // A light or a transform is refused as a whole, for the key that its message begins with.
-        _ => match message.strip_prefix('`').and_then(|rest| rest.split_once('`')) {
-            Some((key, _)) => {
-                let place = place_of(text, &format!("{}.{key}", place.key));
-                (place.key, place.name)
-            }
+    let mut key = path.to_owned();
+    // An object is refused as a whole for the key that its message begins with.
+    let own = message.strip_prefix('`').and_then(|rest| rest.split_once("` "));
+    let byte = if let Some((name, _)) = own {
+        key = if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") };
+        key_before(text, value_at(text, &key))
+    } else if ["unknown key", "key given twice"].iter().any(|start| message.starts_with(start)) {
+        // The parser stops right after a key that is not wanted.
+        key_before(text, stopped)
+    } else {
+        let value = value_at(text, path);
+        match text[value..].starts_with(['{', '[']) || path.is_empty() {
             // What is no JSON in an object or a list may be lines away from where that begins.
-            None if (error.is_syntax() || error.is_eof()) && text[place.value..].starts_with(['{', '[']) => {
-                (place.key, last_read)
-            }
-            None => (place.key, place.value),
-        },
+            true if error.is_eof() => stopped,
+            true if error.is_syntax() => text.floor_char_boundary(stopped.saturating_sub(1)),
+            _ => value,
+        }
     };
     let (line, column) = line_and_column(text, byte);
-    let message = in_words_of_the_format(message, &key);
+    let message = in_words_of_the_format(own.map_or(message, |(_, rest)| rest));
     SceneError::Text { origin: origin.to_owned(), line, column, key, message }
 }
 
-fn is_about_a_key(message: &str) -> bool {
-    ["unknown field", "duplicate field"].iter().any(|start| message.starts_with(start))
-}
-
 /// The parser speaks of Rust's types; the reader of the error wrote JSON.
-fn in_words_of_the_format(message: &str, key: &str) -> String {
-    match message {
-        // The parser's word for an array that goes on where it should end.
-        "trailing characters" if key.ends_with(']') => return "is one number too many".to_owned(),
-        "trailing characters" => return "more text after the end of the scene".to_owned(),
-        _ => {}
-    }
-    // The key is named already, in front of the message.
-    let own = message.strip_prefix('`').and_then(|rest| rest.split_once("` "));
-    let mut words = own.map_or(message, |(_, rest)| rest).to_owned();
+fn in_words_of_the_format(message: &str) -> String {
+    let mut words = message.to_owned();
     for (rust, json) in [
-        ("unknown field", "unknown key"),
-        ("missing field", "missing key"),
-        ("duplicate field", "key given twice:"),
-        ("unknown variant", "unknown value"),
+        ("trailing characters", "more text after the end of the scene"),
         ("invalid type: null", "null is not allowed here"),
         ("invalid type: ", "is a value of the wrong type: "),
         ("invalid value: ", "is out of range: "),
@@ -72,7 +85,6 @@ fn in_words_of_the_format(message: &str, key: &str) -> String {
         ("wrong type: map,", "wrong type: object,"),
         ("wrong type: sequence,", "wrong type: list,"),
         ("expected a sequence", "expected a list"),
-        ("expected an array of length", "expected a list of length"),
         ("expected f32", "expected a number"),
         ("expected u32", "expected a whole number from 0 to 4294967295"),
         ("expected path string", "expected a path in quotes"),

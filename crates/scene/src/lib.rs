@@ -16,13 +16,15 @@
 
 mod check;
 mod defaults;
+mod described;
+mod entry;
 mod environment;
 mod error;
-mod fields;
 mod file;
 pub mod import;
 mod intensity;
 mod json;
+mod keys;
 mod light;
 mod light_component;
 mod light_place;
@@ -33,7 +35,7 @@ mod mesh;
 mod models;
 mod object;
 mod placement;
-mod read;
+mod retired;
 mod schema;
 mod solid;
 mod spawn;
@@ -44,17 +46,13 @@ pub use defaults::{default_lights, framing_camera};
 pub use environment::EnvironmentEntry;
 pub use error::SceneError;
 pub use file::SceneFile;
-pub use intensity::{IntensityEntry, ReinhardEntry, RenormaliseEntry};
 pub use light::{AttachEntry, ConeEntry, LightEntry, LightKind};
 pub use light_component::LightComponent;
 pub use material::MaterialEntry;
-pub use mesh::{BoxEntry, InlineMesh, MeshEntry, PlaneEntry, TeapotEntry, UvSphereEntry};
+pub use mesh::{InlineMesh, MeshEntry};
 pub use object::ObjectEntry;
 pub use schema::json_schema;
 pub use solid::SolidEntry;
 pub use spawn::{Spawned, spawn};
 pub use transform::{TransformEntry, TransformMatrix, TransformParts};
-pub use view::{AutoShading, CameraEntry, ShadingEntry};
-
-#[cfg(test)]
-mod tests;
+pub use view::CameraEntry;

@@ -1,18 +1,16 @@
 //! The lights of a scene file.
 
-use std::borrow::Cow;
-use std::fmt;
 use std::ops::Bound::Included;
 
-use halfway_lighting::{Attenuation, Described, Field, FieldPlace, PointLight, Range};
-use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::de::{Deserialize, Deserializer, Error, MapAccess, Visitor};
-use serde::ser::{SerializeMap, Serializer};
+use halfway_lighting::{Attenuation, PointLight, Range};
+use serde::de::{Deserializer, Error};
+use serde::ser::Serializer;
 use serde_json::{Map, Value, json};
 
-use crate::check::{Check, KeyProblem, direction, finite, test};
-use crate::fields;
-use crate::read::{JsonObject, Spoken, Word};
+use crate::check::{Check, KeyProblem, Limits, Within, direction, test};
+use crate::described;
+use crate::entry::Entry;
+use crate::keys::{CheckKeys, Fill, Key, Keys, Object, Presence, See, keys, keys_schema, words};
 
 /// A light. In JSON, the keys of `cone` and `light` stand beside the others, as far as the kind of light has them
 /// ([`LightKind`]); what it does not have is ignored here and refused there.
@@ -44,69 +42,37 @@ pub enum LightKind {
     Homogeneous,
 }
 
-/// What each field of [`ConeEntry`] means, for its documentation and for the schema.
-macro_rules! meaning {
-    (direction) => {
-        "The way the light travels, along the axis of its cone. Any length above 0."
-    };
-    (cutoff_deg) => {
-        "The angle from the axis to the edge."
-    };
-    (inner_deg) => {
-        "The angle from the axis to where the light begins to fade; null: a hard edge."
-    };
-    (exponent) => {
-        "e of cos^e φ, φ the angle from the axis."
-    };
-}
-
-/// The cone of a light, in degrees.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ConeEntry {
-    #[doc = meaning!(direction)]
-    pub direction: [f32; 3],
-    #[doc = meaning!(cutoff_deg)]
-    /// 0 to 90, or 180 for no cone.
-    pub cutoff_deg: f32,
-    #[doc = meaning!(inner_deg)]
-    /// 0 to `cutoff_deg`; null is `None`.
-    pub inner_deg: Option<f32>,
-    #[doc = meaning!(exponent)]
-    /// 0 or more.
-    pub exponent: f32,
-}
-
-impl Default for ConeEntry {
-    fn default() -> Self {
-        Self { direction: [0.0, -1.0, 0.0], cutoff_deg: 30.0, inner_deg: None, exponent: 0.0 }
+keys! {
+    /// The cone of a light, in degrees.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct ConeEntry {
+        [optional]
+        /// The way the light travels, along the axis of its cone. Any length above 0.
+        direction: [f32; 3] = [0.0, -1.0, 0.0],
+        /// The angle from the axis to the edge. Expected: degrees from 0 to 90, or 180 for no cone.
+        cutoff_deg: f32 = 30.0 => Limits::Numbers(CUTOFF),
+        /// The angle from the axis to where the light begins to fade; null: a hard edge. Expected: degrees from 0 to
+        /// `cutoff_deg`, or null.
+        inner_deg: Option<f32> = None => Limits::Numbers(
+            Range::new(Included(0.0), Included(180.0), "degrees from 0 to cutoff_deg")
+        ),
+        /// e of cos^e φ, φ the angle from the axis. Expected: a finite number, 0 or more.
+        exponent: f32 = 0.0 => Limits::Numbers(Range::NON_NEGATIVE),
     }
 }
 
-impl Described for ConeEntry {
-    const FIELDS: &'static [Field<Self>] = &[
-        Field::new(
-            "direction",
-            Range::FINITE,
-            meaning!(direction),
-            FieldPlace::Three(|it| it.direction.each_mut(), fields::XYZ),
-        ),
-        Field::number(
-            "cutoff_deg",
-            Range {
-                also: Some(180.0),
-                ..Range::new(Included(0.0), Included(90.0), "degrees from 0 to 90, or 180 for no cone")
-            },
-            meaning!(cutoff_deg),
-            |it| &mut it.cutoff_deg,
-        ),
-        Field::new(
-            "inner_deg",
-            Range::new(Included(0.0), Included(180.0), "degrees from 0 to cutoff_deg"),
-            meaning!(inner_deg),
-            FieldPlace::Optional(|it| &mut it.inner_deg),
-        ),
-        Field::number("exponent", Range::NON_NEGATIVE, meaning!(exponent), |it| &mut it.exponent),
-    ];
+const CUTOFF: Range = Range {
+    also: Some(180.0),
+    ..Range::new(Included(0.0), Included(90.0), "degrees from 0 to 90, or 180 for no cone")
+};
+
+impl Object for ConeEntry {
+    fn check_whole(&self) -> Check {
+        direction("direction", &self.direction)?;
+        let Some(inner) = self.inner_deg else { return Ok(()) };
+        let expected = format!("degrees from 0 to cutoff_deg, which is {}", self.cutoff_deg);
+        test("inner_deg", inner, inner <= self.cutoff_deg, &expected)
+    }
 }
 
 impl ConeEntry {
@@ -118,19 +84,10 @@ impl ConeEntry {
     pub fn is_none(&self) -> bool {
         self.cutoff_deg == 180.0
     }
-
-    fn check(&self) -> Check {
-        fields::check(self)?;
-        direction("direction", &self.direction)?;
-        let Some(inner) = self.inner_deg else { return Ok(()) };
-        let expected = format!("degrees from 0 to cutoff_deg, which is {}", self.cutoff_deg);
-        test("inner_deg", inner, inner <= self.cutoff_deg, &expected)
-    }
 }
 
 /// `attach`: the frame that a light is in.
-#[derive(serde::Serialize, JsonSchema, Clone, Debug, Default, PartialEq, Eq)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum AttachEntry {
     /// The world's.
     #[default]
@@ -141,43 +98,58 @@ pub enum AttachEntry {
     Object(String),
 }
 
-impl Word for AttachEntry {
-    const WORDS: &'static [(&'static str, Self)] = &[("world", Self::World), ("camera", Self::Camera)];
-    const OBJECTS: &'static [(&'static str, &'static str)] = &[("object", "{\"object\": \"name\"}")];
+const OBJECT: Key = Key::of_choice("object", "That of the object of this name.");
 
-    fn from_member<'de, A: MapAccess<'de>>(_key: &str, map: &mut A) -> Result<Self, A::Error> {
-        map.next_value().map(Self::Object)
+impl Keys for AttachEntry {
+    const NAME: &'static str = "AttachEntry";
+    const MEANING: &'static str = "`attach`: the frame that a light is in.";
+    const WORDS: &'static [(&'static str, Self, &'static str)] = &[
+        ("world", Self::World, "The world's."),
+        ("camera", Self::Camera, "The camera's: it looks along −Z, with +Y up."),
+    ];
+
+    fn blank() -> Self {
+        Self::World
+    }
+
+    fn see<S: See>(&self, to: &mut S) -> Result<(), S::Error> {
+        match self {
+            Self::Object(name) => to.key(&OBJECT, Some(name)),
+            Self::World | Self::Camera => Ok(()),
+        }
+    }
+
+    fn fill<F: Fill>(&mut self, from: &mut F) -> Result<(), F::Error> {
+        from.key(&OBJECT, |name| *self = Self::Object(name))
     }
 }
 
-impl Word for LightKind {
-    const WORDS: &'static [(&'static str, Self)] = &[
-        ("point", Self::Point),
-        ("spot", Self::Spot),
-        ("directional", Self::Directional),
-        ("homogeneous", Self::Homogeneous),
-    ];
+impl Object for AttachEntry {
+    const ONE_KEY: bool = true;
+    const EXAMPLES: &'static [&'static str] = &["{\"object\": \"name\"}"];
+}
+
+words! {
+    /// The kind of a light.
+    LightKind {
+        /// From a point, in all directions.
+        point = Self::Point,
+        /// From a point, into a cone.
+        spot = Self::Spot,
+        /// Parallel rays.
+        directional = Self::Directional,
+        /// A homogeneous position (x, y, z, w), as in OpenGL: w = 0 is a direction toward the light, any other w a
+        /// point at xyz/w.
+        homogeneous = Self::Homogeneous,
+    }
 }
 
 /// The keys of every light.
-const SHARED: [&str; 4] = ["ambient", "diffuse", "specular", "attach"];
+const SHARED: [&str; 5] = ["kind", "ambient", "diffuse", "specular", "attach"];
 
 impl LightKind {
     fn name(self) -> &'static str {
         Self::WORDS[self as usize].0
-    }
-
-    /// What the schema says of a kind.
-    fn meaning(self) -> &'static str {
-        match self {
-            Self::Point => "From a point, in all directions.",
-            Self::Spot => "From a point, into a cone.",
-            Self::Directional => "Parallel rays.",
-            Self::Homogeneous => {
-                "A homogeneous position (x, y, z, w), as in OpenGL: w = 0 is a direction toward the light, any other w a \
-                 point at xyz/w."
-            }
-        }
     }
 
     /// The keys of this kind beside those of every light.
@@ -202,11 +174,6 @@ impl LightKind {
     fn has(self, key: &str) -> bool {
         self.keys().contains(&key) || SHARED.contains(&key)
     }
-
-    /// How many numbers the position has in a file.
-    fn coordinates(self) -> usize {
-        if self == Self::Homogeneous { 4 } else { 3 }
-    }
 }
 
 impl LightEntry {
@@ -223,30 +190,9 @@ impl LightEntry {
         };
         Self { kind, position, cone, light: PointLight::white(), attach: AttachEntry::World }
     }
-
-    pub(crate) fn check(&self) -> Check {
-        homogeneous("position", &self.position)?;
-        self.cone.check()?;
-        fields::check(&self.light)?;
-        if self.light.attenuation == Attenuation::new(0.0, 0.0, 0.0) {
-            return Err(KeyProblem::new("attenuation", "is [0, 0, 0]; expected at least one number above 0"));
-        }
-        Ok(())
-    }
-
-    /// What the file says in three or four numbers.
-    fn set_position(&mut self, numbers: &[f32]) -> Result<(), String> {
-        let (found, expected) = (numbers.len(), self.kind.coordinates());
-        if found != expected {
-            return Err(format!("`position` has {found} numbers; a {} light has {expected}", self.kind.name()));
-        }
-        self.position[..expected].copy_from_slice(numbers);
-        Ok(())
-    }
 }
 
 fn homogeneous(key: &str, p: &[f32; 4]) -> Check {
-    finite(key, p)?;
     if p.iter().all(|&c| c == 0.0) {
         return Err(KeyProblem::new(key, "is [0, 0, 0, 0]; expected a point (w not 0) or a direction (w = 0)"));
     }
@@ -256,114 +202,140 @@ fn homogeneous(key: &str, p: &[f32; 4]) -> Check {
     Ok(())
 }
 
-impl JsonObject for LightEntry {
-    const EXPECTED: &'static str = "an object with the keys of a light";
+/// Shows the keys that a kind has.
+struct OfKind<'a, S> {
+    kind: LightKind,
+    to: &'a mut S,
 }
 
-impl<'de> Deserialize<'de> for LightEntry {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_map(AnyLight)
+impl<S: See> See for OfKind<'_, S> {
+    type Error = S::Error;
+
+    fn key<T: Entry>(&mut self, key: &Key, value: Option<&T>) -> Result<(), S::Error> {
+        if self.kind.has(key.name) { self.to.key(key, value) } else { Ok(()) }
     }
 }
 
-/// Reads a light: every key that some light has, and then those that this kind of light has.
-///
-/// `serde`'s tagged enums take a value into a buffer until they know its tag, and errors inside it then come without a
-/// line. Here all keys are read where they stand, and a key that the kind does not have is refused by its name.
-struct AnyLight;
+/// The position in a file: three numbers, or four of a homogeneous light. Of three, w is NaN, which no file can say.
+struct Position([f32; 4]);
 
-impl<'de> Visitor<'de> for AnyLight {
-    type Value = LightEntry;
-
-    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str(LightEntry::EXPECTED)
-    }
-
-    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<LightEntry, A::Error> {
-        let known: Vec<_> = ["kind", "position"]
-            .into_iter()
-            .chain(fields::names::<ConeEntry>())
-            .chain(fields::names::<PointLight>())
-            .chain(["attach"])
-            .collect();
-        let (mut given, mut kind, mut position) = (Vec::new(), None, None::<Vec<f32>>);
-        let mut attach = AttachEntry::World;
-        let (mut cone, mut light) = (ConeEntry::default(), PointLight::white());
-        while let Some(key) = fields::next_key(&mut map, &known, &mut given)? {
-            match key {
-                "kind" => kind = Some(map.next_value::<Spoken<LightKind>>()?.0),
-                "position" => position = Some(map.next_value()?),
-                "attach" => attach = map.next_value::<Spoken<AttachEntry>>()?.0,
-                key if fields::read_field(&mut cone, key, &mut map)? => {}
-                key => fields::read_field(&mut light, key, &mut map).map(drop)?,
+impl Entry for Position {
+    fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        match Vec::read(deserializer)?[..] {
+            [x, y, z] => Ok(Self([x, y, z, f32::NAN])),
+            [x, y, z, w] => Ok(Self([x, y, z, w])),
+            ref others => {
+                let count = others.len();
+                Err(D::Error::custom(format_args!("has {count} numbers; expected 3, or 4 of a homogeneous light")))
             }
         }
-        let kind = kind.ok_or_else(|| A::Error::missing_field("kind"))?;
-        if let Some(key) = given.iter().find(|key| **key != "kind" && !kind.has(key)) {
+    }
+
+    fn write<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let count = if self.0[3].is_nan() { 3 } else { 4 };
+        serializer.collect_seq(&self.0[..count])
+    }
+
+    fn schema(definitions: &mut Map<String, Value>, limits: &Limits) -> Value {
+        <[f32; 4]>::schema(definitions, limits)
+    }
+}
+
+const KIND: Key = Key::of_choice("kind", "The kind of light.");
+const POSITION: Key = key("position", "Where the light is.");
+const POSITION_AND_W: Key = key("position", "(x, y, z, w), not all 0.");
+const ATTACH: Key = key("attach", "Whose frame position and direction are in, and with what the light moves.");
+
+const fn key(name: &'static str, meaning: &'static str) -> Key {
+    Key { presence: Presence::Optional, ..Key::of_choice(name, meaning) }
+}
+
+/// The keys of the cone and of the colors stand beside the others. Those are shown that the kind has; all are read,
+/// since the kind may come last.
+impl Keys for LightEntry {
+    const NAME: &'static str = "LightEntry";
+    const MEANING: &'static str = "A light.";
+
+    fn blank() -> Self {
+        Self::white(LightKind::Spot)
+    }
+
+    fn see<S: See>(&self, to: &mut S) -> Result<(), S::Error> {
+        let Self { kind, position, cone, light, attach } = self;
+        let [x, y, z, _] = *position;
+        let own = &mut OfKind { kind: *kind, to };
+        own.key(&KIND, Some(kind))?;
+        match kind {
+            LightKind::Homogeneous => own.key(&POSITION_AND_W, Some(position)),
+            _ => own.key(&POSITION, Some(&[x, y, z])),
+        }?;
+        cone.see(own)?;
+        described::see(light, own)?;
+        own.key(&ATTACH, Some(attach))
+    }
+
+    fn fill<F: Fill>(&mut self, from: &mut F) -> Result<(), F::Error> {
+        from.key(&KIND, |kind| self.kind = kind)?;
+        from.key(&POSITION, |Position(position)| self.position = position)?;
+        self.cone.fill(from)?;
+        described::fill(&mut self.light, from)?;
+        from.key(&ATTACH, |attach| self.attach = attach)
+    }
+}
+
+impl Object for LightEntry {
+    const EXPECTED: &'static str = "an object with the keys of a light";
+
+    fn with_given(self, given: &[&str]) -> Result<Self, String> {
+        let kind = self.kind;
+        if let Some(key) = given.iter().find(|key| !kind.has(key)) {
             let (name, keys) = (kind.name(), kind.keys().join(", "));
-            return Err(A::Error::custom(format_args!(
+            return Err(format!(
                 "`{key}` does not belong to a {name} light, whose keys are {keys}, ambient, diffuse, specular and attach"
-            )));
+            ));
         }
-        let mut entry = LightEntry { light, attach, ..LightEntry::white(kind) };
-        // The defaults of the cone depend on the kind.
-        for field in ConeEntry::FIELDS.iter().filter(|field| given.contains(&field.name)) {
-            field.set(&mut entry.cone, field.value(&cone));
+        // The defaults of position and cone depend on the kind.
+        let default = Self::white(kind);
+        let has = |key: &str| given.contains(&key);
+        let mut position = if has("position") { self.position } else { default.position };
+        match (kind, position[3].is_nan()) {
+            (LightKind::Homogeneous, true) => return Err("`position` has 3 numbers; a homogeneous light has 4".into()),
+            (LightKind::Homogeneous, false) => {}
+            (_, false) if has("position") => {
+                return Err(format!("`position` has 4 numbers; a {} light has 3", kind.name()));
+            }
+            _ => position[3] = default.position[3],
         }
-        position.map_or(Ok(()), |numbers| entry.set_position(&numbers)).map_err(A::Error::custom)?;
-        Ok(entry)
-    }
-}
-
-impl serde::Serialize for LightEntry {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let has = |key: &str| self.kind.has(key);
-        let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("kind", &Spoken(&self.kind))?;
-        if has("position") {
-            map.serialize_entry("position", &self.position[..self.kind.coordinates()])?;
-        }
-        fields::write_fields(&self.cone, has, &mut map)?;
-        fields::write_fields(&self.light, has, &mut map)?;
-        map.serialize_entry("attach", &self.attach)?;
-        map.end()
-    }
-}
-
-impl JsonSchema for LightEntry {
-    fn schema_name() -> Cow<'static, str> {
-        "LightEntry".into()
+        let ConeEntry { direction, cutoff_deg, inner_deg, exponent } = self.cone;
+        let cone = ConeEntry {
+            direction: if has("direction") { direction } else { default.cone.direction },
+            cutoff_deg: if has("cutoff_deg") { cutoff_deg } else { default.cone.cutoff_deg },
+            inner_deg,
+            exponent,
+        };
+        Ok(Self { position, cone, ..self })
     }
 
     /// Every kind with all of its keys and no others, and with their defaults.
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        let mut attach = generator.subschema_for::<AttachEntry>();
-        attach.insert(
-            "description".into(),
-            "Whose frame position and direction are in, and with what the light moves.".into(),
-        );
-        attach.insert("default".into(), "world".into());
-        let kinds: Vec<Value> =
-            LightKind::WORDS.iter().map(|&(_, kind)| kind_schema(kind, attach.as_value())).collect();
-        json_schema!({ "description": "A light.", "oneOf": kinds })
+    fn definition(definitions: &mut Map<String, Value>) -> Value {
+        let kinds = LightKind::WORDS.iter().map(|&(name, kind, meaning)| {
+            let mut schema = keys_schema(&Self::white(kind), meaning, definitions);
+            schema["properties"]["kind"]["const"] = name.into();
+            schema
+        });
+        let kinds: Vec<Value> = kinds.collect();
+        json!({ "description": Self::MEANING, "oneOf": kinds })
     }
-}
 
-fn kind_schema(kind: LightKind, attach: &Value) -> Value {
-    let default = LightEntry::white(kind);
-    let mut position = fields::list(fields::number(&Range::FINITE), kind.coordinates());
-    let meaning = if kind == LightKind::Homogeneous { "(x, y, z, w), not all 0." } else { "Where the light is." };
-    position["description"] = meaning.into();
-    position["default"] = json!(default.position[..kind.coordinates()]);
-    let mut properties: Map<String, Value> = [("position".to_owned(), position), ("attach".to_owned(), attach.clone())]
-        .into_iter()
-        .chain(fields::properties(&default.cone))
-        .chain(fields::properties(&default.light))
-        .filter(|(key, _)| kind.has(key))
-        .collect();
-    properties.insert("kind".to_owned(), json!({ "type": "string", "const": kind.name() }));
-    let mut schema = fields::object(properties);
-    schema["description"] = kind.meaning().into();
-    schema["required"] = json!(["kind"]);
-    schema
+    /// Also what the kind does not have.
+    fn check_whole(&self) -> Check {
+        Entry::check(&self.position, &Limits::Any).within("position")?;
+        homogeneous("position", &self.position)?;
+        self.cone.check(&Limits::Any)?;
+        described::see(&self.light, &mut CheckKeys)?;
+        if self.light.attenuation == Attenuation::new(0.0, 0.0, 0.0) {
+            return Err(KeyProblem::new("attenuation", "is [0, 0, 0]; expected at least one number above 0"));
+        }
+        Ok(())
+    }
 }

@@ -1,42 +1,33 @@
-//! Where in a JSON text a key stands, and which key stands at a place.
-//!
-//! The parser says where it stopped, but not inside which key; the checks after it know the key, but
-//! not its place. Both are found by walking the text once more, which happens only when there is an
-//! error to report.
+//! Where in a JSON text a value stands.
 
-/// A place in a JSON text.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub(crate) struct KeyPlace {
-    /// The path of the value, such as `lights[2].attenuation`; empty for the outermost value.
-    pub(crate) key: String,
-    /// The byte where the value begins.
-    pub(crate) value: usize,
-    /// The byte where the value's key begins; where the value begins if it has none.
-    pub(crate) name: usize,
+use std::cell::Cell;
+use std::fmt;
+
+use serde::de::{DeserializeSeed, Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
+
+/// The byte at which the value at a path begins, or the innermost value around it that the text has. Behind that, the
+/// text need not be JSON.
+pub(crate) fn value_at(text: &str, path: &str) -> usize {
+    let start = text.len() - text.trim_start().len();
+    let steps = steps(path);
+    let found = (1..=steps.len()).rev().find_map(|count| find(text, &steps[..count]));
+    found.unwrap_or(start)
 }
 
-/// The value that a parser was reading when it had consumed the first `consumed` bytes, and the last
-/// key read inside that value, if it is an object.
-pub(crate) fn place_at(text: &str, consumed: usize) -> (KeyPlace, Option<KeyPlace>) {
-    let mut walk = Walk::new(text, consumed, |_| false);
-    walk.value(0, 0);
-    match walk.closed {
-        Some((place, end)) if end == consumed => (place, None),
-        _ => walk.open.pop().unwrap_or_default(),
-    }
-}
-
-/// The place of the value at the path `key`, or of the innermost value around it that the text has.
-pub(crate) fn place_of(text: &str, key: &str) -> KeyPlace {
-    let mut best = KeyPlace::default();
-    let mut walk = Walk::new(text, text.len(), |place: &KeyPlace| {
-        if encloses(&place.key, key) {
-            best = place.clone();
+/// The byte at which the key begins whose value, or what comes after the key, begins at `byte`; `byte` itself if no
+/// key is there.
+pub(crate) fn key_before(text: &str, byte: usize) -> usize {
+    let before = text[..byte].trim_end();
+    let before = before.strip_suffix(':').unwrap_or(before).trim_end();
+    let Some(mut key) = before.strip_suffix('"') else { return byte };
+    loop {
+        let Some(quote) = key.rfind('"') else { return byte };
+        key = &key[..quote];
+        // A quote inside the key has an odd number of backslashes before it.
+        if key.bytes().rev().take_while(|&byte| byte == b'\\').count().is_multiple_of(2) {
+            return quote;
         }
-        place.key == key
-    });
-    walk.value(0, 0);
-    best
+    }
 }
 
 /// Line and column of a byte, both counted from 1, the column in characters.
@@ -56,142 +47,64 @@ pub(crate) fn byte_of(text: &str, line: usize, column: usize) -> usize {
     text.floor_char_boundary(line_start + column)
 }
 
-fn encloses(outer: &str, inner: &str) -> bool {
-    inner
-        .strip_prefix(outer)
-        .is_some_and(|rest| outer.is_empty() || rest.is_empty() || rest.starts_with('.') || rest.starts_with('['))
+/// A key, or `[`, a number and `]`.
+fn steps(path: &str) -> Vec<&str> {
+    let ends = path.match_indices(['.', '[']).map(|(end, _)| end).filter(|end| *end > 0).chain([path.len()]);
+    let mut start = 0;
+    ends.map(|end| path[std::mem::replace(&mut start, end)..end].trim_start_matches('.')).collect()
 }
 
-/// No format here nests deeper than this; the parser itself stops at 128.
-const MAX_DEPTH: usize = 160;
-
-struct Walk<'t, F> {
-    bytes: &'t [u8],
-    /// How far the text has been read.
-    at: usize,
-    /// Nothing after this byte is read.
-    end: usize,
-    path: String,
-    /// The values begun and not ended, each with the last key read in it.
-    open: Vec<(KeyPlace, Option<KeyPlace>)>,
-    /// The value ended last, and where.
-    closed: Option<(KeyPlace, usize)>,
-    /// Called at the start of every value; true ends the walk.
-    found: F,
+fn find(text: &str, steps: &[&str]) -> Option<usize> {
+    let is_found = Cell::new(false);
+    let error = Find { steps, is_found: &is_found }.deserialize(&mut serde_json::Deserializer::from_str(text)).err()?;
+    is_found.get().then(|| byte_of(text, error.line(), error.column()))
 }
 
-impl<'t, F: FnMut(&KeyPlace) -> bool> Walk<'t, F> {
-    fn new(text: &'t str, end: usize, found: F) -> Self {
-        let bytes = text.as_bytes();
-        let end = end.min(bytes.len());
-        Self { bytes, at: 0, end, path: String::new(), open: Vec::new(), closed: None, found }
+/// Reads no further than to where the value begins, and ends with an error there, which has a place in the text.
+#[derive(Clone, Copy)]
+struct Find<'a> {
+    steps: &'a [&'a str],
+    is_found: &'a Cell<bool>,
+}
+
+impl<'de> DeserializeSeed<'de> for Find<'_> {
+    type Value = ();
+
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<(), D::Error> {
+        if self.steps.is_empty() {
+            self.is_found.set(true);
+            return Err(D::Error::custom("found"));
+        }
+        deserializer.deserialize_any(self)
+    }
+}
+
+impl<'de> Visitor<'de> for Find<'_> {
+    type Value = ();
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a list or an object")
     }
 
-    /// Walks one value. `None` when the walk is over: found, at the end, or not JSON.
-    fn value(&mut self, name: usize, depth: usize) -> Option<()> {
-        self.skip_space();
-        let name = if depth == 0 || self.path.ends_with(']') { self.at } else { name };
-        let place = KeyPlace { key: self.path.clone(), value: self.at, name };
-        let stop = (self.found)(&place);
-        self.open.push((place, None));
-        if stop || depth > MAX_DEPTH {
-            return None;
-        }
-        match self.peek()? {
-            b'{' => self.object(depth)?,
-            b'[' => self.array(depth)?,
-            b'"' => self.string()?,
-            _ => self.word()?,
-        }
-        self.closed = self.open.pop().map(|(place, _)| (place, self.at));
-        Some(())
-    }
-
-    fn object(&mut self, depth: usize) -> Option<()> {
-        self.at += 1;
-        loop {
-            self.skip_space();
-            match self.peek()? {
-                b'}' => break,
-                b',' => self.at += 1,
-                b'"' => self.member(depth)?,
-                _ => return None,
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<(), A::Error> {
+        while let Some(key) = map.next_key::<String>()? {
+            if self.steps.first() == Some(&key.as_str()) {
+                map.next_value_seed(Self { steps: &self.steps[1..], ..self })?;
+            } else {
+                map.next_value::<IgnoredAny>()?;
             }
         }
-        self.at += 1;
-        Some(())
+        Ok(())
     }
 
-    fn member(&mut self, depth: usize) -> Option<()> {
-        let name = self.at;
-        self.string()?;
-        let parent = self.path.len();
-        if parent > 0 {
-            self.path.push('.');
-        }
-        // A key with escapes stays as it is written: it is only compared with names that have none.
-        self.path.push_str(&String::from_utf8_lossy(&self.bytes[name + 1..self.at - 1]));
-        if let Some((_, last)) = self.open.last_mut() {
-            *last = Some(KeyPlace { key: self.path.clone(), value: name, name });
-        }
-        self.skip_space();
-        if self.peek()? != b':' {
-            return None;
-        }
-        self.at += 1;
-        self.value(name, depth + 1)?;
-        self.path.truncate(parent);
-        Some(())
-    }
-
-    fn array(&mut self, depth: usize) -> Option<()> {
-        self.at += 1;
-        let parent = self.path.len();
-        for index in 0_usize.. {
-            self.skip_space();
-            if self.peek() == Some(b']') {
-                break;
-            }
-            self.path.extend(["[", &index.to_string(), "]"]);
-            self.value(self.at, depth + 1)?;
-            self.path.truncate(parent);
-            self.skip_space();
-            match self.peek()? {
-                b',' => self.at += 1,
-                b']' => break,
-                _ => return None,
+    fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<(), A::Error> {
+        let index = self.steps.first().and_then(|step| step.strip_prefix('[')?.strip_suffix(']')?.parse().ok());
+        for _ in 0..index.unwrap_or(usize::MAX) {
+            if seq.next_element::<IgnoredAny>()?.is_none() {
+                return Ok(());
             }
         }
-        self.at += 1;
-        Some(())
-    }
-
-    fn string(&mut self) -> Option<()> {
-        self.at += 1;
-        while self.peek()? != b'"' {
-            self.at += if self.peek()? == b'\\' { 2 } else { 1 };
-        }
-        self.at += 1;
-        Some(())
-    }
-
-    /// A number, `true`, `false` or `null`.
-    fn word(&mut self) -> Option<()> {
-        let start = self.at;
-        while self.peek().is_some_and(|b| b.is_ascii_alphanumeric() || b"+-.".contains(&b)) {
-            self.at += 1;
-        }
-        (self.at > start).then_some(())
-    }
-
-    fn skip_space(&mut self) {
-        while self.peek().is_some_and(|b| b.is_ascii_whitespace()) {
-            self.at += 1;
-        }
-    }
-
-    fn peek(&self) -> Option<u8> {
-        if self.at < self.end { Some(self.bytes[self.at]) } else { None }
+        seq.next_element_seed(Self { steps: &self.steps[1..], ..self }).map(drop)
     }
 }
 
@@ -199,56 +112,42 @@ impl<'t, F: FnMut(&KeyPlace) -> bool> Walk<'t, F> {
 mod tests {
     use super::*;
 
-    const TEXT: &str = "{\n  \"a\": [1, {\"b\": \"x\\\"]\"}],\n  \"ä\": {\"c\": null}\n}";
+    const TEXT: &str = r#"{"a": 1, "käse": [[1, 2], {"b\"": null , "c" : "x\"y"}], "d": {}}"#;
 
     #[test]
-    fn a_path_is_found_where_it_stands() {
-        for (key, line, column) in [
-            ("", 1, 1),
-            ("a", 2, 8),
-            ("a[0]", 2, 9),
-            ("a[1]", 2, 12),
-            ("a[1].b", 2, 18),
-            ("ä.c", 3, 14),
-            // What the text lacks is reported at what holds it.
-            ("a[1].nothing", 2, 12),
-            ("a[7]", 2, 8),
-            ("abc", 1, 1),
+    fn paths_lead_to_values_and_keys() {
+        for (path, value, key) in [
+            ("a", "1", "\"a\""),
+            ("käse", "[[", "\"käse\""),
+            ("käse[0]", "[1,", "[1, 2], {"),
+            ("käse[0][1]", "2]", "2]"),
+            ("käse[1].c", "\"x\\\"", "\"c\" :"),
+            ("d", "{}", "\"d\""),
+            // The innermost value around what is not there.
+            ("käse[0][7]", "[1,", "[1, 2], {"),
+            ("d.e.f", "{}", "\"d\""),
+            ("e", "{\"a\"", "{\"a\""),
+            ("", "{\"a\"", "{\"a\""),
         ] {
-            let place = place_of(TEXT, key);
-            assert_eq!(line_and_column(TEXT, place.value), (line, column), "{key}");
+            let byte = value_at(TEXT, path);
+            assert!(TEXT[byte..].starts_with(value), "{path}: {}", &TEXT[byte..]);
+            assert!(TEXT[key_before(TEXT, byte)..].starts_with(key), "{path}: {}", &TEXT[key_before(TEXT, byte)..]);
         }
+        // Also of a key with a quote, and behind the key.
+        assert!(TEXT[key_before(TEXT, TEXT.find("null").unwrap())..].starts_with("\"b\\\"\""));
+        assert!(TEXT[key_before(TEXT, TEXT.find("null").unwrap() - 2)..].starts_with("\"b\\\"\""));
     }
 
     #[test]
-    fn a_place_knows_its_path() {
-        for (after, key, last) in [
-            ("{\n  \"a\"", "", Some("a")),
-            ("{\n  \"a\": [1", "a[0]", None),
-            ("{\n  \"a\": [1,", "a[1]", None),
-            ("{\n  \"a\": [1, {\"b\"", "a[1]", Some("a[1].b")),
-            ("{\n  \"a\": [1, {\"b\": \"x", "a[1].b", None),
-            ("{\n  \"a\": [1, {\"b\": \"x\\\"]\"}", "a[1]", None),
-            ("{\n  \"a\": [1, {\"b\": \"x\\\"]\"}]", "a", None),
-        ] {
-            assert!(TEXT.starts_with(after));
-            let (place, name) = place_at(TEXT, after.len());
-            assert_eq!(place.key, key, "{after}");
-            assert_eq!(name.map(|p| p.key).as_deref(), last, "{after}");
-        }
-    }
-
-    #[test]
-    fn nothing_is_read_out_of_bounds() {
-        for text in ["", "\"", "\"\\", "{\"", "{\"a", "[", "[[[", "nul", "{\"a\":\"\\", "}", "[}"] {
-            for consumed in 0..=text.len() + 2 {
-                place_at(text, consumed);
+    fn places_of_a_text_that_ends() {
+        for text in ["", "\"", "\"\\", "{\"", "{\"a", "[", "[[[", "nul", "{\"a\":\"\\", "}", "[}", "ä"] {
+            for byte in (0..=text.len()).filter(|&byte| text.is_char_boundary(byte)) {
+                key_before(text, byte);
             }
-            place_of(text, "a[0].b");
+            assert!(value_at(text, "a[0].b") <= text.len());
             line_and_column(text, 99);
             byte_of(text, 9, 9);
         }
-        let deep = "[".repeat(100_000);
-        place_at(&deep, deep.len());
+        value_at(&"[".repeat(100_000), "[0][0]");
     }
 }

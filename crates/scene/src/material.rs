@@ -1,24 +1,19 @@
 //! The materials of a scene file.
 
-use std::fmt;
-
 use halfway_lighting::Material;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
-use serde::de::{Deserializer, Error, MapAccess, Visitor};
-use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value, json};
 
 use crate::check::{Check, KeyProblem};
-use crate::fields;
+use crate::described;
+use crate::keys::{Fill, Keys, Object, See, keys_schema};
 
 /// A material: a preset's name, or its values.
-#[derive(Serialize, JsonSchema, Clone, Debug, PartialEq)]
-#[serde(untagged)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum MaterialEntry {
     /// The name of a preset, such as `brass`. Case, spaces, `-` and `_` make no difference.
     Preset(String),
     /// The values.
-    #[serde(serialize_with = "fields::write")]
-    Values(#[schemars(schema_with = "values_schema")] Material),
+    Values(Material),
 }
 
 impl Default for MaterialEntry {
@@ -35,44 +30,60 @@ impl MaterialEntry {
             Self::Values(values) => Some(*values),
         }
     }
+}
 
-    pub(crate) fn check(&self) -> Check {
+impl Keys for MaterialEntry {
+    const NAME: &'static str = "MaterialEntry";
+    const MEANING: &'static str = "A material: a preset's name, or its values.";
+
+    fn from_word(word: &str) -> Option<Self> {
+        Some(Self::Preset(word.to_owned()))
+    }
+
+    fn word(&self) -> Option<&str> {
         match self {
-            Self::Preset(name) if Material::named(name).is_none() => {
-                let known: Vec<&str> = Material::PRESETS.iter().map(|(name, _)| *name).collect();
-                let known = known.join(", ");
-                Err(KeyProblem::new("", format!("no preset is named {name:?}; expected one of {known}")))
-            }
+            Self::Preset(name) => Some(name),
+            Self::Values(_) => None,
+        }
+    }
+
+    fn blank() -> Self {
+        Self::Values(Material::DEFAULT)
+    }
+
+    fn see<S: See>(&self, to: &mut S) -> Result<(), S::Error> {
+        match self {
             Self::Preset(_) => Ok(()),
-            Self::Values(values) => fields::check(values),
+            Self::Values(values) => described::see(values, to),
+        }
+    }
+
+    fn fill<F: Fill>(&mut self, from: &mut F) -> Result<(), F::Error> {
+        match self {
+            Self::Preset(_) => Ok(()),
+            Self::Values(values) => described::fill(values, from),
         }
     }
 }
 
-fn values_schema(_: &mut SchemaGenerator) -> Schema {
-    fields::object(fields::properties(&Material::default()).collect()).try_into().unwrap_or_default()
-}
+impl Object for MaterialEntry {
+    const EXPECTED: &'static str = "a preset's name or an object with the keys of a material";
 
-impl<'de> Deserialize<'de> for MaterialEntry {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct NameOrValues;
+    fn definition(definitions: &mut Map<String, Value>) -> Value {
+        let name = "The name of a preset, such as `brass`. Case, spaces, `-` and `_` make no difference.";
+        let values = keys_schema(&Self::blank(), "The values.", definitions);
+        let ways = [json!({ "type": "string", "description": name }), values];
+        json!({ "description": Self::MEANING, "anyOf": ways })
+    }
 
-        impl<'de> Visitor<'de> for NameOrValues {
-            type Value = MaterialEntry;
-
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("a preset's name or an object with the keys of a material")
-            }
-
-            fn visit_str<E: Error>(self, name: &str) -> Result<MaterialEntry, E> {
-                Ok(MaterialEntry::Preset(name.to_owned()))
-            }
-
-            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<MaterialEntry, A::Error> {
-                fields::read(map).map(MaterialEntry::Values)
-            }
+    fn check_whole(&self) -> Check {
+        if let Self::Preset(name) = self
+            && Material::named(name).is_none()
+        {
+            let known: Vec<&str> = Material::PRESETS.iter().map(|(name, _)| *name).collect();
+            let known = known.join(", ");
+            return Err(KeyProblem::new("", format!("no preset is named {name:?}; expected one of {known}")));
         }
-
-        deserializer.deserialize_any(NameOrValues)
+        Ok(())
     }
 }

@@ -1,209 +1,202 @@
 //! The meshes of a scene file.
 
-use std::fmt;
-use std::path::{Path, PathBuf};
+use std::ops::Bound::Included;
+use std::path::PathBuf;
 
 use bevy_math::{Vec2, Vec3, Vec4};
-use halfway_mesh::{Cuboid, Format, Mesh, MeshError, NormalWeighting, Normals, Plane, SurfaceError, Teapot, UvSphere};
-use schemars::JsonSchema;
-use serde::de::{Deserializer, Error, MapAccess, Visitor};
-use serde::{Deserialize, Serialize};
+use halfway_lighting::Range;
+use halfway_mesh::{Cuboid, Format, Mesh, MeshError, NormalWeighting, Normals, Plane, Teapot, UvSphere};
 
-use crate::check::{Check, KeyProblem, Within, finite};
-use crate::read::{ComponentWord, Given, JsonObject, Word, no_more};
+use crate::check::{Check, KeyProblem, Limits, Within};
+use crate::keys::{Fill, Key, Keys, Object, See, keys, words};
 
 /// The shape of an object: an object with exactly one of these keys.
-#[derive(Serialize, JsonSchema, Clone, Debug, PartialEq)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Debug, PartialEq)]
 pub enum MeshEntry {
     /// A model file, relative to the scene file: smf, obj, gltf, glb, ply or stl.
     Path(PathBuf),
     /// A sphere about the origin.
-    UvSphere(UvSphereEntry),
-    /// A square in the xz plane about the origin, facing +Y.
-    Plane(PlaneEntry),
+    UvSphere(UvSphere),
+    /// A square in the xz plane about the origin, facing +Y; 2 wide, where the file does not say how wide.
+    Plane(Plane),
     /// A box about the origin.
-    Box(BoxEntry),
+    Box(Cuboid),
     /// The Utah teapot.
-    Teapot(TeapotEntry),
+    Teapot(Teapot),
     /// Vertices and triangles, written out.
     Inline(InlineMesh),
 }
 
-/// The value of `{"uv_sphere": …}`.
-#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq)]
-#[serde(default, deny_unknown_fields)]
-pub struct UvSphereEntry {
-    /// 1e-30 to 1e30.
-    #[schemars(range(min = 1e-30, max = 1e30))]
-    pub radius: f32,
-    /// Meridians: 3 to 4096.
-    #[schemars(range(min = 3, max = UvSphere::MAX_SEGMENTS))]
-    pub segments: u32,
-    /// Bands from pole to pole: 2 to 2048.
-    #[schemars(range(min = 2, max = UvSphere::MAX_RINGS))]
-    pub rings: u32,
-}
+const PATH: Key = Key::of_choice("path", "A model file, relative to the scene file: smf, obj, gltf, glb, ply or stl.");
+const UV_SPHERE: Key = Key::of_choice("uv_sphere", "A sphere about the origin.");
+const PLANE: Key = Key::of_choice("plane", "A square in the xz plane about the origin, facing +Y.");
+const BOX: Key = Key::of_choice("box", "A box about the origin.");
+const TEAPOT: Key = Key::of_choice("teapot", "The Utah teapot.");
+const INLINE: Key = Key::of_choice("inline", "Vertices and triangles, written out.");
 
-impl Default for UvSphereEntry {
+/// A path without a name, which no model has.
+impl Default for MeshEntry {
     fn default() -> Self {
-        Self { radius: 1.0, segments: 32, rings: 16 }
+        Self::Path(PathBuf::new())
     }
 }
 
-/// The value of `{"plane": …}`.
-#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq)]
-#[serde(default, deny_unknown_fields)]
-pub struct PlaneEntry {
-    /// The length of an edge: 1e-30 to 1e30.
-    #[schemars(range(min = 1e-30, max = 1e30))]
-    pub size: f32,
-    /// How many squares an edge is cut into: 1 to 2048.
-    #[schemars(range(min = 1, max = Plane::MAX_DIVISIONS))]
-    pub divisions: u32,
-}
+impl Keys for MeshEntry {
+    const NAME: &'static str = "MeshEntry";
+    const MEANING: &'static str = "The shape of an object: an object with exactly one of these keys.";
 
-impl Default for PlaneEntry {
-    fn default() -> Self {
-        Self { size: 2.0, divisions: 1 }
+    fn blank() -> Self {
+        Self::default()
     }
-}
 
-/// The value of `{"box": …}`.
-#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq)]
-#[serde(default, deny_unknown_fields)]
-pub struct BoxEntry {
-    /// The lengths of the edges along x, y and z: 1e-30 to 1e30.
-    #[schemars(inner(range(min = 1e-30, max = 1e30)))]
-    pub size: [f32; 3],
-}
-
-impl Default for BoxEntry {
-    fn default() -> Self {
-        Self { size: [1.0; 3] }
-    }
-}
-
-/// The value of `{"teapot": …}`.
-#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq, Eq)]
-#[serde(default, deny_unknown_fields)]
-pub struct TeapotEntry {
-    /// How many cells an edge of each of the 32 patches is cut into: 1 to 256.
-    #[schemars(range(min = 1, max = Teapot::MAX_DIVISIONS))]
-    pub divisions: u32,
-}
-
-impl Default for TeapotEntry {
-    fn default() -> Self {
-        Self { divisions: 8 }
-    }
-}
-
-/// The value of `{"inline": …}`.
-#[derive(Serialize, Deserialize, JsonSchema, Clone, Debug, PartialEq)]
-#[serde(deny_unknown_fields)]
-pub struct InlineMesh {
-    /// x, y, z of every vertex, one after the other.
-    pub positions: Vec<f32>,
-    /// x, y, z of every vertex's normal, of any length above 0; null: by the default weighting.
-    #[serde(default)]
-    pub normals: Option<Vec<f32>>,
-    /// u, v of every vertex, (0, 0) being the top left of the image; null: none.
-    #[serde(default)]
-    pub uvs: Option<Vec<f32>>,
-    /// Red, green, blue and opacity of every vertex, linear, drawn as if taken into 0 to 1; null: none.
-    #[serde(default)]
-    pub colors: Option<Vec<f32>>,
-    /// The vertices of every triangle, counted from 0, counter-clockwise seen from the front.
-    pub indices: Vec<u32>,
-}
-
-impl Word for Normals {
-    const WORDS: &'static [(&'static str, Self)] = &[
-        ("keep", Self::Keep),
-        ("face", Self::Face),
-        ("uniform", Self::Weighted(NormalWeighting::Uniform)),
-        ("area", Self::Weighted(NormalWeighting::Area)),
-        ("angle", Self::Weighted(NormalWeighting::Angle)),
-        ("max", Self::Weighted(NormalWeighting::Max)),
-    ];
-}
-
-impl ComponentWord for Normals {
-    const NAME: &'static str = "NormalsEntry";
-    const MEANING: &'static str = "`normals`: how a mesh gets its normals.";
-    const MEANINGS: &'static [&'static str] = &[
-        "The file's or the surface's own, else by the default weighting, which is `max`.",
-        "One normal a triangle.",
-        "The mean of the faces around a vertex, all alike.",
-        "The mean weighted by the faces' areas.",
-        "The mean weighted by the faces' angles at the vertex.",
-        "The mean with the weights of Max 1999.",
-    ];
-}
-
-impl From<UvSphereEntry> for UvSphere {
-    fn from(UvSphereEntry { radius, segments, rings }: UvSphereEntry) -> Self {
-        Self { radius, segments, rings }
-    }
-}
-
-impl From<PlaneEntry> for Plane {
-    fn from(PlaneEntry { size, divisions }: PlaneEntry) -> Self {
-        Self { size, divisions }
-    }
-}
-
-impl From<BoxEntry> for Cuboid {
-    fn from(BoxEntry { size }: BoxEntry) -> Self {
-        Self { size: size.into() }
-    }
-}
-
-impl From<TeapotEntry> for Teapot {
-    fn from(TeapotEntry { divisions }: TeapotEntry) -> Self {
-        Self { divisions }
-    }
-}
-
-impl MeshEntry {
-    pub(crate) fn check(&self) -> Check {
+    fn see<S: See>(&self, to: &mut S) -> Result<(), S::Error> {
         match self {
-            Self::Path(path) => check_path(path).within("path"),
-            Self::UvSphere(sphere) => surface(UvSphere::from(*sphere).validate()).within("uv_sphere"),
-            Self::Plane(plane) => surface(Plane::from(*plane).validate()).within("plane"),
-            Self::Box(cuboid) => surface(Cuboid::from(*cuboid).validate()).within("box"),
-            Self::Teapot(teapot) => surface(Teapot::from(*teapot).validate()).within("teapot"),
-            Self::Inline(mesh) => mesh.check().within("inline"),
+            Self::Path(path) => to.key(&PATH, Some(path)),
+            Self::UvSphere(sphere) => to.key(&UV_SPHERE, Some(sphere)),
+            Self::Plane(plane) => to.key(&PLANE, Some(plane)),
+            Self::Box(cuboid) => to.key(&BOX, Some(cuboid)),
+            Self::Teapot(teapot) => to.key(&TEAPOT, Some(teapot)),
+            Self::Inline(mesh) => to.key(&INLINE, Some(mesh)),
+        }
+    }
+
+    fn fill<F: Fill>(&mut self, from: &mut F) -> Result<(), F::Error> {
+        from.key(&PATH, |path| *self = Self::Path(path))?;
+        from.key(&UV_SPHERE, |sphere| *self = Self::UvSphere(sphere))?;
+        from.key(&PLANE, |plane| *self = Self::Plane(plane))?;
+        from.key(&BOX, |cuboid| *self = Self::Box(cuboid))?;
+        from.key(&TEAPOT, |teapot| *self = Self::Teapot(teapot))?;
+        from.key(&INLINE, |mesh| *self = Self::Inline(mesh))
+    }
+}
+
+impl Object for MeshEntry {
+    const ONE_KEY: bool = true;
+    const EXPECTED: &'static str = "an object with one of the keys path, uv_sphere, plane, box, teapot or inline";
+
+    fn check_whole(&self) -> Check {
+        match self {
+            Self::Path(path) if Format::of(path).is_none() => {
+                Err(KeyProblem::new("path", format!("is {}; {KNOWN_MODELS}", path.display())))
+            }
+            _ => Ok(()),
         }
     }
 }
 
-impl InlineMesh {
-    fn check(&self) -> Check {
+const KNOWN_MODELS: &str = "expected a file that ends in .smf, .obj, .gltf, .glb, .ply or .stl";
+
+/// A length of a surface.
+const LENGTH: Limits = Limits::Numbers(Range::new(Included(1e-30), Included(1e30), "a length from 1e-30 to 1e30"));
+
+keys! {
+    /// The value of `{"uv_sphere": …}`.
+    impl UvSphere {
+        [optional]
+        /// 1e-30 to 1e30.
+        radius: f32 = 1.0 => LENGTH,
+        /// Meridians: 3 to 4096.
+        segments: u32 = 32 => Limits::Counts(3, UvSphere::MAX_SEGMENTS),
+        /// Bands from pole to pole: 2 to 2048.
+        rings: u32 = 16 => Limits::Counts(2, UvSphere::MAX_RINGS),
+    }
+}
+
+impl Object for UvSphere {
+    const EXPECTED: &'static str = "an object such as {\"radius\": 1}";
+}
+
+keys! {
+    /// The value of `{"plane": …}`.
+    impl Plane {
+        [optional]
+        /// The length of an edge: 1e-30 to 1e30.
+        size: f32 = 2.0 => LENGTH,
+        /// How many squares an edge is cut into: 1 to 2048.
+        divisions: u32 = 1 => Limits::Counts(1, Plane::MAX_DIVISIONS),
+    }
+}
+
+impl Object for Plane {
+    const EXPECTED: &'static str = "an object such as {\"size\": 2}";
+}
+
+keys! {
+    /// The value of `{"box": …}`.
+    impl Cuboid {
+        [optional]
+        /// The lengths of the edges along x, y and z: 1e-30 to 1e30.
+        size: Vec3 = Vec3::ONE => LENGTH,
+    }
+}
+
+impl Object for Cuboid {
+    const EXPECTED: &'static str = "an object such as {\"size\": [1, 1, 1]}";
+}
+
+keys! {
+    /// The value of `{"teapot": …}`.
+    impl Teapot {
+        [optional]
+        /// How many cells an edge of each of the 32 patches is cut into: 1 to 256.
+        divisions: u32 = 8 => Limits::Counts(1, Teapot::MAX_DIVISIONS),
+    }
+}
+
+impl Object for Teapot {
+    const EXPECTED: &'static str = "an object such as {\"divisions\": 8}";
+}
+
+keys! {
+    /// The value of `{"inline": …}`.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct InlineMesh {
+        [required]
+        /// x, y, z of every vertex, one after the other.
+        positions: Vec<f32>,
+        /// The vertices of every triangle, counted from 0, counter-clockwise seen from the front.
+        indices: Vec<u32>,
+        [optional]
+        /// x, y, z of every vertex's normal, of any length above 0; null: by the default weighting.
+        normals: Option<Vec<f32>> = None,
+        /// u, v of every vertex, (0, 0) being the top left of the image; null: none.
+        uvs: Option<Vec<f32>> = None,
+        /// Red, green, blue and opacity of every vertex, linear, drawn as if taken into 0 to 1; null: none.
+        colors: Option<Vec<f32>> = None,
+    }
+}
+
+impl Object for InlineMesh {
+    const EXPECTED: &'static str = "an object with positions and indices";
+
+    fn check_whole(&self) -> Check {
         let vertices = self.positions.len() / 3;
-        multiple_of_three("positions", self.positions.len())?;
-        multiple_of_three("indices", self.indices.len())?;
+        for (key, length) in [("positions", self.positions.len()), ("indices", self.indices.len())] {
+            if !length.is_multiple_of(3) {
+                return Err(KeyProblem::new(key, format!("has {length} numbers; expected a multiple of 3")));
+            }
+        }
         if self.indices.is_empty() {
             return Err(KeyProblem::new("indices", "is empty; expected at least one triangle"));
         }
-        finite("positions", &self.positions)?;
         for (key, values, each) in [("normals", &self.normals, 3), ("uvs", &self.uvs, 2), ("colors", &self.colors, 4)] {
-            let Some(values) = values else { continue };
-            if values.len() != each * vertices {
+            if let Some(values) = values
+                && values.len() != each * vertices
+            {
                 let message =
                     format!("has {} numbers; expected {each} for each of the {vertices} vertices", values.len());
                 return Err(KeyProblem::new(key, message));
             }
-            finite(key, values)?;
         }
         let outside = self.indices.iter().position(|&index| index as usize >= vertices);
         outside.map_or(Ok(()), |i| {
             let message = format!("is {}; expected less than {vertices}, the number of vertices", self.indices[i]);
-            Err(KeyProblem::new("", message)).within_item("indices", i)
+            Err(KeyProblem::new("", message)).within_item(i).within("indices")
         })
     }
+}
 
+impl InlineMesh {
     /// The mesh.
     pub(crate) fn mesh(&self) -> Result<Mesh, MeshError> {
         let triples = |values: &[f32]| values.as_chunks().0.iter().map(|&v| Vec3::from_array(v)).collect();
@@ -219,83 +212,20 @@ impl InlineMesh {
     }
 }
 
-fn check_path(path: &Path) -> Check {
-    match Format::of(path) {
-        Some(_) => Ok(()),
-        None => Err(KeyProblem::new("", format!("is {}; {KNOWN_MODELS}", path.display()))),
-    }
-}
-
-const KNOWN_MODELS: &str = "expected a file that ends in .smf, .obj, .gltf, .glb, .ply or .stl";
-
-fn multiple_of_three(key: &str, length: usize) -> Check {
-    if length.is_multiple_of(3) {
-        return Ok(());
-    }
-    Err(KeyProblem::new(key, format!("has {length} numbers; expected a multiple of 3")))
-}
-
-fn surface(result: Result<(), SurfaceError>) -> Check {
-    result.map_err(|SurfaceError { field, value, expected, .. }| {
-        // The axes of a box are elements of a list in the file.
-        let key = field.replace(".x", "[0]").replace(".y", "[1]").replace(".z", "[2]");
-        KeyProblem::new(key, format!("is {value}; {expected}"))
-    })
-}
-
-const SHAPES: &str = "path, uv_sphere, plane, box, teapot or inline";
-
-impl<'de> Deserialize<'de> for MeshEntry {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_map(OneShape)
-    }
-}
-
-impl JsonObject for UvSphereEntry {
-    const EXPECTED: &'static str = "an object such as {\"radius\": 1}";
-}
-
-impl JsonObject for PlaneEntry {
-    const EXPECTED: &'static str = "an object such as {\"size\": 2}";
-}
-
-impl JsonObject for BoxEntry {
-    const EXPECTED: &'static str = "an object such as {\"size\": [1, 1, 1]}";
-}
-
-impl JsonObject for TeapotEntry {
-    const EXPECTED: &'static str = "an object such as {\"divisions\": 8}";
-}
-
-impl JsonObject for InlineMesh {
-    const EXPECTED: &'static str = "an object with positions and indices";
-}
-
-struct OneShape;
-
-impl<'de> Visitor<'de> for OneShape {
-    type Value = MeshEntry;
-
-    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        write!(f, "an object with one of the keys {SHAPES}")
-    }
-
-    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<MeshEntry, A::Error> {
-        let Some(key) = map.next_key::<String>()? else {
-            return Err(A::Error::custom(format_args!("is empty; expected one of the keys {SHAPES}")));
-        };
-        let mesh = match key.as_str() {
-            "path" => MeshEntry::Path(map.next_value()?),
-            "uv_sphere" => map.next_value().map(|Given(shape)| MeshEntry::UvSphere(shape))?,
-            "plane" => map.next_value().map(|Given(shape)| MeshEntry::Plane(shape))?,
-            "box" => map.next_value().map(|Given(shape)| MeshEntry::Box(shape))?,
-            "teapot" => map.next_value().map(|Given(shape)| MeshEntry::Teapot(shape))?,
-            "inline" => map.next_value().map(|Given(shape)| MeshEntry::Inline(shape))?,
-            _ => {
-                return Err(A::Error::custom(format_args!("unknown field `{key}`, expected {SHAPES}")));
-            }
-        };
-        no_more(&mut map, SHAPES)?;
-        Ok(mesh)
+words! {
+    /// `normals`: how a mesh gets its normals.
+    Normals {
+        /// The file's or the surface's own, else by the default weighting, which is `max`.
+        keep = Self::Keep,
+        /// One normal a triangle.
+        face = Self::Face,
+        /// The mean of the faces around a vertex, all alike.
+        uniform = Self::Weighted(NormalWeighting::Uniform),
+        /// The mean weighted by the faces' areas.
+        area = Self::Weighted(NormalWeighting::Area),
+        /// The mean weighted by the faces' angles at the vertex.
+        angle = Self::Weighted(NormalWeighting::Angle),
+        /// The mean with the weights of Max 1999.
+        max = Self::Weighted(NormalWeighting::Max),
     }
 }

@@ -4,12 +4,11 @@ use std::collections::HashMap;
 use std::path::Path;
 use std::rc::Rc;
 
+use bevy_asset::Handle;
 use bevy_math::Mat4;
 use bevy_transform::components::Transform;
-use halfway_mesh::{
-    Cuboid, Mesh, Model, NormalReport, Normals, Plane, SourceLight, SourceMap, SourceMaterial, Teapot, UvSphere,
-};
-use halfway_texture::{Channel, MapKind, Sampling, TexelMeaning, Texture, UvSet, UvTransform};
+use halfway_mesh::{Mesh, Model, NormalReport, Normals, SourceLight, SourceMap, SourceMaterial};
+use halfway_texture::{FarNormals, MapKind, SurfaceMap, TexelMeaning, Texture, UvSet};
 
 use crate::error::SceneError;
 use crate::import::{ModelMaterial, channel, maps, model_light, sampling, transform};
@@ -34,16 +33,12 @@ pub(crate) struct ShapePart {
     pub(crate) maps: Vec<ModelMap>,
 }
 
-/// An image of a model's material, decoded.
+/// An image of a model's material, decoded, and the map that it is for, still without its handle.
 #[derive(Clone)]
 pub(crate) struct ModelMap {
     pub(crate) kind: MapKind,
     pub(crate) texture: Texture,
-    pub(crate) sampling: Sampling,
-    pub(crate) uv_set: UvSet,
-    pub(crate) transform: UvTransform,
-    pub(crate) channel: Channel,
-    pub(crate) amount: f32,
+    pub(crate) map: SurfaceMap,
 }
 
 /// A light that came with a model, where it stands inside the object.
@@ -108,13 +103,14 @@ impl<'a> Shapes<'a> {
                     halfway_mesh::load(&path).map_err(|source| SceneError::Model { key: mesh_path(index), source })?;
                 return self.model(model, &path, object.normals, index);
             }
-            MeshEntry::UvSphere(sphere) => Mesh::from(UvSphere::from(*sphere)),
-            MeshEntry::Plane(plane) => Mesh::from(Plane::from(*plane)),
-            MeshEntry::Box(cuboid) => Mesh::from(Cuboid::from(*cuboid)),
-            MeshEntry::Teapot(teapot) => Mesh::from(Teapot::from(*teapot)),
-            MeshEntry::Inline(mesh) => mesh
-                .mesh()
-                .map_err(|source| SceneError::Mesh { key: format!("objects[{index}].mesh.inline"), source })?,
+            MeshEntry::UvSphere(sphere) => Mesh::from(*sphere),
+            MeshEntry::Plane(plane) => Mesh::from(*plane),
+            MeshEntry::Box(cuboid) => Mesh::from(*cuboid),
+            MeshEntry::Teapot(teapot) => Mesh::from(*teapot),
+            MeshEntry::Inline(mesh) => mesh.mesh().map_err(|error| SceneError::Value {
+                key: format!("objects[{index}].mesh.inline"),
+                message: error.to_string(),
+            })?,
         };
         let (mesh, report) = mesh.with_normals(object.normals);
         self.warn_of_normals(&format!("objects[{index}]"), report);
@@ -146,7 +142,7 @@ impl<'a> Shapes<'a> {
             let own = part.material.and_then(|material| materials.get(material).copied());
             let maps = part.material.and_then(|material| maps.get(material)).cloned().unwrap_or_default();
             let (shown, hidden): (Vec<_>, Vec<_>) =
-                maps.into_iter().partition(|map| mesh.uv_set(map.uv_set as usize).is_some());
+                maps.into_iter().partition(|image| mesh.uv_set(image.map.uv_set as usize).is_some());
             if !hidden.is_empty() {
                 let names: Vec<_> = hidden.iter().map(|map| map.kind.name()).collect();
                 let (name, maps) = (&part.name, names.join(", "));
@@ -216,15 +212,16 @@ impl<'a> Shapes<'a> {
             self.warnings.push(format!("{file}: {} is skipped, since it lies at no finite place", source.name));
             return None;
         }
-        Some(ModelMap {
-            kind,
-            texture: texture.clone(),
+        let map = SurfaceMap {
+            texture: Handle::default(),
             sampling: sampling(source),
             uv_set: if source.uv_set == 0 { UvSet::First } else { UvSet::Second },
             transform,
             channel: channel(source, kind, texture),
             amount: if kind.is_relief() { source.amount } else { source.amount.clamp(0.0, 1.0) },
-        })
+            far_normals: FarNormals::Mean,
+        };
+        Some(ModelMap { kind, texture: texture.clone(), map })
     }
 
     fn warn_of_normals(&mut self, at: &str, report: NormalReport) {

@@ -13,7 +13,7 @@ use bevy_transform::components::Transform;
 use halfway_lighting::{BackMaterial, Blend, GlobalAmbient, Mask, VertexColors, ViewTolerance};
 use halfway_lighting::{Camera, Samples};
 use halfway_mesh::{Bounds, Mesh, Mesh3d};
-use halfway_texture::{FarNormals, Maps, SurfaceMap, TexelMeaning, Texture, UvSet};
+use halfway_texture::{Maps, SurfaceMap, TexelMeaning, Texture, UvSet};
 
 use crate::defaults::{default_lights, framing_camera};
 use crate::error::SceneError;
@@ -38,7 +38,8 @@ pub struct Spawned {
     pub objects: Vec<Entity>,
     /// The lights: the scene's, in its order; or the models' own; or the default ones.
     pub lights: Vec<Entity>,
-    /// What was mended or left out while models were loaded, one sentence each, with the file's name.
+    /// What was read otherwise than it stands in the scene, and mended or left out while models were loaded, one
+    /// sentence each, with the file's name.
     pub warnings: Vec<String>,
 }
 
@@ -80,7 +81,7 @@ pub fn spawn(scene: &SceneFile, base_dir: &Path, world: &mut World) -> Result<Sp
         .collect::<Result<Vec<_>, SceneError>>()?;
 
     world.insert_resource(GlobalAmbient(LinearRgba::from_f32_array_no_alpha(scene.ambient)));
-    if let Some(tolerance) = scene.shading.tolerance(scene.tolerance) {
+    if let Some(tolerance) = scene.tolerance {
         world.insert_resource(ViewTolerance(tolerance));
     }
     let camera = spawn_camera(scene, &objects, world);
@@ -91,7 +92,7 @@ pub fn spawn(scene: &SceneFile, base_dir: &Path, world: &mut World) -> Result<Sp
         .map(|(i, (object, shape))| spawn_object(object, i, shape, (&mut handles, &mut textures), world))
         .collect::<Vec<_>>();
     let lights = spawn_lights(scene, camera, &objects, &frames, world);
-    let mut warnings = shapes.warnings;
+    let mut warnings = [scene.warnings.clone(), shapes.warnings].concat();
     hang_maps(scene, base_dir, &frames, &mut warnings, world);
     if let Some(environment) = &scene.environment {
         environment.spawn(base_dir, &mut warnings, world);
@@ -120,9 +121,9 @@ fn spawn_camera(scene: &SceneFile, objects: &[Object], world: &mut World) -> Ent
         viewer: scene.viewer,
         samples: if scene.samples == 4 { Samples::Four } else { Samples::One },
         encoding: scene.output,
-        intensity: scene.intensity.into(),
+        intensity: scene.intensity,
     };
-    let view = (scene.shading.shading(), scene.reflectance);
+    let view = (scene.shading, scene.reflectance);
     world.spawn((Name::new("camera"), camera, camera_transform(&entry), view)).id()
 }
 
@@ -189,7 +190,7 @@ fn spawn_object(
         dress(object, part, mesh, &mut world.entity_mut(entity));
         if let Some(solid) = &object.solid {
             // All parts are cut from one.
-            world.entity_mut(entity).insert(solid.of_part(&part.object_from_part));
+            world.entity_mut(entity).insert(solid.for_part(&part.object_from_part));
         }
         if object.material.is_none() && object.maps.is_none() {
             hang_own_maps(part, textures, entity, world);
@@ -223,11 +224,10 @@ fn dress(object: &ObjectEntry, part: &ShapePart, mesh: Handle<Mesh>, entity: &mu
     if let Some(back) = object.back_material.as_ref().and_then(MaterialEntry::material) {
         entity.insert(BackMaterial(back));
     }
-    if let Some(entry) = object.shading {
-        entity.insert(entry.shading());
+    if let Some(shading) = object.shading {
+        entity.insert(shading);
     }
-    let tolerance = object.shading.map_or(object.tolerance, |entry| entry.tolerance(object.tolerance));
-    if let Some(tolerance) = tolerance {
+    if let Some(tolerance) = object.tolerance {
         entity.insert(tolerance);
     }
     if let Some(reflectance) = object.reflectance {
@@ -251,18 +251,9 @@ fn dress(object: &ObjectEntry, part: &ShapePart, mesh: Handle<Mesh>, entity: &mu
 fn hang_own_maps(part: &ShapePart, textures: &mut TextureHandles, entity: Entity, world: &mut World) {
     let Some(mut assets) = world.get_resource_mut::<Assets<Texture>>() else { return };
     let mut maps = Maps::default();
-    for ModelMap { kind, texture, sampling, uv_set, transform, channel, amount } in &part.maps {
+    for ModelMap { kind, texture, map } in &part.maps {
         let handle = textures.entry(texture.0.texels().as_ptr()).or_insert_with(|| assets.add(texture.clone()));
-        let map = SurfaceMap {
-            texture: handle.clone(),
-            sampling: *sampling,
-            uv_set: *uv_set,
-            transform: *transform,
-            channel: *channel,
-            amount: *amount,
-            far_normals: FarNormals::Mean,
-        };
-        maps.set(*kind, Some(map));
+        maps.set(*kind, Some(SurfaceMap { texture: handle.clone(), ..map.clone() }));
     }
     if maps.iter().next().is_some() {
         world.entity_mut(entity).insert(maps);
@@ -292,7 +283,7 @@ fn hang_maps(scene: &SceneFile, base_dir: &Path, frames: &[Entity], warnings: &m
                 );
                 world.resource_mut::<Assets<Texture>>().add(texture)
             });
-            maps.set(kind, Some(entry.on(texture.clone())));
+            maps.set(kind, Some(entry.with_texture(texture.clone())));
         }
         let mut below = vec![frame];
         let (mut shown, mut without) = (0, 0);

@@ -1,16 +1,14 @@
 //! Where something is, as a scene file says it.
 
 use bevy_math::{DVec4, Mat4, Quat, Vec3};
-use schemars::JsonSchema;
-use serde::de::{Deserializer, Error};
-use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value, json};
 
-use crate::check::{Check, KeyProblem, Within, finite};
-use crate::read::{JsonObject, given};
+use crate::check::{Check, KeyProblem, Limits, Within};
+use crate::entry::Entry;
+use crate::keys::{Fill, Key, Keys, Object, Presence, See, keys};
 
 /// Where something is: in parts, or as a matrix.
-#[derive(Serialize, JsonSchema, Clone, Copy, Debug, PartialEq)]
-#[serde(untagged)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TransformEntry {
     /// Scaled, then turned, then moved.
     Parts(TransformParts),
@@ -18,34 +16,57 @@ pub enum TransformEntry {
     Matrix(TransformMatrix),
 }
 
-/// A transform in parts.
-#[derive(Serialize, JsonSchema, Clone, Copy, Debug, PartialEq)]
-#[serde(default, deny_unknown_fields)]
-pub struct TransformParts {
-    /// Moved by.
-    pub translation: [f32; 3],
-    /// Turned by the quaternion [x, y, z, w]. Its length is 1 within 2 %, and made exactly 1.
-    pub rotation: [f32; 4],
-    /// Stretched along x, y and z; negative mirrors.
-    pub scale: [f32; 3],
+keys! {
+    /// A transform in parts.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct TransformParts {
+        [optional]
+        /// Moved by.
+        translation: [f32; 3] = [0.0; 3],
+        /// Turned by the quaternion [x, y, z, w]. Its length is 1 within 2 %, and made exactly 1.
+        rotation: [f32; 4] = [0.0, 0.0, 0.0, 1.0],
+        /// Stretched along x, y and z; negative mirrors.
+        scale: [f32; 3] = [1.0; 3],
+    }
 }
 
-/// A transform as a matrix.
-#[derive(Serialize, JsonSchema, Clone, Copy, Debug, PartialEq)]
-#[serde(deny_unknown_fields)]
-pub struct TransformMatrix {
-    /// 16 numbers column by column: the images of x, y and z and of the origin. The last row, numbers 4, 8, 12 and 16,
-    /// is 0, 0, 0, 1.
-    pub matrix: [f32; 16],
+keys! {
+    /// A transform as a matrix.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct TransformMatrix {
+        [required]
+        /// 16 numbers column by column: the images of x, y and z and of the origin. The last row, numbers 4, 8, 12 and
+        /// 16, is 0, 0, 0, 1.
+        matrix: [f32; 16],
+    }
 }
 
-impl JsonObject for TransformEntry {
-    const EXPECTED: &'static str = "an object with translation, rotation and scale, or with matrix";
+impl Object for TransformParts {
+    fn check_whole(&self) -> Check {
+        let length = DVec4::from(self.rotation.map(f64::from)).length();
+        if (length - 1.0).abs() <= Self::ROTATION_SLACK {
+            return Ok(());
+        }
+        let message = format!("has the length {length:.3}; expected a quaternion [x, y, z, w] of length 1");
+        Err(KeyProblem::new("rotation", message))
+    }
 }
 
-impl Default for TransformParts {
-    fn default() -> Self {
-        Self { translation: [0.0; 3], rotation: [0.0, 0.0, 0.0, 1.0], scale: [1.0; 3] }
+impl TransformParts {
+    /// How far from 1 the length of a rotation may be: that of one printed with two digits still is not.
+    const ROTATION_SLACK: f64 = 0.02;
+}
+
+impl Object for TransformMatrix {
+    fn check_whole(&self) -> Check {
+        for (i, expected) in [(3, 0.0), (7, 0.0), (11, 0.0), (15, 1.0)] {
+            #[allow(clippy::float_cmp, reason = "anything else is a projection, however small")]
+            if self.matrix[i] != expected {
+                let message = format!("is {}; expected {expected}: the last row is 0, 0, 0, 1", self.matrix[i]);
+                return Err(KeyProblem::new("", message)).within_item(i).within("matrix");
+            }
+        }
+        Ok(())
     }
 }
 
@@ -56,9 +77,6 @@ impl Default for TransformEntry {
 }
 
 impl TransformEntry {
-    /// How far from 1 the length of a rotation may be: that of one printed with two digits still is not.
-    const ROTATION_SLACK: f64 = 0.02;
-
     /// The matrix that takes the object into the world.
     pub fn matrix(&self) -> Mat4 {
         match self {
@@ -68,71 +86,64 @@ impl TransformEntry {
             Self::Matrix(TransformMatrix { matrix }) => Mat4::from_cols_array(matrix),
         }
     }
-
-    pub(crate) fn check(&self) -> Check {
-        match self {
-            Self::Parts(TransformParts { translation, rotation, scale }) => {
-                finite("translation", translation)?;
-                finite("scale", scale)?;
-                finite("rotation", rotation)?;
-                let length = DVec4::from(rotation.map(f64::from)).length();
-                if (length - 1.0).abs() <= Self::ROTATION_SLACK {
-                    return Ok(());
-                }
-                let message = format!("has the length {length:.3}; expected a quaternion [x, y, z, w] of length 1");
-                Err(KeyProblem::new("rotation", message))
-            }
-            Self::Matrix(TransformMatrix { matrix }) => {
-                finite("matrix", matrix)?;
-                for (i, expected) in [(3, 0.0), (7, 0.0), (11, 0.0), (15, 1.0)] {
-                    #[allow(clippy::float_cmp, reason = "anything else is a projection, however small")]
-                    if matrix[i] != expected {
-                        let message = format!("is {}; expected {expected}: the last row is 0, 0, 0, 1", matrix[i]);
-                        return Err(KeyProblem::new("", message)).within_item("matrix", i);
-                    }
-                }
-                Ok(())
-            }
-        }
-    }
 }
 
 /// The rotation of exactly unit length.
-pub(crate) fn unit(rotation: [f32; 4]) -> Quat {
+fn unit(rotation: [f32; 4]) -> Quat {
     let [x, y, z, w] = DVec4::from(rotation.map(f64::from)).normalize_or(DVec4::W).to_array();
     Quat::from_xyzw(x as f32, y as f32, z as f32, w as f32)
 }
 
-/// The keys of both kinds of transform.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct TransformKeys {
-    #[serde(default, deserialize_with = "given")]
-    translation: Option<[f32; 3]>,
-    #[serde(default, deserialize_with = "given")]
-    rotation: Option<[f32; 4]>,
-    #[serde(default, deserialize_with = "given")]
-    scale: Option<[f32; 3]>,
-    #[serde(default, deserialize_with = "given")]
-    matrix: Option<[f32; 16]>,
+impl Keys for TransformEntry {
+    const NAME: &'static str = "TransformEntry";
+    const MEANING: &'static str = "Where something is: in parts, or as a matrix.";
+
+    fn blank() -> Self {
+        Self::default()
+    }
+
+    fn see<S: See>(&self, to: &mut S) -> Result<(), S::Error> {
+        match self {
+            Self::Parts(parts) => parts.see(to),
+            Self::Matrix(matrix) => matrix.see(to),
+        }
+    }
+
+    fn fill<F: Fill>(&mut self, from: &mut F) -> Result<(), F::Error> {
+        let mut parts = if let Self::Parts(parts) = self { *parts } else { TransformParts::default() };
+        parts.fill(from)?;
+        let mut given = None;
+        let key = Key { presence: Presence::Optional, ..Key::of_choice("matrix", "") };
+        from.key(&key, |matrix| given = Some(TransformMatrix { matrix }))?;
+        match (given, &self) {
+            (Some(matrix), _) => *self = Self::Matrix(matrix),
+            (None, Self::Parts(_)) => *self = Self::Parts(parts),
+            (None, Self::Matrix(_)) => {}
+        }
+        Ok(())
+    }
 }
 
-impl<'de> Deserialize<'de> for TransformEntry {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let TransformKeys { translation, rotation, scale, matrix } = TransformKeys::deserialize(deserializer)?;
-        if let Some(matrix) = matrix {
-            let beside =
-                [("translation", translation.is_some()), ("rotation", rotation.is_some()), ("scale", scale.is_some())];
-            if let Some((key, _)) = beside.into_iter().find(|(_, present)| *present) {
-                return Err(D::Error::custom(format_args!("`{key}` cannot stand beside `matrix`, which says it all")));
-            }
-            return Ok(Self::Matrix(TransformMatrix { matrix }));
+impl Object for TransformEntry {
+    const EXPECTED: &'static str = "an object with translation, rotation and scale, or with matrix";
+
+    fn with_given(self, given: &[&str]) -> Result<Self, String> {
+        match (self, given.iter().find(|key| **key != "matrix")) {
+            (Self::Matrix(_), Some(key)) => Err(format!("`{key}` cannot stand beside `matrix`, which says it all")),
+            _ => Ok(self),
         }
-        let default = TransformParts::default();
-        Ok(Self::Parts(TransformParts {
-            translation: translation.unwrap_or(default.translation),
-            rotation: rotation.unwrap_or(default.rotation),
-            scale: scale.unwrap_or(default.scale),
-        }))
+    }
+
+    fn definition(definitions: &mut Map<String, Value>) -> Value {
+        let parts = TransformParts::schema(definitions, &Limits::Any);
+        let ways = [parts, TransformMatrix::schema(definitions, &Limits::Any)];
+        json!({ "description": Self::MEANING, "anyOf": ways })
+    }
+
+    fn check_whole(&self) -> Check {
+        match self {
+            Self::Parts(parts) => parts.check_whole(),
+            Self::Matrix(matrix) => matrix.check_whole(),
+        }
     }
 }

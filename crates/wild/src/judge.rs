@@ -9,7 +9,7 @@ use halfway::prelude::*;
 use halfway::reference::metrics::{Bars, Verdict, judge_on_grid};
 use halfway::reference::{Image, Oracle};
 use halfway::render::{Adapter, RenderError};
-use halfway::scene::{MeshEntry, PlaneEntry, SceneFile, TeapotEntry, UvSphereEntry, spawn};
+use halfway::scene::{MeshEntry, SceneFile, spawn};
 use serde_json::Value;
 
 use crate::shrink::shrink;
@@ -178,11 +178,11 @@ impl Judge {
 fn refine(scene: &mut SceneFile) {
     for object in &mut scene.objects {
         match &mut object.mesh {
-            MeshEntry::UvSphere(UvSphereEntry { segments, rings, .. }) => {
+            MeshEntry::UvSphere(UvSphere { segments, rings, .. }) => {
                 (*segments, *rings) = ((*segments).max(128), (*rings).max(64));
             }
-            MeshEntry::Plane(PlaneEntry { divisions, .. }) => *divisions = (*divisions).max(64),
-            MeshEntry::Teapot(TeapotEntry { divisions }) => *divisions = (*divisions).max(14),
+            MeshEntry::Plane(Plane { divisions, .. }) => *divisions = (*divisions).max(64),
+            MeshEntry::Teapot(Teapot { divisions }) => *divisions = (*divisions).max(14),
             _ => {}
         }
     }

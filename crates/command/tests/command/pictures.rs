@@ -145,6 +145,8 @@ fn an_image_that_does_nothing_is_told_once() {
         let said = String::from_utf8_lossy(&output.stderr);
         assert!(output.status.success(), "{said}");
         assert_eq!(said.matches("height image does nothing").count(), times, "{shading}: {said}");
+        let retired = "warning: scene.json:1:13: `shading`: \"auto\" is no longer a shading; it is drawn as \"phong\"";
+        assert_eq!(said.matches(retired).count(), usize::from(shading == "auto"), "{shading}: {said}");
     }
 }
 

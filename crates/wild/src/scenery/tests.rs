@@ -53,8 +53,8 @@ fn every_key_and_word_of_the_format_is_drawn() {
     let mut words = Vec::new();
     vocabulary(&serde_json::from_str(&halfway::scene::json_schema()).unwrap(), &mut words);
     assert!(words.len() > 80, "{words:?}");
-    // There is one version; models are files; and what is shaded automatically, within which tolerance, the judge says.
-    let left_out = ["schema_version", "auto", "tolerance", "steps", "pixels"];
+    // There is one version, models are files, and the judge says within which tolerance is drawn.
+    let left_out = ["schema_version", "tolerance", "steps", "pixels"];
     // Of images on objects there are normals, of meshes with one set of coordinates at most, and no file has a second.
     let of_maps = ["color", "specular", "emission", "opacity", "shininess", "occlusion", "height", "mask"];
     let of_texels = ["uv_set", "first", "second", "channel", "red", "green", "blue", "alpha"];

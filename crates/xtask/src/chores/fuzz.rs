@@ -229,7 +229,8 @@ mod tests {
         assert!(advice.contains("fuzz run --sanitizer none smf /a/crash-1\n"), "{advice}");
         for target in ["smf", "scene", "image"] {
             let (krate, folder) = past_failures(target);
-            assert!(root().join(format!("crates/{krate}/tests")).is_dir(), "{krate}");
+            let kept = root().join(format!("crates/{krate}/tests/past_failures"));
+            assert!(kept.is_dir(), "{}", kept.display());
             assert!(
                 super::advice(target, "/a/crash-1").contains(&format!("crates/{krate}/tests/past_failures{folder} "))
             );

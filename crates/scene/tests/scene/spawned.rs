@@ -16,7 +16,7 @@ use halfway_lighting::{
 use halfway_lighting::{Camera, Encoding, Intensity, Samples};
 use halfway_mesh::{Mesh, Mesh3d, MeshPlugin};
 
-use crate::{SceneError, SceneFile, Spawned, spawn};
+use halfway_scene::{SceneError, SceneFile, Spawned, spawn};
 
 /// What a scene needs of an app: meshes and transforms. No GPU, no window.
 pub(super) fn app() -> App {
@@ -92,7 +92,7 @@ fn the_camera_carries_the_intensity_policy() {
         let (app, camera) = spawned(&text);
         assert_eq!(get::<Camera>(&app, camera.camera).unwrap().intensity, expected, "{text}");
         let scene = SceneFile::from_json(&text, "test").unwrap();
-        let again = SceneFile::from_json(&serde_json::to_string(&scene).unwrap(), "written").unwrap();
+        let again = SceneFile::from_json(&scene.to_json().unwrap(), "written").unwrap();
         assert_eq!(again, scene, "{text}");
     }
 }

@@ -1,7 +1,5 @@
 //! Materials and lights of file formats.
 
-#![allow(clippy::float_cmp, reason = "what a file says exactly is taken exactly")]
-
 use core::f32::consts::{FRAC_1_PI, FRAC_PI_4};
 
 use bevy_color::LinearRgba;

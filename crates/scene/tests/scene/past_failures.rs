@@ -1,11 +1,10 @@
 //! What fuzzing found once in the reader of scene files, and what it starts from: the files of `past_failures` here and
 //! of `fuzz/seeds/scene`.
 
-#[path = "common/fuzzed.rs"]
-mod fuzzed;
-
 use std::fs;
 use std::path::Path;
+
+use crate::fuzzed::feed;
 
 #[test]
 fn past_failures_and_seeds_are_read_or_refused_soundly() {
@@ -16,7 +15,7 @@ fn past_failures_and_seeds_are_read_or_refused_soundly() {
             let file = file.unwrap().path();
             // Shown where the test fails.
             println!("{}", file.display());
-            fuzzed::feed(&fs::read(&file).unwrap());
+            feed(&fs::read(&file).unwrap());
             count += 1;
         }
     }

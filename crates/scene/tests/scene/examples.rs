@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use halfway_texture::TexturePlugin;
 
-use super::spawned::app;
-use crate::{SceneFile, json_schema, spawn};
+use crate::spawned::app;
+use halfway_scene::{SceneFile, json_schema, spawn};
 
 fn examples() -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/scenes");

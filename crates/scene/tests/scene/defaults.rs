@@ -3,9 +3,9 @@
 use halfway_lighting::{Camera, Cone, Material, PointLight, Reflectance, Shading};
 use halfway_mesh::{Cuboid, Plane, Teapot, UvSphere};
 
-use crate::{
-    AttachEntry, BoxEntry, CameraEntry, ConeEntry, LightEntry, LightKind, MaterialEntry, MeshEntry, ObjectEntry,
-    PlaneEntry, SceneFile, TeapotEntry, TransformEntry, UvSphereEntry,
+use halfway_scene::{
+    AttachEntry, CameraEntry, ConeEntry, LightEntry, LightKind, MaterialEntry, MeshEntry, ObjectEntry, SceneFile,
+    TransformEntry,
 };
 
 fn parse(text: &str) -> SceneFile {
@@ -62,17 +62,23 @@ fn defaults_are_those_of_the_format() {
     assert_eq!(parse("{}"), SceneFile::default());
     assert_eq!(parse(r#"{"camera": null, "lights": null}"#), SceneFile::default());
     let object = &parse(r#"{"objects": [{"mesh": {"box": {}}}]}"#).objects[0];
-    assert_eq!(*object, ObjectEntry::new(MeshEntry::Box(BoxEntry::default())));
+    assert_eq!(*object, ObjectEntry::new(MeshEntry::Box(Cuboid::default())));
 }
 
 #[test]
 fn defaults_agree_with_those_of_the_components() {
     assert_eq!(MaterialEntry::default().material(), Some(Material::default()));
-    assert_eq!(UvSphere::from(UvSphereEntry::default()), UvSphere::default());
-    assert_eq!(Cuboid::from(BoxEntry::default()), Cuboid::default());
-    assert_eq!(Teapot::from(TeapotEntry::default()), Teapot::default());
     // The format's plane reaches from −1 to 1; the surface's own default is a unit square.
-    assert_eq!(Plane::from(PlaneEntry::default()), Plane { size: 2.0, ..Plane::default() });
+    let plane = Plane { size: 2.0, ..Plane::default() };
+    for (mesh, default) in [
+        ("uv_sphere", MeshEntry::UvSphere(UvSphere::default())),
+        ("box", MeshEntry::Box(Cuboid::default())),
+        ("teapot", MeshEntry::Teapot(Teapot::default())),
+        ("plane", MeshEntry::Plane(plane)),
+    ] {
+        let scene = parse(&format!(r#"{{"objects": [{{"mesh": {{"{mesh}": {{}}}}}}]}}"#));
+        assert_eq!(scene.objects[0].mesh, default);
+    }
     assert_eq!(LightEntry::white(LightKind::Point).light, PointLight::default());
     assert_eq!(ConeEntry::default().cutoff_deg.to_radians(), Cone::default().cutoff);
     let (scene, camera) = (SceneFile::default(), Camera::default());
@@ -81,7 +87,7 @@ fn defaults_agree_with_those_of_the_components() {
     assert_eq!(scene.output, camera.encoding);
     assert_eq!(scene.viewer, camera.viewer);
     assert_eq!(scene.reflectance, Reflectance::default());
-    assert_eq!(scene.shading.shading(), Shading::default());
+    assert_eq!(scene.shading, Shading::default());
 }
 
 /// Every key at a value that is not its default.

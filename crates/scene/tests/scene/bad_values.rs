@@ -36,7 +36,7 @@ pub(super) const OUT_OF_RANGE: &[Bad] = &[
     (
         r#"{"environment": {"paths": ["a.hdr"], "rotation_deg": 1e39}}"#,
         (1, 54),
-        "`environment.rotation_deg`: is no finite number",
+        "`environment.rotation_deg`: is inf; expected a finite number",
     ),
     (r#"{"environment": {"paths": []}}"#, (1, 27), "`environment.paths`: has 0 files; expected 1 for this shape"),
     (
@@ -151,37 +151,37 @@ pub(super) const OUT_OF_RANGE: &[Bad] = &[
     (
         r#"{"objects": [{"mesh": {"uv_sphere": {"segments": 4000000000}}}]}"#,
         (1, 50),
-        "`objects[0].mesh.uv_sphere.segments`: is 4000000000; a number from 3 to 4096 is expected",
+        "`objects[0].mesh.uv_sphere.segments`: is 4000000000; expected 3 to 4096",
     ),
     (
         r#"{"objects": [{"mesh": {"uv_sphere": {"rings": 1}}}]}"#,
         (1, 47),
-        "`objects[0].mesh.uv_sphere.rings`: is 1; a number from 2 to 2048 is expected",
+        "`objects[0].mesh.uv_sphere.rings`: is 1; expected 2 to 2048",
     ),
     (
         r#"{"objects": [{"mesh": {"uv_sphere": {"radius": 0}}}]}"#,
         (1, 48),
-        "`objects[0].mesh.uv_sphere.radius`: is 0; a length from 1e-30 to 1e30 is expected",
+        "`objects[0].mesh.uv_sphere.radius`: is 0; expected a length from 1e-30 to 1e30",
     ),
     (
         r#"{"objects": [{"mesh": {"plane": {"divisions": 4294967295}}}]}"#,
         (1, 47),
-        "`objects[0].mesh.plane.divisions`: is 4294967295; a number from 1 to 2048 is expected",
+        "`objects[0].mesh.plane.divisions`: is 4294967295; expected 1 to 2048",
     ),
     (
         r#"{"objects": [{"mesh": {"plane": {"size": -2}}}]}"#,
         (1, 42),
-        "`objects[0].mesh.plane.size`: is -2; a length from",
+        "`objects[0].mesh.plane.size`: is -2; expected a length from",
     ),
     (
         r#"{"objects": [{"mesh": {"box": {"size": [1, 0, 1]}}}]}"#,
         (1, 44),
-        "`objects[0].mesh.box.size[1]`: is 0; a length from",
+        "`objects[0].mesh.box.size[1]`: is 0; expected a length from",
     ),
     (
         r#"{"objects": [{"mesh": {"teapot": {"divisions": 257}}}]}"#,
         (1, 48),
-        "`objects[0].mesh.teapot.divisions`: is 257; a number from 1 to 256 is expected",
+        "`objects[0].mesh.teapot.divisions`: is 257; expected 1 to 256",
     ),
     (
         r#"{"objects": [{"mesh": {"inline": {"positions": [0, 0], "indices": [0, 0, 0]}}}]}"#,

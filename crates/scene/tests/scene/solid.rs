@@ -45,7 +45,10 @@ fn what_is_wrong_with_a_solid_is_said_by_key() {
         (r#"{"kind": "granite"}"#, r#"expected "checker", "marble", "wood" or "noise""#),
         (r#"{"octaves": 0}"#, "`objects[0].solid.octaves`: is 0; expected 1 to 16"),
         (r#"{"octaves": 17}"#, "`objects[0].solid.octaves`: is 17; expected 1 to 16"),
-        (r#"{"colors": [[0, 0, 0], [0, 1.5, 0]]}"#, "`objects[0].solid.colors[1][1]`: is 1.5; expected 0 to 1"),
+        (
+            r#"{"colors": [[0, 0, 0], [0, 1.5, 0]]}"#,
+            "`objects[0].solid.colors[1][1]`: is 1.5; expected a number from 0 to 1",
+        ),
         (r#"{"transform": {"rotation": [0, 0, 0, 2]}}"#, "objects[0].solid.transform.rotation"),
         (r#"{"colour": 1}"#, "objects[0].solid.colour"),
         ("[]", "an object such as"),

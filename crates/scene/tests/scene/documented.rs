@@ -6,7 +6,7 @@ use std::path::Path;
 use halfway_mesh::NormalWeighting;
 use serde_json::{Value, json};
 
-use crate::{SceneFile, json_schema};
+use halfway_scene::{SceneFile, json_schema};
 
 fn page() -> String {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/scene-format.md");
@@ -15,6 +15,21 @@ fn page() -> String {
 
 fn schema() -> Value {
     serde_json::from_str(&json_schema()).unwrap()
+}
+
+/// The schema in `docs/` is the one of the tables. To bring it up to date, run the test with the environment variable
+/// `HALFWAY_WRITE_SCHEMA=1`.
+#[test]
+fn the_written_schema_is_up_to_date() {
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/scene.schema.json");
+    if std::env::var_os("HALFWAY_WRITE_SCHEMA").is_some() {
+        std::fs::write(file, json_schema()).unwrap();
+    }
+    let written = std::fs::read_to_string(file).unwrap_or_default();
+    assert!(
+        written == json_schema(),
+        "{file} is out of date; write it anew by\n    HALFWAY_WRITE_SCHEMA=1 cargo test -p halfway_scene schema"
+    );
 }
 
 /// The rows of the `index`-th table under a heading whose first cell is a key: the cells of each, without the backticks
@@ -29,10 +44,8 @@ fn table(page: &str, heading: &str, index: usize) -> Vec<Vec<String>> {
         .lines()
         .skip(2)
         .map(|row| {
-            let mut cells: Vec<String> =
-                row.trim_matches('|').split(" | ").map(|cell| cell.trim().to_owned()).collect();
-            cells[0] = cells[0].trim_matches('`').to_owned();
-            cells
+            let cells = row.trim_matches('|').split(" | ").map(str::trim).enumerate();
+            cells.map(|(i, cell)| if i == 0 { cell.trim_matches('`') } else { cell }.to_owned()).collect()
         })
         .collect()
 }
@@ -132,7 +145,7 @@ fn the_page_has_the_keys_defaults_and_ranges_of_the_schema() {
     let definitions = &schema["$defs"];
     let wrong = [
         differences(&table(&page, "## The scene", 0), &schema, "scene"),
-        differences(&table(&page, "## The scene", 1), &definitions["ToleranceEntry"], "tolerance"),
+        differences(&table(&page, "## The scene", 1), &definitions["Tolerance"], "tolerance"),
         differences(&table(&page, "## Camera", 0), &definitions["CameraEntry"], "camera"),
         differences(&table(&page, "## Environment", 0), &definitions["EnvironmentEntry"], "environment"),
         differences(&table(&page, "## Objects", 0), &definitions["ObjectEntry"], "object"),
@@ -176,10 +189,10 @@ fn the_page_has_the_defaults_and_ranges_of_surfaces() {
         let Some(Value::Object(shape)) = shown(cells[0]) else { continue };
         let (name, values) = shape.iter().next().expect("one key");
         let definition = match name.as_str() {
-            "uv_sphere" => "UvSphereEntry",
-            "plane" => "PlaneEntry",
-            "box" => "BoxEntry",
-            "teapot" => "TeapotEntry",
+            "uv_sphere" => "UvSphere",
+            "plane" => "Plane",
+            "box" => "Cuboid",
+            "teapot" => "Teapot",
             _ => continue,
         };
         seen += 1;

@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use super::bad_keys::{NOT_JSON, NOT_THE_FORMAT};
-use super::bad_values::OUT_OF_RANGE;
-use crate::{LightEntry, LightKind, SceneError, SceneFile};
+use crate::bad_keys::{NOT_JSON, NOT_THE_FORMAT};
+use crate::bad_values::OUT_OF_RANGE;
+use halfway_scene::{LightEntry, LightKind, SceneError, SceneFile};
 
 /// A scene file, where its error is (line and column), and how the message goes on.
 pub(super) type Bad = (&'static str, (usize, usize), &'static str);

@@ -10,7 +10,8 @@ pub(crate) fn feed(bytes: &[u8]) {
         Ok(scene) => {
             let written = scene.to_json().expect("what was read can be written");
             let again = SceneFile::from_json(&written, "written.json").expect("what was written can be read");
-            assert_eq!(again, scene);
+            // Only what the file says is warned of.
+            assert_eq!(again, SceneFile { warnings: Vec::new(), ..scene });
         }
         Err(error) => assert!(error.to_string().starts_with("fuzzed.json:"), "{error}"),
     }

@@ -6,8 +6,9 @@ use super::bad::Bad;
 pub(super) const NOT_JSON: &[Bad] = &[
     ("", (1, 1), "the text ends inside a value"),
     ("{", (1, 2), "the text ends inside an object"),
-    (r#"{"size": [1280, 72"#, (1, 17), "`size[1]`: the text ends inside a list"),
+    (r#"{"size": [1280, 72"#, (1, 19), "`size`: the text ends inside a list"),
     (r#"{"size": [NaN, 1]}"#, (1, 11), "`size[0]`: not JSON: expected a value"),
+    (r#"{"camera": {"fov_y_deg": 30, "ne"#, (1, 33), "`camera`: the text ends inside a string"),
     ("{\n  \"samples\": 1,\n}", (3, 1), "trailing comma"),
     ("{\n  \"samples\": 1\n  \"size\": [2, 2]\n}", (3, 3), "expected `,` or `}`"),
     ("{\n  \"samples\": 1,\n  // four\n  \"size\": [2, 2]}", (3, 3), "not JSON: expected a key in quotes"),
@@ -26,7 +27,7 @@ pub(super) const NOT_THE_FORMAT: &[Bad] = &[
     (r#"{"sise": [1, 1]}"#, (1, 2), "`sise`: unknown key `sise`, expected one of `schema_version`, `size`, "),
     ("{\n  \"samples\": 1,\n  \"samples\": 4}", (3, 3), "`samples`: key given twice: `samples`"),
     (r#"{"size": [1280]}"#, (1, 10), "`size`: is a list of length 1, expected a list of length 2"),
-    (r#"{"size": [1280, 720, 3]}"#, (1, 22), "`size[2]`: is one number too many"),
+    (r#"{"size": [1280, 720, 3]}"#, (1, 22), "`size[2]`: is one item too many; expected a list of length 2"),
     (r#"{"size": [-1, 720]}"#, (1, 11), "`size[0]`: is out of range: integer `-1`, expected a whole number from 0 to"),
     (
         r#"{"size": [1.5, 720]}"#,
@@ -59,12 +60,16 @@ pub(super) const NOT_THE_FORMAT: &[Bad] = &[
     (
         r#"{"shading": "smooth"}"#,
         (1, 13),
-        "`shading`: unknown value `smooth`, expected \"flat\", \"gouraud\", \"phong\", \"auto\" or {",
+        "`shading`: unknown value `smooth`, expected \"flat\", \"gouraud\" or \"phong\"",
     ),
     (r#"{"output": 3}"#, (1, 12), "`output`: is a value of the wrong type: integer `3`, expected \"srgb\" or \"raw\""),
     (r#"{"output": {"srgb": null}}"#, (1, 12), "`output`: is a value of the wrong type: object, expected \"srgb\""),
-    (r#"{"shading": {"flat": null}}"#, (1, 14), "`shading.flat`: unknown key `flat`, expected \"flat\", \"gouraud\", "),
-    (r#"{"shading": "Auto"}"#, (1, 13), "`shading`: unknown value `Auto`, expected \"flat\", \"gouraud\", "),
+    (
+        r#"{"shading": {"flat": null}}"#,
+        (1, 14),
+        "`shading.flat`: unknown key `flat`, expected \"flat\", \"gouraud\" or ",
+    ),
+    (r#"{"shading": "Auto"}"#, (1, 13), "`shading`: unknown value `Auto`, expected \"flat\", \"gouraud\" or "),
     (
         r#"{"tolerance": 1}"#,
         (1, 15),
@@ -80,7 +85,7 @@ pub(super) const NOT_THE_FORMAT: &[Bad] = &[
     (
         r#"{"shading": 1}"#,
         (1, 13),
-        "`shading`: is a value of the wrong type: integer `1`, expected \"flat\", \"gouraud\", ",
+        "`shading`: is a value of the wrong type: integer `1`, expected \"flat\", \"gouraud\" or ",
     ),
     (
         r#"{"shading": {"auto": {}, "phong": 1}}"#,
@@ -204,7 +209,7 @@ pub(super) const NOT_THE_FORMAT: &[Bad] = &[
     (
         r#"{"objects": [{"mesh": {}}]}"#,
         (1, 23),
-        "`objects[0].mesh`: is empty; expected one of the keys path, uv_sphere, plane, box, ",
+        "`objects[0].mesh`: is empty; expected an object with one of the keys path, uv_sphere, plane, box, ",
     ),
     (
         r#"{"objects": [{"mesh": "a.obj"}]}"#,
@@ -214,7 +219,7 @@ pub(super) const NOT_THE_FORMAT: &[Bad] = &[
     (
         r#"{"objects": [{"mesh": {"torus": {}}}]}"#,
         (1, 24),
-        "`objects[0].mesh.torus`: unknown key `torus`, expected path, uv_sphere, plane, box, teapot or inline",
+        "`objects[0].mesh.torus`: unknown key `torus`, expected an object with one of the keys path, uv_sphere, plane, box, ",
     ),
     (
         r#"{"objects": [{"mesh": {"box": {}, "plane": {}}}]}"#,
@@ -287,6 +292,19 @@ pub(super) const NOT_THE_FORMAT: &[Bad] = &[
         (2, 1),
         "`objects[0].transform.scale`: cannot stand beside `matrix`, which says it all",
     ),
+    (
+        r#"{"lights": [{"kind": "point", "position": [0, 0]}]}"#,
+        (1, 43),
+        "`lights[0].position`: has 2 numbers; expected 3, or 4 of a homogeneous light",
+    ),
+    (
+        r#"{"objects": [{"mesh": {"box": {}}, "solid": {"colors": [[0, 0, 0]]}}]}"#,
+        (1, 56),
+        "`objects[0].solid.colors`: is a list of length 1, expected a list of length 2",
+    ),
+    // Keys that look like paths, and keys with escapes.
+    (r#"{"camera": {"up.x[0]": 1}}"#, (1, 13), "`camera.up.x[0]`: unknown key `up.x[0]`, expected one of "),
+    (r#"{"camera": {"u\"p" : 1}}"#, (1, 13), "`camera.u\"p`: unknown key `u\"p`, expected one of "),
     // A key that is not ASCII: columns are counted in characters.
     ("{\"objects\": [{\"name\": \"Käse\", \"größe\": 1}]}", (1, 31), "`objects[0].größe`: unknown key `größe`"),
 ];

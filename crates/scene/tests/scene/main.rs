@@ -1,0 +1,19 @@
+//! Scene files and models from outside: read, refused, written, spawned.
+
+#![allow(clippy::float_cmp, reason = "what is read and written has to be exact")]
+
+mod bad;
+mod bad_keys;
+mod bad_values;
+mod defaults;
+mod documented;
+mod environment;
+mod examples;
+mod fuzzed;
+mod import;
+mod maps;
+mod past_failures;
+mod retired;
+mod solid;
+mod spawned;
+mod unshown;
