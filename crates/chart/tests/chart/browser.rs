@@ -1,4 +1,4 @@
-//! The page in a real browser. Run with `cargo test -p halfway_chart --test chart browser -- --ignored`.
+//! The page in a real browser: only `cargo xtask test --all` runs these tests, by the name of this module.
 
 use std::fs;
 use std::path::PathBuf;
@@ -56,7 +56,6 @@ fn found(page: &str, script: &str) -> serde_json::Value {
 }
 
 #[test]
-#[ignore = "needs chromium"]
 fn a_point_that_is_clicked_shows_its_pictures() {
     let facts = found(
         "index.html",
@@ -86,7 +85,6 @@ fn a_point_that_is_clicked_shows_its_pictures() {
 }
 
 #[test]
-#[ignore = "needs chromium"]
 fn series_are_hidden_charts_chosen_and_tables_sorted() {
     let facts = found(
         "index.html",
@@ -119,7 +117,6 @@ fn series_are_hidden_charts_chosen_and_tables_sorted() {
 
 /// What a screen reader says of a control or a link tells it from every other.
 #[test]
-#[ignore = "needs chromium"]
 fn every_control_and_link_of_a_failure_has_a_name_of_its_own() {
     let names = "const text = (element) => element.textContent.trim();
          const twice = (names) => names.filter((name, i) => name === '' || names.indexOf(name) !== i);
@@ -145,7 +142,6 @@ fn every_control_and_link_of_a_failure_has_a_name_of_its_own() {
 }
 
 #[test]
-#[ignore = "needs chromium"]
 fn the_page_fits_a_phone() {
     // A frame of a phone's width: a window without a screen cannot be so narrow.
     let folder = "<iframe id=\"phone\" style=\"width: 390px; height: 800px\"></iframe>";
@@ -162,7 +158,6 @@ fn the_page_fits_a_phone() {
 }
 
 #[test]
-#[ignore = "needs chromium"]
 fn failures_of_scripts_are_seen() {
     let dom = opened(file("index.html"), "throw new Error('on purpose');");
     assert!(dom.contains("on purpose</p>"), "the page says that a script failed");

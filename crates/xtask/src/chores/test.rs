@@ -135,6 +135,6 @@ mod tests {
         for name in ABOUT_MACHINES.iter().chain(&BY_A_DRIVER) {
             assert!(programs.iter().any(|program| program == name), "{name} is no program of tests: {programs:?}");
         }
-        assert!(root().join("crates/chart/tests/browser/mod.rs").is_file(), "the tests in a browser are elsewhere");
+        assert!(root().join("crates/chart/tests/chart/browser.rs").is_file(), "the tests in a browser are elsewhere");
     }
 }
