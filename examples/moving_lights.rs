@@ -156,7 +156,7 @@ fn load() -> Result<Parts, Box<dyn Error>> {
     let bounds = model.bounds().ok_or("the model has no parts")?;
     let foot = bounds.center().with_y(bounds.min.y);
     let fit = Mat4::from_scale(Vec3::splat(4.8 / bounds.size().max_element())) * Mat4::from_translation(-foot);
-    let materials = model.materials.iter().map(ModelMaterial::of).collect::<Result<Vec<_>, _>>()?;
+    let materials = model.materials.iter().map(ModelMaterial::from_source).collect::<Result<Vec<_>, _>>()?;
     for warning in materials.iter().flat_map(|(_, warnings)| warnings) {
         eprintln!("{}: {warning}", file.display());
     }

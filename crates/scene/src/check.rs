@@ -12,21 +12,21 @@ pub(crate) struct KeyProblem {
 /// The result of a check.
 pub(crate) type Check = Result<(), KeyProblem>;
 
-/// The numbers that a key takes, or each number of its list.
+/// The limits of a number, or of each number of a list.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Limits {
-    /// All that are finite.
+    /// Any finite number.
     Any,
     /// Numbers in a range.
     Numbers(Range),
     /// Whole numbers from the first to the second.
     Counts(u32, u32),
-    /// One of a few whole numbers; the words say so in messages.
+    /// One of a few whole numbers, with what messages say about others.
     OneOf(&'static [u32], &'static str),
 }
 
 impl Limits {
-    /// The range of a number that need not be whole.
+    /// The range of a floating-point number.
     pub(crate) fn range(&self) -> Range {
         match self {
             Self::Numbers(range) => *range,

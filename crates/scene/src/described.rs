@@ -1,21 +1,21 @@
-//! Numbers, colors and flags of components as keys, by the tables of `halfway_lighting`.
+//! The fields of components as keys, by the tables of `halfway_lighting`.
 
 use halfway_lighting::{Described, Field, FieldPlace, FieldValue, Range};
 
 use crate::check::Limits;
-use crate::keys::{Fill, Key, Presence, See};
+use crate::keys::{Fill, Key, Presence, Visit};
 
-/// Shows the fields of a component.
-pub(crate) fn see<T: Described, S: See>(component: &T, to: &mut S) -> Result<(), S::Error> {
+/// Passes every field of a component to a visitor.
+pub(crate) fn visit<T: Described, V: Visit>(component: &T, visitor: &mut V) -> Result<(), V::Error> {
     T::FIELDS.iter().try_for_each(|field| match field.value(component) {
-        FieldValue::Number(number) => to.key(&key(field), Some(&number)),
-        FieldValue::Optional(number) => to.key(&key(field), Some(&number)),
-        FieldValue::Three(numbers) => to.key(&key(field), Some(&numbers)),
-        FieldValue::Flag(flag) => to.key(&key(field), Some(&flag)),
+        FieldValue::Number(number) => visitor.key(&key(field), Some(&number)),
+        FieldValue::Optional(number) => visitor.key(&key(field), Some(&number)),
+        FieldValue::Three(numbers) => visitor.key(&key(field), Some(&numbers)),
+        FieldValue::Flag(flag) => visitor.key(&key(field), Some(&flag)),
     })
 }
 
-/// Offers the fields of a component.
+/// Lets `from` set the fields of a component.
 pub(crate) fn fill<T: Described, F: Fill>(component: &mut T, from: &mut F) -> Result<(), F::Error> {
     T::FIELDS.iter().try_for_each(|field| {
         let mut put = |value| field.set(component, value);

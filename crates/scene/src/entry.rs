@@ -1,8 +1,7 @@
 //! The types of values in a scene file: how each is read, written, described and checked.
 //!
-//! Types of other crates cannot derive serde's traits here, and the derived readers take more than the format has, such
-//! as `[…]` for the keys of an object in some order. [`Entry`] is implemented for all of them, and [`Read`] and
-//! [`Written`] make serde's traits of it.
+//! Types of other crates cannot derive serde's traits here, and derived readers accept more than the format has, such as
+//! `[…]` in place of an object. So all types implement [`Entry`]; [`Read`] and [`Written`] adapt it to serde.
 
 use std::fmt;
 use std::marker::PhantomData;
@@ -23,7 +22,7 @@ pub(crate) trait Entry: Sized {
     fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error>;
     /// Writes it.
     fn write<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error>;
-    /// Its JSON schema. What it refers to goes into the definitions.
+    /// Its JSON schema; schemas that it refers to are added to the definitions.
     fn schema(definitions: &mut Map<String, Value>, limits: &Limits) -> Value;
     /// Whether the format allows the value.
     fn check(&self, _limits: &Limits) -> Check {
@@ -62,7 +61,7 @@ pub(crate) fn reference(
     json!({ "$ref": format!("#/$defs/{name}") })
 }
 
-/// Reading and writing of types that have serde's traits.
+/// Reads and writes a type by its implementation of serde's traits.
 macro_rules! as_serde_has_it {
     () => {
         fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
@@ -237,7 +236,7 @@ impl<'de, T: Entry, const N: usize> Visitor<'de> for ArrayVisitor<T, N> {
     }
 }
 
-/// Refuses an item where it stands.
+/// Refuses an item at its own place in the list.
 struct OneTooMany(usize);
 
 impl<'de> DeserializeSeed<'de> for OneTooMany {

@@ -58,7 +58,7 @@ keys! {
         /// What is seen.
         objects: Vec<ObjectEntry> = Vec::new(),
         [not in the file]
-        /// What was read otherwise than it stands in the file, one sentence each, with the file's name; not written.
+        /// Warnings about values of older files, one sentence each, with the file's name. They are not written.
         warnings: Vec<String>,
     }
 }

@@ -3,7 +3,7 @@
 use halfway_lighting::Intensity;
 
 use crate::check::Limits;
-use crate::keys::{Fill, Key, Keys, Object, See, keys};
+use crate::keys::{Fill, Key, Keys, Object, Visit, keys};
 
 impl Keys for Intensity {
     const NAME: &'static str = "Intensity";
@@ -28,10 +28,10 @@ impl Keys for Intensity {
         Self::default()
     }
 
-    fn see<S: See>(&self, to: &mut S) -> Result<(), S::Error> {
+    fn visit<V: Visit>(&self, visitor: &mut V) -> Result<(), V::Error> {
         match *self {
-            Self::Renormalize { smoothing } => to.key(&RENORMALISE, Some(&Renormalise { smoothing })),
-            Self::Reinhard { white } => to.key(&REINHARD, Some(&Reinhard { white })),
+            Self::Renormalize { smoothing } => visitor.key(&RENORMALISE, Some(&Renormalise { smoothing })),
+            Self::Reinhard { white } => visitor.key(&REINHARD, Some(&Reinhard { white })),
             _ => Ok(()),
         }
     }
@@ -49,8 +49,8 @@ impl Object for Intensity {
 }
 
 const RENORMALISE: Key =
-    Key::of_choice("renormalise", "As `renormalise`, with a divisor that follows from frame to frame.");
-const REINHARD: Key = Key::of_choice("reinhard", "As `reinhard`, with a white point of its own.");
+    Key::required("renormalise", "As `renormalise`, with a divisor that follows from frame to frame.");
+const REINHARD: Key = Key::required("reinhard", "As `reinhard`, with a white point of its own.");
 
 keys! {
     /// The value of `{"renormalise": …}`.

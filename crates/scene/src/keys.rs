@@ -1,5 +1,4 @@
-//! Objects and words: what a type of entry is in the file, as a table from which it is read, written, described and
-//! checked.
+//! Objects and words of scene files: one table a type, from which it is read, written, described and checked.
 
 use std::convert::Infallible;
 use std::fmt;
@@ -12,15 +11,15 @@ use serde_json::{Map, Value, json};
 use crate::check::{Check, KeyProblem, Limits, Within};
 use crate::entry::{Entry, Read, Written, reference};
 
-/// What a type of entry is in the file: an object with these keys, or one of these words, or either.
+/// How a type appears in a scene file: as an object with keys, as a word, or as either.
 ///
-/// The macros [`keys!`] and [`words!`] make this of tables.
+/// The macros [`keys!`] and [`words!`] generate this from tables.
 pub(crate) trait Keys: Clone + PartialEq + 'static {
     /// The name of the definition in the schema.
     const NAME: &'static str;
-    /// What the schema says of it.
+    /// Its description in the schema.
     const MEANING: &'static str;
-    /// The words, each with its value and what it means.
+    /// The words, each with its value and its description.
     const WORDS: &'static [(&'static str, Self, &'static str)] = &[];
     /// The value of a word.
     fn from_word(word: &str) -> Option<Self> {
@@ -30,24 +29,24 @@ pub(crate) trait Keys: Clone + PartialEq + 'static {
     fn word(&self) -> Option<&str> {
         Self::WORDS.iter().find(|(_, value, _)| value == self).map(|(word, ..)| *word)
     }
-    /// The values that are there where the file has no keys.
+    /// The value of an object without keys. Those that are required have values that nobody sees.
     fn blank() -> Self;
-    /// Shows every key and its value.
-    fn see<S: See>(&self, to: &mut S) -> Result<(), S::Error>;
-    /// Offers every key and a place for its value.
+    /// Passes every key and its value to a visitor.
+    fn visit<V: Visit>(&self, visitor: &mut V) -> Result<(), V::Error>;
+    /// Lets `from` set the value of any key.
     fn fill<F: Fill>(&mut self, from: &mut F) -> Result<(), F::Error>;
 }
 
-/// An entry that has only these keys and words.
+/// A type of entry that consists of these keys and words.
 pub(crate) trait Object: Keys {
-    /// Whether it has exactly one of the keys.
+    /// Whether an object has exactly one of the keys.
     const ONE_KEY: bool = false;
-    /// Such an entry in a sentence; follows "expected". Left out: its words, and the examples.
+    /// What messages expect in its place; if empty, the words and [`EXAMPLES`](Self::EXAMPLES).
     const EXPECTED: &'static str = "";
-    /// Examples of objects beside words.
+    /// Examples of the objects of a type that also has words.
     const EXAMPLES: &'static [&'static str] = &[];
 
-    /// What follows "expected".
+    /// What messages expect in its place.
     fn expected() -> String {
         if !Self::EXPECTED.is_empty() {
             return Self::EXPECTED.to_owned();
@@ -58,17 +57,17 @@ pub(crate) trait Object: Keys {
         if ways.is_empty() { last } else { format!("{} or {last}", ways.join(", ")) }
     }
 
-    /// The value for these given keys, or what is wrong with them, beginning with a key in backticks.
+    /// Completes the value after `given` keys have been read. An error message begins with a key in backticks.
     fn with_given(self, _given: &[&str]) -> Result<Self, String> {
         Ok(self)
     }
 
-    /// The schema.
+    /// The JSON schema.
     fn definition(definitions: &mut Map<String, Value>) -> Value {
         words_or_keys::<Self>(definitions)
     }
 
-    /// What the limits of the keys do not say.
+    /// Checks what the limits of single keys do not cover.
     fn check_whole(&self) -> Check {
         Ok(())
     }
@@ -77,46 +76,43 @@ pub(crate) trait Object: Keys {
 /// A key of an object.
 #[derive(Clone, Copy)]
 pub(crate) struct Key {
-    /// Its name.
     pub(crate) name: &'static str,
-    /// What the file may leave out.
     pub(crate) presence: Presence,
-    /// Its values.
     pub(crate) limits: Limits,
-    /// What it means.
+    /// Its description in the schema.
     pub(crate) meaning: &'static str,
-    /// If the limits are not part of that: whose they are.
+    /// Introduces the limits in the description, such as "Each channel", unless `meaning` has them already.
     pub(crate) whose: Option<&'static str>,
 }
 
 impl Key {
-    /// One of the keys that an object has alone.
-    pub(crate) const fn of_choice(name: &'static str, meaning: &'static str) -> Self {
+    /// A required key with any value, such as the only key of an object.
+    pub(crate) const fn required(name: &'static str, meaning: &'static str) -> Self {
         Self { name, presence: Presence::Required, limits: Limits::Any, meaning, whose: None }
     }
 }
 
-/// What a file may leave out.
+/// Whether a key has to be there.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Presence {
-    /// Nothing.
+    /// It is required.
     Required,
-    /// The key, which then has its default.
+    /// It has a default.
     Optional,
-    /// The key, which then has no value; it cannot be `null`.
+    /// It has neither a default nor `null`: leaving it out is a choice of its own.
     LeftOut,
-    /// The key, which is read and not offered any more.
+    /// It is read, but no longer documented.
     Retired,
 }
 
-/// Who is shown keys and their values.
-pub(crate) trait See {
+/// Visits keys and their values, to write, check or describe them.
+pub(crate) trait Visit {
     type Error;
-    /// There is no value where a key is left out.
+    /// `value` is `None` for a key that is left out.
     fn key<T: Entry>(&mut self, key: &Key, value: Option<&T>) -> Result<(), Self::Error>;
 }
 
-/// Who has values for keys.
+/// Supplies values for keys, when a file is read.
 pub(crate) trait Fill {
     type Error;
     fn key<T: Entry>(&mut self, key: &Key, put: impl FnOnce(T)) -> Result<(), Self::Error>;
@@ -133,7 +129,7 @@ impl<T: Object> Entry for T {
         }
         let mut map = serializer.serialize_map(None)?;
         let mut write = Write { map: &mut map, count: 0 };
-        self.see(&mut write)?;
+        self.visit(&mut write)?;
         if write.count == 0 && !T::WORDS.is_empty() {
             return Err(serde::ser::Error::custom(format_args!("a scene file has no word for this {}", T::NAME)));
         }
@@ -145,7 +141,7 @@ impl<T: Object> Entry for T {
     }
 
     fn check(&self, _: &Limits) -> Check {
-        self.see(&mut CheckKeys)?;
+        self.visit(&mut CheckKeys)?;
         self.check_whole()
     }
 }
@@ -199,14 +195,14 @@ fn key_list<T: Keys>() -> Vec<Key> {
     list.0
 }
 
-/// Reads the keys of an object, all of which have to be there that are required, and returns them.
+/// Reads the keys of an object and returns their names. A required key that is missing is an error.
 fn read_keys<'de, T: Keys, A: MapAccess<'de>>(
     value: &mut T,
     keys: &[Key],
     map: &mut A,
 ) -> Result<Vec<&'static str>, A::Error> {
     let mut given = Vec::new();
-    // The path of an error ends with the key only while that is read.
+    // An error has the key in its path only if it is raised while the key is read.
     while let Some(key) = map.next_key_seed(KeySeed(|name: &str| {
         let Some(key) = keys.iter().find(|key| key.name == name) else {
             let known: Vec<String> = keys.iter().map(|key| format!("`{}`", key.name)).collect();
@@ -241,7 +237,7 @@ fn read_one_key<'de, T: Object, A: MapAccess<'de>>(value: &mut T, keys: &[Key], 
     map.next_key_seed(KeySeed(more)).map(|_: Option<()>| ())
 }
 
-/// Reads a key and makes something of it, or says what is wrong with it.
+/// Reads a key and maps it, or refuses it with a message.
 struct KeySeed<F>(F);
 
 impl<'de, T, F: FnOnce(&str) -> Result<T, String>> DeserializeSeed<'de> for KeySeed<F> {
@@ -289,7 +285,7 @@ struct Write<'a, M> {
     count: usize,
 }
 
-impl<M: SerializeMap> See for Write<'_, M> {
+impl<M: SerializeMap> Visit for Write<'_, M> {
     type Error = M::Error;
 
     fn key<T: Entry>(&mut self, key: &Key, value: Option<&T>) -> Result<(), M::Error> {
@@ -302,7 +298,7 @@ impl<M: SerializeMap> See for Write<'_, M> {
 /// Checks that values are within their limits.
 pub(crate) struct CheckKeys;
 
-impl See for CheckKeys {
+impl Visit for CheckKeys {
     type Error = KeyProblem;
 
     fn key<T: Entry>(&mut self, key: &Key, value: Option<&T>) -> Check {
@@ -310,14 +306,14 @@ impl See for CheckKeys {
     }
 }
 
-/// Describes the keys of an object with these defaults, and says which are required.
+/// Collects the schemas of keys, with the visited values as defaults, and the names of those that are required.
 struct Properties<'a> {
     definitions: &'a mut Map<String, Value>,
     found: Map<String, Value>,
     required: Vec<&'static str>,
 }
 
-impl See for Properties<'_> {
+impl Visit for Properties<'_> {
     type Error = Infallible;
 
     fn key<T: Entry>(&mut self, key: &Key, value: Option<&T>) -> Result<(), Infallible> {
@@ -338,7 +334,7 @@ impl See for Properties<'_> {
     }
 }
 
-/// Describes an object with each of the keys alone.
+/// Collects the schemas of objects with one key each.
 struct Alternatives<'a> {
     definitions: &'a mut Map<String, Value>,
     ways: Vec<Value>,
@@ -371,7 +367,7 @@ fn words_or_keys<T: Object>(definitions: &mut Map<String, Value>) -> Value {
 /// The schema of an object with all keys that this one has, and with its values as defaults.
 pub(crate) fn keys_schema<T: Keys>(default: &T, meaning: &str, definitions: &mut Map<String, Value>) -> Value {
     let mut seen = Properties { definitions, found: Map::new(), required: Vec::new() };
-    let Ok(()) = default.see(&mut seen);
+    let Ok(()) = default.visit(&mut seen);
     closed_object(seen.found, &seen.required, meaning)
 }
 
@@ -385,14 +381,13 @@ fn closed_object(properties: Map<String, Value>, required: &[&str], meaning: &st
     schema
 }
 
-/// Makes a struct and its [`Keys`] of a table of keys, or, after `impl`, the keys of a struct of another crate.
+/// Generates a struct and its [`Keys`] from a table of keys, or, with `impl`, the keys of a struct of another crate.
 ///
-/// A key has a type, a default and [`Limits`], and its documentation is what the schema says of it. The kinds of keys
-/// stand in the order of [`Presence`]; those `[left out]` are `Option`s in the struct. After them comes a field of the
-/// struct that is not in the file.
+/// A key has a type, a default and [`Limits`]; its documentation is also its description in the schema. Keys are grouped
+/// by [`Presence`], in this order; those under `[left out]` are `Option`s in the struct. A field that is not in the file
+/// comes last.
 ///
-/// A struct without required keys has the defaults as its `Default`, another one a function `new`, which takes the
-/// values of those.
+/// A struct without required keys implements `Default`; any other has a function `new` that takes the required values.
 macro_rules! keys {
     (
         $(#[doc = $about:literal])*
@@ -447,10 +442,10 @@ macro_rules! keys {
                 }
             }
 
-            fn see<S: $crate::keys::See>(&self, to: &mut S) -> Result<(), S::Error> {
-                $($(to.key(&keys!(@key $rkey Required ($($rdoc)*) $($rlimits)?), Some(&self.$rkey))?;)*)?
-                $($(to.key(&keys!(@key $key Optional ($($doc)*) $($limits)?), Some(&self.$key))?;)*)?
-                $($(to.key(&keys!(@key $okey LeftOut ($($odoc)*) $($olimits)?), self.$okey.as_ref())?;)*)?
+            fn visit<V: $crate::keys::Visit>(&self, visitor: &mut V) -> Result<(), V::Error> {
+                $($(visitor.key(&keys!(@key $rkey Required ($($rdoc)*) $($rlimits)?), Some(&self.$rkey))?;)*)?
+                $($(visitor.key(&keys!(@key $key Optional ($($doc)*) $($limits)?), Some(&self.$key))?;)*)?
+                $($(visitor.key(&keys!(@key $okey LeftOut ($($odoc)*) $($olimits)?), self.$okey.as_ref())?;)*)?
                 Ok(())
             }
 
@@ -482,7 +477,7 @@ macro_rules! keys {
     };
     (@new $entry:ident $($rkey:ident: $rtype:ty,)+) => {
         impl $entry {
-            /// With these, and otherwise as a scene file has it that says no more.
+            /// With the required values, and otherwise with the defaults of the format.
             pub fn new($($rkey: $rtype),+) -> Self {
                 #[allow(clippy::needless_update, reason = "there may be required keys only")]
                 Self { $($rkey,)+ ..$crate::keys::Keys::blank() }
@@ -492,8 +487,8 @@ macro_rules! keys {
 }
 pub(crate) use keys;
 
-/// Implements [`Keys`] for a type that has only words, of a table of its values; each with its word, and what it means
-/// as its documentation.
+/// Generates [`Keys`] for a type that has words only, from a table of words and values; the documentation of a word is
+/// also its description in the schema.
 macro_rules! words {
     ($(
         $(#[doc = $about:literal])*
@@ -509,7 +504,7 @@ macro_rules! words {
                 Self::WORDS[0].1.clone()
             }
 
-            fn see<S: $crate::keys::See>(&self, _to: &mut S) -> Result<(), S::Error> {
+            fn visit<V: $crate::keys::Visit>(&self, _visitor: &mut V) -> Result<(), V::Error> {
                 Ok(())
             }
 

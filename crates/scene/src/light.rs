@@ -10,7 +10,7 @@ use serde_json::{Map, Value, json};
 use crate::check::{Check, KeyProblem, Limits, Within, direction, test};
 use crate::described;
 use crate::entry::Entry;
-use crate::keys::{CheckKeys, Fill, Key, Keys, Object, Presence, See, keys, keys_schema, words};
+use crate::keys::{CheckKeys, Fill, Key, Keys, Object, Presence, Visit, keys, keys_schema, words};
 
 /// A light. In JSON, the keys of `cone` and `light` stand beside the others, as far as the kind of light has them
 /// ([`LightKind`]); what it does not have is ignored here and refused there.
@@ -98,7 +98,7 @@ pub enum AttachEntry {
     Object(String),
 }
 
-const OBJECT: Key = Key::of_choice("object", "That of the object of this name.");
+const OBJECT: Key = Key::required("object", "That of the object of this name.");
 
 impl Keys for AttachEntry {
     const NAME: &'static str = "AttachEntry";
@@ -112,9 +112,9 @@ impl Keys for AttachEntry {
         Self::World
     }
 
-    fn see<S: See>(&self, to: &mut S) -> Result<(), S::Error> {
+    fn visit<V: Visit>(&self, visitor: &mut V) -> Result<(), V::Error> {
         match self {
-            Self::Object(name) => to.key(&OBJECT, Some(name)),
+            Self::Object(name) => visitor.key(&OBJECT, Some(name)),
             Self::World | Self::Camera => Ok(()),
         }
     }
@@ -202,17 +202,17 @@ fn homogeneous(key: &str, p: &[f32; 4]) -> Check {
     Ok(())
 }
 
-/// Shows the keys that a kind has.
-struct OfKind<'a, S> {
+/// Skips the keys that a kind of light does not have.
+struct KeysOfKind<'a, V> {
     kind: LightKind,
-    to: &'a mut S,
+    visitor: &'a mut V,
 }
 
-impl<S: See> See for OfKind<'_, S> {
-    type Error = S::Error;
+impl<V: Visit> Visit for KeysOfKind<'_, V> {
+    type Error = V::Error;
 
-    fn key<T: Entry>(&mut self, key: &Key, value: Option<&T>) -> Result<(), S::Error> {
-        if self.kind.has(key.name) { self.to.key(key, value) } else { Ok(()) }
+    fn key<T: Entry>(&mut self, key: &Key, value: Option<&T>) -> Result<(), V::Error> {
+        if self.kind.has(key.name) { self.visitor.key(key, value) } else { Ok(()) }
     }
 }
 
@@ -241,17 +241,17 @@ impl Entry for Position {
     }
 }
 
-const KIND: Key = Key::of_choice("kind", "The kind of light.");
+const KIND: Key = Key::required("kind", "The kind of light.");
 const POSITION: Key = key("position", "Where the light is.");
 const POSITION_AND_W: Key = key("position", "(x, y, z, w), not all 0.");
 const ATTACH: Key = key("attach", "Whose frame position and direction are in, and with what the light moves.");
 
 const fn key(name: &'static str, meaning: &'static str) -> Key {
-    Key { presence: Presence::Optional, ..Key::of_choice(name, meaning) }
+    Key { presence: Presence::Optional, ..Key::required(name, meaning) }
 }
 
-/// The keys of the cone and of the colors stand beside the others. Those are shown that the kind has; all are read,
-/// since the kind may come last.
+/// The keys of the cone and of the colors are on the same level as the others. A visitor gets those of the kind; when a
+/// file is read all are accepted at first, since the kind may come last.
 impl Keys for LightEntry {
     const NAME: &'static str = "LightEntry";
     const MEANING: &'static str = "A light.";
@@ -260,17 +260,17 @@ impl Keys for LightEntry {
         Self::white(LightKind::Spot)
     }
 
-    fn see<S: See>(&self, to: &mut S) -> Result<(), S::Error> {
+    fn visit<V: Visit>(&self, visitor: &mut V) -> Result<(), V::Error> {
         let Self { kind, position, cone, light, attach } = self;
         let [x, y, z, _] = *position;
-        let own = &mut OfKind { kind: *kind, to };
+        let own = &mut KeysOfKind { kind: *kind, visitor };
         own.key(&KIND, Some(kind))?;
         match kind {
             LightKind::Homogeneous => own.key(&POSITION_AND_W, Some(position)),
             _ => own.key(&POSITION, Some(&[x, y, z])),
         }?;
-        cone.see(own)?;
-        described::see(light, own)?;
+        cone.visit(own)?;
+        described::visit(light, own)?;
         own.key(&ATTACH, Some(attach))
     }
 
@@ -332,7 +332,7 @@ impl Object for LightEntry {
         Entry::check(&self.position, &Limits::Any).within("position")?;
         homogeneous("position", &self.position)?;
         self.cone.check(&Limits::Any)?;
-        described::see(&self.light, &mut CheckKeys)?;
+        described::visit(&self.light, &mut CheckKeys)?;
         if self.light.attenuation == Attenuation::new(0.0, 0.0, 0.0) {
             return Err(KeyProblem::new("attenuation", "is [0, 0, 0]; expected at least one number above 0"));
         }

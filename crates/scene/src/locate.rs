@@ -1,4 +1,4 @@
-//! Where in a JSON text a value stands.
+//! The place of a value in a JSON text.
 
 use std::cell::Cell;
 use std::fmt;
@@ -60,7 +60,7 @@ fn find(text: &str, steps: &[&str]) -> Option<usize> {
     is_found.get().then(|| byte_of(text, error.line(), error.column()))
 }
 
-/// Reads no further than to where the value begins, and ends with an error there, which has a place in the text.
+/// Follows a path and raises an error where the value begins: the parser adds line and column to it.
 #[derive(Clone, Copy)]
 struct Find<'a> {
     steps: &'a [&'a str],

@@ -5,7 +5,7 @@ use serde_json::{Map, Value, json};
 
 use crate::check::{Check, KeyProblem};
 use crate::described;
-use crate::keys::{Fill, Keys, Object, See, keys_schema};
+use crate::keys::{Fill, Keys, Object, Visit, keys_schema};
 
 /// A material: a preset's name, or its values.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,10 +51,10 @@ impl Keys for MaterialEntry {
         Self::Values(Material::DEFAULT)
     }
 
-    fn see<S: See>(&self, to: &mut S) -> Result<(), S::Error> {
+    fn visit<V: Visit>(&self, visitor: &mut V) -> Result<(), V::Error> {
         match self {
             Self::Preset(_) => Ok(()),
-            Self::Values(values) => described::see(values, to),
+            Self::Values(values) => described::visit(values, visitor),
         }
     }
 

@@ -8,7 +8,7 @@ use halfway_lighting::Range;
 use halfway_mesh::{Cuboid, Format, Mesh, MeshError, NormalWeighting, Normals, Plane, Teapot, UvSphere};
 
 use crate::check::{Check, KeyProblem, Limits, Within};
-use crate::keys::{Fill, Key, Keys, Object, See, keys, words};
+use crate::keys::{Fill, Key, Keys, Object, Visit, keys, words};
 
 /// The shape of an object: an object with exactly one of these keys.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,12 +27,12 @@ pub enum MeshEntry {
     Inline(InlineMesh),
 }
 
-const PATH: Key = Key::of_choice("path", "A model file, relative to the scene file: smf, obj, gltf, glb, ply or stl.");
-const UV_SPHERE: Key = Key::of_choice("uv_sphere", "A sphere about the origin.");
-const PLANE: Key = Key::of_choice("plane", "A square in the xz plane about the origin, facing +Y.");
-const BOX: Key = Key::of_choice("box", "A box about the origin.");
-const TEAPOT: Key = Key::of_choice("teapot", "The Utah teapot.");
-const INLINE: Key = Key::of_choice("inline", "Vertices and triangles, written out.");
+const PATH: Key = Key::required("path", "A model file, relative to the scene file: smf, obj, gltf, glb, ply or stl.");
+const UV_SPHERE: Key = Key::required("uv_sphere", "A sphere about the origin.");
+const PLANE: Key = Key::required("plane", "A square in the xz plane about the origin, facing +Y.");
+const BOX: Key = Key::required("box", "A box about the origin.");
+const TEAPOT: Key = Key::required("teapot", "The Utah teapot.");
+const INLINE: Key = Key::required("inline", "Vertices and triangles, written out.");
 
 /// A path without a name, which no model has.
 impl Default for MeshEntry {
@@ -49,14 +49,14 @@ impl Keys for MeshEntry {
         Self::default()
     }
 
-    fn see<S: See>(&self, to: &mut S) -> Result<(), S::Error> {
+    fn visit<V: Visit>(&self, visitor: &mut V) -> Result<(), V::Error> {
         match self {
-            Self::Path(path) => to.key(&PATH, Some(path)),
-            Self::UvSphere(sphere) => to.key(&UV_SPHERE, Some(sphere)),
-            Self::Plane(plane) => to.key(&PLANE, Some(plane)),
-            Self::Box(cuboid) => to.key(&BOX, Some(cuboid)),
-            Self::Teapot(teapot) => to.key(&TEAPOT, Some(teapot)),
-            Self::Inline(mesh) => to.key(&INLINE, Some(mesh)),
+            Self::Path(path) => visitor.key(&PATH, Some(path)),
+            Self::UvSphere(sphere) => visitor.key(&UV_SPHERE, Some(sphere)),
+            Self::Plane(plane) => visitor.key(&PLANE, Some(plane)),
+            Self::Box(cuboid) => visitor.key(&BOX, Some(cuboid)),
+            Self::Teapot(teapot) => visitor.key(&TEAPOT, Some(teapot)),
+            Self::Inline(mesh) => visitor.key(&INLINE, Some(mesh)),
         }
     }
 

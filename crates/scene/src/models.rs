@@ -60,8 +60,8 @@ impl<'a> Shapes<'a> {
         Self { base_dir, loaded: HashMap::new(), warnings: Vec::new() }
     }
 
-    /// The shape of object `index`.
-    pub(crate) fn of(&mut self, object: &ObjectEntry, index: usize) -> Result<Rc<ObjectShape>, SceneError> {
+    /// The shape of object `index`; equal ones are loaded once.
+    pub(crate) fn load_once(&mut self, object: &ObjectEntry, index: usize) -> Result<Rc<ObjectShape>, SceneError> {
         let key = match &object.mesh {
             // Written out for one object; comparing it with others would cost more than it saves.
             MeshEntry::Inline(_) => None,
@@ -154,7 +154,7 @@ impl<'a> Shapes<'a> {
     }
 
     fn material(&mut self, source: &SourceMaterial, at: String, index: usize) -> Result<ModelMaterial, SceneError> {
-        match ModelMaterial::of(source) {
+        match ModelMaterial::from_source(source) {
             Ok((material, warnings)) => {
                 self.warnings.extend(warnings.iter().map(|warning| format!("{at}: {warning}")));
                 Ok(material)

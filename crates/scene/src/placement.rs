@@ -24,7 +24,7 @@ const RANK: f64 = 1e-14;
 
 impl Placement {
     /// The transforms whose product is the affine matrix `m`, to the rounding of `f32` relative to its largest axis.
-    pub(crate) fn of(m: &Mat4) -> Self {
+    pub(crate) fn from_matrix(m: &Mat4) -> Self {
         let axes = [m.x_axis, m.y_axis, m.z_axis].map(|axis| axis.truncate().as_dvec3());
         let translation = m.w_axis.truncate();
         if perpendicular(&axes) {
@@ -154,7 +154,7 @@ mod tests {
         ];
         for (name, rows, sheared) in cases {
             let m = matrix(*rows);
-            let placement = Placement::of(&m);
+            let placement = Placement::from_matrix(&m);
             assert_eq!(placement.inner.is_some(), *sheared, "{name}");
             assert!(placement.outer.rotation.is_normalized(), "{name}");
             let product = product(&placement);
@@ -175,7 +175,7 @@ mod tests {
             [[1.0, 0.0, 0.0], [0.0, -3.0, 0.0], [0.0, 0.0, 1.0]],
         ] {
             let m = matrix(rows);
-            assert_eq!(Placement::of(&m).outer.to_matrix(), m);
+            assert_eq!(Placement::from_matrix(&m).outer.to_matrix(), m);
         }
     }
 }

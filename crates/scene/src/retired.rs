@@ -1,4 +1,4 @@
-//! What scene files of before may say and the format does not have any more.
+//! Values of older scene files that the format no longer has.
 
 use halfway_lighting::Range;
 use serde::Deserialize;
@@ -8,7 +8,7 @@ use crate::check::{KeyProblem, Within, in_range};
 use crate::json;
 use crate::view::AUTO;
 
-/// A scene or an object, as far as it says how it is shaded.
+/// The shading of a scene or an object.
 #[derive(Deserialize, Default)]
 #[serde(default)]
 struct Shaded {
@@ -16,7 +16,7 @@ struct Shaded {
     objects: Vec<Self>,
 }
 
-/// The warning about shadings that are drawn as another one, at the place of the first, in the text of a sound scene.
+/// The warning about `"auto"` in the text of a valid scene, at the place where it is used first.
 pub(crate) fn warning(text: &str, origin: &str) -> Result<Option<String>, KeyProblem> {
     if !text.contains(AUTO) {
         return Ok(None);

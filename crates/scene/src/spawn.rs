@@ -38,8 +38,8 @@ pub struct Spawned {
     pub objects: Vec<Entity>,
     /// The lights: the scene's, in its order; or the models' own; or the default ones.
     pub lights: Vec<Entity>,
-    /// What was read otherwise than it stands in the scene, and mended or left out while models were loaded, one
-    /// sentence each, with the file's name.
+    /// The scene's own warnings, and what was repaired or left out while models were loaded, one sentence each, with the
+    /// file's name.
     pub warnings: Vec<String>,
 }
 
@@ -77,7 +77,7 @@ pub fn spawn(scene: &SceneFile, base_dir: &Path, world: &mut World) -> Result<Sp
         .objects
         .iter()
         .enumerate()
-        .map(|(i, object)| Ok((object, shapes.of(object, i)?)))
+        .map(|(i, object)| Ok((object, shapes.load_once(object, i)?)))
         .collect::<Result<Vec<_>, SceneError>>()?;
 
     world.insert_resource(GlobalAmbient(LinearRgba::from_f32_array_no_alpha(scene.ambient)));
@@ -174,7 +174,7 @@ fn spawn_object(
     world: &mut World,
 ) -> Entity {
     let name = object.name.clone().unwrap_or_else(|| format!("objects[{index}]"));
-    let frame = spawn_frame(&Placement::of(&object.transform.matrix()), None, &name, world);
+    let frame = spawn_frame(&Placement::from_matrix(&object.transform.matrix()), None, &name, world);
     let single = matches!(shape.parts.as_slice(), [part] if part.object_from_part == Mat4::IDENTITY);
     for (i, part) in shape.parts.iter().enumerate() {
         let mesh = handles
@@ -185,7 +185,7 @@ fn spawn_object(
             frame
         } else {
             let name = if part.name.is_empty() { format!("parts[{i}]") } else { part.name.clone() };
-            spawn_frame(&Placement::of(&part.object_from_part), Some(frame), &name, world)
+            spawn_frame(&Placement::from_matrix(&part.object_from_part), Some(frame), &name, world)
         };
         dress(object, part, mesh, &mut world.entity_mut(entity));
         if let Some(solid) = &object.solid {

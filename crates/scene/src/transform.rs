@@ -5,7 +5,7 @@ use serde_json::{Map, Value, json};
 
 use crate::check::{Check, KeyProblem, Limits, Within};
 use crate::entry::Entry;
-use crate::keys::{Fill, Key, Keys, Object, Presence, See, keys};
+use crate::keys::{Fill, Key, Keys, Object, Presence, Visit, keys};
 
 /// Where something is: in parts, or as a matrix.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -102,10 +102,10 @@ impl Keys for TransformEntry {
         Self::default()
     }
 
-    fn see<S: See>(&self, to: &mut S) -> Result<(), S::Error> {
+    fn visit<V: Visit>(&self, visitor: &mut V) -> Result<(), V::Error> {
         match self {
-            Self::Parts(parts) => parts.see(to),
-            Self::Matrix(matrix) => matrix.see(to),
+            Self::Parts(parts) => parts.visit(visitor),
+            Self::Matrix(matrix) => matrix.visit(visitor),
         }
     }
 
@@ -113,7 +113,7 @@ impl Keys for TransformEntry {
         let mut parts = if let Self::Parts(parts) = self { *parts } else { TransformParts::default() };
         parts.fill(from)?;
         let mut given = None;
-        let key = Key { presence: Presence::Optional, ..Key::of_choice("matrix", "") };
+        let key = Key { presence: Presence::Optional, ..Key::required("matrix", "") };
         from.key(&key, |matrix| given = Some(TransformMatrix { matrix }))?;
         match (given, &self) {
             (Some(matrix), _) => *self = Self::Matrix(matrix),

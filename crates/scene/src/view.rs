@@ -7,7 +7,7 @@ use halfway_lighting::{Camera, Encoding, Faces, Range, Reflectance, Shading, Tol
 
 use crate::check::{Check, KeyProblem, Limits, direction};
 use crate::described;
-use crate::keys::{Fill, Key, Keys, Object, Presence, See, keys, words};
+use crate::keys::{Fill, Key, Keys, Object, Presence, Visit, keys, words};
 
 words! {
     /// `output`: what the channels of an 8- or 16-bit picture hold.
@@ -75,7 +75,7 @@ impl Keys for Shading {
         Self::default()
     }
 
-    fn see<S: See>(&self, _to: &mut S) -> Result<(), S::Error> {
+    fn visit<V: Visit>(&self, _visitor: &mut V) -> Result<(), V::Error> {
         Ok(())
     }
 
@@ -89,7 +89,7 @@ impl Object for Shading {
     const ONE_KEY: bool = true;
 }
 
-/// The shading that the format once had, alone or as `{"auto": {"tolerance": 1.0}}`.
+/// A shading of older files, as a word or as `{"auto": {"tolerance": 1.0}}`; it is read as Phong shading.
 pub(crate) const AUTO: &str = "auto";
 
 keys! {
@@ -97,7 +97,7 @@ keys! {
     #[derive(Clone, Copy, PartialEq)]
     struct AutoShading {
         [optional]
-        /// The `steps` of a tolerance; nothing any more.
+        /// The `steps` of a tolerance; ignored.
         tolerance: f32 = 0.0,
     }
 }
@@ -115,8 +115,8 @@ impl Keys for Tolerance {
         Self::EXACT
     }
 
-    fn see<S: See>(&self, to: &mut S) -> Result<(), S::Error> {
-        described::see(self, to)
+    fn visit<V: Visit>(&self, visitor: &mut V) -> Result<(), V::Error> {
+        described::visit(self, visitor)
     }
 
     fn fill<F: Fill>(&mut self, from: &mut F) -> Result<(), F::Error> {

@@ -10,7 +10,7 @@
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let model = halfway_mesh::load("assets/teapot.obj".as_ref())?;
 //! for source in &model.materials {
-//!     let (material, warnings) = ModelMaterial::of(source)?;
+//!     let (material, warnings) = ModelMaterial::from_source(source)?;
 //!     println!("{}: {:?} {warnings:?}", source.name(), material.material);
 //! }
 //! # Ok(())

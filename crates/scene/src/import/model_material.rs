@@ -25,21 +25,21 @@ impl ModelMaterial {
     ///
     /// # Errors
     /// [`InvalidValue`] for a number that is not finite or out of its range.
-    pub fn of(source: &SourceMaterial) -> Result<(Self, Vec<String>), InvalidValue> {
+    pub fn from_source(source: &SourceMaterial) -> Result<(Self, Vec<String>), InvalidValue> {
         match source {
-            SourceMaterial::Mtl(mtl) => Self::of_mtl(mtl),
-            SourceMaterial::MetallicRoughness(gltf) => Ok((Self::of_gltf(gltf)?, Vec::new())),
+            SourceMaterial::Mtl(mtl) => Self::from_mtl_file(mtl),
+            SourceMaterial::MetallicRoughness(gltf) => Ok((Self::from_gltf(gltf)?, Vec::new())),
         }
     }
 
-    fn of_mtl(mtl: &MtlMaterial) -> Result<(Self, Vec<String>), InvalidValue> {
+    fn from_mtl_file(mtl: &MtlMaterial) -> Result<(Self, Vec<String>), InvalidValue> {
         let (material, warnings) = from_mtl(mtl)?;
         let warnings = warnings.iter().map(ToString::to_string).collect();
         let mask = mtl.maps.d.as_ref().map(|_| Mask::default().0);
         Ok((Self { material, faces: Faces::Front, blend: false, mask }, warnings))
     }
 
-    fn of_gltf(gltf: &MetallicRoughness) -> Result<Self, InvalidValue> {
+    fn from_gltf(gltf: &MetallicRoughness) -> Result<Self, InvalidValue> {
         let material = from_metallic_roughness(gltf)?;
         Ok(Self {
             material,
