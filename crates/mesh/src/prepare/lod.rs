@@ -41,8 +41,8 @@ pub struct LodCluster {
 
 /// Clusters of a [`LodHierarchy`] that are simplified together, and how far off their simplified version is.
 ///
-/// The errors are estimates, not bounds: what the collapses were seen to lose, at most. They are no smaller than those
-/// of the sources of the group's clusters.
+/// The errors are estimates, not bounds: the largest deviation that a collapse was seen to make. They are no smaller
+/// than those of the sources of the group's clusters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LodGroup {
     /// Its clusters.
@@ -50,8 +50,8 @@ pub struct LodGroup {
     /// How far the surface of the simplified version is off the mesh, in the mesh's units.
     pub position_error: f32,
     /// How coarse the shading of the simplified version is, as a length in the mesh's units: three quarters of the mean
-    /// edge, or less where normals and colours change by less than shows. Where that is less than a pixel, the picture of
-    /// a rough mesh is about as good as with all triangles.
+    /// edge, or less where the change of normals and colours is hardly visible. Where it is less than a pixel, the
+    /// picture of a rough mesh is about as good as with all triangles.
     pub shading_error: f32,
     /// How far texture coordinates slide over the surface of the simplified version, in the mesh's units. It shows only
     /// with images; 0 where the mesh has no coordinates.
@@ -86,9 +86,9 @@ const SEVERAL: u32 = u32::MAX - 1;
 impl Mesh {
     /// The levels of detail of the mesh, or `None` where `stop` has become true.
     ///
-    /// A mesh of up to 4096 triangles is one cluster. Vertices stay on open borders, for other meshes may share them,
-    /// and seams and creases keep their course: a faceted mesh, which is all creases, should be [welded](Self::welded)
-    /// first. Works on rayon's threads, with the same result on any number.
+    /// A mesh of up to 4096 triangles is one cluster. Vertices on open borders stay, for other meshes may share them.
+    /// Seams and creases stay closed and keep their course; a faceted mesh, which is all creases, should be
+    /// [welded](Self::welded) first. Runs on rayon's threads; the result is the same with any number of them.
     pub fn lod_hierarchy(&self, stop: &AtomicBool) -> Option<LodHierarchy> {
         let mut builder = Builder::new(self);
         let mut hierarchy = LodHierarchy::default();
@@ -112,8 +112,8 @@ impl Mesh {
 impl LodHierarchy {
     /// The clusters to draw, by their numbers, ascending: together they cover the mesh once, without cracks.
     ///
-    /// They are as coarse as the groups allow whose simplified version `will_do`. It counts only where those of the
-    /// sources of the group's clusters do, too.
+    /// They are as coarse as possible where `will_do` tells for which groups the simplified version is good enough. It
+    /// is asked only where those of all sources of the group's clusters are.
     pub fn cut(&self, mut will_do: impl FnMut(&LodGroup) -> bool) -> Vec<u32> {
         let (mut will, mut cut) = (vec![false; self.groups.len()], Vec::new());
         for (number, group) in self.groups.iter().enumerate() {
@@ -154,18 +154,18 @@ impl LodCluster {
     }
 }
 
-/// The clusters that no group has taken yet.
+/// Builds a hierarchy round by round.
 struct Builder<'a> {
     mesh: &'a Mesh,
     wedges: Wedges,
     /// The most triangles of a cluster.
     most: usize,
-    triangles: Vec<[u32; 3]>,
-    /// Of these triangles.
+    /// The clusters that are in no group yet, and their triangles.
     clusters: Vec<LodCluster>,
+    triangles: Vec<[u32; 3]>,
 }
 
-/// What a group was simplified to.
+/// The simplified version of a group.
 struct GroupVersion {
     group: LodGroup,
     triangles: Vec<[u32; 3]>,
@@ -182,10 +182,10 @@ impl<'a> Builder<'a> {
         Self { mesh, wedges: Wedges::new(mesh), most, triangles, clusters }
     }
 
-    /// Groups all clusters and takes simplified ones in their place where there are. Returns whether there are any, and
-    /// `None` if it is to stop.
+    /// Does a round: groups all clusters and replaces those of each group by its simplified version, if it has one.
+    /// Returns whether any has; `None` where `stop` is true.
     ///
-    /// Groups have nothing to do with one another: they are simplified on all threads, and added in their order.
+    /// Groups do not depend on each other: they are simplified in parallel and added in their order.
     fn simplify_groups(&mut self, hierarchy: &mut LodHierarchy, turn: Mat3, stop: &AtomicBool) -> Option<bool> {
         let groups = self.groups(turn);
         let owners = self.owners(&groups);
@@ -219,7 +219,7 @@ impl<'a> Builder<'a> {
         Some(any)
     }
 
-    /// Groups of clusters that lie together, as seen after a turn.
+    /// Groups neighbouring clusters. Each `turn` gives other groups.
     fn groups(&self, turn: Mat3) -> Vec<Vec<&LodCluster>> {
         let site = |(number, cluster): (u32, &LodCluster)| {
             let corners = self.triangles[cluster.range()].as_flattened();
@@ -234,7 +234,7 @@ impl<'a> Builder<'a> {
         sites.chunks(most).map(group).collect()
     }
 
-    /// For each place the number of the only group that has it.
+    /// For each place the number of the group that has it, [`NOBODY`] or [`SEVERAL`].
     fn owners(&self, groups: &[Vec<&LodCluster>]) -> Vec<u32> {
         let mut owners = vec![NOBODY; self.wedges.places.len()];
         for (number, clusters) in (0..).zip(groups) {
@@ -246,7 +246,7 @@ impl<'a> Builder<'a> {
         owners
     }
 
-    /// Simplifies a group; `None` if little vanishes. `groups` are all those before.
+    /// Simplifies a group; `None` if too few triangles vanish. `groups` are those of earlier rounds.
     fn simplified(
         &self,
         clusters: &[&LodCluster],
@@ -269,7 +269,7 @@ impl<'a> Builder<'a> {
         let largest = |error: fn(&LodGroup) -> f32| sources().map(error).fold(0.0, f32::max);
         let group = LodGroup {
             clusters: 0..0,
-            // A surface that shrinks does so in each round; what shading loses has nothing to do with the rounds before.
+            // A surface shrinks again and again. Losses of shading are independent, so that their squares add up.
             position_error: simplified.position_error as f32 + largest(|group| group.position_error),
             shading_error: root_of_squares(simplified.shading_error as f32, largest(|group| group.shading_error)),
             map_error: simplified.map_error as f32 + largest(|group| group.map_error),

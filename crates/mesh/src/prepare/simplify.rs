@@ -1,11 +1,13 @@
 //! Simplification by edge collapses, the cheapest first.
 //!
-//! A vertex collapses onto a neighbour, so a simplified mesh has vertices of the original only. The cost of a collapse
+//! A vertex collapses onto a neighbour, so a simplified mesh uses vertices of the original only. The cost of a collapse
 //! is the mean squared distance from the planes of the triangles around the vertex (Garland and Heckbert 1997, "Surface
-//! simplification using quadric error metrics"), plus that of the attributes from what these triangles interpolate
-//! (Hoppe 1999, "New quadric metric for simplifying meshes with appearance attributes"). Attributes are converted to
-//! lengths first. Hoppe's *wedges* are vertices at one position with different attributes: they move together, along
-//! edges that have as many wedges at the other end, so that seams and creases stay closed and keep their course.
+//! simplification using quadric error metrics"), plus the mean squared deviation of its attributes from what these
+//! triangles interpolate (Hoppe 1999, "New quadric metric for simplifying meshes with appearance attributes"). All are
+//! lengths: attributes are converted.
+//!
+//! A *place* is a position, a *wedge* (Hoppe's word) a vertex there: seams and creases have several wedges at a place.
+//! They move together and only along the seam, so that it stays closed.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -16,38 +18,46 @@ use super::weld::places;
 use crate::numbering::Numbering;
 use crate::{Bounds, Mesh};
 
-/// What a collapse costs for how far the vertex moves, as a part of that, squared. It decides where little else does, as
-/// in planes: triangles stay round there. Up to a tenth changes no picture.
+/// The cost of the squared distance that a vertex moves. It decides where little else does, as in planes, and keeps
+/// triangles round there. Up to a tenth changes no picture.
 const MOVE_WEIGHT: f64 = 1e-3;
+
+/// The cost of the squared distance that texture coordinates slide. It is low because those of round surfaces slide
+/// everywhere, which would keep vertices where the shape does not need them: with 1, a sphere of 200 triangles is twice
+/// as far off.
+const MAP_WEIGHT: f64 = 0.05;
 
 /// A collapse may turn a triangle by no more than the angle of this cosine.
 const LEAST_COSINE: f64 = 0.2;
 
-/// Attributes count as lengths, a change of a normal by 1 (as a difference of unit vectors) as this number of edges of
-/// the simplified mesh. Found by trying: from 1 to 30 pictures of scans with half of their triangles are alike, below
-/// they are worse, and above the shape suffers where there are few.
+/// The length that a change of a normal by 1 (the difference of unit vectors) counts as, in edges of the simplified
+/// mesh. Found by trial: with 1 to 30, pictures of scans with half of their triangles are equally good; less is worse,
+/// and more spoils the shape where few triangles are left.
 const ATTRIBUTE_WEIGHT: f64 = 2.0;
 
-/// A change of a normal that shows everywhere: two steps of 1/255 or so in a highlight of exponent 32.
+/// The least change of a normal that is visible: about two steps of 1/255 in a highlight of exponent 32.
 const VISIBLE: f64 = 0.007;
 
-/// The shading error is this part of the length of an edge where the change of normals shows. Found by trying: where it
-/// is up to a pixel, one sample a pixel of scans with 9 to 200 front triangles a pixel is up to 1.1 times as far from
-/// the average over the pixel as it is with all triangles; a half to a twentieth of them are left.
+/// The shading error, in edges, where the change of normals is visible. Found by trial: with a shading error of one
+/// pixel, scans of 9 to 200 front triangles a pixel keep a half to a twentieth of them, and the RMS error of one sample
+/// a pixel from the average over the pixel grows by up to a tenth.
 const EDGE_WEIGHT: f64 = 0.75;
 
-/// A vertex with more triangles than this, such as the pole of a fine sphere, stays: looking at it takes time in
-/// proportion to the square.
+/// A vertex with more triangles than this stays, such as the pole of a fine sphere: the time that it takes grows with
+/// their square.
 const MOST_AROUND: usize = 96;
 
-/// Of edges that are to become much longer than they are, attributes weigh as if only this part of the triangles were
-/// left.
+/// Attributes are weighted as if no less than one triangle in this many were left.
 const MOST_REDUCTION: usize = 16;
 
-/// Distances below this part of the extent of the triangles are rounding.
+/// Triangles with an area below this part of the square of their longest side tell nothing of attributes: their
+/// gradients are rounding errors.
+const NEEDLE: f64 = 1e-4;
+
+/// Distances below this part of the extent of the triangles are rounding errors.
 const ROUNDING: f64 = 1e-6;
 
-/// Which vertices of a mesh are one for the simplifier.
+/// Groups the vertices of a mesh that the simplifier treats as one.
 pub(super) struct Wedges {
     /// The first vertex at the position of each vertex.
     pub(super) places: Vec<u32>,
@@ -116,23 +126,25 @@ impl Quadric {
     }
 }
 
-/// Some attributes of the wedges, as lengths.
+/// Some attributes of the wedges, as lengths, and quadrics of their deviations.
 ///
-/// Of an attribute s the triangles around a wedge say that it is g·p + d at a point p, each with other g and d. The sum
-/// of the squared deviations is s²·Σw − 2s·(p·Σw·g + Σw·d) + Σw·(g·p + d)², by the areas w; the last term is a quadric.
+/// In the plane of a triangle an attribute is g·p + d at a point p. Over the triangles around a wedge, weighted by
+/// their areas w, the squared deviations of a value s from that add up to s²·Σw − 2s·(p·Σw·g + Σw·d) + Σw·(g·p + d)²; the
+/// last term is a quadric.
 #[derive(Default)]
 struct Attributes {
-    /// How many a wedge has.
+    /// The number of attributes of a wedge.
     count: usize,
+    /// For each wedge, one after the other.
     values: Vec<f64>,
-    /// Σw·g and Σw·d of each.
+    /// Σw·g and Σw·d of each value.
     gradients: Vec<(DVec3, f64)>,
-    /// For each wedge, of all of its attributes together.
+    /// For each wedge, the sum over its attributes; none if there are no attributes.
     quadrics: Vec<Quadric>,
 }
 
 impl Attributes {
-    /// For this number of wedges, of which all have as many values.
+    /// `values` are divided evenly among the wedges.
     fn new(values: Vec<f64>, wedges: usize) -> Self {
         let count = values.len() / wedges.max(1);
         let gradients = vec![(DVec3::ZERO, 0.0); values.len()];
@@ -140,28 +152,30 @@ impl Attributes {
         Self { count, values, gradients, quadrics }
     }
 
-    /// Adds what a triangle says: its wedges, a corner, its sides from there, its unit normal and its area.
+    /// Adds a triangle, by its wedges, its first corner, its sides from there, its unit normal and its area.
     fn add_triangle(&mut self, wedges: [usize; 3], a: DVec3, sides: [DVec3; 2], n: DVec3, area: f64) {
+        if self.count == 0 {
+            return;
+        }
         // Along the sides Δs = g·Δp.
         let dual = [sides[1].cross(n), n.cross(sides[0])].map(|side| side / (2.0 * area));
+        let mut quadric = Quadric { weight: area, ..Quadric::default() };
         for k in 0..self.count {
             let [s, t, u] = wedges.map(|wedge| self.values[wedge * self.count + k]);
             let g = dual[0] * (t - s) + dual[1] * (u - s);
             let d = s - g.dot(a);
+            quadric.add_square(g, d, area);
             for wedge in wedges {
-                self.quadrics[wedge].add_square(g, d, area);
                 let sum = &mut self.gradients[wedge * self.count + k];
                 *sum = (sum.0 + g * area, sum.1 + d * area);
             }
         }
         for wedge in wedges {
-            if let Some(quadric) = self.quadrics.get_mut(wedge) {
-                quadric.weight += area;
-            }
+            self.quadrics[wedge].add(&quadric);
         }
     }
 
-    /// The mean square of the deviations if a wedge takes the place, and the values, of another.
+    /// The mean squared deviation if a wedge collapses onto another, at p.
     fn deviation(&self, from: usize, to: usize, p: DVec3) -> f64 {
         let Some(quadric) = self.quadrics.get(from) else { return 0.0 };
         let values = &self.values[to * self.count..(to + 1) * self.count];
@@ -170,7 +184,7 @@ impl Attributes {
         quadric.mean(quadric.sum(p) + sum)
     }
 
-    /// Adds what is known of a wedge to another.
+    /// Adds the sums of a wedge to those of another.
     fn join(&mut self, from: usize, to: usize) {
         if let Some(&quadric) = self.quadrics.get(from) {
             self.quadrics[to].add(&quadric);
@@ -183,14 +197,14 @@ impl Attributes {
     }
 }
 
-/// How a place may move.
+/// The edges along which a place may collapse.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Freedom {
-    /// Not at all.
+    /// None: it stays.
     None,
-    /// Along the border of the mesh.
+    /// Edges of the open border that it is on.
     Border,
-    /// Along any edge: triangles are all around it.
+    /// All: it is surrounded by triangles.
     Any,
 }
 
@@ -200,25 +214,26 @@ const GONE: u32 = u32::MAX;
 /// first.
 type Candidate = Reverse<(u32, u32, u32, u32)>;
 
-/// Triangles that become fewer. Lengths are parts of the [`unit`](Self::unit).
+/// Some triangles of a mesh while edges collapse. Lengths are divided by the [`unit`](Self::unit).
 pub(super) struct Simplifier {
     /// Half the longest edge of the box around the triangles, in units of the mesh.
     unit: f64,
-    /// How long a change of a normal by 1 is.
+    /// The length that a change of a normal by 1 counts as.
     shade: f64,
+    /// The number of triangles that are left.
     alive: usize,
-    /// The mesh's vertex for each wedge.
+    /// The vertex of the mesh, and the place, for each wedge.
     vertices: Vec<u32>,
     place_of: Vec<u32>,
-    /// For each place.
+    /// For each place, like the next three.
     positions: Vec<DVec3>,
     freedom: Vec<Freedom>,
     planes: Vec<Quadric>,
     /// How often the quadrics have changed; [`GONE`] after the place has collapsed.
     versions: Vec<u32>,
-    /// Normals and colours, as they show.
+    /// Normals and colours.
     shading: Attributes,
-    /// Texture coordinates, as they lie on the surface.
+    /// Texture coordinates.
     maps: Attributes,
     /// The wedge at each corner; [`GONE`] at those of triangles that have vanished.
     corners: Vec<u32>,
@@ -226,29 +241,28 @@ pub(super) struct Simplifier {
     first: Vec<u32>,
     next: Vec<u32>,
     queue: BinaryHeap<Candidate>,
-    /// Scratch memory. Places are marked with the last token.
+    /// Scratch memory. The marked places have the last token.
     marks: [Vec<u32>; 2],
     token: u32,
-    /// The wedges that a collapse moves, each with the one that it becomes.
+    /// The wedges that a collapse removes, each with the one that takes its place.
     moves: Vec<[u32; 2]>,
     around: Vec<u32>,
 }
 
-/// What a [`Simplifier`] has made.
+/// The result of a [`Simplifier`].
 pub(super) struct Simplified {
     /// By vertices of the mesh.
     pub(super) triangles: Vec<[u32; 3]>,
-    /// The largest estimated deviation of a collapse, in units of the mesh: the root of the mean square distance of the
-    /// vertex from the planes around it.
+    /// The largest of all collapses, in units of the mesh: the RMS distance of the vertex from the planes around it.
     pub(super) position_error: f64,
-    /// How coarse the shading is, in units of the mesh: less than the length of an edge by as much as attributes change
-    /// less than shows.
+    /// The mean edge, in units of the mesh, times [`EDGE_WEIGHT`], and times the largest change of normals and colours
+    /// where that is not [`VISIBLE`].
     pub(super) shading_error: f64,
-    /// How far texture coordinates slide over the surface, in units of the mesh.
+    /// The largest distance that texture coordinates slide over the surface, in units of the mesh.
     pub(super) map_error: f64,
 }
 
-/// What a collapse costs: the mean squares of the deviations.
+/// The mean squared deviations of a collapse.
 #[derive(Clone, Copy, Default)]
 struct Cost {
     position: f64,
@@ -257,8 +271,9 @@ struct Cost {
 }
 
 impl Cost {
+    /// The weighted sum, as a number of the same order; `moved` is the squared distance between the places.
     fn bits(self, moved: f64) -> u32 {
-        ((self.position + self.shading + self.map + MOVE_WEIGHT * moved) as f32).to_bits()
+        ((self.position + self.shading + MAP_WEIGHT * self.map + MOVE_WEIGHT * moved) as f32).to_bits()
     }
 
     fn max(self, other: Self) -> Self {
@@ -271,9 +286,8 @@ impl Cost {
 }
 
 impl Simplifier {
-    /// For triangles of a mesh of which about `target` are to be left. Places stay for which `is_locked` is true, by
-    /// their first vertex, and those on open borders if `keeps_borders`; so do all at which the triangles make no
-    /// surface.
+    /// Takes triangles of a mesh, of which about `target` are to be left. Places stay if `is_locked` is true for their
+    /// first vertex, if they are on an open border and `keeps_borders`, or if the triangles there form no surface.
     pub(super) fn new(
         mesh: &Mesh,
         wedges: &Wedges,
@@ -348,7 +362,7 @@ impl Simplifier {
             if cost.position > limit * limit {
                 continue;
             }
-            // What was pushed may have looked at one of two wedges.
+            // The cost in the queue is that of one wedge.
             let real = cost.bits(self.distance2(from, to));
             if real > bits {
                 self.queue.push(Reverse((real, from, to, version)));
@@ -383,7 +397,7 @@ impl Simplifier {
         all.filter(|&corner| self.corners[corner as usize] != GONE).map(in_triangle)
     }
 
-    /// How a place may move by the triangles around it.
+    /// Classifies a place by the triangles around it.
     fn fan_freedom(&mut self, place: u32, keeps_borders: bool) -> Freedom {
         self.token += 1;
         let (token, [mut after, mut before]) = (self.token, std::mem::take(&mut self.marks));
@@ -417,13 +431,13 @@ impl Simplifier {
         Some((n.try_normalize()?, 0.5 * n.length()))
     }
 
-    /// Takes over the attributes as lengths.
+    /// Converts the attributes to lengths.
     fn add_attributes(&mut self, mesh: &Mesh, target: usize) {
         let areas = |area: &dyn Fn(u32) -> f64| (0..self.corners.len() as u32 / 3).map(area).sum::<f64>();
         let area = areas(&|t| self.plane(t).map_or(0.0, |(_, area)| area));
         let shade = ATTRIBUTE_WEIGHT * edge_length(area, target.max(self.alive / MOST_REDUCTION));
         self.shade = shade;
-        // A step in texture coordinates is as long as it is on the surface in the mean.
+        // A unit of texture coordinates is as long as it is on the surface on average.
         let maps = [0, 1].map(|set| {
             let uvs = mesh.uv_set(set)?;
             let area_on_map = areas(&|t| {
@@ -447,7 +461,7 @@ impl Simplifier {
         self.maps = Attributes::new(on_maps, self.vertices.len());
     }
 
-    /// What the triangles say of positions and attributes around them.
+    /// Accumulates the quadrics of all triangles.
     fn add_quadrics(&mut self) {
         let mut wedges_of = vec![0_u32; self.positions.len()];
         for &place in &self.place_of {
@@ -469,8 +483,10 @@ impl Simplifier {
             for edge in (0..3).filter(|&edge| !plain[edge] || !plain[(edge + 1) % 3]) {
                 self.add_edge(in_triangle(corners[edge]), n);
             }
-            for attributes in [&mut self.shading, &mut self.maps] {
-                attributes.add_triangle(wedges, a, [b - a, c - a], n, area);
+            let longest2 = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a));
+            if area > NEEDLE * longest2 {
+                self.shading.add_triangle(wedges, a, [b - a, c - a], n, area);
+                self.maps.add_triangle(wedges, a, [b - a, c - a], n, area);
             }
         }
     }
@@ -479,7 +495,7 @@ impl Simplifier {
     fn add_edge(&mut self, [corner, next, _]: [u32; 3], n: DVec3) {
         let [from, to] = [corner, next].map(|corner| self.place(corner));
         let wedges = |corners: [u32; 2]| corners.map(|corner| self.corners[corner as usize]);
-        // The other triangle of an edge passes it the other way.
+        // The triangle on the other side runs along the edge in the opposite direction.
         if self.fan(from).any(|[at, _, previous]| wedges([at, previous]) == wedges([corner, next])) {
             return;
         }
@@ -492,7 +508,7 @@ impl Simplifier {
         }
     }
 
-    /// What it costs to move a wedge onto another.
+    /// The cost of collapsing a wedge onto another.
     fn move_cost(&self, from: u32, to: u32) -> Cost {
         let [from, to] = [from, to].map(|wedge| wedge as usize);
         let planes = &self.planes[self.place_of[from] as usize];
@@ -504,7 +520,7 @@ impl Simplifier {
         }
     }
 
-    /// Puts a collapse along an edge of a triangle in the queue, by its corners.
+    /// Queues a collapse along an edge of a triangle, from corner to corner.
     fn push(&mut self, from: u32, to: u32) {
         let [place, target] = [from, to].map(|corner| self.place(corner));
         if self.freedom[place as usize] != Freedom::None {
@@ -514,7 +530,7 @@ impl Simplifier {
         }
     }
 
-    /// Puts the collapses of a place in the queue.
+    /// Queues all collapses of a place.
     fn push_all(&mut self, place: u32) {
         let freedom = self.freedom[place as usize];
         if freedom == Freedom::None {
@@ -532,7 +548,7 @@ impl Simplifier {
         self.around = around;
     }
 
-    /// Whether a place may collapse onto a neighbour; what [moves](Self::moves) then is found on the way.
+    /// Whether a place may collapse onto a neighbour; finds the [moves](Self::moves) as well.
     fn may(&mut self, from: u32, to: u32) -> bool {
         let mut moves = std::mem::take(&mut self.moves);
         moves.clear();
@@ -544,7 +560,7 @@ impl Simplifier {
         may
     }
 
-    /// The number of triangles on an edge, which vanish with it; `None` if they disagree on the wedges at its ends.
+    /// The number of triangles on an edge, which vanish with it; `None` if a wedge would become two.
     fn vanishing(&self, from: u32, to: u32, moves: &mut Vec<[u32; 2]>) -> Option<usize> {
         let mut count = 0;
         for [corner, next, previous] in self.fan(from) {
@@ -560,7 +576,7 @@ impl Simplifier {
         Some(count)
     }
 
-    /// Whether the triangles that do not vanish are some, move with all their wedges, and turn by little.
+    /// Whether triangles remain around a place, all of its wedges are among the moves, and no triangle turns over.
     fn keeps_orientation(&self, from: u32, to: u32, moves: &[[u32; 2]]) -> bool {
         let [p, target] = [from, to].map(|place| self.positions[place as usize]);
         let mut remains = false;
@@ -580,7 +596,7 @@ impl Simplifier {
         remains
     }
 
-    /// How many neighbours two places have in common; `None` if there are too many triangles around them.
+    /// The number of neighbours that two places have in common; `None` if the second has too many triangles.
     fn common_neighbors(&mut self, from: u32, to: u32) -> Option<usize> {
         self.token += 1;
         let (token, mut marks) = (self.token, std::mem::take(&mut self.marks[0]));
@@ -607,7 +623,7 @@ impl Simplifier {
         self.moves.iter().map(|&[from, to]| self.move_cost(from, to)).fold(Cost::default(), Cost::max)
     }
 
-    /// Collapses a place onto a neighbour by the [moves](Self::moves) found before.
+    /// Collapses a place onto a neighbour, by the [moves](Self::moves).
     fn collapse(&mut self, from: u32, to: u32) {
         let moved: Vec<u32> = self.fan(from).map(|[corner, ..]| corner).collect();
         let others: Vec<u32> = self.fan(to).map(|[corner, ..]| corner).collect();
@@ -651,7 +667,7 @@ impl Simplifier {
     }
 }
 
-/// Numbers things in the order in which they first come: each different thing once, and the number of each.
+/// The distinct values in the order of their first occurrence, and the index among these of each value.
 fn numbered(things: Vec<u32>) -> (Vec<u32>, Vec<u32>) {
     let Numbering { numbers, firsts } = Numbering::new(things.len(), |at| [things[at]]);
     (firsts.into_iter().map(|first| things[first as usize]).collect(), numbers)
@@ -666,7 +682,7 @@ fn in_triangle(corner: u32) -> [u32; 3] {
     }
 }
 
-/// How long an edge is where an area is covered by this number of equilateral triangles.
+/// The edge of equilateral triangles of which this number covers an area.
 fn edge_length(area: f64, triangles: usize) -> f64 {
     (area * 4.0 / (3.0_f64.sqrt() * triangles.max(1) as f64)).sqrt()
 }
@@ -677,16 +693,16 @@ pub struct SimplifiedMesh {
     /// The mesh; its vertices are some of the fine mesh's, with all that they have.
     pub mesh: Mesh,
     /// No point of either mesh is further from the other than this, in their units: the larger of both
-    /// [distances](Mesh::distance_to), known to a fifth of what the simplifier takes it for or to a ten-thousandth of
-    /// half the longest edge of the box around the mesh.
+    /// [distances](Mesh::distance_to), known to a fifth of the simplifier's estimate, to a fifth of the error that was
+    /// allowed, or to a ten-thousandth of half the longest edge of the box around the mesh.
     pub error: f64,
 }
 
 /// How often a mesh that came out too far off is tried again.
 const TRIES: u32 = 4;
 
-/// The error is known to this part of what the simplifier takes it for, or to the second part of half the longest edge
-/// of the box around the mesh.
+/// The error is known to this part of the simplifier's estimate or of the error allowed, or to the second part of half
+/// the longest edge of the box around the mesh.
 const ERROR_TOLERANCE: [f64; 2] = [0.2, 1e-4];
 
 impl Mesh {
@@ -712,9 +728,11 @@ impl Mesh {
             }
             let mesh = self.in_order_of_use(triangles.as_flattened());
             let rounding = ERROR_TOLERANCE[1] * 0.5 * size.max_element();
-            let tolerance = (ERROR_TOLERANCE[0] * position_error).max(rounding);
+            let allowed = if max_error.is_finite() { max_error } else { 0.0 };
+            let tolerance = (ERROR_TOLERANCE[0] * position_error.max(allowed)).max(rounding);
             let error = self.distance_to(&mesh, tolerance).most.max(mesh.distance_to(self, tolerance).most);
-            if error <= max_error.max(tolerance) {
+            // Rounding may take an error of none above the tolerance.
+            if error <= max_error.max(1.001 * tolerance) {
                 return SimplifiedMesh { mesh, error };
             }
             // The simplifier knows a mean of squares only; a little less than what would do.
