@@ -29,6 +29,7 @@ mod render {
     mod floats;
     mod globs;
     mod known_issues;
+    mod levels;
     mod light_counts;
     mod light_lists;
     mod maps;

@@ -15,6 +15,7 @@ use crate::frame::report::FrameReport;
 use crate::frame::sets::RenderSet;
 use crate::frame::times;
 use crate::geometry::meshes::{self, Geometries};
+use crate::geometry::workshop::Workshop;
 use crate::lights::gather::{self, Lights};
 use crate::lights::surroundings::{self, Surroundings};
 use crate::lights::terms::{self, Chosen};
@@ -69,6 +70,7 @@ impl Plugin for RenderPlugin {
             .init_resource::<Surroundings>()
             .init_resource::<LitPatches>()
             .init_resource::<Batches>()
+            .init_resource::<Workshop>()
             .init_resource::<Geometries>()
             .init_resource::<MeshBuffers>()
             .init_resource::<Buffers>()

@@ -84,6 +84,7 @@ fn counters(report: &FrameReport) -> Vec<String> {
         unless_0(report.patches_culled.into(), "patch", "culled"),
         Some(count(report.lights.into(), "light")),
         unless_0(report.lights_assigned, "term", "listed"),
+        unless_0(report.levels_pending.into(), "mesh", "awaiting levels"),
         Some(count(report.pipelines.into(), "pipeline")),
         unless_0(report.pipelines_pending.into(), "pipeline", "pending"),
         Some(bytes(report.bytes_uploaded)),
@@ -176,7 +177,13 @@ mod tests {
             ..FrameReport::default()
         };
         let failing = FrameReport { errors: vec![RenderError::NoCamera; 2], ..FrameReport::default() };
-        let saving = FrameReport { patches_culled: 5_642, lights_assigned: 1, pipelines_pending: 6, ..report.clone() };
+        let saving = FrameReport {
+            patches_culled: 5_642,
+            lights_assigned: 1,
+            levels_pending: 1,
+            pipelines_pending: 6,
+            ..report.clone()
+        };
         let full = || Status {
             program: "halfway",
             name: "teapot",
@@ -209,7 +216,7 @@ mod tests {
             ),
             (
                 Status { program: "", name: "", report: Some(&saving), ..Status::default() },
-                "12 draws · 1.2 M triangles · 5.6 k patches culled · 4 lights · 1 term listed · \
+                "12 draws · 1.2 M triangles · 5.6 k patches culled · 4 lights · 1 term listed · 1 mesh awaiting levels · \
                  3 pipelines · 6 pipelines pending · 0 B"
                     .into(),
             ),

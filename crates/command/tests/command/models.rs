@@ -111,7 +111,7 @@ fn info_prints_cameras_and_levels() {
     for expected in [
         "camera     \"eye\": perspective, 28.6479° high, aspect the picture's, from 0.1 to infinity",
         "orthographic, 4 × 3, from 0 to 10",
-        "1 patches, 1 groups of them",
+        "1 clusters in 1 groups",
         // The radius is √2/2.
         "1 triangles within 1.77e-1",
     ] {

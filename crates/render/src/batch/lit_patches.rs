@@ -9,8 +9,9 @@ use crate::batch::shown_objects::{ShownObject, ShownObjects};
 use crate::batch::table::ObjectTable;
 use crate::error::{RenderError, label};
 use crate::frame::report::FrameReport;
-use crate::geometry::meshes::{Form, Geometry};
+use crate::geometry::meshes::{Form, Geometry, shades_pixels_alone};
 use crate::geometry::outlines::Sight;
+use crate::geometry::patches::DetailDemand;
 use crate::geometry::shape::{PatchNormals, PatchShape};
 use crate::lights::gather::Lights;
 use crate::lights::lists::LightLists;
@@ -24,7 +25,7 @@ use bevy_ecs::prelude::*;
 use bevy_math::Vec3;
 use halfway_lighting::bounds::Patch;
 use halfway_lighting::equations::Eye;
-use halfway_lighting::{InvalidValue, Tolerance};
+use halfway_lighting::{InvalidValue, Terms, Tolerance};
 use halfway_mesh::Mesh;
 
 /// The patches that may show, in the order of the objects. Holds after
@@ -58,6 +59,7 @@ struct LitObject<'a> {
     model_view: &'a ModelView,
     normal_matrix: &'a NormalMatrix,
     tolerance: Tolerance,
+    terms: Terms,
 }
 
 pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
@@ -153,6 +155,7 @@ impl LitPatches {
             model_view,
             normal_matrix,
             tolerance,
+            terms,
         }))
     }
 
@@ -168,12 +171,14 @@ impl LitPatches {
         ));
         let mut seen = std::mem::take(&mut self.seen);
         let sight = Sight::new(object.model_view, shared.view, object.reflecting.faces, &patches.whole);
-        patches.see(&sight, &mut seen);
-        // A mesh that is a single patch has been culled as an object, and is not counted.
-        if patches.len() > 1 {
-            report.patches += patches.len() as u32;
-            report.patches_culled += (patches.len() - seen.len()) as u32;
-        }
+        let demand = DetailDemand {
+            pixels: if shades_pixels_alone(object.terms) { object.tolerance.pixels } else { 0.0 },
+            lit: object.key.is_lit() || object.key.surrounded,
+            has_images: object.key.is_mapped(),
+        };
+        let culled_from = patches.see(&sight, demand, &mut seen) as u32;
+        report.patches += culled_from;
+        report.patches_culled += culled_from.saturating_sub(seen.len() as u32);
         let key = backend.admit(object.key);
         if key.lists == Lists::Listed {
             self.add_listed(object, &key, &seen, shared);

@@ -4,17 +4,18 @@ use crate::batch::batches::Batches;
 use crate::batch::drawn_meshes::DrawnMeshes;
 use crate::frame::report::FrameReport;
 use crate::geometry::meshes::{Form, Geometries, both_uvs};
-use crate::geometry::patches::Patches;
+use crate::geometry::patches::{MeshTriangles, Patches};
 use bevy_asset::AssetId;
 use bevy_ecs::prelude::*;
 use halfway_mesh::Mesh;
 use halfway_raster::{Pieces, RasterError, TriangleOrder, VertexLists};
+use std::sync::Arc;
 
 /// The meshes that have been drawn, in pieces, until they change or go.
 #[derive(Resource, Default)]
-pub(crate) struct MeshPieces(DrawnMeshes<Pieces>);
+pub(crate) struct MeshPieces(DrawnMeshes<Arc<Pieces>>);
 
-/// Cuts the meshes that are drawn and not there yet. What the memory is refused
+/// Cuts the meshes that are drawn and not there yet, unless that was done with their levels of detail. What the memory is refused
 /// for is not drawn, and its error is in the report, every frame anew.
 pub(crate) fn make_ready(
     batches: Res<Batches>,
@@ -23,7 +24,10 @@ pub(crate) fn make_ready(
     mut report: ResMut<FrameReport>,
 ) {
     meshes.0.make_ready(&batches, &mut geometries, &mut report, |geometry, indices, form, _| {
-        let pieces = pieces(&geometry.drawn, &geometry.patches, indices, form)?;
+        let pieces = match &geometry.pieces {
+            Some(pieces) if form == Form::default() => Arc::clone(pieces),
+            _ => Arc::new(pieces(&geometry.drawn, &geometry.patches, indices, form)?),
+        };
         let bytes = pieces.bytes();
         Ok((pieces, bytes))
     });
@@ -31,8 +35,14 @@ pub(crate) fn make_ready(
 
 impl MeshPieces {
     pub(crate) fn get(&self, id: AssetId<Mesh>, form: Form) -> Option<&Pieces> {
-        self.0.get(id, form)
+        self.0.get(id, form).map(Arc::as_ref)
     }
+}
+
+/// The pieces of a mesh with levels of detail, for draws without colors and images; `None` where they cannot be made,
+/// which is told once they are drawn.
+pub(crate) fn of_levels(mesh: &Mesh, MeshTriangles { corners, patches, .. }: &MeshTriangles) -> Option<Pieces> {
+    pieces(mesh, patches, corners.as_flattened(), Form::default()).ok()
 }
 
 /// Draws begin and end where patches do.

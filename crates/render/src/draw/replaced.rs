@@ -1,12 +1,13 @@
 //! What happens when something else draws.
 
-use crate::cpu::meshes::MeshPieces;
+use crate::cpu::meshes::{self as mesh_pieces, MeshPieces};
 use crate::device::cpu::Cpu;
 use crate::device::gpu::Gpu;
 use crate::device::gpu_timer::GpuTimer;
 use crate::draw::meshes::MeshBuffers;
 use crate::draw::upload::Buffers;
 use crate::geometry::meshes::Geometries;
+use crate::geometry::workshop::Workshop;
 use crate::pipelines::cache::Pipelines;
 use crate::target::canvas::Canvas;
 use crate::target::frame::Target;
@@ -27,7 +28,7 @@ pub(crate) fn forget(
     gpu: Option<Res<Gpu>>,
     cpu: Option<Res<Cpu>>,
     mut drawn_by: Local<Option<DrawnBy>>,
-    mut geometries: ResMut<Geometries>,
+    (mut workshop, mut geometries): (ResMut<Workshop>, ResMut<Geometries>),
     mut target: ResMut<Target>,
     mut meshes: ResMut<MeshBuffers>,
     mut buffers: ResMut<Buffers>,
@@ -40,6 +41,7 @@ pub(crate) fn forget(
     if draws.is_none() || std::mem::replace(&mut *drawn_by, draws) == draws {
         return;
     }
+    workshop.cut = if draws == Some(DrawnBy::Cpu) { Some(mesh_pieces::of_levels) } else { None };
     // Their triangles have been taken.
     geometries.forget_all();
     *target = Target::default();

@@ -20,6 +20,8 @@ pub struct FrameReport {
     pub visible: u32,
     /// Lights that shone: neither hidden nor refused.
     pub lights: u32,
+    /// Meshes whose [levels of detail](halfway_lighting::Tolerance::pixels) are still being made; they are drawn in full.
+    pub levels_pending: u32,
     /// Triangles of the visible objects' meshes, as modelled.
     pub triangles_in: u64,
     /// Patches of the visible meshes that are cut into several.

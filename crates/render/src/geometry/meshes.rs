@@ -1,15 +1,21 @@
 //! Meshes laid out for drawing.
 
+use crate::frame::report::FrameReport;
 use crate::geometry::patches::{MeshTriangles, Patches};
+use crate::geometry::workshop::Workshop;
 use crate::lights::surroundings::Surroundings;
-use crate::lights::terms::Chosen;
+use crate::lights::terms::{Chosen, by_vertex_shader};
+use crate::target::canvas::CanvasTarget;
+use crate::target::surface::SurfaceTarget;
+use crate::target::texture::TextureTarget;
 use crate::view::matrices::Visible;
 use bevy_asset::{AssetId, Assets};
 use bevy_ecs::prelude::*;
 use bevy_math::{Vec2, Vec4};
 use bevy_platform::collections::HashMap;
-use halfway_lighting::{Blend, Frequency, Mask, Terms, VertexColors};
+use halfway_lighting::{Blend, Frequency, Mask, Terms, Tolerance, VertexColors, ViewTolerance};
 use halfway_mesh::{Mesh, Mesh3d};
+use halfway_raster::Pieces;
 use halfway_texture::{MapKind, Maps, SolidTexture, SurfaceMap, UvSet};
 use std::sync::Arc;
 
@@ -24,6 +30,8 @@ pub(crate) struct Geometry {
     pub(crate) opposite_normals: bool,
     /// Which vertices make triangles, in the order in which they are drawn; until what draws it has taken them.
     pub(crate) triangles: Option<Arc<Vec<[u32; 3]>>>,
+    /// The same as the CPU draws them, where they have been made ready beside the frames.
+    pub(crate) pieces: Option<Arc<Pieces>>,
 }
 
 /// How a mesh is laid out for drawing.
@@ -48,6 +56,12 @@ impl Form {
         let flat = terms.has(Frequency::Triangle);
         let tangents = paint.maps[MapKind::Normal as usize].filter(|_| !flat).map(|map| map.uv_set);
         Self { flat, ordered: blend, colored: paint.colored, mapped: paint.is_mapped(), tangents }
+    }
+
+    /// Whether it may have levels of detail. Blended triangles are drawn in the order of the mesh, and tangents make
+    /// vertices of their own.
+    fn may_have_levels(self) -> bool {
+        !self.ordered && self.tangents.is_none()
     }
 }
 
@@ -123,20 +137,24 @@ impl Geometries {
         self.meshes.clear();
     }
 
-    /// Lays the mesh out unless it is.
-    fn ensure(&mut self, (id, form): (AssetId<Mesh>, Form), mesh: &Mesh) {
-        if self.meshes.get(&(id, form)).is_some_and(|geometry| is_same(&geometry.source, mesh)) {
+    /// Lays the mesh out unless it is, and with its levels of detail once they are there.
+    fn ensure(&mut self, (id, form): (AssetId<Mesh>, Form), mesh: &Mesh, levels: Option<&MeshTriangles>) {
+        let there = self.meshes.get(&(id, form)).filter(|geometry| is_same(&geometry.source, mesh));
+        if there.is_some_and(|there| levels.is_none_or(|levels| Arc::ptr_eq(&levels.patches, &there.patches))) {
             return;
         }
         // Tangents split vertices, and nothing else changes.
         let dressed = form.tangents.filter(|_| mesh.tangents().is_none());
         let dressed = dressed.and_then(|set| mesh.clone().with_tangents_of(set as usize).ok());
         let drawn = dressed.unwrap_or_else(|| mesh.clone());
-        let opposite_normals = !form.flat && has_opposite_normals(mesh);
-        let MeshTriangles { corners, patches } =
-            if form.ordered { MeshTriangles::in_order(&drawn) } else { MeshTriangles::in_patches(&drawn) };
+        let MeshTriangles { corners, patches, pieces } = match levels {
+            Some(levels) => levels.clone(),
+            None if form.ordered => MeshTriangles::in_order(&drawn),
+            None => MeshTriangles::in_patches(&drawn),
+        };
+        let opposite_normals = !form.flat && has_opposite_normals(&drawn, &corners);
         let triangles = Some(corners);
-        let geometry = Geometry { patches, source: mesh.clone(), drawn, opposite_normals, triangles };
+        let geometry = Geometry { patches, source: mesh.clone(), drawn, opposite_normals, triangles, pieces };
         self.meshes.insert((id, form), geometry);
     }
 }
@@ -158,37 +176,65 @@ pub(crate) fn both_uvs(mesh: &Mesh) -> Vec<Vec4> {
     (0..mesh.positions().len()).map(both).collect()
 }
 
+/// Whether no term is shaded once a triangle or vertex: then a picture does not show how a surface is cut into triangles,
+/// and levels of detail may stand for it.
+pub(crate) fn shades_pixels_alone(terms: Terms) -> bool {
+    !by_vertex_shader(terms).contains(&true)
+}
+
+/// What is drawn into where it is not a picture that is read back.
+type OtherTargets<'w> = (Option<Res<'w, SurfaceTarget>>, Option<Res<'w, CanvasTarget>>, Option<Res<'w, TextureTarget>>);
+
 /// What decides how an object's mesh is laid out.
-type LaidOut = (&'static Mesh3d, &'static Chosen, Has<Blend>, PaintComponents);
+type LaidOut = (&'static Mesh3d, &'static Chosen, Has<Blend>, PaintComponents, Option<&'static Tolerance>);
 
 /// Lays out the meshes of visible objects that are not yet, for the way they are shaded.
+///
+/// Pictures that are read back wait for levels of detail, so that they are the same in every process.
+#[expect(clippy::too_many_arguments, reason = "a system takes each resource as a parameter")]
 pub(crate) fn lay_out(
     meshes: Res<Assets<Mesh>>,
     objects: Query<LaidOut>,
     visible: Res<Visible>,
     surroundings: Res<Surroundings>,
+    of_view: Res<ViewTolerance>,
+    (surface, canvas, texture): OtherTargets,
+    mut workshop: ResMut<Workshop>,
     mut geometries: ResMut<Geometries>,
+    mut report: ResMut<FrameReport>,
 ) {
+    workshop.collect();
+    let waits = surface.is_none() && canvas.is_none() && texture.is_none();
     let mut last = None;
-    for (Mesh3d(handle), chosen, blend, paint) in objects.iter_many(&visible.0).flatten() {
+    for (Mesh3d(handle), chosen, blend, paint, tolerance) in objects.iter_many(&visible.0).flatten() {
         let Some(mesh) = meshes.get(handle) else { continue };
         let paint = Paint::new(mesh, paint, surroundings.are_there());
         let wanted = (handle.id(), Form::new(chosen.0, blend, &paint));
-        if last.replace(wanted) != Some(wanted) {
-            geometries.ensure(wanted, mesh);
+        let pixels = tolerance.unwrap_or(&of_view.0).pixels;
+        let has_levels = pixels > 0.0 && shades_pixels_alone(chosen.0) && wanted.1.may_have_levels();
+        if last.replace((wanted, has_levels)) != Some((wanted, has_levels)) {
+            let levels = if has_levels { workshop.levels(wanted.0, mesh, waits) } else { None };
+            geometries.ensure(wanted, mesh, levels);
         }
     }
+    report.levels_pending = workshop.pending();
+    report.errors.append(&mut workshop.failures);
 }
 
 /// Forgets meshes whose assets are gone. It looks for them only when the number of assets or that of laid out meshes is
 /// another than it was: without that nothing grows. (Messages would not do: they live for two updates of the App, and
 /// the frames of an App may be fewer.) A mesh that changed is found when it is drawn next.
-pub(crate) fn forget_removed(meshes: Res<Assets<Mesh>>, mut geometries: ResMut<Geometries>) {
+pub(crate) fn forget_removed(
+    meshes: Res<Assets<Mesh>>,
+    mut geometries: ResMut<Geometries>,
+    mut workshop: ResMut<Workshop>,
+) {
     let before = geometries.meshes.len();
     if geometries.looked == (before, meshes.len()) {
         return;
     }
     geometries.meshes.retain(|&(id, _), _| meshes.contains(id));
+    workshop.retain(|id| meshes.contains(id));
     let after = geometries.meshes.len();
     geometries.forgotten += (before - after) as u64;
     geometries.looked = (after, meshes.len());
@@ -196,9 +242,9 @@ pub(crate) fn forget_removed(meshes: Res<Assets<Mesh>>, mut geometries: ResMut<G
 
 /// Whether any triangle's normals can cancel under interpolation. While all pairs of the three have
 /// `n_i·n_j ≥ −0.49`, `|Σ b_i n_i|² ≥ Σ b_i² − 0.98 Σ b_i b_j ≥ 0.0066` everywhere on the triangle.
-fn has_opposite_normals(mesh: &Mesh) -> bool {
+fn has_opposite_normals(mesh: &Mesh, triangles: &[[u32; 3]]) -> bool {
     let normals = mesh.normals();
-    mesh.triangles().any(|triangle| {
+    triangles.iter().any(|triangle| {
         let [a, b, c] = triangle.map(|index| normals[index as usize]);
         a.dot(b).min(b.dot(c)).min(c.dot(a)) < -0.49
     })
@@ -208,7 +254,6 @@ fn has_opposite_normals(mesh: &Mesh) -> bool {
 mod tests {
     use super::*;
     use crate::draw::meshes::MeshBuffers;
-    use crate::frame::report::FrameReport;
     use crate::plugin::RenderPlugin;
     use crate::target::frame::Headless;
     use bevy_app::App;
@@ -222,19 +267,21 @@ mod tests {
     #[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
     struct Seldom;
 
-    /// How many meshes the renderer keeps laid out, and in buffers.
-    fn kept(app: &App) -> [usize; 2] {
+    /// How many meshes the renderer keeps laid out, in buffers, and with levels of detail.
+    fn kept(app: &App) -> [usize; 3] {
         let world = app.world();
-        [world.resource::<Geometries>().meshes.len(), world.resource::<MeshBuffers>().len()]
+        let levels = world.resource::<Workshop>().len();
+        [world.resource::<Geometries>().meshes.len(), world.resource::<MeshBuffers>().len(), levels]
     }
 
     /// Draws ten meshes after each other, `updates` of the App between, each of which stays for one frame or more.
-    fn most_kept(updates: usize, frames: usize) -> [usize; 2] {
+    fn most_kept(updates: usize, frames: usize) -> [usize; 3] {
         let mut app = App::new();
         app.add_plugins((TransformPlugin, RenderPlugin { schedule: Seldom.intern() }));
         app.init_schedule(Seldom).insert_resource(Headless { size: UVec2::splat(4), ..Headless::default() });
+        app.insert_resource(ViewTolerance(Tolerance { steps: 0.0, pixels: 1.0 }));
         app.world_mut().spawn((Camera::default(), Transform::from_xyz(0.0, 0.0, 3.0)));
-        let mut most = [0; 2];
+        let mut most = [0; 3];
         for number in 0..10 {
             let mesh = Mesh::from(UvSphere::new(1.0, 12 + number, 6));
             let handle = app.world_mut().resource_mut::<Assets<Mesh>>().add(mesh);
@@ -257,7 +304,8 @@ mod tests {
             }
         }
         app.world_mut().run_schedule(Seldom);
-        assert_eq!(kept(&app)[0], 0, "nothing is there, and something is kept");
+        let [meshes, _, levels] = kept(&app);
+        assert_eq!([meshes, levels], [0, 0], "nothing is there, and something is kept");
         most
     }
 
@@ -266,7 +314,7 @@ mod tests {
         for updates in [1, 2, 3, 10] {
             // Those of the frame in two ways of shading, and those of the frame before, which is looked for first.
             let most = most_kept(updates, 2);
-            assert!(most[0] <= 4 && most[1] <= 4, "{updates} updates: {most:?}");
+            assert!(most[0] <= 4 && most[1] <= 4 && (1..=2).contains(&most[2]), "{updates} updates: {most:?}");
         }
     }
 }

@@ -141,6 +141,20 @@ impl<'a> Sight<'a> {
         let (center, radius) = whole.sphere(model_view);
         Self { model_view, view, eye, is_inside: view.projection.holds(center, radius) }
     }
+
+    /// An upper bound of how many pixels a way of a unit of the mesh takes, anywhere in a sphere of the mesh where the
+    /// picture shows it; no less for a sphere that holds another. A way of length e at (x, y, −z) in eye space moves
+    /// its end by at most f·e/z·√(1 + (x² + y²)/z²), f pixels being the way of a point at depth 1 that moves by 1.
+    pub(super) fn pixels_per_unit(&self, (center, radius): (Vec3, f32)) -> f32 {
+        let View { projection, pixels_at_unit_depth, .. } = self.view;
+        let scale = self.model_view.largest_scale();
+        let (center, radius) = (self.model_view.eye_from_model.transform_point3(center), radius * scale);
+        let [x, y] = projection.scale;
+        let nearest = (-center.z - radius).max(projection.near);
+        let aside2 = (center.truncate().length() + radius).powi(2) / (nearest * nearest);
+        let slope2 = aside2.min(1.0 / (x * x) + 1.0 / (y * y));
+        pixels_at_unit_depth * scale * (1.0 + slope2).sqrt() / nearest
+    }
 }
 
 impl Outline {

@@ -3,15 +3,19 @@
 use crate::geometry::outlines::{Facing, Outline, Sight};
 use crate::geometry::shape::PatchShape;
 use bevy_math::Vec3;
-use halfway_mesh::{Bounds, Mesh, face_normal};
+use halfway_mesh::{Bounds, LodGroup, LodHierarchy, Mesh, face_normal};
+use halfway_raster::Pieces;
 use std::ops::Range;
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 /// A mesh's triangles in the order in which they are drawn: patch by patch. A clone shares them.
 #[derive(Clone, Debug)]
 pub(crate) struct MeshTriangles {
     pub(crate) corners: Arc<Vec<[u32; 3]>>,
     pub(crate) patches: Arc<Patches>,
+    /// The same as the CPU draws them, where they have been made ready beside the frames.
+    pub(crate) pieces: Option<Arc<Pieces>>,
 }
 
 /// The patches of a mesh.
@@ -21,13 +25,41 @@ pub(crate) struct Patches {
     outlines: Vec<Outline>,
     /// Where the indices of each patch begin, and where those of the last end.
     starts: Vec<u32>,
-    /// The outlines of each [`GROUP`] neighbouring patches together.
-    groups: Vec<Outline>,
+    /// Neighbouring patches, which are culled together before each is looked at.
+    groups: Vec<PatchGroup>,
+    /// `None` where all patches are the mesh's own.
+    levels: Option<Levels>,
     /// The outline of the whole mesh.
     pub(crate) whole: Outline,
 }
 
-/// So many neighbouring patches are culled together before each is looked at.
+#[derive(Debug)]
+struct PatchGroup {
+    outline: Outline,
+    patches: Range<u32>,
+}
+
+/// Patches of which some stand for others: the clusters of a [`LodHierarchy`].
+#[derive(Debug)]
+struct Levels {
+    /// For each patch the group that it is a simplified version of, or [`FINEST`].
+    sources: Vec<u32>,
+    groups: Vec<LodGroup>,
+}
+
+/// What is drawn of an object, as far as its level of detail depends on it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct DetailDemand {
+    /// How far points may be off, in pixels; 0 for the mesh itself.
+    pub(crate) pixels: f32,
+    pub(crate) lit: bool,
+    pub(crate) has_images: bool,
+}
+
+/// A simplified version of no group, but of the mesh itself.
+const FINEST: u32 = u32::MAX;
+
+/// So many neighbouring patches are a group.
 const GROUP: usize = 8;
 
 impl MeshTriangles {
@@ -35,7 +67,7 @@ impl MeshTriangles {
     pub(crate) fn in_order(mesh: &Mesh) -> Self {
         let corners: Vec<_> = mesh.triangles().collect();
         let patches = Patches::new(mesh, &corners, std::iter::once(0..corners.len()));
-        Self { corners: Arc::new(corners), patches: Arc::new(patches) }
+        Self::new(corners, patches)
     }
 
     /// The mesh cut into patches.
@@ -43,7 +75,21 @@ impl MeshTriangles {
         let mut corners: Vec<_> = mesh.triangles().collect();
         let runs = mesh.cut_into_patches(&mut corners, mesh.triangles_of_a_patch());
         let patches = Patches::new(mesh, &corners, runs.into_iter());
-        Self { corners: Arc::new(corners), patches: Arc::new(patches) }
+        Self::new(corners, patches)
+    }
+
+    /// The mesh with its levels of detail, or `None` where `stop` has become true.
+    pub(crate) fn in_levels(mesh: &Mesh, stop: &AtomicBool) -> Option<Self> {
+        let LodHierarchy { triangles, clusters, groups } = mesh.lod_hierarchy(stop)?;
+        let runs = clusters.iter().map(|cluster| cluster.triangles.start as usize..cluster.triangles.end as usize);
+        let mut patches = Patches::new(mesh, &triangles, runs);
+        let sources = clusters.iter().map(|cluster| cluster.source.unwrap_or(FINEST)).collect();
+        patches.levels = Some(Levels { sources, groups });
+        Some(Self::new(triangles, patches))
+    }
+
+    fn new(corners: Vec<[u32; 3]>, patches: Patches) -> Self {
+        Self { corners: Arc::new(corners), patches: Arc::new(patches), pieces: None }
     }
 }
 
@@ -57,8 +103,12 @@ impl Patches {
                 measure(mesh, &triangles[run])
             })
             .unzip();
-        let groups = outlines.chunks(GROUP).map(Outline::around).collect();
-        Self { shapes, outlines, starts, groups, whole: Outline::whole(mesh) }
+        let groups = outlines.chunks(GROUP).zip((0..).step_by(GROUP)).map(|(outlines, first)| PatchGroup {
+            outline: Outline::around(outlines),
+            patches: first..first + outlines.len() as u32,
+        });
+        let groups = groups.collect();
+        Self { shapes, outlines, starts, groups, levels: None, whole: Outline::whole(mesh) }
     }
 
     /// The number of patches.
@@ -76,20 +126,55 @@ impl Patches {
         self.starts[patch as usize]..self.starts[patch as usize + 1]
     }
 
-    /// Fills `seen` with the numbers of the patches that may show, in ascending order. A mesh that is a single patch is
-    /// taken to be seen: it has been culled as an object.
-    pub(crate) fn see(&self, sight: &Sight, seen: &mut Vec<u32>) {
+    /// Fills `seen` with the numbers of the patches that may show, in ascending order, as detailed as is demanded. A mesh
+    /// that is a single patch is taken to be seen: it has been culled as an object. Returns how many patches there were
+    /// to cull.
+    pub(crate) fn see(&self, sight: &Sight, demand: DetailDemand, seen: &mut Vec<u32>) -> usize {
         seen.clear();
         if self.len() == 1 {
             seen.push(0);
-            return;
+            return 0;
         }
-        for (first, group) in (0..).step_by(GROUP).zip(&self.groups) {
-            if group.is_seen(sight) {
-                let outlines = (first..).zip(&self.outlines[first as usize..]).take(GROUP);
-                seen.extend(outlines.filter(|(_, outline)| outline.is_seen(sight)).map(|(patch, _)| patch));
+        let shows = |patch: &u32| self.outlines[*patch as usize].is_seen(sight);
+        let Some(levels) = &self.levels else {
+            for group in self.groups.iter().filter(|group| group.outline.is_seen(sight)) {
+                seen.extend(group.patches.clone().filter(shows));
+            }
+            return self.len();
+        };
+        let will_do = levels.which_will_do(sight, demand);
+        let mut count = 0;
+        for (group, _) in levels.groups.iter().zip(&will_do).filter(|(_, will_do)| !**will_do) {
+            let drawn = group.clusters.clone().filter(|patch| {
+                let source = levels.sources[*patch as usize];
+                source == FINEST || will_do[source as usize]
+            });
+            seen.extend(drawn.inspect(|_| count += 1).filter(shows));
+        }
+        count
+    }
+}
+
+impl Levels {
+    /// For which groups the simplified version is detailed enough. Where it is, so are those of all finer groups below.
+    fn which_will_do(&self, sight: &Sight, DetailDemand { pixels, lit, has_images }: DetailDemand) -> Vec<bool> {
+        let mut will_do = vec![false; self.groups.len()];
+        if pixels <= 0.0 {
+            return will_do;
+        }
+        for (number, group) in self.groups.iter().enumerate().rev() {
+            let error = group.error(lit, has_images);
+            if !will_do[number] && error.is_finite() {
+                will_do[number] = error * sight.pixels_per_unit((group.center, group.radius)) <= pixels;
+            }
+            if will_do[number] {
+                let clusters = group.clusters.start as usize..group.clusters.end as usize;
+                for &source in self.sources[clusters].iter().filter(|source| **source != FINEST) {
+                    will_do[source as usize] = true;
+                }
             }
         }
+        will_do
     }
 }
 
@@ -118,7 +203,7 @@ mod tests {
     #[test]
     fn small_meshes_are_whole_and_in_order() {
         let mesh = Mesh::from(UvSphere::new(1.0, 32, 16));
-        let MeshTriangles { corners, patches } = MeshTriangles::in_patches(&mesh);
+        let MeshTriangles { corners, patches, .. } = MeshTriangles::in_patches(&mesh);
         assert_eq!(*corners, mesh.triangles().collect::<Vec<_>>());
         assert_eq!(patches.len(), 1);
         assert_eq!(patches.indices(0), 0..mesh.indices().len() as u32);
@@ -127,7 +212,7 @@ mod tests {
     #[test]
     fn patches_hold_every_triangle_once_and_all_that_is_said_of_them() {
         for mesh in [Mesh::from(UvSphere::new(2.0, 96, 48)), Mesh::from(Plane { size: 200.0, divisions: 64 })] {
-            let MeshTriangles { corners: triangles, patches } = MeshTriangles::in_patches(&mesh);
+            let MeshTriangles { corners: triangles, patches, .. } = MeshTriangles::in_patches(&mesh);
             let sorted = |mut triangles: Vec<[u32; 3]>| {
                 triangles.sort_unstable();
                 triangles
