@@ -245,7 +245,9 @@ fn engine_module() {
     // Matrices and bytes by frame: everything, what turned, nothing.
     let [matrices, bytes] = [4, 5].map(|column| rows.iter().map(|row| row[column]).collect::<Vec<_>>());
     assert_eq!(matrices, [10, 9, 0, 0], "{printed}");
-    assert!(bytes[0] > bytes[1] && bytes[1] > 0 && bytes[2..] == [0, 0], "{printed}");
+    // The CPU reads in place what is sent to wgpu for objects that turn.
+    let on_the_cpu = std::env::var("HALFWAY_ADAPTER").is_ok_and(|name| name.starts_with("cpu"));
+    assert!(bytes[0] > bytes[1] && (bytes[1] > 0) != on_the_cpu && bytes[2..] == [0, 0], "{printed}");
 }
 
 #[test]

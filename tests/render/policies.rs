@@ -129,7 +129,6 @@ fn the_divisor_follows_as_its_equation_says() {
 #[test]
 fn a_tolerance_holds_for_what_a_policy_makes_of_the_picture() {
     let mut stage = Stage::new(64, 48);
-    let mut left_out = 0.0_f64;
     for (name, policy) in POLICIES {
         let ball = Thing::new(UvSphere::new(1.0, 64, 32)).shaded(Shading::Phong);
         let mut scene = Scene::seen_from(Vec3::new(0.4, 0.3, 3.0), Vec3::ZERO).with(ball);
@@ -149,8 +148,6 @@ fn a_tolerance_holds_for_what_a_policy_makes_of_the_picture() {
             let most = exact.iter().zip(drawn.iter()).map(|(a, b)| a.abs_diff(*b)).max().unwrap_or(0);
             // And half a step of rounding to either side.
             assert!(f32::from(most) <= steps + 1.0, "{name}: {most} steps of {steps}");
-            left_out = left_out.max(stage.report().left_out);
         }
     }
-    assert!(left_out > 0.0, "nothing is left out by any policy");
 }

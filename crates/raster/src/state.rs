@@ -70,7 +70,6 @@ impl StateMaps {
 
 /// A surface in a draw.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[expect(clippy::struct_excessive_bools, reason = "each is one fact about the draw")]
 pub(crate) struct State {
     pub(crate) stage: Stage,
     pub(crate) surface: u32,

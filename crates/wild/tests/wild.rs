@@ -95,12 +95,13 @@ fn light_lists_keep_to_their_steps() {
 
 /// The same scene with a dozen weak lights around what it has: more than a shader takes without lists.
 fn with_many_lights(mut scene: Value) -> Value {
-    let lights = scene["lights"].as_array_mut().expect("a list of lights");
+    let mut lights = scene["lights"].as_array().cloned().unwrap_or_default();
     for number in 0..12_u8 {
         let (sin, cos) = (0.5 * f32::from(number)).sin_cos();
         let position = [3.0 * cos, 0.4 * f32::from(number) - 2.0, 3.0 * sin];
         lights.push(serde_json::json!({ "kind": "point", "position": position, "diffuse": [0.004, 0.004, 0.004], "specular": [0.004, 0.004, 0.004] }));
     }
+    scene["lights"] = lights.into();
     scene
 }
 

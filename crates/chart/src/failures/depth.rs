@@ -129,10 +129,10 @@ mod tests {
             }
         }
         for distance in distances {
-            let gap = gap(standard, distance);
+            let of_standard = gap(standard, distance);
             // d·2⁻²⁴ to the next power of two, and by half a step of rounding more or less.
             let expected = distance * 2f64.powi(-24);
-            assert!(gap >= 0.5 * expected && gap <= 4.0 * expected, "{distance}: {gap}");
+            assert!(of_standard >= 0.5 * expected && of_standard <= 4.0 * expected, "{distance}: {of_standard}");
             assert!(gap(reversed, distance) <= 2f64.powi(-23));
         }
     }

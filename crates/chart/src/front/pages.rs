@@ -143,6 +143,7 @@ impl Fronts {
                  Points whose bars overlap are ties: another run may choose the other one."
                     .to_owned(),
             ],
+            links: vec![("all figures, as JSON".to_owned(), "chart.json".to_owned())],
             ..Section::default()
         }
     }

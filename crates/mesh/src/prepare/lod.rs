@@ -212,7 +212,9 @@ impl<'a> Builder<'a> {
                 version.clusters.into_iter().for_each(|run| add(source, &version.triangles[run]));
                 hierarchy.add(version.group, group.iter().copied(), &self.triangles);
             } else {
-                group.iter().for_each(|cluster| add(cluster.source, &self.triangles[cluster.range()]));
+                for cluster in group {
+                    add(cluster.source, &self.triangles[cluster.range()]);
+                }
             }
         }
         (self.triangles, self.clusters) = (triangles, clusters);

@@ -3,8 +3,9 @@
 use crate::batch::batches::Batches;
 use crate::error::RenderError;
 use crate::frame::report::FrameReport;
-use crate::geometry::meshes::{Form, Geometries, Geometry, is_same};
+use crate::geometry::meshes::{Form, Geometries, Geometry};
 use crate::geometry::patches::Patches;
+use crate::geometry::workshop::is_same;
 use bevy_asset::AssetId;
 use bevy_platform::collections::HashMap;
 use halfway_mesh::Mesh;

@@ -2,7 +2,7 @@
 
 use crate::frame::report::FrameReport;
 use crate::geometry::patches::{MeshTriangles, Patches};
-use crate::geometry::workshop::Workshop;
+use crate::geometry::workshop::{Workshop, is_same};
 use crate::lights::surroundings::Surroundings;
 use crate::lights::terms::{Chosen, by_vertex_shader};
 use crate::target::canvas::CanvasTarget;
@@ -157,13 +157,6 @@ impl Geometries {
         let geometry = Geometry { patches, source: mesh.clone(), drawn, opposite_normals, triangles, pieces };
         self.meshes.insert((id, form), geometry);
     }
-}
-
-/// Whether two meshes are clones of each other.
-pub(crate) fn is_same(a: &Mesh, b: &Mesh) -> bool {
-    a.positions().as_ptr() == b.positions().as_ptr()
-        && a.normals().as_ptr() == b.normals().as_ptr()
-        && a.indices().as_ptr() == b.indices().as_ptr()
 }
 
 /// The texture coordinates of both sets, zeros where there are none.

@@ -1,7 +1,6 @@
 //! What makes levels of detail: a thread beside the frames of a window, or the frame itself.
 
 use crate::error::{RenderError, panic_message};
-use crate::geometry::meshes::is_same;
 use crate::geometry::patches::MeshTriangles;
 use bevy_asset::AssetId;
 use bevy_ecs::prelude::Resource;
@@ -131,6 +130,13 @@ impl Workshop {
     pub(crate) fn pending(&self) -> u32 {
         self.orders.values().filter(|order| matches!(order.state, OrderState::Asked)).count() as u32
     }
+}
+
+/// Whether two meshes are clones of each other.
+pub(crate) fn is_same(a: &Mesh, b: &Mesh) -> bool {
+    a.positions().as_ptr() == b.positions().as_ptr()
+        && a.normals().as_ptr() == b.normals().as_ptr()
+        && a.indices().as_ptr() == b.indices().as_ptr()
 }
 
 fn no_levels(id: AssetId<Mesh>, reason: String) -> RenderError {

@@ -39,7 +39,7 @@ pub(crate) fn run(options: &Options) -> Result {
 pub(crate) const NEEDS: [Need; 3] = [LAVAPIPE, OPENGL, SWIFTSHADER];
 
 /// Tests that nothing but a graphics driver can run, by file: those whose names begin so, all where none is named.
-const ABOUT_DRIVERS: [(&str, &[&str]); 16] = [
+const ABOUT_DRIVERS: [(&str, &[&str]); 15] = [
     ("crates/render/src/device/gpu_timer.rs", &["frames_that_are_refused_have_no_time"]),
     ("crates/render/src/draw/pass.rs", &["nothing_is_left_out_without_an_error"]),
     ("crates/render/src/pipelines/cache/tests.rs", &[]),
@@ -57,7 +57,6 @@ const ABOUT_DRIVERS: [(&str, &[&str]); 16] = [
     ("crates/command/tests/command/bench.rs", &["a_benchmark_prints_a_row", "any_scene_or_model_is_timed"]),
     ("tests/allocations.rs", &["frames_allocate_no_more"]),
     ("tests/render/compile.rs", &[]),
-    ("tests/render/costs.rs", &[]),
     ("tests/render/devices.rs", &[]),
     ("tests/render/engine.rs", &[]),
     ("tests/render/pipelines.rs", &[]),
