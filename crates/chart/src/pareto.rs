@@ -38,7 +38,9 @@ pub(crate) fn front_panel(title: impl Into<String>, mut series: Vec<Series>) -> 
         line.extend(corner.into_iter().chain([point]));
     }
     // The front lies on top.
-    series.iter_mut().for_each(|series| series.points.sort_by_key(|point| !point.faded));
+    for series in &mut series {
+        series.points.sort_by_key(|point| !point.faded);
+    }
     series.insert(0, Series { name: "front".to_owned(), style: Style::gray(0x55), points: line });
     Panel::new(title, series)
 }

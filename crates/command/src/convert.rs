@@ -12,7 +12,6 @@ use crate::progress::Progress;
 use crate::steps::Meshes;
 
 #[derive(Args, Debug)]
-#[expect(clippy::struct_excessive_bools, reason = "each is one independent switch of the command line")]
 pub(crate) struct ConvertArgs {
     /// A model (.smf, .obj, .gltf, .glb, .ply, .stl)
     input: PathBuf,

@@ -209,6 +209,9 @@ proptest! {
     }
 }
 
+/// A name, and what is done to a hierarchy.
+type Fault<'a> = (&'a str, &'a dyn Fn(&mut LodHierarchy));
+
 #[test]
 fn planted_faults_are_found() {
     let mesh = shaken(&UvSphere::new(1.0, 96, 48).into(), 0.01);
@@ -218,7 +221,7 @@ fn planted_faults_are_found() {
     let (number, cluster) = coarse.map(|(number, cluster): (usize, _)| (number, cluster.clone())).unwrap();
     let triangle = cluster.triangles.start as usize;
     let source = cluster.source.unwrap() as usize;
-    let faults: [(&str, &dyn Fn(&mut LodHierarchy)); 7] = [
+    let faults: [Fault; 7] = [
         ("a triangle turned over", &|levels| levels.triangles[triangle].swap(0, 1)),
         ("a triangle elsewhere", &|levels| levels.triangles[triangle] = levels.triangles[0]),
         ("a fine triangle twice", &|levels| levels.triangles[1] = levels.triangles[0]),

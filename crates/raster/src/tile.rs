@@ -395,7 +395,7 @@ fn cover_tiny<S: Simd>(
     match count {
         SampleCount::One => nearest.cover_tiny(simd, (centers, first), slopes, range, shader, keeps_lead),
         SampleCount::Four => {
-            nearest.cover_tiny_four(simd, (centers, samples, first), slopes, range, shader, keeps_lead)
+            nearest.cover_tiny_four(simd, (centers, samples, first), slopes, range, shader, keeps_lead);
         }
     }
 }

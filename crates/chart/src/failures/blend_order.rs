@@ -94,7 +94,7 @@ mod tests {
             let (share, most) = wrong_order(opacity).expect("squares can be drawn");
             // Rounded to f32 is the opacity, and nothing else.
             is_near("by how much", most, wrong_by(opacity.into()), 1e-6);
-            assert!((share - 0.5).abs() < 0.02, "half of the pixels: {}", share);
+            assert!((share - 0.5).abs() < 0.02, "half of the pixels: {share}");
         }
     }
 }

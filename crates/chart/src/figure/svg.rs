@@ -149,12 +149,12 @@ fn panel<'a>(figure: &'a Figure, panel: &'a Panel, size: Size) -> (String, Vec<P
     let x = Scale { axis: &figure.x, range: x, pixels: (left, right) };
     let y = Scale { axis: &figure.y, range: y, pixels: (bottom, top) };
     let mut body = axes(&x, &y);
-    body += &text(&panel.title, ((left + right) / 2.0, 18.0), (13, "middle"));
-    body += &text(&figure.x.label, ((left + right) / 2.0, bottom + 38.0), (11, "middle"));
+    body += &text(&panel.title, (f64::midpoint(left, right), 18.0), (13, "middle"));
+    body += &text(&figure.x.label, (f64::midpoint(left, right), bottom + 38.0), (11, "middle"));
     let _ = writeln!(
         body,
         "<text transform=\"translate(14 {:.1}) rotate(-90)\" font-size=\"11\" text-anchor=\"middle\">{}</text>",
-        (top + bottom) / 2.0,
+        f64::midpoint(top, bottom),
         escaped(&figure.y.label)
     );
     let mut placed = Vec::new();

@@ -180,8 +180,12 @@ fn mark_fronts(points: &mut [FrontPoint]) {
         pareto::front(&points.iter().map(|point| point.time_and_error(area)).collect::<Vec<_>>())
     };
     let (covered, whole) = (front(|errors| &errors.covered), front(|errors| &errors.whole));
-    covered.into_iter().for_each(|place| points[place].front = true);
-    whole.into_iter().for_each(|place| points[place].front_whole = true);
+    for place in covered {
+        points[place].front = true;
+    }
+    for place in whole {
+        points[place].front_whole = true;
+    }
 }
 
 /// A scene with what it should look like.

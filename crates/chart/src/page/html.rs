@@ -147,7 +147,6 @@ mod tests {
                     rows: vec![vec!["flat".to_owned(), "1.00".to_owned()]],
                 }],
                 links: vec![("data".to_owned(), "a.json".to_owned())],
-                ..Section::default()
             }],
             ..Page::default()
         }

@@ -7,7 +7,10 @@
 /// # Panics
 /// A condition is of no switch, or is not closed. The texts are the project's own, and tests put all of them together.
 pub(crate) fn assembled(files: &[&str], switches: &[(&str, bool)]) -> String {
-    let mut text: String = switches.iter().map(|(name, on)| format!("const {name}: bool = {on};\n")).collect();
+    let mut text = String::new();
+    for (name, on) in switches {
+        text.extend(["const ", name, ": bool = ", if *on { "true" } else { "false" }, ";\n"]);
+    }
     // Of each open condition whether the lines are taken.
     let mut open = Vec::new();
     for line in files.iter().flat_map(|file| file.lines()) {

@@ -75,9 +75,10 @@ fn ways(commands: Vec<PageCommand>) -> Result<Vec<(PageCommand, Way)>> {
     if commands.is_empty() {
         return Err(Failure::new(format!("{PAGE} shows no command")));
     }
-    let known = commands.into_iter().map(|shown| match way(&shown.words) {
-        Some(way) => Ok((shown, way)),
-        None => {
+    let known = commands.into_iter().map(|shown| {
+        if let Some(way) = way(&shown.words) {
+            Ok((shown, way))
+        } else {
             let command = shown.words.join(" ");
             Err(Failure::new(format!("{PAGE}, line {}: no way to try this is known: {command}", shown.line)))
         }
