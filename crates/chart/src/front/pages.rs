@@ -38,15 +38,15 @@ type Area = (&'static str, fn(&PointErrors) -> &AreaErrors);
 const COVERED: Area = ("covered pixels", |errors| &errors.covered);
 const WHOLE: Area = ("whole picture", |errors| &errors.whole);
 
-/// An error that is charted: the name of its button, the axis, and the value.
-type Measure = (&'static str, &'static str, fn(&AreaErrors) -> f64);
+/// An error that is charted: the end of the figure's name, the name of its button, the axis, and the value.
+type Measure = (&'static str, &'static str, &'static str, fn(&AreaErrors) -> f64);
 
-const RMS: Measure = ("RMS", "RMS error, steps of 1/255", |errors| errors.steps.rms);
+const RMS: Measure = ("rms", "RMS", "RMS error, steps of 1/255", |errors| errors.steps.rms);
 const MEASURES: [Measure; 4] = [
     RMS,
-    ("95 %", "what 95 % keep to, steps of 1/255", |errors| errors.steps.p95),
-    ("largest", "largest error, steps of 1/255", |errors| errors.steps.max),
-    ("ꟻLIP", "mean ꟻLIP", |errors| errors.flip),
+    ("p95", "95 %", "what 95 % keep to, steps of 1/255", |errors| errors.steps.p95),
+    ("largest", "largest", "largest error, steps of 1/255", |errors| errors.steps.max),
+    ("flip", "ꟻLIP", "mean ꟻLIP", |errors| errors.flip),
 ];
 
 impl Fronts {
@@ -169,10 +169,19 @@ impl Fronts {
             let points = points_on(scene, adapter);
             [COVERED, WHOLE].map(|area| panel(format!("{}, {adapter}", area.0), &points, area, measure))
         });
-        let (name, label, _) = measure;
+        let (end, name, label, _) = measure;
         let axes = [Axis::log("time of a frame (reference frame = 1)"), Axis::log(label)];
-        let id = format!("front-{}-{}", file_stem(&scene.name), file_stem(name));
+        let id = format!("front-{}-{end}", self.file_stem(scene));
         Figure::new(id, format!("{}: {label} against time", scene.name), axes, panels.collect()).named(name)
+    }
+
+    /// A scene's name as a part of a file's, without the folder where that tells it from the others; what may trouble a
+    /// file system is a hyphen.
+    fn file_stem(&self, scene: &MeasuredScene) -> String {
+        let last = |name: &str| name.rsplit(['/', '\\']).next().unwrap_or(name).to_owned();
+        let alike = self.scenes.iter().filter(|other| last(&other.name) == last(&scene.name)).count();
+        let name = if alike > 1 { scene.name.clone() } else { last(&scene.name) };
+        name.chars().map(|c| if c.is_alphanumeric() { c.to_ascii_lowercase() } else { '-' }).collect()
     }
 
     fn points(&self) -> impl Iterator<Item = &FrontPoint> {
@@ -272,7 +281,7 @@ fn table(adapter: &str, points: &[&FrontPoint], area: Area) -> PageTable {
 }
 
 /// The points by family.
-fn panel(title: String, points: &[&FrontPoint], (_, area): Area, (_, _, error): Measure) -> Panel {
+fn panel(title: String, points: &[&FrontPoint], (_, area): Area, (.., error): Measure) -> Panel {
     let families = Family::ALL.map(|family| {
         let here = points.iter().filter(|point| point.family == family.name()).map(|point| {
             let quartiles = Some((point.ratio.lower_quartile, point.ratio.upper_quartile));
@@ -294,11 +303,6 @@ fn style(family: Family) -> Style {
         Family::Mixed => (colors::PURPLE, Marker::Wedge),
     };
     Style { color, marker: Some(marker), filled: true, stroke: Stroke::Nothing }
-}
-
-/// A scene's name as a part of a file's: what may trouble a file system is a hyphen.
-fn file_stem(name: &str) -> String {
-    name.chars().map(|c| if c.is_alphanumeric() { c.to_ascii_lowercase() } else { '-' }).collect()
 }
 
 #[cfg(test)]
@@ -330,6 +334,7 @@ mod tests {
         let expected = "What to choose for sphere on cpu, by RMS error of covered pixels: at most 8 of 255 steps: flat, \
                         8 cells, 10.00 ms; at most 0.5 of 255 steps: Phong, 8 cells, 20.00 ms.";
         assert_eq!(fronts.advice(&fronts.scenes[0]), [expected]);
+        assert_eq!(fronts.file_stem(&fronts.scenes[0]), "sphere");
         let rows = table("cpu", &points_on(&fronts.scenes[0], "cpu"), COVERED).rows;
         assert_eq!(rows, [["flat", "8 cells", "1.00", "10.00", "5.00"], ["Phong", "8 cells", "2.00", "20.00", "0.50"]]);
     }

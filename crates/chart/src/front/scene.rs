@@ -28,7 +28,7 @@ impl SceneDetail {
         match self {
             Self::Cells(cells) => format!("{cells} cells"),
             Self::Simplified(to) => format!("simplified to 1 of {to} triangles"),
-            Self::Full => "every triangle".to_owned(),
+            Self::Full => "full mesh".to_owned(),
         }
     }
 }

@@ -83,8 +83,10 @@ fn buttons(figures: &[Figure]) -> String {
 }
 
 fn figure(figure: &Figure, shown: bool) -> String {
-    let legend =
-        each(figure.legend(), |series| format!("<span>{}{}</span>", svg::swatch(series.style), escaped(&series.name)));
+    let legend = each(figure.legend(), |series| {
+        let (swatch, name) = (svg::swatch(series.style), escaped(&series.name));
+        format!("<button type=\"button\" value=\"{name}\" aria-pressed=\"true\">{swatch}{name}</button>")
+    });
     // Panels are scaled to the columns of the page, so that their text comes out at about its own size.
     let size = match figure.columns() {
         1 => Size { width: 860, row: 360 },
@@ -161,6 +163,8 @@ mod tests {
             "&quot;llvmpipe&quot;",
             "<h2>One</h2>",
             "id=\"second\" hidden",
+            "<button type=\"button\" value=\"one &amp; all\" aria-pressed=\"true\">",
+            "<g data-series=\"one &amp; all\">",
             "<td>1.00</td>",
             "href=\"a.json\"",
             "href=\"second.svg\">Another (SVG)<",

@@ -65,7 +65,7 @@
       const off = entry.getAttribute('aria-pressed') === 'true';
       entry.setAttribute('aria-pressed', String(!off));
       for (const part of entry.closest('figure').querySelectorAll('[data-series]')) {
-        if (part.dataset.series === entry.textContent) part.style.display = off ? 'none' : '';
+        if (part.dataset.series === entry.value) part.style.display = off ? 'none' : '';
       }
     });
   }

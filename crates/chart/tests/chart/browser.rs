@@ -90,7 +90,7 @@ fn series_are_hidden_charts_chosen_and_tables_sorted() {
         "index.html",
         "const figure = document.getElementById('front-sphere-rms');
          const flat = () => [...figure.querySelectorAll('[data-series=flat]')];
-         const entry = [...figure.querySelectorAll('.legend button')].find((entry) => entry.textContent === 'flat');
+         const entry = [...figure.querySelectorAll('.legend button')].find((entry) => entry.value === 'flat');
          facts.there = flat().length > 2 && flat().every((part) => part.style.display === '');
          entry.click();
          facts.hidden = flat().every((part) => part.style.display === 'none');
