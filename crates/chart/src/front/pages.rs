@@ -334,8 +334,16 @@ mod tests {
         let expected = "What to choose for sphere on cpu, by RMS error of covered pixels: at most 8 of 255 steps: flat, \
                         8 cells, 10.00 ms; at most 0.5 of 255 steps: Phong, 8 cells, 20.00 ms.";
         assert_eq!(fronts.advice(&fronts.scenes[0]), [expected]);
-        assert_eq!(fronts.file_stem(&fronts.scenes[0]), "sphere");
         let rows = table("cpu", &points_on(&fronts.scenes[0], "cpu"), COVERED).rows;
         assert_eq!(rows, [["flat", "8 cells", "1.00", "10.00", "5.00"], ["Phong", "8 cells", "2.00", "20.00", "0.50"]]);
+    }
+
+    #[test]
+    fn files_of_scenes_have_names_of_their_own() {
+        let scenes = ["sphere", "a/Pot.obj", "b/Pot.obj", "a/cup.obj"];
+        let scenes = scenes.map(|name| MeasuredScene { name: name.to_owned(), ..MeasuredScene::default() });
+        let fronts = Fronts { plan: FrontPlan::QUICK, machines: Vec::new(), scenes: scenes.into() };
+        let names: Vec<String> = fronts.scenes.iter().map(|scene| fronts.file_stem(scene)).collect();
+        assert_eq!(names, ["sphere", "a-pot-obj", "b-pot-obj", "cup-obj"]);
     }
 }

@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use halfway_chart::Progress;
 use halfway_chart::filters::{BILINEAR, FILTERS, FilterPlan, FilterView, Filters, MeasuredFilters};
 
-const PLAN: FilterPlan = FilterPlan { size: [48, 36], frames: 3, rounds: 2, tolerance: 1e-4 };
+const PLAN: FilterPlan = FilterPlan { size: [32, 24], frames: 3, rounds: 2, tolerance: 1e-4 };
 
 fn found() -> &'static Filters {
     static FOUND: OnceLock<Filters> = OnceLock::new();
