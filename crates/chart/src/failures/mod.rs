@@ -103,9 +103,8 @@ pub const PAGES: u64 = (DRAWN.len() + JUDGED.len()) as u64;
 ///
 /// # Errors
 /// The first picture that could not be drawn.
-pub fn all(charted: &[ChartedAdapter], done: impl FnMut(&FailurePage)) -> Result<Vec<FailurePage>, ChartError> {
+pub fn all(charted: &[ChartedAdapter], mut done: impl FnMut(&FailurePage)) -> Result<Vec<FailurePage>, ChartError> {
     let drawers = prelude::drawers(charted)?;
-    let mut done = done;
     let drawn = DRAWN.into_iter().map(|page| page());
     let judged = JUDGED.into_iter().map(|page| page(&drawers));
     drawn.chain(judged).map(|page| page.inspect(&mut done)).collect()

@@ -15,5 +15,5 @@ pub use method::{Family, Method};
 pub use over::{MeasuredOver, Over};
 pub use pages::Fronts;
 pub use point::FrontPoint;
-pub use scene::{BuildScene, ChartedScene, SceneDetail, SceneProblem, Still};
+pub use scene::{BuildScene, ChartedScene, SceneDetail, Still};
 pub use sweep::{ChartedAdapter, FrontFilter, FrontPlan, MeasuredScene, sweep};

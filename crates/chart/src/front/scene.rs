@@ -37,11 +37,8 @@ impl SceneDetail {
 #[derive(Resource, Clone, Copy, Debug, Default)]
 pub struct Still;
 
-/// Why a scene could not be set up, in words.
-pub type SceneProblem = String;
-
-/// Puts a scene, its surfaces in this detail, into an App that has halfway's plugins.
-pub type BuildScene = Box<dyn Fn(&mut App, SceneDetail) -> Result<(), SceneProblem>>;
+/// Puts a scene, its surfaces in this detail, into an App that has halfway's plugins, or says why it cannot.
+pub type BuildScene = Box<dyn Fn(&mut App, SceneDetail) -> Result<(), String>>;
 
 /// Something to look at, and how finely it can be drawn.
 pub struct ChartedScene {

@@ -180,11 +180,8 @@ fn mark_fronts(points: &mut [FrontPoint]) {
         pareto::front(&points.iter().map(|point| point.time_and_error(area)).collect::<Vec<_>>())
     };
     let (covered, whole) = (front(|errors| &errors.covered), front(|errors| &errors.whole));
-    for place in covered {
-        points[place].front = true;
-    }
-    for place in whole {
-        points[place].front_whole = true;
+    for (i, point) in points.iter_mut().enumerate() {
+        (point.front, point.front_whole) = (covered.contains(&i), whole.contains(&i));
     }
 }
 
