@@ -1,4 +1,4 @@
-//! A virtual screen, and the windows on it.
+//! A virtual screen.
 
 use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, Stdio};
@@ -37,47 +37,11 @@ impl VirtualScreen {
     pub(crate) fn lend<'a>(&self, command: &'a mut Command) -> &'a mut Command {
         command.env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET").env("DISPLAY", &self.display)
     }
-
-    /// Whether a window with a title is open.
-    pub(crate) fn has_window(&self) -> bool {
-        let mut list = Command::new("xwininfo");
-        let output = self.lend(list.args(["-root", "-children"])).output();
-        output.is_ok_and(|output| String::from_utf8_lossy(&output.stdout).lines().any(is_titled_window))
-    }
 }
 
 impl Drop for VirtualScreen {
     fn drop(&mut self) {
         let _ = self.server.kill();
         let _ = self.server.wait();
-    }
-}
-
-/// Whether a line of `xwininfo -root -children` is of a window with a title and more than one pixel:
-/// `0x200004 "halfway": ("halfway" "halfway")  1280x720+0+0  +0+0`.
-fn is_titled_window(line: &str) -> bool {
-    let line = line.trim();
-    let titled = line.starts_with("0x") && line.contains(" \"");
-    let size = line.split_whitespace().rev().nth(1).and_then(|place| place.split_once('x'));
-    titled && size.is_some_and(|(width, rest)| width != "1" || !rest.starts_with("1+"))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn windows_are_told_from_what_is_none() {
-        let rows = [
-            (r#"     0x200004 "halfway – teapot": ("halfway" "halfway")  1280x720+0+0  +0+0"#, true),
-            (r#"     0x200001 "winit helper": ()  1x1+-1+-1  +-1+-1"#, false),
-            ("     0x200002 (has no name): ()  640x480+0+0  +0+0", false),
-            (r#"  Root window id: 0x50f (the root window) "root""#, false),
-            ("     0 children.", false),
-            ("", false),
-        ];
-        for (line, expected) in rows {
-            assert_eq!(is_titled_window(line), expected, "{line}");
-        }
     }
 }

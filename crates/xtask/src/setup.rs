@@ -96,9 +96,6 @@ pub(crate) const ARM_EMULATOR: Need =
 /// An X display without hardware, to open windows on.
 pub(crate) const VIRTUAL_SCREEN: Need = program("the virtual screen Xvfb", &["Xvfb"], &["xvfb"]);
 
-/// The program that lists the windows of an X display.
-pub(crate) const WINDOW_LIST: Need = program("xwininfo, which lists windows", &["xwininfo"], &["x11-utils"]);
-
 /// A window manager, for the tests of the window on the virtual screen.
 pub(crate) const WINDOW_MANAGER: Need = program("the window manager openbox", &["openbox"], &["openbox"]);
 
