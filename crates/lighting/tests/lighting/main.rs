@@ -3,6 +3,7 @@
 // Equality is meant where it is asserted: constants, exact edges, one path equal to another.
 #![allow(clippy::float_cmp)]
 
+mod bounds;
 mod components;
 mod degenerate;
 mod ecs;

@@ -7,7 +7,7 @@ use halfway_lighting::bounds::{NormalCone, Patch, Receiver, Selected};
 use halfway_lighting::equations::{Coefficients, Eye, Light, ShadedPoint, light_terms};
 use halfway_lighting::{Attenuation, Faces, Material, PointLight, Reflectance};
 
-use crate::support::{around, cases, exceeds, samples, scene, source};
+use super::support::{around, cases, exceeds, samples, scene, source};
 
 /// Points of one patch under one light.
 const SAMPLES: usize = 24;

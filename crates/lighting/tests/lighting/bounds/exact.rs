@@ -6,7 +6,7 @@ use halfway_lighting::equations::vector::{dot, length, normalize, sub};
 use halfway_lighting::equations::{COINCIDENT, Eye, Incidence, ShadedPoint, incidence};
 use proptest::prelude::*;
 
-use crate::support::{Kind, Scene, around, cases, exceeds, scene, source};
+use super::support::{Kind, Scene, around, cases, exceeds, scene, source};
 
 proptest! {
     #![proptest_config(cases(400))]

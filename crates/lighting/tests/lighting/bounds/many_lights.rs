@@ -8,7 +8,7 @@ use halfway_lighting::bounds::{NormalCone, Patch, Receiver, STEP, Selected, line
 use halfway_lighting::equations::{Coefficients, Eye, Light, ShadedPoint, light_terms};
 use halfway_lighting::{Attenuation, Encoding, Faces, Material, PointLight, Reflectance};
 
-use crate::support::direction;
+use super::support::direction;
 
 const EYE: [f32; 3] = [0.0, 40.0, 100.0];
 const LIGHTS: u32 = 256;
@@ -218,7 +218,7 @@ fn gather(patch: &Patch<f32>, light: &Light<f32>, points: Points, pairs: &mut [V
 
 /// The time of one core for 256 lights and 464 patches: the bounds alone, and with the selection.
 #[test]
-#[ignore = "prints times: cargo test --release -p halfway_lighting --test bounds -- --ignored --nocapture"]
+#[ignore = "prints times: cargo test --release -p halfway_lighting --test lighting -- --ignored --nocapture bounds::many_lights"]
 fn times() {
     let patches: Vec<_> = spheres().into_iter().chain(floor(8)).collect();
     for (name, range) in [("range 12", Some(12.0)), ("no range", None)] {

@@ -6,7 +6,7 @@ use halfway_lighting::equations::{Light, ShadedPoint, incidence};
 use halfway_lighting::{Attenuation, DirectionalLight, PointLight};
 use proptest::prelude::*;
 
-use crate::support::{Kind, cases, source};
+use super::support::{Kind, cases, source};
 
 /// att·(Ld + Ls), and La where attenuated, at a distance: the largest channel.
 fn brightness(light: &Light<f64>, d: f64) -> f64 {

@@ -4,7 +4,7 @@ use halfway_lighting::bounds::Selected;
 use halfway_lighting::equations::Light;
 use proptest::prelude::*;
 
-use crate::support::{Scene, Source, around, cases, samples, scene, source};
+use super::support::{Scene, Source, around, cases, samples, scene, source};
 
 /// One term of one light: its largest share of the tolerance, its light, whether it is specular, and its bound.
 type Item = (f32, u32, bool, [f64; 3]);

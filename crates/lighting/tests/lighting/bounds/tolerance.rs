@@ -4,7 +4,7 @@ use halfway_lighting::Encoding;
 use halfway_lighting::bounds::{STEP, linear_tolerance};
 use proptest::prelude::*;
 
-use crate::support::cases;
+use super::support::cases;
 
 /// What an 8-bit picture holds before it is rounded.
 fn written(encoding: Encoding, linear: f64) -> f64 {

@@ -5,9 +5,9 @@ use halfway_lighting::equations::{Coefficients, Eye, Light};
 use halfway_lighting::{Attenuation, Faces, Material, PointLight, Reflectance};
 use proptest::prelude::*;
 
-use crate::many_lights::{least_time, random};
-use crate::select::{lights, some_tolerance};
-use crate::support::{cases, scene, source};
+use super::many_lights::{least_time, random};
+use super::select::{lights, some_tolerance};
+use super::support::{cases, scene, source};
 
 /// The lists of a patch by way of a tree.
 fn by_tree(receiver: &Receiver<f32>, lights: &[Light<f32>], tolerance: [f64; 3]) -> Selected {
@@ -152,7 +152,7 @@ fn evaluations_are_linear_in_the_lights_that_touch() {
 }
 
 #[test]
-#[ignore = "prints times: cargo test --release -p halfway_lighting --test bounds -- --ignored --nocapture tree::times"]
+#[ignore = "prints times: cargo test --release -p halfway_lighting --test lighting -- --ignored --nocapture bounds::tree::times"]
 fn times() {
     let receivers: Vec<_> = floor().collect();
     let rows = [
