@@ -4,9 +4,7 @@ use std::sync::{Arc, OnceLock};
 
 use crate::halves::{Level, half, lower, narrower};
 use crate::moments::moments;
-use crate::ranges::{TexelRange, TexelRanges};
 use crate::ripmap::Ripmap;
-use crate::sampling::Sampling;
 use crate::sums::SummedAreas;
 use crate::texels::TexelImage;
 
@@ -18,8 +16,8 @@ use crate::texels::TexelImage;
 /// darker than the image as a whole, none leaves the range of its texels, and none depends on what lies beyond the
 /// image.
 ///
-/// What else some filters, bounds and highlights need, [`Ripmap`], [`SummedAreas`], [`TexelRanges`] and
-/// [moments](Self::moments), is made when it is first asked for, and shared by the clones.
+/// [`Ripmap`], [`SummedAreas`] and [moments](Self::moments), which some filters and highlights need, are made when they
+/// are first asked for, and shared by the clones.
 #[derive(Clone, Debug)]
 pub struct Pyramid {
     levels: Arc<[Level]>,
@@ -31,7 +29,6 @@ pub struct Pyramid {
 struct More {
     ripmap: OnceLock<Ripmap>,
     sums: OnceLock<SummedAreas>,
-    ranges: OnceLock<TexelRanges>,
     moments: OnceLock<[Pyramid; 2]>,
 }
 
@@ -99,24 +96,12 @@ impl Pyramid {
         self.more.sums.get_or_init(|| SummedAreas::new(&self.texels, self.size()))
     }
 
-    /// The least and the largest texels of its parts: 43 KiB at most, kept from the first call on.
-    pub fn ranges(&self) -> &TexelRanges {
-        self.more.ranges.get_or_init(|| TexelRanges::new(&self.levels, &self.texels))
-    }
-
     /// Of an image of normals the slopes, and their products: two more images with their pyramids, kept from the first
     /// call on. [`SlopeSpread`](crate::normals::SlopeSpread) says what they are for.
     pub fn moments(&self) -> &[Self; 2] {
         let [width, height] = self.size();
         let made = || moments(self.level(0)).map(|texels| Self::new(TexelImage::checked(width, height, texels)));
         self.more.moments.get_or_init(made)
-    }
-
-    /// What [`filtered`](crate::lookup::filtered) may give wherever u and v are from `low` to `high`, or a texel beside
-    /// that of the level that is taken, whatever the footprint; a little more. `None` where texels are too large for
-    /// sums of them.
-    pub fn range_within(&self, sampling: Sampling, low: [f32; 2], high: [f32; 2]) -> Option<TexelRange> {
-        self.ranges().within((&self.levels, &self.texels), sampling, low, high)
     }
 
     /// Whether the two are clones of each other.

@@ -12,6 +12,5 @@ mod noise;
 mod normals;
 mod past_failures;
 mod plugin;
-mod ranges;
 mod solid;
 mod truth;
