@@ -88,7 +88,7 @@ pub(crate) struct DrawRecord {
     pub(crate) padding1: f32,
 }
 
-/// What an object is cut from; `SolidData` in solid.wgsl.
+/// What an object is cut from; `SolidData` in surface.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub(crate) struct SolidRecord {
