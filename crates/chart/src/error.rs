@@ -1,4 +1,4 @@
-//! What can go wrong while charts are made.
+//! The error of making charts.
 
 use halfway::reference::OracleError;
 use halfway::reference::metrics::SizeMismatch;

@@ -1,4 +1,4 @@
-//! What is seen along a row of pixels over a sphere: bands where slopes jump, and light over the terminator.
+//! The light along a row of pixels over a sphere: bands where slopes jump, and light over the terminator.
 
 use super::prelude::*;
 

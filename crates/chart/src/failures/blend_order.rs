@@ -37,8 +37,8 @@ fn picture(squares: Squares, opacity: f32) -> Result<Image, ChartError> {
     })
 }
 
-/// What drawing object by object makes of two blended squares that cross, against the same squares cut there: the share
-/// of pixels that are wrong, among those that show both, and by how much at most, linear.
+/// Draws two blended squares that cross object by object, and compares them with the same squares cut where they cross:
+/// the share of pixels that are wrong, among those that show both, and by how much at most, linear.
 fn wrong_order(opacity: f32) -> Result<(f64, f64), ChartError> {
     let [first, second, truth] =
         [Squares::Crossing, Squares::Swapped, Squares::Cut].map(|squares| picture(squares, opacity));

@@ -55,7 +55,7 @@ fn least_parted(picture: &Image) -> Option<f64> {
     (0..GAPS).take_while(hides).last().map(|i| 2f64.powi(-(i as i32) - LEAST_POWER))
 }
 
-/// What is stored for a distance, as whole numbers that count up: 0 at the near plane and 1 at infinity, in 24 bits of
+/// The stored depth of a distance, as whole numbers that count up: 0 at the near plane and 1 at infinity, in 24 bits of
 /// fixed point.
 fn standard(distance: f64) -> i64 {
     ((1.0 - distance.recip()) * f64::from((1 << 24) - 1)).round() as i64
@@ -72,7 +72,7 @@ fn gap(stored: fn(f64) -> i64, distance: f64) -> f64 {
     (0..40).take_while(parts).last().map_or(1.0, |power| 2f64.powi(-power))
 }
 
-/// What two surfaces that pass through each other far away show where the first hides the second so.
+/// A picture of two surfaces that pass through each other far away, where the first hides the second as `hides` says.
 fn crossing(hides: impl Fn(f64, f64) -> bool) -> Image {
     let pixel = |i: u32| {
         let [x, y] = [i % SIZE.x, i / SIZE.x].map(|at| (f64::from(at) + 0.5) / f64::from(SIZE.x) - 0.5);
@@ -124,7 +124,7 @@ mod tests {
         let distances: Vec<f64> = (1..=17).map(|power| 2f64.powi(power)).collect();
         for ChartedAdapter { name, adapter } in test_drawers() {
             for (distance, gap) in parted(adapter, &distances).expect("squares can be drawn") {
-                // What f32 tells apart, and a few roundings on the way to the depth.
+                // f32 tells these apart, with room for a few roundings on the way to the depth.
                 assert!(gap.is_some_and(|gap| gap <= 2f64.powi(-21)), "{name} at {distance}: {gap:?}");
             }
         }
