@@ -41,7 +41,6 @@ mod render {
     mod policies;
     mod properties;
     mod random;
-    mod reflection;
     mod samples;
     mod scene;
     mod sides;

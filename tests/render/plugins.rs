@@ -133,12 +133,7 @@ fn plugins_that_are_there_already_may_come_again() {
 #[test]
 fn the_group_keeps_what_is_there() {
     let mut app = App::new();
-    app.add_plugins((
-        TaskPoolPlugin::default(),
-        TransformPlugin,
-        bevy_time::TimePlugin,
-        bevy_asset::AssetPlugin::default(),
-    ));
+    app.add_plugins((TaskPoolPlugin::default(), TransformPlugin, bevy_time::TimePlugin));
     app.add_plugins(HalfwayPlugins::headless(SIZE));
     spawn(app.world_mut());
     assert_identical("after the plugins of bevy", &expected(), &float(&mut app));

@@ -1,7 +1,6 @@
 //! The plugin group.
 
 use bevy_app::{App, Plugin, PluginGroup, PluginGroupBuilder, TaskPoolPlugin};
-use bevy_asset::AssetPlugin;
 use bevy_math::UVec2;
 use bevy_time::TimePlugin;
 use bevy_transform::TransformPlugin;
@@ -93,8 +92,8 @@ impl HalfwayPlugins {
     }
 }
 
-/// The plugins of bevy that a scene needs: tasks, assets, time and transforms, each with its defaults unless the app
-/// has it already.
+/// The plugins of bevy that a scene needs: tasks, time and transforms, each with its defaults unless the app has
+/// it already.
 #[derive(Clone, Copy, Debug, Default)]
 struct FoundationPlugin;
 
@@ -106,7 +105,6 @@ impl Plugin for FoundationPlugin {
             }
         }
         add_missing::<TaskPoolPlugin>(app);
-        add_missing::<AssetPlugin>(app);
         add_missing::<TimePlugin>(app);
         add_missing::<TransformPlugin>(app);
     }

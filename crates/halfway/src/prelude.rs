@@ -2,12 +2,12 @@
 
 pub use crate::HalfwayPlugins;
 pub use bevy_app::prelude::*;
-pub use bevy_asset::{Assets, Handle};
 pub use bevy_color::{Color, ColorToComponents as _, Gray as _, LinearRgba, Srgba};
 pub use bevy_ecs::prelude::*;
 pub use bevy_math::{EulerRot, Mat3, Mat4, Quat, UVec2, Vec2, Vec3, Vec4};
 pub use bevy_time::{Fixed, Real, Time, Virtual};
 pub use bevy_transform::prelude::{GlobalTransform, Transform, TransformPlugin};
+pub use halfway_asset::{Assets, Handle};
 pub use halfway_lighting::{
     Attenuation, BackMaterial, Blend, Camera, Cone, DirectionalLight, Encoding, Faces, Frequency, GlobalAmbient,
     Intensity, LightingPlugin, Mask, Material, PointLight, Reflectance, Samples, Shading, SpotLight, Terms, Tolerance,

@@ -5,9 +5,6 @@ use std::ops::Bound::Excluded;
 
 use bevy_color::LinearRgba;
 use bevy_ecs::component::Component;
-use bevy_ecs::reflect::ReflectComponent;
-use bevy_reflect::Reflect;
-use bevy_reflect::std_traits::ReflectDefault;
 use bevy_transform::components::Transform;
 
 use crate::equations::{Transcendental, srgb_encoded};
@@ -20,8 +17,7 @@ use crate::{Intensity, Viewer};
 /// Only the transform's translation and rotation count: eye space has world units whatever the
 /// camera is attached to. A [`Shading`](crate::Shading) or [`Reflectance`](crate::Reflectance) component on the camera
 /// is the view's default; an object's own wins for that object.
-#[derive(Component, Reflect, Clone, Copy, Debug, PartialEq)]
-#[reflect(Component, Clone, Debug, Default, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, PartialEq)]
 #[require(Transform)]
 pub struct Camera {
     /// Vertical field of view in radians, in (0, π). Default 45°.
@@ -55,8 +51,7 @@ impl Default for Camera {
 }
 
 /// Coverage samples a pixel. Shading is still evaluated once a pixel and triangle.
-#[derive(Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[reflect(Clone, Debug, Default, PartialEq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Samples {
     /// The pixel's centre decides.
     #[default]
@@ -76,8 +71,7 @@ impl Samples {
 }
 
 /// What the channels of an 8-bit picture hold.
-#[derive(Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[reflect(Clone, Debug, Default, PartialEq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Encoding {
     /// I encoded with the sRGB curve (IEC 61966-2-1), as displays expect.
     #[default]

@@ -1,10 +1,7 @@
 //! How often a term is evaluated.
 
-use bevy_reflect::Reflect;
-
 /// Where a term of the lights is evaluated.
-#[derive(Reflect, Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[reflect(Clone, Debug, PartialEq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Frequency {
     /// Nowhere: the term is left out.
     Never,

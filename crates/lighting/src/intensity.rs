@@ -2,9 +2,6 @@
 
 use std::ops::Bound::{Excluded, Included, Unbounded};
 
-use bevy_reflect::Reflect;
-use bevy_reflect::std_traits::ReflectDefault;
-
 use crate::equations::{aces, reinhard};
 use crate::invalid::{Fields, InvalidValue};
 use crate::range::Range;
@@ -14,8 +11,7 @@ use crate::range::Range;
 /// [`Clamp`](Self::Clamp) acts on each surface, and costs nothing. The others act on the finished picture: on
 /// intensities that have been blended, and averaged where a pixel has several samples. It is drawn in floating point
 /// for that, and what is above 1 after the policy is clamped as bytes are written.
-#[derive(Reflect, Clone, Copy, Debug, Default, PartialEq)]
-#[reflect(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum Intensity {
     /// min(I, 1) a channel, as each surface is written and before it is blended. Floating-point

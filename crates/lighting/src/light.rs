@@ -8,10 +8,7 @@ use core::f32::consts::{FRAC_PI_2, FRAC_PI_6, PI};
 
 use bevy_color::LinearRgba;
 use bevy_ecs::component::Component;
-use bevy_ecs::reflect::{ReflectComponent, ReflectResource};
 use bevy_ecs::resource::Resource;
-use bevy_reflect::Reflect;
-use bevy_reflect::std_traits::ReflectDefault;
 use bevy_transform::components::Transform;
 
 use crate::field::{self, Described, Field, FieldPlace, rgb};
@@ -26,8 +23,7 @@ const ANGLE_SLACK: f32 = 1e-6;
 /// Each constant is finite and 0 or more, and at least one is positive. The quotient is at most 10⁶
 /// ([`ATTENUATION_MAX`](crate::equations::ATTENUATION_MAX)), so that a light without a constant term stays finite at d
 /// = 0.
-#[derive(Reflect, Clone, Copy, Debug, PartialEq)]
-#[reflect(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Attenuation {
     /// a, without a unit. Default 1.
     pub constant: f32,
@@ -96,8 +92,7 @@ macro_rules! meaning {
 /// A light at a point, shining in all directions.
 ///
 /// The position is the translation of the entity's `GlobalTransform`; rotation and scale do nothing.
-#[derive(Component, Reflect, Clone, Copy, Debug, PartialEq)]
-#[reflect(Component, Clone, Debug, Default, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, PartialEq)]
 #[require(Transform)]
 pub struct PointLight {
     #[doc = meaning!(ambient)]
@@ -192,8 +187,7 @@ impl Default for PointLight {
 }
 
 /// The cone of a [`SpotLight`]. φ is the angle between the light's direction and the ray to the lit point.
-#[derive(Reflect, Clone, Copy, Debug, PartialEq)]
-#[reflect(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cone {
     /// The half angle in radians beyond which nothing is lit: 0 to π/2, or π for no cone at all, in which case `inner`
     /// and `exponent` are ignored. A cutoff of 0 lights only the axis. Default π/6 (30°).
@@ -253,8 +247,7 @@ impl Default for Cone {
 }
 
 /// A point light that shines only into a cone around the entity's local −Z axis.
-#[derive(Component, Reflect, Clone, Copy, Debug, Default, PartialEq)]
-#[reflect(Component, Clone, Debug, Default, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
 #[require(Transform)]
 pub struct SpotLight {
     /// Colours, falloff and range. The cone weakens the ambient term only where `light.attenuate_ambient` is set.
@@ -283,8 +276,7 @@ impl SpotLight {
 /// A light so far away that its rays are parallel (w = 0) and do not weaken.
 ///
 /// The rays travel along the local −Z axis of the entity's `GlobalTransform`; its translation does nothing.
-#[derive(Component, Reflect, Clone, Copy, Debug, PartialEq)]
-#[reflect(Component, Clone, Debug, Default, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, PartialEq)]
 #[require(Transform)]
 pub struct DirectionalLight {
     #[doc = meaning!(ambient)]
@@ -333,8 +325,7 @@ impl Default for DirectionalLight {
 /// Ga: ambient light that no light source brings. Every material reflects it by its ambient colour.
 ///
 /// Linear RGB, 0 to 10¹²; alpha is ignored. Default 0.1 grey.
-#[derive(Resource, Reflect, Clone, Copy, Debug, PartialEq)]
-#[reflect(Resource, Clone, Debug, Default, PartialEq)]
+#[derive(Resource, Clone, Copy, Debug, PartialEq)]
 pub struct GlobalAmbient(pub LinearRgba);
 
 impl GlobalAmbient {

@@ -2,9 +2,6 @@
 
 use bevy_color::LinearRgba;
 use bevy_ecs::component::Component;
-use bevy_ecs::reflect::ReflectComponent;
-use bevy_reflect::Reflect;
-use bevy_reflect::std_traits::ReflectDefault;
 use bytemuck::NoUninit;
 
 use crate::field::{self, Described, Field, rgb};
@@ -37,8 +34,7 @@ macro_rules! meaning {
 ///
 /// A plain value without padding (its bytes can be hashed); equal materials may share one record on the GPU. Named
 /// materials are in [`Material::PRESETS`].
-#[derive(Component, Reflect, Clone, Copy, Debug, PartialEq, NoUninit)]
-#[reflect(Component, Clone, Debug, Default, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, PartialEq, NoUninit)]
 #[repr(C)]
 pub struct Material {
     #[doc = meaning!(ambient)]
@@ -125,8 +121,7 @@ impl Default for Material {
 /// The material of back faces, where they are drawn ([`crate::Faces`]) and differ from the front.
 ///
 /// Without it back faces take the entity's [`Material`].
-#[derive(Component, Reflect, Clone, Copy, Debug, Default, PartialEq)]
-#[reflect(Component, Clone, Debug, Default, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
 pub struct BackMaterial(pub Material);
 
 impl BackMaterial {

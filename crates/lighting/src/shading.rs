@@ -1,9 +1,6 @@
 //! How often a surface is shaded, by which reflectance, and on which side.
 
 use bevy_ecs::component::Component;
-use bevy_ecs::reflect::ReflectComponent;
-use bevy_reflect::Reflect;
-use bevy_reflect::std_traits::ReflectDefault;
 
 use crate::frequency::Frequency;
 use crate::invalid::{Fields, InvalidValue, Problem};
@@ -11,8 +8,7 @@ use crate::invalid::{Fields, InvalidValue, Problem};
 /// The shading frequency: where the equation is evaluated.
 ///
 /// On an object it wins over the one on the camera.
-#[derive(Component, Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[reflect(Component, Clone, Debug, Default, PartialEq, Hash)]
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Shading {
     /// One colour a triangle, at its centroid and with its geometric normal turned to the side seen.
@@ -30,8 +26,7 @@ pub enum Shading {
 /// Flat is `Triangle` for both, Gouraud `Vertex`, Phong `Fragment` (`Terms::from(shading)`). The hybrid that keeps
 /// highlights sharp and spares the rest is `Terms { diffuse: Vertex, specular: Fragment }`. Emission and ambient are
 /// always there; an ambient colour that attenuates goes with the diffuse term.
-#[derive(Component, Reflect, Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[reflect(Component, Clone, Debug, PartialEq, Hash)]
+#[derive(Component, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Terms {
     /// Frequency of kd·Ld·max(n·l, 0).
     pub diffuse: Frequency,
@@ -88,8 +83,7 @@ impl From<Shading> for Terms {
 /// The specular term: how a highlight falls off.
 ///
 /// On an object it wins over the one on the camera.
-#[derive(Component, Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[reflect(Component, Clone, Debug, Default, PartialEq, Hash)]
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Reflectance {
     /// Phong 1975: `max(r·v, 0)^α`, r the reflected light direction and α the material's shininess.
     Phong,
@@ -102,8 +96,7 @@ pub enum Reflectance {
 }
 
 /// Which sides of a surface are drawn. Front faces wind counter-clockwise, also under a mirroring transform.
-#[derive(Component, Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[reflect(Component, Clone, Debug, Default, PartialEq, Hash)]
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Faces {
     /// Front faces; back faces are culled.
     #[default]
@@ -129,8 +122,7 @@ impl Faces {
 /// Marks a surface as blended: drawn after the opaque ones, sorted back to front, by its material's opacity.
 ///
 /// Without it a surface is opaque whatever its opacity says.
-#[derive(Component, Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[reflect(Component, Clone, Debug, Default, PartialEq, Hash)]
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Blend;
 
 /// Marks a surface as cut out: it is not there where its opacity is below this number, and there as a whole elsewhere,
@@ -138,8 +130,7 @@ pub struct Blend;
 ///
 /// The opacity is the material's, times that of the vertices' colours and of images, where there are any. A finite
 /// number, 0 or more; 0 cuts nothing away. The default is 0.5, as in glTF 2.0 (§3.9.4).
-#[derive(Component, Reflect, Clone, Copy, Debug, PartialEq)]
-#[reflect(Component, Clone, Debug, Default, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, PartialEq)]
 pub struct Mask(pub f32);
 
 impl Default for Mask {
@@ -159,8 +150,7 @@ impl Mask {
 }
 
 /// Where the viewer is for the highlights.
-#[derive(Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[reflect(Clone, Debug, Default, PartialEq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Viewer {
     /// v points from the surface to the eye.
     #[default]

@@ -1,10 +1,7 @@
 //! How far a picture may differ from the exact one.
 
 use bevy_ecs::component::Component;
-use bevy_ecs::reflect::{ReflectComponent, ReflectResource};
 use bevy_ecs::resource::Resource;
-use bevy_reflect::Reflect;
-use bevy_reflect::std_traits::ReflectDefault;
 
 use crate::field::{Described, Field, validate};
 use crate::invalid::{Fields, InvalidValue};
@@ -31,8 +28,7 @@ macro_rules! meaning {
 /// that. This is an estimate, not a bound.
 ///
 /// On an object it wins over the [`ViewTolerance`].
-#[derive(Component, Reflect, Clone, Copy, Debug, Default, PartialEq)]
-#[reflect(Component, Clone, Debug, Default, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tolerance {
     #[doc = meaning!(steps)]
     ///
@@ -70,6 +66,5 @@ impl Described for Tolerance {
 }
 
 /// The tolerance of objects that have none of their own.
-#[derive(Resource, Reflect, Clone, Copy, Debug, Default, PartialEq)]
-#[reflect(Resource, Clone, Debug, Default, PartialEq)]
+#[derive(Resource, Clone, Copy, Debug, Default, PartialEq)]
 pub struct ViewTolerance(pub Tolerance);

@@ -1,9 +1,6 @@
 //! What becomes of the colours that a mesh has at its vertices.
 
 use bevy_ecs::component::Component;
-use bevy_ecs::reflect::ReflectComponent;
-use bevy_reflect::Reflect;
-use bevy_reflect::std_traits::ReflectDefault;
 
 /// What an object does with the colours at the vertices of its mesh. Of a mesh without them it says nothing.
 ///
@@ -13,8 +10,7 @@ use bevy_reflect::std_traits::ReflectDefault;
 /// - Gouraud: each vertex is shaded with its own colour; intensities are interpolated, and so is the opacity.
 /// - Phong: the colour is interpolated, perspective-correctly, to each fragment.
 /// - Flat: the mean of the three corners' colours, at the centroid.
-#[derive(Component, Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[reflect(Component, Clone, Debug, Default, PartialEq, Hash)]
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum VertexColors {
     /// They multiply the ambient and diffuse reflectance, and the opacity where the object is blended
     /// ([`Blend`](crate::Blend)); on both sides.

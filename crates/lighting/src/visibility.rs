@@ -3,18 +3,14 @@
 use bevy_ecs::component::Component;
 use bevy_ecs::entity::Entity;
 use bevy_ecs::hierarchy::ChildOf;
-use bevy_ecs::reflect::ReflectComponent;
 use bevy_ecs::system::{Query, SystemParam};
-use bevy_reflect::Reflect;
-use bevy_reflect::std_traits::ReflectDefault;
 
 /// Whether an object is drawn, a light shines. It holds for the entity and, unless they say otherwise, for all entities
 /// below it in the hierarchy of [`ChildOf`]. An entity without it inherits. On cameras it has no meaning.
 ///
 /// What is hidden is as if it were not there: it is neither counted nor checked. The global ambient light stays.
 /// [`Shown`] says what holds for an entity.
-#[derive(Component, Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[reflect(Component, Clone, Debug, Default, PartialEq, Hash)]
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Visibility {
     /// As the nearest entity above that says [`Hidden`](Self::Hidden) or [`Visible`](Self::Visible); visible where
     /// there is none.

@@ -2,9 +2,7 @@
 
 use std::sync::Arc;
 
-use bevy_asset::Asset;
 use bevy_math::{Vec2, Vec3, Vec4};
-use bevy_reflect::TypePath;
 use thiserror::Error;
 
 use crate::normals::vertex_normals;
@@ -18,7 +16,7 @@ use crate::{Bounds, NormalReport, NormalWeighting, Surface};
 /// counter-clockwise. Degenerate triangles may be among the others.
 ///
 /// A mesh does not change once it is made, and its clones share its data.
-#[derive(Asset, TypePath, Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
     data: Arc<MeshData>,
 }

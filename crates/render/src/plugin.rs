@@ -20,8 +20,7 @@ use crate::lights::gather::{self, Lights};
 use crate::lights::surroundings::{self, Surroundings};
 use crate::lights::terms::{self, Chosen};
 use crate::pipelines::cache::{self, Pipelines};
-use crate::pipelines::compile::Compile;
-use crate::target::canvas::{Canvas, CanvasTarget};
+use crate::target::canvas::Canvas;
 use crate::target::frame::{self, FrameValues, Headless, Target};
 use crate::view::camera::{self, PictureSize, View};
 use crate::view::matrices::{self, ModelView, NormalMatrix, Visible};
@@ -77,7 +76,6 @@ impl Plugin for RenderPlugin {
             .init_resource::<Pipelines>()
             .init_resource::<MeshPieces>()
             .init_resource::<PassLists>();
-        register_types(app);
         self.add_systems(app);
         self.require_components(app);
         times::add_clocks(app, self.schedule);
@@ -151,19 +149,6 @@ fn complete(objects: Query<Entity, Incomplete>, mut commands: Commands) {
         let all = (Material::default(), ModelView::default(), NormalMatrix::default(), Chosen::default());
         commands.entity(object).insert_if_new(all);
     }
-}
-
-fn register_types(app: &mut App) {
-    app.register_type::<AdapterChoice>()
-        .register_type::<Headless>()
-        .register_type::<CanvasTarget>()
-        .register_type::<Compile>()
-        .register_type::<FrameReport>()
-        .register_type::<View>()
-        .register_type::<Visible>()
-        .register_type::<ModelView>()
-        .register_type::<NormalMatrix>()
-        .register_type::<Chosen>();
 }
 
 /// Opens what draws headless pictures unless there is something that can. What fails is in the report, every frame

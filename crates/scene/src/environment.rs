@@ -3,8 +3,8 @@
 use std::ops::Bound::Included;
 use std::path::{Path, PathBuf};
 
-use bevy_asset::Assets;
 use bevy_ecs::world::World;
+use halfway_asset::Assets;
 use halfway_lighting::Range;
 use halfway_texture::environment::{Environment, EnvironmentLight, EnvironmentMap, EnvironmentShape};
 use halfway_texture::{TexelMeaning, TextureError};

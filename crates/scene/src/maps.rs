@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use bevy_asset::Handle;
+use halfway_asset::Handle;
 use halfway_lighting::Range;
 use halfway_texture::{
     Channel, FarNormals, LevelFilter, MapKind, Sampling, SurfaceMap, TexelFilter, Texture, UvSet, UvTransform, Wrap,

@@ -4,9 +4,9 @@ use std::collections::HashMap;
 use std::path::Path;
 use std::rc::Rc;
 
-use bevy_asset::Handle;
 use bevy_math::Mat4;
 use bevy_transform::components::Transform;
+use halfway_asset::Handle;
 use halfway_mesh::{Mesh, Model, NormalReport, Normals, SourceLight, SourceMap, SourceMaterial};
 use halfway_texture::{FarNormals, MapKind, SurfaceMap, TexelMeaning, Texture, UvSet};
 

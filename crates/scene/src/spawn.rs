@@ -5,11 +5,11 @@ use std::collections::HashMap;
 use std::path::Path;
 use std::rc::Rc;
 
-use bevy_asset::{Assets, Handle};
 use bevy_color::{ColorToComponents, LinearRgba};
 use bevy_ecs::prelude::*;
 use bevy_math::{DMat3, DQuat, Mat4, Vec3};
 use bevy_transform::components::Transform;
+use halfway_asset::{Assets, Handle};
 use halfway_lighting::{BackMaterial, Blend, GlobalAmbient, Mask, VertexColors, ViewTolerance};
 use halfway_lighting::{Camera, Samples};
 use halfway_mesh::{Bounds, Mesh, Mesh3d};

@@ -1,24 +1,19 @@
 //! What puts images onto a surface.
 
 use bevy_app::{App, Plugin};
-use bevy_asset::{Asset, AssetApp, AssetEvent, AssetPlugin, AssetServer, Assets, Handle};
 use bevy_ecs::component::Component;
-use bevy_ecs::message::Messages;
-use bevy_ecs::reflect::ReflectComponent;
-use bevy_reflect::std_traits::ReflectDefault;
-use bevy_reflect::{Reflect, TypePath};
+use halfway_asset::{Handle, add_assets};
 
 use crate::decode::TexelMeaning;
-use crate::environment::{EnvironmentLight, EnvironmentMap};
+use crate::environment::EnvironmentMap;
 use crate::normals::FarNormals;
 use crate::pyramid::Pyramid;
 use crate::sampling::{Channel, Sampling};
-use crate::solid::SolidTexture;
 use crate::texels::TexelImage;
 use crate::uv::UvTransform;
 
 /// An image with its pyramid, as an asset. Its clones share their texels.
-#[derive(Asset, TypePath, Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Texture(pub Pyramid);
 
 impl Texture {
@@ -38,8 +33,7 @@ impl From<TexelImage> for Texture {
 ///
 /// t is what the filter makes of the texels, taken into 0 to 1, of [`SurfaceMap::channel`] where it is one number.
 /// Where something is multiplied, it is by 1 + a·(t − 1), a being [`SurfaceMap::amount`].
-#[derive(Reflect, Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[reflect(Clone, Debug, PartialEq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum MapKind {
     /// Its color multiplies the ambient and the diffuse reflectance, and its alpha the opacity, unless there is an
     /// [`Opacity`](Self::Opacity).
@@ -109,8 +103,7 @@ impl MapKind {
 }
 
 /// Which of a mesh's two sets of texture coordinates.
-#[derive(Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[reflect(Clone, Debug, Default, PartialEq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum UvSet {
     /// The first.
     #[default]
@@ -120,8 +113,7 @@ pub enum UvSet {
 }
 
 /// An image on a surface.
-#[derive(Reflect, Clone, Debug, PartialEq)]
-#[reflect(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct SurfaceMap {
     /// The image. While it is not there, [`Pyramid::missing`] is drawn.
     pub texture: Handle<Texture>,
@@ -185,8 +177,7 @@ pub struct WrongMap {
 /// specular terms are interpolated apart, so that each is multiplied by its own. What belongs to the evaluation of
 /// light (shininess, normals, heights) does nothing there, since it is the vertices and triangles that are lit; but for
 /// what an environment mirrors, which takes the shininess at every fragment.
-#[derive(Component, Reflect, Clone, Debug, Default, PartialEq)]
-#[reflect(Component, Clone, Debug, Default, PartialEq)]
+#[derive(Component, Clone, Debug, Default, PartialEq)]
 pub struct Maps([Option<SurfaceMap>; MapKind::COUNT]);
 
 impl Maps {
@@ -232,33 +223,16 @@ impl Maps {
     }
 }
 
-/// Makes a type an asset. What is there already stays.
-fn add_asset<T: Asset>(app: &mut App) {
-    // As of meshes: `init_asset` replaces what is there.
-    if !app.world().contains_resource::<Messages<AssetEvent<T>>>() {
-        let early = app.world_mut().remove_resource::<Assets<T>>();
-        app.init_asset::<T>();
-        if let Some(early) = early {
-            app.world().resource::<AssetServer>().register_asset(&early);
-            app.insert_resource(early);
-        }
-    }
-}
-
-/// Registers [`Texture`] and [`EnvironmentMap`] as assets, and [`Maps`], [`SolidTexture`] and [`EnvironmentLight`] for
-/// reflection. May be added late and more than once: textures that the app has already stay. Adds `bevy_asset`'s
-/// `AssetPlugin` where the app does not have it yet.
+/// Gives an app [`Assets`](halfway_asset::Assets) of [`Texture`] and [`EnvironmentMap`].
+///
+/// May be added late and more than once: textures that the app has already stay.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct TexturePlugin;
 
 impl Plugin for TexturePlugin {
     fn build(&self, app: &mut App) {
-        if !app.world().contains_resource::<AssetServer>() {
-            app.add_plugins(AssetPlugin::default());
-        }
-        app.register_type::<Maps>().register_type::<SolidTexture>().register_type::<EnvironmentLight>();
-        add_asset::<Texture>(app);
-        add_asset::<EnvironmentMap>(app);
+        add_assets::<Texture>(app);
+        add_assets::<EnvironmentMap>(app);
     }
 
     fn is_unique(&self) -> bool {

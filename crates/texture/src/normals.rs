@@ -3,9 +3,6 @@
 //! A normal (x, y, z) in the surface's own axes, x along u, y upward on the image, against v, and z out of the surface,
 //! stands in the first three numbers of a texel as (x, y, z)/2 + ½, as files have it.
 
-use bevy_reflect::Reflect;
-use bevy_reflect::std_traits::ReflectDefault;
-
 use crate::error::TextureError;
 use crate::lookup::{self, Number, wrapped_index};
 use crate::pyramid::Pyramid;
@@ -41,8 +38,7 @@ pub fn decoded<T: Number>([x, y, z, _]: [T; 4]) -> [T; 3] {
 }
 
 /// What highlights take of a map of normals that are smaller than a pixel, where light is shaded at the fragments.
-#[derive(Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[reflect(Clone, Debug, Default, PartialEq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum FarNormals {
     /// Where their mean points: highlights from afar are too sharp and too bright, and they flicker.
     #[default]

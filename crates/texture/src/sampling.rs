@@ -1,11 +1,7 @@
 //! How an image is looked up.
 
-use bevy_reflect::Reflect;
-use bevy_reflect::std_traits::ReflectDefault;
-
 /// What is beyond the image.
-#[derive(Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[reflect(Clone, Debug, Default, PartialEq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Wrap {
     /// The image again.
     #[default]
@@ -18,8 +14,7 @@ pub enum Wrap {
 
 /// How the texels of one image become a value between them. `f` is the part of the way from one texel's center to the
 /// next.
-#[derive(Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[reflect(Clone, Debug, Default, PartialEq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum TexelFilter {
     /// The texel that the point lies in.
     Nearest,
@@ -41,8 +36,7 @@ pub enum TexelFilter {
 /// and along y. Its semiaxes are σ₁ ≥ σ₂, the singular values of the matrix (a b). Where σ₁ ≤ 1 the image is enlarged.
 ///
 /// Slopes of heights go by D under all of them.
-#[derive(Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[reflect(Clone, Debug, Default, PartialEq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum LevelFilter {
     /// The image itself, whose texels are then skipped.
     None,
@@ -119,8 +113,7 @@ pub enum ImageForm {
 /// D = log₂ of the longer side of the footprint in texels. Where D ≤ 0 the image is enlarged, by `magnify`. Elsewhere
 /// it is reduced: `levels` says what is taken of it, and `minify` how its levels are looked up between texels; summed
 /// areas and ellipses need no such filter. The default is trilinear.
-#[derive(Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[reflect(Clone, Debug, Default, PartialEq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Sampling {
     /// What is beyond the image along u, and along v.
     pub wrap: [Wrap; 2],
@@ -143,8 +136,7 @@ impl Sampling {
 }
 
 /// The number of a texel that counts where one does.
-#[derive(Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[reflect(Clone, Debug, Default, PartialEq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Channel {
     /// The first; of a grey image any of three.
     #[default]

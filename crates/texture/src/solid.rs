@@ -21,16 +21,12 @@
 //! [`MapKind::Color`](crate::MapKind::Color) does; both multiply where both are there.
 
 use bevy_ecs::component::Component;
-use bevy_ecs::reflect::ReflectComponent;
-use bevy_reflect::Reflect;
-use bevy_reflect::std_traits::ReflectDefault;
 
 use crate::lookup::Number;
 use crate::noise::{MOST_OCTAVES, checker, fractal, marble, wood};
 
 /// What fills the space of a [`SolidTexture`].
-#[derive(Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[reflect(Clone, Debug, Default, PartialEq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum SolidKind {
     /// Cubes of side 1 around whole numbers, in the first color where the sum of the three is even, else in the second:
     /// [`checker`].
@@ -53,8 +49,7 @@ impl SolidKind {
 ///
 /// Renderers place points in it in single precision: at 500 units from the solid's origin to 3·10⁻⁵ of a unit. So
 /// pieces of one solid are better taken some units apart than some thousands.
-#[derive(Component, Reflect, Clone, Copy, Debug, PartialEq)]
-#[reflect(Component, Clone, Debug, Default, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, PartialEq)]
 pub struct SolidTexture {
     /// What fills space. Default a checker.
     pub kind: SolidKind,

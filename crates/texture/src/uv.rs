@@ -1,14 +1,10 @@
 //! Where on an image a surface's coordinates lie.
 
-use bevy_reflect::Reflect;
-use bevy_reflect::std_traits::ReflectDefault;
-
 use crate::lookup::Number;
 
 /// An affine map of texture coordinates: scaled, then turned, then moved, as `KHR_texture_transform` has it. The
 /// default leaves them as they are.
-#[derive(Reflect, Clone, Copy, Debug, PartialEq)]
-#[reflect(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct UvTransform {
     /// Moved by, in widths and heights of the image. Finite. Default (0, 0).
     pub offset: [f32; 2],

@@ -1,7 +1,6 @@
 //! An orbit: where an eye is on a sphere around a target. Plain geometry, no input.
 
 use bevy_math::{Quat, Vec3};
-use bevy_reflect::Reflect;
 use bevy_transform::components::Transform;
 use std::f32::consts::FRAC_PI_2;
 
@@ -11,8 +10,7 @@ pub const PITCH_LIMIT: f32 = FRAC_PI_2 - 1e-3;
 /// An eye on a sphere around a target, looking at it with +Y up.
 ///
 /// eye = target + distance · (cos pitch · sin yaw, sin pitch, cos pitch · cos yaw).
-#[derive(Reflect, Clone, Copy, Debug, PartialEq)]
-#[reflect(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Orbit {
     /// The point looked at, in the space of the camera's parent (the world where it has none). Finite.
     pub target: Vec3,

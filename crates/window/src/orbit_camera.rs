@@ -9,8 +9,6 @@ use bevy_input::keyboard::{KeyCode, KeyboardFocusLost, KeyboardInput};
 use bevy_input::mouse::{AccumulatedMouseMotion, AccumulatedMouseScroll, MouseButton, MouseScrollPixelsPerLine};
 use bevy_input::{ButtonInput, InputPlugin, InputSystems};
 use bevy_math::{Vec2, Vec3};
-use bevy_reflect::Reflect;
-use bevy_reflect::std_traits::ReflectDefault;
 use bevy_time::{Real, Time, TimePlugin, TimeSystems};
 use bevy_transform::components::Transform;
 use halfway_lighting::Camera;
@@ -21,8 +19,7 @@ use std::f32::consts::{FRAC_PI_2, PI};
 /// The entity's [`Transform`] follows [`orbit`](Self::orbit), whoever changes it. The other way
 /// round too: where something else moves the `Transform`, the orbit goes on from there, `distance`
 /// in front of the eye. So an animated camera stays animated, and its scale is left alone.
-#[derive(Component, Reflect, Clone, Debug, PartialEq)]
-#[reflect(Component, Clone, Debug, PartialEq)]
+#[derive(Component, Clone, Debug, PartialEq)]
 #[require(Transform)]
 pub struct OrbitCamera {
     /// Where the camera is.
@@ -112,10 +109,7 @@ impl Plugin for OrbitCameraPlugin {
         if !app.is_plugin_added::<TimePlugin>() {
             app.add_plugins(TimePlugin);
         }
-        app.register_type::<OrbitCamera>()
-            .register_type::<DragArea>()
-            .init_resource::<DragArea>()
-            .add_systems(PreUpdate, drive.after(InputSystems).after(TimeSystems));
+        app.init_resource::<DragArea>().add_systems(PreUpdate, drive.after(InputSystems).after(TimeSystems));
     }
 
     fn is_unique(&self) -> bool {
@@ -125,8 +119,7 @@ impl Plugin for OrbitCameraPlugin {
 
 /// The size, in the unit of `bevy_input`'s mouse motion, of the picture that is dragged over: how
 /// far a drag turns and pans. Default 1280 × 720; a window keeps it at its own size in logical pixels.
-#[derive(Resource, Reflect, Clone, Copy, Debug, PartialEq)]
-#[reflect(Resource, Clone, Debug, Default, PartialEq)]
+#[derive(Resource, Clone, Copy, Debug, PartialEq)]
 pub struct DragArea(pub Vec2);
 
 impl Default for DragArea {

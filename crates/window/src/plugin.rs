@@ -69,7 +69,6 @@ impl Plugin for WindowPlugin {
         if self.viewer_keys {
             app.add_plugins(ViewerKeysPlugin);
         }
-        app.register_type::<WindowTitle>().register_type::<FrameTime>();
         app.init_resource::<WindowTitle>().init_resource::<FrameTime>();
         if self.status {
             app.init_resource::<GpuTimer>();

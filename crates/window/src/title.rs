@@ -2,21 +2,17 @@
 
 use crate::short_numbers::{bytes, count, milliseconds, per_second};
 use bevy_ecs::prelude::*;
-use bevy_reflect::Reflect;
-use bevy_reflect::std_traits::ReflectDefault;
 use halfway_lighting::{Intensity, Reflectance, Shading, ViewTolerance};
 use halfway_render::{FrameReport, FrameTimes, GpuTimer, ModelView, View};
 use std::time::Duration;
 
 /// The name of what is shown, a model's or a scene's, for the window's title. Default empty: no name.
-#[derive(Resource, Reflect, Clone, Debug, Default, PartialEq, Eq)]
-#[reflect(Resource, Clone, Debug, Default, PartialEq)]
+#[derive(Resource, Clone, Debug, Default, PartialEq, Eq)]
 pub struct WindowTitle(pub String);
 
 /// From the start of a frame on the CPU to its presentation, waiting for the display included;
 /// smoothed over about half a second. `None` until the second frame.
-#[derive(Resource, Reflect, Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[reflect(Resource, Clone, Debug, Default, PartialEq)]
+#[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FrameTime(pub Option<Duration>);
 
 impl FrameTime {

@@ -1,10 +1,10 @@
 //! From the entities of a world to a scene in eye space.
 
-use bevy_asset::Assets;
 use bevy_ecs::prelude::*;
 use bevy_ecs::system::SystemState;
 use bevy_math::UVec2;
 use bevy_transform::components::{GlobalTransform, Transform};
+use halfway_asset::Assets;
 use halfway_lighting::equations::{self, Light, rgb, vector::add};
 use halfway_lighting::{
     BackMaterial, Blend, Camera, DirectionalLight, Faces, Fields, GlobalAmbient, Intensity, InvalidValue, Mask,

@@ -1,9 +1,9 @@
 //! The light from all directions.
 
-use bevy_asset::Assets;
 use bevy_ecs::prelude::*;
 use bevy_ecs::system::SystemState;
 use bevy_math::{DMat3, DVec3};
+use halfway_asset::Assets;
 use halfway_lighting::{Fields, InvalidValue, Shown};
 use halfway_texture::environment::{EnvironmentLight, EnvironmentMap};
 

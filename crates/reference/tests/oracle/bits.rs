@@ -1,8 +1,8 @@
 //! The same bits on every machine.
 
-use bevy_asset::Assets;
 use bevy_math::{Vec2, Vec3};
 use bevy_transform::components::GlobalTransform;
+use halfway_asset::Assets;
 use halfway_lighting::{Blend, Cone, Faces, Intensity, Material, PointLight, Reflectance, Shading, SpotLight};
 use halfway_mesh::{Mesh, UvSphere};
 use halfway_reference::{Image, Mode};

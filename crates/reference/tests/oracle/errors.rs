@@ -1,10 +1,10 @@
 //! What keeps a scene from being drawn, and what it says.
 
-use bevy_asset::{Assets, Handle};
 use bevy_color::LinearRgba;
 use bevy_ecs::prelude::*;
 use bevy_math::{Affine3A, Mat3, UVec2, Vec3};
 use bevy_transform::components::GlobalTransform;
+use halfway_asset::{Assets, Handle};
 use halfway_lighting::{BackMaterial, Camera, DirectionalLight, GlobalAmbient, Material, PointLight, SpotLight};
 use halfway_mesh::{Mesh, Mesh3d};
 use halfway_reference::{Oracle, OracleError};

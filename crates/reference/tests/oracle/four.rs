@@ -1,10 +1,10 @@
 //! The judge of pictures with four samples a pixel, of what curves within a pixel: an environment in mirrors, solids,
 //! and lamps near by.
 
-use bevy_asset::Assets;
 use bevy_color::LinearRgba;
 use bevy_math::Vec3;
 use bevy_transform::components::GlobalTransform;
+use halfway_asset::Assets;
 use halfway_lighting::{Camera, Material, PointLight, Samples, Shading};
 use halfway_mesh::{Mesh, UvSphere};
 use halfway_reference::metrics::{Bars, Verdict, judge};

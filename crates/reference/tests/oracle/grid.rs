@@ -1,8 +1,8 @@
 //! Vertices on the grid that a rasterizer rounds to.
 
-use bevy_asset::Assets;
 use bevy_color::LinearRgba;
 use bevy_math::{Vec2, Vec3, Vec4};
+use halfway_asset::Assets;
 use halfway_lighting::{GlobalAmbient, Material};
 use halfway_mesh::Mesh;
 use halfway_reference::Image;

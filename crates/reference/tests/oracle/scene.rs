@@ -1,10 +1,10 @@
 //! Small worlds to draw.
 
-use bevy_asset::{Assets, Handle};
 use bevy_color::LinearRgba;
 use bevy_ecs::prelude::*;
 use bevy_math::{Affine3A, DVec3, Mat3, Mat4, UVec2, Vec3};
 use bevy_transform::components::GlobalTransform;
+use halfway_asset::{Assets, Handle};
 use halfway_lighting::{Camera, DirectionalLight, GlobalAmbient, Material, Reflectance, Shading};
 use halfway_mesh::{Mesh, Mesh3d};
 use halfway_reference::{Image, Oracle};

@@ -6,8 +6,8 @@ use crate::frame::report::FrameReport;
 use crate::geometry::meshes::{Form, Geometries, Geometry};
 use crate::geometry::patches::Patches;
 use crate::geometry::workshop::is_same;
-use bevy_asset::AssetId;
 use bevy_platform::collections::HashMap;
+use halfway_asset::AssetId;
 use halfway_mesh::Mesh;
 use std::sync::Arc;
 

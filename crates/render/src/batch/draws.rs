@@ -2,7 +2,7 @@
 
 use crate::batch::key::DrawKey;
 use crate::geometry::meshes::Form;
-use bevy_asset::AssetId;
+use halfway_asset::AssetId;
 use halfway_mesh::Mesh;
 use std::ops::Range;
 

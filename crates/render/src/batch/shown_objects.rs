@@ -8,9 +8,9 @@ use crate::lights::surroundings::Surroundings;
 use crate::lights::terms::Chosen;
 use crate::view::camera::View;
 use crate::view::matrices::{ModelView, NormalMatrix, Visible};
-use bevy_asset::{AssetId, Assets};
 use bevy_ecs::prelude::*;
 use bevy_ecs::system::SystemParam;
+use halfway_asset::{AssetId, Assets};
 use halfway_lighting::{
     BackMaterial, Blend, Faces, InvalidValue, Material, Reflectance, Terms, Tolerance, ViewTolerance,
 };

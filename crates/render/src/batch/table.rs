@@ -4,9 +4,9 @@ use crate::batch::key::{DrawKey, levels_taken};
 use crate::batch::object::{Appearance, Reflecting, ReflectingBits};
 use crate::geometry::meshes::Form;
 use crate::shaders::records::{DrawRecord, RecordLists};
-use bevy_asset::{AssetId, Assets};
 use bevy_math::Vec3;
 use bevy_platform::collections::HashMap;
+use halfway_asset::{AssetId, Assets};
 use halfway_mesh::Mesh;
 use halfway_texture::{
     FarNormals, ImageForm, MapKind, Pyramid, SolidKind, SolidTexture, SurfaceMap, Texture, UvTransform,

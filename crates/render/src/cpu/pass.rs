@@ -12,8 +12,8 @@ use crate::lights::surroundings::{PlacedEnvironment, Surroundings};
 use crate::lights::terms::{by_fragment_shader, by_vertex_shader};
 use crate::shaders::light_slots::COUNTED_LIGHTS;
 use crate::shaders::records::{DrawRecord, InstanceRecord, LightRecord, MaterialRecord, RecordLists};
-use bevy_asset::{AssetId, Assets};
 use bevy_ecs::prelude::*;
+use halfway_asset::{AssetId, Assets};
 use halfway_lighting::Frequency;
 use halfway_mesh::Mesh;
 use halfway_raster::{

@@ -5,9 +5,7 @@ use crate::device::cpu::Cpu;
 use crate::device::gpu::{Gpu, describe_adapter};
 use crate::device::instance::instance;
 use crate::error::RenderError;
-use bevy_ecs::prelude::{ReflectResource, Resource};
-use bevy_reflect::Reflect;
-use bevy_reflect::std_traits::ReflectDefault;
+use bevy_ecs::prelude::Resource;
 use futures_lite::future::block_on;
 use std::path::Path;
 
@@ -34,8 +32,7 @@ use std::path::Path;
 /// full stands for the backend only. Of several adapters that fit, hardware goes before software. `VK_DRIVER_FILES`
 /// says which Vulkan drivers there are to choose from, whatever names them. OpenGL is asked only where the name can
 /// mean it and nothing of the others fits: asking it takes time.
-#[derive(Resource, Reflect, Clone, Debug, Default, PartialEq, Eq)]
-#[reflect(Resource, Default)]
+#[derive(Resource, Clone, Debug, Default, PartialEq, Eq)]
 pub struct AdapterChoice {
     /// The name. Default `None`: the environment's, or none.
     pub name: Option<String>,

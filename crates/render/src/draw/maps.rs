@@ -8,8 +8,8 @@ use crate::frame::report::FrameReport;
 use crate::pipelines::cache::Pipelines;
 use crate::shaders::records::SolidRecord;
 use crate::shaders::text::SOLID_BINDING;
-use bevy_asset::{AssetId, Assets};
 use bevy_platform::collections::HashMap;
+use halfway_asset::{AssetId, Assets};
 use halfway_texture::{ImageForm, MapKind, Pyramid, Texture};
 
 /// The images that have been drawn, until they change or go, and the bindings of the frame's uses of them.

@@ -7,9 +7,9 @@ use crate::draw::flat::FlatMesh;
 use crate::error::RenderError;
 use crate::frame::report::FrameReport;
 use crate::geometry::meshes::{Form, Geometries, both_uvs};
-use bevy_asset::AssetId;
 use bevy_ecs::prelude::*;
 use bevy_math::{Vec3, Vec4};
+use halfway_asset::AssetId;
 use halfway_mesh::Mesh;
 
 /// The buffers of the meshes that have been drawn, until they change or go.

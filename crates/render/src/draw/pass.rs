@@ -231,10 +231,10 @@ mod tests {
     use crate::plugin::RenderPlugin;
     use crate::{Headless, Pixels};
     use bevy_app::{App, PostUpdate};
-    use bevy_asset::Assets;
     use bevy_math::{UVec2, Vec3};
     use bevy_transform::TransformPlugin;
     use bevy_transform::components::Transform;
+    use halfway_asset::Assets;
     use halfway_mesh::{Cuboid, Mesh, Mesh3d};
 
     /// Takes away what the draws of a box read once they are made: the frame has no error but this one.

@@ -15,8 +15,8 @@ use crate::shaders::records::{LightRecord, RECORD_BYTES, ViewRecord};
 use crate::shaders::text::{COUNTED_LIGHT_BYTES, LightText, Text};
 use crate::target::frame::Target;
 use crate::view::camera::View;
-use bevy_asset::Assets;
 use bevy_ecs::prelude::*;
+use halfway_asset::Assets;
 use halfway_texture::Texture;
 
 /// A GPU buffer with the bytes it holds, so that equal bytes are not sent again.

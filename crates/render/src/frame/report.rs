@@ -1,18 +1,14 @@
 //! What a frame did, counted; and what it could not do.
 
 use crate::error::RenderError;
-use bevy_ecs::prelude::{ReflectResource, Resource};
-use bevy_reflect::Reflect;
-use bevy_reflect::std_traits::ReflectDefault;
+use bevy_ecs::prelude::Resource;
 
 /// Counters and errors of the newest frame. Counts are exact, so they can be tested.
-#[derive(Resource, Reflect, Clone, Debug, Default, PartialEq)]
-#[reflect(Resource, Clone, Debug, Default, PartialEq)]
+#[derive(Resource, Clone, Debug, Default, PartialEq)]
 pub struct FrameReport {
     /// Everything that kept the frame from being drawn as asked, in the order found. What an error names is left out of
     /// the picture, and nothing is left out without one. What goes wrong beside the frames is told here as well, once,
     /// though nothing is left out for it: a pipeline that a frame can do without.
-    #[reflect(ignore)]
     pub errors: Vec<RenderError>,
     /// Objects with a mesh that are not [hidden](halfway_lighting::Visibility).
     pub objects: u32,

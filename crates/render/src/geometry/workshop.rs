@@ -2,9 +2,9 @@
 
 use crate::error::{RenderError, panic_message};
 use crate::geometry::patches::MeshTriangles;
-use bevy_asset::AssetId;
 use bevy_ecs::prelude::Resource;
 use bevy_platform::collections::HashMap;
+use halfway_asset::AssetId;
 use halfway_mesh::Mesh;
 use halfway_raster::Pieces;
 use std::panic::{AssertUnwindSafe, catch_unwind};

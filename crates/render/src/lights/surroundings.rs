@@ -3,9 +3,9 @@
 use crate::error::{RenderError, label};
 use crate::frame::report::FrameReport;
 use crate::view::camera::View;
-use bevy_asset::Assets;
 use bevy_ecs::prelude::*;
 use bevy_math::DMat3;
+use halfway_asset::Assets;
 use halfway_lighting::{Fields, Shown};
 use halfway_texture::environment::{EnvironmentLight, EnvironmentMap};
 

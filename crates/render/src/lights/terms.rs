@@ -5,13 +5,10 @@ use crate::frame::report::FrameReport;
 use crate::view::camera::View;
 use crate::view::matrices::Visible;
 use bevy_ecs::prelude::*;
-use bevy_reflect::Reflect;
-use bevy_reflect::std_traits::ReflectDefault;
 use halfway_lighting::{Frequency, Shading, Terms};
 
 /// Where the frame shades each term of an object. Holds after [`RenderSet::Choose`](crate::RenderSet::Choose).
-#[derive(Component, Reflect, Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[reflect(Component, Clone, Debug, Default, PartialEq, Hash)]
+#[derive(Component, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Chosen(pub Terms);
 
 impl Default for Chosen {

@@ -4,8 +4,7 @@ use crate::device::gpu::Gpu;
 use crate::error::panic_message;
 use crate::pipelines::key::PipelineKey;
 use crate::shaders::text::{Shaders, Text};
-use bevy_ecs::prelude::{ReflectResource, Resource};
-use bevy_reflect::Reflect;
+use bevy_ecs::prelude::Resource;
 use futures_lite::future::block_on;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -17,8 +16,7 @@ use std::thread::JoinHandle;
 ///
 /// A software adapter makes machine code when a pipeline first draws, whichever thread has built it; what goes beside
 /// the frames there is the work before.
-#[derive(Resource, Reflect, Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[reflect(Resource, Clone, Debug, PartialEq, Hash)]
+#[derive(Resource, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Compile {
     /// In the frame that first needs them, which waits. Every frame is drawn by the pipelines made for it, so that two
     /// runs are equal to the byte.

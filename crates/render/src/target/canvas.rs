@@ -2,17 +2,15 @@
 
 use crate::error::RenderError;
 use crate::target::format::Picture;
-use bevy_ecs::prelude::{ReflectResource, Resource};
+use bevy_ecs::prelude::Resource;
 use bevy_math::UVec2;
-use bevy_reflect::Reflect;
 use halfway_lighting::{Encoding, Intensity};
 use halfway_raster::{ClearTiles, Output, PixelFormat, RasterError, Rasterizer};
 use image::{Rgba32FImage, RgbaImage};
 
 /// While this resource is there, what the CPU draws has this size and is for a window, and not for
 /// [`Headless`](crate::Headless). Whoever owns the window inserts it, and shows the [`Canvas`] after each frame.
-#[derive(Resource, Reflect, Clone, Copy, Debug, PartialEq, Eq)]
-#[reflect(Resource, Clone, Debug, PartialEq)]
+#[derive(Resource, Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CanvasTarget {
     /// Width and height in physical pixels; nothing is drawn where one is 0.
     pub size: UVec2,

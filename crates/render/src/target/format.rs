@@ -2,14 +2,11 @@
 
 use crate::device::gpu::Gpu;
 use crate::error::RenderError;
-use bevy_reflect::Reflect;
-use bevy_reflect::std_traits::ReflectDefault;
 use halfway_lighting::{Encoding, Intensity, Samples};
 use image::{Rgba32FImage, RgbaImage};
 
 /// What a pixel of a headless picture holds.
-#[derive(Reflect, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[reflect(Clone, Debug, Default, PartialEq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Pixels {
     /// 8 bits a channel, encoded as the camera says.
     #[default]

@@ -13,14 +13,11 @@ use crate::target::texture::TextureTarget;
 use crate::view::camera::{PictureSize, View};
 use bevy_ecs::prelude::*;
 use bevy_math::UVec2;
-use bevy_reflect::Reflect;
-use bevy_reflect::std_traits::ReflectDefault;
 use halfway_lighting::{Blend, Camera, Encoding, Samples, Shown};
 use halfway_mesh::Mesh3d;
 
 /// The headless target: pictures of this size, to be read back. The default target.
-#[derive(Resource, Reflect, Clone, Copy, Debug, PartialEq, Eq)]
-#[reflect(Resource, Clone, Debug, Default, PartialEq)]
+#[derive(Resource, Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Headless {
     /// Width and height in pixels, each at least 1. Default 1280 × 720.
     pub size: UVec2,

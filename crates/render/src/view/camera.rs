@@ -4,14 +4,11 @@ use crate::error::{RenderError, bad_transform, label};
 use crate::frame::report::FrameReport;
 use bevy_ecs::prelude::*;
 use bevy_math::{DAffine3, DMat3, DVec3, UVec2, Vec3};
-use bevy_reflect::Reflect;
-use bevy_reflect::std_traits::ReflectDefault;
 use bevy_transform::components::{GlobalTransform, Transform};
 use halfway_lighting::{Camera, Propagation, Reflectance, Shading, propagation};
 
 /// What the frame is seen through. Holds after [`RenderSet::View`](crate::RenderSet::View).
-#[derive(Resource, Reflect, Clone, Debug, Default, PartialEq)]
-#[reflect(Resource, Clone, Debug, Default, PartialEq)]
+#[derive(Resource, Clone, Debug, Default, PartialEq)]
 pub struct View {
     /// The camera, validated; `None` while there is none to draw with.
     pub camera: Option<Camera>,
@@ -47,8 +44,7 @@ pub(crate) struct PictureSize(pub(crate) UVec2);
 
 /// A perspective projection with reversed depth (near = 1) and an infinite far plane:
 /// clip = (`scale`·xy, `near`, −z).
-#[derive(Reflect, Clone, Copy, Debug, Default, PartialEq)]
-#[reflect(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Projection {
     /// cot(fov/2) / aspect and cot(fov/2).
     pub scale: [f32; 2],

@@ -3,19 +3,16 @@
 use crate::error::{RenderError, bad_transform, label};
 use crate::frame::report::FrameReport;
 use crate::view::camera::View;
-use bevy_asset::Assets;
 use bevy_ecs::prelude::*;
 use bevy_math::{Affine3A, DAffine3, DMat3, DVec3, Mat3};
-use bevy_reflect::Reflect;
-use bevy_reflect::std_traits::ReflectDefault;
 use bevy_transform::components::GlobalTransform;
+use halfway_asset::Assets;
 use halfway_lighting::Shown;
 use halfway_mesh::{Mesh, Mesh3d, SpawnOrder};
 
 /// `eye_from_model` of an object, composed in f64 relative to the camera and rounded once.
 /// Holds for visible objects after [`RenderSet::Matrices`](crate::RenderSet::Matrices).
-#[derive(Component, Reflect, Clone, Copy, Debug, Default, PartialEq)]
-#[reflect(Component, Clone, Debug, Default, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
 pub struct ModelView {
     /// Model to eye.
     pub eye_from_model: Affine3A,
@@ -51,15 +48,13 @@ impl ModelView {
 
 /// sign(det M) · cof(M) of the upper 3×3 of the model-view matrix, scaled to a largest element of 1:
 /// turns model-space normals into eye-space directions, also where M is mirrored or of rank 2.
-#[derive(Component, Reflect, Clone, Copy, Debug, Default, PartialEq)]
-#[reflect(Component, Clone, Debug, Default, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
 pub struct NormalMatrix(pub Mat3);
 
 /// The objects that are not [hidden](halfway_lighting::Visibility) and whose bounding sphere meets the frustum, in
 /// spawn order.
 /// Holds after [`RenderSet::Select`](crate::RenderSet::Select).
-#[derive(Resource, Reflect, Clone, Debug, Default)]
-#[reflect(Resource, Clone, Debug, Default)]
+#[derive(Resource, Clone, Debug, Default)]
 pub struct Visible(pub Vec<Entity>);
 
 type MeshQuery<'w, 's> =

@@ -18,7 +18,7 @@ fn spawned(entry: &str, folder: &Path) -> (EnvironmentLight, EnvironmentMap, Vec
     let spawned = spawn(&scene, folder, app.world_mut()).unwrap();
     let world = app.world_mut();
     let light = world.query::<&EnvironmentLight>().single(world).unwrap().clone();
-    let map = world.resource::<bevy_asset::Assets<EnvironmentMap>>().get(&light.map).unwrap().clone();
+    let map = world.resource::<halfway_asset::Assets<EnvironmentMap>>().get(&light.map).unwrap().clone();
     (light, map, spawned.warnings)
 }
 

@@ -1,9 +1,9 @@
 //! The images that a scene file names are on its objects, and what is wrong with them is said by name.
 
 use bevy_app::App;
-use bevy_asset::Assets;
 use bevy_ecs::query::{Has, With};
 use bevy_transform::TransformPlugin;
+use halfway_asset::Assets;
 use halfway_lighting::{Blend, Mask};
 use halfway_mesh::{Mesh3d, MeshPlugin};
 use halfway_scene::{SceneError, SceneFile, spawn};

@@ -3,12 +3,12 @@
 use std::path::Path;
 
 use bevy_app::App;
-use bevy_asset::Assets;
 use bevy_color::LinearRgba;
 use bevy_ecs::prelude::*;
 use bevy_math::{Mat4, Vec3};
 use bevy_transform::TransformPlugin;
 use bevy_transform::components::{GlobalTransform, Transform};
+use halfway_asset::Assets;
 use halfway_lighting::{
     BackMaterial, Blend, Cone, DirectionalLight, Faces, GlobalAmbient, Material, PointLight, Reflectance, Shading,
     SpotLight, Viewer, light_direction,

@@ -2,9 +2,6 @@
 
 use std::sync::Arc;
 
-use bevy_asset::Asset;
-use bevy_reflect::TypePath;
-
 use super::diffuse::Harmonics;
 use super::directions::{FACES, on_cube};
 use super::{Environment, EnvironmentShape, texel_angle};
@@ -20,7 +17,7 @@ pub const MOST_FACE_TEXELS: u32 = 1024;
 ///
 /// Each face has a border of one texel from its neighbours, so that looking it up takes four texels of one face, also
 /// at seams.
-#[derive(Asset, TypePath, Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct EnvironmentMap {
     levels: Arc<[EnvironmentLevel]>,
     texels: Arc<[[f32; 4]]>,

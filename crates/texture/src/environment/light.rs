@@ -1,9 +1,7 @@
 //! The component that lights a scene by an environment.
 
-use bevy_asset::Handle;
 use bevy_ecs::component::Component;
-use bevy_ecs::reflect::ReflectComponent;
-use bevy_reflect::Reflect;
+use halfway_asset::Handle;
 
 use super::drawn::EnvironmentMap;
 
@@ -23,8 +21,7 @@ use super::drawn::EnvironmentMap;
 ///
 /// A scene has one: of more the one of the first entity counts, and the renderer says so.
 /// [`TexturePlugin`](crate::TexturePlugin) registers it.
-#[derive(Component, Reflect, Clone, Debug, PartialEq)]
-#[reflect(Component, Clone, Debug, PartialEq)]
+#[derive(Component, Clone, Debug, PartialEq)]
 pub struct EnvironmentLight {
     /// The light; while it is not there [`EnvironmentMap::missing`] is.
     pub map: Handle<EnvironmentMap>,

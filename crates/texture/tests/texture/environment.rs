@@ -1,6 +1,6 @@
 //! Environments: directions, conversions, seams, lobes and matt surfaces.
 
-use bevy_asset::Handle;
+use halfway_asset::Handle;
 use halfway_texture::environment::{
     Environment, EnvironmentLight, EnvironmentMap, EnvironmentShape, Harmonics, from_cube, from_equirectangular,
     from_mirror_ball, on_cube, on_equirectangular, on_mirror_ball,

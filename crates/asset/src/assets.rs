@@ -1,0 +1,189 @@
+//! All assets of one type.
+
+use bevy_app::{App, PreUpdate};
+use bevy_ecs::prelude::{ResMut, Resource};
+
+use crate::handle::{AssetId, Dropped, Handle};
+
+/// All assets of one type, as a resource of the app.
+#[derive(Resource)]
+pub struct Assets<T: Send + Sync + 'static> {
+    slots: Vec<Slot<T>>,
+    free: Vec<u32>,
+    dropped: Dropped,
+}
+
+/// A place for an asset. It is used again when the last handle is gone, by a new generation.
+struct Slot<T> {
+    generation: u32,
+    asset: Option<T>,
+}
+
+impl<T: Send + Sync + 'static> Default for Assets<T> {
+    fn default() -> Self {
+        Self { slots: Vec::new(), free: Vec::new(), dropped: Dropped::default() }
+    }
+}
+
+impl<T: Send + Sync + 'static> Assets<T> {
+    /// Adds an asset, which stays until the last clone of the handle is dropped.
+    pub fn add(&mut self, asset: impl Into<T>) -> Handle<T> {
+        let slot = self.free.pop().unwrap_or_else(|| {
+            self.slots.push(Slot { generation: 0, asset: None });
+            self.slots.len() as u32 - 1
+        });
+        let Slot { generation, asset: place } = &mut self.slots[slot as usize];
+        *place = Some(asset.into());
+        Handle::new(AssetId::new(slot, *generation), &self.dropped)
+    }
+
+    /// The asset, unless it was removed.
+    pub fn get(&self, id: impl Into<AssetId<T>>) -> Option<&T> {
+        let id = id.into();
+        self.slots.get(id.slot as usize).filter(|slot| slot.generation == id.generation)?.asset.as_ref()
+    }
+
+    /// The asset, to be changed: everything that shows it shows the change.
+    pub fn get_mut(&mut self, id: impl Into<AssetId<T>>) -> Option<&mut T> {
+        self.place(id.into())?.as_mut()
+    }
+
+    /// Whether the asset is there.
+    pub fn contains(&self, id: impl Into<AssetId<T>>) -> bool {
+        self.get(id).is_some()
+    }
+
+    /// Puts an asset in the place of another, or of one that was removed, and gives back what was there. Of an id whose
+    /// handles are all gone, and of the default handle's, nothing changes.
+    pub fn insert(&mut self, id: impl Into<AssetId<T>>, asset: impl Into<T>) -> Option<T> {
+        self.place(id.into())?.replace(asset.into())
+    }
+
+    /// Takes an asset out. Its handles stand for none until another is [inserted](Self::insert).
+    pub fn remove(&mut self, id: impl Into<AssetId<T>>) -> Option<T> {
+        self.place(id.into())?.take()
+    }
+
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.iter().count()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.iter().next().is_none()
+    }
+
+    /// All of them, with their ids.
+    pub fn iter(&self) -> impl Iterator<Item = (AssetId<T>, &T)> {
+        let numbered = self.slots.iter().enumerate();
+        numbered.filter_map(|(slot, Slot { generation, asset })| {
+            Some((AssetId::new(slot as u32, *generation), asset.as_ref()?))
+        })
+    }
+
+    /// All of them, with their ids, to be changed.
+    pub fn iter_mut(&mut self) -> impl Iterator<Item = (AssetId<T>, &mut T)> {
+        let numbered = self.slots.iter_mut().enumerate();
+        numbered.filter_map(|(slot, Slot { generation, asset })| {
+            Some((AssetId::new(slot as u32, *generation), asset.as_mut()?))
+        })
+    }
+
+    fn place(&mut self, id: AssetId<T>) -> Option<&mut Option<T>> {
+        let slot = self.slots.get_mut(id.slot as usize)?;
+        (slot.generation == id.generation).then_some(&mut slot.asset)
+    }
+
+    /// Removes what no handle stands for any more. [`add_assets`] has it run before each update.
+    fn remove_unused(mut assets: ResMut<Self>) {
+        let dropped = assets.dropped.take();
+        if dropped.is_empty() {
+            return;
+        }
+        for &slot in &dropped {
+            let Slot { generation, asset } = &mut assets.slots[slot as usize];
+            *asset = None;
+            *generation = generation.wrapping_add(1);
+        }
+        assets.free.extend(dropped);
+    }
+}
+
+/// Gives an app [`Assets`] of a type, and has those removed in [`PreUpdate`] that no handle stands for any more.
+///
+/// May be called late and more than once: assets that the app has already stay.
+pub fn add_assets<T: Send + Sync + 'static>(app: &mut App) {
+    /// Is there once the system is.
+    #[derive(Resource)]
+    struct Added<T: Send + Sync + 'static>(std::marker::PhantomData<fn() -> T>);
+
+    if !app.world().contains_resource::<Added<T>>() {
+        app.insert_resource(Added::<T>(std::marker::PhantomData));
+        app.init_resource::<Assets<T>>().add_systems(PreUpdate, Assets::<T>::remove_unused);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn app_with(names: [&str; 2]) -> (App, [Handle<String>; 2]) {
+        let mut app = App::new();
+        add_assets::<String>(&mut app);
+        let handles = names.map(|name| assets(&mut app).add(name));
+        (app, handles)
+    }
+
+    fn assets(app: &mut App) -> &mut Assets<String> {
+        app.world_mut().resource_mut::<Assets<String>>().into_inner()
+    }
+
+    #[test]
+    fn an_asset_lives_as_long_as_a_handle() {
+        let (mut app, [a, b]) = app_with(["a", "b"]);
+        let id = a.id();
+        let clone = a.clone();
+        drop(a);
+        app.update();
+        assert_eq!(assets(&mut app).get(id).map(String::as_str), Some("a"));
+        drop(clone);
+        app.update();
+        assert!(!assets(&mut app).contains(id));
+        assert_eq!(assets(&mut app).iter().map(|(id, name)| (id, name.as_str())).collect::<Vec<_>>(), [(b.id(), "b")]);
+    }
+
+    #[test]
+    fn a_slot_that_is_used_again_has_another_id() {
+        let (mut app, [a, _b]) = app_with(["a", "b"]);
+        let old = a.id();
+        drop(a);
+        app.update();
+        let c = assets(&mut app).add("c");
+        assert_eq!((c.id().slot, assets(&mut app).len()), (old.slot, 2));
+        assert_ne!(c.id(), old);
+        assert_eq!(assets(&mut app).get(old), None);
+        assert_eq!(assets(&mut app).insert(old, "d"), None);
+        assert_eq!(assets(&mut app).get(&c).map(String::as_str), Some("c"));
+    }
+
+    #[test]
+    fn a_handle_outlives_its_asset_and_gets_another() {
+        let (mut app, [a, _b]) = app_with(["a", "b"]);
+        assert_eq!(assets(&mut app).remove(&a).as_deref(), Some("a"));
+        app.update();
+        assert!(!assets(&mut app).contains(&a));
+        assert_eq!(assets(&mut app).insert(&a, "c"), None);
+        assert_eq!(assets(&mut app).insert(&a, "d").as_deref(), Some("c"));
+        assert_eq!(assets(&mut app).get(&a).map(String::as_str), Some("d"));
+    }
+
+    #[test]
+    fn the_default_handle_stands_for_nothing() {
+        let (mut app, _) = app_with(["a", "b"]);
+        let none = Handle::<String>::default();
+        assert_eq!(assets(&mut app).insert(&none, "c"), None);
+        assert!(!assets(&mut app).contains(&none));
+        assert_eq!(none, Handle::default());
+    }
+}
