@@ -12,10 +12,10 @@ use halfway_chart::front::{ChartedAdapter, ChartedScene, FrontFilter, FrontPlan,
 use halfway_chart::page::Page;
 use halfway_chart::timing::{Machine, TimedLook};
 use halfway_chart::{ChartError, Progress, Report};
-use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::failure::Failure;
 use crate::input::SceneInput;
+use crate::progress::Bar;
 use crate::scenery::{Benchmark, BenchmarkScene};
 
 #[derive(Args, Debug)]
@@ -175,19 +175,13 @@ fn write_and_tell(file: &Path, content: &str) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Measures beside a bar on standard error, with the time left; hidden where standard error is no terminal.
+/// Measures beside a bar on standard error.
 fn with_progress<T>(
     units: u64,
     measure: impl FnOnce(&mut Progress<'_>) -> Result<T, ChartError>,
 ) -> Result<T, Failure> {
-    let style = ProgressStyle::with_template("{bar:40} {percent:>3} %, {eta} left: {msg}");
-    let bar = ProgressBar::new(units).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-    let found = measure(&mut Progress::new(&mut |done, what: &str| {
-        bar.set_position(done);
-        bar.set_message(what.to_owned());
-    }));
-    bar.finish_and_clear();
-    Ok(found?)
+    let bar = Bar::new();
+    Ok(measure(&mut Progress::new(&mut |done, what: &str| bar.show(done, units, what)))?)
 }
 
 impl From<ChartError> for Failure {

@@ -1,49 +1,44 @@
 //! How far long work is, and signals to stop it.
 
+use std::io::{IsTerminal, Write};
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::time::{Duration, Instant};
 
 use halfway::record::Continue;
-use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::failure::STOPPED;
 
-/// A bar on standard error, hidden where that is no terminal; and whether Ctrl-C or SIGTERM asked for the end.
+/// A [`Bar`], and whether Ctrl-C or SIGTERM asked for the end.
 ///
 /// The first of them ends the work in good order, so that no half file is left; a second one ends it at once.
 pub(crate) struct Progress {
-    bar: ProgressBar,
+    bar: Bar,
+    frames: u32,
     stop: Arc<AtomicBool>,
 }
 
 impl Progress {
     /// Of whole frames; no bar for a single one.
     pub(crate) fn of_frames(frames: u32) -> Self {
-        if frames < 2 {
-            return Self { bar: ProgressBar::hidden(), stop: stop_on_signals() };
-        }
-        Self { bar: bar("{bar:40} {pos}/{len} frames, {eta} left"), stop: stop_on_signals() }.with_length(frames.into())
+        let bar = if frames < 2 { Bar::hidden() } else { Bar::new() };
+        Self { bar, frames, stop: stop_on_signals() }
     }
 
-    /// Of the tiles of frames; their number is told by the first that is done.
-    pub(crate) fn of_tiles() -> Self {
-        Self { bar: bar("{bar:40} {percent} %, {eta} left"), stop: stop_on_signals() }
+    /// Of the tiles of a number of frames.
+    pub(crate) fn of_tiles(frames: u32) -> Self {
+        Self { bar: Bar::new(), frames, stop: stop_on_signals() }
     }
 
-    /// Of the bytes of a file; their number is told with the first that are read.
+    /// Of the bytes of a file.
     pub(crate) fn of_bytes() -> Self {
-        Self { bar: bar("{bar:40} {bytes}/{total_bytes}, {eta} left"), stop: stop_on_signals() }
-    }
-
-    fn with_length(self, length: u64) -> Self {
-        self.bar.set_length(length);
-        self
+        Self::of_tiles(1)
     }
 
     /// So many frames are done.
     pub(crate) fn frame(&self, done: u32) -> Continue {
-        self.bar.set_position(done.into());
+        self.bar.show(done.into(), self.frames.into(), "");
         self.going_on()
     }
 
@@ -52,18 +47,18 @@ impl Progress {
         if self.is_stopped() { Continue::No } else { Continue::Yes }
     }
 
-    /// N of the tiles of frame `index` of M frames are done.
-    pub(crate) fn tile(&self, index: u32, frames: u32, done: u32, of: u32) -> ControlFlow<()> {
-        self.bar.set_length(u64::from(of) * u64::from(frames));
-        // Threads may report in another order than they finish in.
-        self.bar.set_position((u64::from(of) * u64::from(index) + u64::from(done)).max(self.bar.position()));
-        if self.is_stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    /// N of the M tiles of frame `index` are done.
+    pub(crate) fn tile(&self, index: u32, done: u32, of: u32) -> ControlFlow<()> {
+        self.part(u64::from(of) * u64::from(index) + u64::from(done), u64::from(of) * u64::from(self.frames))
     }
 
     /// N bytes of M are read.
     pub(crate) fn bytes(&self, done: u64, of: u64) -> ControlFlow<()> {
-        self.bar.set_length(of);
-        self.bar.set_position(done);
+        self.part(done, of)
+    }
+
+    fn part(&self, done: u64, of: u64) -> ControlFlow<()> {
+        self.bar.show(done, of, "");
         if self.is_stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 
@@ -72,15 +67,60 @@ impl Progress {
     }
 }
 
-impl Drop for Progress {
-    fn drop(&mut self) {
-        self.bar.finish_and_clear();
+/// A line on standard error that says how far work is; it is cleared at the end. Nothing is shown where standard error is
+/// no terminal.
+pub(crate) struct Bar(Option<Mutex<Shown>>);
+
+struct Shown {
+    begun: Instant,
+    /// When the line was written last.
+    written: Option<Instant>,
+    done: u64,
+}
+
+impl Bar {
+    pub(crate) fn new() -> Self {
+        let shown = || Mutex::new(Shown { begun: Instant::now(), written: None, done: 0 });
+        Self(std::io::stderr().is_terminal().then(shown))
+    }
+
+    fn hidden() -> Self {
+        Self(None)
+    }
+
+    /// Shows that `done` of `of` are done, and what is being done. Ten times a second are enough.
+    pub(crate) fn show(&self, done: u64, of: u64, doing: &str) {
+        let Some(shown) = &self.0 else { return };
+        let mut shown = shown.lock().unwrap_or_else(PoisonError::into_inner);
+        // Threads may report in another order than they finish in.
+        shown.done = shown.done.max(done);
+        if shown.written.is_none_or(|written| written.elapsed() >= Duration::from_millis(100)) {
+            shown.written = Some(Instant::now());
+            let line = line(shown.done, of, shown.begun.elapsed(), doing);
+            let _ = write!(std::io::stderr(), "\r{line}\x1b[K");
+        }
     }
 }
 
-fn bar(template: &str) -> ProgressBar {
-    let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
-    ProgressBar::new(1).with_style(style)
+impl Drop for Bar {
+    fn drop(&mut self) {
+        if self.0.is_some() {
+            let _ = write!(std::io::stderr(), "\r\x1b[K");
+        }
+    }
+}
+
+/// Such as `[#####               ]  25 %, 0:30 left: s1`.
+fn line(done: u64, of: u64, elapsed: Duration, doing: &str) -> String {
+    const WIDTH: usize = 20;
+    let share = (done as f64 / of.max(1) as f64).min(1.0);
+    let full = "#".repeat((share * WIDTH as f64) as usize);
+    let left = match elapsed.div_f64(share.max(1e-9)).saturating_sub(elapsed).as_secs() {
+        _ if done == 0 => String::new(),
+        seconds => format!(", {}:{:02} left", seconds / 60, seconds % 60),
+    };
+    let doing = if doing.is_empty() { String::new() } else { format!(": {doing}") };
+    format!("[{full:WIDTH$}] {:3.0} %{left}{doing}", share * 100.0)
 }
 
 /// Set by the first Ctrl-C or SIGTERM; the second one ends the process.
@@ -99,4 +139,23 @@ fn stop_on_signals() -> Arc<AtomicBool> {
         stop
     });
     Arc::clone(stop)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_says_how_much_is_left() {
+        let half_a_minute = Duration::from_secs(30);
+        for (done, of, doing, expected) in [
+            (0, 0, "", "[                    ]   0 %"),
+            (0, 8, "s1", "[                    ]   0 %: s1"),
+            (2, 8, "", "[#####               ]  25 %, 1:30 left"),
+            (8, 8, "s2", "[####################] 100 %, 0:00 left: s2"),
+            (9, 8, "", "[####################] 100 %, 0:00 left"),
+        ] {
+            assert_eq!(line(done, of, half_a_minute, doing), expected);
+        }
+    }
 }

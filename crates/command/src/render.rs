@@ -84,10 +84,10 @@ impl Drawer {
                 record(app, recording, |done, _| progress.frame(done))?;
             }
             Self::Reference(drawing) => {
-                let progress = Progress::of_tiles();
+                let progress = Progress::of_tiles(frames);
                 let draw = |app: &mut App, frame: halfway::record::FrameToDraw| {
                     let index = frame.number - recording.frames.start;
-                    drawing.picture(app, frame, &|done, of| progress.tile(index, frames, done, of))
+                    drawing.picture(app, frame, &|done, of| progress.tile(index, done, of))
                 };
                 record_with(app, recording, draw, |_, _| progress.going_on())?;
             }

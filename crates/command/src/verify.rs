@@ -66,7 +66,7 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
     app.finish();
     app.cleanup();
 
-    let progress = Progress::of_tiles();
+    let progress = Progress::of_tiles(2);
     let max = f64::from(args.max);
     let steps = f64::from(tolerance.steps);
     let bars = Bars { most: max, worst: max, equal: 0.0, ..Bars::bytes(encoding) }.within(steps);
@@ -130,11 +130,10 @@ fn judge_picture(args: &VerifyArgs, mut input: SceneInput, file: &Path) -> Resul
         bars if bars.are_clamped() => Bars { most: args.max.into(), worst: args.max.into(), ..bars },
         bars => bars,
     };
-    let progress = Progress::of_tiles();
+    let progress = Progress::of_tiles(1);
     let oracle = Oracle::new(app.world_mut(), size)?.with_clamping(bars.are_clamped());
-    let expected = oracle
-        .draw_with(&|done, of| progress.tile(0, 1, done, of))
-        .map_err(|stopped| Failure::new(STOPPED, stopped))?;
+    let expected =
+        oracle.draw_with(&|done, of| progress.tile(0, done, of)).map_err(|stopped| Failure::new(STOPPED, stopped))?;
     let drawn = Drawn { oracle, bits: None, actual: Image::from_decoded(&picture, encoding), expected };
     let found = drawn.judged(bars)?;
     drop(progress);
@@ -200,7 +199,7 @@ impl Drawn {
         };
         let oracle = Oracle::new(app.world_mut(), size)?.with_clamping(is_clamped);
         let expected = oracle
-            .draw_with(&|done, of| progress.tile(index, 2, done, of))
+            .draw_with(&|done, of| progress.tile(index, done, of))
             .map_err(|stopped| Failure::new(STOPPED, stopped))?;
         Ok(Self { oracle, bits: Some(bits), actual, expected })
     }
