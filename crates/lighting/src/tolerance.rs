@@ -25,7 +25,8 @@ macro_rules! meaning {
 /// out. In floating-point pictures no others are.
 ///
 /// `pixels` allows coarser triangles where a mesh is finer than the picture: no point is meant to move by more than
-/// that. This is an estimate, not a bound.
+/// that. This is an estimate, not a bound. Objects that are shaded once a vertex or a triangle keep every triangle, since
+/// there the triangles show; so do blended objects and meshes with tangents.
 ///
 /// On an object it wins over the [`ViewTolerance`].
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
