@@ -19,9 +19,8 @@
 //!
 //! The same App draws without a window: [`HalfwayPlugins::headless`] and [`render_picture`](render::render_picture)
 //! for one picture, [`record`] for many. [`scene`] reads scene files. This crate holds the [`prelude`] and the group of
-//! plugins; all else is re-exported from crates of one subject each: [`mesh`], [`lighting`], [`scene`], [`render`],
-//! [`mod@reference`],
-//! [`record`], [`output`] and, with the feature `window`, `window`.
+//! plugins; all else is re-exported from crates of one subject each: [`mesh`], [`texture`], [`asset`], [`lighting`],
+//! [`scene`], [`render`], [`mod@reference`], [`record`], [`output`] and, with the feature `window`, `window`.
 
 pub mod prelude;
 
@@ -30,6 +29,7 @@ mod plugins;
 
 pub use plugins::HalfwayPlugins;
 
+pub use halfway_asset as asset;
 pub use halfway_lighting as lighting;
 pub use halfway_mesh as mesh;
 pub use halfway_record as record;
