@@ -275,6 +275,18 @@ fn shading_errors_tell_rough_from_smooth() {
     assert_eq!(count(&shaken(&smooth, 0.01), 0.005), all, "no level of a rough mesh is as fine as that");
 }
 
+/// Both differ about as much from vertex to vertex; of hills collapses lose less.
+#[test]
+fn shading_errors_tell_noise_from_hills() {
+    let smooth = Mesh::from(UvSphere::new(1.0, 192, 96));
+    let wave = |p: Vec3| 0.02 * (15.0 * p).to_array().into_iter().map(f32::sin).product::<f32>();
+    let positions = smooth.positions().iter().map(|p| *p * (1.0 + wave(*p))).collect();
+    let hills = Mesh::new(positions, smooth.indices().to_vec()).unwrap();
+    let count = |mesh: &Mesh| drawn(&levels(mesh), |group| group.shading_error <= 0.03).len();
+    let [hilly_left, noisy_left] = [hills, shaken(&smooth, 0.01)].map(|mesh| count(&mesh));
+    assert!(4 * hilly_left < 3 * noisy_left, "{hilly_left} and {noisy_left} of {}", smooth.triangle_count());
+}
+
 #[test]
 fn map_errors_are_how_far_coordinates_slide() {
     let plane = grid(70);

@@ -49,9 +49,9 @@ pub struct LodGroup {
     pub clusters: Range<u32>,
     /// How far the surface of the simplified version is off the mesh, in the mesh's units.
     pub position_error: f32,
-    /// How coarse the shading of the simplified version is, as a length in the mesh's units: three quarters of the mean
-    /// edge, or less where the change of normals and colours is hardly visible. Where it is less than a pixel, the
-    /// picture of a rough mesh is about as good as with all triangles.
+    /// How coarse the shading of the simplified version is, as a length in the mesh's units: a half to three quarters of
+    /// the mean edge, or less where the change of normals and colours is hardly visible. Where it is less than a pixel,
+    /// the picture of a rough mesh is about as good as with all triangles.
     pub shading_error: f32,
     /// How far texture coordinates slide over the surface of the simplified version, in the mesh's units. It shows only
     /// with images; 0 where the mesh has no coordinates.
