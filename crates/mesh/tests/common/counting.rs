@@ -27,9 +27,14 @@ impl Counting {
         Self { now: AtomicUsize::new(0), peak: AtomicUsize::new(0) }
     }
 
+    /// The bytes that are taken now.
+    pub(crate) fn now(&self) -> usize {
+        self.now.load(Relaxed)
+    }
+
     /// Does some work; returns what it returns, and the most bytes that were taken meanwhile beyond those before.
     pub(crate) fn peak_of<T>(&self, work: impl FnOnce() -> T) -> (T, usize) {
-        let before = self.now.load(Relaxed);
+        let before = self.now();
         self.peak.store(before, Relaxed);
         let done = work();
         (done, self.peak.load(Relaxed) - before)

@@ -2,13 +2,12 @@
 //!
 //! `tobj` 4.0 does not read all of them (docs/decisions/0012-own-readers.md), so a row says what it makes of its file.
 
-mod common;
-
 use std::path::Path;
 
 use bevy_math::{Vec2, Vec3};
-use common::Folder;
 use halfway_mesh::{Model, load};
+
+use crate::common::Folder;
 
 /// Of each corner of each triangle position, texture coordinates and normal, in the order of the file.
 type TriangleCorners = Vec<(Vec3, Option<Vec2>, Option<Vec3>)>;

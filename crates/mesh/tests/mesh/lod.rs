@@ -20,7 +20,8 @@ fn random(seed: u32) -> f32 {
 
 /// The mesh with its vertices moved by up to so much along each axis; what is at one place stays there.
 fn shaken(mesh: &Mesh, by: f32) -> Mesh {
-    let key = |p: &Vec3| p.to_array().iter().fold(7, |key, x| (x + 0.0).to_bits().wrapping_add(31 * key));
+    let key =
+        |p: &Vec3| p.to_array().iter().fold(7, |key: u32, x| (x + 0.0).to_bits().wrapping_add(key.wrapping_mul(31)));
     let shake = |p: &Vec3| *p + by * (2.0 * Vec3::from_array([0, 1, 2].map(|axis| random(key(p) ^ axis))) - 1.0);
     let positions = mesh.positions().iter().map(shake).collect();
     Mesh::new(positions, mesh.indices().to_vec()).unwrap()

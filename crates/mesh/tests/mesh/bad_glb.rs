@@ -1,9 +1,8 @@
 //! Malformed glTF data and containers: refused without a panic and without taking memory on the word of the file.
 
-mod common;
-
-use common::{Folder, TRIANGLE_JSON, glb, triangle_data};
 use halfway_mesh::load;
+
+use crate::common::{Folder, TRIANGLE_JSON, glb, triangle_data};
 
 #[test]
 fn faults_in_the_data_are_refused_by_vertex() {

@@ -1,10 +1,9 @@
 //! Malformed glTF documents: each is refused with a message that names the element, without a panic and without taking
 //! memory on the word of the file.
 
-mod common;
-
-use common::{Folder, TRIANGLE_JSON, glb, triangle_data};
 use halfway_mesh::load;
+
+use crate::common::{Folder, TRIANGLE_JSON, glb, triangle_data};
 
 /// A row: what is wrong, the text replaced and its replacement, what the message must hold.
 type Row = (&'static str, &'static str, &'static str, &'static str);

@@ -1,13 +1,12 @@
 //! Writers: what is written is read as the same.
 
-mod common;
-
 use bevy_math::{Mat4, Vec2, Vec3, Vec4};
-use common::{Folder, check_model};
 use halfway_mesh::{
     AlphaMode, Cuboid, GltfMaps, Mesh, MetallicRoughness, Model, MtlMaterial, Part, SourceCamera, SourceLight,
     SourceLightKind, SourceMaterial, SourceProjection, Teapot, WriteError, load, write, write_quantised,
 };
+
+use crate::common::{Folder, check_model};
 
 fn part(name: &str, mesh: Mesh, material: Option<usize>) -> Part {
     Part { name: name.to_owned(), mesh, material, world_from_part: Mat4::IDENTITY }

@@ -1,10 +1,9 @@
 //! Patches and height fields against the definitions of what they are made of.
 
-mod surfaces_common;
-
 use bevy_math::DVec3;
 use halfway_mesh::{BezierPatch, HeightField, Parameter, ParametricSurface};
-use surfaces_common::{cubic, scattered};
+
+use crate::surfaces_common::{cubic, scattered};
 
 /// De Casteljau's algorithm.
 fn de_casteljau(mut points: Vec<DVec3>, t: f64) -> DVec3 {

@@ -1,10 +1,9 @@
 //! SMF files.
 
-mod common;
-
 use bevy_math::{DVec3, Mat4, Vec2, Vec3, Vec4};
-use common::Folder;
 use halfway_mesh::{Model, NormalWeighting, Normals, load};
+
+use crate::common::Folder;
 
 fn load_text(text: impl AsRef<[u8]>) -> Model {
     let folder = Folder::new();

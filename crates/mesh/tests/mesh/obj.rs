@@ -1,10 +1,9 @@
 //! OBJ and MTL files.
 
-mod common;
-
 use bevy_math::{Vec2, Vec3, Vec4};
-use common::Folder;
 use halfway_mesh::{Model, MtlMaps, MtlMaterial, SourceMaterial, load};
+
+use crate::common::Folder;
 
 const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 

@@ -2,20 +2,16 @@
 //! memory in proportion to its bytes. The same at every run; `HALFWAY_SEED` and `HALFWAY_VARIANTS` ask for others and
 //! for more.
 
-mod common;
-#[path = "common/counting.rs"]
-mod counting;
-
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use common::{TRIANGLE_JSON, check_model, glb, triangle_data};
-use counting::{Counting, most_for};
+use fastrand::Rng;
 use halfway_mesh::{Format, load_bytes};
 
-#[global_allocator]
-static ALLOCATOR: Counting = Counting::new();
+use crate::common::{TRIANGLE_JSON, check_model, glb, triangle_data};
+use crate::counting::most_for;
+use crate::{ALLOCATOR, alone};
 
 const SMF: &str = "#$SMF 1.0\nbegin\ntrans 1 2 3\nscale 2 2 2\nrot x 30\nv 0 0 0\nv 1 0 0 1\nv 1 1 0\nv 0 1 0\nbind n vertex\nn 0 0 1\nn 0 0 1\nn 0 0 1\nn 0 0 1\nbind c face\nc 1 0 0\nc 0 0.5 1\nbind r vertex\nr 0 1\nf 1 2 3\ng second\nf 1 3 4\nf 1 2 3 4\nset vertex_correction 0\nend\nmload 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1\nf 1 2 4\n";
 const OBJ: &str = "mtllib model.mtl\no a\nv 0 0 0\nv 1 0 0 1 0 0\nv 1 1 0\nv 0 1 0 1\nv 0.5 0.2 0\nvt 0 0\nvt 1 1\nvn 0 0 1\nusemtl m\nf 1/1/1 2/2/1 3/1/1 -2/-1/-1\ns 1\ng b\nl 1 2\nf 1 2 3 4 5\nf 1 2 \\\n 3\ns off\nf 7 6 2 1\nv 3 3 3\nv 4 3 3\n";
@@ -105,21 +101,10 @@ fn corpus() -> Vec<(&'static str, Format, Vec<u8>)> {
     ]
 }
 
-/// Marsaglia's xorshift (2003).
-struct Random(u64);
-
-impl Random {
-    fn below(&mut self, end: usize) -> usize {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 16) as usize % end.max(1)
-    }
-
-    fn range(&mut self, length: usize) -> std::ops::Range<usize> {
-        let start = self.below(length);
-        start..(start + 1 + self.below(24)).min(length)
-    }
+/// A part of so many bytes, one at least and 24 at most.
+fn part_of(length: usize, random: &mut Rng) -> std::ops::Range<usize> {
+    let start = random.usize(..length);
+    start..(start + random.usize(1..=24)).min(length)
 }
 
 const NUMBERS: [&str; 16] = [
@@ -143,31 +128,31 @@ const NUMBERS: [&str; 16] = [
 const WORDS: [u32; 8] = [0, 1, 0x7F, 0xFF, 0x7FFF_FFFF, 0x8000_0000, 0x7FC0_0000, 0xFFFF_FFFF];
 
 /// Spoils a file in one of the ways that files are spoilt.
-fn spoil(file: &mut Vec<u8>, random: &mut Random) {
+fn spoil(file: &mut Vec<u8>, random: &mut Rng) {
     let length = file.len();
     if length == 0 {
         return;
     }
-    let at = random.below(length);
-    match random.below(8) {
-        0 => file[at] ^= 1 << random.below(8),
-        1 => file[at] = [0, b'"', b'-', b'/', b' ', b'\n', b'9', 0xFF][random.below(8)],
+    let at = random.usize(..length);
+    match random.usize(..8) {
+        0 => file[at] ^= 1 << random.usize(..8),
+        1 => file[at] = [0, b'"', b'-', b'/', b' ', b'\n', b'9', 0xFF][random.usize(..8)],
         2 => file.truncate(at),
-        3 => drop(file.drain(random.range(length))),
+        3 => drop(file.drain(part_of(length, random))),
         4 => {
-            let piece = file[random.range(length)].to_vec();
+            let piece = file[part_of(length, random)].to_vec();
             file.splice(at..at, piece);
         }
-        5 => file.insert(at, random.below(256) as u8),
+        5 => file.insert(at, random.u8(..)),
         6 => {
             // A number as text, the whole run of its digits.
             let is_digit = |byte: &u8| byte.is_ascii_digit();
             let Some(start) = file[at..].iter().position(is_digit).map(|skip| at + skip) else { return };
             let end = file[start..].iter().position(|byte| !is_digit(byte)).map_or(length, |run| start + run);
-            file.splice(start..end, NUMBERS[random.below(NUMBERS.len())].bytes());
+            file.splice(start..end, NUMBERS[random.usize(..NUMBERS.len())].bytes());
         }
         _ => {
-            let word = WORDS[random.below(WORDS.len())].to_le_bytes();
+            let word = WORDS[random.usize(..WORDS.len())].to_le_bytes();
             let end = (at + 4).min(length);
             file[at..end].copy_from_slice(&word[..end - at]);
         }
@@ -180,6 +165,7 @@ fn asked(name: &str, otherwise: u64) -> u64 {
 
 #[test]
 fn spoilt_files_are_refused_or_read_soundly() {
+    let _alone = alone();
     let (seed, variants) = (asked("HALFWAY_SEED", 1), asked("HALFWAY_VARIANTS", 3000));
     for (name, format, sound) in corpus() {
         if let Err(error) = load_bytes(format, &sound) {
@@ -187,9 +173,9 @@ fn spoilt_files_are_refused_or_read_soundly() {
         }
         let mut survived = 0;
         for variant in 0..variants {
-            let mut random = Random((seed << 32 | variant).wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1);
+            let mut random = Rng::with_seed(seed << 32 | variant);
             let mut file = sound.clone();
-            for _ in 0..=random.below(3) {
+            for _ in 0..=random.usize(..3) {
                 spoil(&mut file, &mut random);
             }
             let (outcome, peak) = ALLOCATOR.peak_of(|| {

@@ -1,7 +1,6 @@
 //! Files as such: which are opened, and that nothing in one makes a reader panic. The project's own models.
 
-mod common;
-#[path = "../examples/make_assets.rs"]
+#[path = "../../examples/make_assets.rs"]
 #[allow(dead_code, unreachable_pub, reason = "an example has a main function, and shares its files with this test")]
 mod make_assets;
 
@@ -9,11 +8,12 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use bevy_math::Vec3;
-use common::{Folder, TRIANGLE_JSON, check_model, glb, triangle_data};
 use halfway_mesh::{
     Format, GltfMaps, LoadError, LoadOptions, LoadProgress, Mesh, Model, MtlMaps, SourceLightKind, SourceMaterial,
     Teapot, load, load_bytes, load_with,
 };
+
+use crate::common::{Folder, TRIANGLE_JSON, check_model, glb, triangle_data};
 
 fn asset(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets").join(name)

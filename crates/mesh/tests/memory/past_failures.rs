@@ -1,19 +1,10 @@
 //! What fuzzing found once, and what it starts from: the files of `past_failures/TARGET/` here and of
 //! `fuzz/seeds/TARGET/`.
 
-mod common;
-#[path = "common/counting.rs"]
-mod counting;
-#[path = "common/targets.rs"]
-mod targets;
-
 use std::fs;
 use std::path::Path;
 
-use counting::Counting;
-
-#[global_allocator]
-static ALLOCATOR: Counting = Counting::new();
+use crate::{ALLOCATOR, alone, targets};
 
 /// Feeds all files of the folders in a folder, which are named after targets; returns how many there are.
 fn feed_all(folder: &Path) -> usize {
@@ -36,9 +27,9 @@ fn feed_all(folder: &Path) -> usize {
     count
 }
 
-// One test, because the memory is counted that the whole program takes.
 #[test]
 fn past_failures_and_seeds_are_read_or_refused_soundly() {
+    let _alone = alone();
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     assert!(feed_all(&here.join("../../fuzz/seeds")) > 0);
     feed_all(&here.join("tests/past_failures"));

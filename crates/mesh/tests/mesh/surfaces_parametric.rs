@@ -1,7 +1,5 @@
 //! Parametric surfaces: partials, normals and gradients against each other, meshes against closed forms.
 
-mod surfaces_common;
-
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::{PI, TAU};
 
@@ -11,7 +9,8 @@ use halfway_mesh::{
     Paraboloid, Parameter, ParametricSurface, Plane, Quadric, SurfacePiece, Teapot, Tessellation, Torus, UvSphere,
     face_normal, tessellate,
 };
-use surfaces_common::{cubic, scattered};
+
+use crate::surfaces_common::{cubic, scattered};
 
 /// A surface with what is known of it: its name, its area and, where it is closed, its volume; V − E + F.
 struct Row {

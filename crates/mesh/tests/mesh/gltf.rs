@@ -1,15 +1,14 @@
 //! glTF files, in text and binary.
 
-mod common;
-
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use bevy_math::{Mat4, Quat, Vec2, Vec3, Vec4};
-use common::{Folder, TRIANGLE_JSON, glb, triangle_data};
 use halfway_mesh::{
     AlphaMode, GltfMaps, LoadError, MetallicRoughness, Model, SourceCamera, SourceLightKind, SourceMaterial,
     SourceProjection, load,
 };
+
+use crate::common::{Folder, TRIANGLE_JSON, glb, triangle_data};
 
 fn load_glb(json: &str, data: &[u8]) -> Result<Model, LoadError> {
     let folder = Folder::new();
