@@ -1,8 +1,9 @@
-//! Bézier patches of any degree.
+//! Bézier patches of any degree, and polynomial ones.
 
 use bevy_math::DVec3;
 
-use super::{Parameter, SurfaceError, check_coordinates};
+use super::parameter::uv_at;
+use super::{Parameter, ParametricSurface, SurfaceError, SurfacePiece, SurfacePoint, check_coordinates};
 
 /// A Bézier patch: rows of control points; u runs from row to row, v along a row, both from 0 to 1.
 ///
@@ -46,13 +47,31 @@ impl BezierPatch {
         Ok(Self { columns, points })
     }
 
+    /// The patch p(u, v) = Σᵢ Σⱼ cᵢⱼ uⁱ vʲ, of coefficients that lie row by row, `columns` in each: i counts rows, j
+    /// columns.
+    ///
+    /// Of a monomial xⁱ the control values of degree n are C(k, i) / C(n, i), k = 0 … n.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new), with coefficients for points.
+    pub fn from_polynomial(columns: usize, coefficients: Vec<DVec3>) -> Result<Self, SurfaceError> {
+        let mut patch = Self::new(columns, coefficients)?;
+        for row in patch.points.chunks_mut(columns) {
+            let controls = controls_of(row);
+            row.copy_from_slice(&controls);
+        }
+        for column in 0..columns {
+            let down: Vec<DVec3> = patch.points.iter().skip(column).step_by(columns).copied().collect();
+            for (row, control) in controls_of(&down).into_iter().enumerate() {
+                patch.points[row * columns + column] = control;
+            }
+        }
+        Self::new(columns, patch.points)
+    }
+
     /// The control points, row by row.
     pub fn points(&self) -> &[DVec3] {
         &self.points
-    }
-
-    pub(super) fn points_mut(&mut self) -> &mut [DVec3] {
-        &mut self.points
     }
 
     /// How many rows of control points there are: one more than the degree in u.
@@ -110,6 +129,18 @@ impl BezierPatch {
     }
 }
 
+impl ParametricSurface for BezierPatch {
+    /// Where there is no normal, even in the limit, it is +Y.
+    fn at(&self, u: Parameter, v: Parameter) -> SurfacePoint {
+        let [position, du, dv] = self.jet(u, v);
+        SurfacePoint { position, du, dv, normal: self.normal(u, v).unwrap_or(DVec3::Y), uv: uv_at(u, v) }
+    }
+
+    fn pieces(&self) -> Option<Vec<SurfacePiece>> {
+        Some(vec![SurfacePiece::Patch(self.clone())])
+    }
+}
+
 /// The sum of `count` terms, two or more, in an order that does not change when they are reversed: from both ends to
 /// the middle.
 fn mirrored_sum(count: usize, term: impl Fn(usize) -> DVec3) -> DVec3 {
@@ -164,4 +195,23 @@ fn curvatures(n: usize, at: Parameter) -> BasisValues {
         *weight = factor * ((lower_at(i) + lower_at(i + 2)) - 2.0 * lower_at(i + 1));
     }
     weights
+}
+
+/// The control points of the curve Σ cᵢ xⁱ.
+fn controls_of(coefficients: &[DVec3]) -> Vec<DVec3> {
+    let degree = coefficients.len() - 1;
+    let control = |k: usize| {
+        // C(k, i) / C(n, i) from its predecessor; 0 from i = k + 1 on.
+        let mut share = 1.0;
+        coefficients
+            .iter()
+            .enumerate()
+            .map(|(i, &c)| {
+                let term = share * c;
+                share *= k.saturating_sub(i) as f64 / (degree - i).max(1) as f64;
+                term
+            })
+            .sum()
+    };
+    (0..=degree).map(control).collect()
 }

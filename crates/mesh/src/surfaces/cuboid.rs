@@ -31,11 +31,11 @@ impl Cuboid {
     /// # Errors
     /// The first length that is not.
     pub fn validate(&self) -> Result<(), SurfaceError> {
-        self.fields().iter().try_for_each(SurfaceField::<f32>::check)
+        self.fields().iter().try_for_each(SurfaceField::check)
     }
 
-    fn fields(self) -> [SurfaceField<f32>; 3] {
-        let field = |name, value| SurfaceField { surface: "Cuboid", name, value };
+    fn fields(self) -> [SurfaceField; 3] {
+        let field = |name, value| SurfaceField::length("Cuboid", name, value);
         [field("size.x", self.size.x), field("size.y", self.size.y), field("size.z", self.size.z)]
     }
 }
@@ -54,7 +54,7 @@ impl From<Cuboid> for Mesh {
     /// Lengths out of range are taken at their nearest value in range, with a warning in the log; see
     /// [`Cuboid::validate`].
     fn from(cuboid: Cuboid) -> Self {
-        let half = Vec3::from_array(cuboid.fields().map(|field| field.nearest())) * 0.5;
+        let half = Vec3::from_array(cuboid.fields().map(|field| field.nearest() as f32)) * 0.5;
         let corners = [Vec2::ZERO, Vec2::X, Vec2::Y, Vec2::ONE];
         let mut positions = Vec::with_capacity(24);
         let mut normals = Vec::with_capacity(24);

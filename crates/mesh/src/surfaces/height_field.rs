@@ -36,8 +36,7 @@ impl HeightField {
     /// rows or 4097 columns, or a row that is not full; a height that is not from −1e29 to 1e29.
     pub fn new(x: f32, z: f32, columns: u32, heights: Vec<f32>) -> Result<Self, SurfaceError> {
         check_lengths("HeightField", &[("x", x), ("z", z)])?;
-        SurfaceField { surface: "HeightField", name: "columns", value: columns }
-            .check(2..=Tessellation::MAX_COLUMNS + 1)?;
+        SurfaceField::count("HeightField", "columns", columns, 2..=Tessellation::MAX_COLUMNS + 1).check()?;
         let error =
             |value, expected: String| SurfaceError { surface: "HeightField", field: "heights", value, expected };
         let columns = columns as usize;

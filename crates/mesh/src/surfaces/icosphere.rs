@@ -81,16 +81,14 @@ impl Icosphere {
     /// # Errors
     /// The first field that is not.
     pub fn validate(&self) -> Result<(), SurfaceError> {
-        self.radius_field().check()?;
-        self.divisions_field().check(1..=Self::MAX_DIVISIONS)
+        self.fields().iter().try_for_each(SurfaceField::check)
     }
 
-    fn radius_field(self) -> SurfaceField<f32> {
-        SurfaceField { surface: "Icosphere", name: "radius", value: self.radius }
-    }
-
-    fn divisions_field(self) -> SurfaceField<u32> {
-        SurfaceField { surface: "Icosphere", name: "divisions", value: self.divisions }
+    fn fields(self) -> [SurfaceField; 2] {
+        [
+            SurfaceField::length("Icosphere", "radius", self.radius),
+            SurfaceField::count("Icosphere", "divisions", self.divisions, 1..=Self::MAX_DIVISIONS),
+        ]
     }
 }
 
@@ -135,8 +133,8 @@ impl From<Icosphere> for Mesh {
     /// Fields out of range are taken at their nearest value in range, with a warning in the log; see
     /// [`Icosphere::validate`].
     fn from(sphere: Icosphere) -> Self {
-        let radius = f64::from(sphere.radius_field().nearest());
-        let n = sphere.divisions_field().nearest(1..=Icosphere::MAX_DIVISIONS);
+        let [radius, divisions] = sphere.fields().map(|field| field.nearest());
+        let n = divisions as u32;
         let count = 10 * (n as usize).pow(2) + 2;
         let mut normals: Vec<DVec3> = Vec::with_capacity(count);
         let mut vertices = HashMap::with_capacity(count);

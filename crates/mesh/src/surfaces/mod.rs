@@ -1,48 +1,38 @@
 //! Surfaces that are known by formula, with their analytic normals.
 
 mod bezier;
-mod capsule;
-mod cone;
 mod cuboid;
-mod cylinder;
 mod disc;
 mod ellipsoid;
 mod height_field;
-mod hyperboloid;
 mod icosphere;
 mod newell;
-mod paraboloid;
 mod parameter;
-mod pieces;
 mod plane;
-mod polynomial;
+mod revolution;
 mod sphere;
 mod surface;
 mod teapot;
 mod tessellate;
-mod torus;
+
+use std::ops::RangeInclusive;
 
 use bevy_math::DVec3;
 use thiserror::Error;
 
 pub use bezier::BezierPatch;
-pub use capsule::Capsule;
-pub use cone::Cone;
 pub use cuboid::Cuboid;
-pub use cylinder::Cylinder;
 pub use disc::Disc;
 pub use ellipsoid::Ellipsoid;
 pub use height_field::HeightField;
-pub use hyperboloid::{Hyperboloid, HyperboloidSheet};
 pub use icosphere::Icosphere;
-pub use paraboloid::Paraboloid;
 pub use parameter::{Parameter, SurfacePoint};
 pub use plane::Plane;
+pub use revolution::{Capsule, Cone, Cylinder, Hyperboloid, HyperboloidSheet, Paraboloid, Torus};
 pub use sphere::UvSphere;
 pub use surface::{Quadric, Surface, SurfacePiece};
 pub use teapot::Teapot;
 pub use tessellate::{ParametricSurface, Tessellation, tessellate};
-pub use torus::Torus;
 
 /// A surface that cannot be made.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -60,7 +50,7 @@ pub struct SurfaceError {
 
 /// The lengths that surfaces may have: every product of them with a unit vector is a normal number, and no box around
 /// them overflows.
-const LENGTHS: std::ops::RangeInclusive<f32> = 1e-30..=1e30;
+const LENGTHS: RangeInclusive<f32> = 1e-30..=1e30;
 
 /// The greatest coordinate of a point that a surface is given by, so that it and everything between such points can be
 /// told in `f32`.
@@ -87,7 +77,7 @@ const MOST_TIMES: f32 = 1e5;
 
 /// Whether all lengths of a surface are in their range, and none is too long for another.
 fn check_lengths(surface: &'static str, lengths: &[(&'static str, f32)]) -> Result<(), SurfaceError> {
-    lengths.iter().try_for_each(|&(name, value)| SurfaceField { surface, name, value }.check())?;
+    lengths.iter().try_for_each(|&(name, value)| SurfaceField::length(surface, name, value).check())?;
     let shortest = lengths.iter().map(|length| length.1).fold(f32::MAX, f32::min);
     match lengths.iter().find(|length| length.1 > MOST_TIMES * shortest) {
         None => Ok(()),
@@ -101,61 +91,42 @@ fn check_lengths(surface: &'static str, lengths: &[(&'static str, f32)]) -> Resu
 }
 
 /// A field of a surface: checked, or brought into its range.
-struct SurfaceField<T> {
+struct SurfaceField {
     surface: &'static str,
     name: &'static str,
-    value: T,
+    value: f64,
+    range: RangeInclusive<f64>,
+    expected: String,
 }
 
-impl SurfaceField<f32> {
+impl SurfaceField {
+    fn length(surface: &'static str, name: &'static str, value: f32) -> Self {
+        let range = f64::from(*LENGTHS.start())..=f64::from(*LENGTHS.end());
+        let expected = "a length from 1e-30 to 1e30 is expected".to_owned();
+        Self { surface, name, value: f64::from(value), range, expected }
+    }
+
+    fn count(surface: &'static str, name: &'static str, value: u32, range: RangeInclusive<u32>) -> Self {
+        let expected = format!("a number from {} to {} is expected", range.start(), range.end());
+        let range = f64::from(*range.start())..=f64::from(*range.end());
+        Self { surface, name, value: f64::from(value), range, expected }
+    }
+
     fn check(&self) -> Result<(), SurfaceError> {
-        if LENGTHS.contains(&self.value) {
+        if self.range.contains(&self.value) {
             return Ok(());
         }
-        Err(SurfaceError {
-            surface: self.surface,
-            field: self.name,
-            value: f64::from(self.value),
-            expected: "a length from 1e-30 to 1e30 is expected".to_owned(),
-        })
+        let expected = self.expected.clone();
+        Err(SurfaceError { surface: self.surface, field: self.name, value: self.value, expected })
     }
 
     /// The nearest value in range, 1 for NaN.
-    fn nearest(&self) -> f32 {
-        match self.check() {
-            Ok(()) => self.value,
-            Err(error) => {
-                let nearest =
-                    if self.value.is_nan() { 1.0 } else { self.value.clamp(*LENGTHS.start(), *LENGTHS.end()) };
-                log::warn!("{error}; made with {nearest}");
-                nearest
-            }
-        }
-    }
-}
-
-impl SurfaceField<u32> {
-    fn check(&self, range: std::ops::RangeInclusive<u32>) -> Result<(), SurfaceError> {
-        if range.contains(&self.value) {
-            return Ok(());
-        }
-        Err(SurfaceError {
-            surface: self.surface,
-            field: self.name,
-            value: f64::from(self.value),
-            expected: format!("a number from {} to {} is expected", range.start(), range.end()),
-        })
-    }
-
-    fn nearest(&self, range: std::ops::RangeInclusive<u32>) -> u32 {
-        match self.check(range.clone()) {
-            Ok(()) => self.value,
-            Err(error) => {
-                let nearest = self.value.clamp(*range.start(), *range.end());
-                log::warn!("{error}; made with {nearest}");
-                nearest
-            }
-        }
+    fn nearest(&self) -> f64 {
+        let Err(error) = self.check() else { return self.value };
+        let nearest = if self.value.is_nan() { 1.0 } else { self.value.clamp(*self.range.start(), *self.range.end()) };
+        // As `f32`, which a length is.
+        log::warn!("{error}; made with {}", nearest as f32);
+        nearest
     }
 }
 
@@ -179,7 +150,7 @@ mod tests {
 
     #[test]
     fn the_nearest_value_in_range() {
-        let length = |value: f32| SurfaceField { surface: "Test", name: "length", value }.nearest();
+        let length = |value: f32| SurfaceField::length("Test", "length", value).nearest() as f32;
         for (value, nearest) in [
             (2.0, 2.0),
             (0.0, 1e-30),
@@ -190,7 +161,7 @@ mod tests {
         ] {
             assert_eq!(length(value).to_bits(), f32::to_bits(nearest), "{value}");
         }
-        let count = |value: u32| SurfaceField { surface: "Test", name: "count", value }.nearest(3..=7);
+        let count = |value: u32| SurfaceField::count("Test", "count", value, 3..=7).nearest() as u32;
         assert_eq!([0, 3, 5, 7, 8, u32::MAX].map(count), [3, 3, 5, 7, 7, 7]);
     }
 }

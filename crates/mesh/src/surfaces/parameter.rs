@@ -89,36 +89,6 @@ pub(super) fn half_turn(at: Parameter) -> (f64, f64) {
     (sin, if t > s { -cos } else { cos })
 }
 
-/// A point of the curve that a surface of revolution is made from: at the distance r from the Y axis, at the height y.
-pub(super) struct Profile {
-    /// (r, y).
-    pub(super) point: DVec2,
-    /// Its derivative by u.
-    pub(super) slope: DVec2,
-    /// Its outward unit normal: the slope (dr, dy) turned to (−dy, dr).
-    pub(super) normal: DVec2,
-}
-
-impl Profile {
-    /// The point after a part v of a turn about the Y axis, from +X toward +Z.
-    pub(super) fn revolved(self, u: Parameter, v: Parameter) -> SurfacePoint {
-        let (sin, cos) = turn(v);
-        let about = |p: DVec2| DVec3::new(p.x * cos, p.y, p.x * sin);
-        SurfacePoint {
-            position: about(self.point),
-            du: about(self.slope),
-            dv: TAU * self.point.x * DVec3::new(-sin, 0.0, cos),
-            normal: about(self.normal),
-            uv: uv_at(u, v),
-        }
-    }
-
-    /// The normal from the slope.
-    pub(super) fn new(point: DVec2, slope: DVec2) -> Self {
-        Self { point, slope, normal: slope.perp().normalize() }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -34,16 +34,14 @@ impl Plane {
     /// # Errors
     /// The first field that is not.
     pub fn validate(&self) -> Result<(), SurfaceError> {
-        self.size_field().check()?;
-        self.divisions_field().check(1..=Self::MAX_DIVISIONS)
+        self.fields().iter().try_for_each(SurfaceField::check)
     }
 
-    fn size_field(self) -> SurfaceField<f32> {
-        SurfaceField { surface: "Plane", name: "size", value: self.size }
-    }
-
-    fn divisions_field(self) -> SurfaceField<u32> {
-        SurfaceField { surface: "Plane", name: "divisions", value: self.divisions }
+    fn fields(self) -> [SurfaceField; 2] {
+        [
+            SurfaceField::length("Plane", "size", self.size),
+            SurfaceField::count("Plane", "divisions", self.divisions, 1..=Self::MAX_DIVISIONS),
+        ]
     }
 }
 
@@ -51,10 +49,10 @@ impl From<Plane> for Mesh {
     /// Fields out of range are taken at their nearest value in range, with a warning in the log; see
     /// [`Plane::validate`].
     fn from(plane: Plane) -> Self {
-        let size = plane.size_field().nearest();
-        let n = plane.divisions_field().nearest(1..=Plane::MAX_DIVISIONS);
+        let [size, divisions] = plane.fields().map(|field| field.nearest());
+        let n = divisions as u32;
         let along = |i: u32| f64::from(i) / f64::from(n);
-        let at = |i: u32| (f64::from(size) * (along(i) - 0.5)) as f32;
+        let at = |i: u32| (size * (along(i) - 0.5)) as f32;
         let grid = || (0..=n).flat_map(move |j| (0..=n).map(move |i| (i, j)));
         let positions: Vec<Vec3> = grid().map(|(i, j)| Vec3::new(at(i), 0.0, at(j))).collect();
         let uvs = grid().map(|(i, j)| Vec2::new(along(i) as f32, along(j) as f32)).collect();

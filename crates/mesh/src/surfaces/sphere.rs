@@ -49,21 +49,15 @@ impl UvSphere {
     /// # Errors
     /// The first field that is not.
     pub fn validate(&self) -> Result<(), SurfaceError> {
-        self.radius_field().check()?;
-        self.segments_field().check(3..=Self::MAX_SEGMENTS)?;
-        self.rings_field().check(2..=Self::MAX_RINGS)
+        self.fields().iter().try_for_each(SurfaceField::check)
     }
 
-    fn radius_field(self) -> SurfaceField<f32> {
-        SurfaceField { surface: "UvSphere", name: "radius", value: self.radius }
-    }
-
-    fn segments_field(self) -> SurfaceField<u32> {
-        SurfaceField { surface: "UvSphere", name: "segments", value: self.segments }
-    }
-
-    fn rings_field(self) -> SurfaceField<u32> {
-        SurfaceField { surface: "UvSphere", name: "rings", value: self.rings }
+    fn fields(self) -> [SurfaceField; 3] {
+        [
+            SurfaceField::length("UvSphere", "radius", self.radius),
+            SurfaceField::count("UvSphere", "segments", self.segments, 3..=Self::MAX_SEGMENTS),
+            SurfaceField::count("UvSphere", "rings", self.rings, 2..=Self::MAX_RINGS),
+        ]
     }
 }
 
@@ -71,10 +65,8 @@ impl From<UvSphere> for Mesh {
     /// Fields out of range are taken at their nearest value in range, with a warning in the log; see
     /// [`UvSphere::validate`].
     fn from(sphere: UvSphere) -> Self {
-        let radius = f64::from(sphere.radius_field().nearest());
-        let segments = sphere.segments_field().nearest(3..=UvSphere::MAX_SEGMENTS);
-        let rings = sphere.rings_field().nearest(2..=UvSphere::MAX_RINGS);
-
+        let [radius, segments, rings] = sphere.fields().map(|field| field.nearest());
+        let (segments, rings) = (segments as u32, rings as u32);
         let meridians: Vec<(f64, f64)> = (0..=segments).map(|i| turn(Parameter::fraction(i, segments))).collect();
         let count = meridians.len() * (rings as usize + 1);
         let mut positions = Vec::with_capacity(count);

@@ -2,7 +2,7 @@
 
 use bevy_math::{DVec3, Vec2};
 
-use super::newell::{CONTROL_POINTS, PATCHES};
+use super::newell::PATCHES;
 use super::tessellate::{Grids, Vertex, counts_for};
 use super::{BezierPatch, Surface, SurfaceError, SurfaceField, SurfacePiece};
 use crate::Mesh;
@@ -59,11 +59,11 @@ impl Teapot {
     /// # Errors
     /// They are not.
     pub fn validate(&self) -> Result<(), SurfaceError> {
-        self.divisions_field().check(1..=Self::MAX_DIVISIONS)
+        self.divisions_field().check()
     }
 
-    fn divisions_field(self) -> SurfaceField<u32> {
-        SurfaceField { surface: "Teapot", name: "divisions", value: self.divisions }
+    fn divisions_field(self) -> SurfaceField {
+        SurfaceField::count("Teapot", "divisions", self.divisions, 1..=Self::MAX_DIVISIONS)
     }
 }
 
@@ -74,9 +74,11 @@ fn mesh_from_newell(p: DVec3) -> DVec3 {
 
 /// The patches in Newell's frame.
 fn patches() -> impl Iterator<Item = BezierPatch> {
-    PATCHES.iter().map(|patch| {
-        let points = patch.iter().map(|&i| DVec3::from_array(CONTROL_POINTS[i])).collect();
-        BezierPatch::new(4, points).expect("four rows of four points in range")
+    PATCHES.iter().flat_map(|&(symmetry, points)| {
+        let first = points.map(DVec3::from_array);
+        std::iter::successors(Some(first), move |patch| Some(symmetry.next(patch)))
+            .take(symmetry.count())
+            .map(|points| BezierPatch::new(4, points.to_vec()).expect("four rows of four points in range"))
     })
 }
 
@@ -84,7 +86,7 @@ impl From<Teapot> for Mesh {
     /// Divisions out of range are taken at their nearest value in range, with a warning in the log; see
     /// [`Teapot::validate`].
     fn from(teapot: Teapot) -> Self {
-        let n = teapot.divisions_field().nearest(1..=Teapot::MAX_DIVISIONS);
+        let n = teapot.divisions_field().nearest() as u32;
         let mut grids = Grids::default();
         for patch in patches() {
             grids.add(n, n, |u, v| {
@@ -116,34 +118,28 @@ mod tests {
 
     #[test]
     fn the_figures_are_whole() {
-        let mut used = vec![false; CONTROL_POINTS.len()];
-        PATCHES.as_flattened().iter().for_each(|&i| used[i] = true);
-        let unused: Vec<usize> = (0..used.len()).filter(|&i| !used[i]).collect();
-        // Four points a hair beside the top of the knob, which the published patches pass over.
-        assert_eq!(unused, [204, 205, 215, 222]);
-        // A quarter turn about the axis carries the surfaces of revolution onto themselves, patch by patch.
-        for first in [0, 4, 8, 20, 24, 28] {
-            let turned = |p: [f64; 3]| {
-                let clockwise = if first == 28 { -1.0 } else { 1.0 };
-                [clockwise * p[1], -clockwise * p[0], p[2]]
-            };
-            for (patch, next) in PATCHES[first..first + 4].iter().zip(&PATCHES[first + 1..first + 4]) {
-                for (&i, &j) in patch.iter().zip(next) {
-                    let (turned, found) = (turned(CONTROL_POINTS[i]), CONTROL_POINTS[j]);
-                    assert!(DVec3::from(turned) == DVec3::from(found), "points {i} and {j}");
-                }
+        let all: Vec<BezierPatch> = patches().collect();
+        let row = |patch: usize, row: usize| all[patch].points()[4 * row..4 * row + 4].to_vec();
+        let column = |patch: usize, column: usize| -> Vec<DVec3> {
+            all[patch].points().iter().skip(column).step_by(4).copied().collect()
+        };
+        let mut first = 0;
+        for (symmetry, _) in PATCHES {
+            // The patches of a part go around: each ends where the next begins, and the last where the first does.
+            let count = symmetry.count();
+            for i in 0..count {
+                assert_eq!(column(first + i, 3), column(first + (i + 1) % count, 0), "patch {}", first + i);
             }
+            first += count;
         }
-        // Handle and spout are their own mirror images.
-        for first in [12, 14, 16, 18] {
-            for row in 0..4 {
-                for column in 0..4 {
-                    let [x, y, z] = CONTROL_POINTS[PATCHES[first][4 * row + column]];
-                    let mirrored = CONTROL_POINTS[PATCHES[first + 1][4 * row + 3 - column]];
-                    assert_eq!(DVec3::new(x, -y, z), DVec3::from(mirrored));
-                }
-            }
+        assert_eq!(first, 32);
+        // Rim to body, its upper half to its lower; both of the handle, of the spout, and the knob to the lid. The
+        // bottom goes around the other way.
+        for (upper, lower) in [(0, 4), (4, 8), (12, 14), (16, 18), (20, 24)] {
+            assert_eq!(row(upper, 3), row(lower, 0), "patches {upper} and {lower}");
         }
+        let rim = row(8, 3).into_iter().map(|p| p * DVec3::new(1.0, -1.0, 1.0)).collect::<Vec<_>>();
+        assert_eq!(row(28, 3), rim);
     }
 
     #[test]

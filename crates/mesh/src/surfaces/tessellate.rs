@@ -81,9 +81,9 @@ impl Tessellation {
     fn validate(self, [least_rows, least_columns]: [u32; 2]) -> Result<(), SurfaceError> {
         match self {
             Self::Count { rows, columns } => {
-                let field = |name, value| SurfaceField { surface: "Tessellation", name, value };
-                field("rows", rows).check(least_rows..=Self::MAX_ROWS)?;
-                field("columns", columns).check(least_columns..=Self::MAX_COLUMNS)
+                let field = |name, value, range| SurfaceField::count("Tessellation", name, value, range);
+                field("rows", rows, least_rows..=Self::MAX_ROWS).check()?;
+                field("columns", columns, least_columns..=Self::MAX_COLUMNS).check()
             }
             Self::ChordError(length) if length > 0.0 && length.is_finite() => Ok(()),
             Self::ChordError(length) => Err(error("chord error", length, "a positive length is expected".to_owned())),
