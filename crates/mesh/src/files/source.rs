@@ -1,6 +1,5 @@
 //! What is read from: a file or bytes, how far reading is, and where the files lie that it refers to.
 
-use std::borrow::Cow;
 use std::fs::{self, File};
 use std::io::{BufRead, BufReader, Read as _};
 use std::ops::ControlFlow;
@@ -53,23 +52,19 @@ impl<'a> Source<'a> {
 
     /// Takes bytes in memory for the content of a file.
     pub(super) fn of_bytes(path: &'a Path, bytes: &'a [u8]) -> Result<Self, LoadError> {
-        Ok(Self { path, reader: Reader::of_bytes(path, bytes)?, around: ModelFolder::nowhere() })
+        let reader = Reader::new(path, bytes, bytes.len() as u64, None)?;
+        Ok(Self { path, reader, around: ModelFolder::nowhere() })
     }
 }
 
 /// The bytes of a file, in order.
 pub(super) struct Reader<'a> {
     path: &'a Path,
-    from: From<'a>,
+    from: Box<dyn BufRead + 'a>,
     on_progress: Option<&'a OnProgress<'a>>,
     done: u64,
     of: u64,
     told: u64,
-}
-
-enum From<'a> {
-    File(BufReader<File>),
-    Bytes(&'a [u8]),
 }
 
 impl<'a> Reader<'a> {
@@ -81,18 +76,21 @@ impl<'a> Reader<'a> {
         if !metadata.is_file() {
             return Err(LoadError::NotAFile { path: path.to_owned() });
         }
-        if metadata.len() == 0 {
-            return Err(LoadError::Empty { path: path.to_owned() });
-        }
-        let file = BufReader::with_capacity(CHUNK, File::open(path).map_err(failed)?);
-        Ok(Self { path, from: From::File(file), on_progress, done: 0, of: metadata.len(), told: 0 })
+        let file = File::open(path).map_err(failed)?;
+        Self::new(path, BufReader::with_capacity(CHUNK, file), metadata.len(), on_progress)
     }
 
-    fn of_bytes(path: &'a Path, bytes: &'a [u8]) -> Result<Self, LoadError> {
-        if bytes.is_empty() {
+    /// So many bytes, at least one.
+    fn new(
+        path: &'a Path,
+        from: impl BufRead + 'a,
+        of: u64,
+        on_progress: Option<&'a OnProgress<'a>>,
+    ) -> Result<Self, LoadError> {
+        if of == 0 {
             return Err(LoadError::Empty { path: path.to_owned() });
         }
-        Ok(Self { path, from: From::Bytes(bytes), on_progress: None, done: 0, of: bytes.len() as u64, told: 0 })
+        Ok(Self { path, from: Box::new(from), on_progress, done: 0, of, told: 0 })
     }
 
     pub(super) fn path(&self) -> &'a Path {
@@ -106,22 +104,14 @@ impl<'a> Reader<'a> {
 
     /// Appends a line with its end; returns whether there was one.
     pub(super) fn line(&mut self, buffer: &mut Vec<u8>) -> Result<bool, LoadError> {
-        let read = match &mut self.from {
-            From::File(file) => file.read_until(b'\n', buffer),
-            From::Bytes(bytes) => bytes.read_until(b'\n', buffer),
-        };
-        let count = read.map_err(|source| self.failed(source))?;
+        let count = self.from.read_until(b'\n', buffer).map_err(|source| self.failed(source))?;
         self.advance(count)?;
         Ok(count > 0)
     }
 
     /// The bytes to come, as many as the buffer takes and as there are; they are read again. At most [`CHUNK`] at once.
     pub(super) fn peek(&mut self, buffer: &mut [u8]) -> Result<usize, LoadError> {
-        let ahead = match &mut self.from {
-            From::File(file) => file.fill_buf(),
-            From::Bytes(bytes) => bytes.fill_buf(),
-        };
-        match ahead {
+        match self.from.fill_buf() {
             Ok(ahead) => {
                 let count = ahead.len().min(buffer.len());
                 buffer[..count].copy_from_slice(&ahead[..count]);
@@ -135,12 +125,7 @@ impl<'a> Reader<'a> {
     pub(super) fn fill(&mut self, buffer: &mut [u8]) -> Result<usize, LoadError> {
         let mut filled = 0;
         while filled < buffer.len() {
-            let rest = &mut buffer[filled..];
-            let read = match &mut self.from {
-                From::File(file) => file.read(rest),
-                From::Bytes(bytes) => bytes.read(rest),
-            };
-            match read {
+            match self.from.read(&mut buffer[filled..]) {
                 Ok(0) => break,
                 Ok(count) => {
                     filled += count;
@@ -154,20 +139,13 @@ impl<'a> Reader<'a> {
     }
 
     /// All bytes.
-    pub(super) fn whole(mut self) -> Result<Cow<'a, [u8]>, LoadError> {
-        if let From::Bytes(bytes) = self.from {
-            return Ok(Cow::Borrowed(bytes));
-        }
+    pub(super) fn whole(mut self) -> Result<Vec<u8>, LoadError> {
         let mut whole = Vec::new();
         // The length is the system's word, not the file's; it may still be wrong.
         let _ = whole.try_reserve_exact(usize::try_from(self.of).unwrap_or(0));
         loop {
-            let read = match &mut self.from {
-                From::File(file) => file.take(REPORT).read_to_end(&mut whole),
-                From::Bytes(bytes) => bytes.read_to_end(&mut whole),
-            };
-            match read.map_err(|source| self.failed(source))? {
-                0 => return Ok(Cow::Owned(whole)),
+            match self.from.by_ref().take(REPORT).read_to_end(&mut whole).map_err(|source| self.failed(source))? {
+                0 => return Ok(whole),
                 count => self.advance(count)?,
             }
         }

@@ -127,7 +127,7 @@ fn binary(mut reader: Reader, count: u32, warnings: &mut Vec<String>, name: Stri
 
 /// `solid`, facets, `endsolid`, perhaps several.
 fn text(reader: Reader, skipped: &mut Skipped, name: &str) -> Result<Vec<StlSolid>, LoadError> {
-    let mut lines = Statements::new(reader);
+    let mut lines = Statements::new(reader, false);
     let mut solids: Vec<StlSolid> = Vec::new();
     let mut normal = Vec3::ZERO;
     let mut corners = Vec::new();

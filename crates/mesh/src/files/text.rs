@@ -24,26 +24,14 @@ pub(super) struct Statements<'a> {
     /// The number of the line in the buffer, from 1, and how many lines were read.
     line: usize,
     read: usize,
-    /// Whether a backslash at the end of a line joins the next one to it.
     continued: bool,
 }
 
 impl<'a> Statements<'a> {
-    pub(super) fn new(reader: Reader<'a>) -> Self {
-        Self {
-            reader,
-            buffer: Vec::new(),
-            latin1: String::new(),
-            latin1_lines: None,
-            line: 0,
-            read: 0,
-            continued: false,
-        }
-    }
-
-    /// A backslash at the end of a line that is no comment joins the next one to it.
-    pub(super) fn with_continued_lines(self) -> Self {
-        Self { continued: true, ..self }
+    /// Where lines are `continued`, a backslash at the end of one that is no comment joins the next one to it.
+    pub(super) fn new(reader: Reader<'a>, continued: bool) -> Self {
+        let (buffer, latin1) = (Vec::new(), String::new());
+        Self { reader, buffer, latin1, latin1_lines: None, line: 0, read: 0, continued }
     }
 
     pub(super) fn path(&self) -> &'a Path {

@@ -89,8 +89,7 @@ fn file(name: &str, uri: &str, around: ModelFolder) -> Result<Vec<u8>, Fault> {
         return Err(refused());
     }
     let path = around.find(&decoded).ok_or_else(refused)?;
-    let bytes = around.open(&path).and_then(Reader::whole).map_err(Fault::Elsewhere)?;
-    Ok(bytes.into_owned())
+    around.open(&path).and_then(Reader::whole).map_err(Fault::Elsewhere)
 }
 
 /// `%20` and the like resolved (RFC 3986 §2.1); `None` where a `%` has no two hexadecimal digits after it, or where

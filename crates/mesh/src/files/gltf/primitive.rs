@@ -43,26 +43,27 @@ impl<'a> Primitives<'a> {
 
     pub(super) fn into_warnings(self) -> Vec<String> {
         let mut warnings = self.warnings;
-        if self.without_normals > 0 {
-            warnings.push(format!(
-                "{} primitives have no normals; smooth ones are computed, where glTF asks for flat ones",
-                self.without_normals
-            ));
-        }
-        if self.with_targets > 0 {
-            warnings.push(format!("the morph targets of {} primitives are skipped", self.with_targets));
-        }
-        if self.with_more > 0 {
-            warnings.push(format!(
-                "of {} primitives only the first two texture coordinates and the first colours are read",
-                self.with_more
-            ));
-        }
-        if self.with_bad_tangents > 0 {
-            warnings.push(format!(
-                "the tangents of {} primitives are skipped, since not all are of unit length with a sign of 1 or -1",
-                self.with_bad_tangents
-            ));
+        for (count, before, after) in [
+            (
+                self.without_normals,
+                "",
+                " primitives have no normals; smooth ones are computed, where glTF asks for flat ones",
+            ),
+            (self.with_targets, "the morph targets of ", " primitives are skipped"),
+            (
+                self.with_more,
+                "of ",
+                " primitives only the first two texture coordinates and the first colours are read",
+            ),
+            (
+                self.with_bad_tangents,
+                "the tangents of ",
+                " primitives are skipped, since not all are of unit length with a sign of 1 or -1",
+            ),
+        ] {
+            if count > 0 {
+                warnings.push(format!("{before}{count}{after}"));
+            }
         }
         warnings
     }

@@ -19,7 +19,7 @@ use crate::{Model, SourceMaterial};
 /// missing MTL file is a warning, a malformed one an error.
 pub(super) fn parse(source: Source) -> Result<Model, LoadError> {
     let path = source.path;
-    let mut lines = Statements::new(source.reader).with_continued_lines();
+    let mut lines = Statements::new(source.reader, true);
     let mut obj = Obj::default();
     while let Some(statement) = lines.next()? {
         obj.add(&statement)?;

@@ -24,7 +24,7 @@ pub(super) fn parse(
 ) -> Result<Vec<String>, LoadError> {
     let mut images = HashMap::new();
     let path = reader.path().to_owned();
-    let mut lines = Statements::new(reader);
+    let mut lines = Statements::new(reader, false);
     let mut skipped = Skipped::default();
     let mut material: Option<MtlMaterial> = None;
     while let Some(statement) = lines.next()? {
@@ -166,8 +166,7 @@ fn map(
         return None;
     }
     let bytes = images.entry(name.clone()).or_insert_with(|| {
-        let read =
-            around.find(&name).map(|path| around.open(&path).and_then(|reader| Ok(reader.whole()?.into_owned())));
+        let read = around.find(&name).map(|path| around.open(&path).and_then(Reader::whole));
         match read {
             Some(Ok(bytes)) => bytes.into(),
             Some(Err(error)) => {

@@ -22,7 +22,7 @@ const FACE: &str = "`f` and three vertex numbers, counted from 1, are";
 /// skipped with a warning.
 pub(super) fn parse(source: Source) -> Result<Model, LoadError> {
     let path = source.path;
-    let mut lines = Statements::new(source.reader);
+    let mut lines = Statements::new(source.reader, false);
     let mut smf = Smf::new(stem(path));
     while let Some(statement) = lines.next()? {
         smf.add(&statement)?;
