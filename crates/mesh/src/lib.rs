@@ -45,7 +45,6 @@ mod tangents;
 
 pub use bounds::Bounds;
 pub use component::{Mesh3d, MeshPlugin, SpawnOrder};
-pub use displace::{HeightImage, HeightImageError};
 pub use files::{
     Format, LoadError, LoadOptions, LoadProgress, WriteError, load, load_bytes, load_with, write, write_quantised,
 };

@@ -87,12 +87,9 @@ pub enum MeshError {
         /// What was found there; numbers that the attribute does not have are 0.
         value: [f32; 3],
     },
-    /// What was asked for takes texture coordinates.
-    #[error("the mesh has no uvs; {what} takes one a vertex")]
-    NoUvs {
-        /// `"a tangent"` or `"displacement by an image"`.
-        what: &'static str,
-    },
+    /// Tangents take texture coordinates.
+    #[error("the mesh has no uvs; a tangent takes one a vertex")]
+    NoUvs,
     /// Subdivision would make too many triangles.
     #[error("{count} triangles after {times} subdivisions; at most {most} are expected")]
     TooFine {

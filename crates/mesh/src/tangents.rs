@@ -27,7 +27,7 @@ impl Mesh {
     /// # Errors
     /// The mesh does not have it.
     pub fn with_tangents_of(self, set: usize) -> Result<Self, MeshError> {
-        let uvs = self.uv_set(set).ok_or(MeshError::NoUvs { what: "a tangent" })?;
+        let uvs = self.uv_set(set).ok_or(MeshError::NoUvs)?;
         let tangents = Corners::tangents(&self, uvs);
         let vertices = Numbering::new(tangents.len(), |corner| {
             let [x, y, z, w] = tangents[corner].to_array().map(f32::to_bits);

@@ -4,10 +4,7 @@
 use std::collections::HashMap;
 
 use bevy_math::{DVec3, Vec2, Vec3, Vec4};
-use halfway_mesh::{
-    Cuboid, HeightImage, HeightImageError, Mesh, MeshError, NormalWeighting, Normals, Plane, Subdivision, UvSphere,
-    Weld,
-};
+use halfway_mesh::{Cuboid, Mesh, MeshError, NormalWeighting, Normals, Plane, Subdivision, UvSphere, Weld};
 
 /// A cube of eight vertices and edge 1.
 fn cube() -> Mesh {
@@ -64,45 +61,7 @@ fn normals_follow_the_heights() {
 }
 
 #[test]
-fn images_are_bilinear_between_texel_centres() {
-    let mut image = HeightImage::new(2, 2, vec![0.0, 1.0, 2.0, 4.0]).unwrap();
-    for (u, v, expected) in [
-        (0.25, 0.25, 0.0),
-        (0.75, 0.25, 1.0),
-        (0.25, 0.75, 2.0),
-        (0.5, 0.25, 0.5),
-        (0.5, 0.5, 1.75),
-        (0.0, 0.25, 0.0),
-        (-9.0, 9.0, 2.0),
-        (1e30, -1e30, 1.0),
-    ] {
-        assert_eq!(image.at(Vec2::new(u, v)), expected, "{u} {v}");
-    }
-    image.repeat = [true, false];
-    for (u, v, expected) in [(0.0, 0.25, 0.5), (1.0, 0.25, 0.5), (-0.25, 0.25, 1.0), (7.25, 9.0, 2.0)] {
-        assert_eq!(image.at(Vec2::new(u, v)), expected, "{u} {v}");
-    }
-    let sheet = sheet(3);
-    let (mesh, _) = sheet.displaced_by_image(&image, 0.25).unwrap();
-    for (p, uv) in mesh.positions().iter().zip(sheet.uvs().unwrap()) {
-        assert_eq!(p.y, image.at(*uv) * 0.25);
-    }
-}
-
-#[test]
 fn bad_heights_are_refused() {
-    let count = |found, width, height| HeightImageError::Count { found, width, height };
-    assert_eq!(HeightImage::new(2, 2, vec![0.0; 3]), Err(count(3, 2, 2)));
-    assert_eq!(HeightImage::new(0, 0, vec![]), Err(count(0, 0, 0)));
-    assert_eq!(HeightImage::new(u32::MAX, u32::MAX, vec![0.0]), Err(count(1, u32::MAX, u32::MAX)));
-    let infinite = HeightImage::new(2, 2, vec![0.0, 0.0, f32::INFINITY, 0.0]);
-    assert_eq!(infinite, Err(HeightImageError::NotFinite { column: 0, row: 1, value: f32::INFINITY }));
-    let image = HeightImage::new(1, 1, vec![1.0]).unwrap();
-    let no_uvs = MeshError::NoUvs { what: "displacement by an image" };
-    assert_eq!(
-        Mesh::new(vec![Vec3::ZERO, Vec3::X, Vec3::Y], vec![0, 1, 2]).unwrap().displaced_by_image(&image, 1.0),
-        Err(no_uvs)
-    );
     let not_finite = |attribute, vertex, value| Err(MeshError::NotFinite { attribute, vertex, value });
     let inf = f32::INFINITY;
     assert_eq!(cube().displaced(|v| if v == 3 { inf } else { 0.0 }), not_finite("height", 3, [inf, 0.0, 0.0]));
