@@ -42,6 +42,7 @@ mod source_map;
 mod subdivide;
 mod surfaces;
 mod tangents;
+mod triangle_tree;
 
 pub use bounds::Bounds;
 pub use component::{Mesh3d, MeshPlugin, SpawnOrder};

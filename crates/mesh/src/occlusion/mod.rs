@@ -2,7 +2,6 @@
 
 mod dilated;
 mod places;
-mod rays;
 
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
@@ -14,7 +13,7 @@ use thiserror::Error;
 
 use self::dilated::dilated;
 use self::places::{TexelPlaces, UvPlace};
-use self::rays::Occluders;
+use crate::triangle_tree::{Ray, TriangleTree};
 use crate::{Mesh, face_normal};
 
 /// How ambient occlusion is baked: see [`Mesh::baked_occlusion`].
@@ -136,8 +135,7 @@ impl Mesh {
     /// counts; what lies beyond it is not baked. Texels that are on no triangle continue the mean of their neighbours,
     /// ring by ring, so that no filter finds anything else beside a seam.
     ///
-    /// A ray looks at 256 and at 16 near triangles as a whole; the time grows with their number. `progress` is told how
-    /// many rows of how many are done, from any thread, and may stop the work.
+    /// `progress` is told how many rows of how many are done, from any thread, and may stop the work.
     ///
     /// # Errors
     /// Numbers out of their range, no such texture coordinates, nothing on the image, or [`OcclusionError::Stopped`].
@@ -150,11 +148,19 @@ impl Mesh {
         bake.validate()?;
         let uvs = self.uv_set(bake.uv_set).ok_or(OcclusionError::NoUvs { set: bake.uv_set })?;
         let places = TexelPlaces::new(self, uvs, bake.size);
-        let occluders = Occluders::new(std::iter::once(self).chain(occluders.iter().copied()));
+        let all = || std::iter::once(self).chain(occluders.iter().copied());
+        let triangles: Vec<[Vec3; 3]> = all().flat_map(Self::triangle_corners).collect();
+        let tree = TriangleTree::new(triangles.len() as u32, |number| triangles[number as usize]);
+        let is_open = |ray: &Ray| !tree.any_along(ray, |number| meets(ray, triangles[number as usize]));
+        let largest = all().map(|mesh| mesh.bounds().min.abs().max(mesh.bounds().max.abs()).max_element());
+        let clearance = CLEARANCE * f64::from(largest.fold(0.0, f32::max));
         let [width, height] = bake.size;
         let done = AtomicU32::new(0);
         let row = |y: u32| {
-            let share = |x: u32| Some(self.openness(&occluders, &places.at(self, uvs, [x, y])?, bake, [x, y]) as f32);
+            let share = |x: u32| {
+                let place = places.at(self, uvs, [x, y])?;
+                Some(self.openness(&place, bake, [x, y], clearance, is_open) as f32)
+            };
             let row: Vec<Option<f32>> = (0..width).map(share).collect();
             match progress(done.fetch_add(1, Ordering::Relaxed) + 1, height) {
                 ControlFlow::Continue(()) => Ok(row),
@@ -170,9 +176,16 @@ impl Mesh {
         Ok(OcclusionImage { size: bake.size, shares: dilated(shares, width as usize), baked })
     }
 
-    /// A at a place.
-    fn openness(&self, occluders: &Occluders, place: &UvPlace, bake: &OcclusionBake, texel: [u32; 2]) -> f64 {
-        let vertices = self.triangle(place.triangle).map(|vertex| vertex as usize);
+    /// A at a place, of rays that start so far above its triangle.
+    fn openness(
+        &self,
+        place: &UvPlace,
+        bake: &OcclusionBake,
+        texel: [u32; 2],
+        clearance: f64,
+        is_open: impl Fn(&Ray) -> bool,
+    ) -> f64 {
+        let vertices = self.indices().as_chunks::<3>().0[place.triangle as usize].map(|vertex| vertex as usize);
         let corners = vertices.map(|vertex| self.positions()[vertex].as_dvec3());
         let normals = vertices.map(|vertex| self.normals()[vertex].as_dvec3());
         let mixed = |[a, b, c]: [DVec3; 3]| a * place.weights[0] + b * place.weights[1] + c * place.weights[2];
@@ -184,19 +197,38 @@ impl Mesh {
         let n = mixed(normals).try_normalize().unwrap_or(face);
         // Normals may say the opposite of the winding; rays start on their side.
         let face = if face.dot(n) < 0.0 { -face } else { face };
-        let origin = p + mixed(raised) + face * occluders.clearance();
+        let origin = p + mixed(raised) + face * clearance;
         let axes = axes_about(n);
         let turn = f64::from(texel[0]) * R2[0] + f64::from(texel[1]) * R2[1];
-        let is_open = |ray: &u32| {
-            let direction = axes * cosine_weighted(*ray, bake.rays, turn);
-            !occluders.meet(origin, direction, bake.reach.into())
+        let ray = |number: u32| {
+            let direction = axes * cosine_weighted(number, bake.rays, turn);
+            Ray { origin, direction, reach: bake.reach.into() }
         };
-        f64::from((0..bake.rays).filter(is_open).count() as u32) / f64::from(bake.rays)
+        let open = (0..bake.rays).filter(|&number| is_open(&ray(number))).count();
+        open as f64 / f64::from(bake.rays)
     }
+}
 
-    fn triangle(&self, number: u32) -> [u32; 3] {
-        std::array::from_fn(|corner| self.indices()[3 * number as usize + corner])
+/// How far rays start above a triangle, in shares of the largest coordinate, so that no rounding lets them meet it: some
+/// roundings of `f32` positions.
+const CLEARANCE: f64 = 1.0 / (1 << 20) as f64;
+
+/// Whether a ray meets a triangle, from either side (Möller and Trumbore 1997, "Fast, minimum storage ray/triangle
+/// intersection").
+fn meets(ray: &Ray, corners: [Vec3; 3]) -> bool {
+    let [corner, b, c] = corners.map(Vec3::as_dvec3);
+    let (b, c) = (b - corner, c - corner);
+    let normal = ray.direction.cross(c);
+    let determinant = b.dot(normal);
+    if determinant == 0.0 {
+        return false;
     }
+    let from = ray.origin - corner;
+    let u = from.dot(normal) / determinant;
+    let across = from.cross(b);
+    let v = ray.direction.dot(across) / determinant;
+    let t = c.dot(across) / determinant;
+    u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 0.0 && t <= ray.reach
 }
 
 /// The fractions of the sequence R2 (Roberts 2018): 1/g and 1/g², g³ = g + 1.

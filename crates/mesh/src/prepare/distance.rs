@@ -6,8 +6,8 @@ use std::collections::BinaryHeap;
 use bevy_math::Vec3;
 use rayon::prelude::*;
 
-use super::nearest::{TriangleCorners, TriangleTree};
 use crate::Mesh;
+use crate::triangle_tree::{TriangleCorners, TriangleTree};
 
 /// Bounds of a distance.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,7 +4,6 @@
 mod components;
 mod distance;
 mod lod;
-mod nearest;
 mod patches;
 mod repair;
 mod report;
@@ -27,6 +26,11 @@ impl Mesh {
     /// The corners of a triangle by its number.
     fn corners_of(&self, triangle: u32) -> [Vec3; 3] {
         self.indices().as_chunks::<3>().0[triangle as usize].map(|vertex| self.positions()[vertex as usize])
+    }
+
+    /// The corners of all triangles.
+    pub(crate) fn triangle_corners(&self) -> impl Iterator<Item = [Vec3; 3]> {
+        self.triangles().map(|triangle| triangle.map(|vertex| self.positions()[vertex as usize]))
     }
 
     /// The mesh with these triangles, its vertices in the order in which they are used first and the unused ones left

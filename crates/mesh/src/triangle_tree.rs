@@ -1,12 +1,12 @@
-//! The nearest triangle, by a tree of boxes.
+//! Triangles by place: a tree of boxes that finds the nearest one, and those along a ray.
 
 use bevy_math::{DVec3, Vec3};
 
 /// Three corners.
-pub(super) type TriangleCorners = [DVec3; 3];
+pub(crate) type TriangleCorners = [DVec3; 3];
 
 /// Triangles, found by place. `C` gives the corners of each by its number; they are not kept.
-pub(super) struct TriangleTree<C> {
+pub(crate) struct TriangleTree<C> {
     corners: C,
     /// The numbers of the triangles, leaf by leaf.
     triangles: Vec<u32>,
@@ -28,7 +28,7 @@ const LEAF: usize = 8;
 
 impl<C: Fn(u32) -> [Vec3; 3]> TriangleTree<C> {
     /// Of at least one triangle.
-    pub(super) fn new(count: u32, corners: C) -> Self {
+    pub(crate) fn new(count: u32, corners: C) -> Self {
         let key = |number: u32| (corners(number).into_iter().map(|corner| corner / 3.0).sum(), number);
         let mut keys: Vec<(Vec3, u32)> = (0..count).map(key).collect();
         let leaves = (count as usize).div_ceil(LEAF).next_power_of_two();
@@ -42,13 +42,13 @@ impl<C: Fn(u32) -> [Vec3; 3]> TriangleTree<C> {
     }
 
     /// The distance from one of the triangles, by its number.
-    pub(super) fn distance(&self, p: DVec3, triangle: u32) -> f64 {
+    pub(crate) fn distance(&self, p: DVec3, triangle: u32) -> f64 {
         self.distance_squared(p, triangle).sqrt()
     }
 
     /// The least distance from a triangle, and its number. The nearer the triangle of number `guess`, the sooner it is
     /// found.
-    pub(super) fn nearest(&self, p: DVec3, guess: u32) -> (f64, u32) {
+    pub(crate) fn nearest(&self, p: DVec3, guess: u32) -> (f64, u32) {
         let (mut least2, mut nearest) = (self.distance_squared(p, guess), guess);
         let mut waiting = vec![(self.nodes[0].distance_squared(p), 0)];
         while let Some((distance2, number)) = waiting.pop() {
@@ -71,6 +71,29 @@ impl<C: Fn(u32) -> [Vec3; 3]> TriangleTree<C> {
         }
         (least2.sqrt(), nearest)
     }
+
+    /// Whether `meets` holds for one of the triangles, by their numbers, that the ray may meet.
+    pub(crate) fn any_along(&self, ray: &Ray, meets: impl Fn(u32) -> bool + Copy) -> bool {
+        self.any_below(0, ray, meets)
+    }
+
+    fn any_below(&self, number: usize, ray: &Ray, meets: impl Fn(u32) -> bool + Copy) -> bool {
+        let node = &self.nodes[number];
+        if !node.may_meet(ray) {
+            return false;
+        }
+        match node.count {
+            0 => self.any_below(number + 1, ray, meets) || self.any_below(node.next as usize, ray, meets),
+            _ => self.triangles[node.triangles()].iter().any(|&triangle| meets(triangle)),
+        }
+    }
+}
+
+/// The part of a straight line from its origin to `reach` along its unit direction.
+pub(crate) struct Ray {
+    pub(crate) origin: DVec3,
+    pub(crate) direction: DVec3,
+    pub(crate) reach: f64,
 }
 
 /// The tree over the triangles of these numbers, found by their centroids, which come after `before` others.
@@ -103,6 +126,19 @@ fn bounds(points: impl Iterator<Item = Vec3>) -> (Vec3, Vec3) {
 impl Node {
     fn distance_squared(&self, p: DVec3) -> f64 {
         p.distance_squared(p.clamp(self.min.as_dvec3(), self.max.as_dvec3()))
+    }
+
+    /// Whether the ray meets the sphere around the box.
+    fn may_meet(&self, ray: &Ray) -> bool {
+        let (min, max) = (self.min.as_dvec3(), self.max.as_dvec3());
+        // Above what rounding may take away.
+        let radius = 0.5 * min.distance(max) * (1.0 + 1e-12);
+        let toward = 0.5 * (min + max) - ray.origin;
+        let along = toward.dot(ray.direction);
+        let aside = toward.length_squared() - along * along;
+        // Rounding of the difference of squares is below 1e-15 of them.
+        let is_near = aside <= radius * radius + 1e-12 * toward.length_squared();
+        is_near && along >= -radius && along <= ray.reach + radius
     }
 
     fn triangles(&self) -> std::ops::Range<usize> {
