@@ -1,13 +1,13 @@
 //! The edges of a list of triangles.
 
+use rayon::prelude::*;
+
 /// The edges between numbered points, and the triangles that pass them.
 ///
 /// A pass is 3·triangle + corner: that triangle goes along the edge from that corner to its next. Sides between a point
 /// and itself are no edges.
 pub(crate) struct Edges {
     triangles: Vec<[u32; 3]>,
-    /// Where the passes begin whose lower end is each point; one more at the end.
-    starts: Vec<u32>,
     /// All passes, by the lower end, then the higher end, then their own number.
     passes: Vec<u32>,
 }
@@ -26,32 +26,12 @@ pub(crate) fn next_corner(corner: u32) -> u32 {
 }
 
 impl Edges {
-    /// The edges of triangles whose corners are numbered below `points`; fewer than 2³² corners in all.
-    pub(crate) fn new(triangles: Vec<[u32; 3]>, points: usize) -> Self {
-        let mut edges = Self { triangles, starts: vec![0; points + 1], passes: Vec::new() };
-        let corners = 3 * edges.triangles.len() as u32;
-        for pass in 0..corners {
-            let [low, high] = edges.ends(pass);
-            if low != high {
-                edges.starts[low as usize + 1] += 1;
-            }
-        }
-        for point in 0..points {
-            edges.starts[point + 1] += edges.starts[point];
-        }
-        let mut passes = vec![0; edges.starts[points] as usize];
-        let mut next = edges.starts.clone();
-        for pass in 0..corners {
-            let [low, high] = edges.ends(pass);
-            if low != high {
-                passes[next[low as usize] as usize] = pass;
-                next[low as usize] += 1;
-            }
-        }
-        for point in 0..points {
-            let range = edges.starts[point] as usize..edges.starts[point + 1] as usize;
-            passes[range].sort_unstable_by_key(|&pass| (edges.ends(pass)[1], pass));
-        }
+    /// The edges of triangles; fewer than 2³² corners in all.
+    pub(crate) fn new(triangles: Vec<[u32; 3]>) -> Self {
+        let mut edges = Self { triangles, passes: Vec::new() };
+        let is_edge = |pass: &u32| edges.point(*pass) != edges.point(next_corner(*pass));
+        let mut passes: Vec<u32> = (0..3 * edges.triangles.len() as u32).filter(is_edge).collect();
+        passes.par_sort_unstable_by_key(|&pass| (edges.ends(pass), pass));
         edges.passes = passes;
         edges
     }
@@ -110,7 +90,7 @@ mod tests {
     #[test]
     fn edges_and_their_passes() {
         // Two triangles that wind alike, one that does not, and one with a side of no length.
-        let edges = Edges::new(vec![[0, 1, 2], [2, 1, 3], [1, 3, 4], [5, 5, 0]], 6);
+        let edges = Edges::new(vec![[0, 1, 2], [2, 1, 3], [1, 3, 4], [5, 5, 0]]);
         let found: Vec<_> = edges.iter().map(|edge| (edge.ends, edge.passes.to_vec())).collect();
         let expected = [
             ([0, 1], vec![0]),

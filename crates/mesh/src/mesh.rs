@@ -5,7 +5,9 @@ use std::sync::Arc;
 use bevy_math::{Vec2, Vec3, Vec4};
 use thiserror::Error;
 
+use crate::edges::Edges;
 use crate::normals::vertex_normals;
+use crate::numbering::Numbering;
 use crate::{Bounds, NormalReport, NormalWeighting, Surface};
 
 /// A triangle mesh: vertices with a position, a unit normal and perhaps texture coordinates, a colour and a tangent,
@@ -141,7 +143,7 @@ impl Mesh {
     ) -> Result<(Self, NormalReport), MeshError> {
         check_count("vertices", positions.len())?;
         check_count("indices", indices.len())?;
-        check_positions(&positions)?;
+        check_attribute("position", positions.len(), positions.iter().map(Vec3::to_array))?;
         if let Some(normals) = &normals {
             check_attribute("normal", positions.len(), normals.iter().map(Vec3::to_array))?;
         }
@@ -266,6 +268,13 @@ impl Mesh {
         })
     }
 
+    /// The numbers of the positions, and the edges between them.
+    pub(crate) fn position_edges(&self) -> (Numbering, Edges) {
+        let groups = Numbering::of_positions(self.positions());
+        let edges = Edges::new(groups.triangles(self.indices()));
+        (groups, edges)
+    }
+
     /// The positions of the vertices.
     pub fn positions(&self) -> &[Vec3] {
         &self.data.positions
@@ -339,10 +348,6 @@ fn check_count(elements: &'static str, count: usize) -> Result<(), MeshError> {
         Ok(_) => Ok(()),
         Err(_) => Err(MeshError::TooMany { elements, count }),
     }
-}
-
-fn check_positions(positions: &[Vec3]) -> Result<(), MeshError> {
-    check_attribute("position", positions.len(), positions.iter().map(Vec3::to_array))
 }
 
 fn check_attribute(

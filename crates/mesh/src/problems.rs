@@ -68,15 +68,8 @@ impl fmt::Display for Problems {
 }
 
 impl Mesh {
-    /// Looks the mesh over. Takes time and memory in proportion to its size.
-    pub fn problems(&self) -> Problems {
-        let groups = Numbering::of_positions(self.positions());
-        let edges = Edges::new(groups.triangles(self.indices()), groups.count());
-        self.problems_of(&groups, &edges)
-    }
-
-    /// The problems, from what was made for another look as well: the positions' numbers and the edges between them.
-    pub(crate) fn problems_of(&self, groups: &Numbering, edges: &Edges) -> Problems {
+    /// The problems, from the positions' numbers and the edges between them.
+    pub(crate) fn problems(&self, groups: &Numbering, edges: &Edges) -> Problems {
         let (_, report) = vertex_normals(self.positions(), self.indices(), NormalWeighting::default());
         let mut used = vec![false; self.positions().len()];
         for &i in self.indices() {

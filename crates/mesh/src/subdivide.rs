@@ -3,7 +3,7 @@
 use bevy_math::{DVec3, Vec3};
 
 use crate::edges::{Edge, Edges, next_corner};
-use crate::normals::{Fans, split_normals, unsettled_face_normals};
+use crate::normals::{Fans, face_normals};
 use crate::numbering::Numbering;
 use crate::{Mesh, MeshError, NormalWeighting};
 
@@ -71,8 +71,7 @@ impl Mesh {
 
     /// The positions of the old vertices and of the middles by Loop's rules.
     fn loop_positions(&self, middles: &Numbering) -> Vec<Vec3> {
-        let groups = Numbering::of_positions(self.positions());
-        let edges = Edges::new(groups.triangles(self.indices()), groups.count());
+        let (groups, edges) = self.position_edges();
         let p = |point: u32| self.positions()[groups.firsts[point as usize] as usize].as_dvec3();
         let mut rings = vec![Ring::default(); groups.count()];
         // By pass; a side between equal positions has no edge, and its middle is there as well.
@@ -106,15 +105,13 @@ impl Mesh {
 
     /// Normals of the default weighting, apart on both sides of sharp edges.
     fn with_sharp_normals(&self) -> Self {
-        let groups = Numbering::of_positions(self.positions());
-        let edges = Edges::new(groups.triangles(self.indices()), groups.count());
+        let (_, edges) = self.position_edges();
         let mut fans = Fans::new(&edges);
         for [a, b] in edges.iter().filter_map(|edge| self.smooth_passes(&edges, &edge)) {
             fans.join(&edges, a, b);
         }
-        fans.adopt_degenerate(&edges, &unsettled_face_normals(self.positions(), self.indices()));
-        let (classes, count) = fans.numbers();
-        split_normals(self, &classes, count, NormalWeighting::default()).0
+        let faces = face_normals(self.positions(), self.indices());
+        fans.normals(self, edges, faces, NormalWeighting::default()).0
     }
 }
 

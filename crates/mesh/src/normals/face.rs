@@ -3,7 +3,7 @@
 use bevy_math::{DVec3, Vec3};
 use rayon::prelude::*;
 
-use super::{NormalReport, NormalWeighting};
+use super::NormalWeighting;
 
 /// A triangle is degenerate where its height above its longest edge is at most this fraction of that edge. It is one
 /// rounding step of `f32`: below it the direction of the normal says how the corners were rounded and nothing else.
@@ -65,19 +65,8 @@ impl Face {
     }
 }
 
-/// The normal of every triangle, +Y for the degenerate ones, and what was made up.
-pub(crate) fn face_normals(positions: &[Vec3], indices: &[u32]) -> (Vec<Vec3>, NormalReport) {
-    let mut normals = unsettled_face_normals(positions, indices);
-    let mut report = NormalReport::default();
-    for n in normals.iter_mut().filter(|n| **n == Vec3::ZERO) {
-        *n = Vec3::Y;
-        report.degenerate_triangles += 1;
-    }
-    (normals, report)
-}
-
 /// The normal of every triangle, zero for the degenerate ones.
-pub(crate) fn unsettled_face_normals(positions: &[Vec3], indices: &[u32]) -> Vec<Vec3> {
+pub(crate) fn face_normals(positions: &[Vec3], indices: &[u32]) -> Vec<Vec3> {
     let triangles = indices.as_chunks::<3>().0;
     let normal = |triangle: &[u32; 3]| {
         let [p0, p1, p2] = triangle.map(|i| positions[i as usize]);

@@ -2,12 +2,12 @@
 
 use bevy_math::Vec3;
 
-use super::face::unsettled_face_normals;
-use super::{NormalReport, NormalWeighting, split_normals};
+use super::face::face_normals;
+use super::split::split_normals;
+use super::{NormalReport, NormalWeighting};
 use crate::Mesh;
 use crate::classes::Classes;
 use crate::edges::Edges;
-use crate::numbering::Numbering;
 
 /// The directions of two normals from `f32` positions are known no better than this; flat edges stay smooth at angle 0.
 const ANGLE_ROUNDING: f64 = 1e-6;
@@ -18,9 +18,8 @@ const CROWD: usize = 16;
 
 /// The mesh with creased normals; see [`Normals::Creased`](super::Normals::Creased).
 pub(crate) fn creased_normals(mesh: &Mesh, angle: f32, weighting: NormalWeighting) -> (Mesh, NormalReport) {
-    let groups = Numbering::of_positions(mesh.positions());
-    let edges = Edges::new(groups.triangles(mesh.indices()), groups.count());
-    let normals = unsettled_face_normals(mesh.positions(), mesh.indices());
+    let (_, edges) = mesh.position_edges();
+    let normals = face_normals(mesh.positions(), mesh.indices());
     let limit = f64::from(angle) + ANGLE_ROUNDING;
     let smooth = |a: usize, b: usize| {
         let (a, b) = (normals[a].as_dvec3(), normals[b].as_dvec3());
@@ -35,11 +34,7 @@ pub(crate) fn creased_normals(mesh: &Mesh, angle: f32, weighting: NormalWeightin
             others.for_each(|&other| fans.join(&edges, pass, other));
         }
     }
-    fans.adopt_degenerate(&edges, &normals);
-    drop(normals);
-    let (classes, count) = fans.numbers();
-    drop(edges);
-    split_normals(mesh, &classes, count, weighting)
+    fans.normals(mesh, edges, normals, weighting)
 }
 
 /// Corners that share a normal: at first each is alone.
@@ -60,7 +55,7 @@ impl Fans {
 
     /// Degenerate triangles show nothing: their corners take any fan at their position, so that no vertex is made for
     /// them. `normals` are those of the faces, zero for degenerate ones.
-    pub(crate) fn adopt_degenerate(&mut self, edges: &Edges, normals: &[Vec3]) {
+    fn adopt_degenerate(&mut self, edges: &Edges, normals: &[Vec3]) {
         if normals.iter().all(|n| *n != Vec3::ZERO) {
             return;
         }
@@ -78,8 +73,17 @@ impl Fans {
         }
     }
 
-    /// The number of each corner's fan, and how many fans there are.
-    pub(crate) fn numbers(self) -> (Vec<u32>, usize) {
-        self.0.numbers()
+    /// The mesh with the mean normals of the fans. `faces` are the normals of its triangles, zero for degenerate ones.
+    pub(crate) fn normals(
+        mut self,
+        mesh: &Mesh,
+        edges: Edges,
+        faces: Vec<Vec3>,
+        weighting: NormalWeighting,
+    ) -> (Mesh, NormalReport) {
+        self.adopt_degenerate(&edges, &faces);
+        drop((edges, faces));
+        let (classes, count) = self.0.numbers();
+        split_normals(mesh, &classes, count, weighting)
     }
 }

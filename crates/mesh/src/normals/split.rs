@@ -49,7 +49,7 @@ pub(crate) fn grouped_normals(meshes: &[Smoothed], weighting: NormalWeighting) -
 
 /// The mesh with the mean normals of classes of corners, numbered below `count`; vertices are split between classes,
 /// and those of no triangle are left out.
-pub(crate) fn split_normals(
+pub(super) fn split_normals(
     mesh: &Mesh,
     classes: &[u32],
     count: usize,

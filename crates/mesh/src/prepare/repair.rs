@@ -24,22 +24,17 @@ pub struct RepairReport {
     pub against_normals: usize,
 }
 
-impl RepairReport {
-    fn named(&self) -> [(usize, &'static str); 6] {
-        [
+impl fmt::Display for RepairReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let counts = [
             (self.removed_degenerate, "degenerate triangles left out"),
             (self.removed_duplicate, "duplicate triangles left out"),
             (self.removed_vertices, "unused vertices left out"),
             (self.turned, "triangles turned over"),
             (self.conflicts, "edges that cannot be wound alike"),
             (self.against_normals, "triangles against their vertex normals"),
-        ]
-    }
-}
-
-impl fmt::Display for RepairReport {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let found = self.named().into_iter().filter(|&(count, _)| count > 0);
+        ];
+        let found = counts.into_iter().filter(|&(count, _)| count > 0);
         let found: Vec<String> = found.map(|(count, what)| format!("{count} {what}")).collect();
         if found.is_empty() { f.write_str("nothing") } else { f.write_str(&found.join(", ")) }
     }
@@ -64,7 +59,7 @@ impl Mesh {
             return Err(MeshError::NoTriangles);
         }
         let points = sound.iter().map(|triangle| triangle.map(|i| groups.numbers[i as usize])).collect();
-        let edges = Edges::new(points, groups.count());
+        let edges = Edges::new(points);
         let position = |point: u32| self.positions()[groups.firsts[point as usize] as usize];
         let components = Components::new(&edges, position);
         report.conflicts = components.conflicts;

@@ -2,11 +2,10 @@
 
 use std::fmt;
 
-use bevy_math::{DVec3, Vec3};
+use bevy_math::Vec3;
 
 use super::components::Components;
 use crate::edges::Edges;
-use crate::numbering::Numbering;
 use crate::{Bounds, Mesh, Problems};
 
 /// What a mesh is like. Shown as text, it is a line for each group of figures, without a line break at the end.
@@ -47,8 +46,7 @@ pub struct MeshReport {
 impl Mesh {
     /// Looks the mesh over. Takes time and memory in proportion to its size.
     pub fn report(&self) -> MeshReport {
-        let groups = Numbering::of_positions(self.positions());
-        let edges = Edges::new(groups.triangles(self.indices()), groups.count());
+        let (groups, edges) = self.position_edges();
         let position = |point: u32| self.positions()[groups.firsts[point as usize] as usize];
         let components = Components::new(&edges, position);
         let (edge_count, edge_lengths) = measure_edges(&edges, position);
@@ -68,17 +66,17 @@ impl Mesh {
             to_turn: components.turn.iter().filter(|&&turn| turn).count(),
             conflicts: components.conflicts,
             against_normals: self.against_normals(),
-            problems: self.problems_of(&groups, &edges),
+            problems: self.problems(&groups, &edges),
         }
     }
 
     /// The area of all triangles.
     fn area(&self) -> f64 {
-        let area = |triangle: [u32; 3]| {
-            let [a, b, c]: [DVec3; 3] = triangle.map(|i| self.positions()[i as usize].as_dvec3());
+        let area = |corners: [Vec3; 3]| {
+            let [a, b, c] = corners.map(Vec3::as_dvec3);
             0.5 * (b - a).cross(c - a).length()
         };
-        self.triangles().map(area).sum()
+        self.triangle_corners().map(area).sum()
     }
 }
 

@@ -31,7 +31,7 @@ fn the_same_height_everywhere_is_an_offset() {
         assert!(n.distance(p.normalize()) < 0.02);
     }
     // Poles and seam stay closed.
-    assert_eq!((larger.report().closed, larger.problems().open_edges), (1, 0));
+    assert_eq!((larger.report().closed, larger.report().problems.open_edges), (1, 0));
     let (plane, _) = Mesh::from(Plane::default()).displaced(|_| -2.0).unwrap();
     assert!(plane.positions().iter().all(|p| p.y == -2.0) && plane.normals().iter().all(|n| *n == Vec3::Y));
 }

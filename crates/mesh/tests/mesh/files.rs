@@ -320,7 +320,7 @@ fn the_lantern_has_its_parts_and_its_light() {
     let count = |name: &str| model.parts.iter().filter(|part| part.name == name).count();
     assert_eq!(["base", "roof", "bar", "ring", "glass", "candle", "flame"].map(count), [1, 1, 6, 1, 1, 1, 1]);
     for part in &model.parts {
-        let problems = part.mesh.problems();
+        let problems = part.mesh.report().problems;
         assert_eq!((problems.degenerate_triangles, problems.misoriented_edges), (0, 0), "{}: {problems}", part.name);
     }
     // Six bars on a circle.
@@ -355,7 +355,7 @@ fn the_crate_and_the_ball_have_their_images() {
             let bytes = &map.bytes;
             assert!(bytes.starts_with(b"\x89PNG") && bytes.len() < 100 * 1024, "{name}: {} bytes", bytes.len());
         }
-        let problems = model.parts[0].mesh.problems();
+        let problems = model.parts[0].mesh.report().problems;
         assert_eq!((problems.degenerate_triangles, problems.misoriented_edges), (0, 0), "{name}: {problems}");
         let bounds = model.bounds().unwrap();
         assert!(bounds.min.y.abs() < 1e-6 && (bounds.max.y - 1.0).abs() < 1e-6, "{name}: {bounds:?}");
@@ -365,7 +365,7 @@ fn the_crate_and_the_ball_have_their_images() {
 #[test]
 fn the_cube_is_closed() {
     let model = load(&asset("cube.smf")).unwrap();
-    assert!(model.warnings.is_empty() && model.parts[0].mesh.problems().is_none());
+    assert!(model.warnings.is_empty() && model.parts[0].mesh.report().problems.is_none());
     let bounds = model.bounds().unwrap();
     assert_eq!((bounds.min, bounds.max, model.triangle_count()), (Vec3::NEG_ONE, Vec3::ONE, 12));
 }

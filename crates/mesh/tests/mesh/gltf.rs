@@ -162,7 +162,7 @@ fn strips_fans_and_lists_are_triangles_and_the_rest_is_skipped() {
             assert_eq!(model.parts[0].mesh.indices(), expected, "{name}");
             assert_eq!(model.parts[0].mesh.positions().len(), vertices, "{name}");
             // Strips and fans turn every other triangle round, so that all face one way.
-            assert!(model.parts[0].mesh.problems().misoriented_edges == 0 || mode == 6, "{name}");
+            assert!(model.parts[0].mesh.report().problems.misoriented_edges == 0 || mode == 6, "{name}");
         }
     }
 }

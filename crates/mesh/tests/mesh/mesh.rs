@@ -169,9 +169,9 @@ fn problems_are_counted() {
     ];
     for (name, positions, indices, expected) in rows {
         let mesh = Mesh::new(positions, indices).unwrap();
-        assert_eq!(mesh.problems(), expected, "{name}");
+        assert_eq!(mesh.report().problems, expected, "{name}");
     }
-    assert!(Mesh::from(Cuboid::default()).problems().is_none());
+    assert!(Mesh::from(Cuboid::default()).report().problems.is_none());
     assert_eq!(Problems::default().to_string(), "none");
     let some = Problems { degenerate_triangles: 1, open_edges: 12, ..Problems::default() };
     assert_eq!(some.to_string(), "1 degenerate triangle, 12 open edges");

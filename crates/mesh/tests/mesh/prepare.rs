@@ -63,7 +63,7 @@ fn welding_by_position_takes_mean_normals() {
     for (p, n) in mesh.positions().iter().zip(mesh.normals()) {
         assert!(n.distance(p.normalize()) < 3e-7);
     }
-    assert_eq!(mesh.problems().open_edges, 0);
+    assert_eq!(mesh.report().problems.open_edges, 0);
 }
 
 #[test]

@@ -57,7 +57,7 @@ fn every_surface_keeps_the_promises() {
     for (name, mesh, vertices, triangles, open) in rows {
         check(name, &mesh);
         assert_eq!((mesh.positions().len(), mesh.triangle_count()), (vertices, triangles), "{name}");
-        let problems = mesh.problems();
+        let problems = mesh.report().problems;
         assert_eq!(problems.open_edges, open, "{name}: {problems}");
         assert_eq!((problems.crowded_edges, problems.misoriented_edges), (0, 0), "{name}: {problems}");
         assert_eq!(problems.duplicate_triangles, 0, "{name}: {problems}");

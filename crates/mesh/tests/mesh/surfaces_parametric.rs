@@ -239,7 +239,7 @@ fn meshes_are_closed_where_the_surface_is_and_wind_outward() {
         for n in [4, 8, 13] {
             let mesh = by_count(&*surface, n);
             assert_eq!(euler_characteristic(&mesh), euler, "{name}");
-            let problems = mesh.problems();
+            let problems = mesh.report().problems;
             let found = (problems.degenerate_triangles, problems.crowded_edges, problems.misoriented_edges);
             assert_eq!(found, (0, 0, 0), "{name}: {problems}");
             assert_eq!(problems.duplicate_triangles, 0, "{name}: {problems}");
@@ -334,7 +334,7 @@ fn the_icosphere_is_closed_and_even() {
         let n = divisions as usize;
         assert_eq!((mesh.positions().len(), mesh.triangle_count()), (10 * n * n + 2, 20 * n * n));
         assert_eq!(euler_characteristic(&mesh), 2);
-        assert!(mesh.problems().is_none(), "{}", mesh.problems());
+        assert!(mesh.report().problems.is_none(), "{}", mesh.report().problems);
         for (p, n) in mesh.positions().iter().zip(mesh.normals()) {
             // Both rounded to f32.
             assert!(p.distance(1.5 * n) < 3e-7);
@@ -354,7 +354,7 @@ fn caps_close_at_bit_equal_rims() {
     let mesh = by_count(&Cylinder { radius: 0.7, height: 1.3, capped: true }, 7);
     // 14 columns: two rims of as many points, their rows in between, and two middles.
     assert_eq!(groups(&mesh).1, 14 * 8 + 2);
-    assert_eq!(mesh.problems().open_edges, 0);
+    assert_eq!(mesh.report().problems.open_edges, 0);
     // Both sheets of a hyperboloid as one mesh.
     let sheet = |upper| HyperboloidSheet { gap: 1.0, radius: 1.0, height: 1.0, upper };
     let both = tessellate(&[&sheet(false), &sheet(true)], Tessellation::Count { rows: 4, columns: 12 }).unwrap();
@@ -393,7 +393,7 @@ fn the_smallest_the_largest_and_the_longest_keep_their_promises() {
         for (i, surface) in surfaces.iter().enumerate() {
             surface.validate().unwrap_or_else(|error| panic!("{scale}: {error}"));
             let mesh = by_count(*surface, 6);
-            assert_eq!(mesh.problems().degenerate_triangles, 0, "{i} at {scale}");
+            assert_eq!(mesh.report().problems.degenerate_triangles, 0, "{i} at {scale}");
             assert!(mesh.positions().iter().all(|p| p.is_finite()), "{i} at {scale}");
             assert!(mesh.normals().iter().all(|n| (n.length() - 1.0).abs() < 2e-7), "{i} at {scale}");
             assert!(mesh.bounds().radius() >= scale * 0.5 && mesh.triangle_count() > 60, "{i} at {scale}");
