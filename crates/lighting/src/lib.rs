@@ -32,6 +32,7 @@
 //!   [`InvalidValue`] names type, field, value and what was expected.
 //! - [`equations`]: the equation and its parts as pure functions, in `f32` or `f64`, defined at every edge.
 //! - [`bounds`]: what a light can add to a patch of surface at most, and which lights a patch needs.
+//! - [`record`]: lights, materials and instances as whatever draws reads them.
 //! - [`matched_shininess`]: the Blinn–Phong exponent for a Phong highlight.
 //! - [`Shown`], [`propagation`]: what is hidden; whether transforms are propagated.
 //! - [`homogeneous`]: light positions as four coordinates.
@@ -71,6 +72,7 @@ mod plugin;
 mod presets;
 mod propagation;
 mod range;
+pub mod record;
 mod shading;
 mod tolerance;
 mod vertex_colors;

@@ -9,10 +9,10 @@
 mod common;
 
 use common::{Scene, Shading, draw, lens, pieces, sphere};
+use halfway_lighting::Samples;
+use halfway_lighting::record::InstanceRecord;
 use halfway_mesh::{Mesh, UvSphere};
-use halfway_raster::{
-    ClearTiles, InstanceData, Output, RasterError, RasterOptions, Rasterizer, SampleCount, TriangleOrder, VectorWidth,
-};
+use halfway_raster::{ClearTiles, Output, RasterError, RasterOptions, Rasterizer, TriangleOrder, VectorWidth};
 use std::error::Error;
 use std::time::Instant;
 
@@ -42,7 +42,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                 _ => sphere(name == "S4", shading)?,
             };
             if name.ends_with("x4") {
-                scene.samples = SampleCount::Four;
+                scene.samples = Samples::Four;
             }
             if name.starts_with("S1coarse") {
                 let mesh = pieces(&UvSphere { radius: 1.0, segments: 78, rings: 40 }.into(), TriangleOrder::Clustered)?;
@@ -104,7 +104,7 @@ fn spheres(shading: Shading) -> Result<Scene, RasterError> {
         ];
         let column = |c: usize| [rows[0][c], rows[1][c], rows[2][c]];
         let normal = [column(0), column(1), column(2)];
-        scene.instances.push(InstanceData { eye_from_model: rows, normal, surface: u32::from(i % 10) });
+        scene.instances.push(InstanceRecord { eye_from_model: rows, normal, surface: u32::from(i % 10) });
     }
     scene.surfaces = vec![scene.surfaces[0]; 10];
     scene.draws = vec![draw(&mesh, 10_000, shading)];
@@ -126,7 +126,7 @@ fn turntable(mesh: &Mesh, size: [u32; 2], shading: Shading) -> Result<Scene, Ras
     };
     let mut rows = [row(0), row(1), row(2)];
     rows[2][3] -= 3.3;
-    scene.instances = vec![InstanceData { eye_from_model: rows, ..scene.instances[0] }];
+    scene.instances = vec![InstanceRecord { eye_from_model: rows, ..scene.instances[0] }];
     let mesh = pieces(mesh, TriangleOrder::Clustered)?;
     scene.draws = vec![draw(&mesh, 1, shading)];
     scene.meshes = vec![mesh];

@@ -297,21 +297,21 @@ impl Job {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pass::{
-        DrawCall, LeftOut, Lens, LightRange, PixelFormat, SampleCount, ShadedTerms, SideData, SurfaceData,
-    };
-    use crate::{InstanceData, Pieces, TriangleOrder};
+    use crate::pass::{Cull, DrawCall, Lens, PixelFormat};
+    use crate::{Pieces, TriangleOrder};
+    use halfway_lighting::record::{InstanceRecord, LightRange, MaterialRecord, SurfaceLights, SurfaceRecord};
+    use halfway_lighting::{Frequency, Samples, Terms};
 
     /// A pass into bytes, without lights.
     fn plain<'a>(
         size: [u32; 2],
-        (instances, surfaces): (&'a [InstanceData], &'a [SurfaceData]),
+        (instances, surfaces): (&'a [InstanceRecord], &'a [SurfaceRecord]),
         meshes: &'a [&'a Pieces],
         draws: &'a [DrawCall],
     ) -> Pass<'a> {
         Pass {
             size,
-            samples: SampleCount::One,
+            samples: Samples::One,
             pixels: PixelFormat::SrgbBytes,
             clear: [0.0; 3],
             lens: Lens { scale: [1.0, size[0] as f32 / size[1] as f32], near: 0.1 },
@@ -334,8 +334,8 @@ mod tests {
         let indices: Vec<u32> = (0..100).flat_map(|k| [k, k + 1, k + 2]).collect();
         let mesh = Pieces::new(&strip, &[], &indices, &[], TriangleOrder::Clustered).unwrap();
         assert!(mesh.each.len() > 1, "a span may end within an instance");
-        let instances: Vec<InstanceData> = (0..3_001_u32)
-            .map(|k| InstanceData {
+        let instances: Vec<InstanceRecord> = (0..3_001_u32)
+            .map(|k| InstanceRecord {
                 eye_from_model: [
                     [1.0, 0.0, 0.0, (k % 97) as f32 - 48.0],
                     [0.0, 1.0, 0.0, (k % 41) as f32 - 20.0],
@@ -345,22 +345,19 @@ mod tests {
                 surface: k % 3,
             })
             .collect();
-        let surfaces = [1.0, 2.0, 4.0].map(|exponent| {
-            let side = SideData { exponent, ..SideData::default() };
-            SurfaceData { front: side, back: side, ..SurfaceData::default() }
+        let surfaces = [1.0, 2.0, 4.0].map(|shininess| {
+            let side = MaterialRecord { shininess, ..MaterialRecord::default() };
+            SurfaceRecord { front: side, back: side, ..SurfaceRecord::default() }
         });
-        let draw = |blend, instances, left_out| DrawCall {
+        let draw = |blend, instances, cull| DrawCall {
             indices: 0..indices.len() as u32,
             instances,
             blend,
-            left_out,
+            cull,
             ..DrawCall::default()
         };
-        let draws = [
-            draw(true, 0..145, LeftOut::Neither),
-            draw(false, 145..146, LeftOut::Back),
-            draw(false, 146..3_001, LeftOut::Neither),
-        ];
+        let draws =
+            [draw(true, 0..145, Cull::None), draw(false, 145..146, Cull::Back), draw(false, 146..3_001, Cull::None)];
         let meshes = [&mesh];
         let pass = plain([1280, 720], (&instances, &surfaces), &meshes, &draws);
         let filled = |threads| {
@@ -399,17 +396,20 @@ mod tests {
         let normals = [[[0.0, 0.0, 1.0]; 3], [[0.0, 0.0, 1.0], [0.0, 0.6, -0.8], [0.0, 0.0, 1.0]]].concat();
         let indices = [0, 1, 2, 3, 4, 5];
         let mesh = Pieces::new(&positions, &normals, &indices, &[0..3, 3..6], TriangleOrder::Clustered).unwrap();
-        let instances = [InstanceData {
+        let instances = [InstanceRecord {
             eye_from_model: [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, -3.0]],
             normal: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
             surface: 0,
         }];
         let lit = LightRange { counts: [0, 1, 0], start: 0 };
-        let surfaces = [SurfaceData { fragment: lit, ..SurfaceData::default() }];
+        let surfaces = [SurfaceRecord {
+            lights: SurfaceLights { both: lit, ..SurfaceLights::default() },
+            ..SurfaceRecord::default()
+        }];
         let draw = |opposite_normals, indices| DrawCall {
             indices,
             instances: 0..1,
-            fragment: ShadedTerms::BOTH,
+            terms: Terms::both(Frequency::Fragment),
             opposite_normals,
             ..DrawCall::default()
         };

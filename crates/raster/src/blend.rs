@@ -5,13 +5,13 @@ use crate::encode::kept;
 use crate::four::{centroid, samples};
 use crate::lanes::{F, M, Simd, V3, counting, each, fma, lanes, load, replace, saturate, splat, splat_i, splat3};
 use crate::look::Look;
-use crate::pass::SampleCount;
 use crate::placed::TILE;
 use crate::planes::{Planes, Slopes};
 use crate::samples::CENTROIDS;
 use crate::shade::{Fragments, state_of};
 use crate::state::Stage;
 use fearless_simd::prelude::*;
+use halfway_lighting::Samples;
 
 /// Of a vector of pixels: which samples the triangle shows in, and where it is shaded.
 struct ShownSamples<S: Simd> {
@@ -31,8 +31,8 @@ impl TileBuffer {
                 // The last vector of a row begins earlier, so that it ends with the tile.
                 let i = done.min(TILE as i32 - lanes::<S>() as i32);
                 let shown = match look.pass.samples {
-                    SampleCount::One => self.shown_in_one(simd, edges, planes, [i, j]),
-                    SampleCount::Four => self.shown_in_four(simd, edges, planes, [i, j]),
+                    Samples::One => self.shown_in_one(simd, edges, planes, [i, j]),
+                    Samples::Four => self.shown_in_four(simd, edges, planes, [i, j]),
                 };
                 let column = counting(simd) + splat(simd, i as f32);
                 let new = column.simd_ge(splat(simd, done as f32));
@@ -134,7 +134,7 @@ impl TileBuffer {
             opacity = of_maps.opacities(simd, look.pass, state, back);
             new &= of_maps.are_there(simd, look.pass, state, back);
         }
-        for sample in 0..look.pass.samples.count() {
+        for sample in 0..look.pass.samples.count() as usize as usize {
             let at = j as usize * TILE + i as usize;
             let show = shown.masks[sample] & new;
             for c in 0..3 {

@@ -1,9 +1,9 @@
 //! Whether a pass can be drawn: references within their lists, numbers finite and in their ranges.
 
 use crate::error::{LARGEST_SIDE, RasterError};
-use crate::pass::{
-    DrawCall, InstanceData, LightData, LightRange, Output, Pass, SideData, SurfaceData, SurroundingsData,
-};
+use crate::pass::{DrawCall, Output, Pass, SurroundingsData};
+use halfway_lighting::Frequency;
+use halfway_lighting::record::{InstanceRecord, LightRange, LightRecord, MaterialRecord, SurfaceLights, SurfaceRecord};
 use halfway_texture::{MapKind, SolidTexture};
 
 /// Checks all of a pass but what drawing it finds out.
@@ -64,7 +64,7 @@ fn check_maps(index: usize, draw: &DrawCall, pass: &Pass) -> Result<(), RasterEr
             return beyond("draw", index, "texture coordinates", triangles, 0);
         }
     }
-    if draw.maps[MapKind::Normal as usize].is_some() && !draw.flat && !mesh.has_tangents() {
+    if draw.maps[MapKind::Normal as usize].is_some() && !draw.terms.has(Frequency::Triangle) && !mesh.has_tangents() {
         return beyond("draw", index, "tangents", triangles, 0);
     }
     if let Some(of) = draw.solid.as_ref().and_then(SolidTexture::wrong) {
@@ -97,27 +97,31 @@ fn check_view(pass: &Pass) -> Result<(), RasterError> {
     positive("near", pass.lens.near)
 }
 
-fn check_light(index: usize, light: &LightData) -> Result<(), RasterError> {
+fn check_light(index: usize, light: &LightRecord) -> Result<(), RasterError> {
     finite("light", index, "position", &light.position)?;
     finite("light", index, "direction", &light.direction)?;
     finite("light", index, "cos_cutoff", &[light.cos_cutoff])?;
-    finite("light", index, "inner_fade", &light.inner_fade)?;
+    finite("light", index, "inner_scale", &[light.inner_scale])?;
+    finite("light", index, "inner_offset", &[light.inner_offset])?;
     from_zero("light", index, "inverse_range", &[light.inverse_range])?;
-    from_zero("light", index, "attenuation", &light.attenuation)?;
+    from_zero("light", index, "constant", &[light.constant])?;
+    from_zero("light", index, "linear", &[light.linear])?;
+    from_zero("light", index, "quadratic", &[light.quadratic])?;
     from_zero("light", index, "exponent", &[light.exponent])?;
     from_zero("light", index, "ambient", &light.ambient)?;
     from_zero("light", index, "diffuse", &light.diffuse)?;
     from_zero("light", index, "specular", &light.specular)
 }
 
-fn check_surface(index: usize, surface: &SurfaceData, pass: &Pass) -> Result<(), RasterError> {
-    for SideData { base, diffuse, specular, emission, ambient, exponent, opacity } in [&surface.front, &surface.back] {
+fn check_surface(index: usize, surface: &SurfaceRecord, pass: &Pass) -> Result<(), RasterError> {
+    for material in [&surface.front, &surface.back] {
+        let MaterialRecord { base, diffuse, specular, emission, ambient, shininess, opacity, .. } = material;
         from_zero("surface", index, "base", base)?;
         from_zero("surface", index, "diffuse", diffuse)?;
         from_zero("surface", index, "specular", specular)?;
         from_zero("surface", index, "emission", emission)?;
         from_zero("surface", index, "ambient", ambient)?;
-        from_zero("surface", index, "exponent", &[*exponent])?;
+        from_zero("surface", index, "shininess", &[*shininess])?;
         if !(0.0..=1.0).contains(opacity) {
             return wrong("surface", index, "opacity", *opacity, "0 to 1");
         }
@@ -127,15 +131,13 @@ fn check_surface(index: usize, surface: &SurfaceData, pass: &Pass) -> Result<(),
         let fits = range.is_empty() || end <= pass.lists.len() as u64;
         if fits { Ok(()) } else { beyond("surface", index, field, end, pass.lists.len()) }
     };
-    range("vertex", &surface.vertex)?;
-    range("vertex_diffuse", &surface.vertex_diffuse)?;
-    range("vertex_specular", &surface.vertex_specular)?;
-    range("fragment", &surface.fragment)?;
-    range("fragment_diffuse", &surface.fragment_diffuse)?;
-    range("fragment_specular", &surface.fragment_specular)
+    let SurfaceLights { both, diffuse, specular } = &surface.lights;
+    range("both", both)?;
+    range("diffuse", diffuse)?;
+    range("specular", specular)
 }
 
-fn check_instance(index: usize, instance: &InstanceData, pass: &Pass) -> Result<(), RasterError> {
+fn check_instance(index: usize, instance: &InstanceRecord, pass: &Pass) -> Result<(), RasterError> {
     finite("instance", index, "eye_from_model", instance.eye_from_model.as_flattened())?;
     finite("instance", index, "normal", instance.normal.as_flattened())?;
     if instance.surface as usize >= pass.surfaces.len() {

@@ -1,7 +1,7 @@
 //! Triangles that reach far beyond a tile, or behind the eye: few, and so one by one, in 64 bits.
 
 use crate::cover::EdgeFunctions;
-use crate::pass::LeftOut;
+use crate::pass::Cull;
 use crate::placed::TILE;
 use crate::planes::{CutCorner, DepthPlane, Gradient, Planes};
 use crate::samples::sample_offsets;
@@ -177,10 +177,10 @@ fn set_up(corners: &[Corner; 3], tile: [u32; 2], covering: &Covering) -> Option<
     let y = corners.each_ref().map(|corner| i64::from(corner.grid[1]) - first[1]);
     let area = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
     let front = (area > 0) == covering.clockwise;
-    let shown = match covering.left_out {
-        LeftOut::Back => front,
-        LeftOut::Front => !front,
-        LeftOut::Neither => true,
+    let shown = match covering.cull {
+        Cull::Back => front,
+        Cull::Front => !front,
+        Cull::None => true,
     };
     if area == 0 || !shown {
         return None;

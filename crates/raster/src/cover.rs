@@ -7,7 +7,6 @@ use crate::lanes::{
 use crate::look::Look;
 use crate::mapped::MappedTriangle;
 use crate::mapped_pixels::MappedPixels;
-use crate::pass::SampleCount;
 use crate::placed::TILE;
 use crate::planes::{DepthPlane, LaneSlopes, Planes, Slopes};
 use crate::samples::GRID_PLACES;
@@ -15,6 +14,7 @@ use crate::state::{Stage, State};
 use crate::triangle::{Batch, TINY};
 use crate::vertices::GRID;
 use fearless_simd::prelude::*;
+use halfway_lighting::Samples;
 
 /// Pixels of a tile.
 pub(crate) const PIXELS: usize = TILE * TILE;
@@ -60,7 +60,7 @@ pub(crate) struct EdgeFunctions {
 impl EdgeFunctions {
     /// Those of one lane.
     #[inline(always)]
-    pub(crate) fn of_lane(batch: &Batch, lane: usize, samples: SampleCount) -> Self {
+    pub(crate) fn of_lane(batch: &Batch, lane: usize, samples: Samples) -> Self {
         let mut edges = Self {
             across: each!(k in 3 => batch.across[k][lane]),
             down: each!(k in 3 => batch.down[k][lane]),
@@ -73,8 +73,8 @@ impl EdgeFunctions {
             let edge = batch.edge[k][lane] - GRID * (across * left + down * top);
             edges.center[k] = edge >> 8;
             match samples {
-                SampleCount::One => edges.at[k][0] = edges.center[k],
-                SampleCount::Four => {
+                Samples::One => edges.at[k][0] = edges.center[k],
+                Samples::Four => {
                     for (at, [dx, dy]) in edges.at[k].iter_mut().zip(GRID_PLACES) {
                         *at = (edge + across * dx + down * dy) >> 8;
                     }
@@ -168,8 +168,8 @@ impl TileBuffer {
 
     /// Makes room for a tile.
     #[expect(clippy::large_stack_arrays, reason = "48 KiB, once for each list")]
-    pub(crate) fn prepare(&mut self, samples: SampleCount, painted: bool, mapped: bool) {
-        let count = samples.count();
+    pub(crate) fn prepare(&mut self, samples: Samples, painted: bool, mapped: bool) {
+        let count = samples.count() as usize;
         self.depth.resize(count, [0.0; LIST]);
         self.shader.resize(count, [0; LIST]);
         for list in [&mut self.lead, &mut self.second, &mut self.face] {
@@ -181,7 +181,7 @@ impl TileBuffer {
         if painted {
             self.paint.resize(count, [[0.0; LIST]; 3]);
         }
-        if samples == SampleCount::Four {
+        if samples == Samples::Four {
             self.inverse_w.resize(count, [0.0; LIST]);
             self.triangle.resize(count, [0; LIST]);
         }

@@ -4,11 +4,12 @@ use crate::lane_triangles::{LaneTriangles, spread};
 use crate::lanes::{F, MOST_LANES, Simd, V3, add, cross, each, load, max, neg, safe_normalize, scale, splat, sub};
 use crate::lighting::{Points, reflected, tinted, to_viewer};
 use crate::mapped::FlatParts;
-use crate::pass::{InstanceData, Pass};
+use crate::pass::Pass;
 use crate::pieces::{PIECE_TRIANGLES, Piece, Pieces};
 use crate::state::{Stage, State};
 use crate::vertices::{transformed, turned};
 use fearless_simd::prelude::*;
+use halfway_lighting::record::InstanceRecord;
 
 /// Of each triangle of a piece 0 and its own normal, or 0 and its color where the draw is flat, front and back. In
 /// place of 0 stands the vertices' mean opacity where they have colors.
@@ -30,7 +31,7 @@ impl PieceFaces {
         &mut self,
         simd: S,
         (mesh, piece): (&Pieces, &Piece),
-        instance: &InstanceData,
+        instance: &InstanceRecord,
         (pass, state): (&Pass, &State),
         [fronts, backs]: [u64; 2],
     ) {
@@ -60,7 +61,7 @@ impl PieceFaces {
         simd: S,
         these: &LaneTriangles,
         place: (&Pieces, &Piece),
-        instance: &InstanceData,
+        instance: &InstanceRecord,
         (pass, state): (&Pass, &State),
         back: bool,
     ) {
@@ -105,7 +106,7 @@ fn corners<S: Simd>(simd: S, these: &LaneTriangles, (mesh, piece): (&Pieces, &Pi
 }
 
 #[inline(always)]
-fn unit_normal<S: Simd>(simd: S, corners: [V3<S>; 3], instance: &InstanceData) -> V3<S> {
+fn unit_normal<S: Simd>(simd: S, corners: [V3<S>; 3], instance: &InstanceRecord) -> V3<S> {
     safe_normalize(simd, turned(simd, &instance.normal, face_normal(simd, corners)))
 }
 

@@ -51,15 +51,15 @@ impl TileBuffer {
 mod tests {
     use super::*;
     use crate::cover::TINY_PLACES;
-    use crate::pass::SampleCount;
     use crate::width::{VectorWidth, with_vectors};
+    use halfway_lighting::Samples;
 
     const NEAR: f32 = 2.0;
 
     /// A tile that shows something at `NEAR` in all pixels but one.
     fn tile_with_a_hole([column, row]: [usize; 2]) -> TileBuffer {
         let mut tile = TileBuffer::new();
-        tile.prepare(SampleCount::One, false, false);
+        tile.prepare(Samples::One, false, false);
         tile.depth[0].fill(NEAR);
         tile.depth[0][row * TILE + column] = 1.0;
         tile

@@ -2,26 +2,27 @@
 //! has. It knows neither a graphics interface nor an ECS; what is drawn is plain data, a [`Pass`].
 //!
 //! ```
-//! use halfway_raster::{DrawCall, InstanceData, Lens, Output, Pass, Pieces, PixelFormat, Rasterizer, RasterOptions};
-//! use halfway_raster::{SampleCount, SideData, SurfaceData, TriangleOrder};
+//! use halfway_lighting::Samples;
+//! use halfway_lighting::record::{InstanceRecord, MaterialRecord, SurfaceRecord};
+//! use halfway_raster::{DrawCall, Lens, Output, Pass, Pieces, PixelFormat, Rasterizer, RasterOptions, TriangleOrder};
 //!
 //! # fn main() -> Result<(), halfway_raster::RasterError> {
 //! let triangle = [[-1.0, -1.0, -3.0], [1.0, -1.0, -3.0], [0.0, 1.0, -3.0]];
 //! let mesh = Pieces::new(&triangle, &[], &[0, 1, 2], &[], TriangleOrder::Clustered)?;
-//! let red = SideData { base: [1.0, 0.0, 0.0], ..SideData::default() };
+//! let red = MaterialRecord { base: [1.0, 0.0, 0.0], ..MaterialRecord::default() };
 //! let mut bytes = vec![0; 64 * 64 * 4];
 //! Rasterizer::new(RasterOptions::default())?.draw(
 //!     &Pass {
 //!         size: [64, 64],
-//!         samples: SampleCount::One,
+//!         samples: Samples::One,
 //!         pixels: PixelFormat::SrgbBytes,
 //!         clear: [0.0; 3],
 //!         lens: Lens { scale: [2.0, 2.0], near: 0.1 },
 //!         local_viewer: true,
 //!         lights: &[],
 //!         lists: &[],
-//!         surfaces: &[SurfaceData { front: red, ..SurfaceData::default() }],
-//!         instances: &[InstanceData {
+//!         surfaces: &[SurfaceRecord { front: red, ..SurfaceRecord::default() }],
+//!         instances: &[InstanceRecord {
 //!             eye_from_model: [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]],
 //!             normal: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
 //!             surface: 0,
@@ -85,10 +86,7 @@ mod width;
 
 pub use bands::ClearTiles;
 pub use error::{LARGEST_SIDE, RasterError};
-pub use pass::{
-    DrawCall, Highlight, InstanceData, LeftOut, Lens, LightData, LightRange, MapCall, MapData, Output, Pass,
-    PixelFormat, SampleCount, ShadedTerms, SideData, SurfaceData, SurroundingsData,
-};
+pub use pass::{Cull, DrawCall, Lens, MapCall, MapData, Output, Pass, PixelFormat, SurroundingsData};
 pub use pieces::{Pieces, TriangleOrder, VertexLists};
 pub use rasterizer::{RasterOptions, Rasterizer};
 pub use threads::Threads;

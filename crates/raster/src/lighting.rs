@@ -6,10 +6,25 @@ use crate::lanes::{
     splat3, sub,
 };
 use crate::lobe::PointLobe;
-use crate::pass::{LightData, LightRange, ShadedTerms, SideData};
 use crate::power::{Exponent, power};
 use fearless_simd::prelude::*;
 use halfway_lighting::equations::{ATTENUATION_MAX, COINCIDENT, GRAZING};
+use halfway_lighting::record::{LightRange, LightRecord, MaterialRecord, SurfaceLights};
+
+/// Which terms are shaded; ambient that is attenuated goes with diffuse.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct ShadedTerms {
+    /// ka·La where it is attenuated, and kd·Ld.
+    pub(crate) diffuse: bool,
+    /// ks·Ls.
+    pub(crate) specular: bool,
+}
+
+impl ShadedTerms {
+    pub(crate) fn is_empty(self) -> bool {
+        self == Self::default()
+    }
+}
 
 /// Points of a surface, on the side that is seen.
 #[derive(Clone, Copy)]
@@ -63,8 +78,9 @@ impl<S: Simd> Irradiance<S> {
 
 /// `max(a + b·d + c·d², 10⁻⁶)`, what attenuation is 1 over; at most 10³⁰, that it may be multiplied.
 #[inline(always)]
-pub(crate) fn attenuation_divisor<S: Simd>(simd: S, [a, b, c]: [f32; 3], d: F<S>) -> F<S> {
-    let divisor = fma::<S>(fma::<S>(splat(simd, c), d, splat(simd, b)), d, splat(simd, a));
+pub(crate) fn attenuation_divisor<S: Simd>(simd: S, light: &LightRecord, d: F<S>) -> F<S> {
+    let [a, b, c] = [light.constant, light.linear, light.quadratic].map(|coefficient| splat(simd, coefficient));
+    let divisor = fma::<S>(fma::<S>(c, d, b), d, a);
     min::<S>(max::<S>(divisor, splat(simd, 1.0 / ATTENUATION_MAX)), splat(simd, 1e30))
 }
 
@@ -79,11 +95,11 @@ pub(crate) fn range_window<S: Simd>(simd: S, d: F<S>, inverse_range: f32) -> F<S
 
 /// `max(cos φ, 0)^e` inside the cone, with the inner cone's fade, and 0 outside.
 #[inline(always)]
-pub(crate) fn spot_factor<S: Simd>(simd: S, l: V3<S>, light: &LightData) -> F<S> {
+pub(crate) fn spot_factor<S: Simd>(simd: S, l: V3<S>, light: &LightRecord) -> F<S> {
     let cos_phi = min::<S>(-dot::<S>(l, splat3(simd, light.direction)), splat(simd, 1.0));
     let factor = power(simd, cos_phi, Exponent::new(light.exponent));
-    let [fade, offset] = light.inner_fade;
-    let inner = saturate(simd, fma::<S>(cos_phi, splat(simd, fade), splat(simd, offset)));
+    let (scale, offset) = (splat(simd, light.inner_scale), splat(simd, light.inner_offset));
+    let inner = saturate(simd, fma::<S>(cos_phi, scale, offset));
     cos_phi.simd_ge(splat(simd, light.cos_cutoff)).select(factor * inner * inner, splat(simd, 0.0))
 }
 
@@ -102,7 +118,7 @@ struct Incidence<S: Simd> {
 fn add_light<S: Simd>(
     simd: S,
     sum: &mut Irradiance<S>,
-    light: &LightData,
+    light: &LightRecord,
     incident: &Incidence<S>,
     points: &Points<S>,
     lobe: impl PointLobe<S>,
@@ -126,13 +142,13 @@ fn add_light<S: Simd>(
 }
 
 #[inline(always)]
-fn has_ambient(light: &LightData) -> bool {
+fn has_ambient(light: &LightRecord) -> bool {
     light.ambient[0] + light.ambient[1] + light.ambient[2] > 0.0
 }
 
 /// Whether none of the points takes anything from a light that is so far to their fronts.
 #[inline(always)]
-fn is_behind_all<S: Simd>(simd: S, n_dot_l: F<S>, light: &LightData, terms: ShadedTerms) -> bool {
+fn is_behind_all<S: Simd>(simd: S, n_dot_l: F<S>, light: &LightRecord, terms: ShadedTerms) -> bool {
     !(terms.diffuse && has_ambient(light)) && n_dot_l.simd_gt(splat(simd, 0.0)).all_false()
 }
 
@@ -148,7 +164,7 @@ fn is_beyond_all<S: Simd>(simd: S, squared: F<S>, inverse_range: f32) -> bool {
 #[inline(always)]
 fn finite_light<S: Simd>(
     simd: S,
-    light: &LightData,
+    light: &LightRecord,
     cone: bool,
     points: &Points<S>,
     terms: ShadedTerms,
@@ -169,7 +185,7 @@ fn finite_light<S: Simd>(
     }
     let length = squared.sqrt();
     let d = stretch.map_or(length, |unit| min::<S>(length * unit, splat(simd, f32::MAX)));
-    let divisor = attenuation_divisor(simd, light.attenuation, d);
+    let divisor = attenuation_divisor(simd, light, d);
     // One division for both; where the product is infinite nothing arrives.
     let both = splat(simd, 1.0) / (length * divisor);
     let inverse = divisor * both;
@@ -240,20 +256,19 @@ pub(crate) fn to_viewer<S: Simd>(simd: S, p: V3<S>, n: V3<S>, local_viewer: bool
     scale::<S>(p, splat(simd, -1.0) / squared.sqrt())
 }
 
-/// What three ranges of lights bring to points: with all terms, without highlights, and with nothing else. It is most
-/// of the code; see [`gathered`].
+/// What the lights of a surface bring to points. It is most of the code; see [`gathered`].
 #[inline(always)]
 pub(crate) fn gathered_here<S: Simd>(
     simd: S,
-    lights: (&[LightData], &[u32]),
-    ranges: [LightRange; 3],
+    lights: (&[LightRecord], &[u32]),
+    of: &SurfaceLights,
     points: &Points<S>,
     lobe: impl PointLobe<S>,
     terms: ShadedTerms,
 ) -> Irradiance<S> {
     let mut sum = Irradiance::none(simd);
     let [diffuse, specular] = [ShadedTerms { specular: false, ..terms }, ShadedTerms { diffuse: false, ..terms }];
-    for (range, terms) in ranges.into_iter().zip([terms, diffuse, specular]) {
+    for (range, terms) in [(of.both, terms), (of.diffuse, diffuse), (of.specular, specular)] {
         add_listed(simd, &mut sum, lights, range, points, lobe, terms);
     }
     sum
@@ -262,15 +277,15 @@ pub(crate) fn gathered_here<S: Simd>(
 /// The same, as a function of its own in each width.
 pub(crate) fn gathered<S: Simd>(
     simd: S,
-    lights: (&[LightData], &[u32]),
-    ranges: [LightRange; 3],
+    lights: (&[LightRecord], &[u32]),
+    of: &SurfaceLights,
     points: &Points<S>,
     lobe: impl PointLobe<S>,
     terms: ShadedTerms,
 ) -> Irradiance<S> {
     simd.vectorize(
         #[inline(always)]
-        || gathered_here(simd, lights, ranges, points, lobe, terms),
+        || gathered_here(simd, lights, of, points, lobe, terms),
     )
 }
 
@@ -279,7 +294,7 @@ pub(crate) fn gathered<S: Simd>(
 fn add_listed<S: Simd>(
     simd: S,
     sum: &mut Irradiance<S>,
-    (lights, lists): (&[LightData], &[u32]),
+    (lights, lists): (&[LightRecord], &[u32]),
     range: LightRange,
     points: &Points<S>,
     lobe: impl PointLobe<S>,
@@ -312,13 +327,13 @@ fn add_listed<S: Simd>(
 
 /// I = ke + ka·(Ga + Σ La) + Σ …, from what arrives.
 #[inline(always)]
-pub(crate) fn reflected<S: Simd>(simd: S, arriving: &Irradiance<S>, side: &SideData) -> V3<S> {
+pub(crate) fn reflected<S: Simd>(simd: S, arriving: &Irradiance<S>, side: &MaterialRecord) -> V3<S> {
     add::<S>(splat3(simd, side.base), added(simd, arriving, side))
 }
 
 /// The part of I that the lights of one list add.
 #[inline(always)]
-pub(crate) fn added<S: Simd>(simd: S, arriving: &Irradiance<S>, side: &SideData) -> V3<S> {
+pub(crate) fn added<S: Simd>(simd: S, arriving: &Irradiance<S>, side: &MaterialRecord) -> V3<S> {
     let mut sum = [splat(simd, 0.0); 3];
     for c in 0..3 {
         let ambient = arriving.ambient[c] * splat(simd, side.ambient[c]);
@@ -330,14 +345,14 @@ pub(crate) fn added<S: Simd>(simd: S, arriving: &Irradiance<S>, side: &SideData)
 
 /// I of surfaces with a color: ke + color·(ambient and diffuse terms) + the specular ones.
 #[inline(always)]
-pub(crate) fn tinted<S: Simd>(simd: S, arriving: &Irradiance<S>, side: &SideData, color: V3<S>) -> V3<S> {
+pub(crate) fn tinted<S: Simd>(simd: S, arriving: &Irradiance<S>, side: &MaterialRecord, color: V3<S>) -> V3<S> {
     let terms = tinted_terms(simd, arriving, side, color);
     each!(c in 3 => fma::<S>(color[c], splat(simd, side.base[c]), terms[c] + splat(simd, side.emission[c])))
 }
 
 /// The part of it that the lights of one list add.
 #[inline(always)]
-pub(crate) fn tinted_terms<S: Simd>(simd: S, arriving: &Irradiance<S>, side: &SideData, color: V3<S>) -> V3<S> {
+pub(crate) fn tinted_terms<S: Simd>(simd: S, arriving: &Irradiance<S>, side: &MaterialRecord, color: V3<S>) -> V3<S> {
     each!(c in 3 => {
         let ambient = arriving.ambient[c] * splat(simd, side.ambient[c]);
         let diffuse = fma::<S>(arriving.diffuse[c], splat(simd, side.diffuse[c]), ambient);
@@ -350,7 +365,7 @@ pub(crate) fn tinted_terms<S: Simd>(simd: S, arriving: &Irradiance<S>, side: &Si
 pub(crate) fn ambient_part<S: Simd>(
     simd: S,
     arriving: &Irradiance<S>,
-    side: &SideData,
+    side: &MaterialRecord,
     color: V3<S>,
     base: bool,
 ) -> V3<S> {
@@ -362,13 +377,13 @@ pub(crate) fn ambient_part<S: Simd>(
 
 /// Its diffuse part.
 #[inline(always)]
-pub(crate) fn diffuse_part<S: Simd>(simd: S, arriving: &Irradiance<S>, side: &SideData, color: V3<S>) -> V3<S> {
+pub(crate) fn diffuse_part<S: Simd>(simd: S, arriving: &Irradiance<S>, side: &MaterialRecord, color: V3<S>) -> V3<S> {
     each!(c in 3 => color[c] * (arriving.diffuse[c] * splat(simd, side.diffuse[c])))
 }
 
 /// Its specular part.
 #[inline(always)]
-pub(crate) fn specular_part<S: Simd>(simd: S, arriving: &Irradiance<S>, side: &SideData) -> V3<S> {
+pub(crate) fn specular_part<S: Simd>(simd: S, arriving: &Irradiance<S>, side: &MaterialRecord) -> V3<S> {
     each!(c in 3 => arriving.specular[c] * splat(simd, side.specular[c]))
 }
 

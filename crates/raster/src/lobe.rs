@@ -2,9 +2,9 @@
 //! those of two axes, another at each point. Twins of `halfway_lighting::equations`, with their names.
 
 use crate::lanes::{F, Simd, V3, add, dot, each, fma, max, splat, splat3};
-use crate::pass::Highlight;
 use crate::power::{Exponent, Power};
 use fearless_simd::prelude::*;
+use halfway_lighting::Reflectance;
 use halfway_lighting::equations::HALFWAY_MIN;
 
 /// What the highlights of points take from the surface.
@@ -16,28 +16,30 @@ pub(crate) trait PointLobe<S: Simd>: Copy {
 /// Round highlights, the same at all points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Gloss {
-    pub(crate) highlight: Highlight,
+    pub(crate) reflectance: Reflectance,
     /// Of the material; Blinn–Phong takes it halved.
     pub(crate) exponent: Exponent,
 }
 
 impl Gloss {
     /// One of this exponent.
-    pub(crate) fn new(highlight: Highlight, exponent: f32) -> Self {
-        let exponent = match highlight {
-            Highlight::Phong => Exponent::new(exponent),
-            Highlight::BlinnPhong => Exponent::new(exponent).halved(),
+    pub(crate) fn new(reflectance: Reflectance, exponent: f32) -> Self {
+        let exponent = match reflectance {
+            Reflectance::Phong => Exponent::new(exponent),
+            Reflectance::BlinnPhong | Reflectance::BlinnPhongMatched => Exponent::new(exponent).halved(),
         };
-        Self { highlight, exponent }
+        Self { reflectance, exponent }
     }
 }
 
 impl<S: Simd> PointLobe<S> for Gloss {
     #[inline(always)]
     fn highlight(self, simd: S, n: V3<S>, l: V3<S>, v: V3<S>) -> F<S> {
-        match self.highlight {
-            Highlight::Phong => specular_phong(simd, n, l, v, Power::One(self.exponent)),
-            Highlight::BlinnPhong => specular_blinn_phong(simd, n, l, v, Power::One(self.exponent)),
+        match self.reflectance {
+            Reflectance::Phong => specular_phong(simd, n, l, v, Power::One(self.exponent)),
+            Reflectance::BlinnPhong | Reflectance::BlinnPhongMatched => {
+                specular_blinn_phong(simd, n, l, v, Power::One(self.exponent))
+            }
         }
     }
 }
@@ -45,7 +47,7 @@ impl<S: Simd> PointLobe<S> for Gloss {
 /// Highlights that are not round, another at each point: see `axial_exponent` in the equations.
 #[derive(Clone, Copy)]
 pub(crate) struct AxialGloss<S: Simd> {
-    pub(crate) highlight: Highlight,
+    pub(crate) reflectance: Reflectance,
     axes: [V3<S>; 2],
     widths: V3<S>,
     /// The exponent where the halfway direction is that of the normal.
@@ -55,9 +57,9 @@ pub(crate) struct AxialGloss<S: Simd> {
 impl<S: Simd> AxialGloss<S> {
     /// Round ones of exponent 0.
     #[inline(always)]
-    pub(crate) fn none(simd: S, highlight: Highlight) -> Self {
+    pub(crate) fn none(simd: S, reflectance: Reflectance) -> Self {
         let zero = splat3(simd, [0.0; 3]);
-        Self { highlight, axes: [zero; 2], widths: zero, otherwise: splat(simd, 0.0) }
+        Self { reflectance, axes: [zero; 2], widths: zero, otherwise: splat(simd, 0.0) }
     }
 
     /// Those of one point.
@@ -75,9 +77,11 @@ impl<S: Simd> PointLobe<S> for AxialGloss<S> {
     #[inline(always)]
     fn highlight(self, simd: S, n: V3<S>, l: V3<S>, v: V3<S>) -> F<S> {
         let exponents = axial_exponent(simd, &self, add::<S>(l, v));
-        match self.highlight {
-            Highlight::Phong => specular_phong(simd, n, l, v, Power::Each(exponents)),
-            Highlight::BlinnPhong => specular_blinn_phong(simd, n, l, v, Power::Each(exponents * splat(simd, 0.5))),
+        match self.reflectance {
+            Reflectance::Phong => specular_phong(simd, n, l, v, Power::Each(exponents)),
+            Reflectance::BlinnPhong | Reflectance::BlinnPhongMatched => {
+                specular_blinn_phong(simd, n, l, v, Power::Each(exponents * splat(simd, 0.5)))
+            }
         }
     }
 }
@@ -123,19 +127,19 @@ mod tests {
     /// Axes, widths, l, v, and the exponent otherwise; n is z.
     type Case = ([[f32; 3]; 2], [f32; 3], [[f32; 3]; 2], f32);
 
-    fn highlight<S: Simd>(simd: S, highlight: Highlight, &(axes, widths, [l, v], otherwise): &Case) -> f32 {
-        let mut axial = AxialGloss { otherwise: splat(simd, otherwise), ..AxialGloss::none(simd, highlight) };
+    fn highlight<S: Simd>(simd: S, reflectance: Reflectance, &(axes, widths, [l, v], otherwise): &Case) -> f32 {
+        let mut axial = AxialGloss { otherwise: splat(simd, otherwise), ..AxialGloss::none(simd, reflectance) };
         (0..crate::lanes::lanes::<S>()).for_each(|lane| axial.set(lane, axes, widths));
         axial.highlight(simd, splat3(simd, [0.0, 0.0, 1.0]), splat3(simd, l), splat3(simd, v))[0]
     }
 
-    fn expected(highlight: Highlight, &(axes, widths, [l, v], otherwise): &Case) -> f64 {
+    fn expected(reflectance: Reflectance, &(axes, widths, [l, v], otherwise): &Case) -> f64 {
         let wide = |of: [f32; 3]| of.map(f64::from);
         let (n, l, v) = ([0.0, 0.0, 1.0], wide(l), wide(v));
         let e = equations::axial_exponent(axes.map(wide), wide(widths), vector::add(l, v), otherwise.into());
-        match highlight {
-            Highlight::Phong => equations::specular_phong(n, l, v, e),
-            Highlight::BlinnPhong => equations::specular_blinn_phong(n, l, v, e),
+        match reflectance {
+            Reflectance::Phong => equations::specular_phong(n, l, v, e),
+            _ => equations::specular_blinn_phong(n, l, v, e),
         }
     }
 
@@ -157,7 +161,7 @@ mod tests {
         ];
         let mut seen = [false; 2];
         for case in &cases {
-            for kind in [Highlight::Phong, Highlight::BlinnPhong] {
+            for kind in [Reflectance::Phong, Reflectance::BlinnPhong] {
                 let expected = expected(kind, case);
                 seen[usize::from(expected < 0.9)] = true;
                 for width in VectorWidth::available() {

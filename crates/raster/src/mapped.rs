@@ -5,11 +5,11 @@ use crate::attributes::{FRAME, GROUPS, GROUPS_BUT_SOLID, OF_VERTICES, PARTS, PLA
 use crate::lane_triangles::{LaneTriangles, spread};
 use crate::lanes::{F, Simd, V3, each, splat};
 use crate::lighting::{Irradiance, ambient_part, diffuse_part, specular_part};
-use crate::pass::SideData;
 use crate::pieces::PIECE_TRIANGLES;
 use crate::planes::{CutCorner, Gradient, Planes, Slopes};
 use crate::state::{Stage, State};
 use crate::vertices::Vertices;
+use halfway_lighting::record::MaterialRecord;
 
 /// I by what images multiply: the ambient, the diffuse and the specular part.
 pub(crate) type PartsOf = [[f32; 3]; 3];
@@ -124,7 +124,7 @@ impl FlatParts {
         &mut self,
         simd: S,
         terms: &Irradiance<S>,
-        side: &SideData,
+        side: &MaterialRecord,
         back: bool,
         own: Option<[F<S>; 4]>,
         of: &LaneTriangles,
@@ -150,7 +150,7 @@ impl FlatParts {
 }
 
 #[inline(always)]
-pub(crate) fn parts_of<S: Simd>(simd: S, terms: &Irradiance<S>, side: &SideData, color: V3<S>) -> [V3<S>; 3] {
+pub(crate) fn parts_of<S: Simd>(simd: S, terms: &Irradiance<S>, side: &MaterialRecord, color: V3<S>) -> [V3<S>; 3] {
     [
         ambient_part(simd, terms, side, color, true),
         diffuse_part(simd, terms, side, color),

@@ -6,12 +6,14 @@ use crate::lighting::{Irradiance, Points, to_viewer};
 use crate::lobe::{AxialGloss, Gloss};
 use crate::look::Look;
 use crate::mapped::{MappedTriangle, PartsOf};
-use crate::pass::{Highlight, MapCall, Pass, SideData};
+use crate::pass::{MapCall, Pass};
 use crate::placed::TILE;
 use crate::planes::Slopes;
 use crate::state::{Stage, State, StateMaps};
 use fearless_simd::prelude::*;
+use halfway_lighting::Reflectance;
 use halfway_lighting::equations::{NORMAL_MIN, bumped_normal, lobe_axes, mapped_normal};
+use halfway_lighting::record::MaterialRecord;
 use halfway_texture::normals::{SlopeSpread, lean_lobe, mean_length, spread_length, toksvig};
 use halfway_texture::{FarNormals, MapKind, UvTransform, lookup};
 
@@ -140,7 +142,7 @@ impl MappedPixel<'_> {
         }
         let data = &self.pass.maps[call.map as usize];
         // What is mirrored turns twice as far.
-        let turned = if state.highlight == Highlight::Phong { 2.0 * data.amount } else { data.amount };
+        let turned = if state.reflectance == Reflectance::Phong { 2.0 * data.amount } else { data.amount };
         if call.far_normals == FarNormals::Lean {
             let OnImage { uv, footprint } = self.on_image(call);
             let seen = SlopeSpread::seen(&data.pyramid, &call.sampling, uv, footprint);
@@ -296,10 +298,10 @@ impl<S: Simd> MappedPixels<'_, S> {
             pixel * splat(simd, look.screen.way_step[axis]) + splat(simd, look.screen.way_start[axis])
         });
         let mut n = splat3(simd, [0.0, 0.0, 1.0]);
-        let exponent = state.side(look.pass, back).exponent;
+        let exponent = state.side(look.pass, back).shininess;
         let (mut exponents, mut factors) = (splat(simd, exponent), splat(simd, 1.0));
         let changes = maps.changes_exponents();
-        let mut axial = AxialGloss::none(simd, state.highlight);
+        let mut axial = AxialGloss::none(simd, state.reflectance);
         for lane in 0..lanes::<S>() {
             let Some(pixel) = self.pixel(lane, look.pass, maps) else { continue };
             let seen = pixel.normals(state);
@@ -333,7 +335,7 @@ impl<S: Simd> MappedPixels<'_, S> {
             let exponent = exponents[first as usize];
             let same = exponents.simd_eq(splat(simd, exponent));
             left &= !(same.to_bitmask() | 1 << first);
-            let gloss = Gloss::new(state.highlight, exponent);
+            let gloss = Gloss::new(state.reflectance, exponent);
             sum = sum.or(same, &state.fragment_terms_of(simd, look.pass, &points, gloss));
         }
         Irradiance { specular: each!(c in 3 => sum.specular[c] * factors), ..sum }
@@ -341,7 +343,7 @@ impl<S: Simd> MappedPixels<'_, S> {
 }
 
 /// The ambient, diffuse and specular part of a pixel; `lit` is what lights bring to it there.
-fn parts(pixel: &MappedPixel, state: &State, side: &SideData, lit: PartsOf) -> PartsOf {
+fn parts(pixel: &MappedPixel, state: &State, side: &MaterialRecord, lit: PartsOf) -> PartsOf {
     // Across a triangle seen edge-on slopes leave the range of its corners.
     let interpolated = |group| pixel.three(group).map(|x| x.max(0.0));
     match state.stage {

@@ -4,10 +4,11 @@ use crate::attributes::{AMBIENT_OF_VERTICES, COLOR, FRAME, MIRROR_NORMAL, NORMAL
 use crate::lanes::{F, Simd, V3, each, load, load3, neg, safe_normalize, splat, store_fours};
 use crate::lighting::{Points, ambient_part, diffuse_part, specular_part, to_viewer};
 use crate::mapped::parts_of;
-use crate::pass::{InstanceData, Pass};
+use crate::pass::Pass;
 use crate::pieces::{Piece, Pieces};
 use crate::state::{Stage, State};
 use crate::vertices::{Vertices, places_of, turned};
+use halfway_lighting::record::InstanceRecord;
 use halfway_texture::MapKind;
 
 impl Vertices {
@@ -17,7 +18,7 @@ impl Vertices {
         &mut self,
         simd: S,
         (mesh, piece): (&Pieces, &Piece),
-        instance: &InstanceData,
+        instance: &InstanceRecord,
         (pass, state): (&Pass, &State),
         groups: u32,
     ) {
@@ -38,7 +39,7 @@ impl Vertices {
         simd: S,
         at: usize,
         (mesh, first): (&Pieces, usize),
-        instance: &InstanceData,
+        instance: &InstanceRecord,
         (pass, state): (&Pass, &State),
     ) {
         let i = load(simd, &self.inverse_w, at);

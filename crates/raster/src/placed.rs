@@ -1,7 +1,8 @@
 //! Where pieces of an instance lie: in which tiles, and whether all of their faces turn away.
 
-use crate::pass::{DrawCall, InstanceData, LeftOut, Pass};
+use crate::pass::{Cull, DrawCall, Pass};
 use crate::pieces::{Piece, PieceExtent};
+use halfway_lighting::record::InstanceRecord;
 
 /// Pixels along a side of a tile. It is part of the picture's bits: interpolation counts from a tile's corner.
 pub(crate) const TILE: usize = 64;
@@ -19,7 +20,7 @@ pub(crate) struct PlacedInstance {
 }
 
 impl PlacedInstance {
-    pub(crate) fn new(pass: &Pass, instance: &InstanceData, draw: &DrawCall) -> Self {
+    pub(crate) fn new(pass: &Pass, instance: &InstanceRecord, draw: &DrawCall) -> Self {
         let rows = instance.eye_from_model;
         let column = |c: usize| [rows[0][c], rows[1][c], rows[2][c]].map(f64::from);
         let (x, y, z) = (column(0), column(1), column(2));
@@ -32,10 +33,10 @@ impl PlacedInstance {
         let det = dot(x, [y[1] * z[2] - y[2] * z[1], y[2] * z[0] - y[0] * z[2], y[0] * z[1] - y[1] * z[0]]);
         // The turned normal of a face is that of its front unless its winding is turned over, too.
         let side = if (det < 0.0) == draw.clockwise { 1.0 } else { -1.0 };
-        let left_out = match draw.left_out {
-            LeftOut::Neither => 0.0,
-            LeftOut::Back => side,
-            LeftOut::Front => -side,
+        let left_out = match draw.cull {
+            Cull::None => 0.0,
+            Cull::Back => side,
+            Cull::Front => -side,
         };
         Self {
             rows,

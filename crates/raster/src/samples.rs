@@ -1,6 +1,6 @@
 //! Where a pixel's samples lie.
 
-use crate::pass::SampleCount;
+use halfway_lighting::Samples;
 
 /// Where the four samples lie, in sixteenths of a pixel from its center.
 const PLACES: [[i32; 2]; 4] = [[-2, -6], [6, -2], [-6, 2], [2, 6]];
@@ -12,10 +12,10 @@ pub(crate) const GRID_PLACES: [[i32; 2]; 4] = [[-32, -96], [96, -32], [-96, 32],
 pub(crate) const OFFSETS: [[f32; 4]; 2] = [[-0.125, 0.375, -0.375, 0.125], [-0.375, -0.125, 0.125, 0.375]];
 
 /// The places of samples in steps of the grid; of one sample the center.
-pub(crate) fn sample_offsets(samples: SampleCount) -> [[i32; 2]; 4] {
+pub(crate) fn sample_offsets(samples: Samples) -> [[i32; 2]; 4] {
     match samples {
-        SampleCount::One => [[0; 2]; 4],
-        SampleCount::Four => GRID_PLACES,
+        Samples::One => [[0; 2]; 4],
+        Samples::Four => GRID_PLACES,
     }
 }
 

@@ -11,12 +11,13 @@ use crate::lighting::{Irradiance, Points, added, reflected, tinted, to_viewer};
 use crate::look::Look;
 use crate::mapped::MappedTriangle;
 use crate::mapped_pixels::MappedPixels;
-use crate::pass::{Pass, SampleCount};
+use crate::pass::Pass;
 use crate::placed::TILE;
 use crate::samples::CENTROIDS;
 use crate::state::{Stage, State};
 use crate::surroundings::behind;
 use fearless_simd::prelude::*;
+use halfway_lighting::Samples;
 use halfway_lighting::equations::NORMAL_MIN;
 
 /// What is interpolated in some pixels.
@@ -153,11 +154,11 @@ impl TileBuffer {
         let clear = cleared(simd, look.pass.clear, look.pass.pixels);
         for at in (0..rows * TILE).step_by(lanes::<S>()) {
             match look.pass.samples {
-                SampleCount::One => {
+                Samples::One => {
                     let color = self.shade_one_apart(simd, look, at, behind(simd, look, at, clear));
                     self.put(simd, (0, at), color, look);
                 }
-                SampleCount::Four => self.shade_four(simd, look, at, behind(simd, look, at, clear)),
+                Samples::Four => self.shade_four(simd, look, at, behind(simd, look, at, clear)),
             }
         }
     }
@@ -244,7 +245,7 @@ impl TileBuffer {
             return kept(simd, self.shade_samples(simd, look, (0, at), clear), look.pass.pixels);
         }
         self.shade_four(simd, look, at, clear);
-        self.resolved(simd, at, SampleCount::Four)
+        self.resolved(simd, at, Samples::Four)
     }
 
     #[inline(always)]
@@ -338,10 +339,10 @@ impl TileBuffer {
 
     /// The colors of pixels: their own, or the mean of their samples.
     #[inline(always)]
-    pub(crate) fn resolved<S: Simd>(&self, simd: S, at: usize, samples: SampleCount) -> V3<S> {
+    pub(crate) fn resolved<S: Simd>(&self, simd: S, at: usize, samples: Samples) -> V3<S> {
         match samples {
-            SampleCount::One => load3(simd, &self.lead[0], at),
-            SampleCount::Four => {
+            Samples::One => load3(simd, &self.lead[0], at),
+            Samples::Four => {
                 // Quarters first: the sum of four largest numbers would be infinite.
                 let [a, b, c, d] = each!(sample in 4 => {
                     scale::<S>(load3(simd, &self.lead[sample], at), splat(simd, 0.25))

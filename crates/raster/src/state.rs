@@ -1,9 +1,11 @@
 //! What shading takes from draws and surfaces, looked up by the number that a pixel keeps.
 
 use crate::lanes::Simd;
-use crate::lighting::{Irradiance, Points, gathered, gathered_here};
+use crate::lighting::{Irradiance, Points, ShadedTerms, gathered, gathered_here};
 use crate::lobe::{AxialGloss, Gloss};
-use crate::pass::{DrawCall, Highlight, LeftOut, LightRange, MapCall, Pass, ShadedTerms, SideData, SurfaceData};
+use crate::pass::{Cull, DrawCall, MapCall, Pass};
+use halfway_lighting::record::{LightRange, MaterialRecord, SurfaceLights, SurfaceRecord};
+use halfway_lighting::{Frequency, Reflectance};
 use halfway_texture::{FarNormals, MapKind, SolidTexture};
 
 /// Where a draw's terms are shaded.
@@ -75,7 +77,7 @@ pub(crate) struct State {
     pub(crate) surface: u32,
     pub(crate) vertex: ShadedTerms,
     pub(crate) fragment: ShadedTerms,
-    pub(crate) highlight: Highlight,
+    pub(crate) reflectance: Reflectance,
     /// Whether triangles keep their own normal for where the interpolated one vanishes.
     pub(crate) opposite_normals: bool,
     /// Whether backs are drawn.
@@ -89,39 +91,38 @@ pub(crate) struct State {
 }
 
 impl State {
-    pub(crate) fn new(draw: &DrawCall, surface: u32, data: &SurfaceData) -> Self {
-        let lit = |terms: ShadedTerms, [all, diffuse, specular]: [LightRange; 3]| {
+    pub(crate) fn new(draw: &DrawCall, number: u32, surface: &SurfaceRecord) -> Self {
+        let lit = |frequency: fn(Frequency) -> bool| {
+            let terms = [draw.terms.diffuse, draw.terms.specular].map(frequency);
             // The environment takes normals as lights would have them.
-            if draw.surrounded {
-                return terms;
-            }
-            let has_diffuse = terms.diffuse && !(all.is_empty() && diffuse.is_empty());
-            let has_specular = terms.specular && !(all.is_empty() && specular.is_empty());
-            ShadedTerms { diffuse: has_diffuse, specular: has_specular }
+            let SurfaceLights { both, diffuse, specular } = &surface.lights;
+            let reaches = |range: &LightRange| draw.surrounded || !(both.is_empty() && range.is_empty());
+            ShadedTerms { diffuse: terms[0] && reaches(diffuse), specular: terms[1] && reaches(specular) }
         };
-        let vertex = lit(draw.vertex, data.vertex_ranges());
-        let fragment = lit(draw.fragment, data.fragment_ranges());
+        let flat = draw.terms.has(Frequency::Triangle);
+        let vertex = lit(|term| matches!(term, Frequency::Triangle | Frequency::Vertex));
+        let fragment = lit(|term| term == Frequency::Fragment);
         let stage = match (vertex.is_empty(), fragment.is_empty()) {
             // A flat triangle has the color of one point, whatever light there is.
-            (true, true) if draw.flat && (draw.colored || draw.is_mapped()) => Stage::Flat,
+            (true, true) if flat && (draw.colored || draw.is_mapped()) => Stage::Flat,
             (true, true) => Stage::Unlit,
-            (false, true) if draw.flat => Stage::Flat,
+            (false, true) if flat => Stage::Flat,
             (false, true) => Stage::Vertex,
             (true, false) => Stage::Fragment,
             (false, false) => Stage::Mixed,
         };
         Self {
             stage,
-            surface,
+            surface: number,
             vertex,
             fragment,
-            highlight: draw.highlight,
+            reflectance: draw.reflectance,
             opposite_normals: draw.opposite_normals
                 && (matches!(stage, Stage::Fragment | Stage::Mixed) || draw.surrounded && stage != Stage::Flat),
-            backs: draw.left_out != LeftOut::Back,
+            backs: draw.cull != Cull::Back,
             colored: draw.colored,
             maps: StateMaps::of(draw),
-            glosses: [&data.front, &data.back].map(|side| Gloss::new(draw.highlight, side.exponent)),
+            glosses: [&surface.front, &surface.back].map(|side| Gloss::new(draw.reflectance, side.shininess)),
         }
     }
 
@@ -139,7 +140,7 @@ impl State {
     #[inline(always)]
     pub(crate) fn vertex_terms<S: Simd>(&self, simd: S, pass: &Pass, points: &Points<S>, back: bool) -> Irradiance<S> {
         let surface = &pass.surfaces[self.surface as usize];
-        gathered(simd, (pass.lights, pass.lists), surface.vertex_ranges(), points, self.gloss(back), self.vertex)
+        gathered(simd, (pass.lights, pass.lists), &surface.lights, points, self.gloss(back), self.vertex)
     }
 
     /// What the lights of the fragment terms bring to points.
@@ -164,7 +165,7 @@ impl State {
         gloss: Gloss,
     ) -> Irradiance<S> {
         let surface = &pass.surfaces[self.surface as usize];
-        gathered_here(simd, (pass.lights, pass.lists), surface.fragment_ranges(), points, gloss, self.fragment)
+        gathered_here(simd, (pass.lights, pass.lists), &surface.lights, points, gloss, self.fragment)
     }
 
     /// The same for highlights that are not round.
@@ -176,7 +177,7 @@ impl State {
         axial: AxialGloss<S>,
     ) -> Irradiance<S> {
         let surface = &pass.surfaces[self.surface as usize];
-        gathered(simd, (pass.lights, pass.lists), surface.fragment_ranges(), points, axial, self.fragment)
+        gathered(simd, (pass.lights, pass.lists), &surface.lights, points, axial, self.fragment)
     }
 
     /// Whether the vertices' colors go a way of their own, which they do unless images have part in it.
@@ -209,7 +210,7 @@ impl State {
     }
 
     /// The material of a side.
-    pub(crate) fn side<'a>(&self, pass: &Pass<'a>, back: bool) -> &'a SideData {
+    pub(crate) fn side<'a>(&self, pass: &Pass<'a>, back: bool) -> &'a MaterialRecord {
         let surface = &pass.surfaces[self.surface as usize];
         if back { &surface.back } else { &surface.front }
     }

@@ -5,11 +5,10 @@ use crate::encode::kept;
 use crate::lanes::{Simd, V3, each, lanes, splat3};
 use crate::look::Look;
 use crate::mapped_pixels::MappedPixel;
-use crate::pass::{Highlight, SurroundingsData};
+use crate::pass::SurroundingsData;
 use crate::placed::TILE;
 use crate::state::{Stage, State};
 use crate::vertices::Screen;
-use halfway_lighting::Reflectance;
 use halfway_lighting::equations::vector::normalize_or_zero;
 use halfway_lighting::equations::{lobe_angle, lobe_exponent, mean_light, mirrored, surroundings};
 
@@ -43,11 +42,7 @@ impl MappedPixel<'_> {
         let n = if back { front.map(|x| -x) } else { front };
         let v = if look.pass.local_viewer { normalize_or_zero(way.map(|x| -x)) } else { [0.0, 0.0, 1.0] };
         let side = state.side(look.pass, back);
-        let reflectance = match state.highlight {
-            Highlight::Phong => Reflectance::Phong,
-            Highlight::BlinnPhong => Reflectance::BlinnPhong,
-        };
-        let alpha = lobe_exponent(reflectance, self.gloss(normals.as_ref(), side.exponent).exponent);
+        let alpha = lobe_exponent(state.reflectance, self.gloss(normals.as_ref(), side.shininess).exponent);
         let seen = around.map.at(around.direction(mirrored(n, v)), around.map.level_of(lobe_angle(alpha)));
         let mean = mean_light(&around.mean, around.direction(n));
         let color = match state.stage {

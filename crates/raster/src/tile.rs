@@ -9,7 +9,7 @@ use crate::faces::PieceFaces;
 use crate::lanes::{I, LEAST_LANES, MOST_LANES, Simd, V3, each, f32x4, lanes, max_one, min_one};
 use crate::look::Look;
 use crate::mapped::MappedTriangle;
-use crate::pass::{DrawCall, InstanceData, Pass, PixelFormat, SampleCount};
+use crate::pass::{DrawCall, Pass, PixelFormat};
 use crate::pieces::{PIECE_TRIANGLES, Piece, Pieces};
 use crate::placed::TILE;
 use crate::planes::{LaneSlopes, Planes, Slopes};
@@ -19,6 +19,8 @@ use crate::surroundings::behind;
 use crate::triangle::{Batch, Corners, Covering};
 use crate::vertices::{PlacedPiece, Screen, Vertices};
 use fearless_simd::prelude::*;
+use halfway_lighting::Samples;
+use halfway_lighting::record::InstanceRecord;
 
 /// What draws tiles, one after the other, in memory of its own.
 pub(crate) struct Worker {
@@ -46,7 +48,7 @@ struct Work<'a> {
     job: Job,
     mesh: &'a Pieces,
     piece: &'a Piece,
-    instance: &'a InstanceData,
+    instance: &'a InstanceRecord,
     state: &'a State,
     covering: Covering,
     /// Something else has been drawn before it in the tile, with one sample a pixel; it may hide this.
@@ -127,7 +129,7 @@ impl Worker {
                 || {
                     if shaded {
                         encode(simd, nearest, pass, last[1], rows);
-                    } else if pass.samples == SampleCount::One {
+                    } else if pass.samples == Samples::One {
                         shade_and_encode(simd, nearest, &look, last[1], rows);
                     } else {
                         shade_and_encode_four(simd, nearest, &look, last[1], rows);
@@ -161,7 +163,7 @@ impl Worker {
             self.faces.fill(simd, place, work.instance, state, [fronts & shown, backs & shown]);
         }
         self.vertices.light(simd, place, work.instance, state, groups_of::<S>(triangles, shown));
-        let one = work.covering.is_plain && work.covering.samples == SampleCount::One;
+        let one = work.covering.is_plain && work.covering.samples == Samples::One;
         // In their order, which decides where surfaces blend or lie in one depth.
         let mut left = shown;
         while left != 0 {
@@ -385,7 +387,7 @@ fn put_bytes<S: Simd>(rows: &mut Rows, at: usize, pixels: I<S>) {
 #[inline(always)]
 fn cover_tiny<S: Simd>(
     simd: S,
-    (nearest, count): (&mut TileBuffer, SampleCount),
+    (nearest, count): (&mut TileBuffer, Samples),
     (centers, samples, first): (i32, [i32; 4], [i32; 2]),
     slopes: &LaneSlopes<S>,
     range: [f32; 2],
@@ -393,8 +395,8 @@ fn cover_tiny<S: Simd>(
     keeps_lead: bool,
 ) {
     match count {
-        SampleCount::One => nearest.cover_tiny(simd, (centers, first), slopes, range, shader, keeps_lead),
-        SampleCount::Four => {
+        Samples::One => nearest.cover_tiny(simd, (centers, first), slopes, range, shader, keeps_lead),
+        Samples::Four => {
             nearest.cover_tiny_four(simd, (centers, samples, first), slopes, range, shader, keeps_lead);
         }
     }
@@ -433,8 +435,8 @@ fn draw<S: Simd>(
     let (shader, kept) = (shader_of(work.job.state, back), Kept::of(look, work.state, back, mapped));
     match look.pass.samples {
         _ if work.blend => nearest.blend(simd, edges, planes, shader, look),
-        SampleCount::One => nearest.cover_strips(simd, edges, planes, shader, kept),
-        SampleCount::Four => nearest.cover_four(simd, edges, planes, shader, kept),
+        Samples::One => nearest.cover_strips(simd, edges, planes, shader, kept),
+        Samples::Four => nearest.cover_four(simd, edges, planes, shader, kept),
     }
 }
 
@@ -452,13 +454,13 @@ impl<'a> Work<'a> {
             instance: &pass.instances[job.instance as usize],
             state,
             covering: Covering {
-                left_out: draw.left_out,
+                cull: draw.cull,
                 clockwise: draw.clockwise,
                 samples: pass.samples,
                 last,
                 is_plain: !blend && state.stage != Stage::Mixed && !state.opposite_normals && !state.is_painted(),
             },
-            behind: pass.samples == SampleCount::One && first.is_some_and(|first| first.instance != job.instance),
+            behind: pass.samples == Samples::One && first.is_some_and(|first| first.instance != job.instance),
             blend,
         }
     }

@@ -4,12 +4,13 @@
 use crate::lanes::{
     F, I, M, MOST_LANES, Simd, each, f32x4, lanes, load_i, splat, splat_i, store, store_fours_i, store_i,
 };
-use crate::pass::{LeftOut, SampleCount};
+use crate::pass::Cull;
 use crate::pieces::PIECE_TRIANGLES;
 use crate::planes::{DepthPlane, FLATTEST, LaneSlopes, Slopes};
 use crate::samples::GRID_PLACES;
 use crate::vertices::{CLIPPED, FAR_AWAY, GRID, SMALL, Vertices};
 use fearless_simd::prelude::*;
+use halfway_lighting::Samples;
 
 /// Columns and rows of the box of a tiny triangle, at most.
 pub(crate) const TINY: usize = 5;
@@ -89,10 +90,10 @@ pub(crate) struct Batch {
 /// What a batch has to know of the draw and the tile.
 #[derive(Clone, Copy)]
 pub(crate) struct Covering {
-    pub(crate) left_out: LeftOut,
+    pub(crate) cull: Cull,
     /// Fronts wind clockwise.
     pub(crate) clockwise: bool,
-    pub(crate) samples: SampleCount,
+    pub(crate) samples: Samples,
     /// The last column and row of the tile that are in the picture.
     pub(crate) last: [i32; 2],
     /// Whether triangles leave nothing but their depth and the leading numbers; those of few pixels are told from
@@ -104,8 +105,8 @@ impl Covering {
     /// How far samples lie from a pixel's center, in steps of the grid.
     pub(crate) fn reach(&self) -> i32 {
         match self.samples {
-            SampleCount::One => 0,
-            SampleCount::Four => 6 * GRID / 16,
+            Samples::One => 0,
+            Samples::Four => 6 * GRID / 16,
         }
     }
 }
@@ -195,10 +196,10 @@ impl Batch {
         let area = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
         let clockwise = area.simd_gt(zero);
         let front = if covering.clockwise { clockwise } else { area.simd_lt(zero) };
-        let shown = match covering.left_out {
-            LeftOut::Back => front,
-            LeftOut::Front => !front & !area.simd_eq(zero),
-            LeftOut::Neither => !area.simd_eq(zero),
+        let shown = match covering.cull {
+            Cull::Back => front,
+            Cull::Front => !front & !area.simd_eq(zero),
+            Cull::None => !area.simd_eq(zero),
         };
         self.others |= (meets & large).to_bitmask();
         self.backs = (!front).to_bitmask();
@@ -236,12 +237,12 @@ impl Batch {
 
     /// Finds the pixels that tiny triangles cover; returns which of all cover some, as far as that is known.
     #[inline(always)]
-    fn find_pixels<S: Simd>(&mut self, simd: S, outlines: &Outlines<S>, samples: SampleCount) -> M<S> {
+    fn find_pixels<S: Simd>(&mut self, simd: S, outlines: &Outlines<S>, samples: Samples) -> M<S> {
         let zero = splat_i(simd, 0);
         let pixels = self.covered(simd, outlines, [0; 2]);
         store_i::<S>(pixels, &mut self.pixels, 0);
         let mut any = pixels;
-        if samples == SampleCount::Four {
+        if samples == Samples::Four {
             let by_sample = each!(k in 4 => self.covered(simd, outlines, GRID_PLACES[k]));
             any = by_sample[0] | by_sample[1] | by_sample[2] | by_sample[3];
             store_fours_i::<S>(by_sample, &mut self.samples, 0);

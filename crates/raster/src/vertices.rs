@@ -6,11 +6,12 @@ use crate::lanes::{
     store_fours, store_i,
 };
 use crate::lighting::{Points, reflected, tinted, tinted_terms, to_viewer};
-use crate::pass::{InstanceData, Pass};
+use crate::pass::Pass;
 use crate::pieces::{Piece, Pieces};
 use crate::placed::TILE;
 use crate::state::{Stage, State};
 use fearless_simd::prelude::*;
+use halfway_lighting::record::InstanceRecord;
 
 /// Steps of the grid in a pixel.
 pub(crate) const GRID: i32 = 256;
@@ -121,7 +122,7 @@ impl Vertices {
         &mut self,
         simd: S,
         (mesh, piece): (&Pieces, &Piece),
-        instance: &InstanceData,
+        instance: &InstanceRecord,
         (pass, state): (&Pass, &State),
         groups: u32,
     ) {
@@ -156,7 +157,7 @@ impl Vertices {
         &mut self,
         simd: S,
         (mesh, piece): (&Pieces, &Piece),
-        instance: &InstanceData,
+        instance: &InstanceRecord,
         (screen, tile): (&Screen, [u32; 2]),
         (at_hand, boxed): (bool, bool),
     ) -> PlacedPiece {
@@ -172,7 +173,7 @@ impl Vertices {
         &mut self,
         simd: S,
         (mesh, piece): (&Pieces, &Piece),
-        instance: &InstanceData,
+        instance: &InstanceRecord,
         (screen, tile): (&Screen, [u32; 2]),
         boxed: bool,
     ) -> PlacedPiece {

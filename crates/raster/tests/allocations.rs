@@ -8,7 +8,8 @@
 mod common;
 
 use common::{Scene, Shading, sphere};
-use halfway_raster::{Output, PixelFormat, RasterOptions, Rasterizer, SampleCount};
+use halfway_lighting::Samples;
+use halfway_raster::{Output, PixelFormat, RasterOptions, Rasterizer};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
@@ -71,7 +72,7 @@ fn blocks(scenes: &[Scene], threads: usize) -> usize {
 fn scenes() -> Vec<Scene> {
     let mut scenes = Vec::new();
     for shading in Shading::ALL {
-        for samples in [SampleCount::One, SampleCount::Four] {
+        for samples in [Samples::One, Samples::Four] {
             for pixels in [PixelFormat::SrgbBytes, PixelFormat::Floats] {
                 let mut scene = sphere(true, shading).expect("a sound mesh");
                 (scene.samples, scene.pixels) = (samples, pixels);

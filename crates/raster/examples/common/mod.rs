@@ -1,10 +1,9 @@
 //! Scenes S1 and S4 of the project's benchmarks, as plain data.
 
+use halfway_lighting::record::{InstanceRecord, LightRange, LightRecord, MaterialRecord, SurfaceLights, SurfaceRecord};
+use halfway_lighting::{Frequency, Samples, Terms};
 use halfway_mesh::{Mesh, UvSphere};
-use halfway_raster::{
-    DrawCall, Highlight, InstanceData, Lens, LightData, LightRange, Pass, Pieces, PixelFormat, RasterError,
-    SampleCount, ShadedTerms, SideData, SurfaceData, TriangleOrder,
-};
+use halfway_raster::{DrawCall, Lens, Pass, Pieces, PixelFormat, RasterError, TriangleOrder};
 
 /// Where terms are shaded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,14 +21,14 @@ impl Shading {
 /// All that a pass borrows.
 pub(crate) struct Scene {
     pub(crate) size: [u32; 2],
-    pub(crate) samples: SampleCount,
+    pub(crate) samples: Samples,
     pub(crate) pixels: PixelFormat,
     pub(crate) clear: [f32; 3],
     pub(crate) lens: Lens,
-    pub(crate) lights: Vec<LightData>,
+    pub(crate) lights: Vec<LightRecord>,
     pub(crate) lists: Vec<u32>,
-    pub(crate) surfaces: Vec<SurfaceData>,
-    pub(crate) instances: Vec<InstanceData>,
+    pub(crate) surfaces: Vec<SurfaceRecord>,
+    pub(crate) instances: Vec<InstanceRecord>,
     pub(crate) meshes: Vec<Pieces>,
     pub(crate) draws: Vec<DrawCall>,
 }
@@ -71,13 +70,13 @@ pub(crate) fn pieces(mesh: &Mesh, order: TriangleOrder) -> Result<Pieces, Raster
 }
 
 /// A mesh at this place, unturned.
-pub(crate) fn at(place: [f32; 3], surface: u32) -> InstanceData {
+pub(crate) fn at(place: [f32; 3], surface: u32) -> InstanceRecord {
     let row = |axis: usize| {
         let mut row = [0.0, 0.0, 0.0, place[axis]];
         row[axis] = 1.0;
         row
     };
-    InstanceData {
+    InstanceRecord {
         eye_from_model: [row(0), row(1), row(2)],
         normal: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         surface,
@@ -86,21 +85,13 @@ pub(crate) fn at(place: [f32; 3], surface: u32) -> InstanceData {
 
 /// A draw of N instances of a whole mesh.
 pub(crate) fn draw(mesh: &Pieces, instances: u32, shading: Shading) -> DrawCall {
-    let (none, both) = (ShadedTerms::default(), ShadedTerms::BOTH);
-    let (vertex, fragment) = match shading {
-        Shading::Constant => (none, none),
-        Shading::Flat | Shading::Gouraud => (both, none),
-        Shading::Phong => (none, both),
-    };
-    DrawCall {
-        indices: 0..3 * mesh.triangle_count() as u32,
-        instances: 0..instances,
-        vertex,
-        fragment,
-        flat: shading == Shading::Flat,
-        highlight: Highlight::BlinnPhong,
-        ..DrawCall::default()
-    }
+    let terms = Terms::both(match shading {
+        Shading::Constant => Frequency::Never,
+        Shading::Flat => Frequency::Triangle,
+        Shading::Gouraud => Frequency::Vertex,
+        Shading::Phong => Frequency::Fragment,
+    });
+    DrawCall { indices: 0..3 * mesh.triangle_count() as u32, instances: 0..instances, terms, ..DrawCall::default() }
 }
 
 /// One sphere of 261,120 triangles under four lights, or a small one of 3,968 under one.
@@ -109,18 +100,19 @@ pub(crate) fn sphere(small: bool, shading: Shading) -> Result<Scene, RasterError
     let (segments, rings) = if small { (64, 32) } else { (512, 256) };
     let mesh = pieces(&Mesh::from(UvSphere { radius: 1.0, segments, rings }), TriangleOrder::Clustered)?;
     let c = 1.0 / 3.0_f32.sqrt();
-    let from_the_side = |strength: f32| LightData {
+    let from_the_side = |strength: f32| LightRecord {
         position: [c; 3],
         diffuse: [strength; 3],
         specular: [strength; 3],
-        ..LightData::default()
+        ..LightRecord::default()
     };
-    let point = |position: [f32; 3], color: [f32; 3]| LightData {
+    let point = |position: [f32; 3], color: [f32; 3]| LightRecord {
         position: [position[0], position[1], position[2] - 3.0],
-        attenuation: [1.0, 0.09, 0.032],
+        linear: 0.09,
+        quadratic: 0.032,
         diffuse: color.map(|x| 0.5 * x),
         specular: color.map(|x| 0.5 * x),
-        ..LightData::default()
+        ..LightRecord::default()
     };
     let (lights, counts) = if small {
         (vec![from_the_side(0.9)], [1, 0, 0])
@@ -132,24 +124,24 @@ pub(crate) fn sphere(small: bool, shading: Shading) -> Result<Scene, RasterError
         ];
         ([vec![from_the_side(0.6)], points.to_vec()].concat(), [1, 3, 0])
     };
-    let all = LightRange { counts, start: 0 };
-    let front = SideData {
+    let lights_of_all = SurfaceLights { both: LightRange { counts, start: 0 }, ..SurfaceLights::default() };
+    let front = MaterialRecord {
         base: [0.08, 0.03, 0.02],
         diffuse: [0.8, 0.3, 0.2],
         specular: if small { [0.0; 3] } else { [1.0; 3] },
-        exponent: 32.0,
+        shininess: 32.0,
         opacity: 1.0,
-        ..SideData::default()
+        ..MaterialRecord::default()
     };
     Ok(Scene {
         size,
-        samples: SampleCount::One,
+        samples: Samples::One,
         pixels: PixelFormat::SrgbBytes,
         clear: [0.01, 0.012, 0.02],
         lens: lens(size, 45.0),
         lists: (0..lights.len() as u32).collect(),
         lights,
-        surfaces: vec![SurfaceData { front, vertex: all, fragment: all, ..SurfaceData::default() }],
+        surfaces: vec![SurfaceRecord { front, lights: lights_of_all, ..SurfaceRecord::default() }],
         instances: vec![at([0.0, 0.0, -3.0], 0)],
         draws: vec![draw(&mesh, 1, shading)],
         meshes: vec![mesh],

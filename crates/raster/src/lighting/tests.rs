@@ -3,7 +3,6 @@
 use super::*;
 use crate::lanes::MOST_LANES;
 use crate::lobe::Gloss;
-use crate::pass::Highlight;
 use crate::width::{VectorWidth, with_vectors};
 use halfway_lighting::Reflectance;
 use halfway_lighting::equations::{
@@ -15,10 +14,10 @@ use halfway_lighting::equations::{
 struct Case {
     p: [f32; 3],
     n: [f32; 3],
-    light: LightData,
+    light: LightRecord,
     kind: Kind,
     exponent: f32,
-    highlight: Highlight,
+    reflectance: Reflectance,
     local_viewer: bool,
 }
 
@@ -66,40 +65,47 @@ impl Random {
         Case {
             p,
             n: self.direction(),
-            light: LightData {
+            light: LightRecord {
                 position: if kind == Kind::Directional { toward } else { position },
                 inverse_range: if self.unit() < 0.5 { 0.0 } else { 1.0 / self.within(0.5, 5.0) },
-                attenuation: [self.within(0.1, 1.0), self.within(0.0, 1.0), self.within(0.0, 1.0)],
+                constant: self.within(0.1, 1.0),
+                linear: self.within(0.0, 1.0),
+                quadratic: self.within(0.0, 1.0),
                 direction: direction.map_or([0.0, 0.0, -1.0], |d| d.map(|x| x as f32)),
                 cos_cutoff,
                 exponent: (self.unit() * 5.0).floor() * 2.5,
-                inner_fade: if faded { [1.0 / width, -cos_cutoff / width] } else { [0.0, 1.0] },
+                inner_scale: if faded { 1.0 / width } else { 0.0 },
+                inner_offset: if faded { -cos_cutoff / width } else { 1.0 },
                 ambient: if self.unit() < 0.5 { [0.0; 3] } else { [self.unit(), 0.5, 0.25] },
                 diffuse: [self.unit(), self.unit(), self.unit()],
                 specular: [self.unit(), self.unit(), self.unit()],
+                ..LightRecord::default()
             },
             kind,
             exponent: [0.0, 1.0, 5.0, 32.0, 100.5, 1000.0][(self.unit() * 6.0) as usize],
-            highlight: if self.unit() < 0.5 { Highlight::Phong } else { Highlight::BlinnPhong },
+            reflectance: if self.unit() < 0.5 { Reflectance::Phong } else { Reflectance::BlinnPhong },
             local_viewer: self.unit() < 0.8,
         }
     }
 }
 
-const SIDE: SideData = SideData {
+const SIDE: MaterialRecord = MaterialRecord {
     base: [0.1, 0.2, 0.3],
     diffuse: [0.9, 0.7, 0.5],
     specular: [0.4, 0.6, 0.8],
     ambient: [0.3, 0.2, 0.1],
-    exponent: 0.0,
+    shininess: 0.0,
     emission: [0.0; 3],
     opacity: 1.0,
+    padding0: 0.0,
+    padding1: 0.0,
+    padding2: 0.0,
 };
 
 fn expected(case: &Case) -> [f64; 3] {
     let f = |v: [f32; 3]| v.map(f64::from);
     let light = &case.light;
-    let [fade, offset] = light.inner_fade.map(f64::from);
+    let [fade, offset] = [light.inner_scale, light.inner_offset].map(f64::from);
     let cone = (case.kind == Kind::Spot).then(|| ConeTerms {
         direction: f(light.direction),
         cos_cutoff: f64::from(light.cos_cutoff),
@@ -112,7 +118,7 @@ fn expected(case: &Case) -> [f64; 3] {
         la: f(light.ambient),
         ld: f(light.diffuse),
         ls: f(light.specular),
-        attenuation: f(light.attenuation),
+        attenuation: f([light.constant, light.linear, light.quadratic]),
         range: (light.inverse_range > 0.0).then(|| 1.0 / f64::from(light.inverse_range)),
         cone,
         attenuate_ambient: true,
@@ -125,24 +131,19 @@ fn expected(case: &Case) -> [f64; 3] {
         shininess: f64::from(case.exponent),
     };
     let view = if case.local_viewer { Eye::Local([0.0; 3]) } else { Eye::Infinite([0.0, 0.0, 1.0]) };
-    let reflectance = match case.highlight {
-        Highlight::Phong => Reflectance::Phong,
-        Highlight::BlinnPhong => Reflectance::BlinnPhong,
-    };
     let surface = ShadedPoint { position: f(case.p), normal: f(case.n) };
-    equations::shade(&surface, &material, &[source], [0.0; 3], &view, reflectance)
+    equations::shade(&surface, &material, &[source], [0.0; 3], &view, case.reflectance)
 }
 
 /// What the twin makes of a case, in every lane.
 fn shaded<S: Simd>(simd: S, case: &Case) -> [[f32; MOST_LANES]; 3] {
     let (p, n) = (splat3(simd, case.p), splat3(simd, case.n));
     let points = Points::new(simd, p, n, to_viewer(simd, p, n, case.local_viewer));
-    let exponent = Exponent::new(case.exponent);
-    let exponent = if case.highlight == Highlight::BlinnPhong { exponent.halved() } else { exponent };
-    let gloss = Gloss { highlight: case.highlight, exponent };
+    let gloss = Gloss::new(case.reflectance, case.exponent);
     let counts = [Kind::Directional, Kind::Point, Kind::Spot].map(|kind| u32::from(kind == case.kind));
-    let ranges = [LightRange { counts, start: 0 }, LightRange::default(), LightRange::default()];
-    let terms = gathered(simd, (&[case.light], &[0]), ranges, &points, gloss, ShadedTerms::BOTH);
+    let lights = SurfaceLights { both: LightRange { counts, start: 0 }, ..SurfaceLights::default() };
+    let both = ShadedTerms { diffuse: true, specular: true };
+    let terms = gathered(simd, (&[case.light], &[0]), &lights, &points, gloss, both);
     let color = reflected(simd, &terms, &SIDE);
     let mut lanes = [[0.0; MOST_LANES]; 3];
     for c in 0..3 {
@@ -159,7 +160,7 @@ fn on(width: VectorWidth, case: &Case) -> [[f32; MOST_LANES]; 3] {
 /// How far f32 may be: its rounding near the cosine's maximum is multiplied by the exponent (`equations::power` says
 /// how far), and that of a cone's cosine by the steepness of its fade.
 fn tolerance(case: &Case) -> f64 {
-    2e-6 * f64::from(1.0 + case.exponent) + 1e-6 * f64::from(case.light.inner_fade[0])
+    2e-6 * f64::from(1.0 + case.exponent) + 1e-6 * f64::from(case.light.inner_scale)
 }
 
 fn is_on_an_edge(case: &Case) -> bool {
@@ -217,13 +218,19 @@ fn the_edges_are_those_of_the_equations() {
     let straight = Case {
         p: [0.0, 0.0, -2.0],
         n: [0.0, 0.0, 1.0],
-        light: LightData { diffuse: [0.5; 3], specular: [0.5; 3], ..LightData::default() },
+        light: LightRecord { diffuse: [0.5; 3], specular: [0.5; 3], ..LightRecord::default() },
         kind: Kind::Directional,
         exponent: 32.0,
-        highlight: Highlight::BlinnPhong,
+        reflectance: Reflectance::BlinnPhong,
         local_viewer: true,
     };
-    let at = |position, attenuation| LightData { position, attenuation, ..straight.light };
+    let at = |position, [constant, linear, quadratic]: [f32; 3]| LightRecord {
+        position,
+        constant,
+        linear,
+        quadratic,
+        ..straight.light
+    };
     let near = |share: f32| {
         // The eye looks along the normal, which the light's direction is not.
         let light = at([2.0 * share, 0.0, -2.0 + 1e-12], [0.5, 1.0, 1.0]);
@@ -267,7 +274,7 @@ fn the_edges_are_those_of_the_equations() {
             "a spot 10²⁵ away",
             Case {
                 kind: Kind::Spot,
-                light: LightData {
+                light: LightRecord {
                     direction: [0.0, -0.6, -0.8],
                     cos_cutoff: 0.5,
                     ..at([0.0, 6e24, 8e24], [1.0, 0.0, 0.0])
@@ -279,14 +286,14 @@ fn the_edges_are_those_of_the_equations() {
             "a cutoff of 0",
             Case {
                 kind: Kind::Spot,
-                light: LightData { position: [0.0; 3], cos_cutoff: 1.0, ..straight.light },
+                light: LightRecord { position: [0.0; 3], cos_cutoff: 1.0, ..straight.light },
                 ..straight
             },
         ),
     ];
     for (name, case) in cases {
-        for highlight in [Highlight::Phong, Highlight::BlinnPhong] {
-            let case = Case { highlight, ..case };
+        for reflectance in [Reflectance::Phong, Reflectance::BlinnPhong] {
+            let case = Case { reflectance, ..case };
             let expected = expected(&case);
             for width in VectorWidth::available() {
                 let found = on(width, &case);

@@ -1,10 +1,11 @@
 //! The same bits on every width and thread count, and on every machine.
 
 use crate::common::{Scene, Shading, at, draw, pieces, sphere};
+use halfway_lighting::record::{InstanceRecord, LightRecord};
+use halfway_lighting::{Frequency, Reflectance, Samples, Terms};
 use halfway_mesh::{Mesh, Plane};
 use halfway_raster::{
-    DrawCall, Highlight, InstanceData, LeftOut, Lens, LightData, Output, Pieces, PixelFormat, RasterOptions,
-    Rasterizer, SampleCount, ShadedTerms, TriangleOrder, VectorWidth,
+    Cull, DrawCall, Lens, Output, Pieces, PixelFormat, RasterOptions, Rasterizer, TriangleOrder, VectorWidth,
 };
 
 /// FNV-1a of 64 bits.
@@ -61,7 +62,7 @@ fn small(shading: Shading) -> Scene {
 }
 
 /// A floor that reaches from behind the eye to afar, and a half-transparent sphere that is seen from both sides.
-fn floor_and_glass(samples: SampleCount, pixels: PixelFormat) -> Scene {
+fn floor_and_glass(samples: Samples, pixels: PixelFormat) -> Scene {
     let mut scene = small(Shading::Phong);
     scene.size = [333, 217];
     scene.lens = Lens { scale: [1.125, 1.75], near: 0.1 };
@@ -72,26 +73,29 @@ fn floor_and_glass(samples: SampleCount, pixels: PixelFormat) -> Scene {
     (surface.front.opacity, surface.back.opacity) = (0.4, 0.4);
     surface.back.base = [0.2, 0.5, 0.9];
     surface.front.specular = [0.9, 0.8, 0.7];
-    surface.front.exponent = 13.7;
+    surface.front.shininess = 13.7;
     scene.surfaces.push(surface);
-    scene.lights.push(LightData {
+    scene.lights.push(LightRecord {
         position: [0.5, 1.5, -2.0],
-        attenuation: [0.5, 0.1, 0.05],
+        constant: 0.5,
+        linear: 0.1,
+        quadratic: 0.05,
         inverse_range: 0.125,
         direction: [0.0, -0.8, -0.6],
         cos_cutoff: 0.6,
         exponent: 2.0,
-        inner_fade: [5.0, -3.0],
+        inner_scale: 5.0,
+        inner_offset: -3.0,
         ambient: [0.1; 3],
         diffuse: [0.3, 0.5, 0.4],
         specular: [0.5; 3],
+        ..LightRecord::default()
     });
     scene.lists = vec![0, 1];
     for surface in &mut scene.surfaces {
-        surface.fragment.counts = [1, 0, 1];
-        surface.vertex.counts = [1, 0, 1];
+        surface.lights.both.counts = [1, 0, 1];
     }
-    let turned = InstanceData {
+    let turned = InstanceRecord {
         surface: 1,
         eye_from_model: [[0.8, 0.1, 0.0, 0.3], [0.0, 0.9, 0.2, 0.0], [0.1, 0.0, -0.7, -2.2]],
         ..at([0.0; 3], 1)
@@ -101,14 +105,13 @@ fn floor_and_glass(samples: SampleCount, pixels: PixelFormat) -> Scene {
         mesh,
         instances,
         blend,
-        left_out: if blend { LeftOut::Neither } else { LeftOut::Back },
+        cull: if blend { Cull::None } else { Cull::Back },
         ..draw(pieces, 0, Shading::Phong)
     };
     let mixed = DrawCall {
         clockwise: true,
-        vertex: ShadedTerms { diffuse: true, specular: false },
-        fragment: ShadedTerms { diffuse: false, specular: true },
-        highlight: Highlight::Phong,
+        terms: Terms { diffuse: Frequency::Vertex, specular: Frequency::Fragment },
+        reflectance: Reflectance::Phong,
         ..call(1, &glass, 1..2, true)
     };
     scene.draws = vec![call(0, &floor, 0..1, false), mixed, call(1, &glass, 2..3, true)];
@@ -123,10 +126,10 @@ fn scenes() -> Vec<(String, Scene)> {
     }
     for shading in [Shading::Flat, Shading::Gouraud] {
         let mut scene = small(shading);
-        (scene.samples, scene.pixels) = (SampleCount::Four, PixelFormat::RawBytes);
+        (scene.samples, scene.pixels) = (Samples::Four, PixelFormat::RawBytes);
         scenes.push((format!("ball {shading:?} with four samples, raw"), scene));
     }
-    for samples in [SampleCount::One, SampleCount::Four] {
+    for samples in [Samples::One, Samples::Four] {
         for pixels in [PixelFormat::SrgbBytes, PixelFormat::Floats] {
             scenes.push((format!("floor and glass, {samples:?}, {pixels:?}"), floor_and_glass(samples, pixels)));
         }
@@ -181,19 +184,18 @@ fn ten_pictures_have_the_same_bits_on_every_width_and_with_any_threads() {
 }
 
 /// A ball that the near plane cuts open, seen from both sides.
-fn cut_open(shading: Shading, samples: SampleCount) -> Scene {
+fn cut_open(shading: Shading, samples: Samples) -> Scene {
     let mut scene = small(shading);
     (scene.samples, scene.pixels) = (samples, PixelFormat::Floats);
     // Through triangles, and not along a row of vertices.
     scene.lens.near = 3.1;
-    scene.draws[0].left_out = LeftOut::Neither;
+    scene.draws[0].cull = Cull::None;
     scene
 }
 
 #[test]
 fn no_picture_depends_on_those_before_it() {
-    let cut =
-        Shading::ALL.map(|shading| [SampleCount::One, SampleCount::Four].map(|samples| cut_open(shading, samples)));
+    let cut = Shading::ALL.map(|shading| [Samples::One, Samples::Four].map(|samples| cut_open(shading, samples)));
     let scenes: Vec<_> = scenes().into_iter().map(|(_, scene)| scene).chain(cut.into_iter().flatten()).collect();
     let new = || Rasterizer::new(RasterOptions { threads: Some(1), ..RasterOptions::default() }).expect("threads");
     let alone: Vec<_> = scenes.iter().map(|scene| hash_of_picture(scene, &mut new())).collect();

@@ -1,10 +1,9 @@
 //! Which pixels triangles cover, against an exact fill rule in 64 bits on the same corners of the grid.
 
 use crate::common::{Scene, Shading, at, draw};
-use halfway_raster::{
-    LeftOut, Lens, Output, Pieces, PixelFormat, RasterOptions, Rasterizer, SampleCount, SideData, SurfaceData,
-    TriangleOrder, VectorWidth,
-};
+use halfway_lighting::Samples;
+use halfway_lighting::record::{MaterialRecord, SurfaceRecord};
+use halfway_raster::{Cull, Lens, Output, Pieces, PixelFormat, RasterOptions, Rasterizer, TriangleOrder, VectorWidth};
 use proptest::prelude::*;
 
 const SIDE: u32 = 128;
@@ -22,13 +21,13 @@ fn point([x, y]: Corner) -> [f32; 3] {
 
 /// White triangles over black. Half-transparent ones make 0.5 where one of them covers a sample, 0.75 where two do;
 /// opaque ones, which are drawn in other ways, 1 where any does.
-fn scene(triangles: &[[[f32; 3]; 3]], samples: SampleCount, blend: bool) -> Scene {
+fn scene(triangles: &[[[f32; 3]; 3]], samples: Samples, blend: bool) -> Scene {
     let positions = triangles.concat();
     let indices: Vec<_> = (0..positions.len() as u32).collect();
     let mesh = Pieces::new(&positions, &[], &indices, &[], TriangleOrder::Kept).expect("finite corners");
-    let white = SideData { base: [1.0; 3], opacity: 0.5, ..SideData::default() };
+    let white = MaterialRecord { base: [1.0; 3], opacity: 0.5, ..MaterialRecord::default() };
     let mut call = draw(&mesh, 1, Shading::Constant);
-    (call.left_out, call.blend) = (LeftOut::Neither, blend);
+    (call.cull, call.blend) = (Cull::None, blend);
     Scene {
         size: [SIDE; 2],
         samples,
@@ -37,7 +36,7 @@ fn scene(triangles: &[[[f32; 3]; 3]], samples: SampleCount, blend: bool) -> Scen
         lens: Lens { scale: [1.0, 1.0], near: 0.5 },
         lights: Vec::new(),
         lists: Vec::new(),
-        surfaces: vec![SurfaceData { front: white, back: white, ..SurfaceData::default() }],
+        surfaces: vec![SurfaceRecord { front: white, back: white, ..SurfaceRecord::default() }],
         instances: vec![at([0.0; 3], 0)],
         draws: vec![call],
         meshes: vec![mesh],
@@ -74,10 +73,10 @@ fn covers(corners: [Corner; 3], [x, y]: Corner) -> bool {
 type Rule = fn([Corner; 3], Corner) -> bool;
 
 /// What the picture must show of a pixel.
-fn expected(rule: Rule, triangles: &[[Corner; 3]], samples: SampleCount, blend: bool, x: i64, y: i64) -> f32 {
+fn expected(rule: Rule, triangles: &[[Corner; 3]], samples: Samples, blend: bool, x: i64, y: i64) -> f32 {
     let places: &[Corner] = match samples {
-        SampleCount::One => &[[0, 0]],
-        SampleCount::Four => &[[-32, -96], [96, -32], [-96, 32], [32, 96]],
+        Samples::One => &[[0, 0]],
+        Samples::Four => &[[-32, -96], [96, -32], [-96, 32], [32, 96]],
     };
     let opacity = if blend { 0.5 } else { 1.0 };
     let shown = |place: &Corner| {
@@ -90,7 +89,7 @@ fn expected(rule: Rule, triangles: &[[Corner; 3]], samples: SampleCount, blend: 
 
 /// Draws triangles in every way, and compares each pixel with what the exact rule says of it.
 fn check(triangles: &[[Corner; 3]]) -> Result<(), TestCaseError> {
-    for samples in [SampleCount::One, SampleCount::Four] {
+    for samples in [Samples::One, Samples::Four] {
         for blend in [false, true] {
             check_by(covers, triangles, samples, blend)?;
         }
@@ -98,7 +97,7 @@ fn check(triangles: &[[Corner; 3]]) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-fn check_by(rule: Rule, triangles: &[[Corner; 3]], samples: SampleCount, blend: bool) -> Result<(), TestCaseError> {
+fn check_by(rule: Rule, triangles: &[[Corner; 3]], samples: Samples, blend: bool) -> Result<(), TestCaseError> {
     let points: Vec<_> = triangles.iter().map(|triangle| triangle.map(point)).collect();
     let place = |at: usize| (at as i64 % i64::from(SIDE), at as i64 / i64::from(SIDE));
     let expected: Vec<_> = (0..(SIDE * SIDE) as usize)
@@ -150,8 +149,8 @@ proptest! {
     #[test]
     fn many_triangles_cover_what_the_fill_rule_says(triangles in prop::collection::vec(triangle(), 2..70)) {
         // More than one vector of them, and more than one piece.
-        check_by(covers, &triangles, SampleCount::One, false)?;
-        check_by(covers, &triangles, SampleCount::Four, false)?;
+        check_by(covers, &triangles, Samples::One, false)?;
+        check_by(covers, &triangles, Samples::Four, false)?;
     }
 
     #[test]
@@ -171,8 +170,8 @@ proptest! {
         let sum = split[0] + split[1] + split[2] + 1e-3;
         let inside = [0, 1, 2].map(|k| (a[k] * split[0] + b[k] * split[1] + c[k] * (split[2] + 1e-3)) / sum);
         let width = VectorWidth::available().next().expect("there is one");
-        let whole = picture(&scene(&[[a, b, c]], SampleCount::One, true), width);
-        let parts = picture(&scene(&[[a, b, inside], [b, c, inside], [c, a, inside]], SampleCount::One, true), width);
+        let whole = picture(&scene(&[[a, b, c]], Samples::One, true), width);
+        let parts = picture(&scene(&[[a, b, inside], [b, c, inside], [c, a, inside]], Samples::One, true), width);
         // The point is rounded, so that a part seen edge-on may turn over, and overlap another.
         let seen = [a, b, c].map(|p| p.map(f64::from));
         prop_assume!(determinant(seen).abs() > 0.05);
@@ -203,7 +202,7 @@ fn the_fill_rule_itself_is_exact_on_a_square() {
     for y in 0..5 {
         for x in 0..5 {
             let inside = (1..3).contains(&x) && (1..3).contains(&y);
-            let found = expected(covers, &halves_of_a_square(), SampleCount::One, true, x, y);
+            let found = expected(covers, &halves_of_a_square(), Samples::One, true, x, y);
             assert!((found - if inside { 0.5 } else { 0.0 }).abs() < 1e-9, "({x}, {y})");
         }
     }
@@ -218,7 +217,7 @@ fn the_check_finds_wrong_rules() {
     let off: Rule = |corners, point| covers(corners.map(|[x, y]| [x + 1, y]), point);
     for (name, rule) in [("turned", turned), ("none", none), ("off", off)] {
         for blend in [false, true] {
-            let found = check_by(rule, &halves_of_a_square(), SampleCount::One, blend);
+            let found = check_by(rule, &halves_of_a_square(), Samples::One, blend);
             assert!(found.is_err(), "{name}, {blend}");
         }
     }

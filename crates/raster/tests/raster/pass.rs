@@ -1,23 +1,25 @@
 //! What passes mean apart from light: order, blending, formats, ranges of indices, and what is refused.
 
 use crate::common::{Scene, Shading, at, draw, lens, sphere};
+use halfway_lighting::Samples;
+use halfway_lighting::record::{MaterialRecord, SurfaceRecord};
 use halfway_raster::{
-    ClearTiles, DrawCall, LARGEST_SIDE, LeftOut, Output, Pieces, PixelFormat, RasterError, RasterOptions, Rasterizer,
-    SampleCount, SideData, SurfaceData, TriangleOrder, VectorWidth,
+    ClearTiles, Cull, DrawCall, LARGEST_SIDE, Output, Pieces, PixelFormat, RasterError, RasterOptions, Rasterizer,
+    TriangleOrder, VectorWidth,
 };
 
 /// Squares across the whole view at these depths, each of a color and an opacity.
 fn squares(squares: &[(f32, [f32; 3], f32)], blend: bool) -> Scene {
     let corners = [[-9.0, -9.0, 0.0], [9.0, -9.0, 0.0], [9.0, 9.0, 0.0], [-9.0, 9.0, 0.0]];
     let mesh = Pieces::new(&corners, &[], &[0, 1, 2, 0, 2, 3], &[0..3, 3..6], TriangleOrder::Kept).expect("sound");
-    let surface = |&(_, base, opacity): &(f32, [f32; 3], f32)| SurfaceData {
-        front: SideData { base, opacity, ..SideData::default() },
-        ..SurfaceData::default()
+    let surface = |&(_, base, opacity): &(f32, [f32; 3], f32)| SurfaceRecord {
+        front: MaterialRecord { base, opacity, ..MaterialRecord::default() },
+        ..SurfaceRecord::default()
     };
     let call = |number: u32| DrawCall { instances: number..number + 1, blend, ..draw(&mesh, 0, Shading::Constant) };
     Scene {
         size: [70, 66],
-        samples: SampleCount::One,
+        samples: Samples::One,
         pixels: PixelFormat::Floats,
         clear: [0.25, 0.5, 4.0],
         lens: lens([70, 66], 60.0),
@@ -38,7 +40,7 @@ fn floats(scene: &Scene) -> Vec<[f32; 4]> {
 }
 
 fn every_pixel_is(scene: &Scene, expected: [f32; 3]) {
-    for samples in [SampleCount::One, SampleCount::Four] {
+    for samples in [Samples::One, Samples::Four] {
         let scene = Scene { samples, draws: scene.draws.clone(), ..squares_like(scene) };
         for pixel in floats(&scene) {
             for c in 0..3 {
@@ -110,9 +112,9 @@ fn triangles_of_a_mesh_blend_in_their_order() {
         .flat_map(|k| if k % 2 == 0 { [3 * k, 3 * k + 1, 3 * k + 2] } else { [3 * k, 3 * k + 2, 3 * k + 1] })
         .collect();
     scene.meshes = vec![Pieces::new(&positions, &[], &indices, &[], TriangleOrder::Kept).expect("sound")];
-    scene.surfaces[0].back = SideData { base: GREEN, opacity: 0.5, ..SideData::default() };
+    scene.surfaces[0].back = MaterialRecord { base: GREEN, opacity: 0.5, ..MaterialRecord::default() };
     scene.clear = [0.0; 3];
-    scene.draws[0] = DrawCall { indices: 0..18, left_out: LeftOut::Neither, ..scene.draws[0].clone() };
+    scene.draws[0] = DrawCall { indices: 0..18, cull: Cull::None, ..scene.draws[0].clone() };
     let middle = floats(&scene)[(33 * 70 + 35) as usize];
     // Red and green by turns: Σ 2⁻ᵏ over every other k.
     let (red, green) = (1.0 / 4.0 + 1.0 / 16.0 + 1.0 / 64.0, 1.0 / 2.0 + 1.0 / 8.0 + 1.0 / 32.0);
@@ -200,7 +202,7 @@ fn what_is_wrong_is_refused_and_named() {
         ("base is -1", |scene| scene.surfaces[0].front.base[2] = -1.0),
         ("opacity is 1.5", |scene| scene.surfaces[0].back.opacity = 1.5),
         ("surface reaches to 8", |scene| scene.instances[0].surface = 7),
-        ("vertex reaches to 3", |scene| scene.surfaces[0].vertex.counts = [1, 1, 1]),
+        ("both reaches to 3", |scene| scene.surfaces[0].lights.both.counts = [1, 1, 1]),
     ];
     for (message, spoil) in cases {
         let mut scene = squares(&[(2.0, RED, 1.0)], false);
@@ -242,9 +244,9 @@ fn what_collapses_draws_nothing_or_itself_and_is_finite() {
         [[f32::MAX, f32::MAX, 0.0, 0.0], [0.0, f32::MAX, f32::MAX, 0.0], [0.0, f32::MAX, f32::MAX, f32::MAX]],
         [[1e-30, 0.0, 0.0, 0.0], [0.0, 1e-30, 0.0, 0.0], [0.0, 0.0, 1e-30, -3.0]],
     ] {
-        for left_out in [LeftOut::Back, LeftOut::Neither] {
+        for cull in [Cull::Back, Cull::None] {
             scene.instances[0].eye_from_model = rows;
-            scene.draws[0].left_out = left_out;
+            scene.draws[0].cull = cull;
             assert!(floats(&scene).as_flattened().iter().all(|x| x.is_finite() && *x >= 0.0), "{rows:?}");
         }
     }

@@ -1,15 +1,13 @@
 //! Whole pictures against a slow renderer in f64: rays, exact triangles, and `halfway_lighting::equations`.
 
 use crate::common::{Scene, Shading, at, draw, lens, pieces};
-use halfway_lighting::Reflectance;
 use halfway_lighting::equations::{
     Coefficients, ConeTerms, Eye, Light, Place, ShadedPoint, normal_matrix, shade, transform_normal, vector,
 };
+use halfway_lighting::record::{InstanceRecord, LightRange, LightRecord, MaterialRecord, SurfaceLights, SurfaceRecord};
+use halfway_lighting::{Frequency, Reflectance, Samples, Terms};
 use halfway_mesh::{Mesh, UvSphere};
-use halfway_raster::{
-    Highlight, InstanceData, LeftOut, Lens, LightData, LightRange, Output, Pieces, PixelFormat, RasterOptions,
-    Rasterizer, SampleCount, ShadedTerms, SideData, SurfaceData, TriangleOrder, VertexLists,
-};
+use halfway_raster::{Cull, Lens, Output, Pieces, PixelFormat, RasterOptions, Rasterizer, TriangleOrder, VertexLists};
 
 type V = [f64; 3];
 
@@ -27,58 +25,60 @@ fn f(v: [f32; 3]) -> V {
     v.map(f64::from)
 }
 
-fn lights() -> Vec<LightData> {
-    let plain = LightData { diffuse: [0.5, 0.4, 0.3], specular: [0.5, 0.6, 0.7], ..LightData::default() };
+fn lights() -> Vec<LightRecord> {
+    let plain = LightRecord { diffuse: [0.5, 0.4, 0.3], specular: [0.5, 0.6, 0.7], ..LightRecord::default() };
     let c = 1.0 / 3.0_f32.sqrt();
     vec![
-        LightData { position: [c, c, c], ..plain },
-        LightData {
+        LightRecord { position: [c, c, c], ..plain },
+        LightRecord {
             position: [-1.5, 1.0, -1.0],
-            attenuation: [0.4, 0.1, 0.2],
+            constant: 0.4,
+            linear: 0.1,
+            quadratic: 0.2,
             inverse_range: 0.2,
             ambient: [0.1, 0.05, 0.0],
             ..plain
         },
-        LightData {
+        LightRecord {
             position: [0.3, -0.4, -0.4],
             direction: [-0.1, 0.124_89, -0.987_12],
             cos_cutoff: 0.85,
             exponent: 3.0,
-            inner_fade: [1.0 / 0.1, -8.5],
+            inner_scale: 1.0 / 0.1,
+            inner_offset: -8.5,
             ..plain
         },
     ]
 }
 
-fn case(shading: Shading, highlight: Highlight) -> Case {
+fn case(shading: Shading, reflectance: Reflectance) -> Case {
     let mesh = Mesh::from(UvSphere { radius: 1.0, segments: 24, rings: 12 });
     let ready = pieces(&mesh, TriangleOrder::Clustered).expect("a sound mesh");
-    let side = |red: f32| SideData {
+    let side = |red: f32| MaterialRecord {
         base: [0.05, 0.02, 0.1],
         diffuse: [red, 0.5, 0.3],
         specular: [0.6, 0.7, 0.8],
         ambient: [0.5, 0.4, 0.3],
-        exponent: 20.0,
+        shininess: 20.0,
         opacity: 1.0,
-        emission: [0.0; 3],
+        ..MaterialRecord::default()
     };
-    let all = LightRange { counts: [1, 1, 1], start: 0 };
+    let both = LightRange { counts: [1, 1, 1], start: 0 };
     let mut call = draw(&ready, 1, shading);
-    call.highlight = highlight;
+    call.reflectance = reflectance;
     let scene = Scene {
         size: [96, 72],
-        samples: SampleCount::One,
+        samples: Samples::One,
         pixels: PixelFormat::Floats,
         clear: [0.0; 3],
         lens: lens([96, 72], 45.0),
         lights: lights(),
         lists: vec![0, 1, 2],
-        surfaces: vec![SurfaceData {
+        surfaces: vec![SurfaceRecord {
             front: side(0.8),
             back: side(0.2),
-            vertex: all,
-            fragment: all,
-            ..SurfaceData::default()
+            lights: SurfaceLights { both, ..SurfaceLights::default() },
+            ..SurfaceRecord::default()
         }],
         instances: vec![at([0.1, -0.05, -3.2], 0)],
         draws: vec![call],
@@ -98,7 +98,7 @@ impl Case {
     fn with(mut self, linear: [[f64; 3]; 3]) -> Self {
         let row = |axis: usize| [linear[0][axis], linear[1][axis], linear[2][axis], self.place[axis]].map(|x| x as f32);
         let normal = normal_matrix(linear).map(|column| column.map(|x| x as f32));
-        self.scene.instances = vec![InstanceData { eye_from_model: [row(0), row(1), row(2)], normal, surface: 0 }];
+        self.scene.instances = vec![InstanceRecord { eye_from_model: [row(0), row(1), row(2)], normal, surface: 0 }];
         let det = vector::dot(linear[0], vector::cross(linear[1], linear[2]));
         self.scene.draws[0].clockwise = det < 0.0;
         self.linear = linear;
@@ -127,8 +127,8 @@ impl Case {
     }
 
     fn sources(&self) -> Vec<Light<f64>> {
-        let source = |(number, light): (usize, &LightData)| {
-            let [fade, offset] = light.inner_fade.map(f64::from);
+        let source = |(number, light): (usize, &LightRecord)| {
+            let [fade, offset] = [light.inner_scale, light.inner_offset].map(f64::from);
             Light {
                 place: if number == 0 {
                     Place::Directional(f(light.position))
@@ -138,7 +138,7 @@ impl Case {
                 la: f(light.ambient),
                 ld: f(light.diffuse),
                 ls: f(light.specular),
-                attenuation: f(light.attenuation),
+                attenuation: f([light.constant, light.linear, light.quadratic]),
                 range: (light.inverse_range > 0.0).then(|| 1.0 / f64::from(light.inverse_range)),
                 cone: (number == 2).then(|| ConeTerms {
                     direction: f(light.direction),
@@ -152,23 +152,21 @@ impl Case {
         self.scene.lights.iter().enumerate().map(source).collect()
     }
 
-    /// I at a point of a side, of some terms and with or without the base.
-    fn shade(&self, position: V, normal: V, back: bool, terms: ShadedTerms, base: bool) -> V {
+    /// I at a point of a side, of the terms of one frequency and with or without the base.
+    fn shade(&self, position: V, normal: V, back: bool, frequency: Frequency, base: bool) -> V {
+        let terms = self.scene.draws[0].terms;
         let surface = &self.scene.surfaces[0];
         let side = if back { &surface.back } else { &surface.front };
         let kept = |on: bool, color: [f32; 3]| if on { f(color) } else { [0.0; 3] };
         let material = Coefficients {
-            ka: kept(terms.diffuse, side.ambient),
-            kd: kept(terms.diffuse, side.diffuse),
-            ks: kept(terms.specular, side.specular),
+            ka: kept(terms.diffuse == frequency, side.ambient),
+            kd: kept(terms.diffuse == frequency, side.diffuse),
+            ks: kept(terms.specular == frequency, side.specular),
             ke: kept(base, side.base),
-            shininess: f64::from(side.exponent),
+            shininess: f64::from(side.shininess),
         };
         let view = if self.local_viewer { Eye::Local([0.0; 3]) } else { Eye::Infinite([0.0, 0.0, 1.0]) };
-        let reflectance = match self.scene.draws[0].highlight {
-            Highlight::Phong => Reflectance::Phong,
-            Highlight::BlinnPhong => Reflectance::BlinnPhong,
-        };
+        let reflectance = self.scene.draws[0].reflectance;
         let normal = if back { vector::neg(normal) } else { normal };
         shade(&ShadedPoint { position, normal }, &material, &self.sources(), [0.0; 3], &view, reflectance)
     }
@@ -197,13 +195,13 @@ impl Case {
             let depth = -(0..3).map(|k| weights[k] * [a, b, c][k][2]).sum::<f64>();
             // The sum is below 0 where the corners are seen counter-clockwise.
             let back = (sum > 0.0) != call.clockwise;
-            let left_out = match call.left_out {
-                LeftOut::Back => back,
-                LeftOut::Front => !back,
-                LeftOut::Neither => false,
+            let culled = match call.cull {
+                Cull::Back => back,
+                Cull::Front => !back,
+                Cull::None => false,
             };
             let in_front = depth >= f64::from(self.scene.lens.near);
-            if !left_out && in_front && nearest.is_none_or(|(least, ..)| depth < least) {
+            if !culled && in_front && nearest.is_none_or(|(least, ..)| depth < least) {
                 nearest = Some((depth, number, weights, back));
             }
         }
@@ -216,19 +214,19 @@ impl Case {
         let corners = triangle.map(|i| self.in_eye(f(self.mesh.positions()[i as usize].to_array())));
         let normals = triangle.map(|i| self.turned(f(self.mesh.normals()[i as usize].to_array())));
         let mean = |of: [V; 3]| [0, 1, 2].map(|axis| (0..3).map(|k| weights[k] * of[k][axis]).sum::<f64>());
-        if call.flat {
+        if call.terms.has(Frequency::Triangle) {
             let [a, b, c] = triangle.map(|i| f(self.mesh.positions()[i as usize].to_array()));
             let n =
                 self.turned(vector::normalize(vector::cross(vector::sub(b, a), vector::sub(c, a))).expect("a face"));
             let middle = vector::scale(vector::add(corners[0], vector::add(corners[1], corners[2])), 1.0 / 3.0);
-            return self.shade(middle, n, back, call.vertex, true);
+            return self.shade(middle, n, back, Frequency::Triangle, true);
         }
-        let of_vertices = mean([0, 1, 2].map(|k| self.shade(corners[k], normals[k], back, call.vertex, true)));
-        if call.fragment == ShadedTerms::default() {
+        let of_vertices = mean([0, 1, 2].map(|k| self.shade(corners[k], normals[k], back, Frequency::Vertex, true)));
+        if !call.terms.has(Frequency::Fragment) {
             return of_vertices;
         }
         let n = vector::normalize(mean(normals)).expect("normals that do not vanish");
-        vector::add(of_vertices, self.shade(mean(corners), n, back, call.fragment, false))
+        vector::add(of_vertices, self.shade(mean(corners), n, back, Frequency::Fragment, false))
     }
 
     fn check(&self, name: &str) {
@@ -275,23 +273,22 @@ impl Case {
 #[test]
 fn every_shading_and_highlight_is_that_of_the_equations() {
     for shading in [Shading::Flat, Shading::Gouraud, Shading::Phong] {
-        for highlight in [Highlight::Phong, Highlight::BlinnPhong] {
-            let mut case = case(shading, highlight);
-            case.check(&format!("{shading:?} {highlight:?}"));
+        for reflectance in [Reflectance::Phong, Reflectance::BlinnPhong] {
+            let mut case = case(shading, reflectance);
+            case.check(&format!("{shading:?} {reflectance:?}"));
             case.local_viewer = false;
-            case.check(&format!("{shading:?} {highlight:?}, infinite viewer"));
+            case.check(&format!("{shading:?} {reflectance:?}, infinite viewer"));
         }
     }
 }
 
 #[test]
 fn terms_are_shaded_where_the_draw_says() {
-    let (diffuse, specular) =
-        (ShadedTerms { diffuse: true, specular: false }, ShadedTerms { diffuse: false, specular: true });
-    for (vertex, fragment) in [(diffuse, specular), (specular, diffuse), (diffuse, ShadedTerms::default())] {
-        let mut case = case(Shading::Phong, Highlight::BlinnPhong);
-        (case.scene.draws[0].vertex, case.scene.draws[0].fragment) = (vertex, fragment);
-        case.check(&format!("{vertex:?} at the vertices, {fragment:?} at the fragments"));
+    use Frequency::{Fragment, Never, Vertex};
+    for (diffuse, specular) in [(Vertex, Fragment), (Fragment, Vertex), (Vertex, Never)] {
+        let mut case = case(Shading::Phong, Reflectance::BlinnPhong);
+        case.scene.draws[0].terms = Terms { diffuse, specular };
+        case.check(&format!("diffuse {diffuse:?}, specular {specular:?}"));
     }
 }
 
@@ -303,7 +300,7 @@ fn transforms_may_skew_mirror_and_flatten() {
         ("nearly flat", [[1.0, 0.0, 0.1], [0.0, 1.0, 0.1], [0.0, 0.0, 0.01]]),
     ] {
         for shading in [Shading::Flat, Shading::Gouraud, Shading::Phong] {
-            case(shading, Highlight::BlinnPhong).with(linear).check(&format!("{name} {shading:?}"));
+            case(shading, Reflectance::BlinnPhong).with(linear).check(&format!("{name} {shading:?}"));
         }
     }
 }
@@ -311,39 +308,39 @@ fn transforms_may_skew_mirror_and_flatten() {
 #[test]
 fn a_sphere_cut_by_the_near_plane_shows_its_back() {
     for shading in Shading::ALL {
-        let mut case = case(shading, Highlight::Phong);
+        let mut case = case(shading, Reflectance::Phong);
         case.place = [0.1, -0.05, -1.2].map(|x: f32| f64::from(x));
         case.scene.lens.near = 0.5;
-        case.scene.draws[0].left_out = LeftOut::Neither;
+        case.scene.draws[0].cull = Cull::None;
         case.with([[1.0, 0.2, 0.0], [-0.2, 1.0, 0.0], [0.0, 0.0, 1.0]]).check(&format!("{shading:?} cut open"));
     }
 }
 
 #[test]
 fn from_inside_the_far_side_is_seen_from_behind() {
-    for left_out in [LeftOut::Front, LeftOut::Neither] {
-        let mut case = case(Shading::Phong, Highlight::BlinnPhong);
+    for cull in [Cull::Front, Cull::None] {
+        let mut case = case(Shading::Phong, Reflectance::BlinnPhong);
         case.place = [0.0, 0.1, 0.2].map(|x: f32| f64::from(x));
-        case.scene.draws[0].left_out = left_out;
-        case.with([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]).check(&format!("{left_out:?} is left out"));
+        case.scene.draws[0].cull = cull;
+        case.with([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]).check(&format!("{cull:?} is culled"));
     }
 }
 
 #[test]
 #[should_panic(expected = "an exponent of 20.2")]
 fn the_check_finds_an_exponent_that_is_one_percent_off() {
-    let mut case = case(Shading::Phong, Highlight::Phong);
-    case.scene.surfaces[0].front.exponent = 20.2;
+    let mut case = case(Shading::Phong, Reflectance::Phong);
+    case.scene.surfaces[0].front.shininess = 20.2;
     let picture = case.picture();
-    case.scene.surfaces[0].front.exponent = 20.0;
+    case.scene.surfaces[0].front.shininess = 20.0;
     case.judge("an exponent of 20.2", &picture);
 }
 
 #[test]
 #[should_panic(expected = "without a light")]
 fn the_check_finds_a_light_that_is_left_out() {
-    let mut case = case(Shading::Gouraud, Highlight::Phong);
-    case.scene.surfaces[0].vertex.counts = [1, 1, 0];
+    let mut case = case(Shading::Gouraud, Reflectance::Phong);
+    case.scene.surfaces[0].lights.both.counts = [1, 1, 0];
     let picture = case.picture();
     case.judge("without a light", &picture);
 }
@@ -358,10 +355,10 @@ fn a_sliver_has_the_colors_of_its_corners_and_not_of_the_grids() {
     let lists = VertexLists { colors: &colors, ..VertexLists::default() };
     let mesh = Pieces::with_lists(&positions, lists, &[0, 1, 2], &[], TriangleOrder::Clustered).expect("a sound mesh");
     let mut call = draw(&mesh, 1, Shading::Constant);
-    (call.colored, call.left_out) = (true, LeftOut::Neither);
-    let mut scene = case(Shading::Constant, Highlight::Phong).scene;
+    (call.colored, call.cull) = (true, Cull::None);
+    let mut scene = case(Shading::Constant, Reflectance::Phong).scene;
     (scene.size, scene.lens) = ([side as u32; 2], Lens { scale: [1.0; 2], near: 0.1 });
-    let white = SideData { base: [1.0; 3], opacity: 1.0, ..SideData::default() };
+    let white = MaterialRecord { base: [1.0; 3], opacity: 1.0, ..MaterialRecord::default() };
     (scene.surfaces[0].front, scene.surfaces[0].back) = (white, white);
     (scene.instances, scene.draws, scene.meshes) = (vec![at([0.0; 3], 0)], vec![call], vec![mesh]);
     let mut floats = vec![0.0; 4 * 64 * 64];

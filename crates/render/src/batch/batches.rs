@@ -6,9 +6,9 @@ use crate::batch::key::DrawKey;
 use crate::batch::lit_patches::LitPatches;
 use crate::batch::lit_runs::LitRun;
 use crate::frame::report::FrameReport;
-use crate::shaders::records::InstanceRecord;
 use bevy_ecs::component::Mutable;
 use bevy_ecs::prelude::*;
+use halfway_lighting::record::InstanceRecord;
 
 /// The frame's draws. Holds after [`RenderSet::Batch`](crate::RenderSet::Batch).
 #[derive(Resource, Debug, Default)]
@@ -62,8 +62,7 @@ impl Batches {
     fn emit_draw(&mut self, runs: &[LitRun], seen: &LitPatches, per_instance: bool) {
         let start = self.instances.len() as u32;
         for run in runs {
-            let record = if per_instance { run.record } else { 0 };
-            self.instances.push(InstanceRecord { record, ..seen.instances[run.instance as usize] });
+            self.instances.push(InstanceRecord { surface: run.record, ..seen.instances[run.instance as usize] });
         }
         let LitRun { call, indices: (first, end), record, .. } = runs[0];
         let (key, mesh, form, maps) = seen.table.called[call as usize];

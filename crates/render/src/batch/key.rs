@@ -3,6 +3,7 @@
 use crate::lights::terms::by_fragment_shader;
 use crate::shaders::light_slots::Lists;
 use halfway_lighting::{Frequency, Terms};
+use halfway_raster::Cull;
 use halfway_texture::{Channel, FarNormals, LevelFilter, MapKind, Sampling, SolidKind, SurfaceMap, UvSet};
 use std::fmt;
 
@@ -26,6 +27,7 @@ pub(crate) struct DrawKey {
     /// The exponent is 2 to this power on both sides.
     pub(crate) squarings: Option<u8>,
     pub(crate) geometric_fallback: bool,
+    /// The front only in the first pass of a blended two-sided object, which draws the far side.
     pub(crate) cull: Cull,
     /// Front faces wind clockwise: the transform mirrors, or only back faces are shown.
     pub(crate) clockwise: bool,
@@ -127,17 +129,6 @@ impl fmt::Display for MapLooks {
         let each: Vec<String> = looks.map(|(name, bits)| format!("{name}:{bits}")).collect();
         write!(f, "maps={}", each.join(","))
     }
-}
-
-/// Which faces the rasteriser drops.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) enum Cull {
-    /// The side that is not lit as front.
-    Back,
-    /// Only the first pass of a blended two-sided object, which draws the far side.
-    Front,
-    /// None: both sides are lit.
-    None,
 }
 
 impl fmt::Display for DrawKey {

@@ -16,7 +16,6 @@ use crate::geometry::shape::{PatchNormals, PatchShape};
 use crate::lights::gather::Lights;
 use crate::lights::lists::LightLists;
 use crate::shaders::light_slots::Lists;
-use crate::shaders::records::{DrawRecord, InstanceRecord, RecordLists};
 use crate::target::frame::FrameValues;
 use crate::view::matrices::{ModelView, NormalMatrix};
 use bevy_ecs::component::Mutable;
@@ -25,6 +24,7 @@ use bevy_math::Vec3;
 use halfway_asset::AssetId;
 use halfway_lighting::bounds::Patch;
 use halfway_lighting::equations::Eye;
+use halfway_lighting::record::{InstanceRecord, SurfaceRecord};
 use halfway_lighting::{InvalidValue, Terms, Tolerance};
 use halfway_mesh::Mesh;
 
@@ -35,8 +35,8 @@ pub(crate) struct LitPatches {
     pub(crate) runs: Vec<LitRun>,
     /// The matrices of each object that has runs.
     pub(crate) instances: Vec<InstanceRecord>,
-    /// Materials with light lists.
-    pub(crate) records: Vec<DrawRecord>,
+    /// Materials with their lights.
+    pub(crate) records: Vec<SurfaceRecord>,
     pub(crate) lists: LightLists,
     pub(crate) table: ObjectTable,
     /// The numbers of the object's patches that may show. Its memory is kept.
@@ -164,8 +164,8 @@ impl LitPatches {
         let patches = &object.geometry.patches;
         report.triangles_in += object.geometry.source.triangle_count() as u64;
         self.instances.push(InstanceRecord::new(
-            object.model_view,
-            object.normal_matrix,
+            &object.model_view.eye_from_model,
+            object.normal_matrix.0,
             object.reflecting.faces,
             shared.view.unit() as f32,
         ));
@@ -183,7 +183,7 @@ impl LitPatches {
         if key.lists == Lists::Listed {
             self.add_listed(object, &key, &seen, shared);
         } else if !seen.is_empty() {
-            let record = self.table.number(&mut self.records, object.material, RecordLists::default());
+            let record = self.table.number(&mut self.records, object.material, self.lists.few);
             self.add_runs(object, &key, seen.iter().map(|&patch| (patch, record)));
         }
         self.seen = seen;
@@ -200,8 +200,8 @@ impl LitPatches {
         let mut records = Vec::with_capacity(seen.len());
         for patch in seen {
             let patch = object.in_eye_space(object.geometry.patches.shape(*patch));
-            let lists = self.lists.list(lights, &patch, &listing);
-            records.push(self.table.number(&mut self.records, object.material, lists));
+            let listed = self.lists.list(lights, &patch, &listing);
+            records.push(self.table.number(&mut self.records, object.material, listed));
         }
         self.add_runs(object, key, seen.iter().copied().zip(records));
     }

@@ -1,17 +1,18 @@
 //! What one object is drawn with: its key, its material record, and what light lists have to know of it.
 
-use crate::batch::key::{Cull, DrawKey, MapLooks};
+use crate::batch::key::{DrawKey, MapLooks};
 use crate::geometry::meshes::PaintOf;
 use crate::lights::gather::Lights;
 use crate::lights::lists::Reflector;
 use crate::shaders::light_slots::Lists;
-use crate::shaders::records::{DrawRecord, MaterialRecord};
 use crate::view::camera::View;
 use bevy_math::Vec3;
 use halfway_lighting::equations::{Coefficients, specular_exponent};
+use halfway_lighting::record::{MaterialRecord, SurfaceRecord};
 use halfway_lighting::{
     Encoding, Faces, Fields, Frequency, InvalidValue, Material, Problem, Reflectance, Terms, Viewer,
 };
+use halfway_raster::Cull;
 use halfway_texture::{MapKind, Maps, SolidKind, SolidTexture, WrongMap};
 
 /// The components that say how an object reflects light.
@@ -41,7 +42,7 @@ type MaterialBits = [u32; size_of::<Material>() / 4];
 #[derive(Clone, Debug)]
 pub(crate) struct Appearance {
     pub(crate) invalid: Option<InvalidValue>,
-    /// The number of its record without lists.
+    /// The number of its record without lights.
     pub(crate) material: u32,
     /// Whether its ambient, diffuse and specular reflectances are anything but black.
     reflects: [bool; 3],
@@ -84,7 +85,7 @@ impl Reflecting<'_> {
     }
 
     /// Checks the components; `number` gives the record its number.
-    pub(crate) fn look(&self, ambient: Vec3, number: impl FnOnce(DrawRecord) -> u32) -> Appearance {
+    pub(crate) fn look(&self, ambient: Vec3, number: impl FnOnce(SurfaceRecord) -> u32) -> Appearance {
         let invalid = self.front.validate().err().or_else(|| {
             // A back side without a material of its own has been checked with the front.
             self.back.validate().err().map(|invalid| InvalidValue { owner: "BackMaterial", ..invalid })
@@ -124,17 +125,13 @@ impl Reflecting<'_> {
     }
 
     /// Seen only from behind, the back is what the shader lights as front; see
-    /// [`InstanceRecord::new`](crate::shaders::records::InstanceRecord::new).
-    fn record(&self, ambient: Vec3) -> DrawRecord {
-        let sides = self.coefficients();
-        let record = |at: usize| {
-            // What colors multiply must not be in one sum with what they do not.
-            let material = if self.is_painted() { Coefficients { ke: [0.0; 3], ..sides[at] } } else { sides[at] };
-            MaterialRecord::new(&material, self.sides()[at].opacity, self.reflectance, ambient)
-        };
-        let emission = if self.is_painted() { sides.map(|side| side.ke) } else { [[0.0; 3]; 2] };
-        let [front, back] = [0, 1].map(record);
-        DrawRecord { front, back, ..DrawRecord::with_emission(emission) }
+    /// [`InstanceRecord::new`](halfway_lighting::record::InstanceRecord::new).
+    fn record(&self, ambient: Vec3) -> SurfaceRecord {
+        let [front, back] = self.sides().map(|side| {
+            let (coefficients, painted) = (Coefficients::from(side), self.is_painted());
+            MaterialRecord::new(&coefficients, side.opacity, self.reflectance, ambient, painted)
+        });
+        SurfaceRecord { front, back, ..SurfaceRecord::default() }
     }
 
     /// What light lists have to know, where these terms are shaded.

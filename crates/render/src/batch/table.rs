@@ -3,10 +3,10 @@
 use crate::batch::key::{DrawKey, levels_taken};
 use crate::batch::object::{Appearance, Reflecting, ReflectingBits};
 use crate::geometry::meshes::Form;
-use crate::shaders::records::{DrawRecord, RecordLists};
 use bevy_math::Vec3;
 use bevy_platform::collections::HashMap;
 use halfway_asset::{AssetId, Assets};
+use halfway_lighting::record::{SurfaceLights, SurfaceRecord};
 use halfway_mesh::Mesh;
 use halfway_texture::{
     FarNormals, ImageForm, MapKind, Pyramid, SolidKind, SolidTexture, SurfaceMap, Texture, UvTransform,
@@ -21,12 +21,12 @@ pub(crate) struct ObjectTable {
     /// How often the frame has asked for one.
     asked: usize,
     ambient: Vec3,
-    /// The records without lists, each once.
-    materials: Vec<DrawRecord>,
-    material_numbers: HashMap<[u32; size_of::<DrawRecord>() / 4], u32>,
-    /// Of each material, what the frame has of it.
-    used: Vec<Used>,
-    numbers: HashMap<(u32, [u32; size_of::<RecordLists>() / 4]), u32>,
+    /// The records without lights, each once.
+    materials: Vec<SurfaceRecord>,
+    material_numbers: HashMap<[u32; size_of::<SurfaceRecord>() / 4], u32>,
+    /// Of each material that the frame has, its newest lights, and the number of the record with them.
+    last_lights: Vec<Option<(SurfaceLights, u32)>>,
+    numbers: HashMap<(u32, [u32; size_of::<SurfaceLights>() / 4]), u32>,
     calls: HashMap<Call, u32>,
     /// How many opaque objects there are with a bounding sphere, by its bits.
     twins: HashMap<[u32; 4], u32>,
@@ -101,13 +101,6 @@ fn missing() -> Pyramid {
     MISSING.get_or_init(Pyramid::missing).clone()
 }
 
-#[derive(Clone, Copy, Debug, Default)]
-struct Used {
-    somewhere: bool,
-    /// The number of the record without lists.
-    plain: Option<u32>,
-}
-
 /// How something is drawn, the triangles of which mesh in which form, and the number of its set of images, from 1 on; 0
 /// for none.
 pub(crate) type Call = (DrawKey, AssetId<Mesh>, Form, u32);
@@ -125,8 +118,8 @@ impl ObjectTable {
             self.ambient = ambient;
         }
         self.asked = 0;
-        self.used.clear();
-        self.used.resize(self.materials.len(), Used::default());
+        self.last_lights.clear();
+        self.last_lights.resize(self.materials.len(), None);
         self.numbers.clear();
         self.calls.clear();
         self.twins.clear();
@@ -138,34 +131,35 @@ impl ObjectTable {
     /// What an object looks like, remembered by its components' values.
     pub(crate) fn look(&mut self, reflecting: &Reflecting) -> &Appearance {
         self.asked += 1;
-        let Self { looks, materials, material_numbers, used, ambient, .. } = self;
+        let Self { looks, materials, material_numbers, last_lights, ambient, .. } = self;
         looks.entry(reflecting.bits()).or_insert_with(|| {
             reflecting.look(*ambient, |record| {
                 *material_numbers.entry(bytemuck::cast(record)).or_insert_with(|| {
                     materials.push(record);
-                    used.push(Used::default());
+                    last_lights.push(None);
                     materials.len() as u32 - 1
                 })
             })
         })
     }
 
-    /// The number of the frame's record with this material and these lists.
-    pub(crate) fn number(&mut self, records: &mut Vec<DrawRecord>, material: u32, lists: RecordLists) -> u32 {
-        let push = || {
-            records.push(DrawRecord { lists, ..self.materials[material as usize] });
-            records.len() as u32 - 1
-        };
-        let used = &mut self.used[material as usize];
-        used.somewhere = true;
-        if lists == RecordLists::default() {
-            return *used.plain.get_or_insert_with(push);
+    /// The number of the frame's record with this material and these lights. Neighbours often have the same lights, and
+    /// to compare is cheaper than to look up.
+    pub(crate) fn number(&mut self, records: &mut Vec<SurfaceRecord>, material: u32, lights: SurfaceLights) -> u32 {
+        let last = &mut self.last_lights[material as usize];
+        if let Some((_, number)) = last.filter(|(there, _)| *there == lights) {
+            return number;
         }
-        *self.numbers.entry((material, bytemuck::cast(lists))).or_insert_with(push)
+        let number = *self.numbers.entry((material, bytemuck::cast(lights))).or_insert_with(|| {
+            records.push(SurfaceRecord { lights, ..self.materials[material as usize] });
+            records.len() as u32 - 1
+        });
+        *last = Some((lights, number));
+        number
     }
 
     pub(crate) fn materials_in_use(&self) -> u32 {
-        self.used.iter().filter(|used| used.somewhere).count() as u32
+        self.last_lights.iter().flatten().count() as u32
     }
 
     /// How many opaque objects before this one have the same bounding sphere, as have those whose triangles all

@@ -1,12 +1,15 @@
 //! View and Draw: the canvas is made ready, and the pass is drawn into it.
 
 use crate::batch::backend::Backend;
+use crate::batch::batches::Batches;
 use crate::batch::key::DrawKey;
+use crate::batch::lit_patches::LitPatches;
 use crate::cpu::meshes::MeshPieces;
 use crate::cpu::pass::PassLists;
 use crate::device::cpu::Cpu;
 use crate::error::RenderError;
 use crate::frame::report::FrameReport;
+use crate::lights::surroundings::Surroundings;
 use crate::target::canvas::{Canvas, CanvasTarget};
 use crate::target::format::{PixelValues, Pixels};
 use crate::target::frame::{FrameValues, Headless};
@@ -14,8 +17,8 @@ use crate::target::texture::TextureTarget;
 use crate::view::camera::{PictureSize, View};
 use bevy_color::LinearRgba;
 use bevy_ecs::prelude::*;
-use halfway_lighting::{Encoding, Frequency, Intensity, Samples, Viewer};
-use halfway_raster::{LARGEST_SIDE, Lens, Pass, PixelFormat, SampleCount};
+use halfway_lighting::{Encoding, Frequency, Intensity, Viewer};
+use halfway_raster::{LARGEST_SIDE, Lens, Pass, PixelFormat};
 
 impl Backend for Cpu {
     fn lights_images_by_environments(&self) -> bool {
@@ -86,6 +89,9 @@ pub(crate) fn draw(
     view: Res<View>,
     size: Res<PictureSize>,
     values: Res<FrameValues>,
+    lit: Res<LitPatches>,
+    batches: Res<Batches>,
+    surroundings: Res<Surroundings>,
     lists: Res<PassLists>,
     meshes: Res<MeshPieces>,
     mut canvas: ResMut<Canvas>,
@@ -96,10 +102,7 @@ pub(crate) fn draw(
     let pieces: Vec<_> = lists.meshes.iter().filter_map(|&(id, form)| meshes.get(id, form)).collect();
     let pass = Pass {
         size: size.0.to_array(),
-        samples: match camera.samples {
-            Samples::One => SampleCount::One,
-            Samples::Four => SampleCount::Four,
-        },
+        samples: camera.samples,
         pixels: match values {
             PixelValues::Bytes(Encoding::Srgb) => PixelFormat::SrgbBytes,
             PixelValues::Bytes(Encoding::Raw) => PixelFormat::RawBytes,
@@ -108,13 +111,13 @@ pub(crate) fn draw(
         clear: [red, green, blue],
         lens: lens(&view),
         local_viewer: camera.viewer == Viewer::Local,
-        lights: &lists.lights,
-        lists: &lists.lists,
-        surfaces: &lists.surfaces,
-        instances: &lists.instances,
+        lights: &lit.lists.sent.records,
+        lists: &lit.lists.numbers,
+        surfaces: &lit.records,
+        instances: &batches.instances,
         meshes: &pieces,
         maps: &lists.maps,
-        surroundings: lists.surroundings.as_ref(),
+        surroundings: surroundings.0.as_ref(),
         draws: &lists.draws,
     };
     let (output, clear_tiles) = canvas.output();

@@ -5,11 +5,12 @@ use crate::draw::maps::sent;
 use crate::draw::placings::packed_size;
 use crate::error::RenderError;
 use crate::frame::report::FrameReport;
-use crate::lights::surroundings::{PlacedEnvironment, Surroundings};
+use crate::lights::surroundings::Surroundings;
 use crate::shaders::text::{SKY, surroundings_bindings};
 use crate::target::frame::{DEPTH_FORMAT, ShaderOutput};
 use crate::view::camera::View;
 use bytemuck::{Pod, Zeroable};
+use halfway_raster::SurroundingsData;
 use halfway_texture::environment::{EnvironmentLevel, EnvironmentMap};
 
 /// The environment that was drawn last, and what draws the sky. Empty until there is one.
@@ -42,7 +43,7 @@ pub(crate) struct SurroundingsRecord {
 }
 
 impl SurroundingsRecord {
-    fn new(placed: &PlacedEnvironment, view: &View, width: u32) -> Self {
+    fn new(placed: &SurroundingsData, view: &View, width: u32) -> Self {
         let four = |[x, y, z]: [f32; 3]| [x, y, z, 0.0];
         let [row0, row1, row2] = placed.rows.map(four);
         let mut level = [[0; 4]; 12];
@@ -104,7 +105,7 @@ impl SurroundingsOnGpu {
     }
 
     /// Returns how many bytes had to be sent.
-    fn send(&mut self, gpu: &Gpu, placed: &PlacedEnvironment, view: &View) -> Result<u64, RenderError> {
+    fn send(&mut self, gpu: &Gpu, placed: &SurroundingsData, view: &View) -> Result<u64, RenderError> {
         let mut bytes = 0;
         if self.texture.as_ref().is_none_or(|(map, _)| !map.is_same(&placed.map)) {
             let texels = placed.map.texels();

@@ -11,12 +11,13 @@ use crate::frame::report::FrameReport;
 use crate::lights::surroundings::Surroundings;
 use crate::pipelines::cache::Pipelines;
 use crate::shaders::light_slots::COUNTED_LIGHTS;
-use crate::shaders::records::{LightRecord, RECORD_BYTES, ViewRecord};
+use crate::shaders::records::{RECORD_BYTES, ViewRecord};
 use crate::shaders::text::{COUNTED_LIGHT_BYTES, LightText, Text};
 use crate::target::frame::Target;
 use crate::view::camera::View;
 use bevy_ecs::prelude::*;
 use halfway_asset::Assets;
+use halfway_lighting::record::LightRecord;
 use halfway_texture::Texture;
 
 /// A GPU buffer with the bytes it holds, so that equal bytes are not sent again.

@@ -2,7 +2,6 @@
 
 use crate::error::{RenderError, label};
 use crate::frame::report::FrameReport;
-use crate::shaders::records::LightRecord;
 use crate::view::camera::View;
 use bevy_color::LinearRgba;
 use bevy_ecs::entity_disabling::Disabled;
@@ -12,6 +11,7 @@ use bevy_transform::components::GlobalTransform;
 use halfway_lighting::bounds::LightTree;
 use halfway_lighting::equations::vector::normalize_or_zero;
 use halfway_lighting::equations::{self, Light, Place};
+use halfway_lighting::record::LightRecord;
 use halfway_lighting::{
     Attenuation, DirectionalLight, GlobalAmbient, InvalidValue, PointLight, Shown, SpotLight, light_direction,
     light_position,

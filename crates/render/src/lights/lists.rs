@@ -2,12 +2,11 @@
 
 use crate::lights::gather::Lights;
 use crate::lights::sent::SentLights;
-use crate::lights::terms::{by_fragment_shader, by_vertex_shader};
 use crate::shaders::light_slots::COUNTED_LIGHTS;
-use crate::shaders::records::RecordLists;
 use bevy_math::Vec3;
 use halfway_lighting::bounds::{Patch, Receiver, STEP, Selected, linear_tolerance};
 use halfway_lighting::equations::{Coefficients, Eye};
+use halfway_lighting::record::{LightRange, SurfaceLights};
 use halfway_lighting::{Encoding, Frequency, Reflectance, Terms};
 
 /// The light lists of a frame.
@@ -15,10 +14,12 @@ use halfway_lighting::{Encoding, Frequency, Reflectance, Terms};
 pub(crate) struct LightLists {
     /// The lights that lists name; all of a scene with few, in their order.
     pub(crate) sent: SentLights,
+    /// All lights of a scene with few; none of others.
+    pub(crate) few: SurfaceLights,
     /// Lists, one after the other, as places of lights in `sent`.
     pub(crate) numbers: Vec<u32>,
     /// The newest lists, and where they begin. Neighbouring patches often need the same.
-    last: Option<(RecordLists, usize)>,
+    last: Option<(SurfaceLights, usize)>,
     /// The lights of the patch at hand.
     selected: Selected,
     /// How many terms of lights the lists name, over all patches.
@@ -54,10 +55,10 @@ impl LightLists {
     pub(crate) fn begin(&mut self, lights: &Lights) {
         self.numbers.clear();
         self.sent.begin(lights);
+        self.few = SurfaceLights::default();
         if lights.len() <= COUNTED_LIGHTS as usize {
-            for number in 0..lights.len() as u32 {
-                self.sent.place(lights, number);
-            }
+            self.few.both.counts = lights.counts;
+            self.numbers.extend((0..lights.len() as u32).map(|number| self.sent.place(lights, number)));
         }
         self.last = None;
         (self.assigned, self.pairs, self.left_out) = (0, 0, 0.0);
@@ -65,7 +66,7 @@ impl LightLists {
 
     /// The lists of a patch: the lights left out change no channel of a pixel by more than the listing's tolerance
     /// together.
-    pub(crate) fn list(&mut self, lights: &Lights, patch: &Patch<f32>, listing: &Listing) -> RecordLists {
+    pub(crate) fn list(&mut self, lights: &Lights, patch: &Patch<f32>, listing: &Listing) -> SurfaceLights {
         let receiver = Receiver::new(patch, &listing.material, &listing.view, listing.reflectance);
         lights.tree.select(&lights.sources, &receiver, listing.tolerance, &mut self.selected);
         let Selected { diffuse, specular, left_out, evaluated, .. } = &self.selected;
@@ -73,43 +74,44 @@ impl LightLists {
         self.assigned += (diffuse.len() + specular.len()) as u64;
         self.left_out = left_out.iter().copied().fold(self.left_out, f64::max);
         let start = self.numbers.len();
-        let mut append = |[has_diffuse, has_specular]: [bool; 2]| {
-            let terms = [(has_diffuse, diffuse), (has_specular, specular)];
-            append_stage(&mut self.numbers, lights.counts, terms.map(|(has, all)| if has { &all[..] } else { &[] }))
-        };
-        let [vertex, vertex_diffuse, vertex_specular] = append(by_vertex_shader(listing.terms));
-        let [fragment, fragment_diffuse, fragment_specular] = append(by_fragment_shader(listing.terms));
+        let listed = append_terms(&mut self.numbers, lights.counts, listing.terms, [diffuse, specular]);
         for number in &mut self.numbers[start..] {
             *number = self.sent.place(lights, *number);
         }
-        let lists =
-            RecordLists { vertex, vertex_diffuse, vertex_specular, fragment, fragment_diffuse, fragment_specular };
         if let Some((last, last_start)) = self.last
-            && last.starting_at(0, last_start) == lists.starting_at(0, start)
+            && starting_at_0(last, last_start) == starting_at_0(listed, start)
             && self.numbers[last_start..start] == self.numbers[start..]
         {
             self.numbers.truncate(start);
             return last;
         }
-        self.last = Some((lists, start));
-        lists
+        self.last = Some((listed, start));
+        listed
     }
 }
 
-/// The lists of one stage: lights with both terms, with the diffuse alone, and with the specular alone.
-fn append_stage(numbers: &mut Vec<u32>, counts: [u32; 3], [diffuse, specular]: [&[u32]; 2]) -> [[u32; 4]; 3] {
+/// The lights of both terms. Those that have both are together where both are shaded in the same place, and so once.
+fn append_terms(
+    numbers: &mut Vec<u32>,
+    counts: [u32; 3],
+    terms: Terms,
+    [diffuse, specular]: [&[u32]; 2],
+) -> SurfaceLights {
+    let mut append = |lights: &mut dyn Iterator<Item = u32>| append(numbers, counts, lights);
+    let none = LightRange::default();
+    if terms.diffuse != terms.specular {
+        let (diffuse, specular) = (append(&mut diffuse.iter().copied()), append(&mut specular.iter().copied()));
+        return SurfaceLights { both: none, diffuse, specular };
+    }
     // Which is so of most patches, and found sooner.
     if diffuse == specular {
-        let both = append(numbers, counts, diffuse.iter().copied());
-        let none = [0, 0, 0, numbers.len() as u32];
-        return [both, none, none];
+        return SurfaceLights { both: append(&mut diffuse.iter().copied()), diffuse: none, specular: none };
     }
-    let both = specular.iter().filter(|light| diffuse.binary_search(light).is_ok());
-    [
-        append(numbers, counts, both.copied()),
-        append(numbers, counts, without(diffuse, specular).copied()),
-        append(numbers, counts, without(specular, diffuse).copied()),
-    ]
+    SurfaceLights {
+        both: append(&mut specular.iter().filter(|light| diffuse.binary_search(light).is_ok()).copied()),
+        diffuse: append(&mut without(diffuse, specular).copied()),
+        specular: append(&mut without(specular, diffuse).copied()),
+    }
 }
 
 /// The lights that `others` lack; both ascend.
@@ -122,11 +124,11 @@ fn without<'a>(lights: &'a [u32], others: &'a [u32]) -> impl Iterator<Item = &'a
 }
 
 /// Appends lights, which are sorted by kind; how many of each, and where they begin.
-fn append(numbers: &mut Vec<u32>, counts: [u32; 3], lights: impl Iterator<Item = u32>) -> [u32; 4] {
+fn append(numbers: &mut Vec<u32>, counts: [u32; 3], lights: impl Iterator<Item = u32>) -> LightRange {
     let start = numbers.len();
     numbers.extend(lights);
-    let [directional, points, spots] = split(&numbers[start..], counts).map(|of_kind| of_kind.len() as u32);
-    [directional, points, spots, start as u32]
+    let counts = split(&numbers[start..], counts).map(|of_kind| of_kind.len() as u32);
+    LightRange { counts, start: start as u32 }
 }
 
 /// Numbers of lights, which are sorted by kind, kind by kind; `counts` are those of all lights.
@@ -136,22 +138,13 @@ fn split(numbers: &[u32], [directional, points, _]: [u32; 3]) -> [&[u32]; 3] {
     [&numbers[..first_point], &numbers[first_point..first_spot], &numbers[first_spot..]]
 }
 
-impl RecordLists {
-    /// The same lists, had what was appended from `from` on been appended from `to` on.
-    fn starting_at(self, to: usize, from: usize) -> Self {
-        let moved = |[x, y, z, first]: [u32; 4]| {
-            let first = if x + y + z == 0 { 0 } else { first - from as u32 + to as u32 };
-            [x, y, z, first]
-        };
-        Self {
-            vertex: moved(self.vertex),
-            vertex_diffuse: moved(self.vertex_diffuse),
-            vertex_specular: moved(self.vertex_specular),
-            fragment: moved(self.fragment),
-            fragment_diffuse: moved(self.fragment_diffuse),
-            fragment_specular: moved(self.fragment_specular),
-        }
-    }
+/// The same lights, had what was appended from `start` on been appended from 0 on.
+fn starting_at_0(lights: SurfaceLights, start: usize) -> SurfaceLights {
+    let moved = |range: LightRange| {
+        let first = if range.is_empty() { 0 } else { range.start - start as u32 };
+        LightRange { start: first, ..range }
+    };
+    SurfaceLights { both: moved(lights.both), diffuse: moved(lights.diffuse), specular: moved(lights.specular) }
 }
 
 impl Reflector {
@@ -192,7 +185,7 @@ mod tests {
     use halfway_lighting::Faces;
 
     /// The list of a small sphere's diffuse terms at the fragments.
-    fn list(lists: &mut LightLists, lights: &Lights, center: [f32; 3]) -> [u32; 4] {
+    fn list(lists: &mut LightLists, lights: &Lights, center: [f32; 3]) -> LightRange {
         let kd = [1.0; 3];
         let side = Coefficients { ka: [0.0; 3], kd, ks: [0.0; 3], ke: [0.0; 3], shininess: 1.0 };
         let terms = Terms { diffuse: Frequency::Fragment, specular: Frequency::Never };
@@ -200,7 +193,7 @@ mod tests {
         let view = Eye::in_eye_space(halfway_lighting::Viewer::Local);
         let listing = reflector.listing(Vec3::ZERO, view, None, 0.0);
         let patch = Patch { center, radius: 0.1, normals: None, half_thickness: 0.1, faces: Faces::Both };
-        lists.list(lights, &patch, &listing).fragment_diffuse
+        lists.list(lights, &patch, &listing).diffuse
     }
 
     #[test]
@@ -211,9 +204,10 @@ mod tests {
         // A second frame begins anew.
         for _ in 0..2 {
             lists.begin(&lights);
-            assert_eq!(list(&mut lists, &lights, [75.0, 0.0, -1.0]), [0, 2, 0, 0]);
-            assert_eq!(list(&mut lists, &lights, [75.0, 0.0, -1.1]), [0, 2, 0, 0], "equal to the newest");
-            assert_eq!(list(&mut lists, &lights, [85.0, 0.0, -1.0]), [0, 2, 0, 2]);
+            let two = |start| LightRange { counts: [0, 2, 0], start };
+            assert_eq!(list(&mut lists, &lights, [75.0, 0.0, -1.0]), two(0));
+            assert_eq!(list(&mut lists, &lights, [75.0, 0.0, -1.1]), two(0), "equal to the newest");
+            assert_eq!(list(&mut lists, &lights, [85.0, 0.0, -1.0]), two(2));
             assert_eq!(lists.numbers, [0, 1, 1, 2]);
             assert_eq!(lists.sent.records, [7, 8, 9].map(|number| lights.record(number)));
             assert_eq!(lists.assigned, 6);

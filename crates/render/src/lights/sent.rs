@@ -1,7 +1,7 @@
 //! The lights that lists name: of many, those alone are sent.
 
 use crate::lights::gather::Lights;
-use crate::shaders::records::LightRecord;
+use halfway_lighting::record::LightRecord;
 
 /// Lights as the shaders read them, each once, in the order in which lists name them.
 #[derive(Debug, Default)]

@@ -7,24 +7,12 @@ use bevy_ecs::prelude::*;
 use bevy_math::DMat3;
 use halfway_asset::Assets;
 use halfway_lighting::{Fields, Shown};
+use halfway_raster::SurroundingsData;
 use halfway_texture::environment::{EnvironmentLight, EnvironmentMap};
 
 /// The environment of the frame. Holds from [`RenderSet::Select`](crate::RenderSet::Select) on.
 #[derive(Resource, Debug, Default)]
-pub(crate) struct Surroundings(pub(crate) Option<PlacedEnvironment>);
-
-/// An environment as it lies around the eye.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct PlacedEnvironment {
-    pub(crate) map: EnvironmentMap,
-    pub(crate) strength: f32,
-    /// The rows of the rotation from eye space.
-    pub(crate) rows: [[f32; 3]; 3],
-    /// The polynomial of [`mean_light`](halfway_lighting::equations::mean_light).
-    pub(crate) mean: [[f32; 3]; 9],
-    /// The level that is seen behind everything, where it is.
-    pub(crate) sky: Option<f32>,
-}
+pub(crate) struct Surroundings(pub(crate) Option<SurroundingsData>);
 
 impl Surroundings {
     pub(crate) fn are_there(&self) -> bool {
@@ -59,7 +47,7 @@ pub(crate) fn gather(
         return;
     }
     let map = maps.as_ref().and_then(|maps| maps.get(&light.map)).cloned().unwrap_or_else(missing);
-    surroundings.0 = Some(PlacedEnvironment::new(light, map, &view));
+    surroundings.0 = Some(placed(light, map, &view));
 }
 
 /// One for all that are missing.
@@ -68,14 +56,13 @@ fn missing() -> EnvironmentMap {
     MISSING.get_or_init(EnvironmentMap::missing).clone()
 }
 
-impl PlacedEnvironment {
-    fn new(light: &EnvironmentLight, map: EnvironmentMap, view: &View) -> Self {
-        let environment_from_world = DMat3::from_cols_array_2d(&light.environment_from_world()).transpose();
-        let columns = environment_from_world * view.eye_from_world.matrix3.transpose();
-        let rows = columns.transpose().to_cols_array_2d().map(|row| row.map(|number| number as f32));
-        let mean = map.harmonics().polynomial().map(|color| color.map(|channel| channel as f32));
-        let pixel = 1.0 / f64::from(view.pixels_at_unit_depth);
-        let sky = light.sky.then(|| map.level_of(pixel).max(0.0) as f32);
-        Self { strength: light.strength, rows, mean, sky, map }
-    }
+/// An environment as it lies around the eye.
+fn placed(light: &EnvironmentLight, map: EnvironmentMap, view: &View) -> SurroundingsData {
+    let environment_from_world = DMat3::from_cols_array_2d(&light.environment_from_world()).transpose();
+    let columns = environment_from_world * view.eye_from_world.matrix3.transpose();
+    let rows = columns.transpose().to_cols_array_2d().map(|row| row.map(|number| number as f32));
+    let mean = map.harmonics().polynomial().map(|color| color.map(|channel| channel as f32));
+    let pixel = 1.0 / f64::from(view.pixels_at_unit_depth);
+    let sky = light.sky.then(|| map.level_of(pixel).max(0.0) as f32);
+    SurroundingsData { strength: light.strength, rows, mean, sky, map }
 }

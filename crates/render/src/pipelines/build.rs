@@ -1,6 +1,6 @@
 //! How a pipeline is built from its key.
 
-use crate::batch::key::{Cull, DrawKey};
+use crate::batch::key::DrawKey;
 use crate::device::gpu::Gpu;
 use crate::pipelines::key::PipelineKey;
 use crate::shaders::light_slots::Lists;
@@ -9,6 +9,7 @@ use crate::shaders::template::EntryPoint;
 use crate::shaders::text::{Shader, Text};
 use crate::target::frame::{DEPTH_FORMAT, ShaderOutput};
 use halfway_lighting::Frequency;
+use halfway_raster::Cull;
 use halfway_texture::MapKind;
 use wgpu::naga::ShaderStage;
 

@@ -45,6 +45,8 @@ struct Material {
     padding0: f32,
     ambient: vec3f,      // ka, for the lights that attenuate their ambient
     padding1: f32,
+    emission: vec3f,     // of painted surfaces, in which it is not part of the base
+    padding2: f32,
 }
 
 // A light as it arrives at a point: l toward the light, the n·l up to which it counts as in the plane of the surface,

@@ -38,14 +38,24 @@ fn clip_position(eye: vec3f) -> vec4f {
     return vec4f(view.scale * eye.xy, view.near, -eye.z);
 }
 
+// The lights of a record's lists.
+fn add_lists(p: vec3f, n: vec3f, shininess: f32, record: u32, terms: Terms) -> Irradiance {
+    var sum = add_listed(Irradiance(), p, n, shininess, surfaces[record].both, terms);
+    if terms.diffuse {
+        sum = add_listed(sum, p, n, shininess, surfaces[record].diffuse, Terms(true, false));
+    }
+    if terms.specular {
+        sum = add_listed(sum, p, n, shininess, surfaces[record].specular, Terms(false, true));
+    }
+    return sum;
+}
+
 fn vertex_terms(p: vec3f, n: vec3f, shininess: f32, record: u32) -> Irradiance {
     let terms = Terms(VERTEX_DIFFUSE, VERTEX_SPECULAR);
     if !LISTED {
         return add_counted(p, n, shininess, terms);
     }
-    var sum = add_listed(Irradiance(), p, n, shininess, draws[record].vertex, terms);
-    sum = add_listed(sum, p, n, shininess, draws[record].vertex_diffuse, Terms(VERTEX_DIFFUSE, false));
-    return add_listed(sum, p, n, shininess, draws[record].vertex_specular, Terms(false, VERTEX_SPECULAR));
+    return add_lists(p, n, shininess, record, terms);
 }
 
 fn fragment_terms(p: vec3f, n: vec3f, shininess: f32, record: u32) -> Irradiance {
@@ -53,9 +63,7 @@ fn fragment_terms(p: vec3f, n: vec3f, shininess: f32, record: u32) -> Irradiance
     if !LISTED {
         return add_counted(p, n, shininess, terms);
     }
-    var sum = add_listed(Irradiance(), p, n, shininess, draws[record].fragment, terms);
-    sum = add_listed(sum, p, n, shininess, draws[record].fragment_diffuse, Terms(FRAGMENT_DIFFUSE, false));
-    return add_listed(sum, p, n, shininess, draws[record].fragment_specular, Terms(false, FRAGMENT_SPECULAR));
+    return add_lists(p, n, shininess, record, terms);
 }
 
 // As the target takes it.

@@ -13,18 +13,14 @@ struct View {
     padding: f32,
 }
 
-// Light lists: how many directional, point and spot lights, and where their numbers begin among `lists`.
-struct Draw {
+// Materials and lights. Of these how many directional, point and spot lights, and where their numbers begin among
+// `lists`.
+struct Surface {
     front: Material,
     back: Material,
-    vertex: vec4u,
-    vertex_diffuse: vec4u,    // these lights' specular terms are left out
-    vertex_specular: vec4u,   // and of these all others
-    fragment: vec4u,
-    fragment_diffuse: vec4u,
-    fragment_specular: vec4u,
-    front_emission: vec3f,    // of colored draws, in which it is not part of the base
-    back_emission: vec3f,
+    both: vec4u,
+    diffuse: vec4u,               // these lights' specular terms are left out
+    @size(64) specular: vec4u,    // and of these all others; up to the 256 bytes that offsets may be multiples of
 }
 
 @group(0) @binding(0) var<uniform> view: View;

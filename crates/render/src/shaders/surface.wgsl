@@ -126,9 +126,9 @@ fn all_parts(sums: Parts) -> vec3f {
 // The material of a side.
 fn side(record: u32, front: bool) -> Material {
     if TWO_SIDED && !front {
-        return draws[record].back;
+        return surfaces[record].back;
     }
-    return draws[record].front;
+    return surfaces[record].front;
 }
 
 // What a vertex has of the terms that are shaded at the vertices.
@@ -433,10 +433,7 @@ fn fs_surface(
     var emission = vec3f();
 #if PAINTED
     // Else it is part of the base.
-    emission = draws[record].front_emission;
-    if TWO_SIDED && !front {
-        emission = draws[record].back_emission;
-    }
+    emission = material.emission;
 #end
     let opacity = color.a * material.opacity;
 #if MAPPED

@@ -5,13 +5,12 @@ use crate::draw::placings::{PlacingRecord, PlacingsRecord};
 use crate::draw::surroundings::SurroundingsRecord;
 use crate::shaders::light_slots::COUNTED_LIGHTS;
 use crate::shaders::picture::{PICTURE_FILES, PicturePolicyRecord};
-use crate::shaders::records::{
-    DrawRecord, INSTANCE, InstanceRecord, LightRecord, MaterialRecord, SolidRecord, ViewRecord,
-};
+use crate::shaders::records::{INSTANCE, SolidRecord, ViewRecord};
 use crate::shaders::switches::assembled;
 use crate::shaders::template::{EntryPoint, Template};
 use crate::shaders::text::{LightText, SKY, Text};
 use bytemuck::Zeroable;
+use halfway_lighting::record::{InstanceRecord, LightRecord, MaterialRecord, SurfaceRecord};
 use halfway_lighting::{Frequency, Terms};
 use std::mem::offset_of;
 use wgpu::naga::valid::{Capabilities, ValidationFlags, Validator};
@@ -219,22 +218,8 @@ fn records() -> [(&'static str, (Vec<Field>, usize)); 4] {
                 inner_offset
             }),
         ),
-        ("Material", fields!(MaterialRecord { base, shininess, diffuse, opacity, specular, ambient })),
-        (
-            "Draw",
-            fields!(DrawRecord {
-                front,
-                back,
-                lists.vertex,
-                lists.vertex_diffuse,
-                lists.vertex_specular,
-                lists.fragment,
-                lists.fragment_diffuse,
-                lists.fragment_specular,
-                front_emission,
-                back_emission
-            }),
-        ),
+        ("Material", fields!(MaterialRecord { base, shininess, diffuse, opacity, specular, ambient, emission })),
+        ("Surface", fields!(SurfaceRecord { front, back, lights.both, lights.diffuse, lights.specular })),
     ]
 }
 
@@ -251,7 +236,7 @@ fn records_lie_as_the_texts_read_them() {
         });
         for (name, stride) in strides {
             let expected = match name.as_str() {
-                "draws" => size_of::<DrawRecord>(),
+                "surfaces" => size_of::<SurfaceRecord>(),
                 "lights" => size_of::<LightRecord>(),
                 _ => size_of::<u32>(),
             };
@@ -321,7 +306,9 @@ fn a_field_that_moved_is_found() {
         ("Light", "    cos_cutoff: f32,\n", "    cos_cutoff: vec4f,\n"),
         ("Material", "base: vec3f", "base: vec4f"),
         ("View", "    near: f32,\n    padding: f32,", "    padding: f32,\n    near: f32,"),
-        ("Draw", "    back_emission: vec3f,\n", ""),
+        ("Material", "    emission: vec3f,", "    glow: vec3f,"),
+        ("Surface", "    diffuse: vec4u,", "    padding: vec4u,\n    diffuse: vec4u,"),
+        ("Surface", "@size(64) ", ""),
     ];
     for (name, right, wrong) in moves {
         assert!(whole.contains(right), "{right} is in the text");
@@ -336,7 +323,7 @@ fn a_field_that_moved_is_found() {
 
 #[test]
 fn instances_lie_as_the_vertex_stages_read_them() {
-    let (fields, bytes) = fields!(InstanceRecord { rows, normal, record });
+    let (fields, bytes) = fields!(InstanceRecord { eye_from_model, normal, surface });
     let [(_, rows, _), (_, normal, _), (_, record, _)] = &fields[..] else { panic!("three fields") };
     let columns = |start: usize, size: usize| (0..3).map(move |k| start + k * size);
     let expected: Vec<u64> =

@@ -3,10 +3,11 @@
 use crate::device::gpu::Gpu;
 use crate::lights::terms::{by_fragment_shader, by_vertex_shader};
 use crate::shaders::light_slots::COUNTED_LIGHTS;
-use crate::shaders::records::{LightRecord, RECORD_BYTES};
+use crate::shaders::records::RECORD_BYTES;
 use crate::shaders::switches::assembled;
 use crate::shaders::template::Template;
 use bevy_platform::collections::HashMap;
+use halfway_lighting::record::LightRecord;
 use halfway_lighting::{Frequency, Terms};
 use halfway_texture::MapKind;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};

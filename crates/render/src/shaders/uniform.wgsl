@@ -1,6 +1,6 @@
 // One record, and all lights of a scene with few, at fixed places. Needs lighting.wgsl and records.wgsl.
 
-@group(0) @binding(1) var<uniform> draws: array<Draw, 1>;
+@group(0) @binding(1) var<uniform> surfaces: array<Surface, 1>;
 @group(0) @binding(2) var<uniform> lights: array<Light, 8>;
 
 fn add_counted(p: vec3f, n: vec3f, shininess: f32, terms: Terms) -> Irradiance {

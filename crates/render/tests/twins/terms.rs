@@ -126,7 +126,7 @@ fn exactly(_: &[f32], expected: &[f64]) -> Vec<f64> {
 /// A call of `parts` with these switches of the pipeline.
 fn parts_row(constants: &'static [(&'static str, f64)], twin: fn(&[f32]) -> Vec<f64>) -> Row {
     let call = "parts(Irradiance(v(i, 0), v(i, 3), v(i, 6)), \
-        Material(v(i, 9), 1.0, v(i, 12), s(i, 21), v(i, 15), 0.0, v(i, 18), 0.0), v(i, 25))";
+        Material(v(i, 9), 1.0, v(i, 12), s(i, 21), v(i, 15), 0.0, v(i, 18), 0.0, vec3f(), 0.0), v(i, 25))";
     Row { function: "parts", call, kind: Kind::Irradiance, constants, inputs: inputs(), twin, allowed: of_sum }
 }
 

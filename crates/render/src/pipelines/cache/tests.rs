@@ -1,8 +1,8 @@
 //! Which pipelines are there, and what waits for them.
 
 use super::*;
-use crate::batch::key::Cull;
 use crate::batch::key::tests::key;
+use halfway_raster::Cull;
 
 fn numbered(number: u16) -> DrawKey {
     DrawKey { squarings: Some(number as u8), clockwise: number > 255, ..key() }

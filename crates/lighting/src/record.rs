@@ -1,0 +1,262 @@
+//! Records: lights, materials and instances as plain data in eye space, which whatever draws reads as it is. On the GPU
+//! they are the structs of the same names in the WGSL texts, byte for byte.
+//!
+//! All numbers are finite: whatever leaves the range of f32 becomes the largest number in it.
+
+use bevy_math::{Affine3A, Mat3, Vec3, Vec3A};
+use bytemuck::{Pod, Zeroable};
+
+use crate::equations::{Coefficients, ConeTerms, Light, Place, specular_exponent};
+use crate::{Faces, Reflectance};
+
+/// A light. Of a directional light only `position` and the colors count, of a point light no cone.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct LightRecord {
+    /// Where it is; of a directional light the unit vector toward it.
+    pub position: [f32; 3],
+    /// 1/R, or 0 for no end.
+    pub inverse_range: f32,
+    /// Ld.
+    pub diffuse: [f32; 3],
+    /// a of 1/(a + b·d + c·d²).
+    pub constant: f32,
+    /// Ls.
+    pub specular: [f32; 3],
+    /// b.
+    pub linear: f32,
+    /// The way a spot shines, unit length.
+    pub direction: [f32; 3],
+    /// c.
+    pub quadratic: f32,
+    /// La, where it is attenuated; else black, and the color is part of [`MaterialRecord::base`].
+    pub ambient: [f32; 3],
+    /// cos(cutoff).
+    pub cos_cutoff: f32,
+    /// e of cosᵉ φ.
+    pub exponent: f32,
+    /// Scale of the inner cone's fade s = clamp(cos φ·scale + offset, 0, 1); 0 without an inner cone.
+    pub inner_scale: f32,
+    /// Its offset; 1 without an inner cone.
+    pub inner_offset: f32,
+    #[doc(hidden)]
+    pub padding: f32,
+}
+
+impl Default for LightRecord {
+    /// A black one.
+    fn default() -> Self {
+        Self {
+            position: [0.0, 0.0, 1.0],
+            inverse_range: 0.0,
+            diffuse: [0.0; 3],
+            constant: 1.0,
+            specular: [0.0; 3],
+            linear: 0.0,
+            direction: [0.0, 0.0, -1.0],
+            quadratic: 0.0,
+            ambient: [0.0; 3],
+            cos_cutoff: 0.0,
+            exponent: 0.0,
+            inner_scale: 0.0,
+            inner_offset: 1.0,
+            padding: 0.0,
+        }
+    }
+}
+
+impl From<&Light<f64>> for LightRecord {
+    fn from(light: &Light<f64>) -> Self {
+        let (Place::Point(position) | Place::Directional(position)) = light.place;
+        let mut record = Self { diffuse: light.ld.map(number), specular: light.ls.map(number), ..Self::default() };
+        record.place(position, light.attenuation, light.range);
+        if light.attenuate_ambient {
+            record.ambient = light.la.map(number);
+        }
+        if let Some(cone) = &light.cone {
+            record.direction = cone.direction.map(number);
+            record.cos_cutoff = number(cone.cos_cutoff);
+            record.exponent = number(cone.exponent);
+            [record.inner_scale, record.inner_offset] = inner_fade(cone).map(number);
+        }
+        record
+    }
+}
+
+impl LightRecord {
+    /// Puts it somewhere, or toward somewhere, with its falloff in the same unit of length.
+    pub fn place(&mut self, position: [f64; 3], attenuation: [f64; 3], range: Option<f64>) {
+        self.position = position.map(number);
+        [self.constant, self.linear, self.quadratic] = attenuation.map(number);
+        self.inverse_range = range.map_or(0.0, |range| number(range.recip()));
+    }
+
+    /// Whether it has a specular color.
+    pub fn is_specular(&self) -> bool {
+        self.specular.iter().any(|&channel| channel > 0.0)
+    }
+
+    /// Whether it attenuates an ambient color.
+    pub fn attenuates_ambient(&self) -> bool {
+        self.ambient.iter().any(|&channel| channel > 0.0)
+    }
+
+    /// Whether its specular color is a copy of its diffuse color.
+    #[expect(clippy::float_cmp, reason = "a shared color is a copy")]
+    pub fn shares_color(&self) -> bool {
+        self.specular == self.diffuse
+    }
+
+    /// Whether it has a range.
+    pub fn is_ranged(&self) -> bool {
+        self.inverse_range > 0.0
+    }
+}
+
+/// The inner cone's fade of `KHR_lights_punctual`, s = clamp((cos φ − cos cutoff)/(cos inner − cos cutoff), 0, 1), as
+/// scale and offset of cos φ; 0 and 1, which is s = 1, where there is no inner cone or it is as wide as the cutoff.
+fn inner_fade(cone: &ConeTerms<f64>) -> [f64; 2] {
+    let width = cone.cos_inner.map_or(0.0, |cos_inner| cos_inner - cone.cos_cutoff);
+    if width > 0.0 { [1.0 / width, -cone.cos_cutoff / width] } else { [0.0, 1.0] }
+}
+
+/// What one side of a surface is made of.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct MaterialRecord {
+    /// ke + ka·(Ga + Σ La) of the lights that do not attenuate their ambient.
+    pub base: [f32; 3],
+    /// The exponent of the highlight; a matched one is matched already.
+    pub shininess: f32,
+    /// kd.
+    pub diffuse: [f32; 3],
+    /// 0 to 1; counts where the draw blends.
+    pub opacity: f32,
+    /// ks.
+    pub specular: [f32; 3],
+    #[doc(hidden)]
+    pub padding0: f32,
+    /// ka, for the lights that attenuate their ambient.
+    pub ambient: [f32; 3],
+    #[doc(hidden)]
+    pub padding1: f32,
+    /// ke of painted surfaces, apart from what colors multiply; of others it is part of the base, and this 0.
+    pub emission: [f32; 3],
+    #[doc(hidden)]
+    pub padding2: f32,
+}
+
+impl MaterialRecord {
+    /// A material under ambient light: Ga, and La of the lights that do not attenuate it. Surfaces are `painted` where
+    /// colors of vertices, images, a mask, a solid or an environment have part in what they reflect.
+    pub fn new(
+        material: &Coefficients<f32>,
+        opacity: f32,
+        reflectance: Reflectance,
+        ambient: Vec3,
+        painted: bool,
+    ) -> Self {
+        let in_base = if painted { [0.0; 3] } else { material.ke };
+        let unlit = Vec3::from_array(in_base) + Vec3::from_array(material.ka) * ambient;
+        Self {
+            base: unlit.to_array().map(finite),
+            shininess: finite(specular_exponent(reflectance, material.shininess)),
+            diffuse: material.kd,
+            opacity,
+            specular: material.ks,
+            ambient: material.ka,
+            emission: if painted { material.ke } else { [0.0; 3] },
+            ..Self::default()
+        }
+    }
+}
+
+/// Some lights of a frame's list of numbers: `counts` directional, point and spot lights, in this order, from `start`
+/// on.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
+pub struct LightRange {
+    /// How many directional, point and spot lights.
+    pub counts: [u32; 3],
+    /// The first number's place in the list.
+    pub start: u32,
+}
+
+impl LightRange {
+    /// How many lights.
+    pub fn len(&self) -> u64 {
+        self.counts.iter().map(|&count| u64::from(count)).sum()
+    }
+
+    /// Whether it names none.
+    pub fn is_empty(&self) -> bool {
+        self.counts == [0; 3]
+    }
+}
+
+/// The lights that reach a surface, by which of their terms count.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
+pub struct SurfaceLights {
+    /// With all terms.
+    pub both: LightRange,
+    /// More of them, whose highlights are left out.
+    pub diffuse: LightRange,
+    /// More of them, of which nothing but the highlights counts.
+    pub specular: LightRange,
+}
+
+/// Both sides of a surface, and the lights that reach it. Its size is the largest alignment of offsets that WebGPU lets
+/// an adapter ask for.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct SurfaceRecord {
+    /// The side whose corners are seen counter-clockwise, unless the draw says otherwise.
+    pub front: MaterialRecord,
+    /// The other side.
+    pub back: MaterialRecord,
+    /// The lights.
+    pub lights: SurfaceLights,
+    #[doc(hidden)]
+    pub padding: [u32; 12],
+}
+
+/// Where a mesh stands, and what it is made of.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct InstanceRecord {
+    /// The rows of `eye_from_model`.
+    pub eye_from_model: [[f32; 4]; 3],
+    /// The columns of the normal matrix, sign(det M)·cof(M) up to a positive factor; negative where the surface is lit
+    /// inside out.
+    pub normal: [[f32; 3]; 3],
+    /// The number of its surface.
+    pub surface: u32,
+}
+
+impl InstanceRecord {
+    /// One whose positions are scaled by `unit`. With only back faces shown, the surface is lit inside out: its normals
+    /// turn, and so do its windings. A matrix that leaves f32 shows nothing.
+    pub fn new(eye_from_model: &Affine3A, normal_matrix: Mat3, faces: Faces, unit: f32) -> Self {
+        let m = eye_from_model.matrix3.transpose();
+        let t = eye_from_model.translation;
+        let row = |row: Vec3A, translation: f32| [row.x, row.y, row.z, translation].map(|x| x * unit);
+        let side = if faces == Faces::Back { -1.0 } else { 1.0 };
+        let record = Self {
+            eye_from_model: [row(m.x_axis, t.x), row(m.y_axis, t.y), row(m.z_axis, t.z)],
+            normal: (normal_matrix * side).to_cols_array_2d(),
+            surface: 0,
+        };
+        let all = record.eye_from_model.as_flattened().iter().chain(record.normal.as_flattened());
+        if all.copied().all(f32::is_finite) { record } else { Self::default() }
+    }
+}
+
+/// The nearest number of f32, or the largest.
+fn number(value: f64) -> f32 {
+    finite(value as f32)
+}
+
+fn finite(value: f32) -> f32 {
+    value.clamp(f32::MIN, f32::MAX)
+}
