@@ -1,9 +1,10 @@
 //! Any number of lights: none is dropped, whichever way the lists reach the shader.
 
 use crate::render::compare::{FLOAT, Failures};
-use crate::render::random::Random;
+use crate::render::random::between;
 use crate::render::scene::{Lamp, Scene, Thing};
 use crate::render::stage::Stage;
+use fastrand::Rng;
 use halfway::lighting::Frequency;
 use halfway::prelude::*;
 
@@ -25,15 +26,16 @@ fn over_floor() -> Scene {
 
 /// `count` lights of mixed kinds, all of them over the floor, each with colours of its own and about 1/count bright.
 fn mixed_lamps(count: usize) -> Vec<Lamp> {
-    let mut random = Random(count as u64);
+    let mut random = Rng::with_seed(count as u64);
     let lamp = |i: usize| {
         let mut colour = || {
-            let mut channel = || random.between(0.5, 2.0) / count as f32;
+            let mut channel = || between(&mut random, 0.5, 2.0) / count as f32;
             LinearRgba::rgb(channel(), channel(), channel())
         };
         let (ambient, diffuse, specular) = (colour(), colour(), colour());
-        let at = Vec3::new(random.between(-2.0, 2.0), random.between(0.8, 2.5), random.between(-2.0, 2.0));
-        let down = Vec3::new(random.between(-0.5, 0.5), -1.0, random.between(-0.5, 0.5));
+        let at =
+            Vec3::new(between(&mut random, -2.0, 2.0), between(&mut random, 0.8, 2.5), between(&mut random, -2.0, 2.0));
+        let down = Vec3::new(between(&mut random, -0.5, 0.5), -1.0, between(&mut random, -0.5, 0.5));
         let light = PointLight {
             ambient,
             diffuse,

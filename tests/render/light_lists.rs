@@ -1,9 +1,10 @@
 //! Lists of many lights: each patch gets those that reach it, and what is left out does not show.
 
 use crate::render::compare::{FLOAT, Failures, SELECTED, SRGB, difference};
-use crate::render::random::Random;
+use crate::render::random::between;
 use crate::render::scene::{Lamp, Scene, Thing, material, other_material, rotated};
 use crate::render::stage::Stage;
+use fastrand::Rng;
 use halfway::lighting::Frequency;
 use halfway::lighting::bounds::{STEP, linear_tolerance};
 use halfway::prelude::*;
@@ -34,11 +35,15 @@ fn hall(count: usize, shading: Shading) -> Scene {
         let turned = rotated(0.2 * i as f32, 0.5, 0.0).with_translation(at);
         scene = scene.with(Thing::new(UvSphere::new(1.0, 32, 24)).at(turned));
     }
-    let mut random = Random(count as u64);
+    let mut random = Rng::with_seed(count as u64);
     for i in 0..count {
-        let at = Vec3::new(random.between(-12.0, 12.0), random.between(0.5, 3.0), random.between(-12.0, 12.0));
-        let down = Vec3::new(random.between(-0.5, 0.5), -1.0, random.between(-0.5, 0.5));
-        let light = ranged(random.between(0.2, 0.8), random.between(2.0, 6.0));
+        let at = Vec3::new(
+            between(&mut random, -12.0, 12.0),
+            between(&mut random, 0.5, 3.0),
+            between(&mut random, -12.0, 12.0),
+        );
+        let down = Vec3::new(between(&mut random, -0.5, 0.5), -1.0, between(&mut random, -0.5, 0.5));
+        let light = ranged(between(&mut random, 0.2, 0.8), between(&mut random, 2.0, 6.0));
         scene.lamps.push(match i % 4 {
             0 | 1 => Lamp::point(light, at),
             2 => Lamp::spot(SpotLight { light, cone: Cone { cutoff: 0.9, inner: Some(0.3), exponent: 1.0 } }, at, down),
@@ -90,10 +95,10 @@ fn lists_change_no_picture_by_more_than_a_step() {
 fn field(size: u32, material: Material) -> Scene {
     let floor = Thing::new(Plane { size: size as f32, divisions: size }).of(material).shaded(Shading::Phong);
     let mut scene = above(size as f32).with(floor);
-    let mut random = Random(7);
+    let mut random = Rng::with_seed(7);
     for _ in 0..size * size / 16 {
         let half = 0.5 * size as f32;
-        let at = Vec3::new(random.between(-half, half), 1.0, random.between(-half, half));
+        let at = Vec3::new(between(&mut random, -half, half), 1.0, between(&mut random, -half, half));
         scene.lamps.push(Lamp::point(ranged(0.5, 3.0), at));
     }
     scene
@@ -143,10 +148,10 @@ fn highlights_are_listed_where_they_can_be_seen() {
         [(Plane { size: 40.0, divisions: 64 }, "in patches"), (Plane { size: 1.0, divisions: 1 }, "whole")]
     {
         let mut scene = above(40.0).with(Thing::new(mesh).of(glossy).shaded(Shading::Phong));
-        let mut random = Random(3);
+        let mut random = Rng::with_seed(3);
         for _ in 0..100 {
             // Low and far out: halfway vectors lean by 30° and more over the most of the floor.
-            let around = random.between(0.0, std::f32::consts::TAU);
+            let around = between(&mut random, 0.0, std::f32::consts::TAU);
             let at = Vec3::new(60.0 * around.cos(), 8.0, 60.0 * around.sin());
             let light = PointLight { attenuation: Attenuation::NONE, ..PointLight::from_color(LinearRgba::gray(0.1)) };
             scene.lamps.push(Lamp::point(light, at));
@@ -257,10 +262,15 @@ fn lights_that_cannot_reach_are_not_assigned() {
         for shading in [Shading::Flat, Shading::Gouraud, Shading::Phong] {
             let floor = Plane { size: 20.0, divisions };
             let mut scene = above(20.0).with(Thing::new(floor).shaded(shading));
-            let mut random = Random(11);
+            let mut random = Rng::with_seed(11);
             let mut places = || {
-                let mut place =
-                    || Vec3::new(random.between(-8.0, 8.0), random.between(4.0, 6.0), random.between(-8.0, 8.0));
+                let mut place = || {
+                    Vec3::new(
+                        between(&mut random, -8.0, 8.0),
+                        between(&mut random, 4.0, 6.0),
+                        between(&mut random, -8.0, 8.0),
+                    )
+                };
                 [(); 12].map(|()| place())
             };
             scene.lamps.extend(places().map(|at| Lamp::point(ranged(0.4, 30.0), at)));

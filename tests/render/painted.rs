@@ -1,8 +1,9 @@
 //! Lists of many lights on objects with images: what is left out stays within the tolerance.
 
-use crate::render::random::Random;
+use crate::render::random::between;
 use crate::render::scene::{Lamp, Map, Scene, Thing};
 use crate::render::stage::Stage;
+use fastrand::Rng;
 use halfway::prelude::*;
 use halfway::texture::normals::from_heights;
 use halfway::texture::{TexelImage, Wrap};
@@ -18,16 +19,20 @@ fn floor(maps: Vec<(MapKind, Map)>) -> Scene {
     };
     let thing = Thing { maps, ..Thing::new(Plane { size: 4.0, divisions: 64 }) }.of(shiny).shaded(Shading::Phong);
     let mut scene = Scene::seen_from(Vec3::new(0.0, 4.0, 0.5), Vec3::ZERO).with(thing);
-    let mut random = Random(5);
+    let mut random = Rng::with_seed(5);
     for number in 0..180 {
-        let brightness = random.between(0.001, 0.008);
+        let brightness = between(&mut random, 0.001, 0.008);
         let color = LinearRgba::gray(brightness);
         if number % 3 > 0 {
-            let down = Vec3::new(random.between(-0.3, 0.3), -1.0, random.between(-0.3, 0.3));
+            let down = Vec3::new(between(&mut random, -0.3, 0.3), -1.0, between(&mut random, -0.3, 0.3));
             let light = DirectionalLight { ambient: LinearRgba::BLACK, ..DirectionalLight::from_color(color) };
             scene.lamps.push(Lamp::directional(light, down));
         } else {
-            let at = Vec3::new(random.between(-2.0, 2.0), random.between(0.5, 2.0), random.between(-2.0, 2.0));
+            let at = Vec3::new(
+                between(&mut random, -2.0, 2.0),
+                between(&mut random, 0.5, 2.0),
+                between(&mut random, -2.0, 2.0),
+            );
             scene.lamps.push(Lamp::point(PointLight::from_color(color), at));
         }
     }

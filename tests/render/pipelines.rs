@@ -1,9 +1,9 @@
 //! Every variant of the shader builds and draws.
 
 use crate::render::compare::{FLOAT, Failures};
-use crate::render::random::Random;
 use crate::render::scene::{Lamp, Scene, Thing, directional_light, material, other_material, point_light};
 use crate::render::stage::Stage;
+use fastrand::Rng;
 use halfway::lighting::Frequency;
 use halfway::prelude::*;
 use std::ops::Range;
@@ -41,7 +41,7 @@ fn covering_triples() -> Vec<Choice> {
             left += 1;
         }
     }
-    let mut random = Random(7);
+    let mut random = Rng::with_seed(7);
     let mut rows = Vec::new();
     while left > 0 {
         // The best of a few random rows that cover at least one open combination.
@@ -49,8 +49,8 @@ fn covering_triples() -> Vec<Choice> {
             triples.iter().zip(&open).find_map(|(t, open)| open.iter().position(|open| *open).map(|at| (*t, at)));
         let Some((triple, at)) = seed else { break };
         let gain = |row: &Choice| triples.iter().zip(&open).filter(|(triple, open)| open[code(row, **triple)]).count();
-        let candidate = |random: &mut Random| {
-            let mut row: Choice = FACTORS.map(|(_, choices)| random.below(choices));
+        let candidate = |random: &mut Rng| {
+            let mut row: Choice = FACTORS.map(|(_, choices)| random.usize(..choices));
             (row[triple[0]], row[triple[1]], row[triple[2]]) = (at % 8, at / 8 % 8, at / 64);
             row
         };

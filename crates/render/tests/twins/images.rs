@@ -5,8 +5,9 @@ use halfway_texture::{Channel, ImageForm, LevelFilter, MapKind, Pyramid, Samplin
 use std::sync::LazyLock;
 
 use crate::adapter::Bound;
-use crate::inputs::Random;
+use crate::inputs::between;
 use crate::placings::{PlacingRecord, PlacingsRecord, packed, packed_size, stored};
+use fastrand::Rng;
 
 /// The slots that rows look up, and their images in maps.wgsl: 5 × 3, 1 × 1, 1 × 7, 6 × 4, 5 × 4, 9 × 1, 1 × 3 and 16 ×
 /// 8 texels.
@@ -35,20 +36,20 @@ const LONGEST: u32 = 11;
 
 /// Numbers beyond 0 to 1 too, as heights have them, and where clamping shows.
 pub(crate) static IMAGES: LazyLock<[Pyramid; MapKind::COUNT]> = LazyLock::new(|| {
-    let mut random = Random(0x2545_f491_4f6c_dd1d);
+    let mut random = Rng::with_seed(0x2545_f491_4f6c_dd1d);
     SIZES.map(|[width, height]| {
-        let texels = (0..width * height).map(|_| [0; 4].map(|_| random.between(-0.5, 1.5))).collect();
+        let texels = (0..width * height).map(|_| [0; 4].map(|_| between(&mut random, -0.5, 1.5))).collect();
         Pyramid::new(TexelImage::new(width, height, texels).expect("a small image"))
     })
 });
 
 pub(crate) static PLACINGS: LazyLock<PlacingsRecord> = LazyLock::new(|| {
-    let mut random = Random(0x1234_5678_9abc_def1);
+    let mut random = Rng::with_seed(0x1234_5678_9abc_def1);
     let each = std::array::from_fn(|slot| {
-        let rows = [[0; 3]; 2].map(|row| row.map(|_| random.between(-2.0, 2.0)));
+        let rows = [[0; 3]; 2].map(|row| row.map(|_| between(&mut random, -2.0, 2.0)));
         let image = (&IMAGES[slot], form(slot));
         let width = packed_size(&stored(image.0, image.1), LONGEST)[0];
-        PlacingRecord::new(rows, random.between(-1.0, 2.0), image, width)
+        PlacingRecord::new(rows, between(&mut random, -1.0, 2.0), image, width)
     });
     PlacingsRecord { cutoff: [0.5, 0.0, 0.0, 0.0], each }
 });
@@ -99,8 +100,8 @@ pub(crate) struct Look {
 }
 
 impl Look {
-    pub(crate) fn random(random: &mut Random) -> Self {
-        let mut below = |count: f32| (random.between(0.0, count) as usize).min(count as usize - 1);
+    pub(crate) fn random(random: &mut Rng) -> Self {
+        let mut below = |count: f32| (between(random, 0.0, count) as usize).min(count as usize - 1);
         Self {
             magnify: below(4.0),
             minify: below(4.0),

@@ -1,5 +1,6 @@
 //! What the functions are called with: every edge of their definitions, and numbers over the whole range.
 
+use fastrand::Rng;
 use halfway_lighting::equations::{ConeTerms, Light, Place, ShadedPoint};
 
 use crate::adapter::INPUT;
@@ -17,39 +18,27 @@ pub(crate) fn wide<const N: usize>(numbers: &[f32]) -> [f64; N] {
     std::array::from_fn(|k| numbers[k].into())
 }
 
-/// xorshift, so that the inputs repeat.
-pub(crate) struct Random(pub(crate) u64);
+pub(crate) fn between(random: &mut Rng, low: f32, high: f32) -> f32 {
+    low + (high - low) * random.f32()
+}
 
-impl Random {
-    fn unit(&mut self) -> f32 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 40) as f32 / (1u64 << 24) as f32
-    }
+/// Over all magnitudes from 10^low to 10^high.
+pub(crate) fn magnitude(random: &mut Rng, low: f32, high: f32) -> f32 {
+    10f32.powf(between(random, low, high))
+}
 
-    pub(crate) fn between(&mut self, low: f32, high: f32) -> f32 {
-        low + (high - low) * self.unit()
-    }
-
-    /// Over all magnitudes from 10^low to 10^high.
-    pub(crate) fn magnitude(&mut self, low: f32, high: f32) -> f32 {
-        10f32.powf(self.between(low, high))
-    }
-
-    pub(crate) fn direction(&mut self) -> [f32; 3] {
-        loop {
-            let a = [0; 3].map(|_| self.between(-1.0, 1.0));
-            let square: f32 = a.iter().map(|x| x * x).sum();
-            if (0.01..=1.0).contains(&square) {
-                return a.map(|x| x / square.sqrt());
-            }
+pub(crate) fn direction(random: &mut Rng) -> [f32; 3] {
+    loop {
+        let a = [0; 3].map(|_| between(random, -1.0, 1.0));
+        let square: f32 = a.iter().map(|x| x * x).sum();
+        if (0.01..=1.0).contains(&square) {
+            return a.map(|x| x / square.sqrt());
         }
     }
+}
 
-    fn color(&mut self) -> [f32; 3] {
-        [0; 3].map(|_| self.between(0.0, 2.0))
-    }
+fn color(random: &mut Rng) -> [f32; 3] {
+    [0; 3].map(|_| between(random, 0.0, 2.0))
 }
 
 /// A light and a lit point.
@@ -75,30 +64,30 @@ const INNER: usize = 30;
 const RANGE: usize = 31;
 
 impl Lit {
-    pub(crate) fn random(random: &mut Random) -> Self {
-        let n = random.direction();
-        let size = random.magnitude(-12.0, 12.0);
-        let p = random.direction().map(|x| x * size);
-        let distance = size * random.magnitude(-2.0, 3.0);
-        let mut l = random.direction();
-        if dot(l, n) < 0.0 && random.unit() < 0.8 {
+    pub(crate) fn random(random: &mut Rng) -> Self {
+        let n = direction(random);
+        let size = magnitude(random, -12.0, 12.0);
+        let p = direction(random).map(|x| x * size);
+        let distance = size * magnitude(random, -2.0, 3.0);
+        let mut l = direction(random);
+        if dot(l, n) < 0.0 && random.f32() < 0.8 {
             l = l.map(|x| -x);
         }
         let position = std::array::from_fn(|k| p[k] + distance * l[k]);
-        let aim = random.direction();
+        let aim = direction(random);
         let toward: [f32; 3] = std::array::from_fn(|k| 0.3 * aim[k] - l[k]);
         let length = dot(toward, toward).sqrt();
-        let cos_cutoff = random.between(0.0, 0.9);
-        let inner = (random.unit() < 0.5).then(|| random.between(cos_cutoff + 0.02, 1.0));
+        let cos_cutoff = between(random, 0.0, 0.9);
+        let inner = (random.f32() < 0.5).then(|| between(random, cos_cutoff + 0.02, 1.0));
         Self {
             position,
-            range: (random.unit() < 0.5).then(|| distance * random.magnitude(-0.2, 1.0)),
-            attenuation: [random.between(0.1, 2.0), random.unit() / distance, random.unit() / distance / distance],
-            cone: (toward.map(|x| x / length), cos_cutoff, inner, random.between(0.0, 8.0)),
-            colors: [random.color(), random.color(), random.color()],
+            range: (random.f32() < 0.5).then(|| distance * magnitude(random, -0.2, 1.0)),
+            attenuation: [between(random, 0.1, 2.0), random.f32() / distance, random.f32() / distance / distance],
+            cone: (toward.map(|x| x / length), cos_cutoff, inner, between(random, 0.0, 8.0)),
+            colors: [color(random), color(random), color(random)],
             p,
             n,
-            shininess: random.magnitude(-1.0, 3.0),
+            shininess: magnitude(random, -1.0, 3.0),
         }
     }
 
@@ -149,9 +138,9 @@ fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
 pub(crate) fn many(
     edges: impl IntoIterator<Item = Input>,
     count: usize,
-    mut random: impl FnMut(&mut Random) -> Input,
+    mut random: impl FnMut(&mut Rng) -> Input,
 ) -> Vec<Input> {
-    let mut source = Random(0x9e37_79b9_7f4a_7c15);
+    let mut source = Rng::with_seed(0x9e37_79b9_7f4a_7c15);
     let mut inputs: Vec<Input> = edges.into_iter().collect();
     inputs.extend((0..count).map(|_| random(&mut source)));
     inputs
@@ -162,13 +151,13 @@ pub(crate) fn powers() -> Vec<Input> {
     let edges = [0.0f32, -0.25, 1.0, 0.5, 0.999_999_9, 1e-30]
         .into_iter()
         .flat_map(|x| [0.0f32, 1.0, 0.3, 32.0, 1e4].map(|e| input(&[x, e])));
-    many(edges, 2000, |random| input(&[random.between(0.0, 1.0).sqrt(), random.magnitude(-2.0, 4.0)]))
+    many(edges, 2000, |random| input(&[between(random, 0.0, 1.0).sqrt(), magnitude(random, -2.0, 4.0)]))
 }
 
 /// x and k, for x^(2^k).
 pub(crate) fn squarings() -> Vec<Input> {
     let edges = [0.0f32, 1.0, 0.5].into_iter().flat_map(|x| [0.0f32, 1.0, 7.0, 16.0].map(|k| input(&[x, k])));
-    many(edges, 200, |random| input(&[random.between(0.9, 1.0), random.between(0.0, 13.9).floor()]))
+    many(edges, 200, |random| input(&[between(random, 0.9, 1.0), between(random, 0.0, 13.9).floor()]))
 }
 
 /// Lights and points in general position, and `edges`.
@@ -217,7 +206,7 @@ pub(crate) fn coincident() -> Vec<Lit> {
 
 /// cos φ in the last place, and a cone with an edge at every place of it.
 pub(crate) fn cones() -> Vec<Input> {
-    let base = Lit { range: None, ..Lit::random(&mut Random(5)) };
+    let base = Lit { range: None, ..Lit::random(&mut Rng::with_seed(5)) };
     let with = |cosine: f32, cutoff: f32, inner: Option<f32>, exponent: f32| {
         let mut numbers = Lit { cone: ([0.0, 0.0, -1.0], cutoff, inner, exponent), ..base }.input();
         numbers[32] = cosine;
@@ -236,9 +225,9 @@ pub(crate) fn cones() -> Vec<Input> {
         with(0.6, 0.6, Some(0.6), 1.0),
     ];
     many(edges, 1000, |random| {
-        let cutoff = random.between(-0.2, 0.95);
-        let inner = (random.unit() < 0.5).then(|| random.between(cutoff + 0.02, 1.0));
-        with(random.between(-0.2, 1.0), cutoff, inner, random.magnitude(-2.0, 2.5))
+        let cutoff = between(random, -0.2, 0.95);
+        let inner = (random.f32() < 0.5).then(|| between(random, cutoff + 0.02, 1.0));
+        with(between(random, -0.2, 1.0), cutoff, inner, magnitude(random, -2.0, 2.5))
     })
 }
 
@@ -258,13 +247,13 @@ pub(crate) fn spreads() -> Vec<Input> {
         row([[0.0; 3]; 2], [20.0, 3.0, 5.0], [1.0, 0.0, 1.0], 7.0),
     ];
     many(edges, 2000, |random| {
-        let (n, t) = (random.direction(), random.direction());
+        let (n, t) = (direction(random), direction(random));
         let cross = |a: [f32; 3], b: [f32; 3]| {
             [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
         };
-        let [a, b] = [random.magnitude(-1.0, 3.0), random.magnitude(-1.0, 3.0)];
-        let widths = [a, random.between(-0.9, 0.9) * (a * b).sqrt(), b];
-        row([t, cross(n, t)], widths, random.direction(), random.magnitude(-1.0, 3.0))
+        let [a, b] = [magnitude(random, -1.0, 3.0), magnitude(random, -1.0, 3.0)];
+        let widths = [a, between(random, -0.9, 0.9) * (a * b).sqrt(), b];
+        row([t, cross(n, t)], widths, direction(random), magnitude(random, -1.0, 3.0))
     })
 }
 
@@ -286,15 +275,15 @@ pub(crate) fn highlights() -> Vec<Input> {
         row(z, [0.6, 0.0, 0.8], [-0.6, 0.0, 0.8], 1e4),
     ];
     many(edges, 3000, |random| {
-        let (n, l, v) = (random.direction(), random.direction(), random.direction());
+        let (n, l, v) = (direction(random), direction(random), direction(random));
         // Half of them near the peak, where a large exponent shows.
         let near = |a: [f32; 3], to: [f32; 3], share: f32| -> [f32; 3] {
             let sum: [f32; 3] = std::array::from_fn(|k| to[k] + share * a[k]);
             let length = dot(sum, sum).sqrt().max(1e-3);
             sum.map(|x| x / length)
         };
-        let e = random.magnitude(-1.0, 4.0);
-        if random.unit() < 0.5 {
+        let e = magnitude(random, -1.0, 4.0);
+        if random.f32() < 0.5 {
             let share = 1.0 / (1.0 + e).sqrt();
             row(n, near(l, n, share), near(v, n, share), e)
         } else {
@@ -313,7 +302,7 @@ pub(crate) fn vectors() -> Vec<Input> {
     let edges = [[0.0f32; 3], [0.0, 3e-7, 4e-7], [0.0, 3e-6, 4e-6], [0.0, -2.0, 0.0]];
     let edges = edges.map(|a| input(&[a[0], a[1], a[2], 0.0, 0.6, 0.8]));
     many(edges, 1000, |random| {
-        let (a, size, b) = (random.direction(), random.magnitude(-15.0, 15.0), random.direction());
+        let (a, size, b) = (direction(random), magnitude(random, -15.0, 15.0), direction(random));
         input(&[a[0] * size, a[1] * size, a[2] * size, b[0], b[1], b[2]])
     })
 }
@@ -322,8 +311,8 @@ pub(crate) fn vectors() -> Vec<Input> {
 pub(crate) fn matrices() -> Vec<Input> {
     let flat = input(&[0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0]);
     many([flat], 1000, |random| {
-        let mut numbers: Vec<f32> = (0..9).map(|_| random.between(-1.0, 1.0)).collect();
-        numbers.extend(random.direction());
+        let mut numbers: Vec<f32> = (0..9).map(|_| between(random, -1.0, 1.0)).collect();
+        numbers.extend(direction(random));
         input(&numbers)
     })
 }
@@ -337,7 +326,7 @@ pub(crate) fn falls() -> Vec<Input> {
     };
     let constants = [[1.0f32, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [0.25, 0.5, 2.0], [1e-9, 0.0, 0.0]];
     let edges = constants.into_iter().flat_map(|abc| [0.0f32, 1e-3, 1e-4, 1.0, 1e15, 1e18].map(|d| row(abc, d)));
-    many(edges, 1000, |random| row([0; 3].map(|_| random.magnitude(-6.0, 3.0)), random.magnitude(-12.0, 12.0)))
+    many(edges, 1000, |random| row([0; 3].map(|_| magnitude(random, -6.0, 3.0)), magnitude(random, -12.0, 12.0)))
 }
 
 /// A distance and a range.
@@ -345,8 +334,8 @@ pub(crate) fn ranges() -> Vec<Input> {
     let edges = [(0.0f32, 2.0f32), (2.0, 2.0), (2.1, 2.0), (1.0, 1e30), (1e18, 2.0)]
         .map(|(d, range)| input(&[d, range, range.recip()]));
     many(edges, 1000, |random| {
-        let range = random.magnitude(-12.0, 12.0);
-        input(&[range * random.between(0.0, 1.2), range, range.recip()])
+        let range = magnitude(random, -12.0, 12.0);
+        input(&[range * between(random, 0.0, 1.2), range, range.recip()])
     })
 }
 
@@ -359,42 +348,42 @@ pub(crate) fn intensities() -> Vec<Input> {
 /// Intensities of all magnitudes, and around where ACES' curve reaches 1.
 pub(crate) fn bright() -> Vec<Input> {
     let edges = [0.0, 1.0, 7.0, 7.2, 7.25, 7.3, 8.0, 9.0, 1e18, 3e38].map(|x| input(&[x]));
-    many(edges, 1000, |random| input(&[random.magnitude(-6.0, 3.0)]))
+    many(edges, 1000, |random| input(&[magnitude(random, -6.0, 3.0)]))
 }
 
 /// Intensities with 1/w² of a white point w of 1 and more, and none.
 pub(crate) fn white_points() -> Vec<Input> {
     let edges = [0.0, 1.0, 1e18, 3e38].into_iter().flat_map(|x: f32| [0.0, 0.0625, 1.0].map(|w| input(&[x, w])));
-    many(edges, 1000, |random| input(&[random.magnitude(-6.0, 6.0), random.magnitude(-6.0, 0.0)]))
+    many(edges, 1000, |random| input(&[magnitude(random, -6.0, 6.0), magnitude(random, -6.0, 0.0)]))
 }
 
 /// A largest channel, the divisor before and the share of it that stays.
 pub(crate) fn divisors() -> Vec<Input> {
     let edges = [[0.0, 1.0, 0.0], [0.5, 9.0, 0.5], [1.0, 1.0, 0.9], [3e38, 1.0, 0.0]].map(|x: [f32; 3]| input(&x));
     many(edges, 1000, |random| {
-        input(&[random.magnitude(-2.0, 6.0), 1.0 + random.magnitude(-2.0, 6.0), random.between(0.0, 0.999)])
+        input(&[magnitude(random, -2.0, 6.0), 1.0 + magnitude(random, -2.0, 6.0), between(random, 0.0, 0.999)])
     })
 }
 
 /// Coefficients of a polynomial of a normal, and the normal.
 pub(crate) fn harmonics() -> Vec<Input> {
-    let mut random = Random(23);
+    let mut random = Rng::with_seed(23);
     let mut one = || {
-        let coefficients = (0..9).flat_map(|_| [0; 3].map(|_| random.between(-1.0, 1.0))).collect::<Vec<_>>();
-        input(&[&coefficients[..], &random.direction()].concat())
+        let coefficients = (0..9).flat_map(|_| [0; 3].map(|_| between(&mut random, -1.0, 1.0))).collect::<Vec<_>>();
+        input(&[&coefficients[..], &direction(&mut random)].concat())
     };
     (0..256).map(|_| one()).collect()
 }
 
 /// Directions of any length, along axes and along seams among them.
 pub(crate) fn directions() -> Vec<Input> {
-    let mut random = Random(29);
+    let mut random = Rng::with_seed(29);
     let steps = [-1.0, 0.0, 1.0];
     let grid = steps.into_iter().flat_map(|x| steps.into_iter().flat_map(move |y| steps.map(|z| [x, y, z])));
     let grid: Vec<_> = grid.map(|d| input(&d)).collect();
     let mut any = || {
-        let size = random.magnitude(-3.0, 3.0);
-        input(&random.direction().map(|x| x * size))
+        let size = magnitude(&mut random, -3.0, 3.0);
+        input(&direction(&mut random).map(|x| x * size))
     };
     grid.into_iter().chain((0..256).map(|_| any())).collect()
 }

@@ -1,11 +1,12 @@
 //! What the functions of maps.wgsl are called with: every edge of their definitions, and numbers over the whole range.
 
 use crate::images::{FILTERS, HEIGHT, IMAGES, Look, WRAPS};
-use crate::inputs::{Input, Random, input, many};
+use crate::inputs::{Input, between, direction, input, magnitude, many};
+use fastrand::Rng;
 
 /// One of 0 to count − 1.
-fn below(random: &mut Random, count: usize) -> f32 {
-    random.between(0.0, count as f32).floor().min(count as f32 - 1.0)
+fn below(random: &mut Rng, count: usize) -> f32 {
+    between(random, 0.0, count as f32).floor().min(count as f32 - 1.0)
 }
 
 /// A look, and four numbers.
@@ -43,8 +44,8 @@ const PLACES: [f32; 23] = [
 ];
 
 /// A place on an image, anywhere.
-fn place(random: &mut Random) -> f32 {
-    if below(random, 2) < 1.0 { random.between(-2.5, 3.5) } else { PLACES[below(random, PLACES.len()) as usize] }
+fn place(random: &mut Rng) -> f32 {
+    if below(random, 2) < 1.0 { between(random, -2.5, 3.5) } else { PLACES[below(random, PLACES.len()) as usize] }
 }
 
 /// A coordinate, a side and what is beyond.
@@ -64,7 +65,7 @@ pub(crate) fn indices() -> Vec<Input> {
     let near = [1i8, 2, 3, 5, 8].into_iter().flat_map(|side| (-4 * side..=4 * side).map(move |at| (at, side)));
     let edges = near.flat_map(|(at, side)| wraps(move |wrap| vec![at.into(), side.into(), wrap]));
     many(edges, 500, |random| {
-        input(&[random.between(-16e6, 16e6).floor(), below(random, 5000) + 1.0, below(random, WRAPS.len())])
+        input(&[between(random, -16e6, 16e6).floor(), below(random, 5000) + 1.0, below(random, WRAPS.len())])
     })
 }
 
@@ -72,7 +73,7 @@ pub(crate) fn indices() -> Vec<Input> {
 pub(crate) fn parts() -> Vec<Input> {
     let edges =
         [0.0f32, 1.0, 0.5, 1e-9, 0.999_999_94].into_iter().flat_map(|f| [1.0, 2.0, 3.0].map(|k| input(&[f, k])));
-    many(edges, 500, |random| input(&[random.between(0.0, 1.0), below(random, 3) + 1.0]))
+    many(edges, 500, |random| input(&[between(random, 0.0, 1.0), below(random, 3) + 1.0]))
 }
 
 /// Each texel of an image: its level, column and row.
@@ -96,11 +97,11 @@ pub(crate) fn in_levels(slot: usize) -> Vec<Input> {
 }
 
 /// D in steps of 1/16, where levels follow each other, and far beyond them. So rounding it to a level is exact.
-fn level(random: &mut Random) -> f32 {
+fn level(random: &mut Rng) -> f32 {
     if below(random, 8) < 1.0 {
         return [0.0, -1e30, 1e30, -1e-9, 1e-9][below(random, 5) as usize];
     }
-    (16.0 * random.between(-1.0, 6.0)).floor() / 16.0
+    (16.0 * between(random, -1.0, 6.0)).floor() / 16.0
 }
 
 /// A look, a place and D.
@@ -115,17 +116,17 @@ pub(crate) fn at_levels() -> Vec<Input> {
 pub(crate) fn gradients() -> Vec<Input> {
     many([], 2500, |random| {
         let look = Look::random(random).without_steps().bits();
-        input(&[look, random.between(-3.0, 4.0), random.between(-3.0, 4.0), level(random)])
+        input(&[look, between(random, -3.0, 4.0), between(random, -3.0, 4.0), level(random)])
     })
 }
 
 /// Both sets of coordinates, and how they change along x and along y: from much less than a texel to the whole image.
-fn placed_in(random: &mut Random, slot: f32, look: Look, size: Option<f32>) -> Input {
+fn placed_in(random: &mut Rng, slot: f32, look: Look, size: Option<f32>) -> Input {
     let mut numbers = vec![slot, look.bits()];
-    numbers.extend([0; 4].map(|_| random.between(-3.0, 3.0)));
+    numbers.extend([0; 4].map(|_| between(random, -3.0, 3.0)));
     for _ in 0..2 {
-        let size = size.unwrap_or_else(|| random.magnitude(-4.0, 0.5));
-        numbers.extend([0; 4].map(|_| size * random.between(-1.0, 1.0)));
+        let size = size.unwrap_or_else(|| magnitude(random, -4.0, 0.5));
+        numbers.extend([0; 4].map(|_| size * between(random, -1.0, 1.0)));
     }
     input(&numbers)
 }
@@ -175,12 +176,12 @@ pub(crate) fn mapped_normals() -> Vec<Input> {
     ];
     many(edges, 2000, |random| {
         let [n, t] = [0; 2].map(|_| {
-            let size = random.magnitude(-1.0, 1.0);
-            random.direction().map(|x| x * size)
+            let size = magnitude(random, -1.0, 1.0);
+            direction(random).map(|x| x * size)
         });
         let w = if below(random, 2) < 1.0 { 1.0 } else { -1.0 };
-        let texel = [0; 3].map(|_| random.between(0.0, 1.0));
-        joined(&[&n, &t, &[w], &texel, &[random.between(-2.0, 3.0)], &random.direction()])
+        let texel = [0; 3].map(|_| between(random, 0.0, 1.0));
+        joined(&[&n, &t, &[w], &texel, &[between(random, -2.0, 3.0)], &direction(random)])
     })
 }
 
@@ -196,9 +197,9 @@ pub(crate) fn texels_with_scales() -> Vec<Input> {
         row([0.5, 0.5, 0.75], -2.0),
     ];
     many(edges, 2000, |random| {
-        let (direction, length) = (random.direction(), random.between(0.0, 1.2));
+        let (direction, length) = (direction(random), between(random, 0.0, 1.2));
         let texel = direction.map(|x| 0.5 * length * x + 0.5);
-        row(texel, random.magnitude(-1.5, 1.5))
+        row(texel, magnitude(random, -1.5, 1.5))
     })
 }
 
@@ -213,9 +214,9 @@ pub(crate) fn moments() -> Vec<Input> {
         row([0.0; 2], [256.0, 0.5, 1.0], 3e6),
     ];
     many(edges, 2000, |random| {
-        let [x, y] = [random.between(-3.0, 3.0), random.between(-3.0, 3.0)];
-        let more = [random.between(0.0, 2.0), random.between(-1.0, 1.0), random.between(0.0, 2.0)];
-        row([x, y], [x * x + more[0], x * y + more[1], y * y + more[2]], random.magnitude(-1.5, 1.5))
+        let [x, y] = [between(random, -3.0, 3.0), between(random, -3.0, 3.0)];
+        let more = [between(random, 0.0, 2.0), between(random, -1.0, 1.0), between(random, 0.0, 2.0)];
+        row([x, y], [x * x + more[0], x * y + more[1], y * y + more[2]], magnitude(random, -1.5, 1.5))
     })
 }
 
@@ -232,8 +233,8 @@ pub(crate) fn covariances() -> Vec<Input> {
         row([0.5, 0.1, 0.3], 0.0),
     ];
     many(edges, 2000, |random| {
-        let [a, b] = [random.magnitude(-3.0, 1.0), random.magnitude(-3.0, 1.0)];
-        row([a, random.between(-0.95, 0.95) * (a * b).sqrt(), b], random.magnitude(-1.0, 3.0))
+        let [a, b] = [magnitude(random, -3.0, 1.0), magnitude(random, -3.0, 1.0)];
+        row([a, between(random, -0.95, 0.95) * (a * b).sqrt(), b], magnitude(random, -1.0, 3.0))
     })
 }
 
@@ -242,14 +243,14 @@ pub(crate) fn axes() -> Vec<Input> {
     let row = |n: [f32; 3], t: [f32; 3], w: f32| joined(&[&n, &t, &[w]]);
     let z = [0.0, 0.0, 1.0];
     let edges = [row(z, [0.0; 3], 1.0), row(z, [1.0, 0.0, 0.0], -1.0), row(z, [0.6, 0.0, 0.8], 0.5)];
-    many(edges, 2000, |random| row(random.direction(), random.direction(), random.between(-1.0, 1.0)))
+    many(edges, 2000, |random| row(direction(random), direction(random), between(random, -1.0, 1.0)))
 }
 
 /// The length of a mean, and an exponent.
 pub(crate) fn lengths_with_exponents() -> Vec<Input> {
     let row = |length: f32, exponent: f32| joined(&[&[length, exponent]]);
     let edges = [row(0.0, 10.0), row(0.0, 0.0), row(1.0, 0.0), row(1.0, 40.0), row(-0.5, 5.0), row(1.5, 5.0)];
-    many(edges, 2000, |random| row(random.between(0.0, 1.0), random.magnitude(-1.0, 5.0)))
+    many(edges, 2000, |random| row(between(random, 0.0, 1.0), magnitude(random, -1.0, 5.0)))
 }
 
 /// n, m, both ways, both rises, and the normal otherwise; n that vanishes, and ways that are one, or none.
@@ -273,9 +274,9 @@ pub(crate) fn bumped_normals() -> Vec<Input> {
     ];
     many(edges, 2000, |random| {
         let [n, m, e1, e2] = [0; 4].map(|_| {
-            let size = random.magnitude(-1.0, 1.0);
-            random.direction().map(|x| x * size)
+            let size = magnitude(random, -1.0, 1.0);
+            direction(random).map(|x| x * size)
         });
-        joined(&[&n, &m, &e1, &e2, &[random.between(-1.0, 1.0), random.between(-1.0, 1.0)], &random.direction()])
+        joined(&[&n, &m, &e1, &e2, &[between(random, -1.0, 1.0), between(random, -1.0, 1.0)], &direction(random)])
     })
 }

@@ -2,15 +2,16 @@
 //! range.
 
 use crate::images::{IMAGES, Look, WRAPS};
-use crate::inputs::{Input, Random, input, many};
+use crate::inputs::{Input, between, input, magnitude, many};
 use crate::shape_rows::moments;
+use fastrand::Rng;
 
 /// One of 0 to count − 1.
-fn below(random: &mut Random, count: usize) -> f32 {
-    random.between(0.0, count as f32).floor().min(count as f32 - 1.0)
+fn below(random: &mut Rng, count: usize) -> f32 {
+    between(random, 0.0, count as f32).floor().min(count as f32 - 1.0)
 }
 
-fn one_of<T: Copy>(random: &mut Random, of: &[T]) -> T {
+fn one_of<T: Copy>(random: &mut Rng, of: &[T]) -> T {
     of[below(random, of.len()) as usize]
 }
 
@@ -22,10 +23,10 @@ pub(crate) fn looks() -> Vec<Input> {
 }
 
 /// Two ways: of an ellipse with a long semiaxis from `least` on, as long as 40 texels, as slim as 1 : 40.
-fn ways(random: &mut Random, least: f32) -> [f32; 4] {
-    let long = random.magnitude(least.log10(), 1.6);
-    let short = long * random.magnitude(-1.6, 0.0);
-    let [turn, phase] = [0; 2].map(|_| random.between(0.0, std::f32::consts::TAU));
+fn ways(random: &mut Rng, least: f32) -> [f32; 4] {
+    let long = magnitude(random, least.log10(), 1.6);
+    let short = long * magnitude(random, -1.6, 0.0);
+    let [turn, phase] = [0; 2].map(|_| between(random, 0.0, std::f32::consts::TAU));
     // The ellipse's conjugate half-axes at a phase.
     let at = |phase: f32| {
         let (x, y) = (long * phase.cos(), short * phase.sin());
@@ -65,7 +66,7 @@ pub(crate) fn lookups(shapes: &[usize], least: f32) -> Vec<Input> {
     many([], 1200, |random| {
         let shape = one_of(random, shapes);
         let look = Look::random(random).by_shape(shape).bits();
-        let [u, v] = [0; 2].map(|_| random.between(-3.0, 4.0));
+        let [u, v] = [0; 2].map(|_| between(random, -3.0, 4.0));
         let [ax, ay, bx, by] = ways(random, least);
         input(&[look, u, v, ax, ay, bx, by])
     })
@@ -80,8 +81,8 @@ pub(crate) fn ripmap_levels(slot: usize) -> Vec<Input> {
 /// The middle of an interval in images, its length in texels, a side, what is beyond, and the number of the part.
 pub(crate) fn intervals() -> Vec<Input> {
     many([], 4000, |random| {
-        let middle = (256.0 * random.between(-3.0, 4.0)).floor() / 256.0;
-        let length = (128.0 * random.magnitude(0.0, 1.7)).floor() / 128.0;
+        let middle = (256.0 * between(random, -3.0, 4.0)).floor() / 256.0;
+        let length = (128.0 * magnitude(random, 0.0, 1.7)).floor() / 128.0;
         let side = one_of(random, &[1.0, 2.0, 4.0, 8.0]);
         input(&[middle, length, side, below(random, WRAPS.len()), below(random, 3)])
     })
@@ -103,7 +104,7 @@ pub(crate) fn rectangles(slot: usize) -> Vec<Input> {
     let [width, height] = IMAGES[slot].size().map(|side| side as f32);
     many([input(&[0.0, width, 0.0, height])], 1000, |random| {
         let mut ends = |side: f32| {
-            let [a, b] = [0; 2].map(|_| random.between(-0.3, side + 0.3).clamp(0.0, side));
+            let [a, b] = [0; 2].map(|_| between(random, -0.3, side + 0.3).clamp(0.0, side));
             [a.min(b), a.max(b)]
         };
         let ([left, right], [top, bottom]) = (ends(width), ends(height));
@@ -118,10 +119,10 @@ pub(crate) fn placed(slot: usize) -> Vec<Input> {
         let look = Look::random(random);
         let look = if shape == 0 { look.smooth() } else { look.by_shape(shape) };
         let mut numbers = vec![slot as f32, look.bits()];
-        numbers.extend([0; 4].map(|_| random.between(-2.0, 2.0)));
+        numbers.extend([0; 4].map(|_| between(random, -2.0, 2.0)));
         for _ in 0..2 {
-            let size = random.magnitude(-3.0, 0.0);
-            numbers.extend([0; 4].map(|_| size * random.between(-1.0, 1.0)));
+            let size = magnitude(random, -3.0, 0.0);
+            numbers.extend([0; 4].map(|_| size * between(random, -1.0, 1.0)));
         }
         input(&numbers)
     })
@@ -150,14 +151,14 @@ pub(crate) fn ellipses() -> Vec<Input> {
 
 /// r² of 0 to 1.
 pub(crate) fn distances() -> Vec<Input> {
-    many([0.0, 1.0, 0.5].map(|r2| input(&[r2])), 500, |random| input(&[random.between(0.0, 1.0)]))
+    many([0.0, 1.0, 0.5].map(|r2| input(&[r2])), 500, |random| input(&[between(random, 0.0, 1.0)]))
 }
 
 /// A coordinate, a side, a reach and what is beyond.
 pub(crate) fn reaches() -> Vec<Input> {
     many([], 1000, |random| {
         let side = below(random, 40) + 1.0;
-        input(&[random.between(-4.0, 4.0), side, random.between(1.0, 20.0), below(random, WRAPS.len())])
+        input(&[between(random, -4.0, 4.0), side, between(random, 1.0, 20.0), below(random, WRAPS.len())])
     })
 }
 
@@ -166,7 +167,7 @@ pub(crate) fn in_ellipses(slot: usize) -> Vec<Input> {
     let count = IMAGES[slot].levels().len();
     many([], 600, |random| {
         let wraps = [0; 2].map(|_| below(random, WRAPS.len()));
-        let uv = [0; 2].map(|_| random.between(-2.0, 3.0));
+        let uv = [0; 2].map(|_| between(random, -2.0, 3.0));
         let number = below(random, count);
         // Neither semiaxis less than a texel.
         let is_wide = |ways: &[f32; 4]| crate::shape_rows::semiaxes(ways.map(f64::from))[1] > 1.02;

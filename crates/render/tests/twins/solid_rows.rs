@@ -6,9 +6,10 @@ use halfway_texture::solid::{SolidKind, solid_value};
 use std::f64::consts::{PI, TAU};
 
 use crate::adapter::Kind;
-use crate::inputs::{Input, Random, input, many, wide};
+use crate::inputs::{Input, between, direction, input, magnitude, many, wide};
 use crate::map_rows::{ULP, exact, row};
 use crate::table::Row;
+use fastrand::Rng;
 
 /// The directions by their numbers, as Perlin 2002 lists them.
 const DIRECTIONS: [[f64; 3]; 16] = [
@@ -31,27 +32,27 @@ const DIRECTIONS: [[f64; 3]; 16] = [
 ];
 
 /// Places where cells meet, both sides of them, and any others.
-fn coordinate(random: &mut Random) -> f32 {
+fn coordinate(random: &mut Rng) -> f32 {
     const EDGES: [f32; 10] = [0.0, 1.0, -1.0, 0.5, -0.5, 1e-9, -1e-9, 0.999_999_94, -7.0, 12.0];
-    let number = random.between(0.0, 40.0) as usize;
-    EDGES.get(number).copied().unwrap_or_else(|| random.between(-50.0, 50.0))
+    let number = between(random, 0.0, 40.0) as usize;
+    EDGES.get(number).copied().unwrap_or_else(|| between(random, -50.0, 50.0))
 }
 
 /// Widths that leave all, some and nothing, and where that changes.
-fn width(random: &mut Random) -> f32 {
+fn width(random: &mut Rng) -> f32 {
     const EDGES: [f32; 8] = [0.0, 0.25, 0.75, 1.0, 0.5, 1e-4, 1e-3, 2.5];
-    let number = random.between(0.0, 24.0) as usize;
-    EDGES.get(number).copied().unwrap_or_else(|| random.magnitude(-3.0, 0.5))
+    let number = between(random, 0.0, 24.0) as usize;
+    EDGES.get(number).copied().unwrap_or_else(|| magnitude(random, -3.0, 0.5))
 }
 
-fn octaves(random: &mut Random) -> f32 {
-    random.between(0.0, 20.0).floor()
+fn octaves(random: &mut Rng) -> f32 {
+    between(random, 0.0, 20.0).floor()
 }
 
 /// Halves of 16 bits of three numbers.
 fn halves() -> Vec<Input> {
     let edges = [0.0, 1.0, 65535.0].map(|x| input(&[x; 6]));
-    many(edges, 2000, |random| input(&[0; 6].map(|_| random.between(0.0, 65536.0).floor().min(65535.0))))
+    many(edges, 2000, |random| input(&[0; 6].map(|_| between(random, 0.0, 65536.0).floor().min(65535.0))))
 }
 
 fn hashed(x: &[f32]) -> [u32; 3] {
@@ -61,9 +62,9 @@ fn hashed(x: &[f32]) -> [u32; 3] {
 /// A cell, a part of it, and one of its corners.
 fn corners() -> Vec<Input> {
     many([], 2000, |random| {
-        let cell = [0; 3].map(|_| random.between(-100.0, 100.0).floor());
-        let part = [0; 3].map(|_| random.between(0.0, 1.0));
-        let corner = [0; 3].map(|_| random.between(0.0, 2.0).floor().min(1.0));
+        let cell = [0; 3].map(|_| between(random, -100.0, 100.0).floor());
+        let part = [0; 3].map(|_| between(random, 0.0, 1.0));
+        let corner = [0; 3].map(|_| between(random, 0.0, 2.0).floor().min(1.0));
         input(&[cell, part, corner].concat())
     })
 }
@@ -96,9 +97,9 @@ fn places() -> Vec<Input> {
         let [x, y, z] = [0; 3].map(|_| coordinate(random));
         let ways = [0; 2].map(|_| {
             let size = width(random);
-            random.direction().map(|c| c * size)
+            direction(random).map(|c| c * size)
         });
-        let kind = random.between(0.0, 4.0).floor().min(3.0);
+        let kind = between(random, 0.0, 4.0).floor().min(3.0);
         input(&[&[kind, octaves(random).max(1.0), x, y, z], &ways[0][..], &ways[1][..]].concat())
     })
 }

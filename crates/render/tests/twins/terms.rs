@@ -7,7 +7,7 @@ use halfway_render::{Gpu, wgpu::naga};
 use std::collections::BTreeSet;
 
 use crate::adapter::{Kind, results};
-use crate::inputs::{Input, many, wide};
+use crate::inputs::{Input, between, many, wide};
 use crate::switches::assembled;
 use crate::table::Row;
 use crate::{LIGHTING, far_of, parsed};
@@ -94,12 +94,12 @@ impl Lit {
 }
 
 fn inputs() -> Vec<Input> {
-    many([[0.0; 40], [1.0; 40]], 500, |random| std::array::from_fn(|_| random.between(0.0, 2.0)))
+    many([[0.0; 40], [1.0; 40]], 500, |random| std::array::from_fn(|_| between(random, 0.0, 2.0)))
 }
 
 /// Both signs.
 fn directions() -> Vec<Input> {
-    many([], 500, |random| std::array::from_fn(|_| random.between(-2.0, 2.0)))
+    many([], 500, |random| std::array::from_fn(|_| between(random, -2.0, 2.0)))
 }
 
 /// Sums of at most four products of at most three, none below 0.
