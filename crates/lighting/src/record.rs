@@ -68,11 +68,18 @@ impl Default for LightRecord {
 impl From<&Light<f64>> for LightRecord {
     fn from(light: &Light<f64>) -> Self {
         let (Place::Point(position) | Place::Directional(position)) = light.place;
-        let mut record = Self { diffuse: light.ld.map(number), specular: light.ls.map(number), ..Self::default() };
-        record.place(position, light.attenuation, light.range);
-        if light.attenuate_ambient {
-            record.ambient = light.la.map(number);
-        }
+        let [constant, linear, quadratic] = light.attenuation.map(number);
+        let mut record = Self {
+            position: position.map(number),
+            inverse_range: light.range.map_or(0.0, |range| number(range.recip())),
+            diffuse: light.ld.map(number),
+            constant,
+            specular: light.ls.map(number),
+            linear,
+            quadratic,
+            ambient: if light.attenuate_ambient { light.la.map(number) } else { [0.0; 3] },
+            ..Self::default()
+        };
         if let Some(cone) = &light.cone {
             record.direction = cone.direction.map(number);
             record.cos_cutoff = number(cone.cos_cutoff);
@@ -80,36 +87,6 @@ impl From<&Light<f64>> for LightRecord {
             [record.inner_scale, record.inner_offset] = inner_fade(cone).map(number);
         }
         record
-    }
-}
-
-impl LightRecord {
-    /// Puts it somewhere, or toward somewhere, with its falloff in the same unit of length.
-    pub fn place(&mut self, position: [f64; 3], attenuation: [f64; 3], range: Option<f64>) {
-        self.position = position.map(number);
-        [self.constant, self.linear, self.quadratic] = attenuation.map(number);
-        self.inverse_range = range.map_or(0.0, |range| number(range.recip()));
-    }
-
-    /// Whether it has a specular color.
-    pub fn is_specular(&self) -> bool {
-        self.specular.iter().any(|&channel| channel > 0.0)
-    }
-
-    /// Whether it attenuates an ambient color.
-    pub fn attenuates_ambient(&self) -> bool {
-        self.ambient.iter().any(|&channel| channel > 0.0)
-    }
-
-    /// Whether its specular color is a copy of its diffuse color.
-    #[expect(clippy::float_cmp, reason = "a shared color is a copy")]
-    pub fn shares_color(&self) -> bool {
-        self.specular == self.diffuse
-    }
-
-    /// Whether it has a range.
-    pub fn is_ranged(&self) -> bool {
-        self.inverse_range > 0.0
     }
 }
 

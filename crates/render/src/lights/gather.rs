@@ -13,8 +13,7 @@ use halfway_lighting::equations::vector::normalize_or_zero;
 use halfway_lighting::equations::{self, Light, Place};
 use halfway_lighting::record::LightRecord;
 use halfway_lighting::{
-    Attenuation, DirectionalLight, GlobalAmbient, InvalidValue, PointLight, Shown, SpotLight, light_direction,
-    light_position,
+    DirectionalLight, GlobalAmbient, InvalidValue, PointLight, Shown, SpotLight, light_direction, light_position,
 };
 
 /// The scene's lights, sorted by kind. Holds after [`RenderSet::Illuminate`](crate::RenderSet::Illuminate).
@@ -27,10 +26,8 @@ pub struct Lights {
     pub(crate) sources: Vec<Light<f32>>,
     /// The same, found by where they are.
     pub(super) tree: LightTree,
-    /// The same lights, in the same order, as the shaders read them, but for where they are.
-    unplaced: Vec<LightRecord>,
-    /// And where they are in the world.
-    places: Vec<WorldPlace>,
+    /// The same lights, in the same order, in the world.
+    world: Vec<Light<f64>>,
     /// How the view sees the world, and its unit of length.
     eye_from_world: DAffine3,
     unit: f64,
@@ -55,8 +52,7 @@ impl Default for Lights {
             ambient: Vec3::ZERO,
             sources: Vec::new(),
             tree: LightTree::default(),
-            unplaced: Vec::new(),
-            places: Vec::new(),
+            world: Vec::new(),
             eye_from_world: DAffine3::IDENTITY,
             unit: 1.0,
             is_unscaled: true,
@@ -108,17 +104,6 @@ pub(super) struct MadeOf {
     view: (u64, i32),
 }
 
-/// The numbers of a light that depend on where it is looked at from and in which unit of length, in world space.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct WorldPlace {
-    /// Of a point or spot.
-    position: Vec3,
-    /// The way that a directional or spot light travels.
-    direction: Vec3,
-    attenuation: [f32; 3],
-    range: Option<f32>,
-}
-
 type LightQuery<'w, 's, L> = Query<'w, 's, (Entity, &'static L, &'static GlobalTransform, Option<&'static Name>)>;
 type AnyLight = Or<(With<DirectionalLight>, With<PointLight>, With<SpotLight>)>;
 type AnyChange = Or<(Changed<DirectionalLight>, Changed<PointLight>, Changed<SpotLight>, Changed<GlobalTransform>)>;
@@ -162,7 +147,7 @@ pub(crate) fn gather(
             let mut with_cones = Vec::new();
             each(&spots, &is_shown, errors, |spot, at| {
                 let made = spot_light(spot, at)?;
-                if made.source.cone.is_some() {
+                if made.cone.is_some() {
                     with_cones.push(made);
                 } else {
                     now.add(made);
@@ -204,55 +189,33 @@ fn each<L: Component>(
     }
 }
 
-/// A light as it is, still in world space.
-struct Made {
-    place: WorldPlace,
-    source: Light<f64>,
-}
-
-fn directional_light(light: &DirectionalLight, at: &GlobalTransform) -> Result<Made, InvalidValue> {
+fn directional_light(light: &DirectionalLight, at: &GlobalTransform) -> Result<Light<f64>, InvalidValue> {
     light.validate()?;
-    let direction = light_direction(at)?;
-    let source = light.along(direction.as_dvec3().to_array())?;
-    Ok(Made {
-        place: WorldPlace { position: Vec3::ZERO, direction, attenuation: [1.0, 0.0, 0.0], range: None },
-        source,
-    })
+    light.along(light_direction(at)?.as_dvec3().to_array())
 }
 
-fn point_light(light: &PointLight, at: &GlobalTransform) -> Result<Made, InvalidValue> {
+fn point_light(light: &PointLight, at: &GlobalTransform) -> Result<Light<f64>, InvalidValue> {
     light.validate()?;
-    let position = light_position(at)?;
-    let source = light.at(position.as_dvec3().to_array());
-    Ok(Made { place: WorldPlace::new(light, position, Vec3::ZERO), source })
+    Ok(light.at(light_position(at)?.as_dvec3().to_array()))
 }
 
-fn spot_light(spot: &SpotLight, at: &GlobalTransform) -> Result<Made, InvalidValue> {
+fn spot_light(spot: &SpotLight, at: &GlobalTransform) -> Result<Light<f64>, InvalidValue> {
     spot.validate()?;
     let position = light_position(at)?;
     let direction = if spot.cone.is_none() { Vec3::NEG_Z } else { light_direction(at)? };
-    let source = spot.at(position.as_dvec3().to_array(), direction.as_dvec3().to_array())?;
-    Ok(Made { place: WorldPlace::new(&spot.light, position, direction), source })
-}
-
-impl WorldPlace {
-    fn new(light: &PointLight, position: Vec3, direction: Vec3) -> Self {
-        let Attenuation { constant, linear, quadratic } = light.attenuation;
-        Self { position, direction, attenuation: [constant, linear, quadratic], range: light.range }
-    }
+    spot.at(position.as_dvec3().to_array(), direction.as_dvec3().to_array())
 }
 
 impl Lights {
     /// Forgets all lights.
     fn begin(&mut self, ambient: Vec3) {
         self.ambient = ambient;
-        self.unplaced.clear();
         self.sources.clear();
-        self.places.clear();
+        self.world.clear();
         self.counts = [0; 3];
     }
 
-    fn add(&mut self, Made { place, source }: Made) {
+    fn add(&mut self, source: Light<f64>) {
         if !source.attenuate_ambient {
             self.ambient += Vec3::from_array(source.la.map(|channel| channel as f32));
         }
@@ -262,17 +225,19 @@ impl Lights {
             (Place::Point(_), Some(_)) => 2,
         };
         self.counts[kind] += 1;
-        self.unplaced.push(LightRecord::from(&source));
         self.sources.push(source.cast());
-        self.places.push(place);
+        self.world.push(source);
     }
 
     /// What is known of all that were added, which are still in world space.
+    #[expect(clippy::float_cmp, reason = "a shared color is a copy")]
     fn sum_up(&mut self) {
-        self.specular = self.unplaced.iter().any(LightRecord::is_specular);
-        self.attenuated_ambient = self.unplaced.iter().any(LightRecord::attenuates_ambient);
-        self.shared_color = self.unplaced.iter().all(LightRecord::shares_color);
-        self.ranged = self.unplaced.iter().any(LightRecord::is_ranged);
+        let is_bright = |color: [f64; 3]| color.iter().any(|&channel| channel > 0.0);
+        let attenuates_ambient = |light: &Light<f64>| light.attenuate_ambient && is_bright(light.la);
+        self.specular = self.world.iter().any(|light| is_bright(light.ls));
+        self.attenuated_ambient = self.world.iter().any(attenuates_ambient);
+        self.shared_color = self.world.iter().all(|light| light.ls == light.ld);
+        self.ranged = self.world.iter().any(|light| light.range.is_some());
         self.is_unscaled = true;
     }
 
@@ -281,24 +246,24 @@ impl Lights {
         (self.eye_from_world, self.unit) = (view.eye_from_world, view.unit());
         let was_unscaled = self.is_unscaled;
         self.is_unscaled = true;
-        for (source, place) in self.sources.iter_mut().zip(&self.places) {
-            if let Place::Directional(_) = source.place {
-                source.place = Place::Directional(toward(&view.eye_from_world, place.direction).map(|x| -x));
-                continue;
+        for (source, world) in self.sources.iter_mut().zip(&self.world) {
+            if let (Some(cone), Some(of_world)) = (&mut source.cone, &world.cone) {
+                cone.direction = toward(&view.eye_from_world, of_world.direction).map(|x| x as f32);
             }
-            let position = view.eye_from_world.transform_point3(place.position.as_dvec3());
+            let position = match world.place {
+                Place::Directional(direction) => {
+                    source.place = Place::Directional(toward(&view.eye_from_world, direction).map(|x| x as f32));
+                    continue;
+                }
+                Place::Point(position) => view.eye_from_world.transform_point3(position.into()),
+            };
             if position.length_squared() <= FAR * FAR && was_unscaled {
                 source.place = Place::Point(position.to_array().map(|x| x as f32));
             } else {
                 // In the unit of the world, or a longer one.
-                let near = place.brought_near(position, FAR, 1.0);
-                self.is_unscaled &= near.unit <= 1.0;
-                source.place = Place::Point(near.position.map(|x| x as f32));
-                source.attenuation = near.attenuation.map(|x| x as f32);
-                source.range = near.range.map(|x| x as f32);
-            }
-            if let Some(cone) = &mut source.cone {
-                cone.direction = toward(&view.eye_from_world, place.direction);
+                let (near, unit) = brought_near(world, position, FAR, 1.0);
+                self.is_unscaled &= unit <= 1.0;
+                *source = Light { cone: source.cone, ..near.cast() };
             }
         }
         self.tree.rebuild(&self.sources);
@@ -311,28 +276,26 @@ impl Lights {
 
     /// One of them as the shaders read it.
     pub(crate) fn record(&self, number: u32) -> LightRecord {
-        let number = number as usize;
-        let (mut record, place) = (self.unplaced[number], &self.places[number]);
-        let source = &self.sources[number];
-        if let Place::Directional(from) = source.place {
-            record.position = from;
-            return record;
+        let mut light = self.world[number as usize];
+        if let Some(cone) = &mut light.cone {
+            cone.direction = toward(&self.eye_from_world, cone.direction);
         }
-        let position = self.eye_from_world.transform_point3(place.position.as_dvec3());
-        // In the shaders' unit, or a longer one.
-        let near = place.brought_near(position, FARTHEST, self.unit.recip());
-        record.place(near.position, near.attenuation, near.range);
-        if let Some(cone) = &source.cone {
-            record.direction = cone.direction;
-        }
-        record
+        LightRecord::from(&match light.place {
+            Place::Directional(direction) => {
+                Light { place: Place::Directional(toward(&self.eye_from_world, direction)), ..light }
+            }
+            // In the shaders' unit, or a longer one.
+            Place::Point(position) => {
+                let position = self.eye_from_world.transform_point3(position.into());
+                brought_near(&light, position, FARTHEST, self.unit.recip()).0
+            }
+        })
     }
 }
 
 /// A direction of the world, in eye space.
-fn toward(eye_from_world: &DAffine3, direction: Vec3) -> [f32; 3] {
-    let direction = (eye_from_world.matrix3 * direction.as_dvec3()).to_array();
-    normalize_or_zero(direction).map(|x| x as f32)
+fn toward(eye_from_world: &DAffine3, direction: [f64; 3]) -> [f64; 3] {
+    normalize_or_zero((eye_from_world.matrix3 * DVec3::from_array(direction)).to_array())
 }
 
 /// The distance beyond which a light's square would not fit into f32.
@@ -341,35 +304,24 @@ const FARTHEST: f64 = 9e18;
 /// The distance beyond which bounds, which take no squares of it, could leave f32.
 const FAR: f64 = 1e37;
 
-/// Where a point or spot light is seen, and how it falls off, in a unit of length.
-struct Near {
-    /// In world units.
-    unit: f64,
-    position: [f64; 3],
-    attenuation: [f64; 3],
-    range: Option<f64>,
-}
-
-impl WorldPlace {
-    /// At a position in eye space, the lengths measured in a unit of `least` world units, or in a longer one where it
-    /// would be farther than `farthest` of them. The direction is kept, so that near the eye, where what it lights is
-    /// seen, it lights the same.
-    #[expect(clippy::float_cmp, reason = "a unit that nothing was done to is 1 exactly")]
-    fn brought_near(&self, position: DVec3, farthest: f64, least: f64) -> Near {
-        // Which is so of nearly all, and takes no division.
-        if least == 1.0 && position.length_squared() <= farthest * farthest {
-            let (attenuation, range) = (self.attenuation.map(f64::from), self.range.map(f64::from));
-            return Near { unit: 1.0, position: position.to_array(), attenuation, range };
-        }
-        let unit = (position.length() / farthest).max(least);
-        let [constant, linear, quadratic] = self.attenuation.map(f64::from);
-        Near {
-            unit,
-            position: (position / unit).to_array(),
-            attenuation: [constant, linear * unit, quadratic * unit * unit].map(|value| value.min(f64::from(f32::MAX))),
-            range: self.range.map(|range| f64::from(range) / unit),
-        }
+/// A point or spot light at a position in eye space, the lengths measured in a unit of `least` world units, or in a
+/// longer one where it would be farther than `farthest` of them; and that unit. The direction is kept, so that near the
+/// eye, where what it lights is seen, it lights the same.
+#[expect(clippy::float_cmp, reason = "a unit that nothing was done to is 1 exactly")]
+fn brought_near(light: &Light<f64>, position: DVec3, farthest: f64, least: f64) -> (Light<f64>, f64) {
+    // Which is so of nearly all, and takes no division.
+    if least == 1.0 && position.length_squared() <= farthest * farthest {
+        return (Light { place: Place::Point(position.to_array()), ..*light }, 1.0);
     }
+    let unit = (position.length() / farthest).max(least);
+    let [constant, linear, quadratic] = light.attenuation;
+    let near = Light {
+        place: Place::Point((position / unit).to_array()),
+        attenuation: [constant, linear * unit, quadratic * unit * unit].map(|value| value.min(f64::from(f32::MAX))),
+        range: light.range.map(|range| range / unit),
+        ..*light
+    };
+    (near, unit)
 }
 
 /// A color without its alpha.
