@@ -4,7 +4,7 @@ use crate::batch::backend::Backend;
 use crate::batch::ignored::tell_ignored;
 use crate::batch::key::DrawKey;
 use crate::batch::lit_runs::{LitRun, OpenRun};
-use crate::batch::object::{Circumstances, Reflecting, Shared};
+use crate::batch::object::{Circumstances, Shared};
 use crate::batch::shown_objects::{ShownObject, ShownObjects};
 use crate::batch::table::ObjectTable;
 use crate::error::{RenderError, label};
@@ -17,7 +17,6 @@ use crate::lights::gather::Lights;
 use crate::lights::lists::LightLists;
 use crate::shaders::light_slots::Lists;
 use crate::target::frame::FrameValues;
-use crate::view::matrices::{ModelView, NormalMatrix};
 use bevy_ecs::component::Mutable;
 use bevy_ecs::prelude::*;
 use bevy_math::Vec3;
@@ -25,8 +24,7 @@ use halfway_asset::AssetId;
 use halfway_lighting::bounds::Patch;
 use halfway_lighting::equations::Eye;
 use halfway_lighting::record::{InstanceRecord, SurfaceRecord};
-use halfway_lighting::{InvalidValue, Terms, Tolerance};
-use halfway_mesh::Mesh;
+use halfway_lighting::{InvalidValue, Tolerance};
 
 /// The patches that may show, in the order of the objects. Holds after
 /// [`RenderSet::Illuminate`](crate::RenderSet::Illuminate).
@@ -45,21 +43,15 @@ pub(crate) struct LitPatches {
 
 /// An object whose patches are being lit.
 struct LitObject<'a> {
-    reflecting: Reflecting<'a>,
+    shown: &'a ShownObject<'a>,
     key: DrawKey,
     material: u32,
     depth: f32,
     twins_before: u32,
     maps: u32,
-    /// Whether images turn its normals.
-    has_relief: bool,
-    mesh: AssetId<Mesh>,
     form: Form,
     geometry: &'a Geometry,
-    model_view: &'a ModelView,
-    normal_matrix: &'a NormalMatrix,
     tolerance: Tolerance,
-    terms: Terms,
 }
 
 pub(crate) fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
@@ -118,13 +110,12 @@ impl LitPatches {
     /// An object that is to be lit; `None` while its mesh is not laid out.
     fn lit_object<'a>(
         &mut self,
-        object: &ShownObject<'a>,
+        object: &'a ShownObject<'a>,
         shown: &'a ShownObjects,
         share: f64,
         shared: Shared,
     ) -> Result<Option<LitObject<'a>>, InvalidValue> {
-        let &ShownObject { mesh, reflecting, paint, blend, terms, mut tolerance, .. } = object;
-        let &ShownObject { model_view, normal_matrix, .. } = object;
+        let &ShownObject { reflecting, paint, blend, terms, model_view, mut tolerance, .. } = object;
         if let Some(wrong) = &object.wrong_paint {
             return Err(wrong.clone());
         }
@@ -142,20 +133,15 @@ impl LitPatches {
         let material = look.material;
         let sphere = geometry.patches.whole.sphere(model_view);
         Ok(Some(LitObject {
-            reflecting,
+            shown: object,
             key,
             material,
             depth: -sphere.0.z,
             twins_before: if blend { 0 } else { self.table.twins_before(sphere) },
             maps: object.maps().map_or(0, |maps| self.table.maps(&maps)),
-            has_relief: paint.has_relief(),
-            mesh,
             form: object.form(),
             geometry,
-            model_view,
-            normal_matrix,
             tolerance,
-            terms,
         }))
     }
 
@@ -164,15 +150,15 @@ impl LitPatches {
         let patches = &object.geometry.patches;
         report.triangles_in += object.geometry.source.triangle_count() as u64;
         self.instances.push(InstanceRecord::new(
-            &object.model_view.eye_from_model,
-            object.normal_matrix.0,
-            object.reflecting.faces,
+            &object.shown.model_view.eye_from_model,
+            object.shown.normal_matrix.0,
+            object.shown.reflecting.faces,
             shared.view.unit() as f32,
         ));
         let mut seen = std::mem::take(&mut self.seen);
-        let sight = Sight::new(object.model_view, shared.view, object.reflecting.faces, &patches.whole);
+        let sight = Sight::new(object.shown.model_view, shared.view, object.shown.reflecting.faces, &patches.whole);
         let demand = DetailDemand {
-            pixels: if shades_pixels_alone(object.terms) { object.tolerance.pixels } else { 0.0 },
+            pixels: if shades_pixels_alone(object.shown.terms) { object.tolerance.pixels } else { 0.0 },
             lit: object.key.is_lit() || object.key.surrounded,
             has_images: object.key.is_mapped(),
         };
@@ -192,7 +178,7 @@ impl LitPatches {
     /// Adds patches, each with the lists of its lights.
     fn add_listed(&mut self, object: &LitObject, key: &DrawKey, seen: &[u32], shared: Shared) {
         let Shared { lights, encoding, viewer, .. } = shared;
-        let reflector = object.reflecting.reflector(object.key.terms);
+        let reflector = object.shown.reflecting.reflector(object.key.terms);
         // A color may be black: then there is no ambient light that could hide what is left out. None is above 1.
         let ambient = if object.key.is_painted() { Vec3::ZERO } else { lights.ambient };
         let steps = f64::from(object.tolerance.steps);
@@ -228,7 +214,7 @@ impl LitPatches {
     fn add_run(&mut self, object: &LitObject, key: &DrawKey, OpenRun { record, indices }: OpenRun) {
         let LitObject { depth, twins_before, maps, .. } = *object;
         for (pass, key) in (0..).zip(key.passes()) {
-            let call = self.table.call((key, object.mesh, object.form, if key.is_mapped() { maps } else { 0 }));
+            let call = self.table.call((key, object.shown.mesh, object.form, if key.is_mapped() { maps } else { 0 }));
             let indices = (indices.start, indices.end);
             let instance = self.instances.len() as u32 - 1;
             let blend = key.blend;
@@ -241,9 +227,10 @@ impl LitObject<'_> {
     /// A patch of it in eye space.
     fn in_eye_space(&self, shape: &PatchShape) -> Patch<f32> {
         let normals = if self.form.flat { PatchNormals::Faces } else { PatchNormals::Vertices };
-        let patch = shape.in_eye_space(self.model_view, self.normal_matrix, self.reflecting.faces, normals);
+        let patch =
+            shape.in_eye_space(self.shown.model_view, self.shown.normal_matrix, self.shown.reflecting.faces, normals);
         // Images may turn normals anywhere.
-        if self.has_relief && !self.form.flat {
+        if self.shown.paint.has_relief() && !self.form.flat {
             Patch { normals: None, half_thickness: f32::INFINITY, ..patch }
         } else {
             patch
