@@ -119,11 +119,6 @@ pub struct ClearTiles {
 }
 
 impl ClearTiles {
-    /// Takes nothing for clear any more.
-    pub(crate) fn forget(&mut self) {
-        self.of = None;
-    }
-
     /// Forgets what is not of such pictures.
     pub(crate) fn prepare(&mut self, pass: &Pass, count: usize) -> Result<(), RasterError> {
         let of = Some((pass.size, pass.pixels, pass.clear.map(f32::to_bits)));

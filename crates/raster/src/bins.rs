@@ -298,7 +298,7 @@ impl Job {
 mod tests {
     use super::*;
     use crate::pass::{Cull, DrawCall, Lens, PixelFormat};
-    use crate::{Pieces, TriangleOrder};
+    use crate::{Pieces, TriangleOrder, VertexLists};
     use halfway_lighting::record::{InstanceRecord, LightRange, MaterialRecord, SurfaceLights, SurfaceRecord};
     use halfway_lighting::{Frequency, Samples, Terms};
 
@@ -332,7 +332,7 @@ mod tests {
     fn parts_find_what_one_finds() {
         let strip: Vec<[f32; 3]> = (0..102).map(|k| [0.01 * k as f32, (k % 2) as f32, 0.0]).collect();
         let indices: Vec<u32> = (0..100).flat_map(|k| [k, k + 1, k + 2]).collect();
-        let mesh = Pieces::new(&strip, &[], &indices, &[], TriangleOrder::Clustered).unwrap();
+        let mesh = Pieces::new(&strip, VertexLists::default(), &indices, &[], TriangleOrder::Clustered).unwrap();
         assert!(mesh.each.len() > 1, "a span may end within an instance");
         let instances: Vec<InstanceRecord> = (0..3_001_u32)
             .map(|k| InstanceRecord {
@@ -395,7 +395,14 @@ mod tests {
         let positions = [corners, corners].concat();
         let normals = [[[0.0, 0.0, 1.0]; 3], [[0.0, 0.0, 1.0], [0.0, 0.6, -0.8], [0.0, 0.0, 1.0]]].concat();
         let indices = [0, 1, 2, 3, 4, 5];
-        let mesh = Pieces::new(&positions, &normals, &indices, &[0..3, 3..6], TriangleOrder::Clustered).unwrap();
+        let mesh = Pieces::new(
+            &positions,
+            VertexLists { normals: &normals, ..VertexLists::default() },
+            &indices,
+            &[0..3, 3..6],
+            TriangleOrder::Clustered,
+        )
+        .unwrap();
         let instances = [InstanceRecord {
             eye_from_model: [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, -3.0]],
             normal: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],

@@ -1,7 +1,7 @@
 //! Whether a pass can be drawn: references within their lists, numbers finite and in their ranges.
 
 use crate::error::{LARGEST_SIDE, RasterError};
-use crate::pass::{DrawCall, Output, Pass, SurroundingsData};
+use crate::pass::{DrawCall, DrawMaps, Output, Pass, SurroundingsData};
 use halfway_lighting::Frequency;
 use halfway_lighting::record::{InstanceRecord, LightRange, LightRecord, MaterialRecord, SurfaceLights, SurfaceRecord};
 use halfway_texture::{MapKind, SolidTexture};
@@ -42,9 +42,8 @@ pub(crate) fn check(pass: &Pass, output: &Output) -> Result<(), RasterError> {
         if draw.colored && !mesh.has_colors() {
             return beyond("draw", index, "colors", mesh.triangle_count() as u64, 0);
         }
-        check_maps(index, draw, pass)?;
-        if draw.surrounded && pass.surroundings.is_none() {
-            return beyond("draw", index, "surroundings", 1, 0);
+        if let Some(maps) = &draw.maps {
+            check_maps(index, draw, maps, pass)?;
         }
         if draw.instances.end as usize > pass.instances.len() {
             return beyond("draw", index, "instances", u64::from(draw.instances.end), pass.instances.len());
@@ -53,10 +52,13 @@ pub(crate) fn check(pass: &Pass, output: &Output) -> Result<(), RasterError> {
     Ok(())
 }
 
-fn check_maps(index: usize, draw: &DrawCall, pass: &Pass) -> Result<(), RasterError> {
+fn check_maps(index: usize, draw: &DrawCall, maps: &DrawMaps, pass: &Pass) -> Result<(), RasterError> {
     let mesh = pass.meshes[draw.mesh as usize];
     let triangles = mesh.triangle_count() as u64;
-    for map in draw.maps.iter().flatten() {
+    if maps.surrounded && pass.surroundings.is_none() {
+        return beyond("draw", index, "surroundings", 1, 0);
+    }
+    for map in maps.calls.iter().flatten() {
         if map.map as usize >= pass.maps.len() {
             return beyond("draw", index, "map", u64::from(map.map) + 1, pass.maps.len());
         }
@@ -64,13 +66,13 @@ fn check_maps(index: usize, draw: &DrawCall, pass: &Pass) -> Result<(), RasterEr
             return beyond("draw", index, "texture coordinates", triangles, 0);
         }
     }
-    if draw.maps[MapKind::Normal as usize].is_some() && !draw.terms.has(Frequency::Triangle) && !mesh.has_tangents() {
+    if maps.has(MapKind::Normal) && !draw.terms.has(Frequency::Triangle) && !mesh.has_tangents() {
         return beyond("draw", index, "tangents", triangles, 0);
     }
-    if let Some(of) = draw.solid.as_ref().and_then(SolidTexture::wrong) {
+    if let Some(of) = maps.solid.as_ref().and_then(SolidTexture::wrong) {
         return wrong("draw", index, of.field, of.value, of.expected);
     }
-    draw.mask.map_or(Ok(()), |cutoff| finite("draw", index, "mask", &[cutoff]))
+    maps.mask.map_or(Ok(()), |cutoff| finite("draw", index, "mask", &[cutoff]))
 }
 
 fn check_size(pass: &Pass, output: &Output) -> Result<(), RasterError> {

@@ -135,7 +135,7 @@ impl<'a> Kept<'a> {
     #[inline(always)]
     pub(crate) fn of(look: &'a Look<'a>, state: &'a State, back: bool, mapped: Option<i32>) -> Self {
         if let Some(maps) = &state.maps {
-            return Self { mapped, mask: maps.is_masked().then_some((look, state, back)), ..Self::default() };
+            return Self { mapped, mask: maps.mask.is_some().then_some((look, state, back)), ..Self::default() };
         }
         Self {
             lead: state.stage != Stage::Unlit,

@@ -142,23 +142,13 @@ pub(crate) fn fma<S: Simd>(a: F<S>, b: F<S>, c: F<S>) -> F<S> {
 #[inline(always)]
 pub(crate) fn max<S: Simd>(a: F<S>, b: F<S>) -> F<S> {
     // x86's instruction is defined so.
-    if cfg!(any(target_arch = "x86", target_arch = "x86_64")) { fast_max::<S>(a, b) } else { a.simd_gt(b).select(a, b) }
+    if cfg!(any(target_arch = "x86", target_arch = "x86_64")) { SimdBase::max(a, b) } else { a.simd_gt(b).select(a, b) }
 }
 
 /// `a` where it is less, else `b`: also where either is no number, or both are zeros.
 #[inline(always)]
 pub(crate) fn min<S: Simd>(a: F<S>, b: F<S>) -> F<S> {
-    if cfg!(any(target_arch = "x86", target_arch = "x86_64")) { fast_min::<S>(a, b) } else { a.simd_lt(b).select(a, b) }
-}
-
-#[inline(always)]
-fn fast_max<S: Simd>(a: F<S>, b: F<S>) -> F<S> {
-    SimdBase::max(a, b)
-}
-
-#[inline(always)]
-fn fast_min<S: Simd>(a: F<S>, b: F<S>) -> F<S> {
-    SimdBase::min(a, b)
+    if cfg!(any(target_arch = "x86", target_arch = "x86_64")) { SimdBase::min(a, b) } else { a.simd_lt(b).select(a, b) }
 }
 
 /// The same for one number.

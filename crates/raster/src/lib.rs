@@ -4,11 +4,12 @@
 //! ```
 //! use halfway_lighting::Samples;
 //! use halfway_lighting::record::{InstanceRecord, MaterialRecord, SurfaceRecord};
-//! use halfway_raster::{DrawCall, Lens, Output, Pass, Pieces, PixelFormat, Rasterizer, RasterOptions, TriangleOrder};
+//! use halfway_raster::{ClearTiles, DrawCall, Lens, Output, Pass, Pieces, PixelFormat, Rasterizer, RasterOptions};
+//! use halfway_raster::{TriangleOrder, VertexLists};
 //!
 //! # fn main() -> Result<(), halfway_raster::RasterError> {
 //! let triangle = [[-1.0, -1.0, -3.0], [1.0, -1.0, -3.0], [0.0, 1.0, -3.0]];
-//! let mesh = Pieces::new(&triangle, &[], &[0, 1, 2], &[], TriangleOrder::Clustered)?;
+//! let mesh = Pieces::new(&triangle, VertexLists::default(), &[0, 1, 2], &[], TriangleOrder::Clustered)?;
 //! let red = MaterialRecord { base: [1.0, 0.0, 0.0], ..MaterialRecord::default() };
 //! let mut bytes = vec![0; 64 * 64 * 4];
 //! Rasterizer::new(RasterOptions::default())?.draw(
@@ -33,6 +34,7 @@
 //!         draws: &[DrawCall { indices: 0..3, instances: 0..1, ..DrawCall::default() }],
 //!     },
 //!     Output::Bytes(&mut bytes),
+//!     &mut ClearTiles::default(),
 //! )?;
 //! assert_eq!(bytes[4 * (32 * 64 + 32)..][..4], [255, 0, 0, 255]);
 //! # Ok(())
@@ -86,7 +88,7 @@ mod width;
 
 pub use bands::ClearTiles;
 pub use error::{LARGEST_SIDE, RasterError};
-pub use pass::{Cull, DrawCall, Lens, MapCall, MapData, Output, Pass, PixelFormat, SurroundingsData};
+pub use pass::{Cull, DrawCall, DrawMaps, Lens, MapCall, MapData, Output, Pass, PixelFormat, SurroundingsData};
 pub use pieces::{Pieces, TriangleOrder, VertexLists};
 pub use rasterizer::{RasterOptions, Rasterizer};
 pub use threads::Threads;

@@ -6,10 +6,10 @@ use crate::lighting::{Irradiance, Points, to_viewer};
 use crate::lobe::{AxialGloss, Gloss};
 use crate::look::Look;
 use crate::mapped::{MappedTriangle, PartsOf};
-use crate::pass::{MapCall, Pass};
+use crate::pass::{DrawMaps, MapCall, Pass};
 use crate::placed::TILE;
 use crate::planes::Slopes;
-use crate::state::{Stage, State, StateMaps};
+use crate::state::{Stage, State};
 use fearless_simd::prelude::*;
 use halfway_lighting::Reflectance;
 use halfway_lighting::equations::{NORMAL_MIN, bumped_normal, lobe_axes, mapped_normal};
@@ -20,7 +20,7 @@ use halfway_texture::{FarNormals, MapKind, UvTransform, lookup};
 /// A pixel of a mapped triangle.
 pub(crate) struct MappedPixel<'a> {
     pub(crate) triangle: &'a MappedTriangle,
-    maps: &'a StateMaps,
+    maps: &'a DrawMaps,
     pass: &'a Pass<'a>,
     /// In pixels from the tile's first.
     pub(crate) place: [f32; 2],
@@ -224,7 +224,7 @@ pub(crate) struct MappedPixels<'a, S: Simd> {
 }
 
 impl<S: Simd> MappedPixels<'_, S> {
-    fn pixel<'a>(&'a self, lane: usize, pass: &'a Pass<'a>, maps: &'a StateMaps) -> Option<MappedPixel<'a>> {
+    fn pixel<'a>(&'a self, lane: usize, pass: &'a Pass<'a>, maps: &'a DrawMaps) -> Option<MappedPixel<'a>> {
         let triangle = self.triangles.get(usize::try_from(self.of[lane]).ok()?)?;
         let place = [self.place[0][lane], self.place[1][lane]];
         Some(MappedPixel { triangle, maps, pass, place, w: 1.0 / self.inverse_w[lane] })
@@ -290,7 +290,7 @@ impl<S: Simd> MappedPixels<'_, S> {
 
     /// What lights bring to the pixels.
     #[inline(always)]
-    fn lit(&self, simd: S, look: &Look, state: &State, maps: &StateMaps, back: bool) -> Irradiance<S> {
+    fn lit(&self, simd: S, look: &Look, state: &State, maps: &DrawMaps, back: bool) -> Irradiance<S> {
         let w = splat(simd, 1.0) / self.inverse_w;
         let way = each!(axis in 2 => {
             let first = splat(simd, look.tile[axis] as f32 * TILE as f32);
@@ -320,11 +320,11 @@ impl<S: Simd> MappedPixels<'_, S> {
         let v = to_viewer(simd, [way[0], way[1], splat(simd, -1.0)], n, look.pass.local_viewer);
         let points = Points::new(simd, [way[0] * w, way[1] * w, -w], n, v);
         if !changes {
-            return state.fragment_terms(simd, look.pass, &points, back);
+            return state.fragment_terms(simd, look.pass, &points, state.gloss(back));
         }
         if maps.far_normals() == FarNormals::Lean {
             axial.otherwise = exponents;
-            let sum = state.axial_terms(simd, look.pass, &points, axial);
+            let sum = state.fragment_terms(simd, look.pass, &points, axial);
             return Irradiance { specular: each!(c in 3 => sum.specular[c] * factors), ..sum };
         }
         // One exponent after the other.
@@ -336,7 +336,7 @@ impl<S: Simd> MappedPixels<'_, S> {
             let same = exponents.simd_eq(splat(simd, exponent));
             left &= !(same.to_bitmask() | 1 << first);
             let gloss = Gloss::new(state.reflectance, exponent);
-            sum = sum.or(same, &state.fragment_terms_of(simd, look.pass, &points, gloss));
+            sum = sum.or(same, &state.fragment_terms(simd, look.pass, &points, gloss));
         }
         Irradiance { specular: each!(c in 3 => sum.specular[c] * factors), ..sum }
     }

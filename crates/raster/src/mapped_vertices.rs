@@ -78,7 +78,8 @@ impl Vertices {
             if maps.has(MapKind::Normal) {
                 let [x, y, z, w] = four(&mesh.tangents, zero);
                 let t = safe_normalize(simd, direction([x, y, z]));
-                let [tangent, bitangent] = maps.signs.map(|sign| splat(simd, sign));
+                let sign = |negative: bool| splat(simd, if negative { -1.0 } else { 1.0 });
+                let [tangent, bitangent] = [maps.inside_out, state.clockwise].map(sign);
                 let frame = [t[0] * tangent, t[1] * tangent, t[2] * tangent, w * bitangent];
                 put(self.mapped.group(false, FRAME), frame);
             } else if maps.has(MapKind::Height) {

@@ -117,6 +117,37 @@ pub struct MapCall {
     pub far_normals: FarNormals,
 }
 
+/// What a draw's fragments take from images, a mask, a solid and the environment.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct DrawMaps {
+    /// Images, each in the slot of its kind.
+    pub calls: [Option<MapCall>; MapKind::COUNT],
+    /// Fragments of a lower opacity are not there.
+    pub mask: Option<f32>,
+    /// What the mesh is cut from, which multiplies base, diffuse and ambient at each pixel.
+    pub solid: Option<SolidTexture>,
+    /// The surface is lit inside out, which turns the tangents of a normal map.
+    pub inside_out: bool,
+    /// The environment lights it.
+    pub surrounded: bool,
+}
+
+impl DrawMaps {
+    pub(crate) fn has(&self, kind: MapKind) -> bool {
+        self.calls[kind as usize].is_some()
+    }
+
+    /// Whether images change the exponent of highlights.
+    pub(crate) fn changes_exponents(&self) -> bool {
+        self.has(MapKind::Shininess) || self.far_normals() != FarNormals::Mean
+    }
+
+    /// What highlights take of normals of an image beside where they point.
+    pub(crate) fn far_normals(&self) -> FarNormals {
+        self.calls[MapKind::Normal as usize].map_or(FarNormals::Mean, |call| call.far_normals)
+    }
+}
+
 /// Which side of triangles is left out.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Cull {
@@ -151,16 +182,8 @@ pub struct DrawCall {
     pub opposite_normals: bool,
     /// The mesh's colors multiply base, diffuse and ambient, and the opacity.
     pub colored: bool,
-    /// Images, each in the slot of its kind.
-    pub maps: [Option<MapCall>; MapKind::COUNT],
-    /// Fragments of a lower opacity are not there.
-    pub mask: Option<f32>,
-    /// What the mesh is cut from, which multiplies base, diffuse and ambient at each pixel.
-    pub solid: Option<SolidTexture>,
-    /// The surface is lit inside out, which turns the tangents of a normal map.
-    pub inside_out: bool,
-    /// The environment lights it.
-    pub surrounded: bool,
+    /// Images, a mask, a solid and an environment.
+    pub maps: Option<DrawMaps>,
     /// Fragments are laid over what is there by their opacity, and leave the depth as it is.
     pub blend: bool,
 }
@@ -178,20 +201,9 @@ impl Default for DrawCall {
             clockwise: false,
             opposite_normals: false,
             colored: false,
-            maps: [None; MapKind::COUNT],
-            mask: None,
-            solid: None,
-            inside_out: false,
-            surrounded: false,
+            maps: None,
             blend: false,
         }
-    }
-}
-
-impl DrawCall {
-    /// Whether it has images, a mask, a solid or an environment.
-    pub(crate) fn is_mapped(&self) -> bool {
-        self.surrounded || self.solid.is_some() || self.mask.is_some() || self.maps.iter().any(Option::is_some)
     }
 }
 

@@ -89,35 +89,20 @@ pub struct VertexLists<'a> {
 
 impl Pieces {
     /// Cuts a mesh. `cuts` are the runs of indices that draws name, in ascending order and without gaps from 0 to the
-    /// end of the list; an empty slice means that the whole list is one run. Shading takes `normals` as they are: unit
-    /// length, one a position. They may be left out (empty) for draws that are unlit or flat.
+    /// end of the list; an empty slice means that the whole list is one run.
     ///
     /// # Errors
-    /// An index beyond the positions, a number that is not finite, a list of indices that is no multiple of three, cuts
-    /// that leave gaps or part triangles, or memory that is refused.
+    /// An index beyond the positions, a list with more or fewer entries, a number that is not finite or out of its
+    /// range, a list of indices that is no multiple of three, cuts that leave gaps or part triangles, or memory that is
+    /// refused.
     pub fn new(
-        positions: &[[f32; 3]],
-        normals: &[[f32; 3]],
-        indices: &[u32],
-        cuts: &[Range<u32>],
-        order: TriangleOrder,
-    ) -> Result<Self, RasterError> {
-        Self::with_lists(positions, VertexLists { normals, ..VertexLists::default() }, indices, cuts, order)
-    }
-
-    /// The same with all that vertices may have.
-    ///
-    /// # Errors
-    /// As of [`Pieces::new`]; and a color out of its range, or not one a position.
-    pub fn with_lists(
         positions: &[[f32; 3]],
         lists: VertexLists,
         indices: &[u32],
         cuts: &[Range<u32>],
         order: TriangleOrder,
     ) -> Result<Self, RasterError> {
-        check(positions, lists.normals, indices)?;
-        check_paint(positions.len(), &lists)?;
+        check(positions, &lists, indices)?;
         let whole = 0..indices.len() as u32;
         let cuts = if cuts.is_empty() { std::slice::from_ref(&whole) } else { cuts };
         let mut pieces = Self { index_count: indices.len() as u32, ..Self::default() };
@@ -132,14 +117,8 @@ impl Pieces {
             builder.cut(&mut pieces, cut.clone(), order)?;
         }
         if end as usize != indices.len() {
-            let (reaches, available) = (u64::from(end), indices.len() as u64);
-            return Err(RasterError::Reference {
-                what: "cut",
-                index: cuts.len(),
-                field: "indices",
-                reaches,
-                available,
-            });
+            let (index, reaches, available) = (cuts.len(), u64::from(end), indices.len() as u64);
+            return Err(RasterError::Reference { what: "cut", index, field: "indices", reaches, available });
         }
         pieces.extent = PieceExtent::of(positions.iter().copied());
         Ok(pieces)
@@ -186,21 +165,27 @@ impl Pieces {
     }
 }
 
-fn check(positions: &[[f32; 3]], normals: &[[f32; 3]], indices: &[u32]) -> Result<(), RasterError> {
-    for (what, field, list) in [("position", "a coordinate", positions), ("normal", "a coordinate", normals)] {
-        for (index, vector) in list.iter().enumerate() {
-            if let Some(&value) = vector.iter().find(|x| !x.is_finite()) {
-                let value = f64::from(value);
-                return Err(RasterError::Number { what, index, field, value, expected: "a finite number" });
-            }
-        }
-    }
+fn check(positions: &[[f32; 3]], lists: &VertexLists, indices: &[u32]) -> Result<(), RasterError> {
+    let VertexLists { normals, colors, uvs, tangents } = lists;
+    let finite = |x: f32| x.is_finite();
+    let coordinate = ("a coordinate", "a finite number");
+    check_numbers("position", coordinate, positions, finite)?;
+    check_numbers("normal", coordinate, normals, finite)?;
+    check_numbers("texture coordinate", coordinate, uvs, finite)?;
+    check_numbers("tangent", coordinate, tangents, finite)?;
+    check_numbers("color", ("a channel", "0 to 1"), colors, |x| (0.0..=1.0).contains(&x))?;
     let list_error = |field, reaches: usize, available: usize| {
         let (reaches, available) = (reaches as u64, available as u64);
         Err(RasterError::Reference { what: "mesh", index: 0, field, reaches, available })
     };
-    if !normals.is_empty() && normals.len() != positions.len() {
-        return list_error("normals", normals.len(), positions.len());
+    let counts = [
+        ("normals", normals.len()),
+        ("colors", colors.len()),
+        ("texture coordinates", uvs.len()),
+        ("tangents", tangents.len()),
+    ];
+    if let Some((field, count)) = counts.into_iter().find(|&(_, count)| count != 0 && count != positions.len()) {
+        return list_error(field, count, positions.len());
     }
     if !indices.len().is_multiple_of(3) || indices.len() > u32::MAX as usize {
         return list_error("the last triangle", indices.len().next_multiple_of(3), indices.len());
@@ -211,28 +196,19 @@ fn check(positions: &[[f32; 3]], normals: &[[f32; 3]], indices: &[u32]) -> Resul
     }
 }
 
-fn check_paint(positions: usize, VertexLists { colors, uvs, tangents, .. }: &VertexLists) -> Result<(), RasterError> {
-    let lists = [("colors", colors.len()), ("texture coordinates", uvs.len()), ("tangents", tangents.len())];
-    for (field, count) in lists {
-        if count != 0 && count != positions {
-            let (reaches, available) = (count as u64, positions as u64);
-            return Err(RasterError::Reference { what: "mesh", index: 0, field, reaches, available });
+fn check_numbers<const N: usize>(
+    what: &'static str,
+    (field, expected): (&'static str, &'static str),
+    list: &[[f32; N]],
+    is_sound: impl Fn(f32) -> bool,
+) -> Result<(), RasterError> {
+    match list.as_flattened().iter().position(|&x| !is_sound(x)) {
+        Some(at) => {
+            let value = f64::from(list[at / N][at % N]);
+            Err(RasterError::Number { what, index: at / N, field, value, expected })
         }
+        None => Ok(()),
     }
-    let coordinates = uvs.iter().enumerate().map(|numbered| ("texture coordinate", numbered));
-    for (what, (index, four)) in coordinates.chain(tangents.iter().enumerate().map(|numbered| ("tangent", numbered))) {
-        if let Some(&value) = four.iter().find(|x| !x.is_finite()) {
-            let (field, value) = ("a coordinate", f64::from(value));
-            return Err(RasterError::Number { what, index, field, value, expected: "a finite number" });
-        }
-    }
-    for (index, color) in colors.iter().enumerate() {
-        if let Some(&value) = color.iter().find(|x| !(0.0..=1.0).contains(*x)) {
-            let (value, expected) = (f64::from(value), "0 to 1");
-            return Err(RasterError::Number { what: "color", index, field: "a channel", value, expected });
-        }
-    }
-    Ok(())
 }
 
 struct Builder<'a> {
@@ -450,7 +426,8 @@ mod tests {
 
     fn cut(mesh: &Mesh) -> Pieces {
         let positions: Vec<_> = mesh.positions().iter().map(|&p| p.into()).collect();
-        Pieces::new(&positions, &[], mesh.indices(), &[], TriangleOrder::Clustered).expect("a sound mesh")
+        Pieces::new(&positions, VertexLists::default(), mesh.indices(), &[], TriangleOrder::Clustered)
+            .expect("a sound mesh")
     }
 
     #[test]

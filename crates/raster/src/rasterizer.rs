@@ -30,8 +30,6 @@ pub struct Rasterizer {
     threads: Threads,
     bins: Bins,
     workers: Vec<Worker>,
-    /// For memory of which nothing is known.
-    fresh: ClearTiles,
 }
 
 /// A pass of less work than this many triangles and pixels is drawn by the calling thread: to wake another takes
@@ -48,8 +46,7 @@ impl Rasterizer {
         let Some(level) = width.level() else { return VectorWidth::named(&width.to_string()).map(|_| unreachable!()) };
         let threads = Threads::new("raster", options.threads)?;
         let workers = (0..threads.count()).map(|_| Worker::new()).collect();
-        let (bins, fresh) = (Bins::default(), ClearTiles::default());
-        Ok(Self { width, level, threads, bins, workers, fresh })
+        Ok(Self { width, level, threads, bins: Bins::default(), workers })
     }
 
     /// The vectors it draws with.
@@ -72,24 +69,13 @@ impl Rasterizer {
         self.threads.share(0..self.threads.count(), parts, |_, part| work(part));
     }
 
-    /// Draws a pass into memory that holds four values a pixel: red, green, blue, alpha.
+    /// Draws a pass into memory that holds four values a pixel: red, green, blue, alpha. It holds what was drawn into it
+    /// last with these `clear_tiles`, or anything while they are new; of what shows nothing but the clear color, then
+    /// and now, nothing is written.
     ///
     /// # Errors
     /// Whatever is wrong with the pass or the output; nothing is drawn then.
-    pub fn draw(&mut self, pass: &Pass, output: Output) -> Result<(), RasterError> {
-        let mut fresh = std::mem::take(&mut self.fresh);
-        fresh.forget();
-        let drawn = self.draw_again(pass, output, &mut fresh);
-        self.fresh = fresh;
-        drawn
-    }
-
-    /// The same into memory that holds what was drawn into it last with these `clear_tiles`, or anything while they are
-    /// new. Of what shows nothing but the clear color, then and now, nothing is written.
-    ///
-    /// # Errors
-    /// As of [`Rasterizer::draw`].
-    pub fn draw_again(&mut self, pass: &Pass, output: Output, clear_tiles: &mut ClearTiles) -> Result<(), RasterError> {
+    pub fn draw(&mut self, pass: &Pass, output: Output, clear_tiles: &mut ClearTiles) -> Result<(), RasterError> {
         check(pass, &output)?;
         let mut bins = std::mem::take(&mut self.bins);
         let filled = bins.fill(pass, self.threads.count(), |parts, work| self.each(parts.iter_mut(), work));

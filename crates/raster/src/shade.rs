@@ -62,7 +62,8 @@ impl<S: Simd> Fragments<'_, S> {
             Stage::Flat => self.lead,
             Stage::Vertex => self.interpolated(simd, self.lead),
             Stage::Fragment | Stage::Mixed => {
-                let terms = state.fragment_terms(simd, look.pass, &self.points(simd, look, state, back), back);
+                let terms =
+                    state.fragment_terms(simd, look.pass, &self.points(simd, look, state, back), state.gloss(back));
                 if state.stage == Stage::Fragment {
                     return reflected(simd, &terms, side);
                 }
@@ -83,7 +84,7 @@ impl<S: Simd> Fragments<'_, S> {
         if state.stage == Stage::Unlit {
             return tinted(simd, &Irradiance::none(simd), side, color);
         }
-        let terms = state.fragment_terms(simd, look.pass, &self.points(simd, look, state, back), back);
+        let terms = state.fragment_terms(simd, look.pass, &self.points(simd, look, state, back), state.gloss(back));
         let shade = tinted(simd, &terms, side, color);
         if state.stage == Stage::Fragment {
             return shade;

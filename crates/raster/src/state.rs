@@ -2,11 +2,10 @@
 
 use crate::lanes::Simd;
 use crate::lighting::{Irradiance, Points, ShadedTerms, gathered, gathered_here};
-use crate::lobe::{AxialGloss, Gloss};
-use crate::pass::{Cull, DrawCall, MapCall, Pass};
+use crate::lobe::{Gloss, PointLobe};
+use crate::pass::{Cull, DrawCall, DrawMaps, Pass};
 use halfway_lighting::record::{LightRange, MaterialRecord, SurfaceLights, SurfaceRecord};
 use halfway_lighting::{Frequency, Reflectance};
-use halfway_texture::{FarNormals, MapKind, SolidTexture};
 
 /// Where a draw's terms are shaded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,53 +22,6 @@ pub(crate) enum Stage {
     Mixed,
 }
 
-/// What a draw's fragments take from images.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct StateMaps {
-    pub(crate) calls: [Option<MapCall>; MapKind::COUNT],
-    pub(crate) mask: Option<f32>,
-    /// Factors of tangents, and of w.
-    pub(crate) signs: [f32; 2],
-    /// What it is cut from.
-    pub(crate) solid: Option<SolidTexture>,
-    /// Whether the environment lights it.
-    pub(crate) surrounded: bool,
-}
-
-impl StateMaps {
-    /// `None` where the draw has neither images nor a mask, nor a solid or an environment.
-    pub(crate) fn of(draw: &DrawCall) -> Option<Self> {
-        let sign = |negative: bool| if negative { -1.0 } else { 1.0 };
-        let signs = [sign(draw.inside_out), sign(draw.clockwise)];
-        draw.is_mapped().then_some(Self {
-            calls: draw.maps,
-            mask: draw.mask,
-            signs,
-            solid: draw.solid,
-            surrounded: draw.surrounded,
-        })
-    }
-
-    pub(crate) fn has(&self, kind: MapKind) -> bool {
-        self.calls[kind as usize].is_some()
-    }
-
-    /// Whether images change the exponent of highlights.
-    pub(crate) fn changes_exponents(&self) -> bool {
-        self.has(MapKind::Shininess) || self.far_normals() != FarNormals::Mean
-    }
-
-    /// What highlights take of normals of an image beside where they point.
-    pub(crate) fn far_normals(&self) -> FarNormals {
-        self.calls[MapKind::Normal as usize].map_or(FarNormals::Mean, |call| call.far_normals)
-    }
-
-    /// Whether something of it may be cut out.
-    pub(crate) fn is_masked(&self) -> bool {
-        self.mask.is_some()
-    }
-}
-
 /// A surface in a draw.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct State {
@@ -84,19 +36,21 @@ pub(crate) struct State {
     pub(crate) backs: bool,
     /// Whether the vertices' colors count.
     pub(crate) colored: bool,
-    /// Images and a mask.
-    pub(crate) maps: Option<StateMaps>,
+    /// Fronts wind clockwise.
+    pub(crate) clockwise: bool,
+    pub(crate) maps: Option<DrawMaps>,
     /// How front and back take light.
     glosses: [Gloss; 2],
 }
 
 impl State {
     pub(crate) fn new(draw: &DrawCall, number: u32, surface: &SurfaceRecord) -> Self {
+        let surrounded = draw.maps.is_some_and(|maps| maps.surrounded);
         let lit = |frequency: fn(Frequency) -> bool| {
             let terms = [draw.terms.diffuse, draw.terms.specular].map(frequency);
             // The environment takes normals as lights would have them.
             let SurfaceLights { both, diffuse, specular } = &surface.lights;
-            let reaches = |range: &LightRange| draw.surrounded || !(both.is_empty() && range.is_empty());
+            let reaches = |range: &LightRange| surrounded || !(both.is_empty() && range.is_empty());
             ShadedTerms { diffuse: terms[0] && reaches(diffuse), specular: terms[1] && reaches(specular) }
         };
         let flat = draw.terms.has(Frequency::Triangle);
@@ -104,7 +58,7 @@ impl State {
         let fragment = lit(|term| term == Frequency::Fragment);
         let stage = match (vertex.is_empty(), fragment.is_empty()) {
             // A flat triangle has the color of one point, whatever light there is.
-            (true, true) if flat && (draw.colored || draw.is_mapped()) => Stage::Flat,
+            (true, true) if flat && (draw.colored || draw.maps.is_some()) => Stage::Flat,
             (true, true) => Stage::Unlit,
             (false, true) if flat => Stage::Flat,
             (false, true) => Stage::Vertex,
@@ -118,10 +72,11 @@ impl State {
             fragment,
             reflectance: draw.reflectance,
             opposite_normals: draw.opposite_normals
-                && (matches!(stage, Stage::Fragment | Stage::Mixed) || draw.surrounded && stage != Stage::Flat),
+                && (matches!(stage, Stage::Fragment | Stage::Mixed) || surrounded && stage != Stage::Flat),
             backs: draw.cull != Cull::Back,
             colored: draw.colored,
-            maps: StateMaps::of(draw),
+            clockwise: draw.clockwise,
+            maps: draw.maps,
             glosses: [&surface.front, &surface.back].map(|side| Gloss::new(draw.reflectance, side.shininess)),
         }
     }
@@ -143,41 +98,17 @@ impl State {
         gathered(simd, (pass.lights, pass.lists), &surface.lights, points, self.gloss(back), self.vertex)
     }
 
-    /// What the lights of the fragment terms bring to points.
+    /// What the lights of the fragment terms bring to points with these highlights.
     #[inline(always)]
     pub(crate) fn fragment_terms<S: Simd>(
         &self,
         simd: S,
         pass: &Pass,
         points: &Points<S>,
-        back: bool,
-    ) -> Irradiance<S> {
-        self.fragment_terms_of(simd, pass, points, self.gloss(back))
-    }
-
-    /// The same for another exponent.
-    #[inline(always)]
-    pub(crate) fn fragment_terms_of<S: Simd>(
-        &self,
-        simd: S,
-        pass: &Pass,
-        points: &Points<S>,
-        gloss: Gloss,
+        lobe: impl PointLobe<S>,
     ) -> Irradiance<S> {
         let surface = &pass.surfaces[self.surface as usize];
-        gathered_here(simd, (pass.lights, pass.lists), &surface.lights, points, gloss, self.fragment)
-    }
-
-    /// The same for highlights that are not round.
-    pub(crate) fn axial_terms<S: Simd>(
-        &self,
-        simd: S,
-        pass: &Pass,
-        points: &Points<S>,
-        axial: AxialGloss<S>,
-    ) -> Irradiance<S> {
-        let surface = &pass.surfaces[self.surface as usize];
-        gathered(simd, (pass.lights, pass.lists), &surface.lights, points, axial, self.fragment)
+        gathered_here(simd, (pass.lights, pass.lists), &surface.lights, points, lobe, self.fragment)
     }
 
     /// Whether the vertices' colors go a way of their own, which they do unless images have part in it.

@@ -307,7 +307,7 @@ impl Worker {
     /// Makes room for a tile.
     pub(crate) fn prepare(&mut self, pass: &Pass) {
         let any = |has: fn(&DrawCall) -> bool| pass.draws.iter().any(has);
-        self.nearest.prepare(pass.samples, any(|draw| draw.colored), any(DrawCall::is_mapped));
+        self.nearest.prepare(pass.samples, any(|draw| draw.colored), any(|draw| draw.maps.is_some()));
         make_room(&mut self.own, pass.pixels);
     }
 }

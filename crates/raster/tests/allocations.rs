@@ -9,7 +9,7 @@ mod common;
 
 use common::{Scene, Shading, sphere};
 use halfway_lighting::Samples;
-use halfway_raster::{Output, PixelFormat, RasterOptions, Rasterizer};
+use halfway_raster::{ClearTiles, Output, PixelFormat, RasterOptions, Rasterizer};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
@@ -48,6 +48,7 @@ fn blocks(scenes: &[Scene], threads: usize) -> usize {
     let most = scenes.iter().map(|scene| 4 * scene.size[0] as usize * scene.size[1] as usize).max().expect("scenes");
     let mut bytes = vec![0; most];
     let mut floats = vec![0.0; most];
+    let mut clear_tiles = ClearTiles::default();
     let mut blocks = 0;
     for frame in 0..WARM_UP + FRAMES {
         for scene in scenes {
@@ -58,7 +59,7 @@ fn blocks(scenes: &[Scene], threads: usize) -> usize {
             };
             scene.with_pass(|pass| {
                 let before = ALLOCATOR.0.load(Relaxed);
-                rasterizer.draw(pass, output).expect("a sound pass");
+                rasterizer.draw(pass, output, &mut clear_tiles).expect("a sound pass");
                 if frame >= WARM_UP {
                     blocks += ALLOCATOR.0.load(Relaxed) - before;
                 }

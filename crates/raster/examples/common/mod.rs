@@ -3,7 +3,7 @@
 use halfway_lighting::record::{InstanceRecord, LightRange, LightRecord, MaterialRecord, SurfaceLights, SurfaceRecord};
 use halfway_lighting::{Frequency, Samples, Terms};
 use halfway_mesh::{Mesh, UvSphere};
-use halfway_raster::{DrawCall, Lens, Pass, Pieces, PixelFormat, RasterError, TriangleOrder};
+use halfway_raster::{DrawCall, Lens, Pass, Pieces, PixelFormat, RasterError, TriangleOrder, VertexLists};
 
 /// Where terms are shaded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -66,7 +66,7 @@ pub(crate) fn lens([width, height]: [u32; 2], degrees: f64) -> Lens {
 pub(crate) fn pieces(mesh: &Mesh, order: TriangleOrder) -> Result<Pieces, RasterError> {
     let positions: Vec<_> = mesh.positions().iter().map(|&p| p.into()).collect();
     let normals: Vec<_> = mesh.normals().iter().map(|&n| n.into()).collect();
-    Pieces::new(&positions, &normals, mesh.indices(), &[], order)
+    Pieces::new(&positions, VertexLists { normals: &normals, ..VertexLists::default() }, mesh.indices(), &[], order)
 }
 
 /// A mesh at this place, unturned.

@@ -5,7 +5,8 @@ use halfway_lighting::record::{InstanceRecord, LightRecord};
 use halfway_lighting::{Frequency, Reflectance, Samples, Terms};
 use halfway_mesh::{Mesh, Plane};
 use halfway_raster::{
-    Cull, DrawCall, Lens, Output, Pieces, PixelFormat, RasterOptions, Rasterizer, TriangleOrder, VectorWidth,
+    ClearTiles, Cull, DrawCall, Lens, Output, Pieces, PixelFormat, RasterOptions, Rasterizer, TriangleOrder,
+    VectorWidth, VertexLists,
 };
 
 /// FNV-1a of 64 bits.
@@ -17,12 +18,16 @@ fn hash_of_picture(scene: &Scene, rasterizer: &mut Rasterizer) -> u64 {
     let count = 4 * scene.size[0] as usize * scene.size[1] as usize;
     if scene.pixels == PixelFormat::Floats {
         let mut floats = vec![0.0; count];
-        scene.with_pass(|pass| rasterizer.draw(pass, Output::Floats(&mut floats))).expect("a sound pass");
+        scene
+            .with_pass(|pass| rasterizer.draw(pass, Output::Floats(&mut floats), &mut ClearTiles::default()))
+            .expect("a sound pass");
         assert!(floats.iter().all(|x: &f32| x.is_finite() && *x >= 0.0));
         hash(floats.iter().flat_map(|x| x.to_bits().to_le_bytes()))
     } else {
         let mut bytes = vec![0; count];
-        scene.with_pass(|pass| rasterizer.draw(pass, Output::Bytes(&mut bytes))).expect("a sound pass");
+        scene
+            .with_pass(|pass| rasterizer.draw(pass, Output::Bytes(&mut bytes), &mut ClearTiles::default()))
+            .expect("a sound pass");
         hash(bytes)
     }
 }
@@ -48,7 +53,8 @@ fn ball(n: u32, order: TriangleOrder) -> Pieces {
             }
         }
     }
-    Pieces::new(&points, &points, &indices, &[], order).expect("a sound mesh")
+    Pieces::new(&points, VertexLists { normals: &points, ..VertexLists::default() }, &indices, &[], order)
+        .expect("a sound mesh")
 }
 
 /// A ball under one light.

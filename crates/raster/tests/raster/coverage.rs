@@ -3,7 +3,10 @@
 use crate::common::{Scene, Shading, at, draw};
 use halfway_lighting::Samples;
 use halfway_lighting::record::{MaterialRecord, SurfaceRecord};
-use halfway_raster::{Cull, Lens, Output, Pieces, PixelFormat, RasterOptions, Rasterizer, TriangleOrder, VectorWidth};
+use halfway_raster::{
+    ClearTiles, Cull, Lens, Output, Pieces, PixelFormat, RasterOptions, Rasterizer, TriangleOrder, VectorWidth,
+    VertexLists,
+};
 use proptest::prelude::*;
 
 const SIDE: u32 = 128;
@@ -24,7 +27,8 @@ fn point([x, y]: Corner) -> [f32; 3] {
 fn scene(triangles: &[[[f32; 3]; 3]], samples: Samples, blend: bool) -> Scene {
     let positions = triangles.concat();
     let indices: Vec<_> = (0..positions.len() as u32).collect();
-    let mesh = Pieces::new(&positions, &[], &indices, &[], TriangleOrder::Kept).expect("finite corners");
+    let mesh =
+        Pieces::new(&positions, VertexLists::default(), &indices, &[], TriangleOrder::Kept).expect("finite corners");
     let white = MaterialRecord { base: [1.0; 3], opacity: 0.5, ..MaterialRecord::default() };
     let mut call = draw(&mesh, 1, Shading::Constant);
     (call.cull, call.blend) = (Cull::None, blend);
@@ -48,7 +52,9 @@ fn picture(scene: &Scene, width: VectorWidth) -> Vec<f32> {
     let options = RasterOptions { width: Some(width), threads: Some(1) };
     let mut floats = vec![0.0; 4 * (SIDE * SIDE) as usize];
     let mut rasterizer = Rasterizer::new(options).expect("a width of this CPU");
-    scene.with_pass(|pass| rasterizer.draw(pass, Output::Floats(&mut floats))).expect("a sound pass");
+    scene
+        .with_pass(|pass| rasterizer.draw(pass, Output::Floats(&mut floats), &mut ClearTiles::default()))
+        .expect("a sound pass");
     floats.chunks_exact(4).map(|pixel| pixel[0]).collect()
 }
 

@@ -5,13 +5,14 @@ use halfway_lighting::Samples;
 use halfway_lighting::record::{MaterialRecord, SurfaceRecord};
 use halfway_raster::{
     ClearTiles, Cull, DrawCall, LARGEST_SIDE, Output, Pieces, PixelFormat, RasterError, RasterOptions, Rasterizer,
-    TriangleOrder, VectorWidth,
+    TriangleOrder, VectorWidth, VertexLists,
 };
 
 /// Squares across the whole view at these depths, each of a color and an opacity.
 fn squares(squares: &[(f32, [f32; 3], f32)], blend: bool) -> Scene {
     let corners = [[-9.0, -9.0, 0.0], [9.0, -9.0, 0.0], [9.0, 9.0, 0.0], [-9.0, 9.0, 0.0]];
-    let mesh = Pieces::new(&corners, &[], &[0, 1, 2, 0, 2, 3], &[0..3, 3..6], TriangleOrder::Kept).expect("sound");
+    let mesh = Pieces::new(&corners, VertexLists::default(), &[0, 1, 2, 0, 2, 3], &[0..3, 3..6], TriangleOrder::Kept)
+        .expect("sound");
     let surface = |&(_, base, opacity): &(f32, [f32; 3], f32)| SurfaceRecord {
         front: MaterialRecord { base, opacity, ..MaterialRecord::default() },
         ..SurfaceRecord::default()
@@ -35,7 +36,9 @@ fn squares(squares: &[(f32, [f32; 3], f32)], blend: bool) -> Scene {
 fn floats(scene: &Scene) -> Vec<[f32; 4]> {
     let mut floats = vec![f32::NAN; 4 * (scene.size[0] * scene.size[1]) as usize];
     let mut rasterizer = Rasterizer::new(RasterOptions::default()).expect("threads");
-    scene.with_pass(|pass| rasterizer.draw(pass, Output::Floats(&mut floats))).expect("a sound pass");
+    scene
+        .with_pass(|pass| rasterizer.draw(pass, Output::Floats(&mut floats), &mut ClearTiles::default()))
+        .expect("a sound pass");
     floats.as_chunks().0.to_vec()
 }
 
@@ -111,7 +114,8 @@ fn triangles_of_a_mesh_blend_in_their_order() {
     let indices: Vec<_> = (0..6)
         .flat_map(|k| if k % 2 == 0 { [3 * k, 3 * k + 1, 3 * k + 2] } else { [3 * k, 3 * k + 2, 3 * k + 1] })
         .collect();
-    scene.meshes = vec![Pieces::new(&positions, &[], &indices, &[], TriangleOrder::Kept).expect("sound")];
+    scene.meshes =
+        vec![Pieces::new(&positions, VertexLists::default(), &indices, &[], TriangleOrder::Kept).expect("sound")];
     scene.surfaces[0].back = MaterialRecord { base: GREEN, opacity: 0.5, ..MaterialRecord::default() };
     scene.clear = [0.0; 3];
     scene.draws[0] = DrawCall { indices: 0..18, cull: Cull::None, ..scene.draws[0].clone() };
@@ -142,7 +146,9 @@ fn bytes_are_clamped_and_encoded() {
         scene.pixels = pixels;
         let mut bytes = vec![0; 4 * 70 * 66];
         let mut rasterizer = Rasterizer::new(RasterOptions::default()).expect("threads");
-        scene.with_pass(|pass| rasterizer.draw(pass, Output::Bytes(&mut bytes))).expect("a sound pass");
+        scene
+            .with_pass(|pass| rasterizer.draw(pass, Output::Bytes(&mut bytes), &mut ClearTiles::default()))
+            .expect("a sound pass");
         assert!(bytes.chunks_exact(4).all(|pixel| pixel == expected), "{pixels:?}: {:?}", &bytes[..4]);
     }
 }
@@ -157,7 +163,9 @@ fn every_byte_of_srgb_is_the_nearest() {
         (scene.size, scene.pixels, scene.clear) = ([1, 1], PixelFormat::SrgbBytes, [linear as f32; 3]);
         let mut bytes = [0; 4];
         let mut rasterizer = Rasterizer::new(RasterOptions::default()).expect("threads");
-        scene.with_pass(|pass| rasterizer.draw(pass, Output::Bytes(&mut bytes))).expect("a sound pass");
+        scene
+            .with_pass(|pass| rasterizer.draw(pass, Output::Bytes(&mut bytes), &mut ClearTiles::default()))
+            .expect("a sound pass");
         assert_eq!(bytes, [step, step, step, 255]);
     }
 }
@@ -178,7 +186,9 @@ fn the_largest_picture_is_drawn() {
     scene.lens = lens(scene.size, 0.5);
     let mut bytes = vec![0; 4 * LARGEST_SIDE as usize * 33];
     let mut rasterizer = Rasterizer::new(RasterOptions::default()).expect("threads");
-    scene.with_pass(|pass| rasterizer.draw(pass, Output::Bytes(&mut bytes))).expect("a sound pass");
+    scene
+        .with_pass(|pass| rasterizer.draw(pass, Output::Bytes(&mut bytes), &mut ClearTiles::default()))
+        .expect("a sound pass");
     assert!(bytes.chunks_exact(4).all(|pixel| pixel == [255, 0, 0, 255]));
 }
 
@@ -187,7 +197,9 @@ fn refusal(scene: &Scene) -> RasterError {
     let mut floats =
         vec![0.0; 4 * width.max(scene.size[0] as usize).min(70) * height.max(scene.size[1] as usize).min(66)];
     let mut rasterizer = Rasterizer::new(RasterOptions::default()).expect("threads");
-    scene.with_pass(|pass| rasterizer.draw(pass, Output::Floats(&mut floats))).expect_err("an unsound pass")
+    scene
+        .with_pass(|pass| rasterizer.draw(pass, Output::Floats(&mut floats), &mut ClearTiles::default()))
+        .expect_err("an unsound pass")
 }
 
 #[test]
@@ -216,7 +228,15 @@ fn what_is_wrong_is_refused_and_named() {
 fn meshes_that_are_not_sound_are_refused() {
     let corners = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
     let of = |positions: &[[f32; 3]], normals: &[[f32; 3]], indices: &[u32], cuts: &[std::ops::Range<u32>]| {
-        Pieces::new(positions, normals, indices, cuts, TriangleOrder::Clustered).expect_err("it is not").to_string()
+        Pieces::new(
+            positions,
+            VertexLists { normals, ..VertexLists::default() },
+            indices,
+            cuts,
+            TriangleOrder::Clustered,
+        )
+        .expect_err("it is not")
+        .to_string()
     };
     assert!(of(&corners, &[], &[0, 1, 3], &[]).contains("an index reaches to 4, but there are 3"));
     assert!(of(&corners, &[], &[0, 1], &[]).contains("the last triangle"));
@@ -257,7 +277,9 @@ fn square_on(clear: [f32; 3], size: [u32; 2], pixels: PixelFormat, half: f32) ->
     let mut scene = squares(&[(20.0, RED, 1.0)], false);
     (scene.clear, scene.size, scene.pixels) = (clear, size, pixels);
     let corners = [[-half, -half, 0.0], [half, -half, 0.0], [half, half, 0.0], [-half, half, 0.0]];
-    scene.meshes = vec![Pieces::new(&corners, &[], &[0, 1, 2, 0, 2, 3], &[], TriangleOrder::Kept).expect("sound")];
+    scene.meshes = vec![
+        Pieces::new(&corners, VertexLists::default(), &[0, 1, 2, 0, 2, 3], &[], TriangleOrder::Kept).expect("sound"),
+    ];
     scene
 }
 
@@ -288,9 +310,9 @@ fn pictures_drawn_over_each_other_are_those_drawn_alone() {
             } else {
                 [Output::Bytes(&mut bytes), Output::Bytes(&mut alone)]
             };
-            let drawn = scene.with_pass(|pass| rasterizer.draw_again(pass, output, &mut clear_tiles));
+            let drawn = scene.with_pass(|pass| rasterizer.draw(pass, output, &mut clear_tiles));
             drawn.expect("a sound pass");
-            scene.with_pass(|pass| rasterizer.draw(pass, fresh)).expect("a sound pass");
+            scene.with_pass(|pass| rasterizer.draw(pass, fresh, &mut ClearTiles::default())).expect("a sound pass");
             assert!(bytes == alone && floats == floats_alone, "scene {number}, {threads} threads");
         }
     }
@@ -305,7 +327,7 @@ fn tiles_that_stay_clear_are_not_written_again() {
     for frame in 0..2 {
         bytes.fill(7);
         let output = Output::Bytes(&mut bytes);
-        let drawn = scene.with_pass(|pass| rasterizer.draw_again(pass, output, &mut clear_tiles));
+        let drawn = scene.with_pass(|pass| rasterizer.draw(pass, output, &mut clear_tiles));
         drawn.expect("a sound pass");
         // Four by three tiles, of which the square meets the two in the middle.
         let left_alone = bytes.as_chunks().0.iter().filter(|&&pixel| pixel == [7; 4]).count();

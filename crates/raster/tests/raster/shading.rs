@@ -7,7 +7,9 @@ use halfway_lighting::equations::{
 use halfway_lighting::record::{InstanceRecord, LightRange, LightRecord, MaterialRecord, SurfaceLights, SurfaceRecord};
 use halfway_lighting::{Frequency, Reflectance, Samples, Terms};
 use halfway_mesh::{Mesh, UvSphere};
-use halfway_raster::{Cull, Lens, Output, Pieces, PixelFormat, RasterOptions, Rasterizer, TriangleOrder, VertexLists};
+use halfway_raster::{
+    ClearTiles, Cull, Lens, Output, Pieces, PixelFormat, RasterOptions, Rasterizer, TriangleOrder, VertexLists,
+};
 
 type V = [f64; 3];
 
@@ -112,7 +114,7 @@ impl Case {
         self.scene
             .with_pass(|pass| {
                 let pass = halfway_raster::Pass { local_viewer: self.local_viewer, ..*pass };
-                rasterizer.draw(&pass, Output::Floats(&mut floats))
+                rasterizer.draw(&pass, Output::Floats(&mut floats), &mut ClearTiles::default())
             })
             .expect("a sound pass");
         floats
@@ -353,7 +355,7 @@ fn a_sliver_has_the_colors_of_its_corners_and_not_of_the_grids() {
     let positions = [eye([4.1, rows[0]]), eye([32.3, rows[1]]), eye([59.7, rows[2]])];
     let colors = [0.0, 1.0, 0.0].map(|grey: f32| [grey, grey, grey, 1.0]);
     let lists = VertexLists { colors: &colors, ..VertexLists::default() };
-    let mesh = Pieces::with_lists(&positions, lists, &[0, 1, 2], &[], TriangleOrder::Clustered).expect("a sound mesh");
+    let mesh = Pieces::new(&positions, lists, &[0, 1, 2], &[], TriangleOrder::Clustered).expect("a sound mesh");
     let mut call = draw(&mesh, 1, Shading::Constant);
     (call.colored, call.cull) = (true, Cull::None);
     let mut scene = case(Shading::Constant, Reflectance::Phong).scene;
@@ -363,7 +365,9 @@ fn a_sliver_has_the_colors_of_its_corners_and_not_of_the_grids() {
     (scene.instances, scene.draws, scene.meshes) = (vec![at([0.0; 3], 0)], vec![call], vec![mesh]);
     let mut floats = vec![0.0; 4 * 64 * 64];
     let mut rasterizer = Rasterizer::new(RasterOptions::default()).expect("threads");
-    scene.with_pass(|pass| rasterizer.draw(pass, Output::Floats(&mut floats))).expect("a sound pass");
+    scene
+        .with_pass(|pass| rasterizer.draw(pass, Output::Floats(&mut floats), &mut ClearTiles::default()))
+        .expect("a sound pass");
 
     // How far a pixel's middle is from one side of the long edge to the corner opposite of it.
     let [a, b, c] = positions.map(f);

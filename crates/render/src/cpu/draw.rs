@@ -122,7 +122,7 @@ pub(crate) fn draw(
     };
     let (output, clear_tiles) = canvas.output();
     let mut rasterizer = cpu.rasterizer();
-    let drawn = rasterizer.draw_again(&pass, output, clear_tiles);
+    let drawn = rasterizer.draw(&pass, output, clear_tiles);
     let drawn = drawn.and_then(|()| canvas.finish(&rasterizer, camera.intensity, camera.encoding));
     report.picture_passes = match camera.intensity {
         Intensity::Clamp => 0,

@@ -58,5 +58,5 @@ fn pieces(source: &Mesh, patches: &Patches, indices: &[u32], form: Form) -> Resu
         uvs: bytemuck::cast_slice(&uvs),
         tangents: source.tangents().filter(|_| form.tangents.is_some()).map_or(&[], bytemuck::cast_slice),
     };
-    Pieces::with_lists(positions, lists, indices, &cuts, order)
+    Pieces::new(positions, lists, indices, &cuts, order)
 }

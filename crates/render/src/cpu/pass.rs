@@ -11,8 +11,8 @@ use bevy_ecs::prelude::*;
 use halfway_asset::{AssetId, Assets};
 use halfway_lighting::Reflectance;
 use halfway_mesh::Mesh;
-use halfway_raster::{DrawCall, MapCall, MapData};
-use halfway_texture::{MapKind, Texture};
+use halfway_raster::{DrawCall, DrawMaps, MapCall, MapData};
+use halfway_texture::Texture;
 
 /// The lists of a pass that it alone has. Their memory is kept from frame to frame.
 #[derive(Resource, Default)]
@@ -20,8 +20,8 @@ pub(crate) struct PassLists {
     pub(crate) meshes: Vec<(AssetId<Mesh>, Form)>,
     pub(crate) draws: Vec<DrawCall>,
     pub(crate) maps: Vec<MapData>,
-    /// Of each set of images the number of the first, and the cutoff.
-    sets: Vec<(u32, f32)>,
+    /// Of each set of images the number of the first.
+    firsts: Vec<u32>,
 }
 
 pub(crate) fn fill(
@@ -39,20 +39,17 @@ impl PassLists {
     /// The images of all sets, one after the other, and where those of each begin.
     fn fill_maps(&mut self, sets: &[MapsUse], textures: &Assets<Texture>) {
         self.maps.clear();
-        self.sets.clear();
+        self.firsts.clear();
         for set in sets {
-            self.sets.push((self.maps.len() as u32, set.cutoff));
+            self.firsts.push(self.maps.len() as u32);
             let data = |of: &MapUse| MapData { pyramid: of.pyramid(textures), rows: of.rows(), amount: of.amount };
             self.maps.extend(set.slots.iter().flatten().map(data));
         }
     }
 
-    /// How a draw looks its images up, whose numbers follow each other in the order of their kinds; and its mask.
-    fn map_calls(&self, key: &DrawKey, of: &MapsUse, number: u32) -> ([Option<MapCall>; MapKind::COUNT], Option<f32>) {
-        let Some((first, cutoff)) = (number as usize).checked_sub(1).and_then(|number| self.sets.get(number)) else {
-            return Default::default();
-        };
-        let mut next = *first;
+    /// What a draw takes of a set, whose images follow each other in the order of their kinds.
+    fn draw_maps(&self, key: &DrawKey, of: &MapsUse, number: u32) -> DrawMaps {
+        let mut next = self.firsts[number as usize - 1];
         let calls = std::array::from_fn(|slot| {
             of.slots[slot]?;
             let map = next;
@@ -66,7 +63,8 @@ impl PassLists {
             };
             key.maps.0[slot].map(call)
         });
-        (calls, key.masked.then_some(*cutoff))
+        let mask = key.masked.then_some(of.cutoff);
+        DrawMaps { calls, mask, solid: of.solid, inside_out: key.inside_out, surrounded: key.surrounded }
     }
 
     fn fill_draws(&mut self, lit: &LitPatches, batches: &Batches, meshes: &MeshPieces) {
@@ -80,15 +78,9 @@ impl PassLists {
             if self.meshes.last() != Some(&(mesh, form)) {
                 self.meshes.push((mesh, form));
             }
-            let call = DrawCall { mesh: self.meshes.len() as u32 - 1, ..call(&key) };
-            let call = match lit.table.maps.get((maps as usize).wrapping_sub(1)) {
-                Some(of) if key.is_mapped() => {
-                    let (maps, mask) = self.map_calls(&key, of, maps);
-                    let (solid, inside_out) = (of.solid, key.inside_out);
-                    DrawCall { maps, mask, solid, inside_out, surrounded: key.surrounded, ..call }
-                }
-                _ => call,
-            };
+            let of_set = lit.table.maps.get((maps as usize).wrapping_sub(1)).filter(|_| key.is_mapped());
+            let maps = of_set.map(|of| self.draw_maps(&key, of, maps));
+            let call = DrawCall { mesh: self.meshes.len() as u32 - 1, maps, ..call(&key) };
             for draw in batches.draws.of(group) {
                 let IndexedDraw { indices, instances } = draw.clone();
                 self.draws.push(DrawCall { indices, instances, ..call.clone() });
