@@ -134,7 +134,7 @@ impl TileBuffer {
             opacity = of_maps.opacities(simd, look.pass, state, back);
             new &= of_maps.are_there(simd, look.pass, state, back);
         }
-        for sample in 0..look.pass.samples.count() as usize as usize {
+        for sample in 0..look.pass.samples.count() as usize {
             let at = j as usize * TILE + i as usize;
             let show = shown.masks[sample] & new;
             for c in 0..3 {

@@ -24,6 +24,7 @@ pub(crate) enum Stage {
 
 /// A surface in a draw.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(clippy::struct_excessive_bools, reason = "each is one independent fact about the draw")]
 pub(crate) struct State {
     pub(crate) stage: Stage,
     pub(crate) surface: u32,
