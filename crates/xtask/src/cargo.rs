@@ -49,6 +49,19 @@ pub(crate) fn step(title: &str, command: &mut Command) -> Result {
     Ok(())
 }
 
+/// Runs a command under no header and gives its output; its errors are shown where it fails.
+///
+/// # Errors
+/// The command cannot be started, or ends with another exit code than 0.
+pub(crate) fn printed(command: &mut Command) -> Result<Vec<u8>> {
+    let output = command.output().map_err(|error| not_started(command, &error))?;
+    if output.status.success() {
+        return Ok(output.stdout);
+    }
+    eprint!("{}", String::from_utf8_lossy(&output.stderr));
+    Err(ended(command, output.status))
+}
+
 pub(crate) fn not_started(command: &Command, error: &std::io::Error) -> Failure {
     Failure::new(format!("{}: {error}", written(command)))
 }

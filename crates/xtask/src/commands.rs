@@ -28,15 +28,16 @@ pub(crate) fn of_page(root: &Path, page: &str) -> crate::failure::Result<Vec<Pag
 /// The line and the problem of a command that is more than a program and its arguments.
 pub(crate) fn shown(page: &str) -> Result<Vec<PageCommand>, String> {
     let mut commands = Vec::new();
-    let mut fence = Fence::Text;
+    // The language of the block that the line is in.
+    let mut block: Option<&str> = None;
     let mut open: Option<(usize, String)> = None;
     for (index, text) in page.lines().enumerate() {
         let text = text.trim();
         if let Some(language) = text.strip_prefix("```") {
-            fence = fence.next(language.trim());
+            block = if block.is_none() { Some(language.trim()) } else { None };
             continue;
         }
-        if fence != Fence::Shell {
+        if block != Some("sh") {
             continue;
         }
         let (line, mut command) = open.take().unwrap_or((index + 1, String::new()));
@@ -54,24 +55,6 @@ pub(crate) fn shown(page: &str) -> Result<Vec<PageCommand>, String> {
     match open {
         Some((line, _)) => Err(format!("line {line}: the command goes on after its last line")),
         None => Ok(commands),
-    }
-}
-
-#[derive(PartialEq, Eq)]
-enum Fence {
-    Text,
-    Shell,
-    Other,
-}
-
-impl Fence {
-    /// What follows a line of three backticks.
-    fn next(&self, language: &str) -> Self {
-        match self {
-            Self::Text if language == "sh" => Self::Shell,
-            Self::Text => Self::Other,
-            _ => Self::Text,
-        }
     }
 }
 

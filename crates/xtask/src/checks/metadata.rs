@@ -1,10 +1,10 @@
-//! What cargo says about the packages of the workspace.
+//! Cargo's word about the packages of the workspace.
 
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use crate::cargo::{cargo, ended, not_started};
+use crate::cargo::{cargo, printed};
 use crate::failure::{Failure, Result};
 
 /// A package of the workspace.
@@ -49,12 +49,8 @@ pub(crate) fn test_programs(root: &Path) -> Result<Vec<String>> {
 
 fn metadata<T>(root: &Path, read: impl Fn(&[u8]) -> Option<T>) -> Result<T> {
     let mut command = cargo(["metadata", "--format-version", "1", "--no-deps"]);
-    let output = command.current_dir(root).output().map_err(|error| not_started(&command, &error))?;
-    if !output.status.success() {
-        eprint!("{}", String::from_utf8_lossy(&output.stderr));
-        return Err(ended(&command, output.status));
-    }
-    read(&output.stdout).ok_or_else(|| Failure::new("cargo metadata: not what it used to print"))
+    let output = printed(command.current_dir(root))?;
+    read(&output).ok_or_else(|| Failure::new("cargo metadata: not what it used to print"))
 }
 
 fn read(json: &[u8]) -> Option<Vec<Package>> {

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use proc_macro2::{TokenStream, TokenTree};
 use quote::ToTokens;
-use syn::{Attribute, ImplItem, Item, Meta, UseTree, Visibility};
+use syn::{Attribute, Ident, ImplItem, Item, Meta, UseTree, Visibility};
 
 use crate::failure::{Failure, Result};
 
@@ -74,7 +74,7 @@ impl Crate {
     fn module(&mut self, file: &Path, folder: &Path, parent: usize, items: Vec<Item>) -> Result<usize> {
         let index = self.modules.len();
         self.modules.push(Module { file: file.to_owned(), parent, ..Module::default() });
-        for item in items.into_iter().filter(|item| !for_tests(attributes(item))) {
+        for item in items.into_iter().filter(|item| !for_tests(attributes_and_name(item).0)) {
             match item {
                 Item::Mod(item) => {
                     let name = plain(&item.ident);
@@ -163,22 +163,7 @@ impl Crate {
 impl Module {
     /// Takes in an item other than `mod`, `use` and `impl`.
     fn take(&mut self, item: &Item) {
-        let name = match item {
-            Item::Struct(item) => Some(&item.ident),
-            Item::Enum(item) => Some(&item.ident),
-            Item::Union(item) => Some(&item.ident),
-            Item::Trait(item) => Some(&item.ident),
-            Item::Fn(item) => Some(&item.sig.ident),
-            Item::Const(item) => Some(&item.ident),
-            Item::Static(item) => Some(&item.ident),
-            Item::Type(item) => Some(&item.ident),
-            Item::TraitAlias(item) => Some(&item.ident),
-            Item::Macro(item) => item.ident.as_ref(),
-            _ => None,
-        };
-        if let Some(name) = name {
-            self.defines.insert(plain(name));
-        }
+        self.defines.extend(attributes_and_name(item).1.map(plain));
         self.scan(item.to_token_stream());
     }
 
@@ -222,7 +207,7 @@ impl Module {
 }
 
 /// A name without the `r#` that lets it be a keyword.
-fn plain(name: &syn::Ident) -> String {
+fn plain(name: &Ident) -> String {
     name.to_string().trim_start_matches("r#").to_owned()
 }
 
@@ -252,20 +237,22 @@ fn joined(path: &[String], name: String) -> Vec<String> {
     path.iter().cloned().chain([name]).collect()
 }
 
-fn attributes(item: &Item) -> &[Attribute] {
+fn attributes_and_name(item: &Item) -> (&[Attribute], Option<&Ident>) {
     match item {
-        Item::Mod(item) => &item.attrs,
-        Item::Fn(item) => &item.attrs,
-        Item::Use(item) => &item.attrs,
-        Item::Impl(item) => &item.attrs,
-        Item::Struct(item) => &item.attrs,
-        Item::Enum(item) => &item.attrs,
-        Item::Trait(item) => &item.attrs,
-        Item::Const(item) => &item.attrs,
-        Item::Static(item) => &item.attrs,
-        Item::Type(item) => &item.attrs,
-        Item::Macro(item) => &item.attrs,
-        _ => &[],
+        Item::Mod(item) => (&item.attrs, Some(&item.ident)),
+        Item::Fn(item) => (&item.attrs, Some(&item.sig.ident)),
+        Item::Use(item) => (&item.attrs, None),
+        Item::Impl(item) => (&item.attrs, None),
+        Item::Struct(item) => (&item.attrs, Some(&item.ident)),
+        Item::Enum(item) => (&item.attrs, Some(&item.ident)),
+        Item::Union(item) => (&item.attrs, Some(&item.ident)),
+        Item::Trait(item) => (&item.attrs, Some(&item.ident)),
+        Item::Const(item) => (&item.attrs, Some(&item.ident)),
+        Item::Static(item) => (&item.attrs, Some(&item.ident)),
+        Item::Type(item) => (&item.attrs, Some(&item.ident)),
+        Item::TraitAlias(item) => (&item.attrs, Some(&item.ident)),
+        Item::Macro(item) => (&item.attrs, item.ident.as_ref()),
+        _ => (&[], None),
     }
 }
 

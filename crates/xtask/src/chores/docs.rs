@@ -1,6 +1,6 @@
 //! `cargo xtask docs`.
 
-use crate::cargo::{announce, cargo, ended, not_started, root, step};
+use crate::cargo::{announce, cargo, printed, root, step};
 use crate::commands::{self, PageCommand};
 use crate::failure::{Failure, Result};
 
@@ -25,12 +25,8 @@ pub(crate) fn run() -> Result {
 fn schema() -> Result {
     let mut command = cargo(["run", "--release", "--quiet", "--bin", "halfway", "--", "schema"]);
     announce(SCHEMA, &command);
-    let output = command.output().map_err(|error| not_started(&command, &error))?;
-    if !output.status.success() {
-        eprint!("{}", String::from_utf8_lossy(&output.stderr));
-        return Err(ended(&command, output.status));
-    }
-    let text = String::from_utf8_lossy(&output.stdout);
+    let output = printed(&mut command)?;
+    let text = String::from_utf8_lossy(&output);
     let written = std::fs::write(root().join(SCHEMA), format!("{}\n", text.trim_end()));
     written.map_err(|error| Failure::new(format!("{SCHEMA}: {error}")))
 }
