@@ -1,7 +1,7 @@
 //! What can be wrong with a scene file, told so that the line can be found and mended.
 
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use thiserror::Error;
 
@@ -99,10 +99,6 @@ pub enum SceneError {
 }
 
 impl SceneError {
-    pub(crate) fn read(file: &Path, source: io::Error) -> Self {
-        Self::Read { file: file.to_owned(), source }
-    }
-
     /// The path of the key that is wrong, such as `lights[2].attenuation`, where there is one.
     pub fn key(&self) -> Option<&str> {
         match self {

@@ -99,7 +99,7 @@ impl SceneFile {
         }
         File::open(path)
             .and_then(|file| file.take(Self::MAX_BYTES + 1).read_to_end(&mut bytes))
-            .map_err(|source| SceneError::read(path, source))?;
+            .map_err(|source| SceneError::Read { file: path.to_owned(), source })?;
         if bytes.len() as u64 > Self::MAX_BYTES {
             return Err(SceneError::TooLarge { file: path.to_owned(), most: Self::MAX_BYTES });
         }

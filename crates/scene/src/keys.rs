@@ -31,10 +31,14 @@ pub(crate) trait Keys: Clone + PartialEq + 'static {
     }
     /// The value of an object without keys. Those that are required have values that nobody sees.
     fn blank() -> Self;
-    /// Passes every key and its value to a visitor.
-    fn visit<V: Visit>(&self, visitor: &mut V) -> Result<(), V::Error>;
+    /// Passes every key and its value to a visitor; words have none.
+    fn visit<V: Visit>(&self, _visitor: &mut V) -> Result<(), V::Error> {
+        Ok(())
+    }
     /// Lets `from` set the value of any key.
-    fn fill<F: Fill>(&mut self, from: &mut F) -> Result<(), F::Error>;
+    fn fill<F: Fill>(&mut self, _from: &mut F) -> Result<(), F::Error> {
+        Ok(())
+    }
 }
 
 /// A type of entry that consists of these keys and words.
@@ -502,14 +506,6 @@ macro_rules! words {
 
             fn blank() -> Self {
                 Self::WORDS[0].1.clone()
-            }
-
-            fn visit<V: $crate::keys::Visit>(&self, _visitor: &mut V) -> Result<(), V::Error> {
-                Ok(())
-            }
-
-            fn fill<F: $crate::keys::Fill>(&mut self, _from: &mut F) -> Result<(), F::Error> {
-                Ok(())
             }
         }
 

@@ -7,7 +7,7 @@ use std::rc::Rc;
 use bevy_math::Mat4;
 use bevy_transform::components::Transform;
 use halfway_asset::Handle;
-use halfway_mesh::{Mesh, Model, NormalReport, Normals, SourceLight, SourceMap, SourceMaterial};
+use halfway_mesh::{Mesh, Model, NormalReport, Normals, SourceMap, SourceMaterial};
 use halfway_texture::{FarNormals, MapKind, SurfaceMap, TexelMeaning, Texture, UvSet};
 
 use crate::error::SceneError;
@@ -126,15 +126,18 @@ impl<'a> Shapes<'a> {
             self.warnings.push(format!("{file}: {} cameras are not used; a scene has its own", model.cameras.len()));
         }
         let maps = self.all_maps(&model, &file.to_string());
-        let mut materials = Vec::with_capacity(model.materials.len());
-        for material in &model.materials {
+        let materials = model.materials.iter().map(|material| {
             let at = format!("{file}: material {:?}", material.name());
-            materials.push(self.material(material, at, index)?);
-        }
-        let mut lights = Vec::with_capacity(model.lights.len());
-        for light in &model.lights {
-            lights.push(place_light(light, &format!("{file}: light {:?}", light.name), index)?);
-        }
+            self.material(material, at, index)
+        });
+        let materials = materials.collect::<Result<Vec<_>, _>>()?;
+        let lights = model.lights.iter().map(|light| {
+            let at = format!("{file}: light {:?}", light.name);
+            let (component, object_from_light) =
+                model_light(light).map_err(|source| SceneError::ModelValue { key: mesh_path(index), at, source })?;
+            Ok(ShapeLight { name: light.name.clone(), light: component, object_from_light })
+        });
+        let lights = lights.collect::<Result<Vec<_>, SceneError>>()?;
         let mut parts = Vec::with_capacity(model.parts.len());
         for part in model.parts {
             let (mesh, report) = part.mesh.with_normals(normals);
@@ -240,13 +243,4 @@ impl<'a> Shapes<'a> {
 
 fn mesh_path(index: usize) -> String {
     format!("objects[{index}].mesh.path")
-}
-
-fn place_light(light: &SourceLight, at: &str, index: usize) -> Result<ShapeLight, SceneError> {
-    let (component, object_from_light) = model_light(light).map_err(|source| SceneError::ModelValue {
-        key: mesh_path(index),
-        at: at.to_owned(),
-        source,
-    })?;
-    Ok(ShapeLight { name: light.name.clone(), light: component, object_from_light })
 }

@@ -188,10 +188,6 @@ fn spawn_object(
             spawn_frame(&Placement::from_matrix(&part.object_from_part), Some(frame), &name, world)
         };
         dress(object, part, mesh, &mut world.entity_mut(entity));
-        if let Some(solid) = &object.solid {
-            // All parts are cut from one.
-            world.entity_mut(entity).insert(solid.for_part(&part.object_from_part));
-        }
         if object.material.is_none() && object.maps.is_none() {
             hang_own_maps(part, textures, entity, world);
         }
@@ -203,9 +199,7 @@ fn spawn_object(
 fn spawn_frame(placement: &Placement, parent: Option<Entity>, name: &str, world: &mut World) -> Entity {
     let mut spawn_at = |transform: Transform, parent: Option<Entity>| {
         let mut entity = world.spawn(transform);
-        if let Some(parent) = parent {
-            entity.insert(ChildOf(parent));
-        }
+        insert_some(&mut entity, parent.map(ChildOf));
         entity.id()
     };
     let outer = spawn_at(placement.outer, parent);
@@ -221,29 +215,23 @@ fn dress(object: &ObjectEntry, part: &ShapePart, mesh: Handle<Mesh>, entity: &mu
     let material = given.or(own.map(|own| own.material)).unwrap_or_default();
     let faces = object.faces.or(own.map(|own| own.faces)).unwrap_or_default();
     entity.insert((Mesh3d(mesh), material, faces));
-    if let Some(back) = object.back_material.as_ref().and_then(MaterialEntry::material) {
-        entity.insert(BackMaterial(back));
-    }
-    if let Some(shading) = object.shading {
-        entity.insert(shading);
-    }
-    if let Some(tolerance) = object.tolerance {
-        entity.insert(tolerance);
-    }
-    if let Some(reflectance) = object.reflectance {
-        entity.insert(reflectance);
-    }
+    insert_some(entity, object.back_material.as_ref().and_then(MaterialEntry::material).map(BackMaterial));
+    insert_some(entity, object.shading);
+    insert_some(entity, object.tolerance);
+    insert_some(entity, object.reflectance);
+    // All parts are cut from one.
+    insert_some(entity, object.solid.as_ref().map(|solid| solid.for_part(&part.object_from_part)));
     // Said only where it is not so anyway.
-    if object.vertex_colors != VertexColors::default() {
-        entity.insert(object.vertex_colors);
-    }
-    if object.blend.unwrap_or_else(|| own.is_some_and(|own| own.blend)) {
-        entity.insert(Blend);
-    }
+    insert_some(entity, Some(object.vertex_colors).filter(|colors| *colors != VertexColors::default()));
+    insert_some(entity, object.blend.unwrap_or_else(|| own.is_some_and(|own| own.blend)).then_some(Blend));
     // What asks for blending does not ask to be cut out.
     let of_model = own.and_then(|own| own.mask).filter(|_| object.blend != Some(true));
-    if let Some(cutoff) = object.mask.or(of_model).filter(|cutoff| *cutoff > 0.0) {
-        entity.insert(Mask(cutoff));
+    insert_some(entity, object.mask.or(of_model).filter(|cutoff| *cutoff > 0.0).map(Mask));
+}
+
+fn insert_some(entity: &mut EntityWorldMut, component: Option<impl Bundle>) {
+    if let Some(component) = component {
+        entity.insert(component);
     }
 }
 
@@ -355,8 +343,6 @@ fn spawn_light(
 ) -> Entity {
     let mut entity = world.spawn((Name::new(name), transform));
     component.insert_into(&mut entity);
-    if let Some(parent) = parent {
-        entity.insert(ChildOf(parent));
-    }
+    insert_some(&mut entity, parent.map(ChildOf));
     entity.id()
 }

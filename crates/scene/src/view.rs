@@ -67,16 +67,12 @@ impl Keys for Shading {
     ];
 
     fn from_word(word: &str) -> Option<Self> {
-        let found = Self::WORDS.iter().find(|(known, ..)| *known == word).map(|(_, shading, _)| *shading);
-        found.or((word == AUTO).then_some(Self::Phong))
+        let word = if word == AUTO { "phong" } else { word };
+        Self::WORDS.iter().find(|(known, ..)| *known == word).map(|(_, shading, _)| *shading)
     }
 
     fn blank() -> Self {
         Self::default()
-    }
-
-    fn visit<V: Visit>(&self, _visitor: &mut V) -> Result<(), V::Error> {
-        Ok(())
     }
 
     fn fill<F: Fill>(&mut self, from: &mut F) -> Result<(), F::Error> {

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::bad_entries::{LIGHTS, OBJECTS};
 use crate::bad_keys::{NOT_JSON, NOT_THE_FORMAT};
 use crate::bad_values::OUT_OF_RANGE;
 use halfway_scene::{LightEntry, LightKind, SceneError, SceneFile};
@@ -9,12 +10,23 @@ use halfway_scene::{LightEntry, LightKind, SceneError, SceneFile};
 /// A scene file, where its error is (line and column), and how the message goes on.
 pub(super) type Bad = (&'static str, (usize, usize), &'static str);
 
+/// The keys of an entry that is the only one of its list, and this list that of a file; the column of the error there,
+/// and how the message goes on after the entry's path.
+pub(super) type BadEntry = (&'static str, usize, &'static str);
+
 #[test]
 fn every_bad_file_is_refused_where_it_is_wrong() {
+    let files = [NOT_JSON, NOT_THE_FORMAT, OUT_OF_RANGE].concat().into_iter();
+    let files = files.map(|(text, place, message)| (text.to_owned(), place, message.to_owned()));
+    let entries = |list: &'static str, entries: &'static [BadEntry]| {
+        entries.iter().map(move |(keys, column, message)| {
+            (format!("{{\"{list}\": [{{{keys}}}]}}"), (1, *column), format!("`{list}[0]{message}"))
+        })
+    };
     let mut wrong = Vec::new();
-    for (text, (line, column), message) in [NOT_JSON, NOT_THE_FORMAT, OUT_OF_RANGE].concat() {
+    for (text, (line, column), message) in files.chain(entries("lights", LIGHTS)).chain(entries("objects", OBJECTS)) {
         let expected = format!("dir/bad.json:{line}:{column}: {message}");
-        match SceneFile::from_json(text, "dir/bad.json") {
+        match SceneFile::from_json(&text, "dir/bad.json") {
             Ok(_) => wrong.push(format!("{text}\n  accepted; expected: {expected}")),
             Err(error) if error.to_string().starts_with(&expected) => {}
             Err(error) => wrong.push(format!("{text}\n  {error}\n  expected: {expected}")),

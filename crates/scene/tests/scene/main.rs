@@ -3,6 +3,7 @@
 #![allow(clippy::float_cmp, reason = "what is read and written has to be exact")]
 
 mod bad;
+mod bad_entries;
 mod bad_keys;
 mod bad_values;
 mod defaults;
