@@ -20,11 +20,6 @@ impl AdapterArgs {
     pub(crate) fn choice(&self) -> AdapterChoice {
         AdapterChoice { name: self.name.clone() }
     }
-
-    /// The arguments that mean the same, for another process.
-    pub(crate) fn arguments(&self) -> Vec<String> {
-        self.name.iter().flat_map(|name| ["--adapter".to_owned(), name.clone()]).collect()
-    }
 }
 
 pub(crate) fn run() -> Result<(), Failure> {

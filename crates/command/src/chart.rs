@@ -21,8 +21,8 @@ use crate::scenery::{Benchmark, BenchmarkScene};
 #[derive(Args, Debug)]
 pub(crate) struct ChartArgs {
     /// What is charted: a scene file, a model, or a scene of the project's by its name (sphere, teapot,
-    /// teapot-by-phong, machine-part, terrain, scan, s3) [default: all of the project's, and with them far lights and
-    /// viewers, lights of short range, and where methods fail]
+    /// teapot-by-phong, scan, s3) [default: all of the project's, and with them far lights and viewers, and where
+    /// methods fail]
     #[arg(value_name = "SCENE|MODEL")]
     inputs: Vec<PathBuf>,
     /// The folder for the page and what belongs to it

@@ -74,8 +74,8 @@ enum Command {
     Bench(bench::BenchArgs),
     /// Chart error against time of every method on a scene, and say what to choose; or of all scenes of the project's
     ///
-    /// Writes a page that opens offline, index.html, and beside it chart.json, tables and drawings. Each file appears
-    /// only when it is complete. An interrupted run goes on where it stopped when it is started again.
+    /// Writes a page that opens offline, index.html, and beside it chart.json and drawings. Each file appears only when
+    /// it is complete.
     Chart(chart::ChartArgs),
     /// List what can draw, graphics adapters and the CPU, the one that is used first
     Adapters,

@@ -22,12 +22,6 @@ impl ToleranceArgs {
     pub(crate) fn given(self) -> Option<Tolerance> {
         self.tolerance
     }
-
-    /// The arguments that mean the same, for another process.
-    pub(crate) fn arguments(self) -> Vec<String> {
-        let text = |Tolerance { steps, pixels }| format!("{steps},{pixels}");
-        self.tolerance.map_or_else(Vec::new, |tolerance| vec!["--tolerance".to_owned(), text(tolerance)])
-    }
 }
 
 /// In a few words.
@@ -70,16 +64,5 @@ mod tests {
         for bad in ["", "on", "-1", "1,-1", "inf", "NaN,1", "1px", "1,", ",1", "1,2,3", "Exact "] {
             assert!(parse(bad).is_err(), "{bad}");
         }
-    }
-
-    #[test]
-    fn another_process_hears_the_same() {
-        for text in ["exact", "0.1", "3,0.25"] {
-            let given = ToleranceArgs { tolerance: parse(text).ok() };
-            let [option, value] = &given.arguments()[..] else { panic!("an option and its value") };
-            assert_eq!((option.as_str(), parse(value).ok()), ("--tolerance", given.given()), "{text}");
-        }
-        let none = ToleranceArgs { tolerance: None };
-        assert_eq!((none.arguments(), none.or(Tolerance::steps(2.0))), (Vec::new(), Tolerance::steps(2.0)));
     }
 }

@@ -1,5 +1,6 @@
 //! `halfway verify`.
 
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -59,26 +60,29 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
     let mut app = App::new();
     app.add_plugins(HalfwayPlugins::headless(size));
     adapter.insert_into(app.world_mut());
-    input.spawn(&mut app)?;
+    set_up(&mut app, &input)?;
     let encoding = input.scene.output;
-    // The frames below are of one moment.
-    app.insert_resource(bevy_time::TimeUpdateStrategy::ManualDuration(std::time::Duration::ZERO));
-    app.finish();
-    app.cleanup();
 
     let progress = Progress::of_tiles(2);
+    let beside_oracle = |app: &mut App, picture: &Picture, index: u32| {
+        let (actual, is_clamped) = match picture {
+            Picture::Byte(image) => (Image::from_bytes(image, encoding), true),
+            Picture::Float(image) => (Image::from_float(image), false),
+        };
+        Drawn::new(app, actual, Some(bits), is_clamped, &|done, of| progress.tile(index, done, of))
+    };
     let max = f64::from(args.max);
     let steps = f64::from(tolerance.steps);
     let bars = Bars { most: max, worst: max, equal: 0.0, ..Bars::bytes(encoding) }.within(steps);
     let picture = draw(&mut app, size, Pixels::Byte)?;
-    let bytes = Drawn::new(&mut app, &picture, (size, bits), encoding, (0, &progress))?;
+    let bytes = beside_oracle(&mut app, &picture, 0)?;
     let of_bytes = bytes.judged(bars)?;
     let float = match draw(&mut app, size, Pixels::Float) {
         // The bytes are judged all the same.
         Err(RenderError::FloatTarget { cannot }) => Err(cannot),
         drawn => {
             let bars = Bars::FLOAT.within(steps);
-            Ok(Drawn::new(&mut app, &drawn?, (size, bits), encoding, (1, &progress))?.judged(bars)?)
+            Ok(beside_oracle(&mut app, &drawn?, 1)?.judged(bars)?)
         }
     };
     drop(progress);
@@ -86,9 +90,7 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
         eprintln!("note: not judged in floating point: of 32-bit floats the adapter cannot {cannot}");
     }
     let float = float.ok();
-    if let Some(file) = &args.output {
-        picture::write(file, difference(&bytes.actual, &bytes.expected, encoding, Scale::default()).map_err(text)?)?;
-    }
+    bytes.write_difference(args, encoding)?;
     if args.json {
         let json = serde_json::json!({
             "device": device,
@@ -120,10 +122,7 @@ fn judge_picture(args: &VerifyArgs, mut input: SceneInput, file: &Path) -> Resul
     input.scene.size = size.to_array();
     let mut app = App::new();
     app.add_plugins(HalfwayPlugins::reference());
-    input.spawn(&mut app)?;
-    app.insert_resource(bevy_time::TimeUpdateStrategy::ManualDuration(std::time::Duration::ZERO));
-    app.finish();
-    app.cleanup();
+    set_up(&mut app, &input)?;
     app.update();
 
     let bars = match Bars::for_decoded(&picture, encoding) {
@@ -131,15 +130,12 @@ fn judge_picture(args: &VerifyArgs, mut input: SceneInput, file: &Path) -> Resul
         bars => bars,
     };
     let progress = Progress::of_tiles(1);
-    let oracle = Oracle::new(app.world_mut(), size)?.with_clamping(bars.are_clamped());
-    let expected =
-        oracle.draw_with(&|done, of| progress.tile(0, done, of)).map_err(|stopped| Failure::new(STOPPED, stopped))?;
-    let drawn = Drawn { oracle, bits: None, actual: Image::from_decoded(&picture, encoding), expected };
+    let actual = Image::from_decoded(&picture, encoding);
+    let told = |done: u32, of: u32| progress.tile(0, done, of);
+    let drawn = Drawn::new(&mut app, actual, None, bars.are_clamped(), &told)?;
     let found = drawn.judged(bars)?;
     drop(progress);
-    if let Some(file) = &args.output {
-        picture::write(file, difference(&drawn.actual, &drawn.expected, encoding, Scale::default()).map_err(text)?)?;
-    }
+    drawn.write_difference(args, encoding)?;
     if args.json {
         let picture = file.display().to_string();
         println!(
@@ -171,12 +167,21 @@ fn verdict(max: u8, bytes: &Verdict, float: Option<&Verdict>) -> Result<(), Fail
     }
 }
 
+/// Puts the scene into the App and finishes its plugins. All frames are of one moment.
+fn set_up(app: &mut App, input: &SceneInput) -> Result<(), Failure> {
+    input.spawn(app)?;
+    app.insert_resource(bevy_time::TimeUpdateStrategy::ManualDuration(std::time::Duration::ZERO));
+    app.finish();
+    app.cleanup();
+    Ok(())
+}
+
 fn draw(app: &mut App, size: UVec2, pixels: Pixels) -> Result<Picture, RenderError> {
     app.insert_resource(Headless { size, pixels });
     render_picture(app)
 }
 
-/// One picture of a scene by the adapter, and by the oracle.
+/// One picture of a scene, and the oracle's.
 struct Drawn {
     oracle: Oracle,
     /// The bits of the adapter's grid within a pixel, where it is an adapter's picture.
@@ -186,22 +191,24 @@ struct Drawn {
 }
 
 impl Drawn {
+    /// Draws what is in the App by the oracle, too. `progress` is told of its tiles.
     fn new(
         app: &mut App,
-        picture: &Picture,
-        (size, bits): (UVec2, u32),
-        encoding: Encoding,
-        (index, progress): (u32, &Progress),
+        actual: Image,
+        bits: Option<u32>,
+        is_clamped: bool,
+        progress: &(dyn Fn(u32, u32) -> ControlFlow<()> + Sync),
     ) -> Result<Self, Failure> {
-        let (actual, is_clamped) = match picture {
-            Picture::Byte(image) => (Image::from_bytes(image, encoding), true),
-            Picture::Float(image) => (Image::from_float(image), false),
-        };
+        let size = UVec2::from(actual.dimensions());
         let oracle = Oracle::new(app.world_mut(), size)?.with_clamping(is_clamped);
-        let expected = oracle
-            .draw_with(&|done, of| progress.tile(index, done, of))
-            .map_err(|stopped| Failure::new(STOPPED, stopped))?;
-        Ok(Self { oracle, bits: Some(bits), actual, expected })
+        let expected = oracle.draw_with(progress).map_err(|stopped| Failure::new(STOPPED, stopped))?;
+        Ok(Self { oracle, bits, actual, expected })
+    }
+
+    /// Draws where the pictures differ, where that is asked for.
+    fn write_difference(&self, args: &VerifyArgs, encoding: Encoding) -> Result<(), Failure> {
+        let Some(file) = &args.output else { return Ok(()) };
+        picture::write(file, difference(&self.actual, &self.expected, encoding, Scale::default()).map_err(text)?)
     }
 
     /// How right it is.

@@ -11,7 +11,7 @@ const ROW: u32 = SIZE.y / 2 - 12;
 
 /// A sphere of 16 meridians and 8 bands, so that a cell is 22.5° wide.
 fn pictures(light: Vec3) -> Result<[Image; 4], ChartError> {
-    four(|world, shading| {
+    four(SIZE, |world, shading| {
         camera(world, Vec3::new(0.0, 0.0, 2.9), Vec3::Y);
         sun(world, light);
         show(world, UvSphere::new(1.0, 16, 8), Material::matte(LinearRgba::gray(0.9)), shading);

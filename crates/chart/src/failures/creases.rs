@@ -7,16 +7,11 @@ use super::prelude::*;
 /// A can with the normals of this policy; without one, those of the surface itself.
 fn can(policy: Option<Normals>) -> Mesh {
     let can = Cylinder { radius: 0.8, height: 1.2, capped: true };
-    let mesh = match can.mesh(Tessellation::Count { rows: 3, columns: 24 }) {
-        Ok(mesh) => mesh,
-        Err(error) => unreachable!("a can of these lengths can be cut: {error}"),
-    };
+    let mesh = sound(can.mesh(Tessellation::Count { rows: 3, columns: 24 }));
     let Some(policy) = policy else { return mesh };
     // As from a file that knows positions only.
-    match mesh.welded(Weld::positions(1e-5)) {
-        Ok((mesh, _)) => mesh.with_normals(policy).0,
-        Err(error) => unreachable!("a can can be welded: {error}"),
-    }
+    let (welded, _) = sound(mesh.welded(Weld::positions(1e-5)));
+    welded.with_normals(policy).0
 }
 
 fn picture(policy: Option<Normals>) -> Result<Image, ChartError> {
@@ -43,7 +38,8 @@ fn column(image: &Image) -> Vec<(f64, f64)> {
 
 pub(super) fn page() -> Result<FailurePage, ChartError> {
     let [mean, creased, own] = &pictures()?;
-    let lines = [("mean normals", 1, mean), ("creased at 40°", 2, creased), ("the surface’s own", 3, own)];
+    let seen = [("mean normals", mean), ("creased at 40°", creased), ("the surface’s own", own)];
+    let lines = (1..).zip(seen).map(|(kind, (name, image))| series(name, kind, &column(image), false));
     Ok(FailurePage {
         id: "creases",
         title: "Mean normals round off what is sharp",
@@ -56,12 +52,9 @@ pub(super) fn page() -> Result<FailurePage, ChartError> {
             "creases",
             "Intensity down the middle of a can, Phong shading",
             [Axis::linear("pixel"), Axis::linear("intensity (linear)")],
-            Panel::new(
-                "middle column",
-                lines.map(|(name, kind, image)| series(name, kind, &column(image), false)).into(),
-            ),
+            Panel::new("middle column", lines.collect()),
         )],
-        pictures: shown([("mean normals", mean), ("creased at 40°", creased), ("the surface’s own", own)]),
+        pictures: shown(seen),
     })
 }
 

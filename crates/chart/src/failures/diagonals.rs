@@ -29,11 +29,9 @@ fn pictures() -> Result<[Image; 4], ChartError> {
 
 pub(super) fn page() -> Result<FailurePage, ChartError> {
     let [rising, falling, phong, _] = &pictures()?;
-    let lines = [
-        ("Gouraud, rising diagonal", 0, rising),
-        ("Gouraud, falling diagonal", 1, falling),
-        ("Phong, either", 3, phong),
-    ];
+    let seen = [("Gouraud, rising diagonal", rising), ("Gouraud, falling diagonal", falling), ("Phong, either", phong)];
+    let lines = [0, 1, 3].into_iter().zip(seen);
+    let lines = lines.map(|(kind, (name, image))| series(name, kind, &row(image, SIZE.y / 2), false));
     Ok(FailurePage {
         id: "diagonals",
         title: "The diagonal of a quad is seen",
@@ -45,16 +43,9 @@ pub(super) fn page() -> Result<FailurePage, ChartError> {
             "diagonals",
             "Intensity along the middle row of a square with a light near one corner",
             [Axis::linear("pixel"), Axis::linear("intensity (linear)")],
-            Panel::new(
-                "middle row",
-                lines.map(|(name, kind, image)| series(name, kind, &row(image, SIZE.y / 2), false)).into(),
-            ),
+            Panel::new("middle row", lines.collect()),
         )],
-        pictures: shown([
-            ("Gouraud, rising diagonal", rising),
-            ("Gouraud, falling diagonal", falling),
-            ("Phong, either", phong),
-        ]),
+        pictures: shown(seen),
     })
 }
 

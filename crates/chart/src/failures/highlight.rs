@@ -10,7 +10,7 @@ const LEVELS: [u32; 3] = [8, 16, 32];
 /// The highlight of a sphere of N bands, under flat, Gouraud and Phong shading, and of the true sphere; it lies in the
 /// middle of a cell.
 fn pictures(level: u32, shininess: f32) -> Result<[Image; 4], ChartError> {
-    four(|world, shading| {
+    four(SIZE, |world, shading| {
         camera(world, Vec3::new(0.0, 0.0, 2.9), Vec3::Y);
         // Halfway between two meridians and two parallels, whatever the level: towards the viewer, and by half a cell
         // off.
@@ -39,7 +39,7 @@ fn moving(frames: u32, size: u32) -> Result<[Vec<f64>; 4], ChartError> {
             sun(world, Vec3::new(-1.0, 0.2, 1.0).lerp(Vec3::new(1.0, 0.8, 1.0), t));
             show(world, UvSphere::new(1.0, 16, 8), shine(32.0), shading);
         };
-        let pictures = four_at(UVec2::splat(size), spawn)?;
+        let pictures = four(UVec2::splat(size), spawn)?;
         energies.iter_mut().zip(&pictures).for_each(|(energies, picture)| energies.push(light(picture)));
     }
     Ok(energies)

@@ -1,4 +1,4 @@
-//! What the pages have in common: scenes, drawn by the oracle and by adapters, and how they are plotted.
+//! The common parts of the pages: scenes, drawn by the oracle and by adapters, and how they are plotted.
 
 use bevy_ecs::query::QueryFilter;
 use halfway::reference::Oracle;
@@ -15,6 +15,7 @@ pub(super) use crate::error::ChartError;
 pub(super) use crate::figure::{Axis, Figure, Panel};
 use crate::figure::{Marker, Point, Series, Stroke, Style, colors};
 pub(super) use crate::front::ChartedAdapter;
+pub(super) use crate::front::scenes::sound;
 
 /// Width and height of the pictures.
 pub(super) const SIZE: UVec2 = UVec2::splat(256);
@@ -72,10 +73,7 @@ pub(super) fn show(world: &mut World, mesh: impl Into<Mesh>, material: Material,
 
 /// A mesh whose numbers this crate has made up itself.
 pub(super) fn made(positions: Vec<Vec3>, normals: Option<Vec<Vec3>>, indices: Vec<u32>) -> Mesh {
-    match Mesh::from_parts(positions, normals, None, indices) {
-        Ok(mesh) => mesh,
-        Err(error) => unreachable!("our own numbers are those of a mesh: {error}"),
-    }
+    sound(Mesh::from_parts(positions, normals, None, indices))
 }
 
 /// The square from −1 to 1 in the plane z = 0, facing +z, of N cells; each is split from lower left to upper right.
@@ -98,12 +96,7 @@ pub(super) fn shine(shininess: f32) -> Material {
 }
 
 /// The three shadings and the truth of one scene, in this order.
-pub(super) fn four(spawn: impl Fn(&mut World, Shading)) -> Result<[Image; 4], ChartError> {
-    four_at(SIZE, spawn)
-}
-
-/// The same in another size.
-pub(super) fn four_at(size: UVec2, spawn: impl Fn(&mut World, Shading)) -> Result<[Image; 4], ChartError> {
+pub(super) fn four(size: UVec2, spawn: impl Fn(&mut World, Shading)) -> Result<[Image; 4], ChartError> {
     let [flat, gouraud, phong] = SHADINGS.map(|shading| drawn_at(size, Mode::Mesh, |world| spawn(world, shading)));
     Ok([flat?, gouraud?, phong?, drawn_at(size, Mode::Surface, |world| spawn(world, Shading::Phong))?])
 }

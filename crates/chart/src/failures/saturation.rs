@@ -15,18 +15,18 @@ const SMOOTHLY: (&str, Intensity) = ("renormalise, smoothing 0.9", Intensity::Re
 
 /// An orange light, three times too bright for the sphere, before a grey background.
 fn spawn(world: &mut World, intensity: Intensity) {
-    camera(world, Vec3::new(0.0, 0.0, 2.9), Vec3::Y);
-    world.query::<&mut Camera>().iter_mut(world).for_each(|mut camera| {
-        camera.intensity = intensity;
-        camera.background = LinearRgba::gray(GREY);
-    });
+    camera_of(world, intensity);
     let light = DirectionalLight::from_color(LinearRgba::rgb(3.0, 1.5, 0.6));
     world.spawn((light, Transform::default().looking_to(-Vec3::new(0.5, 0.2, 1.0), Vec3::Y)));
     let surface = Material { specular: LinearRgba::gray(0.5), ..Material::matte(LinearRgba::gray(0.9)) };
     show(world, UvSphere::new(1.0, 64, 32), surface, Shading::Phong);
 }
 
-const GREY: f32 = 0.25;
+/// A camera of this policy before a grey background.
+fn camera_of(world: &mut World, intensity: Intensity) {
+    let camera = Camera { intensity, background: LinearRgba::gray(0.25), ..Camera::default() };
+    world.spawn((camera, Transform::from_xyz(0.0, 0.0, 2.9).looking_at(Vec3::ZERO, Vec3::Y)));
+}
 
 /// As a picture of 0 to 1 holds it.
 fn clamped(image: &Image) -> Image {
@@ -72,11 +72,7 @@ const FRAMES: u32 = 60;
 /// How the grey background is shown while a small lamp flies by a wall of facets, each of which flashes once.
 fn flicker(policy: Intensity) -> Result<Vec<(f64, f64)>, ChartError> {
     let mut app = set_up(|world| {
-        camera(world, Vec3::new(0.0, 0.0, 2.9), Vec3::Y);
-        world.query::<&mut Camera>().iter_mut(world).for_each(|mut camera| {
-            camera.intensity = policy;
-            camera.background = LinearRgba::gray(GREY);
-        });
+        camera_of(world, policy);
         world.spawn((
             PointLight { attenuation: Attenuation::INVERSE_SQUARE, ..PointLight::white() },
             Transform::default(),

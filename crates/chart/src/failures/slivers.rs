@@ -60,10 +60,7 @@ fn lantern_picture(bands: u32, shading: Shading) -> Result<Image, ChartError> {
 
 fn cylinder() -> Result<Image, ChartError> {
     let cylinder = Cylinder { radius: 1.0, height: HEIGHT as f32, capped: false };
-    let mesh = match cylinder.mesh(Tessellation::Count { rows: 1, columns: 64 }) {
-        Ok(mesh) => mesh,
-        Err(error) => unreachable!("a cylinder of these lengths can be cut: {error}"),
-    };
+    let mesh = sound(cylinder.mesh(Tessellation::Count { rows: 1, columns: 64 }));
     drawn(Mode::Surface, |world| column(world, mesh, Shading::Phong))
 }
 

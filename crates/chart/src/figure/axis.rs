@@ -110,9 +110,8 @@ fn log_ticks(low: f64, high: f64) -> Vec<Tick> {
             .collect()
     };
     let choices = MANTISSAS.map(ticks);
-    let enough = choices.iter().position(|ticks| ticks.len() >= 3).unwrap_or(choices.len() - 1);
-    let [.., last] = &choices;
-    choices.get(enough).unwrap_or(last).clone()
+    let [.., most] = &choices;
+    choices.iter().find(|ticks| ticks.len() >= 3).unwrap_or(most).clone()
 }
 
 /// mantissa·10^exponent: plain from 0.001 to 10,000, else with an exponent.

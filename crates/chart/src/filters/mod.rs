@@ -6,7 +6,6 @@ mod sweep;
 
 use halfway::texture::{LevelFilter, Sampling, TexelFilter};
 
-use crate::pareto;
 use crate::timing::Spread;
 
 pub use pages::Filters;
@@ -110,12 +109,4 @@ pub struct MeasuredFilters {
     pub truth: String,
     /// For each of [`FILTERS`].
     pub figures: Vec<FilterFigures>,
-}
-
-impl MeasuredFilters {
-    /// The places in [`FILTERS`] of the Pareto front of time and the error that `error` tells, the fastest first.
-    pub fn front(&self, error: impl Fn(&FilterFigures) -> f64) -> Vec<usize> {
-        let places: Vec<_> = self.figures.iter().map(|found| (found.ratio.median, error(found))).collect();
-        pareto::front(&places)
-    }
 }

@@ -60,12 +60,6 @@ pub struct ChartedScene {
     pub build: BuildScene,
 }
 
-impl std::fmt::Debug for ChartedScene {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("ChartedScene").field("name", &self.name).field("details", &self.details).finish_non_exhaustive()
-    }
-}
-
 impl ChartedScene {
     /// A scene of surfaces that are known by formula, in square pictures, all of it made at once by `spawn`.
     pub fn of_surfaces(

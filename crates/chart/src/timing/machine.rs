@@ -1,9 +1,10 @@
 //! What was measured on.
 
 use halfway::render::{Adapter, Cpu};
+use serde::Serialize;
 
 /// The machine and the programs that figures come from. What cannot be found out is `unknown`.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Machine {
     /// The adapter's name, as its driver tells it; of the CPU without a driver its vectors.
     pub adapter: String,

@@ -126,8 +126,9 @@ fn chart_json_has_every_point_by_its_keys() {
     }
     for (scene, _) in POINTS {
         let place = |point: &serde_json::Value| {
-            ["/ratio/median", "/covered/steps/rms"]
-                .map(|key| point.pointer(key).and_then(serde_json::Value::as_f64).unwrap())
+            ["/ratio/median", "/covered/steps/rms"].map(|key| {
+                point.pointer(key).and_then(serde_json::Value::as_f64).expect("times and errors are numbers")
+            })
         };
         let here = || points.iter().filter(|point| point["scene"] == scene);
         let front: Vec<_> = here().filter(|point| point["front"] == true).map(place).collect();

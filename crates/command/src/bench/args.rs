@@ -1,14 +1,14 @@
 //! What `halfway bench` can be asked.
 
-use std::ffi::{OsStr, OsString};
+use std::ffi::OsString;
 use std::path::PathBuf;
 
-use clap::builder::{OsStringValueParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use halfway::prelude::*;
 use halfway_chart::timing::TimedLook;
 
 use crate::adapters::AdapterArgs;
+use crate::failure::Failure;
 use crate::look::SizeArgs;
 use crate::scenery::BenchmarkScene;
 use crate::tolerance::ToleranceArgs;
@@ -27,8 +27,7 @@ pub(crate) struct BenchArgs {
     /// features: what each feature of lighting costs once a vertex and once a pixel, beside one directional light;
     /// lights: what a light costs the CPU for each patch that it touches, and one of 20,000 that touches nothing
     #[arg(value_name = "s1|s1x16|s2|s3|s4|s5|s6|features|lights|SCENE|MODEL", verbatim_doc_comment)]
-    #[arg(value_parser = OsStringValueParser::new().map(|text| Subject::named(&text)))]
-    pub(super) subject: Subject,
+    pub(super) subject: OsString,
     #[command(flatten)]
     pub(super) size: SizeArgs,
     #[command(flatten)]
@@ -54,7 +53,6 @@ pub(crate) struct BenchArgs {
 }
 
 /// What is timed.
-#[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Subject {
     Scene(BenchmarkScene),
     Features,
@@ -63,30 +61,25 @@ pub(super) enum Subject {
     File(PathBuf),
 }
 
-impl Subject {
-    fn named(text: &OsStr) -> Self {
-        match text.to_str() {
-            Some("s1") => Self::Scene(BenchmarkScene::S1),
-            Some("s1x16") => Self::Scene(BenchmarkScene::S1x16),
-            Some("s2") => Self::Scene(BenchmarkScene::S2),
-            Some("s3") => Self::Scene(BenchmarkScene::S3),
-            Some("s4") => Self::Scene(BenchmarkScene::S4),
-            Some("s5") => Self::Scene(BenchmarkScene::S5),
-            Some("s6") => Self::Scene(BenchmarkScene::S6),
-            Some("features") => Self::Features,
-            Some("lights") => Self::Lights,
-            _ => Self::File(text.into()),
+impl BenchArgs {
+    pub(super) fn subject(&self) -> Subject {
+        match self.subject.to_str().unwrap_or_default() {
+            "features" => Subject::Features,
+            "lights" => Subject::Lights,
+            name => match BenchmarkScene::from_str(name, false) {
+                Ok(scene) => Subject::Scene(scene),
+                Err(_) => Subject::File(PathBuf::from(&self.subject)),
+            },
         }
     }
 
-    /// The argument that means it.
-    pub(super) fn argument(&self) -> OsString {
-        match self {
-            Self::Scene(scene) => format!("{scene:?}").to_lowercase().into(),
-            Self::Features => "features".into(),
-            Self::Lights => "lights".into(),
-            Self::File(file) => file.into(),
+    /// Refuses the options that are about a scene.
+    pub(super) fn expect_no_scene(&self, subject: &str) -> Result<(), Failure> {
+        let about_scenes = self.size.size.is_some() || self.octahedra || self.tolerance.given().is_some();
+        if about_scenes || self.cold || self.once.is_some() {
+            return Err(format!("bench {subject}: expected no option but --adapter, --rounds and --json").into());
         }
+        Ok(())
     }
 }
 
@@ -103,18 +96,8 @@ pub(crate) enum BenchShading {
 }
 
 impl BenchShading {
-    pub(super) const ALL: [Self; 5] = [Self::Constant, Self::Flat, Self::Gouraud, Self::Phong, Self::ExactPhong];
-    /// The number of the last.
-    pub(super) const EXACT: usize = 4;
-
-    pub(super) fn name(self) -> &'static str {
-        match self {
-            Self::Constant => "constant",
-            Self::Flat => "flat",
-            Self::Gouraud => "gouraud",
-            Self::Phong => "phong",
-            Self::ExactPhong => "exact-phong",
-        }
+    pub(super) fn name(self) -> String {
+        self.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default()
     }
 
     /// Within which tolerance it is drawn, where `said` is that of the command line.

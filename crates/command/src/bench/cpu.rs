@@ -4,10 +4,10 @@ use std::time::Duration;
 
 use halfway::prelude::*;
 use halfway::render::{FrameTimes, RenderError, SetTimes};
-use halfway_chart::timing::{in_turns_with, median};
+use halfway_chart::timing::{in_turns_with, median, settle};
 use serde_json::{Map, Value, json};
 
-/// What [`CpuTimes::own_ms`] is, for readers.
+/// Tells readers of [`CpuTimes::own_ms`].
 pub(super) const OWN_TIME: &str = "Own CPU is the renderer's own part of it, a median, too: every set of a frame but \
                                    Draw, which hands the work to the adapter; a software adapter may draw in there.";
 
@@ -15,10 +15,11 @@ pub(super) const OWN_TIME: &str = "Own CPU is the renderer's own part of it, a m
 #[derive(Clone, Debug, Default)]
 pub(super) struct CpuTimes(Vec<SetTimes>);
 
-/// As [`halfway_chart::timing::in_turns`], with what the CPU took in the same frames.
-pub(super) fn timed(apps: &mut [&mut App], rounds: u32) -> Result<Vec<(Vec<f64>, CpuTimes)>, RenderError> {
+/// Lets the Apps settle and times them in turns, with what the CPU took in the same frames.
+pub(super) fn timed(apps: &mut [App], rounds: u32) -> Result<Vec<(Vec<f64>, CpuTimes)>, RenderError> {
+    apps.iter_mut().try_for_each(settle)?;
     let mut cpu = vec![CpuTimes::default(); apps.len()];
-    let times = in_turns_with(apps, rounds, |i, app| {
+    let times = in_turns_with(&mut apps.iter_mut().collect::<Vec<_>>(), rounds, |i, app| {
         cpu[i].0.extend(app.world().get_resource::<FrameTimes>().map(FrameTimes::newest));
     })?;
     Ok(times.into_iter().zip(cpu).collect())
@@ -32,7 +33,7 @@ impl CpuTimes {
         sets.into_iter().chain([total]).collect::<Map<_, _>>().into()
     }
 
-    /// What the renderer takes itself: without the set that submits, which a software adapter may use to draw.
+    /// The renderer's own part: without the set that submits, which a software adapter may use to draw.
     pub(super) fn own_ms(&self) -> f64 {
         median(&self.own_of_each_ms())
     }

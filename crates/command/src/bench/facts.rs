@@ -1,4 +1,4 @@
-//! Figures of a benchmark as JSON, and the machine they come from.
+//! Figures of a benchmark as JSON, and the machine they come from in words.
 
 use halfway::prelude::*;
 use halfway_chart::timing::{Machine, Spread};
@@ -16,7 +16,7 @@ pub(super) fn spread(it: &Spread) -> Value {
     })
 }
 
-/// What a frame counted, by the names in [`FrameReport`].
+/// The counts of a frame, by the names in [`FrameReport`].
 pub(super) fn counters(report: &FrameReport) -> Value {
     json!({
         "objects": report.objects,
@@ -34,19 +34,6 @@ pub(super) fn counters(report: &FrameReport) -> Value {
         "bytes_uploaded": report.bytes_uploaded,
         "pipelines": report.pipelines,
         "left_out": report.left_out,
-    })
-}
-
-pub(super) fn machine(it: &Machine) -> Value {
-    json!({
-        "adapter": it.adapter,
-        "backend": it.backend,
-        "software": it.software,
-        "driver": it.driver,
-        "driver_version": it.driver_version,
-        "halfway": it.halfway,
-        "cpu": it.cpu,
-        "cores": it.cores,
     })
 }
 

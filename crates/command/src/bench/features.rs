@@ -2,63 +2,54 @@
 
 use halfway::prelude::*;
 use halfway::render::Adapter;
-use halfway_chart::timing::{FRAME_TIME, Machine, Spread, median, median_ratio, settle};
+use halfway_chart::timing::{FRAME_TIME, Machine, Spread, median, median_ratio};
 use serde_json::json;
 
 use super::app::finish;
 use super::args::BenchArgs;
 use super::cpu::{self, CpuTimes};
-use super::facts::{counters, machine, print_facts, spread};
+use super::facts::{counters, print_facts, spread};
 use crate::failure::Failure;
-use crate::scenery::features::{Feature, FeatureStage};
+use crate::scenery::features::{Feature, FeatureScene, FeatureStage};
 
-/// What one stage costs under one feature.
+/// The cost of one stage under one feature.
 struct Cost {
     frame: Spread,
     /// To the baseline.
     ratio: f64,
-    /// What a light costs at a vertex or pixel, where that can be said.
+    /// The cost of a light at a vertex or pixel, where that can be said.
     per_light_ns: Option<f64>,
     cpu: CpuTimes,
     report: FrameReport,
 }
 
 pub(super) fn run(args: &BenchArgs) -> Result<(), Failure> {
-    if args.size.size.is_some()
-        || args.octahedra
-        || args.tolerance.given().is_some()
-        || args.cold
-        || args.once.is_some()
-    {
-        return Err("bench features: expected no option but --adapter, --rounds and --json".to_owned().into());
-    }
+    args.expect_no_scene("features")?;
     let features = Feature::all();
     // One for all, so that two dozen of them need not share the machine.
     let adapter = args.adapter.choice().open()?;
-    let [vertex, fragment] = FeatureStage::ALL.map(|stage| measure(&features, stage, &adapter, args.rounds));
+    let stages = [FeatureStage::vertex(), FeatureStage::fragment()];
+    let [vertex, fragment] = stages.each_ref().map(|stage| measure(&features, stage, &adapter, args.rounds));
     let (vertex, fragment) = (vertex?, fragment?);
     let machine = Machine::new(&adapter);
     let rows: Vec<_> = features.iter().zip(vertex.iter().zip(&fragment)).collect();
     if args.json {
-        print_json(args, &machine, &rows);
+        print_json(args, &machine, &stages, &rows);
     } else {
-        print_table(args, &machine, &rows);
+        print_table(args, &machine, &stages, &rows);
     }
     Ok(())
 }
 
 /// Every feature at one stage, all in turns.
-fn measure(features: &[Feature], stage: FeatureStage, adapter: &Adapter, rounds: u32) -> Result<Vec<Cost>, Failure> {
+fn measure(features: &[Feature], stage: &FeatureStage, adapter: &Adapter, rounds: u32) -> Result<Vec<Cost>, Failure> {
     let mut apps: Vec<App> = features.iter().map(|feature| app(*feature, stage, adapter)).collect();
-    for app in &mut apps {
-        settle(app)?;
-    }
-    let timed = cpu::timed(&mut apps.iter_mut().collect::<Vec<_>>(), rounds)?;
+    let timed = cpu::timed(&mut apps, rounds)?;
     let (times, cpu): (Vec<_>, Vec<_>) = timed.into_iter().unzip();
     let baseline = features.iter().position(|feature| *feature == Feature::BASELINE).unwrap_or(0);
     let unlit = features.iter().position(|feature| feature.lights.count() == 0);
     let costs = features.iter().zip(&apps).zip(times.iter().zip(cpu)).map(|((feature, app), (own, cpu))| {
-        let evaluations = f64::from(feature.lights.count()) * f64::from(stage.evaluations());
+        let evaluations = f64::from(feature.lights.count()) * f64::from(stage.evaluations);
         let unlit = unlit.filter(|_| feature.is_about_lights());
         // Within a round, as ratios are.
         let more = unlit.map(|unlit| own.iter().zip(&times[unlit]).map(|(a, b)| a - b).collect::<Vec<_>>());
@@ -73,26 +64,25 @@ fn measure(features: &[Feature], stage: FeatureStage, adapter: &Adapter, rounds:
     Ok(costs.collect())
 }
 
-fn app(feature: Feature, stage: FeatureStage, adapter: &Adapter) -> App {
+fn app(feature: Feature, stage: &FeatureStage, adapter: &Adapter) -> App {
     let mut app = App::new();
     adapter.clone().insert_into(app.world_mut());
-    app.add_plugins((HalfwayPlugins::headless(stage.size()), feature.at(stage)));
+    app.add_plugins((HalfwayPlugins::headless(stage.size), FeatureScene { feature, stage: stage.clone() }));
     finish(&mut app);
     app
 }
 
 type Row<'a> = (&'a Feature, (&'a Cost, &'a Cost));
 
-fn print_table(args: &BenchArgs, machine: &Machine, rows: &[Row<'_>]) {
+fn print_table(args: &BenchArgs, machine: &Machine, stages: &[FeatureStage; 2], rows: &[Row<'_>]) {
     println!("the cost of features, {} rounds", args.rounds);
     print_facts(machine);
     println!("\n{FRAME_TIME}\nMedians; × is to the baseline, the median of the ratios within a round.");
     if let Some((_, (vertex, fragment))) = rows.first() {
-        for (what, stage, cost) in
-            [("vertex: Gouraud", FeatureStage::Vertex, vertex), ("pixel: Phong", FeatureStage::Fragment, fragment)]
-        {
-            let UVec2 { x, y } = stage.size();
-            let (triangles, count) = (cost.report.triangles, stage.evaluations());
+        let named = [("vertex: Gouraud", vertex), ("pixel: Phong", fragment)];
+        for ((what, cost), stage) in named.into_iter().zip(stages) {
+            let UVec2 { x, y } = stage.size;
+            let (triangles, count) = (cost.report.triangles, stage.evaluations);
             println!(
                 "Once a {what} shading, {triangles} triangles on {x} × {y} pixels, each light {count} times a frame."
             );
@@ -110,7 +100,7 @@ fn print_table(args: &BenchArgs, machine: &Machine, rows: &[Row<'_>]) {
     }
 }
 
-fn print_json(args: &BenchArgs, machine: &Machine, rows: &[Row<'_>]) {
+fn print_json(args: &BenchArgs, machine: &Machine, stages: &[FeatureStage; 2], rows: &[Row<'_>]) {
     let cost = |it: &Cost| {
         json!({
             "frame_ms": it.frame.median,
@@ -132,14 +122,16 @@ fn print_json(args: &BenchArgs, machine: &Machine, rows: &[Row<'_>]) {
             })
         })
         .collect();
-    let stage = |stage: FeatureStage| json!({ "size": stage.size().to_array(), "evaluations": stage.evaluations() });
+    let [vertex, fragment] = stages
+        .each_ref()
+        .map(|FeatureStage { size, evaluations, .. }| json!({ "size": size.to_array(), "evaluations": evaluations }));
     println!(
         "{}",
         json!({
             "rounds": args.rounds,
-            "machine": self::machine(machine),
+            "machine": machine,
             "frame": FRAME_TIME,
-            "stages": { "vertex": stage(FeatureStage::Vertex), "fragment": stage(FeatureStage::Fragment) },
+            "stages": { "vertex": vertex, "fragment": fragment },
             "rows": rows,
         })
     );

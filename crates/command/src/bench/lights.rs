@@ -2,13 +2,13 @@
 //! nothing.
 
 use halfway::prelude::*;
-use halfway_chart::timing::{Machine, median, settle};
+use halfway_chart::timing::{Machine, median};
 use serde_json::json;
 
 use super::app::finish;
 use super::args::BenchArgs;
 use super::cpu::{self, OWN_TIME};
-use super::facts::{counters, machine, print_facts};
+use super::facts::{counters, print_facts};
 use crate::failure::Failure;
 use crate::scenery::many_lights::{ManyLights, SIZE};
 
@@ -20,14 +20,7 @@ const ROWS: [ManyLights; 3] = [
 ];
 
 pub(super) fn run(args: &BenchArgs) -> Result<(), Failure> {
-    if args.size.size.is_some()
-        || args.octahedra
-        || args.tolerance.given().is_some()
-        || args.cold
-        || args.once.is_some()
-    {
-        return Err("bench lights: expected no option but --adapter, --rounds and --json".to_owned().into());
-    }
+    args.expect_no_scene("lights")?;
     let adapter = args.adapter.choice().open()?;
     let mut apps = ROWS.map(|scene| {
         let mut app = App::new();
@@ -36,10 +29,7 @@ pub(super) fn run(args: &BenchArgs) -> Result<(), Failure> {
         finish(&mut app);
         app
     });
-    for app in &mut apps {
-        settle(app)?;
-    }
-    let timed = cpu::timed(&mut apps.iter_mut().collect::<Vec<_>>(), args.rounds)?;
+    let timed = cpu::timed(&mut apps, args.rounds)?;
     let own: Vec<Vec<f64>> = timed.iter().map(|(_, cpu)| cpu.own_of_each_ms()).collect();
     let reports = apps.each_ref().map(|app| app.world().resource::<FrameReport>().clone());
     let [_, few, many] = &reports;
@@ -59,7 +49,7 @@ pub(super) fn run(args: &BenchArgs) -> Result<(), Failure> {
             "{}",
             json!({
                 "rounds": args.rounds,
-                "machine": self::machine(&machine),
+                "machine": machine,
                 "pair_ns": per_pair,
                 "light_ns": per_light,
                 "rows": rows,

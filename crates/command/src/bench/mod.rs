@@ -19,16 +19,16 @@ use app::Timed;
 use args::Subject;
 
 pub(crate) fn run(args: &BenchArgs) -> Result<(), Failure> {
-    let timed = match &args.subject {
+    let timed = match args.subject() {
         Subject::Features => return features::run(args),
         Subject::Lights => return lights::run(args),
         Subject::Scene(BenchmarkScene::S2) => Timed::Made(BenchmarkScene::S2),
         _ if args.octahedra => {
             return Err("--octahedra: expected the subject s2, whose spheres it makes coarse".to_owned().into());
         }
-        Subject::Scene(scene) => Timed::Made(*scene),
+        Subject::Scene(scene) => Timed::Made(scene),
         Subject::File(file) => {
-            let mut input = SceneInput::open(file)?;
+            let mut input = SceneInput::open(&file)?;
             input.resize(args.size);
             Timed::Read(Box::new(input))
         }

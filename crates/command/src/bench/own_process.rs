@@ -1,4 +1,5 @@
-//! What only a process of its own can tell: the time from its start to the first finished frame, and its memory.
+//! Two figures that only a process of its own can tell: the time from its start to the first finished frame, and its
+//! memory.
 
 use std::process::Command;
 use std::time::{SystemTime, UNIX_EPOCH};
@@ -32,13 +33,13 @@ pub(super) fn once(args: &BenchArgs, timed: &Timed, mode: BenchShading) -> Resul
 }
 
 /// From outside: the first frame with the shaders that the driver has kept on disk, or `cold`, without.
-pub(super) fn first_frame(args: &BenchArgs, mode: BenchShading, cold: bool) -> Result<FirstFrame, Failure> {
+pub(super) fn first_frame(mode: BenchShading, cold: bool) -> Result<FirstFrame, Failure> {
     let failed = |error: std::io::Error| Failure::new(1, error);
     let program = std::env::current_exe().map_err(failed)?;
     let mut measured = Vec::new();
     for _ in 0..PROCESSES {
         let start = now_ms();
-        let output = command(&program, args, mode, cold).output().map_err(failed)?;
+        let output = command(&program, mode, cold).output().map_err(failed)?;
         let text = String::from_utf8_lossy(&output.stdout).into_owned();
         let mut numbers = text.split_whitespace().map(str::parse::<f64>);
         let (Some(Ok(finished)), Some(Ok(kb))) = (numbers.next(), numbers.next()) else {
@@ -50,16 +51,10 @@ pub(super) fn first_frame(args: &BenchArgs, mode: BenchShading, cold: bool) -> R
     Ok(measured[PROCESSES / 2])
 }
 
-fn command(program: &std::path::Path, args: &BenchArgs, mode: BenchShading, cold: bool) -> Command {
+/// This process's own command line, for a single frame.
+fn command(program: &std::path::Path, mode: BenchShading, cold: bool) -> Command {
     let mut command = Command::new(program);
-    command.arg("bench").arg(args.subject.argument()).args(["--once", mode.name()]);
-    if let Some(size) = args.size.size {
-        command.args(["--size", &format!("{}x{}", size.x, size.y)]);
-    }
-    if args.octahedra {
-        command.arg("--octahedra");
-    }
-    command.args(args.tolerance.arguments()).args(args.adapter.arguments());
+    command.args(["bench", "--once", &mode.name()]).args(std::env::args_os().skip(2));
     if cold {
         // Mesa's drivers compile anew then; others keep no such files, or do not let them be left aside.
         command.env("MESA_SHADER_CACHE_DISABLE", "true");

@@ -1,19 +1,20 @@
-//! `halfway bench s1` to `s4`: the table of one scene.
+//! `halfway bench s1` and the like: the table of one scene.
 
+use clap::ValueEnum;
 use halfway::prelude::*;
 use halfway::render::{Adapter, RenderError};
-use halfway_chart::timing::{FRAME_TIME, Machine, Spread, median_ratio, settle};
+use halfway_chart::timing::{FRAME_TIME, Machine, Spread, median_ratio};
 use serde_json::json;
 
 use super::app::Timed;
 use super::args::{BenchArgs, BenchShading};
 use super::cpu::{self, CpuTimes, OWN_TIME};
-use super::facts::{counters, machine, print_facts, spread};
+use super::facts::{counters, print_facts, spread};
 use super::own_process::{FirstFrame, first_frame};
 use crate::failure::Failure;
 use crate::tolerance;
 
-/// What was measured of one shading.
+/// The measurements of one shading.
 struct Row {
     mode: BenchShading,
     frame: Spread,
@@ -26,26 +27,24 @@ struct Row {
 }
 
 pub(super) fn run(args: &BenchArgs, timed: &Timed) -> Result<(), Failure> {
-    let apps: Result<Vec<App>, Failure> = BenchShading::ALL.iter().map(|mode| timed.app(args, *mode)).collect();
+    let modes = BenchShading::value_variants();
+    let apps: Result<Vec<App>, Failure> = modes.iter().map(|mode| timed.app(args, *mode)).collect();
     let mut apps = apps?;
-    for app in &mut apps {
-        settle(app)?;
-    }
-    let times = cpu::timed(&mut apps.iter_mut().collect::<Vec<_>>(), args.rounds)?;
+    let times = cpu::timed(&mut apps, args.rounds)?;
     let adapter = Adapter::of(apps[0].world()).ok_or(RenderError::NoAdapter)?;
     let machine = Machine::new(&adapter);
     let reports = apps.iter().map(|app| app.world().resource::<FrameReport>().clone());
     let mut rows = Vec::new();
-    for ((mode, report), (own, cpu)) in BenchShading::ALL.into_iter().zip(reports).zip(&times) {
+    for ((&mode, report), (own, cpu)) in modes.iter().zip(reports).zip(&times) {
         rows.push(Row {
             mode,
             frame: Spread::of(own),
             to_constant: median_ratio(own, &times[0].0),
-            to_exact: median_ratio(own, &times[BenchShading::EXACT].0),
+            to_exact: median_ratio(own, &times[BenchShading::ExactPhong as usize].0),
             cpu: cpu.clone(),
             report,
-            warm: first_frame(args, mode, false)?,
-            cold: args.cold.then(|| first_frame(args, mode, true)).transpose()?,
+            warm: first_frame(mode, false)?,
+            cold: args.cold.then(|| first_frame(mode, true)).transpose()?,
         });
     }
     if args.json {
@@ -114,7 +113,7 @@ fn print_json(args: &BenchArgs, timed: &Timed, machine: &Machine, rows: &[Row]) 
             "size": size.to_array(),
             "tolerance": { "steps": steps, "pixels": pixels },
             "rounds": args.rounds,
-            "machine": self::machine(machine),
+            "machine": machine,
             "frame": FRAME_TIME,
             "rows": rows,
         })

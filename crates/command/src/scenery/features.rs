@@ -1,67 +1,49 @@
-//! What each feature of lighting costs: one neutral scene, in which one thing at a time is different.
+//! The cost of each feature of lighting: one neutral scene, in which one thing at a time is different.
 
 use std::f32::consts::{FRAC_PI_2, FRAC_PI_4, FRAC_PI_6, TAU};
 
 use halfway::prelude::*;
 
-/// Where the lighting is evaluated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) enum FeatureStage {
-    /// Gouraud shading of a plane of 360 × 360 cells in 32 × 32 pixels: hardly anything but vertices, and none of them
-    /// on a patch that turns away.
-    Vertex,
-    /// Phong shading of a sphere of 64 × 32 cells, seen from so near that it covers all of 640 × 480 pixels.
-    Fragment,
+/// Where the lighting is evaluated, and on what.
+#[derive(Clone, Debug)]
+pub(crate) struct FeatureStage {
+    /// The size of the picture in pixels.
+    pub(crate) size: UVec2,
+    /// How often a light is evaluated in a frame: once a vertex, or once a pixel.
+    pub(crate) evaluations: u32,
+    mesh: Mesh,
+    place: Transform,
+    /// Distance of the camera from the middle.
+    distance: f32,
+    shading: Shading,
 }
 
 impl FeatureStage {
-    /// Both.
-    pub(crate) const ALL: [Self; 2] = [Self::Vertex, Self::Fragment];
-
-    /// The size of the picture in pixels.
-    pub(crate) fn size(self) -> UVec2 {
-        match self {
-            Self::Vertex => UVec2::splat(32),
-            Self::Fragment => UVec2::new(640, 480),
+    /// Gouraud shading of a plane of 360 × 360 cells in 32 × 32 pixels: hardly anything but vertices, and none of them
+    /// on a patch that turns away.
+    pub(crate) fn vertex() -> Self {
+        Self {
+            size: UVec2::splat(32),
+            evaluations: (CELLS + 1) * (CELLS + 1),
+            mesh: Plane { size: 2.0, divisions: CELLS }.into(),
+            // A plane faces up; here it faces the camera.
+            place: Transform::from_rotation(Quat::from_rotation_x(FRAC_PI_2)),
+            distance: 3.0,
+            shading: Shading::Gouraud,
         }
     }
 
-    /// How often a light is evaluated in a frame: once a vertex, or once a pixel.
-    pub(crate) fn evaluations(self) -> u32 {
-        match self {
-            Self::Vertex => (CELLS + 1) * (CELLS + 1),
-            Self::Fragment => self.size().element_product(),
-        }
-    }
-
-    fn mesh(self) -> Mesh {
-        match self {
-            Self::Vertex => Plane { size: 2.0, divisions: CELLS }.into(),
-            Self::Fragment => UvSphere::new(1.0, 64, 32).into(),
-        }
-    }
-
-    /// A plane faces up; here it faces the camera.
-    fn place(self) -> Transform {
-        match self {
-            Self::Vertex => Transform::from_rotation(Quat::from_rotation_x(FRAC_PI_2)),
-            Self::Fragment => Transform::default(),
-        }
-    }
-
-    /// Distance of the camera from the middle.
-    fn distance(self) -> f32 {
-        match self {
-            Self::Vertex => 3.0,
+    /// Phong shading of a sphere of 64 × 32 cells, seen from so near that it covers all of 640 × 480 pixels.
+    pub(crate) fn fragment() -> Self {
+        let size = UVec2::new(640, 480);
+        Self {
+            size,
+            evaluations: size.element_product(),
+            mesh: UvSphere::new(1.0, 64, 32).into(),
+            place: Transform::default(),
             // The unit sphere's half angle is asin(1/1.7) = 36.0°; the corners of the picture lie 34.6° off its middle.
-            Self::Fragment => 1.7,
-        }
-    }
-
-    fn shading(self) -> Shading {
-        match self {
-            Self::Vertex => Shading::Gouraud,
-            Self::Fragment => Shading::Phong,
+            distance: 1.7,
+            shading: Shading::Phong,
         }
     }
 }
@@ -93,25 +75,19 @@ impl FeatureLights {
 /// are those worth comparing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Feature {
-    /// What is different, in words.
+    /// The difference in words.
     pub(crate) name: &'static str,
     /// The lights, all in front of the surface.
     pub(crate) lights: FeatureLights,
-    /// Of the front.
     pub(crate) material: Material,
     /// Of the back, where it is another.
     pub(crate) back: Option<Material>,
-    /// How the highlight is made.
     pub(crate) reflectance: Reflectance,
-    /// Where the viewer is for the highlight.
     pub(crate) viewer: Viewer,
-    /// The sides that are drawn.
     pub(crate) faces: Faces,
     /// Whether the surface is blended, half covering.
     pub(crate) blend: bool,
-    /// Coverage samples a pixel.
     pub(crate) samples: Samples,
-    /// What the bytes of the picture hold.
     pub(crate) encoding: Encoding,
 }
 
@@ -194,35 +170,28 @@ impl Feature {
         ]
     }
 
-    /// Whether what it costs more than no lights is the cost of its lights, all else being as in the baseline.
+    /// Whether all that it costs more than no lights is the cost of its lights, all else being as in the baseline.
     pub(crate) fn is_about_lights(&self) -> bool {
         let it = Self::BASELINE;
         self.lights.count() > 0
             && (self.faces, self.blend, self.samples, self.encoding) == (it.faces, it.blend, it.samples, it.encoding)
     }
-
-    /// The plugin that shows it.
-    pub(crate) fn at(self, stage: FeatureStage) -> FeatureScene {
-        FeatureScene { feature: self, stage }
-    }
 }
 
 /// A [`Feature`] where a [`FeatureStage`] shows what it costs, as a plugin. Nothing moves.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub(crate) struct FeatureScene {
-    /// What is different.
     pub(crate) feature: Feature,
-    /// Where it is evaluated.
     pub(crate) stage: FeatureStage,
 }
 
 impl Plugin for FeatureScene {
     fn build(&self, app: &mut App) {
-        let scene = *self;
+        let scene = self.clone();
         app.insert_resource(GlobalAmbient(LinearRgba::rgb(0.1, 0.1, 0.1))).add_systems(
             Startup,
             move |mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>| {
-                scene.spawn(&mut commands, meshes.add(scene.stage.mesh()));
+                scene.spawn(&mut commands, meshes.add(scene.stage.mesh.clone()));
             },
         );
     }
@@ -233,13 +202,13 @@ impl FeatureScene {
         let Self { feature, stage } = self;
         let Feature { viewer, samples, encoding, .. } = *feature;
         let camera = Camera { viewer, samples, encoding, ..Camera::default() };
-        commands.spawn((camera, Transform::from_xyz(0.0, 0.0, stage.distance())));
+        commands.spawn((camera, Transform::from_xyz(0.0, 0.0, stage.distance)));
         for i in 0..feature.lights.count() {
             feature.light(commands, i);
         }
         let material = Material { opacity: 0.5, ..feature.material };
-        let look = (material, stage.shading(), feature.reflectance, feature.faces);
-        let mut surface = commands.spawn((Mesh3d(mesh), look, stage.place()));
+        let look = (material, stage.shading, feature.reflectance, feature.faces);
+        let mut surface = commands.spawn((Mesh3d(mesh), look, stage.place));
         if let Some(back) = feature.back {
             surface.insert(BackMaterial(back));
         }

@@ -17,7 +17,7 @@ use std::f32::consts::{PI, TAU};
 
 use halfway::mesh::{HeightField, NormalWeighting, Normals, ParametricSurface, Tessellation};
 use halfway::prelude::*;
-use halfway_chart::front::scenes::stone_mesh;
+use halfway_chart::front::scenes::{sound, stone_mesh};
 
 use super::{Circling, Scenery, Turning, grey, hsv};
 
@@ -156,14 +156,6 @@ fn turned(profile: &[[f32; 2]], around: u32) -> Mesh {
     }
     let mesh = sound(Mesh::new(positions.collect(), indices));
     mesh.with_normals(Normals::Creased { angle: PI / 6.0, weighting: NormalWeighting::default() }).0
-}
-
-/// Meshes of our own have triangles, and finite numbers.
-fn sound<T, E: std::fmt::Display>(made: Result<T, E>) -> T {
-    match made {
-        Ok(made) => made,
-        Err(error) => unreachable!("{error}"),
-    }
 }
 
 #[cfg(test)]

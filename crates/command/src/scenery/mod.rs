@@ -14,7 +14,7 @@
 //! | S5 | 60 objects of five kinds (see [`gallery`]), 12 of each | directional 0.4 and 0.2, three circling points of 0.6, one spot | (0, 10, 19) | 1280 × 720 |
 //! | S6 | one scan of 1,000,000 triangles with noise, in half of the pixels, turning | those of S5 that are directional, one point of 0.3 | (0, 0, 2.5) | 1280 × 720 |
 //!
-//! What single [`features`] cost is another, neutral scene's.
+//! Single [`features`] are timed in another, neutral scene.
 
 pub(crate) mod features;
 mod gallery;
@@ -22,26 +22,21 @@ pub(crate) mod many_lights;
 
 use std::f32::consts::TAU;
 
+use clap::ValueEnum;
 use halfway::prelude::*;
 use halfway_chart::front::Still;
+use halfway_chart::front::scenes::random;
 use halfway_chart::timing::TimedLook;
 
-/// Which scene.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+/// One of these scenes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum BenchmarkScene {
-    /// One mesh of 261,120 triangles, four lights.
     S1,
-    /// The same mesh, sixteen lights.
     S1x16,
-    /// 10,000 moving objects, 2.24 million triangles, one light.
     S2,
-    /// 256 moving lights over 401 objects.
     S3,
-    /// One small sphere, one light.
     S4,
-    /// 60 objects of five kinds, six lights.
     S5,
-    /// One mesh of a million triangles with a scanner's noise, three lights.
     S6,
 }
 
@@ -55,9 +50,7 @@ impl BenchmarkScene {
 /// A benchmark scene as a plugin: spawns it at start-up and moves it on by one step a frame, the first frame being 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Benchmark {
-    /// The scene.
     pub(crate) scene: BenchmarkScene,
-    /// Its look.
     pub(crate) look: TimedLook,
     /// Spheres of S2 as octahedra, which leaves the work on 10,000 entities and takes that on their triangles away.
     pub(crate) octahedra: bool,
@@ -228,14 +221,6 @@ fn hsv(hue: f32, saturation: f32, value: f32) -> LinearRgba {
     LinearRgba::rgb(channel(5.0), channel(3.0), channel(1.0))
 }
 
-/// The k-th random number of the i-th light, in [0, 1): the PCG hash of O'Neill 2014, so that every program draws the
-/// same scene.
-fn random(i: u32, k: u32) -> f32 {
-    let state = (i * 8 + k).wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
-    let word = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);
-    (((word >> 22) ^ word) >> 8) as f32 / (1 << 24) as f32
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -248,15 +233,5 @@ mod tests {
                 assert!((channel - expected).abs() < 1e-6, "{hue}: {red} {green} {blue}");
             }
         }
-    }
-
-    #[test]
-    fn random_numbers_fill_their_range() {
-        let mean = (0..4096).map(|i| f64::from(random(i, 3))).sum::<f64>() / 4096.0;
-        // The mean of 4096 uniform numbers is 0.5 within 0.0045 by one standard deviation.
-        assert!((mean - 0.5).abs() < 0.02, "{mean}");
-        assert!((0..4096).all(|i| (0.0..1.0).contains(&random(i, 0))));
-        // By hand from the definition: hash(0) = 129708002.
-        assert_eq!((random(0, 0) * (1 << 24) as f32) as u32, 129_708_002 >> 8);
     }
 }
