@@ -45,8 +45,8 @@ enum Chore {
     /// Draw random scenes, judge each by the reference renderer, and make those that fail small
     ///
     /// A failure is printed and written to out/wild/ as a scene file. The same seed means the same scenes on every
-    /// machine. Options are those of the program: --seed N, --scenes N, --first N, --adapter NAME, --trials N, --output
-    /// FOLDER; `cargo xtask wild -- --help` tells of them.
+    /// machine. Options are those of the program, such as --seed N, --scenes N and --adapter NAME:
+    /// `cargo xtask wild -- --help` lists them.
     #[command(verbatim_doc_comment)]
     Wild(chores::program::Arguments),
 }

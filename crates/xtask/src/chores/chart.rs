@@ -18,8 +18,8 @@ const FILTER_TABLES: &str = "docs/filters.md";
 /// Measure what shading costs and what it loses, and write a page of charts to out/chart/
 ///
 /// Error against time of every method on every scene, far lights and viewers, and where methods fail. Writes a page that
-/// opens offline, out/chart/index.html, with chart.json and every chart as SVG beside it, and makes
-/// docs/pictures/chart.svg and docs/fronts.md again. docs/charts.md tells what is measured and how.
+/// opens offline, out/chart/index.html, with chart.json and every chart as SVG beside it, and docs/pictures/chart.svg and
+/// docs/fronts.md. docs/charts.md tells what is measured and how.
 #[derive(Args, Debug)]
 #[command(verbatim_doc_comment)]
 pub(crate) struct Options {

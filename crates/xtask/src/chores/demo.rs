@@ -27,7 +27,7 @@ pub(crate) struct Options {
     /// Record, even where a display is
     #[arg(long)]
     headless: bool,
-    /// What the lights shine on: an .smf, .obj, .gltf or .glb file; assets/teapot.obj unless given
+    /// What the lights shine on: an .smf, .obj, .gltf, .glb, .ply or .stl file; assets/teapot.obj unless given
     #[arg(long, value_name = "FILE")]
     model: Option<PathBuf>,
 }
