@@ -108,60 +108,41 @@ impl Feature {
 
     /// The baseline, then everything that is compared with it.
     pub(crate) fn all() -> Vec<Self> {
+        use FeatureLights::{Directional, Points, Spots};
         let it = Self::BASELINE;
+        let lit = |name, lights| Self { name, lights, ..it };
         let shiny = |shininess| Material { shininess, ..it.material };
         let falloff = Attenuation::new(1.0, 0.09, 0.032);
-        let points = |count| FeatureLights::Points(count, falloff, None);
         let hard = Cone::new(FRAC_PI_4);
         let soft = Cone { inner: Some(FRAC_PI_6), exponent: 4.0, ..hard };
         vec![
             it,
-            Self { name: "no lights", lights: FeatureLights::Directional(0), ..it },
+            lit("no lights", Directional(0)),
             Self { name: "no highlight", material: Material::matte(COLOR), ..it },
-            Self { name: "two directional lights", lights: FeatureLights::Directional(2), ..it },
-            Self { name: "five directional lights", lights: FeatureLights::Directional(5), ..it },
-            Self { name: "eight directional lights", lights: FeatureLights::Directional(8), ..it },
+            lit("two directional lights", Directional(2)),
+            lit("five directional lights", Directional(5)),
+            lit("eight directional lights", Directional(8)),
             // One more than the renderer unrolls its loops for.
-            Self { name: "nine directional lights", lights: FeatureLights::Directional(9), ..it },
-            Self { name: "sixteen directional lights", lights: FeatureLights::Directional(16), ..it },
-            Self { name: "one point light", lights: points(1), ..it },
-            Self { name: "five point lights", lights: points(5), ..it },
-            Self {
-                name: "five point lights, no attenuation",
-                lights: FeatureLights::Points(5, Attenuation::NONE, None),
-                ..it
-            },
-            Self {
-                name: "five point lights, with a range",
-                lights: FeatureLights::Points(5, falloff, Some(20.0)),
-                ..it
-            },
-            Self { name: "one spot light", lights: FeatureLights::Spots(1, hard), ..it },
-            Self { name: "five spot lights", lights: FeatureLights::Spots(5, hard), ..it },
-            Self { name: "five spot lights, soft edge, exponent 4", lights: FeatureLights::Spots(5, soft), ..it },
+            lit("nine directional lights", Directional(9)),
+            lit("sixteen directional lights", Directional(16)),
+            lit("one point light", Points(1, falloff, None)),
+            lit("five point lights", Points(5, falloff, None)),
+            lit("five point lights, no attenuation", Points(5, Attenuation::NONE, None)),
+            lit("five point lights, with a range", Points(5, falloff, Some(20.0))),
+            lit("one spot light", Spots(1, hard)),
+            lit("five spot lights", Spots(5, hard)),
+            lit("five spot lights, soft edge, exponent 4", Spots(5, soft)),
             Self { name: "infinite viewer", viewer: Viewer::Infinite, ..it },
-            Self {
-                name: "five directional lights, infinite viewer",
-                lights: FeatureLights::Directional(5),
-                viewer: Viewer::Infinite,
-                ..it
-            },
-            Self { name: "five point lights, infinite viewer", lights: points(5), viewer: Viewer::Infinite, ..it },
+            Self { viewer: Viewer::Infinite, ..lit("five directional lights, infinite viewer", Directional(5)) },
+            Self { viewer: Viewer::Infinite, ..lit("five point lights, infinite viewer", Points(5, falloff, None)) },
             Self { name: "Phong reflectance", reflectance: Reflectance::Phong, ..it },
             Self {
-                name: "five directional lights, Phong reflectance",
-                lights: FeatureLights::Directional(5),
                 reflectance: Reflectance::Phong,
-                ..it
+                ..lit("five directional lights, Phong reflectance", Directional(5))
             },
             Self { name: "exponent 33", material: shiny(33.0), ..it },
             Self { name: "exponent 32.5", material: shiny(32.5), ..it },
-            Self {
-                name: "five directional lights, exponent 33",
-                lights: FeatureLights::Directional(5),
-                material: shiny(33.0),
-                ..it
-            },
+            Self { material: shiny(33.0), ..lit("five directional lights, exponent 33", Directional(5)) },
             Self { name: "both sides", faces: Faces::Both, ..it },
             Self { name: "both sides, another material behind", faces: Faces::Both, back: Some(shiny(8.0)), ..it },
             Self { name: "blended", blend: true, ..it },
