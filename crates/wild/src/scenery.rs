@@ -10,20 +10,21 @@ mod normals;
 mod place;
 mod surroundings;
 
+use fastrand::Rng;
 use serde_json::{Map, Value, json};
 
-use crate::random::Random;
+use crate::random::{RngExt, of_scene};
 
 pub use files::IMAGES;
 
 /// Scene number `number` of a seed, as the JSON of a scene file: the same one on every machine.
 pub fn scene(seed: u64, number: u64) -> Value {
-    let random = &mut Random::new(seed, number);
+    let random = &mut of_scene(seed, number);
     let unit = place::unit(random);
     let objects = objects(random, unit);
     let lights = light::lights(random, unit, objects.len());
     let mut scene = Object::new();
-    scene.set("size", json!([random.whole(64, 128), random.whole(64, 128)]));
+    scene.set("size", json!([random.u64(64..=128), random.u64(64..=128)]));
     scene.set("camera", place::camera(random, unit));
     scene.set("lights", lights);
     scene.set("objects", objects.into());
@@ -49,7 +50,7 @@ pub fn scene(seed: u64, number: u64) -> Value {
 
 /// Puts images of normals on some objects, most of which are then lit at the pixels. One on top of another has the
 /// same or none, as of solids.
-fn turn_normals(random: &mut Random, objects: &mut [Value]) {
+fn turn_normals(random: &mut Rng, objects: &mut [Value]) {
     for at in 0..objects.len() {
         if is_twin(objects, at) {
             if let Some(maps) = objects[at - 1].get("maps").filter(|_| has_the_same(at)).cloned() {
@@ -75,7 +76,7 @@ fn has_the_same(at: usize) -> bool {
 }
 
 /// Cuts some objects from solids. One on top of another is cut from the same or from none.
-fn cut(random: &mut Random, unit: f64, objects: &mut [Value]) {
+fn cut(random: &mut Rng, unit: f64, objects: &mut [Value]) {
     for at in 0..objects.len() {
         let solid = if is_twin(objects, at) {
             objects[at - 1].get("solid").filter(|_| has_the_same(at)).cloned()
@@ -88,12 +89,12 @@ fn cut(random: &mut Random, unit: f64, objects: &mut [Value]) {
     }
 }
 
-fn objects(random: &mut Random, unit: f64) -> Vec<Value> {
-    let count = match random.whole(0, 99) {
+fn objects(random: &mut Rng, unit: f64) -> Vec<Value> {
+    let count = match random.u64(0..=99) {
         0..2 => 0,
-        2..40 => random.whole(1, 2),
-        40..90 => random.whole(2, 6),
-        _ => random.whole(6, 12),
+        2..40 => random.u64(1..=2),
+        40..90 => random.u64(2..=6),
+        _ => random.u64(6..=12),
     };
     let mut objects: Vec<Value> = Vec::new();
     for i in 0..count {
@@ -111,7 +112,7 @@ fn objects(random: &mut Random, unit: f64) -> Vec<Value> {
     objects
 }
 
-fn object(random: &mut Random, unit: f64) -> Value {
+fn object(random: &mut Rng, unit: f64) -> Value {
     let mut object = Object::new();
     object.set("mesh", mesh::mesh(random, unit));
     object.perhaps(random, 90, "transform", |random| place::transform(random, unit));
@@ -141,7 +142,7 @@ impl Object {
     }
 
     /// Gives the key a value in `percent` of a hundred cases.
-    fn perhaps(&mut self, random: &mut Random, percent: u64, key: &str, value: impl FnOnce(&mut Random) -> Value) {
+    fn perhaps(&mut self, random: &mut Rng, percent: u64, key: &str, value: impl FnOnce(&mut Rng) -> Value) {
         if random.percent(percent) {
             let value = value(random);
             self.set(key, value);

@@ -1,27 +1,28 @@
 //! Lights of all kinds and numbers.
 
+use fastrand::Rng;
 use serde_json::{Value, json};
 
 use super::place::at_distance;
 use super::{Object, looks, short, shorts};
-use crate::random::Random;
+use crate::random::RngExt;
 
 /// The lights of a scene of N objects: from none to 300, or those that the format puts in.
-pub(super) fn lights(random: &mut Random, unit: f64, objects: usize) -> Value {
-    let count = match random.whole(0, 99) {
+pub(super) fn lights(random: &mut Rng, unit: f64, objects: usize) -> Value {
+    let count = match random.u64(0..=99) {
         0..2 => return Value::Null,
         2..6 => 0,
-        6..56 => random.whole(1, 3),
-        56..80 => random.whole(4, 8),
-        80..94 => random.whole(9, 40),
-        _ => random.whole(41, 300),
+        6..56 => random.u64(1..=3),
+        56..80 => random.u64(4..=8),
+        80..94 => random.u64(9..=40),
+        _ => random.u64(41..=300),
     };
     // Together about as bright as three.
     let brightness = (3.0 / count as f64).clamp(0.02, 1.0);
     (0..count).map(|_| light(random, unit, objects, brightness)).collect()
 }
 
-fn light(random: &mut Random, unit: f64, objects: usize, brightness: f64) -> Value {
+fn light(random: &mut Rng, unit: f64, objects: usize, brightness: f64) -> Value {
     let kind = random.of(&["point", "point", "spot", "spot", "directional", "homogeneous"]);
     let mut light = Object::new();
     light.set("kind", kind.into());
@@ -29,9 +30,9 @@ fn light(random: &mut Random, unit: f64, objects: usize, brightness: f64) -> Val
     light.set("diffuse", looks::color(random, 1.2 * bright));
     light.perhaps(random, 85, "specular", |random| looks::color(random, 1.2 * bright));
     light.perhaps(random, 30, "ambient", |random| looks::color(random, 0.3 * bright));
-    light.perhaps(random, 30, "attach", |random| match random.whole(0, 4) {
+    light.perhaps(random, 30, "attach", |random| match random.u64(0..=4) {
         0 => json!("world"),
-        1..3 if objects > 0 => json!({ "object": format!("o{}", random.whole(0, objects as u64 - 1)) }),
+        1..3 if objects > 0 => json!({ "object": format!("o{}", random.u64(..objects as u64)) }),
         _ => json!("camera"),
     });
     match kind {
@@ -50,8 +51,8 @@ fn light(random: &mut Random, unit: f64, objects: usize, brightness: f64) -> Val
 }
 
 /// Around the objects as a rule, among them, or far away.
-fn position(random: &mut Random, unit: f64) -> [f64; 3] {
-    let distance = match random.whole(0, 9) {
+fn position(random: &mut Rng, unit: f64) -> [f64; 3] {
+    let distance = match random.u64(0..=9) {
         0 => random.between(0.0, 1.0),
         1 => random.magnitude(3, 12),
         _ => random.between(1.5, 6.0),
@@ -59,9 +60,9 @@ fn position(random: &mut Random, unit: f64) -> [f64; 3] {
     at_distance(random, distance * unit)
 }
 
-fn homogeneous(random: &mut Random, unit: f64) -> Value {
+fn homogeneous(random: &mut Rng, unit: f64) -> Value {
     let [x, y, z] = position(random, unit);
-    match random.whole(0, 3) {
+    match random.u64(0..=3) {
         0 => shorts([x, y, z, 1.0]),
         1 => shorts([2.0 * x, 2.0 * y, 2.0 * z, 2.0]),
         2 => shorts([-x, -y, -z, -1.0]),
@@ -69,15 +70,15 @@ fn homogeneous(random: &mut Random, unit: f64) -> Value {
     }
 }
 
-fn direction(random: &mut Random) -> Value {
+fn direction(random: &mut Rng) -> Value {
     let length = if random.percent(10) { random.magnitude(-20, 20) } else { 1.0 };
     shorts(random.direction().map(|c| c * length))
 }
 
 /// Constants in the scene's unit, so that light reaches the objects of large scenes.
-fn falloff(random: &mut Random, unit: f64, light: &mut Object) {
+fn falloff(random: &mut Rng, unit: f64, light: &mut Object) {
     light.set("attenuation", {
-        let [a, b, c] = match random.whole(0, 5) {
+        let [a, b, c] = match random.u64(0..=5) {
             0 => [1.0, 0.0, 0.0],
             1 => [0.0, 0.0, random.between(0.05, 0.5)],
             2 => [0.0, random.between(0.1, 0.7), 0.0],
@@ -89,15 +90,15 @@ fn falloff(random: &mut Random, unit: f64, light: &mut Object) {
     light.perhaps(random, 15, "attenuate_ambient", |_| json!(true));
 }
 
-fn cone(random: &mut Random, light: &mut Object) {
-    let cutoff = match random.whole(0, 9) {
+fn cone(random: &mut Rng, light: &mut Object) {
+    let cutoff = match random.u64(0..=9) {
         0 => 180.0,
         1 => 90.0,
         2 => short(random.between(0.1, 5.0)),
         _ => short(random.between(10.0, 80.0)),
     };
     light.set("cutoff_deg", json!(cutoff));
-    light.perhaps(random, 50, "inner_deg", |random| match random.whole(0, 4) {
+    light.perhaps(random, 50, "inner_deg", |random| match random.u64(0..=4) {
         0 => json!(0),
         1 => json!(cutoff),
         _ => json!(short(cutoff * random.between(0.0, 0.99))),

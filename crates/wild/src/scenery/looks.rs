@@ -1,18 +1,19 @@
 //! Colours, materials, shading.
 
+use fastrand::Rng;
 use serde_json::{Value, json};
 
 use super::{Object, place, short, shorts};
-use crate::random::Random;
+use crate::random::RngExt;
 
 /// A few of the presets; which one makes no difference to the code that draws it.
 const PRESETS: [&str; 6] = ["brass", "gold", "emerald", "chrome", "red_plastic", "cyan_rubber"];
 
 /// A colour with channels up to about `brightness`: any, grey, or with channels that are 0.
-pub(super) fn color(random: &mut Random, brightness: f64) -> Value {
+pub(super) fn color(random: &mut Rng, brightness: f64) -> Value {
     let mut channel = || random.between(0.0, brightness);
     let rgb = [channel(), channel(), channel()];
-    match random.whole(0, 9) {
+    match random.u64(0..=9) {
         0 => json!([0, 0, 0]),
         1 => shorts([rgb[0]; 3]),
         2 => shorts([rgb[0], 0.0, rgb[2]]),
@@ -21,17 +22,17 @@ pub(super) fn color(random: &mut Random, brightness: f64) -> Value {
     }
 }
 
-pub(super) fn shading(random: &mut Random) -> Value {
+pub(super) fn shading(random: &mut Rng) -> Value {
     random.of(&["flat", "gouraud", "phong"]).into()
 }
 
-pub(super) fn reflectance(random: &mut Random) -> Value {
+pub(super) fn reflectance(random: &mut Rng) -> Value {
     random.of(&["phong", "blinn_phong", "blinn_phong_matched"]).into()
 }
 
 /// What becomes of intensities above 1.
-pub(super) fn intensity(random: &mut Random) -> Value {
-    match random.whole(0, 6) {
+pub(super) fn intensity(random: &mut Rng) -> Value {
+    match random.u64(0..=6) {
         0 => json!("clamp"),
         1 => json!("renormalise"),
         2 => json!({"renormalise": {"smoothing": short(random.between(0.0, 0.99))}}),
@@ -42,10 +43,10 @@ pub(super) fn intensity(random: &mut Random) -> Value {
 }
 
 /// What an object is cut from. Some cells a unit: finer ones would need more digits of a place than 32 bits have.
-pub(super) fn solid(random: &mut Random, unit: f64) -> Value {
+pub(super) fn solid(random: &mut Rng, unit: f64) -> Value {
     let mut solid = Object::new();
     solid.perhaps(random, 90, "kind", |random| random.of(&["checker", "marble", "wood", "noise"]).into());
-    solid.perhaps(random, 60, "octaves", |random| random.whole(1, 8).into());
+    solid.perhaps(random, 60, "octaves", |random| random.u64(1..=8).into());
     let cells = random.magnitude(-2, 1) / unit;
     let stretched = [0; 3].map(|_| cells * random.between(0.6, 1.4));
     let moved = place::at_distance(random, 2.0);
@@ -57,7 +58,7 @@ pub(super) fn solid(random: &mut Random, unit: f64) -> Value {
     solid.into()
 }
 
-pub(super) fn material(random: &mut Random) -> Value {
+pub(super) fn material(random: &mut Rng) -> Value {
     if random.percent(25) {
         return random.of(&PRESETS).into();
     }
@@ -66,17 +67,17 @@ pub(super) fn material(random: &mut Random) -> Value {
     material.perhaps(random, 80, "diffuse", |random| color(random, 1.0));
     material.perhaps(random, 70, "specular", |random| color(random, 1.0));
     material.perhaps(random, 15, "emission", |random| color(random, 0.5));
-    material.perhaps(random, 80, "shininess", |random| match random.whole(0, 9) {
+    material.perhaps(random, 80, "shininess", |random| match random.u64(0..=9) {
         0 => json!(0),
         1 => json!(1),
-        2 => json!(short(random.unit())),
+        2 => json!(short(random.f64())),
         3 => json!(short(random.magnitude(8, 11))),
         _ => json!(short(random.magnitude(0, 7))),
     });
-    material.perhaps(random, 60, "opacity", |random| match random.whole(0, 9) {
+    material.perhaps(random, 60, "opacity", |random| match random.u64(0..=9) {
         0 => json!(0),
         1 => json!(1),
-        _ => json!(short(random.unit())),
+        _ => json!(short(random.f64())),
     });
     material.into()
 }

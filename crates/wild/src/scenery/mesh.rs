@@ -1,13 +1,14 @@
 //! Surfaces of every tessellation, and meshes written out.
 
+use fastrand::Rng;
 use serde_json::{Value, json};
 
 use super::{Object, short, shorts};
-use crate::random::Random;
+use crate::random::RngExt;
 
-pub(super) fn mesh(random: &mut Random, unit: f64) -> Value {
+pub(super) fn mesh(random: &mut Rng, unit: f64) -> Value {
     let size = unit * random.between(0.4, 1.6);
-    match random.whole(0, 99) {
+    match random.u64(0..=99) {
         0..35 => json!({ "uv_sphere": {
             "radius": short(size),
             "segments": random.magnitude(1, 5).floor() as u64 + 1,
@@ -19,14 +20,14 @@ pub(super) fn mesh(random: &mut Random, unit: f64) -> Value {
             json!({ "plane": { "size": short(size * random.of(&[1.0, 2.0, 8.0])), "divisions": divisions } })
         }
         // Its size is not to be chosen.
-        65..75 if (0.25..4.0).contains(&unit) => json!({ "teapot": { "divisions": random.whole(1, 6) } }),
+        65..75 if (0.25..4.0).contains(&unit) => json!({ "teapot": { "divisions": random.u64(1..=6) } }),
         65..80 => {
-            let cells = random.whole(1, 8);
+            let cells = random.u64(1..=8);
             inline(random, terrain(cells, size))
         }
         80..90 => inline(random, tetrahedron(size)),
         _ => {
-            let count = random.whole(1, 8);
+            let count = random.u64(1..=8);
             let mesh = soup(random, count, size);
             inline(random, mesh)
         }
@@ -37,7 +38,7 @@ pub(super) fn mesh(random: &mut Random, unit: f64) -> Value {
 type Written = (Vec<[f64; 3]>, Vec<u64>);
 
 /// Written out, with normals and texture coordinates or without.
-fn inline(random: &mut Random, (mut positions, indices): Written) -> Value {
+fn inline(random: &mut Rng, (mut positions, indices): Written) -> Value {
     let size = positions.iter().flatten().fold(0.0, |most: f64, c| most.max(c.abs()));
     let uneven = random.between(0.0, 0.3) * size;
     for position in &mut positions {
@@ -56,7 +57,7 @@ fn inline(random: &mut Random, (mut positions, indices): Written) -> Value {
         normals.collect::<Vec<f64>>().into()
     });
     inline.perhaps(random, 10, "uvs", |random| {
-        (0..2 * positions.len()).map(|_| short(random.unit())).collect::<Vec<f64>>().into()
+        (0..2 * positions.len()).map(|_| short(random.f64())).collect::<Vec<f64>>().into()
     });
     inline.perhaps(random, 25, "colors", |random| {
         // Some beyond what is drawn.
@@ -83,8 +84,8 @@ fn tetrahedron(size: f64) -> Written {
 }
 
 /// Triangles anywhere, which may share corners, be slivers or have no area.
-fn soup(random: &mut Random, triangles: u64, size: f64) -> Written {
-    let vertices = random.whole(3, 2 + 2 * triangles);
+fn soup(random: &mut Rng, triangles: u64, size: f64) -> Written {
+    let vertices = random.u64(3..=2 + 2 * triangles);
     let positions = (0..vertices).map(|_| std::array::from_fn(|_| random.between(-size, size))).collect();
-    (positions, (0..3 * triangles).map(|_| random.whole(0, vertices - 1)).collect())
+    (positions, (0..3 * triangles).map(|_| random.u64(..vertices)).collect())
 }

@@ -1,18 +1,19 @@
 //! Images of normals on objects.
 
+use fastrand::Rng;
 use serde_json::{Value, json};
 
 use super::{IMAGES, Object, short, shorts};
-use crate::random::Random;
+use crate::random::RngExt;
 
 /// `maps` with an image of normals alone, enlarged or reduced, by any filter but the nearest texel: which that is,
 /// rounding says, and of a small part of a highlight the judge cannot tell that from an error.
-pub(super) fn maps(random: &mut Random) -> Value {
+pub(super) fn maps(random: &mut Rng) -> Value {
     let mut normal = Object::new();
     normal.set("path", IMAGES[8].0.into());
     normal.perhaps(random, 85, "far_normals", |random| random.of(&["mean", "toksvig", "lean", "lean"]).into());
     // Steeper ones, turned into the surface, or none.
-    normal.perhaps(random, 60, "amount", |random| match random.whole(0, 9) {
+    normal.perhaps(random, 60, "amount", |random| match random.u64(0..=9) {
         0 => json!(0),
         1 => json!(short(random.magnitude(0, 3))),
         _ => json!(short(random.between(-1.0, 1.0))),

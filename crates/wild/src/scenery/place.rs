@@ -1,13 +1,14 @@
 //! Where things are: the scene's unit of length, the camera, transforms.
 
+use fastrand::Rng;
 use serde_json::{Value, json};
 
 use super::{Object, short, shorts};
-use crate::random::Random;
+use crate::random::RngExt;
 
 /// The length that all others are multiples of: 1 as a rule.
-pub(super) fn unit(random: &mut Random) -> f64 {
-    match random.whole(0, 99) {
+pub(super) fn unit(random: &mut Rng) -> f64 {
+    match random.u64(0..=99) {
         0..3 => random.magnitude(-60, 60),
         3..15 => random.magnitude(-14, 14),
         _ => 1.0,
@@ -15,13 +16,13 @@ pub(super) fn unit(random: &mut Random) -> f64 {
 }
 
 /// So far from the origin, in any direction.
-pub(super) fn at_distance(random: &mut Random, distance: f64) -> [f64; 3] {
+pub(super) fn at_distance(random: &mut Rng, distance: f64) -> [f64; 3] {
     random.direction().map(|c| c * distance)
 }
 
 /// From outside as a rule, from near by, or from inside.
-pub(super) fn camera(random: &mut Random, unit: f64) -> Value {
-    let distance = match random.whole(0, 19) {
+pub(super) fn camera(random: &mut Rng, unit: f64) -> Value {
+    let distance = match random.u64(0..=19) {
         0 => random.between(0.05, 0.8),
         1..4 => random.between(0.8, 2.0),
         4 => random.magnitude(3, 9),
@@ -32,13 +33,13 @@ pub(super) fn camera(random: &mut Random, unit: f64) -> Value {
     let aside = random.between(0.0, 0.4) * distance.min(2.0);
     camera.perhaps(random, 70, "target", |random| shorts(at_distance(random, aside * unit)));
     camera.set("up", shorts(random.direction()));
-    camera.perhaps(random, 60, "fov_y_deg", |random| match random.whole(0, 9) {
+    camera.perhaps(random, 60, "fov_y_deg", |random| match random.u64(0..=9) {
         0 => json!(short(random.between(120.0, 165.0))),
         1 => json!(short(random.between(1.0, 10.0))),
         _ => json!(short(random.between(20.0, 90.0))),
     });
     // Of scenes of another size the default would cut everything away.
-    let near = match random.whole(0, 3) {
+    let near = match random.u64(0..=3) {
         0 => random.magnitude(-10, -1),
         _ => 0.1,
     };
@@ -47,7 +48,7 @@ pub(super) fn camera(random: &mut Random, unit: f64) -> Value {
 }
 
 /// In parts or as a matrix; mirrored, skew and flattened ones among them.
-pub(super) fn transform(random: &mut Random, unit: f64) -> Value {
+pub(super) fn transform(random: &mut Rng, unit: f64) -> Value {
     let distance = random.between(0.0, 2.5) * unit;
     let translation = at_distance(random, distance);
     let size = random.between(0.4, 1.6);
@@ -62,16 +63,16 @@ pub(super) fn transform(random: &mut Random, unit: f64) -> Value {
 }
 
 /// Six digits, so that its length is 1 as nearly as the format wants.
-pub(super) fn quaternion(random: &mut Random) -> Value {
+pub(super) fn quaternion(random: &mut Rng) -> Value {
     let ([x, y, z], share) = (random.direction(), random.between(-1.0, 1.0));
     let rest = (1.0 - share * share).sqrt();
     json!([x * rest, y * rest, z * rest, share].map(|c| (c * 1e6).round() / 1e6))
 }
 
-fn scale(random: &mut Random, size: f64) -> Value {
+fn scale(random: &mut Rng, size: f64) -> Value {
     let mut axis = |least: f64, most: f64| size * random.between(least, most);
     let uneven = [axis(0.3, 1.5), axis(0.3, 1.5), axis(0.3, 1.5)];
-    match random.whole(0, 19) {
+    match random.u64(0..=19) {
         0 => shorts([uneven[0], 0.0, uneven[2]]),
         1 => shorts([uneven[0], uneven[1], uneven[2] * 1e-3]),
         2..5 => shorts([-uneven[0], uneven[1], uneven[2]]),
@@ -81,7 +82,7 @@ fn scale(random: &mut Random, size: f64) -> Value {
     }
 }
 
-fn matrix(random: &mut Random, [x, y, z]: [f64; 3], size: f64) -> Value {
+fn matrix(random: &mut Rng, [x, y, z]: [f64; 3], size: f64) -> Value {
     let mut column = || -> [f64; 3] { std::array::from_fn(|_| size * random.between(-1.0, 1.0)) };
     let (a, b, mut c) = (column(), column(), column());
     // One column in the plane of the others: no volume is left.
