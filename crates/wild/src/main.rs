@@ -67,13 +67,6 @@ fn main() -> ExitCode {
     }
 }
 
-/// The worst of the scenes that were right, in shares of the range and in steps.
-#[derive(Default)]
-struct LargestErrors {
-    float: f64,
-    steps: f64,
-}
-
 /// How many scenes failed.
 fn run(arguments: &Arguments) -> Result<u64, (u8, String)> {
     let choice = AdapterChoice { name: arguments.adapter.clone() };
@@ -86,13 +79,14 @@ fn run(arguments: &Arguments) -> Result<u64, (u8, String)> {
         judge = judge.within(steps);
     }
     let start = Instant::now();
-    let (mut worst, mut failed) = (LargestErrors::default(), 0);
+    // Of the scenes that were right, in shares of the range and in steps.
+    let mut worst = [0.0_f64; 2];
+    let mut failed = 0;
     for number in arguments.first..arguments.first.saturating_add(arguments.scenes) {
         let drawn = scene(arguments.seed, number);
         match judge.judge(&drawn) {
             Ok(figures) => {
-                worst.float = worst.float.max(figures.float.worst);
-                worst.steps = worst.steps.max(figures.bytes.worst);
+                worst = [worst[0].max(figures.float.worst), worst[1].max(figures.bytes.worst)];
             }
             Err(finding) => {
                 failed += 1;
@@ -106,8 +100,8 @@ fn run(arguments: &Arguments) -> Result<u64, (u8, String)> {
         "\n{} scenes in {:.0} s: {failed} failed; the others are within {:.1e} of the range and {} of 255 steps",
         arguments.scenes,
         start.elapsed().as_secs_f64(),
-        worst.float,
-        worst.steps
+        worst[0],
+        worst[1]
     );
     Ok(failed)
 }

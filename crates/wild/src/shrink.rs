@@ -4,6 +4,8 @@
 //! turn until none stands: parts of lists, then keys (the format's defaults hold), then the triangles of written-out
 //! meshes, then numbers.
 
+use std::ops::Range;
+
 use serde_json::{Map, Value};
 
 /// The smallest scene found for which `fails` holds, as it does for `scene`. `fails` is asked at most `trials` times.
@@ -32,13 +34,6 @@ pub fn written(scene: &Value) -> String {
         value => format!("  \"{key}\": {value}"),
     };
     format!("{{\n{}\n}}\n", keys.iter().map(line).collect::<Vec<_>>().join(",\n"))
-}
-
-/// The step from a value to one inside of it.
-#[derive(Clone, Debug)]
-enum Step {
-    Key(String),
-    Item(usize),
 }
 
 struct Search<F> {
@@ -76,42 +71,47 @@ impl<F: FnMut(&Value) -> bool> Search<F> {
         stands
     }
 
-    /// Takes away halves, quarters … and at last single items of the objects and the lights.
+    /// Takes away all, halves, quarters … and at last single ones of as many as there are.
+    fn drop_parts(&mut self, length: impl Fn(&Value) -> usize, drop: impl Fn(&mut Value, Range<usize>)) {
+        let mut part = length(&self.best);
+        while part > 0 {
+            let mut start = 0;
+            while start < length(&self.best) {
+                let end = (start + part).min(length(&self.best));
+                let stands = self.attempt(|scene| drop(scene, start..end));
+                start += if stands { 0 } else { part };
+            }
+            part /= 2;
+        }
+    }
+
+    /// Takes objects and lights away.
     fn shorten_lists(&mut self) {
         for list in ["objects", "lights"] {
-            let length = |best: &Value| best[list].as_array().map_or(0, Vec::len);
-            let mut part = length(&self.best);
-            while part > 0 {
-                let mut start = 0;
-                while start < length(&self.best) {
-                    let end = (start + part).min(length(&self.best));
-                    let stands = self.attempt(|scene| {
-                        if let Some(items) = scene[list].as_array_mut() {
-                            items.drain(start..end);
-                        }
-                    });
-                    start += if stands { 0 } else { part };
+            let drop = |scene: &mut Value, gone| {
+                if let Some(items) = scene[list].as_array_mut() {
+                    items.drain(gone);
                 }
-                part /= 2;
-            }
+            };
+            self.drop_parts(|scene| scene[list].as_array().map_or(0, Vec::len), drop);
         }
     }
 
     /// Takes keys away wherever they are. The camera, the lights and the size stay: without
     /// them the format puts in its own, which are no simpler.
     fn remove_keys(&mut self) {
-        let mut paths = paths(&self.best, &|value| matches!(value, Value::Object(_)));
+        let mut paths = paths(&self.best, &Value::is_object);
         // What is outside first: with it goes what is inside.
-        paths.sort_by_key(Vec::len);
+        paths.sort_by_key(|path| path.matches('/').count());
         for path in paths {
-            let Some(Value::Object(keys)) = at(&mut self.best, &path) else { continue };
+            let Some(Value::Object(keys)) = self.best.pointer(&path) else { continue };
             let names: Vec<String> = keys.keys().cloned().collect();
             for name in names {
                 if path.is_empty() && ["camera", "lights", "objects", "size"].contains(&name.as_str()) {
                     continue;
                 }
                 self.attempt(|scene| {
-                    if let Some(Value::Object(keys)) = at(scene, &path) {
+                    if let Some(Value::Object(keys)) = scene.pointer_mut(&path) {
                         keys.remove(&name);
                     }
                 });
@@ -131,27 +131,17 @@ impl<F: FnMut(&Value) -> bool> Search<F> {
             let triangles = |best: &Value| {
                 best["objects"][i]["mesh"].pointer("/inline/indices").and_then(Value::as_array).map_or(0, Vec::len) / 3
             };
-            let mut part = triangles(&self.best);
-            while part > 0 {
-                let mut start = 0;
-                while start < triangles(&self.best) {
-                    let end = (start + part).min(triangles(&self.best));
-                    let stands = self.attempt(|scene| drop_triangles(&mut scene["objects"][i]["mesh"], start..end));
-                    start += if stands { 0 } else { part };
-                }
-                part /= 2;
-            }
+            self.drop_parts(triangles, |scene, gone| drop_triangles(&mut scene["objects"][i]["mesh"], gone));
         }
     }
 
     /// Writes numbers shorter: 0, 1, fewer digits, half.
     fn simplify_numbers(&mut self) {
-        let paths = paths(&self.best, &|value| value.is_number());
-        for path in paths {
-            let Some(now) = at(&mut self.best, &path).and_then(|value| value.as_f64()) else { continue };
+        for path in paths(&self.best, &Value::is_number) {
+            let Some(now) = self.best.pointer(&path).and_then(Value::as_f64) else { continue };
             for simple in simpler(now) {
                 if self.attempt(|scene| {
-                    if let Some(value) = at(scene, &path) {
+                    if let Some(value) = scene.pointer_mut(&path) {
                         *value = number(simple);
                     }
                 }) {
@@ -179,37 +169,29 @@ fn number(x: f64) -> Value {
     if x.fract() == 0.0 && x.abs() < 1e9 { Value::from(x as i64) } else { Value::from(x) }
 }
 
-/// The ways to all values inside that are `wanted`.
-fn paths(value: &Value, wanted: &dyn Fn(&Value) -> bool) -> Vec<Vec<Step>> {
-    fn visit(value: &Value, wanted: &dyn Fn(&Value) -> bool, way: &mut Vec<Step>, found: &mut Vec<Vec<Step>>) {
+/// JSON pointers to all values inside that are `wanted`. No key of a scene has a character that they escape.
+fn paths(value: &Value, wanted: &dyn Fn(&Value) -> bool) -> Vec<String> {
+    fn visit(value: &Value, wanted: &dyn Fn(&Value) -> bool, path: &str, found: &mut Vec<String>) {
         if wanted(value) {
-            found.push(way.clone());
+            found.push(path.to_owned());
         }
-        let inside: Vec<(Step, &Value)> = match value {
-            Value::Array(items) => items.iter().enumerate().map(|(i, item)| (Step::Item(i), item)).collect(),
-            Value::Object(keys) => keys.iter().map(|(key, item)| (Step::Key(key.clone()), item)).collect(),
-            _ => Vec::new(),
-        };
-        for (step, item) in inside {
-            way.push(step);
-            visit(item, wanted, way, found);
-            way.pop();
+        match value {
+            Value::Array(items) => {
+                items.iter().enumerate().for_each(|(i, item)| visit(item, wanted, &format!("{path}/{i}"), found));
+            }
+            Value::Object(keys) => {
+                keys.iter().for_each(|(key, item)| visit(item, wanted, &format!("{path}/{key}"), found));
+            }
+            _ => {}
         }
     }
     let mut found = Vec::new();
-    visit(value, wanted, &mut Vec::new(), &mut found);
+    visit(value, wanted, "", &mut found);
     found
 }
 
-fn at<'a>(value: &'a mut Value, path: &[Step]) -> Option<&'a mut Value> {
-    path.iter().try_fold(value, |value, step| match step {
-        Step::Key(key) => value.get_mut(key),
-        Step::Item(i) => value.get_mut(*i),
-    })
-}
-
 /// Takes triangles of a written-out mesh away, and the vertices that no other triangle has.
-fn drop_triangles(mesh: &mut Value, gone: std::ops::Range<usize>) {
+fn drop_triangles(mesh: &mut Value, gone: Range<usize>) {
     let Some(Value::Object(inline)) = mesh.get_mut("inline") else { return };
     let Some(indices) = inline.get("indices").and_then(Value::as_array) else { return };
     let indices: Vec<usize> = indices.iter().map(|index| index.as_u64().unwrap_or(0) as usize).collect();
