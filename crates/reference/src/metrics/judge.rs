@@ -183,7 +183,8 @@ pub fn judge(oracle: &Oracle, expected: &Image, actual: &Image, bars: Bars) -> R
 /// interpolate between the rounded corners and others between the exact ones, so the picture is right if it is so as a
 /// whole by either: by `oracle`, which has drawn `expected`, or by the same [on the grid](Oracle::on_grid) with vertices
 /// moved by less than 1/64 of a pixel. Where a corner lies so near the middle between two places that single precision
-/// may take it to either, the triangles on it may be moved by a step of the grid.
+/// may take it to either, the triangles on it may be moved by a step of the grid. Edges of triangles that reach beyond
+/// the picture may be moved so, too: where a drawer cuts them at its sides, it rounds the corners that this makes.
 ///
 /// # Errors
 /// [`SizeMismatch`].

@@ -217,6 +217,16 @@ impl Primitive {
 }
 
 impl OracleScene {
+    /// Whether a corner of a triangle lies beside the picture or before the near plane.
+    pub(super) fn reaches_beyond(&self, primitive: &Primitive) -> bool {
+        let size = self.view.size();
+        let is_there = |p: &DVec3| {
+            let pixel = self.view.pixel(*p);
+            -p.z >= self.view.near && pixel.cmpge(DVec2::ZERO).all() && pixel.cmple(size).all()
+        };
+        !self.solids[primitive.solid].triangle(primitive.index).iter().all(is_there)
+    }
+
     /// What meets rays for a triangle: its hit where a side that is shown lies beyond the near plane.
     pub(super) fn triangle(&self, primitive: &Primitive) -> impl Fn(DVec3) -> Option<Hit> {
         let &Primitive { solid: number, index, .. } = primitive;

@@ -148,3 +148,53 @@ fn ties_go_to_either_side() {
         }
     }
 }
+
+/// Some drawers cut triangles at the sides of the picture, and put the corners that this makes on the grid as well: an
+/// edge then leads through other places of it than its ends are at, and the two triangles on it are interpolated as
+/// before.
+#[test]
+fn edges_of_cut_triangles_may_lead_through_other_places() {
+    // In pixels. From end to end of the edge on the grid the middle of the pixel (3, 7) lies 0.03 pixels above it, and
+    // from side to side of the picture 0.01 below.
+    let (ends, pixel) = ([[-18.12, 6.4192], [33.79, 9.0519]], (3, 7));
+    let place = |[x, y]: [f32; 2]| Vec3::new(x / 8.0 - 1.0, 1.0 - y / 8.0, -1.0);
+    for (slope_is_above, third) in [(true, [8.0, -20.0]), (false, [8.0, 40.0])] {
+        let mut stage = Stage::new();
+        stage.world.insert_resource(GlobalAmbient(LinearRgba::WHITE));
+        let mut add = |corners: [[f32; 2]; 3], colors: [f32; 3], indices: [u32; 3]| {
+            let mesh = Mesh::from_parts(corners.map(place).to_vec(), None, None, indices.to_vec()).expect("a triangle");
+            let colors = colors.map(|grey| Vec4::new(grey, grey, grey, 1.0)).to_vec();
+            let looks = Material { ambient: LinearRgba::WHITE, diffuse: LinearRgba::BLACK, ..Material::DEFAULT };
+            stage.add(mesh.with_colors(colors).expect("a colour a vertex"), looks);
+        };
+        // Counter-clockwise as seen.
+        let windings = [[0, 1, 2], [1, 0, 2]];
+        let [of_slope, of_flat] = if slope_is_above { windings } else { [windings[1], windings[0]] };
+        let slope = [ends[0], ends[1], third];
+        add(slope, [0.1, 0.9, 0.5], of_slope);
+        add([ends[0], ends[1], [8.0, 20.0 - third[1]]], [0.7; 3], of_flat);
+        let exact = stage.oracle(16, 16);
+        let picture = stage.oracle(16, 16).on_grid(4).draw();
+        // What the slope shows there, within its edge or beyond.
+        let [a, b, c] = slope.map(|corner| corner.map(|along| (f64::from(along) * 16.0).round() / 16.0));
+        let area =
+            |p: [f64; 2], q: [f64; 2], r: [f64; 2]| (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
+        let on_slope = |p: [f64; 2]| (0.1 * area(p, b, c) + 0.9 * area(a, p, c) + 0.5 * area(a, b, p)) / area(a, b, c);
+        let shows = |pixel: (u32, u32), slope: bool| {
+            let at = [pixel.0, pixel.1].map(|along| f64::from(along) + 0.5);
+            (pixel, [if slope { on_slope(at) } else { 0.7 }; 3])
+        };
+        let cut = shows(pixel, !slope_is_above);
+        let drawn = with(&picture, [cut]);
+        let verdict = judge(&exact, &exact.draw(), &drawn, Bars::FLOAT).expect("one size");
+        assert!(!verdict.is_within(), "{slope_is_above}, by the exact triangles: {verdict}");
+        let verdict = on_grid(&exact, 4, &drawn);
+        assert!(verdict.is_within(), "{slope_is_above}: {verdict}");
+        // Neither of the two colours, and the other one farther from the edge.
+        let brighter = (pixel, cut.1.map(|channel| channel + 0.02));
+        for fault in [brighter, shows((3, 6), !slope_is_above), shows((3, 8), slope_is_above)] {
+            let verdict = on_grid(&exact, 4, &with(&drawn, [fault]));
+            assert!(!verdict.is_within(), "{slope_is_above}, {fault:?}: {verdict}");
+        }
+    }
+}

@@ -111,11 +111,14 @@ pub(super) struct Footprint {
     pub(super) edges: [bool; 3],
     /// Whether the near plane cuts it within the disc.
     pub(super) cut: bool,
+    /// How far beside it a renderer may draw it, in pixels.
+    pub(super) beside: f64,
 }
 
 impl Footprint {
     /// What is seen of a triangle within the disc `zone`, of either side, shown or not; `None` where there is nothing.
-    pub(super) fn new(scene: &OracleScene, primitive: &Primitive, zone: &Zone) -> Option<Self> {
+    /// It may be drawn `beside` itself by a number of pixels.
+    pub(super) fn new(scene: &OracleScene, primitive: &Primitive, zone: &Zone, beside: f64) -> Option<Self> {
         let (view, solid) = (&scene.view, &scene.solids[primitive.solid]);
         let corners = solid.triangle(primitive.index);
         let outline = clipped(view, &whole(corners), zone);
@@ -143,6 +146,7 @@ impl Footprint {
             corners: corners.map(|p| p.to_array().map(|x| (x + 0.0).to_bits())),
             edges: [0, 1, 2].map(edge),
             cut: outline.iter().any(near),
+            beside,
             outline,
         })
     }
@@ -153,7 +157,7 @@ impl Footprint {
     }
 
     /// The same of the triangle with what lies beside it by less than `reach` pixels, in its plane.
-    pub(super) fn beside(&self, scene: &OracleScene, zone: &Zone, reach: f64) -> Vec<FootprintCorner> {
+    pub(super) fn reaching(&self, scene: &OracleScene, zone: &Zone, reach: f64) -> Vec<FootprintCorner> {
         let whole = whole(scene.solids[self.solid].triangle(self.triangle));
         clipped(&scene.view, &grown(&scene.view, &whole, reach).unwrap_or(whole), zone)
     }

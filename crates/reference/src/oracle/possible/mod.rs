@@ -13,6 +13,7 @@ use bevy_math::DVec2;
 use halfway_lighting::Samples;
 
 use super::Oracle;
+use super::grid::VertexGrid;
 use footprint::{Footprint, Zone};
 use stack::Stack;
 
@@ -29,7 +30,9 @@ impl Oracle {
     /// The colours that the pixel in column `x` of row `y` may show, drawn by a renderer that moves each vertex by at
     /// most `radius` pixels, vertices at one place together: what any sampling point so far beside the true one could
     /// have met. The radius is below 1/8. Near triangles of which a corner may be at either of two places of the
-    /// [grid](Self::on_grid) it is the step of the grid, if that is more.
+    /// [grid](Self::on_grid) it is the step of the grid, if that is more; of those that reach beyond the picture it is so
+    /// for what they cover, and not for their colours: a renderer may cut them at its sides, and put the corners that
+    /// this makes on the grid.
     ///
     /// - A triangle may be seen if it comes into the disc of that radius, unless something before it cannot be missed:
     ///   a surface that covers the disc's centre and has neither an end nor a silhouette within the disc, and of which
@@ -59,15 +62,12 @@ impl Oracle {
         let behind = self.scene.behind(self.scene.view.ray(centre.x, centre.y));
         match self.samples() {
             Samples::One => {
-                let disc = Zone::disc(centre, radius);
-                self.stack(&disc, &[&disc]).possible(&self.scene, behind, self.clamp)
+                let shading = [&Zone::disc(centre, radius)];
+                self.stack(centre, radius, &shading).possible(&self.scene, behind, self.clamp)
             }
             Samples::Four => {
                 let shading = [&Zone::disc(centre, radius), &Zone::square(centre, 0.5 + radius)];
-                let at = |at: DVec2| {
-                    let disc = Zone::disc(at, radius);
-                    self.stack(&disc, &shading).possible(&self.scene, behind, self.clamp)
-                };
+                let at = |at: DVec2| self.stack(at, radius, &shading).possible(&self.scene, behind, self.clamp);
                 let samples = FOUR.map(|sample| at(corner + DVec2::from_array(sample)));
                 // The oracle's own picture shows the centre, where something may lie that no sample meets.
                 let centre = at(centre);
@@ -85,10 +85,14 @@ impl Oracle {
         near.into_iter().any(|primitive| self.scene.solids[primitive.solid].is_uncertain(primitive.index))
     }
 
-    fn stack(&self, disc: &Zone, shading: &[&Zone]) -> Stack {
-        let [low, high] = disc.bounds();
-        let near = self.tiles().within(low, high);
-        let footprints = near.into_iter().filter_map(|primitive| Footprint::new(&self.scene, primitive, disc));
+    fn stack(&self, at: DVec2, radius: f64, shading: &[&Zone]) -> Stack {
+        let step = self.grid.map_or(0.0, VertexGrid::step);
+        let [disc, wide] = [radius, radius.max(step)].map(|radius| Zone::disc(at, radius));
+        let [low, high] = wide.bounds();
+        let footprints = self.tiles().within(low, high).into_iter().filter_map(|primitive| {
+            let (zone, beside) = if self.scene.reaches_beyond(primitive) { (&wide, step) } else { (&disc, 0.0) };
+            Footprint::new(&self.scene, primitive, zone, beside)
+        });
         Stack::new(&self.scene, footprints.collect(), shading)
     }
 }

@@ -57,15 +57,16 @@ impl SideColors {
 /// The part of a triangle in which it is shaded, and into how many parts the way from its middle to a corner is cut. A
 /// fine grid may have it cover a point [`BESIDE`] it, where slopes that are not rounded go on.
 fn part(scene: &OracleScene, footprint: &Footprint, shading: &[&Zone]) -> (Vec<FootprintCorner>, usize) {
+    let beside = footprint.beside.max(BESIDE);
     let (mut outline, mut cuts) = match shading {
-        [zone] => (footprint.beside(scene, zone, BESIDE), 1),
+        [zone] => (footprint.reaching(scene, zone, beside), 1),
         [first, .., last] => {
             let whole = footprint.within(scene, last);
             let is_at_centre = covers(scene, &whole, last) && !is_in_parts(scene, footprint);
             if is_at_centre {
                 (footprint.within(scene, first), 1)
             } else {
-                (footprint.beside(scene, last, BESIDE), CUTS_OF_A_PIXEL)
+                (footprint.reaching(scene, last, beside), CUTS_OF_A_PIXEL)
             }
         }
         [] => (Vec::new(), 1),
