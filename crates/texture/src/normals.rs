@@ -32,11 +32,6 @@ pub fn from_heights(heights: &TexelImage, wrap: [Wrap; 2], strength: f32) -> Res
     })
 }
 
-/// The normal that a texel, or a mean of texels, stands for. Means are shorter than 1.
-pub fn decoded<T: Number>([x, y, z, _]: [T; 4]) -> [T; 3] {
-    [x, y, z].map(|number| T::of(2.0) * number - T::one())
-}
-
 /// What highlights take of a map of normals that are smaller than a pixel, where light is shaded at the fragments.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum FarNormals {

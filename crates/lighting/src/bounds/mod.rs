@@ -6,8 +6,7 @@
 //! patch. [`Receiver::select`] lists the lights that a patch needs: with a tolerance of 0 it leaves out the terms that
 //! are 0 all over the patch, otherwise also the weakest terms, as long as the *sum* of their bounds stays within the
 //! tolerance. [`LightTree::select`] gives the same lists without visiting the lights that are out of range.
-//! [`linear_tolerance`] converts a tolerance from the picture's encoding to intensities, and [`reach`] tells how far a
-//! light needs to be looked for at all.
+//! [`linear_tolerance`] converts a tolerance from the picture's encoding to intensities.
 //!
 //! # The bound
 //! With the sphere (c, r) and the cone (k, α) of the patch, D = ‖L − c‖ and sin al = r/D, every l of the patch lies
@@ -68,14 +67,12 @@
 
 mod angle;
 mod patch;
-mod reach;
 mod receiver;
 mod select;
 mod tolerance;
 mod tree;
 
 pub use patch::{NormalCone, Patch};
-pub use reach::reach;
 pub use receiver::{MARGIN, Receiver, TermBounds};
 pub use select::Selected;
 pub use tolerance::{STEP, linear_tolerance};

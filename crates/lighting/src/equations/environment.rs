@@ -27,6 +27,10 @@ pub fn lobe_exponent<T: Real>(reflectance: Reflectance, exponent: T) -> T {
 }
 
 /// The angle of texels that, looked up bilinearly, have the variance of Phong's lobe: s = 2/√(α + 3) radians.
+///
+/// The lobe (r·l)^α, normalized over the hemisphere by (α + 1)/2π, has the mean 2/(α + 3) of sin²θ, and so a variance of
+/// 1/(α + 3) along each of two axes. The weights of a bilinear lookup are a box of the variance s²/12 beside a tent of
+/// s²/6: s²/4 in all.
 pub fn lobe_angle<T: Real>(alpha: T) -> T {
     T::of(2.0) / (alpha + T::of(3.0)).sqrt()
 }

@@ -6,31 +6,9 @@ use rayon::prelude::*;
 
 use super::directions::unit;
 use super::{Environment, density, direction};
-use crate::error::TextureError;
 use crate::lookup::Number;
 
 impl Environment {
-    /// The mean light that a matt surface receives: (1/π)∫ L(ω) max(n·ω, 0) dω for each normal n, in the environment's
-    /// shape and `size` texels along its height. A constant light stays as it is.
-    ///
-    /// Each texel of a level of at most 64 rows counts as all of its solid angle in its middle; the sum of the weights
-    /// is made 1. Takes time in proportion to both sizes' squares.
-    ///
-    /// # Errors
-    /// As of [`Environment::from_fn`].
-    pub fn convolved(&self, size: u32) -> Result<Self, TextureError> {
-        let texels = self.texels_of(64);
-        Self::from_fn(self.shape, size, |n| {
-            let (mut sum, mut weights) = ([0.0; 4], 0.0);
-            for (d, solid_angle, color) in &texels {
-                let weight = solid_angle * (n[0] * d[0] + n[1] * d[1] + n[2] * d[2]).max(0.0);
-                weights += weight;
-                (0..4).for_each(|k| sum[k] += weight * color[k]);
-            }
-            sum.map(|sum| (sum / weights.max(f64::MIN_POSITIVE)) as f32)
-        })
-    }
-
     /// The nine coefficients of its light, over a level of at most 256 rows.
     pub fn harmonics(&self) -> Harmonics {
         let texels = self.texels_of(256);
@@ -82,8 +60,8 @@ impl Harmonics {
         }
     }
 
-    /// The mean light that a matt surface of this normal receives, as [`Environment::convolved`] has it. May be below 0
-    /// by the error.
+    /// The mean light that a matt surface of this normal n receives, (1/π)∫ L(ω) max(n·ω, 0) dω: a constant light stays
+    /// as it is. May be below 0 by the error.
     pub fn mean_light<T: Number>(&self, normal: [T; 3]) -> [T; 4] {
         let basis = basis(unit(normal));
         let mut sum = [T::zero(); 4];
@@ -94,9 +72,7 @@ impl Harmonics {
         }
         sum
     }
-}
 
-impl Harmonics {
     /// The same as the coefficients of a polynomial of a normal (x, y, z) of length 1, for red, green and blue: of 1,
     /// y, z, x, xy, yz, 3z² − 1, xz and x² − y².
     pub fn polynomial(&self) -> [[f64; 3]; 9] {

@@ -6,7 +6,7 @@ use super::diffuse::Harmonics;
 use super::directions::{FACES, on_cube};
 use super::{Environment, EnvironmentShape, texel_angle};
 use crate::error::TextureError;
-use crate::lookup::Number;
+use crate::lookup::{Number, between, mean_of_four};
 
 /// The longest side of a face that is drawn. Larger cube maps, and what a larger one would be made of, are taken
 /// smaller.
@@ -73,14 +73,7 @@ impl EnvironmentMap {
         let is_odd = |d: [f64; 3]| d.iter().fold(0, |sum, x| sum + (4.0 * (x + 1.0)) as u32) % 2 == 1;
         let color = |d: [f64; 3]| if is_odd(d) { [1.0, 0.0, 1.0, 1.0] } else { [0.0, 0.0, 0.0, 1.0] };
         let cube = Environment::from_fn(EnvironmentShape::Cube, 32, color);
-        cube.map_or_else(|_| Self::empty(), |cube| Self::of_cube(&cube))
-    }
-
-    /// No light.
-    fn empty() -> Self {
-        let levels = [EnvironmentLevel { side: 1, start: 0 }];
-        let texels = vec![[0.0; 4]; 9 * FACES];
-        Self { levels: levels.into(), texels: texels.into(), harmonics: Harmonics::default(), angle: 1.0 }
+        Self::of_cube(&cube.expect("a small image of finite numbers"))
     }
 
     /// The levels, the finest first, one texel a face last.
@@ -115,17 +108,8 @@ impl EnvironmentMap {
 
     /// The light from a direction, of any length, between the two levels around `level`.
     pub fn at<T: Number>(&self, direction: [T; 3], level: T) -> [T; 3] {
-        let last = T::of((self.levels.len() - 1) as f64);
-        let d = if level.is_nan() { T::zero() } else { level.max(T::zero()).min(last) };
-        let (finer, part) = (d.floor(), d - d.floor());
-        let finer = finer.to_usize().unwrap_or_default();
         let place = on_cube(direction);
-        let a = self.in_level(place, finer);
-        if part == T::zero() {
-            return a;
-        }
-        let b = self.in_level(place, finer + 1);
-        std::array::from_fn(|k| a[k] + part * (b[k] - a[k]))
+        between(self.levels.len(), level, |level| self.in_level(place, level))
     }
 
     fn in_level<T: Number>(&self, (face, uv): (usize, [T; 2]), number: usize) -> [T; 3] {
@@ -135,14 +119,10 @@ impl EnvironmentMap {
         // The border's texel has the number 0.
         let [x, y] = uv.map(|u| u * T::of(side.into()) + T::of(0.5));
         let [i, j] = [x, y].map(|x| x.floor().to_usize().unwrap_or_default().min(side as usize));
-        let [f, g] = [(x, i), (y, j)].map(|(x, i)| x - T::of(i as f64));
-        let row = |j: usize| {
-            let [a, b] =
-                [0, 1].map(|next| self.texels[first + j * width + i + next].map(|number| T::of(number.into())));
-            let row: [T; 3] = std::array::from_fn(|k| a[k] + f * (b[k] - a[k]));
-            row
-        };
-        let [a, b] = [row(j), row(j + 1)];
-        std::array::from_fn(|k| a[k] + g * (b[k] - a[k]))
+        let parts = [(x, i), (y, j)].map(|(x, i)| x - T::of(i as f64));
+        mean_of_four(parts, |[x, y]| {
+            let [r, g, b, _] = self.texels[first + (j + y) * width + i + x];
+            [r, g, b].map(|number| T::of(number.into()))
+        })
     }
 }

@@ -17,7 +17,7 @@ use self::directions::{FACES, unit};
 pub use self::drawn::{EnvironmentLevel, EnvironmentMap, MOST_FACE_TEXELS};
 pub use self::light::{EnvironmentLight, WrongEnvironment};
 use crate::error::TextureError;
-use crate::lookup::{Number, in_level, wrapped_index};
+use crate::lookup::{Number, between, in_level, mean_of_four, wrapped_index};
 use crate::pyramid::Pyramid;
 use crate::sampling::{TexelFilter, Wrap};
 use crate::texels::TexelImage;
@@ -112,31 +112,8 @@ impl Environment {
 
     /// The light from a direction, of any length, between the two levels around `level`.
     pub fn at<T: Number>(&self, direction: [T; 3], level: T) -> [T; 4] {
-        let last = T::of((self.images[0].levels().len() - 1) as f64);
-        let d = if level.is_nan() { T::zero() } else { level.max(T::zero()).min(last) };
-        let (finer, part) = (d.floor(), d - d.floor());
-        let finer = finer.to_usize().unwrap_or_default();
         let direction = unit(direction);
-        let a = self.in_level(direction, finer);
-        if part == T::zero() {
-            return a;
-        }
-        let b = self.in_level(direction, finer + 1);
-        std::array::from_fn(|k| a[k] + part * (b[k] - a[k]))
-    }
-
-    /// The light that a surface of this shininess α mirrors, arriving around the reflected direction: from the level
-    /// whose texels are as wide as the lobe.
-    ///
-    /// The lobe (r·l)^α, normalized over the hemisphere by (α + 1)/2π, has the mean 2/(α + 3) of sin²θ, and so a
-    /// variance of 1/(α + 3) along each of two axes. A level of texels of the angle s, looked up bilinearly, has
-    /// weights that are a box of the variance s²/12 beside a tent of s²/6: s²/4 in all. Both are alike where s =
-    /// 2/√(α + 3), and D = log₂(s/[`angle`]). Of a Blinn–Phong exponent β, α is about β/4.
-    ///
-    /// [`angle`]: Self::angle
-    pub fn glossy<T: Number>(&self, reflected: [T; 3], shininess: T) -> [T; 4] {
-        let s = T::of(2.0) / (shininess.max(T::zero()) + T::of(3.0)).sqrt();
-        self.at(reflected, (s / T::of(self.angle())).binary_logarithm())
+        between(self.images[0].levels().len(), level, |level| self.in_level(direction, level))
     }
 
     fn in_level<T: Number>(&self, direction: [T; 3], level: usize) -> [T; 4] {
@@ -198,13 +175,7 @@ impl Environment {
 fn bilinear<T: Number>(uv: [T; 2], size: [u32; 2], texel: impl Fn([i64; 2]) -> [T; 4]) -> [T; 4] {
     let [x, y] = [0, 1].map(|axis| uv[axis] * T::of(size[axis].into()) - T::of(0.5));
     let ([i, j], [f, g]) = ([x, y].map(|x| x.floor().to_i64().unwrap_or(0)), [x - x.floor(), y - y.floor()]);
-    let row = |j: i64| {
-        let [a, b] = [texel([i, j]), texel([i + 1, j])];
-        let row: [T; 4] = std::array::from_fn(|k| a[k] + f * (b[k] - a[k]));
-        row
-    };
-    let [a, b] = [row(j), row(j + 1)];
-    std::array::from_fn(|k| a[k] + g * (b[k] - a[k]))
+    mean_of_four([f, g], |[x, y]| texel([i + x as i64, j + y as i64]))
 }
 
 /// The direction of a place, not of length 1 on a cube.

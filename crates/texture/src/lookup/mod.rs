@@ -29,9 +29,6 @@ pub trait Number: Float + Debug + Send + Sync + 'static {
     /// log₂, equal to the bit on every machine.
     #[must_use]
     fn binary_logarithm(self) -> Self;
-    /// e to this power, equal to the bit on every machine.
-    #[must_use]
-    fn exponential(self) -> Self;
     /// The sine, equal to the bit on every machine.
     #[must_use]
     fn sine(self) -> Self;
@@ -53,10 +50,6 @@ impl Number for f32 {
 
     fn binary_logarithm(self) -> Self {
         libm::log2f(self)
-    }
-
-    fn exponential(self) -> Self {
-        libm::expf(self)
     }
 
     fn sine(self) -> Self {
@@ -83,10 +76,6 @@ impl Number for f64 {
 
     fn binary_logarithm(self) -> Self {
         libm::log2(self)
-    }
-
-    fn exponential(self) -> Self {
-        libm::exp(self)
     }
 
     fn sine(self) -> Self {
@@ -154,11 +143,17 @@ pub fn at_level<T: Number>(pyramid: &Pyramid, sampling: &Sampling, uv: [T; 2], d
 
 /// The two levels around D, weighted by the distance from it; the first of all where D ≤ 0.
 fn between_levels<T: Number>(pyramid: &Pyramid, wrap: [Wrap; 2], filter: TexelFilter, uv: [T; 2], d: T) -> [T; 4] {
-    let d = d.max(T::zero()).min(T::of((pyramid.levels().len() - 1) as f64));
+    between(pyramid.levels().len(), d, |level| in_level(pyramid, level, wrap, filter, uv))
+}
+
+/// The same of what this number of levels have.
+pub(crate) fn between<T: Number, const N: usize>(levels: usize, d: T, level: impl Fn(usize) -> [T; N]) -> [T; N] {
+    // What is no number is no maximum.
+    let d = d.max(T::zero()).min(T::of((levels - 1) as f64));
     let (finer, part) = (d.floor(), d - d.floor());
     let finer = finer.to_usize().unwrap_or_default();
-    let a = in_level(pyramid, finer, wrap, filter, uv);
-    if part == T::zero() { a } else { mixed(a, in_level(pyramid, finer + 1, wrap, filter, uv), part) }
+    let a = level(finer);
+    if part == T::zero() { a } else { mixed(a, level(finer + 1), part) }
 }
 
 fn finite<T: Number>(x: T) -> T {
@@ -166,8 +161,14 @@ fn finite<T: Number>(x: T) -> T {
 }
 
 /// The part `part` of the way from `a` to `b`.
-fn mixed<T: Number>(a: [T; 4], b: [T; 4], part: T) -> [T; 4] {
+fn mixed<T: Number, const N: usize>(a: [T; N], b: [T; N], part: T) -> [T; N] {
     std::array::from_fn(|channel| a[channel] + part * (b[channel] - a[channel]))
+}
+
+/// The mean of four texels, numbered 0 and 1 along each axis, by the parts of the way from 0 to 1.
+pub(crate) fn mean_of_four<T: Number, const N: usize>(parts: [T; 2], texel: impl Fn([usize; 2]) -> [T; N]) -> [T; N] {
+    let row = |j: usize| mixed(texel([0, j]), texel([1, j]), parts[0]);
+    mixed(row(0), row(1), parts[1])
 }
 
 /// How one number of an image changes along u and along v at a point of this D, per unit of u and v: the difference

@@ -1,7 +1,7 @@
 //! Normals of heights, and normals from afar against the mean over all of them.
 
 use halfway_texture::normals::{
-    SlopeSpread, decoded, from_heights, lean_lobe, mean_length, slope_covariance, spread_length, toksvig,
+    SlopeSpread, from_heights, lean_lobe, mean_length, slope_covariance, spread_length, toksvig,
 };
 use halfway_texture::{Pyramid, Sampling, TexelImage, TextureError, Wrap, lookup};
 use std::f64::consts::TAU;
@@ -9,6 +9,11 @@ use std::f64::consts::TAU;
 fn heights(width: u32, height: u32, of: impl Fn(f64, f64) -> f64) -> TexelImage {
     let texel = |x: u32, y: u32| [of(f64::from(x), f64::from(y)) as f32; 4];
     TexelImage::from_fn(width, height, texel).expect("a small image")
+}
+
+/// The normal that a texel, or a mean of texels, stands for. Means are shorter than 1.
+fn decoded([x, y, z, _]: [f64; 4]) -> [f64; 3] {
+    [x, y, z].map(|number| 2.0 * number - 1.0)
 }
 
 #[test]

@@ -3,7 +3,6 @@
 mod conservative;
 mod exact;
 mod many_lights;
-mod reach;
 mod select;
 mod support;
 mod tolerance;
