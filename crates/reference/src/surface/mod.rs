@@ -86,10 +86,17 @@ impl Traced {
     pub(crate) fn settle(&self, direction: DVec3, hits: &mut Vec<SurfaceHit>) {
         hits.sort_by(|a, b| a.t.total_cmp(&b.t));
         let front = |hit: &SurfaceHit| hit.normal.dot(direction) < 0.0;
-        hits.dedup_by(|later, kept| {
-            let apart = later.position.distance(kept.position);
-            apart <= SAME_PLACE * self.extent && front(later) == front(kept)
-        });
+        let mut settled: Vec<SurfaceHit> = Vec::with_capacity(hits.len());
+        for hit in hits.drain(..) {
+            let is_same = |kept: &SurfaceHit| {
+                kept.position.distance(hit.position) <= SAME_PLACE * self.extent && front(kept) == front(&hit)
+            };
+            // Those of another surface that passes through may lie between.
+            if !settled.iter().any(is_same) {
+                settled.push(hit);
+            }
+        }
+        *hits = settled;
     }
 }
 

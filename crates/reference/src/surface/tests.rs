@@ -1,6 +1,7 @@
 //! Rays against closed forms, against the patches themselves, and against meshes.
 
 use bevy_math::{DVec3, Vec3};
+use fastrand::Rng;
 use halfway_mesh::{
     BezierPatch, Capsule, Cone, Cylinder, Disc, Ellipsoid, HeightField, Hyperboloid, HyperboloidSheet, Mesh,
     Paraboloid, Parameter, ParametricSurface, Surface, SurfacePiece, Teapot, Tessellation, UvSphere, tessellate,
@@ -8,32 +9,17 @@ use halfway_mesh::{
 
 use super::{SurfaceHit, Traced};
 
-/// Pseudo-random numbers, the same on every run (Steele, Lea and Flood 2014, "Fast splittable pseudorandom number
-/// generators").
-struct Random(u64);
+/// In the cube from −1 to 1.
+fn vector(random: &mut Rng) -> DVec3 {
+    let mut next = || 2.0 * random.f64() - 1.0;
+    DVec3::new(next(), next(), next())
+}
 
-impl Random {
-    /// From 0 to 1.
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 * (-53.0_f64).exp2()
-    }
-
-    /// In the cube from −1 to 1.
-    fn vector(&mut self) -> DVec3 {
-        let mut next = || 2.0 * self.unit() - 1.0;
-        DVec3::new(next(), next(), next())
-    }
-
-    fn direction(&mut self) -> DVec3 {
-        loop {
-            let v = self.vector();
-            if (0.01..1.0).contains(&v.length_squared()) {
-                return v.normalize();
-            }
+fn direction(random: &mut Rng) -> DVec3 {
+    loop {
+        let v = vector(random);
+        if (0.01..1.0).contains(&v.length_squared()) {
+            return v.normalize();
         }
     }
 }
@@ -61,15 +47,15 @@ fn solid(surface: &dyn ParametricSurface) -> Traced {
 
 #[test]
 fn a_sphere_is_met_as_its_closed_form_says() {
-    let mut random = Random(1);
+    let mut random = Rng::with_seed(1);
     let mut met = 0;
     for radius in [1e-30_f32, 1e-3, 1.0, 7.5, 1e30] {
         let sphere = sphere(radius);
         let r = f64::from(radius);
         for _ in 0..2000 {
-            let origin = 3.0 * r * random.vector();
-            let aimed = 1.1 * r * random.vector() - origin;
-            let direction = aimed / r * (0.1 + random.unit());
+            let origin = 3.0 * r * vector(&mut random);
+            let aimed = 1.1 * r * vector(&mut random) - origin;
+            let direction = aimed / r * (0.1 + random.f64());
             let d = direction.normalize();
             // The chord lies around the point next to the centre.
             let along = -origin.dot(d);
@@ -97,12 +83,12 @@ fn a_sphere_is_met_as_its_closed_form_says() {
 #[test]
 fn a_sphere_far_away_is_met_as_one_nearby() {
     // Origins that are exactly 2²³ directions away from the target, since none of their digits is lost.
-    let mut random = Random(2);
+    let mut random = Rng::with_seed(2);
     let sphere = sphere(1.0);
     for _ in 0..500 {
         let rounded = |v: DVec3, to: f64| (v / to).round() * to;
         let (target, d) =
-            (rounded(0.5 * random.vector(), 2.0_f64.powi(-20)), rounded(random.direction(), 1.0 / 1024.0));
+            (rounded(0.5 * vector(&mut random), 2.0_f64.powi(-20)), rounded(direction(&mut random), 1.0 / 1024.0));
         let far = f64::from(1 << 23);
         let hits = all_hits(&sphere, target - far * d, d);
         // From close by: (target + t d)² = 1.
@@ -146,7 +132,7 @@ fn check_closed(name: &str, solid: &Traced, target: DVec3, direction: DVec3) -> 
 
 #[test]
 fn solids_are_closed() {
-    let mut random = Random(3);
+    let mut random = Rng::with_seed(3);
     // Each reaches from y = −1 to 1, or beyond, with the radius 1 at y = −1.
     let cylinder = solid(&Cylinder { radius: 1.0, height: 2.0, capped: true });
     let cone = solid(&Cone { radius: 1.0, height: 2.0, capped: true });
@@ -154,7 +140,7 @@ fn solids_are_closed() {
     for (name, solid) in [("cylinder", &cylinder), ("cone", &cone), ("capsule", &capsule)] {
         let mut met = 0;
         for _ in 0..3000 {
-            met += check_closed(name, solid, 1.5 * random.vector(), random.direction());
+            met += check_closed(name, solid, 1.5 * vector(&mut random), direction(&mut random));
         }
         assert!(met > 1000, "{name}: {met}");
         for direction in [DVec3::X, DVec3::Y, DVec3::Z] {
@@ -191,13 +177,13 @@ fn rays_find_the_points_of_every_surface() {
         ("sheet", &sheet),
         ("height field", &HeightField::new(3.0, 2.0, 5, heights).unwrap()),
     ];
-    let mut random = Random(6);
+    let mut random = Rng::with_seed(6);
     for (name, surface) in surfaces {
         let traced = Boxed::new(Traced::new(&Surface::new(surface.pieces().unwrap())));
         for _ in 0..300 {
-            let (u, v) = (random.unit(), random.unit());
+            let (u, v) = (random.f64(), random.f64());
             let p = surface.at(u.into(), v.into());
-            let direction = random.direction();
+            let direction = direction(&mut random);
             let slope = direction.dot(p.normal).abs();
             if slope < 0.01 {
                 continue;
@@ -264,16 +250,16 @@ fn the_teapot_is_cut_into_pieces_that_hold_it() {
 fn rays_find_the_points_of_the_teapots_patches() {
     let mesh = Mesh::from(Teapot::new(1));
     let teapot = Boxed::new(traced(&mesh));
-    let mut random = Random(4);
+    let mut random = Rng::with_seed(4);
     for (number, patch) in patches(mesh.surface().unwrap()).enumerate() {
         for i in 0..240 {
             // Inside, on the edges of pieces, on the edges of patches and at their points.
-            let mut pick = |on_edge: bool| if on_edge { (16.0 * random.unit()).round() / 16.0 } else { random.unit() };
+            let mut pick = |on_edge: bool| if on_edge { (16.0 * random.f64()).round() / 16.0 } else { random.f64() };
             let (u, v) = (pick(i % 2 == 0), pick(i % 3 == 0));
             let (u, v): (Parameter, Parameter) = (u.into(), v.into());
             let (p, n) = (patch.position(u, v), patch.normal(u, v).unwrap());
             let direction = loop {
-                let direction = random.direction();
+                let direction = direction(&mut random);
                 if direction.dot(n).abs() > 0.1 {
                     break direction;
                 }
@@ -313,12 +299,12 @@ fn the_vertices_of_a_teapot_lie_on_its_surface() {
 fn rays_meet_the_teapot_where_they_meet_a_fine_mesh() {
     let mesh = Mesh::from(Teapot::new(24));
     let teapot = traced(&mesh);
-    let mut random = Random(5);
+    let mut random = Rng::with_seed(5);
     let (mut by_mesh, mut by_surface) = (0, 0);
     for _ in 0..120 {
-        let (origin, direction) = (4.0 * random.direction(), random.direction());
-        let target = 1.2 * random.vector();
-        let direction = if random.unit() < 0.5 { (target - origin).normalize() } else { direction };
+        let (origin, direction) = (4.0 * direction(&mut random), direction(&mut random));
+        let target = 1.2 * vector(&mut random);
+        let direction = if random.f64() < 0.5 { (target - origin).normalize() } else { direction };
         let hits = all_hits(&teapot, origin, direction);
         let facets: Vec<(f64, f64)> = mesh
             .triangles()
@@ -377,18 +363,18 @@ fn rays_through_the_points_where_rows_have_shrunk_are_not_lost() {
 #[test]
 fn rays_find_the_points_of_patches_of_any_degree_and_shape() {
     // Random control points make folds, cusps and sheets that pass through each other.
-    let mut random = Random(7);
+    let mut random = Rng::with_seed(7);
     for (rows, columns) in [(2, 2), (3, 3), (4, 4), (5, 7), (8, 3)] {
         for _ in 0..6 {
-            let points = (0..rows * columns).map(|_| random.vector()).collect();
+            let points = (0..rows * columns).map(|_| vector(&mut random)).collect();
             let patch = BezierPatch::new(columns, points).unwrap();
             let traced = Boxed::new(Traced::new(&Surface::new([SurfacePiece::Patch(patch.clone())])));
             for i in 0..120 {
                 let mut pick =
-                    |on_edge: bool| if on_edge { (16.0 * random.unit()).round() / 16.0 } else { random.unit() };
+                    |on_edge: bool| if on_edge { (16.0 * random.f64()).round() / 16.0 } else { random.f64() };
                 let (u, v) = (pick(i % 2 == 0), pick(i % 3 == 0));
                 let p = patch.position(u.into(), v.into());
-                let direction = random.direction();
+                let direction = direction(&mut random);
                 let slope = patch.normal(u.into(), v.into()).unwrap().dot(direction).abs();
                 if slope > 1e-3 {
                     let hits = traced.hits_at(p, direction);
