@@ -3,7 +3,7 @@
 use crate::batch::backend::Backend;
 use crate::batch::ignored::tell_ignored;
 use crate::batch::key::DrawKey;
-use crate::batch::lit_runs::{LitRun, OpenRun};
+use crate::batch::lit_runs::{LitRun, OpenRun, most_between};
 use crate::batch::object::{Circumstances, Shared};
 use crate::batch::shown_objects::{ShownObject, ShownObjects};
 use crate::batch::table::ObjectTable;
@@ -20,7 +20,6 @@ use crate::target::frame::FrameValues;
 use bevy_ecs::component::Mutable;
 use bevy_ecs::prelude::*;
 use bevy_math::Vec3;
-use halfway_asset::AssetId;
 use halfway_lighting::bounds::Patch;
 use halfway_lighting::equations::Eye;
 use halfway_lighting::record::{InstanceRecord, SurfaceRecord};
@@ -194,11 +193,12 @@ impl LitPatches {
 
     /// Adds patches, each with the number of its record.
     fn add_runs(&mut self, object: &LitObject, key: &DrawKey, patches: impl Iterator<Item = (u32, u32)>) {
+        let most_between = most_between(object.geometry.patches.has_levels());
         let mut run: Option<OpenRun> = None;
         for (patch, record) in patches {
             let next = OpenRun { record, indices: object.geometry.patches.indices(patch) };
             match &mut run {
-                Some(run) if run.goes_on_with(&next) => run.indices.end = next.indices.end,
+                Some(run) if run.goes_on_with(&next, most_between) => run.indices.end = next.indices.end,
                 _ => {
                     if let Some(run) = run.replace(next) {
                         self.add_run(object, key, run);

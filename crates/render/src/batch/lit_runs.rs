@@ -28,13 +28,15 @@ pub(super) struct OpenRun {
     pub(super) indices: Range<u32>,
 }
 
-/// Triangles between patches of a run that are not seen are drawn with it if they are no more than this: that costs
-/// less than another draw.
-const JOINED: u32 = 128;
+/// The most triangles that are drawn without being seen, because they lie between patches of a run: they cost less than
+/// another draw. Of a mesh with levels of detail none are: other levels of the same surface lie there.
+pub(super) fn most_between(has_levels: bool) -> u32 {
+    if has_levels { 0 } else { 128 }
+}
 
 impl OpenRun {
-    pub(super) fn goes_on_with(&self, next: &Self) -> bool {
-        self.record == next.record && next.indices.start - self.indices.end <= 3 * JOINED
+    pub(super) fn goes_on_with(&self, next: &Self, most_between: u32) -> bool {
+        self.record == next.record && next.indices.start - self.indices.end <= 3 * most_between
     }
 }
 
@@ -58,5 +60,23 @@ impl LitRun {
     pub(crate) fn by_depth(&self, other: &Self) -> Ordering {
         let order = |item: &Self| (item.instance, item.pass, item.indices);
         other.depth.total_cmp(&self.depth).then_with(|| order(self).cmp(&order(other)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn runs_bridge_small_gaps_but_no_other_levels() {
+        let run = |indices: Range<u32>| OpenRun { record: 0, indices };
+        for (gap, has_levels, joined) in
+            [(0, false, true), (128, false, true), (129, false, false), (0, true, true), (1, true, false)]
+        {
+            let next = run(30 + 3 * gap..60 + 3 * gap);
+            assert_eq!(run(0..30).goes_on_with(&next, most_between(has_levels)), joined, "{gap} {has_levels}");
+            let other = OpenRun { record: 1, ..next };
+            assert!(!run(0..30).goes_on_with(&other, most_between(has_levels)), "another record");
+        }
     }
 }

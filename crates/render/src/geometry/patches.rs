@@ -126,6 +126,11 @@ impl Patches {
         self.starts[patch as usize]..self.starts[patch as usize + 1]
     }
 
+    /// Whether there are levels of detail, that is, several patches for one part of the surface.
+    pub(crate) fn has_levels(&self) -> bool {
+        self.levels.is_some()
+    }
+
     /// Fills `seen` with the numbers of the patches that may show, in ascending order, as detailed as is demanded. A mesh
     /// that is a single patch is taken to be seen: it has been culled as an object. Returns how many patches there were
     /// to cull.
