@@ -1,5 +1,7 @@
 //! All assets of one type.
 
+use std::fmt;
+
 use bevy_app::{App, PreUpdate};
 use bevy_ecs::prelude::{ResMut, Resource};
 
@@ -53,10 +55,14 @@ impl<T: Send + Sync + 'static> Assets<T> {
         self.get(id).is_some()
     }
 
-    /// Puts an asset in the place of another, or of one that was removed, and gives back what was there. Of an id whose
-    /// handles are all gone, and of the default handle's, nothing changes.
-    pub fn insert(&mut self, id: impl Into<AssetId<T>>, asset: impl Into<T>) -> Option<T> {
-        self.place(id.into())?.replace(asset.into())
+    /// Puts an asset in the place of another, or of one that was removed, and gives back what was there.
+    ///
+    /// # Errors
+    /// The last handle was dropped and the asset removed since, or it is the id of the default handle.
+    pub fn insert(&mut self, id: impl Into<AssetId<T>>, asset: impl Into<T>) -> Result<Option<T>, AssetGone> {
+        let id = id.into();
+        let place = self.place(id).ok_or(AssetGone { slot: id.slot, generation: id.generation })?;
+        Ok(place.replace(asset.into()))
     }
 
     /// Takes an asset out. Its handles stand for none until another is [inserted](Self::insert).
@@ -109,6 +115,25 @@ impl<T: Send + Sync + 'static> Assets<T> {
         assets.free.extend(dropped);
     }
 }
+
+/// No asset can be put in a place that no handle stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct AssetGone {
+    slot: u32,
+    generation: u32,
+}
+
+impl fmt::Display for AssetGone {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "no handle stands for asset {}v{} any more; expected the id of a handle that is held",
+            self.slot, self.generation
+        )
+    }
+}
+
+impl std::error::Error for AssetGone {}
 
 /// Gives an app [`Assets`] of a type, and has those removed in [`PreUpdate`] that no handle stands for any more.
 ///
@@ -163,7 +188,8 @@ mod tests {
         assert_eq!((c.id().slot, assets(&mut app).len()), (old.slot, 2));
         assert_ne!(c.id(), old);
         assert_eq!(assets(&mut app).get(old), None);
-        assert_eq!(assets(&mut app).insert(old, "d"), None);
+        let gone = assets(&mut app).insert(old, "d").unwrap_err().to_string();
+        assert!(gone.starts_with("no handle stands for asset 0v0 any more"), "{gone}");
         assert_eq!(assets(&mut app).get(&c).map(String::as_str), Some("c"));
     }
 
@@ -173,8 +199,8 @@ mod tests {
         assert_eq!(assets(&mut app).remove(&a).as_deref(), Some("a"));
         app.update();
         assert!(!assets(&mut app).contains(&a));
-        assert_eq!(assets(&mut app).insert(&a, "c"), None);
-        assert_eq!(assets(&mut app).insert(&a, "d").as_deref(), Some("c"));
+        assert_eq!(assets(&mut app).insert(&a, "c"), Ok(None));
+        assert_eq!(assets(&mut app).insert(&a, "d"), Ok(Some("c".into())));
         assert_eq!(assets(&mut app).get(&a).map(String::as_str), Some("d"));
     }
 
@@ -182,7 +208,7 @@ mod tests {
     fn the_default_handle_stands_for_nothing() {
         let (mut app, _) = app_with(["a", "b"]);
         let none = Handle::<String>::default();
-        assert_eq!(assets(&mut app).insert(&none, "c"), None);
+        assert!(assets(&mut app).insert(&none, "c").is_err());
         assert!(!assets(&mut app).contains(&none));
         assert_eq!(none, Handle::default());
     }

@@ -24,5 +24,5 @@
 mod assets;
 mod handle;
 
-pub use assets::{Assets, add_assets};
+pub use assets::{AssetGone, Assets, add_assets};
 pub use handle::{AssetId, Handle};
