@@ -83,12 +83,12 @@ impl<T> From<&Handle<T>> for AssetId<T> {
 pub struct Handle<T> {
     id: AssetId<T>,
     /// Shared by all clones; none in the default.
-    _lease: Option<Arc<Lease>>,
+    lease: Option<Arc<Lease>>,
 }
 
 impl<T> Handle<T> {
     pub(crate) fn new(id: AssetId<T>, dropped: &Dropped) -> Self {
-        Self { id, _lease: Some(Arc::new(Lease { slot: id.slot, dropped: dropped.clone() })) }
+        Self { id, lease: Some(Arc::new(Lease { slot: id.slot, dropped: dropped.clone() })) }
     }
 
     /// The number of the asset, which keeps nothing alive.
@@ -99,13 +99,13 @@ impl<T> Handle<T> {
 
 impl<T> Clone for Handle<T> {
     fn clone(&self) -> Self {
-        Self { id: self.id, _lease: self._lease.clone() }
+        Self { id: self.id, lease: self.lease.clone() }
     }
 }
 
 impl<T> Default for Handle<T> {
     fn default() -> Self {
-        Self { id: AssetId::new(u32::MAX, 0), _lease: None }
+        Self { id: AssetId::new(u32::MAX, 0), lease: None }
     }
 }
 

@@ -69,6 +69,7 @@ impl EnvironmentMap {
     }
 
     /// What stands for one that is missing or broken: squares of magenta and black.
+    #[expect(clippy::missing_panics_doc, reason = "the image is small, and its numbers are finite")]
     pub fn missing() -> Self {
         let is_odd = |d: [f64; 3]| d.iter().fold(0, |sum, x| sum + (4.0 * (x + 1.0)) as u32) % 2 == 1;
         let color = |d: [f64; 3]| if is_odd(d) { [1.0, 0.0, 1.0, 1.0] } else { [0.0, 0.0, 0.0, 1.0] };
