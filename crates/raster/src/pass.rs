@@ -24,7 +24,8 @@ pub struct Pass<'a> {
     pub local_viewer: bool,
     /// The lights, in any order.
     pub lights: &'a [LightRecord],
-    /// Numbers of lights, one list after the other; see [`LightRange`].
+    /// Numbers of lights, one list after the other; see
+    /// [`LightRange`](halfway_lighting::record::LightRange).
     pub lists: &'a [u32],
     /// What surfaces are made of, and how they are lit.
     pub surfaces: &'a [SurfaceRecord],

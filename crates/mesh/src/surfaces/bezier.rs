@@ -2,8 +2,7 @@
 
 use bevy_math::DVec3;
 
-use super::parameter::uv_at;
-use super::{Parameter, ParametricSurface, SurfaceError, SurfacePiece, SurfacePoint, check_coordinates};
+use super::{Parameter, SurfaceError, check_coordinates};
 
 /// A Bézier patch: rows of control points; u runs from row to row, v along a row, both from 0 to 1.
 ///
@@ -126,18 +125,6 @@ impl BezierPatch {
         let row = |i: usize| &self.points[i * self.columns..][..self.columns];
         let along = |i: usize| mirrored_sum(self.columns, |j| columns[j] * row(i)[j]);
         mirrored_sum(self.rows(), |i| rows[i] * along(i))
-    }
-}
-
-impl ParametricSurface for BezierPatch {
-    /// Where there is no normal, even in the limit, it is +Y.
-    fn at(&self, u: Parameter, v: Parameter) -> SurfacePoint {
-        let [position, du, dv] = self.jet(u, v);
-        SurfacePoint { position, du, dv, normal: self.normal(u, v).unwrap_or(DVec3::Y), uv: uv_at(u, v) }
-    }
-
-    fn pieces(&self) -> Option<Vec<SurfacePiece>> {
-        Some(vec![SurfacePiece::Patch(self.clone())])
     }
 }
 

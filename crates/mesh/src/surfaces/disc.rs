@@ -1,11 +1,8 @@
 //! The flat disc.
 
-use std::f64::consts::TAU;
-
 use bevy_math::DVec3;
 
-use super::parameter::{turn, uv_at};
-use super::{Parameter, ParametricSurface, SurfaceError, SurfacePiece, SurfacePoint, check_coordinates};
+use super::{SurfaceError, check_coordinates};
 
 /// A flat disc.
 ///
@@ -55,30 +52,5 @@ impl Disc {
     /// Its radius.
     pub fn radius(&self) -> f64 {
         self.radius
-    }
-}
-
-impl ParametricSurface for Disc {
-    fn at(&self, u: Parameter, v: Parameter) -> SurfacePoint {
-        // X for a disc that faces up or down.
-        let (a, _) = self.normal.any_orthonormal_pair();
-        let b = a.cross(self.normal);
-        let (sin, cos) = turn(v);
-        let rim = self.radius * cos * a + self.radius * sin * b;
-        SurfacePoint {
-            position: self.center + u.value() * rim,
-            du: rim,
-            dv: TAU * u.value() * self.radius * (cos * b - sin * a),
-            normal: self.normal,
-            uv: uv_at(u, v),
-        }
-    }
-
-    fn least_counts(&self) -> [u32; 2] {
-        [1, 3]
-    }
-
-    fn pieces(&self) -> Option<Vec<SurfacePiece>> {
-        Some(vec![SurfacePiece::Disc(*self)])
     }
 }

@@ -8,6 +8,7 @@ mod height_field;
 mod icosphere;
 mod newell;
 mod parameter;
+mod pieces;
 mod plane;
 mod revolution;
 mod sphere;

@@ -1,0 +1,35 @@
+//! A mesh with other normals.
+
+use bevy_math::Vec3;
+
+use super::{NormalReport, Normals, creased_normals, face_normals, vertex_normals};
+use crate::Mesh;
+
+impl Mesh {
+    /// The mesh with its normals by the policy, and what had to be left out or made up.
+    ///
+    /// [`Normals::Keep`] changes nothing. [`Normals::Face`] gives every triangle three vertices of its own, and +Y to
+    /// degenerate ones, which show nothing. [`Normals::Weighted`] keeps vertices and triangles. [`Normals::Creased`]
+    /// keeps the triangles, splits vertices and leaves out those of no triangle. All but `Keep` drop the tangents.
+    #[must_use]
+    pub fn with_normals(self, policy: Normals) -> (Self, NormalReport) {
+        match policy {
+            Normals::Keep => (self, NormalReport::default()),
+            Normals::Face => {
+                let faces = face_normals(self.positions(), self.indices());
+                let is_degenerate = |n: &Vec3| *n == Vec3::ZERO;
+                let degenerate_triangles = faces.iter().filter(|n| is_degenerate(n)).count();
+                let normals =
+                    faces.into_iter().flat_map(|n| [if is_degenerate(&n) { Vec3::Y } else { n }; 3]).collect();
+                let corners = (0..self.indices().len() as u32).collect();
+                let mesh = self.selected(self.indices(), corners).with_given_normals(normals);
+                (mesh, NormalReport { degenerate_triangles, ..NormalReport::default() })
+            }
+            Normals::Weighted(weighting) => {
+                let (normals, report) = vertex_normals(self.positions(), self.indices(), weighting);
+                (self.with_given_normals(normals), report)
+            }
+            Normals::Creased { angle, weighting } => creased_normals(&self, angle, weighting),
+        }
+    }
+}
