@@ -20,7 +20,8 @@ struct Surface {
     back: Material,
     both: vec4u,
     diffuse: vec4u,               // these lights' specular terms are left out
-    @size(64) specular: vec4u,    // and of these all others; up to the 256 bytes that offsets may be multiples of
+    specular: vec4u,              // and of these all others
+    padding: array<vec4u, 3>,     // up to the 256 bytes that offsets may be multiples of; GLSL would not keep a @size
 }
 
 @group(0) @binding(0) var<uniform> view: View;
