@@ -307,7 +307,7 @@ fn a_field_that_moved_is_found() {
         ("Material", "base: vec3f", "base: vec4f"),
         ("View", "    near: f32,\n    padding: f32,", "    padding: f32,\n    near: f32,"),
         ("Material", "    emission: vec3f,", "    glow: vec3f,"),
-        ("Surface", "    diffuse: vec4u,", "    padding: vec4u,\n    diffuse: vec4u,"),
+        ("Surface", "    diffuse: vec4u,", "    padding0: vec4u,\n    diffuse: vec4u,"),
         ("Surface", "array<vec4u, 3>", "array<vec4u, 2>"),
     ];
     for (name, right, wrong) in moves {
