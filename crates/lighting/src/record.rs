@@ -97,7 +97,7 @@ fn inner_fade(cone: &ConeTerms<f64>) -> [f64; 2] {
     if width > 0.0 { [1.0 / width, -cone.cos_cutoff / width] } else { [0.0, 1.0] }
 }
 
-/// What one side of a surface is made of.
+/// One side of a surface: its colors, exponent and opacity.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct MaterialRecord {

@@ -256,7 +256,7 @@ pub(crate) fn to_viewer<S: Simd>(simd: S, p: V3<S>, n: V3<S>, local_viewer: bool
     scale::<S>(p, splat(simd, -1.0) / squared.sqrt())
 }
 
-/// What the lights of a surface bring to points. It is most of the code; see [`gathered`].
+/// The light that arrives at points from the lights of a surface. It is most of the code; see [`gathered`].
 #[inline(always)]
 pub(crate) fn gathered_here<S: Simd>(
     simd: S,

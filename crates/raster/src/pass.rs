@@ -118,14 +118,14 @@ pub struct MapCall {
     pub far_normals: FarNormals,
 }
 
-/// What a draw's fragments take from images, a mask, a solid and the environment.
+/// The images, mask, solid and environment that a draw's fragments read.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DrawMaps {
     /// Images, each in the slot of its kind.
     pub calls: [Option<MapCall>; MapKind::COUNT],
     /// Fragments of a lower opacity are not there.
     pub mask: Option<f32>,
-    /// What the mesh is cut from, which multiplies base, diffuse and ambient at each pixel.
+    /// The solid that the mesh is cut from: it multiplies base, diffuse and ambient at each pixel.
     pub solid: Option<SolidTexture>,
     /// The surface is lit inside out, which turns the tangents of a normal map.
     pub inside_out: bool,
@@ -143,7 +143,7 @@ impl DrawMaps {
         self.has(MapKind::Shininess) || self.far_normals() != FarNormals::Mean
     }
 
-    /// What highlights take of normals of an image beside where they point.
+    /// How highlights widen with the normals of an image that are smaller than a pixel.
     pub(crate) fn far_normals(&self) -> FarNormals {
         self.calls[MapKind::Normal as usize].map_or(FarNormals::Mean, |call| call.far_normals)
     }

@@ -99,7 +99,7 @@ impl State {
         gathered(simd, (pass.lights, pass.lists), &surface.lights, points, self.gloss(back), self.vertex)
     }
 
-    /// What the lights of the fragment terms bring to points with these highlights.
+    /// The light of the fragment terms at points with these highlights.
     #[inline(always)]
     pub(crate) fn fragment_terms<S: Simd>(
         &self,
