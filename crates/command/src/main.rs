@@ -1,7 +1,9 @@
 //! The `halfway` command: scenes and models to pictures, to a window, to figures.
 
 mod adapters;
+#[cfg(feature = "measure")]
 mod bench;
+#[cfg(feature = "measure")]
 mod chart;
 mod compare;
 mod convert;
@@ -13,6 +15,7 @@ mod look;
 mod picture;
 mod progress;
 mod render;
+#[cfg(feature = "measure")]
 mod scenery;
 mod steps;
 mod tolerance;
@@ -71,11 +74,13 @@ enum Command {
     /// Lengths are in the units of the file's meshes, before a glTF node scales them.
     Convert(convert::ConvertArgs),
     /// Time a benchmark scene in every shading, beside a constant colour; or what features cost
+    #[cfg(feature = "measure")]
     Bench(bench::BenchArgs),
     /// Chart error against time of every method on a scene, and say what to choose; or of all scenes of the project's
     ///
     /// Writes a page that opens offline, index.html, and beside it chart.json and drawings. Each file appears only when
     /// it is complete.
+    #[cfg(feature = "measure")]
     Chart(chart::ChartArgs),
     /// List what can draw, graphics adapters and the CPU, the one that is used first
     Adapters,
@@ -116,7 +121,9 @@ fn main() -> ExitCode {
         Command::Verify(args) => verify::run(&args),
         Command::Info(args) => info::run(&args),
         Command::Convert(args) => convert::run(&args),
+        #[cfg(feature = "measure")]
         Command::Bench(args) => bench::run(&args),
+        #[cfg(feature = "measure")]
         Command::Chart(args) => chart::run(&args),
         Command::Adapters => adapters::run(),
         Command::Schema => {

@@ -25,6 +25,7 @@ impl ToleranceArgs {
 }
 
 /// In a few words.
+#[cfg(feature = "measure")]
 pub(crate) fn describe(tolerance: Tolerance) -> String {
     let Tolerance { steps, pixels } = tolerance;
     let counted = |number: f32, what| match number.to_string() {

@@ -3,7 +3,9 @@
 mod command {
     mod adapters;
     mod bad_input;
+    #[cfg(feature = "measure")]
     mod bench;
+    #[cfg(feature = "measure")]
     mod chart;
     mod models;
     mod pictures;
