@@ -43,5 +43,5 @@ pub use halfway_window as window;
 
 /// The README's code, compiled.
 #[cfg(doctest)]
-#[doc = include_str!("../../../README.md")]
+#[doc = include_str!("../README.md")]
 struct Readme;

@@ -23,8 +23,9 @@ fn files(folder: &Path, ending: &str, found: &mut Vec<PathBuf>) {
 /// The names of all functions marked as tests.
 fn tests() -> BTreeSet<String> {
     let mut sources = Vec::new();
-    files(&root().join("crates"), ".rs", &mut sources);
-    files(&root().join("tests"), ".rs", &mut sources);
+    for folder in ["crates", "src", "tests", "tools"] {
+        files(&root().join(folder), ".rs", &mut sources);
+    }
     let mut names = BTreeSet::new();
     for source in sources {
         let text = fs::read_to_string(&source).expect("text");
@@ -98,8 +99,8 @@ fn a_claim_without_its_test_is_found() {
         ("A test reads it. All is well.", 1),
         ("A test (`no_such_function`) reads it.", 1),
         ("A test (`every_claim_names_a_test_that_exists`) reads\nit.", 0),
-        ("The tests in `crates/xtask/tests/claims.rs` read it.", 0),
-        ("The tests in `crates/xtask/tests/gone.rs` read it.", 1),
+        ("The tests in `tools/xtask/tests/claims.rs` read it.", 0),
+        ("The tests in `tools/xtask/tests/gone.rs` read it.", 1),
         ("```\n# a test\n```\nNothing.", 0),
     ] {
         assert_eq!(unfounded(page, &tests).len(), found, "{page}");
