@@ -41,7 +41,8 @@ pub use halfway_texture as texture;
 #[cfg(feature = "window")]
 pub use halfway_window as window;
 
-/// The README's code, compiled.
+/// The README's code and the guide's, compiled.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
-struct Readme;
+#[doc = include_str!("../docs/guide.md")]
+struct Pages;

@@ -29,7 +29,7 @@ enum Chore {
     Adapters(chores::adapters::Options),
     Arm(chores::arm::Options),
     Check(chores::check::Options),
-    /// Make the pictures and the schema in docs/ again, by the commands that docs/examples.md shows
+    /// Make the pictures and the schema in docs/ again, by the commands that docs/gallery.md shows
     Docs,
     Chart(chores::chart::Options),
     Fuzz(chores::fuzz::Options),

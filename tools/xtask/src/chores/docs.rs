@@ -5,7 +5,7 @@ use crate::commands::{self, PageCommand};
 use crate::failure::{Failure, Result};
 
 /// The page whose commands make the pictures.
-const PAGE: &str = "docs/examples.md";
+const PAGE: &str = "docs/gallery.md";
 const SCHEMA: &str = "docs/scene.schema.json";
 
 /// Makes schema and pictures again.
@@ -76,7 +76,7 @@ mod tests {
     fn other_programs_are_not_run() {
         for line in ["convert a -o b.png", "cargo install x --headless y", "cargo -o x"] {
             let problem = drawing(commands(&[line])).unwrap_err().to_string();
-            assert!(problem.contains("docs/examples.md, line 2: expected cargo run"), "{problem}");
+            assert!(problem.contains("docs/gallery.md, line 2: expected cargo run"), "{problem}");
         }
         assert!(
             drawing(commands(&["cargo run"])).unwrap_err().to_string().contains("no command that writes a picture")

@@ -8,9 +8,10 @@ use crate::cargo::{cargo, root, step};
 use crate::commands::{self, PageCommand};
 use crate::failure::{Failure, Result};
 
-const PAGE: &str = "README.md";
+/// The pages whose commands are promises.
+const PAGES: [&str; 2] = ["README.md", "docs/guide.md"];
 
-/// Run the commands that the README shows, but for the chores that .ci/run runs by itself
+/// Run the commands that the README and the guide show, but for the chores that .ci/run runs by itself
 ///
 /// A command that this chore does not know how to try is an error before any is run.
 #[derive(Args, Debug)]
@@ -30,19 +31,25 @@ enum Way {
     Run,
 }
 
-/// Tries the page's commands, one after the other.
+/// Tries the commands of the pages, one after the other.
 pub(crate) fn run(options: &Options) -> Result {
-    let commands = ways(commands::of_page(&root(), PAGE)?)?;
-    for (shown, way) in &commands {
-        if options.list {
-            println!("{:9} {}", format!("{way:?}"), shown.words.join(" "));
-        } else if *way == Way::Run {
-            let title = format!("{PAGE}, line {}", shown.line);
-            step(&title, cargo(&shown.words[1..]).stdin(Stdio::null()))?;
-        }
+    // A command that nobody knows how to try is found before any is run.
+    let mut pages = Vec::new();
+    for page in PAGES {
+        pages.push((page, ways(page, commands::of_page(&root(), page)?)?));
     }
-    if !options.list {
-        eprintln!("\n{} commands of {PAGE}: done", commands.len());
+    for (page, commands) in pages {
+        for (shown, way) in &commands {
+            if options.list {
+                println!("{:9} {}", format!("{way:?}"), shown.words.join(" "));
+            } else if *way == Way::Run {
+                let title = format!("{page}, line {}", shown.line);
+                step(&title, cargo(&shown.words[1..]).stdin(Stdio::null()))?;
+            }
+        }
+        if !options.list {
+            eprintln!("\n{} commands of {page}: done", commands.len());
+        }
     }
     Ok(())
 }
@@ -51,14 +58,14 @@ pub(crate) fn run(options: &Options) -> Result {
 ///
 /// # Errors
 /// No command is shown, or nobody has said how to try one.
-fn ways(commands: Vec<PageCommand>) -> Result<Vec<(PageCommand, Way)>> {
+fn ways(page: &str, commands: Vec<PageCommand>) -> Result<Vec<(PageCommand, Way)>> {
     if commands.is_empty() {
-        return Err(Failure::new(format!("{PAGE} shows no command")));
+        return Err(Failure::new(format!("{page} shows no command")));
     }
     let known = commands.into_iter().map(|shown| {
         let Some(way) = way(&shown.words) else {
             let command = shown.words.join(" ");
-            return Err(Failure::new(format!("{PAGE}, line {}: no way to try this is known: {command}", shown.line)));
+            return Err(Failure::new(format!("{page}, line {}: no way to try this is known: {command}", shown.line)));
         };
         Ok((shown, way))
     });
@@ -104,10 +111,12 @@ mod tests {
     }
 
     #[test]
-    fn the_readme_shows_commands_that_are_known() {
-        let commands = commands::of_page(&root(), PAGE).unwrap();
-        let ways_of = |commands| ways(commands).map_err(|failure| failure.to_string());
-        assert!(ways_of(commands).is_ok_and(|commands| commands.iter().any(|(_, way)| *way == Way::Run)));
+    fn the_pages_show_commands_that_are_known() {
+        let ways_of = |commands| ways("README.md", commands).map_err(|failure| failure.to_string());
+        for page in PAGES {
+            let commands = commands::of_page(&root(), page).unwrap();
+            assert!(ways_of(commands).is_ok_and(|commands| commands.iter().any(|(_, way)| *way == Way::Run)), "{page}");
+        }
         let planted = commands::shown("```sh\ncargo run\nrm -r target\n```\n").unwrap();
         let expected = "README.md, line 3: no way to try this is known: rm -r target";
         assert_eq!(ways_of(planted), Err(expected.to_owned()));
