@@ -148,6 +148,18 @@ impl MaterialRecord {
     }
 }
 
+/// Which side of triangles is left out.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Cull {
+    /// The back: what is seen clockwise.
+    #[default]
+    Back,
+    /// The front.
+    Front,
+    /// None: both sides are lit.
+    None,
+}
+
 /// Some lights of a frame's list of numbers: `counts` directional, point and spot lights, in this order, from `start`
 /// on.
 #[repr(C)]

@@ -297,8 +297,9 @@ impl Job {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pass::{Cull, DrawCall, Lens, PixelFormat};
+    use crate::pass::{DrawCall, Lens, PixelFormat};
     use crate::{Pieces, TriangleOrder, VertexLists};
+    use halfway_lighting::record::Cull;
     use halfway_lighting::record::{InstanceRecord, LightRange, MaterialRecord, SurfaceLights, SurfaceRecord};
     use halfway_lighting::{Frequency, Samples, Terms};
 

@@ -1,9 +1,10 @@
 //! Whether a pass can be drawn: references within their lists, numbers finite and in their ranges.
 
 use crate::error::{LARGEST_SIDE, RasterError};
-use crate::pass::{DrawCall, DrawMaps, Output, Pass, SurroundingsData};
+use crate::pass::{DrawCall, DrawMaps, Output, Pass};
 use halfway_lighting::Frequency;
 use halfway_lighting::record::{InstanceRecord, LightRange, LightRecord, MaterialRecord, SurfaceLights, SurfaceRecord};
+use halfway_texture::environment::SurroundingsData;
 use halfway_texture::{MapKind, SolidTexture};
 
 /// Checks all of a pass but what drawing it finds out.

@@ -1,12 +1,12 @@
 //! Triangles that reach far beyond a tile, or behind the eye: few, and so one by one, in 64 bits.
 
 use crate::cover::EdgeFunctions;
-use crate::pass::Cull;
 use crate::placed::TILE;
 use crate::planes::{CutCorner, DepthPlane, Gradient, Planes};
 use crate::samples::sample_offsets;
 use crate::triangle::Covering;
 use crate::vertices::{CLIPPED, GRID, SCREEN_HIGH, SCREEN_LOW, Screen, TOO_NEAR, Vertices};
+use halfway_lighting::record::Cull;
 
 /// A corner on the screen.
 #[derive(Clone, Copy, Debug, Default)]

@@ -88,7 +88,7 @@ mod width;
 
 pub use bands::ClearTiles;
 pub use error::{LARGEST_SIDE, RasterError};
-pub use pass::{Cull, DrawCall, DrawMaps, Lens, MapCall, MapData, Output, Pass, PixelFormat, SurroundingsData};
+pub use pass::{DrawCall, DrawMaps, Lens, MapCall, MapData, Output, Pass, PixelFormat};
 pub use pieces::{Pieces, TriangleOrder, VertexLists};
 pub use rasterizer::{RasterOptions, Rasterizer};
 pub use threads::Threads;

@@ -1,9 +1,10 @@
 //! What is drawn: plain data, borrowed for one picture.
 
 use crate::Pieces;
+use halfway_lighting::record::Cull;
 use halfway_lighting::record::{InstanceRecord, LightRecord, SurfaceRecord};
 use halfway_lighting::{Reflectance, Samples, Terms};
-use halfway_texture::environment::EnvironmentMap;
+use halfway_texture::environment::SurroundingsData;
 use halfway_texture::{Channel, FarNormals, MapKind, Pyramid, Sampling, SolidTexture, UvSet};
 use std::ops::Range;
 
@@ -88,21 +89,6 @@ pub struct MapData {
     pub amount: f32,
 }
 
-/// An environment, as it lies around the eye.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SurroundingsData {
-    /// Its light.
-    pub map: EnvironmentMap,
-    /// What multiplies it.
-    pub strength: f32,
-    /// The rows of the rotation from eye space to the environment.
-    pub rows: [[f32; 3]; 3],
-    /// The polynomial of [`mean_light`](halfway_lighting::equations::mean_light).
-    pub mean: [[f32; 3]; 9],
-    /// The level that is seen where nothing is drawn, in place of the clear color.
-    pub sky: Option<f32>,
-}
-
 /// An image that a draw looks up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MapCall {
@@ -147,18 +133,6 @@ impl DrawMaps {
     pub(crate) fn far_normals(&self) -> FarNormals {
         self.calls[MapKind::Normal as usize].map_or(FarNormals::Mean, |call| call.far_normals)
     }
-}
-
-/// Which side of triangles is left out.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Cull {
-    /// The back: what is seen clockwise.
-    #[default]
-    Back,
-    /// The front.
-    Front,
-    /// None: both sides are lit.
-    None,
 }
 
 /// Some triangles of a mesh for some instances.

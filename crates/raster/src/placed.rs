@@ -1,7 +1,8 @@
 //! Where pieces of an instance lie: in which tiles, and whether all of their faces turn away.
 
-use crate::pass::{Cull, DrawCall, Pass};
+use crate::pass::{DrawCall, Pass};
 use crate::pieces::{Piece, PieceExtent};
+use halfway_lighting::record::Cull;
 use halfway_lighting::record::InstanceRecord;
 
 /// Pixels along a side of a tile. It is part of the picture's bits: interpolation counts from a tile's corner.

@@ -3,7 +3,8 @@
 use crate::lanes::Simd;
 use crate::lighting::{Irradiance, Points, ShadedTerms, gathered, gathered_here};
 use crate::lobe::{Gloss, PointLobe};
-use crate::pass::{Cull, DrawCall, DrawMaps, Pass};
+use crate::pass::{DrawCall, DrawMaps, Pass};
+use halfway_lighting::record::Cull;
 use halfway_lighting::record::{LightRange, MaterialRecord, SurfaceLights, SurfaceRecord};
 use halfway_lighting::{Frequency, Reflectance};
 

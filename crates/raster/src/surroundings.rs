@@ -5,18 +5,12 @@ use crate::encode::kept;
 use crate::lanes::{Simd, V3, each, lanes, splat3};
 use crate::look::Look;
 use crate::mapped_pixels::MappedPixel;
-use crate::pass::SurroundingsData;
 use crate::placed::TILE;
 use crate::state::{Stage, State};
 use crate::vertices::Screen;
 use halfway_lighting::equations::vector::normalize_or_zero;
 use halfway_lighting::equations::{lobe_angle, lobe_exponent, mean_light, mirrored, surroundings};
-
-impl SurroundingsData {
-    fn direction(&self, d: [f32; 3]) -> [f32; 3] {
-        self.rows.map(|[x, y, z]| x * d[0] + y * d[1] + z * d[2])
-    }
-}
+use halfway_texture::environment::SurroundingsData;
 
 /// The way from the eye through a pixel of a tile, as far as depth 1.
 fn way(screen: &Screen, tile: [u32; 2], place: [f32; 2]) -> [f32; 3] {

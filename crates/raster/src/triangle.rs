@@ -4,13 +4,13 @@
 use crate::lanes::{
     F, I, M, MOST_LANES, Simd, each, f32x4, lanes, load_i, splat, splat_i, store, store_fours_i, store_i,
 };
-use crate::pass::Cull;
 use crate::pieces::PIECE_TRIANGLES;
 use crate::planes::{DepthPlane, FLATTEST, LaneSlopes, Slopes};
 use crate::samples::GRID_PLACES;
 use crate::vertices::{CLIPPED, FAR_AWAY, GRID, SMALL, Vertices};
 use fearless_simd::prelude::*;
 use halfway_lighting::Samples;
+use halfway_lighting::record::Cull;
 
 /// Columns and rows of the box of a tiny triangle, at most.
 pub(crate) const TINY: usize = 5;

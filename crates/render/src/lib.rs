@@ -6,19 +6,13 @@
 //! and holds what it could not do;
 //! [`FrameTimes`] says where its time went on the CPU, and [`GpuTimer`] how much of it the GPU took.
 
-mod batch;
 mod cpu;
 mod device;
 mod draw;
-mod error;
-mod frame;
-mod geometry;
-mod lights;
 mod pipelines;
 mod plugin;
 mod shaders;
 mod target;
-mod view;
 
 pub use device::adapter::Adapter;
 pub use device::choice::AdapterChoice;
@@ -26,12 +20,14 @@ pub use device::cpu::Cpu;
 pub use device::gpu::Gpu;
 pub use device::gpu_timer::GpuTimer;
 pub use draw::pass::encode_frame;
-pub use error::RenderError;
-pub use frame::report::FrameReport;
-pub use frame::sets::RenderSet;
-pub use frame::times::{FrameTimes, SetTimes};
-pub use lights::gather::Lights;
-pub use lights::terms::Chosen;
+pub use halfway_frame::error::RenderError;
+pub use halfway_frame::lights::gather::Lights;
+pub use halfway_frame::lights::terms::Chosen;
+pub use halfway_frame::report::FrameReport;
+pub use halfway_frame::sets::RenderSet;
+pub use halfway_frame::times::{FrameTimes, SetTimes};
+pub use halfway_frame::view::camera::{Projection, View};
+pub use halfway_frame::view::matrices::{ModelView, NormalMatrix, Visible, normal_matrix};
 pub use pipelines::compile::Compile;
 pub use plugin::RenderPlugin;
 pub use target::canvas::{Canvas, CanvasTarget};
@@ -40,7 +36,5 @@ pub use target::frame::Headless;
 pub use target::picture::{PendingPicture, render_picture};
 pub use target::surface::{SurfaceLost, SurfaceTarget};
 pub use target::texture::TextureTarget;
-pub use view::camera::{Projection, View};
-pub use view::matrices::{ModelView, NormalMatrix, Visible, normal_matrix};
 /// The wgpu that the renderer speaks; surfaces are made with it.
 pub use wgpu;

@@ -1,7 +1,5 @@
 //! The plugin and the way of one frame.
 
-use crate::batch::batches::{self, Batches};
-use crate::batch::lit_patches::{self, LitPatches};
 use crate::cpu::draw as on_canvas;
 use crate::cpu::meshes::{self as mesh_pieces, MeshPieces};
 use crate::cpu::pass::{self as lists, PassLists};
@@ -11,26 +9,16 @@ use crate::device::gpu::Gpu;
 use crate::draw::meshes::{self as mesh_buffers, MeshBuffers};
 use crate::draw::upload::{self, Buffers};
 use crate::draw::{pass, replaced};
-use crate::frame::report::FrameReport;
-use crate::frame::sets::RenderSet;
-use crate::frame::times;
-use crate::geometry::meshes::{self, Geometries};
-use crate::geometry::workshop::Workshop;
-use crate::lights::gather::{self, Lights};
-use crate::lights::surroundings::{self, Surroundings};
-use crate::lights::terms::{self, Chosen};
 use crate::pipelines::cache::{self, Pipelines};
 use crate::target::canvas::Canvas;
-use crate::target::frame::{self, FrameValues, Headless, Target};
-use crate::view::camera::{self, PictureSize, View};
-use crate::view::matrices::{self, ModelView, NormalMatrix, Visible};
+use crate::target::frame::{self, Headless, Target};
 use bevy_app::{App, Plugin, PostUpdate};
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{InternedScheduleLabel, ScheduleLabel};
-use bevy_transform::TransformSystems;
-use halfway_lighting::{LightingPlugin, Material};
-use halfway_mesh::{Mesh3d, MeshPlugin};
-use halfway_texture::TexturePlugin;
+use halfway_frame::batch::lit_patches;
+use halfway_frame::report::FrameReport;
+use halfway_frame::sets::RenderSet;
+use halfway_frame::{FramePlugin, ReadCamera, add_backend};
 
 /// Draws every entity with a [`Mesh3d`] through the world's [`Camera`](halfway_lighting::Camera), once a run of its
 /// schedule.
@@ -39,7 +27,7 @@ use halfway_texture::TexturePlugin;
 /// is in the same schedule, and an App with a schedule of its own propagates before. Where nothing propagates them, the
 /// frame is not drawn, and [`FrameReport::errors`] says so.
 ///
-/// Brings [`MeshPlugin`] and [`LightingPlugin`]. May be added before or after other plugins, and to an App that has
+/// Brings [`FramePlugin`] and the plugins of meshes, lighting and textures. May be added before or after other plugins, and to an App that has
 /// cameras, lights and objects already.
 #[derive(Clone, Debug)]
 pub struct RenderPlugin {
@@ -55,69 +43,28 @@ impl Default for RenderPlugin {
 
 impl Plugin for RenderPlugin {
     fn build(&self, app: &mut App) {
-        app.add_plugins((MeshPlugin, LightingPlugin, TexturePlugin))
+        app.add_plugins(FramePlugin { schedule: self.schedule })
             .init_resource::<AdapterChoice>()
             .init_resource::<Headless>()
-            .init_resource::<FrameReport>()
             .init_resource::<Target>()
             .init_resource::<Canvas>()
-            .init_resource::<FrameValues>()
-            .init_resource::<PictureSize>()
-            .init_resource::<View>()
-            .init_resource::<Visible>()
-            .init_resource::<Lights>()
-            .init_resource::<Surroundings>()
-            .init_resource::<LitPatches>()
-            .init_resource::<Batches>()
-            .init_resource::<Workshop>()
-            .init_resource::<Geometries>()
             .init_resource::<MeshBuffers>()
             .init_resource::<Buffers>()
             .init_resource::<Pipelines>()
             .init_resource::<MeshPieces>()
             .init_resource::<PassLists>();
         self.add_systems(app);
-        self.require_components(app);
-        times::add_clocks(app, self.schedule);
     }
 }
 
 impl RenderPlugin {
-    /// Gives objects what they are drawn with. An app in which there were objects before this plugin takes no new
-    /// requirements; it has a look for objects that lack something in each frame.
-    fn require_components(&self, app: &mut App) {
-        let world = app.world_mut();
-        let required = [
-            world.try_register_required_components::<Mesh3d, Material>(),
-            world.try_register_required_components::<Mesh3d, ModelView>(),
-            world.try_register_required_components::<Mesh3d, NormalMatrix>(),
-            world.try_register_required_components::<Mesh3d, Chosen>(),
-        ];
-        if required.iter().any(Result::is_err) {
-            app.add_systems(self.schedule, complete.in_set(RenderSet::View).before(frame::measure));
-        }
-    }
-
     fn add_systems(&self, app: &mut App) {
-        use RenderSet::{Batch, Choose, Deliver, Draw, Illuminate, Matrices, Select, Upload, View};
-        let order = (View, Select, Matrices, Choose, Illuminate, Batch, Upload, Draw, Deliver);
-        app.configure_sets(self.schedule, order.chain().after(TransformSystems::Propagate)).add_systems(
-            self.schedule,
-            (
-                (frame::measure, camera::update, camera::require_propagation, open, replaced::forget)
-                    .chain()
-                    .in_set(View),
-                (matrices::select, surroundings::gather).in_set(Select),
-                matrices::compute.in_set(Matrices),
-                (terms::choose, meshes::forget_removed, meshes::lay_out).chain().in_set(Choose),
-                gather::gather.in_set(Illuminate),
-            ),
-        );
-        // What draws the batches: wgpu, or the CPU.
+        use RenderSet::{Deliver, Draw, Illuminate, Upload, View};
+        add_backend::<Pipelines, _>(app, self.schedule, gpu_draws);
+        add_backend::<Cpu, _>(app, self.schedule, cpu_draws);
         let on_gpu = (
             frame::prepare.in_set(View).after(replaced::forget),
-            (cache::begin, lit_patches::illuminate::<Pipelines>).chain().in_set(Illuminate).after(gather::gather),
-            batches::batch::<Pipelines>.in_set(Batch),
+            cache::begin.in_set(Illuminate).before(lit_patches::illuminate::<Pipelines>),
             (
                 mesh_buffers::upload,
                 upload::build_pipelines,
@@ -132,22 +79,18 @@ impl RenderPlugin {
         );
         let on_cpu = (
             on_canvas::prepare.in_set(View).after(replaced::forget),
-            lit_patches::illuminate::<Cpu>.in_set(Illuminate).after(gather::gather),
-            batches::batch::<Cpu>.in_set(Batch),
             (mesh_pieces::make_ready, lists::fill).chain().in_set(Upload),
             on_canvas::draw.in_set(Draw),
         );
-        app.add_systems(self.schedule, (on_gpu.run_if(gpu_draws), on_cpu.run_if(cpu_draws)));
-    }
-}
-
-type Incomplete = (With<Mesh3d>, Or<(Without<Material>, Without<ModelView>, Without<NormalMatrix>, Without<Chosen>)>);
-
-/// Gives objects what they lack.
-fn complete(objects: Query<Entity, Incomplete>, mut commands: Commands) {
-    for object in &objects {
-        let all = (Material::default(), ModelView::default(), NormalMatrix::default(), Chosen::default());
-        commands.entity(object).insert_if_new(all);
+        app.add_systems(
+            self.schedule,
+            (
+                frame::measure.in_set(View).before(ReadCamera),
+                (open, replaced::forget).chain().in_set(View).after(ReadCamera),
+                on_gpu.run_if(gpu_draws),
+                on_cpu.run_if(cpu_draws),
+            ),
+        );
     }
 }
 

@@ -1,12 +1,12 @@
 //! The same bits on every width and thread count, and on every machine.
 
 use crate::common::{Scene, Shading, at, draw, pieces, sphere};
-use halfway_lighting::record::{InstanceRecord, LightRecord};
+use halfway_lighting::record::{Cull, InstanceRecord, LightRecord};
 use halfway_lighting::{Frequency, Reflectance, Samples, Terms};
 use halfway_mesh::{Mesh, Plane};
 use halfway_raster::{
-    ClearTiles, Cull, DrawCall, Lens, Output, Pieces, PixelFormat, RasterOptions, Rasterizer, TriangleOrder,
-    VectorWidth, VertexLists,
+    ClearTiles, DrawCall, Lens, Output, Pieces, PixelFormat, RasterOptions, Rasterizer, TriangleOrder, VectorWidth,
+    VertexLists,
 };
 
 /// FNV-1a of 64 bits.

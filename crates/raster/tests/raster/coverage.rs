@@ -2,10 +2,9 @@
 
 use crate::common::{Scene, Shading, at, draw};
 use halfway_lighting::Samples;
-use halfway_lighting::record::{MaterialRecord, SurfaceRecord};
+use halfway_lighting::record::{Cull, MaterialRecord, SurfaceRecord};
 use halfway_raster::{
-    ClearTiles, Cull, Lens, Output, Pieces, PixelFormat, RasterOptions, Rasterizer, TriangleOrder, VectorWidth,
-    VertexLists,
+    ClearTiles, Lens, Output, Pieces, PixelFormat, RasterOptions, Rasterizer, TriangleOrder, VectorWidth, VertexLists,
 };
 use proptest::prelude::*;
 

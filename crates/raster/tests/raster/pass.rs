@@ -2,9 +2,9 @@
 
 use crate::common::{Scene, Shading, at, draw, lens, sphere};
 use halfway_lighting::Samples;
-use halfway_lighting::record::{MaterialRecord, SurfaceRecord};
+use halfway_lighting::record::{Cull, MaterialRecord, SurfaceRecord};
 use halfway_raster::{
-    ClearTiles, Cull, DrawCall, LARGEST_SIDE, Output, Pieces, PixelFormat, RasterError, RasterOptions, Rasterizer,
+    ClearTiles, DrawCall, LARGEST_SIDE, Output, Pieces, PixelFormat, RasterError, RasterOptions, Rasterizer,
     TriangleOrder, VectorWidth, VertexLists,
 };
 

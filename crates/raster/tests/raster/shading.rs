@@ -4,11 +4,13 @@ use crate::common::{Scene, Shading, at, draw, lens, pieces};
 use halfway_lighting::equations::{
     Coefficients, ConeTerms, Eye, Light, Place, ShadedPoint, normal_matrix, shade, transform_normal, vector,
 };
-use halfway_lighting::record::{InstanceRecord, LightRange, LightRecord, MaterialRecord, SurfaceLights, SurfaceRecord};
+use halfway_lighting::record::{
+    Cull, InstanceRecord, LightRange, LightRecord, MaterialRecord, SurfaceLights, SurfaceRecord,
+};
 use halfway_lighting::{Frequency, Reflectance, Samples, Terms};
 use halfway_mesh::{Mesh, UvSphere};
 use halfway_raster::{
-    ClearTiles, Cull, Lens, Output, Pieces, PixelFormat, RasterOptions, Rasterizer, TriangleOrder, VertexLists,
+    ClearTiles, Lens, Output, Pieces, PixelFormat, RasterOptions, Rasterizer, TriangleOrder, VertexLists,
 };
 
 type V = [f64; 3];

@@ -1,22 +1,24 @@
 //! View and Draw: the canvas is made ready, and the pass is drawn into it.
 
-use crate::batch::backend::Backend;
-use crate::batch::batches::Batches;
-use crate::batch::key::DrawKey;
-use crate::batch::lit_patches::LitPatches;
 use crate::cpu::meshes::MeshPieces;
 use crate::cpu::pass::PassLists;
+use crate::cpu::raster_error;
 use crate::device::cpu::Cpu;
-use crate::error::RenderError;
-use crate::frame::report::FrameReport;
-use crate::lights::surroundings::Surroundings;
 use crate::target::canvas::{Canvas, CanvasTarget};
-use crate::target::format::{PixelValues, Pixels};
-use crate::target::frame::{FrameValues, Headless};
+use crate::target::format::Pixels;
+use crate::target::frame::Headless;
 use crate::target::texture::TextureTarget;
-use crate::view::camera::{PictureSize, View};
 use bevy_color::LinearRgba;
 use bevy_ecs::prelude::*;
+use halfway_frame::batch::backend::Backend;
+use halfway_frame::batch::batches::Batches;
+use halfway_frame::batch::key::DrawKey;
+use halfway_frame::batch::lit_patches::LitPatches;
+use halfway_frame::error::RenderError;
+use halfway_frame::lights::surroundings::Surroundings;
+use halfway_frame::report::FrameReport;
+use halfway_frame::values::{FrameValues, PixelValues};
+use halfway_frame::view::camera::{PictureSize, View};
 use halfway_lighting::{Encoding, Frequency, Intensity, Viewer};
 use halfway_raster::{LARGEST_SIDE, Lens, Pass, PixelFormat};
 
@@ -130,7 +132,7 @@ pub(crate) fn draw(
         _ => 1,
     };
     canvas.end(drawn.is_ok());
-    report.errors.extend(drawn.err().map(RenderError::from));
+    report.errors.extend(drawn.err().map(raster_error));
 }
 
 /// The view's projection, in its unit.

@@ -1,12 +1,13 @@
 //! Upload: meshes as the rasterizer takes them.
 
-use crate::batch::batches::Batches;
-use crate::batch::drawn_meshes::DrawnMeshes;
-use crate::frame::report::FrameReport;
-use crate::geometry::meshes::{Form, Geometries, both_uvs};
-use crate::geometry::patches::{MeshTriangles, Patches};
+use crate::cpu::raster_error;
 use bevy_ecs::prelude::*;
 use halfway_asset::AssetId;
+use halfway_frame::batch::batches::Batches;
+use halfway_frame::batch::drawn_meshes::DrawnMeshes;
+use halfway_frame::geometry::meshes::{Form, Geometries, both_uvs};
+use halfway_frame::geometry::patches::{MeshTriangles, Patches, Prepared};
+use halfway_frame::report::FrameReport;
 use halfway_mesh::Mesh;
 use halfway_raster::{Pieces, RasterError, TriangleOrder, VertexLists};
 use std::sync::Arc;
@@ -24,9 +25,10 @@ pub(crate) fn make_ready(
     mut report: ResMut<FrameReport>,
 ) {
     meshes.0.make_ready(&batches, &mut geometries, &mut report, |geometry, indices, form, _| {
-        let pieces = match &geometry.pieces {
-            Some(pieces) if form == Form::default() => Arc::clone(pieces),
-            _ => Arc::new(pieces(&geometry.drawn, &geometry.patches, indices, form)?),
+        let prepared = geometry.pieces.clone().filter(|_| form == Form::default());
+        let pieces = match prepared.and_then(|prepared| prepared.downcast().ok()) {
+            Some(pieces) => pieces,
+            None => Arc::new(pieces(&geometry.drawn, &geometry.patches, indices, form).map_err(raster_error)?),
         };
         let bytes = pieces.bytes();
         Ok((pieces, bytes))
@@ -41,8 +43,9 @@ impl MeshPieces {
 
 /// The pieces of a mesh with levels of detail, for draws without colors and images; `None` where they cannot be made,
 /// which is told once they are drawn.
-pub(crate) fn of_levels(mesh: &Mesh, MeshTriangles { corners, patches, .. }: &MeshTriangles) -> Option<Pieces> {
-    pieces(mesh, patches, corners.as_flattened(), Form::default()).ok()
+pub(crate) fn of_levels(mesh: &Mesh, MeshTriangles { corners, patches, .. }: &MeshTriangles) -> Option<Prepared> {
+    let pieces = pieces(mesh, patches, corners.as_flattened(), Form::default()).ok()?;
+    Some(Arc::new(pieces))
 }
 
 /// Draws begin and end where patches do.

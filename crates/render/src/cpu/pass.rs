@@ -1,14 +1,14 @@
 //! Upload: what the draws read, as the rasterizer takes it.
 
-use crate::batch::batches::Batches;
-use crate::batch::draws::{DrawState, IndexedDraw};
-use crate::batch::key::{DrawKey, MapLook};
-use crate::batch::lit_patches::LitPatches;
-use crate::batch::table::{MapUse, MapsUse};
 use crate::cpu::meshes::MeshPieces;
-use crate::geometry::meshes::Form;
 use bevy_ecs::prelude::*;
 use halfway_asset::{AssetId, Assets};
+use halfway_frame::batch::batches::Batches;
+use halfway_frame::batch::draws::{DrawState, IndexedDraw};
+use halfway_frame::batch::key::{DrawKey, MapLook};
+use halfway_frame::batch::lit_patches::LitPatches;
+use halfway_frame::batch::table::{MapUse, MapsUse};
+use halfway_frame::geometry::meshes::Form;
 use halfway_lighting::Reflectance;
 use halfway_mesh::Mesh;
 use halfway_raster::{DrawCall, DrawMaps, MapCall, MapData};

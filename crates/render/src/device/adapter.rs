@@ -2,8 +2,8 @@
 
 use crate::device::cpu::Cpu;
 use crate::device::gpu::Gpu;
-use crate::error::RenderError;
 use bevy_ecs::prelude::World;
+use halfway_frame::error::RenderError;
 
 /// What draws, opened. [`AdapterChoice::open`](crate::AdapterChoice::open) opens it, and the world holds it as the
 /// resource

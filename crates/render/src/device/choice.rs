@@ -4,9 +4,9 @@ use crate::device::adapter::Adapter;
 use crate::device::cpu::Cpu;
 use crate::device::gpu::{Gpu, describe_adapter};
 use crate::device::instance::instance;
-use crate::error::RenderError;
 use bevy_ecs::prelude::Resource;
 use futures_lite::future::block_on;
+use halfway_frame::error::RenderError;
 use std::path::Path;
 
 /// What to draw with: which graphics adapter, or the CPU. Insert it before the first frame; an open [`Gpu`] or [`Cpu`]

@@ -1,7 +1,7 @@
 //! The CPU as what draws.
 
-use crate::error::RenderError;
 use bevy_ecs::prelude::Resource;
+use halfway_frame::error::RenderError;
 use halfway_raster::{RasterError, RasterOptions, Rasterizer, VectorWidth, WIDTH_VARIABLE};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 

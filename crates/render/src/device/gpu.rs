@@ -2,9 +2,9 @@
 
 use crate::device::old_opengl::unfit;
 use crate::device::provoking_vertex::ProvokingVertex;
-use crate::error::RenderError;
 use bevy_ecs::prelude::Resource;
 use futures_lite::future::block_on;
+use halfway_frame::error::RenderError;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};

@@ -1,8 +1,8 @@
 //! The time of the pass on the GPU, by its own clock.
 
 use crate::device::gpu::Gpu;
-use crate::frame::mean::{FrameWeights, approach};
 use bevy_ecs::prelude::Resource;
+use halfway_frame::mean::{FrameWeights, approach};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU8, Ordering};
 use std::time::{Duration, Instant};

@@ -1,7 +1,7 @@
 //! The grid within a pixel to which an adapter rounds the places of vertices.
 
 use crate::device::gpu::Gpu;
-use crate::error::RenderError;
+use halfway_frame::error::RenderError;
 use std::sync::mpsc;
 
 /// The pixels of the measurement, in a row; the bits that can be told are fewer.

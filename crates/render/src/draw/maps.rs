@@ -1,15 +1,15 @@
 //! Upload: the images that draws read, on the GPU.
 
-use crate::batch::table::{MapUse, MapsUse};
 use crate::device::gpu::Gpu;
 use crate::draw::placings::{PlacingRecord, PlacingsRecord, packed, packed_size, stored};
-use crate::error::RenderError;
-use crate::frame::report::FrameReport;
 use crate::pipelines::cache::Pipelines;
 use crate::shaders::records::SolidRecord;
 use crate::shaders::text::SOLID_BINDING;
 use bevy_platform::collections::HashMap;
 use halfway_asset::{AssetId, Assets};
+use halfway_frame::batch::table::{MapUse, MapsUse};
+use halfway_frame::error::RenderError;
+use halfway_frame::report::FrameReport;
 use halfway_texture::{ImageForm, MapKind, Pyramid, Texture};
 
 /// The images that have been drawn, until they change or go, and the bindings of the frame's uses of them.

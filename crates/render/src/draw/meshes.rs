@@ -1,15 +1,15 @@
 //! Upload: meshes on the GPU.
 
-use crate::batch::batches::Batches;
-use crate::batch::drawn_meshes::DrawnMeshes;
 use crate::device::gpu::Gpu;
 use crate::draw::flat::FlatMesh;
-use crate::error::RenderError;
-use crate::frame::report::FrameReport;
-use crate::geometry::meshes::{Form, Geometries, both_uvs};
 use bevy_ecs::prelude::*;
 use bevy_math::{Vec3, Vec4};
 use halfway_asset::AssetId;
+use halfway_frame::batch::batches::Batches;
+use halfway_frame::batch::drawn_meshes::DrawnMeshes;
+use halfway_frame::error::RenderError;
+use halfway_frame::geometry::meshes::{Form, Geometries, both_uvs};
+use halfway_frame::report::FrameReport;
 use halfway_mesh::Mesh;
 
 /// The buffers of the meshes that have been drawn, until they change or go.
@@ -154,4 +154,74 @@ fn buffer(gpu: &Gpu, label: &str, contents: &[u8], usage: wgpu::BufferUsages) ->
     drop(mapped);
     buffer.unmap();
     Ok(buffer)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plugin::RenderPlugin;
+    use crate::target::frame::Headless;
+    use bevy_app::App;
+    use bevy_ecs::schedule::ScheduleLabel;
+    use bevy_math::UVec2;
+    use bevy_transform::TransformPlugin;
+    use bevy_transform::components::Transform;
+    use halfway_asset::Assets;
+    use halfway_frame::geometry::workshop::Workshop;
+    use halfway_lighting::{Camera, Material, Shading, Tolerance, ViewTolerance};
+    use halfway_mesh::{Mesh3d, UvSphere};
+
+    #[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    struct Seldom;
+
+    /// How many meshes the renderer keeps laid out, in buffers, and with levels of detail.
+    fn kept(app: &App) -> [usize; 3] {
+        let world = app.world();
+        let levels = world.resource::<Workshop>().len();
+        [world.resource::<Geometries>().len(), world.resource::<MeshBuffers>().len(), levels]
+    }
+
+    /// Draws ten meshes after each other, `updates` of the App between, each of which stays for one frame or more.
+    fn most_kept(updates: usize, frames: usize) -> [usize; 3] {
+        let mut app = App::new();
+        app.add_plugins((TransformPlugin, RenderPlugin { schedule: Seldom.intern() }));
+        app.init_schedule(Seldom).insert_resource(Headless { size: UVec2::splat(4), ..Headless::default() });
+        app.insert_resource(ViewTolerance(Tolerance { steps: 0.0, pixels: 1.0 }));
+        app.world_mut().spawn((Camera::default(), Transform::from_xyz(0.0, 0.0, 3.0)));
+        let mut most = [0; 3];
+        for number in 0..10 {
+            let mesh = Mesh::from(UvSphere::new(1.0, 12 + number, 6));
+            let handle = app.world_mut().resource_mut::<Assets<Mesh>>().add(mesh);
+            let objects = [Shading::Flat, Shading::Phong].map(|shading| {
+                app.world_mut().spawn((Mesh3d(handle.clone()), Material::DEFAULT, shading, Transform::default())).id()
+            });
+            drop(handle);
+            app.update();
+            for _ in 0..frames {
+                app.world_mut().run_schedule(Seldom);
+            }
+            assert_eq!(app.world().resource::<FrameReport>().errors, []);
+            assert!(kept(&app)[0] >= 2, "both ways of shading are laid out");
+            most = std::array::from_fn(|i| most[i].max(kept(&app)[i]));
+            for object in objects {
+                app.world_mut().despawn(object);
+            }
+            for _ in 0..updates {
+                app.update();
+            }
+        }
+        app.world_mut().run_schedule(Seldom);
+        let [meshes, _, levels] = kept(&app);
+        assert_eq!([meshes, levels], [0, 0], "nothing is there, and something is kept");
+        most
+    }
+
+    #[test]
+    fn meshes_that_are_gone_are_forgotten_however_seldom_frames_are() {
+        for updates in [1, 2, 3, 10] {
+            // Those of the frame in two ways of shading, and those of the frame before, which is looked for first.
+            let most = most_kept(updates, 2);
+            assert!(most[0] <= 4 && most[1] <= 4 && (1..=2).contains(&most[2]), "{updates} updates: {most:?}");
+        }
+    }
 }

@@ -1,19 +1,19 @@
 //! Draw and Deliver: the pass is encoded, submitted and presented.
 
-use crate::batch::batches::Batches;
-use crate::batch::draws::DrawGroup;
 use crate::device::gpu::Gpu;
 use crate::device::gpu_timer::GpuTimer;
 use crate::draw::meshes::MeshBuffers;
 use crate::draw::upload::Buffers;
-use crate::error::RenderError;
-use crate::frame::report::FrameReport;
-use crate::frame::times::FrameTimes;
 use crate::pipelines::cache::Pipelines;
 use crate::target::frame::{Attachments, Delivery, FramePicture, Target};
-use crate::view::camera::View;
 use bevy_color::LinearRgba;
 use bevy_ecs::prelude::*;
+use halfway_frame::batch::batches::Batches;
+use halfway_frame::batch::draws::DrawGroup;
+use halfway_frame::error::RenderError;
+use halfway_frame::report::FrameReport;
+use halfway_frame::times::FrameTimes;
+use halfway_frame::view::camera::View;
 use halfway_lighting::{Camera, Encoding};
 
 #[expect(clippy::too_many_arguments, reason = "a system takes each resource as a parameter")]
@@ -227,7 +227,6 @@ pub fn encode_frame(world: &World, encoder: &mut wgpu::CommandEncoder) -> Result
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::frame::sets::RenderSet;
     use crate::plugin::RenderPlugin;
     use crate::{Headless, Pixels};
     use bevy_app::{App, PostUpdate};
@@ -235,6 +234,7 @@ mod tests {
     use bevy_transform::TransformPlugin;
     use bevy_transform::components::Transform;
     use halfway_asset::Assets;
+    use halfway_frame::sets::RenderSet;
     use halfway_mesh::{Cuboid, Mesh, Mesh3d};
 
     /// Takes away what the draws of a box read once they are made: the frame has no error but this one.

@@ -6,12 +6,12 @@ use crate::device::gpu::Gpu;
 use crate::device::gpu_timer::GpuTimer;
 use crate::draw::meshes::MeshBuffers;
 use crate::draw::upload::Buffers;
-use crate::geometry::meshes::Geometries;
-use crate::geometry::workshop::Workshop;
 use crate::pipelines::cache::Pipelines;
 use crate::target::canvas::Canvas;
 use crate::target::frame::Target;
 use bevy_ecs::prelude::*;
+use halfway_frame::geometry::meshes::Geometries;
+use halfway_frame::geometry::workshop::Workshop;
 
 /// What has drawn a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

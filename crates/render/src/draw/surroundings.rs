@@ -3,14 +3,14 @@
 use crate::device::gpu::Gpu;
 use crate::draw::maps::sent;
 use crate::draw::placings::packed_size;
-use crate::error::RenderError;
-use crate::frame::report::FrameReport;
-use crate::lights::surroundings::Surroundings;
 use crate::shaders::text::{SKY, surroundings_bindings};
 use crate::target::frame::{DEPTH_FORMAT, ShaderOutput};
-use crate::view::camera::View;
 use bytemuck::{Pod, Zeroable};
-use halfway_raster::SurroundingsData;
+use halfway_frame::error::RenderError;
+use halfway_frame::lights::surroundings::Surroundings;
+use halfway_frame::report::FrameReport;
+use halfway_frame::view::camera::View;
+use halfway_texture::environment::SurroundingsData;
 use halfway_texture::environment::{EnvironmentLevel, EnvironmentMap};
 
 /// The environment that was drawn last, and what draws the sky. Empty until there is one.

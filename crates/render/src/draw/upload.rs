@@ -1,22 +1,22 @@
 //! Upload: what changed since the last frame goes to the GPU, and nothing else.
 
-use crate::batch::batches::Batches;
-use crate::batch::draws::DrawState;
-use crate::batch::lit_patches::LitPatches;
 use crate::device::gpu::Gpu;
 use crate::draw::maps::MapTextures;
 use crate::draw::surroundings::SurroundingsOnGpu;
-use crate::error::RenderError;
-use crate::frame::report::FrameReport;
-use crate::lights::surroundings::Surroundings;
 use crate::pipelines::cache::Pipelines;
-use crate::shaders::light_slots::COUNTED_LIGHTS;
 use crate::shaders::records::{RECORD_BYTES, ViewRecord};
 use crate::shaders::text::{COUNTED_LIGHT_BYTES, LightText, Text};
 use crate::target::frame::Target;
-use crate::view::camera::View;
 use bevy_ecs::prelude::*;
 use halfway_asset::Assets;
+use halfway_frame::batch::batches::Batches;
+use halfway_frame::batch::draws::DrawState;
+use halfway_frame::batch::lit_patches::LitPatches;
+use halfway_frame::error::RenderError;
+use halfway_frame::lights::slots::COUNTED_LIGHTS;
+use halfway_frame::lights::surroundings::Surroundings;
+use halfway_frame::report::FrameReport;
+use halfway_frame::view::camera::View;
 use halfway_lighting::record::LightRecord;
 use halfway_texture::Texture;
 

@@ -1,15 +1,15 @@
 //! How a pipeline is built from its key.
 
-use crate::batch::key::DrawKey;
 use crate::device::gpu::Gpu;
 use crate::pipelines::key::PipelineKey;
-use crate::shaders::light_slots::Lists;
 use crate::shaders::records::{INSTANCE, INSTANCE_BYTES};
 use crate::shaders::template::EntryPoint;
 use crate::shaders::text::{Shader, Text};
 use crate::target::frame::{DEPTH_FORMAT, ShaderOutput};
+use halfway_frame::batch::key::DrawKey;
+use halfway_frame::lights::slots::Lists;
 use halfway_lighting::Frequency;
-use halfway_raster::Cull;
+use halfway_lighting::record::Cull;
 use halfway_texture::MapKind;
 use wgpu::naga::ShaderStage;
 

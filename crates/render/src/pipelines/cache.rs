@@ -1,16 +1,16 @@
 //! The pipelines that are there: bounded in number, and built when [`Compile`] says.
 
-use crate::batch::backend::Backend;
-use crate::batch::key::DrawKey;
 use crate::device::gpu::Gpu;
-use crate::error::RenderError;
-use crate::frame::report::FrameReport;
 use crate::pipelines::compile::{Builder, Compile, build};
 use crate::pipelines::key::PipelineKey;
 use crate::shaders::text::{LightText, Shaders};
 use crate::target::frame::{Delivery, ShaderOutput, Target};
 use bevy_ecs::prelude::*;
 use bevy_platform::collections::{HashMap, HashSet};
+use halfway_frame::batch::backend::Backend;
+use halfway_frame::batch::key::DrawKey;
+use halfway_frame::error::RenderError;
+use halfway_frame::report::FrameReport;
 use std::sync::Arc;
 
 /// The most specialised pipelines that are kept. What a frame asks for beyond them is drawn by generic ones, which are

@@ -1,11 +1,11 @@
 //! When pipelines are built: in the frame that needs them, or beside the frames by a thread of their own.
 
 use crate::device::gpu::Gpu;
-use crate::error::panic_message;
 use crate::pipelines::key::PipelineKey;
 use crate::shaders::text::{Shaders, Text};
 use bevy_ecs::prelude::Resource;
 use futures_lite::future::block_on;
+use halfway_frame::error::panic_message;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -106,9 +106,8 @@ impl Drop for Builder {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::batch::key::DrawKey;
-    use crate::batch::key::tests::key;
     use crate::target::frame::ShaderOutput;
+    use halfway_frame::batch::key::DrawKey;
 
     #[test]
     fn what_cannot_be_built_comes_back_as_an_error() {
@@ -116,7 +115,7 @@ mod tests {
         let shaders = Arc::default();
         let builder = Builder::start(&gpu, &shaders).unwrap();
         // No adapter takes three samples a pixel.
-        let right = PipelineKey { draw: key(), output: ShaderOutput::default() };
+        let right = PipelineKey { draw: DrawKey::plain(), output: ShaderOutput::default() };
         let wrong = PipelineKey { output: ShaderOutput { samples: 3, ..right.output }, ..right };
         assert!(builder.ask(wrong) && builder.ask(right));
         let mut built = Vec::new();
@@ -137,7 +136,7 @@ mod tests {
         let shaders = Arc::default();
         let builder = Builder::start(&gpu, &shaders).unwrap();
         for squarings in 0..16 {
-            let draw = DrawKey { squarings: Some(squarings), ..key() };
+            let draw = DrawKey { squarings: Some(squarings), ..DrawKey::plain() };
             assert!(builder.ask(PipelineKey { draw, output: ShaderOutput::default() }));
         }
         drop(builder);

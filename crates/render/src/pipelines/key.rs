@@ -1,11 +1,11 @@
 //! What a pipeline is made for: a draw, and what it writes.
 
-use crate::batch::key::DrawKey;
-use crate::lights::terms::by_fragment_shader;
-use crate::shaders::light_slots::Lists;
 use crate::shaders::text::{LightText, Text};
 use crate::target::frame::ShaderOutput;
-use halfway_raster::Cull;
+use halfway_frame::batch::key::DrawKey;
+use halfway_frame::lights::slots::Lists;
+use halfway_frame::lights::terms::by_fragment_shader;
+use halfway_lighting::record::Cull;
 use halfway_texture::MapKind;
 use std::fmt;
 

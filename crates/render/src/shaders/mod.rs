@@ -1,6 +1,5 @@
 //! The WGSL texts, and what they read.
 
-pub(crate) mod light_slots;
 pub(crate) mod picture;
 pub(crate) mod records;
 pub(crate) mod switches;

@@ -1,8 +1,8 @@
 //! What the GPU reads beside [lights, materials and instances](halfway_lighting::record): the same bytes as the structs of
 //! the WGSL texts, which a test compares.
 
-use crate::view::camera::{Projection, View};
 use bytemuck::{Pod, Zeroable};
+use halfway_frame::view::camera::{Projection, View};
 use halfway_lighting::record::{InstanceRecord, SurfaceRecord};
 use halfway_texture::SolidTexture;
 

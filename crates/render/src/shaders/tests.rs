@@ -3,13 +3,13 @@
 use crate::device::provoking_vertex::ProvokingVertex;
 use crate::draw::placings::{PlacingRecord, PlacingsRecord};
 use crate::draw::surroundings::SurroundingsRecord;
-use crate::shaders::light_slots::COUNTED_LIGHTS;
 use crate::shaders::picture::{PICTURE_FILES, PicturePolicyRecord};
 use crate::shaders::records::{INSTANCE, SolidRecord, ViewRecord};
 use crate::shaders::switches::assembled;
 use crate::shaders::template::{EntryPoint, Template};
 use crate::shaders::text::{LightText, SKY, Text};
 use bytemuck::Zeroable;
+use halfway_frame::lights::slots::COUNTED_LIGHTS;
 use halfway_lighting::record::{InstanceRecord, LightRecord, MaterialRecord, SurfaceRecord};
 use halfway_lighting::{Frequency, Terms};
 use std::mem::offset_of;

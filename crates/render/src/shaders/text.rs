@@ -1,12 +1,12 @@
 //! The texts of surfaces, with their bindings.
 
 use crate::device::gpu::Gpu;
-use crate::lights::terms::{by_fragment_shader, by_vertex_shader};
-use crate::shaders::light_slots::COUNTED_LIGHTS;
 use crate::shaders::records::RECORD_BYTES;
 use crate::shaders::switches::assembled;
 use crate::shaders::template::Template;
 use bevy_platform::collections::HashMap;
+use halfway_frame::lights::slots::COUNTED_LIGHTS;
+use halfway_frame::lights::terms::{by_fragment_shader, by_vertex_shader};
 use halfway_lighting::record::LightRecord;
 use halfway_lighting::{Frequency, Terms};
 use halfway_texture::MapKind;

@@ -1,9 +1,9 @@
 //! The memory that the CPU draws into.
 
-use crate::error::RenderError;
 use crate::target::format::Picture;
 use bevy_ecs::prelude::Resource;
 use bevy_math::UVec2;
+use halfway_frame::error::RenderError;
 use halfway_lighting::{Encoding, Intensity};
 use halfway_raster::{ClearTiles, Output, PixelFormat, RasterError, Rasterizer};
 use image::{Rgba32FImage, RgbaImage};

@@ -1,8 +1,8 @@
 //! What a target holds, and what the device can do with it.
 
 use crate::device::gpu::Gpu;
-use crate::error::RenderError;
-use halfway_lighting::{Encoding, Intensity, Samples};
+use halfway_frame::error::RenderError;
+use halfway_lighting::Samples;
 use image::{Rgba32FImage, RgbaImage};
 
 /// What a pixel of a headless picture holds.
@@ -34,47 +34,6 @@ impl Picture {
             Self::Byte(image) => image.dimensions(),
             Self::Float(image) => image.dimensions(),
         }
-    }
-}
-
-/// What the values of a target's pixels are.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum PixelValues {
-    Bytes(Encoding),
-    /// Linear I.
-    Floats,
-    /// Linear I, of which a policy makes the picture.
-    Toned {
-        /// What changes I by a step changes the picture by no more than a step over this number.
-        share: f64,
-    },
-}
-
-impl PixelValues {
-    /// What the bytes hold; `None` for floating point.
-    pub(crate) fn encoding(self) -> Option<Encoding> {
-        match self {
-            Self::Bytes(encoding) => Some(encoding),
-            Self::Floats | Self::Toned { .. } => None,
-        }
-    }
-
-    /// How much of a tolerance in steps of the picture is left for the values.
-    pub(crate) fn share(self) -> f64 {
-        match self {
-            Self::Bytes(_) | Self::Floats => 1.0,
-            Self::Toned { share } => share,
-        }
-    }
-
-    /// What is drawn for such a picture.
-    pub(crate) fn under(self, policy: Intensity) -> Self {
-        // Nothing is known of how dark it becomes, so that the curve of bytes may be as steep as it is at 0.
-        let steepest = match self {
-            Self::Bytes(Encoding::Srgb) => 12.92,
-            _ => 1.0,
-        };
-        if policy.acts_on_pictures() { Self::Toned { share: 1.0 / (steepest * policy.steepest()) } } else { self }
     }
 }
 

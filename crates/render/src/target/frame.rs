@@ -1,18 +1,19 @@
 //! What a frame draws into: a texture, or the picture of a window's surface.
 
 use crate::device::gpu::Gpu;
-use crate::error::RenderError;
-use crate::frame::report::FrameReport;
-use crate::frame::times::FrameTimes;
 use crate::shaders::picture::PicturePolicyRecord;
 use crate::target::canvas::CanvasTarget;
-use crate::target::format::{PixelValues, Pixels, drawn_format, headless_format, is_float};
+use crate::target::format::{Pixels, drawn_format, headless_format, is_float};
 use crate::target::policy::PicturePasses;
 use crate::target::surface::{Lost, SurfaceLost, SurfaceTarget};
 use crate::target::texture::TextureTarget;
-use crate::view::camera::{PictureSize, View};
 use bevy_ecs::prelude::*;
 use bevy_math::UVec2;
+use halfway_frame::error::RenderError;
+use halfway_frame::report::FrameReport;
+use halfway_frame::times::FrameTimes;
+use halfway_frame::values::{FrameValues, PixelValues, WaitsForLevels};
+use halfway_frame::view::camera::{PictureSize, View};
 use halfway_lighting::{Blend, Camera, Encoding, Samples, Shown};
 use halfway_mesh::Mesh3d;
 
@@ -30,11 +31,6 @@ impl Default for Headless {
         Self { size: UVec2::new(1280, 720), pixels: Pixels::default() }
     }
 }
-
-/// What the pixels hold that the frame draws; `None` where there is nothing to draw into.
-/// Holds after [`RenderSet::View`](crate::RenderSet::View).
-#[derive(Resource, Clone, Copy, Debug, Default)]
-pub(crate) struct FrameValues(pub(crate) Option<PixelValues>);
 
 /// What the frame draws into.
 #[derive(Resource, Default)]
@@ -141,8 +137,10 @@ pub(crate) fn measure(
     texture: Option<Res<TextureTarget>>,
     mut size: ResMut<PictureSize>,
     mut values: ResMut<FrameValues>,
+    mut waits: ResMut<WaitsForLevels>,
 ) {
     values.0 = None;
+    waits.set_if_neq(WaitsForLevels(surface.is_none() && canvas.is_none() && texture.is_none()));
     let texture = texture.map(|texture| texture.size);
     let window = surface.map(|surface| surface.size()).or(canvas.map(|canvas| canvas.size));
     size.0 = texture.or(window).unwrap_or(headless.size);

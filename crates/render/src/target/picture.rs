@@ -1,13 +1,13 @@
 //! Pictures read back from the headless target.
 
 use crate::device::gpu::Gpu;
-use crate::error::RenderError;
-use crate::frame::report::FrameReport;
 use crate::target::canvas::{Canvas, CanvasTarget};
 use crate::target::format::Picture;
 use crate::target::frame::Target;
 use bevy_app::App;
 use bevy_ecs::prelude::World;
+use halfway_frame::error::RenderError;
+use halfway_frame::report::FrameReport;
 use image::{Rgba, Rgba32FImage, RgbaImage};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 

@@ -1,9 +1,9 @@
 //! A window's surface.
 
 use crate::device::gpu::Gpu;
-use crate::error::RenderError;
 use bevy_ecs::prelude::Resource;
 use bevy_math::UVec2;
+use halfway_frame::error::RenderError;
 
 /// A window's surface; while this resource is there it is the target instead of [`Headless`](crate::Headless).
 #[derive(Resource)]

@@ -1,10 +1,10 @@
 //! A texture of an engine's own.
 
 use crate::device::gpu::Gpu;
-use crate::error::RenderError;
 use crate::target::format::is_float;
 use bevy_ecs::prelude::Resource;
 use bevy_math::UVec2;
+use halfway_frame::error::RenderError;
 use halfway_lighting::{Camera, Encoding, Samples};
 
 /// A texture of an engine's own; while this resource is there it is the target, before

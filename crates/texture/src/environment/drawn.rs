@@ -127,3 +127,25 @@ impl EnvironmentMap {
         })
     }
 }
+
+/// An environment as a frame sees it: around the eye.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SurroundingsData {
+    /// Its light.
+    pub map: EnvironmentMap,
+    /// Factor of all its light.
+    pub strength: f32,
+    /// The rows of the rotation from eye space to the environment.
+    pub rows: [[f32; 3]; 3],
+    /// The polynomial of [`mean_light`](halfway_lighting::equations::mean_light).
+    pub mean: [[f32; 3]; 9],
+    /// The level that is seen where nothing is drawn, in place of the clear color.
+    pub sky: Option<f32>,
+}
+
+impl SurroundingsData {
+    /// A direction of eye space, in the environment.
+    pub fn direction(&self, d: [f32; 3]) -> [f32; 3] {
+        self.rows.map(|[x, y, z]| x * d[0] + y * d[1] + z * d[2])
+    }
+}

@@ -14,7 +14,7 @@ pub use self::directions::{
     EnvironmentShape, from_cube, from_equirectangular, from_mirror_ball, on_cube, on_equirectangular, on_mirror_ball,
 };
 use self::directions::{FACES, unit};
-pub use self::drawn::{EnvironmentLevel, EnvironmentMap, MOST_FACE_TEXELS};
+pub use self::drawn::{EnvironmentLevel, EnvironmentMap, MOST_FACE_TEXELS, SurroundingsData};
 pub use self::light::{EnvironmentLight, WrongEnvironment};
 use crate::error::TextureError;
 use crate::lookup::{Number, between, in_level, mean_of_four, wrapped_index};

@@ -31,9 +31,10 @@ const ROOMS: [Room; 15] = [
         &["halfway_lighting", "halfway_texture"],
         &["wgpu", "naga", "winit", "bevy_ecs", "bevy_app"],
     ),
+    room("halfway_frame", &["halfway_asset", "halfway_mesh", "halfway_texture", "halfway_lighting"], NO_GPU),
     room(
         "halfway_render",
-        &["halfway_asset", "halfway_mesh", "halfway_texture", "halfway_lighting", "halfway_raster"],
+        &["halfway_asset", "halfway_mesh", "halfway_texture", "halfway_lighting", "halfway_frame", "halfway_raster"],
         NO_WINDOW,
     ),
     room("halfway_record", &["halfway_render", "halfway_reference", "halfway_lighting"], NO_WINDOW),

@@ -1,11 +1,10 @@
 //! Which pipelines are there, and what waits for them.
 
 use super::*;
-use crate::batch::key::tests::key;
-use halfway_raster::Cull;
+use halfway_lighting::record::Cull;
 
 fn numbered(number: u16) -> DrawKey {
-    DrawKey { squarings: Some(number as u8), clockwise: number > 255, ..key() }
+    DrawKey { squarings: Some(number as u8), clockwise: number > 255, ..DrawKey::plain() }
 }
 
 /// A frame that draws these: how many by their own pipelines, which it waited for, and its report.
@@ -40,11 +39,11 @@ fn frame_into(
 fn no_special_one_is_awaited_after_the_first_frame() {
     let gpu = Gpu::open_headless().unwrap();
     let mut pipelines = Pipelines::default();
-    let (own, awaited, _) = frame(&mut pipelines, &gpu, Compile::Beside, &[key()]);
-    assert_eq!((own, awaited), (1, vec![key()]));
+    let (own, awaited, _) = frame(&mut pipelines, &gpu, Compile::Beside, &[DrawKey::plain()]);
+    assert_eq!((own, awaited), (1, vec![DrawKey::plain()]));
     // At once, so that the generic one is not there either.
     let other = numbered(3);
-    let (own, awaited, report) = frame(&mut pipelines, &gpu, Compile::Beside, &[key(), other]);
+    let (own, awaited, report) = frame(&mut pipelines, &gpu, Compile::Beside, &[DrawKey::plain(), other]);
     assert_eq!((own, awaited, report.pipelines_awaited), (1, vec![other.generic()], 1));
     for number in 4..12 {
         let (own, awaited, _) = frame(&mut pipelines, &gpu, Compile::Beside, &[numbered(number)]);
@@ -62,16 +61,16 @@ fn what_cannot_be_built_is_reported_and_not_tried_again() {
     let mut pipelines = Pipelines::default();
     // No adapter takes three samples a pixel.
     let wrong = ShaderOutput { samples: 3, ..ShaderOutput::default() };
-    let (own, _, report) = frame(&mut pipelines, &gpu, Compile::Now, &[key()]);
+    let (own, _, report) = frame(&mut pipelines, &gpu, Compile::Now, &[DrawKey::plain()]);
     assert_eq!((own, report.pipelines_live, report.errors), (1, 1, vec![]));
     // The first frame tries its own, the second the generic one in its place, which fails as well, in every frame.
     for (own, awaited) in [(1, 1), (0, 1), (0, 0), (0, 0)] {
-        let (by_own, _, report) = frame_into(wrong, &mut pipelines, &gpu, Compile::Now, &[key()]);
+        let (by_own, _, report) = frame_into(wrong, &mut pipelines, &gpu, Compile::Now, &[DrawKey::plain()]);
         assert!(matches!(&report.errors[..], [RenderError::Device(_)]), "{:?}", report.errors);
         assert_eq!((by_own, report.pipelines_awaited, report.pipelines_live), (own, awaited, 1));
     }
     // Beside the frames: the specialised one once, the generic one, which is to draw in its place, in every frame.
-    let other = DrawKey { squarings: Some(2), ..key() };
+    let other = DrawKey { squarings: Some(2), ..DrawKey::plain() };
     let mut errors = 0;
     loop {
         let (own, _, report) = frame_into(wrong, &mut pipelines, &gpu, Compile::Beside, &[other]);
@@ -92,14 +91,14 @@ fn the_generic_one_draws_where_the_special_one_cannot_be_built() {
     let gpu = Gpu::open_headless().unwrap();
     for compile in [Compile::Now, Compile::Beside] {
         let mut pipelines = Pipelines::default();
-        frame(&mut pipelines, &gpu, compile, &[key().generic()]);
+        frame(&mut pipelines, &gpu, compile, &[DrawKey::plain().generic()]);
         let failed = || PipelineVariant { used: 0, state: VariantState::Failed(RenderError::Device("broken".into())) };
-        let keys = [key(), key().looking_up()].map(|key| pipelines.key(key));
+        let keys = [DrawKey::plain(), DrawKey::plain().looking_up()].map(|key| pipelines.key(key));
         pipelines.variants.extend(keys.map(|key| (key, failed())));
         for _ in 0..3 {
-            let (own, awaited, report) = frame(&mut pipelines, &gpu, compile, &[key()]);
+            let (own, awaited, report) = frame(&mut pipelines, &gpu, compile, &[DrawKey::plain()]);
             assert_eq!((own, awaited, report.errors), (0, vec![], vec![]), "{compile:?}");
-            assert!(!pipelines.looks_up(key()), "{compile:?}: each record is a draw");
+            assert!(!pipelines.looks_up(DrawKey::plain()), "{compile:?}: each record is a draw");
         }
     }
 }
@@ -119,7 +118,7 @@ fn settle(pipelines: &mut Pipelines, gpu: &Gpu) -> FrameReport {
 fn a_build_that_panics_fails_alone() {
     let gpu = Gpu::open_headless().unwrap();
     let mut pipelines = Pipelines::default();
-    frame(&mut pipelines, &gpu, Compile::Beside, &[key(), key().generic()]);
+    frame(&mut pipelines, &gpu, Compile::Beside, &[DrawKey::plain(), DrawKey::plain().generic()]);
     let (shared, shaders) = (gpu.clone(), Arc::clone(&pipelines.shaders));
     let build = move |wanted: PipelineKey| {
         assert!(wanted.draw != numbered(3), "as a driver may");
@@ -169,7 +168,7 @@ fn both_passes_get_room_in_the_same_frame() {
     for _ in 0..KEPT_FRAMES {
         assert_eq!(draw(&[]), 0);
     }
-    let blended = DrawKey { blend: true, cull: Cull::None, ..key() };
+    let blended = DrawKey { blend: true, cull: Cull::None, ..DrawKey::plain() };
     assert_eq!(blended.passes().count(), 2);
     assert_eq!(draw(&[blended]), 0, "in the first frame nothing is given up for it");
     assert_eq!(draw(&[blended]), 1);

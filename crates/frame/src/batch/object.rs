@@ -1,0 +1,203 @@
+//! What one object is drawn with: its key, its material record, and what light lists have to know of it.
+
+use crate::batch::key::{DrawKey, MapLooks};
+use crate::geometry::meshes::PaintOf;
+use crate::lights::gather::Lights;
+use crate::lights::lists::Reflector;
+use crate::lights::slots::Lists;
+use crate::view::camera::View;
+use bevy_math::Vec3;
+use halfway_lighting::equations::{Coefficients, specular_exponent};
+use halfway_lighting::record::Cull;
+use halfway_lighting::record::{MaterialRecord, SurfaceRecord};
+use halfway_lighting::{
+    Encoding, Faces, Fields, Frequency, InvalidValue, Material, Problem, Reflectance, Terms, Viewer,
+};
+use halfway_texture::{MapKind, Maps, SolidKind, SolidTexture, WrongMap};
+
+/// The components that say how an object reflects light.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Reflecting<'a> {
+    pub(crate) front: &'a Material,
+    pub(crate) back: &'a Material,
+    pub(crate) reflectance: Reflectance,
+    pub(crate) faces: Faces,
+    /// The mesh has colors that count.
+    pub colored: bool,
+    /// How images are looked up.
+    pub maps: MapLooks,
+    /// What has too low an opacity is not there.
+    pub masked: bool,
+    /// What fills the solid that it is cut from.
+    pub solid: Option<SolidKind>,
+    /// An environment lights it.
+    pub surrounded: bool,
+}
+
+/// The same as a key: the materials' bits, and the rest.
+pub(crate) type ReflectingBits = ([MaterialBits; 2], Reflectance, Faces, bool);
+type MaterialBits = [u32; size_of::<Material>() / 4];
+
+/// What follows from them, whatever the object's place and shading.
+#[derive(Clone, Debug)]
+pub(crate) struct Appearance {
+    pub(crate) invalid: Option<InvalidValue>,
+    /// The number of its record without lights.
+    pub(crate) material: u32,
+    /// Whether its ambient, diffuse and specular reflectances are anything but black.
+    reflects: [bool; 3],
+    /// log₂ of the exponent where it is a power of two, the same on both sides.
+    squarings: Option<u8>,
+}
+
+/// What every object's key and lists take from the frame.
+#[derive(Clone, Copy)]
+pub(crate) struct Shared<'a> {
+    pub(crate) lights: &'a Lights,
+    pub(crate) view: &'a View,
+    /// What the bytes of the picture hold; `None` for floating point.
+    pub(crate) encoding: Option<Encoding>,
+    pub(crate) viewer: Viewer,
+}
+
+/// What an object's key takes from its place, its mesh and its shading.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Circumstances {
+    pub terms: Terms,
+    pub blend: bool,
+    pub(crate) mirrored: bool,
+    pub(crate) opposite_normals: bool,
+}
+
+impl Reflecting<'_> {
+    pub(crate) fn bits(&self) -> ReflectingBits {
+        (
+            [self.front, self.back].map(|material| bytemuck::cast(*material)),
+            self.reflectance,
+            self.faces,
+            self.is_painted(),
+        )
+    }
+
+    /// Whether what multiplies ambient and diffuse light is not in the material alone.
+    fn is_painted(&self) -> bool {
+        self.surrounded || self.colored || self.masked || self.solid.is_some() || !self.maps.is_empty()
+    }
+
+    /// Checks the components; `number` gives the record its number.
+    pub(crate) fn look(&self, ambient: Vec3, number: impl FnOnce(SurfaceRecord) -> u32) -> Appearance {
+        let invalid = self.front.validate().err().or_else(|| {
+            // A back side without a material of its own has been checked with the front.
+            self.back.validate().err().map(|invalid| InvalidValue { owner: "BackMaterial", ..invalid })
+        });
+        let sides = self.coefficients();
+        let any = |of: fn(&Coefficients<f32>) -> [f32; 3]| sides.iter().flat_map(of).any(|channel| channel != 0.0);
+        Appearance {
+            material: if invalid.is_none() { number(self.record(ambient)) } else { 0 },
+            invalid,
+            reflects: [any(|side| side.ka), any(|side| side.kd), any(|side| side.ks)],
+            squarings: self.squarings(),
+        }
+    }
+
+    /// The materials of the sides that are seen.
+    fn sides(&self) -> [&Material; 2] {
+        match self.faces {
+            Faces::Front => [self.front; 2],
+            Faces::Back => [self.back; 2],
+            Faces::Both => [self.front, self.back],
+        }
+    }
+
+    fn coefficients(&self) -> [Coefficients<f32>; 2] {
+        self.sides().map(Coefficients::from)
+    }
+
+    fn exponents(&self) -> [f32; 2] {
+        self.sides().map(|side| specular_exponent(self.reflectance, side.shininess))
+    }
+
+    fn squarings(&self) -> Option<u8> {
+        let [front, back] = self.exponents();
+        let is_power_of_two =
+            (1.0..=65536.0).contains(&front) && (front as u32).is_power_of_two() && front.fract() == 0.0;
+        (front.to_bits() == back.to_bits() && is_power_of_two).then(|| (front as u32).trailing_zeros() as u8)
+    }
+
+    /// Seen only from behind, the back is what the shader lights as front; see
+    /// [`InstanceRecord::new`](halfway_lighting::record::InstanceRecord::new).
+    fn record(&self, ambient: Vec3) -> SurfaceRecord {
+        let [front, back] = self.sides().map(|side| {
+            let (coefficients, painted) = (Coefficients::from(side), self.is_painted());
+            MaterialRecord::new(&coefficients, side.opacity, self.reflectance, ambient, painted)
+        });
+        SurfaceRecord { front, back, ..SurfaceRecord::default() }
+    }
+
+    /// What light lists have to know, where these terms are shaded.
+    pub(crate) fn reflector(&self, terms: Terms) -> Reflector {
+        let mut sides = self.coefficients();
+        if self.maps.change_exponents() {
+            // They lower it, and what has a lower one is brighter everywhere.
+            for side in &mut sides {
+                side.shininess = 0.0;
+            }
+        }
+        if self.maps.has(MapKind::Emission) {
+            // An image may leave nothing of it, behind which anything could be left out.
+            for side in &mut sides {
+                side.ke = [0.0; 3];
+            }
+        }
+        Reflector { sides, reflectance: self.reflectance, terms }
+    }
+
+    /// The draw. A term that the material or the lights leave black is not in it.
+    pub(crate) fn key(&self, look: &Appearance, circumstances: Circumstances, shared: Shared) -> DrawKey {
+        let Shared { lights, viewer, .. } = shared;
+        let [reflects_ambient, reflects_diffuse, reflects_specular] = look.reflects;
+        let lit = lights.len() > 0;
+        let attenuated_ambient = lights.attenuated_ambient && reflects_ambient;
+        let used = |used: bool, term: Frequency| if lit && used { term } else { Frequency::Never };
+        let terms = Terms {
+            diffuse: used(reflects_diffuse || attenuated_ambient, circumstances.terms.diffuse),
+            specular: used(lights.specular && reflects_specular, circumstances.terms.specular),
+        };
+        let key = DrawKey {
+            blend: circumstances.blend,
+            lists: Lists::new(lights.counts),
+            terms,
+            per_instance: false,
+            blinn_phong: self.reflectance != Reflectance::Phong,
+            local_viewer: viewer == Viewer::Local,
+            attenuated_ambient,
+            shared_color: lights.shared_color,
+            ranged: lights.ranged,
+            squarings: look.squarings,
+            geometric_fallback: circumstances.opposite_normals,
+            cull: if self.faces == Faces::Both { Cull::None } else { Cull::Back },
+            clockwise: circumstances.mirrored != (self.faces == Faces::Back),
+            colored: self.colored,
+            maps: self.maps,
+            masked: self.masked,
+            inside_out: self.faces == Faces::Back,
+            solid: self.solid,
+            surrounded: self.surrounded,
+        };
+        DrawKey { terms: circumstances.terms, ..key }.with_terms(terms)
+    }
+}
+
+/// The first number of an object's images, mask or solid that cannot be used.
+pub(super) fn wrong_paint((_, maps, mask, solid): PaintOf) -> Option<InvalidValue> {
+    let of_maps = maps.and_then(Maps::wrong).map(|WrongMap { kind, field, value, expected }| {
+        let field = format!("{}.{field}", kind.name());
+        Fields::of("Maps").error(&field, Problem::Number { value, expected })
+    });
+    let of_solid = || {
+        let wrong = solid.and_then(SolidTexture::wrong)?;
+        let problem = Problem::Number { value: wrong.value, expected: wrong.expected };
+        Some(Fields::of("SolidTexture").error(wrong.field, problem))
+    };
+    of_maps.or_else(|| mask.and_then(|mask| mask.validate().err())).or_else(of_solid)
+}

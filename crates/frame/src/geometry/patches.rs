@@ -1,0 +1,258 @@
+//! Patches: runs of neighbouring triangles of a mesh, each of which is culled by itself and has its own light lists.
+
+use crate::geometry::outlines::{Facing, Outline, Sight};
+use crate::geometry::shape::PatchShape;
+use bevy_math::Vec3;
+use halfway_mesh::{Bounds, LodGroup, LodHierarchy, Mesh, face_normal};
+use std::any::Any;
+use std::ops::Range;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+/// A mesh's triangles in the order in which they are drawn: patch by patch. A clone shares them.
+#[derive(Clone)]
+pub struct MeshTriangles {
+    /// Three vertices a triangle, patch by patch.
+    pub corners: Arc<Vec<[u32; 3]>>,
+    /// The patches.
+    pub patches: Arc<Patches>,
+    /// The same as the CPU draws them, where they have been made ready beside the frames.
+    pub pieces: Option<Prepared>,
+}
+
+/// A mesh with levels of detail as a drawer takes it, made beside the frames; only that drawer knows its type.
+pub type Prepared = Arc<dyn Any + Send + Sync>;
+
+/// The patches of a mesh.
+#[derive(Debug)]
+pub struct Patches {
+    shapes: Vec<PatchShape>,
+    outlines: Vec<Outline>,
+    /// Where the indices of each patch begin, and where those of the last end.
+    starts: Vec<u32>,
+    /// Neighbouring patches, which are culled together before each is looked at.
+    groups: Vec<PatchGroup>,
+    /// `None` where all patches are the mesh's own.
+    levels: Option<Levels>,
+    /// The outline of the whole mesh.
+    pub(crate) whole: Outline,
+}
+
+#[derive(Debug)]
+struct PatchGroup {
+    outline: Outline,
+    patches: Range<u32>,
+}
+
+/// Patches of which some stand for others: the clusters of a [`LodHierarchy`].
+#[derive(Debug)]
+struct Levels {
+    /// For each patch the group that it is a simplified version of, or [`FINEST`].
+    sources: Vec<u32>,
+    groups: Vec<LodGroup>,
+}
+
+/// What is drawn of an object, as far as its level of detail depends on it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct DetailDemand {
+    /// How far points may be off, in pixels; 0 for the mesh itself.
+    pub(crate) pixels: f32,
+    pub(crate) lit: bool,
+    pub(crate) has_images: bool,
+}
+
+/// A simplified version of no group, but of the mesh itself.
+const FINEST: u32 = u32::MAX;
+
+/// So many neighbouring patches are a group.
+const GROUP: usize = 8;
+
+impl MeshTriangles {
+    /// The mesh as a single patch, in the order of its triangles.
+    pub(crate) fn in_order(mesh: &Mesh) -> Self {
+        let corners: Vec<_> = mesh.triangles().collect();
+        let patches = Patches::new(mesh, &corners, std::iter::once(0..corners.len()));
+        Self::new(corners, patches)
+    }
+
+    /// The mesh cut into patches.
+    pub(crate) fn in_patches(mesh: &Mesh) -> Self {
+        let mut corners: Vec<_> = mesh.triangles().collect();
+        let runs = mesh.cut_into_patches(&mut corners, mesh.triangles_of_a_patch());
+        let patches = Patches::new(mesh, &corners, runs.into_iter());
+        Self::new(corners, patches)
+    }
+
+    /// The mesh with its levels of detail, or `None` where `stop` has become true.
+    pub(crate) fn in_levels(mesh: &Mesh, stop: &AtomicBool) -> Option<Self> {
+        let LodHierarchy { triangles, clusters, groups } = mesh.lod_hierarchy(stop)?;
+        let runs = clusters.iter().map(|cluster| cluster.triangles.start as usize..cluster.triangles.end as usize);
+        let mut patches = Patches::new(mesh, &triangles, runs);
+        let sources = clusters.iter().map(|cluster| cluster.source.unwrap_or(FINEST)).collect();
+        patches.levels = Some(Levels { sources, groups });
+        Some(Self::new(triangles, patches))
+    }
+
+    fn new(corners: Vec<[u32; 3]>, patches: Patches) -> Self {
+        Self { corners: Arc::new(corners), patches: Arc::new(patches), pieces: None }
+    }
+}
+
+impl Patches {
+    /// Patches of these runs of triangles, which follow each other.
+    fn new(mesh: &Mesh, triangles: &[[u32; 3]], runs: impl Iterator<Item = Range<usize>>) -> Self {
+        let mut starts = vec![0];
+        let (shapes, outlines): (Vec<_>, Vec<_>) = runs
+            .map(|run| {
+                starts.push(3 * run.end as u32);
+                measure(mesh, &triangles[run])
+            })
+            .unzip();
+        let groups = outlines.chunks(GROUP).zip((0..).step_by(GROUP)).map(|(outlines, first)| PatchGroup {
+            outline: Outline::around(outlines),
+            patches: first..first + outlines.len() as u32,
+        });
+        let groups = groups.collect();
+        Self { shapes, outlines, starts, groups, levels: None, whole: Outline::whole(mesh) }
+    }
+
+    /// The number of patches.
+    pub fn len(&self) -> usize {
+        self.shapes.len()
+    }
+
+    /// The shape of a patch.
+    pub(crate) fn shape(&self, patch: u32) -> &PatchShape {
+        &self.shapes[patch as usize]
+    }
+
+    /// The range of a patch's indices among those of the mesh as it is drawn.
+    pub fn indices(&self, patch: u32) -> Range<u32> {
+        self.starts[patch as usize]..self.starts[patch as usize + 1]
+    }
+
+    /// Whether there are levels of detail, that is, several patches for one part of the surface.
+    pub(crate) fn has_levels(&self) -> bool {
+        self.levels.is_some()
+    }
+
+    /// Fills `seen` with the numbers of the patches that may show, in ascending order, as detailed as is demanded. A mesh
+    /// that is a single patch is taken to be seen: it has been culled as an object. Returns how many patches there were
+    /// to cull.
+    pub(crate) fn see(&self, sight: &Sight, demand: DetailDemand, seen: &mut Vec<u32>) -> usize {
+        seen.clear();
+        if self.len() == 1 {
+            seen.push(0);
+            return 0;
+        }
+        let shows = |patch: &u32| self.outlines[*patch as usize].is_seen(sight);
+        let Some(levels) = &self.levels else {
+            for group in self.groups.iter().filter(|group| group.outline.is_seen(sight)) {
+                seen.extend(group.patches.clone().filter(shows));
+            }
+            return self.len();
+        };
+        let will_do = levels.which_will_do(sight, demand);
+        let mut count = 0;
+        for (group, _) in levels.groups.iter().zip(&will_do).filter(|(_, will_do)| !**will_do) {
+            let drawn = group.clusters.clone().filter(|patch| {
+                let source = levels.sources[*patch as usize];
+                source == FINEST || will_do[source as usize]
+            });
+            seen.extend(drawn.inspect(|_| count += 1).filter(shows));
+        }
+        count
+    }
+}
+
+impl Levels {
+    /// For which groups the simplified version is detailed enough. Where it is, so are those of all finer groups below.
+    fn which_will_do(&self, sight: &Sight, DetailDemand { pixels, lit, has_images }: DetailDemand) -> Vec<bool> {
+        let mut will_do = vec![false; self.groups.len()];
+        if pixels <= 0.0 {
+            return will_do;
+        }
+        for (number, group) in self.groups.iter().enumerate().rev() {
+            let error = group.error(lit, has_images);
+            if !will_do[number] && error.is_finite() {
+                will_do[number] = error * sight.pixels_per_unit((group.center, group.radius)) <= pixels;
+            }
+            if will_do[number] {
+                let clusters = group.clusters.start as usize..group.clusters.end as usize;
+                for &source in self.sources[clusters].iter().filter(|source| **source != FINEST) {
+                    will_do[source as usize] = true;
+                }
+            }
+        }
+        will_do
+    }
+}
+
+/// The shape and the outline of some triangles.
+fn measure(mesh: &Mesh, triangles: &[[u32; 3]]) -> (PatchShape, Outline) {
+    let points = triangles.as_flattened().iter().map(|&i| mesh.positions()[i as usize]);
+    let center = Bounds::from_points(points).map_or(Vec3::ZERO, |bounds| bounds.center());
+    let faces = triangles.iter().filter_map(|corners| {
+        let corners = corners.map(|i| mesh.positions()[i as usize]);
+        let n = face_normal(corners[0], corners[1], corners[2])?;
+        Some((n, corners.map(|p| p - center)))
+    });
+    let faces: Vec<(Vec3, [Vec3; 3])> = faces.collect();
+    let facing = Facing::new(faces.iter().copied());
+    let faces: Vec<Vec3> = faces.into_iter().map(|(n, _)| n).collect();
+    let shape = PatchShape::new(mesh, triangles, center, &faces);
+    let outline = Outline::new(&shape, facing);
+    (shape, outline)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use halfway_mesh::{Plane, UvSphere};
+
+    #[test]
+    fn small_meshes_are_whole_and_in_order() {
+        let mesh = Mesh::from(UvSphere::new(1.0, 32, 16));
+        let MeshTriangles { corners, patches, .. } = MeshTriangles::in_patches(&mesh);
+        assert_eq!(*corners, mesh.triangles().collect::<Vec<_>>());
+        assert_eq!(patches.len(), 1);
+        assert_eq!(patches.indices(0), 0..mesh.indices().len() as u32);
+    }
+
+    #[test]
+    fn patches_hold_every_triangle_once_and_all_that_is_said_of_them() {
+        for mesh in [Mesh::from(UvSphere::new(2.0, 96, 48)), Mesh::from(Plane { size: 200.0, divisions: 64 })] {
+            let MeshTriangles { corners: triangles, patches, .. } = MeshTriangles::in_patches(&mesh);
+            let sorted = |mut triangles: Vec<[u32; 3]>| {
+                triangles.sort_unstable();
+                triangles
+            };
+            assert_eq!(sorted(triangles.to_vec()), sorted(mesh.triangles().collect()));
+            let mut end = 0;
+            for patch in 0..patches.len() as u32 {
+                assert_eq!(patches.indices(patch).start, end);
+                end = patches.indices(patch).end;
+                let run = patches.indices(patch).start as usize / 3..end as usize / 3;
+                let shape = patches.shape(patch);
+                assert!(shape.faces.is_some() && shape.normals.is_some(), "they lie together");
+                for corners in &triangles[run] {
+                    let [a, b, c] = corners.map(|i| mesh.positions()[i as usize]);
+                    let face = face_normal(a, b, c);
+                    for i in corners.map(|i| i as usize) {
+                        assert!(shape.holds(mesh.positions()[i], mesh.normals()[i], face));
+                    }
+                }
+            }
+            assert_eq!(end as usize, 3 * triangles.len());
+        }
+    }
+
+    #[test]
+    fn patches_are_small() {
+        let MeshTriangles { patches, .. } = MeshTriangles::in_patches(&Mesh::from(Plane { size: 64.0, divisions: 64 }));
+        // 64 triangles are 32 cells of edge 1: at most 4 × 8 of them, with half a diagonal of 4.5, or 11 × 3.
+        let shapes = || (0..patches.len() as u32).map(|patch| patches.shape(patch));
+        assert!(shapes().all(|shape| shape.radius < 6.0), "{patches:?}");
+        assert!(shapes().all(|shape| shape.normals.is_some_and(|cone| cone.half_thickness == 0.0)));
+    }
+}

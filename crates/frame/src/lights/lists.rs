@@ -1,0 +1,224 @@
+//! Light lists: which of many lights each patch needs, term by term.
+
+use crate::lights::gather::Lights;
+use crate::lights::sent::SentLights;
+use crate::lights::slots::COUNTED_LIGHTS;
+use bevy_math::Vec3;
+use halfway_lighting::bounds::{Patch, Receiver, STEP, Selected, linear_tolerance};
+use halfway_lighting::equations::{Coefficients, Eye};
+use halfway_lighting::record::{LightRange, SurfaceLights};
+use halfway_lighting::{Encoding, Frequency, Reflectance, Terms};
+
+/// The light lists of a frame.
+#[derive(Debug, Default)]
+pub struct LightLists {
+    /// The lights that lists name; all of a scene with few, in their order.
+    pub sent: SentLights,
+    /// All lights of a scene with few; none of others.
+    pub(crate) few: SurfaceLights,
+    /// Lists, one after the other, as places of lights in `sent`.
+    pub numbers: Vec<u32>,
+    /// The newest lists, and where they begin. Neighbouring patches often need the same.
+    last: Option<(SurfaceLights, usize)>,
+    /// The lights of the patch at hand.
+    selected: Selected,
+    /// How many terms of lights the lists name, over all patches.
+    pub(crate) assigned: u64,
+    /// How many pairs of a patch and a light were evaluated.
+    pub(crate) pairs: u64,
+    /// The most that was left out anywhere, in linear intensity: the sum of the bounds, of the brightest channel.
+    pub(crate) left_out: f64,
+}
+
+/// How an object reflects light.
+pub(crate) struct Reflector {
+    /// The sides that are seen; twice the same where one is.
+    pub(crate) sides: [Coefficients<f32>; 2],
+    pub(crate) reflectance: Reflectance,
+    /// Where its terms are shaded.
+    pub terms: Terms,
+}
+
+/// What the light lists of an object's patches depend on.
+pub(crate) struct Listing {
+    /// No smaller than either side's.
+    material: Coefficients<f32>,
+    reflectance: Reflectance,
+    terms: Terms,
+    view: Eye<f32>,
+    /// How much light may be left out of a patch, in linear intensity.
+    tolerance: [f64; 3],
+}
+
+impl LightLists {
+    /// Starts a frame.
+    pub(crate) fn begin(&mut self, lights: &Lights) {
+        self.numbers.clear();
+        self.sent.begin(lights);
+        self.few = SurfaceLights::default();
+        if lights.len() <= COUNTED_LIGHTS as usize {
+            self.few.both.counts = lights.counts;
+            self.numbers.extend((0..lights.len() as u32).map(|number| self.sent.place(lights, number)));
+        }
+        self.last = None;
+        (self.assigned, self.pairs, self.left_out) = (0, 0, 0.0);
+    }
+
+    /// The lists of a patch: the lights left out change no channel of a pixel by more than the listing's tolerance
+    /// together.
+    pub(crate) fn list(&mut self, lights: &Lights, patch: &Patch<f32>, listing: &Listing) -> SurfaceLights {
+        let receiver = Receiver::new(patch, &listing.material, &listing.view, listing.reflectance);
+        lights.tree.select(&lights.sources, &receiver, listing.tolerance, &mut self.selected);
+        let Selected { diffuse, specular, left_out, evaluated, .. } = &self.selected;
+        self.pairs += *evaluated as u64;
+        self.assigned += (diffuse.len() + specular.len()) as u64;
+        self.left_out = left_out.iter().copied().fold(self.left_out, f64::max);
+        let start = self.numbers.len();
+        let listed = append_terms(&mut self.numbers, lights.counts, listing.terms, [diffuse, specular]);
+        for number in &mut self.numbers[start..] {
+            *number = self.sent.place(lights, *number);
+        }
+        if let Some((last, last_start)) = self.last
+            && starting_at_0(last, last_start) == starting_at_0(listed, start)
+            && self.numbers[last_start..start] == self.numbers[start..]
+        {
+            self.numbers.truncate(start);
+            return last;
+        }
+        self.last = Some((listed, start));
+        listed
+    }
+}
+
+/// The lights of both terms. Those that have both are together where both are shaded in the same place, and so once.
+fn append_terms(
+    numbers: &mut Vec<u32>,
+    counts: [u32; 3],
+    terms: Terms,
+    [diffuse, specular]: [&[u32]; 2],
+) -> SurfaceLights {
+    let mut append = |lights: &mut dyn Iterator<Item = u32>| append(numbers, counts, lights);
+    let none = LightRange::default();
+    if terms.diffuse != terms.specular {
+        let (diffuse, specular) = (append(&mut diffuse.iter().copied()), append(&mut specular.iter().copied()));
+        return SurfaceLights { both: none, diffuse, specular };
+    }
+    // Which is so of most patches, and found sooner.
+    if diffuse == specular {
+        return SurfaceLights { both: append(&mut diffuse.iter().copied()), diffuse: none, specular: none };
+    }
+    SurfaceLights {
+        both: append(&mut specular.iter().filter(|light| diffuse.binary_search(light).is_ok()).copied()),
+        diffuse: append(&mut without(diffuse, specular).copied()),
+        specular: append(&mut without(specular, diffuse).copied()),
+    }
+}
+
+/// The lights that `others` lack; both ascend.
+fn without<'a>(lights: &'a [u32], others: &'a [u32]) -> impl Iterator<Item = &'a u32> {
+    let mut others = others.iter().peekable();
+    lights.iter().filter(move |light| {
+        while others.next_if(|other| other < light).is_some() {}
+        others.peek() != Some(light)
+    })
+}
+
+/// Appends lights, which are sorted by kind; how many of each, and where they begin.
+fn append(numbers: &mut Vec<u32>, counts: [u32; 3], lights: impl Iterator<Item = u32>) -> LightRange {
+    let start = numbers.len();
+    numbers.extend(lights);
+    let counts = split(&numbers[start..], counts).map(|of_kind| of_kind.len() as u32);
+    LightRange { counts, start: start as u32 }
+}
+
+/// Numbers of lights, which are sorted by kind, kind by kind; `counts` are those of all lights.
+fn split(numbers: &[u32], [directional, points, _]: [u32; 3]) -> [&[u32]; 3] {
+    let first_point = numbers.partition_point(|&light| light < directional);
+    let first_spot = numbers.partition_point(|&light| light < directional + points);
+    [&numbers[..first_point], &numbers[first_point..first_spot], &numbers[first_spot..]]
+}
+
+/// The same lights, had what was appended from `start` on been appended from 0 on.
+fn starting_at_0(lights: SurfaceLights, start: usize) -> SurfaceLights {
+    let moved = |range: LightRange| {
+        let first = if range.is_empty() { 0 } else { range.start - start as u32 };
+        LightRange { start: first, ..range }
+    };
+    SurfaceLights { both: moved(lights.both), diffuse: moved(lights.diffuse), specular: moved(lights.specular) }
+}
+
+impl Reflector {
+    /// What light lists of its patches depend on, for pictures that hold values in this encoding (`None` for floating
+    /// point), of which each channel may be off by so many `steps` of 1/255.
+    pub(crate) fn listing(&self, ambient: Vec3, view: Eye<f32>, encoding: Option<Encoding>, steps: f64) -> Listing {
+        let unlit = |side: &Coefficients<f32>| Vec3::from_array(side.ke) + Vec3::from_array(side.ka) * ambient;
+        let [front, back] = self.sides.each_ref().map(unlit);
+        let tolerance = front
+            .min(back)
+            .to_array()
+            .map(|at_least| encoding.map_or(0.0, |encoding| linear_tolerance(encoding, steps * STEP, at_least.into())));
+        let Self { reflectance, terms, .. } = *self;
+        Listing { material: self.larger_side(), reflectance, terms, view, tolerance }
+    }
+
+    /// Coefficients that are nowhere below either side's, so that bounds hold for both.
+    fn larger_side(&self) -> Coefficients<f32> {
+        let [front, back] = &self.sides;
+        let larger = |a: [f32; 3], b: [f32; 3], term: Frequency| {
+            if term == Frequency::Never { [0.0; 3] } else { [0, 1, 2].map(|k| a[k].max(b[k])) }
+        };
+        let Terms { diffuse, specular } = self.terms;
+        Coefficients {
+            ka: larger(front.ka, back.ka, diffuse),
+            kd: larger(front.kd, back.kd, diffuse),
+            ks: larger(front.ks, back.ks, specular),
+            // The smaller exponent is the wider highlight.
+            shininess: front.shininess.min(back.shininess),
+            ..*front
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use halfway_lighting::Faces;
+
+    /// The list of a small sphere's diffuse terms at the fragments.
+    fn list(lists: &mut LightLists, lights: &Lights, center: [f32; 3]) -> LightRange {
+        let kd = [1.0; 3];
+        let side = Coefficients { ka: [0.0; 3], kd, ks: [0.0; 3], ke: [0.0; 3], shininess: 1.0 };
+        let terms = Terms { diffuse: Frequency::Fragment, specular: Frequency::Never };
+        let reflector = Reflector { sides: [side; 2], reflectance: Reflectance::Phong, terms };
+        let view = Eye::in_eye_space(halfway_lighting::Viewer::Local);
+        let listing = reflector.listing(Vec3::ZERO, view, None, 0.0);
+        let patch = Patch { center, radius: 0.1, normals: None, half_thickness: 0.1, faces: Faces::Both };
+        lists.list(lights, &patch, &listing).diffuse
+    }
+
+    #[test]
+    fn of_many_lights_those_that_lists_name_are_sent_once() {
+        // At 0, 10, 20 and so on along the x axis, each reaching 6 units.
+        let lights = Lights::in_a_row(1000, 10.0, 6.0);
+        let mut lists = LightLists::default();
+        // A second frame begins anew.
+        for _ in 0..2 {
+            lists.begin(&lights);
+            let two = |start| LightRange { counts: [0, 2, 0], start };
+            assert_eq!(list(&mut lists, &lights, [75.0, 0.0, -1.0]), two(0));
+            assert_eq!(list(&mut lists, &lights, [75.0, 0.0, -1.1]), two(0), "equal to the newest");
+            assert_eq!(list(&mut lists, &lights, [85.0, 0.0, -1.0]), two(2));
+            assert_eq!(lists.numbers, [0, 1, 1, 2]);
+            assert_eq!(lists.sent.records, [7, 8, 9].map(|number| lights.record(number)));
+            assert_eq!(lists.assigned, 6);
+        }
+    }
+
+    #[test]
+    fn few_lights_are_all_sent_in_their_order() {
+        let lights = Lights::of_kinds([1, 2, 1]);
+        let mut lists = LightLists::default();
+        lists.begin(&lights);
+        assert_eq!(lists.sent.records, [0, 1, 2, 3].map(|number| lights.record(number)));
+    }
+}

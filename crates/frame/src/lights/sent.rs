@@ -1,0 +1,39 @@
+//! The lights that lists name: of many, those alone are sent.
+
+use crate::lights::gather::Lights;
+use halfway_lighting::record::LightRecord;
+
+/// Lights as the shaders read them, each once, in the order in which lists name them.
+#[derive(Debug, Default)]
+pub struct SentLights {
+    /// The records, in the order in which lists name them.
+    pub records: Vec<LightRecord>,
+    /// Which they are.
+    numbers: Vec<u32>,
+    /// Where in `records` each light is; [`NOWHERE`] where it has not been named.
+    places: Vec<u32>,
+}
+
+const NOWHERE: u32 = u32::MAX;
+
+impl SentLights {
+    /// Forgets all, and makes room for a frame's lights.
+    pub(super) fn begin(&mut self, lights: &Lights) {
+        self.records.clear();
+        for number in self.numbers.drain(..) {
+            self.places[number as usize] = NOWHERE;
+        }
+        self.places.resize(lights.len(), NOWHERE);
+    }
+
+    /// Where in `records` this light is, from now on.
+    pub(super) fn place(&mut self, lights: &Lights, number: u32) -> u32 {
+        let place = &mut self.places[number as usize];
+        if *place == NOWHERE {
+            *place = self.records.len() as u32;
+            self.records.push(lights.record(number));
+            self.numbers.push(number);
+        }
+        *place
+    }
+}

@@ -1,0 +1,115 @@
+//! The plugin, and the systems of a frame up to its draws.
+
+use crate::batch::backend::Backend;
+use crate::batch::batches::{self, Batches};
+use crate::batch::lit_patches::{self, LitPatches};
+use crate::geometry::meshes::{self, Geometries};
+use crate::geometry::workshop::Workshop;
+use crate::lights::gather::{self, Lights};
+use crate::lights::surroundings::{self, Surroundings};
+use crate::lights::terms::{self, Chosen};
+use crate::report::FrameReport;
+use crate::sets::RenderSet;
+use crate::times;
+use crate::values::{FrameValues, WaitsForLevels};
+use crate::view::camera::{self, PictureSize, View};
+use crate::view::matrices::{self, ModelView, NormalMatrix, Visible};
+use bevy_app::{App, Plugin};
+use bevy_ecs::component::Mutable;
+use bevy_ecs::prelude::*;
+use bevy_ecs::schedule::InternedScheduleLabel;
+use bevy_transform::TransformSystems;
+use halfway_lighting::{LightingPlugin, Material};
+use halfway_mesh::{Mesh3d, MeshPlugin};
+use halfway_texture::TexturePlugin;
+
+/// Turns the world into plain data once a run of a schedule: everything from [`RenderSet::View`] to
+/// [`RenderSet::Batch`] that is the same for every drawer.
+///
+/// A drawer sets [`PictureSize`] before [`ReadCamera`], adds itself by [`add_backend`], and draws [`LitPatches`] and
+/// [`Batches`] in [`RenderSet::Draw`].
+#[derive(Clone, Debug)]
+pub struct FramePlugin {
+    /// The schedule that makes a frame.
+    pub schedule: InternedScheduleLabel,
+}
+
+/// The systems of [`RenderSet::View`] that read the camera, whose view holds after them.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct ReadCamera;
+
+impl Plugin for FramePlugin {
+    fn build(&self, app: &mut App) {
+        app.add_plugins((MeshPlugin, LightingPlugin, TexturePlugin))
+            .init_resource::<FrameReport>()
+            .init_resource::<FrameValues>()
+            .init_resource::<WaitsForLevels>()
+            .init_resource::<PictureSize>()
+            .init_resource::<View>()
+            .init_resource::<Visible>()
+            .init_resource::<Lights>()
+            .init_resource::<Surroundings>()
+            .init_resource::<LitPatches>()
+            .init_resource::<Batches>()
+            .init_resource::<Workshop>()
+            .init_resource::<Geometries>();
+        self.add_systems(app);
+        self.require_components(app);
+        times::add_clocks(app, self.schedule);
+    }
+}
+
+impl FramePlugin {
+    fn add_systems(&self, app: &mut App) {
+        use RenderSet::{Batch, Choose, Deliver, Draw, Illuminate, Matrices, Select, Upload, View};
+        let order = (View, Select, Matrices, Choose, Illuminate, Batch, Upload, Draw, Deliver);
+        app.configure_sets(self.schedule, order.chain().after(TransformSystems::Propagate))
+            .configure_sets(self.schedule, ReadCamera.in_set(View))
+            .add_systems(
+                self.schedule,
+                (
+                    (camera::update, camera::require_propagation).chain().in_set(ReadCamera),
+                    (matrices::select, surroundings::gather).in_set(Select),
+                    matrices::compute.in_set(Matrices),
+                    (terms::choose, meshes::forget_removed, meshes::lay_out).chain().in_set(Choose),
+                    gather::gather.in_set(Illuminate),
+                ),
+            );
+    }
+
+    /// Gives objects the components that a frame needs. An app in which there were objects before this plugin takes no
+    /// new requirements; there, objects that lack some are looked for in each frame.
+    fn require_components(&self, app: &mut App) {
+        let world = app.world_mut();
+        let required = [
+            world.try_register_required_components::<Mesh3d, Material>(),
+            world.try_register_required_components::<Mesh3d, ModelView>(),
+            world.try_register_required_components::<Mesh3d, NormalMatrix>(),
+            world.try_register_required_components::<Mesh3d, Chosen>(),
+        ];
+        if required.iter().any(Result::is_err) {
+            app.add_systems(self.schedule, complete.in_set(RenderSet::View).before(ReadCamera));
+        }
+    }
+}
+
+/// Adds the systems that light patches and sort draws for a drawer, while `condition` holds.
+pub fn add_backend<B: Backend + Resource<Mutability = Mutable>, M>(
+    app: &mut App,
+    schedule: InternedScheduleLabel,
+    condition: impl SystemCondition<M>,
+) {
+    let illuminate = lit_patches::illuminate::<B>.in_set(RenderSet::Illuminate).after(gather::gather);
+    let systems = (illuminate, batches::batch::<B>.in_set(RenderSet::Batch));
+    app.add_systems(schedule, systems.run_if(condition));
+}
+
+type Incomplete = (With<Mesh3d>, Or<(Without<Material>, Without<ModelView>, Without<NormalMatrix>, Without<Chosen>)>);
+
+/// Gives objects the components that they lack.
+fn complete(objects: Query<Entity, Incomplete>, mut commands: Commands) {
+    for object in &objects {
+        let all = (Material::default(), ModelView::default(), NormalMatrix::default(), Chosen::default());
+        commands.entity(object).insert_if_new(all);
+    }
+}

@@ -1,0 +1,174 @@
+//! The view: the camera's matrices in f64, its projection and its frustum.
+
+use crate::error::{RenderError, bad_transform, label};
+use crate::report::FrameReport;
+use bevy_ecs::prelude::*;
+use bevy_math::{DAffine3, DMat3, DVec3, UVec2, Vec3};
+use bevy_transform::components::{GlobalTransform, Transform};
+use halfway_lighting::{Camera, Propagation, Reflectance, Shading, propagation};
+
+/// What the frame is seen through. Holds after [`RenderSet::View`](crate::RenderSet::View).
+#[derive(Resource, Clone, Debug, Default, PartialEq)]
+pub struct View {
+    /// The camera, validated; `None` while there is none to draw with.
+    pub camera: Option<Camera>,
+    /// World to eye: the inverse of the camera's rotation and translation, in f64.
+    pub eye_from_world: DAffine3,
+    /// Eye to clip.
+    pub projection: Projection,
+    /// How many pixels a way of 1 across the view takes at a depth of 1.
+    pub pixels_at_unit_depth: f32,
+    /// The shading of objects that name none.
+    pub shading: Shading,
+    /// The reflectance of objects that name none.
+    pub reflectance: Reflectance,
+    /// Counts changes of `eye_from_world`; equal epochs mean equal matrices.
+    pub epoch: u64,
+    /// log₂ of the length of a world unit in the eye space of the shaders; 0 but for scenes so large or so small that
+    /// the squares of their distances leave f32.
+    pub unit_exponent: i32,
+}
+
+impl View {
+    /// How long a world unit is in the eye space of the shaders: a power of two, and 1 but for scenes so large or so
+    /// small that the squares of their distances leave f32. Holds after
+    /// [`RenderSet::Select`](crate::RenderSet::Select).
+    pub fn unit(&self) -> f64 {
+        2f64.powi(self.unit_exponent)
+    }
+}
+
+/// The size of the picture that is drawn next, in pixels.
+#[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct PictureSize(pub UVec2);
+
+/// A perspective projection with reversed depth (near = 1) and an infinite far plane:
+/// clip = (`scale`·xy, `near`, −z).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Projection {
+    /// cot(fov/2) / aspect and cot(fov/2).
+    pub scale: [f32; 2],
+    /// Distance of the near plane.
+    pub near: f32,
+}
+
+impl Projection {
+    /// The projection of `camera` onto a target of `width` × `height` pixels.
+    pub fn new(camera: &Camera, width: u32, height: u32) -> Self {
+        let y = 1.0 / (f64::from(camera.fov_y) * 0.5).tan();
+        let x = y * f64::from(height) / f64::from(width);
+        Self { scale: [x as f32, y as f32], near: camera.near }
+    }
+
+    /// Whether a sphere in eye space may reach the picture. Never false for one that does.
+    pub fn sees(&self, center: Vec3, radius: f32) -> bool {
+        let [x, y] = self.scale;
+        let depth = -center.z;
+        // The side planes pass through the eye: |scale · x| ≤ depth. Their normals' lengths scale the radius.
+        let side = |scale: f32, offset: f32| {
+            scale * offset.abs() - depth <= radius * (scale * scale + 1.0).sqrt() * (1.0 + 1e-5)
+        };
+        depth + radius >= self.near && side(x, center.x) && side(y, center.y)
+    }
+
+    /// Whether no part of a sphere in eye space is beside the picture or before the near plane. Never true for one of
+    /// which a part is.
+    pub(crate) fn holds(&self, center: Vec3, radius: f32) -> bool {
+        let [x, y] = self.scale;
+        let depth = -center.z;
+        let side = |scale: f32, offset: f32| {
+            scale * offset.abs() - depth <= -radius * (scale * scale + 1.0).sqrt() * (1.0 + 1e-5)
+        };
+        depth - radius * (1.0 + 1e-5) >= self.near && side(x, center.x) && side(y, center.y)
+    }
+}
+
+type CameraQuery<'w, 's> = Query<
+    'w,
+    's,
+    (
+        Entity,
+        &'static Camera,
+        &'static GlobalTransform,
+        Option<&'static Shading>,
+        Option<&'static Reflectance>,
+        Option<&'static Name>,
+    ),
+>;
+
+pub(crate) fn update(
+    cameras: CameraQuery,
+    size: Res<PictureSize>,
+    mut view: ResMut<View>,
+    mut report: ResMut<FrameReport>,
+) {
+    report.begin();
+    view.camera = None;
+    let mut all = cameras.iter();
+    let Some((entity, camera, transform, shading, reflectance, name)) = all.next() else {
+        report.errors.push(RenderError::NoCamera);
+        return;
+    };
+    let more = all.count();
+    if more > 0 {
+        report.errors.push(RenderError::ManyCameras(more + 1));
+        return;
+    }
+    if let Err(source) = camera.validate() {
+        report.errors.push(RenderError::Invalid { entity: label(entity, name), source });
+        return;
+    }
+    let size = size.0;
+    if size.min_element() == 0 {
+        report.errors.push(RenderError::EmptyPicture { width: size.x, height: size.y });
+        return;
+    }
+    let eye_from_world = eye_from_world(transform);
+    if !eye_from_world.is_finite() {
+        report.errors.push(bad_transform(entity, name, transform));
+        return;
+    }
+    if eye_from_world != view.eye_from_world {
+        view.epoch += 1;
+    }
+    let projection = Projection::new(camera, size.x, size.y);
+    *view = View {
+        camera: Some(*camera),
+        eye_from_world,
+        projection,
+        pixels_at_unit_depth: 0.5 * projection.scale[1] * size.y as f32,
+        shading: shading.copied().unwrap_or_default(),
+        reflectance: reflectance.copied().unwrap_or_default(),
+        epoch: view.epoch,
+        unit_exponent: 0,
+    };
+}
+
+/// Draws nothing where transforms are not propagated. Once they have been found to be, it does not look again.
+pub(crate) fn require_propagation(
+    roots: Query<(Entity, &Transform, &GlobalTransform), Without<ChildOf>>,
+    names: Query<&Name>,
+    mut works: Local<bool>,
+    mut view: ResMut<View>,
+    mut report: ResMut<FrameReport>,
+) {
+    if *works || view.camera.is_none() {
+        return;
+    }
+    match propagation(roots) {
+        Propagation::Works => *works = true,
+        Propagation::Missing(entity) => {
+            report.errors.push(RenderError::NotPropagated { entity: label(entity, names.get(entity).ok()) });
+            view.camera = None;
+        }
+        Propagation::Unknown => {}
+    }
+}
+
+/// The inverse of the rigid part of the camera's transform.
+fn eye_from_world(transform: &GlobalTransform) -> DAffine3 {
+    let (_, rotation, translation) = transform.to_scale_rotation_translation();
+    let eye_from_world = DMat3::from_quat(rotation.as_dquat().normalize()).transpose();
+    let position: DVec3 = translation.as_dvec3();
+    DAffine3 { matrix3: eye_from_world, translation: -(eye_from_world * position) }
+}

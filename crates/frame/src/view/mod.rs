@@ -1,0 +1,4 @@
+//! What the camera sees: its matrices, and those of the visible objects.
+
+pub mod camera;
+pub mod matrices;

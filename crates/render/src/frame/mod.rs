@@ -1,6 +1,0 @@
-//! A frame: its steps, what they did, and how long they took.
-
-pub(crate) mod mean;
-pub(crate) mod report;
-pub(crate) mod sets;
-pub(crate) mod times;
