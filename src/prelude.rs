@@ -14,7 +14,9 @@ pub use halfway_lighting::{
     VertexColors, ViewTolerance, Viewer, Visibility,
 };
 pub use halfway_mesh::{Cuboid, Mesh, Mesh3d, MeshPlugin, Plane, Teapot, UvSphere};
-pub use halfway_render::{Compile, FrameReport, Headless, Picture, Pixels, RenderPlugin, RenderSet, render_picture};
+#[cfg(feature = "wgpu")]
+pub use halfway_render::Compile;
+pub use halfway_render::{FrameReport, Headless, Picture, Pixels, RenderPlugin, RenderSet, render_picture};
 pub use halfway_scene::import::{ModelMaterial, model_light};
 pub use halfway_texture::{MapKind, Maps, Sampling, SolidKind, SolidTexture, SurfaceMap, Texture, TexturePlugin};
 #[cfg(feature = "window")]

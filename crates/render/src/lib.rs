@@ -6,20 +6,32 @@
 //! and holds what it could not do;
 //! [`FrameTimes`] says where its time went on the CPU, and [`GpuTimer`] how much of it the GPU took.
 
+mod adapter;
+mod choice;
 mod cpu;
-mod device;
-mod draw;
-mod pipelines;
+#[cfg(feature = "wgpu")]
+mod gpu;
+mod headless;
+mod picture;
 mod plugin;
-mod shaders;
-mod target;
+mod replaced;
 
-pub use device::adapter::Adapter;
-pub use device::choice::AdapterChoice;
-pub use device::cpu::Cpu;
-pub use device::gpu::Gpu;
-pub use device::gpu_timer::GpuTimer;
-pub use draw::pass::encode_frame;
+pub use adapter::Adapter;
+pub use choice::AdapterChoice;
+pub use cpu::canvas::{Canvas, CanvasTarget};
+pub use cpu::device::Cpu;
+#[cfg(feature = "wgpu")]
+pub use gpu::device::Gpu;
+#[cfg(feature = "wgpu")]
+pub use gpu::draw::pass::encode_frame;
+#[cfg(feature = "wgpu")]
+pub use gpu::pipelines::compile::Compile;
+#[cfg(feature = "wgpu")]
+pub use gpu::surface::{SurfaceLost, SurfaceTarget};
+#[cfg(feature = "wgpu")]
+pub use gpu::texture::TextureTarget;
+#[cfg(feature = "wgpu")]
+pub use gpu::timer::GpuTimer;
 pub use halfway_frame::error::RenderError;
 pub use halfway_frame::lights::gather::Lights;
 pub use halfway_frame::lights::terms::Chosen;
@@ -28,13 +40,9 @@ pub use halfway_frame::sets::RenderSet;
 pub use halfway_frame::times::{FrameTimes, SetTimes};
 pub use halfway_frame::view::camera::{Projection, View};
 pub use halfway_frame::view::matrices::{ModelView, NormalMatrix, Visible, normal_matrix};
-pub use pipelines::compile::Compile;
+pub use headless::Headless;
+pub use picture::{PendingPicture, Picture, Pixels, render_picture};
 pub use plugin::RenderPlugin;
-pub use target::canvas::{Canvas, CanvasTarget};
-pub use target::format::{Picture, Pixels};
-pub use target::frame::Headless;
-pub use target::picture::{PendingPicture, render_picture};
-pub use target::surface::{SurfaceLost, SurfaceTarget};
-pub use target::texture::TextureTarget;
 /// The wgpu that the renderer speaks; surfaces are made with it.
+#[cfg(feature = "wgpu")]
 pub use wgpu;

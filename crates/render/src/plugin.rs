@@ -1,24 +1,18 @@
 //! The plugin and the way of one frame.
 
-use crate::cpu::draw as on_canvas;
-use crate::cpu::meshes::{self as mesh_pieces, MeshPieces};
-use crate::cpu::pass::{self as lists, PassLists};
-use crate::device::choice::AdapterChoice;
-use crate::device::cpu::Cpu;
-use crate::device::gpu::Gpu;
-use crate::draw::meshes::{self as mesh_buffers, MeshBuffers};
-use crate::draw::upload::{self, Buffers};
-use crate::draw::{pass, replaced};
-use crate::pipelines::cache::{self, Pipelines};
-use crate::target::canvas::Canvas;
-use crate::target::frame::{self, Headless, Target};
+use crate::choice::AdapterChoice;
+use crate::cpu;
+use crate::cpu::device::Cpu;
+#[cfg(feature = "wgpu")]
+use crate::gpu::{self, device::Gpu};
+use crate::headless::{self, Headless};
+use crate::replaced;
 use bevy_app::{App, Plugin, PostUpdate};
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{InternedScheduleLabel, ScheduleLabel};
-use halfway_frame::batch::lit_patches;
 use halfway_frame::report::FrameReport;
 use halfway_frame::sets::RenderSet;
-use halfway_frame::{FramePlugin, ReadCamera, add_backend};
+use halfway_frame::{FramePlugin, ReadCamera};
 
 /// Draws every entity with a [`Mesh3d`] through the world's [`Camera`](halfway_lighting::Camera), once a run of its
 /// schedule.
@@ -46,66 +40,40 @@ impl Plugin for RenderPlugin {
         app.add_plugins(FramePlugin { schedule: self.schedule })
             .init_resource::<AdapterChoice>()
             .init_resource::<Headless>()
-            .init_resource::<Target>()
-            .init_resource::<Canvas>()
-            .init_resource::<MeshBuffers>()
-            .init_resource::<Buffers>()
-            .init_resource::<Pipelines>()
-            .init_resource::<MeshPieces>()
-            .init_resource::<PassLists>();
-        self.add_systems(app);
+            .add_systems(
+                self.schedule,
+                (
+                    headless::measure.in_set(RenderSet::View).before(ReadCamera),
+                    (open, replaced::forget).chain().in_set(RenderSet::View).after(ReadCamera),
+                ),
+            );
+        cpu::add(app, self.schedule);
+        #[cfg(feature = "wgpu")]
+        gpu::plugin::add(app, self.schedule);
     }
 }
 
-impl RenderPlugin {
-    fn add_systems(&self, app: &mut App) {
-        use RenderSet::{Deliver, Draw, Illuminate, Upload, View};
-        add_backend::<Pipelines, _>(app, self.schedule, gpu_draws);
-        add_backend::<Cpu, _>(app, self.schedule, cpu_draws);
-        let on_gpu = (
-            frame::prepare.in_set(View).after(replaced::forget),
-            cache::begin.in_set(Illuminate).before(lit_patches::illuminate::<Pipelines>),
-            (
-                mesh_buffers::upload,
-                upload::build_pipelines,
-                upload::upload,
-                upload::upload_maps,
-                upload::upload_surroundings,
-            )
-                .chain()
-                .in_set(Upload),
-            pass::draw.in_set(Draw),
-            pass::present.in_set(Deliver),
-        );
-        let on_cpu = (
-            on_canvas::prepare.in_set(View).after(replaced::forget),
-            (mesh_pieces::make_ready, lists::fill).chain().in_set(Upload),
-            on_canvas::draw.in_set(Draw),
-        );
-        app.add_systems(
-            self.schedule,
-            (
-                frame::measure.in_set(View).before(ReadCamera),
-                (open, replaced::forget).chain().in_set(View).after(ReadCamera),
-                on_gpu.run_if(gpu_draws),
-                on_cpu.run_if(cpu_draws),
-            ),
-        );
-    }
-}
-
-/// Opens what draws headless pictures unless there is something that can. What fails is in the report, every frame
-/// anew, so that an adapter that appears later is found. A device that is lost is replaced once a report has said so.
+/// Opens an adapter for headless pictures unless one is open. What fails is in the report, every frame anew, so that an
+/// adapter that appears later is found. A device that is lost is replaced once a report has said so.
 fn open(world: &mut World) {
-    let lost = match world.get_resource::<Gpu>() {
-        Some(gpu) if !gpu.is_lost() => return,
-        None if world.contains_resource::<Cpu>() => return,
-        there => there.cloned(),
-    };
-    if let Some(loss) = lost.as_ref().and_then(Gpu::take_loss) {
-        world.resource_mut::<FrameReport>().errors.push(loss);
+    #[cfg(feature = "wgpu")]
+    if let Some(gpu) = world.get_resource::<Gpu>().cloned() {
+        if !gpu.is_lost() {
+            return;
+        }
+        if let Some(loss) = gpu.take_loss() {
+            world.resource_mut::<FrameReport>().errors.push(loss);
+            return;
+        }
+        open_anew(world);
         return;
     }
+    if !world.contains_resource::<Cpu>() {
+        open_anew(world);
+    }
+}
+
+fn open_anew(world: &mut World) {
     match world.resource::<AdapterChoice>().open() {
         Ok(adapter) => {
             log::info!("drawing on {}", adapter.describe());
@@ -115,10 +83,11 @@ fn open(world: &mut World) {
     }
 }
 
-fn gpu_draws(gpu: Option<Res<Gpu>>) -> bool {
-    gpu.is_some_and(|gpu| !gpu.is_lost())
-}
-
-fn cpu_draws(gpu: Option<Res<Gpu>>, cpu: Option<Res<Cpu>>) -> bool {
-    gpu.is_none() && cpu.is_some()
+/// Whether the CPU draws.
+pub(crate) fn cpu_draws(#[cfg(feature = "wgpu")] gpu: Option<Res<Gpu>>, cpu: Option<Res<Cpu>>) -> bool {
+    #[cfg(feature = "wgpu")]
+    if gpu.is_some() {
+        return false;
+    }
+    cpu.is_some()
 }

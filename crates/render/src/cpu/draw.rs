@@ -1,13 +1,12 @@
 //! View and Draw: the canvas is made ready, and the pass is drawn into it.
 
+use crate::cpu::canvas::{Canvas, CanvasTarget};
+use crate::cpu::device::Cpu;
 use crate::cpu::meshes::MeshPieces;
 use crate::cpu::pass::PassLists;
 use crate::cpu::raster_error;
-use crate::device::cpu::Cpu;
-use crate::target::canvas::{Canvas, CanvasTarget};
-use crate::target::format::Pixels;
-use crate::target::frame::Headless;
-use crate::target::texture::TextureTarget;
+use crate::headless::Headless;
+use crate::picture::Pixels;
 use bevy_color::LinearRgba;
 use bevy_ecs::prelude::*;
 use halfway_frame::batch::backend::Backend;
@@ -49,7 +48,6 @@ impl Backend for Cpu {
 pub(crate) fn prepare(
     headless: Res<Headless>,
     window: Option<Res<CanvasTarget>>,
-    texture: Option<Res<TextureTarget>>,
     view: Res<View>,
     size: Res<PictureSize>,
     mut canvas: ResMut<Canvas>,
@@ -59,11 +57,6 @@ pub(crate) fn prepare(
     canvas.end(false);
     // The view has said so.
     if size.0.min_element() == 0 {
-        return;
-    }
-    if let Some(texture) = texture {
-        let reason = "the CPU draws, and the texture is a device's; expected a `Gpu` in the world".into();
-        report.errors.push(RenderError::BadTarget { format: format!("{:?}", texture.format), reason });
         return;
     }
     if size.0.max_element() > LARGEST_SIDE {

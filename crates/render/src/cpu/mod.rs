@@ -1,11 +1,36 @@
 //! How the CPU draws batches: meshes are cut into pieces, the frame's records become a pass, and the pass is drawn.
 
+pub(crate) mod canvas;
+pub(crate) mod device;
 pub(crate) mod draw;
 pub(crate) mod meshes;
 pub(crate) mod pass;
 
+use crate::cpu::canvas::Canvas;
+use crate::cpu::device::Cpu;
+use crate::cpu::meshes::MeshPieces;
+use crate::cpu::pass::PassLists;
+use crate::plugin::cpu_draws;
+use crate::replaced;
+use bevy_app::App;
+use bevy_ecs::prelude::*;
+use bevy_ecs::schedule::InternedScheduleLabel;
+use halfway_frame::add_backend;
 use halfway_frame::error::RenderError;
+use halfway_frame::sets::RenderSet::{Draw, Upload, View};
 use halfway_raster::RasterError;
+
+/// Adds the resources and the systems.
+pub(crate) fn add(app: &mut App, schedule: InternedScheduleLabel) {
+    app.init_resource::<Canvas>().init_resource::<MeshPieces>().init_resource::<PassLists>();
+    add_backend::<Cpu, _>(app, schedule, cpu_draws);
+    let systems = (
+        draw::prepare.in_set(View).after(replaced::forget),
+        (meshes::make_ready, pass::fill).chain().in_set(Upload),
+        draw::draw.in_set(Draw),
+    );
+    app.add_systems(schedule, systems.run_if(cpu_draws));
+}
 
 /// The error of a frame for one of the rasterizer's.
 pub(crate) fn raster_error(error: RasterError) -> RenderError {

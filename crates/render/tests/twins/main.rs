@@ -12,14 +12,14 @@ mod map_rows;
 mod maps;
 mod normal_rows;
 mod place_rows;
-#[path = "../../src/draw/placings.rs"]
+#[path = "../../src/gpu/draw/placings.rs"]
 mod placings;
 mod shape_inputs;
 mod shape_rows;
 mod shapes;
 mod solid_rows;
 mod solids;
-#[path = "../../src/shaders/switches.rs"]
+#[path = "../../src/gpu/shaders/switches.rs"]
 mod switches;
 mod table;
 mod terms;
@@ -30,9 +30,9 @@ use table::{Row, constants, described, rows};
 
 /// The texts of functions alone.
 const LIGHTING: &str = concat!(
-    include_str!("../../src/shaders/lighting.wgsl"),
-    include_str!("../../src/shaders/tone.wgsl"),
-    include_str!("../../src/shaders/environment.wgsl"),
+    include_str!("../../src/gpu/shaders/lighting.wgsl"),
+    include_str!("../../src/gpu/shaders/tone.wgsl"),
+    include_str!("../../src/gpu/shaders/environment.wgsl"),
 );
 
 /// What is wrong with the first result that is too far from its twin.

@@ -14,9 +14,9 @@ use crate::table::Row;
 use crate::{LIGHTING, far_of, named, parsed};
 
 const MAPS: &str = concat!(
-    include_str!("../../src/shaders/maps.wgsl"),
-    include_str!("../../src/shaders/by_level.wgsl"),
-    include_str!("../../src/shaders/factors.wgsl"),
+    include_str!("../../src/gpu/shaders/maps.wgsl"),
+    include_str!("../../src/gpu/shaders/by_level.wgsl"),
+    include_str!("../../src/gpu/shaders/factors.wgsl"),
 );
 
 fn rows() -> Vec<Row> {

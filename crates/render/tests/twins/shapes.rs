@@ -11,8 +11,8 @@ use crate::shape_rows::shape_rows;
 use crate::table::Row;
 use crate::{LIGHTING, far_of, named, parsed};
 
-const MAPS: &str = include_str!("../../src/shaders/maps.wgsl");
-const SHAPES: &str = include_str!("../../src/shaders/by_shape.wgsl");
+const MAPS: &str = include_str!("../../src/gpu/shaders/maps.wgsl");
+const SHAPES: &str = include_str!("../../src/gpu/shaders/by_shape.wgsl");
 
 fn rows() -> Vec<Row> {
     [shape_rows(), ellipse_rows()].into_iter().flatten().collect()

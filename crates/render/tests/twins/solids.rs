@@ -9,10 +9,10 @@ use crate::solid_rows::solid_rows;
 use crate::table::Row;
 use crate::{far_of, named, parsed};
 
-const SOLIDS: &str = include_str!("../../src/shaders/solids.wgsl");
+const SOLIDS: &str = include_str!("../../src/gpu/shaders/solids.wgsl");
 
 /// What the shader around a call needs besides.
-const LIGHT: &str = include_str!("../../src/shaders/lighting.wgsl");
+const LIGHT: &str = include_str!("../../src/gpu/shaders/lighting.wgsl");
 
 fn too_far(gpu: &Gpu, solids: &str, row: &Row) -> Option<String> {
     let text = format!("{LIGHT}{solids}");

@@ -14,7 +14,7 @@ use crate::{LIGHTING, far_of, parsed};
 
 macro_rules! shader {
     ($file:literal) => {
-        include_str!(concat!("../../src/shaders/", $file))
+        include_str!(concat!("../../src/gpu/shaders/", $file))
     };
 }
 

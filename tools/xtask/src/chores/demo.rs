@@ -60,7 +60,7 @@ fn needs(display: Option<Display>) -> &'static [Need] {
     }
 }
 
-/// Has cargo build or run the example, with windows where there is a display, and with nothing else of the workspace.
+/// Has cargo build or run the example: with wgpu and windows where there is a display, else with the CPU's drawer alone.
 fn example(verb: &str, display: Option<Display>) -> Command {
     let mut command = cargo([verb, "--release", "-p", "halfway", "--example", EXAMPLE]);
     if display.is_none() {

@@ -1,0 +1,107 @@
+//! What draws: a graphics adapter, or the CPU.
+
+use crate::cpu::device::Cpu;
+#[cfg(feature = "wgpu")]
+use crate::gpu::device::Gpu;
+use bevy_ecs::prelude::World;
+use halfway_frame::error::RenderError;
+
+/// What draws, opened. [`AdapterChoice::open`](crate::AdapterChoice::open) opens it, and the world holds it as the
+/// resource
+/// [`Gpu`] or [`Cpu`].
+#[derive(Clone)]
+pub enum Adapter {
+    /// A graphics adapter, by its driver; a software one, too.
+    #[cfg(feature = "wgpu")]
+    Gpu(Gpu),
+    /// The CPU by itself.
+    Cpu(Cpu),
+}
+
+impl Adapter {
+    /// What draws the frames of this world; `None` while nothing does.
+    pub fn of(world: &World) -> Option<Self> {
+        #[cfg(feature = "wgpu")]
+        if let Some(gpu) = world.get_resource::<Gpu>() {
+            return Some(Self::Gpu(gpu.clone()));
+        }
+        world.get_resource::<Cpu>().cloned().map(Self::Cpu)
+    }
+
+    /// Has it draw the frames of this world from the next one on.
+    pub fn insert_into(self, world: &mut World) {
+        match self {
+            #[cfg(feature = "wgpu")]
+            Self::Gpu(gpu) => world.insert_resource(gpu),
+            Self::Cpu(cpu) => {
+                #[cfg(feature = "wgpu")]
+                world.remove_resource::<Gpu>();
+                world.insert_resource(cpu);
+            }
+        }
+    }
+
+    /// One line for people: its name, how it is driven, and whether it is software.
+    pub fn describe(&self) -> String {
+        match self {
+            #[cfg(feature = "wgpu")]
+            Self::Gpu(gpu) => gpu.describe(),
+            Self::Cpu(cpu) => cpu.describe(),
+        }
+    }
+
+    /// Whether it draws on the CPU.
+    pub fn is_software(&self) -> bool {
+        match self {
+            #[cfg(feature = "wgpu")]
+            Self::Gpu(gpu) => gpu.is_software(),
+            Self::Cpu(_) => true,
+        }
+    }
+
+    /// Whether what has images or a solid can be lit by an environment.
+    pub fn lights_images_by_environments(&self) -> bool {
+        match self {
+            #[cfg(feature = "wgpu")]
+            Self::Gpu(gpu) => gpu.lights_images_by_environments(),
+            Self::Cpu(_) => true,
+        }
+    }
+
+    /// Whether blended objects can be drawn into 32-bit floating point.
+    pub fn blends_floats(&self) -> bool {
+        match self {
+            #[cfg(feature = "wgpu")]
+            Self::Gpu(gpu) => {
+                let can = gpu.format_features(wgpu::TextureFormat::Rgba32Float);
+                can.flags.contains(wgpu::TextureFormatFeatureFlags::BLENDABLE)
+            }
+            Self::Cpu(_) => true,
+        }
+    }
+
+    /// The bits of the grid within a pixel to which it rounds the places of vertices.
+    ///
+    /// # Errors
+    /// [`RenderError::Device`] when the device fails by which they are measured.
+    pub fn sub_pixel_bits(&self) -> Result<u32, RenderError> {
+        match self {
+            #[cfg(feature = "wgpu")]
+            Self::Gpu(gpu) => gpu.sub_pixel_bits(),
+            Self::Cpu(_) => Ok(Cpu::SUB_PIXEL_BITS),
+        }
+    }
+
+    /// Waits until it has finished what it was given.
+    ///
+    /// # Errors
+    /// [`RenderError::DeviceLost`] or [`RenderError::Device`].
+    pub fn finish(&self) -> Result<(), RenderError> {
+        match self {
+            #[cfg(feature = "wgpu")]
+            Self::Gpu(gpu) => gpu.poll(wgpu::PollType::wait_indefinitely()),
+            // A frame that it draws is finished.
+            Self::Cpu(_) => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,147 @@
+//! The memory that the CPU draws into.
+
+use crate::picture::Picture;
+use bevy_ecs::prelude::Resource;
+use bevy_math::UVec2;
+use halfway_frame::error::RenderError;
+use halfway_lighting::{Encoding, Intensity};
+use halfway_raster::{ClearTiles, Output, PixelFormat, RasterError, Rasterizer};
+use image::{Rgba32FImage, RgbaImage};
+
+/// While this resource is there, what the CPU draws has this size and is for a window, and not for
+/// [`Headless`](crate::Headless). Whoever owns the window inserts it, and shows the [`Canvas`] after each frame.
+#[derive(Resource, Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CanvasTarget {
+    /// Width and height in physical pixels; nothing is drawn where one is 0.
+    pub size: UVec2,
+}
+
+/// The newest frame that the CPU has drawn, in memory that the next one is drawn into.
+#[derive(Resource, Default)]
+pub struct Canvas {
+    size: UVec2,
+    /// One of them is empty.
+    bytes: Vec<u8>,
+    floats: Vec<f32>,
+    /// What a policy makes the picture of, where it acts on the finished one; else empty.
+    drawn_floats: Vec<f32>,
+    /// What the last picture was divided by, where it was.
+    divisor: Option<f32>,
+    clear_tiles: ClearTiles,
+    /// Whether it holds a frame.
+    drawn: bool,
+}
+
+/// Values a pixel.
+const CHANNELS: usize = 4;
+
+impl Canvas {
+    /// Width and height in pixels, and the bytes of the newest frame: red, green, blue and 255, row by row from the
+    /// top. `None` where there is no frame, or one in floating point.
+    pub fn bytes(&self) -> Option<(UVec2, &[u8])> {
+        (self.drawn && !self.bytes.is_empty()).then_some((self.size, &self.bytes[..]))
+    }
+
+    /// Begins a frame of this size.
+    ///
+    /// # Errors
+    /// [`RenderError::Memory`]
+    pub(crate) fn begin(&mut self, size: UVec2, is_float: bool, is_toned: bool) -> Result<(), RenderError> {
+        self.drawn = false;
+        if size != self.size || is_toned == self.drawn_floats.is_empty() {
+            // The memory, too, may be another.
+            self.clear_tiles = ClearTiles::default();
+            self.divisor = None;
+        }
+        if is_float == self.floats.is_empty() {
+            self.divisor = None;
+        }
+        self.size = size;
+        let count = CHANNELS * size.x as usize * size.y as usize;
+        if is_toned {
+            resize(&mut self.drawn_floats, count)?;
+        } else {
+            self.drawn_floats = Vec::new();
+        }
+        if is_float {
+            self.bytes = Vec::new();
+            resize(&mut self.floats, count)
+        } else {
+            self.floats = Vec::new();
+            resize(&mut self.bytes, count)
+        }
+    }
+
+    /// What to draw into, and what is clear of it.
+    pub(crate) fn output(&mut self) -> (Output<'_>, &mut ClearTiles) {
+        let output = match (self.drawn_floats.is_empty(), self.bytes.is_empty()) {
+            (false, _) => Output::Floats(&mut self.drawn_floats),
+            (true, true) => Output::Floats(&mut self.floats),
+            (true, false) => Output::Bytes(&mut self.bytes),
+        };
+        (output, &mut self.clear_tiles)
+    }
+
+    /// Makes the picture of what was drawn, where a policy acts on it.
+    ///
+    /// # Errors
+    /// What the rasterizer cannot do.
+    pub(crate) fn finish(
+        &mut self,
+        rasterizer: &Rasterizer,
+        policy: Intensity,
+        encoding: Encoding,
+    ) -> Result<(), RasterError> {
+        if self.drawn_floats.is_empty() {
+            return Ok(());
+        }
+        let (output, format) = match (self.bytes.is_empty(), encoding) {
+            (true, _) => (Output::Floats(&mut self.floats), PixelFormat::Floats),
+            (false, Encoding::Srgb) => (Output::Bytes(&mut self.bytes), PixelFormat::SrgbBytes),
+            (false, Encoding::Raw) => (Output::Bytes(&mut self.bytes), PixelFormat::RawBytes),
+        };
+        self.divisor = rasterizer.finish(&self.drawn_floats, policy, self.divisor, output, format)?;
+        Ok(())
+    }
+
+    /// Says whether the frame has been drawn.
+    pub(crate) fn end(&mut self, drawn: bool) {
+        self.drawn = drawn;
+    }
+
+    /// A copy of the newest frame.
+    ///
+    /// # Errors
+    /// [`RenderError::NoPicture`] where there is none, [`RenderError::Memory`].
+    pub(crate) fn picture(&self) -> Result<Picture, RenderError> {
+        let UVec2 { x, y } = self.size;
+        let picture = match (self.drawn, self.floats.is_empty()) {
+            (false, _) => None,
+            (true, true) => RgbaImage::from_raw(x, y, copied(&self.bytes)?).map(Picture::Byte),
+            (true, false) => Rgba32FImage::from_raw(x, y, copied(&self.floats)?).map(Picture::Float),
+        };
+        picture.ok_or(RenderError::NoPicture)
+    }
+}
+
+fn resize<T: Copy + Default>(memory: &mut Vec<T>, count: usize) -> Result<(), RenderError> {
+    if memory.capacity() < count || memory.capacity() / 4 > count {
+        // What it held is drawn over.
+        *memory = Vec::new();
+        reserve(memory, count)?;
+    }
+    memory.resize(count, T::default());
+    Ok(())
+}
+
+fn copied<T: Copy>(memory: &[T]) -> Result<Vec<T>, RenderError> {
+    let mut copy = Vec::new();
+    reserve(&mut copy, memory.len())?;
+    copy.extend_from_slice(memory);
+    Ok(copy)
+}
+
+fn reserve<T>(memory: &mut Vec<T>, count: usize) -> Result<(), RenderError> {
+    let bytes = count as u64 * size_of::<T>() as u64;
+    memory.try_reserve_exact(count).map_err(|_| RenderError::Memory { what: "the picture".into(), bytes })
+}

@@ -1,0 +1,203 @@
+//! The adapter, its device and its queue.
+
+use crate::gpu::old_opengl::unfit;
+use crate::gpu::provoking_vertex::ProvokingVertex;
+use bevy_ecs::prelude::Resource;
+use futures_lite::future::block_on;
+use halfway_frame::error::RenderError;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+/// The open graphics device. Inserted by the window, by an engine that has one ([`Gpu::from_existing`]), or opened
+/// headless by the first frame.
+///
+/// Another `Gpu` may be inserted between any two frames: the next one is drawn on it, from what the App holds.
+///
+/// A device can be lost at any time: the driver crashes or is updated, the GPU hangs or is unplugged. The frame that
+/// finds out has [`RenderError::DeviceLost`] in its report, once, and is not drawn; then a new device is opened, by the
+/// window for its surface and else by the next frame, which is drawn.
+#[derive(Resource, Clone)]
+pub struct Gpu {
+    /// The instance the adapter came from; surfaces are made with it.
+    pub instance: wgpu::Instance,
+    /// The adapter that was picked.
+    pub adapter: wgpu::Adapter,
+    /// The logical device.
+    pub device: wgpu::Device,
+    /// The queue all work is submitted to.
+    pub queue: wgpu::Queue,
+    /// No other device has it, in any instance. (wgpu's own comparison holds within an instance only.)
+    id: u64,
+    /// Why nothing that is right can be drawn on it, if so.
+    unfit: Option<Arc<str>>,
+    notices: Arc<Mutex<Notices>>,
+}
+
+/// What the device has said by itself.
+struct Notices {
+    /// The first error outside of any call, until it is taken.
+    failure: Option<String>,
+    loss: Option<Loss>,
+}
+
+struct Loss {
+    reason: String,
+    /// A report has it.
+    told: bool,
+}
+
+impl Gpu {
+    pub(super) fn of_adapter(instance: wgpu::Instance, adapter: wgpu::Adapter) -> Result<Self, RenderError> {
+        let wanted = wgpu::Features::FLOAT32_BLENDABLE
+            | wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES
+            | wgpu::Features::TIMESTAMP_QUERY;
+        if let Some(reason) = unfit(&adapter.get_info(), adapter.get_downlevel_capabilities().flags) {
+            return Err(RenderError::NoDevice { adapter: adapter.get_info().name, reason });
+        }
+        let (device, queue) = block_on(adapter.request_device(&wgpu::DeviceDescriptor {
+            label: Some("halfway"),
+            required_features: wanted & adapter.features(),
+            // All the adapter has: large meshes and long light lists may need more than the defaults.
+            required_limits: adapter.limits(),
+            ..Default::default()
+        }))
+        .map_err(|error| RenderError::NoDevice { adapter: adapter.get_info().name, reason: error.to_string() })?;
+        let gpu = Self::from_existing(instance, adapter, device, queue);
+        gpu.listen();
+        Ok(gpu)
+    }
+
+    /// A device that is open already: an engine's. It may lack any of wgpu's optional features and have the smallest
+    /// limits; what it cannot do is done in another way, or said in
+    /// [`FrameReport::errors`](crate::FrameReport::errors); in each frame, that its OpenGL is too old to draw what is
+    /// right.
+    ///
+    /// The device's callbacks stay the engine's: what goes wrong outside of any call, and the loss of the device, goes
+    /// to whatever it has set with `on_uncaptured_error` and `set_device_lost_callback`. After a loss it inserts
+    /// another `Gpu`. [`TextureTarget`](crate::TextureTarget) has a frame drawn by an encoder of the engine's own.
+    pub fn from_existing(
+        instance: wgpu::Instance,
+        adapter: wgpu::Adapter,
+        device: wgpu::Device,
+        queue: wgpu::Queue,
+    ) -> Self {
+        static DEVICES: AtomicU64 = AtomicU64::new(0);
+        let id = DEVICES.fetch_add(1, Ordering::Relaxed);
+        let unfit = unfit(&adapter.get_info(), adapter.get_downlevel_capabilities().flags).map(Arc::from);
+        let notices = Arc::new(Mutex::new(Notices { failure: None, loss: None }));
+        Self { instance, adapter, device, queue, id, unfit, notices }
+    }
+
+    /// Takes note of what the device says by itself.
+    fn listen(&self) {
+        let notices = Arc::clone(&self.notices);
+        self.device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
+            log::error!("{error}");
+            lock(&notices).failure.get_or_insert(error.to_string());
+        }));
+        let notices = Arc::clone(&self.notices);
+        self.device.set_device_lost_callback(move |reason, message| {
+            lock(&notices).loss = Some(Loss { reason: describe_loss(reason, &message), told: false });
+        });
+    }
+
+    /// Whether what has images or a solid can be lit by an environment. llvmpipe through Vulkan (Mesa 22.3) crashes in
+    /// draws that read both.
+    pub fn lights_images_by_environments(&self) -> bool {
+        let info = self.adapter.get_info();
+        !(info.backend == wgpu::Backend::Vulkan && info.name.starts_with("llvmpipe"))
+    }
+
+    /// What the device can do with textures of a format.
+    pub(crate) fn format_features(&self, format: wgpu::TextureFormat) -> wgpu::TextureFormatFeatures {
+        let features = self.device.features();
+        if features.contains(wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES) {
+            self.adapter.get_texture_format_features(format)
+        } else {
+            format.guaranteed_format_features(features)
+        }
+    }
+
+    /// Whether it is known that the device is lost. Never of an engine's device, which alone hears of it.
+    pub fn is_lost(&self) -> bool {
+        lock(&self.notices).loss.is_some()
+    }
+
+    /// Tells devices apart.
+    pub(crate) fn id(&self) -> u64 {
+        self.id
+    }
+
+    /// Lets the device make known what it has finished, and whether it is lost.
+    ///
+    /// # Errors
+    /// [`RenderError::DeviceLost`], each time; whoever gets it tells of the loss.
+    pub(crate) fn poll(&self, poll: wgpu::PollType) -> Result<(), RenderError> {
+        if !self.is_lost() {
+            // wgpu panics where it is by polling that it learns of the loss, after it has called back.
+            let polled = catch_unwind(AssertUnwindSafe(|| self.device.poll(poll)));
+            if !self.is_lost() {
+                return match polled {
+                    Ok(Ok(_)) => Ok(()),
+                    Ok(Err(error)) => Err(RenderError::Device(error.to_string())),
+                    Err(_) => Err(RenderError::Device("waiting for it failed".into())),
+                };
+            }
+        }
+        let mut notices = lock(&self.notices);
+        let reason = notices.loss.as_mut().map(|loss| {
+            loss.told = true;
+            loss.reason.clone()
+        });
+        Err(RenderError::DeviceLost(reason.unwrap_or_default()))
+    }
+
+    /// The first error the driver reported outside any call, if it has not been taken yet; of a device on which nothing
+    /// is right why, each time.
+    pub(crate) fn take_failure(&self) -> Option<RenderError> {
+        let unfit = self.unfit.as_deref().map(str::to_owned);
+        unfit.or_else(|| lock(&self.notices).failure.take()).map(RenderError::Device)
+    }
+
+    /// The loss of the device, if it has not been told yet.
+    pub(crate) fn take_loss(&self) -> Option<RenderError> {
+        let mut notices = lock(&self.notices);
+        let loss = notices.loss.as_mut().filter(|loss| !loss.told)?;
+        loss.told = true;
+        Some(RenderError::DeviceLost(loss.reason.clone()))
+    }
+
+    /// Which vertex of a triangle gives what is not interpolated.
+    pub(crate) fn provoking_vertex(&self) -> ProvokingVertex {
+        ProvokingVertex::of(self.adapter.get_info().backend)
+    }
+
+    /// Whether the adapter draws on the CPU.
+    pub fn is_software(&self) -> bool {
+        self.adapter.get_info().device_type == wgpu::DeviceType::Cpu
+    }
+
+    /// One line for people: the adapter's name, its backend, and whether it is software.
+    pub fn describe(&self) -> String {
+        describe_adapter(&self.adapter.get_info())
+    }
+}
+
+/// One line for people: the adapter's name, its backend, and whether it is software.
+pub(crate) fn describe_adapter(info: &wgpu::AdapterInfo) -> String {
+    let software = if info.device_type == wgpu::DeviceType::Cpu { ", software" } else { "" };
+    format!("{} ({}{software})", info.name, info.backend)
+}
+
+fn lock(notices: &Mutex<Notices>) -> MutexGuard<'_, Notices> {
+    notices.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+fn describe_loss(reason: wgpu::DeviceLostReason, message: &str) -> String {
+    match (reason, message.trim()) {
+        (wgpu::DeviceLostReason::Destroyed, _) => "it was destroyed".into(),
+        (_, "") => "the driver does not say why".into(),
+        (_, message) => message.into(),
+    }
+}

@@ -1,0 +1,263 @@
+//! Draw and Deliver: the pass is encoded, submitted and presented.
+
+use crate::gpu::attachments::{Attachments, Delivery, FramePicture, Target};
+use crate::gpu::device::Gpu;
+use crate::gpu::draw::meshes::MeshBuffers;
+use crate::gpu::draw::upload::Buffers;
+use crate::gpu::pipelines::cache::Pipelines;
+use crate::gpu::timer::GpuTimer;
+use bevy_color::LinearRgba;
+use bevy_ecs::prelude::*;
+use halfway_frame::batch::batches::Batches;
+use halfway_frame::batch::draws::DrawGroup;
+use halfway_frame::error::RenderError;
+use halfway_frame::report::FrameReport;
+use halfway_frame::times::FrameTimes;
+use halfway_frame::view::camera::View;
+use halfway_lighting::{Camera, Encoding};
+
+#[expect(clippy::too_many_arguments, reason = "a system takes each resource as a parameter")]
+pub(crate) fn draw(
+    gpu: Res<Gpu>,
+    view: Res<View>,
+    target: Res<Target>,
+    batches: Res<Batches>,
+    meshes: Res<MeshBuffers>,
+    pipelines: Res<Pipelines>,
+    buffers: Res<Buffers>,
+    mut timer: Option<ResMut<GpuTimer>>,
+    mut report: ResMut<FrameReport>,
+) {
+    let (Some(frame), Some(attachments)) = (&target.frame, target.attachments()) else { return };
+    if frame.delivery == Delivery::Encode {
+        return;
+    }
+    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
+    {
+        let timing = timer.as_mut().and_then(|timer| timer.begin(&gpu));
+        let [first, last] = around(timing, frame.finished.is_some());
+        let mut pass = begin(&mut encoder, frame, attachments, view.camera.unwrap_or_default(), first);
+        let left_out = record(&mut pass, &batches, &meshes, &pipelines, &buffers);
+        let unsaid = unsaid(left_out, &report);
+        report.errors.extend(unsaid);
+        drop(pass);
+        finish(&mut encoder, &target, frame, last);
+    }
+    if let Some(mut timer) = timer {
+        timer.end(&mut encoder);
+    }
+    gpu.queue.submit([encoder.finish()]);
+    report.errors.extend(gpu.take_failure());
+}
+
+type TimestampWrites<'a> = Option<wgpu::RenderPassTimestampWrites<'a>>;
+
+/// What the first pass of a frame is to write, and the last one where that is another.
+fn around(timing: TimestampWrites<'_>, others_follow: bool) -> [TimestampWrites<'_>; 2] {
+    match timing {
+        Some(both) if others_follow => {
+            let first = wgpu::RenderPassTimestampWrites { end_of_pass_write_index: None, ..both.clone() };
+            [Some(first), Some(wgpu::RenderPassTimestampWrites { beginning_of_pass_write_index: None, ..both })]
+        }
+        only => [only, None],
+    }
+}
+
+/// The passes over the finished picture, where the camera's policy takes any.
+fn finish(
+    encoder: &mut wgpu::CommandEncoder,
+    target: &Target,
+    frame: &FramePicture,
+    timestamp_writes: TimestampWrites<'_>,
+) {
+    if let (Some(passes), Some(finished)) = (&target.passes, &frame.finished) {
+        passes.record(encoder, finished, timestamp_writes);
+    }
+}
+
+fn begin<'a>(
+    encoder: &'a mut wgpu::CommandEncoder,
+    frame: &FramePicture,
+    attachments: &Attachments,
+    camera: Camera,
+    timestamp_writes: TimestampWrites<'_>,
+) -> wgpu::RenderPass<'a> {
+    let LinearRgba { red, green, blue, .. } = camera.background;
+    let [r, g, b] = [red, green, blue].map(|linear| {
+        let linear = f64::from(linear);
+        if frame.output.encoded { Encoding::Srgb.encode(linear.clamp(0.0, 1.0)) } else { linear }
+    });
+    let clear = wgpu::Color { r, g, b, a: 1.0 };
+    let (view, resolve_target, store) = match &attachments.multisampled {
+        Some(samples) => (samples, Some(&frame.view), wgpu::StoreOp::Discard),
+        None => (&frame.view, None, wgpu::StoreOp::Store),
+    };
+    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some("scene"),
+        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+            view,
+            depth_slice: None,
+            resolve_target,
+            ops: wgpu::Operations { load: wgpu::LoadOp::Clear(clear), store },
+        })],
+        // Reversed depth: the far end is 0.
+        depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+            view: &attachments.depth,
+            depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
+            stencil_ops: None,
+        }),
+        timestamp_writes,
+        ..Default::default()
+    })
+}
+
+/// The error of draws that are left out where there is none yet.
+fn unsaid(draws: u32, report: &FrameReport) -> Option<RenderError> {
+    (draws > 0 && report.errors.is_empty()).then_some(RenderError::LeftOut { draws })
+}
+
+/// Draws what is there to draw with, and returns how many draws had to be left out.
+fn record(
+    pass: &mut wgpu::RenderPass<'_>,
+    batches: &Batches,
+    meshes: &MeshBuffers,
+    pipelines: &Pipelines,
+    buffers: &Buffers,
+) -> u32 {
+    if let Some((pipeline, surroundings)) = buffers.surroundings.sky() {
+        pass.set_pipeline(pipeline);
+        pass.set_bind_group(2, surroundings, &[]);
+        pass.draw(0..3, 0..1);
+    }
+    let groups = batches.draws.groups();
+    let count = |groups: &[DrawGroup]| groups.iter().map(|group| batches.draws.of(group).len()).sum::<usize>() as u32;
+    let Some(instances) = buffers.instances() else { return count(groups) };
+    pass.set_vertex_buffer(0, instances.slice(..));
+    let (mut last, mut left_out) = (None, 0);
+    for group in groups {
+        let state = &group.state;
+        // Until it is drawn.
+        left_out += count(std::slice::from_ref(group));
+        let (Some(pipeline), Some(mesh), Some((bindings, offset))) =
+            (pipelines.get(state.key), meshes.get(state.mesh, state.form), buffers.bindings(state))
+        else {
+            continue;
+        };
+        if last != Some(state.key) {
+            pass.set_pipeline(pipeline);
+            last = Some(state.key);
+        }
+        pass.set_bind_group(0, bindings, &[offset]);
+        pass.set_vertex_buffer(1, mesh.positions.slice(..));
+        if state.key.reads_attributes() {
+            pass.set_vertex_buffer(2, mesh.attributes.slice(..));
+        }
+        if let Some(colors) = mesh.colors.as_ref().filter(|_| state.key.is_painted()) {
+            pass.set_vertex_buffer(3, colors.slice(..));
+        }
+        if state.key.is_mapped() {
+            let (Some(uvs), Some(maps)) = (&mesh.uvs, buffers.maps.group(state.maps)) else { continue };
+            pass.set_vertex_buffer(4, uvs.slice(..));
+            // Where there are no tangents none are looked at.
+            pass.set_vertex_buffer(5, mesh.tangents.as_ref().unwrap_or(uvs).slice(..));
+            pass.set_bind_group(1, maps, &[]);
+        }
+        if state.key.surrounded {
+            let Some(surroundings) = buffers.surroundings.group() else { continue };
+            pass.set_bind_group(2, surroundings, &[]);
+        }
+        pass.set_index_buffer(mesh.indices.slice(..), mesh.index_format);
+        for draw in batches.draws.of(group) {
+            pass.draw_indexed(draw.indices.clone(), 0, draw.instances.clone());
+        }
+        left_out -= count(std::slice::from_ref(group));
+    }
+    left_out
+}
+
+/// Shows the frame where it goes to a window, and asks the device whether it is still there.
+pub(crate) fn present(
+    gpu: Res<Gpu>,
+    mut target: ResMut<Target>,
+    mut times: ResMut<FrameTimes>,
+    mut report: ResMut<FrameReport>,
+) {
+    if let Some(surface) = target.take_surface_texture() {
+        times.at_display(|| gpu.queue.present(surface));
+    }
+    // Whatever else has failed, it is why.
+    if let Err(error) = gpu.poll(wgpu::PollType::Poll) {
+        report.errors.insert(0, error);
+    }
+}
+
+/// Draws the frame that the render schedule has made for a [`TextureTarget`](crate::TextureTarget) by an encoder of the
+/// engine's own, which must come from the device of the world's [`Gpu`]. The pass clears the texture and draws over it.
+///
+/// What the pass reads is on its way already: submit the encoder on the queue of that `Gpu`, before the render schedule
+/// runs again. Until then a frame can be encoded more than once. [`GpuTimer`] does not time it.
+///
+/// # Errors
+/// [`RenderError::NoFrame`] before the schedule has run with a `TextureTarget`, or the first error of
+/// [`FrameReport::errors`] where the frame could not be made; [`RenderError::LeftOut`]. With `Ok`, what was left out of
+/// the frame is in the report.
+pub fn encode_frame(world: &World, encoder: &mut wgpu::CommandEncoder) -> Result<(), RenderError> {
+    let ready = || {
+        let target = world.get_resource::<Target>()?;
+        let frame = target.frame.as_ref().filter(|frame| frame.delivery == Delivery::Encode)?;
+        Some((target, frame, target.attachments()?, world.get_resource::<View>()?.camera.unwrap_or_default()))
+    };
+    let made = || {
+        let (batches, meshes) = (world.get_resource::<Batches>()?, world.get_resource::<MeshBuffers>()?);
+        Some((batches, meshes, world.get_resource::<Pipelines>()?, world.get_resource::<Buffers>()?))
+    };
+    let (Some((target, frame, attachments, camera)), Some((batches, meshes, pipelines, buffers))) = (ready(), made())
+    else {
+        let first = world.get_resource::<FrameReport>().and_then(|report| report.errors.first());
+        return Err(first.cloned().unwrap_or(RenderError::NoFrame));
+    };
+    let mut pass = begin(encoder, frame, attachments, camera, None);
+    let left_out = record(&mut pass, batches, meshes, pipelines, buffers);
+    drop(pass);
+    finish(encoder, target, frame, None);
+    let unsaid = world.get_resource::<FrameReport>().and_then(|report| unsaid(left_out, report));
+    unsaid.map_or(Ok(()), Err)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plugin::RenderPlugin;
+    use crate::{Headless, Pixels};
+    use bevy_app::{App, PostUpdate};
+    use bevy_math::{UVec2, Vec3};
+    use bevy_transform::TransformPlugin;
+    use bevy_transform::components::Transform;
+    use halfway_asset::Assets;
+    use halfway_frame::sets::RenderSet;
+    use halfway_mesh::{Cuboid, Mesh, Mesh3d};
+
+    /// Takes away what the draws of a box read once they are made: the frame has no error but this one.
+    #[test]
+    fn nothing_is_left_out_without_an_error() {
+        fn lose_meshes(mut meshes: ResMut<MeshBuffers>) {
+            *meshes = MeshBuffers::default();
+        }
+        let mut app = App::new();
+        app.insert_resource(Gpu::open_headless().expect("an adapter"));
+        app.add_plugins((TransformPlugin, RenderPlugin::default()));
+        app.insert_resource(Headless { size: UVec2::new(32, 24), pixels: Pixels::Byte });
+        app.finish();
+        app.cleanup();
+        let world = app.world_mut();
+        let mesh = world.resource_mut::<Assets<Mesh>>().add(Mesh::from(Cuboid::default()));
+        world.spawn((Mesh3d(mesh), Transform::default()));
+        world.spawn((Camera::default(), Transform::from_xyz(0.0, 0.0, 3.0).looking_at(Vec3::ZERO, Vec3::Y)));
+        app.update();
+        let report = |app: &App| app.world().resource::<FrameReport>().clone();
+        assert_eq!((report(&app).errors, report(&app).draws), (vec![], 1));
+        app.add_systems(PostUpdate, lose_meshes.after(RenderSet::Upload).before(RenderSet::Draw));
+        app.update();
+        assert_eq!(report(&app).errors, [RenderError::LeftOut { draws: 1 }]);
+    }
+}

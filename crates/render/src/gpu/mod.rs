@@ -1,0 +1,19 @@
+//! The drawer that uses wgpu: devices, targets, shaders, pipelines and passes.
+
+pub(crate) mod attachments;
+mod choose;
+pub(crate) mod device;
+pub(crate) mod draw;
+mod format;
+mod instance;
+mod old_opengl;
+pub(crate) mod pipelines;
+pub(crate) mod plugin;
+mod policy;
+mod provoking_vertex;
+pub(crate) mod read_back;
+mod shaders;
+mod sub_pixel_grid;
+pub(crate) mod surface;
+pub(crate) mod texture;
+pub(crate) mod timer;

@@ -1,0 +1,81 @@
+//! The systems by which wgpu draws a frame.
+
+use crate::cpu;
+use crate::gpu::attachments::{self, Target};
+use crate::gpu::device::Gpu;
+use crate::gpu::draw::meshes::{self as mesh_buffers, MeshBuffers};
+use crate::gpu::draw::pass;
+use crate::gpu::draw::upload::{self, Buffers};
+use crate::gpu::pipelines::cache::{self, Pipelines};
+use crate::gpu::texture;
+use crate::gpu::timer::GpuTimer;
+use crate::headless;
+use crate::plugin::cpu_draws;
+use crate::replaced;
+use bevy_app::App;
+use bevy_ecs::prelude::*;
+use bevy_ecs::schedule::InternedScheduleLabel;
+use bevy_ecs::system::SystemParam;
+use halfway_frame::batch::lit_patches;
+use halfway_frame::sets::RenderSet::{Deliver, Draw, Illuminate, Upload, View};
+use halfway_frame::{ReadCamera, add_backend};
+
+/// All that belongs to a device.
+#[derive(SystemParam)]
+pub(crate) struct GpuState<'w> {
+    target: ResMut<'w, Target>,
+    meshes: ResMut<'w, MeshBuffers>,
+    buffers: ResMut<'w, Buffers>,
+    pipelines: ResMut<'w, Pipelines>,
+    timer: Option<ResMut<'w, GpuTimer>>,
+}
+
+impl GpuState<'_> {
+    /// Drops it.
+    pub(crate) fn forget(&mut self) {
+        *self.target = Target::default();
+        *self.meshes = MeshBuffers::default();
+        *self.buffers = Buffers::default();
+        *self.pipelines = Pipelines::default();
+        if let Some(timer) = &mut self.timer {
+            timer.forget_device();
+        }
+    }
+}
+
+/// Adds the resources and the systems.
+pub(crate) fn add(app: &mut App, schedule: InternedScheduleLabel) {
+    app.init_resource::<Target>()
+        .init_resource::<MeshBuffers>()
+        .init_resource::<Buffers>()
+        .init_resource::<Pipelines>();
+    add_backend::<Pipelines, _>(app, schedule, gpu_draws);
+    let systems = (
+        attachments::prepare.in_set(View).after(replaced::forget),
+        cache::begin.in_set(Illuminate).before(lit_patches::illuminate::<Pipelines>),
+        (
+            mesh_buffers::upload,
+            upload::build_pipelines,
+            upload::upload,
+            upload::upload_maps,
+            upload::upload_surroundings,
+        )
+            .chain()
+            .in_set(Upload),
+        pass::draw.in_set(Draw),
+        pass::present.in_set(Deliver),
+    );
+    app.add_systems(
+        schedule,
+        (
+            attachments::measure.in_set(View).after(headless::measure).before(ReadCamera),
+            systems.run_if(gpu_draws),
+            texture::refuse_on_cpu.in_set(View).after(cpu::draw::prepare).run_if(cpu_draws),
+        ),
+    );
+}
+
+/// Whether a device draws.
+pub(crate) fn gpu_draws(gpu: Option<Res<Gpu>>) -> bool {
+    gpu.is_some_and(|gpu| !gpu.is_lost())
+}

@@ -1,0 +1,113 @@
+//! Pictures, and how they are read back from the headless target.
+
+use crate::cpu::canvas::{Canvas, CanvasTarget};
+#[cfg(feature = "wgpu")]
+use crate::gpu::{attachments::Target, device::Gpu, read_back::ReadBack};
+use bevy_app::App;
+use bevy_ecs::prelude::World;
+use halfway_frame::error::RenderError;
+use halfway_frame::report::FrameReport;
+#[cfg(doc)]
+use halfway_lighting::Samples;
+use image::{Rgba32FImage, RgbaImage};
+
+/// What a pixel of a headless picture holds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Pixels {
+    /// 8 bits a channel, encoded as the camera says.
+    #[default]
+    Byte,
+    /// Linear I in 32-bit floating point; not clamped, but after a policy that acts on the finished picture. An adapter
+    /// may be unable to blend them, or to take four samples of them: then a frame with
+    /// [`Blend`](halfway_lighting::Blend) objects, or with [`Samples::Four`], is
+    /// [`RenderError::FloatTarget`], and others are drawn.
+    Float,
+}
+
+/// A picture, top row first.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Picture {
+    /// 8 bits a channel, encoded as the camera says.
+    Byte(RgbaImage),
+    /// Linear I, as [`Pixels::Float`] has it.
+    Float(Rgba32FImage),
+}
+
+impl Picture {
+    /// Width and height in pixels.
+    pub fn dimensions(&self) -> (u32, u32) {
+        match self {
+            Self::Byte(image) => image.dimensions(),
+            Self::Float(image) => image.dimensions(),
+        }
+    }
+}
+
+/// A picture on its way from what has drawn it. Poll it with [`PendingPicture::try_take`] while other frames
+/// are drawn, or wait for it with [`PendingPicture::wait`].
+pub struct PendingPicture(Pending);
+
+enum Pending {
+    /// The GPU copies it.
+    #[cfg(feature = "wgpu")]
+    Copied(ReadBack),
+    /// The CPU has drawn it; until it is taken.
+    There(Option<Picture>),
+}
+
+impl PendingPicture {
+    /// Starts to copy the newest headless picture; later frames do not change what arrives.
+    ///
+    /// # Errors
+    /// [`RenderError::NoPicture`] before the first headless frame or while a window is the target;
+    /// [`RenderError::TooLarge`] or [`RenderError::Memory`] where there is no room for the copy.
+    pub fn request(world: &World) -> Result<Self, RenderError> {
+        #[cfg(feature = "wgpu")]
+        if let (Some(gpu), Some(target)) = (world.get_resource::<Gpu>(), world.get_resource::<Target>()) {
+            let texture = target.picture().ok_or(RenderError::NoPicture)?;
+            return Ok(Self(Pending::Copied(ReadBack::start(gpu, texture)?)));
+        }
+        let canvas = world.get_resource::<Canvas>().filter(|_| !world.contains_resource::<CanvasTarget>());
+        let picture = canvas.ok_or(RenderError::NoPicture)?.picture()?;
+        Ok(Self(Pending::There(Some(picture))))
+    }
+
+    /// The picture if it has arrived; `None` while it has not, and after it was taken.
+    ///
+    /// # Errors
+    /// [`RenderError::DeviceLost`] or [`RenderError::Device`] when the device was lost or failed on the way.
+    pub fn try_take(&mut self) -> Result<Option<Picture>, RenderError> {
+        match &mut self.0 {
+            #[cfg(feature = "wgpu")]
+            Pending::Copied(copy) => copy.try_take(),
+            Pending::There(picture) => Ok(picture.take()),
+        }
+    }
+
+    /// Blocks until the picture has arrived.
+    ///
+    /// # Errors
+    /// [`RenderError::DeviceLost`] or [`RenderError::Device`] when the device was lost or failed on the way;
+    /// [`RenderError::NoPicture`] where it was taken.
+    pub fn wait(self) -> Result<Picture, RenderError> {
+        match self.0 {
+            #[cfg(feature = "wgpu")]
+            Pending::Copied(copy) => copy.wait(),
+            Pending::There(picture) => picture.ok_or(RenderError::NoPicture),
+        }
+    }
+}
+
+/// Runs one frame of `app` and waits for its picture. Everything the frame could not do is an error
+/// here: the first of [`FrameReport::errors`].
+///
+/// # Errors
+/// The frame's first error, or why its picture could not be read back.
+pub fn render_picture(app: &mut App) -> Result<Picture, RenderError> {
+    app.update();
+    let world = app.world();
+    if let Some(error) = world.get_resource::<FrameReport>().and_then(|report| report.errors.first()) {
+        return Err(error.clone());
+    }
+    PendingPicture::request(world)?.wait()
+}
