@@ -40,10 +40,10 @@ pub(crate) const NEEDS: [Need; 3] = [LAVAPIPE, OPENGL, SWIFTSHADER];
 
 /// Tests that nothing but a graphics driver can run, by file: those whose names begin so, all where none is named.
 const ABOUT_DRIVERS: [(&str, &[&str]); 15] = [
-    ("crates/render/src/device/gpu_timer.rs", &["frames_that_are_refused_have_no_time"]),
-    ("crates/render/src/draw/pass.rs", &["nothing_is_left_out_without_an_error"]),
-    ("crates/render/src/pipelines/cache/tests.rs", &[]),
-    ("crates/render/src/pipelines/compile.rs", &["what_cannot_be_built_comes_back", "the_thread_ends_with"]),
+    ("crates/render/src/gpu/timer.rs", &["frames_that_are_refused_have_no_time"]),
+    ("crates/render/src/gpu/draw/pass.rs", &["nothing_is_left_out_without_an_error"]),
+    ("crates/render/src/gpu/pipelines/cache/tests.rs", &[]),
+    ("crates/render/src/gpu/pipelines/compile.rs", &["what_cannot_be_built_comes_back", "the_thread_ends_with"]),
     (
         "crates/command/tests/command/adapters.rs",
         &[
@@ -366,7 +366,7 @@ mod tests {
     #[test]
     fn tests_are_named_by_their_files() {
         assert_eq!(module("tests/render/compile.rs"), "render::compile::");
-        assert_eq!(module("crates/render/src/pipelines/cache/tests.rs"), "pipelines::cache::tests::");
+        assert_eq!(module("crates/render/src/gpu/pipelines/cache/tests.rs"), "gpu::pipelines::cache::tests::");
         assert_eq!(module("crates/command/tests/command/bench.rs"), "command::bench::");
     }
 

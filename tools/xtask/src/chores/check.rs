@@ -2,7 +2,7 @@
 
 use clap::{Args, ValueEnum};
 
-use crate::cargo::{cargo, duration, root, step};
+use crate::cargo::{cargo, duration, printed, root, step};
 use crate::checks::{circles, doors};
 use crate::failure::{Failure, Result};
 
@@ -26,7 +26,7 @@ enum Check {
     Lints,
     /// The documentation is whole
     Documentation,
-    /// The library builds for those who bring their own window
+    /// The library builds for those who bring their own window; without wgpu it has none and draws a picture
     Smallest,
 }
 
@@ -75,7 +75,31 @@ impl Check {
                 let mut command = cargo(["doc", "--release", "--workspace", "--no-deps"]);
                 step(&self.name(), command.env("RUSTDOCFLAGS", "-D warnings"))
             }
-            Self::Smallest => by_cargo(&["check", "--release", "-p", "halfway", "--no-default-features", "--lib"]),
+            Self::Smallest => {
+                by_cargo(&[
+                    "check",
+                    "--release",
+                    "-p",
+                    "halfway",
+                    "--no-default-features",
+                    "--features",
+                    "wgpu",
+                    "--lib",
+                ])?;
+                own(&|| without_wgpu(&root))?;
+                let draw = ["run", "--release", "-p", "halfway", "--no-default-features", "--example", "first_picture"];
+                let into = ["--", "--headless", "out/first_picture.png", "--size", "64x48"];
+                by_cargo(&[&draw[..], &into].concat())
+            }
         }
     }
+}
+
+/// Expects nothing of graphics drivers or windows in the library without its features.
+fn without_wgpu(root: &std::path::Path) -> Result {
+    std::fs::create_dir_all(root.join("out")).map_err(|error| Failure::new(format!("out: {error}")))?;
+    let tree = ["tree", "-p", "halfway", "--no-default-features", "-e", "normal", "--prefix", "none"];
+    let tree = String::from_utf8_lossy(&printed(&mut cargo(tree))?).into_owned();
+    let found = tree.lines().find(|line| ["wgpu", "naga", "winit"].iter().any(|name| line.starts_with(name)));
+    found.map_or(Ok(()), |line| Err(Failure::new(format!("halfway without its features depends on {line}"))))
 }

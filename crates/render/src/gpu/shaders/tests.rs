@@ -81,7 +81,7 @@ fn each_file_is_valid_with_those_before_it() {
     each(&SKY, &[]);
     each(&PICTURE_FILES, &[]);
     let used: Vec<&str> = used.iter().filter_map(|(files, _)| files.last().copied()).collect();
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/src/shaders");
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/src/gpu/shaders");
     for entry in std::fs::read_dir(folder).expect("the folder of the texts") {
         let path = entry.expect("a file").path();
         if path.extension().is_some_and(|extension| extension == "wgsl") {
