@@ -1,4 +1,4 @@
-//! What can go wrong between a scene and its picture.
+//! Errors between a scene and its picture.
 
 use bevy_ecs::prelude::Entity;
 use bevy_transform::components::GlobalTransform;
@@ -34,7 +34,7 @@ pub enum RenderError {
     NoDevice {
         /// The adapter's name.
         adapter: String,
-        /// What the driver said.
+        /// The driver's message.
         reason: String,
     },
     /// The vectors that the CPU is to draw with are unknown, or it does not have them.
@@ -42,7 +42,7 @@ pub enum RenderError {
     NoVectors {
         /// The environment variable `HALFWAY_SIMD`, or the adapter's name.
         asked_by: String,
-        /// What was found, and what there is.
+        /// The name that was found, and those that there are.
         reason: String,
     },
     /// A component holds a value outside its range.
@@ -106,7 +106,7 @@ pub enum RenderError {
     /// A buffer or a picture is larger than the adapter can hold.
     #[error("{what} needs {needed}, and the adapter's limit is {limit}")]
     TooLarge {
-        /// What did not fit.
+        /// The thing that did not fit.
         what: String,
         /// How much it needs, in the unit of the limit.
         needed: u64,
@@ -116,7 +116,7 @@ pub enum RenderError {
     /// The system refuses memory.
     #[error("{bytes} bytes of memory for {what} were refused")]
     Memory {
-        /// What it is for.
+        /// The purpose of the memory.
         what: String,
         /// How much was asked for.
         bytes: u64,
@@ -127,7 +127,7 @@ pub enum RenderError {
          bits, or a scene that does without"
     )]
     FloatTarget {
-        /// What it cannot do with them.
+        /// The operation that it cannot do with them.
         cannot: String,
     },
     /// There is no headless picture to read.
@@ -143,7 +143,7 @@ pub enum RenderError {
     BadTarget {
         /// The format of its pixels.
         format: String,
-        /// What it lacks, or what of the scene does not go with it.
+        /// The feature that it lacks, or the part of the scene that does not go with it.
         reason: String,
     },
     /// The levels of detail of a mesh could not be made; it is drawn as it is.
@@ -151,7 +151,7 @@ pub enum RenderError {
     NoLevels {
         /// The mesh, by the number of its asset.
         mesh: String,
-        /// What went wrong.
+        /// The failure.
         reason: String,
     },
     /// Draws were left out of the picture, and nothing else says why: what they read was not there.
@@ -190,7 +190,7 @@ pub(crate) fn label(entity: Entity, name: Option<&bevy_ecs::name::Name>) -> Stri
     name.map_or_else(|| format!("entity {entity}"), |name| format!("\"{name}\""))
 }
 
-/// What a thread said when it panicked.
+/// The message of a panic.
 pub fn panic_message(panic: &(dyn std::any::Any + Send)) -> String {
     let literal = panic.downcast_ref::<&str>().map(|message| (*message).to_owned());
     literal.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "it panicked".into())

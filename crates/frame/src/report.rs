@@ -1,4 +1,4 @@
-//! What a frame did, counted; and what it could not do.
+//! The counters and the errors of a frame.
 
 use crate::error::RenderError;
 use bevy_ecs::prelude::Resource;

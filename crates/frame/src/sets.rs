@@ -5,7 +5,7 @@ use bevy_ecs::prelude::SystemSet;
 /// The steps of a frame, in order. Each says what holds after it.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum RenderSet {
-    /// What draws is open, the camera is validated, [`View`](crate::View) holds its matrices and projection, and there
+    /// The adapter is open, the camera is validated, [`View`](crate::View) holds its matrices and projection, and there
     /// is something to draw into.
     View,
     /// [`Visible`](crate::Visible) holds the objects that the frustum sees.
@@ -20,7 +20,7 @@ pub enum RenderSet {
     Illuminate,
     /// Those patches are draws: sorted, equal ones instanced, and those that share their state together.
     Batch,
-    /// What draws has what the draws read: meshes, pipelines, instances, materials, lights and their lists.
+    /// The adapter has the data that the draws read: meshes, pipelines, instances, materials, lights and their lists.
     Upload,
     /// The passes are encoded and submitted, or drawn by the CPU.
     Draw,

@@ -28,13 +28,13 @@ pub enum PixelValues {
     Floats,
     /// Linear I, of which a policy makes the picture.
     Toned {
-        /// What changes I by a step changes the picture by no more than a step over this number.
+        /// A change of I by a step changes the picture by at most a step over this number.
         share: f64,
     },
 }
 
 impl PixelValues {
-    /// What the bytes hold; `None` for floating point.
+    /// The encoding of bytes; `None` for floating point.
     pub fn encoding(self) -> Option<Encoding> {
         match self {
             Self::Bytes(encoding) => Some(encoding),
@@ -50,7 +50,7 @@ impl PixelValues {
         }
     }
 
-    /// What is drawn for such a picture.
+    /// The values that are drawn for such a picture under a policy.
     pub fn under(self, policy: Intensity) -> Self {
         // Nothing is known of how dark it becomes, so that the curve of bytes may be as steep as it is at 0.
         let steepest = match self {

@@ -1,4 +1,4 @@
-//! What draws: a graphics adapter, or the CPU.
+//! An open adapter: a graphics card or the CPU.
 
 use crate::cpu::device::Cpu;
 #[cfg(feature = "wgpu")]
@@ -6,7 +6,7 @@ use crate::gpu::device::Gpu;
 use bevy_ecs::prelude::World;
 use halfway_frame::error::RenderError;
 
-/// What draws, opened. [`AdapterChoice::open`](crate::AdapterChoice::open) opens it, and the world holds it as the
+/// An adapter that is open. [`AdapterChoice::open`](crate::AdapterChoice::open) opens it, and the world holds it as the
 /// resource
 /// [`Gpu`] or [`Cpu`].
 #[derive(Clone)]
@@ -19,7 +19,7 @@ pub enum Adapter {
 }
 
 impl Adapter {
-    /// What draws the frames of this world; `None` while nothing does.
+    /// The adapter that draws the frames of this world; `None` while none is open.
     pub fn of(world: &World) -> Option<Self> {
         #[cfg(feature = "wgpu")]
         if let Some(gpu) = world.get_resource::<Gpu>() {

@@ -12,7 +12,7 @@ use halfway_frame::view::camera::PictureSize;
 pub struct Headless {
     /// Width and height in pixels, each at least 1. Default 1280 × 720.
     pub size: UVec2,
-    /// What a pixel holds. Default [`Pixels::Byte`].
+    /// The values of a pixel. Default [`Pixels::Byte`].
     pub pixels: Pixels,
 }
 

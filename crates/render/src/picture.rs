@@ -11,7 +11,7 @@ use halfway_frame::report::FrameReport;
 use halfway_lighting::Samples;
 use image::{Rgba32FImage, RgbaImage};
 
-/// What a pixel of a headless picture holds.
+/// The values of a pixel of a headless picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Pixels {
     /// 8 bits a channel, encoded as the camera says.

@@ -1,8 +1,8 @@
-//! What draws batches.
+//! Backends, which draw batches.
 
 use crate::batch::key::DrawKey;
 
-/// What draws the batches of a frame, as far as it has a say in how they are made. All else that it takes is data:
+/// A drawer of batches, as far as it has a say in how they are made. All else that it takes is data:
 /// [`LitPatches`](super::lit_patches::LitPatches), [`Batches`](super::batches::Batches) and the triangles in
 /// [`Geometries`](crate::geometry::meshes::Geometries), none of which holds anything of wgpu's.
 pub trait Backend {

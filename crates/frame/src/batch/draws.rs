@@ -38,7 +38,7 @@ pub struct DrawGroup {
     draws: Range<usize>,
 }
 
-/// What is drawn, in this order.
+/// The draws of a frame, in order.
 #[derive(Debug, Default)]
 pub struct Draws {
     groups: Vec<DrawGroup>,

@@ -1,4 +1,4 @@
-//! What a draw is specialised for.
+//! The key of a draw: the features that it is specialised for.
 
 use crate::lights::slots::Lists;
 use crate::lights::terms::by_fragment_shader;
@@ -41,11 +41,11 @@ pub struct DrawKey {
     pub colored: bool,
     /// How the images are looked up.
     pub maps: MapLooks,
-    /// What has too low an opacity is not there.
+    /// A mask cuts away low opacity.
     pub masked: bool,
     /// The surface is lit inside out; known only where tangents count.
     pub inside_out: bool,
-    /// What fills the solid that it is cut from.
+    /// The pattern of the solid that it is cut from.
     pub solid: Option<SolidKind>,
     /// An environment lights it.
     pub surrounded: bool,
@@ -84,7 +84,7 @@ impl MapLook {
     }
 }
 
-/// What is taken of an image of this kind that is reduced.
+/// The treatment of a minified image of this kind.
 pub(crate) fn levels_taken(kind: MapKind, levels: LevelFilter) -> LevelFilter {
     if kind == MapKind::Height { levels.by_level() } else { levels }
 }
@@ -232,7 +232,7 @@ impl DrawKey {
     /// make no variants.
     #[must_use]
     pub(crate) fn with_terms(self, terms: Terms) -> Self {
-        // What an environment adds takes the normal and the exponent as lights would have them.
+        // Light from an environment takes the normal and the exponent as lights would have them.
         let terms = if self.surrounded { self.terms } else { terms };
         // The color of a flat triangle is of one point, whatever light there is.
         let is_flat = self.is_painted() && self.terms.has(Frequency::Triangle);

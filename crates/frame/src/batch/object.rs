@@ -1,4 +1,4 @@
-//! What one object is drawn with: its key, its material record, and what light lists have to know of it.
+//! One object as it is drawn: its key, its material record, and the inputs of its light lists.
 
 use crate::batch::key::{DrawKey, MapLooks};
 use crate::geometry::meshes::PaintOf;
@@ -26,9 +26,9 @@ pub(crate) struct Reflecting<'a> {
     pub colored: bool,
     /// How images are looked up.
     pub maps: MapLooks,
-    /// What has too low an opacity is not there.
+    /// A mask cuts away low opacity.
     pub masked: bool,
-    /// What fills the solid that it is cut from.
+    /// The pattern of the solid that it is cut from.
     pub solid: Option<SolidKind>,
     /// An environment lights it.
     pub surrounded: bool,
@@ -38,7 +38,7 @@ pub(crate) struct Reflecting<'a> {
 pub(crate) type ReflectingBits = ([MaterialBits; 2], Reflectance, Faces, bool);
 type MaterialBits = [u32; size_of::<Material>() / 4];
 
-/// What follows from them, whatever the object's place and shading.
+/// Everything that follows from the appearance, whatever the object's place and shading.
 #[derive(Clone, Debug)]
 pub(crate) struct Appearance {
     pub(crate) invalid: Option<InvalidValue>,
@@ -50,17 +50,17 @@ pub(crate) struct Appearance {
     squarings: Option<u8>,
 }
 
-/// What every object's key and lists take from the frame.
+/// Inputs from the frame for every object's key and lists.
 #[derive(Clone, Copy)]
 pub(crate) struct Shared<'a> {
     pub(crate) lights: &'a Lights,
     pub(crate) view: &'a View,
-    /// What the bytes of the picture hold; `None` for floating point.
+    /// The encoding of the picture's bytes; `None` for floating point.
     pub(crate) encoding: Option<Encoding>,
     pub(crate) viewer: Viewer,
 }
 
-/// What an object's key takes from its place, its mesh and its shading.
+/// Inputs for an object's key from its place, its mesh and its shading.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Circumstances {
     pub terms: Terms,
@@ -134,7 +134,7 @@ impl Reflecting<'_> {
         SurfaceRecord { front, back, ..SurfaceRecord::default() }
     }
 
-    /// What light lists have to know, where these terms are shaded.
+    /// Inputs for light lists, where these terms are shaded.
     pub(crate) fn reflector(&self, terms: Terms) -> Reflector {
         let mut sides = self.coefficients();
         if self.maps.change_exponents() {

@@ -30,7 +30,7 @@ type ObjectComponents = (
     Option<&'static Name>,
 );
 
-/// What is seen, and by what.
+/// The objects that are shown, with their components.
 #[derive(SystemParam)]
 pub struct ShownObjects<'w, 's> {
     objects: Query<'w, 's, ObjectComponents>,

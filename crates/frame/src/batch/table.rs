@@ -1,4 +1,4 @@
-//! What repeats among objects, numbered.
+//! Materials and images that repeat among objects, numbered.
 
 use crate::batch::key::{DrawKey, levels_taken};
 use crate::batch::object::{Appearance, Reflecting, ReflectingBits};
@@ -13,7 +13,7 @@ use halfway_texture::{
 };
 use std::sync::OnceLock;
 
-/// What repeats among objects, numbered, so that objects compare by small integers.
+/// Materials and images that repeat among objects, numbered, so that objects compare by small integers.
 #[derive(Debug, Default)]
 pub struct ObjectTable {
     /// Kept from frame to frame, for lights with this ambient.
@@ -41,7 +41,7 @@ pub struct ObjectTable {
 pub struct MapUse {
     /// The image.
     pub texture: AssetId<Texture>,
-    /// What of the image its filter reads.
+    /// The part of the image that its filter reads.
     pub form: ImageForm,
     /// Whether its moments are read, and not the image itself.
     pub moments: bool,
@@ -134,7 +134,7 @@ impl ObjectTable {
         self.maps.clear();
     }
 
-    /// What an object looks like, remembered by its components' values.
+    /// The appearance of an object, remembered by its components' values.
     pub(crate) fn look(&mut self, reflecting: &Reflecting) -> &Appearance {
         self.asked += 1;
         let Self { looks, materials, material_numbers, last_lights, ambient, .. } = self;

@@ -20,9 +20,9 @@ use std::sync::Arc;
 pub struct Geometry {
     /// Its patches.
     pub patches: Arc<Patches>,
-    /// What it was made of; a mesh is immutable and shares its data, so the same data is the same mesh.
+    /// The mesh it was made of; a mesh is immutable and shares its data, so the same data is the same mesh.
     pub(crate) source: Mesh,
-    /// What is drawn: the same, with tangents where they were asked for.
+    /// The mesh that is drawn: the same, with tangents where they were asked for.
     pub drawn: Mesh,
     /// Some interpolated normal may vanish, so that Phong shading needs the geometric one at hand.
     pub(crate) opposite_normals: bool,
@@ -63,7 +63,7 @@ impl Form {
     }
 }
 
-/// What beside an object's material says how light is given back, and where there is anything.
+/// The parts of an object's appearance beside its material: colors, images, mask and solid.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Paint<'a> {
     /// The colors of the vertices.
@@ -72,7 +72,7 @@ pub(crate) struct Paint<'a> {
     pub maps: [Option<&'a SurfaceMap>; MapKind::COUNT],
     /// The opacity below which there is nothing.
     pub(crate) mask: Option<f32>,
-    /// What it is cut from.
+    /// The solid that it is cut from.
     pub solid: Option<&'a SolidTexture>,
     /// An environment lights it.
     pub surrounded: bool,
@@ -184,7 +184,7 @@ pub(crate) fn shades_pixels_alone(terms: Terms) -> bool {
     !by_vertex_shader(terms).contains(&true)
 }
 
-/// What decides how an object's mesh is laid out.
+/// The components that decide how an object's mesh is laid out.
 type LaidOut = (&'static Mesh3d, &'static Chosen, Has<Blend>, PaintComponents, Option<&'static Tolerance>);
 
 /// Lays out the meshes of visible objects that are not yet, for the way they are shaded.

@@ -25,7 +25,7 @@ pub(crate) struct Outline {
 /// dᵢ. It is known for 18 directions d, the corners and the middles of edges of an octahedron, of which the three
 /// around v serve. A cone around the normals is wider: it is as round as their farthest one is far.
 ///
-/// What is known for a direction is rounded up to a 20,000th.
+/// Bounds for a direction are rounded up to a 20,000th.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Facing {
     /// The largest n·d of all triangles for each of [`Facing::DIRECTIONS`], in [`Facing::PARTS`].
@@ -204,7 +204,7 @@ mod tests {
         assert!(size_of::<Outline>() <= 64, "{}", size_of::<Outline>());
     }
 
-    /// What is rounded is never less, and nothing hides what may face anywhere.
+    /// Rounded bounds are never less, and nothing hides what may face anywhere.
     #[test]
     fn what_faces_the_eye_is_not_hidden() {
         let mut seed = 3_u32;

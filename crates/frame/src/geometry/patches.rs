@@ -52,7 +52,7 @@ struct Levels {
     groups: Vec<LodGroup>,
 }
 
-/// What is drawn of an object, as far as its level of detail depends on it.
+/// The demands that the level of detail of an object depends on.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct DetailDemand {
     /// How far points may be off, in pixels; 0 for the mesh itself.

@@ -10,7 +10,7 @@ use halfway_mesh::{Bounds, Mesh};
 /// Normals spread wider than this from their mean, in radians, bound nothing. Below π/2 those that are interpolated
 /// stay inside the cone of the vertices'.
 const WIDEST: f32 = 1.5;
-/// What rounding in f32 may add to a cone's half angle, in radians.
+/// The most that rounding in f32 may add to a cone's half angle, in radians.
 pub(super) const ANGLE_SLACK: f32 = 2e-3;
 
 /// Bounds of a piece of a mesh, in model space.

@@ -1,4 +1,4 @@
-//! What makes levels of detail: a thread beside the frames of a window, or the frame itself.
+//! Makes levels of detail: on a thread beside the frames of a window, or in the frame itself.
 
 use crate::error::{RenderError, panic_message};
 use crate::geometry::patches::{MeshTriangles, Prepared};
@@ -22,7 +22,7 @@ pub struct Workshop {
     /// How what draws takes triangles, where that takes time: done with the levels, not in the first frame that has
     /// them.
     pub cut: Option<Cut>,
-    /// What went wrong, until it is reported.
+    /// Failures that have not been reported yet.
     pub(crate) failures: Vec<RenderError>,
 }
 
@@ -45,7 +45,7 @@ enum OrderState {
 struct Thread {
     wanted: Sender<(AssetId<Mesh>, Mesh, Option<Cut>)>,
     made: Mutex<Receiver<Made>>,
-    /// What it is doing is no longer wanted.
+    /// Set when its work is no longer wanted.
     stop: Arc<AtomicBool>,
 }
 
@@ -148,7 +148,7 @@ fn made(cut: Option<Cut>, mesh: &Mesh, stop: &AtomicBool) -> Result<Option<MeshT
         triangles.pieces = cut.and_then(|cut| cut(mesh, &triangles));
         Some(triangles)
     };
-    // What was being made is dropped, and the flag is as good as before.
+    // Unfinished work is dropped, and the flag is as good as before.
     catch_unwind(AssertUnwindSafe(made)).map_err(|panic| panic_message(&*panic))
 }
 

@@ -94,7 +94,7 @@ impl Lights {
     }
 }
 
-/// What a frame's lights were made of. Where the next finds the same, and no light has changed, they are as they were.
+/// Inputs of a frame's lights. Where the next frame finds the same, and no light has changed, they are as they were.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct MadeOf {
     /// How many entities have a light of each kind. One that goes makes them fewer, and one that comes has changed.
@@ -130,7 +130,7 @@ pub(crate) fn gather(
     let are_same = changed.is_empty() && disabled.is_empty();
     let keep = lights.made_of.filter(|_| are_same && !shown.hides_any());
     if keep != Some(made_of) {
-        // What is hidden is looked at in each frame, and often nothing has changed.
+        // Hidden lights are looked at in each frame, and often nothing has changed.
         let before = shown.hides_any().then(|| lights.clone());
         let now = lights.bypass_change_detection();
         if keep.map(|before| MadeOf { view: made_of.view, ..before }) != Some(made_of) {
@@ -157,7 +157,7 @@ pub(crate) fn gather(
             for made in with_cones {
                 now.add(made);
             }
-            // What is refused is told in each frame anew, and what is hidden is looked at in each.
+            // Refused lights are reported in each frame anew, and hidden ones are looked at in each.
             let is_whole = report.errors.len() == refused && !shown.hides_any();
             now.made_of = is_whole.then_some(made_of);
             now.sum_up();
@@ -229,7 +229,7 @@ impl Lights {
         self.world.push(source);
     }
 
-    /// What is known of all that were added, which are still in world space.
+    /// Sums up the lights that were added, which are still in world space.
     #[expect(clippy::float_cmp, reason = "a shared color is a copy")]
     fn sum_up(&mut self) {
         let is_bright = |color: [f64; 3]| color.iter().any(|&channel| channel > 0.0);

@@ -39,7 +39,7 @@ pub(crate) struct Reflector {
     pub terms: Terms,
 }
 
-/// What the light lists of an object's patches depend on.
+/// Inputs for building the light lists of an object's patches.
 pub(crate) struct Listing {
     /// No smaller than either side's.
     material: Coefficients<f32>,
@@ -148,7 +148,7 @@ fn starting_at_0(lights: SurfaceLights, start: usize) -> SurfaceLights {
 }
 
 impl Reflector {
-    /// What light lists of its patches depend on, for pictures that hold values in this encoding (`None` for floating
+    /// Inputs for the light lists of its patches, for pictures that hold values in this encoding (`None` for floating
     /// point), of which each channel may be off by so many `steps` of 1/255.
     pub(crate) fn listing(&self, ambient: Vec3, view: Eye<f32>, encoding: Option<Encoding>, steps: f64) -> Listing {
         let unlit = |side: &Coefficients<f32>| Vec3::from_array(side.ke) + Vec3::from_array(side.ka) * ambient;

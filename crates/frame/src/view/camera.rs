@@ -7,7 +7,7 @@ use bevy_math::{DAffine3, DMat3, DVec3, UVec2, Vec3};
 use bevy_transform::components::{GlobalTransform, Transform};
 use halfway_lighting::{Camera, Propagation, Reflectance, Shading, propagation};
 
-/// What the frame is seen through. Holds after [`RenderSet::View`](crate::RenderSet::View).
+/// The view of a frame. Holds after [`RenderSet::View`](crate::RenderSet::View).
 #[derive(Resource, Clone, Debug, Default, PartialEq)]
 pub struct View {
     /// The camera, validated; `None` while there is none to draw with.

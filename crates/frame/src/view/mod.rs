@@ -1,4 +1,4 @@
-//! What the camera sees: its matrices, and those of the visible objects.
+//! The view: its matrices, and those of the visible objects.
 
 pub mod camera;
 pub mod matrices;

@@ -23,9 +23,9 @@ pub struct Canvas {
     /// One of them is empty.
     bytes: Vec<u8>,
     floats: Vec<f32>,
-    /// What a policy makes the picture of, where it acts on the finished one; else empty.
+    /// The drawn values that a policy turns into the picture, where it acts on finished ones; else empty.
     drawn_floats: Vec<f32>,
-    /// What the last picture was divided by, where it was.
+    /// The divisor of the last picture, where there was one.
     divisor: Option<f32>,
     clear_tiles: ClearTiles,
     /// Whether it holds a frame.
@@ -72,7 +72,7 @@ impl Canvas {
         }
     }
 
-    /// What to draw into, and what is clear of it.
+    /// The memory to draw into, and its clear tiles.
     pub(crate) fn output(&mut self) -> (Output<'_>, &mut ClearTiles) {
         let output = match (self.drawn_floats.is_empty(), self.bytes.is_empty()) {
             (false, _) => Output::Floats(&mut self.drawn_floats),
@@ -85,7 +85,7 @@ impl Canvas {
     /// Makes the picture of what was drawn, where a policy acts on it.
     ///
     /// # Errors
-    /// What the rasterizer cannot do.
+    /// Those of the rasterizer.
     pub(crate) fn finish(
         &mut self,
         rasterizer: &Rasterizer,
@@ -126,7 +126,7 @@ impl Canvas {
 
 fn resize<T: Copy + Default>(memory: &mut Vec<T>, count: usize) -> Result<(), RenderError> {
     if memory.capacity() < count || memory.capacity() / 4 > count {
-        // What it held is drawn over.
+        // Its contents are drawn over.
         *memory = Vec::new();
         reserve(memory, count)?;
     }

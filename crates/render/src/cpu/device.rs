@@ -19,7 +19,7 @@ pub struct Cpu {
 }
 
 impl Cpu {
-    /// What [`AdapterChoice`](crate::AdapterChoice) calls it, in full or before a colon.
+    /// Its name for [`AdapterChoice`](crate::AdapterChoice), in full or before a colon.
     pub const NAME: &str = "cpu";
 
     /// The bits of the grid within a pixel to which vertices are rounded.

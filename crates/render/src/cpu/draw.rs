@@ -130,7 +130,7 @@ pub(crate) fn draw(
 
 /// The view's projection, in its unit.
 fn lens(view: &View) -> Lens {
-    // What underflows would be refused.
+    // A distance that underflows would be refused.
     let near = (view.projection.near * view.unit() as f32).max(f32::MIN_POSITIVE);
     Lens { scale: view.projection.scale, near }
 }

@@ -47,7 +47,7 @@ impl PassLists {
         }
     }
 
-    /// What a draw takes of a set, whose images follow each other in the order of their kinds.
+    /// The images that a draw takes of a set, whose images follow each other in the order of their kinds.
     fn draw_maps(&self, key: &DrawKey, of: &MapsUse, number: u32) -> DrawMaps {
         let mut next = self.firsts[number as usize - 1];
         let calls = std::array::from_fn(|slot| {

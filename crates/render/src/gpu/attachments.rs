@@ -1,4 +1,4 @@
-//! What a frame draws into: a texture, or the picture of a window's surface.
+//! The attachments of a frame: textures, or the picture of a window's surface.
 
 use crate::gpu::device::Gpu;
 use crate::gpu::format::{drawn_format, headless_format, is_float};
@@ -18,7 +18,7 @@ use halfway_frame::view::camera::{PictureSize, View};
 use halfway_lighting::{Blend, Camera, Encoding, Samples, Shown};
 use halfway_mesh::Mesh3d;
 
-/// What the frame draws into.
+/// The target of the frame.
 #[derive(Resource, Default)]
 pub(crate) struct Target {
     attachments: Option<Attachments>,
@@ -40,13 +40,13 @@ pub(crate) struct Attachments {
 struct Configuration {
     size: UVec2,
     format: wgpu::TextureFormat,
-    /// What the scene is drawn into: the same, unless passes over the finished picture follow.
+    /// The format that the scene is drawn in: the same, unless passes over the finished picture follow.
     drawn: wgpu::TextureFormat,
     samples: Samples,
     headless: bool,
 }
 
-/// What the shaders write.
+/// The output of the shaders.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct ShaderOutput {
     pub(crate) format: wgpu::TextureFormat,
@@ -59,14 +59,14 @@ pub(crate) struct ShaderOutput {
 /// The picture of this frame.
 pub(crate) struct FramePicture {
     pub(crate) output: ShaderOutput,
-    /// What the scene is drawn into.
+    /// The view that the scene is drawn into.
     pub(crate) view: wgpu::TextureView,
-    /// What the passes over the finished picture write, where there are any.
+    /// The view that the passes over the finished picture write, where there are any.
     pub(crate) finished: Option<wgpu::TextureView>,
     pub(crate) delivery: Delivery,
 }
 
-/// What becomes of a frame.
+/// The destination of a frame.
 #[derive(Debug, PartialEq)]
 pub(crate) enum Delivery {
     /// It can be read back.

@@ -135,15 +135,15 @@ fn may_have_hardware(devices: &Path) -> bool {
 /// The variables that say which Vulkan drivers there are.
 const DRIVERS: [&str; 2] = ["VK_DRIVER_FILES", "VK_ICD_FILENAMES"];
 
-/// What is asked, and, where that gives nothing, what then.
+/// The backends that are asked, and those that are asked next where none answers.
 const ROUNDS: [wgpu::Backends; 2] = [wgpu::Backends::PRIMARY, wgpu::Backends::GL];
 
-/// What is to be found.
+/// The adapter that is wanted.
 #[derive(Debug, PartialEq, Eq)]
 struct Wanted {
     name: Option<AdapterName>,
     rounds: Vec<wgpu::Backends>,
-    /// What `WGPU_BACKEND` limits it to.
+    /// The limit that `WGPU_BACKEND` sets.
     limited: Option<String>,
     /// Only hardware will do.
     hardware: bool,
@@ -195,7 +195,7 @@ impl Wanted {
     fn missing(&self) -> RenderError {
         match (&self.name, &self.limited) {
             (Some(name), limited) => {
-                // What a name may be chosen from; the limit goes for a name of wgpu's own only.
+                // The adapters to choose from by name; the limit goes for a name of wgpu's own only.
                 let rounds = if limited.is_some() { &self.rounds[..] } else { &ROUNDS };
                 RenderError::NoSuchAdapter { wanted: name.0.clone(), there: there(rounds) }
             }
@@ -375,7 +375,7 @@ mod tests {
         assert_eq!(wanted(Some("gpu"), &all), (named("c"), vec![Backends::GL]));
         assert_eq!(wanted(None, &[("HALFWAY_ADAPTER", "GPU"), all[1]]), (None, vec![Backends::GL]));
         assert_eq!(wanted(Some("gpu"), &[]), (None, both));
-        // What a name leaves out is not asked.
+        // Backends that a name leaves out are not asked.
         assert_eq!(wanted(Some("gl:a"), &[]).1, [Backends::GL]);
         assert_eq!(wanted(Some("vulkan"), &[]).1, [Backends::VULKAN]);
     }

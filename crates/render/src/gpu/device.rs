@@ -34,7 +34,7 @@ pub struct Gpu {
     notices: Arc<Mutex<Notices>>,
 }
 
-/// What the device has said by itself.
+/// The messages that the device has sent by itself.
 struct Notices {
     /// The first error outside of any call, until it is taken.
     failure: Option<String>,
@@ -109,7 +109,7 @@ impl Gpu {
         !(info.backend == wgpu::Backend::Vulkan && info.name.starts_with("llvmpipe"))
     }
 
-    /// What the device can do with textures of a format.
+    /// The features of a texture format on the device.
     pub(crate) fn format_features(&self, format: wgpu::TextureFormat) -> wgpu::TextureFormatFeatures {
         let features = self.device.features();
         if features.contains(wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES) {

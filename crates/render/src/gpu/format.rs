@@ -45,7 +45,7 @@ pub(super) fn is_float(format: wgpu::TextureFormat) -> bool {
     matches!(format, wgpu::TextureFormat::Rgba32Float | wgpu::TextureFormat::Rgba16Float)
 }
 
-/// What the device cannot do with floats of a format, of what the frame needs.
+/// The operation that the frame needs and the device cannot do with floats of a format.
 fn floats_lack(gpu: &Gpu, format: wgpu::TextureFormat, samples: Samples, blends: bool) -> Option<&'static str> {
     use wgpu::TextureFormatFeatureFlags as Flags;
     // The adapter may say more than WebGPU grants, but a device has to have been asked for it.

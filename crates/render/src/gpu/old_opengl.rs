@@ -1,4 +1,4 @@
-//! What OpenGL is too old for wgpu to draw by.
+//! OpenGL that is too old for wgpu to draw with.
 
 /// From this version of OpenGL on shaders say which buffer is meant by a number.
 const NUMBERED: (u32, u32) = (4, 2);

@@ -8,10 +8,10 @@ use bevy_math::UVec2;
 /// Textures, pipelines and bindings of one size, one format and one kind of policy.
 pub(crate) struct PicturePasses {
     made_as: MadeAs,
-    /// What the scene is drawn into.
+    /// The view that the scene is drawn into.
     drawn: wgpu::TextureView,
     policy: wgpu::Buffer,
-    /// What it holds.
+    /// Its contents.
     written: PicturePolicyRecord,
     /// Where the policy divides.
     division: Option<Division>,
@@ -32,7 +32,7 @@ struct MadeAs {
 struct Division {
     largest: wgpu::RenderPipeline,
     next_divisor: wgpu::RenderPipeline,
-    /// What is read, and what is written of it: the largest channel of each block, down to few.
+    /// The bindings that are read and the view that is written: the largest channel of each block, down to few.
     blocks: Vec<(wgpu::BindGroup, wgpu::TextureView)>,
     /// The last step, with the divisor before: that of the second texture, or of the first.
     last: [wgpu::BindGroup; 2],
@@ -75,7 +75,7 @@ impl PicturePasses {
         (passes, sent)
     }
 
-    /// What the scene is to be drawn into.
+    /// The view that the scene is to be drawn into.
     pub(crate) fn drawn(&self) -> &wgpu::TextureView {
         &self.drawn
     }

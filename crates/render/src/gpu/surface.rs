@@ -87,7 +87,7 @@ pub struct SurfaceLost;
 #[derive(Debug)]
 pub(crate) struct Lost;
 
-/// What a frame gets of a surface.
+/// The answer of a surface to a frame.
 #[derive(Debug)]
 struct Answer {
     /// Without one the frame is skipped, and the next one asks again.

@@ -82,7 +82,7 @@ impl TextureTarget {
         reason.map_or(Ok(()), |reason| Err(bad(reason)))
     }
 
-    /// What of it no frame can be drawn into.
+    /// The reason why no frame can be drawn into it.
     fn misfit(&self) -> Option<&'static str> {
         use wgpu::TextureFormat::{Bgra8Unorm, Rgba8Unorm};
         let texture = self.view.texture();
@@ -103,7 +103,7 @@ impl TextureTarget {
         }
     }
 
-    /// What the device cannot do in its format.
+    /// The operation that the device cannot do in its format.
     fn missing(&self, gpu: &Gpu, samples: Samples, blends: bool) -> Option<&'static str> {
         use wgpu::TextureFormatFeatureFlags as Flags;
         let features = gpu.format_features(self.format);

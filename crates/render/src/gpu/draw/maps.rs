@@ -18,11 +18,11 @@ pub(crate) struct MapTextures {
     textures: HashMap<(AssetId<Texture>, ImageForm, Part), MapTexture>,
     /// By their numbers.
     groups: Vec<BoundMaps>,
-    /// What is bound where there is no image.
+    /// The texture that is bound where there is no image.
     none: Option<wgpu::TextureView>,
 }
 
-/// What of an image is sent.
+/// The part of an image that is sent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 enum Part {
     Texels,

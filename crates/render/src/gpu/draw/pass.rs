@@ -52,7 +52,7 @@ pub(crate) fn draw(
 
 type TimestampWrites<'a> = Option<wgpu::RenderPassTimestampWrites<'a>>;
 
-/// What the first pass of a frame is to write, and the last one where that is another.
+/// The time stamps that the first pass of a frame writes, and the last one where that is another.
 fn around(timing: TimestampWrites<'_>, others_follow: bool) -> [TimestampWrites<'_>; 2] {
     match timing {
         Some(both) if others_follow => {
@@ -194,7 +194,7 @@ pub(crate) fn present(
 /// Draws the frame that the render schedule has made for a [`TextureTarget`](crate::TextureTarget) by an encoder of the
 /// engine's own, which must come from the device of the world's [`Gpu`]. The pass clears the texture and draws over it.
 ///
-/// What the pass reads is on its way already: submit the encoder on the queue of that `Gpu`, before the render schedule
+/// The data of the pass is on its way already: submit the encoder on the queue of that `Gpu`, before the render schedule
 /// runs again. Until then a frame can be encoded more than once. [`GpuTimer`] does not time it.
 ///
 /// # Errors

@@ -79,7 +79,7 @@ fn of_sums([width, height]: [u32; 2], sums: &SummedAreas) -> Places {
     ([1, 0, 0], level)
 }
 
-/// What sums are kept in units of, a number of f32: the largest, or 1 where all are 0.
+/// The unit in which sums are kept, a number of f32: the largest, or 1 where all are 0.
 fn unit_of(sums: &SummedAreas) -> [f64; 4] {
     sums.largest().map(|largest| if largest > 0.0 { f64::from(largest.min(f32::MAX.into()) as f32) } else { 1.0 })
 }

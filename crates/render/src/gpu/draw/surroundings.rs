@@ -98,7 +98,7 @@ impl SurroundingsOnGpu {
         self.group.as_ref()
     }
 
-    /// What draws the sky, where it is seen.
+    /// The pipeline of the sky, where it is seen.
     pub(crate) fn sky(&self) -> Option<(&wgpu::RenderPipeline, &wgpu::BindGroup)> {
         let (_, pipeline) = self.sky.as_ref().filter(|_| self.shows_sky)?;
         Some((pipeline, self.group.as_ref()?))

@@ -32,7 +32,7 @@ pub(crate) struct Pipelines {
     special: usize,
     /// The number of the frame.
     frame: u64,
-    /// What the frame draws into.
+    /// The output of the frame.
     output: ShaderOutput,
     lights_images_by_environments: bool,
     /// No specialised pipeline can make room in this frame.
@@ -41,13 +41,13 @@ pub(crate) struct Pipelines {
     refused: HashSet<PipelineKey>,
     /// The keys for which there was no room in the frame before.
     refused_before: HashSet<PipelineKey>,
-    /// What was asked last in this frame, and the answer.
+    /// The last key of this frame, and the answer for it.
     last: Option<(DrawKey, DrawKey)>,
     compile: Option<Compile>,
     background: Background,
     /// Those that a frame has waited for, and whose relatives have not been asked for yet.
     unforeseen: Vec<PipelineKey>,
-    /// What went wrong beside the frames, until it is reported.
+    /// Failures beside the frames that have not been reported yet.
     failures: Vec<RenderError>,
     /// Since the start.
     built: u32,
@@ -55,7 +55,7 @@ pub(crate) struct Pipelines {
     awaited: u32,
 }
 
-/// What builds beside the frames.
+/// The builder beside the frames.
 #[derive(Default)]
 enum Background {
     #[default]
@@ -150,7 +150,7 @@ impl Pipelines {
             variant.used = self.frame;
             return true;
         }
-        // What a frame uses is known when it is over. Only what was refused in the frame before takes the place of
+        // The pipelines that a frame uses are known when it is over. Only those refused in the frame before takes the place of
         // another, so that nothing takes the place of what this frame is about to ask for, which would then take
         // another's.
         let asked_before = self.refused_before.contains(&key);

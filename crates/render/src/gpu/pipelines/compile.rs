@@ -85,7 +85,7 @@ impl Builder {
         self.ends.as_ref().is_some_and(|ends| ends.wanted.send(key).is_ok())
     }
 
-    /// What has been built since the last time.
+    /// The pipelines that have been built since the last call.
     pub(crate) fn built(&self) -> Vec<Built> {
         let built = |ends: &Ends| ends.built.lock().unwrap_or_else(PoisonError::into_inner).try_iter().collect();
         self.ends.as_ref().map_or_else(Vec::new, built)

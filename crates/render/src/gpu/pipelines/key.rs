@@ -1,4 +1,4 @@
-//! What a pipeline is made for: a draw, and what it writes.
+//! The key of a pipeline: a draw, and the format of its output.
 
 use crate::gpu::attachments::ShaderOutput;
 use crate::gpu::shaders::text::{LightText, Text};

@@ -23,7 +23,7 @@ impl PicturePolicyRecord {
         let encoded = encoded.into();
         match policy {
             Intensity::Renormalize { smoothing } => Some(Self { smoothing, per_white: 0.0, curve: 0, encoded }),
-            // What underflows is a white point that no picture reaches.
+            // A number that underflows is a white point that no picture reaches.
             Intensity::Reinhard { white } => {
                 Some(Self { smoothing: 0.0, per_white: f64::from(white).powi(-2) as f32, curve: 1, encoded })
             }

@@ -1,4 +1,4 @@
-//! What the GPU reads beside [lights, materials and instances](halfway_lighting::record): the same bytes as the structs of
+//! Records of the GPU beside [lights, materials and instances](halfway_lighting::record): the same bytes as the structs of
 //! the WGSL texts, which a test compares.
 
 use bytemuck::{Pod, Zeroable};
@@ -27,7 +27,7 @@ impl From<&View> for ViewRecord {
     }
 }
 
-/// What an object is cut from; `SolidData` in surface.wgsl.
+/// The solid that an object is cut from; `SolidData` in surface.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub(crate) struct SolidRecord {

@@ -64,7 +64,7 @@ fn leave_out_what_is_never(module: &mut Module) {
     compact(module, KeepUnused::No);
 }
 
-/// What is known of a function's expressions.
+/// Facts about a function's expressions.
 struct Known<'a> {
     expressions: &'a Arena<Expression>,
     constants: &'a Arena<Constant>,

@@ -68,7 +68,7 @@ fn each_file_is_valid_with_those_before_it() {
     let mut used = std::collections::HashSet::new();
     let mut each = |files: &[&'static str], switches: &[(&'static str, bool)]| {
         for count in 1..=files.len() {
-            // What was valid before is.
+            // It was valid before.
             if used.insert((files[..count].to_vec(), switches.to_vec())) {
                 let text = assembled(&files[..count], switches);
                 valid(&text).unwrap_or_else(|error| panic!("{count} files: {error}"));
@@ -112,7 +112,7 @@ fn what_no_tool_can_read_is_found() {
     }
 }
 
-/// What says how large a pixel is on the surface or on an image: it has to change by the same step from each pixel to
+/// The size of a pixel on the surface or on an image: it has to change by the same step from each pixel to
 /// the next, so that it is taken at their centres.
 const AT_CENTERS: [&str; 3] = ["at", "at_center", "middle"];
 
@@ -153,7 +153,7 @@ fn what_is_interpolated_is_taken_where_the_triangle_is() {
     for text in texts() {
         let (wrong, right) = badly_interpolated(&valid(&text.wgsl()).expect("a valid text"));
         assert_eq!(wrong, [""; 0], "{text:?}");
-        // What a vertex hands on, a fragment takes, and there is room for it and for which side it shows.
+        // A fragment takes all that a vertex hands on, and there is room for it and for the side it shows.
         assert!(right.is_multiple_of(2) && (2..=30).contains(&right), "{text:?}: {right} varyings");
     }
     let whole = PLAIN.wgsl();
@@ -252,7 +252,7 @@ fn where_an_image_lies_is_read_as_it_is_written() {
     assert_eq!(members(&module, "Placings"), fields!(PlacingsRecord { cutoff, each }));
 }
 
-/// What no draw without them reads.
+/// Inputs that no draw without them reads.
 #[test]
 fn filters_by_shape_are_in_their_own_texts_alone() {
     for text in texts() {
@@ -357,7 +357,7 @@ fn lights_at_fixed_places_are_as_many_as_are_bound() {
     }
 }
 
-/// What is called for images of kinds that a draw does not have is not in its module; what is for one that it has, is.
+/// A module has the functions for the kinds of images that its draw has, and no others.
 #[test]
 fn what_constants_rule_out_is_not_in_a_module() {
     let functions = |text: Text, constants: &[(&'static str, f64)]| {

@@ -21,7 +21,7 @@ pub(crate) enum LightText {
     Listed,
 }
 
-/// What the stages of a surface read and hand on: each combination is a text, of which nothing else is in a pipeline.
+/// The inputs and outputs of the stages of a surface: each combination is a text, of which nothing else is in a pipeline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[expect(clippy::struct_excessive_bools, reason = "each is one independent switch of the text")]
 pub(crate) struct Text {
